@@ -1,0 +1,56 @@
+#include "libpipeline/error.h"
+
+#include <system_error>
+
+namespace pipeline {
+namespace {
+
+bool is_control(char c) {
+  const auto byte = static_cast<unsigned char>(c);
+  return byte < 0x20 || byte == 0x7f;
+}
+
+std::string hexadecimal(char c) {
+  constexpr std::string_view kDigits = "0123456789abcdef";
+  const auto byte = static_cast<unsigned char>(c);
+  return {'\\', 'x', kDigits[byte / 16], kDigits[byte % 16]};
+}
+
+}  // namespace
+
+std::string to_string(const Place& place) {
+  std::string text = place.file;
+  if (place.line > 0) text += ":" + std::to_string(place.line);
+  if (place.line > 0 && place.column > 0) text += ":" + std::to_string(place.column);
+  return text;
+}
+
+InputError::InputError(const Place& place, const std::string& message)
+    : std::runtime_error(to_string(place) + ": " + message), place_(place) {}
+
+std::string quoted(std::string_view text) {
+  constexpr std::size_t kLongest = 40;
+  std::string result = "'";
+  for (const char c : text.substr(0, kLongest)) {
+    const bool is_plain = !is_control(c) && static_cast<unsigned char>(c) < 0x80;
+    result += is_plain ? std::string(1, c) : hexadecimal(c);
+  }
+  return result + (text.size() > kLongest ? "...'" : "'");
+}
+
+std::string on_one_line(std::string_view text) {
+  std::string result;
+  for (const char c : text) result += is_control(c) ? hexadecimal(c) : std::string(1, c);
+  return result;
+}
+
+std::string expected_but_found(const std::string& expected, const std::string& found) {
+  return "expected " + expected + ", found " + found;
+}
+
+IoError::IoError(const std::string& action, const std::string& file, int error_number)
+    : std::runtime_error("cannot " + action + " " + file + ": " +
+                         std::generic_category().message(error_number)),
+      error_number_(error_number) {}
+
+}  // namespace pipeline

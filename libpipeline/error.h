@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cstddef>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+namespace pipeline {
+
+/// Where in the input something stands. Lines and columns count from 1; 0 means "not known".
+/// `file` is a file's name, `<stdin>`, or the name of a command-line option.
+struct Place {
+  std::string file;
+  std::size_t line = 0;
+  std::size_t column = 0;
+
+  [[nodiscard]] bool is_option() const { return file.starts_with("--"); }
+};
+
+/// "file:line:column", without the parts that are not known.
+std::string to_string(const Place& place);
+
+/// Bad input. `what()` is the whole message: "file:line:column: expected ..., found ...".
+class InputError : public std::runtime_error {
+ public:
+  InputError(const Place& place, const std::string& message);
+  [[nodiscard]] const Place& place() const { return place_; }
+
+ private:
+  Place place_;
+};
+
+/// Text as it appears in a message: in quotes, unprintable bytes as \xNN, cut where it is long.
+std::string quoted(std::string_view text);
+
+/// The text with its control characters as \xNN, so that it stays on its line.
+std::string on_one_line(std::string_view text);
+
+/// "expected `expected`, found `found`": the form every message about input has.
+std::string expected_but_found(const std::string& expected, const std::string& found);
+
+/// Reading or writing failed: a full disk, a missing file. `what()` names the file and the system's reason.
+class IoError : public std::runtime_error {
+ public:
+  /// `error_number` is an errno value.
+  IoError(const std::string& action, const std::string& file, int error_number);
+  [[nodiscard]] int error_number() const { return error_number_; }
+
+ private:
+  int error_number_;
+};
+
+}  // namespace pipeline
