@@ -1,0 +1,109 @@
+#pragma once
+
+#include <cstdint>
+
+#include "libpipeline/double_double.h"
+
+namespace pipeline {
+
+/// A real number known to lie within `error` of a midpoint: (hi + lo +- error) * 2^exponent.
+///
+/// The midpoint has about 106 bits and every operation adds what it may have lost to the error, so a result
+/// says itself how many of its digits are right ("ball arithmetic": J. van der Hoeven, 2009). The exponent
+/// takes part only where a double's range ends: it is 0 while |hi| lies in [2^-300, 2^300], so that no
+/// intermediate step can overflow or underflow. Exact operations on exact numbers stay exact (error 0): the
+/// product of two doubles, the sum of two that are at most 600 binary places apart, a quotient or root that is
+/// a double.
+class Ball {
+ public:
+  constexpr Ball() = default;
+  /// Exactly `value`, which must be finite; subnormal numbers included.
+  Ball(double value);  // NOLINT(google-explicit-constructor): a double is a ball of radius 0
+  /// value +- error, both within the normal range of a double.
+  static Ball with_error(DoubleDouble value, double error);
+
+  friend Ball operator+(const Ball& a, const Ball& b) {
+    if (a.is_exact_zero()) return b;
+    if (b.is_exact_zero()) return a;
+    if ((a.exponent_ | b.exponent_) != 0) return add_across_ranges(a, b);
+    return add_parts(a.value_, a.error_, b.value_, b.error_, 0);
+  }
+  friend Ball operator*(const Ball& a, const Ball& b);
+  /// `b` must not contain 0.
+  friend Ball operator/(const Ball& a, const Ball& b);
+  /// `a` must not be certainly negative; the root of a ball that contains 0 is [0, root of its upper end].
+  friend Ball sqrt(const Ball& a);
+  friend Ball operator-(const Ball& a);
+  friend Ball operator-(const Ball& a, const Ball& b) { return a + -b; }
+  /// Equal as data: the same midpoint and the same error.
+  friend bool operator==(const Ball& a, const Ball& b) = default;
+
+  /// The same midpoint, known to be no further off than `bound`.
+  [[nodiscard]] Ball with_error_at_most(double bound) const;
+  /// A double not below the absolute value of anything in the ball, infinite past the range.
+  [[nodiscard]] double magnitude() const { return scaled_up(std::fabs(value_.hi) + error_); }
+  /// A double not below the radius.
+  [[nodiscard]] double radius() const { return error_ == 0 ? 0 : scaled_up(error_); }
+
+  /// -1, 0 or +1; 0 where the error leaves the sign open (or the number is 0).
+  [[nodiscard]] int sign() const;
+  [[nodiscard]] bool is_exact() const { return error_ == 0; }
+  [[nodiscard]] bool is_exact_zero() const { return value_.hi == 0 && error_ == 0; }
+
+  /// The midpoint's parts without the factor 2^exponent.
+  [[nodiscard]] DoubleDouble value() const { return value_; }
+  [[nodiscard]] double error() const { return error_; }
+  [[nodiscard]] std::int64_t exponent() const { return exponent_; }
+
+  /// The nearest double to the midpoint, ties by the low part; +-infinity past the range, 0 or a subnormal
+  /// below it.
+  [[nodiscard]] double nearest_double() const;
+
+ private:
+  // Bounds of the double-double operations, relative to the result, with room for the rounding of the error
+  // calculation itself: 3 u^2 and 5 u^2 are below 2^-103, 16 u^2 is 2^-102.
+  static constexpr double kAddMulBound = 0x1p-103;
+  static constexpr double kDivSqrtBound = 0x1p-101;
+  // Errors are added up in doubles; each sum of a few terms is enlarged by more than it can have lost.
+  static constexpr double kRoundUp = 1 + 0x1p-40;
+  static constexpr int kSafeExponent = 300;
+  static constexpr double kSafeMax = 0x1p300;
+  static constexpr double kSafeMin = 0x1p-300;
+
+  Ball(DoubleDouble value, double error, std::int64_t exponent)
+      : value_(value), error_(error), exponent_(exponent) {}
+
+  /// Chooses the exponent that the class promises.
+  static Ball normalised(DoubleDouble value, double error, std::int64_t exponent) {
+    const double size = std::fabs(value.hi);
+    if (exponent == 0 && size <= kSafeMax && size >= kSafeMin && error <= size) return {value, error, 0};
+    return normalised_anew(value, error, exponent);
+  }
+  static Ball normalised_anew(DoubleDouble value, double error, std::int64_t exponent);
+  static Ball add_across_ranges(const Ball& a, const Ball& b);
+  static Ball add_parts(DoubleDouble a, double a_error, DoubleDouble b, double b_error, std::int64_t exponent) {
+    const bool is_exact = a.lo == 0 && b.lo == 0 && a_error == 0 && b_error == 0;
+    const DoubleDouble sum = a + b;
+    const double lost = is_exact ? 0 : std::fabs(sum.hi) * kAddMulBound;
+    return normalised(sum, (a_error + b_error + lost) * kRoundUp, exponent);
+  }
+  [[nodiscard]] double scaled_up(double size) const;
+
+  DoubleDouble value_;
+  double error_ = 0;
+  std::int64_t exponent_ = 0;
+};
+
+inline Ball operator*(const Ball& a, const Ball& b) {
+  if (a.is_exact_zero() || b.is_exact_zero()) return {};
+  const bool is_exact = a.value_.lo == 0 && b.value_.lo == 0 && a.error_ == 0 && b.error_ == 0;
+  const DoubleDouble product = is_exact ? two_product(a.value_.hi, b.value_.hi) : a.value_ * b.value_;
+  const double a_size = std::fabs(a.value_.hi);
+  const double b_size = std::fabs(b.value_.hi);
+  const double lost = is_exact ? 0 : std::fabs(product.hi) * Ball::kAddMulBound;
+  // hi stands for hi + lo here; the enlargement covers |lo| <= 2^-53 |hi|.
+  const double error = a_size * b.error_ + b_size * a.error_ + a.error_ * b.error_ + lost;
+  return Ball::normalised(product, error * Ball::kRoundUp, a.exponent_ + b.exponent_);
+}
+
+}  // namespace pipeline
