@@ -1,0 +1,189 @@
+#include "libpipeline/number_text.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cassert>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+
+#include "libpipeline/wide_decimal.h"
+
+namespace pipeline {
+namespace {
+
+constexpr std::array<double, kMaxDecimals + 1> kPowersOfTen = {
+    1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16, 1e17};
+
+// A ball narrower than this part of the last printed unit that reaches a tie counts as the tie.
+constexpr double kTieTolerance = 0x1p-20;
+
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+/// The decimal exponent of the first digit that is not 0 in a word from_chars has accepted.
+long long leading_exponent(std::string_view word) {
+  const std::size_t e = word.find_first_of("eE");
+  const std::string_view mantissa = word.substr(0, e);
+  long long exponent = 0;
+  if (e != std::string_view::npos) {
+    std::string_view digits = word.substr(e + 1);
+    if (digits.front() == '+') digits.remove_prefix(1);
+    const auto result = std::from_chars(digits.data(), digits.data() + digits.size(), exponent);
+    if (result.ec != std::errc()) exponent = digits.front() == '-' ? -1'000'000'000 : 1'000'000'000;
+  }
+  const std::size_t point = std::min(mantissa.find('.'), mantissa.size());
+  const std::size_t leading = mantissa.find_first_of("123456789");
+  if (leading == std::string_view::npos) return exponent;
+  return exponent + static_cast<long long>(point) - static_cast<long long>(leading);
+}
+
+/// A number as the sum of a whole number and the exact rest, whose high part lies in [-1/2, 1/2].
+struct SplitNumber {
+  DoubleDouble whole;
+  DoubleDouble rest;
+};
+
+SplitNumber split_at_whole(DoubleDouble t) {
+  const double high = std::nearbyint(t.hi);
+  const double low = std::nearbyint(t.lo);
+  const DoubleDouble rest = two_sum(t.hi - high, t.lo - low);
+  const double carry = std::nearbyint(rest.hi);
+  return {two_sum(high, low) + DoubleDouble{carry, 0}, two_sum(rest.hi - carry, rest.lo)};
+}
+
+bool is_odd(DoubleDouble whole) { return std::fmod(std::fmod(whole.hi, 2) + std::fmod(whole.lo, 2), 2) != 0; }
+
+PrintableNumber round_to_decimals(DoubleDouble value, double error, int decimals) {
+  const double scale = kPowersOfTen[static_cast<std::size_t>(decimals)];
+  if (error == 0) return {value.hi, value.lo};
+  // Past 2^1000 the scaled number would overflow; none of its decimals is known there anyway.
+  if (std::fabs(value.hi) > 0x1p900) return {value.hi, value.lo, false};
+  const DoubleDouble scaled = value * scale;
+  const double scaled_error = (error * scale + std::fabs(scaled.hi) * 0x1p-104) * (1 + 0x1p-40);
+  auto [whole, rest] = split_at_whole(scaled);
+  const double direction = std::copysign(1.0, rest.hi);
+  // From the tie towards the whole number; exact where it is small.
+  const double distance = (0.5 - std::fabs(rest.hi)) - direction * rest.lo;
+  const bool may_be_tie = std::fabs(distance) <= scaled_error;
+  const bool is_tie = may_be_tie && scaled_error <= kTieTolerance;
+  if (is_tie ? is_odd(whole) : distance < 0) whole = whole + DoubleDouble{direction, 0};
+  const bool is_certain = is_tie || !may_be_tie;
+  const DoubleDouble decimal = whole / DoubleDouble{scale, 0};
+  // A double that is nearer to the decimal than half a unit prints as that decimal by itself.
+  if (std::fabs(whole.hi) < 0x1p51) return {decimal.hi, 0, is_certain};
+  // A tie must be printed as the decimal chosen; other numbers are rounded right by the printing.
+  return is_tie ? PrintableNumber{decimal.hi, decimal.lo} : PrintableNumber{value.hi, value.lo, is_certain};
+}
+
+PrintableNumber round_to_double(const Ball& ball) {
+  const double nearest = ball.nearest_double();
+  if (ball.is_exact()) return {nearest, 0};
+  if (ball.sign() == 0) return {0, 0};
+  // Distances are measured on the midpoint's own scale; past +-3000 they are infinite.
+  const auto shift = static_cast<int>(std::clamp<std::int64_t>(-ball.exponent(), -3000, 3000));
+  const auto [hi, lo] = ball.value();
+  const double rest = hi - std::ldexp(nearest, shift);  // not 0 only below a double's normal range
+  const double direction = std::copysign(1.0, rest != 0 ? rest : lo);
+  const double neighbour = std::nextafter(nearest, direction * HUGE_VAL);
+  const double half_gap = std::fabs(std::ldexp(neighbour, shift) - std::ldexp(nearest, shift)) / 2;
+  const double distance = (half_gap - std::fabs(rest)) - direction * lo;
+  if (distance > ball.error()) return {nearest, 0};
+  if (ball.error() > 2 * half_gap * kTieTolerance) return {nearest, 0, false};
+  const bool nearest_is_even = std::bit_cast<std::uint64_t>(nearest) % 2 == 0;
+  return {nearest_is_even ? nearest : neighbour, 0};
+}
+
+char* without_sign_of_zero(char* first, char* last) {
+  if (*first != '-') return last;
+  const bool is_zero = std::all_of(first + 1, last, [](char c) { return c == '0' || c == '.'; });
+  if (!is_zero) return last;
+  std::copy(first + 1, last, first);
+  return last - 1;
+}
+
+}  // namespace
+
+ParsedNumber parse_number(std::string_view word) {
+  if (!word.empty() && word.front() == '+') {
+    word.remove_prefix(1);
+    if (!word.empty() && word.front() == '-') return {0, NumberError::not_a_number};
+  }
+  const std::string_view unsigned_word = !word.empty() && word.front() == '-' ? word.substr(1) : word;
+  // from_chars also takes "inf", "nan" and ".5"; the last is a number here as well.
+  if (unsigned_word.empty() || (!is_digit(unsigned_word.front()) && unsigned_word.front() != '.'))
+    return {0, NumberError::not_a_number};
+  ParsedNumber parsed;
+  const char* const end = word.data() + word.size();
+  const auto [stop, code] = std::from_chars(word.data(), end, parsed.value);
+  if (stop != end || code == std::errc::invalid_argument) return {0, NumberError::not_a_number};
+  if (code == std::errc::result_out_of_range) {
+    if (leading_exponent(unsigned_word) > 0) return {0, NumberError::overflow};
+    parsed.value = word.front() == '-' ? -0.0 : 0.0;
+  }
+  return parsed;
+}
+
+bool parse_exact_decimal(std::string_view word, DoubleDouble& value) {
+  if (word.find_first_of("eE") != std::string_view::npos) return false;
+  const std::size_t point = std::min(word.find('.'), word.size());
+  if (word.size() > point + 1 + kExactDecimals) return false;
+  value = {parse_number(word).value, 0};
+  // A whole number of 10^-7 below 2^53 is the only one near its double.
+  if (std::fabs(value.hi) < 9e8) return true;
+  if (std::fabs(value.hi) >= 1e22) return false;
+  DoubleDouble units;
+  int decimal_count = 0;
+  for (std::size_t i = 0; i < word.size(); ++i) {
+    if (!is_digit(word[i])) continue;
+    units = units * 10.0 + DoubleDouble{static_cast<double>(word[i] - '0'), 0};
+    if (i > point) ++decimal_count;
+  }
+  const DoubleDouble decimal = units / DoubleDouble{kPowersOfTen[static_cast<std::size_t>(decimal_count)], 0};
+  const double sign = word.front() == '-' ? -1 : 1;
+  value.lo = (sign * decimal.hi - value.hi) + sign * decimal.lo;
+  return true;
+}
+
+bool parse_count(std::string_view word, std::size_t& value) {
+  const auto [stop, code] = std::from_chars(word.data(), word.data() + word.size(), value);
+  return !word.empty() && code == std::errc() && stop == word.data() + word.size();
+}
+
+char* print_number(char* out, double hi, double lo, NumberFormat format) {
+  assert(std::isfinite(hi) && std::isfinite(lo));
+  if (format.shortest) return std::to_chars(out, out + kMaxNumberLength, hi == 0 ? 0.0 : hi).ptr;
+  char* const end = lo == 0 ? std::to_chars(out, out + kMaxNumberLength, hi, std::chars_format::fixed,
+                                            format.decimals).ptr
+                            : print_exact_sum(out, hi, lo, format.decimals);
+  return without_sign_of_zero(out, end);
+}
+
+PrintableNumber round_to_text(const Ball& ball, NumberFormat format) {
+  const double nearest = ball.nearest_double();
+  if (!std::isfinite(nearest)) return {nearest, 0, true};
+  if (format.shortest) return round_to_double(ball);
+  // What is below the range with an exponent of its own is far below half a unit of any decimals.
+  if (ball.exponent() < 0) return {nearest, 0, true};
+  if (ball.exponent() > 0) {
+    const int shift = static_cast<int>(ball.exponent());
+    const DoubleDouble value = {nearest, std::ldexp(ball.value().lo, shift)};
+    return round_to_decimals(value, std::ldexp(ball.error(), shift), format.decimals);
+  }
+  return round_to_decimals(ball.value(), ball.error(), format.decimals);
+}
+
+bool rounds_safely(double value, double error, NumberFormat format) {
+  if (format.shortest) return error == 0;
+  const double scale = kPowersOfTen[static_cast<std::size_t>(format.decimals)];
+  const double scaled = std::fabs(value) * scale;
+  if (!(scaled < 0x1p51)) return false;
+  // Adding and subtracting 1.5 * 2^52 rounds to the nearest whole number.
+  constexpr double kRounder = 0x1.8p52;
+  // What the calculations here may lose.
+  constexpr double kHalf = 0.5 - 0x1p-52;
+  const double nearest_whole = (scaled + kRounder) - kRounder;
+  return std::fabs(scaled - nearest_whole) + error * scale + scaled * 0x1p-52 < kHalf;
+}
+
+}  // namespace pipeline

@@ -1,0 +1,82 @@
+#include "libpipeline/wide_decimal.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "libpipeline/number_text.h"
+#include "tests/random_numbers.h"
+#include "tests/real.h"
+
+namespace pipeline {
+namespace {
+
+// Holds the sum of any two doubles.
+using Exact = Real<2304>;
+
+std::string printed(DoubleDouble value, int decimals) {
+  char text[kMaxNumberLength];
+  return {text, print_exact_sum(text, value.hi, value.lo, decimals)};
+}
+
+/// The sign of a negative zero is print_number's business.
+std::string without_sign_of_zero(const std::string& text) {
+  const bool is_zero = text.find_first_of("123456789") == std::string::npos;
+  return is_zero && text.front() == '-' ? text.substr(1) : text;
+}
+
+void expect_exact(DoubleDouble value, int decimals) {
+  ASSERT_EQ(without_sign_of_zero(printed(value, decimals)), Exact(value).text(decimals))
+      << std::hexfloat << value.hi << " + " << value.lo << ", " << decimals << " decimals";
+}
+
+TEST(WideDecimal, PrintsAnySumExactly) {
+  RandomNumbers random(1);
+  for (int i = 0; i < 20'000; ++i) expect_exact(random.double_double(-80, 300), random.whole(0, kMaxDecimals));
+}
+
+TEST(WideDecimal, PrintsSumsOfAnyTwoDoubles) {
+  RandomNumbers random(2);
+  for (int i = 0; i < 5'000; ++i) {
+    const DoubleDouble sum = two_sum(random.any_double() / 2, random.any_double() / 2);
+    if (std::isfinite(sum.lo)) expect_exact(sum, random.whole(0, kMaxDecimals));
+  }
+}
+
+TEST(WideDecimal, PrintsSubnormalNumbers) {
+  expect_exact({0x1p-1074, 0}, kMaxDecimals);
+  expect_exact({1, 0x1p-1074}, kMaxDecimals);
+  expect_exact({1, -0x1p-1074}, kMaxDecimals);
+}
+
+TEST(WideDecimal, PrintsZero) {
+  EXPECT_EQ(printed({0, 0}, 0), "0");
+  EXPECT_EQ(printed({0, 0}, 7), "0.0000000");
+}
+
+TEST(WideDecimal, TiesAreRoundedToEven) {
+  EXPECT_EQ(printed({0x1p60, 0.5}, 0), "1152921504606846976");
+  EXPECT_EQ(printed({0x1p60, 1.5}, 0), "1152921504606846978");
+  EXPECT_EQ(printed({0x1p60, -0.5}, 0), "1152921504606846976");
+  EXPECT_EQ(printed({-0x1p60, -1.5}, 0), "-1152921504606846978");
+}
+
+TEST(WideDecimal, TheLeastBitBesideATieDecides) {
+  RandomNumbers random(3);
+  for (int i = 0; i < 20'000; ++i) {
+    const int decimals = random.whole(0, kMaxDecimals);
+    const double tie = std::ldexp(2.0 * random.whole(0, 1 << 30) + 1, -decimals - 1);
+    const double beside = std::ldexp(random.whole(-1, 1), random.whole(-1074, -90));
+    expect_exact({tie, beside}, decimals);
+    expect_exact({-tie, beside}, decimals);
+  }
+}
+
+TEST(WideDecimal, CarriesThroughAllDigits) {
+  EXPECT_EQ(printed({1e22, -0x1p-30}, 7), "10000000000000000000000.0000000");
+  EXPECT_EQ(printed({1e22, -0.25}, 1), "9999999999999999999999.8");
+}
+
+}  // namespace
+}  // namespace pipeline
