@@ -1,0 +1,172 @@
+#include "libpipeline/text_reader.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+
+#include "libpipeline/number_text.h"
+
+namespace pipeline {
+namespace {
+
+constexpr std::size_t kBlockSize = std::size_t{1} << 16;
+
+bool is_blank(char c) { return c == ' ' || c == '\t'; }
+
+std::string_view without_trailing_blanks(std::string_view line) {
+  while (!line.empty() && (is_blank(line.back()) || line.back() == '\r')) line.remove_suffix(1);
+  return line;
+}
+
+/// True if a word stands before the comment.
+bool is_filled(std::string_view line) {
+  const std::size_t first = line.find_first_not_of(" \t\r");
+  return first != std::string_view::npos && line[first] != '#';
+}
+
+}  // namespace
+
+LineScanner::LineScanner(std::string_view line, const std::string& file, std::size_t line_number)
+    : line_end_(line.data() + line.size()), file_(&file), line_number_(line_number) {
+  const std::size_t comment = line.find('#');
+  has_comment_ = comment != std::string_view::npos;
+  line_ = without_trailing_blanks(line.substr(0, comment));
+  rest_ = line_;
+  skip_blanks();
+}
+
+void LineScanner::skip_blanks() {
+  const auto filled = std::find_if_not(rest_.begin(), rest_.end(), is_blank);
+  rest_.remove_prefix(static_cast<std::size_t>(filled - rest_.begin()));
+}
+
+std::string_view LineScanner::peek() const {
+  const auto end = std::find_if(rest_.begin(), rest_.end(), is_blank);
+  return rest_.substr(0, static_cast<std::size_t>(end - rest_.begin()));
+}
+
+std::string_view LineScanner::word() {
+  const std::string_view taken = peek();
+  rest_.remove_prefix(taken.size());
+  skip_blanks();
+  return taken;
+}
+
+double LineScanner::number(std::string_view expected, std::string_view of) {
+  const ParsedNumber parsed = parse_number(peek());
+  if (parsed.error == NumberError::overflow) fail(std::string(expected).append(of) + " within a double's range");
+  if (parsed.error != NumberError::none) fail(std::string(expected).append(of));
+  word();
+  return parsed.value;
+}
+
+Vec3 LineScanner::vec3(std::string_view of) {
+  Vec3 v;
+  v.x = number("the x of ", of);
+  v.y = number("the y of ", of);
+  v.z = number("the z of ", of);
+  expect_end("the z of ", of);
+  return v;
+}
+
+std::size_t LineScanner::count(std::string_view expected) {
+  std::size_t value = 0;
+  if (!parse_count(peek(), value)) fail(std::string(expected));
+  word();
+  return value;
+}
+
+void LineScanner::expect_end(std::string_view after, std::string_view of) const {
+  if (!at_end()) fail("the end of the line after " + std::string(after).append(of));
+}
+
+std::string_view LineScanner::rest_with_comment() const {
+  std::string_view text(rest_.data(), static_cast<std::size_t>(line_end_ - rest_.data()));
+  while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
+  return without_trailing_blanks(text);
+}
+
+Place LineScanner::place() const {
+  return {*file_, line_number_, static_cast<std::size_t>(rest_.data() - line_.data()) + 1};
+}
+
+Place LineScanner::place_of(std::string_view word) const {
+  return {*file_, line_number_, static_cast<std::size_t>(word.data() - line_.data()) + 1};
+}
+
+void LineScanner::fail(const std::string& expected) const {
+  throw InputError(place(), expected_but_found(expected, at_end() ? "the end of the line" : quoted(peek())));
+}
+
+TextReader::TextReader(int descriptor, std::string file)
+    : descriptor_(descriptor), file_(std::move(file)), buffer_(kBlockSize) {}
+
+bool TextReader::next_line(LineScanner& line) {
+  for (;;) {
+    const char* const from = buffer_.data() + scanned_;
+    const auto* const newline = static_cast<const char*>(std::memchr(from, '\n', end_ - scanned_));
+    const bool is_ended = newline != nullptr;
+    scanned_ = is_ended ? static_cast<std::size_t>(newline - buffer_.data()) : end_;
+    const std::size_t length = scanned_ - begin_;
+    if (length > kMaxLineLength)
+      throw InputError({file_, line_number_ + 1, kMaxLineLength + 1},
+                       expected_but_found("the end of the line", "more than 1048576 characters"));
+    if (!is_ended && fill()) continue;
+    if (!is_ended && length == 0) return false;
+    line = take_line(length, is_ended);
+    return true;
+  }
+}
+
+LineScanner TextReader::take_line(std::size_t length, bool is_ended) {
+  std::string_view line(buffer_.data() + begin_, length);
+  begin_ += length + (is_ended ? 1 : 0);
+  scanned_ = begin_;
+  last_line_was_ended_ = is_ended;
+  if (++line_number_ == 1 && line.starts_with("\xEF\xBB\xBF")) line.remove_prefix(3);
+  return {line, file_, line_number_};
+}
+
+bool TextReader::next_filled_line(LineScanner& line) {
+  while (next_line(line))
+    if (!line.at_end()) return true;
+  return false;
+}
+
+bool TextReader::has_lines_waiting(std::size_t count) const {
+  std::string_view waiting(buffer_.data() + begin_, end_ - begin_);
+  while (count > 0) {
+    const std::size_t length = waiting.find('\n');
+    if (length == std::string_view::npos) return false;
+    if (is_filled(waiting.substr(0, length))) --count;
+    waiting.remove_prefix(length + 1);
+  }
+  return true;
+}
+
+Place TextReader::end_place() const { return {file_, line_number_ + 1, 1}; }
+
+/// Reads one more block behind the unread part; false at the end of the file.
+bool TextReader::fill() {
+  if (at_end_of_file_) return false;
+  if (begin_ > 0) {
+    std::memmove(buffer_.data(), buffer_.data() + begin_, end_ - begin_);
+    end_ -= begin_;
+    scanned_ -= begin_;
+    begin_ = 0;
+  }
+  if (buffer_.size() - end_ < kBlockSize) buffer_.resize(buffer_.size() + kBlockSize);
+  ssize_t count = 0;
+  do {
+    count = ::read(descriptor_, buffer_.data() + end_, kBlockSize);
+  } while (count < 0 && errno == EINTR);
+  if (count < 0) throw IoError("read", file_, errno);
+  at_end_of_file_ = count == 0;
+  end_ += static_cast<std::size_t>(count);
+  bytes_read_ += static_cast<std::size_t>(count);
+  return count > 0;
+}
+
+}  // namespace pipeline

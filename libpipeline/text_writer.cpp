@@ -1,0 +1,50 @@
+#include "libpipeline/text_writer.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+
+#include "libpipeline/error.h"
+
+namespace pipeline {
+namespace {
+
+constexpr std::size_t kBlockSize = std::size_t{1} << 16;
+
+}  // namespace
+
+TextWriter::TextWriter(int descriptor, std::string file)
+    : descriptor_(descriptor), file_(std::move(file)), buffer_(2 * kBlockSize) {}
+
+void TextWriter::append(std::string_view text) {
+  char* const out = reserve(text.size());
+  std::memcpy(out, text.data(), text.size());
+  commit(out + text.size());
+}
+
+char* TextWriter::reserve(std::size_t size) {
+  if (end_ >= kBlockSize) flush();
+  if (buffer_.size() - end_ < size) buffer_.resize(end_ + size);
+  return buffer_.data() + end_;
+}
+
+void TextWriter::commit(const char* end) { end_ = static_cast<std::size_t>(end - buffer_.data()); }
+
+void TextWriter::flush() {
+  std::size_t begin = 0;
+  while (begin < end_) {
+    const ssize_t count = ::write(descriptor_, buffer_.data() + begin, std::min(end_ - begin, kBlockSize));
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) {
+      end_ = 0;
+      throw IoError("write", file_, errno);
+    }
+    begin += static_cast<std::size_t>(count);
+    bytes_written_ += static_cast<std::size_t>(count);
+  }
+  end_ = 0;
+}
+
+}  // namespace pipeline

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace pipeline {
+
+/// Collects text and writes it in blocks of at most 64 KiB, what a pipe holds: larger ones would make the
+/// stages of a pipe wait for each other. Failures to write are IoErrors; nothing is written on destruction.
+class TextWriter {
+ public:
+  /// Writes to a file descriptor, which stays the caller's; `file` names it in messages.
+  TextWriter(int descriptor, std::string file);
+
+  void append(std::string_view text);
+  /// Room for at least `size` characters; `commit` says up to where they were filled.
+  char* reserve(std::size_t size);
+  void commit(const char* end);
+  /// Writes what was collected.
+  void flush();
+  /// Forgets what was collected and not yet written.
+  void discard() { end_ = 0; }
+
+  [[nodiscard]] std::size_t bytes_written() const { return bytes_written_; }
+
+ private:
+  int descriptor_;
+  std::string file_;
+  std::vector<char> buffer_;
+  std::size_t end_ = 0;
+  std::size_t bytes_written_ = 0;
+};
+
+}  // namespace pipeline

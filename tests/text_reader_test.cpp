@@ -1,0 +1,297 @@
+#include "libpipeline/text_reader.h"
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "tests/text_input.h"
+
+namespace pipeline {
+namespace {
+
+using Lines = std::vector<std::string>;
+
+/// The lines as the reader gives them out, without the blanks around them.
+Lines lines_from(int descriptor) {
+  TextReader reader(descriptor, "in.txt");
+  LineScanner line;
+  Lines lines;
+  while (reader.next_line(line)) lines.emplace_back(line.rest());
+  return lines;
+}
+
+Lines lines_of(const std::string& text) { return lines_from(TextFile(text).descriptor()); }
+
+std::string error_of_reading(const std::string& text) {
+  return message_of([&] { lines_of(text); });
+}
+
+/// What `use` says about the first line of a text.
+template <typename Use>
+std::string error_in(const std::string& text, Use&& use) {
+  const TextFile file(text);
+  TextReader reader(file.descriptor(), "in.txt");
+  LineScanner line;
+  reader.next_line(line);
+  return message_of([&] { use(line); });
+}
+
+std::string error_of_number(const std::string& text) {
+  return error_in(text, [](LineScanner& line) { line.number("the x of ", "the eye"); });
+}
+
+double number_in(const std::string& text) {
+  const TextFile file(text);
+  TextReader reader(file.descriptor(), "in.txt");
+  LineScanner line;
+  reader.next_line(line);
+  return line.number("a number");
+}
+
+TEST(TextReader, AnEmptyTextHasNoLines) { EXPECT_EQ(lines_of(""), Lines{}); }
+
+TEST(TextReader, ANewlineAloneIsOneBlankLine) { EXPECT_EQ(lines_of("\n"), Lines{""}); }
+
+TEST(TextReader, EndsLinesAtNewlines) { EXPECT_EQ(lines_of("a b\n\nc\n"), (Lines{"a b", "", "c"})); }
+
+TEST(TextReader, TheLastLineNeedsNoNewline) { EXPECT_EQ(lines_of("a\nb"), (Lines{"a", "b"})); }
+
+TEST(TextReader, EndsLinesAtCarriageReturnAndNewline) { EXPECT_EQ(lines_of("a\r\n\r\nb\r\n"), (Lines{"a", "", "b"})); }
+
+TEST(TextReader, TheLastLineMayEndWithACarriageReturn) { EXPECT_EQ(lines_of("a\r\nb\r"), (Lines{"a", "b"})); }
+
+TEST(TextReader, ACarriageReturnInsideALineIsAPartOfAWord) {
+  EXPECT_EQ(error_of_number("1\r2"), "in.txt:1:1: expected the x of the eye, found '1\\x0d2'");
+}
+
+TEST(TextReader, DropsBlanksAroundALine) { EXPECT_EQ(lines_of(" \ta \t b\t \n \t \n"), (Lines{"a \t b", ""})); }
+
+TEST(TextReader, LeavesOutComments) {
+  EXPECT_EQ(lines_of("a # b\n# c\n#\nd#e # f"), (Lines{"a", "", "", "d"}));
+}
+
+TEST(TextReader, ACommentDoesNotHideTheNextLine) { EXPECT_EQ(lines_of("# a\r\nb"), (Lines{"", "b"})); }
+
+TEST(TextReader, KnowsACommentFromABlankLine) {
+  const TextFile file("# only this\n\n a # and more\n");
+  TextReader reader(file.descriptor(), "in.txt");
+  std::vector<bool> comments;
+  for (LineScanner line; reader.next_line(line);) comments.push_back(line.is_comment());
+  EXPECT_EQ(comments, (std::vector<bool>{true, false, false}));
+}
+
+TEST(TextReader, SkipsAByteOrderMarkAtTheStart) { EXPECT_EQ(lines_of("\xEF\xBB\xBF 1\n"), Lines{"1"}); }
+
+TEST(TextReader, CountsColumnsAfterAByteOrderMark) {
+  EXPECT_EQ(error_of_number("\xEF\xBB\xBFx"), "in.txt:1:1: expected the x of the eye, found 'x'");
+}
+
+TEST(TextReader, AByteOrderMarkAloneIsABlankLine) { EXPECT_EQ(lines_of("\xEF\xBB\xBF"), Lines{""}); }
+
+TEST(TextReader, AByteOrderMarkElsewhereIsAPartOfAWord) {
+  EXPECT_EQ(lines_of("a\n\xEF\xBB\xBF" "b"), (Lines{"a", "\xEF\xBB\xBF" "b"}));
+}
+
+TEST(TextReader, HalfAByteOrderMarkIsAPartOfAWord) {
+  EXPECT_EQ(error_of_number("\xEF\xBB" "1"), "in.txt:1:1: expected the x of the eye, found '\\xef\\xbb1'");
+}
+
+TEST(TextReader, ANulByteIsAPartOfAWord) {
+  EXPECT_EQ(error_of_number(std::string("1\0 2", 4)), "in.txt:1:1: expected the x of the eye, found '1\\x00'");
+}
+
+TEST(TextReader, ANulByteAloneIsNotABlankLine) { EXPECT_EQ(lines_of(std::string("\0\n", 2)), Lines{std::string(1, '\0')}); }
+
+TEST(TextReader, ReadsLinesAcrossBlocks) {
+  // A block is 65536 bytes: the line ends, a carriage return or a word lie on its border in turn.
+  for (std::size_t length = 65530; length < 65542; ++length) {
+    const std::string filler(length, 'x');
+    EXPECT_EQ(lines_of(filler + " 12\r\n34\r\n56"), (Lines{filler + " 12", "34", "56"})) << length;
+  }
+}
+
+TEST(TextReader, ReadsManyBlocks) {
+  std::string text;
+  Lines expected;
+  for (int i = 0; i < 100000; ++i) {
+    expected.push_back(std::to_string(i));
+    text += expected.back() + "\n";
+  }
+  EXPECT_EQ(lines_of(text), expected);
+}
+
+TEST(TextReader, ReadsTextThatArrivesByteByByte) {
+  const TextInPieces slow(TextInPieces::bytes_of("\xEF\xBB\xBFone two\r\n\r\n# three\nfour"));
+  EXPECT_EQ(lines_from(slow.descriptor()), (Lines{"one two", "", "", "four"}));
+}
+
+TEST(TextReader, TakesALineOfTheGreatestLength) {
+  const std::string longest(kMaxLineLength, 'x');
+  EXPECT_EQ(lines_of(longest + "\ny"), (Lines{longest, "y"}));
+}
+
+TEST(TextReader, TakesALastLineOfTheGreatestLength) {
+  const std::string longest(kMaxLineLength, 'x');
+  EXPECT_EQ(lines_of(longest), Lines{longest});
+}
+
+TEST(TextReader, ALineIsTooLongByOneCharacter) {
+  EXPECT_EQ(error_of_reading("a\n" + std::string(kMaxLineLength + 1, 'x') + "\n"),
+            "in.txt:2:1048577: expected the end of the line, found more than 1048576 characters");
+}
+
+TEST(TextReader, ALastLineIsTooLongByOneCharacter) {
+  EXPECT_EQ(error_of_reading(std::string(kMaxLineLength + 1, 'x')),
+            "in.txt:1:1048577: expected the end of the line, found more than 1048576 characters");
+}
+
+TEST(TextReader, ALineWithoutEndIsAnErrorBeforeItFillsTheMemory) {
+  const int zeros = ::open("/dev/zero", O_RDONLY | O_CLOEXEC);
+  EXPECT_EQ(message_of([&] { lines_from(zeros); }),
+            "in.txt:1:1048577: expected the end of the line, found more than 1048576 characters");
+  ::close(zeros);
+}
+
+TEST(TextReader, FilledLinesPassOverBlankLinesAndComments) {
+  const TextFile file("\n \t\n# a\r\nb\n\n");
+  TextReader reader(file.descriptor(), "in.txt");
+  LineScanner line;
+  ASSERT_TRUE(reader.next_filled_line(line));
+  EXPECT_EQ(line.word(), "b");
+  EXPECT_EQ(line.line_number(), 4u);
+  EXPECT_FALSE(reader.next_filled_line(line));
+}
+
+TEST(TextReader, TheEndIsThePlaceAfterTheLastLine) {
+  const TextFile file("a\nb\n");
+  TextReader reader(file.descriptor(), "in.txt");
+  for (LineScanner line; reader.next_line(line);) {}
+  EXPECT_EQ(to_string(reader.end_place()), "in.txt:3:1");
+}
+
+TEST(TextReader, TheEndOfAnEmptyTextIsItsStart) {
+  const TextFile file("");
+  const TextReader reader(file.descriptor(), "in.txt");
+  EXPECT_EQ(to_string(reader.end_place()), "in.txt:1:1");
+}
+
+TEST(TextReader, CountsTheBytesItHasRead) {
+  const TextFile file("ab\r\n# c\n");
+  TextReader reader(file.descriptor(), "in.txt");
+  for (LineScanner line; reader.next_line(line);) {}
+  EXPECT_EQ(reader.bytes_read(), 8u);
+}
+
+TEST(TextReader, AFailureToReadNamesTheFileAndTheReason) {
+  const int folder = ::open("/", O_RDONLY | O_CLOEXEC);
+  EXPECT_EQ(message_of([&] { lines_from(folder); }), "cannot read in.txt: Is a directory");
+  ::close(folder);
+}
+
+TEST(TextReader, NoLineWaitsBeforeTheFirstRead) {
+  const TextFile file("a\n");
+  const TextReader reader(file.descriptor(), "in.txt");
+  EXPECT_FALSE(reader.has_lines_waiting(1));
+}
+
+TEST(TextReader, LinesThatHaveArrivedAreWaiting) {
+  const TextInPieces slow({"a\nb\nc\n"}, TextInPieces::Then::silence);
+  TextReader reader(slow.descriptor(), "in.txt");
+  LineScanner line;
+  reader.next_line(line);
+  EXPECT_TRUE(reader.has_lines_waiting(2));
+  EXPECT_FALSE(reader.has_lines_waiting(3));
+}
+
+TEST(TextReader, HalfALineIsNotWaiting) {
+  const TextInPieces slow({"a\nb", "c\n"}, TextInPieces::Then::silence);
+  TextReader reader(slow.descriptor(), "in.txt");
+  LineScanner line;
+  reader.next_line(line);
+  EXPECT_FALSE(reader.has_lines_waiting(1));
+  reader.next_line(line);
+  EXPECT_EQ(line.rest(), "bc");
+}
+
+TEST(TextReader, BlankLinesAndCommentsAreNotWaitedFor) {
+  const TextInPieces slow({"a\n\n \t\r\n # b\n\n"}, TextInPieces::Then::silence);
+  TextReader reader(slow.descriptor(), "in.txt");
+  LineScanner line;
+  reader.next_line(line);
+  EXPECT_FALSE(reader.has_lines_waiting(1));
+}
+
+TEST(LineScanner, TakesWordsBetweenBlanksAndTabs) {
+  const TextFile file("  ab\tc \t d\n");
+  TextReader reader(file.descriptor(), "in.txt");
+  LineScanner line;
+  reader.next_line(line);
+  EXPECT_EQ(line.word(), "ab");
+  EXPECT_EQ(line.peek(), "c");
+  EXPECT_EQ(line.word(), "c");
+  EXPECT_EQ(line.rest(), "d");
+  EXPECT_EQ(line.word(), "d");
+  EXPECT_TRUE(line.at_end());
+  EXPECT_EQ(line.word(), "");
+}
+
+TEST(LineScanner, PlacesAreColumnsFromOne) {
+  const TextFile file("\n  ab\tc");
+  TextReader reader(file.descriptor(), "in.txt");
+  LineScanner line;
+  reader.next_filled_line(line);
+  EXPECT_EQ(to_string(line.place()), "in.txt:2:3");
+  const std::string_view first = line.word();
+  EXPECT_EQ(to_string(line.place()), "in.txt:2:6");
+  EXPECT_EQ(to_string(line.place_of(first)), "in.txt:2:3");
+  line.word();
+  EXPECT_EQ(to_string(line.place()), "in.txt:2:7");
+}
+
+TEST(LineScanner, ReadsNumbersInEveryDecimalForm) {
+  EXPECT_EQ(number_in("12"), 12);
+  EXPECT_EQ(number_in("+12.5"), 12.5);
+  EXPECT_EQ(number_in("-.5"), -0.5);
+  EXPECT_EQ(number_in("5."), 5);
+  EXPECT_EQ(number_in("1e3"), 1000);
+  EXPECT_EQ(number_in("+1.5E-1"), 0.15);
+}
+
+TEST(LineScanner, NamesThePlaceOfABadNumber) {
+  EXPECT_EQ(error_of_number("  1,5 2"), "in.txt:1:3: expected the x of the eye, found '1,5'");
+}
+
+TEST(LineScanner, WhatOnlyLooksLikeANumberIsAnError) {
+  for (const std::string word : {"nan", "inf", "-inf", "0x10", "1.5abc", "1e", "--1", "+-1", ".", "+", "1_000"})
+    EXPECT_EQ(error_of_number(word), "in.txt:1:1: expected the x of the eye, found '" + word + "'");
+}
+
+TEST(LineScanner, SaysThatANumberIsTooLarge) {
+  EXPECT_EQ(error_of_number("-1e309"),
+            "in.txt:1:1: expected the x of the eye within a double's range, found '-1e309'");
+}
+
+TEST(LineScanner, NamesTheEndOfTheLineWhereANumberIsMissing) {
+  EXPECT_EQ(error_of_number("  # 5"), "in.txt:1:1: expected the x of the eye, found the end of the line");
+}
+
+TEST(LineScanner, NamesThePlaceBehindTheLastWordWhereANumberIsMissing) {
+  EXPECT_EQ(error_in("12 \t # 5", [](LineScanner& line) { line.word(), line.number("a number"); }),
+            "in.txt:1:3: expected a number, found the end of the line");
+}
+
+TEST(LineScanner, CountsAreWholeNumbersWithoutASign) {
+  for (const std::string word : {"-1", "+1", "1.0", "1e3", "x", "18446744073709551616"})
+    EXPECT_EQ(error_in(word, [](LineScanner& line) { line.count("the number of a triangle"); }),
+              "in.txt:1:1: expected the number of a triangle, found '" + word + "'");
+}
+
+TEST(LineScanner, NamesWhatStandsTooMuchOnALine) {
+  EXPECT_EQ(error_in("1 2 3", [](LineScanner& line) { line.word(), line.expect_end("the x of ", "the eye"); }),
+            "in.txt:1:3: expected the end of the line after the x of the eye, found '2'");
+}
+
+}  // namespace
+}  // namespace pipeline
