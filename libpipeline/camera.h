@@ -1,0 +1,67 @@
+#pragma once
+
+#include <optional>
+#include <string_view>
+#include <variant>
+
+#include "libpipeline/error.h"
+#include "libpipeline/text_reader.h"
+#include "libpipeline/vec.h"
+
+namespace pipeline {
+
+/// gluPerspective's parameters. `near` and `far` are distances from the eye, 0 < near < far.
+struct Perspective {
+  double fov_y_degrees = 0;
+  double aspect = 1;
+  double near = 0;
+  double far = 0;
+};
+
+/// glFrustum's parameters: the window on the near plane, 0 < near < far.
+struct Frustum {
+  double left = 0, right = 0, bottom = 0, top = 0, near = 0, far = 0;
+};
+
+/// glOrtho's parameters; near and far may have any sign, near < far.
+struct Orthographic {
+  double left = 0, right = 0, bottom = 0, top = 0, near = 0, far = 0;
+};
+
+using Projection = std::variant<Perspective, Frustum, Orthographic>;
+
+/// A value and the place in the input it came from.
+template <typename T>
+struct Placed {
+  T value;
+  Place place;
+};
+
+/// What a scene or a stage text's header says of the camera, as far as it says it.
+/// `look` is the point looked at, in world space like `eye`.
+struct CameraText {
+  std::optional<Placed<Vec3>> eye;
+  std::optional<Placed<Vec3>> look;
+  std::optional<Placed<Vec3>> up;
+  std::optional<Placed<Projection>> projection;
+};
+
+/// Reads what follows the keyword `perspective`, `frustum` or `ortho`, and checks it: fovY lies in (0, 180) degrees,
+/// aspect > 0, near < far, near > 0 for a perspective, left != right, bottom != top.
+Projection read_projection(std::string_view keyword, LineScanner& line);
+
+/// Reads what follows the keyword `eye`, `look`, `up` or one of a projection into that part of the camera, which
+/// must not be there yet (`keyword_place` is where a second one is reported); false if it is another keyword.
+bool read_camera_part(std::string_view keyword, const Place& keyword_place, LineScanner& line, CameraText& camera);
+
+/// The projection alone: what is left once the view transform is done.
+CameraText without_position(const CameraText& camera);
+
+/// An error at its place unless the parts that are there go together: eye and look differ, up is not parallel
+/// to the view direction and not 0.
+void check_camera(const CameraText& camera);
+
+/// The parts of `preferred`, and those of `otherwise` that `preferred` does not have.
+CameraText merged(const CameraText& preferred, const CameraText& otherwise);
+
+}  // namespace pipeline

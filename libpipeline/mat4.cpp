@@ -1,0 +1,75 @@
+#include "libpipeline/mat4.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pipeline {
+
+BallVec3 operator-(const BallVec3& a, const BallVec3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+BallVec3 operator*(const BallVec3& a, const Ball& factor) { return {a.x * factor, a.y * factor, a.z * factor}; }
+Ball dot(const BallVec3& a, const BallVec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+
+BallVec3 cross(const BallVec3& a, const BallVec3& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+BallVec3 normalised(const BallVec3& a) {
+  const Ball length = sqrt(dot(a, a));
+  return {a.x / length, a.y / length, a.z / length};
+}
+
+BallVec3 to_balls(const Vec3& v) { return {v.x, v.y, v.z}; }
+
+AffineMatrix identity() {
+  AffineMatrix m;
+  for (std::size_t i = 0; i < 3; ++i) m.rows[i][i] = 1;
+  return m;
+}
+
+namespace {
+
+// Enlarges a bound by more than the few operations that made it can have rounded off, or lost below the range.
+double rounded_up(double bound) { return bound * (1 + 0x1p-40) + 0x1p-1000; }
+
+/// At least the Euclidean length of the linear part of a row.
+double row_length_bound(const std::array<Ball, 4>& row) {
+  // The largest entry is taken out, so that no square leaves a double's range.
+  const double largest = std::max({row[0].magnitude(), row[1].magnitude(), row[2].magnitude()});
+  if (largest == 0 || !std::isfinite(largest)) return largest;
+  const double x = row[0].magnitude() / largest;
+  const double y = row[1].magnitude() / largest;
+  const double z = row[2].magnitude() / largest;
+  return rounded_up(largest * std::sqrt(x * x + y * y + z * z));
+}
+
+/// The parts of a row's error in a * b that depend on b alone, per unit of the length of a's row: b's own error
+/// and the roundings of the product.
+double error_per_length(const AffineMatrix& b) {
+  double error = 0;
+  for (std::size_t i = 0; i < 3; ++i) error += b.row_errors[i] + 0x1p-101 * row_length_bound(b.rows[i]);
+  return rounded_up(error);
+}
+
+}  // namespace
+
+AffineMatrix operator*(const AffineMatrix& a, const AffineMatrix& b) {
+  AffineMatrix product;
+  product.norm = rounded_up(a.norm * b.norm);
+  const double b_error = error_per_length(b);
+  for (std::size_t i = 0; i < 3; ++i) {
+    product.row_errors[i] = rounded_up(a.row_errors[i] * b.norm + row_length_bound(a.rows[i]) * b_error);
+    for (std::size_t j = 0; j < 4; ++j) {
+      Ball sum = j == 3 ? a.rows[i][3] : Ball();
+      for (std::size_t k = 0; k < 3; ++k) sum = sum + a.rows[i][k] * b.rows[k][j];
+      product.rows[i][j] = j == 3 ? sum : sum.with_error_at_most(product.row_errors[i]);
+    }
+  }
+  return product;
+}
+
+void bound_row_errors(AffineMatrix& m) {
+  for (std::size_t i = 0; i < 3; ++i)
+    m.row_errors[i] = rounded_up(m.rows[i][0].radius() + m.rows[i][1].radius() + m.rows[i][2].radius());
+}
+
+}  // namespace pipeline

@@ -1,0 +1,131 @@
+#include "libpipeline/transform.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "libpipeline/angle.h"
+
+namespace pipeline {
+namespace {
+
+/// R(x, a, angle) = cos x + (1 - cos) (a.x) a + sin (a x x): where the rotation about the unit axis a takes x.
+BallVec3 rodrigues(const BallVec3& x, const BallVec3& axis, const SineCosine& angle) {
+  const BallVec3 kept = x * angle.cosine;
+  const BallVec3 along = axis * (angle.versine * dot(axis, x));
+  const BallVec3 turned = cross(axis, x) * angle.sine;
+  return {kept.x + along.x + turned.x, kept.y + along.y + turned.y, kept.z + along.z + turned.z};
+}
+
+/// 1 / tan of half the angle; the angle, an exact product, must lie in (0, 180) degrees.
+Ball cotangent_of_half(const Ball& angle_degrees) {
+  // There 1 / tan(x / 2) is 2 / x, to far more digits than there are.
+  if (angle_degrees.nearest_double() < kTinyDegrees) return Ball(2) / to_radians(angle_degrees);
+  const DoubleDouble angle = angle_degrees.value();
+  const SineCosine half = sine_cosine_of_degrees({angle.hi / 2, angle.lo / 2});
+  return half.cosine / half.sine;
+}
+
+bool is_inside_half_turn(const Ball& degrees) { return degrees.sign() > 0 && (degrees - Ball(180)).sign() < 0; }
+
+ProjectionTransform perspective(const Perspective& p, const Place& place, AspectRule aspect_rule) {
+  ProjectionTransform transform;
+  transform.y_scale = cotangent_of_half(p.fov_y_degrees);
+  if (aspect_rule == AspectRule::ratio) {
+    transform.x_scale = transform.y_scale / Ball(p.aspect);
+  } else {
+    const Ball fov_x_degrees = Ball(p.fov_y_degrees) * Ball(p.aspect);
+    if (!is_inside_half_turn(fov_x_degrees))
+      throw InputError(place, expected_but_found("fovX = fovY * aspect between 0 and 180 degrees (--aspect angle)",
+                                                 std::to_string(fov_x_degrees.nearest_double())));
+    transform.x_scale = cotangent_of_half(fov_x_degrees);
+  }
+  transform.near = p.near;
+  transform.far = p.far;
+  return transform;
+}
+
+ProjectionTransform frustum(const Frustum& f) {
+  const Ball width = Ball(f.right) - Ball(f.left);
+  const Ball height = Ball(f.top) - Ball(f.bottom);
+  ProjectionTransform transform;
+  transform.x_scale = Ball(2) * Ball(f.near) / width;
+  transform.x_offset = (Ball(f.right) + Ball(f.left)) / width;
+  transform.y_scale = Ball(2) * Ball(f.near) / height;
+  transform.y_offset = (Ball(f.top) + Ball(f.bottom)) / height;
+  transform.near = f.near;
+  transform.far = f.far;
+  return transform;
+}
+
+ProjectionTransform orthographic(const Orthographic& o) {
+  const Ball width = Ball(o.right) - Ball(o.left);
+  const Ball height = Ball(o.top) - Ball(o.bottom);
+  ProjectionTransform transform;
+  transform.is_perspective = false;
+  transform.x_scale = Ball(2) / width;
+  transform.x_offset = -(Ball(o.right) + Ball(o.left)) / width;
+  transform.y_scale = Ball(2) / height;
+  transform.y_offset = -(Ball(o.top) + Ball(o.bottom)) / height;
+  transform.near = o.near;
+  transform.far = o.far;
+  return transform;
+}
+
+}  // namespace
+
+AffineMatrix translation(const Vec3& offset) {
+  AffineMatrix m = identity();
+  m.rows[0][3] = offset.x;
+  m.rows[1][3] = offset.y;
+  m.rows[2][3] = offset.z;
+  return m;
+}
+
+AffineMatrix scaling(const Vec3& factors) {
+  AffineMatrix m;
+  m.rows[0][0] = factors.x;
+  m.rows[1][1] = factors.y;
+  m.rows[2][2] = factors.z;
+  m.norm = std::max({std::fabs(factors.x), std::fabs(factors.y), std::fabs(factors.z)});
+  return m;
+}
+
+AffineMatrix rotation(double angle_degrees, const Vec3& axis) {
+  const BallVec3 unit_axis = normalised(to_balls(axis));
+  const SineCosine angle = sine_cosine_of_degrees({angle_degrees, 0});
+  AffineMatrix m;
+  for (std::size_t j = 0; j < 3; ++j) {
+    const BallVec3 unit = {j == 0 ? 1.0 : 0.0, j == 1 ? 1.0 : 0.0, j == 2 ? 1.0 : 0.0};
+    const BallVec3 column = rodrigues(unit, unit_axis, angle);
+    m.rows[0][j] = column.x;
+    m.rows[1][j] = column.y;
+    m.rows[2][j] = column.z;
+  }
+  bound_row_errors(m);
+  return m;
+}
+
+ViewTransform view_from_world(const Vec3& eye, const Vec3& look, const Vec3& up) {
+  const BallVec3 toward = to_balls(look) - to_balls(eye);
+  const BallVec3 forward = normalised(toward);
+  // The cross product is taken of the vectors as given: their difference in direction may be tiny.
+  const BallVec3 right = normalised(cross(toward, to_balls(up)));
+  const BallVec3 camera_up = cross(right, forward);
+  return {eye, right, camera_up, {-forward.x, -forward.y, -forward.z}};
+}
+
+bool is_parallel_to_view(const Vec3& eye, const Vec3& look, const Vec3& up) {
+  const BallVec3 toward = to_balls(look) - to_balls(eye);
+  const BallVec3 normal = cross(toward, to_balls(up));
+  return dot(normal, normal).sign() == 0;
+}
+
+ProjectionTransform clip_from_view(const Placed<Projection>& projection, AspectRule aspect_rule) {
+  if (const auto* p = std::get_if<Perspective>(&projection.value))
+    return perspective(*p, projection.place, aspect_rule);
+  if (const auto* f = std::get_if<Frustum>(&projection.value)) return frustum(*f);
+  return orthographic(std::get<Orthographic>(projection.value));
+}
+
+}  // namespace pipeline

@@ -1,0 +1,51 @@
+#pragma once
+
+#include "libpipeline/camera.h"
+#include "libpipeline/mat4.h"
+
+namespace pipeline {
+
+// The matrices of OpenGL's glTranslate, glScale, glRotate, gluLookAt, gluPerspective, glFrustum and glOrtho.
+// Each entry is within its stated error of exact arithmetic on the numbers as they were read.
+
+AffineMatrix translation(const Vec3& offset);
+AffineMatrix scaling(const Vec3& factors);
+/// The rotation by `angle_degrees` about an axis of any length but 0, counter-clockwise when the axis points
+/// at the observer. Column by column from Rodrigues' formula in vector form.
+AffineMatrix rotation(double angle_degrees, const Vec3& axis);
+
+/// From world to view space: p_view = rows * (p_world - eye). The rows are right, up and backward, orthonormal.
+/// The eye is kept apart: subtracting it from a point first is what keeps the digits far from the origin.
+struct ViewTransform {
+  Vec3 eye;
+  BallVec3 right;
+  BallVec3 up;
+  BallVec3 backward;
+};
+
+/// The camera's view transform; eye and look differ, up is not parallel to the view direction.
+ViewTransform view_from_world(const Vec3& eye, const Vec3& look, const Vec3& up);
+
+/// True if up x (look - eye) is 0, as far as 31 digits can tell.
+bool is_parallel_to_view(const Vec3& eye, const Vec3& look, const Vec3& up);
+
+/// How `--aspect` makes the horizontal field of view: the course's fovX = fovY * aspect, or gluPerspective's
+/// tan(fovX / 2) = tan(fovY / 2) * aspect.
+enum class AspectRule { angle, ratio };
+
+/// From view to clip space. With d = -z the distance in front of the eye:
+///   perspective:   x_clip = x_scale x + x_offset z,  w = d
+///   orthographic:  x_clip = x_scale x + x_offset,    w = 1
+/// likewise y; z / w runs from -1 at d = near to 1 at d = far.
+struct ProjectionTransform {
+  bool is_perspective = true;
+  Ball x_scale, x_offset;
+  Ball y_scale, y_offset;
+  double near = 0;
+  double far = 0;
+};
+
+/// The camera's projection. An InputError at `projection.place` if fovX is not within (0, 180) degrees.
+ProjectionTransform clip_from_view(const Placed<Projection>& projection, AspectRule aspect_rule);
+
+}  // namespace pipeline

@@ -1,0 +1,107 @@
+#include "libpipeline/camera.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "tests/text_input.h"
+
+namespace pipeline {
+namespace {
+
+CameraText camera(const Vec3& eye, const Vec3& look, const Vec3& up) {
+  CameraText camera;
+  camera.eye = {eye, {"in.txt", 1, 5}};
+  camera.look = {look, {"in.txt", 2, 6}};
+  camera.up = {up, {"in.txt", 3, 4}};
+  return camera;
+}
+
+std::string error_of(const CameraText& camera) {
+  return message_of([&] { check_camera(camera); });
+}
+
+/// What reading a projection says, from a line as it stands behind the option or keyword of that name.
+std::string error_of_projection(const std::string& keyword, const std::string& numbers) {
+  const std::string file = "--" + keyword;
+  LineScanner line(numbers, file, 0);
+  return message_of([&] { read_projection(keyword, line); });
+}
+
+TEST(Camera, IsFineWhileItHasNoParts) { EXPECT_EQ(error_of({}), "no error"); }
+
+TEST(Camera, IsFineWithAllItsParts) { EXPECT_EQ(error_of(camera({0, 0, 5}, {}, {0, 1, 0})), "no error"); }
+
+TEST(Camera, LooksAtAnotherPointThanTheEye) {
+  EXPECT_EQ(error_of(camera({0.1, -2, 1e30}, {0.1, -2, 1e30}, {0, 1, 0})),
+            "in.txt:2:6: expected a point other than the eye to look at, found 0.1 -2 1e+30");
+}
+
+TEST(Camera, MayLookAtTheNextDouble) { EXPECT_EQ(error_of(camera({1, 0, 0}, {0x1.0000000000001p0, 0, 0}, {0, 1, 0})), "no error"); }
+
+TEST(Camera, HasAnUpDirectionEvenIfItIsAlone) {
+  CameraText alone;
+  alone.up = {Vec3{}, {"--up"}};
+  EXPECT_EQ(error_of(alone), "--up: expected an up direction, found 0 0 0");
+}
+
+TEST(Camera, UpIsNotTheViewDirection) {
+  EXPECT_EQ(error_of(camera({1, 1, 1}, {3, 5, 7}, {1, 2, 3})),
+            "in.txt:3:4: expected an up direction that is not parallel to the view direction, found 1 2 3");
+}
+
+TEST(Camera, UpIsNotOppositeToTheViewDirection) {
+  EXPECT_EQ(error_of(camera({1, 1, 1}, {3, 5, 7}, {-0.5, -1, -1.5})),
+            "in.txt:3:4: expected an up direction that is not parallel to the view direction, found -0.5 -1 -1.5");
+}
+
+TEST(Camera, UpMayBeAlmostTheViewDirection) {
+  EXPECT_EQ(error_of(camera({1, 1, 1}, {3, 5, 7}, {1, 2, 0x1.8000000000001p1})), "no error");
+}
+
+TEST(Camera, NamesAnOptionWithoutALine) {
+  EXPECT_EQ(error_of_projection("perspective", "60 1 0 100"), "--perspective: expected near above 0, found '0'");
+}
+
+TEST(Camera, AnOptionMayLackNumbers) {
+  EXPECT_EQ(error_of_projection("ortho", "-1 1 -1 1 0"), "--ortho: expected far, found the end of the line");
+}
+
+TEST(Camera, EachPartIsReadOnce) {
+  const std::string file = "in.txt";
+  const std::string numbers = "0 1 0";
+  CameraText camera;
+  LineScanner first(numbers, file, 3);
+  EXPECT_TRUE(read_camera_part("up", {file, 3, 1}, first, camera));
+  LineScanner second(numbers, file, 4);
+  EXPECT_EQ(message_of([&] { read_camera_part("up", {file, 4, 1}, second, camera); }),
+            "in.txt:4:1: expected one up, found a second one after in.txt:3:1");
+}
+
+TEST(Camera, OtherKeywordsAreNoParts) {
+  const std::string file = "in.txt";
+  LineScanner line("0 1 0", file, 1);
+  CameraText camera;
+  EXPECT_FALSE(read_camera_part("upward", {file, 1, 1}, line, camera));
+}
+
+TEST(Camera, WithoutItsPositionIsTheProjection) {
+  CameraText whole = camera({0, 0, 5}, {}, {0, 1, 0});
+  whole.projection = {Perspective{60, 1, 1, 100}, {"in.txt", 4, 1}};
+  const CameraText rest = without_position(whole);
+  EXPECT_FALSE(rest.eye || rest.look || rest.up);
+  EXPECT_EQ(to_string(rest.projection->place), "in.txt:4:1");
+}
+
+TEST(Camera, MergedPartsAreThePreferredOnes) {
+  CameraText preferred;
+  preferred.look = {{1, 1, 1}, {"--look"}};
+  const CameraText both = merged(preferred, camera({0, 0, 5}, {}, {0, 1, 0}));
+  EXPECT_EQ(to_string(both.eye->place), "in.txt:1:5");
+  EXPECT_EQ(to_string(both.look->place), "--look");
+  EXPECT_EQ(to_string(both.up->place), "in.txt:3:4");
+  EXPECT_FALSE(both.projection);
+}
+
+}  // namespace
+}  // namespace pipeline

@@ -1,0 +1,361 @@
+#include "libpipeline/transform.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/random_numbers.h"
+#include "tests/reference_transforms.h"
+
+namespace pipeline {
+namespace {
+
+constexpr int kBits = 640;
+using Exact = Real<kBits>;
+using ExactVec3 = ReferenceVec3<kBits>;
+using ExactMatrix = ReferenceMatrix<kBits>;
+
+// What the reference itself may be wrong by, in parts of the largest numbers that were added.
+const Exact kSlack = times_power_of_two(Exact(1), -500);
+
+void expect_contained(const BallVec3& computed, const ExactVec3& truth, const Exact& size) {
+  ASSERT_TRUE(contains(computed.x, truth.x, size * kSlack)) << truth.x;
+  ASSERT_TRUE(contains(computed.y, truth.y, size * kSlack)) << truth.y;
+  ASSERT_TRUE(contains(computed.z, truth.z, size * kSlack)) << truth.z;
+}
+
+void expect_contained(const AffineMatrix& computed, const ExactMatrix& truth, const Exact& size) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto& row = computed.rows[i];
+    expect_contained({row[0], row[1], row[2]}, truth.rows[i], size);
+  }
+  expect_contained({computed.rows[0][3], computed.rows[1][3], computed.rows[2][3]}, truth.offset, size);
+}
+
+/// The largest error of the linear part, in parts of its largest entry.
+double relative_error(const AffineMatrix& m) {
+  double largest = 0;
+  double error = 0;
+  for (const auto& row : m.rows) {
+    for (std::size_t j = 0; j < 3; ++j) {
+      largest = std::max(largest, row[j].magnitude());
+      error = std::max(error, row[j].radius());
+    }
+  }
+  return error / largest;
+}
+
+Vec3 random_vector(RandomNumbers& random, int first_exponent, int last_exponent) {
+  const auto number = [&] { return random.with_exponent(first_exponent, last_exponent); };
+  return {number(), number(), number()};
+}
+
+double random_angle(RandomNumbers& random) {
+  switch (random.bits() % 4) {
+    case 0:
+      return 15.0 * random.whole(-48, 48);
+    case 1:
+      return random.with_exponent(-300, 300);
+    default:
+      return random.between(-360, 360);
+  }
+}
+
+/// The same random transform twice.
+struct RandomTransform {
+  AffineMatrix computed;
+  ExactMatrix exact;
+};
+
+RandomTransform random_rotation(RandomNumbers& random) {
+  const double angle = random_angle(random);
+  const int exponent = random.whole(-900, 900);
+  const Vec3 axis = random_vector(random, exponent - 20, exponent);
+  return {rotation(angle, axis), reference_rotation<kBits>(angle, axis)};
+}
+
+RandomTransform random_transform(RandomNumbers& random, int last_exponent) {
+  const Vec3 v = random_vector(random, -last_exponent, last_exponent);
+  switch (random.bits() % 4) {
+    case 0:
+      return {translation(v), reference_translation<kBits>(v)};
+    case 1:
+      return {scaling(v), reference_scaling<kBits>(v)};
+    default:
+      return random_rotation(random);
+  }
+}
+
+/// The largest entry, or 1.
+Exact size_of(const ExactMatrix& m) {
+  Exact size = 1;
+  for (const ExactVec3& v : {m.rows[0], m.rows[1], m.rows[2], m.offset})
+    size = std::max({size, abs(v.x), abs(v.y), abs(v.z)});
+  return size;
+}
+
+TEST(Rotation, ContainsTheTruth) {
+  RandomNumbers random(1);
+  for (int i = 0; i < 3'000; ++i) {
+    const RandomTransform r = random_rotation(random);
+    expect_contained(r.computed, r.exact, 1);
+    ASSERT_FALSE(HasFatalFailure()) << "rotation " << i;
+  }
+}
+
+TEST(Rotation, IsKnownToThirtyDigits) {
+  RandomNumbers random(2);
+  for (int i = 0; i < 3'000; ++i) ASSERT_LE(relative_error(random_rotation(random).computed), 0x1p-95) << i;
+}
+
+TEST(Rotation, ByRightAnglesAboutAnAxisIsExact) {
+  const Vec3 axes[] = {{1, 0, 0}, {0, 2, 0}, {0, 0, 1e-300}, {-1e300, 0, 0}};
+  for (const Vec3& axis : axes) {
+    for (int quarter_turns = -9; quarter_turns <= 9; ++quarter_turns) {
+      const AffineMatrix m = rotation(90.0 * quarter_turns, axis);
+      for (const auto& row : m.rows)
+        for (const Ball& entry : row) {
+          ASSERT_TRUE(entry.is_exact());
+          ASSERT_EQ(entry.nearest_double(), std::nearbyint(entry.nearest_double()));
+        }
+    }
+  }
+}
+
+TEST(Rotation, TurnsCounterClockwise) {
+  const AffineMatrix m = rotation(90, {0, 0, 1});
+  EXPECT_EQ(m.rows[1][0], Ball(1));
+  EXPECT_EQ(m.rows[0][1], Ball(-1));
+}
+
+TEST(Rotation, BySixtyDegreesHasExactHalves) {
+  const AffineMatrix m = rotation(60, {0, 0, 3});
+  EXPECT_EQ(m.rows[0][0], Ball(0.5));
+  EXPECT_EQ(m.rows[1][1], Ball(0.5));
+}
+
+TEST(Rotation, AboutADiagonalByAThirdOfATurnPermutesTheAxes) {
+  const AffineMatrix m = rotation(120, {1, 1, 1});
+  expect_contained(m, {{{{0, 0, 1}, {1, 0, 0}, {0, 1, 0}}}, {}}, 0);
+}
+
+TEST(Rotation, ByATinyAngleKeepsTheVersine) {
+  // The entry (1 - cos) x y, which later scalings can show.
+  const AffineMatrix m = rotation(1e-200, {1, 1, 0});
+  const Exact half_sine = sin(times_power_of_two(radians(Exact(1e-200)), -1));
+  EXPECT_TRUE(contains(m.rows[0][1], half_sine * half_sine));
+  EXPECT_EQ(m.rows[0][1].sign(), 1);
+}
+
+TEST(MatrixProduct, ContainsTheTruth) {
+  RandomNumbers random(3);
+  for (int i = 0; i < 1'000; ++i) {
+    AffineMatrix computed = identity();
+    ExactMatrix exact = reference_scaling<kBits>({1, 1, 1});
+    Exact size = 1;
+    const int last_exponent = i % 2 == 0 ? 20 : 3;
+    for (int depth = 0; depth < 8; ++depth) {
+      const RandomTransform t = random_transform(random, last_exponent);
+      computed = computed * t.computed;
+      exact = exact * t.exact;
+      size = std::max(size, size_of(exact)) * size_of(t.exact);
+      expect_contained(computed, exact, size);
+      ASSERT_FALSE(HasFatalFailure()) << "product " << i << ", factor " << depth;
+    }
+  }
+}
+
+TEST(MatrixProduct, ContainsTheTruthWhereScalesLeaveTheRange) {
+  RandomNumbers random(4);
+  for (int i = 0; i < 1'000; ++i) {
+    const double scale = random.with_exponent(-1000, 1000);
+    const RandomTransform first = random_rotation(random);
+    const RandomTransform second = random_rotation(random);
+    const Vec3 factors = {scale, scale, scale};
+    const Vec3 back = {1 / scale, 1 / scale, 1 / scale};
+    const AffineMatrix computed = scaling(factors) * first.computed * scaling(factors) * second.computed * scaling(back) *
+                                  first.computed * scaling(back);
+    const auto exact_scale = reference_scaling<kBits>(factors);
+    const auto exact_back = reference_scaling<kBits>(back);
+    const ExactMatrix exact = exact_scale * first.exact * exact_scale * second.exact * exact_back * first.exact * exact_back;
+    expect_contained(computed, exact, 1);
+    ASSERT_FALSE(HasFatalFailure()) << "scale " << std::hexfloat << scale;
+    ASSERT_LE(relative_error(computed), 0x1p-90) << "scale " << std::hexfloat << scale;
+  }
+}
+
+TEST(MatrixProduct, ErrorGrowsLinearlyWithTheNumberOfRotations) {
+  const AffineMatrix step = rotation(1.1, {1, 2, 3});
+  const ExactMatrix exact_step = reference_rotation<kBits>(1.1, {1, 2, 3});
+  AffineMatrix m = step;
+  ExactMatrix exact = exact_step;
+  for (int i = 1; i < 10'000; ++i) {
+    m = m * step;
+    exact = exact * exact_step;
+  }
+  EXPECT_LE(relative_error(m), 10'000 * 0x1p-95);
+  expect_contained(m, exact, 1);
+}
+
+TEST(ViewFromWorld, ContainsTheTruth) {
+  RandomNumbers random(5);
+  for (int i = 0; i < 3'000; ++i) {
+    const int exponent = random.whole(-900, 900);
+    const Vec3 eye = random_vector(random, exponent - 20, exponent);
+    const Vec3 look = random_vector(random, exponent - 20, exponent + 20);
+    const Vec3 up = random_vector(random, -exponent - 4, -exponent);
+    const ViewTransform view = view_from_world(eye, look, up);
+    const ExactMatrix exact = reference_view<kBits>(eye, look, up);
+    expect_contained(view.right, exact.rows[0], 1);
+    expect_contained(view.up, exact.rows[1], 1);
+    expect_contained(view.backward, exact.rows[2], 1);
+    ASSERT_FALSE(HasFatalFailure()) << "camera " << i;
+  }
+}
+
+TEST(ViewFromWorld, ContainsTheTruthWithUpCloseToTheViewDirection) {
+  RandomNumbers random(6);
+  for (int i = 0; i < 3'000; ++i) {
+    const Vec3 look = random_vector(random, -3, 3);
+    const double tilt = std::ldexp(1.0, random.whole(-51, -20));
+    const Vec3 up = {look.x * (1 + tilt), look.y, look.z};
+    const ViewTransform view = view_from_world({}, look, up);
+    const ExactMatrix exact = reference_view<kBits>({}, look, up);
+    expect_contained(view.right, exact.rows[0], 1);
+    expect_contained(view.up, exact.rows[1], 1);
+    ASSERT_FALSE(HasFatalFailure()) << "camera " << i;
+    ASSERT_LE(view.right.x.error(), 0x1p-90);
+  }
+}
+
+TEST(ViewFromWorld, OfACameraOnTheAxesIsExact) {
+  const ViewTransform view = view_from_world({0, 0, 5}, {0, 0, 0}, {0, 7, 0});
+  EXPECT_EQ(view.right, (BallVec3{1, 0, 0}));
+  EXPECT_EQ(view.up, (BallVec3{0, 1, 0}));
+  EXPECT_EQ(view.backward, (BallVec3{0, 0, 1}));
+}
+
+TEST(IsParallelToView, SeesParallelVectorsOfAnySize) {
+  EXPECT_TRUE(is_parallel_to_view({0, 0, 0}, {1, 2, 3}, {2, 4, 6}));
+  EXPECT_TRUE(is_parallel_to_view({0, 0, 0}, {1, 2, 3}, {-0x1p-1000, -0x2p-1000, -0x3p-1000}));
+  EXPECT_TRUE(is_parallel_to_view({1e15, 1e15, 1e15}, {1e15 + 1, 1e15 + 2, 1e15 + 3}, {2, 4, 6}));
+}
+
+TEST(IsParallelToView, SeesTheLastBitOfADifference) {
+  EXPECT_FALSE(is_parallel_to_view({0, 0, 0}, {1, 2, 3}, {1, 2, 3 + 0x1p-51}));
+  EXPECT_FALSE(is_parallel_to_view({0, 0, 0}, {1e-300, 2e-300, 3e-300}, {1e300, 2e300, 3.0000000000000004e300}));
+}
+
+TEST(IsParallelToView, WhatItLetsPassHasAViewTransform) {
+  // Nearly parallel to what 31 digits tell, with an eye that makes the view direction longer than a double.
+  RandomNumbers random(7);
+  for (int i = 0; i < 20'000; ++i) {
+    const double p = random.whole(1 << 20, 1 << 26) * 0x1p26 + random.whole(0, 1 << 26);
+    const double q = random.whole(1 << 20, 1 << 26) * 0x1p26 + random.whole(0, 1 << 26);
+    // look - eye = p + a few bits below the low end of a double-double, in ratio almost that of up.
+    const Vec3 eye = {-p * std::ldexp(1.0, -random.whole(48, 108)), 0, 0};
+    const Vec3 look = {p, q, 0};
+    const Vec3 up = {p, q, 0};
+    if (is_parallel_to_view(eye, look, up)) continue;
+    const ViewTransform view = view_from_world(eye, look, up);
+    for (const Ball& entry : {view.right.x, view.right.y, view.right.z, view.up.x, view.up.y, view.up.z})
+      ASSERT_TRUE(std::isfinite(entry.error()) && entry.error() >= 0) << std::hexfloat << p << ", " << q << ", " << eye.x;
+  }
+}
+
+void expect_projection(const Projection& projection, AspectRule rule) {
+  const ProjectionTransform computed = clip_from_view({projection, {}}, rule);
+  const auto exact = reference_projection<kBits>(projection, rule);
+  const Exact width = exact.right - exact.left;
+  const Exact height = exact.top - exact.bottom;
+  const Exact two_near = Exact(2) * exact.near;
+  const auto is_close = [](const Ball& ball, const Exact& truth) { return contains(ball, truth, abs(truth) * kSlack); };
+  ASSERT_EQ(computed.is_perspective, exact.is_perspective);
+  if (exact.is_perspective) {
+    ASSERT_TRUE(is_close(computed.x_scale, two_near / width)) << two_near / width;
+    ASSERT_TRUE(is_close(computed.y_scale, two_near / height)) << two_near / height;
+    ASSERT_TRUE(is_close(computed.x_offset, (exact.right + exact.left) / width));
+    ASSERT_TRUE(is_close(computed.y_offset, (exact.top + exact.bottom) / height));
+  } else {
+    ASSERT_TRUE(is_close(computed.x_scale, Exact(2) / width));
+    ASSERT_TRUE(is_close(computed.y_scale, Exact(2) / height));
+    ASSERT_TRUE(is_close(computed.x_offset, -(exact.right + exact.left) / width));
+    ASSERT_TRUE(is_close(computed.y_offset, -(exact.top + exact.bottom) / height));
+  }
+}
+
+TEST(ClipFromView, ContainsTheTruthOfAPerspective) {
+  RandomNumbers random(8);
+  for (int i = 0; i < 2'000; ++i) {
+    const double fov_y = random.between(0.001, 179.999);
+    const Perspective p = {fov_y, random.between(0.001, 179.99 / fov_y), std::fabs(random.with_exponent(-20, 20)), 0x1p30};
+    expect_projection(p, AspectRule::angle);
+    expect_projection(p, AspectRule::ratio);
+    ASSERT_FALSE(HasFatalFailure()) << std::hexfloat << p.fov_y_degrees << ", " << p.aspect;
+  }
+}
+
+TEST(ClipFromView, ContainsTheTruthOfExtremeFieldsOfView) {
+  for (const double fov_y : {0x1p-1074, 1e-300, 1e-60, 1e-10, 179.999999999999, 179.99999999999997}) {
+    for (const double aspect : {1.0, 1e-300, 1e-20, 0.1, 1 - 0x1p-53, 0x1p-1074}) {
+      expect_projection(Perspective{fov_y, aspect, 1, 2}, AspectRule::angle);
+      expect_projection(Perspective{fov_y, aspect, 1, 2}, AspectRule::ratio);
+      ASSERT_FALSE(HasFatalFailure()) << fov_y << ", " << aspect;
+    }
+  }
+}
+
+TEST(ClipFromView, ContainsTheTruthOfAFrustum) {
+  RandomNumbers random(9);
+  for (int i = 0; i < 2'000; ++i) {
+    const auto number = [&] { return random.with_exponent(-300, 300); };
+    expect_projection(Frustum{number(), number(), number(), number(), std::fabs(number()), 0x1p302}, AspectRule::angle);
+    ASSERT_FALSE(HasFatalFailure()) << "frustum " << i;
+  }
+}
+
+TEST(ClipFromView, ContainsTheTruthOfAParallelProjection) {
+  RandomNumbers random(10);
+  for (int i = 0; i < 2'000; ++i) {
+    const auto number = [&] { return random.with_exponent(-300, 300); };
+    expect_projection(Orthographic{number(), number(), number(), number(), -1, 1}, AspectRule::angle);
+    ASSERT_FALSE(HasFatalFailure()) << "projection " << i;
+  }
+}
+
+TEST(ClipFromView, NinetyDegreesHaveTheScaleOne) {
+  const ProjectionTransform computed = clip_from_view({Perspective{90, 1, 1, 2}, {}}, AspectRule::angle);
+  EXPECT_TRUE(contains(computed.x_scale, Exact(1)));
+  EXPECT_EQ(computed.x_scale.nearest_double(), 1);
+}
+
+TEST(ClipFromView, RefusesAnAngleFromASideToASide) {
+  const Placed<Projection> wide = {Perspective{90, 2, 1, 2}, {"scene.txt", 4, 1}};
+  try {
+    clip_from_view(wide, AspectRule::angle);
+    FAIL() << "no error";
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(), "scene.txt:4:1: expected fovX = fovY * aspect between 0 and 180 degrees (--aspect angle), "
+                               "found 180.000000");
+  }
+}
+
+TEST(ClipFromView, TakesAnAngleJustBelowAHalfTurn) {
+  EXPECT_NO_THROW(clip_from_view({Perspective{90 * (1 - 0x1p-53), 2, 1, 2}, {}}, AspectRule::angle));
+  EXPECT_THROW(clip_from_view({Perspective{100, 1e308, 1, 2}, {}}, AspectRule::angle), InputError);
+}
+
+TEST(ClipFromView, KnowsAFieldOfViewThatReachesAHalfTurnOnlyInItsLowPart) {
+  // (180 - 45 * 2^-45) (1 + 32 * 2^-52) = 180 - 1440 * 2^-97; in doubles that is 180.
+  const double fov_y = 180 - 45 * 0x1p-45;
+  const double aspect = 1 + 32 * 0x1p-52;
+  EXPECT_EQ(fov_y * aspect, 180);
+  EXPECT_NO_THROW(clip_from_view({Perspective{fov_y, aspect, 1, 2}, {}}, AspectRule::angle));
+}
+
+TEST(ClipFromView, RatioTakesAnyAspect) {
+  EXPECT_NO_THROW(clip_from_view({Perspective{90, 2, 1, 2}, {}}, AspectRule::ratio));
+}
+
+}  // namespace
+}  // namespace pipeline
