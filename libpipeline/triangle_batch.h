@@ -1,0 +1,61 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "libpipeline/vec.h"
+
+namespace pipeline {
+
+/// The most triangles a batch is filled with before it is passed on.
+constexpr std::size_t kBatchSize = 2048;
+
+/// The lines of the input on which the three vertices of a triangle stand.
+using VertexLines = std::array<std::size_t, 3>;
+
+/// What messages call the vertices of a triangle.
+constexpr std::array<std::string_view, 3> kVertexNames = {"vertex 1 of 3", "vertex 2 of 3", "vertex 3 of 3"};
+
+/// Some triangles on their way through a stage. All vectors have one entry a triangle.
+struct TriangleBatch {
+  std::vector<Triangle> triangles;
+  /// The part of a coordinate below its double, where a stage text shows more digits than a double holds:
+  /// empty, or as long as `triangles`.
+  std::vector<Triangle> low_parts;
+  /// The triangle's number in the scene, from 0.
+  std::vector<std::uint64_t> numbers;
+  std::vector<VertexLines> lines;
+  /// Which coordinates were written as plain numbers with at most 7 decimals, so that they are that decimal
+  /// (hi + low part, to 7 decimals) and not only its nearest double: bit 3 * vertex + axis. Empty if not asked for.
+  std::vector<std::uint16_t> decimal_marks;
+
+  [[nodiscard]] std::size_t size() const { return triangles.size(); }
+  [[nodiscard]] bool empty() const { return triangles.empty(); }
+  void clear() {
+    triangles.clear();
+    low_parts.clear();
+    numbers.clear();
+    lines.clear();
+    decimal_marks.clear();
+  }
+  /// Keeps the first `count` triangles.
+  void truncate(std::size_t count) {
+    triangles.resize(count);
+    numbers.resize(count);
+    lines.resize(count);
+    if (!low_parts.empty()) low_parts.resize(count);
+    if (!decimal_marks.empty()) decimal_marks.resize(count);
+  }
+  void add(const Triangle& triangle, std::uint64_t number, const VertexLines& vertex_lines) {
+    triangles.push_back(triangle);
+    numbers.push_back(number);
+    lines.push_back(vertex_lines);
+    if (!low_parts.empty()) low_parts.emplace_back();
+    if (!decimal_marks.empty()) decimal_marks.emplace_back();
+  }
+};
+
+}  // namespace pipeline
