@@ -1,0 +1,261 @@
+#include "libpipeline/stage_text.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+
+namespace pipeline {
+namespace {
+
+constexpr std::size_t kMaxVertexLength = 3 * (kMaxNumberLength + 1);
+// "triangle N", three vertex lines and the blank line.
+constexpr std::size_t kMaxTriangleLength = 40 + 3 * kMaxVertexLength + 1;
+
+bool is_vertex(std::string_view word) {
+  return !word.empty() && (word.front() == '-' || word.front() == '+' || word.front() == '.' ||
+                           (word.front() >= '0' && word.front() <= '9'));
+}
+
+bool is_header_keyword(std::string_view word) {
+  constexpr std::array<std::string_view, 7> kKeywords = {"framed",      "eye",     "look", "up",
+                                                         "perspective", "frustum", "ortho"};
+  return std::find(kKeywords.begin(), kKeywords.end(), word) != kKeywords.end();
+}
+
+void print_header_numbers(TextWriter& text, std::string_view keyword, std::initializer_list<double> numbers) {
+  text.append(keyword);
+  for (const double number : numbers) {
+    char* out = text.reserve(kMaxNumberLength + 1);
+    *out++ = ' ';
+    text.commit(print_number(out, number, 0, {.shortest = true}));
+  }
+  text.append("\n");
+}
+
+void print_projection(TextWriter& text, const Projection& projection) {
+  if (const auto* p = std::get_if<Perspective>(&projection)) {
+    print_header_numbers(text, "perspective", {p->fov_y_degrees, p->aspect, p->near, p->far});
+  } else if (const auto* f = std::get_if<Frustum>(&projection)) {
+    print_header_numbers(text, "frustum", {f->left, f->right, f->bottom, f->top, f->near, f->far});
+  } else {
+    const auto& o = std::get<Orthographic>(projection);
+    print_header_numbers(text, "ortho", {o.left, o.right, o.bottom, o.top, o.near, o.far});
+  }
+}
+
+/// What is exact of a triangle's coordinates, as in a batch.
+struct ExactParts {
+  std::uint16_t marks = 0;
+  Triangle low_parts{};
+
+  /// Notes the vertex on `line`; words that are no numbers are left for others to find.
+  void add_vertex(LineScanner line, std::size_t vertex) {
+    constexpr std::array<double Vec3::*, 3> kAxes = {&Vec3::x, &Vec3::y, &Vec3::z};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      DoubleDouble value;
+      const std::string_view word = line.word();
+      if (parse_number(word).error != NumberError::none || !parse_exact_decimal(word, value)) continue;
+      marks |= static_cast<std::uint16_t>(1u << (3 * vertex + axis));
+      low_parts[vertex].*kAxes[axis] = value.lo;
+    }
+  }
+
+  /// Hands the notes to the batch's last triangle.
+  void set_last(TriangleBatch& batch) const {
+    batch.decimal_marks.resize(batch.size());
+    batch.decimal_marks.back() = marks;
+    if (low_parts == Triangle{} && batch.low_parts.empty()) return;
+    batch.low_parts.resize(batch.size());
+    batch.low_parts.back() = low_parts;
+  }
+};
+
+}  // namespace
+
+EarlierFailure::EarlierFailure(const Place& place, std::string reason)
+    : InputError(place, "an earlier stage failed" + (reason.empty() ? ", without saying why" : ": " + reason)),
+      reason_(std::move(reason)) {}
+
+std::string error_line(const std::string& reason) { return "error " + on_one_line(reason) + "\n"; }
+
+StageReader::StageReader(TextReader& text, bool marks_decimals) : text_(text), marks_decimals_(marks_decimals) {
+  while (!line_is_pending_ && text_.next_filled_line(line_)) {
+    LineScanner line = line_;
+    line_is_pending_ = !read_header_line(line);
+  }
+  check_camera(header_.camera);
+  // A mistake here is told before anybody misses a header line that it hides.
+  header_end_ = line_is_pending_ ? line_.place() : text_.end_place();
+  if (!line_is_pending_) expect_unframed_end();
+  const bool is_body = is_vertex(line_.peek()) || line_.peek() == "triangle" || is_end(line_);
+  if (line_is_pending_ && !is_body) reject(line_, "a header line, ");
+}
+
+/// Takes a header line; false if the line belongs to the body.
+bool StageReader::read_header_line(LineScanner& line) {
+  const Place place = line.place();
+  const std::string_view keyword = line.word();
+  if (keyword != "framed") return read_camera_part(keyword, place, line, header_.camera);
+  if (header_.framed)
+    throw InputError(place, expected_but_found("one 'framed'", "a second one after " + to_string(framed_place_)));
+  line.expect_end("'framed'");
+  header_.framed = true;
+  framed_place_ = place;
+  return true;
+}
+
+bool StageReader::read(TriangleBatch& batch) {
+  batch.clear();
+  if (mistake_) std::rethrow_exception(mistake_);
+  try {
+    fill(batch);
+  } catch (...) {
+    if (batch.empty()) throw;
+    mistake_ = std::current_exception();
+  }
+  return !batch.empty();
+}
+
+void StageReader::fill(TriangleBatch& batch) {
+  while (!done_) {
+    // What is in memory is passed on before the reader waits for more: a triangle has three lines.
+    if (!line_is_pending_ && !batch.empty() && (batch.size() >= kBatchSize || !text_.has_lines_waiting(3))) break;
+    if (!line_is_pending_ && !text_.next_filled_line(line_)) {
+      expect_unframed_end();
+      done_ = true;
+      break;
+    }
+    line_is_pending_ = false;
+    if (is_vertex(line_.peek())) {
+      read_vertices(line_, batch);
+    } else if (line_.peek() == "triangle") {
+      line_.word();
+      next_number_ = line_.count("the number of a triangle");
+      line_.expect_end("the number of a triangle");
+    } else if (is_end(line_)) {
+      read_end(line_);
+    } else {
+      reject(line_, "");
+    }
+  }
+}
+
+/// Moves on to the line of vertex `index` (from 0); only comments may stand before it.
+void StageReader::next_vertex_line(LineScanner& line, std::size_t index) {
+  const std::string expected(kVertexNames[index]);
+  do {
+    if (!text_.next_line(line))
+      throw InputError(text_.end_place(), expected_but_found(expected, "the end of the input inside a triangle"));
+    if (line.at_end() && !line.is_comment())
+      throw InputError(line.place(), expected_but_found(expected, "a blank line inside a triangle"));
+  } while (line.at_end());
+  if (line.peek() == "error") reject(line, "");
+}
+
+/// Reads the three lines of a triangle, of which `line` is the first.
+void StageReader::read_vertices(LineScanner& line, TriangleBatch& batch) {
+  Triangle triangle;
+  VertexLines lines{};
+  ExactParts exact;
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (i > 0) next_vertex_line(line, i);
+    if (marks_decimals_) exact.add_vertex(line, i);
+    triangle[i] = line.vec3(kVertexNames[i]);
+    lines[i] = line.line_number();
+  }
+  batch.add(triangle, next_number_++, lines);
+  if (marks_decimals_) exact.set_last(batch);
+}
+
+bool StageReader::is_end(const LineScanner& line) const { return header_.framed && line.peek() == "end"; }
+
+/// Takes the last line of a framed text. Its newline is a part of it: a text that is cut there is cut.
+void StageReader::read_end(LineScanner& line) {
+  line.word();
+  line.expect_end("'end'");
+  if (!text_.last_line_was_ended())
+    throw InputError(line.place(), expected_but_found("the end of the line after 'end', which closes a framed text",
+                                                      "the end of the input"));
+  if (text_.next_filled_line(line)) {
+    if (line.peek() == "error") reject(line, "");
+    line.fail("nothing after 'end'");
+  }
+  done_ = true;
+}
+
+void StageReader::expect_unframed_end() const {
+  if (header_.framed)
+    throw InputError(text_.end_place(), expected_but_found("'end', which closes a framed text", "the end of the input"));
+}
+
+/// Says what is wrong with a line that has no place in a body. `also_expected` is what might have stood there
+/// besides triangles.
+void StageReader::reject(LineScanner& line, const std::string& also_expected) {
+  const Place place = line.place();
+  const LineScanner at_keyword = line;
+  const std::string_view keyword = line.word();
+  if (keyword == "error") throw EarlierFailure(place, std::string(line.rest_with_comment()));
+  if (is_header_keyword(keyword))
+    throw InputError(place, expected_but_found("header lines before the first triangle", quoted(keyword)));
+  const std::string hint = keyword == "end" ? " ('end' needs a line 'framed' in the header)" : "";
+  at_keyword.fail(also_expected + "'triangle N' or a vertex" + hint);
+}
+
+StageWriter::StageWriter(TextWriter& text, NumberFormat format, bool bare)
+    : text_(text), format_(format), bare_(bare) {}
+
+void StageWriter::write_header(const StageHeader& header) {
+  if (bare_) return;
+  framed_ = header.framed;
+  if (framed_) text_.append("framed\n");
+  const CameraText& camera = header.camera;
+  const auto print_vec3 = [&](std::string_view keyword, const std::optional<Placed<Vec3>>& v) {
+    if (v) print_header_numbers(text_, keyword, {v->value.x, v->value.y, v->value.z});
+  };
+  print_vec3("eye", camera.eye);
+  print_vec3("look", camera.look);
+  print_vec3("up", camera.up);
+  if (camera.projection) print_projection(text_, camera.projection->value);
+}
+
+void StageWriter::write(const TriangleBatch& batch) {
+  assert(batch.low_parts.empty() || batch.low_parts.size() == batch.size());
+  const Triangle no_low_part{};
+  for (std::size_t i = 0; i < batch.size(); ++i) {
+    if (batch.numbers[i] != next_number_ && !bare_)
+      text_.append("triangle " + std::to_string(batch.numbers[i]) + "\n");
+    next_number_ = batch.numbers[i] + 1;
+    const Triangle& low_part = batch.low_parts.empty() ? no_low_part : batch.low_parts[i];
+    char* out = text_.reserve(kMaxTriangleLength);
+    for (std::size_t v = 0; v < 3; ++v) out = print_vertex(out, batch.triangles[i][v], low_part[v]);
+    *out++ = '\n';
+    text_.commit(out);
+  }
+}
+
+char* StageWriter::print_vertex(char* out, const Vec3& vertex, const Vec3& low_part) {
+  for (const double coordinate : {vertex.x, vertex.y, vertex.z})
+    largest_coordinate_ = std::max(largest_coordinate_, std::fabs(coordinate));
+  out = print_number(out, vertex.x, low_part.x, format_);
+  *out++ = ' ';
+  out = print_number(out, vertex.y, low_part.y, format_);
+  *out++ = ' ';
+  out = print_number(out, vertex.z, low_part.z, format_);
+  *out++ = '\n';
+  return out;
+}
+
+double StageWriter::largest_coordinate_in_units() const {
+  if (format_.shortest) return HUGE_VAL;
+  double units = largest_coordinate_;
+  for (int i = 0; i < format_.decimals; ++i) units *= 10;
+  return units;
+}
+
+void StageWriter::finish() {
+  if (framed_) text_.append("end\n");
+  text_.flush();
+}
+
+}  // namespace pipeline

@@ -1,0 +1,512 @@
+#include "libpipeline/stage_text.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "tests/text_input.h"
+
+namespace pipeline {
+namespace {
+
+const std::string kTriangle = "0 0 0\n1 0 0\n0 1 0\n\n";
+
+/// All triangles of a text in one batch.
+TriangleBatch triangles_from(int descriptor) {
+  TextReader text(descriptor, "in.txt");
+  StageReader reader(text);
+  TriangleBatch all;
+  for (TriangleBatch batch; reader.read(batch);)
+    for (std::size_t i = 0; i < batch.size(); ++i) all.add(batch.triangles[i], batch.numbers[i], batch.lines[i]);
+  return all;
+}
+
+TriangleBatch triangles_of(const std::string& text) { return triangles_from(TextFile(text).descriptor()); }
+
+std::vector<std::uint64_t> numbers_of(const std::string& text) { return triangles_of(text).numbers; }
+
+StageHeader header_of(const std::string& text) {
+  const TextFile file(text);
+  TextReader reader(file.descriptor(), "in.txt");
+  return StageReader(reader).header();
+}
+
+std::string error_of(const std::string& text) {
+  return message_of([&] { triangles_of(text); });
+}
+
+TEST(StageReader, AnEmptyTextHasNoTriangles) { EXPECT_EQ(triangles_of("").size(), 0u); }
+
+TEST(StageReader, AnEmptyTextHasAnEmptyHeader) {
+  const StageHeader header = header_of("");
+  EXPECT_FALSE(header.framed || header.camera.eye || header.camera.look || header.camera.up || header.camera.projection);
+}
+
+TEST(StageReader, ATriangleIsThreeVertexLines) {
+  const TriangleBatch batch = triangles_of("0 1 2\n3 4 5\n-6 .7 8e0\n\n");
+  ASSERT_EQ(batch.size(), 1u);
+  EXPECT_EQ(batch.triangles[0], (Triangle{Vec3{0, 1, 2}, Vec3{3, 4, 5}, Vec3{-6, 0.7, 8}}));
+  EXPECT_EQ(batch.lines[0], (VertexLines{1, 2, 3}));
+}
+
+TEST(StageReader, TheLastTriangleNeedsNoBlankLine) {
+  EXPECT_EQ(triangles_of("0 0 0\n1 0 0\n0 1 0").size(), 1u);
+}
+
+TEST(StageReader, TrianglesNeedNoBlankLineBetweenThem) {
+  EXPECT_EQ(triangles_of("0 0 0\n1 0 0\n0 1 0\n0 0 0\n1 0 0\n0 1 0\n").size(), 2u);
+}
+
+TEST(StageReader, BlankLinesMayStandBetweenTriangles) {
+  EXPECT_EQ(triangles_of("\n\n" + kTriangle + "\n \t\r\n" + kTriangle + "\n\n").size(), 2u);
+}
+
+TEST(StageReader, CommentsMayStandAnywhere) {
+  const TriangleBatch batch = triangles_of("# a\n0 0 0 # b\n# c\n1 0 0\n  # d\n0 1 0\n# e\n\n# f");
+  ASSERT_EQ(batch.size(), 1u);
+  EXPECT_EQ(batch.lines[0], (VertexLines{2, 4, 6}));
+}
+
+TEST(StageReader, TakesTabsAndCarriageReturns) {
+  EXPECT_EQ(triangles_of("0\t0  0\r\n1 0 0 \r\n 0 1 0\r\n\r\n").triangles, triangles_of(kTriangle).triangles);
+}
+
+TEST(StageReader, ReadsTextThatArrivesByteByByte) {
+  const TextInPieces slow(TextInPieces::bytes_of("framed\nup 0 1 0\ntriangle 7\n" + kTriangle + "end\n"));
+  const TriangleBatch batch = triangles_from(slow.descriptor());
+  EXPECT_EQ(batch.triangles, triangles_of(kTriangle).triangles);
+  EXPECT_EQ(batch.numbers, std::vector<std::uint64_t>{7});
+}
+
+TEST(StageReader, ReadsMoreTrianglesThanABatchHolds) {
+  std::string text;
+  for (std::size_t i = 0; i < 2 * kBatchSize + 1; ++i) text += kTriangle;
+  const TriangleBatch batch = triangles_of(text);
+  ASSERT_EQ(batch.size(), 2 * kBatchSize + 1);
+  EXPECT_EQ(batch.numbers.back(), 2 * kBatchSize);
+}
+
+TEST(StageReader, GivesOutBatchesOfLimitedSize) {
+  std::string text;
+  for (std::size_t i = 0; i < 2 * kBatchSize + 1; ++i) text += "0 0 0\n0 0 0\n0 0 0\n";
+  const TextFile file(text);
+  TextReader reader(file.descriptor(), "in.txt");
+  StageReader stage(reader);
+  for (TriangleBatch batch; stage.read(batch);) EXPECT_LE(batch.size(), kBatchSize);
+}
+
+TEST(StageReader, ReadsOnAtTheEndAsOftenAsAsked) {
+  const TextFile file(kTriangle);
+  TextReader reader(file.descriptor(), "in.txt");
+  StageReader stage(reader);
+  TriangleBatch batch;
+  EXPECT_TRUE(stage.read(batch));
+  EXPECT_FALSE(stage.read(batch));
+  EXPECT_TRUE(batch.empty());
+  EXPECT_FALSE(stage.read(batch));
+}
+
+// The header.
+
+TEST(StageReader, HeaderLinesStandInAnyOrder) {
+  const StageHeader header =
+      header_of("perspective 60 1 0.5 100\nup 0 1 0\n\n# c\nlook 4 5 6\neye 1 2 3\nframed\n" + kTriangle + "end\n");
+  EXPECT_TRUE(header.framed);
+  EXPECT_EQ(header.camera.eye->value, (Vec3{1, 2, 3}));
+  EXPECT_EQ(header.camera.look->value, (Vec3{4, 5, 6}));
+  EXPECT_EQ(header.camera.up->value, (Vec3{0, 1, 0}));
+  EXPECT_EQ(std::get<Perspective>(header.camera.projection->value).near, 0.5);
+}
+
+TEST(StageReader, HeadersMayHoldAFrustum) {
+  const auto frustum = std::get<Frustum>(header_of("frustum -1 2 -3 4 5 6\n").camera.projection->value);
+  EXPECT_EQ((std::vector{frustum.left, frustum.right, frustum.bottom, frustum.top, frustum.near, frustum.far}),
+            (std::vector<double>{-1, 2, -3, 4, 5, 6}));
+}
+
+TEST(StageReader, HeadersMayHoldAnOrthographicProjection) {
+  const auto ortho = std::get<Orthographic>(header_of("ortho -1 2 -3 4 -5 6\n").camera.projection->value);
+  EXPECT_EQ((std::vector{ortho.left, ortho.right, ortho.bottom, ortho.top, ortho.near, ortho.far}),
+            (std::vector<double>{-1, 2, -3, 4, -5, 6}));
+}
+
+TEST(StageReader, EachHeaderLineStandsAtMostOnce) {
+  EXPECT_EQ(error_of("eye 0 0 5\n\neye 0 0 5\n"),
+            "in.txt:3:1: expected one eye, found a second one after in.txt:1:5");
+  EXPECT_EQ(error_of("framed\n  framed\n"),
+            "in.txt:2:3: expected one 'framed', found a second one after in.txt:1:1");
+}
+
+TEST(StageReader, AHeaderHoldsOneProjection) {
+  EXPECT_EQ(error_of("perspective 60 1 1 100\northo -1 1 -1 1 1 9\n"),
+            "in.txt:2:1: expected one projection, found a second one after in.txt:1:13");
+}
+
+TEST(StageReader, NamesTheNumberThatIsWrongInAHeaderLine) {
+  EXPECT_EQ(error_of("eye 0 x 5\n"), "in.txt:1:7: expected the y of the eye, found 'x'");
+  EXPECT_EQ(error_of("look 0 0\n"), "in.txt:1:9: expected the z of the point looked at, found the end of the line");
+  EXPECT_EQ(error_of("up 0 1 0 0\n"),
+            "in.txt:1:10: expected the end of the line after the z of the up direction, found '0'");
+  EXPECT_EQ(error_of("perspective 60 1 nan 100\n"), "in.txt:1:18: expected near, found 'nan'");
+  EXPECT_EQ(error_of("framed 1\n"), "in.txt:1:8: expected the end of the line after 'framed', found '1'");
+}
+
+TEST(StageReader, TheCameraInAHeaderMakesSense) {
+  EXPECT_EQ(error_of("look 0 0 5\neye 0 0 5\n"),
+            "in.txt:1:6: expected a point other than the eye to look at, found 0 0 5");
+  EXPECT_EQ(error_of("perspective 60 1 2 1\n"), "in.txt:1:20: expected far beyond near, found '1'");
+}
+
+TEST(StageReader, AHeaderLineBehindTheFirstTriangleIsAnError) {
+  EXPECT_EQ(error_of(kTriangle + "eye 0 0 5\n"),
+            "in.txt:5:1: expected header lines before the first triangle, found 'eye'");
+  EXPECT_EQ(error_of("triangle 1\nframed\n"),
+            "in.txt:2:1: expected header lines before the first triangle, found 'framed'");
+}
+
+TEST(StageReader, NamesAKeywordItDoesNotKnow) {
+  EXPECT_EQ(error_of("eyes 0 0 5\n"),
+            "in.txt:1:1: expected a header line, 'triangle N' or a vertex, found 'eyes'");
+  EXPECT_EQ(error_of(kTriangle + "quad\n"), "in.txt:5:1: expected 'triangle N' or a vertex, found 'quad'");
+}
+
+TEST(StageReader, NamesAMistakeBeforeTheFirstTriangleAtOnce) {
+  // So that a stage does not say that a header is missing when it is misspelt.
+  EXPECT_EQ(message_of([] { header_of("eyes 0 0 5\n"); }),
+            "in.txt:1:1: expected a header line, 'triangle N' or a vertex, found 'eyes'");
+  EXPECT_EQ(message_of([] { header_of("error model: no scene\n"); }),
+            "in.txt:1:1: an earlier stage failed: model: no scene");
+  EXPECT_EQ(message_of([] { header_of("framed\n"); }),
+            "in.txt:2:1: expected 'end', which closes a framed text, found the end of the input");
+}
+
+TEST(StageReader, KnowsWhereItsHeaderEnds) {
+  const TextFile file("# c\nup 0 1 0\n\n 0 0 0\n1 0 0\n0 1 0\n");
+  TextReader reader(file.descriptor(), "in.txt");
+  EXPECT_EQ(to_string(StageReader(reader).header_end()), "in.txt:4:2");
+}
+
+TEST(StageReader, TheHeaderOfAnEmptyTextEndsAtItsStart) {
+  const TextFile file("");
+  TextReader reader(file.descriptor(), "in.txt");
+  EXPECT_EQ(to_string(StageReader(reader).header_end()), "in.txt:1:1");
+}
+
+// The numbers of triangles.
+
+TEST(StageReader, CountsTrianglesFromZero) {
+  EXPECT_EQ(numbers_of(kTriangle + kTriangle + kTriangle), (std::vector<std::uint64_t>{0, 1, 2}));
+}
+
+TEST(StageReader, CountsOnFromTheNumberOfATriangle) {
+  EXPECT_EQ(numbers_of(kTriangle + "triangle 5\n" + kTriangle + kTriangle + "triangle 2\n" + kTriangle),
+            (std::vector<std::uint64_t>{0, 5, 6, 2}));
+}
+
+TEST(StageReader, BlankLinesMayFollowTheNumberOfATriangle) {
+  EXPECT_EQ(numbers_of("triangle 5 # c\n\n" + kTriangle), std::vector<std::uint64_t>{5});
+}
+
+TEST(StageReader, TakesTheLargestNumber) {
+  EXPECT_EQ(numbers_of("triangle 18446744073709551615\n" + kTriangle), std::vector<std::uint64_t>{18446744073709551615u});
+}
+
+TEST(StageReader, ANumberOfATriangleIsAWholeNumber) {
+  EXPECT_EQ(error_of("triangle -1\n" + kTriangle), "in.txt:1:10: expected the number of a triangle, found '-1'");
+  EXPECT_EQ(error_of("triangle\n" + kTriangle), "in.txt:1:9: expected the number of a triangle, found the end of the line");
+  EXPECT_EQ(error_of("triangle 18446744073709551616\n"),
+            "in.txt:1:10: expected the number of a triangle, found '18446744073709551616'");
+  EXPECT_EQ(error_of("triangle 1 2\n"),
+            "in.txt:1:12: expected the end of the line after the number of a triangle, found '2'");
+}
+
+TEST(StageReader, ANumberStandsBeforeItsTriangleNotInsideIt) {
+  EXPECT_EQ(error_of("0 0 0\ntriangle 1\n1 0 0\n0 1 0\n"),
+            "in.txt:2:1: expected the x of vertex 2 of 3, found 'triangle'");
+}
+
+// Mistakes in triangles.
+
+TEST(StageReader, ABlankLineInsideATriangleIsAnError) {
+  EXPECT_EQ(error_of("0 0 0\n\n1 0 0\n0 1 0\n"),
+            "in.txt:2:1: expected vertex 2 of 3, found a blank line inside a triangle");
+  EXPECT_EQ(error_of("0 0 0\n1 0 0\n \t\r\n0 1 0\n"),
+            "in.txt:3:1: expected vertex 3 of 3, found a blank line inside a triangle");
+}
+
+TEST(StageReader, ATextThatEndsInsideATriangleIsAnError) {
+  EXPECT_EQ(error_of("0 0 0\n"), "in.txt:2:1: expected vertex 2 of 3, found the end of the input inside a triangle");
+  EXPECT_EQ(error_of(kTriangle + "0 0 0\n1 0 0\n# c"),
+            "in.txt:8:1: expected vertex 3 of 3, found the end of the input inside a triangle");
+}
+
+TEST(StageReader, NamesTheNumberThatIsWrongInAVertex) {
+  EXPECT_EQ(error_of("0 0 0\n1 0,5 0\n0 1 0\n"), "in.txt:2:3: expected the y of vertex 2 of 3, found '0,5'");
+  EXPECT_EQ(error_of("-nan 0 0\n"), "in.txt:1:1: expected the x of vertex 1 of 3, found '-nan'");
+  EXPECT_EQ(error_of("0 0 0\n1 0 0\n0 1\n"), "in.txt:3:4: expected the z of vertex 3 of 3, found the end of the line");
+  EXPECT_EQ(error_of("0 0 0\n1 0 0\n0 1 1e309\n"),
+            "in.txt:3:5: expected the z of vertex 3 of 3 within a double's range, found '1e309'");
+}
+
+TEST(StageReader, AVertexHasNoFourthNumber) {
+  EXPECT_EQ(error_of("0 0 0 1\n"), "in.txt:1:7: expected the end of the line after the z of vertex 1 of 3, found '1'");
+}
+
+TEST(StageReader, AWordInsideATriangleIsAnError) {
+  EXPECT_EQ(error_of("0 0 0\n1 0 0\nend\n"), "in.txt:3:1: expected the x of vertex 3 of 3, found 'end'");
+  EXPECT_EQ(error_of("0 0 0\nnan 0 0\n"), "in.txt:2:1: expected the x of vertex 2 of 3, found 'nan'");
+}
+
+TEST(StageReader, NamesANumberThatIsNone) {
+  EXPECT_EQ(error_of("inf 0 0\n"), "in.txt:1:1: expected a header line, 'triangle N' or a vertex, found 'inf'");
+}
+
+TEST(StageReader, GivesOutTheTrianglesBeforeAMistake) {
+  const TextFile file(kTriangle + kTriangle + "0 0 x\n");
+  TextReader reader(file.descriptor(), "in.txt");
+  StageReader stage(reader);
+  TriangleBatch batch;
+  ASSERT_TRUE(stage.read(batch));
+  EXPECT_EQ(batch.size(), 2u);
+  EXPECT_EQ(message_of([&] { stage.read(batch); }), "in.txt:9:5: expected the z of vertex 1 of 3, found 'x'");
+}
+
+// Failed stages.
+
+TEST(StageReader, AnErrorLineSaysWhatAnEarlierStageSaid) {
+  EXPECT_EQ(error_of("eye 0 0 5\nerror model: scene.txt:7:1: expected X, found 'Y'\n"),
+            "in.txt:2:1: an earlier stage failed: model: scene.txt:7:1: expected X, found 'Y'");
+}
+
+TEST(StageReader, AnErrorLineMayHoldANumberSign) {
+  EXPECT_EQ(error_of("error model: cannot open a#b.txt: No such file or directory\n"),
+            "in.txt:1:1: an earlier stage failed: model: cannot open a#b.txt: No such file or directory");
+}
+
+TEST(StageReader, AnErrorLineMayStandAnywhere) {
+  EXPECT_EQ(error_of("error a: b\n"), "in.txt:1:1: an earlier stage failed: a: b");
+  EXPECT_EQ(error_of("framed\nerror a: b\n"), "in.txt:2:1: an earlier stage failed: a: b");
+  EXPECT_EQ(error_of(kTriangle + "error a: b\n"), "in.txt:5:1: an earlier stage failed: a: b");
+  EXPECT_EQ(error_of("triangle 2\nerror a: b"), "in.txt:2:1: an earlier stage failed: a: b");
+  EXPECT_EQ(error_of("0 0 0\nerror a: b\n"), "in.txt:2:1: an earlier stage failed: a: b");
+  EXPECT_EQ(error_of("0 0 0\n1 0 0\n# c\nerror a: b\n"), "in.txt:4:1: an earlier stage failed: a: b");
+  EXPECT_EQ(error_of("framed\nend\nerror a: b\n"), "in.txt:3:1: an earlier stage failed: a: b");
+}
+
+TEST(StageReader, AnErrorLineStopsTheReaderBeforeWhatFollows) {
+  EXPECT_EQ(error_of("error a: b\nnonsense\n"), "in.txt:1:1: an earlier stage failed: a: b");
+}
+
+TEST(StageReader, AnErrorLineMayBeEmpty) {
+  EXPECT_EQ(error_of("error\n"), "in.txt:1:1: an earlier stage failed, without saying why");
+}
+
+TEST(StageText, AnErrorLineStandsOnOneLine) {
+  EXPECT_EQ(error_line("model: cannot open a\nb\r: No such file"), "error model: cannot open a\\x0ab\\x0d: No such file\n");
+}
+
+TEST(StageText, AnErrorLineCanBePassedOnAsItWas) {
+  const std::string line = "error model: cannot open a#b.txt: No such file\n";
+  try {
+    triangles_of(line);
+    FAIL() << "no error";
+  } catch (const EarlierFailure& failure) {
+    EXPECT_EQ(error_line(failure.reason()), line);
+  }
+}
+
+// Framed text.
+
+TEST(StageReader, AFramedTextEndsWithEnd) { EXPECT_EQ(triangles_of("framed\n" + kTriangle + "end\n").size(), 1u); }
+
+TEST(StageReader, AFramedTextMayHoldNothing) { EXPECT_EQ(triangles_of("framed\nend\n").size(), 0u); }
+
+TEST(StageReader, BlankLinesAndCommentsMayFollowTheEnd) {
+  EXPECT_EQ(triangles_of("framed\n" + kTriangle + "end # c\n\n# d\n").size(), 1u);
+}
+
+TEST(StageReader, EveryPrefixOfAFramedTextIsAnError) {
+  const std::string text = "framed\nup 0 1 0\n" + kTriangle + "triangle 3\n" + kTriangle + "end\n";
+  EXPECT_EQ(error_of(text), "no error");
+  for (std::size_t length = 1; length < text.size(); ++length) EXPECT_NE(error_of(text.substr(0, length)), "no error") << length;
+}
+
+TEST(StageReader, AFramedTextWithoutEndIsAnError) {
+  EXPECT_EQ(error_of("framed\n" + kTriangle),
+            "in.txt:6:1: expected 'end', which closes a framed text, found the end of the input");
+}
+
+TEST(StageReader, TheEndOfAFramedTextIsAWholeLine) {
+  EXPECT_EQ(error_of("framed\n" + kTriangle + "end"),
+            "in.txt:6:4: expected the end of the line after 'end', which closes a framed text, found the end of the input");
+}
+
+TEST(StageReader, NothingFollowsTheEndOfAFramedText) {
+  EXPECT_EQ(error_of("framed\nend\n" + kTriangle), "in.txt:3:1: expected nothing after 'end', found '0'");
+  EXPECT_EQ(error_of("framed\nend 1\n"), "in.txt:2:5: expected the end of the line after 'end', found '1'");
+}
+
+TEST(StageReader, EndIsNoWordOfATextThatIsNotFramed) {
+  EXPECT_EQ(error_of(kTriangle + "end\n"), "in.txt:5:1: expected 'triangle N' or a vertex ('end' needs a line 'framed' in the header), found 'end'");
+}
+
+TEST(StageReader, AnUnframedTextIsTakenAsItReads) {
+  EXPECT_EQ(triangles_of("0 0 0\n1 0 0\n0 1 12").triangles[0][2].z, 12);
+  EXPECT_EQ(triangles_of("0 0 0\n1 0 0\n0 1 1").triangles[0][2].z, 1);
+}
+
+// Streaming: what has arrived is given out before the reader waits.
+
+TEST(StageReader, DoesNotWaitBehindATriangle) {
+  const TextInPieces slow({kTriangle}, TextInPieces::Then::silence);
+  TextReader text(slow.descriptor(), "in.txt");
+  StageReader reader(text);
+  TriangleBatch batch;
+  ASSERT_TRUE(reader.read(batch));
+  EXPECT_EQ(batch.size(), 1u);
+}
+
+TEST(StageReader, DoesNotWaitInsideATriangleWithOthersInItsHands) {
+  const TextInPieces slow({kTriangle + kTriangle + "0 0 0\n1 0 0\n0 "}, TextInPieces::Then::silence);
+  TextReader text(slow.descriptor(), "in.txt");
+  StageReader reader(text);
+  TriangleBatch batch;
+  ASSERT_TRUE(reader.read(batch));
+  EXPECT_EQ(batch.size(), 2u);
+}
+
+TEST(StageReader, DoesNotWaitBehindBlankLinesAndComments) {
+  const TextInPieces slow({kTriangle + "\n\n# c\n\n"}, TextInPieces::Then::silence);
+  TextReader text(slow.descriptor(), "in.txt");
+  StageReader reader(text);
+  TriangleBatch batch;
+  ASSERT_TRUE(reader.read(batch));
+  EXPECT_EQ(batch.size(), 1u);
+}
+
+TEST(StageReader, DoesNotWaitForTheFirstTriangleToKnowTheHeader) {
+  const TextInPieces slow({"up 0 1 0\n0 0 0\n"}, TextInPieces::Then::silence);
+  TextReader text(slow.descriptor(), "in.txt");
+  EXPECT_TRUE(StageReader(text).header().camera.up);
+}
+
+// The writer.
+
+constexpr Triangle kWritten = {Vec3{0, -1, 2.5}, Vec3{-0.0, 1e-9, -1e-9}, Vec3{123456789, 0.12345675, -3}};
+
+std::string written(const TriangleBatch& batch, NumberFormat format = {}, bool bare = false, const StageHeader& header = {}) {
+  const TextFile file("");
+  TextWriter text(file.descriptor(), "out.txt");
+  StageWriter writer(text, format, bare);
+  writer.write_header(header);
+  writer.write(batch);
+  writer.finish();
+  return file.whole_text();
+}
+
+TriangleBatch numbered(std::initializer_list<std::uint64_t> numbers) {
+  TriangleBatch batch;
+  for (const std::uint64_t number : numbers) batch.add({}, number, {});
+  return batch;
+}
+
+/// The text with its vertices left out.
+std::string written_numbers(std::initializer_list<std::uint64_t> numbers, bool bare = false) {
+  std::string text = written(numbered(numbers), {.shortest = true}, bare);
+  for (std::size_t at = 0; (at = text.find("0 0 0\n0 0 0\n0 0 0\n\n")) != std::string::npos;) text.replace(at, 19, ".");
+  return text;
+}
+
+TEST(StageWriter, NothingIsAnEmptyText) { EXPECT_EQ(written({}), ""); }
+
+TEST(StageWriter, WritesSevenDecimalsAndZeroWithoutASign) {
+  TriangleBatch batch;
+  batch.add(kWritten, 0, {});
+  EXPECT_EQ(written(batch),
+            "0.0000000 -1.0000000 2.5000000\n0.0000000 0.0000000 0.0000000\n123456789.0000000 0.1234568 -3.0000000\n\n");
+}
+
+TEST(StageWriter, WritesAsManyDecimalsAsAreAskedFor) {
+  TriangleBatch batch;
+  batch.add(kWritten, 0, {});
+  EXPECT_EQ(written(batch, {.decimals = 0}), "0 -1 2\n0 0 0\n123456789 0 -3\n\n");
+}
+
+TEST(StageWriter, WritesTheShortestFormWithoutASignOfZero) {
+  TriangleBatch batch;
+  batch.add(kWritten, 0, {});
+  EXPECT_EQ(written(batch, {.shortest = true}), "0 -1 2.5\n0 1e-09 -1e-09\n123456789 0.12345675 -3\n\n");
+}
+
+TEST(StageWriter, WritesTheHeaderInTheShortestFormWhateverTheDecimals) {
+  StageHeader header;
+  header.framed = true;
+  header.camera.eye = {Vec3{0.1, -0.0, 1e300}, {}};
+  header.camera.look = {Vec3{1.0 / 3, 0, 5e-324}, {}};
+  header.camera.up = {Vec3{0, 1, 0}, {}};
+  header.camera.projection = {Perspective{60, 1.5, 0.5, 100}, {}};
+  EXPECT_EQ(written({}, {.decimals = 2}, false, header),
+            "framed\neye 0.1 0 1e+300\nlook 0.3333333333333333 0 5e-324\nup 0 1 0\nperspective 60 1.5 0.5 100\nend\n");
+}
+
+TEST(StageWriter, WritesAFrustum) {
+  StageHeader header;
+  header.camera.projection = {Frustum{-1, 2, -3, 4, 5, 6}, {}};
+  EXPECT_EQ(written({}, {}, false, header), "frustum -1 2 -3 4 5 6\n");
+}
+
+TEST(StageWriter, WritesAnOrthographicProjection) {
+  StageHeader header;
+  header.camera.projection = {Orthographic{-1, 2, -3, 4, -5, 6}, {}};
+  EXPECT_EQ(written({}, {}, false, header), "ortho -1 2 -3 4 -5 6\n");
+}
+
+TEST(StageWriter, BareTextIsTrianglesAlone) {
+  StageHeader header;
+  header.framed = true;
+  header.camera.up = {Vec3{0, 1, 0}, {}};
+  EXPECT_EQ(written(numbered({4}), {.shortest = true}, true, header), "0 0 0\n0 0 0\n0 0 0\n\n");
+}
+
+TEST(StageWriter, WritesNoNumbersWherePlainCountingIsRight) { EXPECT_EQ(written_numbers({0, 1, 2}), "..."); }
+
+TEST(StageWriter, WritesANumberAfterADroppedTriangle) { EXPECT_EQ(written_numbers({0, 2, 3}), ".triangle 2\n.."); }
+
+TEST(StageWriter, WritesANumberIfTheFirstTriangleIsDropped) { EXPECT_EQ(written_numbers({1, 2}), "triangle 1\n.."); }
+
+TEST(StageWriter, WritesANumberBeforeEachPieceAfterTheFirst) {
+  EXPECT_EQ(written_numbers({0, 0, 0, 1}), ".triangle 0\n.triangle 0\n..");
+}
+
+TEST(StageWriter, BareTextHasNoNumbers) { EXPECT_EQ(written_numbers({0, 0, 5}, true), "..."); }
+
+TEST(StageWriter, CountsOnAcrossBatches) {
+  const TextFile file("");
+  TextWriter text(file.descriptor(), "out.txt");
+  StageWriter writer(text, {.shortest = true}, false);
+  writer.write(numbered({0, 1}));
+  writer.write(numbered({2}));
+  writer.write(numbered({3, 5}));
+  writer.finish();
+  const std::string written = file.whole_text();
+  EXPECT_EQ(std::count(written.begin(), written.end(), 't'), 1) << written;
+}
+
+TEST(StageWriter, WritesTheLongestNumbers) {
+  TriangleBatch batch;
+  const Vec3 longest = {-0x1.fffffffffffffp1023, -0x1.fffffffffffffp1023, -0x1.fffffffffffffp1023};
+  for (std::uint64_t i = 0; i < 100; ++i) batch.add({longest, longest, longest}, 18446744073709551615u, {});
+  const std::string text = written(batch, {.decimals = kMaxDecimals});
+  EXPECT_EQ(text.size(), 100 * (30 + 9 * (1 + 309 + 1 + 17 + 1) + 1));
+}
+
+TEST(StageText, WhatIsWrittenShortestReadsBackAsItWas) {
+  TriangleBatch batch;
+  batch.add({Vec3{0.1, 1.0 / 3, 5e-324}, Vec3{-1e300, 2, 3}, Vec3{4, 5, 6}}, 7, {});
+  EXPECT_EQ(triangles_of(written(batch, {.shortest = true})).triangles, batch.triangles);
+}
+
+}  // namespace
+}  // namespace pipeline
