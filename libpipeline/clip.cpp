@@ -1,0 +1,100 @@
+#include "libpipeline/clip.h"
+
+#include <utility>
+
+namespace pipeline {
+namespace {
+
+/// -1, 0 or 1 as the midpoint of a is below, at or above that of b.
+int compare(const Ball& a, const Ball& b) {
+  const double difference = (a - b).value().hi;
+  return difference < 0 ? -1 : (difference > 0 ? 1 : 0);
+}
+
+bool is_lower(const ClipVertex& a, const ClipVertex& b) {
+  if (const int y = compare(a.y, b.y); y != 0) return y < 0;
+  if (const int x = compare(a.x, b.x); x != 0) return x < 0;
+  return compare(a.z, b.z) < 0;
+}
+
+ClipVertex interpolate(const ClipVertex& a, const ClipVertex& b, const Ball& t) {
+  const auto between = [&](const Ball& from, const Ball& to) { return from + t * (to - from); };
+  return {between(a.x, b.x), between(a.y, b.y), between(a.z, b.z), between(a.w, b.w)};
+}
+
+/// Where the edge between two vertices on different sides meets the plane.
+ClipVertex cut(ClipPlane plane, const ClipVertex& a, const ClipVertex& b) {
+  if (is_lower(b, a)) return cut(plane, b, a);
+  const Ball from = distance_inside(plane, a);
+  const Ball to = distance_inside(plane, b);
+  return interpolate(a, b, from / (from - to));
+}
+
+std::vector<ClipVertex> clip_at(ClipPlane plane, std::span<const ClipVertex> polygon) {
+  std::vector<ClipVertex> inside;
+  std::size_t strictly_inside_count = 0;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const ClipVertex& here = polygon[i];
+    const ClipVertex& next = polygon[(i + 1) % polygon.size()];
+    const int here_side = distance_inside(plane, here).sign();
+    const int next_side = distance_inside(plane, next).sign();
+    if (here_side >= 0) inside.push_back(here);
+    if (here_side > 0) ++strictly_inside_count;
+    if (here_side * next_side < 0) inside.push_back(cut(plane, here, next));
+  }
+  // What only touches the plane from outside has no area inside; what lies in the plane does.
+  if (strictly_inside_count == 0 && inside.size() < polygon.size()) inside.clear();
+  return inside;
+}
+
+}  // namespace
+
+ClipVertex to_clip_space(const ProjectionTransform& projection, const Vec3& p_view) {
+  const Ball distance = -p_view.z;
+  const Ball near = projection.near;
+  const Ball far = projection.far;
+  const Ball x = projection.x_scale * p_view.x;
+  const Ball y = projection.y_scale * p_view.y;
+  if (!projection.is_perspective) {
+    const Ball z = ((distance - near) - (far - distance)) / (far - near);
+    return {x + projection.x_offset, y + projection.y_offset, z, 1};
+  }
+  const Ball z = ((distance - near) * far - (far - distance) * near) / (far - near);
+  return {x + projection.x_offset * p_view.z, y + projection.y_offset * p_view.z, z, distance};
+}
+
+Ball distance_inside(ClipPlane plane, const ClipVertex& vertex) {
+  switch (plane) {
+    case ClipPlane::near:
+      return vertex.w + vertex.z;
+    case ClipPlane::far:
+      return vertex.w - vertex.z;
+    case ClipPlane::left:
+      return vertex.w + vertex.x;
+    case ClipPlane::right:
+      return vertex.w - vertex.x;
+    case ClipPlane::bottom:
+      return vertex.w + vertex.y;
+    case ClipPlane::top:
+      break;
+  }
+  return vertex.w - vertex.y;
+}
+
+unsigned outcode(const ClipVertex& vertex) {
+  unsigned code = 0;
+  for (std::size_t i = 0; i < kAllClipPlanes.size(); ++i)
+    if (distance_inside(kAllClipPlanes[i], vertex).sign() < 0) code |= 1u << i;
+  return code;
+}
+
+std::vector<ClipVertex> clip_polygon(std::span<const ClipVertex> polygon, std::span<const ClipPlane> planes) {
+  std::vector<ClipVertex> inside(polygon.begin(), polygon.end());
+  for (const ClipPlane plane : planes) {
+    if (inside.empty()) break;
+    inside = clip_at(plane, inside);
+  }
+  return inside;
+}
+
+}  // namespace pipeline

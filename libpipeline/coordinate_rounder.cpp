@@ -1,0 +1,30 @@
+#include "libpipeline/coordinate_rounder.h"
+
+#include <utility>
+
+#include "libpipeline/error.h"
+
+namespace pipeline {
+
+CoordinateRounder::CoordinateRounder(Precision precision, NumberFormat format, std::string file)
+    : precision_(precision), format_(format), file_(std::move(file)) {}
+
+void CoordinateRounder::set_vertex(TriangleBatch& batch, std::size_t triangle, std::size_t vertex,
+                                   const BallVec3& p) {
+  const std::size_t line = batch.lines[triangle][vertex];
+  const PrintableNumber x = round_to_text(p.x, format_);
+  const PrintableNumber y = round_to_text(p.y, format_);
+  const PrintableNumber z = round_to_text(p.z, format_);
+  if (!std::isfinite(x.hi) || !std::isfinite(y.hi) || !std::isfinite(z.hi))
+    throw InputError({file_, line, 0},
+                     expected_but_found("a vertex whose image is within a double's range", "an overflow"));
+  if (!(x.is_certain && y.is_certain && z.is_certain) && first_uncertain_line_ == 0) first_uncertain_line_ = line;
+  batch.triangles[triangle][vertex] = {x.hi, y.hi, z.hi};
+  if (batch.low_parts.empty()) {
+    if (x.lo == 0 && y.lo == 0 && z.lo == 0) return;
+    batch.low_parts.resize(batch.size());
+  }
+  batch.low_parts[triangle][vertex] = {x.lo, y.lo, z.lo};
+}
+
+}  // namespace pipeline

@@ -1,0 +1,168 @@
+#include "libpipeline/projection.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace pipeline {
+namespace {
+
+constexpr double kUnit = 0x1p-53;
+
+/// The sign of the determinant with rows (x, y, w) of the three vertices: that of the area in NDC, for the part
+/// in front of the eye (and for an axis pair that is not mirrored).
+int winding_sign(const Triangle& p_view, bool is_perspective) {
+  const auto w = [&](const Vec3& p) { return is_perspective ? -p.z : 1.0; };
+  const auto& [a, b, c] = p_view;
+  const double minor_a = b.x * c.y - b.y * c.x;
+  const double minor_b = c.x * a.y - c.y * a.x;
+  const double minor_c = a.x * b.y - a.y * b.x;
+  const double determinant = minor_a * w(a) + minor_b * w(b) + minor_c * w(c);
+  const auto size = [](double p, double q, double r, double s) { return std::fabs(p * q) + std::fabs(r * s); };
+  const double magnitude = size(b.x, c.y, b.y, c.x) * std::fabs(w(a)) + size(c.x, a.y, c.y, a.x) * std::fabs(w(b)) +
+                           size(a.x, b.y, a.y, b.x) * std::fabs(w(c));
+  // Minors below a double's range lose up to 2^-1073.
+  const double lost = 0x1p-1070 * (std::fabs(w(a)) + std::fabs(w(b)) + std::fabs(w(c))) + 0x1p-1000;
+  if (std::fabs(determinant) > 8 * kUnit * magnitude + lost) return determinant > 0 ? 1 : -1;
+  const auto minor = [](const Vec3& p, const Vec3& q) { return Ball(p.x) * q.y - Ball(p.y) * q.x; };
+  return (minor(b, c) * w(a) + minor(c, a) * w(b) + minor(a, b) * w(c)).sign();
+}
+
+/// The number as a double whose products are within a rounding of those of the number itself; NaN, which no rounder
+/// accepts, if there is none.
+double as_factor(const Ball& number) {
+  if (number.is_exact_zero()) return 0;
+  const double nearest = number.nearest_double();
+  const double size = std::fabs(nearest);
+  const bool is_fine = size > 0x1p-500 && size < 0x1p500 && number.radius() <= kUnit * size;
+  return is_fine ? nearest : std::numeric_limits<double>::quiet_NaN();
+}
+
+BallVec3 perspective_divide(const ClipVertex& p_clip) {
+  return {p_clip.x / p_clip.w, p_clip.y / p_clip.w, p_clip.z / p_clip.w};
+}
+
+}  // namespace
+
+ProjectionStage::ProjectionStage(const ProjectionTransform& projection, ClipMode clip, CullMode cull,
+                                 CoordinateRounder& rounder)
+    : projection_(projection),
+      clip_(clip),
+      cull_(cull),
+      rounder_(rounder),
+      in_doubles_{as_factor(projection.x_scale), as_factor(projection.x_offset),
+                  as_factor(projection.y_scale), as_factor(projection.y_offset),
+                  projection.near,               projection.far,
+                  as_factor(Ball(projection.far) - Ball(projection.near))},
+      mirrored_(projection.x_scale.sign() * projection.y_scale.sign() < 0) {}
+
+void ProjectionStage::project(const TriangleBatch& p_view, TriangleBatch& p_ndc) {
+  p_ndc.clear();
+  for (std::size_t i = 0; i < p_view.size(); ++i) {
+    const std::size_t done_count = p_ndc.size();
+    try {
+      project_triangle(p_view, i, p_ndc);
+    } catch (...) {
+      p_ndc.truncate(done_count);
+      throw;
+    }
+  }
+}
+
+void ProjectionStage::project_triangle(const TriangleBatch& p_view, std::size_t index, TriangleBatch& p_ndc) {
+  if (cull_ != CullMode::nothing && is_culled(p_view.triangles[index])) {
+    ++counts_.culled;
+  } else if (needs_clipping(p_view.triangles[index])) {
+    project_clipped(p_view, index, p_ndc);
+  } else {
+    project_whole(p_view, index, p_ndc);
+  }
+}
+
+bool ProjectionStage::is_culled(const Triangle& p_view) const {
+  const int sign = winding_sign(p_view, projection_.is_perspective) * (mirrored_ ? -1 : 1);
+  return cull_ == CullMode::back ? sign < 0 : sign > 0;
+}
+
+bool ProjectionStage::needs_clipping(const Triangle& p_view) const {
+  if (clip_ == ClipMode::none) return false;
+  if (clip_ != ClipMode::automatic) return true;
+  // Multiplication by a power of two is exact; an infinite product compares as it should.
+  return projection_.is_perspective &&
+         std::any_of(p_view.begin(), p_view.end(), [&](const Vec3& p) { return -p.z * 1024 < projection_.near; });
+}
+
+/// The image in doubles, by formulas that lose nothing but the last bits; false where those might show.
+bool ProjectionStage::divide_in_doubles(const Vec3& p_view, Vec3& p_ndc) const {
+  const Doubles& m = in_doubles_;
+  const double distance = -p_view.z;
+  const double w = projection_.is_perspective ? distance : 1;
+  // Beyond these, intermediate results may leave a double's range.
+  if (!(w > 0x1p-400 && w < 0x1p400)) return false;
+  const double shift = projection_.is_perspective ? p_view.z : 1;
+  const double x = m.x_scale * p_view.x;
+  const double y = m.y_scale * p_view.y;
+  const double x_shift = m.x_offset * shift;
+  const double y_shift = m.y_offset * shift;
+  p_ndc.x = (x + x_shift) / w;
+  p_ndc.y = (y + y_shift) / w;
+  const double beyond_near = (distance - m.near) * (projection_.is_perspective ? m.far : 1);
+  const double before_far = (m.far - distance) * (projection_.is_perspective ? m.near : 1);
+  const double depth_scale = w * m.depth_range;
+  p_ndc.z = (beyond_near - before_far) / depth_scale;
+  // Products below a double's range lose less than 2^-150 of a quotient.
+  const double x_error = 8 * kUnit * ((std::fabs(x) + std::fabs(x_shift)) / w) + 0x1p-150;
+  const double y_error = 8 * kUnit * ((std::fabs(y) + std::fabs(y_shift)) / w) + 0x1p-150;
+  const double z_error = 8 * kUnit * ((std::fabs(beyond_near) + std::fabs(before_far)) / depth_scale) + 0x1p-150;
+  return rounder_.accepts(p_ndc.x, x_error) && rounder_.accepts(p_ndc.y, y_error) &&
+         rounder_.accepts(p_ndc.z, z_error);
+}
+
+void ProjectionStage::project_whole(const TriangleBatch& p_view, std::size_t index, TriangleBatch& p_ndc) {
+  const std::size_t target = p_ndc.size();
+  p_ndc.add({}, p_view.numbers[index], p_view.lines[index]);
+  for (std::size_t v = 0; v < 3; ++v) {
+    const Vec3& p = p_view.triangles[index][v];
+    if (projection_.is_perspective && p.z >= 0)
+      throw InputError({rounder_.file(), p_view.lines[index][v], 0},
+                       expected_but_found("a vertex in front of the eye (z below 0)",
+                                          "one on or behind the eye plane"));
+    if (divide_in_doubles(p, p_ndc.triangles[target][v])) continue;
+    rounder_.set_vertex(p_ndc, target, v, perspective_divide(to_clip_space(projection_, p)));
+  }
+}
+
+void ProjectionStage::project_clipped(const TriangleBatch& p_view, std::size_t index, TriangleBatch& p_ndc) {
+  std::array<ClipVertex, 3> corners;
+  unsigned outside_any = 0;
+  unsigned outside_all = ~0u;
+  for (std::size_t v = 0; v < 3; ++v) {
+    corners[v] = to_clip_space(projection_, p_view.triangles[index][v]);
+    const unsigned code = outcode(corners[v]);
+    outside_any |= code;
+    outside_all &= code;
+  }
+  const bool frustum_counts = clip_ == ClipMode::frustum || clip_ == ClipMode::reject;
+  const unsigned planes = frustum_counts ? ~0u : 1u;  // bit 0 is the near plane
+  if ((outside_all & planes) != 0) {
+    ++counts_.outside;
+    return;
+  }
+  if ((outside_any & planes) == 0 || clip_ == ClipMode::reject) return project_whole(p_view, index, p_ndc);
+  const std::vector<ClipVertex> polygon =
+      clip_ == ClipMode::frustum ? clip_polygon(corners, kAllClipPlanes) : clip_polygon(corners, kNearPlane);
+  if (polygon.empty()) {
+    ++counts_.outside;
+    return;
+  }
+  ++counts_.clipped;
+  for (std::size_t i = 1; i + 1 < polygon.size(); ++i) {
+    ++counts_.pieces;
+    const std::size_t target = p_ndc.size();
+    p_ndc.add({}, p_view.numbers[index], p_view.lines[index]);
+    const std::array<const ClipVertex*, 3> piece = {&polygon[0], &polygon[i], &polygon[i + 1]};
+    for (std::size_t v = 0; v < 3; ++v) rounder_.set_vertex(p_ndc, target, v, perspective_divide(*piece[v]));
+  }
+}
+
+}  // namespace pipeline

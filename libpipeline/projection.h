@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "libpipeline/clip.h"
+#include "libpipeline/coordinate_rounder.h"
+#include "libpipeline/transform.h"
+#include "libpipeline/triangle_batch.h"
+
+namespace pipeline {
+
+/// Which triangles are cut or dropped before the perspective divide.
+enum class ClipMode {
+  automatic,  // cut at the near plane what comes nearer to the eye plane than near / 1024; the rest unchanged
+  near,       // cut everything at the near plane
+  frustum,    // cut everything at all six planes
+  reject,     // drop what lies wholly outside one plane, cut nothing
+  none        // a vertex that is not in front of the eye is an error
+};
+
+/// Which triangles are dropped by their winding as seen from the eye; counter-clockwise is front.
+enum class CullMode { nothing, back, front };
+
+struct ProjectionCounts {
+  std::uint64_t clipped = 0;  // triangles that were cut
+  std::uint64_t pieces = 0;   // what they were cut into
+  std::uint64_t outside = 0;  // triangles dropped because nothing of them is inside
+  std::uint64_t culled = 0;   // triangles dropped by their winding
+};
+
+/// The project stage: view space to NDC, by way of clip space.
+class ProjectionStage {
+ public:
+  ProjectionStage(const ProjectionTransform& projection, ClipMode clip, CullMode cull, CoordinateRounder& rounder);
+
+  /// Fills `p_ndc` with the images of the triangles in `p_view`, in order. A clipped triangle becomes several with
+  /// its number, a dropped one none. An InputError with the vertex's line if a vertex that has to be divided is
+  /// not in front of the eye; `p_ndc` then holds the images of the triangles before it.
+  void project(const TriangleBatch& p_view, TriangleBatch& p_ndc);
+
+  [[nodiscard]] const ProjectionCounts& counts() const { return counts_; }
+
+ private:
+  /// The transform in doubles, and what bounds its errors.
+  struct Doubles {
+    double x_scale, x_offset, y_scale, y_offset, near, far, depth_range;
+  };
+
+  [[nodiscard]] bool is_culled(const Triangle& p_view) const;
+  [[nodiscard]] bool needs_clipping(const Triangle& p_view) const;
+  [[nodiscard]] bool divide_in_doubles(const Vec3& p_view, Vec3& p_ndc) const;
+  void project_triangle(const TriangleBatch& p_view, std::size_t index, TriangleBatch& p_ndc);
+  void project_whole(const TriangleBatch& p_view, std::size_t index, TriangleBatch& p_ndc);
+  void project_clipped(const TriangleBatch& p_view, std::size_t index, TriangleBatch& p_ndc);
+
+  ProjectionTransform projection_;
+  ClipMode clip_;
+  CullMode cull_;
+  CoordinateRounder& rounder_;
+  Doubles in_doubles_;
+  bool mirrored_;
+  ProjectionCounts counts_;
+};
+
+}  // namespace pipeline

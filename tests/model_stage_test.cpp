@@ -1,0 +1,147 @@
+#include "libpipeline/model_stage.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "tests/text_input.h"
+
+namespace pipeline {
+namespace {
+
+// Lines 1 to 4 of a scene; its commands start on line 5.
+const std::string kCamera = "0 0 5\n0 0 0\n0 1 0\n60 1 1 100\n";
+// A triangle whose first vertex is the point (1 2 3).
+const std::string kTriangle = "triangle\n1 2 3\n0 0 0\n0 0 0\n";
+
+TriangleBatch triangles_from(int descriptor) {
+  TextReader text(descriptor, "scene.txt");
+  SceneReader scene(text);
+  CoordinateRounder rounder(Precision::extended, {}, "scene.txt");
+  ModelStage stage(scene, rounder);
+  TriangleBatch all;
+  for (TriangleBatch batch; stage.read(batch);)
+    for (std::size_t i = 0; i < batch.size(); ++i) all.add(batch.triangles[i], batch.numbers[i], batch.lines[i]);
+  return all;
+}
+
+/// The world-space triangles of a scene with these commands.
+TriangleBatch triangles_of(const std::string& commands) {
+  return triangles_from(TextFile(kCamera + commands + "end\n").descriptor());
+}
+
+/// Where the commands take the point (1 2 3) of each of their triangles.
+std::vector<Vec3> first_vertices_of(const std::string& commands) {
+  std::vector<Vec3> vertices;
+  for (const Triangle& triangle : triangles_of(commands).triangles) vertices.push_back(triangle[0]);
+  return vertices;
+}
+
+std::string error_of(const std::string& commands) {
+  return message_of([&] { triangles_of(commands); });
+}
+
+TEST(ModelStage, ASceneWithoutTrianglesHasNone) { EXPECT_EQ(triangles_of("push\n").size(), 0u); }
+
+TEST(ModelStage, WithoutTransformsModelSpaceIsWorldSpace) {
+  EXPECT_EQ(first_vertices_of(kTriangle), (std::vector<Vec3>{{1, 2, 3}}));
+}
+
+TEST(ModelStage, Translates) { EXPECT_EQ(first_vertices_of("translate 10 20 30\n" + kTriangle), (std::vector<Vec3>{{11, 22, 33}})); }
+
+TEST(ModelStage, Scales) { EXPECT_EQ(first_vertices_of("scale 2 -1 0.5\n" + kTriangle), (std::vector<Vec3>{{2, -2, 1.5}})); }
+
+TEST(ModelStage, RotatesCounterClockwise) {
+  EXPECT_EQ(first_vertices_of("rotate 90 0 0 1\n" + kTriangle), (std::vector<Vec3>{{-2, 1, 3}}));
+}
+
+TEST(ModelStage, TheTransformWrittenLastIsAppliedFirst) {
+  EXPECT_EQ(first_vertices_of("translate 10 0 0\nscale 2 2 2\n" + kTriangle), (std::vector<Vec3>{{12, 4, 6}}));
+}
+
+TEST(ModelStage, TransformsHoldForEveryTriangleAfterThem) {
+  EXPECT_EQ(first_vertices_of(kTriangle + "translate 1 0 0\n" + kTriangle + kTriangle + "translate 1 0 0\n" + kTriangle),
+            (std::vector<Vec3>{{1, 2, 3}, {2, 2, 3}, {2, 2, 3}, {3, 2, 3}}));
+}
+
+TEST(ModelStage, PopRestoresWhatPushSaved) {
+  EXPECT_EQ(first_vertices_of("translate 1 0 0\npush\ntranslate 0 1 0\n" + kTriangle + "pop\n" + kTriangle),
+            (std::vector<Vec3>{{2, 3, 3}, {2, 2, 3}}));
+}
+
+TEST(ModelStage, APushWithoutPopIsFine) { EXPECT_EQ(first_vertices_of("push\n" + kTriangle), (std::vector<Vec3>{{1, 2, 3}})); }
+
+TEST(ModelStage, AScaleByZeroIsFine) { EXPECT_EQ(first_vertices_of("scale 0 0 -0\n" + kTriangle), (std::vector<Vec3>{{0, 0, 0}})); }
+
+TEST(ModelStage, NumbersTrianglesFromZero) {
+  EXPECT_EQ(triangles_of(kTriangle + kTriangle).numbers, (std::vector<std::uint64_t>{0, 1}));
+}
+
+TEST(ModelStage, KnowsTheLinesOfAVertex) {
+  EXPECT_EQ(triangles_of("triangle\n\n1 2 3\n0 0 0\n# c\n0 0 0\n").lines[0], (VertexLines{7, 8, 10}));
+}
+
+TEST(ModelStage, ReadsMoreTrianglesThanABatchHolds) {
+  std::string commands;
+  for (std::size_t i = 0; i < 2 * kBatchSize + 1; ++i) commands += kTriangle;
+  EXPECT_EQ(triangles_of(commands).size(), 2 * kBatchSize + 1);
+}
+
+TEST(ModelStage, PopWithoutPushIsAnErrorAtThePop) {
+  EXPECT_EQ(error_of("push\npop\n  pop\n"), "scene.txt:7:3: expected a matrix that 'push' has saved, found 'pop' without one");
+}
+
+TEST(ModelStage, AnImageBeyondADoublesRangeIsAnErrorAtTheVertex) {
+  EXPECT_EQ(error_of("scale 1e200 1 1\nscale 1e200 1 1\ntriangle\n0 0 0\n1 0 0\n0 0 0\n"),
+            "scene.txt:9: expected a vertex whose image is within a double's range, found an overflow");
+}
+
+TEST(ModelStage, ALargeTransformThatIsTakenBackIsFine) {
+  const auto vertices =
+      first_vertices_of("scale 1e200 1 1\nscale 1e200 1 1\nscale 1e-200 1 1\nscale 1e-200 1 1\n" + kTriangle);
+  EXPECT_NEAR(vertices.at(0).x, 1, 1e-15);
+}
+
+TEST(ModelStage, GivesOutTheTrianglesBeforeAMistake) {
+  const TextFile file(kCamera + kTriangle + kTriangle + "pop\n");
+  TextReader text(file.descriptor(), "scene.txt");
+  SceneReader scene(text);
+  CoordinateRounder rounder(Precision::extended, {}, "scene.txt");
+  ModelStage stage(scene, rounder);
+  TriangleBatch batch;
+  ASSERT_TRUE(stage.read(batch));
+  EXPECT_EQ(batch.size(), 2u);
+  EXPECT_EQ(message_of([&] { stage.read(batch); }),
+            "scene.txt:13:1: expected a matrix that 'push' has saved, found 'pop' without one");
+}
+
+TEST(ModelStage, ReadsASceneThatArrivesByteByByte) {
+  const TextInPieces slow(TextInPieces::bytes_of(kCamera + "push\ntranslate 1 0 0\n" + kTriangle + "pop\nend"));
+  EXPECT_EQ(triangles_from(slow.descriptor()).triangles.at(0)[0], (Vec3{2, 2, 3}));
+}
+
+/// How many triangles a stage gives out of a scene that goes on, and is silent after `commands`.
+std::size_t size_before_silence(const std::string& commands) {
+  const TextInPieces slow({kCamera + commands}, TextInPieces::Then::silence);
+  TextReader text(slow.descriptor(), "scene.txt");
+  SceneReader scene(text);
+  CoordinateRounder rounder(Precision::extended, {}, "scene.txt");
+  ModelStage stage(scene, rounder);
+  TriangleBatch batch;
+  stage.read(batch);
+  return batch.size();
+}
+
+TEST(ModelStage, DoesNotWaitBehindATriangle) { EXPECT_EQ(size_before_silence(kTriangle + kTriangle), 2u); }
+
+TEST(ModelStage, DoesNotWaitInsideATriangleWithOthersInItsHands) {
+  EXPECT_EQ(size_before_silence(kTriangle + "triangle\n1 2 3\n0 0 0\n"), 1u);
+}
+
+TEST(ModelStage, DoesNotWaitBehindBlankLinesAndComments) { EXPECT_EQ(size_before_silence(kTriangle + "\n# c\n\n"), 1u); }
+
+TEST(ModelStage, DoesNotWaitBehindATransform) { EXPECT_EQ(size_before_silence(kTriangle + "push\ntranslate\n"), 1u); }
+
+}  // namespace
+}  // namespace pipeline
