@@ -1,0 +1,32 @@
+// model: carries out the commands of a scene. Model space in, world space out.
+
+#include "libpipeline/model_stage.h"
+#include "libpipeline/scene.h"
+#include "libpipeline/stage_text.h"
+#include "tools/stage_loop.h"
+#include "tools/stage_options.h"
+#include "tools/tool.h"
+
+using namespace pipeline;
+
+int main(int argc, char** argv) {
+  Tool tool("model", "Reads a scene and writes its triangles in world space, with the camera in the header.",
+            OutputKind::stage_text);
+  NumberOptions numbers(tool.options());
+  bool bare = false;
+  bool framed = false;
+  tool.options().add_flag("--bare", bare, "Write the triangles alone (stage1.txt)");
+  tool.options().add_flag("--framed", framed, "Write 'framed' and 'end' around the text, so that a cut is noticed");
+
+  return tool.run(argc, argv, [&] {
+    if (bare && framed) throw UsageError(expected_but_found("--bare or --framed", "both"));
+    SceneReader scene(tool.input());
+    CoordinateRounder rounder = numbers.rounder(tool.input().file());
+    ModelStage stage(scene, rounder);
+    StageWriter writer(tool.output(), numbers.format(), bare);
+    writer.write_header({framed, scene.camera()});
+
+    const auto read = [&](TriangleBatch& batch) { return stage.read(batch); };
+    StageLoop{tool, writer, rounder}.run(read, [](TriangleBatch&) {});
+  });
+}

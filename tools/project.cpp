@@ -1,0 +1,79 @@
+// project: clips what is behind the eye and divides by w. View space in, normalised device coordinates out.
+
+#include "libpipeline/projection.h"
+#include "libpipeline/stage_text.h"
+#include "tools/command_line.h"
+#include "tools/stage_loop.h"
+#include "tools/stage_options.h"
+#include "tools/tool.h"
+
+using namespace pipeline;
+
+namespace {
+
+struct ProjectOptions {
+  AspectRule aspect = AspectRule::angle;
+  ClipMode clip = ClipMode::automatic;
+  CullMode cull = CullMode::nothing;
+};
+
+void add_options(CLI::App& options, ProjectOptions& chosen) {
+  add_choice<AspectRule>(options, "--aspect", chosen.aspect,
+                         {{"angle", AspectRule::angle}, {"ratio", AspectRule::ratio}},
+                         "angle: fovX = fovY * aspect; ratio: tan(fovX/2) = tan(fovY/2) * aspect, as gluPerspective");
+  add_choice<ClipMode>(options, "--clip", chosen.clip,
+                       {{"auto", ClipMode::automatic},
+                        {"near", ClipMode::near},
+                        {"frustum", ClipMode::frustum},
+                        {"reject", ClipMode::reject},
+                        {"none", ClipMode::none}},
+                       "auto: cut at the near plane what comes near the eye\n"
+                       "near: cut everything there\n"
+                       "frustum: cut everything at all six planes\n"
+                       "reject: drop what is wholly outside one of them, cut nothing\n"
+                       "none: a vertex that is not in front of the eye is an error");
+  add_choice<CullMode>(options, "--cull", chosen.cull, {{"back", CullMode::back}, {"front", CullMode::front}},
+                       "Drop triangles that turn this side to the eye; counter-clockwise is front");
+}
+
+const Placed<Projection>& projection_of(const CameraText& camera, const Place& header_end) {
+  if (!camera.projection)
+    throw InputError(header_end, expected_but_found("a projection (a header line perspective, frustum or ortho; or "
+                                                    "--scene; or --perspective, --frustum or --ortho)", "none"));
+  return *camera.projection;
+}
+
+std::string to_text(const ProjectionCounts& counts) {
+  return std::to_string(counts.culled) + " culled, " + std::to_string(counts.outside) + " outside, " +
+         std::to_string(counts.clipped) + " cut into " + std::to_string(counts.pieces);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Tool tool("project", "Reads triangles in view space and writes them in normalised device coordinates (stage3.txt).",
+            OutputKind::stage_text);
+  NumberOptions numbers(tool.options());
+  CameraOptions cameras(tool.options(), CameraOptions::Parts::projection);
+  ProjectOptions chosen;
+  add_options(tool.options(), chosen);
+
+  return tool.run(argc, argv, [&] {
+    StageReader reader(tool.input());
+    const CameraText camera = cameras.camera(without_position(reader.header().camera), tool);
+    const auto projection = clip_from_view(projection_of(camera, reader.header_end()), chosen.aspect);
+    CoordinateRounder rounder = numbers.rounder(tool.input().file());
+    ProjectionStage stage(projection, chosen.clip, chosen.cull, rounder);
+    StageWriter writer(tool.output(), numbers.format(), false);
+    writer.write_header({reader.header().framed, {}});
+
+    TriangleBatch p_view;
+    const auto read = [&](TriangleBatch& batch) { return reader.read(batch); };
+    const auto transform = [&](TriangleBatch& batch) {
+      std::swap(batch, p_view);
+      stage.project(p_view, batch);
+    };
+    StageLoop{tool, writer, rounder}.run(read, transform);
+    tool.timing().details = to_text(stage.counts());
+  });
+}

@@ -1,0 +1,76 @@
+#include "tools/stage_options.h"
+
+#include "libpipeline/number_text.h"
+#include "libpipeline/scene.h"
+#include "tools/command_line.h"
+
+namespace pipeline {
+namespace {
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : " ") + word;
+  return text;
+}
+
+}  // namespace
+
+NumberOptions::NumberOptions(CLI::App& options) {
+  const auto check = [](std::string& text) {
+    std::size_t count = 0;
+    const bool is_fine = text == "exact" || (parse_count(text, count) && count <= kMaxDecimals);
+    return is_fine ? std::string()
+                   : expected_but_found("a number of decimals from 0 to 17, or exact", pipeline::quoted(text));
+  };
+  options.add_option("--digits", digits_, "Decimals of a coordinate, or exact: as many as read back to the same double")
+      ->type_name("N|exact")
+      ->check(CLI::Validator(check, "", ""))
+      ->capture_default_str();
+  add_choice<Precision>(options, "--precision", precision_,
+                        {{"double", Precision::plain}, {"extended", Precision::extended}},
+                        "extended: every number printed is correctly rounded; double: faster");
+}
+
+NumberFormat NumberOptions::format() const {
+  std::size_t decimals = 7;
+  if (!parse_count(digits_, decimals)) return {.shortest = true};
+  return {.decimals = static_cast<int>(decimals)};
+}
+
+CoordinateRounder NumberOptions::rounder(const std::string& file) const { return {precision_, format(), file}; }
+
+CameraOptions::CameraOptions(CLI::App& options, Parts parts) {
+  const auto add = [&](const std::string& name, int count, const std::string& type, const std::string& help) {
+    options.add_option(name, words_[name], help)->expected(count)->type_name(type);
+  };
+  if (parts == Parts::position_and_projection) {
+    add("--eye", 3, "X Y Z", "Where the camera stands, in world space");
+    add("--look", 3, "X Y Z", "The point it looks at");
+    add("--up", 3, "X Y Z", "The direction that is up in the picture");
+  }
+  const std::string planes = "L R B T N F";
+  add("--perspective", 4, "FOVY ASPECT NEAR FAR", "The projection, as in a scene (degrees)");
+  add("--frustum", 6, planes, "The projection as glFrustum takes it");
+  add("--ortho", 6, planes, "A parallel projection as glOrtho takes it");
+  options.add_option("--scene", scene_path_, "Take the camera from the first lines of this scene")->type_name("FILE");
+}
+
+CameraText CameraOptions::camera(const CameraText& header, const Tool& tool) const {
+  CameraText camera;
+  for (const auto& [name, words] : words_) {
+    if (words.empty()) continue;
+    const std::string text = joined(words);
+    LineScanner line(text, name, 0);
+    read_camera_part(name.substr(2), {name}, line, camera);
+  }
+  if (!scene_path_.empty()) {
+    // The scene's commands are not read.
+    InputFile scene = tool.second_input(scene_path_, "--scene");
+    camera = merged(camera, SceneReader(scene.text()).camera());
+  }
+  camera = merged(camera, header);
+  check_camera(camera);
+  return camera;
+}
+
+}  // namespace pipeline

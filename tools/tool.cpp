@@ -1,0 +1,158 @@
+#include "tools/tool.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <new>
+
+#include "libpipeline/error.h"
+#include "libpipeline/stage_text.h"
+#include "tools/command_line.h"
+#include "tools/version.h"
+
+namespace pipeline {
+namespace {
+
+int open_for_reading(const std::string& path) {
+  if (path == "-") return STDIN_FILENO;
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) throw IoError("open", path.empty() ? "''" : path, errno);
+  return descriptor;
+}
+
+void print_on_stderr(const std::string& line) { std::fprintf(stderr, "%s\n", on_one_line(line).c_str()); }
+
+/// Opens what the caller has closed of stdin, stdout and stderr, for the wrong direction: to use it stays an error,
+/// and no file of ours gets its number.
+void open_closed_descriptors() {
+  for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (::fcntl(descriptor, F_GETFD) < 0) ::open("/dev/null", descriptor == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+}
+
+}  // namespace
+
+InputFile::InputFile(const std::string& path)
+    : descriptor_(open_for_reading(path)), text_(std::in_place, descriptor_, path == "-" ? "<stdin>" : path) {}
+
+InputFile::~InputFile() {
+  if (descriptor_ != STDIN_FILENO) ::close(descriptor_);
+}
+
+void Timing::lap(double Timing::* phase) {
+  const auto now = std::chrono::steady_clock::now();
+  this->*phase += std::chrono::duration<double>(now - last_).count();
+  last_ = now;
+}
+
+Tool::Tool(const std::string& name, const std::string& description, OutputKind output_kind)
+    : name_(name), output_kind_(output_kind), options_(description, name), output_(STDOUT_FILENO, "<stdout>") {
+  open_closed_descriptors();
+  set_help_form(options_);
+  options_.set_version_flag("--version", name + " (pipeline) " + kVersion);
+  options_.add_flag("--timing", wants_timing_, "Say on stderr how long reading, working and writing took");
+}
+
+TextReader& Tool::input() {
+  if (!input_) input_.emplace(input_path_);
+  return input_->text();
+}
+
+InputFile Tool::second_input(const std::string& path, const std::string& name) const {
+  if (path == "-" && input_path_ == "-")
+    throw UsageError(name + ": " + expected_but_found("a file, as INPUT is standard input", "'-'"));
+  return InputFile(path);
+}
+
+int Tool::run(int argc, char** argv, const std::function<void()>& work) {
+  options_.add_option("INPUT", input_path_, "The text to read; - is standard input")->capture_default_str();
+  try {
+    options_.parse(words_for_parsing(argc, argv));
+  } catch (const CLI::CallForHelp&) {
+    return answer(options_.help());
+  } catch (const CLI::CallForVersion& version) {
+    return answer(std::string(version.what()) + "\n");
+  } catch (const CLI::ParseError& error) {
+    return fail_misuse(explained(options_, error));
+  }
+  return status_of([&] {
+    work();
+    close_output();
+    if (wants_timing_) report_timing();
+  });
+}
+
+/// Prints what a user asked to know of the tool itself.
+int Tool::answer(const std::string& text) {
+  output_kind_ = OutputKind::other_text;
+  return status_of([&] {
+    output_.append(text);
+    close_output();
+  });
+}
+
+int Tool::status_of(const std::function<void()>& work) {
+  try {
+    work();
+    return kExitDone;
+  } catch (const UsageError& error) {
+    return fail_misuse(error.what());
+  } catch (const EarlierFailure& error) {
+    // What is passed on is the first failure, not what every stage behind it says.
+    return fail(error.what(), error.reason(), kExitFailure);
+  } catch (const InputError& error) {
+    return error.place().is_option() ? fail_misuse(error.what()) : fail(error.what(), kExitFailure);
+  } catch (const IoError& error) {
+    if (error.error_number() == EPIPE) return kExitFailure;  // the reader has what it wanted
+    return fail(error.what(), kExitFailure);
+  } catch (const std::bad_alloc&) {
+    return fail("not enough memory", kExitFailure);
+  } catch (const std::exception& error) {
+    return fail(error.what(), kExitFailure);
+  }
+}
+
+void Tool::close_output() {
+  output_.flush();
+  // Some file systems report a full disk only here.
+  if (::close(STDOUT_FILENO) != 0) throw IoError("write", "<stdout>", errno);
+  timing_.lap(&Timing::write_seconds);
+}
+
+void Tool::note(const std::string& message) const { print_on_stderr(name_ + ": note: " + message); }
+
+int Tool::fail_misuse(const std::string& message) {
+  return fail(message + " (try " + name_ + " --help)", kExitMisuse);
+}
+
+int Tool::fail(const std::string& message, int status) { return fail(message, name_ + ": " + message, status); }
+
+/// Says on stderr what is wrong, and to the next stage the `reason`.
+int Tool::fail(const std::string& message, const std::string& reason, int status) {
+  print_on_stderr(name_ + ": " + message);
+  if (output_kind_ == OutputKind::other_text) return status;
+  try {
+    // A person at a terminal has just read the message.
+    if (::isatty(STDOUT_FILENO) == 0) output_.append(error_line(reason));
+    output_.flush();
+  } catch (const IoError&) {
+    // The output is what failed, or it failed as well; the exit status tells.
+  }
+  return status;
+}
+
+void Tool::report_timing() {
+  char line[256];
+  const double seconds = timing_.read_seconds + timing_.work_seconds + timing_.write_seconds;
+  const double read_mb = static_cast<double>(input().bytes_read()) / 1e6;
+  const double written_mb = static_cast<double>(output_.bytes_written()) / 1e6;
+  std::snprintf(line, sizeof line,
+                "%s: %llu triangles in %.3f s (read %.3f, work %.3f, write %.3f), %.1f MB in, %.1f MB out, %.0f MB/s",
+                name_.c_str(), static_cast<unsigned long long>(timing_.triangle_count), seconds,
+                timing_.read_seconds, timing_.work_seconds, timing_.write_seconds, read_mb, written_mb,
+                seconds > 0 ? read_mb / seconds : 0.0);
+  print_on_stderr(line + (timing_.details.empty() ? "" : "; " + timing_.details));
+}
+
+}  // namespace pipeline

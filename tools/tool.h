@@ -1,0 +1,101 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "libpipeline/text_reader.h"
+#include "libpipeline/text_writer.h"
+
+namespace pipeline {
+
+// Exit statuses all tools share.
+constexpr int kExitDone = 0;
+constexpr int kExitFailure = 1;  // bad input, or reading or writing failed
+constexpr int kExitMisuse = 2;   // the command line is not one the tool knows
+
+/// The command line says something impossible. `what()` is the whole message.
+class UsageError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// A text opened for reading, closed with this object.
+class InputFile {
+ public:
+  /// `path` is a file's name, or "-" for standard input. An IoError if it cannot be opened.
+  explicit InputFile(const std::string& path);
+  ~InputFile();
+  InputFile(const InputFile&) = delete;
+  InputFile& operator=(const InputFile&) = delete;
+
+  TextReader& text() { return *text_; }
+
+ private:
+  int descriptor_;
+  std::optional<TextReader> text_;
+};
+
+/// How a run's time was spent, for `--timing`. Waiting for the stage before counts as reading.
+struct Timing {
+  double read_seconds = 0;
+  double work_seconds = 0;
+  double write_seconds = 0;
+  std::uint64_t triangle_count = 0;
+  std::string details;  // what one tool alone has to tell
+
+  /// Adds the time since the last call (or the start) to `phase`, one of the three above.
+  void lap(double Timing::* phase);
+
+ private:
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+/// What a tool's output is to the next program: stage text is ended with an error line when the tool fails.
+enum class OutputKind { stage_text, other_text };
+
+/// The rim the four tools share: the options every tool has, input and output, one report of a failure, the
+/// exit status.
+class Tool {
+ public:
+  /// `description` is what --help says first.
+  Tool(const std::string& name, const std::string& description, OutputKind output_kind);
+
+  /// A tool adds its own options and operands here, then calls `run`.
+  CLI::App& options() { return options_; }
+  /// Parses the command line, does `work`, checks that everything was written; returns the exit status.
+  int run(int argc, char** argv, const std::function<void()>& work);
+
+  /// The input: the last operand, else standard input; opened at the first call.
+  TextReader& input();
+  /// Opens a text that is read besides the input; a UsageError, which calls it `name`, if both are standard input.
+  [[nodiscard]] InputFile second_input(const std::string& path, const std::string& name) const;
+  /// Standard output.
+  TextWriter& output() { return output_; }
+  Timing& timing() { return timing_; }
+  /// "tool: note: ..." on stderr: what a user should know of a run that goes on.
+  void note(const std::string& message) const;
+
+ private:
+  int answer(const std::string& text);
+  int status_of(const std::function<void()>& work);
+  void close_output();
+  int fail(const std::string& message, int status);
+  int fail(const std::string& message, const std::string& reason, int status);
+  int fail_misuse(const std::string& message);
+  void report_timing();
+
+  std::string name_;
+  OutputKind output_kind_;
+  CLI::App options_;
+  std::string input_path_ = "-";
+  bool wants_timing_ = false;
+  std::optional<InputFile> input_;
+  TextWriter output_;
+  Timing timing_;
+};
+
+}  // namespace pipeline

@@ -1,0 +1,48 @@
+// view: puts the camera at the origin, looking down -z. World space in, view space out.
+
+#include "libpipeline/stage_text.h"
+#include "libpipeline/transform.h"
+#include "libpipeline/vertex_transform.h"
+#include "tools/command_line.h"
+#include "tools/stage_loop.h"
+#include "tools/stage_options.h"
+#include "tools/tool.h"
+
+using namespace pipeline;
+
+namespace {
+
+/// The camera needs all three of its parts here.
+ViewTransform view_of(const CameraText& camera, const Place& header_end) {
+  std::vector<std::string> missing;
+  if (!camera.eye) missing.emplace_back("eye");
+  if (!camera.look) missing.emplace_back("look");
+  if (!camera.up) missing.emplace_back("up");
+  if (!missing.empty())
+    throw InputError(header_end, expected_but_found("a camera (header lines eye, look and up; or --scene; or --eye, "
+                                                    "--look and --up)", "no " + listed(missing)));
+  return view_from_world(camera.eye->value, camera.look->value, camera.up->value);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Tool tool("view", "Reads triangles in world space and writes them in view space.", OutputKind::stage_text);
+  NumberOptions numbers(tool.options());
+  CameraOptions cameras(tool.options(), CameraOptions::Parts::position_and_projection);
+  bool bare = false;
+  tool.options().add_flag("--bare", bare, "Write the triangles alone (stage2.txt)");
+
+  return tool.run(argc, argv, [&] {
+    StageReader reader(tool.input());
+    const CameraText camera = cameras.camera(reader.header().camera, tool);
+    const VertexTransform view_from_world(view_of(camera, reader.header_end()));
+    CoordinateRounder rounder = numbers.rounder(tool.input().file());
+    StageWriter writer(tool.output(), numbers.format(), bare);
+    writer.write_header({reader.header().framed, without_position(camera)});
+
+    const auto read = [&](TriangleBatch& batch) { return reader.read(batch); };
+    const auto transform = [&](TriangleBatch& batch) { view_from_world.apply(batch, rounder); };
+    StageLoop{tool, writer, rounder}.run(read, transform);
+  });
+}
