@@ -1,0 +1,42 @@
+#include "libpipeline/color.h"
+
+namespace pipeline {
+namespace {
+
+constexpr std::uint32_t kFirstState = 1;
+constexpr std::uint32_t kMultiplier = 214013;
+constexpr std::uint32_t kIncrement = 2531011;
+
+/// The state after `steps` steps. Steps are affine maps, and so are their compositions, so `steps` is gone
+/// through in powers of two (F. Brown, "Random number generation with arbitrary strides", 1994). The states
+/// repeat after 2^32 steps.
+std::uint32_t state_after(std::uint64_t steps) {
+  std::uint32_t state = kFirstState;
+  std::uint32_t multiplier = kMultiplier;
+  std::uint32_t increment = kIncrement;
+  for (; steps != 0; steps >>= 1) {
+    if (steps & 1) state = multiplier * state + increment;
+    increment = multiplier * increment + increment;
+    multiplier *= multiplier;
+  }
+  return state;
+}
+
+}  // namespace
+
+Color TriangleColors::of(std::uint64_t number) {
+  // 3 * number wraps at 2^64, a multiple of the generator's period.
+  if (number != next_number_) state_ = state_after(3 * number);
+  const std::uint8_t red = draw();
+  const std::uint8_t green = draw();
+  const std::uint8_t blue = draw();
+  next_number_ = number + 1;
+  return {red, green, blue};
+}
+
+std::uint8_t TriangleColors::draw() {
+  state_ = kMultiplier * state_ + kIncrement;
+  return static_cast<std::uint8_t>(state_ >> 16 & 0x7fff);
+}
+
+}  // namespace pipeline

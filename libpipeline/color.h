@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+
+namespace pipeline {
+
+/// A colour of 8 bits a channel, in four bytes: 0x00RRGGBB.
+class Color {
+ public:
+  constexpr Color() = default;  // black
+  constexpr Color(std::uint8_t red, std::uint8_t green, std::uint8_t blue)
+      : rgb_(std::uint32_t{red} << 16 | std::uint32_t{green} << 8 | std::uint32_t{blue}) {}
+
+  static constexpr Color from_rgb(std::uint32_t rgb) {
+    Color color;
+    color.rgb_ = rgb;
+    return color;
+  }
+
+  [[nodiscard]] constexpr std::uint32_t rgb() const { return rgb_; }
+  [[nodiscard]] constexpr std::uint8_t red() const { return static_cast<std::uint8_t>(rgb_ >> 16); }
+  [[nodiscard]] constexpr std::uint8_t green() const { return static_cast<std::uint8_t>(rgb_ >> 8); }
+  [[nodiscard]] constexpr std::uint8_t blue() const { return static_cast<std::uint8_t>(rgb_); }
+
+  friend constexpr bool operator==(const Color&, const Color&) = default;
+
+ private:
+  std::uint32_t rgb_ = 0;
+};
+
+/// The colours of triangles that have none of their own, from the generator of the course's hand-outs:
+/// numbers s = 214013 s + 2531011 (mod 2^32), s starting at 1, each giving (s >> 16) & 0x7fff, modulo 256
+/// (the C library's `rand` of Microsoft Visual C++). Triangle N has numbers 3N, 3N + 1, 3N + 2 as red, green
+/// and blue, whether or not it or any other triangle is drawn.
+class TriangleColors {
+ public:
+  /// The colour of triangle `number`. Takes constant time for a triangle after the last one asked for,
+  /// otherwise O(log number).
+  Color of(std::uint64_t number);
+
+ private:
+  std::uint8_t draw();
+
+  std::uint32_t state_ = 1;
+  std::uint64_t next_number_ = 0;  // state_ stands before this triangle's draws
+};
+
+}  // namespace pipeline

@@ -1,0 +1,82 @@
+#include "libpipeline/config.h"
+
+#include <string>
+
+#include "libpipeline/double_double.h"
+#include "libpipeline/error.h"
+#include "libpipeline/number_text.h"
+
+namespace pipeline {
+namespace {
+
+LineScanner required_line(TextReader& text, const std::string& expected) {
+  LineScanner line;
+  if (!text.next_filled_line(line))
+    throw InputError(text.end_place(), expected_but_found(expected, "the end of the input"));
+  return line;
+}
+
+// The readers below take a word from `ahead`, so that `line` still stands at it when it turns out to be
+// wrong.
+
+int read_size(LineScanner& line, const std::string& name) {
+  const std::string expected = "the " + name + " in pixels, a whole number from 1 to 65535";
+  LineScanner ahead = line;
+  const std::size_t size = ahead.count(expected);
+  if (size < 1 || size > kMaxScreenSize) line.fail(expected);
+  line = ahead;
+  return static_cast<int>(size);
+}
+
+struct Limit {
+  double value = 0;
+  double low_part = 0;
+  bool is_decimal = false;
+};
+
+/// Reads a line that holds the limit on one side; its negation is the limit on the other.
+Limit read_negative_limit(const LineScanner& line, const std::string& name) {
+  LineScanner ahead = line;
+  const double limit = ahead.number("the " + name + ", a negative number");
+  if (limit >= 0) line.fail("the " + name + ", a negative number");
+  if (-limit < kSmallestLimit || -limit > kLargestLimit)
+    line.fail("the " + name + ", a number from -1e200 to -1e-200");
+  ahead.expect_end("the " + name);
+  DoubleDouble exact;
+  if (!parse_exact_decimal(line.peek(), exact)) return {limit};
+  return {exact.hi, exact.lo, true};
+}
+
+void read_depth_limits(LineScanner line, ScreenConfig& config) {
+  const std::string expected_rear = "the rear limit of Z, a number greater than the front limit";
+  config.front = line.number("the front limit of Z");
+  LineScanner ahead = line;
+  config.rear = ahead.number(expected_rear);
+  if (config.rear <= config.front) line.fail(expected_rear);
+  ahead.expect_end("the rear limit of Z");
+}
+
+}  // namespace
+
+ScreenConfig read_config(TextReader& text) {
+  ScreenConfig config;
+  LineScanner line = required_line(text, "the width and height in pixels");
+  config.columns = read_size(line, "width");
+  config.rows = read_size(line, "height");
+  line.expect_end("the height");
+  // Width and height alone are a whole config.
+  if (!text.next_filled_line(line)) return config;
+  const Limit left = read_negative_limit(line, "left limit of X");
+  const Limit bottom = read_negative_limit(required_line(text, "the bottom limit of Y"), "bottom limit of Y");
+  config.left = left.value;
+  config.left_low_part = left.low_part;
+  config.left_is_decimal = left.is_decimal;
+  config.bottom = bottom.value;
+  config.bottom_low_part = bottom.low_part;
+  config.bottom_is_decimal = bottom.is_decimal;
+  read_depth_limits(required_line(text, "the front and rear limits of Z"), config);
+  if (text.next_filled_line(line)) line.fail("nothing after the limits of Z");
+  return config;
+}
+
+}  // namespace pipeline

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "libpipeline/pixel_grid.h"
+#include "libpipeline/span.h"
+#include "libpipeline/vec.h"
+
+namespace pipeline {
+
+/// The coverage rule `nearest` for one triangle in NDC: on every row whose line of pixel centres meets the
+/// triangle, the pixels from the one nearest to the left intersection to the one nearest to the right, both
+/// included (half-way: the pixel on the right). Neighbouring triangles thus both own the pixels on a shared
+/// edge, and a triangle that is narrower than a pixel still has one on each row. Horizontal edges do not
+/// count; both ends of the others do.
+///
+/// Everything is plain double arithmetic in a fixed order. Any finite coordinates are allowed, also where
+/// differences or products of them are not finite. Source: "Raster Based Graphics Pipeline", CSE 410
+/// offline 2, 2022.
+class NearestRows {
+ public:
+  NearestRows(const PixelGrid& grid, const Triangle& p_ndc);
+
+  /// The rows to ask for, inside the screen; first_row() > last_row() where there are none.
+  [[nodiscard]] int first_row() const { return first_row_; }
+  [[nodiscard]] int last_row() const { return last_row_; }
+
+  /// The pixels the triangle covers on `row`, inside the screen; none where it has fewer than two
+  /// intersections or all is left or right of the screen. The depth is linear through the left intersection
+  /// and has the slope of the triangle's plane; where left and right intersection have the same x, and where
+  /// the triangle is seen edge-on, the depth is the smaller of the two.
+  [[nodiscard]] std::optional<Span> span(int row) const;
+
+ private:
+  struct Edge {
+    Vec3 lower;  // by y, then x, then z: neighbours get the same point of a shared edge
+    Vec3 upper;
+  };
+  struct Intersection {
+    double x;
+    double z;
+  };
+  static Intersection intersect(const Edge& edge, double y);
+
+  PixelGrid grid_;
+  std::array<Edge, 3> edges_;
+  std::optional<double> slope_;  // dz/dx of the triangle's plane; none for a triangle seen edge-on
+  int first_row_;
+  int last_row_;
+};
+
+}  // namespace pipeline

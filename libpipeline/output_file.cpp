@@ -1,0 +1,106 @@
+#include "libpipeline/output_file.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <filesystem>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+#include "libpipeline/error.h"
+#include "libpipeline/number_text.h"
+
+namespace pipeline {
+namespace {
+
+constexpr int kNone = -1;
+
+/// The N of a path that names this process's open file N, else kNone. Such a file is not ours to replace,
+/// even if it happens to be a regular one.
+int own_descriptor_of(const std::string& path) {
+  if (path == "/dev/stdout") return STDOUT_FILENO;
+  if (path == "/dev/stderr") return STDERR_FILENO;
+  for (const std::string_view folder : {"/dev/fd/", "/proc/self/fd/"}) {
+    std::size_t number = 0;
+    if (path.starts_with(folder) && parse_count(std::string_view(path).substr(folder.size()), number) &&
+        number < 1u << 20)
+      return static_cast<int>(number);
+  }
+  return kNone;
+}
+
+/// Where the symbolic links that start at `path` end, whether or not there is a file.
+std::string target_of(const std::string& path) {
+  constexpr int kMostLinks = 40;  // as the kernel
+  std::filesystem::path target = path;
+  std::error_code error;
+  for (int i = 0; i < kMostLinks; ++i) {
+    if (own_descriptor_of(target) != kNone || !std::filesystem::is_symlink(target, error)) return target;
+    target = target.parent_path() / std::filesystem::read_symlink(target, error);
+    if (error) throw IoError("open", path, error.value());
+  }
+  throw IoError("open", path, ELOOP);
+}
+
+}  // namespace
+
+OutputFile::OutputFile(const std::string& path) : path_(path), target_(target_of(path)) {
+  const int own_descriptor = own_descriptor_of(target_);
+  struct stat status = {};
+  const bool exists = ::stat(target_.c_str(), &status) == 0;
+  if (own_descriptor != kNone || (exists && !S_ISREG(status.st_mode)))
+    open_directly(own_descriptor);
+  else if (exists && ::access(target_.c_str(), W_OK) != 0)
+    throw IoError("open", path_, errno);
+  else
+    open_beside(exists, exists ? status.st_mode & 0777 : 0666);
+}
+
+OutputFile::~OutputFile() {
+  if (descriptor_ != kNone) ::close(descriptor_);
+  if (!temporary_path_.empty()) ::unlink(temporary_path_.c_str());
+}
+
+void OutputFile::open_directly(int own_descriptor) {
+  // A copy of the descriptor, not the file opened anew, keeps the position in it.
+  descriptor_ = own_descriptor != kNone ? ::fcntl(own_descriptor, F_DUPFD_CLOEXEC, 0)
+                                        : ::open(target_.c_str(), O_WRONLY | O_NOCTTY | O_CLOEXEC);
+  if (descriptor_ < 0) throw IoError("open", path_, errno);
+}
+
+void OutputFile::open_beside(bool exists, unsigned mode) {
+  constexpr int kMostAttempts = 1000;
+  const std::filesystem::path folder = std::filesystem::path(target_).parent_path();
+  const std::string stem = ".pipeline-" + std::to_string(::getpid()) + "-";
+  for (int i = 0; i < kMostAttempts; ++i) {
+    std::string name = folder / (stem + std::to_string(i));
+    descriptor_ = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
+    if (descriptor_ >= 0) temporary_path_ = std::move(name);
+    if (descriptor_ >= 0 || errno != EEXIST) break;
+  }
+  if (descriptor_ < 0) throw IoError("open", path_, errno);
+  // The umask has no say in a file that was there. Where the file system refuses, less is permitted, not
+  // more.
+  if (exists) static_cast<void>(::fchmod(descriptor_, mode));
+}
+
+void OutputFile::close() {
+  if (descriptor_ == kNone) return;
+  const int result = ::close(descriptor_);
+  descriptor_ = kNone;
+  // Linux has closed the file also when a signal interrupted the call.
+  if (result != 0 && errno != EINTR) throw IoError("write", path_, errno);
+}
+
+void OutputFile::commit() {
+  close();
+  if (temporary_path_.empty()) return;
+  if (::rename(temporary_path_.c_str(), target_.c_str()) != 0) throw IoError("replace", path_, errno);
+  temporary_path_.clear();
+}
+
+}  // namespace pipeline

@@ -1,0 +1,28 @@
+#pragma once
+
+#include "libpipeline/config.h"
+
+namespace pipeline {
+
+/// Where the pixel centres of a screen lie in NDC; row 0 is at the top.
+struct PixelGrid {
+  explicit PixelGrid(const ScreenConfig& screen)
+      : columns(screen.columns),
+        rows(screen.rows),
+        left_x(screen.left_x()),
+        top_y(screen.top_y()),
+        dx(screen.dx()),
+        dy(screen.dy()) {}
+
+  [[nodiscard]] double x_of(int column) const { return left_x + column * dx; }
+  [[nodiscard]] double y_of(int row) const { return top_y - row * dy; }
+
+  int columns;
+  int rows;
+  double left_x;
+  double top_y;
+  double dx;
+  double dy;
+};
+
+}  // namespace pipeline

@@ -1,0 +1,135 @@
+#include "libpipeline/config.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "tests/text_input.h"
+
+namespace pipeline {
+namespace {
+
+ScreenConfig config_of(const std::string& text) {
+  const TextFile file(text);
+  TextReader reader(file.descriptor(), "config.txt");
+  return read_config(reader);
+}
+
+std::string error_of(const std::string& text) {
+  return message_of([&] { config_of(text); });
+}
+
+/// Columns, rows, left, bottom, front and rear.
+std::vector<double> numbers_of(const std::string& text) {
+  const ScreenConfig config = config_of(text);
+  return {static_cast<double>(config.columns),
+          static_cast<double>(config.rows),
+          config.left,
+          config.bottom,
+          config.front,
+          config.rear};
+}
+
+const std::vector<double> kExample = {500, 500, -1, -1, 0, 2};  // the assignment's
+
+TEST(Config, FourLinesSaySizeAndLimits) {
+  EXPECT_EQ(numbers_of("640 480\n-1.5\n-0.75\n-0.25 2\n"),
+            (std::vector<double>{640, 480, -1.5, -0.75, -0.25, 2}));
+}
+
+TEST(Config, ReadsTheExampleOfTheAssignment) {
+  EXPECT_EQ(numbers_of("500 500\n-1.00\n-1.00\n0.00 2.00\n"), kExample);
+}
+
+TEST(Config, SizeAloneLeavesTheLimitsAtOne) {
+  EXPECT_EQ(numbers_of("500 400"), (std::vector<double>{500, 400, -1, -1, -1, 1}));
+}
+
+TEST(Config, TakesCarriageReturnsTabsBlankLinesAndComments) {
+  EXPECT_EQ(numbers_of("# screen\r\n\r\n\t500\t500 \r\n-1 # left\r\n-1\r\n\r\n+0 2e0  \r\n# the end"),
+            kExample);
+}
+
+TEST(Config, TakesTheSmallestAndTheLargestScreen) {
+  EXPECT_EQ(config_of("1 65535").columns, 1);
+  EXPECT_EQ(config_of("1 65535").rows, 65535);
+}
+
+TEST(Config, PixelCentresLieHalfAPixelInsideTheLimits) {
+  const ScreenConfig config = config_of("8 4\n-4\n-1\n0 1");
+  EXPECT_EQ(config.dx(), 1);
+  EXPECT_EQ(config.dy(), 0.5);
+  EXPECT_EQ(config.left_x(), -3.5);
+  EXPECT_EQ(config.top_y(), 0.75);
+}
+
+TEST(Config, AnEmptyFileIsAnError) {
+  EXPECT_EQ(error_of(""),
+            "config.txt:1:1: expected the width and height in pixels, found the end of the input");
+  EXPECT_EQ(error_of("\n# nothing\n"),
+            "config.txt:3:1: expected the width and height in pixels, found the end of the input");
+}
+
+TEST(Config, SizesAreWholeNumbersFromOneTo65535) {
+  const std::string expected_width = "expected the width in pixels, a whole number from 1 to 65535, found ";
+  const std::string expected_height = "expected the height in pixels, a whole number from 1 to 65535, found ";
+  EXPECT_EQ(error_of("0 500"), "config.txt:1:1: " + expected_width + "'0'");
+  EXPECT_EQ(error_of(" 65536 500"), "config.txt:1:2: " + expected_width + "'65536'");
+  EXPECT_EQ(error_of("99999999999999999999 500"),
+            "config.txt:1:1: " + expected_width + "'99999999999999999999'");
+  EXPECT_EQ(error_of("500 0"), "config.txt:1:5: " + expected_height + "'0'");
+  EXPECT_EQ(error_of("500 -5"), "config.txt:1:5: " + expected_height + "'-5'");
+  EXPECT_EQ(error_of("500 500.0"), "config.txt:1:5: " + expected_height + "'500.0'");
+  EXPECT_EQ(error_of("500"), "config.txt:1:4: " + expected_height + "the end of the line");
+  EXPECT_EQ(error_of("500 500 500"),
+            "config.txt:1:9: expected the end of the line after the height, found '500'");
+}
+
+TEST(Config, LeftIsANegativeNumber) {
+  const std::string expected = "expected the left limit of X, a negative number, found ";
+  EXPECT_EQ(error_of("500 500\n1\n-1\n0 2"), "config.txt:2:1: " + expected + "'1'");
+  EXPECT_EQ(error_of("500 500\n0\n-1\n0 2"), "config.txt:2:1: " + expected + "'0'");
+  EXPECT_EQ(error_of("500 500\n-0\n-1\n0 2"), "config.txt:2:1: " + expected + "'-0'");
+  EXPECT_EQ(error_of("500 500\n -nan\n-1\n0 2"), "config.txt:2:2: " + expected + "'-nan'");
+  EXPECT_EQ(error_of("500 500\n-1 -1\n0 2"),
+            "config.txt:2:4: expected the end of the line after the left limit of X, found '-1'");
+}
+
+TEST(Config, BottomIsANegativeNumber) {
+  EXPECT_EQ(error_of("500 500\n-1\n0.5\n0 2"),
+            "config.txt:3:1: expected the bottom limit of Y, a negative number, found '0.5'");
+  EXPECT_EQ(error_of("500 500\n-1\n"),
+            "config.txt:3:1: expected the bottom limit of Y, found the end of the input");
+}
+
+TEST(Config, LimitsWhosePixelsADoubleCannotTellApartAreErrors) {
+  EXPECT_EQ(error_of("500 500\n-1e201\n-1\n0 2"),
+            "config.txt:2:1: expected the left limit of X, a number from -1e200 to -1e-200, found '-1e201'");
+  EXPECT_EQ(
+      error_of("500 500\n-1\n-1e-201\n0 2"),
+      "config.txt:3:1: expected the bottom limit of Y, a number from -1e200 to -1e-200, found '-1e-201'");
+  EXPECT_EQ(numbers_of("500 500\n-1e200\n-1e-200\n0 2"),
+            (std::vector<double>{500, 500, -1e200, -1e-200, 0, 2}));
+}
+
+TEST(Config, FrontLiesBeforeRear) {
+  const std::string expected = "expected the rear limit of Z, a number greater than the front limit, found ";
+  EXPECT_EQ(error_of("500 500\n-1\n-1\n2 0"), "config.txt:4:3: " + expected + "'0'");
+  EXPECT_EQ(error_of("500 500\n-1\n-1\n2 2"), "config.txt:4:3: " + expected + "'2'");
+  EXPECT_EQ(error_of("500 500\n-1\n-1\n2"), "config.txt:4:2: " + expected + "the end of the line");
+  EXPECT_EQ(error_of("500 500\n-1\n-1\nfront 2"),
+            "config.txt:4:1: expected the front limit of Z, found 'front'");
+  EXPECT_EQ(error_of("500 500\n-1\n-1\n"),
+            "config.txt:4:1: expected the front and rear limits of Z, found the end of the input");
+  EXPECT_EQ(error_of("500 500\n-1\n-1\n0 2 4"),
+            "config.txt:4:5: expected the end of the line after the rear limit of Z, found '4'");
+}
+
+TEST(Config, NothingFollowsTheLimits) {
+  EXPECT_EQ(error_of("500 500\n-1\n-1\n0 2\n\n  3"),
+            "config.txt:6:3: expected nothing after the limits of Z, found '3'");
+}
+
+}  // namespace
+}  // namespace pipeline

@@ -1,0 +1,373 @@
+#include "libpipeline/coverage_nearest.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <string>
+#include <vector>
+
+namespace pipeline {
+namespace {
+
+using Picture = std::vector<std::string>;
+
+// Pixels of size 1, centres at -3.5, -2.5 ... 3.5 in x and y: all small halves are exact.
+constexpr ScreenConfig kEightByEight = {8, 8, -4, -4, -1, 1};
+// The assignment's example: pixels of size 0.004.
+constexpr ScreenConfig kExample = {500, 500, -1, -1, 0, 2};
+
+std::vector<Span> spans_of(const Triangle& p_ndc, const ScreenConfig& screen) {
+  std::vector<Span> spans;
+  for_each_span(NearestRows(PixelGrid(screen), p_ndc), [&](const Span& span) { spans.push_back(span); });
+  return spans;
+}
+
+Picture picture_of(const Triangle& p_ndc, const ScreenConfig& screen = kEightByEight) {
+  Picture picture(static_cast<std::size_t>(screen.rows),
+                  std::string(static_cast<std::size_t>(screen.columns), '.'));
+  for (const Span& span : spans_of(p_ndc, screen))
+    for (int column = span.first_column; column <= span.last_column; ++column)
+      picture[static_cast<std::size_t>(span.row)][static_cast<std::size_t>(column)] = '#';
+  return picture;
+}
+
+const Picture kNothing(8, "........");
+
+TEST(CoverageNearest, TakesThePixelsNearestToBothEdges) {
+  // In the row at y the edges are at x = -3 + (y + 3) / 2 and its mirror image.
+  EXPECT_EQ(picture_of({{{-3, -3, 0}, {3, -3, 0}, {0, 3, 0}}}), (Picture{
+                                                                    "........",
+                                                                    "...##...",
+                                                                    "...##...",
+                                                                    "..####..",
+                                                                    "..####..",
+                                                                    ".######.",
+                                                                    ".######.",
+                                                                    "........",
+                                                                }));
+}
+
+TEST(CoverageNearest, HalfWayBetweenTwoPixelsTheRightOneIsTaken) {
+  // Edges at x = -1, 0 and 1, half-way between the centres of columns 2 and 3, 3 and 4, 4 and 5.
+  EXPECT_EQ(picture_of({{{-1, -1, 0}, {-1, 0, 0}, {1, -1, 0}}})[4], "...##...");
+  EXPECT_EQ(picture_of({{{1, -1, 0}, {1, 0, 0}, {-1, -1, 0}}})[4], "....##..");
+}
+
+TEST(CoverageNearest, ARowThroughTheLowestOrTheHighestPointHasIt) {
+  EXPECT_EQ(picture_of({{{-1.5, -1.5, 0}, {1.5, -1.5, 0}, {0.5, 1.5, 0}}}), (Picture{
+                                                                                "........",
+                                                                                "........",
+                                                                                "....#...",
+                                                                                "...##...",
+                                                                                "...###..",
+                                                                                "..####..",
+                                                                                "........",
+                                                                                "........",
+                                                                            }));
+}
+
+TEST(CoverageNearest, BetweenTwoRowsThereIsNothing) {
+  EXPECT_EQ(picture_of({{{-3, -0.4, 0}, {3, -0.4, 0}, {0, 0.4, 0}}}), kNothing);
+}
+
+TEST(CoverageNearest, BetweenTwoColumnsThereIsTheNearest) {
+  EXPECT_EQ(picture_of({{{0.1, -2, 0}, {0.3, -2, 0}, {0.2, 2, 0}}}), (Picture{
+                                                                         "........",
+                                                                         "........",
+                                                                         "....#...",
+                                                                         "....#...",
+                                                                         "....#...",
+                                                                         "....#...",
+                                                                         "........",
+                                                                         "........",
+                                                                     }));
+}
+
+TEST(CoverageNearest, IsCutAtTheBordersOfTheScreen) {
+  EXPECT_EQ(picture_of({{{-100, -100, 0}, {100, -100, 0}, {0, 100, 0}}}), Picture(8, "########"));
+  EXPECT_EQ(picture_of({{{-5.5, 1.5, 0}, {-2.5, 1.5, 0}, {-2.5, 5.5, 0}}}), (Picture{
+                                                                                "##......",
+                                                                                "##......",
+                                                                                "##......",
+                                                                                "........",
+                                                                                "........",
+                                                                                "........",
+                                                                                "........",
+                                                                                "........",
+                                                                            }));
+}
+
+TEST(CoverageNearest, OutsideTheScreenThereIsNothing) {
+  EXPECT_EQ(picture_of({{{4.1, -1, 0}, {6, -1, 0}, {5, 1, 0}}}), kNothing);
+  EXPECT_EQ(picture_of({{{-6, -1, 0}, {-4.1, -1, 0}, {-5, 1, 0}}}), kNothing);
+  EXPECT_EQ(picture_of({{{-1, 3.6, 0}, {1, 3.6, 0}, {0, 6, 0}}}), kNothing);
+  EXPECT_EQ(picture_of({{{-1, -3.6, 0}, {1, -3.6, 0}, {0, -6, 0}}}), kNothing);
+}
+
+TEST(CoverageNearest, TheBorderItselfBelongsToTheLeftAndNotToTheRight) {
+  // floor((-4 - -3.5) + 0.5) = 0, floor((4 - -3.5) + 0.5) = 8.
+  EXPECT_EQ(picture_of({{{-4, -1, 0}, {-4, 1, 0}, {-6, 0, 0}}})[4], "#.......");
+  EXPECT_EQ(picture_of({{{4, -1, 0}, {4, 1, 0}, {6, 0, 0}}}), kNothing);
+}
+
+TEST(CoverageNearest, HorizontalEdgeIsSkipped) {
+  // Its row is drawn by the other two edges; alone, as a triangle of no height, it draws nothing.
+  EXPECT_EQ(picture_of({{{-2.5, 0.5, 0}, {2.5, 0.5, 0}, {0, 1, 0}}})[3], ".######.");
+  EXPECT_EQ(picture_of({{{-2.5, 0.5, 0}, {2.5, 0.5, 0}, {0, 0.5, 0}}}), kNothing);
+}
+
+TEST(CoverageNearest, APointIsNothing) {
+  EXPECT_EQ(picture_of({{{0.5, 0.5, 0}, {0.5, 0.5, 0}, {0.5, 0.5, 0}}}), kNothing);
+}
+
+TEST(CoverageNearest, ALineIsDrawnAndItsSmallerDepthHolds) {
+  const Triangle line = {{{-1.5, -1.5, 0.25}, {0.5, 0.5, 0.5}, {1.5, 1.5, 0.75}}};
+  EXPECT_EQ(picture_of(line), (Picture{
+                                  "........",
+                                  "........",
+                                  ".....#..",
+                                  "....#...",
+                                  "...#....",
+                                  "..#.....",
+                                  "........",
+                                  "........",
+                              }));
+  // On the long edge depth goes from 0.25 to 0.75 over three rows, on the other two it is 0.5 at (0.5, 0.5).
+  const std::vector<Span> spans = spans_of(line, kEightByEight);
+  EXPECT_EQ(spans[0].depth(5), 0.75);
+  EXPECT_EQ(spans[1].depth(4), 0.5);
+  EXPECT_EQ(spans[2].depth(3), 0.375);
+  EXPECT_EQ(spans[3].depth(2), 0.25);
+}
+
+TEST(CoverageNearest, ATriangleSeenEdgeOnKeepsItsSmallerDepthWhereRoundingMakesItLean) {
+  // 0.1, 0.2 and 0.3 are not exactly on a line as doubles; a slope taken from that would be noise.
+  for (const Span& span : spans_of({{{0.1, 0.1, 0.3}, {0.2, 0.2, 0.9}, {0.3, 0.3, 0.5}}}, kExample)) {
+    const double y = 0.998 - 0.004 * span.row;
+    EXPECT_NEAR(span.depth(span.first_column), 0.3 + (y - 0.1), 1e-9);
+  }
+}
+
+TEST(CoverageNearest, DepthIsLinearFromEdgeToEdge) {
+  // z = 0.5 + x / 8 + y / 16.
+  const auto z = [](double x, double y) { return 0.5 + x / 8 + y / 16; };
+  const Triangle triangle = {{{-3, -3, z(-3, -3)}, {3, -2, z(3, -2)}, {0, 3, z(0, 3)}}};
+  for (const Span& span : spans_of(triangle, kEightByEight))
+    for (int column = span.first_column; column <= span.last_column; ++column)
+      EXPECT_NEAR(span.depth(column), z(-3.5 + column, 3.5 - span.row), 1e-15);
+}
+
+TEST(CoverageNearest, OnTheRowOfACornerDepthIsThatOfTheCorner) {
+  const std::vector<Span> spans =
+      spans_of({{{-1.5, -1.5, 1}, {1.5, -1.5, 0}, {0.25, 1.5, 0.125}}}, kEightByEight);
+  EXPECT_EQ(spans.front().depth(spans.front().first_column), 0.125);
+}
+
+TEST(CoverageNearest, NextToACornerDepthKeepsTheSlopeOfThePlane) {
+  // A corner whose y is that of a row in decimals, but not exactly: the row meets the triangle in two points
+  // that are as far apart as rounding makes them, and the quotient of their differences says nothing.
+  const auto z = [](double x, double y) { return 1 + 0.5 * x + 0.25 * y; };
+  int met_count = 0;
+  for (int row = 10; row < 490; ++row) {
+    const double y = (998 - 4 * row) / 1000.0;
+    const Triangle t = {{{0.1, y, z(0.1, y)}, {-0.3, -1.3, z(-0.3, -1.3)}, {0.7, -1.1, z(0.7, -1.1)}}};
+    const Span span = spans_of(t, kExample).front();
+    const bool is_exactly_the_corner = span.depth.slope == 0;
+    if (span.row != row || is_exactly_the_corner) continue;
+    ++met_count;
+    EXPECT_NEAR(span.depth(span.first_column), z(-0.998 + 0.004 * span.first_column, y), 1e-12);
+  }
+  EXPECT_GT(met_count, 50);
+}
+
+TEST(CoverageNearest, FirstExampleOfTheAssignment) {
+  // In row r (y = 0.998 - 0.004 r) the edges are at x = -(0.5 - y) and 0.5 - y: columns 374 - r to 125 + r.
+  const std::vector<Span> spans = spans_of({{{0.5, 0, 0.5}, {-0.5, 0, 0.5}, {0, 0.5, 0.5}}}, kExample);
+  ASSERT_EQ(spans.size(), 125u);
+  for (int i = 0; i < 125; ++i) {
+    const Span& span = spans[static_cast<std::size_t>(i)];
+    EXPECT_EQ(span.row, 125 + i);
+    EXPECT_EQ(span.first_column, 374 - span.row);
+    EXPECT_EQ(span.last_column, 125 + span.row);
+    EXPECT_EQ(span.depth(span.first_column), 0.5);
+    EXPECT_EQ(span.depth(span.last_column), 0.5);
+  }
+}
+
+TEST(CoverageNearest, SecondExampleOfTheAssignment) {
+  // Left edge x = -0.5 + y / 3, so column floor(208 + 1/6 - r / 3); the right edge is cut off from row 124
+  // on.
+  const std::vector<Span> behind = spans_of({{{1.5, 0, 0.5}, {-0.5, 0, 0.5}, {0, 1.5, 0.5}}}, kExample);
+  ASSERT_EQ(behind.size(), 250u);
+  for (int row = 0; row < 250; ++row) {
+    const Span& span = behind[static_cast<std::size_t>(row)];
+    EXPECT_EQ(span.row, row);
+    EXPECT_EQ(span.first_column, (1249 - 2 * row) / 6);
+    EXPECT_EQ(span.last_column, std::min(375 + row, 499));
+  }
+  // Left edge x = -1 + 2 y: always half-way between columns 498 - 2 r and 499 - 2 r, so rounding chooses.
+  const std::vector<Span> before = spans_of({{{0.5, 0, 0.25}, {-1, 0, 0.25}, {0, 0.5, 0.25}}}, kExample);
+  ASSERT_EQ(before.size(), 125u);
+  for (const Span& span : before) {
+    EXPECT_TRUE(span.first_column == 499 - 2 * span.row || span.first_column == 498 - 2 * span.row ||
+                (span.row == 249 && span.first_column == 0));
+    EXPECT_EQ(span.last_column, 125 + span.row);
+    EXPECT_EQ(span.depth(span.first_column), 0.25);
+  }
+}
+
+// A second implementation, in long double: the corners are not sorted, x and z come from the weights of the
+// ends, depth from the areas that a point makes with the edges.
+
+struct Crossing {
+  long double x;
+  bool is_there;
+};
+
+Crossing crossing(const Vec3& p, const Vec3& q, long double y) {
+  const long double above = q.y - y, below = y - p.y, height = static_cast<long double>(q.y) - p.y;
+  if (height == 0 || above / height < 0 || below / height < 0) return {0, false};
+  return {(p.x * above + q.x * below) / height, true};
+}
+
+long double area(long double ax, long double ay, const Vec3& b, const Vec3& c) {
+  return (b.x - ax) * (c.y - ay) - (c.x - ax) * (b.y - ay);
+}
+
+long double depth_by_areas(const Triangle& t, long double x, long double y) {
+  const long double wa = area(x, y, t[1], t[2]), wb = area(x, y, t[2], t[0]), wc = area(x, y, t[0], t[1]);
+  return (wa * t[0].z + wb * t[1].z + wc * t[2].z) / (wa + wb + wc);
+}
+
+void expect_like_second_implementation(const Triangle& t, const ScreenConfig& screen) {
+  const std::vector<Span> spans = spans_of(t, screen);
+  auto span = spans.begin();
+  const long double dx = -2 * static_cast<long double>(screen.left) / screen.columns;
+  const long double dy = -2 * static_cast<long double>(screen.bottom) / screen.rows;
+  for (int row = 0; row < screen.rows; ++row) {
+    const long double y = -screen.bottom - dy * (row + 0.5L);
+    long double left = HUGE_VALL, right = -HUGE_VALL;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Crossing found = crossing(t[i], t[(i + 1) % 3], y);
+      if (!found.is_there) continue;
+      left = std::min(left, found.x);
+      right = std::max(right, found.x);
+    }
+    // The edges of pixels are where rounding decides: these rows are left to the tests with exact numbers.
+    const long double first = (left - screen.left) / dx, last = (right - screen.left) / dx;
+    const bool has_row = left <= right && first < screen.columns && last >= 0;
+    if (span == spans.end() || span->row != row) {
+      ASSERT_FALSE(has_row) << "row " << row;
+      continue;
+    }
+    ASSERT_TRUE(has_row) << "row " << row;
+    if (std::fabs(first - std::round(first)) > 1e-9L) {
+      ASSERT_EQ(span->first_column, std::max(0, static_cast<int>(std::floor(first))));
+    }
+    if (std::fabs(last - std::round(last)) > 1e-9L) {
+      ASSERT_EQ(span->last_column, std::min(screen.columns - 1, static_cast<int>(std::floor(last))));
+    }
+    for (const int column : {span->first_column, span->last_column}) {
+      const long double z = depth_by_areas(t, screen.left + dx * (column + 0.5L), y);
+      ASSERT_NEAR(span->depth(column), static_cast<double>(z),
+                  1e-10 * std::max(1.0, std::fabs(span->depth.slope)));
+    }
+    ++span;
+  }
+  ASSERT_EQ(span, spans.end());
+}
+
+TEST(CoverageNearest, RandomTrianglesAreThoseOfASecondImplementation) {
+  std::mt19937_64 random(1);
+  for (const double size : {0.05, 0.5, 3.0})
+    for (int i = 0; i < 1000; ++i) {
+      std::uniform_real_distribution<double> centre(-1, 1), offset(-size, size);
+      const double x = centre(random), y = centre(random);
+      Triangle t;
+      for (Vec3& p : t) p = {x + offset(random), y + offset(random), centre(random)};
+      expect_like_second_implementation(t, {97, 61, -1, -0.75, -1, 1});
+      if (HasFatalFailure()) FAIL() << "triangle " << i << " of size " << size;
+    }
+}
+
+TEST(CoverageNearest, TheOrderOfTheCornersDoesNotMatter) {
+  std::mt19937_64 random(2);
+  std::uniform_int_distribution<int> hundredth(-120, 120);
+  for (int i = 0; i < 300; ++i) {
+    std::array<std::size_t, 3> order = {0, 1, 2};
+    Triangle t;
+    for (Vec3& p : t) p = {hundredth(random) / 100.0, hundredth(random) / 100.0, hundredth(random) / 100.0};
+    const std::vector<Span> expected = spans_of(t, kExample);
+    while (std::next_permutation(order.begin(), order.end())) {
+      const std::vector<Span> spans = spans_of({t[order[0]], t[order[1]], t[order[2]]}, kExample);
+      ASSERT_EQ(spans.size(), expected.size());
+      for (std::size_t k = 0; k < spans.size(); ++k) {
+        ASSERT_EQ(spans[k].first_column, expected[k].first_column);
+        ASSERT_EQ(spans[k].last_column, expected[k].last_column);
+        ASSERT_EQ(spans[k].depth(spans[k].first_column), expected[k].depth(expected[k].first_column));
+      }
+    }
+  }
+}
+
+TEST(CoverageNearest, AnyFiniteCoordinatesGiveSpansOnTheScreenAndDepthsThatAreNumbers) {
+  constexpr double kMax = std::numeric_limits<double>::max();
+  const std::vector<double> values = {0,      -0.0,  5e-324, -5e-324, 1e-310, 1e-200, -1e-160, 0.5,  -0.5, 1,
+                                      -1.002, 1e154, -1e160, 1e300,   -1e300, 1e308,  -1e308,  kMax, -kMax};
+  std::mt19937_64 random(3);
+  std::uniform_int_distribution<std::size_t> any(0, values.size() - 1);
+  const auto value = [&] { return values[any(random)]; };
+  for (const double limit : {1.0, 1e-200, 1e200}) {
+    const ScreenConfig screen = {50, 40, -limit, -limit, -1, 1};
+    for (int i = 0; i < 50000; ++i) {
+      Triangle t;
+      for (Vec3& p : t) p = {value(), value(), value()};
+      for (const Span& span : spans_of(t, screen)) {
+        ASSERT_GE(span.row, 0);
+        ASSERT_LT(span.row, screen.rows);
+        ASSERT_GE(span.first_column, 0);
+        ASSERT_LE(span.first_column, span.last_column);
+        ASSERT_LT(span.last_column, screen.columns);
+        for (const int column : {span.first_column, span.last_column})
+          ASSERT_FALSE(std::isnan(span.depth(column)));
+      }
+    }
+  }
+}
+
+TEST(CoverageNearest, CornersWhoseDifferencesADoubleCannotHoldGiveAPicture) {
+  constexpr double kMax = std::numeric_limits<double>::max();
+  EXPECT_EQ(picture_of({{{-kMax, -kMax, 0}, {kMax, -kMax, 0}, {0, kMax, 0}}}), Picture(8, "########"));
+  EXPECT_EQ(picture_of({{{0.5, -kMax, 0}, {0.5, kMax, 0}, {-kMax, 0, 0}}}), Picture(8, "#####..."));
+}
+
+TEST(CoverageNearest, DepthsWhoseDifferenceADoubleCannotHoldAreInterpolated) {
+  // Along the left edge, x = -3.5, depth goes from -1.5e308 at y = -3.5 to 1.5e308 at y = 3.5.
+  const std::vector<Span> spans =
+      spans_of({{{-3.5, -3.5, -1.5e308}, {-3.5, 3.5, 1.5e308}, {3.5, -3.5, -1.5e308}}}, kEightByEight);
+  ASSERT_EQ(spans.size(), 8u);
+  for (const Span& span : spans) EXPECT_NEAR(span.depth(0) / 1.5e308, 1 - span.row / 3.5, 1e-15);
+}
+
+TEST(CoverageNearest, ATinyWorldLooksLikeALargeOne) {
+  // A power of two takes nothing from any number, only the range does.
+  const Triangle t = {{{-3, -3, 0.1}, {3, -2, 0.2}, {0.3, 3, 0.7}}};
+  const std::vector<Span> expected = spans_of(t, kEightByEight);
+  for (const double scale : {0x1p-600, 0x1p600}) {
+    Triangle scaled = t;
+    for (Vec3& p : scaled) p = {p.x * scale, p.y * scale, p.z};
+    const std::vector<Span> spans = spans_of(scaled, {8, 8, -4 * scale, -4 * scale, -1, 1});
+    ASSERT_EQ(spans.size(), expected.size());
+    for (std::size_t k = 0; k < spans.size(); ++k) {
+      EXPECT_EQ(spans[k].first_column, expected[k].first_column);
+      EXPECT_EQ(spans[k].last_column, expected[k].last_column);
+      EXPECT_EQ(spans[k].depth(spans[k].first_column), expected[k].depth(expected[k].first_column));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace pipeline

@@ -1,0 +1,166 @@
+#include "libpipeline/image_file.h"
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "libpipeline/raster.h"
+#include "tests/temporary_folder.h"
+#include "tests/text_input.h"
+
+namespace pipeline {
+namespace {
+
+using namespace std::string_literals;
+
+void write_image(int descriptor, ImageFormat format, const Raster<Color>& image) {
+  ImageWriter writer(descriptor, "image", format, image.columns(), image.rows());
+  for (int row = 0; row < image.rows(); ++row) writer.write_row(image.row(row));
+  writer.finish();
+}
+
+std::string bytes_in_file(ImageFormat format, const Raster<Color>& image, int more_flags = 0) {
+  const TemporaryFolder folder;
+  const int descriptor = ::open(folder.path("image").c_str(), O_WRONLY | O_CREAT | more_flags, 0600);
+  write_image(descriptor, format, image);
+  ::close(descriptor);
+  return folder.read("image");
+}
+
+std::string bytes_in_pipe(ImageFormat format, const Raster<Color>& image) {
+  int ends[2];
+  if (::pipe(ends) != 0) return "no pipe";
+  std::string bytes;
+  std::thread reader([&] {
+    char block[4096];
+    for (ssize_t count; (count = ::read(ends[0], block, sizeof block)) > 0;)
+      bytes.append(block, static_cast<std::size_t>(count));
+  });
+  write_image(ends[1], format, image);
+  ::close(ends[1]);
+  reader.join();
+  ::close(ends[0]);
+  return bytes;
+}
+
+/// Two rows of three: red, green, blue over black, white, 1-2-3.
+Raster<Color> small_image() {
+  Raster<Color> image(2, 3, Color());
+  image.row(0)[0] = {255, 0, 0};
+  image.row(0)[1] = {0, 255, 0};
+  image.row(0)[2] = {0, 0, 255};
+  image.row(1)[1] = {255, 255, 255};
+  image.row(1)[2] = {1, 2, 3};
+  return image;
+}
+
+/// Larger than the blocks an image is written in.
+Raster<Color> large_image() {
+  Raster<Color> image(1201, 999, Color());
+  for (int row = 0; row < image.rows(); ++row)
+    for (int column = 0; column < image.columns(); ++column)
+      image.row(row)[static_cast<std::size_t>(column)] =
+          Color::from_rgb(static_cast<std::uint32_t>(row * 4099 + column));
+  return image;
+}
+
+TEST(ImageFile, BmpHasItsTwoHeadersAndRowsFromTheBottom) {
+  EXPECT_EQ(bytes_in_file(ImageFormat::bmp, small_image()),
+            "BM\x4e\0\0\0\0\0\0\0\x36\0\0\0"s                      // 54 + 2 * 12 bytes, pixels at 54
+            "\x28\0\0\0\3\0\0\0\2\0\0\0\1\0\x18\0"s                // 40 bytes, 3 x 2, 1 plane, 24 bits
+            "\0\0\0\0\x18\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0"s  // not compressed, 24 bytes of pixels
+            "\0\0\0\xff\xff\xff\3\2\1\0\0\0"s                      // blue, green, red; filled up to 12 bytes
+            "\0\0\xff\0\xff\0\xff\0\0\0\0\0"s);
+}
+
+TEST(ImageFile, PpmHasATextHeaderAndRowsFromTheTop) {
+  EXPECT_EQ(bytes_in_file(ImageFormat::ppm, small_image()),
+            "P6\n3 2\n255\n\xff\0\0\0\xff\0\0\0\xff\0\0\0\xff\xff\xff\1\2\3"s);
+}
+
+TEST(ImageFile, APixelAloneIsAnImage) {
+  EXPECT_EQ(bytes_in_file(ImageFormat::ppm, Raster<Color>(1, 1, {7, 8, 9})), "P6\n1 1\n255\n\7\10\11");
+  EXPECT_EQ(bytes_in_file(ImageFormat::bmp, Raster<Color>(1, 1, {7, 8, 9})).substr(54), "\11\10\7\0"s);
+}
+
+TEST(ImageFile, EveryPixelOfALargeBmpIsInItsPlace) {
+  const Raster<Color> image = large_image();
+  const std::string bytes = bytes_in_file(ImageFormat::bmp, image);
+  ASSERT_EQ(bytes.size(), 54u + 1201 * 3000);
+  for (int row = 0; row < 1201; ++row)
+    for (int column = 0; column < 999; ++column) {
+      const std::size_t at =
+          54 + static_cast<std::size_t>(1200 - row) * 3000 + 3 * static_cast<std::size_t>(column);
+      const std::uint32_t rgb = static_cast<std::uint32_t>(row * 4099 + column);
+      ASSERT_EQ(bytes[at], static_cast<char>(rgb));
+      ASSERT_EQ(bytes[at + 1], static_cast<char>(rgb >> 8));
+      ASSERT_EQ(bytes[at + 2], static_cast<char>(rgb >> 16));
+    }
+}
+
+TEST(ImageFile, EveryPixelOfALargePpmIsInItsPlace) {
+  const std::string bytes = bytes_in_file(ImageFormat::ppm, large_image());
+  const std::string header = "P6\n999 1201\n255\n";
+  ASSERT_EQ(bytes.size(), header.size() + 3599397);  // 3 * 999 * 1201
+  for (std::size_t i = 0; i < 1199799; ++i) {
+    const auto rgb = static_cast<std::uint32_t>(i / 999 * 4099 + i % 999);
+    ASSERT_EQ(bytes[header.size() + 3 * i], static_cast<char>(rgb >> 16));
+    ASSERT_EQ(bytes[header.size() + 3 * i + 2], static_cast<char>(rgb));
+  }
+}
+
+TEST(ImageFile, WhereThereIsNoSeekingTheBytesAreTheSame) {
+  const Raster<Color> image = large_image();
+  const std::string bmp = bytes_in_file(ImageFormat::bmp, image);
+  EXPECT_TRUE(bytes_in_pipe(ImageFormat::bmp, image) == bmp);
+  EXPECT_TRUE(bytes_in_pipe(ImageFormat::ppm, image) == bytes_in_file(ImageFormat::ppm, image));
+  EXPECT_TRUE(bytes_in_file(ImageFormat::bmp, image, O_APPEND) == bmp);
+}
+
+TEST(ImageFile, AFullDiskIsAnError) {
+  const int full = ::open("/dev/full", O_WRONLY);
+  if (full < 0) GTEST_SKIP() << "no /dev/full here";
+  for (const ImageFormat format : {ImageFormat::bmp, ImageFormat::ppm})
+    EXPECT_EQ(message_of([&] { write_image(full, format, small_image()); }),
+              "cannot write image: No space left on device");
+  ::close(full);
+}
+
+TEST(ImageFile, TheExtensionChoosesTheFormat) {
+  EXPECT_EQ(image_format_of("out.bmp"), ImageFormat::bmp);
+  EXPECT_EQ(image_format_of("some.folder/OUT.BMP"), ImageFormat::bmp);
+  EXPECT_EQ(image_format_of("out.bmp.Ppm"), ImageFormat::ppm);
+}
+
+TEST(ImageFile, ADeviceGetsPpm) {
+  EXPECT_EQ(image_format_of("/dev/null"), ImageFormat::ppm);
+  EXPECT_EQ(image_format_of("/dev/stdout"), ImageFormat::ppm);
+}
+
+TEST(ImageFile, AnyOtherExtensionIsAnErrorThatNamesTheKnownOnes) {
+  EXPECT_EQ(message_of([] { image_format_of("out.gif"); }),
+            "out.gif: expected an image file that ends in .bmp or .ppm, found '.gif'");
+  EXPECT_EQ(message_of([] { image_format_of("a.bmp/out"); }),
+            "a.bmp/out: expected an image file that ends in .bmp or .ppm, found a name without extension");
+  EXPECT_EQ(message_of([] { image_format_of(".bmp"); }),
+            ".bmp: expected an image file that ends in .bmp or .ppm, found a name without extension");
+}
+
+TEST(ImageFile, BmpEndsAtFourGiB) {
+  // A row of 65535 pixels has 196608 bytes; 54 + 196608 * 21845 = 4294901814 < 2^32.
+  EXPECT_EQ(message_of([] { check_image_size(ImageFormat::bmp, 65535, 21845, "out.bmp"); }), "no error");
+  EXPECT_EQ(message_of([] { check_image_size(ImageFormat::bmp, 65535, 21846, "out.bmp"); }),
+            "out.bmp: expected an image that fits into the 4 GiB of a .bmp file (a .ppm has no limit), "
+            "found 65535 x 21846 pixels, 4295098422 bytes");
+  EXPECT_EQ(message_of([] { ImageWriter(STDOUT_FILENO, "out.bmp", ImageFormat::bmp, 65535, 65535); }),
+            "out.bmp: expected an image that fits into the 4 GiB of a .bmp file (a .ppm has no limit), "
+            "found 65535 x 65535 pixels, 12884705334 bytes");
+  EXPECT_EQ(message_of([] { check_image_size(ImageFormat::ppm, 65535, 65535, "out.ppm"); }), "no error");
+}
+
+}  // namespace
+}  // namespace pipeline

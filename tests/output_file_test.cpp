@@ -1,0 +1,216 @@
+#include "libpipeline/output_file.h"
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <string>
+
+#include "libpipeline/text_writer.h"
+#include "tests/temporary_folder.h"
+#include "tests/text_input.h"
+
+namespace pipeline {
+namespace {
+
+namespace fs = std::filesystem;
+
+void write_text(const OutputFile& file, const std::string& text) {
+  TextWriter writer(file.descriptor(), "file");
+  writer.append(text);
+  writer.flush();
+}
+
+void write_and_commit(const std::string& path, const std::string& text) {
+  OutputFile file(path);
+  write_text(file, text);
+  file.commit();
+}
+
+mode_t mode_of(const std::string& path) {
+  struct stat status = {};
+  return ::lstat(path.c_str(), &status) == 0 ? status.st_mode & 07777 : 0;
+}
+
+/// Sets the umask for a test.
+class Umask {
+ public:
+  explicit Umask(mode_t mask) : before_(::umask(mask)) {}
+  ~Umask() { ::umask(before_); }
+  Umask(const Umask&) = delete;
+  Umask& operator=(const Umask&) = delete;
+
+ private:
+  mode_t before_;
+};
+
+TEST(OutputFile, AppearsWithItsCommit) {
+  const TemporaryFolder folder;
+  OutputFile file(folder.path("out"));
+  write_text(file, "new");
+  EXPECT_FALSE(fs::exists(folder.path("out")));
+  file.commit();
+  EXPECT_EQ(folder.read("out"), "new");
+  EXPECT_EQ(folder.file_count(), 1u);
+}
+
+TEST(OutputFile, WithoutCommitTheOldFileStaysAndNothingElse) {
+  const TemporaryFolder folder;
+  folder.write("out", "old");
+  {
+    OutputFile file(folder.path("out"));
+    write_text(file, "new");
+    EXPECT_EQ(folder.read("out"), "old");
+  }
+  EXPECT_EQ(folder.read("out"), "old");
+  EXPECT_EQ(folder.file_count(), 1u);
+}
+
+TEST(OutputFile, WithoutCommitThereIsNoFileAlsoAfterClose) {
+  const TemporaryFolder folder;
+  {
+    OutputFile file(folder.path("out"));
+    file.close();
+    EXPECT_EQ(folder.file_count(), 1u);
+  }
+  EXPECT_EQ(folder.file_count(), 0u);
+}
+
+TEST(OutputFile, ReplacesAFileAsAWhole) {
+  const TemporaryFolder folder;
+  folder.write("out", "a much longer text");
+  write_and_commit(folder.path("out"), "short");
+  EXPECT_EQ(folder.read("out"), "short");
+}
+
+TEST(OutputFile, TwoFilesInOneFolderDoNotMeet) {
+  const TemporaryFolder folder;
+  OutputFile a(folder.path("a")), b(folder.path("b"));
+  write_text(a, "text of a");
+  write_text(b, "text of b");
+  a.commit();
+  b.commit();
+  EXPECT_EQ(folder.read("a"), "text of a");
+  EXPECT_EQ(folder.read("b"), "text of b");
+}
+
+TEST(OutputFile, ANameMayBeAsLongAsTheSystemAllows) {
+  const TemporaryFolder folder;
+  write_and_commit(folder.path(std::string(255, 'n')), "text");
+  EXPECT_EQ(folder.read(std::string(255, 'n')), "text");
+}
+
+TEST(OutputFile, ANewFileHasThePermissionsTheUmaskLeaves) {
+  const TemporaryFolder folder;
+  const Umask mask(026);
+  write_and_commit(folder.path("out"), "text");
+  EXPECT_EQ(mode_of(folder.path("out")), 0640u);
+}
+
+TEST(OutputFile, AReplacedFileKeepsItsPermissions) {
+  const TemporaryFolder folder;
+  folder.write("out", "old");
+  const Umask mask(077);
+  ::chmod(folder.path("out").c_str(), 0664);
+  write_and_commit(folder.path("out"), "new");
+  EXPECT_EQ(mode_of(folder.path("out")), 0664u);
+}
+
+TEST(OutputFile, AWriteProtectedFileIsNotReplaced) {
+  if (::geteuid() == 0) GTEST_SKIP() << "nothing is protected from root";
+  const TemporaryFolder folder;
+  folder.write("out", "old");
+  ::chmod(folder.path("out").c_str(), 0444);
+  EXPECT_EQ(message_of([&] { OutputFile file(folder.path("out")); }),
+            "cannot open " + folder.path("out") + ": Permission denied");
+}
+
+TEST(OutputFile, ASymbolicLinkStaysAndItsFileIsReplaced) {
+  const TemporaryFolder folder;
+  fs::create_directory(folder.path("inner"));
+  folder.write("inner/file", "old");
+  fs::create_symlink("inner/other", folder.path("link"));
+  fs::create_symlink("file", folder.path("inner/other"));
+  write_and_commit(folder.path("link"), "new");
+  EXPECT_TRUE(fs::is_symlink(folder.path("link")));
+  EXPECT_TRUE(fs::is_symlink(folder.path("inner/other")));
+  EXPECT_EQ(folder.read("inner/file"), "new");
+}
+
+TEST(OutputFile, ASymbolicLinkToNothingGetsItsFile) {
+  const TemporaryFolder folder;
+  fs::create_symlink(folder.path("file"), folder.path("link"));
+  write_and_commit(folder.path("link"), "new");
+  EXPECT_TRUE(fs::is_symlink(folder.path("link")));
+  EXPECT_EQ(folder.read("file"), "new");
+}
+
+TEST(OutputFile, ALinkToItselfIsAnError) {
+  const TemporaryFolder folder;
+  fs::create_symlink("link", folder.path("link"));
+  EXPECT_EQ(message_of([&] { OutputFile file(folder.path("link")); }),
+            "cannot open " + folder.path("link") + ": Too many levels of symbolic links");
+}
+
+TEST(OutputFile, ADeviceIsWrittenDirectly) {
+  write_and_commit("/dev/null", "text");
+  EXPECT_TRUE(fs::is_character_file("/dev/null"));
+}
+
+TEST(OutputFile, ANamedPipeIsWrittenDirectly) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(::mkfifo(folder.path("fifo").c_str(), 0600), 0);
+  const int reader = ::open(folder.path("fifo").c_str(), O_RDONLY | O_NONBLOCK);
+  char text[8] = {};
+  write_and_commit(folder.path("fifo"), "text");
+  EXPECT_EQ(::read(reader, text, sizeof text), 4);
+  EXPECT_EQ(std::string(text), "text");
+  EXPECT_TRUE(fs::is_fifo(folder.path("fifo")));
+  ::close(reader);
+}
+
+TEST(OutputFile, AnOpenFileOfTheProcessIsWrittenFromWhereItStands) {
+  const TemporaryFolder folder;
+  const int descriptor = ::open(folder.path("out").c_str(), O_WRONLY | O_CREAT, 0600);
+  ASSERT_EQ(::write(descriptor, "first, ", 7), 7);
+  write_and_commit("/dev/fd/" + std::to_string(descriptor), "second, ");
+  ASSERT_EQ(::write(descriptor, "third", 5), 5);
+  ::close(descriptor);
+  EXPECT_EQ(folder.read("out"), "first, second, third");
+}
+
+TEST(OutputFile, AFolderThatIsMissingIsAnError) {
+  EXPECT_EQ(message_of([] { OutputFile file("missing-folder/out.bmp"); }),
+            "cannot open missing-folder/out.bmp: No such file or directory");
+}
+
+TEST(OutputFile, AFolderIsNoFile) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(message_of([&] { OutputFile file(folder.path("")); }),
+            "cannot open " + folder.path("") + ": Is a directory");
+}
+
+TEST(OutputFile, AFolderThatMayNotBeWrittenIsAnError) {
+  if (::geteuid() == 0) GTEST_SKIP() << "nothing is protected from root";
+  const TemporaryFolder folder;
+  fs::create_directory(folder.path("inner"));
+  ::chmod(folder.path("inner").c_str(), 0555);
+  EXPECT_EQ(message_of([&] { OutputFile file(folder.path("inner/out")); }),
+            "cannot open " + folder.path("inner/out") + ": Permission denied");
+}
+
+TEST(OutputFile, APlaceTakenMeanwhileIsAnErrorAndNothingIsLeft) {
+  const TemporaryFolder folder;
+  {
+    OutputFile file(folder.path("out"));
+    fs::create_directory(folder.path("out"));
+    EXPECT_EQ(message_of([&] { file.commit(); }),
+              "cannot replace " + folder.path("out") + ": Is a directory");
+  }
+  EXPECT_EQ(folder.file_count(), 1u);
+}
+
+}  // namespace
+}  // namespace pipeline

@@ -1,0 +1,122 @@
+#include "libpipeline/zbuffer.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+#include <vector>
+
+namespace pipeline {
+namespace {
+
+constexpr Color kRed(255, 0, 0);
+constexpr Color kGreen(0, 255, 0);
+constexpr ScreenConfig kSixByTwo = {6, 2, -1, -1, 0, 2};
+
+/// Columns first to last of a row at the depth z0 + slope * column.
+Span span_at(int row, int first_column, int last_column, double z0, double slope = 0) {
+  return {row, first_column, last_column, {0, 1, 0, z0, slope}};
+}
+
+std::vector<double> depths_of(const ZBuffer& buffer, int row) {
+  std::vector<std::vector<double>> rows;
+  buffer.for_each_row([&](const VisibleRow& r) { rows.emplace_back(r.depths.begin(), r.depths.end()); });
+  return rows.at(static_cast<std::size_t>(row));
+}
+
+std::vector<Color> colors_of(const ZBuffer& buffer, int row) {
+  std::vector<std::vector<Color>> rows;
+  buffer.for_each_row([&](const VisibleRow& r) { rows.emplace_back(r.colors.begin(), r.colors.end()); });
+  return rows.at(static_cast<std::size_t>(row));
+}
+
+TEST(ZBuffer, StartsAtTheRearInTheColorOfTheBackground) {
+  const ZBuffer buffer(kSixByTwo, kGreen);
+  EXPECT_EQ(depths_of(buffer, 1), std::vector<double>(6, 2));
+  EXPECT_EQ(colors_of(buffer, 1), std::vector<Color>(6, kGreen));
+}
+
+TEST(ZBuffer, TheBackgroundIsBlackUnlessSaidOtherwise) {
+  EXPECT_EQ(colors_of(ZBuffer(kSixByTwo), 0), std::vector<Color>(6, Color(0, 0, 0)));
+}
+
+TEST(ZBuffer, DrawsFromTheFirstToTheLastColumn) {
+  ZBuffer buffer(kSixByTwo);
+  buffer.draw(span_at(1, 2, 4, 0.5, 0.25), kRed);
+  EXPECT_EQ(depths_of(buffer, 0), std::vector<double>(6, 2));
+  EXPECT_EQ(depths_of(buffer, 1), (std::vector<double>{2, 2, 1, 1.25, 1.5, 2}));
+  EXPECT_EQ(colors_of(buffer, 1), (std::vector<Color>{{}, {}, kRed, kRed, kRed, {}}));
+}
+
+TEST(ZBuffer, TheNearerTriangleIsSeenWhateverTheOrder) {
+  const Span near_span = span_at(0, 0, 3, 0.5), far_span = span_at(0, 2, 5, 1);
+  ZBuffer near_first(kSixByTwo), far_first(kSixByTwo);
+  near_first.draw(near_span, kRed);
+  near_first.draw(far_span, kGreen);
+  far_first.draw(far_span, kGreen);
+  far_first.draw(near_span, kRed);
+  const std::vector<Color> expected = {kRed, kRed, kRed, kRed, kGreen, kGreen};
+  EXPECT_EQ(colors_of(near_first, 0), expected);
+  EXPECT_EQ(colors_of(far_first, 0), expected);
+  EXPECT_EQ(depths_of(near_first, 0), (std::vector<double>{0.5, 0.5, 0.5, 0.5, 1, 1}));
+}
+
+TEST(ZBuffer, TrianglesThatInterpenetrateSwapWhereTheyMeet) {
+  ZBuffer buffer(kSixByTwo);
+  buffer.draw(span_at(0, 0, 5, 0.5, 0.25), kRed);
+  buffer.draw(span_at(0, 0, 5, 1.625, -0.25), kGreen);
+  EXPECT_EQ(colors_of(buffer, 0), (std::vector<Color>{kRed, kRed, kRed, kGreen, kGreen, kGreen}));
+}
+
+TEST(ZBuffer, AtEqualDepthTheEarlierTriangleStays) {
+  ZBuffer buffer(kSixByTwo);
+  buffer.draw(span_at(0, 0, 5, 0.1, 0.1), kRed);
+  buffer.draw(span_at(0, 0, 5, 0.1, 0.1), kGreen);
+  EXPECT_EQ(colors_of(buffer, 0), std::vector<Color>(6, kRed));
+}
+
+TEST(ZBuffer, TheFrontLimitIsSeenAndTheRearLimitIsNot) {
+  ZBuffer buffer(kSixByTwo);
+  buffer.draw(span_at(0, 0, 5, -0.5, 0.5), kRed);  // -0.5, 0, 0.5, 1, 1.5, 2
+  EXPECT_EQ(colors_of(buffer, 0), (std::vector<Color>{{}, kRed, kRed, kRed, kRed, {}}));
+}
+
+TEST(ZBuffer, WhatIsInFrontOfTheFrontLimitHidesNothing) {
+  ZBuffer buffer(kSixByTwo);
+  buffer.draw(span_at(0, 0, 5, -0.5), kRed);
+  buffer.draw(span_at(0, 0, 5, 1), kGreen);
+  EXPECT_EQ(colors_of(buffer, 0), std::vector<Color>(6, kGreen));
+}
+
+TEST(ZBuffer, InfiniteDepthsAreNotSeen) {
+  ZBuffer buffer(kSixByTwo);
+  buffer.draw(span_at(0, 1, 5, 0, 1e308 * 10), kRed);
+  buffer.draw(span_at(0, 1, 5, 0, -1e308 * 10), kRed);
+  EXPECT_EQ(colors_of(buffer, 0), std::vector<Color>(6));
+}
+
+TEST(ZBuffer, RandomSpansGiveWhatALoopOverPixelsGives) {
+  constexpr ScreenConfig kWide = {37, 1, -1, -1, 0.25, 0.75};
+  std::mt19937_64 random(1);
+  std::uniform_int_distribution<int> column(0, 36), sixteenth(0, 16);
+  ZBuffer buffer(kWide);
+  std::vector<double> depths(37, 0.75);
+  std::vector<Color> colors(37);
+  for (int i = 0; i < 2000; ++i) {
+    const int a = column(random), b = column(random);
+    const Span span =
+        span_at(0, std::min(a, b), std::max(a, b), sixteenth(random) / 16.0, (sixteenth(random) - 8) / 256.0);
+    const Color color = Color::from_rgb(static_cast<std::uint32_t>(i + 1));
+    buffer.draw(span, color);
+    for (int c = span.first_column; c <= span.last_column; ++c) {
+      const double z = span.depth.z0 + c * span.depth.slope;
+      if (z < 0.25 || z >= depths[static_cast<std::size_t>(c)]) continue;
+      depths[static_cast<std::size_t>(c)] = z;
+      colors[static_cast<std::size_t>(c)] = color;
+    }
+    ASSERT_EQ(depths_of(buffer, 0), depths);
+    ASSERT_EQ(colors_of(buffer, 0), colors);
+  }
+}
+
+}  // namespace
+}  // namespace pipeline

@@ -1,0 +1,121 @@
+// zbuf: decides which triangle is seen at each pixel. Normalised device coordinates in, depths and image out.
+
+#include <csignal>
+#include <optional>
+#include <string>
+
+#include "libpipeline/color.h"
+#include "libpipeline/config.h"
+#include "libpipeline/coverage_nearest.h"
+#include "libpipeline/depth_text.h"
+#include "libpipeline/image_file.h"
+#include "libpipeline/output_file.h"
+#include "libpipeline/stage_text.h"
+#include "libpipeline/zbuffer.h"
+#include "tools/command_line.h"
+#include "tools/tool.h"
+
+using namespace pipeline;
+
+namespace {
+
+enum class Coverage { nearest };
+enum class Algorithm { zbuffer };
+
+struct ZbufOptions {
+  std::string config_path;
+  std::string image_path = "out.bmp";
+  std::string z_buffer_path = "-";
+  Coverage coverage = Coverage::nearest;
+  Algorithm algorithm = Algorithm::zbuffer;
+};
+
+void add_options(CLI::App& options, ZbufOptions& chosen) {
+  const auto has_format = [](std::string& path) {
+    try {
+      static_cast<void>(image_format_of(path));
+      return std::string();
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+  };
+  options.add_option("CONFIG", chosen.config_path, "The screen: size and limits (config.txt)")->required();
+  options.add_option("--image", chosen.image_path, "Where the image goes, a .bmp or .ppm file")
+      ->type_name("FILE")
+      ->check(CLI::Validator(has_format, "", ""))
+      ->capture_default_str();
+  options.add_option("--z-buffer", chosen.z_buffer_path, "Where the depths go; - is standard output")
+      ->type_name("FILE")
+      ->capture_default_str();
+  add_choice<Coverage>(options, "--coverage", chosen.coverage, {{"nearest", Coverage::nearest}},
+                       "nearest: from the pixel nearest to the left end to the right end");
+  add_choice<Algorithm>(options, "--algorithm", chosen.algorithm, {{"zbuffer", Algorithm::zbuffer}},
+                        "zbuffer: every pixel keeps the nearest depth so far");
+}
+
+ScreenConfig read_screen(const Tool& tool, const std::string& path) {
+  InputFile file = tool.second_input(path, "CONFIG");
+  return read_config(file.text());
+}
+
+void draw_all(Tool& tool, const ScreenConfig& screen, ZBuffer& visible) {
+  const PixelGrid grid(screen);
+  StageReader reader(tool.input());
+  TriangleColors colors;
+  TriangleBatch p_ndc;
+  while (reader.read(p_ndc)) {
+    tool.timing().triangle_count += p_ndc.size();
+    tool.timing().lap(&Timing::read_seconds);
+    for (std::size_t i = 0; i < p_ndc.size(); ++i) {
+      const Color color = colors.of(p_ndc.numbers[i]);
+      for_each_span(NearestRows(grid, p_ndc.triangles[i]),
+                    [&](const Span& span) { visible.draw(span, color); });
+    }
+    tool.timing().lap(&Timing::work_seconds);
+  }
+}
+
+/// Nothing takes an older file's place before everything is written.
+void write_all(Tool& tool, const ZbufOptions& chosen, const ScreenConfig& screen, const ZBuffer& visible) {
+  OutputFile image(chosen.image_path);
+  ImageWriter pixels(image.descriptor(), chosen.image_path, image_format_of(chosen.image_path),
+                     screen.columns, screen.rows);
+  std::optional<OutputFile> z_buffer;
+  std::optional<TextWriter> z_buffer_text;
+  if (chosen.z_buffer_path != "-") {
+    z_buffer.emplace(chosen.z_buffer_path);
+    z_buffer_text.emplace(z_buffer->descriptor(), chosen.z_buffer_path);
+  }
+  TextWriter& depths = z_buffer_text ? *z_buffer_text : tool.output();
+  visible.for_each_row([&](const VisibleRow& row) {
+    write_depth_row(depths, row.depths, screen.rear);
+    pixels.write_row(row.colors);
+  });
+  depths.flush();
+  pixels.finish();
+  if (z_buffer) z_buffer->close();
+  image.commit();
+  if (z_buffer) z_buffer->commit();
+  tool.timing().lap(&Timing::write_seconds);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Tool tool("zbuf",
+            "Reads triangles in normalised device coordinates and writes the depth of every pixel that "
+            "shows one, and the image.",
+            OutputKind::other_text);
+  ZbufOptions chosen;
+  add_options(tool.options(), chosen);
+  // A closed reader is a failure to write like any other: the image that was begun has to be removed.
+  std::signal(SIGPIPE, SIG_IGN);
+
+  return tool.run(argc, argv, [&] {
+    const ScreenConfig screen = read_screen(tool, chosen.config_path);
+    check_image_size(image_format_of(chosen.image_path), screen.columns, screen.rows, chosen.image_path);
+    ZBuffer visible(screen);
+    draw_all(tool, screen, visible);
+    write_all(tool, chosen, screen, visible);
+  });
+}
