@@ -1,0 +1,178 @@
+#!/usr/bin/env python3
+"""Makefile.samples and scripts/stages, on a copy of the samples.
+
+usage: makefile_samples_test.py BIN_DIR SOURCE_DIR
+"""
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+source = pathlib.Path(sys.argv.pop()).resolve()
+bin_dir = pathlib.Path(sys.argv.pop()).resolve()
+TOOLS = ("model", "view", "project", "zbuf")
+COURSE_FILES = ("stage1.txt", "stage2.txt", "stage3.txt", "z_buffer.txt", "out.bmp")
+NEWER = 10  # seconds: more than any clock's resolution
+
+FAILING_TOOL = """#!/bin/sh
+echo '1 2 3'
+echo 'a failure' >&2
+exit 1
+"""
+
+
+class OnACopy(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.root = pathlib.Path(folder.name)
+        self.bin = self.root / "bin"
+        self.bin.mkdir()
+        for tool in TOOLS:
+            shutil.copy2(bin_dir / tool, self.bin)
+        shutil.copy2(source / "Makefile.samples", self.root)
+        for name in ("nested-transforms", "wide-clipped"):
+            shutil.copytree(source / "samples" / name, self.root / "samples" / name)
+
+    def file(self, sample, name):
+        return self.root / "samples" / sample / name
+
+    def replace(self, tool, text):
+        """Puts a script in the place of a tool."""
+        (self.bin / tool).unlink()
+        (self.bin / tool).write_text(text)
+        (self.bin / tool).chmod(0o755)
+
+
+class MakefileSamples(OnACopy):
+    def make(self, *words):
+        command = ["make", "-f", "Makefile.samples", "BIN=bin", "OUT=out", *words]
+        environment = {name: value for name, value in os.environ.items() if name not in ("MAKEFLAGS", "MFLAGS")}
+        return subprocess.run(command, cwd=self.root, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                              text=True, check=False)
+
+    def make_well(self, *words):
+        done = self.make(*words)
+        self.assertEqual(done.returncode, 0, done.stdout)
+        return done.stdout
+
+    def runs_of_tools(self, *words):
+        """How often each tool was called."""
+        printed = self.make_well(*words)
+        return {tool: printed.count("bin/%s " % tool) for tool in TOOLS}
+
+    def touch(self, path):
+        later = max(file.stat().st_mtime for file in self.root.rglob("*")) + NEWER
+        os.utime(path, (later, later))
+
+    def test_all_samples_come_out_as_committed(self):
+        self.assertIn("10 passed, 0 failed", self.make_well("check"))
+
+    def test_parallel_jobs_do_the_same(self):
+        self.assertEqual(self.runs_of_tools("-j2"), {"model": 4, "view": 4, "project": 2, "zbuf": 2})
+        self.assertIn("10 passed, 0 failed", self.make_well("-j2", "check"))
+
+    def test_nothing_is_remade_when_nothing_changed(self):
+        self.make_well()
+        self.assertEqual(self.runs_of_tools(), {"model": 0, "view": 0, "project": 0, "zbuf": 0})
+
+    def test_a_config_concerns_zbuf_alone(self):
+        self.make_well()
+        self.touch(self.file("wide-clipped", "config.txt"))
+        self.assertEqual(self.runs_of_tools(), {"model": 0, "view": 0, "project": 0, "zbuf": 1})
+
+    def test_a_scene_concerns_every_stage_of_its_sample(self):
+        self.make_well()
+        self.touch(self.file("wide-clipped", "scene.txt"))
+        self.assertEqual(self.runs_of_tools(), {"model": 2, "view": 2, "project": 1, "zbuf": 1})
+
+    def test_a_tool_concerns_its_stage_and_those_after_it(self):
+        self.make_well()
+        self.touch(self.bin / "view")
+        self.assertEqual(self.runs_of_tools(), {"model": 0, "view": 4, "project": 2, "zbuf": 2})
+
+    def test_check_names_the_file_that_differs(self):
+        self.file("wide-clipped", "stage2.txt").write_text("0 0 0\n")
+        done = self.make("check")
+        self.assertNotEqual(done.returncode, 0)
+        self.assertIn("FAIL  samples/wide-clipped/stage2.txt differs from out/wide-clipped/stage2.txt\n", done.stdout)
+        self.assertIn("9 passed, 1 failed\n", done.stdout)
+
+    def test_check_misses_a_file_that_is_not_there(self):
+        self.file("wide-clipped", "out.bmp").unlink()
+        done = self.make("check")
+        self.assertNotEqual(done.returncode, 0)
+        self.assertIn("9 passed, 1 failed\n", done.stdout)
+
+    def test_accept_makes_check_pass(self):
+        self.file("wide-clipped", "stage2.txt").write_text("0 0 0\n")
+        self.make_well("accept")
+        self.assertIn("10 passed, 0 failed", self.make_well("check"))
+
+    def test_a_failing_tool_leaves_no_half_target(self):
+        for tool, targets in (("model", ("stage1.exact", "stage1.txt")), ("view", ("stage2.exact", "stage2.txt")),
+                              ("project", ("stage3.txt",))):
+            with self.subTest(tool=tool):
+                shutil.rmtree(self.root / "out", ignore_errors=True)
+                kept = (self.bin / tool).read_bytes()
+                self.replace(tool, FAILING_TOOL)
+                self.assertNotEqual(self.make("-k").returncode, 0)
+                for target in targets:
+                    self.assertFalse((self.root / "out" / "wide-clipped" / target).exists(), target)
+                (self.bin / tool).write_bytes(kept)
+
+    def test_missing_tools_are_said_to_be_missing(self):
+        (self.bin / "view").unlink()
+        done = self.make()
+        self.assertNotEqual(done.returncode, 0)
+        self.assertIn("bin/view is not there: build the tools", done.stdout)
+
+
+class Stages(OnACopy):
+    def stages(self, *words):
+        return subprocess.run([source / "scripts/stages", *words], cwd=self.root, env=dict(os.environ, BIN="bin"),
+                              stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False)
+
+    def sample_to(self, folder, sample="wide-clipped"):
+        return self.stages(self.file(sample, "scene.txt"), self.file(sample, "config.txt"), folder)
+
+    def assert_holds_the_sample(self, folder):
+        self.assertEqual(sorted(os.listdir(self.root / folder)), sorted(COURSE_FILES))
+        for name in COURSE_FILES:
+            expected = self.file("wide-clipped", name).read_bytes()
+            self.assertTrue((self.root / folder / name).read_bytes() == expected, name)
+
+    def test_leaves_the_five_files_of_the_course(self):
+        done = self.sample_to("new folder/results")
+        self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "", ""))
+        self.assert_holds_the_sample("new folder/results")
+
+    def test_a_failing_stage_stops_it_and_older_results_stay(self):
+        self.sample_to("results")
+        for tool in TOOLS:
+            with self.subTest(tool=tool):
+                kept = (self.bin / tool).read_bytes()
+                self.replace(tool, FAILING_TOOL)
+                done = self.sample_to("results", "nested-transforms")
+                self.assertEqual((done.returncode, done.stderr), (1, "a failure\n"))
+                self.assert_holds_the_sample("results")
+                (self.bin / tool).write_bytes(kept)
+
+    def test_a_bad_scene_is_reported_by_model(self):
+        scene = self.root / "bad.txt"
+        scene.write_text("0 0 0\n0 0 -1\n0 1 0\n60 1 1 10\ntriangel\nend\n")
+        done = self.stages("bad.txt", self.file("wide-clipped", "config.txt"), "results")
+        self.assertEqual(done.returncode, 1)
+        self.assertRegex(done.stderr, r"\Amodel: bad\.txt:5:1: .*\n\Z")
+        self.assertEqual(os.listdir(self.root / "results"), [])
+
+    def test_wrong_usage_is_status_2(self):
+        self.assertEqual(self.stages("scene.txt").returncode, 2)
+        self.assertEqual(self.stages("--help").returncode, 0)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,78 @@
+#!/usr/bin/env python3
+"""A stage can be replaced by something that reads and writes the same text.
+
+usage: swap_stage_test.py BIN_DIR SOURCE_DIR
+"""
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+source = pathlib.Path(sys.argv.pop()).resolve()
+bin_dir = pathlib.Path(sys.argv.pop()).resolve()
+environment = dict(os.environ, LC_ALL="C")
+
+
+def run(*command, stdin=b""):
+    """The command's stdout; the first word is a tool of ours if there is one of that name."""
+    tool = bin_dir / command[0]
+    words = [tool if tool.exists() else command[0], *command[1:]]
+    done = subprocess.run(words, input=stdin, stdout=subprocess.PIPE, env=environment, check=True)
+    return done.stdout
+
+
+def picture(stage3, config):
+    with tempfile.TemporaryDirectory() as folder:
+        image = pathlib.Path(folder, "out.bmp")
+        depth = run("zbuf", config, "--image", image, stdin=stage3)
+        return depth, image.read_bytes()
+
+
+class SwappedStage(unittest.TestCase):
+    def setUp(self):
+        # Its camera looks down -z with y up, which is what view.awk can do.
+        self.sample = source / "samples" / "nested-transforms"
+        self.scene = self.sample / "scene.txt"
+        self.expected = (self.sample / "z_buffer.txt").read_bytes(), (self.sample / "out.bmp").read_bytes()
+
+    def test_three_lines_of_awk_do_for_view(self):
+        stage1 = run("model", "--bare", self.scene)
+        stage2 = run("awk", "-v", "eye=0 0 12", "-f", source / "scripts/view.awk", stdin=stage1)
+        stage3 = run("project", "--scene", self.scene, stdin=stage2)
+        self.assertTrue(picture(stage3, self.sample / "config.txt") == self.expected, "the picture differs")
+
+    def test_the_awk_script_has_three_lines(self):
+        lines = (source / "scripts/view.awk").read_text().splitlines()
+        self.assertEqual(len([line for line in lines if not line.startswith("#")]), 3)
+
+    def test_view_reads_a_bare_stage_1_with_the_camera_of_a_scene(self):
+        bare = (self.sample / "stage1.txt").read_bytes()
+        stage2 = run("view", "--bare", "--scene", self.scene, stdin=bare)
+        self.assert_close(stage2, (self.sample / "stage2.txt").read_bytes())
+
+    def test_project_reads_a_bare_stage_2_with_the_camera_of_a_scene(self):
+        bare = (self.sample / "stage2.txt").read_bytes()
+        stage3 = run("project", "--scene", self.scene, stdin=bare)
+        self.assert_close(stage3, (self.sample / "stage3.txt").read_bytes())
+
+    def test_view_and_project_read_the_camera_from_their_options(self):
+        stage2 = run("view", "--bare", "--eye", "0", "0", "12", "--look", "0", "0", "0", "--up", "0", "1", "0",
+                     self.sample / "stage1.txt")
+        stage3 = run("project", "--perspective", "60", "1", "1", "30", stdin=stage2)
+        self.assert_close(stage3, (self.sample / "stage3.txt").read_bytes())
+
+    def test_zbuf_reads_a_stage_3_from_a_file(self):
+        stage3 = (self.sample / "stage3.txt").read_bytes()
+        self.assertTrue(picture(stage3, self.sample / "config.txt") == self.expected, "the picture differs")
+
+    def assert_close(self, got, want):
+        """The same numbers but for one unit in the seventh decimal: the stage before was rounded."""
+        got, want = ([round(float(word) * 10**7) for word in text.split()] for text in (got, want))
+        self.assertEqual(len(got), len(want))
+        self.assertLessEqual(max(abs(p - q) for p, q in zip(got, want)), 1)
+
+
+if __name__ == "__main__":
+    unittest.main()
