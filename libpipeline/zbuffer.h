@@ -1,7 +1,11 @@
 #pragma once
 
+#include <algorithm>
+#include <vector>
+
 #include "libpipeline/color.h"
 #include "libpipeline/config.h"
+#include "libpipeline/depth_format.h"
 #include "libpipeline/raster.h"
 #include "libpipeline/span.h"
 #include "libpipeline/visible_row.h"
@@ -9,26 +13,38 @@
 namespace pipeline {
 
 /// The visibility algorithm `zbuffer`: every pixel keeps the nearest depth drawn so far and its colour, 12
-/// bytes a pixel. Source: E. Catmull, "A subdivision algorithm for computer display of curved surfaces",
-/// 1974.
+/// bytes a pixel if depths are doubles. `Depth` is a depth format. Source: E. Catmull, "A subdivision algorithm for
+/// computer display of curved surfaces", 1974.
+template <typename Depth = DepthF64>
 class ZBuffer {
  public:
   /// A buffer of the screen's size, every pixel at the rear limit and of the colour `background`.
   explicit ZBuffer(const ScreenConfig& screen, Color background = {});
 
-  /// Draws a span of a triangle of the colour `color`. A pixel is written if its depth is less than the one
-  /// there (of equal depths the first drawn stays) and not less than the front limit.
+  /// Draws a span of a triangle of the colour `color`. A pixel is written if its depth, as it is stored, is less than
+  /// the one there (of equal depths the first drawn stays) and not less than the front limit.
   void draw(const Span& span, Color color);
 
   /// Calls `visit(VisibleRow)` for every row of the screen, from the top.
   template <typename Visitor>
   void for_each_row(Visitor&& visit) const {
-    for (int row = 0; row < depths_.rows(); ++row) visit(VisibleRow{depths_.row(row), colors_.row(row)});
+    std::vector<double> depths(static_cast<std::size_t>(depths_.columns()));
+    for (int row = 0; row < depths_.rows(); ++row) {
+      const auto is_seen = [&](Stored stored) { return stored < rear_; };
+      const auto depth = [&](Stored stored) { return is_seen(stored) ? format_.depth(stored) : rear_limit_; };
+      std::transform(depths_.row(row).begin(), depths_.row(row).end(), depths.begin(), depth);
+      visit(VisibleRow{depths, colors_.row(row)});
+    }
   }
 
  private:
+  using Stored = typename Depth::Stored;
+
+  Depth format_;
   double front_;
-  Raster<double> depths_;
+  double rear_limit_;
+  Stored rear_;
+  Raster<Stored> depths_;
   Raster<Color> colors_;
 };
 

@@ -17,30 +17,30 @@ Span span_at(int row, int first_column, int last_column, double z0, double slope
   return {row, first_column, last_column, {0, 1, 0, z0, slope}};
 }
 
-std::vector<double> depths_of(const ZBuffer& buffer, int row) {
+std::vector<double> depths_of(const ZBuffer<>& buffer, int row) {
   std::vector<std::vector<double>> rows;
   buffer.for_each_row([&](const VisibleRow& r) { rows.emplace_back(r.depths.begin(), r.depths.end()); });
   return rows.at(static_cast<std::size_t>(row));
 }
 
-std::vector<Color> colors_of(const ZBuffer& buffer, int row) {
+std::vector<Color> colors_of(const ZBuffer<>& buffer, int row) {
   std::vector<std::vector<Color>> rows;
   buffer.for_each_row([&](const VisibleRow& r) { rows.emplace_back(r.colors.begin(), r.colors.end()); });
   return rows.at(static_cast<std::size_t>(row));
 }
 
 TEST(ZBuffer, StartsAtTheRearInTheColorOfTheBackground) {
-  const ZBuffer buffer(kSixByTwo, kGreen);
+  const ZBuffer<> buffer(kSixByTwo, kGreen);
   EXPECT_EQ(depths_of(buffer, 1), std::vector<double>(6, 2));
   EXPECT_EQ(colors_of(buffer, 1), std::vector<Color>(6, kGreen));
 }
 
 TEST(ZBuffer, TheBackgroundIsBlackUnlessSaidOtherwise) {
-  EXPECT_EQ(colors_of(ZBuffer(kSixByTwo), 0), std::vector<Color>(6, Color(0, 0, 0)));
+  EXPECT_EQ(colors_of(ZBuffer<>(kSixByTwo), 0), std::vector<Color>(6, Color(0, 0, 0)));
 }
 
 TEST(ZBuffer, DrawsFromTheFirstToTheLastColumn) {
-  ZBuffer buffer(kSixByTwo);
+  ZBuffer<> buffer(kSixByTwo);
   buffer.draw(span_at(1, 2, 4, 0.5, 0.25), kRed);
   EXPECT_EQ(depths_of(buffer, 0), std::vector<double>(6, 2));
   EXPECT_EQ(depths_of(buffer, 1), (std::vector<double>{2, 2, 1, 1.25, 1.5, 2}));
@@ -49,7 +49,7 @@ TEST(ZBuffer, DrawsFromTheFirstToTheLastColumn) {
 
 TEST(ZBuffer, TheNearerTriangleIsSeenWhateverTheOrder) {
   const Span near_span = span_at(0, 0, 3, 0.5), far_span = span_at(0, 2, 5, 1);
-  ZBuffer near_first(kSixByTwo), far_first(kSixByTwo);
+  ZBuffer<> near_first(kSixByTwo), far_first(kSixByTwo);
   near_first.draw(near_span, kRed);
   near_first.draw(far_span, kGreen);
   far_first.draw(far_span, kGreen);
@@ -61,34 +61,34 @@ TEST(ZBuffer, TheNearerTriangleIsSeenWhateverTheOrder) {
 }
 
 TEST(ZBuffer, TrianglesThatInterpenetrateSwapWhereTheyMeet) {
-  ZBuffer buffer(kSixByTwo);
+  ZBuffer<> buffer(kSixByTwo);
   buffer.draw(span_at(0, 0, 5, 0.5, 0.25), kRed);
   buffer.draw(span_at(0, 0, 5, 1.625, -0.25), kGreen);
   EXPECT_EQ(colors_of(buffer, 0), (std::vector<Color>{kRed, kRed, kRed, kGreen, kGreen, kGreen}));
 }
 
 TEST(ZBuffer, AtEqualDepthTheEarlierTriangleStays) {
-  ZBuffer buffer(kSixByTwo);
+  ZBuffer<> buffer(kSixByTwo);
   buffer.draw(span_at(0, 0, 5, 0.1, 0.1), kRed);
   buffer.draw(span_at(0, 0, 5, 0.1, 0.1), kGreen);
   EXPECT_EQ(colors_of(buffer, 0), std::vector<Color>(6, kRed));
 }
 
 TEST(ZBuffer, TheFrontLimitIsSeenAndTheRearLimitIsNot) {
-  ZBuffer buffer(kSixByTwo);
+  ZBuffer<> buffer(kSixByTwo);
   buffer.draw(span_at(0, 0, 5, -0.5, 0.5), kRed);  // -0.5, 0, 0.5, 1, 1.5, 2
   EXPECT_EQ(colors_of(buffer, 0), (std::vector<Color>{{}, kRed, kRed, kRed, kRed, {}}));
 }
 
 TEST(ZBuffer, WhatIsInFrontOfTheFrontLimitHidesNothing) {
-  ZBuffer buffer(kSixByTwo);
+  ZBuffer<> buffer(kSixByTwo);
   buffer.draw(span_at(0, 0, 5, -0.5), kRed);
   buffer.draw(span_at(0, 0, 5, 1), kGreen);
   EXPECT_EQ(colors_of(buffer, 0), std::vector<Color>(6, kGreen));
 }
 
 TEST(ZBuffer, InfiniteDepthsAreNotSeen) {
-  ZBuffer buffer(kSixByTwo);
+  ZBuffer<> buffer(kSixByTwo);
   buffer.draw(span_at(0, 1, 5, 0, 1e308 * 10), kRed);
   buffer.draw(span_at(0, 1, 5, 0, -1e308 * 10), kRed);
   EXPECT_EQ(colors_of(buffer, 0), std::vector<Color>(6));
@@ -98,7 +98,7 @@ TEST(ZBuffer, RandomSpansGiveWhatALoopOverPixelsGives) {
   constexpr ScreenConfig kWide = {37, 1, -1, -1, 0.25, 0.75};
   std::mt19937_64 random(1);
   std::uniform_int_distribution<int> column(0, 36), sixteenth(0, 16);
-  ZBuffer buffer(kWide);
+  ZBuffer<> buffer(kWide);
   std::vector<double> depths(37, 0.75);
   std::vector<Color> colors(37);
   for (int i = 0; i < 2000; ++i) {
@@ -116,6 +116,57 @@ TEST(ZBuffer, RandomSpansGiveWhatALoopOverPixelsGives) {
     ASSERT_EQ(depths_of(buffer, 0), depths);
     ASSERT_EQ(colors_of(buffer, 0), colors);
   }
+}
+
+template <typename Depth>
+std::vector<Color> colors_of_first_row(const ZBuffer<Depth>& buffer) {
+  std::vector<Color> colors;
+  buffer.for_each_row([&](const VisibleRow& r) {
+    if (colors.empty()) colors.assign(r.colors.begin(), r.colors.end());
+  });
+  return colors;
+}
+
+template <typename Depth>
+double depth_of_first_pixel(const ZBuffer<Depth>& buffer) {
+  std::vector<double> depths;
+  buffer.for_each_row([&](const VisibleRow& r) { depths.push_back(r.depths.front()); });
+  return depths.front();
+}
+
+TEST(ZBuffer, DepthsAFormatCannotTellApartAreEqual) {
+  // 2^-18 apart on a scale from 0 to 2: 8 steps of 24 bits, 1/8 of a step of 16 bits.
+  const Span far_span = span_at(0, 0, 5, 1 + 0x1p-18), near_span = span_at(0, 0, 5, 1);
+  ZBuffer<DepthU24> fine(kSixByTwo);
+  fine.draw(far_span, kRed);
+  fine.draw(near_span, kGreen);
+  EXPECT_EQ(colors_of_first_row(fine), std::vector<Color>(6, kGreen));
+  ZBuffer<DepthU16> coarse(kSixByTwo);
+  coarse.draw(far_span, kRed);
+  coarse.draw(near_span, kGreen);
+  EXPECT_EQ(colors_of_first_row(coarse), std::vector<Color>(6, kRed));
+}
+
+TEST(ZBuffer, SixteenBitsRoundToTheNearestOf65535Steps) {
+  ZBuffer<DepthU16> buffer(kSixByTwo);
+  buffer.draw(span_at(0, 0, 0, 0.5), kRed);  // 16383.75 steps of 2/65535: 16384 of them
+  EXPECT_DOUBLE_EQ(depth_of_first_pixel(buffer), 16384 * 2.0 / 65535);
+}
+
+TEST(ZBuffer, AFloatRoundsToTheNearestFloat) {
+  ZBuffer<DepthF32> buffer(kSixByTwo);
+  buffer.draw(span_at(0, 0, 0, 0.1), kRed);
+  EXPECT_EQ(depth_of_first_pixel(buffer), 0x1.99999ap-4);  // 0.100000001490116, the float nearest to 0.1
+}
+
+TEST(ZBuffer, EveryFormatKeepsTheLimits) {
+  ZBuffer<DepthU16> buffer(kSixByTwo);
+  buffer.draw(span_at(0, 0, 0, 0), kRed);
+  EXPECT_EQ(depth_of_first_pixel(buffer), 0);
+  buffer.draw(span_at(0, 1, 1, 2), kRed);
+  EXPECT_EQ(colors_of_first_row(buffer)[1], Color());
+  buffer.draw(span_at(0, 2, 2, -1e300), kRed);
+  EXPECT_EQ(colors_of_first_row(buffer)[2], Color());
 }
 
 }  // namespace

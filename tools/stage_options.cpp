@@ -41,7 +41,7 @@ CoordinateRounder NumberOptions::rounder(const std::string& file) const { return
 
 CameraOptions::CameraOptions(CLI::App& options, Parts parts) {
   const auto add = [&](const std::string& name, int count, const std::string& type, const std::string& help) {
-    options.add_option(name, words_[name], help)->expected(count)->type_name(type);
+    options.add_option(name, words_[name], help)->expected(count)->allow_extra_args(false)->type_name(type);
   };
   if (parts == Parts::position_and_projection) {
     add("--eye", 3, "X Y Z", "Where the camera stands, in world space");

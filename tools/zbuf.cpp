@@ -21,6 +21,7 @@ namespace {
 
 enum class Coverage { nearest };
 enum class Algorithm { zbuffer };
+enum class DepthFormat { f64, f32, u24, u16 };
 
 struct ZbufOptions {
   std::string config_path;
@@ -28,6 +29,7 @@ struct ZbufOptions {
   std::string z_buffer_path = "-";
   Coverage coverage = Coverage::nearest;
   Algorithm algorithm = Algorithm::zbuffer;
+  DepthFormat depth = DepthFormat::f64;
 };
 
 void add_options(CLI::App& options, ZbufOptions& chosen) {
@@ -51,6 +53,12 @@ void add_options(CLI::App& options, ZbufOptions& chosen) {
                        "nearest: from the pixel nearest to the left end to the right end");
   add_choice<Algorithm>(options, "--algorithm", chosen.algorithm, {{"zbuffer", Algorithm::zbuffer}},
                         "zbuffer: every pixel keeps the nearest depth so far");
+  add_choice<DepthFormat>(options, "--depth", chosen.depth,
+                          {{"f64", DepthFormat::f64},
+                           {"f32", DepthFormat::f32},
+                           {"u24", DepthFormat::u24},
+                           {"u16", DepthFormat::u16}},
+                          "How a pixel keeps its depth: as a double, a float, or in steps of 24 or 16 bits");
 }
 
 ScreenConfig read_screen(const Tool& tool, const std::string& path) {
@@ -58,7 +66,8 @@ ScreenConfig read_screen(const Tool& tool, const std::string& path) {
   return read_config(file.text());
 }
 
-void draw_all(Tool& tool, const ScreenConfig& screen, ZBuffer& visible) {
+template <typename Visible>
+void draw_all(Tool& tool, const ScreenConfig& screen, Visible& visible) {
   const PixelGrid grid(screen);
   StageReader reader(tool.input());
   TriangleColors colors;
@@ -76,7 +85,8 @@ void draw_all(Tool& tool, const ScreenConfig& screen, ZBuffer& visible) {
 }
 
 /// Nothing takes an older file's place before everything is written.
-void write_all(Tool& tool, const ZbufOptions& chosen, const ScreenConfig& screen, const ZBuffer& visible) {
+template <typename Visible>
+void write_all(Tool& tool, const ZbufOptions& chosen, const ScreenConfig& screen, const Visible& visible) {
   OutputFile image(chosen.image_path);
   ImageWriter pixels(image.descriptor(), chosen.image_path, image_format_of(chosen.image_path),
                      screen.columns, screen.rows);
@@ -99,6 +109,13 @@ void write_all(Tool& tool, const ZbufOptions& chosen, const ScreenConfig& screen
   tool.timing().lap(&Timing::write_seconds);
 }
 
+template <typename Depth>
+void render(Tool& tool, const ZbufOptions& chosen, const ScreenConfig& screen) {
+  ZBuffer<Depth> visible(screen);
+  draw_all(tool, screen, visible);
+  write_all(tool, chosen, screen, visible);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -114,8 +131,15 @@ int main(int argc, char** argv) {
   return tool.run(argc, argv, [&] {
     const ScreenConfig screen = read_screen(tool, chosen.config_path);
     check_image_size(image_format_of(chosen.image_path), screen.columns, screen.rows, chosen.image_path);
-    ZBuffer visible(screen);
-    draw_all(tool, screen, visible);
-    write_all(tool, chosen, screen, visible);
+    switch (chosen.depth) {
+      case DepthFormat::f64:
+        return render<DepthF64>(tool, chosen, screen);
+      case DepthFormat::f32:
+        return render<DepthF32>(tool, chosen, screen);
+      case DepthFormat::u24:
+        return render<DepthU24>(tool, chosen, screen);
+      case DepthFormat::u16:
+        return render<DepthU16>(tool, chosen, screen);
+    }
   });
 }
