@@ -15,11 +15,14 @@ std::string shortest(double value) {
   return {text, print_number(text, value, 0, {.shortest = true})};
 }
 
-std::string to_text(const Vec3& v) { return shortest(v.x) + " " + shortest(v.y) + " " + shortest(v.z); }
+std::string to_text(const Vec3& v) {
+  return shortest(v.x) + " " + shortest(v.y) + " " + shortest(v.z);
+}
 
 /// Takes the next number; an error at its place unless `holds` is true of it.
 template <typename Condition>
-double checked_number(LineScanner& line, const std::string& name, const std::string& condition, Condition holds) {
+double checked_number(LineScanner& line, const std::string& name, const std::string& condition,
+                      Condition holds) {
   const LineScanner at_number = line;
   const double value = line.number(name);
   if (!holds(value)) at_number.fail(name + " " + condition);
@@ -30,7 +33,8 @@ double number_above_zero(LineScanner& line, const std::string& name) {
   return checked_number(line, name, "above 0", [](double value) { return value > 0; });
 }
 
-double number_other_than(double other, LineScanner& line, const std::string& name, const std::string& other_name) {
+double number_other_than(double other, LineScanner& line, const std::string& name,
+                         const std::string& other_name) {
   return checked_number(line, name, "other than " + other_name, [&](double value) { return value != other; });
 }
 
@@ -66,12 +70,14 @@ Volume read_volume(LineScanner& line) {
 
 template <typename T>
 void expect_first(const std::optional<Placed<T>>& part, const Place& place, const std::string& name) {
-  if (part) throw InputError(place, expected_but_found("one " + name, "a second one after " + to_string(part->place)));
+  if (part)
+    throw InputError(place,
+                     expected_but_found("one " + name, "a second one after " + to_string(part->place)));
 }
 
 /// The part of the camera with that keyword and what messages call it; nothing for other keywords.
 struct PositionPart {
-  std::optional<Placed<Vec3>> CameraText::* part = nullptr;
+  std::optional<Placed<Vec3>> CameraText::*part = nullptr;
   std::string_view name;
 };
 
@@ -91,7 +97,8 @@ Projection read_projection(std::string_view keyword, LineScanner& line) {
   return read_volume<Orthographic>(line);
 }
 
-bool read_camera_part(std::string_view keyword, const Place& keyword_place, LineScanner& line, CameraText& camera) {
+bool read_camera_part(std::string_view keyword, const Place& keyword_place, LineScanner& line,
+                      CameraText& camera) {
   const Place place = line.place();
   if (const auto [part, name] = position_part(keyword); part != nullptr) {
     expect_first(camera.*part, keyword_place, std::string(keyword));
@@ -109,11 +116,12 @@ void check_camera(const CameraText& camera) {
     throw InputError(camera.up->place, expected_but_found("an up direction", "0 0 0"));
   if (!camera.eye || !camera.look) return;
   if (camera.eye->value == camera.look->value)
-    throw InputError(camera.look->place,
-                     expected_but_found("a point other than the eye to look at", to_text(camera.look->value)));
+    throw InputError(camera.look->place, expected_but_found("a point other than the eye to look at",
+                                                            to_text(camera.look->value)));
   if (camera.up && is_parallel_to_view(camera.eye->value, camera.look->value, camera.up->value))
-    throw InputError(camera.up->place, expected_but_found("an up direction that is not parallel to the view direction",
-                                                          to_text(camera.up->value)));
+    throw InputError(camera.up->place,
+                     expected_but_found("an up direction that is not parallel to the view direction",
+                                        to_text(camera.up->value)));
 }
 
 CameraText without_position(const CameraText& camera) {

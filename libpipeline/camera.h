@@ -46,13 +46,15 @@ struct CameraText {
   std::optional<Placed<Projection>> projection;
 };
 
-/// Reads what follows the keyword `perspective`, `frustum` or `ortho`, and checks it: fovY lies in (0, 180) degrees,
-/// aspect > 0, near < far, near > 0 for a perspective, left != right, bottom != top.
+/// Reads what follows the keyword `perspective`, `frustum` or `ortho`, and checks it: fovY lies in (0, 180)
+/// degrees, aspect > 0, near < far, near > 0 for a perspective, left != right, bottom != top.
 Projection read_projection(std::string_view keyword, LineScanner& line);
 
-/// Reads what follows the keyword `eye`, `look`, `up` or one of a projection into that part of the camera, which
-/// must not be there yet (`keyword_place` is where a second one is reported); false if it is another keyword.
-bool read_camera_part(std::string_view keyword, const Place& keyword_place, LineScanner& line, CameraText& camera);
+/// Reads what follows the keyword `eye`, `look`, `up` or one of a projection into that part of the camera,
+/// which must not be there yet (`keyword_place` is where a second one is reported); false if it is another
+/// keyword.
+bool read_camera_part(std::string_view keyword, const Place& keyword_place, LineScanner& line,
+                      CameraText& camera);
 
 /// The projection alone: what is left once the view transform is done.
 CameraText without_position(const CameraText& camera);

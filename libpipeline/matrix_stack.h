@@ -8,8 +8,8 @@
 
 namespace pipeline {
 
-/// The stack of modelling matrices (glPushMatrix, glPopMatrix). A matrix that is saved again and again without
-/// a change in between is kept once and counted, so that repeated pushes cost nothing.
+/// The stack of modelling matrices (glPushMatrix, glPopMatrix). A matrix that is saved again and again
+/// without a change in between is kept once and counted, so that repeated pushes cost nothing.
 class MatrixStack {
  public:
   /// The most saved matrices that differ from their neighbours in the stack.

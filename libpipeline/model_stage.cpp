@@ -66,7 +66,8 @@ void ModelStage::push() {
 
 void ModelStage::pop() {
   if (!stack_.pop())
-    throw InputError(scene_.place(), expected_but_found("a matrix that 'push' has saved", "'pop' without one"));
+    throw InputError(scene_.place(),
+                     expected_but_found("a matrix that 'push' has saved", "'pop' without one"));
   world_from_model_.reset();
 }
 

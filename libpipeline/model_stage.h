@@ -17,9 +17,9 @@ class ModelStage {
  public:
   ModelStage(SceneReader& scene, CoordinateRounder& rounder);
 
-  /// Fills `p_world` with the next triangles, as many as are waiting but at least one; false at the scene's end.
-  /// An InputError if the matrix stack under- or overflows or an image leaves a double's range; triangles before
-  /// a mistake are given out before it is thrown.
+  /// Fills `p_world` with the next triangles, as many as are waiting but at least one; false at the scene's
+  /// end. An InputError if the matrix stack under- or overflows or an image leaves a double's range;
+  /// triangles before a mistake are given out before it is thrown.
   bool read(TriangleBatch& p_world);
 
  private:

@@ -34,7 +34,8 @@ void SceneReader::next_argument_line(std::string_view expected) {
 
 Command SceneReader::next() {
   if (!text_.next_filled_line(line_))
-    throw InputError(text_.end_place(), expected_but_found("'end', which closes a scene", "the end of the input"));
+    throw InputError(text_.end_place(),
+                     expected_but_found("'end', which closes a scene", "the end of the input"));
   place_ = line_.place();
   const std::string_view keyword = line_.peek();
   const auto takes_no_arguments = [&] {

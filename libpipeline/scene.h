@@ -50,8 +50,8 @@ class SceneReader {
   Command next();
   /// The place of the command given out last.
   [[nodiscard]] const Place& place() const { return place_; }
-  /// True if the next command can be had without waiting for the input, whatever it is: none has more than four
-  /// lines.
+  /// True if the next command can be had without waiting for the input, whatever it is: none has more than
+  /// four lines.
   [[nodiscard]] bool has_command_waiting() const { return text_.has_lines_waiting(4); }
 
  private:

@@ -30,7 +30,9 @@ char* TextWriter::reserve(std::size_t size) {
   return buffer_.data() + end_;
 }
 
-void TextWriter::commit(const char* end) { end_ = static_cast<std::size_t>(end - buffer_.data()); }
+void TextWriter::commit(const char* end) {
+  end_ = static_cast<std::size_t>(end - buffer_.data());
+}
 
 void TextWriter::flush() {
   std::size_t begin = 0;

@@ -29,7 +29,8 @@ struct TriangleBatch {
   std::vector<std::uint64_t> numbers;
   std::vector<VertexLines> lines;
   /// Which coordinates were written as plain numbers with at most 7 decimals, so that they are that decimal
-  /// (hi + low part, to 7 decimals) and not only its nearest double: bit 3 * vertex + axis. Empty if not asked for.
+  /// (hi + low part, to 7 decimals) and not only its nearest double: bit 3 * vertex + axis. Empty if not
+  /// asked for.
   std::vector<std::uint16_t> decimal_marks;
 
   [[nodiscard]] std::size_t size() const { return triangles.size(); }

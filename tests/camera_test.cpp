@@ -28,16 +28,22 @@ std::string error_of_projection(const std::string& keyword, const std::string& n
   return message_of([&] { read_projection(keyword, line); });
 }
 
-TEST(Camera, IsFineWhileItHasNoParts) { EXPECT_EQ(error_of({}), "no error"); }
+TEST(Camera, IsFineWhileItHasNoParts) {
+  EXPECT_EQ(error_of({}), "no error");
+}
 
-TEST(Camera, IsFineWithAllItsParts) { EXPECT_EQ(error_of(camera({0, 0, 5}, {}, {0, 1, 0})), "no error"); }
+TEST(Camera, IsFineWithAllItsParts) {
+  EXPECT_EQ(error_of(camera({0, 0, 5}, {}, {0, 1, 0})), "no error");
+}
 
 TEST(Camera, LooksAtAnotherPointThanTheEye) {
   EXPECT_EQ(error_of(camera({0.1, -2, 1e30}, {0.1, -2, 1e30}, {0, 1, 0})),
             "in.txt:2:6: expected a point other than the eye to look at, found 0.1 -2 1e+30");
 }
 
-TEST(Camera, MayLookAtTheNextDouble) { EXPECT_EQ(error_of(camera({1, 0, 0}, {0x1.0000000000001p0, 0, 0}, {0, 1, 0})), "no error"); }
+TEST(Camera, MayLookAtTheNextDouble) {
+  EXPECT_EQ(error_of(camera({1, 0, 0}, {0x1.0000000000001p0, 0, 0}, {0, 1, 0})), "no error");
+}
 
 TEST(Camera, HasAnUpDirectionEvenIfItIsAlone) {
   CameraText alone;
@@ -51,8 +57,9 @@ TEST(Camera, UpIsNotTheViewDirection) {
 }
 
 TEST(Camera, UpIsNotOppositeToTheViewDirection) {
-  EXPECT_EQ(error_of(camera({1, 1, 1}, {3, 5, 7}, {-0.5, -1, -1.5})),
-            "in.txt:3:4: expected an up direction that is not parallel to the view direction, found -0.5 -1 -1.5");
+  EXPECT_EQ(
+      error_of(camera({1, 1, 1}, {3, 5, 7}, {-0.5, -1, -1.5})),
+      "in.txt:3:4: expected an up direction that is not parallel to the view direction, found -0.5 -1 -1.5");
 }
 
 TEST(Camera, UpMayBeAlmostTheViewDirection) {
@@ -60,7 +67,8 @@ TEST(Camera, UpMayBeAlmostTheViewDirection) {
 }
 
 TEST(Camera, NamesAnOptionWithoutALine) {
-  EXPECT_EQ(error_of_projection("perspective", "60 1 0 100"), "--perspective: expected near above 0, found '0'");
+  EXPECT_EQ(error_of_projection("perspective", "60 1 0 100"),
+            "--perspective: expected near above 0, found '0'");
 }
 
 TEST(Camera, AnOptionMayLackNumbers) {
@@ -74,7 +82,9 @@ TEST(Camera, EachPartIsReadOnce) {
   LineScanner first(numbers, file, 3);
   EXPECT_TRUE(read_camera_part("up", {file, 3, 1}, first, camera));
   LineScanner second(numbers, file, 4);
-  EXPECT_EQ(message_of([&] { read_camera_part("up", {file, 4, 1}, second, camera); }),
+  EXPECT_EQ(message_of([&] {
+              read_camera_part("up", {file, 4, 1}, second, camera);
+            }),
             "in.txt:4:1: expected one up, found a second one after in.txt:3:1");
 }
 

@@ -10,7 +10,9 @@
 namespace pipeline {
 namespace {
 
-TEST(Place, NamesFileLineAndColumn) { EXPECT_EQ(to_string({"in.txt", 3, 14}), "in.txt:3:14"); }
+TEST(Place, NamesFileLineAndColumn) {
+  EXPECT_EQ(to_string({"in.txt", 3, 14}), "in.txt:3:14");
+}
 
 TEST(Place, LeavesOutWhatIsNotKnown) {
   EXPECT_EQ(to_string({"in.txt", 3, 0}), "in.txt:3");
@@ -36,10 +38,13 @@ TEST(IoError, NamesWhatFailedTheFileAndTheReason) {
   EXPECT_EQ(error.error_number(), ENOENT);
 }
 
-TEST(Quoted, KeepsPrintableCharacters) { EXPECT_EQ(pipeline::quoted("a 'b' ~"), "'a 'b' ~'"); }
+TEST(Quoted, KeepsPrintableCharacters) {
+  EXPECT_EQ(pipeline::quoted("a 'b' ~"), "'a 'b' ~'");
+}
 
 TEST(Quoted, ShowsOtherBytesInHexadecimal) {
-  EXPECT_EQ(pipeline::quoted(std::string_view("\0\t\x1b\x7f\xc3\xa9", 6)), "'\\x00\\x09\\x1b\\x7f\\xc3\\xa9'");
+  EXPECT_EQ(pipeline::quoted(std::string_view("\0\t\x1b\x7f\xc3\xa9", 6)),
+            "'\\x00\\x09\\x1b\\x7f\\xc3\\xa9'");
 }
 
 TEST(Quoted, CutsWhatIsLongerThanFortyBytes) {
@@ -47,11 +52,17 @@ TEST(Quoted, CutsWhatIsLongerThanFortyBytes) {
   EXPECT_EQ(pipeline::quoted(std::string(41, 'a')), "'" + std::string(40, 'a') + "...'");
 }
 
-TEST(Quoted, NothingIsAPairOfQuotes) { EXPECT_EQ(pipeline::quoted(""), "''"); }
+TEST(Quoted, NothingIsAPairOfQuotes) {
+  EXPECT_EQ(pipeline::quoted(""), "''");
+}
 
-TEST(OnOneLine, ShowsControlCharactersInHexadecimal) { EXPECT_EQ(on_one_line("a\nb\r\x7f"), "a\\x0ab\\x0d\\x7f"); }
+TEST(OnOneLine, ShowsControlCharactersInHexadecimal) {
+  EXPECT_EQ(on_one_line("a\nb\r\x7f"), "a\\x0ab\\x0d\\x7f");
+}
 
-TEST(OnOneLine, KeepsAllOtherBytes) { EXPECT_EQ(on_one_line("#a 'b' \xc3\xa9"), "#a 'b' \xc3\xa9"); }
+TEST(OnOneLine, KeepsAllOtherBytes) {
+  EXPECT_EQ(on_one_line("#a 'b' \xc3\xa9"), "#a 'b' \xc3\xa9");
+}
 
 }  // namespace
 }  // namespace pipeline

@@ -13,7 +13,9 @@ Vec3 image_of_origin(const MatrixStack& stack) {
   return {rows[0][3].nearest_double(), rows[1][3].nearest_double(), rows[2][3].nearest_double()};
 }
 
-TEST(MatrixStack, StartsWithTheIdentity) { EXPECT_EQ(MatrixStack().top(), identity()); }
+TEST(MatrixStack, StartsWithTheIdentity) {
+  EXPECT_EQ(MatrixStack().top(), identity());
+}
 
 TEST(MatrixStack, TheTransformWrittenLastIsAppliedFirst) {
   MatrixStack stack;
@@ -115,7 +117,9 @@ TEST(MatrixStack, RepeatedPushesDoNotCountAgainstTheLimit) {
   for (int i = 0; i < 10; ++i) EXPECT_TRUE(stack.push());
 }
 
-TEST(MatrixStack, TheLimitIsTwoToTheTwentieth) { EXPECT_EQ(MatrixStack().max_saved(), 1048576u); }
+TEST(MatrixStack, TheLimitIsTwoToTheTwentieth) {
+  EXPECT_EQ(MatrixStack().max_saved(), 1048576u);
+}
 
 TEST(MatrixStack, TenMillionPushesAreCounted) {
   MatrixStack stack;

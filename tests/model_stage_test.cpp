@@ -22,7 +22,8 @@ TriangleBatch triangles_from(int descriptor) {
   ModelStage stage(scene, rounder);
   TriangleBatch all;
   for (TriangleBatch batch; stage.read(batch);)
-    for (std::size_t i = 0; i < batch.size(); ++i) all.add(batch.triangles[i], batch.numbers[i], batch.lines[i]);
+    for (std::size_t i = 0; i < batch.size(); ++i)
+      all.add(batch.triangles[i], batch.numbers[i], batch.lines[i]);
   return all;
 }
 
@@ -42,26 +43,34 @@ std::string error_of(const std::string& commands) {
   return message_of([&] { triangles_of(commands); });
 }
 
-TEST(ModelStage, ASceneWithoutTrianglesHasNone) { EXPECT_EQ(triangles_of("push\n").size(), 0u); }
+TEST(ModelStage, ASceneWithoutTrianglesHasNone) {
+  EXPECT_EQ(triangles_of("push\n").size(), 0u);
+}
 
 TEST(ModelStage, WithoutTransformsModelSpaceIsWorldSpace) {
   EXPECT_EQ(first_vertices_of(kTriangle), (std::vector<Vec3>{{1, 2, 3}}));
 }
 
-TEST(ModelStage, Translates) { EXPECT_EQ(first_vertices_of("translate 10 20 30\n" + kTriangle), (std::vector<Vec3>{{11, 22, 33}})); }
+TEST(ModelStage, Translates) {
+  EXPECT_EQ(first_vertices_of("translate 10 20 30\n" + kTriangle), (std::vector<Vec3>{{11, 22, 33}}));
+}
 
-TEST(ModelStage, Scales) { EXPECT_EQ(first_vertices_of("scale 2 -1 0.5\n" + kTriangle), (std::vector<Vec3>{{2, -2, 1.5}})); }
+TEST(ModelStage, Scales) {
+  EXPECT_EQ(first_vertices_of("scale 2 -1 0.5\n" + kTriangle), (std::vector<Vec3>{{2, -2, 1.5}}));
+}
 
 TEST(ModelStage, RotatesCounterClockwise) {
   EXPECT_EQ(first_vertices_of("rotate 90 0 0 1\n" + kTriangle), (std::vector<Vec3>{{-2, 1, 3}}));
 }
 
 TEST(ModelStage, TheTransformWrittenLastIsAppliedFirst) {
-  EXPECT_EQ(first_vertices_of("translate 10 0 0\nscale 2 2 2\n" + kTriangle), (std::vector<Vec3>{{12, 4, 6}}));
+  EXPECT_EQ(first_vertices_of("translate 10 0 0\nscale 2 2 2\n" + kTriangle),
+            (std::vector<Vec3>{{12, 4, 6}}));
 }
 
 TEST(ModelStage, TransformsHoldForEveryTriangleAfterThem) {
-  EXPECT_EQ(first_vertices_of(kTriangle + "translate 1 0 0\n" + kTriangle + kTriangle + "translate 1 0 0\n" + kTriangle),
+  EXPECT_EQ(first_vertices_of(kTriangle + "translate 1 0 0\n" + kTriangle + kTriangle + "translate 1 0 0\n" +
+                              kTriangle),
             (std::vector<Vec3>{{1, 2, 3}, {2, 2, 3}, {2, 2, 3}, {3, 2, 3}}));
 }
 
@@ -70,9 +79,13 @@ TEST(ModelStage, PopRestoresWhatPushSaved) {
             (std::vector<Vec3>{{2, 3, 3}, {2, 2, 3}}));
 }
 
-TEST(ModelStage, APushWithoutPopIsFine) { EXPECT_EQ(first_vertices_of("push\n" + kTriangle), (std::vector<Vec3>{{1, 2, 3}})); }
+TEST(ModelStage, APushWithoutPopIsFine) {
+  EXPECT_EQ(first_vertices_of("push\n" + kTriangle), (std::vector<Vec3>{{1, 2, 3}}));
+}
 
-TEST(ModelStage, AScaleByZeroIsFine) { EXPECT_EQ(first_vertices_of("scale 0 0 -0\n" + kTriangle), (std::vector<Vec3>{{0, 0, 0}})); }
+TEST(ModelStage, AScaleByZeroIsFine) {
+  EXPECT_EQ(first_vertices_of("scale 0 0 -0\n" + kTriangle), (std::vector<Vec3>{{0, 0, 0}}));
+}
 
 TEST(ModelStage, NumbersTrianglesFromZero) {
   EXPECT_EQ(triangles_of(kTriangle + kTriangle).numbers, (std::vector<std::uint64_t>{0, 1}));
@@ -89,7 +102,8 @@ TEST(ModelStage, ReadsMoreTrianglesThanABatchHolds) {
 }
 
 TEST(ModelStage, PopWithoutPushIsAnErrorAtThePop) {
-  EXPECT_EQ(error_of("push\npop\n  pop\n"), "scene.txt:7:3: expected a matrix that 'push' has saved, found 'pop' without one");
+  EXPECT_EQ(error_of("push\npop\n  pop\n"),
+            "scene.txt:7:3: expected a matrix that 'push' has saved, found 'pop' without one");
 }
 
 TEST(ModelStage, AnImageBeyondADoublesRangeIsAnErrorAtTheVertex) {
@@ -117,7 +131,8 @@ TEST(ModelStage, GivesOutTheTrianglesBeforeAMistake) {
 }
 
 TEST(ModelStage, ReadsASceneThatArrivesByteByByte) {
-  const TextInPieces slow(TextInPieces::bytes_of(kCamera + "push\ntranslate 1 0 0\n" + kTriangle + "pop\nend"));
+  const TextInPieces slow(
+      TextInPieces::bytes_of(kCamera + "push\ntranslate 1 0 0\n" + kTriangle + "pop\nend"));
   EXPECT_EQ(triangles_from(slow.descriptor()).triangles.at(0)[0], (Vec3{2, 2, 3}));
 }
 
@@ -133,15 +148,21 @@ std::size_t size_before_silence(const std::string& commands) {
   return batch.size();
 }
 
-TEST(ModelStage, DoesNotWaitBehindATriangle) { EXPECT_EQ(size_before_silence(kTriangle + kTriangle), 2u); }
+TEST(ModelStage, DoesNotWaitBehindATriangle) {
+  EXPECT_EQ(size_before_silence(kTriangle + kTriangle), 2u);
+}
 
 TEST(ModelStage, DoesNotWaitInsideATriangleWithOthersInItsHands) {
   EXPECT_EQ(size_before_silence(kTriangle + "triangle\n1 2 3\n0 0 0\n"), 1u);
 }
 
-TEST(ModelStage, DoesNotWaitBehindBlankLinesAndComments) { EXPECT_EQ(size_before_silence(kTriangle + "\n# c\n\n"), 1u); }
+TEST(ModelStage, DoesNotWaitBehindBlankLinesAndComments) {
+  EXPECT_EQ(size_before_silence(kTriangle + "\n# c\n\n"), 1u);
+}
 
-TEST(ModelStage, DoesNotWaitBehindATransform) { EXPECT_EQ(size_before_silence(kTriangle + "push\ntranslate\n"), 1u); }
+TEST(ModelStage, DoesNotWaitBehindATransform) {
+  EXPECT_EQ(size_before_silence(kTriangle + "push\ntranslate\n"), 1u);
+}
 
 }  // namespace
 }  // namespace pipeline

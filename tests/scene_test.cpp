@@ -36,7 +36,9 @@ std::string error_of(const std::string& scene) {
 }
 
 /// The error of a scene whose commands are `commands`, from line 5.
-std::string error_of_commands(const std::string& commands) { return error_of(kCamera + commands); }
+std::string error_of_commands(const std::string& commands) {
+  return error_of(kCamera + commands);
+}
 
 /// The error of a scene whose first four lines are given.
 std::string error_of_camera(const std::string& eye, const std::string& look, const std::string& up,
@@ -44,7 +46,9 @@ std::string error_of_camera(const std::string& eye, const std::string& look, con
   return error_of(eye + "\n" + look + "\n" + up + "\n" + projection + "\nend\n");
 }
 
-std::string error_of_projection(const std::string& line) { return error_of_camera("0 0 5", "0 0 0", "0 1 0", line); }
+std::string error_of_projection(const std::string& line) {
+  return error_of_camera("0 0 5", "0 0 0", "0 1 0", line);
+}
 
 constexpr Triangle kTriangle = {Vec3{0, 1, 2}, Vec3{3, 4, 5}, Vec3{6, 7, 8}};
 
@@ -63,8 +67,9 @@ TEST(Scene, StartsWithTheCamera) {
 TEST(Scene, TakesAFrustumInPlaceOfThePerspective) {
   const CameraText camera = camera_of("0 0 5\n0 0 0\n0 1 0\nfrustum -1 2 -3 4 5 6\nend\n");
   const auto& frustum = std::get<Frustum>(camera.projection->value);
-  EXPECT_EQ((std::vector{frustum.left, frustum.right, frustum.bottom, frustum.top, frustum.near, frustum.far}),
-            (std::vector<double>{-1, 2, -3, 4, 5, 6}));
+  EXPECT_EQ(
+      (std::vector{frustum.left, frustum.right, frustum.bottom, frustum.top, frustum.near, frustum.far}),
+      (std::vector<double>{-1, 2, -3, 4, 5, 6}));
 }
 
 TEST(Scene, TakesAnOrthographicProjectionInPlaceOfThePerspective) {
@@ -82,7 +87,9 @@ TEST(Scene, RemembersWhereTheCameraStands) {
   EXPECT_EQ(to_string(camera.projection->place), "scene.txt:6:7");
 }
 
-TEST(Scene, MayHoldNothingButItsCamera) { EXPECT_EQ(commands_of(kCamera + "end").size(), 1u); }
+TEST(Scene, MayHoldNothingButItsCamera) {
+  EXPECT_EQ(commands_of(kCamera + "end").size(), 1u);
+}
 
 TEST(Scene, ATriangleIsThreeLinesOfThreeNumbers) {
   const auto commands = commands_of(kCamera + "triangle\n0 1 2\n3 4 5\n6 7 8\nend\n");
@@ -105,8 +112,8 @@ TEST(Scene, BlankLinesAndCommentsMayStandInsideATriangle) {
 
 TEST(Scene, ArgumentsStandOnTheNextLineOrOnTheCommandsOwn) {
   for (const std::string blank : {" ", "\n", "\t", "\r\n", "\n\n# argument\n"}) {
-    const auto commands =
-        commands_of(kCamera + "translate" + blank + "1 2 3\nscale" + blank + "4 5 6\nrotate" + blank + "90 0 0 1\nend");
+    const auto commands = commands_of(kCamera + "translate" + blank + "1 2 3\nscale" + blank +
+                                      "4 5 6\nrotate" + blank + "90 0 0 1\nend");
     EXPECT_EQ(std::get<TranslateCommand>(commands.at(0)).offset, (Vec3{1, 2, 3}));
     EXPECT_EQ(std::get<ScaleCommand>(commands.at(1)).factors, (Vec3{4, 5, 6}));
     EXPECT_EQ(std::get<RotateCommand>(commands.at(2)).angle_degrees, 90);
@@ -130,12 +137,15 @@ TEST(Scene, KnowsThePlaceOfItsCommand) {
 
 TEST(Scene, TakesTabsCarriageReturnsCommentsSignsAndExponents) {
   const auto commands = commands_of(
-      "#scene\r\n0\t0 +5 \t\r\n\r\n0 0 0#look\r\n 0 1e0 0\r\n6.0E+1 1 1 1e2\r\ntriangle\r\n+0 1. 2\r\n3 .4e1 5 # b\r\n"
+      "#scene\r\n0\t0 +5 \t\r\n\r\n0 0 0#look\r\n 0 1e0 0\r\n6.0E+1 1 1 1e2\r\ntriangle\r\n+0 1. 2\r\n3 .4e1 "
+      "5 # b\r\n"
       "\t6\t7\t8\r\nend#");
   EXPECT_EQ(std::get<TriangleCommand>(commands.at(0)).p_model, kTriangle);
 }
 
-TEST(Scene, BlanksAndCommentsMayFollowTheEnd) { EXPECT_EQ(commands_of(kCamera + "end # all\n\n \t\r\n# done").size(), 1u); }
+TEST(Scene, BlanksAndCommentsMayFollowTheEnd) {
+  EXPECT_EQ(commands_of(kCamera + "end # all\n\n \t\r\n# done").size(), 1u);
+}
 
 // What is wrong with the camera.
 
@@ -144,7 +154,8 @@ TEST(Scene, AnEmptyTextLacksAnEye) {
 }
 
 TEST(Scene, ATextOfCommentsLacksAnEye) {
-  EXPECT_EQ(error_of("# nothing\n\n"), "scene.txt:3:1: expected the eye (three numbers), found the end of the input");
+  EXPECT_EQ(error_of("# nothing\n\n"),
+            "scene.txt:3:1: expected the eye (three numbers), found the end of the input");
 }
 
 TEST(Scene, ATextMayEndBeforeEachPartOfTheCamera) {
@@ -153,7 +164,8 @@ TEST(Scene, ATextMayEndBeforeEachPartOfTheCamera) {
   EXPECT_EQ(error_of("0 0 5\n0 0 0\n"),
             "scene.txt:3:1: expected the up direction (three numbers), found the end of the input");
   EXPECT_EQ(error_of("0 0 5\n0 0 0\n0 1 0\n"),
-            "scene.txt:4:1: expected fovY aspect near far (or: ortho L R B T N F, or: frustum L R B T N F), found the "
+            "scene.txt:4:1: expected fovY aspect near far (or: ortho L R B T N F, or: frustum L R B T N F), "
+            "found the "
             "end of the input");
 }
 
@@ -181,7 +193,8 @@ TEST(Scene, NamesTheNumberThatIsWrongInTheProjection) {
   EXPECT_EQ(error_of_projection("60 x 1 100"), "scene.txt:4:4: expected aspect, found 'x'");
   EXPECT_EQ(error_of_projection("60 1 x 100"), "scene.txt:4:6: expected near, found 'x'");
   EXPECT_EQ(error_of_projection("60 1 1"), "scene.txt:4:7: expected far, found the end of the line");
-  EXPECT_EQ(error_of_projection("60 1 1 100 5"), "scene.txt:4:12: expected the end of the line after far, found '5'");
+  EXPECT_EQ(error_of_projection("60 1 1 100 5"),
+            "scene.txt:4:12: expected the end of the line after far, found '5'");
 }
 
 TEST(Scene, NamesTheNumberThatIsWrongInAFrustumOrOrtho) {
@@ -189,7 +202,8 @@ TEST(Scene, NamesTheNumberThatIsWrongInAFrustumOrOrtho) {
   EXPECT_EQ(error_of_projection("frustum -1 x -1 1 1 9"), "scene.txt:4:12: expected right, found 'x'");
   EXPECT_EQ(error_of_projection("ortho -1 1 x 1 1 9"), "scene.txt:4:12: expected bottom, found 'x'");
   EXPECT_EQ(error_of_projection("ortho -1 1 -1 x 1 9"), "scene.txt:4:15: expected top, found 'x'");
-  EXPECT_EQ(error_of_projection("ortho -1 1 -1 1 1"), "scene.txt:4:18: expected far, found the end of the line");
+  EXPECT_EQ(error_of_projection("ortho -1 1 -1 1 1"),
+            "scene.txt:4:18: expected far, found the end of the line");
   EXPECT_EQ(error_of_projection("ortho"), "scene.txt:4:6: expected left, found the end of the line");
 }
 
@@ -201,7 +215,9 @@ TEST(Scene, FovYLiesBetween0And180Degrees) {
   EXPECT_EQ(error_of_projection("5e-324 1 1 100"), "no error");
 }
 
-TEST(Scene, AFovXBeyond180DegreesIsAMatterOfProject) { EXPECT_EQ(error_of_projection("90 3 1 100"), "no error"); }
+TEST(Scene, AFovXBeyond180DegreesIsAMatterOfProject) {
+  EXPECT_EQ(error_of_projection("90 3 1 100"), "no error");
+}
 
 TEST(Scene, AspectIsAboveZero) {
   EXPECT_EQ(error_of_projection("60 0 1 100"), "scene.txt:4:4: expected aspect above 0, found '0'");
@@ -218,13 +234,17 @@ TEST(Scene, NearIsAboveZeroInAPerspective) {
 TEST(Scene, FarLiesBeyondNear) {
   EXPECT_EQ(error_of_projection("60 1 1 1"), "scene.txt:4:8: expected far beyond near, found '1'");
   EXPECT_EQ(error_of_projection("60 1 1.5 1"), "scene.txt:4:10: expected far beyond near, found '1'");
-  EXPECT_EQ(error_of_projection("frustum -1 1 -1 1 9 1"), "scene.txt:4:21: expected far beyond near, found '1'");
-  EXPECT_EQ(error_of_projection("ortho -1 1 -1 1 -5 -6"), "scene.txt:4:20: expected far beyond near, found '-6'");
+  EXPECT_EQ(error_of_projection("frustum -1 1 -1 1 9 1"),
+            "scene.txt:4:21: expected far beyond near, found '1'");
+  EXPECT_EQ(error_of_projection("ortho -1 1 -1 1 -5 -6"),
+            "scene.txt:4:20: expected far beyond near, found '-6'");
 }
 
 TEST(Scene, AWindowHasAWidthAndAHeight) {
-  EXPECT_EQ(error_of_projection("ortho 1 1 -1 1 1 9"), "scene.txt:4:9: expected right other than left, found '1'");
-  EXPECT_EQ(error_of_projection("frustum -1 1 2 2.0 1 9"), "scene.txt:4:16: expected top other than bottom, found '2.0'");
+  EXPECT_EQ(error_of_projection("ortho 1 1 -1 1 1 9"),
+            "scene.txt:4:9: expected right other than left, found '1'");
+  EXPECT_EQ(error_of_projection("frustum -1 1 2 2.0 1 9"),
+            "scene.txt:4:16: expected top other than bottom, found '2.0'");
   EXPECT_EQ(error_of_projection("ortho 1 -1 2 -2 1 9"), "no error");
 }
 
@@ -239,8 +259,9 @@ TEST(Scene, UpIsNotZero) {
 }
 
 TEST(Scene, UpIsNotParallelToTheViewDirection) {
-  EXPECT_EQ(error_of_camera("0 0 5", "0 0 0", "0 0 2", "60 1 1 100"),
-            "scene.txt:3:1: expected an up direction that is not parallel to the view direction, found 0 0 2");
+  EXPECT_EQ(
+      error_of_camera("0 0 5", "0 0 0", "0 0 2", "60 1 1 100"),
+      "scene.txt:3:1: expected an up direction that is not parallel to the view direction, found 0 0 2");
   EXPECT_EQ(error_of_camera("0 0 0", "0.1 0.2 0.3", "-1e-200 -2e-200 -3e-200", "60 1 1 100"), "no error")
       << "decimal tenths are not quite parallel";
   EXPECT_EQ(error_of_camera("0 0 5", "0 0 0", "0 1e-300 2", "60 1 1 100"), "no error");
@@ -255,12 +276,14 @@ TEST(Scene, EndsWithEnd) {
 
 TEST(Scene, NothingFollowsTheEnd) {
   EXPECT_EQ(error_of_commands("end\n\npush\n"), "scene.txt:7:1: expected nothing after 'end', found 'push'");
-  EXPECT_EQ(error_of_commands("end end\n"), "scene.txt:5:5: expected the end of the line after 'end', found 'end'");
+  EXPECT_EQ(error_of_commands("end end\n"),
+            "scene.txt:5:5: expected the end of the line after 'end', found 'end'");
 }
 
 TEST(Scene, NamesACommandItDoesNotKnow) {
   EXPECT_EQ(error_of_commands("  sphere 1\n"),
-            "scene.txt:5:3: expected a command (triangle, translate, scale, rotate, push, pop or end), found 'sphere'");
+            "scene.txt:5:3: expected a command (triangle, translate, scale, rotate, push, pop or end), found "
+            "'sphere'");
 }
 
 TEST(Scene, CommandsAreInLowerCase) {
@@ -270,8 +293,9 @@ TEST(Scene, CommandsAreInLowerCase) {
 }
 
 TEST(Scene, AFourthVertexIsNoCommand) {
-  EXPECT_EQ(error_of_commands("triangle\n0 0 0\n1 0 0\n0 1 0\n1 1 0\nend\n"),
-            "scene.txt:9:1: expected a command (triangle, translate, scale, rotate, push, pop or end), found '1'");
+  EXPECT_EQ(
+      error_of_commands("triangle\n0 0 0\n1 0 0\n0 1 0\n1 1 0\nend\n"),
+      "scene.txt:9:1: expected a command (triangle, translate, scale, rotate, push, pop or end), found '1'");
 }
 
 TEST(Scene, ATriangleLacksAVertex) {
@@ -280,7 +304,8 @@ TEST(Scene, ATriangleLacksAVertex) {
 }
 
 TEST(Scene, ATextMayEndInsideATriangle) {
-  EXPECT_EQ(error_of_commands("triangle"), "scene.txt:6:1: expected vertex 1 of 3, found the end of the input");
+  EXPECT_EQ(error_of_commands("triangle"),
+            "scene.txt:6:1: expected vertex 1 of 3, found the end of the input");
   EXPECT_EQ(error_of_commands("triangle\n0 0 0\n1 0 0\n"),
             "scene.txt:8:1: expected vertex 3 of 3, found the end of the input");
 }
@@ -298,18 +323,24 @@ TEST(Scene, OnlyTheFirstVertexMayStandOnTheTrianglesLine) {
 }
 
 TEST(Scene, ATransformLacksItsArguments) {
-  EXPECT_EQ(error_of_commands("translate\n"), "scene.txt:6:1: expected three distances, found the end of the input");
-  EXPECT_EQ(error_of_commands("scale\n"), "scene.txt:6:1: expected three factors, found the end of the input");
+  EXPECT_EQ(error_of_commands("translate\n"),
+            "scene.txt:6:1: expected three distances, found the end of the input");
+  EXPECT_EQ(error_of_commands("scale\n"),
+            "scene.txt:6:1: expected three factors, found the end of the input");
   EXPECT_EQ(error_of_commands("rotate\n"),
             "scene.txt:6:1: expected an angle and an axis (four numbers), found the end of the input");
-  EXPECT_EQ(error_of_commands("translate\nend\n"), "scene.txt:6:1: expected the x of the translation, found 'end'");
+  EXPECT_EQ(error_of_commands("translate\nend\n"),
+            "scene.txt:6:1: expected the x of the translation, found 'end'");
 }
 
 TEST(Scene, NamesTheNumberThatIsWrongInATransform) {
-  EXPECT_EQ(error_of_commands("translate\n1 2 inf\n"), "scene.txt:6:5: expected the z of the translation, found 'inf'");
+  EXPECT_EQ(error_of_commands("translate\n1 2 inf\n"),
+            "scene.txt:6:5: expected the z of the translation, found 'inf'");
   EXPECT_EQ(error_of_commands("scale 1 2,5 1\n"), "scene.txt:5:9: expected the y of the scale, found '2,5'");
-  EXPECT_EQ(error_of_commands("rotate 0x10 0 0 1\n"), "scene.txt:5:8: expected an angle in degrees, found '0x10'");
-  EXPECT_EQ(error_of_commands("rotate 90 0 1.5abc 1\n"), "scene.txt:5:13: expected the y of the axis, found '1.5abc'");
+  EXPECT_EQ(error_of_commands("rotate 0x10 0 0 1\n"),
+            "scene.txt:5:8: expected an angle in degrees, found '0x10'");
+  EXPECT_EQ(error_of_commands("rotate 90 0 1.5abc 1\n"),
+            "scene.txt:5:13: expected the y of the axis, found '1.5abc'");
 }
 
 TEST(Scene, ANumberBeyondADoublesRangeIsAnError) {
@@ -323,12 +354,15 @@ TEST(Scene, AnglesAndAxisStandOnOneLine) {
 }
 
 TEST(Scene, ARotationAxisIsNotZero) {
-  EXPECT_EQ(error_of_commands("rotate\n 90 0 0 -0.0\nend\n"), "scene.txt:6:5: expected a rotation axis, found 0 0 0");
+  EXPECT_EQ(error_of_commands("rotate\n 90 0 0 -0.0\nend\n"),
+            "scene.txt:6:5: expected a rotation axis, found 0 0 0");
 }
 
 TEST(Scene, PushPopAndEndHaveNoArguments) {
-  EXPECT_EQ(error_of_commands("push 2\n"), "scene.txt:5:6: expected the end of the line after 'push', found '2'");
-  EXPECT_EQ(error_of_commands("pop\t2\n"), "scene.txt:5:5: expected the end of the line after 'pop', found '2'");
+  EXPECT_EQ(error_of_commands("push 2\n"),
+            "scene.txt:5:6: expected the end of the line after 'push', found '2'");
+  EXPECT_EQ(error_of_commands("pop\t2\n"),
+            "scene.txt:5:5: expected the end of the line after 'pop', found '2'");
 }
 
 }  // namespace

@@ -16,7 +16,8 @@
 class TextFile {
  public:
   explicit TextFile(std::string_view text) : descriptor_(::memfd_create("text", MFD_CLOEXEC)) {
-    while (!text.empty()) text.remove_prefix(static_cast<std::size_t>(::write(descriptor_, text.data(), text.size())));
+    while (!text.empty())
+      text.remove_prefix(static_cast<std::size_t>(::write(descriptor_, text.data(), text.size())));
     ::lseek(descriptor_, 0, SEEK_SET);
   }
   ~TextFile() { ::close(descriptor_); }
@@ -39,8 +40,8 @@ class TextFile {
 /// A descriptor that gives out one piece of text a read, as a slow neighbour in a pipe may do.
 class TextInPieces {
  public:
-  /// What a reader meets behind the last piece. `silence` is a neighbour that neither writes nor ends: whoever
-  /// reads on fails after two seconds instead of waiting for ever.
+  /// What a reader meets behind the last piece. `silence` is a neighbour that neither writes nor ends:
+  /// whoever reads on fails after two seconds instead of waiting for ever.
   enum class Then { end, silence };
 
   explicit TextInPieces(std::vector<std::string> pieces, Then then = Then::end) {

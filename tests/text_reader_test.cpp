@@ -22,7 +22,9 @@ Lines lines_from(int descriptor) {
   return lines;
 }
 
-Lines lines_of(const std::string& text) { return lines_from(TextFile(text).descriptor()); }
+Lines lines_of(const std::string& text) {
+  return lines_from(TextFile(text).descriptor());
+}
 
 std::string error_of_reading(const std::string& text) {
   return message_of([&] { lines_of(text); });
@@ -50,29 +52,45 @@ double number_in(const std::string& text) {
   return line.number("a number");
 }
 
-TEST(TextReader, AnEmptyTextHasNoLines) { EXPECT_EQ(lines_of(""), Lines{}); }
+TEST(TextReader, AnEmptyTextHasNoLines) {
+  EXPECT_EQ(lines_of(""), Lines{});
+}
 
-TEST(TextReader, ANewlineAloneIsOneBlankLine) { EXPECT_EQ(lines_of("\n"), Lines{""}); }
+TEST(TextReader, ANewlineAloneIsOneBlankLine) {
+  EXPECT_EQ(lines_of("\n"), Lines{""});
+}
 
-TEST(TextReader, EndsLinesAtNewlines) { EXPECT_EQ(lines_of("a b\n\nc\n"), (Lines{"a b", "", "c"})); }
+TEST(TextReader, EndsLinesAtNewlines) {
+  EXPECT_EQ(lines_of("a b\n\nc\n"), (Lines{"a b", "", "c"}));
+}
 
-TEST(TextReader, TheLastLineNeedsNoNewline) { EXPECT_EQ(lines_of("a\nb"), (Lines{"a", "b"})); }
+TEST(TextReader, TheLastLineNeedsNoNewline) {
+  EXPECT_EQ(lines_of("a\nb"), (Lines{"a", "b"}));
+}
 
-TEST(TextReader, EndsLinesAtCarriageReturnAndNewline) { EXPECT_EQ(lines_of("a\r\n\r\nb\r\n"), (Lines{"a", "", "b"})); }
+TEST(TextReader, EndsLinesAtCarriageReturnAndNewline) {
+  EXPECT_EQ(lines_of("a\r\n\r\nb\r\n"), (Lines{"a", "", "b"}));
+}
 
-TEST(TextReader, TheLastLineMayEndWithACarriageReturn) { EXPECT_EQ(lines_of("a\r\nb\r"), (Lines{"a", "b"})); }
+TEST(TextReader, TheLastLineMayEndWithACarriageReturn) {
+  EXPECT_EQ(lines_of("a\r\nb\r"), (Lines{"a", "b"}));
+}
 
 TEST(TextReader, ACarriageReturnInsideALineIsAPartOfAWord) {
   EXPECT_EQ(error_of_number("1\r2"), "in.txt:1:1: expected the x of the eye, found '1\\x0d2'");
 }
 
-TEST(TextReader, DropsBlanksAroundALine) { EXPECT_EQ(lines_of(" \ta \t b\t \n \t \n"), (Lines{"a \t b", ""})); }
+TEST(TextReader, DropsBlanksAroundALine) {
+  EXPECT_EQ(lines_of(" \ta \t b\t \n \t \n"), (Lines{"a \t b", ""}));
+}
 
 TEST(TextReader, LeavesOutComments) {
   EXPECT_EQ(lines_of("a # b\n# c\n#\nd#e # f"), (Lines{"a", "", "", "d"}));
 }
 
-TEST(TextReader, ACommentDoesNotHideTheNextLine) { EXPECT_EQ(lines_of("# a\r\nb"), (Lines{"", "b"})); }
+TEST(TextReader, ACommentDoesNotHideTheNextLine) {
+  EXPECT_EQ(lines_of("# a\r\nb"), (Lines{"", "b"}));
+}
 
 TEST(TextReader, KnowsACommentFromABlankLine) {
   const TextFile file("# only this\n\n a # and more\n");
@@ -82,27 +100,40 @@ TEST(TextReader, KnowsACommentFromABlankLine) {
   EXPECT_EQ(comments, (std::vector<bool>{true, false, false}));
 }
 
-TEST(TextReader, SkipsAByteOrderMarkAtTheStart) { EXPECT_EQ(lines_of("\xEF\xBB\xBF 1\n"), Lines{"1"}); }
+TEST(TextReader, SkipsAByteOrderMarkAtTheStart) {
+  EXPECT_EQ(lines_of("\xEF\xBB\xBF 1\n"), Lines{"1"});
+}
 
 TEST(TextReader, CountsColumnsAfterAByteOrderMark) {
   EXPECT_EQ(error_of_number("\xEF\xBB\xBFx"), "in.txt:1:1: expected the x of the eye, found 'x'");
 }
 
-TEST(TextReader, AByteOrderMarkAloneIsABlankLine) { EXPECT_EQ(lines_of("\xEF\xBB\xBF"), Lines{""}); }
+TEST(TextReader, AByteOrderMarkAloneIsABlankLine) {
+  EXPECT_EQ(lines_of("\xEF\xBB\xBF"), Lines{""});
+}
 
 TEST(TextReader, AByteOrderMarkElsewhereIsAPartOfAWord) {
-  EXPECT_EQ(lines_of("a\n\xEF\xBB\xBF" "b"), (Lines{"a", "\xEF\xBB\xBF" "b"}));
+  EXPECT_EQ(lines_of("a\n\xEF\xBB\xBF"
+                     "b"),
+            (Lines{"a",
+                   "\xEF\xBB\xBF"
+                   "b"}));
 }
 
 TEST(TextReader, HalfAByteOrderMarkIsAPartOfAWord) {
-  EXPECT_EQ(error_of_number("\xEF\xBB" "1"), "in.txt:1:1: expected the x of the eye, found '\\xef\\xbb1'");
+  EXPECT_EQ(error_of_number("\xEF\xBB"
+                            "1"),
+            "in.txt:1:1: expected the x of the eye, found '\\xef\\xbb1'");
 }
 
 TEST(TextReader, ANulByteIsAPartOfAWord) {
-  EXPECT_EQ(error_of_number(std::string("1\0 2", 4)), "in.txt:1:1: expected the x of the eye, found '1\\x00'");
+  EXPECT_EQ(error_of_number(std::string("1\0 2", 4)),
+            "in.txt:1:1: expected the x of the eye, found '1\\x00'");
 }
 
-TEST(TextReader, ANulByteAloneIsNotABlankLine) { EXPECT_EQ(lines_of(std::string("\0\n", 2)), Lines{std::string(1, '\0')}); }
+TEST(TextReader, ANulByteAloneIsNotABlankLine) {
+  EXPECT_EQ(lines_of(std::string("\0\n", 2)), Lines{std::string(1, '\0')});
+}
 
 TEST(TextReader, ReadsLinesAcrossBlocks) {
   // A block is 65536 bytes: the line ends, a carriage return or a word lie on its border in turn.
@@ -167,7 +198,8 @@ TEST(TextReader, FilledLinesPassOverBlankLinesAndComments) {
 TEST(TextReader, TheEndIsThePlaceAfterTheLastLine) {
   const TextFile file("a\nb\n");
   TextReader reader(file.descriptor(), "in.txt");
-  for (LineScanner line; reader.next_line(line);) {}
+  for (LineScanner line; reader.next_line(line);) {
+  }
   EXPECT_EQ(to_string(reader.end_place()), "in.txt:3:1");
 }
 
@@ -180,7 +212,8 @@ TEST(TextReader, TheEndOfAnEmptyTextIsItsStart) {
 TEST(TextReader, CountsTheBytesItHasRead) {
   const TextFile file("ab\r\n# c\n");
   TextReader reader(file.descriptor(), "in.txt");
-  for (LineScanner line; reader.next_line(line);) {}
+  for (LineScanner line; reader.next_line(line);) {
+  }
   EXPECT_EQ(reader.bytes_read(), 8u);
 }
 
@@ -264,7 +297,8 @@ TEST(LineScanner, NamesThePlaceOfABadNumber) {
 }
 
 TEST(LineScanner, WhatOnlyLooksLikeANumberIsAnError) {
-  for (const std::string word : {"nan", "inf", "-inf", "0x10", "1.5abc", "1e", "--1", "+-1", ".", "+", "1_000"})
+  for (const std::string word :
+       {"nan", "inf", "-inf", "0x10", "1.5abc", "1e", "--1", "+-1", ".", "+", "1_000"})
     EXPECT_EQ(error_of_number(word), "in.txt:1:1: expected the x of the eye, found '" + word + "'");
 }
 
@@ -289,8 +323,9 @@ TEST(LineScanner, CountsAreWholeNumbersWithoutASign) {
 }
 
 TEST(LineScanner, NamesWhatStandsTooMuchOnALine) {
-  EXPECT_EQ(error_in("1 2 3", [](LineScanner& line) { line.word(), line.expect_end("the x of ", "the eye"); }),
-            "in.txt:1:3: expected the end of the line after the x of the eye, found '2'");
+  EXPECT_EQ(
+      error_in("1 2 3", [](LineScanner& line) { line.word(), line.expect_end("the x of ", "the eye"); }),
+      "in.txt:1:3: expected the end of the line after the x of the eye, found '2'");
 }
 
 }  // namespace

@@ -165,7 +165,7 @@ TEST(TextWriter, GoesOnAfterShortAndInterruptedWrites) {
   ::setitimer(ITIMER_REAL, &often, nullptr);
   ::pthread_sigmask(SIG_UNBLOCK, &alarm_only, nullptr);
 
-  const std::string text = []{
+  const std::string text = [] {
     std::string numbers;
     for (int i = 0; i < 40000; ++i) numbers += std::to_string(i) + "\n";
     return numbers;

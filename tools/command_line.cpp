@@ -8,7 +8,9 @@
 namespace pipeline {
 namespace {
 
-bool is_flag(const CLI::Option& option) { return option.get_expected_max() == 0; }
+bool is_flag(const CLI::Option& option) {
+  return option.get_expected_max() == 0;
+}
 
 class HelpForm : public CLI::Formatter {
  public:
@@ -77,7 +79,8 @@ std::string explained(const CLI::App& options, const CLI::ParseError& error) {
   if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr)
     return option->get_name() + ": " + explained_count(*option);
   if (is_flag(*option) && !option->results().empty())
-    return option->get_name() + ": " + expected_but_found("no value", pipeline::quoted(option->results().back()));
+    return option->get_name() + ": " +
+           expected_but_found("no value", pipeline::quoted(option->results().back()));
   return error.what();
 }
 

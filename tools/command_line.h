@@ -38,8 +38,8 @@ void add_choice(CLI::App& options, const std::string& name, T& chosen,
 /// Options and operands with their defaults, at the end of --help how the tools go together.
 void set_help_form(CLI::App& options);
 
-/// The command line as CLI11 takes it, last word first. A word like "-.5" becomes "-0.5": only a digit behind the
-/// minus tells CLI11 that it is a number and no option.
+/// The command line as CLI11 takes it, last word first. A word like "-.5" becomes "-0.5": only a digit behind
+/// the minus tells CLI11 that it is a number and no option.
 std::vector<std::string> words_for_parsing(int argc, char** argv);
 
 /// What is wrong with the command line: "option: expected ..., found ...".

@@ -16,7 +16,8 @@ int main(int argc, char** argv) {
   bool bare = false;
   bool framed = false;
   tool.options().add_flag("--bare", bare, "Write the triangles alone (stage1.txt)");
-  tool.options().add_flag("--framed", framed, "Write 'framed' and 'end' around the text, so that a cut is noticed");
+  tool.options().add_flag("--framed", framed,
+                          "Write 'framed' and 'end' around the text, so that a cut is noticed");
 
   return tool.run(argc, argv, [&] {
     if (bare && framed) throw UsageError(expected_but_found("--bare or --framed", "both"));

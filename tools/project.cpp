@@ -18,9 +18,9 @@ struct ProjectOptions {
 };
 
 void add_options(CLI::App& options, ProjectOptions& chosen) {
-  add_choice<AspectRule>(options, "--aspect", chosen.aspect,
-                         {{"angle", AspectRule::angle}, {"ratio", AspectRule::ratio}},
-                         "angle: fovX = fovY * aspect; ratio: tan(fovX/2) = tan(fovY/2) * aspect, as gluPerspective");
+  add_choice<AspectRule>(
+      options, "--aspect", chosen.aspect, {{"angle", AspectRule::angle}, {"ratio", AspectRule::ratio}},
+      "angle: fovX = fovY * aspect; ratio: tan(fovX/2) = tan(fovY/2) * aspect, as gluPerspective");
   add_choice<ClipMode>(options, "--clip", chosen.clip,
                        {{"auto", ClipMode::automatic},
                         {"near", ClipMode::near},
@@ -38,8 +38,10 @@ void add_options(CLI::App& options, ProjectOptions& chosen) {
 
 const Placed<Projection>& projection_of(const CameraText& camera, const Place& header_end) {
   if (!camera.projection)
-    throw InputError(header_end, expected_but_found("a projection (a header line perspective, frustum or ortho; or "
-                                                    "--scene; or --perspective, --frustum or --ortho)", "none"));
+    throw InputError(header_end,
+                     expected_but_found("a projection (a header line perspective, frustum or ortho; or "
+                                        "--scene; or --perspective, --frustum or --ortho)",
+                                        "none"));
   return *camera.projection;
 }
 
@@ -51,7 +53,8 @@ std::string to_text(const ProjectionCounts& counts) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  Tool tool("project", "Reads triangles in view space and writes them in normalised device coordinates (stage3.txt).",
+  Tool tool("project",
+            "Reads triangles in view space and writes them in normalised device coordinates (stage3.txt).",
             OutputKind::stage_text);
   NumberOptions numbers(tool.options());
   CameraOptions cameras(tool.options(), CameraOptions::Parts::projection);

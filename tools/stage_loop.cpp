@@ -5,14 +5,11 @@
 namespace pipeline {
 namespace {
 
-/// Fewer significant digits than this in a stage's largest coordinate are worth a note.
-constexpr double kFewestUnits = 1000;
-
 void note_lost_digits(const Tool& tool, const StageWriter& writer, const CoordinateRounder& rounder) {
   if (rounder.first_uncertain_line() > 0)
     tool.note(to_string({rounder.file(), rounder.first_uncertain_line()}) +
               ": numbers cancel here beyond 31 digits; the last digits of this vertex are not certain");
-  if (writer.largest_coordinate() > 0 && writer.largest_coordinate_in_units() < kFewestUnits)
+  if (!writer.keeps_four_digits())
     tool.note("the largest coordinate keeps fewer than 4 significant digits; use --digits exact");
 }
 

@@ -19,10 +19,13 @@ NumberOptions::NumberOptions(CLI::App& options) {
   const auto check = [](std::string& text) {
     std::size_t count = 0;
     const bool is_fine = text == "exact" || (parse_count(text, count) && count <= kMaxDecimals);
-    return is_fine ? std::string()
-                   : expected_but_found("a number of decimals from 0 to 17, or exact", pipeline::quoted(text));
+    return is_fine
+               ? std::string()
+               : expected_but_found("a number of decimals from 0 to 17, or exact", pipeline::quoted(text));
   };
-  options.add_option("--digits", digits_, "Decimals of a coordinate, or exact: as many as read back to the same double")
+  options
+      .add_option("--digits", digits_,
+                  "Decimals of a coordinate, or exact: as many as read back to the same double")
       ->type_name("N|exact")
       ->check(CLI::Validator(check, "", ""))
       ->capture_default_str();
@@ -37,7 +40,9 @@ NumberFormat NumberOptions::format() const {
   return {.decimals = static_cast<int>(decimals)};
 }
 
-CoordinateRounder NumberOptions::rounder(const std::string& file) const { return {precision_, format(), file}; }
+CoordinateRounder NumberOptions::rounder(const std::string& file) const {
+  return {precision_, format(), file};
+}
 
 CameraOptions::CameraOptions(CLI::App& options, Parts parts) {
   const auto add = [&](const std::string& name, int count, const std::string& type, const std::string& help) {
@@ -52,7 +57,8 @@ CameraOptions::CameraOptions(CLI::App& options, Parts parts) {
   add("--perspective", 4, "FOVY ASPECT NEAR FAR", "The projection, as in a scene (degrees)");
   add("--frustum", 6, planes, "The projection as glFrustum takes it");
   add("--ortho", 6, planes, "A parallel projection as glOrtho takes it");
-  options.add_option("--scene", scene_path_, "Take the camera from the first lines of this scene")->type_name("FILE");
+  options.add_option("--scene", scene_path_, "Take the camera from the first lines of this scene")
+      ->type_name("FILE");
 }
 
 CameraText CameraOptions::camera(const CameraText& header, const Tool& tool) const {

@@ -38,7 +38,8 @@ class CameraOptions {
   [[nodiscard]] CameraText camera(const CameraText& header, const Tool& tool) const;
 
  private:
-  std::map<std::string, std::vector<std::string>> words_;  // by option name, as they stand on the command line
+  std::map<std::string, std::vector<std::string>>
+      words_;  // by option name, as they stand on the command line
   std::string scene_path_;
 };
 

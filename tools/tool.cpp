@@ -22,32 +22,39 @@ int open_for_reading(const std::string& path) {
   return descriptor;
 }
 
-void print_on_stderr(const std::string& line) { std::fprintf(stderr, "%s\n", on_one_line(line).c_str()); }
+void print_on_stderr(const std::string& line) {
+  std::fprintf(stderr, "%s\n", on_one_line(line).c_str());
+}
 
-/// Opens what the caller has closed of stdin, stdout and stderr, for the wrong direction: to use it stays an error,
-/// and no file of ours gets its number.
+/// Opens what the caller has closed of stdin, stdout and stderr, for the wrong direction: to use it stays an
+/// error, and no file of ours gets its number.
 void open_closed_descriptors() {
   for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
-    if (::fcntl(descriptor, F_GETFD) < 0) ::open("/dev/null", descriptor == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+    if (::fcntl(descriptor, F_GETFD) < 0)
+      ::open("/dev/null", descriptor == STDIN_FILENO ? O_WRONLY : O_RDONLY);
 }
 
 }  // namespace
 
 InputFile::InputFile(const std::string& path)
-    : descriptor_(open_for_reading(path)), text_(std::in_place, descriptor_, path == "-" ? "<stdin>" : path) {}
+    : descriptor_(open_for_reading(path)),
+      text_(std::in_place, descriptor_, path == "-" ? "<stdin>" : path) {}
 
 InputFile::~InputFile() {
   if (descriptor_ != STDIN_FILENO) ::close(descriptor_);
 }
 
-void Timing::lap(double Timing::* phase) {
+void Timing::lap(double Timing::*phase) {
   const auto now = std::chrono::steady_clock::now();
   this->*phase += std::chrono::duration<double>(now - last_).count();
   last_ = now;
 }
 
 Tool::Tool(const std::string& name, const std::string& description, OutputKind output_kind)
-    : name_(name), output_kind_(output_kind), options_(description, name), output_(STDOUT_FILENO, "<stdout>") {
+    : name_(name),
+      output_kind_(output_kind),
+      options_(description, name),
+      output_(STDOUT_FILENO, "<stdout>") {
   open_closed_descriptors();
   set_help_form(options_);
   options_.set_version_flag("--version", name + " (pipeline) " + kVersion);
@@ -120,13 +127,17 @@ void Tool::close_output() {
   timing_.lap(&Timing::write_seconds);
 }
 
-void Tool::note(const std::string& message) const { print_on_stderr(name_ + ": note: " + message); }
+void Tool::note(const std::string& message) const {
+  print_on_stderr(name_ + ": note: " + message);
+}
 
 int Tool::fail_misuse(const std::string& message) {
   return fail(message + " (try " + name_ + " --help)", kExitMisuse);
 }
 
-int Tool::fail(const std::string& message, int status) { return fail(message, name_ + ": " + message, status); }
+int Tool::fail(const std::string& message, int status) {
+  return fail(message, name_ + ": " + message, status);
+}
 
 /// Says on stderr what is wrong, and to the next stage the `reason`.
 int Tool::fail(const std::string& message, const std::string& reason, int status) {
@@ -147,11 +158,12 @@ void Tool::report_timing() {
   const double seconds = timing_.read_seconds + timing_.work_seconds + timing_.write_seconds;
   const double read_mb = static_cast<double>(input().bytes_read()) / 1e6;
   const double written_mb = static_cast<double>(output_.bytes_written()) / 1e6;
-  std::snprintf(line, sizeof line,
-                "%s: %llu triangles in %.3f s (read %.3f, work %.3f, write %.3f), %.1f MB in, %.1f MB out, %.0f MB/s",
-                name_.c_str(), static_cast<unsigned long long>(timing_.triangle_count), seconds,
-                timing_.read_seconds, timing_.work_seconds, timing_.write_seconds, read_mb, written_mb,
-                seconds > 0 ? read_mb / seconds : 0.0);
+  std::snprintf(
+      line, sizeof line,
+      "%s: %llu triangles in %.3f s (read %.3f, work %.3f, write %.3f), %.1f MB in, %.1f MB out, %.0f MB/s",
+      name_.c_str(), static_cast<unsigned long long>(timing_.triangle_count), seconds, timing_.read_seconds,
+      timing_.work_seconds, timing_.write_seconds, read_mb, written_mb,
+      seconds > 0 ? read_mb / seconds : 0.0);
   print_on_stderr(line + (timing_.details.empty() ? "" : "; " + timing_.details));
 }
 

@@ -48,7 +48,7 @@ struct Timing {
   std::string details;  // what one tool alone has to tell
 
   /// Adds the time since the last call (or the start) to `phase`, one of the three above.
-  void lap(double Timing::* phase);
+  void lap(double Timing::*phase);
 
  private:
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
@@ -71,7 +71,8 @@ class Tool {
 
   /// The input: the last operand, else standard input; opened at the first call.
   TextReader& input();
-  /// Opens a text that is read besides the input; a UsageError, which calls it `name`, if both are standard input.
+  /// Opens a text that is read besides the input; a UsageError, which calls it `name`, if both are standard
+  /// input.
   [[nodiscard]] InputFile second_input(const std::string& path, const std::string& name) const;
   /// Standard output.
   TextWriter& output() { return output_; }

@@ -19,8 +19,10 @@ ViewTransform view_of(const CameraText& camera, const Place& header_end) {
   if (!camera.look) missing.emplace_back("look");
   if (!camera.up) missing.emplace_back("up");
   if (!missing.empty())
-    throw InputError(header_end, expected_but_found("a camera (header lines eye, look and up; or --scene; or --eye, "
-                                                    "--look and --up)", "no " + listed(missing)));
+    throw InputError(header_end,
+                     expected_but_found("a camera (header lines eye, look and up; or --scene; or --eye, "
+                                        "--look and --up)",
+                                        "no " + listed(missing)));
   return view_from_world(camera.eye->value, camera.look->value, camera.up->value);
 }
 

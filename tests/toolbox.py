@@ -1,0 +1,93 @@
+"""What the end-to-end tests share: running the real tools and looking at all they leave behind.
+
+A test script is called with the folder of the binaries, then unittest's own arguments.
+"""
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+BIN = pathlib.Path(sys.argv.pop(1)).resolve() if len(sys.argv) > 1 else sys.exit(__doc__)
+SOURCE = pathlib.Path(__file__).resolve().parent.parent
+TOOLS = ("model", "view", "project", "zbuf")
+
+# Lines 1 to 4 of a scene; its commands start on line 5.
+CAMERA = "0 0 5\n0 0 0\n0 1 0\n60 1 1 100\n"
+TRIANGLE = "triangle\n0 0 0\n1 0 0\n0 1 0\n"
+SCENE = CAMERA + TRIANGLE + "end\n"
+HEADER = "eye 0 0 5\nlook 0 0 0\nup 0 1 0\nperspective 60 1 1 100\n"
+CONFIG = "8 8\n"
+
+
+def command(tool, *options):
+    return [str(BIN / tool), *map(str, options)]
+
+
+def run(tool, *options, stdin="", **settings):
+    """The finished run: returncode, stdout and stderr (bytes)."""
+    data = stdin.encode() if isinstance(stdin, str) else stdin
+    channel = {} if "stdin" in settings else {"input": data}
+    settings.setdefault("stdout", subprocess.PIPE)
+    return subprocess.run(command(tool, *options), stderr=subprocess.PIPE, timeout=60, **channel, **settings)
+
+
+def run_with(channels, tool, *options, **settings):
+    """The same, but the shell redirects its channels ("<&-", ">&-")."""
+    words = ["sh", "-c", 'exec "$0" "$@" ' + channels, *command(tool, *options)]
+    return subprocess.run(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=60, **settings)
+
+
+def pipe(*stages, stdin=SCENE, **settings):
+    """The stdout of a pipe of tools, each a list of words; every stage has to succeed."""
+    data = stdin.encode() if isinstance(stdin, str) else stdin
+    for tool, *options in stages:
+        done = run(tool, *options, stdin=data, **settings)
+        if done.returncode != 0:
+            raise AssertionError(f"{tool}: exit {done.returncode}: {done.stderr.decode()}")
+        data = done.stdout
+    return data
+
+
+def stage_texts(scene=SCENE, *model_options):
+    """What model, view and project write for a scene."""
+    stage1 = pipe(["model", *model_options], stdin=scene)
+    stage2 = pipe(["view"], stdin=stage1)
+    return stage1, stage2, pipe(["project"], stdin=stage2)
+
+
+class ToolTest(unittest.TestCase):
+    """A test with a folder of its own as the current one."""
+
+    maxDiff = None
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.addCleanup(os.chdir, os.getcwd())
+        os.chdir(folder.name)
+        pathlib.Path("config.txt").write_text(CONFIG)
+        pathlib.Path("scene.txt").write_text(SCENE)
+
+    def assert_fails(self, done, status, message):
+        """One line on stderr, the whole of it, and the exit status."""
+        self.assertEqual((done.stderr.decode(), done.returncode), (message + "\n", status))
+
+    def assert_quiet_success(self, done):
+        self.assertEqual((done.stderr.decode(), done.returncode), ("", 0))
+
+    def files(self):
+        return sorted(os.listdir("."))
+
+
+def add_claims(case, rows):
+    """One test for each row (claim, arguments of `case.check`...)."""
+    for claim, *row in rows:
+        def test(self, row=tuple(row)):
+            self.check(*row)
+        name = "test_" + re.sub(r"\W+", "_", claim.strip())
+        if hasattr(case, name):
+            raise ValueError(f"two claims of the same name: {claim}")
+        setattr(case, name, test)

@@ -1,0 +1,22 @@
+# The real binaries, end to end; Python 3 with its standard library drives them. Verbose, so that what is skipped
+# says why.
+function(tools_test name script)
+  add_test(NAME Tools.${name}
+    COMMAND Python3::Interpreter ${PROJECT_SOURCE_DIR}/tests/${script}.py $<TARGET_FILE_DIR:model> --verbose ${ARGN})
+  # The source folder stays free of Python's caches.
+  set_tests_properties(Tools.${name} PROPERTIES ENVIRONMENT PYTHONDONTWRITEBYTECODE=1 TIMEOUT 300)
+endfunction()
+
+tools_test(SayWhatIsWrong tools_messages_test)
+tools_test(FailTogether tools_failures_test)
+tools_test(DoWhatTheirOptionsSay tools_options_test)
+tools_test(PassTrianglesOnAtOnce tools_streaming_test Streaming Pieces)
+tools_test(SurviveFaults tools_faults_test)
+tools_test(PrintNumbers tools_fuzz_test)
+
+# A sanitizer's own memory says nothing about the tools'.
+if(NOT CMAKE_CXX_FLAGS MATCHES "-fsanitize")
+  tools_test(NeedConstantMemory tools_streaming_test Memory)
+  tools_test(NeedConstantMemoryLong tools_streaming_test LongMemory)
+  set_tests_properties(Tools.NeedConstantMemoryLong PROPERTIES LABELS long TIMEOUT 3600)
+endif()

@@ -1,0 +1,194 @@
+#!/usr/bin/env python3
+"""A failure in one stage reaches the end of the pipe: no picture is written of a text that is not whole.
+
+usage: tools_failures_test.py BIN_DIR [UNITTEST ARGUMENT...]
+"""
+import pathlib
+import subprocess
+import unittest
+
+from toolbox import BIN, CAMERA, HEADER, SCENE, TRIANGLE, ToolTest, run, stage_texts
+
+WHY = "model: <stdin>:9:1: expected 'end', which closes a scene, found the end of the input"
+OLD_IMAGE = b"an older image\x00\xff"
+
+
+def shell(text, **settings):
+    """Runs a line of shell in which the tools are found by their names."""
+    environment = {"PATH": f"{BIN}:/usr/bin:/bin"}
+    return subprocess.run(["sh", "-c", text], stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=60,
+                          env=environment, **settings)
+
+
+class ErrorLines(ToolTest):
+    def test_model_ends_its_output_with_one(self):
+        done = run("model", stdin=CAMERA + TRIANGLE)
+        self.assertEqual(done.stdout.decode(), HEADER + "0.0000000 0.0000000 0.0000000\n1.0000000 0.0000000 0.0000000\n"
+                         f"0.0000000 1.0000000 0.0000000\n\nerror {WHY}\n")
+
+    def test_it_is_written_also_when_nothing_else_was(self):
+        for tool, text in (("model", ""), ("view", "x"), ("project", "x")):
+            done = run(tool, stdin=text)
+            self.assertEqual(done.stdout.decode(), "error " + done.stderr.decode())
+            self.assertEqual(done.returncode, 1)
+
+    def test_misuse_writes_one_as_well(self):
+        for tool in ("model", "view", "project"):
+            done = run(tool, "--bogus")
+            self.assertEqual(done.stdout.decode(), "error " + done.stderr.decode())
+            self.assertEqual(done.returncode, 2)
+
+    def test_a_missing_input_writes_one_as_well(self):
+        for tool in ("model", "view", "project"):
+            self.assertEqual(run(tool, "none.txt").stdout.decode(),
+                             f"error {tool}: cannot open none.txt: No such file or directory\n")
+
+    def test_zbuf_writes_none_for_its_output_is_no_stage_text(self):
+        self.assertEqual(run("zbuf", "config.txt", stdin="x").stdout, b"")
+        self.assertEqual(run("zbuf", "--bogus").stdout, b"")
+
+    def test_what_was_done_before_the_mistake_is_written(self):
+        for tool in ("view", "project"):
+            done = run(tool, stdin=HEADER + "0 0 -2\n1 0 -2\n0 1 -2\n\n0 0 x\n")
+            self.assertEqual(done.stdout.decode().count("\n\n"), 1, done.stdout)
+            self.assertTrue(done.stdout.decode().endswith("\n\nerror " + done.stderr.decode()), done.stdout)
+
+    def test_view_and_project_pass_it_on_unchanged(self):
+        text = HEADER + "0 0 -2\n1 0 -2\n0 1 -2\n\nerror model: a #1 mistake\n"
+        for tool in ("view", "project"):
+            done = run(tool, stdin=text)
+            self.assert_fails(done, 1, f"{tool}: <stdin>:9:1: an earlier stage failed: model: a #1 mistake")
+            self.assertTrue(done.stdout.endswith(b"\n\nerror model: a #1 mistake\n"), done.stdout)
+
+    def test_bare_and_framed_output_ends_with_one_as_well(self):
+        for option in ("--bare", "--framed"):
+            done = run("model", option, stdin=CAMERA + TRIANGLE)
+            self.assertTrue(done.stdout.decode().endswith(f"\n\nerror {WHY}\n"), done.stdout)
+            self.assertNotIn(b"\nend\n", done.stdout)
+
+    def test_nobody_misses_a_camera_where_an_error_line_says_more(self):
+        for tool in ("view", "project"):
+            self.assert_fails(run(tool, stdin="error model: no scene\n"), 1,
+                              f"{tool}: <stdin>:1:1: an earlier stage failed: model: no scene")
+
+
+class WholePipe(ToolTest):
+    def setUp(self):
+        super().setUp()
+        pathlib.Path("out.bmp").write_bytes(OLD_IMAGE)
+
+    def check_no_picture(self, line, *messages):
+        done = shell(line)
+        self.assertEqual(done.returncode, 1)
+        self.assertEqual(done.stdout, b"")
+        self.assertEqual(sorted(done.stderr.decode().splitlines()), sorted(messages))
+        self.assertEqual(pathlib.Path("out.bmp").read_bytes(), OLD_IMAGE)
+        self.assertEqual(self.files(), ["config.txt", "out.bmp", "scene.txt"])
+
+    def test_a_mistake_in_the_scene_leaves_the_old_picture(self):
+        pathlib.Path("scene.txt").write_text(CAMERA + TRIANGLE)
+        why = "model: scene.txt:9:1: expected 'end', which closes a scene, found the end of the input"
+        self.check_no_picture("model scene.txt | view | project | zbuf config.txt", why,
+                              f"view: <stdin>:9:1: an earlier stage failed: {why}",
+                              f"project: <stdin>:6:1: an earlier stage failed: {why}",
+                              f"zbuf: <stdin>:5:1: an earlier stage failed: {why}")
+
+    def test_misuse_of_model_leaves_the_old_picture(self):
+        why = "model: expected an option of model, found '--bogus' (try model --help)"
+        self.check_no_picture("model --bogus | view | project | zbuf config.txt", why,
+                              *(f"{tool}: <stdin>:1:1: an earlier stage failed: {why}" for tool in ("view", "project", "zbuf")))
+
+    def test_misuse_of_view_leaves_the_old_picture(self):
+        why = "view: expected an option of view, found '--bogus' (try view --help)"
+        self.check_no_picture("model scene.txt | view --bogus | project | zbuf config.txt", why,
+                              *(f"{tool}: <stdin>:1:1: an earlier stage failed: {why}" for tool in ("project", "zbuf")))
+
+    def test_misuse_of_project_leaves_the_old_picture(self):
+        why = "project: --clip: expected auto, near, frustum, reject or none, found 'x' (try project --help)"
+        self.check_no_picture("model scene.txt | view | project --clip x | zbuf config.txt", why,
+                              f"zbuf: <stdin>:1:1: an earlier stage failed: {why}")
+
+    def test_a_missing_scene_leaves_the_old_picture(self):
+        why = "model: cannot open none.txt: No such file or directory"
+        self.check_no_picture("model none.txt | view | project | zbuf config.txt", why,
+                              *(f"{tool}: <stdin>:1:1: an earlier stage failed: {why}" for tool in ("view", "project", "zbuf")))
+
+    def test_a_mistake_in_the_config_leaves_the_old_picture(self):
+        pathlib.Path("config.txt").write_text("8 x\n")
+        self.check_no_picture("zbuf config.txt < /dev/null", "zbuf: config.txt:1:3: expected the height in pixels, a "
+                              "whole number from 1 to 65535, found 'x'")
+
+    def test_without_a_mistake_the_picture_is_replaced(self):
+        done = shell("model scene.txt | view | project | zbuf config.txt")
+        self.assert_quiet_success(done)
+        self.assertTrue(pathlib.Path("out.bmp").read_bytes().startswith(b"BM"))
+        self.assertEqual(self.files(), ["config.txt", "out.bmp", "scene.txt"])
+
+
+class FramedText(ToolTest):
+    def setUp(self):
+        super().setUp()
+        self.texts = dict(zip(("view", "project", "zbuf"), stage_texts(SCENE, "--framed")))
+
+    def options(self, tool):
+        return ["config.txt"] if tool == "zbuf" else []
+
+    def test_each_stage_passes_the_frame_on(self):
+        for text in self.texts.values():
+            self.assertTrue(text.startswith(b"framed\n"), text)
+            self.assertTrue(text.endswith(b"\n\nend\n"), text)
+
+    def test_zbuf_draws_what_it_draws_of_plain_text(self):
+        framed = run("zbuf", "config.txt", stdin=self.texts["zbuf"])
+        image = pathlib.Path("out.bmp").read_bytes()
+        plain = run("zbuf", "config.txt", stdin=stage_texts()[2])
+        self.assert_quiet_success(framed)
+        self.assertEqual(framed.stdout, plain.stdout)
+        self.assertEqual(image, pathlib.Path("out.bmp").read_bytes())
+
+    def test_every_prefix_is_refused_by_every_stage(self):
+        for tool, text in self.texts.items():
+            for length in range(1, len(text)):
+                done = run(tool, *self.options(tool), stdin=text[:length])
+                self.assertEqual(done.returncode, 1, f"{tool} takes {text[:length]}")
+                self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
+        self.assertEqual(self.files(), ["config.txt", "scene.txt"])
+
+    def test_a_cut_between_triangles_is_told(self):
+        lines = self.texts["zbuf"].decode().removesuffix("end\n")
+        self.assert_fails(run("zbuf", "config.txt", stdin=lines), 1,
+                          "zbuf: <stdin>:6:1: expected 'end', which closes a framed text, found the end of the input")
+
+    def test_bare_text_of_a_framed_one_has_no_frame(self):
+        done = run("view", "--bare", stdin=self.texts["view"])
+        self.assert_quiet_success(done)
+        self.assertNotIn(b"e", done.stdout)
+
+    def test_a_cut_before_bare_output_is_told(self):
+        done = run("view", "--bare", stdin=self.texts["view"].removesuffix(b"end\n"))
+        self.assertEqual(done.returncode, 1)
+
+    def test_a_picture_is_not_begun_before_the_end_of_the_text(self):
+        pathlib.Path("out.bmp").write_bytes(OLD_IMAGE)
+        run("zbuf", "config.txt", stdin=self.texts["zbuf"].removesuffix(b"end\n"))
+        self.assertEqual(pathlib.Path("out.bmp").read_bytes(), OLD_IMAGE)
+
+
+class UnframedText(ToolTest):
+    def test_it_is_taken_as_it_reads(self):
+        done = run("view", "--bare", stdin=HEADER + "0 0 0\n1 0 0\n0 1 0\n\n0 0 0\n1 0 0\n0 1 12")
+        self.assert_quiet_success(done)
+        self.assertTrue(done.stdout.endswith(b"0.0000000 1.0000000 7.0000000\n\n"), done.stdout)
+
+    def test_a_cut_between_triangles_is_not_noticed(self):
+        self.assert_quiet_success(run("zbuf", "config.txt", stdin=stage_texts()[2] * 2))
+        self.assert_quiet_success(run("zbuf", "config.txt", stdin=b""))
+
+    def test_a_cut_inside_a_triangle_is(self):
+        for tool, options in (("view", []), ("project", []), ("zbuf", ["config.txt"])):
+            done = run(tool, *options, stdin=HEADER + "0 0 -2\n1 0 -2\n")
+            self.assert_fails(done, 1, f"{tool}: <stdin>:7:1: expected vertex 3 of 3, found the end of the input inside a triangle")
+
+
+if __name__ == "__main__":
+    unittest.main()

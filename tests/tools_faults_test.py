@@ -1,0 +1,191 @@
+#!/usr/bin/env python3
+"""Full disks, closed pipes, missing channels: nothing is lost silently, nothing waits for ever, nothing is left behind.
+
+usage: tools_faults_test.py BIN_DIR [UNITTEST ARGUMENT...]
+"""
+import os
+import pathlib
+import signal
+import subprocess
+import time
+import unittest
+
+from toolbox import CAMERA, HEADER, SCENE, TOOLS, TRIANGLE, ToolTest, command, run, run_with, stage_texts
+
+VERTICES = "0 0 -2\n1 0 -2\n0 1 -2\n\n"
+OPERANDS = {"model": [], "view": [], "project": [], "zbuf": ["config.txt"]}
+OLD_IMAGE = b"an older image"
+
+
+def small_and_large_inputs():
+    """(tool, input) with an output below and far above 64 KiB."""
+    for count in (1, 5000):
+        yield "model", CAMERA + TRIANGLE * count + "end\n"
+        yield "view", HEADER + VERTICES * count
+        yield "project", HEADER + VERTICES * count
+    yield "zbuf", "0 0 0\n0.1 0 0\n0 0.1 0\n"
+    yield "zbuf", "-1 -1 0\n1 -1 0\n-1 1 0\n"
+
+
+class FaultTest(ToolTest):
+    def setUp(self):
+        super().setUp()
+        pathlib.Path("config.txt").write_text("200 200\n")  # 20,000 depths: 180 KB of text
+        pathlib.Path("out.bmp").write_bytes(OLD_IMAGE)
+
+    def assert_nothing_happened(self):
+        """The older image is as it was and no temporary file is left."""
+        self.assertEqual(pathlib.Path("out.bmp").read_bytes(), OLD_IMAGE)
+        self.assertEqual([name for name in self.files() if name not in ("config.txt", "scene.txt", "input.txt")], ["out.bmp"])
+
+
+class FullDisk(FaultTest):
+    def test_a_full_stdout_is_a_failure_that_names_the_reason(self):
+        for tool, text in small_and_large_inputs():
+            with self.subTest(tool=tool, size=len(text)), open("/dev/full", "wb") as full:
+                done = run(tool, *OPERANDS[tool], stdin=text, stdout=full)
+                self.assert_fails(done, 1, f"{tool}: cannot write <stdout>: No space left on device")
+        self.assert_nothing_happened()
+
+    def test_a_full_stdout_is_a_failure_also_where_only_a_header_is_written(self):
+        with open("/dev/full", "wb") as full:
+            done = run("model", stdin=CAMERA + "end\n", stdout=full)
+        self.assert_fails(done, 1, "model: cannot write <stdout>: No space left on device")
+
+    def test_help_and_version_are_data_too(self):
+        for tool in TOOLS:
+            for option in ("--help", "--version"):
+                with self.subTest(tool=tool, option=option), open("/dev/full", "wb") as full:
+                    done = run(tool, option, stdout=full)
+                    self.assert_fails(done, 1, f"{tool}: cannot write <stdout>: No space left on device")
+
+    def test_a_mistake_is_still_told_when_its_error_line_finds_no_room(self):
+        with open("/dev/full", "wb") as full:
+            done = run("view", stdin="x\n", stdout=full)
+        self.assert_fails(done, 1, "view: <stdin>:1:1: expected a header line, 'triangle N' or a vertex, found 'x'")
+
+    def test_a_full_file_of_depths_leaves_the_old_image(self):
+        done = run("zbuf", "config.txt", "--z-buffer", "/dev/full", stdin="-1 -1 0\n1 -1 0\n-1 1 0\n")
+        self.assert_fails(done, 1, "zbuf: cannot write /dev/full: No space left on device")
+        self.assert_nothing_happened()
+
+    def test_a_full_image_is_a_failure(self):
+        done = run("zbuf", "config.txt", "--image", "/dev/full", stdin="-1 -1 0\n1 -1 0\n-1 1 0\n")
+        self.assert_fails(done, 1, "zbuf: cannot write /dev/full: No space left on device")
+
+
+class ClosedReader(FaultTest):
+    """Whoever reads the output has gone, as `head` does."""
+
+    def run_without_reader(self, tool, text, ignore):
+        pathlib.Path("input.txt").write_text(text)
+        end, writing = os.pipe()
+        os.close(end)
+        settings = {"preexec_fn": lambda: signal.signal(signal.SIGPIPE, signal.SIG_IGN if ignore else signal.SIG_DFL),
+                    "restore_signals": False}
+        begin = time.monotonic()
+        try:
+            done = run(tool, *OPERANDS[tool], "input.txt", stdout=writing, **settings)
+        finally:
+            os.close(writing)
+        self.assertLess(time.monotonic() - begin, 3)  # a second, and room for a busy machine
+        self.assertEqual(done.stderr, b"")
+        return done.returncode
+
+    def test_it_ends_a_filter_quietly(self):
+        for tool, text in small_and_large_inputs():
+            if tool == "zbuf":
+                continue
+            with self.subTest(tool=tool, size=len(text)):
+                self.assertEqual(self.run_without_reader(tool, text, ignore=False), -signal.SIGPIPE)
+
+    def test_it_is_a_failure_where_the_signal_is_ignored(self):
+        for tool, text in small_and_large_inputs():
+            with self.subTest(tool=tool, size=len(text)):
+                self.assertEqual(self.run_without_reader(tool, text, ignore=True), 1)
+        self.assert_nothing_happened()
+
+    def test_zbuf_removes_the_image_it_has_begun(self):
+        for tool, text in small_and_large_inputs():
+            if tool == "zbuf":
+                self.assertEqual(self.run_without_reader(tool, text, ignore=False), 1)
+        self.assert_nothing_happened()
+
+    def test_it_ends_a_filter_whose_input_never_ends(self):
+        endless = {"model": ("triangle 0 0 0\n1 0 0\n0 1 0\n", CAMERA), "view": (VERTICES, HEADER), "project": (VERTICES, HEADER)}
+        for tool, (repeated, start) in endless.items():
+            pathlib.Path("input.txt").write_text(start + repeated)
+            script = '{ cat input.txt; yes "$1"; } 2>/dev/null | { "$2"; echo $? > status; } 2> errors | head -c 1000'
+            begin = time.monotonic()
+            subprocess.run(["sh", "-c", script, "sh", repeated.rstrip("\n") + ("" if tool == "model" else "\n"), *command(tool)],
+                           stdout=subprocess.DEVNULL, timeout=20)
+            self.assertLess(time.monotonic() - begin, 3)
+            self.assertEqual(pathlib.Path("errors").read_text(), "")
+            self.assertNotEqual(pathlib.Path("status").read_text().strip(), "0")
+
+
+class MissingChannels(FaultTest):
+    def test_a_closed_stdin_is_a_failure(self):
+        for tool in TOOLS:
+            self.assert_fails(run_with("<&-", tool, *OPERANDS[tool]), 1, f"{tool}: cannot read <stdin>: Bad file descriptor")
+        self.assert_nothing_happened()
+
+    def test_a_closed_stdin_does_no_harm_where_it_is_not_read(self):
+        expected = run("model", "scene.txt").stdout
+        done = run_with("<&-", "model", "scene.txt")
+        self.assert_quiet_success(done)
+        self.assertEqual(done.stdout, expected)
+
+    def test_a_folder_as_stdin_is_a_failure(self):
+        for tool in TOOLS:
+            self.assert_fails(run_with("< /", tool, *OPERANDS[tool]), 1, f"{tool}: cannot read <stdin>: Is a directory")
+
+    def test_a_closed_stdout_is_a_failure(self):
+        for tool, text in small_and_large_inputs():
+            with self.subTest(tool=tool, size=len(text)):
+                done = run_with(">&-", tool, *OPERANDS[tool], input=text.encode())
+                self.assert_fails(done, 1, f"{tool}: cannot write <stdout>: Bad file descriptor")
+        self.assert_nothing_happened()
+
+    def test_no_file_takes_the_place_of_a_closed_stdout(self):
+        text = b"-1 -1 0\n1 -1 0\n-1 1 0\n"
+        depths = run("zbuf", "config.txt", stdin=text).stdout
+        image = pathlib.Path("out.bmp").read_bytes()
+        done = run_with(">&-", "zbuf", "config.txt", "--z-buffer", "z.txt", input=text)
+        self.assert_quiet_success(done)
+        self.assertEqual(pathlib.Path("z.txt").read_bytes(), depths)
+        self.assertEqual(pathlib.Path("out.bmp").read_bytes(), image)
+
+    def test_no_file_takes_the_place_of_a_closed_stderr(self):
+        pathlib.Path("config.txt").write_text("8 8\n")
+        expected = run("zbuf", "config.txt", stdin=stage_texts()[2])
+        image = pathlib.Path("out.bmp").read_bytes()
+        done = run_with("2>&-", "zbuf", "config.txt", "--timing", input=stage_texts()[2])
+        self.assertEqual((done.returncode, done.stdout), (0, expected.stdout))
+        self.assertEqual(pathlib.Path("out.bmp").read_bytes(), image)
+
+    def test_a_mistake_has_its_status_without_a_stderr(self):
+        self.assertEqual(run_with("2>&-", "model", input=b"").returncode, 1)
+        self.assertEqual(run_with("2>&-", "model", "--bogus").returncode, 2)
+
+    def test_with_all_channels_closed_it_ends(self):
+        for tool in TOOLS:
+            self.assertEqual(run_with("<&- >&- 2>&-", tool, *OPERANDS[tool]).returncode, 1)
+
+
+class Terminal(ToolTest):
+    def test_a_terminal_shows_a_mistake_once(self):
+        ours, theirs = os.openpty()
+        try:
+            done = run("model", stdin="x\n", stdout=theirs)
+            self.assertEqual(done.returncode, 1)
+            os.set_blocking(ours, False)
+            with self.assertRaises(BlockingIOError):
+                os.read(ours, 100)
+        finally:
+            os.close(ours)
+            os.close(theirs)
+
+
+if __name__ == "__main__":
+    unittest.main()

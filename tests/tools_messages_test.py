@@ -1,0 +1,310 @@
+#!/usr/bin/env python3
+"""Every mistake gets one line on stderr: the tool, the place of the mistake, what was expected and what was found.
+
+usage: tools_messages_test.py BIN_DIR [UNITTEST ARGUMENT...]
+"""
+import pathlib
+import unittest
+
+from toolbox import CAMERA, HEADER, TRIANGLE, ToolTest, add_claims, run
+
+COMMANDS = "a command (triangle, translate, scale, rotate, push, pop or end)"
+VERTICES = "0 0 0\n1 0 0\n0 1 0\n"
+
+
+class SceneMessages(ToolTest):
+    def check(self, scene, message):
+        pathlib.Path("scene.txt").write_bytes(scene.encode("latin-1"))
+        self.assert_fails(run("model", "scene.txt"), 1, "model: scene.txt:" + message)
+
+
+add_claims(SceneMessages, [
+    # The camera.
+    ("an empty scene lacks the eye", "", "1:1: expected the eye (three numbers), found the end of the input"),
+    ("a scene may end before look", "0 0 5\n",
+     "2:1: expected the point looked at (three numbers), found the end of the input"),
+    ("a scene may end before up", "0 0 5\n0 0 0\n",
+     "3:1: expected the up direction (three numbers), found the end of the input"),
+    ("a scene may end before the projection", "0 0 5\n0 0 0\n0 1 0\n",
+     "4:1: expected fovY aspect near far (or: ortho L R B T N F, or: frustum L R B T N F), found the end of the input"),
+    ("commands do not come before the camera", TRIANGLE, "1:1: expected the x of the eye, found 'triangle'"),
+    ("the eye has a z", "0 0\n", "1:4: expected the z of the eye, found the end of the line"),
+    ("the eye has three numbers", "0 0 5 1\n", "1:7: expected the end of the line after the z of the eye, found '1'"),
+    ("nan is no number", "0 nan 5\n", "1:3: expected the y of the eye, found 'nan'"),
+    ("inf is no number", "0 0 -inf\n", "1:5: expected the z of the eye, found '-inf'"),
+    ("hexadecimal is no number", "0x10 0 5\n", "1:1: expected the x of the eye, found '0x10'"),
+    ("a comma is no decimal point", "1,5 0 5\n", "1:1: expected the x of the eye, found '1,5'"),
+    ("letters behind a number are a mistake", "1.5abc 0 5\n", "1:1: expected the x of the eye, found '1.5abc'"),
+    ("a number may be too large", "0 0 1e309\n",
+     "1:5: expected the z of the eye within a double's range, found '1e309'"),
+    ("a NUL byte is no blank", "0\x000 5\n", "1:1: expected the x of the eye, found '0\\x000'"),
+    ("bytes beyond ASCII are shown in hexadecimal", "\xa05 0 5\n", "1:1: expected the x of the eye, found '\\xa05'"),
+    ("long words are cut", "x" * 100 + "\n", "1:1: expected the x of the eye, found '" + "x" * 40 + "...'"),
+    ("a line has an end", "0" * 2000000, "1:1048577: expected the end of the line, found more than 1048576 characters"),
+    ("fovY is above 0", "0 0 5\n0 0 0\n0 1 0\n0 1 1 100\n", "4:1: expected fovY between 0 and 180 degrees, found '0'"),
+    ("fovY is below 180", "0 0 5\n0 0 0\n0 1 0\n180 1 1 100\n",
+     "4:1: expected fovY between 0 and 180 degrees, found '180'"),
+    ("aspect is above 0", "0 0 5\n0 0 0\n0 1 0\n60 0 1 100\n", "4:4: expected aspect above 0, found '0'"),
+    ("near is above 0", "0 0 5\n0 0 0\n0 1 0\n60 1 0 100\n", "4:6: expected near above 0, found '0'"),
+    ("far is beyond near", "0 0 5\n0 0 0\n0 1 0\n60 1 2 2\n", "4:8: expected far beyond near, found '2'"),
+    ("a perspective has a far", "0 0 5\n0 0 0\n0 1 0\n60 1 2\n", "4:7: expected far, found the end of the line"),
+    ("a frustum has a near above 0", "0 0 5\n0 0 0\n0 1 0\nfrustum -1 1 -1 1 -1 9\n",
+     "4:19: expected near above 0, found '-1'"),
+    ("an ortho has a width", "0 0 5\n0 0 0\n0 1 0\northo 1 1 -1 1 -1 9\n",
+     "4:9: expected right other than left, found '1'"),
+    ("an ortho has a height", "0 0 5\n0 0 0\n0 1 0\northo -1 1 1 1 -1 9\n",
+     "4:14: expected top other than bottom, found '1'"),
+    ("an ortho has six numbers", "0 0 5\n0 0 0\n0 1 0\northo -1 1 -1 1 1\n",
+     "4:18: expected far, found the end of the line"),
+    ("up is not zero", "0 0 5\n0 0 0\n0 0 0\n60 1 1 100\n", "3:1: expected an up direction, found 0 0 0"),
+    ("up is not parallel to the view direction", "0 0 5\n0 0 0\n0 0 -3\n60 1 1 100\n",
+     "3:1: expected an up direction that is not parallel to the view direction, found 0 0 -3"),
+    ("the eye is not looked at", "1 2 3\n1 2 3\n0 1 0\n60 1 1 100\n",
+     "2:1: expected a point other than the eye to look at, found 1 2 3"),
+    # The commands.
+    ("a scene ends with end", CAMERA + "push\n", "6:1: expected 'end', which closes a scene, found the end of the input"),
+    ("nothing follows end", CAMERA + "end\n\n# c\n push\n", "8:2: expected nothing after 'end', found 'push'"),
+    ("end has no arguments", CAMERA + "end 1\n", "5:5: expected the end of the line after 'end', found '1'"),
+    ("commands are known", CAMERA + "\tcube 1\n", f"5:2: expected {COMMANDS}, found 'cube'"),
+    ("commands are in lower case", CAMERA + "PUSH\n", f"5:1: expected {COMMANDS}, found 'PUSH'"),
+    ("push has no arguments", CAMERA + "push 1\n", "5:6: expected the end of the line after 'push', found '1'"),
+    ("pop has no arguments", CAMERA + "push\npop pop\n", "6:5: expected the end of the line after 'pop', found 'pop'"),
+    ("pop comes after push", CAMERA + "push\npop\npop\nend\n",
+     "7:1: expected a matrix that 'push' has saved, found 'pop' without one"),
+    ("a triangle has three vertices", CAMERA + "triangle\n0 0 0\n1 0 0\nend\n",
+     "8:1: expected the x of vertex 3 of 3, found 'end'"),
+    ("a triangle has no fourth vertex", CAMERA + TRIANGLE + "1 1 0\nend\n", f"9:1: expected {COMMANDS}, found '1'"),
+    ("a scene may end inside a triangle", CAMERA + "triangle\n0 0 0\n",
+     "7:1: expected vertex 2 of 3, found the end of the input"),
+    ("a vertex has three numbers", CAMERA + "triangle\n0 0 0\n1 0\n0 1 0\n",
+     "7:4: expected the z of vertex 2 of 3, found the end of the line"),
+    ("a vertex has no fourth number", CAMERA + "triangle\n0 0 0 1\n",
+     "6:7: expected the end of the line after the z of vertex 1 of 3, found '1'"),
+    ("vertices stand on lines of their own", CAMERA + "triangle 0 0 0 1 0 0 0 1 0\n",
+     "5:16: expected the end of the line after the z of vertex 1 of 3, found '1'"),
+    ("translate has three numbers", CAMERA + "translate\n1 2\n",
+     "6:4: expected the z of the translation, found the end of the line"),
+    ("translate has arguments", CAMERA + "translate\npush\n", "6:1: expected the x of the translation, found 'push'"),
+    ("scale has three numbers", CAMERA + "scale 2\n", "5:8: expected the y of the scale, found the end of the line"),
+    ("a scene may end before an argument", CAMERA + "scale\n",
+     "6:1: expected three factors, found the end of the input"),
+    ("rotate has an axis", CAMERA + "rotate\n90\n0 0 1\n", "6:3: expected the x of the axis, found the end of the line"),
+    ("rotate has an angle", CAMERA + "rotate\nx 0 0 1\n", "6:1: expected an angle in degrees, found 'x'"),
+    ("a rotation axis is not zero", CAMERA + "rotate\n90 0 0.0 -0\n", "6:4: expected a rotation axis, found 0 0 0"),
+    ("a vertex may leave a doubles range", CAMERA + "scale 1e200 1 1\nscale 1e200 1 1\ntriangle\n0 0 0\n1 0 0\n0 1 0\nend\n",
+     "9: expected a vertex whose image is within a double's range, found an overflow"),
+])
+
+
+class StageMessages(ToolTest):
+    """The three readers of stage text find the same mistakes."""
+
+    def check(self, text, message):
+        pathlib.Path("stage.txt").write_text(text)
+        for tool, *options in (["view"], ["project"], ["zbuf", "config.txt"]):
+            with self.subTest(tool=tool):
+                self.assert_fails(run(tool, *options, "stage.txt"), 1, f"{tool}: stage.txt:{message}")
+
+
+add_claims(StageMessages, [
+    ("header lines stand once", HEADER + "eye 0 0 5\n", "5:1: expected one eye, found a second one after stage.txt:1:5"),
+    ("there is one projection", HEADER + "ortho -1 1 -1 1 1 9\n",
+     "5:1: expected one projection, found a second one after stage.txt:4:13"),
+    ("framed stands once", HEADER + "framed\nframed\n", "6:1: expected one 'framed', found a second one after stage.txt:5:1"),
+    ("framed stands alone", "framed yes\n", "1:8: expected the end of the line after 'framed', found 'yes'"),
+    ("header lines are complete", "look 0 0\n" + HEADER,
+     "1:9: expected the z of the point looked at, found the end of the line"),
+    ("header lines hold numbers", "perspective 60 1 one 100\n", "1:18: expected near, found 'one'"),
+    ("a camera in the header makes sense", "eye 0 0 5\nlook 0 0 5\n",
+     "2:6: expected a point other than the eye to look at, found 0 0 5"),
+    ("header lines come before the triangles", HEADER + VERTICES + "\nup 0 1 0\n",
+     "9:1: expected header lines before the first triangle, found 'up'"),
+    ("keywords are known", HEADER + "camera 1\n", "5:1: expected a header line, 'triangle N' or a vertex, found 'camera'"),
+    ("keywords are known behind the header", HEADER + VERTICES + "quad\n",
+     "8:1: expected 'triangle N' or a vertex, found 'quad'"),
+    ("a number of a triangle is a whole number", HEADER + "triangle 1.5\n",
+     "5:10: expected the number of a triangle, found '1.5'"),
+    ("a triangle has three vertices", HEADER + "0 0 0\n1 0 0\n\n",
+     "7:1: expected vertex 3 of 3, found a blank line inside a triangle"),
+    ("no number stands inside a triangle", HEADER + "0 0 0\ntriangle 1\n",
+     "6:1: expected the x of vertex 2 of 3, found 'triangle'"),
+    ("a text does not end inside a triangle", HEADER + "0 0 0\n1 0 0\n",
+     "7:1: expected vertex 3 of 3, found the end of the input inside a triangle"),
+    ("a vertex has three numbers", HEADER + "0 0 0\n1 0\n0 1 0\n",
+     "6:4: expected the z of vertex 2 of 3, found the end of the line"),
+    ("a vertex has no fourth number", HEADER + "0 0 0 1\n",
+     "5:7: expected the end of the line after the z of vertex 1 of 3, found '1'"),
+    ("nan is no coordinate", HEADER + "0 0 0\n1 -nan 0\n", "6:3: expected the y of vertex 2 of 3, found '-nan'"),
+    ("a coordinate may be too large", HEADER + "0 0 0\n1 0 0\n0 1e999 0\n",
+     "7:3: expected the y of vertex 3 of 3 within a double's range, found '1e999'"),
+    ("an unframed text has no end", HEADER + "end\n",
+     "5:1: expected a header line, 'triangle N' or a vertex ('end' needs a line 'framed' in the header), found 'end'"),
+    ("a framed text has an end", "framed\n" + HEADER + VERTICES,
+     "9:1: expected 'end', which closes a framed text, found the end of the input"),
+    ("the end of a framed text is a line", "framed\n" + HEADER + "end",
+     "6:4: expected the end of the line after 'end', which closes a framed text, found the end of the input"),
+    ("nothing follows the end of a framed text", "framed\n" + HEADER + "end\n0 0 0\n",
+     "7:1: expected nothing after 'end', found '0'"),
+    ("an earlier stage may have failed", HEADER + "error model: scene.txt:9:1: no #1 scene\n",
+     "5:1: an earlier stage failed: model: scene.txt:9:1: no #1 scene"),
+])
+
+
+class CameraMessages(ToolTest):
+    def check(self, words, stdin, status, message):
+        tool, *options = words.split()
+        self.assert_fails(run(tool, *options, stdin=stdin), status, f"{tool}: {message}")
+
+
+CAMERA_FORM = "a camera (header lines eye, look and up; or --scene; or --eye, --look and --up)"
+PROJECTION_FORM = ("a projection (a header line perspective, frustum or ortho; or --scene; or --perspective, --frustum or "
+                   "--ortho)")
+add_claims(CameraMessages, [
+    ("view needs a camera", "view", VERTICES, 1, f"<stdin>:1:1: expected {CAMERA_FORM}, found no eye, look or up"),
+    ("view needs a whole camera", "view", "eye 0 0 5\n# c\n\n 0 0 0\n", 1,
+     f"<stdin>:4:2: expected {CAMERA_FORM}, found no look or up"),
+    ("view says which option is missing", "view --eye 0 0 5 --look 0 0 0", VERTICES, 1,
+     f"<stdin>:1:1: expected {CAMERA_FORM}, found no up"),
+    ("project needs a projection", "project", VERTICES, 1, f"<stdin>:1:1: expected {PROJECTION_FORM}, found none"),
+    ("project needs it also without triangles", "project", "", 1, f"<stdin>:1:1: expected {PROJECTION_FORM}, found none"),
+    ("fovX has to make sense in project", "project", "# c\nperspective 90 2 1 9\n", 1,
+     "<stdin>:2:13: expected fovX = fovY * aspect between 0 and 180 degrees (--aspect angle), found 180.000000"),
+    ("a vertex on the eye plane cannot be divided", "project --clip none", "perspective 60 1 1 9\n0 0 -2\n1 0 0\n0 1 -2\n", 1,
+     "<stdin>:3: expected a vertex in front of the eye (z below 0), found one on or behind the eye plane"),
+    ("a vertex behind the eye cannot be divided", "project --clip none", "perspective 60 1 1 9\n0 0 2\n1 0 -2\n0 1 -2\n", 1,
+     "<stdin>:2: expected a vertex in front of the eye (z below 0), found one on or behind the eye plane"),
+    ("a vertex may leave a doubles range in view", "view --eye 1e308 0 0 --look 0 1e308 0 --up 0 0 1",
+     "0 0 0\n-1e308 -1e308 0\n0 0 0\n", 1,
+     "<stdin>:2: expected a vertex whose image is within a double's range, found an overflow"),
+    ("a vertex may leave a doubles range in project", "project --perspective 1e-9 1 1 9",
+     "1e308 0 -1\n0 0 -1\n0 0 -1\n", 1,
+     "<stdin>:1: expected a vertex whose image is within a double's range, found an overflow"),
+    ("a scene besides the input is a file", "view --scene -", "", 2,
+     "--scene: expected a file, as INPUT is standard input, found '-' (try view --help)"),
+    ("a scene besides the input exists", "view --scene none.txt", "", 1, "cannot open none.txt: No such file or directory"),
+    ("a scene besides the input is one", "project --scene config.txt", "", 1,
+     "config.txt:1:4: expected the z of the eye, found the end of the line"),
+    ("a camera of option and header makes sense", "view --look 0 0 5", HEADER, 2,
+     "--look: expected a point other than the eye to look at, found 0 0 5 (try view --help)"),
+    ("an eye of the header is looked at by no option", "view --eye 0 0 0", HEADER, 1,
+     "<stdin>:2:6: expected a point other than the eye to look at, found 0 0 0"),
+])
+
+
+class ConfigMessages(ToolTest):
+    def check(self, config, message):
+        pathlib.Path("config.txt").write_text(config)
+        self.assert_fails(run("zbuf", "config.txt"), 1, "zbuf: config.txt:" + message)
+        self.assertEqual(self.files(), ["config.txt", "scene.txt"])
+
+
+SIZE = "in pixels, a whole number from 1 to 65535"
+REAR = "the rear limit of Z, a number greater than the front limit"
+add_claims(ConfigMessages, [
+    ("a config is not empty", "# c\n", "2:1: expected the width and height in pixels, found the end of the input"),
+    ("a config has a width", "x 8\n", f"1:1: expected the width {SIZE}, found 'x'"),
+    ("a config has a height", "8\n", f"1:2: expected the height {SIZE}, found the end of the line"),
+    ("a size is above 0", "0 8\n", f"1:1: expected the width {SIZE}, found '0'"),
+    ("a size is below 65536", "8 65536\n", f"1:3: expected the height {SIZE}, found '65536'"),
+    ("a size is whole", "8.0 8\n", f"1:1: expected the width {SIZE}, found '8.0'"),
+    ("a size is two numbers", "8 8 8\n", "1:5: expected the end of the line after the height, found '8'"),
+    ("left is negative", "8 8\n1\n-1\n0 1\n", "2:1: expected the left limit of X, a negative number, found '1'"),
+    ("left stands alone", "8 8\n-1 -1\n0 1\n", "2:4: expected the end of the line after the left limit of X, found '-1'"),
+    ("bottom is negative", "8 8\n-1\n0\n0 1\n", "3:1: expected the bottom limit of Y, a negative number, found '0'"),
+    ("a config may end before bottom", "8 8\n-1\n", "3:1: expected the bottom limit of Y, found the end of the input"),
+    ("a config may end before front and rear", "8 8\n-1\n-1\n",
+     "4:1: expected the front and rear limits of Z, found the end of the input"),
+    ("there is a rear", "8 8\n-1\n-1\n0\n", f"4:2: expected {REAR}, found the end of the line"),
+    ("rear is beyond front", "8 8\n-1\n-1\n1 1\n", f"4:3: expected {REAR}, found '1'"),
+    ("front is a number", "8 8\n-1\n-1\nnan 1\n", "4:1: expected the front limit of Z, found 'nan'"),
+    ("nothing follows the limits", "8 8\n-1\n-1\n0 1\n5\n", "5:1: expected nothing after the limits of Z, found '5'"),
+])
+
+
+class OptionMessages(ToolTest):
+    def check(self, words, message):
+        tool, *options = words.split()
+        self.assert_fails(run(tool, *options), 2, f"{tool}: {message} (try {tool} --help)")
+
+
+DIGITS = "--digits: expected a number of decimals from 0 to 17, or exact"
+add_claims(OptionMessages, [
+    ("model knows its options", "model --bogus", "expected an option of model, found '--bogus'"),
+    ("view knows its options", "view --framed", "expected an option of view, found '--framed'"),
+    ("project knows its options", "project --bare", "expected an option of project, found '--bare'"),
+    ("zbuf knows its options", "zbuf config.txt --digits 7", "expected an option of zbuf, found '--digits'"),
+    ("short options are no options either", "model -x", "expected an option of model, found '-x'"),
+    ("options are not abbreviated", "model --dig 3", "expected an option of model, found '--dig'"),
+    ("there is one input", "model scene.txt other.txt", "expected no further operand, found 'other.txt'"),
+    ("zbuf takes two operands", "zbuf config.txt a b", "expected no further operand, found 'b'"),
+    ("zbuf needs a config", "zbuf", "expected an operand CONFIG, found none"),
+    ("digits are a number", "model --digits many", f"{DIGITS}, found 'many'"),
+    ("digits are at most 17", "view --digits 18", f"{DIGITS}, found '18'"),
+    ("digits are not negative", "project --digits -1", f"{DIGITS}, found '-1'"),
+    ("digits have a value", "model --digits", "--digits: expected one value (N|exact), found none"),
+    ("digits are said once", "model --digits 1 --digits 2", "--digits: expected one value (N|exact), found 2"),
+    ("precision is a known word", "view --precision best", "--precision: expected double or extended, found 'best'"),
+    ("bare has no value", "view --bare=no-thanks", "--bare: expected no value, found 'no-thanks'"),
+    ("bare text has no frame", "model --bare --framed", "expected --bare or --framed, found both"),
+    ("aspect is a known word", "project --aspect wide", "--aspect: expected angle or ratio, found 'wide'"),
+    ("clip is a known word", "project --clip all", "--clip: expected auto, near, frustum, reject or none, found 'all'"),
+    ("cull is a known word", "project --cull both", "--cull: expected back or front, found 'both'"),
+    ("cull has a value", "project --cull", "--cull: expected one value (back|front), found none"),
+    ("coverage is a known word", "zbuf config.txt --coverage best", "--coverage: expected nearest, found 'best'"),
+    ("algorithm is a known word", "zbuf config.txt --algorithm best", "--algorithm: expected zbuffer, found 'best'"),
+    ("an image has a known format", "zbuf config.txt --image out.jpg",
+     "--image: out.jpg: expected an image file that ends in .bmp or .ppm, found '.jpg'"),
+    ("config and input are not both stdin", "zbuf -", "CONFIG: expected a file, as INPUT is standard input, found '-'"),
+    ("an eye has three numbers", "view --eye 1 2 --up 0 1 0", "--eye: expected 3 values (X Y Z), found 2"),
+    ("an eye has only three numbers", "view --eye 1 2 3 --eye 1 2 3", "--eye: expected 3 values (X Y Z), found 6"),
+    ("an eye has numbers", "view --eye 1 2 3x", "--eye: expected the z of the eye, found '3x'"),
+    ("look has numbers", "view --look nan 2 3", "--look: expected the x of the point looked at, found 'nan'"),
+    ("up is not zero", "view --up 0 0 0", "--up: expected an up direction, found 0 0 0"),
+    ("options make a camera", "view --eye 1 2 3 --look 1 2 3", "--look: expected a point other than the eye to look at, found 1 2 3"),
+    ("a perspective has four numbers", "project --perspective 60 1 1",
+     "--perspective: expected 4 values (FOVY ASPECT NEAR FAR), found 3"),
+    ("a perspective makes sense", "project --perspective 60 1 9 1", "--perspective: expected far beyond near, found '1'"),
+    ("a perspective of an option has a fovX", "project --perspective 90 2 1 9",
+     "--perspective: expected fovX = fovY * aspect between 0 and 180 degrees (--aspect angle), found 180.000000"),
+    ("a frustum has a near above 0", "view --frustum -1 1 -1 1 0 9", "--frustum: expected near above 0, found '0'"),
+    ("an ortho has six numbers", "view --ortho -1 1 -1 1 0", "--ortho: expected 6 values (L R B T N F), found 5"),
+    ("there is one projection among the options", "project --perspective 60 1 1 9 --ortho -1 1 -1 1 1 9",
+     "--perspective: expected one projection, found a second one after --ortho"),
+])
+
+
+class FileMessages(ToolTest):
+    def check(self, words, message):
+        tool, *options = words.split()
+        self.assert_fails(run(tool, *options), 1, f"{tool}: {message}")
+
+
+add_claims(FileMessages, [
+    ("an input that is missing is named by model", "model none.txt", "cannot open none.txt: No such file or directory"),
+    ("an input that is missing is named by view", "view none.txt", "cannot open none.txt: No such file or directory"),
+    ("an input that is missing is named by project", "project none.txt", "cannot open none.txt: No such file or directory"),
+    ("an input that is missing is named by zbuf", "zbuf config.txt none.txt",
+     "cannot open none.txt: No such file or directory"),
+    ("a config that is missing is named", "zbuf none.txt", "cannot open none.txt: No such file or directory"),
+    ("an input may be a folder", "model .", "cannot read .: Is a directory"),
+    ("a folder of the image may be missing", "zbuf config.txt --image no/out.bmp",
+     "cannot open no/out.bmp: No such file or directory"),
+    ("a folder of the depths may be missing", "zbuf config.txt --z-buffer no/z.txt",
+     "cannot open no/z.txt: No such file or directory"),
+])
+
+
+class OneLine(ToolTest):
+    def test_a_message_stays_on_its_line_whatever_a_file_is_called(self):
+        self.assert_fails(run("model", "a\nb"), 1, "model: cannot open a\\x0ab: No such file or directory")
+
+    def test_an_empty_file_name_is_shown(self):
+        self.assert_fails(run("model", ""), 1, "model: cannot open '': No such file or directory")
+
+    def test_a_mistake_behind_the_first_block_is_found_on_its_line(self):
+        text = CAMERA + TRIANGLE * 20000 + "triangle 0 0 0\n0 0 x\n"
+        self.assert_fails(run("model", stdin=text), 1, "model: <stdin>:80006:5: expected the z of vertex 2 of 3, found 'x'")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,178 @@
+#!/usr/bin/env python3
+"""Output appears while input still comes, and memory does not grow with the number of triangles.
+
+usage: tools_streaming_test.py BIN_DIR [UNITTEST ARGUMENT...]
+"""
+import re
+import select
+import subprocess
+import time
+import unittest
+
+from toolbox import CAMERA, HEADER, SCENE, TRIANGLE, ToolTest, command, run, stage_texts
+
+MEBIBYTE = 1024  # in the units of /proc, which are KiB
+VERTICES = "0.1234567 -1.2345678 -12.3456789\n1.1234567 -1.2345678 -12.3456789\n0.1234567 -0.2345678 -12.3456789\n"
+
+
+class LiveTool:
+    """A tool whose input is written bit by bit."""
+
+    def __init__(self, tool, *options, stdout=subprocess.PIPE):
+        self.process = subprocess.Popen(command(tool, *options), stdin=subprocess.PIPE, stdout=stdout, stderr=subprocess.PIPE)
+        self.received = b""
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.process.kill()
+        self.process.wait()
+        for channel in (self.process.stdin, self.process.stdout, self.process.stderr):
+            if channel:
+                channel.close()
+
+    def send(self, text):
+        self.process.stdin.write(text.encode() if isinstance(text, str) else text)
+        self.process.stdin.flush()
+
+    def receive(self, triangle_count, seconds=10):
+        """What comes out until so many triangles are complete, or until the time is over."""
+        end = time.monotonic() + seconds
+        while self.received.count(b"\n\n") < triangle_count:
+            ready, _, _ = select.select([self.process.stdout], [], [], max(0, end - time.monotonic()))
+            block = self.process.stdout.read1() if ready else b""
+            if not block:
+                break
+            self.received += block
+        return self.received.count(b"\n\n")
+
+    def finish(self):
+        """The exit status, once the input has ended."""
+        self.process.stdin.close()
+        self.received += self.process.stdout.read() if self.process.stdout else b""
+        return self.process.wait(timeout=60)
+
+    def peak_memory(self):
+        """The largest resident set so far in KiB: of this program alone, not of whoever has started it."""
+        with open(f"/proc/{self.process.pid}/status") as status:
+            return int(re.search(r"VmHWM:\s+(\d+) kB", status.read()).group(1))
+
+
+class Streaming(ToolTest):
+    def check(self, tool, start, piece, end):
+        """Every piece, a triangle, has left the tool before the next one is sent."""
+        with LiveTool(tool) as live:
+            live.send(start)
+            for i in range(1, 6):
+                live.send(piece)
+                self.assertEqual(live.receive(i), i, f"{tool} waits with triangle {i} in its hands")
+            live.send(end)
+            self.assertEqual(live.finish(), 0)
+
+    def test_model_passes_every_triangle_on_at_once(self):
+        self.check("model", CAMERA, TRIANGLE, "end\n")
+
+    def test_model_passes_it_on_behind_other_commands(self):
+        self.check("model", CAMERA, TRIANGLE + "push\ntranslate 1 0 0\npop\n\n# c\n", "end\n")
+
+    def test_model_passes_it_on_while_the_next_is_cut(self):
+        with LiveTool("model") as live:
+            live.send(CAMERA + TRIANGLE + "triangle\n0 0 0\n1 0 0\n0 ")
+            self.assertEqual(live.receive(1), 1)
+
+    def test_view_passes_every_triangle_on_at_once(self):
+        self.check("view", HEADER, VERTICES + "\n", "")
+
+    def test_project_passes_every_triangle_on_at_once(self):
+        self.check("project", HEADER, VERTICES + "\n", "")
+
+    def test_view_and_project_pass_it_on_while_the_next_is_cut(self):
+        for tool in ("view", "project"):
+            with LiveTool(tool) as live:
+                live.send(HEADER + VERTICES + "\n" + VERTICES[:-3])
+                self.assertEqual(live.receive(1), 1)
+
+    def test_framed_text_is_passed_on_at_once_as_well(self):
+        self.check("view", "framed\n" + HEADER, VERTICES + "\n", "end\n")
+
+    def test_half_of_the_input_gives_half_of_the_output(self):
+        scenes = {"model": (CAMERA, TRIANGLE, "end\n"), "view": (HEADER, VERTICES + "\n", ""),
+                  "project": (HEADER, VERTICES + "\n", "")}
+        for tool, (start, triangle, end) in scenes.items():
+            with LiveTool(tool) as live:
+                live.send(start + triangle * 200)
+                self.assertEqual(live.receive(200), 200, tool)
+                live.send(triangle * 200 + end)
+                self.assertEqual(live.receive(400), 400, tool)
+                self.assertEqual(live.finish(), 0)
+
+
+class Pieces(ToolTest):
+    def test_the_sizes_in_which_text_arrives_change_nothing(self):
+        inputs = zip(("model", "view", "project"), (SCENE.encode(), *stage_texts(SCENE, "--framed")))
+        for tool, text in inputs:
+            expected = run(tool, stdin=text).stdout
+            for size in (1, 2, 7):
+                with LiveTool(tool) as live:
+                    for begin in range(0, len(text), size):
+                        live.send(text[begin:begin + size])
+                    self.assertEqual(live.finish(), 0)
+                    self.assertEqual(live.received, expected)
+
+
+INPUTS = {"model": (CAMERA, "triangle\n" + VERTICES, "end\n"), "view": (HEADER, VERTICES + "\n", ""),
+          "project": (HEADER, VERTICES + "\n", "")}
+
+
+def peak_memory(tool, start, repeated, count, end):
+    """The peak memory of a tool that reads `repeated` so many times, in KiB."""
+    block_count = 10_000
+    with LiveTool(tool, stdout=subprocess.DEVNULL) as live:
+        live.send(start)
+        block = repeated * block_count
+        for _ in range(count // block_count):
+            live.send(block)
+        memory = live.peak_memory()
+        live.send(end)
+        status = live.finish()
+        if status != 0:
+            raise AssertionError(f"{tool}: exit {status}: {live.process.stderr.read().decode()}")
+        return max(memory, 1)
+
+
+class Memory(ToolTest):
+    def test_it_does_not_grow_with_the_number_of_triangles(self):
+        for tool, (start, triangle, end) in INPUTS.items():
+            few = peak_memory(tool, start, triangle, 20_000, end)
+            many = peak_memory(tool, start, triangle, 200_000, end)
+            self.assertLess(many, few + MEBIBYTE, f"{tool}: {few} KiB for 20,000 triangles, {many} KiB for 200,000")
+            self.assertLess(many, 64 * MEBIBYTE, tool)
+
+    def test_ten_million_pushes_stay_below_64_mebibytes(self):
+        self.assertLess(peak_memory("model", CAMERA, "push\n", 10_000_000, "end\n"), 64 * MEBIBYTE)
+
+    def test_it_does_not_grow_with_the_number_of_transforms(self):
+        transform = "push\nrotate 1 0 0 1\npop\n"
+        few = peak_memory("model", CAMERA, transform, 20_000, "end\n")
+        many = peak_memory("model", CAMERA, transform, 200_000, "end\n")
+        self.assertLess(many, few + MEBIBYTE)
+
+
+class LongMemory(ToolTest):
+    """Takes minutes."""
+
+    def test_ten_million_triangles_stay_below_64_mebibytes(self):
+        for tool, (start, triangle, end) in INPUTS.items():
+            self.assertLess(peak_memory(tool, start, triangle, 10_000_000, end), 64 * MEBIBYTE, tool)
+
+    def test_a_million_saved_matrices_are_the_limit(self):
+        pushes = "push\ntranslate 1 0 0\n"
+        limit = 1 << 20
+        done = run("model", stdin=CAMERA + pushes * limit + "push\nend\n")
+        self.assert_fails(done, 1, f"model: <stdin>:{5 + 2 * limit}:1: expected at most 1048576 saved matrices, found "
+                          "another 'push' after a change")
+
+
+if __name__ == "__main__":
+    unittest.main()
