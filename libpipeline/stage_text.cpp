@@ -4,11 +4,17 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <span>
+
+#include "libpipeline/fixed_text.h"
 
 namespace pipeline {
 namespace {
 
 constexpr std::size_t kMaxVertexLength = 3 * (kMaxNumberLength + 1);
+// Nine numbers of one digit before the point and seven behind it, a separator each, and the blank line.
+constexpr std::size_t kMinFixedTriangleLength = 9 * 10 + 1;
+constexpr std::uint16_t kAllDecimal = 0x1ff;
 // "triangle N", three vertex lines and the blank line.
 constexpr std::size_t kMaxTriangleLength = 40 + 3 * kMaxVertexLength + 1;
 
@@ -74,12 +80,16 @@ struct ExactParts {
 }  // namespace
 
 EarlierFailure::EarlierFailure(const Place& place, std::string reason)
-    : InputError(place, "an earlier stage failed" + (reason.empty() ? ", without saying why" : ": " + reason)),
+    : InputError(place,
+                 "an earlier stage failed" + (reason.empty() ? ", without saying why" : ": " + reason)),
       reason_(std::move(reason)) {}
 
-std::string error_line(const std::string& reason) { return "error " + on_one_line(reason) + "\n"; }
+std::string error_line(const std::string& reason) {
+  return "error " + on_one_line(reason) + "\n";
+}
 
-StageReader::StageReader(TextReader& text, bool marks_decimals) : text_(text), marks_decimals_(marks_decimals) {
+StageReader::StageReader(TextReader& text, bool marks_decimals)
+    : text_(text), marks_decimals_(marks_decimals) {
   while (!line_is_pending_ && text_.next_filled_line(line_)) {
     LineScanner line = line_;
     line_is_pending_ = !read_header_line(line);
@@ -98,7 +108,8 @@ bool StageReader::read_header_line(LineScanner& line) {
   const std::string_view keyword = line.word();
   if (keyword != "framed") return read_camera_part(keyword, place, line, header_.camera);
   if (header_.framed)
-    throw InputError(place, expected_but_found("one 'framed'", "a second one after " + to_string(framed_place_)));
+    throw InputError(place,
+                     expected_but_found("one 'framed'", "a second one after " + to_string(framed_place_)));
   line.expect_end("'framed'");
   header_.framed = true;
   framed_place_ = place;
@@ -120,7 +131,9 @@ bool StageReader::read(TriangleBatch& batch) {
 void StageReader::fill(TriangleBatch& batch) {
   while (!done_) {
     // What is in memory is passed on before the reader waits for more: a triangle has three lines.
-    if (!line_is_pending_ && !batch.empty() && (batch.size() >= kBatchSize || !text_.has_lines_waiting(3))) break;
+    if (!line_is_pending_ && !batch.empty() && (batch.size() >= kBatchSize || !text_.has_lines_waiting(3)))
+      break;
+    if (!line_is_pending_ && read_fixed_form(batch)) continue;
     if (!line_is_pending_ && !text_.next_filled_line(line_)) {
       expect_unframed_end();
       done_ = true;
@@ -141,12 +154,41 @@ void StageReader::fill(TriangleBatch& batch) {
   }
 }
 
+/// Takes the triangles that are waiting as long as they have the form nearly all stage text has; false if the
+/// next has another form, or is not there as a whole.
+bool StageReader::read_fixed_form(TriangleBatch& batch) {
+  static_assert(TextReader::kSlack >= kFixedTextSlack);
+  // The blank line behind a triangle that the general reader took.
+  if (text_.waiting().starts_with('\n')) text_.skip(1, 1);
+  const std::string_view waiting = text_.waiting();
+  const std::size_t old_size = batch.size();
+  const std::size_t most =
+      std::min({kBatchSize - old_size, waiting.size() / kMinFixedTriangleLength, fixed_form_guess_});
+  if (most == 0) return false;
+  batch.triangles.resize(old_size + most);
+  const FixedTextPart part = fixed_text_kernel().read(waiting, std::span(batch.triangles).subspan(old_size));
+  batch.triangles.resize(old_size + part.triangle_count);
+  constexpr std::size_t kLinesPerTriangle = 4;
+  for (std::size_t i = 0; i < part.triangle_count; ++i) {
+    const std::size_t line = text_.line_number() + i * kLinesPerTriangle;
+    batch.lines.push_back({line + 1, line + 2, line + 3});
+    batch.numbers.push_back(next_number_++);
+  }
+  text_.skip(part.length, part.triangle_count * kLinesPerTriangle);
+  fixed_form_guess_ = part.triangle_count == most ? 2 * most : part.triangle_count + 1;
+  if (!batch.low_parts.empty()) batch.low_parts.resize(batch.size());
+  // Seven decimals and at most eight digits before the point: every coordinate is its decimal.
+  if (marks_decimals_) batch.decimal_marks.resize(batch.size(), kAllDecimal);
+  return part.triangle_count > 0;
+}
+
 /// Moves on to the line of vertex `index` (from 0); only comments may stand before it.
 void StageReader::next_vertex_line(LineScanner& line, std::size_t index) {
   const std::string expected(kVertexNames[index]);
   do {
     if (!text_.next_line(line))
-      throw InputError(text_.end_place(), expected_but_found(expected, "the end of the input inside a triangle"));
+      throw InputError(text_.end_place(),
+                       expected_but_found(expected, "the end of the input inside a triangle"));
     if (line.at_end() && !line.is_comment())
       throw InputError(line.place(), expected_but_found(expected, "a blank line inside a triangle"));
   } while (line.at_end());
@@ -168,15 +210,18 @@ void StageReader::read_vertices(LineScanner& line, TriangleBatch& batch) {
   if (marks_decimals_) exact.set_last(batch);
 }
 
-bool StageReader::is_end(const LineScanner& line) const { return header_.framed && line.peek() == "end"; }
+bool StageReader::is_end(const LineScanner& line) const {
+  return header_.framed && line.peek() == "end";
+}
 
 /// Takes the last line of a framed text. Its newline is a part of it: a text that is cut there is cut.
 void StageReader::read_end(LineScanner& line) {
   line.word();
   line.expect_end("'end'");
   if (!text_.last_line_was_ended())
-    throw InputError(line.place(), expected_but_found("the end of the line after 'end', which closes a framed text",
-                                                      "the end of the input"));
+    throw InputError(line.place(),
+                     expected_but_found("the end of the line after 'end', which closes a framed text",
+                                        "the end of the input"));
   if (text_.next_filled_line(line)) {
     if (line.peek() == "error") reject(line, "");
     line.fail("nothing after 'end'");
@@ -186,7 +231,8 @@ void StageReader::read_end(LineScanner& line) {
 
 void StageReader::expect_unframed_end() const {
   if (header_.framed)
-    throw InputError(text_.end_place(), expected_but_found("'end', which closes a framed text", "the end of the input"));
+    throw InputError(text_.end_place(),
+                     expected_but_found("'end', which closes a framed text", "the end of the input"));
 }
 
 /// Says what is wrong with a line that has no place in a body. `also_expected` is what might have stood there
@@ -221,22 +267,58 @@ void StageWriter::write_header(const StageHeader& header) {
 
 void StageWriter::write(const TriangleBatch& batch) {
   assert(batch.low_parts.empty() || batch.low_parts.size() == batch.size());
-  const Triangle no_low_part{};
-  for (std::size_t i = 0; i < batch.size(); ++i) {
-    if (batch.numbers[i] != next_number_ && !bare_)
-      text_.append("triangle " + std::to_string(batch.numbers[i]) + "\n");
-    next_number_ = batch.numbers[i] + 1;
-    const Triangle& low_part = batch.low_parts.empty() ? no_low_part : batch.low_parts[i];
-    char* out = text_.reserve(kMaxTriangleLength);
-    for (std::size_t v = 0; v < 3; ++v) out = print_vertex(out, batch.triangles[i][v], low_part[v]);
-    *out++ = '\n';
-    text_.commit(out);
+  if (!keeps_four_digits_) note_sizes(batch);
+  const bool may_be_fixed = format_.decimals == 7 && !format_.shortest && batch.low_parts.empty();
+  std::size_t index = 0;
+  while (index < batch.size()) {
+    if (may_be_fixed) index += write_fixed_form(batch, index);
+    if (index < batch.size()) write_triangle(batch, index++);
   }
 }
 
+/// A coordinate of which the text keeps four digits settles the question; until then every one is looked at.
+void StageWriter::note_sizes(const TriangleBatch& batch) {
+  double smallest_with_four_digits = 1000;
+  for (int i = 0; i < format_.decimals; ++i) smallest_with_four_digits /= 10;
+  for (const Triangle& triangle : batch.triangles) {
+    for (const Vec3& vertex : triangle) {
+      for (const double coordinate : {vertex.x, vertex.y, vertex.z}) {
+        has_filled_coordinate_ |= coordinate != 0;
+        keeps_four_digits_ |= format_.shortest || std::fabs(coordinate) >= smallest_with_four_digits;
+      }
+    }
+    if (keeps_four_digits_) return;
+  }
+}
+
+/// Prints triangles from `begin` on as long as counting goes right and they fit the form nearly all stage
+/// text has; says how many.
+std::size_t StageWriter::write_fixed_form(const TriangleBatch& batch, std::size_t begin) {
+  constexpr std::size_t kMostAtOnce = 256;
+  const std::size_t limit = std::min(batch.size(), begin + kMostAtOnce);
+  std::size_t end = begin;
+  while (end < limit && (bare_ || batch.numbers[end] == next_number_ + (end - begin))) ++end;
+  if (end == begin) return 0;
+  char* const out = text_.reserve((end - begin) * kMaxFixedTriangleLength + kFixedTextSlack);
+  const auto triangles = std::span(batch.triangles).subspan(begin, end - begin);
+  const FixedTextPart part = fixed_text_kernel().write(triangles, out);
+  text_.commit(out + part.length);
+  if (part.triangle_count > 0) next_number_ = batch.numbers[begin + part.triangle_count - 1] + 1;
+  return part.triangle_count;
+}
+
+void StageWriter::write_triangle(const TriangleBatch& batch, std::size_t index) {
+  if (batch.numbers[index] != next_number_ && !bare_)
+    text_.append("triangle " + std::to_string(batch.numbers[index]) + "\n");
+  next_number_ = batch.numbers[index] + 1;
+  const Triangle low_part = batch.low_parts.empty() ? Triangle{} : batch.low_parts[index];
+  char* out = text_.reserve(kMaxTriangleLength);
+  for (std::size_t v = 0; v < 3; ++v) out = print_vertex(out, batch.triangles[index][v], low_part[v]);
+  *out++ = '\n';
+  text_.commit(out);
+}
+
 char* StageWriter::print_vertex(char* out, const Vec3& vertex, const Vec3& low_part) {
-  for (const double coordinate : {vertex.x, vertex.y, vertex.z})
-    largest_coordinate_ = std::max(largest_coordinate_, std::fabs(coordinate));
   out = print_number(out, vertex.x, low_part.x, format_);
   *out++ = ' ';
   out = print_number(out, vertex.y, low_part.y, format_);
@@ -244,13 +326,6 @@ char* StageWriter::print_vertex(char* out, const Vec3& vertex, const Vec3& low_p
   out = print_number(out, vertex.z, low_part.z, format_);
   *out++ = '\n';
   return out;
-}
-
-double StageWriter::largest_coordinate_in_units() const {
-  if (format_.shortest) return HUGE_VAL;
-  double units = largest_coordinate_;
-  for (int i = 0; i < format_.decimals; ++i) units *= 10;
-  return units;
 }
 
 void StageWriter::finish() {

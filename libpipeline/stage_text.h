@@ -22,7 +22,8 @@ namespace pipeline {
 //   error ...      an earlier stage failed, and what it said; nothing follows
 //   end            the last line of a framed text
 //
-// Comments (from # to the end of the line) and blank lines may stand anywhere, but no blank line inside a triangle.
+// Comments (from # to the end of the line) and blank lines may stand anywhere, but no blank line inside a
+// triangle.
 
 /// The header of a stage text: what later stages still need.
 struct StageHeader {
@@ -30,7 +31,8 @@ struct StageHeader {
   CameraText camera;
 };
 
-/// The text ends with an `error` line. `reason()` is what stands on it: "tool: message" of the stage that failed.
+/// The text ends with an `error` line. `reason()` is what stands on it: "tool: message" of the stage that
+/// failed.
 class EarlierFailure : public InputError {
  public:
   EarlierFailure(const Place& place, std::string reason);
@@ -47,7 +49,8 @@ class StageReader {
   explicit StageReader(TextReader& text, bool marks_decimals = false);
 
   [[nodiscard]] const StageHeader& header() const { return header_; }
-  /// The place of the first word behind the header: where a header line that is missing should have stood before.
+  /// The place of the first word behind the header: where a header line that is missing should have stood
+  /// before.
   [[nodiscard]] const Place& header_end() const { return header_end_; }
   /// Fills `batch` with the next triangles, as many as are waiting but at least one; false (and an empty
   /// batch) at the end of a text that ends as it should. Triangles before a mistake are given out before the
@@ -57,6 +60,7 @@ class StageReader {
  private:
   bool read_header_line(LineScanner& line);
   void fill(TriangleBatch& batch);
+  bool read_fixed_form(TriangleBatch& batch);
   void next_vertex_line(LineScanner& line, std::size_t index);
   void read_vertices(LineScanner& line, TriangleBatch& batch);
   [[nodiscard]] bool is_end(const LineScanner& line) const;
@@ -70,6 +74,7 @@ class StageReader {
   Place header_end_;
   Place framed_place_;
   LineScanner line_;
+  std::size_t fixed_form_guess_ = 1;  // how many triangles in fixed form to expect: room is made for them
   bool line_is_pending_ = false;  // line_ was read but not yet used
   bool done_ = false;
   std::uint64_t next_number_ = 0;
@@ -86,12 +91,14 @@ class StageWriter {
   /// Writes what a whole text ends with, and flushes.
   void finish();
 
-  /// The largest absolute coordinate written so far.
-  [[nodiscard]] double largest_coordinate() const { return largest_coordinate_; }
-  /// The same in units of the last decimal printed; infinite for shortest numbers, which lose nothing.
-  [[nodiscard]] double largest_coordinate_in_units() const;
+  /// True unless all coordinates written so far, some of them not 0, are so small that their decimals hold
+  /// fewer than four significant digits.
+  [[nodiscard]] bool keeps_four_digits() const { return keeps_four_digits_ || !has_filled_coordinate_; }
 
  private:
+  void note_sizes(const TriangleBatch& batch);
+  std::size_t write_fixed_form(const TriangleBatch& batch, std::size_t begin);
+  void write_triangle(const TriangleBatch& batch, std::size_t index);
   char* print_vertex(char* out, const Vec3& vertex, const Vec3& low_part);
 
   TextWriter& text_;
@@ -99,7 +106,8 @@ class StageWriter {
   bool bare_;
   bool framed_ = false;
   std::uint64_t next_number_ = 0;
-  double largest_coordinate_ = 0;
+  bool keeps_four_digits_ = false;
+  bool has_filled_coordinate_ = false;
 };
 
 /// The line a failed stage ends its output with: "error tool: message".

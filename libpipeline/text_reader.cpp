@@ -13,7 +13,9 @@ namespace {
 
 constexpr std::size_t kBlockSize = std::size_t{1} << 16;
 
-bool is_blank(char c) { return c == ' ' || c == '\t'; }
+bool is_blank(char c) {
+  return c == ' ' || c == '\t';
+}
 
 std::string_view without_trailing_blanks(std::string_view line) {
   while (!line.empty() && (is_blank(line.back()) || line.back() == '\r')) line.remove_suffix(1);
@@ -56,7 +58,8 @@ std::string_view LineScanner::word() {
 
 double LineScanner::number(std::string_view expected, std::string_view of) {
   const ParsedNumber parsed = parse_number(peek());
-  if (parsed.error == NumberError::overflow) fail(std::string(expected).append(of) + " within a double's range");
+  if (parsed.error == NumberError::overflow)
+    fail(std::string(expected).append(of) + " within a double's range");
   if (parsed.error != NumberError::none) fail(std::string(expected).append(of));
   word();
   return parsed.value;
@@ -146,7 +149,15 @@ bool TextReader::has_lines_waiting(std::size_t count) const {
   return true;
 }
 
-Place TextReader::end_place() const { return {file_, line_number_ + 1, 1}; }
+void TextReader::skip(std::size_t length, std::size_t line_count) {
+  begin_ += length;
+  scanned_ = std::max(scanned_, begin_);
+  line_number_ += line_count;
+}
+
+Place TextReader::end_place() const {
+  return {file_, line_number_ + 1, 1};
+}
 
 /// Reads one more block behind the unread part; false at the end of the file.
 bool TextReader::fill() {
@@ -157,7 +168,7 @@ bool TextReader::fill() {
     scanned_ -= begin_;
     begin_ = 0;
   }
-  if (buffer_.size() - end_ < kBlockSize) buffer_.resize(buffer_.size() + kBlockSize);
+  if (buffer_.size() - end_ < kBlockSize + kSlack) buffer_.resize(buffer_.size() + kBlockSize + kSlack);
   ssize_t count = 0;
   do {
     count = ::read(descriptor_, buffer_.data() + end_, kBlockSize);

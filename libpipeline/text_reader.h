@@ -62,7 +62,8 @@ class LineScanner {
   bool has_comment_ = false;
 };
 
-/// Reads text in blocks and gives it out line by line. CRLF and LF both end a line, the last line needs no end,
+/// Reads text in blocks and gives it out line by line. CRLF and LF both end a line, the last line needs no
+/// end,
 /// `#` starts a comment, trailing blanks are dropped, a UTF-8 byte order mark at the start is skipped.
 class TextReader {
  public:
@@ -77,6 +78,14 @@ class TextReader {
   [[nodiscard]] bool has_lines_waiting(std::size_t count) const;
   /// True if the line given out last ended with a newline, not with the text.
   [[nodiscard]] bool last_line_was_ended() const { return last_line_was_ended_; }
+
+  /// Text that is in memory and was not given out, from the beginning of a line. It is followed by kSlack
+  /// characters that may be looked at and mean nothing. For readers that take several lines at a time, then
+  /// `skip`.
+  [[nodiscard]] std::string_view waiting() const { return {buffer_.data() + begin_, end_ - begin_}; }
+  static constexpr std::size_t kSlack = 512;
+  /// Leaves out `length` characters of what is waiting: `line_count` whole lines.
+  void skip(std::size_t length, std::size_t line_count);
 
   [[nodiscard]] const std::string& file() const { return file_; }
   /// The number of the line given out last, 0 before the first.

@@ -19,13 +19,18 @@ TriangleBatch triangles_from(int descriptor) {
   StageReader reader(text);
   TriangleBatch all;
   for (TriangleBatch batch; reader.read(batch);)
-    for (std::size_t i = 0; i < batch.size(); ++i) all.add(batch.triangles[i], batch.numbers[i], batch.lines[i]);
+    for (std::size_t i = 0; i < batch.size(); ++i)
+      all.add(batch.triangles[i], batch.numbers[i], batch.lines[i]);
   return all;
 }
 
-TriangleBatch triangles_of(const std::string& text) { return triangles_from(TextFile(text).descriptor()); }
+TriangleBatch triangles_of(const std::string& text) {
+  return triangles_from(TextFile(text).descriptor());
+}
 
-std::vector<std::uint64_t> numbers_of(const std::string& text) { return triangles_of(text).numbers; }
+std::vector<std::uint64_t> numbers_of(const std::string& text) {
+  return triangles_of(text).numbers;
+}
 
 StageHeader header_of(const std::string& text) {
   const TextFile file(text);
@@ -37,11 +42,14 @@ std::string error_of(const std::string& text) {
   return message_of([&] { triangles_of(text); });
 }
 
-TEST(StageReader, AnEmptyTextHasNoTriangles) { EXPECT_EQ(triangles_of("").size(), 0u); }
+TEST(StageReader, AnEmptyTextHasNoTriangles) {
+  EXPECT_EQ(triangles_of("").size(), 0u);
+}
 
 TEST(StageReader, AnEmptyTextHasAnEmptyHeader) {
   const StageHeader header = header_of("");
-  EXPECT_FALSE(header.framed || header.camera.eye || header.camera.look || header.camera.up || header.camera.projection);
+  EXPECT_FALSE(header.framed || header.camera.eye || header.camera.look || header.camera.up ||
+               header.camera.projection);
 }
 
 TEST(StageReader, ATriangleIsThreeVertexLines) {
@@ -111,8 +119,8 @@ TEST(StageReader, ReadsOnAtTheEndAsOftenAsAsked) {
 // The header.
 
 TEST(StageReader, HeaderLinesStandInAnyOrder) {
-  const StageHeader header =
-      header_of("perspective 60 1 0.5 100\nup 0 1 0\n\n# c\nlook 4 5 6\neye 1 2 3\nframed\n" + kTriangle + "end\n");
+  const StageHeader header = header_of(
+      "perspective 60 1 0.5 100\nup 0 1 0\n\n# c\nlook 4 5 6\neye 1 2 3\nframed\n" + kTriangle + "end\n");
   EXPECT_TRUE(header.framed);
   EXPECT_EQ(header.camera.eye->value, (Vec3{1, 2, 3}));
   EXPECT_EQ(header.camera.look->value, (Vec3{4, 5, 6}));
@@ -122,8 +130,9 @@ TEST(StageReader, HeaderLinesStandInAnyOrder) {
 
 TEST(StageReader, HeadersMayHoldAFrustum) {
   const auto frustum = std::get<Frustum>(header_of("frustum -1 2 -3 4 5 6\n").camera.projection->value);
-  EXPECT_EQ((std::vector{frustum.left, frustum.right, frustum.bottom, frustum.top, frustum.near, frustum.far}),
-            (std::vector<double>{-1, 2, -3, 4, 5, 6}));
+  EXPECT_EQ(
+      (std::vector{frustum.left, frustum.right, frustum.bottom, frustum.top, frustum.near, frustum.far}),
+      (std::vector<double>{-1, 2, -3, 4, 5, 6}));
 }
 
 TEST(StageReader, HeadersMayHoldAnOrthographicProjection) {
@@ -146,7 +155,8 @@ TEST(StageReader, AHeaderHoldsOneProjection) {
 
 TEST(StageReader, NamesTheNumberThatIsWrongInAHeaderLine) {
   EXPECT_EQ(error_of("eye 0 x 5\n"), "in.txt:1:7: expected the y of the eye, found 'x'");
-  EXPECT_EQ(error_of("look 0 0\n"), "in.txt:1:9: expected the z of the point looked at, found the end of the line");
+  EXPECT_EQ(error_of("look 0 0\n"),
+            "in.txt:1:9: expected the z of the point looked at, found the end of the line");
   EXPECT_EQ(error_of("up 0 1 0 0\n"),
             "in.txt:1:10: expected the end of the line after the z of the up direction, found '0'");
   EXPECT_EQ(error_of("perspective 60 1 nan 100\n"), "in.txt:1:18: expected near, found 'nan'");
@@ -210,12 +220,15 @@ TEST(StageReader, BlankLinesMayFollowTheNumberOfATriangle) {
 }
 
 TEST(StageReader, TakesTheLargestNumber) {
-  EXPECT_EQ(numbers_of("triangle 18446744073709551615\n" + kTriangle), std::vector<std::uint64_t>{18446744073709551615u});
+  EXPECT_EQ(numbers_of("triangle 18446744073709551615\n" + kTriangle),
+            std::vector<std::uint64_t>{18446744073709551615u});
 }
 
 TEST(StageReader, ANumberOfATriangleIsAWholeNumber) {
-  EXPECT_EQ(error_of("triangle -1\n" + kTriangle), "in.txt:1:10: expected the number of a triangle, found '-1'");
-  EXPECT_EQ(error_of("triangle\n" + kTriangle), "in.txt:1:9: expected the number of a triangle, found the end of the line");
+  EXPECT_EQ(error_of("triangle -1\n" + kTriangle),
+            "in.txt:1:10: expected the number of a triangle, found '-1'");
+  EXPECT_EQ(error_of("triangle\n" + kTriangle),
+            "in.txt:1:9: expected the number of a triangle, found the end of the line");
   EXPECT_EQ(error_of("triangle 18446744073709551616\n"),
             "in.txt:1:10: expected the number of a triangle, found '18446744073709551616'");
   EXPECT_EQ(error_of("triangle 1 2\n"),
@@ -237,7 +250,8 @@ TEST(StageReader, ABlankLineInsideATriangleIsAnError) {
 }
 
 TEST(StageReader, ATextThatEndsInsideATriangleIsAnError) {
-  EXPECT_EQ(error_of("0 0 0\n"), "in.txt:2:1: expected vertex 2 of 3, found the end of the input inside a triangle");
+  EXPECT_EQ(error_of("0 0 0\n"),
+            "in.txt:2:1: expected vertex 2 of 3, found the end of the input inside a triangle");
   EXPECT_EQ(error_of(kTriangle + "0 0 0\n1 0 0\n# c"),
             "in.txt:8:1: expected vertex 3 of 3, found the end of the input inside a triangle");
 }
@@ -245,13 +259,15 @@ TEST(StageReader, ATextThatEndsInsideATriangleIsAnError) {
 TEST(StageReader, NamesTheNumberThatIsWrongInAVertex) {
   EXPECT_EQ(error_of("0 0 0\n1 0,5 0\n0 1 0\n"), "in.txt:2:3: expected the y of vertex 2 of 3, found '0,5'");
   EXPECT_EQ(error_of("-nan 0 0\n"), "in.txt:1:1: expected the x of vertex 1 of 3, found '-nan'");
-  EXPECT_EQ(error_of("0 0 0\n1 0 0\n0 1\n"), "in.txt:3:4: expected the z of vertex 3 of 3, found the end of the line");
+  EXPECT_EQ(error_of("0 0 0\n1 0 0\n0 1\n"),
+            "in.txt:3:4: expected the z of vertex 3 of 3, found the end of the line");
   EXPECT_EQ(error_of("0 0 0\n1 0 0\n0 1 1e309\n"),
             "in.txt:3:5: expected the z of vertex 3 of 3 within a double's range, found '1e309'");
 }
 
 TEST(StageReader, AVertexHasNoFourthNumber) {
-  EXPECT_EQ(error_of("0 0 0 1\n"), "in.txt:1:7: expected the end of the line after the z of vertex 1 of 3, found '1'");
+  EXPECT_EQ(error_of("0 0 0 1\n"),
+            "in.txt:1:7: expected the end of the line after the z of vertex 1 of 3, found '1'");
 }
 
 TEST(StageReader, AWordInsideATriangleIsAnError) {
@@ -260,7 +276,8 @@ TEST(StageReader, AWordInsideATriangleIsAnError) {
 }
 
 TEST(StageReader, NamesANumberThatIsNone) {
-  EXPECT_EQ(error_of("inf 0 0\n"), "in.txt:1:1: expected a header line, 'triangle N' or a vertex, found 'inf'");
+  EXPECT_EQ(error_of("inf 0 0\n"),
+            "in.txt:1:1: expected a header line, 'triangle N' or a vertex, found 'inf'");
 }
 
 TEST(StageReader, GivesOutTheTrianglesBeforeAMistake) {
@@ -304,7 +321,8 @@ TEST(StageReader, AnErrorLineMayBeEmpty) {
 }
 
 TEST(StageText, AnErrorLineStandsOnOneLine) {
-  EXPECT_EQ(error_line("model: cannot open a\nb\r: No such file"), "error model: cannot open a\\x0ab\\x0d: No such file\n");
+  EXPECT_EQ(error_line("model: cannot open a\nb\r: No such file"),
+            "error model: cannot open a\\x0ab\\x0d: No such file\n");
 }
 
 TEST(StageText, AnErrorLineCanBePassedOnAsItWas) {
@@ -319,9 +337,13 @@ TEST(StageText, AnErrorLineCanBePassedOnAsItWas) {
 
 // Framed text.
 
-TEST(StageReader, AFramedTextEndsWithEnd) { EXPECT_EQ(triangles_of("framed\n" + kTriangle + "end\n").size(), 1u); }
+TEST(StageReader, AFramedTextEndsWithEnd) {
+  EXPECT_EQ(triangles_of("framed\n" + kTriangle + "end\n").size(), 1u);
+}
 
-TEST(StageReader, AFramedTextMayHoldNothing) { EXPECT_EQ(triangles_of("framed\nend\n").size(), 0u); }
+TEST(StageReader, AFramedTextMayHoldNothing) {
+  EXPECT_EQ(triangles_of("framed\nend\n").size(), 0u);
+}
 
 TEST(StageReader, BlankLinesAndCommentsMayFollowTheEnd) {
   EXPECT_EQ(triangles_of("framed\n" + kTriangle + "end # c\n\n# d\n").size(), 1u);
@@ -330,7 +352,8 @@ TEST(StageReader, BlankLinesAndCommentsMayFollowTheEnd) {
 TEST(StageReader, EveryPrefixOfAFramedTextIsAnError) {
   const std::string text = "framed\nup 0 1 0\n" + kTriangle + "triangle 3\n" + kTriangle + "end\n";
   EXPECT_EQ(error_of(text), "no error");
-  for (std::size_t length = 1; length < text.size(); ++length) EXPECT_NE(error_of(text.substr(0, length)), "no error") << length;
+  for (std::size_t length = 1; length < text.size(); ++length)
+    EXPECT_NE(error_of(text.substr(0, length)), "no error") << length;
 }
 
 TEST(StageReader, AFramedTextWithoutEndIsAnError) {
@@ -340,7 +363,8 @@ TEST(StageReader, AFramedTextWithoutEndIsAnError) {
 
 TEST(StageReader, TheEndOfAFramedTextIsAWholeLine) {
   EXPECT_EQ(error_of("framed\n" + kTriangle + "end"),
-            "in.txt:6:4: expected the end of the line after 'end', which closes a framed text, found the end of the input");
+            "in.txt:6:4: expected the end of the line after 'end', which closes a framed text, found the end "
+            "of the input");
 }
 
 TEST(StageReader, NothingFollowsTheEndOfAFramedText) {
@@ -349,7 +373,9 @@ TEST(StageReader, NothingFollowsTheEndOfAFramedText) {
 }
 
 TEST(StageReader, EndIsNoWordOfATextThatIsNotFramed) {
-  EXPECT_EQ(error_of(kTriangle + "end\n"), "in.txt:5:1: expected 'triangle N' or a vertex ('end' needs a line 'framed' in the header), found 'end'");
+  EXPECT_EQ(error_of(kTriangle + "end\n"),
+            "in.txt:5:1: expected 'triangle N' or a vertex ('end' needs a line 'framed' in the header), "
+            "found 'end'");
 }
 
 TEST(StageReader, AnUnframedTextIsTakenAsItReads) {
@@ -396,7 +422,8 @@ TEST(StageReader, DoesNotWaitForTheFirstTriangleToKnowTheHeader) {
 
 constexpr Triangle kWritten = {Vec3{0, -1, 2.5}, Vec3{-0.0, 1e-9, -1e-9}, Vec3{123456789, 0.12345675, -3}};
 
-std::string written(const TriangleBatch& batch, NumberFormat format = {}, bool bare = false, const StageHeader& header = {}) {
+std::string written(const TriangleBatch& batch, NumberFormat format = {}, bool bare = false,
+                    const StageHeader& header = {}) {
   const TextFile file("");
   TextWriter text(file.descriptor(), "out.txt");
   StageWriter writer(text, format, bare);
@@ -415,17 +442,21 @@ TriangleBatch numbered(std::initializer_list<std::uint64_t> numbers) {
 /// The text with its vertices left out.
 std::string written_numbers(std::initializer_list<std::uint64_t> numbers, bool bare = false) {
   std::string text = written(numbered(numbers), {.shortest = true}, bare);
-  for (std::size_t at = 0; (at = text.find("0 0 0\n0 0 0\n0 0 0\n\n")) != std::string::npos;) text.replace(at, 19, ".");
+  for (std::size_t at = 0; (at = text.find("0 0 0\n0 0 0\n0 0 0\n\n")) != std::string::npos;)
+    text.replace(at, 19, ".");
   return text;
 }
 
-TEST(StageWriter, NothingIsAnEmptyText) { EXPECT_EQ(written({}), ""); }
+TEST(StageWriter, NothingIsAnEmptyText) {
+  EXPECT_EQ(written({}), "");
+}
 
 TEST(StageWriter, WritesSevenDecimalsAndZeroWithoutASign) {
   TriangleBatch batch;
   batch.add(kWritten, 0, {});
   EXPECT_EQ(written(batch),
-            "0.0000000 -1.0000000 2.5000000\n0.0000000 0.0000000 0.0000000\n123456789.0000000 0.1234568 -3.0000000\n\n");
+            "0.0000000 -1.0000000 2.5000000\n0.0000000 0.0000000 0.0000000\n123456789.0000000 0.1234568 "
+            "-3.0000000\n\n");
 }
 
 TEST(StageWriter, WritesAsManyDecimalsAsAreAskedFor) {
@@ -448,7 +479,8 @@ TEST(StageWriter, WritesTheHeaderInTheShortestFormWhateverTheDecimals) {
   header.camera.up = {Vec3{0, 1, 0}, {}};
   header.camera.projection = {Perspective{60, 1.5, 0.5, 100}, {}};
   EXPECT_EQ(written({}, {.decimals = 2}, false, header),
-            "framed\neye 0.1 0 1e+300\nlook 0.3333333333333333 0 5e-324\nup 0 1 0\nperspective 60 1.5 0.5 100\nend\n");
+            "framed\neye 0.1 0 1e+300\nlook 0.3333333333333333 0 5e-324\nup 0 1 0\nperspective 60 1.5 0.5 "
+            "100\nend\n");
 }
 
 TEST(StageWriter, WritesAFrustum) {
@@ -470,17 +502,25 @@ TEST(StageWriter, BareTextIsTrianglesAlone) {
   EXPECT_EQ(written(numbered({4}), {.shortest = true}, true, header), "0 0 0\n0 0 0\n0 0 0\n\n");
 }
 
-TEST(StageWriter, WritesNoNumbersWherePlainCountingIsRight) { EXPECT_EQ(written_numbers({0, 1, 2}), "..."); }
+TEST(StageWriter, WritesNoNumbersWherePlainCountingIsRight) {
+  EXPECT_EQ(written_numbers({0, 1, 2}), "...");
+}
 
-TEST(StageWriter, WritesANumberAfterADroppedTriangle) { EXPECT_EQ(written_numbers({0, 2, 3}), ".triangle 2\n.."); }
+TEST(StageWriter, WritesANumberAfterADroppedTriangle) {
+  EXPECT_EQ(written_numbers({0, 2, 3}), ".triangle 2\n..");
+}
 
-TEST(StageWriter, WritesANumberIfTheFirstTriangleIsDropped) { EXPECT_EQ(written_numbers({1, 2}), "triangle 1\n.."); }
+TEST(StageWriter, WritesANumberIfTheFirstTriangleIsDropped) {
+  EXPECT_EQ(written_numbers({1, 2}), "triangle 1\n..");
+}
 
 TEST(StageWriter, WritesANumberBeforeEachPieceAfterTheFirst) {
   EXPECT_EQ(written_numbers({0, 0, 0, 1}), ".triangle 0\n.triangle 0\n..");
 }
 
-TEST(StageWriter, BareTextHasNoNumbers) { EXPECT_EQ(written_numbers({0, 0, 5}, true), "..."); }
+TEST(StageWriter, BareTextHasNoNumbers) {
+  EXPECT_EQ(written_numbers({0, 0, 5}, true), "...");
+}
 
 TEST(StageWriter, CountsOnAcrossBatches) {
   const TextFile file("");

@@ -1,0 +1,134 @@
+#include "libpipeline/fixed_text_kernels.h"
+
+#ifdef PIPELINE_HAS_X86_KERNELS
+
+#include <immintrin.h>
+
+#include <array>
+#include <bit>
+#include <cstdint>
+
+#define PIPELINE_AVX2 __attribute__((target("avx2,bmi")))
+
+namespace pipeline {
+namespace {
+
+constexpr double kUnitsPerOne = 1e7;
+
+/// Four coordinates as whole units of 10^-7, split at the point.
+struct SplitUnits {
+  __m128i whole;
+  __m128i decimals;
+  unsigned negative;  // bit i: coordinate i is below 0, and does not round to 0
+};
+
+/// `good` loses its bits where a coordinate is too large, not finite, or too near to a tie.
+PIPELINE_AVX2 inline SplitUnits split(__m256d values, __m256d& good) {
+  const __m256d sign_bit = _mm256_set1_pd(-0.0);
+  const __m256d rounder = _mm256_set1_pd(0x1.8p52);
+  const __m256d one = _mm256_set1_pd(1);
+  const __m256d per_one = _mm256_set1_pd(kUnitsPerOne);
+  const __m256d scaled = _mm256_mul_pd(_mm256_andnot_pd(sign_bit, values), per_one);
+  const __m256d units = _mm256_sub_pd(_mm256_add_pd(scaled, rounder), rounder);
+  const __m256d distance = _mm256_andnot_pd(sign_bit, _mm256_sub_pd(scaled, units));
+  // The product is rounded: by at most 2^-53 of itself.
+  const __m256d reach = _mm256_add_pd(distance, _mm256_mul_pd(scaled, _mm256_set1_pd(0x1p-52)));
+  good = _mm256_and_pd(good, _mm256_cmp_pd(reach, _mm256_set1_pd(0.5), _CMP_LT_OQ));
+  good = _mm256_and_pd(good, _mm256_cmp_pd(units, _mm256_set1_pd(1e15), _CMP_LT_OQ));
+  // units / 10^7, right or one too small or too large; the remainder, which is exact, tells.
+  const __m256d quotient = _mm256_floor_pd(_mm256_mul_pd(units, _mm256_set1_pd(1e-7)));
+  const __m256d rest = _mm256_sub_pd(units, _mm256_mul_pd(quotient, per_one));
+  const __m256d too_large = _mm256_cmp_pd(rest, _mm256_setzero_pd(), _CMP_LT_OQ);
+  const __m256d too_small = _mm256_cmp_pd(rest, per_one, _CMP_GE_OQ);
+  const __m256d step = _mm256_sub_pd(_mm256_and_pd(too_small, one), _mm256_and_pd(too_large, one));
+  const __m256d below_zero = _mm256_and_pd(values, _mm256_cmp_pd(units, _mm256_setzero_pd(), _CMP_GT_OQ));
+  return {_mm256_cvttpd_epi32(_mm256_add_pd(quotient, step)),
+          _mm256_cvttpd_epi32(_mm256_sub_pd(rest, _mm256_mul_pd(step, per_one))),
+          static_cast<unsigned>(_mm256_movemask_pd(below_zero))};
+}
+
+/// For two numbers, a half each: 16 digits, the first of 8 before the point, a 0 where the point will be, 7 behind it.
+PIPELINE_AVX2 inline __m256i sixteen_digits(__m128i whole_and_decimals) {
+  const __m256i eights = _mm256_cvtepu32_epi64(whole_and_decimals);
+  // x / 10000 for x < 10^8, in 64 bits.
+  const __m256i high = _mm256_srli_epi64(_mm256_mul_epu32(eights, _mm256_set1_epi64x(0xd1b71759)), 45);
+  const __m256i low = _mm256_sub_epi32(eights, _mm256_mul_epu32(high, _mm256_set1_epi64x(10000)));
+  const __m256i fours = _mm256_or_si256(high, _mm256_slli_epi64(low, 32));
+  // x / 100 for x < 10^4, then x / 10 for x < 100, in 16 bits.
+  const __m256i hundreds = _mm256_srli_epi16(_mm256_mulhi_epu16(fours, _mm256_set1_epi16(5243)), 3);
+  const __m256i rest = _mm256_sub_epi16(fours, _mm256_mullo_epi16(hundreds, _mm256_set1_epi16(100)));
+  const __m256i pairs = _mm256_or_si256(hundreds, _mm256_slli_epi32(rest, 16));
+  const __m256i tens = _mm256_mulhi_epu16(pairs, _mm256_set1_epi16(6554));
+  const __m256i ones = _mm256_sub_epi16(pairs, _mm256_mullo_epi16(tens, _mm256_set1_epi16(10)));
+  return _mm256_or_si256(tens, _mm256_slli_epi16(ones, 8));
+}
+
+struct ByteShifts {
+  alignas(16) std::array<std::uint8_t, 32> bytes{};
+  constexpr ByteShifts() {
+    for (unsigned i = 0; i < 32; ++i) bytes[i] = static_cast<std::uint8_t>(i < 16 ? i : 0x80);
+  }
+};
+
+constexpr ByteShifts kByteShifts;
+
+/// `filled` has a bit for each character that is a digit above 0.
+PIPELINE_AVX2 inline char* write_number(char* out, unsigned is_negative, __m128i text, unsigned filled) {
+  // The last digit before the point stays even if it is 0.
+  const auto leading_zero_count = static_cast<unsigned>(std::countr_zero(filled | 0x80u));
+  const __m128i shift =
+      _mm_loadu_si128(reinterpret_cast<const __m128i*>(kByteShifts.bytes.data() + leading_zero_count));
+  *out = '-';
+  out += is_negative & 1;
+  _mm_storeu_si128(reinterpret_cast<__m128i*>(out), _mm_shuffle_epi8(text, shift));
+  return out + 16 - leading_zero_count;
+}
+
+PIPELINE_AVX2 inline char* write_two(char* out, __m128i whole_and_decimals, unsigned negative, char first_separator,
+                                     char second_separator) {
+  const __m256i characters = _mm256_broadcastsi128_si256(
+      _mm_setr_epi8('0', '0', '0', '0', '0', '0', '0', '0', '.', '0', '0', '0', '0', '0', '0', '0'));
+  const __m256i digits = sixteen_digits(whole_and_decimals);
+  const __m256i text = _mm256_add_epi8(digits, characters);
+  const auto filled =
+      static_cast<unsigned>(_mm256_movemask_epi8(_mm256_cmpgt_epi8(digits, _mm256_setzero_si256())));
+  out = write_number(out, negative, _mm256_castsi256_si128(text), filled & 0xffff);
+  *out++ = first_separator;
+  out = write_number(out, negative >> 1, _mm256_extracti128_si256(text, 1), filled >> 16);
+  *out++ = second_separator;
+  return out;
+}
+
+PIPELINE_AVX2 FixedTextPart write_fixed_text(std::span<const Triangle> triangles, char* out) {
+  FixedTextPart part;
+  char* const begin = out;
+  for (const Triangle& triangle : triangles) {
+    const double* const p = &triangle[0].x;
+    __m256d good = _mm256_castsi256_pd(_mm256_set1_epi32(-1));
+    const SplitUnits a = split(_mm256_loadu_pd(p), good);
+    const SplitUnits b = split(_mm256_loadu_pd(p + 4), good);
+    const SplitUnits c = split(_mm256_zextpd128_pd256(_mm_load_sd(p + 8)), good);
+    if (_mm256_movemask_pd(good) != 0xf) break;
+    out = write_two(out, _mm_unpacklo_epi32(a.whole, a.decimals), a.negative, ' ', ' ');
+    out = write_two(out, _mm_unpackhi_epi32(a.whole, a.decimals), a.negative >> 2, '\n', ' ');
+    out = write_two(out, _mm_unpacklo_epi32(b.whole, b.decimals), b.negative, ' ', '\n');
+    out = write_two(out, _mm_unpackhi_epi32(b.whole, b.decimals), b.negative >> 2, ' ', ' ');
+    // The last number stands alone; the text of its empty companion is written over.
+    char* const after_companion = write_two(out, _mm_unpacklo_epi32(c.whole, c.decimals), c.negative, '\n', '\n');
+    out = after_companion - (sizeof "0.0000000\n" - 1);
+    *out++ = '\n';
+    ++part.triangle_count;
+  }
+  part.length = static_cast<std::size_t>(out - begin);
+  return part;
+}
+
+}  // namespace
+
+constinit const WriteFixedText kWriteFixedTextAvx2 = write_fixed_text;
+
+bool processor_has_avx2() { return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi"); }
+
+}  // namespace pipeline
+
+#endif

@@ -1,0 +1,196 @@
+#include "libpipeline/fixed_text_kernels.h"
+
+#ifdef PIPELINE_HAS_X86_KERNELS
+
+#include <immintrin.h>
+
+#include <array>
+#include <bit>
+#include <cstdint>
+
+#define PIPELINE_SSE4 __attribute__((target("sse4.2,bmi")))
+
+namespace pipeline {
+namespace {
+
+constexpr double kUnitsPerOne = 1e7;
+constexpr std::uint64_t kSignBit = std::uint64_t{1} << 63;
+
+// ---- reading ----
+
+/// For each count of digits before the point: where the bytes of [8 digits before][0][7 digits behind] come from.
+/// An impossible count has a row that picks the point, which is no digit.
+struct DigitShuffles {
+  alignas(16) std::array<std::array<std::uint8_t, 16>, 17> rows{};
+
+  constexpr DigitShuffles() {
+    for (unsigned count = 0; count <= 16; ++count) {
+      const bool is_possible = count >= 1 && count <= 8;
+      for (unsigned i = 0; i < 16; ++i) {
+        std::uint8_t from = is_possible ? 0x80 : static_cast<std::uint8_t>(count & 15);
+        if (is_possible && i < 8 && i + count >= 8) from = static_cast<std::uint8_t>(i + count - 8);
+        if (is_possible && i > 8) from = static_cast<std::uint8_t>(count + i - 8);
+        rows[count][i] = from;
+      }
+    }
+  }
+};
+
+constexpr DigitShuffles kDigitShuffles;
+
+/// Reads one number and the separator behind it; `good` loses its bits where the form differs.
+PIPELINE_SSE4 inline const char* read_number(const char* p, char separator, std::uint64_t& bits, int& good) {
+  const std::uint64_t sign = *p == '-' ? kSignBit : 0;
+  p += sign >> 63;
+  const __m128i text = _mm_loadu_si128(reinterpret_cast<const __m128i*>(p));
+  const auto points = static_cast<unsigned>(_mm_movemask_epi8(_mm_cmpeq_epi8(text, _mm_set1_epi8('.'))));
+  const auto count = static_cast<unsigned>(std::countr_zero(points | 0x10000u));
+  const __m128i shuffle = _mm_load_si128(reinterpret_cast<const __m128i*>(kDigitShuffles.rows[count].data()));
+  const __m128i digits = _mm_shuffle_epi8(_mm_sub_epi8(text, _mm_set1_epi8('0')), shuffle);
+  const __m128i in_range = _mm_cmpeq_epi8(_mm_min_epu8(digits, _mm_set1_epi8(9)), digits);
+  good &= _mm_movemask_epi8(in_range) & (p[count + 8] == separator ? 0xffff : 0);
+  // Neighbouring digits, pairs and fours are joined until 8 digits are one number.
+  const __m128i pairs = _mm_maddubs_epi16(digits, _mm_set1_epi16(10 | (1 << 8)));
+  const __m128i fours = _mm_madd_epi16(pairs, _mm_set1_epi32(100 | (1 << 16)));
+  const __m128i packed = _mm_packus_epi32(fours, fours);
+  const __m128i eights = _mm_madd_epi16(packed, _mm_set1_epi32(10000 | (1 << 16)));
+  const auto both = static_cast<std::uint64_t>(_mm_cvtsi128_si64(eights));
+  const std::uint64_t units = (both & 0xffffffff) * 10'000'000 + (both >> 32);
+  // Below 2^53 the conversion is exact, so that the quotient is the nearest double to the decimal.
+  const double value = static_cast<double>(static_cast<std::int64_t>(units)) / kUnitsPerOne;
+  bits = std::bit_cast<std::uint64_t>(value) | sign;
+  return p + count + 9;
+}
+
+PIPELINE_SSE4 FixedTextPart read_fixed_text(std::string_view text, std::span<Triangle> triangles) {
+  FixedTextPart part;
+  const char* p = text.data();
+  const char* const end = p + text.size();
+  for (Triangle& triangle : triangles) {
+    if (p >= end) break;
+    std::array<std::uint64_t, 9> bits;
+    const char* q = p;
+    int good = 0xffff;
+    for (std::size_t v = 0; v < 3; ++v) {
+      q = read_number(q, ' ', bits[3 * v], good);
+      q = read_number(q, ' ', bits[3 * v + 1], good);
+      q = read_number(q, '\n', bits[3 * v + 2], good);
+    }
+    if (good != 0xffff || *q != '\n' || q >= end) break;
+    triangle = std::bit_cast<Triangle>(bits);
+    p = q + 1;
+    ++part.triangle_count;
+  }
+  part.length = static_cast<std::size_t>(p - text.data());
+  return part;
+}
+
+// ---- printing ----
+
+/// 16 digits, the first of 8 before the point, then a 0 where the point will be, and 7 behind it.
+PIPELINE_SSE4 inline __m128i sixteen_digits(std::uint32_t whole, std::uint32_t decimals) {
+  const __m128i eights = _mm_set_epi64x(static_cast<std::int64_t>(decimals), static_cast<std::int64_t>(whole));
+  // x / 10000 for x < 10^8, in 64 bits.
+  const __m128i high = _mm_srli_epi64(_mm_mul_epu32(eights, _mm_set1_epi64x(0xd1b71759)), 45);
+  const __m128i low = _mm_sub_epi32(eights, _mm_mul_epu32(high, _mm_set1_epi64x(10000)));
+  const __m128i fours = _mm_or_si128(high, _mm_slli_epi64(low, 32));
+  // x / 100 for x < 10^4, then x / 10 for x < 100, in 16 bits.
+  const __m128i hundreds = _mm_srli_epi16(_mm_mulhi_epu16(fours, _mm_set1_epi16(5243)), 3);
+  const __m128i rest = _mm_sub_epi16(fours, _mm_mullo_epi16(hundreds, _mm_set1_epi16(100)));
+  const __m128i pairs = _mm_or_si128(hundreds, _mm_slli_epi32(rest, 16));
+  const __m128i tens = _mm_mulhi_epu16(pairs, _mm_set1_epi16(6554));
+  const __m128i ones = _mm_sub_epi16(pairs, _mm_mullo_epi16(tens, _mm_set1_epi16(10)));
+  return _mm_or_si128(tens, _mm_slli_epi16(ones, 8));
+}
+
+struct ByteShifts {
+  alignas(16) std::array<std::uint8_t, 32> bytes{};
+  constexpr ByteShifts() {
+    for (unsigned i = 0; i < 32; ++i) bytes[i] = static_cast<std::uint8_t>(i < 16 ? i : 0x80);
+  }
+};
+
+constexpr ByteShifts kByteShifts;
+
+PIPELINE_SSE4 inline char* write_number(char* out, bool is_negative, std::uint32_t whole, std::uint32_t decimals) {
+  const __m128i digits = sixteen_digits(whole, decimals);
+  const __m128i characters = _mm_setr_epi8('0', '0', '0', '0', '0', '0', '0', '0', '.', '0', '0', '0', '0', '0', '0', '0');
+  const __m128i text = _mm_add_epi8(digits, characters);
+  // The last digit before the point stays even if it is 0.
+  const auto filled = static_cast<unsigned>(_mm_movemask_epi8(_mm_cmpgt_epi8(digits, _mm_setzero_si128()))) | 0x80u;
+  const auto leading_zero_count = static_cast<unsigned>(std::countr_zero(filled));
+  const __m128i shift =
+      _mm_loadu_si128(reinterpret_cast<const __m128i*>(kByteShifts.bytes.data() + leading_zero_count));
+  *out = '-';
+  out += is_negative ? 1 : 0;
+  _mm_storeu_si128(reinterpret_cast<__m128i*>(out), _mm_shuffle_epi8(text, shift));
+  return out + 16 - leading_zero_count;
+}
+
+/// The nine coordinates of a triangle in whole units of 10^-7, split at the point.
+struct SplitUnits {
+  alignas(16) std::array<std::int32_t, 12> whole;
+  alignas(16) std::array<std::int32_t, 12> decimals;
+  unsigned negative = 0;  // bit i: coordinate i is below 0, and does not round to 0
+};
+
+/// False where a coordinate is too large, not finite, or too near to a tie.
+PIPELINE_SSE4 inline bool split(const double* coordinates, SplitUnits& split_units) {
+  const __m128d sign_bit = _mm_set1_pd(-0.0);
+  const __m128d rounder = _mm_set1_pd(0x1.8p52);
+  const __m128d half = _mm_set1_pd(0.5);
+  __m128d good = _mm_castsi128_pd(_mm_set1_epi32(-1));
+  unsigned negative = 0;
+  for (std::size_t i = 0; i < 10; i += 2) {
+    const __m128d value = i < 8 ? _mm_loadu_pd(coordinates + i) : _mm_load_sd(coordinates + i);
+    const __m128d scaled = _mm_mul_pd(_mm_andnot_pd(sign_bit, value), _mm_set1_pd(kUnitsPerOne));
+    const __m128d units = _mm_sub_pd(_mm_add_pd(scaled, rounder), rounder);
+    const __m128d distance = _mm_andnot_pd(sign_bit, _mm_sub_pd(scaled, units));
+    // The product is rounded: by at most 2^-53 of itself.
+    const __m128d reach = _mm_add_pd(distance, _mm_mul_pd(scaled, _mm_set1_pd(0x1p-52)));
+    good = _mm_and_pd(good, _mm_and_pd(_mm_cmplt_pd(reach, half), _mm_cmplt_pd(units, _mm_set1_pd(1e15))));
+    // units / 10^7, right or one too small or too large; the remainder, which is exact, tells.
+    __m128d whole = _mm_floor_pd(_mm_mul_pd(units, _mm_set1_pd(1e-7)));
+    __m128d decimals = _mm_sub_pd(units, _mm_mul_pd(whole, _mm_set1_pd(kUnitsPerOne)));
+    const __m128d too_large = _mm_cmplt_pd(decimals, _mm_setzero_pd());
+    const __m128d too_small = _mm_cmpge_pd(decimals, _mm_set1_pd(kUnitsPerOne));
+    whole = _mm_sub_pd(whole, _mm_and_pd(too_large, _mm_set1_pd(1)));
+    whole = _mm_add_pd(whole, _mm_and_pd(too_small, _mm_set1_pd(1)));
+    decimals = _mm_add_pd(decimals, _mm_and_pd(too_large, _mm_set1_pd(kUnitsPerOne)));
+    decimals = _mm_sub_pd(decimals, _mm_and_pd(too_small, _mm_set1_pd(kUnitsPerOne)));
+    _mm_storel_epi64(reinterpret_cast<__m128i*>(&split_units.whole[i]), _mm_cvttpd_epi32(whole));
+    _mm_storel_epi64(reinterpret_cast<__m128i*>(&split_units.decimals[i]), _mm_cvttpd_epi32(decimals));
+    const __m128d below_zero = _mm_and_pd(value, _mm_cmpgt_pd(units, _mm_setzero_pd()));
+    negative |= static_cast<unsigned>(_mm_movemask_pd(below_zero)) << i;
+  }
+  split_units.negative = negative;
+  return _mm_movemask_pd(good) == 3;
+}
+
+PIPELINE_SSE4 FixedTextPart write_fixed_text(std::span<const Triangle> triangles, char* out) {
+  FixedTextPart part;
+  char* const begin = out;
+  for (const Triangle& triangle : triangles) {
+    SplitUnits units;
+    if (!split(&triangle[0].x, units)) break;
+    for (unsigned i = 0; i < 9; ++i) {
+      out = write_number(out, ((units.negative >> i) & 1u) != 0, static_cast<std::uint32_t>(units.whole[i]),
+                         static_cast<std::uint32_t>(units.decimals[i]));
+      *out++ = i % 3 == 2 ? '\n' : ' ';
+    }
+    *out++ = '\n';
+    ++part.triangle_count;
+  }
+  part.length = static_cast<std::size_t>(out - begin);
+  return part;
+}
+
+}  // namespace
+
+constinit const FixedTextKernel kSse4Kernel = {"sse4", read_fixed_text, write_fixed_text};
+
+bool processor_has_sse4() { return __builtin_cpu_supports("sse4.2") && __builtin_cpu_supports("bmi"); }
+
+}  // namespace pipeline
+
+#endif
