@@ -1,0 +1,369 @@
+#include "libpipeline/clip.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/random_numbers.h"
+#include "tests/real.h"
+
+namespace pipeline {
+namespace {
+
+using Exact = Real<448>;
+using Polygon = std::vector<ClipVertex>;
+using Coordinate = Ball ClipVertex::*;
+
+constexpr Coordinate kCoordinates[] = {&ClipVertex::x, &ClipVertex::y, &ClipVertex::z, &ClipVertex::w};
+
+// What a cut may be wrong by, in parts of the polygon's size.
+const Exact kTolerance = times_power_of_two(Exact(1), -85);
+
+bool is_same(const ClipVertex& a, const ClipVertex& b) {
+  return std::all_of(std::begin(kCoordinates), std::end(kCoordinates),
+                     [&](Coordinate c) { return a.*c == b.*c; });
+}
+
+Exact value(const Ball& ball) {
+  return midpoint<448>(ball);
+}
+
+/// Twice the signed area of a polygon's shadow on the plane of two coordinates.
+Exact double_area(const Polygon& polygon, Coordinate first, Coordinate second) {
+  Exact sum;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const ClipVertex& a = polygon[i];
+    const ClipVertex& b = polygon[(i + 1) % polygon.size()];
+    sum = sum + value(a.*first) * value(b.*second) - value(b.*first) * value(a.*second);
+  }
+  return sum;
+}
+
+/// The largest coordinate.
+Exact size_of(const Polygon& polygon) {
+  Exact size;
+  for (const ClipVertex& v : polygon)
+    for (const Coordinate c : kCoordinates) size = std::max(size, abs(value(v.*c)));
+  return size;
+}
+
+/// What was outside of a plane is inside now.
+Polygon turned_inside_out(Polygon polygon) {
+  for (ClipVertex& v : polygon)
+    for (const Coordinate c : kCoordinates) v.*c = -(v.*c);
+  return polygon;
+}
+
+/// A vertex as it comes out of a projection: any w, behind the eye as well, coordinates of few or of all
+/// bits.
+ClipVertex random_vertex(RandomNumbers& random) {
+  const auto number = [&] { return random.bits() % 3 == 0 ? random.whole(-4, 4) : random.between(-4, 4); };
+  return {number(), number(), number(), number() + 1};
+}
+
+Polygon random_triangle(RandomNumbers& random) {
+  return {random_vertex(random), random_vertex(random), random_vertex(random)};
+}
+
+std::string to_text(const Polygon& polygon) {
+  std::string text;
+  for (const ClipVertex& v : polygon)
+    for (const Coordinate c : kCoordinates)
+      text += std::to_string((v.*c).nearest_double()) + (c == &ClipVertex::w ? "\n" : " ");
+  return text;
+}
+
+/// A point with the given distance inside `plane`, well inside the others.
+ClipVertex at_distance(ClipPlane plane, double distance, double along) {
+  const double far_inside = 100;
+  ClipVertex v = {along, 2 * along, 3 * along, far_inside};
+  const Ball on_plane = Ball(distance) - Ball(far_inside);
+  switch (plane) {
+    case ClipPlane::near:
+      v.z = on_plane;
+      break;
+    case ClipPlane::far:
+      v.z = -on_plane;
+      break;
+    case ClipPlane::left:
+      v.x = on_plane;
+      break;
+    case ClipPlane::right:
+      v.x = -on_plane;
+      break;
+    case ClipPlane::bottom:
+      v.y = on_plane;
+      break;
+    case ClipPlane::top:
+      v.y = -on_plane;
+      break;
+  }
+  return v;
+}
+
+/// A triangle whose corners have these distances inside `plane`.
+Polygon at_distances(ClipPlane plane, double a, double b, double c) {
+  return {at_distance(plane, a, 0), at_distance(plane, b, 1), at_distance(plane, c, -1)};
+}
+
+Polygon clipped_at(ClipPlane plane, const Polygon& polygon) {
+  return clip_polygon(polygon, std::array{plane});
+}
+
+bool is_same(const Polygon& a, const Polygon& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](const auto& p, const auto& q) { return is_same(p, q); });
+}
+
+TEST(DistanceInside, IsPositiveWithinEachPlane) {
+  const ClipVertex inside = {0.5, -0.5, 0.25, 1};
+  EXPECT_EQ(distance_inside(ClipPlane::near, inside), Ball(1.25));
+  EXPECT_EQ(distance_inside(ClipPlane::far, inside), Ball(0.75));
+  EXPECT_EQ(distance_inside(ClipPlane::left, inside), Ball(1.5));
+  EXPECT_EQ(distance_inside(ClipPlane::right, inside), Ball(0.5));
+  EXPECT_EQ(distance_inside(ClipPlane::bottom, inside), Ball(0.5));
+  EXPECT_EQ(distance_inside(ClipPlane::top, inside), Ball(1.5));
+}
+
+TEST(Outcode, HasABitForEachPlaneAVertexIsOutsideOf) {
+  EXPECT_EQ(outcode({0, 0, 0, 1}), 0u);
+  EXPECT_EQ(outcode({0, 0, -2, 1}), 1u);
+  EXPECT_EQ(outcode({0, 0, 2, 1}), 2u);
+  EXPECT_EQ(outcode({-2, 0, 0, 1}), 4u);
+  EXPECT_EQ(outcode({2, 0, 0, 1}), 8u);
+  EXPECT_EQ(outcode({0, -2, 0, 1}), 16u);
+  EXPECT_EQ(outcode({0, 2, 0, 1}), 32u);
+  EXPECT_EQ(outcode({-2, 2, 2, 1}), 2u + 4u + 32u);
+}
+
+TEST(Outcode, OfAVertexBehindTheEyeHasBothBitsOfAPair) {
+  EXPECT_EQ(outcode({0, 0, 0, -1}), 63u);
+}
+
+TEST(Outcode, AVertexOnAPlaneIsInside) {
+  EXPECT_EQ(outcode({1, -1, -1, 1}), 0u);
+}
+
+TEST(Outcode, TheLastBitBesideAPlaneCounts) {
+  EXPECT_EQ(outcode({1 + 0x1p-52, 0, 0, 1}), 8u);
+  EXPECT_EQ(outcode({1 - 0x1p-53, 0, 0, 1}), 0u);
+}
+
+TEST(ClipPolygon, ATriangleInsideIsUnchanged) {
+  const Polygon triangle = {{0, 0, 0, 1}, {0.5, 0, 0, 1}, {0, 0.5, 0.5, 1}};
+  EXPECT_TRUE(is_same(clip_polygon(triangle, kAllClipPlanes), triangle));
+}
+
+TEST(ClipPolygon, OneCornerOutsideOfAnyPlaneLeavesFour) {
+  for (const ClipPlane plane : kAllClipPlanes) {
+    EXPECT_EQ(clipped_at(plane, at_distances(plane, -1, 2, 3)).size(), 4u);
+    EXPECT_EQ(clipped_at(plane, at_distances(plane, 1, -2, 3)).size(), 4u);
+    EXPECT_EQ(clipped_at(plane, at_distances(plane, 1, 2, -3)).size(), 4u);
+  }
+}
+
+TEST(ClipPolygon, TwoCornersOutsideOfAnyPlaneLeaveThree) {
+  for (const ClipPlane plane : kAllClipPlanes) {
+    EXPECT_EQ(clipped_at(plane, at_distances(plane, 1, -2, -3)).size(), 3u);
+    EXPECT_EQ(clipped_at(plane, at_distances(plane, -1, 2, -3)).size(), 3u);
+    EXPECT_EQ(clipped_at(plane, at_distances(plane, -1, -2, 3)).size(), 3u);
+  }
+}
+
+TEST(ClipPolygon, ThreeCornersOutsideOfAnyPlaneLeaveNothing) {
+  for (const ClipPlane plane : kAllClipPlanes)
+    EXPECT_TRUE(clipped_at(plane, at_distances(plane, -1, -2, -3)).empty());
+}
+
+TEST(ClipPolygon, TouchingAPlaneFromOutsideLeavesNothing) {
+  for (const ClipPlane plane : kAllClipPlanes) {
+    EXPECT_TRUE(clipped_at(plane, at_distances(plane, 0, -2, -3)).empty());
+    EXPECT_TRUE(clipped_at(plane, at_distances(plane, 0, 0, -3)).empty());
+    EXPECT_TRUE(clipped_at(plane, at_distances(plane, -1, 0, 0)).empty());
+  }
+}
+
+TEST(ClipPolygon, TouchingAPlaneFromInsideLeavesTheWhole) {
+  for (const ClipPlane plane : kAllClipPlanes) {
+    for (const Polygon& triangle :
+         {at_distances(plane, 0, 2, 3), at_distances(plane, 0, 0, 3), at_distances(plane, 1, 0, 0)})
+      EXPECT_TRUE(is_same(clipped_at(plane, triangle), triangle));
+  }
+}
+
+TEST(ClipPolygon, ATriangleInAPlaneIsWhole) {
+  for (const ClipPlane plane : kAllClipPlanes) {
+    const Polygon triangle = at_distances(plane, 0, 0, 0);
+    EXPECT_TRUE(is_same(clipped_at(plane, triangle), triangle));
+  }
+}
+
+TEST(ClipPolygon, APlaneThroughACornerCutsTheOppositeEdge) {
+  for (const ClipPlane plane : kAllClipPlanes) {
+    const Polygon triangle = at_distances(plane, 0, 2, -3);
+    const Polygon inside = clipped_at(plane, triangle);
+    ASSERT_EQ(inside.size(), 3u);
+    EXPECT_TRUE(is_same(inside[0], triangle[0]));
+    EXPECT_TRUE(is_same(inside[1], triangle[1]));
+  }
+}
+
+TEST(ClipPolygon, CutsAnEdgeWhereItMeetsThePlane) {
+  const Polygon inside = clipped_at(ClipPlane::right, {{0, 0, 0, 1}, {4, 0, 0, 1}, {0, 0.5, 0, 1}});
+  ASSERT_EQ(inside.size(), 4u);
+  EXPECT_EQ(inside[1].x, Ball(1));
+  EXPECT_EQ(inside[1].y, Ball(0));
+  EXPECT_EQ(inside[2].x, Ball(1));
+  EXPECT_EQ(inside[2].y, Ball(0.375));
+}
+
+TEST(ClipPolygon, OfNothingIsNothing) {
+  EXPECT_TRUE(clip_polygon({}, kAllClipPlanes).empty());
+}
+
+/// Cuts off what is outside of one plane after the other, and adds up the shadows of what was cut off.
+void expect_area_conserved(const Polygon& triangle) {
+  Polygon rest = triangle;
+  std::vector<Polygon> parts;
+  for (const ClipPlane plane : kAllClipPlanes) {
+    parts.push_back(clipped_at(plane, turned_inside_out(rest)));
+    rest = clipped_at(plane, rest);
+  }
+  ASSERT_TRUE(is_same(rest, clip_polygon(triangle, kAllClipPlanes)));
+  parts.push_back(rest);
+  const Exact size = size_of(triangle);
+  for (const Coordinate first : kCoordinates) {
+    for (const Coordinate second : kCoordinates) {
+      Exact sum;
+      for (const Polygon& part : parts) sum = sum + double_area(part, first, second);
+      ASSERT_LE(abs(sum - double_area(triangle, first, second)), size * size * kTolerance)
+          << to_text(triangle);
+    }
+  }
+}
+
+void expect_nothing_outside(const Polygon& triangle) {
+  const Polygon inside = clip_polygon(triangle, kAllClipPlanes);
+  ASSERT_TRUE(inside.empty() || (inside.size() >= 3 && inside.size() <= 9)) << to_text(triangle);
+  const Exact least = -size_of(triangle) * kTolerance;
+  for (const ClipVertex& v : inside)
+    for (const ClipPlane plane : kAllClipPlanes)
+      ASSERT_GE(value(distance_inside(plane, v)), least) << to_text(triangle) << "clipped\n"
+                                                         << to_text(inside);
+}
+
+/// Every triangle of the fan turns as the whole does.
+void expect_winding_kept(const Polygon& triangle) {
+  const Polygon inside = clip_polygon(triangle, kAllClipPlanes);
+  const Exact size = size_of(triangle);
+  for (const Coordinate first : kCoordinates) {
+    for (const Coordinate second : kCoordinates) {
+      const int turn = double_area(triangle, first, second).sign();
+      for (std::size_t i = 1; i + 1 < inside.size(); ++i) {
+        const Exact piece = double_area({inside[0], inside[i], inside[i + 1]}, first, second);
+        ASSERT_GE(Exact(turn) * piece, -size * size * kTolerance) << to_text(triangle);
+      }
+    }
+  }
+}
+
+/// The corners of `polygon` on the edge from a to b, by the triangle's barycentric coordinates.
+Polygon corners_on_edge(const Polygon& polygon, const ClipVertex& a, const ClipVertex& b) {
+  Polygon found;
+  const Exact size = size_of({a, b});
+  for (const ClipVertex& v : polygon) {
+    const bool is_on_line =
+        std::all_of(std::begin(kCoordinates), std::end(kCoordinates), [&](Coordinate first) {
+          return std::all_of(std::begin(kCoordinates), std::end(kCoordinates), [&](Coordinate second) {
+            return abs(double_area({a, b, v}, first, second)) <= size * size * kTolerance;
+          });
+        });
+    if (is_on_line) found.push_back(v);
+  }
+  return found;
+}
+
+void expect_same_cuts_for_neighbours(RandomNumbers& random) {
+  const ClipVertex a = random_vertex(random);
+  const ClipVertex b = random_vertex(random);
+  const Polygon first = clip_polygon(Polygon{a, b, random_vertex(random)}, kAllClipPlanes);
+  const Polygon second = clip_polygon(Polygon{b, a, random_vertex(random)}, kAllClipPlanes);
+  if (first.empty() || second.empty()) return;
+  Polygon on_first = corners_on_edge(first, a, b);
+  Polygon on_second = corners_on_edge(second, a, b);
+  ASSERT_EQ(on_first.size(), on_second.size()) << to_text({a, b});
+  for (const ClipVertex& v : on_first)
+    ASSERT_TRUE(std::any_of(on_second.begin(), on_second.end(), [&](const ClipVertex& other) {
+      return is_same(v, other);
+    })) << to_text({a, b});
+}
+
+template <typename Check>
+void for_random_triangles(std::uint64_t seed, int count, Check check) {
+  RandomNumbers random(seed);
+  for (int i = 0; i < count && !testing::Test::HasFatalFailure(); ++i) check(random_triangle(random));
+}
+
+TEST(ClipPolygon, AreaIsConserved) {
+  for_random_triangles(1, 3'000, expect_area_conserved);
+}
+TEST(ClipPolygon, NoPieceLiesOutside) {
+  for_random_triangles(2, 5'000, expect_nothing_outside);
+}
+TEST(ClipPolygon, WindingIsKept) {
+  for_random_triangles(3, 3'000, expect_winding_kept);
+}
+
+TEST(ClipPolygon, NeighboursGetTheSamePointsOnTheirEdge) {
+  RandomNumbers random(4);
+  for (int i = 0; i < 5'000 && !HasFatalFailure(); ++i) expect_same_cuts_for_neighbours(random);
+}
+
+TEST(ClipPolygon, LongAllPropertiesHold) {
+  for_random_triangles(101, 100'000, expect_area_conserved);
+  for_random_triangles(102, 100'000, expect_nothing_outside);
+  for_random_triangles(103, 100'000, expect_winding_kept);
+  RandomNumbers random(104);
+  for (int i = 0; i < 100'000 && !HasFatalFailure(); ++i) expect_same_cuts_for_neighbours(random);
+}
+
+TEST(ClipPolygon, PiecesAreNearlyExact) {
+  RandomNumbers random(5);
+  for (int i = 0; i < 3'000; ++i) {
+    const Polygon triangle = random_triangle(random);
+    const Exact size = size_of(triangle);
+    for (const ClipVertex& v : clipped_at(ClipPlane::near, triangle))
+      for (const Coordinate c : kCoordinates)
+        ASSERT_LE(radius<448>(v.*c), size * kTolerance) << to_text(triangle);
+  }
+}
+
+TEST(ToClipSpace, PutsTheNearPlaneAtMinusWAndTheFarPlaneAtW) {
+  const ProjectionTransform projection = {true, 1, 0, 1, 0, 0.1, 7};
+  const ClipVertex near = to_clip_space(projection, {0, 0, -0.1});
+  const ClipVertex far = to_clip_space(projection, {0, 0, -7});
+  EXPECT_EQ(distance_inside(ClipPlane::near, near).sign(), 0);
+  EXPECT_EQ(distance_inside(ClipPlane::far, far).sign(), 0);
+}
+
+TEST(ToClipSpace, TellsTheLastBitBesideTheNearPlane) {
+  const double near = 0.1;
+  for (const double far : {0.1 + 0x1p-56, 0.2, 1e12, 1e300}) {
+    const ProjectionTransform projection = {true, 1, 0, 1, 0, near, far};
+    EXPECT_EQ(outcode(to_clip_space(projection, {0, 0, -std::nextafter(near, 1)})) & 1u, 0u) << far;
+    EXPECT_EQ(outcode(to_clip_space(projection, {0, 0, -std::nextafter(near, 0)})) & 1u, 1u) << far;
+  }
+}
+
+TEST(ToClipSpace, OfAParallelProjectionHasWOne) {
+  const ProjectionTransform projection = {false, 2, 0.5, 3, -0.5, -1, 3};
+  const ClipVertex v = to_clip_space(projection, {1, 1, -1});
+  EXPECT_EQ(v.x, Ball(2.5));
+  EXPECT_EQ(v.y, Ball(2.5));
+  EXPECT_EQ(v.z, Ball(0));
+  EXPECT_EQ(v.w, Ball(1));
+}
+
+}  // namespace
+}  // namespace pipeline
