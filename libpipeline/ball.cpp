@@ -67,7 +67,8 @@ Ball Ball::add_across_ranges(const Ball& a, const Ball& b) {
     return normalised(large_value, (large_error + kCut) * kRoundUp, common);
   const DoubleDouble small_value = scaled(small.value_, static_cast<int>(small_shift));
   double small_error = std::ldexp(small.error_, static_cast<int>(small_shift));
-  if (may_be_cut(small.value_.lo, small_value.lo) || may_be_cut(small.error_, small_error)) small_error += kCut;
+  if (may_be_cut(small.value_.lo, small_value.lo) || may_be_cut(small.error_, small_error))
+    small_error += kCut;
   return add_parts(large_value, large_error, small_value, small_error, common);
 }
 
@@ -104,7 +105,8 @@ Ball Ball::with_error_at_most(double bound) const {
   if (error_ == 0) return *this;
   const auto shift = static_cast<int>(std::clamp<std::int64_t>(-exponent_, -3000, 3000));
   // Never 0, even where it leaves the range below: the ball is not exact.
-  const double limit = (exponent_ == 0 ? bound : std::ldexp(bound, shift)) + std::max(std::fabs(value_.hi), error_) * 0x1p-150;
+  const double least = std::max(std::fabs(value_.hi), error_) * 0x1p-150;
+  const double limit = (exponent_ == 0 ? bound : std::ldexp(bound, shift)) + least;
   return limit < error_ ? normalised(value_, limit, exponent_) : *this;
 }
 

@@ -56,7 +56,7 @@ ClipVertex to_clip_space(const ProjectionTransform& projection, const Vec3& p_vi
   const Ball x = projection.x_scale * p_view.x;
   const Ball y = projection.y_scale * p_view.y;
   if (!projection.is_perspective) {
-    const Ball z = ((distance - near) - (far - distance)) / (far - near);
+    const Ball z = (distance + distance - (near + far)) / (far - near);
     return {x + projection.x_offset, y + projection.y_offset, z, 1};
   }
   const Ball z = ((distance - near) * far - (far - distance) * near) / (far - near);

@@ -28,8 +28,8 @@ int winding_sign(const Triangle& p_view, bool is_perspective) {
   return (minor(b, c) * w(a) + minor(c, a) * w(b) + minor(a, b) * w(c)).sign();
 }
 
-/// The number as a double whose products are within a rounding of those of the number itself; NaN, which no rounder
-/// accepts, if there is none.
+/// The number as a double whose products are within a rounding of those of the number itself; NaN, which no
+/// rounder accepts, if there is none.
 double as_factor(const Ball& number) {
   if (number.is_exact_zero()) return 0;
   const double nearest = number.nearest_double();

@@ -25,8 +25,8 @@ using Exact = Real<2304>;
 constexpr double kSmallest = std::numeric_limits<double>::denorm_min();
 constexpr double kLargest = std::numeric_limits<double>::max();
 
-/// Balls as they come up in a pipeline and far beyond: exact doubles of any size, wide and narrow balls, balls
-/// around 0, numbers past a double's range, double-doubles with far parts.
+/// Balls as they come up in a pipeline and far beyond: exact doubles of any size, wide and narrow balls,
+/// balls around 0, numbers past a double's range, double-doubles with far parts.
 Ball any_ball(RandomNumbers& random) {
   switch (random.bits() % 8) {
     case 0:
@@ -117,24 +117,43 @@ void expect_roots_contained(std::uint64_t seed, int count) {
     expect_sound(root);
     for (const Exact& x : members(a, random)) {
       if (x.sign() < 0) continue;
-      ASSERT_TRUE(contains(root, sqrt(x))) << testing::PrintToString(a) << "\n" << testing::PrintToString(root);
+      ASSERT_TRUE(contains(root, sqrt(x))) << testing::PrintToString(a) << "\n"
+                                           << testing::PrintToString(root);
     }
   }
 }
 
-TEST(Ball, SumContainsTheSums) { expect_containment(kAdd, kAdd, false, 1, 10'000); }
-TEST(Ball, DifferenceContainsTheDifferences) { expect_containment(kSubtract, kSubtract, false, 2, 10'000); }
-TEST(Ball, ProductContainsTheProducts) { expect_containment(kMultiply, kMultiply, false, 3, 5'000); }
-TEST(Ball, QuotientContainsTheQuotients) { expect_containment(kDivide, kDivide, true, 4, 3'000); }
-TEST(Ball, RootContainsTheRoots) { expect_roots_contained(5, 10'000); }
-
-TEST(Ball, LongSumContainsTheSums) { expect_containment(kAdd, kAdd, false, 101, 2'000'000); }
-TEST(Ball, LongDifferenceContainsTheDifferences) {
-  expect_containment(kSubtract, kSubtract, false, 102, 2'000'000);
+TEST(Ball, SumContainsTheSums) {
+  expect_containment(kAdd, kAdd, false, 1, 10'000);
 }
-TEST(Ball, LongProductContainsTheProducts) { expect_containment(kMultiply, kMultiply, false, 103, 1'000'000); }
-TEST(Ball, LongQuotientContainsTheQuotients) { expect_containment(kDivide, kDivide, true, 104, 500'000); }
-TEST(Ball, LongRootContainsTheRoots) { expect_roots_contained(105, 2'000'000); }
+TEST(Ball, DifferenceContainsTheDifferences) {
+  expect_containment(kSubtract, kSubtract, false, 2, 10'000);
+}
+TEST(Ball, ProductContainsTheProducts) {
+  expect_containment(kMultiply, kMultiply, false, 3, 5'000);
+}
+TEST(Ball, QuotientContainsTheQuotients) {
+  expect_containment(kDivide, kDivide, true, 4, 3'000);
+}
+TEST(Ball, RootContainsTheRoots) {
+  expect_roots_contained(5, 10'000);
+}
+
+TEST(Ball, LongSumContainsTheSums) {
+  expect_containment(kAdd, kAdd, false, 101, 2'000'000);
+}
+TEST(Ball, LongDifferenceContainsTheDifferences) {
+  expect_containment(kSubtract, kSubtract, false, 102, 1'000'000);
+}
+TEST(Ball, LongProductContainsTheProducts) {
+  expect_containment(kMultiply, kMultiply, false, 103, 1'000'000);
+}
+TEST(Ball, LongQuotientContainsTheQuotients) {
+  expect_containment(kDivide, kDivide, true, 104, 500'000);
+}
+TEST(Ball, LongRootContainsTheRoots) {
+  expect_roots_contained(105, 1'000'000);
+}
 
 TEST(Ball, IsAnyDoubleExactly) {
   RandomNumbers random(6);
@@ -187,7 +206,9 @@ TEST(Ball, QuotientThatIsADoubleIsExact) {
   }
 }
 
-TEST(Ball, QuotientOfOneAndThreeIsNotExact) { EXPECT_FALSE((Ball(1) / Ball(3)).is_exact()); }
+TEST(Ball, QuotientOfOneAndThreeIsNotExact) {
+  EXPECT_FALSE((Ball(1) / Ball(3)).is_exact());
+}
 
 TEST(Ball, RootOfASquareIsExact) {
   RandomNumbers random(10);
@@ -204,9 +225,13 @@ TEST(Ball, RootOfASquareOfAllBitsIsExact) {
   EXPECT_TRUE(sqrt(Ball(long_number) * Ball(long_number)).is_exact());
 }
 
-TEST(Ball, RootOfTwoIsNotExact) { EXPECT_FALSE(sqrt(Ball(2)).is_exact()); }
+TEST(Ball, RootOfTwoIsNotExact) {
+  EXPECT_FALSE(sqrt(Ball(2)).is_exact());
+}
 
-TEST(Ball, RootOfZeroIsZero) { EXPECT_TRUE(sqrt(Ball()).is_exact_zero()); }
+TEST(Ball, RootOfZeroIsZero) {
+  EXPECT_TRUE(sqrt(Ball()).is_exact_zero());
+}
 
 TEST(Ball, RootOfABallAroundZeroReachesFromZeroToTheRootOfItsUpperEnd) {
   const Ball root = sqrt(Ball::with_error({-0x1p-60, 0}, 0x1p-40));
@@ -227,7 +252,8 @@ TEST(Ball, QuotientByABallWhoseEndIsAlmostZeroIsFinite) {
 TEST(Ball, ProductOfALargeAndASmallNumberKeepsItsDigits) {
   const Ball product = Ball(1e300) * Ball(1e300) * Ball(1e-300) * Ball(1e-300) * Ball(3);
   EXPECT_LE(product.error(), 0x1p-99);
-  EXPECT_EQ(product.nearest_double(), (Exact(1e300) * Exact(1e300) * Exact(1e-300) * Exact(1e-300) * Exact(3)).nearest_double());
+  EXPECT_EQ(product.nearest_double(),
+            (Exact(1e300) * Exact(1e300) * Exact(1e-300) * Exact(1e-300) * Exact(3)).nearest_double());
 }
 
 TEST(Ball, SignIsNeverThatOfAnotherMember) {
@@ -235,7 +261,8 @@ TEST(Ball, SignIsNeverThatOfAnotherMember) {
   for (int i = 0; i < 100'000; ++i) {
     const Ball ball = any_ball(random);
     if (ball.sign() == 0) continue;
-    for (const Exact& x : members(ball, random)) ASSERT_EQ(x.sign(), ball.sign()) << testing::PrintToString(ball);
+    for (const Exact& x : members(ball, random))
+      ASSERT_EQ(x.sign(), ball.sign()) << testing::PrintToString(ball);
   }
 }
 
@@ -307,7 +334,8 @@ TEST(Ball, LoweredErrorHoldsTheBoundInEveryRange) {
     const double bound = std::fabs(random.any_double());
     const Ball lowered = ball.with_error_at_most(bound);
     const Exact expected = std::min(Exact(bound), radius<2304>(ball));
-    ASSERT_GE(radius<2304>(lowered), expected) << testing::PrintToString(ball) << ", " << std::hexfloat << bound;
+    ASSERT_GE(radius<2304>(lowered), expected)
+        << testing::PrintToString(ball) << ", " << std::hexfloat << bound;
     ASSERT_LE(radius<2304>(lowered), radius<2304>(ball));
     ASSERT_EQ(midpoint<2304>(lowered), midpoint<2304>(ball)) << testing::PrintToString(ball);
   }

@@ -15,7 +15,9 @@ namespace {
 // Holds any double, and any sum of two that are no more than 700 binary places apart.
 using Exact = Real<768>;
 
-Exact power_of_ten(int exponent) { return exponent == 0 ? Exact(1) : Exact(10) * power_of_ten(exponent - 1); }
+Exact power_of_ten(int exponent) {
+  return exponent == 0 ? Exact(1) : Exact(10) * power_of_ten(exponent - 1);
+}
 
 DoubleDouble to_double_double(const Exact& value) {
   const double hi = value.nearest_double();
@@ -136,7 +138,9 @@ TEST(RoundToText, KnowsTheFirstDecimalsOfLargeNumbers) {
 TEST(RoundToText, ABallAroundZeroIsZero) {
   EXPECT_EQ(text_of(round_to_text(Ball::with_error({1e-32, 0}, 2e-32), {7}), {7}), "0.0000000");
   EXPECT_EQ(text_of(round_to_text(Ball::with_error({-1e-32, 0}, 2e-32), {7}), {7}), "0.0000000");
-  EXPECT_EQ(text_of(round_to_text(Ball::with_error({1e-32, 0}, 2e-32), {.shortest = true}), {.shortest = true}), "0");
+  EXPECT_EQ(
+      text_of(round_to_text(Ball::with_error({1e-32, 0}, 2e-32), {.shortest = true}), {.shortest = true}),
+      "0");
 }
 
 TEST(RoundToText, OverflowIsInfinite) {
@@ -176,7 +180,8 @@ TEST(RoundToShortest, ATieWithinTheErrorCountsAsTheTie) {
     const Exact tie = (Exact(below) + Exact(above)) * Exact(0.5);
     const double error = std::ldexp(std::fabs(below), random.whole(-98, -76));
     const Exact middle = tie + Exact(error) * Exact(random.between(-0.9, 0.9));
-    const PrintableNumber rounded = round_to_text(Ball::with_error(to_double_double(middle), error), {.shortest = true});
+    const PrintableNumber rounded =
+        round_to_text(Ball::with_error(to_double_double(middle), error), {.shortest = true});
     ASSERT_EQ(rounded.hi, tie.nearest_double()) << std::hexfloat << below << " +- " << error;
     ASSERT_TRUE(rounded.is_certain) << std::hexfloat << below << " +- " << error;
   }
@@ -219,8 +224,12 @@ void expect_never_wrongly_safe(std::uint64_t seed, int count) {
   EXPECT_GT(safe_count, count / 100);
 }
 
-TEST(RoundsSafely, IsNeverTrueForANumberWhoseErrorReachesATie) { expect_never_wrongly_safe(8, 40'000); }
-TEST(RoundsSafely, LongIsNeverTrueForANumberWhoseErrorReachesATie) { expect_never_wrongly_safe(108, 2'000'000); }
+TEST(RoundsSafely, IsNeverTrueForANumberWhoseErrorReachesATie) {
+  expect_never_wrongly_safe(8, 40'000);
+}
+TEST(RoundsSafely, LongIsNeverTrueForANumberWhoseErrorReachesATie) {
+  expect_never_wrongly_safe(108, 1'000'000);
+}
 
 TEST(RoundsSafely, TakesMostNumbersOfDoubleAccuracy) {
   RandomNumbers random(9);

@@ -29,7 +29,9 @@ void expect_no_number(std::string_view word) {
   EXPECT_EQ(parse_number(word).error, NumberError::not_a_number) << "'" << word << "'";
 }
 
-void expect_overflow(std::string_view word) { EXPECT_EQ(parse_number(word).error, NumberError::overflow) << word; }
+void expect_overflow(std::string_view word) {
+  EXPECT_EQ(parse_number(word).error, NumberError::overflow) << word;
+}
 
 std::string printed(double hi, double lo, NumberFormat format) {
   char text[kMaxNumberLength];
@@ -72,7 +74,9 @@ TEST(ParseNumber, TakesExponents) {
   expect_number("1e0005", 1e5);
 }
 
-TEST(ParseNumber, KeepsTheSignOfZero) { expect_number("-0.0", -0.0); }
+TEST(ParseNumber, KeepsTheSignOfZero) {
+  expect_number("-0.0", -0.0);
+}
 
 TEST(ParseNumber, TakesTheNearestDouble) {
   expect_number("0.1", 0.1);
@@ -101,7 +105,9 @@ TEST(ParseNumber, WhatIsTooLargeOverflows) {
   expect_overflow(std::string(100'000, '9'));
 }
 
-TEST(ParseNumber, TakesTheLargestDouble) { expect_number("1.7976931348623157e308", kLargest); }
+TEST(ParseNumber, TakesTheLargestDouble) {
+  expect_number("1.7976931348623157e308", kLargest);
+}
 
 TEST(ParseNumber, ZeroWithAHugeExponentIsZero) {
   expect_number("0e99999999999", 0);
@@ -116,12 +122,14 @@ TEST(ParseNumber, TakesAHundredThousandDigits) {
 }
 
 TEST(ParseNumber, RejectsWhatIsNotDecimal) {
-  for (const std::string_view word : {"nan", "NaN", "inf", "-inf", "+inf", "infinity", "0x10", "0x1p3", "1e5.0", "ten", "1_000", "½"})
+  for (const std::string_view word :
+       {"nan", "NaN", "inf", "-inf", "+inf", "infinity", "0x10", "0x1p3", "1e5.0", "ten", "1_000", "½"})
     expect_no_number(word);
 }
 
 TEST(ParseNumber, RejectsTrailingCharacters) {
-  for (const std::string_view word : {"1,5", "1.5abc", "1.5.", "1 ", "1-", "1f", "1.2.3"}) expect_no_number(word);
+  for (const std::string_view word : {"1,5", "1.5abc", "1.5.", "1 ", "1-", "1f", "1.2.3"})
+    expect_no_number(word);
 }
 
 TEST(ParseNumber, RejectsAnExponentWithoutDigits) {
@@ -142,9 +150,13 @@ TEST(ParseNumber, RejectsAnEmbeddedNul) {
   expect_no_number("1\0002"sv);
 }
 
-TEST(ParseNumber, RejectsBlanksInFront) { expect_no_number(" 1"); }
+TEST(ParseNumber, RejectsBlanksInFront) {
+  expect_no_number(" 1");
+}
 
-TEST(ParseNumber, ReadsNothingBehindTheWord) { expect_number("12345"sv.substr(0, 2), 12); }
+TEST(ParseNumber, ReadsNothingBehindTheWord) {
+  expect_number("12345"sv.substr(0, 2), 12);
+}
 
 TEST(ParseNumber, AgreesWithTheCLibraryOnRandomDecimals) {
   RandomNumbers random(1);
@@ -258,7 +270,9 @@ TEST(ParseCount, RejectsWhatIsNoCount) {
     EXPECT_FALSE(parse_count(word, value)) << word;
 }
 
-TEST(RoundsSafely, TakesANumberFarFromATie) { EXPECT_TRUE(rounds_safely(0.12345670, 1e-12, {7})); }
+TEST(RoundsSafely, TakesANumberFarFromATie) {
+  EXPECT_TRUE(rounds_safely(0.12345670, 1e-12, {7}));
+}
 
 TEST(RoundsSafely, RefusesANumberWithinItsErrorOfATie) {
   EXPECT_FALSE(rounds_safely(0.12345675, 1e-16, {7}));

@@ -26,7 +26,9 @@ class RandomNumbers {
     return first + static_cast<int>(bits() % (static_cast<std::uint64_t>(last - first) + 1));
   }
   /// In [low, high).
-  double between(double low, double high) { return low + (high - low) * (static_cast<double>(bits() >> 11) * 0x1p-53); }
+  double between(double low, double high) {
+    return low + (high - low) * (static_cast<double>(bits() >> 11) * 0x1p-53);
+  }
   /// Of either sign, with a size in [2^first, 2^(last + 1)); often a number of few bits.
   double with_exponent(int first, int last) {
     double significand = 1 + static_cast<double>(bits() >> 12) * 0x1p-52;

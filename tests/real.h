@@ -10,13 +10,16 @@
 
 namespace pipeline {
 
-/// A floating-point number of `bits` bits with an exponent that does not end: MPFR's, as a value. What the tests
-/// compare the library with. The digits live in the object itself, so that millions of them cost no allocation.
+/// A floating-point number of `bits` bits with an exponent that does not end: MPFR's, as a value. What the
+/// tests compare the library with. The digits live in the object itself, so that millions of them cost no
+/// allocation.
 template <int bits>
 class Real {
  public:
   Real() { mpfr_custom_init_set(value_, MPFR_ZERO_KIND, 0, bits, limbs_.data()); }
-  Real(double value) : Real() { mpfr_set_d(value_, value, MPFR_RNDN); }  // NOLINT(google-explicit-constructor)
+  Real(double value) : Real() {
+    mpfr_set_d(value_, value, MPFR_RNDN);
+  }  // NOLINT(google-explicit-constructor)
   Real(DoubleDouble value) : Real(value.hi) { mpfr_add_d(value_, value_, value.lo, MPFR_RNDN); }  // NOLINT
   Real(const Real& other) : Real() { mpfr_set(value_, other.value_, MPFR_RNDN); }
   Real& operator=(const Real& other) {

@@ -12,8 +12,8 @@
 
 namespace pipeline {
 
-// The stages' formulas once more, with `bits` bits instead of 106 and by other formulas than the library's where
-// there are some: rotations from quaternions, projections from their textbook matrices.
+// The stages' formulas once more, with `bits` bits instead of 106 and by other formulas than the library's
+// where there are some: rotations from quaternions, projections from their textbook matrices.
 
 template <int bits>
 struct ReferenceVec3 {
@@ -29,7 +29,9 @@ struct ReferenceVec3 {
   friend ReferenceVec3 operator-(const ReferenceVec3& a, const ReferenceVec3& b) {
     return {a.x - b.x, a.y - b.y, a.z - b.z};
   }
-  friend Real<bits> dot(const ReferenceVec3& a, const ReferenceVec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+  friend Real<bits> dot(const ReferenceVec3& a, const ReferenceVec3& b) {
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+  }
   friend ReferenceVec3 cross(const ReferenceVec3& a, const ReferenceVec3& b) {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
   }
@@ -50,7 +52,9 @@ struct ReferenceMatrix {
   }
   friend ReferenceMatrix operator*(const ReferenceMatrix& a, const ReferenceMatrix& b) {
     ReferenceMatrix product;
-    const auto column = [&](auto part) { return ReferenceVec3<bits>(b.rows[0].*part, b.rows[1].*part, b.rows[2].*part); };
+    const auto column = [&](auto part) {
+      return ReferenceVec3<bits>(b.rows[0].*part, b.rows[1].*part, b.rows[2].*part);
+    };
     for (std::size_t i = 0; i < 3; ++i) {
       product.rows[i].x = dot(a.rows[i], column(&ReferenceVec3<bits>::x));
       product.rows[i].y = dot(a.rows[i], column(&ReferenceVec3<bits>::y));
@@ -131,7 +135,8 @@ struct ReferenceProjection {
 template <int bits>
 ReferenceProjection<bits> reference_projection(const Projection& projection, AspectRule rule) {
   using R = Real<bits>;
-  if (const auto* f = std::get_if<Frustum>(&projection)) return {true, f->left, f->right, f->bottom, f->top, f->near, f->far};
+  if (const auto* f = std::get_if<Frustum>(&projection))
+    return {true, f->left, f->right, f->bottom, f->top, f->near, f->far};
   if (const auto* o = std::get_if<Orthographic>(&projection))
     return {false, o->left, o->right, o->bottom, o->top, o->near, o->far};
   const auto& p = std::get<Perspective>(projection);
@@ -148,8 +153,8 @@ Real<bits> power_of_ten(int exponent) {
   return exponent == 0 ? Real<bits>(1) : Real<bits>(10) * power_of_ten<bits>(exponent - 1);
 }
 
-/// A calculated number in units of the last of some decimals, rounded, ties to even. What is within 2^-150 units of a
-/// tie is one: the reference has rounding errors of its own.
+/// A calculated number in units of the last of some decimals, rounded, ties to even. What is within 2^-150
+/// units of a tie is one: the reference has rounding errors of its own.
 template <int bits>
 Real<bits> in_units(const Real<bits>& value, const Real<bits>& units_per_one) {
   const Real<bits> fine = round_to_even(times_power_of_two(value * units_per_one, 150));

@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <chrono>
 #include <csignal>
-#include <cstring>
 #include <string>
 #include <thread>
 #include <vector>
@@ -86,7 +85,7 @@ TEST(TextWriter, ReservedRoomCountsAsFarAsItIsCommitted) {
   const TextFile file("");
   TextWriter writer(file.descriptor(), "out.txt");
   char* const out = writer.reserve(100);
-  std::memcpy(out, "abc", 3);
+  std::copy_n("abc", 3, out);
   writer.commit(out + 3);
   writer.append("d");
   writer.flush();

@@ -33,7 +33,8 @@ void expect_exact(DoubleDouble value, int decimals) {
 
 TEST(WideDecimal, PrintsAnySumExactly) {
   RandomNumbers random(1);
-  for (int i = 0; i < 20'000; ++i) expect_exact(random.double_double(-80, 300), random.whole(0, kMaxDecimals));
+  for (int i = 0; i < 20'000; ++i)
+    expect_exact(random.double_double(-80, 300), random.whole(0, kMaxDecimals));
 }
 
 TEST(WideDecimal, PrintsSumsOfAnyTwoDoubles) {

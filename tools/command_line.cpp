@@ -63,6 +63,22 @@ std::string listed(const std::vector<std::string>& words) {
   return text;
 }
 
+void add_word_option(CLI::App& options, const std::string& name, const std::vector<std::string>& words,
+                     const std::string& default_word, const std::string& help,
+                     const std::function<void(std::size_t)>& take) {
+  std::string type_name;
+  for (const std::string& word : words) type_name += (type_name.empty() ? "" : "|") + word;
+  const auto choose = [name, words, take](const std::string& found) {
+    const auto word = std::find(words.begin(), words.end(), found);
+    if (word == words.end())
+      throw CLI::ValidationError(name, expected_but_found(listed(words), pipeline::quoted(found)));
+    take(static_cast<std::size_t>(word - words.begin()));
+  };
+  options.add_option_function<std::string>(name, choose, help)
+      ->type_name(type_name)
+      ->default_str(default_word);
+}
+
 void set_help_form(CLI::App& options) {
   options.formatter(std::make_shared<HelpForm>());
   options.footer(

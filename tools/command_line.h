@@ -1,6 +1,8 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <cstddef>
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,25 +16,24 @@ namespace pipeline {
 /// "a, b or c".
 std::string listed(const std::vector<std::string>& words);
 
+/// Adds an option that takes one of `words`; `take` gets the index of the one that was found.
+void add_word_option(CLI::App& options, const std::string& name, const std::vector<std::string>& words,
+                     const std::string& default_word, const std::string& help,
+                     const std::function<void(std::size_t)>& take);
+
 /// Adds an option that takes one of a few words, each of which stands for a value. What `chosen` holds is the
 /// default, if it is one of those.
 template <typename T>
 void add_choice(CLI::App& options, const std::string& name, T& chosen,
                 const std::vector<std::pair<std::string, T>>& choices, const std::string& help) {
   std::vector<std::string> words;
-  std::string type_name;
   std::string default_word;
   for (const auto& [word, value] : choices) {
     words.push_back(word);
-    type_name += (type_name.empty() ? "" : "|") + word;
     if (value == chosen) default_word = word;
   }
-  const auto take = [&chosen, name, choices, words](const std::string& found) {
-    for (const auto& [word, value] : choices)
-      if (word == found) return void(chosen = value);
-    throw CLI::ValidationError(name, expected_but_found(listed(words), pipeline::quoted(found)));
-  };
-  options.add_option_function<std::string>(name, take, help)->type_name(type_name)->default_str(default_word);
+  const auto take = [&chosen, choices](std::size_t index) { chosen = choices[index].second; };
+  add_word_option(options, name, words, default_word, help, take);
 }
 
 /// Options and operands with their defaults, at the end of --help how the tools go together.
