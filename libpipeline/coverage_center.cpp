@@ -1,0 +1,51 @@
+#include "libpipeline/coverage_center.h"
+
+#include <array>
+
+namespace pipeline {
+namespace {
+
+// Below the ends of the types by more than the bound can be rounded.
+constexpr double kLargestIn64Bits = 0x1p61;
+constexpr double kLargestIn128Bits = 0x1p125;
+constexpr int kBitsOfWideInt = 64 * 6;
+
+}  // namespace
+
+CenterRows::CenterRows(const ExactGrid& grid, const ExactTriangle& triangle) {
+  const std::array<double, 3> z = {triangle.p_ndc[0].z, triangle.p_ndc[1].z, triangle.p_ndc[2].z};
+  const int rows = grid.rows.count, columns = grid.columns.count;
+  const auto set = [&](const auto& chosen) {
+    first_row_ = chosen.first_row();
+    last_row_ = chosen.last_row();
+  };
+  if (const auto narrow = narrow_triangle(grid, triangle)) {
+    const CentreBox box(*narrow, rows, columns);
+    if (box.is_empty()) return;
+    const double largest = largest_product(*narrow, box);
+    if (largest <= kLargestIn64Bits) {
+      set(rows_.emplace<ExactRows<std::int64_t>>(*narrow, box, z));
+      return;
+    }
+    if (largest <= kLargestIn128Bits) {
+      set(rows_.emplace<ExactRows<Int128>>(*narrow, box, z));
+      return;
+    }
+  }
+  const AxisUnits x = column_units(grid, triangle), y = row_units(grid, triangle);
+  const auto set_on_heap = [&](auto type) {
+    using Int = decltype(type);
+    const GridTriangle<Int> on_grid = grid_triangle<Int>(grid, x, y);
+    const CentreBox box(on_grid, rows, columns);
+    if (box.is_empty()) return;
+    set(*rows_.emplace<OnHeap<Int>>(std::make_unique<const ExactRows<Int>>(on_grid, box, z)));
+  };
+  const bool fits = x.bits + y.bits + 3 < kBitsOfWideInt;
+  if (fits) {
+    set_on_heap(WideInt{});
+  } else {
+    set_on_heap(HugeInt{});
+  }
+}
+
+}  // namespace pipeline

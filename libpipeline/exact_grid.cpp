@@ -1,0 +1,133 @@
+#include "libpipeline/exact_grid.h"
+
+#include <bit>
+#include <cassert>
+#include <cmath>
+#include <cstdlib>
+#include <numeric>
+
+namespace pipeline {
+namespace {
+
+constexpr std::int64_t kUnitsPerOne = 10'000'000;  // a coordinate n / 10^7 is n units
+
+// hi * 10^7 is within 2^-52 of the n it stands for, relatively, so n is the nearest whole number up to here.
+constexpr double kLargestRoundedUnits = 0x1p50;
+constexpr double kLargestNarrow = 0x1p60;
+constexpr double kLargestDecimal = 1e22;
+
+/// `units`, at most 2^51 in size, rounded to the nearest whole number.
+std::int64_t nearest_whole(double units) {
+  constexpr double kRounder = 0x1.8p52;
+  return static_cast<std::int64_t>((units + kRounder) - kRounder);
+}
+
+/// The same number with an odd mantissa (or 0).
+BinaryNumber reduced(Int128 mantissa, int exponent) {
+  const auto low = static_cast<std::uint64_t>(mantissa);
+  const int zeros =
+      low != 0 ? std::countr_zero(low) : 64 + std::countr_zero(static_cast<std::uint64_t>(mantissa >> 64));
+  return mantissa == 0 ? BinaryNumber{} : BinaryNumber{mantissa >> zeros, exponent + zeros};
+}
+
+BinaryNumber binary_units(double value) {
+  int exponent = 0;
+  const double fraction = std::frexp(value, &exponent);
+  return reduced(Int128{static_cast<std::int64_t>(std::ldexp(fraction, 53))} * kUnitsPerOne, exponent - 53);
+}
+
+/// `value` units in 2^-20 units, rounded down; below 2^126 for |value| <= 10^22.
+Int128 fixed_point_units(double value) {
+  constexpr int kFractionBits = 20;
+  const BinaryNumber number = binary_units(value);
+  const int shift = number.exponent + kFractionBits;
+  if (shift >= 0) return number.mantissa << shift;
+  return shift > -127 ? number.mantissa >> -shift : 0;
+}
+
+/// The whole number of units nearest to hi + lo.
+Int128 decimal_units(double hi, double lo) {
+  const double units = hi * kUnitsPerOne;
+  if (std::fabs(units) <= kLargestRoundedUnits) return nearest_whole(units);
+  constexpr Int128 kOne = 1 << 20;
+  return (fixed_point_units(hi) + fixed_point_units(lo) + kOne / 2) >> 20;
+}
+
+BinaryNumber exact_units(double value, double low_part, bool is_decimal) {
+  const bool has_decimals = is_decimal && std::fabs(value) <= kLargestDecimal;
+  return has_decimals ? reduced(decimal_units(value, low_part), 0) : binary_units(value);
+}
+
+int bits_of(const BinaryNumber& number) {
+  return bit_length(number.mantissa) + number.exponent;
+}
+
+AxisUnits axis_units(const GridAxis& axis, const ExactTriangle& triangle, double Vec3::*coordinate,
+                     unsigned mark) {
+  AxisUnits result;
+  int value_bits = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double low_part = triangle.low_parts == nullptr ? 0 : (*triangle.low_parts)[i].*coordinate;
+    const bool is_decimal = ((triangle.decimal_marks >> (3 * i + mark)) & 1u) != 0;
+    result.units[i] = exact_units(triangle.p_ndc[i].*coordinate, low_part, is_decimal);
+    result.twos = std::max(result.twos, -result.units[i].exponent);
+    value_bits = std::max(value_bits, bits_of(result.units[i]));
+  }
+  // The sum of two terms: a vertex from the middle of the window, and up to 2^17 half steps to either side of
+  // it; and a factor of 2 for the distance between two such points.
+  result.bits = result.twos +
+                std::max(value_bits + bit_length(axis.vertex_factor), bit_length(axis.half_step) + 18) + 2;
+  return result;
+}
+
+}  // namespace
+
+GridAxis::GridAxis(int pixel_count, double limit, double limit_low_part, bool limit_is_decimal)
+    : count(pixel_count) {
+  assert(limit < 0);
+  // vertex_factor / half_step = count / (10^7 |limit|), reduced.
+  BinaryNumber size = exact_units(-limit, -limit_low_part, limit_is_decimal);
+  int factor = count / std::gcd(count, static_cast<int>(size.mantissa % count));
+  size.mantissa /= count / factor;
+  for (; size.exponent > 0 && factor % 2 == 0; factor /= 2) --size.exponent;
+  vertex_factor = HugeInt(factor) << static_cast<std::size_t>(std::max(-size.exponent, 0));
+  half_step = HugeInt(size.mantissa) << static_cast<std::size_t>(std::max(size.exponent, 0));
+  origin = HugeInt(count - 1) * half_step;
+
+  // 2^44 leaves room for a product with any number of pixels.
+  if (bit_length(vertex_factor) > 44 || bit_length(half_step) > 44) return;
+  narrow_vertex_factor = cut(vertex_factor, 0);
+  narrow_origin = cut(origin, 0);
+  narrow_step = Divisor<std::int64_t>(2 * cut(half_step, 0));
+  largest_narrow_units =
+      std::min(kLargestRoundedUnits, kLargestNarrow / static_cast<double>(narrow_vertex_factor));
+}
+
+std::optional<GridTriangle<std::int64_t>> narrow_triangle(const ExactGrid& grid,
+                                                          const ExactTriangle& triangle) {
+  constexpr unsigned kMarksOfXAndY = 0b011'011'011;
+  if ((triangle.decimal_marks & kMarksOfXAndY) != kMarksOfXAndY) return std::nullopt;
+  const GridAxis& columns = grid.columns;
+  const GridAxis& rows = grid.rows;
+  GridTriangle<std::int64_t> result{{}, {}, columns.narrow_step, rows.narrow_step};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double x = triangle.p_ndc[i].x * kUnitsPerOne;
+    const double y = triangle.p_ndc[i].y * kUnitsPerOne;
+    const bool fits =
+        (std::fabs(x) <= columns.largest_narrow_units) & (std::fabs(y) <= rows.largest_narrow_units);
+    if (!fits) return std::nullopt;
+    result.u[i] = columns.narrow_origin + nearest_whole(x) * columns.narrow_vertex_factor;
+    result.v[i] = rows.narrow_origin - nearest_whole(y) * rows.narrow_vertex_factor;
+  }
+  return result;
+}
+
+AxisUnits column_units(const ExactGrid& grid, const ExactTriangle& triangle) {
+  return axis_units(grid.columns, triangle, &Vec3::x, 0);
+}
+
+AxisUnits row_units(const ExactGrid& grid, const ExactTriangle& triangle) {
+  return axis_units(grid.rows, triangle, &Vec3::y, 1);
+}
+
+}  // namespace pipeline

@@ -1,0 +1,112 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+#include "libpipeline/config.h"
+#include "libpipeline/vec.h"
+#include "libpipeline/whole_math.h"
+
+namespace pipeline {
+
+/// Enough bits for all exact geometry in practice: vertices 10^30 pixels away, coordinates of 10^-30 beside
+/// others of 1.
+using WideInt = FixedInt<6>;
+/// Enough for any finite coordinates and limits: a coordinate on the grid has at most 2850 bits, a product
+/// 5705.
+using HugeInt = FixedInt<92>;
+
+/// A triangle in NDC with all that its text says about x and y: a coordinate whose mark (bit 3 * vertex +
+/// axis) is set, below 10^22, is the decimal of at most 7 decimals nearest to the double plus the low part;
+/// any other is its double.
+struct ExactTriangle {
+  const Triangle& p_ndc;
+  const Triangle* low_parts = nullptr;  // none: all 0
+  std::uint16_t decimal_marks = 0;
+};
+
+/// A triangle on a grid of whole numbers: u to the right, v down, and the centre of the pixel (row, column)
+/// at u = column * column_step, v = row * row_step.
+template <typename Int>
+struct GridTriangle {
+  std::array<Int, 3> u;
+  std::array<Int, 3> v;
+  Divisor<Int> column_step;
+  Divisor<Int> row_step;
+};
+
+/// The exact number mantissa * 2^exponent.
+struct BinaryNumber {
+  Int128 mantissa = 0;
+  int exponent = 0;
+};
+
+/// One direction of the grid. In units of half_step / 2^k, pixel centres are at (2 i + 1 - count) * half_step
+/// from the middle of the window and the coordinate n / 10^7 at n * vertex_factor; both are whole for every
+/// number n / (10^7 * 2^k).
+struct GridAxis {
+  /// `limit` is the window's left or bottom limit, negative, in the same notation as an ExactTriangle's
+  /// coordinates.
+  GridAxis(int pixel_count, double limit, double limit_low_part, bool limit_is_decimal);
+
+  int count;  // of pixels
+  HugeInt vertex_factor;
+  HugeInt half_step;
+  HugeInt origin;  // the distance from the centre of pixel 0 to the middle
+  // The same where they are small; then 64 bits are enough for decimals n / 10^7 with |n| <=
+  // largest_narrow_units.
+  double largest_narrow_units = -1;
+  std::int64_t narrow_vertex_factor = 0;
+  std::int64_t narrow_origin = 0;
+  Divisor<std::int64_t> narrow_step;
+};
+
+/// The coordinates of a triangle along one axis as exact numbers, and how fine a grid they need.
+struct AxisUnits {
+  std::array<BinaryNumber, 3> units;  // a coordinate n / 10^7 is n units
+  int twos = 0;                       // all units are whole multiples of 2^-twos
+  int bits = 0;                       // of the largest number on the grid, or more
+};
+
+/// Where the pixel centres of a screen lie, exactly: what PixelGrid is for rounded numbers.
+struct ExactGrid {
+  explicit ExactGrid(const ScreenConfig& screen)
+      : columns(screen.columns, screen.left, screen.left_low_part, screen.left_is_decimal),
+        rows(screen.rows, screen.bottom, screen.bottom_low_part, screen.bottom_is_decimal) {}
+
+  GridAxis columns;
+  GridAxis rows;
+};
+
+/// The triangle in 64 bits, every |u| and |v| below 2^61. None unless all of x and y are decimals of usual
+/// size.
+std::optional<GridTriangle<std::int64_t>> narrow_triangle(const ExactGrid& grid,
+                                                          const ExactTriangle& triangle);
+
+AxisUnits column_units(const ExactGrid& grid, const ExactTriangle& triangle);
+AxisUnits row_units(const ExactGrid& grid, const ExactTriangle& triangle);
+
+/// The triangle in a type that has enough bits for it.
+template <typename Int>
+GridTriangle<Int> grid_triangle(const ExactGrid& grid, const AxisUnits& x, const AxisUnits& y) {
+  const auto on_grid = [](const BinaryNumber& number, const GridAxis& axis, int twos) {
+    return (Int(number.mantissa) << static_cast<std::size_t>(number.exponent + twos)) *
+           Int(axis.vertex_factor);
+  };
+  const auto finer = [](const HugeInt& value, int twos) {
+    return Int(value) << static_cast<std::size_t>(twos);
+  };
+  GridTriangle<Int> result;
+  for (std::size_t i = 0; i < 3; ++i) {
+    result.u[i] = finer(grid.columns.origin, x.twos) + on_grid(x.units[i], grid.columns, x.twos);
+    result.v[i] = finer(grid.rows.origin, y.twos) - on_grid(y.units[i], grid.rows, y.twos);
+  }
+  result.column_step = Divisor<Int>(finer(grid.columns.half_step, x.twos + 1));
+  result.row_step = Divisor<Int>(finer(grid.rows.half_step, y.twos + 1));
+  return result;
+}
+
+}  // namespace pipeline

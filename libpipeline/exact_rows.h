@@ -1,0 +1,139 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+#include "libpipeline/centre_box.h"
+#include "libpipeline/exact_grid.h"
+#include "libpipeline/span.h"
+#include "libpipeline/triangle_depth.h"
+#include "libpipeline/whole_math.h"
+
+namespace pipeline {
+
+/// The pixels whose centres lie in a triangle on the grid, exactly, row by row.
+///
+/// An edge crosses the rows from the one at or below its upper end (included) to the one at or below its
+/// lower end (excluded), and a row has the pixels from the one at or right of its left crossing (included) to
+/// the one at or right of its right crossing (excluded). This is the whole of the top-left rule: two edges
+/// cross each row, and a crossing is the same fraction for both triangles at the edge.
+///
+/// Crossings are kept as exact numerators over exact denominators. The same numbers, at a pixel, are edge
+/// functions (J. Pineda, "A parallel algorithm for polygon rasterization", 1988), the weights of the
+/// vertices. Where `Int` is of limited size, largest_product() says whether all of them fit.
+template <typename Int>
+class ExactRows {
+ public:
+  /// The pixels of a triangle whose box is `box`, not empty; `z` are the depths of its vertices.
+  template <typename Coordinate>
+  ExactRows(const GridTriangle<Coordinate>& triangle, const CentreBox& box, const std::array<double, 3>& z);
+
+  /// The rows to ask for, inside the screen; first_row() > last_row() where there are none.
+  [[nodiscard]] int first_row() const { return first_row_; }
+  [[nodiscard]] int last_row() const { return last_row_; }
+  [[nodiscard]] std::optional<Span> span(int row) const;
+
+ private:
+  struct Edge {
+    Int crossing;              // of first_row_: its distance from first_column_, times column_step
+    Int row_step;              // how much more that is on the next row
+    Divisor<Int> column_step;  // and for a crossing one column further right
+  };
+  template <typename Coordinate>
+  [[nodiscard]] Edge edge(const GridTriangle<Coordinate>& t, std::size_t upper, std::size_t lower) const;
+
+  int first_column_;
+  int column_count_;
+  int first_row_;
+  int middle_row_;
+  int last_row_;
+  bool longest_is_left_;
+  Int twice_total_;
+  // For the vertices a, b, c from the top: ac crosses all rows, ab those above middle_row_, bc the others.
+  std::array<Edge, 3> edges_;
+  TriangleDepth depth_;
+};
+
+/// A bound on the numbers that an ExactRows of the triangle calculates with.
+inline double largest_product(const GridTriangle<std::int64_t>& t, const CentreBox& box) {
+  const auto [left, right] = std::minmax({t.u[0], t.u[1], t.u[2]});
+  const auto [top, bottom] = std::minmax({t.v[0], t.v[1], t.v[2]});
+  const std::int64_t first = box.first_column * t.column_step.value();
+  // Vertices, and the pixels they enclose, are at most x from the first column, vertices and rows at most y
+  // from one another. The first crossing is the sum of a product below x y and one below 2 x y; the area is
+  // the difference of two products below 2 x y; all else is less.
+  const double x =
+      std::max(std::fabs(static_cast<double>(left - first)), std::fabs(static_cast<double>(right - first))) +
+      2 * static_cast<double>(t.column_step.value());
+  const double y = static_cast<double>(bottom - top) + static_cast<double>(t.row_step.value());
+  return 4 * x * y;
+}
+
+template <typename Int>
+template <typename Coordinate>
+ExactRows<Int>::ExactRows(const GridTriangle<Coordinate>& t, const CentreBox& box,
+                          const std::array<double, 3>& z)
+    : first_column_(box.first_column),
+      column_count_(box.end_column - box.first_column),
+      first_row_(box.first_row),
+      middle_row_(box.middle_row),
+      last_row_(box.end_row - 1) {
+  const auto [a, b, c] = box.from_top;
+  // The weight of b at b: positive if b is right of ac.
+  const Int weight = Int(t.u[b] - t.u[a]) * (t.v[c] - t.v[a]) - Int(t.v[b] - t.v[a]) * (t.u[c] - t.u[a]);
+  if (weight == 0) {
+    last_row_ = first_row_ - 1;
+    return;
+  }
+  longest_is_left_ = weight > 0;
+  edges_ = {edge(t, a, c), edge(t, a, b), edge(t, b, c)};
+
+  const int sign = 2 * static_cast<int>(longest_is_left_) - 1;
+  const Int total = sign * weight;
+  twice_total_ = 2 * total;
+  const Int signed_step = sign * t.column_step.value();
+  depth_ = TriangleDepth({z[a], z[b], z[c]}, total, Int(signed_step * (t.v[c] - t.v[a])),
+                         Int(signed_step * (t.v[a] - t.v[b])));
+}
+
+template <typename Int>
+template <typename Coordinate>
+typename ExactRows<Int>::Edge ExactRows<Int>::edge(const GridTriangle<Coordinate>& t, std::size_t upper,
+                                                   std::size_t lower) const {
+  const Int du = t.u[lower] - t.u[upper];
+  const Int dv = t.v[lower] - t.v[upper];
+  const Coordinate upper_u = t.u[upper] - first_column_ * t.column_step.value();
+  const Coordinate below_upper = first_row_ * t.row_step.value() - t.v[upper];
+  return {upper_u * dv + below_upper * du, t.row_step.value() * du, Divisor<Int>(t.column_step.value() * dv)};
+}
+
+template <typename Int>
+std::optional<Span> ExactRows<Int>::span(int row) const {
+  // Indices instead of conditions, because no processor can predict them.
+  const std::size_t shorter = row < middle_row_ ? 1 : 2;
+  const std::size_t right = shorter * static_cast<std::size_t>(longest_is_left_), left = shorter - right;
+  const Edge& left_edge = edges_[left];
+  const Edge& right_edge = edges_[right];
+  const int row_count = row - first_row_;
+  const Int left_crossing = left_edge.crossing + row_count * left_edge.row_step;
+  const Int right_crossing = right_edge.crossing + row_count * right_edge.row_step;
+  const int first = left_edge.column_step.quotient_rounded_up(left_crossing, column_count_);
+  const int last = right_edge.column_step.quotient_rounded_up(right_crossing, column_count_) - 1;
+  if (first > last) return std::nullopt;
+
+  // The weights of the vertices b, c and a, each opposite to an edge, at the first and at the last pixel
+  // added up.
+  std::array<Int, 3> weights;
+  weights[left] = (first + last) * left_edge.column_step.value() - 2 * left_crossing;
+  weights[right] = 2 * right_crossing - (first + last) * right_edge.column_step.value();
+  weights[3 - shorter] = twice_total_ - weights[left] - weights[right];
+  const int first_column = first_column_ + first, last_column = first_column_ + last;
+  return Span{row, first_column, last_column,
+              depth_.along(first_column, last_column, weights[0], weights[1])};
+}
+
+}  // namespace pipeline

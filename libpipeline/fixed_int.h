@@ -1,0 +1,131 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <compare>
+#include <cstddef>
+#include <cstdint>
+
+#include "libpipeline/int128.h"
+
+namespace pipeline {
+
+/// A whole number of 64 * `Limbs` bits in two's complement. Like the built-in types, it must be chosen large
+/// enough for all that is calculated with it. Loops have a fixed length and no branches, so that a few limbs
+/// cost a few instructions.
+template <std::size_t Limbs>
+class FixedInt {
+ public:
+  FixedInt() = default;
+  FixedInt(Int128 value) {  // NOLINT(google-explicit-constructor): no number is lost
+    limbs_.fill(value < 0 ? ~std::uint64_t{0} : 0);
+    limbs_[0] = static_cast<std::uint64_t>(value);
+    limbs_[1] = static_cast<std::uint64_t>(value >> 64);
+  }
+  /// The same number in fewer limbs, if it fits.
+  template <std::size_t OtherLimbs>
+  explicit FixedInt(const FixedInt<OtherLimbs>& other) {
+    for (std::size_t i = 0; i < Limbs; ++i) limbs_[i] = other.limb(i);
+  }
+
+  [[nodiscard]] bool is_negative() const { return (limbs_[Limbs - 1] >> 63) != 0; }
+  /// 64 of its bits; beyond the last limb those of its sign.
+  [[nodiscard]] std::uint64_t limb(std::size_t index) const {
+    return index < Limbs ? limbs_[index] : is_negative() ? ~std::uint64_t{0} : 0;
+  }
+
+  friend FixedInt operator+(const FixedInt& a, const FixedInt& b) {
+    FixedInt sum;
+    std::uint64_t carry = 0;
+    for (std::size_t i = 0; i < Limbs; ++i) {
+      const UInt128 total = UInt128{a.limbs_[i]} + b.limbs_[i] + carry;
+      sum.limbs_[i] = static_cast<std::uint64_t>(total);
+      carry = static_cast<std::uint64_t>(total >> 64);
+    }
+    return sum;
+  }
+  friend FixedInt operator-(const FixedInt& a, const FixedInt& b) {
+    FixedInt difference;
+    std::uint64_t borrow = 0;
+    for (std::size_t i = 0; i < Limbs; ++i) {
+      const UInt128 total = UInt128{a.limbs_[i]} - b.limbs_[i] - borrow;
+      difference.limbs_[i] = static_cast<std::uint64_t>(total);
+      borrow = static_cast<std::uint64_t>(total >> 64) & 1u;
+    }
+    return difference;
+  }
+  friend FixedInt operator-(const FixedInt& a) { return FixedInt(0) - a; }
+  friend FixedInt operator*(const FixedInt& a, const FixedInt& b) {
+    FixedInt product(0);
+    for (std::size_t i = 0; i < Limbs; ++i) {
+      std::uint64_t carry = 0;
+      for (std::size_t j = 0; i + j < Limbs; ++j) {
+        const UInt128 total = UInt128{a.limbs_[i]} * b.limbs_[j] + product.limbs_[i + j] + carry;
+        product.limbs_[i + j] = static_cast<std::uint64_t>(total);
+        carry = static_cast<std::uint64_t>(total >> 64);
+      }
+    }
+    return product;
+  }
+  friend FixedInt operator*(int a, const FixedInt& b) {
+    FixedInt product;
+    const auto factor = static_cast<std::uint64_t>(a < 0 ? -std::int64_t{a} : a);
+    std::uint64_t carry = 0;
+    for (std::size_t i = 0; i < Limbs; ++i) {
+      const UInt128 total = UInt128{factor} * b.limbs_[i] + carry;
+      product.limbs_[i] = static_cast<std::uint64_t>(total);
+      carry = static_cast<std::uint64_t>(total >> 64);
+    }
+    return a < 0 ? -product : product;
+  }
+  /// a * 2^bits.
+  friend FixedInt operator<<(const FixedInt& a, std::size_t bits) {
+    FixedInt shifted(0);
+    const std::size_t whole = bits / 64;
+    const unsigned rest = bits % 64;
+    for (std::size_t i = whole; i < Limbs; ++i) {
+      const std::uint64_t below = i > whole ? a.limbs_[i - whole - 1] : 0;
+      shifted.limbs_[i] = (a.limbs_[i - whole] << rest) | (below >> 1 >> (63 - rest));
+    }
+    return shifted;
+  }
+  friend std::strong_ordering operator<=>(const FixedInt& a, const FixedInt& b) {
+    const FixedInt difference = a - b;
+    if (difference.is_negative()) return std::strong_ordering::less;
+    return difference.limbs_ == FixedInt(0).limbs_ ? std::strong_ordering::equal
+                                                   : std::strong_ordering::greater;
+  }
+  friend bool operator==(const FixedInt& a, const FixedInt& b) { return a.limbs_ == b.limbs_; }
+
+ private:
+  std::array<std::uint64_t, Limbs> limbs_;
+};
+
+/// The number of bits without the sign and what repeats it.
+template <std::size_t Limbs>
+int bit_length(const FixedInt<Limbs>& value) {
+  const std::uint64_t sign = value.is_negative() ? ~std::uint64_t{0} : 0;
+  std::size_t limbs = Limbs;
+  while (limbs > 0 && value.limb(limbs - 1) == sign) --limbs;
+  return limbs == 0 ? 0 : static_cast<int>(64 * limbs) - std::countl_zero(value.limb(limbs - 1) ^ sign);
+}
+
+/// value / 2^bits, rounded down, where 63 bits are enough for that.
+template <std::size_t Limbs>
+std::int64_t cut(const FixedInt<Limbs>& value, int bits) {
+  const std::size_t whole = static_cast<std::size_t>(bits) / 64;
+  const unsigned rest = static_cast<unsigned>(bits) % 64;
+  return static_cast<std::int64_t>((value.limb(whole) >> rest) | (value.limb(whole + 1) << 1 << (63 - rest)));
+}
+
+/// value / 2^exponent as a double, within 2^-53 + 2^-61 of its size; infinite or 0 where that is out of
+/// range.
+template <std::size_t Limbs>
+double to_double(const FixedInt<Limbs>& value, int exponent) {
+  const int cut_off = std::max(bit_length(value) - 62, 0);
+  return std::ldexp(static_cast<double>(cut(value, cut_off)), cut_off - exponent);
+}
+
+}  // namespace pipeline

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <type_traits>
+
+#include "libpipeline/fixed_int.h"
+#include "libpipeline/int128.h"
+
+namespace pipeline {
+
+// What exact geometry asks of a type of whole numbers beside + - * and comparisons: bit_length, to_double and
+// cut, the same words for 64 bits, 128 bits and a FixedInt.
+
+inline int bit_length(Int128 value) {
+  return bit_length(static_cast<UInt128>(value < 0 ? ~value : value));
+}
+
+inline double to_double(std::int64_t value, int exponent) {
+  return static_cast<double>(value) * power_of_two(-exponent);
+}
+inline double to_double(Int128 value, int exponent) {
+  return to_double(value) * power_of_two(-exponent);
+}
+
+inline std::int64_t cut(std::int64_t value, int bits) {
+  return value >> bits;
+}
+inline std::int64_t cut(Int128 value, int bits) {
+  return static_cast<std::int64_t>(value >> bits);
+}
+
+/// A whole number above 0 to divide others by.
+template <typename Int>
+class Divisor {
+ public:
+  Divisor() = default;
+  explicit Divisor(const Int& value) : value_(value) {
+    if constexpr (kMayBeHuge) exponent_ = bit_length(value);
+    inverse_ = 1 / in_range(value);
+  }
+
+  [[nodiscard]] const Int& value() const { return value_; }
+
+  /// The smallest whole c in [0, most] with c * value >= dividend, or `most` if there is none; `most` is at
+  /// most 2^20. A double says which c it is but for one (it is off by less than 2^-30), and the exact rest
+  /// decides.
+  [[nodiscard]] int quotient_rounded_up(const Int& dividend, int most) const {
+    const double estimate = in_range(dividend) * inverse_;
+    // The conversion takes what lies between -1 and 0 to 0; anything less is rare, and its branch predicted.
+    const int near = static_cast<int>(std::min(std::max(estimate, -1.0), static_cast<double>(most)) + 0.5);
+    return std::min(near + static_cast<int>(near * value_ < dividend), most);
+  }
+
+ private:
+  static constexpr bool kMayBeHuge = !std::is_same_v<Int, std::int64_t> && !std::is_same_v<Int, Int128>;
+
+  /// number / 2^exponent_; a double has room for that, or it is so large that infinity will do.
+  [[nodiscard]] double in_range(const Int& number) const {
+    if constexpr (kMayBeHuge) return to_double(number, exponent_);
+    if constexpr (std::is_same_v<Int, Int128>) return to_double(number);
+    if constexpr (std::is_same_v<Int, std::int64_t>) return static_cast<double>(number);
+  }
+
+  Int value_ = 1;
+  int exponent_ = 0;
+  double inverse_ = 1;
+};
+
+}  // namespace pipeline

@@ -1,0 +1,247 @@
+// The coverage rule `center` and its depths against rational arithmetic (GMP), for numbers of every kind.
+
+#include <gmpxx.h>
+#include <gtest/gtest.h>
+
+#include "tests/center_reference.h"
+#include "tests/random_numbers.h"
+
+namespace pipeline {
+namespace {
+
+struct Point {
+  mpq_class x, y, z;
+};
+
+/// The decimal of 7 decimals nearest to hi + lo.
+mpq_class decimal(double hi, double lo) {
+  const mpq_class units = (mpq_class(hi) + mpq_class(lo)) * 10'000'000 + mpq_class(1, 2);
+  mpz_class whole;
+  mpz_fdiv_q(whole.get_mpz_t(), units.get_num_mpz_t(), units.get_den_mpz_t());
+  mpq_class result(whole, 10'000'000);
+  result.canonicalize();
+  return result;
+}
+
+/// A triangle and a screen as rational numbers.
+class Exact {
+ public:
+  Exact(const TextTriangle& t, const ScreenConfig& s) {
+    const auto number = [&](std::size_t i, double hi, double lo) {
+      return ((t.decimal_marks >> i) & 1u) != 0 ? decimal(hi, lo) : mpq_class(hi);
+    };
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vec3& p = t.p[i];
+      const Vec3& low = t.low_parts[i];
+      p_[i] = {number(3 * i, p.x, low.x), number(3 * i + 1, p.y, low.y), number(3 * i + 2, p.z, low.z)};
+    }
+    left_ = s.left_is_decimal ? decimal(s.left, s.left_low_part) : mpq_class(s.left);
+    bottom_ = s.bottom_is_decimal ? decimal(s.bottom, s.bottom_low_part) : mpq_class(s.bottom);
+    dx_ = -2 * left_ / s.columns;
+    dy_ = -2 * bottom_ / s.rows;
+    area_ = edge(p_[0], p_[1], p_[2]);
+    if (area_ < 0) std::swap(p_[1], p_[2]);
+    area_ = abs(area_);
+  }
+
+  [[nodiscard]] bool covers(int row, int column) const {
+    const Point centre = centre_of(row, column);
+    bool result = area_ != 0;
+    for (std::size_t i = 0; i < 3 && result; ++i) {
+      const Point& from = p_[i];
+      const Point& to = p_[(i + 1) % 3];
+      const mpq_class value = edge(from, to, centre);
+      const bool is_top_or_left = to.y < from.y || (to.y == from.y && to.x < from.x);
+      result = value > 0 || (value == 0 && is_top_or_left);
+    }
+    return result;
+  }
+
+  [[nodiscard]] mpq_class depth(int row, int column) const {
+    const Point centre = centre_of(row, column);
+    mpq_class sum = 0;
+    for (std::size_t i = 0; i < 3; ++i) sum += edge(p_[(i + 1) % 3], p_[(i + 2) % 3], centre) * p_[i].z;
+    return sum / area_;
+  }
+
+  [[nodiscard]] mpq_class largest_depth() const {
+    return std::max({mpq_class(abs(p_[0].z)), mpq_class(abs(p_[1].z)), mpq_class(abs(p_[2].z))});
+  }
+
+ private:
+  static mpq_class edge(const Point& a, const Point& b, const Point& p) {
+    return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
+  }
+  [[nodiscard]] Point centre_of(int row, int column) const {
+    return {left_ + dx_ * (2 * column + 1) / 2, -bottom_ - dy_ * (2 * row + 1) / 2, 0};
+  }
+
+  std::array<Point, 3> p_;
+  mpq_class left_, bottom_, dx_, dy_, area_;
+};
+
+/// Compares every pixel of a small screen.
+void expect_exact(const TextTriangle& t, const ScreenConfig& screen) {
+  const Exact exact(t, screen);
+  const std::vector<Span> spans = spans_of(CenterRows(ExactGrid(screen), t.exact()));
+  auto span = spans.begin();
+  for (int row = 0; row < screen.rows; ++row) {
+    const bool has_span = span != spans.end() && span->row == row;
+    for (int column = 0; column < screen.columns; ++column) {
+      const bool is_covered = has_span && column >= span->first_column && column <= span->last_column;
+      ASSERT_EQ(is_covered, exact.covers(row, column)) << "row " << row << ", column " << column;
+    }
+    if (has_span) ++span;
+  }
+}
+
+/// Compares depths at the ends and in the middle of some rows.
+void expect_depths_within_bound(const TextTriangle& t, const ScreenConfig& screen) {
+  const Exact exact(t, screen);
+  const mpq_class bound = exact.largest_depth() * mpq_class(0x1p-50);
+  const std::vector<Span> spans = spans_of(CenterRows(ExactGrid(screen), t.exact()));
+  const std::size_t step = 1 + spans.size() / 8;
+  for (std::size_t i = 0; i < spans.size(); i += step)
+    for (const int column :
+         {spans[i].first_column, (spans[i].first_column + spans[i].last_column) / 2, spans[i].last_column}) {
+      const mpq_class error = abs(mpq_class(spans[i].depth(column)) - exact.depth(spans[i].row, column));
+      ASSERT_TRUE(error <= bound) << "row " << spans[i].row << ", column " << column;
+    }
+}
+
+TextTriangle with_vertices(const Triangle& p) {
+  return {p};
+}
+
+TEST(CenterExact, DoublesCoverWhatTheyCoverExactly) {
+  RandomNumbers random(1);
+  for (int i = 0; i < 1500; ++i) {
+    ScreenConfig screen = {
+        random.whole(1, 12), random.whole(1, 12), -random.between(0.5, 2), -random.between(0.5, 2), -1, 1};
+    screen.left_is_decimal = i % 2 == 0;
+    Triangle p{};
+    for (Vec3& v : p) v = {random.between(-2, 2), random.between(-2, 2), 0};
+    // Some coordinates near 0, and some triangles on a line but for rounding.
+    if (i % 5 == 0) p[0].x = random.with_exponent(-120, -3);
+    if (i % 7 == 0) p[2] = {(p[0].x + p[1].x) / 2, (p[0].y + p[1].y) / 2, 0};
+    if (i % 11 == 0) p[1].y = p[0].y;
+    expect_exact(with_vertices(p), screen);
+    if (HasFatalFailure()) FAIL() << "triangle " << i;
+  }
+}
+
+TEST(CenterExact, DoublesOnPixelCentresToo) {
+  RandomNumbers random(2);
+  for (int i = 0; i < 1500; ++i) {
+    // A size that is a power of two and a limit that is a double: all centres and half pixels are doubles.
+    const double limit = std::ldexp(random.between(1, 2), random.whole(-1, 1));
+    const ScreenConfig screen = {8, 16, -limit, -limit, -1, 1};
+    Triangle p{};
+    for (Vec3& v : p) v = {random.whole(-9, 9) * limit / 8, random.whole(-18, 18) * limit / 16, 0};
+    expect_exact(with_vertices(p), screen);
+    if (HasFatalFailure()) FAIL() << "triangle " << i;
+  }
+}
+
+TEST(CenterExact, AnyDoublesCoverWhatTheyCoverExactly) {
+  RandomNumbers random(3);
+  for (int i = 0; i < 400; ++i) {
+    const double limit = i % 2 == 0 ? 1.0 : std::ldexp(random.between(1, 2), random.whole(-660, 660));
+    const ScreenConfig screen = {5, 4, -limit, -limit, -1, 1};
+    const int range = i % 3 == 0 ? 400 : 60;
+    Triangle p{};
+    for (Vec3& v : p)
+      v = {limit * random.with_exponent(-range, range / 2), limit * random.with_exponent(-range, range / 2),
+           0};
+    if (i % 4 == 3)
+      p = {{{random.any_double(), random.any_double(), 0}, p[1], {random.any_double(), p[2].y, 0}}};
+    expect_exact(with_vertices(p), screen);
+    if (HasFatalFailure()) FAIL() << "triangle " << i;
+  }
+}
+
+TEST(CenterExact, DecimalsOfEverySizeMixedWithDoubles) {
+  RandomNumbers random(4);
+  for (int i = 0; i < 1000; ++i) {
+    const ScreenConfig screen =
+        decimal_screen(random.whole(1, 9), random.whole(1, 9), -random.whole(1, 30'000'000) / 1e7, -1);
+    std::string text;
+    for (int k = 0; k < 9; ++k) {
+      std::string number = random.bits() % 2 == 0 ? "-" : "";
+      const int digits = i % 3 == 0 ? random.whole(1, 21) : 0;
+      number += digits == 0 ? "0" : std::string(1, static_cast<char>('1' + random.whole(0, 8)));
+      for (int d = 1; d < digits; ++d) number += static_cast<char>('0' + random.whole(0, 9));
+      number += '.';
+      for (int d = random.whole(1, random.bits() % 4 == 0 ? 17 : 7); d > 0; --d)
+        number += static_cast<char>('0' + random.whole(0, 9));
+      text += number + (k < 8 ? " " : "");
+    }
+    expect_exact(triangle_of(text), screen);
+    if (HasFatalFailure()) FAIL() << text;
+  }
+}
+
+TEST(CenterExact, DepthsAreWithinTheirBound) {
+  RandomNumbers random(5);
+  for (int i = 0; i < 3000; ++i) {
+    const std::array<ScreenConfig, 3> screens = {decimal_screen(500, 500), decimal_screen(1023, 40),
+                                                 ScreenConfig{640, 480, -1.1, -0.9, -1, 1}};
+    UnitTriangle units{};
+    const int size = i % 2 == 0 ? 200'000 : 8'000'000;
+    const std::array<int, 2> centre = {random.whole(-9'000'000, 9'000'000),
+                                       random.whole(-9'000'000, 9'000'000)};
+    for (auto& p : units) p = {centre[0] + random.whole(-size, size), centre[1] + random.whole(-size, size)};
+    // Depths of one size, of very different sizes, nearly equal, or of opposite sign.
+    std::array<double, 3> z{};
+    const double base = random.between(-1, 1);
+    for (double& depth : z) {
+      if (i % 4 == 0) depth = random.between(-1, 1);
+      if (i % 4 == 1) depth = random.with_exponent(-40, 40);
+      if (i % 4 == 2) depth = base * (1 + random.whole(-2, 2) * 0x1p-52);
+      if (i % 4 == 3) depth = random.bits() % 2 == 0 ? 1 : -1;
+    }
+    TextTriangle t = triangle_of(units, z);
+    t.decimal_marks = i % 3 == 0 ? 0 : 0b011'011'011;
+    expect_depths_within_bound(t, screens[static_cast<std::size_t>(i / 2) % screens.size()]);
+    if (HasFatalFailure()) FAIL() << "triangle " << i;
+  }
+}
+
+TEST(CenterExact, DepthsOfSliversAndOfFarVerticesAreWithinTheirBound) {
+  RandomNumbers random(6);
+  const ScreenConfig screen = decimal_screen(400, 300, -1, -0.75);
+  for (int i = 0; i < 600; ++i) {
+    UnitTriangle units{};
+    const int size = i % 2 == 0 ? 10'000'000 : 1'000'000'000;
+    for (auto& p : units) p = {random.whole(-size, size), random.whole(-size, size)};
+    const double along = random.between(0, 1);
+    for (std::size_t k = 0; k < 2 && i % 3 != 0; ++k)
+      units[2][k] = units[0][k] + std::llround(along * static_cast<double>(units[1][k] - units[0][k])) +
+                    random.whole(-3, 3) * 20'000;
+    TextTriangle t =
+        triangle_of(units, {random.between(-1, 1), random.between(-1, 1), random.between(-1, 1)});
+    t.decimal_marks = 0b011'011'011;
+    if (i % 5 == 0) {
+      const double far = std::ldexp(1.0, random.whole(10, 200));
+      for (Vec3& p : t.p) p = {p.x * far, p.y * far, p.z};
+      t.decimal_marks = 0;
+    }
+    expect_depths_within_bound(t, screen);
+    if (HasFatalFailure()) FAIL() << "triangle " << i;
+  }
+}
+
+TEST(CenterExact, DepthsReadAsDecimalsAreWithinTheSameBound) {
+  RandomNumbers random(7);
+  const ScreenConfig screen = decimal_screen(500, 500);
+  for (int i = 0; i < 1000; ++i) {
+    UnitTriangle units{};
+    for (auto& p : units) p = {random.whole(-10'000'000, 10'000'000), random.whole(-10'000'000, 10'000'000)};
+    const auto depth = [&] { return random.whole(-10'000'000, 10'000'000) / 1e7; };
+    expect_depths_within_bound(triangle_of(units, {depth(), depth(), depth()}), screen);
+    if (HasFatalFailure()) FAIL() << "triangle " << i;
+  }
+}
+
+}  // namespace
+}  // namespace pipeline

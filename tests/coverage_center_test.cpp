@@ -1,0 +1,456 @@
+#include "libpipeline/coverage_center.h"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "libpipeline/zbuffer.h"
+#include "tests/center_reference.h"
+#include "tests/random_numbers.h"
+
+namespace pipeline {
+namespace {
+
+using Picture = std::vector<std::string>;
+
+// Pixels of size 1, centres at -3.5, -2.5 ... 3.5 in x and y.
+const ScreenConfig kEightByEight = decimal_screen(8, 8, -4, -4);
+
+Picture picture_of(std::string_view triangle, const ScreenConfig& screen = kEightByEight) {
+  Owners owners(screen);
+  owners.add(triangle_of(triangle));
+  return owners.picture();
+}
+
+Owners owners_of(const std::vector<TextTriangle>& triangles, const ScreenConfig& screen) {
+  Owners owners(screen);
+  for (const TextTriangle& triangle : triangles) owners.add(triangle);
+  return owners;
+}
+
+const Picture kNothing(8, "........");
+
+TEST(CoverageCenter, TakesThePixelsWhoseCentresAreInside) {
+  EXPECT_EQ(picture_of("-3 -3 0 3 -3 0 0 3 0"), (Picture{
+                                                    "........",
+                                                    "........",
+                                                    "...##...",
+                                                    "...##...",
+                                                    "..####..",
+                                                    "..####..",
+                                                    ".######.",
+                                                    "........",
+                                                }));
+}
+
+TEST(CoverageCenter, ATopEdgeThroughCentresOwnsThemAndABottomEdgeDoesNot) {
+  // y from -1.5 to 1.5: both on a row.
+  EXPECT_EQ(picture_of("-4 1.5 0 4 1.5 0 0 -1.5 0"), (Picture{
+                                                         "........",
+                                                         "........",
+                                                         "########",
+                                                         ".######.",
+                                                         "...##...",
+                                                         "........",
+                                                         "........",
+                                                         "........",
+                                                     }));
+  EXPECT_EQ(picture_of("-4 -1.5 0 4 -1.5 0 0 1.5 0"), (Picture{
+                                                          "........",
+                                                          "........",
+                                                          "........",
+                                                          "...##...",
+                                                          ".######.",
+                                                          "........",
+                                                          "........",
+                                                          "........",
+                                                      }));
+}
+
+TEST(CoverageCenter, ALeftEdgeThroughCentresOwnsThemAndARightEdgeDoesNot) {
+  EXPECT_EQ(picture_of("-1.5 -2 0 -1.5 2 0 1.5 0 0"), (Picture{
+                                                          "........",
+                                                          "........",
+                                                          "..#.....",
+                                                          "..###...",
+                                                          "..###...",
+                                                          "..#.....",
+                                                          "........",
+                                                          "........",
+                                                      }));
+  EXPECT_EQ(picture_of("1.5 -2 0 1.5 2 0 -1.5 0 0"), (Picture{
+                                                         "........",
+                                                         "........",
+                                                         "........",
+                                                         "...##...",
+                                                         "...##...",
+                                                         "........",
+                                                         "........",
+                                                         "........",
+                                                     }));
+}
+
+TEST(CoverageCenter, SlopingEdgesThroughCentresBelongToTheTriangleOnTheirRight) {
+  // The same diagonal is a left edge of one and a right edge of the other.
+  EXPECT_EQ(picture_of("-2.5 2.5 0 2.5 -2.5 0 2.5 2.5 0"), (Picture{
+                                                               "........",
+                                                               ".#####..",
+                                                               "..####..",
+                                                               "...###..",
+                                                               "....##..",
+                                                               ".....#..",
+                                                               "........",
+                                                               "........",
+                                                           }));
+  EXPECT_EQ(picture_of("-2.5 2.5 0 2.5 -2.5 0 -2.5 -2.5 0"), (Picture{
+                                                                 "........",
+                                                                 "........",
+                                                                 ".#......",
+                                                                 ".##.....",
+                                                                 ".###....",
+                                                                 ".####...",
+                                                                 "........",
+                                                                 "........",
+                                                             }));
+}
+
+TEST(CoverageCenter, BothWindingsAreDrawnAlikeInEveryOrderOfTheCorners) {
+  const std::array<std::string, 3> corners = {"-3.25 0.5 0.1", "2.5 3.5 0.2", "1.5 -3.75 0.9"};
+  const Picture expected = picture_of(corners[0] + " " + corners[1] + " " + corners[2]);
+  std::array<std::size_t, 3> order = {0, 1, 2};
+  while (std::next_permutation(order.begin(), order.end()))
+    EXPECT_EQ(picture_of(corners[order[0]] + " " + corners[order[1]] + " " + corners[order[2]]), expected);
+}
+
+TEST(CoverageCenter, ATriangleWithoutAreaCoversNothing) {
+  EXPECT_EQ(picture_of("-3.5 -3.5 0 0.5 0.5 0 3.5 3.5 0"), kNothing);
+  EXPECT_EQ(picture_of("-3.5 0.5 0 0.5 0.5 0 3.5 0.5 0"), kNothing);
+  EXPECT_EQ(picture_of("0.5 -3.5 0 0.5 0.5 0 0.5 3.5 0"), kNothing);
+  EXPECT_EQ(picture_of("0.5 0.5 0 0.5 0.5 0 3.5 3.5 0"), kNothing);
+  EXPECT_EQ(picture_of("0.5 0.5 0 0.5 0.5 0 0.5 0.5 0"), kNothing);
+}
+
+TEST(CoverageCenter, BetweenTheCentresThereIsNothing) {
+  EXPECT_EQ(picture_of("-3.4 -3 0 3.4 -3 0 3.4 -2.6 0"), kNothing);
+  EXPECT_EQ(picture_of("0.6 -3 0 1.4 3 0 0.6 3 0"), kNothing);
+}
+
+TEST(CoverageCenter, IsCutAtTheBordersOfTheScreen) {
+  EXPECT_EQ(picture_of("-100 -100 0 100 -100 0 0 100 0"), Picture(8, "########"));
+  EXPECT_EQ(picture_of("-6.5 1.5 0 -1.5 1.5 0 -1.5 6.5 0"), (Picture{
+                                                                "##......",
+                                                                "##......",
+                                                                "........",
+                                                                "........",
+                                                                "........",
+                                                                "........",
+                                                                "........",
+                                                                "........",
+                                                            }));
+  for (const char* outside : {"4.1 -1 0 6 -1 0 5 1 0", "-6 -1 0 -4.1 -1 0 -5 1 0", "-1 3.6 0 1 3.6 0 0 6 0",
+                              "-1 -3.6 0 1 -3.6 0 0 -6 0", "-90 0 0 0 90 0 -90 90 0"})
+    EXPECT_EQ(picture_of(outside), kNothing) << outside;
+}
+
+TEST(CoverageCenter, ADecimalIsThatDecimalAndNotItsNearestDouble) {
+  // Pixels of size 0.2: the centres are at -0.9, -0.7 ... No double is 0.3, 0.1 or 0.7.
+  const ScreenConfig tenths = decimal_screen(10, 2, -1, -0.2);
+  const Picture expected = {"......##..", "......##.."};
+  EXPECT_EQ(picture_of("0.3 -0.2 0 0.3 0.2 0 0.7 -0.2 0", tenths)[1], "......##..");
+  Owners strip(tenths);
+  strip.add(triangle_of("0.3 -0.2 0 0.7 -0.2 0 0.3 0.2 0"));
+  strip.add(triangle_of("0.7 0.2 0 0.7 -0.2 0 0.3 0.2 0"));
+  EXPECT_EQ(strip.picture(), expected);
+}
+
+TEST(CoverageCenter, OtherNumbersAreTheirNearestDoubles) {
+  const ScreenConfig tenths = decimal_screen(10, 1, -1, -1);
+  // The double nearest to 0.3 lies below it, that nearest to 0.1 above, so the centre of column 6 is in and
+  // that of column 5 is not; as the decimals 0.3 and 0.1 they would be on left edges, and in.
+  EXPECT_EQ(picture_of("3e-1 -1 0 3e-1 1 0 0.5 -1 0", tenths)[0], "......#...");
+  EXPECT_EQ(picture_of("1e-1 -1 0 1e-1 1 0 0.3 -1 0", tenths)[0], "..........");
+  EXPECT_EQ(picture_of("0.10000000 -1 0 0.10000000 1 0 0.3 -1 0", tenths)[0], "..........");
+  EXPECT_EQ(picture_of("0.1 -1 0 0.1 1 0 0.3 -1 0", tenths)[0], ".....#....");
+}
+
+TEST(CoverageCenter, LimitsAreDecimalsToo) {
+  // Pixels of size 0.1, centres at -0.25 ... 0.25; the left edge is at 0.05. The double nearest to 0.3 is
+  // less, and so would be the centre of column 3.
+  const char* triangle = "0.05 -0.3 0 0.05 0.3 0 0.25 -0.3 0";
+  ScreenConfig screen = decimal_screen(6, 6, -0.3, -0.3);
+  EXPECT_EQ(picture_of(triangle, screen)[5], "...##.");
+  screen.left_is_decimal = false;
+  EXPECT_EQ(picture_of(triangle, screen)[5], "....#.");
+}
+
+TEST(CoverageCenter, MoreDigitsThanADoubleHasDecide) {
+  const auto row_of = [](const std::string& x) {
+    return picture_of("-9999999999.5 -10000000000 0 " + x + " 10000000000 0 9000000000 -10000000000 0")[4];
+  };
+  // At y = -0.5 the left edge is at 0.5 - 2.5e-11 and at 0.5 + 1.5e-7; x is the same double in both.
+  EXPECT_EQ(row_of("10000000001.5000000"), "....####");
+  EXPECT_EQ(row_of("10000000001.5000003"), ".....###");
+}
+
+TEST(CoverageCenter, AMeshThroughPixelCentresOwnsEveryPixelOnce) {
+  // A quad of two triangles; the diagonal goes through n centres, which one of them owns.
+  constexpr int n = 48;
+  const ScreenConfig screen = decimal_screen(n, n);
+  const TextTriangle lower = triangle_of("-1 -1 0 1 -1 0 1 1 0"), upper = triangle_of("-1 -1 0 1 1 0 -1 1 0");
+  EXPECT_EQ(owners_of({lower, upper}, screen).pixels_with(1), n * n);
+  EXPECT_EQ(owners_of({lower}, screen).pixels_with(1), n * (n + 1) / 2);
+  EXPECT_EQ(owners_of({upper}, screen).pixels_with(1), n * (n - 1) / 2);
+}
+
+TEST(CoverageCenter, ASquareBetweenCentresHasTheTopAndTheLeftOnes) {
+  // Centres at odd multiples of 0.05; the square from -0.45 to 0.25 has 7 x 7 of them.
+  const ScreenConfig screen = decimal_screen(20, 20);
+  const Owners owners = owners_of({triangle_of("-0.45 -0.45 0 0.25 -0.45 0 0.25 0.25 0"),
+                                   triangle_of("-0.45 -0.45 0 0.25 0.25 0 -0.45 0.25 0")},
+                                  screen);
+  EXPECT_EQ(owners.pixels_with(1), 49);
+  EXPECT_EQ(owners.pixels_with(0), 400 - 49);
+  EXPECT_EQ(owners.count(7, 5), 1);   // top left: (-0.45, 0.25)
+  EXPECT_EQ(owners.count(14, 5), 0);  // bottom left
+  EXPECT_EQ(owners.count(7, 12), 0);  // top right
+}
+
+TEST(CoverageCenter, AFanAroundAPixelCentreOwnsEveryPixelOnce) {
+  const ScreenConfig screen = decimal_screen(20, 14, -1, -0.7);
+  const std::array<std::string, 9> rim = {"2 0.05",   "2 2",   "0.05 2", "-0.3 2", "-2 2",
+                                          "-2 -0.15", "-2 -2", "0.5 -2", "2 -2"};
+  Owners owners(screen);
+  for (std::size_t i = 0; i < rim.size(); ++i)
+    owners.add(triangle_of("0.05 0.05 0 " + rim[i] + " 0 " + rim[(i + 1) % rim.size()] + " 0"));
+  EXPECT_EQ(owners.pixels_with(1), owners.all());
+}
+
+/// Splits the triangle at a point inside it, `depth` times over.
+void split(const UnitTriangle& t, int depth, RandomNumbers& random, Owners& owners) {
+  if (depth == 0) {
+    owners.add(triangle_of(t));
+    return;
+  }
+  const int a = random.whole(1, 98), b = random.whole(1, 99 - a);
+  UnitTriangle part = t;
+  std::array<std::int64_t, 2> point{};
+  for (std::size_t axis = 0; axis < 2; ++axis)
+    point[axis] = t[2][axis] + (t[0][axis] - t[2][axis]) / 100 * a + (t[1][axis] - t[2][axis]) / 100 * b;
+  for (std::size_t i = 0; i < 3; ++i) {
+    part = t;
+    part[i] = point;
+    split(part, depth - 1, random, owners);
+  }
+}
+
+TEST(CoverageCenter, RandomTriangulationsOwnEveryPixelOnce) {
+  RandomNumbers random(1);
+  for (const auto& [columns, rows, limit] :
+       {std::tuple{64, 48, 1.0}, {33, 57, 0.75}, {1023, 2, 1.0}, {7, 401, 3.1415927}})
+    for (int i = 0; i < 20; ++i) {
+      Owners owners(decimal_screen(columns, rows, -limit, -limit));
+      // Corners of the screen's square and far outside; the points inside are rounded to the same 10^-7 for
+      // all.
+      const std::int64_t far = random.whole(40'000'000, 900'000'000);
+      split({{{-far, -far}, {far, -far}, {far, far}}}, 4, random, owners);
+      split({{{-far, -far}, {far, far}, {-far, far}}}, 4, random, owners);
+      ASSERT_EQ(owners.pixels_with(1), owners.all()) << columns << " x " << rows << ", mesh " << i;
+    }
+}
+
+TEST(CoverageCenter, VerticesVeryFarAwayShareTheirEdgesToo) {
+  const ScreenConfig screen = decimal_screen(100, 80);
+  // An edge through the screen between vertices 5e10 pixels away, then 1e15, then beyond.
+  for (const char* far : {"1000000000", "20000000000000", "3e25", "1e300"}) {
+    const std::string f = far, g = std::string("-") + far;
+    for (const char* off : {"0.7", "-0.3", "0.0000001"}) {
+      const std::string a = g + " " + off, b = f + " 0.1";
+      const Owners owners = owners_of(
+          {triangle_of(a + " 0 " + b + " 0 0 " + f + " 0"), triangle_of(a + " 0 " + b + " 0 0 " + g + " 0")},
+          screen);
+      EXPECT_EQ(owners.pixels_with(1), owners.all()) << far << ' ' << off;
+    }
+  }
+}
+
+TEST(CoverageCenter, ManyRandomMeshesOfFarDoublesOwnEveryPixelOnce) {
+  RandomNumbers random(2);
+  for (int i = 0; i < 300; ++i) {
+    const ScreenConfig screen = {
+        random.whole(1, 40), random.whole(1, 40), -random.between(0.1, 3), -random.between(0.1, 3), -1, 1};
+    const double far = std::ldexp(random.between(1, 2), random.whole(3, i % 3 == 0 ? 900 : 55));
+    const Vec3 centre = {random.between(-0.1, 0.1), random.between(-0.1, 0.1), 0};
+    std::array<Vec3, 6> rim{};
+    for (std::size_t k = 0; k < rim.size(); ++k) {
+      const double angle = 2 * 3.14159265358979 / 6 * (static_cast<double>(k) + random.between(0, 0.3));
+      rim[k] = {far * std::cos(angle), far * std::sin(angle), 0};
+    }
+    Owners owners(screen);
+    for (std::size_t k = 0; k < rim.size(); ++k) owners.add({{centre, rim[k], rim[(k + 1) % rim.size()]}});
+    ASSERT_EQ(owners.pixels_with(1), owners.all()) << "mesh " << i;
+  }
+}
+
+TEST(CoverageCenter, AllWidthsOfNumbersGiveTheSamePixelsAndDepths) {
+  RandomNumbers random(3);
+  for (const ScreenConfig& screen :
+       {decimal_screen(50, 50), decimal_screen(1023, 777), decimal_screen(640, 480, -1.3333333, -1),
+        decimal_screen(211, 333, -100000.0000001, -1)}) {
+    const ExactGrid grid(screen);
+    for (int i = 0; i < 800; ++i) {
+      UnitTriangle units{};
+      for (auto& vertex : units)
+        vertex = {random.whole(-12'000'000, 12'000'000), random.whole(-12'000'000, 12'000'000)};
+      if (i % 2 == 0)
+        for (std::size_t k = 1; k < 3; ++k)
+          units[k] = {units[0][0] + random.whole(-400'000, 400'000),
+                      units[0][1] + random.whole(-400'000, 400'000)};
+      // Up to 10^8, where 64 bits still hold the coordinates, but 128 are needed for products.
+      const std::int64_t far = i % 4 == 1 ? random.whole(1, 80'000'000) : 1;
+      for (auto& vertex : units) vertex = {vertex[0] * far, vertex[1] * far};
+      const TextTriangle t =
+          triangle_of(units, {random.between(-1, 1), random.between(-1, 1), random.between(-1, 1)});
+      const std::array<double, 3> z = {t.p[0].z, t.p[1].z, t.p[2].z};
+      const std::vector<Span> expected = spans_of(CenterRows(grid, t.exact()));
+      const auto expect_same = [&](auto type) {
+        using Int = decltype(type);
+        const auto on_grid =
+            grid_triangle<Int>(grid, column_units(grid, t.exact()), row_units(grid, t.exact()));
+        const CentreBox box(on_grid, screen.rows, screen.columns);
+        const std::vector<Span> spans =
+            box.is_empty() ? std::vector<Span>() : spans_of(ExactRows<Int>(on_grid, box, z));
+        ASSERT_EQ(spans.size(), expected.size());
+        for (std::size_t k = 0; k < spans.size(); ++k) {
+          ASSERT_EQ(spans[k].row, expected[k].row);
+          ASSERT_EQ(spans[k].first_column, expected[k].first_column);
+          ASSERT_EQ(spans[k].last_column, expected[k].last_column);
+          for (const int column : {spans[k].first_column, spans[k].last_column})
+            ASSERT_NEAR(spans[k].depth(column), expected[k].depth(column), 0x1p-51);
+        }
+      };
+      expect_same(WideInt());
+      if (i % 100 == 0) expect_same(HugeInt());
+      if (HasFatalFailure()) FAIL() << "triangle " << i;
+    }
+  }
+}
+
+TEST(CoverageCenter, AnyFiniteNumbersGiveSpansOnTheScreen) {
+  constexpr double kMax = std::numeric_limits<double>::max();
+  const std::vector<double> values = {0,      -0.0,  5e-324, -5e-324, 1e-310, 1e-200, -1e-160, 0.5,  -0.5, 1,
+                                      -1.002, 1e154, -1e160, 1e300,   -1e300, 1e308,  -1e308,  kMax, -kMax};
+  RandomNumbers random(4);
+  const auto value = [&] {
+    return values[static_cast<std::size_t>(random.whole(0, static_cast<int>(values.size()) - 1))];
+  };
+  for (const double limit : {1.0, 1e-200, 1e200}) {
+    const ScreenConfig screen = {5, 4, -limit, -limit, -1, 1};
+    const ExactGrid grid(screen);
+    for (int i = 0; i < 700; ++i) {
+      TextTriangle t;
+      for (Vec3& p : t.p) p = {value(), value(), value()};
+      for (const Span& span : spans_of(CenterRows(grid, t.exact()))) {
+        ASSERT_GE(span.row, 0);
+        ASSERT_LT(span.row, screen.rows);
+        ASSERT_GE(span.first_column, 0);
+        ASSERT_LE(span.first_column, span.last_column);
+        ASSERT_LT(span.last_column, screen.columns);
+        for (const int column : {span.first_column, span.last_column})
+          ASSERT_FALSE(std::isnan(span.depth(column)));
+      }
+    }
+  }
+}
+
+TEST(CoverageCenter, TheLargestNumbersGiveTheRightPicture) {
+  // x + y <= 0 with the diagonal as right edge, drawn with corners whose differences a double cannot hold.
+  EXPECT_EQ(picture_of("-1.7976931348623157e308 1.7976931348623157e308 0 1.7976931348623157e308 "
+                       "-1.7976931348623157e308 0 -1.7976931348623157e308 -1.7976931348623157e308 0"),
+            (Picture{
+                "........",
+                "#.......",
+                "##......",
+                "###.....",
+                "####....",
+                "#####...",
+                "######..",
+                "#######.",
+            }));
+}
+
+TEST(CoverageCenter, ATinyWorldLooksLikeALargeOne) {
+  TextTriangle t = triangle_of("-3.25 -3 0.1 3 -2.125 0.2 0.375 3 0.7");
+  const std::vector<Span> expected = spans_of(CenterRows(ExactGrid(kEightByEight), t.exact()));
+  t.decimal_marks = 0;
+  for (const double scale : {0x1p-600, 0x1p600}) {
+    TextTriangle scaled = t;
+    for (Vec3& p : scaled.p) p = {p.x * scale, p.y * scale, p.z};
+    const std::vector<Span> spans =
+        spans_of(CenterRows(ExactGrid({8, 8, -4 * scale, -4 * scale, -1, 1}), scaled.exact()));
+    ASSERT_EQ(spans.size(), expected.size());
+    for (std::size_t k = 0; k < spans.size(); ++k) {
+      EXPECT_EQ(spans[k].first_column, expected[k].first_column);
+      EXPECT_EQ(spans[k].last_column, expected[k].last_column);
+      EXPECT_NEAR(spans[k].depth(spans[k].first_column), expected[k].depth(expected[k].first_column),
+                  0x1p-51);
+    }
+  }
+}
+
+// Depths that meet, in a row of many columns: who is nearest is decided by exact depths, evaluated at each
+// pixel.
+
+/// The triangle seen in each column of a screen one row high, each quad given as its depths on the left and
+/// the right.
+std::vector<int> nearest_in_each_column(int columns, const std::vector<std::array<std::string, 2>>& depths) {
+  const ScreenConfig screen = decimal_screen(columns, 1);
+  const ExactGrid grid(screen);
+  ZBuffer<> buffer(screen);
+  for (std::size_t i = 0; i < depths.size(); ++i) {
+    const auto& [left, right] = depths[i];
+    for (const std::string& half : {"-1 -1 " + left + " 1 -1 " + right + " 1 1 " + right,
+                                    "-1 -1 " + left + " 1 1 " + right + " -1 1 " + left})
+      for (const Span& span : spans_of(CenterRows(grid, triangle_of(half).exact())))
+        buffer.draw(span, Color::from_rgb(static_cast<std::uint32_t>(i + 1)));
+  }
+  std::vector<int> seen;
+  buffer.for_each_row([&](const VisibleRow& row) {
+    for (const Color color : row.colors) seen.push_back(static_cast<int>(color.rgb()));
+  });
+  return seen;
+}
+
+TEST(CoverageCenter, CrossingPlanesChangePlacesInTheRightColumn) {
+  // Equal at x = 0, between columns 4095 and 4096.
+  const std::vector<int> seen =
+      nearest_in_each_column(8192, {{"-0.75", "0.75"}, {"0.3000001", "-0.3000001"}});
+  EXPECT_EQ(std::count(seen.begin(), seen.begin() + 4096, 1), 4096);
+  EXPECT_EQ(std::count(seen.begin() + 4096, seen.end(), 2), 4096);
+}
+
+TEST(CoverageCenter, PlanesOneDigitApartAreToldApartAndOfEqualsTheFirstIsSeen) {
+  const std::vector<int> seen = nearest_in_each_column(
+      600, {{"0.2345679", "0.8765432"}, {"0.2345678", "0.8765433"}, {"0.2345678", "0.8765433"}});
+  EXPECT_EQ(std::count(seen.begin(), seen.begin() + 300, 2), 300);
+  EXPECT_EQ(std::count(seen.begin() + 300, seen.end(), 1), 300);
+}
+
+TEST(CoverageCenter, ATriangleOfOneDepthHasJustThatEverywhere) {
+  RandomNumbers random(5);
+  const ExactGrid grid(decimal_screen(100, 100));
+  for (int i = 0; i < 1000; ++i) {
+    UnitTriangle units{};
+    for (auto& vertex : units)
+      vertex = {random.whole(-12'000'000, 12'000'000), random.whole(-12'000'000, 12'000'000)};
+    const double z = random.with_exponent(-1070, 1000);
+    for (const Span& span : spans_of(CenterRows(grid, triangle_of(units, {z, z, z}).exact())))
+      for (int column = span.first_column; column <= span.last_column; ++column)
+        ASSERT_EQ(span.depth(column), z);
+  }
+}
+
+}  // namespace
+}  // namespace pipeline
