@@ -6,12 +6,12 @@
 
 #include "libpipeline/color.h"
 #include "libpipeline/config.h"
-#include "libpipeline/coverage_nearest.h"
+#include "libpipeline/coverage.h"
 #include "libpipeline/depth_text.h"
 #include "libpipeline/image_file.h"
 #include "libpipeline/output_file.h"
 #include "libpipeline/stage_text.h"
-#include "libpipeline/zbuffer.h"
+#include "libpipeline/visibility.h"
 #include "tools/command_line.h"
 #include "tools/tool.h"
 
@@ -19,8 +19,8 @@ using namespace pipeline;
 
 namespace {
 
-enum class Coverage { nearest };
-enum class Algorithm { zbuffer };
+enum class Coverage { nearest, center };
+enum class Algorithm { zbuffer, scanline };
 enum class DepthFormat { f64, f32, u24, u16 };
 
 struct ZbufOptions {
@@ -49,10 +49,14 @@ void add_options(CLI::App& options, ZbufOptions& chosen) {
   options.add_option("--z-buffer", chosen.z_buffer_path, "Where the depths go; - is standard output")
       ->type_name("FILE")
       ->capture_default_str();
-  add_choice<Coverage>(options, "--coverage", chosen.coverage, {{"nearest", Coverage::nearest}},
-                       "nearest: from the pixel nearest to the left end to the right end");
-  add_choice<Algorithm>(options, "--algorithm", chosen.algorithm, {{"zbuffer", Algorithm::zbuffer}},
-                        "zbuffer: every pixel keeps the nearest depth so far");
+  add_choice<Coverage>(options, "--coverage", chosen.coverage, {{"nearest", Coverage::nearest}, {"center", Coverage::center}},
+                       "Which pixels a triangle covers. nearest: on each row from the pixel nearest to the left end to "
+                       "that nearest to the right end; center: those whose centres lie inside, decided exactly");
+  add_choice<Algorithm>(options, "--algorithm", chosen.algorithm,
+                        {{"zbuffer", Algorithm::zbuffer}, {"scanline", Algorithm::scanline}},
+                        "How it is found out which triangle is seen. zbuffer: every pixel keeps the nearest depth so far; "
+                        "scanline: triangles are kept and compared row by row, without memory for the image. Both give "
+                        "the same output");
   add_choice<DepthFormat>(options, "--depth", chosen.depth,
                           {{"f64", DepthFormat::f64},
                            {"f32", DepthFormat::f32},
@@ -61,31 +65,31 @@ void add_options(CLI::App& options, ZbufOptions& chosen) {
                           "How a pixel keeps its depth: as a double, a float, or in steps of 24 or 16 bits");
 }
 
+ExactTriangle exact_triangle(const TriangleBatch& batch, std::size_t index) {
+  return {batch.triangles[index], batch.low_parts.empty() ? nullptr : &batch.low_parts[index],
+          batch.decimal_marks.empty() ? std::uint16_t{0} : batch.decimal_marks[index]};
+}
+
 ScreenConfig read_screen(const Tool& tool, const std::string& path) {
   InputFile file = tool.second_input(path, "CONFIG");
   return read_config(file.text());
 }
 
-template <typename Visible>
-void draw_all(Tool& tool, const ScreenConfig& screen, Visible& visible) {
-  const PixelGrid grid(screen);
-  StageReader reader(tool.input());
+template <VisibilityAlgorithm Visible>
+void draw_all(Tool& tool, Coverage coverage, Visible& visible) {
+  StageReader reader(tool.input(), coverage == Coverage::center);
   TriangleColors colors;
   TriangleBatch p_ndc;
   while (reader.read(p_ndc)) {
     tool.timing().triangle_count += p_ndc.size();
     tool.timing().lap(&Timing::read_seconds);
-    for (std::size_t i = 0; i < p_ndc.size(); ++i) {
-      const Color color = colors.of(p_ndc.numbers[i]);
-      for_each_span(NearestRows(grid, p_ndc.triangles[i]),
-                    [&](const Span& span) { visible.draw(span, color); });
-    }
+    for (std::size_t i = 0; i < p_ndc.size(); ++i) visible.draw(exact_triangle(p_ndc, i), colors.of(p_ndc.numbers[i]));
     tool.timing().lap(&Timing::work_seconds);
   }
 }
 
 /// Nothing takes an older file's place before everything is written.
-template <typename Visible>
+template <VisibilityAlgorithm Visible>
 void write_all(Tool& tool, const ZbufOptions& chosen, const ScreenConfig& screen, const Visible& visible) {
   OutputFile image(chosen.image_path);
   ImageWriter pixels(image.descriptor(), chosen.image_path, image_format_of(chosen.image_path),
@@ -109,11 +113,31 @@ void write_all(Tool& tool, const ZbufOptions& chosen, const ScreenConfig& screen
   tool.timing().lap(&Timing::write_seconds);
 }
 
-template <typename Depth>
+template <VisibilityAlgorithm Visible>
 void render(Tool& tool, const ZbufOptions& chosen, const ScreenConfig& screen) {
-  ZBuffer<Depth> visible(screen);
-  draw_all(tool, screen, visible);
+  Visible visible(screen);
+  draw_all(tool, chosen.coverage, visible);
   write_all(tool, chosen, screen, visible);
+}
+
+template <typename CoverageRule, typename Depth>
+void render(Tool& tool, const ZbufOptions& chosen, const ScreenConfig& screen) {
+  switch (chosen.algorithm) {
+    case Algorithm::zbuffer:
+      return render<ZBufferAlgorithm<CoverageRule, Depth>>(tool, chosen, screen);
+    case Algorithm::scanline:
+      return render<ScanlineAlgorithm<CoverageRule, Depth>>(tool, chosen, screen);
+  }
+}
+
+template <typename Depth>
+void render_in(Tool& tool, const ZbufOptions& chosen, const ScreenConfig& screen) {
+  switch (chosen.coverage) {
+    case Coverage::nearest:
+      return render<NearestCoverage, Depth>(tool, chosen, screen);
+    case Coverage::center:
+      return render<CenterCoverage, Depth>(tool, chosen, screen);
+  }
 }
 
 }  // namespace
@@ -133,13 +157,13 @@ int main(int argc, char** argv) {
     check_image_size(image_format_of(chosen.image_path), screen.columns, screen.rows, chosen.image_path);
     switch (chosen.depth) {
       case DepthFormat::f64:
-        return render<DepthF64>(tool, chosen, screen);
+        return render_in<DepthF64>(tool, chosen, screen);
       case DepthFormat::f32:
-        return render<DepthF32>(tool, chosen, screen);
+        return render_in<DepthF32>(tool, chosen, screen);
       case DepthFormat::u24:
-        return render<DepthU24>(tool, chosen, screen);
+        return render_in<DepthU24>(tool, chosen, screen);
       case DepthFormat::u16:
-        return render<DepthU16>(tool, chosen, screen);
+        return render_in<DepthU16>(tool, chosen, screen);
     }
   });
 }

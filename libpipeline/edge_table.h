@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cassert>
+#include <cstdint>
+#include <deque>
+#include <limits>
+#include <vector>
+
+#include "libpipeline/polygon_table.h"
+
+namespace pipeline {
+
+/// The edge table of the scan-line algorithm: a bucket for every scanline with the polygons whose edges begin there, a
+/// linked list as in the textbook; 4 bytes a scanline and 4 a polygon.
+///
+/// The textbook's entry is one edge with its x on the first scanline, its last scanline, dx per scanline and polygon.
+/// Here an entry stands for the two edges of a polygon that cross a scanline, left and right: both ends come from one
+/// question to the coverage rule, which also knows where one edge of a triangle ends and the next begins, and the last
+/// row. There is no dx: see ActiveEdgeList.
+class EdgeTable {
+ public:
+  explicit EdgeTable(int rows) : first_in_bucket_(static_cast<std::size_t>(rows), kNone) {}
+
+  /// Takes the next polygon, whose edges begin on `first_row`; its number is the count so far.
+  void add(int first_row) {
+    PolygonId& first = first_in_bucket_[static_cast<std::size_t>(first_row)];
+    const auto id = static_cast<PolygonId>(next_in_bucket_.size());
+    assert(id != kNone);
+    next_in_bucket_.push_back(first);
+    first = id;
+  }
+
+  /// Calls `visit(polygon id)` for every polygon that begins on `row`, in no particular order.
+  template <typename Visitor>
+  void for_each_from(int row, Visitor&& visit) const {
+    for (PolygonId id = first_in_bucket_[static_cast<std::size_t>(row)]; id != kNone; id = next_in_bucket_[id]) visit(id);
+  }
+
+ private:
+  static constexpr PolygonId kNone = std::numeric_limits<PolygonId>::max();
+
+  std::vector<PolygonId> first_in_bucket_;
+  std::deque<PolygonId> next_in_bucket_;
+};
+
+}  // namespace pipeline

@@ -1,0 +1,250 @@
+#include "libpipeline/row_sweep.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pipeline {
+namespace {
+
+constexpr int kFirstStretch = 4;
+constexpr int kLongestStretch = 1 << 16;
+
+/// The first column in [first, end) where `is_true`, or `end`; from there on it has to be true.
+template <typename Predicate>
+int first_column_where(int first, int end, Predicate&& is_true) {
+  while (first < end) {
+    const int middle = first + (end - first) / 2;
+    if (is_true(middle))
+      end = middle;
+    else
+      first = middle + 1;
+  }
+  return first;
+}
+
+/// At equal depth the earlier polygon stays.
+template <typename Stored>
+bool is_nearer(Stored depth, PolygonId id, Stored other_depth, PolygonId other_id) {
+  return depth < other_depth || (depth == other_depth && id < other_id);
+}
+
+}  // namespace
+
+template <typename Depth>
+RowSweep<Depth>::RowSweep(const ScreenConfig& screen, Color background)
+    : format_(screen),
+      front_(screen.front),
+      rear_limit_(screen.rear),
+      rear_(format_.store(screen.rear)),
+      reach_columns_(screen.columns),
+      background_(background),
+      depths_(static_cast<std::size_t>(screen.columns), screen.rear),
+      colors_(static_cast<std::size_t>(screen.columns), background) {}
+
+template <typename Depth>
+RowPolygon<Depth> RowSweep<Depth>::polygon(const Span& span, PolygonId id, Color color) const {
+  Polygon polygon = {span.depth, span.first_column, span.last_column, {}, {}, {}, {}, id, color};
+  const SpanDepth& depth = span.depth;
+  double left_z = depth(polygon.first_column), right_z = depth(polygon.last_column);
+  const auto is_seen = [&](double z) { return z >= front_ && is_before_rear(z); };
+  if (!is_seen(left_z) || !is_seen(right_z)) {
+    // Each rounding in a SpanDepth is monotone, so the depths as calculated rise or fall along the row and cross a
+    // limit once.
+    const bool is_rising = left_z <= right_z;
+    const int end = span.last_column + 1;
+    const auto first_where = [&](auto&& is_true) { return first_column_where(span.first_column, end, is_true); };
+    if (is_rising) {
+      polygon.first_column = first_where([&](int column) { return depth(column) >= front_; });
+      polygon.last_column = first_where([&](int column) { return !is_before_rear(depth(column)); }) - 1;
+    } else {
+      polygon.first_column = first_where([&](int column) { return is_before_rear(depth(column)); });
+      polygon.last_column = first_where([&](int column) { return !(depth(column) >= front_); }) - 1;
+    }
+    if (polygon.is_empty()) return polygon;
+    left_z = depth(polygon.first_column);
+    right_z = depth(polygon.last_column);
+  }
+  polygon.nearest = format_.store(std::min(left_z, right_z));
+  polygon.farthest = format_.store(std::max(left_z, right_z));
+  // With X = |left_x| + columns |dx|, the five roundings are off by at most
+  // 2^-53 (|slope| (5 X + 3 |x0|) + |z0|); without a slope by nothing.
+  const double reach = std::fabs(depth.left_x) + reach_columns_ * std::fabs(depth.dx) + std::fabs(depth.x0);
+  polygon.size = std::fabs(depth.z0);
+  if (depth.slope != 0) {
+    polygon.size += std::fabs(depth.slope) * reach;
+    polygon.error = polygon.size * 0x1p-49 + 0x1p-1000;
+  }
+  return polygon;
+}
+
+template <typename Depth>
+VisibleRow RowSweep<Depth>::sweep(std::span<const ActiveEdge> edges, std::span<Polygon> polygons) {
+  clear_pixels();
+  if (edges.empty()) return {depths_, colors_};
+  polygons_ = polygons;
+  first_painted_ = edges.front().column;
+  end_painted_ = edges.back().column;
+  owner_ = nullptr;
+  for (auto edge = edges.begin(); edge != edges.end();) {
+    const int column = edge->column;
+    for (; edge != edges.end() && edge->column == column; ++edge) {
+      if (edge->is_right)
+        leave(polygons_[edge->place]);
+      else
+        enter(edge->place, column);
+    }
+    if (edge != edges.end()) give(column, edge->column);
+  }
+  return {depths_, colors_};
+}
+
+template <typename Depth>
+void RowSweep<Depth>::clear_pixels() {
+  std::fill(depths_.begin() + first_painted_, depths_.begin() + end_painted_, rear_limit_);
+  std::fill(colors_.begin() + first_painted_, colors_.begin() + end_painted_, background_);
+  end_painted_ = first_painted_;
+}
+
+template <typename Depth>
+void RowSweep<Depth>::enter(std::uint32_t place, int column) {
+  Polygon& polygon = polygons_[place];
+  polygon.place_in_list = static_cast<std::uint32_t>(active_.size());
+  active_.push_back({polygon.nearest, place});
+  if (owner_ != nullptr && column < owned_end_) challenge_owner(polygon, column);
+}
+
+template <typename Depth>
+void RowSweep<Depth>::leave(Polygon& polygon) {
+  active(active_.size() - 1).place_in_list = polygon.place_in_list;
+  active_[polygon.place_in_list] = active_.back();
+  active_.pop_back();
+  polygon.place_in_list = Polygon::kOut;
+  if (&polygon == owner_) owner_ = nullptr;
+  std::erase(rivals_, &polygon);
+}
+
+/// `polygon` begins at `column`. Whoever is nearer than the owner is nearer than all that the owner is nearer than.
+template <typename Depth>
+void RowSweep<Depth>::challenge_owner(Polygon& polygon, int column) {
+  if (owner_->farthest < polygon.nearest) return;
+  const int owner_lead_end = end_of_lead(*owner_, polygon, column, owned_end_);
+  if (owner_lead_end > column) {
+    owned_end_ = owner_lead_end;
+    return;
+  }
+  const int polygon_lead_end = end_of_lead(polygon, *owner_, column, owned_end_);
+  if (polygon_lead_end == column) {
+    rivals_.push_back(&polygon);
+  } else if (rivals_.empty()) {
+    owner_ = &polygon;
+    owned_end_ = std::min(polygon_lead_end, polygon.last_column + 1);
+  } else {
+    owner_ = nullptr;
+  }
+}
+
+/// Finds the nearest polygon at `column`, and how far it is sure to be nearest.
+template <typename Depth>
+void RowSweep<Depth>::choose_owner(int column) {
+  owner_ = nearest_at(column);
+  owned_end_ = owner_->last_column + 1;
+  rivals_.clear();
+  for (const ActivePolygon& other : active_) {
+    if (owner_->farthest < other.nearest) continue;
+    Polygon& polygon = polygons_[other.place];
+    if (&polygon == owner_) continue;
+    const int lead_end = end_of_lead(*owner_, polygon, column, owned_end_);
+    if (lead_end > column)
+      owned_end_ = lead_end;
+    else
+      rivals_.push_back(&polygon);
+  }
+  // Near a crossing a few pixels are enough; coplanar polygons get longer and longer stretches.
+  stretch_ = rivals_.empty() ? kFirstStretch : std::min(2 * stretch_, kLongestStretch);
+  if (!rivals_.empty()) owned_end_ = std::min(owned_end_, column + stretch_);
+}
+
+template <typename Depth>
+RowPolygon<Depth>* RowSweep<Depth>::nearest_at(int column) {
+  Polygon* nearest = nullptr;
+  typename Depth::Stored nearest_depth = rear_;
+  for (const ActivePolygon& candidate : active_) {
+    if (candidate.nearest > nearest_depth) continue;
+    Polygon& polygon = polygons_[candidate.place];
+    const auto depth = format_.store(polygon.depth(column));
+    if (nearest != nullptr && !is_nearer(depth, polygon.id, nearest_depth, nearest->id)) continue;
+    nearest = &polygon;
+    nearest_depth = depth;
+  }
+  return nearest;
+}
+
+/// The first column in [column, end] at which `front` may not be nearer than `back`, as far as both go.
+template <typename Depth>
+int RowSweep<Depth>::end_of_lead(const Polygon& front, const Polygon& back, int column, int end) const {
+  const int last = std::min({end - 1, front.last_column, back.last_column});
+  double needed = front.error + back.error;
+  // A later polygon has to be stored as nearer.
+  if (front.id > back.id) needed += format_.separation(std::max(front.size, back.size));
+  const auto leads_at = [&](int c) { return back.depth(c) - front.depth(c) >= needed; };
+  const double lead = back.depth(column) - front.depth(column);
+  if (!(lead >= needed)) return column;
+  const double last_lead = back.depth(last) - front.depth(last);
+  if (last_lead >= needed) return end;
+  // Split at the crossing, which is where it is calculated or a column before.
+  const double part = (lead - needed) / (lead - last_lead);
+  const int crossing = column + static_cast<int>(part > 0 ? part * (last - column) : 0);
+  if (leads_at(crossing)) return crossing + 1;
+  return leads_at(std::max(crossing - 1, column)) ? std::max(crossing, column + 1) : column + 1;
+}
+
+/// Gives the pixels of the interval [column, end) to their owners.
+template <typename Depth>
+void RowSweep<Depth>::give(int column, int end) {
+  while (column < end) {
+    if (active_.empty()) {
+      std::fill(depths_.begin() + column, depths_.begin() + end, rear_limit_);
+      std::fill(colors_.begin() + column, colors_.begin() + end, background_);
+      return;
+    }
+    if (owner_ == nullptr || column >= owned_end_) choose_owner(column);
+    const int owned_end = std::min(end, owned_end_);
+    if (rivals_.empty())
+      paint(*owner_, column, owned_end);
+    else
+      paint_pixel_by_pixel(column, owned_end);
+    column = owned_end;
+  }
+}
+
+template <typename Depth>
+void RowSweep<Depth>::paint(const Polygon& polygon, int column, int end) {
+  const Depth format = format_;
+  const SpanDepth depth = polygon.depth;
+  double* const depths = depths_.data();
+  for (int c = column; c < end; ++c) depths[c] = format.depth(format.store(depth(c)));
+  std::fill(colors_.begin() + column, colors_.begin() + end, polygon.color);
+}
+
+template <typename Depth>
+void RowSweep<Depth>::paint_pixel_by_pixel(int column, int end) {
+  for (int c = column; c < end; ++c) {
+    const Polygon* nearest = owner_;
+    auto nearest_depth = format_.store(owner_->depth(c));
+    for (const Polygon* rival : rivals_) {
+      const auto depth = format_.store(rival->depth(c));
+      if (!is_nearer(depth, rival->id, nearest_depth, nearest->id)) continue;
+      nearest = rival;
+      nearest_depth = depth;
+    }
+    depths_[static_cast<std::size_t>(c)] = format_.depth(nearest_depth);
+    colors_[static_cast<std::size_t>(c)] = nearest->color;
+  }
+}
+
+template class RowSweep<DepthF64>;
+template class RowSweep<DepthF32>;
+template class RowSweep<DepthU24>;
+template class RowSweep<DepthU16>;
+
+}  // namespace pipeline

@@ -1,0 +1,108 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "libpipeline/active_edge_list.h"
+#include "libpipeline/color.h"
+#include "libpipeline/config.h"
+#include "libpipeline/depth_format.h"
+#include "libpipeline/polygon_table.h"
+#include "libpipeline/span.h"
+#include "libpipeline/visible_row.h"
+
+namespace pipeline {
+
+/// What of a polygon can be seen on one scanline, were it alone: neighbouring pixels between the limits of depth.
+template <typename Depth>
+struct RowPolygon {
+  /// The value of place_in_list of a polygon whose in-out flag is "out": the sweep is not between its edges.
+  static constexpr std::uint32_t kOut = std::numeric_limits<std::uint32_t>::max();
+
+  [[nodiscard]] bool is_empty() const { return first_column > last_column; }
+
+  SpanDepth depth;
+  int first_column = 0;
+  int last_column = -1;
+  typename Depth::Stored nearest = {};   // of the depths at its pixels, as they are stored
+  typename Depth::Stored farthest = {};
+  double size = 0;   // no depth along the row, and nothing it is calculated from, is larger
+  double error = 0;  // at least twice what a depth can be off from the exact linear function; 0 if it is exact
+  PolygonId id = 0;
+  Color color;
+  std::uint32_t place_in_list = kOut;  // in the active polygon list
+};
+
+/// One scanline of the scan-line algorithm: goes from edge to edge, keeps the list of active polygons (those it is
+/// between the edges of), and gives the pixels between neighbouring edges to the nearest of them.
+///
+/// The textbook compares depths once for every interval between two edges, at its left end, and is wrong where polygons
+/// interpenetrate. Here the owner of an interval is compared with the others at both ends. Along a row depths are
+/// linear functions, so where the difference of two exceeds what rounding can add at both ends, it has the same sign at
+/// every pixel between. Where it does not, the interval is split at the crossing, and what rounding decides is compared
+/// pixel by pixel, as the z-buffer does it: the smaller stored depth wins, of equal ones the earlier polygon.
+///
+/// An owner stays for as long as it is sure to be nearest, also over edges of polygons behind it, and a new polygon is
+/// compared with the owner only (depth coherence), so a scanline takes time for its edges and for what is seen, not for
+/// every pixel of every layer.
+template <typename Depth>
+class RowSweep {
+ public:
+  RowSweep(const ScreenConfig& screen, Color background);
+
+  /// The pixels of `span` that can be seen, with their depths' range and precision.
+  [[nodiscard]] RowPolygon<Depth> polygon(const Span& span, PolygonId id, Color color) const;
+
+  /// The visible row: `edges`, sorted by column, are the two edges of every polygon that is not empty, each with its
+  /// place in `polygons`. What is returned is valid until the next call.
+  VisibleRow sweep(std::span<const ActiveEdge> edges, std::span<RowPolygon<Depth>> polygons);
+
+ private:
+  using Polygon = RowPolygon<Depth>;
+  struct ActivePolygon {
+    typename Depth::Stored nearest;
+    std::uint32_t place;
+  };
+
+  [[nodiscard]] bool is_before_rear(double z) const { return format_.store(z) < rear_; }
+  [[nodiscard]] Polygon& active(std::size_t i) { return polygons_[active_[i].place]; }
+  void clear_pixels();
+  void enter(std::uint32_t place, int column);
+  void leave(Polygon& polygon);
+  void challenge_owner(Polygon& polygon, int column);
+  void choose_owner(int column);
+  [[nodiscard]] Polygon* nearest_at(int column);
+  [[nodiscard]] int end_of_lead(const Polygon& front, const Polygon& back, int column, int end) const;
+  void give(int column, int end);
+  void paint(const Polygon& polygon, int column, int end);
+  void paint_pixel_by_pixel(int column, int end);
+
+  Depth format_;
+  double front_;
+  double rear_limit_;
+  typename Depth::Stored rear_;
+  double reach_columns_;
+  Color background_;
+  std::vector<double> depths_;
+  std::vector<Color> colors_;
+  int first_painted_ = 0;
+  int end_painted_ = 0;
+
+  // The state of a sweep.
+  std::span<Polygon> polygons_;
+  std::vector<ActivePolygon> active_;  // the active polygon list
+  Polygon* owner_ = nullptr;           // nearest of all active polygons but the rivals ...
+  int owned_end_ = 0;                  // ... from the current column up to this one
+  std::vector<Polygon*> rivals_;       // to be compared with the owner at every pixel
+  int stretch_ = 1;                    // for so many columns, before asking again whether that is still so
+};
+
+extern template class RowSweep<DepthF64>;
+extern template class RowSweep<DepthF32>;
+extern template class RowSweep<DepthU24>;
+extern template class RowSweep<DepthU16>;
+
+}  // namespace pipeline

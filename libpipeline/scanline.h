@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstdint>
+
+#include "libpipeline/active_edge_list.h"
+#include "libpipeline/active_polygons.h"
+#include "libpipeline/color.h"
+#include "libpipeline/config.h"
+#include "libpipeline/edge_table.h"
+#include "libpipeline/polygon_table.h"
+#include "libpipeline/row_sweep.h"
+
+namespace pipeline {
+
+/// The visibility algorithm `scanline`: keeps the triangles and finds row by row who is nearest where. Takes the memory
+/// of the triangles that reach the screen (92 bytes each, see PolygonTable and EdgeTable), of those that cross one row,
+/// and of one row of pixels; never that of the frame. The rows are the z-buffer's, to the last bit: both ask the same
+/// coverage rule for columns and depths, and compare what the same depth format stores.
+///
+/// Source: J. Foley, A. van Dam, S. Feiner, J. Hughes, "Computer Graphics: Principles and Practice", 2nd edition,
+/// section 15.6 (and 3.6 for the edge table); D. Hearn, M. P. Baker, "Computer Graphics", 2nd edition, section 13-5. The
+/// method is from C. Wylie, G. Romney, D. Evans, A. Erdahl, "Half-tone perspective drawings by computer", 1967.
+template <typename Coverage, typename Depth>
+class Scanline {
+ public:
+  /// Nothing is seen yet, all pixels are at the rear limit and of the colour `background`.
+  explicit Scanline(const ScreenConfig& screen, Color background = {})
+      : screen_(screen), background_(background), coverage_(screen), edge_table_(screen.rows) {}
+
+  /// Takes the next triangle.
+  void draw(const ExactTriangle& triangle, Color color) {
+    const auto rows = coverage_.rows(triangle);
+    if (rows.first_row() > rows.last_row()) return;
+    edge_table_.add(rows.first_row());
+    polygon_table_.add(triangle, color);
+  }
+
+  /// Calls `visit(VisibleRow)` for every row of the screen, from the top.
+  template <typename Visitor>
+  void for_each_row(Visitor&& visit) const {
+    ActiveEdgeList edges;
+    ActivePolygons<typename Coverage::Rows, Depth> active;
+    RowSweep<Depth> sweep(screen_, background_);
+    for (int row = 0; row < screen_.rows; ++row) {
+      edge_table_.for_each_from(row, [&](PolygonId id) {
+        edges.add(active.add(id, polygon_table_.color(id), coverage_.rows(polygon_table_.triangle(id))));
+      });
+      edges.for_each_polygon([&](std::uint32_t place) { active.update(place, row, sweep); });
+      edges.sort([&](const ActiveEdge& edge) { return active.column_of(edge); });
+      visit(sweep.sweep(edges.on_scanline(), active.on_row()));
+      edges.for_each_polygon([&](std::uint32_t place) { active.remove_if_ended(place, row); });
+      edges.remove_if([&](std::uint32_t place) { return !active.has(place); });
+    }
+  }
+
+ private:
+  ScreenConfig screen_;
+  Color background_;
+  Coverage coverage_;
+  EdgeTable edge_table_;
+  PolygonTable polygon_table_;
+};
+
+}  // namespace pipeline
