@@ -1,0 +1,236 @@
+"""What a setting of the pipeline costs and what it gives up: the measurements of scripts/tradeoff."""
+import dataclasses
+import math
+import os
+import pathlib
+import statistics
+import subprocess
+
+TOOLS = ("model", "view", "project", "zbuf")
+
+
+@dataclasses.dataclass(frozen=True)
+class Setting:
+    digits: str = "7"
+    precision: str = "extended"
+    coverage: str = "nearest"
+    depth: str = "f64"
+
+    def __str__(self):
+        """The options that differ from the default."""
+        fields = dataclasses.fields(self)
+        changed = [f"--{f.name} {getattr(self, f.name)}" for f in fields if getattr(self, f.name) != f.default]
+        return " ".join(changed) or "default"
+
+    def command(self, bin_dir, tool):
+        if tool == "zbuf":
+            options = ["--coverage", self.coverage, "--depth", self.depth, "--image", "picture.ppm", "config.txt"]
+        else:
+            options = ["--digits", self.digits, "--precision", self.precision]
+        return [str(bin_dir / tool), *options]
+
+
+DEFAULT = Setting()
+MOST_EXACT = Setting(digits="exact", coverage="center")
+
+
+class Bench:
+    """Runs the tools of `bin_dir` on one scene, in `folder`."""
+
+    def __init__(self, bin_dir, folder, scene):
+        self.bin_dir = pathlib.Path(bin_dir).resolve()
+        self.folder = pathlib.Path(folder)
+        self.scene = scene
+        (self.folder / "scene.txt").write_text(scene.text)
+        self.set_depth_limits(1)
+
+    def set_depth_limits(self, limit):
+        size = f"{self.scene.columns} {self.scene.rows}"
+        (self.folder / "config.txt").write_text(f"{size}\n-1\n-1\n{-limit} {limit}\n")
+
+    def run(self, tool, setting, text):
+        """What the tool makes of a text."""
+        done = subprocess.run(setting.command(self.bin_dir, tool), cwd=self.folder, input=text, capture_output=True)
+        if done.returncode != 0:
+            raise SystemExit(f"tradeoff: {tool}, {setting}: {done.stderr.decode()}")
+        return done.stdout
+
+    def stage_texts(self, setting):
+        """What model, view and project write."""
+        texts = [self.scene.text.encode()]
+        for tool in TOOLS[:3]:
+            texts.append(self.run(tool, setting, texts[-1]))
+        return texts[1:]
+
+    def cpu_seconds(self, setting):
+        """The CPU time, user's and system's, of each stage of a whole pipe."""
+        processes, seconds = [], []
+        source = open(self.folder / "scene.txt", "rb")
+        with open(self.folder / "notes.txt", "w+b") as notes:
+            for tool in TOOLS:
+                sink = subprocess.DEVNULL if tool == "zbuf" else subprocess.PIPE
+                processes.append(subprocess.Popen(setting.command(self.bin_dir, tool), cwd=self.folder,
+                                                  stdin=source, stdout=sink, stderr=notes))
+                source.close()
+                source = processes[-1].stdout
+            for process in processes:
+                _, status, usage = os.wait4(process.pid, 0)
+                process.returncode = os.waitstatus_to_exitcode(status)
+                seconds.append(usage.ru_utime + usage.ru_stime)
+            if any(process.returncode != 0 for process in processes):
+                notes.seek(0)
+                raise SystemExit(f"tradeoff: {setting}: {notes.read().decode()}")
+        return seconds
+
+
+# Cost
+
+def costs(bench, settings, rounds, dice):
+    """For each setting what its pipe takes. A round runs all of them once, in a new order, so that what else the
+    machine does meets all alike."""
+    runs = {setting: [] for setting in settings}
+    for _ in range(rounds):
+        for setting in dice.sample(settings, len(settings)):
+            runs[setting].append(bench.cpu_seconds(setting))
+    totals = {setting: [sum(stages) for stages in runs[setting]] for setting in settings}
+
+    def cost(setting):
+        per_million = 1e6 / bench.scene.triangle_count
+        ratios = ratios_of(totals[setting], totals[DEFAULT])
+        stages = [statistics.median(stage) * per_million for stage in zip(*runs[setting])]
+        return {
+            "seconds_per_million_median": statistics.median(totals[setting]) * per_million,
+            "seconds_per_million_min": min(totals[setting]) * per_million,
+            "seconds_per_million_max": max(totals[setting]) * per_million,
+            "ratio_median": statistics.median(ratios),
+            "ratio_min": min(ratios),
+            "ratio_max": max(ratios),
+            **{f"{tool}_seconds_per_million": seconds for tool, seconds in zip(TOOLS, stages)},
+            "runs_seconds": " ".join(f"{total:.6f}" for total in totals[setting]),
+        }
+
+    return {setting: cost(setting) for setting in settings}
+
+
+def ratios_of(totals, base_totals):
+    """Round by round: what slows the machine down for a while slows both."""
+    return [total / base_total for total, base_total in zip(totals, base_totals)]
+
+
+# Error
+
+# The text of the z-buffer has six decimals. So that smaller errors show, depths are multiplied by this before zbuf
+# reads them, and so are its limits: a power of two changes neither roundings nor comparisons.
+DEPTH_SCALE = 2.0**20
+NOBODY = bytes(3)  # black, the background
+
+
+def colours_by_number(count):
+    """What zbuf gives triangles 0, 1, 2 ...: red, green, blue, each the next number of its generator."""
+    state, drawn = 1, bytearray()
+    for _ in range(3 * count):
+        state = (214013 * state + 2531011) % 2**32
+        drawn.append((state >> 16 & 0x7fff) % 256)
+    return [bytes(drawn[i:i + 3]) for i in range(0, len(drawn), 3)]
+
+
+def distinct_colours(count):
+    """{colour: number} for `count` triangles that zbuf gives different colours, and none the background's."""
+    numbers = {}
+    for number, colour in enumerate(colours_by_number(count + count // 8 + 8)):
+        if colour != NOBODY and len(numbers) < count:
+            numbers.setdefault(colour, number)
+    assert len(numbers) == count
+    return numbers
+
+
+class Errors:
+    """What settings give up on a scene, against a lossless run with the same rule of coverage."""
+
+    def __init__(self, bench):
+        self.bench = bench
+        self.scene = bench.scene
+        self.owner_of_colour = {NOBODY: None}
+        self.numbers = []
+        for triangle, (colour, number) in enumerate(distinct_colours(self.scene.triangle_count).items()):
+            self.owner_of_colour[colour] = triangle
+            self.numbers.append(number)
+        self.projections = {}  # by digits and precision: the vertices as words, and the bytes in the pipes
+        self.pictures = {}     # by setting
+        true_vertices = self.projection(MOST_EXACT)[0]
+        # The scenes are made so that nothing is clipped.
+        assert len(true_vertices) == 3 * self.scene.triangle_count
+        self.corners = [{tuple(vertex) for vertex in true_vertices[3 * i:3 * i + 3]}
+                        for i in range(self.scene.triangle_count)]
+
+    def of(self, setting):
+        lossless = Setting(digits="exact", coverage=setting.coverage)
+        picture, true_picture = self.picture(setting), self.picture(lossless)
+        differences = self.differences(picture, true_picture)
+        against_centers = self.differences(picture, self.picture(MOST_EXACT))
+        depth_errors = sorted(abs(depth - true_depth) for (owner, depth), (true_owner, true_depth)
+                              in zip(picture, true_picture) if owner == true_owner is not None)
+        return {
+            "bytes_per_triangle": self.projection(setting)[1] / self.scene.triangle_count,
+            "vertex_error_pixels": self.vertex_error(setting, lossless),
+            "covered_pixels": sum(owner is not None for owner, _ in true_picture),
+            "flipped_pixels": differences["flip"],
+            "wrong_pixels": differences["wrong"],
+            "neighbour_pixels": differences["neighbour"],
+            "off_centre_pixels": sum(against_centers.values()),
+            "depth_error_median": depth_errors[len(depth_errors) // 2] if depth_errors else "",
+            "depth_error_max": depth_errors[-1] if depth_errors else "",
+        }
+
+    def projection(self, setting):
+        key = setting.digits, setting.precision
+        if key not in self.projections:
+            texts = self.bench.stage_texts(setting)
+            vertices = [line.split() for line in texts[-1].decode().split("\n") if line]
+            self.projections[key] = vertices, sum(map(len, texts))
+        return self.projections[key]
+
+    def picture(self, setting):
+        """Which triangle is seen at each pixel, or None, and how deep it is, from the top left."""
+        if setting not in self.pictures:
+            vertices = self.projection(setting)[0]
+            lines = []
+            for i, number in enumerate(self.numbers):
+                lines.append(f"triangle {number}")
+                lines += [f"{x} {y} {DEPTH_SCALE * float(z)!r}" for x, y, z in vertices[3 * i:3 * i + 3]]
+                lines.append("")
+            self.bench.set_depth_limits(DEPTH_SCALE)
+            depths = iter(self.bench.run("zbuf", setting, "\n".join(lines).encode()).split())
+            image = (self.bench.folder / "picture.ppm").read_bytes()[-3 * self.scene.columns * self.scene.rows:]
+            owners = [self.owner_of_colour[image[i:i + 3]] for i in range(0, len(image), 3)]
+            self.pictures[setting] = [(None, 1.0) if owner is None else (owner, float(next(depths)) / DEPTH_SCALE)
+                                      for owner in owners]
+            assert next(depths, None) is None, "the z-buffer's text has more depths than the image has coloured pixels"
+        return self.pictures[setting]
+
+    def differences(self, picture, true_picture):
+        """How many pixels are covered in only one of two pictures (flip); show a neighbour of the right triangle,
+        one with a common vertex (neighbour); or another triangle that should be hidden (wrong)."""
+        counts = {"flip": 0, "neighbour": 0, "wrong": 0}
+        for (owner, _), (true_owner, _) in zip(picture, true_picture):
+            if owner == true_owner:
+                continue
+            if owner is None or true_owner is None:
+                counts["flip"] += 1
+            elif self.corners[owner] & self.corners[true_owner]:
+                counts["neighbour"] += 1
+            else:
+                counts["wrong"] += 1
+        return counts
+
+    def vertex_error(self, setting, lossless):
+        """In pixels, the largest of the vertices that are on the screen."""
+        largest = 0.0
+        for words, true_words in zip(self.projection(setting)[0], self.projection(lossless)[0]):
+            if words == true_words:
+                continue
+            (x, y, _), (true_x, true_y, true_z) = map(float, words), map(float, true_words)
+            if max(abs(true_x), abs(true_y), abs(true_z)) <= 1:
+                dx, dy = (x - true_x) * self.scene.columns / 2, (y - true_y) * self.scene.rows / 2
+                largest = max(largest, math.hypot(dx, dy))
+        return largest
