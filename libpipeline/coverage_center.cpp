@@ -1,6 +1,7 @@
 #include "libpipeline/coverage_center.h"
 
 #include <array>
+#include <type_traits>
 
 namespace pipeline {
 namespace {
@@ -33,8 +34,7 @@ CenterRows::CenterRows(const ExactGrid& grid, const ExactTriangle& triangle) {
     }
   }
   const AxisUnits x = column_units(grid, triangle), y = row_units(grid, triangle);
-  const auto set_on_heap = [&](auto type) {
-    using Int = decltype(type);
+  const auto set_on_heap = [&]<typename Int>(std::type_identity<Int>) {
     const GridTriangle<Int> on_grid = grid_triangle<Int>(grid, x, y);
     const CentreBox box(on_grid, rows, columns);
     if (box.is_empty()) return;
@@ -42,9 +42,9 @@ CenterRows::CenterRows(const ExactGrid& grid, const ExactTriangle& triangle) {
   };
   const bool fits = x.bits + y.bits + 3 < kBitsOfWideInt;
   if (fits) {
-    set_on_heap(WideInt{});
+    set_on_heap(std::type_identity<WideInt>{});
   } else {
-    set_on_heap(HugeInt{});
+    set_on_heap(std::type_identity<HugeInt>{});
   }
 }
 

@@ -90,8 +90,8 @@ GridAxis::GridAxis(int pixel_count, double limit, double limit_low_part, bool li
   int factor = count / std::gcd(count, static_cast<int>(size.mantissa % count));
   size.mantissa /= count / factor;
   for (; size.exponent > 0 && factor % 2 == 0; factor /= 2) --size.exponent;
-  vertex_factor = HugeInt(factor) << static_cast<std::size_t>(std::max(-size.exponent, 0));
-  half_step = HugeInt(size.mantissa) << static_cast<std::size_t>(std::max(size.exponent, 0));
+  vertex_factor = HugeInt(factor) << std::max(-size.exponent, 0);
+  half_step = HugeInt(size.mantissa) << std::max(size.exponent, 0);
   origin = HugeInt(count - 1) * half_step;
 
   // 2^44 leaves room for a product with any number of pixels.

@@ -93,12 +93,9 @@ AxisUnits row_units(const ExactGrid& grid, const ExactTriangle& triangle);
 template <typename Int>
 GridTriangle<Int> grid_triangle(const ExactGrid& grid, const AxisUnits& x, const AxisUnits& y) {
   const auto on_grid = [](const BinaryNumber& number, const GridAxis& axis, int twos) {
-    return (Int(number.mantissa) << static_cast<std::size_t>(number.exponent + twos)) *
-           Int(axis.vertex_factor);
+    return (Int(number.mantissa) << (number.exponent + twos)) * Int(axis.vertex_factor);
   };
-  const auto finer = [](const HugeInt& value, int twos) {
-    return Int(value) << static_cast<std::size_t>(twos);
-  };
+  const auto finer = [](const HugeInt& value, int twos) { return Int(value) << twos; };
   GridTriangle<Int> result;
   for (std::size_t i = 0; i < 3; ++i) {
     result.u[i] = finer(grid.columns.origin, x.twos) + on_grid(x.units[i], grid.columns, x.twos);

@@ -22,6 +22,7 @@ class FixedInt {
   FixedInt(Int128 value) {  // NOLINT(google-explicit-constructor): no number is lost
     limbs_.fill(value < 0 ? ~std::uint64_t{0} : 0);
     limbs_[0] = static_cast<std::uint64_t>(value);
+    // NOLINTNEXTLINE(clang-analyzer-core.UndefinedBinaryOperatorResult): the type has 128 bits
     limbs_[1] = static_cast<std::uint64_t>(value >> 64);
   }
   /// The same number in fewer limbs, if it fits.
@@ -81,10 +82,10 @@ class FixedInt {
     return a < 0 ? -product : product;
   }
   /// a * 2^bits.
-  friend FixedInt operator<<(const FixedInt& a, std::size_t bits) {
+  friend FixedInt operator<<(const FixedInt& a, int bits) {
     FixedInt shifted(0);
-    const std::size_t whole = bits / 64;
-    const unsigned rest = bits % 64;
+    const auto whole = static_cast<std::size_t>(bits / 64);
+    const int rest = bits % 64;
     for (std::size_t i = whole; i < Limbs; ++i) {
       const std::uint64_t below = i > whole ? a.limbs_[i - whole - 1] : 0;
       shifted.limbs_[i] = (a.limbs_[i - whole] << rest) | (below >> 1 >> (63 - rest));
@@ -115,8 +116,8 @@ int bit_length(const FixedInt<Limbs>& value) {
 /// value / 2^bits, rounded down, where 63 bits are enough for that.
 template <std::size_t Limbs>
 std::int64_t cut(const FixedInt<Limbs>& value, int bits) {
-  const std::size_t whole = static_cast<std::size_t>(bits) / 64;
-  const unsigned rest = static_cast<unsigned>(bits) % 64;
+  const auto whole = static_cast<std::size_t>(bits / 64);
+  const int rest = bits % 64;
   return static_cast<std::int64_t>((value.limb(whole) >> rest) | (value.limb(whole + 1) << 1 << (63 - rest)));
 }
 

@@ -29,7 +29,7 @@ void TriangleDepth::set_depths(const std::array<double, 3>& z, std::int64_t tota
   unit_ = power_of_two(exponent);
   const double per_unit = power_of_two(-exponent);
   const auto a_depth = static_cast<std::int64_t>(z[0] * per_unit);
-  a_sum_ = Int128{2 * total} * a_depth;
+  a_sum_ = 2 * Int128{total} * a_depth;
   b_rise_ = static_cast<std::int64_t>(z[1] * per_unit) - a_depth;
   c_rise_ = static_cast<std::int64_t>(z[2] * per_unit) - a_depth;
 }

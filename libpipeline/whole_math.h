@@ -48,7 +48,9 @@ class Divisor {
   [[nodiscard]] int quotient_rounded_up(const Int& dividend, int most) const {
     const double estimate = in_range(dividend) * inverse_;
     // The conversion takes what lies between -1 and 0 to 0; anything less is rare, and its branch predicted.
-    const int near = static_cast<int>(std::min(std::max(estimate, -1.0), static_cast<double>(most)) + 0.5);
+    const double clamped = std::min(std::max(estimate, -1.0), static_cast<double>(most));
+    const int near =
+        static_cast<int>(clamped + 0.5);  // NOLINT(bugprone-incorrect-roundings): one less is as good
     return std::min(near + static_cast<int>(near * value_ < dividend), most);
   }
 

@@ -217,7 +217,7 @@ TEST(CenterExact, DepthsOfSliversAndOfFarVerticesAreWithinTheirBound) {
     const double along = random.between(0, 1);
     for (std::size_t k = 0; k < 2 && i % 3 != 0; ++k)
       units[2][k] = units[0][k] + std::llround(along * static_cast<double>(units[1][k] - units[0][k])) +
-                    random.whole(-3, 3) * 20'000;
+                    20'000 * std::int64_t{random.whole(-3, 3)};
     TextTriangle t =
         triangle_of(units, {random.between(-1, 1), random.between(-1, 1), random.between(-1, 1)});
     t.decimal_marks = 0b011'011'011;

@@ -205,6 +205,7 @@ UnitTriangle on_hundredths(RandomNumbers& random, const Screen& s) {
 void expect_like_reference(const char* name, const Family& family, int count, std::uint64_t seed) {
   RandomNumbers random(seed);
   std::vector<ExactGrid> grids;
+  grids.reserve(kScreens.size());
   for (const Screen& s : kScreens) grids.emplace_back(s.config());
   long pixel_count = 0, wrong_in_doubles = 0;
   for (int i = 0; i < count; ++i) {

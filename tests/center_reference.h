@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <initializer_list>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,6 +22,16 @@ struct TextTriangle {
 
   [[nodiscard]] ExactTriangle exact() const { return {p, &low_parts, decimal_marks}; }
 };
+
+/// The words with a blank between them.
+inline std::string joined(std::initializer_list<std::string_view> words) {
+  std::string text;
+  for (const std::string_view word : words) {
+    if (!text.empty()) text += ' ';
+    text += word;
+  }
+  return text;
+}
 
 /// The triangle written as "x y z x y z x y z".
 inline TextTriangle triangle_of(std::string_view text) {

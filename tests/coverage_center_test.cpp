@@ -118,11 +118,11 @@ TEST(CoverageCenter, SlopingEdgesThroughCentresBelongToTheTriangleOnTheirRight) 
 }
 
 TEST(CoverageCenter, BothWindingsAreDrawnAlikeInEveryOrderOfTheCorners) {
-  const std::array<std::string, 3> corners = {"-3.25 0.5 0.1", "2.5 3.5 0.2", "1.5 -3.75 0.9"};
-  const Picture expected = picture_of(corners[0] + " " + corners[1] + " " + corners[2]);
+  const std::array<std::string_view, 3> corners = {"-3.25 0.5 0.1", "2.5 3.5 0.2", "1.5 -3.75 0.9"};
+  const Picture expected = picture_of(joined({corners[0], corners[1], corners[2]}));
   std::array<std::size_t, 3> order = {0, 1, 2};
   while (std::next_permutation(order.begin(), order.end()))
-    EXPECT_EQ(picture_of(corners[order[0]] + " " + corners[order[1]] + " " + corners[order[2]]), expected);
+    EXPECT_EQ(picture_of(joined({corners[order[0]], corners[order[1]], corners[order[2]]})), expected);
 }
 
 TEST(CoverageCenter, ATriangleWithoutAreaCoversNothing) {
@@ -187,8 +187,9 @@ TEST(CoverageCenter, LimitsAreDecimalsToo) {
 }
 
 TEST(CoverageCenter, MoreDigitsThanADoubleHasDecide) {
-  const auto row_of = [](const std::string& x) {
-    return picture_of("-9999999999.5 -10000000000 0 " + x + " 10000000000 0 9000000000 -10000000000 0")[4];
+  const auto row_of = [](std::string_view x) {
+    return picture_of(
+        joined({"-9999999999.5 -10000000000 0", x, "10000000000 0 9000000000 -10000000000 0"}))[4];
   };
   // At y = -0.5 the left edge is at 0.5 - 2.5e-11 and at 0.5 + 1.5e-7; x is the same double in both.
   EXPECT_EQ(row_of("10000000001.5000000"), "....####");
@@ -224,7 +225,7 @@ TEST(CoverageCenter, AFanAroundAPixelCentreOwnsEveryPixelOnce) {
                                           "-2 -0.15", "-2 -2", "0.5 -2", "2 -2"};
   Owners owners(screen);
   for (std::size_t i = 0; i < rim.size(); ++i)
-    owners.add(triangle_of("0.05 0.05 0 " + rim[i] + " 0 " + rim[(i + 1) % rim.size()] + " 0"));
+    owners.add(triangle_of(joined({"0.05 0.05 0", rim[i], "0", rim[(i + 1) % rim.size()], "0"})));
   EXPECT_EQ(owners.pixels_with(1), owners.all());
 }
 
@@ -265,12 +266,11 @@ TEST(CoverageCenter, VerticesVeryFarAwayShareTheirEdgesToo) {
   const ScreenConfig screen = decimal_screen(100, 80);
   // An edge through the screen between vertices 5e10 pixels away, then 1e15, then beyond.
   for (const char* far : {"1000000000", "20000000000000", "3e25", "1e300"}) {
-    const std::string f = far, g = std::string("-") + far;
+    const std::string left = std::string("-") + far;
     for (const char* off : {"0.7", "-0.3", "0.0000001"}) {
-      const std::string a = g + " " + off, b = f + " 0.1";
+      const std::string edge = joined({left, off, "0", far, "0.1", "0"});
       const Owners owners = owners_of(
-          {triangle_of(a + " 0 " + b + " 0 0 " + f + " 0"), triangle_of(a + " 0 " + b + " 0 0 " + g + " 0")},
-          screen);
+          {triangle_of(joined({edge, "0", far, "0"})), triangle_of(joined({edge, "0", left, "0"}))}, screen);
       EXPECT_EQ(owners.pixels_with(1), owners.all()) << far << ' ' << off;
     }
   }
@@ -411,8 +411,8 @@ std::vector<int> nearest_in_each_column(int columns, const std::vector<std::arra
   ZBuffer<> buffer(screen);
   for (std::size_t i = 0; i < depths.size(); ++i) {
     const auto& [left, right] = depths[i];
-    for (const std::string& half : {"-1 -1 " + left + " 1 -1 " + right + " 1 1 " + right,
-                                    "-1 -1 " + left + " 1 1 " + right + " -1 1 " + left})
+    for (const std::string& half : {joined({"-1 -1", left, "1 -1", right, "1 1", right}),
+                                    joined({"-1 -1", left, "1 1", right, "-1 1", left})})
       for (const Span& span : spans_of(CenterRows(grid, triangle_of(half).exact())))
         buffer.draw(span, Color::from_rgb(static_cast<std::uint32_t>(i + 1)));
   }

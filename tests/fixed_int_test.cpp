@@ -28,10 +28,9 @@ Int any_number(RandomNumbers& random, int most_bits) {
   Int value(0);
   for (int i = 0; i < bits; i += 32) {
     const int taken = std::min(bits - i, 32);
-    value = (value << static_cast<std::size_t>(taken)) +
-            Int(static_cast<std::int64_t>(random.bits() >> (64 - taken)));
+    value = (value << taken) + Int(static_cast<std::int64_t>(random.bits() >> (64 - taken)));
   }
-  if (random.bits() % 4 == 0) value = (Int(1) << static_cast<std::size_t>(bits)) + Int(random.whole(-1, 1));
+  if (random.bits() % 4 == 0) value = (Int(1) << bits) + Int(random.whole(-1, 1));
   return random.bits() % 2 == 0 ? value : -value;
 }
 
@@ -60,13 +59,13 @@ TEST(FixedInt, TakesBuiltInNumbersOfEitherSign) {
 
 TEST(FixedInt, ShiftsAndCutsAtEveryBit) {
   RandomNumbers random(2);
-  for (std::size_t bits = 0; bits < 200; ++bits) {
+  for (int bits = 0; bits < 200; ++bits) {
     const Int a = any_number(random, 180);
-    ASSERT_TRUE(exact(a << bits) == exact(a) * (mpz_class(1) << bits));
-    ASSERT_EQ(cut(Int(Int128{-77}) << bits, static_cast<int>(bits)), -77);
-    ASSERT_EQ(cut((Int(Int128{-77}) << bits) + Int(bits == 0 ? 0 : 1), static_cast<int>(bits)), -77);
-    ASSERT_EQ(bit_length(Int(1) << bits), static_cast<int>(bits) + 1);
-    ASSERT_EQ(bit_length(-(Int(1) << bits)), static_cast<int>(bits));
+    ASSERT_TRUE(exact(a << bits) == exact(a) * (mpz_class(1) << static_cast<unsigned>(bits)));
+    ASSERT_EQ(cut(Int(Int128{-77}) << bits, bits), -77);
+    ASSERT_EQ(cut((Int(Int128{-77}) << bits) + Int(bits == 0 ? 0 : 1), bits), -77);
+    ASSERT_EQ(bit_length(Int(1) << bits), bits + 1);
+    ASSERT_EQ(bit_length(-(Int(1) << bits)), bits);
   }
   EXPECT_EQ(bit_length(Int(0)), 0);
 }
