@@ -34,33 +34,29 @@ struct DepthF32 {
   }
 };
 
-/// A whole number of equal steps between the front and the rear limit, as graphics hardware keeps it: the limits are
-/// stored exactly, what lies between is rounded to the nearest step, half a step up.
-template <typename Whole, Whole kSteps>
-class DepthSteps {
- public:
-  using Stored = Whole;
-  explicit DepthSteps(const ScreenConfig& screen)
-      : front_(screen.front),
-        steps_per_depth_(static_cast<double>(kSteps) / (screen.rear - screen.front)),
-        depth_per_step_((screen.rear - screen.front) / static_cast<double>(kSteps)) {}
+/// A whole number of 2^24 - 1 equal steps between the front and the rear limit, as graphics hardware keeps it: the limits
+/// are stored exactly, what lies between is rounded to the nearest step, half a step up. Finer than a float where the
+/// limits are close together, as from 0.999 to 1. Signed, because processors convert doubles to signed numbers only.
+struct DepthU24 {
+  using Stored = std::int32_t;
+  static constexpr double kSteps = (1 << 24) - 1;
+  explicit DepthU24(const ScreenConfig& screen)
+      : front(screen.front),
+        steps_per_depth(kSteps / (screen.rear - screen.front)),
+        depth_per_step((screen.rear - screen.front) / kSteps) {}
   /// `z` outside the limits is stored as the nearer limit.
   [[nodiscard]] Stored store(double z) const {
-    const double steps = (z - front_) * steps_per_depth_ + 0.5;
-    const double highest = static_cast<double>(kSteps);
-    return static_cast<Stored>(steps > highest ? highest : (steps > 0 ? steps : 0));
+    const double steps = (z - front) * steps_per_depth + 0.5;
+    const double steps_from_front = steps > 0 ? steps : 0;
+    return static_cast<Stored>(kSteps < steps_from_front ? kSteps : steps_from_front);
   }
-  [[nodiscard]] double depth(Stored stored) const { return front_ + static_cast<double>(stored) * depth_per_step_; }
+  [[nodiscard]] double depth(Stored stored) const { return front + stored * depth_per_step; }
   // More than a step by what `store` may be off before it rounds, less than 2^-26 steps.
-  [[nodiscard]] double separation(double) const { return depth_per_step_ * (1 + 0x1p-20); }
+  [[nodiscard]] double separation(double) const { return depth_per_step * (1 + 0x1p-20); }
 
- private:
-  double front_;
-  double steps_per_depth_;
-  double depth_per_step_;
+  double front;
+  double steps_per_depth;
+  double depth_per_step;
 };
-
-using DepthU24 = DepthSteps<std::uint32_t, (1u << 24) - 1>;
-using DepthU16 = DepthSteps<std::uint16_t, 65535>;
 
 }  // namespace pipeline

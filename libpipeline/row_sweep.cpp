@@ -245,6 +245,5 @@ void RowSweep<Depth>::paint_pixel_by_pixel(int column, int end) {
 template class RowSweep<DepthF64>;
 template class RowSweep<DepthF32>;
 template class RowSweep<DepthU24>;
-template class RowSweep<DepthU16>;
 
 }  // namespace pipeline

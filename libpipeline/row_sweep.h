@@ -103,6 +103,5 @@ class RowSweep {
 extern template class RowSweep<DepthF64>;
 extern template class RowSweep<DepthF32>;
 extern template class RowSweep<DepthU24>;
-extern template class RowSweep<DepthU16>;
 
 }  // namespace pipeline

@@ -8,6 +8,7 @@
 #include "libpipeline/depth_format.h"
 #include "libpipeline/raster.h"
 #include "libpipeline/span.h"
+#include "libpipeline/span_fill.h"
 #include "libpipeline/visible_row.h"
 
 namespace pipeline {
@@ -40,6 +41,7 @@ class ZBuffer {
  private:
   using Stored = typename Depth::Stored;
 
+  SpanFillKernel kernel_;
   Depth format_;
   double front_;
   double rear_limit_;

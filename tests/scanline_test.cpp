@@ -227,13 +227,13 @@ TEST(Scanline, CoplanarTrianglesWhoseRoundedDepthsAlternateAreComparedPixelByPix
 }
 
 TEST(Scanline, DepthsThatAreStoredAsEqualAreEqual) {
-  // 1/8 of a step of 16 bits, 32 steps of 24 bits on a scale from 0 to 2.
+  // 2^-18 is 32 steps of 24 bits on a scale from 0 to 2, 2^-27 is 1/16 of one.
   const Scene farther_first = {half_plane(1 + 0x1p-18, 0.01), half_plane(1, 0.01)};
   EXPECT_EQ((picture_of<CenterCoverage, DepthF64>(farther_first)), Picture(4, "bbbbbbbb"));
   EXPECT_EQ((picture_of<CenterCoverage, DepthU24>(farther_first)), Picture(4, "bbbbbbbb"));
   for (const ScreenConfig screen : {ScreenConfig{1000, 2, -4, -2, 0, 2}, ScreenConfig{999, 2, -4, -2, 0, 3}}) {
-    const Scene scene = {half_plane(1 + 0x1p-18, 0.01), half_plane(1, 0.01)};
-    EXPECT_TRUE((scanline_frame<CenterCoverage, DepthU16>(scene, screen) == zbuffer_frame<CenterCoverage, DepthU16>(scene, screen)));
+    const Scene scene = {half_plane(1 + 0x1p-27, 0.01), half_plane(1, 0.01)};
+    EXPECT_TRUE((scanline_frame<CenterCoverage, DepthU24>(scene, screen) == zbuffer_frame<CenterCoverage, DepthU24>(scene, screen)));
     EXPECT_TRUE((scanline_frame<CenterCoverage, DepthF32>(scene, screen) == zbuffer_frame<CenterCoverage, DepthF32>(scene, screen)));
   }
 }
@@ -444,7 +444,6 @@ void expect_the_same_in_all_formats(const Scene& scene, const ScreenConfig& scre
   expect_the_same<Coverage, DepthF64>(scene, screen, number);
   expect_the_same<Coverage, DepthF32>(scene, screen, number);
   expect_the_same<Coverage, DepthU24>(scene, screen, number);
-  expect_the_same<Coverage, DepthU16>(scene, screen, number);
 }
 
 void expect_the_same_in_random_scenes(int scene_count, std::uint64_t seed) {
@@ -478,8 +477,8 @@ TEST(Scanline, AnOverdrawOfManyLayersIsTheZBuffers) {
   constexpr ScreenConfig kScreen = {300, 60, -1, -1, -1, 1};
   EXPECT_TRUE((scanline_frame<NearestCoverage, DepthF64>(scene, kScreen, 0) ==
                zbuffer_frame<NearestCoverage, DepthF64>(scene, kScreen, 0)));
-  EXPECT_TRUE((scanline_frame<CenterCoverage, DepthU16>(scene, kScreen, 0) ==
-               zbuffer_frame<CenterCoverage, DepthU16>(scene, kScreen, 0)));
+  EXPECT_TRUE((scanline_frame<CenterCoverage, DepthU24>(scene, kScreen, 0) ==
+               zbuffer_frame<CenterCoverage, DepthU24>(scene, kScreen, 0)));
 }
 
 }  // namespace

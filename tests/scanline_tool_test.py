@@ -12,7 +12,7 @@ import unittest
 
 from toolbox import SOURCE, BIN, ToolTest, command
 
-RULES = [[coverage, depth] for coverage in ("nearest", "center") for depth in ("f64", "f32", "u24", "u16")]
+RULES = [[coverage, depth] for coverage in ("nearest", "center") for depth in ("f64", "f32", "u24")]
 
 
 def zbuf(config, stage3, *options):

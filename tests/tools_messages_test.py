@@ -252,7 +252,7 @@ add_claims(OptionMessages, [
     ("cull has a value", "project --cull", "--cull: expected one value (back|front), found none"),
     ("coverage is a known word", "zbuf config.txt --coverage best", "--coverage: expected nearest or center, found 'best'"),
     ("algorithm is a known word", "zbuf config.txt --algorithm best", "--algorithm: expected zbuffer or scanline, found 'best'"),
-    ("depth is a known word", "zbuf config.txt --depth best", "--depth: expected f64, f32, u24 or u16, found 'best'"),
+    ("depth is a known word", "zbuf config.txt --depth best", "--depth: expected f64, f32 or u24, found 'best'"),
     ("an image has a known format", "zbuf config.txt --image out.jpg",
      "--image: out.jpg: expected an image file that ends in .bmp or .ppm, found '.jpg'"),
     ("config and input are not both stdin", "zbuf -", "CONFIG: expected a file, as INPUT is standard input, found '-'"),

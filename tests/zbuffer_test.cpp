@@ -135,22 +135,34 @@ double depth_of_first_pixel(const ZBuffer<Depth>& buffer) {
 }
 
 TEST(ZBuffer, DepthsAFormatCannotTellApartAreEqual) {
-  // 2^-18 apart on a scale from 0 to 2: 8 steps of 24 bits, 1/8 of a step of 16 bits.
-  const Span far_span = span_at(0, 0, 5, 1 + 0x1p-18), near_span = span_at(0, 0, 5, 1);
-  ZBuffer<DepthU24> fine(kSixByTwo);
-  fine.draw(far_span, kRed);
-  fine.draw(near_span, kGreen);
-  EXPECT_EQ(colors_of_first_row(fine), std::vector<Color>(6, kGreen));
-  ZBuffer<DepthU16> coarse(kSixByTwo);
-  coarse.draw(far_span, kRed);
-  coarse.draw(near_span, kGreen);
-  EXPECT_EQ(colors_of_first_row(coarse), std::vector<Color>(6, kRed));
+  // On a scale from 0 to 2, 2^-18 is 32 steps of 24 bits and 2^-27 is 1/16 of one.
+  ZBuffer<DepthU24> told_apart(kSixByTwo), equal(kSixByTwo);
+  told_apart.draw(span_at(0, 0, 5, 1 + 0x1p-18), kRed);
+  told_apart.draw(span_at(0, 0, 5, 1), kGreen);
+  EXPECT_EQ(colors_of_first_row(told_apart), std::vector<Color>(6, kGreen));
+  equal.draw(span_at(0, 0, 5, 1 + 0x1p-27), kRed);
+  equal.draw(span_at(0, 0, 5, 1), kGreen);
+  EXPECT_EQ(colors_of_first_row(equal), std::vector<Color>(6, kRed));
 }
 
-TEST(ZBuffer, SixteenBitsRoundToTheNearestOf65535Steps) {
-  ZBuffer<DepthU16> buffer(kSixByTwo);
-  buffer.draw(span_at(0, 0, 0, 0.5), kRed);  // 16383.75 steps of 2/65535: 16384 of them
-  EXPECT_DOUBLE_EQ(depth_of_first_pixel(buffer), 16384 * 2.0 / 65535);
+TEST(ZBuffer, TwentyFourBitsRoundToTheNearestOf16777215Steps) {
+  ZBuffer<DepthU24> buffer(kSixByTwo);
+  buffer.draw(span_at(0, 0, 0, 0.5), kRed);  // 4194303.75 steps of 2/16777215: 4194304 of them
+  EXPECT_DOUBLE_EQ(depth_of_first_pixel(buffer), 4194304 * 2.0 / 16777215);
+}
+
+TEST(ZBuffer, BetweenNarrowLimitsTwentyFourBitsAreFinerThanAFloat) {
+  // Floats are 2^-24 apart below 1, a step is 0.001 / 2^24; these depths are 2^-28 apart.
+  constexpr ScreenConfig kNarrow = {6, 2, -1, -1, 0.999, 1};
+  const Span far_span = span_at(0, 0, 5, 0.9995 + 0x1p-28), near_span = span_at(0, 0, 5, 0.9995);
+  ZBuffer<DepthU24> steps(kNarrow);
+  steps.draw(far_span, kRed);
+  steps.draw(near_span, kGreen);
+  EXPECT_EQ(colors_of_first_row(steps), std::vector<Color>(6, kGreen));
+  ZBuffer<DepthF32> floats(kNarrow);
+  floats.draw(far_span, kRed);
+  floats.draw(near_span, kGreen);
+  EXPECT_EQ(colors_of_first_row(floats), std::vector<Color>(6, kRed));
 }
 
 TEST(ZBuffer, AFloatRoundsToTheNearestFloat) {
@@ -160,7 +172,7 @@ TEST(ZBuffer, AFloatRoundsToTheNearestFloat) {
 }
 
 TEST(ZBuffer, EveryFormatKeepsTheLimits) {
-  ZBuffer<DepthU16> buffer(kSixByTwo);
+  ZBuffer<DepthU24> buffer(kSixByTwo);
   buffer.draw(span_at(0, 0, 0, 0), kRed);
   EXPECT_EQ(depth_of_first_pixel(buffer), 0);
   buffer.draw(span_at(0, 1, 1, 2), kRed);

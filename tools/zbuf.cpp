@@ -21,7 +21,7 @@ namespace {
 
 enum class Coverage { nearest, center };
 enum class Algorithm { zbuffer, scanline };
-enum class DepthFormat { f64, f32, u24, u16 };
+enum class DepthFormat { f64, f32, u24 };
 
 struct ZbufOptions {
   std::string config_path;
@@ -60,9 +60,8 @@ void add_options(CLI::App& options, ZbufOptions& chosen) {
   add_choice<DepthFormat>(options, "--depth", chosen.depth,
                           {{"f64", DepthFormat::f64},
                            {"f32", DepthFormat::f32},
-                           {"u24", DepthFormat::u24},
-                           {"u16", DepthFormat::u16}},
-                          "How a pixel keeps its depth: as a double, a float, or in steps of 24 or 16 bits");
+                           {"u24", DepthFormat::u24}},
+                          "How a pixel keeps its depth: as a double, a float, or in 2^24 equal steps between the limits");
 }
 
 ExactTriangle exact_triangle(const TriangleBatch& batch, std::size_t index) {
@@ -162,8 +161,6 @@ int main(int argc, char** argv) {
         return render_in<DepthF32>(tool, chosen, screen);
       case DepthFormat::u24:
         return render_in<DepthU24>(tool, chosen, screen);
-      case DepthFormat::u16:
-        return render_in<DepthU16>(tool, chosen, screen);
     }
   });
 }
