@@ -1,5 +1,8 @@
 #pragma once
 
+#include <algorithm>
+#include <limits>
+
 namespace pipeline {
 
 /// A triangle's depth along one row, a linear function of the column. It is evaluated anew for every pixel:
@@ -25,12 +28,24 @@ struct Span {
   SpanDepth depth;
 };
 
-/// Calls `visit(span)` for every row a triangle covers, from the top. `rows` is what a coverage rule makes of
+/// Rows, or bands of rows, from `first` to before `end`.
+struct RowRange {
+  int first = 0;
+  int end = std::numeric_limits<int>::max();
+};
+
+/// Calls `visit(span)` for every row of `range` a triangle covers, from the top. `rows` is what a coverage rule makes of
 /// the triangle: it has first_row() and last_row(), inside the screen, and span(row), a std::optional<Span>.
 template <typename CoveredRows, typename Visitor>
-void for_each_span(const CoveredRows& rows, Visitor&& visit) {
-  for (int row = rows.first_row(); row <= rows.last_row(); ++row)
+void for_each_span(const CoveredRows& rows, const RowRange& range, Visitor&& visit) {
+  const int end = std::min(rows.last_row() + 1, range.end);
+  for (int row = std::max(rows.first_row(), range.first); row < end; ++row)
     if (const auto span = rows.span(row)) visit(*span);
+}
+
+template <typename CoveredRows, typename Visitor>
+void for_each_span(const CoveredRows& rows, Visitor&& visit) {
+  for_each_span(rows, RowRange(), visit);
 }
 
 }  // namespace pipeline

@@ -24,7 +24,8 @@ concept VisibilityAlgorithm =
       complete.for_each_row([](const VisibleRow&) {});
     };
 
-/// The z-buffer: draws a triangle as soon as it comes.
+/// The z-buffer: draws a triangle as soon as it comes, as a whole or the part in some rows; threads may draw into
+/// different rows at the same time.
 template <typename Coverage, typename Depth>
 class ZBufferAlgorithm {
  public:
@@ -33,6 +34,9 @@ class ZBufferAlgorithm {
 
   void draw(const ExactTriangle& triangle, Color color) {
     for_each_span(coverage_.rows(triangle), [&](const Span& span) { buffer_.draw(span, color); });
+  }
+  void draw_rows(const ExactTriangle& triangle, Color color, const RowRange& range) {
+    for_each_span(coverage_.rows(triangle), range, [&](const Span& span) { buffer_.draw(span, color); });
   }
   template <typename Visitor>
   void for_each_row(Visitor&& visit) const {

@@ -64,11 +64,6 @@ void add_options(CLI::App& options, ZbufOptions& chosen) {
                           "How a pixel keeps its depth: as a double, a float, or in 2^24 equal steps between the limits");
 }
 
-ExactTriangle exact_triangle(const TriangleBatch& batch, std::size_t index) {
-  return {batch.triangles[index], batch.low_parts.empty() ? nullptr : &batch.low_parts[index],
-          batch.decimal_marks.empty() ? std::uint16_t{0} : batch.decimal_marks[index]};
-}
-
 ScreenConfig read_screen(const Tool& tool, const std::string& path) {
   InputFile file = tool.second_input(path, "CONFIG");
   return read_config(file.text());

@@ -1,0 +1,106 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "libpipeline/color.h"
+#include "libpipeline/config.h"
+#include "libpipeline/exact_grid.h"
+#include "libpipeline/row_bands.h"
+#include "libpipeline/triangle_batch.h"
+#include "libpipeline/worker_team.h"
+
+namespace pipeline {
+
+/// Draws triangles band by band of the screen: several batches at a time, all that reach a band before the next band, so
+/// that its pixels stay in the cache; and with several threads, each band by one of them, while the caller reads on. A
+/// pixel belongs to one band and sees its triangles in the order of the stream, so the result does not depend on the
+/// number of threads. `Visible` has draw_rows(triangle, color, rows), which only touches those rows.
+template <typename Visible>
+class BandDrawing {
+ public:
+  BandDrawing(Visible& visible, const ScreenConfig& screen, int thread_count)
+      : visible_(visible), bands_(screen), team_(thread_count) {
+    for (Round& round : rounds_) round.bands.resize(static_cast<std::size_t>(bands_.count()));
+  }
+
+  /// Where the next batch is to be put.
+  [[nodiscard]] TriangleBatch& next_batch() { return filling().batches[filling().batch_count]; }
+  /// Takes what was put there. It may be drawn later, at the latest in finish().
+  void draw_batch() {
+    sort_into_bands(filling());
+    if (filling().is_full()) draw_round();
+  }
+  /// Draws all that is not drawn yet.
+  void finish() {
+    draw_round();
+    team_.finish();
+  }
+
+ private:
+  static constexpr std::size_t kMaxBatches = 4;
+  static constexpr std::size_t kMaxEntries = std::size_t{1} << 18;
+
+  static_assert(kBatchSize <= std::size_t{1} << 16);
+  struct Entry {
+    std::uint16_t batch;
+    std::uint16_t index;
+  };
+  /// Batches that are drawn together.
+  struct Round {
+    [[nodiscard]] bool is_full() const { return batch_count == kMaxBatches || entry_count >= kMaxEntries; }
+
+    std::array<TriangleBatch, kMaxBatches> batches;
+    std::array<std::vector<Color>, kMaxBatches> colors;
+    std::vector<std::vector<Entry>> bands;  // which triangles reach a band
+    std::size_t batch_count = 0;
+    std::size_t entry_count = 0;
+  };
+
+  [[nodiscard]] Round& filling() { return rounds_[filling_]; }
+
+  void sort_into_bands(Round& round) {
+    const std::size_t number = round.batch_count++;
+    const TriangleBatch& batch = round.batches[number];
+    round.colors[number].clear();
+    for (std::size_t i = 0; i < batch.size(); ++i) {
+      round.colors[number].push_back(colors_.of(batch.numbers[i]));
+      const RowRange range = bands_.bands_of(batch.triangles[i]);
+      for (int band = range.first; band < range.end; ++band)
+        round.bands[static_cast<std::size_t>(band)].push_back(
+            {static_cast<std::uint16_t>(number), static_cast<std::uint16_t>(i)});
+      round.entry_count += static_cast<std::size_t>(range.end - range.first);
+    }
+  }
+
+  /// Has the team draw what was collected, once it is done with what came before.
+  void draw_round() {
+    team_.finish();
+    Round& round = filling();
+    team_.start(bands_.count(), [this, &round](int band) { draw_band(round, band); });
+    filling_ = 1 - filling_;
+    filling().batch_count = 0;
+    filling().entry_count = 0;
+  }
+
+  void draw_band(Round& round, int band) {
+    std::vector<Entry>& entries = round.bands[static_cast<std::size_t>(band)];
+    const RowRange rows = bands_.rows(band);
+    for (const Entry entry : entries)
+      visible_.draw_rows(exact_triangle(round.batches[entry.batch], entry.index),
+                         round.colors[entry.batch][entry.index], rows);
+    entries.clear();
+  }
+
+  Visible& visible_;
+  RowBands bands_;
+  TriangleColors colors_;
+  std::array<Round, 2> rounds_;  // one is filled while the other is drawn
+  std::size_t filling_ = 0;
+  WorkerTeam team_;  // the last: its threads end before what they use
+};
+
+}  // namespace pipeline
