@@ -13,6 +13,7 @@ tools_test(DoWhatTheirOptionsSay tools_options_test)
 tools_test(PassTrianglesOnAtOnce tools_streaming_test Streaming Pieces)
 tools_test(SurviveFaults tools_faults_test)
 tools_test(PrintNumbers tools_fuzz_test)
+tools_test(DrawOnThreadsAndShowProgress zbuf_tool_test)
 
 # A sanitizer's own memory says nothing about the tools'.
 if(NOT CMAKE_CXX_FLAGS MATCHES "-fsanitize")

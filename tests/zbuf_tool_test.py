@@ -1,0 +1,124 @@
+#!/usr/bin/env python3
+"""zbuf, end to end: the same bytes on any number of threads and under every kernel; its line of progress.
+
+usage: zbuf_tool_test.py BIN_DIR
+"""
+import os
+import pathlib
+import pty
+import random
+import re
+import subprocess
+import unittest
+
+from toolbox import CONFIG, SOURCE, ToolTest, command, run
+
+TRIANGLE = "0 0 0\n1 0 0\n0 1 0\n\n"
+
+
+def zbuf(config, stage3, *options, kernel=None):
+    """The depth text and the image."""
+    settings = os.environ | ({"PIPELINE_KERNEL": kernel} if kernel else {})
+    done = subprocess.run(command("zbuf", config, stage3, "--image", "out.ppm", *options), stdout=subprocess.PIPE, check=True,
+                          env=settings)
+    return done.stdout, pathlib.Path("out.ppm").read_bytes()
+
+
+def random_triangle(rng):
+    """Tiny to huge, often at the depth of others."""
+    size = rng.choice((0.01, 0.01, 0.1, 1, 1e6))
+    x, y, z = rng.uniform(-1.2, 1.2), rng.uniform(-1.2, 1.2), rng.choice((0, 0.25, rng.uniform(-1, 1)))
+    points = [[x + rng.uniform(-size, size), y + rng.uniform(-size, size), z] for _ in range(3)]
+    return "".join(" ".join("%.7f" % c for c in point) + "\n" for point in points) + "\n"
+
+
+class Threads(ToolTest):
+    def check(self, config, stage3):
+        for coverage in ("nearest", "center"):
+            expected = zbuf(config, stage3, "--coverage", coverage, "--algorithm", "scanline")
+            for settings in (["--threads", "1"], ["--threads", "2"], ["--threads", "3"], ["--threads", "8"]):
+                with self.subTest(stage3=str(stage3), coverage=coverage, settings=settings):
+                    self.assertTrue(zbuf(config, stage3, "--coverage", coverage, *settings) == expected, "differs")
+
+    def test_every_sample(self):
+        for stage3 in sorted(SOURCE.glob("samples/*/stage3.txt")):
+            self.check(stage3.parent / "config.txt", stage3)
+
+    def test_a_random_scene(self):
+        rng = random.Random(1)
+        pathlib.Path("stage3.txt").write_text("".join(random_triangle(rng) for _ in range(20000)))
+        pathlib.Path("config.txt").write_text("301 203\n")
+        self.check("config.txt", "stage3.txt")
+
+    def test_bad_text_is_found_whatever_waits_to_be_drawn(self):
+        pathlib.Path("config.txt").write_text(CONFIG)
+        done = run("zbuf", "config.txt", "--threads", "3", stdin=TRIANGLE * 20000 + "x\n")
+        self.assertEqual((done.returncode, done.stdout), (1, b""))
+        self.assertTrue(done.stderr.startswith(b"zbuf: <stdin>:80001:1: "), done.stderr)
+        self.assertFalse(pathlib.Path("out.bmp").exists())
+
+    def test_the_scanline_algorithm_has_none(self):
+        pathlib.Path("config.txt").write_text(CONFIG)
+        done = run("zbuf", "config.txt", "--threads", "2", "--algorithm", "scanline", stdin=TRIANGLE)
+        self.assertEqual(done.stderr.decode(), "zbuf: --threads: expected 1 with --algorithm scanline, which goes through the "
+                                               "rows in turn, found '2' (try zbuf --help)\n")
+        self.assertEqual(done.returncode, 2)
+
+
+class Kernels(ToolTest):
+    def test_every_sample(self):
+        for stage3 in sorted(SOURCE.glob("samples/*/stage3.txt")):
+            config = stage3.parent / "config.txt"
+            for depth in ("f64", "f32", "u24"):
+                expected = zbuf(config, stage3, "--depth", depth, kernel="portable")
+                for kernel in ("sse4", "avx2", None):
+                    with self.subTest(stage3=str(stage3), depth=depth, kernel=kernel):
+                        self.assertTrue(zbuf(config, stage3, "--depth", depth, kernel=kernel) == expected, "differs")
+
+
+class Progress(ToolTest):
+    def run_for(self, seconds, stderr):
+        """Feeds triangles slowly, for so many seconds."""
+        pathlib.Path("config.txt").write_text(CONFIG)
+        steps = int(seconds * 10)
+        feed = f"import sys, time\nfor _ in range({steps}): print({TRIANGLE!r}, end='', flush=True); time.sleep(0.1)"
+        with subprocess.Popen(["python3", "-c", feed], stdout=subprocess.PIPE) as source:
+            done = subprocess.run(command("zbuf", "config.txt"), stdin=source.stdout, stdout=subprocess.DEVNULL, stderr=stderr)
+        self.assertEqual(done.returncode, 0)
+        return done
+
+    def on_a_terminal(self, seconds):
+        reader, terminal = pty.openpty()
+        self.run_for(seconds, terminal)
+        os.write(terminal, b"|")  # so that there is something to read
+        shown = os.read(reader, 65536).decode()
+        os.close(terminal)
+        os.close(reader)
+        self.assertTrue(shown.endswith("|"), shown)
+        return shown[:-1]
+
+    def test_a_terminal_gets_one_line(self):
+        shown = self.on_a_terminal(2)
+        self.assertRegex(shown, r"^(\rzbuf: \d+ triangles, [0-9.e-]+ million a second +)+\r\n$")
+        counts = [int(count) for count in re.findall(r"(\d+) triangles", shown)]
+        self.assertEqual(counts, sorted(counts))
+        self.assertLessEqual(counts[-1], 20)
+
+    def test_a_short_run_shows_nothing(self):
+        self.assertEqual(self.on_a_terminal(0.3), "")
+
+    def test_a_file_gets_nothing(self):
+        self.assertEqual(self.run_for(1.5, subprocess.PIPE).stderr, b"")
+
+
+class Timing(ToolTest):
+    def test_the_phases_add_up_on_many_threads(self):
+        pathlib.Path("config.txt").write_text("300 300\n")
+        done = run("zbuf", "config.txt", "--threads", "2", "--timing", "--z-buffer", "/dev/null", stdin=TRIANGLE * 50000)
+        self.assertIn(b"zbuf: 50000 triangles in ", done.stderr)
+        total, *phases = [float(number) for number in re.findall(r"\d+\.\d{3}", done.stderr.decode())[:4]]
+        self.assertAlmostEqual(total, sum(phases), delta=0.003)
+
+
+if __name__ == "__main__":
+    unittest.main()

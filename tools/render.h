@@ -1,0 +1,29 @@
+#pragma once
+
+#include <string>
+
+#include "libpipeline/config.h"
+#include "tools/tool.h"
+
+namespace pipeline {
+
+enum class Coverage { nearest, center };
+enum class Algorithm { zbuffer, scanline };
+enum class DepthFormat { f64, f32, u24 };
+
+/// What `zbuf` was asked for.
+struct RenderOptions {
+  std::string config_path;
+  std::string image_path = "out.bmp";
+  std::string z_buffer_path = "-";
+  Coverage coverage = Coverage::nearest;
+  Algorithm algorithm = Algorithm::zbuffer;
+  DepthFormat depth = DepthFormat::f64;
+  int thread_count = 1;
+};
+
+/// Draws the tool's input and writes the image and the depths. Neither depends on the algorithm or on the number of
+/// threads. Nothing takes an older file's place before everything is written.
+void render(Tool& tool, const RenderOptions& chosen, const ScreenConfig& screen);
+
+}  // namespace pipeline
