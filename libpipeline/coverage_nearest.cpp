@@ -7,14 +7,37 @@
 namespace pipeline {
 namespace {
 
+// What follows is written without branches where no processor could predict them: which vertex of a small triangle comes
+// first, which of its edges is on the left.
+
 bool is_lower(const Vec3& a, const Vec3& b) {
-  return std::tie(a.y, a.x, a.z) < std::tie(b.y, b.x, b.z);
+  const bool at_equal_x = (a.x == b.x) & (a.z < b.z);
+  return (a.y < b.y) | ((a.y == b.y) & ((a.x < b.x) | at_equal_x));
 }
 
-/// `value`, which may be infinite, as an integer in [low, high].
-int clamped(double value, int low, int high) {
+/// The vertices from the lowest to the highest, equal ones in their order.
+Triangle sorted(const Triangle& p) {
+  const unsigned b_first = is_lower(p[1], p[0]), c_before_a = is_lower(p[2], p[0]), c_before_b = is_lower(p[2], p[1]);
+  Triangle result;
+  result[b_first + c_before_a] = p[0];
+  result[1 - b_first + c_before_b] = p[1];
+  result[2 - c_before_a - c_before_b] = p[2];
+  return result;
+}
+
+/// floor(value) or ceil(value), which may be infinite, as an integer in [low, high]. (Without SSE4.1 the library's are
+/// function calls.)
+int clamped_floor(double value, int low, int high) {
+  if (value < low) return low;
+  if (value >= high) return high;
+  const int towards_zero = static_cast<int>(value);
+  return towards_zero - static_cast<int>(value < towards_zero);
+}
+int clamped_ceil(double value, int low, int high) {
   if (value <= low) return low;
-  return value >= high ? high : static_cast<int>(value);
+  if (value >= high) return high;
+  const int towards_zero = static_cast<int>(value);
+  return towards_zero + static_cast<int>(towards_zero < value);
 }
 
 /// The three values divided by 2^exponent, which makes the largest one lie in [1/2, 1).
@@ -57,7 +80,8 @@ std::optional<double> slope_in_x(const Vec3& a, const Vec3& b, const Vec3& c) {
     exponent = z_exponent - x_exponent;
   }
   if (std::fabs(plane.area) <= kAreaError * plane.terms) return std::nullopt;
-  const double slope = std::ldexp(plane.rise / plane.area, exponent);
+  const double unscaled = plane.rise / plane.area;
+  const double slope = exponent == 0 ? unscaled : std::ldexp(unscaled, exponent);
   return std::isfinite(slope) ? std::optional(slope) : std::nullopt;
 }
 
@@ -70,12 +94,11 @@ double interpolate(double from, double to, double t) {
 }  // namespace
 
 NearestRows::NearestRows(const PixelGrid& grid, const Triangle& p_ndc) : grid_(grid) {
-  Triangle p = p_ndc;
-  std::sort(p.begin(), p.end(), is_lower);
+  const Triangle p = sorted(p_ndc);
   edges_ = {Edge{p[0], p[1]}, Edge{p[1], p[2]}, Edge{p[0], p[2]}};
   slope_ = slope_in_x(p[0], p[1], p[2]);
-  first_row_ = clamped(std::ceil((grid.top_y - p[2].y) / grid.dy), 0, grid.rows);
-  last_row_ = clamped(std::floor((grid.top_y - p[0].y) / grid.dy), -1, grid.rows - 1);
+  first_row_ = clamped_ceil((grid.top_y - p[2].y) / grid.dy, 0, grid.rows);
+  last_row_ = clamped_floor((grid.top_y - p[0].y) / grid.dy, -1, grid.rows - 1);
 }
 
 NearestRows::Intersection NearestRows::intersect(const Edge& edge, double y) {
@@ -89,8 +112,21 @@ NearestRows::Intersection NearestRows::intersect(const Edge& edge, double y) {
   return {interpolate(lower.x, upper.x, t), interpolate(lower.z, upper.z, t)};
 }
 
-std::optional<Span> NearestRows::span(int row) const {
-  const double y = grid_.y_of(row);
+std::optional<NearestRows::Ends> NearestRows::ends(double y) const {
+  const Edge& longest = edges_[2];
+  const double middle_y = edges_[0].upper.y;
+  const bool is_between_corners = (longest.lower.y <= y) & (y <= longest.upper.y) & (y != middle_y);
+  if (!is_between_corners) return ends_at_corner(y);
+  // Just the longest edge and, below or above the middle corner, one of the others.
+  const std::array<Intersection, 2> points = {intersect(edges_[static_cast<std::size_t>(y > middle_y)], y),
+                                              intersect(longest, y)};
+  const auto& [first, second] = points;
+  const bool is_lower_z = (second.x == first.x) & (second.z < first.z);
+  return Ends{points[static_cast<std::size_t>((second.x < first.x) | is_lower_z)],
+              points[static_cast<std::size_t>((second.x > first.x) | is_lower_z)]};
+}
+
+std::optional<NearestRows::Ends> NearestRows::ends_at_corner(double y) const {
   int count = 0;
   Intersection left = {}, right = {};
   for (const Edge& edge : edges_) {
@@ -101,10 +137,15 @@ std::optional<Span> NearestRows::span(int row) const {
     if (count == 0 || point.x > right.x || (point.x == right.x && point.z < right.z)) right = point;
     ++count;
   }
-  if (count < 2) return std::nullopt;
-  const double first = std::floor((left.x - grid_.left_x) / grid_.dx + 0.5);
-  const double last = std::floor((right.x - grid_.left_x) / grid_.dx + 0.5);
-  Span span = {row, clamped(first, 0, grid_.columns), clamped(last, -1, grid_.columns - 1), {}};
+  return count < 2 ? std::nullopt : std::optional(Ends{left, right});
+}
+
+std::optional<Span> NearestRows::span(int row) const {
+  const auto both = ends(grid_.y_of(row));
+  if (!both) return std::nullopt;
+  const auto& [left, right] = *both;
+  Span span = {row, clamped_floor((left.x - grid_.left_x) / grid_.dx + 0.5, 0, grid_.columns),
+               clamped_floor((right.x - grid_.left_x) / grid_.dx + 0.5, -1, grid_.columns - 1), {}};
   if (span.first_column > span.last_column) return std::nullopt;
   span.depth = {grid_.left_x, grid_.dx, left.x, left.z, 0};
   if (slope_ && left.x < right.x)

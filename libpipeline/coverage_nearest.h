@@ -41,7 +41,14 @@ class NearestRows {
     double x;
     double z;
   };
+  struct Ends {
+    Intersection left;
+    Intersection right;
+  };
   static Intersection intersect(const Edge& edge, double y);
+  /// Where the line at `y` enters and leaves the triangle; none where it has fewer than two intersections.
+  [[nodiscard]] std::optional<Ends> ends(double y) const;
+  [[nodiscard]] std::optional<Ends> ends_at_corner(double y) const;
 
   PixelGrid grid_;
   std::array<Edge, 3> edges_;
