@@ -6,30 +6,17 @@
 #include <string_view>
 
 #include "libpipeline/span_fill_avx2.h"
+#include "libpipeline/span_fill_loop.h"
 
 namespace pipeline {
 namespace {
-
-template <typename Depth>
-void fill_span(const SpanFill<Depth>& pixels) {
-  const SpanDepth depth = pixels.span.depth;
-  const int first_column = pixels.span.first_column;
-  const int count = pixels.span.last_column - first_column + 1;
-  for (int i = 0; i < count; ++i) {
-    const double z = depth(first_column + i);
-    const typename Depth::Stored stored = pixels.format.store(z);
-    if (!(stored < pixels.depths[i] && z >= pixels.front)) continue;
-    pixels.depths[i] = stored;
-    pixels.colors[i] = pixels.color;
-  }
-}
 
 struct KernelList {
   std::array<SpanFillKernel, 2> kernels{};
   std::size_t count = 0;
 
   KernelList() {
-    kernels[count++] = {"portable", fill_span, fill_span, fill_span};
+    kernels[count++] = {"portable", fill_span_in_a_loop, fill_span_in_a_loop, fill_span_in_a_loop};
     if (const SpanFillKernel* const avx2 = span_fill_avx2()) kernels[count++] = *avx2;
   }
 };

@@ -4,6 +4,8 @@
 
 #include <immintrin.h>
 
+#include "libpipeline/span_fill_loop.h"
+
 #define PIPELINE_AVX2 __attribute__((target("avx2")))
 
 namespace pipeline {
@@ -129,8 +131,19 @@ PIPELINE_AVX2 void fill_span(const SpanFill<Depth>& pixels) {
   }
 }
 
-constexpr SpanFillKernel kAvx2Kernel = {"avx2", fill_span<LanesF64, DepthF64>, fill_span<LanesF32, DepthF32>,
-                                        fill_span<LanesU24, DepthU24>};
+/// A few pixels are done before eight could be set up.
+template <typename Lanes, typename Depth>
+void fill_short_or_long_span(const SpanFill<Depth>& pixels) {
+  constexpr int kShort = 3;
+  if (pixels.span.last_column - pixels.span.first_column < kShort)
+    fill_span_in_a_loop(pixels);
+  else
+    fill_span<Lanes>(pixels);
+}
+
+constexpr SpanFillKernel kAvx2Kernel = {"avx2", fill_short_or_long_span<LanesF64, DepthF64>,
+                                        fill_short_or_long_span<LanesF32, DepthF32>,
+                                        fill_short_or_long_span<LanesU24, DepthU24>};
 
 }  // namespace
 
