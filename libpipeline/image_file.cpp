@@ -16,7 +16,7 @@ namespace pipeline {
 namespace {
 
 constexpr std::size_t kBmpHeaderSize = 14 + 40;
-constexpr std::size_t kBlockSize = std::size_t{1} << 20;
+constexpr std::size_t kBlockSize = std::size_t{1} << 22;
 
 char to_lower(char c) {
   return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
@@ -32,6 +32,15 @@ std::size_t row_size(ImageFormat format, int columns) {
 bool can_seek(int descriptor) {
   const int flags = ::fcntl(descriptor, F_GETFL);
   return flags >= 0 && (flags & O_APPEND) == 0 && ::lseek(descriptor, 0, SEEK_CUR) == 0;
+}
+
+void write_bytes(int descriptor, std::string_view bytes, const std::string& path) {
+  while (!bytes.empty()) {
+    const ssize_t count = ::write(descriptor, bytes.data(), bytes.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) throw IoError("write", path, errno);
+    bytes.remove_prefix(static_cast<std::size_t>(count));
+  }
 }
 
 template <typename UInt>
@@ -64,7 +73,6 @@ void check_image_size(ImageFormat format, int columns, int rows, const std::stri
 ImageWriter::ImageWriter(int descriptor, const std::string& path, ImageFormat format, int columns, int rows)
     : descriptor_(descriptor),
       path_(path),
-      out_(descriptor, path),
       format_(format),
       columns_(columns),
       rows_(rows),
@@ -74,7 +82,7 @@ ImageWriter::ImageWriter(int descriptor, const std::string& path, ImageFormat fo
   if (format == ImageFormat::bmp)
     write_bmp_header();
   else
-    out_.append("P6\n" + std::to_string(columns) + " " + std::to_string(rows) + "\n255\n");
+    write_bytes(descriptor_, "P6\n" + std::to_string(columns) + " " + std::to_string(rows) + "\n255\n", path_);
   const bool needs_all_rows = format == ImageFormat::bmp && !can_seek_;
   const std::size_t all_rows = static_cast<std::size_t>(rows);
   const std::size_t block_rows = std::clamp<std::size_t>(kBlockSize / row_size_, 1, all_rows);
@@ -96,7 +104,7 @@ void ImageWriter::write_bmp_header() {
   append_little_endian(header, std::uint32_t{0});                   // not compressed
   append_little_endian(header, pixels_size);
   header.append(16, '\0');  // pixels per metre in x and y, colours in the palette, important ones: not said
-  out_.append(header);
+  write_bytes(descriptor_, header, path_);
 }
 
 char* ImageWriter::place_for_next_row() {
@@ -125,19 +133,16 @@ void ImageWriter::write_rows() {
   if (format_ == ImageFormat::bmp) {
     bytes = {block_.data() + block_.size() - size, size};
     const std::size_t rows_below = static_cast<std::size_t>(rows_) - written_row_count_;
-    out_.flush();
     if (can_seek_ &&
         ::lseek(descriptor_, static_cast<off_t>(kBmpHeaderSize + rows_below * row_size_), SEEK_SET) < 0)
       throw IoError("write", path_, errno);
   }
-  for (; !bytes.empty(); bytes.remove_prefix(std::min(kBlockSize, bytes.size())))
-    out_.append(bytes.substr(0, kBlockSize));
+  write_bytes(descriptor_, bytes, path_);
 }
 
 void ImageWriter::finish() {
   write_rows();
   assert(written_row_count_ == static_cast<std::size_t>(rows_));
-  out_.flush();
 }
 
 }  // namespace pipeline

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "libpipeline/color.h"
-#include "libpipeline/text_writer.h"
 
 namespace pipeline {
 
@@ -24,7 +23,7 @@ ImageFormat image_format_of(const std::string& path);
 /// bits.
 void check_image_size(ImageFormat format, int columns, int rows, const std::string& path);
 
-/// Writes an image row by row, from the top, and holds only few rows in memory; but a BMP that goes where
+/// Takes an image row by row, from the top, and writes it in blocks of 4 MiB, so that only few rows are in memory; but a BMP that goes where
 /// there is no seeking (a pipe) is held as a whole. Failures to write are IoErrors.
 class ImageWriter {
  public:
@@ -44,7 +43,6 @@ class ImageWriter {
 
   int descriptor_;
   std::string path_;
-  TextWriter out_;
   ImageFormat format_;
   int columns_;
   int rows_;
