@@ -76,6 +76,7 @@ void write_all(Tool& tool, const RenderOptions& chosen, const ScreenConfig& scre
 template <VisibilityAlgorithm Visible>
 void render_with(Tool& tool, const RenderOptions& chosen, const ScreenConfig& screen) {
   Visible visible(screen);
+  tool.timing().lap(&Timing::work_seconds);
   draw_all(tool, chosen, screen, visible);
   tool.timing().lap(&Timing::work_seconds);
   write_all(tool, chosen, screen, visible);
