@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <new>
 
@@ -34,6 +35,12 @@ void open_closed_descriptors() {
       ::open("/dev/null", descriptor == STDIN_FILENO ? O_WRONLY : O_RDONLY);
 }
 
+/// A file that may grow no further is then a failed write, which is told and cleaned up after, not a signal
+/// that kills.
+void make_file_size_limit_an_error() {
+  std::signal(SIGXFSZ, SIG_IGN);
+}
+
 }  // namespace
 
 InputFile::InputFile(const std::string& path)
@@ -56,6 +63,7 @@ Tool::Tool(const std::string& name, const std::string& description, OutputKind o
       options_(description, name),
       output_(STDOUT_FILENO, "<stdout>") {
   open_closed_descriptors();
+  make_file_size_limit_an_error();
   set_help_form(options_);
   options_.set_version_flag("--version", name + " (pipeline) " + kVersion);
   options_.add_flag("--timing", wants_timing_, "Say on stderr how long reading, working and writing took");
