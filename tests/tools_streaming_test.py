@@ -3,6 +3,8 @@
 
 usage: tools_streaming_test.py BIN_DIR [UNITTEST ARGUMENT...]
 """
+import fcntl
+import os
 import re
 import select
 import subprocess
@@ -119,6 +121,44 @@ class Pieces(ToolTest):
                         live.send(text[begin:begin + size])
                     self.assertEqual(live.finish(), 0)
                     self.assertEqual(live.received, expected)
+
+
+F_SETPIPE_SZ, F_GETPIPE_SZ = 1031, 1032  # Linux; Python has names for them since 3.10
+
+
+def pipe_of(size):
+    """The ends of a pipe that holds so many bytes; the test is skipped where there is none."""
+    ends = [os.fdopen(end, mode, buffering=0) for end, mode in zip(os.pipe(), ("rb", "wb"))]
+    try:
+        fcntl.fcntl(ends[0], F_SETPIPE_SZ, size)
+    except OSError as error:
+        for end in ends:
+            end.close()
+        raise unittest.SkipTest(f"no pipe of {size} bytes here: {error}")
+    return ends
+
+
+@unittest.skipUnless(os.uname().sysname == "Linux", "the size of a pipe can be set on Linux alone")
+class PipeSize(ToolTest):
+    def sizes_after_a_run(self, size):
+        """What the pipes before and behind a tool hold at its end, if it is given pipes of `size`."""
+        mebibyte_ends = pipe_of(1 << 20)  # or the system does not allow what the tool wants
+        for end in mebibyte_ends:
+            end.close()
+        source, feed = pipe_of(size)
+        drain, sink = pipe_of(size)
+        with source, feed, drain, sink:
+            feed.write(SCENE.encode())
+            feed.close()
+            done = subprocess.run(command("model"), stdin=source, stdout=sink, stderr=subprocess.PIPE, timeout=60)
+            self.assert_quiet_success(done)
+            return fcntl.fcntl(source, F_GETPIPE_SZ), fcntl.fcntl(drain, F_GETPIPE_SZ)
+
+    def test_a_tool_lets_its_pipes_hold_a_mebibyte(self):
+        self.assertEqual(self.sizes_after_a_run(1 << 16), (1 << 20, 1 << 20))
+
+    def test_a_tool_makes_no_pipe_smaller(self):
+        self.assertEqual(self.sizes_after_a_run(1 << 21), (1 << 21, 1 << 21))
 
 
 INPUTS = {"model": (CAMERA, "triangle\n" + VERTICES, "end\n"), "view": (HEADER, VERTICES + "\n", ""),

@@ -11,6 +11,7 @@
 #include "libpipeline/error.h"
 #include "libpipeline/stage_text.h"
 #include "tools/command_line.h"
+#include "tools/pipe_size.h"
 #include "tools/version.h"
 
 namespace pipeline {
@@ -70,7 +71,10 @@ Tool::Tool(const std::string& name, const std::string& description, OutputKind o
 }
 
 TextReader& Tool::input() {
-  if (!input_) input_.emplace(input_path_);
+  if (!input_) {
+    input_.emplace(input_path_);
+    if (input_path_ == "-") enlarge_pipe(STDIN_FILENO);
+  }
   return input_->text();
 }
 
@@ -92,6 +96,7 @@ int Tool::run(int argc, char** argv, const std::function<void()>& work) {
     return fail_misuse(explained(options_, error));
   }
   return status_of([&] {
+    enlarge_pipe(STDOUT_FILENO);
     work();
     close_output();
     if (wants_timing_) report_timing();
