@@ -58,15 +58,66 @@ Command SceneReader::next() {
     if (text_.next_filled_line(line_)) line_.fail("nothing after 'end'");
     return EndCommand{};
   }
+  if (keyword == "color" || is_appearance_keyword(keyword)) return read_appearance(keyword);
   line_.fail("a command (triangle, translate, scale, rotate, push, pop or end)");
+}
+
+/// Takes a command that says how things look. All but `color` are settled by the first triangle.
+Command SceneReader::read_appearance(std::string_view keyword) {
+  const bool is_color = keyword == "color";
+  if (has_triangle_ && !(is_color && appearance_.columns().color)) {
+    const std::string expected = is_color ? "'color' or 'attributes color' before the first triangle, too"
+                                          : quoted(keyword) + " before the first triangle";
+    throw InputError(place_, expected_but_found(expected, quoted(keyword) + " behind it"));
+  }
+  const std::string name(line_.word());
+  next_argument_line("the arguments of " + quoted(name));
+  if (is_color) return read_current_color(), AppearanceCommand{};
+  const bool has_color = appearance_.columns().color;
+  if (name == "attributes" && !vertex_line_.attributes().any()) appearance_.attributes.reset();
+  read_appearance_part(name, place_, line_, AttributeSource::scene, appearance_);
+  if (name == "light") {
+    const LightCommand command{appearance_.lights.back().value};
+    appearance_.lights.clear();
+    return command;
+  }
+  if (name == "attributes") {
+    vertex_line_ = VertexLineReader(appearance_.columns());
+    appearance_.attributes->value.color |= has_color;
+  }
+  return AppearanceCommand{};
+}
+
+void SceneReader::read_current_color() {
+  current_color_ = read_color(line_, "the colour");
+  line_.expect_end("the blue of the colour");
+  if (!appearance_.attributes) appearance_.attributes = {{}, place_};
+  appearance_.attributes->value.color = true;
+}
+
+/// Takes a vertex line of a scene with attributes; what has no columns is the current state.
+VertexLine SceneReader::read_vertex(std::size_t index) {
+  const LineScanner at_vertex = line_;
+  VertexLine vertex = vertex_line_.read(line_, index);
+  if (!vertex_line_.attributes().color) vertex.color = current_color_;
+  if (vertex_line_.attributes().normal && vertex.normal == Vec3{})
+    at_vertex.fail("a normal of " + std::string(kVertexNames[index]) + " other than 0 0 0");
+  return vertex;
 }
 
 TriangleCommand SceneReader::read_triangle() {
   line_.word();
+  has_triangle_ = true;
+  const bool has_attributes = appearance_.attributes.has_value();
   TriangleCommand command;
   for (std::size_t i = 0; i < 3; ++i) {
     next_argument_line(kVertexNames[i]);
-    command.p_model[i] = line_.vec3(kVertexNames[i]);
+    if (has_attributes) {
+      vertices_[i] = read_vertex(i);
+      command.p_model[i] = vertices_[i].position;
+    } else {
+      command.p_model[i] = line_.vec3(kVertexNames[i]);
+    }
     command.lines[i] = line_.line_number();
   }
   return command;

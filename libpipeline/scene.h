@@ -1,8 +1,10 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <variant>
 
+#include "libpipeline/appearance.h"
 #include "libpipeline/camera.h"
 #include "libpipeline/text_reader.h"
 #include "libpipeline/triangle_batch.h"
@@ -28,9 +30,14 @@ struct RotateCommand {
 struct PushCommand {};
 struct PopCommand {};
 struct EndCommand {};
+/// The appearance or the current colour has changed: the reader keeps both.
+struct AppearanceCommand {};
+struct LightCommand {
+  Light light;  // in model space
+};
 
 using Command = std::variant<TriangleCommand, TranslateCommand, ScaleCommand, RotateCommand, PushCommand,
-                             PopCommand, EndCommand>;
+                             PopCommand, EndCommand, AppearanceCommand, LightCommand>;
 
 /// Reads scene.txt: the camera on construction, then command after command. Errors are InputErrors.
 ///
@@ -40,12 +47,25 @@ using Command = std::variant<TriangleCommand, TranslateCommand, ScaleCommand, Ro
 ///     fovY aspect near far         or: ortho L R B T N F, or: frustum L R B T N F
 ///     triangle | translate | scale | rotate | push | pop, each with its arguments
 ///     end
+///
+/// Before the first triangle, only where a scene needs them:
+///
+///     attributes [color] [normal]  vertex lines carry x y z [r g b] [nx ny nz]
+///     color r g b                  of the triangles that follow; may then change later
+///     background r g b | ambient r g b | light x y z r g b
+///     material ambient diffuse specular shininess | attenuation constant linear quadratic
 class SceneReader {
  public:
   explicit SceneReader(TextReader& text);
 
   /// The camera, complete and checked.
   [[nodiscard]] const CameraText& camera() const { return camera_; }
+  /// What was read of colour and light so far, without the lights (each is a command of its own). Its columns are
+  /// those of the triangles' attributes; complete at the first triangle.
+  [[nodiscard]] const Appearance& appearance() const { return appearance_; }
+  /// The vertices of the triangle given out last, with the attributes in `appearance()`; nothing to rely on where
+  /// there are none.
+  [[nodiscard]] const std::array<VertexLine, 3>& vertices() const { return vertices_; }
   /// The next command. After EndCommand nothing may be read.
   Command next();
   /// The place of the command given out last.
@@ -59,10 +79,18 @@ class SceneReader {
   Placed<Projection> read_camera_projection();
   void next_argument_line(std::string_view expected);
   TriangleCommand read_triangle();
+  VertexLine read_vertex(std::size_t index);
+  Command read_appearance(std::string_view keyword);
+  void read_current_color();
   RotateCommand read_rotation();
 
   TextReader& text_;
   CameraText camera_;
+  Appearance appearance_;
+  VertexLineReader vertex_line_;  // what the vertex lines of the scene carry
+  Vec3 current_color_;
+  std::array<VertexLine, 3> vertices_;
+  bool has_triangle_ = false;
   LineScanner line_;
   Place place_;
 };

@@ -1,0 +1,126 @@
+#include "libpipeline/appearance.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <string>
+
+namespace pipeline {
+namespace {
+
+double number_from_zero(LineScanner& line, const std::string& name) {
+  const LineScanner at_number = line;
+  const double value = line.number(name);
+  if (!(value >= 0)) at_number.fail(name + " of at least 0");
+  return value;
+}
+
+Vec3 read_intensity(LineScanner& line, const std::string& of) {
+  Vec3 intensity;
+  intensity.x = number_from_zero(line, "the red of " + of);
+  intensity.y = number_from_zero(line, "the green of " + of);
+  intensity.z = number_from_zero(line, "the blue of " + of);
+  line.expect_end("the blue of ", of);
+  return intensity;
+}
+
+Vec3 read_background(LineScanner& line) {
+  const Vec3 color = read_color(line, "the background");
+  line.expect_end("the blue of the background");
+  return color;
+}
+
+/// The names of attributes, at least one, in the order of their columns.
+AttributeSet read_attributes(LineScanner& line, AttributeSource source) {
+  const bool may_be_w = source == AttributeSource::stage_text;
+  AttributeSet set;
+  const auto take = [&](std::string_view name) {
+    const bool is_next = line.peek() == name;
+    if (is_next) line.word();
+    return is_next;
+  };
+  set.w = may_be_w && take("w");
+  set.color = take("color");
+  set.normal = take("normal");
+  if (!set.any() || !line.at_end())
+    line.fail(may_be_w ? "attributes of [w] [color] [normal], in this order"
+                       : "attributes of [color] [normal], in this order");
+  return set;
+}
+
+Material read_material(LineScanner& line) {
+  Material material;
+  material.ambient = number_from_zero(line, "the ambient factor");
+  material.diffuse = number_from_zero(line, "the diffuse factor");
+  material.specular = number_from_zero(line, "the specular factor");
+  material.shininess = line.count("the shininess, a whole number");
+  line.expect_end("the shininess");
+  return material;
+}
+
+Attenuation read_attenuation(LineScanner& line) {
+  const LineScanner at_first = line;
+  Attenuation attenuation;
+  attenuation.constant = number_from_zero(line, "the constant attenuation");
+  attenuation.linear = number_from_zero(line, "the linear attenuation");
+  attenuation.quadratic = number_from_zero(line, "the quadratic attenuation");
+  line.expect_end("the quadratic attenuation");
+  if (attenuation.constant == 0 && attenuation.linear == 0 && attenuation.quadratic == 0)
+    at_first.fail("an attenuation other than 0 0 0");
+  return attenuation;
+}
+
+Light read_light(LineScanner& line) {
+  Light light;
+  light.position.x = line.number("the x of the light");
+  light.position.y = line.number("the y of the light");
+  light.position.z = line.number("the z of the light");
+  light.intensity = read_intensity(line, "the light");
+  return light;
+}
+
+template <typename T, typename Read>
+void set_once(std::optional<Placed<T>>& part, std::string_view keyword, const Place& keyword_place,
+              const LineScanner& line, Read&& read) {
+  if (part)
+    throw InputError(keyword_place, expected_but_found("one " + std::string(keyword),
+                                                       "a second one after " + to_string(part->place)));
+  const Place place = line.place();
+  part = {read(), place};
+}
+
+}  // namespace
+
+bool is_appearance_keyword(std::string_view keyword) {
+  constexpr std::array<std::string_view, 6> kKeywords = {"attributes", "background",  "ambient",
+                                                         "material",   "attenuation", "light"};
+  return std::find(kKeywords.begin(), kKeywords.end(), keyword) != kKeywords.end();
+}
+
+void read_appearance_part(std::string_view keyword, const Place& keyword_place, LineScanner& line,
+                          AttributeSource source, Appearance& appearance) {
+  const auto set = [&](auto& part, auto&& read) { set_once(part, keyword, keyword_place, line, read); };
+  if (keyword == "attributes") {
+    set(appearance.attributes, [&] { return read_attributes(line, source); });
+  } else if (keyword == "background") {
+    set(appearance.background, [&] { return read_background(line); });
+  } else if (keyword == "ambient") {
+    set(appearance.ambient, [&] { return read_intensity(line, "the ambient light"); });
+  } else if (keyword == "material") {
+    set(appearance.material, [&] { return read_material(line); });
+  } else if (keyword == "attenuation") {
+    set(appearance.attenuation, [&] { return read_attenuation(line); });
+  } else {
+    assert(keyword == "light");
+    const Place place = line.place();
+    appearance.lights.push_back({read_light(line), place});
+  }
+}
+
+void expect_no_w(const Appearance& appearance) {
+  if (appearance.columns().w)
+    throw InputError(appearance.attributes->place,
+                     expected_but_found("attributes of a text that is not projected yet", "'w'"));
+}
+
+}  // namespace pipeline

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "libpipeline/camera.h"
+#include "libpipeline/text_reader.h"
+#include "libpipeline/vec.h"
+#include "libpipeline/vertex_attributes.h"
+
+namespace pipeline {
+
+/// A point that shines in all directions; an intensity of 1 a channel is full light.
+struct Light {
+  Vec3 position;
+  Vec3 intensity;
+};
+
+/// How much of the light a surface gives back: factors of the ambient, diffuse and specular parts, and the whole
+/// exponent of the specular one.
+struct Material {
+  double ambient = 1;
+  double diffuse = 1;
+  double specular = 0;
+  std::size_t shininess = 1;
+};
+
+/// A light at distance d counts 1 / (constant + linear d + quadratic d^2).
+struct Attenuation {
+  double constant = 1;
+  double linear = 0;
+  double quadratic = 0;
+};
+
+/// What a scene or a stage text's header says of colour and light, as far as it says it. A plain one says nothing.
+struct Appearance {
+  std::optional<Placed<AttributeSet>> attributes;
+  std::optional<Placed<Vec3>> background;  // red, green, blue from 0 to 255
+  std::optional<Placed<Vec3>> ambient;     // intensities
+  std::optional<Placed<Material>> material;
+  std::optional<Placed<Attenuation>> attenuation;
+  std::vector<Placed<Light>> lights;
+
+  /// The columns of the vertex lines.
+  [[nodiscard]] AttributeSet columns() const { return attributes ? attributes->value : AttributeSet{}; }
+};
+
+/// Who writes `attributes`: a scene may not ask for w, which is made by a projection.
+enum class AttributeSource { scene, stage_text };
+
+/// True for `attributes`, `background`, `ambient`, `material`, `attenuation` and `light`.
+bool is_appearance_keyword(std::string_view keyword);
+
+/// Reads what follows such a keyword, to the end of the line, and adds it to `appearance`. An InputError if it is
+/// out of range, or there already (reported at `keyword_place`); only lights may be many.
+void read_appearance_part(std::string_view keyword, const Place& keyword_place, LineScanner& line,
+                          AttributeSource source, Appearance& appearance);
+
+/// An InputError if the text has a column w, which only a projected text may have.
+void expect_no_w(const Appearance& appearance);
+
+}  // namespace pipeline

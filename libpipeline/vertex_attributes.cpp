@@ -1,0 +1,75 @@
+#include "libpipeline/vertex_attributes.h"
+
+namespace pipeline {
+namespace {
+
+template <typename Condition>
+double read_number(LineScanner& line, std::string_view name, std::string_view of, std::string_view range,
+                   Condition&& is_in_range) {
+  const LineScanner at_number = line;
+  const double value = line.number(name, of);
+  if (!is_in_range(value)) at_number.fail(std::string(name).append(of).append(range));
+  return value;
+}
+
+double read_channel(LineScanner& line, std::string_view name, std::string_view of) {
+  return read_number(line, name, of, " from 0 to 255", [](double value) { return value >= 0 && value <= 255; });
+}
+
+}  // namespace
+
+std::string column_names(const AttributeSet& attributes) {
+  std::string names = "x y z";
+  if (attributes.w) names += " w";
+  if (attributes.color) names += " r g b";
+  if (attributes.normal) names += " nx ny nz";
+  return names;
+}
+
+Vec3 read_color(LineScanner& line, std::string_view of) {
+  Vec3 color;
+  color.x = read_channel(line, "the red of ", of);
+  color.y = read_channel(line, "the green of ", of);
+  color.z = read_channel(line, "the blue of ", of);
+  return color;
+}
+
+VertexLineReader::VertexLineReader(const AttributeSet& attributes) : attributes_(attributes) {
+  for (std::size_t i = 0; i < names_.size(); ++i)
+    names_[i] = "vertex " + std::to_string(i + 1) + " of 3 (" + column_names(attributes) + ")";
+}
+
+VertexLine VertexLineReader::read(LineScanner& line, std::size_t vertex) const {
+  const std::string& name = names_[vertex];
+  VertexLine values;
+  values.position.x = line.number("the x of ", name);
+  values.position.y = line.number("the y of ", name);
+  values.position.z = line.number("the z of ", name);
+  if (attributes_.w)
+    values.w = read_number(line, "the w of ", name, " above 0", [](double value) { return value > 0; });
+  if (attributes_.color) values.color = read_color(line, name);
+  if (attributes_.normal) {
+    values.normal.x = line.number("the normal's x of ", name);
+    values.normal.y = line.number("the normal's y of ", name);
+    values.normal.z = line.number("the normal's z of ", name);
+  }
+  line.expect_end(name);
+  return values;
+}
+
+void AttributeArrays::clear() { truncate(0); }
+
+void AttributeArrays::truncate(std::size_t count) {
+  if (!w.empty()) w.resize(count);
+  if (!colors.empty()) colors.resize(count);
+  if (!normals.empty()) normals.resize(count);
+}
+
+void AttributeArrays::add(const std::array<VertexLine, 3>& vertices, const AttributeSet& attributes) {
+  const auto& [a, b, c] = vertices;
+  if (attributes.w) w.push_back({a.w, b.w, c.w});
+  if (attributes.color) colors.push_back({a.color, b.color, c.color});
+  if (attributes.normal) normals.push_back({a.normal, b.normal, c.normal});
+}
+
+}  // namespace pipeline

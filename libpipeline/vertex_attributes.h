@@ -1,0 +1,66 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "libpipeline/text_reader.h"
+#include "libpipeline/vec.h"
+
+namespace pipeline {
+
+/// Which columns stand behind x y z on a vertex line, in this order: w, the colour, the normal.
+struct AttributeSet {
+  bool w = false;
+  bool color = false;
+  bool normal = false;
+
+  [[nodiscard]] bool any() const { return w || color || normal; }
+  friend bool operator==(const AttributeSet&, const AttributeSet&) = default;
+};
+
+/// What one vertex line may hold; what its text has no columns for stays 0.
+struct VertexLine {
+  Vec3 position;
+  double w = 0;  // of clip space, above 0
+  Vec3 color;    // red, green, blue from 0 to 255
+  Vec3 normal;
+};
+
+/// The names of all columns: "x y z", then those of the attributes.
+std::string column_names(const AttributeSet& attributes);
+
+/// Reads vertex lines with these attributes. Errors name the columns that are expected.
+class VertexLineReader {
+ public:
+  explicit VertexLineReader(const AttributeSet& attributes = {});
+
+  [[nodiscard]] const AttributeSet& attributes() const { return attributes_; }
+  /// Reads the line of vertex `vertex` (0 to 2) to its end. An InputError unless w > 0 and colours lie from 0 to 255.
+  VertexLine read(LineScanner& line, std::size_t vertex) const;
+
+ private:
+  AttributeSet attributes_;
+  std::array<std::string, 3> names_;
+};
+
+/// Takes the red, green and blue of `of`, each from 0 to 255.
+Vec3 read_color(LineScanner& line, std::string_view of);
+
+/// The attributes of a batch's triangles: each array is empty where the text has no such columns, else as long as
+/// the batch.
+struct AttributeArrays {
+  std::vector<std::array<double, 3>> w;       // by vertex
+  std::vector<std::array<Vec3, 3>> colors;   // by vertex: red, green, blue from 0 to 255
+  std::vector<std::array<Vec3, 3>> normals;  // by vertex, in the space of the positions
+
+  void clear();
+  /// Keeps the first `count` triangles.
+  void truncate(std::size_t count);
+  /// Adds what `attributes` names of a triangle's vertex lines.
+  void add(const std::array<VertexLine, 3>& vertices, const AttributeSet& attributes);
+};
+
+}  // namespace pipeline

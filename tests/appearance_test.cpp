@@ -1,0 +1,150 @@
+#include "libpipeline/appearance.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "libpipeline/scene.h"
+#include "tests/text_input.h"
+
+namespace pipeline {
+namespace {
+
+// Lines 1 to 4 of a scene; its commands start on line 5.
+const std::string kCamera = "0 0 5\n0 0 0\n0 1 0\n60 1 1 100\n";
+const std::string kTriangle = "triangle\n0 0 0\n1 0 0\n0 1 0\n";
+
+/// What is known of a scene when all of it is read.
+struct ReadScene {
+  Appearance appearance;
+  std::vector<Light> lights;
+  std::vector<std::array<VertexLine, 3>> triangles;
+};
+
+ReadScene scene_of(const std::string& commands) {
+  const TextFile file(kCamera + commands + "end\n");
+  TextReader text(file.descriptor(), "scene.txt");
+  SceneReader reader(text);
+  ReadScene scene;
+  for (Command command = reader.next(); !std::holds_alternative<EndCommand>(command); command = reader.next()) {
+    if (const auto* light = std::get_if<LightCommand>(&command)) scene.lights.push_back(light->light);
+    if (std::holds_alternative<TriangleCommand>(command)) scene.triangles.push_back(reader.vertices());
+  }
+  scene.appearance = reader.appearance();
+  return scene;
+}
+
+std::string error_of(const std::string& commands) {
+  return message_of([&] { scene_of(commands); });
+}
+
+TEST(Appearance, APlainSceneSaysNothing) {
+  const Appearance appearance = scene_of(kTriangle).appearance;
+  EXPECT_FALSE(appearance.attributes || appearance.background || appearance.ambient || appearance.material ||
+               appearance.attenuation || !appearance.lights.empty());
+}
+
+TEST(Appearance, TakesEveryCommandOnItsOwnLineOrTheNext) {
+  for (const std::string blank : {" ", "\n"}) {
+    const ReadScene scene = scene_of("background" + blank + "0 127.5 255\nambient" + blank + "0.1 0.2 0.3\nmaterial" +
+                                     blank + "0.5 0.25 2 40\nattenuation" + blank + "1 0 0.5\nlight" + blank +
+                                     "1 2 3 0.5 1 2\nlight" + blank + "4 5 6 1 1 1\n");
+    EXPECT_EQ(scene.appearance.background->value, (Vec3{0, 127.5, 255}));
+    EXPECT_EQ(scene.appearance.ambient->value, (Vec3{0.1, 0.2, 0.3}));
+    EXPECT_EQ(scene.appearance.material->value.diffuse, 0.25);
+    EXPECT_EQ(scene.appearance.material->value.shininess, 40u);
+    EXPECT_EQ(scene.appearance.attenuation->value.quadratic, 0.5);
+    ASSERT_EQ(scene.lights.size(), 2u);
+    EXPECT_EQ(scene.lights[0].position, (Vec3{1, 2, 3}));
+    EXPECT_EQ(scene.lights[0].intensity, (Vec3{0.5, 1, 2}));
+    EXPECT_FALSE(scene.appearance.attributes);
+  }
+}
+
+TEST(Appearance, TheCurrentColorIsThatOfEveryVertexUntilItChanges) {
+  const ReadScene scene = scene_of("color 1 2 3\n" + kTriangle + "color\n4 5 6\n" + kTriangle);
+  EXPECT_TRUE(scene.appearance.columns() == (AttributeSet{false, true, false}));
+  EXPECT_EQ(scene.triangles.at(0)[2].color, (Vec3{1, 2, 3}));
+  EXPECT_EQ(scene.triangles.at(1)[0].color, (Vec3{4, 5, 6}));
+}
+
+TEST(Appearance, VerticesCarryTheAttributesAskedFor) {
+  const ReadScene scene =
+      scene_of("attributes color normal\ntriangle\n0 1 2 3 4 5 6 7 8\n0 0 0 0 0 255 0 0 1\n0 0 0 9 9 9 1 0 0\n");
+  EXPECT_EQ(scene.triangles.at(0)[0].position, (Vec3{0, 1, 2}));
+  EXPECT_EQ(scene.triangles.at(0)[0].color, (Vec3{3, 4, 5}));
+  EXPECT_EQ(scene.triangles.at(0)[0].normal, (Vec3{6, 7, 8}));
+}
+
+TEST(Appearance, TheCurrentColorGoesWithNormalsInEitherOrder) {
+  const std::string triangle = "triangle\n0 0 0 0 0 1\n1 0 0 0 0 1\n0 1 0 0 0 1\n";
+  for (const std::string commands : {"color 1 2 3\nattributes normal\n", "attributes normal\ncolor 1 2 3\n"}) {
+    const ReadScene scene = scene_of(commands + triangle);
+    EXPECT_TRUE(scene.appearance.columns() == (AttributeSet{false, true, true}));
+    EXPECT_EQ(scene.triangles.at(0)[1].color, (Vec3{1, 2, 3}));
+    EXPECT_EQ(scene.triangles.at(0)[1].normal, (Vec3{0, 0, 1}));
+  }
+}
+
+TEST(Appearance, ColorsLieFrom0To255) {
+  EXPECT_EQ(error_of("color 0 256 0\n"), "scene.txt:5:9: expected the green of the colour from 0 to 255, found '256'");
+  EXPECT_EQ(error_of("background\n-1 0 0\n"),
+            "scene.txt:6:1: expected the red of the background from 0 to 255, found '-1'");
+  EXPECT_EQ(error_of("attributes color\ntriangle 0 0 0 0 0 300\n"),
+            "scene.txt:6:20: expected the blue of vertex 1 of 3 (x y z r g b) from 0 to 255, found '300'");
+}
+
+TEST(Appearance, AVertexHasAllColumnsAndNoMore) {
+  EXPECT_EQ(error_of("attributes normal\ntriangle\n0 0 0\n"),
+            "scene.txt:7:6: expected the normal's x of vertex 1 of 3 (x y z nx ny nz), found the end of the line");
+  EXPECT_EQ(error_of("attributes color\ntriangle\n0 0 0 1 2 3\n0 0 0 1 2 3 4\n"),
+            "scene.txt:8:13: expected the end of the line after vertex 2 of 3 (x y z r g b), found '4'");
+  EXPECT_EQ(error_of("color 1 2 3\ntriangle\n0 0 0 1 2 3\n"),
+            "scene.txt:7:7: expected the end of the line after vertex 1 of 3 (x y z), found '1'");
+}
+
+TEST(Appearance, ANormalIsNotZero) {
+  EXPECT_EQ(error_of("attributes normal\ntriangle\n0 0 0 0 0 0\n"),
+            "scene.txt:7:1: expected a normal of vertex 1 of 3 other than 0 0 0, found '0'");
+}
+
+TEST(Appearance, AttributesAreNamedOnceInTheirOrder) {
+  const std::string expected = "expected attributes of [color] [normal], in this order, found ";
+  EXPECT_EQ(error_of("attributes normal color\n"), "scene.txt:5:19: " + expected + "'color'");
+  EXPECT_EQ(error_of("attributes w color\n"), "scene.txt:5:12: " + expected + "'w'");
+  EXPECT_EQ(error_of("attributes color\nattributes normal\n"),
+            "scene.txt:6:1: expected one attributes, found a second one after scene.txt:5:12");
+}
+
+TEST(Appearance, OnlyLightsMayBeMany) {
+  EXPECT_EQ(error_of("ambient 1 1 1\nambient 1 1 1\n"),
+            "scene.txt:6:1: expected one ambient, found a second one after scene.txt:5:9");
+}
+
+TEST(Appearance, IntensitiesAndFactorsAreNotNegative) {
+  EXPECT_EQ(error_of("light 0 0 0 1 1 -1\n"),
+            "scene.txt:5:17: expected the blue of the light of at least 0, found '-1'");
+  EXPECT_EQ(error_of("material 1 -1 0 1\n"),
+            "scene.txt:5:12: expected the diffuse factor of at least 0, found '-1'");
+}
+
+TEST(Appearance, TheShininessIsWhole) {
+  EXPECT_EQ(error_of("material 1 1 0 1.5\n"), "scene.txt:5:16: expected the shininess, a whole number, found '1.5'");
+}
+
+TEST(Appearance, AnAttenuationIsNotAllZero) {
+  EXPECT_EQ(error_of("attenuation 0 0 0\n"), "scene.txt:5:13: expected an attenuation other than 0 0 0, found '0'");
+}
+
+TEST(Appearance, IsSettledByTheFirstTriangle) {
+  EXPECT_EQ(error_of(kTriangle + "light 0 0 0 1 1 1\n"),
+            "scene.txt:9:1: expected 'light' before the first triangle, found 'light' behind it");
+  EXPECT_EQ(error_of(kTriangle + "color 1 2 3\n"),
+            "scene.txt:9:1: expected 'color' or 'attributes color' before the first triangle, too, found 'color' behind "
+            "it");
+}
+
+}  // namespace
+}  // namespace pipeline
