@@ -11,7 +11,8 @@
 namespace pipeline {
 namespace {
 
-constexpr std::size_t kMaxVertexLength = 3 * (kMaxNumberLength + 1);
+// Position, w, colour and normal.
+constexpr std::size_t kMaxVertexLength = 10 * (kMaxNumberLength + 1);
 // Nine numbers of one digit before the point and seven behind it, a separator each, and the blank line.
 constexpr std::size_t kMinFixedTriangleLength = 9 * 10 + 1;
 constexpr std::uint16_t kAllDecimal = 0x1ff;
@@ -26,16 +27,20 @@ bool is_vertex(std::string_view word) {
 bool is_header_keyword(std::string_view word) {
   constexpr std::array<std::string_view, 7> kKeywords = {"framed",      "eye",     "look", "up",
                                                          "perspective", "frustum", "ortho"};
-  return std::find(kKeywords.begin(), kKeywords.end(), word) != kKeywords.end();
+  return std::find(kKeywords.begin(), kKeywords.end(), word) != kKeywords.end() || is_appearance_keyword(word);
 }
 
-void print_header_numbers(TextWriter& text, std::string_view keyword, std::initializer_list<double> numbers) {
+void print_numbers(TextWriter& text, std::string_view keyword, std::initializer_list<double> numbers) {
   text.append(keyword);
   for (const double number : numbers) {
     char* out = text.reserve(kMaxNumberLength + 1);
     *out++ = ' ';
     text.commit(print_number(out, number, 0, {.shortest = true}));
   }
+}
+
+void print_header_numbers(TextWriter& text, std::string_view keyword, std::initializer_list<double> numbers) {
+  print_numbers(text, keyword, numbers);
   text.append("\n");
 }
 
@@ -47,6 +52,36 @@ void print_projection(TextWriter& text, const Projection& projection) {
   } else {
     const auto& o = std::get<Orthographic>(projection);
     print_header_numbers(text, "ortho", {o.left, o.right, o.bottom, o.top, o.near, o.far});
+  }
+}
+
+void print_attribute_names(TextWriter& text, const AttributeSet& attributes) {
+  text.append("attributes");
+  if (attributes.w) text.append(" w");
+  if (attributes.color) text.append(" color");
+  if (attributes.normal) text.append(" normal");
+  text.append("\n");
+}
+
+void print_appearance(TextWriter& text, const Appearance& look) {
+  const auto print_vec3 = [&](std::string_view keyword, const std::optional<Placed<Vec3>>& v) {
+    if (v) print_header_numbers(text, keyword, {v->value.x, v->value.y, v->value.z});
+  };
+  if (look.attributes) print_attribute_names(text, look.attributes->value);
+  print_vec3("background", look.background);
+  print_vec3("ambient", look.ambient);
+  if (look.material) {
+    const Material& m = look.material->value;
+    print_numbers(text, "material", {m.ambient, m.diffuse, m.specular});
+    text.append(" " + std::to_string(m.shininess) + "\n");
+  }
+  if (look.attenuation) {
+    const Attenuation& a = look.attenuation->value;
+    print_header_numbers(text, "attenuation", {a.constant, a.linear, a.quadratic});
+  }
+  for (const auto& [light, place] : look.lights) {
+    const auto& [p, i] = light;
+    print_header_numbers(text, "light", {p.x, p.y, p.z, i.x, i.y, i.z});
   }
 }
 
@@ -95,6 +130,7 @@ StageReader::StageReader(TextReader& text, bool marks_decimals)
     line_is_pending_ = !read_header_line(line);
   }
   check_camera(header_.camera);
+  vertex_line_ = VertexLineReader(header_.appearance.columns());
   // A mistake here is told before anybody misses a header line that it hides.
   header_end_ = line_is_pending_ ? line_.place() : text_.end_place();
   if (!line_is_pending_) expect_unframed_end();
@@ -106,6 +142,10 @@ StageReader::StageReader(TextReader& text, bool marks_decimals)
 bool StageReader::read_header_line(LineScanner& line) {
   const Place place = line.place();
   const std::string_view keyword = line.word();
+  if (is_appearance_keyword(keyword)) {
+    read_appearance_part(keyword, place, line, AttributeSource::stage_text, header_.appearance);
+    return true;
+  }
   if (keyword != "framed") return read_camera_part(keyword, place, line, header_.camera);
   if (header_.framed)
     throw InputError(place,
@@ -133,7 +173,7 @@ void StageReader::fill(TriangleBatch& batch) {
     // What is in memory is passed on before the reader waits for more: a triangle has three lines.
     if (!line_is_pending_ && !batch.empty() && (batch.size() >= kBatchSize || !text_.has_lines_waiting(3)))
       break;
-    if (!line_is_pending_ && read_fixed_form(batch)) continue;
+    if (!line_is_pending_ && !vertex_line_.attributes().any() && read_fixed_form(batch)) continue;
     if (!line_is_pending_ && !text_.next_filled_line(line_)) {
       expect_unframed_end();
       done_ = true;
@@ -200,13 +240,21 @@ void StageReader::read_vertices(LineScanner& line, TriangleBatch& batch) {
   Triangle triangle;
   VertexLines lines{};
   ExactParts exact;
+  std::array<VertexLine, 3> vertices;
+  const AttributeSet& attributes = vertex_line_.attributes();
   for (std::size_t i = 0; i < 3; ++i) {
     if (i > 0) next_vertex_line(line, i);
     if (marks_decimals_) exact.add_vertex(line, i);
-    triangle[i] = line.vec3(kVertexNames[i]);
+    if (attributes.any()) {
+      vertices[i] = vertex_line_.read(line, i);
+      triangle[i] = vertices[i].position;
+    } else {
+      triangle[i] = line.vec3(kVertexNames[i]);
+    }
     lines[i] = line.line_number();
   }
   batch.add(triangle, next_number_++, lines);
+  batch.attributes.add(vertices, attributes);
   if (marks_decimals_) exact.set_last(batch);
 }
 
@@ -263,12 +311,14 @@ void StageWriter::write_header(const StageHeader& header) {
   print_vec3("look", camera.look);
   print_vec3("up", camera.up);
   if (camera.projection) print_projection(text_, camera.projection->value);
+  print_appearance(text_, header.appearance);
+  columns_ = header.appearance.columns();
 }
 
 void StageWriter::write(const TriangleBatch& batch) {
   assert(batch.low_parts.empty() || batch.low_parts.size() == batch.size());
   if (!keeps_four_digits_) note_sizes(batch);
-  const bool may_be_fixed = format_.decimals == 7 && !format_.shortest && batch.low_parts.empty();
+  const bool may_be_fixed = format_.decimals == 7 && !format_.shortest && batch.low_parts.empty() && !columns_.any();
   std::size_t index = 0;
   while (index < batch.size()) {
     if (may_be_fixed) index += write_fixed_form(batch, index);
@@ -313,18 +363,36 @@ void StageWriter::write_triangle(const TriangleBatch& batch, std::size_t index) 
   next_number_ = batch.numbers[index] + 1;
   const Triangle low_part = batch.low_parts.empty() ? Triangle{} : batch.low_parts[index];
   char* out = text_.reserve(kMaxTriangleLength);
-  for (std::size_t v = 0; v < 3; ++v) out = print_vertex(out, batch.triangles[index][v], low_part[v]);
+  for (std::size_t v = 0; v < 3; ++v) {
+    out = print_vertex(out, batch.triangles[index][v], low_part[v]);
+    if (columns_.any()) out = print_attributes(out, batch.attributes, index, v);
+    *out++ = '\n';
+  }
   *out++ = '\n';
   text_.commit(out);
 }
 
+/// Prints three numbers, blanks between.
 char* StageWriter::print_vertex(char* out, const Vec3& vertex, const Vec3& low_part) {
   out = print_number(out, vertex.x, low_part.x, format_);
   *out++ = ' ';
   out = print_number(out, vertex.y, low_part.y, format_);
   *out++ = ' ';
-  out = print_number(out, vertex.z, low_part.z, format_);
-  *out++ = '\n';
+  return print_number(out, vertex.z, low_part.z, format_);
+}
+
+char* StageWriter::print_attributes(char* out, const AttributeArrays& attributes, std::size_t index,
+                                    std::size_t vertex) {
+  const auto print_vec3 = [&](const Vec3& v) {
+    *out++ = ' ';
+    out = print_vertex(out, v, {});
+  };
+  if (columns_.w) {
+    *out++ = ' ';
+    out = print_number(out, attributes.w[index][vertex], 0, {.shortest = true});
+  }
+  if (columns_.color) print_vec3(attributes.colors[index][vertex]);
+  if (columns_.normal) print_vec3(attributes.normals[index][vertex]);
   return out;
 }
 

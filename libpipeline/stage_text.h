@@ -4,6 +4,7 @@
 #include <exception>
 #include <string>
 
+#include "libpipeline/appearance.h"
 #include "libpipeline/camera.h"
 #include "libpipeline/number_text.h"
 #include "libpipeline/text_reader.h"
@@ -16,9 +17,13 @@ namespace pipeline {
 //
 //   header lines   a keyword and its numbers, each at most once, before the first triangle:
 //                    framed | eye X Y Z | look X Y Z | up X Y Z |
-//                    perspective FOVY ASPECT NEAR FAR | frustum L R B T N F | ortho L R B T N F
+//                    perspective FOVY ASPECT NEAR FAR | frustum L R B T N F | ortho L R B T N F |
+//                    attributes [w] [color] [normal] | background R G B | ambient R G B |
+//                    material AMBIENT DIFFUSE SPECULAR SHININESS |
+//                    attenuation CONSTANT LINEAR QUADRATIC | light X Y Z R G B (any number)
 //   triangle N     optional: the next triangle is triangle N of the scene; counting goes on from there
-//   X Y Z          three vertex lines, then a blank line
+//   X Y Z          three vertex lines, then a blank line; behind the position the columns that `attributes`
+//                  names, in this order: W, R G B (0 to 255), NX NY NZ
 //   error ...      an earlier stage failed, and what it said; nothing follows
 //   end            the last line of a framed text
 //
@@ -29,6 +34,7 @@ namespace pipeline {
 struct StageHeader {
   bool framed = false;
   CameraText camera;
+  Appearance appearance = {};
 };
 
 /// The text ends with an `error` line. `reason()` is what stands on it: "tool: message" of the stage that
@@ -74,6 +80,7 @@ class StageReader {
   Place header_end_;
   Place framed_place_;
   LineScanner line_;
+  VertexLineReader vertex_line_;
   std::size_t fixed_form_guess_ = 1;  // how many triangles in fixed form to expect: room is made for them
   bool line_is_pending_ = false;  // line_ was read but not yet used
   bool done_ = false;
@@ -100,11 +107,13 @@ class StageWriter {
   std::size_t write_fixed_form(const TriangleBatch& batch, std::size_t begin);
   void write_triangle(const TriangleBatch& batch, std::size_t index);
   char* print_vertex(char* out, const Vec3& vertex, const Vec3& low_part);
+  char* print_attributes(char* out, const AttributeArrays& attributes, std::size_t index, std::size_t vertex);
 
   TextWriter& text_;
   NumberFormat format_;
   bool bare_;
   bool framed_ = false;
+  AttributeSet columns_;
   std::uint64_t next_number_ = 0;
   bool keeps_four_digits_ = false;
   bool has_filled_coordinate_ = false;

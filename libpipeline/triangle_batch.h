@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "libpipeline/vec.h"
+#include "libpipeline/vertex_attributes.h"
 
 namespace pipeline {
 
@@ -32,6 +33,8 @@ struct TriangleBatch {
   /// (hi + low part, to 7 decimals) and not only its nearest double: bit 3 * vertex + axis. Empty if not
   /// asked for.
   std::vector<std::uint16_t> decimal_marks;
+  /// What vertices carry beside their position, in scenes that ask for it.
+  AttributeArrays attributes;
 
   [[nodiscard]] std::size_t size() const { return triangles.size(); }
   [[nodiscard]] bool empty() const { return triangles.empty(); }
@@ -41,6 +44,7 @@ struct TriangleBatch {
     numbers.clear();
     lines.clear();
     decimal_marks.clear();
+    attributes.clear();
   }
   /// Keeps the first `count` triangles.
   void truncate(std::size_t count) {
@@ -49,6 +53,7 @@ struct TriangleBatch {
     lines.resize(count);
     if (!low_parts.empty()) low_parts.resize(count);
     if (!decimal_marks.empty()) decimal_marks.resize(count);
+    attributes.truncate(count);
   }
   void add(const Triangle& triangle, std::uint64_t number, const VertexLines& vertex_lines) {
     triangles.push_back(triangle);
