@@ -10,8 +10,10 @@
 namespace pipeline {
 
 /// A point in clip space before the divide: inside the view volume where -w <= x, y, z <= w.
+/// `weights` say which mean of the triangle's corners it is, for their attributes.
 struct ClipVertex {
   Ball x, y, z, w;
+  std::array<double, 3> weights{};
 };
 
 ClipVertex to_clip_space(const ProjectionTransform& projection, const Vec3& p_view);

@@ -38,6 +38,21 @@ double as_factor(const Ball& number) {
   return is_fine ? nearest : std::numeric_limits<double>::quiet_NaN();
 }
 
+bool has_attributes(const TriangleBatch& batch) {
+  return !batch.attributes.colors.empty() || !batch.attributes.normals.empty();
+}
+
+Vec3 mean(const std::array<Vec3, 3>& corners, const std::array<double, 3>& weights) {
+  const auto& [a, b, c] = corners;
+  const auto& [i, j, k] = weights;
+  return {i * a.x + j * b.x + k * c.x, i * a.y + j * b.y + k * c.y, i * a.z + j * b.z + k * c.z};
+}
+
+/// Weights are rounded: what lies on the border may come out beyond it.
+Vec3 clamped_color(const Vec3& c) {
+  return {std::clamp(c.x, 0.0, 255.0), std::clamp(c.y, 0.0, 255.0), std::clamp(c.z, 0.0, 255.0)};
+}
+
 BallVec3 perspective_divide(const ClipVertex& p_clip) {
   return {p_clip.x / p_clip.w, p_clip.y / p_clip.w, p_clip.z / p_clip.w};
 }
@@ -118,6 +133,18 @@ bool ProjectionStage::divide_in_doubles(const Vec3& p_view, Vec3& p_ndc) const {
          rounder_.accepts(p_ndc.z, z_error);
 }
 
+void ProjectionStage::add_attributes(const TriangleBatch& p_view, std::size_t index,
+                                     const std::array<CornerMix, 3>& mixes, TriangleBatch& p_ndc) {
+  const AttributeArrays& corners = p_view.attributes;
+  std::array<VertexLine, 3> vertices;
+  for (std::size_t v = 0; v < 3; ++v) {
+    vertices[v].w = mixes[v].w;
+    if (!corners.colors.empty()) vertices[v].color = clamped_color(mean(corners.colors[index], mixes[v].weights));
+    if (!corners.normals.empty()) vertices[v].normal = mean(corners.normals[index], mixes[v].weights);
+  }
+  p_ndc.attributes.add(vertices, {true, !corners.colors.empty(), !corners.normals.empty()});
+}
+
 void ProjectionStage::project_whole(const TriangleBatch& p_view, std::size_t index, TriangleBatch& p_ndc) {
   const std::size_t target = p_ndc.size();
   p_ndc.add({}, p_view.numbers[index], p_view.lines[index]);
@@ -130,6 +157,9 @@ void ProjectionStage::project_whole(const TriangleBatch& p_view, std::size_t ind
     if (divide_in_doubles(p, p_ndc.triangles[target][v])) continue;
     rounder_.set_vertex(p_ndc, target, v, perspective_divide(to_clip_space(projection_, p)));
   }
+  const auto& [a, b, c] = p_view.triangles[index];
+  if (has_attributes(p_view))
+    add_attributes(p_view, index, {{{{1, 0, 0}, w_of(a)}, {{0, 1, 0}, w_of(b)}, {{0, 0, 1}, w_of(c)}}}, p_ndc);
 }
 
 void ProjectionStage::project_clipped(const TriangleBatch& p_view, std::size_t index, TriangleBatch& p_ndc) {
@@ -138,6 +168,7 @@ void ProjectionStage::project_clipped(const TriangleBatch& p_view, std::size_t i
   unsigned outside_all = ~0u;
   for (std::size_t v = 0; v < 3; ++v) {
     corners[v] = to_clip_space(projection_, p_view.triangles[index][v]);
+    corners[v].weights[v] = 1;
     const unsigned code = outcode(corners[v]);
     outside_any |= code;
     outside_all &= code;
@@ -162,6 +193,9 @@ void ProjectionStage::project_clipped(const TriangleBatch& p_view, std::size_t i
     p_ndc.add({}, p_view.numbers[index], p_view.lines[index]);
     const std::array<const ClipVertex*, 3> piece = {&polygon[0], &polygon[i], &polygon[i + 1]};
     for (std::size_t v = 0; v < 3; ++v) rounder_.set_vertex(p_ndc, target, v, perspective_divide(*piece[v]));
+    if (!has_attributes(p_view)) continue;
+    const auto mix = [&](std::size_t v) { return CornerMix{piece[v]->weights, piece[v]->w.nearest_double()}; };
+    add_attributes(p_view, index, {mix(0), mix(1), mix(2)}, p_ndc);
   }
 }
 

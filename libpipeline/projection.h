@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -36,7 +37,8 @@ class ProjectionStage {
   ProjectionStage(const ProjectionTransform& projection, ClipMode clip, CullMode cull, CoordinateRounder& rounder);
 
   /// Fills `p_ndc` with the images of the triangles in `p_view`, in order. A clipped triangle becomes several with
-  /// its number, a dropped one none. An InputError with the vertex's line if a vertex that has to be divided is
+  /// its number, a dropped one none. Attributes are interpolated in clip space (normals are not made unit vectors
+  /// again, so that a piece shades like the whole), and w joins them. An InputError with the vertex's line if a vertex that has to be divided is
   /// not in front of the eye; `p_ndc` then holds the images of the triangles before it.
   void project(const TriangleBatch& p_view, TriangleBatch& p_ndc);
 
@@ -48,9 +50,18 @@ class ProjectionStage {
     double x_scale, x_offset, y_scale, y_offset, near, far, depth_range;
   };
 
+  /// What a vertex of a piece has of its triangle's corners, and its w.
+  struct CornerMix {
+    std::array<double, 3> weights;
+    double w;
+  };
+
+  [[nodiscard]] double w_of(const Vec3& p_view) const { return projection_.is_perspective ? -p_view.z : 1; }
   [[nodiscard]] bool is_culled(const Triangle& p_view) const;
   [[nodiscard]] bool needs_clipping(const Triangle& p_view) const;
   [[nodiscard]] bool divide_in_doubles(const Vec3& p_view, Vec3& p_ndc) const;
+  void add_attributes(const TriangleBatch& p_view, std::size_t index, const std::array<CornerMix, 3>& mixes,
+                      TriangleBatch& p_ndc);
   void project_triangle(const TriangleBatch& p_view, std::size_t index, TriangleBatch& p_ndc);
   void project_whole(const TriangleBatch& p_view, std::size_t index, TriangleBatch& p_ndc);
   void project_clipped(const TriangleBatch& p_view, std::size_t index, TriangleBatch& p_ndc);

@@ -128,4 +128,11 @@ ProjectionTransform clip_from_view(const Placed<Projection>& projection, AspectR
   return orthographic(std::get<Orthographic>(projection.value));
 }
 
+Projection volume_of(const Projection& projection, const ProjectionTransform& transform) {
+  if (!std::holds_alternative<Perspective>(projection)) return projection;
+  const double right = (Ball(transform.near) / transform.x_scale).nearest_double();
+  const double top = (Ball(transform.near) / transform.y_scale).nearest_double();
+  return Frustum{-right, right, -top, top, transform.near, transform.far};
+}
+
 }  // namespace pipeline

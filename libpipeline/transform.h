@@ -48,4 +48,7 @@ struct ProjectionTransform {
 /// The camera's projection. An InputError at `projection.place` if fovX is not within (0, 180) degrees.
 ProjectionTransform clip_from_view(const Placed<Projection>& projection, AspectRule aspect_rule);
 
+/// The projection with the aspect rule already in it: a perspective as the frustum that `transform`, made of it, is.
+Projection volume_of(const Projection& projection, const ProjectionTransform& transform);
+
 }  // namespace pipeline

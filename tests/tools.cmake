@@ -14,6 +14,7 @@ tools_test(PassTrianglesOnAtOnce tools_streaming_test Streaming Pieces PipeSize)
 tools_test(SurviveFaults tools_faults_test)
 tools_test(PrintNumbers tools_fuzz_test)
 tools_test(DrawOnThreadsAndShowProgress zbuf_tool_test)
+tools_test(CarryColorAndLight tools_colors_test)
 
 # A sanitizer's own memory says nothing about the tools'.
 if(NOT CMAKE_CXX_FLAGS MATCHES "-fsanitize")

@@ -25,7 +25,7 @@ int main(int argc, char** argv) {
     CoordinateRounder rounder = numbers.rounder(tool.input().file());
     ModelStage stage(scene, rounder);
     StageWriter writer(tool.output(), numbers.format(), bare);
-    writer.write_header({framed, scene.camera()});
+    writer.write_header({framed, scene.camera(), stage.appearance()});
 
     const auto read = [&](TriangleBatch& batch) { return stage.read(batch); };
     StageLoop{tool, writer, rounder}.run(read, [](TriangleBatch&) {});

@@ -50,6 +50,13 @@ std::string to_text(const ProjectionCounts& counts) {
          std::to_string(counts.clipped) + " cut into " + std::to_string(counts.pieces);
 }
 
+/// The columns of a projected text: with others, w.
+Appearance in_clip_space(Appearance appearance) {
+  expect_no_w(appearance);
+  if (appearance.attributes) appearance.attributes->value.w = true;
+  return appearance;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -68,7 +75,11 @@ int main(int argc, char** argv) {
     CoordinateRounder rounder = numbers.rounder(tool.input().file());
     ProjectionStage stage(projection, chosen.clip, chosen.cull, rounder);
     StageWriter writer(tool.output(), numbers.format(), false);
-    writer.write_header({reader.header().framed, {}});
+    const Appearance appearance = in_clip_space(reader.header().appearance);
+    CameraText rest;
+    if (!appearance.lights.empty())
+      rest.projection = {volume_of(camera.projection->value, projection), camera.projection->place};
+    writer.write_header({reader.header().framed, rest, appearance});
 
     TriangleBatch p_view;
     const auto read = [&](TriangleBatch& batch) { return reader.read(batch); };

@@ -1,5 +1,6 @@
 // view: puts the camera at the origin, looking down -z. World space in, view space out.
 
+#include "libpipeline/attribute_transform.h"
 #include "libpipeline/stage_text.h"
 #include "libpipeline/transform.h"
 #include "libpipeline/vertex_transform.h"
@@ -26,6 +27,12 @@ ViewTransform view_of(const CameraText& camera, const Place& header_end) {
   return view_from_world(camera.eye->value, camera.look->value, camera.up->value);
 }
 
+Appearance in_view_space(Appearance appearance, const ViewTransform& view) {
+  expect_no_w(appearance);
+  for (auto& light : appearance.lights) light = transformed(view, light);
+  return appearance;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -38,13 +45,19 @@ int main(int argc, char** argv) {
   return tool.run(argc, argv, [&] {
     StageReader reader(tool.input());
     const CameraText camera = cameras.camera(reader.header().camera, tool);
-    const VertexTransform view_from_world(view_of(camera, reader.header_end()));
+    const ViewTransform view = view_of(camera, reader.header_end());
+    const VertexTransform view_from_world(view);
+    const NormalTransform view_normal_from_world(view);
     CoordinateRounder rounder = numbers.rounder(tool.input().file());
     StageWriter writer(tool.output(), numbers.format(), bare);
-    writer.write_header({reader.header().framed, without_position(camera)});
+    writer.write_header({reader.header().framed, without_position(camera), in_view_space(reader.header().appearance, view)});
 
     const auto read = [&](TriangleBatch& batch) { return reader.read(batch); };
-    const auto transform = [&](TriangleBatch& batch) { view_from_world.apply(batch, rounder); };
+    const auto transform = [&](TriangleBatch& batch) {
+      for (auto& normals : batch.attributes.normals)
+        for (Vec3& normal : normals) normal = view_normal_from_world(normal);
+      view_from_world.apply(batch, rounder);
+    };
     StageLoop{tool, writer, rounder}.run(read, transform);
   });
 }

@@ -1,0 +1,76 @@
+#include "libpipeline/attribute_transform.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pipeline {
+namespace {
+
+double largest_part(const Vec3& v) { return std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)}); }
+
+double dot(const Vec3& a, const Vec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+
+Vec3 nearest(const BallVec3& v) { return {v.x.nearest_double(), v.y.nearest_double(), v.z.nearest_double()}; }
+
+BallVec3 linear_row(const std::array<Ball, 4>& row) { return {row[0], row[1], row[2]}; }
+
+BallVec3 over_largest(const BallVec3& row, double largest) {
+  return {row.x / Ball(largest), row.y / Ball(largest), row.z / Ball(largest)};
+}
+
+Placed<Light> moved_to(const Placed<Light>& light, const Vec3& position) {
+  if (!std::isfinite(largest_part(position)))
+    throw InputError(light.place, expected_but_found("a light whose image is within a double's range", "an overflow"));
+  return {{position, light.value.intensity}, light.place};
+}
+
+}  // namespace
+
+Vec3 unit_vector(const Vec3& v) {
+  const double largest = largest_part(v);
+  if (largest == 0) return {};
+  // Divided first, so that no square leaves a double's range.
+  const Vec3 scaled = {v.x / largest, v.y / largest, v.z / largest};
+  const double length = std::sqrt(dot(scaled, scaled));
+  return {scaled.x / length, scaled.y / length, scaled.z / length};
+}
+
+NormalTransform::NormalTransform(const AffineMatrix& world_from_model) {
+  const auto& rows = world_from_model.rows;
+  set_rows(linear_row(rows[0]), linear_row(rows[1]), linear_row(rows[2]));
+}
+
+NormalTransform::NormalTransform(const ViewTransform& view_from_world)
+    : rows_{nearest(view_from_world.right), nearest(view_from_world.up), nearest(view_from_world.backward)} {}
+
+/// Row i of the cofactors is the cross product of the other two rows of M, in turn.
+void NormalTransform::set_rows(const BallVec3& x, const BallVec3& y, const BallVec3& z) {
+  const std::array<BallVec3, 3> cofactors = {cross(y, z), cross(z, x), cross(x, y)};
+  const double side = pipeline::dot(x, cofactors[0]).sign() < 0 ? -1 : 1;
+  double largest = 0;
+  for (const BallVec3& row : cofactors)
+    largest = std::max({largest, row.x.magnitude(), row.y.magnitude(), row.z.magnitude()});
+  // Only directions count: brought near 1, the cofactors stay within a double's range.
+  if (largest == 0 || !std::isfinite(largest)) largest = 1;
+  for (std::size_t i = 0; i < 3; ++i) rows_[i] = nearest(over_largest(cofactors[i], side * largest));
+}
+
+Vec3 NormalTransform::operator()(const Vec3& normal) const {
+  const Vec3 n = unit_vector(normal);
+  return unit_vector({dot(rows_[0], n), dot(rows_[1], n), dot(rows_[2], n)});
+}
+
+Placed<Light> transformed(const AffineMatrix& world_from_model, Placed<Light> light) {
+  const BallVec3 p = to_balls(light.value.position);
+  const auto image = [&](const std::array<Ball, 4>& row) { return pipeline::dot(linear_row(row), p) + row[3]; };
+  const auto& rows = world_from_model.rows;
+  return moved_to(light, nearest({image(rows[0]), image(rows[1]), image(rows[2])}));
+}
+
+Placed<Light> transformed(const ViewTransform& view, Placed<Light> light) {
+  const BallVec3 p = to_balls(light.value.position) - to_balls(view.eye);
+  return moved_to(light, nearest({pipeline::dot(view.right, p), pipeline::dot(view.up, p),
+                                  pipeline::dot(view.backward, p)}));
+}
+
+}  // namespace pipeline
