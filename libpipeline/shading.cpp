@@ -1,0 +1,67 @@
+#include "libpipeline/shading.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "libpipeline/attribute_transform.h"
+
+namespace pipeline {
+namespace {
+
+double dot(const Vec3& a, const Vec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+
+Vec3 sum(const Vec3& a, const Vec3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+
+Vec3 difference(const Vec3& a, const Vec3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+
+Vec3 scaled(const Vec3& v, double factor) { return {factor * v.x, factor * v.y, factor * v.z}; }
+
+Vec3 product(const Vec3& a, const Vec3& b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
+
+Vec3 turned_towards(const Vec3& direction, const Vec3& v) { return dot(v, direction) < 0 ? scaled(v, -1) : v; }
+
+double attenuation_at(double distance, const Attenuation& a) {
+  return 1 / (a.constant + a.linear * distance + a.quadratic * distance * distance);
+}
+
+std::uint8_t rounded_channel(double value) {
+  return static_cast<std::uint8_t>(std::floor(std::clamp(value, 0.0, 255.0) + 0.5));
+}
+
+}  // namespace
+
+double whole_power(double base, std::size_t exponent) {
+  double power = 1;
+  for (; exponent != 0; exponent >>= 1) {
+    if ((exponent & 1) != 0) power *= base;
+    base *= base;
+  }
+  return power;
+}
+
+Vec3 lit_color(const SurfacePoint& point, const Lighting& lighting) {
+  const Material& material = lighting.material;
+  const Vec3 to_eye = lighting.is_perspective ? unit_vector(scaled(point.position, -1)) : Vec3{0, 0, 1};
+  const Vec3 normal = turned_towards(to_eye, unit_vector(point.normal));
+  Vec3 diffuse = scaled(lighting.ambient, material.ambient);
+  Vec3 specular;
+  for (const Light& light : lighting.lights) {
+    const Vec3 way = difference(light.position, point.position);
+    const Vec3 to_light = unit_vector(way);
+    const double distance = dot(way, to_light);
+    if (!(distance > 0)) continue;
+    const Vec3 intensity = scaled(light.intensity, attenuation_at(distance, lighting.attenuation));
+    diffuse = sum(diffuse, scaled(intensity, material.diffuse * std::max(0.0, dot(normal, to_light))));
+    const Vec3 half = unit_vector(sum(to_light, to_eye));
+    const double highlight = whole_power(std::max(0.0, dot(normal, half)), material.shininess);
+    specular = sum(specular, scaled(intensity, material.specular * highlight));
+  }
+  return sum(product(point.color, diffuse), scaled(specular, 255));
+}
+
+Color rounded_color(const Vec3& color) {
+  return {rounded_channel(color.x), rounded_channel(color.y), rounded_channel(color.z)};
+}
+
+}  // namespace pipeline
