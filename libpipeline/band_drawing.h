@@ -29,9 +29,11 @@ class BandDrawing {
 
   /// Where the next batch is to be put.
   [[nodiscard]] TriangleBatch& next_batch() { return filling().batches[filling().batch_count]; }
-  /// Takes what was put there. It may be drawn later, at the latest in finish().
-  void draw_batch() {
-    sort_into_bands(filling());
+  /// Takes what was put there, each triangle in the colour `color_of(batch, index)`, which is asked for at once and in
+  /// order. It may be drawn later, at the latest in finish().
+  template <typename ColorOf>
+  void draw_batch(ColorOf&& color_of) {
+    sort_into_bands(filling(), color_of);
     if (filling().is_full()) draw_round();
   }
   /// Draws all that is not drawn yet.
@@ -62,12 +64,13 @@ class BandDrawing {
 
   [[nodiscard]] Round& filling() { return rounds_[filling_]; }
 
-  void sort_into_bands(Round& round) {
+  template <typename ColorOf>
+  void sort_into_bands(Round& round, ColorOf& color_of) {
     const std::size_t number = round.batch_count++;
     const TriangleBatch& batch = round.batches[number];
     round.colors[number].clear();
     for (std::size_t i = 0; i < batch.size(); ++i) {
-      round.colors[number].push_back(colors_.of(batch.numbers[i]));
+      round.colors[number].push_back(color_of(batch, i));
       const RowRange range = bands_.bands_of(batch.triangles[i]);
       for (int band = range.first; band < range.end; ++band)
         round.bands[static_cast<std::size_t>(band)].push_back(
@@ -97,7 +100,6 @@ class BandDrawing {
 
   Visible& visible_;
   RowBands bands_;
-  TriangleColors colors_;
   std::array<Round, 2> rounds_;  // one is filled while the other is drawn
   std::size_t filling_ = 0;
   WorkerTeam team_;  // the last: its threads end before what they use

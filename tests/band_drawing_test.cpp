@@ -41,11 +41,13 @@ template <typename Visible>
 Frame drawn_in_bands(const std::vector<Triangle>& scene, const ScreenConfig& screen, int thread_count, std::size_t batch_size) {
   Visible visible(screen);
   BandDrawing drawing(visible, screen, thread_count);
+  TriangleColors colors;
+  const auto color_of = [&](const TriangleBatch& batch, std::size_t i) { return colors.of(batch.numbers[i]); };
   for (std::size_t i = 0; i < scene.size();) {
     TriangleBatch& batch = drawing.next_batch();
     batch.clear();
     for (; batch.size() < batch_size && i < scene.size(); ++i) batch.add(scene[i], i, {});
-    drawing.draw_batch();
+    drawing.draw_batch(color_of);
   }
   drawing.finish();
   return frame_of(visible);
@@ -99,7 +101,7 @@ TEST(BandDrawing, MayBeGivenUpInTheMiddle) {
   BandDrawing drawing(visible, kScreen, 3);
   for (int i = 0; i < 5; ++i) {
     drawing.next_batch().add({{{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}}}, 0, {});
-    drawing.draw_batch();
+    drawing.draw_batch([](const TriangleBatch&, std::size_t) { return Color(); });
   }
 }
 

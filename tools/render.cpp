@@ -9,16 +9,31 @@
 #include "libpipeline/image_file.h"
 #include "libpipeline/output_file.h"
 #include "libpipeline/stage_text.h"
+#include "libpipeline/surface_shader.h"
 #include "libpipeline/visibility.h"
 #include "tools/progress.h"
+#include "tools/shading_options.h"
 
 namespace pipeline {
 namespace {
 
+/// What a triangle is drawn with: its colour, or what its pixels are shaded by later.
+class Paint {
+ public:
+  explicit Paint(std::optional<SurfaceShader>& shader) : shader_(shader) {}
+  Color operator()(const TriangleBatch& p_ndc, std::size_t index) {
+    const Color color = colors_.of(p_ndc.numbers[index]);
+    return shader_ ? shader_->add(p_ndc, index, color) : color;
+  }
+
+ private:
+  TriangleColors colors_;
+  std::optional<SurfaceShader>& shader_;
+};
+
 /// Reads the triangles: `batch()` is where the next ones go, `draw()` draws them.
 template <typename Batch, typename Draw>
-void for_each_batch(Tool& tool, Coverage coverage, Batch&& batch, Draw&& draw) {
-  StageReader reader(tool.input(), coverage == Coverage::center);
+void for_each_batch(Tool& tool, StageReader& reader, Batch&& batch, Draw&& draw) {
   Progress progress("zbuf");
   while (reader.read(batch())) {
     tool.timing().triangle_count += batch().size();
@@ -30,27 +45,26 @@ void for_each_batch(Tool& tool, Coverage coverage, Batch&& batch, Draw&& draw) {
 }
 
 template <typename CoverageRule, typename Depth>
-void draw_all(Tool& tool, const RenderOptions& chosen, const ScreenConfig& screen,
+void draw_all(Tool& tool, const RenderOptions& chosen, const ScreenConfig& screen, StageReader& reader, Paint& paint,
               ZBufferAlgorithm<CoverageRule, Depth>& visible) {
   BandDrawing drawing(visible, screen, chosen.thread_count);
   for_each_batch(
-      tool, chosen.coverage, [&]() -> TriangleBatch& { return drawing.next_batch(); }, [&] { drawing.draw_batch(); });
+      tool, reader, [&]() -> TriangleBatch& { return drawing.next_batch(); }, [&] { drawing.draw_batch(paint); });
   drawing.finish();
 }
-
 template <typename CoverageRule, typename Depth>
-void draw_all(Tool& tool, const RenderOptions& chosen, const ScreenConfig&,
+void draw_all(Tool& tool, const RenderOptions&, const ScreenConfig&, StageReader& reader, Paint& paint,
               ScanlineAlgorithm<CoverageRule, Depth>& visible) {
-  TriangleColors colors;
   TriangleBatch p_ndc;
   const auto draw = [&] {
-    for (std::size_t i = 0; i < p_ndc.size(); ++i) visible.draw(exact_triangle(p_ndc, i), colors.of(p_ndc.numbers[i]));
+    for (std::size_t i = 0; i < p_ndc.size(); ++i) visible.draw(exact_triangle(p_ndc, i), paint(p_ndc, i));
   };
-  for_each_batch(tool, chosen.coverage, [&]() -> TriangleBatch& { return p_ndc; }, draw);
+  for_each_batch(tool, reader, [&]() -> TriangleBatch& { return p_ndc; }, draw);
 }
 
 template <VisibilityAlgorithm Visible>
-void write_all(Tool& tool, const RenderOptions& chosen, const ScreenConfig& screen, const Visible& visible) {
+void write_all(Tool& tool, const RenderOptions& chosen, const ScreenConfig& screen, const Visible& visible,
+               std::optional<SurfaceShader>& shader) {
   OutputFile image(chosen.image_path);
   ImageWriter pixels(image.descriptor(), chosen.image_path, image_format_of(chosen.image_path),
                      screen.columns, screen.rows);
@@ -61,9 +75,10 @@ void write_all(Tool& tool, const RenderOptions& chosen, const ScreenConfig& scre
     z_buffer_text.emplace(z_buffer->descriptor(), chosen.z_buffer_path);
   }
   TextWriter& depths = z_buffer_text ? *z_buffer_text : tool.output();
+  int row_number = 0;
   visible.for_each_row([&](const VisibleRow& row) {
     write_depth_row(depths, row.depths, screen.rear);
-    pixels.write_row(row.colors);
+    pixels.write_row(shader ? shader->shade(row_number++, row.colors) : row.colors);
   });
   depths.flush();
   pixels.finish();
@@ -75,11 +90,15 @@ void write_all(Tool& tool, const RenderOptions& chosen, const ScreenConfig& scre
 
 template <VisibilityAlgorithm Visible>
 void render_with(Tool& tool, const RenderOptions& chosen, const ScreenConfig& screen) {
-  Visible visible(screen);
+  StageReader reader(tool.input(), chosen.coverage == Coverage::center);
+  std::optional<SurfaceShader> shader = surface_shader(reader, screen, chosen.shading);
+  tool.timing().lap(&Timing::read_seconds);
+  Visible visible(screen, shader ? SurfaceShader::kNoSurface : background_color(reader.header().appearance));
   tool.timing().lap(&Timing::work_seconds);
-  draw_all(tool, chosen, screen, visible);
+  Paint paint(shader);
+  draw_all(tool, chosen, screen, reader, paint, visible);
   tool.timing().lap(&Timing::work_seconds);
-  write_all(tool, chosen, screen, visible);
+  write_all(tool, chosen, screen, visible, shader);
 }
 
 template <typename CoverageRule, typename Depth>

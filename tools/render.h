@@ -1,8 +1,10 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "libpipeline/config.h"
+#include "libpipeline/surface_shader.h"
 #include "tools/tool.h"
 
 namespace pipeline {
@@ -20,6 +22,7 @@ struct RenderOptions {
   Algorithm algorithm = Algorithm::zbuffer;
   DepthFormat depth = DepthFormat::f64;
   int thread_count = 1;
+  std::optional<ShadingModel> shading;  // nothing: what the text asks for
 };
 
 /// Draws the tool's input and writes the image and the depths. Neither depends on the algorithm or on the number of

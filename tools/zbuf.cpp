@@ -8,6 +8,7 @@
 #include "libpipeline/image_file.h"
 #include "tools/command_line.h"
 #include "tools/render.h"
+#include "tools/shading_options.h"
 #include "tools/tool.h"
 
 using namespace pipeline;
@@ -49,6 +50,7 @@ void add_options(CLI::App& options, RenderOptions& chosen) {
       ->type_name("N")
       ->check(CLI::Range(1, 256))
       ->capture_default_str();
+  add_shading_option(options, chosen.shading);
 }
 
 void check_threads(const RenderOptions& chosen) {

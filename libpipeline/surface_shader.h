@@ -1,0 +1,61 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "libpipeline/color.h"
+#include "libpipeline/pixel_grid.h"
+#include "libpipeline/shading.h"
+#include "libpipeline/triangle_batch.h"
+#include "libpipeline/view_position.h"
+
+namespace pipeline {
+
+/// Where a surface is lit: not at all, once a triangle, at its vertices, at every pixel.
+enum class ShadingModel { none, flat, gouraud, phong };
+
+/// Gives pixels their colours after it is known which triangle each shows: keeps the triangles of a scene with
+/// colours or lights, each under an id that stands in the visibility algorithm's place of a colour. So hidden pixels
+/// are never shaded. What lies between vertices is interpolated perspective-correctly. Flat and gouraud shading light
+/// triangles as they come, phong shading lights visible pixels; without vertex normals both use the triangle's.
+class SurfaceShader {
+ public:
+  /// The id of a pixel without a triangle.
+  static constexpr Color kNoSurface = Color::from_rgb(0xffffffff);
+
+  /// How a scene is lit. `view_from_ndc` is needed by every model but `none`.
+  struct Setup {
+    ShadingModel model = ShadingModel::none;
+    Lighting lighting;
+    std::optional<ViewFromNdc> view_from_ndc;
+    Color background;
+  };
+
+  SurfaceShader(const ScreenConfig& screen, Setup setup) : grid_(screen), setup_(std::move(setup)) {}
+
+  /// Keeps a triangle of a batch in NDC, whose colour is `own_color` where it carries none; its id.
+  Color add(const TriangleBatch& p_ndc, std::size_t index, Color own_color);
+  /// The colours of a row of the image, by the ids seen in it. Valid until the next call.
+  std::span<const Color> shade(int row, std::span<const Color> ids);
+
+ private:
+  struct Surface {
+    Triangle p_ndc;
+    std::array<double, 3> w;
+    std::array<SurfacePoint, 3> corners;  // in view space; the colours are lit already except for phong shading
+  };
+
+  void light_corners(Surface& surface) const;
+  [[nodiscard]] Color color_at(const Surface& surface, double x, double y) const;
+
+  PixelGrid grid_;
+  Setup setup_;
+  std::vector<Surface> surfaces_;
+  std::vector<Color> row_;
+};
+
+}  // namespace pipeline

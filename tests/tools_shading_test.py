@@ -1,0 +1,202 @@
+#!/usr/bin/env python3
+"""What zbuf makes of colours and lights, against rays cast through the pixels.
+
+A ray meets the triangle in view space; colour, normal and place there are means of the corners', and the lighting
+formula is evaluated there. So nothing is projected, and nothing is interpolated on the screen.
+
+usage: tools_shading_test.py BIN_DIR [UNITTEST ARGUMENT...]
+"""
+import math
+import pathlib
+import unittest
+
+from toolbox import ToolTest, pipe, run
+
+SIZE = 24
+EYE_AT_5 = "0 0 5\n0 0 0\n0 1 0\n"
+PERSPECTIVE, ORTHOGRAPHIC = "60 1 1 100", "ortho -3 3 -3 3 1 100"
+LIGHTS = [((2, 3, 4), (0.5, 0.25, 1)), ((-3, 0, 2), (0.5, 0.5, 0.25))]
+AMBIENT = (0.1, 0.2, 0.1)
+MATERIAL = (1, 0.75, 0.5, 12)
+ATTENUATION = (1, 0.01, 0.02)
+# Position, colour, normal; the triangle is slanted, so that perspective shows.
+CORNERS = [((-2, -2, 2), (255, 0, 0), (0, 0, 1)), ((2, -1, -3), (0, 255, 30), (0.6, 0, 0.8)),
+           ((0, 2, 0), (30, 60, 255), (0, 0.8, 0.6))]
+# The last corner lies behind the eye.
+CUT = [((-2, -2, 0), (255, 0, 0), (0, 0, 1)), ((2, -2, 0), (0, 255, 30), (0.6, 0, 0.8)),
+       ((0, -1, 6), (30, 60, 255), (0, 0.8, 0.6))]
+
+
+def words(*numbers):
+    return " ".join(map(str, numbers))
+
+
+def scene_of(corners, projection, lit=True):
+    lines = [EYE_AT_5 + projection, "attributes color normal", "background 10 20 30"]
+    if lit:
+        lines += ["ambient " + words(*AMBIENT), "material " + words(*MATERIAL), "attenuation " + words(*ATTENUATION)]
+        lines += ["light " + words(*position, *intensity) for position, intensity in LIGHTS]
+    lines += ["triangle"] + [words(*p, *c, *n) for p, c, n in corners] + ["end\n"]
+    return "\n".join(lines)
+
+
+def dot(a, b):
+    return sum(x * y for x, y in zip(a, b))
+
+
+def minus(a, b):
+    return tuple(x - y for x, y in zip(a, b))
+
+
+def cross(a, b):
+    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
+
+
+def unit(v):
+    return tuple(x / math.sqrt(dot(v, v)) for x in v)
+
+
+def mean(weights, vectors):
+    return tuple(dot(weights, axis) for axis in zip(*vectors))
+
+
+def in_view_space(p):
+    return minus(p, (0, 0, 5))
+
+
+def lit(p, color, normal, eye_direction):
+    """The formula at a point in view space."""
+    v = unit(eye_direction)
+    n = unit(normal)
+    n = n if dot(n, v) >= 0 else tuple(-x for x in n)
+    ka, kd, ks, shininess = MATERIAL
+    result = [c * ka * a for c, a in zip(color, AMBIENT)]
+    for position, intensity in LIGHTS:
+        way = minus(in_view_space(position), p)
+        d = math.sqrt(dot(way, way))
+        light = unit(way)
+        half = unit(tuple(a + b for a, b in zip(light, v)))
+        att = 1 / (ATTENUATION[0] + ATTENUATION[1] * d + ATTENUATION[2] * d * d)
+        for i in range(3):
+            result[i] += att * intensity[i] * (color[i] * kd * max(0, dot(n, light))
+                                               + 255 * ks * max(0, dot(n, half)) ** shininess)
+    return tuple(result)
+
+
+def expected_pixel(row, column, corners, projection, model):
+    """The colour a ray finds, or nothing where it misses the triangle."""
+    x, y = (2 * column + 1) / SIZE - 1, 1 - (2 * row + 1) / SIZE
+    is_perspective = projection == PERSPECTIVE
+    slope = math.tan(math.pi / 6)
+    start = (0, 0, 0) if is_perspective else (3 * x, 3 * y, 0)
+    way = (x * slope, y * slope, -1) if is_perspective else (0, 0, -1)
+    points = [in_view_space(p) for p, _, _ in corners]
+    # Cramer's rule for start + s way = sum of weights times points.
+    volumes = [dot(minus(points[i - 2], start), cross(minus(points[i - 1], start), way)) for i in range(3)]
+    weights = [volume / sum(volumes) for volume in volumes]
+    p = mean(weights, points)
+    if min(weights) < 0 or (is_perspective and p[2] > -1):
+        return None
+    colors = [c for _, c, _ in corners]
+    normals = [n for _, _, n in corners]
+
+    def towards_eye(point):
+        return tuple(-x for x in point) if is_perspective else (0, 0, 1)
+
+    if model == "none":
+        return mean(weights, colors)
+    if model == "gouraud":
+        return mean(weights, [lit(q, c, n, towards_eye(q)) for q, c, n in zip(points, colors, normals)])
+    if model == "flat":
+        middle = mean([1 / 3] * 3, points)
+        face = cross(minus(points[1], points[0]), minus(points[2], points[0]))
+        return lit(middle, mean([1 / 3] * 3, colors), face, towards_eye(middle))
+    return lit(p, mean(weights, colors), mean(weights, normals), towards_eye(p))
+
+
+class Shading(ToolTest):
+    def image_of(self, stage3, *options):
+        pathlib.Path("config.txt").write_text(f"{SIZE} {SIZE}\n")
+        done = run("zbuf", "config.txt", "--image", "out.ppm", "--coverage", "center", *options, stdin=stage3)
+        self.assert_quiet_success(done)
+        data = pathlib.Path("out.ppm").read_bytes()[-3 * SIZE * SIZE:]
+        return [[tuple(data[3 * (SIZE * r + c):][:3]) for c in range(SIZE)] for r in range(SIZE)]
+
+    def assert_image(self, corners, projection, model, *options, lit=True):
+        stage3 = pipe(["model"], ["view"], ["project"], stdin=scene_of(corners, projection, lit))
+        image = self.image_of(stage3, *options)
+        hit_count = 0
+        for row in range(SIZE):
+            for column in range(SIZE):
+                expected = expected_pixel(row, column, corners, projection, model)
+                got = image[row][column]
+                hit_count += expected is not None
+                if expected is None:
+                    self.assertEqual(got, (10, 20, 30), (row, column))
+                else:
+                    wanted = [min(255, max(0, c)) for c in expected]
+                    self.assertLessEqual(max(abs(a - b) for a, b in zip(got, wanted)), 0.51, (row, column, wanted))
+        self.assertGreater(hit_count, 40)
+
+    def test_phong_lights_every_pixel(self):
+        for projection in (PERSPECTIVE, ORTHOGRAPHIC):
+            self.assert_image(CORNERS, projection, "phong", "--shading", "phong")
+
+    def test_gouraud_lights_the_vertices(self):
+        for projection in (PERSPECTIVE, ORTHOGRAPHIC):
+            self.assert_image(CORNERS, projection, "gouraud", "--shading", "gouraud")
+
+    def test_flat_lights_the_triangle(self):
+        for projection in (PERSPECTIVE, ORTHOGRAPHIC):
+            self.assert_image(CORNERS, projection, "flat", "--shading", "flat")
+
+    def test_none_shows_the_colors(self):
+        for projection in (PERSPECTIVE, ORTHOGRAPHIC):
+            self.assert_image(CORNERS, projection, "none", "--shading", "none")
+
+    def test_without_lights_the_default_is_none(self):
+        self.assert_image(CORNERS, PERSPECTIVE, "none", lit=False)
+
+    def test_with_lights_and_normals_the_default_is_phong(self):
+        self.assert_image(CORNERS, PERSPECTIVE, "phong")
+
+    def test_what_is_cut_looks_like_the_whole(self):
+        self.assert_image(CUT, PERSPECTIVE, "phong", "--shading", "phong")
+        self.assert_image(CUT, PERSPECTIVE, "none", "--shading", "none")
+
+    def test_both_algorithms_give_the_same_image(self):
+        stage3 = pipe(["model"], ["view"], ["project"], stdin=scene_of(CORNERS, PERSPECTIVE))
+        self.assertEqual(self.image_of(stage3), self.image_of(stage3, "--algorithm", "scanline"))
+
+    def test_a_white_surface_under_white_ambient_light_is_white(self):
+        scene = (EYE_AT_5 + PERSPECTIVE + "\ncolor 255 255 255\nambient 1 1 1\nlight 0 0 5 0 0 0\n"
+                 "triangle\n-90 -90 0\n90 -90 0\n0 90 0\nend\n")
+        stage3 = pipe(["model"], ["view"], ["project"], stdin=scene)
+        for model in ("flat", "gouraud", "phong"):
+            self.assertEqual(set(sum(self.image_of(stage3, "--shading", model), [])), {(255, 255, 255)})
+
+    def test_lights_alone_light_the_triangles_own_colors_flatly(self):
+        # Triangle 0's colour is 41 35 190; the light stands straight before it, at the eye.
+        scene = (EYE_AT_5 + PERSPECTIVE + "\nlight 0 0 5 1 1 1\nattenuation 0 0.4 0\n"
+                 "triangle\n-90 -90 0\n90 -90 0\n0 180 0\nend\n")
+        stage3 = pipe(["model"], ["view"], ["project"], stdin=scene)
+        # d = 5, so half of the light arrives.
+        self.assertEqual(set(sum(self.image_of(stage3), [])), {(21, 18, 95)})
+
+    def test_a_background_alone_leaves_the_triangles_as_they_are(self):
+        scene = EYE_AT_5 + PERSPECTIVE + "\nbackground 1 2.5 3\ntriangle\n-9 -9 0\n9 -9 0\n-9 9 0\nend\n"
+        stage3 = pipe(["model"], ["view"], ["project"], stdin=scene)
+        self.assertEqual(set(sum(self.image_of(stage3), [])), {(41, 35, 190), (1, 3, 3)})
+
+    def test_shading_needs_a_light(self):
+        done = run("zbuf", "config.txt", "--shading", "flat", stdin="background 0 0 0\n")
+        self.assert_fails(done, 1, "zbuf: <stdin>:2:1: expected a light for --shading (a header line light), found none")
+
+    def test_lights_need_the_projection(self):
+        done = run("zbuf", "config.txt", stdin="light 0 0 0 1 1 1\n")
+        self.assert_fails(done, 1, "zbuf: <stdin>:2:1: expected the projection of a text with lights (a header line "
+                                   "frustum or ortho), found none")
+
+
+if __name__ == "__main__":
+    unittest.main()

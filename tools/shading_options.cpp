@@ -1,0 +1,65 @@
+#include "tools/shading_options.h"
+
+#include <utility>
+
+#include "libpipeline/transform.h"
+#include "tools/command_line.h"
+
+namespace pipeline {
+namespace {
+
+Lighting lighting_of(const Appearance& appearance, bool is_perspective) {
+  Lighting lighting;
+  if (appearance.ambient) lighting.ambient = appearance.ambient->value;
+  if (appearance.material) lighting.material = appearance.material->value;
+  if (appearance.attenuation) lighting.attenuation = appearance.attenuation->value;
+  for (const auto& light : appearance.lights) lighting.lights.push_back(light.value);
+  lighting.is_perspective = is_perspective;
+  return lighting;
+}
+
+ShadingModel default_model(const Appearance& appearance) {
+  if (appearance.lights.empty()) return ShadingModel::none;
+  return appearance.columns().normal ? ShadingModel::phong : ShadingModel::flat;
+}
+
+}  // namespace
+
+void add_shading_option(CLI::App& options, std::optional<ShadingModel>& chosen) {
+  add_choice<std::optional<ShadingModel>>(
+      options, "--shading", chosen,
+      {{"none", ShadingModel::none},
+       {"flat", ShadingModel::flat},
+       {"gouraud", ShadingModel::gouraud},
+       {"phong", ShadingModel::phong}},
+      "Where surfaces are lit. none: nowhere; flat: once a triangle; gouraud: at its vertices; phong: at every pixel. "
+      "Without the option: phong with lights and normals, flat with lights alone, else none");
+}
+
+Color background_color(const Appearance& appearance) {
+  return appearance.background ? rounded_color(appearance.background->value) : Color();
+}
+
+std::optional<SurfaceShader> surface_shader(const StageReader& reader, const ScreenConfig& screen,
+                                            std::optional<ShadingModel> chosen) {
+  const StageHeader& header = reader.header();
+  const Appearance& appearance = header.appearance;
+  SurfaceShader::Setup setup;
+  setup.model = chosen.value_or(default_model(appearance));
+  setup.background = background_color(appearance);
+  if (setup.model == ShadingModel::none) {
+    if (!appearance.columns().color) return std::nullopt;
+    return SurfaceShader(screen, std::move(setup));
+  }
+  if (appearance.lights.empty())
+    throw InputError(reader.header_end(), expected_but_found("a light for --shading (a header line light)", "none"));
+  if (!header.camera.projection)
+    throw InputError(reader.header_end(),
+                     expected_but_found("the projection of a text with lights (a header line frustum or ortho)", "none"));
+  const ProjectionTransform projection = clip_from_view(*header.camera.projection, AspectRule::angle);
+  setup.view_from_ndc.emplace(projection);
+  setup.lighting = lighting_of(appearance, projection.is_perspective);
+  return SurfaceShader(screen, std::move(setup));
+}
+
+}  // namespace pipeline
