@@ -548,5 +548,61 @@ TEST(StageText, WhatIsWrittenShortestReadsBackAsItWas) {
   EXPECT_EQ(triangles_of(written(batch, {.shortest = true})).triangles, batch.triangles);
 }
 
+// Header and columns of colour and light.
+
+const std::string kLooks =
+    "attributes w color normal\nbackground 1 2 3\nambient 0.1 0.2 0.3\nmaterial 1 0.5 0.25 100000\n"
+    "attenuation 1 0 0.125\nlight 1 2 3 0.5 1 1.5\nlight 4 5 6 1 1 1\n";
+const std::string kFullTriangle = "1 2 3 0.1 4 5 6 0 0 1\n4 5 6 12.5 7 8 255 1 0 0\n7 8 9 1e+22 0 0 0 0 0 0\n\n";
+
+/// What a writer makes of all that a reader reads.
+std::string copy_of(const std::string& text, NumberFormat format, bool bare) {
+  const TextFile in(text);
+  const TextFile out("");
+  TextReader reader(in.descriptor(), "in.txt");
+  TextWriter writer(out.descriptor(), "out.txt");
+  StageReader stage(reader);
+  StageWriter copy(writer, format, bare);
+  copy.write_header(stage.header());
+  for (TriangleBatch batch; stage.read(batch);) copy.write(batch);
+  copy.finish();
+  return out.whole_text();
+}
+
+TEST(StageText, ColorAndLightComeBackAsTheyWere) {
+  const std::string text = kLooks + kFullTriangle + "triangle 7\n" + kFullTriangle;
+  EXPECT_EQ(copy_of(text, {.shortest = true}, false), text);
+}
+
+TEST(StageText, BareTextHasNoColumns) {
+  EXPECT_EQ(copy_of(kLooks + kFullTriangle, {.decimals = 0}, true), "1 2 3\n4 5 6\n7 8 9\n\n");
+}
+
+TEST(StageText, HeaderNumbersAndWKeepAllTheirDigits) {
+  EXPECT_EQ(copy_of("attributes w color\nambient 0.1 0.25 1e-9\n1 2 3 0.125 4.5 5 6\n0 0 0 1 0 0 0\n0 0 0 1 0 0 0\n\n",
+                    {.decimals = 1}, false),
+            "attributes w color\nambient 0.1 0.25 1e-09\n1.0 2.0 3.0 0.125 4.5 5.0 6.0\n"
+            "0.0 0.0 0.0 1 0.0 0.0 0.0\n0.0 0.0 0.0 1 0.0 0.0 0.0\n\n");
+}
+
+TEST(StageReader, AVertexHasTheColumnsOfTheHeader) {
+  EXPECT_EQ(error_of("attributes w color\n0 0 0 1 2 3\n"),
+            "in.txt:2:12: expected the blue of vertex 1 of 3 (x y z w r g b), found the end of the line");
+  EXPECT_EQ(error_of("attributes w\n0 0 0 1 2\n"),
+            "in.txt:2:9: expected the end of the line after vertex 1 of 3 (x y z w), found '2'");
+  EXPECT_EQ(error_of("attributes w\n0 0 0 -1\n"),
+            "in.txt:2:7: expected the w of vertex 1 of 3 (x y z w) above 0, found '-1'");
+}
+
+TEST(StageReader, NamesAttributesItDoesNotKnow) {
+  EXPECT_EQ(error_of("attributes normal color\n"),
+            "in.txt:1:19: expected attributes of [w] [color] [normal], in this order, found 'color'");
+}
+
+TEST(StageReader, LooksStandBeforeTheFirstTriangle) {
+  EXPECT_EQ(error_of(kTriangle + "light 0 0 0 1 1 1\n"),
+            "in.txt:5:1: expected header lines before the first triangle, found 'light'");
+}
+
 }  // namespace
 }  // namespace pipeline
