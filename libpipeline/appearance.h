@@ -18,8 +18,8 @@ struct Light {
   Vec3 intensity;
 };
 
-/// How much of the light a surface gives back: factors of the ambient, diffuse and specular parts, and the whole
-/// exponent of the specular one.
+/// How much of the light a surface gives back: factors of the ambient, diffuse and specular parts, and the
+/// whole exponent of the specular one.
 struct Material {
   double ambient = 1;
   double diffuse = 1;
@@ -34,7 +34,8 @@ struct Attenuation {
   double quadratic = 0;
 };
 
-/// What a scene or a stage text's header says of colour and light, as far as it says it. A plain one says nothing.
+/// What a scene or a stage text's header says of colour and light, as far as it says it. A plain one says
+/// nothing.
 struct Appearance {
   std::optional<Placed<AttributeSet>> attributes;
   std::optional<Placed<Vec3>> background;  // red, green, blue from 0 to 255
@@ -53,8 +54,8 @@ enum class AttributeSource { scene, stage_text };
 /// True for `attributes`, `background`, `ambient`, `material`, `attenuation` and `light`.
 bool is_appearance_keyword(std::string_view keyword);
 
-/// Reads what follows such a keyword, to the end of the line, and adds it to `appearance`. An InputError if it is
-/// out of range, or there already (reported at `keyword_place`); only lights may be many.
+/// Reads what follows such a keyword, to the end of the line, and adds it to `appearance`. An InputError if
+/// it is out of range, or there already (reported at `keyword_place`); only lights may be many.
 void read_appearance_part(std::string_view keyword, const Place& keyword_place, LineScanner& line,
                           AttributeSource source, Appearance& appearance);
 

@@ -6,13 +6,21 @@
 namespace pipeline {
 namespace {
 
-double largest_part(const Vec3& v) { return std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)}); }
+double largest_part(const Vec3& v) {
+  return std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)});
+}
 
-double dot(const Vec3& a, const Vec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+double dot(const Vec3& a, const Vec3& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
 
-Vec3 nearest(const BallVec3& v) { return {v.x.nearest_double(), v.y.nearest_double(), v.z.nearest_double()}; }
+Vec3 nearest(const BallVec3& v) {
+  return {v.x.nearest_double(), v.y.nearest_double(), v.z.nearest_double()};
+}
 
-BallVec3 linear_row(const std::array<Ball, 4>& row) { return {row[0], row[1], row[2]}; }
+BallVec3 linear_row(const std::array<Ball, 4>& row) {
+  return {row[0], row[1], row[2]};
+}
 
 BallVec3 over_largest(const BallVec3& row, double largest) {
   return {row.x / Ball(largest), row.y / Ball(largest), row.z / Ball(largest)};
@@ -20,7 +28,8 @@ BallVec3 over_largest(const BallVec3& row, double largest) {
 
 Placed<Light> moved_to(const Placed<Light>& light, const Vec3& position) {
   if (!std::isfinite(largest_part(position)))
-    throw InputError(light.place, expected_but_found("a light whose image is within a double's range", "an overflow"));
+    throw InputError(light.place,
+                     expected_but_found("a light whose image is within a double's range", "an overflow"));
   return {{position, light.value.intensity}, light.place};
 }
 
@@ -62,7 +71,9 @@ Vec3 NormalTransform::operator()(const Vec3& normal) const {
 
 Placed<Light> transformed(const AffineMatrix& world_from_model, Placed<Light> light) {
   const BallVec3 p = to_balls(light.value.position);
-  const auto image = [&](const std::array<Ball, 4>& row) { return pipeline::dot(linear_row(row), p) + row[3]; };
+  const auto image = [&](const std::array<Ball, 4>& row) {
+    return pipeline::dot(linear_row(row), p) + row[3];
+  };
   const auto& rows = world_from_model.rows;
   return moved_to(light, nearest({image(rows[0]), image(rows[1]), image(rows[2])}));
 }

@@ -9,17 +9,29 @@
 namespace pipeline {
 namespace {
 
-double dot(const Vec3& a, const Vec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+double dot(const Vec3& a, const Vec3& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
 
-Vec3 sum(const Vec3& a, const Vec3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+Vec3 sum(const Vec3& a, const Vec3& b) {
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
 
-Vec3 difference(const Vec3& a, const Vec3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+Vec3 difference(const Vec3& a, const Vec3& b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
 
-Vec3 scaled(const Vec3& v, double factor) { return {factor * v.x, factor * v.y, factor * v.z}; }
+Vec3 scaled(const Vec3& v, double factor) {
+  return {factor * v.x, factor * v.y, factor * v.z};
+}
 
-Vec3 product(const Vec3& a, const Vec3& b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
+Vec3 product(const Vec3& a, const Vec3& b) {
+  return {a.x * b.x, a.y * b.y, a.z * b.z};
+}
 
-Vec3 turned_towards(const Vec3& direction, const Vec3& v) { return dot(v, direction) < 0 ? scaled(v, -1) : v; }
+Vec3 turned_towards(const Vec3& direction, const Vec3& v) {
+  return dot(v, direction) < 0 ? scaled(v, -1) : v;
+}
 
 double attenuation_at(double distance, const Attenuation& a) {
   return 1 / (a.constant + a.linear * distance + a.quadratic * distance * distance);

@@ -9,7 +9,8 @@
 
 namespace pipeline {
 
-/// All that shines and how it is given back. Positions are in view space: the eye is the origin and looks down -z.
+/// All that shines and how it is given back. Positions are in view space: the eye is the origin and looks
+/// down -z.
 struct Lighting {
   Vec3 ambient;
   Material material;
@@ -18,7 +19,8 @@ struct Lighting {
   bool is_perspective = true;  // otherwise the eye is infinitely far away in the direction +z
 };
 
-/// A point of a surface, in view space, its normal (of any length) and its own colour, channels from 0 to 255.
+/// A point of a surface, in view space, its normal (of any length) and its own colour, channels from 0 to
+/// 255.
 struct SurfacePoint {
   Vec3 position;
   Vec3 normal;
@@ -27,12 +29,13 @@ struct SurfacePoint {
 
 /// The colour the eye sees, a channel not yet rounded or limited:
 ///   color (ka ambient + sum att L kd max(0, n.l)) + 255 ks sum att L max(0, n.h)^shininess
-/// n is the normal turned towards the eye, l the direction of a light, h half-way between l and the eye's direction.
-/// A normal of 0 faces nothing, a light in the very point shines on nothing. Source: J. Blinn, "Models of light
-/// reflection for computer synthesized pictures", 1977.
+/// n is the normal turned towards the eye, l the direction of a light, h half-way between l and the eye's
+/// direction. A normal of 0 faces nothing, a light in the very point shines on nothing. Source: J. Blinn,
+/// "Models of light reflection for computer synthesized pictures", 1977.
 Vec3 lit_color(const SurfacePoint& point, const Lighting& lighting);
 
-/// `base` to a whole power by repeated squaring, so that it does not depend on the system's library; 1 to the power 0.
+/// `base` to a whole power by repeated squaring, so that it does not depend on the system's library; 1 to the
+/// power 0.
 double whole_power(double base, std::size_t exponent);
 
 /// Each channel rounded, halves up, and limited to 0 to 255.

@@ -14,12 +14,13 @@ Vec3 mean(const Vec3& a, const Vec3& b, const Vec3& c, const Weights& w) {
 }
 
 SurfacePoint mean(const std::array<SurfacePoint, 3>& p, const Weights& w) {
-  return {mean(p[0].position, p[1].position, p[2].position, w), mean(p[0].normal, p[1].normal, p[2].normal, w),
-          mean(p[0].color, p[1].color, p[2].color, w)};
+  return {mean(p[0].position, p[1].position, p[2].position, w),
+          mean(p[0].normal, p[1].normal, p[2].normal, w), mean(p[0].color, p[1].color, p[2].color, w)};
 }
 
 Vec3 to_vec3(Color color) {
-  return {static_cast<double>(color.red()), static_cast<double>(color.green()), static_cast<double>(color.blue())};
+  return {static_cast<double>(color.red()), static_cast<double>(color.green()),
+          static_cast<double>(color.blue())};
 }
 
 /// The normal of a triangle's plane, of any length.
@@ -44,13 +45,14 @@ double area(const Vec3& p, const Vec3& q, double x, double y) {
   return (p.x - x) * (q.y - y) - (p.y - y) * (q.x - x);
 }
 
-/// The weights of the corners at a point of the screen, each divided by the corner's w and all by their sum, so that
-/// they are those in view space (J. Blinn, "Hyperbolic interpolation", 1992). A pixel's centre may lie a little
-/// outside: no weight leaves [0, 1].
+/// The weights of the corners at a point of the screen, each divided by the corner's w and all by their sum,
+/// so that they are those in view space (J. Blinn, "Hyperbolic interpolation", 1992). A pixel's centre may
+/// lie a little outside: no weight leaves [0, 1].
 Weights weights_at(const Triangle& p_ndc, const std::array<double, 3>& w, double x, double y) {
   const auto& [a, b, c] = p_ndc;
   const double side = area(a, b, c.x, c.y) < 0 ? -1 : 1;
-  Weights weights = {side * area(b, c, x, y) / w[0], side * area(c, a, x, y) / w[1], side * area(a, b, x, y) / w[2]};
+  Weights weights = {side * area(b, c, x, y) / w[0], side * area(c, a, x, y) / w[1],
+                     side * area(a, b, x, y) / w[2]};
   for (double& weight : weights) weight = std::max(weight, 0.0);
   const double sum = weights[0] + weights[1] + weights[2];
   if (!(sum > 0)) return {1, 0, 0};
@@ -75,8 +77,7 @@ Color SurfaceShader::add(const TriangleBatch& p_ndc, std::size_t index, Color ow
     if (!attributes.colors.empty()) corner.color = attributes.colors[index][v];
     if (!attributes.normals.empty()) corner.normal = attributes.normals[index][v];
   }
-  if (attributes.normals.empty() || setup_.model == ShadingModel::flat)
-    use_face_normal(surface.corners);
+  if (attributes.normals.empty() || setup_.model == ShadingModel::flat) use_face_normal(surface.corners);
   light_corners(surface);
   surfaces_.push_back(surface);
   assert(surfaces_.size() < kNoSurface.rgb());

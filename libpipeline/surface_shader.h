@@ -18,10 +18,11 @@ namespace pipeline {
 /// Where a surface is lit: not at all, once a triangle, at its vertices, at every pixel.
 enum class ShadingModel { none, flat, gouraud, phong };
 
-/// Gives pixels their colours after it is known which triangle each shows: keeps the triangles of a scene with
-/// colours or lights, each under an id that stands in the visibility algorithm's place of a colour. So hidden pixels
-/// are never shaded. What lies between vertices is interpolated perspective-correctly. Flat and gouraud shading light
-/// triangles as they come, phong shading lights visible pixels; without vertex normals both use the triangle's.
+/// Gives pixels their colours after it is known which triangle each shows: keeps the triangles of a scene
+/// with colours or lights, each under an id that stands in the visibility algorithm's place of a colour. So
+/// hidden pixels are never shaded. What lies between vertices is interpolated perspective-correctly. Flat and
+/// gouraud shading light triangles as they come, phong shading lights visible pixels; without vertex normals
+/// both use the triangle's.
 class SurfaceShader {
  public:
   /// The id of a pixel without a triangle.
@@ -46,7 +47,8 @@ class SurfaceShader {
   struct Surface {
     Triangle p_ndc;
     std::array<double, 3> w;
-    std::array<SurfacePoint, 3> corners;  // in view space; the colours are lit already except for phong shading
+    std::array<SurfacePoint, 3>
+        corners;  // in view space; the colours are lit already except for phong shading
   };
 
   void light_corners(Surface& surface) const;

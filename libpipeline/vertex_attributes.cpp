@@ -13,7 +13,8 @@ double read_number(LineScanner& line, std::string_view name, std::string_view of
 }
 
 double read_channel(LineScanner& line, std::string_view name, std::string_view of) {
-  return read_number(line, name, of, " from 0 to 255", [](double value) { return value >= 0 && value <= 255; });
+  return read_number(line, name, of, " from 0 to 255",
+                     [](double value) { return value >= 0 && value <= 255; });
 }
 
 }  // namespace
@@ -57,7 +58,9 @@ VertexLine VertexLineReader::read(LineScanner& line, std::size_t vertex) const {
   return values;
 }
 
-void AttributeArrays::clear() { truncate(0); }
+void AttributeArrays::clear() {
+  truncate(0);
+}
 
 void AttributeArrays::truncate(std::size_t count) {
   if (!w.empty()) w.resize(count);

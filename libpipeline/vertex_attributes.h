@@ -38,7 +38,8 @@ class VertexLineReader {
   explicit VertexLineReader(const AttributeSet& attributes = {});
 
   [[nodiscard]] const AttributeSet& attributes() const { return attributes_; }
-  /// Reads the line of vertex `vertex` (0 to 2) to its end. An InputError unless w > 0 and colours lie from 0 to 255.
+  /// Reads the line of vertex `vertex` (0 to 2) to its end. An InputError unless w > 0 and colours lie from 0
+  /// to 255.
   VertexLine read(LineScanner& line, std::size_t vertex) const;
 
  private:
@@ -49,10 +50,10 @@ class VertexLineReader {
 /// Takes the red, green and blue of `of`, each from 0 to 255.
 Vec3 read_color(LineScanner& line, std::string_view of);
 
-/// The attributes of a batch's triangles: each array is empty where the text has no such columns, else as long as
-/// the batch.
+/// The attributes of a batch's triangles: each array is empty where the text has no such columns, else as
+/// long as the batch.
 struct AttributeArrays {
-  std::vector<std::array<double, 3>> w;       // by vertex
+  std::vector<std::array<double, 3>> w;      // by vertex
   std::vector<std::array<Vec3, 3>> colors;   // by vertex: red, green, blue from 0 to 255
   std::vector<std::array<Vec3, 3>> normals;  // by vertex, in the space of the positions
 

@@ -28,7 +28,8 @@ ReadScene scene_of(const std::string& commands) {
   TextReader text(file.descriptor(), "scene.txt");
   SceneReader reader(text);
   ReadScene scene;
-  for (Command command = reader.next(); !std::holds_alternative<EndCommand>(command); command = reader.next()) {
+  for (Command command = reader.next(); !std::holds_alternative<EndCommand>(command);
+       command = reader.next()) {
     if (const auto* light = std::get_if<LightCommand>(&command)) scene.lights.push_back(light->light);
     if (std::holds_alternative<TriangleCommand>(command)) scene.triangles.push_back(reader.vertices());
   }
@@ -48,9 +49,10 @@ TEST(Appearance, APlainSceneSaysNothing) {
 
 TEST(Appearance, TakesEveryCommandOnItsOwnLineOrTheNext) {
   for (const std::string blank : {" ", "\n"}) {
-    const ReadScene scene = scene_of("background" + blank + "0 127.5 255\nambient" + blank + "0.1 0.2 0.3\nmaterial" +
-                                     blank + "0.5 0.25 2 40\nattenuation" + blank + "1 0 0.5\nlight" + blank +
-                                     "1 2 3 0.5 1 2\nlight" + blank + "4 5 6 1 1 1\n");
+    const ReadScene scene =
+        scene_of("background" + blank + "0 127.5 255\nambient" + blank + "0.1 0.2 0.3\nmaterial" + blank +
+                 "0.5 0.25 2 40\nattenuation" + blank + "1 0 0.5\nlight" + blank + "1 2 3 0.5 1 2\nlight" +
+                 blank + "4 5 6 1 1 1\n");
     EXPECT_EQ(scene.appearance.background->value, (Vec3{0, 127.5, 255}));
     EXPECT_EQ(scene.appearance.ambient->value, (Vec3{0.1, 0.2, 0.3}));
     EXPECT_EQ(scene.appearance.material->value.diffuse, 0.25);
@@ -71,8 +73,8 @@ TEST(Appearance, TheCurrentColorIsThatOfEveryVertexUntilItChanges) {
 }
 
 TEST(Appearance, VerticesCarryTheAttributesAskedFor) {
-  const ReadScene scene =
-      scene_of("attributes color normal\ntriangle\n0 1 2 3 4 5 6 7 8\n0 0 0 0 0 255 0 0 1\n0 0 0 9 9 9 1 0 0\n");
+  const ReadScene scene = scene_of(
+      "attributes color normal\ntriangle\n0 1 2 3 4 5 6 7 8\n0 0 0 0 0 255 0 0 1\n0 0 0 9 9 9 1 0 0\n");
   EXPECT_EQ(scene.triangles.at(0)[0].position, (Vec3{0, 1, 2}));
   EXPECT_EQ(scene.triangles.at(0)[0].color, (Vec3{3, 4, 5}));
   EXPECT_EQ(scene.triangles.at(0)[0].normal, (Vec3{6, 7, 8}));
@@ -80,7 +82,8 @@ TEST(Appearance, VerticesCarryTheAttributesAskedFor) {
 
 TEST(Appearance, TheCurrentColorGoesWithNormalsInEitherOrder) {
   const std::string triangle = "triangle\n0 0 0 0 0 1\n1 0 0 0 0 1\n0 1 0 0 0 1\n";
-  for (const std::string commands : {"color 1 2 3\nattributes normal\n", "attributes normal\ncolor 1 2 3\n"}) {
+  for (const std::string commands :
+       {"color 1 2 3\nattributes normal\n", "attributes normal\ncolor 1 2 3\n"}) {
     const ReadScene scene = scene_of(commands + triangle);
     EXPECT_TRUE(scene.appearance.columns() == (AttributeSet{false, true, true}));
     EXPECT_EQ(scene.triangles.at(0)[1].color, (Vec3{1, 2, 3}));
@@ -89,7 +92,8 @@ TEST(Appearance, TheCurrentColorGoesWithNormalsInEitherOrder) {
 }
 
 TEST(Appearance, ColorsLieFrom0To255) {
-  EXPECT_EQ(error_of("color 0 256 0\n"), "scene.txt:5:9: expected the green of the colour from 0 to 255, found '256'");
+  EXPECT_EQ(error_of("color 0 256 0\n"),
+            "scene.txt:5:9: expected the green of the colour from 0 to 255, found '256'");
   EXPECT_EQ(error_of("background\n-1 0 0\n"),
             "scene.txt:6:1: expected the red of the background from 0 to 255, found '-1'");
   EXPECT_EQ(error_of("attributes color\ntriangle 0 0 0 0 0 300\n"),
@@ -97,8 +101,9 @@ TEST(Appearance, ColorsLieFrom0To255) {
 }
 
 TEST(Appearance, AVertexHasAllColumnsAndNoMore) {
-  EXPECT_EQ(error_of("attributes normal\ntriangle\n0 0 0\n"),
-            "scene.txt:7:6: expected the normal's x of vertex 1 of 3 (x y z nx ny nz), found the end of the line");
+  EXPECT_EQ(
+      error_of("attributes normal\ntriangle\n0 0 0\n"),
+      "scene.txt:7:6: expected the normal's x of vertex 1 of 3 (x y z nx ny nz), found the end of the line");
   EXPECT_EQ(error_of("attributes color\ntriangle\n0 0 0 1 2 3\n0 0 0 1 2 3 4\n"),
             "scene.txt:8:13: expected the end of the line after vertex 2 of 3 (x y z r g b), found '4'");
   EXPECT_EQ(error_of("color 1 2 3\ntriangle\n0 0 0 1 2 3\n"),
@@ -131,18 +136,21 @@ TEST(Appearance, IntensitiesAndFactorsAreNotNegative) {
 }
 
 TEST(Appearance, TheShininessIsWhole) {
-  EXPECT_EQ(error_of("material 1 1 0 1.5\n"), "scene.txt:5:16: expected the shininess, a whole number, found '1.5'");
+  EXPECT_EQ(error_of("material 1 1 0 1.5\n"),
+            "scene.txt:5:16: expected the shininess, a whole number, found '1.5'");
 }
 
 TEST(Appearance, AnAttenuationIsNotAllZero) {
-  EXPECT_EQ(error_of("attenuation 0 0 0\n"), "scene.txt:5:13: expected an attenuation other than 0 0 0, found '0'");
+  EXPECT_EQ(error_of("attenuation 0 0 0\n"),
+            "scene.txt:5:13: expected an attenuation other than 0 0 0, found '0'");
 }
 
 TEST(Appearance, IsSettledByTheFirstTriangle) {
   EXPECT_EQ(error_of(kTriangle + "light 0 0 0 1 1 1\n"),
             "scene.txt:9:1: expected 'light' before the first triangle, found 'light' behind it");
   EXPECT_EQ(error_of(kTriangle + "color 1 2 3\n"),
-            "scene.txt:9:1: expected 'color' or 'attributes color' before the first triangle, too, found 'color' behind "
+            "scene.txt:9:1: expected 'color' or 'attributes color' before the first triangle, too, found "
+            "'color' behind "
             "it");
 }
 

@@ -22,7 +22,9 @@ void expect_near(const Vec3& color, const Vec3& expected) {
   EXPECT_NEAR(color.z, expected.z, 1e-12);
 }
 
-TEST(Shading, WithoutLightEverythingIsBlack) { EXPECT_EQ(lit_color(kFacing, {}), (Vec3{})); }
+TEST(Shading, WithoutLightEverythingIsBlack) {
+  EXPECT_EQ(lit_color(kFacing, {}), (Vec3{}));
+}
 
 TEST(Shading, WhiteAmbientLightShowsTheColorAsItIs) {
   Lighting lighting;

@@ -32,7 +32,8 @@ void add_shading_option(CLI::App& options, std::optional<ShadingModel>& chosen) 
        {"flat", ShadingModel::flat},
        {"gouraud", ShadingModel::gouraud},
        {"phong", ShadingModel::phong}},
-      "Where surfaces are lit. none: nowhere; flat: once a triangle; gouraud: at its vertices; phong: at every pixel. "
+      "Where surfaces are lit. none: nowhere; flat: once a triangle; gouraud: at its vertices; phong: at "
+      "every pixel. "
       "Without the option: phong with lights and normals, flat with lights alone, else none");
 }
 
@@ -52,10 +53,12 @@ std::optional<SurfaceShader> surface_shader(const StageReader& reader, const Scr
     return SurfaceShader(screen, std::move(setup));
   }
   if (appearance.lights.empty())
-    throw InputError(reader.header_end(), expected_but_found("a light for --shading (a header line light)", "none"));
-  if (!header.camera.projection)
     throw InputError(reader.header_end(),
-                     expected_but_found("the projection of a text with lights (a header line frustum or ortho)", "none"));
+                     expected_but_found("a light for --shading (a header line light)", "none"));
+  if (!header.camera.projection)
+    throw InputError(
+        reader.header_end(),
+        expected_but_found("the projection of a text with lights (a header line frustum or ortho)", "none"));
   const ProjectionTransform projection = clip_from_view(*header.camera.projection, AspectRule::angle);
   setup.view_from_ndc.emplace(projection);
   setup.lighting = lighting_of(appearance, projection.is_perspective);
