@@ -1,0 +1,50 @@
+"""What the measuring scripts share: the machine's name, runs with their costs, and tables that go into README.md."""
+import csv
+import dataclasses
+import os
+import subprocess
+
+
+def machine():
+    """The processor's name and the number of cores that may be used."""
+    models = [line.split(":", 1)[1].strip() for line in open("/proc/cpuinfo") if line.startswith("model name")]
+    return f"{models[0] if models else 'unknown processor'}, {len(os.sched_getaffinity(0))} cores"
+
+
+@dataclasses.dataclass(frozen=True)
+class Cost:
+    cpu_seconds: float  # user's and system's
+    mib: float          # resident at most
+
+
+def cost_of(process, name):
+    """Waits for a process; ends the script if it failed."""
+    _, status, usage = os.wait4(process.pid, 0)
+    process.returncode = os.waitstatus_to_exitcode(status)
+    if process.returncode != 0:
+        raise SystemExit(f"{name} failed")
+    return Cost(usage.ru_utime + usage.ru_stime, usage.ru_maxrss / 1024)
+
+
+def run(words, name="a tool", **streams):
+    """The cost of one command."""
+    return cost_of(subprocess.Popen(list(map(str, words)), **streams), name)
+
+
+def write_csv(path, rows):
+    """A column for whatever a row has; numbers with four digits."""
+    columns = list(dict.fromkeys(column for row in rows for column in row))
+    with open(path, "w", newline="") as file:
+        table = csv.DictWriter(file, columns, restval="", lineterminator="\n")
+        table.writeheader()
+        table.writerows({column: f"{value:.4g}" if isinstance(value, float) else value for column, value in row.items()} for row in rows)
+
+
+def put_between(readme, name, words):
+    """Replaces what stands in README.md between the marks of a script."""
+    begin, end = f"<!-- {name}: begin -->", f"<!-- {name}: end -->"
+    whole = readme.read_text()
+    if begin not in whole or end not in whole:
+        raise SystemExit(f"{name}: {readme.name} has no lines '{begin}' and '{end}'")
+    before, rest = whole.split(begin, 1)
+    readme.write_text(before + begin + "\n" + words + end + rest.split(end, 1)[1])

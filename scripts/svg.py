@@ -1,0 +1,34 @@
+"""What the plots of the measuring scripts are drawn with: SVG in the reader's theme."""
+import html
+
+LIGHT = {"card": "#ffffff", "edge": "#d0d7de", "grid": "#e4e8ec", "axis": "#8c959f", "guide": "#afb8c1",
+         "band": "#f8ecdc", "ink": "#1f2328", "soft": "#59636e", "series": ("#bf2045", "#b86e00", "#0a7d78")}
+DARK = {"card": "#0d1117", "edge": "#3d444d", "grid": "#262c34", "axis": "#656c76", "guide": "#4d5560",
+        "band": "#2b2214", "ink": "#e6edf3", "soft": "#9198a1", "series": ("#ff7088", "#eda63a", "#45c4bc")}
+
+
+def colours(theme):
+    rules = """.card { fill: %(card)s; stroke: %(edge)s } .grid { stroke: %(grid)s } .axis { stroke: %(axis)s }
+.guide { stroke: %(guide)s } .band { fill: %(band)s } text { fill: %(ink)s } .soft { fill: %(soft)s }
+""" % theme
+    for i, colour in enumerate(theme["series"]):
+        rules += f".s{i} text, .s{i} .dot {{ fill: {colour} }} .s{i} .front, .s{i} circle {{ stroke: {colour} }}\n"
+    return rules
+
+
+# The card is of the reader's theme, and so is what stands on it.
+STYLE = f"""
+text {{ font: 12px system-ui, "Segoe UI", "DejaVu Sans", sans-serif }}
+.title {{ font-size: 14px; font-weight: 600 }}
+.guide {{ stroke-dasharray: 1 3 }} .front {{ stroke-width: 2 }} .behind {{ fill: none; opacity: .7 }}
+{colours(LIGHT)}@media (prefers-color-scheme: dark) {{
+{colours(DARK)}}}
+"""
+
+
+def text(x, y, words, attributes=""):
+    return f'<text x="{x:.1f}" y="{y:.1f}" {attributes}>{html.escape(words)}</text>'
+
+
+def line(kind, *points):
+    return f'<polyline class="{kind}" fill="none" points="' + " ".join(f"{x:.1f},{y:.1f}" for x, y in points) + '"/>'
