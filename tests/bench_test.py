@@ -1,0 +1,39 @@
+#!/usr/bin/env python3
+"""scripts/bench writes a figure for every group, and what it measures against does the same work.
+
+usage: bench_test.py BIN_DIR SOURCE_DIR
+"""
+import csv
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+BIN_DIR, SOURCE_DIR = (pathlib.Path(word).resolve() for word in sys.argv[1:3])
+del sys.argv[1:3]
+
+TRIANGLE = b"1.8000000 1.2000000 2.4000000\n2.8000000 1.2000000 2.4000000\n1.8000000 2.2000000 3.4000000\n\n"
+# The baselines' camera stands at (1.8 1.2 2.4); what is left of a unit step are columns of its rotation.
+FILTERED = (b"0.0000000 0.0000000 0.0000000\n0.8000000 0.3600000 0.4800000\n-0.6000000 1.2800000 0.0400000\n\n")
+
+
+class BenchTest(unittest.TestCase):
+    def test_every_group_has_figures(self):
+        with tempfile.TemporaryDirectory() as folder:
+            subprocess.run([sys.executable, SOURCE_DIR / "scripts/bench", "--quick", "--bin", BIN_DIR, "--baselines", BIN_DIR,
+                            "--out", folder], check=True, stdin=subprocess.DEVNULL)
+            with open(pathlib.Path(folder, "bench.csv"), newline="") as file:
+                rows = list(csv.DictReader(file))
+            self.assertEqual({row["group"] for row in rows}, {"filter", "pipe", "large triangles", "small triangles"})
+            self.assertTrue(all(float(row["median"]) > 0 for row in rows))
+            self.assertIn("| filter | iostream |", pathlib.Path(folder, "bench.md").read_text())
+
+    def test_the_plain_filters_turn_and_move_triangles(self):
+        for name in ("filter_from_chars", "filter_iostream"):
+            done = subprocess.run([BIN_DIR / name], input=TRIANGLE, capture_output=True, check=True)
+            self.assertEqual(done.stdout.replace(b"-0.0000000", b"0.0000000"), FILTERED, name)
+
+
+if __name__ == "__main__":
+    unittest.main()
