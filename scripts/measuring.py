@@ -17,12 +17,14 @@ class Cost:
     mib: float          # resident at most
 
 
-def cost_of(process, name):
-    """Waits for a process; ends the script if it failed."""
+def cost_of(process, name, messages=None):
+    """Waits for a process; ends the script if it failed, with what stands in the file `messages`."""
     _, status, usage = os.wait4(process.pid, 0)
     process.returncode = os.waitstatus_to_exitcode(status)
     if process.returncode != 0:
-        raise SystemExit(f"{name} failed")
+        if messages:
+            messages.seek(0)
+        raise SystemExit(f"{name} failed" + (f": {messages.read().decode()}" if messages else ""))
     return Cost(usage.ru_utime + usage.ru_stime, usage.ru_maxrss / 1024)
 
 
@@ -31,13 +33,13 @@ def run(words, name="a tool", **streams):
     return cost_of(subprocess.Popen(list(map(str, words)), **streams), name)
 
 
-def write_csv(path, rows):
-    """A column for whatever a row has; numbers with four digits."""
+def write_csv(path, rows, digits=4):
+    """A column for whatever a row has; numbers with so many significant digits."""
     columns = list(dict.fromkeys(column for row in rows for column in row))
     with open(path, "w", newline="") as file:
         table = csv.DictWriter(file, columns, restval="", lineterminator="\n")
         table.writeheader()
-        table.writerows({column: f"{value:.4g}" if isinstance(value, float) else value for column, value in row.items()} for row in rows)
+        table.writerows({column: f"{value:.{digits}g}" if isinstance(value, float) else value for column, value in row.items()} for row in rows)
 
 
 def put_between(readme, name, words):

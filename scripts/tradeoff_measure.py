@@ -1,10 +1,11 @@
 """What a setting of the pipeline costs and what it gives up: the measurements of scripts/tradeoff."""
 import dataclasses
 import math
-import os
 import pathlib
 import statistics
 import subprocess
+
+from measuring import cost_of
 
 TOOLS = ("model", "view", "project", "zbuf")
 
@@ -74,12 +75,7 @@ class Bench:
                 source.close()
                 source = processes[-1].stdout
             for process in processes:
-                _, status, usage = os.wait4(process.pid, 0)
-                process.returncode = os.waitstatus_to_exitcode(status)
-                seconds.append(usage.ru_utime + usage.ru_stime)
-            if any(process.returncode != 0 for process in processes):
-                notes.seek(0)
-                raise SystemExit(f"tradeoff: {setting}: {notes.read().decode()}")
+                seconds.append(cost_of(process, f"tradeoff: {setting}", notes).cpu_seconds)
         return seconds
 
 

@@ -3,7 +3,6 @@ import statistics
 
 from tradeoff_measure import ratios_of
 
-BEGIN, END = "<!-- tradeoff: begin -->", "<!-- tradeoff: end -->"
 
 
 class Results:
@@ -204,17 +203,12 @@ def readme_table(results):
     return table(header, [list(cells(setting)) for setting in README_SETTINGS])
 
 
-def put_into(path, results):
-    """Replaces what stands between the two markers."""
-    text = path.read_text()
-    before, rest = text.split(BEGIN)
-    _, after = rest.split(END)
+def readme_part(results):
+    """What stands between the marks in README.md."""
     cost = results.cell("unit", "default", "seconds_per_million_median")
-    part = f"""{BEGIN}
-{readme_table(results)}
+    return f"""{readme_table(results)}
 CPU time is that of the whole pipe, relative to the default's: {cost:.1f} s per million triangles, the median of
 {results.rounds} rounds on {results.machine}.
 
 ![CPU time against three kinds of error, for every setting](scripts/results/tradeoff.svg)
-{END}"""
-    path.write_text(before + part + after)
+"""
