@@ -16,13 +16,14 @@ struct ActiveEdge {
 
 /// The active edge list of the scan-line algorithm: the edges on the current scanline, sorted by column.
 ///
-/// The textbook goes from one scanline to the next by x += dx. In doubles that puts 6816 of 1020230 span ends (0.7%) into
-/// another column than the exact one, for triangles whose vertices have two decimals on a screen of 1000 x 1000 pixels
-/// (4028 without the adding up, with x calculated anew; the test that counts is Scanline.IncrementalXWouldGiveOtherColumns).
-/// So columns are what the coverage rule says, on every row.
+/// The textbook goes from one scanline to the next by x += dx. In doubles that puts 6816 of 1020230 span ends
+/// (0.7%) into another column than the exact one, for triangles whose vertices have two decimals on a screen
+/// of 1000 x 1000 pixels (4028 without the adding up, with x calculated anew; the test that counts is
+/// Scanline.IncrementalXWouldGiveOtherColumns). So columns are what the coverage rule says, on every row.
 class ActiveEdgeList {
  public:
-  /// The column of an edge of a polygon that shows nothing on this scanline; such edges are sorted to the end.
+  /// The column of an edge of a polygon that shows nothing on this scanline; such edges are sorted to the
+  /// end.
   static constexpr int kNowhere = std::numeric_limits<int>::max();
 
   /// Adds the two edges of the polygon at `place`. Their columns are not known before `sort`.
@@ -45,8 +46,8 @@ class ActiveEdgeList {
       if (!edge.is_right) visit(edge.place);
   }
 
-  /// Sets every edge's column to column_of(edge) and sorts: edges that were there on the scanline before are nearly in
-  /// order, new ones are sorted by themselves and merged in.
+  /// Sets every edge's column to column_of(edge) and sorts: edges that were there on the scanline before are
+  /// nearly in order, new ones are sorted by themselves and merged in.
   template <typename ColumnOf>
   void sort(ColumnOf&& column_of) {
     for (ActiveEdge& edge : edges_) edge.column = column_of(edge);

@@ -13,8 +13,9 @@
 
 namespace pipeline {
 
-/// The polygons that cross the current scanline, with what the coverage rule made of them (`Rows`) and their pixels
-/// there. A polygon keeps its place while it is here; the places of polygons that are gone are used again.
+/// The polygons that cross the current scanline, with what the coverage rule made of them (`Rows`) and their
+/// pixels there. A polygon keeps its place while it is here; the places of polygons that are gone are used
+/// again.
 template <typename Rows, typename Depth>
 class ActivePolygons {
  public:

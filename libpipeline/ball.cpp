@@ -12,7 +12,9 @@ DoubleDouble scaled(DoubleDouble a, int exponent) {
 }
 
 /// True if moving a part of a ball by a power of two may have cut bits off at the end of a double's range.
-bool may_be_cut(double part, double moved_part) { return part != 0 && std::fabs(moved_part) < 0x1p-1000; }
+bool may_be_cut(double part, double moved_part) {
+  return part != 0 && std::fabs(moved_part) < 0x1p-1000;
+}
 
 }  // namespace
 
@@ -22,7 +24,9 @@ Ball::Ball(double value) : value_{value, 0} {
   if (value != 0 && (size > kSafeMax || size < kSafeMin)) *this = normalised(value_, 0, 0);
 }
 
-Ball Ball::with_error(DoubleDouble value, double error) { return normalised(value, error, 0); }
+Ball Ball::with_error(DoubleDouble value, double error) {
+  return normalised(value, error, 0);
+}
 
 /// Where the error exceeds the midpoint, it sets the range.
 Ball Ball::normalised_anew(DoubleDouble value, double error, std::int64_t exponent) {
@@ -42,7 +46,9 @@ Ball Ball::normalised_anew(DoubleDouble value, double error, std::int64_t expone
   return {moved, moved_error, safe ? 0 : exponent + own};
 }
 
-Ball operator-(const Ball& a) { return {-a.value_, a.error_, a.exponent_}; }
+Ball operator-(const Ball& a) {
+  return {-a.value_, a.error_, a.exponent_};
+}
 
 /// The general sum: the smaller operand is moved to the range of the larger one.
 Ball Ball::add_across_ranges(const Ball& a, const Ball& b) {

@@ -12,8 +12,8 @@ namespace pipeline {
 /// says itself how many of its digits are right ("ball arithmetic": J. van der Hoeven, 2009). The exponent
 /// takes part only where a double's range ends: it is 0 while |hi| lies in [2^-300, 2^300], so that no
 /// intermediate step can overflow or underflow. Exact operations on exact numbers stay exact (error 0): the
-/// product of two doubles, the sum of two that are at most 600 binary places apart, a quotient or root that is
-/// a double.
+/// product of two doubles, the sum of two that are at most 600 binary places apart, a quotient or root that
+/// is a double.
 class Ball {
  public:
   constexpr Ball() = default;
@@ -81,7 +81,8 @@ class Ball {
   }
   static Ball normalised_anew(DoubleDouble value, double error, std::int64_t exponent);
   static Ball add_across_ranges(const Ball& a, const Ball& b);
-  static Ball add_parts(DoubleDouble a, double a_error, DoubleDouble b, double b_error, std::int64_t exponent) {
+  static Ball add_parts(DoubleDouble a, double a_error, DoubleDouble b, double b_error,
+                        std::int64_t exponent) {
     const bool is_exact = a.lo == 0 && b.lo == 0 && a_error == 0 && b_error == 0;
     const DoubleDouble sum = a + b;
     const double lost = is_exact ? 0 : std::fabs(sum.hi) * kAddMulBound;

@@ -15,10 +15,11 @@
 
 namespace pipeline {
 
-/// Draws triangles band by band of the screen: several batches at a time, all that reach a band before the next band, so
-/// that its pixels stay in the cache; and with several threads, each band by one of them, while the caller reads on. A
-/// pixel belongs to one band and sees its triangles in the order of the stream, so the result does not depend on the
-/// number of threads. `Visible` has draw_rows(triangle, color, rows), which only touches those rows.
+/// Draws triangles band by band of the screen: several batches at a time, all that reach a band before the
+/// next band, so that its pixels stay in the cache; and with several threads, each band by one of them, while
+/// the caller reads on. A pixel belongs to one band and sees its triangles in the order of the stream, so the
+/// result does not depend on the number of threads. `Visible` has draw_rows(triangle, color, rows), which
+/// only touches those rows.
 template <typename Visible>
 class BandDrawing {
  public:
@@ -29,8 +30,8 @@ class BandDrawing {
 
   /// Where the next batch is to be put.
   [[nodiscard]] TriangleBatch& next_batch() { return filling().batches[filling().batch_count]; }
-  /// Takes what was put there, each triangle in the colour `color_of(batch, index)`, which is asked for at once and in
-  /// order. It may be drawn later, at the latest in finish().
+  /// Takes what was put there, each triangle in the colour `color_of(batch, index)`, which is asked for at
+  /// once and in order. It may be drawn later, at the latest in finish().
   template <typename ColorOf>
   void draw_batch(ColorOf&& color_of) {
     sort_into_bands(filling(), color_of);

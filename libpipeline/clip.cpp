@@ -21,7 +21,10 @@ ClipVertex interpolate(const ClipVertex& a, const ClipVertex& b, const Ball& t) 
   const auto between = [&](const Ball& from, const Ball& to) { return from + t * (to - from); };
   const double share = t.nearest_double();
   const auto weight = [&](std::size_t i) { return (1 - share) * a.weights[i] + share * b.weights[i]; };
-  return {between(a.x, b.x), between(a.y, b.y), between(a.z, b.z), between(a.w, b.w),
+  return {between(a.x, b.x),
+          between(a.y, b.y),
+          between(a.z, b.z),
+          between(a.w, b.w),
           {weight(0), weight(1), weight(2)}};
 }
 

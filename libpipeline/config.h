@@ -21,8 +21,8 @@ struct ScreenConfig {
   double bottom = -1;
   double front = -1;
   double rear = 1;
-  /// For exact calculations: true where the limit was written as a plain number with at most 7 decimals, so that it is
-  /// that decimal (limit + low part, to 7 decimals) and not only its nearest double.
+  /// For exact calculations: true where the limit was written as a plain number with at most 7 decimals, so
+  /// that it is that decimal (limit + low part, to 7 decimals) and not only its nearest double.
   bool left_is_decimal = false;
   bool bottom_is_decimal = false;
   double left_low_part = 0;

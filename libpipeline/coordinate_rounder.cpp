@@ -18,7 +18,8 @@ void CoordinateRounder::set_vertex(TriangleBatch& batch, std::size_t triangle, s
   if (!std::isfinite(x.hi) || !std::isfinite(y.hi) || !std::isfinite(z.hi))
     throw InputError({file_, line, 0},
                      expected_but_found("a vertex whose image is within a double's range", "an overflow"));
-  if (!(x.is_certain && y.is_certain && z.is_certain) && first_uncertain_line_ == 0) first_uncertain_line_ = line;
+  if (!(x.is_certain && y.is_certain && z.is_certain) && first_uncertain_line_ == 0)
+    first_uncertain_line_ = line;
   batch.triangles[triangle][vertex] = {x.hi, y.hi, z.hi};
   if (batch.low_parts.empty()) {
     if (x.lo == 0 && y.lo == 0 && z.lo == 0) return;

@@ -10,8 +10,8 @@
 
 namespace pipeline {
 
-/// How vertices are calculated: `plain` in doubles by stable formulas, printed as they come out; `extended` so
-/// that every number printed is the correctly rounded result of exact arithmetic.
+/// How vertices are calculated: `plain` in doubles by stable formulas, printed as they come out; `extended`
+/// so that every number printed is the correctly rounded result of exact arithmetic.
 enum class Precision { plain, extended };
 
 /// Decides which text a calculated coordinate gets. A double and a bound of its error are enough for most

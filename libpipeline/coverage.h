@@ -8,9 +8,9 @@
 
 namespace pipeline {
 
-// The coverage rules of a screen, each as what turns a triangle into rows of pixels: rows(triangle) has first_row() and
-// last_row(), inside the screen, and span(row), a std::optional<Span>. A visibility algorithm takes one as its template
-// parameter `Coverage`.
+// The coverage rules of a screen, each as what turns a triangle into rows of pixels: rows(triangle) has
+// first_row() and last_row(), inside the screen, and span(row), a std::optional<Span>. A visibility algorithm
+// takes one as its template parameter `Coverage`.
 
 /// From the pixel nearest to the left end of a row to the one nearest to its right end.
 struct NearestCoverage {

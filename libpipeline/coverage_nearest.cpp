@@ -7,8 +7,8 @@
 namespace pipeline {
 namespace {
 
-// What follows is written without branches where no processor could predict them: which vertex of a small triangle comes
-// first, which of its edges is on the left.
+// What follows is written without branches where no processor could predict them: which vertex of a small
+// triangle comes first, which of its edges is on the left.
 
 bool is_lower(const Vec3& a, const Vec3& b) {
   const bool at_equal_x = (a.x == b.x) & (a.z < b.z);
@@ -17,7 +17,8 @@ bool is_lower(const Vec3& a, const Vec3& b) {
 
 /// The vertices from the lowest to the highest, equal ones in their order.
 Triangle sorted(const Triangle& p) {
-  const unsigned b_first = is_lower(p[1], p[0]), c_before_a = is_lower(p[2], p[0]), c_before_b = is_lower(p[2], p[1]);
+  const unsigned b_first = is_lower(p[1], p[0]), c_before_a = is_lower(p[2], p[0]),
+                 c_before_b = is_lower(p[2], p[1]);
   Triangle result;
   result[b_first + c_before_a] = p[0];
   result[1 - b_first + c_before_b] = p[1];
@@ -25,8 +26,8 @@ Triangle sorted(const Triangle& p) {
   return result;
 }
 
-/// floor(value) or ceil(value), which may be infinite, as an integer in [low, high]. (Without SSE4.1 the library's are
-/// function calls.)
+/// floor(value) or ceil(value), which may be infinite, as an integer in [low, high]. (Without SSE4.1 the
+/// library's are function calls.)
 int clamped_floor(double value, int low, int high) {
   if (value < low) return low;
   if (value >= high) return high;
@@ -144,8 +145,10 @@ std::optional<Span> NearestRows::span(int row) const {
   const auto both = ends(grid_.y_of(row));
   if (!both) return std::nullopt;
   const auto& [left, right] = *both;
-  Span span = {row, clamped_floor((left.x - grid_.left_x) / grid_.dx + 0.5, 0, grid_.columns),
-               clamped_floor((right.x - grid_.left_x) / grid_.dx + 0.5, -1, grid_.columns - 1), {}};
+  Span span = {row,
+               clamped_floor((left.x - grid_.left_x) / grid_.dx + 0.5, 0, grid_.columns),
+               clamped_floor((right.x - grid_.left_x) / grid_.dx + 0.5, -1, grid_.columns - 1),
+               {}};
   if (span.first_column > span.last_column) return std::nullopt;
   span.depth = {grid_.left_x, grid_.dx, left.x, left.z, 0};
   if (slope_ && left.x < right.x)

@@ -7,10 +7,10 @@
 
 namespace pipeline {
 
-// How a depth is kept. A format rounds depths to what it can store and compares what is stored, so two depths that
-// round to the same are equal and the earlier triangle stays. `store` is monotone; `depth` gives back the depth a stored
-// value stands for. Two depths, neither larger than `size`, of which one exceeds the other by `separation(size)` or more
-// are never stored as the same value.
+// How a depth is kept. A format rounds depths to what it can store and compares what is stored, so two depths
+// that round to the same are equal and the earlier triangle stays. `store` is monotone; `depth` gives back
+// the depth a stored value stands for. Two depths, neither larger than `size`, of which one exceeds the other
+// by `separation(size)` or more are never stored as the same value.
 
 /// A double: what was calculated.
 struct DepthF64 {
@@ -34,9 +34,10 @@ struct DepthF32 {
   }
 };
 
-/// A whole number of 2^24 - 1 equal steps between the front and the rear limit, as graphics hardware keeps it: the limits
-/// are stored exactly, what lies between is rounded to the nearest step, half a step up. Finer than a float where the
-/// limits are close together, as from 0.999 to 1. Signed, because processors convert doubles to signed numbers only.
+/// A whole number of 2^24 - 1 equal steps between the front and the rear limit, as graphics hardware keeps
+/// it: the limits are stored exactly, what lies between is rounded to the nearest step, half a step up. Finer
+/// than a float where the limits are close together, as from 0.999 to 1. Signed, because processors convert
+/// doubles to signed numbers only.
 struct DepthU24 {
   using Stored = std::int32_t;
   static constexpr double kSteps = (1 << 24) - 1;

@@ -21,7 +21,8 @@ void write_depth_row(TextWriter& text, std::span<const double> depths, double re
   constexpr std::size_t kAtOnce = 1024;
   while (!depths.empty()) {
     const auto next = depths.first(std::min(kAtOnce, depths.size()));
-    const FixedDepths written = write_fixed_depths(next, rear, text.reserve(next.size() * kMaxFixedDepthLength));
+    const FixedDepths written =
+        write_fixed_depths(next, rear, text.reserve(next.size() * kMaxFixedDepthLength));
     text.commit(written.end);
     depths = depths.subspan(written.count);
     if (written.count == next.size()) continue;

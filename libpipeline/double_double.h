@@ -43,8 +43,12 @@ inline DoubleDouble operator+(DoubleDouble a, DoubleDouble b) {
   return fast_two_sum(carried.hi, low.lo + carried.lo);
 }
 
-inline DoubleDouble operator-(DoubleDouble a) { return {-a.hi, -a.lo}; }
-inline DoubleDouble operator-(DoubleDouble a, DoubleDouble b) { return a + -b; }
+inline DoubleDouble operator-(DoubleDouble a) {
+  return {-a.hi, -a.lo};
+}
+inline DoubleDouble operator-(DoubleDouble a, DoubleDouble b) {
+  return a + -b;
+}
 
 /// Within 5 u^2 (algorithm DWTimesDW2).
 inline DoubleDouble operator*(DoubleDouble a, DoubleDouble b) {

@@ -10,13 +10,13 @@
 
 namespace pipeline {
 
-/// The edge table of the scan-line algorithm: a bucket for every scanline with the polygons whose edges begin there, a
-/// linked list as in the textbook; 4 bytes a scanline and 4 a polygon.
+/// The edge table of the scan-line algorithm: a bucket for every scanline with the polygons whose edges begin
+/// there, a linked list as in the textbook; 4 bytes a scanline and 4 a polygon.
 ///
-/// The textbook's entry is one edge with its x on the first scanline, its last scanline, dx per scanline and polygon.
-/// Here an entry stands for the two edges of a polygon that cross a scanline, left and right: both ends come from one
-/// question to the coverage rule, which also knows where one edge of a triangle ends and the next begins, and the last
-/// row. There is no dx: see ActiveEdgeList.
+/// The textbook's entry is one edge with its x on the first scanline, its last scanline, dx per scanline and
+/// polygon. Here an entry stands for the two edges of a polygon that cross a scanline, left and right: both
+/// ends come from one question to the coverage rule, which also knows where one edge of a triangle ends and
+/// the next begins, and the last row. There is no dx: see ActiveEdgeList.
 class EdgeTable {
  public:
   explicit EdgeTable(int rows) : first_in_bucket_(static_cast<std::size_t>(rows), kNone) {}
@@ -33,7 +33,9 @@ class EdgeTable {
   /// Calls `visit(polygon id)` for every polygon that begins on `row`, in no particular order.
   template <typename Visitor>
   void for_each_from(int row, Visitor&& visit) const {
-    for (PolygonId id = first_in_bucket_[static_cast<std::size_t>(row)]; id != kNone; id = next_in_bucket_[id]) visit(id);
+    for (PolygonId id = first_in_bucket_[static_cast<std::size_t>(row)]; id != kNone;
+         id = next_in_bucket_[id])
+      visit(id);
   }
 
  private:

@@ -31,7 +31,7 @@ std::span<const FixedTextKernel> fixed_text_kernels() {
 }
 
 const FixedTextKernel& fixed_text_kernel() {
-  static const FixedTextKernel& chosen = [] () -> const FixedTextKernel& {
+  static const FixedTextKernel& chosen = []() -> const FixedTextKernel& {
     const char* const name = std::getenv("PIPELINE_KERNEL");
     for (const FixedTextKernel& kernel : fixed_text_kernels())
       if (name != nullptr && std::string_view(name) == kernel.name) return kernel;

@@ -47,7 +47,8 @@ PIPELINE_AVX2 inline SplitUnits split(__m256d values, __m256d& good) {
           static_cast<unsigned>(_mm256_movemask_pd(below_zero))};
 }
 
-/// For two numbers, a half each: 16 digits, the first of 8 before the point, a 0 where the point will be, 7 behind it.
+/// For two numbers, a half each: 16 digits, the first of 8 before the point, a 0 where the point will be, 7
+/// behind it.
 PIPELINE_AVX2 inline __m256i sixteen_digits(__m128i whole_and_decimals) {
   const __m256i eights = _mm256_cvtepu32_epi64(whole_and_decimals);
   // x / 10000 for x < 10^8, in 64 bits.
@@ -84,8 +85,8 @@ PIPELINE_AVX2 inline char* write_number(char* out, unsigned is_negative, __m128i
   return out + 16 - leading_zero_count;
 }
 
-PIPELINE_AVX2 inline char* write_two(char* out, __m128i whole_and_decimals, unsigned negative, char first_separator,
-                                     char second_separator) {
+PIPELINE_AVX2 inline char* write_two(char* out, __m128i whole_and_decimals, unsigned negative,
+                                     char first_separator, char second_separator) {
   const __m256i characters = _mm256_broadcastsi128_si256(
       _mm_setr_epi8('0', '0', '0', '0', '0', '0', '0', '0', '.', '0', '0', '0', '0', '0', '0', '0'));
   const __m256i digits = sixteen_digits(whole_and_decimals);
@@ -114,7 +115,8 @@ PIPELINE_AVX2 FixedTextPart write_fixed_text(std::span<const Triangle> triangles
     out = write_two(out, _mm_unpacklo_epi32(b.whole, b.decimals), b.negative, ' ', '\n');
     out = write_two(out, _mm_unpackhi_epi32(b.whole, b.decimals), b.negative >> 2, ' ', ' ');
     // The last number stands alone; the text of its empty companion is written over.
-    char* const after_companion = write_two(out, _mm_unpacklo_epi32(c.whole, c.decimals), c.negative, '\n', '\n');
+    char* const after_companion =
+        write_two(out, _mm_unpacklo_epi32(c.whole, c.decimals), c.negative, '\n', '\n');
     out = after_companion - (sizeof "0.0000000\n" - 1);
     *out++ = '\n';
     ++part.triangle_count;
@@ -127,7 +129,9 @@ PIPELINE_AVX2 FixedTextPart write_fixed_text(std::span<const Triangle> triangles
 
 constinit const WriteFixedText kWriteFixedTextAvx2 = write_fixed_text;
 
-bool processor_has_avx2() { return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi"); }
+bool processor_has_avx2() {
+  return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi");
+}
 
 }  // namespace pipeline
 

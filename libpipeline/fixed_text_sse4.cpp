@@ -18,8 +18,8 @@ constexpr std::uint64_t kSignBit = std::uint64_t{1} << 63;
 
 // ---- reading ----
 
-/// For each count of digits before the point: where the bytes of [8 digits before][0][7 digits behind] come from.
-/// An impossible count has a row that picks the point, which is no digit.
+/// For each count of digits before the point: where the bytes of [8 digits before][0][7 digits behind] come
+/// from. An impossible count has a row that picks the point, which is no digit.
 struct DigitShuffles {
   alignas(16) std::array<std::array<std::uint8_t, 16>, 17> rows{};
 
@@ -89,7 +89,8 @@ PIPELINE_SSE4 FixedTextPart read_fixed_text(std::string_view text, std::span<Tri
 
 /// 16 digits, the first of 8 before the point, then a 0 where the point will be, and 7 behind it.
 PIPELINE_SSE4 inline __m128i sixteen_digits(std::uint32_t whole, std::uint32_t decimals) {
-  const __m128i eights = _mm_set_epi64x(static_cast<std::int64_t>(decimals), static_cast<std::int64_t>(whole));
+  const __m128i eights =
+      _mm_set_epi64x(static_cast<std::int64_t>(decimals), static_cast<std::int64_t>(whole));
   // x / 10000 for x < 10^8, in 64 bits.
   const __m128i high = _mm_srli_epi64(_mm_mul_epu32(eights, _mm_set1_epi64x(0xd1b71759)), 45);
   const __m128i low = _mm_sub_epi32(eights, _mm_mul_epu32(high, _mm_set1_epi64x(10000)));
@@ -112,12 +113,15 @@ struct ByteShifts {
 
 constexpr ByteShifts kByteShifts;
 
-PIPELINE_SSE4 inline char* write_number(char* out, bool is_negative, std::uint32_t whole, std::uint32_t decimals) {
+PIPELINE_SSE4 inline char* write_number(char* out, bool is_negative, std::uint32_t whole,
+                                        std::uint32_t decimals) {
   const __m128i digits = sixteen_digits(whole, decimals);
-  const __m128i characters = _mm_setr_epi8('0', '0', '0', '0', '0', '0', '0', '0', '.', '0', '0', '0', '0', '0', '0', '0');
+  const __m128i characters =
+      _mm_setr_epi8('0', '0', '0', '0', '0', '0', '0', '0', '.', '0', '0', '0', '0', '0', '0', '0');
   const __m128i text = _mm_add_epi8(digits, characters);
   // The last digit before the point stays even if it is 0.
-  const auto filled = static_cast<unsigned>(_mm_movemask_epi8(_mm_cmpgt_epi8(digits, _mm_setzero_si128()))) | 0x80u;
+  const auto filled =
+      static_cast<unsigned>(_mm_movemask_epi8(_mm_cmpgt_epi8(digits, _mm_setzero_si128()))) | 0x80u;
   const auto leading_zero_count = static_cast<unsigned>(std::countr_zero(filled));
   const __m128i shift =
       _mm_loadu_si128(reinterpret_cast<const __m128i*>(kByteShifts.bytes.data() + leading_zero_count));
@@ -189,7 +193,9 @@ PIPELINE_SSE4 FixedTextPart write_fixed_text(std::span<const Triangle> triangles
 
 constinit const FixedTextKernel kSse4Kernel = {"sse4", read_fixed_text, write_fixed_text};
 
-bool processor_has_sse4() { return __builtin_cpu_supports("sse4.2") && __builtin_cpu_supports("bmi"); }
+bool processor_has_sse4() {
+  return __builtin_cpu_supports("sse4.2") && __builtin_cpu_supports("bmi");
+}
 
 }  // namespace pipeline
 

@@ -82,7 +82,8 @@ ImageWriter::ImageWriter(int descriptor, const std::string& path, ImageFormat fo
   if (format == ImageFormat::bmp)
     write_bmp_header();
   else
-    write_bytes(descriptor_, "P6\n" + std::to_string(columns) + " " + std::to_string(rows) + "\n255\n", path_);
+    write_bytes(descriptor_, "P6\n" + std::to_string(columns) + " " + std::to_string(rows) + "\n255\n",
+                path_);
   const bool needs_all_rows = format == ImageFormat::bmp && !can_seek_;
   const std::size_t all_rows = static_cast<std::size_t>(rows);
   const std::size_t block_rows = std::clamp<std::size_t>(kBlockSize / row_size_, 1, all_rows);

@@ -23,8 +23,9 @@ ImageFormat image_format_of(const std::string& path);
 /// bits.
 void check_image_size(ImageFormat format, int columns, int rows, const std::string& path);
 
-/// Takes an image row by row, from the top, and writes it in blocks of 4 MiB, so that only few rows are in memory; but a BMP that goes where
-/// there is no seeking (a pipe) is held as a whole. Failures to write are IoErrors.
+/// Takes an image row by row, from the top, and writes it in blocks of 4 MiB, so that only few rows are in
+/// memory; but a BMP that goes where there is no seeking (a pipe) is held as a whole. Failures to write are
+/// IoErrors.
 class ImageWriter {
  public:
   /// Writes to a file descriptor, which stays the caller's; `path` names it in messages.

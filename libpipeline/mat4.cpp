@@ -5,9 +5,15 @@
 
 namespace pipeline {
 
-BallVec3 operator-(const BallVec3& a, const BallVec3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-BallVec3 operator*(const BallVec3& a, const Ball& factor) { return {a.x * factor, a.y * factor, a.z * factor}; }
-Ball dot(const BallVec3& a, const BallVec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+BallVec3 operator-(const BallVec3& a, const BallVec3& b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+BallVec3 operator*(const BallVec3& a, const Ball& factor) {
+  return {a.x * factor, a.y * factor, a.z * factor};
+}
+Ball dot(const BallVec3& a, const BallVec3& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
 
 BallVec3 cross(const BallVec3& a, const BallVec3& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
@@ -18,7 +24,9 @@ BallVec3 normalised(const BallVec3& a) {
   return {a.x / length, a.y / length, a.z / length};
 }
 
-BallVec3 to_balls(const Vec3& v) { return {v.x, v.y, v.z}; }
+BallVec3 to_balls(const Vec3& v) {
+  return {v.x, v.y, v.z};
+}
 
 AffineMatrix identity() {
   AffineMatrix m;
@@ -28,8 +36,11 @@ AffineMatrix identity() {
 
 namespace {
 
-// Enlarges a bound by more than the few operations that made it can have rounded off, or lost below the range.
-double rounded_up(double bound) { return bound * (1 + 0x1p-40) + 0x1p-1000; }
+// Enlarges a bound by more than the few operations that made it can have rounded off, or lost below the
+// range.
+double rounded_up(double bound) {
+  return bound * (1 + 0x1p-40) + 0x1p-1000;
+}
 
 /// At least the Euclidean length of the linear part of a row.
 double row_length_bound(const std::array<Ball, 4>& row) {
@@ -42,8 +53,8 @@ double row_length_bound(const std::array<Ball, 4>& row) {
   return rounded_up(largest * std::sqrt(x * x + y * y + z * z));
 }
 
-/// The parts of a row's error in a * b that depend on b alone, per unit of the length of a's row: b's own error
-/// and the roundings of the product.
+/// The parts of a row's error in a * b that depend on b alone, per unit of the length of a's row: b's own
+/// error and the roundings of the product.
 double error_per_length(const AffineMatrix& b) {
   double error = 0;
   for (std::size_t i = 0; i < 3; ++i) error += b.row_errors[i] + 0x1p-101 * row_length_bound(b.rows[i]);

@@ -26,9 +26,10 @@ BallVec3 to_balls(const Vec3& v);
 /// the three rows above, row by row. Column vectors: (A * B) p = A (B p).
 ///
 /// Bounding the error of each entry alone would let it grow by up to sqrt(3) with every rotation, although a
-/// rotation turns errors without making them longer (the wrapping effect: R. Moore, "Interval Analysis", 1966).
-/// So a matrix also keeps for each row the length that the errors of its first three entries have together, and
-/// by how much the linear part can lengthen a vector; of both bounds an entry has the smaller one.
+/// rotation turns errors without making them longer (the wrapping effect: R. Moore, "Interval Analysis",
+/// 1966). So a matrix also keeps for each row the length that the errors of its first three entries have
+/// together, and by how much the linear part can lengthen a vector; of both bounds an entry has the smaller
+/// one.
 struct AffineMatrix {
   std::array<std::array<Ball, 4>, 3> rows;
   std::array<double, 3> row_errors{};  // bounds of a Euclidean length; infinite where nothing is known

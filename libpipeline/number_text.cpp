@@ -19,7 +19,9 @@ constexpr std::array<double, kMaxDecimals + 1> kPowersOfTen = {
 // A ball narrower than this part of the last printed unit that reaches a tie counts as the tie.
 constexpr double kTieTolerance = 0x1p-20;
 
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
+bool is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
 
 /// The decimal exponent of the first digit that is not 0 in a word from_chars has accepted.
 long long leading_exponent(std::string_view word) {
@@ -52,7 +54,9 @@ SplitNumber split_at_whole(DoubleDouble t) {
   return {two_sum(high, low) + DoubleDouble{carry, 0}, two_sum(rest.hi - carry, rest.lo)};
 }
 
-bool is_odd(DoubleDouble whole) { return std::fmod(std::fmod(whole.hi, 2) + std::fmod(whole.lo, 2), 2) != 0; }
+bool is_odd(DoubleDouble whole) {
+  return std::fmod(std::fmod(whole.hi, 2) + std::fmod(whole.lo, 2), 2) != 0;
+}
 
 PrintableNumber round_to_decimals(DoubleDouble value, double error, int decimals) {
   const double scale = kPowersOfTen[static_cast<std::size_t>(decimals)];
@@ -153,9 +157,9 @@ bool parse_count(std::string_view word, std::size_t& value) {
 char* print_number(char* out, double hi, double lo, NumberFormat format) {
   assert(std::isfinite(hi) && std::isfinite(lo));
   if (format.shortest) return std::to_chars(out, out + kMaxNumberLength, hi == 0 ? 0.0 : hi).ptr;
-  char* const end = lo == 0 ? std::to_chars(out, out + kMaxNumberLength, hi, std::chars_format::fixed,
-                                            format.decimals).ptr
-                            : print_exact_sum(out, hi, lo, format.decimals);
+  char* const end =
+      lo == 0 ? std::to_chars(out, out + kMaxNumberLength, hi, std::chars_format::fixed, format.decimals).ptr
+              : print_exact_sum(out, hi, lo, format.decimals);
   return without_sign_of_zero(out, end);
 }
 

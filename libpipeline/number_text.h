@@ -33,16 +33,16 @@ ParsedNumber parse_number(std::string_view word);
 /// The most decimals a number may have to be taken as that decimal by an exact calculation.
 constexpr int kExactDecimals = 7;
 
-/// What an exact calculation makes of a word that parse_number accepts: a plain number (no exponent) below 10^22
-/// with at most kExactDecimals decimals is that decimal, given as hi + lo within 2^-98 of itself; false for any other,
-/// which is its nearest double. hi is what parse_number gives.
+/// What an exact calculation makes of a word that parse_number accepts: a plain number (no exponent) below
+/// 10^22 with at most kExactDecimals decimals is that decimal, given as hi + lo within 2^-98 of itself; false
+/// for any other, which is its nearest double. hi is what parse_number gives.
 bool parse_exact_decimal(std::string_view word, DoubleDouble& value);
 
 /// A whole word of decimal digits; false where it is anything else or does not fit.
 bool parse_count(std::string_view word, std::size_t& value);
 
-/// A coordinate ready to be printed: the exact sum hi + lo. `lo` is 0 unless a double cannot hold the decimals
-/// that are asked for.
+/// A coordinate ready to be printed: the exact sum hi + lo. `lo` is 0 unless a double cannot hold the
+/// decimals that are asked for.
 struct PrintableNumber {
   double hi = 0;
   double lo = 0;
@@ -51,8 +51,9 @@ struct PrintableNumber {
 };
 
 /// Prints the nearest decimal to hi + lo, ties to even, in the form `format` asks for, and returns the end of
-/// the text. Zero is printed without a sign, and never in another form than "0.000..." or "0". Both parts must
-/// be finite, |lo| <= ulp(hi) / 2; a shortest number is made of hi alone. `out` has room for kMaxNumberLength.
+/// the text. Zero is printed without a sign, and never in another form than "0.000..." or "0". Both parts
+/// must be finite, |lo| <= ulp(hi) / 2; a shortest number is made of hi alone. `out` has room for
+/// kMaxNumberLength.
 char* print_number(char* out, double hi, double lo, NumberFormat format);
 
 /// The number whose text is the correctly rounded text of every number in the ball; where the ball reaches a

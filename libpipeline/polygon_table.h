@@ -13,12 +13,12 @@ namespace pipeline {
 /// A polygon's number in its table. Polygons are numbered in the order of the stream.
 using PolygonId = std::uint32_t;
 
-/// The polygon table of the scan-line algorithm: every triangle that reaches the screen, in 88 bytes (72 more where the
-/// text has more digits than doubles hold).
+/// The polygon table of the scan-line algorithm: every triangle that reaches the screen, in 88 bytes (72 more
+/// where the text has more digits than doubles hold).
 ///
-/// The textbook's entry has the plane equation, the shading information and the in-out flag. Here the plane is its
-/// three vertices, from which the coverage rule makes the depth along a row, and the flag is kept only for the polygons
-/// on the scanline (`RowPolygon`).
+/// The textbook's entry has the plane equation, the shading information and the in-out flag. Here the plane
+/// is its three vertices, from which the coverage rule makes the depth along a row, and the flag is kept only
+/// for the polygons on the scanline (`RowPolygon`).
 class PolygonTable {
  public:
   /// Takes the next triangle; its number is the count so far.
@@ -32,7 +32,8 @@ class PolygonTable {
   /// The triangle as it was given; refers to the table.
   [[nodiscard]] ExactTriangle triangle(PolygonId id) const {
     const Polygon& polygon = polygons_[id];
-    return {polygon.p_ndc, polygon.low_parts == 0 ? nullptr : &low_parts_[polygon.low_parts - 1], polygon.decimal_marks};
+    return {polygon.p_ndc, polygon.low_parts == 0 ? nullptr : &low_parts_[polygon.low_parts - 1],
+            polygon.decimal_marks};
   }
   [[nodiscard]] Color color(PolygonId id) const { return polygons_[id].color; }
   [[nodiscard]] PolygonId size() const { return static_cast<PolygonId>(polygons_.size()); }

@@ -9,8 +9,8 @@ namespace {
 
 constexpr double kUnit = 0x1p-53;
 
-/// The sign of the determinant with rows (x, y, w) of the three vertices: that of the area in NDC, for the part
-/// in front of the eye (and for an axis pair that is not mirrored).
+/// The sign of the determinant with rows (x, y, w) of the three vertices: that of the area in NDC, for the
+/// part in front of the eye (and for an axis pair that is not mirrored).
 int winding_sign(const Triangle& p_view, bool is_perspective) {
   const auto w = [&](const Vec3& p) { return is_perspective ? -p.z : 1.0; };
   const auto& [a, b, c] = p_view;
@@ -18,8 +18,11 @@ int winding_sign(const Triangle& p_view, bool is_perspective) {
   const double minor_b = c.x * a.y - c.y * a.x;
   const double minor_c = a.x * b.y - a.y * b.x;
   const double determinant = minor_a * w(a) + minor_b * w(b) + minor_c * w(c);
-  const auto size = [](double p, double q, double r, double s) { return std::fabs(p * q) + std::fabs(r * s); };
-  const double magnitude = size(b.x, c.y, b.y, c.x) * std::fabs(w(a)) + size(c.x, a.y, c.y, a.x) * std::fabs(w(b)) +
+  const auto size = [](double p, double q, double r, double s) {
+    return std::fabs(p * q) + std::fabs(r * s);
+  };
+  const double magnitude = size(b.x, c.y, b.y, c.x) * std::fabs(w(a)) +
+                           size(c.x, a.y, c.y, a.x) * std::fabs(w(b)) +
                            size(a.x, b.y, a.y, b.x) * std::fabs(w(c));
   // Minors below a double's range lose up to 2^-1073.
   const double lost = 0x1p-1070 * (std::fabs(w(a)) + std::fabs(w(b)) + std::fabs(w(c))) + 0x1p-1000;
@@ -65,9 +68,12 @@ ProjectionStage::ProjectionStage(const ProjectionTransform& projection, ClipMode
       clip_(clip),
       cull_(cull),
       rounder_(rounder),
-      in_doubles_{as_factor(projection.x_scale), as_factor(projection.x_offset),
-                  as_factor(projection.y_scale), as_factor(projection.y_offset),
-                  projection.near,               projection.far,
+      in_doubles_{as_factor(projection.x_scale),
+                  as_factor(projection.x_offset),
+                  as_factor(projection.y_scale),
+                  as_factor(projection.y_offset),
+                  projection.near,
+                  projection.far,
                   as_factor(Ball(projection.far) - Ball(projection.near))},
       mirrored_(projection.x_scale.sign() * projection.y_scale.sign() < 0) {}
 
@@ -103,8 +109,9 @@ bool ProjectionStage::needs_clipping(const Triangle& p_view) const {
   if (clip_ == ClipMode::none) return false;
   if (clip_ != ClipMode::automatic) return true;
   // Multiplication by a power of two is exact; an infinite product compares as it should.
-  return projection_.is_perspective &&
-         std::any_of(p_view.begin(), p_view.end(), [&](const Vec3& p) { return -p.z * 1024 < projection_.near; });
+  return projection_.is_perspective && std::any_of(p_view.begin(), p_view.end(), [&](const Vec3& p) {
+           return -p.z * 1024 < projection_.near;
+         });
 }
 
 /// The image in doubles, by formulas that lose nothing but the last bits; false where those might show.
@@ -128,7 +135,8 @@ bool ProjectionStage::divide_in_doubles(const Vec3& p_view, Vec3& p_ndc) const {
   // Products below a double's range lose less than 2^-150 of a quotient.
   const double x_error = 8 * kUnit * ((std::fabs(x) + std::fabs(x_shift)) / w) + 0x1p-150;
   const double y_error = 8 * kUnit * ((std::fabs(y) + std::fabs(y_shift)) / w) + 0x1p-150;
-  const double z_error = 8 * kUnit * ((std::fabs(beyond_near) + std::fabs(before_far)) / depth_scale) + 0x1p-150;
+  const double z_error =
+      8 * kUnit * ((std::fabs(beyond_near) + std::fabs(before_far)) / depth_scale) + 0x1p-150;
   return rounder_.accepts(p_ndc.x, x_error) && rounder_.accepts(p_ndc.y, y_error) &&
          rounder_.accepts(p_ndc.z, z_error);
 }
@@ -139,7 +147,8 @@ void ProjectionStage::add_attributes(const TriangleBatch& p_view, std::size_t in
   std::array<VertexLine, 3> vertices;
   for (std::size_t v = 0; v < 3; ++v) {
     vertices[v].w = mixes[v].w;
-    if (!corners.colors.empty()) vertices[v].color = clamped_color(mean(corners.colors[index], mixes[v].weights));
+    if (!corners.colors.empty())
+      vertices[v].color = clamped_color(mean(corners.colors[index], mixes[v].weights));
     if (!corners.normals.empty()) vertices[v].normal = mean(corners.normals[index], mixes[v].weights);
   }
   p_ndc.attributes.add(vertices, {true, !corners.colors.empty(), !corners.normals.empty()});
@@ -151,15 +160,16 @@ void ProjectionStage::project_whole(const TriangleBatch& p_view, std::size_t ind
   for (std::size_t v = 0; v < 3; ++v) {
     const Vec3& p = p_view.triangles[index][v];
     if (projection_.is_perspective && p.z >= 0)
-      throw InputError({rounder_.file(), p_view.lines[index][v], 0},
-                       expected_but_found("a vertex in front of the eye (z below 0)",
-                                          "one on or behind the eye plane"));
+      throw InputError(
+          {rounder_.file(), p_view.lines[index][v], 0},
+          expected_but_found("a vertex in front of the eye (z below 0)", "one on or behind the eye plane"));
     if (divide_in_doubles(p, p_ndc.triangles[target][v])) continue;
     rounder_.set_vertex(p_ndc, target, v, perspective_divide(to_clip_space(projection_, p)));
   }
   const auto& [a, b, c] = p_view.triangles[index];
   if (has_attributes(p_view))
-    add_attributes(p_view, index, {{{{1, 0, 0}, w_of(a)}, {{0, 1, 0}, w_of(b)}, {{0, 0, 1}, w_of(c)}}}, p_ndc);
+    add_attributes(p_view, index, {{{{1, 0, 0}, w_of(a)}, {{0, 1, 0}, w_of(b)}, {{0, 0, 1}, w_of(c)}}},
+                   p_ndc);
 }
 
 void ProjectionStage::project_clipped(const TriangleBatch& p_view, std::size_t index, TriangleBatch& p_ndc) {
@@ -194,7 +204,9 @@ void ProjectionStage::project_clipped(const TriangleBatch& p_view, std::size_t i
     const std::array<const ClipVertex*, 3> piece = {&polygon[0], &polygon[i], &polygon[i + 1]};
     for (std::size_t v = 0; v < 3; ++v) rounder_.set_vertex(p_ndc, target, v, perspective_divide(*piece[v]));
     if (!has_attributes(p_view)) continue;
-    const auto mix = [&](std::size_t v) { return CornerMix{piece[v]->weights, piece[v]->w.nearest_double()}; };
+    const auto mix = [&](std::size_t v) {
+      return CornerMix{piece[v]->weights, piece[v]->w.nearest_double()};
+    };
     add_attributes(p_view, index, {mix(0), mix(1), mix(2)}, p_ndc);
   }
 }

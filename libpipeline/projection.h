@@ -20,8 +20,8 @@ enum class ClipMode {
   none        // a vertex that is not in front of the eye is an error
 };
 
-/// Which triangles are dropped by their winding as seen from the eye; counter-clockwise is front. One that is seen
-/// so nearly from the edge that 31 digits cannot tell is kept.
+/// Which triangles are dropped by their winding as seen from the eye; counter-clockwise is front. One that is
+/// seen so nearly from the edge that 31 digits cannot tell is kept.
 enum class CullMode { nothing, back, front };
 
 struct ProjectionCounts {
@@ -34,12 +34,14 @@ struct ProjectionCounts {
 /// The project stage: view space to NDC, by way of clip space.
 class ProjectionStage {
  public:
-  ProjectionStage(const ProjectionTransform& projection, ClipMode clip, CullMode cull, CoordinateRounder& rounder);
+  ProjectionStage(const ProjectionTransform& projection, ClipMode clip, CullMode cull,
+                  CoordinateRounder& rounder);
 
-  /// Fills `p_ndc` with the images of the triangles in `p_view`, in order. A clipped triangle becomes several with
-  /// its number, a dropped one none. Attributes are interpolated in clip space (normals are not made unit vectors
-  /// again, so that a piece shades like the whole), and w joins them. An InputError with the vertex's line if a vertex that has to be divided is
-  /// not in front of the eye; `p_ndc` then holds the images of the triangles before it.
+  /// Fills `p_ndc` with the images of the triangles in `p_view`, in order. A clipped triangle becomes several
+  /// with its number, a dropped one none. Attributes are interpolated in clip space (normals are not made
+  /// unit vectors again, so that a piece shades like the whole), and w joins them. An InputError with the
+  /// vertex's line if a vertex that has to be divided is not in front of the eye; `p_ndc` then holds the
+  /// images of the triangles before it.
   void project(const TriangleBatch& p_view, TriangleBatch& p_ndc);
 
   [[nodiscard]] const ProjectionCounts& counts() const { return counts_; }

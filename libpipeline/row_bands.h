@@ -9,8 +9,8 @@
 
 namespace pipeline {
 
-/// A screen cut into bands of neighbouring rows: so many that threads can share them out, and each so low that its
-/// depths and colours stay in a core's cache while many triangles are drawn into it.
+/// A screen cut into bands of neighbouring rows: so many that threads can share them out, and each so low
+/// that its depths and colours stay in a core's cache while many triangles are drawn into it.
 class RowBands {
  public:
   explicit RowBands(const ScreenConfig& screen)
@@ -21,8 +21,8 @@ class RowBands {
     return {band * height_, std::min((band + 1) * height_, grid_.rows)};
   }
 
-  /// The bands in which a triangle in NDC can have pixels, whatever the coverage rule: perhaps one too many, where a
-  /// vertex is next to the line of centres of a band's outermost row.
+  /// The bands in which a triangle in NDC can have pixels, whatever the coverage rule: perhaps one too many,
+  /// where a vertex is next to the line of centres of a band's outermost row.
   [[nodiscard]] RowRange bands_of(const Triangle& p_ndc) const {
     const auto [low, high] = std::minmax({p_ndc[0].y, p_ndc[1].y, p_ndc[2].y});
     const double first = (grid_.top_y - high) * rows_per_dy_ - kReach;

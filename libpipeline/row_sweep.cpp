@@ -48,11 +48,13 @@ RowPolygon<Depth> RowSweep<Depth>::polygon(const Span& span, PolygonId id, Color
   double left_z = depth(polygon.first_column), right_z = depth(polygon.last_column);
   const auto is_seen = [&](double z) { return z >= front_ && is_before_rear(z); };
   if (!is_seen(left_z) || !is_seen(right_z)) {
-    // Each rounding in a SpanDepth is monotone, so the depths as calculated rise or fall along the row and cross a
-    // limit once.
+    // Each rounding in a SpanDepth is monotone, so the depths as calculated rise or fall along the row and
+    // cross a limit once.
     const bool is_rising = left_z <= right_z;
     const int end = span.last_column + 1;
-    const auto first_where = [&](auto&& is_true) { return first_column_where(span.first_column, end, is_true); };
+    const auto first_where = [&](auto&& is_true) {
+      return first_column_where(span.first_column, end, is_true);
+    };
     if (is_rising) {
       polygon.first_column = first_where([&](int column) { return depth(column) >= front_; });
       polygon.last_column = first_where([&](int column) { return !is_before_rear(depth(column)); }) - 1;
@@ -123,7 +125,8 @@ void RowSweep<Depth>::leave(Polygon& polygon) {
   std::erase(rivals_, &polygon);
 }
 
-/// `polygon` begins at `column`. Whoever is nearer than the owner is nearer than all that the owner is nearer than.
+/// `polygon` begins at `column`. Whoever is nearer than the owner is nearer than all that the owner is nearer
+/// than.
 template <typename Depth>
 void RowSweep<Depth>::challenge_owner(Polygon& polygon, int column) {
   if (owner_->farthest < polygon.nearest) return;

@@ -16,7 +16,8 @@
 
 namespace pipeline {
 
-/// What of a polygon can be seen on one scanline, were it alone: neighbouring pixels between the limits of depth.
+/// What of a polygon can be seen on one scanline, were it alone: neighbouring pixels between the limits of
+/// depth.
 template <typename Depth>
 struct RowPolygon {
   /// The value of place_in_list of a polygon whose in-out flag is "out": the sweep is not between its edges.
@@ -27,27 +28,29 @@ struct RowPolygon {
   SpanDepth depth;
   int first_column = 0;
   int last_column = -1;
-  typename Depth::Stored nearest = {};   // of the depths at its pixels, as they are stored
+  typename Depth::Stored nearest = {};  // of the depths at its pixels, as they are stored
   typename Depth::Stored farthest = {};
-  double size = 0;   // no depth along the row, and nothing it is calculated from, is larger
-  double error = 0;  // at least twice what a depth can be off from the exact linear function; 0 if it is exact
+  double size = 0;  // no depth along the row, and nothing it is calculated from, is larger
+  double error =
+      0;  // at least twice what a depth can be off from the exact linear function; 0 if it is exact
   PolygonId id = 0;
   Color color;
   std::uint32_t place_in_list = kOut;  // in the active polygon list
 };
 
-/// One scanline of the scan-line algorithm: goes from edge to edge, keeps the list of active polygons (those it is
-/// between the edges of), and gives the pixels between neighbouring edges to the nearest of them.
+/// One scanline of the scan-line algorithm: goes from edge to edge, keeps the list of active polygons (those
+/// it is between the edges of), and gives the pixels between neighbouring edges to the nearest of them.
 ///
-/// The textbook compares depths once for every interval between two edges, at its left end, and is wrong where polygons
-/// interpenetrate. Here the owner of an interval is compared with the others at both ends. Along a row depths are
-/// linear functions, so where the difference of two exceeds what rounding can add at both ends, it has the same sign at
-/// every pixel between. Where it does not, the interval is split at the crossing, and what rounding decides is compared
-/// pixel by pixel, as the z-buffer does it: the smaller stored depth wins, of equal ones the earlier polygon.
+/// The textbook compares depths once for every interval between two edges, at its left end, and is wrong
+/// where polygons interpenetrate. Here the owner of an interval is compared with the others at both ends.
+/// Along a row depths are linear functions, so where the difference of two exceeds what rounding can add at
+/// both ends, it has the same sign at every pixel between. Where it does not, the interval is split at the
+/// crossing, and what rounding decides is compared pixel by pixel, as the z-buffer does it: the smaller
+/// stored depth wins, of equal ones the earlier polygon.
 ///
-/// An owner stays for as long as it is sure to be nearest, also over edges of polygons behind it, and a new polygon is
-/// compared with the owner only (depth coherence), so a scanline takes time for its edges and for what is seen, not for
-/// every pixel of every layer.
+/// An owner stays for as long as it is sure to be nearest, also over edges of polygons behind it, and a new
+/// polygon is compared with the owner only (depth coherence), so a scanline takes time for its edges and for
+/// what is seen, not for every pixel of every layer.
 template <typename Depth>
 class RowSweep {
  public:
@@ -56,8 +59,8 @@ class RowSweep {
   /// The pixels of `span` that can be seen, with their depths' range and precision.
   [[nodiscard]] RowPolygon<Depth> polygon(const Span& span, PolygonId id, Color color) const;
 
-  /// The visible row: `edges`, sorted by column, are the two edges of every polygon that is not empty, each with its
-  /// place in `polygons`. What is returned is valid until the next call.
+  /// The visible row: `edges`, sorted by column, are the two edges of every polygon that is not empty, each
+  /// with its place in `polygons`. What is returned is valid until the next call.
   VisibleRow sweep(std::span<const ActiveEdge> edges, std::span<RowPolygon<Depth>> polygons);
 
  private:

@@ -12,14 +12,16 @@
 
 namespace pipeline {
 
-/// The visibility algorithm `scanline`: keeps the triangles and finds row by row who is nearest where. Takes the memory
-/// of the triangles that reach the screen (92 bytes each, see PolygonTable and EdgeTable), of those that cross one row,
-/// and of one row of pixels; never that of the frame. The rows are the z-buffer's, to the last bit: both ask the same
-/// coverage rule for columns and depths, and compare what the same depth format stores.
+/// The visibility algorithm `scanline`: keeps the triangles and finds row by row who is nearest where. Takes
+/// the memory of the triangles that reach the screen (92 bytes each, see PolygonTable and EdgeTable), of
+/// those that cross one row, and of one row of pixels; never that of the frame. The rows are the z-buffer's,
+/// to the last bit: both ask the same coverage rule for columns and depths, and compare what the same depth
+/// format stores.
 ///
-/// Source: J. Foley, A. van Dam, S. Feiner, J. Hughes, "Computer Graphics: Principles and Practice", 2nd edition,
-/// section 15.6 (and 3.6 for the edge table); D. Hearn, M. P. Baker, "Computer Graphics", 2nd edition, section 13-5. The
-/// method is from C. Wylie, G. Romney, D. Evans, A. Erdahl, "Half-tone perspective drawings by computer", 1967.
+/// Source: J. Foley, A. van Dam, S. Feiner, J. Hughes, "Computer Graphics: Principles and Practice", 2nd
+/// edition, section 15.6 (and 3.6 for the edge table); D. Hearn, M. P. Baker, "Computer Graphics", 2nd
+/// edition, section 13-5. The method is from C. Wylie, G. Romney, D. Evans, A. Erdahl, "Half-tone perspective
+/// drawings by computer", 1967.
 template <typename Coverage, typename Depth>
 class Scanline {
  public:

@@ -60,11 +60,11 @@ class SceneReader {
 
   /// The camera, complete and checked.
   [[nodiscard]] const CameraText& camera() const { return camera_; }
-  /// What was read of colour and light so far, without the lights (each is a command of its own). Its columns are
-  /// those of the triangles' attributes; complete at the first triangle.
+  /// What was read of colour and light so far, without the lights (each is a command of its own). Its columns
+  /// are those of the triangles' attributes; complete at the first triangle.
   [[nodiscard]] const Appearance& appearance() const { return appearance_; }
-  /// The vertices of the triangle given out last, with the attributes in `appearance()`; nothing to rely on where
-  /// there are none.
+  /// The vertices of the triangle given out last, with the attributes in `appearance()`; nothing to rely on
+  /// where there are none.
   [[nodiscard]] const std::array<VertexLine, 3>& vertices() const { return vertices_; }
   /// The next command. After EndCommand nothing may be read.
   Command next();

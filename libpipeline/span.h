@@ -34,8 +34,9 @@ struct RowRange {
   int end = std::numeric_limits<int>::max();
 };
 
-/// Calls `visit(span)` for every row of `range` a triangle covers, from the top. `rows` is what a coverage rule makes of
-/// the triangle: it has first_row() and last_row(), inside the screen, and span(row), a std::optional<Span>.
+/// Calls `visit(span)` for every row of `range` a triangle covers, from the top. `rows` is what a coverage
+/// rule makes of the triangle: it has first_row() and last_row(), inside the screen, and span(row), a
+/// std::optional<Span>.
 template <typename CoveredRows, typename Visitor>
 void for_each_span(const CoveredRows& rows, const RowRange& range, Visitor&& visit) {
   const int end = std::min(rows.last_row() + 1, range.end);

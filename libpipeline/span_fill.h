@@ -14,14 +14,14 @@ struct SpanFill {
   const Span& span;
   Color color;
   const Depth& format;
-  double front;                     // what is nearer is not seen
-  typename Depth::Stored* depths;   // of the pixel in the span's first column
-  Color* colors;                    // likewise
+  double front;                    // what is nearer is not seen
+  typename Depth::Stored* depths;  // of the pixel in the span's first column
+  Color* colors;                   // likewise
 };
 
-// The loop that draws: every pixel of the span whose depth, as it is stored, is less than the one there and not less
-// than the front limit gets the span's depth and colour. A kernel is that loop for one kind of processor; all give the
-// same bytes.
+// The loop that draws: every pixel of the span whose depth, as it is stored, is less than the one there and
+// not less than the front limit gets the span's depth and colour. A kernel is that loop for one kind of
+// processor; all give the same bytes.
 
 /// One implementation, for all depth formats.
 struct SpanFillKernel {
@@ -38,8 +38,9 @@ struct SpanFillKernel {
 /// The kernels this processor can run, the fastest last; the first, "portable", runs everywhere.
 std::span<const SpanFillKernel> span_fill_kernels();
 
-/// The one in use: the fastest, or the one the environment variable PIPELINE_KERNEL names, for tests. Of the names that
-/// mean something to other parts only, "sse4" is "portable" here; any other unknown name is passed over.
+/// The one in use: the fastest, or the one the environment variable PIPELINE_KERNEL names, for tests. Of the
+/// names that mean something to other parts only, "sse4" is "portable" here; any other unknown name is passed
+/// over.
 const SpanFillKernel& span_fill_kernel();
 
 }  // namespace pipeline

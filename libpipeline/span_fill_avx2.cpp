@@ -24,11 +24,15 @@ PIPELINE_AVX2 inline __m256i narrow_mask(__m256d low, __m256d high) {
   return _mm256_permute4x64_epi64(_mm256_castps_si256(mixed), 0xd8);
 }
 
-PIPELINE_AVX2 inline __m256i low_mask(__m256i mask) { return _mm256_cvtepi32_epi64(_mm256_castsi256_si128(mask)); }
-PIPELINE_AVX2 inline __m256i high_mask(__m256i mask) { return _mm256_cvtepi32_epi64(_mm256_extracti128_si256(mask, 1)); }
+PIPELINE_AVX2 inline __m256i low_mask(__m256i mask) {
+  return _mm256_cvtepi32_epi64(_mm256_castsi256_si128(mask));
+}
+PIPELINE_AVX2 inline __m256i high_mask(__m256i mask) {
+  return _mm256_cvtepi32_epi64(_mm256_extracti128_si256(mask, 1));
+}
 
-// For each format: what is stored of eight depths, and how it is read, compared and written. `_some` touch only memory
-// where the mask says so.
+// For each format: what is stored of eight depths, and how it is read, compared and written. `_some` touch
+// only memory where the mask says so.
 
 struct LanesF64 {
   using Eight = EightDoubles;
@@ -58,7 +62,9 @@ struct LanesF32 {
   PIPELINE_AVX2 static __m256i is_less(Eight a, Eight b) {
     return _mm256_castps_si256(_mm256_cmp_ps(a, b, _CMP_LT_OQ));
   }
-  PIPELINE_AVX2 static void write_some(float* p, Eight depths, __m256i mask) { _mm256_maskstore_ps(p, mask, depths); }
+  PIPELINE_AVX2 static void write_some(float* p, Eight depths, __m256i mask) {
+    _mm256_maskstore_ps(p, mask, depths);
+  }
 };
 
 struct LanesU24 {
@@ -66,15 +72,20 @@ struct LanesU24 {
   PIPELINE_AVX2 explicit LanesU24(const DepthU24& format)
       : front(_mm256_set1_pd(format.front)), steps_per_depth(_mm256_set1_pd(format.steps_per_depth)) {}
   PIPELINE_AVX2 __m128i store(__m256d z) const {
-    const __m256d steps = _mm256_add_pd(_mm256_mul_pd(_mm256_sub_pd(z, front), steps_per_depth), _mm256_set1_pd(0.5));
+    const __m256d steps =
+        _mm256_add_pd(_mm256_mul_pd(_mm256_sub_pd(z, front), steps_per_depth), _mm256_set1_pd(0.5));
     const __m256d steps_from_front = _mm256_max_pd(steps, _mm256_setzero_pd());
     return _mm256_cvttpd_epi32(_mm256_min_pd(_mm256_set1_pd(DepthU24::kSteps), steps_from_front));
   }
-  PIPELINE_AVX2 Eight store(const EightDoubles& z) const { return _mm256_set_m128i(store(z.high), store(z.low)); }
+  PIPELINE_AVX2 Eight store(const EightDoubles& z) const {
+    return _mm256_set_m128i(store(z.high), store(z.low));
+  }
   PIPELINE_AVX2 static Eight load(const std::int32_t* p) {
     return _mm256_loadu_si256(reinterpret_cast<const __m256i*>(p));
   }
-  PIPELINE_AVX2 static Eight load_some(const std::int32_t* p, __m256i mask) { return _mm256_maskload_epi32(p, mask); }
+  PIPELINE_AVX2 static Eight load_some(const std::int32_t* p, __m256i mask) {
+    return _mm256_maskload_epi32(p, mask);
+  }
   PIPELINE_AVX2 static __m256i is_less(Eight a, Eight b) { return _mm256_cmpgt_epi32(b, a); }
   PIPELINE_AVX2 static void write_some(std::int32_t* p, Eight depths, __m256i mask) {
     _mm256_maskstore_epi32(p, mask, depths);
@@ -100,7 +111,9 @@ struct EightDepths {
   __m256d left_x, dx, x0, z0, slope;
 };
 
-PIPELINE_AVX2 inline bool is_any(__m256i mask) { return _mm256_testz_si256(mask, mask) == 0; }
+PIPELINE_AVX2 inline bool is_any(__m256i mask) {
+  return _mm256_testz_si256(mask, mask) == 0;
+}
 
 /// The first `count` of eight, and all of them if there are more.
 PIPELINE_AVX2 inline __m256i first_of_eight(int count) {
@@ -120,7 +133,8 @@ PIPELINE_AVX2 void fill_span(const SpanFill<Depth>& pixels) {
   int left = pixels.span.last_column - pixels.span.first_column + 1;
   for (; left > 0; left -= 8, depths += 8, colors += 8, columns = _mm256_add_pd(columns, eight)) {
     const EightDoubles z = {depth(columns), depth(_mm256_add_pd(columns, four))};
-    const __m256i in_front = narrow_mask(_mm256_cmp_pd(z.low, front, _CMP_GE_OQ), _mm256_cmp_pd(z.high, front, _CMP_GE_OQ));
+    const __m256i in_front =
+        narrow_mask(_mm256_cmp_pd(z.low, front, _CMP_GE_OQ), _mm256_cmp_pd(z.high, front, _CMP_GE_OQ));
     const __m256i in_span = first_of_eight(left);
     const auto stored = lanes.store(z);
     const auto old = left >= 8 ? lanes.load(depths) : lanes.load_some(depths, in_span);
@@ -147,7 +161,9 @@ constexpr SpanFillKernel kAvx2Kernel = {"avx2", fill_short_or_long_span<LanesF64
 
 }  // namespace
 
-const SpanFillKernel* span_fill_avx2() { return __builtin_cpu_supports("avx2") ? &kAvx2Kernel : nullptr; }
+const SpanFillKernel* span_fill_avx2() {
+  return __builtin_cpu_supports("avx2") ? &kAvx2Kernel : nullptr;
+}
 
 }  // namespace pipeline
 
@@ -155,7 +171,9 @@ const SpanFillKernel* span_fill_avx2() { return __builtin_cpu_supports("avx2") ?
 
 namespace pipeline {
 
-const SpanFillKernel* span_fill_avx2() { return nullptr; }
+const SpanFillKernel* span_fill_avx2() {
+  return nullptr;
+}
 
 }  // namespace pipeline
 

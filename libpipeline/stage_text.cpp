@@ -27,7 +27,8 @@ bool is_vertex(std::string_view word) {
 bool is_header_keyword(std::string_view word) {
   constexpr std::array<std::string_view, 7> kKeywords = {"framed",      "eye",     "look", "up",
                                                          "perspective", "frustum", "ortho"};
-  return std::find(kKeywords.begin(), kKeywords.end(), word) != kKeywords.end() || is_appearance_keyword(word);
+  return std::find(kKeywords.begin(), kKeywords.end(), word) != kKeywords.end() ||
+         is_appearance_keyword(word);
 }
 
 void print_numbers(TextWriter& text, std::string_view keyword, std::initializer_list<double> numbers) {
@@ -318,7 +319,8 @@ void StageWriter::write_header(const StageHeader& header) {
 void StageWriter::write(const TriangleBatch& batch) {
   assert(batch.low_parts.empty() || batch.low_parts.size() == batch.size());
   if (!keeps_four_digits_) note_sizes(batch);
-  const bool may_be_fixed = format_.decimals == 7 && !format_.shortest && batch.low_parts.empty() && !columns_.any();
+  const bool may_be_fixed =
+      format_.decimals == 7 && !format_.shortest && batch.low_parts.empty() && !columns_.any();
   std::size_t index = 0;
   while (index < batch.size()) {
     if (may_be_fixed) index += write_fixed_form(batch, index);

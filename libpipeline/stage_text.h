@@ -82,7 +82,7 @@ class StageReader {
   LineScanner line_;
   VertexLineReader vertex_line_;
   std::size_t fixed_form_guess_ = 1;  // how many triangles in fixed form to expect: room is made for them
-  bool line_is_pending_ = false;  // line_ was read but not yet used
+  bool line_is_pending_ = false;      // line_ was read but not yet used
   bool done_ = false;
   std::uint64_t next_number_ = 0;
   std::exception_ptr mistake_;  // found behind triangles that were still to be given out

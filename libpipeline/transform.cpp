@@ -9,7 +9,8 @@
 namespace pipeline {
 namespace {
 
-/// R(x, a, angle) = cos x + (1 - cos) (a.x) a + sin (a x x): where the rotation about the unit axis a takes x.
+/// R(x, a, angle) = cos x + (1 - cos) (a.x) a + sin (a x x): where the rotation about the unit axis a takes
+/// x.
 BallVec3 rodrigues(const BallVec3& x, const BallVec3& axis, const SineCosine& angle) {
   const BallVec3 kept = x * angle.cosine;
   const BallVec3 along = axis * (angle.versine * dot(axis, x));
@@ -26,7 +27,9 @@ Ball cotangent_of_half(const Ball& angle_degrees) {
   return half.cosine / half.sine;
 }
 
-bool is_inside_half_turn(const Ball& degrees) { return degrees.sign() > 0 && (degrees - Ball(180)).sign() < 0; }
+bool is_inside_half_turn(const Ball& degrees) {
+  return degrees.sign() > 0 && (degrees - Ball(180)).sign() < 0;
+}
 
 ProjectionTransform perspective(const Perspective& p, const Place& place, AspectRule aspect_rule) {
   ProjectionTransform transform;
@@ -36,8 +39,9 @@ ProjectionTransform perspective(const Perspective& p, const Place& place, Aspect
   } else {
     const Ball fov_x_degrees = Ball(p.fov_y_degrees) * Ball(p.aspect);
     if (!is_inside_half_turn(fov_x_degrees))
-      throw InputError(place, expected_but_found("fovX = fovY * aspect between 0 and 180 degrees (--aspect angle)",
-                                                 std::to_string(fov_x_degrees.nearest_double())));
+      throw InputError(place,
+                       expected_but_found("fovX = fovY * aspect between 0 and 180 degrees (--aspect angle)",
+                                          std::to_string(fov_x_degrees.nearest_double())));
     transform.x_scale = cotangent_of_half(fov_x_degrees);
   }
   transform.near = p.near;

@@ -14,8 +14,9 @@ AffineMatrix scaling(const Vec3& factors);
 /// at the observer. Column by column from Rodrigues' formula in vector form.
 AffineMatrix rotation(double angle_degrees, const Vec3& axis);
 
-/// From world to view space: p_view = rows * (p_world - eye). The rows are right, up and backward, orthonormal.
-/// The eye is kept apart: subtracting it from a point first is what keeps the digits far from the origin.
+/// From world to view space: p_view = rows * (p_world - eye). The rows are right, up and backward,
+/// orthonormal. The eye is kept apart: subtracting it from a point first is what keeps the digits far from
+/// the origin.
 struct ViewTransform {
   Vec3 eye;
   BallVec3 right;
@@ -48,7 +49,8 @@ struct ProjectionTransform {
 /// The camera's projection. An InputError at `projection.place` if fovX is not within (0, 180) degrees.
 ProjectionTransform clip_from_view(const Placed<Projection>& projection, AspectRule aspect_rule);
 
-/// The projection with the aspect rule already in it: a perspective as the frustum that `transform`, made of it, is.
+/// The projection with the aspect rule already in it: a perspective as the frustum that `transform`, made of
+/// it, is.
 Projection volume_of(const Projection& projection, const ProjectionTransform& transform);
 
 }  // namespace pipeline

@@ -18,7 +18,9 @@ BallVec3 apply_in_balls(const AffineMatrix& m, const Vec3& origin, const Vec3& p
 
 }  // namespace
 
-VertexTransform::VertexTransform(const AffineMatrix& world_from_model) : matrix_(world_from_model) { set_rows(); }
+VertexTransform::VertexTransform(const AffineMatrix& world_from_model) : matrix_(world_from_model) {
+  set_rows();
+}
 
 VertexTransform::VertexTransform(const ViewTransform& view_from_world) : origin_(view_from_world.eye) {
   const auto row = [](const BallVec3& v) { return std::array<Ball, 4>{v.x, v.y, v.z, Ball()}; };
@@ -30,8 +32,8 @@ void VertexTransform::set_rows() {
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t j = 0; j < 4; ++j) {
       const Ball& entry = matrix_.rows[i][j];
-      // Each term meets at most six roundings: the entry (1), the subtraction of the origin (1), the product (1)
-      // and the sums (3); to them comes the entry's own error. An entry may have been cut at the end of a
+      // Each term meets at most six roundings: the entry (1), the subtraction of the origin (1), the product
+      // (1) and the sums (3); to them comes the entry's own error. An entry may have been cut at the end of a
       // double's range.
       const double value = entry.nearest_double();
       const double error = 8 * kUnit * std::fabs(value) + entry.radius() + 0x1p-1073;
@@ -61,7 +63,8 @@ bool VertexTransform::apply_in_doubles(Vec3& p, const CoordinateRounder& rounder
 void VertexTransform::apply(TriangleBatch& batch, std::size_t index, CoordinateRounder& rounder) const {
   for (std::size_t v = 0; v < 3; ++v) {
     Vec3& p = batch.triangles[index][v];
-    if (!apply_in_doubles(p, rounder)) rounder.set_vertex(batch, index, v, apply_in_balls(matrix_, origin_, p));
+    if (!apply_in_doubles(p, rounder))
+      rounder.set_vertex(batch, index, v, apply_in_balls(matrix_, origin_, p));
   }
 }
 

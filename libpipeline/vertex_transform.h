@@ -23,8 +23,8 @@ class VertexTransform {
   void apply(TriangleBatch& batch, CoordinateRounder& rounder) const;
 
  private:
-  /// A row of M in doubles, and for each entry what it adds to the error of an image per unit of the coordinate
-  /// (the entry's own error, the subtraction of the origin, the product and the sums).
+  /// A row of M in doubles, and for each entry what it adds to the error of an image per unit of the
+  /// coordinate (the entry's own error, the subtraction of the origin, the product and the sums).
   struct Row {
     std::array<double, 4> entries{};
     std::array<double, 4> errors{};

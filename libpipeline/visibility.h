@@ -12,20 +12,19 @@
 
 namespace pipeline {
 
-/// A visibility algorithm takes the triangles of the stream one by one, and then answers, row by row, which of them is
-/// seen where and how deep: the one with the smallest depth between the limits, as the depth format stores it, of equal
-/// ones the earliest. So the answer does not depend on the algorithm. Each is a class template of a coverage rule and a
-/// depth format, whose objects are made from the screen.
+/// A visibility algorithm takes the triangles of the stream one by one, and then answers, row by row, which
+/// of them is seen where and how deep: the one with the smallest depth between the limits, as the depth
+/// format stores it, of equal ones the earliest. So the answer does not depend on the algorithm. Each is a
+/// class template of a coverage rule and a depth format, whose objects are made from the screen.
 template <typename Algorithm>
-concept VisibilityAlgorithm =
-    std::constructible_from<Algorithm, const ScreenConfig&> &&
+concept VisibilityAlgorithm = std::constructible_from<Algorithm, const ScreenConfig&> &&
     requires(Algorithm& algorithm, const Algorithm& complete, const ExactTriangle& triangle, Color color) {
-      algorithm.draw(triangle, color);
-      complete.for_each_row([](const VisibleRow&) {});
-    };
+  algorithm.draw(triangle, color);
+  complete.for_each_row([](const VisibleRow&) {});
+};
 
-/// The z-buffer: draws a triangle as soon as it comes, as a whole or the part in some rows; threads may draw into
-/// different rows at the same time.
+/// The z-buffer: draws a triangle as soon as it comes, as a whole or the part in some rows; threads may draw
+/// into different rows at the same time.
 template <typename Coverage, typename Depth>
 class ZBufferAlgorithm {
  public:

@@ -140,7 +140,8 @@ char* print_exact_sum(char* out, double hi, double lo, int decimals) {
   std::string digits;  // the least significant first
   while (!sum.is_zero()) {
     std::uint32_t nine_digits = sum.divide(1'000'000'000);
-    for (int i = 0; i < 9; ++i, nine_digits /= 10) digits.push_back(static_cast<char>('0' + nine_digits % 10));
+    for (int i = 0; i < 9; ++i, nine_digits /= 10)
+      digits.push_back(static_cast<char>('0' + nine_digits % 10));
   }
   while (!digits.empty() && digits.back() == '0') digits.pop_back();
   const auto decimal_count = static_cast<std::size_t>(decimals);

@@ -9,8 +9,9 @@
 
 namespace pipeline {
 
-/// Some threads that, together with the one that owns the team, do the numbered tasks of one job after another. Whoever
-/// is free takes the next task, so nothing that tasks of one job share may depend on their order.
+/// Some threads that, together with the one that owns the team, do the numbered tasks of one job after
+/// another. Whoever is free takes the next task, so nothing that tasks of one job share may depend on their
+/// order.
 class WorkerTeam {
  public:
   /// `thread_count`, at least 1, includes the owner: a team of 1 does everything in finish().
@@ -22,7 +23,8 @@ class WorkerTeam {
 
   /// Has the others begin with `task(0)` to `task(task_count - 1)`; the job before has to be finished.
   void start(int task_count, std::function<void(int)> task);
-  /// Helps until every task of the job is done. What a task threw is thrown here; the tasks not yet begun are left out.
+  /// Helps until every task of the job is done. What a task threw is thrown here; the tasks not yet begun are
+  /// left out.
   void finish();
 
  private:

@@ -14,16 +14,16 @@
 namespace pipeline {
 
 /// The visibility algorithm `zbuffer`: every pixel keeps the nearest depth drawn so far and its colour, 12
-/// bytes a pixel if depths are doubles. `Depth` is a depth format. Source: E. Catmull, "A subdivision algorithm for
-/// computer display of curved surfaces", 1974.
+/// bytes a pixel if depths are doubles. `Depth` is a depth format. Source: E. Catmull, "A subdivision
+/// algorithm for computer display of curved surfaces", 1974.
 template <typename Depth = DepthF64>
 class ZBuffer {
  public:
   /// A buffer of the screen's size, every pixel at the rear limit and of the colour `background`.
   explicit ZBuffer(const ScreenConfig& screen, Color background = {});
 
-  /// Draws a span of a triangle of the colour `color`. A pixel is written if its depth, as it is stored, is less than
-  /// the one there (of equal depths the first drawn stays) and not less than the front limit.
+  /// Draws a span of a triangle of the colour `color`. A pixel is written if its depth, as it is stored, is
+  /// less than the one there (of equal depths the first drawn stays) and not less than the front limit.
   void draw(const Span& span, Color color);
 
   /// Calls `visit(VisibleRow)` for every row of the screen, from the top.

@@ -38,11 +38,14 @@ Frame drawn_one_by_one(const std::vector<Triangle>& scene, const ScreenConfig& s
 }
 
 template <typename Visible>
-Frame drawn_in_bands(const std::vector<Triangle>& scene, const ScreenConfig& screen, int thread_count, std::size_t batch_size) {
+Frame drawn_in_bands(const std::vector<Triangle>& scene, const ScreenConfig& screen, int thread_count,
+                     std::size_t batch_size) {
   Visible visible(screen);
   BandDrawing drawing(visible, screen, thread_count);
   TriangleColors colors;
-  const auto color_of = [&](const TriangleBatch& batch, std::size_t i) { return colors.of(batch.numbers[i]); };
+  const auto color_of = [&](const TriangleBatch& batch, std::size_t i) {
+    return colors.of(batch.numbers[i]);
+  };
   for (std::size_t i = 0; i < scene.size();) {
     TriangleBatch& batch = drawing.next_batch();
     batch.clear();

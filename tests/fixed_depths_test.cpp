@@ -38,7 +38,8 @@ TEST(FixedDepths, LeaveOutTheRear) {
 
 TEST(FixedDepths, ZeroCarriesNoSign) {
   std::size_t count = 0;
-  EXPECT_EQ(written({-0.0, -4.9e-7, 4.9e-7, -5.1e-7}, kFar, count), "0.000000\t0.000000\t0.000000\t-0.000001\t");
+  EXPECT_EQ(written({-0.0, -4.9e-7, 4.9e-7, -5.1e-7}, kFar, count),
+            "0.000000\t0.000000\t0.000000\t-0.000001\t");
 }
 
 TEST(FixedDepths, StopBeforeWhatTheyCannotPrint) {
@@ -67,7 +68,9 @@ int print_random(int depth_count, std::uint64_t seed) {
     if (part.count == 0) continue;
     ++printed_count;
     std::array<char, 400> expected;
-    char* const end = std::to_chars(expected.data(), expected.data() + expected.size(), depth, std::chars_format::fixed, 6).ptr;
+    char* const end =
+        std::to_chars(expected.data(), expected.data() + expected.size(), depth, std::chars_format::fixed, 6)
+            .ptr;
     const std::string with_sign(expected.data(), end);
     const std::string number = with_sign == "-0.000000" ? "0.000000" : with_sign;
     if (std::string(out.data(), part.end) != number + "\t") {
@@ -78,7 +81,9 @@ int print_random(int depth_count, std::uint64_t seed) {
   return printed_count;
 }
 
-TEST(FixedDepths, AreWhatTheGeneralPrinterPrints) { EXPECT_GT(print_random(1'000'000, 1), 700'000); }
+TEST(FixedDepths, AreWhatTheGeneralPrinterPrints) {
+  EXPECT_GT(print_random(1'000'000, 1), 700'000);
+}
 
 TEST(FixedDepths, LongAreWhatTheGeneralPrinterPrintsOnAHundredMillionNumbers) {
   EXPECT_GT(print_random(100'000'000, 2), 70'000'000);

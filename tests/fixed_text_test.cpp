@@ -39,14 +39,16 @@ class FixedText : public testing::TestWithParam<FixedTextKernel> {
 
 std::string general_text(double value) {
   std::array<char, 400> text;
-  const auto end = std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::fixed, 7).ptr;
+  const auto end =
+      std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::fixed, 7).ptr;
   const std::string printed(text.data(), end);
   return printed == "-0.0000000" ? "0.0000000" : printed;
 }
 
 std::string general_text(const Triangle& t) {
   std::string text;
-  for (const Vec3& v : t) text += general_text(v.x) + " " + general_text(v.y) + " " + general_text(v.z) + "\n";
+  for (const Vec3& v : t)
+    text += general_text(v.x) + " " + general_text(v.y) + " " + general_text(v.z) + "\n";
   return text + "\n";
 }
 
@@ -56,12 +58,15 @@ double general_number(const std::string& text) {
   return value;
 }
 
-const std::string kUnit = "0.0000000 0.0000000 0.0000000\n1.0000000 0.0000000 0.0000000\n0.0000000 1.0000000 0.0000000\n\n";
+const std::string kUnit =
+    "0.0000000 0.0000000 0.0000000\n1.0000000 0.0000000 0.0000000\n0.0000000 1.0000000 0.0000000\n\n";
 
 TEST_P(FixedText, ReadsATriangle) {
   std::vector<Triangle> triangles(3);
-  const FixedTextPart part = read("-1.5000000 0.0000000 12345678.1234567\n0.0000001 -0.1000000 3.0000000\n"
-                                  "99999999.9999999 1.0000000 -10.2500000\n\n", triangles);
+  const FixedTextPart part = read(
+      "-1.5000000 0.0000000 12345678.1234567\n0.0000001 -0.1000000 3.0000000\n"
+      "99999999.9999999 1.0000000 -10.2500000\n\n",
+      triangles);
   ASSERT_EQ(part.triangle_count, 1u);
   EXPECT_EQ(triangles[0][0], (Vec3{-1.5, 0, 12345678.1234567}));
   EXPECT_EQ(triangles[0][1], (Vec3{1e-7, -0.1, 3}));
@@ -70,7 +75,8 @@ TEST_P(FixedText, ReadsATriangle) {
 
 TEST_P(FixedText, ReadsTheSignOfZero) {
   std::vector<Triangle> triangles(1);
-  read("-0.0000000 0.0000000 0.0000000\n1.0000000 0.0000000 0.0000000\n0.0000000 1.0000000 0.0000000\n\n", triangles);
+  read("-0.0000000 0.0000000 0.0000000\n1.0000000 0.0000000 0.0000000\n0.0000000 1.0000000 0.0000000\n\n",
+       triangles);
   EXPECT_TRUE(std::signbit(triangles[0][0].x));
   EXPECT_FALSE(std::signbit(triangles[0][0].y));
 }
@@ -100,8 +106,9 @@ TEST_P(FixedText, EveryOneOfItsBytesMatters) {
 }
 
 TEST_P(FixedText, LeavesEveryOtherFormAlone) {
-  for (const char* const number : {"1", "1.", ".5000000", "1.000000", "1.00000000", "123456789.0000000", "+1.0000000",
-                                   "1e5", "1.0000000e1", "--1.0000000", "", "-", "nan", "1.00000a0", "#", " 1.0000000"}) {
+  for (const char* const number :
+       {"1", "1.", ".5000000", "1.000000", "1.00000000", "123456789.0000000", "+1.0000000", "1e5",
+        "1.0000000e1", "--1.0000000", "", "-", "nan", "1.00000a0", "#", " 1.0000000"}) {
     std::string text = kUnit;
     text.replace(0, 9, number);
     EXPECT_EQ(count_read(text), 0u) << number;
@@ -125,27 +132,31 @@ TEST_P(FixedText, ReadsWhatTheGeneralReaderReads) {
     for (std::size_t k = 0; k < 9; ++k) {
       const Vec3& v = triangles[0][k / 3];
       const double value = k % 3 == 0 ? v.x : (k % 3 == 1 ? v.y : v.z);
-      ASSERT_EQ(std::bit_cast<std::uint64_t>(value), std::bit_cast<std::uint64_t>(general_number(words[k]))) << words[k];
+      ASSERT_EQ(std::bit_cast<std::uint64_t>(value), std::bit_cast<std::uint64_t>(general_number(words[k])))
+          << words[k];
     }
   }
 }
 
 TEST_P(FixedText, PrintsZeroWithoutASign) {
   std::size_t count = 0;
-  EXPECT_EQ(write({Triangle{{{-0.0, -4e-8, 0}, {1, -1, -1e-300}, {-5.1e-8, 0, 0}}}}, count),
-            "0.0000000 0.0000000 0.0000000\n1.0000000 -1.0000000 0.0000000\n-0.0000001 0.0000000 0.0000000\n\n");
+  EXPECT_EQ(
+      write({Triangle{{{-0.0, -4e-8, 0}, {1, -1, -1e-300}, {-5.1e-8, 0, 0}}}}, count),
+      "0.0000000 0.0000000 0.0000000\n1.0000000 -1.0000000 0.0000000\n-0.0000001 0.0000000 0.0000000\n\n");
 }
 
 TEST_P(FixedText, PrintsUpToEightDigitsBeforeThePoint) {
   std::size_t count = 0;
-  EXPECT_EQ(write({Triangle{{{99999999.9999999, -99999999, 10}, {9.9999999, 100, 0.1}, {1234567.5, 0, 0}}}}, count),
-            "99999999.9999999 -99999999.0000000 10.0000000\n9.9999999 100.0000000 0.1000000\n"
-            "1234567.5000000 0.0000000 0.0000000\n\n");
+  EXPECT_EQ(
+      write({Triangle{{{99999999.9999999, -99999999, 10}, {9.9999999, 100, 0.1}, {1234567.5, 0, 0}}}}, count),
+      "99999999.9999999 -99999999.0000000 10.0000000\n9.9999999 100.0000000 0.1000000\n"
+      "1234567.5000000 0.0000000 0.0000000\n\n");
 }
 
 TEST_P(FixedText, LeavesToTheGeneralPrinterWhatItCannotPrint) {
   // Nine digits, a carry into the ninth, exact ties at the eighth decimal, no numbers at all.
-  for (const double value : {1e8, 99999999.99999999, 0.00390625, -1.01171875, 1e300, HUGE_VAL, std::nan("")}) {
+  for (const double value :
+       {1e8, 99999999.99999999, 0.00390625, -1.01171875, 1e300, HUGE_VAL, std::nan("")}) {
     std::size_t count = 1;
     EXPECT_EQ(write({Triangle{{{0, 0, 0}, {0, value, 0}, {0, 0, 0}}}}, count), "") << value;
     EXPECT_EQ(count, 0u) << value;
@@ -172,7 +183,8 @@ void print_random(const WriteFixedText write_kernel, int triangle_count, std::ui
       value = std::ldexp(mantissa(random), static_cast<int>(random() % 60) - 33);
       if (random() % 4 != 0) continue;
       value = (std::floor(std::fabs(value) * 1e7) + 0.5) / 1e7;
-      for (std::uint64_t steps = random() % 4; steps > 0; --steps) value = std::nextafter(value, random() % 2 == 0 ? 1e9 : -1e9);
+      for (std::uint64_t steps = random() % 4; steps > 0; --steps)
+        value = std::nextafter(value, random() % 2 == 0 ? 1e9 : -1e9);
     }
     const auto triangle = std::bit_cast<Triangle>(values);
     const FixedTextPart part = write_kernel({&triangle, 1}, out.data());
@@ -183,13 +195,16 @@ void print_random(const WriteFixedText write_kernel, int triangle_count, std::ui
   EXPECT_GT(printed_count, triangle_count / 10);
 }
 
-TEST_P(FixedText, PrintsWhatTheGeneralPrinterPrints) { print_random(GetParam().write, 30000, 2); }
+TEST_P(FixedText, PrintsWhatTheGeneralPrinterPrints) {
+  print_random(GetParam().write, 30000, 2);
+}
 
 TEST_P(FixedText, LongPrintsWhatTheGeneralPrinterPrintsOnTenMillionNumbers) {
   print_random(GetParam().write, 10'000'000 / 9, 3);
 }
 
-INSTANTIATE_TEST_SUITE_P(Kernels, FixedText, testing::ValuesIn(fixed_text_kernels().begin(), fixed_text_kernels().end()),
+INSTANTIATE_TEST_SUITE_P(Kernels, FixedText,
+                         testing::ValuesIn(fixed_text_kernels().begin(), fixed_text_kernels().end()),
                          [](const auto& test) { return std::string(test.param.name); });
 
 }  // namespace

@@ -10,7 +10,9 @@ namespace pipeline {
 namespace {
 
 /// A triangle whose vertices have these y.
-Triangle at(double a, double b, double c) { return {{{0, a, 0}, {1, b, 0}, {0, c, 0}}}; }
+Triangle at(double a, double b, double c) {
+  return {{{0, a, 0}, {1, b, 0}, {0, c, 0}}};
+}
 
 TEST(RowBands, HoldEveryRowOnce) {
   for (const ScreenConfig& screen : {ScreenConfig{1, 1}, {1920, 1080}, {500, 500}, {65535, 3}, {1, 65535}}) {
@@ -45,7 +47,8 @@ TEST(RowBands, ATriangleReachesTheBandsOfItsRows) {
   // 64 rows a band, 2/640 a row: 0.8 is between rows 63 and 64, a half row of 0.0015625 away from both.
   const RowBands bands({10, 640});
   ASSERT_EQ(bands.rows(0).end, 64);
-  const RowRange above = bands.bands_of(at(0.9, 0.8001, 0.85)), below = bands.bands_of(at(0.7999, 0.75, 0.75));
+  const RowRange above = bands.bands_of(at(0.9, 0.8001, 0.85)),
+                 below = bands.bands_of(at(0.7999, 0.75, 0.75));
   EXPECT_EQ(above.first, 0);
   EXPECT_EQ(above.end, 1);
   EXPECT_EQ(below.first, 1);
@@ -66,12 +69,14 @@ void expect_no_span_elsewhere(const ScreenConfig& screen, const Triangle& p_ndc)
 TEST(RowBands, NoCoverageRuleHasPixelsElsewhere) {
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> unit(-1, 1);
-  for (const ScreenConfig& screen : {ScreenConfig{5, 640}, {5, 1000, -3, -0.7}, {5, 65535, -1, -1e-9}, {7, 97, -1, -1e100}}) {
+  for (const ScreenConfig& screen :
+       {ScreenConfig{5, 640}, {5, 1000, -3, -0.7}, {5, 65535, -1, -1e-9}, {7, 97, -1, -1e100}}) {
     for (int i = 0; i < 3000; ++i) {
       // Vertices on, next to and between the lines of pixel centres.
       const auto y = [&] {
         const double on_a_line = screen.top_y() - std::floor(unit(random) * screen.rows) * screen.dy();
-        return random() % 3 == 0 ? unit(random) * -screen.bottom : std::nextafter(on_a_line, random() % 2 == 0 ? 1e300 : on_a_line);
+        return random() % 3 == 0 ? unit(random) * -screen.bottom
+                                 : std::nextafter(on_a_line, random() % 2 == 0 ? 1e300 : on_a_line);
       };
       const Triangle triangle = {{{-2 * -screen.left, y(), 0}, {0, y(), 0}, {2 * -screen.left, y(), 0}}};
       expect_no_span_elsewhere<NearestCoverage>(screen, triangle);

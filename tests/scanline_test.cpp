@@ -49,7 +49,8 @@ Frame zbuffer_frame(const Scene& scene, const ScreenConfig& screen, std::uint16_
   const Coverage coverage(screen);
   ZBuffer<Depth> buffer(screen);
   for (std::size_t i = 0; i < scene.size(); ++i)
-    for_each_span(coverage.rows({scene[i], nullptr, marks}), [&](const Span& span) { buffer.draw(span, color_of(i)); });
+    for_each_span(coverage.rows({scene[i], nullptr, marks}),
+                  [&](const Span& span) { buffer.draw(span, color_of(i)); });
   Frame frame;
   buffer.for_each_row([&](const VisibleRow& row) { frame.add(row); });
   return frame;
@@ -93,20 +94,22 @@ TEST(Scanline, WithoutTrianglesThereIsTheBackground) {
   scanline.for_each_row([&](const VisibleRow& row) {
     ++row_count;
     EXPECT_EQ(std::vector<double>(row.depths.begin(), row.depths.end()), std::vector<double>(8, 2));
-    EXPECT_EQ(std::vector<Color>(row.colors.begin(), row.colors.end()), std::vector<Color>(8, Color(1, 2, 3)));
+    EXPECT_EQ(std::vector<Color>(row.colors.begin(), row.colors.end()),
+              std::vector<Color>(8, Color(1, 2, 3)));
   });
   EXPECT_EQ(row_count, 4);
 }
 
 TEST(Scanline, TheTextbooksTwoPolygons) {
   // Foley et al., figure 15.34: two triangles, of which the nearer overlaps the other on some scanlines only.
-  EXPECT_EQ(picture_of({{{{-4, -2, 1}, {0, 2, 1}, {1, -2, 1}}}, {{{-1, -2, 0.5}, {4, -2, 0.5}, {2, 0.5, 0.5}}}}),
-            (Picture{
-                "...a....",
-                "..aa....",
-                ".aaaabb.",
-                "aaaabbbb",
-            }));
+  EXPECT_EQ(
+      picture_of({{{{-4, -2, 1}, {0, 2, 1}, {1, -2, 1}}}, {{{-1, -2, 0.5}, {4, -2, 0.5}, {2, 0.5, 0.5}}}}),
+      (Picture{
+          "...a....",
+          "..aa....",
+          ".aaaabb.",
+          "aaaabbbb",
+      }));
 }
 
 TEST(Scanline, TheNearerTriangleIsSeenWhateverTheOrder) {
@@ -146,7 +149,8 @@ TEST(Scanline, WhereTheyMeetAtACentreTheEarlierIsSeen) {
 
 TEST(Scanline, ThreePolygonsCrossInOneInterval) {
   // b is below the crossing of a and c: 1 + x/8, 0.9, 1 - x/8.
-  EXPECT_EQ(picture_of({half_plane(1, 0.125), half_plane(0.9, 0), half_plane(1, -0.125)}), Picture(4, "aaabbccc"));
+  EXPECT_EQ(picture_of({half_plane(1, 0.125), half_plane(0.9, 0), half_plane(1, -0.125)}),
+            Picture(4, "aaabbccc"));
 }
 
 TEST(Scanline, TrianglesThatInterpenetrateMeetInASlantedLine) {
@@ -188,8 +192,11 @@ TEST(Scanline, APolygonBeginsAndEndsInTheColumnsOfAnother) {
 }
 
 TEST(Scanline, SpansOfOnePixelAreSeen) {
-  const auto needle = [](double x, double z) { return Triangle{{{x - 0.1, -3, z}, {x + 0.1, -3, z}, {x, 100, z}}}; };
-  EXPECT_EQ(picture_of({needle(-0.5, 0.5), half_plane(1, 0), needle(1.5, 0.5), needle(2.5, 1.5), needle(1.5, 0.25)}),
+  const auto needle = [](double x, double z) {
+    return Triangle{{{x - 0.1, -3, z}, {x + 0.1, -3, z}, {x, 100, z}}};
+  };
+  EXPECT_EQ(picture_of(
+                {needle(-0.5, 0.5), half_plane(1, 0), needle(1.5, 0.5), needle(2.5, 1.5), needle(1.5, 0.25)}),
             Picture(4, "bbbabebb"));
 }
 
@@ -220,7 +227,8 @@ TEST(Scanline, CoplanarTrianglesWhoseRoundedDepthsAlternateAreComparedPixelByPix
   int most_changes = 0;
   for (std::size_t row = 0; row < 60; ++row) {
     int changes = 0;
-    for (std::size_t i = 60 * row + 1; i < 60 * row + 60; ++i) changes += frame.colors[i] != frame.colors[i - 1];
+    for (std::size_t i = 60 * row + 1; i < 60 * row + 60; ++i)
+      changes += frame.colors[i] != frame.colors[i - 1];
     most_changes = std::max(most_changes, changes);
   }
   EXPECT_GE(most_changes, 8);
@@ -231,10 +239,13 @@ TEST(Scanline, DepthsThatAreStoredAsEqualAreEqual) {
   const Scene farther_first = {half_plane(1 + 0x1p-18, 0.01), half_plane(1, 0.01)};
   EXPECT_EQ((picture_of<CenterCoverage, DepthF64>(farther_first)), Picture(4, "bbbbbbbb"));
   EXPECT_EQ((picture_of<CenterCoverage, DepthU24>(farther_first)), Picture(4, "bbbbbbbb"));
-  for (const ScreenConfig screen : {ScreenConfig{1000, 2, -4, -2, 0, 2}, ScreenConfig{999, 2, -4, -2, 0, 3}}) {
+  for (const ScreenConfig screen :
+       {ScreenConfig{1000, 2, -4, -2, 0, 2}, ScreenConfig{999, 2, -4, -2, 0, 3}}) {
     const Scene scene = {half_plane(1 + 0x1p-27, 0.01), half_plane(1, 0.01)};
-    EXPECT_TRUE((scanline_frame<CenterCoverage, DepthU24>(scene, screen) == zbuffer_frame<CenterCoverage, DepthU24>(scene, screen)));
-    EXPECT_TRUE((scanline_frame<CenterCoverage, DepthF32>(scene, screen) == zbuffer_frame<CenterCoverage, DepthF32>(scene, screen)));
+    EXPECT_TRUE((scanline_frame<CenterCoverage, DepthU24>(scene, screen) ==
+                 zbuffer_frame<CenterCoverage, DepthU24>(scene, screen)));
+    EXPECT_TRUE((scanline_frame<CenterCoverage, DepthF32>(scene, screen) ==
+                 zbuffer_frame<CenterCoverage, DepthF32>(scene, screen)));
   }
 }
 
@@ -265,8 +276,8 @@ TEST(Scanline, RowsCanBeAskedForTwice) {
   EXPECT_TRUE(first == second);
 }
 
-/// The ends of a triangle's rows in doubles, either as the textbook finds them, x at an edge's first scanline and then
-/// x += dx, or with x calculated anew on every scanline.
+/// The ends of a triangle's rows in doubles, either as the textbook finds them, x at an edge's first scanline
+/// and then x += dx, or with x calculated anew on every scanline.
 class RoundedRows {
  public:
   enum class X { by_increments, anew };
@@ -280,7 +291,8 @@ class RoundedRows {
   [[nodiscard]] int wrong_ends(const Span& span) const {
     const std::vector<double> found = ends(span.row);
     if (found.size() != 2) return 2;
-    return static_cast<int>(found[0] != span.first_column) + static_cast<int>(found[1] != span.last_column + 1);
+    return static_cast<int>(found[0] != span.first_column) +
+           static_cast<int>(found[1] != span.last_column + 1);
   }
 
   /// The first column and the one after the last, where two edges cross the row.
@@ -333,8 +345,8 @@ TEST(Scanline, IncrementalXWouldGiveOtherColumns) {
   EXPECT_EQ(wrong_anew, 4028);
 }
 
-/// Scenes that look for trouble: the same depths, shared edges, crossings, triangles without area, off the screen, in
-/// front of and behind the limits, and coplanar ones.
+/// Scenes that look for trouble: the same depths, shared edges, crossings, triangles without area, off the
+/// screen, in front of and behind the limits, and coplanar ones.
 class RandomScenes {
  public:
   explicit RandomScenes(std::uint64_t seed) : random_(seed) {}
@@ -435,8 +447,8 @@ template <typename Coverage, typename Depth>
 void expect_the_same(const Scene& scene, const ScreenConfig& screen, int number) {
   const Frame expected = zbuffer_frame<Coverage, Depth>(scene, screen);
   const Frame found = scanline_frame<Coverage, Depth>(scene, screen);
-  ASSERT_TRUE(expected == found) << "scene " << number << ", " << scene.size() << " triangles, " << screen.columns << " x "
-                                 << screen.rows << " pixels";
+  ASSERT_TRUE(expected == found) << "scene " << number << ", " << scene.size() << " triangles, "
+                                 << screen.columns << " x " << screen.rows << " pixels";
 }
 
 template <typename Coverage>
@@ -471,7 +483,8 @@ TEST(Scanline, AnOverdrawOfManyLayersIsTheZBuffers) {
   Scene scene;
   for (int i = 0; i < 400; ++i) {
     Triangle triangle;
-    for (Vec3& p : triangle) p = {random.between(-1.5, 1.5), random.between(-1.5, 1.5), random.between(-1.1, 1.1)};
+    for (Vec3& p : triangle)
+      p = {random.between(-1.5, 1.5), random.between(-1.5, 1.5), random.between(-1.1, 1.1)};
     scene.push_back(triangle);
   }
   constexpr ScreenConfig kScreen = {300, 60, -1, -1, -1, 1};

@@ -39,10 +39,13 @@ void draw_slowly(PixelRow<Depth>& row, const Span& span, Color color, const Dept
 template <typename Depth>
 void expect_pixels_of_a_loop(const SpanFillKernel& kernel) {
   const Depth format(kScreen);
-  PixelRow<Depth> expected = {std::vector(kColumns, format.store(kScreen.rear)), std::vector<Color>(kColumns)};
+  PixelRow<Depth> expected = {std::vector(kColumns, format.store(kScreen.rear)),
+                              std::vector<Color>(kColumns)};
   PixelRow<Depth> found = expected;
   std::mt19937_64 random(1);
-  const auto between = [&](int low, int high) { return std::uniform_int_distribution<int>(low, high)(random); };
+  const auto between = [&](int low, int high) {
+    return std::uniform_int_distribution<int>(low, high)(random);
+  };
   std::uint32_t number = 0;
   for (int first = 0; first < kColumns; ++first) {
     for (int last = first; last < kColumns; ++last) {
@@ -51,7 +54,8 @@ void expect_pixels_of_a_loop(const SpanFillKernel& kernel) {
       const Color color = Color::from_rgb(++number);
       draw_slowly(expected, span, color, format);
       const auto place = static_cast<std::size_t>(first);
-      kernel.fill(SpanFill<Depth>{span, color, format, kScreen.front, &found.depths[place], &found.colors[place]});
+      kernel.fill(
+          SpanFill<Depth>{span, color, format, kScreen.front, &found.depths[place], &found.colors[place]});
       ASSERT_TRUE(found == expected) << "columns " << first << " to " << last;
       if (number % 100 == 0) {
         std::fill(expected.depths.begin(), expected.depths.end(), format.store(kScreen.rear));
@@ -61,11 +65,18 @@ void expect_pixels_of_a_loop(const SpanFillKernel& kernel) {
   }
 }
 
-TEST_P(SpanFillTest, DoublesAreThoseOfALoopOverPixels) { expect_pixels_of_a_loop<DepthF64>(GetParam()); }
-TEST_P(SpanFillTest, FloatsAreThoseOfALoopOverPixels) { expect_pixels_of_a_loop<DepthF32>(GetParam()); }
-TEST_P(SpanFillTest, StepsAreThoseOfALoopOverPixels) { expect_pixels_of_a_loop<DepthU24>(GetParam()); }
+TEST_P(SpanFillTest, DoublesAreThoseOfALoopOverPixels) {
+  expect_pixels_of_a_loop<DepthF64>(GetParam());
+}
+TEST_P(SpanFillTest, FloatsAreThoseOfALoopOverPixels) {
+  expect_pixels_of_a_loop<DepthF32>(GetParam());
+}
+TEST_P(SpanFillTest, StepsAreThoseOfALoopOverPixels) {
+  expect_pixels_of_a_loop<DepthU24>(GetParam());
+}
 
-INSTANTIATE_TEST_SUITE_P(Kernels, SpanFillTest, testing::ValuesIn(span_fill_kernels().begin(), span_fill_kernels().end()),
+INSTANTIATE_TEST_SUITE_P(Kernels, SpanFillTest,
+                         testing::ValuesIn(span_fill_kernels().begin(), span_fill_kernels().end()),
                          [](const auto& test) { return std::string(test.param.name); });
 
 }  // namespace

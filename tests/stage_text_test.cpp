@@ -553,7 +553,8 @@ TEST(StageText, WhatIsWrittenShortestReadsBackAsItWas) {
 const std::string kLooks =
     "attributes w color normal\nbackground 1 2 3\nambient 0.1 0.2 0.3\nmaterial 1 0.5 0.25 100000\n"
     "attenuation 1 0 0.125\nlight 1 2 3 0.5 1 1.5\nlight 4 5 6 1 1 1\n";
-const std::string kFullTriangle = "1 2 3 0.1 4 5 6 0 0 1\n4 5 6 12.5 7 8 255 1 0 0\n7 8 9 1e+22 0 0 0 0 0 0\n\n";
+const std::string kFullTriangle =
+    "1 2 3 0.1 4 5 6 0 0 1\n4 5 6 12.5 7 8 255 1 0 0\n7 8 9 1e+22 0 0 0 0 0 0\n\n";
 
 /// What a writer makes of all that a reader reads.
 std::string copy_of(const std::string& text, NumberFormat format, bool bare) {
@@ -579,10 +580,12 @@ TEST(StageText, BareTextHasNoColumns) {
 }
 
 TEST(StageText, HeaderNumbersAndWKeepAllTheirDigits) {
-  EXPECT_EQ(copy_of("attributes w color\nambient 0.1 0.25 1e-9\n1 2 3 0.125 4.5 5 6\n0 0 0 1 0 0 0\n0 0 0 1 0 0 0\n\n",
-                    {.decimals = 1}, false),
-            "attributes w color\nambient 0.1 0.25 1e-09\n1.0 2.0 3.0 0.125 4.5 5.0 6.0\n"
-            "0.0 0.0 0.0 1 0.0 0.0 0.0\n0.0 0.0 0.0 1 0.0 0.0 0.0\n\n");
+  EXPECT_EQ(
+      copy_of(
+          "attributes w color\nambient 0.1 0.25 1e-9\n1 2 3 0.125 4.5 5 6\n0 0 0 1 0 0 0\n0 0 0 1 0 0 0\n\n",
+          {.decimals = 1}, false),
+      "attributes w color\nambient 0.1 0.25 1e-09\n1.0 2.0 3.0 0.125 4.5 5.0 6.0\n"
+      "0.0 0.0 0.0 1 0.0 0.0 0.0\n0.0 0.0 0.0 1 0.0 0.0 0.0\n\n");
 }
 
 TEST(StageReader, AVertexHasTheColumnsOfTheHeader) {

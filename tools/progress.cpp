@@ -20,7 +20,8 @@ void Progress::show(std::uint64_t triangle_count) {
   constexpr std::chrono::milliseconds kBetween(200);
   next_time_ = now + kBetween;
   is_shown_ = true;
-  const double rate = static_cast<double>(triangle_count) / std::chrono::duration<double>(now - start_).count();
+  const double rate =
+      static_cast<double>(triangle_count) / std::chrono::duration<double>(now - start_).count();
   // The blanks cover what a longer line left.
   std::fprintf(stderr, "\r%s: %llu triangles, %.3g million a second    ", tool_.c_str(),
                static_cast<unsigned long long>(triangle_count), rate / 1e6);

@@ -6,8 +6,8 @@
 
 namespace pipeline {
 
-/// A line on stderr that tells how far a long run is: triangles, and triangles a second. There is none unless stderr is a
-/// terminal, and none in the first second.
+/// A line on stderr that tells how far a long run is: triangles, and triangles a second. There is none unless
+/// stderr is a terminal, and none in the first second.
 class Progress {
  public:
   /// `tool` is what the line begins with.

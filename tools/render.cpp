@@ -45,11 +45,12 @@ void for_each_batch(Tool& tool, StageReader& reader, Batch&& batch, Draw&& draw)
 }
 
 template <typename CoverageRule, typename Depth>
-void draw_all(Tool& tool, const RenderOptions& chosen, const ScreenConfig& screen, StageReader& reader, Paint& paint,
-              ZBufferAlgorithm<CoverageRule, Depth>& visible) {
+void draw_all(Tool& tool, const RenderOptions& chosen, const ScreenConfig& screen, StageReader& reader,
+              Paint& paint, ZBufferAlgorithm<CoverageRule, Depth>& visible) {
   BandDrawing drawing(visible, screen, chosen.thread_count);
   for_each_batch(
-      tool, reader, [&]() -> TriangleBatch& { return drawing.next_batch(); }, [&] { drawing.draw_batch(paint); });
+      tool, reader, [&]() -> TriangleBatch& { return drawing.next_batch(); },
+      [&] { drawing.draw_batch(paint); });
   drawing.finish();
 }
 template <typename CoverageRule, typename Depth>
@@ -59,7 +60,8 @@ void draw_all(Tool& tool, const RenderOptions&, const ScreenConfig&, StageReader
   const auto draw = [&] {
     for (std::size_t i = 0; i < p_ndc.size(); ++i) visible.draw(exact_triangle(p_ndc, i), paint(p_ndc, i));
   };
-  for_each_batch(tool, reader, [&]() -> TriangleBatch& { return p_ndc; }, draw);
+  for_each_batch(
+      tool, reader, [&]() -> TriangleBatch& { return p_ndc; }, draw);
 }
 
 template <VisibilityAlgorithm Visible>

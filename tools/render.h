@@ -25,8 +25,8 @@ struct RenderOptions {
   std::optional<ShadingModel> shading;  // nothing: what the text asks for
 };
 
-/// Draws the tool's input and writes the image and the depths. Neither depends on the algorithm or on the number of
-/// threads. Nothing takes an older file's place before everything is written.
+/// Draws the tool's input and writes the image and the depths. Neither depends on the algorithm or on the
+/// number of threads. Nothing takes an older file's place before everything is written.
 void render(Tool& tool, const RenderOptions& chosen, const ScreenConfig& screen);
 
 }  // namespace pipeline

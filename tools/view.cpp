@@ -50,7 +50,8 @@ int main(int argc, char** argv) {
     const NormalTransform view_normal_from_world(view);
     CoordinateRounder rounder = numbers.rounder(tool.input().file());
     StageWriter writer(tool.output(), numbers.format(), bare);
-    writer.write_header({reader.header().framed, without_position(camera), in_view_space(reader.header().appearance, view)});
+    writer.write_header(
+        {reader.header().framed, without_position(camera), in_view_space(reader.header().appearance, view)});
 
     const auto read = [&](TriangleBatch& batch) { return reader.read(batch); };
     const auto transform = [&](TriangleBatch& batch) {

@@ -32,21 +32,23 @@ void add_options(CLI::App& options, RenderOptions& chosen) {
   options.add_option("--z-buffer", chosen.z_buffer_path, "Where the depths go; - is standard output")
       ->type_name("FILE")
       ->capture_default_str();
-  add_choice<Coverage>(options, "--coverage", chosen.coverage, {{"nearest", Coverage::nearest}, {"center", Coverage::center}},
-                       "Which pixels a triangle covers. nearest: on each row from the pixel nearest to the left end to "
-                       "that nearest to the right end; center: those whose centres lie inside, decided exactly");
-  add_choice<Algorithm>(options, "--algorithm", chosen.algorithm,
-                        {{"zbuffer", Algorithm::zbuffer}, {"scanline", Algorithm::scanline}},
-                        "How it is found out which triangle is seen. zbuffer: every pixel keeps the nearest depth so far; "
-                        "scanline: triangles are kept and compared row by row, without memory for the image. Both give "
-                        "the same output");
-  add_choice<DepthFormat>(options, "--depth", chosen.depth,
-                          {{"f64", DepthFormat::f64},
-                           {"f32", DepthFormat::f32},
-                           {"u24", DepthFormat::u24}},
-                          "How a pixel keeps its depth: as a double, a float, or in 2^24 equal steps between the limits");
-  options.add_option("--threads", chosen.thread_count,
-                     "How many threads draw with the z-buffer, from 1 to 256; the output does not depend on it")
+  add_choice<Coverage>(
+      options, "--coverage", chosen.coverage, {{"nearest", Coverage::nearest}, {"center", Coverage::center}},
+      "Which pixels a triangle covers. nearest: on each row from the pixel nearest to the left end to "
+      "that nearest to the right end; center: those whose centres lie inside, decided exactly");
+  add_choice<Algorithm>(
+      options, "--algorithm", chosen.algorithm,
+      {{"zbuffer", Algorithm::zbuffer}, {"scanline", Algorithm::scanline}},
+      "How it is found out which triangle is seen. zbuffer: every pixel keeps the nearest depth so far; "
+      "scanline: triangles are kept and compared row by row, without memory for the image. Both give "
+      "the same output");
+  add_choice<DepthFormat>(
+      options, "--depth", chosen.depth,
+      {{"f64", DepthFormat::f64}, {"f32", DepthFormat::f32}, {"u24", DepthFormat::u24}},
+      "How a pixel keeps its depth: as a double, a float, or in 2^24 equal steps between the limits");
+  options
+      .add_option("--threads", chosen.thread_count,
+                  "How many threads draw with the z-buffer, from 1 to 256; the output does not depend on it")
       ->type_name("N")
       ->check(CLI::Range(1, 256))
       ->capture_default_str();
@@ -55,8 +57,9 @@ void add_options(CLI::App& options, RenderOptions& chosen) {
 
 void check_threads(const RenderOptions& chosen) {
   if (chosen.algorithm == Algorithm::scanline && chosen.thread_count > 1)
-    throw UsageError("--threads: " + expected_but_found("1 with --algorithm scanline, which goes through the rows in turn",
-                                                        "'" + std::to_string(chosen.thread_count) + "'"));
+    throw UsageError("--threads: " +
+                     expected_but_found("1 with --algorithm scanline, which goes through the rows in turn",
+                                        "'" + std::to_string(chosen.thread_count) + "'"));
 }
 
 ScreenConfig read_screen(const Tool& tool, const std::string& path) {

@@ -1,5 +1,5 @@
-// Draws the triangles of a bare NDC text with Mesa's software renderer and prints the seconds that the drawing took.
-// usage: draw_osmesa WIDTH HEIGHT TRIANGLES
+// Draws the triangles of a bare NDC text with Mesa's software renderer and prints the seconds that the
+// drawing took. usage: draw_osmesa WIDTH HEIGHT TRIANGLES
 
 #include <GL/gl.h>
 #include <GL/osmesa.h>
@@ -40,11 +40,13 @@ int main(int argc, char** argv) {
   const int width = std::atoi(argv[1]), height = std::atoi(argv[2]);
   const std::vector<float> corners = numbers_of(argv[3]);
   std::vector<unsigned char> colors(corners.size());
-  for (std::size_t i = 0; i < colors.size(); ++i) colors[i] = static_cast<unsigned char>(i / 9 * 37 + i % 3 * 80);
+  for (std::size_t i = 0; i < colors.size(); ++i)
+    colors[i] = static_cast<unsigned char>(i / 9 * 37 + i % 3 * 80);
 
   std::vector<unsigned char> image(4u * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
   const OSMesaContext context = OSMesaCreateContextExt(OSMESA_RGBA, 24, 0, 0, nullptr);
-  if (context == nullptr || !OSMesaMakeCurrent(context, image.data(), GL_UNSIGNED_BYTE, width, height)) return 1;
+  if (context == nullptr || !OSMesaMakeCurrent(context, image.data(), GL_UNSIGNED_BYTE, width, height))
+    return 1;
   glEnable(GL_DEPTH_TEST);
   glShadeModel(GL_FLAT);
   glEnableClientState(GL_VERTEX_ARRAY);

@@ -1,4 +1,5 @@
-// A plain filter of bare stage text: std::from_chars in, a matrix, std::to_chars out. Standard input to standard output.
+// A plain filter of bare stage text: std::from_chars in, a matrix, std::to_chars out. Standard input to
+// standard output.
 
 #include <unistd.h>
 

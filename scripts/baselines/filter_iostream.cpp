@@ -1,4 +1,5 @@
-// A plain filter of bare stage text: iostreams in and out, a matrix between. Standard input to standard output.
+// A plain filter of bare stage text: iostreams in and out, a matrix between. Standard input to standard
+// output.
 
 #include <array>
 #include <iomanip>
@@ -17,7 +18,8 @@ int main() {
     std::istringstream words(line);
     if (!(words >> p[0] >> p[1] >> p[2])) return 1;
     const double x = p[0] - 1.8, y = p[1] - 1.2, z = p[2] - 2.4;
-    std::cout << 0.8 * x - 0.6 * z << ' ' << 0.36 * x + 0.8 * y + 0.48 * z << ' ' << 0.48 * x - 0.6 * y + 0.64 * z << '\n';
+    std::cout << 0.8 * x - 0.6 * z << ' ' << 0.36 * x + 0.8 * y + 0.48 * z << ' '
+              << 0.48 * x - 0.6 * y + 0.64 * z << '\n';
   }
   return std::cout.flush() ? 0 : 1;
 }
