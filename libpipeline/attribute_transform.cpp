@@ -3,15 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "libpipeline/vec_math.h"
+
 namespace pipeline {
 namespace {
 
 double largest_part(const Vec3& v) {
   return std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)});
-}
-
-double dot(const Vec3& a, const Vec3& b) {
-  return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
 Vec3 nearest(const BallVec3& v) {
@@ -39,9 +37,9 @@ Vec3 unit_vector(const Vec3& v) {
   const double largest = largest_part(v);
   if (largest == 0) return {};
   // Divided first, so that no square leaves a double's range.
-  const Vec3 scaled = {v.x / largest, v.y / largest, v.z / largest};
-  const double length = std::sqrt(dot(scaled, scaled));
-  return {scaled.x / length, scaled.y / length, scaled.z / length};
+  const Vec3 near_1 = {v.x / largest, v.y / largest, v.z / largest};
+  const double length = std::sqrt(dot(near_1, near_1));
+  return {near_1.x / length, near_1.y / length, near_1.z / length};
 }
 
 NormalTransform::NormalTransform(const AffineMatrix& world_from_model) {
@@ -55,7 +53,7 @@ NormalTransform::NormalTransform(const ViewTransform& view_from_world)
 /// Row i of the cofactors is the cross product of the other two rows of M, in turn.
 void NormalTransform::set_rows(const BallVec3& x, const BallVec3& y, const BallVec3& z) {
   const std::array<BallVec3, 3> cofactors = {cross(y, z), cross(z, x), cross(x, y)};
-  const double side = pipeline::dot(x, cofactors[0]).sign() < 0 ? -1 : 1;
+  const double side = dot(x, cofactors[0]).sign() < 0 ? -1 : 1;
   double largest = 0;
   for (const BallVec3& row : cofactors)
     largest = std::max({largest, row.x.magnitude(), row.y.magnitude(), row.z.magnitude()});
@@ -71,17 +69,14 @@ Vec3 NormalTransform::operator()(const Vec3& normal) const {
 
 Placed<Light> transformed(const AffineMatrix& world_from_model, Placed<Light> light) {
   const BallVec3 p = to_balls(light.value.position);
-  const auto image = [&](const std::array<Ball, 4>& row) {
-    return pipeline::dot(linear_row(row), p) + row[3];
-  };
+  const auto image = [&](const std::array<Ball, 4>& row) { return dot(linear_row(row), p) + row[3]; };
   const auto& rows = world_from_model.rows;
   return moved_to(light, nearest({image(rows[0]), image(rows[1]), image(rows[2])}));
 }
 
 Placed<Light> transformed(const ViewTransform& view, Placed<Light> light) {
   const BallVec3 p = to_balls(light.value.position) - to_balls(view.eye);
-  return moved_to(light, nearest({pipeline::dot(view.right, p), pipeline::dot(view.up, p),
-                                  pipeline::dot(view.backward, p)}));
+  return moved_to(light, nearest({dot(view.right, p), dot(view.up, p), dot(view.backward, p)}));
 }
 
 }  // namespace pipeline

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "libpipeline/vec_math.h"
+
 namespace pipeline {
 namespace {
 
@@ -43,12 +45,6 @@ double as_factor(const Ball& number) {
 
 bool has_attributes(const TriangleBatch& batch) {
   return !batch.attributes.colors.empty() || !batch.attributes.normals.empty();
-}
-
-Vec3 mean(const std::array<Vec3, 3>& corners, const std::array<double, 3>& weights) {
-  const auto& [a, b, c] = corners;
-  const auto& [i, j, k] = weights;
-  return {i * a.x + j * b.x + k * c.x, i * a.y + j * b.y + k * c.y, i * a.z + j * b.z + k * c.z};
 }
 
 /// Weights are rounded: what lies on the border may come out beyond it.

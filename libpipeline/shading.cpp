@@ -5,25 +5,10 @@
 #include <cstdint>
 
 #include "libpipeline/attribute_transform.h"
+#include "libpipeline/vec_math.h"
 
 namespace pipeline {
 namespace {
-
-double dot(const Vec3& a, const Vec3& b) {
-  return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-
-Vec3 sum(const Vec3& a, const Vec3& b) {
-  return {a.x + b.x, a.y + b.y, a.z + b.z};
-}
-
-Vec3 difference(const Vec3& a, const Vec3& b) {
-  return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
-
-Vec3 scaled(const Vec3& v, double factor) {
-  return {factor * v.x, factor * v.y, factor * v.z};
-}
 
 Vec3 product(const Vec3& a, const Vec3& b) {
   return {a.x * b.x, a.y * b.y, a.z * b.z};

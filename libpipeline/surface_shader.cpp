@@ -3,19 +3,17 @@
 #include <algorithm>
 #include <cassert>
 
+#include "libpipeline/vec_math.h"
+
 namespace pipeline {
 namespace {
 
 using Weights = std::array<double, 3>;
 
-Vec3 mean(const Vec3& a, const Vec3& b, const Vec3& c, const Weights& w) {
-  return {w[0] * a.x + w[1] * b.x + w[2] * c.x, w[0] * a.y + w[1] * b.y + w[2] * c.y,
-          w[0] * a.z + w[1] * b.z + w[2] * c.z};
-}
-
 SurfacePoint mean(const std::array<SurfacePoint, 3>& p, const Weights& w) {
-  return {mean(p[0].position, p[1].position, p[2].position, w),
-          mean(p[0].normal, p[1].normal, p[2].normal, w), mean(p[0].color, p[1].color, p[2].color, w)};
+  return {mean(Triangle{p[0].position, p[1].position, p[2].position}, w),
+          mean(Triangle{p[0].normal, p[1].normal, p[2].normal}, w),
+          mean(Triangle{p[0].color, p[1].color, p[2].color}, w)};
 }
 
 Vec3 to_vec3(Color color) {
@@ -25,13 +23,7 @@ Vec3 to_vec3(Color color) {
 
 /// The normal of a triangle's plane, of any length.
 Vec3 face_normal(const std::array<SurfacePoint, 3>& p) {
-  const auto edge = [&](const Vec3& to) {
-    const Vec3& from = p[0].position;
-    return Vec3{to.x - from.x, to.y - from.y, to.z - from.z};
-  };
-  const Vec3 u = edge(p[1].position);
-  const Vec3 v = edge(p[2].position);
-  return {u.y * v.z - u.z * v.y, u.z * v.x - u.x * v.z, u.x * v.y - u.y * v.x};
+  return cross(difference(p[1].position, p[0].position), difference(p[2].position, p[0].position));
 }
 
 /// Gives every corner the normal of the triangle.
