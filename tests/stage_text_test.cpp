@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "libpipeline/stage_reader.h"
+#include "libpipeline/stage_writer.h"
 #include "tests/text_input.h"
 
 namespace pipeline {

@@ -2,7 +2,7 @@
 
 #include "libpipeline/model_stage.h"
 #include "libpipeline/scene.h"
-#include "libpipeline/stage_text.h"
+#include "libpipeline/stage_writer.h"
 #include "tools/stage_loop.h"
 #include "tools/stage_options.h"
 #include "tools/tool.h"

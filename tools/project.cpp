@@ -1,7 +1,8 @@
 // project: clips what is behind the eye and divides by w. View space in, normalised device coordinates out.
 
 #include "libpipeline/projection.h"
-#include "libpipeline/stage_text.h"
+#include "libpipeline/stage_reader.h"
+#include "libpipeline/stage_writer.h"
 #include "tools/command_line.h"
 #include "tools/stage_loop.h"
 #include "tools/stage_options.h"

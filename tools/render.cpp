@@ -8,7 +8,7 @@
 #include "libpipeline/depth_text.h"
 #include "libpipeline/image_file.h"
 #include "libpipeline/output_file.h"
-#include "libpipeline/stage_text.h"
+#include "libpipeline/stage_reader.h"
 #include "libpipeline/surface_shader.h"
 #include "libpipeline/visibility.h"
 #include "tools/progress.h"

@@ -3,7 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <optional>
 
-#include "libpipeline/stage_text.h"
+#include "libpipeline/stage_reader.h"
 #include "libpipeline/surface_shader.h"
 
 namespace pipeline {

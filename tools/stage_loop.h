@@ -3,7 +3,8 @@
 #include <functional>
 
 #include "libpipeline/coordinate_rounder.h"
-#include "libpipeline/stage_text.h"
+#include "libpipeline/stage_reader.h"
+#include "libpipeline/stage_writer.h"
 #include "libpipeline/triangle_batch.h"
 #include "tools/tool.h"
 

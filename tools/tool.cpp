@@ -9,7 +9,7 @@
 #include <new>
 
 #include "libpipeline/error.h"
-#include "libpipeline/stage_text.h"
+#include "libpipeline/stage_reader.h"
 #include "tools/command_line.h"
 #include "tools/pipe_size.h"
 #include "tools/version.h"

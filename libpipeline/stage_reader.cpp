@@ -1,23 +1,18 @@
-#include "libpipeline/stage_text.h"
+#include "libpipeline/stage_reader.h"
 
 #include <algorithm>
 #include <array>
-#include <cassert>
-#include <cmath>
 #include <span>
 
 #include "libpipeline/fixed_text.h"
+#include "libpipeline/number_text.h"
 
 namespace pipeline {
 namespace {
 
-// Position, w, colour and normal.
-constexpr std::size_t kMaxVertexLength = 10 * (kMaxNumberLength + 1);
 // Nine numbers of one digit before the point and seven behind it, a separator each, and the blank line.
 constexpr std::size_t kMinFixedTriangleLength = 9 * 10 + 1;
 constexpr std::uint16_t kAllDecimal = 0x1ff;
-// "triangle N", three vertex lines and the blank line.
-constexpr std::size_t kMaxTriangleLength = 40 + 3 * kMaxVertexLength + 1;
 
 bool is_vertex(std::string_view word) {
   return !word.empty() && (word.front() == '-' || word.front() == '+' || word.front() == '.' ||
@@ -29,61 +24,6 @@ bool is_header_keyword(std::string_view word) {
                                                          "perspective", "frustum", "ortho"};
   return std::find(kKeywords.begin(), kKeywords.end(), word) != kKeywords.end() ||
          is_appearance_keyword(word);
-}
-
-void print_numbers(TextWriter& text, std::string_view keyword, std::initializer_list<double> numbers) {
-  text.append(keyword);
-  for (const double number : numbers) {
-    char* out = text.reserve(kMaxNumberLength + 1);
-    *out++ = ' ';
-    text.commit(print_number(out, number, 0, {.shortest = true}));
-  }
-}
-
-void print_header_numbers(TextWriter& text, std::string_view keyword, std::initializer_list<double> numbers) {
-  print_numbers(text, keyword, numbers);
-  text.append("\n");
-}
-
-void print_projection(TextWriter& text, const Projection& projection) {
-  if (const auto* p = std::get_if<Perspective>(&projection)) {
-    print_header_numbers(text, "perspective", {p->fov_y_degrees, p->aspect, p->near, p->far});
-  } else if (const auto* f = std::get_if<Frustum>(&projection)) {
-    print_header_numbers(text, "frustum", {f->left, f->right, f->bottom, f->top, f->near, f->far});
-  } else {
-    const auto& o = std::get<Orthographic>(projection);
-    print_header_numbers(text, "ortho", {o.left, o.right, o.bottom, o.top, o.near, o.far});
-  }
-}
-
-void print_attribute_names(TextWriter& text, const AttributeSet& attributes) {
-  text.append("attributes");
-  if (attributes.w) text.append(" w");
-  if (attributes.color) text.append(" color");
-  if (attributes.normal) text.append(" normal");
-  text.append("\n");
-}
-
-void print_appearance(TextWriter& text, const Appearance& look) {
-  const auto print_vec3 = [&](std::string_view keyword, const std::optional<Placed<Vec3>>& v) {
-    if (v) print_header_numbers(text, keyword, {v->value.x, v->value.y, v->value.z});
-  };
-  if (look.attributes) print_attribute_names(text, look.attributes->value);
-  print_vec3("background", look.background);
-  print_vec3("ambient", look.ambient);
-  if (look.material) {
-    const Material& m = look.material->value;
-    print_numbers(text, "material", {m.ambient, m.diffuse, m.specular});
-    text.append(" " + std::to_string(m.shininess) + "\n");
-  }
-  if (look.attenuation) {
-    const Attenuation& a = look.attenuation->value;
-    print_header_numbers(text, "attenuation", {a.constant, a.linear, a.quadratic});
-  }
-  for (const auto& [light, place] : look.lights) {
-    const auto& [p, i] = light;
-    print_header_numbers(text, "light", {p.x, p.y, p.z, i.x, i.y, i.z});
-  }
 }
 
 /// What is exact of a triangle's coordinates, as in a batch.
@@ -119,10 +59,6 @@ EarlierFailure::EarlierFailure(const Place& place, std::string reason)
     : InputError(place,
                  "an earlier stage failed" + (reason.empty() ? ", without saying why" : ": " + reason)),
       reason_(std::move(reason)) {}
-
-std::string error_line(const std::string& reason) {
-  return "error " + on_one_line(reason) + "\n";
-}
 
 StageReader::StageReader(TextReader& text, bool marks_decimals)
     : text_(text), marks_decimals_(marks_decimals) {
@@ -295,112 +231,6 @@ void StageReader::reject(LineScanner& line, const std::string& also_expected) {
     throw InputError(place, expected_but_found("header lines before the first triangle", quoted(keyword)));
   const std::string hint = keyword == "end" ? " ('end' needs a line 'framed' in the header)" : "";
   at_keyword.fail(also_expected + "'triangle N' or a vertex" + hint);
-}
-
-StageWriter::StageWriter(TextWriter& text, NumberFormat format, bool bare)
-    : text_(text), format_(format), bare_(bare) {}
-
-void StageWriter::write_header(const StageHeader& header) {
-  if (bare_) return;
-  framed_ = header.framed;
-  if (framed_) text_.append("framed\n");
-  const CameraText& camera = header.camera;
-  const auto print_vec3 = [&](std::string_view keyword, const std::optional<Placed<Vec3>>& v) {
-    if (v) print_header_numbers(text_, keyword, {v->value.x, v->value.y, v->value.z});
-  };
-  print_vec3("eye", camera.eye);
-  print_vec3("look", camera.look);
-  print_vec3("up", camera.up);
-  if (camera.projection) print_projection(text_, camera.projection->value);
-  print_appearance(text_, header.appearance);
-  columns_ = header.appearance.columns();
-}
-
-void StageWriter::write(const TriangleBatch& batch) {
-  assert(batch.low_parts.empty() || batch.low_parts.size() == batch.size());
-  if (!keeps_four_digits_) note_sizes(batch);
-  const bool may_be_fixed =
-      format_.decimals == 7 && !format_.shortest && batch.low_parts.empty() && !columns_.any();
-  std::size_t index = 0;
-  while (index < batch.size()) {
-    if (may_be_fixed) index += write_fixed_form(batch, index);
-    if (index < batch.size()) write_triangle(batch, index++);
-  }
-}
-
-/// A coordinate of which the text keeps four digits settles the question; until then every one is looked at.
-void StageWriter::note_sizes(const TriangleBatch& batch) {
-  double smallest_with_four_digits = 1000;
-  for (int i = 0; i < format_.decimals; ++i) smallest_with_four_digits /= 10;
-  for (const Triangle& triangle : batch.triangles) {
-    for (const Vec3& vertex : triangle) {
-      for (const double coordinate : {vertex.x, vertex.y, vertex.z}) {
-        has_filled_coordinate_ |= coordinate != 0;
-        keeps_four_digits_ |= format_.shortest || std::fabs(coordinate) >= smallest_with_four_digits;
-      }
-    }
-    if (keeps_four_digits_) return;
-  }
-}
-
-/// Prints triangles from `begin` on as long as counting goes right and they fit the form nearly all stage
-/// text has; says how many.
-std::size_t StageWriter::write_fixed_form(const TriangleBatch& batch, std::size_t begin) {
-  constexpr std::size_t kMostAtOnce = 256;
-  const std::size_t limit = std::min(batch.size(), begin + kMostAtOnce);
-  std::size_t end = begin;
-  while (end < limit && (bare_ || batch.numbers[end] == next_number_ + (end - begin))) ++end;
-  if (end == begin) return 0;
-  char* const out = text_.reserve((end - begin) * kMaxFixedTriangleLength + kFixedTextSlack);
-  const auto triangles = std::span(batch.triangles).subspan(begin, end - begin);
-  const FixedTextPart part = fixed_text_kernel().write(triangles, out);
-  text_.commit(out + part.length);
-  if (part.triangle_count > 0) next_number_ = batch.numbers[begin + part.triangle_count - 1] + 1;
-  return part.triangle_count;
-}
-
-void StageWriter::write_triangle(const TriangleBatch& batch, std::size_t index) {
-  if (batch.numbers[index] != next_number_ && !bare_)
-    text_.append("triangle " + std::to_string(batch.numbers[index]) + "\n");
-  next_number_ = batch.numbers[index] + 1;
-  const Triangle low_part = batch.low_parts.empty() ? Triangle{} : batch.low_parts[index];
-  char* out = text_.reserve(kMaxTriangleLength);
-  for (std::size_t v = 0; v < 3; ++v) {
-    out = print_vertex(out, batch.triangles[index][v], low_part[v]);
-    if (columns_.any()) out = print_attributes(out, batch.attributes, index, v);
-    *out++ = '\n';
-  }
-  *out++ = '\n';
-  text_.commit(out);
-}
-
-/// Prints three numbers, blanks between.
-char* StageWriter::print_vertex(char* out, const Vec3& vertex, const Vec3& low_part) {
-  out = print_number(out, vertex.x, low_part.x, format_);
-  *out++ = ' ';
-  out = print_number(out, vertex.y, low_part.y, format_);
-  *out++ = ' ';
-  return print_number(out, vertex.z, low_part.z, format_);
-}
-
-char* StageWriter::print_attributes(char* out, const AttributeArrays& attributes, std::size_t index,
-                                    std::size_t vertex) {
-  const auto print_vec3 = [&](const Vec3& v) {
-    *out++ = ' ';
-    out = print_vertex(out, v, {});
-  };
-  if (columns_.w) {
-    *out++ = ' ';
-    out = print_number(out, attributes.w[index][vertex], 0, {.shortest = true});
-  }
-  if (columns_.color) print_vec3(attributes.colors[index][vertex]);
-  if (columns_.normal) print_vec3(attributes.normals[index][vertex]);
-  return out;
-}
-
-void StageWriter::finish() {
-  if (framed_) text_.append("end\n");
-  text_.flush();
 }
 
 }  // namespace pipeline

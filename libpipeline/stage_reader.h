@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstdint>
+#include <exception>
+#include <string>
+
+#include "libpipeline/stage_text.h"
+#include "libpipeline/text_reader.h"
+#include "libpipeline/triangle_batch.h"
+
+namespace pipeline {
+
+/// The text ends with an `error` line. `reason()` is what stands on it: "tool: message" of the stage that
+/// failed.
+class EarlierFailure : public InputError {
+ public:
+  EarlierFailure(const Place& place, std::string reason);
+  [[nodiscard]] const std::string& reason() const { return reason_; }
+
+ private:
+  std::string reason_;
+};
+
+/// Reads a stage text: the header on construction, then batch after batch. Errors are InputErrors.
+class StageReader {
+ public:
+  /// With `marks_decimals` batches say which coordinates are exact decimals, for exact coverage.
+  explicit StageReader(TextReader& text, bool marks_decimals = false);
+
+  [[nodiscard]] const StageHeader& header() const { return header_; }
+  /// The place of the first word behind the header: where a header line that is missing should have stood
+  /// before.
+  [[nodiscard]] const Place& header_end() const { return header_end_; }
+  /// Fills `batch` with the next triangles, as many as are waiting but at least one; false (and an empty
+  /// batch) at the end of a text that ends as it should. Triangles before a mistake are given out before the
+  /// mistake is thrown, so that it does not depend on the size of blocks how much of the text passes.
+  bool read(TriangleBatch& batch);
+
+ private:
+  bool read_header_line(LineScanner& line);
+  void fill(TriangleBatch& batch);
+  bool read_fixed_form(TriangleBatch& batch);
+  void next_vertex_line(LineScanner& line, std::size_t index);
+  void read_vertices(LineScanner& line, TriangleBatch& batch);
+  [[nodiscard]] bool is_end(const LineScanner& line) const;
+  void read_end(LineScanner& line);
+  void expect_unframed_end() const;
+  [[noreturn]] void reject(LineScanner& line, const std::string& also_expected);
+
+  TextReader& text_;
+  bool marks_decimals_;
+  StageHeader header_;
+  Place header_end_;
+  Place framed_place_;
+  LineScanner line_;
+  VertexLineReader vertex_line_;
+  std::size_t fixed_form_guess_ = 1;  // how many triangles in fixed form to expect: room is made for them
+  bool line_is_pending_ = false;      // line_ was read but not yet used
+  bool done_ = false;
+  std::uint64_t next_number_ = 0;
+  std::exception_ptr mistake_;  // found behind triangles that were still to be given out
+};
+
+}  // namespace pipeline
