@@ -1,9 +1,9 @@
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
 
+#include "libpipeline/eight_digits.h"
 #include "libpipeline/fixed_text_kernels.h"
 
 namespace pipeline {
@@ -12,28 +12,6 @@ namespace {
 constexpr double kUnitsPerOne = 1e7;
 
 // ---- reading ----
-
-/// Eight characters as they stand, the first in the lowest byte.
-std::uint64_t load_eight(const char* p) {
-  std::uint64_t eight = 0;
-  std::memcpy(&eight, p, sizeof eight);
-  if constexpr (std::endian::native == std::endian::big) eight = __builtin_bswap64(eight);
-  return eight;
-}
-
-/// True if all eight characters are digits, given `eight` minus '0' in each byte.
-bool are_digits(std::uint64_t less_zero) {
-  return ((less_zero | (less_zero + 0x7676767676767676)) & 0x8080808080808080) == 0;
-}
-
-/// The number eight digits make, each in a byte, the first in the lowest: pairs, fours and eights are joined.
-std::uint64_t join_digits(std::uint64_t digits) {
-  const std::uint64_t pairs = digits * 10 + (digits >> 8);
-  constexpr std::uint64_t kMask = 0x000000ff000000ff;
-  const std::uint64_t outer = (pairs & kMask) * ((1'000'000ULL << 32) + 100);
-  const std::uint64_t inner = ((pairs >> 16) & kMask) * ((10'000ULL << 32) + 1);
-  return (outer + inner) >> 32;
-}
 
 /// How many characters stand before the point, 9 or more if it is not among the first nine.
 unsigned digits_before_point(const char* p) {
@@ -44,15 +22,14 @@ unsigned digits_before_point(const char* p) {
 
 /// Reads one number and the separator behind it; null where the form differs.
 const char* read_number(const char* p, char separator, double& value) {
-  constexpr std::uint64_t kZeros = 0x3030303030303030;
   const bool is_negative = *p == '-';
   p += is_negative ? 1 : 0;
   const unsigned count = digits_before_point(p);
   if (count < 1 || count > 8 || p[count + 8] != separator) return nullptr;
   // Shifted so that the digits are the last of eight; what comes in is zeros.
-  const std::uint64_t before = (load_eight(p) - kZeros) << (8 * (8 - count));
-  const std::uint64_t behind = (load_eight(p + count + 1) - kZeros) << 8;
-  if (!are_digits(before) || !are_digits(behind)) return nullptr;
+  const std::uint64_t before = (load_eight(p) - kEightZeros) << (8 * (8 - count));
+  const std::uint64_t behind = (load_eight(p + count + 1) - kEightZeros) << 8;
+  if (no_digits(before) != 0 || no_digits(behind) != 0) return nullptr;
   const std::uint64_t units = join_digits(before) * 10'000'000 + join_digits(behind);
   // Below 2^53 the conversion is exact, so that the quotient is the nearest double to the decimal.
   value = static_cast<double>(units) / kUnitsPerOne;

@@ -7,7 +7,9 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 
+#include "libpipeline/eight_digits.h"
 #include "libpipeline/wide_decimal.h"
 
 namespace pipeline {
@@ -15,6 +17,16 @@ namespace {
 
 constexpr std::array<double, kMaxDecimals + 1> kPowersOfTen = {
     1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16, 1e17};
+
+constexpr auto kWholePowersOfTen = [] {
+  std::array<std::uint64_t, 16> powers{};  // all below 2^51
+  std::uint64_t power = 1;
+  for (std::uint64_t& p : powers) {
+    p = power;
+    power *= 10;
+  }
+  return powers;
+}();
 
 // A ball narrower than this part of the last printed unit that reaches a tie counts as the tie.
 constexpr double kTieTolerance = 0x1p-20;
@@ -98,6 +110,35 @@ PrintableNumber round_to_double(const Ball& ball) {
   return {nearest_is_even ? nearest : neighbour, 0};
 }
 
+/// Prints a number below 10^16 with at least `count` digits, zeros before; 16 characters may be written.
+char* print_whole(char* out, std::uint64_t number, int count) {
+  constexpr std::uint64_t kEightNines = 99'999'999;
+  const std::uint64_t high = number / (kEightNines + 1);
+  const std::uint64_t first = split_digits(static_cast<std::uint32_t>(high));
+  const std::uint64_t last = split_digits(static_cast<std::uint32_t>(number - high * (kEightNines + 1)));
+  const int leading_zeros = (first != 0 ? std::countr_zero(first) : 64 + std::countr_zero(last)) / 8;
+  const int length = std::max(16 - leading_zeros, count);
+  std::array<char, 32> text;
+  store_eight(text.data(), first + kEightZeros);
+  store_eight(text.data() + 8, last + kEightZeros);
+  std::memcpy(out, text.data() + 16 - length, 16);
+  return out + length;
+}
+
+/// The fast path of a fixed number of decimals: prints the scaled number as a whole one. Null where that has
+/// more than 51 bits, or lies so near to a tie that the scaling may decide.
+char* print_scaled(char* out, double value, int decimals) {
+  const auto n = static_cast<std::size_t>(decimals);
+  if (n >= kWholePowersOfTen.size() || !rounds_safely(value, 0, {.decimals = decimals})) return nullptr;
+  const auto units = static_cast<std::uint64_t>(std::nearbyint(std::fabs(value) * kPowersOfTen[n]));
+  if (value < 0 && units != 0) *out++ = '-';
+  const std::uint64_t whole = units / kWholePowersOfTen[n];
+  out = print_whole(out, whole, 1);
+  if (decimals == 0) return out;
+  *out++ = '.';
+  return print_whole(out, units - whole * kWholePowersOfTen[n], decimals);
+}
+
 char* without_sign_of_zero(char* first, char* last) {
   if (*first != '-') return last;
   const bool is_zero = std::all_of(first + 1, last, [](char c) { return c == '0' || c == '.'; });
@@ -157,6 +198,7 @@ bool parse_count(std::string_view word, std::size_t& value) {
 char* print_number(char* out, double hi, double lo, NumberFormat format) {
   assert(std::isfinite(hi) && std::isfinite(lo));
   if (format.shortest) return std::to_chars(out, out + kMaxNumberLength, hi == 0 ? 0.0 : hi).ptr;
+  if (char* const end = lo == 0 ? print_scaled(out, hi, format.decimals) : nullptr) return end;
   char* const end =
       lo == 0 ? std::to_chars(out, out + kMaxNumberLength, hi, std::chars_format::fixed, format.decimals).ptr
               : print_exact_sum(out, hi, lo, format.decimals);

@@ -1,5 +1,6 @@
 #include "libpipeline/scene.h"
 
+#include <algorithm>
 #include <string_view>
 
 namespace pipeline {
@@ -33,6 +34,7 @@ void SceneReader::next_argument_line(std::string_view expected) {
 }
 
 Command SceneReader::next() {
+  if (TriangleCommand triangle; read_plain_triangle(triangle)) return triangle;
   if (!text_.next_filled_line(line_))
     throw InputError(text_.end_place(),
                      expected_but_found("'end', which closes a scene", "the end of the input"));
@@ -121,6 +123,38 @@ TriangleCommand SceneReader::read_triangle() {
     command.lines[i] = line_.line_number();
   }
   return command;
+}
+
+/// The fast path: takes a triangle that is waiting, its keyword and its vertices on lines of their own and
+/// nothing else. False if the next command is another, or has to be read with more care.
+bool SceneReader::read_plain_triangle(TriangleCommand& triangle) {
+  constexpr std::string_view kKeyword = "triangle";
+  const std::string_view waiting = text_.waiting();
+  const std::size_t begin = waiting.find_first_not_of(" \t\r\n");
+  if (begin == std::string_view::npos || !waiting.substr(begin).starts_with(kKeyword)) return false;
+  const char* const end = waiting.data() + waiting.size();
+  const char* p = read_plain_line(waiting.data() + begin + kKeyword.size(), end, {});
+  PlainVertexLines lines;
+  if (p != nullptr) p = vertex_line_.read_plain(p, end, lines);
+  if (p == nullptr || !take_plain_vertices(lines)) return false;
+  const auto blank_lines = std::count(waiting.begin(), waiting.begin() + begin, '\n');
+  const std::size_t first_line = text_.line_number() + static_cast<std::size_t>(blank_lines) + 2;
+  triangle.p_model = {vertices_[0].position, vertices_[1].position, vertices_[2].position};
+  triangle.lines = {first_line, first_line + 1, first_line + 2};
+  text_.skip(static_cast<std::size_t>(p - waiting.data()), static_cast<std::size_t>(blank_lines) + 4);
+  has_triangle_ = true;
+  return true;
+}
+
+/// False if one of the vertices is wrong.
+bool SceneReader::take_plain_vertices(const PlainVertexLines& lines) {
+  const AttributeSet& columns = vertex_line_.attributes();
+  for (std::size_t i = 0; i < 3; ++i) {
+    vertices_[i] = to_vertex_line(lines[i], columns);
+    if (!columns.color) vertices_[i].color = current_color_;
+    if (columns.normal && vertices_[i].normal == Vec3{}) return false;
+  }
+  return true;
 }
 
 RotateCommand SceneReader::read_rotation() {

@@ -68,7 +68,7 @@ class SceneReader {
   [[nodiscard]] const std::array<VertexLine, 3>& vertices() const { return vertices_; }
   /// The next command. After EndCommand nothing may be read.
   Command next();
-  /// The place of the command given out last.
+  /// The place of the command given out last, unless that is a triangle.
   [[nodiscard]] const Place& place() const { return place_; }
   /// True if the next command can be had without waiting for the input, whatever it is: none has more than
   /// four lines.
@@ -79,6 +79,8 @@ class SceneReader {
   Placed<Projection> read_camera_projection();
   void next_argument_line(std::string_view expected);
   TriangleCommand read_triangle();
+  bool read_plain_triangle(TriangleCommand& triangle);
+  bool take_plain_vertices(const PlainVertexLines& lines);
   VertexLine read_vertex(std::size_t index);
   Command read_appearance(std::string_view keyword);
   void read_current_color();

@@ -26,6 +26,15 @@ bool is_header_keyword(std::string_view word) {
          is_appearance_keyword(word);
 }
 
+/// Which coordinates are exact decimals, as in a batch: with at most eight digits before the point those with
+/// few behind it.
+std::uint16_t decimal_marks(const PlainVertexLines& columns) {
+  unsigned marks = 0;
+  for (std::size_t i = 0; i < 9; ++i)
+    if (columns[i / 3][i % 3].decimals <= kExactDecimals) marks |= 1u << i;
+  return static_cast<std::uint16_t>(marks);
+}
+
 /// What is exact of a triangle's coordinates, as in a batch.
 struct ExactParts {
   std::uint16_t marks = 0;
@@ -110,7 +119,7 @@ void StageReader::fill(TriangleBatch& batch) {
     // What is in memory is passed on before the reader waits for more: a triangle has three lines.
     if (!line_is_pending_ && !batch.empty() && (batch.size() >= kBatchSize || !text_.has_lines_waiting(3)))
       break;
-    if (!line_is_pending_ && !vertex_line_.attributes().any() && read_fixed_form(batch)) continue;
+    if (!line_is_pending_ && (read_fixed_form(batch) || read_plain_form(batch))) continue;
     if (!line_is_pending_ && !text_.next_filled_line(line_)) {
       expect_unframed_end();
       done_ = true;
@@ -135,6 +144,7 @@ void StageReader::fill(TriangleBatch& batch) {
 /// next has another form, or is not there as a whole.
 bool StageReader::read_fixed_form(TriangleBatch& batch) {
   static_assert(TextReader::kSlack >= kFixedTextSlack);
+  if (vertex_line_.attributes().any()) return false;
   // The blank line behind a triangle that the general reader took.
   if (text_.waiting().starts_with('\n')) text_.skip(1, 1);
   const std::string_view waiting = text_.waiting();
@@ -157,6 +167,38 @@ bool StageReader::read_fixed_form(TriangleBatch& batch) {
   // Seven decimals and at most eight digits before the point: every coordinate is its decimal.
   if (marks_decimals_) batch.decimal_marks.resize(batch.size(), kAllDecimal);
   return part.triangle_count > 0;
+}
+
+/// Takes some of the triangles that are waiting, as long as their lines hold plain numbers and nothing else;
+/// false if the next does not. After a few the faster form is worth another try.
+bool StageReader::read_plain_form(TriangleBatch& batch) {
+  constexpr std::size_t kMostAtOnce = 32;
+  const std::size_t limit = std::min(kBatchSize, batch.size() + kMostAtOnce);
+  const std::size_t old_size = batch.size();
+  while (batch.size() < limit && read_plain_triangle(batch)) {
+  }
+  return batch.size() > old_size;
+}
+
+bool StageReader::read_plain_triangle(TriangleBatch& batch) {
+  static_assert(TextReader::kSlack >= kPlainNumberSlack);
+  if (text_.waiting().starts_with('\n')) text_.skip(1, 1);
+  const std::string_view waiting = text_.waiting();
+  PlainVertexLines columns;
+  const char* const end = vertex_line_.read_plain(waiting.data(), waiting.data() + waiting.size(), columns);
+  if (end == nullptr) return false;
+  std::array<VertexLine, 3> vertices;
+  for (std::size_t i = 0; i < 3; ++i) vertices[i] = to_vertex_line(columns[i], vertex_line_.attributes());
+  const std::size_t line = text_.line_number();
+  batch.add({vertices[0].position, vertices[1].position, vertices[2].position}, next_number_++,
+            {line + 1, line + 2, line + 3});
+  batch.attributes.add(vertices, vertex_line_.attributes());
+  if (marks_decimals_) {
+    batch.decimal_marks.resize(batch.size());
+    batch.decimal_marks.back() = decimal_marks(columns);
+  }
+  text_.skip(static_cast<std::size_t>(end - waiting.data()), 3);
+  return true;
 }
 
 /// Moves on to the line of vertex `index` (from 0); only comments may stand before it.

@@ -40,6 +40,8 @@ class StageReader {
   bool read_header_line(LineScanner& line);
   void fill(TriangleBatch& batch);
   bool read_fixed_form(TriangleBatch& batch);
+  bool read_plain_form(TriangleBatch& batch);
+  bool read_plain_triangle(TriangleBatch& batch);
   void next_vertex_line(LineScanner& line, std::size_t index);
   void read_vertices(LineScanner& line, TriangleBatch& batch);
   [[nodiscard]] bool is_end(const LineScanner& line) const;

@@ -1,5 +1,7 @@
 #include "libpipeline/vertex_attributes.h"
 
+#include <algorithm>
+
 namespace pipeline {
 namespace {
 
@@ -35,7 +37,25 @@ Vec3 read_color(LineScanner& line, std::string_view of) {
   return color;
 }
 
-VertexLineReader::VertexLineReader(const AttributeSet& attributes) : attributes_(attributes) {
+VertexLine to_vertex_line(std::span<const PlainNumber, kMaxColumns> columns, const AttributeSet& attributes) {
+  auto next = columns.begin();
+  const auto vec3 = [&] {
+    const Vec3 v = {next[0].value, next[1].value, next[2].value};
+    next += 3;
+    return v;
+  };
+  VertexLine vertex;
+  vertex.position = vec3();
+  if (attributes.w) vertex.w = next++->value;
+  if (attributes.color) vertex.color = vec3();
+  if (attributes.normal) vertex.normal = vec3();
+  return vertex;
+}
+
+VertexLineReader::VertexLineReader(const AttributeSet& attributes)
+    : attributes_(attributes),
+      column_count_(std::size_t{3} + (attributes.w ? 1 : 0) + (attributes.color ? 3 : 0) +
+                    (attributes.normal ? 3 : 0)) {
   for (std::size_t i = 0; i < names_.size(); ++i)
     names_[i] = "vertex " + std::to_string(i + 1) + " of 3 (" + column_names(attributes) + ")";
 }
@@ -56,6 +76,24 @@ VertexLine VertexLineReader::read(LineScanner& line, std::size_t vertex) const {
   }
   line.expect_end(name);
   return values;
+}
+
+bool VertexLineReader::are_in_range(std::span<const PlainNumber> columns) const {
+  const auto behind_position = columns.subspan(3);
+  if (attributes_.w && !(behind_position[0].value > 0)) return false;
+  if (!attributes_.color) return true;
+  const auto color = behind_position.subspan(attributes_.w ? 1 : 0, 3);
+  return std::all_of(color.begin(), color.end(),
+                     [](const PlainNumber& channel) { return channel.value >= 0 && channel.value <= 255; });
+}
+
+const char* VertexLineReader::read_plain(const char* p, const char* end, PlainVertexLines& vertices) const {
+  for (auto& columns : vertices) {
+    const auto taken = std::span(columns).first(column_count_);
+    p = read_plain_line(p, end, taken);
+    if (p == nullptr || !are_in_range(taken)) return nullptr;
+  }
+  return p;
 }
 
 void AttributeArrays::clear() {

@@ -2,10 +2,12 @@
 
 #include <array>
 #include <cstddef>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "libpipeline/plain_number.h"
 #include "libpipeline/text_reader.h"
 #include "libpipeline/vec.h"
 
@@ -21,6 +23,9 @@ struct AttributeSet {
   friend bool operator==(const AttributeSet&, const AttributeSet&) = default;
 };
 
+/// Position, w, colour and normal.
+constexpr std::size_t kMaxColumns = 10;
+
 /// What one vertex line may hold; what its text has no columns for stays 0.
 struct VertexLine {
   Vec3 position;
@@ -28,6 +33,12 @@ struct VertexLine {
   Vec3 color;    // red, green, blue from 0 to 255
   Vec3 normal;
 };
+
+/// The vertices of a triangle as plain numbers: the first three of a line are its position.
+using PlainVertexLines = std::array<std::array<PlainNumber, kMaxColumns>, 3>;
+
+/// The vertex on a line with these attributes.
+VertexLine to_vertex_line(std::span<const PlainNumber, kMaxColumns> columns, const AttributeSet& attributes);
 
 /// The names of all columns: "x y z", then those of the attributes.
 std::string column_names(const AttributeSet& attributes);
@@ -41,9 +52,16 @@ class VertexLineReader {
   /// Reads the line of vertex `vertex` (0 to 2) to its end. An InputError unless w > 0 and colours lie from 0
   /// to 255.
   VertexLine read(LineScanner& line, std::size_t vertex) const;
+  /// The fast path: reads the three lines of a triangle at `p` and returns the beginning of the line behind
+  /// them. Null if they hold anything but plain numbers (plain_number.h), or do not end before `end`, or one
+  /// is wrong; the general path then says so.
+  const char* read_plain(const char* p, const char* end, PlainVertexLines& vertices) const;
 
  private:
+  [[nodiscard]] bool are_in_range(std::span<const PlainNumber> columns) const;
+
   AttributeSet attributes_;
+  std::size_t column_count_ = 3;
   std::array<std::string, 3> names_;
 };
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <charconv>
 #include <clocale>
 #include <cmath>
 #include <cstdio>
@@ -177,6 +178,22 @@ TEST(PrintNumber, AgreesWithTheCLibraryForAnyDoubleAndAnyDecimals) {
     const double value = i % 2 == 0 ? random.any_double() : random.with_exponent(-70, 70);
     const int decimals = random.whole(0, kMaxDecimals);
     ASSERT_EQ(printed(value, 0, {decimals}), printed_by_c(value, decimals)) << std::hexfloat << value;
+  }
+}
+
+// Numbers of the size that coordinates have, many of them a few digits long: near and on ties.
+TEST(PrintNumberLong, AgreesWithToCharsForEveryCountOfDecimals) {
+  RandomNumbers random(5);
+  char expected[kMaxNumberLength];
+  for (int i = 0; i < 100'000'000; ++i) {
+    const int decimals = random.whole(0, kMaxDecimals);
+    double value = random.with_exponent(-30, 40);
+    if (i % 4 == 0) value = std::nearbyint(value * 1e3) / 1e4;
+    const char* const end =
+        std::to_chars(expected, expected + sizeof expected, value, std::chars_format::fixed, decimals).ptr;
+    std::string_view text(expected, static_cast<std::size_t>(end - expected));
+    if (text.find_first_of("123456789") == std::string_view::npos && std::signbit(value)) text.remove_prefix(1);
+    ASSERT_EQ(printed(value, 0, {decimals}), text) << value;
   }
 }
 

@@ -64,6 +64,34 @@ TEST(Scene, StartsWithTheCamera) {
   EXPECT_EQ(perspective.far, 100);
 }
 
+// A comment keeps a line from the fast path.
+TEST(Scene, TrianglesAreTheSameByEitherPath) {
+  const std::string vertices[] = {"0.1 -2 3", "  1e-3 .5 5.", "123456789.25 0.30000000000000004 -0"};
+  for (const std::string first : {"", "\n", " \r\n\n", "push\n"}) {
+    for (const std::string end : {"\n", "\r\n", " \t\n"}) {
+      for (const std::string& vertex : vertices) {
+        const auto scene = [&](const std::string& comment) {
+          std::string text = kCamera + first + "triangle" + end;
+          for (int i = 0; i < 3; ++i) text += vertex + comment + end;
+          return text + "pop\nend\n";
+        };
+        const auto triangle_of = [](const std::vector<Command>& commands) {
+          return std::get<TriangleCommand>(commands[commands.size() - 3]);
+        };
+        const TriangleCommand fast = triangle_of(commands_of(scene("")));
+        const TriangleCommand slow = triangle_of(commands_of(scene(" # slow")));
+        EXPECT_EQ(fast.p_model, slow.p_model) << scene("");
+        EXPECT_EQ(fast.lines, slow.lines) << scene("");
+      }
+    }
+  }
+}
+
+TEST(Scene, KnowsItsLinesBehindPlainTriangles) {
+  EXPECT_EQ(error_of_commands("triangle\n1 2 3\n4 5 6\n7 8 9\n\ntriangle\n1 2 3\n4 5 6\n7 8 9\nsphere\n"),
+            error_of_commands("\n\n\n\n\n\n\n\n\nsphere\n"));
+}
+
 TEST(Scene, TakesAFrustumInPlaceOfThePerspective) {
   const CameraText camera = camera_of("0 0 5\n0 0 0\n0 1 0\nfrustum -1 2 -3 4 5 6\nend\n");
   const auto& frustum = std::get<Frustum>(camera.projection->value);

@@ -61,6 +61,39 @@ TEST(StageReader, ATriangleIsThreeVertexLines) {
   EXPECT_EQ(batch.lines[0], (VertexLines{1, 2, 3}));
 }
 
+// A comment keeps a line from the fast paths.
+TEST(StageReader, TrianglesAreTheSameByEveryPath) {
+  for (const std::string header : {"", "attributes w color normal\n"}) {
+    const std::string columns = header.empty() ? "" : " 2.5 255 0 0.125 0 -1 0.5";
+    for (const std::string vertex :
+         {"0.1000000 -2.0000000 3.0000000", "0.123456789 5 -.5", "0.30000000000000004 1e2 7",
+          "123456789.25 12345678.1234567 0.12345678"}) {
+      const auto text = [&](const std::string& comment) {
+        const std::string line = vertex + columns + comment + "\n";
+        return header + line + line + line + "\n" + line + line + line;
+      };
+      const auto read = [](const std::string& from) {
+        const TextFile file(from);
+        TextReader reader(file.descriptor(), "in.txt");
+        StageReader stage(reader, true);
+        TriangleBatch batch;
+        stage.read(batch);
+        return batch;
+      };
+      const TriangleBatch fast = read(text(""));
+      const TriangleBatch slow = read(text(" # slow"));
+      ASSERT_EQ(fast.size(), 2u);
+      EXPECT_EQ(fast.triangles, slow.triangles) << text("");
+      EXPECT_EQ(fast.lines, slow.lines) << text("");
+      EXPECT_EQ(fast.numbers, slow.numbers) << text("");
+      EXPECT_EQ(fast.decimal_marks, slow.decimal_marks) << text("");
+      EXPECT_EQ(fast.attributes.w, slow.attributes.w) << text("");
+      EXPECT_EQ(fast.attributes.colors, slow.attributes.colors) << text("");
+      EXPECT_EQ(fast.attributes.normals, slow.attributes.normals) << text("");
+    }
+  }
+}
+
 TEST(StageReader, TheLastTriangleNeedsNoBlankLine) {
   EXPECT_EQ(triangles_of("0 0 0\n1 0 0\n0 1 0").size(), 1u);
 }

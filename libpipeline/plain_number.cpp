@@ -1,0 +1,154 @@
+#include "libpipeline/plain_number.h"
+
+#include <array>
+#include <bit>
+#include <cstdint>
+
+#include "libpipeline/eight_digits.h"
+#include "libpipeline/int128.h"
+
+namespace pipeline {
+namespace {
+
+constexpr int kMaxDecimals = 24;  // three words of eight digits
+
+/// 10^-n as factor * 2^exponent, the factor cut off to 128 bits of which the highest is 1.
+struct InversePower {
+  std::uint64_t high = 0;
+  std::uint64_t low = 0;
+  int exponent = 0;
+};
+
+/// Long division, bit by bit: 2^k / 10^n until 128 bits of the quotient are known.
+constexpr InversePower inverse_power_of_ten(int n) {
+  UInt128 divisor = 1;
+  for (int i = 0; i < n; ++i) divisor *= 10;
+  UInt128 rest = 1;
+  UInt128 quotient = 0;
+  int exponent = 1;
+  while ((quotient >> 127) == 0) {
+    const bool bit = rest >= divisor;
+    if (bit) rest -= divisor;
+    quotient = (quotient << 1) | (bit ? 1 : 0);
+    rest <<= 1;
+    --exponent;
+  }
+  return {static_cast<std::uint64_t>(quotient >> 64), static_cast<std::uint64_t>(quotient), exponent};
+}
+
+constexpr auto kInversePowers = [] {
+  std::array<InversePower, kMaxDecimals + 1> powers{};
+  for (int n = 0; n <= kMaxDecimals; ++n) powers[static_cast<std::size_t>(n)] = inverse_power_of_ten(n);
+  return powers;
+}();
+
+constexpr auto kPowersOfTen = [] {
+  std::array<double, 23> powers{};  // all that are doubles
+  double power = 1;
+  for (double& p : powers) {
+    p = power;
+    power *= 10;
+  }
+  return powers;
+}();
+
+constexpr std::array<std::uint64_t, 9> kWholePowersOfTen = {1,      10,      100,      1000,     10000,
+                                                            100000, 1000000, 10000000, 100000000};
+
+/// The nearest double to digits / 10^decimals; false where the product does not tell.
+bool divide_by_power_of_ten(std::uint64_t digits, int decimals, double& value) {
+  constexpr std::uint64_t kExactLimit = std::uint64_t{1} << 53;
+  const auto n = static_cast<std::size_t>(decimals);
+  if (digits < kExactLimit && n < kPowersOfTen.size()) {
+    // Both are doubles, so that the quotient is rounded once.
+    value = static_cast<double>(digits) / kPowersOfTen[n];
+    return true;
+  }
+  if (digits == 0) {
+    value = 0;
+    return true;
+  }
+  // digits * 10^-n to 128 bits. What the power lacks and what is cut off here are less than a unit each, and
+  // twice that where the product is shifted: it is too small by less than kError.
+  constexpr UInt128 kError = 4;
+  const InversePower& power = kInversePowers[n];
+  const int shift = std::countl_zero(digits);
+  const std::uint64_t factor = digits << shift;
+  UInt128 product = static_cast<UInt128>(factor) * power.high;
+  product += (static_cast<UInt128>(factor) * power.low) >> 64;
+  int exponent = power.exponent - shift + 64;
+  if ((product >> 127) == 0) {
+    product <<= 1;
+    --exponent;
+  }
+  constexpr int kCutBits = 128 - 53;
+  constexpr UInt128 kHalf = UInt128{1} << (kCutBits - 1);
+  const UInt128 rest = product & (2 * kHalf - 1);
+  if (rest <= kHalf && rest + kError >= kHalf) return false;
+  // The exponent fills its field beside a mantissa whose leading bit counts as 1 there; a carry runs into it.
+  const auto mantissa = static_cast<std::uint64_t>(product >> kCutBits) + (rest >= kHalf ? 1 : 0);
+  value = std::bit_cast<double>((static_cast<std::uint64_t>(exponent + kCutBits + 1074) << 52) + mantissa);
+  return true;
+}
+
+/// Reads up to eight digits; says how many.
+int read_digits(const char* p, std::uint64_t& number) {
+  const std::uint64_t less_zeros = load_eight(p) - kEightZeros;
+  const std::uint64_t ends = no_digits(less_zeros);
+  const int count = ends == 0 ? 8 : std::countr_zero(ends) / 8;
+  // Shifted so that the digits are the last of eight; what comes in is zeros.
+  number = count == 0 ? 0 : join_digits(less_zeros << (64 - 8 * count));
+  return count;
+}
+
+bool is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
+
+}  // namespace
+
+const char* read_plain_number(const char* p, PlainNumber& number) {
+  const std::uint64_t sign = *p == '-' ? std::uint64_t{1} << 63 : 0;
+  p += sign >> 63;
+  std::uint64_t digits = 0;
+  const int whole_count = read_digits(p, digits);
+  p += whole_count;
+  int decimals = 0;
+  if (*p == '.') {
+    ++p;
+    for (int count = 8; count == 8 && decimals < kMaxDecimals;) {
+      std::uint64_t behind = 0;
+      count = read_digits(p, behind);
+      if (__builtin_mul_overflow(digits, kWholePowersOfTen[static_cast<std::size_t>(count)], &digits) ||
+          __builtin_add_overflow(digits, behind, &digits))
+        return nullptr;
+      p += count;
+      decimals += count;
+    }
+  }
+  if (whole_count + decimals == 0 || is_digit(*p)) return nullptr;
+  double magnitude = 0;
+  if (!divide_by_power_of_ten(digits, decimals, magnitude)) return nullptr;
+  number = {std::bit_cast<double>(std::bit_cast<std::uint64_t>(magnitude) | sign), decimals};
+  return p;
+}
+
+const char* read_plain_line(const char* p, const char* end, std::span<PlainNumber> numbers) {
+  const auto skip_blanks = [&] {
+    while (p < end && (*p == ' ' || *p == '\t')) ++p;
+  };
+  skip_blanks();
+  const char* before = nullptr;
+  for (PlainNumber& number : numbers) {
+    // A blank separates it from the number before.
+    if (p == before || p >= end) return nullptr;
+    p = read_plain_number(p, number);
+    if (p == nullptr) return nullptr;
+    before = p;
+    skip_blanks();
+  }
+  if (p < end && *p == '\r') ++p;
+  return p < end && *p == '\n' ? p + 1 : nullptr;
+}
+
+}  // namespace pipeline
