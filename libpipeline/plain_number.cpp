@@ -105,6 +105,20 @@ bool is_digit(char c) {
   return c >= '0' && c <= '9';
 }
 
+/// Goes on behind eight decimals; null if the digits are too many.
+const char* read_more_decimals(const char* p, std::uint64_t& digits, int& decimals) {
+  for (int count = 8; count == 8 && decimals < kMaxDecimals;) {
+    std::uint64_t behind = 0;
+    count = read_digits(p, behind);
+    if (__builtin_mul_overflow(digits, kWholePowersOfTen[static_cast<std::size_t>(count)], &digits) ||
+        __builtin_add_overflow(digits, behind, &digits))
+      return nullptr;
+    p += count;
+    decimals += count;
+  }
+  return is_digit(*p) ? nullptr : p;
+}
+
 }  // namespace
 
 const char* read_plain_number(const char* p, PlainNumber& number) {
@@ -114,21 +128,22 @@ const char* read_plain_number(const char* p, PlainNumber& number) {
   const int whole_count = read_digits(p, digits);
   p += whole_count;
   int decimals = 0;
-  if (*p == '.') {
-    ++p;
-    for (int count = 8; count == 8 && decimals < kMaxDecimals;) {
-      std::uint64_t behind = 0;
-      count = read_digits(p, behind);
-      if (__builtin_mul_overflow(digits, kWholePowersOfTen[static_cast<std::size_t>(count)], &digits) ||
-          __builtin_add_overflow(digits, behind, &digits))
-        return nullptr;
-      p += count;
-      decimals += count;
-    }
-  }
-  if (whole_count + decimals == 0 || is_digit(*p)) return nullptr;
   double magnitude = 0;
-  if (!divide_by_power_of_ten(digits, decimals, magnitude)) return nullptr;
+  if (*p == '.') {
+    std::uint64_t behind = 0;
+    decimals = read_digits(++p, behind);
+    p += decimals;
+    digits = digits * kWholePowersOfTen[static_cast<std::size_t>(decimals)] + behind;
+  }
+  if (decimals < 8) {
+    if (whole_count + decimals == 0 || (whole_count == 8 && decimals == 0 && is_digit(*p))) return nullptr;
+    // Below 10^15, so that both are doubles.
+    magnitude = static_cast<double>(static_cast<std::int64_t>(digits)) /
+                kPowersOfTen[static_cast<std::size_t>(decimals)];
+  } else {
+    p = read_more_decimals(p, digits, decimals);
+    if (p == nullptr || !divide_by_power_of_ten(digits, decimals, magnitude)) return nullptr;
+  }
   number = {std::bit_cast<double>(std::bit_cast<std::uint64_t>(magnitude) | sign), decimals};
   return p;
 }

@@ -29,6 +29,14 @@ struct ProjectionCounts {
   std::uint64_t pieces = 0;   // what they were cut into
   std::uint64_t outside = 0;  // triangles dropped because nothing of them is inside
   std::uint64_t culled = 0;   // triangles dropped by their winding
+
+  ProjectionCounts& operator+=(const ProjectionCounts& other) {
+    clipped += other.clipped;
+    pieces += other.pieces;
+    outside += other.outside;
+    culled += other.culled;
+    return *this;
+  }
 };
 
 /// The project stage: view space to NDC, by way of clip space.

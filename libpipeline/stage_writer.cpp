@@ -80,6 +80,9 @@ std::string error_line(const std::string& reason) {
 StageWriter::StageWriter(TextWriter& text, NumberFormat format, bool bare)
     : text_(text), format_(format), bare_(bare) {}
 
+StageWriter::StageWriter(TextWriter& text, const StageWriter& whole)
+    : text_(text), format_(whole.format_), bare_(whole.bare_), columns_(whole.columns_) {}
+
 void StageWriter::write_header(const StageHeader& header) {
   if (bare_) return;
   framed_ = header.framed;
@@ -140,8 +143,7 @@ std::size_t StageWriter::write_fixed_form(const TriangleBatch& batch, std::size_
 }
 
 void StageWriter::write_triangle(const TriangleBatch& batch, std::size_t index) {
-  if (batch.numbers[index] != next_number_ && !bare_)
-    text_.append("triangle " + std::to_string(batch.numbers[index]) + "\n");
+  write_number(batch.numbers[index]);
   next_number_ = batch.numbers[index] + 1;
   const Triangle low_part = batch.low_parts.empty() ? Triangle{} : batch.low_parts[index];
   char* out = text_.reserve(kMaxTriangleLength);
@@ -176,6 +178,27 @@ char* StageWriter::print_attributes(char* out, const AttributeArrays& attributes
   if (columns_.color) print_vec3(attributes.colors[index][vertex]);
   if (columns_.normal) print_vec3(attributes.normals[index][vertex]);
   return out;
+}
+
+/// Says which triangle is the next, where plain counting would go wrong.
+void StageWriter::write_number(std::uint64_t number) {
+  if (number != next_number_ && !bare_) text_.append("triangle " + std::to_string(number) + "\n");
+}
+
+void StageWriter::begin_part(std::uint64_t first_number) {
+  text_.discard();
+  first_number_ = first_number;
+  next_number_ = first_number;
+}
+
+void StageWriter::append_part(const StageWriter& part) {
+  keeps_four_digits_ |= part.keeps_four_digits_;
+  has_filled_coordinate_ |= part.has_filled_coordinate_;
+  const std::string_view text = part.text_.collected();
+  if (text.empty()) return;
+  write_number(part.first_number_);
+  text_.append(text);
+  next_number_ = part.next_number_;
 }
 
 void StageWriter::finish() {

@@ -14,8 +14,15 @@ class StageWriter {
  public:
   StageWriter(TextWriter& text, NumberFormat format, bool bare);
 
+  /// A writer of a part of a text, for `append_part` of `whole`, whose header is written.
+  StageWriter(TextWriter& text, const StageWriter& whole);
+
   void write_header(const StageHeader& header);
   void write(const TriangleBatch& batch);
+  /// Begins a new part: a text that goes on from triangle `first_number`.
+  void begin_part(std::uint64_t first_number);
+  /// Writes what another writer has collected, its whole part, behind what was written so far.
+  void append_part(const StageWriter& part);
   /// Writes what a whole text ends with, and flushes.
   void finish();
 
@@ -24,6 +31,7 @@ class StageWriter {
   [[nodiscard]] bool keeps_four_digits() const { return keeps_four_digits_ || !has_filled_coordinate_; }
 
  private:
+  void write_number(std::uint64_t number);
   void note_sizes(const TriangleBatch& batch);
   std::size_t write_fixed_form(const TriangleBatch& batch, std::size_t begin);
   void write_triangle(const TriangleBatch& batch, std::size_t index);
@@ -36,6 +44,7 @@ class StageWriter {
   bool framed_ = false;
   AttributeSet columns_;
   std::uint64_t next_number_ = 0;
+  std::uint64_t first_number_ = 0;  // of a part
   bool keeps_four_digits_ = false;
   bool has_filled_coordinate_ = false;
 };

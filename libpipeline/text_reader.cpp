@@ -1,5 +1,6 @@
 #include "libpipeline/text_reader.h"
 
+#include <poll.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -147,6 +148,12 @@ bool TextReader::has_lines_waiting(std::size_t count) const {
     waiting.remove_prefix(length + 1);
   }
   return true;
+}
+
+bool TextReader::is_ready() const {
+  if (at_end_of_file_ || has_lines_waiting(4)) return true;
+  pollfd input = {.fd = descriptor_, .events = POLLIN, .revents = 0};
+  return ::poll(&input, 1, 0) != 0;
 }
 
 void TextReader::skip(std::size_t length, std::size_t line_count) {

@@ -76,6 +76,8 @@ class TextReader {
   bool next_filled_line(LineScanner& line);
   /// True if the next `count` lines that hold a word are in memory, so that no call has to wait for them.
   [[nodiscard]] bool has_lines_waiting(std::size_t count) const;
+  /// True if a command or a triangle is in memory, or the input has something to read (its end counts).
+  [[nodiscard]] bool is_ready() const;
   /// True if the line given out last ended with a newline, not with the text.
   [[nodiscard]] bool last_line_was_ended() const { return last_line_was_ended_; }
 

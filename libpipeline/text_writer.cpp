@@ -19,6 +19,10 @@ TextWriter::TextWriter(int descriptor, std::string file)
     : descriptor_(descriptor), file_(std::move(file)), buffer_(2 * kBlockSize) {}
 
 void TextWriter::append(std::string_view text) {
+  if (descriptor_ != kNowhere && text.size() >= kBlockSize) {
+    flush();
+    return write(text);
+  }
   char* const out = reserve(text.size());
   std::memcpy(out, text.data(), text.size());
   commit(out + text.size());
@@ -35,18 +39,20 @@ void TextWriter::commit(const char* end) {
 }
 
 void TextWriter::flush() {
-  std::size_t begin = 0;
-  while (begin < end_) {
-    const ssize_t count = ::write(descriptor_, buffer_.data() + begin, std::min(end_ - begin, kBlockSize));
+  if (descriptor_ == kNowhere) return;
+  const std::string_view text = collected();
+  end_ = 0;
+  write(text);
+}
+
+void TextWriter::write(std::string_view text) {
+  while (!text.empty()) {
+    const ssize_t count = ::write(descriptor_, text.data(), std::min(text.size(), kBlockSize));
     if (count < 0 && errno == EINTR) continue;
-    if (count < 0) {
-      end_ = 0;
-      throw IoError("write", file_, errno);
-    }
-    begin += static_cast<std::size_t>(count);
+    if (count < 0) throw IoError("write", file_, errno);
+    text.remove_prefix(static_cast<std::size_t>(count));
     bytes_written_ += static_cast<std::size_t>(count);
   }
-  end_ = 0;
 }
 
 }  // namespace pipeline

@@ -13,20 +13,26 @@ class TextWriter {
  public:
   /// Writes to a file descriptor, which stays the caller's; `file` names it in messages.
   TextWriter(int descriptor, std::string file);
+  /// Only collects, however much it is.
+  TextWriter() = default;
 
   void append(std::string_view text);
   /// Room for at least `size` characters; `commit` says up to where they were filled.
   char* reserve(std::size_t size);
   void commit(const char* end);
-  /// Writes what was collected.
+  /// Writes what was collected, unless this writer only collects.
   void flush();
+  [[nodiscard]] std::string_view collected() const { return {buffer_.data(), end_}; }
   /// Forgets what was collected and not yet written.
   void discard() { end_ = 0; }
 
   [[nodiscard]] std::size_t bytes_written() const { return bytes_written_; }
 
  private:
-  int descriptor_;
+  void write(std::string_view text);
+
+  static constexpr int kNowhere = -1;
+  int descriptor_ = kNowhere;
   std::string file_;
   std::vector<char> buffer_;
   std::size_t end_ = 0;

@@ -205,8 +205,36 @@ TEST(TextWriter, AFullDiskIsAnErrorThatNamesTheFileAndTheReason) {
 TEST(TextWriter, AFullDiskIsAnErrorAlsoBeforeTheLastBlock) {
   const FullDevice full;
   TextWriter writer(full.descriptor(), "out.txt");
-  writer.append(std::string(100000, 'x'));
+  writer.append(std::string(40000, 'x'));
+  writer.append(std::string(40000, 'x'));
   EXPECT_EQ(message_of([&] { writer.append("y"); }), "cannot write out.txt: No space left on device");
+}
+
+TEST(TextWriter, AFullDiskIsAnErrorOfALongText) {
+  const FullDevice full;
+  TextWriter writer(full.descriptor(), "out.txt");
+  EXPECT_EQ(message_of([&] { writer.append(std::string(100000, 'x')); }),
+            "cannot write out.txt: No space left on device");
+}
+
+TEST(TextWriter, LongTextsStandBehindWhatWasCollected) {
+  const TextFile file("");
+  TextWriter writer(file.descriptor(), "out.txt");
+  writer.append("a");
+  writer.append(std::string(200000, 'b'));
+  writer.append("c");
+  writer.flush();
+  EXPECT_EQ(file.whole_text(), "a" + std::string(200000, 'b') + "c");
+  EXPECT_EQ(writer.bytes_written(), 200002u);
+}
+
+TEST(TextWriter, MayOnlyCollect) {
+  TextWriter writer;
+  for (int i = 0; i < 3; ++i) writer.append(std::string(100000, 'x'));
+  writer.flush();
+  EXPECT_EQ(writer.collected(), std::string(300000, 'x'));
+  writer.discard();
+  EXPECT_EQ(writer.collected(), "");
 }
 
 TEST(TextWriter, WhatCouldNotBeWrittenIsNotTriedAgain) {

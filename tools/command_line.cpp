@@ -79,6 +79,13 @@ void add_word_option(CLI::App& options, const std::string& name, const std::vect
       ->default_str(default_word);
 }
 
+void add_thread_option(CLI::App& options, int& thread_count, const std::string& help) {
+  options.add_option("--threads", thread_count, help + ", from 1 to 256; the output does not depend on it")
+      ->type_name("N")
+      ->check(CLI::Range(1, 256))
+      ->capture_default_str();
+}
+
 void set_help_form(CLI::App& options) {
   options.formatter(std::make_shared<HelpForm>());
   options.footer(

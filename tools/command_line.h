@@ -36,6 +36,9 @@ void add_choice(CLI::App& options, const std::string& name, T& chosen,
   add_word_option(options, name, words, default_word, help, take);
 }
 
+/// Adds `--threads`: `help` says what they do. From 1 to 256.
+void add_thread_option(CLI::App& options, int& thread_count, const std::string& help);
+
 /// Options and operands with their defaults, at the end of --help how the tools go together.
 void set_help_form(CLI::App& options);
 

@@ -28,6 +28,7 @@ int main(int argc, char** argv) {
     writer.write_header({framed, scene.camera(), stage.appearance()});
 
     const auto read = [&](TriangleBatch& batch) { return stage.read(batch); };
-    StageLoop{tool, writer, rounder}.run(read, [](TriangleBatch&) {});
+    const auto nothing = [](CoordinateRounder&) { return [](TriangleBatch&) {}; };
+    StageLoop(tool, writer, rounder, numbers.thread_count()).run(read, nothing);
   });
 }

@@ -1,5 +1,7 @@
 // project: clips what is behind the eye and divides by w. View space in, normalised device coordinates out.
 
+#include <deque>
+
 #include "libpipeline/projection.h"
 #include "libpipeline/stage_reader.h"
 #include "libpipeline/stage_writer.h"
@@ -51,6 +53,18 @@ std::string to_text(const ProjectionCounts& counts) {
          std::to_string(counts.clipped) + " cut into " + std::to_string(counts.pieces);
 }
 
+/// One thread's work.
+struct Worker {
+  ProjectionStage stage;
+  TriangleBatch p_view = {};
+
+  /// Replaces what is in view space by what is in NDC.
+  void project(TriangleBatch& batch) {
+    std::swap(batch, p_view);
+    stage.project(p_view, batch);
+  }
+};
+
 /// The columns of a projected text: with others, w.
 Appearance in_clip_space(Appearance appearance) {
   expect_no_w(appearance);
@@ -73,8 +87,6 @@ int main(int argc, char** argv) {
     StageReader reader(tool.input());
     const CameraText camera = cameras.camera(without_position(reader.header().camera), tool);
     const auto projection = clip_from_view(projection_of(camera, reader.header_end()), chosen.aspect);
-    CoordinateRounder rounder = numbers.rounder(tool.input().file());
-    ProjectionStage stage(projection, chosen.clip, chosen.cull, rounder);
     StageWriter writer(tool.output(), numbers.format(), false);
     const Appearance appearance = in_clip_space(reader.header().appearance);
     CameraText rest;
@@ -82,13 +94,16 @@ int main(int argc, char** argv) {
       rest.projection = {volume_of(camera.projection->value, projection), camera.projection->place};
     writer.write_header({reader.header().framed, rest, appearance});
 
-    TriangleBatch p_view;
     const auto read = [&](TriangleBatch& batch) { return reader.read(batch); };
-    const auto transform = [&](TriangleBatch& batch) {
-      std::swap(batch, p_view);
-      stage.project(p_view, batch);
+    std::deque<Worker> workers;
+    const auto make_transform = [&](CoordinateRounder& rounder) {
+      Worker& worker = workers.emplace_back(ProjectionStage(projection, chosen.clip, chosen.cull, rounder));
+      return [&worker](TriangleBatch& batch) { worker.project(batch); };
     };
-    StageLoop{tool, writer, rounder}.run(read, transform);
-    tool.timing().details = to_text(stage.counts());
+    StageLoop(tool, writer, numbers.rounder(tool.input().file()), numbers.thread_count())
+        .run(read, make_transform);
+    ProjectionCounts counts;
+    for (const Worker& worker : workers) counts += worker.stage.counts();
+    tool.timing().details = to_text(counts);
   });
 }

@@ -1,23 +1,20 @@
 #include "tools/stage_loop.h"
 
+#include <algorithm>
 #include <string>
+
+#include "tools/stage_rounds.h"
 
 namespace pipeline {
 namespace {
 
-void note_lost_digits(const Tool& tool, const StageWriter& writer, const CoordinateRounder& rounder) {
-  if (rounder.first_uncertain_line() > 0)
-    tool.note(to_string({rounder.file(), rounder.first_uncertain_line()}) +
-              ": numbers cancel here beyond 31 digits; the last digits of this vertex are not certain");
-  if (!writer.keeps_four_digits())
-    tool.note("the largest coordinate keeps fewer than 4 significant digits; use --digits exact");
-}
-
-}  // namespace
-
-void StageLoop::run(const std::function<bool(TriangleBatch&)>& read,
-                    const std::function<void(TriangleBatch&)>& transform) {
+/// Batch after batch, in this thread alone; returns the line of the first vertex whose digits are not
+/// certain.
+std::size_t run_alone(Tool& tool, StageWriter& writer, CoordinateRounder rounder,
+                      const std::function<bool(TriangleBatch&)>& read,
+                      const std::function<BatchTransform(CoordinateRounder&)>& make_transform) {
   Timing& timing = tool.timing();
+  const BatchTransform transform = make_transform(rounder);
   const auto write = [&](const TriangleBatch& batch) {
     writer.write(batch);
     tool.output().flush();
@@ -36,8 +33,26 @@ void StageLoop::run(const std::function<bool(TriangleBatch&)>& read,
     timing.lap(&Timing::work_seconds);
     write(batch);
   }
-  writer.finish();
-  note_lost_digits(tool, writer, rounder);
+  return rounder.first_uncertain_line();
+}
+
+}  // namespace
+
+StageLoop::StageLoop(Tool& tool, StageWriter& writer, const CoordinateRounder& rounder, int thread_count)
+    : tool_(tool), writer_(writer), rounder_(rounder), thread_count_(thread_count) {}
+
+void StageLoop::run(const std::function<bool(TriangleBatch&)>& read,
+                    const std::function<BatchTransform(CoordinateRounder&)>& make_transform) {
+  std::size_t uncertain_line =
+      thread_count_ == 1 ? run_alone(tool_, writer_, rounder_, read, make_transform)
+                         : StageRounds(tool_, writer_, rounder_, thread_count_, make_transform).run(read);
+  if (rounder_.first_uncertain_line() > 0) uncertain_line = rounder_.first_uncertain_line();
+  writer_.finish();
+  if (uncertain_line > 0)
+    tool_.note(to_string({rounder_.file(), uncertain_line}) +
+               ": numbers cancel here beyond 31 digits; the last digits of this vertex are not certain");
+  if (!writer_.keeps_four_digits())
+    tool_.note("the largest coordinate keeps fewer than 4 significant digits; use --digits exact");
 }
 
 }  // namespace pipeline

@@ -3,23 +3,33 @@
 #include <functional>
 
 #include "libpipeline/coordinate_rounder.h"
-#include "libpipeline/stage_reader.h"
 #include "libpipeline/stage_writer.h"
 #include "libpipeline/triangle_batch.h"
 #include "tools/tool.h"
 
 namespace pipeline {
 
-/// What a stage does batch by batch until its input ends: `read` a batch (false at the end), `transform` it
-/// in place, write it, and pass it on at once. What was done before a mistake is written before the mistake
-/// is thrown. At the end the text is finished, and what the user should know of its digits is said on stderr.
-struct StageLoop {
-  Tool& tool;
-  StageWriter& writer;
-  CoordinateRounder& rounder;
+/// Transforms a batch in place.
+using BatchTransform = std::function<void(TriangleBatch&)>;
 
+/// What a stage does batch by batch until its input ends: `read` a batch (false at the end), transform it,
+/// write it, and pass it on at once. What was done before a mistake is written before the mistake is thrown.
+/// At the end the text is finished, and what the user should know of its digits is said on stderr.
+class StageLoop {
+ public:
+  /// `rounder` is the one that `read` uses, if it does, and the pattern of those of the transforms. The
+  /// output does not depend on `thread_count`, from 1.
+  StageLoop(Tool& tool, StageWriter& writer, const CoordinateRounder& rounder, int thread_count);
+
+  /// Every thread's work is done by a transform of its own, which `make_transform` makes for its rounder.
   void run(const std::function<bool(TriangleBatch&)>& read,
-           const std::function<void(TriangleBatch&)>& transform);
+           const std::function<BatchTransform(CoordinateRounder&)>& make_transform);
+
+ private:
+  Tool& tool_;
+  StageWriter& writer_;
+  const CoordinateRounder& rounder_;
+  int thread_count_;
 };
 
 }  // namespace pipeline

@@ -32,6 +32,7 @@ NumberOptions::NumberOptions(CLI::App& options) {
   add_choice<Precision>(options, "--precision", precision_,
                         {{"double", Precision::plain}, {"extended", Precision::extended}},
                         "extended: every number printed is correctly rounded; double: faster");
+  add_thread_option(options, thread_count_, "How many threads calculate and print");
 }
 
 NumberFormat NumberOptions::format() const {

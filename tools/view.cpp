@@ -49,17 +49,19 @@ int main(int argc, char** argv) {
     const ViewTransform view = view_of(camera, reader.header_end());
     const VertexTransform view_from_world(view);
     const NormalTransform view_normal_from_world(view);
-    CoordinateRounder rounder = numbers.rounder(tool.input().file());
     StageWriter writer(tool.output(), numbers.format(), bare);
     writer.write_header(
         {reader.header().framed, without_position(camera), in_view_space(reader.header().appearance, view)});
 
     const auto read = [&](TriangleBatch& batch) { return reader.read(batch); };
-    const auto transform = [&](TriangleBatch& batch) {
-      for (auto& normals : batch.attributes.normals)
-        for (Vec3& normal : normals) normal = view_normal_from_world(normal);
-      view_from_world.apply(batch, rounder);
+    const auto make_transform = [&](CoordinateRounder& rounder) {
+      return [&](TriangleBatch& batch) {
+        for (auto& normals : batch.attributes.normals)
+          for (Vec3& normal : normals) normal = view_normal_from_world(normal);
+        view_from_world.apply(batch, rounder);
+      };
     };
-    StageLoop{tool, writer, rounder}.run(read, transform);
+    StageLoop(tool, writer, numbers.rounder(tool.input().file()), numbers.thread_count())
+        .run(read, make_transform);
   });
 }

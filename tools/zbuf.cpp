@@ -46,12 +46,7 @@ void add_options(CLI::App& options, RenderOptions& chosen) {
       options, "--depth", chosen.depth,
       {{"f64", DepthFormat::f64}, {"f32", DepthFormat::f32}, {"u24", DepthFormat::u24}},
       "How a pixel keeps its depth: as a double, a float, or in 2^24 equal steps between the limits");
-  options
-      .add_option("--threads", chosen.thread_count,
-                  "How many threads draw with the z-buffer, from 1 to 256; the output does not depend on it")
-      ->type_name("N")
-      ->check(CLI::Range(1, 256))
-      ->capture_default_str();
+  add_thread_option(options, chosen.thread_count, "How many threads draw with the z-buffer");
   add_shading_option(options, chosen.shading);
 }
 

@@ -1,0 +1,130 @@
+#!/usr/bin/env python3
+"""The text stages say the same with any number of threads: texts, messages, exit statuses.
+
+usage: tools_threads_test.py BIN_DIR [UNITTEST ARGUMENT...]
+"""
+import pathlib
+import random
+import unittest
+
+from toolbox import CAMERA, HEADER, SCENE, SOURCE, TRIANGLE, ToolTest, run, stage_texts
+from tools_streaming_test import LiveTool
+
+THREADS = (2, 3, 8)
+
+
+def random_text(count, seed, columns=""):
+    """Triangles before and behind the eye plane; now and then a comment, a number, digits that take long arithmetic."""
+    rng = random.Random(seed)
+    lines = []
+    for i in range(count):
+        if rng.random() < 0.01:
+            lines.append(f"triangle {10 * i}")
+        for _ in range(3):
+            decimals = rng.choice((7, 7, 7, 7, 3, 17))
+            point = " ".join("%.*f" % (decimals, rng.uniform(-3, 3)) for _ in range(3))
+            lines.append(point + columns + (" # a comment" if rng.random() < 0.01 else ""))
+        lines.append("")
+    return "\n".join(lines) + "\n"
+
+
+class Threads(ToolTest):
+    def assert_same(self, tool, *options, stdin):
+        """The run on one thread, which all others equal."""
+        alone = run(tool, *options, stdin=stdin)
+        for count in THREADS:
+            together = run(tool, *options, "--threads", count, stdin=stdin)
+            self.assertEqual((together.stderr, together.returncode), (alone.stderr, alone.returncode))
+            self.assertTrue(together.stdout == alone.stdout, f"{tool} {options}: {count} threads print something else")
+        return alone
+
+    def test_every_sample(self):
+        for scene in sorted(SOURCE.glob("samples/*/scene.txt")):
+            stage1, stage2, _ = stage_texts(scene.read_text())
+            self.assert_same("model", stdin=scene.read_bytes())
+            self.assert_same("view", stdin=stage1)
+            self.assert_same("project", stdin=stage2)
+
+    def test_many_triangles(self):
+        text = random_text(20000, 1)
+        for options in ([], ["--digits", "exact"], ["--precision", "double"], ["--digits", "2"]):
+            self.assert_same("view", *options, stdin=HEADER + text)
+        for options in ([], ["--cull", "back"], ["--clip", "frustum"], ["--clip", "reject", "--cull", "front"]):
+            done = self.assert_same("project", *options, stdin="perspective 60 1 1 100\n" + text)
+            # What is cut nowhere may reach behind the eye.
+            self.assertEqual(done.returncode, 1 if "reject" in options else 0)
+
+    def test_columns(self):
+        text = "attributes color normal\n" + random_text(5000, 2, " 10 20 30 0 1 0")
+        self.assert_same("view", stdin=HEADER + text)
+        self.assert_same("project", "--clip", "near", stdin="perspective 60 1 1 100\n" + text)
+
+    def test_scenes_with_many_matrices(self):
+        scene = CAMERA + "".join(f"push\nrotate\n{i} 1 2 3\n{TRIANGLE}pop\n" for i in range(3000)) + "end\n"
+        self.assert_same("model", stdin=scene)
+
+    def test_a_mistake_behind_many_triangles(self):
+        text = random_text(3000, 3)
+        for mistake in ("1 2 3\n4 5 six\n", "eye 1 2 3\n", "1 2 3\n\n", "error model: it broke\n", "1 2 3"):
+            done = self.assert_same("view", stdin=HEADER + text + mistake + text)
+            self.assertEqual(done.returncode, 1)
+            self.assertEqual(done.stdout.count(b"\n\n"), 3000)
+
+    def test_a_vertex_that_has_no_image(self):
+        text = random_text(3000, 4)
+        view = self.assert_same("view", "--eye", "-1e308", "0", "0", "--look", "0", "0", "0", "--up", "0", "1", "0",
+                                stdin=text + "1.7e308 0 0\n0 0 0\n0 0 0\n\n" + text)
+        self.assertIn(b"overflow", view.stderr)
+        project = self.assert_same("project", "--clip", "none", "--perspective", "60", "1", "1", "100",
+                                   stdin="0 0 -1\n1 0 -1\n0 1 -1\n\n" * 5000 + text)
+        self.assertIn(b"a vertex in front of the eye", project.stderr)
+        self.assertGreaterEqual(project.stdout.count(b"\n\n"), 5000)
+
+    def test_a_mistake_behind_a_vertex_that_has_no_image(self):
+        done = self.assert_same("project", "--clip", "none", "--perspective", "60", "1", "1", "100",
+                                stdin="0 0 -1\n1 0 -1\n0 1 -1\n\n" * 2000 + "0 0 1\n0 0 1\n0 0 1\n\nnonsense\n")
+        self.assertIn(b"<stdin>:8001: ", done.stderr)
+
+    def test_what_is_noted_of_the_digits(self):
+        small = "1e-6 0 0\n0 1e-6 0\n0 0 1e-6\n\n" * 3000
+        done = self.assert_same("view", stdin="eye 0 0 0\nlook 0 0 -1\nup 0 1 0\n" + small)
+        self.assertIn(b"--digits exact", done.stderr)
+
+    def test_framed_texts(self):
+        stage1, stage2, _ = stage_texts(SCENE, "--framed")
+        self.assert_same("view", stdin=stage1)
+        self.assert_same("project", stdin=stage2)
+        self.assertEqual(self.assert_same("view", stdin=stage1[:-4]).returncode, 1)
+
+    def test_empty_texts(self):
+        self.assert_same("view", stdin=HEADER)
+        self.assert_same("project", stdin="ortho -1 1 -1 1 0 1\n")
+
+    def test_a_full_disk(self):
+        with open("/dev/full", "wb") as full:
+            done = run("view", "--threads", 2, stdin=HEADER + random_text(20000, 5), stdout=full)
+        self.assert_fails(done, 1, "view: cannot write <stdout>: No space left on device")
+
+    def test_a_reader_that_leaves(self):
+        pathlib.Path("text.txt").write_text(HEADER + random_text(20000, 6))
+        with LiveTool("view", "--threads", "2", "text.txt") as view:
+            view.process.stdout.read(1)
+            view.process.stdout.close()
+            view.process.stdout = None
+            self.assertNotEqual(view.finish(), 0)
+
+    def test_triangles_are_passed_on_while_the_input_is_open(self):
+        with LiveTool("view", "--threads", "2") as view:
+            view.send(HEADER + "0 0 0\n1 0 0\n0 1 0\n\n")
+            self.assertEqual(view.receive(1), 1)
+            view.send("0 0 0\n1 0 0\n0 1 0\n\n" * 1000)
+            self.assertEqual(view.receive(1001), 1001)
+            self.assertEqual(view.finish(), 0)
+
+    def test_the_number_of_threads_is_limited(self):
+        for count in ("0", "257", "-1", "x"):
+            self.assertEqual(run("view", "--threads", count).returncode, 2)
+
+
+if __name__ == "__main__":
+    unittest.main()
