@@ -9,6 +9,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+from xml.etree import ElementTree
 
 BIN_DIR, SOURCE_DIR = (pathlib.Path(word).resolve() for word in sys.argv[1:3])
 del sys.argv[1:3]
@@ -25,9 +26,14 @@ class BenchTest(unittest.TestCase):
                             "--out", folder], check=True, stdin=subprocess.DEVNULL)
             with open(pathlib.Path(folder, "bench.csv"), newline="") as file:
                 rows = list(csv.DictReader(file))
-            self.assertEqual({row["group"] for row in rows}, {"filter", "pipe", "large triangles", "small triangles"})
+            self.assertEqual({row["group"] for row in rows}, {"filter", "pipe", "threads", "large triangles", "small triangles"})
             self.assertTrue(all(float(row["median"]) > 0 for row in rows))
             self.assertIn("| filter | iostream |", pathlib.Path(folder, "bench.md").read_text())
+            with open(pathlib.Path(folder, "growth.csv"), newline="") as file:
+                growth = list(csv.DictReader(file))
+            self.assertEqual(len(growth), 8)  # two sizes, two counts of two kinds
+            self.assertTrue(all(float(row["cpu_seconds"]) > 0 for row in growth))
+            ElementTree.parse(pathlib.Path(folder, "growth.svg"))
 
     def test_the_plain_filters_turn_and_move_triangles(self):
         for name in ("filter_from_chars", "filter_iostream"):

@@ -1,0 +1,122 @@
+"""How the cost of drawing grows with triangles and pixels: what scripts/bench measures of it, as a table and a plot."""
+import math
+import random
+import shutil
+import statistics
+
+from measuring import machine, run
+from svg import STYLE, line, text
+
+SIZES = (100, 500, 2000, 8192)
+SMALL_COUNTS = (10**3, 10**4, 10**5, 10**6, 10**7)
+LARGE_COUNTS = (1, 10, 100)
+DISTINCT = 10**6  # more triangles than these are these again
+
+
+def write_small(path, count, size):
+    """Triangles of about three pixels on a screen of size x size, all over it."""
+    rng = random.Random(1)
+    reach = 3.4 / size
+    with open(path, "w") as file:
+        for _ in range(min(count, DISTINCT)):
+            x, y, z = (rng.uniform(-1, 1) for _ in range(3))
+            for _ in range(3):
+                file.write("%.7f %.7f %.7f\n" % (x + rng.uniform(-reach, reach), y + rng.uniform(-reach, reach), z))
+            file.write("\n")
+    if count > DISTINCT:
+        once = path.with_suffix(".once")
+        path.rename(once)
+        with open(path, "wb") as file:
+            for _ in range(count // DISTINCT):
+                with open(once, "rb") as block:
+                    shutil.copyfileobj(block, file, 1 << 20)
+        once.unlink()
+
+
+def write_large(path, count):
+    """Triangles that cover half the screen each, nearer and farther in turn."""
+    rng = random.Random(2)
+    corners = [(-1, -1), (1, -1), (1, 1), (-1, 1)]
+    with open(path, "w") as file:
+        for i in range(count):
+            for x, y in (corners[(i + j) % 4] for j in range(3)):
+                file.write("%.7f %.7f %.7f\n" % (x, y, rng.uniform(-0.9, 0.9)))
+            file.write("\n")
+
+
+def measured(zbuf, folder, rounds, quick):
+    """Rows {kind, triangles, size, cpu_seconds, mib}: whole runs of zbuf, text in and out included."""
+    sizes, small, large = ((50, 100), (10, 100), (1, 2)) if quick else (SIZES, SMALL_COUNTS, LARGE_COUNTS)
+    triangles, config = folder / "growth.txt", folder / "growth-config.txt"
+    for size in sizes:
+        config.write_text(f"{size} {size}\n")
+        for kind, counts in (("small", small), ("screen-filling", large)):
+            for count in counts:
+                if kind == "small":
+                    write_small(triangles, count, size)
+                else:
+                    write_large(triangles, count)
+                words = [zbuf, config, triangles, "--image", "/dev/null", "--z-buffer", "/dev/null"]
+                costs = [run(words, "bench: zbuf") for _ in range(rounds)]
+                yield {"kind": kind, "triangles": count, "size": size, "cpu_seconds": statistics.median(c.cpu_seconds for c in costs),
+                       "mib": max(c.mib for c in costs), "machine": machine()}
+
+
+def cells(rows):
+    return {(row["kind"], row["triangles"], row["size"]): row["cpu_seconds"] for row in rows}
+
+
+def axes(rows):
+    """The kinds with their counts, and the sizes."""
+    kinds = {}
+    for row in rows:
+        counts = kinds.setdefault(row["kind"], [])
+        if row["triangles"] not in counts:
+            counts.append(row["triangles"])
+    return kinds, sorted({row["size"] for row in rows})
+
+
+def report(rows):
+    """The table, in Markdown."""
+    table = cells(rows)
+    kinds, sizes = axes(rows)
+    lines = ["| triangles | " + " | ".join(f"{size} x {size}" for size in sizes) + " |", "|---|" + "--:|" * len(sizes)]
+    for kind, counts in kinds.items():
+        for count in counts:
+            lines.append(f"| {count:,} {kind} | " + " | ".join(f"{table[kind, count, size]:.3g}" for size in sizes) + " |")
+    largest = max(rows, key=lambda row: (row["size"], row["triangles"]))
+    return "\n".join([*lines, "", f"CPU seconds of a run of `zbuf` on one thread, text in and out included; small triangles have about three pixels. "
+                      f"Memory at {largest['size']} x {largest['size']}: {largest['mib']:.0f} MiB. {machine()}.", ""])
+
+
+def plot(rows):
+    """CPU seconds over triangles, both logarithmic: a panel a kind, a line a size."""
+    table = cells(rows)
+    kinds, sizes = axes(rows)
+    seconds = [row["cpu_seconds"] for row in rows]
+    low, high = math.floor(math.log10(min(seconds))), math.ceil(math.log10(max(seconds)))
+    width, height, top, bottom, panel_width = 840, 400, 80, 330, 300
+    parts = [f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" width="{width}" height="{height}">',
+             "<title>How zbuf's cost grows with triangles and pixels</title>", f"<style>{STYLE}</style>",
+             f'<rect class="card" x=".5" y=".5" width="{width - 1}" height="{height - 1}" rx="8"/>']
+
+    def y_of(value):
+        return bottom - (bottom - top) * (math.log10(value) - low) / (high - low)
+
+    for i, (kind, counts) in enumerate(kinds.items()):
+        left = 80 + i * 400
+        x_of = {count: left + 10 + j * (panel_width - 20) / max(len(counts) - 1, 1) for j, count in enumerate(counts)}
+        parts.append(text(left - 55, 34, f"{kind} triangles", 'class="title"'))
+        parts.append(text(left - 55, 52, "CPU seconds of zbuf", 'class="soft"'))
+        for power in range(low, high + 1):
+            y = y_of(10.0**power)
+            parts += [line("grid", (left, y), (left + panel_width, y)), text(left - 8, y + 4, f"{10.0**power:g}", 'class="soft" text-anchor="end"')]
+        for count in counts:
+            parts.append(text(x_of[count], bottom + 22, f"{count:,}", 'class="soft" text-anchor="middle"'))
+        parts.append(text(left + panel_width / 2, bottom + 46, "triangles", 'class="soft" text-anchor="middle"'))
+        for j, size in enumerate(sizes):
+            points = [(x_of[count], y_of(table[kind, count, size])) for count in counts]
+            parts.append(f'<g class="s s{j % 3}">' + line("front", *points))
+            parts += [f'<circle class="dot" cx="{x:.1f}" cy="{y:.1f}" r="3.5"/>' for x, y in points]
+            parts.append(text(points[0][0], points[0][1] - 8, f"{size} x {size}") + "</g>")
+    return "\n".join(parts) + "\n</svg>\n"
