@@ -10,6 +10,7 @@
 #include <cstring>
 
 #include "libpipeline/eight_digits.h"
+#include "libpipeline/shortest_decimal.h"
 #include "libpipeline/wide_decimal.h"
 
 namespace pipeline {
@@ -19,7 +20,7 @@ constexpr std::array<double, kMaxDecimals + 1> kPowersOfTen = {
     1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16, 1e17};
 
 constexpr auto kWholePowersOfTen = [] {
-  std::array<std::uint64_t, 16> powers{};  // all below 2^51
+  std::array<std::uint64_t, 18> powers{};
   std::uint64_t power = 1;
   for (std::uint64_t& p : powers) {
     p = power;
@@ -129,7 +130,7 @@ char* print_whole(char* out, std::uint64_t number, int count) {
 /// more than 51 bits, or lies so near to a tie that the scaling may decide.
 char* print_scaled(char* out, double value, int decimals) {
   const auto n = static_cast<std::size_t>(decimals);
-  if (n >= kWholePowersOfTen.size() || !rounds_safely(value, 0, {.decimals = decimals})) return nullptr;
+  if (decimals > 15 || !rounds_safely(value, 0, {.decimals = decimals})) return nullptr;
   const auto units = static_cast<std::uint64_t>(std::nearbyint(std::fabs(value) * kPowersOfTen[n]));
   if (value < 0 && units != 0) *out++ = '-';
   const std::uint64_t whole = units / kWholePowersOfTen[n];
@@ -137,6 +138,44 @@ char* print_scaled(char* out, double value, int decimals) {
   if (decimals == 0) return out;
   *out++ = '.';
   return print_whole(out, units - whole * kWholePowersOfTen[n], decimals);
+}
+
+int digit_count(std::uint64_t number) {
+  int count = 1;
+  while (static_cast<std::size_t>(count) < kWholePowersOfTen.size() &&
+         number >= kWholePowersOfTen[static_cast<std::size_t>(count)])
+    ++count;
+  return count;
+}
+
+/// The same for a number of up to 17 digits, with at least `count`.
+char* print_long_whole(char* out, std::uint64_t number, int count) {
+  constexpr std::uint64_t kSixteenZeros = 10'000'000'000'000'000;
+  const std::uint64_t high = number / kSixteenZeros;
+  if (high == 0 && count <= 16) return print_whole(out, number, count);
+  out = print_whole(out, high, count - 16);
+  return print_whole(out, number - high * kSixteenZeros, 16);
+}
+
+/// Prints in the shortest form that reads back to the number; null where that is one with an exponent, or the
+/// number is not of a coordinate's size.
+char* print_shortest(char* out, double value) {
+  Decimal decimal;
+  if (!shortest_decimal(std::fabs(value), decimal)) return nullptr;
+  const auto& [digits, exponent] = decimal;
+  // Written out, it must not be longer than with a point behind its first digit and "e+10".
+  const int length = digit_count(digits);
+  const int point_length = length > 1 ? 1 : 0;
+  if (exponent > 4 + point_length || exponent < -(length + 2 + point_length)) return nullptr;
+  if (value < 0) *out++ = '-';
+  if (exponent >= 0)
+    return print_long_whole(out, digits * kWholePowersOfTen[static_cast<std::size_t>(exponent)], 1);
+  const auto decimals = static_cast<std::size_t>(-exponent);
+  const std::uint64_t scale = decimals < kWholePowersOfTen.size() ? kWholePowersOfTen[decimals] : 0;
+  const std::uint64_t whole = scale != 0 ? digits / scale : 0;
+  out = print_long_whole(out, whole, 1);
+  *out++ = '.';
+  return print_long_whole(out, digits - whole * scale, -exponent);
 }
 
 char* without_sign_of_zero(char* first, char* last) {
@@ -197,7 +236,10 @@ bool parse_count(std::string_view word, std::size_t& value) {
 
 char* print_number(char* out, double hi, double lo, NumberFormat format) {
   assert(std::isfinite(hi) && std::isfinite(lo));
-  if (format.shortest) return std::to_chars(out, out + kMaxNumberLength, hi == 0 ? 0.0 : hi).ptr;
+  if (format.shortest) {
+    char* const end = print_shortest(out, hi);
+    return end != nullptr ? end : std::to_chars(out, out + kMaxNumberLength, hi == 0 ? 0.0 : hi).ptr;
+  }
   if (char* const end = lo == 0 ? print_scaled(out, hi, format.decimals) : nullptr) return end;
   char* const end =
       lo == 0 ? std::to_chars(out, out + kMaxNumberLength, hi, std::chars_format::fixed, format.decimals).ptr

@@ -192,7 +192,8 @@ TEST(PrintNumberLong, AgreesWithToCharsForEveryCountOfDecimals) {
     const char* const end =
         std::to_chars(expected, expected + sizeof expected, value, std::chars_format::fixed, decimals).ptr;
     std::string_view text(expected, static_cast<std::size_t>(end - expected));
-    if (text.find_first_of("123456789") == std::string_view::npos && std::signbit(value)) text.remove_prefix(1);
+    if (text.find_first_of("123456789") == std::string_view::npos && std::signbit(value))
+      text.remove_prefix(1);
     ASSERT_EQ(printed(value, 0, {decimals}), text) << value;
   }
 }
@@ -252,6 +253,42 @@ TEST(PrintNumber, ShortestNumbersReadBackAsTheSameDouble) {
     const std::string text = printed(value, 0, {.shortest = true});
     ASSERT_EQ(std::strtod(text.c_str(), nullptr), value) << text;
     ASSERT_LE(text.size(), 24u) << text;
+  }
+}
+
+/// True if a number is printed as to_chars prints it.
+bool is_shortest(double value) {
+  char expected[kMaxNumberLength];
+  char text[kMaxNumberLength];
+  const std::string_view right(expected,
+                               std::to_chars(expected, expected + sizeof expected, value).ptr - expected);
+  return std::string_view(text, print_number(text, value, 0, {.shortest = true}) - text) == right;
+}
+
+TEST(PrintNumber, ShortestNumbersAreThoseOfToCharsNearPowersOfTwo) {
+  for (int exponent = -45; exponent <= 60; ++exponent)
+    for (const double power : {std::ldexp(1.0, exponent), -std::ldexp(1.0, exponent)})
+      for (const double value : {power, std::nextafter(power, 0), std::nextafter(power, 2 * power)})
+        EXPECT_TRUE(is_shortest(value)) << value;
+}
+
+TEST(PrintNumber, ShortestNumbersAreThoseOfToCharsNearPowersOfTen) {
+  for (int exponent = -15; exponent <= 20; ++exponent)
+    for (int factor = 1; factor < 100; ++factor) {
+      const double power =
+          std::strtod((std::to_string(factor) + "e" + std::to_string(exponent)).c_str(), nullptr);
+      for (const double value : {power, std::nextafter(power, 0), std::nextafter(power, 2 * power)})
+        EXPECT_TRUE(is_shortest(value)) << value;
+    }
+}
+
+// Numbers of many digits and of few, of every size that coordinates have.
+TEST(PrintNumberLong, ShortestNumbersAreThoseOfToChars) {
+  RandomNumbers random(6);
+  for (int i = 0; i < 100'000'000; ++i) {
+    double value = random.with_exponent(-42, 55);
+    if (i % 4 == 0) value = std::nearbyint(value * 1e5) / 1e6;
+    ASSERT_TRUE(is_shortest(value) || value == 0) << value;
   }
 }
 

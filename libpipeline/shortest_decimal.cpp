@@ -1,0 +1,110 @@
+#include "libpipeline/shortest_decimal.h"
+
+#include <array>
+#include <bit>
+
+#include "libpipeline/int128.h"
+
+namespace pipeline {
+namespace {
+
+// A double is significand * 2^exponent with 53 bits; for the values that are taken the exponents are these.
+constexpr int kMinExponent = -40 - 52;
+constexpr int kMaxExponent = 0;
+
+// The powers of ten that go with them: from 10^0 to 10^28.
+constexpr int kMaxPower = 28;
+
+/// 10^n = factor * 2^(log2 - 127) but for the last bit: the factor has 128 bits, and is rounded up even where
+/// it is exact, as the algorithm wants it.
+struct PowerOfTen {
+  std::uint64_t high = 0;
+  std::uint64_t low = 0;
+  int log2 = 0;  // rounded down
+};
+
+constexpr auto kPowersOfTen = [] {
+  std::array<PowerOfTen, kMaxPower + 1> powers{};
+  UInt128 power = 1;
+  for (PowerOfTen& p : powers) {
+    p.log2 = 127;
+    UInt128 factor = power;
+    for (; (factor >> 127) == 0; factor <<= 1) --p.log2;
+    ++factor;
+    p.high = static_cast<std::uint64_t>(factor >> 64);
+    p.low = static_cast<std::uint64_t>(factor);
+    power *= 10;
+  }
+  return powers;
+}();
+
+/// floor(log10(2^exponent)), or of 3/4 of that, for small exponents.
+constexpr int floor_log10(int exponent, bool of_three_quarters) {
+  return (exponent * 1262611 - (of_three_quarters ? 524031 : 0)) >> 22;
+}
+
+/// power * factor / 2^128, rounded to odd: the last bit is set if anything was cut off.
+std::uint64_t rounded_to_odd(const PowerOfTen& power, std::uint64_t factor) {
+  const UInt128 low = static_cast<UInt128>(power.low) * factor;
+  const UInt128 high = static_cast<UInt128>(power.high) * factor + (low >> 64);
+  // The power is a last bit too large: what that makes is not cut off.
+  const bool is_inexact = static_cast<std::uint64_t>(high) > 1;
+  return static_cast<std::uint64_t>(high >> 64) | (is_inexact ? 1 : 0);
+}
+
+Decimal without_trailing_zeros(Decimal decimal) {
+  constexpr std::uint64_t kEightZeros = 100'000'000;
+  if (decimal.digits % kEightZeros == 0) {
+    decimal.digits /= kEightZeros;
+    decimal.exponent += 8;
+  }
+  while (decimal.digits % 10 == 0) {
+    decimal.digits /= 10;
+    ++decimal.exponent;
+  }
+  return decimal;
+}
+
+}  // namespace
+
+bool shortest_decimal(double value, Decimal& decimal) {
+  if (!(value >= 0x1p-40 && value < 0x1p53)) return false;
+  const auto bits = std::bit_cast<std::uint64_t>(value);
+  constexpr std::uint64_t kHiddenBit = std::uint64_t{1} << 52;
+  const std::uint64_t fraction = bits & (kHiddenBit - 1);
+  const std::uint64_t significand = fraction | kHiddenBit;
+  const int exponent = static_cast<int>(bits >> 52) - 1075;
+  static_assert(floor_log10(kMinExponent, true) == -kMaxPower && floor_log10(kMaxExponent, false) == 0);
+  // The next smaller double is half as far away below a power of two.
+  const bool is_lower_gap_halved = fraction == 0;
+  const int k = floor_log10(exponent, is_lower_gap_halved);
+  const PowerOfTen& power = kPowersOfTen[static_cast<std::size_t>(-k)];
+  const int shift = exponent + power.log2 + 1;
+  // Four times the value and the ends of the interval that reads back to it, as multiples of 10^k.
+  const std::uint64_t center = rounded_to_odd(power, 4 * significand << shift);
+  const std::uint64_t left =
+      rounded_to_odd(power, (4 * significand - (is_lower_gap_halved ? 1 : 2)) << shift);
+  const std::uint64_t right = rounded_to_odd(power, (4 * significand + 2) << shift);
+  // The ends themselves belong to it only where ties go to this value.
+  const std::uint64_t is_odd = significand & 1;
+  const auto contains = [&](std::uint64_t units) {
+    return left + is_odd <= 4 * units && 4 * units <= right - is_odd;
+  };
+  const std::uint64_t below = center / 4;
+  const std::uint64_t tens = below / 10 * 10;
+  const bool tens_below = contains(tens);
+  const bool tens_above = contains(tens + 10);
+  if (tens_below != tens_above) {
+    decimal = without_trailing_zeros({tens + (tens_above ? 10 : 0), k});
+    return true;
+  }
+  const bool is_below = contains(below);
+  const bool is_above = contains(below + 1);
+  const std::uint64_t middle = 4 * below + 2;
+  const bool round_up =
+      is_below != is_above ? is_above : center > middle || (center == middle && below % 2 == 1);
+  decimal = without_trailing_zeros({below + (round_up ? 1 : 0), k});
+  return true;
+}
+
+}  // namespace pipeline

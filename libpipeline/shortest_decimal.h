@@ -1,0 +1,18 @@
+#pragma once
+
+#include <cstdint>
+
+namespace pipeline {
+
+/// digits * 10^exponent.
+struct Decimal {
+  std::uint64_t digits = 0;  // at most 17 of them, the last not 0
+  int exponent = 0;
+};
+
+/// The shortest decimal that reads back to `value`, and among the shortest the nearest, as to_chars gives it.
+/// By Schubfach (R. Giulietti, "The Schubfach way to render doubles", 2020), for the sizes coordinates have:
+/// false unless 2^-40 <= value < 2^53.
+bool shortest_decimal(double value, Decimal& decimal);
+
+}  // namespace pipeline
