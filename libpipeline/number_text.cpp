@@ -7,9 +7,9 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 
 #include "libpipeline/eight_digits.h"
+#include "libpipeline/int128.h"
 #include "libpipeline/shortest_decimal.h"
 #include "libpipeline/wide_decimal.h"
 
@@ -34,6 +34,13 @@ constexpr double kTieTolerance = 0x1p-20;
 
 bool is_digit(char c) {
   return c >= '0' && c <= '9';
+}
+
+/// The whole number next to a number from 0 to 2^51, ties to even.
+double nearest_whole(double value) {
+  // Beyond 2^52 doubles are whole numbers.
+  constexpr double kRounder = 0x1.8p52;
+  return (value + kRounder) - kRounder;
 }
 
 /// The decimal exponent of the first digit that is not 0 in a word from_chars has accepted.
@@ -114,15 +121,22 @@ PrintableNumber round_to_double(const Ball& ball) {
 /// Prints a number below 10^16 with at least `count` digits, zeros before; 16 characters may be written.
 char* print_whole(char* out, std::uint64_t number, int count) {
   constexpr std::uint64_t kEightNines = 99'999'999;
+  if (number <= kEightNines && count <= 8) {
+    const std::uint64_t digits = split_digits(static_cast<std::uint32_t>(number));
+    const int length = std::max(8 - std::countr_zero(digits | std::uint64_t{1} << 56) / 8, count);
+    store_eight(out, (digits + kEightZeros) >> (8 * (8 - length)));
+    return out + length;
+  }
   const std::uint64_t high = number / (kEightNines + 1);
   const std::uint64_t first = split_digits(static_cast<std::uint32_t>(high));
   const std::uint64_t last = split_digits(static_cast<std::uint32_t>(number - high * (kEightNines + 1)));
   const int leading_zeros = (first != 0 ? std::countr_zero(first) : 64 + std::countr_zero(last)) / 8;
   const int length = std::max(16 - leading_zeros, count);
-  std::array<char, 32> text;
-  store_eight(text.data(), first + kEightZeros);
-  store_eight(text.data() + 8, last + kEightZeros);
-  std::memcpy(out, text.data() + 16 - length, 16);
+  // Shifted as one number: to store it and load it again from another place would take longer.
+  UInt128 text = (static_cast<UInt128>(last + kEightZeros) << 64) | (first + kEightZeros);
+  text >>= 8 * (16 - length);
+  store_eight(out, static_cast<std::uint64_t>(text));
+  store_eight(out + 8, static_cast<std::uint64_t>(text >> 64));
   return out + length;
 }
 
@@ -131,21 +145,26 @@ char* print_whole(char* out, std::uint64_t number, int count) {
 char* print_scaled(char* out, double value, int decimals) {
   const auto n = static_cast<std::size_t>(decimals);
   if (decimals > 15 || !rounds_safely(value, 0, {.decimals = decimals})) return nullptr;
-  const auto units = static_cast<std::uint64_t>(std::nearbyint(std::fabs(value) * kPowersOfTen[n]));
+  const auto units = static_cast<std::uint64_t>(nearest_whole(std::fabs(value) * kPowersOfTen[n]));
   if (value < 0 && units != 0) *out++ = '-';
-  const std::uint64_t whole = units / kWholePowersOfTen[n];
+  // Cut off instead of divided, which is right but for what was rounded up to a whole number.
+  auto whole = static_cast<std::uint64_t>(std::fabs(value));
+  std::uint64_t behind = units - whole * kWholePowersOfTen[n];
+  if (behind >= kWholePowersOfTen[n]) {
+    ++whole;
+    behind -= kWholePowersOfTen[n];
+  }
   out = print_whole(out, whole, 1);
   if (decimals == 0) return out;
   *out++ = '.';
-  return print_whole(out, units - whole * kWholePowersOfTen[n], decimals);
+  return print_whole(out, behind, decimals);
 }
 
+/// How many digits a number below 10^17 has.
 int digit_count(std::uint64_t number) {
-  int count = 1;
-  while (static_cast<std::size_t>(count) < kWholePowersOfTen.size() &&
-         number >= kWholePowersOfTen[static_cast<std::size_t>(count)])
-    ++count;
-  return count;
+  // From log10(2), rounded up; one too many below a power of ten, which is then looked up.
+  const auto count = static_cast<std::size_t>(std::bit_width(number) * 1233 >> 12);
+  return static_cast<int>(count) + (number >= kWholePowersOfTen[count] ? 1 : 0);
 }
 
 /// The same for a number of up to 17 digits, with at least `count`.
@@ -172,7 +191,8 @@ char* print_shortest(char* out, double value) {
     return print_long_whole(out, digits * kWholePowersOfTen[static_cast<std::size_t>(exponent)], 1);
   const auto decimals = static_cast<std::size_t>(-exponent);
   const std::uint64_t scale = decimals < kWholePowersOfTen.size() ? kWholePowersOfTen[decimals] : 0;
-  const std::uint64_t whole = scale != 0 ? digits / scale : 0;
+  // A decimal beyond the next whole number would not read back to this one.
+  const auto whole = static_cast<std::uint64_t>(std::fabs(value));
   out = print_long_whole(out, whole, 1);
   *out++ = '.';
   return print_long_whole(out, digits - whole * scale, -exponent);
@@ -266,12 +286,9 @@ bool rounds_safely(double value, double error, NumberFormat format) {
   const double scale = kPowersOfTen[static_cast<std::size_t>(format.decimals)];
   const double scaled = std::fabs(value) * scale;
   if (!(scaled < 0x1p51)) return false;
-  // Adding and subtracting 1.5 * 2^52 rounds to the nearest whole number.
-  constexpr double kRounder = 0x1.8p52;
   // What the calculations here may lose.
   constexpr double kHalf = 0.5 - 0x1p-52;
-  const double nearest_whole = (scaled + kRounder) - kRounder;
-  return std::fabs(scaled - nearest_whole) + error * scale + scaled * 0x1p-52 < kHalf;
+  return std::fabs(scaled - nearest_whole(scaled)) + error * scale + scaled * 0x1p-52 < kHalf;
 }
 
 }  // namespace pipeline
