@@ -6,7 +6,7 @@
 
 namespace pipeline {
 
-ModelStage::ModelStage(SceneReader& scene, CoordinateRounder& rounder) : scene_(scene), rounder_(rounder) {
+ModelStage::ModelStage(SceneReader& scene) : scene_(scene) {
   try {
     read_until_triangle();
   } catch (...) {
@@ -32,26 +32,26 @@ Appearance ModelStage::appearance() const {
   return appearance;
 }
 
-bool ModelStage::read(TriangleBatch& p_world) {
-  p_world.clear();
+bool ModelStage::read(TriangleBatch& batch) {
+  batch.clear();
   if (mistake_) std::rethrow_exception(mistake_);
   try {
-    fill(p_world);
+    fill(batch);
   } catch (...) {
-    if (p_world.empty()) throw;
+    if (batch.empty()) throw;
     mistake_ = std::current_exception();
   }
-  return !p_world.empty();
+  return !batch.empty();
 }
 
-void ModelStage::fill(TriangleBatch& p_world) {
-  if (first_triangle_) add(*std::exchange(first_triangle_, std::nullopt), p_world);
+void ModelStage::fill(TriangleBatch& batch) {
+  if (first_triangle_) add(*std::exchange(first_triangle_, std::nullopt), batch);
   while (!done_) {
     // What is in memory is passed on before the reader waits for more.
-    if (!p_world.empty() && (p_world.size() >= kBatchSize || !scene_.has_command_waiting())) break;
+    if (!batch.empty() && (batch.size() >= kBatchSize || !scene_.has_command_waiting())) break;
     const Command command = scene_.next();
     if (const auto* triangle = std::get_if<TriangleCommand>(&command)) {
-      add(*triangle, p_world);
+      add(*triangle, batch);
     } else {
       carry_out(command);
     }
@@ -77,38 +77,19 @@ void ModelStage::carry_out(const Command& command) {
   }
 }
 
-void ModelStage::add(const TriangleCommand& command, TriangleBatch& p_world) {
-  if (!world_from_model_) world_from_model_.emplace(stack_.top());
-  p_world.add(command.p_model, next_number_++, command.lines);
-  if (scene_.appearance().attributes) add_attributes(p_world);
-  try {
-    world_from_model_->apply(p_world, p_world.size() - 1, rounder_);
-  } catch (...) {
-    p_world.truncate(p_world.size() - 1);
-    throw;
-  }
-}
-
-/// Of the triangle that the scene has given out last.
-void ModelStage::add_attributes(TriangleBatch& p_world) {
+/// Adds the triangle that the scene has given out last.
+void ModelStage::add(const TriangleCommand& command, TriangleBatch& batch) {
   const AttributeSet columns = scene_.appearance().columns();
-  std::array<VertexLine, 3> vertices = scene_.vertices();
-  if (columns.normal) {
-    if (!world_normal_from_model_) world_normal_from_model_.emplace(stack_.top());
-    for (VertexLine& vertex : vertices) vertex.normal = (*world_normal_from_model_)(vertex.normal);
-  }
-  p_world.attributes.add(vertices, columns);
-}
-
-/// What was made of the matrix that the stack had on top.
-void ModelStage::forget_transforms() {
-  world_from_model_.reset();
-  world_normal_from_model_.reset();
+  if (transform_ == nullptr) transform_ = std::make_shared<ModelTransform>(stack_.top(), columns.normal);
+  if (batch.pending_transforms.empty() || batch.pending_transforms.back().transform != transform_)
+    batch.pending_transforms.push_back({batch.size(), transform_});
+  batch.add(command.p_model, next_number_++, command.lines);
+  if (columns.any()) batch.attributes.add(scene_.vertices(), columns);
 }
 
 void ModelStage::multiply(const AffineMatrix& t) {
   stack_.multiply(t);
-  forget_transforms();
+  transform_.reset();
 }
 
 void ModelStage::push() {
@@ -122,7 +103,7 @@ void ModelStage::pop() {
   if (!stack_.pop())
     throw InputError(scene_.place(),
                      expected_but_found("a matrix that 'push' has saved", "'pop' without one"));
-  forget_transforms();
+  transform_.reset();
 }
 
 }  // namespace pipeline

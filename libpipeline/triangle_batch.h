@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <string_view>
 #include <vector>
 
@@ -20,7 +21,15 @@ using VertexLines = std::array<std::size_t, 3>;
 /// What messages call the vertices of a triangle.
 constexpr std::array<std::string_view, 3> kVertexNames = {"vertex 1 of 3", "vertex 2 of 3", "vertex 3 of 3"};
 
-/// Some triangles on their way through a stage. All vectors have one entry a triangle.
+class ModelTransform;
+
+/// A transform for the triangles of a batch from `first_triangle` up to the next one's.
+struct PendingTransform {
+  std::size_t first_triangle = 0;
+  std::shared_ptr<const ModelTransform> transform;
+};
+
+/// Some triangles on their way through a stage. All vectors of theirs have one entry a triangle.
 struct TriangleBatch {
   std::vector<Triangle> triangles;
   /// The part of a coordinate below its double, where a stage text shows more digits than a double holds:
@@ -35,6 +44,8 @@ struct TriangleBatch {
   std::vector<std::uint16_t> decimal_marks;
   /// What vertices carry beside their position, in scenes that ask for it.
   AttributeArrays attributes;
+  /// What the model stage has read but not yet calculated: in order, the first for the first triangle.
+  std::vector<PendingTransform> pending_transforms;
 
   [[nodiscard]] std::size_t size() const { return triangles.size(); }
   [[nodiscard]] bool empty() const { return triangles.empty(); }
@@ -45,6 +56,7 @@ struct TriangleBatch {
     lines.clear();
     decimal_marks.clear();
     attributes.clear();
+    pending_transforms.clear();
   }
   /// Keeps the first `count` triangles.
   void truncate(std::size_t count) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "libpipeline/model_transform.h"
 #include "tests/text_input.h"
 
 namespace pipeline {
@@ -19,11 +20,13 @@ TriangleBatch triangles_from(int descriptor) {
   TextReader text(descriptor, "scene.txt");
   SceneReader scene(text);
   CoordinateRounder rounder(Precision::extended, {}, "scene.txt");
-  ModelStage stage(scene, rounder);
+  ModelStage stage(scene);
   TriangleBatch all;
-  for (TriangleBatch batch; stage.read(batch);)
+  for (TriangleBatch batch; stage.read(batch);) {
+    apply_pending_transforms(batch, rounder);
     for (std::size_t i = 0; i < batch.size(); ++i)
       all.add(batch.triangles[i], batch.numbers[i], batch.lines[i]);
+  }
   return all;
 }
 
@@ -121,8 +124,7 @@ TEST(ModelStage, GivesOutTheTrianglesBeforeAMistake) {
   const TextFile file(kCamera + kTriangle + kTriangle + "pop\n");
   TextReader text(file.descriptor(), "scene.txt");
   SceneReader scene(text);
-  CoordinateRounder rounder(Precision::extended, {}, "scene.txt");
-  ModelStage stage(scene, rounder);
+  ModelStage stage(scene);
   TriangleBatch batch;
   ASSERT_TRUE(stage.read(batch));
   EXPECT_EQ(batch.size(), 2u);
@@ -141,8 +143,7 @@ std::size_t size_before_silence(const std::string& commands) {
   const TextInPieces slow({kCamera + commands}, TextInPieces::Then::silence);
   TextReader text(slow.descriptor(), "scene.txt");
   SceneReader scene(text);
-  CoordinateRounder rounder(Precision::extended, {}, "scene.txt");
-  ModelStage stage(scene, rounder);
+  ModelStage stage(scene);
   TriangleBatch batch;
   stage.read(batch);
   return batch.size();

@@ -1,6 +1,7 @@
 // model: carries out the commands of a scene. Model space in, world space out.
 
 #include "libpipeline/model_stage.h"
+#include "libpipeline/model_transform.h"
 #include "libpipeline/scene.h"
 #include "libpipeline/stage_writer.h"
 #include "tools/stage_loop.h"
@@ -22,13 +23,15 @@ int main(int argc, char** argv) {
   return tool.run(argc, argv, [&] {
     if (bare && framed) throw UsageError(expected_but_found("--bare or --framed", "both"));
     SceneReader scene(tool.input());
-    CoordinateRounder rounder = numbers.rounder(tool.input().file());
-    ModelStage stage(scene, rounder);
+    ModelStage stage(scene);
     StageWriter writer(tool.output(), numbers.format(), bare);
     writer.write_header({framed, scene.camera(), stage.appearance()});
 
     const auto read = [&](TriangleBatch& batch) { return stage.read(batch); };
-    const auto nothing = [](CoordinateRounder&) { return [](TriangleBatch&) {}; };
-    StageLoop(tool, writer, rounder, numbers.thread_count()).run(read, nothing);
+    const auto make_transform = [](CoordinateRounder& rounder) {
+      return [&rounder](TriangleBatch& batch) { apply_pending_transforms(batch, rounder); };
+    };
+    StageLoop(tool, writer, numbers.rounder(tool.input().file()), numbers.thread_count())
+        .run(read, make_transform);
   });
 }

@@ -1,7 +1,7 @@
 #include "tools/stage_loop.h"
 
-#include <algorithm>
 #include <string>
+#include <utility>
 
 #include "tools/stage_rounds.h"
 
@@ -38,15 +38,14 @@ std::size_t run_alone(Tool& tool, StageWriter& writer, CoordinateRounder rounder
 
 }  // namespace
 
-StageLoop::StageLoop(Tool& tool, StageWriter& writer, const CoordinateRounder& rounder, int thread_count)
-    : tool_(tool), writer_(writer), rounder_(rounder), thread_count_(thread_count) {}
+StageLoop::StageLoop(Tool& tool, StageWriter& writer, CoordinateRounder rounder, int thread_count)
+    : tool_(tool), writer_(writer), rounder_(std::move(rounder)), thread_count_(thread_count) {}
 
 void StageLoop::run(const std::function<bool(TriangleBatch&)>& read,
                     const std::function<BatchTransform(CoordinateRounder&)>& make_transform) {
-  std::size_t uncertain_line =
+  const std::size_t uncertain_line =
       thread_count_ == 1 ? run_alone(tool_, writer_, rounder_, read, make_transform)
                          : StageRounds(tool_, writer_, rounder_, thread_count_, make_transform).run(read);
-  if (rounder_.first_uncertain_line() > 0) uncertain_line = rounder_.first_uncertain_line();
   writer_.finish();
   if (uncertain_line > 0)
     tool_.note(to_string({rounder_.file(), uncertain_line}) +

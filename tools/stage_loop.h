@@ -17,9 +17,9 @@ using BatchTransform = std::function<void(TriangleBatch&)>;
 /// At the end the text is finished, and what the user should know of its digits is said on stderr.
 class StageLoop {
  public:
-  /// `rounder` is the one that `read` uses, if it does, and the pattern of those of the transforms. The
-  /// output does not depend on `thread_count`, from 1.
-  StageLoop(Tool& tool, StageWriter& writer, const CoordinateRounder& rounder, int thread_count);
+  /// `rounder` is the pattern of those of the transforms. The output does not depend on `thread_count`,
+  /// from 1.
+  StageLoop(Tool& tool, StageWriter& writer, CoordinateRounder rounder, int thread_count);
 
   /// Every thread's work is done by a transform of its own, which `make_transform` makes for its rounder.
   void run(const std::function<bool(TriangleBatch&)>& read,
@@ -28,7 +28,7 @@ class StageLoop {
  private:
   Tool& tool_;
   StageWriter& writer_;
-  const CoordinateRounder& rounder_;
+  CoordinateRounder rounder_;
   int thread_count_;
 };
 
