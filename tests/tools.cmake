@@ -15,6 +15,7 @@ tools_test(SurviveFaults tools_faults_test)
 tools_test(PrintNumbers tools_fuzz_test)
 tools_test(WorkOnThreads tools_threads_test)
 tools_test(DrawOnThreadsAndShowProgress zbuf_tool_test)
+tools_test(ExplainEveryFragment fragments_test)
 tools_test(CarryColorAndLight tools_colors_test)
 tools_test(ShadePixels tools_shading_test)
 

@@ -1,5 +1,6 @@
 #include "tools/render.h"
 
+#include <memory>
 #include <optional>
 
 #include "libpipeline/band_drawing.h"
@@ -11,17 +12,20 @@
 #include "libpipeline/stage_reader.h"
 #include "libpipeline/surface_shader.h"
 #include "libpipeline/visibility.h"
+#include "tools/fragment_report.h"
 #include "tools/progress.h"
 #include "tools/shading_options.h"
 
 namespace pipeline {
 namespace {
 
-/// What a triangle is drawn with: its colour, or what its pixels are shaded by later.
+/// What a triangle is drawn with: its colour, or what its pixels are shaded by later. It is asked for every
+/// triangle in the order of the stream, and tells `report`, if there is one, of each.
 class Paint {
  public:
-  explicit Paint(std::optional<SurfaceShader>& shader) : shader_(shader) {}
+  Paint(std::optional<SurfaceShader>& shader, FragmentReport* report) : shader_(shader), report_(report) {}
   Color operator()(const TriangleBatch& p_ndc, std::size_t index) {
+    if (report_ != nullptr) report_->add(p_ndc, index);
     const Color color = colors_.of(p_ndc.numbers[index]);
     return shader_ ? shader_->add(p_ndc, index, color) : color;
   }
@@ -29,6 +33,7 @@ class Paint {
  private:
   TriangleColors colors_;
   std::optional<SurfaceShader>& shader_;
+  FragmentReport* report_;
 };
 
 /// Reads the triangles: `batch()` is where the next ones go, `draw()` draws them.
@@ -97,10 +102,13 @@ void render_with(Tool& tool, const RenderOptions& chosen, const ScreenConfig& sc
   tool.timing().lap(&Timing::read_seconds);
   Visible visible(screen, shader ? SurfaceShader::kNoSurface : background_color(reader.header().appearance));
   tool.timing().lap(&Timing::work_seconds);
-  Paint paint(shader);
+  const std::unique_ptr<FragmentReport> report = fragment_report(chosen, screen);
+  Paint paint(shader, report.get());
   draw_all(tool, chosen, screen, reader, paint, visible);
+  if (report) report->finish();
   tool.timing().lap(&Timing::work_seconds);
   write_all(tool, chosen, screen, visible, shader);
+  if (report) report->commit();
 }
 
 template <typename CoverageRule, typename Depth>

@@ -5,6 +5,7 @@
 
 #include "libpipeline/config.h"
 #include "libpipeline/surface_shader.h"
+#include "tools/fragment_report.h"
 #include "tools/tool.h"
 
 namespace pipeline {
@@ -22,6 +23,7 @@ struct RenderOptions {
   Algorithm algorithm = Algorithm::zbuffer;
   DepthFormat depth = DepthFormat::f64;
   int thread_count = 1;
+  FragmentOptions fragments;
   std::optional<ShadingModel> shading;  // nothing: what the text asks for
 };
 

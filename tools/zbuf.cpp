@@ -7,6 +7,7 @@
 #include "libpipeline/error.h"
 #include "libpipeline/image_file.h"
 #include "tools/command_line.h"
+#include "tools/fragment_report.h"
 #include "tools/render.h"
 #include "tools/shading_options.h"
 #include "tools/tool.h"
@@ -48,6 +49,7 @@ void add_options(CLI::App& options, RenderOptions& chosen) {
       "How a pixel keeps its depth: as a double, a float, or in 2^24 equal steps between the limits");
   add_thread_option(options, chosen.thread_count, "How many threads draw with the z-buffer");
   add_shading_option(options, chosen.shading);
+  add_fragment_options(options, chosen.fragments);
 }
 
 void check_threads(const RenderOptions& chosen) {

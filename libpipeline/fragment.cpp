@@ -1,0 +1,40 @@
+#include "libpipeline/fragment.h"
+
+#include <array>
+#include <charconv>
+
+namespace pipeline {
+namespace {
+
+/// The shortest text that reads back to the same double; zero has no sign.
+std::string shortest(double depth) {
+  std::array<char, 32> text{};
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), depth == 0 ? 0.0 : depth).ptr;
+  return {text.data(), end};
+}
+
+std::string to_text(Fate fate, std::uint64_t winner) {
+  switch (fate) {
+    case Fate::kept:
+      return "kept";
+    case Fate::behind:
+      return "lost, behind triangle " + std::to_string(winner);
+    case Fate::equal:
+      return "lost, equal and later than triangle " + std::to_string(winner);
+    case Fate::before_front:
+      return "lost, before the front limit";
+    case Fate::beyond_rear:
+      break;
+  }
+  return "lost, beyond the rear limit";
+}
+
+}  // namespace
+
+std::string to_text(const Fragment& fragment) {
+  return std::to_string(fragment.pixel.column) + "," + std::to_string(fragment.pixel.row) + ": triangle " +
+         std::to_string(fragment.triangle) + ", depth " + shortest(fragment.depth) + ": " +
+         to_text(fragment.fate, fragment.winner);
+}
+
+}  // namespace pipeline

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace pipeline {
+
+/// A pixel of the screen; row 0 is at the top, column 0 on the left.
+struct PixelPlace {
+  int column = 0;
+  int row = 0;
+
+  friend bool operator==(const PixelPlace&, const PixelPlace&) = default;
+};
+
+/// What the depth test says of a fragment.
+enum class Fate {
+  kept,
+  behind,        // something nearer is there
+  equal,         // something as near is there, and it came earlier
+  before_front,  // nearer than the front limit
+  beyond_rear    // not nearer than the rear limit
+};
+
+/// What one triangle brings to one pixel.
+struct Fragment {
+  PixelPlace pixel;
+  std::uint64_t triangle = 0;
+  double depth = 0;  // NDC z, as the depth format stores it; outside the limits as it was calculated
+  Fate fate = Fate::kept;
+  std::uint64_t winner = 0;  // the triangle it lost against, if it is behind or equal
+
+  friend bool operator==(const Fragment&, const Fragment&) = default;
+};
+
+/// "COLUMN,ROW: triangle N, depth Z: kept", or "lost, " and why; the depth reads back to the same double.
+std::string to_text(const Fragment& fragment);
+
+}  // namespace pipeline

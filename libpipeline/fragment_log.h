@@ -1,0 +1,97 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "libpipeline/config.h"
+#include "libpipeline/exact_grid.h"
+#include "libpipeline/fragment.h"
+#include "libpipeline/raster.h"
+#include "libpipeline/span.h"
+
+namespace pipeline {
+
+/// The depth test, fragment by fragment and with its reasons: what the visibility algorithms decide in their
+/// loops. `Depth` is a depth format.
+template <typename Depth>
+class FragmentTest {
+ public:
+  /// What is seen at a pixel so far.
+  struct Seen {
+    typename Depth::Stored depth;
+    std::uint64_t triangle;
+  };
+
+  explicit FragmentTest(const ScreenConfig& screen)
+      : format_(screen), front_(screen.front), rear_(format_.store(screen.rear)) {}
+
+  /// A pixel that shows no triangle.
+  [[nodiscard]] Seen nothing() const { return {rear_, 0}; }
+
+  /// What becomes of the next triangle's fragment of depth z at a pixel; `seen` is brought up to date.
+  Fragment judge(Seen& seen, const PixelPlace& pixel, std::uint64_t triangle, double z) const {
+    const typename Depth::Stored stored = format_.store(z);
+    if (z < front_) return {pixel, triangle, z, Fate::before_front, 0};
+    if (!(stored < rear_)) return {pixel, triangle, z, Fate::beyond_rear, 0};
+    const double depth = format_.depth(stored);
+    if (!(stored < seen.depth))
+      return {pixel, triangle, depth, seen.depth < stored ? Fate::behind : Fate::equal, seen.triangle};
+    seen = {stored, triangle};
+    return {pixel, triangle, depth, Fate::kept, 0};
+  }
+
+ private:
+  Depth format_;
+  double front_;
+  typename Depth::Stored rear_;
+};
+
+/// Tells of every fragment of the picture, triangle by triangle in the order of the stream and each from the
+/// top left. Takes a coverage rule and a depth format, the same that draw, and a depth and a number a pixel.
+template <typename Coverage, typename Depth>
+class FragmentLog {
+ public:
+  explicit FragmentLog(const ScreenConfig& screen)
+      : coverage_(screen), test_(screen), seen_(screen.rows, screen.columns, test_.nothing()) {}
+
+  /// Calls `visit(fragment)` for every pixel the next triangle covers.
+  template <typename Visitor>
+  void add(const ExactTriangle& p_ndc, std::uint64_t triangle, Visitor&& visit) {
+    for_each_span(coverage_.rows(p_ndc), [&](const Span& span) {
+      for (int column = span.first_column; column <= span.last_column; ++column)
+        visit(test_.judge(seen_.row(span.row)[static_cast<std::size_t>(column)], {column, span.row}, triangle,
+                          span.depth(column)));
+    });
+  }
+
+ private:
+  Coverage coverage_;
+  FragmentTest<Depth> test_;
+  Raster<typename FragmentTest<Depth>::Seen> seen_;
+};
+
+/// The same for one pixel, in the memory of one.
+template <typename Coverage, typename Depth>
+class PixelProbe {
+ public:
+  /// `pixel` is on the screen.
+  PixelProbe(const ScreenConfig& screen, const PixelPlace& pixel)
+      : coverage_(screen), test_(screen), pixel_(pixel), seen_(test_.nothing()) {}
+
+  /// Calls `visit(fragment)` if the next triangle covers the pixel.
+  template <typename Visitor>
+  void add(const ExactTriangle& p_ndc, std::uint64_t triangle, Visitor&& visit) {
+    for_each_span(coverage_.rows(p_ndc), RowRange{pixel_.row, pixel_.row + 1}, [&](const Span& span) {
+      if (span.first_column <= pixel_.column && pixel_.column <= span.last_column)
+        visit(test_.judge(seen_, pixel_, triangle, span.depth(pixel_.column)));
+    });
+  }
+
+ private:
+  Coverage coverage_;
+  FragmentTest<Depth> test_;
+  PixelPlace pixel_;
+  typename FragmentTest<Depth>::Seen seen_;
+};
+
+}  // namespace pipeline

@@ -1,0 +1,109 @@
+#include "libpipeline/fragment_log.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <vector>
+
+#include "libpipeline/coverage.h"
+#include "libpipeline/depth_format.h"
+
+namespace pipeline {
+namespace {
+
+constexpr ScreenConfig kScreen = {4, 4, -1, -1, 0, 2};
+constexpr PixelPlace kPixel = {1, 2};
+
+/// A triangle of one depth that covers the whole screen.
+Triangle wall(double z) {
+  return {{{-9, -9, z}, {9, -9, z}, {0, 9, z}}};
+}
+
+template <typename Depth = DepthF64>
+std::vector<Fragment> judged(const std::vector<double>& depths) {
+  const FragmentTest<Depth> test(kScreen);
+  auto seen = test.nothing();
+  std::vector<Fragment> fragments;
+  for (const double z : depths) fragments.push_back(test.judge(seen, kPixel, 10 + fragments.size(), z));
+  return fragments;
+}
+
+TEST(FragmentTest, TheNearerIsKeptAndTheFartherIsBehindIt) {
+  EXPECT_EQ(judged({1, 1.5, 0.5}), (std::vector<Fragment>{{kPixel, 10, 1, Fate::kept, 0},
+                                                          {kPixel, 11, 1.5, Fate::behind, 10},
+                                                          {kPixel, 12, 0.5, Fate::kept, 0}}));
+}
+
+TEST(FragmentTest, OfEqualDepthsTheLaterIsLost) {
+  EXPECT_EQ(judged({1, 1}).back(), (Fragment{kPixel, 11, 1, Fate::equal, 10}));
+}
+
+TEST(FragmentTest, TheFrontLimitIsSeenAndTheRearLimitIsNot) {
+  EXPECT_EQ(judged({0}).back().fate, Fate::kept);
+  EXPECT_EQ(judged({2}).back().fate, Fate::beyond_rear);
+}
+
+TEST(FragmentTest, WhatLiesOutsideTheLimitsHidesNothing) {
+  EXPECT_EQ(judged({-0.5, 2.5, 1}), (std::vector<Fragment>{{kPixel, 10, -0.5, Fate::before_front, 0},
+                                                           {kPixel, 11, 2.5, Fate::beyond_rear, 0},
+                                                           {kPixel, 12, 1, Fate::kept, 0}}));
+}
+
+TEST(FragmentTest, WhatIsSeenAlreadyDoesNotExplainWhatIsBeyondTheRear) {
+  EXPECT_EQ(judged({1, 3}).back().fate, Fate::beyond_rear);
+}
+
+TEST(FragmentTest, DepthsAFormatCannotTellApartAreEqual) {
+  EXPECT_EQ(judged<DepthF32>({1, 1 - 0x1p-40}).back().fate, Fate::equal);
+  EXPECT_EQ(judged<DepthF64>({1, 1 - 0x1p-40}).back().fate, Fate::kept);
+}
+
+TEST(FragmentTest, InfiniteDepthsLieOutsideTheLimits) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(judged({-kInfinity}).back().fate, Fate::before_front);
+  EXPECT_EQ(judged<DepthU24>({kInfinity}).back().fate, Fate::beyond_rear);
+}
+
+TEST(FragmentLog, TellsOfEveryPixelFromTheTopLeft) {
+  FragmentLog<CenterCoverage, DepthF64> log(ScreenConfig{2, 2, -1, -1, 0, 2});
+  std::vector<PixelPlace> places;
+  log.add({wall(1)}, 0, [&](const Fragment& fragment) { places.push_back(fragment.pixel); });
+  EXPECT_EQ(places, (std::vector<PixelPlace>{{0, 0}, {1, 0}, {0, 1}, {1, 1}}));
+}
+
+TEST(FragmentLog, PixelsDoNotKnowOfEachOther) {
+  FragmentLog<CenterCoverage, DepthF64> log(ScreenConfig{2, 1, -1, -1, 0, 2});
+  const Triangle on_the_left = {{{-9, -9, 0.5}, {0, -9, 0.5}, {0, 99, 0.5}}};
+  std::vector<Fate> fates;
+  const auto visit = [&](const Fragment& fragment) { fates.push_back(fragment.fate); };
+  log.add({on_the_left}, 0, visit);
+  log.add({wall(1)}, 1, visit);
+  EXPECT_EQ(fates, (std::vector<Fate>{Fate::kept, Fate::behind, Fate::kept}));
+}
+
+TEST(PixelProbe, TellsOfItsPixelAlone) {
+  PixelProbe<NearestCoverage, DepthF64> probe(kScreen, kPixel);
+  std::vector<Fragment> fragments;
+  const auto visit = [&](const Fragment& fragment) { fragments.push_back(fragment); };
+  const Triangle above = {{{-1, 1, 0.5}, {1, 1, 0.5}, {0, 0.5, 0.5}}};
+  const Triangle right = {{{0.5, -1, 0.5}, {1, -1, 0.5}, {0.5, 1, 0.5}}};
+  probe.add({above}, 0, visit);
+  probe.add({right}, 1, visit);
+  probe.add({wall(1)}, 2, visit);
+  EXPECT_EQ(fragments, (std::vector<Fragment>{{kPixel, 2, 1, Fate::kept, 0}}));
+}
+
+TEST(FragmentText, NamesPixelTriangleDepthAndReason) {
+  EXPECT_EQ(to_text(Fragment{{3, 5}, 7, 0.25, Fate::kept, 0}), "3,5: triangle 7, depth 0.25: kept");
+  EXPECT_EQ(to_text(Fragment{{3, 5}, 7, 0.1, Fate::behind, 2}),
+            "3,5: triangle 7, depth 0.1: lost, behind triangle 2");
+  EXPECT_EQ(to_text(Fragment{{3, 5}, 7, -0.0, Fate::equal, 2}),
+            "3,5: triangle 7, depth 0: lost, equal and later than triangle 2");
+  EXPECT_EQ(to_text(Fragment{{3, 5}, 7, -2, Fate::before_front, 0}),
+            "3,5: triangle 7, depth -2: lost, before the front limit");
+  EXPECT_EQ(to_text(Fragment{{3, 5}, 7, 1, Fate::beyond_rear, 0}),
+            "3,5: triangle 7, depth 1: lost, beyond the rear limit");
+}
+
+}  // namespace
+}  // namespace pipeline

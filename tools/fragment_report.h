@@ -1,0 +1,42 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "libpipeline/config.h"
+#include "libpipeline/fragment.h"
+#include "libpipeline/triangle_batch.h"
+
+namespace pipeline {
+
+struct RenderOptions;
+
+/// `--probe` and `--fragments`.
+struct FragmentOptions {
+  std::vector<std::string> probes;  // "COLUMN,ROW" each
+  std::string file_path;            // empty: no file
+};
+
+void add_fragment_options(CLI::App& options, FragmentOptions& chosen);
+
+/// Tells what every triangle brings to the pixels that were asked for. It takes triangles in the order of the
+/// stream, so what it says does not depend on who draws them.
+class FragmentReport {
+ public:
+  virtual ~FragmentReport() = default;
+  /// Takes the next triangle.
+  virtual void add(const TriangleBatch& p_ndc, std::size_t index) = 0;
+  /// Says on stderr what the probes have seen, and closes the file.
+  virtual void finish() = 0;
+  /// Puts the file in its place.
+  virtual void commit() = 0;
+};
+
+/// The report that was asked for, with the coverage rule and the depth format that draw; none if none was. A
+/// UsageError if a probe is not on the screen.
+std::unique_ptr<FragmentReport> fragment_report(const RenderOptions& chosen, const ScreenConfig& screen);
+
+}  // namespace pipeline
