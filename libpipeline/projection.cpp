@@ -59,10 +59,11 @@ BallVec3 perspective_divide(const ClipVertex& p_clip) {
 }  // namespace
 
 ProjectionStage::ProjectionStage(const ProjectionTransform& projection, ClipMode clip, CullMode cull,
-                                 CoordinateRounder& rounder)
+                                 CoordinateRounder& rounder, double clip_inset)
     : projection_(projection),
       clip_(clip),
       cull_(cull),
+      clip_extent_(1 - clip_inset),
       rounder_(rounder),
       in_doubles_{as_factor(projection.x_scale),
                   as_factor(projection.x_offset),
@@ -175,6 +176,8 @@ void ProjectionStage::project_clipped(const TriangleBatch& p_view, std::size_t i
   for (std::size_t v = 0; v < 3; ++v) {
     corners[v] = to_clip_space(projection_, p_view.triangles[index][v]);
     corners[v].weights[v] = 1;
+    // A smaller w pulls in all planes; the divide below is by w itself.
+    if (clip_extent_ != 1) corners[v].w = corners[v].w * clip_extent_;
     const unsigned code = outcode(corners[v]);
     outside_any |= code;
     outside_all &= code;
@@ -186,12 +189,14 @@ void ProjectionStage::project_clipped(const TriangleBatch& p_view, std::size_t i
     return;
   }
   if ((outside_any & planes) == 0 || clip_ == ClipMode::reject) return project_whole(p_view, index, p_ndc);
-  const std::vector<ClipVertex> polygon =
+  std::vector<ClipVertex> polygon =
       clip_ == ClipMode::frustum ? clip_polygon(corners, kAllClipPlanes) : clip_polygon(corners, kNearPlane);
   if (polygon.empty()) {
     ++counts_.outside;
     return;
   }
+  if (clip_extent_ != 1)
+    for (ClipVertex& vertex : polygon) vertex.w = vertex.w / clip_extent_;
   ++counts_.clipped;
   for (std::size_t i = 1; i + 1 < polygon.size(); ++i) {
     ++counts_.pieces;

@@ -42,8 +42,10 @@ struct ProjectionCounts {
 /// The project stage: view space to NDC, by way of clip space.
 class ProjectionStage {
  public:
+  /// Cuts and drops take place at planes pulled in by `clip_inset`, from 0 to less than 1: what is inside has
+  /// |x|, |y| and |z| of at most 1 - clip_inset in NDC.
   ProjectionStage(const ProjectionTransform& projection, ClipMode clip, CullMode cull,
-                  CoordinateRounder& rounder);
+                  CoordinateRounder& rounder, double clip_inset = 0);
 
   /// Fills `p_ndc` with the images of the triangles in `p_view`, in order. A clipped triangle becomes several
   /// with its number, a dropped one none. Attributes are interpolated in clip space (normals are not made
@@ -79,6 +81,7 @@ class ProjectionStage {
   ProjectionTransform projection_;
   ClipMode clip_;
   CullMode cull_;
+  double clip_extent_;
   CoordinateRounder& rounder_;
   Doubles in_doubles_;
   bool mirrored_;

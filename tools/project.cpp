@@ -2,6 +2,7 @@
 
 #include <deque>
 
+#include "libpipeline/number_text.h"
 #include "libpipeline/projection.h"
 #include "libpipeline/stage_reader.h"
 #include "libpipeline/stage_writer.h"
@@ -18,6 +19,7 @@ struct ProjectOptions {
   AspectRule aspect = AspectRule::angle;
   ClipMode clip = ClipMode::automatic;
   CullMode cull = CullMode::nothing;
+  double clip_inset = 0;
 };
 
 void add_options(CLI::App& options, ProjectOptions& chosen) {
@@ -35,8 +37,29 @@ void add_options(CLI::App& options, ProjectOptions& chosen) {
                        "frustum: cut everything at all six planes\n"
                        "reject: drop what is wholly outside one of them, cut nothing\n"
                        "none: a vertex that is not in front of the eye is an error");
+  const auto take_inset = [&chosen](const std::string& word) {
+    const ParsedNumber inset = parse_number(word);
+    if (inset.error != NumberError::none || !(inset.value >= 0 && inset.value < 1))
+      throw CLI::ValidationError(
+          "--clip-inset", expected_but_found("a number from 0 to less than 1", pipeline::quoted(word)));
+    chosen.clip_inset = inset.value;
+  };
+  options
+      .add_option_function<std::string>(
+          "--clip-inset", take_inset,
+          "Pull the planes of --clip in, so that its cuts can be seen: 0.1 leaves "
+          "what is between -0.9 and 0.9 in NDC")
+      ->type_name("F")
+      ->default_str("0");
   add_choice<CullMode>(options, "--cull", chosen.cull, {{"back", CullMode::back}, {"front", CullMode::front}},
                        "Drop triangles that turn this side to the eye; counter-clockwise is front");
+}
+
+void check_inset(const ProjectOptions& chosen) {
+  const bool has_planes = chosen.clip != ClipMode::automatic && chosen.clip != ClipMode::none;
+  if (chosen.clip_inset > 0 && !has_planes)
+    throw UsageError("--clip-inset: " +
+                     expected_but_found("--clip near, frustum or reject with it", "none of these"));
 }
 
 const Placed<Projection>& projection_of(const CameraText& camera, const Place& header_end) {
@@ -84,6 +107,7 @@ int main(int argc, char** argv) {
   add_options(tool.options(), chosen);
 
   return tool.run(argc, argv, [&] {
+    check_inset(chosen);
     StageReader reader(tool.input());
     const CameraText camera = cameras.camera(without_position(reader.header().camera), tool);
     const auto projection = clip_from_view(projection_of(camera, reader.header_end()), chosen.aspect);
@@ -97,7 +121,8 @@ int main(int argc, char** argv) {
     const auto read = [&](TriangleBatch& batch) { return reader.read(batch); };
     std::deque<Worker> workers;
     const auto make_transform = [&](CoordinateRounder& rounder) {
-      Worker& worker = workers.emplace_back(ProjectionStage(projection, chosen.clip, chosen.cull, rounder));
+      Worker& worker = workers.emplace_back(
+          ProjectionStage(projection, chosen.clip, chosen.cull, rounder, chosen.clip_inset));
       return [&worker](TriangleBatch& batch) { worker.project(batch); };
     };
     StageLoop(tool, writer, numbers.rounder(tool.input().file()), numbers.thread_count())
