@@ -32,7 +32,7 @@ class Readme(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             for name in ("samples", "scripts"):
                 shutil.copytree(SOURCE_DIR / name, pathlib.Path(folder) / name)
-            path = {"PATH": f"{BIN_DIR}:{os.environ['PATH']}"}
+            path = {"PATH": f"{BIN_DIR}:{os.environ['PATH']}", "BIN": str(BIN_DIR)}
             for command, output in examples():
                 with self.subTest(command):
                     run = subprocess.run(["bash", "-c", command], cwd=folder, env={**os.environ, **path},

@@ -1,0 +1,169 @@
+"""A student's five files against ours: every stage is fed what the student's own stage before it wrote, so that one mistake
+counts once."""
+import dataclasses
+import pathlib
+import tempfile
+
+from differences import compare_pictures, compare_stage_texts, compare_z_buffers, same_in_other_colours
+from mistakes import Suspects, hint_of_rounding, hints_from_numbers, hints_from_scene
+from pictures import PictureError, read_picture
+from pipe_tools import ToolFailure
+from stage_text import StageTextError, parse_stage_text
+
+# Numbers of 7 decimals that were calculated from numbers of 7 decimals; depths have 6.
+COORDINATE_TOLERANCE = 1e-6
+DEPTH_TOLERANCE = 2e-6
+HALF_A_UNIT = 5.1e-8  # of 7 decimals
+
+
+@dataclasses.dataclass
+class Judgement:
+    stage: str
+    file: str
+    verdict: str             # right, wrong, missing, unreadable
+    remark: str = ""
+    differences: object = None
+    hints: list = dataclasses.field(default_factory=list)
+
+    @property
+    def is_right(self):
+        return self.verdict == "right"
+
+
+def read_z_buffer(path):
+    """Rows of depths, one a line."""
+    rows = []
+    for number, line in enumerate(pathlib.Path(path).read_text(errors="replace").split("\n"), 1):
+        try:
+            rows.append([float(word) for word in line.split()])
+        except ValueError:
+            raise StageTextError(f"{path}:{number}: expected depths, found '{line.strip()[:40]}'") from None
+    while rows and not rows[-1]:  # empty rows at the end tell nothing
+        rows.pop()
+    return rows
+
+
+def stage_text_of(points):
+    """Bare stage text, lossless."""
+    return "".join(" ".join(map(repr, p)) + "\n" * (1 + (i % 3 == 2)) for i, p in enumerate(points)).encode()
+
+
+class FiveFiles:
+    def __init__(self, tools, folder, scene, config, tolerance=None):
+        self.tools, self.scene, self.config = tools, scene, config
+        self.folder = pathlib.Path(folder)
+        self.suspects = Suspects(tools, scene)
+        self.tolerance = COORDINATE_TOLERANCE if tolerance is None else tolerance
+        self.depth_tolerance = max(DEPTH_TOLERANCE, self.tolerance)
+
+    def judge(self):
+        """A Judgement for each of the five files."""
+        text1 = self.tools.output("model", "--digits", "exact", self.scene)
+        text2 = self.tools.output("view", "--digits", "exact", stdin=text1)
+        text3 = self.tools.output("project", "--digits", "exact", stdin=text2)
+        given1 = self.given("stage1.txt", text1)
+        given2 = self.given("stage2.txt", text2)
+        given3 = self.given("stage3.txt", text3)
+        yield self.stage("model", 1, [lambda: text1])
+        yield self.stage("view", 2, [lambda: self.ours("view", given1), lambda: text2], given1)
+        yield self.stage("project", 3, [lambda: self.ours("project", given2), lambda: self.without_clipping(given2), lambda: text3], given2)
+        yield from self.pixels(given3)
+
+    def given(self, name, instead):
+        """What the student's file says; ours, where there is none that can be read."""
+        try:
+            data = (self.folder / name).read_bytes()
+            return data if parse_stage_text(data.decode(errors="replace"), name).triangles else instead
+        except (OSError, StageTextError):
+            return instead
+
+    def ours(self, tool, text, *words):
+        return self.tools.output(tool, "--scene", self.scene, "--digits", "exact", *words, stdin=text)
+
+    def without_clipping(self, text):
+        """What the projection makes of a text if nothing is cut, although vertices lie behind the eye (a course's program
+        that knows no clipping, on a view space that is wrong). A vertex behind the eye is turned round the eye before and
+        after: x / w and y / w are the same, and z / w, an A + B / z, is told from the A + B / -z of the other.
+        """
+        near, far = map(float, (self.suspects.camera.get("perspective") or self.suspects.camera["frustum"])[-2:])
+        points = parse_stage_text(text.decode(errors="replace"), "").points
+        turned = [tuple(-x for x in p) if p[2] > 0 else p for p in points]
+        done = parse_stage_text(self.ours("project", stage_text_of(turned), "--clip", "none").decode(), "").points
+        twice_a = 2 * (far + near) / (far - near)
+        return stage_text_of((x, y, twice_a - z) if p[2] > 0 else (x, y, z) for p, (x, y, z) in zip(points, done))
+
+    def candidates(self, makers):
+        """The texts that would be right, the likeliest first. Who keeps unrounded numbers in memory is right as well."""
+        for maker in makers:
+            try:
+                yield parse_stage_text(maker().decode(), "ours")
+            except (ToolFailure, KeyError):
+                pass  # a student's text that no tool takes, or an orthographic camera; the last of the makers needs neither
+
+    def stage(self, tool, number, makers, previous=b""):
+        name = f"stage{number}.txt"
+        try:
+            theirs = parse_stage_text((self.folder / name).read_text(errors="replace"), name)
+        except OSError as error:
+            return Judgement(tool, name, "missing", error.strerror)
+        except StageTextError as error:
+            return Judgement(tool, name, "unreadable", str(error))
+        candidates = list(self.candidates(makers))
+        compared = [compare_stage_texts(theirs, ours, self.tolerance, is_relative=True) for ours in candidates]
+        for differences in compared:
+            if not differences.found:
+                is_same = any(hint_of_rounding(theirs.points, ours.points, HALF_A_UNIT) for ours in candidates)
+                return Judgement(tool, name, "right", "" if is_same else "differs by rounding alone", differences)
+        for ours, differences in zip(candidates, compared):
+            if len(theirs.points) == len(ours.points):
+                hints = hints_from_scene(self.suspects, number, theirs.points, ours.points, previous)
+                return Judgement(tool, name, "wrong", "", differences, hints or hints_from_numbers(theirs.points, ours.points))
+        return Judgement(tool, name, "wrong", "", compared[0])
+
+    def pixels(self, stage3):
+        with tempfile.TemporaryDirectory() as folder:
+            ours, image = pathlib.Path(folder, "z_buffer.txt"), pathlib.Path(folder, "out.bmp")
+            self.tools.run("zbuf", self.config, "--z-buffer", ours, "--image", image, stdin=stage3)
+            yield self.z_buffer(ours)
+            yield self.picture(image)
+
+    def z_buffer(self, ours):
+        name = "z_buffer.txt"
+        try:
+            differences = compare_z_buffers(read_z_buffer(self.folder / name), read_z_buffer(ours), self.depth_tolerance, is_relative=True)
+        except OSError as error:
+            return Judgement("zbuf", name, "missing", error.strerror)
+        except StageTextError as error:
+            return Judgement("zbuf", name, "unreadable", str(error))
+        return Judgement("zbuf", name, "wrong" if differences.found else "right", "", differences)
+
+    def picture(self, ours):
+        name = "out.bmp"
+        try:
+            theirs, ours = read_picture(self.folder / name), read_picture(ours)
+        except OSError as error:
+            return Judgement("zbuf", name, "missing", error.strerror)
+        except PictureError as error:
+            return Judgement("zbuf", name, "unreadable", str(error))
+        differences, _ = compare_pictures(theirs, ours, 0)
+        if not differences.found:
+            return Judgement("zbuf", name, "right", "", differences)
+        if not differences.unlike and same_in_other_colours(theirs, ours):
+            return Judgement("zbuf", name, "right", "the same picture in other colours", differences)
+        hints = []
+        if not differences.unlike and theirs[2][::-1] == ours[2]:
+            hints = ["the picture is upside down"]
+        return Judgement("zbuf", name, "wrong", "", differences, hints)
+
+
+def verdict_of(judgements):
+    """One sentence: the first stage that went wrong, and what else is wrong by itself."""
+    wrong = [judgement for judgement in judgements if not judgement.is_right]
+    if not wrong:
+        return "all five files are right"
+    first = wrong[0]
+    words = f"the first stage that went wrong is {first.stage} ({first.file} is {first.verdict})"
+    if first.hints:
+        words += ": " + first.hints[0]
+    others = [judgement.file for judgement in wrong[1:]]
+    return words + (f"; by themselves wrong are also {', '.join(others)}" if others else "; what follows is right, given that")

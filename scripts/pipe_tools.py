@@ -1,0 +1,34 @@
+"""The four tools, for scripts that run them: where they are, and one run of one."""
+import os
+import pathlib
+import re
+import subprocess
+
+SOURCE = pathlib.Path(__file__).resolve().parent.parent
+
+
+class ToolFailure(Exception):
+    """A tool ended with another status than 0; the text is what it said."""
+
+
+class Tools:
+    """The tools of a folder, by default $BIN, else build/release/bin of this source tree."""
+
+    def __init__(self, folder=None):
+        self.folder = pathlib.Path(folder or os.environ.get("BIN") or SOURCE / "build/release/bin")
+        if not os.access(self.folder / "zbuf", os.X_OK):
+            raise ToolFailure(f"no tools in {self.folder}: build them (scripts/demo does), or set BIN")
+
+    def run(self, tool, *words, stdin=b""):
+        """The finished run, its stdout and stderr as bytes."""
+        done = subprocess.run([self.folder / tool, *map(str, words)], input=stdin, capture_output=True)
+        if done.returncode != 0:
+            raise ToolFailure(done.stderr.decode(errors="replace").strip() or f"{tool}: exit status {done.returncode}")
+        return done
+
+    def output(self, tool, *words, stdin=b""):
+        return self.run(tool, *words, stdin=stdin).stdout
+
+    def has_option(self, tool, option):
+        """Whether --help of the tool names the option."""
+        return re.search(rf"(?<![\w-]){option}(?![\w-])", self.output(tool, "--help").decode()) is not None

@@ -1,0 +1,223 @@
+#!/usr/bin/env python3
+"""scripts/compare: what it says of texts and pictures that differ, and of students who made a mistake.
+
+usage: compare_test.py BIN_DIR [UNITTEST ARGUMENT...]
+"""
+import pathlib
+import struct
+import subprocess
+import sys
+import unittest
+
+from student_pipeline import Student
+from toolbox import BIN, SOURCE, ToolTest, run
+
+sys.path.insert(0, str(SOURCE / "scripts"))
+from pictures import png, read_picture  # noqa: E402
+
+SAMPLE = SOURCE / "samples/tilted-camera"
+SCENE = (SAMPLE / "scene.txt").read_text()
+TRIANGLE = "0.1000000 0.2000000 0.3000000\n1.0000000 0.0000000 0.5000000\n0.0000000 1.0000000 0.7000000\n\n"
+
+
+def compare(*words):
+    return subprocess.run([SOURCE / "scripts/compare", *map(str, words)], capture_output=True, text=True, timeout=120,
+                          env={"BIN": str(BIN), "PATH": "/usr/bin:/bin", "LANG": "C.UTF-8"})
+
+
+def cells(table, name):
+    """The second cell of the rows that begin with `name`."""
+    rows = [[cell.strip() for cell in line.strip("|").split(" | ")] for line in table.splitlines() if line.startswith("|")]
+    return [row[1] for row in rows if row[0] == name]
+
+
+def bmp(width, height, pixels):
+    """A BMP of a function of column and row."""
+    body = b""
+    for row in reversed(range(height)):
+        line = b"".join(bytes(reversed(pixels(column, row))) for column in range(width))
+        body += line + bytes(-len(line) % 4)
+    return struct.pack("<2sIHHIIiiHHIIiiII", b"BM", 54 + len(body), 0, 0, 54, 40, width, height, 1, 24, 0, len(body), 0, 0, 0, 0) + body
+
+
+class TwoFiles(ToolTest):
+    def told(self, a, b, *options, status=1):
+        pathlib.Path("a").write_bytes(a if isinstance(a, bytes) else a.encode())
+        pathlib.Path("b").write_bytes(b if isinstance(b, bytes) else b.encode())
+        done = compare("a", "b", *options)
+        self.assertEqual((done.stderr, done.returncode), ("", status), done.stdout)
+        return done.stdout
+
+    def test_the_same_text_has_no_differences(self):
+        table = self.told(TRIANGLE, TRIANGLE, status=0)
+        self.assertEqual((cells(table, "numbers compared"), cells(table, "numbers that differ")), (["9"], ["0"]))
+
+    def test_the_first_and_the_largest_have_their_places(self):
+        table = self.told(TRIANGLE + TRIANGLE.replace("1.0000000 0.0000000 0.5", "1.0000000 0.2500000 4.5"), TRIANGLE * 2)
+        self.assertEqual(cells(table, "numbers that differ"), ["2"])
+        self.assertEqual(cells(table, "largest difference"), ["4, line 6, z of vertex 2 of triangle 1: 4.5 and 0.5"])
+        self.assertEqual(cells(table, "first difference"), ["line 6, y of vertex 2 of triangle 1: 0.25 and 0"])
+
+    def test_comments_and_blanks_do_not_count(self):
+        self.told("# mine\n\n" + TRIANGLE.replace(" ", "\t ").replace("\t", " "), TRIANGLE, status=0)
+
+    def test_a_tolerance_may_be_reached_but_not_exceeded(self):
+        other = TRIANGLE.replace("0.1000000", "0.1000001")
+        self.told(other, TRIANGLE, "--tolerance", "1e-7", status=0)
+        self.told(other, TRIANGLE, "--tolerance", "0.99e-7")
+
+    def test_missing_triangles_are_told(self):
+        self.assertEqual(cells(self.told(TRIANGLE, TRIANGLE * 3), "not alike"), ["1 and 3 triangles"])
+
+    def test_another_camera_is_told(self):
+        self.assertEqual(cells(self.told("eye 0 0 1\n" + TRIANGLE, "eye 0 0 2\n" + TRIANGLE), "not alike"),
+                         ["header line eye: 0 0 1 and 0 0 2"])
+
+    def hint(self, a, b, *options):
+        return " ".join(cells(self.told(a, b, *options), "hint"))
+
+    def test_one_unit_is_rounding(self):
+        self.assertIn("rounding", self.hint(TRIANGLE.replace("0.7000000", "0.7000001"), TRIANGLE))
+        self.assertEqual(self.hint(TRIANGLE.replace("0.7000000", "0.7000002"), TRIANGLE), "")
+
+    def test_mistakes_that_show_in_the_numbers_need_no_scene(self):
+        right = Student(SCENE).texts()
+        for mistake, stage, words in (("handedness", 2, "handedness is flipped: z"), ("up", 2, "up is used as it is given"),
+                                      ("divide", 3, "the divide by w is missing"), ("radians 3", 3, "the field of view"),
+                                      ("rounding", 1, "rounding")):
+            with self.subTest(mistake):
+                self.assertIn(words, self.hint(Student(SCENE, mistake).texts()[stage - 1], right[stage - 1]))
+
+    def test_with_the_scene_the_others_are_known(self):
+        right = Student(SCENE).texts()
+        for mistake, stage, words in (("swapped 1", 1, "rows and columns"), ("radians 1", 1, "degrees are taken for radians by the rotations"),
+                                      ("swapped 2", 2, "rows and columns"), ("radians 3", 3, "degrees are taken for radians in the field of view")):
+            with self.subTest(mistake):
+                self.assertIn(words, self.hint(Student(SCENE, mistake).texts()[stage - 1], right[stage - 1], "--scene", SAMPLE / "scene.txt"))
+
+    def test_a_mistake_nobody_knows_gets_no_hint(self):
+        right = Student(SCENE).texts()[1]
+        lines = right.split("\n")
+        lines[40] = "1.0000000 2.0000000 3.0000000"
+        self.assertEqual(self.hint("\n".join(lines), right, "--scene", SAMPLE / "scene.txt"), "")
+
+    def test_z_buffers_are_compared_row_by_row(self):
+        table = self.told("\n0.5\t0.25\t\n0.1\t\n", "\n0.5\t0.5\t\n0.1\t0.2\t\n")
+        self.assertEqual(cells(table, "not alike"), ["1 rows show another number of pixels, first row 2: 1 and 2"])
+        self.assertEqual(cells(table, "first difference"), ["line 2, number 2: 0.25 and 0.5"])
+
+    def test_pixels_differ_by_their_worst_channel(self):
+        a = bmp(5, 3, lambda c, r: (c, r, 9 if (c, r) == (3, 1) else 0))
+        table = self.told(a, bmp(5, 3, lambda c, r: (c, r, 0)), "--image", "diff.png")
+        self.assertEqual(cells(table, "pixels that differ"), ["1"])
+        self.assertEqual(cells(table, "first difference"), ["column 3, row 1, blue: 9 and 0"])
+        width, height, rows = read_picture("diff.png")
+        red = [(c, r) for r in range(height) for c in range(width) if rows[r][3 * c] != rows[r][3 * c + 1]]
+        self.assertEqual(red, [(3, 1)])
+
+    def test_pictures_of_three_formats_are_the_same(self):
+        pathlib.Path("p.bmp").write_bytes(bmp(5, 3, lambda c, r: (50 * c, 80 * r, 7)))
+        pixels = b"".join(bytes((50 * c, 80 * r, 7)) for r in range(3) for c in range(5))
+        self.told(pathlib.Path("p.bmp").read_bytes(), b"P6\n# comment\n5 3\n255\n" + pixels, status=0)
+        self.told(pathlib.Path("p.bmp").read_bytes(), png(*read_picture("p.bmp")), status=0)
+
+    def test_two_kinds_cannot_be_compared(self):
+        pathlib.Path("a").write_text(TRIANGLE)
+        pathlib.Path("b").write_bytes(bmp(1, 1, lambda c, r: (0, 0, 0)))
+        done = compare("a", "b")
+        self.assertEqual((done.returncode, done.stderr), (2, "compare: expected two files of a kind, found a stage text and an image\n"))
+
+    def test_what_cannot_be_read_is_said_with_its_place(self):
+        pathlib.Path("a").write_text(TRIANGLE)
+        for name, text, message in (("none", None, "cannot read none: No such file or directory"), ("b", TRIANGLE + "1 2 x\n", "b:5: expected numbers, found '1 2 x'"),
+                                    ("b", "1 2 3\n", "b: expected three vertices a triangle, found 1 in all")):
+            if text:
+                pathlib.Path(name).write_text(text)
+            done = compare("a", name)
+            self.assertEqual((done.returncode, done.stderr), (2, f"compare: {message}\n"))
+
+
+class Five(ToolTest):
+    def hand_in(self, student, in_memory=True):
+        """Writes the five files of a student whose zbuf is right."""
+        pathlib.Path("theirs").mkdir(exist_ok=True)
+        for number, text in enumerate(student.texts(in_memory), 1):
+            pathlib.Path(f"theirs/stage{number}.txt").write_text(text)
+        self.draw()
+
+    def draw(self):
+        done = run("zbuf", SAMPLE / "config.txt", "theirs/stage3.txt", "--z-buffer", "theirs/z_buffer.txt", "--image", "theirs/out.bmp")
+        self.assertEqual(done.returncode, 0, done.stderr)
+
+    def verdict(self, status=1):
+        done = compare("--five", "theirs", SAMPLE / "scene.txt", SAMPLE / "config.txt")
+        self.assertEqual((done.stderr, done.returncode), ("", status), done.stdout)
+        return done.stdout.splitlines()[-1], [line.split("|")[3].strip() for line in done.stdout.splitlines()[2:7]]
+
+    def test_who_is_right_is_right(self):
+        for in_memory in (True, False):
+            self.hand_in(Student(SCENE), in_memory)
+            self.assertEqual(self.verdict(status=0), ("Verdict: all five files are right.", ["right"] * 5))
+
+    def test_cut_decimals_are_no_mistake(self):
+        self.hand_in(Student(SCENE, "rounding"))
+        self.assertEqual(self.verdict(status=0)[1], ["right"] * 5)
+
+    def test_one_mistake_is_counted_once_and_named(self):
+        for mistake, stage, words in (
+                ("swapped 1", "model", "rows and columns of the rotation are swapped"), ("radians 1", "model", "degrees are taken for radians by the rotations"),
+                ("swapped 2", "view", "rows and columns of the rotation are swapped"), ("up", "view", "up is used as it is given"),
+                ("handedness", "view", "handedness is flipped: z"), ("divide", "project", "the divide by w is missing"),
+                ("radians 3", "project", "degrees are taken for radians in the field of view")):
+            for in_memory in (True, False):
+                with self.subTest(mistake, in_memory=in_memory):
+                    # Some put the scene behind the eye, where our project clips; theirs does not.
+                    self.hand_in(Student(SCENE, mistake), in_memory)
+                    sentence, verdicts = self.verdict()
+                    self.assertIn(f"the first stage that went wrong is {stage} ", sentence)
+                    self.assertIn(words, sentence)
+                    self.assertEqual(verdicts.count("wrong"), 1, sentence)
+
+    def test_two_mistakes_are_both_found(self):
+        self.hand_in(Student(SCENE, "swapped 1"))
+        text = pathlib.Path("theirs/z_buffer.txt").read_text().split("\n")
+        filled = next(i for i, line in enumerate(text) if line)
+        text[filled] = text[filled].replace("0.", "1.")
+        pathlib.Path("theirs/z_buffer.txt").write_text("\n".join(text))
+        sentence, verdicts = self.verdict()
+        self.assertIn("the first stage that went wrong is model", sentence)
+        self.assertIn("by themselves wrong are also z_buffer.txt", sentence)
+        self.assertEqual(verdicts, ["wrong", "right", "right", "wrong", "right"])
+
+    def test_colours_are_the_students_own(self):
+        self.hand_in(Student(SCENE))
+        width, height, rows = read_picture("theirs/out.bmp")
+        pathlib.Path("theirs/out.bmp").write_bytes(bmp(width, height, lambda c, r: [rows[r][3 * c + i] ^ 85 for i in range(3)]))
+        self.assertEqual(self.verdict(status=0)[1], ["right"] * 5)
+
+    def test_a_picture_upside_down_is_told(self):
+        self.hand_in(Student(SCENE))
+        width, height, rows = read_picture("theirs/out.bmp")
+        pathlib.Path("theirs/out.bmp").write_bytes(bmp(width, height, lambda c, r: rows[height - 1 - r][3 * c:3 * c + 3]))
+        self.assertIn("the first stage that went wrong is zbuf (out.bmp is wrong): the picture is upside down", self.verdict()[0])
+
+    def test_missing_files_are_told_and_the_rest_is_judged(self):
+        self.hand_in(Student(SCENE))
+        pathlib.Path("theirs/stage2.txt").unlink()
+        sentence, verdicts = self.verdict()
+        self.assertIn("view (stage2.txt is missing)", sentence)
+        self.assertEqual(verdicts, ["right", "missing", "right", "right", "right"])
+
+    def test_a_text_that_cannot_be_read_is_told_with_its_place(self):
+        self.hand_in(Student(SCENE))
+        pathlib.Path("theirs/stage1.txt").write_text("1 2 3\n4 5 -nan\n")
+        done = compare("--five", "theirs", SAMPLE / "scene.txt", SAMPLE / "config.txt")
+        self.assertIn("stage1.txt:2: expected numbers, found '4 5 -nan'", done.stdout)
+
+    def test_a_wrong_scene_is_a_message(self):
+        done = compare("--five", "theirs", "none.txt", SAMPLE / "config.txt")
+        self.assertEqual((done.returncode, done.stderr), (2, "compare: cannot read none.txt: No such file or directory\n"))
+
+
+if __name__ == "__main__":
+    unittest.main()

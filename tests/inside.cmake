@@ -1,0 +1,2 @@
+# What looks inside the pipe: scripts over the real tools.
+tools_test(AreComparedWithAStudents compare_test)
