@@ -50,13 +50,33 @@ void append_little_endian(std::string& bytes, UInt value) {
 
 }  // namespace
 
-ImageFormat image_format_of(const std::string& path) {
+std::string extension_of(const std::string& path) {
   std::string extension = std::filesystem::path(path).extension().string();
-  const std::string found = extension.empty() ? "a name without extension" : "'" + extension + "'";
   std::transform(extension.begin(), extension.end(), extension.begin(), to_lower);
+  return extension;
+}
+
+bool is_device_without_extension(const std::string& path) {
+  return path.starts_with("/dev/") && extension_of(path).empty();
+}
+
+void reject_extension(const std::string& path, const std::string& kind, const std::string& formats) {
+  const std::string found = std::filesystem::path(path).extension().string();
+  std::string expected = kind + " that ends in " + formats;
+  if (can_write_png())
+    expected += " or .png";
+  else if (extension_of(path) == ".png")
+    expected += " (this build is without libpng, which .png needs)";
+  throw InputError({path}, expected_but_found(expected, found.empty() ? "a name without extension"
+                                                                      : pipeline::quoted(found)));
+}
+
+ImageFormat image_format_of(const std::string& path) {
+  const std::string extension = extension_of(path);
   if (extension == ".bmp") return ImageFormat::bmp;
-  if (extension == ".ppm" || (extension.empty() && path.starts_with("/dev/"))) return ImageFormat::ppm;
-  throw InputError({path}, expected_but_found("an image file that ends in .bmp or .ppm", found));
+  if (extension == ".ppm" || is_device_without_extension(path)) return ImageFormat::ppm;
+  if (extension == ".png" && can_write_png()) return ImageFormat::png;
+  reject_extension(path, "an image file", can_write_png() ? ".bmp, .ppm" : ".bmp or .ppm");
 }
 
 void check_image_size(ImageFormat format, int columns, int rows, const std::string& path) {
@@ -81,12 +101,14 @@ ImageWriter::ImageWriter(int descriptor, const std::string& path, ImageFormat fo
   check_image_size(format, columns, rows, path);
   if (format == ImageFormat::bmp)
     write_bmp_header();
+  else if (format == ImageFormat::png)
+    png_.emplace(descriptor, path, PngPixels::rgb8, columns, rows);
   else
     write_bytes(descriptor_, "P6\n" + std::to_string(columns) + " " + std::to_string(rows) + "\n255\n",
                 path_);
   const bool needs_all_rows = format == ImageFormat::bmp && !can_seek_;
   const std::size_t all_rows = static_cast<std::size_t>(rows);
-  const std::size_t block_rows = std::clamp<std::size_t>(kBlockSize / row_size_, 1, all_rows);
+  const std::size_t block_rows = png_ ? 1 : std::clamp<std::size_t>(kBlockSize / row_size_, 1, all_rows);
   block_.resize(row_size_ * (needs_all_rows ? all_rows : block_rows));
 }
 
@@ -138,11 +160,15 @@ void ImageWriter::write_rows() {
         ::lseek(descriptor_, static_cast<off_t>(kBmpHeaderSize + rows_below * row_size_), SEEK_SET) < 0)
       throw IoError("write", path_, errno);
   }
-  write_bytes(descriptor_, bytes, path_);
+  if (png_)
+    png_->write_row({reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()});
+  else
+    write_bytes(descriptor_, bytes, path_);
 }
 
 void ImageWriter::finish() {
   write_rows();
+  if (png_) png_->finish();
   assert(written_row_count_ == static_cast<std::size_t>(rows_));
 }
 

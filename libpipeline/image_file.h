@@ -2,22 +2,35 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "libpipeline/color.h"
+#include "libpipeline/png_file.h"
 
 namespace pipeline {
 
 enum class ImageFormat {
   bmp,  // Windows bitmap, 24 bits a pixel, rows from the bottom; at most 4 GiB
   ppm,  // Netpbm P6, 8 bits a channel, rows from the top
+  png,  // 8 bits a channel; only where can_write_png()
 };
 
 /// The format a file's extension stands for, upper or lower case. A device's name (/dev/null, /dev/stdout)
-/// has none: it gets PPM, which can be written from start to end. Any other name is an InputError.
+/// has none: it gets PPM, which can be written from start to end. Any other name is an InputError, and so is
+/// .png where there is no libpng.
 ImageFormat image_format_of(const std::string& path);
+
+/// The extension of a file's name in lower case: ".bmp".
+std::string extension_of(const std::string& path);
+/// True for names like /dev/null, where no extension says a format.
+bool is_device_without_extension(const std::string& path);
+/// Throws the InputError that says which extensions `kind` ("an image file") may have: `formats` and, where
+/// there is libpng, .png.
+[[noreturn]] void reject_extension(const std::string& path, const std::string& kind,
+                                   const std::string& formats);
 
 /// An InputError naming `path` if the format cannot hold an image of that size: BMP counts its bytes in 32
 /// bits.
@@ -53,6 +66,7 @@ class ImageWriter {
   std::vector<char> block_;
   std::size_t waiting_row_count_ = 0;
   std::size_t written_row_count_ = 0;
+  std::optional<PngWriter> png_;
 };
 
 }  // namespace pipeline

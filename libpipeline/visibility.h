@@ -31,6 +31,8 @@ class ZBufferAlgorithm {
   explicit ZBufferAlgorithm(const ScreenConfig& screen, Color background = {})
       : coverage_(screen), buffer_(screen, background) {}
 
+  /// From now on a fragment has to be nearer than the last by more than `epsilon`.
+  void set_depth_epsilon(double epsilon) { buffer_.set_depth_epsilon(epsilon); }
   void draw(const ExactTriangle& triangle, Color color) {
     for_each_span(coverage_.rows(triangle), [&](const Span& span) { buffer_.draw(span, color); });
   }

@@ -26,6 +26,10 @@ class ZBuffer {
   /// less than the one there (of equal depths the first drawn stays) and not less than the front limit.
   void draw(const Span& span, Color color);
 
+  /// From now on a pixel that shows a triangle is written only if its depth is less by more than `epsilon`,
+  /// at least 0. What is drawn then depends on the order of the triangles.
+  void set_depth_epsilon(double epsilon) { depth_epsilon_ = epsilon; }
+
   /// Calls `visit(VisibleRow)` for every row of the screen, from the top.
   template <typename Visitor>
   void for_each_row(Visitor&& visit) const {
@@ -41,11 +45,14 @@ class ZBuffer {
  private:
   using Stored = typename Depth::Stored;
 
+  void draw_what_is_nearer_by_epsilon(const Span& span, Color color);
+
   SpanFillKernel kernel_;
   Depth format_;
   double front_;
   double rear_limit_;
   Stored rear_;
+  double depth_epsilon_ = 0;
   Raster<Stored> depths_;
   Raster<Color> colors_;
 };

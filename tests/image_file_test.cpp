@@ -136,18 +136,27 @@ TEST(ImageFile, TheExtensionChoosesTheFormat) {
   EXPECT_EQ(image_format_of("out.bmp.Ppm"), ImageFormat::ppm);
 }
 
+TEST(ImageFile, PngIsAFormatWhereItCanBeWritten) {
+  const std::string expected = can_write_png()
+                                   ? "no error"
+                                   : "out.Png: expected an image file that ends in .bmp or .ppm (this build "
+                                     "is without libpng, which .png needs), found '.Png'";
+  EXPECT_EQ(message_of([] { image_format_of("out.Png"); }), expected);
+}
+
 TEST(ImageFile, ADeviceGetsPpm) {
   EXPECT_EQ(image_format_of("/dev/null"), ImageFormat::ppm);
   EXPECT_EQ(image_format_of("/dev/stdout"), ImageFormat::ppm);
 }
 
 TEST(ImageFile, AnyOtherExtensionIsAnErrorThatNamesTheKnownOnes) {
+  const std::string known = can_write_png() ? ".bmp, .ppm or .png" : ".bmp or .ppm";
   EXPECT_EQ(message_of([] { image_format_of("out.gif"); }),
-            "out.gif: expected an image file that ends in .bmp or .ppm, found '.gif'");
+            "out.gif: expected an image file that ends in " + known + ", found '.gif'");
   EXPECT_EQ(message_of([] { image_format_of("a.bmp/out"); }),
-            "a.bmp/out: expected an image file that ends in .bmp or .ppm, found a name without extension");
+            "a.bmp/out: expected an image file that ends in " + known + ", found a name without extension");
   EXPECT_EQ(message_of([] { image_format_of(".bmp"); }),
-            ".bmp: expected an image file that ends in .bmp or .ppm, found a name without extension");
+            ".bmp: expected an image file that ends in " + known + ", found a name without extension");
 }
 
 TEST(ImageFile, BmpEndsAtFourGiB) {

@@ -19,6 +19,7 @@ tools_test(ClipAtPlanesPulledIn clip_inset_test)
 tools_test(ExplainEveryFragment fragments_test)
 tools_test(CarryColorAndLight tools_colors_test)
 tools_test(ShadePixels tools_shading_test)
+tools_test(MakePictures tools_pictures_test)
 
 # A sanitizer's own memory says nothing about the tools'.
 if(NOT CMAKE_CXX_FLAGS MATCHES "-fsanitize")

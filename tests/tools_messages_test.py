@@ -254,7 +254,7 @@ add_claims(OptionMessages, [
     ("algorithm is a known word", "zbuf config.txt --algorithm best", "--algorithm: expected zbuffer or scanline, found 'best'"),
     ("depth is a known word", "zbuf config.txt --depth best", "--depth: expected f64, f32 or u24, found 'best'"),
     ("an image has a known format", "zbuf config.txt --image out.jpg",
-     "--image: out.jpg: expected an image file that ends in .bmp or .ppm, found '.jpg'"),
+     "--image: out.jpg: expected an image file that ends in .bmp, .ppm or .png, found '.jpg'"),
     ("config and input are not both stdin", "zbuf -", "CONFIG: expected a file, as INPUT is standard input, found '-'"),
     ("an eye has three numbers", "view --eye 1 2 --up 0 1 0", "--eye: expected 3 values (X Y Z), found 2"),
     ("an eye has only three numbers", "view --eye 1 2 3 --eye 1 2 3", "--eye: expected 3 values (X Y Z), found 6"),

@@ -24,11 +24,15 @@ class HelpForm : public CLI::Formatter {
   }
 };
 
-/// The option or operand an error of CLI11's is about: the one it names.
+/// The option or operand an error of CLI11's is about: the one it names, of "--depth" and "--depth-image" the
+/// longer.
 const CLI::Option* named_in(const CLI::App& options, const std::string& message) {
-  for (const CLI::Option* option : options.get_options())
-    if (message.find(option->get_name()) != std::string::npos) return option;
-  return nullptr;
+  const CLI::Option* named = nullptr;
+  for (const CLI::Option* option : options.get_options()) {
+    const bool is_longer = named == nullptr || option->get_name().size() > named->get_name().size();
+    if (is_longer && message.find(option->get_name()) != std::string::npos) named = option;
+  }
+  return named;
 }
 
 std::string explained_extra(const CLI::App& options) {
@@ -83,6 +87,22 @@ void add_thread_option(CLI::App& options, int& thread_count, const std::string& 
   options.add_option("--threads", thread_count, help + ", from 1 to 256; the output does not depend on it")
       ->type_name("N")
       ->check(CLI::Range(1, 256))
+      ->capture_default_str();
+}
+
+void add_file_option(CLI::App& options, const std::string& name, std::string& path,
+                     const std::function<void(const std::string&)>& check, const std::string& help) {
+  const auto told = [check](const std::string& word) {
+    try {
+      check(word);
+      return std::string();
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+  };
+  options.add_option(name, path, help)
+      ->type_name("FILE")
+      ->check(CLI::Validator(told, "", ""))
       ->capture_default_str();
 }
 

@@ -21,6 +21,10 @@ void add_word_option(CLI::App& options, const std::string& name, const std::vect
                      const std::string& default_word, const std::string& help,
                      const std::function<void(std::size_t)>& take);
 
+/// Adds an option that takes the name of a file; what `check` throws as an InputError is wrong with it.
+void add_file_option(CLI::App& options, const std::string& name, std::string& path,
+                     const std::function<void(const std::string&)>& check, const std::string& help);
+
 /// Adds an option that takes one of a few words, each of which stands for a value. What `chosen` holds is the
 /// default, if it is one of those.
 template <typename T>

@@ -6,12 +6,13 @@
 #include "libpipeline/band_drawing.h"
 #include "libpipeline/color.h"
 #include "libpipeline/coverage.h"
-#include "libpipeline/depth_text.h"
 #include "libpipeline/image_file.h"
 #include "libpipeline/output_file.h"
 #include "libpipeline/stage_reader.h"
+#include "libpipeline/supersampling.h"
 #include "libpipeline/surface_shader.h"
 #include "libpipeline/visibility.h"
+#include "tools/depth_files.h"
 #include "tools/fragment_report.h"
 #include "tools/progress.h"
 #include "tools/shading_options.h"
@@ -49,65 +50,107 @@ void for_each_batch(Tool& tool, StageReader& reader, Batch&& batch, Draw&& draw)
   }
 }
 
+/// What is seen at the pixel centres and, with several samples a pixel, also at those.
+template <VisibilityAlgorithm Visible>
+struct SampledVisible {
+  SampledVisible(const ScreenConfig& of_centres, int sample_count, Color background)
+      : centre_screen(of_centres),
+        screen(sample_screen(of_centres, sample_count)),
+        centres(of_centres, background) {
+    if (sample_count > 1) samples.emplace(screen, background);
+  }
+
+  ScreenConfig centre_screen;
+  ScreenConfig screen;  // of the samples, or of the centres if they are all
+  Visible centres;
+  std::optional<Visible> samples;
+};
+
 template <typename CoverageRule, typename Depth>
-void draw_all(Tool& tool, const RenderOptions& chosen, const ScreenConfig& screen, StageReader& reader,
-              Paint& paint, ZBufferAlgorithm<CoverageRule, Depth>& visible) {
-  BandDrawing drawing(visible, screen, chosen.thread_count);
+void draw_all(Tool& tool, const RenderOptions& chosen, StageReader& reader, Paint& paint,
+              SampledVisible<ZBufferAlgorithm<CoverageRule, Depth>>& visible) {
+  using Drawing = BandDrawing<ZBufferAlgorithm<CoverageRule, Depth>>;
+  visible.centres.set_depth_epsilon(chosen.depth_epsilon);
+  Drawing centres(visible.centres, visible.centre_screen, chosen.thread_count);
+  std::optional<Drawing> samples;
+  if (visible.samples) {
+    visible.samples->set_depth_epsilon(chosen.depth_epsilon);
+    samples.emplace(*visible.samples, visible.screen, chosen.thread_count);
+  }
+  std::vector<Color> colors;
+  const auto draw = [&] {
+    if (!samples) return centres.draw_batch(paint);
+    TriangleBatch& batch = samples->next_batch() = centres.next_batch();
+    colors.clear();
+    for (std::size_t i = 0; i < batch.size(); ++i) colors.push_back(paint(batch, i));
+    const auto color_of = [&](const TriangleBatch&, std::size_t i) { return colors[i]; };
+    centres.draw_batch(color_of);
+    samples->draw_batch(color_of);
+  };
   for_each_batch(
-      tool, reader, [&]() -> TriangleBatch& { return drawing.next_batch(); },
-      [&] { drawing.draw_batch(paint); });
-  drawing.finish();
+      tool, reader, [&]() -> TriangleBatch& { return centres.next_batch(); }, draw);
+  centres.finish();
+  if (samples) samples->finish();
 }
 template <typename CoverageRule, typename Depth>
-void draw_all(Tool& tool, const RenderOptions&, const ScreenConfig&, StageReader& reader, Paint& paint,
-              ScanlineAlgorithm<CoverageRule, Depth>& visible) {
+void draw_all(Tool& tool, const RenderOptions&, StageReader& reader, Paint& paint,
+              SampledVisible<ScanlineAlgorithm<CoverageRule, Depth>>& visible) {
   TriangleBatch p_ndc;
   const auto draw = [&] {
-    for (std::size_t i = 0; i < p_ndc.size(); ++i) visible.draw(exact_triangle(p_ndc, i), paint(p_ndc, i));
+    for (std::size_t i = 0; i < p_ndc.size(); ++i) {
+      const Color color = paint(p_ndc, i);
+      visible.centres.draw(exact_triangle(p_ndc, i), color);
+      if (visible.samples) visible.samples->draw(exact_triangle(p_ndc, i), color);
+    }
   };
   for_each_batch(
       tool, reader, [&]() -> TriangleBatch& { return p_ndc; }, draw);
 }
 
 template <VisibilityAlgorithm Visible>
-void write_all(Tool& tool, const RenderOptions& chosen, const ScreenConfig& screen, const Visible& visible,
+void write_all(Tool& tool, const RenderOptions& chosen, const SampledVisible<Visible>& visible,
                std::optional<SurfaceShader>& shader) {
+  const ScreenConfig& screen = visible.centre_screen;
   OutputFile image(chosen.image_path);
   ImageWriter pixels(image.descriptor(), chosen.image_path, image_format_of(chosen.image_path),
                      screen.columns, screen.rows);
-  std::optional<OutputFile> z_buffer;
-  std::optional<TextWriter> z_buffer_text;
-  if (chosen.z_buffer_path != "-") {
-    z_buffer.emplace(chosen.z_buffer_path);
-    z_buffer_text.emplace(z_buffer->descriptor(), chosen.z_buffer_path);
-  }
-  TextWriter& depths = z_buffer_text ? *z_buffer_text : tool.output();
+  DepthFiles depths(tool.output(), chosen.z_buffer_path, chosen.depth_image_path, screen);
   int row_number = 0;
-  visible.for_each_row([&](const VisibleRow& row) {
-    write_depth_row(depths, row.depths, screen.rear);
-    pixels.write_row(shader ? shader->shade(row_number++, row.colors) : row.colors);
+  const auto shaded = [&](std::span<const Color> seen) {
+    return shader ? shader->shade(row_number++, seen) : seen;
+  };
+  visible.centres.for_each_row([&](const VisibleRow& row) {
+    depths.write_row(row.depths);
+    if (!visible.samples) pixels.write_row(shaded(row.colors));
   });
-  depths.flush();
+  if (visible.samples) {
+    SampleMeans means(screen.columns, chosen.sample_count);
+    visible.samples->for_each_row([&](const VisibleRow& row) {
+      if (const auto complete = means.add(shaded(row.colors))) pixels.write_row(*complete);
+    });
+  }
   pixels.finish();
-  if (z_buffer) z_buffer->close();
+  depths.close();
   image.commit();
-  if (z_buffer) z_buffer->commit();
+  depths.commit();
   tool.timing().lap(&Timing::write_seconds);
 }
 
 template <VisibilityAlgorithm Visible>
 void render_with(Tool& tool, const RenderOptions& chosen, const ScreenConfig& screen) {
   StageReader reader(tool.input(), chosen.coverage == Coverage::center);
-  std::optional<SurfaceShader> shader = surface_shader(reader, screen, chosen.shading);
+  const ScreenConfig shaded_screen = sample_screen(screen, chosen.sample_count);
+  std::optional<SurfaceShader> shader = surface_shader(reader, shaded_screen, chosen.shading);
   tool.timing().lap(&Timing::read_seconds);
-  Visible visible(screen, shader ? SurfaceShader::kNoSurface : background_color(reader.header().appearance));
+  const Color background = shader ? SurfaceShader::kNoSurface : background_color(reader.header().appearance);
+  SampledVisible<Visible> visible(screen, chosen.sample_count, background);
   tool.timing().lap(&Timing::work_seconds);
   const std::unique_ptr<FragmentReport> report = fragment_report(chosen, screen);
   Paint paint(shader, report.get());
-  draw_all(tool, chosen, screen, reader, paint, visible);
+  draw_all(tool, chosen, reader, paint, visible);
   if (report) report->finish();
   tool.timing().lap(&Timing::work_seconds);
-  write_all(tool, chosen, screen, visible, shader);
+  write_all(tool, chosen, visible, shader);
   if (report) report->commit();
 }
 

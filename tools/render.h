@@ -19,9 +19,12 @@ struct RenderOptions {
   std::string config_path;
   std::string image_path = "out.bmp";
   std::string z_buffer_path = "-";
+  std::string depth_image_path;  // empty: none
   Coverage coverage = Coverage::nearest;
   Algorithm algorithm = Algorithm::zbuffer;
   DepthFormat depth = DepthFormat::f64;
+  double depth_epsilon = 0;
+  int sample_count = 1;  // along each side of a pixel, for the image alone
   int thread_count = 1;
   FragmentOptions fragments;
   std::optional<ShadingModel> shading;  // nothing: what the text asks for

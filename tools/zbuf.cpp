@@ -8,8 +8,8 @@
 #include "libpipeline/image_file.h"
 #include "tools/command_line.h"
 #include "tools/fragment_report.h"
+#include "tools/picture_options.h"
 #include "tools/render.h"
-#include "tools/shading_options.h"
 #include "tools/tool.h"
 
 using namespace pipeline;
@@ -17,19 +17,9 @@ using namespace pipeline;
 namespace {
 
 void add_options(CLI::App& options, RenderOptions& chosen) {
-  const auto has_format = [](std::string& path) {
-    try {
-      static_cast<void>(image_format_of(path));
-      return std::string();
-    } catch (const InputError& error) {
-      return std::string(error.what());
-    }
-  };
   options.add_option("CONFIG", chosen.config_path, "The screen: size and limits (config.txt)")->required();
-  options.add_option("--image", chosen.image_path, "Where the image goes, a .bmp or .ppm file")
-      ->type_name("FILE")
-      ->check(CLI::Validator(has_format, "", ""))
-      ->capture_default_str();
+  add_file_option(options, "--image", chosen.image_path, image_format_of,
+                  "Where the image goes, a .bmp, .ppm or .png file");
   options.add_option("--z-buffer", chosen.z_buffer_path, "Where the depths go; - is standard output")
       ->type_name("FILE")
       ->capture_default_str();
@@ -48,7 +38,7 @@ void add_options(CLI::App& options, RenderOptions& chosen) {
       {{"f64", DepthFormat::f64}, {"f32", DepthFormat::f32}, {"u24", DepthFormat::u24}},
       "How a pixel keeps its depth: as a double, a float, or in 2^24 equal steps between the limits");
   add_thread_option(options, chosen.thread_count, "How many threads draw with the z-buffer");
-  add_shading_option(options, chosen.shading);
+  add_picture_options(options, chosen);
   add_fragment_options(options, chosen.fragments);
 }
 
@@ -78,6 +68,7 @@ int main(int argc, char** argv) {
 
   return tool.run(argc, argv, [&] {
     check_threads(chosen);
+    check_picture_options(chosen);
     const ScreenConfig screen = read_screen(tool, chosen.config_path);
     check_image_size(image_format_of(chosen.image_path), screen.columns, screen.rows, chosen.image_path);
     render(tool, chosen, screen);

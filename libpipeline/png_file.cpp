@@ -1,0 +1,94 @@
+#include "libpipeline/png_file.h"
+
+#include <png.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csetjmp>
+
+#include "libpipeline/error.h"
+
+namespace pipeline {
+namespace {
+
+// libpng reports errors by longjmp: what it calls, and what calls it, keeps no object that has to be
+// destroyed.
+
+/// Where the bytes go, and what went wrong there.
+struct Sink {
+  int descriptor;
+  int error_number = 0;
+};
+
+void write_bytes(png_structp png, png_bytep bytes, png_size_t size) {
+  Sink& sink = *static_cast<Sink*>(png_get_io_ptr(png));
+  while (size > 0) {
+    const ssize_t count = ::write(sink.descriptor, bytes, size);
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) {
+      sink.error_number = errno;
+      png_longjmp(png, 1);
+    }
+    bytes += count;
+    size -= static_cast<png_size_t>(count);
+  }
+}
+
+void jump_back(png_structp png, png_const_charp) {
+  png_longjmp(png, 1);
+}
+
+void ignore(png_structp, png_const_charp) {}
+
+}  // namespace
+
+struct PngWriter::State {
+  Sink sink;
+  std::string path;
+  png_structp png = nullptr;
+  png_infop info = nullptr;
+
+  State(int descriptor, std::string named) : sink{descriptor}, path(std::move(named)) {
+    png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, jump_back, ignore);
+    if (png != nullptr) info = png_create_info_struct(png);
+  }
+  ~State() { png_destroy_write_struct(&png, &info); }
+
+  /// Calls libpng; an IoError if it gives up, which is for lack of memory if the sink took all bytes.
+  template <typename Call>
+  void guarded(Call&& call) {
+    if (png == nullptr || info == nullptr) throw IoError("write", path, ENOMEM);
+    if (setjmp(png_jmpbuf(png)) != 0)
+      throw IoError("write", path, sink.error_number != 0 ? sink.error_number : ENOMEM);
+    call();
+  }
+};
+
+bool can_write_png() {
+  return true;
+}
+
+PngWriter::PngWriter(int descriptor, const std::string& path, PngPixels pixels, int columns, int rows)
+    : state_(std::make_unique<State>(descriptor, path)) {
+  State& s = *state_;
+  const int bits = pixels == PngPixels::rgb8 ? 8 : 16;
+  const int type = pixels == PngPixels::rgb8 ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_GRAY;
+  s.guarded([&] {
+    png_set_write_fn(s.png, &s.sink, write_bytes, nullptr);
+    png_set_IHDR(s.png, s.info, static_cast<png_uint_32>(columns), static_cast<png_uint_32>(rows), bits, type,
+                 PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    png_write_info(s.png, s.info);
+  });
+}
+
+PngWriter::~PngWriter() = default;
+
+void PngWriter::write_row(std::span<const unsigned char> bytes) {
+  state_->guarded([&] { png_write_row(state_->png, bytes.data()); });
+}
+
+void PngWriter::finish() {
+  state_->guarded([&] { png_write_end(state_->png, nullptr); });
+}
+
+}  // namespace pipeline

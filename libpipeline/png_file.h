@@ -1,0 +1,35 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+
+namespace pipeline {
+
+/// What stands in a PNG's pixels; samples of 16 bits have the high byte first.
+enum class PngPixels { rgb8, gray16 };
+
+/// True if PNG files can be written: where the library was built with libpng.
+bool can_write_png();
+
+/// Takes a PNG image row by row, from the top, and writes it as it comes. Failures to write are IoErrors.
+class PngWriter {
+ public:
+  /// Writes to a file descriptor, which stays the caller's; `path` names it in messages. Only where
+  /// can_write_png().
+  PngWriter(int descriptor, const std::string& path, PngPixels pixels, int columns, int rows);
+  ~PngWriter();
+  PngWriter(const PngWriter&) = delete;
+  PngWriter& operator=(const PngWriter&) = delete;
+
+  /// Takes the bytes of the next row.
+  void write_row(std::span<const unsigned char> bytes);
+  /// Ends the file; to be called after the last row.
+  void finish();
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace pipeline

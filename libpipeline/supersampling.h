@@ -1,0 +1,38 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "libpipeline/color.h"
+#include "libpipeline/config.h"
+
+namespace pipeline {
+
+/// The most samples along each side of a pixel: what the exact coverage rule has room for on the largest
+/// screen.
+constexpr int kMaxSamples = 16;
+
+/// The screen whose pixels are the samples of `screen`: `count` x `count` a pixel, in a regular grid.
+ScreenConfig sample_screen(const ScreenConfig& screen, int count);
+
+/// Turns rows of samples into rows of pixels: each channel is the mean of the pixel's samples, rounded to the
+/// nearest, halves up.
+class SampleMeans {
+ public:
+  /// For rows of `columns` pixels with `count` x `count` samples each.
+  SampleMeans(int columns, int count);
+
+  /// Takes the next row of samples; gives a row of pixels, valid until the next call, when it is complete.
+  std::optional<std::span<const Color>> add(std::span<const Color> samples);
+
+ private:
+  std::size_t count_;
+  std::size_t rows_taken_ = 0;
+  std::vector<std::array<std::uint32_t, 3>> sums_;  // red, green, blue
+  std::vector<Color> row_;
+};
+
+}  // namespace pipeline

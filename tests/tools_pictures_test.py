@@ -1,0 +1,208 @@
+#!/usr/bin/env python3
+"""The pictures zbuf makes beside the default one: PNG, depth images, several samples a pixel, a depth epsilon.
+
+usage: tools_pictures_test.py BIN_DIR [UNITTEST ARGUMENT...]
+"""
+import pathlib
+import random
+import struct
+import unittest
+import zlib
+
+from toolbox import ToolTest, run
+
+COLUMNS, ROWS = 37, 23
+NEEDS_PNG = b"without libpng" in run("zbuf", "config.txt", "--image", "x.png").stderr
+
+
+def triangles(*corners_of):
+    return "".join("".join(f"{x:.7f} {y:.7f} {z:.7f}\n" for x, y, z in corners) + "\n" for corners in corners_of)
+
+
+def random_triangles(seed, count):
+    rng = random.Random(seed)
+    return triangles(*([[rng.uniform(-1.3, 1.3), rng.uniform(-1.3, 1.3), rng.uniform(-1, 1)] for _ in range(3)]
+                       for _ in range(count)))
+
+
+def wall(z):
+    """A triangle of one depth that fills the picture."""
+    return triangles([(-9, -9, z), (9, -9, z), (0, 9, z)])
+
+
+def read_png(path):
+    """Width, height, bits and the bytes of the pixels, by the format's own document (RFC 2083)."""
+    data = pathlib.Path(path).read_bytes()
+    assert data[:8] == b"\x89PNG\r\n\x1a\n"
+    at, chunks = 8, {}
+    while at < len(data):
+        length, kind = struct.unpack_from(">I4s", data, at)
+        body = data[at + 8:at + 8 + length]
+        assert struct.unpack_from(">I", data, at + 8 + length)[0] == zlib.crc32(kind + body)
+        chunks[kind] = chunks.get(kind, b"") + body
+        at += 12 + length
+    width, height, bits, color_type = struct.unpack_from(">IIBB", chunks[b"IHDR"])
+    step = {2: 3, 0: 1}[color_type] * bits // 8
+    raw, before, rows = zlib.decompress(chunks[b"IDAT"]), bytes(step * width), b""
+    for row in range(height):
+        kind, line = raw[row * (step * width + 1)], bytearray(raw[row * (step * width + 1) + 1:][:step * width])
+        for i in range(step * width):
+            left, up, corner = (line[i - step], before[i], before[i - step]) if i >= step else (0, before[i], 0)
+            guess = left + up - corner
+            paeth = min((left, up, corner), key=lambda p: abs(guess - p))
+            line[i] = (line[i] + (0, left, up, (left + up) // 2, paeth)[kind]) % 256
+        before = bytes(line)
+        rows += before
+    return width, height, bits, rows
+
+
+class Pictures(ToolTest):
+    def setUp(self):
+        super().setUp()
+        pathlib.Path("config.txt").write_text(f"{COLUMNS} {ROWS}\n")
+
+    def zbuf(self, stage3, *options):
+        """The text of the depths."""
+        done = run("zbuf", "config.txt", *options, stdin=stage3)
+        self.assert_quiet_success(done)
+        return done.stdout
+
+    def pixels(self, stage3, *options, columns=COLUMNS, rows=ROWS):
+        self.zbuf(stage3, "--image", "out.ppm", *options)
+        data = pathlib.Path("out.ppm").read_bytes()
+        header = f"P6\n{columns} {rows}\n255\n".encode()
+        self.assertTrue(data.startswith(header))
+        return data[len(header):]
+
+
+class Png(Pictures):
+    def setUp(self):
+        super().setUp()
+        if NEEDS_PNG:
+            self.skipTest("built without libpng")
+
+    def test_a_png_has_the_pixels_of_the_ppm(self):
+        stage3 = random_triangles(1, 20)
+        self.zbuf(stage3, "--image", "out.PNG")
+        self.assertEqual(read_png("out.PNG"), (COLUMNS, ROWS, 8, self.pixels(stage3)))
+
+    def test_a_depth_png_has_the_pixels_of_the_pgm(self):
+        stage3 = random_triangles(2, 20)
+        self.zbuf(stage3, "--depth-image", "depth.png")
+        self.zbuf(stage3, "--depth-image", "depth.pgm")
+        data = pathlib.Path("depth.pgm").read_bytes()
+        header = f"P5\n{COLUMNS} {ROWS}\n65535\n".encode()
+        self.assertTrue(data.startswith(header))
+        self.assertEqual(read_png("depth.png"), (COLUMNS, ROWS, 16, data[len(header):]))
+
+    def test_a_full_disk_is_told(self):
+        pathlib.Path("full.png").symlink_to("/dev/full")
+        for option in ("--image", "--depth-image"):
+            done = run("zbuf", "config.txt", option, "full.png", stdin=wall(0))
+            self.assertEqual((done.returncode, done.stderr),
+                             (1, b"zbuf: cannot write full.png: No space left on device\n"))
+
+
+class DepthImages(Pictures):
+    def brightness(self, stage3):
+        self.zbuf(stage3, "--depth-image", "depth.pgm")
+        data = pathlib.Path("depth.pgm").read_bytes()[-2 * COLUMNS * ROWS:]
+        return struct.unpack(f">{COLUMNS * ROWS}H", data)
+
+    def test_near_is_bright(self):
+        # Half-way between the limits, at the front, a quarter before the rear: 0.125 * 65535 = 8191.875.
+        for z, expected in ((0, 32768), (-1, 65535), (0.75, 8192)):
+            self.assertEqual(set(self.brightness(wall(z))), {expected})
+
+    def test_nothing_is_black(self):
+        self.assertEqual(set(self.brightness("")), {0})
+
+    def test_it_goes_from_limit_to_limit(self):
+        pathlib.Path("config.txt").write_text(f"{COLUMNS} {ROWS}\n-1\n-1\n0.2 0.7\n")
+        self.assertEqual(set(self.brightness(wall(0.5))), {26214})  # 0.4 * 65535
+
+    def test_every_pixel_is_that_of_the_text(self):
+        stage3 = random_triangles(3, 5)
+        text = self.zbuf(stage3).decode()
+        depths = [float(word) for word in text.split()]
+        seen = [value for value in self.brightness(stage3) if value > 0]
+        self.assertEqual(len(seen), len(depths))
+        for value, depth in zip(seen, depths):
+            self.assertLess(abs(value - 65535 * (1 - depth) / 2), 0.55)
+
+
+class Samples(Pictures):
+    def means(self, data, count):
+        """Of count x count pixels each, of an image that is so many times as large; halves up."""
+        wide = COLUMNS * count
+        result = bytearray()
+        for row in range(ROWS):
+            for column in range(COLUMNS):
+                for channel in range(3):
+                    total = sum(data[3 * ((row * count + i) * wide + column * count + k) + channel]
+                                for i in range(count) for k in range(count))
+                    result.append((2 * total + count * count) // (2 * count * count))
+        return bytes(result)
+
+    def test_a_pixel_is_the_mean_of_its_samples(self):
+        stage3 = random_triangles(4, 12)
+        for coverage in ("nearest", "center"):
+            for count in (2, 3):
+                pathlib.Path("config.txt").write_text(f"{COLUMNS * count} {ROWS * count}\n")
+                large = self.pixels(stage3, "--coverage", coverage, columns=COLUMNS * count, rows=ROWS * count)
+                pathlib.Path("config.txt").write_text(f"{COLUMNS} {ROWS}\n")
+                self.assertEqual(self.pixels(stage3, "--coverage", coverage, "--samples", count),
+                                 self.means(large, count))
+
+    def test_depths_stay_those_of_the_centres(self):
+        stage3 = random_triangles(5, 12)
+        text = self.zbuf(stage3, "--depth-image", "one.pgm")
+        self.assertEqual(self.zbuf(stage3, "--samples", "4", "--depth-image", "many.pgm"), text)
+        self.assertEqual(pathlib.Path("many.pgm").read_bytes(), pathlib.Path("one.pgm").read_bytes())
+
+    def test_threads_and_algorithms_agree(self):
+        stage3 = random_triangles(6, 3000)
+        expected = self.pixels(stage3, "--samples", "3")
+        for options in (["--threads", "2"], ["--threads", "5"], ["--algorithm", "scanline"]):
+            self.assertEqual(self.pixels(stage3, "--samples", "3", *options), expected)
+
+
+class DepthEpsilon(Pictures):
+    def depths_seen(self, stage3, *options):
+        return set(self.zbuf(stage3, *options).decode().split())
+
+    def test_what_is_not_nearer_by_more_is_not_drawn(self):
+        stage3 = wall(0.5) + wall(0.25) + wall(0.125)
+        for epsilon, seen in (("0", "0.125000"), ("0.1", "0.125000"), ("0.125", "0.250000"), ("0.2", "0.250000"),
+                              ("0.25", "0.125000"), ("0.375", "0.500000"), ("1e9", "0.500000")):
+            self.assertEqual(self.depths_seen(stage3, "--depth-epsilon", epsilon), {seen}, epsilon)
+
+    def test_an_empty_pixel_takes_the_first(self):
+        self.assertEqual(self.depths_seen(wall(0.999), "--depth-epsilon", "0.5"), {"0.999000"})
+
+    def test_what_lies_before_the_front_is_still_not_seen(self):
+        self.assertEqual(self.depths_seen(wall(0.5) + wall(-1.5), "--depth-epsilon", "0.5"), {"0.500000"})
+
+    def test_every_depth_format_takes_it(self):
+        for depth in ("f64", "f32", "u24"):
+            self.assertEqual(self.depths_seen(wall(0.5) + wall(0.25), "--depth", depth, "--depth-epsilon", "0.3"),
+                             {"0.500000"})
+
+    def test_threads_keep_the_order_of_the_stream(self):
+        stage3 = random_triangles(7, 3000)
+        expected = self.zbuf(stage3, "--depth-epsilon", "0.05", "--image", "one.ppm")
+        for count in (2, 3, 8):
+            self.assertEqual(self.zbuf(stage3, "--depth-epsilon", "0.05", "--threads", count), expected)
+
+    def test_zero_is_the_default(self):
+        stage3 = random_triangles(8, 300)
+        self.assertEqual(self.zbuf(stage3, "--depth-epsilon", "0"), self.zbuf(stage3))
+
+    def test_the_scanline_algorithm_has_none(self):
+        done = run("zbuf", "config.txt", "--depth-epsilon", "0.1", "--algorithm", "scanline")
+        self.assert_fails(done, 2, "zbuf: --depth-epsilon: expected 0 with --algorithm scanline, which keeps no order of "
+                                   "drawing, found a number above (try zbuf --help)")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,37 @@
+#include "tools/depth_files.h"
+
+#include "libpipeline/depth_text.h"
+
+namespace pipeline {
+
+DepthFiles::DepthFiles(TextWriter& standard_output, const std::string& text_path,
+                       const std::string& image_path, const ScreenConfig& screen)
+    : rear_(screen.rear), standard_output_(standard_output) {
+  if (text_path != "-") {
+    text_file_.emplace(text_path);
+    text_.emplace(text_file_->descriptor(), text_path);
+  }
+  if (!image_path.empty()) {
+    image_file_.emplace(image_path);
+    image_.emplace(image_file_->descriptor(), image_path, screen);
+  }
+}
+
+void DepthFiles::write_row(std::span<const double> depths) {
+  write_depth_row(text_ ? *text_ : standard_output_, depths, rear_);
+  if (image_) image_->write_row(depths);
+}
+
+void DepthFiles::close() {
+  (text_ ? *text_ : standard_output_).flush();
+  if (image_) image_->finish();
+  if (text_file_) text_file_->close();
+  if (image_file_) image_file_->close();
+}
+
+void DepthFiles::commit() {
+  if (text_file_) text_file_->commit();
+  if (image_file_) image_file_->commit();
+}
+
+}  // namespace pipeline

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+
+#include "libpipeline/config.h"
+#include "libpipeline/depth_image.h"
+#include "libpipeline/output_file.h"
+#include "libpipeline/text_writer.h"
+
+namespace pipeline {
+
+/// Where the depths of all pixels go: as text to standard output or a file, and into an image if one is
+/// asked for. Files take their places in `commit`.
+class DepthFiles {
+ public:
+  /// `text_path` is "-" for `standard_output`; an empty `image_path` means no image.
+  DepthFiles(TextWriter& standard_output, const std::string& text_path, const std::string& image_path,
+             const ScreenConfig& screen);
+
+  /// Takes the depths of the next row, from the top.
+  void write_row(std::span<const double> depths);
+  /// Writes what is not written yet and closes the files.
+  void close();
+  void commit();
+
+ private:
+  double rear_;
+  TextWriter& standard_output_;
+  std::optional<OutputFile> text_file_;
+  std::optional<TextWriter> text_;
+  std::optional<OutputFile> image_file_;
+  std::optional<DepthImageWriter> image_;
+};
+
+}  // namespace pipeline
