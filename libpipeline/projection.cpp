@@ -52,6 +52,22 @@ Vec3 clamped_color(const Vec3& c) {
   return {std::clamp(c.x, 0.0, 255.0), std::clamp(c.y, 0.0, 255.0), std::clamp(c.z, 0.0, 255.0)};
 }
 
+/// The triangle with its attributes in clip space; nothing if a coordinate is too large for a double.
+std::shared_ptr<const ClipTriangle> clip_triangle(const std::array<ClipVertex, 3>& corners,
+                                                  const AttributeArrays& attributes, std::size_t index) {
+  ClipTriangle whole;
+  for (std::size_t v = 0; v < 3; ++v) {
+    const auto& [x, y, z, w, weights] = corners[v];
+    whole[v].position = {x.nearest_double(), y.nearest_double(), z.nearest_double()};
+    whole[v].w = w.nearest_double();
+    const Vec3& p = whole[v].position;
+    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) return nullptr;
+    if (!attributes.colors.empty()) whole[v].color = attributes.colors[index][v];
+    if (!attributes.normals.empty()) whole[v].normal = attributes.normals[index][v];
+  }
+  return std::make_shared<const ClipTriangle>(whole);
+}
+
 BallVec3 perspective_divide(const ClipVertex& p_clip) {
   return {p_clip.x / p_clip.w, p_clip.y / p_clip.w, p_clip.z / p_clip.w};
 }
@@ -198,12 +214,14 @@ void ProjectionStage::project_clipped(const TriangleBatch& p_view, std::size_t i
   if (clip_extent_ != 1)
     for (ClipVertex& vertex : polygon) vertex.w = vertex.w / clip_extent_;
   ++counts_.clipped;
+  const auto whole = keeps_clipped_ ? clip_triangle(corners, p_view.attributes, index) : nullptr;
   for (std::size_t i = 1; i + 1 < polygon.size(); ++i) {
     ++counts_.pieces;
     const std::size_t target = p_ndc.size();
     p_ndc.add({}, p_view.numbers[index], p_view.lines[index]);
     const std::array<const ClipVertex*, 3> piece = {&polygon[0], &polygon[i], &polygon[i + 1]};
     for (std::size_t v = 0; v < 3; ++v) rounder_.set_vertex(p_ndc, target, v, perspective_divide(*piece[v]));
+    if (whole) p_ndc.set_last_whole(whole);
     if (!has_attributes(p_view)) continue;
     const auto mix = [&](std::size_t v) {
       return CornerMix{piece[v]->weights, piece[v]->w.nearest_double()};

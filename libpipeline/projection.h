@@ -54,6 +54,9 @@ class ProjectionStage {
   /// images of the triangles before it.
   void project(const TriangleBatch& p_view, TriangleBatch& p_ndc);
 
+  /// From now on pieces say of which triangle they are, which lighting needs: see TriangleBatch::wholes.
+  void keep_clipped_triangles() { keeps_clipped_ = true; }
+
   [[nodiscard]] const ProjectionCounts& counts() const { return counts_; }
 
  private:
@@ -85,6 +88,7 @@ class ProjectionStage {
   CoordinateRounder& rounder_;
   Doubles in_doubles_;
   bool mirrored_;
+  bool keeps_clipped_ = false;
   ProjectionCounts counts_;
 };
 

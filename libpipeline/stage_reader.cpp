@@ -77,10 +77,14 @@ StageReader::StageReader(TextReader& text, bool marks_decimals)
   }
   check_camera(header_.camera);
   vertex_line_ = VertexLineReader(header_.appearance.columns());
+  AttributeSet columns_in_clip_space = header_.appearance.columns();
+  columns_in_clip_space.w = true;
+  clip_vertex_line_ = VertexLineReader(columns_in_clip_space, RangeOfW::any);
   // A mistake here is told before anybody misses a header line that it hides.
   header_end_ = line_is_pending_ ? line_.place() : text_.end_place();
   if (!line_is_pending_) expect_unframed_end();
-  const bool is_body = is_vertex(line_.peek()) || line_.peek() == "triangle" || is_end(line_);
+  const bool is_body =
+      is_vertex(line_.peek()) || line_.peek() == "triangle" || line_.peek() == "clipped" || is_end(line_);
   if (line_is_pending_ && !is_body) reject(line_, "a header line, ");
 }
 
@@ -119,7 +123,8 @@ void StageReader::fill(TriangleBatch& batch) {
     // What is in memory is passed on before the reader waits for more: a triangle has three lines.
     if (!line_is_pending_ && !batch.empty() && (batch.size() >= kBatchSize || !text_.has_lines_waiting(3)))
       break;
-    if (!line_is_pending_ && (read_fixed_form(batch) || read_plain_form(batch))) continue;
+    const bool may_be_plain = !line_is_pending_ && !whole_;
+    if (may_be_plain && (read_fixed_form(batch) || read_plain_form(batch))) continue;
     if (!line_is_pending_ && !text_.next_filled_line(line_)) {
       expect_unframed_end();
       done_ = true;
@@ -132,6 +137,8 @@ void StageReader::fill(TriangleBatch& batch) {
       line_.word();
       next_number_ = line_.count("the number of a triangle");
       line_.expect_end("the number of a triangle");
+    } else if (accepts_clipped_ && line_.peek() == "clipped") {
+      read_clipped(line_);
     } else if (is_end(line_)) {
       read_end(line_);
     } else {
@@ -164,6 +171,7 @@ bool StageReader::read_fixed_form(TriangleBatch& batch) {
   text_.skip(part.length, part.triangle_count * kLinesPerTriangle);
   fixed_form_guess_ = part.triangle_count == most ? 2 * most : part.triangle_count + 1;
   if (!batch.low_parts.empty()) batch.low_parts.resize(batch.size());
+  if (!batch.wholes.empty()) batch.wholes.resize(batch.size());
   // Seven decimals and at most eight digits before the point: every coordinate is its decimal.
   if (marks_decimals_) batch.decimal_marks.resize(batch.size(), kAllDecimal);
   return part.triangle_count > 0;
@@ -232,9 +240,24 @@ void StageReader::read_vertices(LineScanner& line, TriangleBatch& batch) {
     }
     lines[i] = line.line_number();
   }
+  if (whole_ && next_number_ != whole_number_) whole_.reset();
   batch.add(triangle, next_number_++, lines);
   batch.attributes.add(vertices, attributes);
+  if (whole_) batch.set_last_whole(whole_);
   if (marks_decimals_) exact.set_last(batch);
+}
+
+/// Reads the line `clipped` and the three of a triangle in clip space.
+void StageReader::read_clipped(LineScanner& line) {
+  line.word();
+  line.expect_end("'clipped'");
+  ClipTriangle whole;
+  for (std::size_t i = 0; i < 3; ++i) {
+    next_vertex_line(line, i);
+    whole[i] = clip_vertex_line_.read(line, i);
+  }
+  whole_ = std::make_shared<const ClipTriangle>(whole);
+  whole_number_ = next_number_;
 }
 
 bool StageReader::is_end(const LineScanner& line) const {

@@ -31,6 +31,8 @@ class StageReader {
   /// The place of the first word behind the header: where a header line that is missing should have stood
   /// before.
   [[nodiscard]] const Place& header_end() const { return header_end_; }
+  /// From now on `clipped` triangles are read, which only projected texts have; before, they are mistakes.
+  void accept_clipped() { accepts_clipped_ = true; }
   /// Fills `batch` with the next triangles, as many as are waiting but at least one; false (and an empty
   /// batch) at the end of a text that ends as it should. Triangles before a mistake are given out before the
   /// mistake is thrown, so that it does not depend on the size of blocks how much of the text passes.
@@ -44,6 +46,7 @@ class StageReader {
   bool read_plain_triangle(TriangleBatch& batch);
   void next_vertex_line(LineScanner& line, std::size_t index);
   void read_vertices(LineScanner& line, TriangleBatch& batch);
+  void read_clipped(LineScanner& line);
   [[nodiscard]] bool is_end(const LineScanner& line) const;
   void read_end(LineScanner& line);
   void expect_unframed_end() const;
@@ -60,6 +63,10 @@ class StageReader {
   bool line_is_pending_ = false;      // line_ was read but not yet used
   bool done_ = false;
   std::uint64_t next_number_ = 0;
+  bool accepts_clipped_ = false;
+  VertexLineReader clip_vertex_line_;
+  std::shared_ptr<const ClipTriangle> whole_;  // what the next triangles with its number are pieces of
+  std::uint64_t whole_number_ = 0;
   std::exception_ptr mistake_;  // found behind triangles that were still to be given out
 };
 

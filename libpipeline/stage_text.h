@@ -17,6 +17,9 @@ namespace pipeline {
 //                    material AMBIENT DIFFUSE SPECULAR SHININESS |
 //                    attenuation CONSTANT LINEAR QUADRATIC | light X Y Z R G B (any number)
 //   triangle N     optional: the next triangle is triangle N of the scene; counting goes on from there
+//   clipped        optional, in projected texts with lights: three vertex lines in clip space (X Y Z W and
+//   the
+//                  other columns) follow, the whole triangle that the next ones of its number are pieces of
 //   X Y Z          three vertex lines, then a blank line; behind the position the columns that `attributes`
 //                  names, in this order: W, R G B (0 to 255), NX NY NZ
 //   error ...      an earlier stage failed, and what it said; nothing follows

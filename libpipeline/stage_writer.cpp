@@ -102,8 +102,8 @@ void StageWriter::write_header(const StageHeader& header) {
 void StageWriter::write(const TriangleBatch& batch) {
   assert(batch.low_parts.empty() || batch.low_parts.size() == batch.size());
   if (!keeps_four_digits_) note_sizes(batch);
-  const bool may_be_fixed =
-      format_.decimals == 7 && !format_.shortest && batch.low_parts.empty() && !columns_.any();
+  const bool may_be_fixed = format_.decimals == 7 && !format_.shortest && batch.low_parts.empty() &&
+                            batch.wholes.empty() && !columns_.any();
   std::size_t index = 0;
   while (index < batch.size()) {
     if (may_be_fixed) index += write_fixed_form(batch, index);
@@ -145,6 +145,11 @@ std::size_t StageWriter::write_fixed_form(const TriangleBatch& batch, std::size_
 void StageWriter::write_triangle(const TriangleBatch& batch, std::size_t index) {
   write_number(batch.numbers[index]);
   next_number_ = batch.numbers[index] + 1;
+  if (const ClipTriangle* const whole = batch.whole_of(index);
+      whole != nullptr && whole != last_whole_.get()) {
+    write_clipped(*whole);
+    last_whole_ = batch.wholes[index];
+  }
   const Triangle low_part = batch.low_parts.empty() ? Triangle{} : batch.low_parts[index];
   char* out = text_.reserve(kMaxTriangleLength);
   for (std::size_t v = 0; v < 3; ++v) {
@@ -154,6 +159,26 @@ void StageWriter::write_triangle(const TriangleBatch& batch, std::size_t index) 
   }
   *out++ = '\n';
   text_.commit(out);
+}
+
+/// Prints a whole triangle before its first piece. Its corners are lit: they are not rounded.
+void StageWriter::write_clipped(const ClipTriangle& whole) {
+  text_.append("clipped\n");
+  for (const auto& [p, w, color, normal] : whole) {
+    char* out = text_.reserve(kMaxVertexLength);
+    const auto print = [&](std::initializer_list<double> numbers) {
+      for (const double number : numbers) {
+        out = print_number(out, number, 0, {.shortest = true});
+        *out++ = ' ';
+      }
+    };
+    print({p.x, p.y, p.z, w});
+    if (columns_.color) print({color.x, color.y, color.z});
+    if (columns_.normal) print({normal.x, normal.y, normal.z});
+    out[-1] = '\n';
+    text_.commit(out);
+  }
+  text_.append("\n");
 }
 
 /// Prints three numbers, blanks between.
@@ -189,6 +214,7 @@ void StageWriter::begin_part(std::uint64_t first_number) {
   text_.discard();
   first_number_ = first_number;
   next_number_ = first_number;
+  last_whole_.reset();
 }
 
 void StageWriter::append_part(const StageWriter& part) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 
 #include "libpipeline/number_text.h"
 #include "libpipeline/stage_text.h"
@@ -35,6 +36,7 @@ class StageWriter {
   void note_sizes(const TriangleBatch& batch);
   std::size_t write_fixed_form(const TriangleBatch& batch, std::size_t begin);
   void write_triangle(const TriangleBatch& batch, std::size_t index);
+  void write_clipped(const ClipTriangle& whole);
   char* print_vertex(char* out, const Vec3& vertex, const Vec3& low_part);
   char* print_attributes(char* out, const AttributeArrays& attributes, std::size_t index, std::size_t vertex);
 
@@ -45,6 +47,7 @@ class StageWriter {
   AttributeSet columns_;
   std::uint64_t next_number_ = 0;
   std::uint64_t first_number_ = 0;  // of a part
+  std::shared_ptr<const ClipTriangle> last_whole_;
   bool keeps_four_digits_ = false;
   bool has_filled_coordinate_ = false;
 };

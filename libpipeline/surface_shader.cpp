@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 
 #include "libpipeline/vec_math.h"
 
@@ -32,20 +33,20 @@ void use_face_normal(std::array<SurfacePoint, 3>& corners) {
   for (SurfacePoint& corner : corners) corner.normal = normal;
 }
 
-/// Twice the signed area of (p, q, (x, y)).
+/// Twice the signed area that the points p and q of the screen make with (x, y), times their w. A point is x
+/// and y of clip space, and w in the place of z, of any sign.
 double area(const Vec3& p, const Vec3& q, double x, double y) {
-  return (p.x - x) * (q.y - y) - (p.y - y) * (q.x - x);
+  return (p.x - x * p.z) * (q.y - y * q.z) - (p.y - y * p.z) * (q.x - x * q.z);
 }
 
-/// The weights of the corners at a point of the screen, each divided by the corner's w and all by their sum,
-/// so that they are those in view space (J. Blinn, "Hyperbolic interpolation", 1992). A pixel's centre may
-/// lie a little outside: no weight leaves [0, 1].
-Weights weights_at(const Triangle& p_ndc, const std::array<double, 3>& w, double x, double y) {
-  const auto& [a, b, c] = p_ndc;
-  const double side = area(a, b, c.x, c.y) < 0 ? -1 : 1;
-  Weights weights = {side * area(b, c, x, y) / w[0], side * area(c, a, x, y) / w[1],
-                     side * area(a, b, x, y) / w[2]};
-  for (double& weight : weights) weight = std::max(weight, 0.0);
+/// The weights of the corners, in view space, at a point of the screen (M. Olano, T. Greer, "Triangle scan
+/// conversion using 2D homogeneous coordinates", 1997): their sum has the sign of the winding, wherever the
+/// corners lie. A pixel's centre may lie a little outside: no weight leaves [0, 1].
+Weights weights_at(const Triangle& screen_corners, double x, double y) {
+  const auto& [a, b, c] = screen_corners;
+  Weights weights = {area(b, c, x, y), area(c, a, x, y), area(a, b, x, y)};
+  const double side = weights[0] + weights[1] + weights[2] < 0 ? -1 : 1;
+  for (double& weight : weights) weight = std::max(side * weight, 0.0);
   const double sum = weights[0] + weights[1] + weights[2];
   if (!(sum > 0)) return {1, 0, 0};
   return {weights[0] / sum, weights[1] / sum, weights[2] / sum};
@@ -53,23 +54,42 @@ Weights weights_at(const Triangle& p_ndc, const std::array<double, 3>& w, double
 
 }  // namespace
 
-Color SurfaceShader::add(const TriangleBatch& p_ndc, std::size_t index, Color own_color) {
+/// The triangle in clip space with all its attributes, if it is a piece of a clipped one that one.
+ClipTriangle SurfaceShader::clip_triangle(const TriangleBatch& p_ndc, std::size_t index,
+                                          Color own_color) const {
   const AttributeArrays& attributes = p_ndc.attributes;
-  Surface surface{p_ndc.triangles[index], {1, 1, 1}, {}};
+  const ClipTriangle* const whole = p_ndc.whole_of(index);
+  ClipTriangle corners;
+  if (whole != nullptr) corners = *whole;
   for (std::size_t v = 0; v < 3; ++v) {
-    const Vec3& p = surface.p_ndc[v];
-    SurfacePoint& corner = surface.corners[v];
-    if (!attributes.w.empty()) {
-      surface.w[v] = attributes.w[index][v];
-    } else if (setup_.view_from_ndc) {
-      surface.w[v] = setup_.view_from_ndc->w_of(p);
-    }
-    if (setup_.view_from_ndc) corner.position = (*setup_.view_from_ndc)(p, surface.w[v]);
-    corner.color = to_vec3(own_color);
+    VertexLine& corner = corners[v];
+    if (attributes.colors.empty()) corner.color = to_vec3(own_color);
+    if (whole != nullptr) continue;
+    const Vec3& p = p_ndc.triangles[index][v];
+    corner.w = !attributes.w.empty()   ? attributes.w[index][v]
+               : setup_.view_from_clip ? setup_.view_from_clip->w_of(p)
+                                       : 1;
+    corner.position = scaled(p, corner.w);
     if (!attributes.colors.empty()) corner.color = attributes.colors[index][v];
     if (!attributes.normals.empty()) corner.normal = attributes.normals[index][v];
   }
-  if (attributes.normals.empty() || setup_.model == ShadingModel::flat) use_face_normal(surface.corners);
+  return corners;
+}
+
+Color SurfaceShader::add(const TriangleBatch& p_ndc, std::size_t index, Color own_color) {
+  const ClipTriangle corners = clip_triangle(p_ndc, index, own_color);
+  // Only the ratios of weights count: scaled like this, nothing leaves a double's range.
+  const double scale =
+      1 / std::max({std::fabs(corners[0].w), std::fabs(corners[1].w), std::fabs(corners[2].w)});
+  Surface surface;
+  for (std::size_t v = 0; v < 3; ++v) {
+    const auto& [p, w, color, normal] = corners[v];
+    surface.screen_corners[v] = scaled({p.x, p.y, w}, scale);
+    const Vec3 p_view = setup_.view_from_clip ? (*setup_.view_from_clip)(p, w) : Vec3();
+    surface.corners[v] = {p_view, normal, color};
+  }
+  if (p_ndc.attributes.normals.empty() || setup_.model == ShadingModel::flat)
+    use_face_normal(surface.corners);
   light_corners(surface);
   surfaces_.push_back(surface);
   assert(surfaces_.size() < kNoSurface.rgb());
@@ -97,7 +117,7 @@ std::span<const Color> SurfaceShader::shade(int row, std::span<const Color> ids)
 }
 
 Color SurfaceShader::color_at(const Surface& surface, double x, double y) const {
-  const SurfacePoint point = mean(surface.corners, weights_at(surface.p_ndc, surface.w, x, y));
+  const SurfacePoint point = mean(surface.corners, weights_at(surface.screen_corners, x, y));
   return rounded_color(setup_.model == ShadingModel::phong ? lit_color(point, setup_.lighting) : point.color);
 }
 

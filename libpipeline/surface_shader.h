@@ -21,18 +21,18 @@ enum class ShadingModel { none, flat, gouraud, phong };
 /// Gives pixels their colours after it is known which triangle each shows: keeps the triangles of a scene
 /// with colours or lights, each under an id that stands in the visibility algorithm's place of a colour. So
 /// hidden pixels are never shaded. What lies between vertices is interpolated perspective-correctly. Flat and
-/// gouraud shading light triangles as they come, phong shading lights visible pixels; without vertex normals
-/// both use the triangle's.
+/// gouraud shading light triangles as they come, those that were clipped as they were before, phong shading
+/// lights visible pixels; without vertex normals both use the triangle's.
 class SurfaceShader {
  public:
   /// The id of a pixel without a triangle.
   static constexpr Color kNoSurface = Color::from_rgb(0xffffffff);
 
-  /// How a scene is lit. `view_from_ndc` is needed by every model but `none`.
+  /// How a scene is lit. `view_from_clip` is needed by every model but `none`.
   struct Setup {
     ShadingModel model = ShadingModel::none;
     Lighting lighting;
-    std::optional<ViewFromNdc> view_from_ndc;
+    std::optional<ViewFromClip> view_from_clip;
     Color background;
   };
 
@@ -45,12 +45,13 @@ class SurfaceShader {
 
  private:
   struct Surface {
-    Triangle p_ndc;
-    std::array<double, 3> w;
+    Triangle screen_corners;  // x and y of clip space, and w in the place of z
     std::array<SurfacePoint, 3>
         corners;  // in view space; the colours are lit already except for phong shading
   };
 
+  [[nodiscard]] ClipTriangle clip_triangle(const TriangleBatch& p_ndc, std::size_t index,
+                                           Color own_color) const;
   void light_corners(Surface& surface) const;
   [[nodiscard]] Color color_at(const Surface& surface, double x, double y) const;
 

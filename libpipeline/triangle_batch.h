@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "libpipeline/vec.h"
@@ -46,6 +47,9 @@ struct TriangleBatch {
   AttributeArrays attributes;
   /// What the model stage has read but not yet calculated: in order, the first for the first triangle.
   std::vector<PendingTransform> pending_transforms;
+  /// For each triangle that is a piece of a clipped one, that one; empty if there is none, else as long as
+  /// `triangles`. Only lit scenes have them: corners are lit before the cut, and a piece holds not all.
+  std::vector<std::shared_ptr<const ClipTriangle>> wholes;
 
   [[nodiscard]] std::size_t size() const { return triangles.size(); }
   [[nodiscard]] bool empty() const { return triangles.empty(); }
@@ -57,6 +61,7 @@ struct TriangleBatch {
     decimal_marks.clear();
     attributes.clear();
     pending_transforms.clear();
+    wholes.clear();
   }
   /// Keeps the first `count` triangles.
   void truncate(std::size_t count) {
@@ -66,6 +71,7 @@ struct TriangleBatch {
     if (!low_parts.empty()) low_parts.resize(count);
     if (!decimal_marks.empty()) decimal_marks.resize(count);
     attributes.truncate(count);
+    if (!wholes.empty()) wholes.resize(count);
   }
   void add(const Triangle& triangle, std::uint64_t number, const VertexLines& vertex_lines) {
     triangles.push_back(triangle);
@@ -73,6 +79,15 @@ struct TriangleBatch {
     lines.push_back(vertex_lines);
     if (!low_parts.empty()) low_parts.emplace_back();
     if (!decimal_marks.empty()) decimal_marks.emplace_back();
+    if (!wholes.empty()) wholes.emplace_back();
+  }
+  /// Says of which triangle the last one is a piece.
+  void set_last_whole(std::shared_ptr<const ClipTriangle> whole) {
+    wholes.resize(size());
+    wholes.back() = std::move(whole);
+  }
+  [[nodiscard]] const ClipTriangle* whole_of(std::size_t index) const {
+    return wholes.empty() ? nullptr : wholes[index].get();
   }
 };
 

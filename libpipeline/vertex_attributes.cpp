@@ -52,8 +52,9 @@ VertexLine to_vertex_line(std::span<const PlainNumber, kMaxColumns> columns, con
   return vertex;
 }
 
-VertexLineReader::VertexLineReader(const AttributeSet& attributes)
+VertexLineReader::VertexLineReader(const AttributeSet& attributes, RangeOfW range_of_w)
     : attributes_(attributes),
+      range_of_w_(range_of_w),
       column_count_(std::size_t{3} + (attributes.w ? 1 : 0) + (attributes.color ? 3 : 0) +
                     (attributes.normal ? 3 : 0)) {
   for (std::size_t i = 0; i < names_.size(); ++i)
@@ -66,7 +67,9 @@ VertexLine VertexLineReader::read(LineScanner& line, std::size_t vertex) const {
   values.position.x = line.number("the x of ", name);
   values.position.y = line.number("the y of ", name);
   values.position.z = line.number("the z of ", name);
-  if (attributes_.w)
+  if (attributes_.w && range_of_w_ == RangeOfW::any)
+    values.w = line.number("the w of ", name);
+  else if (attributes_.w)
     values.w = read_number(line, "the w of ", name, " above 0", [](double value) { return value > 0; });
   if (attributes_.color) values.color = read_color(line, name);
   if (attributes_.normal) {

@@ -39,18 +39,23 @@ using PlainVertexLines = std::array<std::array<PlainNumber, kMaxColumns>, 3>;
 
 /// The vertex on a line with these attributes.
 VertexLine to_vertex_line(std::span<const PlainNumber, kMaxColumns> columns, const AttributeSet& attributes);
+/// A triangle in clip space, before the divide: w may be anything.
+using ClipTriangle = std::array<VertexLine, 3>;
 
 /// The names of all columns: "x y z", then those of the attributes.
 std::string column_names(const AttributeSet& attributes);
 
+/// Whether the column w must be above 0, as behind the divide, or may be anything, as in clip space.
+enum class RangeOfW { above_zero, any };
+
 /// Reads vertex lines with these attributes. Errors name the columns that are expected.
 class VertexLineReader {
  public:
-  explicit VertexLineReader(const AttributeSet& attributes = {});
+  explicit VertexLineReader(const AttributeSet& attributes = {}, RangeOfW range_of_w = RangeOfW::above_zero);
 
   [[nodiscard]] const AttributeSet& attributes() const { return attributes_; }
-  /// Reads the line of vertex `vertex` (0 to 2) to its end. An InputError unless w > 0 and colours lie from 0
-  /// to 255.
+  /// Reads the line of vertex `vertex` (0 to 2) to its end. An InputError unless w is in its range and
+  /// colours lie from 0 to 255.
   VertexLine read(LineScanner& line, std::size_t vertex) const;
   /// The fast path: reads the three lines of a triangle at `p` and returns the beginning of the line behind
   /// them. Null if they hold anything but plain numbers (plain_number.h), or do not end before `end`, or one
@@ -61,7 +66,8 @@ class VertexLineReader {
   [[nodiscard]] bool are_in_range(std::span<const PlainNumber> columns) const;
 
   AttributeSet attributes_;
-  std::size_t column_count_ = 3;
+  RangeOfW range_of_w_;
+  std::size_t column_count_;
   std::array<std::string, 3> names_;
 };
 

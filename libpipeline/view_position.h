@@ -5,16 +5,16 @@
 
 namespace pipeline {
 
-/// Takes projected points back to view space: the inverse of a projection and its divide, in doubles.
-class ViewFromNdc {
+/// Takes points of clip space back to view space: the inverse of a projection, in doubles.
+class ViewFromClip {
  public:
-  explicit ViewFromNdc(const ProjectionTransform& projection);
+  explicit ViewFromClip(const ProjectionTransform& projection);
 
   [[nodiscard]] bool is_perspective() const { return is_perspective_; }
   /// The w of clip space of a point, from its depth: its distance in front of the eye, or 1 if orthographic.
   [[nodiscard]] double w_of(const Vec3& p_ndc) const;
-  /// The point in view space, given its w.
-  [[nodiscard]] Vec3 operator()(const Vec3& p_ndc, double w) const;
+  /// The point in view space; it may lie behind the eye.
+  [[nodiscard]] Vec3 operator()(const Vec3& p_clip, double w) const;
 
  private:
   bool is_perspective_;

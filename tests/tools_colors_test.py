@@ -72,6 +72,31 @@ class ThroughTheStages(ToolTest):
         text = pipe(["model"], ["view"], ["project"], stdin=scene).decode()
         self.assertTrue(text.startswith("attributes w color\n0.0000000 0.0000000 0."), text)
 
+    def test_project_gives_clipped_triangles_their_corners_where_there_is_light(self):
+        # fovY 90, near 1, far 3: in clip space x and y stay, z is 2 d - 3 for the distance d, and w is d.
+        lit = CAMERA.replace("60 1 1 100", "90 1 1 3").replace("0 0 5", "0 0 0", 1).replace("0 0 0\n0 1 0", "0 0 -1\n0 1 0")
+        lit += "color 9 8 7\nLIGHTtriangle\n-1 0 -3\n1 0 -3\n0 2 0.5\nend\n"
+        text = pipe(["model"], ["view"], ["project", "--digits", "2"], stdin=lit.replace("LIGHT", "light 0 0 0 1 1 1\n"))
+        # From d = 3 to d = -0.5 the near plane, d = 1, is met after 4/7.
+        body = text.decode().split("light 0 0 0 1 1 1\n")[1]
+        self.assertEqual(body, (
+            "clipped\n-1 0 3 3 9 8 7\n1 0 3 3 9 8 7\n0 2 -4 -0.5 9 8 7\n\n"
+            "-0.33 0.00 1.00 3 9.00 8.00 7.00\n0.33 0.00 1.00 3 9.00 8.00 7.00\n0.43 1.14 -1.00 1 9.00 8.00 7.00\n\n"
+            "triangle 0\n"
+            "-0.33 0.00 1.00 3 9.00 8.00 7.00\n0.43 1.14 -1.00 1 9.00 8.00 7.00\n-0.43 1.14 -1.00 1 9.00 8.00 7.00\n\n"))
+        self.assertNotIn(b"clipped", pipe(["model"], ["view"], ["project"], stdin=lit.replace("LIGHT", "")))
+
+    def test_only_projected_texts_have_clipped_triangles(self):
+        for tool in ("view", "project"):
+            done = run(tool, stdin=HEADER + "clipped\n")
+            self.assert_fails(done, 1, f"{tool}: <stdin>:5:1: expected 'triangle N' or a vertex, found 'clipped'")
+
+    def test_a_clipped_triangle_has_w(self):
+        done = run("zbuf", "config.txt", stdin="ortho -1 1 -1 1 1 2\nattributes w color\nlight 0 0 0 1 1 1\nclipped\n"
+                   "0 0 0 -1 255 0 0\n0 0 0 0 255 0\n")
+        self.assert_fails(done, 1, "zbuf: <stdin>:6:14: expected the blue of vertex 2 of 3 (x y z w r g b), found the end "
+                                   "of the line")
+
     def test_bare_leaves_all_of_it_out(self):
         plain = CAMERA + "translate 1 0 0\n" + 2 * "triangle\n0 0 0\n1 0 0\n0 1 0\n" + "end\n"
         self.assertEqual(pipe(["model", "--bare"], stdin=LIT), pipe(["model", "--bare"], stdin=plain))

@@ -22,9 +22,15 @@ ATTENUATION = (1, 0.01, 0.02)
 # Position, colour, normal; the triangle is slanted, so that perspective shows.
 CORNERS = [((-2, -2, 2), (255, 0, 0), (0, 0, 1)), ((2, -1, -3), (0, 255, 30), (0.6, 0, 0.8)),
            ((0, 2, 0), (30, 60, 255), (0, 0.8, 0.6))]
+# Beyond the edges of the picture.
+LARGE = [(tuple(2 * x for x in p), c, n) for p, c, n in CORNERS]
 # The last corner lies behind the eye.
 CUT = [((-2, -2, 0), (255, 0, 0), (0, 0, 1)), ((2, -2, 0), (0, 255, 30), (0.6, 0, 0.8)),
        ((0, -1, 6), (30, 60, 255), (0, 0.8, 0.6))]
+# The last two do, so that one edge is gone.
+CUT_TWICE = [((-0.5, 1, -9), (255, 0, 0), (0, 0, 1)), ((6, -3, 9), (0, 255, 30), (0.6, 0, 0.8)),
+             ((-5, -2.5, 7), (30, 60, 255), (0, 0.8, 0.6))]
+MODELS = ("none", "flat", "gouraud", "phong")
 
 
 def words(*numbers):
@@ -122,8 +128,9 @@ class Shading(ToolTest):
         data = pathlib.Path("out.ppm").read_bytes()[-3 * SIZE * SIZE:]
         return [[tuple(data[3 * (SIZE * r + c):][:3]) for c in range(SIZE)] for r in range(SIZE)]
 
-    def assert_image(self, corners, projection, model, *options, lit=True):
-        stage3 = pipe(["model"], ["view"], ["project"], stdin=scene_of(corners, projection, lit))
+    def assert_image(self, corners, projection, model, *options, lit=True, clip="auto"):
+        stage3 = pipe(["model"], ["view"], ["project", "--clip", clip], stdin=scene_of(corners, projection, lit))
+        self.assertEqual(b"clipped" in stage3, lit and (corners in (CUT, CUT_TWICE) or clip == "frustum"))
         image = self.image_of(stage3, *options)
         hit_count = 0
         for row in range(SIZE):
@@ -161,8 +168,18 @@ class Shading(ToolTest):
         self.assert_image(CORNERS, PERSPECTIVE, "phong")
 
     def test_what_is_cut_looks_like_the_whole(self):
-        self.assert_image(CUT, PERSPECTIVE, "phong", "--shading", "phong")
-        self.assert_image(CUT, PERSPECTIVE, "none", "--shading", "none")
+        for corners in (CUT, CUT_TWICE):
+            for clip in ("auto", "near", "frustum"):
+                for model in MODELS:
+                    with self.subTest(corners=corners, clip=clip, model=model):
+                        self.assert_image(corners, PERSPECTIVE, model, "--shading", model, clip=clip)
+
+    def test_what_is_cut_at_the_sides_looks_like_the_whole(self):
+        for model in MODELS:
+            self.assert_image(LARGE, ORTHOGRAPHIC, model, "--shading", model, clip="frustum")
+
+    def test_what_is_cut_without_lights_interpolates_its_colors(self):
+        self.assert_image(CUT_TWICE, PERSPECTIVE, "none", lit=False)
 
     def test_both_algorithms_give_the_same_image(self):
         stage3 = pipe(["model"], ["view"], ["project"], stdin=scene_of(CORNERS, PERSPECTIVE))
@@ -196,6 +213,84 @@ class Shading(ToolTest):
         done = run("zbuf", "config.txt", stdin="light 0 0 0 1 1 1\n")
         self.assert_fails(done, 1, "zbuf: <stdin>:2:1: expected the projection of a text with lights (a header line "
                                    "frustum or ortho), found none")
+
+
+def ball(rings, sectors):
+    """The triangles of a ball of radius 1 as vertex lines with normals."""
+    def corner(i, k):
+        u, v = math.pi * i / rings, math.tau * k / sectors
+        p = (math.sin(u) * math.cos(v), math.cos(u), math.sin(u) * math.sin(v))
+        return words(*("%.9f" % x for x in p + p))
+
+    for i in range(rings):
+        for k in range(sectors):
+            a, b, c, d = corner(i, k), corner(i, k + 1), corner(i + 1, k + 1), corner(i + 1, k)
+            yield f"triangle\n{a}\n{b}\n{c}\n"
+            yield f"triangle\n{a}\n{c}\n{d}\n"
+
+
+class WholePictures(ToolTest):
+    SIZE = 200
+
+    def image_of(self, scene, *options):
+        """Rows of red, green, blue."""
+        stage3 = pipe(["model"], ["view"], ["project"], stdin=scene)
+        pathlib.Path("config.txt").write_text(f"{self.SIZE} {self.SIZE}\n")
+        self.assert_quiet_success(run("zbuf", "config.txt", "--image", "out.ppm", *options, stdin=stage3))
+        data = pathlib.Path("out.ppm").read_bytes()[-3 * self.SIZE ** 2:]
+        pixels = [tuple(data[i:i + 3]) for i in range(0, len(data), 3)]
+        return [pixels[i:i + self.SIZE] for i in range(0, len(pixels), self.SIZE)]
+
+    def largest_bend(self, image):
+        """Of the brightness along rows and columns inside the ball, whose radius is 45 pixels, away from its rim."""
+        bends = []
+        for i in range(70, 130):
+            for k in range(70, 130):
+                if math.hypot(i - 99.5, k - 99.5) > 28:
+                    continue
+                here = 2 * image[i][k][0]
+                bends += [abs(image[i][k - 1][0] + image[i][k + 1][0] - here),
+                          abs(image[i - 1][k][0] + image[i + 1][k][0] - here)]
+        return max(bends)
+
+    def test_a_ball_under_phong_shows_no_edge(self):
+        scene = (EYE_AT_5.replace("0 0 5", "0 0 4") + PERSPECTIVE + "\ncolor 255 255 255\nattributes normal\n"
+                 "light 300 400 900 1 1 1\n" + "".join(ball(12, 24)) + "end\n")
+        # The brightness of a true ball bends by about 255 / 45^2 = 0.13; rounding three values adds less than 2.
+        self.assertLessEqual(self.largest_bend(self.image_of(scene, "--coverage", "center")), 2)
+        # Pixels whose centres lie beyond an edge, by half a pixel at most, show the edge: half of a pixel's rise of
+        # 255 / 45 is missing there, and a bend has it twice.
+        self.assertLessEqual(self.largest_bend(self.image_of(scene, "--coverage", "nearest")), 2 + 255 / 45)
+        # What has edges shows them.
+        self.assertGreater(self.largest_bend(self.image_of(scene, "--shading", "flat")), 10)
+
+    def test_a_flat_surface_under_a_distant_light_is_lit_alike_by_all_models(self):
+        scene = (EYE_AT_5 + PERSPECTIVE + "\ncolor 255 128 64\nattributes normal\nmaterial 1 0.9 0 1\n"
+                 "ambient 0.1 0.1 0.1\nlight 3e7 4e7 5e7 0.9 0.8 0.7\ntriangle\n"
+                 "-2 -2 0 -0.6 0 0.8\n2 -2 3 -0.6 0 0.8\n-2 2 0 -0.6 0 0.8\nend\n")
+        images = [sum(self.image_of(scene, "--shading", model), []) for model in ("flat", "gouraud", "phong")]
+        # Not black, of one colour: 255 * (0.1 + 0.9 * 0.9 * (-1.8 + 4) / sqrt(50)) and so on.
+        share = 0.9 * (-0.6 * 3 + 0.8 * 5) / math.sqrt(50)
+        expected = [c * (0.1 + share * i) for c, i in zip((255, 128, 64), (0.9, 0.8, 0.7))]
+        for pixels in zip(*images):
+            self.assertTrue(pixels[0] == pixels[1] == pixels[2] == (0, 0, 0) or
+                            all(abs(c - e) <= 1 for pixel in pixels for c, e in zip(pixel, expected)), pixels)
+        self.assertGreater(len([pixel for pixel in images[0] if pixel != (0, 0, 0)]), 2000)
+
+    def test_a_mirrored_scene_gives_the_mirrored_image(self):
+        scene = (EYE_AT_5.replace("0 0 5", "0 0 4") + PERSPECTIVE + "\nattributes color normal\nmaterial 1 0.7 0.4 20\n"
+                 "MIRROR\nlight 2 3 4 1 0.8 0.6\nlight -4 -1 1 0.3 0.3 0.5\nrotate 33 1 2 3\n" +
+                 "".join(line + "\n" if len(line.split()) < 6 else words(*line.split()[:3], *colour, *line.split()[3:]) + "\n"
+                         for triangle in ball(5, 7)
+                         for line, colour in zip(triangle.splitlines(), ("", (255, 0, 9), (20, 255, 3), (90, 40, 255)))) +
+                 "end\n")
+        for model in MODELS:
+            options = ("--shading", model, "--coverage", "center")
+            image = self.image_of(scene.replace("MIRROR\n", ""), *options)
+            for axis, turned in (("-1 1 1", [row[::-1] for row in image]), ("1 -1 1", image[::-1])):
+                mirrored = self.image_of(scene.replace("MIRROR", "scale " + axis), *options)
+                for a, b in zip(sum(turned, []), sum(mirrored, [])):
+                    self.assertLessEqual(max(abs(p - q) for p, q in zip(a, b)), 1, (model, axis))
 
 
 if __name__ == "__main__":

@@ -114,8 +114,8 @@ int main(int argc, char** argv) {
     StageWriter writer(tool.output(), numbers.format(), false);
     const Appearance appearance = in_clip_space(reader.header().appearance);
     CameraText rest;
-    if (!appearance.lights.empty())
-      rest.projection = {volume_of(camera.projection->value, projection), camera.projection->place};
+    const bool is_lit = !appearance.lights.empty();
+    if (is_lit) rest.projection = {volume_of(camera.projection->value, projection), camera.projection->place};
     writer.write_header({reader.header().framed, rest, appearance});
 
     const auto read = [&](TriangleBatch& batch) { return reader.read(batch); };
@@ -123,6 +123,7 @@ int main(int argc, char** argv) {
     const auto make_transform = [&](CoordinateRounder& rounder) {
       Worker& worker = workers.emplace_back(
           ProjectionStage(projection, chosen.clip, chosen.cull, rounder, chosen.clip_inset));
+      if (is_lit) worker.stage.keep_clipped_triangles();
       return [&worker](TriangleBatch& batch) { worker.project(batch); };
     };
     StageLoop(tool, writer, numbers.rounder(tool.input().file()), numbers.thread_count())

@@ -139,6 +139,7 @@ void write_all(Tool& tool, const RenderOptions& chosen, const SampledVisible<Vis
 template <VisibilityAlgorithm Visible>
 void render_with(Tool& tool, const RenderOptions& chosen, const ScreenConfig& screen) {
   StageReader reader(tool.input(), chosen.coverage == Coverage::center);
+  reader.accept_clipped();
   const ScreenConfig shaded_screen = sample_screen(screen, chosen.sample_count);
   std::optional<SurfaceShader> shader = surface_shader(reader, shaded_screen, chosen.shading);
   tool.timing().lap(&Timing::read_seconds);
