@@ -91,9 +91,17 @@ Color SurfaceShader::add(const TriangleBatch& p_ndc, std::size_t index, Color ow
   if (p_ndc.attributes.normals.empty() || setup_.model == ShadingModel::flat)
     use_face_normal(surface.corners);
   light_corners(surface);
+  if (setup_.wireframe) add_edges(p_ndc, index, surface.screen_corners);
   surfaces_.push_back(surface);
   assert(surfaces_.size() < kNoSurface.rgb());
   return Color::from_rgb(static_cast<std::uint32_t>(surfaces_.size() - 1));
+}
+
+void SurfaceShader::add_edges(const TriangleBatch& p_ndc, std::size_t index, const Triangle& screen_corners) {
+  if (setup_.says_what_was_clipped)
+    setup_.wireframe->add(screen_corners);
+  else
+    setup_.wireframe->add_piece(p_ndc.triangles[index], screen_corners, p_ndc.numbers[index]);
 }
 
 void SurfaceShader::light_corners(Surface& surface) const {
@@ -110,13 +118,15 @@ std::span<const Color> SurfaceShader::shade(int row, std::span<const Color> ids)
   const double y = grid_.y_of(row);
   for (std::size_t column = 0; column < ids.size(); ++column) {
     const Color id = ids[column];
-    row_[column] = id == kNoSurface ? setup_.background
-                                    : color_at(surfaces_[id.rgb()], grid_.x_of(static_cast<int>(column)), y);
+    row_[column] =
+        id == kNoSurface ? setup_.background : color_at(id.rgb(), grid_.x_of(static_cast<int>(column)), y);
   }
   return row_;
 }
 
-Color SurfaceShader::color_at(const Surface& surface, double x, double y) const {
+Color SurfaceShader::color_at(std::uint32_t id, double x, double y) const {
+  if (setup_.wireframe && !setup_.wireframe->is_on_edge(id, x, y)) return setup_.background;
+  const Surface& surface = surfaces_[id];
   const SurfacePoint point = mean(surface.corners, weights_at(surface.screen_corners, x, y));
   return rounded_color(setup_.model == ShadingModel::phong ? lit_color(point, setup_.lighting) : point.color);
 }

@@ -12,6 +12,7 @@
 #include "libpipeline/shading.h"
 #include "libpipeline/triangle_batch.h"
 #include "libpipeline/view_position.h"
+#include "libpipeline/wireframe.h"
 
 namespace pipeline {
 
@@ -34,6 +35,8 @@ class SurfaceShader {
     Lighting lighting;
     std::optional<ViewFromClip> view_from_clip;
     Color background;
+    std::optional<Wireframe> wireframe;  // then pixels off the edges show the background
+    bool says_what_was_clipped = false;  // as texts with lights do
   };
 
   SurfaceShader(const ScreenConfig& screen, Setup setup) : grid_(screen), setup_(std::move(setup)) {}
@@ -53,7 +56,8 @@ class SurfaceShader {
   [[nodiscard]] ClipTriangle clip_triangle(const TriangleBatch& p_ndc, std::size_t index,
                                            Color own_color) const;
   void light_corners(Surface& surface) const;
-  [[nodiscard]] Color color_at(const Surface& surface, double x, double y) const;
+  void add_edges(const TriangleBatch& p_ndc, std::size_t index, const Triangle& screen_corners);
+  [[nodiscard]] Color color_at(std::uint32_t id, double x, double y) const;
 
   PixelGrid grid_;
   Setup setup_;

@@ -1,15 +1,17 @@
 #!/usr/bin/env python3
-"""The pictures zbuf makes beside the default one: PNG, depth images, several samples a pixel, a depth epsilon.
+"""The pictures zbuf makes beside the default one: PNG, depth images, several samples a pixel, a depth epsilon, a
+wireframe.
 
 usage: tools_pictures_test.py BIN_DIR [UNITTEST ARGUMENT...]
 """
+import math
 import pathlib
 import random
 import struct
 import unittest
 import zlib
 
-from toolbox import ToolTest, run
+from toolbox import ToolTest, pipe, run
 
 COLUMNS, ROWS = 37, 23
 NEEDS_PNG = b"without libpng" in run("zbuf", "config.txt", "--image", "x.png").stderr
@@ -202,6 +204,76 @@ class DepthEpsilon(Pictures):
         done = run("zbuf", "config.txt", "--depth-epsilon", "0.1", "--algorithm", "scanline")
         self.assert_fails(done, 2, "zbuf: --depth-epsilon: expected 0 with --algorithm scanline, which keeps no order of "
                                    "drawing, found a number above (try zbuf --help)")
+
+
+def distance_to_segment(p, a, b):
+    along, way = (b[0] - a[0], b[1] - a[1]), (p[0] - a[0], p[1] - a[1])
+    t = (way[0] * along[0] + way[1] * along[1]) / (along[0] ** 2 + along[1] ** 2)
+    t = min(1, max(0, t))
+    return math.hypot(way[0] - t * along[0], way[1] - t * along[1])
+
+
+class Wireframes(Pictures):
+    SCENE = "0 0 0\n0 0 -1\n0 1 0\n90 1 1 10\nLIGHTcolor 255 255 255\ntriangle\n"
+    # All in front of the eye, one corner in the picture; two of them; one far behind the eye; two of them; one beyond the
+    # far plane, none in the picture.
+    CUT_AT_SIDES = ("-1 1.5 -5\n9 -3 -4\n-4 -9 -6\n", "-1 -1 -4\n1.3 -2 -5\n3 40 -6\n", "-9 -3 -5\n9 -4 -6\n1 90 -40\n")
+    CUT_AT_THE_EYE = ("-1 -1 -2.9\n2 -1.3 -3\n3 4 7\n", "0.5 0.6 -5\n3 -9 4\n-4 -7 9\n")
+
+    def wireframe(self, scene, clip):
+        stage3 = pipe(["model"], ["view"], ["project", "--clip", clip], stdin=scene + "end\n")
+        return self.pixels(stage3, "--wireframe", "--coverage", "center", "--shading", "none")
+
+    def test_pixels_near_an_edge_are_shown(self):
+        corners = [(-0.83, -0.71, 0), (0.91, -0.33, 0), (-0.12, 0.77, 0)]
+        def on_screen(p):
+            return (p[0] + 1) * COLUMNS / 2 - 0.5, (1 - p[1]) * ROWS / 2 - 0.5
+        a, b, c = map(on_screen, corners)
+        surface, image = self.pixels(triangles(corners)), self.pixels(triangles(corners), "--wireframe")
+        shown_count = 0
+        for i in range(0, len(image), 3):
+            p = (i // 3 % COLUMNS, i // 3 // COLUMNS)
+            is_near = min(distance_to_segment(p, a, b), distance_to_segment(p, b, c), distance_to_segment(p, c, a)) <= 0.5
+            shown_count += is_near and any(surface[i:i + 3])
+            self.assertEqual(image[i:i + 3], surface[i:i + 3] if is_near else bytes(3), p)
+        self.assertGreater(shown_count, 30)
+
+    def test_cuts_are_no_edges(self):
+        for corners in self.CUT_AT_SIDES:
+            for light in ("", "light 0 0 0 1 1 1\n"):
+                scene = self.SCENE.replace("LIGHT", light) + corners
+                whole = self.wireframe(scene, "none")
+                self.assertGreater(sum(map(bool, whole)), 12)
+                self.assertEqual(self.wireframe(scene, "frustum"), whole)
+
+    def test_cuts_at_the_near_plane_are_no_edges(self):
+        for corners in self.CUT_AT_THE_EYE:
+            plain, lit = (self.wireframe(self.SCENE.replace("LIGHT", light) + corners, "near")
+                          for light in ("", "light 0 0 0 1 1 1\n"))
+            self.assertGreater(sum(map(bool, plain)), 12)
+            self.assertEqual(plain, lit)
+
+    def test_an_edge_between_two_triangles_is_drawn(self):
+        quad = triangles([(-0.8, -0.8, 0), (0.8, -0.8, 0), (0.8, 0.8, 0)], [(-0.8, -0.8, 0), (0.8, 0.8, 0), (-0.8, 0.8, 0)])
+        image = self.pixels(quad, "--wireframe")
+        middle = 3 * (ROWS // 2 * COLUMNS + COLUMNS // 2)
+        self.assertNotEqual(image[middle:middle + 3], bytes(3))
+        self.assertEqual(image[middle + 9:middle + 12], bytes(3))
+
+    def test_the_background_shows_between_the_edges(self):
+        image = self.pixels("background 1 2 3\n" + wall(0), "--wireframe")
+        self.assertEqual(image, bytes((1, 2, 3)) * (COLUMNS * ROWS))
+
+    def test_algorithms_and_threads_agree(self):
+        stage3 = random_triangles(9, 200)
+        expected = self.pixels(stage3, "--wireframe")
+        for options in (["--threads", "3"], ["--algorithm", "scanline"]):
+            self.assertEqual(self.pixels(stage3, "--wireframe", *options), expected)
+
+    def test_samples_keep_the_width_of_lines(self):
+        corners = triangles([(-9, -9, 0), (9, -9, 0), (0.013, 0.5, 0)])
+        one, many = (sum(self.pixels(corners, "--wireframe", "--samples", n, "--coverage", "center")) for n in (1, 8))
+        self.assertLess(abs(one / many - 1), 0.25)
 
 
 if __name__ == "__main__":

@@ -36,6 +36,8 @@ void add_picture_options(CLI::App& options, RenderOptions& chosen) {
       ->check(CLI::Range(1, kMaxSamples))
       ->capture_default_str();
   add_shading_option(options, chosen.shading);
+  options.add_flag("--wireframe", chosen.wireframe,
+                   "Show of visible surfaces only what lies within half a pixel of an edge");
 }
 
 void check_picture_options(const RenderOptions& chosen) {

@@ -7,7 +7,7 @@
 namespace pipeline {
 
 /// What makes another picture of the same triangles: `--depth-image`, `--depth-epsilon`, `--samples`,
-/// `--shading`.
+/// `--shading`, `--wireframe`.
 void add_picture_options(CLI::App& options, RenderOptions& chosen);
 
 /// A UsageError if options do not go together.

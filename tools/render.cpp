@@ -141,7 +141,9 @@ void render_with(Tool& tool, const RenderOptions& chosen, const ScreenConfig& sc
   StageReader reader(tool.input(), chosen.coverage == Coverage::center);
   reader.accept_clipped();
   const ScreenConfig shaded_screen = sample_screen(screen, chosen.sample_count);
-  std::optional<SurfaceShader> shader = surface_shader(reader, shaded_screen, chosen.shading);
+  std::optional<PixelSize> wireframe;
+  if (chosen.wireframe) wireframe = {screen.dx(), screen.dy()};
+  std::optional<SurfaceShader> shader = surface_shader(reader, shaded_screen, chosen.shading, wireframe);
   tool.timing().lap(&Timing::read_seconds);
   const Color background = shader ? SurfaceShader::kNoSurface : background_color(reader.header().appearance);
   SampledVisible<Visible> visible(screen, chosen.sample_count, background);

@@ -27,6 +27,7 @@ struct RenderOptions {
   int sample_count = 1;  // along each side of a pixel, for the image alone
   int thread_count = 1;
   FragmentOptions fragments;
+  bool wireframe = false;
   std::optional<ShadingModel> shading;  // nothing: what the text asks for
 };
 

@@ -42,14 +42,17 @@ Color background_color(const Appearance& appearance) {
 }
 
 std::optional<SurfaceShader> surface_shader(const StageReader& reader, const ScreenConfig& screen,
-                                            std::optional<ShadingModel> chosen) {
+                                            std::optional<ShadingModel> chosen,
+                                            std::optional<PixelSize> wireframe) {
   const StageHeader& header = reader.header();
   const Appearance& appearance = header.appearance;
   SurfaceShader::Setup setup;
   setup.model = chosen.value_or(default_model(appearance));
   setup.background = background_color(appearance);
+  setup.says_what_was_clipped = !appearance.lights.empty();
+  if (wireframe) setup.wireframe.emplace(*wireframe);
   if (setup.model == ShadingModel::none) {
-    if (!appearance.columns().color) return std::nullopt;
+    if (!appearance.columns().color && !wireframe) return std::nullopt;
     return SurfaceShader(screen, std::move(setup));
   }
   if (appearance.lights.empty())
