@@ -61,7 +61,19 @@ Command SceneReader::next() {
     return EndCommand{};
   }
   if (keyword == "color" || is_appearance_keyword(keyword)) return read_appearance(keyword);
-  line_.fail("a command (triangle, translate, scale, rotate, push, pop or end)");
+  line_.fail(expected_commands());
+}
+
+/// The commands that may stand here.
+std::string SceneReader::expected_commands() const {
+  std::string commands = "a command (triangle, translate, scale, rotate, push, pop or end";
+  if (!has_triangle_)
+    commands +=
+        "; before the first triangle also color, attributes, background, light, ambient, material or "
+        "attenuation";
+  else if (appearance_.columns().color)
+    commands += "; also color";
+  return commands + ")";
 }
 
 /// Takes a command that says how things look. All but `color` are settled by the first triangle.

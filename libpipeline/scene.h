@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <string>
 #include <variant>
 
 #include "libpipeline/appearance.h"
@@ -82,6 +83,7 @@ class SceneReader {
   bool read_plain_triangle(TriangleCommand& triangle);
   bool take_plain_vertices(const PlainVertexLines& lines);
   VertexLine read_vertex(std::size_t index);
+  [[nodiscard]] std::string expected_commands() const;
   Command read_appearance(std::string_view keyword);
   void read_current_color();
   RotateCommand read_rotation();

@@ -308,16 +308,24 @@ TEST(Scene, NothingFollowsTheEnd) {
             "scene.txt:5:5: expected the end of the line after 'end', found 'end'");
 }
 
+const std::string kFirstCommands =
+    "a command (triangle, translate, scale, rotate, push, pop or end; before the first triangle also color, "
+    "attributes, background, light, ambient, material or attenuation)";
+
 TEST(Scene, NamesACommandItDoesNotKnow) {
   EXPECT_EQ(error_of_commands("  sphere 1\n"),
-            "scene.txt:5:3: expected a command (triangle, translate, scale, rotate, push, pop or end), found "
-            "'sphere'");
+            "scene.txt:5:3: expected " + kFirstCommands + ", found 'sphere'");
 }
 
 TEST(Scene, CommandsAreInLowerCase) {
   EXPECT_EQ(error_of_commands("Triangle\n"),
-            "scene.txt:5:1: expected a command (triangle, translate, scale, rotate, push, pop or end), found "
-            "'Triangle'");
+            "scene.txt:5:1: expected " + kFirstCommands + ", found 'Triangle'");
+}
+
+TEST(Scene, NamesColorWhereItMayChange) {
+  EXPECT_EQ(error_of_commands("color 1 2 3\ntriangle\n0 0 0\n1 0 0\n0 1 0\ncube\n"),
+            "scene.txt:10:1: expected a command (triangle, translate, scale, rotate, push, pop or end; also "
+            "color), found 'cube'");
 }
 
 TEST(Scene, AFourthVertexIsNoCommand) {

@@ -9,6 +9,8 @@ import unittest
 from toolbox import CAMERA, HEADER, TRIANGLE, ToolTest, add_claims, run
 
 COMMANDS = "a command (triangle, translate, scale, rotate, push, pop or end)"
+FIRST_COMMANDS = COMMANDS[:-1] + ("; before the first triangle also color, attributes, background, light, ambient, "
+                                  "material or attenuation)")
 VERTICES = "0 0 0\n1 0 0\n0 1 0\n"
 
 
@@ -65,8 +67,8 @@ add_claims(SceneMessages, [
     ("a scene ends with end", CAMERA + "push\n", "6:1: expected 'end', which closes a scene, found the end of the input"),
     ("nothing follows end", CAMERA + "end\n\n# c\n push\n", "8:2: expected nothing after 'end', found 'push'"),
     ("end has no arguments", CAMERA + "end 1\n", "5:5: expected the end of the line after 'end', found '1'"),
-    ("commands are known", CAMERA + "\tcube 1\n", f"5:2: expected {COMMANDS}, found 'cube'"),
-    ("commands are in lower case", CAMERA + "PUSH\n", f"5:1: expected {COMMANDS}, found 'PUSH'"),
+    ("commands are known", CAMERA + "\tcube 1\n", f"5:2: expected {FIRST_COMMANDS}, found 'cube'"),
+    ("commands are in lower case", CAMERA + "PUSH\n", f"5:1: expected {FIRST_COMMANDS}, found 'PUSH'"),
     ("push has no arguments", CAMERA + "push 1\n", "5:6: expected the end of the line after 'push', found '1'"),
     ("pop has no arguments", CAMERA + "push\npop pop\n", "6:5: expected the end of the line after 'pop', found 'pop'"),
     ("pop comes after push", CAMERA + "push\npop\npop\nend\n",
