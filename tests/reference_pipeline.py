@@ -163,7 +163,7 @@ class Scene:
         transform, saved = IDENTITY, []
         while (command := self.word()) != "end":
             if command == "triangle":
-                yield [applied(transform, self.point()) for _ in range(3)]
+                yield self.triangle(transform)
             elif command == "translate":
                 transform = composed(transform, translation(self.point()))
             elif command == "scale":
@@ -176,7 +176,13 @@ class Scene:
             elif command == "pop":
                 transform = saved.pop()
             else:
-                raise ValueError("not a command: " + command)
+                self.other_command(command, transform)
+
+    def triangle(self, transform):
+        return [applied(transform, self.point()) for _ in range(3)]
+
+    def other_command(self, command, transform):
+        raise ValueError("not a command: " + command)
 
 
 # Stage 2, viewing
@@ -338,19 +344,23 @@ def colours():
 
 
 def z_buffered(stage3, config):
-    """The depth and the colour of every pixel, each a list of rows from the top."""
+    """The depth of every pixel and the number of the triangle it shows, or None; each a list of rows from the top."""
     depth = [[config.rear] * config.width for _ in range(config.height)]
-    image = [[(0, 0, 0)] * config.width for _ in range(config.height)]
-    known_colours, more_colours = [], colours()
+    owners = [[None] * config.width for _ in range(config.height)]
     with decimal.localcontext(DIGITS_OF_DEPTH):
         for number, triangle in read_stage_text(stage3):
-            while len(known_colours) <= number:
-                known_colours.append(next(more_colours))
             for row, column, z in pixels_of(triangle, config):
                 if config.front <= z < depth[row][column]:
                     depth[row][column] = z
-                    image[row][column] = known_colours[number]
-    return depth, image
+                    owners[row][column] = number
+    return depth, owners
+
+
+def coloured(owners):
+    """The image: every triangle in its colour, on black."""
+    numbers = {number for row in owners for number in row if number is not None}
+    by_number = dict(zip(range(max(numbers, default=-1) + 1), colours()))
+    return [[(0, 0, 0) if number is None else by_number[number] for number in row] for row in owners]
 
 
 def depth_text(depth, rear):
@@ -367,17 +377,22 @@ def bmp(image):
                        40, width, height, 1, 24, 0, len(rows), 0, 0, 0, 0) + rows
 
 
-def pipeline(scene_text, config_text):
-    """The five files, by name."""
-    scene, config = Scene(scene_text), Config(config_text)
+def stages(scene, config):
+    """The four texts, by name, and which triangle each pixel shows."""
     in_world = scene.triangles
     in_view = view(scene)
     in_ndc = project(scene, in_view)
     stage3 = stage_text(in_ndc)
-    depth, image = z_buffered(stage3, config)
+    depth, owners = z_buffered(stage3, config)
     files = {"stage1.txt": stage_text(enumerate(in_world)), "stage2.txt": stage_text(enumerate(in_view)),
              "stage3.txt": stage3, "z_buffer.txt": depth_text(depth, config.rear)}
-    return {name: text.encode() for name, text in files.items()} | {"out.bmp": bmp(image)}
+    return {name: text.encode() for name, text in files.items()}, owners
+
+
+def pipeline(scene_text, config_text):
+    """The five files, by name."""
+    files, owners = stages(Scene(scene_text), Config(config_text))
+    return files | {"out.bmp": bmp(coloured(owners))}
 
 
 def read(path):

@@ -10,7 +10,9 @@ import math
 import pathlib
 import unittest
 
-from toolbox import ToolTest, pipe, run
+import reference_pipeline
+import reference_shading
+from toolbox import SOURCE, ToolTest, pipe, run
 
 SIZE = 24
 EYE_AT_5 = "0 0 5\n0 0 0\n0 1 0\n"
@@ -213,6 +215,54 @@ class Shading(ToolTest):
         done = run("zbuf", "config.txt", stdin="light 0 0 0 1 1 1\n")
         self.assert_fails(done, 1, "zbuf: <stdin>:2:1: expected the projection of a text with lights (a header line "
                                    "frustum or ortho), found none")
+
+
+def without_looks(stage3):
+    """The plain text of a lit one: no header, positions only."""
+    lines, result = stage3.decode().splitlines(), []
+    while lines:
+        line = lines.pop(0)
+        if line == "clipped":
+            del lines[:3]
+        elif not line or line.startswith("triangle") or line[0] in "-0123456789":
+            result.append(line if line.startswith("triangle") else " ".join(line.split()[:3]))
+    return "\n".join(result) + "\n"
+
+
+class WholeScenes(ToolTest):
+    """The lit samples, small, under every model: every pixel against a ray through its centre.
+
+    Which triangle a pixel shows is taken from the plain picture: the diagonal of a flat side belongs to either half.
+    """
+
+    COLUMNS, ROWS = 60, 45
+
+    def pixels(self, stage3, *options):
+        self.assert_quiet_success(run("zbuf", "config.txt", "--image", "out.ppm", *options, stdin=stage3))
+        data = pathlib.Path("out.ppm").read_bytes()[-3 * self.COLUMNS * self.ROWS:]
+        return [tuple(data[i:i + 3]) for i in range(0, len(data), 3)]
+
+    def owners(self, stage3, coverage, count):
+        numbers = {colour: number for number, colour in zip(range(count), reference_pipeline.colours())}
+        seen = [numbers.get(pixel) for pixel in self.pixels(without_looks(stage3), "--coverage", coverage)]
+        return [seen[i:i + self.COLUMNS] for i in range(0, len(seen), self.COLUMNS)]
+
+    def test_every_pixel_is_what_its_ray_finds(self):
+        config_text = f"{self.COLUMNS} {self.ROWS}\n"
+        pathlib.Path("config.txt").write_text(config_text)
+        config = reference_pipeline.Config(config_text)
+        for name in ("inside", "orthographic", "coloured-lights"):
+            text = (SOURCE / "samples" / name / "scene.txt").read_text()
+            scene = reference_shading.LitScene(text)
+            stage3 = pipe(["model", "--digits", "exact"], ["view", "--digits", "exact"], ["project"], stdin=text)
+            for coverage in ("nearest", "center"):
+                owners = self.owners(stage3, coverage, len(scene.triangles))
+                for model in ("flat", "gouraud", "phong"):
+                    got = self.pixels(stage3, "--shading", model, "--coverage", coverage)
+                    expected = sum(reference_shading.lit_image(scene, config, owners, model), [])
+                    worst = max(abs(min(255, a) - b) for one, other in zip(expected, got) for a, b in zip(one, other))
+                    # Half a unit for rounding, and a little for the decimals of stage 3.
+                    self.assertLess(worst, 0.51, (name, coverage, model))
 
 
 def ball(rings, sectors):
