@@ -7,6 +7,7 @@ import math
 
 from differences import exceeds
 from stage_text import parse_stage_text
+from vectors import axes
 
 CLOSE = 2e-6  # of numbers that were printed with 7 decimals and calculated with again
 
@@ -118,15 +119,6 @@ def with_angles(scene, changed):
     return "\n".join(lines)
 
 
-def cross(a, b):
-    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
-
-
-def normalized(a):
-    size = math.hypot(*a)
-    return tuple(x / size for x in a)
-
-
 class Suspects:
     """What the known mistakes make of a scene, stage by stage; `tools` draw it."""
 
@@ -146,9 +138,7 @@ class Suspects:
 
     def of_view(self, stage1):
         eye, look, up = (tuple(map(float, self.camera[name])) for name in ("eye", "look", "up"))
-        l = normalized(tuple(b - a for a, b in zip(eye, look)))
-        r = normalized(cross(l, up))
-        u = cross(r, l)
+        r, u, l = axes(eye, look, up)
         back = tuple(-x for x in l)
         # A camera whose axes are the columns of (r, u, back).
         _, column_y, column_z = zip(r, u, back)

@@ -1,2 +1,3 @@
 # What looks inside the pipe: scripts over the real tools.
+tools_test(AreInspected inspect_test)
 tools_test(AreComparedWithAStudents compare_test)

@@ -1,0 +1,132 @@
+// A turnable wireframe of a stage's triangles. It shows where they are; what hides what is zbuf's business.
+
+const styleOf = name => getComputedStyle(document.documentElement).getPropertyValue(name);
+
+class Wireframe {
+  constructor(canvas, mark, stage, start) {
+    Object.assign(this, {canvas, mark, names: intsOf(stage.names), points: realsOf(stage.points), guide: stage.guide});
+    this.yaw = start.yaw;
+    this.pitch = start.pitch;
+    this.zoom = 1;
+    this.highlighted = -1;
+    const scale = window.devicePixelRatio || 1;
+    for (const c of [canvas, mark]) {
+      c.width = 480 * scale;
+      c.height = 340 * scale;
+      c.className = "wire";
+    }
+    this.fit(start.box);
+    this.draw();
+  }
+
+  // The middle and the size of what is shown: a box that is given, or the one around triangles and eye.
+  fit(box) {
+    const low = box ? [-box, -box, -box] : [Infinity, Infinity, Infinity];
+    const high = low.map(x => -x);
+    const eyes = box ? [] : this.guide.length > 12 ? [this.guide[12][0]] : [];
+    const include = p => p.forEach((x, i) => { low[i] = Math.min(low[i], x); high[i] = Math.max(high[i], x); });
+    if (!box) for (let i = 0; i < this.points.length; i += 3) include([this.points[i], this.points[i + 1], this.points[i + 2]]);
+    eyes.forEach(include);
+    this.middle = low.map((x, i) => Number.isFinite(x) ? (x + high[i]) / 2 : 0);
+    this.size = Math.hypot(...low.map((x, i) => Number.isFinite(x) ? high[i] - x : 1)) || 1;
+  }
+
+  // Where a point stands on the canvas, in its pixels, and how near: larger is nearer.
+  place(x, y, z) {
+    const [u, v, w] = [x - this.middle[0], y - this.middle[1], z - this.middle[2]];
+    const [cy, sy, cp, sp] = [Math.cos(this.yaw), Math.sin(this.yaw), Math.cos(this.pitch), Math.sin(this.pitch)];
+    const right = cy * u - sy * w, back = sy * u + cy * w;
+    const up = cp * v - sp * back, near = sp * v + cp * back;
+    const scale = this.zoom * this.canvas.height / this.size;
+    return [this.canvas.width / 2 + right * scale, this.canvas.height / 2 - up * scale, near];
+  }
+
+  corner(i, v) {
+    const at = 9 * i + 3 * v;
+    return this.place(this.points[at], this.points[at + 1], this.points[at + 2]);
+  }
+
+  trace(context, i) {
+    for (let v = 0; v < 3; ++v) {
+      const [x, y] = this.corner(i, v);
+      v ? context.lineTo(x, y) : context.moveTo(x, y);
+    }
+    context.closePath();
+  }
+
+  draw() {
+    const context = this.canvas.getContext("2d");
+    context.clearRect(0, 0, this.canvas.width, this.canvas.height);
+    context.lineWidth = 1;
+    context.strokeStyle = styleOf("--wire");
+    context.globalAlpha = this.names.length > 2000 ? 0.35 : 0.8;
+    context.beginPath();
+    for (let i = 0; i < this.names.length; ++i) this.trace(context, i);
+    context.stroke();
+    context.globalAlpha = 1;
+    context.strokeStyle = styleOf("--guide");
+    context.lineWidth = 1.5;
+    context.beginPath();
+    for (const [p, q] of this.guide) {
+      context.moveTo(...this.place(...p).slice(0, 2));
+      context.lineTo(...this.place(...q).slice(0, 2));
+    }
+    context.stroke();
+    this.highlight(this.highlighted);
+  }
+
+  // Shows triangle `name`, all pieces of it.
+  highlight(name) {
+    this.highlighted = name;
+    const context = this.mark.getContext("2d");
+    context.clearRect(0, 0, this.mark.width, this.mark.height);
+    context.fillStyle = context.strokeStyle = styleOf("--hot");
+    context.lineWidth = 2;
+    for (let i = 0; i < this.names.length; ++i) {
+      if (this.names[i] !== name) continue;
+      context.beginPath();
+      this.trace(context, i);
+      context.globalAlpha = 0.45;
+      context.fill();
+      context.globalAlpha = 1;
+      context.stroke();
+    }
+  }
+
+  // The triangle whose middle is nearest to the onlooker of those under a point of the canvas; -1 if none is.
+  triangleAt(x, y) {
+    let found = -1, nearest = -Infinity;
+    for (let i = 0; i < this.names.length; ++i) {
+      const [a, b, c] = [this.corner(i, 0), this.corner(i, 1), this.corner(i, 2)];
+      const side = (p, q) => (q[0] - p[0]) * (y - p[1]) - (q[1] - p[1]) * (x - p[0]);
+      const [s, t, u] = [side(a, b), side(b, c), side(c, a)];
+      const near = a[2] + b[2] + c[2];
+      if (((s >= 0 && t >= 0 && u >= 0) || (s <= 0 && t <= 0 && u <= 0)) && near > nearest) [found, nearest] = [this.names[i], near];
+    }
+    return found;
+  }
+
+  // Calls point(name) for the triangle pointed at and click(name) for the one clicked.
+  listen(point, click) {
+    let from = null, hasTurned = false;
+    const at = event => this.triangleAt(event.offsetX * this.canvas.width / 480, event.offsetY * this.canvas.height / 340);
+    this.canvas.onpointerdown = event => { from = [event.clientX, event.clientY]; hasTurned = false; this.canvas.setPointerCapture(event.pointerId); };
+    this.canvas.onpointermove = event => {
+      if (!from) return point(at(event));
+      const [dx, dy] = [event.clientX - from[0], event.clientY - from[1]];
+      if (!hasTurned && Math.hypot(dx, dy) < 3) return;
+      hasTurned = true;
+      from = [event.clientX, event.clientY];
+      this.yaw -= dx * 0.01;
+      this.pitch = Math.max(-1.57, Math.min(1.57, this.pitch + dy * 0.01));
+      this.draw();
+    };
+    this.canvas.onpointerup = event => { if (!hasTurned) click(at(event)); from = null; };
+    this.canvas.onpointerleave = () => point(-1);
+    this.canvas.addEventListener("wheel", event => {
+      event.preventDefault();
+      this.zoom *= Math.exp(-event.deltaY * 0.001);
+      this.draw();
+    }, {passive: false});
+  }
+}

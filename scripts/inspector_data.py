@@ -1,0 +1,151 @@
+"""What the inspector's page shows: a scene sent through the real pipe, and what every stage wrote."""
+import array
+import base64
+import math
+import pathlib
+import re
+import tempfile
+
+from pictures import read_picture
+from stage_text import parse_stage_text
+from vectors import axes, moved
+
+# A page stays quick with so much; beyond it only every so manieth triangle is drawn.
+MAX_DRAWN_TRIANGLES = 12000
+MAX_FRAGMENTS = 3000000
+FATES = ("kept", "behind", "equal", "before", "beyond")
+
+
+def packed(kind, numbers):
+    """Numbers as the bytes of a typed array, in base64. Little-endian, as JavaScript's are wherever this runs."""
+    return base64.b64encode(array.array(kind, numbers).tobytes()).decode()
+
+
+def time_told(stderr):
+    """Seconds of a --timing line."""
+    return float(re.search(r"triangles in (\d+\.\d+) s", stderr).group(1))
+
+
+def notes_told(stderr):
+    return [line for line in stderr.splitlines() if ": note: " in line]
+
+
+def frustum_corners(header):
+    """The four corners of the near and the four of the far plane in view space, in the same order round."""
+    if "perspective" in header:
+        fov_y, aspect, near, far = map(float, header["perspective"])
+        right, top = (near * math.tan(math.radians(fov) / 2) for fov in (fov_y * aspect, fov_y))
+        window = -right, right, -top, top
+    else:
+        *window, near, far = map(float, header.get("frustum") or header["ortho"])
+    left, right, bottom, top = window
+    corners = []
+    for distance in (near, far):
+        scale = 1 if "ortho" in header else distance / near
+        corners += [(x * scale, y * scale, -distance) for x, y in ((left, bottom), (right, bottom), (right, top), (left, top))]
+    return corners
+
+
+def box_lines(corners):
+    """The twelve edges of what has four corners and four corners."""
+    pairs = [(i, (i + 1) % 4) for i in range(4)]
+    pairs += [(i + 4, j + 4) for i, j in pairs] + [(i, i + 4) for i in range(4)]
+    return [[corners[i], corners[j]] for i, j in pairs]
+
+
+def camera_lines(corners, eye):
+    """The frustum, and the way from the eye to its near plane."""
+    return box_lines(corners) + [[eye, corner] for corner in corners[:4]]
+
+
+class Inspection:
+    """A run of the pipe, every stage's output kept."""
+
+    def __init__(self, tools, scene, config):
+        self.tools, self.scene, self.config = tools, scene, config
+        self.notes = []
+        texts, data = {}, pathlib.Path(scene).read_bytes()
+        for tool in ("model", "view", "project"):
+            done = tools.run(tool, "--timing", stdin=data)
+            data = done.stdout
+            texts[tool] = done
+        self.parsed = {tool: parse_stage_text(done.stdout.decode(), tool) for tool, done in texts.items()}
+        self.count = max([0, *(name + 1 for name in self.parsed["model"].names)])
+        self.step = max(1, math.ceil(self.count / MAX_DRAWN_TRIANGLES))
+        titles = {"model": "world space", "view": "view space", "project": "normalised device coordinates"}
+        self.stages = [self.stage(tool, titles[tool], texts[tool]) for tool in texts]
+        with tempfile.TemporaryDirectory() as folder:
+            self.draw(data, pathlib.Path(folder))
+
+    def stage(self, tool, title, done):
+        parsed, stderr = self.parsed[tool], done.stderr.decode()
+        self.notes += notes_told(stderr)
+        kept = [(name, triangle) for name, triangle in zip(parsed.names, parsed.triangles) if name % self.step == 0]
+        return {"tool": tool, "title": title, "seconds": time_told(stderr), "triangles": len(parsed.triangles), "bytes": len(done.stdout),
+                "names": packed("i", [name for name, _ in kept]),
+                "points": packed("d", [x for _, triangle in kept for vertex in triangle for x in vertex.numbers[:3]]),
+                "firstLines": packed("i", [triangle[0].line for _, triangle in kept]),
+                "text": self.text_shown(done.stdout.decode().split("\n"), parsed, kept), "guide": self.guide(tool)}
+
+    def text_shown(self, lines, parsed, kept):
+        """The lines of the text with their numbers; of a long one the header's and the drawn triangles'."""
+        if self.step == 1:
+            return {"numbers": None, "lines": lines}
+        header_end = parsed.triangles[0][0].line if parsed.triangles else len(lines)
+        numbers = list(range(1, header_end))
+        for _, triangle in kept:
+            numbers += [vertex.line for vertex in triangle]
+        return {"numbers": numbers, "lines": [lines[number - 1] for number in numbers]}
+
+    def guide(self, tool):
+        """The line segments that show the camera, or the cube."""
+        header = self.parsed["model"].header
+        if tool == "project":
+            return box_lines([(x, y, z) for z in (-1, 1) for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1))])
+        corners = frustum_corners(header)
+        if tool == "view":
+            return camera_lines(corners, (0, 0, 0))
+        eye = tuple(map(float, header["eye"]))
+        right, up, forward = axes(eye, *(tuple(map(float, header[name])) for name in ("look", "up")))
+        return camera_lines([moved(eye, (x, right), (y, up), (-z, forward)) for x, y, z in corners], eye)
+
+    def draw(self, stage3, folder):
+        z_buffer, image, log = (folder / name for name in ("z_buffer.txt", "out.ppm", "fragments.txt"))
+        # Timed as it is without the log, which takes longer than the picture.
+        timed = self.tools.run("zbuf", self.config, "--timing", "--z-buffer", z_buffer, "--image", image, stdin=stage3).stderr.decode()
+        self.tools.run("zbuf", self.config, "--z-buffer", "/dev/null", "--image", folder / "again.ppm", "--fragments", log, stdin=stage3)
+        self.notes += notes_told(timed)
+        self.columns, self.rows, pixels = read_picture(image)
+        text = z_buffer.read_text()
+        self.stages.append({"tool": "zbuf", "title": "pixels", "seconds": time_told(timed), "triangles": len(self.parsed["project"].triangles),
+                            "bytes": len(text), "text": {"numbers": None, "lines": text.split("\n")}})
+        self.pixels = base64.b64encode(b"".join(pixels)).decode()
+        self.fragments = self.fragments_of(log)
+
+    def fragments_of(self, log):
+        """All fragments, pixel by pixel from the top left and in the order they came: where a pixel's begin, triangles,
+        depths, fates. Where there are very many, those that lost are left out."""
+        found = []
+        with open(log, encoding="ascii") as lines:
+            for line in lines:
+                words = line.split()
+                column, row = words[0][:-1].split(",")
+                fate = 0 if words[5] == "kept" else FATES.index(words[6])
+                found.append((int(row) * self.columns + int(column), int(words[2][:-1]), float(words[4][:-1]), fate))
+        self.fragment_count = len(found)
+        if len(found) > MAX_FRAGMENTS:
+            found = [fragment for fragment in found if fragment[3] == 0]
+        self.left_out_count = self.fragment_count - len(found)
+        found.sort(key=lambda fragment: fragment[0])
+        begins, at = [], 0
+        for pixel in range(self.columns * self.rows + 1):
+            while at < len(found) and found[at][0] < pixel:
+                at += 1
+            begins.append(at)
+        return {"begins": packed("i", begins), "triangles": packed("i", [f[1] for f in found]),
+                "depths": packed("d", [f[2] for f in found]), "fates": packed("B", [f[3] for f in found])}
+
+    def as_json(self):
+        return {"scene": pathlib.Path(self.scene).name, "config": pathlib.Path(self.config).name, "triangles": self.count, "step": self.step,
+                "columns": self.columns, "rows": self.rows, "stages": self.stages, "pixels": self.pixels, "fragments": self.fragments,
+                "fragmentCount": self.fragment_count, "leftOut": self.left_out_count, "notes": self.notes}

@@ -1,0 +1,23 @@
+"""Vectors of three numbers, and the camera's axes."""
+import math
+
+
+def cross(a, b):
+    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
+
+
+def normalized(a):
+    size = math.hypot(*a)
+    return tuple(x / size for x in a)
+
+
+def moved(p, *steps):
+    """p plus the steps, each a distance and a direction."""
+    return tuple(x + sum(distance * way[i] for distance, way in steps) for i, x in enumerate(p))
+
+
+def axes(eye, look, up):
+    """Right, up and forward of a camera, at right angles and of length 1."""
+    forward = normalized(tuple(b - a for a, b in zip(eye, look)))
+    right = normalized(cross(forward, up))
+    return right, cross(right, forward), forward

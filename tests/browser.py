@@ -1,0 +1,98 @@
+"""A headless Chromium, driven by plain WebDriver requests (W3C) to chromedriver."""
+import base64
+import json
+import shutil
+import socket
+import subprocess
+import tempfile
+import time
+import urllib.error
+import urllib.request
+
+MISSING = [name for name in ("chromium", "chromedriver") if shutil.which(name) is None]
+ELEMENT = "element-6066-11e4-a52e-4f735466cecf"  # what the standard calls a reference to an element
+
+
+def free_port():
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        return probe.getsockname()[1]
+
+
+class Browser:
+    """A browser with a window of a size, closed with the `with` block."""
+
+    def __init__(self, width=1400, height=1000):
+        self.profile = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
+        port = free_port()
+        self.address = f"http://127.0.0.1:{port}"
+        self.driver = subprocess.Popen(["chromedriver", f"--port={port}"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        self.session = ""
+        self.wait_for(self.is_up)
+        words = ["--headless", "--no-sandbox", "--disable-gpu", "--no-first-run", "--disable-background-networking",
+                 "--disable-component-update", "--disable-sync", f"--user-data-dir={self.profile.name}", f"--window-size={width},{height}"]
+        made = self.call("POST", "/session", {"capabilities": {"alwaysMatch": {
+            "goog:chromeOptions": {"args": words}, "goog:loggingPrefs": {"browser": "ALL"}}}})
+        self.session = "/session/" + made["sessionId"]
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        if self.session:
+            self.call("DELETE", "")
+        self.driver.terminate()
+        self.driver.wait(30)
+        self.profile.cleanup()
+
+    def call(self, method, path, body=None):
+        data = None if body is None else json.dumps(body).encode()
+        request = urllib.request.Request(self.address + self.session + path, data, {"Content-Type": "application/json"}, method=method)
+        try:
+            with urllib.request.urlopen(request, timeout=120) as answer:
+                return json.load(answer)["value"]
+        except urllib.error.HTTPError as error:
+            raise AssertionError(error.read().decode()) from None
+
+    def is_up(self):
+        try:
+            return self.call("GET", "/status")["ready"]
+        except OSError:
+            return False
+
+    @staticmethod
+    def wait_for(is_true, seconds=60):
+        end = time.monotonic() + seconds
+        while not is_true():
+            if time.monotonic() > end:
+                raise AssertionError("the browser did not get there in time")
+            time.sleep(0.05)
+
+    def open(self, path):
+        self.call("POST", "/url", {"url": f"file://{path}"})
+
+    def run(self, script, *words):
+        """What a JavaScript function's body returns."""
+        return self.call("POST", "/execute/sync", {"script": script, "args": list(words)})
+
+    def element(self, selector):
+        return self.call("POST", "/element", {"using": "css selector", "value": selector})[ELEMENT]
+
+    def point(self, selector, x, y, is_click=False):
+        """Moves the pointer to a place in an element, counted from its top left corner, and clicks there."""
+        self.run("document.querySelector(arguments[0]).scrollIntoView({block: 'center'})", selector)
+        left, top = self.run("const box = document.querySelector(arguments[0]).getBoundingClientRect(); return [box.left, box.top]", selector)
+        actions = [{"type": "pointerMove", "duration": 0, "x": round(left + x), "y": round(top + y)}]
+        if is_click:
+            actions += [{"type": "pointerDown", "button": 0}, {"type": "pointerUp", "button": 0}]
+        self.call("POST", "/actions", {"actions": [{"type": "pointer", "id": "mouse", "parameters": {"pointerType": "mouse"}, "actions": actions}]})
+
+    def click(self, selector, x, y):
+        self.point(selector, x, y, is_click=True)
+
+    def screenshot(self):
+        return base64.b64decode(self.call("GET", "/screenshot"))
+
+    def complaints(self):
+        """What the page logged as an error."""
+        return [entry["message"] for entry in self.call("POST", "/se/log", {"type": "browser"}) if entry["level"] == "SEVERE"]
