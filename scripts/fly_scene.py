@@ -1,0 +1,36 @@
+"""A scene's text with another camera, and with its first light elsewhere."""
+
+
+def words_of(line):
+    return line.split("#")[0].split()
+
+
+def without_first_light(lines):
+    """The lines without the first command `light` and its numbers."""
+    for i, line in enumerate(lines):
+        if words_of(line)[:1] == ["light"]:
+            end = i + 1
+            if len(words_of(line)) == 1:  # its numbers stand on the next line that has any
+                while not words_of(lines[end]):
+                    end += 1
+                end += 1
+            return lines[:i] + lines[end:]
+    return lines
+
+
+def rewritten(scene, camera_lines, light=None):
+    """The scene with eye, look and up replaced. `light`, six words, takes the place of the first light; it stands in front of
+    all transforms, as its position is that in world space."""
+    lines, places = scene.split("\n"), []
+    for i, line in enumerate(lines):
+        if words_of(line):
+            places.append(i)
+        if len(places) == 4:
+            break
+    for place, words in zip(places, camera_lines):
+        comment = lines[place].partition("#")
+        lines[place] = " ".join(words) + ("  #" + comment[2] if comment[1] else "")
+    head, rest = lines[:places[3] + 1], lines[places[3] + 1:]
+    if light:
+        rest = ["light " + " ".join(light), *without_first_light(rest)]
+    return "\n".join(head + rest)

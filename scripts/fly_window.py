@@ -1,0 +1,205 @@
+"""The window of scripts/fly: keys in, frames of the real pipe out."""
+import dataclasses
+import pathlib
+import time
+import tkinter
+
+from fly_camera import STEP, Camera
+from fly_pipe import FramePipe
+from fly_scene import rewritten
+from pictures import png, read_picture
+from pipe_tools import ToolFailure
+
+KEYS = ("w/s forward, back   a/d left, right   q/e up, down   arrows turn   r reset\n"
+        "i/k j/l u/o move the first light   1-4 shading none, flat, gouraud, phong\n"
+        "c clip at the frustum   z/x open, close a gap   b cull backs   f wireframe\n"
+        "p write the scene   P the picture")
+MOVES = {"w": (0, 0, 1), "s": (0, 0, -1), "a": (-1, 0, 0), "d": (1, 0, 0), "q": (0, 1, 0), "e": (0, -1, 0)}
+TURNS = {"Left": (-1, 0), "Right": (1, 0), "Up": (0, 1), "Down": (0, -1)}
+LIGHT_MOVES = {"i": (0, 0, -1), "k": (0, 0, 1), "j": (-1, 0, 0), "l": (1, 0, 0), "u": (0, 1, 0), "o": (0, -1, 0)}
+SHADINGS = {"1": "none", "2": "flat", "3": "gouraud", "4": "phong"}
+SLOW_SECONDS = 0.05  # a frame that takes longer is drawn small first
+SMALL = 4            # how many times smaller
+REST_MS = 150        # without a key before the whole frame is drawn
+
+
+@dataclasses.dataclass(frozen=True)
+class Settings:
+    camera: Camera
+    is_clipped: bool = False
+    inset: float = 0
+    shading: str = ""
+    culls: bool = False
+    wireframe: bool = False
+
+    def project_words(self):
+        words = ["--clip", "frustum"] if self.is_clipped or self.inset else []
+        return words + (["--clip-inset", f"{self.inset:g}"] if self.inset else []) + (["--cull", "back"] if self.culls else [])
+
+    def zbuf_words(self):
+        return (["--shading", self.shading] if self.shading else []) + (["--wireframe"] if self.wireframe else [])
+
+
+class FlyWindow:
+    def __init__(self, tools, scene, config="500 500\n", scene_out="fly.txt", picture_out="fly.png"):
+        self.tools, self.scene = tools, pathlib.Path(scene)
+        self.outputs = scene_out, picture_out
+        size, *self.limits = [line.split("#")[0].split() for line in config.split("\n") if line.split("#")[0].strip()]
+        self.size = self.whole = tuple(map(int, size))
+        self.pipe = FramePipe(tools, scene)
+        self.has_wireframe = tools.has_option("zbuf", "--wireframe")
+        self.settings = self.start = Settings(Camera.of(*(self.pipe.header(name) for name in ("eye", "look", "up"))))
+        self.start_light = self.pipe.light
+        self.is_light_moved = False
+        self.before = self.settings  # to go back to where a tool refuses the new ones
+        self.whole_seconds = 0
+        self.pending = self.resting = None
+        self.build()
+        self.draw(self.size)
+
+    def build(self):
+        self.root = tkinter.Tk()
+        self.root.title(f"fly {self.scene.name}")
+        self.photo = tkinter.PhotoImage(master=self.root)
+        self.keys = tkinter.Label(self.root, text=KEYS, justify="left", anchor="w", font=("TkFixedFont", 8))
+        self.status = tkinter.Label(self.root, anchor="w", justify="left", font=("TkFixedFont", 8))
+        self.keys.pack(side="bottom", fill="x")
+        self.status.pack(side="bottom", fill="x")
+        self.picture = tkinter.Label(self.root, image=self.photo, borderwidth=0, background="#202020",
+                                     width=self.size[0], height=self.size[1])
+        self.picture.pack(fill="both", expand=True)
+        self.picture.bind("<Configure>", lambda event: self.resize(event.width, event.height))
+        self.root.bind("<Key>", self.key)
+
+    # Keys
+
+    def key(self, event):
+        name = event.keysym if event.keysym in TURNS else event.char or event.keysym
+        old = self.settings
+        changed = self.changed(name)
+        if changed is not None:
+            self.settings = changed
+        if name in LIGHT_MOVES and self.pipe.light is None:
+            self.say("the scene has no light")
+        elif name in LIGHT_MOVES:
+            self.move_light(LIGHT_MOVES[name])
+        elif name == "p":
+            self.write_scene()
+        elif name == "P":
+            self.write_picture()
+        if self.settings != old:
+            self.before = old
+            self.draw_soon()
+
+    def changed(self, name):
+        """The settings after a key, None if it does not change any."""
+        now, camera = self.settings, self.settings.camera
+        if name in MOVES:
+            return dataclasses.replace(now, camera=camera.stepped(*MOVES[name]))
+        if name in TURNS:
+            return dataclasses.replace(now, camera=camera.turned(*TURNS[name]))
+        if name == "r":
+            if self.is_light_moved:
+                self.put_light(self.start_light)
+            return self.start
+        if name == "c":
+            return dataclasses.replace(now, is_clipped=not now.is_clipped)
+        if name in ("z", "x"):
+            inset = round(now.inset + (0.05 if name == "z" else -0.05), 2)
+            return dataclasses.replace(now, inset=min(0.95, max(0, inset)))
+        if name in SHADINGS:
+            return dataclasses.replace(now, shading=SHADINGS[name])
+        if name == "b":
+            return dataclasses.replace(now, culls=not now.culls)
+        if name == "f":
+            if self.has_wireframe:
+                return dataclasses.replace(now, wireframe=not now.wireframe)
+            self.say("this zbuf has no --wireframe")
+        return None
+
+    def move_light(self, steps):
+        step = STEP * self.settings.camera.distance
+        place = [repr(float(x) + step * way) for x, way in zip(self.pipe.light, steps)]
+        self.put_light(place + self.pipe.light[3:])
+
+    def put_light(self, words):
+        self.pipe.put_light(words)
+        self.is_light_moved = words != self.start_light
+        self.draw_soon()
+
+    def resize(self, width, height):
+        """The largest picture of the config's shape that the window has room for."""
+        scale = min(width / self.whole[0], height / self.whole[1])
+        size = tuple(max(1, round(scale * x)) for x in self.whole)
+        if size != self.size:
+            self.size = size
+            self.draw_soon()
+
+    # Frames
+
+    def draw_soon(self):
+        if self.pending is None:
+            self.pending = self.root.after_idle(self.draw_first)
+
+    def draw_first(self):
+        """The next frame; a small one if a whole one takes long, and the whole one when no key has come for a while."""
+        self.pending = None
+        if self.resting is not None:
+            self.root.after_cancel(self.resting)
+            self.resting = None
+        if self.whole_seconds <= SLOW_SECONDS:
+            return self.draw(self.size)
+        self.draw(tuple(max(1, x // SMALL) for x in self.size))
+        self.resting = self.root.after(REST_MS, self.draw_rest)
+        return None
+
+    def draw_rest(self):
+        self.resting = None
+        self.draw(self.size)
+
+    def draw(self, size):
+        begin = time.perf_counter()
+        config = "\n".join([f"{size[0]} {size[1]}", *(" ".join(words) for words in self.limits), ""])
+        try:
+            frame = self.pipe.frame(self.settings.camera.lines(), self.settings.project_words(), config, self.settings.zbuf_words())
+        except ToolFailure as error:
+            self.settings = self.before
+            return self.say(str(error))
+        self.photo.configure(data=frame)
+        shown = self.photo
+        if size != self.size:
+            shown = self.enlarged = self.photo.zoom(SMALL)
+        self.picture.configure(image=shown)
+        self.root.update_idletasks()  # on the screen before the clock is read
+        seconds = time.perf_counter() - begin
+        if size == self.size:
+            self.whole_seconds = seconds
+        self.tell(size, seconds)
+        return None
+
+    def tell(self, size, seconds):
+        times = "   ".join(f"{name} {'reused' if spent is None else f'{1000 * spent:.0f} ms'}" for name, spent in self.pipe.seconds())
+        words = " ".join(self.settings.project_words() + self.settings.zbuf_words())
+        self.say(f"{times}   all {1000 * seconds:.0f} ms   {size[0]} x {size[1]}   {words}")
+
+    def say(self, words):
+        self.status.configure(text=words)
+
+    # Files
+
+    def scene_text(self):
+        light = self.pipe.light if self.is_light_moved else None
+        return rewritten(self.scene.read_text(), self.settings.camera.lines(), light)
+
+    def write_scene(self):
+        pathlib.Path(self.outputs[0]).write_text(self.scene_text())
+        self.say(f"wrote {self.outputs[0]}")
+
+    def write_picture(self):
+        self.draw(self.size)
+        pathlib.Path(self.outputs[1]).write_bytes(png(*read_picture(self.pipe.image)))
+        self.say(f"wrote {self.outputs[1]}")
+
+    def close(self):
+        self.root.destroy()
+        self.pipe.close()

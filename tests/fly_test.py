@@ -1,0 +1,250 @@
+#!/usr/bin/env python3
+"""scripts/fly in a window that nobody sees: keys are sent, and what it shows is compared with what the pipe writes.
+
+usage: fly_test.py BIN_DIR [UNITTEST ARGUMENT...]
+"""
+import math
+import os
+import pathlib
+import subprocess
+import sys
+import unittest
+
+from display import MISSING, Display
+from toolbox import BIN, SOURCE, TOOLS, ToolTest, pipe, run
+
+sys.path.insert(0, str(SOURCE / "scripts"))
+
+SCENE = """# a scene to fly through
+1 2 5   # eye
+0 0 0
+0 1 0
+60 1 1 100
+light 2 3 4 1 1 1
+color 200 100 50
+translate 0.5 0 0
+triangle
+-1 -1 0
+1 -1 0
+0 1 0
+triangle   # seen from behind
+-1 -1 1
+0 1 1
+1 -1 1
+end
+"""
+CONFIG = "60 40\n-1.5\n-1\n-1 1\n"
+
+
+def frame_of(scene, config=CONFIG, view=(), project=(), zbuf=()):
+    """The PPM the pipe writes."""
+    pathlib.Path("expected.config").write_text(config)
+    stage3 = pipe(["model"], ["view", *view], ["project", *project], stdin=scene)
+    done = run("zbuf", "expected.config", "--image", "expected.ppm", *zbuf, stdin=stage3)
+    assert done.returncode == 0, done.stderr
+    return pathlib.Path("expected.ppm").read_bytes()
+
+
+@unittest.skipIf(MISSING, f"needs {' and '.join(MISSING)}")
+class Flying(ToolTest):
+    @classmethod
+    def setUpClass(cls):
+        cls.enterClassContext(Display())
+
+    def setUp(self):
+        super().setUp()
+        from pipe_tools import Tools
+        from fly_window import FlyWindow
+        pathlib.Path("scene.txt").write_text(SCENE)
+        # Tools that write down when they run.
+        for tool in TOOLS:
+            shim = pathlib.Path("tools", tool)
+            shim.parent.mkdir(exist_ok=True)
+            shim.write_text(f'#!/bin/sh\necho {tool} >> "{os.getcwd()}/ran"\nexec "{BIN}/{tool}" "$@"\n')
+            shim.chmod(0o755)
+        self.window = FlyWindow(Tools("tools"), "scene.txt", CONFIG)
+        self.addCleanup(self.window.close)
+        self.window.root.update()
+        self.window.root.focus_force()
+        self.window.whole_seconds = 0  # however slow the machine is
+        self.settle()
+        pathlib.Path("ran").unlink()
+
+    def settle(self):
+        self.window.root.update()
+        self.window.root.update()
+
+    def press(self, *keys):
+        for key in keys:
+            self.window.whole_seconds = 0
+            self.window.root.event_generate("<KeyPress>", keysym=key)
+            self.settle()
+
+    def shown(self):
+        """What the window's picture holds, as PPM."""
+        self.window.photo.write("shown.ppm", format="ppm")
+        return pathlib.Path("shown.ppm").read_bytes()
+
+    def status(self):
+        return self.window.status.cget("text")
+
+    def ran(self):
+        path = pathlib.Path("ran")
+        words = path.read_text().split() if path.exists() else []
+        path.unlink(missing_ok=True)
+        return words
+
+    def test_the_first_frame_is_the_pipes(self):
+        self.assertEqual(self.shown(), frame_of(SCENE))
+
+    def test_steps_move_the_eye_along_its_axes(self):
+        # The camera looks from (1 2 5) to the origin; a step is a twentieth of that way.
+        distance = math.sqrt(30)
+        forward = tuple(-x / distance for x in (1, 2, 5))
+        right = (5 / math.sqrt(26), 0, -1 / math.sqrt(26))
+        up = (-2 / math.sqrt(26 * 30), 26 / math.sqrt(26 * 30), -10 / math.sqrt(26 * 30))
+        for key, way in (("w", forward), ("d", right), ("q", up)):
+            with self.subTest(key):
+                self.press("r", key)
+                eye = [x + distance / 20 * step for x, step in zip((1, 2, 5), way)]
+                look = [distance / 20 * step for step in way]
+                self.assertEqual(self.shown(), frame_of(SCENE, view=["--eye", *map(repr, eye), "--look", *map(repr, look)]))
+
+    def test_there_and_back_is_where_it_was(self):
+        first = self.shown()
+        for there, back in (("w", "s"), ("a", "d"), ("q", "e"), ("Left", "Right"), ("Up", "Down")):
+            self.press(there)
+            self.assertNotEqual(self.shown(), first, there)
+            self.press(back)
+            self.assertEqual(self.shown(), first, back)
+
+    def test_to_turn_right_moves_the_scene_left(self):
+        def middle(ppm):
+            pixels = ppm[-7200:]
+            columns = [p % 60 for p in range(2400) if any(pixels[3 * p:3 * p + 3])]
+            rows = [p // 60 for p in range(2400) if any(pixels[3 * p:3 * p + 3])]
+            return sum(columns) / len(columns), sum(rows) / len(rows)
+        x, y = middle(self.shown())
+        self.press("Right", "Right")
+        self.assertLess(middle(self.shown())[0], x - 2)
+        self.press("r", "Up", "Up")
+        self.assertGreater(middle(self.shown())[1], y + 2)
+
+    def test_r_takes_everything_back(self):
+        first = self.shown()
+        self.press("w", "Left", "c", "z", "2", "b", "i", "j")
+        self.assertNotEqual(self.shown(), first)
+        self.press("r")
+        self.assertEqual(self.shown(), first)
+
+    def test_options_are_those_of_the_tools(self):
+        self.press("c")
+        self.assertEqual(self.shown(), frame_of(SCENE, project=["--clip", "frustum"]))
+        self.press("z", "z")
+        clipped = ["--clip", "frustum", "--clip-inset", "0.1"]
+        self.assertEqual(self.shown(), frame_of(SCENE, project=clipped))
+        self.press("b")
+        self.assertEqual(self.shown(), frame_of(SCENE, project=[*clipped, "--cull", "back"]))
+        for key, model in (("1", "none"), ("2", "flat"), ("3", "gouraud"), ("4", "phong")):
+            self.press(key)
+            self.assertEqual(self.shown(), frame_of(SCENE, project=[*clipped, "--cull", "back"], zbuf=["--shading", model]))
+        self.press("x", "x", "c", "b", "4")
+        self.assertEqual(self.shown(), frame_of(SCENE, zbuf=["--shading", "phong"]))
+
+    def test_the_wireframe_is_zbufs_or_not_there(self):
+        self.press("f")
+        if b"--wireframe" in run("zbuf", "--help").stdout:
+            self.assertEqual(self.shown(), frame_of(SCENE, zbuf=["--wireframe"]))
+        else:
+            self.assertEqual(self.status(), "this zbuf has no --wireframe")
+
+    def test_the_first_light_moves(self):
+        self.press("l")
+        step = math.sqrt(30) / 20
+        self.assertEqual(self.shown(), frame_of(SCENE.replace("light 2 3 4", f"light {2 + step!r} 3 4")))
+        self.press("u", "i")
+        self.assertEqual(self.shown(), frame_of(SCENE.replace("light 2 3 4", f"light {2 + step!r} {3 + step!r} {4 - step!r}")))
+
+    def test_a_frame_runs_the_stages_behind_what_changed(self):
+        for keys, stages in ((["w"], ["view", "project", "zbuf"]), (["Left"], ["view", "project", "zbuf"]), (["i"], ["view", "project", "zbuf"]),
+                             (["c"], ["project", "zbuf"]), (["b"], ["project", "zbuf"]), (["2"], ["zbuf"]), (["2"], []), (["p"], [])):
+            self.press(*keys)
+            self.assertEqual(self.ran(), stages, keys)
+
+    def test_the_status_line_tells_what_was_reused(self):
+        self.press("c")
+        self.assertRegex(self.status(), r"^model reused +view reused +project \d+ ms +zbuf \d+ ms +all \d+ ms +60 x 40 +--clip frustum$")
+
+    def test_another_size_runs_zbuf_alone_and_keeps_the_shape(self):
+        self.window.resize(120, 100)
+        self.settle()
+        self.assertEqual(self.ran(), ["zbuf"])
+        self.assertEqual(self.shown(), frame_of(SCENE, "120 80\n" + CONFIG.split("\n", 1)[1]))
+
+    def test_a_slow_frame_is_drawn_small_first(self):
+        self.window.whole_seconds = 1
+        self.window.root.event_generate("<KeyPress>", keysym="w")
+        self.window.root.update()
+        self.assertIn("15 x 10", self.status())
+        self.assertTrue(self.shown().startswith(b"P6\n15 10\n"))
+        done = self.window.root.after(5000, lambda: None)
+        while "60 x 40" not in self.status() and done in self.window.root.tk.call("after", "info"):
+            self.window.root.update()
+        self.assertIn("60 x 40", self.status())
+        self.assertEqual(self.ran(), ["view", "project", "zbuf", "zbuf"])
+
+    def test_p_writes_a_scene_that_gives_this_frame(self):
+        for keys in (["w", "w", "Left", "Up"], ["j", "k"]):
+            self.press(*keys, "p")
+            self.assertEqual(self.status(), "wrote fly.txt")
+            written = pathlib.Path("fly.txt").read_text()
+            self.assertEqual(frame_of(written), self.shown(), keys)
+            self.assertIn("# eye", written)
+            self.assertIn("# a scene to fly through", written)
+
+    def test_p_without_a_move_changes_no_number(self):
+        self.press("p")
+        self.assertEqual(pipe(["model"], stdin=pathlib.Path("fly.txt").read_text()), pipe(["model"], stdin=SCENE))
+
+    def test_P_writes_the_picture(self):
+        from pictures import read_picture
+        self.press("d", "P")
+        pathlib.Path("shown.ppm").write_bytes(self.shown())
+        self.assertEqual(read_picture("fly.png"), read_picture("shown.ppm"))
+
+    def test_what_a_tool_refuses_is_said_and_taken_back(self):
+        from pipe_tools import Tools
+        from fly_window import FlyWindow
+        pathlib.Path("dark.txt").write_text("\n".join(line for line in SCENE.split("\n") if not line.startswith("light")))
+        self.window = FlyWindow(Tools(BIN), "dark.txt", CONFIG)
+        self.addCleanup(self.window.close)
+        self.window.root.update()
+        self.window.root.focus_force()
+        first = self.shown()
+        self.press("4")
+        self.assertIn("expected a light for --shading", self.status())
+        self.press("c", "c")
+        self.assertEqual(self.shown(), first)
+        self.press("i")
+        self.assertEqual(self.status(), "the scene has no light")
+
+
+class Messages(ToolTest):
+    def fly(self, *words, **settings):
+        return subprocess.run([SOURCE / "scripts/fly", *words], capture_output=True, text=True, timeout=60,
+                              env={"BIN": str(BIN), "PATH": "/usr/bin:/bin", **settings})
+
+    @unittest.skipIf(MISSING, f"needs {' and '.join(MISSING)}")
+    def test_what_is_wrong_with_the_scene_is_the_tools_message(self):
+        pathlib.Path("scene.txt").write_text("1 2 x\n")
+        done = self.fly("scene.txt")
+        self.assertEqual((done.returncode, done.stderr), (1, "fly: model: scene.txt:1:5: expected the z of the eye, found 'x'\n"))
+
+    @unittest.skipIf(MISSING, f"needs {' and '.join(MISSING)}")
+    def test_without_a_display_it_says_so(self):
+        done = self.fly("scene.txt")
+        self.assertEqual((done.returncode, done.stderr), (1, "fly: no display name and no $DISPLAY environment variable\n"))
+
+
+if __name__ == "__main__":
+    unittest.main()
