@@ -93,13 +93,13 @@ class RandomScenes(unittest.TestCase):
     def assert_same_picture(self, stage3):
         config_text = "60 40\n-1\n-0.75\n-0.9 1\n"
         config = reference_pipeline.Config(config_text)
-        depth, image = reference_pipeline.z_buffered(stage3.decode(), config)
+        depth, owners = reference_pipeline.z_buffered(stage3.decode(), config)
         with tempfile.TemporaryDirectory() as folder:
             config_file, image_file = pathlib.Path(folder, "config.txt"), pathlib.Path(folder, "out.bmp")
             config_file.write_text(config_text)
             got = run("zbuf", config_file, "--image", image_file, stdin=stage3).decode()
             self.assertEqual(got, reference_pipeline.depth_text(depth, config.rear))
-            self.assertTrue(image_file.read_bytes() == reference_pipeline.bmp(image), "the pictures differ")
+            self.assertTrue(image_file.read_bytes() == reference_pipeline.bmp(reference_pipeline.coloured(owners)), "the pictures differ")
 
 
 if __name__ == "__main__":
