@@ -133,6 +133,18 @@ class Tradeoff(unittest.TestCase):
                       "7 (default)", "5", "6", "9", "12", "exact", "double", "center", "f32"):
             self.assertIn(words, texts)
 
+    def test_smooth_edges_and_light_are_measured(self):
+        with open(self.folder / "lighting.csv", newline="") as file:
+            difference = {(row["scene"], row["setting"]): float(row["difference_mean"]) for row in csv.DictReader(file)}
+        for scene in ("shaded-torus", "inside"):
+            row = [difference[scene, f"--samples {count}"] for count in (8, 4, 2)] + [difference[scene, "default"]]
+            self.assertEqual(row[0], 0)
+            self.assertEqual(row, sorted(row))
+            self.assertLess(difference[scene, "default"], difference[scene, "--shading flat"])
+        # What is hidden anyway may be dropped, and what is outside shows nowhere.
+        for setting in ("--clip near", "--clip frustum", "--clip reject", "--cull back"):
+            self.assertLess(abs(difference["shaded-torus", setting] - difference["shaded-torus", "default"]), 0.2, setting)
+
     def test_tables_and_plot_can_be_drawn_again_without_measuring(self):
         plot = (self.folder / "tradeoff.svg").read_text()
         (self.folder / "tradeoff.md").unlink()
