@@ -62,7 +62,9 @@ class FlyWindow:
         self.root.title(f"fly {self.scene.name}")
         self.photo = tkinter.PhotoImage(master=self.root)
         self.keys = tkinter.Label(self.root, text=KEYS, justify="left", anchor="w", font=("TkFixedFont", 8))
-        self.status = tkinter.Label(self.root, anchor="w", justify="left", font=("TkFixedFont", 8))
+        # Its text asks for no room of its own: the window shall not change size with it.
+        self.status = tkinter.Label(self.root, anchor="w", justify="left", font=("TkFixedFont", 8), width=1, height=2,
+                                    wraplength=max(480, self.size[0]))
         self.keys.pack(side="bottom", fill="x")
         self.status.pack(side="bottom", fill="x")
         self.picture = tkinter.Label(self.root, image=self.photo, borderwidth=0, background="#202020",

@@ -8,6 +8,7 @@ import os
 import pathlib
 import subprocess
 import sys
+import time
 import unittest
 
 from display import MISSING, Display
@@ -73,6 +74,12 @@ class Flying(ToolTest):
     def settle(self):
         self.window.root.update()
         self.window.root.update()
+
+    def wait_until(self, is_true, seconds=20):
+        end = time.monotonic() + seconds
+        while not is_true():
+            self.assertLess(time.monotonic(), end)
+            self.window.root.update()
 
     def press(self, *keys):
         for key in keys:
@@ -176,7 +183,10 @@ class Flying(ToolTest):
         self.assertRegex(self.status(), r"^model reused +view reused +project \d+ ms +zbuf \d+ ms +all \d+ ms +60 x 40 +--clip frustum$")
 
     def test_another_size_runs_zbuf_alone_and_keeps_the_shape(self):
-        self.window.resize(120, 100)
+        root, picture = self.window.root, self.window.picture
+        below = root.winfo_height() - picture.winfo_height()
+        root.geometry(f"700x{below + 80}")
+        self.wait_until(lambda: picture.winfo_height() == 80)
         self.settle()
         self.assertEqual(self.ran(), ["zbuf"])
         self.assertEqual(self.shown(), frame_of(SCENE, "120 80\n" + CONFIG.split("\n", 1)[1]))
@@ -187,10 +197,7 @@ class Flying(ToolTest):
         self.window.root.update()
         self.assertIn("15 x 10", self.status())
         self.assertTrue(self.shown().startswith(b"P6\n15 10\n"))
-        done = self.window.root.after(5000, lambda: None)
-        while "60 x 40" not in self.status() and done in self.window.root.tk.call("after", "info"):
-            self.window.root.update()
-        self.assertIn("60 x 40", self.status())
+        self.wait_until(lambda: "60 x 40" in self.status())
         self.assertEqual(self.ran(), ["view", "project", "zbuf", "zbuf"])
 
     def test_p_writes_a_scene_that_gives_this_frame(self):
