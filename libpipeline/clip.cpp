@@ -11,10 +11,12 @@ int compare(const Ball& a, const Ball& b) {
   return difference < 0 ? -1 : (difference > 0 ? 1 : 0);
 }
 
+/// By y, x and z; w decides between points that are one in these and still not the same.
 bool is_lower(const ClipVertex& a, const ClipVertex& b) {
   if (const int y = compare(a.y, b.y); y != 0) return y < 0;
   if (const int x = compare(a.x, b.x); x != 0) return x < 0;
-  return compare(a.z, b.z) < 0;
+  if (const int z = compare(a.z, b.z); z != 0) return z < 0;
+  return compare(a.w, b.w) < 0;
 }
 
 ClipVertex interpolate(const ClipVertex& a, const ClipVertex& b, const Ball& t) {

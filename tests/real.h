@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdlib>
+#include <ostream>
 #include <string>
 
 #include "libpipeline/ball.h"

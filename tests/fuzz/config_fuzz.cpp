@@ -1,0 +1,46 @@
+// The config reader: any text gives a screen within its limits or a mistake with its place.
+
+#include <cmath>
+#include <optional>
+
+#include "libpipeline/config.h"
+#include "libpipeline/number_text.h"
+#include "tests/fuzz/transcript.h"
+
+namespace pipeline {
+namespace {
+
+std::string shortest(double value) {
+  char text[kMaxNumberLength];
+  return {text, print_number(text, value, 0, {.decimals = 7, .shortest = true})};
+}
+
+void check_screen(const ScreenConfig& screen) {
+  require(screen.columns >= 1 && screen.columns <= kMaxScreenSize, "the width is within its limits");
+  require(screen.rows >= 1 && screen.rows <= kMaxScreenSize, "the height is within its limits");
+  require(screen.left < 0 && screen.bottom < 0, "left and bottom are negative");
+  require(std::isnormal(screen.dx()) && screen.dx() > 0, "a pixel has a width");
+  require(std::isnormal(screen.dy()) && screen.dy() > 0, "a pixel has a height");
+  require(screen.front < screen.rear && std::isfinite(screen.front) && std::isfinite(screen.rear),
+          "the front limit is before the rear limit");
+}
+
+void rewrite(TextReader& text, TextWriter& output) {
+  const ScreenConfig screen = read_config(text);
+  check_screen(screen);
+  output.append(std::to_string(screen.columns) + " " + std::to_string(screen.rows) + "\n" +
+                shortest(screen.left) + "\n" + shortest(screen.bottom) + "\n" + shortest(screen.front) + " " +
+                shortest(screen.rear) + "\n");
+}
+
+}  // namespace
+}  // namespace pipeline
+
+// NOLINTNEXTLINE(readability-identifier-naming): libFuzzer's name
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace pipeline;
+  const Transcript once = transcript({reinterpret_cast<const char*>(data), size}, rewrite);
+  if (!once.mistake.empty()) return 0;
+  require(transcript(once.written, rewrite) == once, "a config written out reads back to itself");
+  return 0;
+}

@@ -1,0 +1,145 @@
+// The whole pipe in one process: the four tools' own main functions, each reading what the one before wrote.
+// The first byte of the input chooses options, the rest is the scene.
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tests/fuzz/fuzz_bytes.h"
+#include "tests/fuzz/require.h"
+#include "tests/text_input.h"
+
+// tools/*.cpp, compiled with main renamed.
+int model_main(int argc, char** argv);
+int view_main(int argc, char** argv);
+int project_main(int argc, char** argv);
+int zbuf_main(int argc, char** argv);
+
+namespace pipeline {
+namespace {
+
+/// Has a descriptor stand for another one's file while this object lives.
+class Redirected {
+ public:
+  Redirected(int descriptor, int file)
+      : descriptor_(descriptor), before_(::fcntl(descriptor, F_DUPFD_CLOEXEC, 10)) {
+    ::dup2(file, descriptor);
+  }
+  ~Redirected() {
+    if (before_ < 0)
+      ::close(descriptor_);
+    else
+      ::dup2(before_, descriptor_);
+    ::close(before_);
+  }
+  Redirected(const Redirected&) = delete;
+  Redirected& operator=(const Redirected&) = delete;
+
+ private:
+  int descriptor_;
+  int before_;
+};
+
+struct Run {
+  int status = 0;
+  std::string output;
+  std::string messages;
+};
+
+Run run(int (*tool)(int, char**), std::vector<std::string> words, const std::string& input) {
+  const TextFile in(input), out(""), messages("");
+  std::vector<char*> argv;
+  for (std::string& word : words) argv.push_back(word.data());
+  argv.push_back(nullptr);
+  Run done;
+  {
+    const Redirected stdin_file(STDIN_FILENO, in.descriptor());
+    const Redirected stdout_file(STDOUT_FILENO, out.descriptor());
+    const Redirected stderr_file(STDERR_FILENO, messages.descriptor());
+    done.status = tool(static_cast<int>(words.size()), argv.data());
+  }
+  done.output = out.whole_text();
+  done.messages = messages.whole_text();
+  return done;
+}
+
+/// One line says why a run failed; a run that did not fail says nothing but notes.
+void check_messages(const Run& done) {
+  require(done.status == 0 || done.status == 1, "what is in a scene is no misuse");
+  std::size_t failures = 0;
+  for (std::size_t begin = 0; begin < done.messages.size();) {
+    const std::size_t end = std::min(done.messages.find('\n', begin), done.messages.size());
+    if (done.messages.substr(begin, end - begin).find(": note: ") == std::string::npos) ++failures;
+    begin = end + 1;
+  }
+  require(failures == static_cast<std::size_t>(done.status), "a failure is one line, success is quiet");
+}
+
+/// A stage text ends with an error line if the stage failed, and holds nothing but numbers otherwise.
+void check_stage_text(const Run& done) {
+  const std::size_t last_line = done.output.rfind('\n', done.output.size() < 2 ? 0 : done.output.size() - 2);
+  const std::string last = done.output.substr(last_line == std::string::npos ? 0 : last_line + 1);
+  require(last.starts_with("error ") == (done.status != 0),
+          "an error line ends the text of a failed stage alone");
+  if (done.status != 0) return;
+  require(done.output.find("nan") == std::string::npos, "no number is nan");
+  require(done.output.find("inf") == std::string::npos, "no number is infinite");
+  require(done.output.find("-0.0000000 ") == std::string::npos, "zero has no sign");
+}
+
+Run run_stage(int (*tool)(int, char**), const std::vector<std::string>& words, const Run& before) {
+  Run done = run(tool, words, before.output);
+  check_messages(done);
+  check_stage_text(done);
+  require(before.status == 0 || done.status == 1, "a failure reaches the next stage");
+  return done;
+}
+
+std::pair<Run, std::string> draw(std::vector<std::string> words, const std::string& input) {
+  const TextFile config("9 7\n"), image("");
+  const auto path_of = [](const TextFile& file) { return "/dev/fd/" + std::to_string(file.descriptor()); };
+  words.insert(words.end(), {path_of(config), "--image", path_of(image)});
+  Run done = run(zbuf_main, words, input);
+  check_messages(done);
+  return {std::move(done), image.whole_text()};
+}
+
+void check_picture(const Run& projected, const std::string& coverage) {
+  const auto [buffered, picture] = draw({"zbuf", "--coverage", coverage}, projected.output);
+  require(buffered.status == projected.status, "what project has written can be drawn");
+  require(buffered.status == 0 || (buffered.output.empty() && picture.empty()), "a failed run draws nothing");
+  const auto [swept, swept_picture] =
+      draw({"zbuf", "--coverage", coverage, "--algorithm", "scanline"}, projected.output);
+  require(swept.output == buffered.output && swept_picture == picture, "both algorithms draw the same");
+}
+
+void check(FuzzBytes bytes) {
+  const int options = bytes.byte();
+  std::vector<std::string> digits = {"--digits", (options & 1) != 0 ? "exact" : "7"};
+  const auto with_digits = [&](std::vector<std::string> words) {
+    words.insert(words.end(), digits.begin(), digits.end());
+    return words;
+  };
+  const std::vector<std::string> clips = {"auto", "near", "frustum", "reject"};
+  std::vector<std::string> model_words = with_digits({"model"});
+  if ((options & 2) != 0) model_words.emplace_back("--framed");
+  const Run scene = {0, std::string(bytes.rest()), ""};
+  const Run modelled = run_stage(model_main, model_words, scene);
+  const Run viewed = run_stage(view_main, with_digits({"view"}), modelled);
+  const std::string& clip = clips[static_cast<std::size_t>(options >> 2 & 3)];
+  const Run projected = run_stage(project_main, with_digits({"project", "--clip", clip}), viewed);
+  check_picture(projected, (options & 16) != 0 ? "center" : "nearest");
+}
+
+}  // namespace
+}  // namespace pipeline
+
+// NOLINTNEXTLINE(readability-identifier-naming): libFuzzer's name
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  pipeline::check(pipeline::FuzzBytes(data, size));
+  return 0;
+}

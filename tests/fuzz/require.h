@@ -1,0 +1,15 @@
+#pragma once
+
+#include <cstdio>
+#include <cstdlib>
+
+namespace pipeline {
+
+/// Ends the process with a message unless what is claimed holds: what a fuzzer takes for a crash.
+inline void require(bool holds, const char* claim) {
+  if (holds) return;
+  std::fprintf(stderr, "does not hold: %s\n", claim);
+  std::abort();
+}
+
+}  // namespace pipeline

@@ -1,0 +1,37 @@
+// The reader and the writer of stage text: any text gives triangles or a mistake with its place, and what was
+// written reads back to the same.
+
+#include "libpipeline/stage_reader.h"
+#include "libpipeline/stage_writer.h"
+#include "tests/fuzz/transcript.h"
+
+namespace pipeline {
+namespace {
+
+void copy(TextReader& text, TextWriter& output, NumberFormat format) {
+  StageReader reader(text, true);
+  StageWriter writer(output, format, false);
+  writer.write_header(reader.header());
+  for (TriangleBatch batch; reader.read(batch);) writer.write(batch);
+  writer.finish();
+}
+
+void check(std::string_view text, NumberFormat format) {
+  const Work work = [&](TextReader& reader, TextWriter& writer) { copy(reader, writer, format); };
+  const Transcript once = transcript(text, work);
+  if (!once.mistake.empty()) return;
+  const Transcript twice = transcript(once.written, work);
+  require(twice.mistake.empty(), "what is written can be read");
+  require(twice.written == once.written, "a copy of a copy is the copy");
+}
+
+}  // namespace
+}  // namespace pipeline
+
+// NOLINTNEXTLINE(readability-identifier-naming): libFuzzer's name
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::string_view text(reinterpret_cast<const char*>(data), size);
+  pipeline::check(text, {.decimals = 7, .shortest = false});
+  pipeline::check(text, {.decimals = 7, .shortest = true});
+  return 0;
+}

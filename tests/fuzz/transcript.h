@@ -1,0 +1,86 @@
+#pragma once
+
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "libpipeline/error.h"
+#include "libpipeline/text_reader.h"
+#include "libpipeline/text_writer.h"
+#include "tests/fuzz/require.h"
+#include "tests/text_input.h"
+
+namespace pipeline {
+
+/// What a text becomes: what was written, and the mistake it ended with, if any.
+struct Transcript {
+  std::string written;
+  std::string mistake;
+  friend bool operator==(const Transcript&, const Transcript&) = default;
+};
+
+/// Reads from a text and writes what it makes of it.
+using Work = std::function<void(TextReader&, TextWriter&)>;
+
+/// Line and column of a mistake lie in the text, or just behind it.
+inline void require_place_within(const Place& place, std::string_view text) {
+  const auto line_count = static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')) + 1;
+  require(place.line >= 1 && place.line <= line_count + 1, "a mistake is on a line of the text");
+  for (std::size_t i = 1; i < place.line && !text.empty(); ++i)
+    text.remove_prefix(std::min(text.find('\n'), text.size() - 1) + 1);
+  require(place.column <= std::min(text.find('\n'), text.size()) + 1, "a mistake is within its line");
+}
+
+inline Transcript transcript(int descriptor, std::string_view text, const Work& work) {
+  const TextFile output("");
+  TextReader reader(descriptor, "in");
+  TextWriter writer(output.descriptor(), "out");
+  Transcript result;
+  try {
+    work(reader, writer);
+  } catch (const InputError& error) {
+    require_place_within(error.place(), text);
+    result.mistake = error.what();
+  }
+  writer.flush();
+  result.written = output.whole_text();
+  return result;
+}
+
+/// A short text that a reader gets in pieces. All of it waits in a socket, so no thread has to send it.
+class WaitingPieces {
+ public:
+  WaitingPieces(std::string_view text, std::size_t piece_size) {
+    int ends[2];
+    require(::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends) == 0, "there are sockets");
+    descriptor_ = ends[0];
+    for (; !text.empty(); text.remove_prefix(std::min(piece_size, text.size())))
+      require(::send(ends[1], text.data(), std::min(piece_size, text.size()), MSG_DONTWAIT) > 0,
+              "a text is short");
+    ::close(ends[1]);
+  }
+  ~WaitingPieces() { ::close(descriptor_); }
+  WaitingPieces(const WaitingPieces&) = delete;
+  WaitingPieces& operator=(const WaitingPieces&) = delete;
+
+  [[nodiscard]] int descriptor() const { return descriptor_; }
+
+ private:
+  int descriptor_ = -1;
+};
+
+/// What `work` makes of the text; the same whether it comes as a whole or in pieces.
+inline Transcript transcript(std::string_view text, const Work& work) {
+  const TextFile file(text);
+  Transcript whole = transcript(file.descriptor(), text, work);
+  const WaitingPieces pieces(text, text.size() / 3 + 1);
+  require(transcript(pieces.descriptor(), text, work) == whole, "the sizes of blocks change nothing");
+  return whole;
+}
+
+}  // namespace pipeline
