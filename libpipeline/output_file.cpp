@@ -18,6 +18,7 @@ namespace pipeline {
 namespace {
 
 constexpr int kNone = -1;
+constexpr int kMostAttempts = 1000;  // to find a temporary name
 
 /// The N of a path that names this process's open file N, else kNone. Such a file is not ours to replace,
 /// even if it happens to be a regular one.
@@ -62,6 +63,7 @@ OutputFile::OutputFile(const std::string& path) : path_(path), target_(target_of
 
 OutputFile::~OutputFile() {
   if (descriptor_ != kNone) ::close(descriptor_);
+  if (unnamed_ != kNone) ::close(unnamed_);
   if (!temporary_path_.empty()) ::unlink(temporary_path_.c_str());
 }
 
@@ -72,15 +74,33 @@ void OutputFile::open_directly(int own_descriptor) {
   if (descriptor_ < 0) throw IoError("open", path_, errno);
 }
 
+std::string OutputFile::temporary_name(int attempt) const {
+  const std::string name = ".pipeline-" + std::to_string(::getpid()) + "-" + std::to_string(attempt);
+  return std::filesystem::path(target_).parent_path() / name;
+}
+
+/// Opens a file that has no name yet; false where the system has none such. It is linked by way of /proc.
+bool OutputFile::open_unnamed(const std::string& folder, unsigned mode) {
+#ifdef O_TMPFILE
+  if (::access("/proc/self/fd", X_OK) != 0) return false;
+  descriptor_ = ::open(folder.c_str(), O_WRONLY | O_TMPFILE | O_CLOEXEC, mode);
+  if (descriptor_ < 0) return false;
+  unnamed_ = ::fcntl(descriptor_, F_DUPFD_CLOEXEC, 0);
+  if (unnamed_ >= 0) return true;
+  ::close(descriptor_);
+#endif
+  return false;
+}
+
 void OutputFile::open_beside(bool exists, unsigned mode) {
-  constexpr int kMostAttempts = 1000;
-  const std::filesystem::path folder = std::filesystem::path(target_).parent_path();
-  const std::string stem = ".pipeline-" + std::to_string(::getpid()) + "-";
-  for (int i = 0; i < kMostAttempts; ++i) {
-    std::string name = folder / (stem + std::to_string(i));
-    descriptor_ = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
-    if (descriptor_ >= 0) temporary_path_ = std::move(name);
-    if (descriptor_ >= 0 || errno != EEXIST) break;
+  const std::string folder = std::filesystem::path(target_).parent_path();
+  if (!open_unnamed(folder.empty() ? "." : folder, mode)) {
+    for (int i = 0; i < kMostAttempts; ++i) {
+      std::string name = temporary_name(i);
+      descriptor_ = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
+      if (descriptor_ >= 0) temporary_path_ = std::move(name);
+      if (descriptor_ >= 0 || errno != EEXIST) break;
+    }
   }
   if (descriptor_ < 0) throw IoError("open", path_, errno);
   // The umask has no say in a file that was there. Where the file system refuses, less is permitted, not
@@ -98,9 +118,27 @@ void OutputFile::close() {
 
 void OutputFile::commit() {
   close();
+  if (unnamed_ != kNone) link_into_place();
   if (temporary_path_.empty()) return;
   if (::rename(temporary_path_.c_str(), target_.c_str()) != 0) throw IoError("replace", path_, errno);
   temporary_path_.clear();
+}
+
+/// Gives the file its name, or a temporary one where an older file has that.
+void OutputFile::link_into_place() {
+  const std::string file = "/proc/self/fd/" + std::to_string(unnamed_);
+  const auto link_to = [&](const std::string& name) {
+    return ::linkat(AT_FDCWD, file.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0;
+  };
+  bool is_linked = link_to(target_);
+  for (int i = 0; !is_linked && errno == EEXIST && i < kMostAttempts; ++i) {
+    std::string name = temporary_name(i);
+    is_linked = link_to(name);
+    if (is_linked) temporary_path_ = std::move(name);
+  }
+  if (!is_linked) throw IoError("replace", path_, errno);
+  ::close(unnamed_);
+  unnamed_ = kNone;
 }
 
 }  // namespace pipeline

@@ -73,9 +73,34 @@ TEST(OutputFile, WithoutCommitThereIsNoFileAlsoAfterClose) {
   {
     OutputFile file(folder.path("out"));
     file.close();
-    EXPECT_EQ(folder.file_count(), 1u);
+    EXPECT_FALSE(fs::exists(folder.path("out")));
   }
   EXPECT_EQ(folder.file_count(), 0u);
+}
+
+/// True where files may be without a name until they are complete.
+bool has_unnamed_files(const TemporaryFolder& folder) {
+  const int descriptor = ::open(folder.path("").c_str(), O_WRONLY | O_TMPFILE | O_CLOEXEC, 0600);
+  if (descriptor >= 0) ::close(descriptor);
+  return descriptor >= 0 && fs::exists("/proc/self/fd");
+}
+
+TEST(OutputFile, HasNoNameBeforeItsCommit) {
+  const TemporaryFolder folder;
+  if (!has_unnamed_files(folder)) GTEST_SKIP() << "this file system has no files without a name";
+  OutputFile file(folder.path("out"));
+  write_text(file, "new");
+  EXPECT_EQ(folder.file_count(), 0u);
+}
+
+TEST(OutputFile, AFileThatAppearedMeanwhileIsReplaced) {
+  const TemporaryFolder folder;
+  OutputFile file(folder.path("out"));
+  write_text(file, "new");
+  folder.write("out", "another's");
+  file.commit();
+  EXPECT_EQ(folder.read("out"), "new");
+  EXPECT_EQ(folder.file_count(), 1u);
 }
 
 TEST(OutputFile, ReplacesAFileAsAWhole) {

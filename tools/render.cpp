@@ -131,6 +131,8 @@ void write_all(Tool& tool, const RenderOptions& chosen, const SampledVisible<Vis
   }
   pixels.finish();
   depths.close();
+  image.close();
+  tool.close_output();
   image.commit();
   depths.commit();
   tool.timing().lap(&Timing::write_seconds);

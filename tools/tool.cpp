@@ -134,7 +134,9 @@ int Tool::status_of(const std::function<void()>& work) {
 }
 
 void Tool::close_output() {
+  if (output_is_closed_) return;
   output_.flush();
+  output_is_closed_ = true;
   // Some file systems report a full disk only here.
   if (::close(STDOUT_FILENO) != 0) throw IoError("write", "<stdout>", errno);
   timing_.lap(&Timing::write_seconds);

@@ -76,6 +76,8 @@ class Tool {
   [[nodiscard]] InputFile second_input(const std::string& path, const std::string& name) const;
   /// Standard output.
   TextWriter& output() { return output_; }
+  /// Writes and closes the output, for a tool that has something to do once it is safe; `run` does it else.
+  void close_output();
   Timing& timing() { return timing_; }
   /// "tool: note: ..." on stderr: what a user should know of a run that goes on.
   void note(const std::string& message) const;
@@ -83,7 +85,6 @@ class Tool {
  private:
   int answer(const std::string& text);
   int status_of(const std::function<void()>& work);
-  void close_output();
   int fail(const std::string& message, int status);
   int fail(const std::string& message, const std::string& reason, int status);
   int fail_misuse(const std::string& message);
@@ -96,6 +97,7 @@ class Tool {
   bool wants_timing_ = false;
   std::optional<InputFile> input_;
   TextWriter output_;
+  bool output_is_closed_ = false;
   Timing timing_;
 };
 
