@@ -51,8 +51,10 @@ long long leading_exponent(std::string_view word) {
   if (e != std::string_view::npos) {
     std::string_view digits = word.substr(e + 1);
     if (digits.front() == '+') digits.remove_prefix(1);
+    constexpr long long kLargest = 1'000'000'000'000;  // far beyond any, and the length of a line added to it is one
     const auto result = std::from_chars(digits.data(), digits.data() + digits.size(), exponent);
-    if (result.ec != std::errc()) exponent = digits.front() == '-' ? -1'000'000'000 : 1'000'000'000;
+    if (result.ec != std::errc()) exponent = digits.front() == '-' ? -kLargest : kLargest;
+    exponent = std::clamp(exponent, -kLargest, kLargest);
   }
   const std::size_t point = std::min(mantissa.find('.'), mantissa.size());
   const std::size_t leading = mantissa.find_first_of("123456789");

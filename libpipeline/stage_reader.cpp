@@ -106,6 +106,12 @@ bool StageReader::read_header_line(LineScanner& line) {
   return true;
 }
 
+void StageReader::expect_framed() const {
+  if (!header_.framed)
+    throw InputError(header_end_,
+                     expected_but_found("a framed text (model --framed)", "one without 'framed'"));
+}
+
 bool StageReader::read(TriangleBatch& batch) {
   batch.clear();
   if (mistake_) std::rethrow_exception(mistake_);

@@ -33,6 +33,9 @@ class StageReader {
   [[nodiscard]] const Place& header_end() const { return header_end_; }
   /// From now on `clipped` triangles are read, which only projected texts have; before, they are mistakes.
   void accept_clipped() { accepts_clipped_ = true; }
+  /// An InputError unless the text is framed: for who has to know that it is whole, even if nothing came of
+  /// it.
+  void expect_framed() const;
   /// Fills `batch` with the next triangles, as many as are waiting but at least one; false (and an empty
   /// batch) at the end of a text that ends as it should. Triangles before a mistake are given out before the
   /// mistake is thrown, so that it does not depend on the size of blocks how much of the text passes.

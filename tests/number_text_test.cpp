@@ -103,6 +103,9 @@ TEST(ParseNumber, WhatIsTooLargeOverflows) {
   expect_overflow("1.8e308");
   expect_overflow("1e99999999999999999999");
   expect_overflow("0.001e99999999999999999999");
+  expect_overflow("1e9223372036854775807");  // 2^63 - 1
+  expect_overflow("0.1e9223372036854775807");
+  expect_overflow("1000e9223372036854775807");
   expect_overflow(std::string(100'000, '9'));
 }
 

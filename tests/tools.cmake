@@ -26,4 +26,11 @@ if(NOT CMAKE_CXX_FLAGS MATCHES "-fsanitize")
   tools_test(NeedConstantMemory tools_streaming_test Memory)
   tools_test(NeedConstantMemoryLong tools_streaming_test LongMemory)
   set_tests_properties(Tools.NeedConstantMemoryLong PROPERTIES LABELS long TIMEOUT 3600)
+  # A sanitizer has an allocator of its own and has to be loaded first.
+  add_library(fault_shim MODULE fault_shim.cpp)
+  target_link_libraries(fault_shim PRIVATE pipeline_options ${CMAKE_DL_LIBS})
+  add_test(NAME Tools.LoseNothingToFaults
+    COMMAND Python3::Interpreter ${PROJECT_SOURCE_DIR}/tests/tools_disk_test.py $<TARGET_FILE_DIR:model>
+      $<TARGET_FILE:fault_shim> --verbose)
+  set_tests_properties(Tools.LoseNothingToFaults PROPERTIES ENVIRONMENT PYTHONDONTWRITEBYTECODE=1 TIMEOUT 600)
 endif()

@@ -159,6 +159,13 @@ class FramedText(ToolTest):
         self.assert_fails(run("zbuf", "config.txt", stdin=lines), 1,
                           "zbuf: <stdin>:6:1: expected 'end', which closes a framed text, found the end of the input")
 
+    def test_a_stage_that_has_written_nothing_at_all_is_missed_with_zbuf_framed(self):
+        why = "expected a framed text (model --framed), found one without 'framed'"
+        self.assert_fails(run("zbuf", "--framed", "config.txt", stdin=b""), 1, f"zbuf: <stdin>:1:1: {why}")
+        self.assert_fails(run("zbuf", "--framed", "config.txt", stdin=stage_texts()[2]), 1, f"zbuf: <stdin>:1:1: {why}")
+        self.assertEqual(self.files(), ["config.txt", "scene.txt"])
+        self.assert_quiet_success(run("zbuf", "--framed", "config.txt", stdin=self.texts["zbuf"]))
+
     def test_bare_text_of_a_framed_one_has_no_frame(self):
         done = run("view", "--bare", stdin=self.texts["view"])
         self.assert_quiet_success(done)

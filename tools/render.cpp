@@ -142,6 +142,7 @@ template <VisibilityAlgorithm Visible>
 void render_with(Tool& tool, const RenderOptions& chosen, const ScreenConfig& screen) {
   StageReader reader(tool.input(), chosen.coverage == Coverage::center);
   reader.accept_clipped();
+  if (chosen.framed) reader.expect_framed();
   const ScreenConfig shaded_screen = sample_screen(screen, chosen.sample_count);
   std::optional<PixelSize> wireframe;
   if (chosen.wireframe) wireframe = {screen.dx(), screen.dy()};

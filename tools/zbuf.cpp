@@ -40,6 +40,9 @@ void add_options(CLI::App& options, RenderOptions& chosen) {
   add_thread_option(options, chosen.thread_count, "How many threads draw with the z-buffer");
   add_picture_options(options, chosen);
   add_fragment_options(options, chosen.fragments);
+  options.add_flag("--framed", chosen.framed,
+                   "Refuse a text that is not framed (model --framed), for one that is empty may be a stage "
+                   "that was killed before it wrote anything");
 }
 
 void check_threads(const RenderOptions& chosen) {

@@ -1,0 +1,84 @@
+// Loaded before a tool (LD_PRELOAD), lets one system call or allocation fail, or all reads and writes be
+// short.
+//
+//   FAULT_CALL   malloc, write, read, close, link or rename
+//   FAULT_AT     the number of the call that fails, from 1
+//   FAULT_ERRNO  what it fails with
+//   FAULT_MARK   a file that is made when it does
+//   FAULT_SHORT  if set, read and write handle one byte a call
+
+#include <dlfcn.h>
+#include <fcntl.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+
+namespace {
+
+int counts_left = -1;  // calls until the failing one; -1 before the first
+bool is_counting = false;
+
+template <typename Function>
+Function next_one(const char* name) {
+  return reinterpret_cast<Function>(::dlsym(RTLD_NEXT, name));
+}
+
+/// True if this call is the one that fails; sets errno.
+bool fails(const char* call) {
+  const char* const wanted = std::getenv("FAULT_CALL");
+  if (wanted == nullptr || std::strcmp(wanted, call) != 0) return false;
+  if (!is_counting) {
+    is_counting = true;
+    counts_left = std::atoi(std::getenv("FAULT_AT"));
+  }
+  if (counts_left == 0 || --counts_left > 0) return false;
+  ::syscall(SYS_close,
+            static_cast<int>(::syscall(SYS_open, std::getenv("FAULT_MARK"), O_WRONLY | O_CREAT, 0600)));
+  errno = std::atoi(std::getenv("FAULT_ERRNO"));
+  return true;
+}
+
+std::size_t allowed(std::size_t size) {
+  return size > 1 && std::getenv("FAULT_SHORT") != nullptr ? 1 : size;
+}
+
+}  // namespace
+
+extern "C" {
+
+void* malloc(std::size_t size) {
+  // The C library's own name for it: dlsym allocates.
+  extern void* __libc_malloc(std::size_t);  // NOLINT(bugprone-reserved-identifier)
+  return fails("malloc") ? nullptr : __libc_malloc(size);
+}
+
+ssize_t write(int descriptor, const void* text, std::size_t size) {
+  return fails("write") ? -1 : ::syscall(SYS_write, descriptor, text, allowed(size));
+}
+
+ssize_t read(int descriptor, void* text, std::size_t size) {
+  return fails("read") ? -1 : ::syscall(SYS_read, descriptor, text, allowed(size));
+}
+
+int close(int descriptor) {
+  const bool is_failing = fails("close");
+  const int error = errno;
+  const int result = static_cast<int>(::syscall(SYS_close, descriptor));
+  if (is_failing) errno = error;
+  return is_failing ? -1 : result;
+}
+
+int linkat(int from_folder, const char* from, int to_folder, const char* to, int flags) {
+  return fails("link") ? -1
+                       : static_cast<int>(::syscall(SYS_linkat, from_folder, from, to_folder, to, flags));
+}
+
+int rename(const char* from, const char* to) noexcept {
+  static const auto next = next_one<int (*)(const char*, const char*)>("rename");
+  return fails("rename") ? -1 : next(from, to);
+}
+}

@@ -1,0 +1,240 @@
+#!/usr/bin/env python3
+"""Disks that fill at any byte, memory, reads, writes and renames that fail at any call, neighbours that are killed:
+whatever happens, the exit status is not 0 or the output is right, an older good file stays, nothing else is left.
+
+usage: tools_disk_test.py BIN_DIR FAULT_SHIM [UNITTEST ARGUMENT...]
+"""
+import errno
+import os
+import pathlib
+import random
+import resource
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import unittest
+
+from toolbox import CAMERA, SCENE, TRIANGLE, ToolTest, command, run, stage_texts
+
+SHIM = sys.argv.pop(1)
+OLD_IMAGE = b"an older image"
+NOBODY = 65534
+
+
+def small_inputs():
+    """(tool, its operands, its input)."""
+    world, view, ndc = stage_texts()
+    return (("model", [], SCENE.encode()), ("view", [], world), ("project", [], view), ("zbuf", ["config.txt"], ndc))
+
+
+class DiskTest(ToolTest):
+    def setUp(self):
+        super().setUp()
+        pathlib.Path("config.txt").write_text("4 3\n")
+        pathlib.Path("out.bmp").write_bytes(OLD_IMAGE)
+
+    def good_run(self, tool, operands, text):
+        """(stdout, image) of a run that meets no fault; the older image is put back."""
+        done = run(tool, *operands, stdin=text)
+        self.assert_quiet_success(done)
+        image = pathlib.Path("out.bmp").read_bytes()
+        pathlib.Path("out.bmp").write_bytes(OLD_IMAGE)
+        return done.stdout, image
+
+    def assert_as_before(self):
+        self.assertEqual(pathlib.Path("out.bmp").read_bytes(), OLD_IMAGE)
+        self.assertEqual(self.files(), ["config.txt", "out.bmp", "scene.txt"])
+
+
+class FilledDisk(DiskTest):
+    def run_limited(self, size, tool, operands, text):
+        """A run that may write no file beyond `size` bytes; stdout is a file elsewhere."""
+        with tempfile.TemporaryFile() as out:
+            done = run(tool, *operands, stdin=text, stdout=out,
+                       preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (size, size)))
+            out.seek(0)
+            return done, out.read()
+
+    def test_at_any_byte_it_is_a_failure_and_nothing_is_left(self):
+        for tool, operands, text in small_inputs():
+            good, image = self.good_run(tool, operands, text)
+            needed = max(len(good), len(image) if tool == "zbuf" else 0)
+            for size in range(needed):
+                with self.subTest(tool=tool, size=size):
+                    done, _ = self.run_limited(size, tool, operands, text)
+                    self.assertEqual(done.returncode, 1)
+                    self.assertRegex(done.stderr.decode(), f"^{tool}: cannot write (<stdout>|out.bmp): File too large\n$")
+                    self.assert_as_before()
+            done, out = self.run_limited(needed, tool, operands, text)
+            self.assert_quiet_success(done)
+            self.assertEqual(out, good)
+
+
+class Folders(DiskTest):
+    def check(self, image, reason, **settings):
+        done = run("zbuf", "config.txt", "--image", image, stdin=stage_texts()[2], **settings)
+        self.assert_fails(done, 1, f"zbuf: cannot open {image}: {reason}")
+        self.assert_as_before()
+
+    def test_a_missing_one_is_a_failure(self):
+        self.check("missing/out.bmp", "No such file or directory")
+
+    def test_a_device_is_none(self):
+        self.check("/dev/full/out.bmp", "Not a directory")
+
+    def test_one_that_may_not_be_written_is_a_failure(self):
+        if os.geteuid() != 0:
+            self.skipTest("only root can become somebody else")
+        os.chmod(".", 0o755)
+        self.addCleanup(shutil.rmtree, tools := tempfile.mkdtemp())
+        os.chmod(tools, 0o755)
+        shutil.copy(command("zbuf")[0], tools)
+        for image in ("new.bmp", "out.bmp"):
+            done = subprocess.run([f"{tools}/zbuf", "config.txt", "--image", image], input=stage_texts()[2], capture_output=True,
+                                  user=NOBODY, timeout=60)
+            self.assert_fails(done, 1, f"zbuf: cannot open {image}: Permission denied")
+            self.assert_as_before()
+
+
+class Faults(DiskTest):
+    """One call fails (fault_shim.cpp), for every number of the call that a run comes to."""
+
+    def run_with_fault(self, call, number, error, tool, operands, text):
+        """The run, and whether it came to the call."""
+        mark = pathlib.Path(self.outside, "mark")
+        mark.unlink(missing_ok=True)
+        environment = {"LD_PRELOAD": SHIM, "FAULT_CALL": call, "FAULT_AT": str(number), "FAULT_ERRNO": str(error),
+                       "FAULT_MARK": str(mark)}
+        return run(tool, *operands, stdin=text, env=environment), mark.exists()
+
+    def setUp(self):
+        super().setUp()
+        outside = tempfile.TemporaryDirectory()
+        self.addCleanup(outside.cleanup)
+        self.outside = outside.name
+
+    def each_failing_call(self, call, error):
+        """(what failed, run, good output) until a run does not come to the call."""
+        for tool, operands, text in small_inputs():
+            good, _ = self.good_run(tool, operands, text)
+            for number in range(1, 100000):
+                done, was_reached = self.run_with_fault(call, number, error, tool, operands, text)
+                if not was_reached:
+                    self.assert_quiet_success(done)
+                    self.assertGreater(number, 1, f"{tool} never comes to {call}: nothing was tested")
+                    pathlib.Path("out.bmp").write_bytes(OLD_IMAGE)
+                    break
+                yield f"{tool}, {call} {number}: {done.stderr}", done, good
+
+    def check_failures(self, call, error, may_succeed=False, may_abort=False):
+        for which, done, good in self.each_failing_call(call, error):
+            if may_succeed and done.returncode == 0:
+                self.assertEqual(done.stdout, good, which)
+                pathlib.Path("out.bmp").write_bytes(OLD_IMAGE)
+            elif may_abort and done.returncode == -signal.SIGABRT:
+                self.assertIn(b"std::bad_alloc", done.stderr, which)
+            else:
+                self.assertEqual(done.returncode, 1, which)
+                self.assertEqual(len(done.stderr.splitlines()), 1, which)
+            self.assert_as_before()
+
+    def test_any_write_that_fails_is_a_failure(self):
+        self.check_failures("write", errno.ENOSPC)
+
+    def test_any_read_that_fails_is_a_failure(self):
+        self.check_failures("read", errno.EIO, may_succeed=True)  # not those of the C library's start
+
+    def test_any_close_that_fails_says_so_where_data_may_be_lost(self):
+        self.check_failures("close", errno.EIO, may_succeed=True)  # not of a file that was only read
+
+    def test_any_allocation_that_fails_is_a_failure(self):
+        # The C++ library can do without its reserve. Before a tool has read its command line it ends by abort.
+        self.check_failures("malloc", errno.ENOMEM, may_succeed=True, may_abort=True)
+
+    def test_an_interrupted_read_or_write_goes_on(self):
+        for call in ("read", "write"):
+            for which, done, good in self.each_failing_call(call, errno.EINTR):
+                self.assertEqual((done.returncode, done.stdout), (0, good), which)
+
+    def test_a_link_or_rename_that_fails_leaves_the_old_image(self):
+        tool, operands, text = small_inputs()[3]
+        self.good_run(tool, operands, text)
+        for call in ("link", "rename"):
+            done, was_reached = self.run_with_fault(call, 1, errno.EPERM, tool, operands, text)
+            if call == "link" and not was_reached:
+                self.skipTest("this file system has no files without a name")
+            self.assert_fails(done, 1, "zbuf: cannot replace out.bmp: Operation not permitted")
+            self.assert_as_before()
+
+    def test_reads_and_writes_of_one_byte_change_nothing(self):
+        for tool, operands, text in small_inputs():
+            good, image = self.good_run(tool, operands, text)
+            done = run(tool, *operands, stdin=text, env={"LD_PRELOAD": SHIM, "FAULT_SHORT": "1"})
+            self.assert_quiet_success(done)
+            self.assertEqual(done.stdout, good)
+            self.assertEqual(pathlib.Path("out.bmp").read_bytes(), image if tool == "zbuf" else OLD_IMAGE)
+
+
+class KilledStages(DiskTest):
+    """A stage is killed (SIGKILL) when a random part of the scene has been sent."""
+
+    SCENE = CAMERA + TRIANGLE * 3000 + "end\n"
+    STAGES = (["model", "--framed"], ["view"], ["project"], ["zbuf", "--framed", "config.txt"])
+
+    def start_pipe(self):
+        """The four processes and the end to write the scene to."""
+        processes, before, feed = [], subprocess.PIPE, None
+        for tool, *options in self.STAGES:
+            last = tool == "zbuf"
+            process = subprocess.Popen(command(tool, *options), stdin=before, stderr=subprocess.DEVNULL,
+                                       stdout=subprocess.DEVNULL if last else subprocess.PIPE)
+            if feed is None:
+                feed = process.stdin
+            else:
+                before.close()
+            before = process.stdout
+            processes.append(process)
+        return processes, feed
+
+    def run_pipe(self, victim, sent):
+        """Kills stage `victim` after so many bytes; None for nobody. The statuses."""
+        processes, feed = self.start_pipe()
+        text = self.SCENE.encode()
+        try:
+            feed.write(text[:sent])
+            feed.flush()
+            if victim is not None:
+                processes[victim].send_signal(signal.SIGKILL)
+            feed.write(text[sent:])
+            feed.close()
+        except BrokenPipeError:
+            try:
+                feed.close()
+            except BrokenPipeError:
+                pass
+        return [process.wait(timeout=60) for process in processes]
+
+    def test_no_picture_of_a_part_ever_appears(self):
+        self.assertEqual(self.run_pipe(None, 0), [0, 0, 0, 0])
+        good = pathlib.Path("out.bmp").read_bytes()
+        rng = random.Random(7)
+        refused = 0
+        for victim in range(4):
+            for _ in range(100):
+                pathlib.Path("out.bmp").write_bytes(OLD_IMAGE)
+                sent = rng.randrange(len(self.SCENE) + 1)
+                with self.subTest(victim=self.STAGES[victim][0], sent=sent):
+                    statuses = self.run_pipe(victim, sent)
+                    image = pathlib.Path("out.bmp").read_bytes()
+                    # A stage that had done its part before the signal came is not missed.
+                    self.assertEqual(image, good if statuses[3] == 0 else OLD_IMAGE)
+                    self.assertTrue(statuses[victim] == -signal.SIGKILL or statuses == [0, 0, 0, 0], statuses)
+                    self.assertEqual(self.files(), ["config.txt", "out.bmp", "scene.txt"])
+                    refused += statuses[3] != 0
+        self.assertGreater(refused, 200, "most stages were done before the signal came: nothing was tested")
+
+
+if __name__ == "__main__":
+    unittest.main()
