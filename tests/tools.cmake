@@ -14,6 +14,8 @@ tools_test(PassTrianglesOnAtOnce tools_streaming_test Streaming Pieces PipeSize)
 tools_test(SurviveFaults tools_faults_test)
 tools_test(PrintNumbers tools_fuzz_test)
 tools_test(WorkOnThreads tools_threads_test)
+tools_test(TakeHostileTexts tools_hostile_test)
+tools_test(KeepProperties tools_properties_test)
 tools_test(DrawOnThreadsAndShowProgress zbuf_tool_test)
 tools_test(ClipAtPlanesPulledIn clip_inset_test)
 tools_test(ExplainEveryFragment fragments_test)
@@ -21,7 +23,7 @@ tools_test(CarryColorAndLight tools_colors_test)
 tools_test(ShadePixels tools_shading_test)
 tools_test(MakePictures tools_pictures_test)
 
-# A sanitizer's own memory says nothing about the tools'.
+# A sanitizer's own memory says nothing about the tools'. Nor can it be limited.
 if(NOT CMAKE_CXX_FLAGS MATCHES "-fsanitize")
   tools_test(NeedConstantMemory tools_streaming_test Memory)
   tools_test(NeedConstantMemoryLong tools_streaming_test LongMemory)

@@ -1,0 +1,129 @@
+#!/usr/bin/env python3
+"""Texts no one would write: cut at any byte, huge, of no text at all. The answer is one message with its place, or the
+output of what the text now says, in little memory.
+
+usage: tools_hostile_test.py BIN_DIR [UNITTEST ARGUMENT...]
+"""
+import pathlib
+import re
+import resource
+import unittest
+
+from toolbox import CAMERA, HEADER, SCENE, TRIANGLE, ToolTest, command, run, stage_texts
+
+MEMORY = 256 << 20
+VERTICES = "0 0 -2\n1 0 -2\n0 1 -2\n\n"
+
+
+def limit_memory():
+    resource.setrlimit(resource.RLIMIT_DATA, (MEMORY, MEMORY))
+
+
+class Hostile(ToolTest):
+    def run_limited(self, tool, text, *options):
+        if b"__asan_init" in pathlib.Path(command(tool)[0]).read_bytes():
+            self.skipTest("AddressSanitizer needs more memory than the limit")
+        return run(tool, *options, stdin=text, preexec_fn=limit_memory)
+
+    def assert_placed(self, done, tool, text):
+        """One message, whose line and column lie in the text."""
+        self.assertEqual((done.returncode, done.stderr.count(b"\n")), (1, 1), done.stderr)
+        place = re.match(rf"{tool}: <stdin>:(\d+):(\d+): ".encode(), done.stderr)
+        self.assertIsNotNone(place, done.stderr)
+        lines = text.split(b"\n") + [b""]
+        line, column = map(int, place.groups())
+        self.assertLessEqual(line, len(lines))
+        self.assertLessEqual(column, len(lines[line - 1]) + 1)
+
+    def test_every_prefix_of_a_scene_is_refused_but_one_that_has_its_end(self):
+        text = SCENE.encode()
+        for length in range(len(text) - 1):
+            self.assert_placed(run("model", stdin=text[:length]), "model", text[:length])
+        self.assert_quiet_success(run("model", stdin=text[:-1]))
+
+    def test_every_prefix_of_a_stage_text_is_read_as_it_reads_or_refused(self):
+        for tool, text in zip(("view", "project", "zbuf"), stage_texts()):
+            options = ["config.txt"] if tool == "zbuf" else []
+            whole = 0
+            for length in range(len(text)):
+                done = run(tool, *options, stdin=text[:length])
+                if done.returncode != 0:
+                    self.assert_placed(done, tool, text[:length])
+                else:
+                    self.assertEqual(done.stderr, b"")
+                    # Three vertices are there, or none.
+                    body = [line for line in text[:length].split(b"\n") if re.match(rb"-?\d", line)]
+                    self.assertIn(len(body), (0, 3), text[:length])
+                    whole += 1
+            self.assertGreater(whole, 0)
+
+    def test_every_prefix_of_a_config_is_refused_or_has_its_lines(self):
+        text = b"12 8\n-0.5\n-0.25\n-1 1\n"
+        for length in range(len(text)):
+            pathlib.Path("config.txt").write_bytes(text[:length])
+            done = run("zbuf", "config.txt")
+            numbers = text[:length].split()
+            complete = len(numbers) == 6 or (len(numbers) == 2 and text[:length].count(b"\n") <= 1)
+            self.assertEqual(done.returncode, 0 if complete and numbers[-1] != b"-" else 1, (text[:length], done.stderr))
+
+    def test_a_changed_byte_is_refused_with_its_place_or_read_as_it_reads(self):
+        text = SCENE.encode()
+        for position in range(len(text)):
+            for byte in (0, 9, 10, ord("#"), ord("-"), ord("7"), ord("e"), 0xff):
+                changed = text[:position] + bytes([byte]) + text[position + 1:]
+                done = run("model", stdin=changed)
+                if done.returncode == 0:
+                    self.assertEqual((done.stderr, done.stdout.count(b"\n\n")), (b"", 1), changed)
+                else:
+                    self.assert_placed(done, "model", changed)
+
+    def test_a_nul_is_no_blank_and_no_end(self):
+        done = run("view", stdin=HEADER.encode() + b"0 0\x00 -2\n")
+        self.assert_fails(done, 1, r"view: <stdin>:5:3: expected the y of vertex 1 of 3, found '0\x00'")
+
+    def test_a_byte_order_mark_is_skipped_at_the_beginning_alone(self):
+        self.assert_quiet_success(run("model", stdin=b"\xef\xbb\xbf" + SCENE.encode()))
+        done = run("model", stdin=SCENE.replace("triangle", "\ufefftriangle"))
+        self.assert_placed(done, "model", SCENE.replace("triangle", "\ufefftriangle").encode())
+
+    def test_a_number_of_a_million_digits_is_a_number(self):
+        digits = "0." + "3" * 1_000_000
+        done = self.run_limited("view", HEADER + f"0 0 -2\n{digits} 0 -2\n0 1 -2\n", "--bare")
+        self.assert_quiet_success(done)
+        self.assertIn(b"\n0.3333333 0.0000000 -7.0000000\n", done.stdout)
+
+    def test_a_line_of_a_million_words_is_refused_at_the_first_that_is_too_much(self):
+        done = self.run_limited("view", HEADER + "0 0 -2 " + "1 " * 500_000 + "\n")
+        self.assert_fails(done, 1, "view: <stdin>:5:8: expected the end of the line after the z of vertex 1 of 3, found '1'")
+
+    def test_a_line_is_read_up_to_its_limit(self):
+        limit = 1 << 20
+        self.assert_quiet_success(self.run_limited("model", "#" * limit + "\n" + SCENE))
+        done = self.run_limited("model", "#" * (limit + 1) + "\n" + SCENE)
+        self.assert_fails(done, 1, f"model: <stdin>:1:{limit + 1}: expected the end of the line, found more than {limit} characters")
+
+    def test_a_picture_larger_than_memory_is_refused(self):
+        pathlib.Path("config.txt").write_text("65535 65535\n")
+        done = self.run_limited("zbuf", VERTICES, "config.txt", "--image", "out.ppm")
+        self.assert_fails(done, 1, "zbuf: not enough memory")
+        self.assertEqual(self.files(), ["config.txt", "scene.txt"])
+
+    def test_a_size_beyond_the_limit_is_refused_at_its_place(self):
+        for text, column, what in (("65536 1", 1, "width"), ("1 65536", 3, "height"), ("0 1", 1, "width"),
+                                   ("1 99999999999999999999", 3, "height")):
+            pathlib.Path("config.txt").write_text(text + "\n")
+            found = text.split()[0 if column == 1 else 1]
+            self.assert_fails(run("zbuf", "config.txt"), 1, f"zbuf: config.txt:1:{column}: expected the {what} in pixels, "
+                              f"a whole number from 1 to 65535, found '{found}'")
+
+    def test_a_triangles_number_may_be_as_large_as_64_bits_hold(self):
+        largest = (1 << 64) - 1
+        done = run("project", stdin=HEADER + f"triangle {largest}\n" + VERTICES)
+        self.assert_quiet_success(done)
+        self.assertTrue(done.stdout.startswith(f"triangle {largest}\n".encode()), done.stdout)
+        self.assert_placed(run("project", stdin=HEADER + f"triangle {largest + 1}\n" + VERTICES), "project",
+                           (HEADER + f"triangle {largest + 1}\n" + VERTICES).encode())
+
+
+if __name__ == "__main__":
+    unittest.main()
