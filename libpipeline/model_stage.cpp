@@ -1,6 +1,7 @@
 #include "libpipeline/model_stage.h"
 
 #include <array>
+#include <stdexcept>
 #include <string>
 #include <utility>
 
@@ -37,7 +38,7 @@ bool ModelStage::read(TriangleBatch& batch) {
   if (mistake_) std::rethrow_exception(mistake_);
   try {
     fill(batch);
-  } catch (...) {
+  } catch (const std::runtime_error&) {  // lack of memory may have left the batch half filled
     if (batch.empty()) throw;
     mistake_ = std::current_exception();
   }

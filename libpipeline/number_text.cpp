@@ -51,7 +51,8 @@ long long leading_exponent(std::string_view word) {
   if (e != std::string_view::npos) {
     std::string_view digits = word.substr(e + 1);
     if (digits.front() == '+') digits.remove_prefix(1);
-    constexpr long long kLargest = 1'000'000'000'000;  // far beyond any, and the length of a line added to it is one
+    // Far beyond any double's; the digits of a line added to it are far from the end of 64 bits.
+    constexpr long long kLargest = 1'000'000'000'000;
     const auto result = std::from_chars(digits.data(), digits.data() + digits.size(), exponent);
     if (result.ec != std::errc()) exponent = digits.front() == '-' ? -kLargest : kLargest;
     exponent = std::clamp(exponent, -kLargest, kLargest);

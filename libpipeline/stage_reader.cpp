@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <span>
+#include <stdexcept>
 
 #include "libpipeline/fixed_text.h"
 #include "libpipeline/number_text.h"
@@ -117,7 +118,7 @@ bool StageReader::read(TriangleBatch& batch) {
   if (mistake_) std::rethrow_exception(mistake_);
   try {
     fill(batch);
-  } catch (...) {
+  } catch (const std::runtime_error&) {  // lack of memory may have left the batch half filled
     if (batch.empty()) throw;
     mistake_ = std::current_exception();
   }

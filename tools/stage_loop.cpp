@@ -1,5 +1,6 @@
 #include "tools/stage_loop.h"
 
+#include <stdexcept>
 #include <string>
 #include <utility>
 
@@ -26,7 +27,7 @@ std::size_t run_alone(Tool& tool, StageWriter& writer, CoordinateRounder rounder
     timing.lap(&Timing::read_seconds);
     try {
       transform(batch);
-    } catch (...) {
+    } catch (const std::runtime_error&) {  // lack of memory may have left the batch half filled
       write(batch);
       throw;
     }
