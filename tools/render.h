@@ -28,7 +28,7 @@ struct RenderOptions {
   int thread_count = 1;
   FragmentOptions fragments;
   bool wireframe = false;
-  bool framed = false;  // the input has to be
+  bool framed = false;                  // the input has to be
   std::optional<ShadingModel> shading;  // nothing: what the text asks for
 };
 

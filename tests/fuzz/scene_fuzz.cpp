@@ -1,6 +1,7 @@
 // The scene parser and the model stage: any text gives triangles or a mistake with its place.
 
 #include "libpipeline/model_stage.h"
+#include "libpipeline/model_transform.h"
 #include "libpipeline/scene.h"
 #include "libpipeline/stage_writer.h"
 #include "tests/fuzz/transcript.h"
@@ -12,10 +13,13 @@ void model(TextReader& text, TextWriter& output) {
   constexpr NumberFormat kExact = {.decimals = 7, .shortest = true};
   SceneReader scene(text);
   CoordinateRounder rounder(Precision::extended, kExact, text.file());
-  ModelStage stage(scene, rounder);
+  ModelStage stage(scene);
   StageWriter writer(output, kExact, false);
   writer.write_header({false, scene.camera(), stage.appearance()});
-  for (TriangleBatch batch; stage.read(batch);) writer.write(batch);
+  for (TriangleBatch batch; stage.read(batch);) {
+    apply_pending_transforms(batch, rounder);
+    writer.write(batch);
+  }
   writer.finish();
 }
 
