@@ -21,6 +21,8 @@ std::string to_text(Fate fate, std::uint64_t winner) {
       return "lost, behind triangle " + std::to_string(winner);
     case Fate::equal:
       return "lost, equal and later than triangle " + std::to_string(winner);
+    case Fate::too_close:
+      return "lost, nearer by too little than triangle " + std::to_string(winner);
     case Fate::before_front:
       return "lost, before the front limit";
     case Fate::beyond_rear:

@@ -18,6 +18,7 @@ enum class Fate {
   kept,
   behind,        // something nearer is there
   equal,         // something as near is there, and it came earlier
+  too_close,     // it is nearer than what is there, but not by more than the depth epsilon
   before_front,  // nearer than the front limit
   beyond_rear    // not nearer than the rear limit
 };
@@ -28,7 +29,7 @@ struct Fragment {
   std::uint64_t triangle = 0;
   double depth = 0;  // NDC z, as the depth format stores it; outside the limits as it was calculated
   Fate fate = Fate::kept;
-  std::uint64_t winner = 0;  // the triangle it lost against, if it is behind or equal
+  std::uint64_t winner = 0;  // the triangle it lost against, if it is behind, equal or too close
 
   friend bool operator==(const Fragment&, const Fragment&) = default;
 };

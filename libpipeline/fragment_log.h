@@ -22,8 +22,9 @@ class FragmentTest {
     std::uint64_t triangle;
   };
 
-  explicit FragmentTest(const ScreenConfig& screen)
-      : format_(screen), front_(screen.front), rear_(format_.store(screen.rear)) {}
+  /// Beside a triangle that is seen, a fragment has to be nearer by more than `epsilon`, at least 0.
+  explicit FragmentTest(const ScreenConfig& screen, double epsilon = 0)
+      : format_(screen), front_(screen.front), rear_(format_.store(screen.rear)), epsilon_(epsilon) {}
 
   /// A pixel that shows no triangle.
   [[nodiscard]] Seen nothing() const { return {rear_, 0}; }
@@ -36,6 +37,8 @@ class FragmentTest {
     const double depth = format_.depth(stored);
     if (!(stored < seen.depth))
       return {pixel, triangle, depth, seen.depth < stored ? Fate::behind : Fate::equal, seen.triangle};
+    if (seen.depth < rear_ && epsilon_ > 0 && !(format_.depth(seen.depth) - depth > epsilon_))
+      return {pixel, triangle, depth, Fate::too_close, seen.triangle};
     seen = {stored, triangle};
     return {pixel, triangle, depth, Fate::kept, 0};
   }
@@ -44,6 +47,7 @@ class FragmentTest {
   Depth format_;
   double front_;
   typename Depth::Stored rear_;
+  double epsilon_;
 };
 
 /// Tells of every fragment of the picture, triangle by triangle in the order of the stream and each from the
@@ -51,8 +55,8 @@ class FragmentTest {
 template <typename Coverage, typename Depth>
 class FragmentLog {
  public:
-  explicit FragmentLog(const ScreenConfig& screen)
-      : coverage_(screen), test_(screen), seen_(screen.rows, screen.columns, test_.nothing()) {}
+  explicit FragmentLog(const ScreenConfig& screen, double epsilon = 0)
+      : coverage_(screen), test_(screen, epsilon), seen_(screen.rows, screen.columns, test_.nothing()) {}
 
   /// Calls `visit(fragment)` for every pixel the next triangle covers.
   template <typename Visitor>
@@ -75,8 +79,8 @@ template <typename Coverage, typename Depth>
 class PixelProbe {
  public:
   /// `pixel` is on the screen.
-  PixelProbe(const ScreenConfig& screen, const PixelPlace& pixel)
-      : coverage_(screen), test_(screen), pixel_(pixel), seen_(test_.nothing()) {}
+  PixelProbe(const ScreenConfig& screen, const PixelPlace& pixel, double epsilon = 0)
+      : coverage_(screen), test_(screen, epsilon), pixel_(pixel), seen_(test_.nothing()) {}
 
   /// Calls `visit(fragment)` if the next triangle covers the pixel.
   template <typename Visitor>

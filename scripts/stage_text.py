@@ -37,7 +37,7 @@ def real(word):
 
 def parse_stage_text(text, file):
     """The StageText of a str; `file` is its name in messages."""
-    header, vertices, names, next_name = {}, [], [], 0
+    header, vertices, names, next_name, passed_over = {}, [], [], 0, 0
     for number, line in enumerate(text.split("\n"), 1):
         words = line.split("#")[0].split()
         if not words or words[0] in ("framed", "end"):
@@ -47,8 +47,13 @@ def parse_stage_text(text, file):
         if words[0][0].isalpha() and words[0].lower() not in ("nan", "inf"):
             if words[0] == "triangle":
                 next_name = int(words[1])
+            elif words[0] == "clipped":  # the whole triangle in clip space; its pieces follow
+                passed_over = 3
             else:
                 header[words[0]] = words[1:]
+            continue
+        if passed_over:
+            passed_over -= 1
             continue
         try:
             numbers = tuple(real(word) for word in words)

@@ -58,6 +58,14 @@ TEST(FragmentTest, DepthsAFormatCannotTellApartAreEqual) {
   EXPECT_EQ(judged<DepthF64>({1, 1 - 0x1p-40}).back().fate, Fate::kept);
 }
 
+TEST(FragmentTest, WithAnEpsilonAFragmentHasToBeNearerByMore) {
+  const FragmentTest<DepthF64> test(kScreen, 0.25);
+  auto seen = test.nothing();
+  EXPECT_EQ(test.judge(seen, kPixel, 0, 1.875).fate, Fate::kept);  // the rear limit is no triangle
+  EXPECT_EQ(test.judge(seen, kPixel, 1, 1.625), (Fragment{kPixel, 1, 1.625, Fate::too_close, 0}));
+  EXPECT_EQ(test.judge(seen, kPixel, 2, 1.5).fate, Fate::kept);
+}
+
 TEST(FragmentTest, InfiniteDepthsLieOutsideTheLimits) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   EXPECT_EQ(judged({-kInfinity}).back().fate, Fate::before_front);

@@ -95,7 +95,9 @@ class Fragments(ToolTest):
         self.assertEqual(self.files(), ["config.txt", "scene.txt"])
 
     def assert_tells_what_is_drawn(self, config, stage3, *options):
-        """The last fragment kept at each pixel gives its depth and colour; without one it is the background."""
+        """The last fragment kept at each pixel gives its depth, and its colour where the text has none of its own; without one
+        it is the background."""
+        is_plain = not stage3.lstrip()[:1].isalpha()
         done = self.zbuf("--fragments", "fragments.txt", *options, stdin=stage3, config=config)
         columns, rows = map(int, config.split()[:2])
         kept = {}
@@ -108,7 +110,7 @@ class Fragments(ToolTest):
         for row, line in enumerate(done.stdout.decode().splitlines()):
             shown = [f"{kept[column, row][1] + 0.0:.6f}" for column in range(columns) if (column, row) in kept]
             self.assertEqual(["0.000000" if word == "-0.000000" else word for word in shown], line.split(), row)
-            for column in range(columns):
+            for column in range(columns if is_plain else 0):
                 at = 3 * (row * columns + column)
                 colour = colours[kept[column, row][0]] if (column, row) in kept else (0, 0, 0)
                 self.assertEqual(tuple(pixels[at:at + 3]), colour, (column, row))
@@ -125,6 +127,16 @@ class Fragments(ToolTest):
             for depth in ("f64", "f32", "u24"):
                 with self.subTest(coverage=coverage, depth=depth):
                     self.assert_tells_what_is_drawn("40 30\n-1\n-1\n0 1\n", stage3, "--coverage", coverage, "--depth", depth)
+
+    def test_a_depth_epsilon_is_explained(self):
+        self.assert_tells_what_is_drawn("40 30\n-1\n-1\n0 1\n", random_triangles(300, 8), "--depth-epsilon", "0.1")
+        done = self.zbuf("--probe", "1,2", "--depth-epsilon", "0.1", stdin=wall(0.5) + wall(0.45))
+        self.assertIn(b"zbuf: 1,2: triangle 1, depth 0.45: lost, nearer by too little than triangle 0\n", done.stderr)
+
+    def test_samples_change_no_fragment(self):
+        stage3 = random_triangles(300, 8)
+        told = [self.zbuf("--probe", "20,15", *options, stdin=stage3, config="40 30\n").stderr for options in ([], ["--samples", "3"])]
+        self.assertEqual(told[0], told[1])
 
     def test_probes_tell_what_the_file_tells(self):
         stage3 = random_triangles(300, 9)

@@ -35,9 +35,11 @@ PixelPlace parsed_place(const std::string& word, const ScreenConfig& screen) {
 template <typename CoverageRule, typename Depth>
 class ReportOf final : public FragmentReport {
  public:
-  ReportOf(const FragmentOptions& chosen, const ScreenConfig& screen) {
-    for (const std::string& word : chosen.probes) probes_.emplace_back(screen, parsed_place(word, screen));
-    if (!chosen.file_path.empty()) file_.emplace(chosen.file_path, screen);
+  ReportOf(const RenderOptions& chosen, const ScreenConfig& screen) {
+    for (const std::string& word : chosen.fragments.probes)
+      probes_.emplace_back(screen, parsed_place(word, screen), chosen.depth_epsilon);
+    if (!chosen.fragments.file_path.empty())
+      file_.emplace(chosen.fragments.file_path, screen, chosen.depth_epsilon);
   }
 
   void add(const TriangleBatch& p_ndc, std::size_t index) override {
@@ -63,15 +65,16 @@ class ReportOf final : public FragmentReport {
 
  private:
   struct Probe {
-    Probe(const ScreenConfig& screen, const PixelPlace& place) : pixel(place), test(screen, place) {}
+    Probe(const ScreenConfig& screen, const PixelPlace& place, double epsilon)
+        : pixel(place), test(screen, place, epsilon) {}
 
     PixelPlace pixel;
     PixelProbe<CoverageRule, Depth> test;
     std::vector<Fragment> found;
   };
   struct LogFile {
-    LogFile(const std::string& path, const ScreenConfig& screen)
-        : file(path), text(file.descriptor(), path), log(screen) {}
+    LogFile(const std::string& path, const ScreenConfig& screen, double epsilon)
+        : file(path), text(file.descriptor(), path), log(screen, epsilon) {}
 
     OutputFile file;
     TextWriter text;
@@ -92,8 +95,8 @@ class ReportOf final : public FragmentReport {
 template <typename Depth>
 std::unique_ptr<FragmentReport> report_in(const RenderOptions& chosen, const ScreenConfig& screen) {
   if (chosen.coverage == Coverage::center)
-    return std::make_unique<ReportOf<CenterCoverage, Depth>>(chosen.fragments, screen);
-  return std::make_unique<ReportOf<NearestCoverage, Depth>>(chosen.fragments, screen);
+    return std::make_unique<ReportOf<CenterCoverage, Depth>>(chosen, screen);
+  return std::make_unique<ReportOf<NearestCoverage, Depth>>(chosen, screen);
 }
 
 }  // namespace
