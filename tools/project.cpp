@@ -121,8 +121,8 @@ int main(int argc, char** argv) {
     const auto read = [&](TriangleBatch& batch) { return reader.read(batch); };
     std::deque<Worker> workers;
     const auto make_transform = [&](CoordinateRounder& rounder) {
-      Worker& worker = workers.emplace_back(
-          ProjectionStage(projection, chosen.clip, chosen.cull, rounder, chosen.clip_inset));
+      workers.push_back({ProjectionStage(projection, chosen.clip, chosen.cull, rounder, chosen.clip_inset)});
+      Worker& worker = workers.back();
       if (is_lit) worker.stage.keep_clipped_triangles();
       return [&worker](TriangleBatch& batch) { worker.project(batch); };
     };
