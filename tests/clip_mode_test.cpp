@@ -1,0 +1,184 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "libpipeline/error.h"
+#include "tests/projected.h"
+
+namespace pipeline {
+namespace {
+
+std::vector<std::uint64_t> numbers_of(const std::vector<Triangle>& triangles, ClipMode clip) {
+  TriangleBatch batch;
+  for (const Triangle& t : triangles) batch.add(t, batch.size(), {1, 2, 3});
+  return projected(batch, kSimple, clip).p_ndc.numbers;
+}
+
+std::string message_of(const TriangleBatch& p_view, ClipMode clip) {
+  try {
+    projected(p_view, kSimple, clip);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(ClipModeAutomatic, LeavesATriangleInFrontOfTheNearPlaneWhole) {
+  const Result result = projected(batch_of({triangle_at(-0.5, -0.5, -0.5)}), kSimple, ClipMode::automatic);
+  EXPECT_EQ(result.p_ndc.size(), 1u);
+  EXPECT_EQ(result.counts.clipped, 0u);
+  EXPECT_LT(result.p_ndc.triangles[0][0].z, -1);
+}
+
+TEST(ClipModeAutomatic, BeginsBelowNearDividedBy1024) {
+  const double limit = 1.0 / 1024;
+  EXPECT_EQ(projected(batch_of({triangle_at(-limit, -2, -2)}), kSimple, ClipMode::automatic).counts.clipped,
+            0u);
+  EXPECT_EQ(
+      projected(batch_of({triangle_at(-std::nextafter(limit, 0), -2, -2)}), kSimple, ClipMode::automatic)
+          .counts.clipped,
+      1u);
+}
+
+TEST(ClipModeAutomatic, CutsOffWhatIsBehindTheEye) {
+  const Result result = projected(batch_of({triangle_at(1, -2, -2)}), kSimple, ClipMode::automatic);
+  EXPECT_EQ(result.counts.clipped, 1u);
+  EXPECT_EQ(result.counts.pieces, 2u);
+  EXPECT_EQ(result.p_ndc.numbers, (std::vector<std::uint64_t>{0, 0}));
+}
+
+TEST(ClipModeAutomatic, DropsATriangleWithoutAPartBehindTheNearPlane) {
+  const Result result = projected(batch_of({triangle_at(1, -0.5, -0.5), triangle_at(-2, -2, -2)}), kSimple,
+                                  ClipMode::automatic);
+  EXPECT_EQ(result.counts.outside, 1u);
+  EXPECT_EQ(result.p_ndc.numbers, std::vector<std::uint64_t>{1});
+}
+
+TEST(ClipModeAutomatic, AVertexOnTheEyePlaneIsCutOffWithTheSmallestNearPlaneToo) {
+  const ProjectionTransform tiny = {true, 1, 0, 1, 0, 0x1p-1074, 1};
+  EXPECT_EQ(projected(batch_of({triangle_at(0, -0.5, -0.5)}), tiny, ClipMode::automatic).counts.clipped, 1u);
+}
+
+TEST(ClipModeAutomatic, LeavesAParallelProjectionAlone) {
+  const ProjectionTransform parallel = {false, 1, 0, 1, 0, 1, 100};
+  EXPECT_EQ(projected(batch_of({triangle_at(5, 0, -200)}), parallel, ClipMode::automatic).p_ndc.size(), 1u);
+}
+
+TEST(ClipModeNear, CutsEverythingAtTheNearPlane) {
+  const Result result =
+      projected(batch_of({triangle_at(-0.5, -2, -2), triangle_at(-0.5, -0.5, -2), triangle_at(-2, -2, -2)}),
+                kSimple, ClipMode::near);
+  EXPECT_EQ(result.counts.clipped, 2u);
+  EXPECT_EQ(result.counts.pieces, 3u);
+  EXPECT_EQ(result.p_ndc.numbers, (std::vector<std::uint64_t>{0, 0, 1, 2}));
+}
+
+TEST(ClipModeNear, CutsAParallelProjectionAsWell) {
+  const ProjectionTransform parallel = {false, 1, 0, 1, 0, 1, 100};
+  EXPECT_EQ(projected(batch_of({triangle_at(5, -2, -2)}), parallel, ClipMode::near).counts.clipped, 1u);
+}
+
+TEST(ClipModeNear, LeavesTheFarPlaneAlone) {
+  EXPECT_EQ(projected(batch_of({triangle_at(-200, -200, -2)}), kSimple, ClipMode::near).counts.clipped, 0u);
+}
+
+TEST(ClipModeFrustum, CutsAtAllSixPlanes) {
+  const Triangle huge = {Vec3{-1000, -1000, -5}, Vec3{1000, -1000, -5}, Vec3{0, 1000, -5}};
+  const Result result = projected(batch_of({huge}), kSimple, ClipMode::frustum);
+  EXPECT_EQ(result.counts.clipped, 1u);
+  for (const Triangle& piece : result.p_ndc.triangles)
+    for (const Vec3& v : piece) EXPECT_LE(std::max(std::fabs(v.x), std::fabs(v.y)), 1);
+}
+
+TEST(ClipModeFrustum, DropsWhatIsOutsideWithoutBeingOutsideOfOnePlane) {
+  // Its corners are left, right and above, but it passes the upper left corner of the view by.
+  const Triangle passing = {Vec3{-5, 0, -1}, Vec3{0, 5, -1}, Vec3{-5, 5, -1}};
+  const Result result = projected(batch_of({passing}), kSimple, ClipMode::frustum);
+  EXPECT_EQ(result.p_ndc.size(), 0u);
+  EXPECT_EQ(result.counts.outside, 1u);
+}
+
+TEST(ClipModeReject, DropsOnlyWhatIsOutsideOfOnePlane) {
+  const Triangle left = {Vec3{-5, 0, -1}, Vec3{-3, 1, -1}, Vec3{-2, 0, -1}};
+  const Triangle passing = {Vec3{-5, 0, -1}, Vec3{0, 5, -1}, Vec3{-5, 5, -1}};
+  const Triangle across = {Vec3{-5, 0, -1}, Vec3{0, 0, -1}, Vec3{0, 1, -1}};
+  const Result result = projected(batch_of({left, passing, across}), kSimple, ClipMode::reject);
+  EXPECT_EQ(result.p_ndc.numbers, (std::vector<std::uint64_t>{1, 2}));
+  EXPECT_EQ(result.counts.outside, 1u);
+  EXPECT_EQ(result.counts.clipped, 0u);
+}
+
+TEST(ClipModeReject, AVertexBehindTheEyeOfWhatIsNotDroppedIsAnError) {
+  EXPECT_EQ(message_of(batch_of({triangle_at(-2, -2, 1)}), ClipMode::reject),
+            "stage2.txt:3: expected a vertex in front of the eye (z below 0), found one on or behind the eye "
+            "plane");
+}
+
+TEST(ClipModeNone, LeavesEverythingWhole) {
+  EXPECT_EQ(numbers_of({triangle_at(-1e-9, -2, -2), triangle_at(-500, -500, -500)}, ClipMode::none),
+            (std::vector<std::uint64_t>{0, 1}));
+}
+
+TEST(ClipModeNone, AVertexOnOrBehindTheEyePlaneIsAnError) {
+  const std::string expected =
+      "expected a vertex in front of the eye (z below 0), found one on or behind the eye plane";
+  EXPECT_EQ(message_of(batch_of({triangle_at(-2, 0, -2)}), ClipMode::none), "stage2.txt:2: " + expected);
+  EXPECT_EQ(message_of(batch_of({triangle_at(-2, -2, -0.0)}), ClipMode::none), "stage2.txt:3: " + expected);
+  EXPECT_EQ(message_of(batch_of({triangle_at(-2, -2, -2), triangle_at(5, -2, -2)}), ClipMode::none),
+            "stage2.txt:5: " + expected);
+}
+
+TEST(ClipModeNone, AParallelProjectionHasNoEyePlane) {
+  const ProjectionTransform parallel = {false, 1, 0, 1, 0, 1, 100};
+  EXPECT_EQ(projected(batch_of({triangle_at(5, 0, -2)}), parallel, ClipMode::none).p_ndc.size(), 1u);
+}
+
+TEST(ProjectionStage, EveryPieceHasItsTrianglesNumber) {
+  EXPECT_EQ(numbers_of({triangle_at(-2, -2, -2), triangle_at(1, -2, -2), triangle_at(1, 1, 1),
+                        triangle_at(1, 1, -2), triangle_at(-2, -2, -2)},
+                       ClipMode::automatic),
+            (std::vector<std::uint64_t>{0, 1, 1, 3, 4}));
+}
+
+TEST(ProjectionStage, ACutTriangleIsThatCutByHand) {
+  // The near plane cuts the edges at x = 3/4 and y = 3/4: the numbers have few bits on purpose.
+  const Triangle crossing = {Vec3{0, 0, 2}, Vec3{1, 0, -2}, Vec3{0, 1, -2}};
+  const Vec3 cut_x = {0.75, 0, -1};
+  const Vec3 cut_y = {0, 0.75, -1};
+  const Result whole = projected(batch_of({crossing}), kSimple, ClipMode::automatic);
+  const Result by_hand = projected(batch_of({{cut_x, crossing[1], crossing[2]}, {cut_x, crossing[2], cut_y}}),
+                                   kSimple, ClipMode::none);
+  ASSERT_EQ(whole.p_ndc.size(), 2u);
+  for (std::size_t i = 0; i < 6; ++i)
+    EXPECT_EQ(printed_vertex(whole.p_ndc, i, {7}), printed_vertex(by_hand.p_ndc, i, {7}));
+}
+
+TEST(ProjectionStage, CutsPrintTheCorrectlyRoundedNumbers) {
+  using Exact = Real<448>;
+  using ExactVec3 = ReferenceVec3<448>;
+  RandomNumbers random(6);
+  for (int i = 0; i < 2'000; ++i) {
+    const Perspective p = random_perspective(random);
+    // One corner behind the eye: the polygon is cut, corner 2, corner 3, cut.
+    const Triangle t = {
+        Vec3{random_coordinate(random, 1e3), random_coordinate(random, 1e3), random.between(0.1, 1e3)},
+        random_vertices_in_front(random, 1, p.near + 0.1)[0],
+        random_vertices_in_front(random, 1, p.near + 0.1)[0]};
+    const Result result = projected(batch_of({t}), transform_of(p), ClipMode::automatic);
+    const auto exact = reference_projection<448>(p, AspectRule::angle);
+    const auto expected_cut = [&](const Vec3& outside, const Vec3& inside) {
+      const Exact share = (Exact(-p.near) - Exact(outside.z)) / (Exact(inside.z) - Exact(outside.z));
+      const auto between = [&](double a, double b) { return Exact(a) + share * (Exact(b) - Exact(a)); };
+      const ExactVec3 cut = {between(outside.x, inside.x), between(outside.y, inside.y), Exact(-p.near)};
+      return reference_vertex(exact.ndc(cut), {7}, Exact(1));
+    };
+    ASSERT_EQ(result.p_ndc.size(), 2u);
+    ASSERT_EQ(printed_vertex(result.p_ndc, 0, {7}), expected_cut(t[0], t[1]))
+        << to_text(t[0]) << to_text(t[1]);
+    ASSERT_EQ(printed_vertex(result.p_ndc, 5, {7}), expected_cut(t[0], t[2]))
+        << to_text(t[0]) << to_text(t[2]);
+  }
+}
+
+}  // namespace
+}  // namespace pipeline

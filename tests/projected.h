@@ -1,0 +1,71 @@
+#ifndef TESTS_PROJECTED_H_
+#define TESTS_PROJECTED_H_
+
+#include <gtest/gtest.h>
+
+#include <initializer_list>
+
+#include "libpipeline/projection.h"
+#include "tests/printed_vertices.h"
+
+namespace pipeline {
+
+// x and y are left as they are at distance 1, the planes at 1 and 100.
+inline const ProjectionTransform kSimple = {true, 1, 0, 1, 0, 1, 100};
+
+/// Corners at x, y = (0, 0), (1, 0) and (0, 1), in view space, with these z.
+inline Triangle triangle_at(double z1, double z2, double z3) {
+  return {Vec3{0, 0, z1}, Vec3{1, 0, z2}, Vec3{0, 1, z3}};
+}
+
+/// As if the triangles stood in a text of four lines a triangle, the first at line 1.
+inline TriangleBatch batch_of(std::initializer_list<Triangle> triangles) {
+  TriangleBatch batch;
+  for (const Triangle& t : triangles) {
+    const std::size_t line = 4 * batch.size() + 1;
+    batch.add(t, batch.size(), {line, line + 1, line + 2});
+  }
+  return batch;
+}
+
+/// The triangles in NDC and what became of those read.
+struct Result {
+  TriangleBatch p_ndc;
+  ProjectionCounts counts;
+};
+
+/// What `project` makes of a batch from a file stage2.txt; expects that no number was left uncertain.
+inline Result projected(const TriangleBatch& p_view, const ProjectionTransform& projection, ClipMode clip,
+                        CullMode cull = CullMode::nothing, NumberFormat format = {7},
+                        Precision precision = Precision::extended) {
+  CoordinateRounder rounder(precision, format, "stage2.txt");
+  ProjectionStage stage(projection, clip, cull, rounder);
+  Result result;
+  stage.project(p_view, result.p_ndc);
+  result.counts = stage.counts();
+  EXPECT_EQ(rounder.first_uncertain_line(), 0u);
+  return result;
+}
+
+inline ProjectionTransform transform_of(const Projection& projection, AspectRule rule = AspectRule::angle) {
+  return clip_from_view({projection, {}}, rule);
+}
+
+inline Perspective random_perspective(RandomNumbers& random) {
+  const double fov_y = random.bits() % 2 == 0 ? random.between(1, 179) : random.whole(1, 179);
+  const double near = std::exp2(random.between(-10, 10));
+  return {fov_y, random.between(0.1, 179 / fov_y), near, near * (1 + std::exp2(random.between(-10, 30)))};
+}
+
+inline std::vector<Vec3> random_vertices_in_front(RandomNumbers& random, std::size_t count, double nearest) {
+  std::vector<Vec3> vertices(count);
+  for (Vec3& p : vertices)
+    p = {random_coordinate(random, 1e6), random_coordinate(random, 1e6), -random.between(nearest, 1e6)};
+  for (std::size_t i = 0; i < count; i += 4)
+    vertices[i].z = -std::max(nearest, std::nearbyint(-vertices[i].z * 1e7) / 1e7);
+  return vertices;
+}
+
+}  // namespace pipeline
+
+#endif  // TESTS_PROJECTED_H_
