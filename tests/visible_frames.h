@@ -1,0 +1,62 @@
+#ifndef TESTS_VISIBLE_FRAMES_H_
+#define TESTS_VISIBLE_FRAMES_H_
+
+#include <cstring>
+#include <vector>
+
+#include "libpipeline/coverage.h"
+#include "libpipeline/scanline.h"
+#include "libpipeline/visibility.h"
+#include "libpipeline/zbuffer.h"
+
+namespace pipeline {
+
+using Scene = std::vector<Triangle>;
+
+// The screens on which coordinates are decimals of at most 7 places; their doubles are read as such.
+inline constexpr std::uint16_t kAllDecimals = 0x1ff;
+
+/// The colour of triangle `index`: never black.
+inline Color color_of(std::size_t index) {
+  return Color::from_rgb(static_cast<std::uint32_t>(index + 1));
+}
+
+struct Frame {
+  std::vector<double> depths;
+  std::vector<std::uint32_t> colors;
+
+  void add(const VisibleRow& row) {
+    depths.insert(depths.end(), row.depths.begin(), row.depths.end());
+    for (const Color color : row.colors) colors.push_back(color.rgb());
+  }
+  /// Bit by bit: 0 is not -0.
+  friend bool operator==(const Frame& a, const Frame& b) {
+    return a.colors == b.colors && a.depths.size() == b.depths.size() &&
+           std::memcmp(a.depths.data(), b.depths.data(), a.depths.size() * sizeof(double)) == 0;
+  }
+};
+
+template <typename Coverage, typename Depth>
+Frame zbuffer_frame(const Scene& scene, const ScreenConfig& screen, std::uint16_t marks = kAllDecimals) {
+  const Coverage coverage(screen);
+  ZBuffer<Depth> buffer(screen);
+  for (std::size_t i = 0; i < scene.size(); ++i)
+    for_each_span(coverage.rows({scene[i], nullptr, marks}),
+                  [&](const Span& span) { buffer.draw(span, color_of(i)); });
+  Frame frame;
+  buffer.for_each_row([&](const VisibleRow& row) { frame.add(row); });
+  return frame;
+}
+
+template <typename Coverage, typename Depth>
+Frame scanline_frame(const Scene& scene, const ScreenConfig& screen, std::uint16_t marks = kAllDecimals) {
+  Scanline<Coverage, Depth> scanline(screen);
+  for (std::size_t i = 0; i < scene.size(); ++i) scanline.draw({scene[i], nullptr, marks}, color_of(i));
+  Frame frame;
+  scanline.for_each_row([&](const VisibleRow& row) { frame.add(row); });
+  return frame;
+}
+
+}  // namespace pipeline
+
+#endif  // TESTS_VISIBLE_FRAMES_H_
