@@ -1,5 +1,4 @@
-#ifndef TESTS_PROJECTED_H_
-#define TESTS_PROJECTED_H_
+#pragma once
 
 #include <gtest/gtest.h>
 
@@ -67,5 +66,3 @@ inline std::vector<Vec3> random_vertices_in_front(RandomNumbers& random, std::si
 }
 
 }  // namespace pipeline
-
-#endif  // TESTS_PROJECTED_H_

@@ -1,5 +1,4 @@
-#ifndef TESTS_VISIBLE_FRAMES_H_
-#define TESTS_VISIBLE_FRAMES_H_
+#pragma once
 
 #include <cstring>
 #include <vector>
@@ -58,5 +57,3 @@ Frame scanline_frame(const Scene& scene, const ScreenConfig& screen, std::uint16
 }
 
 }  // namespace pipeline
-
-#endif  // TESTS_VISIBLE_FRAMES_H_
