@@ -1,5 +1,6 @@
 #include "tools/command_line.h"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
 
@@ -50,8 +51,8 @@ std::string explained_count(const CLI::Option& option) {
       found == 0 ? "none" : std::to_string(found));
 }
 
-}  // namespace
-
+/// The words as CLI11 takes them, last word first. A word like "-.5" becomes "-0.5": only a digit behind the
+/// minus tells CLI11 that it is a number and no option.
 std::vector<std::string> words_for_parsing(int argc, char** argv) {
   std::vector<std::string> words(argv + 1, argv + argc);
   for (std::string& word : words)
@@ -60,59 +61,7 @@ std::vector<std::string> words_for_parsing(int argc, char** argv) {
   return words;
 }
 
-std::string listed(const std::vector<std::string>& words) {
-  std::string text;
-  for (std::size_t i = 0; i < words.size(); ++i)
-    text += (i == 0 ? "" : i + 1 < words.size() ? ", " : " or ") + words[i];
-  return text;
-}
-
-void add_word_option(CLI::App& options, const std::string& name, const std::vector<std::string>& words,
-                     const std::string& default_word, const std::string& help,
-                     const std::function<void(std::size_t)>& take) {
-  std::string type_name;
-  for (const std::string& word : words) type_name += (type_name.empty() ? "" : "|") + word;
-  const auto choose = [name, words, take](const std::string& found) {
-    const auto word = std::find(words.begin(), words.end(), found);
-    if (word == words.end())
-      throw CLI::ValidationError(name, expected_but_found(listed(words), pipeline::quoted(found)));
-    take(static_cast<std::size_t>(word - words.begin()));
-  };
-  options.add_option_function<std::string>(name, choose, help)
-      ->type_name(type_name)
-      ->default_str(default_word);
-}
-
-void add_thread_option(CLI::App& options, int& thread_count, const std::string& help) {
-  options.add_option("--threads", thread_count, help + ", from 1 to 256; the output does not depend on it")
-      ->type_name("N")
-      ->check(CLI::Range(1, 256))
-      ->capture_default_str();
-}
-
-void add_file_option(CLI::App& options, const std::string& name, std::string& path,
-                     const std::function<void(const std::string&)>& check, const std::string& help) {
-  const auto told = [check](const std::string& word) {
-    try {
-      check(word);
-      return std::string();
-    } catch (const InputError& error) {
-      return std::string(error.what());
-    }
-  };
-  options.add_option(name, path, help)
-      ->type_name("FILE")
-      ->check(CLI::Validator(told, "", ""))
-      ->capture_default_str();
-}
-
-void set_help_form(CLI::App& options) {
-  options.formatter(std::make_shared<HelpForm>());
-  options.footer(
-      "The pipeline: model scene.txt | view | project | zbuf config.txt\n"
-      "Exit status: 0 done; 1 bad input, or reading or writing failed; 2 a wrong command line");
-}
-
+/// What is wrong with the command line: "option: expected ..., found ...".
 std::string explained(const CLI::App& options, const CLI::ParseError& error) {
   if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) return explained_extra(options);
   const CLI::Option* const option = named_in(options, error.what());
@@ -125,6 +74,106 @@ std::string explained(const CLI::App& options, const CLI::ParseError& error) {
     return option->get_name() + ": " +
            expected_but_found("no value", pipeline::quoted(option->results().back()));
   return error.what();
+}
+
+}  // namespace
+
+std::string listed(const std::vector<std::string>& words) {
+  std::string text;
+  for (std::size_t i = 0; i < words.size(); ++i)
+    text += (i == 0 ? "" : i + 1 < words.size() ? ", " : " or ") + words[i];
+  return text;
+}
+
+CommandLine::CommandLine(const std::string& tool, const std::string& description, const std::string& version)
+    : app_(std::make_unique<CLI::App>(description, tool)) {
+  app_->formatter(std::make_shared<HelpForm>());
+  app_->footer(
+      "The pipeline: model scene.txt | view | project | zbuf config.txt\n"
+      "Exit status: 0 done; 1 bad input, or reading or writing failed; 2 a wrong command line");
+  app_->set_version_flag("--version", version);
+}
+
+CommandLine::~CommandLine() = default;
+
+void CommandLine::add_flag(const std::string& name, bool& chosen, const std::string& help) {
+  app_->add_flag(name, chosen, help);
+}
+
+void CommandLine::add_word(const std::string& name, const std::string& type_name, std::string& word,
+                           const std::string& help, const WordCheck& check) {
+  CLI::Option* const option = app_->add_option(name, word, help)->type_name(type_name)->capture_default_str();
+  if (check) option->check(CLI::Validator([check](std::string& found) { return check(found); }, "", ""));
+}
+
+void CommandLine::add_words(const std::string& name, std::size_t count, const std::string& type_name,
+                            std::vector<std::string>& words, const std::string& help) {
+  app_->add_option(name, words, help)
+      ->expected(static_cast<int>(count))
+      ->allow_extra_args(false)
+      ->type_name(type_name);
+}
+
+void CommandLine::add_repeatable(const std::string& name, const std::string& type_name,
+                                 std::vector<std::string>& words, const std::string& help) {
+  app_->add_option(name, words, help)->type_name(type_name)->allow_extra_args(false);
+}
+
+void CommandLine::add_whole(const std::string& name, int& number, int least, int most,
+                            const std::string& help) {
+  app_->add_option(name, number, help)->type_name("N")->check(CLI::Range(least, most))->capture_default_str();
+}
+
+void CommandLine::add_number(const std::string& name, const std::string& type_name, double& number,
+                             const std::function<bool(double)>& is_fine, const std::string& expected,
+                             const std::string& help) {
+  const auto take = [=, &number](const std::string& word) {
+    const ParsedNumber found = parse_number(word);
+    if (found.error != NumberError::none || !is_fine(found.value))
+      throw CLI::ValidationError(name, expected_but_found(expected, pipeline::quoted(word)));
+    number = found.value;
+  };
+  char text[kMaxNumberLength];
+  char* const end = print_number(text, number, 0, {.shortest = true});
+  app_->add_option_function<std::string>(name, take, help)
+      ->type_name(type_name)
+      ->default_str(std::string(text, end));
+}
+
+void CommandLine::add_threads(int& thread_count, const std::string& help) {
+  add_whole("--threads", thread_count, 1, 256, help + ", from 1 to 256; the output does not depend on it");
+}
+
+void CommandLine::add_operand(const std::string& name, std::string& word, bool is_required,
+                              const std::string& help) {
+  app_->add_option(name, word, help)->required(is_required)->capture_default_str();
+}
+
+void CommandLine::add_choice_of_words(const std::string& name, const std::vector<std::string>& words,
+                                      const std::string& default_word, const std::string& help,
+                                      const std::function<void(std::size_t)>& take) {
+  std::string type_name;
+  for (const std::string& word : words) type_name += (type_name.empty() ? "" : "|") + word;
+  const auto choose = [name, words, take](const std::string& found) {
+    const auto word = std::find(words.begin(), words.end(), found);
+    if (word == words.end())
+      throw CLI::ValidationError(name, expected_but_found(listed(words), pipeline::quoted(found)));
+    take(static_cast<std::size_t>(word - words.begin()));
+  };
+  app_->add_option_function<std::string>(name, choose, help)->type_name(type_name)->default_str(default_word);
+}
+
+std::optional<std::string> CommandLine::parse(int argc, char** argv) {
+  try {
+    app_->parse(words_for_parsing(argc, argv));
+  } catch (const CLI::CallForHelp&) {
+    return app_->help();
+  } catch (const CLI::CallForVersion& version) {
+    return std::string(version.what()) + "\n";
+  } catch (const CLI::ParseError& error) {
+    throw UsageError(explained(*app_, error));
+  }
+  return std::nullopt;
 }
 
 }  // namespace pipeline

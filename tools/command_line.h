@@ -1,56 +1,97 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <cstddef>
 #include <functional>
+#include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "libpipeline/error.h"
 
+namespace CLI {
+class App;
+}
+
 namespace pipeline {
 
-// CLI11 in our words: the same form for every message and every help text.
+/// The command line says something impossible. `what()` is the whole message.
+class UsageError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
 
 /// "a, b or c".
 std::string listed(const std::vector<std::string>& words);
 
-/// Adds an option that takes one of `words`; `take` gets the index of the one that was found.
-void add_word_option(CLI::App& options, const std::string& name, const std::vector<std::string>& words,
-                     const std::string& default_word, const std::string& help,
-                     const std::function<void(std::size_t)>& take);
+/// What is wrong with a word; empty if nothing is.
+using WordCheck = std::function<std::string(const std::string& word)>;
 
-/// Adds an option that takes the name of a file; what `check` throws as an InputError is wrong with it.
-void add_file_option(CLI::App& options, const std::string& name, std::string& path,
-                     const std::function<void(const std::string&)>& check, const std::string& help);
-
-/// Adds an option that takes one of a few words, each of which stands for a value. What `chosen` holds is the
-/// default, if it is one of those.
-template <typename T>
-void add_choice(CLI::App& options, const std::string& name, T& chosen,
-                const std::vector<std::pair<std::string, T>>& choices, const std::string& help) {
-  std::vector<std::string> words;
-  std::string default_word;
-  for (const auto& [word, value] : choices) {
-    words.push_back(word);
-    if (value == chosen) default_word = word;
-  }
-  const auto take = [&chosen, choices](std::size_t index) { chosen = choices[index].second; };
-  add_word_option(options, name, words, default_word, help, take);
+/// The check of a name: what `check` throws as an InputError is wrong with it.
+template <typename F>
+WordCheck wrong_with_name(F check) {
+  return [check](const std::string& name) -> std::string {
+    try {
+      check(name);
+      return "";
+    } catch (const InputError& error) {
+      return error.what();
+    }
+  };
 }
 
-/// Adds `--threads`: `help` says what they do. From 1 to 256.
-void add_thread_option(CLI::App& options, int& thread_count, const std::string& help);
+/// CLI11 in our words: the same form for every option, every message and every help text. What an option is
+/// given goes straight into the variable it was added with; what that holds before is the default.
+class CommandLine {
+ public:
+  CommandLine(const std::string& tool, const std::string& description, const std::string& version);
+  ~CommandLine();
 
-/// Options and operands with their defaults, at the end of --help how the tools go together.
-void set_help_form(CLI::App& options);
+  void add_flag(const std::string& name, bool& chosen, const std::string& help);
+  /// An option that takes one word of any kind, which --help calls `type_name`.
+  void add_word(const std::string& name, const std::string& type_name, std::string& word,
+                const std::string& help, const WordCheck& check = nullptr);
+  /// An option that takes `count` words.
+  void add_words(const std::string& name, std::size_t count, const std::string& type_name,
+                 std::vector<std::string>& words, const std::string& help);
+  /// An option that takes one word and may be given again.
+  void add_repeatable(const std::string& name, const std::string& type_name, std::vector<std::string>& words,
+                      const std::string& help);
+  /// An option that takes a whole number from `least` to `most`.
+  void add_whole(const std::string& name, int& number, int least, int most, const std::string& help);
+  /// An option that takes a number for which `is_fine`, of which messages say that it is `expected`.
+  void add_number(const std::string& name, const std::string& type_name, double& number,
+                  const std::function<bool(double)>& is_fine, const std::string& expected,
+                  const std::string& help);
+  /// An option that takes one of a few words, each of which stands for a value. What `chosen` holds is the
+  /// default, if it is one of those.
+  template <typename T>
+  void add_choice(const std::string& name, T& chosen, const std::vector<std::pair<std::string, T>>& choices,
+                  const std::string& help) {
+    std::vector<std::string> words;
+    std::string default_word;
+    for (const auto& [word, value] : choices) {
+      words.push_back(word);
+      if (value == chosen) default_word = word;
+    }
+    const auto take = [&chosen, choices](std::size_t index) { chosen = choices[index].second; };
+    add_choice_of_words(name, words, default_word, help, take);
+  }
+  /// `--threads`: `help` says what they do. From 1 to 256.
+  void add_threads(int& thread_count, const std::string& help);
+  void add_operand(const std::string& name, std::string& word, bool is_required, const std::string& help);
 
-/// The command line as CLI11 takes it, last word first. A word like "-.5" becomes "-0.5": only a digit behind
-/// the minus tells CLI11 that it is a number and no option.
-std::vector<std::string> words_for_parsing(int argc, char** argv);
+  /// Takes the words of `main`. Returns the text that --help or --version asked for, else nothing. A
+  /// UsageError ("option: expected ..., found ...") if the words are not such a command line.
+  std::optional<std::string> parse(int argc, char** argv);
 
-/// What is wrong with the command line: "option: expected ..., found ...".
-std::string explained(const CLI::App& options, const CLI::ParseError& error);
+ private:
+  void add_choice_of_words(const std::string& name, const std::vector<std::string>& words,
+                           const std::string& default_word, const std::string& help,
+                           const std::function<void(std::size_t)>& take);
+
+  std::unique_ptr<CLI::App> app_;
+};
 
 }  // namespace pipeline

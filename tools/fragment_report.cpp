@@ -101,16 +101,11 @@ std::unique_ptr<FragmentReport> report_in(const RenderOptions& chosen, const Scr
 
 }  // namespace
 
-void add_fragment_options(CLI::App& options, FragmentOptions& chosen) {
-  options
-      .add_option(
-          "--probe", chosen.probes,
-          "Say on stderr of every triangle at this pixel how deep it is there, and whether it was kept "
-          "or why it was lost; may be given again")
-      ->type_name("COLUMN,ROW")
-      ->allow_extra_args(false);
-  options.add_option("--fragments", chosen.file_path, "Write the same for the whole picture to a file")
-      ->type_name("FILE");
+void add_fragment_options(CommandLine& options, FragmentOptions& chosen) {
+  options.add_repeatable("--probe", "COLUMN,ROW", chosen.probes,
+                         "Say on stderr of every triangle at this pixel how deep it is there, and whether it "
+                         "was kept or why it was lost; may be given again");
+  options.add_word("--fragments", "FILE", chosen.file_path, "Write the same for the whole picture to a file");
 }
 
 std::unique_ptr<FragmentReport> fragment_report(const RenderOptions& chosen, const ScreenConfig& screen) {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <cstddef>
 #include <memory>
 #include <string>
@@ -9,6 +8,7 @@
 #include "libpipeline/config.h"
 #include "libpipeline/fragment.h"
 #include "libpipeline/triangle_batch.h"
+#include "tools/command_line.h"
 
 namespace pipeline {
 
@@ -20,7 +20,7 @@ struct FragmentOptions {
   std::string file_path;            // empty: no file
 };
 
-void add_fragment_options(CLI::App& options, FragmentOptions& chosen);
+void add_fragment_options(CommandLine& options, FragmentOptions& chosen);
 
 /// Tells what every triangle brings to the pixels that were asked for. It takes triangles in the order of the
 /// stream, so what it says does not depend on who draws them.

@@ -22,37 +22,29 @@ struct ProjectOptions {
   double clip_inset = 0;
 };
 
-void add_options(CLI::App& options, ProjectOptions& chosen) {
-  add_choice<AspectRule>(
-      options, "--aspect", chosen.aspect, {{"angle", AspectRule::angle}, {"ratio", AspectRule::ratio}},
+void add_options(CommandLine& options, ProjectOptions& chosen) {
+  options.add_choice<AspectRule>(
+      "--aspect", chosen.aspect, {{"angle", AspectRule::angle}, {"ratio", AspectRule::ratio}},
       "angle: fovX = fovY * aspect; ratio: tan(fovX/2) = tan(fovY/2) * aspect, as gluPerspective");
-  add_choice<ClipMode>(options, "--clip", chosen.clip,
-                       {{"auto", ClipMode::automatic},
-                        {"near", ClipMode::near},
-                        {"frustum", ClipMode::frustum},
-                        {"reject", ClipMode::reject},
-                        {"none", ClipMode::none}},
-                       "auto: cut at the near plane what comes near the eye\n"
-                       "near: cut everything there\n"
-                       "frustum: cut everything at all six planes\n"
-                       "reject: drop what is wholly outside one of them, cut nothing\n"
-                       "none: a vertex that is not in front of the eye is an error");
-  const auto take_inset = [&chosen](const std::string& word) {
-    const ParsedNumber inset = parse_number(word);
-    if (inset.error != NumberError::none || !(inset.value >= 0 && inset.value < 1))
-      throw CLI::ValidationError(
-          "--clip-inset", expected_but_found("a number from 0 to less than 1", pipeline::quoted(word)));
-    chosen.clip_inset = inset.value;
-  };
-  options
-      .add_option_function<std::string>(
-          "--clip-inset", take_inset,
-          "Pull the planes of --clip in, so that its cuts can be seen: 0.1 leaves "
-          "what is between -0.9 and 0.9 in NDC")
-      ->type_name("F")
-      ->default_str("0");
-  add_choice<CullMode>(options, "--cull", chosen.cull, {{"back", CullMode::back}, {"front", CullMode::front}},
-                       "Drop triangles that turn this side to the eye; counter-clockwise is front");
+  options.add_choice<ClipMode>("--clip", chosen.clip,
+                               {{"auto", ClipMode::automatic},
+                                {"near", ClipMode::near},
+                                {"frustum", ClipMode::frustum},
+                                {"reject", ClipMode::reject},
+                                {"none", ClipMode::none}},
+                               "auto: cut at the near plane what comes near the eye\n"
+                               "near: cut everything there\n"
+                               "frustum: cut everything at all six planes\n"
+                               "reject: drop what is wholly outside one of them, cut nothing\n"
+                               "none: a vertex that is not in front of the eye is an error");
+  options.add_number(
+      "--clip-inset", "F", chosen.clip_inset, [](double inset) { return inset >= 0 && inset < 1; },
+      "a number from 0 to less than 1",
+      "Pull the planes of --clip in, so that its cuts can be seen: 0.1 leaves what is between -0.9 and 0.9 "
+      "in "
+      "NDC");
+  options.add_choice<CullMode>("--cull", chosen.cull, {{"back", CullMode::back}, {"front", CullMode::front}},
+                               "Drop triangles that turn this side to the eye; counter-clockwise is front");
 }
 
 void check_inset(const ProjectOptions& chosen) {

@@ -25,9 +25,9 @@ ShadingModel default_model(const Appearance& appearance) {
 
 }  // namespace
 
-void add_shading_option(CLI::App& options, std::optional<ShadingModel>& chosen) {
-  add_choice<std::optional<ShadingModel>>(
-      options, "--shading", chosen,
+void add_shading_option(CommandLine& options, std::optional<ShadingModel>& chosen) {
+  options.add_choice<std::optional<ShadingModel>>(
+      "--shading", chosen,
       {{"none", ShadingModel::none},
        {"flat", ShadingModel::flat},
        {"gouraud", ShadingModel::gouraud},

@@ -1,15 +1,15 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <optional>
 
 #include "libpipeline/stage_reader.h"
 #include "libpipeline/surface_shader.h"
+#include "tools/command_line.h"
 
 namespace pipeline {
 
 /// `--shading`.
-void add_shading_option(CLI::App& options, std::optional<ShadingModel>& chosen);
+void add_shading_option(CommandLine& options, std::optional<ShadingModel>& chosen);
 
 /// The colour of pixels that show no triangle, black unless the text says another.
 Color background_color(const Appearance& appearance);

@@ -15,24 +15,20 @@ std::string joined(const std::vector<std::string>& words) {
 
 }  // namespace
 
-NumberOptions::NumberOptions(CLI::App& options) {
-  const auto check = [](std::string& text) {
+NumberOptions::NumberOptions(CommandLine& options) {
+  const auto check = [](const std::string& text) {
     std::size_t count = 0;
     const bool is_fine = text == "exact" || (parse_count(text, count) && count <= kMaxDecimals);
     return is_fine
                ? std::string()
                : expected_but_found("a number of decimals from 0 to 17, or exact", pipeline::quoted(text));
   };
-  options
-      .add_option("--digits", digits_,
-                  "Decimals of a coordinate, or exact: as many as read back to the same double")
-      ->type_name("N|exact")
-      ->check(CLI::Validator(check, "", ""))
-      ->capture_default_str();
-  add_choice<Precision>(options, "--precision", precision_,
-                        {{"double", Precision::plain}, {"extended", Precision::extended}},
-                        "extended: every number printed is correctly rounded; double: faster");
-  add_thread_option(options, thread_count_, "How many threads calculate and print");
+  options.add_word("--digits", "N|exact", digits_,
+                   "Decimals of a coordinate, or exact: as many as read back to the same double", check);
+  options.add_choice<Precision>("--precision", precision_,
+                                {{"double", Precision::plain}, {"extended", Precision::extended}},
+                                "extended: every number printed is correctly rounded; double: faster");
+  options.add_threads(thread_count_, "How many threads calculate and print");
 }
 
 NumberFormat NumberOptions::format() const {
@@ -45,10 +41,9 @@ CoordinateRounder NumberOptions::rounder(const std::string& file) const {
   return {precision_, format(), file};
 }
 
-CameraOptions::CameraOptions(CLI::App& options, Parts parts) {
-  const auto add = [&](const std::string& name, int count, const std::string& type, const std::string& help) {
-    options.add_option(name, words_[name], help)->expected(count)->allow_extra_args(false)->type_name(type);
-  };
+CameraOptions::CameraOptions(CommandLine& options, Parts parts) {
+  const auto add = [&](const std::string& name, std::size_t count, const std::string& type,
+                       const std::string& help) { options.add_words(name, count, type, words_[name], help); };
   if (parts == Parts::position_and_projection) {
     add("--eye", 3, "X Y Z", "Where the camera stands, in world space");
     add("--look", 3, "X Y Z", "The point it looks at");
@@ -58,8 +53,7 @@ CameraOptions::CameraOptions(CLI::App& options, Parts parts) {
   add("--perspective", 4, "FOVY ASPECT NEAR FAR", "The projection, as in a scene (degrees)");
   add("--frustum", 6, planes, "The projection as glFrustum takes it");
   add("--ortho", 6, planes, "A parallel projection as glOrtho takes it");
-  options.add_option("--scene", scene_path_, "Take the camera from the first lines of this scene")
-      ->type_name("FILE");
+  options.add_word("--scene", "FILE", scene_path_, "Take the camera from the first lines of this scene");
 }
 
 CameraText CameraOptions::camera(const CameraText& header, const Tool& tool) const {

@@ -1,12 +1,12 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <map>
 #include <string>
 #include <vector>
 
 #include "libpipeline/camera.h"
 #include "libpipeline/coordinate_rounder.h"
+#include "tools/command_line.h"
 #include "tools/tool.h"
 
 namespace pipeline {
@@ -14,7 +14,7 @@ namespace pipeline {
 /// `--digits`, `--precision` and `--threads`: how coordinates are calculated and printed.
 class NumberOptions {
  public:
-  explicit NumberOptions(CLI::App& options);
+  explicit NumberOptions(CommandLine& options);
 
   [[nodiscard]] NumberFormat format() const;
   [[nodiscard]] int thread_count() const { return thread_count_; }
@@ -33,7 +33,7 @@ class CameraOptions {
   /// Which parts of the camera a tool uses.
   enum class Parts { position_and_projection, projection };
 
-  CameraOptions(CLI::App& options, Parts parts);
+  CameraOptions(CommandLine& options, Parts parts);
 
   /// The camera from the options, what they leave out from the scene, what that leaves out from `header`.
   /// What is wrong is an InputError whose place is the option or lies in the scene.

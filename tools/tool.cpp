@@ -10,7 +10,6 @@
 
 #include "libpipeline/error.h"
 #include "libpipeline/stage_reader.h"
-#include "tools/command_line.h"
 #include "tools/pipe_size.h"
 #include "tools/version.h"
 
@@ -61,12 +60,10 @@ void Timing::lap(double Timing::*phase) {
 Tool::Tool(const std::string& name, const std::string& description, OutputKind output_kind)
     : name_(name),
       output_kind_(output_kind),
-      options_(description, name),
+      options_(name, description, name + " (pipeline) " + kVersion),
       output_(STDOUT_FILENO, "<stdout>") {
   open_closed_descriptors();
   make_file_size_limit_an_error();
-  set_help_form(options_);
-  options_.set_version_flag("--version", name + " (pipeline) " + kVersion);
   options_.add_flag("--timing", wants_timing_, "Say on stderr how long reading, working and writing took");
 }
 
@@ -85,15 +82,11 @@ InputFile Tool::second_input(const std::string& path, const std::string& name) c
 }
 
 int Tool::run(int argc, char** argv, const std::function<void()>& work) {
-  options_.add_option("INPUT", input_path_, "The text to read; - is standard input")->capture_default_str();
+  options_.add_operand("INPUT", input_path_, false, "The text to read; - is standard input");
   try {
-    options_.parse(words_for_parsing(argc, argv));
-  } catch (const CLI::CallForHelp&) {
-    return answer(options_.help());
-  } catch (const CLI::CallForVersion& version) {
-    return answer(std::string(version.what()) + "\n");
-  } catch (const CLI::ParseError& error) {
-    return fail_misuse(explained(options_, error));
+    if (const auto asked_for = options_.parse(argc, argv)) return answer(*asked_for);
+  } catch (const UsageError& error) {
+    return fail_misuse(error.what());
   }
   return status_of([&] {
     enlarge_pipe(STDOUT_FILENO);

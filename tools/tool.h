@@ -1,6 +1,5 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <chrono>
 #include <cstdint>
 #include <functional>
@@ -9,6 +8,7 @@
 
 #include "libpipeline/text_reader.h"
 #include "libpipeline/text_writer.h"
+#include "tools/command_line.h"
 
 namespace pipeline {
 
@@ -16,12 +16,6 @@ namespace pipeline {
 constexpr int kExitDone = 0;
 constexpr int kExitFailure = 1;  // bad input, or reading or writing failed
 constexpr int kExitMisuse = 2;   // the command line is not one the tool knows
-
-/// The command line says something impossible. `what()` is the whole message.
-class UsageError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
 
 /// A text opened for reading, closed with this object.
 class InputFile {
@@ -65,7 +59,7 @@ class Tool {
   Tool(const std::string& name, const std::string& description, OutputKind output_kind);
 
   /// A tool adds its own options and operands here, then calls `run`.
-  CLI::App& options() { return options_; }
+  CommandLine& options() { return options_; }
   /// Parses the command line, does `work`, checks that everything was written; returns the exit status.
   int run(int argc, char** argv, const std::function<void()>& work);
 
@@ -92,7 +86,7 @@ class Tool {
 
   std::string name_;
   OutputKind output_kind_;
-  CLI::App options_;
+  CommandLine options_;
   std::string input_path_ = "-";
   bool wants_timing_ = false;
   std::optional<InputFile> input_;

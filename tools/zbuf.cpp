@@ -16,28 +16,25 @@ using namespace pipeline;
 
 namespace {
 
-void add_options(CLI::App& options, RenderOptions& chosen) {
-  options.add_option("CONFIG", chosen.config_path, "The screen: size and limits (config.txt)")->required();
-  add_file_option(options, "--image", chosen.image_path, image_format_of,
-                  "Where the image goes, a .bmp, .ppm or .png file");
-  options.add_option("--z-buffer", chosen.z_buffer_path, "Where the depths go; - is standard output")
-      ->type_name("FILE")
-      ->capture_default_str();
-  add_choice<Coverage>(
-      options, "--coverage", chosen.coverage, {{"nearest", Coverage::nearest}, {"center", Coverage::center}},
+void add_options(CommandLine& options, RenderOptions& chosen) {
+  options.add_operand("CONFIG", chosen.config_path, true, "The screen: size and limits (config.txt)");
+  options.add_word("--image", "FILE", chosen.image_path, "Where the image goes, a .bmp, .ppm or .png file",
+                   wrong_with_name(image_format_of));
+  options.add_word("--z-buffer", "FILE", chosen.z_buffer_path, "Where the depths go; - is standard output");
+  options.add_choice<Coverage>(
+      "--coverage", chosen.coverage, {{"nearest", Coverage::nearest}, {"center", Coverage::center}},
       "Which pixels a triangle covers. nearest: on each row from the pixel nearest to the left end to "
       "that nearest to the right end; center: those whose centres lie inside, decided exactly");
-  add_choice<Algorithm>(
-      options, "--algorithm", chosen.algorithm,
-      {{"zbuffer", Algorithm::zbuffer}, {"scanline", Algorithm::scanline}},
+  options.add_choice<Algorithm>(
+      "--algorithm", chosen.algorithm, {{"zbuffer", Algorithm::zbuffer}, {"scanline", Algorithm::scanline}},
       "How it is found out which triangle is seen. zbuffer: every pixel keeps the nearest depth so far; "
       "scanline: triangles are kept and compared row by row, without memory for the image. Both give "
       "the same output");
-  add_choice<DepthFormat>(
-      options, "--depth", chosen.depth,
+  options.add_choice<DepthFormat>(
+      "--depth", chosen.depth,
       {{"f64", DepthFormat::f64}, {"f32", DepthFormat::f32}, {"u24", DepthFormat::u24}},
       "How a pixel keeps its depth: as a double, a float, or in 2^24 equal steps between the limits");
-  add_thread_option(options, chosen.thread_count, "How many threads draw with the z-buffer");
+  options.add_threads(chosen.thread_count, "How many threads draw with the z-buffer");
   add_picture_options(options, chosen);
   add_fragment_options(options, chosen.fragments);
   options.add_flag("--framed", chosen.framed,
