@@ -78,6 +78,28 @@ AffineMatrix operator*(const AffineMatrix& a, const AffineMatrix& b) {
   return product;
 }
 
+AffineMatrix translated(const AffineMatrix& m, const Vec3& offset) {
+  AffineMatrix product = m;
+  const std::array<Ball, 3> column = {offset.x, offset.y, offset.z};
+  for (auto& row : product.rows)
+    for (std::size_t k = 0; k < 3; ++k) row[3] = row[3] + row[k] * column[k];
+  return product;
+}
+
+AffineMatrix scaled(const AffineMatrix& m, const Vec3& factors) {
+  AffineMatrix product = m;
+  const std::array<Ball, 3> diagonal = {factors.x, factors.y, factors.z};
+  const double largest = std::max({std::fabs(factors.x), std::fabs(factors.y), std::fabs(factors.z)});
+  product.norm = rounded_up(m.norm * largest);
+  for (std::size_t i = 0; i < 3; ++i) {
+    auto& row = product.rows[i];
+    for (std::size_t k = 0; k < 3; ++k) row[k] = row[k] * diagonal[k];
+    product.row_errors[i] = rounded_up(m.row_errors[i] * largest + 0x1p-101 * row_length_bound(row));
+    for (std::size_t k = 0; k < 3; ++k) row[k] = row[k].with_error_at_most(product.row_errors[i]);
+  }
+  return product;
+}
+
 void bound_row_errors(AffineMatrix& m) {
   for (std::size_t i = 0; i < 3; ++i)
     m.row_errors[i] = rounded_up(m.rows[i][0].radius() + m.rows[i][1].radius() + m.rows[i][2].radius());

@@ -40,6 +40,9 @@ struct AffineMatrix {
 
 AffineMatrix identity();
 AffineMatrix operator*(const AffineMatrix& a, const AffineMatrix& b);
+/// m * the translation by `offset`, and m * the scaling by `factors`, without the products by 0 and 1.
+AffineMatrix translated(const AffineMatrix& m, const Vec3& offset);
+AffineMatrix scaled(const AffineMatrix& m, const Vec3& factors);
 /// Sets `row_errors` from the entries' own errors.
 void bound_row_errors(AffineMatrix& m);
 

@@ -2,11 +2,6 @@
 
 namespace pipeline {
 
-void MatrixStack::multiply(const AffineMatrix& t) {
-  top_ = top_ * t;
-  top_is_saved_ = false;
-}
-
 bool MatrixStack::push() {
   if (top_is_saved_ || (!saved_.empty() && saved_.back().matrix == top_)) {
     ++saved_.back().count;

@@ -19,7 +19,9 @@ class MatrixStack {
 
   [[nodiscard]] const AffineMatrix& top() const { return top_; }
   /// top = top * t: `t` is what a point meets first.
-  void multiply(const AffineMatrix& t);
+  void multiply(const AffineMatrix& t) { set_top(top_ * t); }
+  void translate(const Vec3& offset) { set_top(translated(top_, offset)); }
+  void scale(const Vec3& factors) { set_top(scaled(top_, factors)); }
   /// False, and nothing happens, if max_saved() matrices are saved.
   [[nodiscard]] bool push();
   /// False, and nothing happens, if nothing is saved.
@@ -31,6 +33,11 @@ class MatrixStack {
     AffineMatrix matrix;
     std::uint64_t count = 1;
   };
+
+  void set_top(const AffineMatrix& m) {
+    top_ = m;
+    top_is_saved_ = false;
+  }
 
   std::size_t max_saved_;
   AffineMatrix top_ = identity();

@@ -62,11 +62,14 @@ void ModelStage::fill(TriangleBatch& batch) {
 /// Carries out any command but a triangle.
 void ModelStage::carry_out(const Command& command) {
   if (const auto* translate = std::get_if<TranslateCommand>(&command)) {
-    multiply(translation(translate->offset));
+    stack_.translate(translate->offset);
+    transform_.reset();
   } else if (const auto* scale = std::get_if<ScaleCommand>(&command)) {
-    multiply(scaling(scale->factors));
+    stack_.scale(scale->factors);
+    transform_.reset();
   } else if (const auto* rotate = std::get_if<RotateCommand>(&command)) {
-    multiply(rotation(rotate->angle_degrees, rotate->axis));
+    stack_.multiply(rotation(rotate->angle_degrees, rotate->axis));
+    transform_.reset();
   } else if (std::holds_alternative<PushCommand>(command)) {
     push();
   } else if (std::holds_alternative<PopCommand>(command)) {
@@ -86,11 +89,6 @@ void ModelStage::add(const TriangleCommand& command, TriangleBatch& batch) {
     batch.pending_transforms.push_back({batch.size(), transform_});
   batch.add(command.p_model, next_number_++, command.lines);
   if (columns.any()) batch.attributes.add(scene_.vertices(), columns);
-}
-
-void ModelStage::multiply(const AffineMatrix& t) {
-  stack_.multiply(t);
-  transform_.reset();
 }
 
 void ModelStage::push() {

@@ -32,7 +32,6 @@ class ModelStage {
   void fill(TriangleBatch& batch);
   void carry_out(const Command& command);
   void add(const TriangleCommand& command, TriangleBatch& batch);
-  void multiply(const AffineMatrix& t);
   void push();
   void pop();
 

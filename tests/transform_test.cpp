@@ -165,6 +165,53 @@ TEST(MatrixProduct, ContainsTheTruth) {
   }
 }
 
+TEST(MatrixProduct, ContainsTheTruthWithoutTheProductsByZeroAndOne) {
+  RandomNumbers random(5);
+  for (int i = 0; i < 1'000; ++i) {
+    AffineMatrix computed = identity();
+    ExactMatrix exact = reference_scaling<kBits>({1, 1, 1});
+    Exact size = 1;
+    const int last_exponent = i % 2 == 0 ? 20 : 3;
+    for (int depth = 0; depth < 8; ++depth) {
+      const Vec3 v = random_vector(random, -last_exponent, last_exponent);
+      const RandomTransform r = random_rotation(random);
+      const int kind = random.whole(0, 2);
+      computed = kind == 0   ? translated(computed, v)
+                 : kind == 1 ? scaled(computed, v)
+                             : computed * r.computed;
+      const ExactMatrix t = kind == 0   ? reference_translation<kBits>(v)
+                            : kind == 1 ? reference_scaling<kBits>(v)
+                                        : r.exact;
+      exact = exact * t;
+      size = std::max(size, size_of(exact)) * size_of(t);
+      expect_contained(computed, exact, size);
+      ASSERT_FALSE(HasFatalFailure()) << "product " << i << ", factor " << depth;
+    }
+  }
+}
+
+TEST(MatrixProduct, HasTheSameMidpointsWithAndWithoutTheProductsByZeroAndOne) {
+  RandomNumbers random(6);
+  for (int i = 0; i < 1'000; ++i) {
+    const Vec3 v = random_vector(random, -900, 900);
+    const AffineMatrix m = translated(scaled(random_rotation(random).computed, random_vector(random, -9, 9)),
+                                      random_vector(random, -9, 9));
+    const auto expect_same = [](const AffineMatrix& shorter, const AffineMatrix& longer) {
+      for (std::size_t row = 0; row < 3; ++row)
+        for (std::size_t column = 0; column < 4; ++column) {
+          const Ball& a = shorter.rows[row][column];
+          const Ball& b = longer.rows[row][column];
+          ASSERT_EQ(a.value(), b.value());
+          ASSERT_EQ(a.exponent(), b.exponent());
+          ASSERT_LE(a.radius(), b.radius() * (1 + 0x1p-30));
+        }
+    };
+    expect_same(translated(m, v), m * translation(v));
+    expect_same(scaled(m, v), m * scaling(v));
+    ASSERT_FALSE(HasFatalFailure()) << "matrix " << i;
+  }
+}
+
 TEST(MatrixProduct, ContainsTheTruthWhereScalesLeaveTheRange) {
   RandomNumbers random(4);
   for (int i = 0; i < 1'000; ++i) {

@@ -29,15 +29,15 @@ struct Model {
   AffineMatrix computed = identity();
   ReferenceMatrix<bits> exact = reference_scaling<bits>({1, 1, 1});
 
-  Model& translate(const Vec3& v) { return multiply(translation(v), reference_translation<bits>(v)); }
-  Model& scale(const Vec3& v) { return multiply(scaling(v), reference_scaling<bits>(v)); }
+  Model& translate(const Vec3& v) { return set(translated(computed, v), reference_translation<bits>(v)); }
+  Model& scale(const Vec3& v) { return set(scaled(computed, v), reference_scaling<bits>(v)); }
   Model& rotate(double angle, const Vec3& axis) {
-    return multiply(rotation(angle, axis), reference_rotation<bits>(angle, axis));
+    return set(computed * rotation(angle, axis), reference_rotation<bits>(angle, axis));
   }
 
  private:
-  Model& multiply(const AffineMatrix& t, const ReferenceMatrix<bits>& exact_t) {
-    computed = computed * t;
+  Model& set(const AffineMatrix& product, const ReferenceMatrix<bits>& exact_t) {
+    computed = product;
     exact = exact * exact_t;
     return *this;
   }
