@@ -14,6 +14,14 @@ add_test(NAME Samples.MakefileRemakesWhatIsStale
     $<TARGET_FILE_DIR:model> ${PROJECT_SOURCE_DIR})
 add_test(NAME Pipeline.RandomScenesMatchTheReference
   COMMAND Python3::Interpreter ${PROJECT_SOURCE_DIR}/tests/random_scenes_test.py $<TARGET_FILE_DIR:model>)
+# Every way through the code that a processor may choose gives the committed bytes.
+foreach(kernel portable sse4 avx2)
+  set(out ${CMAKE_CURRENT_BINARY_DIR}/samples-${kernel})
+  add_test(NAME Samples.AreTheSameWithKernel_${kernel}
+    COMMAND sh -c "rm -rf '${out}' && make -s -f Makefile.samples check BIN='$<TARGET_FILE_DIR:model>' OUT='${out}'"
+    WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
+  set_tests_properties(Samples.AreTheSameWithKernel_${kernel} PROPERTIES ENVIRONMENT PIPELINE_KERNEL=${kernel})
+endforeach()
 # The reference is imported from the source folder, which stays free of Python's caches.
 set_tests_properties(Samples.AreWhatTheReferenceCalculates Pipeline.RandomScenesMatchTheReference
   PROPERTIES ENVIRONMENT PYTHONDONTWRITEBYTECODE=1)
