@@ -4,7 +4,7 @@
 #include <string>
 #include <type_traits>
 
-#include "libpipeline/number_text.h"
+#include "libpipeline/number_printer.h"
 #include "libpipeline/transform.h"
 
 namespace pipeline {

@@ -4,7 +4,7 @@
 
 #include "libpipeline/double_double.h"
 #include "libpipeline/error.h"
-#include "libpipeline/number_text.h"
+#include "libpipeline/number_parser.h"
 
 namespace pipeline {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "libpipeline/mat4.h"
-#include "libpipeline/number_text.h"
+#include "libpipeline/number_rounding.h"
 #include "libpipeline/triangle_batch.h"
 
 namespace pipeline {

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "libpipeline/fixed_depths.h"
-#include "libpipeline/number_text.h"
+#include "libpipeline/number_printer.h"
 
 namespace pipeline {
 namespace {

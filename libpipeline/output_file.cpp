@@ -12,7 +12,7 @@
 #include <utility>
 
 #include "libpipeline/error.h"
-#include "libpipeline/number_text.h"
+#include "libpipeline/number_parser.h"
 
 namespace pipeline {
 namespace {

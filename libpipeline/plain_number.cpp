@@ -6,6 +6,7 @@
 
 #include "libpipeline/eight_digits.h"
 #include "libpipeline/int128.h"
+#include "libpipeline/powers_of_ten.h"
 
 namespace pipeline {
 namespace {
@@ -41,19 +42,6 @@ constexpr auto kInversePowers = [] {
   for (int n = 0; n <= kMaxDecimals; ++n) powers[static_cast<std::size_t>(n)] = inverse_power_of_ten(n);
   return powers;
 }();
-
-constexpr auto kPowersOfTen = [] {
-  std::array<double, 23> powers{};  // all that are doubles
-  double power = 1;
-  for (double& p : powers) {
-    p = power;
-    power *= 10;
-  }
-  return powers;
-}();
-
-constexpr std::array<std::uint64_t, 9> kWholePowersOfTen = {1,      10,      100,      1000,     10000,
-                                                            100000, 1000000, 10000000, 100000000};
 
 /// The nearest double to digits / 10^decimals; false where the product does not tell.
 bool divide_by_power_of_ten(std::uint64_t digits, int decimals, double& value) {

@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "libpipeline/fixed_text.h"
-#include "libpipeline/number_text.h"
+#include "libpipeline/number_parser.h"
 
 namespace pipeline {
 namespace {

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "libpipeline/fixed_text.h"
+#include "libpipeline/number_printer.h"
 
 namespace pipeline {
 namespace {

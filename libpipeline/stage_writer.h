@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <memory>
 
-#include "libpipeline/number_text.h"
+#include "libpipeline/number_format.h"
 #include "libpipeline/stage_text.h"
 #include "libpipeline/text_writer.h"
 #include "libpipeline/triangle_batch.h"

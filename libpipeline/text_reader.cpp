@@ -7,7 +7,7 @@
 #include <cerrno>
 #include <cstring>
 
-#include "libpipeline/number_text.h"
+#include "libpipeline/number_parser.h"
 
 namespace pipeline {
 namespace {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "libpipeline/coverage_center.h"
-#include "libpipeline/number_text.h"
+#include "libpipeline/number_parser.h"
 
 namespace pipeline {
 

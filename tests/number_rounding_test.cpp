@@ -5,7 +5,8 @@
 #include <cmath>
 #include <string>
 
-#include "libpipeline/number_text.h"
+#include "libpipeline/number_printer.h"
+#include "libpipeline/number_rounding.h"
 #include "tests/random_numbers.h"
 #include "tests/real.h"
 
@@ -239,6 +240,28 @@ TEST(RoundsSafely, TakesMostNumbersOfDoubleAccuracy) {
     if (rounds_safely(value, 8 * 0x1p-53 * std::fabs(value), {7})) ++safe_count;
   }
   EXPECT_GT(safe_count, 9'990);
+}
+
+TEST(RoundsSafely, TakesANumberFarFromATie) {
+  EXPECT_TRUE(rounds_safely(0.12345670, 1e-12, {7}));
+}
+
+TEST(RoundsSafely, RefusesANumberWithinItsErrorOfATie) {
+  EXPECT_FALSE(rounds_safely(0.12345675, 1e-16, {7}));
+  EXPECT_FALSE(rounds_safely(0.5, 0, {0}));
+}
+
+TEST(RoundsSafely, RefusesInfinitiesAndNan) {
+  EXPECT_FALSE(rounds_safely(HUGE_VAL, 0, {7}));
+  EXPECT_FALSE(rounds_safely(-HUGE_VAL, 0, {7}));
+  EXPECT_FALSE(rounds_safely(NAN, 0, {7}));
+  EXPECT_FALSE(rounds_safely(1, HUGE_VAL, {7}));
+  EXPECT_FALSE(rounds_safely(1, NAN, {7}));
+}
+
+TEST(RoundsSafely, TakesAShortestNumberOnlyWithoutError) {
+  EXPECT_TRUE(rounds_safely(0.1, 0, {.shortest = true}));
+  EXPECT_FALSE(rounds_safely(0.1, 0x1p-1074, {.shortest = true}));
 }
 
 }  // namespace

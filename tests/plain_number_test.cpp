@@ -9,7 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "libpipeline/number_text.h"
 #include "tests/random_numbers.h"
 
 namespace pipeline {

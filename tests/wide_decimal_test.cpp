@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string>
 
-#include "libpipeline/number_text.h"
+#include "libpipeline/number_printer.h"
 #include "tests/random_numbers.h"
 #include "tests/real.h"
 

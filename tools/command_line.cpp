@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <memory>
 
-#include "libpipeline/number_text.h"
+#include "libpipeline/number_parser.h"
+#include "libpipeline/number_printer.h"
 
 namespace pipeline {
 namespace {

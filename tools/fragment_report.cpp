@@ -8,7 +8,7 @@
 #include "libpipeline/depth_format.h"
 #include "libpipeline/error.h"
 #include "libpipeline/fragment_log.h"
-#include "libpipeline/number_text.h"
+#include "libpipeline/number_parser.h"
 #include "libpipeline/output_file.h"
 #include "libpipeline/text_writer.h"
 #include "tools/render.h"

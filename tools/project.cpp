@@ -2,7 +2,7 @@
 
 #include <deque>
 
-#include "libpipeline/number_text.h"
+#include "libpipeline/number_parser.h"
 #include "libpipeline/projection.h"
 #include "libpipeline/stage_reader.h"
 #include "libpipeline/stage_writer.h"

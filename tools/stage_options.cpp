@@ -1,6 +1,7 @@
 #include "tools/stage_options.h"
 
-#include "libpipeline/number_text.h"
+#include "libpipeline/number_format.h"
+#include "libpipeline/number_parser.h"
 #include "libpipeline/scene.h"
 #include "tools/command_line.h"
 

@@ -7,7 +7,8 @@
 #include <cstdlib>
 #include <string>
 
-#include "libpipeline/number_text.h"
+#include "libpipeline/number_printer.h"
+#include "libpipeline/number_rounding.h"
 #include "tests/fuzz/fuzz_bytes.h"
 #include "tests/fuzz/require.h"
 

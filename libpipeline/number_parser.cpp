@@ -1,0 +1,84 @@
+#include "libpipeline/number_parser.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "libpipeline/powers_of_ten.h"
+
+namespace pipeline {
+namespace {
+
+bool is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
+
+/// The decimal exponent of the first digit that is not 0 in a word from_chars has accepted.
+long long leading_exponent(std::string_view word) {
+  const std::size_t e = word.find_first_of("eE");
+  const std::string_view mantissa = word.substr(0, e);
+  long long exponent = 0;
+  if (e != std::string_view::npos) {
+    std::string_view digits = word.substr(e + 1);
+    if (digits.front() == '+') digits.remove_prefix(1);
+    // Far beyond any double's; the digits of a line added to it are far from the end of 64 bits.
+    constexpr long long kLargest = 1'000'000'000'000;
+    const auto result = std::from_chars(digits.data(), digits.data() + digits.size(), exponent);
+    if (result.ec != std::errc()) exponent = digits.front() == '-' ? -kLargest : kLargest;
+    exponent = std::clamp(exponent, -kLargest, kLargest);
+  }
+  const std::size_t point = std::min(mantissa.find('.'), mantissa.size());
+  const std::size_t leading = mantissa.find_first_of("123456789");
+  if (leading == std::string_view::npos) return exponent;
+  return exponent + static_cast<long long>(point) - static_cast<long long>(leading);
+}
+
+}  // namespace
+
+ParsedNumber parse_number(std::string_view word) {
+  if (!word.empty() && word.front() == '+') {
+    word.remove_prefix(1);
+    if (!word.empty() && word.front() == '-') return {0, NumberError::not_a_number};
+  }
+  const std::string_view unsigned_word = !word.empty() && word.front() == '-' ? word.substr(1) : word;
+  // from_chars also takes "inf", "nan" and ".5"; the last is a number here as well.
+  if (unsigned_word.empty() || (!is_digit(unsigned_word.front()) && unsigned_word.front() != '.'))
+    return {0, NumberError::not_a_number};
+  ParsedNumber parsed;
+  const char* const end = word.data() + word.size();
+  const auto [stop, code] = std::from_chars(word.data(), end, parsed.value);
+  if (stop != end || code == std::errc::invalid_argument) return {0, NumberError::not_a_number};
+  if (code == std::errc::result_out_of_range) {
+    if (leading_exponent(unsigned_word) > 0) return {0, NumberError::overflow};
+    parsed.value = word.front() == '-' ? -0.0 : 0.0;
+  }
+  return parsed;
+}
+
+bool parse_exact_decimal(std::string_view word, DoubleDouble& value) {
+  if (word.find_first_of("eE") != std::string_view::npos) return false;
+  const std::size_t point = std::min(word.find('.'), word.size());
+  if (word.size() > point + 1 + kExactDecimals) return false;
+  value = {parse_number(word).value, 0};
+  // A whole number of 10^-7 below 2^53 is the only one near its double.
+  if (std::fabs(value.hi) < 9e8) return true;
+  if (std::fabs(value.hi) >= 1e22) return false;
+  DoubleDouble units;
+  int decimal_count = 0;
+  for (std::size_t i = 0; i < word.size(); ++i) {
+    if (!is_digit(word[i])) continue;
+    units = units * 10.0 + DoubleDouble{static_cast<double>(word[i] - '0'), 0};
+    if (i > point) ++decimal_count;
+  }
+  const DoubleDouble decimal = units / DoubleDouble{kPowersOfTen[static_cast<std::size_t>(decimal_count)], 0};
+  const double sign = word.front() == '-' ? -1 : 1;
+  value.lo = (sign * decimal.hi - value.hi) + sign * decimal.lo;
+  return true;
+}
+
+bool parse_count(std::string_view word, std::size_t& value) {
+  const auto [stop, code] = std::from_chars(word.data(), word.data() + word.size(), value);
+  return !word.empty() && code == std::errc() && stop == word.data() + word.size();
+}
+
+}  // namespace pipeline

@@ -1,0 +1,123 @@
+#include "libpipeline/number_printer.h"
+
+#include <algorithm>
+#include <bit>
+#include <cassert>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+
+#include "libpipeline/eight_digits.h"
+#include "libpipeline/int128.h"
+#include "libpipeline/number_rounding.h"
+#include "libpipeline/powers_of_ten.h"
+#include "libpipeline/shortest_decimal.h"
+#include "libpipeline/wide_decimal.h"
+
+namespace pipeline {
+namespace {
+
+/// Prints a number below 10^16 with at least `count` digits, zeros before; 16 characters may be written.
+char* print_whole(char* out, std::uint64_t number, int count) {
+  constexpr std::uint64_t kEightNines = 99'999'999;
+  if (number <= kEightNines && count <= 8) {
+    const std::uint64_t digits = split_digits(static_cast<std::uint32_t>(number));
+    const int length = std::max(8 - std::countr_zero(digits | std::uint64_t{1} << 56) / 8, count);
+    store_eight(out, (digits + kEightZeros) >> (8 * (8 - length)));
+    return out + length;
+  }
+  const std::uint64_t high = number / (kEightNines + 1);
+  const std::uint64_t first = split_digits(static_cast<std::uint32_t>(high));
+  const std::uint64_t last = split_digits(static_cast<std::uint32_t>(number - high * (kEightNines + 1)));
+  const int leading_zeros = (first != 0 ? std::countr_zero(first) : 64 + std::countr_zero(last)) / 8;
+  const int length = std::max(16 - leading_zeros, count);
+  // Shifted as one number: to store it and load it again from another place would take longer.
+  UInt128 text = (static_cast<UInt128>(last + kEightZeros) << 64) | (first + kEightZeros);
+  text >>= 8 * (16 - length);
+  store_eight(out, static_cast<std::uint64_t>(text));
+  store_eight(out + 8, static_cast<std::uint64_t>(text >> 64));
+  return out + length;
+}
+
+/// The fast path of a fixed number of decimals: prints the scaled number as a whole one. Null where that has
+/// more than 51 bits, or lies so near to a tie that the scaling may decide.
+char* print_scaled(char* out, double value, int decimals) {
+  const auto n = static_cast<std::size_t>(decimals);
+  if (decimals > 15 || !rounds_safely(value, 0, {.decimals = decimals})) return nullptr;
+  const auto units = static_cast<std::uint64_t>(nearest_whole(std::fabs(value) * kPowersOfTen[n]));
+  if (value < 0 && units != 0) *out++ = '-';
+  // Cut off instead of divided, which is right but for what was rounded up to a whole number.
+  auto whole = static_cast<std::uint64_t>(std::fabs(value));
+  std::uint64_t behind = units - whole * kWholePowersOfTen[n];
+  if (behind >= kWholePowersOfTen[n]) {
+    ++whole;
+    behind -= kWholePowersOfTen[n];
+  }
+  out = print_whole(out, whole, 1);
+  if (decimals == 0) return out;
+  *out++ = '.';
+  return print_whole(out, behind, decimals);
+}
+
+/// How many digits a number below 10^17 has.
+int digit_count(std::uint64_t number) {
+  // From log10(2), rounded up; one too many below a power of ten, which is then looked up.
+  const auto count = static_cast<std::size_t>(std::bit_width(number) * 1233 >> 12);
+  return static_cast<int>(count) + (number >= kWholePowersOfTen[count] ? 1 : 0);
+}
+
+/// The same for a number of up to 17 digits, with at least `count`.
+char* print_long_whole(char* out, std::uint64_t number, int count) {
+  constexpr std::uint64_t kSixteenZeros = 10'000'000'000'000'000;
+  const std::uint64_t high = number / kSixteenZeros;
+  if (high == 0 && count <= 16) return print_whole(out, number, count);
+  out = print_whole(out, high, count - 16);
+  return print_whole(out, number - high * kSixteenZeros, 16);
+}
+
+/// Prints in the shortest form that reads back to the number; null where that is one with an exponent, or the
+/// number is not of a coordinate's size.
+char* print_shortest(char* out, double value) {
+  Decimal decimal;
+  if (!shortest_decimal(std::fabs(value), decimal)) return nullptr;
+  const auto& [digits, exponent] = decimal;
+  // Written out, it must not be longer than with a point behind its first digit and "e+10".
+  const int length = digit_count(digits);
+  const int point_length = length > 1 ? 1 : 0;
+  if (exponent > 4 + point_length || exponent < -(length + 2 + point_length)) return nullptr;
+  if (value < 0) *out++ = '-';
+  if (exponent >= 0)
+    return print_long_whole(out, digits * kWholePowersOfTen[static_cast<std::size_t>(exponent)], 1);
+  const auto decimals = static_cast<std::size_t>(-exponent);
+  const std::uint64_t scale = decimals < kWholePowersOfTen.size() ? kWholePowersOfTen[decimals] : 0;
+  // A decimal beyond the next whole number would not read back to this one.
+  const auto whole = static_cast<std::uint64_t>(std::fabs(value));
+  out = print_long_whole(out, whole, 1);
+  *out++ = '.';
+  return print_long_whole(out, digits - whole * scale, -exponent);
+}
+
+char* without_sign_of_zero(char* first, char* last) {
+  if (*first != '-') return last;
+  const bool is_zero = std::all_of(first + 1, last, [](char c) { return c == '0' || c == '.'; });
+  if (!is_zero) return last;
+  std::copy(first + 1, last, first);
+  return last - 1;
+}
+
+}  // namespace
+
+char* print_number(char* out, double hi, double lo, NumberFormat format) {
+  assert(std::isfinite(hi) && std::isfinite(lo));
+  if (format.shortest) {
+    char* const end = print_shortest(out, hi);
+    return end != nullptr ? end : std::to_chars(out, out + kMaxNumberLength, hi == 0 ? 0.0 : hi).ptr;
+  }
+  if (char* const end = lo == 0 ? print_scaled(out, hi, format.decimals) : nullptr) return end;
+  char* const end =
+      lo == 0 ? std::to_chars(out, out + kMaxNumberLength, hi, std::chars_format::fixed, format.decimals).ptr
+              : print_exact_sum(out, hi, lo, format.decimals);
+  return without_sign_of_zero(out, end);
+}
+
+}  // namespace pipeline

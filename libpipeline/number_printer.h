@@ -1,0 +1,18 @@
+#pragma once
+
+#include <cstddef>
+
+#include "libpipeline/number_format.h"
+
+namespace pipeline {
+
+/// The most characters `print_number` writes: a sign, 309 digits, a point and the decimals.
+constexpr std::size_t kMaxNumberLength = 1 + 309 + 1 + kMaxDecimals;
+
+/// Prints the nearest decimal to hi + lo, ties to even, in the form `format` asks for, and returns the end of
+/// the text. Zero is printed without a sign, and never in another form than "0.000..." or "0". Both parts
+/// must be finite, |lo| <= ulp(hi) / 2; a shortest number is made of hi alone. `out` has room for
+/// kMaxNumberLength.
+char* print_number(char* out, double hi, double lo, NumberFormat format);
+
+}  // namespace pipeline

@@ -1,0 +1,90 @@
+#include "libpipeline/number_rounding.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+
+#include "libpipeline/powers_of_ten.h"
+
+namespace pipeline {
+namespace {
+
+// A ball narrower than this part of the last printed unit that reaches a tie counts as the tie.
+constexpr double kTieTolerance = 0x1p-20;
+
+/// A number as the sum of a whole number and the exact rest, whose high part lies in [-1/2, 1/2].
+struct SplitNumber {
+  DoubleDouble whole;
+  DoubleDouble rest;
+};
+
+SplitNumber split_at_whole(DoubleDouble t) {
+  const double high = std::nearbyint(t.hi);
+  const double low = std::nearbyint(t.lo);
+  const DoubleDouble rest = two_sum(t.hi - high, t.lo - low);
+  const double carry = std::nearbyint(rest.hi);
+  return {two_sum(high, low) + DoubleDouble{carry, 0}, two_sum(rest.hi - carry, rest.lo)};
+}
+
+bool is_odd(DoubleDouble whole) {
+  return std::fmod(std::fmod(whole.hi, 2) + std::fmod(whole.lo, 2), 2) != 0;
+}
+
+PrintableNumber round_to_decimals(DoubleDouble value, double error, int decimals) {
+  const double scale = kPowersOfTen[static_cast<std::size_t>(decimals)];
+  if (error == 0) return {value.hi, value.lo};
+  // Past 2^1000 the scaled number would overflow; none of its decimals is known there anyway.
+  if (std::fabs(value.hi) > 0x1p900) return {value.hi, value.lo, false};
+  const DoubleDouble scaled = value * scale;
+  const double scaled_error = (error * scale + std::fabs(scaled.hi) * 0x1p-104) * (1 + 0x1p-40);
+  auto [whole, rest] = split_at_whole(scaled);
+  const double direction = std::copysign(1.0, rest.hi);
+  // From the tie towards the whole number; exact where it is small.
+  const double distance = (0.5 - std::fabs(rest.hi)) - direction * rest.lo;
+  const bool may_be_tie = std::fabs(distance) <= scaled_error;
+  const bool is_tie = may_be_tie && scaled_error <= kTieTolerance;
+  if (is_tie ? is_odd(whole) : distance < 0) whole = whole + DoubleDouble{direction, 0};
+  const bool is_certain = is_tie || !may_be_tie;
+  const DoubleDouble decimal = whole / DoubleDouble{scale, 0};
+  // A double that is nearer to the decimal than half a unit prints as that decimal by itself.
+  if (std::fabs(whole.hi) < 0x1p51) return {decimal.hi, 0, is_certain};
+  // A tie must be printed as the decimal chosen; other numbers are rounded right by the printing.
+  return is_tie ? PrintableNumber{decimal.hi, decimal.lo} : PrintableNumber{value.hi, value.lo, is_certain};
+}
+
+PrintableNumber round_to_double(const Ball& ball) {
+  const double nearest = ball.nearest_double();
+  if (ball.is_exact()) return {nearest, 0};
+  if (ball.sign() == 0) return {0, 0};
+  // Distances are measured on the midpoint's own scale; past +-3000 they are infinite.
+  const auto shift = static_cast<int>(std::clamp<std::int64_t>(-ball.exponent(), -3000, 3000));
+  const auto [hi, lo] = ball.value();
+  const double rest = hi - std::ldexp(nearest, shift);  // not 0 only below a double's normal range
+  const double direction = std::copysign(1.0, rest != 0 ? rest : lo);
+  const double neighbour = std::nextafter(nearest, direction * HUGE_VAL);
+  const double half_gap = std::fabs(std::ldexp(neighbour, shift) - std::ldexp(nearest, shift)) / 2;
+  const double distance = (half_gap - std::fabs(rest)) - direction * lo;
+  if (distance > ball.error()) return {nearest, 0};
+  if (ball.error() > 2 * half_gap * kTieTolerance) return {nearest, 0, false};
+  const bool nearest_is_even = std::bit_cast<std::uint64_t>(nearest) % 2 == 0;
+  return {nearest_is_even ? nearest : neighbour, 0};
+}
+
+}  // namespace
+
+PrintableNumber round_to_text(const Ball& ball, NumberFormat format) {
+  const double nearest = ball.nearest_double();
+  if (!std::isfinite(nearest)) return {nearest, 0, true};
+  if (format.shortest) return round_to_double(ball);
+  // What is below the range with an exponent of its own is far below half a unit of any decimals.
+  if (ball.exponent() < 0) return {nearest, 0, true};
+  if (ball.exponent() > 0) {
+    const int shift = static_cast<int>(ball.exponent());
+    const DoubleDouble value = {nearest, std::ldexp(ball.value().lo, shift)};
+    return round_to_decimals(value, std::ldexp(ball.error(), shift), format.decimals);
+  }
+  return round_to_decimals(ball.value(), ball.error(), format.decimals);
+}
+
+}  // namespace pipeline
