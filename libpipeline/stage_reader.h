@@ -2,24 +2,16 @@
 
 #include <cstdint>
 #include <exception>
+#include <memory>
+#include <optional>
 #include <string>
 
 #include "libpipeline/stage_text.h"
 #include "libpipeline/text_reader.h"
 #include "libpipeline/triangle_batch.h"
+#include "libpipeline/triangle_reader.h"
 
 namespace pipeline {
-
-/// The text ends with an `error` line. `reason()` is what stands on it: "tool: message" of the stage that
-/// failed.
-class EarlierFailure : public InputError {
- public:
-  EarlierFailure(const Place& place, std::string reason);
-  [[nodiscard]] const std::string& reason() const { return reason_; }
-
- private:
-  std::string reason_;
-};
 
 /// Reads a stage text: the header on construction, then batch after batch. Errors are InputErrors.
 class StageReader {
@@ -44,11 +36,7 @@ class StageReader {
  private:
   bool read_header_line(LineScanner& line);
   void fill(TriangleBatch& batch);
-  bool read_fixed_form(TriangleBatch& batch);
-  bool read_plain_form(TriangleBatch& batch);
-  bool read_plain_triangle(TriangleBatch& batch);
-  void next_vertex_line(LineScanner& line, std::size_t index);
-  void read_vertices(LineScanner& line, TriangleBatch& batch);
+  void read_triangle(LineScanner& line, TriangleBatch& batch);
   void read_clipped(LineScanner& line);
   [[nodiscard]] bool is_end(const LineScanner& line) const;
   void read_end(LineScanner& line);
@@ -56,16 +44,13 @@ class StageReader {
   [[noreturn]] void reject(LineScanner& line, const std::string& also_expected);
 
   TextReader& text_;
-  bool marks_decimals_;
   StageHeader header_;
   Place header_end_;
   Place framed_place_;
   LineScanner line_;
-  VertexLineReader vertex_line_;
-  std::size_t fixed_form_guess_ = 1;  // how many triangles in fixed form to expect: room is made for them
-  bool line_is_pending_ = false;      // line_ was read but not yet used
+  std::optional<TriangleReader> triangles_;  // behind the header
+  bool line_is_pending_ = false;             // line_ was read but not yet used
   bool done_ = false;
-  std::uint64_t next_number_ = 0;
   bool accepts_clipped_ = false;
   VertexLineReader clip_vertex_line_;
   std::shared_ptr<const ClipTriangle> whole_;  // what the next triangles with its number are pieces of

@@ -5,6 +5,8 @@
 
 #include "libpipeline/appearance.h"
 #include "libpipeline/camera.h"
+#include "libpipeline/error.h"
+#include "libpipeline/text_reader.h"
 
 namespace pipeline {
 
@@ -37,5 +39,19 @@ struct StageHeader {
 
 /// The line a failed stage ends its output with: "error tool: message".
 std::string error_line(const std::string& reason);
+
+/// The text ends with an `error` line. `reason()` is what stands on it: "tool: message" of the stage that
+/// failed.
+class EarlierFailure : public InputError {
+ public:
+  EarlierFailure(const Place& place, std::string reason);
+  [[nodiscard]] const std::string& reason() const { return reason_; }
+
+ private:
+  std::string reason_;
+};
+
+/// The failure that `line` tells of, at whose word `error` it stands.
+EarlierFailure earlier_failure(LineScanner line);
 
 }  // namespace pipeline

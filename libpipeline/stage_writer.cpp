@@ -74,10 +74,6 @@ void print_appearance(TextWriter& text, const Appearance& look) {
 
 }  // namespace
 
-std::string error_line(const std::string& reason) {
-  return "error " + on_one_line(reason) + "\n";
-}
-
 StageWriter::StageWriter(TextWriter& text, NumberFormat format, bool bare)
     : text_(text), format_(format), bare_(bare) {}
 

@@ -1,0 +1,159 @@
+#include "libpipeline/triangle_reader.h"
+
+#include <algorithm>
+#include <array>
+#include <span>
+
+#include "libpipeline/fixed_text.h"
+#include "libpipeline/number_parser.h"
+#include "libpipeline/stage_text.h"
+
+namespace pipeline {
+namespace {
+
+// Nine numbers of one digit before the point and seven behind it, a separator each, and the blank line.
+constexpr std::size_t kMinFixedTriangleLength = 9 * 10 + 1;
+constexpr std::uint16_t kAllDecimal = 0x1ff;
+
+/// Which coordinates are exact decimals, as in a batch: with at most eight digits before the point those with
+/// few behind it.
+std::uint16_t decimal_marks(const PlainVertexLines& columns) {
+  unsigned marks = 0;
+  for (std::size_t i = 0; i < 9; ++i)
+    if (columns[i / 3][i % 3].decimals <= kExactDecimals) marks |= 1u << i;
+  return static_cast<std::uint16_t>(marks);
+}
+
+/// What is exact of a triangle's coordinates, as in a batch.
+struct ExactParts {
+  std::uint16_t marks = 0;
+  Triangle low_parts{};
+
+  /// Notes the vertex on `line`; words that are no numbers are left for others to find.
+  void add_vertex(LineScanner line, std::size_t vertex) {
+    constexpr std::array<double Vec3::*, 3> kAxes = {&Vec3::x, &Vec3::y, &Vec3::z};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      DoubleDouble value;
+      const std::string_view word = line.word();
+      if (parse_number(word).error != NumberError::none || !parse_exact_decimal(word, value)) continue;
+      marks |= static_cast<std::uint16_t>(1u << (3 * vertex + axis));
+      low_parts[vertex].*kAxes[axis] = value.lo;
+    }
+  }
+
+  /// Hands the notes to the batch's last triangle.
+  void set_last(TriangleBatch& batch) const {
+    batch.decimal_marks.resize(batch.size());
+    batch.decimal_marks.back() = marks;
+    if (low_parts == Triangle{} && batch.low_parts.empty()) return;
+    batch.low_parts.resize(batch.size());
+    batch.low_parts.back() = low_parts;
+  }
+};
+
+}  // namespace
+
+TriangleReader::TriangleReader(TextReader& text, const AttributeSet& attributes, bool marks_decimals)
+    : text_(text), vertex_line_(attributes), marks_decimals_(marks_decimals) {}
+
+bool TriangleReader::read_waiting(TriangleBatch& batch) {
+  return read_fixed_form(batch) || read_plain_form(batch);
+}
+
+/// Takes the triangles that are waiting as long as they have the form nearly all stage text has; false if the
+/// next has another form, or is not there as a whole.
+bool TriangleReader::read_fixed_form(TriangleBatch& batch) {
+  static_assert(TextReader::kSlack >= kFixedTextSlack);
+  if (vertex_line_.attributes().any()) return false;
+  // The blank line behind a triangle that the general reader took.
+  if (text_.waiting().starts_with('\n')) text_.skip(1, 1);
+  const std::string_view waiting = text_.waiting();
+  const std::size_t old_size = batch.size();
+  const std::size_t most =
+      std::min({kBatchSize - old_size, waiting.size() / kMinFixedTriangleLength, fixed_form_guess_});
+  if (most == 0) return false;
+  batch.triangles.resize(old_size + most);
+  const FixedTextPart part = fixed_text_kernel().read(waiting, std::span(batch.triangles).subspan(old_size));
+  batch.triangles.resize(old_size + part.triangle_count);
+  constexpr std::size_t kLinesPerTriangle = 4;
+  for (std::size_t i = 0; i < part.triangle_count; ++i) {
+    const std::size_t line = text_.line_number() + i * kLinesPerTriangle;
+    batch.lines.push_back({line + 1, line + 2, line + 3});
+    batch.numbers.push_back(next_number_++);
+  }
+  text_.skip(part.length, part.triangle_count * kLinesPerTriangle);
+  fixed_form_guess_ = part.triangle_count == most ? 2 * most : part.triangle_count + 1;
+  if (!batch.low_parts.empty()) batch.low_parts.resize(batch.size());
+  if (!batch.wholes.empty()) batch.wholes.resize(batch.size());
+  // Seven decimals and at most eight digits before the point: every coordinate is its decimal.
+  if (marks_decimals_) batch.decimal_marks.resize(batch.size(), kAllDecimal);
+  return part.triangle_count > 0;
+}
+
+/// Takes some of the triangles that are waiting, as long as their lines hold plain numbers and nothing else;
+/// false if the next does not. After a few the faster form is worth another try.
+bool TriangleReader::read_plain_form(TriangleBatch& batch) {
+  constexpr std::size_t kMostAtOnce = 32;
+  const std::size_t limit = std::min(kBatchSize, batch.size() + kMostAtOnce);
+  const std::size_t old_size = batch.size();
+  while (batch.size() < limit && read_plain_triangle(batch)) {
+  }
+  return batch.size() > old_size;
+}
+
+bool TriangleReader::read_plain_triangle(TriangleBatch& batch) {
+  static_assert(TextReader::kSlack >= kPlainNumberSlack);
+  if (text_.waiting().starts_with('\n')) text_.skip(1, 1);
+  const std::string_view waiting = text_.waiting();
+  PlainVertexLines columns;
+  const char* const end = vertex_line_.read_plain(waiting.data(), waiting.data() + waiting.size(), columns);
+  if (end == nullptr) return false;
+  std::array<VertexLine, 3> vertices;
+  for (std::size_t i = 0; i < 3; ++i) vertices[i] = to_vertex_line(columns[i], vertex_line_.attributes());
+  const std::size_t line = text_.line_number();
+  batch.add({vertices[0].position, vertices[1].position, vertices[2].position}, next_number_++,
+            {line + 1, line + 2, line + 3});
+  batch.attributes.add(vertices, vertex_line_.attributes());
+  if (marks_decimals_) {
+    batch.decimal_marks.resize(batch.size());
+    batch.decimal_marks.back() = decimal_marks(columns);
+  }
+  text_.skip(static_cast<std::size_t>(end - waiting.data()), 3);
+  return true;
+}
+
+void TriangleReader::read(LineScanner& line, TriangleBatch& batch) {
+  Triangle triangle;
+  VertexLines lines{};
+  ExactParts exact;
+  std::array<VertexLine, 3> vertices;
+  const AttributeSet& attributes = vertex_line_.attributes();
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (i > 0) next_vertex_line(text_, line, i);
+    if (marks_decimals_) exact.add_vertex(line, i);
+    if (attributes.any()) {
+      vertices[i] = vertex_line_.read(line, i);
+      triangle[i] = vertices[i].position;
+    } else {
+      triangle[i] = line.vec3(kVertexNames[i]);
+    }
+    lines[i] = line.line_number();
+  }
+  batch.add(triangle, next_number_++, lines);
+  batch.attributes.add(vertices, attributes);
+  if (marks_decimals_) exact.set_last(batch);
+}
+
+void next_vertex_line(TextReader& text, LineScanner& line, std::size_t index) {
+  const std::string expected(kVertexNames[index]);
+  do {
+    if (!text.next_line(line))
+      throw InputError(text.end_place(),
+                       expected_but_found(expected, "the end of the input inside a triangle"));
+    if (line.at_end() && !line.is_comment())
+      throw InputError(line.place(), expected_but_found(expected, "a blank line inside a triangle"));
+  } while (line.at_end());
+  if (line.peek() == "error") throw earlier_failure(line);
+}
+
+}  // namespace pipeline

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "libpipeline/text_reader.h"
+#include "libpipeline/triangle_batch.h"
+#include "libpipeline/vertex_attributes.h"
+
+namespace pipeline {
+
+/// Reads the triangles of a stage text's body and counts them. Two fast paths take what nearly all text is
+/// made of, triangles that are in memory as a whole; the general path takes any, line by line.
+class TriangleReader {
+ public:
+  /// `attributes` says which columns the vertex lines have. With `marks_decimals` batches say which
+  /// coordinates are exact decimals.
+  TriangleReader(TextReader& text, const AttributeSet& attributes, bool marks_decimals);
+
+  /// The number of the next triangle.
+  [[nodiscard]] std::uint64_t next_number() const { return next_number_; }
+  void count_from(std::uint64_t number) { next_number_ = number; }
+
+  /// Adds some of the triangles that are waiting, as long as they hold plain numbers and nothing else; false
+  /// if the next does not, or is not there as a whole, or the batch is full.
+  bool read_waiting(TriangleBatch& batch);
+  /// Adds the triangle whose first line is `line`. An InputError where it is wrong.
+  void read(LineScanner& line, TriangleBatch& batch);
+
+ private:
+  bool read_fixed_form(TriangleBatch& batch);
+  bool read_plain_form(TriangleBatch& batch);
+  bool read_plain_triangle(TriangleBatch& batch);
+
+  TextReader& text_;
+  VertexLineReader vertex_line_;
+  bool marks_decimals_;
+  std::size_t fixed_form_guess_ = 1;  // how many triangles in fixed form to expect: room is made for them
+  std::uint64_t next_number_ = 0;
+};
+
+/// Moves on to the line of vertex `index` (from 0) of a triangle; only comments may stand before it. An
+/// InputError if there is none.
+void next_vertex_line(TextReader& text, LineScanner& line, std::size_t index);
+
+}  // namespace pipeline

@@ -1,0 +1,444 @@
+#include "libpipeline/stage_reader.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "tests/stage_text_io.h"
+
+namespace pipeline {
+namespace {
+
+const std::string kTriangle = "0 0 0\n1 0 0\n0 1 0\n\n";
+
+std::vector<std::uint64_t> numbers_of(const std::string& text) {
+  return triangles_of(text).numbers;
+}
+
+StageHeader header_of(const std::string& text) {
+  const TextFile file(text);
+  TextReader reader(file.descriptor(), "in.txt");
+  return StageReader(reader).header();
+}
+
+std::string error_of(const std::string& text) {
+  return message_of([&] { triangles_of(text); });
+}
+
+TEST(StageReader, AnEmptyTextHasNoTriangles) {
+  EXPECT_EQ(triangles_of("").size(), 0u);
+}
+
+TEST(StageReader, AnEmptyTextHasAnEmptyHeader) {
+  const StageHeader header = header_of("");
+  EXPECT_FALSE(header.framed || header.camera.eye || header.camera.look || header.camera.up ||
+               header.camera.projection);
+}
+
+TEST(StageReader, ATriangleIsThreeVertexLines) {
+  const TriangleBatch batch = triangles_of("0 1 2\n3 4 5\n-6 .7 8e0\n\n");
+  ASSERT_EQ(batch.size(), 1u);
+  EXPECT_EQ(batch.triangles[0], (Triangle{Vec3{0, 1, 2}, Vec3{3, 4, 5}, Vec3{-6, 0.7, 8}}));
+  EXPECT_EQ(batch.lines[0], (VertexLines{1, 2, 3}));
+}
+
+// A comment keeps a line from the fast paths.
+TEST(StageReader, TrianglesAreTheSameByEveryPath) {
+  for (const std::string header : {"", "attributes w color normal\n"}) {
+    const std::string columns = header.empty() ? "" : " 2.5 255 0 0.125 0 -1 0.5";
+    for (const std::string vertex :
+         {"0.1000000 -2.0000000 3.0000000", "0.123456789 5 -.5", "0.30000000000000004 1e2 7",
+          "123456789.25 12345678.1234567 0.12345678"}) {
+      const auto text = [&](const std::string& comment) {
+        const std::string line = vertex + columns + comment + "\n";
+        return header + line + line + line + "\n" + line + line + line;
+      };
+      const auto read = [](const std::string& from) {
+        const TextFile file(from);
+        TextReader reader(file.descriptor(), "in.txt");
+        StageReader stage(reader, true);
+        TriangleBatch batch;
+        stage.read(batch);
+        return batch;
+      };
+      const TriangleBatch fast = read(text(""));
+      const TriangleBatch slow = read(text(" # slow"));
+      ASSERT_EQ(fast.size(), 2u);
+      EXPECT_EQ(fast.triangles, slow.triangles) << text("");
+      EXPECT_EQ(fast.lines, slow.lines) << text("");
+      EXPECT_EQ(fast.numbers, slow.numbers) << text("");
+      EXPECT_EQ(fast.decimal_marks, slow.decimal_marks) << text("");
+      EXPECT_EQ(fast.attributes.w, slow.attributes.w) << text("");
+      EXPECT_EQ(fast.attributes.colors, slow.attributes.colors) << text("");
+      EXPECT_EQ(fast.attributes.normals, slow.attributes.normals) << text("");
+    }
+  }
+}
+
+TEST(StageReader, TheLastTriangleNeedsNoBlankLine) {
+  EXPECT_EQ(triangles_of("0 0 0\n1 0 0\n0 1 0").size(), 1u);
+}
+
+TEST(StageReader, TrianglesNeedNoBlankLineBetweenThem) {
+  EXPECT_EQ(triangles_of("0 0 0\n1 0 0\n0 1 0\n0 0 0\n1 0 0\n0 1 0\n").size(), 2u);
+}
+
+TEST(StageReader, BlankLinesMayStandBetweenTriangles) {
+  EXPECT_EQ(triangles_of("\n\n" + kTriangle + "\n \t\r\n" + kTriangle + "\n\n").size(), 2u);
+}
+
+TEST(StageReader, CommentsMayStandAnywhere) {
+  const TriangleBatch batch = triangles_of("# a\n0 0 0 # b\n# c\n1 0 0\n  # d\n0 1 0\n# e\n\n# f");
+  ASSERT_EQ(batch.size(), 1u);
+  EXPECT_EQ(batch.lines[0], (VertexLines{2, 4, 6}));
+}
+
+TEST(StageReader, TakesTabsAndCarriageReturns) {
+  EXPECT_EQ(triangles_of("0\t0  0\r\n1 0 0 \r\n 0 1 0\r\n\r\n").triangles, triangles_of(kTriangle).triangles);
+}
+
+TEST(StageReader, ReadsTextThatArrivesByteByByte) {
+  const TextInPieces slow(TextInPieces::bytes_of("framed\nup 0 1 0\ntriangle 7\n" + kTriangle + "end\n"));
+  const TriangleBatch batch = triangles_from(slow.descriptor());
+  EXPECT_EQ(batch.triangles, triangles_of(kTriangle).triangles);
+  EXPECT_EQ(batch.numbers, std::vector<std::uint64_t>{7});
+}
+
+TEST(StageReader, ReadsMoreTrianglesThanABatchHolds) {
+  std::string text;
+  for (std::size_t i = 0; i < 2 * kBatchSize + 1; ++i) text += kTriangle;
+  const TriangleBatch batch = triangles_of(text);
+  ASSERT_EQ(batch.size(), 2 * kBatchSize + 1);
+  EXPECT_EQ(batch.numbers.back(), 2 * kBatchSize);
+}
+
+TEST(StageReader, GivesOutBatchesOfLimitedSize) {
+  std::string text;
+  for (std::size_t i = 0; i < 2 * kBatchSize + 1; ++i) text += "0 0 0\n0 0 0\n0 0 0\n";
+  const TextFile file(text);
+  TextReader reader(file.descriptor(), "in.txt");
+  StageReader stage(reader);
+  for (TriangleBatch batch; stage.read(batch);) EXPECT_LE(batch.size(), kBatchSize);
+}
+
+TEST(StageReader, ReadsOnAtTheEndAsOftenAsAsked) {
+  const TextFile file(kTriangle);
+  TextReader reader(file.descriptor(), "in.txt");
+  StageReader stage(reader);
+  TriangleBatch batch;
+  EXPECT_TRUE(stage.read(batch));
+  EXPECT_FALSE(stage.read(batch));
+  EXPECT_TRUE(batch.empty());
+  EXPECT_FALSE(stage.read(batch));
+}
+
+// The header.
+
+TEST(StageReader, HeaderLinesStandInAnyOrder) {
+  const StageHeader header = header_of(
+      "perspective 60 1 0.5 100\nup 0 1 0\n\n# c\nlook 4 5 6\neye 1 2 3\nframed\n" + kTriangle + "end\n");
+  EXPECT_TRUE(header.framed);
+  EXPECT_EQ(header.camera.eye->value, (Vec3{1, 2, 3}));
+  EXPECT_EQ(header.camera.look->value, (Vec3{4, 5, 6}));
+  EXPECT_EQ(header.camera.up->value, (Vec3{0, 1, 0}));
+  EXPECT_EQ(std::get<Perspective>(header.camera.projection->value).near, 0.5);
+}
+
+TEST(StageReader, HeadersMayHoldAFrustum) {
+  const auto frustum = std::get<Frustum>(header_of("frustum -1 2 -3 4 5 6\n").camera.projection->value);
+  EXPECT_EQ(
+      (std::vector{frustum.left, frustum.right, frustum.bottom, frustum.top, frustum.near, frustum.far}),
+      (std::vector<double>{-1, 2, -3, 4, 5, 6}));
+}
+
+TEST(StageReader, HeadersMayHoldAnOrthographicProjection) {
+  const auto ortho = std::get<Orthographic>(header_of("ortho -1 2 -3 4 -5 6\n").camera.projection->value);
+  EXPECT_EQ((std::vector{ortho.left, ortho.right, ortho.bottom, ortho.top, ortho.near, ortho.far}),
+            (std::vector<double>{-1, 2, -3, 4, -5, 6}));
+}
+
+TEST(StageReader, EachHeaderLineStandsAtMostOnce) {
+  EXPECT_EQ(error_of("eye 0 0 5\n\neye 0 0 5\n"),
+            "in.txt:3:1: expected one eye, found a second one after in.txt:1:5");
+  EXPECT_EQ(error_of("framed\n  framed\n"),
+            "in.txt:2:3: expected one 'framed', found a second one after in.txt:1:1");
+}
+
+TEST(StageReader, AHeaderHoldsOneProjection) {
+  EXPECT_EQ(error_of("perspective 60 1 1 100\northo -1 1 -1 1 1 9\n"),
+            "in.txt:2:1: expected one projection, found a second one after in.txt:1:13");
+}
+
+TEST(StageReader, NamesTheNumberThatIsWrongInAHeaderLine) {
+  EXPECT_EQ(error_of("eye 0 x 5\n"), "in.txt:1:7: expected the y of the eye, found 'x'");
+  EXPECT_EQ(error_of("look 0 0\n"),
+            "in.txt:1:9: expected the z of the point looked at, found the end of the line");
+  EXPECT_EQ(error_of("up 0 1 0 0\n"),
+            "in.txt:1:10: expected the end of the line after the z of the up direction, found '0'");
+  EXPECT_EQ(error_of("perspective 60 1 nan 100\n"), "in.txt:1:18: expected near, found 'nan'");
+  EXPECT_EQ(error_of("framed 1\n"), "in.txt:1:8: expected the end of the line after 'framed', found '1'");
+}
+
+TEST(StageReader, TheCameraInAHeaderMakesSense) {
+  EXPECT_EQ(error_of("look 0 0 5\neye 0 0 5\n"),
+            "in.txt:1:6: expected a point other than the eye to look at, found 0 0 5");
+  EXPECT_EQ(error_of("perspective 60 1 2 1\n"), "in.txt:1:20: expected far beyond near, found '1'");
+}
+
+TEST(StageReader, AHeaderLineBehindTheFirstTriangleIsAnError) {
+  EXPECT_EQ(error_of(kTriangle + "eye 0 0 5\n"),
+            "in.txt:5:1: expected header lines before the first triangle, found 'eye'");
+  EXPECT_EQ(error_of("triangle 1\nframed\n"),
+            "in.txt:2:1: expected header lines before the first triangle, found 'framed'");
+}
+
+TEST(StageReader, NamesAKeywordItDoesNotKnow) {
+  EXPECT_EQ(error_of("eyes 0 0 5\n"),
+            "in.txt:1:1: expected a header line, 'triangle N' or a vertex, found 'eyes'");
+  EXPECT_EQ(error_of(kTriangle + "quad\n"), "in.txt:5:1: expected 'triangle N' or a vertex, found 'quad'");
+}
+
+TEST(StageReader, NamesAMistakeBeforeTheFirstTriangleAtOnce) {
+  // So that a stage does not say that a header is missing when it is misspelt.
+  EXPECT_EQ(message_of([] { header_of("eyes 0 0 5\n"); }),
+            "in.txt:1:1: expected a header line, 'triangle N' or a vertex, found 'eyes'");
+  EXPECT_EQ(message_of([] { header_of("error model: no scene\n"); }),
+            "in.txt:1:1: an earlier stage failed: model: no scene");
+  EXPECT_EQ(message_of([] { header_of("framed\n"); }),
+            "in.txt:2:1: expected 'end', which closes a framed text, found the end of the input");
+}
+
+TEST(StageReader, KnowsWhereItsHeaderEnds) {
+  const TextFile file("# c\nup 0 1 0\n\n 0 0 0\n1 0 0\n0 1 0\n");
+  TextReader reader(file.descriptor(), "in.txt");
+  EXPECT_EQ(to_string(StageReader(reader).header_end()), "in.txt:4:2");
+}
+
+TEST(StageReader, TheHeaderOfAnEmptyTextEndsAtItsStart) {
+  const TextFile file("");
+  TextReader reader(file.descriptor(), "in.txt");
+  EXPECT_EQ(to_string(StageReader(reader).header_end()), "in.txt:1:1");
+}
+
+// The numbers of triangles.
+
+TEST(StageReader, CountsTrianglesFromZero) {
+  EXPECT_EQ(numbers_of(kTriangle + kTriangle + kTriangle), (std::vector<std::uint64_t>{0, 1, 2}));
+}
+
+TEST(StageReader, CountsOnFromTheNumberOfATriangle) {
+  EXPECT_EQ(numbers_of(kTriangle + "triangle 5\n" + kTriangle + kTriangle + "triangle 2\n" + kTriangle),
+            (std::vector<std::uint64_t>{0, 5, 6, 2}));
+}
+
+TEST(StageReader, BlankLinesMayFollowTheNumberOfATriangle) {
+  EXPECT_EQ(numbers_of("triangle 5 # c\n\n" + kTriangle), std::vector<std::uint64_t>{5});
+}
+
+TEST(StageReader, TakesTheLargestNumber) {
+  EXPECT_EQ(numbers_of("triangle 18446744073709551615\n" + kTriangle),
+            std::vector<std::uint64_t>{18446744073709551615u});
+}
+
+TEST(StageReader, ANumberOfATriangleIsAWholeNumber) {
+  EXPECT_EQ(error_of("triangle -1\n" + kTriangle),
+            "in.txt:1:10: expected the number of a triangle, found '-1'");
+  EXPECT_EQ(error_of("triangle\n" + kTriangle),
+            "in.txt:1:9: expected the number of a triangle, found the end of the line");
+  EXPECT_EQ(error_of("triangle 18446744073709551616\n"),
+            "in.txt:1:10: expected the number of a triangle, found '18446744073709551616'");
+  EXPECT_EQ(error_of("triangle 1 2\n"),
+            "in.txt:1:12: expected the end of the line after the number of a triangle, found '2'");
+}
+
+TEST(StageReader, ANumberStandsBeforeItsTriangleNotInsideIt) {
+  EXPECT_EQ(error_of("0 0 0\ntriangle 1\n1 0 0\n0 1 0\n"),
+            "in.txt:2:1: expected the x of vertex 2 of 3, found 'triangle'");
+}
+
+// Mistakes in triangles.
+
+TEST(StageReader, ABlankLineInsideATriangleIsAnError) {
+  EXPECT_EQ(error_of("0 0 0\n\n1 0 0\n0 1 0\n"),
+            "in.txt:2:1: expected vertex 2 of 3, found a blank line inside a triangle");
+  EXPECT_EQ(error_of("0 0 0\n1 0 0\n \t\r\n0 1 0\n"),
+            "in.txt:3:1: expected vertex 3 of 3, found a blank line inside a triangle");
+}
+
+TEST(StageReader, ATextThatEndsInsideATriangleIsAnError) {
+  EXPECT_EQ(error_of("0 0 0\n"),
+            "in.txt:2:1: expected vertex 2 of 3, found the end of the input inside a triangle");
+  EXPECT_EQ(error_of(kTriangle + "0 0 0\n1 0 0\n# c"),
+            "in.txt:8:1: expected vertex 3 of 3, found the end of the input inside a triangle");
+}
+
+TEST(StageReader, NamesTheNumberThatIsWrongInAVertex) {
+  EXPECT_EQ(error_of("0 0 0\n1 0,5 0\n0 1 0\n"), "in.txt:2:3: expected the y of vertex 2 of 3, found '0,5'");
+  EXPECT_EQ(error_of("-nan 0 0\n"), "in.txt:1:1: expected the x of vertex 1 of 3, found '-nan'");
+  EXPECT_EQ(error_of("0 0 0\n1 0 0\n0 1\n"),
+            "in.txt:3:4: expected the z of vertex 3 of 3, found the end of the line");
+  EXPECT_EQ(error_of("0 0 0\n1 0 0\n0 1 1e309\n"),
+            "in.txt:3:5: expected the z of vertex 3 of 3 within a double's range, found '1e309'");
+}
+
+TEST(StageReader, AVertexHasNoFourthNumber) {
+  EXPECT_EQ(error_of("0 0 0 1\n"),
+            "in.txt:1:7: expected the end of the line after the z of vertex 1 of 3, found '1'");
+}
+
+TEST(StageReader, AWordInsideATriangleIsAnError) {
+  EXPECT_EQ(error_of("0 0 0\n1 0 0\nend\n"), "in.txt:3:1: expected the x of vertex 3 of 3, found 'end'");
+  EXPECT_EQ(error_of("0 0 0\nnan 0 0\n"), "in.txt:2:1: expected the x of vertex 2 of 3, found 'nan'");
+}
+
+TEST(StageReader, NamesANumberThatIsNone) {
+  EXPECT_EQ(error_of("inf 0 0\n"),
+            "in.txt:1:1: expected a header line, 'triangle N' or a vertex, found 'inf'");
+}
+
+TEST(StageReader, GivesOutTheTrianglesBeforeAMistake) {
+  const TextFile file(kTriangle + kTriangle + "0 0 x\n");
+  TextReader reader(file.descriptor(), "in.txt");
+  StageReader stage(reader);
+  TriangleBatch batch;
+  ASSERT_TRUE(stage.read(batch));
+  EXPECT_EQ(batch.size(), 2u);
+  EXPECT_EQ(message_of([&] { stage.read(batch); }), "in.txt:9:5: expected the z of vertex 1 of 3, found 'x'");
+}
+
+// Failed stages.
+
+TEST(StageReader, AnErrorLineSaysWhatAnEarlierStageSaid) {
+  EXPECT_EQ(error_of("eye 0 0 5\nerror model: scene.txt:7:1: expected X, found 'Y'\n"),
+            "in.txt:2:1: an earlier stage failed: model: scene.txt:7:1: expected X, found 'Y'");
+}
+
+TEST(StageReader, AnErrorLineMayHoldANumberSign) {
+  EXPECT_EQ(error_of("error model: cannot open a#b.txt: No such file or directory\n"),
+            "in.txt:1:1: an earlier stage failed: model: cannot open a#b.txt: No such file or directory");
+}
+
+TEST(StageReader, AnErrorLineMayStandAnywhere) {
+  EXPECT_EQ(error_of("error a: b\n"), "in.txt:1:1: an earlier stage failed: a: b");
+  EXPECT_EQ(error_of("framed\nerror a: b\n"), "in.txt:2:1: an earlier stage failed: a: b");
+  EXPECT_EQ(error_of(kTriangle + "error a: b\n"), "in.txt:5:1: an earlier stage failed: a: b");
+  EXPECT_EQ(error_of("triangle 2\nerror a: b"), "in.txt:2:1: an earlier stage failed: a: b");
+  EXPECT_EQ(error_of("0 0 0\nerror a: b\n"), "in.txt:2:1: an earlier stage failed: a: b");
+  EXPECT_EQ(error_of("0 0 0\n1 0 0\n# c\nerror a: b\n"), "in.txt:4:1: an earlier stage failed: a: b");
+  EXPECT_EQ(error_of("framed\nend\nerror a: b\n"), "in.txt:3:1: an earlier stage failed: a: b");
+}
+
+TEST(StageReader, AnErrorLineStopsTheReaderBeforeWhatFollows) {
+  EXPECT_EQ(error_of("error a: b\nnonsense\n"), "in.txt:1:1: an earlier stage failed: a: b");
+}
+
+TEST(StageReader, AnErrorLineMayBeEmpty) {
+  EXPECT_EQ(error_of("error\n"), "in.txt:1:1: an earlier stage failed, without saying why");
+}
+
+// Framed text.
+
+TEST(StageReader, AFramedTextEndsWithEnd) {
+  EXPECT_EQ(triangles_of("framed\n" + kTriangle + "end\n").size(), 1u);
+}
+
+TEST(StageReader, AFramedTextMayHoldNothing) {
+  EXPECT_EQ(triangles_of("framed\nend\n").size(), 0u);
+}
+
+TEST(StageReader, BlankLinesAndCommentsMayFollowTheEnd) {
+  EXPECT_EQ(triangles_of("framed\n" + kTriangle + "end # c\n\n# d\n").size(), 1u);
+}
+
+TEST(StageReader, EveryPrefixOfAFramedTextIsAnError) {
+  const std::string text = "framed\nup 0 1 0\n" + kTriangle + "triangle 3\n" + kTriangle + "end\n";
+  EXPECT_EQ(error_of(text), "no error");
+  for (std::size_t length = 1; length < text.size(); ++length)
+    EXPECT_NE(error_of(text.substr(0, length)), "no error") << length;
+}
+
+TEST(StageReader, AFramedTextWithoutEndIsAnError) {
+  EXPECT_EQ(error_of("framed\n" + kTriangle),
+            "in.txt:6:1: expected 'end', which closes a framed text, found the end of the input");
+}
+
+TEST(StageReader, TheEndOfAFramedTextIsAWholeLine) {
+  EXPECT_EQ(error_of("framed\n" + kTriangle + "end"),
+            "in.txt:6:4: expected the end of the line after 'end', which closes a framed text, found the end "
+            "of the input");
+}
+
+TEST(StageReader, NothingFollowsTheEndOfAFramedText) {
+  EXPECT_EQ(error_of("framed\nend\n" + kTriangle), "in.txt:3:1: expected nothing after 'end', found '0'");
+  EXPECT_EQ(error_of("framed\nend 1\n"), "in.txt:2:5: expected the end of the line after 'end', found '1'");
+}
+
+TEST(StageReader, EndIsNoWordOfATextThatIsNotFramed) {
+  EXPECT_EQ(error_of(kTriangle + "end\n"),
+            "in.txt:5:1: expected 'triangle N' or a vertex ('end' needs a line 'framed' in the header), "
+            "found 'end'");
+}
+
+TEST(StageReader, AnUnframedTextIsTakenAsItReads) {
+  EXPECT_EQ(triangles_of("0 0 0\n1 0 0\n0 1 12").triangles[0][2].z, 12);
+  EXPECT_EQ(triangles_of("0 0 0\n1 0 0\n0 1 1").triangles[0][2].z, 1);
+}
+
+// Streaming: what has arrived is given out before the reader waits.
+
+TEST(StageReader, DoesNotWaitBehindATriangle) {
+  const TextInPieces slow({kTriangle}, TextInPieces::Then::silence);
+  TextReader text(slow.descriptor(), "in.txt");
+  StageReader reader(text);
+  TriangleBatch batch;
+  ASSERT_TRUE(reader.read(batch));
+  EXPECT_EQ(batch.size(), 1u);
+}
+
+TEST(StageReader, DoesNotWaitInsideATriangleWithOthersInItsHands) {
+  const TextInPieces slow({kTriangle + kTriangle + "0 0 0\n1 0 0\n0 "}, TextInPieces::Then::silence);
+  TextReader text(slow.descriptor(), "in.txt");
+  StageReader reader(text);
+  TriangleBatch batch;
+  ASSERT_TRUE(reader.read(batch));
+  EXPECT_EQ(batch.size(), 2u);
+}
+
+TEST(StageReader, DoesNotWaitBehindBlankLinesAndComments) {
+  const TextInPieces slow({kTriangle + "\n\n# c\n\n"}, TextInPieces::Then::silence);
+  TextReader text(slow.descriptor(), "in.txt");
+  StageReader reader(text);
+  TriangleBatch batch;
+  ASSERT_TRUE(reader.read(batch));
+  EXPECT_EQ(batch.size(), 1u);
+}
+
+TEST(StageReader, DoesNotWaitForTheFirstTriangleToKnowTheHeader) {
+  const TextInPieces slow({"up 0 1 0\n0 0 0\n"}, TextInPieces::Then::silence);
+  TextReader text(slow.descriptor(), "in.txt");
+  EXPECT_TRUE(StageReader(text).header().camera.up);
+}
+
+TEST(StageReader, AVertexHasTheColumnsOfTheHeader) {
+  EXPECT_EQ(error_of("attributes w color\n0 0 0 1 2 3\n"),
+            "in.txt:2:12: expected the blue of vertex 1 of 3 (x y z w r g b), found the end of the line");
+  EXPECT_EQ(error_of("attributes w\n0 0 0 1 2\n"),
+            "in.txt:2:9: expected the end of the line after vertex 1 of 3 (x y z w), found '2'");
+  EXPECT_EQ(error_of("attributes w\n0 0 0 -1\n"),
+            "in.txt:2:7: expected the w of vertex 1 of 3 (x y z w) above 0, found '-1'");
+}
+
+TEST(StageReader, NamesAttributesItDoesNotKnow) {
+  EXPECT_EQ(error_of("attributes normal color\n"),
+            "in.txt:1:19: expected attributes of [w] [color] [normal], in this order, found 'color'");
+}
+
+TEST(StageReader, LooksStandBeforeTheFirstTriangle) {
+  EXPECT_EQ(error_of(kTriangle + "light 0 0 0 1 1 1\n"),
+            "in.txt:5:1: expected header lines before the first triangle, found 'light'");
+}
+
+}  // namespace
+}  // namespace pipeline

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <string>
+
+#include "libpipeline/stage_reader.h"
+#include "libpipeline/stage_writer.h"
+#include "tests/text_input.h"
+
+namespace pipeline {
+
+/// All triangles of a text in one batch.
+inline TriangleBatch triangles_from(int descriptor) {
+  TextReader text(descriptor, "in.txt");
+  StageReader reader(text);
+  TriangleBatch all;
+  for (TriangleBatch batch; reader.read(batch);)
+    for (std::size_t i = 0; i < batch.size(); ++i)
+      all.add(batch.triangles[i], batch.numbers[i], batch.lines[i]);
+  return all;
+}
+
+inline TriangleBatch triangles_of(const std::string& text) {
+  return triangles_from(TextFile(text).descriptor());
+}
+
+/// The text a batch is written as.
+inline std::string written(const TriangleBatch& batch, NumberFormat format = {}, bool bare = false,
+                           const StageHeader& header = {}) {
+  const TextFile file("");
+  TextWriter text(file.descriptor(), "out.txt");
+  StageWriter writer(text, format, bare);
+  writer.write_header(header);
+  writer.write(batch);
+  writer.finish();
+  return file.whole_text();
+}
+
+}  // namespace pipeline
