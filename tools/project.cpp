@@ -2,7 +2,6 @@
 
 #include <deque>
 
-#include "libpipeline/number_parser.h"
 #include "libpipeline/projection.h"
 #include "libpipeline/stage_reader.h"
 #include "libpipeline/stage_writer.h"
