@@ -1,7 +1,5 @@
 #include "libpipeline/model_stage.h"
 
-#include <array>
-#include <stdexcept>
 #include <string>
 #include <utility>
 
@@ -11,7 +9,7 @@ ModelStage::ModelStage(SceneReader& scene) : scene_(scene) {
   try {
     read_until_triangle();
   } catch (...) {
-    mistake_ = std::current_exception();
+    mistake_.keep();
   }
 }
 
@@ -34,15 +32,7 @@ Appearance ModelStage::appearance() const {
 }
 
 bool ModelStage::read(TriangleBatch& batch) {
-  batch.clear();
-  if (mistake_) std::rethrow_exception(mistake_);
-  try {
-    fill(batch);
-  } catch (const std::runtime_error&) {  // lack of memory may have left the batch half filled
-    if (batch.empty()) throw;
-    mistake_ = std::current_exception();
-  }
-  return !batch.empty();
+  return mistake_.read(batch, [&] { fill(batch); });
 }
 
 void ModelStage::fill(TriangleBatch& batch) {

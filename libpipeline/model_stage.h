@@ -1,11 +1,11 @@
 #pragma once
 
 #include <cstdint>
-#include <exception>
 #include <memory>
 #include <optional>
 #include <vector>
 
+#include "libpipeline/late_mistake.h"
 #include "libpipeline/matrix_stack.h"
 #include "libpipeline/model_transform.h"
 #include "libpipeline/scene.h"
@@ -42,7 +42,7 @@ class ModelStage {
   std::optional<TriangleCommand> first_triangle_;    // read, but not yet given out
   std::uint64_t next_number_ = 0;
   bool done_ = false;
-  std::exception_ptr mistake_;  // found behind triangles that were still to be given out
+  LateMistake mistake_;  // found behind triangles that were still to be given out
 };
 
 }  // namespace pipeline

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <stdexcept>
 
 namespace pipeline {
 namespace {
@@ -64,15 +63,7 @@ void StageReader::expect_framed() const {
 }
 
 bool StageReader::read(TriangleBatch& batch) {
-  batch.clear();
-  if (mistake_) std::rethrow_exception(mistake_);
-  try {
-    fill(batch);
-  } catch (const std::runtime_error&) {  // lack of memory may have left the batch half filled
-    if (batch.empty()) throw;
-    mistake_ = std::current_exception();
-  }
-  return !batch.empty();
+  return mistake_.read(batch, [&] { fill(batch); });
 }
 
 void StageReader::fill(TriangleBatch& batch) {

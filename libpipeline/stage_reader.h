@@ -1,11 +1,11 @@
 #pragma once
 
 #include <cstdint>
-#include <exception>
 #include <memory>
 #include <optional>
 #include <string>
 
+#include "libpipeline/late_mistake.h"
 #include "libpipeline/stage_text.h"
 #include "libpipeline/text_reader.h"
 #include "libpipeline/triangle_batch.h"
@@ -55,7 +55,7 @@ class StageReader {
   VertexLineReader clip_vertex_line_;
   std::shared_ptr<const ClipTriangle> whole_;  // what the next triangles with its number are pieces of
   std::uint64_t whole_number_ = 0;
-  std::exception_ptr mistake_;  // found behind triangles that were still to be given out
+  LateMistake mistake_;  // found behind triangles that were still to be given out
 };
 
 }  // namespace pipeline

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <exception>
+#include <stdexcept>
+
+#include "libpipeline/triangle_batch.h"
+
+namespace pipeline {
+
+/// A mistake in a text, kept until the triangles before it were given out: how much of the text passes then
+/// does not depend on the size of batches.
+class LateMistake {
+ public:
+  /// The next call of `read` throws the exception that is being handled.
+  void keep() { mistake_ = std::current_exception(); }
+
+  /// Has `fill` put triangles into the batch, emptied before; false if there were none. What `fill` throws
+  /// is thrown at once if there are none before it, else by the next call.
+  template <typename Fill>
+  bool read(TriangleBatch& batch, const Fill& fill) {
+    batch.clear();
+    if (mistake_) std::rethrow_exception(mistake_);
+    try {
+      fill();
+    } catch (const std::runtime_error&) {  // lack of memory may have left the batch half filled
+      if (batch.empty()) throw;
+      keep();
+    }
+    return !batch.empty();
+  }
+
+ private:
+  std::exception_ptr mistake_;
+};
+
+}  // namespace pipeline
