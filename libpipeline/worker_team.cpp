@@ -7,7 +7,12 @@ namespace pipeline {
 
 WorkerTeam::WorkerTeam(int thread_count) {
   assert(thread_count >= 1);
-  for (int i = 1; i < thread_count; ++i) threads_.emplace_back([this] { work(); });
+  threads_.reserve(static_cast<std::size_t>(thread_count));
+  try {
+    for (int i = 1; i < thread_count; ++i) threads_.emplace_back([this] { work(); });
+  } catch (const std::exception&) {
+    // The system gives no more threads. Those that are there do the same work.
+  }
 }
 
 WorkerTeam::~WorkerTeam() {

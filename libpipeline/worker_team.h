@@ -14,7 +14,8 @@ namespace pipeline {
 /// order.
 class WorkerTeam {
  public:
-  /// `thread_count`, at least 1, includes the owner: a team of 1 does everything in finish().
+  /// `thread_count`, at least 1, includes the owner: a team of 1 does everything in finish(). Where the
+  /// system has fewer threads to give, the team is smaller.
   explicit WorkerTeam(int thread_count);
   /// Waits for tasks that were begun; others are not done any more.
   ~WorkerTeam();

@@ -1,7 +1,7 @@
 // Loaded before a tool (LD_PRELOAD), lets one system call or allocation fail, or all reads and writes be
 // short.
 //
-//   FAULT_CALL   malloc, write, read, close, link or rename
+//   FAULT_CALL   malloc, write, read, close, close of stdout, link or rename
 //   FAULT_AT     the number of the call that fails, from 1
 //   FAULT_ERRNO  what it fails with
 //   FAULT_MARK   a file that is made when it does
@@ -65,7 +65,7 @@ ssize_t read(int descriptor, void* text, std::size_t size) {
 }
 
 int close(int descriptor) {
-  const bool is_failing = fails("close");
+  const bool is_failing = fails("close") || (descriptor == STDOUT_FILENO && fails("close of stdout"));
   const int error = errno;
   const int result = static_cast<int>(::syscall(SYS_close, descriptor));
   if (is_failing) errno = error;

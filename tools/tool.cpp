@@ -57,10 +57,11 @@ void Timing::lap(double Timing::*phase) {
   last_ = now;
 }
 
-Tool::Tool(const std::string& name, const std::string& description, OutputKind output_kind)
-    : name_(name),
+Tool::Tool(const char* name, const char* description, OutputKind output_kind)
+    : lack_of_memory_(end_process_without_memory({name, output_kind == OutputKind::stage_text})),
+      name_(name),
       output_kind_(output_kind),
-      options_(name, description, name + " (pipeline) " + kVersion),
+      options_(name_, description, name_ + " (pipeline) " + kVersion),
       output_(STDOUT_FILENO, "<stdout>") {
   open_closed_descriptors();
   make_file_size_limit_an_error();
@@ -105,7 +106,9 @@ int Tool::answer(const std::string& text) {
   });
 }
 
-int Tool::status_of(const std::function<void()>& work) {
+/// A report may lack the memory it needs, too.
+int Tool::status_of(const std::function<void()>& work) try {
+  throw_without_memory();
   try {
     work();
     return kExitDone;
@@ -120,10 +123,12 @@ int Tool::status_of(const std::function<void()>& work) {
     if (error.error_number() == EPIPE) return kExitFailure;  // the reader has what it wanted
     return fail(error.what(), kExitFailure);
   } catch (const std::bad_alloc&) {
-    return fail("not enough memory", kExitFailure);
+    return fail_without_memory();
   } catch (const std::exception& error) {
     return fail(error.what(), kExitFailure);
   }
+} catch (const std::bad_alloc&) {
+  return fail_without_memory();
 }
 
 void Tool::close_output() {
@@ -159,6 +164,17 @@ int Tool::fail(const std::string& message, const std::string& reason, int status
     // The output is what failed, or it failed as well; the exit status tells.
   }
   return status;
+}
+
+int Tool::fail_without_memory() noexcept {
+  lack_of_memory_.is_told_to_next_stage = output_kind_ == OutputKind::stage_text;
+  try {
+    if (lack_of_memory_.is_told_to_next_stage) output_.flush();
+  } catch (const std::exception&) {
+    // The output has failed as well; the exit status tells.
+  }
+  lack_of_memory_.report();
+  return kExitFailure;
 }
 
 void Tool::report_timing() {

@@ -9,13 +9,11 @@
 #include "libpipeline/text_reader.h"
 #include "libpipeline/text_writer.h"
 #include "tools/command_line.h"
+#include "tools/exit_status.h"
+#include "tools/lack_of_memory.h"
 
 namespace pipeline {
 
-// Exit statuses all tools share.
-constexpr int kExitDone = 0;
-constexpr int kExitFailure = 1;  // bad input, or reading or writing failed
-constexpr int kExitMisuse = 2;   // the command line is not one the tool knows
 
 /// A text opened for reading, closed with this object.
 class InputFile {
@@ -56,7 +54,7 @@ enum class OutputKind { stage_text, other_text };
 class Tool {
  public:
   /// `description` is what --help says first.
-  Tool(const std::string& name, const std::string& description, OutputKind output_kind);
+  Tool(const char* name, const char* description, OutputKind output_kind);
 
   /// A tool adds its own options and operands here, then calls `run`.
   CommandLine& options() { return options_; }
@@ -82,8 +80,10 @@ class Tool {
   int fail(const std::string& message, int status);
   int fail(const std::string& message, const std::string& reason, int status);
   int fail_misuse(const std::string& message);
+  int fail_without_memory() noexcept;
   void report_timing();
 
+  LackOfMemory lack_of_memory_;  // first, as what comes next needs memory
   std::string name_;
   OutputKind output_kind_;
   CommandLine options_;
