@@ -14,7 +14,6 @@
 
 namespace pipeline {
 
-
 /// A text opened for reading, closed with this object.
 class InputFile {
  public:

@@ -17,7 +17,12 @@ void model(TextReader& text, TextWriter& output) {
   StageWriter writer(output, kExact, false);
   writer.write_header({false, scene.camera(), stage.appearance()});
   for (TriangleBatch batch; stage.read(batch);) {
-    apply_pending_transforms(batch, rounder);
+    try {
+      apply_pending_transforms(batch, rounder);
+    } catch (const InputError&) {  // an overflow; what comes before it is written, as by the tools
+      writer.write(batch);
+      throw;
+    }
     writer.write(batch);
   }
   writer.finish();
