@@ -1,13 +1,24 @@
 #include "libpipeline/coordinate_rounder.h"
 
+#include <cmath>
 #include <utility>
 
 #include "libpipeline/error.h"
+#include "libpipeline/powers_of_ten.h"
 
 namespace pipeline {
 
 CoordinateRounder::CoordinateRounder(Precision precision, NumberFormat format, std::string file)
     : precision_(precision), format_(format), file_(std::move(file)) {}
+
+CoordinateTest CoordinateRounder::test() const {
+  if (precision_ == Precision::plain) return {CoordinateTestKind::finite};
+  if (format_.shortest) return {CoordinateTestKind::nearest};
+  // With more decimals the last bits of a coordinate of ordinary size show.
+  constexpr int kMostDecimalsOfDoubles = 10;
+  return {CoordinateTestKind::decimals, kPowersOfTen[static_cast<std::size_t>(format_.decimals)],
+          format_.decimals > kMostDecimalsOfDoubles};
+}
 
 void CoordinateRounder::set_vertex(TriangleBatch& batch, std::size_t triangle, std::size_t vertex,
                                    const BallVec3& p) {

@@ -1,9 +1,9 @@
 #pragma once
 
-#include <cmath>
 #include <cstddef>
 #include <string>
 
+#include "libpipeline/coordinate_test.h"
 #include "libpipeline/mat4.h"
 #include "libpipeline/number_rounding.h"
 #include "libpipeline/triangle_batch.h"
@@ -14,17 +14,15 @@ namespace pipeline {
 /// so that every number printed is the correctly rounded result of exact arithmetic.
 enum class Precision { plain, extended };
 
-/// Decides which text a calculated coordinate gets. A double and a bound of its error are enough for most
-/// numbers; where they are not, the caller calculates the number again as a ball.
+/// Decides which text a calculated coordinate gets. A number of one or two doubles and a bound of its error
+/// are enough for most; where they are not, the caller calculates the number again as a ball.
 class CoordinateRounder {
  public:
   /// `file` names the input in messages.
   CoordinateRounder(Precision precision, NumberFormat format, std::string file);
 
-  /// True if `value`, which may be wrong by `error`, can be printed as it is.
-  [[nodiscard]] bool accepts(double value, double error) const {
-    return precision_ == Precision::plain ? std::isfinite(value) : rounds_safely(value, error, format_);
-  }
+  /// What a calculated coordinate has to meet to be printed as it is.
+  [[nodiscard]] CoordinateTest test() const;
 
   /// Sets one vertex of a triangle of the batch from balls. An InputError with the vertex's line if a
   /// coordinate is beyond a double's range.

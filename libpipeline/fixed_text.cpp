@@ -1,10 +1,9 @@
 #include "libpipeline/fixed_text.h"
 
 #include <array>
-#include <cstdlib>
-#include <string_view>
 
 #include "libpipeline/fixed_text_kernels.h"
+#include "libpipeline/kernel_choice.h"
 
 namespace pipeline {
 namespace {
@@ -31,12 +30,7 @@ std::span<const FixedTextKernel> fixed_text_kernels() {
 }
 
 const FixedTextKernel& fixed_text_kernel() {
-  static const FixedTextKernel& chosen = []() -> const FixedTextKernel& {
-    const char* const name = std::getenv("PIPELINE_KERNEL");
-    for (const FixedTextKernel& kernel : fixed_text_kernels())
-      if (name != nullptr && std::string_view(name) == kernel.name) return kernel;
-    return fixed_text_kernels().back();
-  }();
+  static const FixedTextKernel& chosen = chosen_kernel(fixed_text_kernels());
   return chosen;
 }
 

@@ -44,8 +44,7 @@ struct FixedTextKernel {
 /// The kernels this processor can run, the fastest last; the first, "portable", runs everywhere.
 std::span<const FixedTextKernel> fixed_text_kernels();
 
-/// The one in use: the fastest, or the one the environment variable PIPELINE_KERNEL names, for tests. A name
-/// that this processor has no kernel for is passed over.
+/// The one in use: the fastest, or the one the environment variable PIPELINE_KERNEL names (kernel_choice.h).
 const FixedTextKernel& fixed_text_kernel();
 
 }  // namespace pipeline

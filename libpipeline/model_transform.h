@@ -15,9 +15,9 @@ class ModelTransform {
  public:
   explicit ModelTransform(const AffineMatrix& world_from_model, bool has_normals);
 
-  /// Replaces triangle `index` of the batch, with its normals, by its image. An InputError with its line on
-  /// overflow.
-  void apply(TriangleBatch& batch, std::size_t index, CoordinateRounder& rounder) const;
+  /// Replaces the triangles of the batch from `begin` to before `end`, with their normals, by their images.
+  /// An InputError with the vertex's line on overflow; the batch then keeps those before that triangle.
+  void apply(TriangleBatch& batch, std::size_t begin, std::size_t end, CoordinateRounder& rounder) const;
 
  private:
   VertexTransform world_from_model_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "libpipeline/vec_math.h"
 
@@ -43,6 +44,26 @@ double as_factor(const Ball& number) {
   return is_fine ? nearest : std::numeric_limits<double>::quiet_NaN();
 }
 
+/// What the fast paths multiply with: in pairs z' = (z_scale z + z_offset) / w.
+ProjectionFactors factors_of(const ProjectionTransform& projection) {
+  const Ball near = projection.near;
+  const Ball far = projection.far;
+  const Ball z_scale = (projection.is_perspective ? -(far + near) : Ball(-2)) / (far - near);
+  const Ball z_offset = (projection.is_perspective ? Ball(-2) * far * near : -(far + near)) / (far - near);
+  ProjectionFactors factors;
+  factors.is_perspective = projection.is_perspective;
+  factors.scales = {Factor(projection.x_scale), Factor(projection.y_scale), Factor(z_scale)};
+  factors.offsets = {Factor(projection.x_offset), Factor(projection.y_offset), Factor(z_offset)};
+  factors.scales[0].value = as_factor(projection.x_scale);
+  factors.scales[1].value = as_factor(projection.y_scale);
+  factors.offsets[0].value = as_factor(projection.x_offset);
+  factors.offsets[1].value = as_factor(projection.y_offset);
+  factors.near = projection.near;
+  factors.far = projection.far;
+  factors.depth_range = as_factor(far - near);
+  return factors;
+}
+
 bool has_attributes(const TriangleBatch& batch) {
   return !batch.attributes.colors.empty() || !batch.attributes.normals.empty();
 }
@@ -81,18 +102,18 @@ ProjectionStage::ProjectionStage(const ProjectionTransform& projection, ClipMode
       cull_(cull),
       clip_extent_(1 - clip_inset),
       rounder_(rounder),
-      in_doubles_{as_factor(projection.x_scale),
-                  as_factor(projection.x_offset),
-                  as_factor(projection.y_scale),
-                  as_factor(projection.y_offset),
-                  projection.near,
-                  projection.far,
-                  as_factor(Ball(projection.far) - Ball(projection.near))},
+      factors_(factors_of(projection)),
       mirrored_(projection.x_scale.sign() * projection.y_scale.sign() < 0) {}
 
 void ProjectionStage::project(const TriangleBatch& p_view, TriangleBatch& p_ndc) {
   p_ndc.clear();
+  VertexBlock block;
   for (std::size_t i = 0; i < p_view.size(); ++i) {
+    if (i % VertexBlock::kTriangles == 0) {
+      const std::size_t count = std::min(p_view.size() - i, VertexBlock::kTriangles);
+      block.fill(std::span(p_view.triangles).subspan(i, count));
+      vertex_kernel().project(factors_, rounder_.test(), block, block_);
+    }
     const std::size_t done_count = p_ndc.size();
     try {
       project_triangle(p_view, i, p_ndc);
@@ -127,33 +148,6 @@ bool ProjectionStage::needs_clipping(const Triangle& p_view) const {
          });
 }
 
-/// The image in doubles, by formulas that lose nothing but the last bits; false where those might show.
-bool ProjectionStage::divide_in_doubles(const Vec3& p_view, Vec3& p_ndc) const {
-  const Doubles& m = in_doubles_;
-  const double distance = -p_view.z;
-  const double w = projection_.is_perspective ? distance : 1;
-  // Beyond these, intermediate results may leave a double's range.
-  if (!(w > 0x1p-400 && w < 0x1p400)) return false;
-  const double shift = projection_.is_perspective ? p_view.z : 1;
-  const double x = m.x_scale * p_view.x;
-  const double y = m.y_scale * p_view.y;
-  const double x_shift = m.x_offset * shift;
-  const double y_shift = m.y_offset * shift;
-  p_ndc.x = (x + x_shift) / w;
-  p_ndc.y = (y + y_shift) / w;
-  const double beyond_near = (distance - m.near) * (projection_.is_perspective ? m.far : 1);
-  const double before_far = (m.far - distance) * (projection_.is_perspective ? m.near : 1);
-  const double depth_scale = w * m.depth_range;
-  p_ndc.z = (beyond_near - before_far) / depth_scale;
-  // Products below a double's range lose less than 2^-150 of a quotient.
-  const double x_error = 8 * kUnit * ((std::fabs(x) + std::fabs(x_shift)) / w) + 0x1p-150;
-  const double y_error = 8 * kUnit * ((std::fabs(y) + std::fabs(y_shift)) / w) + 0x1p-150;
-  const double z_error =
-      8 * kUnit * ((std::fabs(beyond_near) + std::fabs(before_far)) / depth_scale) + 0x1p-150;
-  return rounder_.accepts(p_ndc.x, x_error) && rounder_.accepts(p_ndc.y, y_error) &&
-         rounder_.accepts(p_ndc.z, z_error);
-}
-
 void ProjectionStage::add_attributes(const TriangleBatch& p_view, std::size_t index,
                                      const std::array<CornerMix, 3>& mixes, TriangleBatch& p_ndc) {
   const AttributeArrays& corners = p_view.attributes;
@@ -176,8 +170,12 @@ void ProjectionStage::project_whole(const TriangleBatch& p_view, std::size_t ind
       throw InputError(
           {rounder_.file(), p_view.lines[index][v], 0},
           expected_but_found("a vertex in front of the eye (z below 0)", "one on or behind the eye plane"));
-    if (divide_in_doubles(p, p_ndc.triangles[target][v])) continue;
-    rounder_.set_vertex(p_ndc, target, v, perspective_divide(to_clip_space(projection_, p)));
+    const std::size_t in_block = 3 * (index % VertexBlock::kTriangles) + v;
+    if (block_.is_settled[in_block] != 0) {
+      p_ndc.triangles[target][v] = block_.vertex(in_block);
+    } else {
+      rounder_.set_vertex(p_ndc, target, v, perspective_divide(to_clip_space(projection_, p)));
+    }
   }
   const auto& [a, b, c] = p_view.triangles[index];
   if (has_attributes(p_view))

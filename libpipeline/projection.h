@@ -8,6 +8,7 @@
 #include "libpipeline/coordinate_rounder.h"
 #include "libpipeline/transform.h"
 #include "libpipeline/triangle_batch.h"
+#include "libpipeline/vertex_kernel.h"
 
 namespace pipeline {
 
@@ -60,11 +61,6 @@ class ProjectionStage {
   [[nodiscard]] const ProjectionCounts& counts() const { return counts_; }
 
  private:
-  /// The transform in doubles, and what bounds its errors.
-  struct Doubles {
-    double x_scale, x_offset, y_scale, y_offset, near, far, depth_range;
-  };
-
   /// What a vertex of a piece has of its triangle's corners, and its w.
   struct CornerMix {
     std::array<double, 3> weights;
@@ -74,7 +70,6 @@ class ProjectionStage {
   [[nodiscard]] double w_of(const Vec3& p_view) const { return projection_.is_perspective ? -p_view.z : 1; }
   [[nodiscard]] bool is_culled(const Triangle& p_view) const;
   [[nodiscard]] bool needs_clipping(const Triangle& p_view) const;
-  [[nodiscard]] bool divide_in_doubles(const Vec3& p_view, Vec3& p_ndc) const;
   void add_attributes(const TriangleBatch& p_view, std::size_t index, const std::array<CornerMix, 3>& mixes,
                       TriangleBatch& p_ndc);
   void project_triangle(const TriangleBatch& p_view, std::size_t index, TriangleBatch& p_ndc);
@@ -86,7 +81,8 @@ class ProjectionStage {
   CullMode cull_;
   double clip_extent_;
   CoordinateRounder& rounder_;
-  Doubles in_doubles_;
+  ProjectionFactors factors_;
+  ImageBlock block_;  // the images of the triangles around the one that is projected
   bool mirrored_;
   bool keeps_clipped_ = false;
   ProjectionCounts counts_;

@@ -1,10 +1,11 @@
 #pragma once
 
-#include <array>
+#include <cstddef>
 
 #include "libpipeline/coordinate_rounder.h"
 #include "libpipeline/transform.h"
 #include "libpipeline/triangle_batch.h"
+#include "libpipeline/vertex_kernel.h"
 
 namespace pipeline {
 
@@ -17,25 +18,21 @@ class VertexTransform {
   /// From world to view space.
   explicit VertexTransform(const ViewTransform& view_from_world);
 
-  /// Replaces triangle `index` of the batch by its image. An InputError with its line on overflow.
-  void apply(TriangleBatch& batch, std::size_t index, CoordinateRounder& rounder) const;
-  /// Replaces all triangles of the batch; on an error the batch keeps those that were done before.
-  void apply(TriangleBatch& batch, CoordinateRounder& rounder) const;
+  /// Replaces the triangles of the batch from `begin` to before `end` by their images. An InputError with the
+  /// vertex's line on overflow; the batch then keeps those before that triangle.
+  void apply(TriangleBatch& batch, std::size_t begin, std::size_t end, CoordinateRounder& rounder) const;
+  /// Replaces all triangles of the batch.
+  void apply(TriangleBatch& batch, CoordinateRounder& rounder) const {
+    apply(batch, 0, batch.size(), rounder);
+  }
 
  private:
-  /// A row of M in doubles, and for each entry what it adds to the error of an image per unit of the
-  /// coordinate (the entry's own error, the subtraction of the origin, the product and the sums).
-  struct Row {
-    std::array<double, 4> entries{};
-    std::array<double, 4> errors{};
-  };
-
-  void set_rows();
-  [[nodiscard]] bool apply_in_doubles(Vec3& p, const CoordinateRounder& rounder) const;
+  void set_factors();
+  void set_image(TriangleBatch& batch, std::size_t index, const ImageBlock& image, std::size_t first_vertex,
+                 CoordinateRounder& rounder) const;
 
   AffineMatrix matrix_;
-  Vec3 origin_;
-  std::array<Row, 3> rows_;
+  AffineFactors factors_;
 };
 
 }  // namespace pipeline

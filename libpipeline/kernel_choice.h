@@ -1,0 +1,24 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <span>
+#include <string_view>
+
+namespace pipeline {
+
+/// Which of these kernels is used: the last, or, for tests, the best that is not better than the one the
+/// environment variable PIPELINE_KERNEL names. The first is "portable"; a name that means nothing is passed
+/// over.
+template <typename Kernel>
+const Kernel& chosen_kernel(std::span<const Kernel> kernels) {
+  constexpr std::array<std::string_view, 3> kNames = {"portable", "sse4", "avx2"};
+  const char* const variable = std::getenv("PIPELINE_KERNEL");
+  const auto limit = std::find(kNames.begin(), kNames.end(), variable == nullptr ? "" : variable);
+  std::size_t chosen = kernels.size() - 1;
+  while (chosen > 0 && std::find(kNames.begin(), kNames.end(), kernels[chosen].name) > limit) --chosen;
+  return kernels[chosen];
+}
+
+}  // namespace pipeline

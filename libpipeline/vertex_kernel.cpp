@@ -1,0 +1,60 @@
+#include "libpipeline/vertex_kernel.h"
+
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+#include "libpipeline/kernel_choice.h"
+#include "libpipeline/vertex_kernel_avx2.h"
+#include "libpipeline/vertex_loops.h"
+
+namespace pipeline {
+namespace {
+
+void transform(const AffineFactors& m, const CoordinateTest& test, const VertexBlock& p, ImageBlock& image) {
+  transform_block<SplitRest>(m, test, p, image);
+}
+
+void project(const ProjectionFactors& m, const CoordinateTest& test, const VertexBlock& p,
+             ImageBlock& p_ndc) {
+  project_block<SplitRest>(m, test, p, p_ndc);
+}
+
+struct KernelList {
+  std::array<VertexKernel, 2> kernels{};
+  std::size_t count = 0;
+
+  KernelList() {
+    kernels[count++] = {"portable", transform, project};
+    if (const VertexKernel* const avx2 = vertex_kernel_avx2()) kernels[count++] = *avx2;
+  }
+};
+
+}  // namespace
+
+Factor::Factor(const Ball& number) {
+  if (number.is_exact_zero()) return;
+  value = number.nearest_double();
+  is_filled = 1;
+  // Each term meets at most six roundings: the factor (1), the subtraction of the origin (1), the product (1)
+  // and the sums (3); to them comes the factor's own error. A factor may have been cut at the end of a
+  // double's range.
+  error = 8 * kUnitRoundoff * std::fabs(value) + number.radius() + 0x1p-1073;
+  pair = number.value();
+  // The calculation in pairs loses less than 2^-98 of the terms, a quotient included, and ball arithmetic on
+  // the same numbers less than 2^-98: what the pair settles is not a tie for the ball.
+  pair_error = number.exponent() == 0 ? 0x1p-94 * std::fabs(value) + 8 * number.radius()
+                                      : std::numeric_limits<double>::quiet_NaN();
+}
+
+std::span<const VertexKernel> vertex_kernels() {
+  static const KernelList list;
+  return {list.kernels.data(), list.count};
+}
+
+const VertexKernel& vertex_kernel() {
+  static const VertexKernel& chosen = chosen_kernel(vertex_kernels());
+  return chosen;
+}
+
+}  // namespace pipeline

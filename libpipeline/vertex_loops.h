@@ -1,0 +1,302 @@
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+#include "libpipeline/vertex_kernel.h"
+
+// Inlined, so that each kernel's loops are compiled for its processor.
+#define PIPELINE_LOOP inline __attribute__((always_inline))
+
+namespace pipeline {
+
+// The loops of all kernels (vertex_kernel.h). `Rest` gives the exact rest of a rounded product; they differ
+// in nothing else. No loop has a branch.
+
+constexpr double kUnitRoundoff = 0x1p-53;
+
+/// Rest by the splitting of Dekker ("A floating-point technique for extending the available precision",
+/// 1971), for processors without a fused multiply-add.
+struct SplitRest {
+  PIPELINE_LOOP static double of(double a, double b, double product) {
+    constexpr double kSplitter = 0x1p27 + 1;
+    const double a_high = kSplitter * a - (kSplitter * a - a);
+    const double b_high = kSplitter * b - (kSplitter * b - b);
+    const double a_low = a - a_high;
+    const double b_low = b - b_high;
+    return ((a_high * b_high - product) + a_high * b_low + a_low * b_high) + a_low * b_low;
+  }
+};
+
+struct FusedRest {
+  PIPELINE_LOOP static double of(double a, double b, double product) { return __builtin_fma(a, b, -product); }
+};
+
+/// A coordinate and a bound of its error.
+struct Estimate {
+  double value;
+  double error;
+};
+/// The same for a pair, |low| <= ulp(high) / 2.
+struct PairEstimate {
+  double high;
+  double low;
+  double error;
+  bool is_zero;  // exactly
+};
+
+// ---- what settles a coordinate; `value` becomes the double that is printed ----
+
+PIPELINE_LOOP bool is_finite(const Estimate& e, double& value) {
+  value = e.value;
+  return std::fabs(value) <= std::numeric_limits<double>::max();
+}
+
+/// As rounds_safely.
+PIPELINE_LOOP bool has_one_text(const Estimate& e, double scale, double& value) {
+  constexpr double kRounder = 0x1.8p52;
+  constexpr double kHalf = 0.5 - 0x1p-52;
+  value = e.value;
+  const double scaled = std::fabs(value) * scale;
+  const double units = (scaled + kRounder) - kRounder;
+  const double reach = std::fabs(scaled - units) + e.error * scale + scaled * 0x1p-52;
+  return (reach < kHalf) & (scaled < 0x1p51);
+}
+
+/// A pair that lies so far from a tie has the text of the nearest whole number of units.
+PIPELINE_LOOP bool has_one_text(const PairEstimate& e, double scale, auto rest, double& value) {
+  constexpr double kRounder = 0x1.8p52;
+  constexpr double kHalf = 0.5 - 0x1p-40;
+  const double scaled = e.high * scale;
+  const double scaled_low = rest.of(e.high, scale, scaled) + e.low * scale;
+  const double units = (scaled + kRounder) - kRounder;
+  const double reach = std::fabs((scaled - units) + scaled_low) + e.error * scale;
+  value = units / scale;
+  return (reach < kHalf) & (std::fabs(scaled) < 0x1p51);
+}
+
+/// Both ends of the interval round to the same double, and so does what lies between (A. Ziv, "Fast
+/// evaluation of elementary mathematical functions with correctly rounded last bit", 1991). Far above the
+/// range's lower end, so that what products below it have lost is nothing against the error.
+PIPELINE_LOOP bool has_one_double(const PairEstimate& e, double& value) {
+  const double error = e.error + std::fabs(e.low) * 0x1p-50;
+  value = e.high;
+  const bool is_nearest = (e.high + (e.low + error) == e.high) & (e.high + (e.low - error) == e.high);
+  return (is_nearest & (std::fabs(e.high) >= 0x1p-500)) | e.is_zero;
+}
+
+/// Settles a coordinate calculated in doubles.
+template <CoordinateTestKind kind>
+PIPELINE_LOOP bool is_settled(const Estimate& e, double scale, double& value) {
+  if constexpr (kind == CoordinateTestKind::finite) return is_finite(e, value);
+  return has_one_text(e, scale, value);
+}
+
+template <CoordinateTestKind kind, typename Rest>
+PIPELINE_LOOP bool is_settled(const PairEstimate& e, double scale, double& value) {
+  if constexpr (kind == CoordinateTestKind::nearest) return has_one_double(e, value);
+  return has_one_text(e, scale, Rest{}, value);
+}
+
+PIPELINE_LOOP std::uint64_t mask(bool condition) {
+  return condition ? ~std::uint64_t{0} : 0;
+}
+
+// ---- sums of pairs ----
+
+struct Pair {
+  double high;
+  double low;
+};
+
+PIPELINE_LOOP Pair exact_sum(double a, double b) {
+  const double sum = a + b;
+  const double b_part = sum - a;
+  return {sum, (a - (sum - b_part)) + (b - b_part)};
+}
+
+/// a * b within 2^-103 of itself.
+template <typename Rest>
+PIPELINE_LOOP Pair product(const DoubleDouble& a, const Pair& b) {
+  const double high = a.hi * b.high;
+  return {high, Rest::of(a.hi, b.high, high) + (a.hi * b.low + a.lo * b.high)};
+}
+
+// ---- affine transforms ----
+
+PIPELINE_LOOP Estimate image_in_doubles(const std::array<Factor, 4>& row, double x, double y, double z) {
+  const auto& [a, b, c, d] = row;
+  return {a.value * x + b.value * y + c.value * z + d.value,
+          // Products below a double's range lose less than 2^-1070 together.
+          a.error * std::fabs(x) + b.error * std::fabs(y) + c.error * std::fabs(z) + d.error + 0x1p-1070};
+}
+
+/// The dot product in twice a double's precision (T. Ogita, S. Rump, S. Oishi, "Accurate sum and dot
+/// product", 2005): within 2^-100 of the sum of the terms' absolute values.
+template <typename Rest>
+PIPELINE_LOOP PairEstimate image_in_pairs(const std::array<Factor, 4>& row, Pair x, Pair y, Pair z) {
+  const auto& [a, b, c, d] = row;
+  const Pair ax = product<Rest>(a.pair, x);
+  const Pair by = product<Rest>(b.pair, y);
+  const Pair cz = product<Rest>(c.pair, z);
+  const Pair two = exact_sum(ax.high, by.high);
+  const Pair three = exact_sum(two.high, cz.high);
+  const Pair four = exact_sum(three.high, d.pair.hi);
+  const double low = ((ax.low + by.low) + (cz.low + d.pair.lo)) + ((two.low + three.low) + four.low);
+  const Pair sum = exact_sum(four.high, low);
+  const double x_size = std::fabs(x.high);
+  const double y_size = std::fabs(y.high);
+  const double z_size = std::fabs(z.high);
+  const double error = a.pair_error * x_size + b.pair_error * y_size + c.pair_error * z_size + d.pair_error;
+  const double filled = a.is_filled * x_size + b.is_filled * y_size + c.is_filled * z_size + d.is_filled;
+  return {sum.high, sum.low, error, filled == 0};
+}
+
+template <CoordinateTestKind kind>
+PIPELINE_LOOP void transform_in_doubles(const AffineFactors& m, double scale, const VertexBlock& p,
+                                        ImageBlock& image) {
+  const auto [ox, oy, oz] = m.origin;
+  const std::size_t count = p.count;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const std::array<Factor, 4> row = m.rows[axis];
+    for (std::size_t i = 0; i < count; ++i) {
+      const Estimate e = image_in_doubles(row, p.p[0][i] - ox, p.p[1][i] - oy, p.p[2][i] - oz);
+      image.is_settled[i] &= mask(is_settled<kind>(e, scale, image.p[axis][i]));
+    }
+  }
+}
+
+template <CoordinateTestKind kind, typename Rest>
+PIPELINE_LOOP void transform_in_pairs(const AffineFactors& m, double scale, const VertexBlock& p,
+                                      ImageBlock& image) {
+  const auto [ox, oy, oz] = m.origin;
+  const std::size_t count = p.count;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const std::array<Factor, 4> row = m.rows[axis];
+    for (std::size_t i = 0; i < count; ++i) {
+      const PairEstimate e = image_in_pairs<Rest>(row, exact_sum(p.p[0][i], -ox), exact_sum(p.p[1][i], -oy),
+                                                  exact_sum(p.p[2][i], -oz));
+      image.is_settled[i] &= mask(is_settled<kind, Rest>(e, scale, image.p[axis][i]));
+    }
+  }
+}
+
+template <typename Rest>
+PIPELINE_LOOP void transform_block(const AffineFactors& m, const CoordinateTest& test, const VertexBlock& p,
+                                   ImageBlock& image) {
+  using Kind = CoordinateTestKind;
+  image.count = p.count;
+  for (std::size_t i = 0; i < p.count; ++i) image.is_settled[i] = ~std::uint64_t{0};
+  if (test.kind == Kind::finite) {
+    transform_in_doubles<Kind::finite>(m, test.scale, p, image);
+  } else if (test.kind == Kind::nearest) {
+    transform_in_pairs<Kind::nearest, Rest>(m, test.scale, p, image);
+  } else if (test.needs_pairs) {
+    transform_in_pairs<Kind::decimals, Rest>(m, test.scale, p, image);
+  } else {
+    transform_in_doubles<Kind::decimals>(m, test.scale, p, image);
+  }
+}
+
+// ---- projections ----
+
+/// Beyond these sizes of w, intermediate results may leave a double's range.
+PIPELINE_LOOP bool is_safe_divisor(double w) {
+  return (w > 0x1p-400) & (w < 0x1p400);
+}
+
+template <CoordinateTestKind kind, bool is_perspective>
+PIPELINE_LOOP void project_in_doubles(const ProjectionFactors& m, double scale, const VertexBlock& p,
+                                      ImageBlock& p_ndc) {
+  // Products below a double's range lose less than 2^-150 of a quotient.
+  constexpr double kLost = 0x1p-150;
+  constexpr double kRelative = 8 * kUnitRoundoff;
+  const std::size_t count = p.count;
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    const double factor = m.scales[axis].value;
+    const double offset = m.offsets[axis].value;
+    for (std::size_t i = 0; i < count; ++i) {
+      const double z = p.p[2][i];
+      const double w = is_perspective ? -z : 1;
+      const double scaled = factor * p.p[axis][i];
+      const double shift = offset * (is_perspective ? z : 1);
+      const Estimate e = {(scaled + shift) / w,
+                          kRelative * ((std::fabs(scaled) + std::fabs(shift)) / w) + kLost};
+      p_ndc.is_settled[i] &= mask(is_settled<kind>(e, scale, p_ndc.p[axis][i])) & mask(is_safe_divisor(w));
+    }
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    const double distance = -p.p[2][i];
+    const double w = is_perspective ? distance : 1;
+    const double beyond_near = (distance - m.near) * (is_perspective ? m.far : 1);
+    const double before_far = (m.far - distance) * (is_perspective ? m.near : 1);
+    const double depth_scale = w * m.depth_range;
+    const Estimate e = {(beyond_near - before_far) / depth_scale,
+                        kRelative * ((std::fabs(beyond_near) + std::fabs(before_far)) / depth_scale) + kLost};
+    p_ndc.is_settled[i] &= mask(is_settled<kind>(e, scale, p_ndc.p[2][i]));
+  }
+}
+
+/// (scale p + offset q) / w: the numerator like an affine image, and one correction of the quotient.
+template <CoordinateTestKind kind, typename Rest, bool is_perspective>
+PIPELINE_LOOP void project_in_pairs(const ProjectionFactors& m, double scale, const VertexBlock& p,
+                                    ImageBlock& p_ndc) {
+  const std::size_t count = p.count;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const Factor a = m.scales[axis];
+    const Factor b = m.offsets[axis];
+    const bool has_shift = is_perspective && axis < 2;
+    for (std::size_t i = 0; i < count; ++i) {
+      const double z = p.p[2][i];
+      const double w = is_perspective ? -z : 1;
+      const double q = has_shift ? z : 1;
+      const double v = p.p[axis][i];
+      const Pair scaled = product<Rest>(a.pair, {v, 0});
+      const Pair shift = product<Rest>(b.pair, {q, 0});
+      const Pair sum = exact_sum(scaled.high, shift.high);
+      const Pair numerator = exact_sum(sum.high, sum.low + (scaled.low + shift.low));
+      const double quotient = numerator.high / w;
+      const double back = quotient * w;
+      const double rest = ((numerator.high - back) - Rest::of(quotient, w, back)) + numerator.low;
+      const Pair result = exact_sum(quotient, rest / w);
+      const double v_size = std::fabs(v);
+      const double q_size = std::fabs(q);
+      const double error = (a.pair_error * v_size + b.pair_error * q_size) / w;
+      const bool is_zero = a.is_filled * v_size + b.is_filled * q_size == 0;
+      const PairEstimate e = {result.high, result.low, error, is_zero};
+      p_ndc.is_settled[i] &=
+          mask(is_settled<kind, Rest>(e, scale, p_ndc.p[axis][i])) & mask(is_safe_divisor(w));
+    }
+  }
+}
+
+template <typename Rest, bool is_perspective>
+PIPELINE_LOOP void project_all(const ProjectionFactors& m, const CoordinateTest& test, const VertexBlock& p,
+                               ImageBlock& p_ndc) {
+  using Kind = CoordinateTestKind;
+  if (test.kind == Kind::finite) {
+    project_in_doubles<Kind::finite, is_perspective>(m, test.scale, p, p_ndc);
+  } else if (test.kind == Kind::nearest) {
+    project_in_pairs<Kind::nearest, Rest, is_perspective>(m, test.scale, p, p_ndc);
+  } else if (test.needs_pairs) {
+    project_in_pairs<Kind::decimals, Rest, is_perspective>(m, test.scale, p, p_ndc);
+  } else {
+    project_in_doubles<Kind::decimals, is_perspective>(m, test.scale, p, p_ndc);
+  }
+}
+
+template <typename Rest>
+PIPELINE_LOOP void project_block(const ProjectionFactors& m, const CoordinateTest& test, const VertexBlock& p,
+                                 ImageBlock& p_ndc) {
+  p_ndc.count = p.count;
+  for (std::size_t i = 0; i < p.count; ++i) p_ndc.is_settled[i] = ~std::uint64_t{0};
+  if (m.is_perspective) {
+    project_all<Rest, true>(m, test, p, p_ndc);
+  } else {
+    project_all<Rest, false>(m, test, p, p_ndc);
+  }
+}
+
+}  // namespace pipeline

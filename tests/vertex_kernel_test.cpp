@@ -1,0 +1,224 @@
+#include "libpipeline/vertex_kernel.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "libpipeline/number_printer.h"
+#include "tests/random_numbers.h"
+#include "tests/real.h"
+
+namespace pipeline {
+namespace {
+
+using Exact = Real<4096>;
+
+constexpr CoordinateTest kNearest = {CoordinateTestKind::nearest};
+
+CoordinateTest test_of_decimals(int decimals, bool needs_pairs) {
+  return {CoordinateTestKind::decimals, std::pow(10.0, decimals), needs_pairs};
+}
+
+std::string printed(double value, int decimals) {
+  char text[kMaxNumberLength];
+  return {text, print_number(text, value, 0, {.decimals = decimals})};
+}
+
+/// A transform of which every row is the same.
+AffineFactors factors_of(const std::array<Ball, 4>& row, const Vec3& origin = {}) {
+  AffineFactors factors;
+  factors.origin = origin;
+  for (auto& factor_row : factors.rows)
+    for (std::size_t j = 0; j < 4; ++j) factor_row[j] = Factor(row[j]);
+  return factors;
+}
+
+VertexBlock block_of(const Vec3& p) {
+  VertexBlock block;
+  const Triangle triangle = {p, p, p};
+  block.fill({&triangle, 1});
+  return block;
+}
+
+class VertexKernels : public testing::TestWithParam<VertexKernel> {
+ protected:
+  static ImageBlock image_of(const AffineFactors& factors, const Vec3& p,
+                             const CoordinateTest& test = kNearest) {
+    ImageBlock image;
+    GetParam().transform(factors, test, block_of(p), image);
+    return image;
+  }
+  static bool settles(const std::array<Ball, 4>& row, const Vec3& p, const CoordinateTest& test = kNearest) {
+    return image_of(factors_of(row), p, test).is_settled[0] != 0;
+  }
+};
+
+std::array<Ball, 4> random_row(RandomNumbers& random, int largest_exponent) {
+  std::array<Ball, 4> row;
+  for (Ball& entry : row) {
+    const DoubleDouble value = random.double_double(-largest_exponent, largest_exponent);
+    if (random.bits() % 8 != 0) entry = Ball::with_error(value, 0);
+  }
+  return row;
+}
+
+Vec3 random_vec3(RandomNumbers& random, int largest_exponent) {
+  const auto coordinate = [&] { return random.with_exponent(-largest_exponent, largest_exponent); };
+  return {coordinate(), coordinate(), coordinate()};
+}
+
+Exact exact_image(const std::array<Ball, 4>& row, const Vec3& origin, const Vec3& p) {
+  return midpoint<4096>(row[0]) * (Exact(p.x) - Exact(origin.x)) +
+         midpoint<4096>(row[1]) * (Exact(p.y) - Exact(origin.y)) +
+         midpoint<4096>(row[2]) * (Exact(p.z) - Exact(origin.z)) + midpoint<4096>(row[3]);
+}
+
+TEST_P(VertexKernels, SettleNothingButTheNearestDouble) {
+  RandomNumbers random(1);
+  int settled_count = 0;
+  for (int i = 0; i < 30'000; ++i) {
+    const int largest_exponent = i % 10 == 0 ? 290 : 20;
+    const std::array<Ball, 4> row = random_row(random, largest_exponent);
+    const Vec3 origin = random_vec3(random, largest_exponent);
+    const Vec3 p = random_vec3(random, largest_exponent);
+    const ImageBlock image = image_of(factors_of(row, origin), p);
+    if (image.is_settled[0] == 0) continue;
+    ++settled_count;
+    ASSERT_EQ(image.p[0][0], exact_image(row, origin, p).nearest_double()) << i;
+  }
+  EXPECT_GT(settled_count, 27'000);
+}
+
+TEST_P(VertexKernels, SettleNothingButTheNearestDecimal) {
+  RandomNumbers random(2);
+  int settled_count = 0;
+  for (int i = 0; i < 30'000; ++i) {
+    const int decimals = random.whole(0, 17);
+    const std::array<Ball, 4> row = random_row(random, 3);
+    const Vec3 origin = random_vec3(random, 3);
+    const Vec3 p = random_vec3(random, 3);
+    const ImageBlock image = image_of(factors_of(row, origin), p, test_of_decimals(decimals, i % 2 == 0));
+    if (image.is_settled[0] == 0) continue;
+    ++settled_count;
+    ASSERT_EQ(printed(image.p[0][0], decimals), exact_image(row, origin, p).text(decimals)) << i;
+  }
+  EXPECT_GT(settled_count, 15'000);
+}
+
+TEST_P(VertexKernels, SettleNoTieBetweenTwoDoubles) {
+  EXPECT_TRUE(settles({1, 0, 0, 0}, {1, 0, 0}));
+  EXPECT_FALSE(settles({1, 0x1p-53, 0, 0}, {1, 1, 0}));
+  EXPECT_FALSE(settles({1, 0, 0, 3}, {0x1p-52, 0, 0}));
+}
+
+TEST_P(VertexKernels, SettleNoTieOfDecimals) {
+  for (const bool needs_pairs : {false, true}) {
+    EXPECT_TRUE(settles({1, 0, 0, 0}, {0.25, 0, 0}, test_of_decimals(2, needs_pairs)));
+    EXPECT_FALSE(settles({1, 0, 0, 0}, {0.125, 0, 0}, test_of_decimals(2, needs_pairs)));
+    EXPECT_FALSE(settles({1, 1, 0, 0}, {0.5, -1, 0}, test_of_decimals(0, needs_pairs)));
+  }
+}
+
+TEST_P(VertexKernels, SettleNoNumberWhoseErrorReachesATie) {
+  const Ball wide = Ball::with_error({1, 0x1p-53 - 0x1p-100}, 0x1p-90);
+  EXPECT_FALSE(settles({wide, 0, 0, 0}, {1, 0, 0}));
+  EXPECT_FALSE(settles({1, 0, 0, wide}, {0, 0, 0}));
+}
+
+TEST_P(VertexKernels, SettleZeroIfEveryTermIsZero) {
+  EXPECT_TRUE(settles({0, 5, 0, 0}, {7, 0, -0.0}));
+  EXPECT_FALSE(settles({1, 1, 0, 0}, {3, -3, 0}));
+  EXPECT_FALSE(settles({Ball::with_error({0, 0}, 0x1p-200), 0, 0, 0}, {1, 0, 0}));
+  // A product that a double has no room for is not zero.
+  EXPECT_FALSE(settles({0x1p-280, 0, 0, 0}, {0x1p-900, 0, 0}));
+}
+
+TEST_P(VertexKernels, LeaveWhatIsBeyondTheirRange) {
+  EXPECT_FALSE(settles({Ball(0x1p1000), 0, 0, 0}, {1, 0, 0}));
+  EXPECT_FALSE(settles({Ball(0x1p-1000), 0, 0, 0}, {1, 0, 0}));
+  EXPECT_FALSE(settles({0x1p200, 0, 0, 0}, {0x1p900, 0, 0}));
+  for (const CoordinateTest test : {CoordinateTest{}, kNearest, test_of_decimals(7, false)})
+    EXPECT_FALSE(settles({2, 0, 0, 0}, {0x1.8p1023, 0, 0}, test));
+}
+
+TEST_P(VertexKernels, SettleEveryVertexOfABlockByItself) {
+  std::array<Triangle, VertexBlock::kTriangles> triangles;
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    const auto x = static_cast<double>(i);
+    triangles[i] = {Vec3{x, 0, 0}, Vec3{x, 1, 0}, Vec3{x, 0, 1}};
+  }
+  VertexBlock block;
+  block.fill(triangles);
+  ImageBlock image;
+  GetParam().transform(factors_of({1, 0x1p-53, 0, 1}), kNearest, block, image);
+  ASSERT_EQ(image.count, 3 * triangles.size());
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    EXPECT_EQ(image.p[0][3 * i], static_cast<double>(i + 1));
+    EXPECT_NE(image.is_settled[3 * i], 0u);
+    EXPECT_NE(image.is_settled[3 * i + 2], 0u);
+  }
+  EXPECT_EQ(image.is_settled[1], 0u);  // 1 + 2^-53
+}
+
+ProjectionFactors random_projection(RandomNumbers& random, std::array<Ball, 3>& scales,
+                                    std::array<Ball, 3>& offsets) {
+  ProjectionFactors factors;
+  factors.is_perspective = random.bits() % 2 == 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    scales[axis] = Ball::with_error(random.double_double(-10, 10), 0);
+    offsets[axis] = random.bits() % 4 == 0 ? Ball() : Ball::with_error(random.double_double(-10, 10), 0);
+    factors.scales[axis] = Factor(scales[axis]);
+    factors.offsets[axis] = Factor(offsets[axis]);
+  }
+  return factors;
+}
+
+// Of the depth in doubles, the tests of ProjectionStage tell.
+TEST_P(VertexKernels, SettleNothingButTheNearestQuotient) {
+  RandomNumbers random(3);
+  int settled_count = 0;
+  for (int i = 0; i < 20'000; ++i) {
+    std::array<Ball, 3> scales;
+    std::array<Ball, 3> offsets;
+    const ProjectionFactors factors = random_projection(random, scales, offsets);
+    Vec3 p = random_vec3(random, 20);
+    if (i % 16 != 0) p.z = -std::fabs(p.z);
+    const int decimals = random.whole(11, 17);
+    const bool is_nearest = i % 2 == 0;
+    ImageBlock p_ndc;
+    GetParam().project(factors, is_nearest ? kNearest : test_of_decimals(decimals, true), block_of(p), p_ndc);
+    if (p_ndc.is_settled[0] == 0) continue;
+    ++settled_count;
+    const Exact w = factors.is_perspective ? -p.z : 1;
+    ASSERT_GT(w.sign(), 0);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const Exact q = factors.is_perspective && axis < 2 ? p.z : 1;
+      const Exact v = axis == 0 ? p.x : (axis == 1 ? p.y : p.z);
+      const Exact truth = (midpoint<4096>(scales[axis]) * v + midpoint<4096>(offsets[axis]) * q) / w;
+      if (is_nearest) {
+        ASSERT_EQ(p_ndc.p[axis][0], truth.nearest_double()) << i;
+      } else {
+        ASSERT_EQ(printed(p_ndc.p[axis][0], decimals), truth.text(decimals)) << i;
+      }
+    }
+  }
+  EXPECT_GT(settled_count, 8'000);
+}
+
+TEST_P(VertexKernels, SettleNoQuotientBehindTheEyeOrOnItsPlane) {
+  ProjectionFactors factors;
+  for (Factor& factor : factors.scales) factor = Factor(Ball(1));
+  for (const double z : {0.0, -0.0, 1.0, -0x1p-500, -0x1p500}) {
+    ImageBlock p_ndc;
+    GetParam().project(factors, kNearest, block_of({1, 1, z}), p_ndc);
+    EXPECT_EQ(p_ndc.is_settled[0], 0u) << z;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Kernels, VertexKernels,
+                         testing::ValuesIn(vertex_kernels().begin(), vertex_kernels().end()),
+                         [](const auto& test) { return std::string(test.param.name); });
+
+}  // namespace
+}  // namespace pipeline
