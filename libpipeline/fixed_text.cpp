@@ -17,7 +17,8 @@ struct KernelList {
     add(kPortableKernel);
 #ifdef PIPELINE_HAS_X86_KERNELS
     if (processor_has_sse4()) add(kSse4Kernel);
-    if (processor_has_sse4() && processor_has_avx2()) add({"avx2", kSse4Kernel.read, kWriteFixedTextAvx2});
+    if (processor_has_sse4() && processor_has_avx2())
+      add({"avx2", kSse4Kernel.read, kSse4Kernel.read_scene, kWriteFixedTextAvx2});
 #endif
   }
 };

@@ -29,15 +29,19 @@ constexpr std::size_t kMaxFixedTriangleLength = 9 * 18 + 1;
 /// the text ends. A number becomes the double nearest to it, as from_chars gives it.
 using ReadFixedText = FixedTextPart (*)(std::string_view text, std::span<Triangle> triangles);
 
+/// The same for the triangles of a scene: a line `triangle`, then three vertex lines.
+using ReadFixedScene = FixedTextPart (*)(std::string_view text, std::span<Triangle> triangles);
+
 /// Prints triangles in fixed form until there is one of which a coordinate has more than eight digits before
 /// the point, or lies so near to a tie that it takes exact arithmetic to round it; says how many were
 /// printed. `out` has room for kMaxFixedTriangleLength each, and kFixedTextSlack more.
 using WriteFixedText = FixedTextPart (*)(std::span<const Triangle> triangles, char* out);
 
-/// One implementation of both.
+/// One implementation of them all.
 struct FixedTextKernel {
   const char* name;
   ReadFixedText read;
+  ReadFixedScene read_scene;
   WriteFixedText write;
 };
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string_view>
+
 #include "libpipeline/fixed_text.h"
 
 #if defined(__x86_64__) && defined(__GNUC__)
@@ -9,6 +11,20 @@
 namespace pipeline {
 
 // The kernels behind fixed_text.h, each in a file of its own.
+
+/// What stands around the three vertex lines of a triangle.
+enum class TriangleFrame {
+  stage_text,  // a blank line behind them
+  scene        // the line `triangle` before them
+};
+
+/// The beginning of the vertex lines; null if the line before them is missing.
+template <TriangleFrame frame>
+const char* vertex_lines(const char* p) {
+  if constexpr (frame == TriangleFrame::stage_text) return p;
+  constexpr std::string_view kLine = "triangle\n";
+  return std::string_view(p, kLine.size()) == kLine ? p + kLine.size() : nullptr;
+}
 
 extern const FixedTextKernel kPortableKernel;
 

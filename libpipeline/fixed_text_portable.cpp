@@ -37,22 +37,26 @@ const char* read_number(const char* p, char separator, double& value) {
   return p + count + 9;
 }
 
+template <TriangleFrame frame>
 const char* read_triangle(const char* p, Triangle& triangle) {
+  if ((p = vertex_lines<frame>(p)) == nullptr) return nullptr;
   for (Vec3& vertex : triangle) {
     if ((p = read_number(p, ' ', vertex.x)) == nullptr) return nullptr;
     if ((p = read_number(p, ' ', vertex.y)) == nullptr) return nullptr;
     if ((p = read_number(p, '\n', vertex.z)) == nullptr) return nullptr;
   }
+  if constexpr (frame == TriangleFrame::scene) return p;
   return *p == '\n' ? p + 1 : nullptr;
 }
 
+template <TriangleFrame frame>
 FixedTextPart read_fixed_text(std::string_view text, std::span<Triangle> triangles) {
   FixedTextPart part;
   const char* p = text.data();
   const char* const end = p + text.size();
   for (Triangle& triangle : triangles) {
     if (p >= end) break;
-    const char* const next = read_triangle(p, triangle);
+    const char* const next = read_triangle<frame>(p, triangle);
     if (next == nullptr || next > end) break;
     p = next;
     ++part.triangle_count;
@@ -146,6 +150,7 @@ FixedTextPart write_fixed_text(std::span<const Triangle> triangles, char* out) {
 
 }  // namespace
 
-constinit const FixedTextKernel kPortableKernel = {"portable", read_fixed_text, write_fixed_text};
+constinit const FixedTextKernel kPortableKernel = {"portable", read_fixed_text<TriangleFrame::stage_text>,
+                                                   read_fixed_text<TriangleFrame::scene>, write_fixed_text};
 
 }  // namespace pipeline

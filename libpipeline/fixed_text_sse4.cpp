@@ -62,6 +62,7 @@ PIPELINE_SSE4 inline const char* read_number(const char* p, char separator, std:
   return p + count + 9;
 }
 
+template <TriangleFrame frame>
 PIPELINE_SSE4 FixedTextPart read_fixed_text(std::string_view text, std::span<Triangle> triangles) {
   FixedTextPart part;
   const char* p = text.data();
@@ -69,16 +70,18 @@ PIPELINE_SSE4 FixedTextPart read_fixed_text(std::string_view text, std::span<Tri
   for (Triangle& triangle : triangles) {
     if (p >= end) break;
     std::array<std::uint64_t, 9> bits;
-    const char* q = p;
+    const char* q = vertex_lines<frame>(p);
+    if (q == nullptr) break;
     int good = 0xffff;
     for (std::size_t v = 0; v < 3; ++v) {
       q = read_number(q, ' ', bits[3 * v], good);
       q = read_number(q, ' ', bits[3 * v + 1], good);
       q = read_number(q, '\n', bits[3 * v + 2], good);
     }
-    if (good != 0xffff || *q != '\n' || q >= end) break;
+    if (frame == TriangleFrame::stage_text && *q++ != '\n') break;
+    if (good != 0xffff || q > end) break;
     triangle = std::bit_cast<Triangle>(bits);
-    p = q + 1;
+    p = q;
     ++part.triangle_count;
   }
   part.length = static_cast<std::size_t>(p - text.data());
@@ -191,7 +194,8 @@ PIPELINE_SSE4 FixedTextPart write_fixed_text(std::span<const Triangle> triangles
 
 }  // namespace
 
-constinit const FixedTextKernel kSse4Kernel = {"sse4", read_fixed_text, write_fixed_text};
+constinit const FixedTextKernel kSse4Kernel = {"sse4", read_fixed_text<TriangleFrame::stage_text>,
+                                               read_fixed_text<TriangleFrame::scene>, write_fixed_text};
 
 bool processor_has_sse4() {
   return __builtin_cpu_supports("sse4.2") && __builtin_cpu_supports("bmi");

@@ -1,5 +1,6 @@
 #include "libpipeline/model_stage.h"
 
+#include <algorithm>
 #include <string>
 #include <utility>
 
@@ -38,6 +39,7 @@ bool ModelStage::read(TriangleBatch& batch) {
 void ModelStage::fill(TriangleBatch& batch) {
   if (first_triangle_) add(*std::exchange(first_triangle_, std::nullopt), batch);
   while (!done_) {
+    if (add_waiting(batch)) continue;
     // What is in memory is passed on before the reader waits for more.
     if (!batch.empty() && (batch.size() >= kBatchSize || !scene_.has_command_waiting())) break;
     const Command command = scene_.next();
@@ -71,13 +73,32 @@ void ModelStage::carry_out(const Command& command) {
   }
 }
 
-/// Adds the triangle that the scene has given out last.
-void ModelStage::add(const TriangleCommand& command, TriangleBatch& batch) {
-  const AttributeSet columns = scene_.appearance().columns();
-  if (transform_ == nullptr) transform_ = std::make_shared<ModelTransform>(stack_.top(), columns.normal);
+/// The matrix that holds for the triangles which follow in the batch.
+void ModelStage::set_transform(TriangleBatch& batch) {
+  if (transform_ == nullptr)
+    transform_ = std::make_shared<ModelTransform>(stack_.top(), scene_.appearance().columns().normal);
   if (batch.pending_transforms.empty() || batch.pending_transforms.back().transform != transform_)
     batch.pending_transforms.push_back({batch.size(), transform_});
+}
+
+/// Adds triangles by the fast path, as many as there are; false if there is none.
+bool ModelStage::add_waiting(TriangleBatch& batch) {
+  std::size_t line = 0;
+  const auto triangles = scene_.waiting_triangles(kBatchSize - std::min(batch.size(), kBatchSize), line);
+  if (triangles.empty()) return false;
+  set_transform(batch);
+  for (const Triangle& triangle : triangles) {
+    batch.add(triangle, next_number_++, {line + 1, line + 2, line + 3});
+    line += 4;
+  }
+  return true;
+}
+
+/// Adds the triangle that the scene has given out last.
+void ModelStage::add(const TriangleCommand& command, TriangleBatch& batch) {
+  set_transform(batch);
   batch.add(command.p_model, next_number_++, command.lines);
+  const AttributeSet columns = scene_.appearance().columns();
   if (columns.any()) batch.attributes.add(scene_.vertices(), columns);
 }
 

@@ -31,6 +31,8 @@ class ModelStage {
   void read_until_triangle();
   void fill(TriangleBatch& batch);
   void carry_out(const Command& command);
+  void set_transform(TriangleBatch& batch);
+  bool add_waiting(TriangleBatch& batch);
   void add(const TriangleCommand& command, TriangleBatch& batch);
   void push();
   void pop();

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <string_view>
 
+#include "libpipeline/fixed_text.h"
+
 namespace pipeline {
 SceneReader::SceneReader(TextReader& text) : text_(text) {
   camera_.eye = read_camera_vec3("the eye");
@@ -31,6 +33,20 @@ Placed<Projection> SceneReader::read_camera_projection() {
 void SceneReader::next_argument_line(std::string_view expected) {
   if (line_.at_end() && !text_.next_filled_line(line_))
     throw InputError(text_.end_place(), expected_but_found(std::string(expected), "the end of the input"));
+}
+
+std::span<const Triangle> SceneReader::waiting_triangles(std::size_t most, std::size_t& first_line) {
+  static_assert(TextReader::kSlack >= kFixedTextSlack);
+  // With attributes there are more columns, or at least a current colour.
+  if (appearance_.attributes || !line_.at_end()) return {};
+  // The blank line between triangles that a reader likes to see.
+  if (text_.waiting().starts_with('\n')) text_.skip(1, 1);
+  const auto room = std::span(waiting_triangles_).first(std::min(most, waiting_triangles_.size()));
+  const FixedTextPart part = fixed_text_kernel().read_scene(text_.waiting(), room);
+  first_line = text_.line_number() + 1;
+  text_.skip(part.length, 4 * part.triangle_count);
+  if (part.triangle_count > 0) has_triangle_ = true;
+  return room.first(part.triangle_count);
 }
 
 Command SceneReader::next() {

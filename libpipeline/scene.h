@@ -1,7 +1,9 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <variant>
 
@@ -69,6 +71,10 @@ class SceneReader {
   [[nodiscard]] const std::array<VertexLine, 3>& vertices() const { return vertices_; }
   /// The next command. After EndCommand nothing may be read.
   Command next();
+  /// The fast path: takes some of the triangles that come next and are in memory as a whole, at most `most`;
+  /// each has four lines, and the first begins at `first_line`. The span holds until the next call. None if
+  /// the next command is another, or a triangle in another form, or with more than positions.
+  std::span<const Triangle> waiting_triangles(std::size_t most, std::size_t& first_line);
   /// The place of the command given out last, unless that is a triangle.
   [[nodiscard]] const Place& place() const { return place_; }
   /// True if the next command can be had without waiting for the input, whatever it is: none has more than
@@ -95,6 +101,7 @@ class SceneReader {
   Vec3 current_color_;
   std::array<VertexLine, 3> vertices_;
   bool has_triangle_ = false;
+  std::array<Triangle, 64> waiting_triangles_;
   LineScanner line_;
   Place place_;
 };

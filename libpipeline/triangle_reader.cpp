@@ -11,8 +11,6 @@
 namespace pipeline {
 namespace {
 
-// Nine numbers of one digit before the point and seven behind it, a separator each, and the blank line.
-constexpr std::size_t kMinFixedTriangleLength = 9 * 10 + 1;
 constexpr std::uint16_t kAllDecimal = 0x1ff;
 
 /// Which coordinates are exact decimals, as in a batch: with at most eight digits before the point those with
@@ -67,26 +65,19 @@ bool TriangleReader::read_fixed_form(TriangleBatch& batch) {
   if (vertex_line_.attributes().any()) return false;
   // The blank line behind a triangle that the general reader took.
   if (text_.waiting().starts_with('\n')) text_.skip(1, 1);
-  const std::string_view waiting = text_.waiting();
-  const std::size_t old_size = batch.size();
-  const std::size_t most =
-      std::min({kBatchSize - old_size, waiting.size() / kMinFixedTriangleLength, fixed_form_guess_});
-  if (most == 0) return false;
-  batch.triangles.resize(old_size + most);
-  const FixedTextPart part = fixed_text_kernel().read(waiting, std::span(batch.triangles).subspan(old_size));
-  batch.triangles.resize(old_size + part.triangle_count);
+  const std::size_t most = std::min(kBatchSize - batch.size(), fixed_form_.size());
+  const FixedTextPart part = fixed_text_kernel().read(text_.waiting(), std::span(fixed_form_).first(most));
   constexpr std::size_t kLinesPerTriangle = 4;
   for (std::size_t i = 0; i < part.triangle_count; ++i) {
     const std::size_t line = text_.line_number() + i * kLinesPerTriangle;
-    batch.lines.push_back({line + 1, line + 2, line + 3});
-    batch.numbers.push_back(next_number_++);
+    batch.add(fixed_form_[i], next_number_++, {line + 1, line + 2, line + 3});
   }
   text_.skip(part.length, part.triangle_count * kLinesPerTriangle);
-  fixed_form_guess_ = part.triangle_count == most ? 2 * most : part.triangle_count + 1;
-  if (!batch.low_parts.empty()) batch.low_parts.resize(batch.size());
-  if (!batch.wholes.empty()) batch.wholes.resize(batch.size());
   // Seven decimals and at most eight digits before the point: every coordinate is its decimal.
-  if (marks_decimals_) batch.decimal_marks.resize(batch.size(), kAllDecimal);
+  if (marks_decimals_) {
+    batch.decimal_marks.resize(batch.size() - part.triangle_count);
+    batch.decimal_marks.resize(batch.size(), kAllDecimal);
+  }
   return part.triangle_count > 0;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 
@@ -35,7 +36,7 @@ class TriangleReader {
   TextReader& text_;
   VertexLineReader vertex_line_;
   bool marks_decimals_;
-  std::size_t fixed_form_guess_ = 1;  // how many triangles in fixed form to expect: room is made for them
+  std::array<Triangle, 64> fixed_form_;  // where some are read before they join a batch
   std::uint64_t next_number_ = 0;
 };
 

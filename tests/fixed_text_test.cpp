@@ -23,6 +23,11 @@ class FixedText : public testing::TestWithParam<FixedTextKernel> {
     return GetParam().read({with_slack.data(), text.size()}, triangles);
   }
 
+  static FixedTextPart read_scene(const std::string& text, std::vector<Triangle>& triangles) {
+    const std::string with_slack = text + std::string(kFixedTextSlack, '7');
+    return GetParam().read_scene({with_slack.data(), text.size()}, triangles);
+  }
+
   static std::size_t count_read(const std::string& text) {
     std::vector<Triangle> triangles(10);
     return read(text, triangles).triangle_count;
@@ -115,27 +120,72 @@ TEST_P(FixedText, LeavesEveryOtherFormAlone) {
   }
 }
 
-TEST_P(FixedText, ReadsWhatTheGeneralReaderReads) {
-  std::mt19937_64 random(1);
-  for (int i = 0; i < 30000; ++i) {
-    std::array<std::string, 9> words;
-    for (std::string& word : words) {
-      const std::uint64_t units = random() % 1'000'000'000'000'000 >> (random() % 50);
-      std::string decimals = std::to_string(units % 10'000'000);
-      decimals.insert(0, 7 - decimals.size(), '0');
-      word = (random() % 2 == 0 ? "-" : "") + std::to_string(units / 10'000'000) + "." + decimals;
-    }
-    std::string text;
-    for (std::size_t k = 0; k < 9; ++k) text += words[k] + (k % 3 == 2 ? "\n" : " ");
-    std::vector<Triangle> triangles(1);
-    ASSERT_EQ(read(text + "\n", triangles).triangle_count, 1u) << text;
-    for (std::size_t k = 0; k < 9; ++k) {
-      const Vec3& v = triangles[0][k / 3];
-      const double value = k % 3 == 0 ? v.x : (k % 3 == 1 ? v.y : v.z);
-      ASSERT_EQ(std::bit_cast<std::uint64_t>(value), std::bit_cast<std::uint64_t>(general_number(words[k])))
-          << words[k];
+TEST_P(FixedText, ReadsTheTrianglesOfAScene) {
+  const std::string triangle = "triangle\n" + kUnit.substr(0, kUnit.size() - 1);
+  std::vector<Triangle> triangles(3);
+  const FixedTextPart part = read_scene(triangle + triangle + "pop\n" + triangle, triangles);
+  EXPECT_EQ(part.triangle_count, 2u);
+  EXPECT_EQ(part.length, 2 * triangle.size());
+  EXPECT_EQ(triangles[1], (Triangle{Vec3{0, 0, 0}, Vec3{1, 0, 0}, Vec3{0, 1, 0}}));
+}
+
+TEST_P(FixedText, EveryByteOfASceneMatters) {
+  const std::string triangle = "triangle\n" + kUnit.substr(0, kUnit.size() - 1);
+  for (std::size_t i = 0; i < triangle.size(); ++i) {
+    for (int byte = 0; byte < 256; ++byte) {
+      std::string text = triangle;
+      text[i] = static_cast<char>(byte);
+      const bool is_digit_for_digit = byte >= '0' && byte <= '9' && triangle[i] >= '0' && triangle[i] <= '9';
+      std::vector<Triangle> triangles(2);
+      ASSERT_EQ(read_scene(text, triangles).triangle_count, is_digit_for_digit || text == triangle ? 1u : 0u)
+          << i << " " << byte;
     }
   }
+}
+
+TEST_P(FixedText, StopsBeforeATriangleOfASceneThatIsNotThereAsAWhole) {
+  const std::string triangle = "triangle\n" + kUnit.substr(0, kUnit.size() - 1);
+  for (std::size_t length = 0; length < triangle.size(); ++length) {
+    std::vector<Triangle> triangles(2);
+    ASSERT_EQ(read_scene(triangle + triangle.substr(0, length), triangles).length, triangle.size()) << length;
+  }
+}
+
+/// A decimal of up to eight digits before the point and seven behind it.
+std::string random_word(std::mt19937_64& random) {
+  const std::uint64_t units = random() % 1'000'000'000'000'000 >> (random() % 50);
+  std::string decimals = std::to_string(units % 10'000'000);
+  decimals.insert(0, 7 - decimals.size(), '0');
+  return (random() % 2 == 0 ? "-" : "") + std::to_string(units / 10'000'000) + "." + decimals;
+}
+
+/// Reads random triangles and compares with from_chars.
+void read_random(const ReadFixedText read_kernel, int triangle_count, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  for (int i = 0; i < triangle_count; ++i) {
+    std::array<double, 9> expected;
+    std::string text;
+    for (std::size_t k = 0; k < 9; ++k) {
+      const std::string word = random_word(random);
+      expected[k] = general_number(word);
+      text += word + (k % 3 == 2 ? "\n" : " ");
+    }
+    text += "\n";
+    const std::size_t length = text.size();
+    text.append(kFixedTextSlack, '7');
+    std::array<Triangle, 1> triangle;
+    ASSERT_EQ(read_kernel({text.data(), length}, triangle).triangle_count, 1u) << text;
+    const auto bits = std::bit_cast<std::array<std::uint64_t, 9>>(triangle);
+    ASSERT_EQ(bits, (std::bit_cast<std::array<std::uint64_t, 9>>(expected))) << text;
+  }
+}
+
+TEST_P(FixedText, ReadsWhatTheGeneralReaderReads) {
+  read_random(GetParam().read, 30000, 1);
+}
+
+TEST_P(FixedText, LongReadsWhatTheGeneralReaderReadsOnAHundredMillionNumbers) {
+  read_random(GetParam().read, 100'000'000 / 9, 4);
 }
 
 TEST_P(FixedText, PrintsZeroWithoutASign) {
@@ -161,6 +211,52 @@ TEST_P(FixedText, LeavesToTheGeneralPrinterWhatItCannotPrint) {
     EXPECT_EQ(write({Triangle{{{0, 0, 0}, {0, value, 0}, {0, 0, 0}}}}, count), "") << value;
     EXPECT_EQ(count, 0u) << value;
   }
+}
+
+// An odd multiple of 2^-8 ends in a 5 at the eighth decimal.
+TEST_P(FixedText, LeavesEveryTieToTheGeneralPrinter) {
+  std::mt19937_64 random(5);
+  for (int i = 0; i < 20000; ++i) {
+    const double tie = static_cast<double>(2 * (random() % (1u << 30 >> random() % 30)) + 1) / 256;
+    std::size_t count = 1;
+    write({Triangle{{{0, 0, 0}, {random() % 2 == 0 ? tie : -tie, 0, 0}, {0, 0, 0}}}}, count);
+    ASSERT_EQ(count, 0u) << tie;
+  }
+}
+
+TEST_P(FixedText, PrintsWhatLiesBesideATieOrLeavesIt) {
+  std::mt19937_64 random(6);
+  int printed_count = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const double tie = static_cast<double>(2 * (random() % (1u << 30 >> random() % 30)) + 1) / 256;
+    for (const double value :
+         {std::nextafter(tie, 0), std::nextafter(tie, HUGE_VAL), tie - 1e-9, tie + 1e-9}) {
+      const Triangle triangle = {{{0, 0, 0}, {0, 0, value}, {-value, 0, 0}}};
+      std::size_t count = 0;
+      const std::string text = write({triangle}, count);
+      ASSERT_EQ(text, count > 0 ? general_text(triangle) : "") << tie;
+      printed_count += count > 0 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(printed_count, 20000);
+}
+
+// Where digits join or leave: powers of ten, what is one unit beside them, and those of two up to 2^53.
+TEST_P(FixedText, PrintsPowersAndTheirNeighboursOrLeavesThem) {
+  std::vector<double> values;
+  for (int exponent = -9; exponent <= 9; ++exponent) values.push_back(std::pow(10.0, exponent));
+  for (int exponent = -60; exponent <= 54; ++exponent) values.push_back(std::ldexp(1.0, exponent));
+  int printed_count = 0;
+  for (const double power : values)
+    for (const double step : {0.0, 1e-7, 0.5e-7, 0.49e-7, 1e-15})
+      for (const double value : {power - step, power + step, step - power}) {
+        const Triangle triangle = {{{value, 0, 0}, {0, value, 0}, {0, 0, value}}};
+        std::size_t count = 0;
+        const std::string text = write({triangle}, count);
+        ASSERT_EQ(text, count > 0 ? general_text(triangle) : "") << value;
+        printed_count += count > 0 ? 1 : 0;
+      }
+  EXPECT_GT(printed_count, 800);
 }
 
 TEST_P(FixedText, StopsBeforeTheFirstTriangleItCannotPrint) {
@@ -199,8 +295,8 @@ TEST_P(FixedText, PrintsWhatTheGeneralPrinterPrints) {
   print_random(GetParam().write, 30000, 2);
 }
 
-TEST_P(FixedText, LongPrintsWhatTheGeneralPrinterPrintsOnTenMillionNumbers) {
-  print_random(GetParam().write, 10'000'000 / 9, 3);
+TEST_P(FixedText, LongPrintsWhatTheGeneralPrinterPrintsOnAHundredMillionNumbers) {
+  print_random(GetParam().write, 100'000'000 / 9, 3);
 }
 
 INSTANTIATE_TEST_SUITE_P(Kernels, FixedText,

@@ -104,6 +104,22 @@ TEST(ModelStage, ReadsMoreTrianglesThanABatchHolds) {
   EXPECT_EQ(triangles_of(commands).size(), 2 * kBatchSize + 1);
 }
 
+// A comment keeps a line from the fast paths.
+TEST(ModelStage, TrianglesAreTheSameByEveryPath) {
+  const std::string vertex = "0.1000000 -2.0000000 12345678.1234567";
+  const auto scene = [&](const std::string& comment) {
+    const std::string triangle = "triangle\n" + vertex + comment + "\n" + vertex + "\n" + vertex + "\n";
+    return triangle + triangle + "\n" + triangle + "\n\n" + triangle + "push\nscale 2 2 2\n" + triangle +
+           triangle + "pop\n" + triangle;
+  };
+  const TriangleBatch fast = triangles_of(scene(""));
+  const TriangleBatch slow = triangles_of(scene(" # slow"));
+  ASSERT_EQ(fast.size(), 7u);
+  EXPECT_EQ(fast.triangles, slow.triangles);
+  EXPECT_EQ(fast.numbers, slow.numbers);
+  EXPECT_EQ(fast.lines, slow.lines);
+}
+
 TEST(ModelStage, PopWithoutPushIsAnErrorAtThePop) {
   EXPECT_EQ(error_of("push\npop\n  pop\n"),
             "scene.txt:7:3: expected a matrix that 'push' has saved, found 'pop' without one");
