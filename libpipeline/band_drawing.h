@@ -18,8 +18,8 @@ namespace pipeline {
 /// Draws triangles band by band of the screen: several batches at a time, all that reach a band before the
 /// next band, so that its pixels stay in the cache; and with several threads, each band by one of them, while
 /// the caller reads on. A pixel belongs to one band and sees its triangles in the order of the stream, so the
-/// result does not depend on the number of threads. `Visible` has draw_rows(triangle, color, rows), which
-/// only touches those rows.
+/// result does not depend on the number of threads. `Visible` has a class Band(visible, rows) with
+/// draw(triangle, color), which only touches those rows.
 template <typename Visible>
 class BandDrawing {
  public:
@@ -92,10 +92,11 @@ class BandDrawing {
 
   void draw_band(Round& round, int band) {
     std::vector<Entry>& entries = round.bands[static_cast<std::size_t>(band)];
-    const RowRange rows = bands_.rows(band);
+    if (entries.empty()) return;
+    typename Visible::Band rows(visible_, bands_.rows(band));
     for (const Entry entry : entries)
-      visible_.draw_rows(exact_triangle(round.batches[entry.batch], entry.index),
-                         round.colors[entry.batch][entry.index], rows);
+      rows.draw(exact_triangle(round.batches[entry.batch], entry.index),
+                round.colors[entry.batch][entry.index]);
     entries.clear();
   }
 

@@ -3,24 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "libpipeline/column_search.h"
+
 namespace pipeline {
 namespace {
 
 constexpr int kFirstStretch = 4;
 constexpr int kLongestStretch = 1 << 16;
-
-/// The first column in [first, end) where `is_true`, or `end`; from there on it has to be true.
-template <typename Predicate>
-int first_column_where(int first, int end, Predicate&& is_true) {
-  while (first < end) {
-    const int middle = first + (end - first) / 2;
-    if (is_true(middle))
-      end = middle;
-    else
-      first = middle + 1;
-  }
-  return first;
-}
 
 /// At equal depth the earlier polygon stays.
 template <typename Stored>

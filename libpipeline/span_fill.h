@@ -1,27 +1,53 @@
 #pragma once
 
+#include <algorithm>
 #include <span>
 
 #include "libpipeline/color.h"
 #include "libpipeline/depth_format.h"
+#include "libpipeline/farthest_depths.h"
 #include "libpipeline/span.h"
 
 namespace pipeline {
 
-/// A span on its way into a z-buffer of the depth format `Depth`.
+/// A span on its way into a row of a z-buffer of the depth format `Depth`. None of its depths is before the
+/// front limit.
 template <typename Depth>
 struct SpanFill {
+  using Stored = typename Depth::Stored;
+
   const Span& span;
   Color color;
   const Depth& format;
-  double front;                    // what is nearer is not seen
-  typename Depth::Stored* depths;  // of the pixel in the span's first column
-  Color* colors;                   // likewise
+  int columns;                 // of the row
+  Stored* depths;              // of its first pixel
+  Color* colors;               // likewise
+  Stored* farthest = nullptr;  // of its first block (see FarthestDepths), brought up to date; may be missing
 };
 
-// The loop that draws: every pixel of the span whose depth, as it is stored, is less than the one there and
-// not less than the front limit gets the span's depth and colour. A kernel is that loop for one kind of
-// processor; all give the same bytes.
+/// The blocks of a row that a span meets, and those of them that it covers as a whole.
+struct SpanBlocks {
+  template <typename Depth>
+  explicit SpanBlocks(const SpanFill<Depth>& pixels)
+      : first(pixels.span.first_column / kBlockColumns),
+        last(pixels.span.last_column / kBlockColumns),
+        first_whole((pixels.span.first_column + kBlockColumns - 1) / kBlockColumns),
+        last_whole(pixels.span.last_column + 1 == pixels.columns
+                       ? last
+                       : (pixels.span.last_column + 1) / kBlockColumns - 1) {}
+
+  int first;
+  int last;
+  int first_whole;
+  int last_whole;  // included
+};
+
+// The loop that draws: every pixel of the span whose depth, as it is stored, is less than the one there gets
+// the span's depth and colour. A kernel is that loop for one kind of processor; all give the same bytes.
+//
+// Every rounding in a SpanDepth is monotone, so depths as they are calculated and stored rise or fall along
+// the row: the nearest in a block is at one of its ends. If that is not nearer than the farthest depth there,
+// the block is passed over.
 
 /// One implementation, for all depth formats.
 struct SpanFillKernel {

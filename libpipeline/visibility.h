@@ -36,9 +36,22 @@ class ZBufferAlgorithm {
   void draw(const ExactTriangle& triangle, Color color) {
     for_each_span(coverage_.rows(triangle), [&](const Span& span) { buffer_.draw(span, color); });
   }
-  void draw_rows(const ExactTriangle& triangle, Color color, const RowRange& range) {
-    for_each_span(coverage_.rows(triangle), range, [&](const Span& span) { buffer_.draw(span, color); });
-  }
+  /// What draws into some rows, triangle by triangle; nothing else may while it is in use.
+  class Band {
+   public:
+    Band(ZBufferAlgorithm& whole, const RowRange& rows)
+        : whole_(whole), rows_(rows), farthest_(whole.buffer_.farthest_depths(rows)) {}
+    void draw(const ExactTriangle& triangle, Color color) {
+      for_each_span(whole_.coverage_.rows(triangle), rows_,
+                    [&](const Span& span) { whole_.buffer_.draw(span, color, &farthest_); });
+    }
+
+   private:
+    ZBufferAlgorithm& whole_;
+    RowRange rows_;
+    FarthestDepths<Depth> farthest_;
+  };
+
   template <typename Visitor>
   void for_each_row(Visitor&& visit) const {
     buffer_.for_each_row(visit);

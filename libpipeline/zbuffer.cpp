@@ -1,6 +1,9 @@
 #include "libpipeline/zbuffer.h"
 
 #include <cassert>
+#include <functional>
+
+#include "libpipeline/column_search.h"
 
 namespace pipeline {
 
@@ -15,12 +18,31 @@ ZBuffer<Depth>::ZBuffer(const ScreenConfig& screen, Color background)
       colors_(screen.rows, screen.columns, background) {}
 
 template <typename Depth>
-void ZBuffer<Depth>::draw(const Span& span, Color color) {
+void ZBuffer<Depth>::draw(const Span& span, Color color, FarthestDepths<Depth>* farthest) {
   assert(span.first_column >= 0 && span.last_column < depths_.columns());
+  if (!(span.depth(span.first_column) >= front_ && span.depth(span.last_column) >= front_)) {
+    const Span part = part_behind_front(span);
+    if (part.first_column <= part.last_column) draw(part, color, farthest);
+    return;
+  }
   if (depth_epsilon_ > 0) return draw_what_is_nearer_by_epsilon(span, color);
-  const auto first_column = static_cast<std::size_t>(span.first_column);
-  kernel_.fill(SpanFill<Depth>{span, color, format_, front_, &depths_.row(span.row)[first_column],
-                               &colors_.row(span.row)[first_column]});
+  const bool is_long = span.last_column - span.first_column >= kBlockColumns;
+  kernel_.fill(SpanFill<Depth>{span, color, format_, depths_.columns(), depths_.row(span.row).data(),
+                               colors_.row(span.row).data(),
+                               farthest != nullptr && is_long ? farthest->row(span.row) : nullptr});
+}
+
+/// Every rounding in a SpanDepth is monotone, so the depths as calculated cross the front limit once.
+template <typename Depth>
+Span ZBuffer<Depth>::part_behind_front(const Span& span) const {
+  Span part = span;
+  const int end = span.last_column + 1;
+  const auto is_behind_front = [&](int column) { return span.depth(column) >= front_; };
+  if (is_behind_front(span.last_column))
+    part.first_column = first_column_where(span.first_column, end, is_behind_front);
+  else
+    part.last_column = first_column_where(span.first_column, end, std::not_fn(is_behind_front)) - 1;
+  return part;
 }
 
 template <typename Depth>
@@ -29,12 +51,11 @@ void ZBuffer<Depth>::draw_what_is_nearer_by_epsilon(const Span& span, Color colo
   const std::span<Color> colors = colors_.row(span.row);
   for (int column = span.first_column; column <= span.last_column; ++column) {
     const auto at = static_cast<std::size_t>(column);
-    const double z = span.depth(column);
-    const Stored stored = format_.store(z);
+    const Stored stored = format_.store(span.depth(column));
     const bool is_empty = !(depths[at] < rear_);
     const bool is_nearer =
         is_empty ? stored < rear_ : format_.depth(depths[at]) - format_.depth(stored) > depth_epsilon_;
-    if (!is_nearer || !(z >= front_)) continue;
+    if (!is_nearer) continue;
     depths[at] = stored;
     colors[at] = color;
   }

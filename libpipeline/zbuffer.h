@@ -6,6 +6,7 @@
 #include "libpipeline/color.h"
 #include "libpipeline/config.h"
 #include "libpipeline/depth_format.h"
+#include "libpipeline/farthest_depths.h"
 #include "libpipeline/raster.h"
 #include "libpipeline/span.h"
 #include "libpipeline/span_fill.h"
@@ -24,11 +25,17 @@ class ZBuffer {
 
   /// Draws a span of a triangle of the colour `color`. A pixel is written if its depth, as it is stored, is
   /// less than the one there (of equal depths the first drawn stays) and not less than the front limit.
-  void draw(const Span& span, Color color);
+  /// `farthest`, if there is one, is of rows of this buffer, and those rows were changed with it only.
+  void draw(const Span& span, Color color, FarthestDepths<Depth>* farthest = nullptr);
 
   /// From now on a pixel that shows a triangle is written only if its depth is less by more than `epsilon`,
   /// at least 0. What is drawn then depends on the order of the triangles.
   void set_depth_epsilon(double epsilon) { depth_epsilon_ = epsilon; }
+
+  /// To draw into these rows with.
+  [[nodiscard]] FarthestDepths<Depth> farthest_depths(const RowRange& rows) const {
+    return {rows, depths_.columns()};
+  }
 
   /// Calls `visit(VisibleRow)` for every row of the screen, from the top.
   template <typename Visitor>
@@ -45,6 +52,7 @@ class ZBuffer {
  private:
   using Stored = typename Depth::Stored;
 
+  [[nodiscard]] Span part_behind_front(const Span& span) const;
   void draw_what_is_nearer_by_epsilon(const Span& span, Color color);
 
   SpanFillKernel kernel_;

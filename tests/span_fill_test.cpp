@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <random>
 #include <string>
 #include <vector>
@@ -9,7 +11,8 @@
 namespace pipeline {
 namespace {
 
-constexpr int kColumns = 41;
+// Ten blocks of pixels and a part of one.
+constexpr int kColumns = 10 * kBlockColumns + 13;
 constexpr ScreenConfig kScreen = {kColumns, 1, -1, -1, 0.25, 0.75};
 
 /// Every claim is made of every kernel that this processor can run.
@@ -17,6 +20,8 @@ class SpanFillTest : public testing::TestWithParam<SpanFillKernel> {};
 
 template <typename Depth>
 struct PixelRow {
+  explicit PixelRow(const Depth& format) : depths(kColumns, format.store(kScreen.rear)), colors(kColumns) {}
+
   std::vector<typename Depth::Stored> depths;
   std::vector<Color> colors;
 
@@ -28,41 +33,107 @@ template <typename Depth>
 void draw_slowly(PixelRow<Depth>& row, const Span& span, Color color, const Depth& format) {
   for (int column = span.first_column; column <= span.last_column; ++column) {
     const auto i = static_cast<std::size_t>(column);
-    const double z = span.depth(column);
-    if (z < kScreen.front || format.store(z) >= row.depths[i]) continue;
-    row.depths[i] = format.store(z);
+    const auto stored = format.store(span.depth(column));
+    if (stored >= row.depths[i]) continue;
+    row.depths[i] = stored;
     row.colors[i] = color;
   }
+}
+
+template <typename Depth>
+void draw_with(const SpanFillKernel& kernel, PixelRow<Depth>& row, const Span& span, Color color,
+               const Depth& format, typename Depth::Stored* farthest = nullptr) {
+  kernel.fill(SpanFill<Depth>{span, color, format, kColumns, row.depths.data(), row.colors.data(), farthest});
 }
 
 /// Spans of every length from every column, with depths that tie, cross the limits, or are not finite.
 template <typename Depth>
 void expect_pixels_of_a_loop(const SpanFillKernel& kernel) {
   const Depth format(kScreen);
-  PixelRow<Depth> expected = {std::vector(kColumns, format.store(kScreen.rear)),
-                              std::vector<Color>(kColumns)};
-  PixelRow<Depth> found = expected;
+  PixelRow<Depth> expected(format), found(format);
   std::mt19937_64 random(1);
   const auto between = [&](int low, int high) {
     return std::uniform_int_distribution<int>(low, high)(random);
   };
   std::uint32_t number = 0;
-  for (int first = 0; first < kColumns; ++first) {
-    for (int last = first; last < kColumns; ++last) {
+  for (int first = 0; first < 41; ++first) {
+    for (int last = first; last < 41; ++last) {
       const double slope = between(0, 50) == 0 ? 1e308 : between(-8, 8) / 3000.0;
       const Span span = {0, first, last, {0.1, 0.1, between(0, 9) * 0.5, between(0, 64) / 64.0, slope}};
       const Color color = Color::from_rgb(++number);
       draw_slowly(expected, span, color, format);
-      const auto place = static_cast<std::size_t>(first);
-      kernel.fill(
-          SpanFill<Depth>{span, color, format, kScreen.front, &found.depths[place], &found.colors[place]});
+      draw_with(kernel, found, span, color, format);
       ASSERT_TRUE(found == expected) << "columns " << first << " to " << last;
-      if (number % 100 == 0) {
-        std::fill(expected.depths.begin(), expected.depths.end(), format.store(kScreen.rear));
-        found = expected;
-      }
+      if (number % 100 == 0) found = expected = PixelRow<Depth>(format);
     }
   }
+}
+
+/// Depths along a row of the kinds that a bound could be wrong for: layers that differ by an ulp or by
+/// nothing, slopes that hide in rounding, and others so large that depths are not finite.
+class RandomSpans {
+ public:
+  explicit RandomSpans(std::uint64_t seed) : random_(seed) {}
+
+  Span next() {
+    const int a = between(0, kColumns - 1), b = between(0, kColumns - 1);
+    Span span = {0, std::min(a, b), std::max(a, b), {}};
+    if (between(0, 2) == 0) span.first_column = 0, span.last_column = kColumns - 1;
+    // In NDC as the coverage rule nearest has it, or by halves of columns from the middle as center has it.
+    const double middle = span.first_column + span.last_column;
+    if (between(0, 1) == 0)
+      span.depth = {-1 + 1.0 / kColumns, 2.0 / kColumns, between(-9, 9) / 9.0, 0, 0};
+    else
+      span.depth = {0, 2, middle, 0, 0};
+    span.depth.z0 = 0.5 + between(-3, 3) * 0x1p-53 + between(-1, 1) * between(0, 20) * 0x1p-24;
+    constexpr std::array<double, 8> kSlopes = {0, 0x1p-60, 1e-18, 0x1p-53, 1e-9, 1e-4, 0.3, 1e308};
+    span.depth.slope = between(-1, 1) * kSlopes[static_cast<std::size_t>(between(0, 7))];
+    return span;
+  }
+  int between(int low, int high) { return std::uniform_int_distribution<int>(low, high)(random_); }
+
+ private:
+  std::mt19937_64 random_;
+};
+
+template <typename Depth>
+void expect_blocks_to_change_nothing(const SpanFillKernel& kernel) {
+  const Depth format(kScreen);
+  RandomSpans spans(2);
+  for (int picture = 0; picture < 400; ++picture) {
+    PixelRow<Depth> expected(format), found(format);
+    FarthestDepths<Depth> farthest({0, 1}, kColumns);
+    for (std::uint32_t number = 1; number <= 40; ++number) {
+      const Span span = spans.next();
+      const Color color = Color::from_rgb(number);
+      draw_slowly(expected, span, color, format);
+      draw_with(kernel, found, span, color, format, farthest.row(0));
+      ASSERT_TRUE(found == expected) << "picture " << picture << ", span " << number;
+      for (int column = 0; column < kColumns; ++column)
+        ASSERT_LE(found.depths[static_cast<std::size_t>(column)], farthest.row(0)[column / kBlockColumns]);
+    }
+  }
+}
+
+/// A block is passed over as soon as its farthest pixel is nearer: the bound is not only true but small.
+template <typename Depth>
+void expect_to_learn_the_farthest_depth(const SpanFillKernel& kernel) {
+  const Depth format(kScreen);
+  PixelRow<Depth> row(format);
+  FarthestDepths<Depth> farthest({0, 1}, kColumns);
+  const auto draw = [&](int first, int last, double z) {
+    draw_with(kernel, row, {0, first, last, {0, 1, 0, z, 0}}, Color(), format, farthest.row(0));
+  };
+  const auto farthest_of_block = [&](int block) { return farthest.row(0)[block]; };
+  draw(0, kColumns - 1, 0.625);
+  for (int block = 0; block <= 10; ++block) EXPECT_EQ(farthest_of_block(block), format.store(0.625));
+  draw(10, kColumns - 1, 0.5);
+  draw(0, kColumns - 1, 0.5625);   // seen in the first ten columns, the others are nearer
+  draw(0, kColumns - 1, 0.59375);  // seen nowhere
+  EXPECT_EQ(farthest_of_block(0), format.store(0.5625));
+  for (int block = 1; block <= 10; ++block) EXPECT_EQ(farthest_of_block(block), format.store(0.5));
+  draw(0, kBlockColumns - 1, 0.375);
+  EXPECT_EQ(farthest_of_block(0), format.store(0.375));
 }
 
 TEST_P(SpanFillTest, DoublesAreThoseOfALoopOverPixels) {
@@ -73,6 +144,27 @@ TEST_P(SpanFillTest, FloatsAreThoseOfALoopOverPixels) {
 }
 TEST_P(SpanFillTest, StepsAreThoseOfALoopOverPixels) {
   expect_pixels_of_a_loop<DepthU24>(GetParam());
+}
+
+TEST_P(SpanFillTest, DoublesOfHiddenBlocksArePassedOverAndNoOthers) {
+  expect_blocks_to_change_nothing<DepthF64>(GetParam());
+}
+TEST_P(SpanFillTest, DoublesTellTheFarthestOfABlock) {
+  expect_to_learn_the_farthest_depth<DepthF64>(GetParam());
+}
+
+TEST_P(SpanFillTest, FloatsOfHiddenBlocksArePassedOverAndNoOthers) {
+  expect_blocks_to_change_nothing<DepthF32>(GetParam());
+}
+TEST_P(SpanFillTest, FloatsTellTheFarthestOfABlock) {
+  expect_to_learn_the_farthest_depth<DepthF32>(GetParam());
+}
+
+TEST_P(SpanFillTest, StepsOfHiddenBlocksArePassedOverAndNoOthers) {
+  expect_blocks_to_change_nothing<DepthU24>(GetParam());
+}
+TEST_P(SpanFillTest, StepsTellTheFarthestOfABlock) {
+  expect_to_learn_the_farthest_depth<DepthU24>(GetParam());
 }
 
 INSTANTIATE_TEST_SUITE_P(Kernels, SpanFillTest,

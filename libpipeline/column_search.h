@@ -1,0 +1,18 @@
+#pragma once
+
+namespace pipeline {
+
+/// The first column in [first, end) where `is_true`, or `end`; from there on it has to be true.
+template <typename Predicate>
+int first_column_where(int first, int end, Predicate&& is_true) {
+  while (first < end) {
+    const int middle = first + (end - first) / 2;
+    if (is_true(middle))
+      end = middle;
+    else
+      first = middle + 1;
+  }
+  return first;
+}
+
+}  // namespace pipeline
