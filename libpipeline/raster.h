@@ -5,6 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "libpipeline/large_pages.h"
+
 namespace pipeline {
 
 /// A two-dimensional array, row after row; row 0 is at the top, column 0 on the left.
@@ -32,7 +34,7 @@ class Raster {
 
   int rows_;
   int columns_;
-  std::vector<T> entries_;
+  std::vector<T, LargePageAllocator<T>> entries_;
 };
 
 }  // namespace pipeline

@@ -2,6 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <stdexcept>
+
 namespace pipeline {
 namespace {
 
@@ -27,6 +32,21 @@ TEST(Raster, RowsAreApart) {
 TEST(Raster, RowsFollowEachOtherInMemory) {
   const Raster<char> raster(3, 5, 'x');
   EXPECT_EQ(raster.row(0).data() + 5, raster.row(1).data());
+}
+
+TEST(Raster, ALargeOneBeginsWithALargePageAndIsFilled) {
+  const Raster<int> raster(1025, 1024, 7);
+  EXPECT_EQ(reinterpret_cast<std::uintptr_t>(raster.row(0).data()) % (1 << 21), 0u);
+  for (int row = 0; row < 1025; ++row)
+    ASSERT_EQ(std::count(raster.row(row).begin(), raster.row(row).end(), 7), 1024) << row;
+}
+
+TEST(Raster, OneThatNoMemoryHoldsIsAnError) {
+  struct Kilobyte {
+    std::array<char, 1024> bytes;
+  };
+  const auto make = [] { return Raster<Kilobyte>(2147483647, 2147483647, {}); };
+  EXPECT_THROW(make(), std::length_error);
 }
 
 }  // namespace

@@ -25,7 +25,7 @@ tools_test(MakePictures tools_pictures_test)
 
 # A sanitizer's own memory says nothing about the tools'. Nor can it be limited.
 if(NOT CMAKE_CXX_FLAGS MATCHES "-fsanitize")
-  tools_test(NeedConstantMemory tools_streaming_test Memory)
+  tools_test(NeedConstantMemory tools_streaming_test Memory BufferMemory)
   tools_test(NeedConstantMemoryLong tools_streaming_test LongMemory)
   set_tests_properties(Tools.NeedConstantMemoryLong PROPERTIES LABELS long TIMEOUT 3600)
   # A sanitizer has an allocator of its own and has to be loaded first.

@@ -3,8 +3,10 @@
 
 usage: tools_streaming_test.py BIN_DIR [UNITTEST ARGUMENT...]
 """
+import contextlib
 import fcntl
 import os
+import pathlib
 import re
 import select
 import subprocess
@@ -197,6 +199,35 @@ class Memory(ToolTest):
         few = peak_memory("model", CAMERA, transform, 20_000, "end\n")
         many = peak_memory("model", CAMERA, transform, 200_000, "end\n")
         self.assertLess(many, few + MEBIBYTE)
+
+
+class BufferMemory(ToolTest):
+    """zbuf takes its buffers, 12 bytes a pixel in doubles with colour, and less than 32 MiB more."""
+
+    SIZE = 2048
+    LARGE = "-1.0000000 -1.0000000 0.5000000\n0.2000000 -1.0000000 0.5000000\n-1.0000000 1.0000000 0.5000000\n\n"
+    SMALL = "0.0100000 0.0100000 0.1000000\n0.0110000 0.0100000 0.1000000\n0.0100000 0.0110000 0.1000000\n\n"
+
+    def memory_beside_buffers(self, *options):
+        """In KiB, at the most, until the last depths come out."""
+        pathlib.Path("config.txt").write_text(f"{self.SIZE} {self.SIZE}\n")
+        pathlib.Path("stage3.txt").write_text((self.LARGE + self.SMALL * 999) * 200)
+        with LiveTool("zbuf", "config.txt", "stage3.txt", "--image", "/dev/null", *options) as live:
+            memory = 0
+            while live.process.stdout.read1():
+                with contextlib.suppress(OSError, AttributeError):  # it may have ended since
+                    memory = live.peak_memory()
+            self.assertEqual(live.finish(), 0)
+        buffers = 12 * self.SIZE**2 // 1024
+        self.assertGreater(memory, buffers)
+        return memory - buffers
+
+    def test_on_any_number_of_threads(self):
+        for threads in (1, 2, 8):
+            self.assertLess(self.memory_beside_buffers("--threads", str(threads)), 32 * MEBIBYTE, f"{threads} threads")
+
+    def test_under_the_exact_rule(self):
+        self.assertLess(self.memory_beside_buffers("--coverage", "center"), 32 * MEBIBYTE)
 
 
 class LongMemory(ToolTest):
