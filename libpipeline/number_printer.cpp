@@ -17,26 +17,49 @@
 namespace pipeline {
 namespace {
 
-/// Prints a number below 10^16 with at least `count` digits, zeros before; 16 characters may be written.
-char* print_whole(char* out, std::uint64_t number, int count) {
-  constexpr std::uint64_t kEightNines = 99'999'999;
-  if (number <= kEightNines && count <= 8) {
+char* print_eight(char* out, std::uint64_t number) {
+  store_eight(out, split_digits(static_cast<std::uint32_t>(number)) + kEightZeros);
+  return out + 8;
+}
+
+/// Prints a number below 10^16; 16 characters may be written.
+char* print_whole(char* out, std::uint64_t number) {
+  constexpr std::uint64_t kEightDigits = 100'000'000;
+  if (number < kEightDigits) {
     const std::uint64_t digits = split_digits(static_cast<std::uint32_t>(number));
-    const int length = std::max(8 - std::countr_zero(digits | std::uint64_t{1} << 56) / 8, count);
+    const int length = 8 - std::countr_zero(digits | std::uint64_t{1} << 56) / 8;
     store_eight(out, (digits + kEightZeros) >> (8 * (8 - length)));
     return out + length;
   }
-  const std::uint64_t high = number / (kEightNines + 1);
+  const std::uint64_t high = number / kEightDigits;
+  return print_eight(print_whole(out, high), number - high * kEightDigits);
+}
+
+/// Prints a number below 10^16 with exactly `count` digits, at most 16 and at least as many as it has; 16
+/// characters may be written.
+char* print_digits(char* out, std::uint64_t number, int count) {
+  constexpr std::uint64_t kEightDigits = 100'000'000;
+  const std::uint64_t high = number / kEightDigits;
   const std::uint64_t first = split_digits(static_cast<std::uint32_t>(high));
-  const std::uint64_t last = split_digits(static_cast<std::uint32_t>(number - high * (kEightNines + 1)));
-  const int leading_zeros = (first != 0 ? std::countr_zero(first) : 64 + std::countr_zero(last)) / 8;
-  const int length = std::max(16 - leading_zeros, count);
-  // Shifted as one number: to store it and load it again from another place would take longer.
+  const std::uint64_t last = split_digits(static_cast<std::uint32_t>(number - high * kEightDigits));
   UInt128 text = (static_cast<UInt128>(last + kEightZeros) << 64) | (first + kEightZeros);
-  text >>= 8 * (16 - length);
+  text >>= 8 * (16 - count);
   store_eight(out, static_cast<std::uint64_t>(text));
   store_eight(out + 8, static_cast<std::uint64_t>(text >> 64));
-  return out + length;
+  return out + count;
+}
+
+/// Prints the digits before the point: most numbers have one there.
+char* print_before_point(char* out, std::uint64_t whole) {
+  if (whole >= 10) return print_whole(out, whole);
+  *out = static_cast<char>('0' + whole);
+  return out + 1;
+}
+
+/// Without a branch, which would be foreseen half the time.
+char* print_sign(char* out, bool is_negative) {
+  *out = '-';
+  return out + (is_negative ? 1 : 0);
 }
 
 /// The fast path of a fixed number of decimals: prints the scaled number as a whole one. Null where that has
@@ -45,7 +68,7 @@ char* print_scaled(char* out, double value, int decimals) {
   const auto n = static_cast<std::size_t>(decimals);
   if (decimals > 15 || !rounds_safely(value, 0, {.decimals = decimals})) return nullptr;
   const auto units = static_cast<std::uint64_t>(nearest_whole(std::fabs(value) * kPowersOfTen[n]));
-  if (value < 0 && units != 0) *out++ = '-';
+  out = print_sign(out, (value < 0) & (units != 0));
   // Cut off instead of divided, which is right but for what was rounded up to a whole number.
   auto whole = static_cast<std::uint64_t>(std::fabs(value));
   std::uint64_t behind = units - whole * kWholePowersOfTen[n];
@@ -53,10 +76,10 @@ char* print_scaled(char* out, double value, int decimals) {
     ++whole;
     behind -= kWholePowersOfTen[n];
   }
-  out = print_whole(out, whole, 1);
+  out = print_before_point(out, whole);
   if (decimals == 0) return out;
   *out++ = '.';
-  return print_whole(out, behind, decimals);
+  return print_digits(out, behind, decimals);
 }
 
 /// How many digits a number below 10^17 has.
@@ -66,13 +89,31 @@ int digit_count(std::uint64_t number) {
   return static_cast<int>(count) + (number >= kWholePowersOfTen[count] ? 1 : 0);
 }
 
-/// The same for a number of up to 17 digits, with at least `count`.
-char* print_long_whole(char* out, std::uint64_t number, int count) {
-  constexpr std::uint64_t kSixteenZeros = 10'000'000'000'000'000;
-  const std::uint64_t high = number / kSixteenZeros;
-  if (high == 0 && count <= 16) return print_whole(out, number, count);
-  out = print_whole(out, high, count - 16);
-  return print_whole(out, number - high * kSixteenZeros, 16);
+/// Prints a whole number of any size.
+char* print_long_whole(char* out, std::uint64_t number) {
+  constexpr std::uint64_t kSixteenDigits = 10'000'000'000'000'000;
+  const std::uint64_t high = number / kSixteenDigits;
+  if (high == 0) return print_whole(out, number);
+  return print_digits(print_whole(out, high), number - high * kSixteenDigits, 16);
+}
+
+/// Prints a number whose shortest decimal has digits behind the point, at most 17 and zeros before them.
+char* print_decimals(char* out, double value, const Decimal& decimal) {
+  const auto decimals = static_cast<std::size_t>(-decimal.exponent);
+  const std::uint64_t scale = decimals < kWholePowersOfTen.size() ? kWholePowersOfTen[decimals] : 0;
+  out = print_sign(out, value < 0);
+  // A decimal beyond the next whole number would not read back to this one.
+  const auto whole = static_cast<std::uint64_t>(std::fabs(value));
+  out = print_before_point(out, whole);
+  *out++ = '.';
+  const std::uint64_t behind = decimal.digits - whole * scale;
+  // Up to four digits, then sixteen. No branch: whether there are 16 or 17 cannot be foreseen.
+  constexpr std::uint64_t kSixteenDigits = 10'000'000'000'000'000;
+  const std::uint64_t high = behind / kSixteenDigits;
+  const int high_count = std::max(-decimal.exponent - 16, 0);
+  const std::uint64_t high_text = split_digits(static_cast<std::uint32_t>(high)) + kEightZeros;
+  store_eight(out, high_text >> (8 * (7 - high_count)) >> 8);
+  return print_digits(out + high_count, behind - high * kSixteenDigits, std::min(-decimal.exponent, 16));
 }
 
 /// Prints in the shortest form that reads back to the number; null where that is one with an exponent, or the
@@ -81,20 +122,15 @@ char* print_shortest(char* out, double value) {
   Decimal decimal;
   if (!shortest_decimal(std::fabs(value), decimal)) return nullptr;
   const auto& [digits, exponent] = decimal;
+  // From 0.001 on, zeros behind the point are shorter than an exponent.
+  if (exponent < 0 && std::fabs(value) >= 0.001) return print_decimals(out, value, decimal);
   // Written out, it must not be longer than with a point behind its first digit and "e+10".
   const int length = digit_count(digits);
   const int point_length = length > 1 ? 1 : 0;
   if (exponent > 4 + point_length || exponent < -(length + 2 + point_length)) return nullptr;
-  if (value < 0) *out++ = '-';
-  if (exponent >= 0)
-    return print_long_whole(out, digits * kWholePowersOfTen[static_cast<std::size_t>(exponent)], 1);
-  const auto decimals = static_cast<std::size_t>(-exponent);
-  const std::uint64_t scale = decimals < kWholePowersOfTen.size() ? kWholePowersOfTen[decimals] : 0;
-  // A decimal beyond the next whole number would not read back to this one.
-  const auto whole = static_cast<std::uint64_t>(std::fabs(value));
-  out = print_long_whole(out, whole, 1);
-  *out++ = '.';
-  return print_long_whole(out, digits - whole * scale, -exponent);
+  if (exponent < 0) return print_decimals(out, value, decimal);
+  out = print_sign(out, value < 0);
+  return print_long_whole(out, digits * kWholePowersOfTen[static_cast<std::size_t>(exponent)]);
 }
 
 char* without_sign_of_zero(char* first, char* last) {

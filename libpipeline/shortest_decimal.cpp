@@ -52,8 +52,9 @@ std::uint64_t rounded_to_odd(const PowerOfTen& power, std::uint64_t factor) {
   return static_cast<std::uint64_t>(high >> 64) | (is_inexact ? 1 : 0);
 }
 
-Decimal without_trailing_zeros(Decimal decimal) {
+void drop_trailing_zeros(Decimal& decimal) {
   constexpr std::uint64_t kEightZeros = 100'000'000;
+  if (decimal.digits % 10 != 0) return;
   if (decimal.digits % kEightZeros == 0) {
     decimal.digits /= kEightZeros;
     decimal.exponent += 8;
@@ -62,7 +63,6 @@ Decimal without_trailing_zeros(Decimal decimal) {
     decimal.digits /= 10;
     ++decimal.exponent;
   }
-  return decimal;
 }
 
 }  // namespace
@@ -88,22 +88,24 @@ bool shortest_decimal(double value, Decimal& decimal) {
   // The ends themselves belong to it only where ties go to this value.
   const std::uint64_t is_odd = significand & 1;
   const auto contains = [&](std::uint64_t units) {
-    return left + is_odd <= 4 * units && 4 * units <= right - is_odd;
+    return (left + is_odd <= 4 * units) & (4 * units <= right - is_odd);
   };
   const std::uint64_t below = center / 4;
   const std::uint64_t tens = below / 10 * 10;
   const bool tens_below = contains(tens);
   const bool tens_above = contains(tens + 10);
-  if (tens_below != tens_above) {
-    decimal = without_trailing_zeros({tens + (tens_above ? 10 : 0), k});
-    return true;
-  }
   const bool is_below = contains(below);
   const bool is_above = contains(below + 1);
   const std::uint64_t middle = 4 * below + 2;
-  const bool round_up =
-      is_below != is_above ? is_above : center > middle || (center == middle && below % 2 == 1);
-  decimal = without_trailing_zeros({below + (round_up ? 1 : 0), k});
+  const bool is_nearer_above = (center > middle) | ((center == middle) & (below % 2 == 1));
+  const bool round_up = (is_above & !is_below) | ((is_above == is_below) & is_nearer_above);
+  // Chosen by arithmetic, not by a branch: whether a digit can be spared is as good as random.
+  const std::uint64_t longer = below + (round_up ? 1 : 0);
+  const std::uint64_t shorter = tens / 10 + (tens_above ? 1 : 0);
+  const bool is_shorter = tens_below != tens_above;
+  decimal.digits = longer + (shorter - longer) * (is_shorter ? 1 : 0);
+  decimal.exponent = k + (is_shorter ? 1 : 0);
+  drop_trailing_zeros(decimal);
   return true;
 }
 
