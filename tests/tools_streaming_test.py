@@ -167,10 +167,10 @@ INPUTS = {"model": (CAMERA, "triangle\n" + VERTICES, "end\n"), "view": (HEADER, 
           "project": (HEADER, VERTICES + "\n", "")}
 
 
-def peak_memory(tool, start, repeated, count, end):
+def peak_memory(tool, start, repeated, count, end, *options):
     """The peak memory of a tool that reads `repeated` so many times, in KiB."""
     block_count = 10_000
-    with LiveTool(tool, stdout=subprocess.DEVNULL) as live:
+    with LiveTool(tool, *options, stdout=subprocess.DEVNULL) as live:
         live.send(start)
         block = repeated * block_count
         for _ in range(count // block_count):
@@ -189,7 +189,12 @@ class Memory(ToolTest):
             few = peak_memory(tool, start, triangle, 20_000, end)
             many = peak_memory(tool, start, triangle, 200_000, end)
             self.assertLess(many, few + MEBIBYTE, f"{tool}: {few} KiB for 20,000 triangles, {many} KiB for 200,000")
-            self.assertLess(many, 64 * MEBIBYTE, tool)
+            self.assertLess(many, 16 * MEBIBYTE, tool)
+
+    def test_two_threads_and_long_digits_stay_below_16_mebibytes(self):
+        for tool, (start, triangle, end) in INPUTS.items():
+            memory = peak_memory(tool, start, triangle, 200_000, end, "--threads", "2", "--digits", "exact")
+            self.assertLess(memory, 16 * MEBIBYTE, tool)
 
     def test_ten_million_pushes_stay_below_64_mebibytes(self):
         self.assertLess(peak_memory("model", CAMERA, "push\n", 10_000_000, "end\n"), 64 * MEBIBYTE)
@@ -233,9 +238,9 @@ class BufferMemory(ToolTest):
 class LongMemory(ToolTest):
     """Takes minutes."""
 
-    def test_ten_million_triangles_stay_below_64_mebibytes(self):
+    def test_ten_million_triangles_stay_below_16_mebibytes(self):
         for tool, (start, triangle, end) in INPUTS.items():
-            self.assertLess(peak_memory(tool, start, triangle, 10_000_000, end), 64 * MEBIBYTE, tool)
+            self.assertLess(peak_memory(tool, start, triangle, 10_000_000, end), 16 * MEBIBYTE, tool)
 
     def test_a_million_saved_matrices_are_the_limit(self):
         pushes = "push\ntranslate 1 0 0\n"
