@@ -44,7 +44,8 @@ class BandDrawing {
   }
 
  private:
-  static constexpr std::size_t kMaxBatches = 4;
+  static constexpr std::size_t kMaxBatches = 16;
+  static constexpr std::size_t kBatchesInCache = 4;
   static constexpr std::size_t kMaxEntries = std::size_t{1} << 18;
 
   static_assert(kBatchSize <= std::size_t{1} << 16);
@@ -54,12 +55,19 @@ class BandDrawing {
   };
   /// Batches that are drawn together.
   struct Round {
-    [[nodiscard]] bool is_full() const { return batch_count == kMaxBatches || entry_count >= kMaxEntries; }
+    /// Where triangles reach several bands, a band's pixels are drawn more often while they are in the cache
+    /// if there are many; small ones had better stay in it themselves.
+    [[nodiscard]] bool is_full() const {
+      const bool is_of_small_triangles = entry_count < 2 * triangle_count;
+      return batch_count == kMaxBatches || entry_count >= kMaxEntries ||
+             (batch_count >= kBatchesInCache && is_of_small_triangles);
+    }
 
     std::array<TriangleBatch, kMaxBatches> batches;
     std::array<std::vector<Color>, kMaxBatches> colors;
     std::vector<std::vector<Entry>> bands;  // which triangles reach a band
     std::size_t batch_count = 0;
+    std::size_t triangle_count = 0;
     std::size_t entry_count = 0;
   };
 
@@ -70,6 +78,7 @@ class BandDrawing {
     const std::size_t number = round.batch_count++;
     const TriangleBatch& batch = round.batches[number];
     round.colors[number].clear();
+    round.triangle_count += batch.size();
     for (std::size_t i = 0; i < batch.size(); ++i) {
       round.colors[number].push_back(color_of(batch, i));
       const RowRange range = bands_.bands_of(batch.triangles[i]);
@@ -87,6 +96,7 @@ class BandDrawing {
     team_.start(bands_.count(), [this, &round](int band) { draw_band(round, band); });
     filling_ = 1 - filling_;
     filling().batch_count = 0;
+    filling().triangle_count = 0;
     filling().entry_count = 0;
   }
 
