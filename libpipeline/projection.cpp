@@ -218,7 +218,14 @@ void ProjectionStage::project_clipped(const TriangleBatch& p_view, std::size_t i
     const std::size_t target = p_ndc.size();
     p_ndc.add({}, p_view.numbers[index], p_view.lines[index]);
     const std::array<const ClipVertex*, 3> piece = {&polygon[0], &polygon[i], &polygon[i + 1]};
-    for (std::size_t v = 0; v < 3; ++v) rounder_.set_vertex(p_ndc, target, v, perspective_divide(*piece[v]));
+    for (std::size_t v = 0; v < 3; ++v) {
+      // Nothing is known of a quotient whose divisor may be 0.
+      if (piece[v]->w.sign() <= 0)
+        throw InputError(
+            {rounder_.file(), p_view.lines[index][v], 0},
+            expected_but_found("a cut that 31 digits can tell from the eye plane", "one nearer to it"));
+      rounder_.set_vertex(p_ndc, target, v, perspective_divide(*piece[v]));
+    }
     if (whole) p_ndc.set_last_whole(whole);
     if (!has_attributes(p_view)) continue;
     const auto mix = [&](std::size_t v) {
