@@ -1,10 +1,14 @@
 # The real binaries, end to end; Python 3 with its standard library drives them. Verbose, so that what is skipped
 # says why.
+set(TOOLS_TIMEOUT 300)
+if(CMAKE_CXX_FLAGS MATCHES "-fsanitize")
+  set(TOOLS_TIMEOUT 1200)  # sanitizers take their time, above all to start a tool
+endif()
 function(tools_test name script)
   add_test(NAME Tools.${name}
     COMMAND Python3::Interpreter ${PROJECT_SOURCE_DIR}/tests/${script}.py $<TARGET_FILE_DIR:model> --verbose ${ARGN})
   # The source folder stays free of Python's caches.
-  set_tests_properties(Tools.${name} PROPERTIES ENVIRONMENT PYTHONDONTWRITEBYTECODE=1 TIMEOUT 300)
+  set_tests_properties(Tools.${name} PROPERTIES ENVIRONMENT PYTHONDONTWRITEBYTECODE=1 TIMEOUT ${TOOLS_TIMEOUT})
 endfunction()
 
 tools_test(SayWhatIsWrong tools_messages_test)
