@@ -1,13 +1,21 @@
 """The pipe for one frame after the other: every stage's output is kept in memory, and a stage runs only if what it reads or
-how it is called has changed."""
+how it is called has changed. The stages that do run side by side, as in a shell's pipe."""
 import dataclasses
 import os
 import pathlib
 import subprocess
 import tempfile
-import time
+import threading
+
+from pipe_tools import ToolFailure
 
 STAGES = ("model", "view", "project", "zbuf")
+
+
+def write_all(descriptor, data):
+    rest = memoryview(data)
+    while rest:
+        rest = rest[os.write(descriptor, rest):]
 
 
 class MemoryFile:
@@ -22,11 +30,8 @@ class MemoryFile:
     def read(self):
         return os.pread(self.descriptor, os.fstat(self.descriptor).st_size, 0)
 
-    def write(self, data):
-        os.ftruncate(self.descriptor, 0)
-        with open(os.dup(self.descriptor), "wb") as file:
-            file.seek(0)
-            file.write(data)
+    def append(self, data):
+        write_all(self.descriptor, data)
 
     def rewound(self):
         os.lseek(self.descriptor, 0, os.SEEK_SET)
@@ -38,7 +43,42 @@ class Stage:
     words: list = None      # what it was last called with, and
     source: object = None   # the MemoryFile it read
     output: object = None
-    seconds: float = None   # None if the last frame reused its output
+    seconds: float = None   # of the processor's time; None if the last frame reused its output
+
+
+class Run:
+    """A tool at work. Its output goes into memory and, where a stage behind it runs as well, to that."""
+
+    def __init__(self, name, argv, stdin, has_next):
+        self.name = name
+        self.output = MemoryFile()
+        self.process = subprocess.Popen(argv, stdin=stdin, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        self.to_next, sink = os.pipe() if has_next else (None, None)
+        self.copier = threading.Thread(target=self.copy, args=(sink,))
+        self.copier.start()
+
+    def copy(self, sink):
+        while data := os.read(self.process.stdout.fileno(), 1 << 20):
+            self.output.append(data)
+            try:
+                if sink is not None:
+                    write_all(sink, data)
+            except BrokenPipeError:  # the stage behind has failed, and says why itself
+                os.close(sink)
+                sink = None
+        if sink is not None:
+            os.close(sink)
+
+    def wait(self):
+        """Waits for its end. Returns what went wrong, None if nothing did."""
+        message = self.process.stderr.read().decode(errors="replace").strip()
+        self.copier.join()
+        _, status, usage = os.wait4(self.process.pid, 0)
+        self.process.returncode = os.waitstatus_to_exitcode(status)
+        self.seconds = usage.ru_utime + usage.ru_stime
+        self.process.stdout.close()
+        self.process.stderr.close()
+        return (message or f"{self.name}: exit status {self.process.returncode}") if self.process.returncode else None
 
 
 class FramePipe:
@@ -47,26 +87,39 @@ class FramePipe:
         self.folder = tempfile.TemporaryDirectory(dir="/dev/shm" if os.access("/dev/shm", os.W_OK) else None)
         self.image = pathlib.Path(self.folder.name, "frame.ppm")
         self.config = pathlib.Path(self.folder.name, "config.txt")
+        self.config_text = self.frame_image = None
         self.stages = {name: Stage() for name in STAGES}
         # The output does not depend on threads.
         self.threads = {name: ["--threads", "2"] if tools.has_option(name, "--threads") else [] for name in STAGES}
-        self.run("model", [str(scene)], None)
+        self.run([("model", [str(scene)])], None)
         self.light = self.first_light()
 
     def close(self):
         self.folder.cleanup()
 
-    def run(self, name, words, source):
-        """Runs a stage unless its output is there already."""
-        stage = self.stages[name]
-        stage.seconds = None
-        if stage.words == words and stage.source is source:
-            return stage.output
-        output = MemoryFile()
-        begin = time.perf_counter()
-        self.tools.run(name, *self.threads[name], *words, stdin_file=source.rewound() if source else subprocess.DEVNULL, stdout=output.descriptor)
-        self.stages[name] = Stage(words, source, output, time.perf_counter() - begin)
-        return output
+    def run(self, calls, source):
+        """Runs the stages, pairs of a name and its words, one behind the other and side by side. The first reads `source`."""
+        runs = []
+        stdin = source.rewound() if source else subprocess.DEVNULL
+        # Two stages share the processor already.
+        threads = {name: self.threads[name] if len(calls) == 1 else [] for name, _ in calls}
+        for name, words in calls:
+            is_last = name == calls[-1][0]
+            run = Run(name, [self.tools.folder / name, *self.files(name), *threads[name], *words], stdin, not is_last)
+            if runs:
+                os.close(stdin)
+            stdin = run.to_next
+            runs.append(run)
+        # What stage 1 says first is what is wrong: those behind it only pass it on.
+        failures = [message for message in [run.wait() for run in runs] if message]
+        if failures:
+            raise ToolFailure(failures[0])
+        for (name, words), run in zip(calls, runs):
+            self.stages[name] = Stage(words, source, run.output, run.seconds)
+            source = run.output
+
+    def files(self, name):
+        return [self.config, "--z-buffer", "/dev/null", "--image", self.image] if name == "zbuf" else []
 
     # The world as stage 1 tells it
 
@@ -87,7 +140,7 @@ class FramePipe:
         """Moves the first light; stage 1 does not run again for that."""
         old = self.stages["model"]
         output = MemoryFile()
-        output.write(old.output.read().replace(("light " + " ".join(self.light)).encode(), ("light " + " ".join(words)).encode(), 1))
+        output.append(old.output.read().replace(("light " + " ".join(self.light)).encode(), ("light " + " ".join(words)).encode(), 1))
         self.stages["model"] = Stage(old.words, old.source, output)
         self.light = words
 
@@ -95,21 +148,22 @@ class FramePipe:
 
     def frame(self, camera_lines, project_words, config, zbuf_words):
         """The PPM of a frame. `config` is the text of config.txt."""
-        self.stages["model"].seconds = None
         eye, look, up = camera_lines
-        view = self.run("view", ["--eye", *eye, "--look", *look, "--up", *up], self.stages["model"].output)
-        ndc = self.run("project", project_words, view)
-        self.config.write_text(config)
-        # The config's text is no word of the call, but belongs to what has to be the same.
-        stage, words = self.stages["zbuf"], [*zbuf_words, config]
-        stage.seconds = None
-        if stage.words != words or stage.source is not ndc:
-            begin = time.perf_counter()
-            self.tools.run("zbuf", str(self.config), "--z-buffer", "/dev/null", "--image", str(self.image), *self.threads["zbuf"], *zbuf_words, stdin_file=ndc.rewound())
-            stage = Stage(words, ndc, self.image.read_bytes(), time.perf_counter() - begin)
-            self.stages["zbuf"] = stage
-        return stage.output
+        calls = [("view", ["--eye", *eye, "--look", *look, "--up", *up]), ("project", project_words), ("zbuf", zbuf_words)]
+        if self.config_text != config:
+            self.config.write_text(config)
+            self.config_text = config
+            self.stages["zbuf"].words = None  # not to be reused
+        source = self.stages["model"].output
+        for stage in self.stages.values():
+            stage.seconds = None
+        while calls and self.stages[calls[0][0]].words == calls[0][1] and self.stages[calls[0][0]].source is source:
+            source = self.stages[calls.pop(0)[0]].output
+        if calls:
+            self.run(calls, source)
+            self.frame_image = self.image.read_bytes()
+        return self.frame_image
 
     def seconds(self):
-        """A pair for each stage: its name, and the time the last frame took there or None."""
+        """A pair for each stage: its name, and the processor's time the last frame took there, or None."""
         return [(name, self.stages[name].seconds) for name in STAGES]
