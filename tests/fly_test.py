@@ -96,10 +96,11 @@ class Flying(ToolTest):
         return self.window.status.cget("text")
 
     def ran(self):
+        """The stages that have run, in the order of the pipe: side by side, which is first to start is left open."""
         path = pathlib.Path("ran")
         words = path.read_text().split() if path.exists() else []
         path.unlink(missing_ok=True)
-        return words
+        return sorted(words, key=("model", "view", "project", "zbuf").index)
 
     def test_the_first_frame_is_the_pipes(self):
         self.assertEqual(self.shown(), frame_of(SCENE))
