@@ -10,13 +10,8 @@
 namespace pipeline {
 namespace {
 
-std::string shortest(double value) {
-  char text[kMaxNumberLength];
-  return {text, print_number(text, value, 0, {.shortest = true})};
-}
-
 std::string to_text(const Vec3& v) {
-  return shortest(v.x) + " " + shortest(v.y) + " " + shortest(v.z);
+  return shortest_text(v.x) + " " + shortest_text(v.y) + " " + shortest_text(v.z);
 }
 
 /// Takes the next number; an error at its place unless `holds` is true of it.

@@ -6,7 +6,8 @@
 namespace pipeline {
 namespace {
 
-/// The shortest text that reads back to the same double; zero has no sign.
+/// The shortest text that reads back to the same double; zero has no sign. Unlike shortest_text, it takes the
+/// infinite depths that huge coordinates overflow to.
 std::string shortest(double depth) {
   std::array<char, 32> text{};
   const auto end = std::to_chars(text.data(), text.data() + text.size(), depth == 0 ? 0.0 : depth).ptr;

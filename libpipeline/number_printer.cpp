@@ -156,4 +156,9 @@ char* print_number(char* out, double hi, double lo, NumberFormat format) {
   return without_sign_of_zero(out, end);
 }
 
+std::string shortest_text(double value) {
+  char text[kMaxNumberLength];
+  return {text, print_number(text, value, 0, {.shortest = true})};
+}
+
 }  // namespace pipeline

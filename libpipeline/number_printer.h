@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 
 #include "libpipeline/number_format.h"
 
@@ -14,5 +15,8 @@ constexpr std::size_t kMaxNumberLength = 1 + 309 + 1 + kMaxDecimals;
 /// must be finite, |lo| <= ulp(hi) / 2; a shortest number is made of hi alone. `out` has room for
 /// kMaxNumberLength.
 char* print_number(char* out, double hi, double lo, NumberFormat format);
+
+/// The shortest text that reads back to `value`, which must be finite.
+std::string shortest_text(double value);
 
 }  // namespace pipeline

@@ -2,9 +2,8 @@
 
 #include <array>
 #include <cstddef>
-#include <cstdlib>
-#include <string_view>
 
+#include "libpipeline/kernel_choice.h"
 #include "libpipeline/span_fill_avx2.h"
 #include "libpipeline/span_fill_loop.h"
 
@@ -21,16 +20,6 @@ struct KernelList {
   }
 };
 
-const SpanFillKernel& chosen_kernel() {
-  const auto kernels = span_fill_kernels();
-  const char* const variable = std::getenv("PIPELINE_KERNEL");
-  const std::string_view name = variable == nullptr ? "" : variable;
-  if (name == "sse4") return kernels.front();
-  for (const SpanFillKernel& kernel : kernels)
-    if (name == kernel.name) return kernel;
-  return kernels.back();
-}
-
 }  // namespace
 
 std::span<const SpanFillKernel> span_fill_kernels() {
@@ -39,7 +28,7 @@ std::span<const SpanFillKernel> span_fill_kernels() {
 }
 
 const SpanFillKernel& span_fill_kernel() {
-  static const SpanFillKernel& chosen = chosen_kernel();
+  static const SpanFillKernel& chosen = chosen_kernel(span_fill_kernels());
   return chosen;
 }
 

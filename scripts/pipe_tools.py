@@ -19,10 +19,9 @@ class Tools:
         if not os.access(self.folder / "zbuf", os.X_OK):
             raise ToolFailure(f"no tools in {self.folder}: build them (scripts/demo does), or set BIN")
 
-    def run(self, tool, *words, stdin=b"", stdin_file=None, stdout=subprocess.PIPE):
-        """The finished run, its stdout and stderr as bytes. It reads the bytes `stdin`, or else an open file."""
-        source = {"input": stdin} if stdin_file is None else {"stdin": stdin_file}
-        done = subprocess.run([self.folder / tool, *map(str, words)], stdout=stdout, stderr=subprocess.PIPE, **source)
+    def run(self, tool, *words, stdin=b""):
+        """The finished run, its stdout and stderr as bytes. It reads the bytes `stdin`."""
+        done = subprocess.run([self.folder / tool, *map(str, words)], input=stdin, capture_output=True)
         if done.returncode != 0:
             raise ToolFailure(done.stderr.decode(errors="replace").strip() or f"{tool}: exit status {done.returncode}")
         return done

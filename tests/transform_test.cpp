@@ -147,47 +147,50 @@ TEST(Rotation, ByATinyAngleKeepsTheVersine) {
   EXPECT_EQ(m.rows[0][1].sign(), 1);
 }
 
-TEST(MatrixProduct, ContainsTheTruth) {
-  RandomNumbers random(3);
+/// Checks products of eight transforms. `multiply(random, last_exponent, product)` multiplies the computed
+/// product by a random one, and returns it exactly.
+template <typename Multiply>
+void expect_products_contain_the_truth(std::uint64_t seed, Multiply&& multiply) {
+  RandomNumbers random(seed);
   for (int i = 0; i < 1'000; ++i) {
     AffineMatrix computed = identity();
     ExactMatrix exact = reference_scaling<kBits>({1, 1, 1});
     Exact size = 1;
     const int last_exponent = i % 2 == 0 ? 20 : 3;
     for (int depth = 0; depth < 8; ++depth) {
-      const RandomTransform t = random_transform(random, last_exponent);
-      computed = computed * t.computed;
-      exact = exact * t.exact;
-      size = std::max(size, size_of(exact)) * size_of(t.exact);
+      const ExactMatrix factor = multiply(random, last_exponent, computed);
+      exact = exact * factor;
+      size = std::max(size, size_of(exact)) * size_of(factor);
       expect_contained(computed, exact, size);
-      ASSERT_FALSE(HasFatalFailure()) << "product " << i << ", factor " << depth;
+      ASSERT_FALSE(testing::Test::HasFatalFailure()) << "product " << i << ", factor " << depth;
     }
   }
 }
 
+TEST(MatrixProduct, ContainsTheTruth) {
+  expect_products_contain_the_truth(3, [](RandomNumbers& random, int last_exponent, AffineMatrix& product) {
+    const RandomTransform t = random_transform(random, last_exponent);
+    product = product * t.computed;
+    return t.exact;
+  });
+}
+
 TEST(MatrixProduct, ContainsTheTruthWithoutTheProductsByZeroAndOne) {
-  RandomNumbers random(5);
-  for (int i = 0; i < 1'000; ++i) {
-    AffineMatrix computed = identity();
-    ExactMatrix exact = reference_scaling<kBits>({1, 1, 1});
-    Exact size = 1;
-    const int last_exponent = i % 2 == 0 ? 20 : 3;
-    for (int depth = 0; depth < 8; ++depth) {
-      const Vec3 v = random_vector(random, -last_exponent, last_exponent);
-      const RandomTransform r = random_rotation(random);
-      const int kind = random.whole(0, 2);
-      computed = kind == 0   ? translated(computed, v)
-                 : kind == 1 ? scaled(computed, v)
-                             : computed * r.computed;
-      const ExactMatrix t = kind == 0   ? reference_translation<kBits>(v)
-                            : kind == 1 ? reference_scaling<kBits>(v)
-                                        : r.exact;
-      exact = exact * t;
-      size = std::max(size, size_of(exact)) * size_of(t);
-      expect_contained(computed, exact, size);
-      ASSERT_FALSE(HasFatalFailure()) << "product " << i << ", factor " << depth;
+  expect_products_contain_the_truth(5, [](RandomNumbers& random, int last_exponent, AffineMatrix& product) {
+    const Vec3 v = random_vector(random, -last_exponent, last_exponent);
+    const RandomTransform r = random_rotation(random);
+    switch (random.whole(0, 2)) {
+      case 0:
+        product = translated(product, v);
+        return reference_translation<kBits>(v);
+      case 1:
+        product = scaled(product, v);
+        return reference_scaling<kBits>(v);
+      default:
+        product = product * r.computed;
+        return r.exact;
     }
-  }
+  });
 }
 
 TEST(MatrixProduct, HasTheSameMidpointsWithAndWithoutTheProductsByZeroAndOne) {

@@ -134,11 +134,9 @@ void CommandLine::add_number(const std::string& name, const std::string& type_na
       throw CLI::ValidationError(name, expected_but_found(expected, pipeline::quoted(word)));
     number = found.value;
   };
-  char text[kMaxNumberLength];
-  char* const end = print_number(text, number, 0, {.shortest = true});
   app_->add_option_function<std::string>(name, take, help)
       ->type_name(type_name)
-      ->default_str(std::string(text, end));
+      ->default_str(shortest_text(number));
 }
 
 void CommandLine::add_threads(int& thread_count, const std::string& help) {
