@@ -1,7 +1,11 @@
 #pragma once
 
+#include <span>
+
+#include "libpipeline/colored_span.h"
 #include "libpipeline/config.h"
 #include "libpipeline/coverage_center.h"
+#include "libpipeline/coverage_kernel.h"
 #include "libpipeline/coverage_nearest.h"
 #include "libpipeline/exact_grid.h"
 #include "libpipeline/pixel_grid.h"
@@ -9,25 +13,36 @@
 namespace pipeline {
 
 // The coverage rules of a screen, each as what turns a triangle into rows of pixels: rows(triangle) has
-// first_row() and last_row(), inside the screen, and span(row), a std::optional<Span>. A visibility algorithm
-// takes one as its template parameter `Coverage`.
+// first_row() and last_row(), inside the screen, and span(row), a std::optional<Span>. spans(triangles, rows,
+// begin) writes the same for many triangles, as a CoverageKernel does. A visibility algorithm takes a rule as
+// its template parameter `Coverage`.
 
 /// From the pixel nearest to the left end of a row to the one nearest to its right end.
 struct NearestCoverage {
   using Rows = NearestRows;
-  explicit NearestCoverage(const ScreenConfig& screen) : grid(screen) {}
+  explicit NearestCoverage(const ScreenConfig& screen) : grid(screen), kernel(coverage_kernel()) {}
   [[nodiscard]] Rows rows(const ExactTriangle& triangle) const { return {grid, triangle.p_ndc}; }
+  ColoredSpan* spans(std::span<const ColoredTriangle> triangles, const RowRange& rows,
+                     ColoredSpan* begin) const {
+    return kernel.nearest_spans(grid, triangles, rows, begin);
+  }
 
   PixelGrid grid;
+  CoverageKernel kernel;
 };
 
 /// The pixels whose centres lie in the triangle.
 struct CenterCoverage {
   using Rows = CenterRows;
-  explicit CenterCoverage(const ScreenConfig& screen) : grid(screen) {}
+  explicit CenterCoverage(const ScreenConfig& screen) : grid(screen), kernel(coverage_kernel()) {}
   [[nodiscard]] Rows rows(const ExactTriangle& triangle) const { return {grid, triangle}; }
+  ColoredSpan* spans(std::span<const ColoredTriangle> triangles, const RowRange& rows,
+                     ColoredSpan* begin) const {
+    return kernel.center_spans(grid, triangles, rows, begin);
+  }
 
   ExactGrid grid;
+  CoverageKernel kernel;
 };
 
 }  // namespace pipeline

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "libpipeline/color.h"
+#include "libpipeline/exact_grid.h"
+#include "libpipeline/span.h"
+
+namespace pipeline {
+
+/// A triangle to be drawn.
+struct ColoredTriangle {
+  ExactTriangle triangle;
+  Color color;
+};
+
+/// A span to be drawn.
+struct ColoredSpan {
+  Span span;
+  Color color;
+};
+
+}  // namespace pipeline

@@ -1,0 +1,18 @@
+#pragma once
+
+#include "libpipeline/coverage_kernel.h"
+
+namespace pipeline {
+
+/// The kernel "avx2" of coverage_kernel.h; null where the processor cannot run it.
+const CoverageKernel* coverage_avx2();
+
+// Its functions, which only such a processor runs. They work on four triangles at a time, and then on four
+// rows of each.
+
+ColoredSpan* nearest_spans_avx2(const PixelGrid& grid, std::span<const ColoredTriangle> triangles,
+                                const RowRange& rows, ColoredSpan* spans);
+ColoredSpan* center_spans_avx2(const ExactGrid& grid, std::span<const ColoredTriangle> triangles,
+                               const RowRange& rows, ColoredSpan* spans);
+
+}  // namespace pipeline

@@ -1,0 +1,50 @@
+#include "libpipeline/coverage_kernel.h"
+
+#include <array>
+#include <cstddef>
+
+#include "libpipeline/coverage_avx2.h"
+#include "libpipeline/coverage_center.h"
+#include "libpipeline/coverage_nearest.h"
+#include "libpipeline/kernel_choice.h"
+
+namespace pipeline {
+namespace {
+
+ColoredSpan* nearest_spans(const PixelGrid& grid, std::span<const ColoredTriangle> triangles,
+                           const RowRange& rows, ColoredSpan* spans) {
+  for (const auto& [triangle, color] : triangles)
+    spans = append_spans(NearestRows(grid, triangle.p_ndc), color, rows, spans);
+  return spans;
+}
+
+ColoredSpan* center_spans(const ExactGrid& grid, std::span<const ColoredTriangle> triangles,
+                          const RowRange& rows, ColoredSpan* spans) {
+  for (const auto& [triangle, color] : triangles)
+    spans = append_spans(CenterRows(grid, triangle), color, rows, spans);
+  return spans;
+}
+
+struct KernelList {
+  std::array<CoverageKernel, 2> kernels{};
+  std::size_t count = 0;
+
+  KernelList() {
+    kernels[count++] = {"portable", nearest_spans, center_spans};
+    if (const CoverageKernel* const avx2 = coverage_avx2()) kernels[count++] = *avx2;
+  }
+};
+
+}  // namespace
+
+std::span<const CoverageKernel> coverage_kernels() {
+  static const KernelList list;
+  return {list.kernels.data(), list.count};
+}
+
+const CoverageKernel& coverage_kernel() {
+  static const CoverageKernel& chosen = chosen_kernel(coverage_kernels());
+  return chosen;
+}
+
+}  // namespace pipeline

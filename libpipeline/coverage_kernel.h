@@ -1,0 +1,39 @@
+#pragma once
+
+#include <span>
+
+#include "libpipeline/colored_span.h"
+#include "libpipeline/exact_grid.h"
+#include "libpipeline/pixel_grid.h"
+#include "libpipeline/span.h"
+
+namespace pipeline {
+
+// The coverage rules for many triangles at a time. A kernel makes the spans for one kind of processor; all
+// make the same ones, to the last bit: those of NearestRows and CenterRows.
+
+/// One implementation. Its functions write the spans of the triangles, one triangle after the other and row
+/// by row, as far as they are in `rows`, and give back where the last one ends. There has to be room for as
+/// many spans as there are rows, for every triangle.
+struct CoverageKernel {
+  const char* name;
+  ColoredSpan* (*nearest_spans)(const PixelGrid&, std::span<const ColoredTriangle>, const RowRange& rows,
+                                ColoredSpan* spans);
+  ColoredSpan* (*center_spans)(const ExactGrid&, std::span<const ColoredTriangle>, const RowRange& rows,
+                               ColoredSpan* spans);
+};
+
+/// The kernels this processor can run, the fastest last; the first, "portable", runs everywhere.
+std::span<const CoverageKernel> coverage_kernels();
+
+/// The one in use: the fastest, or the one the environment variable PIPELINE_KERNEL names (kernel_choice.h).
+const CoverageKernel& coverage_kernel();
+
+/// Writes the spans of one triangle likewise; `covered` is what a coverage rule makes of it.
+template <typename CoveredRows>
+ColoredSpan* append_spans(const CoveredRows& covered, Color color, const RowRange& rows, ColoredSpan* spans) {
+  for_each_span(covered, rows, [&](const Span& span) { *spans++ = {span, color}; });
+  return spans;
+}
+
+}  // namespace pipeline

@@ -1,0 +1,155 @@
+// The kernels that make the spans of many triangles, against the coverage rules, triangle by triangle.
+
+#include "libpipeline/coverage_kernel.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "libpipeline/coverage.h"
+#include "tests/random_numbers.h"
+
+namespace pipeline {
+namespace {
+
+/// Every claim is made of every kernel that this processor can run.
+class CoverageKernelTest : public testing::TestWithParam<CoverageKernel> {};
+
+ScreenConfig screen_of(int columns, int rows, double left, double bottom, bool is_decimal) {
+  ScreenConfig screen{columns, rows, left, bottom};
+  screen.left_is_decimal = screen.bottom_is_decimal = is_decimal;
+  return screen;
+}
+
+/// A triangle and what an ExactTriangle refers to.
+struct Source {
+  Triangle p_ndc;
+  Triangle low_parts;
+  std::uint16_t decimal_marks;
+};
+
+/// What all of a triangle's vertices have in common, so that they are ordinary, or out of the ordinary in one
+/// way.
+enum class Family { decimals, pixel_centres, lines, far_away, any_doubles, huge_differences, flat, kCount };
+
+Vec3 vertex_of(Family family, const ScreenConfig& screen, const Vec3& middle, double pixels,
+               RandomNumbers& random) {
+  const PixelGrid grid(screen);
+  const auto near = [&](double centre, double pixel) {
+    return std::nearbyint((centre + random.between(-pixels, pixels) * pixel) * 1e7) / 1e7;
+  };
+  switch (family) {
+    case Family::pixel_centres:  // or on the lines between them
+      return {grid.x_of(random.whole(-2, 2 * screen.columns)) / 2,
+              grid.top_y - random.whole(0, 2 * screen.rows) * grid.dy / 2, random.between(-1, 1)};
+    case Family::lines:  // along a row, or a column, or in a point
+      return {random.whole(0, 1) * 0.25, random.whole(0, 1) * 0.25, random.whole(0, 1) * 0.25};
+    case Family::far_away:
+      return {random.with_exponent(0, 60), random.with_exponent(0, 60), random.with_exponent(-20, 20)};
+    case Family::any_doubles:
+      return {random.any_double(), random.any_double(), random.any_double()};
+    case Family::huge_differences: {
+      constexpr double kLargest = std::numeric_limits<double>::max();
+      const auto one_of = [&](const std::array<double, 5>& values) {
+        return values[static_cast<std::size_t>(random.whole(0, 4))];
+      };
+      return {one_of({-kLargest, kLargest, 0, -0.0, 0.1}), one_of({-kLargest, kLargest, 0, -0.5, 0.5}),
+              one_of({-kLargest, kLargest, 0, -0.0, 5e-324})};
+    }
+    case Family::flat:
+      return {near(middle.x, grid.dx), near(middle.y, grid.dy), middle.z};
+    case Family::decimals:
+    case Family::kCount:
+      break;
+  }
+  return {near(middle.x, grid.dx), near(middle.y, grid.dy), near(middle.z, 0.01)};
+}
+
+Source random_source(const ScreenConfig& screen, RandomNumbers& random) {
+  // Half of them decimals, so that there are often four in a row.
+  const Family family = random.whole(0, 1) == 0
+                            ? Family::decimals
+                            : static_cast<Family>(random.whole(0, static_cast<int>(Family::kCount) - 1));
+  const double pixels = std::array{0.7, 3.0, 20.0, 1.5 * screen.columns}[random.bits() % 4];
+  const Vec3 middle = {random.between(-1.1, 1.1) * -screen.left, random.between(-1.1, 1.1) * -screen.bottom,
+                       random.between(-1, 1)};
+  Source source{};
+  for (Vec3& vertex : source.p_ndc) vertex = vertex_of(family, screen, middle, pixels, random);
+  if (random.whole(0, 9) == 0) source.p_ndc[1].y = source.p_ndc[0].y;
+  if (random.whole(0, 9) == 0) source.p_ndc[2] = source.p_ndc[static_cast<std::size_t>(random.whole(0, 1))];
+  source.decimal_marks = random.whole(0, 5) == 0 ? static_cast<std::uint16_t>(random.whole(0, 0777)) : 0777;
+  return source;
+}
+
+/// All that a span says, bit by bit.
+std::array<std::uint64_t, 9> bits_of(const ColoredSpan& span) {
+  const auto& [row, first, last, depth] = span.span;
+  const auto bits = [](double part) { return std::bit_cast<std::uint64_t>(part); };
+  return {static_cast<std::uint64_t>(row),
+          static_cast<std::uint64_t>(first),
+          static_cast<std::uint64_t>(last),
+          bits(depth.left_x),
+          bits(depth.dx),
+          bits(depth.x0),
+          bits(depth.z0),
+          bits(depth.slope),
+          span.color.rgb()};
+}
+
+template <typename Coverage>
+void expect_the_spans_of_the_rule(const CoverageKernel& kernel) {
+  RandomNumbers random(11);
+  for (const ScreenConfig& screen :
+       {screen_of(500, 500, -1, -1, true), screen_of(1920, 1080, -1.6, -0.9, true),
+        screen_of(7, 5, -1, -1, true), screen_of(3, 2000, -1, -0.3333333, true),
+        screen_of(65535, 11, -1, -1, true), screen_of(100, 100, -0.1, -1.0 / 3, false),
+        screen_of(100, 100, -1e15, -1e-9, true)}) {
+    Coverage rule(screen);
+    rule.kernel = kernel;
+    int span_count = 0;
+    for (int i = 0; i < 500; ++i) {
+      std::vector<Source> sources(static_cast<std::size_t>(random.whole(0, 11)));
+      std::vector<ColoredTriangle> triangles;
+      for (Source& source : sources) {
+        source = random_source(screen, random);
+        triangles.push_back({{source.p_ndc, &source.low_parts, source.decimal_marks},
+                             Color::from_rgb(static_cast<std::uint32_t>(triangles.size()))});
+      }
+      RowRange rows = {random.whole(0, screen.rows - 1), screen.rows};
+      if (random.whole(0, 1) == 0) rows.end = random.whole(rows.first, screen.rows);
+
+      std::vector<ColoredSpan> expected;
+      for (const auto& [triangle, color] : triangles)
+        for_each_span(rule.rows(triangle), rows, [&, of = color](const Span& span) {
+          expected.push_back({span, of});
+        });
+      std::vector<ColoredSpan> found(triangles.size() * static_cast<std::size_t>(rows.end - rows.first));
+      const ColoredSpan* const end = rule.spans(triangles, rows, found.data());
+
+      found.resize(static_cast<std::size_t>(end - found.data()));
+      ASSERT_EQ(found.size(), expected.size()) << "round " << i;
+      for (std::size_t k = 0; k < found.size(); ++k) ASSERT_EQ(bits_of(found[k]), bits_of(expected[k]));
+      span_count += static_cast<int>(found.size());
+    }
+    EXPECT_GT(span_count, 1000);
+  }
+}
+
+TEST_P(CoverageKernelTest, NearestSpansAreThoseOfTheRule) {
+  expect_the_spans_of_the_rule<NearestCoverage>(GetParam());
+}
+
+TEST_P(CoverageKernelTest, CenterSpansAreThoseOfTheRule) {
+  expect_the_spans_of_the_rule<CenterCoverage>(GetParam());
+}
+
+INSTANTIATE_TEST_SUITE_P(Kernels, CoverageKernelTest,
+                         testing::ValuesIn(coverage_kernels().begin(), coverage_kernels().end()),
+                         [](const auto& kernel) { return std::string(kernel.param.name); });
+
+}  // namespace
+}  // namespace pipeline
