@@ -1,6 +1,8 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
+#include <limits>
 
 #include "libpipeline/config.h"
 #include "libpipeline/pixel_grid.h"
@@ -14,24 +16,28 @@ namespace pipeline {
 class RowBands {
  public:
   explicit RowBands(const ScreenConfig& screen)
-      : grid_(screen), rows_per_dy_(1 / grid_.dy), height_(height_for(screen)) {}
+      : grid_(screen), rows_per_dy_(1 / grid_.dy), height_bits_(height_bits_for(screen)) {}
 
-  [[nodiscard]] int count() const { return (grid_.rows + height_ - 1) / height_; }
+  [[nodiscard]] int count() const { return ((grid_.rows - 1) >> height_bits_) + 1; }
   [[nodiscard]] RowRange rows(int band) const {
-    return {band * height_, std::min((band + 1) * height_, grid_.rows)};
+    return {band << height_bits_, std::min((band + 1) << height_bits_, grid_.rows)};
   }
 
   /// The bands in which a triangle in NDC can have pixels, whatever the coverage rule: perhaps one too many,
   /// where a vertex is next to the line of centres of a band's outermost row.
   [[nodiscard]] RowRange bands_of(const Triangle& p_ndc) const {
-    const auto [low, high] = std::minmax({p_ndc[0].y, p_ndc[1].y, p_ndc[2].y});
-    const double first = (grid_.top_y - high) * rows_per_dy_ - kReach;
-    const double last = (grid_.top_y - low) * rows_per_dy_ + kReach;
-    if (!(last >= 0 && first < grid_.rows)) return {0, 0};
-    const double from_top = std::max(first, 0.0);
-    const int above = static_cast<int>(from_top), first_row = above + static_cast<int>(above < from_top);
-    const int last_row = static_cast<int>(std::min(last, grid_.rows - 1.0));
-    return first_row > last_row ? RowRange{0, 0} : RowRange{first_row / height_, last_row / height_ + 1};
+    // In a window next to the smallest doubles rows cannot be calculated like this.
+    if (!(rows_per_dy_ <= std::numeric_limits<double>::max())) return {0, count()};
+    const double a = p_ndc[0].y, b = p_ndc[1].y, c = p_ndc[2].y;
+    const double low = std::min(std::min(a, b), c), high = std::max(std::max(a, b), c);
+    // In rows from the top of the screen, clamped to the screen and one more row.
+    const double above = std::clamp((grid_.top_y - high) * rows_per_dy_ - kReach, -1.0, 1.0 * grid_.rows);
+    const double below = std::clamp((grid_.top_y - low) * rows_per_dy_ + kReach, -1.0, 1.0 * grid_.rows);
+    // Rounded up and down: a conversion rounds down what is not negative.
+    const int first_row = std::max(grid_.rows - static_cast<int>(grid_.rows - above), 0);
+    const int last_row = std::min(static_cast<int>(below + 1) - 1, grid_.rows - 1);
+    const int end = (last_row >> height_bits_) + 1, first = first_row >> height_bits_;
+    return {first, first_row > last_row ? first : end};
   }
 
  private:
@@ -40,15 +46,17 @@ class RowBands {
   static constexpr int kBytesInCache = 1 << 19;
   static constexpr int kMaxCount = 512;
 
-  static int height_for(const ScreenConfig& screen) {
+  static int height_bits_for(const ScreenConfig& screen) {
     constexpr int kBytesPerPixel = 12;
     const int in_cache = std::clamp(kBytesInCache / (kBytesPerPixel * screen.columns), 8, 64);
-    return std::max(in_cache, (screen.rows + kMaxCount - 1) / kMaxCount);
+    const int least = (screen.rows + kMaxCount - 1) / kMaxCount;
+    return std::max(std::bit_width(static_cast<unsigned>(in_cache)) - 1,
+                    std::bit_width(static_cast<unsigned>(least - 1)));
   }
 
   PixelGrid grid_;
   double rows_per_dy_;
-  int height_;
+  int height_bits_;  // a band has 2^height_bits_ rows
 };
 
 }  // namespace pipeline

@@ -43,6 +43,13 @@ TEST(RowBands, ATriangleOverTheScreenReachesAll) {
   EXPECT_EQ(range.end, bands.count());
 }
 
+TEST(RowBands, InAWindowNextToTheSmallestDoublesATriangleReachesItsRows) {
+  const ScreenConfig screen = {10, 640, -1, -1e-310};
+  const RowRange range = RowBands(screen).bands_of(at(-0.9e-310, -0.8e-310, -0.9e-310));
+  EXPECT_LE(range.first, RowBands(screen).count() - 1);
+  EXPECT_EQ(range.end, RowBands(screen).count());
+}
+
 TEST(RowBands, ATriangleReachesTheBandsOfItsRows) {
   // 64 rows a band, 2/640 a row: 0.8 is between rows 63 and 64, a half row of 0.0015625 away from both.
   const RowBands bands({10, 640});
@@ -71,7 +78,7 @@ TEST(RowBands, NoCoverageRuleHasPixelsElsewhere) {
   std::uniform_real_distribution<double> unit(-1, 1);
   for (const ScreenConfig& screen :
        {ScreenConfig{5, 640}, {5, 1000, -3, -0.7}, {5, 65535, -1, -1e-9}, {7, 97, -1, -1e100}}) {
-    for (int i = 0; i < 3000; ++i) {
+    for (int i = 0; i < 600; ++i) {
       // Vertices on, next to and between the lines of pixel centres.
       const auto y = [&] {
         const double on_a_line = screen.top_y() - std::floor(unit(random) * screen.rows) * screen.dy();
