@@ -19,7 +19,7 @@ namespace pipeline {
 /// next band, so that its pixels stay in the cache; and with several threads, each band by one of them, while
 /// the caller reads on. A pixel belongs to one band and sees its triangles in the order of the stream, so the
 /// result does not depend on the number of threads. `Visible` has a class Band(visible, rows) with
-/// draw(triangle, color), which only touches those rows.
+/// draw(triangle, color) and finish(), which only touch those rows.
 template <typename Visible>
 class BandDrawing {
  public:
@@ -107,6 +107,7 @@ class BandDrawing {
     for (const Entry entry : entries)
       rows.draw(exact_triangle(round.batches[entry.batch], entry.index),
                 round.colors[entry.batch][entry.index]);
+    rows.finish();
     entries.clear();
   }
 

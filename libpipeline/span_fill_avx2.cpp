@@ -255,19 +255,8 @@ PIPELINE_AVX2 void fill_span(const SpanFill<Depth>& pixels) {
     lanes.fill_blocks();
 }
 
-/// A few pixels are done before eight could be set up.
-template <typename Lanes, typename Depth>
-void fill_short_or_long_span(const SpanFill<Depth>& pixels) {
-  constexpr int kShort = 3;
-  if (pixels.span.last_column - pixels.span.first_column < kShort)
-    fill_columns_in_a_loop(pixels, pixels.span.first_column, pixels.span.last_column + 1);
-  else
-    fill_span<Lanes>(pixels);
-}
-
-constexpr SpanFillKernel kAvx2Kernel = {"avx2", fill_short_or_long_span<LanesF64, DepthF64>,
-                                        fill_short_or_long_span<LanesF32, DepthF32>,
-                                        fill_short_or_long_span<LanesU24, DepthU24>};
+constexpr SpanFillKernel kAvx2Kernel = {"avx2", fill_span<LanesF64, DepthF64>, fill_span<LanesF32, DepthF32>,
+                                        fill_span<LanesU24, DepthU24>};
 
 }  // namespace
 

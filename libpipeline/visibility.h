@@ -1,12 +1,17 @@
 #pragma once
 
 #include <concepts>
+#include <cstddef>
+#include <span>
+#include <vector>
 
 #include "libpipeline/color.h"
+#include "libpipeline/colored_span.h"
 #include "libpipeline/config.h"
 #include "libpipeline/exact_grid.h"
 #include "libpipeline/scanline.h"
 #include "libpipeline/span.h"
+#include "libpipeline/span_queue.h"
 #include "libpipeline/visible_row.h"
 #include "libpipeline/zbuffer.h"
 
@@ -40,16 +45,40 @@ class ZBufferAlgorithm {
   class Band {
    public:
     Band(ZBufferAlgorithm& whole, const RowRange& rows)
-        : whole_(whole), rows_(rows), farthest_(whole.buffer_.farthest_depths(rows)) {}
+        : whole_(whole),
+          rows_(rows),
+          farthest_(whole.buffer_.farthest_depths(rows)),
+          queue_(kTriangles * static_cast<std::size_t>(rows.end - rows.first)) {
+      triangles_.reserve(kTriangles);
+    }
+    /// It may be drawn later, at the latest in finish(); until then what it consists of has to stay.
     void draw(const ExactTriangle& triangle, Color color) {
-      for_each_span(whole_.coverage_.rows(triangle), rows_,
-                    [&](const Span& span) { whole_.buffer_.draw(span, color, &farthest_); });
+      triangles_.push_back({triangle, color});
+      if (triangles_.size() == kTriangles) make_spans();
+    }
+    void finish() {
+      make_spans();
+      queue_.finish([this](std::span<const ColoredSpan> spans) { draw_spans(spans); });
     }
 
    private:
+    // As many as a coverage kernel takes at a time, or a multiple.
+    static constexpr std::size_t kTriangles = 4;
+
+    void make_spans() {
+      queue_.put(
+          whole_.coverage_.spans(triangles_, rows_, queue_.end()),
+          [this](const ColoredSpan& span) { whole_.buffer_.fetch(span.span); },
+          [this](std::span<const ColoredSpan> spans) { draw_spans(spans); });
+      triangles_.clear();
+    }
+    void draw_spans(std::span<const ColoredSpan> spans) { whole_.buffer_.draw(spans, &farthest_); }
+
     ZBufferAlgorithm& whole_;
     RowRange rows_;
     FarthestDepths<Depth> farthest_;
+    std::vector<ColoredTriangle> triangles_;
+    SpanQueue queue_;
   };
 
   template <typename Visitor>

@@ -32,6 +32,33 @@ void ZBuffer<Depth>::draw(const Span& span, Color color, FarthestDepths<Depth>* 
                                farthest != nullptr && is_long ? farthest->row(span.row) : nullptr});
 }
 
+template <typename Depth>
+void ZBuffer<Depth>::draw(std::span<const ColoredSpan> spans, FarthestDepths<Depth>* farthest) {
+  // Fewer pixels are done before a kernel has begun.
+  constexpr int kShort = 4;
+  for (const auto& [span, color] : spans) {
+    const bool is_short = span.last_column - span.first_column < kShort;
+    if (is_short && !(depth_epsilon_ > 0))
+      draw_pixel_by_pixel(span, color);
+    else
+      draw(span, color, farthest);
+  }
+}
+
+template <typename Depth>
+void ZBuffer<Depth>::draw_pixel_by_pixel(const Span& span, Color color) {
+  Stored* const depths = depths_.row(span.row).data();
+  Color* const colors = colors_.row(span.row).data();
+  const SpanDepth depth = span.depth;
+  for (int column = span.first_column; column <= span.last_column; ++column) {
+    const double z = depth(column);
+    const Stored stored = format_.store(z);
+    if (!(stored < depths[column]) || !(z >= front_)) continue;
+    depths[column] = stored;
+    colors[column] = color;
+  }
+}
+
 /// Every rounding in a SpanDepth is monotone, so the depths as calculated cross the front limit once.
 template <typename Depth>
 Span ZBuffer<Depth>::part_behind_front(const Span& span) const {

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <algorithm>
+#include <span>
 #include <vector>
 
 #include "libpipeline/color.h"
+#include "libpipeline/colored_span.h"
 #include "libpipeline/config.h"
 #include "libpipeline/depth_format.h"
 #include "libpipeline/farthest_depths.h"
@@ -27,6 +29,16 @@ class ZBuffer {
   /// less than the one there (of equal depths the first drawn stays) and not less than the front limit.
   /// `farthest`, if there is one, is of rows of this buffer, and those rows were changed with it only.
   void draw(const Span& span, Color color, FarthestDepths<Depth>* farthest = nullptr);
+
+  /// Draws several spans, one after the other.
+  void draw(std::span<const ColoredSpan> spans, FarthestDepths<Depth>* farthest);
+
+  /// Asks for the first pixels of a span that is going to be drawn, so that they are in the cache by then.
+  void fetch(const Span& span) const {
+    const auto column = static_cast<std::size_t>(span.first_column);
+    __builtin_prefetch(&depths_.row(span.row)[column], 1);
+    __builtin_prefetch(&colors_.row(span.row)[column], 1);
+  }
 
   /// From now on a pixel that shows a triangle is written only if its depth is less by more than `epsilon`,
   /// at least 0. What is drawn then depends on the order of the triangles.
@@ -52,6 +64,7 @@ class ZBuffer {
  private:
   using Stored = typename Depth::Stored;
 
+  void draw_pixel_by_pixel(const Span& span, Color color);
   [[nodiscard]] Span part_behind_front(const Span& span) const;
   void draw_what_is_nearer_by_epsilon(const Span& span, Color color);
 
