@@ -19,7 +19,8 @@ constexpr std::uint64_t kSignBit = std::uint64_t{1} << 63;
 // ---- reading ----
 
 /// For each count of digits before the point: where the bytes of [8 digits before][0][7 digits behind] come
-/// from. An impossible count has a row that picks the point, which is no digit.
+/// from. An impossible count has a row that picks the point, which is no digit; without a point, 16, there is
+/// nothing to pick.
 struct DigitShuffles {
   alignas(16) std::array<std::array<std::uint8_t, 16>, 17> rows{};
 
@@ -48,7 +49,8 @@ PIPELINE_SSE4 inline const char* read_number(const char* p, char separator, std:
   const __m128i shuffle = _mm_load_si128(reinterpret_cast<const __m128i*>(kDigitShuffles.rows[count].data()));
   const __m128i digits = _mm_shuffle_epi8(_mm_sub_epi8(text, _mm_set1_epi8('0')), shuffle);
   const __m128i in_range = _mm_cmpeq_epi8(_mm_min_epu8(digits, _mm_set1_epi8(9)), digits);
-  good &= _mm_movemask_epi8(in_range) & (p[count + 8] == separator ? 0xffff : 0);
+  const bool is_in_place = (count < 16) & (p[count + 8] == separator);
+  good &= _mm_movemask_epi8(in_range) & (is_in_place ? 0xffff : 0);
   // Neighbouring digits, pairs and fours are joined until 8 digits are one number.
   const __m128i pairs = _mm_maddubs_epi16(digits, _mm_set1_epi16(10 | (1 << 8)));
   const __m128i fours = _mm_madd_epi16(pairs, _mm_set1_epi32(100 | (1 << 16)));

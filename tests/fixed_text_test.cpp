@@ -120,6 +120,13 @@ TEST_P(FixedText, LeavesEveryOtherFormAlone) {
   }
 }
 
+TEST_P(FixedText, LeavesLongNumbersAlone) {
+  for (std::size_t length = 9; length <= 40; ++length) {
+    const std::string number = std::string(length, '2') + ".0000000";
+    EXPECT_EQ(count_read(number + kUnit.substr(9)), 0u) << number;
+  }
+}
+
 TEST_P(FixedText, ReadsTheTrianglesOfAScene) {
   const std::string triangle = "triangle\n" + kUnit.substr(0, kUnit.size() - 1);
   std::vector<Triangle> triangles(3);
