@@ -105,7 +105,7 @@ void LineScanner::fail(const std::string& expected) const {
 }
 
 TextReader::TextReader(int descriptor, std::string file)
-    : descriptor_(descriptor), file_(std::move(file)), buffer_(kBlockSize) {}
+    : descriptor_(descriptor), file_(std::move(file)), buffer_(kBlockSize + kSlack) {}
 
 bool TextReader::next_line(LineScanner& line) {
   for (;;) {

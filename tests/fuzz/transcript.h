@@ -37,9 +37,8 @@ inline void require_place_within(const Place& place, std::string_view text) {
 }
 
 inline Transcript transcript(int descriptor, std::string_view text, const Work& work) {
-  const TextFile output("");
   TextReader reader(descriptor, "in");
-  TextWriter writer(output.descriptor(), "out");
+  TextWriter writer;
   Transcript result;
   try {
     work(reader, writer);
@@ -47,8 +46,7 @@ inline Transcript transcript(int descriptor, std::string_view text, const Work& 
     require_place_within(error.place(), text);
     result.mistake = error.what();
   }
-  writer.flush();
-  result.written = output.whole_text();
+  result.written = writer.collected();
   return result;
 }
 
