@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <new>
 
 namespace pipeline {
@@ -23,6 +24,7 @@ struct LargePageAllocator {
   explicit LargePageAllocator(const LargePageAllocator<U>&) {}
 
   [[nodiscard]] T* allocate(std::size_t count) {
+    if (count > PTRDIFF_MAX / sizeof(T)) throw std::bad_array_new_length();
     const std::size_t size = count * sizeof(T);
     if (!is_large(size)) return static_cast<T*>(::operator new(size));
     void* const begin = ::operator new (size, std::align_val_t{kLargePage});

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <new>
 #include <stdexcept>
 
 namespace pipeline {
@@ -47,6 +48,11 @@ TEST(Raster, OneThatNoMemoryHoldsIsAnError) {
   };
   const auto make = [] { return Raster<Kilobyte>(2147483647, 2147483647, {}); };
   EXPECT_THROW(make(), std::length_error);
+}
+
+TEST(Raster, ItsMemoryIsCountedInBytesWithoutOverflow) {
+  LargePageAllocator<int> allocator;
+  EXPECT_THROW((void)allocator.allocate(SIZE_MAX / sizeof(int) + 2), std::bad_array_new_length);
 }
 
 }  // namespace
