@@ -1,7 +1,7 @@
 // Loaded before a tool (LD_PRELOAD), lets one system call or allocation fail, or all reads and writes be
 // short.
 //
-//   FAULT_CALL   malloc, write, read, close, close of stdout, link or rename
+//   FAULT_CALL   malloc (any allocation), write, read, close, close of stdout, link or rename
 //   FAULT_AT     the number of the call that fails, from 1
 //   FAULT_ERRNO  what it fails with
 //   FAULT_MARK   a file that is made when it does
@@ -12,6 +12,7 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
@@ -19,8 +20,7 @@
 
 namespace {
 
-int counts_left = -1;  // calls until the failing one; -1 before the first
-bool is_counting = false;
+std::atomic<int> calls = 0;
 
 template <typename Function>
 Function next_one(const char* name) {
@@ -31,11 +31,7 @@ Function next_one(const char* name) {
 bool fails(const char* call) {
   const char* const wanted = std::getenv("FAULT_CALL");
   if (wanted == nullptr || std::strcmp(wanted, call) != 0) return false;
-  if (!is_counting) {
-    is_counting = true;
-    counts_left = std::atoi(std::getenv("FAULT_AT"));
-  }
-  if (counts_left == 0 || --counts_left > 0) return false;
+  if (++calls != std::atoi(std::getenv("FAULT_AT"))) return false;
   ::syscall(SYS_close,
             static_cast<int>(::syscall(SYS_open, std::getenv("FAULT_MARK"), O_WRONLY | O_CREAT, 0600)));
   errno = std::atoi(std::getenv("FAULT_ERRNO"));
@@ -51,9 +47,24 @@ std::size_t allowed(std::size_t size) {
 extern "C" {
 
 void* malloc(std::size_t size) {
-  // The C library's own name for it: dlsym allocates.
+  // The C library's own names: dlsym allocates.
   extern void* __libc_malloc(std::size_t);  // NOLINT(bugprone-reserved-identifier)
   return fails("malloc") ? nullptr : __libc_malloc(size);
+}
+
+void* calloc(std::size_t count, std::size_t size) {
+  extern void* __libc_calloc(std::size_t, std::size_t);  // NOLINT(bugprone-reserved-identifier)
+  return fails("malloc") ? nullptr : __libc_calloc(count, size);
+}
+
+void* realloc(void* memory, std::size_t size) {
+  extern void* __libc_realloc(void*, std::size_t);  // NOLINT(bugprone-reserved-identifier)
+  return fails("malloc") ? nullptr : __libc_realloc(memory, size);
+}
+
+void* aligned_alloc(std::size_t alignment, std::size_t size) {
+  extern void* __libc_memalign(std::size_t, std::size_t);  // NOLINT(bugprone-reserved-identifier)
+  return fails("malloc") ? nullptr : __libc_memalign(alignment, size);
 }
 
 ssize_t write(int descriptor, const void* text, std::size_t size) {

@@ -98,7 +98,7 @@ class Folders(DiskTest):
             self.assert_as_before()
 
 
-class Faults(DiskTest):
+class FaultTest(DiskTest):
     """One call fails (fault_shim.cpp), for every number of the call that a run comes to."""
 
     def run_with_fault(self, call, number, error, tool, operands, text):
@@ -115,9 +115,12 @@ class Faults(DiskTest):
         self.addCleanup(outside.cleanup)
         self.outside = outside.name
 
-    def each_failing_call(self, call, error):
+
+class Faults(FaultTest):
+    def each_failing_call(self, call, error, *options):
         """(what failed, run, good output) until a run does not come to the call."""
         for tool, operands, text in small_inputs():
+            operands = [*operands, *options]
             good, _ = self.good_run(tool, operands, text)
             for number in range(1, 100000):
                 done, was_reached = self.run_with_fault(call, number, error, tool, operands, text)
@@ -154,9 +157,9 @@ class Faults(DiskTest):
             self.assert_fails(done, 1, f"{tool}: cannot write <stdout>: Input/output error")
             self.assert_as_before()
 
-    def test_any_allocation_that_fails_is_a_failure_that_says_so(self):
+    def check_allocations(self, *options):
         without_memory = 0
-        for which, done, good in self.each_failing_call("malloc", errno.ENOMEM):
+        for which, done, good in self.each_failing_call("malloc", errno.ENOMEM, *options):
             if done.returncode == 0:  # the C library and the C++ library's start can do without some
                 self.assertEqual(done.stdout, good, which)
                 pathlib.Path("out.bmp").write_bytes(OLD_IMAGE)
@@ -168,6 +171,12 @@ class Faults(DiskTest):
                 without_memory += 1
             self.assert_as_before()
         self.assertGreater(without_memory, 1500)
+
+    def test_any_allocation_that_fails_is_a_failure_that_says_so(self):
+        self.check_allocations()
+
+    def test_on_threads_as_well(self):
+        self.check_allocations("--threads", 2)
 
     def test_an_interrupted_read_or_write_goes_on(self):
         for call in ("read", "write"):
@@ -203,6 +212,56 @@ class Faults(DiskTest):
             self.assert_quiet_success(done)
             self.assertEqual(done.stdout, good)
             self.assertEqual(pathlib.Path("out.bmp").read_bytes(), image if tool == "zbuf" else OLD_IMAGE)
+
+
+class ManyFiles(FaultTest):
+    """zbuf writes several files, some through libpng: all are the old ones until everything is written."""
+
+    def each_failing_call(self, call, error, options):
+        """(what failed, run, the files then, the good files) until a run does not come to the call."""
+        names = [word for word in options if "." in word]
+        text = stage_texts()[2]
+        done = run("zbuf", "config.txt", *options, stdin=text)
+        if b"without libpng" in done.stderr:
+            self.skipTest("built without libpng")
+        self.assert_quiet_success(done)
+        good = {name: pathlib.Path(name).read_bytes() for name in names}
+        for number in range(1, 100000):
+            for name in names:
+                pathlib.Path(name).write_bytes(OLD_IMAGE)
+            done, was_reached = self.run_with_fault(call, number, error, "zbuf", ["config.txt", *options], text)
+            if not was_reached:
+                self.assertGreater(number, 1, f"zbuf never comes to {call}: nothing was tested")
+                for name in names:
+                    os.unlink(name)
+                return
+            which = f"{call} {number} of zbuf {options}: {done.stderr}"
+            self.assertEqual(self.files(), sorted({"config.txt", "out.bmp", "scene.txt", *names}), which)
+            yield which, done, {name: pathlib.Path(name).read_bytes() for name in names}, good
+
+    def check(self, call, error, *options, some_may_be_new=False):
+        for which, done, files, good in self.each_failing_call(call, error, options):
+            if done.returncode == 0:  # a close of what was only read, an allocation that can be done without
+                self.assertEqual((files, call in ("close", "malloc")), (good, True), which)
+                continue
+            self.assertEqual((done.returncode, len(done.stderr.splitlines())), (1, 1), which)
+            for name, content in files.items():
+                self.assertIn(content, (OLD_IMAGE, good[name]) if some_may_be_new else (OLD_IMAGE,), which)
+
+    PLAIN = ["--image", "out.ppm", "--z-buffer", "depths.txt", "--depth-image", "depths.pgm", "--fragments", "fragments.txt"]
+    PNGS = ["--image", "out.png", "--depth-image", "depths.png"]
+
+    def test_a_failing_write_or_close_leaves_every_old_file(self):
+        for options in (self.PLAIN, self.PNGS):
+            self.check("write", errno.ENOSPC, *options)
+            self.check("close", errno.EIO, *options)
+
+    def test_a_failing_rename_leaves_old_files_or_complete_ones(self):
+        self.check("rename", errno.EPERM, *self.PLAIN, some_may_be_new=True)
+
+    def test_a_failing_allocation_leaves_old_files_or_complete_ones(self):
+        for options in (self.PLAIN, self.PNGS):
+            self.check("malloc", errno.ENOMEM, *options, some_may_be_new=True)
 
 
 class KilledStages(DiskTest):
