@@ -20,17 +20,23 @@ CoordinateTest CoordinateRounder::test() const {
           format_.decimals > kMostDecimalsOfDoubles};
 }
 
+void CoordinateRounder::expect_finite(double coordinate, const char* name, LineAndColumn vertex) const {
+  if (std::isfinite(coordinate)) return;
+  throw InputError(place_of(vertex), expected_but_found("a vertex whose image is within a double's range",
+                                                        std::string("an overflow of its ") + name));
+}
+
 void CoordinateRounder::set_vertex(TriangleBatch& batch, std::size_t triangle, std::size_t vertex,
                                    const BallVec3& p) {
-  const std::size_t line = batch.lines[triangle][vertex];
+  const LineAndColumn place = batch.places[triangle][vertex];
   const PrintableNumber x = round_to_text(p.x, format_);
   const PrintableNumber y = round_to_text(p.y, format_);
   const PrintableNumber z = round_to_text(p.z, format_);
-  if (!std::isfinite(x.hi) || !std::isfinite(y.hi) || !std::isfinite(z.hi))
-    throw InputError({file_, line, 0},
-                     expected_but_found("a vertex whose image is within a double's range", "an overflow"));
-  if (!(x.is_certain && y.is_certain && z.is_certain) && first_uncertain_line_ == 0)
-    first_uncertain_line_ = line;
+  expect_finite(x.hi, "x", place);
+  expect_finite(y.hi, "y", place);
+  expect_finite(z.hi, "z", place);
+  if (!(x.is_certain && y.is_certain && z.is_certain) && !first_uncertain_.is_known())
+    first_uncertain_ = place;
   batch.triangles[triangle][vertex] = {x.hi, y.hi, z.hi};
   if (batch.low_parts.empty()) {
     if (x.lo == 0 && y.lo == 0 && z.lo == 0) return;

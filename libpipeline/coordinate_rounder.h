@@ -4,6 +4,7 @@
 #include <string>
 
 #include "libpipeline/coordinate_test.h"
+#include "libpipeline/error.h"
 #include "libpipeline/mat4.h"
 #include "libpipeline/number_rounding.h"
 #include "libpipeline/triangle_batch.h"
@@ -24,19 +25,23 @@ class CoordinateRounder {
   /// What a calculated coordinate has to meet to be printed as it is.
   [[nodiscard]] CoordinateTest test() const;
 
-  /// Sets one vertex of a triangle of the batch from balls. An InputError with the vertex's line if a
+  /// Sets one vertex of a triangle of the batch from balls. An InputError at the vertex's place if a
   /// coordinate is beyond a double's range.
   void set_vertex(TriangleBatch& batch, std::size_t triangle, std::size_t vertex, const BallVec3& p);
 
-  /// The line of the first vertex that was printed with digits that are not certain, 0 if there is none.
-  [[nodiscard]] std::size_t first_uncertain_line() const { return first_uncertain_line_; }
-  [[nodiscard]] const std::string& file() const { return file_; }
+  /// Where the first vertex stands that was printed with digits that are not certain; nowhere if there is
+  /// none.
+  [[nodiscard]] LineAndColumn first_uncertain() const { return first_uncertain_; }
+  /// The place of a vertex of the input.
+  [[nodiscard]] Place place_of(LineAndColumn vertex) const { return {file_, vertex.line(), vertex.column()}; }
 
  private:
+  void expect_finite(double coordinate, const char* name, LineAndColumn vertex) const;
+
   Precision precision_;
   NumberFormat format_;
   std::string file_;
-  std::size_t first_uncertain_line_ = 0;
+  LineAndColumn first_uncertain_;
 };
 
 }  // namespace pipeline

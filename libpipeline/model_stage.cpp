@@ -97,7 +97,7 @@ bool ModelStage::add_waiting(TriangleBatch& batch) {
 /// Adds the triangle that the scene has given out last.
 void ModelStage::add(const TriangleCommand& command, TriangleBatch& batch) {
   set_transform(batch);
-  batch.add(command.p_model, next_number_++, command.lines);
+  batch.add(command.p_model, next_number_++, command.places);
   const AttributeSet columns = scene_.appearance().columns();
   if (columns.any()) batch.attributes.add(scene_.vertices(), columns);
 }

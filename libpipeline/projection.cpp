@@ -5,6 +5,7 @@
 #include <limits>
 #include <span>
 
+#include "libpipeline/number_printer.h"
 #include "libpipeline/vec_math.h"
 
 namespace pipeline {
@@ -89,6 +90,12 @@ std::shared_ptr<const ClipTriangle> clip_triangle(const std::array<ClipVertex, 3
   return std::make_shared<const ClipTriangle>(whole);
 }
 
+/// Where the corner stands that has the most weight in the vertex, which may be a cut.
+LineAndColumn place_of(const ClipVertex& vertex, const VertexPlaces& corners) {
+  const auto heaviest = std::max_element(vertex.weights.begin(), vertex.weights.end());
+  return corners[static_cast<std::size_t>(heaviest - vertex.weights.begin())];
+}
+
 BallVec3 perspective_divide(const ClipVertex& p_clip) {
   return {p_clip.x / p_clip.w, p_clip.y / p_clip.w, p_clip.z / p_clip.w};
 }
@@ -163,13 +170,14 @@ void ProjectionStage::add_attributes(const TriangleBatch& p_view, std::size_t in
 
 void ProjectionStage::project_whole(const TriangleBatch& p_view, std::size_t index, TriangleBatch& p_ndc) {
   const std::size_t target = p_ndc.size();
-  p_ndc.add({}, p_view.numbers[index], p_view.lines[index]);
+  p_ndc.add({}, p_view.numbers[index], p_view.places[index]);
   for (std::size_t v = 0; v < 3; ++v) {
     const Vec3& p = p_view.triangles[index][v];
     if (projection_.is_perspective && p.z >= 0)
       throw InputError(
-          {rounder_.file(), p_view.lines[index][v], 0},
-          expected_but_found("a vertex in front of the eye (z below 0)", "one on or behind the eye plane"));
+          rounder_.place_of(p_view.places[index][v]),
+          expected_but_found("a vertex in front of the eye (z below 0; --clip auto cuts what is not)",
+                             "z = " + shortest_text(p.z)));
     const std::size_t in_block = 3 * (index % VertexBlock::kTriangles) + v;
     if (block_.is_settled[in_block] != 0) {
       p_ndc.triangles[target][v] = block_.vertex(in_block);
@@ -216,14 +224,17 @@ void ProjectionStage::project_clipped(const TriangleBatch& p_view, std::size_t i
   for (std::size_t i = 1; i + 1 < polygon.size(); ++i) {
     ++counts_.pieces;
     const std::size_t target = p_ndc.size();
-    p_ndc.add({}, p_view.numbers[index], p_view.lines[index]);
     const std::array<const ClipVertex*, 3> piece = {&polygon[0], &polygon[i], &polygon[i + 1]};
+    VertexPlaces places;
+    for (std::size_t v = 0; v < 3; ++v) places[v] = place_of(*piece[v], p_view.places[index]);
+    p_ndc.add({}, p_view.numbers[index], places);
     for (std::size_t v = 0; v < 3; ++v) {
       // Nothing is known of a quotient whose divisor may be 0.
       if (piece[v]->w.sign() <= 0)
         throw InputError(
-            {rounder_.file(), p_view.lines[index][v], 0},
-            expected_but_found("a cut that 31 digits can tell from the eye plane", "one nearer to it"));
+            rounder_.place_of(places[v]),
+            expected_but_found("a cut that 31 digits can tell from the eye plane (a larger near helps)",
+                               "one nearer to it"));
       rounder_.set_vertex(p_ndc, target, v, perspective_divide(*piece[v]));
     }
     if (whole) p_ndc.set_last_whole(whole);

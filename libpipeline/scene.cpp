@@ -142,13 +142,13 @@ TriangleCommand SceneReader::read_triangle() {
   TriangleCommand command;
   for (std::size_t i = 0; i < 3; ++i) {
     next_argument_line(kVertexNames[i]);
+    command.places[i] = {line_.line_number(), line_.column()};
     if (has_attributes) {
       vertices_[i] = read_vertex(i);
       command.p_model[i] = vertices_[i].position;
     } else {
       command.p_model[i] = line_.vec3(kVertexNames[i]);
     }
-    command.lines[i] = line_.line_number();
   }
   return command;
 }
@@ -162,23 +162,22 @@ bool SceneReader::read_plain_triangle(TriangleCommand& triangle) {
   if (begin == std::string_view::npos || !waiting.substr(begin).starts_with(kKeyword)) return false;
   const char* const end = waiting.data() + waiting.size();
   const char* p = read_plain_line(waiting.data() + begin + kKeyword.size(), end, {});
-  PlainVertexLines lines;
-  if (p != nullptr) p = vertex_line_.read_plain(p, end, lines);
-  if (p == nullptr || !take_plain_vertices(lines)) return false;
+  if (p != nullptr) p = vertex_line_.read_plain(p, end, plain_vertices_);
+  if (p == nullptr || !take_plain_vertices()) return false;
   const auto blank_lines = std::count(waiting.begin(), waiting.begin() + begin, '\n');
   const std::size_t first_line = text_.line_number() + static_cast<std::size_t>(blank_lines) + 2;
   triangle.p_model = {vertices_[0].position, vertices_[1].position, vertices_[2].position};
-  triangle.lines = {first_line, first_line + 1, first_line + 2};
+  triangle.places = places_of(plain_vertices_, first_line);
   text_.skip(static_cast<std::size_t>(p - waiting.data()), static_cast<std::size_t>(blank_lines) + 4);
   has_triangle_ = true;
   return true;
 }
 
 /// False if one of the vertices is wrong.
-bool SceneReader::take_plain_vertices(const PlainVertexLines& lines) {
+bool SceneReader::take_plain_vertices() {
   const AttributeSet& columns = vertex_line_.attributes();
   for (std::size_t i = 0; i < 3; ++i) {
-    vertices_[i] = to_vertex_line(lines[i], columns);
+    vertices_[i] = to_vertex_line(plain_vertices_[i], columns);
     if (!columns.color) vertices_[i].color = current_color_;
     if (columns.normal && vertices_[i].normal == Vec3{}) return false;
   }

@@ -18,7 +18,7 @@ namespace pipeline {
 // The commands of a scene, as they are written: angles in degrees, no arithmetic done.
 struct TriangleCommand {
   Triangle p_model;
-  VertexLines lines{};
+  VertexPlaces places;
 };
 struct TranslateCommand {
   Vec3 offset;
@@ -87,7 +87,7 @@ class SceneReader {
   void next_argument_line(std::string_view expected);
   TriangleCommand read_triangle();
   bool read_plain_triangle(TriangleCommand& triangle);
-  bool take_plain_vertices(const PlainVertexLines& lines);
+  bool take_plain_vertices();
   VertexLine read_vertex(std::size_t index);
   [[nodiscard]] std::string expected_commands() const;
   Command read_appearance(std::string_view keyword);
@@ -101,7 +101,9 @@ class SceneReader {
   Vec3 current_color_;
   std::array<VertexLine, 3> vertices_;
   bool has_triangle_ = false;
+  // Where the fast paths read triangles.
   std::array<Triangle, 64> waiting_triangles_;
+  PlainVertexLines plain_vertices_;
   LineScanner line_;
   Place place_;
 };

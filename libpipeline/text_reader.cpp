@@ -93,7 +93,7 @@ std::string_view LineScanner::rest_with_comment() const {
 }
 
 Place LineScanner::place() const {
-  return {*file_, line_number_, static_cast<std::size_t>(rest_.data() - line_.data()) + 1};
+  return {*file_, line_number_, column()};
 }
 
 Place LineScanner::place_of(std::string_view word) const {

@@ -37,7 +37,11 @@ class LineScanner {
 
   /// What stands next and was not taken yet.
   [[nodiscard]] std::string_view peek() const;
-  /// The place of the word that `peek` shows, or of the end of the line.
+  /// The column of the word that `peek` shows, or of the end of the line.
+  [[nodiscard]] std::size_t column() const {
+    return static_cast<std::size_t>(rest_.data() - line_.data()) + 1;
+  }
+  /// Its place.
   [[nodiscard]] Place place() const;
   /// The place of a word taken from this line.
   [[nodiscard]] Place place_of(std::string_view word) const;

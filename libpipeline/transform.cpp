@@ -5,6 +5,7 @@
 #include <string>
 
 #include "libpipeline/angle.h"
+#include "libpipeline/number_printer.h"
 
 namespace pipeline {
 namespace {
@@ -41,7 +42,7 @@ ProjectionTransform perspective(const Perspective& p, const Place& place, Aspect
     if (!is_inside_half_turn(fov_x_degrees))
       throw InputError(place,
                        expected_but_found("fovX = fovY * aspect between 0 and 180 degrees (--aspect angle)",
-                                          std::to_string(fov_x_degrees.nearest_double())));
+                                          shortest_text(fov_x_degrees.nearest_double())));
     transform.x_scale = cotangent_of_half(fov_x_degrees);
   }
   transform.near = p.near;

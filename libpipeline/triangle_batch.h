@@ -16,8 +16,34 @@ namespace pipeline {
 /// The most triangles a batch is filled with before it is passed on.
 constexpr std::size_t kBatchSize = 2048;
 
-/// The lines of the input on which the three vertices of a triangle stand.
-using VertexLines = std::array<std::size_t, 3>;
+/// Where on which line of the input something begins, both from 1. Every vertex has one: it is as small as it
+/// can be.
+class LineAndColumn {
+ public:
+  /// Nowhere.
+  constexpr LineAndColumn() = default;
+  constexpr LineAndColumn(std::size_t line, std::size_t column = 1)
+      : bits_(line | (column - 1) << kLineBits) {}
+
+  [[nodiscard]] constexpr bool is_known() const { return line() != 0; }
+  [[nodiscard]] constexpr std::size_t line() const { return bits_ & ((std::uint64_t{1} << kLineBits) - 1); }
+  [[nodiscard]] constexpr std::size_t column() const { return (bits_ >> kLineBits) + 1; }
+  friend bool operator==(const LineAndColumn&, const LineAndColumn&) = default;
+
+ private:
+  static constexpr int kLineBits = 43;  // the others hold kMaxLineLength
+
+  std::uint64_t bits_ = 0;
+};
+
+/// Where the three vertices of a triangle begin.
+using VertexPlaces = std::array<LineAndColumn, 3>;
+
+/// The same for vertex lines of which the first is line `first_line`.
+inline VertexPlaces places_of(const PlainVertexLines& lines, std::size_t first_line) {
+  return {LineAndColumn(first_line, lines[0].indent + 1), LineAndColumn(first_line + 1, lines[1].indent + 1),
+          LineAndColumn(first_line + 2, lines[2].indent + 1)};
+}
 
 /// What messages call the vertices of a triangle.
 constexpr std::array<std::string_view, 3> kVertexNames = {"vertex 1 of 3", "vertex 2 of 3", "vertex 3 of 3"};
@@ -38,7 +64,7 @@ struct TriangleBatch {
   std::vector<Triangle> low_parts;
   /// The triangle's number in the scene, from 0.
   std::vector<std::uint64_t> numbers;
-  std::vector<VertexLines> lines;
+  std::vector<VertexPlaces> places;
   /// Which coordinates were written as plain numbers with at most 7 decimals, so that they are that decimal
   /// (hi + low part, to 7 decimals) and not only its nearest double: bit 3 * vertex + axis. Empty if not
   /// asked for.
@@ -57,7 +83,7 @@ struct TriangleBatch {
     triangles.clear();
     low_parts.clear();
     numbers.clear();
-    lines.clear();
+    places.clear();
     decimal_marks.clear();
     attributes.clear();
     pending_transforms.clear();
@@ -67,16 +93,16 @@ struct TriangleBatch {
   void truncate(std::size_t count) {
     triangles.resize(count);
     numbers.resize(count);
-    lines.resize(count);
+    places.resize(count);
     if (!low_parts.empty()) low_parts.resize(count);
     if (!decimal_marks.empty()) decimal_marks.resize(count);
     attributes.truncate(count);
     if (!wholes.empty()) wholes.resize(count);
   }
-  void add(const Triangle& triangle, std::uint64_t number, const VertexLines& vertex_lines) {
+  void add(const Triangle& triangle, std::uint64_t number, const VertexPlaces& vertex_places) {
     triangles.push_back(triangle);
     numbers.push_back(number);
-    lines.push_back(vertex_lines);
+    places.push_back(vertex_places);
     if (!low_parts.empty()) low_parts.emplace_back();
     if (!decimal_marks.empty()) decimal_marks.emplace_back();
     if (!wholes.empty()) wholes.emplace_back();

@@ -15,10 +15,10 @@ constexpr std::uint16_t kAllDecimal = 0x1ff;
 
 /// Which coordinates are exact decimals, as in a batch: with at most eight digits before the point those with
 /// few behind it.
-std::uint16_t decimal_marks(const PlainVertexLines& columns) {
+std::uint16_t decimal_marks(const PlainVertexLines& lines) {
   unsigned marks = 0;
   for (std::size_t i = 0; i < 9; ++i)
-    if (columns[i / 3][i % 3].decimals <= kExactDecimals) marks |= 1u << i;
+    if (lines[i / 3].numbers[i % 3].decimals <= kExactDecimals) marks |= 1u << i;
   return static_cast<std::uint16_t>(marks);
 }
 
@@ -96,18 +96,17 @@ bool TriangleReader::read_plain_triangle(TriangleBatch& batch) {
   static_assert(TextReader::kSlack >= kPlainNumberSlack);
   if (text_.waiting().starts_with('\n')) text_.skip(1, 1);
   const std::string_view waiting = text_.waiting();
-  PlainVertexLines columns;
-  const char* const end = vertex_line_.read_plain(waiting.data(), waiting.data() + waiting.size(), columns);
+  PlainVertexLines& lines = plain_form_;
+  const char* const end = vertex_line_.read_plain(waiting.data(), waiting.data() + waiting.size(), lines);
   if (end == nullptr) return false;
   std::array<VertexLine, 3> vertices;
-  for (std::size_t i = 0; i < 3; ++i) vertices[i] = to_vertex_line(columns[i], vertex_line_.attributes());
-  const std::size_t line = text_.line_number();
+  for (std::size_t i = 0; i < 3; ++i) vertices[i] = to_vertex_line(lines[i], vertex_line_.attributes());
   batch.add({vertices[0].position, vertices[1].position, vertices[2].position}, next_number_++,
-            {line + 1, line + 2, line + 3});
+            places_of(lines, text_.line_number() + 1));
   batch.attributes.add(vertices, vertex_line_.attributes());
   if (marks_decimals_) {
     batch.decimal_marks.resize(batch.size());
-    batch.decimal_marks.back() = decimal_marks(columns);
+    batch.decimal_marks.back() = decimal_marks(lines);
   }
   text_.skip(static_cast<std::size_t>(end - waiting.data()), 3);
   return true;
@@ -115,12 +114,13 @@ bool TriangleReader::read_plain_triangle(TriangleBatch& batch) {
 
 void TriangleReader::read(LineScanner& line, TriangleBatch& batch) {
   Triangle triangle;
-  VertexLines lines{};
+  VertexPlaces places;
   ExactParts exact;
   std::array<VertexLine, 3> vertices;
   const AttributeSet& attributes = vertex_line_.attributes();
   for (std::size_t i = 0; i < 3; ++i) {
     if (i > 0) next_vertex_line(text_, line, i);
+    places[i] = {line.line_number(), line.column()};
     if (marks_decimals_) exact.add_vertex(line, i);
     if (attributes.any()) {
       vertices[i] = vertex_line_.read(line, i);
@@ -128,9 +128,8 @@ void TriangleReader::read(LineScanner& line, TriangleBatch& batch) {
     } else {
       triangle[i] = line.vec3(kVertexNames[i]);
     }
-    lines[i] = line.line_number();
   }
-  batch.add(triangle, next_number_++, lines);
+  batch.add(triangle, next_number_++, places);
   batch.attributes.add(vertices, attributes);
   if (marks_decimals_) exact.set_last(batch);
 }

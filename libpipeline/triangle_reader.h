@@ -36,7 +36,9 @@ class TriangleReader {
   TextReader& text_;
   VertexLineReader vertex_line_;
   bool marks_decimals_;
-  std::array<Triangle, 64> fixed_form_;  // where some are read before they join a batch
+  // Where triangles are read before they join a batch.
+  std::array<Triangle, 64> fixed_form_;
+  PlainVertexLines plain_form_;
   std::uint64_t next_number_ = 0;
 };
 

@@ -14,6 +14,13 @@ double read_number(LineScanner& line, std::string_view name, std::string_view of
   return value;
 }
 
+/// How many blanks and tabs stand at `p`, before something else.
+std::size_t blanks_at(const char* p) {
+  std::size_t count = 0;
+  while (p[count] == ' ' || p[count] == '\t') ++count;
+  return count;
+}
+
 double read_channel(LineScanner& line, std::string_view name, std::string_view of) {
   return read_number(line, name, of, " from 0 to 255",
                      [](double value) { return value >= 0 && value <= 255; });
@@ -37,8 +44,8 @@ Vec3 read_color(LineScanner& line, std::string_view of) {
   return color;
 }
 
-VertexLine to_vertex_line(std::span<const PlainNumber, kMaxColumns> columns, const AttributeSet& attributes) {
-  auto next = columns.begin();
+VertexLine to_vertex_line(const PlainVertexLine& line, const AttributeSet& attributes) {
+  const auto* next = line.numbers.data();
   const auto vec3 = [&] {
     const Vec3 v = {next[0].value, next[1].value, next[2].value};
     next += 3;
@@ -91,10 +98,12 @@ bool VertexLineReader::are_in_range(std::span<const PlainNumber> columns) const 
 }
 
 const char* VertexLineReader::read_plain(const char* p, const char* end, PlainVertexLines& vertices) const {
-  for (auto& columns : vertices) {
-    const auto taken = std::span(columns).first(column_count_);
+  for (PlainVertexLine& line : vertices) {
+    const auto taken = std::span(line.numbers).first(column_count_);
+    const char* const begin = p;
     p = read_plain_line(p, end, taken);
     if (p == nullptr || !are_in_range(taken)) return nullptr;
+    line.indent = blanks_at(begin);
   }
   return p;
 }

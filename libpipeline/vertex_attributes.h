@@ -34,11 +34,15 @@ struct VertexLine {
   Vec3 normal;
 };
 
-/// The vertices of a triangle as plain numbers: the first three of a line are its position.
-using PlainVertexLines = std::array<std::array<PlainNumber, kMaxColumns>, 3>;
+/// A vertex line of plain numbers: the first three are the position.
+struct PlainVertexLine {
+  std::array<PlainNumber, kMaxColumns> numbers;
+  std::size_t indent = 0;  // the blanks before the first number
+};
+using PlainVertexLines = std::array<PlainVertexLine, 3>;
 
 /// The vertex on a line with these attributes.
-VertexLine to_vertex_line(std::span<const PlainNumber, kMaxColumns> columns, const AttributeSet& attributes);
+VertexLine to_vertex_line(const PlainVertexLine& line, const AttributeSet& attributes);
 /// A triangle in clip space, before the divide: w may be anything.
 using ClipTriangle = std::array<VertexLine, 3>;
 

@@ -109,9 +109,10 @@ TEST(ClipModeReject, DropsOnlyWhatIsOutsideOfOnePlane) {
 }
 
 TEST(ClipModeReject, AVertexBehindTheEyeOfWhatIsNotDroppedIsAnError) {
-  EXPECT_EQ(message_of(batch_of({triangle_at(-2, -2, 1)}), ClipMode::reject),
-            "stage2.txt:3: expected a vertex in front of the eye (z below 0), found one on or behind the eye "
-            "plane");
+  EXPECT_EQ(
+      message_of(batch_of({triangle_at(-2, -2, 1)}), ClipMode::reject),
+      "stage2.txt:3:1: expected a vertex in front of the eye (z below 0; --clip auto cuts what is not), "
+      "found z = 1");
 }
 
 TEST(ClipModeNone, LeavesEverythingWhole) {
@@ -121,11 +122,13 @@ TEST(ClipModeNone, LeavesEverythingWhole) {
 
 TEST(ClipModeNone, AVertexOnOrBehindTheEyePlaneIsAnError) {
   const std::string expected =
-      "expected a vertex in front of the eye (z below 0), found one on or behind the eye plane";
-  EXPECT_EQ(message_of(batch_of({triangle_at(-2, 0, -2)}), ClipMode::none), "stage2.txt:2: " + expected);
-  EXPECT_EQ(message_of(batch_of({triangle_at(-2, -2, -0.0)}), ClipMode::none), "stage2.txt:3: " + expected);
+      "expected a vertex in front of the eye (z below 0; --clip auto cuts what is not), found z = ";
+  EXPECT_EQ(message_of(batch_of({triangle_at(-2, 0, -2)}), ClipMode::none),
+            "stage2.txt:2:1: " + expected + "0");
+  EXPECT_EQ(message_of(batch_of({triangle_at(-2, -2, -0.0)}), ClipMode::none),
+            "stage2.txt:3:1: " + expected + "0");
   EXPECT_EQ(message_of(batch_of({triangle_at(-2, -2, -2), triangle_at(5, -2, -2)}), ClipMode::none),
-            "stage2.txt:5: " + expected);
+            "stage2.txt:5:1: " + expected + "5");
 }
 
 TEST(ClipModeNone, AParallelProjectionHasNoEyePlane) {

@@ -25,7 +25,7 @@ TriangleBatch triangles_from(int descriptor) {
   for (TriangleBatch batch; stage.read(batch);) {
     apply_pending_transforms(batch, rounder);
     for (std::size_t i = 0; i < batch.size(); ++i)
-      all.add(batch.triangles[i], batch.numbers[i], batch.lines[i]);
+      all.add(batch.triangles[i], batch.numbers[i], batch.places[i]);
   }
   return all;
 }
@@ -94,8 +94,8 @@ TEST(ModelStage, NumbersTrianglesFromZero) {
   EXPECT_EQ(triangles_of(kTriangle + kTriangle).numbers, (std::vector<std::uint64_t>{0, 1}));
 }
 
-TEST(ModelStage, KnowsTheLinesOfAVertex) {
-  EXPECT_EQ(triangles_of("triangle\n\n1 2 3\n0 0 0\n# c\n0 0 0\n").lines[0], (VertexLines{7, 8, 10}));
+TEST(ModelStage, KnowsWhereItsVerticesStand) {
+  EXPECT_EQ(triangles_of("triangle\n\n1 2 3\n 0 0 0\n# c\n0 0 0\n").places[0], (VertexPlaces{{7, {8, 2}, 10}}));
 }
 
 TEST(ModelStage, ReadsMoreTrianglesThanABatchHolds) {
@@ -117,7 +117,7 @@ TEST(ModelStage, TrianglesAreTheSameByEveryPath) {
   ASSERT_EQ(fast.size(), 7u);
   EXPECT_EQ(fast.triangles, slow.triangles);
   EXPECT_EQ(fast.numbers, slow.numbers);
-  EXPECT_EQ(fast.lines, slow.lines);
+  EXPECT_EQ(fast.places, slow.places);
 }
 
 TEST(ModelStage, PopWithoutPushIsAnErrorAtThePop) {
@@ -126,8 +126,9 @@ TEST(ModelStage, PopWithoutPushIsAnErrorAtThePop) {
 }
 
 TEST(ModelStage, AnImageBeyondADoublesRangeIsAnErrorAtTheVertex) {
-  EXPECT_EQ(error_of("scale 1e200 1 1\nscale 1e200 1 1\ntriangle\n0 0 0\n1 0 0\n0 0 0\n"),
-            "scene.txt:9: expected a vertex whose image is within a double's range, found an overflow");
+  EXPECT_EQ(
+      error_of("scale 1e200 1 1\nscale 1e200 1 1\ntriangle\n0 0 0\n1 0 0\n0 0 0\n"),
+      "scene.txt:9:1: expected a vertex whose image is within a double's range, found an overflow of its x");
 }
 
 TEST(ModelStage, ALargeTransformThatIsTakenBackIsFine) {

@@ -144,7 +144,7 @@ TEST(Projection, TheNearAndFarPlanesAreExactlyMinusOneAndOne) {
   EXPECT_EQ(result.p_ndc.triangles[0][1].z, 1);
 }
 
-TEST(Projection, AnOverflowNamesTheVertexLine) {
+TEST(Projection, AnOverflowNamesTheVertexsPlace) {
   const TriangleBatch batch = batch_of({{Vec3{0, 0, -1e-5}, Vec3{1e306, 0, -1e-5}, Vec3{0, 1, -1e-5}}});
   const ProjectionTransform close = {true, 1, 0, 1, 0, 1e-5, 1};
   try {
@@ -152,7 +152,8 @@ TEST(Projection, AnOverflowNamesTheVertexLine) {
     FAIL() << "no error";
   } catch (const InputError& error) {
     EXPECT_STREQ(error.what(),
-                 "stage2.txt:2: expected a vertex whose image is within a double's range, found an overflow");
+                 "stage2.txt:2:1: expected a vertex whose image is within a double's range, found an "
+                 "overflow of its x");
   }
 }
 

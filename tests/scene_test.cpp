@@ -81,7 +81,7 @@ TEST(Scene, TrianglesAreTheSameByEitherPath) {
         const TriangleCommand fast = triangle_of(commands_of(scene("")));
         const TriangleCommand slow = triangle_of(commands_of(scene(" # slow")));
         EXPECT_EQ(fast.p_model, slow.p_model) << scene("");
-        EXPECT_EQ(fast.lines, slow.lines) << scene("");
+        EXPECT_EQ(fast.places, slow.places) << scene("");
       }
     }
   }
@@ -124,14 +124,14 @@ TEST(Scene, ATriangleIsThreeLinesOfThreeNumbers) {
   const auto commands = commands_of(kCamera + "triangle\n0 1 2\n3 4 5\n6 7 8\nend\n");
   const auto& triangle = std::get<TriangleCommand>(commands.at(0));
   EXPECT_EQ(triangle.p_model, kTriangle);
-  EXPECT_EQ(triangle.lines, (VertexLines{6, 7, 8}));
+  EXPECT_EQ(triangle.places, (VertexPlaces{6, 7, 8}));
 }
 
 TEST(Scene, TheFirstVertexMayStandOnTheTrianglesLine) {
   const auto commands = commands_of(kCamera + "triangle 0 1 2\n3 4 5\n6 7 8\nend\n");
   const auto& triangle = std::get<TriangleCommand>(commands.at(0));
   EXPECT_EQ(triangle.p_model, kTriangle);
-  EXPECT_EQ(triangle.lines, (VertexLines{5, 6, 7}));
+  EXPECT_EQ(triangle.places, (VertexPlaces{{{5, 10}, 6, 7}}));
 }
 
 TEST(Scene, BlankLinesAndCommentsMayStandInsideATriangle) {

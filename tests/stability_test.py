@@ -175,12 +175,12 @@ class ModelErrors(StabilityTest):
         self.assert_error("model", scene_text(commands), message)
 
 
-OVERFLOW = "expected a vertex whose image is within a double's range, found an overflow"
+OVERFLOW = "1: expected a vertex whose image is within a double's range, found an overflow of its "
 add_claims(ModelErrors, [
-    ("scaled by 1e300 twice is an error at the triangle's line", "10: " + OVERFLOW, "scale;1e300 1 1", "scale;1e300 1 1", UNITS),
-    ("so is the vertex that overflows among others", "13: " + OVERFLOW, "scale;1e300 1 1", "scale;1e300 1 1",
+    ("scaled by 1e300 twice is an error at the triangle's line", "10:" + OVERFLOW + "x", "scale;1e300 1 1", "scale;1e300 1 1", UNITS),
+    ("so is the vertex that overflows among others", "13:" + OVERFLOW + "x", "scale;1e300 1 1", "scale;1e300 1 1",
      "push", triangle("0 1 0", "0 0 0", "1e-200 0 1")),
-    ("a sum beyond the largest double", "9: " + OVERFLOW, "translate;-1.7e308 0 0", triangle("0 0 0", "-1e308 0 0", "0 0 1")),
+    ("a sum beyond the largest double", "9:" + OVERFLOW + "x", "translate;-1.7e308 0 0", triangle("0 0 0", "-1e308 0 0", "0 0 1")),
 ])
 
 
@@ -236,7 +236,7 @@ class ViewNotes(StabilityTest):
     def check(self, eye, look, up, *points):
         done = run("view", "--bare", stdin=f"eye {eye}\nlook {look}\nup {up}\n" + lines_of(points))
         self.assertEqual(done.returncode, 0)
-        self.assertIn("view: note: <stdin>:4: ", done.stderr.decode())
+        self.assertIn("view: note: <stdin>:4:1: ", done.stderr.decode())
         expected = reference.stage_text(enumerate(reference.view(world(points, camera_lines(eye, look, up)))))
         self.assertEqual([word[:28] for word in self.output(done).split()], [word[:28] for word in expected.split()])
 
@@ -258,7 +258,7 @@ add_claims(ViewErrors, [
     ("up against the view direction, beside an eye far away", PARALLEL + "-1 -2 -3", "1e15 1e15 1e15",
      "1000000000000001 1000000000000002 1000000000000003", "-1 -2 -3", *NEAR_ORIGIN),
     ("look at the eye", "2:6: expected a point other than the eye to look at, found 1 2 3", "1 2 3", "1 2 3", "0 1 0", *NEAR_ORIGIN),
-    ("a vertex beyond the largest double", "6: " + OVERFLOW, "-1.7e308 0 0", "0 0 0", "0 1 0", "1 2 3", "4 5 6", "1e308 0 1"),
+    ("a vertex beyond the largest double", "6:" + OVERFLOW + "z", "-1.7e308 0 0", "0 0 0", "0 1 0", "1 2 3", "4 5 6", "1e308 0 1"),
 ])
 
 
@@ -348,13 +348,13 @@ class ProjectOtherwise(StabilityTest):
         self.assertLessEqual(max(map(abs, numbers)), 1)
 
     def test_an_overflow_is_an_error_at_the_vertex(self):
-        self.assert_error("project", "perspective 60 1 1e-5 1\n" + lines_of(("0 0 -1e-5", "1e306 0 -1e-5", "0 0 -1")), "3: " + OVERFLOW)
+        self.assert_error("project", "perspective 60 1 1e-5 1\n" + lines_of(("0 0 -1e-5", "1e306 0 -1e-5", "0 0 -1")), "3:" + OVERFLOW + "x")
 
     def test_without_clipping_a_vertex_on_the_eye_plane_is_an_error(self):
-        for z in ("0", "-0.0", "5", "1e-320"):
+        for z, found in (("0", "0"), ("-0.0", "0"), ("5", "5"), ("1e-320", "1e-320")):
             text = "perspective " + PERSPECTIVE + "\n" + lines_of(("0 0 -1", f"1 1 {z}", "0 1 -1"))
-            self.assert_error("project", text, "3: expected a vertex in front of the eye (z below 0), "
-                              "found one on or behind the eye plane", "--clip", "none")
+            self.assert_error("project", text, "3:1: expected a vertex in front of the eye "
+                              f"(z below 0; --clip auto cuts what is not), found z = {found}", "--clip", "none")
 
     def test_a_horizontal_angle_of_180_degrees_is_an_error(self):
         done = run("project", stdin="perspective 90 2 1 100\n" + lines_of(NEAR_ORIGIN))

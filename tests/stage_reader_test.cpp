@@ -41,7 +41,7 @@ TEST(StageReader, ATriangleIsThreeVertexLines) {
   const TriangleBatch batch = triangles_of("0 1 2\n3 4 5\n-6 .7 8e0\n\n");
   ASSERT_EQ(batch.size(), 1u);
   EXPECT_EQ(batch.triangles[0], (Triangle{Vec3{0, 1, 2}, Vec3{3, 4, 5}, Vec3{-6, 0.7, 8}}));
-  EXPECT_EQ(batch.lines[0], (VertexLines{1, 2, 3}));
+  EXPECT_EQ(batch.places[0], (VertexPlaces{1, 2, 3}));
 }
 
 // A comment keeps a line from the fast paths.
@@ -49,8 +49,8 @@ TEST(StageReader, TrianglesAreTheSameByEveryPath) {
   for (const std::string header : {"", "attributes w color normal\n"}) {
     const std::string columns = header.empty() ? "" : " 2.5 255 0 0.125 0 -1 0.5";
     for (const std::string vertex :
-         {"0.1000000 -2.0000000 3.0000000", "0.123456789 5 -.5", "0.30000000000000004 1e2 7",
-          "123456789.25 12345678.1234567 0.12345678"}) {
+         {"0.1000000 -2.0000000 3.0000000", "0.123456789 5 -.5", " \t0.125 5 -.5",
+          "0.30000000000000004 1e2 7", "123456789.25 12345678.1234567 0.12345678"}) {
       const auto text = [&](const std::string& comment) {
         const std::string line = vertex + columns + comment + "\n";
         return header + line + line + line + "\n" + line + line + line;
@@ -67,7 +67,7 @@ TEST(StageReader, TrianglesAreTheSameByEveryPath) {
       const TriangleBatch slow = read(text(" # slow"));
       ASSERT_EQ(fast.size(), 2u);
       EXPECT_EQ(fast.triangles, slow.triangles) << text("");
-      EXPECT_EQ(fast.lines, slow.lines) << text("");
+      EXPECT_EQ(fast.places, slow.places) << text("");
       EXPECT_EQ(fast.numbers, slow.numbers) << text("");
       EXPECT_EQ(fast.decimal_marks, slow.decimal_marks) << text("");
       EXPECT_EQ(fast.attributes.w, slow.attributes.w) << text("");
@@ -92,7 +92,7 @@ TEST(StageReader, BlankLinesMayStandBetweenTriangles) {
 TEST(StageReader, CommentsMayStandAnywhere) {
   const TriangleBatch batch = triangles_of("# a\n0 0 0 # b\n# c\n1 0 0\n  # d\n0 1 0\n# e\n\n# f");
   ASSERT_EQ(batch.size(), 1u);
-  EXPECT_EQ(batch.lines[0], (VertexLines{2, 4, 6}));
+  EXPECT_EQ(batch.places[0], (VertexPlaces{2, 4, 6}));
 }
 
 TEST(StageReader, TakesTabsAndCarriageReturns) {

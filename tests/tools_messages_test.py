@@ -3,6 +3,7 @@
 
 usage: tools_messages_test.py BIN_DIR [UNITTEST ARGUMENT...]
 """
+import os
 import pathlib
 import unittest
 
@@ -12,6 +13,8 @@ COMMANDS = "a command (triangle, translate, scale, rotate, push, pop or end)"
 FIRST_COMMANDS = COMMANDS[:-1] + ("; before the first triangle also color, attributes, background, light, ambient, "
                                   "material or attenuation)")
 VERTICES = "0 0 0\n1 0 0\n0 1 0\n"
+IN_RANGE = "expected a vertex whose image is within a double's range"
+IN_FRONT = "expected a vertex in front of the eye (z below 0; --clip auto cuts what is not)"
 
 
 class SceneMessages(ToolTest):
@@ -94,7 +97,7 @@ add_claims(SceneMessages, [
     ("rotate has an angle", CAMERA + "rotate\nx 0 0 1\n", "6:1: expected an angle in degrees, found 'x'"),
     ("a rotation axis is not zero", CAMERA + "rotate\n90 0 0.0 -0\n", "6:4: expected a rotation axis, found 0 0 0"),
     ("a vertex may leave a doubles range", CAMERA + "scale 1e200 1 1\nscale 1e200 1 1\ntriangle\n0 0 0\n1 0 0\n0 1 0\nend\n",
-     "9: expected a vertex whose image is within a double's range, found an overflow"),
+     f"9:1: {IN_RANGE}, found an overflow of its x"),
 ])
 
 
@@ -170,20 +173,21 @@ add_claims(CameraMessages, [
     ("project needs a projection", "project", VERTICES, 1, f"<stdin>:1:1: expected {PROJECTION_FORM}, found none"),
     ("project needs it also without triangles", "project", "", 1, f"<stdin>:1:1: expected {PROJECTION_FORM}, found none"),
     ("fovX has to make sense in project", "project", "# c\nperspective 90 2 1 9\n", 1,
-     "<stdin>:2:13: expected fovX = fovY * aspect between 0 and 180 degrees (--aspect angle), found 180.000000"),
+     "<stdin>:2:13: expected fovX = fovY * aspect between 0 and 180 degrees (--aspect angle), found 180"),
     ("a vertex on the eye plane cannot be divided", "project --clip none", "perspective 60 1 1 9\n0 0 -2\n1 0 0\n0 1 -2\n", 1,
-     "<stdin>:3: expected a vertex in front of the eye (z below 0), found one on or behind the eye plane"),
+     f"<stdin>:3:1: {IN_FRONT}, found z = 0"),
     ("a vertex behind the eye cannot be divided", "project --clip none", "perspective 60 1 1 9\n0 0 2\n1 0 -2\n0 1 -2\n", 1,
-     "<stdin>:2: expected a vertex in front of the eye (z below 0), found one on or behind the eye plane"),
+     f"<stdin>:2:1: {IN_FRONT}, found z = 2"),
     ("a cut may be too near to the eye", "project",
      "perspective 120 1 1e-200 1e200\n1.8 -0.4 0.4\n-0.3 -1.1 1.0\n0.9 -0.6 -2.0\n", 1,
-     "<stdin>:2: expected a cut that 31 digits can tell from the eye plane, found one nearer to it"),
+     # The first cut lies on the edge from vertex 2 to vertex 3, two thirds of it nearer to vertex 2.
+     "<stdin>:3:1: expected a cut that 31 digits can tell from the eye plane (a larger near helps), found one nearer to it"),
     ("a vertex may leave a doubles range in view", "view --eye 1e308 0 0 --look 0 1e308 0 --up 0 0 1",
      "0 0 0\n-1e308 -1e308 0\n0 0 0\n", 1,
-     "<stdin>:2: expected a vertex whose image is within a double's range, found an overflow"),
+     f"<stdin>:2:1: {IN_RANGE}, found an overflow of its x"),
     ("a vertex may leave a doubles range in project", "project --perspective 1e-9 1 1 9",
      "1e308 0 -1\n0 0 -1\n0 0 -1\n", 1,
-     "<stdin>:1: expected a vertex whose image is within a double's range, found an overflow"),
+     f"<stdin>:1:1: {IN_RANGE}, found an overflow of its x"),
     ("a scene besides the input is a file", "view --scene -", "", 2,
      "--scene: expected a file, as INPUT is standard input, found '-' (try view --help)"),
     ("a scene besides the input exists", "view --scene none.txt", "", 1, "cannot open none.txt: No such file or directory"),
@@ -194,6 +198,78 @@ add_claims(CameraMessages, [
     ("an eye of the header is looked at by no option", "view --eye 0 0 0", HEADER, 1,
      "<stdin>:2:6: expected a point other than the eye to look at, found 0 0 0"),
 ])
+
+
+class VertexPlaces(ToolTest):
+    """What a stage finds out by calculating, it says at the vertex: by every kernel, on one thread or several."""
+
+    GOOD = "0.0000000 0.0000000 -2.0000000"
+    # A vertex's line, and the column of its first number.
+    LINES = (("{}", 1), ("  {}", 3), ("\t {}", 3), ("{} # here", 1), ("   {}\r", 4), (" {} \t", 2))
+
+    def assert_placed(self, tool, *options, header, frame, x, reason):
+        """The mistake is the x of vertex 2 of triangle 1000; `frame` makes a triangle of three lines."""
+        for vertex in (f"{x} 0 -2", f"{x} 0.000000000 -2e0"):
+            for form, column in self.LINES:
+                good = "".join(frame(*3 * (self.GOOD,)) for _ in range(1000))
+                bad = frame(self.GOOD, form.format(vertex), self.GOOD)
+                text = header + good + bad + good
+                line = (header + good + bad).split(vertex)[0].count("\n") + 1
+                for kernel in ("portable", "sse4", "avx2"):
+                    for threads in (1, 3):
+                        with self.subTest(tool=tool, form=form, kernel=kernel, threads=threads):
+                            done = run(tool, *options, "--threads", threads, stdin=text,
+                                       env=os.environ | {"PIPELINE_KERNEL": kernel})
+                            self.assert_fails(done, 1, f"{tool}: <stdin>:{line}:{column}: {reason}")
+
+    @staticmethod
+    def of_scene(*vertices):
+        return "triangle\n" + "\n".join(vertices) + "\n"
+
+    @staticmethod
+    def of_stage_text(*vertices):
+        return "\n".join(vertices) + "\n\n"
+
+    def test_model(self):
+        self.assert_placed("model", header=CAMERA + "scale 1e305 1 1\n", frame=self.of_scene, x="12345.5",
+                           reason=f"{IN_RANGE}, found an overflow of its x")
+
+    def test_view(self):
+        # Turned by 180 degrees about y, and the eye is subtracted: 1.7e308 + 1.7e308.
+        self.assert_placed("view", header="eye 1.7e308 0 0\nlook 1.7e308 0 1\nup 0 1 0\n", frame=self.of_stage_text,
+                           x="-1.7e308", reason=f"{IN_RANGE}, found an overflow of its x")
+
+    def test_project(self):
+        # 1 / tan(1e-305 degrees / 2) is 1.1e307.
+        self.assert_placed("project", header="perspective 1e-305 1 1 9\n", frame=self.of_stage_text, x="99999.5",
+                           reason=f"{IN_RANGE}, found an overflow of its x")
+
+    def test_project_without_clipping(self):
+        for form, column in self.LINES:
+            text = self.of_stage_text(*3 * (self.GOOD,)) * 1000 + self.of_stage_text(self.GOOD, self.GOOD, form.format("1 1 2.50"))
+            for threads in (1, 3):
+                with self.subTest(form=form, threads=threads):
+                    done = run("project", "--clip", "none", "--perspective", 60, 1, 1, 9, "--threads", threads, stdin=text)
+                    self.assert_fails(done, 1, f"project: <stdin>:4003:{column}: {IN_FRONT}, found z = 2.5")
+
+    def test_the_columns_that_follow_a_vertex_change_nothing(self):
+        text = CAMERA + "color 1 2 3\nscale 1 1e305 1\ntriangle\n0 0 0\n  0 99999.5 0\n0 0 0\nend\n"
+        for scene in (text, text.replace("99999.5 0\n", "999995e-1 0\n")):
+            self.assert_fails(run("model", stdin=scene), 1,
+                              f"model: <stdin>:9:3: {IN_RANGE}, found an overflow of its y")
+
+    def test_a_vertex_on_the_line_of_its_triangle(self):
+        scene = CAMERA + "scale 1 1 1e305\n  triangle\t 0 0 99999.5\n0 0 0\n0 0 0\nend\n"
+        self.assert_fails(run("model", stdin=scene), 1, f"model: <stdin>:6:13: {IN_RANGE}, found an overflow of its z")
+
+    def test_digits_that_are_not_certain(self):
+        # 1e30 is added and taken away around a rotation: of 31 digits none is left.
+        scene = CAMERA + "translate 1e30 0 0\nrotate 33 1 2 3\ntranslate -1e30 0 0\ntriangle\n  1 2 3\n4 5 6\n7 8 9\nend\n"
+        for threads in (1, 3):
+            done = run("model", "--threads", threads, stdin=scene)
+            self.assertEqual((done.stderr.decode(), done.returncode), (
+                "model: note: <stdin>:9:3: numbers cancel here beyond 31 digits; "
+                "the last digits of this vertex are not certain\n", 0))
 
 
 class ConfigMessages(ToolTest):
@@ -271,7 +347,7 @@ add_claims(OptionMessages, [
      "--perspective: expected 4 values (FOVY ASPECT NEAR FAR), found 3"),
     ("a perspective makes sense", "project --perspective 60 1 9 1", "--perspective: expected far beyond near, found '1'"),
     ("a perspective of an option has a fovX", "project --perspective 90 2 1 9",
-     "--perspective: expected fovX = fovY * aspect between 0 and 180 degrees (--aspect angle), found 180.000000"),
+     "--perspective: expected fovX = fovY * aspect between 0 and 180 degrees (--aspect angle), found 180"),
     ("a frustum has a near above 0", "view --frustum -1 1 -1 1 0 9", "--frustum: expected near above 0, found '0'"),
     ("an ortho has six numbers", "view --ortho -1 1 -1 1 0", "--ortho: expected 6 values (L R B T N F), found 5"),
     ("there is one projection among the options", "project --perspective 60 1 1 9 --ortho -1 1 -1 1 1 9",

@@ -83,7 +83,7 @@ class Threads(ToolTest):
     def test_a_mistake_behind_a_vertex_that_has_no_image(self):
         done = self.assert_same("project", "--clip", "none", "--perspective", "60", "1", "1", "100",
                                 stdin="0 0 -1\n1 0 -1\n0 1 -1\n\n" * 2000 + "0 0 1\n0 0 1\n0 0 1\n\nnonsense\n")
-        self.assertIn(b"<stdin>:8001: ", done.stderr)
+        self.assertIn(b"<stdin>:8001:1: ", done.stderr)
 
     def test_what_is_noted_of_the_digits(self):
         small = "1e-6 0 0\n0 1e-6 0\n0 0 1e-6\n\n" * 3000

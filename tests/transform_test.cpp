@@ -396,7 +396,7 @@ TEST(ClipFromView, RefusesAnAngleFromASideToASide) {
   } catch (const InputError& error) {
     EXPECT_STREQ(error.what(),
                  "scene.txt:4:1: expected fovX = fovY * aspect between 0 and 180 degrees (--aspect angle), "
-                 "found 180.000000");
+                 "found 180");
   }
 }
 

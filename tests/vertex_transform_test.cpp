@@ -19,7 +19,7 @@ TriangleBatch images_of(const std::vector<Vec3>& vertices, const Transform& tran
   TriangleBatch batch = batch_of(vertices);
   CoordinateRounder rounder(precision, format, "input");
   VertexTransform(transform).apply(batch, rounder);
-  EXPECT_EQ(rounder.first_uncertain_line(), 0u);
+  EXPECT_FALSE(rounder.first_uncertain().is_known());
   return batch;
 }
 
@@ -145,7 +145,7 @@ TEST(ModelTransform, SaysThatItCannotKnowTheDigitsAroundAPivotAtOneE30) {
   TriangleBatch batch = batch_of({{1, 2, 3}, {4, 5, 6}, {7, 8, 9}});
   CoordinateRounder rounder(Precision::extended, {7}, "input");
   VertexTransform(model.computed).apply(batch, rounder);
-  EXPECT_EQ(rounder.first_uncertain_line(), 1u);
+  EXPECT_EQ(rounder.first_uncertain(), LineAndColumn(1));
 }
 
 TEST(ModelTransform, AddsTheLastDigitBesideOneE16) {
@@ -167,9 +167,9 @@ TEST(ModelTransform, PrintsNoSignOfZero) {
   EXPECT_EQ(printed_vertex(images, 2, {7}), "0.0000000 0.0000000 -1.0000000");
 }
 
-TEST(ModelTransform, AnOverflowNamesTheVertexLine) {
+TEST(ModelTransform, AnOverflowNamesTheVertexsPlace) {
   TriangleBatch batch;
-  batch.add({Vec3{0, 0, 0}, Vec3{1, 0, 0}, Vec3{0, 1, 0}}, 0, {11, 12, 13});
+  batch.add({Vec3{0, 0, 0}, Vec3{1, 0, 0}, Vec3{0, 1, 0}}, 0, {11, {12, 5}, 13});
   CoordinateRounder rounder(Precision::extended, {7}, "scene.txt");
   const VertexTransform transform(scaling({1e300, 1, 1}) * scaling({1e300, 1, 1}));
   try {
@@ -177,7 +177,8 @@ TEST(ModelTransform, AnOverflowNamesTheVertexLine) {
     FAIL() << "no error";
   } catch (const InputError& error) {
     EXPECT_STREQ(error.what(),
-                 "scene.txt:12: expected a vertex whose image is within a double's range, found an overflow");
+                 "scene.txt:12:5: expected a vertex whose image is within a double's range, found an "
+                 "overflow of its x");
   }
 }
 

@@ -9,11 +9,11 @@
 namespace pipeline {
 namespace {
 
-/// Batch after batch, in this thread alone; returns the line of the first vertex whose digits are not
-/// certain.
-std::size_t run_alone(Tool& tool, StageWriter& writer, CoordinateRounder rounder,
-                      const std::function<bool(TriangleBatch&)>& read,
-                      const std::function<BatchTransform(CoordinateRounder&)>& make_transform) {
+/// Batch after batch, in this thread alone; returns where the first vertex stands whose digits are not
+/// certain, if there is one.
+LineAndColumn run_alone(Tool& tool, StageWriter& writer, CoordinateRounder rounder,
+                        const std::function<bool(TriangleBatch&)>& read,
+                        const std::function<BatchTransform(CoordinateRounder&)>& make_transform) {
   Timing& timing = tool.timing();
   const BatchTransform transform = make_transform(rounder);
   const auto write = [&](const TriangleBatch& batch) {
@@ -34,7 +34,7 @@ std::size_t run_alone(Tool& tool, StageWriter& writer, CoordinateRounder rounder
     timing.lap(&Timing::work_seconds);
     write(batch);
   }
-  return rounder.first_uncertain_line();
+  return rounder.first_uncertain();
 }
 
 }  // namespace
@@ -44,12 +44,12 @@ StageLoop::StageLoop(Tool& tool, StageWriter& writer, CoordinateRounder rounder,
 
 void StageLoop::run(const std::function<bool(TriangleBatch&)>& read,
                     const std::function<BatchTransform(CoordinateRounder&)>& make_transform) {
-  const std::size_t uncertain_line =
+  const LineAndColumn uncertain =
       thread_count_ == 1 ? run_alone(tool_, writer_, rounder_, read, make_transform)
                          : StageRounds(tool_, writer_, rounder_, thread_count_, make_transform).run(read);
   writer_.finish();
-  if (uncertain_line > 0)
-    tool_.note(to_string({rounder_.file(), uncertain_line}) +
+  if (uncertain.is_known())
+    tool_.note(to_string(rounder_.place_of(uncertain)) +
                ": numbers cancel here beyond 31 digits; the last digits of this vertex are not certain");
   if (!writer_.keeps_four_digits())
     tool_.note("the largest coordinate keeps fewer than 4 significant digits; use --digits exact");

@@ -28,7 +28,7 @@ void StageRounds::Slot::work() {
   writer.write(batch);
 }
 
-std::size_t StageRounds::run(const std::function<bool(TriangleBatch&)>& read) {
+LineAndColumn StageRounds::run(const std::function<bool(TriangleBatch&)>& read) {
   Round* in_work = &rounds_[0];
   Round* next = &rounds_[1];
   do {
@@ -41,11 +41,11 @@ std::size_t StageRounds::run(const std::function<bool(TriangleBatch&)>& read) {
     std::swap(in_work, next);
   } while (in_work->count > 0 || (has_more_ && read_failure_ == nullptr));
   if (read_failure_ != nullptr) std::rethrow_exception(read_failure_);
-  std::size_t first = 0;
+  LineAndColumn first;
   for (const Round& round : rounds_)
     for (const Slot& slot : round.slots) {
-      const std::size_t line = slot.rounder.first_uncertain_line();
-      if (line > 0 && (first == 0 || line < first)) first = line;
+      const LineAndColumn place = slot.rounder.first_uncertain();
+      if (place.is_known() && (!first.is_known() || place.line() < first.line())) first = place;
     }
   return first;
 }

@@ -24,9 +24,9 @@ class StageRounds {
   StageRounds(Tool& tool, StageWriter& writer, const CoordinateRounder& rounder, int thread_count,
               const std::function<BatchTransform(CoordinateRounder&)>& make_transform);
 
-  /// Everything from the first batch to the end of the input; returns the line of the first vertex whose
-  /// digits are not certain, 0 if there is none.
-  std::size_t run(const std::function<bool(TriangleBatch&)>& read);
+  /// Everything from the first batch to the end of the input; returns where the first vertex stands
+  /// whose digits are not certain, if there is one.
+  LineAndColumn run(const std::function<bool(TriangleBatch&)>& read);
 
  private:
   /// One batch on its way. What belongs to a slot is touched by one thread at a time.
