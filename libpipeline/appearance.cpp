@@ -53,7 +53,7 @@ Material read_material(LineScanner& line) {
   material.ambient = number_from_zero(line, "the ambient factor");
   material.diffuse = number_from_zero(line, "the diffuse factor");
   material.specular = number_from_zero(line, "the specular factor");
-  material.shininess = line.count("the shininess, a whole number");
+  material.shininess = line.count("the shininess, a whole number below 2^64");
   line.expect_end("the shininess");
   return material;
 }
@@ -66,7 +66,7 @@ Attenuation read_attenuation(LineScanner& line) {
   attenuation.quadratic = number_from_zero(line, "the quadratic attenuation");
   line.expect_end("the quadratic attenuation");
   if (attenuation.constant == 0 && attenuation.linear == 0 && attenuation.quadratic == 0)
-    at_first.fail("an attenuation other than 0 0 0");
+    throw InputError(at_first.place(), expected_but_found("an attenuation other than 0 0 0", "0 0 0"));
   return attenuation;
 }
 
@@ -83,7 +83,7 @@ template <typename T, typename Read>
 void set_once(std::optional<Placed<T>>& part, std::string_view keyword, const Place& keyword_place,
               const LineScanner& line, Read&& read) {
   if (part)
-    throw InputError(keyword_place, expected_but_found("one " + std::string(keyword),
+    throw InputError(keyword_place, expected_but_found("one " + quoted(keyword),
                                                        "a second one after " + to_string(part->place)));
   const Place place = line.place();
   part = {read(), place};
@@ -120,7 +120,8 @@ void read_appearance_part(std::string_view keyword, const Place& keyword_place, 
 void expect_no_w(const Appearance& appearance) {
   if (appearance.columns().w)
     throw InputError(appearance.attributes->place,
-                     expected_but_found("attributes of a text that is not projected yet", "'w'"));
+                     expected_but_found("a text that is not projected yet",
+                                        "one with the column 'w', which project adds"));
 }
 
 }  // namespace pipeline

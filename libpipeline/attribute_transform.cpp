@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "libpipeline/vec_math.h"
 
@@ -25,9 +26,14 @@ BallVec3 over_largest(const BallVec3& row, double largest) {
 }
 
 Placed<Light> moved_to(const Placed<Light>& light, const Vec3& position) {
-  if (!std::isfinite(largest_part(position)))
-    throw InputError(light.place,
-                     expected_but_found("a light whose image is within a double's range", "an overflow"));
+  const auto expect_finite = [&](double coordinate, const char* name) {
+    if (std::isfinite(coordinate)) return;
+    throw InputError(light.place, expected_but_found("a light whose image is within a double's range",
+                                                     std::string("an overflow of its ") + name));
+  };
+  expect_finite(position.x, "x");
+  expect_finite(position.y, "y");
+  expect_finite(position.z, "z");
   return {{position, light.value.intensity}, light.place};
 }
 

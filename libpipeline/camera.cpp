@@ -42,7 +42,7 @@ double far_beyond(double near, LineScanner& line) {
 
 Perspective read_perspective(LineScanner& line) {
   Perspective p;
-  p.fov_y_degrees = checked_number(line, "fovY", "between 0 and 180 degrees",
+  p.fov_y_degrees = checked_number(line, "fovY", "above 0 and below 180 degrees",
                                    [](double value) { return value > 0 && value < 180; });
   p.aspect = number_above_zero(line, "aspect");
   p.near = number_above_zero(line, "near");

@@ -107,7 +107,7 @@ Command SceneReader::read_appearance(std::string_view keyword) {
   if (name == "attributes" && !vertex_line_.attributes().any()) appearance_.attributes.reset();
   read_appearance_part(name, place_, line_, AttributeSource::scene, appearance_);
   if (name == "light") {
-    const LightCommand command{appearance_.lights.back().value};
+    const LightCommand command{appearance_.lights.back()};
     appearance_.lights.clear();
     return command;
   }
@@ -127,11 +127,15 @@ void SceneReader::read_current_color() {
 
 /// Takes a vertex line of a scene with attributes; what has no columns is the current state.
 VertexLine SceneReader::read_vertex(std::size_t index) {
-  const LineScanner at_vertex = line_;
+  LineScanner at_normal = line_;
   VertexLine vertex = vertex_line_.read(line_, index);
   if (!vertex_line_.attributes().color) vertex.color = current_color_;
-  if (vertex_line_.attributes().normal && vertex.normal == Vec3{})
-    at_vertex.fail("a normal of " + std::string(kVertexNames[index]) + " other than 0 0 0");
+  if (vertex_line_.attributes().normal && vertex.normal == Vec3{}) {
+    for (int i = vertex_line_.attributes().color ? 6 : 3; i > 0; --i) at_normal.word();
+    throw InputError(
+        at_normal.place(),
+        expected_but_found("a normal of " + std::string(kVertexNames[index]) + " other than 0 0 0", "0 0 0"));
+  }
   return vertex;
 }
 

@@ -36,7 +36,7 @@ struct EndCommand {};
 /// The appearance or the current colour has changed: the reader keeps both.
 struct AppearanceCommand {};
 struct LightCommand {
-  Light light;  // in model space
+  Placed<Light> light;  // in model space
 };
 
 using Command = std::variant<TriangleCommand, TranslateCommand, ScaleCommand, RotateCommand, PushCommand,

@@ -59,7 +59,8 @@ bool StageReader::read_header_line(LineScanner& line) {
 void StageReader::expect_framed() const {
   if (!header_.framed)
     throw InputError(header_end_,
-                     expected_but_found("a framed text (model --framed)", "one without 'framed'"));
+                     expected_but_found("a framed text (model --framed)",
+                                        text_.bytes_read() == 0 ? "an empty one" : "one without 'framed'"));
 }
 
 bool StageReader::read(TriangleBatch& batch) {
@@ -83,7 +84,7 @@ void StageReader::fill(TriangleBatch& batch) {
       read_triangle(line_, batch);
     } else if (line_.peek() == "triangle") {
       line_.word();
-      triangles_->count_from(line_.count("the number of a triangle"));
+      triangles_->count_from(line_.count("the number of a triangle, a whole number below 2^64"));
       line_.expect_end("the number of a triangle");
     } else if (accepts_clipped_ && line_.peek() == "clipped") {
       read_clipped(line_);

@@ -40,9 +40,9 @@ ProjectionTransform perspective(const Perspective& p, const Place& place, Aspect
   } else {
     const Ball fov_x_degrees = Ball(p.fov_y_degrees) * Ball(p.aspect);
     if (!is_inside_half_turn(fov_x_degrees))
-      throw InputError(place,
-                       expected_but_found("fovX = fovY * aspect between 0 and 180 degrees (--aspect angle)",
-                                          shortest_text(fov_x_degrees.nearest_double())));
+      throw InputError(
+          place, expected_but_found("fovX = fovY * aspect above 0 and below 180 degrees (or --aspect ratio)",
+                                    shortest_text(fov_x_degrees.nearest_double())));
     transform.x_scale = cotangent_of_half(fov_x_degrees);
   }
   transform.near = p.near;

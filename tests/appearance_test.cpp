@@ -30,7 +30,7 @@ ReadScene scene_of(const std::string& commands) {
   ReadScene scene;
   for (Command command = reader.next(); !std::holds_alternative<EndCommand>(command);
        command = reader.next()) {
-    if (const auto* light = std::get_if<LightCommand>(&command)) scene.lights.push_back(light->light);
+    if (const auto* light = std::get_if<LightCommand>(&command)) scene.lights.push_back(light->light.value);
     if (std::holds_alternative<TriangleCommand>(command)) scene.triangles.push_back(reader.vertices());
   }
   scene.appearance = reader.appearance();
@@ -112,7 +112,7 @@ TEST(Appearance, AVertexHasAllColumnsAndNoMore) {
 
 TEST(Appearance, ANormalIsNotZero) {
   EXPECT_EQ(error_of("attributes normal\ntriangle\n0 0 0 0 0 0\n"),
-            "scene.txt:7:1: expected a normal of vertex 1 of 3 other than 0 0 0, found '0'");
+            "scene.txt:7:7: expected a normal of vertex 1 of 3 other than 0 0 0, found 0 0 0");
 }
 
 TEST(Appearance, AttributesAreNamedOnceInTheirOrder) {
@@ -120,12 +120,12 @@ TEST(Appearance, AttributesAreNamedOnceInTheirOrder) {
   EXPECT_EQ(error_of("attributes normal color\n"), "scene.txt:5:19: " + expected + "'color'");
   EXPECT_EQ(error_of("attributes w color\n"), "scene.txt:5:12: " + expected + "'w'");
   EXPECT_EQ(error_of("attributes color\nattributes normal\n"),
-            "scene.txt:6:1: expected one attributes, found a second one after scene.txt:5:12");
+            "scene.txt:6:1: expected one 'attributes', found a second one after scene.txt:5:12");
 }
 
 TEST(Appearance, OnlyLightsMayBeMany) {
   EXPECT_EQ(error_of("ambient 1 1 1\nambient 1 1 1\n"),
-            "scene.txt:6:1: expected one ambient, found a second one after scene.txt:5:9");
+            "scene.txt:6:1: expected one 'ambient', found a second one after scene.txt:5:9");
 }
 
 TEST(Appearance, IntensitiesAndFactorsAreNotNegative) {
@@ -137,12 +137,12 @@ TEST(Appearance, IntensitiesAndFactorsAreNotNegative) {
 
 TEST(Appearance, TheShininessIsWhole) {
   EXPECT_EQ(error_of("material 1 1 0 1.5\n"),
-            "scene.txt:5:16: expected the shininess, a whole number, found '1.5'");
+            "scene.txt:5:16: expected the shininess, a whole number below 2^64, found '1.5'");
 }
 
 TEST(Appearance, AnAttenuationIsNotAllZero) {
   EXPECT_EQ(error_of("attenuation 0 0 0\n"),
-            "scene.txt:5:13: expected an attenuation other than 0 0 0, found '0'");
+            "scene.txt:5:13: expected an attenuation other than 0 0 0, found 0 0 0");
 }
 
 TEST(Appearance, IsSettledByTheFirstTriangle) {

@@ -239,7 +239,7 @@ TEST(Scene, NamesTheNumberThatIsWrongInAFrustumOrOrtho) {
 TEST(Scene, FovYLiesBetween0And180Degrees) {
   for (const std::string fov_y : {"0", "-0", "-60", "180", "1e300"})
     EXPECT_EQ(error_of_projection(fov_y + " 1 1 100"),
-              "scene.txt:4:1: expected fovY between 0 and 180 degrees, found '" + fov_y + "'");
+              "scene.txt:4:1: expected fovY above 0 and below 180 degrees, found '" + fov_y + "'");
   EXPECT_EQ(error_of_projection("179.99999999999997 1 1 100"), "no error");
   EXPECT_EQ(error_of_projection("5e-324 1 1 100"), "no error");
 }

@@ -359,7 +359,7 @@ class ProjectOtherwise(StabilityTest):
     def test_a_horizontal_angle_of_180_degrees_is_an_error(self):
         done = run("project", stdin="perspective 90 2 1 100\n" + lines_of(NEAR_ORIGIN))
         self.assertEqual(done.returncode, 1)
-        self.assertIn("<stdin>:1:13: expected fovX = fovY * aspect between 0 and 180 degrees", done.stderr.decode())
+        self.assertIn("<stdin>:1:13: expected fovX = fovY * aspect above 0 and below 180 degrees", done.stderr.decode())
 
 
 # Cases of a file

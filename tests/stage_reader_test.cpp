@@ -244,11 +244,13 @@ TEST(StageReader, TakesTheLargestNumber) {
 
 TEST(StageReader, ANumberOfATriangleIsAWholeNumber) {
   EXPECT_EQ(error_of("triangle -1\n" + kTriangle),
-            "in.txt:1:10: expected the number of a triangle, found '-1'");
-  EXPECT_EQ(error_of("triangle\n" + kTriangle),
-            "in.txt:1:9: expected the number of a triangle, found the end of the line");
+            "in.txt:1:10: expected the number of a triangle, a whole number below 2^64, found '-1'");
+  EXPECT_EQ(
+      error_of("triangle\n" + kTriangle),
+      "in.txt:1:9: expected the number of a triangle, a whole number below 2^64, found the end of the line");
   EXPECT_EQ(error_of("triangle 18446744073709551616\n"),
-            "in.txt:1:10: expected the number of a triangle, found '18446744073709551616'");
+            "in.txt:1:10: expected the number of a triangle, a whole number below 2^64, found "
+            "'18446744073709551616'");
   EXPECT_EQ(error_of("triangle 1 2\n"),
             "in.txt:1:12: expected the end of the line after the number of a triangle, found '2'");
 }

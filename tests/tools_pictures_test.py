@@ -203,7 +203,7 @@ class DepthEpsilon(Pictures):
     def test_the_scanline_algorithm_has_none(self):
         done = run("zbuf", "config.txt", "--depth-epsilon", "0.1", "--algorithm", "scanline")
         self.assert_fails(done, 2, "zbuf: --depth-epsilon: expected 0 with --algorithm scanline, which keeps no order of "
-                                   "drawing, found a number above (try zbuf --help)")
+                                   "drawing, found '0.1' (try zbuf --help)")
 
 
 def distance_to_segment(p, a, b):

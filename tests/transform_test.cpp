@@ -394,9 +394,10 @@ TEST(ClipFromView, RefusesAnAngleFromASideToASide) {
     clip_from_view(wide, AspectRule::angle);
     FAIL() << "no error";
   } catch (const InputError& error) {
-    EXPECT_STREQ(error.what(),
-                 "scene.txt:4:1: expected fovX = fovY * aspect between 0 and 180 degrees (--aspect angle), "
-                 "found 180");
+    EXPECT_STREQ(
+        error.what(),
+        "scene.txt:4:1: expected fovX = fovY * aspect above 0 and below 180 degrees (or --aspect ratio), "
+        "found 180");
   }
 }
 

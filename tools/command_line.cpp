@@ -122,7 +122,17 @@ void CommandLine::add_repeatable(const std::string& name, const std::string& typ
 
 void CommandLine::add_whole(const std::string& name, int& number, int least, int most,
                             const std::string& help) {
-  app_->add_option(name, number, help)->type_name("N")->check(CLI::Range(least, most))->capture_default_str();
+  const std::string range = "from " + std::to_string(least) + " to " + std::to_string(most);
+  const auto take = [=, &number](const std::string& word) {
+    std::size_t found = 0;
+    if (!parse_count(word, found) || found < static_cast<std::size_t>(least) ||
+        found > static_cast<std::size_t>(most))
+      throw CLI::ValidationError(name, expected_but_found("a whole number " + range, pipeline::quoted(word)));
+    number = static_cast<int>(found);
+  };
+  app_->add_option_function<std::string>(name, take, help + ", " + range)
+      ->type_name("N")
+      ->default_str(std::to_string(number));
 }
 
 void CommandLine::add_number(const std::string& name, const std::string& type_name, double& number,
@@ -140,7 +150,7 @@ void CommandLine::add_number(const std::string& name, const std::string& type_na
 }
 
 void CommandLine::add_threads(int& thread_count, const std::string& help) {
-  add_whole("--threads", thread_count, 1, 256, help + ", from 1 to 256; the output does not depend on it");
+  add_whole("--threads", thread_count, 1, 256, help + " (the output does not depend on it)");
 }
 
 void CommandLine::add_operand(const std::string& name, std::string& word, bool is_required,

@@ -11,7 +11,8 @@
 using namespace pipeline;
 
 int main(int argc, char** argv) {
-  Tool tool("model", "Reads a scene and writes its triangles in world space, with the camera in the header.",
+  Tool tool({"model", "Reads a scene and writes its triangles in world space, with the camera in the header.",
+             "The scene (scene.txt)"},
             OutputKind::stage_text);
   NumberOptions numbers(tool.options());
   bool bare = false;

@@ -39,9 +39,9 @@ void add_options(CommandLine& options, ProjectOptions& chosen) {
   options.add_number(
       "--clip-inset", "F", chosen.clip_inset, [](double inset) { return inset >= 0 && inset < 1; },
       "a number from 0 to less than 1",
-      "Pull the planes of --clip in, so that its cuts can be seen: 0.1 leaves what is between -0.9 and 0.9 "
-      "in "
-      "NDC");
+      "Pull in the planes of --clip near, frustum or reject, so that the cuts can be seen: 0.1 leaves what "
+      "lies\n"
+      "between -0.9 and 0.9 in NDC");
   options.add_choice<CullMode>("--cull", chosen.cull, {{"back", CullMode::back}, {"front", CullMode::front}},
                                "Drop triangles that turn this side to the eye; counter-clockwise is front");
 }
@@ -89,8 +89,9 @@ Appearance in_clip_space(Appearance appearance) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  Tool tool("project",
-            "Reads triangles in view space and writes them in normalised device coordinates (stage3.txt).",
+  Tool tool({"project",
+             "Reads triangles in view space and writes them in normalised device coordinates (stage3.txt).",
+             "What view has written (or stage2.txt)"},
             OutputKind::stage_text);
   NumberOptions numbers(tool.options());
   CameraOptions cameras(tool.options(), CameraOptions::Parts::projection);

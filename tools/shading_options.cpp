@@ -32,8 +32,8 @@ void add_shading_option(CommandLine& options, std::optional<ShadingModel>& chose
        {"flat", ShadingModel::flat},
        {"gouraud", ShadingModel::gouraud},
        {"phong", ShadingModel::phong}},
-      "Where surfaces are lit. none: nowhere; flat: once a triangle; gouraud: at its vertices; phong: at "
-      "every pixel. "
+      "Where surfaces are lit. none: nowhere; flat: once a triangle;\n"
+      "gouraud: at its vertices; phong: at every pixel.\n"
       "Without the option: phong with lights and normals, flat with lights alone, else none");
 }
 

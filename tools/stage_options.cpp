@@ -25,7 +25,8 @@ NumberOptions::NumberOptions(CommandLine& options) {
                : expected_but_found("a number of decimals from 0 to 17, or exact", pipeline::quoted(text));
   };
   options.add_word("--digits", "N|exact", digits_,
-                   "Decimals of a coordinate, or exact: as many as read back to the same double", check);
+                   "Decimals of a coordinate, 0 to 17, or exact: as many as read back to the same double",
+                   check);
   options.add_choice<Precision>("--precision", precision_,
                                 {{"double", Precision::plain}, {"extended", Precision::extended}},
                                 "extended: every number printed is correctly rounded; double: faster");
@@ -51,10 +52,13 @@ CameraOptions::CameraOptions(CommandLine& options, Parts parts) {
     add("--up", 3, "X Y Z", "The direction that is up in the picture");
   }
   const std::string planes = "L R B T N F";
-  add("--perspective", 4, "FOVY ASPECT NEAR FAR", "The projection, as in a scene (degrees)");
-  add("--frustum", 6, planes, "The projection as glFrustum takes it");
-  add("--ortho", 6, planes, "A parallel projection as glOrtho takes it");
-  options.add_word("--scene", "FILE", scene_path_, "Take the camera from the first lines of this scene");
+  add("--perspective", 4, "FOVY ASPECT NEAR FAR", "The projection, as in a scene; angles in degrees");
+  add("--frustum", 6, planes,
+      "The same by the planes left, right, bottom, top, near, far, as glFrustum takes them");
+  add("--ortho", 6, planes, "A parallel projection between such planes, as glOrtho takes them");
+  options.add_word("--scene", "FILE", scene_path_,
+                   "Take from this scene what of the camera other options leave out; else it comes from the "
+                   "header of INPUT");
 }
 
 CameraText CameraOptions::camera(const CameraText& header, const Tool& tool) const {

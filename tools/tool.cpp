@@ -57,11 +57,12 @@ void Timing::lap(double Timing::*phase) {
   last_ = now;
 }
 
-Tool::Tool(const char* name, const char* description, OutputKind output_kind)
-    : lack_of_memory_(end_process_without_memory({name, output_kind == OutputKind::stage_text})),
-      name_(name),
+Tool::Tool(const ToolDescription& description, OutputKind output_kind)
+    : lack_of_memory_(end_process_without_memory({description.name, output_kind == OutputKind::stage_text})),
+      name_(description.name),
       output_kind_(output_kind),
-      options_(name_, description, name_ + " (pipeline) " + kVersion),
+      options_(name_, description.purpose, name_ + " (pipeline) " + kVersion),
+      input_help_(std::string(description.input) + "; - is standard input"),
       output_(STDOUT_FILENO, "<stdout>") {
   open_closed_descriptors();
   make_file_size_limit_an_error();
@@ -83,7 +84,7 @@ InputFile Tool::second_input(const std::string& path, const std::string& name) c
 }
 
 int Tool::run(int argc, char** argv, const std::function<void()>& work) {
-  options_.add_operand("INPUT", input_path_, false, "The text to read; - is standard input");
+  options_.add_operand("INPUT", input_path_, false, input_help_);
   try {
     if (const auto asked_for = options_.parse(argc, argv)) return answer(*asked_for);
   } catch (const UsageError& error) {

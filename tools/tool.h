@@ -48,12 +48,18 @@ struct Timing {
 /// What a tool's output is to the next program: stage text is ended with an error line when the tool fails.
 enum class OutputKind { stage_text, other_text };
 
+/// What --help says of a tool.
+struct ToolDescription {
+  const char* name;
+  const char* purpose;
+  const char* input;  // what the last operand is
+};
+
 /// The rim the four tools share: the options every tool has, input and output, one report of a failure, the
 /// exit status.
 class Tool {
  public:
-  /// `description` is what --help says first.
-  Tool(const char* name, const char* description, OutputKind output_kind);
+  Tool(const ToolDescription& description, OutputKind output_kind);
 
   /// A tool adds its own options and operands here, then calls `run`.
   CommandLine& options() { return options_; }
@@ -86,6 +92,7 @@ class Tool {
   std::string name_;
   OutputKind output_kind_;
   CommandLine options_;
+  std::string input_help_;
   std::string input_path_ = "-";
   bool wants_timing_ = false;
   std::optional<InputFile> input_;

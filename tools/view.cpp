@@ -37,7 +37,9 @@ Appearance in_view_space(Appearance appearance, const ViewTransform& view) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  Tool tool("view", "Reads triangles in world space and writes them in view space.", OutputKind::stage_text);
+  Tool tool({"view", "Reads triangles in world space and writes them in view space.",
+             "What model has written (or stage1.txt)"},
+            OutputKind::stage_text);
   NumberOptions numbers(tool.options());
   CameraOptions cameras(tool.options(), CameraOptions::Parts::position_and_projection);
   bool bare = false;

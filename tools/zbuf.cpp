@@ -17,19 +17,22 @@ using namespace pipeline;
 namespace {
 
 void add_options(CommandLine& options, RenderOptions& chosen) {
-  options.add_operand("CONFIG", chosen.config_path, true, "The screen: size and limits (config.txt)");
+  options.add_operand("CONFIG", chosen.config_path, true,
+                      "The screen (config.txt): WIDTH HEIGHT in pixels; or on four lines\n"
+                      "that, the left limit of x, the bottom limit of y, the front and rear limits of z");
   options.add_word("--image", "FILE", chosen.image_path, "Where the image goes, a .bmp, .ppm or .png file",
                    wrong_with_name(image_format_of));
   options.add_word("--z-buffer", "FILE", chosen.z_buffer_path, "Where the depths go; - is standard output");
   options.add_choice<Coverage>(
       "--coverage", chosen.coverage, {{"nearest", Coverage::nearest}, {"center", Coverage::center}},
-      "Which pixels a triangle covers. nearest: on each row from the pixel nearest to the left end to "
-      "that nearest to the right end; center: those whose centres lie inside, decided exactly");
+      "Which pixels a triangle covers.\n"
+      "nearest: on each row from the pixel nearest to its left end to that nearest to its right end\n"
+      "center: those whose centres lie inside, decided exactly");
   options.add_choice<Algorithm>(
       "--algorithm", chosen.algorithm, {{"zbuffer", Algorithm::zbuffer}, {"scanline", Algorithm::scanline}},
-      "How it is found out which triangle is seen. zbuffer: every pixel keeps the nearest depth so far; "
-      "scanline: triangles are kept and compared row by row, without memory for the image. Both give "
-      "the same output");
+      "How it is found out which triangle is seen; both give the same output.\n"
+      "zbuffer: every pixel keeps the nearest depth so far\n"
+      "scanline: triangles are kept and compared row by row, without memory for the image");
   options.add_choice<DepthFormat>(
       "--depth", chosen.depth,
       {{"f64", DepthFormat::f64}, {"f32", DepthFormat::f32}, {"u24", DepthFormat::u24}},
@@ -37,9 +40,10 @@ void add_options(CommandLine& options, RenderOptions& chosen) {
   options.add_threads(chosen.thread_count, "How many threads draw with the z-buffer");
   add_picture_options(options, chosen);
   add_fragment_options(options, chosen.fragments);
-  options.add_flag("--framed", chosen.framed,
-                   "Refuse a text that is not framed (model --framed), for one that is empty may be a stage "
-                   "that was killed before it wrote anything");
+  options.add_flag(
+      "--framed", chosen.framed,
+      "Refuse a text without the frame that model --framed gives it: an empty one may come from a "
+      "stage that was killed");
 }
 
 void check_threads(const RenderOptions& chosen) {
@@ -57,9 +61,10 @@ ScreenConfig read_screen(const Tool& tool, const std::string& path) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  Tool tool("zbuf",
-            "Reads triangles in normalised device coordinates and writes the depth of every pixel that "
-            "shows one, and the image.",
+  Tool tool({"zbuf",
+             "Reads triangles in normalised device coordinates and writes the depth of every pixel that "
+             "shows one, and the image.",
+             "What project has written (or stage3.txt)"},
             OutputKind::other_text);
   RenderOptions chosen;
   add_options(tool.options(), chosen);
