@@ -42,7 +42,7 @@ ProjectionTransform perspective(const Perspective& p, const Place& place, Aspect
     if (!is_inside_half_turn(fov_x_degrees))
       throw InputError(
           place, expected_but_found("fovX = fovY * aspect above 0 and below 180 degrees (or --aspect ratio)",
-                                    shortest_text(fov_x_degrees.nearest_double())));
+                                    shortest_text(p.fov_y_degrees) + " * " + shortest_text(p.aspect)));
     transform.x_scale = cotangent_of_half(fov_x_degrees);
   }
   transform.near = p.near;

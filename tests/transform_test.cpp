@@ -397,7 +397,7 @@ TEST(ClipFromView, RefusesAnAngleFromASideToASide) {
     EXPECT_STREQ(
         error.what(),
         "scene.txt:4:1: expected fovX = fovY * aspect above 0 and below 180 degrees (or --aspect ratio), "
-        "found 180");
+        "found 90 * 2");
   }
 }
 
