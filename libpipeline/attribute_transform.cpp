@@ -73,14 +73,14 @@ Vec3 NormalTransform::operator()(const Vec3& normal) const {
   return unit_vector({dot(rows_[0], n), dot(rows_[1], n), dot(rows_[2], n)});
 }
 
-Placed<Light> transformed(const AffineMatrix& world_from_model, Placed<Light> light) {
+Placed<Light> transformed(const AffineMatrix& world_from_model, const Placed<Light>& light) {
   const BallVec3 p = to_balls(light.value.position);
   const auto image = [&](const std::array<Ball, 4>& row) { return dot(linear_row(row), p) + row[3]; };
   const auto& rows = world_from_model.rows;
   return moved_to(light, nearest({image(rows[0]), image(rows[1]), image(rows[2])}));
 }
 
-Placed<Light> transformed(const ViewTransform& view, Placed<Light> light) {
+Placed<Light> transformed(const ViewTransform& view, const Placed<Light>& light) {
   const BallVec3 p = to_balls(light.value.position) - to_balls(view.eye);
   return moved_to(light, nearest({dot(view.right, p), dot(view.up, p), dot(view.backward, p)}));
 }

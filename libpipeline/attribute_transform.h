@@ -32,7 +32,7 @@ class NormalTransform {
 };
 
 /// The light where the transform takes it. An InputError at its place if that is beyond a double's range.
-Placed<Light> transformed(const AffineMatrix& world_from_model, Placed<Light> light);
-Placed<Light> transformed(const ViewTransform& view_from_world, Placed<Light> light);
+Placed<Light> transformed(const AffineMatrix& world_from_model, const Placed<Light>& light);
+Placed<Light> transformed(const ViewTransform& view_from_world, const Placed<Light>& light);
 
 }  // namespace pipeline

@@ -13,7 +13,7 @@ constexpr std::uint32_t kUnitsPerOne = 1'000'000;
 struct DigitTriples {
   std::array<char, 4000> characters{};
   constexpr DigitTriples() {
-    for (unsigned i = 0; i < 1000; ++i) {
+    for (std::size_t i = 0; i < 1000; ++i) {
       characters[4 * i] = static_cast<char>('0' + i / 100);
       characters[4 * i + 1] = static_cast<char>('0' + i / 10 % 10);
       characters[4 * i + 2] = static_cast<char>('0' + i % 10);
@@ -26,7 +26,7 @@ constexpr DigitTriples kDigitTriples;
 
 /// Three digits, and a fourth character to be written over or kept.
 char* write_triple(char* out, std::uint32_t triple) {
-  std::memcpy(out, kDigitTriples.characters.data() + 4 * triple, 4);
+  std::memcpy(out, kDigitTriples.characters.data() + std::size_t{4} * triple, 4);
   return out + 3;
 }
 
@@ -51,7 +51,7 @@ char* write_depth(char* out, double depth) {
   *out = '-';
   out += static_cast<int>(depth < 0) & static_cast<int>(whole_units != 0);
   std::uint32_t decimals = static_cast<std::uint32_t>(whole_units);
-  if (whole_units < 10 * kUnitsPerOne) {
+  if (whole_units < std::uint64_t{10} * kUnitsPerOne) {
     const std::uint32_t whole = decimals / kUnitsPerOne;
     *out++ = static_cast<char>('0' + whole);
     decimals -= whole * kUnitsPerOne;

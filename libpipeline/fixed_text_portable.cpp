@@ -70,7 +70,7 @@ FixedTextPart read_fixed_text(std::string_view text, std::span<Triangle> triangl
 struct DigitPairs {
   std::array<char, 200> characters{};
   constexpr DigitPairs() {
-    for (unsigned i = 0; i < 100; ++i) {
+    for (std::size_t i = 0; i < 100; ++i) {
       characters[2 * i] = static_cast<char>('0' + i / 10);
       characters[2 * i + 1] = static_cast<char>('0' + i % 10);
     }
@@ -80,7 +80,7 @@ struct DigitPairs {
 constexpr DigitPairs kDigitPairs;
 
 char* write_pair(char* out, std::uint32_t pair) {
-  std::memcpy(out, kDigitPairs.characters.data() + 2 * pair, 2);
+  std::memcpy(out, kDigitPairs.characters.data() + std::size_t{2} * pair, 2);
   return out + 2;
 }
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <string>
 #include <utility>
 #include <vector>
@@ -148,9 +147,7 @@ char* print_exact_sum(char* out, double hi, double lo, int decimals) {
   if (digits.size() <= decimal_count) digits.append(decimal_count + 1 - digits.size(), '0');
   if (decimal_count > 0) digits.insert(decimal_count, 1, '.');
   if (std::signbit(hi)) digits.push_back('-');
-  std::reverse(digits.begin(), digits.end());
-  std::memcpy(out, digits.data(), digits.size());
-  return out + digits.size();
+  return std::reverse_copy(digits.begin(), digits.end(), out);
 }
 
 }  // namespace pipeline
