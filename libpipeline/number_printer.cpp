@@ -89,14 +89,6 @@ int digit_count(std::uint64_t number) {
   return static_cast<int>(count) + (number >= kWholePowersOfTen[count] ? 1 : 0);
 }
 
-/// Prints a whole number of any size.
-char* print_long_whole(char* out, std::uint64_t number) {
-  constexpr std::uint64_t kSixteenDigits = 10'000'000'000'000'000;
-  const std::uint64_t high = number / kSixteenDigits;
-  if (high == 0) return print_whole(out, number);
-  return print_digits(print_whole(out, high), number - high * kSixteenDigits, 16);
-}
-
 /// Prints a number whose shortest decimal has digits behind the point, at most 17 and zeros before them.
 char* print_decimals(char* out, double value, const Decimal& decimal) {
   const auto decimals = static_cast<std::size_t>(-decimal.exponent);
@@ -130,7 +122,7 @@ char* print_shortest(char* out, double value) {
   if (exponent > 4 + point_length || exponent < -(length + 2 + point_length)) return nullptr;
   if (exponent < 0) return print_decimals(out, value, decimal);
   out = print_sign(out, value < 0);
-  return print_long_whole(out, digits * kWholePowersOfTen[static_cast<std::size_t>(exponent)]);
+  return print_whole(out, digits * kWholePowersOfTen[static_cast<std::size_t>(exponent)]);
 }
 
 char* without_sign_of_zero(char* first, char* last) {

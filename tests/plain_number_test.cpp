@@ -81,6 +81,16 @@ TEST(PlainNumber, CountsDecimals) {
   }
 }
 
+TEST(PlainNumber, ZeroMayHaveManyDecimals) {
+  for (const std::size_t decimals : {8, 16, 22, 23, 24}) {
+    PlainNumber number;
+    const std::string text = "-0." + std::string(decimals, '0');
+    EXPECT_EQ(length_of(text, number), static_cast<long>(text.size()));
+    EXPECT_EQ(std::bit_cast<std::uint64_t>(number.value), std::uint64_t{1} << 63) << text;
+    EXPECT_EQ(number.decimals, static_cast<int>(decimals));
+  }
+}
+
 // 2^53 + 1 lies in the middle between two doubles, and so do quotients that are whole numbers of it.
 TEST(PlainNumber, TiesAreRoundedLikeAnyOther) {
   for (const char* text : {"9007199.254740993", "900719.9254740993", "0.9007199254740993",
