@@ -1,7 +1,7 @@
 // Loaded before a tool (LD_PRELOAD), lets one system call or allocation fail, or all reads and writes be
 // short.
 //
-//   FAULT_CALL   malloc (any allocation), write, read, close, close of stdout, link or rename
+//   FAULT_CALL   malloc (any allocation), write, read, seek, close, close of stdout, link or rename
 //   FAULT_AT     the number of the call that fails, from 1
 //   FAULT_ERRNO  what it fails with
 //   FAULT_MARK   a file that is made when it does
@@ -73,6 +73,10 @@ ssize_t write(int descriptor, const void* text, std::size_t size) {
 
 ssize_t read(int descriptor, void* text, std::size_t size) {
   return fails("read") ? -1 : ::syscall(SYS_read, descriptor, text, allowed(size));
+}
+
+off_t lseek(int descriptor, off_t offset, int origin) noexcept {
+  return fails("seek") ? -1 : ::syscall(SYS_lseek, descriptor, offset, origin);
 }
 
 int close(int descriptor) {

@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -91,6 +92,24 @@ TEST(OutputFile, HasNoNameBeforeItsCommit) {
   OutputFile file(folder.path("out"));
   write_text(file, "new");
   EXPECT_EQ(folder.file_count(), 0u);
+}
+
+TEST(OutputFile, WithoutASecondDescriptorItHasATemporaryNameBeforeItsCommit) {
+  const TemporaryFolder folder;
+  rlimit before = {};
+  ASSERT_EQ(::getrlimit(RLIMIT_NOFILE, &before), 0);
+  const int next_descriptor = ::dup(STDIN_FILENO);
+  ::close(next_descriptor);
+  const rlimit one_more = {static_cast<rlim_t>(next_descriptor) + 1, before.rlim_max};
+  ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &one_more), 0);
+  OutputFile file(folder.path("out"));
+  ::setrlimit(RLIMIT_NOFILE, &before);
+  write_text(file, "new");
+  EXPECT_EQ(folder.file_count(), 1u);
+  EXPECT_FALSE(fs::exists(folder.path("out")));
+  file.commit();
+  EXPECT_EQ(folder.read("out"), "new");
+  EXPECT_EQ(folder.file_count(), 1u);
 }
 
 TEST(OutputFile, AFileThatAppearedMeanwhileIsReplaced) {

@@ -205,6 +205,20 @@ class Faults(FaultTest):
             self.assert_fails(done, 1, "zbuf: cannot replace out.bmp: Operation not permitted")
             self.assert_as_before()
 
+    def test_a_bmp_is_written_from_its_end_where_the_file_can_seek(self):
+        """The first seek only asks; without it the picture is kept until it can be written as a whole."""
+        tool, operands, text = small_inputs()[3]
+        good, image = self.good_run(tool, operands, text)
+        done, was_reached = self.run_with_fault("seek", 1, errno.ESPIPE, tool, operands, text)
+        self.assertTrue(was_reached)
+        self.assert_quiet_success(done)
+        self.assertEqual((done.stdout, pathlib.Path("out.bmp").read_bytes()), (good, image))
+        pathlib.Path("out.bmp").write_bytes(OLD_IMAGE)
+        done, was_reached = self.run_with_fault("seek", 2, errno.EIO, tool, operands, text)
+        self.assertTrue(was_reached)
+        self.assert_fails(done, 1, "zbuf: cannot write out.bmp: Input/output error")
+        self.assert_as_before()
+
     def test_reads_and_writes_of_one_byte_change_nothing(self):
         for tool, operands, text in small_inputs():
             good, image = self.good_run(tool, operands, text)
