@@ -30,11 +30,14 @@ ClipVertex interpolate(const ClipVertex& a, const ClipVertex& b, const Ball& t) 
           {weight(0), weight(1), weight(2)}};
 }
 
-/// Where the edge between two vertices on different sides meets the plane.
+/// Where the edge between two vertices on different sides meets the plane, counted from the vertex that is
+/// nearer to it: the other may be so large that the cut would be lost in its last digits.
 ClipVertex cut(ClipPlane plane, const ClipVertex& a, const ClipVertex& b) {
-  if (is_lower(b, a)) return cut(plane, b, a);
   const Ball from = distance_inside(plane, a);
   const Ball to = distance_inside(plane, b);
+  // One of them is negative.
+  const int farther = compare(from.sign() < 0 ? -from : from, to.sign() < 0 ? -to : to);
+  if (farther > 0 || (farther == 0 && is_lower(b, a))) return cut(plane, b, a);
   return interpolate(a, b, from / (from - to));
 }
 

@@ -34,7 +34,8 @@ unsigned outcode(const ClipVertex& vertex);
 
 /// The part of a convex polygon inside all `planes` (I. Sutherland, G. Hodgman, "Reentrant polygon clipping",
 /// 1974), in the same order round; empty if nothing but an edge or a corner is left. A cut is calculated from
-/// the edge's lower end (by y, x, z) to the higher, so that polygons that share an edge get the same point.
+/// the end of the edge that is nearer to the plane (of equals from the lower one, by y, x, z), so that
+/// polygons that share an edge get the same point.
 std::vector<ClipVertex> clip_polygon(std::span<const ClipVertex> polygon, std::span<const ClipPlane> planes);
 
 }  // namespace pipeline

@@ -165,6 +165,24 @@ TEST(ClipPolygon, CutsAnEdgeWhereItMeetsThePlane) {
   EXPECT_EQ(inside[2].y, Ball(0.375));
 }
 
+TEST(ClipPolygon, ACutNextToASmallCornerKeepsItsDigits) {
+  // Only (1 2 -4 3) is outside, 1 before the near plane; the others are 10^230 behind it.
+  const Polygon triangle = {{1, 2, -4, 3}, {1e200, 0, 1e230, 0}, {-1e200, 0, 1e230, 0}};
+  for (const std::size_t first : {0u, 1u, 2u}) {
+    const Polygon rotated = {triangle[first], triangle[(first + 1) % 3], triangle[(first + 2) % 3]};
+    int near_count = 0;
+    for (const ClipVertex& v : clipped_at(ClipPlane::near, rotated)) {
+      if (abs(value(v.x)) > Exact(1e100)) continue;
+      ++near_count;
+      // A part of 10^-230 of the way: x = 1 +- 10^-30, y = 2.
+      EXPECT_LE(abs(value(v.x) - Exact(1)), Exact(1.1e-30));
+      EXPECT_LE(abs(value(v.y) - Exact(2)), Exact(1e-30));
+      EXPECT_LE(v.y.radius(), 1e-30);
+    }
+    EXPECT_EQ(near_count, 2);
+  }
+}
+
 TEST(ClipPolygon, OfNothingIsNothing) {
   EXPECT_TRUE(clip_polygon({}, kAllClipPlanes).empty());
 }
