@@ -353,6 +353,13 @@ TEST(Ball, MagnitudeAndRadiusAreUpperBounds) {
   }
 }
 
+TEST(Ball, AnErrorThatLosesBitsOnTheWayToAnotherRangeDoesNotShrink) {
+  // The midpoint is moved to 1, and 1.25 * 2^-74 to 1.25 * 2^-1074: between the two smallest doubles.
+  const Ball ball = Ball::with_error({0x1p1000, 0}, 0x1.4p-74);
+  EXPECT_EQ(midpoint<2304>(ball), Exact(0x1p1000));
+  EXPECT_GE(radius<2304>(ball), Exact(0x1.4p-74));
+}
+
 TEST(Ball, AVerySmallErrorIsNotForgotten) {
   const Ball ball = Ball::with_error({1, 0}, std::numeric_limits<double>::min());
   EXPECT_FALSE((ball * Ball(0x1p-300) * Ball(0x1p-300)).is_exact());

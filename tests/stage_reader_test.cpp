@@ -77,6 +77,20 @@ TEST(StageReader, TrianglesAreTheSameByEveryPath) {
   }
 }
 
+TEST(StageReader, KeepsTheDigitsADoubleHasNoRoomForOfAnyTriangle) {
+  // 2^53 + 0.5 and 2^53 - 1; behind a triangle that has no such digits, and before another.
+  const std::string plain = "0 0 0\n1 0 0\n0 1 0 # slow\n\n";
+  const TextFile file(plain + "0 0 0\n9007199254740992.5 9007199254740991 0\n0 1 0\n\n" + plain);
+  TextReader reader(file.descriptor(), "in.txt");
+  StageReader stage(reader, true);
+  TriangleBatch batch;
+  ASSERT_TRUE(stage.read(batch));
+  ASSERT_EQ(batch.size(), 3u);
+  EXPECT_EQ(batch.triangles[1][1], (Vec3{0x1p53, 0x1p53 - 1, 0}));
+  EXPECT_EQ(batch.low_parts, (std::vector<Triangle>{{}, {Vec3{}, Vec3{0.5, 0, 0}, Vec3{}}, {}}));
+  EXPECT_EQ(batch.decimal_marks, (std::vector<std::uint16_t>(3, 0x1ff)));
+}
+
 TEST(StageReader, TheLastTriangleNeedsNoBlankLine) {
   EXPECT_EQ(triangles_of("0 0 0\n1 0 0\n0 1 0").size(), 1u);
 }

@@ -106,8 +106,8 @@ class ThroughTheStages(ToolTest):
     def test_w_is_for_projected_texts(self):
         for tool in ("view", "project"):
             done = run(tool, stdin=HEADER + "attributes w color\n")
-            self.assert_fails(done, 1, f"{tool}: <stdin>:5:12: expected attributes of a text that is not projected "
-                                       "yet, found 'w'")
+            self.assert_fails(done, 1, f"{tool}: <stdin>:5:12: expected a text that is not projected yet, "
+                              "found one with the column 'w', which project adds")
 
     def test_a_short_line_is_told_its_columns(self):
         done = run("view", stdin=HEADER + "attributes color\n0 0 0 1 2\n")

@@ -178,6 +178,23 @@ class Faults(FaultTest):
     def test_on_threads_as_well(self):
         self.check_allocations("--threads", 2)
 
+    def test_any_allocation_of_the_png_library_that_fails_is_a_failure(self):
+        tool, operands, text = small_inputs()[3]
+        operands = [*operands, "--image", "new.png"]
+        if run(tool, *operands, stdin=text).returncode == 2:
+            self.skipTest("a build without libpng")
+        pathlib.Path("new.png").unlink()
+        messages = set()
+        for number in range(1, 100000):
+            done, was_reached = self.run_with_fault("malloc", number, errno.ENOMEM, tool, operands, text)
+            pathlib.Path("new.png").unlink(missing_ok=done.returncode != 0)
+            self.assert_as_before()
+            if not was_reached:
+                break
+            messages.add(done.stderr.decode())
+        self.assertLessEqual(messages, {"", "zbuf: not enough memory\n", "zbuf: cannot write new.png: Cannot allocate memory\n"})
+        self.assertIn("zbuf: cannot write new.png: Cannot allocate memory\n", messages)
+
     def test_an_interrupted_read_or_write_goes_on(self):
         for call in ("read", "write"):
             for which, done, good in self.each_failing_call(call, errno.EINTR):

@@ -1,0 +1,67 @@
+#!/usr/bin/env python3
+"""scripts/coverage_report.py: what it says of what gcovr has counted, and of the reasons that are given.
+
+usage: coverage_report_test.py BIN_DIR [UNITTEST ARGUMENT...]
+"""
+import json
+import pathlib
+import subprocess
+import sys
+import unittest
+
+from toolbox import SOURCE, ToolTest
+
+SOURCE_LINES = ["int half(int x) {", "  if (x % 2 != 0) fail(x);", "  return x / 2;", "}", "void fail(int x) {", "  std::abort();", "}"]
+REASONS = "# A comment.\n\nNobody lives to tell.\n    lib/half.cpp: std::abort();\n"
+
+
+def line(number, count, *branches):
+    return {"line_number": number, "count": count, "branches": [{"count": taken} for taken in branches], "gcovr/noncode": False}
+
+
+class CoverageReport(ToolTest):
+    def report(self, reasons, lines):
+        pathlib.Path("lib").mkdir()
+        pathlib.Path("lib/half.cpp").write_text("\n".join(SOURCE_LINES) + "\n")
+        pathlib.Path("reasons.txt").write_text(reasons)
+        pathlib.Path("counted.json").write_text(json.dumps({"files": [{"file": "lib/half.cpp", "lines": lines}]}))
+        return subprocess.run([sys.executable, SOURCE / "scripts/coverage_report.py", "counted.json", "reasons.txt"],
+                              capture_output=True, text=True, timeout=60)
+
+    def test_shares_and_reasons_are_printed(self):
+        done = self.report(REASONS, [line(1, 3), line(2, 3, 3, 0), line(3, 3), line(6, 0)])
+        self.assertEqual(done.stdout, "file          lines         branches\n"
+                                      "lib/half.cpp  75.0 % (3/4)  50.0 % (1/2)\n"
+                                      "all           75.0 % (3/4)  50.0 % (1/2)\n"
+                                      "\n"
+                                      "Not run: Nobody lives to tell.\n"
+                                      "  lib/half.cpp:6: std::abort();\n")
+        self.assertEqual((done.stderr, done.returncode), ("", 0))
+
+    def test_a_line_without_a_reason_is_a_failure(self):
+        done = self.report(REASONS, [line(2, 3), line(3, 0), line(6, 0)])
+        self.assertTrue(done.stdout.endswith("Not run, and reasons.txt has no reason:\n  lib/half.cpp:3: return x / 2;\n"), done.stdout)
+        self.assertEqual(done.returncode, 1)
+
+    def test_a_reason_for_nothing_is_a_failure(self):
+        done = self.report(REASONS + "    lib/half.cpp: std::exit\n", [line(1, 1), line(6, 0)])
+        self.assertTrue(done.stdout.endswith("In reasons.txt, but nowhere in the sources:\n  line 5: lib/half.cpp: std::exit\n"), done.stdout)
+        self.assertEqual(done.returncode, 1)
+
+    def test_a_reason_that_is_not_needed_here_is_told(self):
+        done = self.report(REASONS, [line(1, 1), line(6, 2)])
+        self.assertTrue(done.stdout.endswith("Run here, in spite of a reason in reasons.txt:\n  line 4: lib/half.cpp: std::abort();\n"), done.stdout)
+        self.assertEqual(done.returncode, 0)
+
+    def test_code_that_is_none_does_not_count(self):
+        done = self.report(REASONS, [line(1, 1), line(6, 0) | {"gcovr/noncode": True}])
+        self.assertIn("all           100.0 % (1/1)  none\n", done.stdout)
+
+    def test_reasons_have_a_form(self):
+        done = self.report("    lib/half.cpp: return\n", [line(1, 1)])
+        self.assertEqual(done.stderr, "reasons.txt:1: expected a reason, then lines '  FILE: TEXT', found 'lib/half.cpp: return'\n")
+        self.assertEqual(done.returncode, 1)
+
+
+if __name__ == "__main__":
+    unittest.main()
