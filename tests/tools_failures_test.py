@@ -160,9 +160,9 @@ class FramedText(ToolTest):
                           "zbuf: <stdin>:6:1: expected 'end', which closes a framed text, found the end of the input")
 
     def test_a_stage_that_has_written_nothing_at_all_is_missed_with_zbuf_framed(self):
-        why = "expected a framed text (model --framed), found one without 'framed'"
-        self.assert_fails(run("zbuf", "--framed", "config.txt", stdin=b""), 1, f"zbuf: <stdin>:1:1: {why}")
-        self.assert_fails(run("zbuf", "--framed", "config.txt", stdin=stage_texts()[2]), 1, f"zbuf: <stdin>:1:1: {why}")
+        why = "expected a framed text (model --framed), found "
+        self.assert_fails(run("zbuf", "--framed", "config.txt", stdin=b""), 1, f"zbuf: <stdin>:1:1: {why}an empty one")
+        self.assert_fails(run("zbuf", "--framed", "config.txt", stdin=stage_texts()[2]), 1, f"zbuf: <stdin>:1:1: {why}one without 'framed'")
         self.assertEqual(self.files(), ["config.txt", "scene.txt"])
         self.assert_quiet_success(run("zbuf", "--framed", "config.txt", stdin=self.texts["zbuf"]))
 
