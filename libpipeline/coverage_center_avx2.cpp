@@ -40,7 +40,9 @@ struct AxisLanes {
     return axis.largest_narrow_units > 0 &&
            static_cast<double>(axis.narrow_step.value()) * axis.count <= kLargestWhole;
   }
-  PIPELINE_AVX2_INLINE static FourDoubles units_of(FourDoubles coordinate) { return coordinate * all(1e7); }
+  PIPELINE_AVX2_INLINE static FourDoubles units_of(FourDoubles coordinate) {
+    return coordinate * all(kGridUnitsPerOne);
+  }
   PIPELINE_AVX2_INLINE FourDoubles fits(FourDoubles units) const {
     return is_at_most(size_of(units), largest_units);
   }
@@ -172,10 +174,9 @@ struct FourTriangles {
   }
   /// A bit for each triangle whose x and y are decimals.
   static int marks(const ColoredTriangle* triangles) {
-    constexpr unsigned kMarksOfXAndY = 0b011'011'011;
     int result = 0;
     for (std::size_t i = 0; i < kCount; ++i)
-      result |= static_cast<int>((triangles[i].triangle.decimal_marks & kMarksOfXAndY) == kMarksOfXAndY) << i;
+      result |= static_cast<int>(triangles[i].triangle.is_decimal()) << i;
     return result;
   }
   PIPELINE_AVX2_INLINE void set_corners(const AxisLanes& columns, const AxisLanes& rows, FourDoubles left,

@@ -62,13 +62,10 @@ Plane plane_of(const Vec3& a, const Vec3& b, const Vec3& c) {
   return {rise, forward - backward, std::fabs(forward) + std::fabs(backward)};
 }
 
-/// dz/dx of the plane through three points, none where rounding hides whether the triangle is seen edge-on
-/// (bound: J. Shewchuk, "Adaptive precision floating-point arithmetic and fast robust geometric predicates",
-/// 1997, ccwerrboundA). One slope for all rows: the quotient of the differences between the ends of a row has
-/// no right digit where the row meets the triangle next to a corner.
+/// dz/dx of the plane through three points, none where the triangle may be seen edge-on. One slope for all
+/// rows: the quotient of the differences between the ends of a row has no right digit where the row meets the
+/// triangle next to a corner.
 std::optional<double> slope_in_x(const Vec3& a, const Vec3& b, const Vec3& c) {
-  constexpr double kHalfUlp = 0x1p-53;
-  constexpr double kAreaError = (3 + 16 * kHalfUlp) * kHalfUlp;
   Plane plane = plane_of(a, b, c);
   int exponent = 0;
   if (!(plane.terms > 0x1p-900 && plane.terms < 0x1p900 && std::isfinite(plane.rise))) {
@@ -80,7 +77,7 @@ std::optional<double> slope_in_x(const Vec3& a, const Vec3& b, const Vec3& c) {
     plane = plane_of({x[0], y[0], z[0]}, {x[1], y[1], z[1]}, {x[2], y[2], z[2]});
     exponent = z_exponent - x_exponent;
   }
-  if (std::fabs(plane.area) <= kAreaError * plane.terms) return std::nullopt;
+  if (std::fabs(plane.area) <= NearestRows::kAreaError * plane.terms) return std::nullopt;
   const double unscaled = plane.rise / plane.area;
   const double slope = exponent == 0 ? unscaled : std::ldexp(unscaled, exponent);
   return std::isfinite(slope) ? std::optional(slope) : std::nullopt;

@@ -20,6 +20,12 @@ namespace pipeline {
 /// offline 2, 2022.
 class NearestRows {
  public:
+  /// How much the area of a triangle may be wrong by, in parts of the sum of the two products whose
+  /// difference it is: below that, rounding hides whether the triangle is seen edge-on (J. Shewchuk,
+  /// "Adaptive precision floating-point arithmetic and fast robust geometric predicates", 1997,
+  /// ccwerrboundA).
+  static constexpr double kAreaError = (3 + 16 * 0x1p-53) * 0x1p-53;
+
   NearestRows(const PixelGrid& grid, const Triangle& p_ndc);
 
   /// The rows to ask for, inside the screen; first_row() > last_row() where there are none.

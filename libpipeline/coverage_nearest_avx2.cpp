@@ -101,13 +101,11 @@ struct FourTriangles {
   }
   /// From the edges that leave the lowest corner.
   PIPELINE_AVX2_INLINE void set_slope(const FourPoints& b, const FourPoints& c) {
-    constexpr double kHalfUlp = 0x1p-53;
-    constexpr double kAreaError = (3 + 16 * kHalfUlp) * kHalfUlp;
     constexpr double kHuge = 0x1p1000;
     const FourDoubles forward = b.x * c.y, backward = c.x * b.y;
     const FourDoubles rise = b.z * c.y - c.z * b.y;
     const FourDoubles area = forward - backward, terms = size_of(forward) + size_of(backward);
-    const FourDoubles has_no_slope = is_at_most(size_of(area), all(kAreaError) * terms);
+    const FourDoubles has_no_slope = is_at_most(size_of(area), all(NearestRows::kAreaError) * terms);
     const FourDoubles slopes = but_not(rise / area, has_no_slope);
     slope = numbers_of(slopes);
     is_edge_on = numbers_of(has_no_slope);

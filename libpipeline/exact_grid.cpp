@@ -9,8 +9,6 @@
 namespace pipeline {
 namespace {
 
-constexpr std::int64_t kUnitsPerOne = 10'000'000;  // a coordinate n / 10^7 is n units
-
 // hi * 10^7 is within 2^-52 of the n it stands for, relatively, so n is the nearest whole number up to here.
 constexpr double kLargestRoundedUnits = 0x1p50;
 constexpr double kLargestNarrow = 0x1p60;
@@ -33,7 +31,8 @@ BinaryNumber reduced(Int128 mantissa, int exponent) {
 BinaryNumber binary_units(double value) {
   int exponent = 0;
   const double fraction = std::frexp(value, &exponent);
-  return reduced(Int128{static_cast<std::int64_t>(std::ldexp(fraction, 53))} * kUnitsPerOne, exponent - 53);
+  return reduced(Int128{static_cast<std::int64_t>(std::ldexp(fraction, 53))} * kGridUnitsPerOne,
+                 exponent - 53);
 }
 
 /// `value` units in 2^-20 units, rounded down; below 2^126 for |value| <= 10^22.
@@ -47,7 +46,7 @@ Int128 fixed_point_units(double value) {
 
 /// The whole number of units nearest to hi + lo.
 Int128 decimal_units(double hi, double lo) {
-  const double units = hi * kUnitsPerOne;
+  const double units = hi * kGridUnitsPerOne;
   if (std::fabs(units) <= kLargestRoundedUnits) return nearest_whole(units);
   constexpr Int128 kOne = 1 << 20;
   return (fixed_point_units(hi) + fixed_point_units(lo) + kOne / 2) >> 20;
@@ -105,14 +104,13 @@ GridAxis::GridAxis(int pixel_count, double limit, double limit_low_part, bool li
 
 std::optional<GridTriangle<std::int64_t>> narrow_triangle(const ExactGrid& grid,
                                                           const ExactTriangle& triangle) {
-  constexpr unsigned kMarksOfXAndY = 0b011'011'011;
-  if ((triangle.decimal_marks & kMarksOfXAndY) != kMarksOfXAndY) return std::nullopt;
+  if (!triangle.is_decimal()) return std::nullopt;
   const GridAxis& columns = grid.columns;
   const GridAxis& rows = grid.rows;
   GridTriangle<std::int64_t> result{{}, {}, columns.narrow_step, rows.narrow_step};
   for (std::size_t i = 0; i < 3; ++i) {
-    const double x = triangle.p_ndc[i].x * kUnitsPerOne;
-    const double y = triangle.p_ndc[i].y * kUnitsPerOne;
+    const double x = triangle.p_ndc[i].x * kGridUnitsPerOne;
+    const double y = triangle.p_ndc[i].y * kGridUnitsPerOne;
     const bool fits =
         (std::fabs(x) <= columns.largest_narrow_units) & (std::fabs(y) <= rows.largest_narrow_units);
     if (!fits) return std::nullopt;

@@ -24,6 +24,12 @@ using HugeInt = FixedInt<92>;
 /// axis) is set, below 10^22, is the decimal of at most 7 decimals nearest to the double plus the low part;
 /// any other is its double.
 struct ExactTriangle {
+  /// Whether all of x and y are decimals.
+  [[nodiscard]] bool is_decimal() const {
+    constexpr unsigned kMarksOfXAndY = 0b011'011'011;
+    return (decimal_marks & kMarksOfXAndY) == kMarksOfXAndY;
+  }
+
   const Triangle& p_ndc;
   const Triangle* low_parts = nullptr;  // none: all 0
   std::uint16_t decimal_marks = 0;
@@ -49,6 +55,9 @@ struct BinaryNumber {
   Int128 mantissa = 0;
   int exponent = 0;
 };
+
+/// A coordinate n / 10^7 is n units.
+constexpr std::int64_t kGridUnitsPerOne = 10'000'000;
 
 /// One direction of the grid. In units of half_step / 2^k, pixel centres are at (2 i + 1 - count) * half_step
 /// from the middle of the window and the coordinate n / 10^7 at n * vertex_factor; both are whole for every
