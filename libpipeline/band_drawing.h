@@ -1,15 +1,19 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "libpipeline/color.h"
 #include "libpipeline/config.h"
 #include "libpipeline/exact_grid.h"
+#include "libpipeline/pixel_grid.h"
 #include "libpipeline/row_bands.h"
+#include "libpipeline/span.h"
 #include "libpipeline/triangle_batch.h"
 #include "libpipeline/worker_team.h"
 
@@ -17,14 +21,17 @@ namespace pipeline {
 
 /// Draws triangles band by band of the screen: several batches at a time, all that reach a band before the
 /// next band, so that its pixels stay in the cache; and with several threads, each band by one of them, while
-/// the caller reads on. A pixel belongs to one band and sees its triangles in the order of the stream, so the
-/// result does not depend on the number of threads. `Visible` has a class Band(visible, rows) with
-/// draw(triangle, color) and finish(), which only touch those rows.
+/// the caller reads on. On one thread, a batch of small triangles is drawn at once: their pixels are
+/// somewhere else anyway, and they themselves are still in the cache. A pixel belongs to one band and sees
+/// its triangles in the order of the stream, so the result does not depend on the number of threads.
+/// `Visible` has a class Band(visible, rows) with draw(triangle, color) and finish(), which only touch those
+/// rows.
 template <typename Visible>
 class BandDrawing {
  public:
   BandDrawing(Visible& visible, const ScreenConfig& screen, int thread_count)
-      : visible_(visible), bands_(screen), team_(thread_count) {
+      : visible_(visible), grid_(screen), bands_(screen), team_(thread_count) {
+    if (thread_count == 1) whole_.emplace(visible, RowRange{0, screen.rows});
     for (Round& round : rounds_) round.bands.resize(static_cast<std::size_t>(bands_.count()));
   }
 
@@ -34,6 +41,7 @@ class BandDrawing {
   /// once and in order. It may be drawn later, at the latest in finish().
   template <typename ColorOf>
   void draw_batch(ColorOf&& color_of) {
+    if (whole_ && is_of_small_triangles(next_batch())) return draw_at_once(next_batch(), color_of);
     sort_into_bands(filling(), color_of);
     if (filling().is_full()) draw_round();
   }
@@ -72,6 +80,27 @@ class BandDrawing {
   };
 
   [[nodiscard]] Round& filling() { return rounds_[filling_]; }
+
+  /// By some of them.
+  [[nodiscard]] bool is_of_small_triangles(const TriangleBatch& batch) const {
+    constexpr double kSmall = 32;  // width and height together, in pixels
+    constexpr std::size_t kStep = 8;
+    double width = 0, height = 0, count = 0;
+    for (std::size_t i = 0; i < batch.size(); i += kStep, ++count) {
+      const Triangle& p = batch.triangles[i];
+      width += std::max({p[0].x, p[1].x, p[2].x}) - std::min({p[0].x, p[1].x, p[2].x});
+      height += std::max({p[0].y, p[1].y, p[2].y}) - std::min({p[0].y, p[1].y, p[2].y});
+    }
+    return width / grid_.dx + height / grid_.dy < kSmall * count;
+  }
+
+  template <typename ColorOf>
+  void draw_at_once(const TriangleBatch& batch, ColorOf& color_of) {
+    if (filling().batch_count > 0) draw_round();
+    team_.finish();
+    for (std::size_t i = 0; i < batch.size(); ++i) whole_->draw(exact_triangle(batch, i), color_of(batch, i));
+    whole_->finish();
+  }
 
   template <typename ColorOf>
   void sort_into_bands(Round& round, ColorOf& color_of) {
@@ -112,6 +141,8 @@ class BandDrawing {
   }
 
   Visible& visible_;
+  PixelGrid grid_;
+  std::optional<typename Visible::Band> whole_;  // on one thread: for what is drawn at once
   RowBands bands_;
   std::array<Round, 2> rounds_;  // one is filled while the other is drawn
   std::size_t filling_ = 0;

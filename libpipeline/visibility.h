@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <concepts>
 #include <cstddef>
 #include <span>
@@ -34,7 +35,7 @@ template <typename Coverage, typename Depth>
 class ZBufferAlgorithm {
  public:
   explicit ZBufferAlgorithm(const ScreenConfig& screen, Color background = {})
-      : coverage_(screen), buffer_(screen, background) {}
+      : coverage_(screen), buffer_(screen, background), most_height_((kMostRows - 1) * screen.dy()) {}
 
   /// From now on a fragment has to be nearer than the last by more than `epsilon`.
   void set_depth_epsilon(double epsilon) { buffer_.set_depth_epsilon(epsilon); }
@@ -47,13 +48,15 @@ class ZBufferAlgorithm {
     Band(ZBufferAlgorithm& whole, const RowRange& rows)
         : whole_(whole),
           rows_(rows),
+          is_low_(rows.end - rows.first <= kMostRows),
           farthest_(whole.buffer_.farthest_depths(rows)),
-          queue_(kTriangles * static_cast<std::size_t>(rows.end - rows.first)) {
+          queue_(kTriangles * kMostRows) {
       triangles_.reserve(kTriangles);
     }
     /// It may be drawn later, at the latest in finish(); until then what it consists of has to stay.
     void draw(const ExactTriangle& triangle, Color color) {
       triangles_.push_back({triangle, color});
+      if (!is_low_) is_any_high_ |= !(height_of(triangle.p_ndc) < whole_.most_height_);
       if (triangles_.size() == kTriangles) make_spans();
     }
     void finish() {
@@ -65,19 +68,34 @@ class ZBufferAlgorithm {
     // As many as a coverage kernel takes at a time, or a multiple.
     static constexpr std::size_t kTriangles = 4;
 
-    void make_spans() {
-      queue_.put(
-          whole_.coverage_.spans(triangles_, rows_, queue_.end()),
-          [this](const ColoredSpan& span) { whole_.buffer_.fetch(span.span); },
-          [this](std::span<const ColoredSpan> spans) { draw_spans(spans); });
-      triangles_.clear();
+    static double height_of(const Triangle& p_ndc) {
+      const double a = p_ndc[0].y, b = p_ndc[1].y, c = p_ndc[2].y;
+      return std::max(std::max(a, b), c) - std::min(std::min(a, b), c);
     }
-    void draw_spans(std::span<const ColoredSpan> spans) { whole_.buffer_.draw(spans, &farthest_); }
+    void make_spans() {
+      const auto draw_waiting = [this](std::span<const ColoredSpan> spans) { draw_spans(spans); };
+      if (!is_any_high_) {
+        queue_.put(
+            whole_.coverage_.spans(triangles_, rows_, queue_.end()),
+            [this](const ColoredSpan& span) { whole_.buffer_.fetch(span.span); }, draw_waiting);
+      } else {
+        queue_.finish(draw_waiting);
+        for (const auto& [triangle, color] : triangles_) whole_.draw(triangle, color);
+      }
+      triangles_.clear();
+      is_any_high_ = false;
+    }
+    // Bounds for all rows of a high picture would take too much memory.
+    void draw_spans(std::span<const ColoredSpan> spans) {
+      whole_.buffer_.draw(spans, is_low_ ? &farthest_ : nullptr);
+    }
 
     ZBufferAlgorithm& whole_;
     RowRange rows_;
+    bool is_low_;
     FarthestDepths<Depth> farthest_;
     std::vector<ColoredTriangle> triangles_;
+    bool is_any_high_ = false;  // where that matters
     SpanQueue queue_;
   };
 
@@ -87,8 +105,12 @@ class ZBufferAlgorithm {
   }
 
  private:
+  // Of a band, and of a triangle whose spans may wait. No band is higher (RowBands).
+  static constexpr int kMostRows = 128;
+
   Coverage coverage_;
   ZBuffer<Depth> buffer_;
+  double most_height_;  // of a triangle with less than kMostRows rows
 };
 
 /// The scan-line algorithm: keeps the triangles until it is asked.

@@ -84,6 +84,35 @@ void expect_the_same_for_all_threads() {
           << thread_count << " threads, batches of " << batch_size;
 }
 
+/// Nearly all of them small, so that whole batches are drawn at once, some from the top to the bottom.
+std::vector<Triangle> scene_of_small_triangles(int triangle_count) {
+  RandomNumbers random(2);
+  std::vector<Triangle> scene;
+  for (int i = 0; i < triangle_count; ++i) {
+    const double size = i % 101 == 3 ? 0.9 : 0.02;
+    const Vec3 place = {random.between(-1, 1), random.between(-1, 1), i % 3 / 4.0};
+    Triangle triangle;
+    for (Vec3& p : triangle)
+      p = {place.x + random.between(-size, size), place.y + random.between(-size, size), place.z};
+    scene.push_back(triangle);
+  }
+  return scene;
+}
+
+TEST(BandDrawing, SmallTrianglesAreDrawnInTheirOrder) {
+  constexpr ScreenConfig kScreen = {150, 300};
+  using Visible = ZBufferAlgorithm<NearestCoverage, DepthF64>;
+  std::vector<Triangle> scene = scene_of_small_triangles(5000);
+  // Rounds of large triangles between them.
+  const std::vector<Triangle> large = random_scene(40, 3);
+  scene.insert(scene.begin() + 2100, large.begin(), large.end());
+  const Frame expected = drawn_one_by_one<Visible>(scene, kScreen);
+  for (const int thread_count : {1, 2})
+    for (const std::size_t batch_size : {7u, 64u, 2048u})
+      EXPECT_TRUE(drawn_in_bands<Visible>(scene, kScreen, thread_count, batch_size) == expected)
+          << thread_count << " threads, batches of " << batch_size;
+}
+
 TEST(BandDrawing, NearestCoverageIsThatOfOneTriangleAfterTheOther) {
   expect_the_same_for_all_threads<ZBufferAlgorithm<NearestCoverage, DepthF64>>();
 }
