@@ -286,12 +286,15 @@ TEST(ClipPolygon, NeighboursGetTheSamePointsOnTheirEdge) {
 }
 
 TEST(ClipPolygon, NeighboursGetTheSamePointWhereOnlyWDiffers) {
-  const ClipVertex a = {-4, -4, -4, 7}, b = {-4, -4, -4, -4.3};
-  const Polygon first = clipped_at(ClipPlane::near, {a, b, {0, 0, -4, -4}});
-  const Polygon second = clipped_at(ClipPlane::near, {b, a, {0, 0, -4, -4}});
-  ASSERT_EQ(first.size(), 3u);
-  ASSERT_EQ(second.size(), 3u);
-  EXPECT_TRUE(is_same(first[1], second[0]));
+  const ClipVertex a = {-4, -4, -4, 7};
+  // One is farther behind the plane than a is before it, the other as far.
+  for (const ClipVertex& b : {ClipVertex{-4, -4, -4, -4.3}, ClipVertex{-4, -4, -4, 1}}) {
+    const Polygon first = clipped_at(ClipPlane::near, {a, b, {0, 0, -4, -4}});
+    const Polygon second = clipped_at(ClipPlane::near, {b, a, {0, 0, -4, -4}});
+    ASSERT_EQ(first.size(), 3u);
+    ASSERT_EQ(second.size(), 3u);
+    EXPECT_TRUE(is_same(first[1], second[0]));
+  }
 }
 
 TEST(ClipPolygon, LongAllPropertiesHold) {
