@@ -85,9 +85,10 @@ void check_image_size(ImageFormat format, int columns, int rows, const std::stri
       kBmpHeaderSize + std::uint64_t{row_size(format, columns)} * static_cast<unsigned>(rows);
   if (size <= std::numeric_limits<std::uint32_t>::max()) return;
   throw InputError(
-      {path}, expected_but_found("an image that fits into the 4 GiB of a .bmp file (--image FILE.ppm has no such limit)",
-                                 std::to_string(columns) + " x " + std::to_string(rows) + " pixels, " +
-                                     std::to_string(size) + " bytes"));
+      {path}, expected_but_found(
+                  "an image that fits into the 4 GiB of a .bmp file (--image FILE.ppm has no such limit)",
+                  std::to_string(columns) + " x " + std::to_string(rows) + " pixels, " +
+                      std::to_string(size) + " bytes"));
 }
 
 ImageWriter::ImageWriter(int descriptor, const std::string& path, ImageFormat format, int columns, int rows)

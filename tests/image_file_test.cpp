@@ -163,10 +163,12 @@ TEST(ImageFile, BmpEndsAtFourGiB) {
   // A row of 65535 pixels has 196608 bytes; 54 + 196608 * 21845 = 4294901814 < 2^32.
   EXPECT_EQ(message_of([] { check_image_size(ImageFormat::bmp, 65535, 21845, "out.bmp"); }), "no error");
   EXPECT_EQ(message_of([] { check_image_size(ImageFormat::bmp, 65535, 21846, "out.bmp"); }),
-            "out.bmp: expected an image that fits into the 4 GiB of a .bmp file (--image FILE.ppm has no such limit), "
+            "out.bmp: expected an image that fits into the 4 GiB of a .bmp file (--image FILE.ppm has no "
+            "such limit), "
             "found 65535 x 21846 pixels, 4295098422 bytes");
   EXPECT_EQ(message_of([] { ImageWriter(STDOUT_FILENO, "out.bmp", ImageFormat::bmp, 65535, 65535); }),
-            "out.bmp: expected an image that fits into the 4 GiB of a .bmp file (--image FILE.ppm has no such limit), "
+            "out.bmp: expected an image that fits into the 4 GiB of a .bmp file (--image FILE.ppm has no "
+            "such limit), "
             "found 65535 x 65535 pixels, 12884705334 bytes");
   EXPECT_EQ(message_of([] { check_image_size(ImageFormat::ppm, 65535, 65535, "out.ppm"); }), "no error");
 }

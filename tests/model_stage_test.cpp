@@ -95,7 +95,8 @@ TEST(ModelStage, NumbersTrianglesFromZero) {
 }
 
 TEST(ModelStage, KnowsWhereItsVerticesStand) {
-  EXPECT_EQ(triangles_of("triangle\n\n1 2 3\n 0 0 0\n# c\n0 0 0\n").places[0], (VertexPlaces{{7, {8, 2}, 10}}));
+  EXPECT_EQ(triangles_of("triangle\n\n1 2 3\n 0 0 0\n# c\n0 0 0\n").places[0],
+            (VertexPlaces{{7, {8, 2}, 10}}));
 }
 
 TEST(ModelStage, ReadsMoreTrianglesThanABatchHolds) {
