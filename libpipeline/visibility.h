@@ -80,7 +80,9 @@ class ZBufferAlgorithm {
             [this](const ColoredSpan& span) { whole_.buffer_.fetch(span.span); }, draw_waiting);
       } else {
         queue_.finish(draw_waiting);
-        for (const auto& [triangle, color] : triangles_) whole_.draw(triangle, color);
+        for (const auto& [triangle, color] : triangles_)
+          for_each_span(whole_.coverage_.rows(triangle), rows_,
+                        [&, of = color](const Span& span) { whole_.buffer_.draw(span, of); });
       }
       triangles_.clear();
       is_any_high_ = false;
@@ -105,7 +107,7 @@ class ZBufferAlgorithm {
   }
 
  private:
-  // Of a band, and of a triangle whose spans may wait. No band is higher (RowBands).
+  // Of a triangle whose spans may wait. Bands are higher only in pictures of more than 65536 rows of samples.
   static constexpr int kMostRows = 128;
 
   Coverage coverage_;

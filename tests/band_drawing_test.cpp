@@ -121,6 +121,18 @@ TEST(BandDrawing, CenterCoverageIsThatOfOneTriangleAfterTheOther) {
   expect_the_same_for_all_threads<ZBufferAlgorithm<CenterCoverage, DepthU24>>();
 }
 
+TEST(BandDrawing, InHighBandsATriangleStaysInItsRowsToo) {
+  constexpr ScreenConfig kScreen = {2, 70000};
+  using Visible = ZBufferAlgorithm<NearestCoverage, DepthF64>;
+  // The first two are near the bottom and as deep as the third, which reaches all bands.
+  const std::vector<Triangle> scene = {{{{-1, -0.9, 0}, {1, -0.9, 0}, {0, -0.8, 0}}},
+                                       {{{-1, -0.99, 0}, {1, -0.99, 0}, {0, -0.9899, 0}}},
+                                       {{{-9, -9, 0}, {9, -9, 0}, {0, 9, 0}}}};
+  const Frame expected = drawn_one_by_one<Visible>(scene, kScreen);
+  for (const int thread_count : {1, 2})
+    EXPECT_TRUE(drawn_in_bands<Visible>(scene, kScreen, thread_count, 3) == expected);
+}
+
 TEST(BandDrawing, NothingDrawnIsTheBackground) {
   constexpr ScreenConfig kScreen = {5, 5};
   EXPECT_TRUE((drawn_in_bands<ZBufferAlgorithm<NearestCoverage, DepthF64>>({}, kScreen, 2, 1) ==
