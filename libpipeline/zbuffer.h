@@ -27,7 +27,7 @@ class ZBuffer {
 
   /// Draws a span of a triangle of the colour `color`. A pixel is written if its depth, as it is stored, is
   /// less than the one there (of equal depths the first drawn stays) and not less than the front limit.
-  /// `farthest`, if there is one, is of rows of this buffer, and those rows were changed with it only.
+  /// `farthest`, if there is one, is of rows of this buffer; its bounds hold whoever else draws there.
   void draw(const Span& span, Color color, FarthestDepths<Depth>* farthest = nullptr);
 
   /// Draws several spans, one after the other.
