@@ -86,6 +86,7 @@ GridAxis::GridAxis(int pixel_count, double limit, double limit_low_part, bool li
   assert(limit < 0);
   // vertex_factor / half_step = count / (10^7 |limit|), reduced.
   BinaryNumber size = exact_units(-limit, -limit_low_part, limit_is_decimal);
+  assert(size.mantissa > 0);
   int factor = count / std::gcd(count, static_cast<int>(size.mantissa % count));
   size.mantissa /= count / factor;
   for (; size.exponent > 0 && factor % 2 == 0; factor /= 2) --size.exponent;

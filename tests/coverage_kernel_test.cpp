@@ -107,7 +107,7 @@ void expect_the_spans_of_the_rule(const CoverageKernel& kernel) {
        {screen_of(500, 500, -1, -1, true), screen_of(1920, 1080, -1.6, -0.9, true),
         screen_of(7, 5, -1, -1, true), screen_of(3, 2000, -1, -0.3333333, true),
         screen_of(65535, 11, -1, -1, true), screen_of(100, 100, -0.1, -1.0 / 3, false),
-        screen_of(100, 100, -1e15, -1e-9, true)}) {
+        screen_of(100, 100, -1e15, -1e-7, true), screen_of(100, 100, -1e15, -1e-9, false)}) {
     Coverage rule(screen);
     rule.kernel = kernel;
     int span_count = 0;
