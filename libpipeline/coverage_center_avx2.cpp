@@ -4,7 +4,7 @@
 #include "libpipeline/coverage_avx2.h"
 #include "libpipeline/coverage_center.h"
 #include "libpipeline/four_doubles.h"
-#include "libpipeline/triangle_depth.h"
+#include "libpipeline/plain_depth.h"
 
 #if defined(__x86_64__) && defined(__GNUC__)
 
@@ -16,6 +16,7 @@ constexpr std::size_t kCount = 4;
 // What CenterRows does in 64 bits, in doubles, which hold whole numbers up to 2^53. Triangles whose numbers
 // could be larger are left to CenterRows.
 constexpr double kLargestWhole = 0x1p50;
+static_assert(kLargestWhole <= PlainDepth::kLargestWeight);
 
 /// The smallest whole c in [0, most] with c * divisor >= dividend, or `most` if there is none; see Divisor.
 PIPELINE_AVX2_INLINE FourDoubles quotient_rounded_up(FourDoubles dividend, FourDoubles divisor,
@@ -144,12 +145,12 @@ struct FourTriangles {
   FourNumbers column_count;
   // The corners a, b, c are sorted from the top.
   FourNumbers longest_is_left;  // a mask
-  FourNumbers total;            // of the weights
-  FourNumbers b_step;           // what the weights grow by from a column to the next
-  FourNumbers c_step;
+  FourNumbers twice_total;      // of the weights
+  FourNumbers is_flat;          // a mask: all of one depth
   FourNumbers a_z;
   FourNumbers b_z;
   FourNumbers c_z;
+  FourNumbers half_slope;
   EdgeNumbers longest;  // a to c
   EdgeNumbers upper;    // a to b
   EdgeNumbers lower;    // b to c
@@ -185,12 +186,8 @@ struct FourTriangles {
     const FourDoubles weight = (b.u - a.u) * (c.v - a.v) - (b.v - a.v) * (c.u - a.u);
     const FourDoubles is_left = is_less(all(0), weight), sign = pick(is_left, all(1), all(-1));
     longest_is_left = numbers_of(is_left);
-    total = numbers_of(sign * weight);
-    b_step = numbers_of(sign * columns.step * (c.v - a.v));
-    c_step = numbers_of(sign * columns.step * (a.v - b.v));
-    a_z = numbers_of(a.z);
-    b_z = numbers_of(b.z);
-    c_z = numbers_of(c.z);
+    set_depth(a.z, b.z, c.z, all(2) * sign * weight, sign * columns.step * (c.v - a.v),
+              sign * columns.step * (a.v - b.v));
 
     first_row = numbers_of(a.row);
     middle_row = numbers_of(b.row);
@@ -206,6 +203,28 @@ struct FourTriangles {
     longest = edge(a, c);
     upper = edge(a, b);
     lower = edge(b, c);
+  }
+  /// See PlainDepth.
+  PIPELINE_AVX2_INLINE void set_depth(FourDoubles a, FourDoubles b, FourDoubles c, FourDoubles twice_weights,
+                                      FourDoubles b_step, FourDoubles c_step) {
+    const FourDoubles flat = both(is_equal(a, b), is_equal(a, c));
+    const FourDoubles size = larger(larger(size_of(a), size_of(b)), size_of(c));
+    const FourDoubles is_in_range = both(is_at_most(all(PlainDepth::kSmallestDepth), size),
+                                         is_at_most(size, all(PlainDepth::kLargestDepth)));
+    ordinary_ &= bits_of(either(flat, is_in_range));
+
+    const FourDoubles b_rise = b_step * b, c_rise = c_step * c;
+    const FourDoubles sum = b_rise + c_rise;
+    const FourDoubles c_part = sum - b_rise;
+    const FourDoubles lost = (b_rise - (sum - c_part)) + (c_rise - c_part);
+    const FourDoubles slope =
+        (sum + ((-b_step - c_step) * a + lost)) / twice_weights + all(PlainDepth::kNoMinus);
+    half_slope = numbers_of(but_not(slope, flat));
+    is_flat = numbers_of(flat);
+    twice_total = numbers_of(twice_weights);
+    a_z = numbers_of(a);
+    b_z = numbers_of(b);
+    c_z = numbers_of(c);
   }
 };
 
@@ -235,15 +254,21 @@ struct FourRows {
         sign * ((first + last) * longest.column_step - all(2) * longest_crossing);
     const FourDoubles opposite_shorter =
         sign * (all(2) * shorter_crossing - (first + last) * shorter.column_step);
-    const FourDoubles rest = all(2 * t.total[lane]) - opposite_longest - opposite_shorter;
-    twice_b = numbers_of(opposite_longest);
-    twice_c = numbers_of(pick(is_upper, opposite_shorter, rest));
+    const FourDoubles twice_total = all(t.twice_total[lane]);
+    const FourDoubles rest = twice_total - opposite_longest - opposite_shorter;
+    const FourDoubles twice_c = pick(is_upper, opposite_shorter, rest);
+    const FourDoubles twice_a = pick(is_upper, rest, opposite_shorter);
+    const FourDoubles a_z = all(t.a_z[lane]), b_z = all(t.b_z[lane]), c_z = all(t.c_z[lane]);
+    const FourDoubles mean =
+        ((opposite_longest * b_z + twice_c * c_z) + twice_a * a_z) / twice_total + all(PlainDepth::kNoMinus);
+    columns_added_up = numbers_of(all(2) * left + (first + last));
+    depth = numbers_of(pick(all(t.is_flat[lane]), a_z, mean));
   }
 
   FourInts first_column;
   FourInts last_column;
-  FourNumbers twice_b;
-  FourNumbers twice_c;
+  FourNumbers columns_added_up;  // the first and the last
+  FourNumbers depth;             // in the middle between them
 
  private:
   PIPELINE_AVX2_INLINE static FourEdges pick_edges(FourDoubles mask, const FourEdges& yes,
@@ -253,32 +278,25 @@ struct FourRows {
   }
 };
 
-TriangleDepth depth_of(const FourTriangles& t, std::size_t lane) {
-  const auto whole = [](double value) { return static_cast<std::int64_t>(value); };
-  return {{t.a_z[lane], t.b_z[lane], t.c_z[lane]},
-          whole(t.total[lane]),
-          whole(t.b_step[lane]),
-          whole(t.c_step[lane])};
-}
-
 /// As CoverageKernel says, for one of four triangles.
 PIPELINE_AVX2 ColoredSpan* append_rows(const FourTriangles& four, std::size_t lane, Color color,
                                        const RowRange& rows, ColoredSpan* spans) {
   int row = std::max(rows.first, static_cast<int>(four.first_row[lane]));
   const int end = std::min(rows.end, static_cast<int>(four.end_row[lane]));
-  if (row >= end) return spans;
-  const TriangleDepth depth = depth_of(four, lane);
   while (row < end) {
     const FourRows some(four, lane, row);
     for (std::size_t i = 0; i < kCount && row < end; ++i, ++row) {
       const int first_column = some.first_column[i], last_column = some.last_column[i];
-      const auto twice_b = static_cast<std::int64_t>(some.twice_b[i]);
-      const auto twice_c = static_cast<std::int64_t>(some.twice_c[i]);
       // Member by member: as a whole it would be made elsewhere and copied.
-      spans->span.row = row;
-      spans->span.first_column = first_column;
-      spans->span.last_column = last_column;
-      spans->span.depth = depth.along(first_column, last_column, twice_b, twice_c);
+      Span& span = spans->span;
+      span.row = row;
+      span.first_column = first_column;
+      span.last_column = last_column;
+      span.depth.left_x = 0;
+      span.depth.dx = 2;
+      span.depth.x0 = some.columns_added_up[i];
+      span.depth.z0 = some.depth[i];
+      span.depth.slope = four.half_slope[lane];
       spans->color = color;
       // Without a branch, as no processor could predict it.
       spans += static_cast<int>(first_column <= last_column);

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <optional>
+#include <type_traits>
 
+#include "libpipeline/plain_depth.h"
 #include "libpipeline/span.h"
 #include "libpipeline/whole_math.h"
 
@@ -17,7 +20,8 @@ namespace pipeline {
 /// Z is at least 1e-288), and a triangle of one depth has just that everywhere. It does not matter whether
 /// the depths are doubles or the decimals next to them: that is another 2^-53 Z.
 ///
-/// Why. Depths become whole numbers of 61 bits, so that the depth m in the middle of a span and its slope s
+/// Why. Where weights are whole numbers that doubles hold, it is a PlainDepth. Otherwise depths become whole
+/// numbers of 61 bits, so that the depth m in the middle of a span and its slope s
 /// per half column are exact sums of products over the total. In units of u = 2^-53: m is off by u|m| for
 /// each of four roundings (the sum to a double, the total to a double, its inverse, their product), h s at h
 /// half columns from the middle by u|h s| for five, the sum of the two by u|m + h s|. |m| + |h s| is at most
@@ -37,6 +41,10 @@ class TriangleDepth {
   template <typename Int>
   [[nodiscard]] SpanDepth along(int first_column, int last_column, const Int& twice_b,
                                 const Int& twice_c) const {
+    if constexpr (std::is_same_v<Int, std::int64_t>)
+      if (plain_)
+        return plain_->along(first_column, last_column, static_cast<double>(twice_b),
+                             static_cast<double>(twice_c));
     const Int128 sum = a_sum_ + Int128{cut(twice_b, weight_shift_)} * b_rise_ +
                        Int128{cut(twice_c, weight_shift_)} * c_rise_;
     const double middle = flat_depth_ + to_double(sum) * inverse_ * unit_;
@@ -55,8 +63,9 @@ class TriangleDepth {
   void set_depths(const std::array<double, 3>& z, std::int64_t total);
   void set_slope(std::int64_t b_step, std::int64_t c_step, double total);
 
-  int weight_shift_ = 0;   // how many low bits of the weights are cut off
-  double inverse_ = 0;     // 1 / (2 * total weight)
+  std::optional<PlainDepth> plain_;  // if there is one, all else is unused
+  int weight_shift_ = 0;             // how many low bits of the weights are cut off
+  double inverse_ = 0;               // 1 / (2 * total weight)
   double flat_depth_ = 0;  // the depth of a triangle of one depth; what follows is 0 then, and otherwise this
   double half_slope_ = 0;  // per half column
   double unit_ = 0;        // depths are whole multiples of this:
@@ -69,6 +78,11 @@ template <typename Int>
 TriangleDepth::TriangleDepth(const std::array<double, 3>& z, const Int& total, const Int& b_step,
                              const Int& c_step)
     : weight_shift_(bits_to_cut(total)) {
+  if constexpr (std::is_same_v<Int, std::int64_t>)
+    if (PlainDepth::can_take(z, total, b_step, c_step)) {
+      plain_.emplace(z, static_cast<double>(total), static_cast<double>(b_step), static_cast<double>(c_step));
+      return;
+    }
   set_depths(z, cut(total, weight_shift_));
   const int shift = std::max(bits_to_cut(b_step), bits_to_cut(c_step));
   // Less than 1 only where a step is more than the total, so that no row has two pixels and no slope is
