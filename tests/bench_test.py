@@ -26,7 +26,7 @@ class BenchTest(unittest.TestCase):
                             "--out", folder], check=True, stdin=subprocess.DEVNULL)
             with open(pathlib.Path(folder, "bench.csv"), newline="") as file:
                 rows = list(csv.DictReader(file))
-            self.assertEqual({row["group"] for row in rows}, {"filter", "pipe", "threads", "large triangles", "triangles of 3 pixels"})
+            self.assertEqual({row["group"] for row in rows}, {"filter", "pipe", "threads", "zbuf", "large triangles", "triangles of 3 pixels"})
             self.assertTrue(all(float(row["median"]) > 0 for row in rows))
             self.assertIn("| filter | iostream |", pathlib.Path(folder, "bench.md").read_text())
             with open(pathlib.Path(folder, "growth.csv"), newline="") as file:
