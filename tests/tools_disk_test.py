@@ -98,6 +98,33 @@ class Folders(DiskTest):
             self.assert_as_before()
 
 
+class SmallFileSystem(DiskTest):
+    """File systems of the test's own, in a namespace that ends with the command."""
+
+    def run_there(self, mount_options, words, text):
+        """A command in a new file system that holds the older image; afterwards what that file system holds is listed on stdout."""
+        script = ('mkdir there && mount -t tmpfs -o size=64k none there && cp out.bmp there || exit 77; cd there; mount -o "remount,$0" . || exit 77; '
+                  '"$@"; status=$?; cmp -s out.bmp ../out.bmp && echo the older image; ls -A; exit $status')
+        done = subprocess.run(["unshare", "--mount", "--map-root-user", "sh", "-c", script, mount_options, *words], input=text,
+                              capture_output=True, timeout=60)
+        shutil.rmtree("there", ignore_errors=True)
+        if done.returncode == 77 or done.stderr.startswith(b"unshare: "):
+            self.skipTest("mounting is not allowed here: " + done.stderr.decode().strip())
+        return done
+
+    def test_one_that_is_read_only_is_a_failure(self):
+        for image, reason in (("new.bmp", "Read-only file system"), ("out.bmp", "Read-only file system")):
+            done = self.run_there("ro", command("zbuf", "../config.txt", "--image", image, "--z-buffer", "../depths"), stage_texts()[2])
+            self.assertEqual((done.returncode, done.stderr.decode()), (1, f"zbuf: cannot open {image}: {reason}\n"))
+            self.assertEqual(done.stdout, b"the older image\nout.bmp\n")
+
+    def test_one_that_is_full_is_a_failure_and_nothing_is_left(self):
+        pathlib.Path("config.txt").write_text("200 200\n")  # an image of 120 kB
+        done = self.run_there("rw", command("zbuf", "../config.txt", "--z-buffer", "../depths"), stage_texts()[2])
+        self.assertEqual((done.returncode, done.stderr), (1, b"zbuf: cannot write out.bmp: No space left on device\n"))
+        self.assertEqual(done.stdout, b"the older image\nout.bmp\n")
+
+
 class FaultTest(DiskTest):
     """One call fails (fault_shim.cpp), for every number of the call that a run comes to."""
 

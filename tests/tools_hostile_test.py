@@ -77,9 +77,36 @@ class Hostile(ToolTest):
                 else:
                     self.assert_placed(done, "model", changed)
 
+    def test_a_changed_byte_of_a_config_is_too(self):
+        text = b"12 8\n-0.5\n-0.25\n-1 1\n"
+        read = 0
+        for position in range(len(text)):
+            for byte in (0, 9, 10, ord("#"), ord("-"), ord("7"), ord("e"), 0xff):
+                changed = text[:position] + bytes([byte]) + text[position + 1:]
+                pathlib.Path("config.txt").write_bytes(changed)
+                done = run("zbuf", "config.txt")
+                if done.returncode == 0:
+                    # What it reads has as many columns and rows as the text says.
+                    columns, rows = map(int, changed.split()[:2])
+                    self.assertEqual((done.stderr, done.stdout.count(b"\n")), (b"", rows), changed)
+                    self.assertGreater(columns, 0)
+                    read += 1
+                else:
+                    self.assertEqual((done.returncode, done.stderr.count(b"\n")), (1, 1), changed)
+                    line, column = map(int, re.match(rb"zbuf: config.txt:(\d+):(\d+): ", done.stderr).groups())
+                    self.assertLessEqual(column, len((changed.split(b"\n") + [b""])[line - 1]) + 1, changed)
+        self.assertGreater(read, 20)
+
     def test_a_nul_is_no_blank_and_no_end(self):
-        done = run("view", stdin=HEADER.encode() + b"0 0\x00 -2\n")
-        self.assert_fails(done, 1, r"view: <stdin>:5:3: expected the y of vertex 1 of 3, found '0\x00'")
+        bad_vertex = "0 0\0 -2\n"
+        for tool, text, line in (("model", CAMERA + "triangle\n" + bad_vertex, 6), ("view", HEADER + bad_vertex, 5),
+                                 ("project", HEADER + bad_vertex, 5), ("zbuf", bad_vertex, 1)):
+            pathlib.Path("config.txt").write_text("8 8\n")
+            done = run(tool, *["config.txt"] * (tool == "zbuf"), stdin=text)
+            self.assert_fails(done, 1, rf"{tool}: <stdin>:{line}:3: expected the y of vertex 1 of 3, found '0\x00'")
+        pathlib.Path("config.txt").write_text("8 8\0\n")
+        self.assert_fails(run("zbuf", "config.txt"), 1, "zbuf: config.txt:1:3: expected the height in pixels, "
+                          r"a whole number from 1 to 65535, found '8\x00'")
 
     def test_a_byte_order_mark_is_skipped_at_the_beginning_alone(self):
         self.assert_quiet_success(run("model", stdin=b"\xef\xbb\xbf" + SCENE.encode()))
@@ -87,10 +114,26 @@ class Hostile(ToolTest):
         self.assert_placed(done, "model", SCENE.replace("triangle", "\ufefftriangle").encode())
 
     def test_a_number_of_a_million_digits_is_a_number(self):
-        digits = "0." + "3" * 1_000_000
-        done = self.run_limited("view", HEADER + f"0 0 -2\n{digits} 0 -2\n0 1 -2\n", "--bare")
-        self.assert_quiet_success(done)
-        self.assertIn(b"\n0.3333333 0.0000000 -7.0000000\n", done.stdout)
+        third = "0." + "3" * 1_000_000
+        for tool, text, expected in (
+                ("model", f"{CAMERA}triangle\n{third} 0 0\n1 0 0\n0 1 0\nend\n", "0.3333333 0.0000000 0.0000000"),
+                ("view", f"{HEADER}{third} 0 -2\n1 0 -2\n0 1 -2\n", "0.3333333 0.0000000 -7.0000000"),
+                # A third of 1 / tan 30 degrees, over the distance 2; 101 / 99 - 200 / (99 * 2).
+                ("project", f"{HEADER}{third} 0 -2\n1 0 -2\n0 1 -2\n", "0.2886751 0.0000000 0.0101010")):
+            done = self.run_limited(tool, text)
+            self.assert_quiet_success(done)
+            self.assertIn(expected.encode(), done.stdout.split(b"\n"), tool)
+
+    def test_so_is_one_that_zbuf_reads(self):
+        third = "0." + "3" * 1_000_000
+        pictures = []
+        for number in (third, "0.33333333333333333333333333333333"):
+            pathlib.Path("config.txt").write_text(f"8 8\n-{number}\n-1\n-1 1\n")
+            done = self.run_limited("zbuf", f"{number} 0 0\n-1 -1 0\n0 1 0\n", "config.txt", "--coverage", "center")
+            self.assert_quiet_success(done)
+            pictures.append((done.stdout, pathlib.Path("out.bmp").read_bytes()))
+        self.assertEqual(*pictures)
+        self.assertIn(b"0.000000", pictures[0][0])
 
     def test_a_line_of_a_million_words_is_refused_at_the_first_that_is_too_much(self):
         done = self.run_limited("view", HEADER + "0 0 -2 " + "1 " * 500_000 + "\n")
