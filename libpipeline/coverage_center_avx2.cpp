@@ -26,6 +26,18 @@ PIPELINE_AVX2_INLINE FourDoubles quotient_rounded_up(FourDoubles dividend, FourD
   return smaller(near + both(is_less(near * divisor, dividend), all(1)), most);
 }
 
+struct FourSums {
+  FourDoubles sum;
+  FourDoubles lost;  // in it
+};
+
+/// As two_sum() of two doubles.
+PIPELINE_AVX2_INLINE FourSums two_sum(FourDoubles a, FourDoubles b) {
+  const FourDoubles sum = a + b;
+  const FourDoubles b_part = sum - a;
+  return {sum, (a - (sum - b_part)) + (b - b_part)};
+}
+
 /// A GridAxis in doubles.
 struct AxisLanes {
   PIPELINE_AVX2_INLINE explicit AxisLanes(const GridAxis& axis)
@@ -213,12 +225,10 @@ struct FourTriangles {
                                          is_at_most(size, all(PlainDepth::kLargestDepth)));
     ordinary_ &= bits_of(either(flat, is_in_range));
 
-    const FourDoubles b_rise = b_step * b, c_rise = c_step * c;
-    const FourDoubles sum = b_rise + c_rise;
-    const FourDoubles c_part = sum - b_rise;
-    const FourDoubles lost = (b_rise - (sum - c_part)) + (c_rise - c_part);
+    const FourSums of_two = two_sum(b_step * b, c_step * c);
+    const FourSums of_three = two_sum(of_two.sum, (-b_step - c_step) * a);
     const FourDoubles slope =
-        (sum + ((-b_step - c_step) * a + lost)) / twice_weights + all(PlainDepth::kNoMinus);
+        (of_three.sum + (of_two.lost + of_three.lost)) / twice_weights + all(PlainDepth::kNoMinus);
     half_slope = numbers_of(but_not(slope, flat));
     is_flat = numbers_of(flat);
     twice_total = numbers_of(twice_weights);

@@ -6,20 +6,24 @@
 #include <cstdint>
 #include <cstdlib>
 
+#include "libpipeline/double_double.h"
 #include "libpipeline/span.h"
 
 namespace pipeline {
 
 /// What TriangleDepth says, for weights that are whole numbers a double holds: nearly always.
 ///
-/// It is the mean of the three depths, weighted: at most 7.5 u Z from the exact one, u = 2^-53 and Z the
-/// largest |z|, where 2^-50 Z is 8 u Z. Weights are exact. In the middle of a span the depth m is off by u Z
-/// for the three products (the weights of a point inside add up to the total), u Z for the first sum of two,
-/// u|m| for the second and u|m| for the quotient. At h half columns from there the slope s, where |h| times
-/// the growth of a weight is at most half of twice the total and all three together at most all of it, is off
-/// by u Z / h for the products, u Z / (2 h) for a's term, to which what the first sum lost is added, u|s| for
-/// the second sum and u|s| for the quotient; h s by another u|h s|; the sum of the two by u Z. |m| + |h s| is
-/// at most Z, because the span's ends are in the triangle and are m + h s and m - h s.
+/// It is the mean of the three depths, weighted: at most 6.5 u Z from the exact one, where u = 2^-53 and Z is
+/// the largest |z|. (2^-50 Z is 8 u Z, and the decimals next to the depths are another u Z away.)
+///
+/// Why. Weights are exact. In the middle of a span, let A be that of a over the total, and m the depth. The
+/// products are off by u Z together; the sum of two by u |m - A z_a|, which is at most u (|m| + A Z) and at
+/// most u (1 - A) Z, so at most u (|m| + Z) / 2; the sum of three and the quotient by u |m| each. At h half
+/// columns from there, up to the ends of the span, a weight is not below 0 on either side, so it differs by
+/// no more than it is. The slope s, times h, is off by u Z for its products; nothing for the first sums,
+/// whose rests are added; u |h s| for the last sum, for the quotient and for the product with h. The sum of
+/// both is off by u Z. |m| + |h s| is at most Z, because the span's ends are in the triangle and are m + h s
+/// and m - h s: 3.5 u Z + 2.5 u |m| + 3 u |h s| in all.
 class PlainDepth {
  public:
   static constexpr std::int64_t kLargestWeight = std::int64_t{1} << 50;
@@ -41,12 +45,9 @@ class PlainDepth {
   PlainDepth(const std::array<double, 3>& z, double total, double b_step, double c_step)
       : z_(z), twice_total_(2 * total), is_flat_(is_flat(z)) {
     if (is_flat_) return;
-    const double b_rise = b_step * z[1], c_rise = c_step * z[2];
-    const double sum = b_rise + c_rise;
-    // What is lost in the sum, exactly (D. Knuth, The Art of Computer Programming 2, 4.2.2, theorem B).
-    const double c_part = sum - b_rise;
-    const double lost = (b_rise - (sum - c_part)) + (c_rise - c_part);
-    half_slope_ = (sum + ((-b_step - c_step) * z[0] + lost)) / twice_total_ + kNoMinus;
+    const DoubleDouble of_two = two_sum(b_step * z[1], c_step * z[2]);
+    const DoubleDouble of_three = two_sum(of_two.hi, (-b_step - c_step) * z[0]);
+    half_slope_ = (of_three.hi + (of_two.lo + of_three.lo)) / twice_total_ + kNoMinus;
   }
 
   /// As TriangleDepth::along().

@@ -87,12 +87,12 @@ TEST(PlainDepth, IsWithinItsBoundAlongEveryRow) {
       const mpq_class exact =
           (a * mpq_class(z[0]) + b * mpq_class(z[1]) + c * mpq_class(z[2])) / whole(row.total);
       const mpq_class error = abs(mpq_class(depth(column)) - exact);
-      ASSERT_TRUE(error <= size * mpq_class(7.5 * 0x1p-53)) << "row " << i << ", column " << column;
+      ASSERT_TRUE(error <= size * mpq_class(6.5 * 0x1p-53)) << "row " << i << ", column " << column;
       largest_error = std::max(largest_error, mpq_class(error / size).get_d());
     }
   }
   // The bound is no exaggeration: a third of it is met.
-  EXPECT_GT(largest_error, 2.5 * 0x1p-53);
+  EXPECT_GT(largest_error, 6.5 / 3 * 0x1p-53);
 }
 
 TEST(PlainDepth, OneDepthIsThatDepthEverywhere) {
