@@ -37,7 +37,9 @@ if(NOT CMAKE_CXX_FLAGS MATCHES "-fsanitize")
   add_library(fault_shim MODULE fault_shim.cpp)
   target_link_libraries(fault_shim PRIVATE pipeline_options ${CMAKE_DL_LIBS})
   add_test(NAME Tools.LoseNothingToFaults
-    COMMAND Python3::Interpreter ${PROJECT_SOURCE_DIR}/tests/tools_disk_test.py $<TARGET_FILE_DIR:model>
+    COMMAND Python3::Interpreter ${PROJECT_SOURCE_DIR}/tests/tools_calls_test.py $<TARGET_FILE_DIR:model>
       $<TARGET_FILE:fault_shim> --verbose)
   set_tests_properties(Tools.LoseNothingToFaults PROPERTIES ENVIRONMENT PYTHONDONTWRITEBYTECODE=1 TIMEOUT 600)
+  tools_test(LoseNothingToFullDisks tools_disk_test)
+  tools_test(LoseNothingToKilledNeighbours tools_killed_test)
 endif()

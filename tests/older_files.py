@@ -1,0 +1,31 @@
+"""What the tests of failures share: a run of each tool, and an older image that stays where a run fails."""
+import pathlib
+
+from toolbox import SCENE, ToolTest, run, stage_texts
+
+OLD_IMAGE = b"an older image"
+
+
+def small_inputs():
+    """(tool, its operands, its input)."""
+    world, view, ndc = stage_texts()
+    return (("model", [], SCENE.encode()), ("view", [], world), ("project", [], view), ("zbuf", ["config.txt"], ndc))
+
+
+class OlderImageTest(ToolTest):
+    def setUp(self):
+        super().setUp()
+        pathlib.Path("config.txt").write_text("4 3\n")
+        pathlib.Path("out.bmp").write_bytes(OLD_IMAGE)
+
+    def good_run(self, tool, operands, text):
+        """(stdout, image) of a run that meets no fault; the older image is put back."""
+        done = run(tool, *operands, stdin=text)
+        self.assert_quiet_success(done)
+        image = pathlib.Path("out.bmp").read_bytes()
+        pathlib.Path("out.bmp").write_bytes(OLD_IMAGE)
+        return done.stdout, image
+
+    def assert_as_before(self):
+        self.assertEqual(pathlib.Path("out.bmp").read_bytes(), OLD_IMAGE)
+        self.assertEqual(self.files(), ["config.txt", "out.bmp", "scene.txt"])

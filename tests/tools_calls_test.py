@@ -1,0 +1,219 @@
+#!/usr/bin/env python3
+"""Reads, writes, renames and requests for memory that fail at any call: the exit status is not 0 or the output is right, an older
+good file stays, nothing else is left.
+
+usage: tools_calls_test.py BIN_DIR FAULT_SHIM [UNITTEST ARGUMENT...]
+"""
+import errno
+import os
+import pathlib
+import resource
+import sys
+import tempfile
+import unittest
+
+from older_files import OLD_IMAGE, OlderImageTest, small_inputs
+from toolbox import run, stage_texts
+
+SHIM = str(pathlib.Path(sys.argv.pop(1)).resolve())
+
+
+class FaultTest(OlderImageTest):
+    """One call fails (fault_shim.cpp), for every number of the call that a run comes to."""
+
+    def run_with_fault(self, call, number, error, tool, operands, text):
+        """The run, and whether it came to the call."""
+        mark = pathlib.Path(self.outside, "mark")
+        mark.unlink(missing_ok=True)
+        environment = {"LD_PRELOAD": SHIM, "FAULT_CALL": call, "FAULT_AT": str(number), "FAULT_ERRNO": str(error),
+                       "FAULT_MARK": str(mark)}
+        return run(tool, *operands, stdin=text, env=environment), mark.exists()
+
+    def setUp(self):
+        super().setUp()
+        outside = tempfile.TemporaryDirectory()
+        self.addCleanup(outside.cleanup)
+        self.outside = outside.name
+
+
+class Faults(FaultTest):
+    def each_failing_call(self, call, error, *options):
+        """(what failed, run, good output) until a run does not come to the call."""
+        for tool, operands, text in small_inputs():
+            operands = [*operands, *options]
+            good, _ = self.good_run(tool, operands, text)
+            for number in range(1, 100000):
+                done, was_reached = self.run_with_fault(call, number, error, tool, operands, text)
+                if not was_reached:
+                    self.assert_quiet_success(done)
+                    self.assertGreater(number, 1, f"{tool} never comes to {call}: nothing was tested")
+                    pathlib.Path("out.bmp").write_bytes(OLD_IMAGE)
+                    break
+                yield f"{tool}, {call} {number}: {done.stderr}", done, good
+
+    def check_failures(self, call, error, may_succeed=False):
+        for which, done, good in self.each_failing_call(call, error):
+            if may_succeed and done.returncode == 0:
+                self.assertEqual(done.stdout, good, which)
+                pathlib.Path("out.bmp").write_bytes(OLD_IMAGE)
+            else:
+                self.assertEqual(done.returncode, 1, which)
+                self.assertEqual(len(done.stderr.splitlines()), 1, which)
+            self.assert_as_before()
+
+    def test_any_write_that_fails_is_a_failure(self):
+        self.check_failures("write", errno.ENOSPC)
+
+    def test_any_read_that_fails_is_a_failure(self):
+        self.check_failures("read", errno.EIO, may_succeed=True)  # not those of the C library's start
+
+    def test_any_close_that_fails_says_so_where_data_may_be_lost(self):
+        self.check_failures("close", errno.EIO, may_succeed=True)  # not of a file that was only read
+
+    def test_the_image_waits_for_the_close_of_standard_output(self):
+        for tool, operands, text in small_inputs():
+            done, was_reached = self.run_with_fault("close of stdout", 1, errno.EIO, tool, operands, text)
+            self.assertTrue(was_reached)
+            self.assert_fails(done, 1, f"{tool}: cannot write <stdout>: Input/output error")
+            self.assert_as_before()
+
+    def check_allocations(self, *options):
+        without_memory = 0
+        for which, done, good in self.each_failing_call("malloc", errno.ENOMEM, *options):
+            if done.returncode == 0:  # the C library and the C++ library's start can do without some
+                self.assertEqual(done.stdout, good, which)
+                pathlib.Path("out.bmp").write_bytes(OLD_IMAGE)
+            else:
+                tool = which.split(",")[0]
+                self.assertEqual((done.returncode, done.stderr), (1, f"{tool}: not enough memory\n".encode()), which)
+                if tool != "zbuf" and done.stdout:
+                    self.assertTrue(done.stdout.endswith(f"error {tool}: not enough memory\n".encode()), which)
+                without_memory += 1
+            self.assert_as_before()
+        self.assertGreater(without_memory, 1500)
+
+    def test_any_allocation_that_fails_is_a_failure_that_says_so(self):
+        self.check_allocations()
+
+    def test_on_threads_as_well(self):
+        self.check_allocations("--threads", 2)
+
+    def test_any_allocation_of_the_png_library_that_fails_is_a_failure(self):
+        tool, operands, text = small_inputs()[3]
+        operands = [*operands, "--image", "new.png"]
+        if run(tool, *operands, stdin=text).returncode == 2:
+            self.skipTest("a build without libpng")
+        pathlib.Path("new.png").unlink()
+        messages = set()
+        for number in range(1, 100000):
+            done, was_reached = self.run_with_fault("malloc", number, errno.ENOMEM, tool, operands, text)
+            pathlib.Path("new.png").unlink(missing_ok=done.returncode != 0)
+            self.assert_as_before()
+            if not was_reached:
+                break
+            messages.add(done.stderr.decode())
+        self.assertLessEqual(messages, {"", "zbuf: not enough memory\n", "zbuf: cannot write new.png: Cannot allocate memory\n"})
+        self.assertIn("zbuf: cannot write new.png: Cannot allocate memory\n", messages)
+
+    def test_an_interrupted_read_or_write_goes_on(self):
+        for call in ("read", "write"):
+            for which, done, good in self.each_failing_call(call, errno.EINTR):
+                self.assertEqual((done.returncode, done.stdout), (0, good), which)
+
+    def test_threads_the_system_refuses_are_done_without(self):
+        def leave_no_room_for_stacks():
+            resource.setrlimit(resource.RLIMIT_STACK, (1 << 32, resource.getrlimit(resource.RLIMIT_STACK)[1]))
+            resource.setrlimit(resource.RLIMIT_AS, (1 << 31, 1 << 31))
+
+        for tool, operands, text in small_inputs():
+            good, image = self.good_run(tool, operands, text)
+            done = run(tool, *operands, "--threads", 8, stdin=text, preexec_fn=leave_no_room_for_stacks)
+            self.assert_quiet_success(done)
+            self.assertEqual(done.stdout, good)
+            self.assertEqual(pathlib.Path("out.bmp").read_bytes(), image if tool == "zbuf" else OLD_IMAGE)
+
+    def test_a_link_or_rename_that_fails_leaves_the_old_image(self):
+        tool, operands, text = small_inputs()[3]
+        self.good_run(tool, operands, text)
+        for call in ("link", "rename"):
+            done, was_reached = self.run_with_fault(call, 1, errno.EPERM, tool, operands, text)
+            if call == "link" and not was_reached:
+                self.skipTest("this file system has no files without a name")
+            self.assert_fails(done, 1, "zbuf: cannot replace out.bmp: Operation not permitted")
+            self.assert_as_before()
+
+    def test_a_bmp_is_written_from_its_end_where_the_file_can_seek(self):
+        """The first seek only asks; without it the picture is kept until it can be written as a whole."""
+        tool, operands, text = small_inputs()[3]
+        good, image = self.good_run(tool, operands, text)
+        done, was_reached = self.run_with_fault("seek", 1, errno.ESPIPE, tool, operands, text)
+        self.assertTrue(was_reached)
+        self.assert_quiet_success(done)
+        self.assertEqual((done.stdout, pathlib.Path("out.bmp").read_bytes()), (good, image))
+        pathlib.Path("out.bmp").write_bytes(OLD_IMAGE)
+        done, was_reached = self.run_with_fault("seek", 2, errno.EIO, tool, operands, text)
+        self.assertTrue(was_reached)
+        self.assert_fails(done, 1, "zbuf: cannot write out.bmp: Input/output error")
+        self.assert_as_before()
+
+    def test_reads_and_writes_of_one_byte_change_nothing(self):
+        for tool, operands, text in small_inputs():
+            good, image = self.good_run(tool, operands, text)
+            done = run(tool, *operands, stdin=text, env={"LD_PRELOAD": SHIM, "FAULT_SHORT": "1"})
+            self.assert_quiet_success(done)
+            self.assertEqual(done.stdout, good)
+            self.assertEqual(pathlib.Path("out.bmp").read_bytes(), image if tool == "zbuf" else OLD_IMAGE)
+
+
+class ManyFiles(FaultTest):
+    """zbuf writes several files, some through libpng: all are the old ones until everything is written."""
+
+    def each_failing_call(self, call, error, options):
+        """(what failed, run, the files then, the good files) until a run does not come to the call."""
+        names = [word for word in options if "." in word]
+        text = stage_texts()[2]
+        done = run("zbuf", "config.txt", *options, stdin=text)
+        if b"without libpng" in done.stderr:
+            self.skipTest("built without libpng")
+        self.assert_quiet_success(done)
+        good = {name: pathlib.Path(name).read_bytes() for name in names}
+        for number in range(1, 100000):
+            for name in names:
+                pathlib.Path(name).write_bytes(OLD_IMAGE)
+            done, was_reached = self.run_with_fault(call, number, error, "zbuf", ["config.txt", *options], text)
+            if not was_reached:
+                self.assertGreater(number, 1, f"zbuf never comes to {call}: nothing was tested")
+                for name in names:
+                    os.unlink(name)
+                return
+            which = f"{call} {number} of zbuf {options}: {done.stderr}"
+            self.assertEqual(self.files(), sorted({"config.txt", "out.bmp", "scene.txt", *names}), which)
+            yield which, done, {name: pathlib.Path(name).read_bytes() for name in names}, good
+
+    def check(self, call, error, *options, some_may_be_new=False):
+        for which, done, files, good in self.each_failing_call(call, error, options):
+            if done.returncode == 0:  # a close of what was only read, an allocation that can be done without
+                self.assertEqual((files, call in ("close", "malloc")), (good, True), which)
+                continue
+            self.assertEqual((done.returncode, len(done.stderr.splitlines())), (1, 1), which)
+            for name, content in files.items():
+                self.assertIn(content, (OLD_IMAGE, good[name]) if some_may_be_new else (OLD_IMAGE,), which)
+
+    PLAIN = ["--image", "out.ppm", "--z-buffer", "depths.txt", "--depth-image", "depths.pgm", "--fragments", "fragments.txt"]
+    PNGS = ["--image", "out.png", "--depth-image", "depths.png"]
+
+    def test_a_failing_write_or_close_leaves_every_old_file(self):
+        for options in (self.PLAIN, self.PNGS):
+            self.check("write", errno.ENOSPC, *options)
+            self.check("close", errno.EIO, *options)
+
+    def test_a_failing_rename_leaves_old_files_or_complete_ones(self):
+        self.check("rename", errno.EPERM, *self.PLAIN, some_may_be_new=True)
+
+    def test_a_failing_allocation_leaves_old_files_or_complete_ones(self):
+        for options in (self.PLAIN, self.PNGS):
+            self.check("malloc", errno.ENOMEM, *options, some_may_be_new=True)
+
+
+if __name__ == "__main__":
+    unittest.main()
