@@ -25,3 +25,4 @@ endforeach()
 # The reference is imported from the source folder, which stays free of Python's caches.
 set_tests_properties(Samples.AreWhatTheReferenceCalculates Pipeline.RandomScenesMatchTheReference
   PROPERTIES ENVIRONMENT PYTHONDONTWRITEBYTECODE=1)
+set_tests_properties(Pipeline.RandomScenesMatchTheReference Samples.AreWhatTheReferenceCalculates Samples.MakefileRemakesWhatIsStale PROPERTIES COST 50)

@@ -1,14 +1,18 @@
 # The real binaries, end to end; Python 3 with its standard library drives them. Verbose, so that what is skipped
 # says why.
 set(TOOLS_TIMEOUT 300)
+set(TOOLS_SCENES 12)
 if(CMAKE_CXX_FLAGS MATCHES "-fsanitize")
   set(TOOLS_TIMEOUT 1200)  # sanitizers take their time, above all to start a tool
+  set(TOOLS_SCENES 4)  # the random scenes of a test that starts the tools hundreds of times for each
 endif()
 function(tools_test name script)
   add_test(NAME Tools.${name}
     COMMAND Python3::Interpreter ${PROJECT_SOURCE_DIR}/tests/${script}.py $<TARGET_FILE_DIR:model> --verbose ${ARGN})
   # The source folder stays free of Python's caches.
-  set_tests_properties(Tools.${name} PROPERTIES ENVIRONMENT PYTHONDONTWRITEBYTECODE=1 TIMEOUT ${TOOLS_TIMEOUT})
+  # They take longest, so they start first: none is left running alone.
+  set_tests_properties(Tools.${name} PROPERTIES
+    ENVIRONMENT "PYTHONDONTWRITEBYTECODE=1;TOOLS_SCENES=${TOOLS_SCENES}" TIMEOUT ${TOOLS_TIMEOUT} COST 50)
 endfunction()
 
 tools_test(SayWhatIsWrong tools_messages_test)
@@ -21,6 +25,7 @@ tools_test(WorkOnThreads tools_threads_test)
 tools_test(WriteTheSameOnEveryProcessor tools_kernels_test)
 tools_test(TakeHostileTexts tools_hostile_test)
 tools_test(KeepProperties tools_properties_test)
+set_tests_properties(Tools.KeepProperties PROPERTIES COST 100)
 tools_test(DrawOnThreadsAndShowProgress zbuf_tool_test)
 tools_test(ClipAtPlanesPulledIn clip_inset_test)
 tools_test(ExplainEveryFragment fragments_test)

@@ -5,3 +5,4 @@ add_test(NAME Tradeoff.FindsWhatArithmeticSays
   COMMAND Python3::Interpreter ${PROJECT_SOURCE_DIR}/tests/tradeoff_test.py
     $<TARGET_FILE_DIR:model> ${PROJECT_SOURCE_DIR})
 set_tests_properties(Tradeoff.FindsWhatArithmeticSays PROPERTIES TIMEOUT 300)
+set_tests_properties(Tradeoff.FindsWhatArithmeticSays PROPERTIES COST 50)
