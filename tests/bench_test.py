@@ -5,6 +5,7 @@ usage: bench_test.py BIN_DIR SOURCE_DIR
 """
 import csv
 import pathlib
+import random
 import subprocess
 import sys
 import tempfile
@@ -39,6 +40,18 @@ class BenchTest(unittest.TestCase):
         for name in ("filter_from_chars", "filter_iostream"):
             done = subprocess.run([BIN_DIR / name], input=TRIANGLE, capture_output=True, check=True)
             self.assertEqual(done.stdout.replace(b"-0.0000000", b"0.0000000"), FILTERED, name)
+
+    def test_the_plain_loop_draws_the_pixels_that_zbuf_draws(self):
+        rng = random.Random(1)
+        number = lambda: "%.7f" % rng.uniform(-1, 1)
+        with tempfile.TemporaryDirectory() as folder:
+            text, config = pathlib.Path(folder, "ndc.txt"), pathlib.Path(folder, "config.txt")
+            text.write_text("".join("\n".join(" ".join(number() for _ in range(3)) for _ in range(3)) + "\n\n" for _ in range(4)))
+            config.write_text("60 40\n")
+            depths = subprocess.run([BIN_DIR / "zbuf", config, text, "--coverage", "center", "--image", "/dev/null"], capture_output=True, check=True)
+            for threads in ("1", "2"):
+                done = subprocess.run([BIN_DIR / "draw_plainly", "60", "40", text, threads], capture_output=True, check=True)
+                self.assertEqual(int(done.stdout.split()[1]), len(depths.stdout.split()))
 
 
 if __name__ == "__main__":

@@ -32,7 +32,8 @@ std::vector<TriangleBatch> batches_of(const char* path, bool marks_decimals) {
 
 /// One frame, an empty buffer to begin with.
 template <typename Coverage>
-double seconds_for(std::vector<TriangleBatch> batches, const pipeline::ScreenConfig& screen, int thread_count) {
+double seconds_for(std::vector<TriangleBatch> batches, const pipeline::ScreenConfig& screen,
+                   int thread_count) {
   using Visible = pipeline::ZBufferAlgorithm<Coverage, pipeline::DepthF64>;
   pipeline::TriangleColors colors;
   const auto begin = std::chrono::steady_clock::now();
@@ -54,7 +55,8 @@ int main(int argc, char** argv) {
   const bool is_center = std::string(argv[4]) == "center";
   const int thread_count = std::atoi(argv[5]);
   const std::vector<TriangleBatch> batches = batches_of(argv[3], is_center);
-  const auto draw = is_center ? seconds_for<pipeline::CenterCoverage> : seconds_for<pipeline::NearestCoverage>;
+  const auto draw =
+      is_center ? seconds_for<pipeline::CenterCoverage> : seconds_for<pipeline::NearestCoverage>;
   double best = 1e300;
   for (int frame = 0; frame < 3; ++frame) best = std::min(best, draw(batches, screen, thread_count));
   std::printf("%.6f\n", best);
