@@ -5,6 +5,7 @@
 #include "tests/center_rational.h"
 #include "tests/center_reference.h"
 #include "tests/random_numbers.h"
+#include "tests/sanitizer_rounds.h"
 
 namespace pipeline {
 namespace {
@@ -44,7 +45,7 @@ TextTriangle with_vertices(const Triangle& p) {
 
 TEST(CenterExact, DoublesCoverWhatTheyCoverExactly) {
   RandomNumbers random(1);
-  for (int i = 0; i < 1500; ++i) {
+  for (int i = 0; i < sanitizer_rounds(1500); ++i) {
     ScreenConfig screen = {
         random.whole(1, 12), random.whole(1, 12), -random.between(0.5, 2), -random.between(0.5, 2), -1, 1};
     screen.left_is_decimal = i % 2 == 0;
@@ -61,7 +62,7 @@ TEST(CenterExact, DoublesCoverWhatTheyCoverExactly) {
 
 TEST(CenterExact, DoublesOnPixelCentresToo) {
   RandomNumbers random(2);
-  for (int i = 0; i < 1500; ++i) {
+  for (int i = 0; i < sanitizer_rounds(1500); ++i) {
     // A size that is a power of two and a limit that is a double: all centres and half pixels are doubles.
     const double limit = std::ldexp(random.between(1, 2), random.whole(-1, 1));
     const ScreenConfig screen = {8, 16, -limit, -limit, -1, 1};
@@ -112,7 +113,7 @@ TEST(CenterExact, DecimalsOfEverySizeMixedWithDoubles) {
 
 TEST(CenterExact, DepthsAreWithinTheirBound) {
   RandomNumbers random(5);
-  for (int i = 0; i < 3000; ++i) {
+  for (int i = 0; i < sanitizer_rounds(3000); ++i) {
     const std::array<ScreenConfig, 3> screens = {decimal_screen(500, 500), decimal_screen(1023, 40),
                                                  ScreenConfig{640, 480, -1.1, -0.9, -1, 1}};
     UnitTriangle units{};

@@ -12,6 +12,7 @@
 
 #include "libpipeline/coverage.h"
 #include "tests/random_numbers.h"
+#include "tests/sanitizer_rounds.h"
 
 namespace pipeline {
 namespace {
@@ -111,7 +112,7 @@ void expect_the_spans_of_the_rule(const CoverageKernel& kernel) {
     Coverage rule(screen);
     rule.kernel = kernel;
     int span_count = 0;
-    for (int i = 0; i < 500; ++i) {
+    for (int i = 0; i < sanitizer_rounds(500); ++i) {
       std::vector<Source> sources(static_cast<std::size_t>(random.whole(0, 11)));
       std::vector<ColoredTriangle> triangles;
       for (Source& source : sources) {
@@ -135,7 +136,7 @@ void expect_the_spans_of_the_rule(const CoverageKernel& kernel) {
       for (std::size_t k = 0; k < found.size(); ++k) ASSERT_EQ(bits_of(found[k]), bits_of(expected[k]));
       span_count += static_cast<int>(found.size());
     }
-    EXPECT_GT(span_count, 1000);
+    EXPECT_GT(span_count, sanitizer_rounds(1000));
   }
 }
 

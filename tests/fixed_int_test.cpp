@@ -5,6 +5,7 @@
 
 #include "libpipeline/whole_math.h"
 #include "tests/random_numbers.h"
+#include "tests/sanitizer_rounds.h"
 
 namespace pipeline {
 namespace {
@@ -36,7 +37,7 @@ Int any_number(RandomNumbers& random, int most_bits) {
 
 TEST(FixedInt, SumsDifferencesProductsAndOrderAreExact) {
   RandomNumbers random(1);
-  for (int i = 0; i < 20000; ++i) {
+  for (int i = 0; i < sanitizer_rounds(20000); ++i) {
     const Int a = any_number(random, 180), b = i % 10 == 0 ? a : any_number(random, 180);
     const int small = random.whole(-100000, 100000);
     ASSERT_TRUE(exact(a + b) == exact(a) + exact(b));
@@ -72,7 +73,7 @@ TEST(FixedInt, ShiftsAndCutsAtEveryBit) {
 
 TEST(FixedInt, BecomesADoubleNextToIt) {
   RandomNumbers random(3);
-  for (int i = 0; i < 20000; ++i) {
+  for (int i = 0; i < sanitizer_rounds(20000); ++i) {
     const Int a = any_number(random, 300);
     const mpq_class error = abs(mpq_class(to_double(a, 0)) - mpq_class(exact(a)));
     ASSERT_TRUE(error <= abs(mpq_class(exact(a))) * (mpq_class(0x1p-53) + mpq_class(0x1p-61)));
@@ -93,7 +94,7 @@ int rounded_up(const mpz_class& dividend, const mpz_class& divisor, int most) {
 
 TEST(Divisor, RoundsUpExactlyAroundEveryMultiple) {
   RandomNumbers random(4);
-  for (int i = 0; i < 20000; ++i) {
+  for (int i = 0; i < sanitizer_rounds(20000); ++i) {
     const int most = i % 2 == 0 ? 65535 : random.whole(1, 50);
     const Int any = any_number(random, 180);
     const Int divisor = any > 0 ? any : Int(1) - any;

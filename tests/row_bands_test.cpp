@@ -6,6 +6,7 @@
 #include <random>
 
 #include "libpipeline/coverage.h"
+#include "tests/sanitizer_rounds.h"
 
 namespace pipeline {
 namespace {
@@ -81,7 +82,7 @@ void expect_no_span_elsewhere(const ScreenConfig& screen, const Triangle& p_ndc)
 void expect_no_pixel_elsewhere(const ScreenConfig& screen) {
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> unit(-1, 1);
-  for (int i = 0; i < 3000; ++i) {
+  for (int i = 0; i < sanitizer_rounds(3000); ++i) {
     // Vertices on, next to and between the lines of pixel centres.
     const auto y = [&] {
       const double on_a_line = screen.top_y() - std::floor(unit(random) * screen.rows) * screen.dy();

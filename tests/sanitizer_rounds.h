@@ -1,0 +1,21 @@
+#pragma once
+
+namespace pipeline {
+
+/// How many of `rounds` random inputs a test tries: with a sanitizer, which slows arithmetic down tenfold and
+/// finds its mistakes in a few, one in five.
+constexpr int sanitizer_rounds(int rounds) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  return rounds / 5;
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+  return rounds / 5;
+#else
+  return rounds;
+#endif
+#else
+  return rounds;
+#endif
+}
+
+}  // namespace pipeline
