@@ -42,7 +42,8 @@ if(NOT CMAKE_CXX_FLAGS MATCHES "-fsanitize")
   add_library(fault_shim MODULE fault_shim.cpp)
   target_link_libraries(fault_shim PRIVATE pipeline_options ${CMAKE_DL_LIBS})
   # It calls the C library's allocator by its reserved names.
-  target_compile_options(fault_shim PRIVATE $<$<CXX_COMPILER_ID:Clang>:-Wno-reserved-identifier>)
+  set_source_files_properties(fault_shim.cpp PROPERTIES
+    COMPILE_OPTIONS $<$<CXX_COMPILER_ID:Clang>:-Wno-reserved-identifier>)
   add_test(NAME Tools.LoseNothingToFaults
     COMMAND Python3::Interpreter ${PROJECT_SOURCE_DIR}/tests/tools_calls_test.py $<TARGET_FILE_DIR:model>
       $<TARGET_FILE:fault_shim> --verbose)
