@@ -41,7 +41,6 @@ class PlainDepth {
            (is_flat(z) || (kSmallestDepth <= size && size <= kLargestDepth));
   }
 
-  PlainDepth() = default;
   PlainDepth(const std::array<double, 3>& z, double total, double b_step, double c_step)
       : z_(z), twice_total_(2 * total), is_flat_(is_flat(z)) {
     if (is_flat_) return;
@@ -60,10 +59,10 @@ class PlainDepth {
  private:
   static bool is_flat(const std::array<double, 3>& z) { return z[0] == z[1] && z[0] == z[2]; }
 
-  std::array<double, 3> z_{};  // of a, b and c
-  double twice_total_ = 1;
+  std::array<double, 3> z_;  // of a, b and c
+  double twice_total_;
   double half_slope_ = 0;  // per half column
-  bool is_flat_ = true;
+  bool is_flat_;
 };
 
 }  // namespace pipeline

@@ -2,6 +2,5 @@
 # allocates; where the leak checker is built in, it is told.
 add_test(NAME Bench.MeasuresEveryGroup
   COMMAND Python3::Interpreter ${PROJECT_SOURCE_DIR}/tests/bench_test.py $<TARGET_FILE_DIR:zbuf> ${PROJECT_SOURCE_DIR})
-set_tests_properties(Bench.MeasuresEveryGroup PROPERTIES TIMEOUT 300
+set_tests_properties(Bench.MeasuresEveryGroup PROPERTIES TIMEOUT 300 COST 50
   ENVIRONMENT "PYTHONDONTWRITEBYTECODE=1;LSAN_OPTIONS=suppressions=${CMAKE_CURRENT_LIST_DIR}/leaks_of_others.txt:print_suppressions=0")
-set_tests_properties(Bench.MeasuresEveryGroup PROPERTIES COST 50)

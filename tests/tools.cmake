@@ -9,10 +9,9 @@ endif()
 function(tools_test name script)
   add_test(NAME Tools.${name}
     COMMAND Python3::Interpreter ${PROJECT_SOURCE_DIR}/tests/${script}.py $<TARGET_FILE_DIR:model> --verbose ${ARGN})
-  # The source folder stays free of Python's caches.
-  # They take longest, so they start first: none is left running alone.
+  # The source folder stays free of Python's caches. They take longest, so they start first: none is left running alone.
   set_tests_properties(Tools.${name} PROPERTIES
-    ENVIRONMENT "PYTHONDONTWRITEBYTECODE=1;TOOLS_SCENES=${TOOLS_SCENES}" TIMEOUT ${TOOLS_TIMEOUT} COST 50)
+    ENVIRONMENT PYTHONDONTWRITEBYTECODE=1 TIMEOUT ${TOOLS_TIMEOUT} COST 50)
 endfunction()
 
 tools_test(SayWhatIsWrong tools_messages_test)
@@ -25,7 +24,8 @@ tools_test(WorkOnThreads tools_threads_test)
 tools_test(WriteTheSameOnEveryProcessor tools_kernels_test)
 tools_test(TakeHostileTexts tools_hostile_test)
 tools_test(KeepProperties tools_properties_test)
-set_tests_properties(Tools.KeepProperties PROPERTIES COST 100)
+set_tests_properties(Tools.KeepProperties PROPERTIES
+  COST 100 ENVIRONMENT "PYTHONDONTWRITEBYTECODE=1;TOOLS_SCENES=${TOOLS_SCENES}")
 tools_test(DrawOnThreadsAndShowProgress zbuf_tool_test)
 tools_test(ClipAtPlanesPulledIn clip_inset_test)
 tools_test(ExplainEveryFragment fragments_test)

@@ -83,9 +83,9 @@ class SmallFileSystem(OlderImageTest):
         return done
 
     def test_one_that_is_read_only_is_a_failure(self):
-        for image, reason in (("new.bmp", "Read-only file system"), ("out.bmp", "Read-only file system")):
+        for image in ("new.bmp", "out.bmp"):
             done = self.run_there("ro", command("zbuf", "../config.txt", "--image", image, "--z-buffer", "../depths"), stage_texts()[2])
-            self.assertEqual((done.returncode, done.stderr.decode()), (1, f"zbuf: cannot open {image}: {reason}\n"))
+            self.assertEqual((done.returncode, done.stderr.decode()), (1, f"zbuf: cannot open {image}: Read-only file system\n"))
             self.assertEqual(done.stdout, b"the older image\nout.bmp\n")
 
     def test_one_that_is_full_is_a_failure_and_nothing_is_left(self):

@@ -86,10 +86,9 @@ class Hostile(ToolTest):
                 pathlib.Path("config.txt").write_bytes(changed)
                 done = run("zbuf", "config.txt")
                 if done.returncode == 0:
-                    # What it reads has as many columns and rows as the text says.
-                    columns, rows = map(int, changed.split()[:2])
+                    # What it reads has as many rows as the text says.
+                    rows = int(changed.split()[1])
                     self.assertEqual((done.stderr, done.stdout.count(b"\n")), (b"", rows), changed)
-                    self.assertGreater(columns, 0)
                     read += 1
                 else:
                     self.assertEqual((done.returncode, done.stderr.count(b"\n")), (1, 1), changed)

@@ -1,44 +1,22 @@
 // Draws the triangles of a bare NDC text with Mesa's software renderer and prints the seconds that the
-// drawing took. usage: draw_osmesa WIDTH HEIGHT TRIANGLES
+// drawing took.
+//
+// usage: draw_osmesa WIDTH HEIGHT TRIANGLES
 
 #include <GL/gl.h>
 #include <GL/osmesa.h>
 
-#include <charconv>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
-#include <fstream>
-#include <iterator>
-#include <string>
 #include <vector>
 
-namespace {
-
-std::vector<float> numbers_of(const char* path) {
-  std::ifstream file(path, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
-  std::vector<float> numbers;
-  const char* const end = text.data() + text.size();
-  for (const char* at = text.data(); at < end;) {
-    float number = 0;
-    const auto [after, error] = std::from_chars(at, end, number);
-    if (error != std::errc{}) {
-      ++at;
-      continue;
-    }
-    numbers.push_back(number);
-    at = after;
-  }
-  return numbers;
-}
-
-}  // namespace
+#include "scripts/baselines/numbers_of.h"
 
 int main(int argc, char** argv) {
   if (argc != 4) return 2;
   const int width = std::atoi(argv[1]), height = std::atoi(argv[2]);
-  const std::vector<float> corners = numbers_of(argv[3]);
+  const std::vector<float> corners = numbers_of<float>(argv[3]);
   std::vector<unsigned char> colors(corners.size());
   for (std::size_t i = 0; i < colors.size(); ++i)
     colors[i] = static_cast<unsigned char>(i / 9 * 37 + i % 3 * 80);

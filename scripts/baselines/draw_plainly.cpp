@@ -1,22 +1,22 @@
 // Draws the triangles of a bare NDC text as one would write it first: every pixel of the bounding box is
 // asked whether its centre is in the triangle, all in doubles; each thread draws a part of the triangles into
-// a picture of its own, and the pictures are merged. Prints the seconds that the drawing took. usage:
-// draw_plainly WIDTH HEIGHT TRIANGLES THREADS
+// a picture of its own, and the pictures are merged. Prints the seconds that the drawing took, and how many
+// pixels show a triangle.
+//
+// usage: draw_plainly WIDTH HEIGHT TRIANGLES THREADS
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
-#include <fstream>
-#include <iterator>
-#include <string>
 #include <thread>
 #include <utility>
 #include <vector>
+
+#include "scripts/baselines/numbers_of.h"
 
 namespace {
 
@@ -26,16 +26,7 @@ struct Point {
 using Triangle = std::array<Point, 3>;
 
 std::vector<Triangle> triangles_of(const char* path) {
-  std::ifstream file(path, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
-  std::vector<double> numbers;
-  const char* const end = text.data() + text.size();
-  for (const char* at = text.data(); at < end;) {
-    double number = 0;
-    const auto [after, error] = std::from_chars(at, end, number);
-    if (error == std::errc{}) numbers.push_back(number);
-    at = error == std::errc{} ? after : at + 1;
-  }
+  const std::vector<double> numbers = numbers_of<double>(path);
   std::vector<Triangle> triangles;
   for (std::size_t i = 0; i + 9 <= numbers.size(); i += 9)
     triangles.push_back({{{numbers[i], numbers[i + 1], numbers[i + 2]},
@@ -139,6 +130,5 @@ int main(int argc, char** argv) {
     best = std::min(best, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
     seen = std::count_if(picture.depths.begin(), picture.depths.end(), [](double z) { return z < 1; });
   }
-  std::printf("%.6f %td\n", best,
-              seen);  // the pixels that show a triangle: a picture that is looked at is drawn
+  std::printf("%.6f %td\n", best, seen);
 }

@@ -1,5 +1,6 @@
 // Draws the triangles of a bare NDC text as zbuf does, without reading, writing or anything else besides, and
 // prints the seconds that the drawing took: what draw_osmesa does with Mesa.
+//
 // usage: draw_triangles WIDTH HEIGHT TRIANGLES nearest|center THREADS
 
 #include <fcntl.h>
