@@ -18,12 +18,13 @@ constexpr std::size_t kCount = 4;
 constexpr double kLargestWhole = 0x1p50;
 static_assert(kLargestWhole <= PlainDepth::kLargestWeight);
 
-/// The smallest whole c in [0, most] with c * divisor >= dividend, or `most` if there is none; see Divisor.
+/// The smallest whole c in [0, most] with c * divisor >= dividend, or `most` if there is none. The estimate
+/// is off by far less than half, so c is the whole number next to it or the one above that.
 PIPELINE_AVX2_INLINE FourDoubles quotient_rounded_up(FourDoubles dividend, FourDoubles divisor,
                                                      FourDoubles inverse, FourDoubles most) {
-  const FourDoubles estimate = smaller(larger(dividend * inverse, all(-1)), most);
-  const FourDoubles near = _mm256_round_pd(estimate + all(0.5), _MM_FROUND_TO_ZERO | _MM_FROUND_NO_EXC);
-  return smaller(near + both(is_less(near * divisor, dividend), all(1)), most);
+  const FourDoubles near = _mm256_round_pd(dividend * inverse, _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC);
+  const FourDoubles quotient = near + both(is_less(near * divisor, dividend), all(1));
+  return smaller(larger(quotient, all(0)), most);
 }
 
 struct FourSums {
@@ -82,43 +83,51 @@ struct GridPoints {
   FourDoubles u;
   FourDoubles v;
   FourDoubles z;
-  FourDoubles row;  // the first at or below it
-  FourDoubles key;  // what they are sorted by: the row, then the number of the vertex
 };
 
 PIPELINE_AVX2_INLINE GridPoints pick_points(FourDoubles mask, const GridPoints& yes, const GridPoints& no) {
-  return {pick(mask, yes.u, no.u), pick(mask, yes.v, no.v), pick(mask, yes.z, no.z),
-          pick(mask, yes.row, no.row), pick(mask, yes.key, no.key)};
+  return {pick(mask, yes.u, no.u), pick(mask, yes.v, no.v), pick(mask, yes.z, no.z)};
 }
 
 struct FourEdges {
+  PIPELINE_AVX2_INLINE FourEdges of(std::size_t lane) const {
+    return {all(crossing[lane]), all(row_step[lane]), all(column_step[lane]), all(inverse[lane])};
+  }
+
   FourDoubles crossing;
   FourDoubles row_step;
   FourDoubles column_step;
   FourDoubles inverse;
 };
 
-/// The same, each on its own.
-struct EdgeNumbers {
-  PIPELINE_AVX2_INLINE EdgeNumbers& operator=(const FourEdges& edges) {
-    crossing = numbers_of(edges.crossing);
-    row_step = numbers_of(edges.row_step);
-    column_step = numbers_of(edges.column_step);
-    inverse = numbers_of(edges.inverse);
-    return *this;
-  }
-  /// One of them, four times.
-  PIPELINE_AVX2_INLINE FourEdges operator[](std::size_t lane) const {
-    return {all(crossing[lane]), all(row_step[lane]), all(column_step[lane]), all(inverse[lane])};
+/// What the rows of four triangles are made from; see ExactRows. Or of one triangle, four times.
+struct RowSources {
+  PIPELINE_AVX2_INLINE RowSources of(std::size_t lane) const {
+    return {all(first_row[lane]),    all(middle_row[lane]),   all(end_row[lane]),
+            all(first_column[lane]), all(column_count[lane]), all(longest_is_left[lane]),
+            all(twice_total[lane]),  all(is_flat[lane]),      all(a_z[lane]),
+            all(b_z[lane]),          all(c_z[lane]),          longest.of(lane),
+            upper.of(lane),          lower.of(lane)};
   }
 
-  FourNumbers crossing;
-  FourNumbers row_step;
-  FourNumbers column_step;
-  FourNumbers inverse;
+  FourDoubles first_row;
+  FourDoubles middle_row;
+  FourDoubles end_row;
+  FourDoubles first_column;
+  FourDoubles column_count;
+  // The corners a, b, c are sorted from the top.
+  FourDoubles longest_is_left;  // a mask
+  FourDoubles twice_total;      // of the weights
+  FourDoubles is_flat;          // a mask: all of one depth
+  FourDoubles a_z;
+  FourDoubles b_z;
+  FourDoubles c_z;
+  FourEdges longest;  // a to c
+  FourEdges upper;    // a to b
+  FourEdges lower;    // b to c
 };
 
-/// Four triangles made ready for their rows; see ExactRows.
+/// Four triangles made ready for their rows.
 struct FourTriangles {
   PIPELINE_AVX2_INLINE FourTriangles(const AxisLanes& columns, const AxisLanes& rows,
                                      const ColoredTriangle* triangles) {
@@ -137,35 +146,29 @@ struct FourTriangles {
     const FourDoubles y = v_bottom - v_top + rows.step;
     ordinary_ = marks(triangles) & bits_of(both(fits, is_at_most(all(4) * x * y, all(kLargestWhole))));
 
-    first_column = numbers_of(left);
-    column_count = numbers_of(count);
-    const FourDoubles q_first = is_less(q.key, p.key);
+    rows_of.first_column = left;
+    rows_of.column_count = count;
+    // From the top by the first row at or below a vertex, then by its number.
+    const FourDoubles p_row = rows.pixel(p.v), q_row = rows.pixel(q.v), r_row = rows.pixel(r.v);
+    const FourDoubles high_row = smaller(p_row, q_row), low_row = larger(p_row, q_row);
+    rows_of.first_row = smaller(high_row, r_row);
+    rows_of.middle_row = larger(high_row, smaller(low_row, r_row));
+    const FourDoubles q_first = is_less(q_row, p_row);
+    const FourDoubles r_before_high = is_less(r_row, high_row), r_before_low = is_less(r_row, low_row);
     const GridPoints high = pick_points(q_first, q, p), low = pick_points(q_first, p, q);
-    const FourDoubles r_before_high = is_less(r.key, high.key), r_before_low = is_less(r.key, low.key);
     set_corners(columns, rows, left, pick_points(r_before_high, r, high),
                 pick_points(r_before_high, high, pick_points(r_before_low, r, low)),
-                pick_points(r_before_low, low, r), is_equal(count, zero));
+                pick_points(r_before_low, low, r), larger(low_row, r_row), is_equal(count, zero));
   }
 
   /// Whether the numbers of a triangle are of the size that is done here.
   [[nodiscard]] bool is_ordinary(std::size_t lane) const { return (ordinary_ >> lane & 1) != 0; }
 
-  FourNumbers first_row;
-  FourNumbers middle_row;
-  FourNumbers end_row;
-  FourNumbers first_column;
-  FourNumbers column_count;
-  // The corners a, b, c are sorted from the top.
-  FourNumbers longest_is_left;  // a mask
-  FourNumbers twice_total;      // of the weights
-  FourNumbers is_flat;          // a mask: all of one depth
-  FourNumbers a_z;
-  FourNumbers b_z;
-  FourNumbers c_z;
+  /// Whether all are.
+  [[nodiscard]] bool are_ordinary() const { return ordinary_ == (1 << kCount) - 1; }
+
+  RowSources rows_of;
   FourNumbers half_slope;
-  EdgeNumbers longest;  // a to c
-  EdgeNumbers upper;    // a to b
-  EdgeNumbers lower;    // b to c
 
  private:
   int ordinary_;  // a bit a triangle
@@ -182,8 +185,7 @@ struct FourTriangles {
     const FourDoubles y = AxisLanes::units_of(_mm256_setr_pd(p.y, q.y, r.y, s.y));
     fits = both(fits, both(columns.fits(x), rows.fits(y)));
     const FourDoubles u = columns.origin + columns.scaled(x), v = rows.origin - rows.scaled(y);
-    const FourDoubles row = rows.pixel(v);
-    return {u, v, _mm256_setr_pd(p.z, q.z, r.z, s.z), row, all(4) * row + all(static_cast<double>(vertex))};
+    return {u, v, _mm256_setr_pd(p.z, q.z, r.z, s.z)};
   }
   /// A bit for each triangle whose x and y are decimals.
   static int marks(const ColoredTriangle* triangles) {
@@ -194,27 +196,24 @@ struct FourTriangles {
   }
   PIPELINE_AVX2_INLINE void set_corners(const AxisLanes& columns, const AxisLanes& rows, FourDoubles left,
                                         const GridPoints& a, const GridPoints& b, const GridPoints& c,
-                                        FourDoubles is_between_columns) {
+                                        FourDoubles end_row, FourDoubles is_between_columns) {
     const FourDoubles weight = (b.u - a.u) * (c.v - a.v) - (b.v - a.v) * (c.u - a.u);
-    const FourDoubles is_left = is_less(all(0), weight), sign = pick(is_left, all(1), all(-1));
-    longest_is_left = numbers_of(is_left);
-    set_depth(a.z, b.z, c.z, all(2) * sign * weight, sign * columns.step * (c.v - a.v),
-              sign * columns.step * (a.v - b.v));
+    rows_of.longest_is_left = is_less(all(0), weight);
+    // All weights and their sum have the same sign, whichever it is.
+    set_depth(a.z, b.z, c.z, weight + weight, columns.step * (c.v - a.v), columns.step * (a.v - b.v));
 
-    first_row = numbers_of(a.row);
-    middle_row = numbers_of(b.row);
     const FourDoubles is_empty = either(is_equal(weight, all(0)), is_between_columns);
-    end_row = numbers_of(pick(is_empty, a.row, c.row));
+    rows_of.end_row = pick(is_empty, rows_of.first_row, end_row);
 
-    const FourDoubles first_u = left * columns.step, first_v = a.row * rows.step;
+    const FourDoubles first_u = left * columns.step, first_v = rows_of.first_row * rows.step;
     const auto edge = [&](const GridPoints& from, const GridPoints& to) PIPELINE_AVX2 {
       const FourDoubles du = to.u - from.u, dv = to.v - from.v, column_step = columns.step * dv;
       return FourEdges{(from.u - first_u) * dv + (first_v - from.v) * du, rows.step * du, column_step,
                        all(1) / column_step};
     };
-    longest = edge(a, c);
-    upper = edge(a, b);
-    lower = edge(b, c);
+    rows_of.longest = edge(a, c);
+    rows_of.upper = edge(a, b);
+    rows_of.lower = edge(b, c);
   }
   /// See PlainDepth.
   PIPELINE_AVX2_INLINE void set_depth(FourDoubles a, FourDoubles b, FourDoubles c, FourDoubles twice_weights,
@@ -230,57 +229,63 @@ struct FourTriangles {
     const FourDoubles slope =
         (of_three.sum + (of_two.lost + of_three.lost)) / twice_weights + all(PlainDepth::kNoMinus);
     half_slope = numbers_of(but_not(slope, flat));
-    is_flat = numbers_of(flat);
-    twice_total = numbers_of(twice_weights);
-    a_z = numbers_of(a);
-    b_z = numbers_of(b);
-    c_z = numbers_of(c);
+    rows_of.is_flat = flat;
+    rows_of.twice_total = twice_weights;
+    rows_of.a_z = a;
+    rows_of.b_z = b;
+    rows_of.c_z = c;
   }
 };
 
-/// Four neighbouring rows of a triangle.
+/// A row of each of four triangles, or four rows of one.
 struct FourRows {
-  PIPELINE_AVX2_INLINE FourRows(const FourTriangles& t, std::size_t lane, double row) {
-    const FourDoubles rows = all(row) + _mm256_setr_pd(0, 1, 2, 3);
-    const FourDoubles is_upper = is_less(rows, all(t.middle_row[lane]));
-    const FourDoubles row_count = rows - all(t.first_row[lane]);
-    const FourDoubles most = all(t.column_count[lane]);
-    const FourEdges longest = t.longest[lane], shorter = pick_edges(is_upper, t.upper[lane], t.lower[lane]);
-    const FourDoubles longest_crossing = longest.crossing + row_count * longest.row_step;
+  FourRows() = default;
+  /// Which pixels are covered.
+  PIPELINE_AVX2_INLINE FourRows(const RowSources& of, FourDoubles rows) {
+    const FourDoubles is_upper = is_less(rows, of.middle_row);
+    const FourDoubles row_count = rows - of.first_row;
+    const FourEdges shorter = pick_edges(is_upper, of.upper, of.lower);
+    const FourDoubles longest_crossing = of.longest.crossing + row_count * of.longest.row_step;
     const FourDoubles shorter_crossing = shorter.crossing + row_count * shorter.row_step;
     const FourDoubles longest_pixel =
-        quotient_rounded_up(longest_crossing, longest.column_step, longest.inverse, most);
+        quotient_rounded_up(longest_crossing, of.longest.column_step, of.longest.inverse, of.column_count);
     const FourDoubles shorter_pixel =
-        quotient_rounded_up(shorter_crossing, shorter.column_step, shorter.inverse, most);
-    const FourDoubles is_left = all(t.longest_is_left[lane]), left = all(t.first_column[lane]);
-    const FourDoubles first = pick(is_left, longest_pixel, shorter_pixel);
-    const FourDoubles last = pick(is_left, shorter_pixel, longest_pixel) - all(1);
-    first_column = ints_of(left + first);
-    last_column = ints_of(left + last);
+        quotient_rounded_up(shorter_crossing, shorter.column_step, shorter.inverse, of.column_count);
+    const FourDoubles first = pick(of.longest_is_left, longest_pixel, shorter_pixel);
+    const FourDoubles end = pick(of.longest_is_left, shorter_pixel, longest_pixel);
+    const FourDoubles is_there = is_less(rows, of.end_row);
+    first_column = ints_of(both(is_there, of.first_column + first));
+    end_column = ints_of(both(is_there, of.first_column + end));
 
     // The weights of the vertices opposite to the edges, at the first and at the last pixel added up.
-    const FourDoubles sign = pick(is_left, all(1), all(-1));
-    const FourDoubles opposite_longest =
-        sign * ((first + last) * longest.column_step - all(2) * longest_crossing);
-    const FourDoubles opposite_shorter =
-        sign * (all(2) * shorter_crossing - (first + last) * shorter.column_step);
-    const FourDoubles twice_total = all(t.twice_total[lane]);
-    const FourDoubles rest = twice_total - opposite_longest - opposite_shorter;
-    const FourDoubles twice_c = pick(is_upper, opposite_shorter, rest);
-    const FourDoubles twice_a = pick(is_upper, rest, opposite_shorter);
-    const FourDoubles a_z = all(t.a_z[lane]), b_z = all(t.b_z[lane]), c_z = all(t.c_z[lane]);
+    const FourDoubles sum = longest_pixel + shorter_pixel - all(1);
+    opposite_longest_ = sum * of.longest.column_step - (longest_crossing + longest_crossing);
+    opposite_shorter_ = (shorter_crossing + shorter_crossing) - sum * shorter.column_step;
+    is_upper_ = is_upper;
+    columns_added_up = numbers_of(of.first_column + of.first_column + sum);
+  }
+  /// How deep they are.
+  PIPELINE_AVX2_INLINE void set_depths(const RowSources& of) {
+    const FourDoubles rest = of.twice_total - opposite_longest_ - opposite_shorter_;
+    const FourDoubles twice_c = pick(is_upper_, opposite_shorter_, rest);
+    const FourDoubles twice_a = pick(is_upper_, rest, opposite_shorter_);
     const FourDoubles mean =
-        ((opposite_longest * b_z + twice_c * c_z) + twice_a * a_z) / twice_total + all(PlainDepth::kNoMinus);
-    columns_added_up = numbers_of(all(2) * left + (first + last));
-    depth = numbers_of(pick(all(t.is_flat[lane]), a_z, mean));
+        ((opposite_longest_ * of.b_z + twice_c * of.c_z) + twice_a * of.a_z) / of.twice_total +
+        all(PlainDepth::kNoMinus);
+    depths = numbers_of(pick(of.is_flat, of.a_z, mean));
   }
 
   FourInts first_column;
-  FourInts last_column;
+  FourInts end_column;           // not greater than the first where no pixel is covered
   FourNumbers columns_added_up;  // the first and the last
-  FourNumbers depth;             // in the middle between them
+  FourNumbers depths;            // in the middle between them
 
  private:
+  FourDoubles is_upper_;  // a mask
+  // Weights of vertices.
+  FourDoubles opposite_longest_;
+  FourDoubles opposite_shorter_;
+
   PIPELINE_AVX2_INLINE static FourEdges pick_edges(FourDoubles mask, const FourEdges& yes,
                                                    const FourEdges& no) {
     return {pick(mask, yes.crossing, no.crossing), pick(mask, yes.row_step, no.row_step),
@@ -288,30 +293,73 @@ struct FourRows {
   }
 };
 
-/// As CoverageKernel says, for one of four triangles.
-PIPELINE_AVX2 ColoredSpan* append_rows(const FourTriangles& four, std::size_t lane, Color color,
-                                       const RowRange& rows, ColoredSpan* spans) {
-  int row = std::max(rows.first, static_cast<int>(four.first_row[lane]));
-  const int end = std::min(rows.end, static_cast<int>(four.end_row[lane]));
-  while (row < end) {
-    const FourRows some(four, lane, row);
-    for (std::size_t i = 0; i < kCount && row < end; ++i, ++row) {
-      const int first_column = some.first_column[i], last_column = some.last_column[i];
-      // Member by member: as a whole it would be made elsewhere and copied.
-      Span& span = spans->span;
-      span.row = row;
-      span.first_column = first_column;
-      span.last_column = last_column;
-      span.depth.left_x = 0;
-      span.depth.dx = 2;
-      span.depth.x0 = some.columns_added_up[i];
-      span.depth.z0 = some.depth[i];
-      span.depth.slope = four.half_slope[lane];
-      spans->color = color;
-      // Without a branch, as no processor could predict it.
-      spans += static_cast<int>(first_column <= last_column);
-    }
+/// What CenterRows has on these rows.
+ColoredSpan* append_exactly(const ExactGrid& grid, const ColoredTriangle& triangle, const RowRange& rows,
+                            ColoredSpan* spans) {
+  return append_spans(CenterRows(grid, triangle.triangle), triangle.color, rows, spans);
+}
+
+/// Appends a row, unless no pixel of it is covered.
+PIPELINE_AVX2_INLINE ColoredSpan* append_row(const FourRows& four, std::size_t lane, int row,
+                                             double half_slope, Color color, ColoredSpan* spans) {
+  const int first_column = four.first_column[lane], end_column = four.end_column[lane];
+  // Member by member: as a whole it would be made elsewhere and copied.
+  Span& span = spans->span;
+  span.row = row;
+  span.first_column = first_column;
+  span.last_column = end_column - 1;
+  span.depth.left_x = 0;
+  span.depth.dx = 2;
+  span.depth.x0 = four.columns_added_up[lane];
+  span.depth.z0 = four.depths[lane];
+  span.depth.slope = half_slope;
+  spans->color = color;
+  // Without a branch, as no processor could predict it.
+  return spans + static_cast<int>(first_column < end_column);
+}
+
+/// As CoverageKernel says, for one of four triangles: four rows at a time.
+PIPELINE_AVX2 ColoredSpan* append_triangle(const ExactGrid& grid, const FourTriangles& four, std::size_t lane,
+                                           const ColoredTriangle& triangle, const RowRange& rows,
+                                           ColoredSpan* spans) {
+  if (!four.is_ordinary(lane)) return append_exactly(grid, triangle, rows, spans);
+  const RowSources of = four.rows_of.of(lane);
+  const int end = std::min(rows.end, static_cast<int>(four.rows_of.end_row[lane]));
+  for (int row = std::max(rows.first, static_cast<int>(four.rows_of.first_row[lane])); row < end;) {
+    FourRows some(of, all(row) + _mm256_setr_pd(0, 1, 2, 3));
+    some.set_depths(of);
+    for (std::size_t i = 0; i < kCount && row < end; ++i, ++row)
+      spans = append_row(some, i, row, four.half_slope[lane], triangle.color, spans);
   }
+  return spans;
+}
+
+/// As CoverageKernel says, for four triangles: a row of each at a time, as low ones have too few for four
+/// lanes.
+PIPELINE_AVX2 ColoredSpan* append_triangles(const ExactGrid& grid, const FourTriangles& four,
+                                            const ColoredTriangle* triangles, const RowRange& rows,
+                                            ColoredSpan* spans) {
+  constexpr int kMostLowRows = 8;
+  const FourDoubles first_row = larger(four.rows_of.first_row, all(rows.first));
+  RowSources of = four.rows_of;
+  of.end_row = smaller(of.end_row, all(rows.end));
+  const double most = largest_of(of.end_row - first_row);
+  if (!four.are_ordinary() || most > kMostLowRows) {
+    for (std::size_t lane = 0; lane < kCount; ++lane)
+      spans = append_triangle(grid, four, lane, triangles[lane], rows, spans);
+    return spans;
+  }
+  const int count = static_cast<int>(most);
+  std::array<FourRows, kMostLowRows> low;
+  // One loop after the other: a processor looks ahead further than a turn of it, if that is short.
+  for (int i = 0; i < count; ++i) low[static_cast<std::size_t>(i)] = FourRows(of, first_row + all(i));
+  for (int i = 0; i < count; ++i) low[static_cast<std::size_t>(i)].set_depths(of);
+  // As many rows of each, covered or not: no processor could predict how many are.
+  const FourInts first_rows = ints_of(first_row);
+  for (std::size_t lane = 0; lane < kCount; ++lane)
+    for (int i = 0; i < count; ++i)
+      spans = append_row(low[static_cast<std::size_t>(i)], lane, first_rows[lane] + i, four.half_slope[lane],
+                         triangles[lane].color, spans);
   return spans;
 }
 
@@ -320,22 +368,13 @@ PIPELINE_AVX2 ColoredSpan* append_rows(const FourTriangles& four, std::size_t la
 PIPELINE_AVX2 ColoredSpan* center_spans_avx2(const ExactGrid& grid,
                                              std::span<const ColoredTriangle> triangles, const RowRange& rows,
                                              ColoredSpan* spans) {
-  const auto append_exactly = [&](const ColoredTriangle& triangle) {
-    spans = append_spans(CenterRows(grid, triangle.triangle), triangle.color, rows, spans);
-  };
   if (AxisLanes::is_small(grid.columns) && AxisLanes::is_small(grid.rows)) {
     const AxisLanes column_axis(grid.columns), row_axis(grid.rows);
-    for (; triangles.size() >= kCount; triangles = triangles.subspan(kCount)) {
-      const FourTriangles four(column_axis, row_axis, triangles.data());
-      for (std::size_t lane = 0; lane < kCount; ++lane) {
-        if (four.is_ordinary(lane))
-          spans = append_rows(four, lane, triangles[lane].color, rows, spans);
-        else
-          append_exactly(triangles[lane]);
-      }
-    }
+    for (; triangles.size() >= kCount; triangles = triangles.subspan(kCount))
+      spans = append_triangles(grid, FourTriangles(column_axis, row_axis, triangles.data()), triangles.data(),
+                               rows, spans);
   }
-  for (const ColoredTriangle& triangle : triangles) append_exactly(triangle);
+  for (const ColoredTriangle& triangle : triangles) spans = append_exactly(grid, triangle, rows, spans);
   return spans;
 }
 

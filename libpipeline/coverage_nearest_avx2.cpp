@@ -15,27 +15,14 @@ constexpr std::size_t kCount = 4;
 // ordinary: no product near the ends of a double's range, no corner on the line of pixel centres.
 
 struct FourPoints {
-  FourDoubles x;
-  FourDoubles y;
-  FourDoubles z;
-};
-
-/// The same, each on its own.
-struct PointNumbers {
-  PIPELINE_AVX2_INLINE PointNumbers& operator=(const FourPoints& p) {
-    x = numbers_of(p.x);
-    y = numbers_of(p.y);
-    z = numbers_of(p.z);
-    return *this;
-  }
   /// One of them, four times.
-  PIPELINE_AVX2_INLINE FourPoints operator[](std::size_t lane) const {
+  PIPELINE_AVX2_INLINE FourPoints of(std::size_t lane) const {
     return {all(x[lane]), all(y[lane]), all(z[lane])};
   }
 
-  FourNumbers x;
-  FourNumbers y;
-  FourNumbers z;
+  FourDoubles x;
+  FourDoubles y;
+  FourDoubles z;
 };
 
 PIPELINE_AVX2_INLINE FourPoints pick_points(FourDoubles mask, const FourPoints& yes, const FourPoints& no) {
@@ -61,6 +48,22 @@ PIPELINE_AVX2_INLINE FourPoints vertices(const ColoredTriangle* triangles, std::
           _mm256_setr_pd(p.z, q.z, r.z, s.z)};
 }
 
+/// What the rows of four triangles are made from. Or of one triangle, four times.
+struct RowSources {
+  PIPELINE_AVX2_INLINE RowSources of(std::size_t lane) const {
+    return {lowest.of(lane),       middle.of(lane),      highest.of(lane),   all(slope[lane]),
+            all(is_edge_on[lane]), all(first_row[lane]), all(last_row[lane])};
+  }
+
+  FourPoints lowest;
+  FourPoints middle;
+  FourPoints highest;
+  FourDoubles slope;
+  FourDoubles is_edge_on;  // a mask
+  FourDoubles first_row;
+  FourDoubles last_row;
+};
+
 /// Four triangles made ready for their rows.
 struct FourTriangles {
   PIPELINE_AVX2_INLINE FourTriangles(const PixelGrid& grid, const ColoredTriangle* triangles) {
@@ -76,27 +79,23 @@ struct FourTriangles {
 
   /// Whether a triangle can be done here.
   [[nodiscard]] bool is_ordinary(std::size_t lane) const { return (ordinary_ >> lane & 1) != 0; }
+  /// Whether all can.
+  [[nodiscard]] bool are_ordinary() const { return ordinary_ == (1 << kCount) - 1; }
 
-  PointNumbers lowest;
-  PointNumbers middle;
-  PointNumbers highest;
-  FourNumbers slope;
-  FourNumbers is_edge_on;  // a mask
-  FourInts first_row;
-  FourInts last_row;
+  RowSources rows_of;
 
  private:
   int ordinary_;  // a bit a triangle
 
   PIPELINE_AVX2_INLINE void set_corners(const PixelGrid& grid, const FourPoints& p, const FourPoints& q,
                                         const FourPoints& r) {
-    lowest = p;
-    middle = q;
-    highest = r;
+    rows_of.lowest = p;
+    rows_of.middle = q;
+    rows_of.highest = r;
     const FourDoubles top = (all(grid.top_y) - r.y) / all(grid.dy);
     const FourDoubles bottom = (all(grid.top_y) - p.y) / all(grid.dy);
-    first_row = ints_of(_mm256_ceil_pd(clamped(top, 0, grid.rows)));
-    last_row = ints_of(_mm256_floor_pd(clamped(bottom, -1, grid.rows - 1)));
+    rows_of.first_row = _mm256_ceil_pd(clamped(top, 0, grid.rows));
+    rows_of.last_row = _mm256_floor_pd(clamped(bottom, -1, grid.rows - 1));
     set_slope(q - p, r - p);
   }
   /// From the edges that leave the lowest corner.
@@ -107,8 +106,8 @@ struct FourTriangles {
     const FourDoubles area = forward - backward, terms = size_of(forward) + size_of(backward);
     const FourDoubles has_no_slope = is_at_most(size_of(area), all(NearestRows::kAreaError) * terms);
     const FourDoubles slopes = but_not(rise / area, has_no_slope);
-    slope = numbers_of(slopes);
-    is_edge_on = numbers_of(has_no_slope);
+    rows_of.slope = slopes;
+    rows_of.is_edge_on = has_no_slope;
     const FourDoubles reach = size_of(b.x) + size_of(c.x) + size_of(b.z) + size_of(c.z);
     const FourDoubles is_in_range = both(is_less(all(0x1p-900), terms), is_less(terms, all(0x1p900)));
     const FourDoubles is_finite = both(is_less(reach, all(kHuge)), is_less(size_of(rise), all(kHuge)));
@@ -116,37 +115,39 @@ struct FourTriangles {
   }
 };
 
-/// Four neighbouring rows of a triangle.
+/// A row of each of four triangles, or four rows of one.
 struct FourRows {
-  PIPELINE_AVX2_INLINE FourRows(const PixelGrid& grid, const FourTriangles& triangles, std::size_t lane,
-                                int row) {
-    const FourPoints lowest = triangles.lowest[lane];
-    const FourPoints middle = triangles.middle[lane];
-    const FourPoints highest = triangles.highest[lane];
-    const FourDoubles y = all(grid.top_y) - (all(row) + _mm256_setr_pd(0, 1, 2, 3)) * all(grid.dy);
+  FourRows() = default;
+  PIPELINE_AVX2_INLINE FourRows(const PixelGrid& grid, const RowSources& of, FourDoubles rows) {
+    const FourDoubles y = all(grid.top_y) - rows * all(grid.dy);
     // The longest edge and, below or above the middle corner, one of the others.
-    const FourDoubles is_upper = is_less(middle.y, y);
-    const FourPoints first =
-        intersection(pick_points(is_upper, middle, lowest), pick_points(is_upper, highest, middle), y);
-    const FourPoints second = intersection(lowest, highest, y);
+    const FourDoubles is_upper = is_less(of.middle.y, y);
+    const FourPoints first = intersection(pick_points(is_upper, of.middle, of.lowest),
+                                          pick_points(is_upper, of.highest, of.middle), y);
+    const FourPoints second = intersection(of.lowest, of.highest, y);
     const FourDoubles is_lower_z = both(is_equal(second.x, first.x), is_less(second.z, first.z));
     const FourPoints left = pick_points(either(is_less(second.x, first.x), is_lower_z), second, first);
     const FourPoints right = pick_points(either(is_less(first.x, second.x), is_lower_z), second, first);
     const FourDoubles left_column = (left.x - all(grid.left_x)) / all(grid.dx) + all(0.5);
     const FourDoubles right_column = (right.x - all(grid.left_x)) / all(grid.dx) + all(0.5);
-    first_column = ints_of(_mm256_floor_pd(clamped(left_column, 0, grid.columns)));
-    last_column = ints_of(_mm256_floor_pd(clamped(right_column, -1, grid.columns - 1)));
+    const FourDoubles is_there = is_at_most(rows, of.last_row);
+    first_column = ints_of(both(is_there, _mm256_floor_pd(clamped(left_column, 0, grid.columns))));
+    last_column =
+        ints_of(pick(is_there, _mm256_floor_pd(clamped(right_column, -1, grid.columns - 1)), all(-1)));
 
-    const FourDoubles is_slanted = but_not(is_less(left.x, right.x), all(triangles.is_edge_on[lane]));
+    const FourDoubles is_slanted = but_not(is_less(left.x, right.x), of.is_edge_on);
     x0 = numbers_of(left.x);
     z0 = numbers_of(pick(is_slanted, left.z, smaller(left.z, right.z)));
-    slope = numbers_of(both(is_slanted, all(triangles.slope[lane])));
-    const FourDoubles is_between = both(is_less(lowest.y, y), is_less(y, highest.y));
-    ordinary_ = bits_of(but_not(is_between, is_equal(y, middle.y)));
+    slope = numbers_of(both(is_slanted, of.slope));
+    const FourDoubles is_between = both(is_less(of.lowest.y, y), is_less(y, of.highest.y));
+    const FourDoubles is_at_corner = but_not(is_there, but_not(is_between, is_equal(y, of.middle.y)));
+    ordinary_ = ~bits_of(is_at_corner);
   }
 
   /// Whether a row can be done here.
   [[nodiscard]] bool is_ordinary(std::size_t lane) const { return (ordinary_ >> lane & 1) != 0; }
+  /// Whether all can.
+  [[nodiscard]] bool are_ordinary() const { return ordinary_ == -1; }
 
   FourInts first_column;
   FourInts last_column;
@@ -155,7 +156,7 @@ struct FourRows {
   FourNumbers slope;
 
  private:
-  int ordinary_;  // a bit a row
+  int ordinary_;  // a bit a row; others are set
 
   PIPELINE_AVX2_INLINE static FourPoints intersection(const FourPoints& lower, const FourPoints& upper,
                                                       FourDoubles y) {
@@ -171,34 +172,70 @@ ColoredSpan* append_one_by_one(const PixelGrid& grid, const ColoredTriangle& tri
   return append_spans(NearestRows(grid, triangle.triangle.p_ndc), triangle.color, rows, spans);
 }
 
-/// As CoverageKernel says, for one of four triangles.
-PIPELINE_AVX2 ColoredSpan* append_rows(const PixelGrid& grid, const FourTriangles& four, std::size_t lane,
-                                       const ColoredTriangle& triangle, const RowRange& rows,
-                                       ColoredSpan* spans) {
-  const int end = std::min(rows.end, four.last_row[lane] + 1);
-  for (int row = std::max(rows.first, four.first_row[lane]); row < end;) {
-    const FourRows some(grid, four, lane, row);
-    for (std::size_t i = 0; i < kCount && row < end; ++i, ++row) {
-      if (!some.is_ordinary(i)) {
-        spans = append_one_by_one(grid, triangle, {row, row + 1}, spans);
-        continue;
-      }
-      const int first_column = some.first_column[i], last_column = some.last_column[i];
-      // Member by member: as a whole it would be made elsewhere and copied.
-      Span& span = spans->span;
-      span.row = row;
-      span.first_column = first_column;
-      span.last_column = last_column;
-      span.depth.left_x = grid.left_x;
-      span.depth.dx = grid.dx;
-      span.depth.x0 = some.x0[i];
-      span.depth.z0 = some.z0[i];
-      span.depth.slope = some.slope[i];
-      spans->color = triangle.color;
-      // Without a branch, as no processor could predict it.
-      spans += static_cast<int>(first_column <= last_column);
-    }
+/// Appends a row, unless no pixel of it is covered.
+PIPELINE_AVX2_INLINE ColoredSpan* append_row(const PixelGrid& grid, const FourRows& four, std::size_t lane,
+                                             int row, Color color, ColoredSpan* spans) {
+  const int first_column = four.first_column[lane], last_column = four.last_column[lane];
+  // Member by member: as a whole it would be made elsewhere and copied.
+  Span& span = spans->span;
+  span.row = row;
+  span.first_column = first_column;
+  span.last_column = last_column;
+  span.depth.left_x = grid.left_x;
+  span.depth.dx = grid.dx;
+  span.depth.x0 = four.x0[lane];
+  span.depth.z0 = four.z0[lane];
+  span.depth.slope = four.slope[lane];
+  spans->color = color;
+  // Without a branch, as no processor could predict it.
+  return spans + static_cast<int>(first_column <= last_column);
+}
+
+/// As CoverageKernel says, for one of four triangles: four rows at a time.
+PIPELINE_AVX2 ColoredSpan* append_triangle(const PixelGrid& grid, const FourTriangles& four, std::size_t lane,
+                                           const ColoredTriangle& triangle, const RowRange& rows,
+                                           ColoredSpan* spans) {
+  if (!four.is_ordinary(lane)) return append_one_by_one(grid, triangle, rows, spans);
+  const RowSources of = four.rows_of.of(lane);
+  const int end = std::min(rows.end, static_cast<int>(four.rows_of.last_row[lane]) + 1);
+  for (int row = std::max(rows.first, static_cast<int>(four.rows_of.first_row[lane])); row < end;) {
+    const FourRows some(grid, of, all(row) + _mm256_setr_pd(0, 1, 2, 3));
+    for (std::size_t i = 0; i < kCount && row < end; ++i, ++row)
+      spans = some.is_ordinary(i) ? append_row(grid, some, i, row, triangle.color, spans)
+                                  : append_one_by_one(grid, triangle, {row, row + 1}, spans);
   }
+  return spans;
+}
+
+/// As CoverageKernel says, for four triangles: a row of each at a time, as low ones have too few for four
+/// lanes.
+PIPELINE_AVX2 ColoredSpan* append_triangles(const PixelGrid& grid, const FourTriangles& four,
+                                            const ColoredTriangle* triangles, const RowRange& rows,
+                                            ColoredSpan* spans) {
+  constexpr int kMostLowRows = 8;
+  const FourDoubles first_row = larger(four.rows_of.first_row, all(rows.first));
+  RowSources of = four.rows_of;
+  of.last_row = smaller(of.last_row, all(rows.end) - all(1));
+  const double most = largest_of(of.last_row - first_row) + 1;
+  bool are_ordinary = four.are_ordinary() && most <= kMostLowRows;
+  const int count = are_ordinary ? static_cast<int>(most) : 0;
+  std::array<FourRows, kMostLowRows> low;
+  for (int i = 0; i < count; ++i) {
+    FourRows& some = low[static_cast<std::size_t>(i)];
+    some = FourRows(grid, of, first_row + all(i));
+    are_ordinary &= some.are_ordinary();
+  }
+  if (!are_ordinary) {
+    for (std::size_t lane = 0; lane < kCount; ++lane)
+      spans = append_triangle(grid, four, lane, triangles[lane], rows, spans);
+    return spans;
+  }
+  // As many rows of each, covered or not: no processor could predict how many are.
+  const FourInts first_rows = ints_of(first_row);
+  for (std::size_t lane = 0; lane < kCount; ++lane)
+    for (int i = 0; i < count; ++i)
+      spans = append_row(grid, low[static_cast<std::size_t>(i)], lane, first_rows[lane] + i,
+                         triangles[lane].color, spans);
   return spans;
 }
 
@@ -209,12 +246,7 @@ PIPELINE_AVX2 ColoredSpan* nearest_spans_avx2(const PixelGrid& grid,
                                               const RowRange& rows, ColoredSpan* spans) {
   for (; triangles.size() >= kCount; triangles = triangles.subspan(kCount)) {
     const FourTriangles four(grid, triangles.data());
-    for (std::size_t lane = 0; lane < kCount; ++lane) {
-      if (four.is_ordinary(lane))
-        spans = append_rows(grid, four, lane, triangles[lane], rows, spans);
-      else
-        spans = append_one_by_one(grid, triangles[lane], rows, spans);
-    }
+    spans = append_triangles(grid, four, triangles.data(), rows, spans);
   }
   for (const ColoredTriangle& triangle : triangles) spans = append_one_by_one(grid, triangle, rows, spans);
   return spans;

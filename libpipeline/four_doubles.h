@@ -4,6 +4,7 @@
 
 #include <immintrin.h>
 
+#include <algorithm>
 #include <array>
 
 #define PIPELINE_AVX2 __attribute__((target("avx2")))
@@ -69,6 +70,10 @@ PIPELINE_AVX2_INLINE FourNumbers numbers_of(FourDoubles value) {
   FourNumbers numbers;
   _mm256_storeu_pd(numbers.data(), value);
   return numbers;
+}
+PIPELINE_AVX2_INLINE double largest_of(FourDoubles value) {
+  const FourNumbers numbers = numbers_of(value);
+  return std::max(std::max(numbers[0], numbers[1]), std::max(numbers[2], numbers[3]));
 }
 /// Of whole numbers of 32 bits.
 PIPELINE_AVX2_INLINE FourInts ints_of(FourDoubles value) {

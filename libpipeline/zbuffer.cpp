@@ -6,6 +6,24 @@
 #include "libpipeline/column_search.h"
 
 namespace pipeline {
+namespace {
+
+/// Into a row whose first pixel is at `depths` and `colors`.
+template <typename Depth>
+void draw_pixel_by_pixel(const Span& span, Color color, const Depth& format, double front,
+                         typename Depth::Stored* depths, Color* colors) {
+  const SpanDepth depth = span.depth;
+  const int last_column = span.last_column;
+  for (int column = span.first_column; column <= last_column; ++column) {
+    const double z = depth(column);
+    const typename Depth::Stored stored = format.store(z);
+    if (!(stored < depths[column]) || !(z >= front)) continue;
+    depths[column] = stored;
+    colors[column] = color;
+  }
+}
+
+}  // namespace
 
 template <typename Depth>
 ZBuffer<Depth>::ZBuffer(const ScreenConfig& screen, Color background)
@@ -36,26 +54,20 @@ template <typename Depth>
 void ZBuffer<Depth>::draw(std::span<const ColoredSpan> spans, FarthestDepths<Depth>* farthest) {
   // Fewer pixels are done before a kernel has begun.
   constexpr int kShort = 4;
+  // Copies, which no pixel that is written could have changed.
+  const Depth format = format_;
+  const double front = front_;
+  const bool has_epsilon = depth_epsilon_ > 0;
+  const auto columns = static_cast<std::size_t>(depths_.columns());
+  Stored* const first_depth = depths_.row(0).data();
+  Color* const first_color = colors_.row(0).data();
   for (const auto& [span, color] : spans) {
     const bool is_short = span.last_column - span.first_column < kShort;
-    if (is_short && !(depth_epsilon_ > 0))
-      draw_pixel_by_pixel(span, color);
+    const std::size_t row_begin = static_cast<std::size_t>(span.row) * columns;
+    if (is_short && !has_epsilon)
+      draw_pixel_by_pixel(span, color, format, front, first_depth + row_begin, first_color + row_begin);
     else
       draw(span, color, farthest);
-  }
-}
-
-template <typename Depth>
-void ZBuffer<Depth>::draw_pixel_by_pixel(const Span& span, Color color) {
-  Stored* const depths = depths_.row(span.row).data();
-  Color* const colors = colors_.row(span.row).data();
-  const SpanDepth depth = span.depth;
-  for (int column = span.first_column; column <= span.last_column; ++column) {
-    const double z = depth(column);
-    const Stored stored = format_.store(z);
-    if (!(stored < depths[column]) || !(z >= front_)) continue;
-    depths[column] = stored;
-    colors[column] = color;
   }
 }
 

@@ -64,7 +64,6 @@ class ZBuffer {
  private:
   using Stored = typename Depth::Stored;
 
-  void draw_pixel_by_pixel(const Span& span, Color color);
   [[nodiscard]] Span part_behind_front(const Span& span) const;
   void draw_what_is_nearer_by_epsilon(const Span& span, Color color);
 
