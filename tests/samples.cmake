@@ -12,8 +12,12 @@ add_test(NAME Samples.StagesCanBeSwapped
 add_test(NAME Samples.MakefileRemakesWhatIsStale
   COMMAND Python3::Interpreter ${PROJECT_SOURCE_DIR}/tests/makefile_samples_test.py
     $<TARGET_FILE_DIR:model> ${PROJECT_SOURCE_DIR})
+set(RANDOM_SCENES 60)
+if(CMAKE_CXX_FLAGS MATCHES "-fsanitize")
+  set(RANDOM_SCENES 20)
+endif()
 add_test(NAME Pipeline.RandomScenesMatchTheReference
-  COMMAND Python3::Interpreter ${PROJECT_SOURCE_DIR}/tests/random_scenes_test.py $<TARGET_FILE_DIR:model>)
+  COMMAND Python3::Interpreter ${PROJECT_SOURCE_DIR}/tests/random_scenes_test.py $<TARGET_FILE_DIR:model> ${RANDOM_SCENES})
 # Every way through the code that a processor may choose gives the committed bytes.
 foreach(kernel portable sse4 avx2)
   set(out ${CMAKE_CURRENT_BINARY_DIR}/samples-${kernel})

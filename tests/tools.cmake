@@ -2,9 +2,11 @@
 # says why.
 set(TOOLS_TIMEOUT 300)
 set(TOOLS_SCENES 12)
+set(SHADING_TESTS)  # all
 if(CMAKE_CXX_FLAGS MATCHES "-fsanitize")
   set(TOOLS_TIMEOUT 1200)  # sanitizers take their time, above all to start a tool
   set(TOOLS_SCENES 4)  # the random scenes of a test that starts the tools hundreds of times for each
+  set(SHADING_TESTS Shading WholePictures)  # the others cast a ray through every pixel, which is Python's time
 endif()
 function(tools_test name script)
   add_test(NAME Tools.${name}
@@ -26,11 +28,13 @@ tools_test(TakeHostileTexts tools_hostile_test)
 tools_test(KeepProperties tools_properties_test)
 set_tests_properties(Tools.KeepProperties PROPERTIES
   COST 100 ENVIRONMENT "PYTHONDONTWRITEBYTECODE=1;TOOLS_SCENES=${TOOLS_SCENES}")
-tools_test(DrawOnThreadsAndShowProgress zbuf_tool_test)
+tools_test(DrawOnThreads zbuf_tool_test Threads)
+tools_test(DrawWithEveryKernel zbuf_tool_test Kernels)
+tools_test(ShowProgress zbuf_tool_test Progress Timing)
 tools_test(ClipAtPlanesPulledIn clip_inset_test)
 tools_test(ExplainEveryFragment fragments_test)
 tools_test(CarryColorAndLight tools_colors_test)
-tools_test(ShadePixels tools_shading_test)
+tools_test(ShadePixels tools_shading_test ${SHADING_TESTS})
 tools_test(MakePictures tools_pictures_test)
 
 # A sanitizer's own memory says nothing about the tools'. Nor can it be limited.
