@@ -4,6 +4,8 @@
 #include "libpipeline/coverage_avx2.h"
 #include "libpipeline/coverage_center.h"
 #include "libpipeline/four_doubles.h"
+#include "libpipeline/four_points.h"
+#include "libpipeline/four_spans.h"
 #include "libpipeline/plain_depth.h"
 
 #if defined(__x86_64__) && defined(__GNUC__)
@@ -15,14 +17,17 @@ constexpr std::size_t kCount = 4;
 
 // What CenterRows does in 64 bits, in doubles, which hold whole numbers up to 2^53. Triangles whose numbers
 // could be larger are left to CenterRows.
-constexpr double kLargestWhole = 0x1p50;
-static_assert(kLargestWhole <= PlainDepth::kLargestWeight);
+static_assert(kLargestPlain <= PlainDepth::kLargestWeight);
 
-/// The smallest whole c in [0, most] with c * divisor >= dividend, or `most` if there is none. The estimate
-/// is off by far less than half, so c is the whole number next to it or the one above that.
+PIPELINE_AVX2_INLINE FourDoubles nearest_whole(FourDoubles value) {
+  return _mm256_round_pd(value, _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC);
+}
+
+/// The smallest whole c in [0, most] with c * divisor >= dividend, or `most` if there is none. Up to 2^50 the
+/// estimate is off by a fourth at most, so c is the whole number nearest to it or the one after that.
 PIPELINE_AVX2_INLINE FourDoubles quotient_rounded_up(FourDoubles dividend, FourDoubles divisor,
                                                      FourDoubles inverse, FourDoubles most) {
-  const FourDoubles near = _mm256_round_pd(dividend * inverse, _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC);
+  const FourDoubles near = nearest_whole(dividend * inverse);
   const FourDoubles quotient = near + both(is_less(near * divisor, dividend), all(1));
   return smaller(larger(quotient, all(0)), most);
 }
@@ -39,43 +44,36 @@ PIPELINE_AVX2_INLINE FourSums two_sum(FourDoubles a, FourDoubles b) {
   return {sum, (a - (sum - b_part)) + (b - b_part)};
 }
 
-/// A GridAxis in doubles.
+/// A PlainAxis, four times.
 struct AxisLanes {
-  PIPELINE_AVX2_INLINE explicit AxisLanes(const GridAxis& axis)
-      : most(all(axis.count)),
-        step(all(static_cast<double>(axis.narrow_step.value()))),
-        inverse(all(1) / step),
-        factor(all(static_cast<double>(axis.narrow_vertex_factor))),
-        origin(all(static_cast<double>(axis.narrow_origin))),
-        largest_units(smaller(all(axis.largest_narrow_units), all(kLargestWhole) / factor)) {}
+  PIPELINE_AVX2_INLINE explicit AxisLanes(const PlainAxis& axis)
+      : count(all(axis.count)),
+        step(all(axis.step)),
+        inverse(all(axis.inverse_step)),
+        factor(all(axis.vertex_factor)),
+        origin(all(axis.origin)),
+        largest(all(axis.largest)) {}
 
-  /// Whether the whole axis is of the size that is done here.
-  static bool is_small(const GridAxis& axis) {
-    return axis.largest_narrow_units > 0 &&
-           static_cast<double>(axis.narrow_step.value()) * axis.count <= kLargestWhole;
-  }
-  PIPELINE_AVX2_INLINE static FourDoubles units_of(FourDoubles coordinate) {
-    return coordinate * all(kGridUnitsPerOne);
-  }
-  PIPELINE_AVX2_INLINE FourDoubles fits(FourDoubles units) const {
-    return is_at_most(size_of(units), largest_units);
-  }
-  /// How far a coordinate is from pixel 0, on the grid.
-  PIPELINE_AVX2_INLINE FourDoubles scaled(FourDoubles units) const {
+  /// How far a coordinate is from the middle, on the grid.
+  PIPELINE_AVX2_INLINE FourDoubles scaled(FourDoubles coordinate) const {
     const FourDoubles rounder = all(0x1.8p52);
-    return ((units + rounder) - rounder) * factor;
+    return ((coordinate * all(kGridUnitsPerOne) + rounder) - rounder) * factor;
+  }
+  /// Whether that is right for coordinates which lie between these, on the grid.
+  PIPELINE_AVX2_INLINE FourDoubles fit(FourDoubles least, FourDoubles most) const {
+    return is_at_most(larger(size_of(least), size_of(most)), largest);
   }
   /// The first pixel at or after that.
   PIPELINE_AVX2_INLINE FourDoubles pixel(FourDoubles distance) const {
-    return quotient_rounded_up(distance, step, inverse, most);
+    return quotient_rounded_up(distance, step, inverse, count);
   }
 
-  FourDoubles most;
+  FourDoubles count;
   FourDoubles step;
   FourDoubles inverse;
   FourDoubles factor;
   FourDoubles origin;
-  FourDoubles largest_units;
+  FourDoubles largest;
 };
 
 /// A vertex of each of four triangles on the grid.
@@ -130,24 +128,25 @@ struct RowSources {
 /// Four triangles made ready for their rows.
 struct FourTriangles {
   PIPELINE_AVX2_INLINE FourTriangles(const AxisLanes& columns, const AxisLanes& rows,
-                                     const ColoredTriangle* triangles) {
-    const FourDoubles zero = all(0);
-    FourDoubles fits = is_equal(zero, zero);
-    const GridPoints p = point(columns, rows, triangles, 0, fits);
-    const GridPoints q = point(columns, rows, triangles, 1, fits);
-    const GridPoints r = point(columns, rows, triangles, 2, fits);
+                                     const ColoredTriangle* triangles, const RowRange& range) {
+    const auto [a, b, c] = vertices_of(triangles);
+    const GridPoints p = on_grid(columns, rows, a);
+    const GridPoints q = on_grid(columns, rows, b);
+    const GridPoints r = on_grid(columns, rows, c);
 
     const FourDoubles u_left = smaller(smaller(p.u, q.u), r.u), u_right = larger(larger(p.u, q.u), r.u);
     const FourDoubles v_top = smaller(smaller(p.v, q.v), r.v), v_bottom = larger(larger(p.v, q.v), r.v);
-    const FourDoubles left = columns.pixel(u_left), count = columns.pixel(u_right) - left;
+    const FourDoubles fits = both(columns.fit(u_left, u_right), rows.fit(v_top, v_bottom));
+    // A column not after the first that may be covered.
+    const FourDoubles left = larger(nearest_whole(u_left * columns.inverse) - all(1), all(0));
     // The bound of largest_product.
     const FourDoubles first = left * columns.step;
     const FourDoubles x = larger(size_of(u_left - first), size_of(u_right - first)) + all(2) * columns.step;
     const FourDoubles y = v_bottom - v_top + rows.step;
-    ordinary_ = marks(triangles) & bits_of(both(fits, is_at_most(all(4) * x * y, all(kLargestWhole))));
+    ordinary_ = marks(triangles) & bits_of(both(fits, is_at_most(all(4) * x * y, all(kLargestPlain))));
 
     rows_of.first_column = left;
-    rows_of.column_count = count;
+    rows_of.column_count = columns.count - left;
     // From the top by the first row at or below a vertex, then by its number.
     const FourDoubles p_row = rows.pixel(p.v), q_row = rows.pixel(q.v), r_row = rows.pixel(r.v);
     const FourDoubles high_row = smaller(p_row, q_row), low_row = larger(p_row, q_row);
@@ -158,37 +157,31 @@ struct FourTriangles {
     const GridPoints high = pick_points(q_first, q, p), low = pick_points(q_first, p, q);
     set_corners(columns, rows, left, pick_points(r_before_high, r, high),
                 pick_points(r_before_high, high, pick_points(r_before_low, r, low)),
-                pick_points(r_before_low, low, r), larger(low_row, r_row), is_equal(count, zero));
+                pick_points(r_before_low, low, r), smaller(larger(low_row, r_row), all(range.end)));
+    begin_row = larger(rows_of.first_row, all(range.first));
   }
 
   /// Whether the numbers of a triangle are of the size that is done here.
   [[nodiscard]] bool is_ordinary(std::size_t lane) const { return (ordinary_ >> lane & 1) != 0; }
-
-  /// Whether all are.
+  /// Whether those of all are.
   [[nodiscard]] bool are_ordinary() const { return ordinary_ == (1 << kCount) - 1; }
 
   RowSources rows_of;
+  FourDoubles begin_row;  // the first in the range
   FourNumbers half_slope;
 
  private:
   int ordinary_;  // a bit a triangle
 
-  /// A vertex of each triangle; takes those out of `fits` for which it is too far away.
-  PIPELINE_AVX2_INLINE static GridPoints point(const AxisLanes& columns, const AxisLanes& rows,
-                                               const ColoredTriangle* triangles, std::size_t vertex,
-                                               FourDoubles& fits) {
-    const Vec3& p = triangles[0].triangle.p_ndc[vertex];
-    const Vec3& q = triangles[1].triangle.p_ndc[vertex];
-    const Vec3& r = triangles[2].triangle.p_ndc[vertex];
-    const Vec3& s = triangles[3].triangle.p_ndc[vertex];
-    const FourDoubles x = AxisLanes::units_of(_mm256_setr_pd(p.x, q.x, r.x, s.x));
-    const FourDoubles y = AxisLanes::units_of(_mm256_setr_pd(p.y, q.y, r.y, s.y));
-    fits = both(fits, both(columns.fits(x), rows.fits(y)));
-    const FourDoubles u = columns.origin + columns.scaled(x), v = rows.origin - rows.scaled(y);
-    return {u, v, _mm256_setr_pd(p.z, q.z, r.z, s.z)};
+  PIPELINE_AVX2_INLINE static GridPoints on_grid(const AxisLanes& columns, const AxisLanes& rows,
+                                                 const FourPoints& p) {
+    return {columns.origin + columns.scaled(p.x), rows.origin - rows.scaled(p.y), p.z};
   }
-  /// A bit for each triangle whose x and y are decimals.
+  /// A bit for each triangle whose x and y are decimals. Usually all are.
   static int marks(const ColoredTriangle* triangles) {
+    ExactTriangle all_of_them = triangles[0].triangle;
+    for (std::size_t i = 1; i < kCount; ++i) all_of_them.decimal_marks &= triangles[i].triangle.decimal_marks;
+    if (all_of_them.is_decimal()) return (1 << kCount) - 1;
     int result = 0;
     for (std::size_t i = 0; i < kCount; ++i)
       result |= static_cast<int>(triangles[i].triangle.is_decimal()) << i;
@@ -196,14 +189,13 @@ struct FourTriangles {
   }
   PIPELINE_AVX2_INLINE void set_corners(const AxisLanes& columns, const AxisLanes& rows, FourDoubles left,
                                         const GridPoints& a, const GridPoints& b, const GridPoints& c,
-                                        FourDoubles end_row, FourDoubles is_between_columns) {
+                                        FourDoubles end_row) {
     const FourDoubles weight = (b.u - a.u) * (c.v - a.v) - (b.v - a.v) * (c.u - a.u);
     rows_of.longest_is_left = is_less(all(0), weight);
     // All weights and their sum have the same sign, whichever it is.
     set_depth(a.z, b.z, c.z, weight + weight, columns.step * (c.v - a.v), columns.step * (a.v - b.v));
 
-    const FourDoubles is_empty = either(is_equal(weight, all(0)), is_between_columns);
-    rows_of.end_row = pick(is_empty, rows_of.first_row, end_row);
+    rows_of.end_row = pick(is_equal(weight, all(0)), rows_of.first_row, end_row);
 
     const FourDoubles first_u = left * columns.step, first_v = rows_of.first_row * rows.step;
     const auto edge = [&](const GridPoints& from, const GridPoints& to) PIPELINE_AVX2 {
@@ -254,15 +246,15 @@ struct FourRows {
     const FourDoubles first = pick(of.longest_is_left, longest_pixel, shorter_pixel);
     const FourDoubles end = pick(of.longest_is_left, shorter_pixel, longest_pixel);
     const FourDoubles is_there = is_less(rows, of.end_row);
-    first_column = ints_of(both(is_there, of.first_column + first));
-    end_column = ints_of(both(is_there, of.first_column + end));
+    spans.set_columns(rows, both(is_there, of.first_column + first),
+                      both(is_there, of.first_column + end) - all(1));
 
     // The weights of the vertices opposite to the edges, at the first and at the last pixel added up.
     const FourDoubles sum = longest_pixel + shorter_pixel - all(1);
     opposite_longest_ = sum * of.longest.column_step - (longest_crossing + longest_crossing);
     opposite_shorter_ = (shorter_crossing + shorter_crossing) - sum * shorter.column_step;
     is_upper_ = is_upper;
-    columns_added_up = numbers_of(of.first_column + of.first_column + sum);
+    columns_added_up_ = of.first_column + of.first_column + sum;
   }
   /// How deep they are.
   PIPELINE_AVX2_INLINE void set_depths(const RowSources& of) {
@@ -272,16 +264,14 @@ struct FourRows {
     const FourDoubles mean =
         ((opposite_longest_ * of.b_z + twice_c * of.c_z) + twice_a * of.a_z) / of.twice_total +
         all(PlainDepth::kNoMinus);
-    depths = numbers_of(pick(of.is_flat, of.a_z, mean));
+    spans.set_points(columns_added_up_, pick(of.is_flat, of.a_z, mean));
   }
 
-  FourInts first_column;
-  FourInts end_column;           // not greater than the first where no pixel is covered
-  FourNumbers columns_added_up;  // the first and the last
-  FourNumbers depths;            // in the middle between them
+  FourSpans spans;
 
  private:
-  FourDoubles is_upper_;  // a mask
+  FourDoubles columns_added_up_;  // the first and the last
+  FourDoubles is_upper_;          // a mask
   // Weights of vertices.
   FourDoubles opposite_longest_;
   FourDoubles opposite_shorter_;
@@ -299,23 +289,9 @@ ColoredSpan* append_exactly(const ExactGrid& grid, const ColoredTriangle& triang
   return append_spans(CenterRows(grid, triangle.triangle), triangle.color, rows, spans);
 }
 
-/// Appends a row, unless no pixel of it is covered.
-PIPELINE_AVX2_INLINE ColoredSpan* append_row(const FourRows& four, std::size_t lane, int row,
-                                             double half_slope, Color color, ColoredSpan* spans) {
-  const int first_column = four.first_column[lane], end_column = four.end_column[lane];
-  // Member by member: as a whole it would be made elsewhere and copied.
-  Span& span = spans->span;
-  span.row = row;
-  span.first_column = first_column;
-  span.last_column = end_column - 1;
-  span.depth.left_x = 0;
-  span.depth.dx = 2;
-  span.depth.x0 = four.columns_added_up[lane];
-  span.depth.z0 = four.depths[lane];
-  span.depth.slope = half_slope;
-  spans->color = color;
-  // Without a branch, as no processor could predict it.
-  return spans + static_cast<int>(first_column < end_column);
+/// What is the same in the depths of all spans: columns are counted in halves.
+PIPELINE_AVX2_INLINE __m128d axis() {
+  return _mm_setr_pd(0, 2);
 }
 
 /// As CoverageKernel says, for one of four triangles: four rows at a time.
@@ -324,12 +300,12 @@ PIPELINE_AVX2 ColoredSpan* append_triangle(const ExactGrid& grid, const FourTria
                                            ColoredSpan* spans) {
   if (!four.is_ordinary(lane)) return append_exactly(grid, triangle, rows, spans);
   const RowSources of = four.rows_of.of(lane);
-  const int end = std::min(rows.end, static_cast<int>(four.rows_of.end_row[lane]));
-  for (int row = std::max(rows.first, static_cast<int>(four.rows_of.first_row[lane])); row < end;) {
+  const int end = static_cast<int>(four.rows_of.end_row[lane]);
+  for (int row = static_cast<int>(four.begin_row[lane]); row < end;) {
     FourRows some(of, all(row) + _mm256_setr_pd(0, 1, 2, 3));
     some.set_depths(of);
     for (std::size_t i = 0; i < kCount && row < end; ++i, ++row)
-      spans = append_row(some, i, row, four.half_slope[lane], triangle.color, spans);
+      spans = some.spans.append(i, axis(), four.half_slope[lane], triangle.color, spans);
   }
   return spans;
 }
@@ -340,10 +316,8 @@ PIPELINE_AVX2 ColoredSpan* append_triangles(const ExactGrid& grid, const FourTri
                                             const ColoredTriangle* triangles, const RowRange& rows,
                                             ColoredSpan* spans) {
   constexpr int kMostLowRows = 8;
-  const FourDoubles first_row = larger(four.rows_of.first_row, all(rows.first));
-  RowSources of = four.rows_of;
-  of.end_row = smaller(of.end_row, all(rows.end));
-  const double most = largest_of(of.end_row - first_row);
+  const RowSources& of = four.rows_of;
+  const double most = largest_of(of.end_row - four.begin_row);
   if (!four.are_ordinary() || most > kMostLowRows) {
     for (std::size_t lane = 0; lane < kCount; ++lane)
       spans = append_triangle(grid, four, lane, triangles[lane], rows, spans);
@@ -352,14 +326,15 @@ PIPELINE_AVX2 ColoredSpan* append_triangles(const ExactGrid& grid, const FourTri
   const int count = static_cast<int>(most);
   std::array<FourRows, kMostLowRows> low;
   // One loop after the other: a processor looks ahead further than a turn of it, if that is short.
-  for (int i = 0; i < count; ++i) low[static_cast<std::size_t>(i)] = FourRows(of, first_row + all(i));
+  for (int i = 0; i < count; ++i) low[static_cast<std::size_t>(i)] = FourRows(of, four.begin_row + all(i));
   for (int i = 0; i < count; ++i) low[static_cast<std::size_t>(i)].set_depths(of);
   // As many rows of each, covered or not: no processor could predict how many are.
-  const FourInts first_rows = ints_of(first_row);
-  for (std::size_t lane = 0; lane < kCount; ++lane)
+  for (std::size_t lane = 0; lane < kCount; ++lane) {
+    const double half_slope = four.half_slope[lane];
+    const Color color = triangles[lane].color;
     for (int i = 0; i < count; ++i)
-      spans = append_row(low[static_cast<std::size_t>(i)], lane, first_rows[lane] + i, four.half_slope[lane],
-                         triangles[lane].color, spans);
+      spans = low[static_cast<std::size_t>(i)].spans.append(lane, axis(), half_slope, color, spans);
+  }
   return spans;
 }
 
@@ -368,11 +343,10 @@ PIPELINE_AVX2 ColoredSpan* append_triangles(const ExactGrid& grid, const FourTri
 PIPELINE_AVX2 ColoredSpan* center_spans_avx2(const ExactGrid& grid,
                                              std::span<const ColoredTriangle> triangles, const RowRange& rows,
                                              ColoredSpan* spans) {
-  if (AxisLanes::is_small(grid.columns) && AxisLanes::is_small(grid.rows)) {
-    const AxisLanes column_axis(grid.columns), row_axis(grid.rows);
-    for (; triangles.size() >= kCount; triangles = triangles.subspan(kCount))
-      spans = append_triangles(grid, FourTriangles(column_axis, row_axis, triangles.data()), triangles.data(),
-                               rows, spans);
+  const AxisLanes column_axis(grid.columns.plain), row_axis(grid.rows.plain);
+  for (; triangles.size() >= kCount; triangles = triangles.subspan(kCount)) {
+    const FourTriangles four(column_axis, row_axis, triangles.data(), rows);
+    spans = append_triangles(grid, four, triangles.data(), rows, spans);
   }
   for (const ColoredTriangle& triangle : triangles) spans = append_exactly(grid, triangle, rows, spans);
   return spans;

@@ -3,6 +3,8 @@
 #include "libpipeline/coverage_avx2.h"
 #include "libpipeline/coverage_nearest.h"
 #include "libpipeline/four_doubles.h"
+#include "libpipeline/four_points.h"
+#include "libpipeline/four_spans.h"
 
 #if defined(__x86_64__) && defined(__GNUC__)
 
@@ -13,17 +15,6 @@ constexpr std::size_t kCount = 4;
 
 // What NearestRows does, in the same operations, as long as neither a triangle nor a row is out of the
 // ordinary: no product near the ends of a double's range, no corner on the line of pixel centres.
-
-struct FourPoints {
-  /// One of them, four times.
-  PIPELINE_AVX2_INLINE FourPoints of(std::size_t lane) const {
-    return {all(x[lane]), all(y[lane]), all(z[lane])};
-  }
-
-  FourDoubles x;
-  FourDoubles y;
-  FourDoubles z;
-};
 
 PIPELINE_AVX2_INLINE FourPoints pick_points(FourDoubles mask, const FourPoints& yes, const FourPoints& no) {
   return {pick(mask, yes.x, no.x), pick(mask, yes.y, no.y), pick(mask, yes.z, no.z)};
@@ -38,21 +29,11 @@ PIPELINE_AVX2_INLINE FourDoubles is_lower(const FourPoints& a, const FourPoints&
   return either(is_less(a.y, b.y), both(is_equal(a.y, b.y), by_x));
 }
 
-/// A vertex of each of four triangles.
-PIPELINE_AVX2_INLINE FourPoints vertices(const ColoredTriangle* triangles, std::size_t vertex) {
-  const Vec3& p = triangles[0].triangle.p_ndc[vertex];
-  const Vec3& q = triangles[1].triangle.p_ndc[vertex];
-  const Vec3& r = triangles[2].triangle.p_ndc[vertex];
-  const Vec3& s = triangles[3].triangle.p_ndc[vertex];
-  return {_mm256_setr_pd(p.x, q.x, r.x, s.x), _mm256_setr_pd(p.y, q.y, r.y, s.y),
-          _mm256_setr_pd(p.z, q.z, r.z, s.z)};
-}
-
 /// What the rows of four triangles are made from. Or of one triangle, four times.
 struct RowSources {
   PIPELINE_AVX2_INLINE RowSources of(std::size_t lane) const {
-    return {lowest.of(lane),       middle.of(lane),      highest.of(lane),   all(slope[lane]),
-            all(is_edge_on[lane]), all(first_row[lane]), all(last_row[lane])};
+    return {lowest.of(lane),  middle.of(lane),       highest.of(lane),
+            all(slope[lane]), all(is_edge_on[lane]), all(last_row[lane])};
   }
 
   FourPoints lowest;
@@ -60,14 +41,14 @@ struct RowSources {
   FourPoints highest;
   FourDoubles slope;
   FourDoubles is_edge_on;  // a mask
-  FourDoubles first_row;
   FourDoubles last_row;
 };
 
 /// Four triangles made ready for their rows.
 struct FourTriangles {
-  PIPELINE_AVX2_INLINE FourTriangles(const PixelGrid& grid, const ColoredTriangle* triangles) {
-    const FourPoints a = vertices(triangles, 0), b = vertices(triangles, 1), c = vertices(triangles, 2);
+  PIPELINE_AVX2_INLINE FourTriangles(const PixelGrid& grid, const ColoredTriangle* triangles,
+                                     const RowRange& rows) {
+    const auto [a, b, c] = vertices_of(triangles);
     const FourDoubles b_first = is_lower(b, a), c_before_a = is_lower(c, a), c_before_b = is_lower(c, b);
     const FourPoints low = pick_points(b_first, b, a), high = pick_points(b_first, a, b);
     const FourDoubles c_before_low = pick(b_first, c_before_b, c_before_a);
@@ -75,6 +56,8 @@ struct FourTriangles {
     set_corners(grid, pick_points(c_before_low, c, low),
                 pick_points(c_before_low, low, pick_points(c_before_high, c, high)),
                 pick_points(c_before_high, high, c));
+    begin_row = larger(begin_row, all(rows.first));
+    rows_of.last_row = smaller(rows_of.last_row, all(rows.end) - all(1));
   }
 
   /// Whether a triangle can be done here.
@@ -83,6 +66,7 @@ struct FourTriangles {
   [[nodiscard]] bool are_ordinary() const { return ordinary_ == (1 << kCount) - 1; }
 
   RowSources rows_of;
+  FourDoubles begin_row;  // the first in the range
 
  private:
   int ordinary_;  // a bit a triangle
@@ -94,7 +78,7 @@ struct FourTriangles {
     rows_of.highest = r;
     const FourDoubles top = (all(grid.top_y) - r.y) / all(grid.dy);
     const FourDoubles bottom = (all(grid.top_y) - p.y) / all(grid.dy);
-    rows_of.first_row = _mm256_ceil_pd(clamped(top, 0, grid.rows));
+    begin_row = _mm256_ceil_pd(clamped(top, 0, grid.rows));
     rows_of.last_row = _mm256_floor_pd(clamped(bottom, -1, grid.rows - 1));
     set_slope(q - p, r - p);
   }
@@ -131,13 +115,11 @@ struct FourRows {
     const FourDoubles left_column = (left.x - all(grid.left_x)) / all(grid.dx) + all(0.5);
     const FourDoubles right_column = (right.x - all(grid.left_x)) / all(grid.dx) + all(0.5);
     const FourDoubles is_there = is_at_most(rows, of.last_row);
-    first_column = ints_of(both(is_there, _mm256_floor_pd(clamped(left_column, 0, grid.columns))));
-    last_column =
-        ints_of(pick(is_there, _mm256_floor_pd(clamped(right_column, -1, grid.columns - 1)), all(-1)));
+    spans.set_columns(rows, both(is_there, _mm256_floor_pd(clamped(left_column, 0, grid.columns))),
+                      pick(is_there, _mm256_floor_pd(clamped(right_column, -1, grid.columns - 1)), all(-1)));
 
     const FourDoubles is_slanted = but_not(is_less(left.x, right.x), of.is_edge_on);
-    x0 = numbers_of(left.x);
-    z0 = numbers_of(pick(is_slanted, left.z, smaller(left.z, right.z)));
+    spans.set_points(left.x, pick(is_slanted, left.z, smaller(left.z, right.z)));
     slope = numbers_of(both(is_slanted, of.slope));
     const FourDoubles is_between = both(is_less(of.lowest.y, y), is_less(y, of.highest.y));
     const FourDoubles is_at_corner = but_not(is_there, but_not(is_between, is_equal(y, of.middle.y)));
@@ -149,10 +131,7 @@ struct FourRows {
   /// Whether all can.
   [[nodiscard]] bool are_ordinary() const { return ordinary_ == -1; }
 
-  FourInts first_column;
-  FourInts last_column;
-  FourNumbers x0;
-  FourNumbers z0;
+  FourSpans spans;
   FourNumbers slope;
 
  private:
@@ -172,36 +151,18 @@ ColoredSpan* append_one_by_one(const PixelGrid& grid, const ColoredTriangle& tri
   return append_spans(NearestRows(grid, triangle.triangle.p_ndc), triangle.color, rows, spans);
 }
 
-/// Appends a row, unless no pixel of it is covered.
-PIPELINE_AVX2_INLINE ColoredSpan* append_row(const PixelGrid& grid, const FourRows& four, std::size_t lane,
-                                             int row, Color color, ColoredSpan* spans) {
-  const int first_column = four.first_column[lane], last_column = four.last_column[lane];
-  // Member by member: as a whole it would be made elsewhere and copied.
-  Span& span = spans->span;
-  span.row = row;
-  span.first_column = first_column;
-  span.last_column = last_column;
-  span.depth.left_x = grid.left_x;
-  span.depth.dx = grid.dx;
-  span.depth.x0 = four.x0[lane];
-  span.depth.z0 = four.z0[lane];
-  span.depth.slope = four.slope[lane];
-  spans->color = color;
-  // Without a branch, as no processor could predict it.
-  return spans + static_cast<int>(first_column <= last_column);
-}
-
 /// As CoverageKernel says, for one of four triangles: four rows at a time.
 PIPELINE_AVX2 ColoredSpan* append_triangle(const PixelGrid& grid, const FourTriangles& four, std::size_t lane,
                                            const ColoredTriangle& triangle, const RowRange& rows,
                                            ColoredSpan* spans) {
   if (!four.is_ordinary(lane)) return append_one_by_one(grid, triangle, rows, spans);
   const RowSources of = four.rows_of.of(lane);
-  const int end = std::min(rows.end, static_cast<int>(four.rows_of.last_row[lane]) + 1);
-  for (int row = std::max(rows.first, static_cast<int>(four.rows_of.first_row[lane])); row < end;) {
+  const __m128d axis = _mm_setr_pd(grid.left_x, grid.dx);
+  const int end = static_cast<int>(four.rows_of.last_row[lane]) + 1;
+  for (int row = static_cast<int>(four.begin_row[lane]); row < end;) {
     const FourRows some(grid, of, all(row) + _mm256_setr_pd(0, 1, 2, 3));
     for (std::size_t i = 0; i < kCount && row < end; ++i, ++row)
-      spans = some.is_ordinary(i) ? append_row(grid, some, i, row, triangle.color, spans)
+      spans = some.is_ordinary(i) ? some.spans.append(i, axis, some.slope[i], triangle.color, spans)
                                   : append_one_by_one(grid, triangle, {row, row + 1}, spans);
   }
   return spans;
@@ -213,16 +174,13 @@ PIPELINE_AVX2 ColoredSpan* append_triangles(const PixelGrid& grid, const FourTri
                                             const ColoredTriangle* triangles, const RowRange& rows,
                                             ColoredSpan* spans) {
   constexpr int kMostLowRows = 8;
-  const FourDoubles first_row = larger(four.rows_of.first_row, all(rows.first));
-  RowSources of = four.rows_of;
-  of.last_row = smaller(of.last_row, all(rows.end) - all(1));
-  const double most = largest_of(of.last_row - first_row) + 1;
+  const double most = largest_of(four.rows_of.last_row - four.begin_row) + 1;
   bool are_ordinary = four.are_ordinary() && most <= kMostLowRows;
   const int count = are_ordinary ? static_cast<int>(most) : 0;
   std::array<FourRows, kMostLowRows> low;
   for (int i = 0; i < count; ++i) {
     FourRows& some = low[static_cast<std::size_t>(i)];
-    some = FourRows(grid, of, first_row + all(i));
+    some = FourRows(grid, four.rows_of, four.begin_row + all(i));
     are_ordinary &= some.are_ordinary();
   }
   if (!are_ordinary) {
@@ -231,11 +189,14 @@ PIPELINE_AVX2 ColoredSpan* append_triangles(const PixelGrid& grid, const FourTri
     return spans;
   }
   // As many rows of each, covered or not: no processor could predict how many are.
-  const FourInts first_rows = ints_of(first_row);
-  for (std::size_t lane = 0; lane < kCount; ++lane)
-    for (int i = 0; i < count; ++i)
-      spans = append_row(grid, low[static_cast<std::size_t>(i)], lane, first_rows[lane] + i,
-                         triangles[lane].color, spans);
+  const __m128d axis = _mm_setr_pd(grid.left_x, grid.dx);
+  for (std::size_t lane = 0; lane < kCount; ++lane) {
+    const Color color = triangles[lane].color;
+    for (int i = 0; i < count; ++i) {
+      const FourRows& some = low[static_cast<std::size_t>(i)];
+      spans = some.spans.append(lane, axis, some.slope[lane], color, spans);
+    }
+  }
   return spans;
 }
 
@@ -245,7 +206,7 @@ PIPELINE_AVX2 ColoredSpan* nearest_spans_avx2(const PixelGrid& grid,
                                               std::span<const ColoredTriangle> triangles,
                                               const RowRange& rows, ColoredSpan* spans) {
   for (; triangles.size() >= kCount; triangles = triangles.subspan(kCount)) {
-    const FourTriangles four(grid, triangles.data());
+    const FourTriangles four(grid, triangles.data(), rows);
     spans = append_triangles(grid, four, triangles.data(), rows, spans);
   }
   for (const ColoredTriangle& triangle : triangles) spans = append_one_by_one(grid, triangle, rows, spans);

@@ -59,6 +59,22 @@ struct BinaryNumber {
 /// A coordinate n / 10^7 is n units.
 constexpr std::int64_t kGridUnitsPerOne = 10'000'000;
 
+/// The largest whole number in what is calculated with doubles: there is room for sums, and for a quotient's
+/// rounding.
+constexpr double kLargestPlain = 0x1p50;
+
+/// A GridAxis whose numbers are small, in doubles.
+struct PlainAxis {
+  double count = 0;  // of pixels
+  double step = 1;   // from one to the next
+  double inverse_step = 1;
+  double vertex_factor = 1;
+  double origin = 0;
+  /// What is not farther than that from the centre of pixel 0 is a whole number that a double holds: a
+  /// pixel's centre, or a decimal n / 10^7. Negative where pixels are too far apart.
+  double largest = -1;
+};
+
 /// One direction of the grid. In units of half_step / 2^k, pixel centres are at (2 i + 1 - count) * half_step
 /// from the middle of the window and the coordinate n / 10^7 at n * vertex_factor; both are whole for every
 /// number n / (10^7 * 2^k).
@@ -77,6 +93,7 @@ struct GridAxis {
   std::int64_t narrow_vertex_factor = 0;
   std::int64_t narrow_origin = 0;
   Divisor<std::int64_t> narrow_step;
+  PlainAxis plain;
 };
 
 /// The coordinates of a triangle along one axis as exact numbers, and how fine a grid they need.

@@ -64,7 +64,6 @@ PIPELINE_AVX2_INLINE FourDoubles clamped(FourDoubles value, double low, double h
 // Lanes one by one.
 
 using FourNumbers = std::array<double, 4>;
-using FourInts = std::array<int, 4>;
 
 PIPELINE_AVX2_INLINE FourNumbers numbers_of(FourDoubles value) {
   FourNumbers numbers;
@@ -74,12 +73,6 @@ PIPELINE_AVX2_INLINE FourNumbers numbers_of(FourDoubles value) {
 PIPELINE_AVX2_INLINE double largest_of(FourDoubles value) {
   const FourNumbers numbers = numbers_of(value);
   return std::max(std::max(numbers[0], numbers[1]), std::max(numbers[2], numbers[3]));
-}
-/// Of whole numbers of 32 bits.
-PIPELINE_AVX2_INLINE FourInts ints_of(FourDoubles value) {
-  FourInts ints;
-  _mm_storeu_si128(reinterpret_cast<__m128i*>(ints.data()), _mm256_cvtpd_epi32(value));
-  return ints;
 }
 
 }  // namespace pipeline
