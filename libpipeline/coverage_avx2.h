@@ -7,8 +7,8 @@ namespace pipeline {
 /// The kernel "avx2" of coverage_kernel.h; null where the processor cannot run it.
 const CoverageKernel* coverage_avx2();
 
-// Its functions, which only such a processor runs. They work on four triangles at a time, and then on four
-// rows of each.
+// Its functions, which only such a processor runs. They work on four triangles at a time, and then on a
+// row of each or, where one is high or out of the ordinary, on four rows of one after the other.
 
 ColoredSpan* nearest_spans_avx2(const PixelGrid& grid, std::span<const ColoredTriangle> triangles,
                                 const RowRange& rows, ColoredSpan* spans);

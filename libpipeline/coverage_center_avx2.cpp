@@ -1,5 +1,4 @@
-#include <algorithm>
-#include <cstdint>
+#include <array>
 
 #include "libpipeline/coverage_avx2.h"
 #include "libpipeline/coverage_center.h"
@@ -23,8 +22,9 @@ PIPELINE_AVX2_INLINE FourDoubles nearest_whole(FourDoubles value) {
   return _mm256_round_pd(value, _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC);
 }
 
-/// The smallest whole c in [0, most] with c * divisor >= dividend, or `most` if there is none. Up to 2^50 the
-/// estimate is off by a fourth at most, so c is the whole number nearest to it or the one after that.
+/// The smallest whole c in [0, most] with c * divisor >= dividend, or `most` if there is none. The estimate
+/// for a dividend up to 2^50 is off by a fourth at most, so c is the whole number nearest to it or the one
+/// after that.
 PIPELINE_AVX2_INLINE FourDoubles quotient_rounded_up(FourDoubles dividend, FourDoubles divisor,
                                                      FourDoubles inverse, FourDoubles most) {
   const FourDoubles near = nearest_whole(dividend * inverse);
@@ -59,7 +59,7 @@ struct AxisLanes {
     const FourDoubles rounder = all(0x1.8p52);
     return ((coordinate * all(kGridUnitsPerOne) + rounder) - rounder) * factor;
   }
-  /// Whether that is right for coordinates which lie between these, on the grid.
+  /// Whether the distances from pixel 0 that were calculated, of which these are the extremes, are exact.
   PIPELINE_AVX2_INLINE FourDoubles fit(FourDoubles least, FourDoubles most) const {
     return is_at_most(larger(size_of(least), size_of(most)), largest);
   }
@@ -139,12 +139,14 @@ struct FourTriangles {
     const FourDoubles fits = both(columns.fit(u_left, u_right), rows.fit(v_top, v_bottom));
     // A column not after the first that may be covered.
     const FourDoubles left = larger(nearest_whole(u_left * columns.inverse) - all(1), all(0));
-    // The bound of largest_product.
+    // The bound of largest_product, from that column. Triangles without a row may have larger products, which
+    // no one uses.
     const FourDoubles first = left * columns.step;
     const FourDoubles x = larger(size_of(u_left - first), size_of(u_right - first)) + all(2) * columns.step;
     const FourDoubles y = v_bottom - v_top + rows.step;
     ordinary_ = marks(triangles) & bits_of(both(fits, is_at_most(all(4) * x * y, all(kLargestPlain))));
 
+    const FourDoubles is_beside = either(is_less(u_right, all(0)), is_at_most(columns.count, left));
     rows_of.first_column = left;
     rows_of.column_count = columns.count - left;
     // From the top by the first row at or below a vertex, then by its number.
@@ -157,7 +159,8 @@ struct FourTriangles {
     const GridPoints high = pick_points(q_first, q, p), low = pick_points(q_first, p, q);
     set_corners(columns, rows, left, pick_points(r_before_high, r, high),
                 pick_points(r_before_high, high, pick_points(r_before_low, r, low)),
-                pick_points(r_before_low, low, r), smaller(larger(low_row, r_row), all(range.end)));
+                pick_points(r_before_low, low, r), smaller(larger(low_row, r_row), all(range.end)),
+                is_beside);
     begin_row = larger(rows_of.first_row, all(range.first));
   }
 
@@ -189,13 +192,14 @@ struct FourTriangles {
   }
   PIPELINE_AVX2_INLINE void set_corners(const AxisLanes& columns, const AxisLanes& rows, FourDoubles left,
                                         const GridPoints& a, const GridPoints& b, const GridPoints& c,
-                                        FourDoubles end_row) {
+                                        FourDoubles end_row, FourDoubles is_beside) {
     const FourDoubles weight = (b.u - a.u) * (c.v - a.v) - (b.v - a.v) * (c.u - a.u);
     rows_of.longest_is_left = is_less(all(0), weight);
     // All weights and their sum have the same sign, whichever it is.
     set_depth(a.z, b.z, c.z, weight + weight, columns.step * (c.v - a.v), columns.step * (a.v - b.v));
 
-    rows_of.end_row = pick(is_equal(weight, all(0)), rows_of.first_row, end_row);
+    const FourDoubles is_empty = either(is_equal(weight, all(0)), is_beside);
+    rows_of.end_row = pick(is_empty, rows_of.first_row, end_row);
 
     const FourDoubles first_u = left * columns.step, first_v = rows_of.first_row * rows.step;
     const auto edge = [&](const GridPoints& from, const GridPoints& to) PIPELINE_AVX2 {

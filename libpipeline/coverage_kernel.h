@@ -14,7 +14,7 @@ namespace pipeline {
 
 /// One implementation. Its functions write the spans of the triangles, one triangle after the other and row
 /// by row, as far as they are in `rows`, and give back where the last one ends. There has to be room for as
-/// many spans as there are rows, for every triangle.
+/// many spans as there are rows, for every triangle; what lies behind the last one in it may be overwritten.
 struct CoverageKernel {
   const char* name;
   ColoredSpan* (*nearest_spans)(const PixelGrid&, std::span<const ColoredTriangle>, const RowRange& rows,

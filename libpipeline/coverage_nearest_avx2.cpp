@@ -1,4 +1,4 @@
-#include <algorithm>
+#include <array>
 
 #include "libpipeline/coverage_avx2.h"
 #include "libpipeline/coverage_nearest.h"

@@ -107,8 +107,7 @@ GridAxis::GridAxis(int pixel_count, double limit, double limit_low_part, bool li
   plain.inverse_step = 1 / plain.step;
   plain.vertex_factor = static_cast<double>(narrow_vertex_factor);
   plain.origin = static_cast<double>(narrow_origin);
-  if (plain.step * count <= kLargestPlain)
-    plain.largest = std::min(largest_narrow_units * plain.vertex_factor, kLargestPlain) - plain.origin;
+  if (plain.step * count <= kLargestPlain) plain.largest = kLargestPlain - plain.origin;
 }
 
 std::optional<GridTriangle<std::int64_t>> narrow_triangle(const ExactGrid& grid,

@@ -70,8 +70,8 @@ struct PlainAxis {
   double inverse_step = 1;
   double vertex_factor = 1;
   double origin = 0;
-  /// What is not farther than that from the centre of pixel 0 is a whole number that a double holds: a
-  /// pixel's centre, or a decimal n / 10^7. Negative where pixels are too far apart.
+  /// A vertex whose calculated distance from the centre of pixel 0 is at most this in size was calculated
+  /// exactly. Negative where the numbers are not small; then the others mean nothing.
   double largest = -1;
 };
 

@@ -5,6 +5,7 @@
 #if defined(__x86_64__) && defined(__GNUC__)
 
 #include <array>
+#include <cstddef>
 
 #include "libpipeline/colored_span.h"
 #include "libpipeline/vec.h"

@@ -11,8 +11,7 @@
 
 namespace pipeline {
 
-/// Four spans that kernels find in four lanes, each kept as it will lie in memory: in few pieces, which are
-/// written one after the other for the spans that have a pixel.
+/// Four spans that kernels find in four lanes, each kept in few pieces that lie there as they will in memory.
 class FourSpans {
  public:
   /// There is a span where the last column is not before the first.

@@ -30,7 +30,8 @@ class PlainDepth {
   /// No product with a weight leaves a double's range between these, and a depth below them is not missed.
   static constexpr double kSmallestDepth = 0x1p-900, kLargestDepth = 0x1p900;
 
-  /// Makes 0 of -0, which only a weight of -0 could have brought about.
+  /// Makes 0 of -0, so that the sign of a zero does not depend on the signs of the weights, nor on zeros
+  /// among them.
   static constexpr double kNoMinus = 0;
 
   /// Whether these depths and weights can be taken; they are what a TriangleDepth takes.

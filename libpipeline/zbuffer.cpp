@@ -62,6 +62,8 @@ void ZBuffer<Depth>::draw(std::span<const ColoredSpan> spans, FarthestDepths<Dep
   Stored* const first_depth = depths_.row(0).data();
   Color* const first_color = colors_.row(0).data();
   for (const auto& [span, color] : spans) {
+    assert(span.row >= 0 && span.row < depths_.rows());
+    assert(span.first_column >= 0 && span.last_column < depths_.columns());
     const bool is_short = span.last_column - span.first_column < kShort;
     const std::size_t row_begin = static_cast<std::size_t>(span.row) * columns;
     if (is_short && !has_epsilon)

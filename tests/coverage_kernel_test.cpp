@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -35,7 +36,17 @@ struct Source {
 
 /// What all of a triangle's vertices have in common, so that they are ordinary, or out of the ordinary in one
 /// way.
-enum class Family { decimals, pixel_centres, lines, far_away, any_doubles, huge_differences, flat, kCount };
+enum class Family {
+  decimals,
+  pixel_centres,
+  lines,
+  off_the_screen,
+  far_away,
+  any_doubles,
+  huge_differences,
+  flat,
+  kCount
+};
 
 Vec3 vertex_of(Family family, const ScreenConfig& screen, const Vec3& middle, double pixels,
                RandomNumbers& random) {
@@ -61,6 +72,11 @@ Vec3 vertex_of(Family family, const ScreenConfig& screen, const Vec3& middle, do
       return {one_of({-kLargest, kLargest, 0, -0.0, 0.1}), one_of({-kLargest, kLargest, 0, -0.5, 0.5}),
               one_of({-kLargest, kLargest, 0, -0.0, 5e-324})};
     }
+    case Family::off_the_screen: {  // small ones
+      const auto zero_or_one = static_cast<double>(random.whole(0, 1));
+      return {near(middle.x, grid.dx), near(middle.y, grid.dy),
+              random.whole(0, 1) == 0 ? zero_or_one : -zero_or_one};
+    }
     case Family::flat:
       return {near(middle.x, grid.dx), near(middle.y, grid.dy), middle.z};
     case Family::decimals:
@@ -76,8 +92,9 @@ Source random_source(const ScreenConfig& screen, RandomNumbers& random) {
                             ? Family::decimals
                             : static_cast<Family>(random.whole(0, static_cast<int>(Family::kCount) - 1));
   const double pixels = std::array{0.7, 3.0, 20.0, 1.5 * screen.columns}[random.bits() % 4];
-  const Vec3 middle = {random.between(-1.1, 1.1) * -screen.left, random.between(-1.1, 1.1) * -screen.bottom,
-                       random.between(-1, 1)};
+  Vec3 middle = {random.between(-1.1, 1.1) * -screen.left, random.between(-1.1, 1.1) * -screen.bottom,
+                 random.between(-1, 1)};
+  if (family == Family::off_the_screen) middle.x = random.with_exponent(0, 26);
   Source source{};
   for (Vec3& vertex : source.p_ndc) vertex = vertex_of(family, screen, middle, pixels, random);
   if (random.whole(0, 9) == 0) source.p_ndc[1].y = source.p_ndc[0].y;
@@ -122,13 +139,15 @@ void expect_the_spans_of_the_rule(const CoverageKernel& kernel) {
       }
       RowRange rows = {random.whole(0, screen.rows - 1), screen.rows};
       if (random.whole(0, 1) == 0) rows.end = random.whole(rows.first, screen.rows);
+      if (random.whole(0, 9) == 0) rows = RowRange();
+      const int row_count = std::min(rows.end, screen.rows) - rows.first;
 
       std::vector<ColoredSpan> expected;
       for (const auto& [triangle, color] : triangles)
         for_each_span(rule.rows(triangle), rows, [&, of = color](const Span& span) {
           expected.push_back({span, of});
         });
-      std::vector<ColoredSpan> found(triangles.size() * static_cast<std::size_t>(rows.end - rows.first));
+      std::vector<ColoredSpan> found(triangles.size() * static_cast<std::size_t>(row_count));
       const ColoredSpan* const end = rule.spans(triangles, rows, found.data());
 
       found.resize(static_cast<std::size_t>(end - found.data()));
