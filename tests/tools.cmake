@@ -5,7 +5,7 @@ set(TOOLS_SCENES 12)
 set(SHADING_TESTS)  # all
 if(CMAKE_CXX_FLAGS MATCHES "-fsanitize")
   set(TOOLS_TIMEOUT 1200)  # sanitizers take their time, above all to start a tool
-  set(TOOLS_SCENES 4)  # the random scenes of a test that starts the tools hundreds of times for each
+  set(TOOLS_SCENES 2)  # the random scenes of a test that starts the tools hundreds of times for each
   set(SHADING_TESTS Shading WholePictures)  # the others cast a ray through every pixel, which is Python's time
 endif()
 function(tools_test name script)
