@@ -2,7 +2,7 @@
 add_test(NAME Scanline.SamplesAreTheZBuffers
   COMMAND Python3::Interpreter ${PROJECT_SOURCE_DIR}/tests/scanline_tool_test.py $<TARGET_FILE_DIR:zbuf> SameBytes)
 # A sanitizer's own memory says nothing about the tools'.
-if(NOT CMAKE_CXX_FLAGS MATCHES "-fsanitize")
+if(NOT has_sanitizer)
   add_test(NAME Scanline.NeedsNoMemoryForTheFrame
     COMMAND Python3::Interpreter ${PROJECT_SOURCE_DIR}/tests/scanline_tool_test.py $<TARGET_FILE_DIR:zbuf> Memory)
   set_tests_properties(Scanline.NeedsNoMemoryForTheFrame PROPERTIES ENVIRONMENT PYTHONDONTWRITEBYTECODE=1 TIMEOUT 300)

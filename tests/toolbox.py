@@ -31,13 +31,13 @@ def run(tool, *options, stdin="", **settings):
     data = stdin.encode() if isinstance(stdin, str) else stdin
     channel = {} if "stdin" in settings else {"input": data}
     settings.setdefault("stdout", subprocess.PIPE)
-    return subprocess.run(command(tool, *options), stderr=subprocess.PIPE, timeout=300, **channel, **settings)
+    return subprocess.run(command(tool, *options), stderr=subprocess.PIPE, timeout=60, **channel, **settings)
 
 
 def run_with(channels, tool, *options, **settings):
     """The same, but the shell redirects its channels ("<&-", ">&-")."""
     words = ["sh", "-c", 'exec "$0" "$@" ' + channels, *command(tool, *options)]
-    return subprocess.run(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=300, **settings)
+    return subprocess.run(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=60, **settings)
 
 
 def pipe(*stages, stdin=SCENE, **settings):

@@ -3,7 +3,7 @@
 set(TOOLS_TIMEOUT 300)
 set(TOOLS_SCENES 12)
 set(SHADING_TESTS)  # all
-if(CMAKE_CXX_FLAGS MATCHES "-fsanitize")
+if(has_sanitizer)
   set(TOOLS_TIMEOUT 1200)  # sanitizers take their time, above all to start a tool
   set(TOOLS_SCENES 2)  # the random scenes of a test that starts the tools hundreds of times for each
   set(SHADING_TESTS Shading WholePictures)  # the others cast a ray through every pixel, which is Python's time
@@ -38,7 +38,7 @@ tools_test(ShadePixels tools_shading_test ${SHADING_TESTS})
 tools_test(MakePictures tools_pictures_test)
 
 # A sanitizer's own memory says nothing about the tools'. Nor can it be limited.
-if(NOT CMAKE_CXX_FLAGS MATCHES "-fsanitize")
+if(NOT has_sanitizer)
   tools_test(NeedConstantMemory tools_streaming_test Memory BufferMemory)
   tools_test(NeedConstantMemoryLong tools_streaming_test LongMemory)
   set_tests_properties(Tools.NeedConstantMemoryLong PROPERTIES LABELS long TIMEOUT 3600)
