@@ -1,49 +1,43 @@
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <utility>
 #include <vector>
 
-#include "libpipeline/color.h"
+#include "libpipeline/colored_batch.h"
 #include "libpipeline/config.h"
 #include "libpipeline/exact_grid.h"
-#include "libpipeline/pixel_grid.h"
 #include "libpipeline/row_bands.h"
 #include "libpipeline/span.h"
-#include "libpipeline/triangle_batch.h"
 #include "libpipeline/worker_team.h"
 
 namespace pipeline {
 
 /// Draws triangles band by band of the screen: several batches at a time, all that reach a band before the
 /// next band, so that its pixels stay in the cache; and with several threads, each band by one of them, while
-/// the caller reads on. On one thread, a batch of small triangles is drawn at once: their pixels are
-/// somewhere else anyway, and they themselves are still in the cache. A pixel belongs to one band and sees
-/// its triangles in the order of the stream, so the result does not depend on the number of threads.
-/// `Visible` has a class Band(visible, rows) with draw(triangle, color) and finish(), which only touch those
-/// rows.
+/// the caller reads on. A pixel belongs to one band and sees its triangles in the order of the stream, so the
+/// result does not depend on the number of threads. `Visible` has a class Band(visible, rows) with
+/// draw(triangle, color) and finish(), which only touch those rows.
+///
+/// Source: "sort-middle" in S. Molnar, M. Cox, D. Ellsworth, H. Fuchs, "A sorting classification of parallel
+/// rendering", 1994.
 template <typename Visible>
 class BandDrawing {
  public:
-  BandDrawing(Visible& visible, const ScreenConfig& screen, int thread_count)
-      : visible_(visible), grid_(screen), bands_(screen), team_(thread_count) {
-    if (thread_count == 1) whole_.emplace(visible, RowRange{0, screen.rows});
+  /// `team` has no other work between draw() and finish().
+  BandDrawing(Visible& visible, const ScreenConfig& screen, WorkerTeam& team)
+      : visible_(visible), bands_(screen), team_(team) {
     for (Round& round : rounds_) round.bands.resize(static_cast<std::size_t>(bands_.count()));
   }
 
-  /// Where the next batch is to be put.
-  [[nodiscard]] TriangleBatch& next_batch() { return filling().batches[filling().batch_count]; }
-  /// Takes what was put there, each triangle in the colour `color_of(batch, index)`, which is asked for at
-  /// once and in order. It may be drawn later, at the latest in finish().
-  template <typename ColorOf>
-  void draw_batch(ColorOf&& color_of) {
-    if (whole_ && is_of_small_triangles(next_batch())) return draw_at_once(next_batch(), color_of);
-    sort_into_bands(filling(), color_of);
-    if (filling().is_full()) draw_round();
+  /// Takes the batch, in exchange for another one's memory. It may be drawn later, at the latest in finish().
+  void draw(ColoredBatch& batch) {
+    Round& round = rounds_[filling_];
+    std::swap(round.batches[round.batch_count], batch);
+    sort_into_bands(round);
+    if (round.is_full()) draw_round();
   }
   /// Draws all that is not drawn yet.
   void finish() {
@@ -71,45 +65,19 @@ class BandDrawing {
              (batch_count >= kBatchesInCache && is_of_small_triangles);
     }
 
-    std::array<TriangleBatch, kMaxBatches> batches;
-    std::array<std::vector<Color>, kMaxBatches> colors;
+    std::array<ColoredBatch, kMaxBatches> batches;
     std::vector<std::vector<Entry>> bands;  // which triangles reach a band
     std::size_t batch_count = 0;
     std::size_t triangle_count = 0;
     std::size_t entry_count = 0;
   };
 
-  [[nodiscard]] Round& filling() { return rounds_[filling_]; }
-
-  /// By some of them.
-  [[nodiscard]] bool is_of_small_triangles(const TriangleBatch& batch) const {
-    constexpr double kSmall = 32;  // width and height together, in pixels
-    constexpr std::size_t kStep = 8;
-    double width = 0, height = 0, count = 0;
-    for (std::size_t i = 0; i < batch.size(); i += kStep, ++count) {
-      const Triangle& p = batch.triangles[i];
-      width += std::max({p[0].x, p[1].x, p[2].x}) - std::min({p[0].x, p[1].x, p[2].x});
-      height += std::max({p[0].y, p[1].y, p[2].y}) - std::min({p[0].y, p[1].y, p[2].y});
-    }
-    return width / grid_.dx + height / grid_.dy < kSmall * count;
-  }
-
-  template <typename ColorOf>
-  void draw_at_once(const TriangleBatch& batch, ColorOf& color_of) {
-    if (filling().batch_count > 0) draw_round();
-    team_.finish();
-    for (std::size_t i = 0; i < batch.size(); ++i) whole_->draw(exact_triangle(batch, i), color_of(batch, i));
-    whole_->finish();
-  }
-
-  template <typename ColorOf>
-  void sort_into_bands(Round& round, ColorOf& color_of) {
+  /// Of the round's next batch.
+  void sort_into_bands(Round& round) {
     const std::size_t number = round.batch_count++;
-    const TriangleBatch& batch = round.batches[number];
-    round.colors[number].clear();
+    const TriangleBatch& batch = round.batches[number].batch;
     round.triangle_count += batch.size();
     for (std::size_t i = 0; i < batch.size(); ++i) {
-      round.colors[number].push_back(color_of(batch, i));
       const RowRange range = bands_.bands_of(batch.triangles[i]);
       for (int band = range.first; band < range.end; ++band)
         round.bands[static_cast<std::size_t>(band)].push_back(
@@ -121,32 +89,32 @@ class BandDrawing {
   /// Has the team draw what was collected, once it is done with what came before.
   void draw_round() {
     team_.finish();
-    Round& round = filling();
+    Round& round = rounds_[filling_];
+    if (round.batch_count == 0) return;
     team_.start(bands_.count(), [this, &round](int band) { draw_band(round, band); });
     filling_ = 1 - filling_;
-    filling().batch_count = 0;
-    filling().triangle_count = 0;
-    filling().entry_count = 0;
+    rounds_[filling_].batch_count = 0;
+    rounds_[filling_].triangle_count = 0;
+    rounds_[filling_].entry_count = 0;
   }
 
   void draw_band(Round& round, int band) {
     std::vector<Entry>& entries = round.bands[static_cast<std::size_t>(band)];
     if (entries.empty()) return;
     typename Visible::Band rows(visible_, bands_.rows(band));
-    for (const Entry entry : entries)
-      rows.draw(exact_triangle(round.batches[entry.batch], entry.index),
-                round.colors[entry.batch][entry.index]);
+    for (const Entry entry : entries) {
+      const ColoredBatch& drawn = round.batches[entry.batch];
+      rows.draw(exact_triangle(drawn.batch, entry.index), drawn.colors[entry.index]);
+    }
     rows.finish();
     entries.clear();
   }
 
   Visible& visible_;
-  PixelGrid grid_;
-  std::optional<typename Visible::Band> whole_;  // on one thread: for what is drawn at once
   RowBands bands_;
   std::array<Round, 2> rounds_;  // one is filled while the other is drawn
   std::size_t filling_ = 0;
-  WorkerTeam team_;  // the last: its threads end before what they use
+  WorkerTeam& team_;
 };
 
 }  // namespace pipeline

@@ -3,7 +3,6 @@
 #include <memory>
 #include <optional>
 
-#include "libpipeline/band_drawing.h"
 #include "libpipeline/color.h"
 #include "libpipeline/coverage.h"
 #include "libpipeline/image_file.h"
@@ -11,6 +10,7 @@
 #include "libpipeline/stage_reader.h"
 #include "libpipeline/supersampling.h"
 #include "libpipeline/surface_shader.h"
+#include "libpipeline/triangle_drawing.h"
 #include "libpipeline/visibility.h"
 #include "tools/depth_files.h"
 #include "tools/fragment_report.h"
@@ -69,7 +69,7 @@ struct SampledVisible {
 template <typename CoverageRule, typename Depth>
 void draw_all(Tool& tool, const RenderOptions& chosen, StageReader& reader, Paint& paint,
               SampledVisible<ZBufferAlgorithm<CoverageRule, Depth>>& visible) {
-  using Drawing = BandDrawing<ZBufferAlgorithm<CoverageRule, Depth>>;
+  using Drawing = TriangleDrawing<ZBufferAlgorithm<CoverageRule, Depth>>;
   visible.centres.set_depth_epsilon(chosen.depth_epsilon);
   Drawing centres(visible.centres, visible.centre_screen, chosen.thread_count);
   std::optional<Drawing> samples;

@@ -13,10 +13,10 @@
 #include <utility>
 #include <vector>
 
-#include "libpipeline/band_drawing.h"
 #include "libpipeline/color.h"
 #include "libpipeline/coverage.h"
 #include "libpipeline/stage_reader.h"
+#include "libpipeline/triangle_drawing.h"
 #include "libpipeline/visibility.h"
 
 namespace {
@@ -39,7 +39,7 @@ double seconds_for(std::vector<TriangleBatch> batches, const pipeline::ScreenCon
   pipeline::TriangleColors colors;
   const auto begin = std::chrono::steady_clock::now();
   Visible visible(screen);
-  pipeline::BandDrawing<Visible> drawing(visible, screen, thread_count);
+  pipeline::TriangleDrawing<Visible> drawing(visible, screen, thread_count);
   for (TriangleBatch& batch : batches) {
     std::swap(drawing.next_batch(), batch);
     drawing.draw_batch([&](const TriangleBatch& of, std::size_t i) { return colors.of(of.numbers[i]); });

@@ -1,4 +1,4 @@
-#include "libpipeline/band_drawing.h"
+#include "libpipeline/triangle_drawing.h"
 
 #include <gtest/gtest.h>
 
@@ -41,7 +41,7 @@ template <typename Visible>
 Frame drawn_in_bands(const std::vector<Triangle>& scene, const ScreenConfig& screen, int thread_count,
                      std::size_t batch_size) {
   Visible visible(screen);
-  BandDrawing drawing(visible, screen, thread_count);
+  TriangleDrawing drawing(visible, screen, thread_count);
   TriangleColors colors;
   const auto color_of = [&](const TriangleBatch& batch, std::size_t i) {
     return colors.of(batch.numbers[i]);
@@ -99,7 +99,7 @@ std::vector<Triangle> scene_of_small_triangles(int triangle_count) {
   return scene;
 }
 
-TEST(BandDrawing, SmallTrianglesAreDrawnInTheirOrder) {
+TEST(TriangleDrawing, SmallTrianglesAreDrawnInTheirOrder) {
   constexpr ScreenConfig kScreen = {150, 300};
   using Visible = ZBufferAlgorithm<NearestCoverage, DepthF64>;
   std::vector<Triangle> scene = scene_of_small_triangles(5000);
@@ -113,15 +113,15 @@ TEST(BandDrawing, SmallTrianglesAreDrawnInTheirOrder) {
           << thread_count << " threads, batches of " << batch_size;
 }
 
-TEST(BandDrawing, NearestCoverageIsThatOfOneTriangleAfterTheOther) {
+TEST(TriangleDrawing, NearestCoverageIsThatOfOneTriangleAfterTheOther) {
   expect_the_same_for_all_threads<ZBufferAlgorithm<NearestCoverage, DepthF64>>();
 }
 
-TEST(BandDrawing, CenterCoverageIsThatOfOneTriangleAfterTheOther) {
+TEST(TriangleDrawing, CenterCoverageIsThatOfOneTriangleAfterTheOther) {
   expect_the_same_for_all_threads<ZBufferAlgorithm<CenterCoverage, DepthU24>>();
 }
 
-TEST(BandDrawing, InHighBandsATriangleStaysInItsRowsToo) {
+TEST(TriangleDrawing, InHighBandsATriangleStaysInItsRowsToo) {
   constexpr ScreenConfig kScreen = {2, 70000};
   using Visible = ZBufferAlgorithm<NearestCoverage, DepthF64>;
   // The first two are near the bottom and as deep as the third, which reaches all bands.
@@ -133,16 +133,16 @@ TEST(BandDrawing, InHighBandsATriangleStaysInItsRowsToo) {
     EXPECT_TRUE(drawn_in_bands<Visible>(scene, kScreen, thread_count, 3) == expected);
 }
 
-TEST(BandDrawing, NothingDrawnIsTheBackground) {
+TEST(TriangleDrawing, NothingDrawnIsTheBackground) {
   constexpr ScreenConfig kScreen = {5, 5};
   EXPECT_TRUE((drawn_in_bands<ZBufferAlgorithm<NearestCoverage, DepthF64>>({}, kScreen, 2, 1) ==
                Frame{std::vector<double>(25, 1), std::vector<Color>(25)}));
 }
 
-TEST(BandDrawing, MayBeGivenUpInTheMiddle) {
+TEST(TriangleDrawing, MayBeGivenUpInTheMiddle) {
   constexpr ScreenConfig kScreen = {150, 300};
   ZBufferAlgorithm<NearestCoverage, DepthF64> visible(kScreen);
-  BandDrawing drawing(visible, kScreen, 3);
+  TriangleDrawing drawing(visible, kScreen, 3);
   for (int i = 0; i < 5; ++i) {
     drawing.next_batch().add({{{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}}}, 0, {});
     drawing.draw_batch([](const TriangleBatch&, std::size_t) { return Color(); });
