@@ -91,7 +91,7 @@ class BandDrawing {
     team_.finish();
     Round& round = rounds_[filling_];
     if (round.batch_count == 0) return;
-    team_.start(bands_.count(), [this, &round](int band) { draw_band(round, band); });
+    team_.start(bands_.count(), [this, &round](int band, int) { draw_band(round, band); });
     filling_ = 1 - filling_;
     rounds_[filling_].batch_count = 0;
     rounds_[filling_].triangle_count = 0;

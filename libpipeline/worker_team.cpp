@@ -1,6 +1,7 @@
 #include "libpipeline/worker_team.h"
 
 #include <cassert>
+#include <memory>
 #include <utility>
 
 namespace pipeline {
@@ -9,7 +10,7 @@ WorkerTeam::WorkerTeam(int thread_count) {
   assert(thread_count >= 1);
   threads_.reserve(static_cast<std::size_t>(thread_count));
   try {
-    for (int i = 1; i < thread_count; ++i) threads_.emplace_back([this] { work(); });
+    for (int i = 1; i < thread_count; ++i) threads_.emplace_back([this, i] { work(i); });
   } catch (const std::exception&) {
     // The system gives no more threads. Those that are there do the same work.
   }
@@ -19,56 +20,75 @@ WorkerTeam::~WorkerTeam() {
   {
     const std::lock_guard lock(mutex_);
     is_over_ = true;
-    next_task_ = task_count_;
+    jobs_.clear();
   }
   has_tasks_.notify_all();
   for (std::thread& thread : threads_) thread.join();
 }
 
-void WorkerTeam::start(int task_count, std::function<void(int)> task) {
+void WorkerTeam::start(int task_count, Task task) {
+  if (task_count == 0) return;
   {
     const std::lock_guard lock(mutex_);
-    assert(next_task_ == task_count_ && busy_count_ == 0);
-    task_ = std::move(task);
-    task_count_ = task_count;
-    next_task_ = 0;
+    jobs_.push_back(std::make_shared<Job>(Job{std::move(task), task_count}));
   }
-  has_tasks_.notify_all();
+  if (task_count == 1)
+    has_tasks_.notify_one();
+  else
+    has_tasks_.notify_all();
+}
+
+void WorkerTeam::help() {
+  Lock lock(mutex_);
+  if (!jobs_.empty()) {
+    do_next_task(lock, kOwner);
+  } else if (busy_count_ > 0) {
+    const std::uint64_t before = done_count_;
+    is_task_done_.wait(lock, [&] { return done_count_ != before; });
+  }
+  throw_failure();
 }
 
 void WorkerTeam::finish() {
-  std::unique_lock lock(mutex_);
-  do_tasks(lock);
-  is_done_.wait(lock, [this] { return busy_count_ == 0; });
+  Lock lock(mutex_);
+  while (!jobs_.empty()) do_next_task(lock, kOwner);
+  is_task_done_.wait(lock, [this] { return busy_count_ == 0; });
+  throw_failure();
+}
+
+void WorkerTeam::work(int worker) {
+  Lock lock(mutex_);
+  for (;;) {
+    has_tasks_.wait(lock, [this] { return is_over_ || !jobs_.empty(); });
+    if (is_over_) return;
+    do_next_task(lock, worker);
+  }
+}
+
+void WorkerTeam::do_next_task(Lock& lock, int worker) {
+  const std::shared_ptr<Job> job = jobs_.front();
+  const int number = job->next_task++;
+  if (job->next_task == job->task_count) jobs_.pop_front();
+  ++busy_count_;
+  lock.unlock();
+  std::exception_ptr failure;
+  try {
+    job->task(number, worker);
+  } catch (...) {
+    failure = std::current_exception();
+  }
+  lock.lock();
+  if (failure != nullptr) {
+    failure_ = failure;
+    jobs_.clear();
+  }
+  --busy_count_;
+  ++done_count_;
+  is_task_done_.notify_one();
+}
+
+void WorkerTeam::throw_failure() {
   if (failure_ != nullptr) std::rethrow_exception(std::exchange(failure_, nullptr));
-}
-
-void WorkerTeam::work() {
-  std::unique_lock lock(mutex_);
-  while (!is_over_) {
-    do_tasks(lock);
-    has_tasks_.wait(lock, [this] { return is_over_ || next_task_ < task_count_; });
-  }
-}
-
-void WorkerTeam::do_tasks(std::unique_lock<std::mutex>& lock) {
-  while (next_task_ < task_count_) {
-    const int number = next_task_++;
-    ++busy_count_;
-    lock.unlock();
-    std::exception_ptr failure;
-    try {
-      task_(number);
-    } catch (...) {
-      failure = std::current_exception();
-    }
-    lock.lock();
-    if (failure != nullptr) {
-      failure_ = failure;
-      next_task_ = task_count_;
-    }
-    if (--busy_count_ == 0) is_done_.notify_one();
-  }
 }
 
 }  // namespace pipeline

@@ -1,44 +1,60 @@
 #pragma once
 
 #include <condition_variable>
+#include <cstdint>
+#include <deque>
 #include <exception>
 #include <functional>
+#include <memory>
 #include <mutex>
 #include <thread>
 #include <vector>
 
 namespace pipeline {
 
-/// Some threads that, together with the one that owns the team, do the numbered tasks of one job after
-/// another. Whoever is free takes the next task, so nothing that tasks of one job share may depend on their
-/// order.
+/// Some threads that, together with the one that owns the team, do the numbered tasks of jobs. They are begun
+/// in order, but whoever is free takes the next one: nothing that tasks share may depend on their order.
+/// Workers have numbers, too: the owner is 0, and all are less than the count of threads asked for.
 class WorkerTeam {
  public:
-  /// `thread_count`, at least 1, includes the owner: a team of 1 does everything in finish(). Where the
-  /// system has fewer threads to give, the team is smaller.
+  /// `thread_count`, at least 1, includes the owner: a team of 1 does everything in help() and finish().
+  /// Where the system has fewer threads to give, the team is smaller.
   explicit WorkerTeam(int thread_count);
   /// Waits for tasks that were begun; others are not done any more.
   ~WorkerTeam();
   WorkerTeam(const WorkerTeam&) = delete;
   WorkerTeam& operator=(const WorkerTeam&) = delete;
 
-  /// Has the others begin with `task(0)` to `task(task_count - 1)`; the job before has to be finished.
-  void start(int task_count, std::function<void(int)> task);
-  /// Helps until every task of the job is done. What a task threw is thrown here; the tasks not yet begun are
-  /// left out.
+  using Task = std::function<void(int number, int worker)>;
+
+  /// Has the others do `task(number, worker)` for numbers from 0 to task_count - 1, after the jobs started
+  /// before.
+  void start(int task_count, Task task);
+  /// Does the next task or, where all are begun, waits until one is done; returns at once if all are done.
+  /// What a task threw is thrown here or in finish(); the tasks not yet begun are left out then.
+  void help();
+  /// Helps until every task is done.
   void finish();
 
  private:
-  void work();
-  void do_tasks(std::unique_lock<std::mutex>& lock);
+  static constexpr int kOwner = 0;
+  struct Job {
+    Task task;
+    int task_count;
+    int next_task = 0;
+  };
+  using Lock = std::unique_lock<std::mutex>;
+
+  void work(int worker);
+  void do_next_task(Lock& lock, int worker);
+  void throw_failure();
 
   std::mutex mutex_;
   std::condition_variable has_tasks_;
-  std::condition_variable is_done_;
-  std::function<void(int)> task_;
-  int task_count_ = 0;
-  int next_task_ = 0;
-  int busy_count_ = 0;
+  std::condition_variable is_task_done_;
+  std::deque<std::shared_ptr<Job>> jobs_;  // with tasks that are not begun
+  int busy_count_ = 0;                     // tasks that are begun and not done
+  std::uint64_t done_count_ = 0;
   bool is_over_ = false;
   std::exception_ptr failure_;
   std::vector<std::thread> threads_;

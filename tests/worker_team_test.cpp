@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <atomic>
+#include <numeric>
 #include <stdexcept>
 #include <vector>
 
@@ -15,7 +17,7 @@ TEST_P(WorkerTeamTest, DoesEveryTaskOfEveryJobOnce) {
   WorkerTeam team(GetParam());
   for (int task_count = 0; task_count < 50; ++task_count) {
     std::vector<int> times_done(static_cast<std::size_t>(task_count));
-    team.start(task_count, [&](int task) { ++times_done[static_cast<std::size_t>(task)]; });
+    team.start(task_count, [&](int task, int) { ++times_done[static_cast<std::size_t>(task)]; });
     team.finish();
     EXPECT_EQ(times_done, std::vector<int>(static_cast<std::size_t>(task_count), 1));
   }
@@ -23,18 +25,60 @@ TEST_P(WorkerTeamTest, DoesEveryTaskOfEveryJobOnce) {
 
 TEST_P(WorkerTeamTest, FinishesWithoutAJob) {
   WorkerTeam team(GetParam());
+  team.start(0, [](int, int) { ADD_FAILURE(); });
+  team.help();
   team.finish();
+  team.finish();
+}
+
+TEST_P(WorkerTeamTest, DoesJobsThatWereStartedBeforeOthersWereDone) {
+  WorkerTeam team(GetParam());
+  std::array<std::atomic<int>, 100> times_done = {};
+  for (std::size_t job = 0; job < times_done.size(); ++job) {
+    const int task_count = job % 2 == 0 ? 1 : 3;
+    team.start(task_count, [&times = times_done[job]](int task, int) { times += task + 1; });
+  }
+  team.finish();
+  for (std::size_t job = 0; job < times_done.size(); ++job)
+    EXPECT_EQ(times_done[job], job % 2 == 0 ? 1 : 1 + 2 + 3) << job;
+}
+
+TEST_P(WorkerTeamTest, HelpGetsOneMoreTaskDone) {
+  WorkerTeam team(GetParam());
+  std::atomic<int> done_count = 0;
+  for (int i = 1; i <= 200; ++i) {
+    team.start(1, [&](int, int) { ++done_count; });
+    while (done_count < i) team.help();
+  }
+  EXPECT_EQ(done_count, 200);
+}
+
+TEST_P(WorkerTeamTest, AWorkerDoesOneTaskAtATime) {
+  WorkerTeam team(GetParam());
+  std::vector<int> done_count(static_cast<std::size_t>(GetParam()));  // each for one thread, without a lock
+  team.start(1000, [&](int, int worker) { ++done_count.at(static_cast<std::size_t>(worker)); });
+  team.finish();
+  EXPECT_EQ(std::accumulate(done_count.begin(), done_count.end(), 0), 1000);
+}
+
+TEST_P(WorkerTeamTest, HelpThrowsWhatATaskThrew) {
+  WorkerTeam team(GetParam());
+  team.start(1, [](int, int) { throw std::runtime_error("task"); });
+  const auto help_until_it_throws = [&] {
+    for (;;) team.help();
+  };
+  EXPECT_THROW(help_until_it_throws(), std::runtime_error);
   team.finish();
 }
 
 TEST_P(WorkerTeamTest, ThrowsWhatATaskThrewAndGoesOnWithTheNextJob) {
   WorkerTeam team(GetParam());
-  team.start(10, [](int task) {
+  team.start(10, [](int task, int) {
     if (task == 3) throw std::runtime_error("task 3");
   });
   EXPECT_THROW(team.finish(), std::runtime_error);
   std::atomic<int> done_count = 0;
-  team.start(10, [&](int) { ++done_count; });
+  team.start(10, [&](int, int) { ++done_count; });
   team.finish();
   EXPECT_EQ(done_count, 10);
 }
@@ -43,7 +87,7 @@ TEST_P(WorkerTeamTest, MayBeDestroyedInTheMiddleOfAJob) {
   std::atomic<int> done_count = 0;
   {
     WorkerTeam team(GetParam());
-    team.start(1000, [&](int) { ++done_count; });
+    team.start(1000, [&](int, int) { ++done_count; });
   }
   EXPECT_LE(done_count, 1000);
 }

@@ -70,7 +70,7 @@ void StageRounds::fill(Round& round, const std::function<bool(TriangleBatch&)>& 
 
 void StageRounds::start(Round& round) {
   if (round.count == 0) return;
-  team_.start(round.count, [&round](int i) { round.slots[static_cast<std::size_t>(i)].work(); });
+  team_.start(round.count, [&round](int i, int) { round.slots[static_cast<std::size_t>(i)].work(); });
 }
 
 void StageRounds::write(Round& round) {
