@@ -34,6 +34,7 @@ class BandDrawing {
 
   /// Takes the batch, in exchange for another one's memory. It may be drawn later, at the latest in finish().
   void draw(ColoredBatch& batch) {
+    is_idle_ = false;
     Round& round = rounds_[filling_];
     std::swap(round.batches[round.batch_count], batch);
     sort_into_bands(round);
@@ -41,8 +42,10 @@ class BandDrawing {
   }
   /// Draws all that is not drawn yet.
   void finish() {
+    if (is_idle_) return;
     draw_round();
     team_.finish();
+    is_idle_ = true;
   }
 
  private:
@@ -114,6 +117,7 @@ class BandDrawing {
   RowBands bands_;
   std::array<Round, 2> rounds_;  // one is filled while the other is drawn
   std::size_t filling_ = 0;
+  bool is_idle_ = true;
   WorkerTeam& team_;
 };
 

@@ -8,6 +8,7 @@
 #include "libpipeline/colored_batch.h"
 #include "libpipeline/config.h"
 #include "libpipeline/exact_grid.h"
+#include "libpipeline/layer_drawing.h"
 #include "libpipeline/pixel_grid.h"
 #include "libpipeline/span.h"
 #include "libpipeline/triangle_batch.h"
@@ -15,17 +16,27 @@
 
 namespace pipeline {
 
+/// What the colours of triangles are: colours 0x00RRGGBB, or whatever has 32 bits.
+enum class ColorUse { rgb, id };
+
 /// Draws the triangles of a stream on the threads it is given, batch by batch, each in the way that suits its
 /// triangles. What is seen in the end does not depend on the number of threads: it is what the triangles give
-/// one after the other. `Visible` is what BandDrawing asks for.
+/// one after the other. `Visible` is what BandDrawing and LayerDrawing ask for.
 ///
-/// On one thread, small triangles are drawn at once: their pixels are somewhere else anyway, and they
-/// themselves are still in the cache.
+/// Large triangles are drawn in bands. On one thread, small ones are drawn at once: their pixels are
+/// somewhere else anyway, and they themselves are still in the cache. On several threads they are drawn in
+/// layers, if the layers are not large and the triangles many.
 template <typename Visible>
 class TriangleDrawing {
  public:
-  TriangleDrawing(Visible& visible, const ScreenConfig& screen, int thread_count)
-      : grid_(screen), bands_(visible, screen, team_), team_(thread_count) {
+  TriangleDrawing(Visible& visible, const ScreenConfig& screen, int thread_count,
+                  ColorUse use = ColorUse::rgb)
+      : visible_(visible),
+        grid_(screen),
+        has_layers_(thread_count > 1 && use == ColorUse::rgb && layers_fit(screen, thread_count)),
+        bands_(visible, screen, team_),
+        layers_(visible, screen, thread_count, team_),
+        team_(thread_count) {
     if (thread_count == 1) whole_.emplace(visible, RowRange{0, screen.rows});
   }
 
@@ -35,15 +46,21 @@ class TriangleDrawing {
   /// once and in order. It may be drawn later, at the latest in finish().
   template <typename ColorOf>
   void draw_batch(ColorOf&& color_of) {
-    next_.colors.clear();
-    for (std::size_t i = 0; i < next_.batch.size(); ++i) next_.colors.push_back(color_of(next_.batch, i));
-    if (whole_ && has_small_triangles(next_.batch))
-      draw_at_once();
+    const bool is_small = has_small_triangles(next_.batch);
+    if (whole_ && is_small) return draw_at_once(color_of);
+    small_count_ = is_small ? small_count_ + next_.batch.size() : 0;
+    next_.colors.resize(next_.batch.size());
+    for (std::size_t i = 0; i < next_.batch.size(); ++i) next_.colors[i] = color_of(next_.batch, i);
+    if (is_worth_layers())
+      draw_in_layers();
     else
-      bands_.draw(next_);
+      draw_in_bands();
   }
   /// Draws all that is not drawn yet.
-  void finish() { bands_.finish(); }
+  void finish() {
+    bands_.finish();
+    layers_.finish();
+  }
 
  private:
   /// By some of them.
@@ -59,17 +76,43 @@ class TriangleDrawing {
     return width / grid_.dx + height / grid_.dy < kSmall * count;
   }
 
-  void draw_at_once() {
+  /// Where layers are larger, bands win: their pixels are in a nearer cache.
+  static bool layers_fit(const ScreenConfig& screen, int thread_count) {
+    constexpr double kBytesPerPixel = 12, kMostBytes = 1 << 23;
+    return kBytesPerPixel * screen.rows * screen.columns * (thread_count - 1) <= kMostBytes;
+  }
+  /// The more small triangles there were, the more there will be, one may guess.
+  [[nodiscard]] bool is_worth_layers() const {
+    constexpr std::size_t kPixelsPerTriangle = 8;
+    const std::size_t pixel_count =
+        static_cast<std::size_t>(grid_.rows) * static_cast<std::size_t>(grid_.columns);
+    return has_layers_ && visible_.needs_no_order() && small_count_ > pixel_count / kPixelsPerTriangle;
+  }
+
+  void draw_in_layers() {
+    bands_.finish();
+    layers_.draw(next_);
+  }
+  void draw_in_bands() {
+    layers_.finish();
+    bands_.draw(next_);
+  }
+  template <typename ColorOf>
+  void draw_at_once(ColorOf& color_of) {
     bands_.finish();
     for (std::size_t i = 0; i < next_.batch.size(); ++i)
-      whole_->draw(exact_triangle(next_.batch, i), next_.colors[i]);
+      whole_->draw(exact_triangle(next_.batch, i), color_of(next_.batch, i));
     whole_->finish();
   }
 
+  Visible& visible_;
   PixelGrid grid_;
+  bool has_layers_;  // and not too large ones
   ColoredBatch next_;
+  std::size_t small_count_ = 0;                  // of small triangles since the last large ones
   std::optional<typename Visible::Band> whole_;  // on one thread: for what is drawn at once
   BandDrawing<Visible> bands_;
+  LayerDrawing<Visible> layers_;
   WorkerTeam team_;  // the last: its threads end before what they use
 };
 

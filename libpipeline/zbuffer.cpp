@@ -1,9 +1,13 @@
 #include "libpipeline/zbuffer.h"
 
+#include <bit>
 #include <cassert>
+#include <cstdint>
 #include <functional>
+#include <type_traits>
 
 #include "libpipeline/column_search.h"
+#include "libpipeline/draw_order.h"
 
 namespace pipeline {
 namespace {
@@ -21,6 +25,14 @@ void draw_pixel_by_pixel(const Span& span, Color color, const Depth& format, dou
     depths[column] = stored;
     colors[column] = color;
   }
+}
+
+/// `a` if `takes_a`, else `b`, without a branch.
+template <typename T>
+T select(bool takes_a, T a, T b) {
+  using Bits = std::conditional_t<sizeof(T) == sizeof(std::uint64_t), std::uint64_t, std::uint32_t>;
+  const Bits mask = Bits{0} - Bits{takes_a};
+  return std::bit_cast<T>((std::bit_cast<Bits>(a) & mask) | (std::bit_cast<Bits>(b) & ~mask));
 }
 
 }  // namespace
@@ -100,6 +112,32 @@ void ZBuffer<Depth>::draw_what_is_nearer_by_epsilon(const Span& span, Color colo
     depths[at] = stored;
     colors[at] = color;
   }
+}
+
+template <typename Depth>
+void ZBuffer<Depth>::take_nearer(ZBuffer& layer, const RowRange& rows) {
+  const Stored rear = rear_;  // a copy, which no depth that is written could have changed
+  for (int row = rows.first; row < rows.end; ++row) {
+    const std::span<Stored> depths = depths_.row(row), other_depths = layer.depths_.row(row);
+    const std::span<Color> colors = colors_.row(row), other_colors = layer.colors_.row(row);
+    for (std::size_t i = 0; i < depths.size(); ++i) {
+      const Stored depth = depths[i], other_depth = other_depths[i];
+      const Color color = colors[i], other_color = other_colors[i];
+      // A pixel of this buffer that shows no triangle has order 0: then nothing is earlier. No branches,
+      // which no processor could predict.
+      const bool is_earlier = (other_depth == depth) & (order_of(other_color) < order_of(color));
+      const bool takes_other = (other_depth < depth) | is_earlier;
+      depths[i] = select(takes_other, other_depth, depth);
+      colors[i] = select(takes_other, other_color, color);
+      other_depths[i] = rear;
+    }
+  }
+}
+
+template <typename Depth>
+void ZBuffer<Depth>::forget_order(const RowRange& rows) {
+  for (int row = rows.first; row < rows.end; ++row)
+    for (Color& color : colors_.row(row)) color = without_order(color);
 }
 
 template class ZBuffer<DepthF64>;

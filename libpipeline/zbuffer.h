@@ -43,6 +43,13 @@ class ZBuffer {
   /// From now on a pixel that shows a triangle is written only if its depth is less by more than `epsilon`,
   /// at least 0. What is drawn then depends on the order of the triangles.
   void set_depth_epsilon(double epsilon) { depth_epsilon_ = epsilon; }
+  [[nodiscard]] bool needs_no_order() const { return depth_epsilon_ == 0; }
+
+  /// Takes from `layer`, of the same screen, what is nearer there in these rows, or as near and of an earlier
+  /// order (draw_order.h), and leaves no triangle in them.
+  void take_nearer(ZBuffer& layer, const RowRange& rows);
+  /// Takes the order off the colours in these rows.
+  void forget_order(const RowRange& rows);
 
   /// To draw into these rows with.
   [[nodiscard]] FarthestDepths<Depth> farthest_depths(const RowRange& rows) const {

@@ -2,75 +2,39 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <functional>
 #include <vector>
 
 #include "libpipeline/coverage.h"
 #include "libpipeline/visibility.h"
-#include "tests/random_numbers.h"
+#include "tests/drawn_frame.h"
 
 namespace pipeline {
 namespace {
 
-struct Frame {
-  std::vector<double> depths;
-  std::vector<Color> colors;
-
-  friend bool operator==(const Frame&, const Frame&) = default;
-};
-
-template <typename Visible>
-Frame frame_of(const Visible& visible) {
-  Frame frame;
-  visible.for_each_row([&](const VisibleRow& row) {
-    frame.depths.insert(frame.depths.end(), row.depths.begin(), row.depths.end());
-    frame.colors.insert(frame.colors.end(), row.colors.begin(), row.colors.end());
-  });
-  return frame;
-}
-
-/// Triangle after triangle, each as a whole.
-template <typename Visible>
-Frame drawn_one_by_one(const std::vector<Triangle>& scene, const ScreenConfig& screen) {
-  Visible visible(screen);
-  TriangleColors colors;
-  for (std::size_t i = 0; i < scene.size(); ++i) visible.draw({scene[i]}, colors.of(i));
-  return frame_of(visible);
-}
-
-template <typename Visible>
-Frame drawn_in_bands(const std::vector<Triangle>& scene, const ScreenConfig& screen, int thread_count,
-                     std::size_t batch_size) {
-  Visible visible(screen);
-  TriangleDrawing drawing(visible, screen, thread_count);
-  TriangleColors colors;
-  const auto color_of = [&](const TriangleBatch& batch, std::size_t i) {
-    return colors.of(batch.numbers[i]);
-  };
+/// `color_of(i)` is the colour of triangle i.
+template <typename Visible, typename ColorOf>
+void draw_on_threads(Visible& visible, const std::vector<Triangle>& scene, const ScreenConfig& screen,
+                     int thread_count, std::size_t batch_size, ColorUse use, const ColorOf& color_of) {
+  TriangleDrawing drawing(visible, screen, thread_count, use);
   for (std::size_t i = 0; i < scene.size();) {
     TriangleBatch& batch = drawing.next_batch();
     batch.clear();
     for (; batch.size() < batch_size && i < scene.size(); ++i) batch.add(scene[i], i, {});
-    drawing.draw_batch(color_of);
+    drawing.draw_batch([&](const TriangleBatch& of, std::size_t k) { return color_of(of.numbers[k]); });
   }
   drawing.finish();
-  return frame_of(visible);
 }
 
-/// Tiny and huge triangles, on and off the screen, many at one of few depths, so that some are equal.
-std::vector<Triangle> random_scene(int triangle_count, std::uint64_t seed) {
-  RandomNumbers random(seed);
-  std::vector<Triangle> scene;
-  for (int i = 0; i < triangle_count; ++i) {
-    const double size = i % 7 == 0 ? 3 : (i % 7 == 1 ? 1e6 : 0.05);
-    const Vec3 place = {random.between(-1.2, 1.2), random.between(-1.2, 1.2), i % 3 / 4.0};
-    const double depth_range = i % 2 == 0 ? 0 : 0.5;
-    Triangle triangle;
-    for (Vec3& p : triangle)
-      p = {place.x + random.between(-size, size), place.y + random.between(-size, size),
-           place.z + random.between(-depth_range, depth_range)};
-    scene.push_back(triangle);
-  }
-  return scene;
+template <typename Visible>
+Frame drawn_on_threads(const std::vector<Triangle>& scene, const ScreenConfig& screen, int thread_count,
+                       std::size_t batch_size) {
+  Visible visible(screen);
+  TriangleColors colors;
+  draw_on_threads(visible, scene, screen, thread_count, batch_size, ColorUse::rgb,
+                  [&](std::uint64_t number) { return colors.of(number); });
+  return frame_of(visible);
 }
 
 template <typename Visible>
@@ -80,36 +44,22 @@ void expect_the_same_for_all_threads() {
   const Frame expected = drawn_one_by_one<Visible>(scene, kScreen);
   for (const int thread_count : {1, 2, 3, 8})
     for (const std::size_t batch_size : {1u, 13u, 2048u})
-      EXPECT_TRUE(drawn_in_bands<Visible>(scene, kScreen, thread_count, batch_size) == expected)
+      EXPECT_TRUE(drawn_on_threads<Visible>(scene, kScreen, thread_count, batch_size) == expected)
           << thread_count << " threads, batches of " << batch_size;
 }
 
-/// Nearly all of them small, so that whole batches are drawn at once, some from the top to the bottom.
-std::vector<Triangle> scene_of_small_triangles(int triangle_count) {
-  RandomNumbers random(2);
-  std::vector<Triangle> scene;
-  for (int i = 0; i < triangle_count; ++i) {
-    const double size = i % 101 == 3 ? 0.9 : 0.02;
-    const Vec3 place = {random.between(-1, 1), random.between(-1, 1), i % 3 / 4.0};
-    Triangle triangle;
-    for (Vec3& p : triangle)
-      p = {place.x + random.between(-size, size), place.y + random.between(-size, size), place.z};
-    scene.push_back(triangle);
-  }
-  return scene;
-}
-
 TEST(TriangleDrawing, SmallTrianglesAreDrawnInTheirOrder) {
-  constexpr ScreenConfig kScreen = {150, 300};
+  // On several threads in bands at first, and in layers when there have been many.
+  constexpr ScreenConfig kScreen = {100, 150};
   using Visible = ZBufferAlgorithm<NearestCoverage, DepthF64>;
-  std::vector<Triangle> scene = scene_of_small_triangles(5000);
+  std::vector<Triangle> scene = scene_of_small_triangles(12000);
   // Rounds of large triangles between them.
   const std::vector<Triangle> large = random_scene(40, 3);
-  scene.insert(scene.begin() + 2100, large.begin(), large.end());
+  for (const int place : {2100, 7000}) scene.insert(scene.begin() + place, large.begin(), large.end());
   const Frame expected = drawn_one_by_one<Visible>(scene, kScreen);
-  for (const int thread_count : {1, 2})
+  for (const int thread_count : {1, 2, 3})
     for (const std::size_t batch_size : {7u, 64u, 2048u})
-      EXPECT_TRUE(drawn_in_bands<Visible>(scene, kScreen, thread_count, batch_size) == expected)
+      EXPECT_TRUE(drawn_on_threads<Visible>(scene, kScreen, thread_count, batch_size) == expected)
           << thread_count << " threads, batches of " << batch_size;
 }
 
@@ -130,12 +80,38 @@ TEST(TriangleDrawing, InHighBandsATriangleStaysInItsRowsToo) {
                                        {{{-9, -9, 0}, {9, -9, 0}, {0, 9, 0}}}};
   const Frame expected = drawn_one_by_one<Visible>(scene, kScreen);
   for (const int thread_count : {1, 2})
-    EXPECT_TRUE(drawn_in_bands<Visible>(scene, kScreen, thread_count, 3) == expected);
+    EXPECT_TRUE(drawn_on_threads<Visible>(scene, kScreen, thread_count, 3) == expected);
+}
+
+TEST(TriangleDrawing, MayHaveIdsForColors) {
+  constexpr ScreenConfig kScreen = {40, 30};
+  const std::vector<Triangle> scene = scene_of_small_triangles(3000);
+  const auto id_of = [](std::uint64_t i) {
+    return Color::from_rgb(0xff123456 - static_cast<std::uint32_t>(i));
+  };
+  ZBufferAlgorithm<NearestCoverage, DepthF64> expected(kScreen), visible(kScreen);
+  for (std::size_t i = 0; i < scene.size(); ++i) expected.draw({scene[i]}, id_of(i));
+  draw_on_threads(visible, scene, kScreen, 2, 50, ColorUse::id, id_of);
+  EXPECT_TRUE(frame_of(visible) == frame_of(expected));
+}
+
+TEST(TriangleDrawing, KeepsTheOrderWhereAllThatIsSeenDependsOnIt) {
+  constexpr ScreenConfig kScreen = {40, 30};
+  // From the top to the bottom, so that there are pixels nobody has drawn yet whenever a thread begins.
+  std::vector<Triangle> scene = scene_of_small_triangles(30000);
+  std::ranges::sort(scene, std::greater(), [](const Triangle& p) { return p[0].y; });
+  const auto color_of = [](std::uint64_t i) { return Color::from_rgb(static_cast<std::uint32_t>(i)); };
+  ZBufferAlgorithm<NearestCoverage, DepthF64> expected(kScreen), visible(kScreen);
+  expected.set_depth_epsilon(0.3);  // more than the distance of two of the scene's depths
+  visible.set_depth_epsilon(0.3);
+  for (std::size_t i = 0; i < scene.size(); ++i) expected.draw({scene[i]}, color_of(i));
+  draw_on_threads(visible, scene, kScreen, 2, 50, ColorUse::rgb, color_of);
+  EXPECT_TRUE(frame_of(visible) == frame_of(expected));
 }
 
 TEST(TriangleDrawing, NothingDrawnIsTheBackground) {
   constexpr ScreenConfig kScreen = {5, 5};
-  EXPECT_TRUE((drawn_in_bands<ZBufferAlgorithm<NearestCoverage, DepthF64>>({}, kScreen, 2, 1) ==
+  EXPECT_TRUE((drawn_on_threads<ZBufferAlgorithm<NearestCoverage, DepthF64>>({}, kScreen, 2, 1) ==
                Frame{std::vector<double>(25, 1), std::vector<Color>(25)}));
 }
 

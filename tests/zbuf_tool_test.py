@@ -24,9 +24,9 @@ def zbuf(config, stage3, *options, kernel=None):
     return done.stdout, pathlib.Path("out.ppm").read_bytes()
 
 
-def random_triangle(rng):
-    """Tiny to huge, often at the depth of others."""
-    size = rng.choice((0.01, 0.01, 0.1, 1, 1e6))
+def random_triangle(rng, sizes):
+    """Often at the depth of others."""
+    size = rng.choice(sizes)
     x, y, z = rng.uniform(-1.2, 1.2), rng.uniform(-1.2, 1.2), rng.choice((0, 0.25, rng.uniform(-1, 1)))
     points = [[x + rng.uniform(-size, size), y + rng.uniform(-size, size), z] for _ in range(3)]
     return "".join(" ".join("%.7f" % c for c in point) + "\n" for point in points) + "\n"
@@ -44,10 +44,17 @@ class Threads(ToolTest):
         for stage3 in sorted(SOURCE.glob("samples/*/stage3.txt")):
             self.check(stage3.parent / "config.txt", stage3)
 
-    def test_a_random_scene(self):
-        rng = random.Random(1)
-        pathlib.Path("stage3.txt").write_text("".join(random_triangle(rng) for _ in range(20000)))
+    def test_a_scene_of_tiny_to_huge_triangles(self):
+        rng, sizes = random.Random(1), (0.01, 0.01, 0.1, 1, 1e6)
+        pathlib.Path("stage3.txt").write_text("".join(random_triangle(rng, sizes) for _ in range(20000)))
         pathlib.Path("config.txt").write_text("301 203\n")
+        self.check("config.txt", "stage3.txt")
+
+    def test_many_small_triangles_with_large_ones_between_them(self):
+        rng = random.Random(2)
+        counts = ((10000, 0.01), (50, 1), (10000, 0.01))
+        pathlib.Path("stage3.txt").write_text("".join(random_triangle(rng, (size,)) for count, size in counts for _ in range(count)))
+        pathlib.Path("config.txt").write_text("151 83\n")
         self.check("config.txt", "stage3.txt")
 
     def test_bad_text_is_found_whatever_waits_to_be_drawn(self):

@@ -25,6 +25,7 @@ namespace {
 class Paint {
  public:
   Paint(std::optional<SurfaceShader>& shader, FragmentReport* report) : shader_(shader), report_(report) {}
+  [[nodiscard]] ColorUse use() const { return shader_ ? ColorUse::id : ColorUse::rgb; }
   Color operator()(const TriangleBatch& p_ndc, std::size_t index) {
     if (report_ != nullptr) report_->add(p_ndc, index);
     const Color color = colors_.of(p_ndc.numbers[index]);
@@ -71,11 +72,11 @@ void draw_all(Tool& tool, const RenderOptions& chosen, StageReader& reader, Pain
               SampledVisible<ZBufferAlgorithm<CoverageRule, Depth>>& visible) {
   using Drawing = TriangleDrawing<ZBufferAlgorithm<CoverageRule, Depth>>;
   visible.centres.set_depth_epsilon(chosen.depth_epsilon);
-  Drawing centres(visible.centres, visible.centre_screen, chosen.thread_count);
+  Drawing centres(visible.centres, visible.centre_screen, chosen.thread_count, paint.use());
   std::optional<Drawing> samples;
   if (visible.samples) {
     visible.samples->set_depth_epsilon(chosen.depth_epsilon);
-    samples.emplace(*visible.samples, visible.screen, chosen.thread_count);
+    samples.emplace(*visible.samples, visible.screen, chosen.thread_count, paint.use());
   }
   std::vector<Color> colors;
   const auto draw = [&] {

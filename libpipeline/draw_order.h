@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstdint>
+
+#include "libpipeline/color.h"
+
+namespace pipeline {
+
+// When a pixel was drawn, kept with its colour in the byte that a Color leaves free: 0 for all that was drawn
+// long ago, then a number for each of the latest batches.
+
+constexpr std::uint32_t kMostOrders = 0xff;
+
+/// A colour 0x00RRGGBB as that of the batch `order`, at most kMostOrders.
+constexpr Color with_order(Color color, std::uint32_t order) {
+  return Color::from_rgb(color.rgb() | order << 24);
+}
+
+constexpr std::uint32_t order_of(Color color) {
+  return color.rgb() >> 24;
+}
+
+constexpr Color without_order(Color color) {
+  return Color::from_rgb(color.rgb() & 0xffffff);
+}
+
+}  // namespace pipeline

@@ -1,0 +1,103 @@
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <utility>
+
+#include "libpipeline/colored_batch.h"
+#include "libpipeline/config.h"
+#include "libpipeline/draw_order.h"
+#include "libpipeline/exact_grid.h"
+#include "libpipeline/row_bands.h"
+#include "libpipeline/span.h"
+#include "libpipeline/worker_team.h"
+
+namespace pipeline {
+
+/// Draws batches side by side: every thread has a layer of its own, as large as the picture, and draws the
+/// next batch into it as a whole, while the caller reads on. In the end the layers are laid on one another.
+/// Each pixel keeps the number of its batch, so that of equal depths the one drawn first stays whichever
+/// layers they are in, and the result does not depend on the number of threads. For small triangles, which
+/// cost less than sorting them, if there are many: making layers and laying them together costs as much as
+/// drawing some triangles for every ten pixels.
+///
+/// `Visible` is what BandDrawing asks for, made from a screen, and has take_nearer(layer, rows) and
+/// forget_order(rows).
+///
+/// Source: "sort-last" in S. Molnar, M. Cox, D. Ellsworth, H. Fuchs, "A sorting classification of parallel
+/// rendering", 1994.
+template <typename Visible>
+class LayerDrawing {
+ public:
+  /// `visible` is the first layer. `team` has `thread_count` threads at most, and no other work between
+  /// draw() and finish().
+  LayerDrawing(Visible& visible, const ScreenConfig& screen, int thread_count, WorkerTeam& team)
+      : first_(visible), screen_(screen), bands_(screen), thread_count_(thread_count), team_(team) {}
+
+  /// Takes the batch, in exchange for another one's memory. It may be drawn later, at the latest in finish().
+  /// Its colours are 0x00RRGGBB.
+  void draw(ColoredBatch& batch) {
+    if (layers_.empty()) make_layers();
+    Place& place = places_[next_place_];
+    while (!place.is_free) team_.help();
+    next_place_ = (next_place_ + 1) % kPlaces;
+    std::swap(place.drawn, batch);
+    place.order = ++last_order_;
+    place.is_free = false;
+    team_.start(
+        1, [this, &place](int, int worker) { draw_into(layers_[static_cast<std::size_t>(worker)], place); });
+    if (last_order_ == kMostOrders) finish();
+  }
+  /// Draws all that is not drawn yet, and lays the layers together in the first.
+  void finish() {
+    if (last_order_ == 0) return;
+    team_.finish();
+    team_.start(bands_.count(), [this](int band, int) { lay_together(bands_.rows(band)); });
+    team_.finish();
+    last_order_ = 0;
+  }
+
+ private:
+  static constexpr std::size_t kPlaces = 8;
+
+  /// Where a batch waits for a thread.
+  struct Place {
+    ColoredBatch drawn;
+    std::uint32_t order = 0;
+    std::atomic<bool> is_free = true;
+  };
+  using Layer = typename Visible::Band;  // of all rows
+
+  void make_layers() {
+    const RowRange all_rows = {0, screen_.rows};
+    layers_.emplace_back(first_, all_rows);
+    for (int i = 1; i < thread_count_; ++i) layers_.emplace_back(others_.emplace_back(screen_), all_rows);
+  }
+  static void draw_into(Layer& layer, Place& place) {
+    const ColoredBatch& drawn = place.drawn;
+    for (std::size_t i = 0; i < drawn.batch.size(); ++i)
+      layer.draw(exact_triangle(drawn.batch, i), with_order(drawn.colors[i], place.order));
+    layer.finish();
+    place.is_free = true;
+  }
+  void lay_together(const RowRange& rows) {
+    for (Visible& other : others_) first_.take_nearer(other, rows);
+    first_.forget_order(rows);
+  }
+
+  Visible& first_;
+  std::deque<Visible> others_;
+  std::deque<Layer> layers_;  // each thread's
+  std::array<Place, kPlaces> places_;
+  std::size_t next_place_ = 0;
+  std::uint32_t last_order_ = 0;
+  ScreenConfig screen_;
+  RowBands bands_;
+  int thread_count_;
+  WorkerTeam& team_;
+};
+
+}  // namespace pipeline

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <vector>
+
+#include "libpipeline/color.h"
+#include "libpipeline/visibility.h"
+#include "tests/random_numbers.h"
+
+namespace pipeline {
+
+/// All that is seen.
+struct Frame {
+  std::vector<double> depths;
+  std::vector<Color> colors;
+
+  friend bool operator==(const Frame&, const Frame&) = default;
+};
+
+template <typename Visible>
+Frame frame_of(const Visible& visible) {
+  Frame frame;
+  visible.for_each_row([&](const VisibleRow& row) {
+    frame.depths.insert(frame.depths.end(), row.depths.begin(), row.depths.end());
+    frame.colors.insert(frame.colors.end(), row.colors.begin(), row.colors.end());
+  });
+  return frame;
+}
+
+/// Triangle after triangle, each as a whole.
+template <typename Visible>
+Frame drawn_one_by_one(const std::vector<Triangle>& scene, const ScreenConfig& screen) {
+  Visible visible(screen);
+  TriangleColors colors;
+  for (std::size_t i = 0; i < scene.size(); ++i) visible.draw({scene[i]}, colors.of(i));
+  return frame_of(visible);
+}
+
+/// Tiny and huge triangles, on and off the screen, many at one of few depths, so that some are equal.
+inline std::vector<Triangle> random_scene(int triangle_count, std::uint64_t seed) {
+  RandomNumbers random(seed);
+  std::vector<Triangle> scene;
+  for (int i = 0; i < triangle_count; ++i) {
+    const double size = i % 7 == 0 ? 3 : (i % 7 == 1 ? 1e6 : 0.05);
+    const Vec3 place = {random.between(-1.2, 1.2), random.between(-1.2, 1.2), i % 3 / 4.0};
+    const double depth_range = i % 2 == 0 ? 0 : 0.5;
+    Triangle triangle;
+    for (Vec3& p : triangle)
+      p = {place.x + random.between(-size, size), place.y + random.between(-size, size),
+           place.z + random.between(-depth_range, depth_range)};
+    scene.push_back(triangle);
+  }
+  return scene;
+}
+
+/// Nearly all of them small, some from the top to the bottom, at three depths.
+inline std::vector<Triangle> scene_of_small_triangles(int triangle_count) {
+  RandomNumbers random(2);
+  std::vector<Triangle> scene;
+  for (int i = 0; i < triangle_count; ++i) {
+    const double size = i % 101 == 3 ? 0.9 : 0.02;
+    const Vec3 place = {random.between(-1, 1), random.between(-1, 1), i % 3 / 4.0};
+    Triangle triangle;
+    for (Vec3& p : triangle)
+      p = {place.x + random.between(-size, size), place.y + random.between(-size, size), place.z};
+    scene.push_back(triangle);
+  }
+  return scene;
+}
+
+}  // namespace pipeline
