@@ -12,6 +12,14 @@
 namespace pipeline {
 namespace {
 
+/// `a` if `takes_a`, else `b`. Without a branch, as no processor could predict which of two depths is nearer.
+template <typename T>
+T select(bool takes_a, T a, T b) {
+  using Bits = std::conditional_t<sizeof(T) == sizeof(std::uint64_t), std::uint64_t, std::uint32_t>;
+  const Bits mask = Bits{0} - Bits{takes_a};
+  return std::bit_cast<T>((std::bit_cast<Bits>(a) & mask) | (std::bit_cast<Bits>(b) & ~mask));
+}
+
 /// Into a row whose first pixel is at `depths` and `colors`.
 template <typename Depth>
 void draw_pixel_by_pixel(const Span& span, Color color, const Depth& format, double front,
@@ -21,18 +29,10 @@ void draw_pixel_by_pixel(const Span& span, Color color, const Depth& format, dou
   for (int column = span.first_column; column <= last_column; ++column) {
     const double z = depth(column);
     const typename Depth::Stored stored = format.store(z);
-    if (!(stored < depths[column]) || !(z >= front)) continue;
-    depths[column] = stored;
-    colors[column] = color;
+    const bool takes = (stored < depths[column]) & (z >= front);
+    depths[column] = select(takes, stored, depths[column]);
+    colors[column] = select(takes, color, colors[column]);
   }
-}
-
-/// `a` if `takes_a`, else `b`, without a branch.
-template <typename T>
-T select(bool takes_a, T a, T b) {
-  using Bits = std::conditional_t<sizeof(T) == sizeof(std::uint64_t), std::uint64_t, std::uint32_t>;
-  const Bits mask = Bits{0} - Bits{takes_a};
-  return std::bit_cast<T>((std::bit_cast<Bits>(a) & mask) | (std::bit_cast<Bits>(b) & ~mask));
 }
 
 }  // namespace
