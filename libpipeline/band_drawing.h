@@ -26,7 +26,8 @@ namespace pipeline {
 template <typename Visible>
 class BandDrawing {
  public:
-  /// `team` has no other work between draw() and finish().
+  /// `team` has no other work between draw() and finish(). After an exception, and whenever there was no
+  /// finish() since draw(), its threads have to end first, and then this object.
   BandDrawing(Visible& visible, const ScreenConfig& screen, WorkerTeam& team)
       : visible_(visible), bands_(screen), team_(team) {
     for (Round& round : rounds_) round.bands.resize(static_cast<std::size_t>(bands_.count()));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cassert>
 #include <cstdint>
 
 #include "libpipeline/color.h"
@@ -13,6 +14,7 @@ constexpr std::uint32_t kMostOrders = 0xff;
 
 /// A colour 0x00RRGGBB as that of the batch `order`, at most kMostOrders.
 constexpr Color with_order(Color color, std::uint32_t order) {
+  assert(color.rgb() >> 24 == 0 && order <= kMostOrders);
   return Color::from_rgb(color.rgb() | order << 24);
 }
 

@@ -21,24 +21,25 @@ namespace pipeline {
 /// next batch into it as a whole, while the caller reads on. In the end the layers are laid on one another.
 /// Each pixel keeps the number of its batch, so that of equal depths the one drawn first stays whichever
 /// layers they are in, and the result does not depend on the number of threads. For small triangles, which
-/// cost less than sorting them, if there are many: making layers and laying them together costs as much as
-/// drawing some triangles for every ten pixels.
+/// cost less than sorting them, if there are many: making a layer and laying it on another costs as much as
+/// drawing a triangle for every fifteen pixels. What was laid together stays in the layers, where it hides
+/// what will be hidden anyway.
 ///
 /// `Visible` is what BandDrawing asks for, made from a screen, and has take_nearer(layer, rows) and
-/// forget_order(rows).
+/// forget_order(rows), which a ZBuffer explains.
 ///
 /// Source: "sort-last" in S. Molnar, M. Cox, D. Ellsworth, H. Fuchs, "A sorting classification of parallel
 /// rendering", 1994.
 template <typename Visible>
 class LayerDrawing {
  public:
-  /// `visible` is the first layer. `team` has `thread_count` threads at most, and no other work between
-  /// draw() and finish().
-  LayerDrawing(Visible& visible, const ScreenConfig& screen, int thread_count, WorkerTeam& team)
-      : first_(visible), screen_(screen), bands_(screen), thread_count_(thread_count), team_(team) {}
+  /// `visible` is the first layer. `team` has no other work between draw() and finish(). After an exception,
+  /// and whenever there was no finish() since draw(), its threads have to end first, and then this object.
+  LayerDrawing(Visible& visible, const ScreenConfig& screen, WorkerTeam& team)
+      : first_(visible), screen_(screen), bands_(screen), team_(team) {}
 
   /// Takes the batch, in exchange for another one's memory. It may be drawn later, at the latest in finish().
-  /// Its colours are 0x00RRGGBB.
+  /// Its colours are 0x00RRGGBB. Layers are laid together after kMostOrders batches, however small.
   void draw(ColoredBatch& batch) {
     if (layers_.empty()) make_layers();
     Place& place = places_[next_place_];
@@ -74,7 +75,7 @@ class LayerDrawing {
   void make_layers() {
     const RowRange all_rows = {0, screen_.rows};
     layers_.emplace_back(first_, all_rows);
-    for (int i = 1; i < thread_count_; ++i) layers_.emplace_back(others_.emplace_back(screen_), all_rows);
+    for (int i = 1; i < team_.size(); ++i) layers_.emplace_back(others_.emplace_back(screen_), all_rows);
   }
   static void draw_into(Layer& layer, Place& place) {
     const ColoredBatch& drawn = place.drawn;
@@ -96,7 +97,6 @@ class LayerDrawing {
   std::uint32_t last_order_ = 0;
   ScreenConfig screen_;
   RowBands bands_;
-  int thread_count_;
   WorkerTeam& team_;
 };
 

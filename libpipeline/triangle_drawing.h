@@ -7,6 +7,7 @@
 #include "libpipeline/band_drawing.h"
 #include "libpipeline/colored_batch.h"
 #include "libpipeline/config.h"
+#include "libpipeline/draw_order.h"
 #include "libpipeline/exact_grid.h"
 #include "libpipeline/layer_drawing.h"
 #include "libpipeline/pixel_grid.h"
@@ -21,7 +22,7 @@ enum class ColorUse { rgb, id };
 
 /// Draws the triangles of a stream on the threads it is given, batch by batch, each in the way that suits its
 /// triangles. What is seen in the end does not depend on the number of threads: it is what the triangles give
-/// one after the other. `Visible` is what BandDrawing and LayerDrawing ask for.
+/// one after the other. `Visible` is what BandDrawing and LayerDrawing ask for, and has needs_no_order().
 ///
 /// Large triangles are drawn in bands. On one thread, small ones are drawn at once: their pixels are
 /// somewhere else anyway, and they themselves are still in the cache. On several threads they are drawn in
@@ -29,13 +30,13 @@ enum class ColorUse { rgb, id };
 template <typename Visible>
 class TriangleDrawing {
  public:
-  TriangleDrawing(Visible& visible, const ScreenConfig& screen, int thread_count,
-                  ColorUse use = ColorUse::rgb)
+  TriangleDrawing(Visible& visible, const ScreenConfig& screen, int thread_count, ColorUse use)
       : visible_(visible),
         grid_(screen),
-        has_layers_(thread_count > 1 && use == ColorUse::rgb && layers_fit(screen, thread_count)),
+        may_use_layers_(thread_count > 1 && use == ColorUse::rgb && layers_fit(screen, thread_count)),
+        worth_layers_(static_cast<std::size_t>(screen.rows) * static_cast<std::size_t>(screen.columns) / 8),
         bands_(visible, screen, team_),
-        layers_(visible, screen, thread_count, team_),
+        layers_(visible, screen, team_),
         team_(thread_count) {
     if (thread_count == 1) whole_.emplace(visible, RowRange{0, screen.rows});
   }
@@ -48,10 +49,10 @@ class TriangleDrawing {
   void draw_batch(ColorOf&& color_of) {
     const bool is_small = has_small_triangles(next_.batch);
     if (whole_ && is_small) return draw_at_once(color_of);
-    small_count_ = is_small ? small_count_ + next_.batch.size() : 0;
+    small_count_ = is_small && has_enough_for_layers(next_.batch) ? small_count_ + next_.batch.size() : 0;
     next_.colors.resize(next_.batch.size());
     for (std::size_t i = 0; i < next_.batch.size(); ++i) next_.colors[i] = color_of(next_.batch, i);
-    if (is_worth_layers())
+    if (may_use_layers_ && visible_.needs_no_order() && small_count_ > worth_layers_)
       draw_in_layers();
     else
       draw_in_bands();
@@ -76,17 +77,14 @@ class TriangleDrawing {
     return width / grid_.dx + height / grid_.dy < kSmall * count;
   }
 
-  /// Where layers are larger, bands win: their pixels are in a nearer cache.
+  /// Where the layers beside the first are larger, bands win: their pixels are in a nearer cache.
   static bool layers_fit(const ScreenConfig& screen, int thread_count) {
     constexpr double kBytesPerPixel = 12, kMostBytes = 1 << 23;
     return kBytesPerPixel * screen.rows * screen.columns * (thread_count - 1) <= kMostBytes;
   }
-  /// The more small triangles there were, the more there will be, one may guess.
-  [[nodiscard]] bool is_worth_layers() const {
-    constexpr std::size_t kPixelsPerTriangle = 8;
-    const std::size_t pixel_count =
-        static_cast<std::size_t>(grid_.rows) * static_cast<std::size_t>(grid_.columns);
-    return has_layers_ && visible_.needs_no_order() && small_count_ > pixel_count / kPixelsPerTriangle;
+  /// For the time until layers of such batches have to be laid together.
+  [[nodiscard]] bool has_enough_for_layers(const TriangleBatch& batch) const {
+    return batch.size() * kMostOrders > worth_layers_;
   }
 
   void draw_in_layers() {
@@ -107,9 +105,10 @@ class TriangleDrawing {
 
   Visible& visible_;
   PixelGrid grid_;
-  bool has_layers_;  // and not too large ones
+  bool may_use_layers_;
+  std::size_t worth_layers_;  // so many triangles after another are worth them: as many may well follow
   ColoredBatch next_;
-  std::size_t small_count_ = 0;                  // of small triangles since the last large ones
+  std::size_t small_count_ = 0;                  // of triangles, since the last that are not for layers
   std::optional<typename Visible::Band> whole_;  // on one thread: for what is drawn at once
   BandDrawing<Visible> bands_;
   LayerDrawing<Visible> layers_;

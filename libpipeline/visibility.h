@@ -42,7 +42,7 @@ class ZBufferAlgorithm {
   /// Whether what is seen can be found in any order, if only of equal depths the earlier stays.
   [[nodiscard]] bool needs_no_order() const { return buffer_.needs_no_order(); }
   /// See ZBuffer.
-  void take_nearer(ZBufferAlgorithm& layer, const RowRange& rows) {
+  void take_nearer(const ZBufferAlgorithm& layer, const RowRange& rows) {
     buffer_.take_nearer(layer.buffer_, rows);
   }
   void forget_order(const RowRange& rows) { buffer_.forget_order(rows); }

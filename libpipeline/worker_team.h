@@ -12,9 +12,9 @@
 
 namespace pipeline {
 
-/// Some threads that, together with the one that owns the team, do the numbered tasks of jobs. They are begun
-/// in order, but whoever is free takes the next one: nothing that tasks share may depend on their order.
-/// Workers have numbers, too: the owner is 0, and all are less than the count of threads asked for.
+/// Some threads that, together with the one that owns the team, do the numbered tasks of jobs. Tasks are
+/// begun in order, by whoever is free; nothing is said of the order in which those of several workers end. A
+/// worker does one task at a time. Workers have numbers, too, less than size(); the owner is 0.
 class WorkerTeam {
  public:
   /// `thread_count`, at least 1, includes the owner: a team of 1 does everything in help() and finish().
@@ -25,13 +25,17 @@ class WorkerTeam {
   WorkerTeam(const WorkerTeam&) = delete;
   WorkerTeam& operator=(const WorkerTeam&) = delete;
 
+  /// How many threads there are, the owner included.
+  [[nodiscard]] int size() const { return static_cast<int>(threads_.size()) + 1; }
+
   using Task = std::function<void(int number, int worker)>;
 
   /// Has the others do `task(number, worker)` for numbers from 0 to task_count - 1, after the jobs started
   /// before.
   void start(int task_count, Task task);
   /// Does the next task or, where all are begun, waits until one is done; returns at once if all are done.
-  /// What a task threw is thrown here or in finish(); the tasks not yet begun are left out then.
+  /// What a task threw is thrown here or in finish(); the tasks started before and not yet begun are left
+  /// out.
   void help();
   /// Helps until every task is done.
   void finish();

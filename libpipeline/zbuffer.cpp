@@ -115,21 +115,20 @@ void ZBuffer<Depth>::draw_what_is_nearer_by_epsilon(const Span& span, Color colo
 }
 
 template <typename Depth>
-void ZBuffer<Depth>::take_nearer(ZBuffer& layer, const RowRange& rows) {
-  const Stored rear = rear_;  // a copy, which no depth that is written could have changed
+void ZBuffer<Depth>::take_nearer(const ZBuffer& layer, const RowRange& rows) {
   for (int row = rows.first; row < rows.end; ++row) {
-    const std::span<Stored> depths = depths_.row(row), other_depths = layer.depths_.row(row);
-    const std::span<Color> colors = colors_.row(row), other_colors = layer.colors_.row(row);
+    const std::span<Stored> depths = depths_.row(row);
+    const std::span<Color> colors = colors_.row(row);
+    const std::span<const Stored> other_depths = layer.depths_.row(row);
+    const std::span<const Color> other_colors = layer.colors_.row(row);
     for (std::size_t i = 0; i < depths.size(); ++i) {
-      const Stored depth = depths[i], other_depth = other_depths[i];
-      const Color color = colors[i], other_color = other_colors[i];
-      // A pixel of this buffer that shows no triangle has order 0: then nothing is earlier. No branches,
-      // which no processor could predict.
-      const bool is_earlier = (other_depth == depth) & (order_of(other_color) < order_of(color));
-      const bool takes_other = (other_depth < depth) | is_earlier;
-      depths[i] = select(takes_other, other_depth, depth);
-      colors[i] = select(takes_other, other_color, color);
-      other_depths[i] = rear;
+      const bool is_nearer = other_depths[i] < depths[i];
+      // Never where neither shows a triangle: that has order 0 here.
+      const bool is_earlier =
+          (other_depths[i] == depths[i]) & (order_of(other_colors[i]) < order_of(colors[i]));
+      const bool takes_other = is_nearer | is_earlier;
+      depths[i] = select(takes_other, other_depths[i], depths[i]);
+      colors[i] = select(takes_other, other_colors[i], colors[i]);
     }
   }
 }

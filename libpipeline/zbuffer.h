@@ -46,9 +46,10 @@ class ZBuffer {
   [[nodiscard]] bool needs_no_order() const { return depth_epsilon_ == 0; }
 
   /// Takes from `layer`, of the same screen, what is nearer there in these rows, or as near and of an earlier
-  /// order (draw_order.h), and leaves no triangle in them.
-  void take_nearer(ZBuffer& layer, const RowRange& rows);
-  /// Takes the order off the colours in these rows.
+  /// order (draw_order.h). The background's colour has order 0. What was taken, or was not, may stay in the
+  /// layer: once the order is forgotten here, it will not be taken again.
+  void take_nearer(const ZBuffer& layer, const RowRange& rows);
+  /// Takes the order off the colours in these rows: all there is was drawn before whatever comes.
   void forget_order(const RowRange& rows);
 
   /// To draw into these rows with.

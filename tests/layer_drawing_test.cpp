@@ -6,7 +6,7 @@
 
 #include "libpipeline/coverage.h"
 #include "libpipeline/visibility.h"
-#include "tests/drawn_frame.h"
+#include "tests/drawn_scenes.h"
 
 namespace pipeline {
 namespace {
@@ -44,7 +44,7 @@ void expect_what_is_drawn_one_by_one(const std::vector<Triangle>& scene,
     for (const std::size_t batch_size : batch_sizes) {
       Visible visible(kScreen);
       WorkerTeam team(thread_count);
-      LayerDrawing drawing(visible, kScreen, thread_count, team);
+      LayerDrawing drawing(visible, kScreen, team);
       Stream(scene).draw(drawing, batch_size, scene.size());
       drawing.finish();
       EXPECT_TRUE(frame_of(visible) == expected) << thread_count << " threads, batches of " << batch_size;
@@ -72,7 +72,7 @@ TEST(LayerDrawing, MayBeFinishedManyTimes) {
   const std::vector<Triangle> scene = scene_of_small_triangles(3000);
   Visible visible(kScreen);
   WorkerTeam team(3);
-  LayerDrawing drawing(visible, kScreen, 3, team);
+  LayerDrawing drawing(visible, kScreen, team);
   Stream stream(scene);
   for (const std::size_t end : {0u, 1u, 700u, 705u, 3000u}) {
     stream.draw(drawing, 10, end);
@@ -87,7 +87,7 @@ TEST(LayerDrawing, MayBeFinishedManyTimes) {
 TEST(LayerDrawing, LeavesTheBackgroundWhereNothingIsDrawn) {
   ZBufferAlgorithm<NearestCoverage, DepthF64> visible(kScreen, Color(1, 2, 3));
   WorkerTeam team(2);
-  LayerDrawing drawing(visible, kScreen, 2, team);
+  LayerDrawing drawing(visible, kScreen, team);
   for (int i = 0; i < 20; ++i) {
     ColoredBatch behind_the_rear_limit = {{}, {Color(9, 9, 9)}};
     behind_the_rear_limit.batch.add({{{-9, -9, 1}, {9, -9, 1}, {0, 9, 1}}}, 0, {});
@@ -95,7 +95,7 @@ TEST(LayerDrawing, LeavesTheBackgroundWhereNothingIsDrawn) {
   }
   drawing.finish();
   const Frame frame = frame_of(visible);
-  EXPECT_EQ(frame.colors, std::vector<Color>(60 * 70, Color(1, 2, 3)));
+  EXPECT_EQ(frame.colors, std::vector<std::uint32_t>(60 * 70, 0x010203));
   EXPECT_EQ(frame.depths, std::vector<double>(60 * 70, 1));
 }
 

@@ -8,7 +8,7 @@
 
 #include "libpipeline/coverage.h"
 #include "libpipeline/visibility.h"
-#include "tests/drawn_frame.h"
+#include "tests/drawn_scenes.h"
 
 namespace pipeline {
 namespace {
@@ -112,13 +112,13 @@ TEST(TriangleDrawing, KeepsTheOrderWhereAllThatIsSeenDependsOnIt) {
 TEST(TriangleDrawing, NothingDrawnIsTheBackground) {
   constexpr ScreenConfig kScreen = {5, 5};
   EXPECT_TRUE((drawn_on_threads<ZBufferAlgorithm<NearestCoverage, DepthF64>>({}, kScreen, 2, 1) ==
-               Frame{std::vector<double>(25, 1), std::vector<Color>(25)}));
+               Frame{std::vector<double>(25, 1), std::vector<std::uint32_t>(25)}));
 }
 
 TEST(TriangleDrawing, MayBeGivenUpInTheMiddle) {
   constexpr ScreenConfig kScreen = {150, 300};
   ZBufferAlgorithm<NearestCoverage, DepthF64> visible(kScreen);
-  TriangleDrawing drawing(visible, kScreen, 3);
+  TriangleDrawing drawing(visible, kScreen, 3, ColorUse::rgb);
   for (int i = 0; i < 5; ++i) {
     drawing.next_batch().add({{{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}}}, 0, {});
     drawing.draw_batch([](const TriangleBatch&, std::size_t) { return Color(); });

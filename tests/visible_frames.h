@@ -1,12 +1,12 @@
 #pragma once
 
-#include <cstring>
 #include <vector>
 
 #include "libpipeline/coverage.h"
 #include "libpipeline/scanline.h"
 #include "libpipeline/visibility.h"
 #include "libpipeline/zbuffer.h"
+#include "tests/frame.h"
 
 namespace pipeline {
 
@@ -20,21 +20,6 @@ inline Color color_of(std::size_t index) {
   return Color::from_rgb(static_cast<std::uint32_t>(index + 1));
 }
 
-struct Frame {
-  std::vector<double> depths;
-  std::vector<std::uint32_t> colors;
-
-  void add(const VisibleRow& row) {
-    depths.insert(depths.end(), row.depths.begin(), row.depths.end());
-    for (const Color color : row.colors) colors.push_back(color.rgb());
-  }
-  /// Bit by bit: 0 is not -0.
-  friend bool operator==(const Frame& a, const Frame& b) {
-    return a.colors == b.colors && a.depths.size() == b.depths.size() &&
-           std::memcmp(a.depths.data(), b.depths.data(), a.depths.size() * sizeof(double)) == 0;
-  }
-};
-
 template <typename Coverage, typename Depth>
 Frame zbuffer_frame(const Scene& scene, const ScreenConfig& screen, std::uint16_t marks = kAllDecimals) {
   const Coverage coverage(screen);
@@ -42,18 +27,14 @@ Frame zbuffer_frame(const Scene& scene, const ScreenConfig& screen, std::uint16_
   for (std::size_t i = 0; i < scene.size(); ++i)
     for_each_span(coverage.rows({scene[i], nullptr, marks}),
                   [&](const Span& span) { buffer.draw(span, color_of(i)); });
-  Frame frame;
-  buffer.for_each_row([&](const VisibleRow& row) { frame.add(row); });
-  return frame;
+  return frame_of(buffer);
 }
 
 template <typename Coverage, typename Depth>
 Frame scanline_frame(const Scene& scene, const ScreenConfig& screen, std::uint16_t marks = kAllDecimals) {
   Scanline<Coverage, Depth> scanline(screen);
   for (std::size_t i = 0; i < scene.size(); ++i) scanline.draw({scene[i], nullptr, marks}, color_of(i));
-  Frame frame;
-  scanline.for_each_row([&](const VisibleRow& row) { frame.add(row); });
-  return frame;
+  return frame_of(scanline);
 }
 
 }  // namespace pipeline

@@ -4,8 +4,8 @@
 
 #include <array>
 #include <atomic>
-#include <numeric>
 #include <stdexcept>
+#include <thread>
 #include <vector>
 
 namespace pipeline {
@@ -55,10 +55,37 @@ TEST_P(WorkerTeamTest, HelpGetsOneMoreTaskDone) {
 
 TEST_P(WorkerTeamTest, AWorkerDoesOneTaskAtATime) {
   WorkerTeam team(GetParam());
-  std::vector<int> done_count(static_cast<std::size_t>(GetParam()));  // each for one thread, without a lock
-  team.start(1000, [&](int, int worker) { ++done_count.at(static_cast<std::size_t>(worker)); });
+  std::vector<std::atomic<bool>> is_busy(static_cast<std::size_t>(team.size()));
+  team.start(1000, [&](int, int worker) {
+    std::atomic<bool>& is_worker_busy = is_busy.at(static_cast<std::size_t>(worker));
+    EXPECT_FALSE(is_worker_busy.exchange(true));
+    std::this_thread::yield();
+    is_worker_busy = false;
+  });
   team.finish();
-  EXPECT_EQ(std::accumulate(done_count.begin(), done_count.end(), 0), 1000);
+}
+
+TEST(WorkerTeam, BeginsTasksInOrder) {
+  WorkerTeam alone(1);
+  std::vector<int> begun;
+  for (const int job : {10, 20, 30}) alone.start(3, [&, job](int task, int) { begun.push_back(job + task); });
+  alone.help();
+  EXPECT_EQ(begun, std::vector<int>{10});
+  alone.finish();
+  EXPECT_EQ(begun, (std::vector<int>{10, 11, 12, 20, 21, 22, 30, 31, 32}));
+}
+
+TEST(WorkerTeam, LeavesOutWhatWasNotBegunWhenATaskThrew) {
+  WorkerTeam alone(1);
+  std::vector<int> begun;
+  for (const int job : {10, 20})
+    alone.start(3, [&, job](int task, int) {
+      begun.push_back(job + task);
+      if (task == 1) throw std::runtime_error("task 1");
+    });
+  EXPECT_THROW(alone.finish(), std::runtime_error);
+  alone.finish();
+  EXPECT_EQ(begun, (std::vector<int>{10, 11}));
 }
 
 TEST_P(WorkerTeamTest, HelpThrowsWhatATaskThrew) {

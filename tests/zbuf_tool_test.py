@@ -11,7 +11,7 @@ import re
 import subprocess
 import unittest
 
-from toolbox import CONFIG, SOURCE, ToolTest, command, run
+from toolbox import CAMERA, CONFIG, SOURCE, ToolTest, command, pipe, run
 
 TRIANGLE = "0 0 0\n1 0 0\n0 1 0\n\n"
 
@@ -55,6 +55,16 @@ class Threads(ToolTest):
         counts = ((10000, 0.01), (50, 1), (10000, 0.01))
         pathlib.Path("stage3.txt").write_text("".join(random_triangle(rng, (size,)) for count, size in counts for _ in range(count)))
         pathlib.Path("config.txt").write_text("151 83\n")
+        self.check("config.txt", "stage3.txt")
+
+    def test_many_small_triangles_with_colors_of_their_own(self):
+        rng = random.Random(3)
+        background = "background 255 255 255\n"
+        triangles = (f"color {' '.join(str(rng.randrange(256)) for _ in range(3))}\ntriangle\n" +
+                     random_triangle(rng, (0.05,)).replace("\n\n", "\n") for _ in range(8000))
+        stage1 = pipe(["model"], stdin=CAMERA + background + "".join(triangles) + "end\n")
+        pathlib.Path("stage3.txt").write_bytes(pipe(["view"], ["project"], stdin=stage1))
+        pathlib.Path("config.txt").write_text("61 47\n")
         self.check("config.txt", "stage3.txt")
 
     def test_bad_text_is_found_whatever_waits_to_be_drawn(self):

@@ -207,16 +207,25 @@ TEST(ZBuffer, OfEqualDepthsInTwoLayersTheOneOfTheEarlierOrderStays) {
   }
 }
 
-TEST(ZBuffer, WhatIsTakenFromALayerIsInTheRowsAskedForAndNoLongerInTheLayer) {
-  ZBuffer<> buffer(kSixByTwo), layer(kSixByTwo), other(kSixByTwo);
+TEST(ZBuffer, WhatIsTakenFromALayerIsInTheRowsAskedFor) {
+  ZBuffer<> buffer(kSixByTwo), layer(kSixByTwo);
   layer.draw(span_at(0, 0, 5, 0.5), kRed);
   layer.draw(span_at(1, 0, 5, 0.5), kGreen);
   buffer.take_nearer(layer, {1, 2});
   EXPECT_EQ(colors_of(buffer, 0), std::vector<Color>(6));
   EXPECT_EQ(colors_of(buffer, 1), std::vector<Color>(6, kGreen));
-  other.take_nearer(layer, {0, 2});
-  EXPECT_EQ(colors_of(other, 0), std::vector<Color>(6, kRed));
-  EXPECT_EQ(depths_of(other, 1), std::vector<double>(6, 2));
+}
+
+TEST(ZBuffer, WhatWasTakenFromALayerIsNotTakenOnceMore) {
+  ZBuffer<> buffer(kSixByTwo), layer(kSixByTwo);
+  layer.draw(span_at(0, 0, 5, 0.5), with_order(kRed, 1));
+  buffer.take_nearer(layer, {0, 2});
+  buffer.forget_order({0, 2});
+  buffer.draw(span_at(0, 0, 2, 0.25), with_order(kGreen, 2));
+  buffer.draw(span_at(0, 3, 5, 0.5), with_order(kGreen, 2));
+  buffer.take_nearer(layer, {0, 2});
+  buffer.forget_order({0, 2});
+  EXPECT_EQ(colors_of(buffer, 0), (std::vector<Color>{kGreen, kGreen, kGreen, kRed, kRed, kRed}));
 }
 
 }  // namespace

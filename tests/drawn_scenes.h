@@ -4,27 +4,10 @@
 
 #include "libpipeline/color.h"
 #include "libpipeline/visibility.h"
+#include "tests/frame.h"
 #include "tests/random_numbers.h"
 
 namespace pipeline {
-
-/// All that is seen.
-struct Frame {
-  std::vector<double> depths;
-  std::vector<Color> colors;
-
-  friend bool operator==(const Frame&, const Frame&) = default;
-};
-
-template <typename Visible>
-Frame frame_of(const Visible& visible) {
-  Frame frame;
-  visible.for_each_row([&](const VisibleRow& row) {
-    frame.depths.insert(frame.depths.end(), row.depths.begin(), row.depths.end());
-    frame.colors.insert(frame.colors.end(), row.colors.begin(), row.colors.end());
-  });
-  return frame;
-}
 
 /// Triangle after triangle, each as a whole.
 template <typename Visible>

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstdint>
+#include <cstring>
+#include <vector>
+
+#include "libpipeline/color.h"
+#include "libpipeline/visible_row.h"
+
+namespace pipeline {
+
+/// All that is seen of a picture.
+struct Frame {
+  std::vector<double> depths;
+  std::vector<std::uint32_t> colors;
+
+  void add(const VisibleRow& row) {
+    depths.insert(depths.end(), row.depths.begin(), row.depths.end());
+    for (const Color color : row.colors) colors.push_back(color.rgb());
+  }
+  /// Bit by bit: 0 is not -0.
+  friend bool operator==(const Frame& a, const Frame& b) {
+    return a.colors == b.colors && a.depths.size() == b.depths.size() &&
+           std::memcmp(a.depths.data(), b.depths.data(), a.depths.size() * sizeof(double)) == 0;
+  }
+};
+
+template <typename Visible>
+Frame frame_of(const Visible& visible) {
+  Frame frame;
+  visible.for_each_row([&](const VisibleRow& row) { frame.add(row); });
+  return frame;
+}
+
+}  // namespace pipeline
