@@ -29,9 +29,10 @@ void draw_pixel_by_pixel(const Span& span, Color color, const Depth& format, dou
   for (int column = span.first_column; column <= last_column; ++column) {
     const double z = depth(column);
     const typename Depth::Stored stored = format.store(z);
-    const bool takes = (stored < depths[column]) & (z >= front);
-    depths[column] = select(takes, stored, depths[column]);
-    colors[column] = select(takes, color, colors[column]);
+    if (!(z >= front)) continue;
+    const typename Depth::Stored old = depths[column];
+    depths[column] = stored < old ? stored : old;
+    colors[column] = select(stored < old, color, colors[column]);
   }
 }
 
