@@ -123,11 +123,10 @@ void ZBuffer<Depth>::take_nearer(const ZBuffer& layer, const RowRange& rows) {
     const std::span<const Stored> other_depths = layer.depths_.row(row);
     const std::span<const Color> other_colors = layer.colors_.row(row);
     for (std::size_t i = 0; i < depths.size(); ++i) {
-      const bool is_nearer = other_depths[i] < depths[i];
-      // Never where neither shows a triangle: that has order 0 here.
-      const bool is_earlier =
-          (other_depths[i] == depths[i]) & (order_of(other_colors[i]) < order_of(colors[i]));
-      const bool takes_other = is_nearer | is_earlier;
+      // Of equal depths the earlier. Where neither shows a triangle, nothing is earlier than order 0 here.
+      bool takes_other = order_of(other_colors[i]) < order_of(colors[i]);
+      takes_other &= other_depths[i] == depths[i];
+      takes_other |= other_depths[i] < depths[i];
       depths[i] = select(takes_other, other_depths[i], depths[i]);
       colors[i] = select(takes_other, other_colors[i], colors[i]);
     }
