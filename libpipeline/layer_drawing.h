@@ -42,9 +42,8 @@ class LayerDrawing {
   /// Its colours are 0x00RRGGBB. Layers are laid together after kMostOrders batches, however small.
   void draw(ColoredBatch& batch) {
     if (layers_.empty()) make_layers();
-    Place& place = places_[next_place_];
+    Place& place = places_[last_order_ % kPlaces];
     while (!place.is_free) team_.help();
-    next_place_ = (next_place_ + 1) % kPlaces;
     std::swap(place.drawn, batch);
     place.order = ++last_order_;
     place.is_free = false;
@@ -93,7 +92,6 @@ class LayerDrawing {
   std::deque<Visible> others_;
   std::deque<Layer> layers_;  // each thread's
   std::array<Place, kPlaces> places_;
-  std::size_t next_place_ = 0;
   std::uint32_t last_order_ = 0;
   ScreenConfig screen_;
   RowBands bands_;

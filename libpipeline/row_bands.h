@@ -15,6 +15,9 @@ namespace pipeline {
 /// that its depths and colours stay in a core's cache while many triangles are drawn into it.
 class RowBands {
  public:
+  /// Of a double and a Color.
+  static constexpr int kBytesPerPixel = 12;
+
   explicit RowBands(const ScreenConfig& screen)
       : grid_(screen), rows_per_dy_(1 / grid_.dy), height_bits_(height_bits_for(screen)) {}
 
@@ -47,7 +50,6 @@ class RowBands {
   static constexpr int kMaxCount = 512;
 
   static int height_bits_for(const ScreenConfig& screen) {
-    constexpr int kBytesPerPixel = 12;
     const int in_cache = std::clamp(kBytesInCache / (kBytesPerPixel * screen.columns), 8, 64);
     const int least = (screen.rows + kMaxCount - 1) / kMaxCount;
     return std::max(std::bit_width(static_cast<unsigned>(in_cache)) - 1,

@@ -11,6 +11,7 @@
 #include "libpipeline/exact_grid.h"
 #include "libpipeline/layer_drawing.h"
 #include "libpipeline/pixel_grid.h"
+#include "libpipeline/row_bands.h"
 #include "libpipeline/span.h"
 #include "libpipeline/triangle_batch.h"
 #include "libpipeline/worker_team.h"
@@ -79,8 +80,8 @@ class TriangleDrawing {
 
   /// Where the layers beside the first are larger, bands win: their pixels are in a nearer cache.
   static bool layers_fit(const ScreenConfig& screen, int thread_count) {
-    constexpr double kBytesPerPixel = 12, kMostBytes = 1 << 23;
-    return kBytesPerPixel * screen.rows * screen.columns * (thread_count - 1) <= kMostBytes;
+    constexpr double kMostBytes = 1 << 23;
+    return 1.0 * RowBands::kBytesPerPixel * screen.rows * screen.columns * (thread_count - 1) <= kMostBytes;
   }
   /// For the time until layers of such batches have to be laid together.
   [[nodiscard]] bool has_enough_for_layers(const TriangleBatch& batch) const {

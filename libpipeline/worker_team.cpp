@@ -43,8 +43,9 @@ void WorkerTeam::help() {
   if (!jobs_.empty()) {
     do_next_task(lock, kOwner);
   } else if (busy_count_ > 0) {
-    const std::uint64_t before = done_count_;
-    is_task_done_.wait(lock, [&] { return done_count_ != before; });
+    // Nobody else starts a job in the meantime.
+    const int before = busy_count_;
+    is_task_done_.wait(lock, [&] { return busy_count_ < before; });
   }
   throw_failure();
 }
@@ -83,7 +84,6 @@ void WorkerTeam::do_next_task(Lock& lock, int worker) {
     jobs_.clear();
   }
   --busy_count_;
-  ++done_count_;
   is_task_done_.notify_one();
 }
 

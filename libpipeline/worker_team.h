@@ -1,7 +1,6 @@
 #pragma once
 
 #include <condition_variable>
-#include <cstdint>
 #include <deque>
 #include <exception>
 #include <functional>
@@ -58,7 +57,6 @@ class WorkerTeam {
   std::condition_variable is_task_done_;
   std::deque<std::shared_ptr<Job>> jobs_;  // with tasks that are not begun
   int busy_count_ = 0;                     // tasks that are begun and not done
-  std::uint64_t done_count_ = 0;
   bool is_over_ = false;
   std::exception_ptr failure_;
   std::vector<std::thread> threads_;
