@@ -26,12 +26,14 @@ namespace pipeline {
 template <typename Visible>
 class BandDrawing {
  public:
-  /// `team` has no other work between draw() and finish(). After an exception, and whenever there was no
-  /// finish() since draw(), its threads have to end first, and then this object.
+  /// The team may have other work besides.
   BandDrawing(Visible& visible, const ScreenConfig& screen, WorkerTeam& team)
       : visible_(visible), bands_(screen), team_(team) {
     for (Round& round : rounds_) round.bands.resize(static_cast<std::size_t>(bands_.count()));
   }
+  ~BandDrawing() { team_.give_up(); }
+  BandDrawing(const BandDrawing&) = delete;
+  BandDrawing& operator=(const BandDrawing&) = delete;
 
   /// Takes the batch, in exchange for another one's memory. It may be drawn later, at the latest in finish().
   void draw(ColoredBatch& batch) {

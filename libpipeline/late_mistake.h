@@ -14,6 +14,8 @@ class LateMistake {
   /// The next call of `read` throws the exception that is being handled.
   void keep() { mistake_ = std::current_exception(); }
 
+  [[nodiscard]] bool is_kept() const { return mistake_ != nullptr; }
+
   /// Has `fill` put triangles into the batch, emptied before; false if there were none. What `fill` throws
   /// is thrown at once if there are none before it, else by the next call.
   template <typename Fill>

@@ -33,10 +33,12 @@ namespace pipeline {
 template <typename Visible>
 class LayerDrawing {
  public:
-  /// `visible` is the first layer. `team` has no other work between draw() and finish(). After an exception,
-  /// and whenever there was no finish() since draw(), its threads have to end first, and then this object.
+  /// `visible` is the first layer. The team may have other work besides.
   LayerDrawing(Visible& visible, const ScreenConfig& screen, WorkerTeam& team)
       : first_(visible), screen_(screen), bands_(screen), team_(team) {}
+  ~LayerDrawing() { team_.give_up(); }
+  LayerDrawing(const LayerDrawing&) = delete;
+  LayerDrawing& operator=(const LayerDrawing&) = delete;
 
   /// Takes the batch, in exchange for another one's memory. It may be drawn later, at the latest in finish().
   /// Its colours are 0x00RRGGBB. Layers are laid together after kMostOrders batches, however small.

@@ -36,6 +36,18 @@ bool ModelStage::read(TriangleBatch& batch) {
   return mistake_.read(batch, [&] { fill(batch); });
 }
 
+bool ModelStage::take_part(std::size_t size, TrianglePart& part, TriangleBatch& batch) {
+  batch.clear();
+  if (first_triangle_ || done_ || mistake_.is_kept() || !scene_.take_part(size, part)) return false;
+  set_transform(batch);
+  return true;
+}
+
+void ModelStage::pass(const TrianglePlace& place) {
+  scene_.pass_lines(place.line_count);
+  next_number_ = place.number;
+}
+
 void ModelStage::fill(TriangleBatch& batch) {
   if (first_triangle_) add(*std::exchange(first_triangle_, std::nullopt), batch);
   while (!done_) {

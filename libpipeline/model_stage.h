@@ -10,22 +10,26 @@
 #include "libpipeline/model_transform.h"
 #include "libpipeline/scene.h"
 #include "libpipeline/triangle_batch.h"
+#include "libpipeline/triangle_source.h"
 
 namespace pipeline {
 
 /// The model stage: carries out a scene's commands, model space to world space.
-class ModelStage {
+class ModelStage final : public TriangleSource {
  public:
   /// Carries out what stands before the first triangle; a mistake there is thrown by the first `read`.
   explicit ModelStage(SceneReader& scene);
 
   /// The scene's colour and light, the lights in world space.
   [[nodiscard]] Appearance appearance() const;
-  /// Fills `batch` with the next triangles, as many as are waiting but at least one; false at the scene's
-  /// end. They are in model space, and their transforms to world space pending: apply_pending_transforms. An
-  /// InputError if the matrix stack under- or overflows; triangles before a mistake are given out before it
-  /// is thrown.
-  bool read(TriangleBatch& batch);
+  /// The triangles are in model space, and their transforms to world space pending:
+  /// apply_pending_transforms. False at the scene's end. An InputError if the matrix stack under- or
+  /// overflows.
+  bool read(TriangleBatch& batch) override;
+  bool take_part(std::size_t size, TrianglePart& part, TriangleBatch& batch) override;
+  void put_back(const TrianglePart& part) override { scene_.put_back(part); }
+  [[nodiscard]] TrianglePlace place() const override { return {scene_.line_count(), next_number_}; }
+  void pass(const TrianglePlace& place) override;
 
  private:
   void read_until_triangle();

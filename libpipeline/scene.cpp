@@ -49,6 +49,15 @@ std::span<const Triangle> SceneReader::waiting_triangles(std::size_t most, std::
   return room.first(part.triangle_count);
 }
 
+bool SceneReader::take_part(std::size_t size, TrianglePart& part) {
+  if (appearance_.attributes || !line_.at_end()) return false;
+  constexpr std::string_view kBoundary = "\ntriangle\n";
+  part.read = fixed_text_kernel().read_scene;
+  part.first_vertex = 1;
+  part.marks_decimals = false;
+  return text_.take_part(kBoundary, 1, size, part.text);
+}
+
 Command SceneReader::next() {
   if (TriangleCommand triangle; read_plain_triangle(triangle)) return triangle;
   if (!text_.next_filled_line(line_))

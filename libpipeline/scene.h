@@ -11,6 +11,7 @@
 #include "libpipeline/camera.h"
 #include "libpipeline/text_reader.h"
 #include "libpipeline/triangle_batch.h"
+#include "libpipeline/triangle_source.h"
 #include "libpipeline/vec.h"
 
 namespace pipeline {
@@ -75,6 +76,12 @@ class SceneReader {
   /// each has four lines, and the first begins at `first_line`. The span holds until the next call. None if
   /// the next command is another, or a triangle in another form, or with more than positions.
   std::span<const Triangle> waiting_triangles(std::size_t most, std::size_t& first_line);
+  /// Takes the triangles that are waiting as text; see TriangleSource.
+  bool take_part(std::size_t size, TrianglePart& part);
+  void put_back(const TrianglePart& part) { text_.put_back(part.text); }
+  /// How many lines were read, those of parts not counted until they are passed.
+  [[nodiscard]] std::size_t line_count() const { return text_.line_number(); }
+  void pass_lines(std::size_t line_count) { text_.skip(0, line_count - text_.line_number()); }
   /// The place of the command given out last, unless that is a triangle.
   [[nodiscard]] const Place& place() const { return place_; }
   /// True if the next command can be had without waiting for the input, whatever it is: none has more than

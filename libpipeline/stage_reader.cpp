@@ -67,6 +67,21 @@ bool StageReader::read(TriangleBatch& batch) {
   return mistake_.read(batch, [&] { fill(batch); });
 }
 
+bool StageReader::take_part(std::size_t size, TrianglePart& part, TriangleBatch& batch) {
+  batch.clear();
+  const bool is_between_triangles = !line_is_pending_ && !whole_ && !done_ && !mistake_.is_kept();
+  return is_between_triangles && triangles_->take_part(size, part);
+}
+
+TrianglePlace StageReader::place() const {
+  return {text_.line_number(), triangles_->next_number()};
+}
+
+void StageReader::pass(const TrianglePlace& place) {
+  text_.skip(0, place.line_count - text_.line_number());
+  triangles_->count_from(place.number);
+}
+
 void StageReader::fill(TriangleBatch& batch) {
   while (!done_) {
     // What is in memory is passed on before the reader waits for more: a triangle has three lines.

@@ -10,11 +10,12 @@
 #include "libpipeline/text_reader.h"
 #include "libpipeline/triangle_batch.h"
 #include "libpipeline/triangle_reader.h"
+#include "libpipeline/triangle_source.h"
 
 namespace pipeline {
 
 /// Reads a stage text: the header on construction, then batch after batch. Errors are InputErrors.
-class StageReader {
+class StageReader final : public TriangleSource {
  public:
   /// With `marks_decimals` batches say which coordinates are exact decimals, for exact coverage.
   explicit StageReader(TextReader& text, bool marks_decimals = false);
@@ -28,10 +29,13 @@ class StageReader {
   /// An InputError unless the text is framed: for who has to know that it is whole, even if nothing came of
   /// it.
   void expect_framed() const;
-  /// Fills `batch` with the next triangles, as many as are waiting but at least one; false (and an empty
-  /// batch) at the end of a text that ends as it should. Triangles before a mistake are given out before the
-  /// mistake is thrown, so that it does not depend on the size of blocks how much of the text passes.
-  bool read(TriangleBatch& batch);
+  /// False at the end of a text that ends as it should. How much of a text with a mistake passes does not
+  /// depend on the size of blocks.
+  bool read(TriangleBatch& batch) override;
+  bool take_part(std::size_t size, TrianglePart& part, TriangleBatch& batch) override;
+  void put_back(const TrianglePart& part) override { text_.put_back(part.text); }
+  [[nodiscard]] TrianglePlace place() const override;
+  void pass(const TrianglePlace& place) override;
 
  private:
   bool read_header_line(LineScanner& line);

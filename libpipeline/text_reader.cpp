@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <utility>
 
 #include "libpipeline/number_parser.h"
 
@@ -151,7 +152,11 @@ bool TextReader::has_lines_waiting(std::size_t count) const {
 }
 
 bool TextReader::is_ready() const {
-  if (at_end_of_file_ || has_lines_waiting(4)) return true;
+  return at_end_of_file_ || has_lines_waiting(4) || input_is_ready();
+}
+
+/// True if the next read has not to wait for the input.
+bool TextReader::input_is_ready() const {
   pollfd input = {.fd = descriptor_, .events = POLLIN, .revents = 0};
   return ::poll(&input, 1, 0) != 0;
 }
@@ -162,13 +167,45 @@ void TextReader::skip(std::size_t length, std::size_t line_count) {
   line_number_ += line_count;
 }
 
+bool TextReader::take_part(std::string_view boundary, std::size_t length, std::size_t size, TextPart& part) {
+  while (waiting().size() < size && !at_end_of_file_ && read_error_ == 0 && input_is_ready()) read_block();
+  const std::size_t place = waiting().substr(0, size + kBlockSize).rfind(boundary);
+  if (place == std::string_view::npos) return false;
+  const std::size_t part_end = begin_ + place + length;
+  const std::size_t rest = end_ - part_end;
+  part.buffer.resize(std::max(part.buffer.size(), rest + kBlockSize + kSlack));
+  std::memcpy(part.buffer.data(), buffer_.data() + part_end, rest);
+  std::swap(part.buffer, buffer_);
+  part.begin = std::exchange(begin_, 0);
+  part.end = part_end;
+  end_ = rest;
+  scanned_ = 0;
+  return true;
+}
+
+void TextReader::put_back(const TextPart& part) {
+  const std::string_view text = part.text();
+  std::vector<char> whole(text.size() + waiting().size() + kSlack);
+  std::memcpy(whole.data(), text.data(), text.size());
+  std::memcpy(whole.data() + text.size(), waiting().data(), waiting().size());
+  end_ = whole.size() - kSlack;
+  begin_ = scanned_ = 0;
+  buffer_ = std::move(whole);
+}
+
 Place TextReader::end_place() const {
   return {file_, line_number_ + 1, 1};
 }
 
-/// Reads one more block behind the unread part; false at the end of the file.
+/// Has one more block behind the unread part; false at the end of the file.
 bool TextReader::fill() {
   if (at_end_of_file_) return false;
+  if (read_error_ == 0) read_block();
+  if (read_error_ != 0) throw IoError("read", file_, read_error_);
+  return !at_end_of_file_;
+}
+
+void TextReader::read_block() {
   if (begin_ > 0) {
     std::memmove(buffer_.data(), buffer_.data() + begin_, end_ - begin_);
     end_ -= begin_;
@@ -180,11 +217,13 @@ bool TextReader::fill() {
   do {
     count = ::read(descriptor_, buffer_.data() + end_, kBlockSize);
   } while (count < 0 && errno == EINTR);
-  if (count < 0) throw IoError("read", file_, errno);
+  if (count < 0) {
+    read_error_ = errno;
+    return;
+  }
   at_end_of_file_ = count == 0;
   end_ += static_cast<std::size_t>(count);
   bytes_read_ += static_cast<std::size_t>(count);
-  return count > 0;
 }
 
 }  // namespace pipeline

@@ -66,6 +66,16 @@ class LineScanner {
   bool has_comment_ = false;
 };
 
+/// A piece of a text that was taken out of a reader, to be read elsewhere.
+struct TextPart {
+  std::vector<char> buffer;
+  std::size_t begin = 0;
+  std::size_t end = 0;
+
+  /// Followed by TextReader::kSlack characters that may be looked at and mean nothing.
+  [[nodiscard]] std::string_view text() const { return {buffer.data() + begin, end - begin}; }
+};
+
 /// Reads text in blocks and gives it out line by line. CRLF and LF both end a line, the last line needs no
 /// end,
 /// `#` starts a comment, trailing blanks are dropped, a UTF-8 byte order mark at the start is skipped.
@@ -92,6 +102,13 @@ class TextReader {
   static constexpr std::size_t kSlack = 512;
   /// Leaves out `length` characters of what is waiting: `line_count` whole lines.
   void skip(std::size_t length, std::size_t line_count);
+  /// Takes what is waiting, up to a `boundary`, of which the first `length` characters go with it and the
+  /// others stay: about `size` characters, more than lie between two boundaries, or fewer if no more can be
+  /// read without waiting for them. False if there is no boundary. The part's lines are not counted:
+  /// skip(0, line_count) does it later, or put_back undoes it.
+  bool take_part(std::string_view boundary, std::size_t length, std::size_t size, TextPart& part);
+  /// Puts a part back in front of what is waiting: the one that was taken last, unless that is back already.
+  void put_back(const TextPart& part);
 
   [[nodiscard]] const std::string& file() const { return file_; }
   /// The number of the line given out last, 0 before the first.
@@ -102,6 +119,8 @@ class TextReader {
 
  private:
   bool fill();
+  void read_block();
+  [[nodiscard]] bool input_is_ready() const;
   LineScanner take_line(std::size_t length, bool is_ended);
 
   int descriptor_;
@@ -114,6 +133,7 @@ class TextReader {
   std::size_t bytes_read_ = 0;
   bool last_line_was_ended_ = false;
   bool at_end_of_file_ = false;
+  int read_error_ = 0;  // an errno; told when what was read before is used up
 };
 
 }  // namespace pipeline

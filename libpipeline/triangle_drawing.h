@@ -21,7 +21,7 @@ namespace pipeline {
 /// What the colours of triangles are: colours 0x00RRGGBB, or whatever has 32 bits.
 enum class ColorUse { rgb, id };
 
-/// Draws the triangles of a stream on the threads it is given, batch by batch, each in the way that suits its
+/// Draws the triangles of a stream on the threads of a team, batch by batch, each in the way that suits its
 /// triangles. What is seen in the end does not depend on the number of threads: it is what the triangles give
 /// one after the other. `Visible` is what BandDrawing and LayerDrawing ask for, and has needs_no_order().
 ///
@@ -31,15 +31,15 @@ enum class ColorUse { rgb, id };
 template <typename Visible>
 class TriangleDrawing {
  public:
-  TriangleDrawing(Visible& visible, const ScreenConfig& screen, int thread_count, ColorUse use)
+  /// The team may have other work besides.
+  TriangleDrawing(Visible& visible, const ScreenConfig& screen, WorkerTeam& team, ColorUse use)
       : visible_(visible),
         grid_(screen),
-        may_use_layers_(thread_count > 1 && use == ColorUse::rgb && layers_fit(screen, thread_count)),
+        may_use_layers_(team.size() > 1 && use == ColorUse::rgb && layers_fit(screen, team.size())),
         worth_layers_(static_cast<std::size_t>(screen.rows) * static_cast<std::size_t>(screen.columns) / 8),
-        bands_(visible, screen, team_),
-        layers_(visible, screen, team_),
-        team_(thread_count) {
-    if (thread_count == 1) whole_.emplace(visible, RowRange{0, screen.rows});
+        bands_(visible, screen, team),
+        layers_(visible, screen, team) {
+    if (team.size() == 1) whole_.emplace(visible, RowRange{0, screen.rows});
   }
 
   /// Where the next batch is to be put.
@@ -113,7 +113,6 @@ class TriangleDrawing {
   std::optional<typename Visible::Band> whole_;  // on one thread: for what is drawn at once
   BandDrawing<Visible> bands_;
   LayerDrawing<Visible> layers_;
-  WorkerTeam team_;  // the last: its threads end before what they use
 };
 
 }  // namespace pipeline

@@ -112,6 +112,16 @@ bool TriangleReader::read_plain_triangle(TriangleBatch& batch) {
   return true;
 }
 
+bool TriangleReader::take_part(std::size_t size, TrianglePart& part) {
+  if (vertex_line_.attributes().any()) return false;
+  if (text_.waiting().starts_with('\n')) text_.skip(1, 1);
+  constexpr std::string_view kBoundary = "\n\n";
+  part.read = fixed_text_kernel().read;
+  part.first_vertex = 0;
+  part.marks_decimals = marks_decimals_;
+  return text_.take_part(kBoundary, kBoundary.size(), size, part.text);
+}
+
 void TriangleReader::read(LineScanner& line, TriangleBatch& batch) {
   Triangle triangle;
   VertexPlaces places;

@@ -6,6 +6,7 @@
 
 #include "libpipeline/text_reader.h"
 #include "libpipeline/triangle_batch.h"
+#include "libpipeline/triangle_source.h"
 #include "libpipeline/vertex_attributes.h"
 
 namespace pipeline {
@@ -25,6 +26,8 @@ class TriangleReader {
   /// Adds some of the triangles that are waiting, as long as they hold plain numbers and nothing else; false
   /// if the next does not, or is not there as a whole, or the batch is full.
   bool read_waiting(TriangleBatch& batch);
+  /// Takes the triangles that are waiting as text; see TriangleSource.
+  bool take_part(std::size_t size, TrianglePart& part);
   /// Adds the triangle whose first line is `line`. An InputError where it is wrong.
   void read(LineScanner& line, TriangleBatch& batch);
 

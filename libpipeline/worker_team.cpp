@@ -17,10 +17,10 @@ WorkerTeam::WorkerTeam(int thread_count) {
 }
 
 WorkerTeam::~WorkerTeam() {
+  give_up();
   {
     const std::lock_guard lock(mutex_);
     is_over_ = true;
-    jobs_.clear();
   }
   has_tasks_.notify_all();
   for (std::thread& thread : threads_) thread.join();
@@ -55,6 +55,13 @@ void WorkerTeam::finish() {
   while (!jobs_.empty()) do_next_task(lock, kOwner);
   is_task_done_.wait(lock, [this] { return busy_count_ == 0; });
   throw_failure();
+}
+
+void WorkerTeam::give_up() {
+  Lock lock(mutex_);
+  jobs_.clear();
+  is_task_done_.wait(lock, [this] { return busy_count_ == 0; });
+  failure_ = nullptr;
 }
 
 void WorkerTeam::work(int worker) {

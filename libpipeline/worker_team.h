@@ -19,7 +19,7 @@ class WorkerTeam {
   /// `thread_count`, at least 1, includes the owner: a team of 1 does everything in help() and finish().
   /// Where the system has fewer threads to give, the team is smaller.
   explicit WorkerTeam(int thread_count);
-  /// Waits for tasks that were begun; others are not done any more.
+  /// As give_up().
   ~WorkerTeam();
   WorkerTeam(const WorkerTeam&) = delete;
   WorkerTeam& operator=(const WorkerTeam&) = delete;
@@ -38,6 +38,9 @@ class WorkerTeam {
   void help();
   /// Helps until every task is done.
   void finish();
+  /// Waits for tasks that were begun, whatever they throw; others are not done any more. For destructors of
+  /// what tasks use.
+  void give_up();
 
  private:
   static constexpr int kOwner = 0;

@@ -5,6 +5,7 @@ usage: tools_threads_test.py BIN_DIR [UNITTEST ARGUMENT...]
 """
 import pathlib
 import random
+import re
 import unittest
 
 from toolbox import CAMERA, HEADER, SCENE, SOURCE, TRIANGLE, ToolTest, run, stage_texts
@@ -28,13 +29,31 @@ def random_text(count, seed, columns=""):
     return "\n".join(lines) + "\n"
 
 
+def plain_text(count, seed):
+    """Triangles in the form nearly all text has, which threads read part by part."""
+    rng = random.Random(seed)
+    return "".join("%.7f %.7f %.7f\n" % (rng.uniform(-3, 3), rng.uniform(-3, 3), rng.uniform(-9, 3)) + "\n" * (i % 3 == 2) for i in range(3 * count))
+
+
+def with_mistake(text, rng):
+    """One byte of the text changed, left out or added, or the text cut there."""
+    place = rng.randrange(len(text))
+    new = rng.choice(["", "\n", " ", "x", "-", "7", "#", ".", "e", "\r", None])
+    return text[:place] + (new + text[place + rng.randrange(2):] if new is not None else "")
+
+
+def without_times(stderr):
+    """What --timing says, but for the times."""
+    return re.sub(rb"in [0-9.]+ s \(.*?\)|[0-9.]+ MB/s", b"", stderr)
+
+
 class Threads(ToolTest):
     def assert_same(self, tool, *options, stdin):
         """The run on one thread, which all others equal."""
         alone = run(tool, *options, stdin=stdin)
         for count in THREADS:
             together = run(tool, *options, "--threads", count, stdin=stdin)
-            self.assertEqual((together.stderr, together.returncode), (alone.stderr, alone.returncode))
+            self.assertEqual((without_times(together.stderr), together.returncode), (without_times(alone.stderr), alone.returncode))
             self.assertTrue(together.stdout == alone.stdout, f"{tool} {options}: {count} threads print something else")
         return alone
 
@@ -53,6 +72,34 @@ class Threads(ToolTest):
             done = self.assert_same("project", *options, stdin="perspective 60 1 1 100\n" + text)
             # What is cut nowhere may reach behind the eye.
             self.assertEqual(done.returncode, 1 if "reject" in options else 0)
+
+    def test_plain_triangles(self):
+        text = plain_text(20000, 7)
+        for options in ([], ["--digits", "exact"], ["--digits", "9"]):
+            self.assert_same("view", *options, stdin=HEADER + text)
+        for options in ([], ["--cull", "back", "--timing"], ["--clip", "frustum"]):
+            self.assert_same("project", *options, stdin="perspective 60 1 1 100\n" + text)
+        self.assert_same("view", stdin=HEADER.replace("eye", "framed\neye", 1) + text + "end\n")
+
+    def test_other_text_between_plain_triangles(self):
+        other = ["# a comment\n", "triangle 5\n", "1 2 3\n4 5 6\n7 8 9\n\n", "\n\n", "1e0 2 3\r\n4 5 6\r\n7 8 9\r\n"]
+        text = "".join(plain_text(count, count) + other[i % len(other)] for i, count in enumerate((20000, 1000, 30000, 1, 25000, 2000)))
+        self.assert_same("view", stdin=HEADER + text)
+        self.assert_same("project", "--cull", "front", stdin="perspective 60 1 1 100\n" + text)
+
+    def test_any_mistake_between_plain_triangles(self):
+        text, rng = plain_text(4000, 8), random.Random(9)
+        failures = 0
+        for _ in range(20):
+            failures += self.assert_same("view", stdin=HEADER + with_mistake(text, rng)).returncode
+        self.assertGreater(failures, 5)
+
+    def test_scenes_of_plain_triangles(self):
+        triangles = "".join("triangle\n" + lines + "\n" for lines in plain_text(5000, 10).split("\n\n") if lines)
+        self.assert_same("model", stdin=CAMERA + triangles + "push\nrotate\n30 1 2 3\n" + 5 * triangles + "pop\n" + triangles + "end\n")
+        rng = random.Random(11)
+        for _ in range(10):
+            self.assert_same("model", stdin=CAMERA + with_mistake(triangles, rng) + "end\n")
 
     def test_columns(self):
         text = "attributes color normal\n" + random_text(5000, 2, " 10 20 30 0 1 0")

@@ -17,7 +17,8 @@ namespace {
 template <typename Visible, typename ColorOf>
 void draw_on_threads(Visible& visible, const std::vector<Triangle>& scene, const ScreenConfig& screen,
                      int thread_count, std::size_t batch_size, ColorUse use, const ColorOf& color_of) {
-  TriangleDrawing drawing(visible, screen, thread_count, use);
+  WorkerTeam team(thread_count);
+  TriangleDrawing drawing(visible, screen, team, use);
   for (std::size_t i = 0; i < scene.size();) {
     TriangleBatch& batch = drawing.next_batch();
     batch.clear();
@@ -118,7 +119,8 @@ TEST(TriangleDrawing, NothingDrawnIsTheBackground) {
 TEST(TriangleDrawing, MayBeGivenUpInTheMiddle) {
   constexpr ScreenConfig kScreen = {150, 300};
   ZBufferAlgorithm<NearestCoverage, DepthF64> visible(kScreen);
-  TriangleDrawing drawing(visible, kScreen, 3, ColorUse::rgb);
+  WorkerTeam team(3);
+  TriangleDrawing drawing(visible, kScreen, team, ColorUse::rgb);
   for (int i = 0; i < 5; ++i) {
     drawing.next_batch().add({{{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}}}, 0, {});
     drawing.draw_batch([](const TriangleBatch&, std::size_t) { return Color(); });

@@ -123,6 +123,23 @@ TEST_P(WorkerTeamTest, MayBeDestroyedInTheMiddleOfAJob) {
   EXPECT_EQ(done_count, begun_count);
 }
 
+TEST_P(WorkerTeamTest, MayBeGivenUpInTheMiddleOfAJobAndGoOn) {
+  WorkerTeam team(GetParam());
+  std::atomic<int> begun_count = 0, done_count = 0;
+  team.start(1000, [&](int, int) {
+    ++begun_count;
+    std::this_thread::yield();
+    ++done_count;
+    throw std::runtime_error("forgotten");
+  });
+  team.give_up();
+  EXPECT_EQ(done_count, begun_count);
+  const int count = begun_count;
+  team.start(10, [&](int, int) { ++begun_count; });
+  team.finish();
+  EXPECT_EQ(begun_count, count + 10);
+}
+
 INSTANTIATE_TEST_SUITE_P(Threads, WorkerTeamTest, testing::Values(1, 2, 3, 8));
 
 }  // namespace

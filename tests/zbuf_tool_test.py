@@ -67,6 +67,15 @@ class Threads(ToolTest):
         pathlib.Path("config.txt").write_text("61 47\n")
         self.check("config.txt", "stage3.txt")
 
+    def test_other_text_between_triangles_that_are_read_ahead(self):
+        rng = random.Random(4)
+        other = ("# a comment\n", "triangle 7\n", "0 0 0.1\n1 0 .1\n0 1 1e-1\n\n", "\n\n")
+        counts = (20000, 1000, 25000, 1)
+        text = "".join("".join(random_triangle(rng, (0.02,)) for _ in range(count)) + line for count, line in zip(counts, other))
+        pathlib.Path("stage3.txt").write_text(text)
+        pathlib.Path("config.txt").write_text("91 103\n")
+        self.check("config.txt", "stage3.txt")
+
     def test_bad_text_is_found_whatever_waits_to_be_drawn(self):
         pathlib.Path("config.txt").write_text(CONFIG)
         done = run("zbuf", "config.txt", "--threads", "3", stdin=TRIANGLE * 20000 + "x\n")

@@ -28,11 +28,10 @@ int main(int argc, char** argv) {
     StageWriter writer(tool.output(), numbers.format(), bare);
     writer.write_header({framed, scene.camera(), stage.appearance()});
 
-    const auto read = [&](TriangleBatch& batch) { return stage.read(batch); };
     const auto make_transform = [](CoordinateRounder& rounder) {
       return [&rounder](TriangleBatch& batch) { apply_pending_transforms(batch, rounder); };
     };
     StageLoop(tool, writer, numbers.rounder(tool.input().file()), numbers.thread_count())
-        .run(read, make_transform);
+        .run(stage, make_transform);
   });
 }

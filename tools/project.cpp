@@ -110,7 +110,6 @@ int main(int argc, char** argv) {
     if (is_lit) rest.projection = {volume_of(camera.projection->value, projection), camera.projection->place};
     writer.write_header({reader.header().framed, rest, appearance});
 
-    const auto read = [&](TriangleBatch& batch) { return reader.read(batch); };
     std::deque<Worker> workers;
     const auto make_transform = [&](CoordinateRounder& rounder) {
       workers.push_back({ProjectionStage(projection, chosen.clip, chosen.cull, rounder, chosen.clip_inset)});
@@ -119,7 +118,7 @@ int main(int argc, char** argv) {
       return [&worker](TriangleBatch& batch) { worker.project(batch); };
     };
     StageLoop(tool, writer, numbers.rounder(tool.input().file()), numbers.thread_count())
-        .run(read, make_transform);
+        .run(reader, make_transform);
     ProjectionCounts counts;
     for (const Worker& worker : workers) counts += worker.stage.counts();
     tool.timing().details = to_text(counts);

@@ -7,11 +7,13 @@
 #include "libpipeline/coverage.h"
 #include "libpipeline/image_file.h"
 #include "libpipeline/output_file.h"
+#include "libpipeline/read_ahead.h"
 #include "libpipeline/stage_reader.h"
 #include "libpipeline/supersampling.h"
 #include "libpipeline/surface_shader.h"
 #include "libpipeline/triangle_drawing.h"
 #include "libpipeline/visibility.h"
+#include "libpipeline/worker_team.h"
 #include "tools/depth_files.h"
 #include "tools/fragment_report.h"
 #include "tools/progress.h"
@@ -39,10 +41,10 @@ class Paint {
 };
 
 /// Reads the triangles: `batch()` is where the next ones go, `draw()` draws them.
-template <typename Batch, typename Draw>
-void for_each_batch(Tool& tool, StageReader& reader, Batch&& batch, Draw&& draw) {
+template <typename Source, typename Batch, typename Draw>
+void for_each_batch(Tool& tool, Source& source, Batch&& batch, Draw&& draw) {
   Progress progress("zbuf");
-  while (reader.read(batch())) {
+  while (source.read(batch())) {
     tool.timing().triangle_count += batch().size();
     tool.timing().lap(&Timing::read_seconds);
     draw();
@@ -72,11 +74,12 @@ void draw_all(Tool& tool, const RenderOptions& chosen, StageReader& reader, Pain
               SampledVisible<ZBufferAlgorithm<CoverageRule, Depth>>& visible) {
   using Drawing = TriangleDrawing<ZBufferAlgorithm<CoverageRule, Depth>>;
   visible.centres.set_depth_epsilon(chosen.depth_epsilon);
-  Drawing centres(visible.centres, visible.centre_screen, chosen.thread_count, paint.use());
+  WorkerTeam team(chosen.thread_count);
+  Drawing centres(visible.centres, visible.centre_screen, team, paint.use());
   std::optional<Drawing> samples;
   if (visible.samples) {
     visible.samples->set_depth_epsilon(chosen.depth_epsilon);
-    samples.emplace(*visible.samples, visible.screen, chosen.thread_count, paint.use());
+    samples.emplace(*visible.samples, visible.screen, team, paint.use());
   }
   std::vector<Color> colors;
   const auto draw = [&] {
@@ -88,8 +91,9 @@ void draw_all(Tool& tool, const RenderOptions& chosen, StageReader& reader, Pain
     centres.draw_batch(color_of);
     samples->draw_batch(color_of);
   };
+  ReadAhead ahead(reader, team);
   for_each_batch(
-      tool, reader, [&]() -> TriangleBatch& { return centres.next_batch(); }, draw);
+      tool, ahead, [&]() -> TriangleBatch& { return centres.next_batch(); }, draw);
   centres.finish();
   if (samples) samples->finish();
 }

@@ -4,15 +4,14 @@
 #include <string>
 #include <utility>
 
-#include "tools/stage_rounds.h"
+#include "tools/stage_team.h"
 
 namespace pipeline {
 namespace {
 
 /// Batch after batch, in this thread alone; returns where the first vertex stands whose digits are not
 /// certain, if there is one.
-LineAndColumn run_alone(Tool& tool, StageWriter& writer, CoordinateRounder rounder,
-                        const std::function<bool(TriangleBatch&)>& read,
+LineAndColumn run_alone(Tool& tool, StageWriter& writer, CoordinateRounder rounder, TriangleSource& source,
                         const std::function<BatchTransform(CoordinateRounder&)>& make_transform) {
   Timing& timing = tool.timing();
   const BatchTransform transform = make_transform(rounder);
@@ -22,7 +21,7 @@ LineAndColumn run_alone(Tool& tool, StageWriter& writer, CoordinateRounder round
     timing.lap(&Timing::write_seconds);
   };
   TriangleBatch batch;
-  while (read(batch)) {
+  while (source.read(batch)) {
     timing.triangle_count += batch.size();
     timing.lap(&Timing::read_seconds);
     try {
@@ -42,11 +41,11 @@ LineAndColumn run_alone(Tool& tool, StageWriter& writer, CoordinateRounder round
 StageLoop::StageLoop(Tool& tool, StageWriter& writer, CoordinateRounder rounder, int thread_count)
     : tool_(tool), writer_(writer), rounder_(std::move(rounder)), thread_count_(thread_count) {}
 
-void StageLoop::run(const std::function<bool(TriangleBatch&)>& read,
+void StageLoop::run(TriangleSource& source,
                     const std::function<BatchTransform(CoordinateRounder&)>& make_transform) {
   const LineAndColumn uncertain =
-      thread_count_ == 1 ? run_alone(tool_, writer_, rounder_, read, make_transform)
-                         : StageRounds(tool_, writer_, rounder_, thread_count_, make_transform).run(read);
+      thread_count_ == 1 ? run_alone(tool_, writer_, rounder_, source, make_transform)
+                         : StageTeam(tool_, writer_, rounder_, thread_count_, source, make_transform).run();
   writer_.finish();
   if (uncertain.is_known())
     tool_.note(to_string(rounder_.place_of(uncertain)) +

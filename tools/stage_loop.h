@@ -5,6 +5,7 @@
 #include "libpipeline/coordinate_rounder.h"
 #include "libpipeline/stage_writer.h"
 #include "libpipeline/triangle_batch.h"
+#include "libpipeline/triangle_source.h"
 #include "tools/tool.h"
 
 namespace pipeline {
@@ -12,9 +13,9 @@ namespace pipeline {
 /// Transforms a batch in place.
 using BatchTransform = std::function<void(TriangleBatch&)>;
 
-/// What a stage does batch by batch until its input ends: `read` a batch (false at the end), transform it,
-/// write it, and pass it on at once. What was done before a mistake is written before the mistake is thrown.
-/// At the end the text is finished, and what the user should know of its digits is said on stderr.
+/// What a stage does batch by batch until its input ends: read a batch, transform it, write it, and pass it
+/// on at once. What was done before a mistake is written before the mistake is thrown. At the end the text is
+/// finished, and what the user should know of its digits is said on stderr.
 class StageLoop {
  public:
   /// `rounder` is the pattern of those of the transforms. The output does not depend on `thread_count`,
@@ -22,8 +23,7 @@ class StageLoop {
   StageLoop(Tool& tool, StageWriter& writer, CoordinateRounder rounder, int thread_count);
 
   /// Every thread's work is done by a transform of its own, which `make_transform` makes for its rounder.
-  void run(const std::function<bool(TriangleBatch&)>& read,
-           const std::function<BatchTransform(CoordinateRounder&)>& make_transform);
+  void run(TriangleSource& source, const std::function<BatchTransform(CoordinateRounder&)>& make_transform);
 
  private:
   Tool& tool_;

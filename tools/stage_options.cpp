@@ -30,7 +30,7 @@ NumberOptions::NumberOptions(CommandLine& options) {
   options.add_choice<Precision>("--precision", precision_,
                                 {{"double", Precision::plain}, {"extended", Precision::extended}},
                                 "extended: every number printed is correctly rounded; double: faster");
-  options.add_threads(thread_count_, "How many threads calculate and print");
+  options.add_threads(thread_count_, "How many threads read, calculate and print");
 }
 
 NumberFormat NumberOptions::format() const {

@@ -55,7 +55,6 @@ int main(int argc, char** argv) {
     writer.write_header(
         {reader.header().framed, without_position(camera), in_view_space(reader.header().appearance, view)});
 
-    const auto read = [&](TriangleBatch& batch) { return reader.read(batch); };
     const auto make_transform = [&](CoordinateRounder& rounder) {
       return [&](TriangleBatch& batch) {
         for (auto& normals : batch.attributes.normals)
@@ -64,6 +63,6 @@ int main(int argc, char** argv) {
       };
     };
     StageLoop(tool, writer, numbers.rounder(tool.input().file()), numbers.thread_count())
-        .run(read, make_transform);
+        .run(reader, make_transform);
   });
 }

@@ -39,7 +39,8 @@ double seconds_for(std::vector<TriangleBatch> batches, const pipeline::ScreenCon
   pipeline::TriangleColors colors;
   const auto begin = std::chrono::steady_clock::now();
   Visible visible(screen);
-  pipeline::TriangleDrawing<Visible> drawing(visible, screen, thread_count, pipeline::ColorUse::rgb);
+  pipeline::WorkerTeam team(thread_count);
+  pipeline::TriangleDrawing<Visible> drawing(visible, screen, team, pipeline::ColorUse::rgb);
   for (TriangleBatch& batch : batches) {
     std::swap(drawing.next_batch(), batch);
     drawing.draw_batch([&](const TriangleBatch& of, std::size_t i) { return colors.of(of.numbers[i]); });

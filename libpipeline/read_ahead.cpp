@@ -1,0 +1,51 @@
+#include "libpipeline/read_ahead.h"
+
+#include <utility>
+
+namespace pipeline {
+namespace {
+
+// In characters: about as many triangles as a batch has.
+constexpr std::size_t kPartSize = std::size_t{1} << 17;
+constexpr std::size_t kSlotsPerThread = 2;
+
+}  // namespace
+
+ReadAhead::ReadAhead(TriangleSource& source, WorkerTeam& team)
+    : source_(source), parts_(source, kPartSize), team_(team) {
+  if (team.size() > 1) slots_.resize(kSlotsPerThread * static_cast<std::size_t>(team.size()));
+}
+
+bool ReadAhead::read(TriangleBatch& batch) {
+  take_parts();
+  if (take_first(batch)) return true;
+  parts_.close();
+  return source_.read(batch);
+}
+
+/// Has the team read parts, as long as there is room and text.
+void ReadAhead::take_parts() {
+  while (end_ - begin_ < slots_.size() && parts_.take(slot(end_).part, slot(end_).batch)) {
+    Slot& next = slot(end_++);
+    next.is_done = false;
+    team_.start(1, [this, &next](int, int) {
+      next.is_read = parts_.read(next.part, next.batch);
+      next.is_done = true;
+    });
+  }
+}
+
+/// Waits for the first part in work; false if there is none, or none that could be read.
+bool ReadAhead::take_first(TriangleBatch& batch) {
+  if (begin_ == end_) return false;
+  while (!slot(begin_).is_done) team_.help();
+  if (slot(begin_).is_read) {
+    std::swap(batch, slot(begin_++).batch);
+    return true;
+  }
+  team_.finish();
+  for (; end_ != begin_; --end_) parts_.put_back(slot(end_ - 1).part);
+  return false;
+}
+
+}  // namespace pipeline

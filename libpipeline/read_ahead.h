@@ -1,0 +1,48 @@
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <deque>
+
+#include "libpipeline/triangle_batch.h"
+#include "libpipeline/triangle_parts.h"
+#include "libpipeline/triangle_source.h"
+#include "libpipeline/worker_team.h"
+
+namespace pipeline {
+
+/// A source's triangles, batch by batch as it gives them, of which a team reads the next ones ahead, part by
+/// part. It never waits for the input while there is something to give.
+class ReadAhead {
+ public:
+  /// The team may have other work besides. A team of one reads nothing ahead.
+  ReadAhead(TriangleSource& source, WorkerTeam& team);
+  ~ReadAhead() { team_.give_up(); }
+  ReadAhead(const ReadAhead&) = delete;
+  ReadAhead& operator=(const ReadAhead&) = delete;
+
+  /// See TriangleSource::read.
+  bool read(TriangleBatch& batch);
+
+ private:
+  struct Slot {
+    TrianglePart part;
+    TriangleBatch batch;
+    bool is_read = false;  // or else the part has another form
+    std::atomic<bool> is_done = false;
+  };
+
+  void take_parts();
+  bool take_first(TriangleBatch& batch);
+  [[nodiscard]] Slot& slot(std::size_t number) { return slots_[number % slots_.size()]; }
+
+  TriangleSource& source_;
+  TriangleParts parts_;
+  std::deque<Slot> slots_;
+  // Those from number `begin_` to `end_` are in work.
+  std::size_t begin_ = 0;
+  std::size_t end_ = 0;
+  WorkerTeam& team_;
+};
+
+}  // namespace pipeline

@@ -1,0 +1,184 @@
+#include "libpipeline/triangle_parts.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <string>
+
+#include "libpipeline/model_stage.h"
+#include "libpipeline/model_transform.h"
+#include "libpipeline/scene.h"
+#include "libpipeline/stage_reader.h"
+#include "tests/odd_text.h"
+#include "tests/text_input.h"
+
+namespace pipeline {
+namespace {
+
+/// What is known of triangles when they are read, and why there are no more.
+struct ReadTriangles {
+  TriangleBatch all;
+  std::string end = "no error";
+
+  void add(TriangleBatch batch) {
+    CoordinateRounder rounder(Precision::extended, {}, "in.txt");
+    if (!batch.pending_transforms.empty()) apply_pending_transforms(batch, rounder);
+    for (std::size_t i = 0; i < batch.size(); ++i)
+      all.add(batch.triangles[i], batch.numbers[i], batch.places[i]);
+    if (batch.decimal_marks.empty()) return;
+    all.decimal_marks.resize(all.size() - batch.size());  // add() has made them longer
+    all.decimal_marks.insert(all.decimal_marks.end(), batch.decimal_marks.begin(), batch.decimal_marks.end());
+  }
+};
+
+ReadTriangles read_in_order(TriangleSource& source) {
+  ReadTriangles result;
+  result.end = message_of([&] {
+    for (TriangleBatch batch; source.read(batch);) result.add(batch);
+  });
+  return result;
+}
+
+constexpr std::size_t kPartsAtOnce = 3;
+
+/// Takes and reads as many parts as it can, three at a time. `part_count` is raised by what it could read.
+ReadTriangles read_by_parts(TriangleSource& source, std::size_t part_size, int& part_count) {
+  ReadTriangles result;
+  TriangleParts parts(source, part_size);
+  std::array<TrianglePart, kPartsAtOnce> taken;
+  std::array<TriangleBatch, kPartsAtOnce> batches;
+  TriangleBatch batch;
+  result.end = message_of([&] {
+    for (;;) {
+      std::size_t count = 0, read_count = 0;
+      while (count < kPartsAtOnce && parts.take(taken[count], batches[count])) ++count;
+      for (std::size_t i = 0; i < count; ++i) {
+        if (!parts.read(taken[i], batches[i])) continue;
+        EXPECT_EQ(i, read_count++);  // none behind one that could not be read
+        result.add(batches[i]);
+      }
+      part_count += static_cast<int>(read_count);
+      for (std::size_t i = count; i-- > read_count;) parts.put_back(taken[i]);
+      if (count == kPartsAtOnce && read_count == count) continue;
+      parts.close();
+      if (!source.read(batch)) break;
+      result.add(batch);
+    }
+  });
+  return result;
+}
+
+void expect_same(const ReadTriangles& actual, const ReadTriangles& expected) {
+  EXPECT_TRUE(actual.all.triangles == expected.all.triangles);
+  EXPECT_TRUE(actual.all.numbers == expected.all.numbers);
+  EXPECT_TRUE(actual.all.places == expected.all.places);
+  EXPECT_TRUE(actual.all.decimal_marks == expected.all.decimal_marks);
+  EXPECT_EQ(actual.end, expected.end);
+}
+
+/// Returns how many parts could be read.
+int expect_same_by_parts(const std::string& text, std::size_t part_size) {
+  const TextFile file(text), same_file(text);
+  TextReader in_order(file.descriptor(), "in.txt"), by_parts(same_file.descriptor(), "in.txt");
+  StageReader reader(in_order, true), part_reader(by_parts, true);
+  const ReadTriangles expected = read_in_order(reader);
+  int part_count = 0;
+  expect_same(read_by_parts(part_reader, part_size, part_count), expected);
+  return part_count;
+}
+
+TEST(TriangleParts, HoldTheTrianglesTheNumbersAndThePlaces) {
+  const std::string text = odd_stage_text(5000, 1 << 25, 1);
+  for (const std::size_t size : {1000u, 20000u, 65536u})
+    EXPECT_GE(expect_same_by_parts(text, size), 3) << size;
+  EXPECT_EQ(expect_same_by_parts(text, 1 << 20), 1);
+}
+
+TEST(TriangleParts, AreNotReadWhereTheTextHasAnotherForm) {
+  // Far enough apart that parts are tried again in between.
+  EXPECT_GE(expect_same_by_parts(odd_stage_text(80000, 10000, 2), 20000), 10);
+  for (std::uint64_t seed = 3; seed < 20; ++seed)
+    expect_same_by_parts(odd_stage_text(3000, 1000, seed), 20000);
+  for (std::uint64_t seed = 20; seed < 30; ++seed) expect_same_by_parts(odd_stage_text(300, 5, seed), 1000);
+}
+
+TEST(TriangleParts, LeaveMistakesToTheSource) {
+  RandomNumbers random(4);
+  const std::string triangle = three_fixed_vertices(random) + "\n";
+  const std::string before = odd_stage_text(2500, 1 << 25, 5);
+  for (const std::string mistake :
+       {"1 2 3\n4 5 six\n", "1.0000000 2.0000000 3.0000000\n\n", "error view: no\n", "eye 1 2 3\n", "1 2\n",
+        "1.0000000 2.0000000 3.0000000 4.0000000\n", "end\n", "1.0000000 2.0000000 1e999\n"})
+    for (const std::string& behind : {std::string(), triangle, before})
+      expect_same_by_parts(before + mistake + behind, 20000);
+}
+
+TEST(TriangleParts, LeaveTheEndOfATextToTheSource) {
+  const std::string text = odd_stage_text(3000, 1 << 25, 6);
+  for (const std::string end : {"", "end\n", "end", "end\n1 2 3\n", "\n\n", "1.0000000", "# that is all"})
+    for (const std::string header : {"", "framed\n"}) expect_same_by_parts(header + text + end, 20000);
+}
+
+TEST(TriangleParts, AreNotTakenOfTextWithColumns) {
+  const std::string text = "attributes color\n" + odd_stage_text(3, 1 << 25, 7);
+  EXPECT_EQ(expect_same_by_parts(text, 20000), 0);
+}
+
+TEST(TriangleParts, DoNotWaitForTheInput) {
+  RandomNumbers random(8);
+  const std::string triangle = three_fixed_vertices(random) + "\n";
+  const TextInPieces input({triangle + triangle + "0.5", ".25 1 2\n"}, TextInPieces::Then::silence);
+  TextReader text(input.descriptor(), "in.txt");
+  StageReader source(text);
+  TriangleParts parts(source, 20000);
+  TriangleBatch batch;
+  source.read(batch);  // the first, whose line was looked at behind the header, and the second
+  TrianglePart part;
+  while (text.waiting().size() < 5) EXPECT_FALSE(parts.take(part, batch));
+  EXPECT_FALSE(parts.take(part, batch));
+}
+
+/// Returns how many parts could be read.
+int expect_same_scene_by_parts(const std::string& commands) {
+  const std::string text = "0 0 5\n0 0 0\n0 1 0\n60 1 1 100\n" + commands;
+  const TextFile file(text), same_file(text);
+  TextReader in_order(file.descriptor(), "in.txt"), by_parts(same_file.descriptor(), "in.txt");
+  SceneReader scene(in_order), same_scene(by_parts);
+  ModelStage stage(scene), part_stage(same_scene);
+  const ReadTriangles expected = read_in_order(stage);
+  int part_count = 0;
+  expect_same(read_by_parts(part_stage, 20000, part_count), expected);
+  return part_count;
+}
+
+std::string scene_triangles(int count, RandomNumbers& random) {
+  std::string text;
+  for (int i = 0; i < count; ++i) text += "triangle\n" + three_fixed_vertices(random);
+  return text;
+}
+
+TEST(TriangleParts, OfAScene) {
+  RandomNumbers random(9);
+  EXPECT_GE(expect_same_scene_by_parts(scene_triangles(5000, random) + "end\n"), 3);
+}
+
+TEST(TriangleParts, OfASceneWithOtherCommands) {
+  RandomNumbers random(10);
+  std::string text;
+  for (const int count : {30000, 25000, 100, 1, 40000}) {
+    text += scene_triangles(count, random);
+    for (const std::string command : {"push\ntranslate\n1 2 3\n", "pop\n", "# a comment\n", "\n"})
+      text += command + scene_triangles(random.whole(0, 3), random);
+  }
+  EXPECT_GE(expect_same_scene_by_parts(text + "end\n"), 10);
+  for (const std::string mistake : {"", "pop\n", "triangle\n1 2 3\n", "end\nend\n", "tri"})
+    expect_same_scene_by_parts(text + mistake);
+}
+
+TEST(TriangleParts, OfASceneWithColors) {
+  RandomNumbers random(11);
+  EXPECT_EQ(expect_same_scene_by_parts("color 1 2 3\n" + scene_triangles(3000, random) + "end\n"), 0);
+}
+
+}  // namespace
+}  // namespace pipeline
