@@ -4,6 +4,10 @@
 #include <cstdint>
 #include <cstring>
 
+#ifdef __x86_64__
+#include <emmintrin.h>
+#endif
+
 namespace pipeline {
 
 // Decimal digits, eight at a time in a 64-bit word.
@@ -41,6 +45,36 @@ inline std::uint64_t split_digits(std::uint32_t number) {
   const std::uint64_t pairs = hundreds | (fours - 100 * hundreds) << 16;
   const std::uint64_t tens = (pairs * 103 >> 10) & 0x000f000f000f000f;
   return tens | (pairs - 10 * tens) << 8;
+}
+
+/// Sixteen digits, each in a byte.
+struct SixteenDigits {
+  std::uint64_t first;
+  std::uint64_t last;
+};
+
+/// The same for a number below 10^16; on x86-64 all at a time.
+inline SixteenDigits split_sixteen(std::uint64_t number) {
+  constexpr std::uint64_t kEightDigits = 100'000'000;
+  const std::uint64_t high = number / kEightDigits;
+  const std::uint64_t low = number - high * kEightDigits;
+#ifdef __x86_64__
+  // The eights as two lanes of 64 bits; then fours, pairs and digits as above.
+  const __m128i eights = _mm_set_epi64x(static_cast<long long>(low), static_cast<long long>(high));
+  const __m128i upper = _mm_srli_epi64(_mm_mul_epu32(eights, _mm_set1_epi64x(0xd1b71759)), 45);
+  const __m128i lower = _mm_sub_epi32(eights, _mm_mul_epu32(upper, _mm_set1_epi64x(10000)));
+  const __m128i fours = _mm_or_si128(upper, _mm_slli_epi64(lower, 32));
+  const __m128i hundreds = _mm_srli_epi16(_mm_mulhi_epu16(fours, _mm_set1_epi16(5243)), 3);
+  const __m128i rest = _mm_sub_epi16(fours, _mm_mullo_epi16(hundreds, _mm_set1_epi16(100)));
+  const __m128i pairs = _mm_or_si128(hundreds, _mm_slli_epi32(rest, 16));
+  const __m128i tens = _mm_mulhi_epu16(pairs, _mm_set1_epi16(6554));
+  const __m128i ones = _mm_sub_epi16(pairs, _mm_mullo_epi16(tens, _mm_set1_epi16(10)));
+  const __m128i digits = _mm_or_si128(tens, _mm_slli_epi16(ones, 8));
+  return {static_cast<std::uint64_t>(_mm_cvtsi128_si64(digits)),
+          static_cast<std::uint64_t>(_mm_cvtsi128_si64(_mm_unpackhi_epi64(digits, digits)))};
+#else
+  return {split_digits(static_cast<std::uint32_t>(high)), split_digits(static_cast<std::uint32_t>(low))};
+#endif
 }
 
 inline void store_eight(char* p, std::uint64_t eight) {

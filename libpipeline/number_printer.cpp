@@ -38,10 +38,7 @@ char* print_whole(char* out, std::uint64_t number) {
 /// Prints a number below 10^16 with exactly `count` digits, at most 16 and at least as many as it has; 16
 /// characters may be written.
 char* print_digits(char* out, std::uint64_t number, int count) {
-  constexpr std::uint64_t kEightDigits = 100'000'000;
-  const std::uint64_t high = number / kEightDigits;
-  const std::uint64_t first = split_digits(static_cast<std::uint32_t>(high));
-  const std::uint64_t last = split_digits(static_cast<std::uint32_t>(number - high * kEightDigits));
+  const auto [first, last] = split_sixteen(number);
   UInt128 text = (static_cast<UInt128>(last + kEightZeros) << 64) | (first + kEightZeros);
   text >>= 8 * (16 - count);
   store_eight(out, static_cast<std::uint64_t>(text));
@@ -99,12 +96,12 @@ char* print_decimals(char* out, double value, const Decimal& decimal) {
   out = print_before_point(out, whole);
   *out++ = '.';
   const std::uint64_t behind = decimal.digits - whole * scale;
-  // Up to four digits, then sixteen. No branch: whether there are 16 or 17 cannot be foreseen.
+  // Zeros and a digit where there are more than sixteen, then those. No branch: whether there are 16 or 17
+  // cannot be foreseen.
   constexpr std::uint64_t kSixteenDigits = 10'000'000'000'000'000;
   const std::uint64_t high = behind / kSixteenDigits;
   const int high_count = std::max(-decimal.exponent - 16, 0);
-  const std::uint64_t high_text = split_digits(static_cast<std::uint32_t>(high)) + kEightZeros;
-  store_eight(out, high_text >> (8 * (7 - high_count)) >> 8);
+  store_eight(out, kEightZeros + (high << (8 * high_count) >> 8));
   return print_digits(out + high_count, behind - high * kSixteenDigits, std::min(-decimal.exponent, 16));
 }
 
