@@ -1,10 +1,36 @@
 #include "libpipeline/model_stage.h"
 
 #include <algorithm>
+#include <limits>
+#include <span>
 #include <string>
 #include <utility>
 
 namespace pipeline {
+namespace {
+
+/// Adds triangles by the fast path, as long as the batch has less than `most`; false if there is none.
+bool add_waiting(SceneReader& scene, std::size_t most, std::uint64_t& next_number, TriangleBatch& batch) {
+  constexpr std::size_t kMostAtOnce = 64;
+  const std::size_t old_size = batch.size();
+  batch.triangles.resize(std::max(old_size, std::min(most, old_size + kMostAtOnce)));
+  std::size_t line = 0;
+  const std::size_t count = scene.read_waiting(std::span(batch.triangles).subspan(old_size), line);
+  batch.triangles.resize(old_size + count);
+  batch.complete(next_number, line + 1);
+  next_number += count;
+  return count > 0;
+}
+
+/// Adds the triangle that the scene has given out last.
+void add(const TriangleCommand& command, const SceneReader& scene, std::uint64_t& next_number,
+         TriangleBatch& batch) {
+  batch.add(command.p_model, next_number++, command.places);
+  const AttributeSet columns = scene.appearance().columns();
+  if (columns.any()) batch.attributes.add(scene.vertices(), columns);
+}
+
+}  // namespace
 
 ModelStage::ModelStage(SceneReader& scene) : scene_(scene) {
   try {
@@ -36,11 +62,30 @@ bool ModelStage::read(TriangleBatch& batch) {
   return mistake_.read(batch, [&] { fill(batch); });
 }
 
-bool ModelStage::take_part(std::size_t size, TrianglePart& part, TriangleBatch& batch) {
+bool ModelStage::take_part(std::size_t size, TextPart& part, TriangleBatch& batch) {
   batch.clear();
   if (first_triangle_ || done_ || mistake_.is_kept() || !scene_.take_part(size, part)) return false;
-  set_transform(batch);
+  set_transform(batch, 0);
   return true;
+}
+
+PartContents ModelStage::read_part(TextReader& part, TriangleBatch& batch) const {
+  SceneReader scene(part, scene_);
+  PartContents contents;
+  try {
+    for (;;) {
+      if (add_waiting(scene, std::numeric_limits<std::size_t>::max(), contents.next_number, batch)) continue;
+      if (part.waiting().empty()) break;
+      const Command command = scene.next();
+      const auto* const triangle = std::get_if<TriangleCommand>(&command);
+      if (triangle == nullptr) return {};
+      add(*triangle, scene, contents.next_number, batch);
+    }
+  } catch (const InputError&) {
+    return {};
+  }
+  contents.is_whole = true;
+  return contents;
 }
 
 void ModelStage::pass(const TrianglePlace& place) {
@@ -49,14 +94,22 @@ void ModelStage::pass(const TrianglePlace& place) {
 }
 
 void ModelStage::fill(TriangleBatch& batch) {
-  if (first_triangle_) add(*std::exchange(first_triangle_, std::nullopt), batch);
+  const auto add_one = [&](const TriangleCommand& triangle) {
+    set_transform(batch, batch.size());
+    add(triangle, scene_, next_number_, batch);
+  };
+  if (first_triangle_) add_one(*std::exchange(first_triangle_, std::nullopt));
   while (!done_) {
-    if (add_waiting(batch)) continue;
+    const std::size_t size = batch.size();
+    if (add_waiting(scene_, kBatchSize, next_number_, batch)) {
+      set_transform(batch, size);
+      continue;
+    }
     // What is in memory is passed on before the reader waits for more.
     if (!batch.empty() && (batch.size() >= kBatchSize || !scene_.has_command_waiting())) break;
     const Command command = scene_.next();
     if (const auto* triangle = std::get_if<TriangleCommand>(&command)) {
-      add(*triangle, batch);
+      add_one(*triangle);
     } else {
       carry_out(command);
     }
@@ -85,33 +138,12 @@ void ModelStage::carry_out(const Command& command) {
   }
 }
 
-/// The matrix that holds for the triangles which follow in the batch.
-void ModelStage::set_transform(TriangleBatch& batch) {
+/// The matrix that holds from triangle `first` of the batch on.
+void ModelStage::set_transform(TriangleBatch& batch, std::size_t first) {
   if (transform_ == nullptr)
     transform_ = std::make_shared<ModelTransform>(stack_.top(), scene_.appearance().columns().normal);
   if (batch.pending_transforms.empty() || batch.pending_transforms.back().transform != transform_)
-    batch.pending_transforms.push_back({batch.size(), transform_});
-}
-
-/// Adds triangles by the fast path, as many as there are; false if there is none.
-bool ModelStage::add_waiting(TriangleBatch& batch) {
-  std::size_t line = 0;
-  const auto triangles = scene_.waiting_triangles(kBatchSize - std::min(batch.size(), kBatchSize), line);
-  if (triangles.empty()) return false;
-  set_transform(batch);
-  for (const Triangle& triangle : triangles) {
-    batch.add(triangle, next_number_++, {line + 1, line + 2, line + 3});
-    line += 4;
-  }
-  return true;
-}
-
-/// Adds the triangle that the scene has given out last.
-void ModelStage::add(const TriangleCommand& command, TriangleBatch& batch) {
-  set_transform(batch);
-  batch.add(command.p_model, next_number_++, command.places);
-  const AttributeSet columns = scene_.appearance().columns();
-  if (columns.any()) batch.attributes.add(scene_.vertices(), columns);
+    batch.pending_transforms.push_back({first, transform_});
 }
 
 void ModelStage::push() {

@@ -26,8 +26,9 @@ class ModelStage final : public TriangleSource {
   /// apply_pending_transforms. False at the scene's end. An InputError if the matrix stack under- or
   /// overflows.
   bool read(TriangleBatch& batch) override;
-  bool take_part(std::size_t size, TrianglePart& part, TriangleBatch& batch) override;
-  void put_back(const TrianglePart& part) override { scene_.put_back(part); }
+  bool take_part(std::size_t size, TextPart& part, TriangleBatch& batch) override;
+  [[nodiscard]] PartContents read_part(TextReader& part, TriangleBatch& batch) const override;
+  void put_back(const TextPart& part) override { scene_.put_back(part); }
   [[nodiscard]] TrianglePlace place() const override { return {scene_.line_count(), next_number_}; }
   void pass(const TrianglePlace& place) override;
 
@@ -35,9 +36,7 @@ class ModelStage final : public TriangleSource {
   void read_until_triangle();
   void fill(TriangleBatch& batch);
   void carry_out(const Command& command);
-  void set_transform(TriangleBatch& batch);
-  bool add_waiting(TriangleBatch& batch);
-  void add(const TriangleCommand& command, TriangleBatch& batch);
+  void set_transform(TriangleBatch& batch, std::size_t first);
   void push();
   void pop();
 

@@ -28,7 +28,7 @@ class ReadAhead {
   struct Slot {
     TrianglePart part;
     TriangleBatch batch;
-    bool is_read = false;  // or else the part has another form
+    bool is_read = false;  // or else the part holds more than triangles
     std::atomic<bool> is_done = false;
   };
 

@@ -14,6 +14,13 @@ SceneReader::SceneReader(TextReader& text) : text_(text) {
   check_camera(camera_);
 }
 
+SceneReader::SceneReader(TextReader& text, const SceneReader& reader)
+    : text_(text),
+      appearance_(reader.appearance_),
+      vertex_line_(reader.vertex_line_),
+      current_color_(reader.current_color_),
+      has_triangle_(reader.has_triangle_) {}
+
 Placed<Vec3> SceneReader::read_camera_vec3(const std::string& name) {
   next_argument_line(name + " (three numbers)");
   const Place place = line_.place();
@@ -35,27 +42,21 @@ void SceneReader::next_argument_line(std::string_view expected) {
     throw InputError(text_.end_place(), expected_but_found(std::string(expected), "the end of the input"));
 }
 
-std::span<const Triangle> SceneReader::waiting_triangles(std::size_t most, std::size_t& first_line) {
+std::size_t SceneReader::read_waiting(std::span<Triangle> room, std::size_t& first_line) {
   static_assert(TextReader::kSlack >= kFixedTextSlack);
   // With attributes there are more columns, or at least a current colour.
-  if (appearance_.attributes || !line_.at_end()) return {};
+  if (appearance_.attributes || !line_.at_end()) return 0;
   // The blank line between triangles that a reader likes to see.
   if (text_.waiting().starts_with('\n')) text_.skip(1, 1);
-  const auto room = std::span(waiting_triangles_).first(std::min(most, waiting_triangles_.size()));
   const FixedTextPart part = fixed_text_kernel().read_scene(text_.waiting(), room);
   first_line = text_.line_number() + 1;
   text_.skip(part.length, 4 * part.triangle_count);
   if (part.triangle_count > 0) has_triangle_ = true;
-  return room.first(part.triangle_count);
+  return part.triangle_count;
 }
 
-bool SceneReader::take_part(std::size_t size, TrianglePart& part) {
-  if (appearance_.attributes || !line_.at_end()) return false;
-  constexpr std::string_view kBoundary = "\ntriangle\n";
-  part.read = fixed_text_kernel().read_scene;
-  part.first_vertex = 1;
-  part.marks_decimals = false;
-  return text_.take_part(kBoundary, 1, size, part.text);
+bool SceneReader::take_part(std::size_t size, TextPart& part) {
+  return line_.at_end() && text_.take_part("\ntriangle\n", 1, size, part);
 }
 
 Command SceneReader::next() {

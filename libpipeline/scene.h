@@ -11,7 +11,6 @@
 #include "libpipeline/camera.h"
 #include "libpipeline/text_reader.h"
 #include "libpipeline/triangle_batch.h"
-#include "libpipeline/triangle_source.h"
 #include "libpipeline/vec.h"
 
 namespace pipeline {
@@ -61,6 +60,8 @@ using Command = std::variant<TriangleCommand, TranslateCommand, ScaleCommand, Ro
 class SceneReader {
  public:
   explicit SceneReader(TextReader& text);
+  /// Goes on in another text where `reader` is.
+  SceneReader(TextReader& text, const SceneReader& reader);
 
   /// The camera, complete and checked.
   [[nodiscard]] const CameraText& camera() const { return camera_; }
@@ -72,13 +73,13 @@ class SceneReader {
   [[nodiscard]] const std::array<VertexLine, 3>& vertices() const { return vertices_; }
   /// The next command. After EndCommand nothing may be read.
   Command next();
-  /// The fast path: takes some of the triangles that come next and are in memory as a whole, at most `most`;
-  /// each has four lines, and the first begins at `first_line`. The span holds until the next call. None if
-  /// the next command is another, or a triangle in another form, or with more than positions.
-  std::span<const Triangle> waiting_triangles(std::size_t most, std::size_t& first_line);
-  /// Takes the triangles that are waiting as text; see TriangleSource.
-  bool take_part(std::size_t size, TrianglePart& part);
-  void put_back(const TrianglePart& part) { text_.put_back(part.text); }
+  /// The fast path: puts triangles that come next and are in memory as a whole into `room`, and says how
+  /// many; each has four lines, and the first begins at `first_line`. None if the next command is another, or
+  /// a triangle in another form, or with more than positions.
+  std::size_t read_waiting(std::span<Triangle> room, std::size_t& first_line);
+  /// Takes whole triangles as text, and perhaps more; see TriangleSource.
+  bool take_part(std::size_t size, TextPart& part);
+  void put_back(const TextPart& part) { text_.put_back(part); }
   /// How many lines were read, those of parts not counted until they are passed.
   [[nodiscard]] std::size_t line_count() const { return text_.line_number(); }
   void pass_lines(std::size_t line_count) { text_.skip(0, line_count - text_.line_number()); }
@@ -108,9 +109,7 @@ class SceneReader {
   Vec3 current_color_;
   std::array<VertexLine, 3> vertices_;
   bool has_triangle_ = false;
-  // Where the fast paths read triangles.
-  std::array<Triangle, 64> waiting_triangles_;
-  PlainVertexLines plain_vertices_;
+  PlainVertexLines plain_vertices_;  // where a triangle is read
   LineScanner line_;
   Place place_;
 };

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
+#include <string_view>
 
 namespace pipeline {
 namespace {
@@ -20,7 +22,8 @@ bool is_header_keyword(std::string_view word) {
 
 }  // namespace
 
-StageReader::StageReader(TextReader& text, bool marks_decimals) : text_(text) {
+StageReader::StageReader(TextReader& text, bool marks_decimals)
+    : text_(text), marks_decimals_(marks_decimals) {
   while (!line_is_pending_ && text_.next_filled_line(line_)) {
     LineScanner line = line_;
     line_is_pending_ = !read_header_line(line);
@@ -67,10 +70,38 @@ bool StageReader::read(TriangleBatch& batch) {
   return mistake_.read(batch, [&] { fill(batch); });
 }
 
-bool StageReader::take_part(std::size_t size, TrianglePart& part, TriangleBatch& batch) {
+bool StageReader::take_part(std::size_t size, TextPart& part, TriangleBatch& batch) {
   batch.clear();
   const bool is_between_triangles = !line_is_pending_ && !whole_ && !done_ && !mistake_.is_kept();
-  return is_between_triangles && triangles_->take_part(size, part);
+  if (!is_between_triangles) return false;
+  constexpr std::string_view kBoundary = "\n\n";
+  return text_.take_part(kBoundary, kBoundary.size(), size, part);
+}
+
+PartContents StageReader::read_part(TextReader& part, TriangleBatch& batch) const {
+  TriangleReader triangles(part, header_.appearance.columns(), marks_decimals_);
+  PartContents contents;
+  LineScanner line;
+  try {
+    for (;;) {
+      if (triangles.read_waiting(batch, std::numeric_limits<std::size_t>::max())) continue;
+      if (!part.next_filled_line(line)) break;
+      if (is_vertex(line.peek())) {
+        triangles.read(line, batch);
+      } else if (line.peek() == "triangle") {
+        triangles.read_number(line);
+        if (!contents.has_number) contents.first_numbered = batch.size();
+        contents.has_number = true;
+      } else {
+        return {};
+      }
+    }
+  } catch (const InputError&) {
+    return {};
+  }
+  contents.next_number = triangles.next_number();
+  contents.is_whole = true;
+  return contents;
 }
 
 TrianglePlace StageReader::place() const {
@@ -88,7 +119,7 @@ void StageReader::fill(TriangleBatch& batch) {
     if (!line_is_pending_ && !batch.empty() && (batch.size() >= kBatchSize || !text_.has_lines_waiting(3)))
       break;
     const bool may_be_plain = !line_is_pending_ && !whole_;
-    if (may_be_plain && triangles_->read_waiting(batch)) continue;
+    if (may_be_plain && triangles_->read_waiting(batch, kBatchSize)) continue;
     if (!line_is_pending_ && !text_.next_filled_line(line_)) {
       expect_unframed_end();
       done_ = true;
@@ -98,9 +129,7 @@ void StageReader::fill(TriangleBatch& batch) {
     if (is_vertex(line_.peek())) {
       read_triangle(line_, batch);
     } else if (line_.peek() == "triangle") {
-      line_.word();
-      triangles_->count_from(line_.count("the number of a triangle, a whole number below 2^64"));
-      line_.expect_end("the number of a triangle");
+      triangles_->read_number(line_);
     } else if (accepts_clipped_ && line_.peek() == "clipped") {
       read_clipped(line_);
     } else if (is_end(line_)) {

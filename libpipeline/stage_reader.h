@@ -32,8 +32,9 @@ class StageReader final : public TriangleSource {
   /// False at the end of a text that ends as it should. How much of a text with a mistake passes does not
   /// depend on the size of blocks.
   bool read(TriangleBatch& batch) override;
-  bool take_part(std::size_t size, TrianglePart& part, TriangleBatch& batch) override;
-  void put_back(const TrianglePart& part) override { text_.put_back(part.text); }
+  bool take_part(std::size_t size, TextPart& part, TriangleBatch& batch) override;
+  [[nodiscard]] PartContents read_part(TextReader& part, TriangleBatch& batch) const override;
+  void put_back(const TextPart& part) override { text_.put_back(part); }
   [[nodiscard]] TrianglePlace place() const override;
   void pass(const TrianglePlace& place) override;
 
@@ -48,6 +49,7 @@ class StageReader final : public TriangleSource {
   [[noreturn]] void reject(LineScanner& line, const std::string& also_expected);
 
   TextReader& text_;
+  bool marks_decimals_;
   StageHeader header_;
   Place header_end_;
   Place framed_place_;

@@ -108,6 +108,13 @@ void LineScanner::fail(const std::string& expected) const {
 TextReader::TextReader(int descriptor, std::string file)
     : descriptor_(descriptor), file_(std::move(file)), buffer_(kBlockSize + kSlack) {}
 
+TextReader::TextReader(TextPart& part)
+    : buffer_(std::move(part.buffer)),
+      begin_(part.begin),
+      end_(part.end),
+      scanned_(begin_),
+      at_end_of_file_(true) {}
+
 bool TextReader::next_line(LineScanner& line) {
   for (;;) {
     const char* const from = buffer_.data() + scanned_;

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "libpipeline/error.h"
@@ -66,7 +67,7 @@ class LineScanner {
   bool has_comment_ = false;
 };
 
-/// A piece of a text that was taken out of a reader, to be read elsewhere.
+/// A piece of a text that was taken out of a reader, for another one.
 struct TextPart {
   std::vector<char> buffer;
   std::size_t begin = 0;
@@ -83,6 +84,9 @@ class TextReader {
  public:
   /// Reads from a file descriptor, which stays the caller's; `file` names it in messages.
   TextReader(int descriptor, std::string file);
+  /// Reads a part of a text, whose memory it has until give_back(). Lines are counted from 1.
+  explicit TextReader(TextPart& part);
+  void give_back(TextPart& part) { part.buffer = std::move(buffer_); }
 
   /// The next line, blank ones included; false at the end of the text.
   bool next_line(LineScanner& line);
@@ -123,7 +127,7 @@ class TextReader {
   [[nodiscard]] bool input_is_ready() const;
   LineScanner take_line(std::size_t length, bool is_ended);
 
-  int descriptor_;
+  int descriptor_ = -1;
   std::string file_;
   std::vector<char> buffer_;
   std::size_t begin_ = 0;  // the unread part of the buffer is [begin_, end_)

@@ -89,6 +89,12 @@ struct TriangleBatch {
     pending_transforms.clear();
     wholes.clear();
   }
+  /// Makes room for as many.
+  void reserve(std::size_t count) {
+    triangles.reserve(count);
+    numbers.reserve(count);
+    places.reserve(count);
+  }
   /// Keeps the first `count` triangles.
   void truncate(std::size_t count) {
     triangles.resize(count);
@@ -106,6 +112,20 @@ struct TriangleBatch {
     if (!low_parts.empty()) low_parts.emplace_back();
     if (!decimal_marks.empty()) decimal_marks.emplace_back();
     if (!wholes.empty()) wholes.emplace_back();
+  }
+  /// Adds what belongs to triangles that were added to `triangles` alone: those of a text of four lines each,
+  /// the first vertex on line `first_vertex`.
+  void complete(std::uint64_t first_number, std::size_t first_vertex) {
+    const std::size_t old_size = numbers.size();
+    numbers.resize(size());
+    places.resize(size());
+    for (std::size_t i = old_size, line = first_vertex; i < size(); ++i, line += 4) {
+      numbers[i] = first_number++;
+      places[i] = {line, line + 1, line + 2};
+    }
+    if (!low_parts.empty()) low_parts.resize(size());
+    if (!decimal_marks.empty()) decimal_marks.resize(size());
+    if (!wholes.empty()) wholes.resize(size());
   }
   /// Says of which triangle the last one is a piece.
   void set_last_whole(std::shared_ptr<const ClipTriangle> whole) {

@@ -1,88 +1,80 @@
 #include "libpipeline/triangle_parts.h"
 
 #include <exception>
-#include <string_view>
+#include <span>
 
 namespace pipeline {
 namespace {
 
-constexpr std::size_t kLinesPerTriangle = 4;
-// As many triangles are read in order behind text that had another form: more than there may be in parts that
-// were read in vain.
+// As many triangles are read in order behind a part that was read in vain: more than there may be in all that
+// were.
 constexpr std::uint64_t kReadInOrder = 1 << 14;
-constexpr std::uint16_t kAllDecimal = 0x1ff;
 
-/// Reads the text into the batch, but for what depends on the place; false if it has another form.
-bool read_form(const TrianglePart& part, TriangleBatch& batch) {
-  static_assert(TextReader::kSlack >= kFixedTextSlack);
-  constexpr std::size_t kShortest = 9 * std::string_view("0.0000000 ").size();
-  const std::string_view text = part.text.text();
-  batch.triangles.resize(text.size() / kShortest + 1);
-  const FixedTextPart read = part.read(text, batch.triangles);
-  batch.triangles.resize(read.triangle_count);
-  return read.length == text.size();
+/// Says where the triangles of the batch are, which was read as if the text began with it.
+void move_to(const TrianglePlace& begin, const PartContents& contents, TriangleBatch& batch) {
+  const std::size_t counted = contents.has_number ? contents.first_numbered : batch.size();
+  for (std::uint64_t& number : std::span(batch.numbers).first(counted)) number += begin.number;
+  for (VertexPlaces& places : batch.places)
+    for (LineAndColumn& place : places) place = {place.line() + begin.line_count, place.column()};
 }
 
-/// Says where the triangles of the batch are.
-void set_places(const TrianglePart& part, const TrianglePlace& begin, TriangleBatch& batch) {
-  const std::size_t count = batch.triangles.size();
-  batch.numbers.resize(count);
-  batch.places.resize(count);
-  std::size_t line = begin.line_count + 1 + part.first_vertex;
-  for (std::size_t i = 0; i < count; ++i, line += kLinesPerTriangle) {
-    batch.numbers[i] = begin.number + i;
-    batch.places[i] = {line, line + 1, line + 2};
+/// Keeps a failure.
+PartContents contents_of(TextReader& part, const TriangleSource& source, TriangleBatch& batch,
+                         std::exception_ptr& failure) {
+  constexpr std::size_t kUsualLength = 91;  // of a triangle: nine numbers such as 0.1234567, and line ends
+  try {
+    batch.reserve(part.waiting().size() / kUsualLength);
+    return source.read_part(part, batch);
+  } catch (...) {
+    failure = std::current_exception();
+    return {};
   }
-  if (part.marks_decimals) batch.decimal_marks.assign(count, kAllDecimal);
 }
 
 }  // namespace
 
 bool TriangleParts::take(TrianglePart& part, TriangleBatch& batch) {
   if (!is_open_ && source_.place().number < first_number_) return false;
-  if (!source_.take_part(part_size_, part, batch)) return false;
+  if (!source_.take_part(part_size_, part.text, batch)) return false;
   if (!is_open_) {
     is_open_ = true;
     place_ = source_.place();
-    has_other_form_ = false;
+    is_broken_ = false;
   }
   part.turn = taken_count_++;
   return true;
 }
 
-bool TriangleParts::read(const TrianglePart& part, TriangleBatch& batch) {
-  bool has_form = false;
+bool TriangleParts::read(TrianglePart& part, TriangleBatch& batch) {
+  TextReader text(part.text);
   std::exception_ptr failure;
-  try {
-    has_form = read_form(part, batch);
-  } catch (...) {
-    failure = std::current_exception();
-  }
+  const PartContents contents = contents_of(text, source_, batch, failure);
   for (std::uint64_t turn = turn_; turn != part.turn; turn = turn_) turn_.wait(turn);
-  has_other_form_ |= !has_form;
-  const bool is_read = !has_other_form_;
+  is_broken_ |= !contents.is_whole;
+  const bool is_read = !is_broken_;
   const TrianglePlace begin = place_;
   if (is_read) {
-    place_.line_count += kLinesPerTriangle * batch.triangles.size();
-    place_.number += batch.triangles.size();
+    place_.line_count += text.line_number();
+    place_.number = contents.next_number + (contents.has_number ? 0 : begin.number);
   }
   // Others need the turn even where this thread has failed.
   turn_ = part.turn + 1;
   turn_.notify_all();
+  text.give_back(part.text);
   if (failure) std::rethrow_exception(failure);
-  if (is_read) set_places(part, begin, batch);
+  if (is_read) move_to(begin, contents, batch);
   return is_read;
 }
 
 void TriangleParts::put_back(const TrianglePart& part) {
-  source_.put_back(part);
+  source_.put_back(part.text);
 }
 
 void TriangleParts::close() {
   if (!is_open_) return;
   is_open_ = false;
   source_.pass(place_);
-  if (has_other_form_) first_number_ = place_.number + kReadInOrder;
+  if (is_broken_) first_number_ = place_.number + kReadInOrder;
 }
 
 }  // namespace pipeline

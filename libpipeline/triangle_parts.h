@@ -11,8 +11,8 @@ namespace pipeline {
 
 /// Has the text of triangles read by several threads, part by part. What a part's lines and triangles are
 /// counted from is known when those before it are read: each thread waits for that, for a moment, if it has
-/// to. If a part proves to hold something else, neither it nor any part behind it is read: the owner puts
-/// them back, and the source reads them in order.
+/// to. If a part proves to hold something else, or a mistake, neither it nor any part behind it is read: the
+/// owner puts them back, and the source reads them in order.
 ///
 /// The owner takes parts, puts them back and closes; any thread reads.
 class TriangleParts {
@@ -23,9 +23,9 @@ class TriangleParts {
   /// Takes the next part. False if the source has none or had better read for a while: then close(), and let
   /// it.
   bool take(TrianglePart& part, TriangleBatch& batch);
-  /// Reads a part into the batch it was taken with. False if it, or one before it, has another form. Parts
-  /// have to be begun in the order in which they were taken.
-  bool read(const TrianglePart& part, TriangleBatch& batch);
+  /// Reads a part into the batch it was taken with. False if it, or one before it, holds anything but
+  /// triangles. Parts have to be begun in the order in which they were taken.
+  bool read(TrianglePart& part, TriangleBatch& batch);
   /// Puts back a part that could not be read, the last one first.
   void put_back(const TrianglePart& part);
   /// To be called when every part that was taken is read or put back: then the source may be asked again.
@@ -42,8 +42,8 @@ class TriangleParts {
   std::uint64_t taken_count_ = 0;
   std::uint64_t first_number_ = 0;  // from which on parts are taken again
   // Of whoever has the turn, or of the owner, if no part is being read.
-  TrianglePlace place_;          // where the next part begins
-  bool has_other_form_ = false;  // what comes there
+  TrianglePlace place_;     // where the next part begins
+  bool is_broken_ = false;  // there is more than triangles
   std::atomic<std::uint64_t> turn_ = 0;
 };
 

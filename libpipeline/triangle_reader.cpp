@@ -54,28 +54,30 @@ struct ExactParts {
 TriangleReader::TriangleReader(TextReader& text, const AttributeSet& attributes, bool marks_decimals)
     : text_(text), vertex_line_(attributes), marks_decimals_(marks_decimals) {}
 
-bool TriangleReader::read_waiting(TriangleBatch& batch) {
-  return read_fixed_form(batch) || read_plain_form(batch);
+bool TriangleReader::read_waiting(TriangleBatch& batch, std::size_t most) {
+  return read_fixed_form(batch, most) || read_plain_form(batch, most);
 }
 
 /// Takes the triangles that are waiting as long as they have the form nearly all stage text has; false if the
 /// next has another form, or is not there as a whole.
-bool TriangleReader::read_fixed_form(TriangleBatch& batch) {
+bool TriangleReader::read_fixed_form(TriangleBatch& batch, std::size_t most) {
   static_assert(TextReader::kSlack >= kFixedTextSlack);
+  constexpr std::size_t kLinesPerTriangle = 4;
+  constexpr std::size_t kMostAtOnce = 64;
   if (vertex_line_.attributes().any()) return false;
   // The blank line behind a triangle that the general reader took.
   if (text_.waiting().starts_with('\n')) text_.skip(1, 1);
-  const std::size_t most = std::min(kBatchSize - batch.size(), fixed_form_.size());
-  const FixedTextPart part = fixed_text_kernel().read(text_.waiting(), std::span(fixed_form_).first(most));
-  constexpr std::size_t kLinesPerTriangle = 4;
-  for (std::size_t i = 0; i < part.triangle_count; ++i) {
-    const std::size_t line = text_.line_number() + i * kLinesPerTriangle;
-    batch.add(fixed_form_[i], next_number_++, {line + 1, line + 2, line + 3});
-  }
+  const std::size_t old_size = batch.size();
+  batch.triangles.resize(std::max(old_size, std::min(most, old_size + kMostAtOnce)));
+  const FixedTextPart part =
+      fixed_text_kernel().read(text_.waiting(), std::span(batch.triangles).subspan(old_size));
+  batch.triangles.resize(old_size + part.triangle_count);
+  batch.complete(next_number_, text_.line_number() + 1);
+  next_number_ += part.triangle_count;
   text_.skip(part.length, part.triangle_count * kLinesPerTriangle);
   // Seven decimals and at most eight digits before the point: every coordinate is its decimal.
   if (marks_decimals_) {
-    batch.decimal_marks.resize(batch.size() - part.triangle_count);
+    batch.decimal_marks.resize(old_size);
     batch.decimal_marks.resize(batch.size(), kAllDecimal);
   }
   return part.triangle_count > 0;
@@ -83,9 +85,9 @@ bool TriangleReader::read_fixed_form(TriangleBatch& batch) {
 
 /// Takes some of the triangles that are waiting, as long as their lines hold plain numbers and nothing else;
 /// false if the next does not. After a few the faster form is worth another try.
-bool TriangleReader::read_plain_form(TriangleBatch& batch) {
+bool TriangleReader::read_plain_form(TriangleBatch& batch, std::size_t most) {
   constexpr std::size_t kMostAtOnce = 32;
-  const std::size_t limit = std::min(kBatchSize, batch.size() + kMostAtOnce);
+  const std::size_t limit = std::min(most, batch.size() + kMostAtOnce);
   const std::size_t old_size = batch.size();
   while (batch.size() < limit && read_plain_triangle(batch)) {
   }
@@ -112,14 +114,10 @@ bool TriangleReader::read_plain_triangle(TriangleBatch& batch) {
   return true;
 }
 
-bool TriangleReader::take_part(std::size_t size, TrianglePart& part) {
-  if (vertex_line_.attributes().any()) return false;
-  if (text_.waiting().starts_with('\n')) text_.skip(1, 1);
-  constexpr std::string_view kBoundary = "\n\n";
-  part.read = fixed_text_kernel().read;
-  part.first_vertex = 0;
-  part.marks_decimals = marks_decimals_;
-  return text_.take_part(kBoundary, kBoundary.size(), size, part.text);
+void TriangleReader::read_number(LineScanner& line) {
+  line.word();
+  next_number_ = line.count("the number of a triangle, a whole number below 2^64");
+  line.expect_end("the number of a triangle");
 }
 
 void TriangleReader::read(LineScanner& line, TriangleBatch& batch) {

@@ -1,12 +1,10 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 
 #include "libpipeline/text_reader.h"
 #include "libpipeline/triangle_batch.h"
-#include "libpipeline/triangle_source.h"
 #include "libpipeline/vertex_attributes.h"
 
 namespace pipeline {
@@ -23,25 +21,23 @@ class TriangleReader {
   [[nodiscard]] std::uint64_t next_number() const { return next_number_; }
   void count_from(std::uint64_t number) { next_number_ = number; }
 
-  /// Adds some of the triangles that are waiting, as long as they hold plain numbers and nothing else; false
-  /// if the next does not, or is not there as a whole, or the batch is full.
-  bool read_waiting(TriangleBatch& batch);
-  /// Takes the triangles that are waiting as text; see TriangleSource.
-  bool take_part(std::size_t size, TrianglePart& part);
+  /// Adds some of the triangles that are waiting, as long as they hold plain numbers and nothing else and the
+  /// batch has less than `most`; false if there is no such triangle.
+  bool read_waiting(TriangleBatch& batch, std::size_t most);
+  /// Takes the line `triangle N` before a triangle. An InputError where it is wrong.
+  void read_number(LineScanner& line);
   /// Adds the triangle whose first line is `line`. An InputError where it is wrong.
   void read(LineScanner& line, TriangleBatch& batch);
 
  private:
-  bool read_fixed_form(TriangleBatch& batch);
-  bool read_plain_form(TriangleBatch& batch);
+  bool read_fixed_form(TriangleBatch& batch, std::size_t most);
+  bool read_plain_form(TriangleBatch& batch, std::size_t most);
   bool read_plain_triangle(TriangleBatch& batch);
 
   TextReader& text_;
   VertexLineReader vertex_line_;
   bool marks_decimals_;
-  // Where triangles are read before they join a batch.
-  std::array<Triangle, 64> fixed_form_;
-  PlainVertexLines plain_form_;
+  PlainVertexLines plain_form_;  // where triangles are read before they join a batch
   std::uint64_t next_number_ = 0;
 };
 

@@ -3,7 +3,6 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "libpipeline/fixed_text.h"
 #include "libpipeline/text_reader.h"
 #include "libpipeline/triangle_batch.h"
 
@@ -15,14 +14,20 @@ struct TrianglePlace {
   std::uint64_t number = 0;    // the next triangle's
 };
 
-/// Text that, as far as a look at its end tells, holds triangles in the form nearly all text has, and nothing
-/// else: four lines each.
+/// Text of whole triangles, and perhaps more.
 struct TrianglePart {
   TextPart text;
-  ReadFixedText read = nullptr;  // what reads that form
-  std::size_t first_vertex = 0;  // on which of its four lines, from 0, a triangle has its first vertex
-  bool marks_decimals = false;   // whether batches are to say that all coordinates are exact decimals
-  std::uint64_t turn = 0;        // see TriangleParts
+  std::uint64_t turn = 0;  // see TriangleParts
+};
+
+/// What was found in a part.
+struct PartContents {
+  bool is_whole = false;          // nothing but triangles, and all of them read
+  std::uint64_t next_number = 0;  // behind the last
+  /// Whether a number stands in the text; if so, triangles of the batch from `first_numbered` on have theirs
+  /// from there. Others are counted from the part's beginning.
+  bool has_number = false;
+  std::size_t first_numbered = 0;
 };
 
 /// Where a stage's triangles come from: batch by batch, or in parts that other threads read.
@@ -37,9 +42,12 @@ class TriangleSource {
   /// Takes the next triangles as text, about `size` characters without waiting for them. `batch` is emptied,
   /// and gets what else is to be known of them. False if what comes next is no such text. Between the first
   /// part taken and pass(), parts and nothing else may be taken.
-  virtual bool take_part(std::size_t size, TrianglePart& part, TriangleBatch& batch) = 0;
+  virtual bool take_part(std::size_t size, TextPart& part, TriangleBatch& batch) = 0;
+  /// Reads the triangles of a part into the batch it was taken with. What else there is, mistakes included,
+  /// is left for read(). For any thread.
+  virtual PartContents read_part(TextReader& part, TriangleBatch& batch) const = 0;
   /// Undoes the last take_part() that was not undone.
-  virtual void put_back(const TrianglePart& part) = 0;
+  virtual void put_back(const TextPart& part) = 0;
   /// Where the triangles are of which the first part was or would be taken.
   [[nodiscard]] virtual TrianglePlace place() const = 0;
   /// Goes on at `place`, up to where the parts that were not put back go.

@@ -8,25 +8,32 @@
 
 namespace pipeline {
 
-/// A vertex line in the form nearly all text has.
-inline std::string fixed_vertex(RandomNumbers& random) {
-  std::array<char, 80> line{};
-  std::snprintf(line.data(), line.size(), "%.7f %.7f %.7f\n", random.between(-9, 9), random.between(-9, 9),
-                random.between(-1, 1));
-  return line.data();
+/// What the vertex lines of a text look like: numbers with so many decimals, and columns behind them.
+struct TextForm {
+  int decimals = 7;
+  std::string columns = {};
+};
+
+inline std::string three_vertices(RandomNumbers& random, const TextForm& form = {}) {
+  std::string lines;
+  for (int i = 0; i < 3; ++i) {
+    std::array<char, 120> line{};
+    std::snprintf(line.data(), line.size(), "%.*f %.*f %.*f", form.decimals, random.between(-9, 9),
+                  form.decimals, random.between(-9, 9), form.decimals, random.between(-1, 1));
+    lines += line.data() + form.columns + "\n";
+  }
+  return lines;
 }
 
-inline std::string three_fixed_vertices(RandomNumbers& random) {
-  return fixed_vertex(random) + fixed_vertex(random) + fixed_vertex(random);
-}
-
-/// A body of stage text of so many triangles, in the usual form but for one in `distance` of them and what
-/// stands around it.
-inline std::string odd_stage_text(int triangle_count, int distance, std::uint64_t seed) {
+/// A body of stage text of so many triangles, nothing else standing between them but about once in `distance`
+/// triangles.
+inline std::string odd_stage_text(int triangle_count, int distance, std::uint64_t seed,
+                                  const TextForm& form = {}) {
   RandomNumbers random(seed);
+  const std::string& columns = form.columns;
   std::string text;
   for (int i = 0; i < triangle_count; ++i) {
-    switch (random.whole(0, 10 * distance)) {
+    switch (random.whole(0, 8 * distance)) {
       case 0:
         text += "# a comment\n";
         break;
@@ -37,16 +44,21 @@ inline std::string odd_stage_text(int triangle_count, int distance, std::uint64_
         text += "\n\n \n";
         break;
       case 3:
-        text += "1 .5 -2.25\n1e-3 2 3\n4 5 6 # the last\n\n";
+        for (const std::string vertex : {"1 .5 -2.25", "1e-3 2 3", "4 5 6"})
+          text += vertex + columns + " # so\n";
+        text += "\n";
         break;
       case 4:
-        text += "0.12345678901234567890 2 3\n4 5 6\n7 8 9\n\n";
+        for (const std::string vertex : {"0.12345678901234567890 2 3", "4 5 6", "  7 8 9"})
+          text += vertex + columns + "\n";
+        text += "\n";
         break;
       case 5:
-        text += "1.0000000 2.0000000 3.0000000\r\n4 5 6\r\n7 8 9\r\n\r\n";
+        for (int k = 0; k < 3; ++k) text += "1.0000000 2.0000000 3.0000000" + columns + "\r\n";
+        text += "\r\n";
         break;
       case 6:  // no line between this triangle and the next
-        text += three_fixed_vertices(random);
+        text += three_vertices(random, form);
         break;
       case 7:
         text += "triangle 5 # with a comment\n\n";
@@ -54,7 +66,7 @@ inline std::string odd_stage_text(int triangle_count, int distance, std::uint64_
       default:
         break;
     }
-    text += three_fixed_vertices(random) + "\n";
+    text += three_vertices(random, form) + "\n";
   }
   return text;
 }

@@ -55,7 +55,7 @@ TEST(ReadAhead, GivesWhatTheSourceGives) {
 TEST(ReadAhead, GivesWhatTheSourceGivesOfTextInOtherForms) {
   expect_same_for_all_threads(odd_stage_text(50000, 5000, 3));
   expect_same_for_all_threads(odd_stage_text(5000, 10, 4));
-  expect_same_for_all_threads("attributes color\n" + odd_stage_text(5000, 10, 5));
+  expect_same_for_all_threads("attributes color\n" + odd_stage_text(20000, 5000, 5, {7, " 1 2 3"}));
 }
 
 TEST(ReadAhead, GivesMistakesBehindTheTrianglesBeforeThem) {

@@ -18,6 +18,8 @@ namespace {
 /// What is known of triangles when they are read, and why there are no more.
 struct ReadTriangles {
   TriangleBatch all;
+  std::vector<Triangle> low_parts;
+  std::vector<Vec3> wholes;  // their first corners
   std::string end = "no error";
 
   void add(TriangleBatch batch) {
@@ -25,6 +27,15 @@ struct ReadTriangles {
     if (!batch.pending_transforms.empty()) apply_pending_transforms(batch, rounder);
     for (std::size_t i = 0; i < batch.size(); ++i)
       all.add(batch.triangles[i], batch.numbers[i], batch.places[i]);
+    const auto append = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
+    append(all.attributes.w, batch.attributes.w);
+    append(all.attributes.colors, batch.attributes.colors);
+    append(all.attributes.normals, batch.attributes.normals);
+    for (std::size_t i = 0; i < batch.size(); ++i) {
+      const ClipTriangle* const whole = batch.whole_of(i);
+      low_parts.push_back(batch.low_parts.empty() ? Triangle{} : batch.low_parts[i]);
+      wholes.push_back(whole == nullptr ? Vec3{} : (*whole)[0].position);
+    }
     if (batch.decimal_marks.empty()) return;
     all.decimal_marks.resize(all.size() - batch.size());  // add() has made them longer
     all.decimal_marks.insert(all.decimal_marks.end(), batch.decimal_marks.begin(), batch.decimal_marks.end());
@@ -72,6 +83,11 @@ void expect_same(const ReadTriangles& actual, const ReadTriangles& expected) {
   EXPECT_TRUE(actual.all.triangles == expected.all.triangles);
   EXPECT_TRUE(actual.all.numbers == expected.all.numbers);
   EXPECT_TRUE(actual.all.places == expected.all.places);
+  EXPECT_TRUE(actual.all.attributes.w == expected.all.attributes.w);
+  EXPECT_TRUE(actual.all.attributes.colors == expected.all.attributes.colors);
+  EXPECT_TRUE(actual.all.attributes.normals == expected.all.attributes.normals);
+  EXPECT_TRUE(actual.low_parts == expected.low_parts);
+  EXPECT_TRUE(actual.wholes == expected.wholes);
   EXPECT_TRUE(actual.all.decimal_marks == expected.all.decimal_marks);
   EXPECT_EQ(actual.end, expected.end);
 }
@@ -81,6 +97,8 @@ int expect_same_by_parts(const std::string& text, std::size_t part_size) {
   const TextFile file(text), same_file(text);
   TextReader in_order(file.descriptor(), "in.txt"), by_parts(same_file.descriptor(), "in.txt");
   StageReader reader(in_order, true), part_reader(by_parts, true);
+  reader.accept_clipped();
+  part_reader.accept_clipped();
   const ReadTriangles expected = read_in_order(reader);
   int part_count = 0;
   expect_same(read_by_parts(part_reader, part_size, part_count), expected);
@@ -94,17 +112,16 @@ TEST(TriangleParts, HoldTheTrianglesTheNumbersAndThePlaces) {
   EXPECT_EQ(expect_same_by_parts(text, 1 << 20), 1);
 }
 
-TEST(TriangleParts, AreNotReadWhereTheTextHasAnotherForm) {
-  // Far enough apart that parts are tried again in between.
-  EXPECT_GE(expect_same_by_parts(odd_stage_text(80000, 10000, 2), 20000), 10);
+TEST(TriangleParts, MayHoldWhateverATriangleLooksLike) {
   for (std::uint64_t seed = 3; seed < 20; ++seed)
-    expect_same_by_parts(odd_stage_text(3000, 1000, seed), 20000);
-  for (std::uint64_t seed = 20; seed < 30; ++seed) expect_same_by_parts(odd_stage_text(300, 5, seed), 1000);
+    EXPECT_GE(expect_same_by_parts(odd_stage_text(3000, 1000, seed), 20000), 3);
+  for (std::uint64_t seed = 20; seed < 30; ++seed)
+    EXPECT_GE(expect_same_by_parts(odd_stage_text(5000, 5, seed), 1000), 3);
 }
 
 TEST(TriangleParts, LeaveMistakesToTheSource) {
   RandomNumbers random(4);
-  const std::string triangle = three_fixed_vertices(random) + "\n";
+  const std::string triangle = three_vertices(random) + "\n";
   const std::string before = odd_stage_text(2500, 1 << 25, 5);
   for (const std::string mistake :
        {"1 2 3\n4 5 six\n", "1.0000000 2.0000000 3.0000000\n\n", "error view: no\n", "eye 1 2 3\n", "1 2\n",
@@ -119,14 +136,41 @@ TEST(TriangleParts, LeaveTheEndOfATextToTheSource) {
     for (const std::string header : {"", "framed\n"}) expect_same_by_parts(header + text + end, 20000);
 }
 
-TEST(TriangleParts, AreNotTakenOfTextWithColumns) {
-  const std::string text = "attributes color\n" + odd_stage_text(3, 1 << 25, 7);
-  EXPECT_EQ(expect_same_by_parts(text, 20000), 0);
+const std::string kColumns = " 2.5 255 0 0.125 0 -1 0.5";  // w, colour, normal
+
+TEST(TriangleParts, MayHaveOtherCountsOfDecimalsAndColumns) {
+  for (const int decimals : {0, 3, 9, 17})
+    for (const std::string& columns : {std::string(), kColumns}) {
+      const std::string header = columns.empty() ? "" : "attributes w color normal\n";
+      const TextForm form = {decimals, columns};
+      EXPECT_GE(expect_same_by_parts(header + odd_stage_text(15000, 1 << 25, 7, form), 20000), 3) << decimals;
+      expect_same_by_parts(header + odd_stage_text(40000, 10000, 8, form), 20000);
+      expect_same_by_parts(header + odd_stage_text(300, 5, 9, form), 1000);
+    }
+}
+
+TEST(TriangleParts, MayMixPlainForms) {
+  RandomNumbers random(10);
+  std::string text;
+  for (int i = 0; i < 5000; ++i) text += three_vertices(random, {random.whole(0, 1) == 0 ? 7 : 5, ""}) + "\n";
+  EXPECT_GE(expect_same_by_parts(text, 20000), 3);
+}
+
+TEST(TriangleParts, LeaveClippedTrianglesToTheSource) {
+  RandomNumbers random(12);
+  const TextForm form = {7, kColumns};
+  std::string text = "attributes w color normal\n";
+  for (const int count : {5000, 30000, 20000, 1, 3000}) {
+    for (int i = 0; i < count; ++i) text += three_vertices(random, form) + "\n";
+    for (int i = 0; i < 2; ++i)
+      text += "clipped\n" + three_vertices(random, form) + "\n" + three_vertices(random, form);
+  }
+  EXPECT_GE(expect_same_by_parts(text, 20000), 10);
 }
 
 TEST(TriangleParts, DoNotWaitForTheInput) {
   RandomNumbers random(8);
-  const std::string triangle = three_fixed_vertices(random) + "\n";
+  const std::string triangle = three_vertices(random) + "\n";
   const TextInPieces input({triangle + triangle + "0.5", ".25 1 2\n"}, TextInPieces::Then::silence);
   TextReader text(input.descriptor(), "in.txt");
   StageReader source(text);
@@ -151,9 +195,9 @@ int expect_same_scene_by_parts(const std::string& commands) {
   return part_count;
 }
 
-std::string scene_triangles(int count, RandomNumbers& random) {
+std::string scene_triangles(int count, RandomNumbers& random, const TextForm& form = {}) {
   std::string text;
-  for (int i = 0; i < count; ++i) text += "triangle\n" + three_fixed_vertices(random);
+  for (int i = 0; i < count; ++i) text += "triangle\n" + three_vertices(random, form);
   return text;
 }
 
@@ -175,9 +219,17 @@ TEST(TriangleParts, OfASceneWithOtherCommands) {
     expect_same_scene_by_parts(text + mistake);
 }
 
-TEST(TriangleParts, OfASceneWithColors) {
+TEST(TriangleParts, OfASceneWithColumns) {
   RandomNumbers random(11);
-  EXPECT_EQ(expect_same_scene_by_parts("color 1 2 3\n" + scene_triangles(3000, random) + "end\n"), 0);
+  const TextForm form = {4, " 1 2 3 0 0 1"};
+  EXPECT_GE(
+      expect_same_scene_by_parts("attributes color normal\n" + scene_triangles(5000, random, form) + "end\n"),
+      3);
+  EXPECT_GE(expect_same_scene_by_parts("color 1 2 3\n" + scene_triangles(5000, random) + "color 4 5 6\n" +
+                                       scene_triangles(30000, random) + "end\n"),
+            3);
+  expect_same_scene_by_parts("attributes normal\n" + scene_triangles(3000, random, {7, " 0 0 1"}) +
+                             scene_triangles(1, random, {7, " 0 0 0"}) + "end\n");
 }
 
 }  // namespace

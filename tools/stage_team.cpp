@@ -102,7 +102,7 @@ void StageTeam::write_done() {
   }
 }
 
-/// Puts back all that is in work: parts of which the first has another form.
+/// Puts back all that is in work: parts of which the first holds more than triangles.
 void StageTeam::put_back() {
   team_.finish();
   for (; end_ != begin_; --end_) parts_.put_back(slot(end_ - 1).part);

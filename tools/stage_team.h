@@ -20,7 +20,7 @@ namespace pipeline {
 
 /// The work of a StageLoop on several threads. This thread takes parts of the text, which a team reads,
 /// transforms and prints, and writes what is done; when all slots are taken, it helps. All is written in
-/// order. Text in an unusual form this thread reads itself, batch by batch.
+/// order. Text in an with anything but triangles this thread reads itself, batch by batch.
 class StageTeam {
  public:
   StageTeam(Tool& tool, StageWriter& writer, const CoordinateRounder& rounder, int thread_count,
@@ -41,7 +41,7 @@ class StageTeam {
     void work(TriangleParts& parts);
 
     bool is_part = false;
-    bool is_read = false;  // or else the part has another form
+    bool is_read = false;  // or else the part holds more than triangles
     TrianglePart part;
     TriangleBatch batch;
     std::size_t triangle_count = 0;  // in it as it was read
