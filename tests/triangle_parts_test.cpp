@@ -2,13 +2,14 @@
 
 #include <gtest/gtest.h>
 
-#include <array>
 #include <string>
+#include <vector>
 
 #include "libpipeline/model_stage.h"
 #include "libpipeline/model_transform.h"
 #include "libpipeline/scene.h"
 #include "libpipeline/stage_reader.h"
+#include "tests/by_parts.h"
 #include "tests/odd_text.h"
 #include "tests/text_input.h"
 
@@ -42,39 +43,11 @@ struct ReadTriangles {
   }
 };
 
-ReadTriangles read_in_order(TriangleSource& source) {
+template <typename Source>
+ReadTriangles read_from(Source& source) {
   ReadTriangles result;
   result.end = message_of([&] {
     for (TriangleBatch batch; source.read(batch);) result.add(batch);
-  });
-  return result;
-}
-
-constexpr std::size_t kPartsAtOnce = 3;
-
-/// Takes and reads as many parts as it can, three at a time. `part_count` is raised by what it could read.
-ReadTriangles read_by_parts(TriangleSource& source, std::size_t part_size, int& part_count) {
-  ReadTriangles result;
-  TriangleParts parts(source, part_size);
-  std::array<TrianglePart, kPartsAtOnce> taken;
-  std::array<TriangleBatch, kPartsAtOnce> batches;
-  TriangleBatch batch;
-  result.end = message_of([&] {
-    for (;;) {
-      std::size_t count = 0, read_count = 0;
-      while (count < kPartsAtOnce && parts.take(taken[count], batches[count])) ++count;
-      for (std::size_t i = 0; i < count; ++i) {
-        if (!parts.read(taken[i], batches[i])) continue;
-        EXPECT_EQ(i, read_count++);  // none behind one that could not be read
-        result.add(batches[i]);
-      }
-      part_count += static_cast<int>(read_count);
-      for (std::size_t i = count; i-- > read_count;) parts.put_back(taken[i]);
-      if (count == kPartsAtOnce && read_count == count) continue;
-      parts.close();
-      if (!source.read(batch)) break;
-      result.add(batch);
-    }
   });
   return result;
 }
@@ -99,10 +72,10 @@ int expect_same_by_parts(const std::string& text, std::size_t part_size) {
   StageReader reader(in_order, true), part_reader(by_parts, true);
   reader.accept_clipped();
   part_reader.accept_clipped();
-  const ReadTriangles expected = read_in_order(reader);
-  int part_count = 0;
-  expect_same(read_by_parts(part_reader, part_size, part_count), expected);
-  return part_count;
+  const ReadTriangles expected = read_from(reader);
+  ByParts parts(part_reader, part_size);
+  expect_same(read_from(parts), expected);
+  return parts.part_count();
 }
 
 TEST(TriangleParts, HoldTheTrianglesTheNumbersAndThePlaces) {
@@ -168,6 +141,25 @@ TEST(TriangleParts, LeaveClippedTrianglesToTheSource) {
   EXPECT_GE(expect_same_by_parts(text, 20000), 10);
 }
 
+TEST(TriangleParts, BehindOneThatCannotBeReadAreNotReadEither) {
+  const std::string triangles = odd_stage_text(3000, 1 << 25, 13);
+  const TextFile file(triangles + "mistake\n" + triangles);
+  TextReader text(file.descriptor(), "in.txt");
+  StageReader source(text);
+  TriangleParts parts(source, 20000);
+  TriangleBatch batch;
+  source.read(batch);
+  TrianglePart part;
+  int read_count = 0, left_count = 0;
+  while (parts.take(part, batch)) {
+    const bool is_read = parts.read(part, batch);
+    EXPECT_TRUE(!is_read || left_count == 0);
+    ++(is_read ? read_count : left_count);
+  }
+  EXPECT_GE(read_count, 2);
+  EXPECT_GE(left_count, 3);
+}
+
 TEST(TriangleParts, DoNotWaitForTheInput) {
   RandomNumbers random(8);
   const std::string triangle = three_vertices(random) + "\n";
@@ -189,10 +181,10 @@ int expect_same_scene_by_parts(const std::string& commands) {
   TextReader in_order(file.descriptor(), "in.txt"), by_parts(same_file.descriptor(), "in.txt");
   SceneReader scene(in_order), same_scene(by_parts);
   ModelStage stage(scene), part_stage(same_scene);
-  const ReadTriangles expected = read_in_order(stage);
-  int part_count = 0;
-  expect_same(read_by_parts(part_stage, 20000, part_count), expected);
-  return part_count;
+  const ReadTriangles expected = read_from(stage);
+  ByParts parts(part_stage, 20000);
+  expect_same(read_from(parts), expected);
+  return parts.part_count();
 }
 
 std::string scene_triangles(int count, RandomNumbers& random, const TextForm& form = {}) {

@@ -1,24 +1,39 @@
 // The reader and the writer of stage text: any text gives triangles or a mistake with its place, and what was
-// written reads back to the same.
+// written reads back to the same. So it is if the text is read by parts.
 
 #include "libpipeline/stage_reader.h"
 #include "libpipeline/stage_writer.h"
+#include "tests/by_parts.h"
 #include "tests/fuzz/transcript.h"
 
 namespace pipeline {
 namespace {
 
-void copy(TextReader& text, TextWriter& output, NumberFormat format) {
-  StageReader reader(text, true);
-  StageWriter writer(output, format, false);
-  writer.write_header(reader.header());
-  for (TriangleBatch batch; reader.read(batch);) writer.write(batch);
+template <typename Source>
+void write_all(Source& source, StageWriter& writer) {
+  for (TriangleBatch batch; source.read(batch);) writer.write(batch);
   writer.finish();
 }
 
+enum class Reading { in_order, by_parts };
+
+void copy(TextReader& text, TextWriter& output, NumberFormat format, Reading reading) {
+  constexpr std::size_t kPartSize = 100;
+  StageReader reader(text, true);
+  StageWriter writer(output, format, false);
+  writer.write_header(reader.header());
+  if (reading == Reading::in_order) return write_all(reader, writer);
+  ByParts parts(reader, kPartSize);
+  write_all(parts, writer);
+}
+
 void check(std::string_view text, NumberFormat format) {
-  const Work work = [&](TextReader& reader, TextWriter& writer) { copy(reader, writer, format); };
+  const auto by = [&](Reading reading) -> Work {
+    return [=](TextReader& reader, TextWriter& writer) { copy(reader, writer, format, reading); };
+  };
+  const Work work = by(Reading::in_order);
   const Transcript once = transcript(text, work);
+  require(transcript(text, by(Reading::by_parts)) == once, "parts change nothing");
   if (!once.mistake.empty()) return;
   const Transcript twice = transcript(once.written, work);
   require(twice.mistake.empty(), "what is written can be read");
