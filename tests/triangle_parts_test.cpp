@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <atomic>
+#include <new>
 #include <string>
 #include <vector>
 
@@ -158,6 +161,37 @@ TEST(TriangleParts, BehindOneThatCannotBeReadAreNotReadEither) {
   }
   EXPECT_GE(read_count, 2);
   EXPECT_GE(left_count, 3);
+}
+
+/// Has parts without end, of which the first cannot be read.
+class SourceWithoutMemory final : public TriangleSource {
+ public:
+  bool read(TriangleBatch&) override { return false; }
+  bool take_part(std::size_t, TextPart& part, TriangleBatch&) override {
+    part.buffer.resize(TextReader::kSlack);
+    return true;
+  }
+  [[nodiscard]] PartContents read_part(TextReader&, TriangleBatch&) const override {
+    if (is_first_.exchange(false)) throw std::bad_alloc();
+    return {.is_whole = true};
+  }
+  void put_back(const TextPart&) override {}
+  [[nodiscard]] TrianglePlace place() const override { return {}; }
+  void pass(const TrianglePlace&) override {}
+
+ private:
+  mutable std::atomic<bool> is_first_ = true;
+};
+
+TEST(TriangleParts, AFailureIsThrownAndLetsTheOthersGoOn) {
+  SourceWithoutMemory source;
+  TriangleParts parts(source, 20000);
+  std::array<TrianglePart, 3> taken;
+  TriangleBatch batch;
+  for (TrianglePart& part : taken) ASSERT_TRUE(parts.take(part, batch));
+  EXPECT_THROW(parts.read(taken[0], batch), std::bad_alloc);
+  EXPECT_FALSE(parts.read(taken[1], batch));
+  EXPECT_FALSE(parts.read(taken[2], batch));
 }
 
 TEST(TriangleParts, DoNotWaitForTheInput) {
