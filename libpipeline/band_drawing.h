@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
@@ -56,7 +57,6 @@ class BandDrawing {
   static constexpr std::size_t kBatchesInCache = 4;
   static constexpr std::size_t kMaxEntries = std::size_t{1} << 18;
 
-  static_assert(kBatchSize <= std::size_t{1} << 16);
   struct Entry {
     std::uint16_t batch;
     std::uint16_t index;
@@ -82,6 +82,7 @@ class BandDrawing {
   void sort_into_bands(Round& round) {
     const std::size_t number = round.batch_count++;
     const TriangleBatch& batch = round.batches[number].batch;
+    assert(batch.size() <= std::size_t{1} << 16);
     round.triangle_count += batch.size();
     for (std::size_t i = 0; i < batch.size(); ++i) {
       const RowRange range = bands_.bands_of(batch.triangles[i]);

@@ -75,7 +75,7 @@ PartContents ModelStage::read_part(TextReader& part, TriangleBatch& batch) const
   try {
     for (;;) {
       if (add_waiting(scene, std::numeric_limits<std::size_t>::max(), contents.next_number, batch)) continue;
-      if (part.waiting().empty()) break;
+      if (!part.has_lines_waiting(1)) break;
       const Command command = scene.next();
       const auto* const triangle = std::get_if<TriangleCommand>(&command);
       if (triangle == nullptr) return {};
@@ -83,6 +83,8 @@ PartContents ModelStage::read_part(TextReader& part, TriangleBatch& batch) const
     }
   } catch (const InputError&) {
     return {};
+  }
+  for (LineScanner line; part.next_line(line);) {  // blank lines and comments are lines, too
   }
   contents.is_whole = true;
   return contents;

@@ -17,10 +17,14 @@ ReadAhead::ReadAhead(TriangleSource& source, WorkerTeam& team)
 }
 
 bool ReadAhead::read(TriangleBatch& batch) {
-  take_parts();
-  if (take_first(batch)) return true;
-  parts_.close();
-  return source_.read(batch);
+  do {
+    take_parts();
+    if (!take_first(batch)) {
+      parts_.close();
+      return source_.read(batch);
+    }
+  } while (batch.empty());  // a part may hold comments alone
+  return true;
 }
 
 /// Has the team read parts, as long as there is room and text.

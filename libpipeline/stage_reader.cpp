@@ -74,8 +74,7 @@ bool StageReader::take_part(std::size_t size, TextPart& part, TriangleBatch& bat
   batch.clear();
   const bool is_between_triangles = !line_is_pending_ && !whole_ && !done_ && !mistake_.is_kept();
   if (!is_between_triangles) return false;
-  constexpr std::string_view kBoundary = "\n\n";
-  return text_.take_part(kBoundary, kBoundary.size(), size, part);
+  return text_.take_part("\n\n", 2, size, part) || text_.take_part("\n\r\n", 3, size, part);
 }
 
 PartContents StageReader::read_part(TextReader& part, TriangleBatch& batch) const {

@@ -113,6 +113,7 @@ TextReader::TextReader(TextPart& part)
       begin_(part.begin),
       end_(part.end),
       scanned_(begin_),
+      begins_text_(false),
       at_end_of_file_(true) {}
 
 bool TextReader::next_line(LineScanner& line) {
@@ -137,7 +138,7 @@ LineScanner TextReader::take_line(std::size_t length, bool is_ended) {
   begin_ += length + (is_ended ? 1 : 0);
   scanned_ = begin_;
   last_line_was_ended_ = is_ended;
-  if (++line_number_ == 1 && line.starts_with("\xEF\xBB\xBF")) line.remove_prefix(3);
+  if (++line_number_ == 1 && begins_text_ && line.starts_with("\xEF\xBB\xBF")) line.remove_prefix(3);
   return {line, file_, line_number_};
 }
 
@@ -158,10 +159,6 @@ bool TextReader::has_lines_waiting(std::size_t count) const {
   return true;
 }
 
-bool TextReader::is_ready() const {
-  return at_end_of_file_ || has_lines_waiting(4) || input_is_ready();
-}
-
 /// True if the next read has not to wait for the input.
 bool TextReader::input_is_ready() const {
   pollfd input = {.fd = descriptor_, .events = POLLIN, .revents = 0};
@@ -176,8 +173,10 @@ void TextReader::skip(std::size_t length, std::size_t line_count) {
 
 bool TextReader::take_part(std::string_view boundary, std::size_t length, std::size_t size, TextPart& part) {
   while (waiting().size() < size && !at_end_of_file_ && read_error_ == 0 && input_is_ready()) read_block();
-  const std::size_t place = waiting().substr(0, size + kBlockSize).rfind(boundary);
+  const std::size_t most = size + kBlockSize;
+  const std::size_t place = waiting().size() > most ? std::string_view::npos : waiting().rfind(boundary);
   if (place == std::string_view::npos) return false;
+  if (buffer_.size() > 4 * most) move_to(0, most);  // what was put back has left it large
   const std::size_t part_end = begin_ + place + length;
   const std::size_t rest = end_ - part_end;
   part.buffer.resize(std::max(part.buffer.size(), rest + kBlockSize + kSlack));
@@ -192,12 +191,20 @@ bool TextReader::take_part(std::string_view boundary, std::size_t length, std::s
 
 void TextReader::put_back(const TextPart& part) {
   const std::string_view text = part.text();
-  std::vector<char> whole(text.size() + waiting().size() + kSlack);
-  std::memcpy(whole.data(), text.data(), text.size());
-  std::memcpy(whole.data() + text.size(), waiting().data(), waiting().size());
-  end_ = whole.size() - kSlack;
-  begin_ = scanned_ = 0;
-  buffer_ = std::move(whole);
+  // Room for as much again: others may follow.
+  if (begin_ < text.size()) move_to(2 * text.size() + waiting().size(), 0);
+  begin_ -= text.size();
+  scanned_ = begin_;
+  std::memcpy(buffer_.data() + begin_, text.data(), text.size());
+}
+
+/// Moves what is waiting to place `begin` of a new buffer with `room` behind it.
+void TextReader::move_to(std::size_t begin, std::size_t room) {
+  std::vector<char> buffer(begin + waiting().size() + room + kSlack);
+  std::memcpy(buffer.data() + begin, waiting().data(), waiting().size());
+  end_ = begin + waiting().size();
+  begin_ = scanned_ = begin;
+  buffer_ = std::move(buffer);
 }
 
 Place TextReader::end_place() const {
@@ -207,6 +214,7 @@ Place TextReader::end_place() const {
 /// Has one more block behind the unread part; false at the end of the file.
 bool TextReader::fill() {
   if (at_end_of_file_) return false;
+  if (before_waiting_ && !input_is_ready()) before_waiting_();
   if (read_error_ == 0) read_block();
   if (read_error_ != 0) throw IoError("read", file_, read_error_);
   return !at_end_of_file_;

@@ -13,7 +13,7 @@
 
 namespace pipeline {
 
-/// The most triangles a batch is filled with before it is passed on.
+/// The most triangles a batch is filled with before it is passed on, unless they come of a part of a text.
 constexpr std::size_t kBatchSize = 2048;
 
 /// Where on which line of the input something begins, both from 1. Every vertex has one: it is as small as it

@@ -1,14 +1,12 @@
 #include "libpipeline/triangle_parts.h"
 
+#include <algorithm>
 #include <exception>
 #include <span>
+#include <utility>
 
 namespace pipeline {
 namespace {
-
-// As many triangles are read in order behind a part that was read in vain: more than there may be in all that
-// were.
-constexpr std::uint64_t kReadInOrder = 1 << 14;
 
 /// Says where the triangles of the batch are, which was read as if the text began with it.
 void move_to(const TrianglePlace& begin, const PartContents& contents, TriangleBatch& batch) {
@@ -34,8 +32,14 @@ PartContents contents_of(TextReader& part, const TriangleSource& source, Triangl
 }  // namespace
 
 bool TriangleParts::take(TrianglePart& part, TriangleBatch& batch) {
-  if (!is_open_ && source_.place().number < first_number_) return false;
-  if (!source_.take_part(part_size_, part.text, batch)) return false;
+  if (!is_open_ && source_.place().line_count < first_line_) return false;
+  if (!source_.take_part(part_size_, part.text, batch)) {
+    // To look for one takes time, too: the longer there was none, the longer nobody looks.
+    if (!is_open_)
+      first_line_ = source_.place().line_count + std::exchange(pause_, std::min(2 * pause_, kLongestPause));
+    return false;
+  }
+  pause_ = kShortestPause;
   if (!is_open_) {
     is_open_ = true;
     place_ = source_.place();
@@ -74,7 +78,8 @@ void TriangleParts::close() {
   if (!is_open_) return;
   is_open_ = false;
   source_.pass(place_);
-  if (is_broken_) first_number_ = place_.number + kReadInOrder;
+  // So that no text is read in vain for long.
+  if (is_broken_) first_line_ = place_.line_count + kLongestPause;
 }
 
 }  // namespace pipeline

@@ -40,7 +40,11 @@ class TriangleParts {
   // The owner's.
   bool is_open_ = false;
   std::uint64_t taken_count_ = 0;
-  std::uint64_t first_number_ = 0;  // from which on parts are taken again
+  // How many lines are read in order before parts are taken again, and from which line on they are.
+  static constexpr std::size_t kShortestPause = std::size_t{1} << 12;
+  static constexpr std::size_t kLongestPause = std::size_t{1} << 16;
+  std::size_t pause_ = kShortestPause;
+  std::size_t first_line_ = 0;
   // Of whoever has the turn, or of the owner, if no part is being read.
   TrianglePlace place_;     // where the next part begins
   bool is_broken_ = false;  // there is more than triangles

@@ -40,7 +40,8 @@ class TriangleSource {
   virtual bool read(TriangleBatch& batch) = 0;
 
   /// Takes the next triangles as text, about `size` characters without waiting for them. `batch` is emptied,
-  /// and gets what else is to be known of them. False if what comes next is no such text. Between the first
+  /// and gets what else is to be known of them. False if no such
+  /// text comes next, or none is in memory. Between the first
   /// part taken and pass(), parts and nothing else may be taken.
   virtual bool take_part(std::size_t size, TextPart& part, TriangleBatch& batch) = 0;
   /// Reads the triangles of a part into the batch it was taken with. What else there is, mistakes included,

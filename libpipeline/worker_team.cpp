@@ -30,6 +30,7 @@ void WorkerTeam::start(int task_count, Task task) {
   if (task_count == 0) return;
   {
     const std::lock_guard lock(mutex_);
+    throw_failure();
     jobs_.push_back(std::make_shared<Job>(Job{std::move(task), task_count}));
   }
   if (task_count == 1)

@@ -30,11 +30,11 @@ class WorkerTeam {
   using Task = std::function<void(int number, int worker)>;
 
   /// Has the others do `task(number, worker)` for numbers from 0 to task_count - 1, after the jobs started
-  /// before.
+  /// before. So that none is begun behind one that was left out, this, too, throws what a task threw.
   void start(int task_count, Task task);
   /// Does the next task or, where all are begun, waits until one is done; returns at once if all are done.
-  /// What a task threw is thrown here or in finish(); the tasks started before and not yet begun are left
-  /// out.
+  /// What a task threw is thrown here, in start() or in finish(); the tasks started before and not yet begun
+  /// are left out.
   void help();
   /// Helps until every task is done.
   void finish();

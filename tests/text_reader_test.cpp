@@ -335,6 +335,55 @@ TEST(TextReader, PartsMayBePutBack) {
   EXPECT_FALSE(reader.next_filled_line(line));
 }
 
+TEST(TextReader, ManyPartsMayBePutBack) {
+  std::string text;
+  for (int i = 0; i < 200000; ++i) text += std::to_string(i) + "\n\n";
+  const TextFile file(text);
+  TextReader reader(file.descriptor(), "in.txt");
+  std::vector<TextPart> parts(1);
+  while (reader.take_part("\n\n", 2, 20000, parts.back())) parts.emplace_back();
+  parts.pop_back();
+  EXPECT_GE(parts.size(), 15u);
+  for (std::size_t i = parts.size(); i-- > 0;) reader.put_back(parts[i]);
+  EXPECT_TRUE(reader.waiting() == text);
+  // That is no part again: it would be one of the whole.
+  TextPart part;
+  EXPECT_FALSE(reader.take_part("\n\n", 2, 20000, part));
+  while (reader.waiting().size() > 20000) reader.skip(reader.waiting().find("\n\n") + 2, 2);
+  ASSERT_TRUE(reader.take_part("\n\n", 2, 20000, part));
+  EXPECT_TRUE(text.ends_with(part.text()));
+  EXPECT_LT(part.buffer.size() + TextReader::kSlack, text.size());
+}
+
+TEST(TextReader, AByteOrderMarkInAPartIsAPartOfAWord) {
+  const TextFile file(
+      "a\n\n\xEF\xBB\xBF"
+      "b\n\n");
+  TextReader whole(file.descriptor(), "in.txt");
+  LineScanner line;
+  ASSERT_TRUE(whole.next_line(line) && whole.next_line(line));
+  TextPart part;
+  ASSERT_TRUE(whole.take_part("\n\n", 2, 100, part));
+  TextReader reader(part);
+  ASSERT_TRUE(reader.next_line(line));
+  EXPECT_EQ(line.rest(),
+            "\xEF\xBB\xBF"
+            "b");
+}
+
+TEST(TextReader, SaysWhenItIsAboutToWait) {
+  const TextInPieces input({"a\nb\n"}, TextInPieces::Then::silence);
+  TextReader reader(input.descriptor(), "in.txt");
+  LineScanner line;
+  ASSERT_TRUE(reader.next_line(line));
+  int count = 0;
+  reader.set_before_waiting([&] { throw ++count; });  // rather than wait
+  ASSERT_TRUE(reader.next_line(line));
+  EXPECT_EQ(count, 0);
+  EXPECT_THROW(reader.next_line(line), int);
+  EXPECT_EQ(count, 1);
+}
+
 // No line of the part is given out before: the failure comes behind it.
 TEST(TextReader, AFailureToReadDoesNotLoseWhatWasReadBefore) {
   int ends[2];

@@ -168,6 +168,19 @@ class Threads(ToolTest):
             self.assertEqual(view.receive(1001), 1001)
             self.assertEqual(view.finish(), 0)
 
+    def test_triangles_are_passed_on_whatever_stands_behind_them(self):
+        texts = {"view": HEADER + 2048 * "0 0 0\n1 0 0\n0 1 0\n\n", "model": CAMERA + 2048 * TRIANGLE}
+        for tool, behind in (("view", "triangle 1\n" * 8), ("view", "# " + 150000 * "c"), ("view", "# c\n" * 20000),
+                             ("model", "push\npop\n" * 3), ("model", "# " + 150000 * "c")):
+            with LiveTool(tool, "--threads", "2") as live:
+                live.send(texts[tool] + behind)
+                self.assertEqual(live.receive(2048), 2048, (tool, behind[:10]))
+
+    def test_a_byte_order_mark_between_triangles(self):
+        plain = plain_text(6000, 12)
+        done = self.assert_same("view", stdin=HEADER + plain + "\ufeff" + plain)
+        self.assertEqual(done.returncode, 1)
+
     def test_the_number_of_threads_is_limited(self):
         for count in ("0", "257", "-1", "x"):
             self.assertEqual(run("view", "--threads", count).returncode, 2)

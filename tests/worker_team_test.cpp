@@ -123,6 +123,21 @@ TEST_P(WorkerTeamTest, MayBeDestroyedInTheMiddleOfAJob) {
   EXPECT_EQ(done_count, begun_count);
 }
 
+TEST_P(WorkerTeamTest, BeginsNothingBehindWhatWasLeftOut) {
+  WorkerTeam team(GetParam());
+  std::atomic<int> next = 0;
+  const auto start_many = [&] {
+    for (int number = 0; number < 1000; ++number)
+      team.start(1, [&, number](int, int) {
+        while (next != number) std::this_thread::yield();  // for ever, had one before it been left out
+        next = number + 1;
+        if (number == 20) throw std::runtime_error("task 20");
+      });
+    team.finish();
+  };
+  EXPECT_THROW(start_many(), std::runtime_error);
+}
+
 TEST_P(WorkerTeamTest, MayBeGivenUpInTheMiddleOfAJobAndGoOn) {
   WorkerTeam team(GetParam());
   std::atomic<int> begun_count = 0, done_count = 0;

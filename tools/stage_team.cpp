@@ -1,5 +1,7 @@
 #include "tools/stage_team.h"
 
+#include <stdexcept>
+
 namespace pipeline {
 namespace {
 
@@ -7,6 +9,11 @@ namespace {
 constexpr int kSlotsPerThread = 4;
 // In characters: a block is read, and what comes of it is written as one.
 constexpr std::size_t kPartSize = std::size_t{1} << 15;
+
+/// A failure of what is done while a source reads; none of its own.
+struct WriteFailure {
+  std::exception_ptr cause;
+};
 
 }  // namespace
 
@@ -16,6 +23,18 @@ StageTeam::StageTeam(Tool& tool, StageWriter& writer, const CoordinateRounder& r
     : tool_(tool), writer_(writer), source_(source), parts_(source, kPartSize), team_(thread_count) {
   for (int i = 0; i < thread_count * kSlotsPerThread; ++i)
     slots_.emplace_back(writer, rounder, make_transform);
+  // What is in work is not kept back while the input is waited for.
+  tool_.input().set_before_waiting([this] {
+    try {
+      write_all();
+    } catch (...) {
+      throw WriteFailure{std::current_exception()};
+    }
+  });
+}
+
+StageTeam::~StageTeam() {
+  tool_.input().set_before_waiting({});
 }
 
 void StageTeam::Slot::work(TriangleParts& parts) {
@@ -24,8 +43,11 @@ void StageTeam::Slot::work(TriangleParts& parts) {
     triangle_count = batch.size();
     try {
       transform(batch);
-    } catch (...) {
+    } catch (const std::runtime_error&) {
       failure = std::current_exception();
+    } catch (...) {  // lack of memory may have left the batch half filled
+      failure = std::current_exception();
+      batch.clear();
     }
     writer.begin_part(batch.empty() ? 0 : batch.numbers.front());
     writer.write(batch);
@@ -59,8 +81,7 @@ bool StageTeam::fill_next() {
     return next.is_part = parts_.take(next.part, next.batch);
   });
   if (!is_filled && read_failure_ == nullptr) {
-    // What is in work is not kept back while the input is waited for.
-    if (parts_.is_open() || !tool_.input().is_ready()) write_all();
+    if (parts_.is_open()) write_all();
     parts_.close();
     is_filled = try_to_read([this] {
       Slot& next = slot(end_);
@@ -76,6 +97,8 @@ bool StageTeam::fill_next() {
 bool StageTeam::try_to_read(const std::function<bool()>& read) {
   try {
     return read();
+  } catch (const WriteFailure& failure) {
+    std::rethrow_exception(failure.cause);
   } catch (...) {
     read_failure_ = std::current_exception();
     return false;

@@ -20,11 +20,15 @@ namespace pipeline {
 
 /// The work of a StageLoop on several threads. This thread takes parts of the text, which a team reads,
 /// transforms and prints, and writes what is done; when all slots are taken, it helps. All is written in
-/// order. Text in an with anything but triangles this thread reads itself, batch by batch.
+/// order. Text with anything but triangles this thread reads itself, batch by batch.
 class StageTeam {
  public:
   StageTeam(Tool& tool, StageWriter& writer, const CoordinateRounder& rounder, int thread_count,
             TriangleSource& source, const std::function<BatchTransform(CoordinateRounder&)>& make_transform);
+
+  ~StageTeam();
+  StageTeam(const StageTeam&) = delete;
+  StageTeam& operator=(const StageTeam&) = delete;
 
   /// Everything from the first batch to the end of the input; returns where the first vertex stands
   /// whose digits are not certain, if there is one.
