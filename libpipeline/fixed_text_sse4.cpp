@@ -1,3 +1,4 @@
+#include "libpipeline/eight_digits.h"
 #include "libpipeline/fixed_text_kernels.h"
 
 #ifdef PIPELINE_HAS_X86_KERNELS
@@ -92,23 +93,6 @@ PIPELINE_SSE4 FixedTextPart read_fixed_text(std::string_view text, std::span<Tri
 
 // ---- printing ----
 
-/// 16 digits, the first of 8 before the point, then a 0 where the point will be, and 7 behind it.
-PIPELINE_SSE4 inline __m128i sixteen_digits(std::uint32_t whole, std::uint32_t decimals) {
-  const __m128i eights =
-      _mm_set_epi64x(static_cast<std::int64_t>(decimals), static_cast<std::int64_t>(whole));
-  // x / 10000 for x < 10^8, in 64 bits.
-  const __m128i high = _mm_srli_epi64(_mm_mul_epu32(eights, _mm_set1_epi64x(0xd1b71759)), 45);
-  const __m128i low = _mm_sub_epi32(eights, _mm_mul_epu32(high, _mm_set1_epi64x(10000)));
-  const __m128i fours = _mm_or_si128(high, _mm_slli_epi64(low, 32));
-  // x / 100 for x < 10^4, then x / 10 for x < 100, in 16 bits.
-  const __m128i hundreds = _mm_srli_epi16(_mm_mulhi_epu16(fours, _mm_set1_epi16(5243)), 3);
-  const __m128i rest = _mm_sub_epi16(fours, _mm_mullo_epi16(hundreds, _mm_set1_epi16(100)));
-  const __m128i pairs = _mm_or_si128(hundreds, _mm_slli_epi32(rest, 16));
-  const __m128i tens = _mm_mulhi_epu16(pairs, _mm_set1_epi16(6554));
-  const __m128i ones = _mm_sub_epi16(pairs, _mm_mullo_epi16(tens, _mm_set1_epi16(10)));
-  return _mm_or_si128(tens, _mm_slli_epi16(ones, 8));
-}
-
 struct ByteShifts {
   alignas(16) std::array<std::uint8_t, 32> bytes{};
   constexpr ByteShifts() {
@@ -120,6 +104,7 @@ constexpr ByteShifts kByteShifts;
 
 PIPELINE_SSE4 inline char* write_number(char* out, bool is_negative, std::uint32_t whole,
                                         std::uint32_t decimals) {
+  // The first of 8 before the point, then a 0 where the point will be, and 7 behind it.
   const __m128i digits = sixteen_digits(whole, decimals);
   const __m128i characters =
       _mm_setr_epi8('0', '0', '0', '0', '0', '0', '0', '0', '.', '0', '0', '0', '0', '0', '0', '0');

@@ -89,8 +89,7 @@ PartContents StageReader::read_part(TextReader& part, TriangleBatch& batch) cons
         triangles.read(line, batch);
       } else if (line.peek() == "triangle") {
         triangles.read_number(line);
-        if (!contents.has_number) contents.first_numbered = batch.size();
-        contents.has_number = true;
+        if (!contents.first_numbered) contents.first_numbered = batch.size();
       } else {
         return {};
       }

@@ -10,7 +10,7 @@ namespace {
 
 /// Says where the triangles of the batch are, which was read as if the text began with it.
 void move_to(const TrianglePlace& begin, const PartContents& contents, TriangleBatch& batch) {
-  const std::size_t counted = contents.has_number ? contents.first_numbered : batch.size();
+  const std::size_t counted = contents.first_numbered.value_or(batch.size());
   for (std::uint64_t& number : std::span(batch.numbers).first(counted)) number += begin.number;
   for (VertexPlaces& places : batch.places)
     for (LineAndColumn& place : places) place = {place.line() + begin.line_count, place.column()};
@@ -59,7 +59,7 @@ bool TriangleParts::read(TrianglePart& part, TriangleBatch& batch) {
   const TrianglePlace begin = place_;
   if (is_read) {
     place_.line_count += text.line_number();
-    place_.number = contents.next_number + (contents.has_number ? 0 : begin.number);
+    place_.number = contents.next_number + (contents.first_numbered ? 0 : begin.number);
   }
   // Others need the turn even where this thread has failed.
   turn_ = part.turn + 1;

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 
 #include "libpipeline/text_reader.h"
 #include "libpipeline/triangle_batch.h"
@@ -24,10 +25,9 @@ struct TrianglePart {
 struct PartContents {
   bool is_whole = false;          // nothing but triangles, and all of them read
   std::uint64_t next_number = 0;  // behind the last
-  /// Whether a number stands in the text; if so, triangles of the batch from `first_numbered` on have theirs
-  /// from there. Others are counted from the part's beginning.
-  bool has_number = false;
-  std::size_t first_numbered = 0;
+  /// The first triangle of the batch that has its number from one in the text, if such a number stands there.
+  /// Those before it are counted from the part's beginning.
+  std::optional<std::size_t> first_numbered = {};
 };
 
 /// Where a stage's triangles come from: batch by batch, or in parts that other threads read.
@@ -40,9 +40,8 @@ class TriangleSource {
   virtual bool read(TriangleBatch& batch) = 0;
 
   /// Takes the next triangles as text, about `size` characters without waiting for them. `batch` is emptied,
-  /// and gets what else is to be known of them. False if no such
-  /// text comes next, or none is in memory. Between the first
-  /// part taken and pass(), parts and nothing else may be taken.
+  /// and gets what else is to be known of them. False if no such text comes next, or none is in memory.
+  /// Between the first part taken and pass(), parts and nothing else may be taken.
   virtual bool take_part(std::size_t size, TextPart& part, TriangleBatch& batch) = 0;
   /// Reads the triangles of a part into the batch it was taken with. What else there is, mistakes included,
   /// is left for read(). For any thread.

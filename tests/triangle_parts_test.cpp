@@ -200,12 +200,12 @@ TEST(TriangleParts, DoNotWaitForTheInput) {
   const TextInPieces input({triangle + triangle + "0.5", ".25 1 2\n"}, TextInPieces::Then::silence);
   TextReader text(input.descriptor(), "in.txt");
   StageReader source(text);
-  TriangleParts parts(source, 20000);
   TriangleBatch batch;
   source.read(batch);  // the first, whose line was looked at behind the header, and the second
-  TrianglePart part;
-  while (text.waiting().size() < 5) EXPECT_FALSE(parts.take(part, batch));
-  EXPECT_FALSE(parts.take(part, batch));
+  TextPart part;
+  do EXPECT_FALSE(source.take_part(20000, part, batch));
+  while (text.waiting() != "0.5.25 1 2\n");
+  EXPECT_FALSE(source.take_part(20000, part, batch));
 }
 
 /// Returns how many parts could be read.
