@@ -12,6 +12,8 @@ namespace pipeline {
 namespace {
 
 constexpr std::size_t kBlockSize = std::size_t{1} << 16;
+// Texts from this length on are written from where they are.
+constexpr std::size_t kLongText = kBlockSize / 2;
 
 }  // namespace
 
@@ -19,7 +21,7 @@ TextWriter::TextWriter(int descriptor, std::string file)
     : descriptor_(descriptor), file_(std::move(file)), buffer_(2 * kBlockSize) {}
 
 void TextWriter::append(std::string_view text) {
-  if (descriptor_ != kNowhere && text.size() >= kBlockSize) {
+  if (descriptor_ != kNowhere && text.size() >= kLongText) {
     flush();
     return write(text);
   }
