@@ -200,12 +200,51 @@ TEST(TriangleParts, DoNotWaitForTheInput) {
   const TextInPieces input({triangle + triangle + "0.5", ".25 1 2\n"}, TextInPieces::Then::silence);
   TextReader text(input.descriptor(), "in.txt");
   StageReader source(text);
+  TriangleParts parts(source, 20000);
   TriangleBatch batch;
   source.read(batch);  // the first, whose line was looked at behind the header, and the second
-  TextPart part;
-  do EXPECT_FALSE(source.take_part(20000, part, batch));
+  TrianglePart part;
+  EXPECT_FALSE(parts.take(part, batch));
+  // Parts are not looked for again at once: the source is asked.
+  do EXPECT_FALSE(source.take_part(20000, part.text, batch));
   while (!text.waiting().ends_with("0.5.25 1 2\n"));
-  EXPECT_FALSE(source.take_part(20000, part, batch));
+  EXPECT_FALSE(source.take_part(20000, part.text, batch));
+}
+
+/// Lines that are read in order, and a part only from one of them on.
+class LinesBeforeAPart final : public TriangleSource {
+ public:
+  explicit LinesBeforeAPart(std::uint64_t count) : count_(count) {}
+
+  bool read(TriangleBatch&) override { return ++line_ < count_; }
+  bool take_part(std::size_t, TextPart&, TriangleBatch&) override {
+    ++asked_count_;
+    return line_ >= count_;
+  }
+  [[nodiscard]] PartContents read_part(TextReader&, TriangleBatch&) const override { return {}; }
+  void put_back(const TextPart&) override {}
+  [[nodiscard]] TrianglePlace place() const override { return {.line_count = line_}; }
+  void pass(const TrianglePlace&) override {}
+
+  [[nodiscard]] std::uint64_t line() const { return line_; }
+  [[nodiscard]] int asked_count() const { return asked_count_; }
+
+ private:
+  std::uint64_t count_;
+  std::uint64_t line_ = 0;
+  int asked_count_ = 0;
+};
+
+TEST(TriangleParts, AreLookedForLessOftenWhereThereAreNone) {
+  constexpr std::uint64_t kLongestPause = 1 << 16;
+  LinesBeforeAPart source(32 * kLongestPause);
+  TriangleParts parts(source, 20000);
+  TrianglePart part;
+  TriangleBatch batch;
+  while (!parts.take(part, batch) && source.line() < 64 * kLongestPause) source.read(batch);
+  EXPECT_LE(source.line(), 33 * kLongestPause);
+  EXPECT_GE(source.asked_count(), 32);
+  EXPECT_LE(source.asked_count(), 40);  // the first pauses are shorter
 }
 
 /// Returns how many parts could be read.
