@@ -74,7 +74,12 @@ bool StageReader::take_part(std::size_t size, TextPart& part, TriangleBatch& bat
   batch.clear();
   const bool is_between_triangles = !line_is_pending_ && !whole_ && !done_ && !mistake_.is_kept();
   if (!is_between_triangles) return false;
-  return text_.take_part("\n\n", 2, size, part) || text_.take_part("\n\r\n", 3, size, part);
+  // A text's lines end alike: what none of them ends with is not looked for all through the part.
+  const bool has_returns = text_.waiting().substr(0, text_.waiting().find('\n')).ends_with('\r');
+  const auto take = [&](bool with_returns) {
+    return with_returns ? text_.take_part("\n\r\n", 3, size, part) : text_.take_part("\n\n", 2, size, part);
+  };
+  return take(has_returns) || take(!has_returns);
 }
 
 PartContents StageReader::read_part(TextReader& part, TriangleBatch& batch) const {
