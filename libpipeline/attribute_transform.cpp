@@ -9,10 +9,6 @@
 namespace pipeline {
 namespace {
 
-double largest_part(const Vec3& v) {
-  return std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)});
-}
-
 Vec3 nearest(const BallVec3& v) {
   return {v.x.nearest_double(), v.y.nearest_double(), v.z.nearest_double()};
 }
@@ -38,15 +34,6 @@ Placed<Light> moved_to(const Placed<Light>& light, const Vec3& position) {
 }
 
 }  // namespace
-
-Vec3 unit_vector(const Vec3& v) {
-  const double largest = largest_part(v);
-  if (largest == 0) return {};
-  // Divided first, so that no square leaves a double's range.
-  const Vec3 near_1 = {v.x / largest, v.y / largest, v.z / largest};
-  const double length = std::sqrt(dot(near_1, near_1));
-  return {near_1.x / length, near_1.y / length, near_1.z / length};
-}
 
 NormalTransform::NormalTransform(const AffineMatrix& world_from_model) {
   const auto& rows = world_from_model.rows;

@@ -9,9 +9,6 @@
 
 namespace pipeline {
 
-/// The vector of length 1 in v's direction, 0 for 0. Any length a double can hold is fine.
-Vec3 unit_vector(const Vec3& v);
-
 /// Takes normals from one space to another: by the inverse transpose of the linear part M of the transform
 /// that the points meet, so that they stay normal under any scale and keep their side under a mirroring.
 /// Calculated as sign(det M) times M's cofactors, which a singular M has, too: what it makes flat keeps the

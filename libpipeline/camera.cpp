@@ -4,8 +4,8 @@
 #include <string>
 #include <type_traits>
 
+#include "libpipeline/ball_vec.h"
 #include "libpipeline/number_printer.h"
-#include "libpipeline/transform.h"
 
 namespace pipeline {
 namespace {
@@ -104,6 +104,12 @@ bool read_camera_part(std::string_view keyword, const Place& keyword_place, Line
   expect_first(camera.projection, keyword_place, "projection");
   camera.projection = {read_projection(keyword, line), place};
   return true;
+}
+
+bool is_parallel_to_view(const Vec3& eye, const Vec3& look, const Vec3& up) {
+  const BallVec3 toward = to_balls(look) - to_balls(eye);
+  const BallVec3 normal = cross(toward, to_balls(up));
+  return dot(normal, normal).sign() == 0;
 }
 
 void check_camera(const CameraText& camera) {

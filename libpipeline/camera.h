@@ -59,6 +59,9 @@ bool read_camera_part(std::string_view keyword, const Place& keyword_place, Line
 /// The projection alone: what is left once the view transform is done.
 CameraText without_position(const CameraText& camera);
 
+/// True if up x (look - eye) is 0, as far as 31 digits can tell.
+bool is_parallel_to_view(const Vec3& eye, const Vec3& look, const Vec3& up);
+
 /// An error at its place unless the parts that are there go together: eye and look differ, up is not parallel
 /// to the view direction and not 0.
 void check_camera(const CameraText& camera);

@@ -1,8 +1,11 @@
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "libpipeline/color.h"
+#include "libpipeline/exact_grid.h"
 #include "libpipeline/triangle_batch.h"
 
 namespace pipeline {
@@ -12,5 +15,11 @@ struct ColoredBatch {
   TriangleBatch batch;
   std::vector<Color> colors;
 };
+
+/// Triangle `index` of a batch in NDC, which has to stay where it is.
+inline ExactTriangle exact_triangle(const TriangleBatch& batch, std::size_t index) {
+  return {batch.triangles[index], batch.low_parts.empty() ? nullptr : &batch.low_parts[index],
+          batch.decimal_marks.empty() ? std::uint16_t{0} : batch.decimal_marks[index]};
+}
 
 }  // namespace pipeline

@@ -7,7 +7,6 @@
 #include <optional>
 
 #include "libpipeline/config.h"
-#include "libpipeline/triangle_batch.h"
 #include "libpipeline/vec.h"
 #include "libpipeline/whole_math.h"
 
@@ -34,11 +33,6 @@ struct ExactTriangle {
   const Triangle* low_parts = nullptr;  // none: all 0
   std::uint16_t decimal_marks = 0;
 };
-
-inline ExactTriangle exact_triangle(const TriangleBatch& batch, std::size_t index) {
-  return {batch.triangles[index], batch.low_parts.empty() ? nullptr : &batch.low_parts[index],
-          batch.decimal_marks.empty() ? std::uint16_t{0} : batch.decimal_marks[index]};
-}
 
 /// A triangle on a grid of whole numbers: u to the right, v down, and the centre of the pixel (row, column)
 /// at u = column * column_step, v = row * row_step.

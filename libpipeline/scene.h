@@ -9,8 +9,8 @@
 
 #include "libpipeline/appearance.h"
 #include "libpipeline/camera.h"
+#include "libpipeline/source_location.h"
 #include "libpipeline/text_reader.h"
-#include "libpipeline/triangle_batch.h"
 #include "libpipeline/vec.h"
 
 namespace pipeline {

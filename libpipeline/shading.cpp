@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstdint>
 
-#include "libpipeline/attribute_transform.h"
 #include "libpipeline/vec_math.h"
 
 namespace pipeline {

@@ -120,12 +120,6 @@ ViewTransform view_from_world(const Vec3& eye, const Vec3& look, const Vec3& up)
   return {eye, right, camera_up, {-forward.x, -forward.y, -forward.z}};
 }
 
-bool is_parallel_to_view(const Vec3& eye, const Vec3& look, const Vec3& up) {
-  const BallVec3 toward = to_balls(look) - to_balls(eye);
-  const BallVec3 normal = cross(toward, to_balls(up));
-  return dot(normal, normal).sign() == 0;
-}
-
 ProjectionTransform clip_from_view(const Placed<Projection>& projection, AspectRule aspect_rule) {
   if (const auto* p = std::get_if<Perspective>(&projection.value))
     return perspective(*p, projection.place, aspect_rule);

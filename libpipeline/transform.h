@@ -27,9 +27,6 @@ struct ViewTransform {
 /// The camera's view transform; eye and look differ, up is not parallel to the view direction.
 ViewTransform view_from_world(const Vec3& eye, const Vec3& look, const Vec3& up);
 
-/// True if up x (look - eye) is 0, as far as 31 digits can tell.
-bool is_parallel_to_view(const Vec3& eye, const Vec3& look, const Vec3& up);
-
 /// How `--aspect` makes the horizontal field of view: the course's fovX = fovY * aspect, or gluPerspective's
 /// tan(fovX / 2) = tan(fovY / 2) * aspect.
 enum class AspectRule { angle, ratio };

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "libpipeline/vec.h"
 
@@ -26,6 +28,16 @@ inline Vec3 scaled(const Vec3& v, double factor) {
 
 inline Vec3 cross(const Vec3& a, const Vec3& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+/// The vector of length 1 in v's direction, 0 for 0. Any length a double can hold is fine.
+inline Vec3 unit_vector(const Vec3& v) {
+  const double largest = std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)});
+  if (largest == 0) return {};
+  // Divided first, so that no square leaves a double's range.
+  const Vec3 near_1 = {v.x / largest, v.y / largest, v.z / largest};
+  const double length = std::sqrt(dot(near_1, near_1));
+  return {near_1.x / length, near_1.y / length, near_1.z / length};
 }
 
 /// The mean of the corners of a triangle, or of what belongs to them; the weights add up to 1.

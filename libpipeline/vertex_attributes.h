@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "libpipeline/plain_number.h"
+#include "libpipeline/source_location.h"
 #include "libpipeline/text_reader.h"
 #include "libpipeline/vec.h"
 
@@ -40,6 +41,12 @@ struct PlainVertexLine {
   std::size_t indent = 0;  // the blanks before the first number
 };
 using PlainVertexLines = std::array<PlainVertexLine, 3>;
+
+/// Where the vertices on these lines begin; the first stands on line `first_line`.
+inline VertexPlaces places_of(const PlainVertexLines& lines, std::size_t first_line) {
+  return {LineAndColumn(first_line, lines[0].indent + 1), LineAndColumn(first_line + 1, lines[1].indent + 1),
+          LineAndColumn(first_line + 2, lines[2].indent + 1)};
+}
 
 /// The vertex on a line with these attributes.
 VertexLine to_vertex_line(const PlainVertexLine& line, const AttributeSet& attributes);

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string_view>
 
+#include "libpipeline/colored_batch.h"
 #include "libpipeline/coverage.h"
 #include "libpipeline/depth_format.h"
 #include "libpipeline/error.h"

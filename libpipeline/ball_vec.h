@@ -1,0 +1,23 @@
+#pragma once
+
+#include "libpipeline/ball.h"
+#include "libpipeline/vec.h"
+
+namespace pipeline {
+
+/// A vector of numbers that know their error.
+struct BallVec3 {
+  Ball x, y, z;
+
+  friend bool operator==(const BallVec3&, const BallVec3&) = default;
+};
+
+BallVec3 operator-(const BallVec3& a, const BallVec3& b);
+BallVec3 operator*(const BallVec3& a, const Ball& factor);
+Ball dot(const BallVec3& a, const BallVec3& b);
+BallVec3 cross(const BallVec3& a, const BallVec3& b);
+/// The vector of length 1 in a's direction; `a` must not contain 0. Any length a double can hold is fine.
+BallVec3 normalised(const BallVec3& a);
+BallVec3 to_balls(const Vec3& v);
+
+}  // namespace pipeline

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+namespace pipeline {
+
+/// Where on which line of the input something begins, both from 1. Every vertex has one: it is as small as it
+/// can be.
+class LineAndColumn {
+ public:
+  /// Nowhere.
+  constexpr LineAndColumn() = default;
+  constexpr LineAndColumn(std::size_t line, std::size_t column = 1)
+      : bits_(line | (column - 1) << kLineBits) {}
+
+  [[nodiscard]] constexpr bool is_known() const { return line() != 0; }
+  [[nodiscard]] constexpr std::size_t line() const { return bits_ & ((std::uint64_t{1} << kLineBits) - 1); }
+  [[nodiscard]] constexpr std::size_t column() const { return (bits_ >> kLineBits) + 1; }
+  friend bool operator==(const LineAndColumn&, const LineAndColumn&) = default;
+
+ private:
+  static constexpr int kLineBits = 43;  // the others hold kMaxLineLength
+
+  std::uint64_t bits_ = 0;
+};
+
+/// Where the three vertices of a triangle begin.
+using VertexPlaces = std::array<LineAndColumn, 3>;
+
+/// What messages call the vertices of a triangle.
+constexpr std::array<std::string_view, 3> kVertexNames = {"vertex 1 of 3", "vertex 2 of 3", "vertex 3 of 3"};
+
+}  // namespace pipeline
