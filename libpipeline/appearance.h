@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "libpipeline/camera.h"
+#include "libpipeline/numbers/vec.h"
 #include "libpipeline/text_reader.h"
-#include "libpipeline/vec.h"
 #include "libpipeline/vertex_attributes.h"
 
 namespace pipeline {

@@ -5,8 +5,8 @@
 #include <variant>
 
 #include "libpipeline/error.h"
+#include "libpipeline/numbers/vec.h"
 #include "libpipeline/text_reader.h"
-#include "libpipeline/vec.h"
 
 namespace pipeline {
 

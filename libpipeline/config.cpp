@@ -2,9 +2,9 @@
 
 #include <string>
 
-#include "libpipeline/double_double.h"
 #include "libpipeline/error.h"
 #include "libpipeline/number_parser.h"
+#include "libpipeline/numbers/double_double.h"
 
 namespace pipeline {
 namespace {

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "libpipeline/error.h"
-#include "libpipeline/powers_of_ten.h"
+#include "libpipeline/numbers/powers_of_ten.h"
 
 namespace pipeline {
 

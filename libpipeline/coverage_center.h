@@ -7,7 +7,7 @@
 
 #include "libpipeline/exact_grid.h"
 #include "libpipeline/exact_rows.h"
-#include "libpipeline/int128.h"
+#include "libpipeline/numbers/int128.h"
 #include "libpipeline/span.h"
 
 namespace pipeline {

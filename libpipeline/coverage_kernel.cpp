@@ -6,7 +6,7 @@
 #include "libpipeline/coverage_avx2.h"
 #include "libpipeline/coverage_center.h"
 #include "libpipeline/coverage_nearest.h"
-#include "libpipeline/kernel_choice.h"
+#include "libpipeline/numbers/kernel_choice.h"
 
 namespace pipeline {
 namespace {

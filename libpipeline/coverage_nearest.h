@@ -3,9 +3,9 @@
 #include <array>
 #include <optional>
 
+#include "libpipeline/numbers/vec.h"
 #include "libpipeline/pixel_grid.h"
 #include "libpipeline/span.h"
-#include "libpipeline/vec.h"
 
 namespace pipeline {
 

@@ -7,8 +7,8 @@
 #include <optional>
 
 #include "libpipeline/config.h"
-#include "libpipeline/vec.h"
-#include "libpipeline/whole_math.h"
+#include "libpipeline/numbers/vec.h"
+#include "libpipeline/numbers/whole_math.h"
 
 namespace pipeline {
 

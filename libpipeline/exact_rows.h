@@ -9,9 +9,9 @@
 
 #include "libpipeline/centre_box.h"
 #include "libpipeline/exact_grid.h"
+#include "libpipeline/numbers/whole_math.h"
 #include "libpipeline/span.h"
 #include "libpipeline/triangle_depth.h"
-#include "libpipeline/whole_math.h"
 
 namespace pipeline {
 

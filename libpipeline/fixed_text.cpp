@@ -3,7 +3,7 @@
 #include <array>
 
 #include "libpipeline/fixed_text_kernels.h"
-#include "libpipeline/kernel_choice.h"
+#include "libpipeline/numbers/kernel_choice.h"
 
 namespace pipeline {
 namespace {

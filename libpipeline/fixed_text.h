@@ -4,7 +4,7 @@
 #include <span>
 #include <string_view>
 
-#include "libpipeline/vec.h"
+#include "libpipeline/numbers/vec.h"
 
 namespace pipeline {
 

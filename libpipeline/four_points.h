@@ -8,7 +8,7 @@
 #include <cstddef>
 
 #include "libpipeline/colored_span.h"
-#include "libpipeline/vec.h"
+#include "libpipeline/numbers/vec.h"
 
 namespace pipeline {
 

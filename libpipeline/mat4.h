@@ -2,8 +2,8 @@
 
 #include <array>
 
-#include "libpipeline/ball_vec.h"
-#include "libpipeline/vec.h"
+#include "libpipeline/numbers/ball_vec.h"
+#include "libpipeline/numbers/vec.h"
 
 namespace pipeline {
 

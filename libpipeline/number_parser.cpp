@@ -4,7 +4,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "libpipeline/powers_of_ten.h"
+#include "libpipeline/numbers/powers_of_ten.h"
 
 namespace pipeline {
 namespace {

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <string_view>
 
-#include "libpipeline/double_double.h"
+#include "libpipeline/numbers/double_double.h"
 
 namespace pipeline {
 

@@ -8,9 +8,9 @@
 #include <cstdint>
 
 #include "libpipeline/eight_digits.h"
-#include "libpipeline/int128.h"
 #include "libpipeline/number_rounding.h"
-#include "libpipeline/powers_of_ten.h"
+#include "libpipeline/numbers/int128.h"
+#include "libpipeline/numbers/powers_of_ten.h"
 #include "libpipeline/shortest_decimal.h"
 #include "libpipeline/wide_decimal.h"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "libpipeline/powers_of_ten.h"
+#include "libpipeline/numbers/powers_of_ten.h"
 
 namespace pipeline {
 namespace {

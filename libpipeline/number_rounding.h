@@ -3,9 +3,9 @@
 #include <cmath>
 #include <cstddef>
 
-#include "libpipeline/ball.h"
 #include "libpipeline/number_format.h"
-#include "libpipeline/powers_of_ten.h"
+#include "libpipeline/numbers/ball.h"
+#include "libpipeline/numbers/powers_of_ten.h"
 
 namespace pipeline {
 

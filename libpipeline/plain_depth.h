@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <cstdlib>
 
-#include "libpipeline/double_double.h"
+#include "libpipeline/numbers/double_double.h"
 #include "libpipeline/span.h"
 
 namespace pipeline {

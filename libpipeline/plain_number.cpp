@@ -5,8 +5,8 @@
 #include <cstdint>
 
 #include "libpipeline/eight_digits.h"
-#include "libpipeline/int128.h"
-#include "libpipeline/powers_of_ten.h"
+#include "libpipeline/numbers/int128.h"
+#include "libpipeline/numbers/powers_of_ten.h"
 
 namespace pipeline {
 namespace {

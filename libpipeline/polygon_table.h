@@ -6,7 +6,7 @@
 
 #include "libpipeline/color.h"
 #include "libpipeline/exact_grid.h"
-#include "libpipeline/vec.h"
+#include "libpipeline/numbers/vec.h"
 
 namespace pipeline {
 

@@ -6,7 +6,7 @@
 #include <span>
 
 #include "libpipeline/number_printer.h"
-#include "libpipeline/vec_math.h"
+#include "libpipeline/numbers/vec_math.h"
 
 namespace pipeline {
 namespace {

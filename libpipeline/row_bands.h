@@ -5,9 +5,9 @@
 #include <limits>
 
 #include "libpipeline/config.h"
+#include "libpipeline/numbers/vec.h"
 #include "libpipeline/pixel_grid.h"
 #include "libpipeline/span.h"
-#include "libpipeline/vec.h"
 
 namespace pipeline {
 

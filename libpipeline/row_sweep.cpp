@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "libpipeline/column_search.h"
+#include "libpipeline/numbers/column_search.h"
 
 namespace pipeline {
 namespace {

@@ -9,9 +9,9 @@
 
 #include "libpipeline/appearance.h"
 #include "libpipeline/camera.h"
+#include "libpipeline/numbers/vec.h"
 #include "libpipeline/source_location.h"
 #include "libpipeline/text_reader.h"
-#include "libpipeline/vec.h"
 
 namespace pipeline {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "libpipeline/vec_math.h"
+#include "libpipeline/numbers/vec_math.h"
 
 namespace pipeline {
 namespace {

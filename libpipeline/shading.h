@@ -5,7 +5,7 @@
 
 #include "libpipeline/appearance.h"
 #include "libpipeline/color.h"
-#include "libpipeline/vec.h"
+#include "libpipeline/numbers/vec.h"
 
 namespace pipeline {
 

@@ -3,7 +3,7 @@
 #include <array>
 #include <bit>
 
-#include "libpipeline/int128.h"
+#include "libpipeline/numbers/int128.h"
 
 namespace pipeline {
 namespace {

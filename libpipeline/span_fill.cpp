@@ -3,7 +3,7 @@
 #include <array>
 #include <cstddef>
 
-#include "libpipeline/kernel_choice.h"
+#include "libpipeline/numbers/kernel_choice.h"
 #include "libpipeline/span_fill_avx2.h"
 #include "libpipeline/span_fill_loop.h"
 

@@ -4,7 +4,7 @@
 #include <cassert>
 #include <cmath>
 
-#include "libpipeline/vec_math.h"
+#include "libpipeline/numbers/vec_math.h"
 
 namespace pipeline {
 namespace {

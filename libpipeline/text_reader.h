@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "libpipeline/error.h"
-#include "libpipeline/vec.h"
+#include "libpipeline/numbers/vec.h"
 
 namespace pipeline {
 

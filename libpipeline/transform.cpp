@@ -4,8 +4,8 @@
 #include <cmath>
 #include <string>
 
-#include "libpipeline/angle.h"
 #include "libpipeline/number_printer.h"
+#include "libpipeline/numbers/angle.h"
 
 namespace pipeline {
 namespace {

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "libpipeline/numbers/vec.h"
 #include "libpipeline/source_location.h"
-#include "libpipeline/vec.h"
 #include "libpipeline/vertex_attributes.h"
 
 namespace pipeline {

@@ -7,10 +7,10 @@
 #include <string_view>
 #include <vector>
 
+#include "libpipeline/numbers/vec.h"
 #include "libpipeline/plain_number.h"
 #include "libpipeline/source_location.h"
 #include "libpipeline/text_reader.h"
-#include "libpipeline/vec.h"
 
 namespace pipeline {
 

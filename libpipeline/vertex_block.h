@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <span>
 
-#include "libpipeline/vec.h"
+#include "libpipeline/numbers/vec.h"
 
 namespace pipeline {
 

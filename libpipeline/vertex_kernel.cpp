@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <limits>
 
-#include "libpipeline/kernel_choice.h"
+#include "libpipeline/numbers/kernel_choice.h"
 #include "libpipeline/vertex_kernel_avx2.h"
 #include "libpipeline/vertex_loops.h"
 

@@ -3,8 +3,8 @@
 #include <array>
 #include <span>
 
-#include "libpipeline/ball.h"
 #include "libpipeline/coordinate_test.h"
+#include "libpipeline/numbers/ball.h"
 #include "libpipeline/vertex_block.h"
 
 namespace pipeline {

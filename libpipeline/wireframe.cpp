@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "libpipeline/vec_math.h"
+#include "libpipeline/numbers/vec_math.h"
 
 namespace pipeline {
 namespace {

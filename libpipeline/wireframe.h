@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "libpipeline/vec.h"
+#include "libpipeline/numbers/vec.h"
 
 namespace pipeline {
 

@@ -6,8 +6,8 @@
 #include <functional>
 #include <type_traits>
 
-#include "libpipeline/column_search.h"
 #include "libpipeline/draw_order.h"
+#include "libpipeline/numbers/column_search.h"
 
 namespace pipeline {
 namespace {

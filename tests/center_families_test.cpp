@@ -6,7 +6,7 @@
 #include <functional>
 #include <iostream>
 
-#include "libpipeline/int128.h"
+#include "libpipeline/numbers/int128.h"
 #include "tests/center_reference.h"
 #include "tests/random_numbers.h"
 

@@ -1,4 +1,4 @@
-#include "libpipeline/double_double.h"
+#include "libpipeline/numbers/double_double.h"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
-#include "libpipeline/fixed_int.h"
+#include "libpipeline/numbers/fixed_int.h"
 
 #include <gmpxx.h>
 #include <gtest/gtest.h>
 
-#include "libpipeline/whole_math.h"
+#include "libpipeline/numbers/whole_math.h"
 #include "tests/random_numbers.h"
 #include "tests/sanitizer_rounds.h"
 

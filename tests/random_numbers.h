@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "libpipeline/double_double.h"
+#include "libpipeline/numbers/double_double.h"
 
 namespace pipeline {
 

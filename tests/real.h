@@ -7,7 +7,7 @@
 #include <ostream>
 #include <string>
 
-#include "libpipeline/ball.h"
+#include "libpipeline/numbers/ball.h"
 
 namespace pipeline {
 

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <type_traits>
 
-#include "libpipeline/fixed_int.h"
-#include "libpipeline/int128.h"
+#include "libpipeline/numbers/fixed_int.h"
+#include "libpipeline/numbers/int128.h"
 
 namespace pipeline {
 

@@ -1,4 +1,4 @@
-#include "libpipeline/ball.h"
+#include "libpipeline/numbers/ball.h"
 
 #include <algorithm>
 #include <cassert>

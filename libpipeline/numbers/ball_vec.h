@@ -1,7 +1,7 @@
 #pragma once
 
-#include "libpipeline/ball.h"
-#include "libpipeline/vec.h"
+#include "libpipeline/numbers/ball.h"
+#include "libpipeline/numbers/vec.h"
 
 namespace pipeline {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "libpipeline/ball.h"
+#include "libpipeline/numbers/ball.h"
 
 namespace pipeline {
 

@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "libpipeline/int128.h"
+#include "libpipeline/numbers/int128.h"
 
 namespace pipeline {
 

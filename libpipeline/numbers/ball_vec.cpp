@@ -1,4 +1,4 @@
-#include "libpipeline/ball_vec.h"
+#include "libpipeline/numbers/ball_vec.h"
 
 namespace pipeline {
 

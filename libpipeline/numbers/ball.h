@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "libpipeline/double_double.h"
+#include "libpipeline/numbers/double_double.h"
 
 namespace pipeline {
 

@@ -1,4 +1,4 @@
-#include "libpipeline/angle.h"
+#include "libpipeline/numbers/angle.h"
 
 #include <array>
 #include <cmath>

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "libpipeline/vec.h"
+#include "libpipeline/numbers/vec.h"
 
 namespace pipeline {
 
