@@ -7,7 +7,7 @@
 
 #include "libpipeline/camera.h"
 #include "libpipeline/numbers/vec.h"
-#include "libpipeline/text_reader.h"
+#include "libpipeline/text/text_reader.h"
 #include "libpipeline/vertex_attributes.h"
 
 namespace pipeline {

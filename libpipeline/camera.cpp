@@ -4,8 +4,8 @@
 #include <string>
 #include <type_traits>
 
-#include "libpipeline/number_printer.h"
 #include "libpipeline/numbers/ball_vec.h"
+#include "libpipeline/text/number_printer.h"
 
 namespace pipeline {
 namespace {

@@ -4,9 +4,9 @@
 #include <string_view>
 #include <variant>
 
-#include "libpipeline/error.h"
 #include "libpipeline/numbers/vec.h"
-#include "libpipeline/text_reader.h"
+#include "libpipeline/text/error.h"
+#include "libpipeline/text/text_reader.h"
 
 namespace pipeline {
 

@@ -2,9 +2,9 @@
 
 #include <string>
 
-#include "libpipeline/error.h"
-#include "libpipeline/number_parser.h"
 #include "libpipeline/numbers/double_double.h"
+#include "libpipeline/text/error.h"
+#include "libpipeline/text/number_parser.h"
 
 namespace pipeline {
 namespace {

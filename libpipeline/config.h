@@ -1,6 +1,6 @@
 #pragma once
 
-#include "libpipeline/text_reader.h"
+#include "libpipeline/text/text_reader.h"
 
 namespace pipeline {
 

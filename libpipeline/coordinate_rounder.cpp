@@ -3,8 +3,8 @@
 #include <cmath>
 #include <utility>
 
-#include "libpipeline/error.h"
 #include "libpipeline/numbers/powers_of_ten.h"
+#include "libpipeline/text/error.h"
 
 namespace pipeline {
 

@@ -4,9 +4,9 @@
 #include <string>
 
 #include "libpipeline/coordinate_test.h"
-#include "libpipeline/error.h"
 #include "libpipeline/mat4.h"
-#include "libpipeline/number_rounding.h"
+#include "libpipeline/text/error.h"
+#include "libpipeline/text/number_rounding.h"
 #include "libpipeline/triangle_batch.h"
 
 namespace pipeline {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "libpipeline/error.h"
 #include "libpipeline/image_file.h"
+#include "libpipeline/text/error.h"
 
 namespace pipeline {
 

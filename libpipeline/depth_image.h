@@ -8,7 +8,7 @@
 
 #include "libpipeline/config.h"
 #include "libpipeline/png_file.h"
-#include "libpipeline/text_writer.h"
+#include "libpipeline/text/text_writer.h"
 
 namespace pipeline {
 

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "libpipeline/fixed_depths.h"
-#include "libpipeline/number_printer.h"
+#include "libpipeline/text/fixed_depths.h"
+#include "libpipeline/text/number_printer.h"
 
 namespace pipeline {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <span>
 
-#include "libpipeline/text_writer.h"
+#include "libpipeline/text/text_writer.h"
 
 namespace pipeline {
 

@@ -10,7 +10,7 @@
 #include <limits>
 #include <string_view>
 
-#include "libpipeline/error.h"
+#include "libpipeline/text/error.h"
 
 namespace pipeline {
 namespace {

@@ -6,7 +6,7 @@
 #include <cerrno>
 #include <csetjmp>
 
-#include "libpipeline/error.h"
+#include "libpipeline/text/error.h"
 
 namespace pipeline {
 namespace {

@@ -5,8 +5,8 @@
 #include <limits>
 #include <span>
 
-#include "libpipeline/number_printer.h"
 #include "libpipeline/numbers/vec_math.h"
+#include "libpipeline/text/number_printer.h"
 
 namespace pipeline {
 namespace {

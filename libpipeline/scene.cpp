@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <string_view>
 
-#include "libpipeline/fixed_text.h"
+#include "libpipeline/text/fixed_text.h"
 
 namespace pipeline {
 SceneReader::SceneReader(TextReader& text) : text_(text) {

@@ -10,8 +10,8 @@
 #include "libpipeline/appearance.h"
 #include "libpipeline/camera.h"
 #include "libpipeline/numbers/vec.h"
-#include "libpipeline/source_location.h"
-#include "libpipeline/text_reader.h"
+#include "libpipeline/text/source_location.h"
+#include "libpipeline/text/text_reader.h"
 
 namespace pipeline {
 

@@ -7,7 +7,7 @@
 
 #include "libpipeline/late_mistake.h"
 #include "libpipeline/stage_text.h"
-#include "libpipeline/text_reader.h"
+#include "libpipeline/text/text_reader.h"
 #include "libpipeline/triangle_batch.h"
 #include "libpipeline/triangle_reader.h"
 #include "libpipeline/triangle_source.h"

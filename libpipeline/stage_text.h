@@ -5,8 +5,8 @@
 
 #include "libpipeline/appearance.h"
 #include "libpipeline/camera.h"
-#include "libpipeline/error.h"
-#include "libpipeline/text_reader.h"
+#include "libpipeline/text/error.h"
+#include "libpipeline/text/text_reader.h"
 
 namespace pipeline {
 

@@ -6,8 +6,8 @@
 #include <span>
 #include <string_view>
 
-#include "libpipeline/fixed_text.h"
-#include "libpipeline/number_printer.h"
+#include "libpipeline/text/fixed_text.h"
+#include "libpipeline/text/number_printer.h"
 
 namespace pipeline {
 namespace {

@@ -3,9 +3,9 @@
 #include <cstdint>
 #include <memory>
 
-#include "libpipeline/number_format.h"
 #include "libpipeline/stage_text.h"
-#include "libpipeline/text_writer.h"
+#include "libpipeline/text/number_format.h"
+#include "libpipeline/text/text_writer.h"
 #include "libpipeline/triangle_batch.h"
 
 namespace pipeline {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <string>
 
-#include "libpipeline/number_printer.h"
 #include "libpipeline/numbers/angle.h"
+#include "libpipeline/text/number_printer.h"
 
 namespace pipeline {
 namespace {

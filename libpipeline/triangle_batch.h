@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "libpipeline/numbers/vec.h"
-#include "libpipeline/source_location.h"
+#include "libpipeline/text/source_location.h"
 #include "libpipeline/vertex_attributes.h"
 
 namespace pipeline {

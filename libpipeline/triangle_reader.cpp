@@ -4,9 +4,9 @@
 #include <array>
 #include <span>
 
-#include "libpipeline/fixed_text.h"
-#include "libpipeline/number_parser.h"
 #include "libpipeline/stage_text.h"
+#include "libpipeline/text/fixed_text.h"
+#include "libpipeline/text/number_parser.h"
 
 namespace pipeline {
 namespace {

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "libpipeline/text_reader.h"
+#include "libpipeline/text/text_reader.h"
 #include "libpipeline/triangle_batch.h"
 #include "libpipeline/vertex_attributes.h"
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "libpipeline/text_reader.h"
+#include "libpipeline/text/text_reader.h"
 #include "libpipeline/triangle_batch.h"
 
 namespace pipeline {

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "libpipeline/numbers/vec.h"
-#include "libpipeline/plain_number.h"
-#include "libpipeline/source_location.h"
-#include "libpipeline/text_reader.h"
+#include "libpipeline/text/plain_number.h"
+#include "libpipeline/text/source_location.h"
+#include "libpipeline/text/text_reader.h"
 
 namespace pipeline {
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "libpipeline/coverage_center.h"
-#include "libpipeline/number_parser.h"
+#include "libpipeline/text/number_parser.h"
 
 namespace pipeline {
 

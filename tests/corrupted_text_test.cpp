@@ -12,11 +12,11 @@
 #include <vector>
 
 #include "libpipeline/config.h"
-#include "libpipeline/error.h"
 #include "libpipeline/model_stage.h"
 #include "libpipeline/model_transform.h"
 #include "libpipeline/scene.h"
 #include "libpipeline/stage_reader.h"
+#include "libpipeline/text/error.h"
 #include "tests/text_input.h"
 
 namespace pipeline {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "libpipeline/error.h"
+#include "libpipeline/text/error.h"
 #include "tests/projected.h"
 
 namespace pipeline {

@@ -1,4 +1,4 @@
-#include "libpipeline/eight_digits.h"
+#include "libpipeline/text/eight_digits.h"
 
 #include <gtest/gtest.h>
 

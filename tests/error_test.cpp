@@ -1,4 +1,4 @@
-#include "libpipeline/error.h"
+#include "libpipeline/text/error.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "libpipeline/fixed_text.h"
+#include "libpipeline/text/fixed_text.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "libpipeline/number_printer.h"
+#include "libpipeline/text/number_printer.h"
 
 #include <gtest/gtest.h>
 

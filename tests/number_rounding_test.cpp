@@ -5,8 +5,8 @@
 #include <cmath>
 #include <string>
 
-#include "libpipeline/number_printer.h"
-#include "libpipeline/number_rounding.h"
+#include "libpipeline/text/number_printer.h"
+#include "libpipeline/text/number_rounding.h"
 #include "tests/random_numbers.h"
 #include "tests/real.h"
 

@@ -1,4 +1,4 @@
-#include "libpipeline/output_file.h"
+#include "libpipeline/text/output_file.h"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 #include <filesystem>
 #include <string>
 
-#include "libpipeline/text_writer.h"
+#include "libpipeline/text/text_writer.h"
 #include "tests/temporary_folder.h"
 #include "tests/text_input.h"
 

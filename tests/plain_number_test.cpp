@@ -1,4 +1,4 @@
-#include "libpipeline/plain_number.h"
+#include "libpipeline/text/plain_number.h"
 
 #include <gtest/gtest.h>
 

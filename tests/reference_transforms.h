@@ -6,7 +6,7 @@
 
 #include "libpipeline/camera.h"
 #include "libpipeline/mat4.h"
-#include "libpipeline/number_printer.h"
+#include "libpipeline/text/number_printer.h"
 #include "libpipeline/transform.h"
 #include "tests/real.h"
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "libpipeline/text_reader.h"
+#include "libpipeline/text/text_reader.h"
 #include "tests/text_input.h"
 
 namespace pipeline {

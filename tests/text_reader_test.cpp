@@ -1,4 +1,4 @@
-#include "libpipeline/text_reader.h"
+#include "libpipeline/text/text_reader.h"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "libpipeline/text_writer.h"
+#include "libpipeline/text/text_writer.h"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@
 #include <thread>
 #include <vector>
 
-#include "libpipeline/error.h"
+#include "libpipeline/text/error.h"
 #include "tests/text_input.h"
 
 namespace pipeline {

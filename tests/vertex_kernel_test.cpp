@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string>
 
-#include "libpipeline/number_printer.h"
+#include "libpipeline/text/number_printer.h"
 #include "tests/random_numbers.h"
 #include "tests/real.h"
 

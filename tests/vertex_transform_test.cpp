@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "libpipeline/error.h"
+#include "libpipeline/text/error.h"
 #include "tests/printed_vertices.h"
 
 namespace pipeline {

@@ -1,11 +1,11 @@
-#include "libpipeline/wide_decimal.h"
+#include "libpipeline/text/wide_decimal.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <string>
 
-#include "libpipeline/number_printer.h"
+#include "libpipeline/text/number_printer.h"
 #include "tests/random_numbers.h"
 #include "tests/real.h"
 

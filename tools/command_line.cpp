@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <memory>
 
-#include "libpipeline/number_parser.h"
-#include "libpipeline/number_printer.h"
+#include "libpipeline/text/number_parser.h"
+#include "libpipeline/text/number_printer.h"
 
 namespace pipeline {
 namespace {

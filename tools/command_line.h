@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "libpipeline/error.h"
+#include "libpipeline/text/error.h"
 
 namespace CLI {
 class App;

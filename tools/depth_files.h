@@ -6,8 +6,8 @@
 
 #include "libpipeline/config.h"
 #include "libpipeline/depth_image.h"
-#include "libpipeline/output_file.h"
-#include "libpipeline/text_writer.h"
+#include "libpipeline/text/output_file.h"
+#include "libpipeline/text/text_writer.h"
 
 namespace pipeline {
 

@@ -7,11 +7,11 @@
 #include "libpipeline/colored_batch.h"
 #include "libpipeline/coverage.h"
 #include "libpipeline/depth_format.h"
-#include "libpipeline/error.h"
 #include "libpipeline/fragment_log.h"
-#include "libpipeline/number_parser.h"
-#include "libpipeline/output_file.h"
-#include "libpipeline/text_writer.h"
+#include "libpipeline/text/error.h"
+#include "libpipeline/text/number_parser.h"
+#include "libpipeline/text/output_file.h"
+#include "libpipeline/text/text_writer.h"
 #include "tools/render.h"
 
 namespace pipeline {

@@ -1,8 +1,8 @@
 #include "tools/picture_options.h"
 
 #include "libpipeline/depth_image.h"
-#include "libpipeline/number_printer.h"
 #include "libpipeline/supersampling.h"
+#include "libpipeline/text/number_printer.h"
 #include "tools/shading_options.h"
 
 namespace pipeline {

@@ -8,7 +8,7 @@
 
 #include "libpipeline/coordinate_rounder.h"
 #include "libpipeline/stage_writer.h"
-#include "libpipeline/text_writer.h"
+#include "libpipeline/text/text_writer.h"
 #include "libpipeline/triangle_batch.h"
 #include "libpipeline/triangle_parts.h"
 #include "libpipeline/triangle_source.h"

@@ -8,8 +8,8 @@
 #include <cstdio>
 #include <new>
 
-#include "libpipeline/error.h"
 #include "libpipeline/stage_reader.h"
+#include "libpipeline/text/error.h"
 #include "tools/pipe_size.h"
 #include "tools/version.h"
 

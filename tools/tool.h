@@ -6,8 +6,8 @@
 #include <optional>
 #include <string>
 
-#include "libpipeline/text_reader.h"
-#include "libpipeline/text_writer.h"
+#include "libpipeline/text/text_reader.h"
+#include "libpipeline/text/text_writer.h"
 #include "tools/command_line.h"
 #include "tools/exit_status.h"
 #include "tools/lack_of_memory.h"

@@ -4,8 +4,8 @@
 #include <string>
 
 #include "libpipeline/config.h"
-#include "libpipeline/error.h"
 #include "libpipeline/image_file.h"
+#include "libpipeline/text/error.h"
 #include "tools/command_line.h"
 #include "tools/fragment_report.h"
 #include "tools/picture_options.h"

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "libpipeline/config.h"
-#include "libpipeline/number_printer.h"
+#include "libpipeline/text/number_printer.h"
 #include "tests/fuzz/transcript.h"
 
 namespace pipeline {

@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "libpipeline/number_parser.h"
+#include "libpipeline/text/number_parser.h"
 #include "tests/fuzz/require.h"
 
 namespace pipeline {

@@ -7,8 +7,8 @@
 #include <cstdlib>
 #include <string>
 
-#include "libpipeline/number_printer.h"
-#include "libpipeline/number_rounding.h"
+#include "libpipeline/text/number_printer.h"
+#include "libpipeline/text/number_rounding.h"
 #include "tests/fuzz/fuzz_bytes.h"
 #include "tests/fuzz/require.h"
 

@@ -9,9 +9,9 @@
 #include <string_view>
 #include <utility>
 
-#include "libpipeline/error.h"
-#include "libpipeline/text_reader.h"
-#include "libpipeline/text_writer.h"
+#include "libpipeline/text/error.h"
+#include "libpipeline/text/text_reader.h"
+#include "libpipeline/text/text_writer.h"
 #include "tests/fuzz/require.h"
 #include "tests/text_input.h"
 

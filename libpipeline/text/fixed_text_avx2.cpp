@@ -1,4 +1,4 @@
-#include "libpipeline/fixed_text_kernels.h"
+#include "libpipeline/text/fixed_text_kernels.h"
 
 #ifdef PIPELINE_HAS_X86_KERNELS
 

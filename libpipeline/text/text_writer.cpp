@@ -1,4 +1,4 @@
-#include "libpipeline/text_writer.h"
+#include "libpipeline/text/text_writer.h"
 
 #include <unistd.h>
 
@@ -6,7 +6,7 @@
 #include <cerrno>
 #include <cstring>
 
-#include "libpipeline/error.h"
+#include "libpipeline/text/error.h"
 
 namespace pipeline {
 namespace {

@@ -1,9 +1,9 @@
-#include "libpipeline/fixed_text.h"
+#include "libpipeline/text/fixed_text.h"
 
 #include <array>
 
-#include "libpipeline/fixed_text_kernels.h"
 #include "libpipeline/numbers/kernel_choice.h"
+#include "libpipeline/text/fixed_text_kernels.h"
 
 namespace pipeline {
 namespace {

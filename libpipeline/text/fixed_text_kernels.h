@@ -2,7 +2,7 @@
 
 #include <string_view>
 
-#include "libpipeline/fixed_text.h"
+#include "libpipeline/text/fixed_text.h"
 
 #if defined(__x86_64__) && defined(__GNUC__)
 #define PIPELINE_HAS_X86_KERNELS

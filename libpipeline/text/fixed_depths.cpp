@@ -1,4 +1,4 @@
-#include "libpipeline/fixed_depths.h"
+#include "libpipeline/text/fixed_depths.h"
 
 #include <array>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "libpipeline/number_rounding.h"
+#include "libpipeline/text/number_rounding.h"
 
 #include <algorithm>
 #include <bit>

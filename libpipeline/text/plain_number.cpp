@@ -1,12 +1,12 @@
-#include "libpipeline/plain_number.h"
+#include "libpipeline/text/plain_number.h"
 
 #include <array>
 #include <bit>
 #include <cstdint>
 
-#include "libpipeline/eight_digits.h"
 #include "libpipeline/numbers/int128.h"
 #include "libpipeline/numbers/powers_of_ten.h"
+#include "libpipeline/text/eight_digits.h"
 
 namespace pipeline {
 namespace {

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "libpipeline/error.h"
 #include "libpipeline/numbers/vec.h"
+#include "libpipeline/text/error.h"
 
 namespace pipeline {
 

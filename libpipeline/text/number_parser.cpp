@@ -1,4 +1,4 @@
-#include "libpipeline/number_parser.h"
+#include "libpipeline/text/number_parser.h"
 
 #include <algorithm>
 #include <charconv>

@@ -1,4 +1,4 @@
-#include "libpipeline/text_reader.h"
+#include "libpipeline/text/text_reader.h"
 
 #include <poll.h>
 #include <unistd.h>
@@ -8,7 +8,7 @@
 #include <cstring>
 #include <utility>
 
-#include "libpipeline/number_parser.h"
+#include "libpipeline/text/number_parser.h"
 
 namespace pipeline {
 namespace {

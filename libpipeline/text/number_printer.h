@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <string>
 
-#include "libpipeline/number_format.h"
+#include "libpipeline/text/number_format.h"
 
 namespace pipeline {
 

@@ -1,4 +1,4 @@
-#include "libpipeline/wide_decimal.h"
+#include "libpipeline/text/wide_decimal.h"
 
 #include <algorithm>
 #include <cmath>

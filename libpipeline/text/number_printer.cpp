@@ -1,4 +1,4 @@
-#include "libpipeline/number_printer.h"
+#include "libpipeline/text/number_printer.h"
 
 #include <algorithm>
 #include <bit>
@@ -7,12 +7,12 @@
 #include <cmath>
 #include <cstdint>
 
-#include "libpipeline/eight_digits.h"
-#include "libpipeline/number_rounding.h"
 #include "libpipeline/numbers/int128.h"
 #include "libpipeline/numbers/powers_of_ten.h"
-#include "libpipeline/shortest_decimal.h"
-#include "libpipeline/wide_decimal.h"
+#include "libpipeline/text/eight_digits.h"
+#include "libpipeline/text/number_rounding.h"
+#include "libpipeline/text/shortest_decimal.h"
+#include "libpipeline/text/wide_decimal.h"
 
 namespace pipeline {
 namespace {

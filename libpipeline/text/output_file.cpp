@@ -1,4 +1,4 @@
-#include "libpipeline/output_file.h"
+#include "libpipeline/text/output_file.h"
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -11,8 +11,8 @@
 #include <system_error>
 #include <utility>
 
-#include "libpipeline/error.h"
-#include "libpipeline/number_parser.h"
+#include "libpipeline/text/error.h"
+#include "libpipeline/text/number_parser.h"
 
 namespace pipeline {
 namespace {

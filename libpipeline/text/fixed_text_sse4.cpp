@@ -1,5 +1,5 @@
-#include "libpipeline/eight_digits.h"
-#include "libpipeline/fixed_text_kernels.h"
+#include "libpipeline/text/eight_digits.h"
+#include "libpipeline/text/fixed_text_kernels.h"
 
 #ifdef PIPELINE_HAS_X86_KERNELS
 

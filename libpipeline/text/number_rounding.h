@@ -3,9 +3,9 @@
 #include <cmath>
 #include <cstddef>
 
-#include "libpipeline/number_format.h"
 #include "libpipeline/numbers/ball.h"
 #include "libpipeline/numbers/powers_of_ten.h"
+#include "libpipeline/text/number_format.h"
 
 namespace pipeline {
 

@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <cstring>
 
-#include "libpipeline/eight_digits.h"
-#include "libpipeline/fixed_text_kernels.h"
+#include "libpipeline/text/eight_digits.h"
+#include "libpipeline/text/fixed_text_kernels.h"
 
 namespace pipeline {
 namespace {
