@@ -2,8 +2,8 @@
 
 #include <array>
 
-#include "libpipeline/appearance.h"
 #include "libpipeline/mat4.h"
+#include "libpipeline/scene/appearance.h"
 #include "libpipeline/transform.h"
 #include "libpipeline/triangle_batch.h"
 

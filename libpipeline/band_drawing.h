@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "libpipeline/colored_batch.h"
-#include "libpipeline/config.h"
 #include "libpipeline/exact_grid.h"
 #include "libpipeline/row_bands.h"
+#include "libpipeline/scene/config.h"
 #include "libpipeline/span.h"
 #include "libpipeline/worker_team.h"
 

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "libpipeline/color.h"
 #include "libpipeline/exact_grid.h"
+#include "libpipeline/scene/color.h"
 #include "libpipeline/triangle_batch.h"
 
 namespace pipeline {

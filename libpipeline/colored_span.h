@@ -1,7 +1,7 @@
 #pragma once
 
-#include "libpipeline/color.h"
 #include "libpipeline/exact_grid.h"
+#include "libpipeline/scene/color.h"
 #include "libpipeline/span.h"
 
 namespace pipeline {

@@ -3,12 +3,12 @@
 #include <span>
 
 #include "libpipeline/colored_span.h"
-#include "libpipeline/config.h"
 #include "libpipeline/coverage_center.h"
 #include "libpipeline/coverage_kernel.h"
 #include "libpipeline/coverage_nearest.h"
 #include "libpipeline/exact_grid.h"
-#include "libpipeline/pixel_grid.h"
+#include "libpipeline/scene/config.h"
+#include "libpipeline/scene/pixel_grid.h"
 
 namespace pipeline {
 

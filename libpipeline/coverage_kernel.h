@@ -4,7 +4,7 @@
 
 #include "libpipeline/colored_span.h"
 #include "libpipeline/exact_grid.h"
-#include "libpipeline/pixel_grid.h"
+#include "libpipeline/scene/pixel_grid.h"
 #include "libpipeline/span.h"
 
 namespace pipeline {

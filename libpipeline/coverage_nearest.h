@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "libpipeline/numbers/vec.h"
-#include "libpipeline/pixel_grid.h"
+#include "libpipeline/scene/pixel_grid.h"
 #include "libpipeline/span.h"
 
 namespace pipeline {

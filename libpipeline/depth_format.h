@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <limits>
 
-#include "libpipeline/config.h"
+#include "libpipeline/scene/config.h"
 
 namespace pipeline {
 

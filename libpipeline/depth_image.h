@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "libpipeline/config.h"
 #include "libpipeline/png_file.h"
+#include "libpipeline/scene/config.h"
 #include "libpipeline/text/text_writer.h"
 
 namespace pipeline {

@@ -3,7 +3,7 @@
 #include <cassert>
 #include <cstdint>
 
-#include "libpipeline/color.h"
+#include "libpipeline/scene/color.h"
 
 namespace pipeline {
 

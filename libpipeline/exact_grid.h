@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <optional>
 
-#include "libpipeline/config.h"
 #include "libpipeline/numbers/vec.h"
 #include "libpipeline/numbers/whole_math.h"
+#include "libpipeline/scene/config.h"
 
 namespace pipeline {
 

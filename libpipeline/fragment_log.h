@@ -3,10 +3,10 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "libpipeline/config.h"
 #include "libpipeline/exact_grid.h"
 #include "libpipeline/fragment.h"
 #include "libpipeline/raster.h"
+#include "libpipeline/scene/config.h"
 #include "libpipeline/span.h"
 
 namespace pipeline {

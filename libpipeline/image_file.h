@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "libpipeline/color.h"
 #include "libpipeline/png_file.h"
+#include "libpipeline/scene/color.h"
 
 namespace pipeline {
 

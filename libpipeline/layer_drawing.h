@@ -8,10 +8,10 @@
 #include <utility>
 
 #include "libpipeline/colored_batch.h"
-#include "libpipeline/config.h"
 #include "libpipeline/draw_order.h"
 #include "libpipeline/exact_grid.h"
 #include "libpipeline/row_bands.h"
+#include "libpipeline/scene/config.h"
 #include "libpipeline/span.h"
 #include "libpipeline/worker_team.h"
 

@@ -8,7 +8,7 @@
 #include "libpipeline/late_mistake.h"
 #include "libpipeline/matrix_stack.h"
 #include "libpipeline/model_transform.h"
-#include "libpipeline/scene.h"
+#include "libpipeline/scene/scene.h"
 #include "libpipeline/triangle_batch.h"
 #include "libpipeline/triangle_source.h"
 

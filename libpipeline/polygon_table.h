@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <deque>
 
-#include "libpipeline/color.h"
 #include "libpipeline/exact_grid.h"
 #include "libpipeline/numbers/vec.h"
+#include "libpipeline/scene/color.h"
 
 namespace pipeline {
 

@@ -4,9 +4,9 @@
 #include <bit>
 #include <limits>
 
-#include "libpipeline/config.h"
 #include "libpipeline/numbers/vec.h"
-#include "libpipeline/pixel_grid.h"
+#include "libpipeline/scene/config.h"
+#include "libpipeline/scene/pixel_grid.h"
 #include "libpipeline/span.h"
 
 namespace pipeline {

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "libpipeline/active_edge_list.h"
-#include "libpipeline/color.h"
-#include "libpipeline/config.h"
 #include "libpipeline/depth_format.h"
 #include "libpipeline/polygon_table.h"
+#include "libpipeline/scene/color.h"
+#include "libpipeline/scene/config.h"
 #include "libpipeline/span.h"
 #include "libpipeline/visible_row.h"
 

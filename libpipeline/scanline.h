@@ -4,11 +4,11 @@
 
 #include "libpipeline/active_edge_list.h"
 #include "libpipeline/active_polygons.h"
-#include "libpipeline/color.h"
-#include "libpipeline/config.h"
 #include "libpipeline/edge_table.h"
 #include "libpipeline/polygon_table.h"
 #include "libpipeline/row_sweep.h"
+#include "libpipeline/scene/color.h"
+#include "libpipeline/scene/config.h"
 
 namespace pipeline {
 

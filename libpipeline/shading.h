@@ -3,9 +3,9 @@
 #include <cstddef>
 #include <vector>
 
-#include "libpipeline/appearance.h"
-#include "libpipeline/color.h"
 #include "libpipeline/numbers/vec.h"
+#include "libpipeline/scene/appearance.h"
+#include "libpipeline/scene/color.h"
 
 namespace pipeline {
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <span>
 
-#include "libpipeline/color.h"
 #include "libpipeline/depth_format.h"
 #include "libpipeline/farthest_depths.h"
+#include "libpipeline/scene/color.h"
 #include "libpipeline/span.h"
 
 namespace pipeline {

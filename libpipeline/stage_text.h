@@ -3,8 +3,8 @@
 #include <string>
 #include <string_view>
 
-#include "libpipeline/appearance.h"
-#include "libpipeline/camera.h"
+#include "libpipeline/scene/appearance.h"
+#include "libpipeline/scene/camera.h"
 #include "libpipeline/text/error.h"
 #include "libpipeline/text/text_reader.h"
 

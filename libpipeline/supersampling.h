@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "libpipeline/color.h"
-#include "libpipeline/config.h"
+#include "libpipeline/scene/color.h"
+#include "libpipeline/scene/config.h"
 
 namespace pipeline {
 

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "libpipeline/color.h"
-#include "libpipeline/pixel_grid.h"
+#include "libpipeline/scene/color.h"
+#include "libpipeline/scene/pixel_grid.h"
 #include "libpipeline/shading.h"
 #include "libpipeline/triangle_batch.h"
 #include "libpipeline/view_position.h"

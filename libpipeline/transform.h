@@ -1,7 +1,7 @@
 #pragma once
 
-#include "libpipeline/camera.h"
 #include "libpipeline/mat4.h"
+#include "libpipeline/scene/camera.h"
 
 namespace pipeline {
 

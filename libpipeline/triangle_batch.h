@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "libpipeline/numbers/vec.h"
+#include "libpipeline/scene/vertex_attributes.h"
 #include "libpipeline/text/source_location.h"
-#include "libpipeline/vertex_attributes.h"
 
 namespace pipeline {
 

@@ -3,9 +3,9 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "libpipeline/scene/vertex_attributes.h"
 #include "libpipeline/text/text_reader.h"
 #include "libpipeline/triangle_batch.h"
-#include "libpipeline/vertex_attributes.h"
 
 namespace pipeline {
 

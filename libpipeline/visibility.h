@@ -6,11 +6,11 @@
 #include <span>
 #include <vector>
 
-#include "libpipeline/color.h"
 #include "libpipeline/colored_span.h"
-#include "libpipeline/config.h"
 #include "libpipeline/exact_grid.h"
 #include "libpipeline/scanline.h"
+#include "libpipeline/scene/color.h"
+#include "libpipeline/scene/config.h"
 #include "libpipeline/span.h"
 #include "libpipeline/span_queue.h"
 #include "libpipeline/visible_row.h"

@@ -2,7 +2,7 @@
 
 #include <span>
 
-#include "libpipeline/color.h"
+#include "libpipeline/scene/color.h"
 
 namespace pipeline {
 

@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-#include "libpipeline/config.h"
+#include "libpipeline/scene/config.h"
 #include "libpipeline/span.h"
 
 namespace pipeline {

@@ -1,4 +1,4 @@
-#include "libpipeline/appearance.h"
+#include "libpipeline/scene/appearance.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "libpipeline/scene.h"
+#include "libpipeline/scene/scene.h"
 #include "tests/text_input.h"
 
 namespace pipeline {

@@ -1,4 +1,4 @@
-#include "libpipeline/camera.h"
+#include "libpipeline/scene/camera.h"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include <array>
 #include <utility>
 
-#include "libpipeline/config.h"
+#include "libpipeline/scene/config.h"
 #include "tests/center_reference.h"
 
 namespace pipeline {

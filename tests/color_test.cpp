@@ -1,4 +1,4 @@
-#include "libpipeline/color.h"
+#include "libpipeline/scene/color.h"
 
 #include <gtest/gtest.h>
 

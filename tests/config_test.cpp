@@ -1,4 +1,4 @@
-#include "libpipeline/config.h"
+#include "libpipeline/scene/config.h"
 
 #include <gtest/gtest.h>
 

@@ -11,10 +11,10 @@
 #include <string>
 #include <vector>
 
-#include "libpipeline/config.h"
 #include "libpipeline/model_stage.h"
 #include "libpipeline/model_transform.h"
-#include "libpipeline/scene.h"
+#include "libpipeline/scene/config.h"
+#include "libpipeline/scene/scene.h"
 #include "libpipeline/stage_reader.h"
 #include "libpipeline/text/error.h"
 #include "tests/text_input.h"

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "libpipeline/color.h"
+#include "libpipeline/scene/color.h"
 #include "libpipeline/visibility.h"
 #include "tests/frame.h"
 #include "tests/random_numbers.h"

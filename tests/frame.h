@@ -4,7 +4,7 @@
 #include <cstring>
 #include <vector>
 
-#include "libpipeline/color.h"
+#include "libpipeline/scene/color.h"
 #include "libpipeline/visible_row.h"
 
 namespace pipeline {

@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <string>
 
-#include "libpipeline/camera.h"
 #include "libpipeline/mat4.h"
+#include "libpipeline/scene/camera.h"
 #include "libpipeline/text/number_printer.h"
 #include "libpipeline/transform.h"
 #include "tests/real.h"

@@ -10,7 +10,7 @@
 
 #include "libpipeline/model_stage.h"
 #include "libpipeline/model_transform.h"
-#include "libpipeline/scene.h"
+#include "libpipeline/scene/scene.h"
 #include "libpipeline/stage_reader.h"
 #include "tests/by_parts.h"
 #include "tests/odd_text.h"

@@ -4,8 +4,8 @@
 #include <span>
 #include <string>
 
-#include "libpipeline/config.h"
 #include "libpipeline/depth_image.h"
+#include "libpipeline/scene/config.h"
 #include "libpipeline/text/output_file.h"
 #include "libpipeline/text/text_writer.h"
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "libpipeline/config.h"
 #include "libpipeline/fragment.h"
+#include "libpipeline/scene/config.h"
 #include "libpipeline/triangle_batch.h"
 #include "tools/command_line.h"
 

@@ -3,10 +3,10 @@
 #include <memory>
 #include <optional>
 
-#include "libpipeline/color.h"
 #include "libpipeline/coverage.h"
 #include "libpipeline/image_file.h"
 #include "libpipeline/read_ahead.h"
+#include "libpipeline/scene/color.h"
 #include "libpipeline/stage_reader.h"
 #include "libpipeline/supersampling.h"
 #include "libpipeline/surface_shader.h"

@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "libpipeline/config.h"
+#include "libpipeline/scene/config.h"
 #include "libpipeline/surface_shader.h"
 #include "tools/fragment_report.h"
 #include "tools/tool.h"

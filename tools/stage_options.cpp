@@ -1,6 +1,6 @@
 #include "tools/stage_options.h"
 
-#include "libpipeline/scene.h"
+#include "libpipeline/scene/scene.h"
 #include "libpipeline/text/number_format.h"
 #include "libpipeline/text/number_parser.h"
 #include "tools/command_line.h"

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "libpipeline/camera.h"
 #include "libpipeline/coordinate_rounder.h"
+#include "libpipeline/scene/camera.h"
 #include "tools/command_line.h"
 #include "tools/tool.h"
 

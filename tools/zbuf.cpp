@@ -3,8 +3,8 @@
 #include <csignal>
 #include <string>
 
-#include "libpipeline/config.h"
 #include "libpipeline/image_file.h"
+#include "libpipeline/scene/config.h"
 #include "libpipeline/text/error.h"
 #include "tools/command_line.h"
 #include "tools/fragment_report.h"

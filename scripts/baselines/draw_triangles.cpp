@@ -13,8 +13,8 @@
 #include <utility>
 #include <vector>
 
-#include "libpipeline/color.h"
 #include "libpipeline/coverage.h"
+#include "libpipeline/scene/color.h"
 #include "libpipeline/stage_reader.h"
 #include "libpipeline/triangle_drawing.h"
 #include "libpipeline/visibility.h"

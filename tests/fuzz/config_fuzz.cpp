@@ -3,7 +3,7 @@
 #include <cmath>
 #include <optional>
 
-#include "libpipeline/config.h"
+#include "libpipeline/scene/config.h"
 #include "libpipeline/text/number_printer.h"
 #include "tests/fuzz/transcript.h"
 

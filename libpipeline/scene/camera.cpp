@@ -1,4 +1,4 @@
-#include "libpipeline/camera.h"
+#include "libpipeline/scene/camera.h"
 
 #include <cassert>
 #include <string>

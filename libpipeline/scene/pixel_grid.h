@@ -1,6 +1,6 @@
 #pragma once
 
-#include "libpipeline/config.h"
+#include "libpipeline/scene/config.h"
 
 namespace pipeline {
 

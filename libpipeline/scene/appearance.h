@@ -5,10 +5,10 @@
 #include <string_view>
 #include <vector>
 
-#include "libpipeline/camera.h"
 #include "libpipeline/numbers/vec.h"
+#include "libpipeline/scene/camera.h"
+#include "libpipeline/scene/vertex_attributes.h"
 #include "libpipeline/text/text_reader.h"
-#include "libpipeline/vertex_attributes.h"
 
 namespace pipeline {
 

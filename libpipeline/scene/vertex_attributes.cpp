@@ -1,4 +1,4 @@
-#include "libpipeline/vertex_attributes.h"
+#include "libpipeline/scene/vertex_attributes.h"
 
 #include <algorithm>
 

@@ -7,9 +7,9 @@
 #include <string>
 #include <variant>
 
-#include "libpipeline/appearance.h"
-#include "libpipeline/camera.h"
 #include "libpipeline/numbers/vec.h"
+#include "libpipeline/scene/appearance.h"
+#include "libpipeline/scene/camera.h"
 #include "libpipeline/text/source_location.h"
 #include "libpipeline/text/text_reader.h"
 

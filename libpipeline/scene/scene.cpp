@@ -1,4 +1,4 @@
-#include "libpipeline/scene.h"
+#include "libpipeline/scene/scene.h"
 
 #include <algorithm>
 #include <string_view>

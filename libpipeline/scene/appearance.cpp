@@ -1,4 +1,4 @@
-#include "libpipeline/appearance.h"
+#include "libpipeline/scene/appearance.h"
 
 #include <algorithm>
 #include <array>
