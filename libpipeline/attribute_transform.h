@@ -4,8 +4,8 @@
 
 #include "libpipeline/mat4.h"
 #include "libpipeline/scene/appearance.h"
+#include "libpipeline/stream/triangle_batch.h"
 #include "libpipeline/transform.h"
-#include "libpipeline/triangle_batch.h"
 
 namespace pipeline {
 

@@ -6,7 +6,7 @@
 
 #include "libpipeline/exact_grid.h"
 #include "libpipeline/scene/color.h"
-#include "libpipeline/triangle_batch.h"
+#include "libpipeline/stream/triangle_batch.h"
 
 namespace pipeline {
 

@@ -5,9 +5,9 @@
 
 #include "libpipeline/coordinate_test.h"
 #include "libpipeline/mat4.h"
+#include "libpipeline/stream/triangle_batch.h"
 #include "libpipeline/text/error.h"
 #include "libpipeline/text/number_rounding.h"
-#include "libpipeline/triangle_batch.h"
 
 namespace pipeline {
 

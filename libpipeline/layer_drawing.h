@@ -13,7 +13,7 @@
 #include "libpipeline/row_bands.h"
 #include "libpipeline/scene/config.h"
 #include "libpipeline/span.h"
-#include "libpipeline/worker_team.h"
+#include "libpipeline/stream/worker_team.h"
 
 namespace pipeline {
 

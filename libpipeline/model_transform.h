@@ -4,8 +4,8 @@
 
 #include "libpipeline/attribute_transform.h"
 #include "libpipeline/coordinate_rounder.h"
+#include "libpipeline/stream/triangle_batch.h"
 #include "libpipeline/transform.h"
-#include "libpipeline/triangle_batch.h"
 #include "libpipeline/vertex_transform.h"
 
 namespace pipeline {

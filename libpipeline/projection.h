@@ -6,8 +6,8 @@
 
 #include "libpipeline/clip.h"
 #include "libpipeline/coordinate_rounder.h"
+#include "libpipeline/stream/triangle_batch.h"
 #include "libpipeline/transform.h"
-#include "libpipeline/triangle_batch.h"
 #include "libpipeline/vertex_kernel.h"
 
 namespace pipeline {

@@ -10,7 +10,7 @@
 #include "libpipeline/scene/color.h"
 #include "libpipeline/scene/pixel_grid.h"
 #include "libpipeline/shading.h"
-#include "libpipeline/triangle_batch.h"
+#include "libpipeline/stream/triangle_batch.h"
 #include "libpipeline/view_position.h"
 #include "libpipeline/wireframe.h"
 

@@ -13,8 +13,8 @@
 #include "libpipeline/scene/config.h"
 #include "libpipeline/scene/pixel_grid.h"
 #include "libpipeline/span.h"
-#include "libpipeline/triangle_batch.h"
-#include "libpipeline/worker_team.h"
+#include "libpipeline/stream/triangle_batch.h"
+#include "libpipeline/stream/worker_team.h"
 
 namespace pipeline {
 

@@ -3,8 +3,8 @@
 #include <cstddef>
 
 #include "libpipeline/coordinate_rounder.h"
+#include "libpipeline/stream/triangle_batch.h"
 #include "libpipeline/transform.h"
-#include "libpipeline/triangle_batch.h"
 #include "libpipeline/vertex_kernel.h"
 
 namespace pipeline {

@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <utility>
 
-#include "libpipeline/triangle_parts.h"
-#include "libpipeline/triangle_source.h"
+#include "libpipeline/stream/triangle_parts.h"
+#include "libpipeline/stream/triangle_source.h"
 
 namespace pipeline {
 

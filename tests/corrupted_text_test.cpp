@@ -15,7 +15,7 @@
 #include "libpipeline/model_transform.h"
 #include "libpipeline/scene/config.h"
 #include "libpipeline/scene/scene.h"
-#include "libpipeline/stage_reader.h"
+#include "libpipeline/stream/stage_reader.h"
 #include "libpipeline/text/error.h"
 #include "tests/text_input.h"
 

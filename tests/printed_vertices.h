@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "libpipeline/coordinate_rounder.h"
+#include "libpipeline/stream/triangle_batch.h"
 #include "libpipeline/text/number_printer.h"
-#include "libpipeline/triangle_batch.h"
 #include "tests/random_numbers.h"
 #include "tests/reference_transforms.h"
 

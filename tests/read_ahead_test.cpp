@@ -1,10 +1,10 @@
-#include "libpipeline/read_ahead.h"
+#include "libpipeline/stream/read_ahead.h"
 
 #include <gtest/gtest.h>
 
 #include <string>
 
-#include "libpipeline/stage_reader.h"
+#include "libpipeline/stream/stage_reader.h"
 #include "tests/odd_text.h"
 #include "tests/text_input.h"
 

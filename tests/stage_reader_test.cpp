@@ -1,4 +1,4 @@
-#include "libpipeline/stage_reader.h"
+#include "libpipeline/stream/stage_reader.h"
 
 #include <gtest/gtest.h>
 

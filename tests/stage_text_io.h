@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "libpipeline/stage_reader.h"
-#include "libpipeline/stage_writer.h"
+#include "libpipeline/stream/stage_reader.h"
+#include "libpipeline/stream/stage_writer.h"
 #include "tests/text_input.h"
 
 namespace pipeline {

@@ -1,4 +1,4 @@
-#include "libpipeline/stage_writer.h"
+#include "libpipeline/stream/stage_writer.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "libpipeline/triangle_parts.h"
+#include "libpipeline/stream/triangle_parts.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 #include "libpipeline/model_stage.h"
 #include "libpipeline/model_transform.h"
 #include "libpipeline/scene/scene.h"
-#include "libpipeline/stage_reader.h"
+#include "libpipeline/stream/stage_reader.h"
 #include "tests/by_parts.h"
 #include "tests/odd_text.h"
 #include "tests/text_input.h"

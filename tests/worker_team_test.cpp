@@ -1,4 +1,4 @@
-#include "libpipeline/worker_team.h"
+#include "libpipeline/stream/worker_team.h"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 
 #include "libpipeline/fragment.h"
 #include "libpipeline/scene/config.h"
-#include "libpipeline/triangle_batch.h"
+#include "libpipeline/stream/triangle_batch.h"
 #include "tools/command_line.h"
 
 namespace pipeline {

@@ -3,7 +3,7 @@
 #include "libpipeline/model_stage.h"
 #include "libpipeline/model_transform.h"
 #include "libpipeline/scene/scene.h"
-#include "libpipeline/stage_writer.h"
+#include "libpipeline/stream/stage_writer.h"
 #include "tools/stage_loop.h"
 #include "tools/stage_options.h"
 #include "tools/tool.h"

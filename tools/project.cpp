@@ -3,8 +3,8 @@
 #include <deque>
 
 #include "libpipeline/projection.h"
-#include "libpipeline/stage_reader.h"
-#include "libpipeline/stage_writer.h"
+#include "libpipeline/stream/stage_reader.h"
+#include "libpipeline/stream/stage_writer.h"
 #include "tools/command_line.h"
 #include "tools/stage_loop.h"
 #include "tools/stage_options.h"

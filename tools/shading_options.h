@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "libpipeline/stage_reader.h"
+#include "libpipeline/stream/stage_reader.h"
 #include "libpipeline/surface_shader.h"
 #include "tools/command_line.h"
 

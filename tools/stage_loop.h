@@ -3,9 +3,9 @@
 #include <functional>
 
 #include "libpipeline/coordinate_rounder.h"
-#include "libpipeline/stage_writer.h"
-#include "libpipeline/triangle_batch.h"
-#include "libpipeline/triangle_source.h"
+#include "libpipeline/stream/stage_writer.h"
+#include "libpipeline/stream/triangle_batch.h"
+#include "libpipeline/stream/triangle_source.h"
 #include "tools/tool.h"
 
 namespace pipeline {

@@ -7,12 +7,12 @@
 #include <functional>
 
 #include "libpipeline/coordinate_rounder.h"
-#include "libpipeline/stage_writer.h"
+#include "libpipeline/stream/stage_writer.h"
+#include "libpipeline/stream/triangle_batch.h"
+#include "libpipeline/stream/triangle_parts.h"
+#include "libpipeline/stream/triangle_source.h"
+#include "libpipeline/stream/worker_team.h"
 #include "libpipeline/text/text_writer.h"
-#include "libpipeline/triangle_batch.h"
-#include "libpipeline/triangle_parts.h"
-#include "libpipeline/triangle_source.h"
-#include "libpipeline/worker_team.h"
 #include "tools/stage_loop.h"
 #include "tools/tool.h"
 

@@ -8,7 +8,7 @@
 #include <cstdio>
 #include <new>
 
-#include "libpipeline/stage_reader.h"
+#include "libpipeline/stream/stage_reader.h"
 #include "libpipeline/text/error.h"
 #include "tools/pipe_size.h"
 #include "tools/version.h"

@@ -1,8 +1,8 @@
 // view: puts the camera at the origin, looking down -z. World space in, view space out.
 
 #include "libpipeline/attribute_transform.h"
-#include "libpipeline/stage_reader.h"
-#include "libpipeline/stage_writer.h"
+#include "libpipeline/stream/stage_reader.h"
+#include "libpipeline/stream/stage_writer.h"
 #include "libpipeline/transform.h"
 #include "libpipeline/vertex_transform.h"
 #include "tools/command_line.h"

@@ -15,7 +15,7 @@
 
 #include "libpipeline/coverage.h"
 #include "libpipeline/scene/color.h"
-#include "libpipeline/stage_reader.h"
+#include "libpipeline/stream/stage_reader.h"
 #include "libpipeline/triangle_drawing.h"
 #include "libpipeline/visibility.h"
 

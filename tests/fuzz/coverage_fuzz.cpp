@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <map>
 
-#include "libpipeline/stage_reader.h"
+#include "libpipeline/stream/stage_reader.h"
 #include "tests/center_rational.h"
 #include "tests/center_reference.h"
 #include "tests/fuzz/require.h"

@@ -4,7 +4,7 @@
 #include "libpipeline/model_stage.h"
 #include "libpipeline/model_transform.h"
 #include "libpipeline/scene/scene.h"
-#include "libpipeline/stage_writer.h"
+#include "libpipeline/stream/stage_writer.h"
 #include "tests/by_parts.h"
 #include "tests/fuzz/transcript.h"
 

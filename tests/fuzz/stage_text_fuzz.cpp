@@ -1,8 +1,8 @@
 // The reader and the writer of stage text: any text gives triangles or a mistake with its place, and what was
 // written reads back to the same. So it is if the text is read by parts.
 
-#include "libpipeline/stage_reader.h"
-#include "libpipeline/stage_writer.h"
+#include "libpipeline/stream/stage_reader.h"
+#include "libpipeline/stream/stage_writer.h"
 #include "tests/by_parts.h"
 #include "tests/fuzz/transcript.h"
 

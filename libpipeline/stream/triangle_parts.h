@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "libpipeline/triangle_batch.h"
-#include "libpipeline/triangle_source.h"
+#include "libpipeline/stream/triangle_batch.h"
+#include "libpipeline/stream/triangle_source.h"
 
 namespace pipeline {
 

@@ -1,4 +1,4 @@
-#include "libpipeline/triangle_parts.h"
+#include "libpipeline/stream/triangle_parts.h"
 
 #include <algorithm>
 #include <exception>

@@ -1,4 +1,4 @@
-#include "libpipeline/stage_text.h"
+#include "libpipeline/stream/stage_text.h"
 
 #include <utility>
 

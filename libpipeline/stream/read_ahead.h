@@ -4,10 +4,10 @@
 #include <cstddef>
 #include <deque>
 
-#include "libpipeline/triangle_batch.h"
-#include "libpipeline/triangle_parts.h"
-#include "libpipeline/triangle_source.h"
-#include "libpipeline/worker_team.h"
+#include "libpipeline/stream/triangle_batch.h"
+#include "libpipeline/stream/triangle_parts.h"
+#include "libpipeline/stream/triangle_source.h"
+#include "libpipeline/stream/worker_team.h"
 
 namespace pipeline {
 

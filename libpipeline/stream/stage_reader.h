@@ -5,12 +5,12 @@
 #include <optional>
 #include <string>
 
-#include "libpipeline/late_mistake.h"
-#include "libpipeline/stage_text.h"
+#include "libpipeline/stream/late_mistake.h"
+#include "libpipeline/stream/stage_text.h"
+#include "libpipeline/stream/triangle_batch.h"
+#include "libpipeline/stream/triangle_reader.h"
+#include "libpipeline/stream/triangle_source.h"
 #include "libpipeline/text/text_reader.h"
-#include "libpipeline/triangle_batch.h"
-#include "libpipeline/triangle_reader.h"
-#include "libpipeline/triangle_source.h"
 
 namespace pipeline {
 

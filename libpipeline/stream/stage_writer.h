@@ -3,10 +3,10 @@
 #include <cstdint>
 #include <memory>
 
-#include "libpipeline/stage_text.h"
+#include "libpipeline/stream/stage_text.h"
+#include "libpipeline/stream/triangle_batch.h"
 #include "libpipeline/text/number_format.h"
 #include "libpipeline/text/text_writer.h"
-#include "libpipeline/triangle_batch.h"
 
 namespace pipeline {
 

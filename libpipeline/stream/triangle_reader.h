@@ -4,8 +4,8 @@
 #include <cstdint>
 
 #include "libpipeline/scene/vertex_attributes.h"
+#include "libpipeline/stream/triangle_batch.h"
 #include "libpipeline/text/text_reader.h"
-#include "libpipeline/triangle_batch.h"
 
 namespace pipeline {
 

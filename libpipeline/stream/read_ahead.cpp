@@ -1,4 +1,4 @@
-#include "libpipeline/read_ahead.h"
+#include "libpipeline/stream/read_ahead.h"
 
 #include <utility>
 

@@ -3,7 +3,7 @@
 #include <exception>
 #include <stdexcept>
 
-#include "libpipeline/triangle_batch.h"
+#include "libpipeline/stream/triangle_batch.h"
 
 namespace pipeline {
 

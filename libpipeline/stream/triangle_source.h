@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <optional>
 
+#include "libpipeline/stream/triangle_batch.h"
 #include "libpipeline/text/text_reader.h"
-#include "libpipeline/triangle_batch.h"
 
 namespace pipeline {
 

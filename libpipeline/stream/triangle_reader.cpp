@@ -1,10 +1,10 @@
-#include "libpipeline/triangle_reader.h"
+#include "libpipeline/stream/triangle_reader.h"
 
 #include <algorithm>
 #include <array>
 #include <span>
 
-#include "libpipeline/stage_text.h"
+#include "libpipeline/stream/stage_text.h"
 #include "libpipeline/text/fixed_text.h"
 #include "libpipeline/text/number_parser.h"
 
