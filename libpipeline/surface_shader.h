@@ -11,7 +11,7 @@
 #include "libpipeline/scene/pixel_grid.h"
 #include "libpipeline/shading.h"
 #include "libpipeline/stream/triangle_batch.h"
-#include "libpipeline/view_position.h"
+#include "libpipeline/vertex/view_position.h"
 #include "libpipeline/wireframe.h"
 
 namespace pipeline {

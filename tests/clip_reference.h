@@ -5,7 +5,7 @@
 #include <iterator>
 #include <vector>
 
-#include "libpipeline/clip.h"
+#include "libpipeline/vertex/clip.h"
 #include "tests/real.h"
 
 namespace pipeline {

@@ -1,4 +1,4 @@
-#include "libpipeline/clip.h"
+#include "libpipeline/vertex/clip.h"
 
 #include <gtest/gtest.h>
 

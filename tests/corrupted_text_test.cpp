@@ -11,12 +11,12 @@
 #include <string>
 #include <vector>
 
-#include "libpipeline/model_stage.h"
-#include "libpipeline/model_transform.h"
 #include "libpipeline/scene/config.h"
 #include "libpipeline/scene/scene.h"
 #include "libpipeline/stream/stage_reader.h"
 #include "libpipeline/text/error.h"
+#include "libpipeline/vertex/model_stage.h"
+#include "libpipeline/vertex/model_transform.h"
 #include "tests/text_input.h"
 
 namespace pipeline {

@@ -1,8 +1,8 @@
-#include "libpipeline/matrix_stack.h"
+#include "libpipeline/vertex/matrix_stack.h"
 
 #include <gtest/gtest.h>
 
-#include "libpipeline/transform.h"
+#include "libpipeline/vertex/transform.h"
 
 namespace pipeline {
 namespace {

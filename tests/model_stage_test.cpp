@@ -1,11 +1,11 @@
-#include "libpipeline/model_stage.h"
+#include "libpipeline/vertex/model_stage.h"
 
 #include <gtest/gtest.h>
 
 #include <string>
 #include <vector>
 
-#include "libpipeline/model_transform.h"
+#include "libpipeline/vertex/model_transform.h"
 #include "tests/text_input.h"
 
 namespace pipeline {

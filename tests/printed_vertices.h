@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "libpipeline/coordinate_rounder.h"
 #include "libpipeline/stream/triangle_batch.h"
 #include "libpipeline/text/number_printer.h"
+#include "libpipeline/vertex/coordinate_rounder.h"
 #include "tests/random_numbers.h"
 #include "tests/reference_transforms.h"
 

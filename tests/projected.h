@@ -4,7 +4,7 @@
 
 #include <initializer_list>
 
-#include "libpipeline/projection.h"
+#include "libpipeline/vertex/projection.h"
 #include "tests/printed_vertices.h"
 
 namespace pipeline {

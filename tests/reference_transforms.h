@@ -4,10 +4,10 @@
 #include <cstddef>
 #include <string>
 
-#include "libpipeline/mat4.h"
 #include "libpipeline/scene/camera.h"
 #include "libpipeline/text/number_printer.h"
-#include "libpipeline/transform.h"
+#include "libpipeline/vertex/mat4.h"
+#include "libpipeline/vertex/transform.h"
 #include "tests/real.h"
 
 namespace pipeline {

@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "libpipeline/model_stage.h"
-#include "libpipeline/model_transform.h"
 #include "libpipeline/scene/scene.h"
 #include "libpipeline/stream/stage_reader.h"
+#include "libpipeline/vertex/model_stage.h"
+#include "libpipeline/vertex/model_transform.h"
 #include "tests/by_parts.h"
 #include "tests/odd_text.h"
 #include "tests/text_input.h"

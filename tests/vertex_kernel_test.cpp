@@ -1,4 +1,4 @@
-#include "libpipeline/vertex_kernel.h"
+#include "libpipeline/vertex/vertex_kernel.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // The model and the view stage: what is printed against a reference of 448 bits and more.
 
-#include "libpipeline/vertex_transform.h"
+#include "libpipeline/vertex/vertex_transform.h"
 
 #include <gtest/gtest.h>
 

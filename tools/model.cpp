@@ -1,9 +1,9 @@
 // model: carries out the commands of a scene. Model space in, world space out.
 
-#include "libpipeline/model_stage.h"
-#include "libpipeline/model_transform.h"
 #include "libpipeline/scene/scene.h"
 #include "libpipeline/stream/stage_writer.h"
+#include "libpipeline/vertex/model_stage.h"
+#include "libpipeline/vertex/model_transform.h"
 #include "tools/stage_loop.h"
 #include "tools/stage_options.h"
 #include "tools/tool.h"

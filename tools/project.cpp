@@ -2,9 +2,9 @@
 
 #include <deque>
 
-#include "libpipeline/projection.h"
 #include "libpipeline/stream/stage_reader.h"
 #include "libpipeline/stream/stage_writer.h"
+#include "libpipeline/vertex/projection.h"
 #include "tools/command_line.h"
 #include "tools/stage_loop.h"
 #include "tools/stage_options.h"

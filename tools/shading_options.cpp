@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "libpipeline/transform.h"
+#include "libpipeline/vertex/transform.h"
 #include "tools/command_line.h"
 
 namespace pipeline {

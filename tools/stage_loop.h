@@ -2,10 +2,10 @@
 
 #include <functional>
 
-#include "libpipeline/coordinate_rounder.h"
 #include "libpipeline/stream/stage_writer.h"
 #include "libpipeline/stream/triangle_batch.h"
 #include "libpipeline/stream/triangle_source.h"
+#include "libpipeline/vertex/coordinate_rounder.h"
 #include "tools/tool.h"
 
 namespace pipeline {

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "libpipeline/coordinate_rounder.h"
 #include "libpipeline/scene/camera.h"
+#include "libpipeline/vertex/coordinate_rounder.h"
 #include "tools/command_line.h"
 #include "tools/tool.h"
 

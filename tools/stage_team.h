@@ -6,13 +6,13 @@
 #include <exception>
 #include <functional>
 
-#include "libpipeline/coordinate_rounder.h"
 #include "libpipeline/stream/stage_writer.h"
 #include "libpipeline/stream/triangle_batch.h"
 #include "libpipeline/stream/triangle_parts.h"
 #include "libpipeline/stream/triangle_source.h"
 #include "libpipeline/stream/worker_team.h"
 #include "libpipeline/text/text_writer.h"
+#include "libpipeline/vertex/coordinate_rounder.h"
 #include "tools/stage_loop.h"
 #include "tools/tool.h"
 

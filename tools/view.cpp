@@ -1,10 +1,10 @@
 // view: puts the camera at the origin, looking down -z. World space in, view space out.
 
-#include "libpipeline/attribute_transform.h"
 #include "libpipeline/stream/stage_reader.h"
 #include "libpipeline/stream/stage_writer.h"
-#include "libpipeline/transform.h"
-#include "libpipeline/vertex_transform.h"
+#include "libpipeline/vertex/attribute_transform.h"
+#include "libpipeline/vertex/transform.h"
+#include "libpipeline/vertex/vertex_transform.h"
 #include "tools/command_line.h"
 #include "tools/stage_loop.h"
 #include "tools/stage_options.h"

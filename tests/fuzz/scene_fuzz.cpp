@@ -1,10 +1,10 @@
 // The scene parser and the model stage: any text gives triangles or a mistake with its place, and the same if
 // it is read by parts.
 
-#include "libpipeline/model_stage.h"
-#include "libpipeline/model_transform.h"
 #include "libpipeline/scene/scene.h"
 #include "libpipeline/stream/stage_writer.h"
+#include "libpipeline/vertex/model_stage.h"
+#include "libpipeline/vertex/model_transform.h"
 #include "tests/by_parts.h"
 #include "tests/fuzz/transcript.h"
 

@@ -3,9 +3,9 @@
 #include <array>
 #include <span>
 
-#include "libpipeline/coordinate_test.h"
 #include "libpipeline/numbers/ball.h"
-#include "libpipeline/vertex_block.h"
+#include "libpipeline/vertex/coordinate_test.h"
+#include "libpipeline/vertex/vertex_block.h"
 
 namespace pipeline {
 

@@ -2,10 +2,10 @@
 
 #include <cstddef>
 
-#include "libpipeline/coordinate_rounder.h"
 #include "libpipeline/stream/triangle_batch.h"
-#include "libpipeline/transform.h"
-#include "libpipeline/vertex_kernel.h"
+#include "libpipeline/vertex/coordinate_rounder.h"
+#include "libpipeline/vertex/transform.h"
+#include "libpipeline/vertex/vertex_kernel.h"
 
 namespace pipeline {
 

@@ -2,10 +2,10 @@
 
 #include <array>
 
-#include "libpipeline/mat4.h"
 #include "libpipeline/scene/appearance.h"
 #include "libpipeline/stream/triangle_batch.h"
-#include "libpipeline/transform.h"
+#include "libpipeline/vertex/mat4.h"
+#include "libpipeline/vertex/transform.h"
 
 namespace pipeline {
 

@@ -4,11 +4,11 @@
 #include <cstdint>
 #include <vector>
 
-#include "libpipeline/clip.h"
-#include "libpipeline/coordinate_rounder.h"
 #include "libpipeline/stream/triangle_batch.h"
-#include "libpipeline/transform.h"
-#include "libpipeline/vertex_kernel.h"
+#include "libpipeline/vertex/clip.h"
+#include "libpipeline/vertex/coordinate_rounder.h"
+#include "libpipeline/vertex/transform.h"
+#include "libpipeline/vertex/vertex_kernel.h"
 
 namespace pipeline {
 

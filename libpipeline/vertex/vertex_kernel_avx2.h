@@ -1,6 +1,6 @@
 #pragma once
 
-#include "libpipeline/vertex_kernel.h"
+#include "libpipeline/vertex/vertex_kernel.h"
 
 namespace pipeline {
 

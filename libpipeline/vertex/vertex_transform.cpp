@@ -1,4 +1,4 @@
-#include "libpipeline/vertex_transform.h"
+#include "libpipeline/vertex/vertex_transform.h"
 
 #include <algorithm>
 #include <span>

@@ -1,4 +1,4 @@
-#include "libpipeline/view_position.h"
+#include "libpipeline/vertex/view_position.h"
 
 namespace pipeline {
 

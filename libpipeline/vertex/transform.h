@@ -1,7 +1,7 @@
 #pragma once
 
-#include "libpipeline/mat4.h"
 #include "libpipeline/scene/camera.h"
+#include "libpipeline/vertex/mat4.h"
 
 namespace pipeline {
 

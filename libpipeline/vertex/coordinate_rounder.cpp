@@ -1,4 +1,4 @@
-#include "libpipeline/coordinate_rounder.h"
+#include "libpipeline/vertex/coordinate_rounder.h"
 
 #include <cmath>
 #include <utility>

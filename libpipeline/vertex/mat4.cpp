@@ -1,4 +1,4 @@
-#include "libpipeline/mat4.h"
+#include "libpipeline/vertex/mat4.h"
 
 #include <algorithm>
 #include <cmath>

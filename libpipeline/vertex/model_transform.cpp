@@ -1,4 +1,4 @@
-#include "libpipeline/model_transform.h"
+#include "libpipeline/vertex/model_transform.h"
 
 #include <utility>
 #include <vector>

@@ -3,11 +3,11 @@
 #include <cstddef>
 #include <string>
 
-#include "libpipeline/coordinate_test.h"
-#include "libpipeline/mat4.h"
 #include "libpipeline/stream/triangle_batch.h"
 #include "libpipeline/text/error.h"
 #include "libpipeline/text/number_rounding.h"
+#include "libpipeline/vertex/coordinate_test.h"
+#include "libpipeline/vertex/mat4.h"
 
 namespace pipeline {
 

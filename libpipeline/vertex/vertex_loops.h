@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <limits>
 
-#include "libpipeline/vertex_kernel.h"
+#include "libpipeline/vertex/vertex_kernel.h"
 
 // Inlined, so that each kernel's loops are compiled for its processor.
 #define PIPELINE_LOOP inline __attribute__((always_inline))

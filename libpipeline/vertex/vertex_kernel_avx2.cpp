@@ -1,6 +1,6 @@
-#include "libpipeline/vertex_kernel_avx2.h"
+#include "libpipeline/vertex/vertex_kernel_avx2.h"
 
-#include "libpipeline/vertex_loops.h"
+#include "libpipeline/vertex/vertex_loops.h"
 
 namespace pipeline {
 

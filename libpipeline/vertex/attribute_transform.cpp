@@ -1,4 +1,4 @@
-#include "libpipeline/attribute_transform.h"
+#include "libpipeline/vertex/attribute_transform.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,12 +5,12 @@
 #include <optional>
 #include <vector>
 
-#include "libpipeline/matrix_stack.h"
-#include "libpipeline/model_transform.h"
 #include "libpipeline/scene/scene.h"
 #include "libpipeline/stream/late_mistake.h"
 #include "libpipeline/stream/triangle_batch.h"
 #include "libpipeline/stream/triangle_source.h"
+#include "libpipeline/vertex/matrix_stack.h"
+#include "libpipeline/vertex/model_transform.h"
 
 namespace pipeline {
 

@@ -1,12 +1,12 @@
-#include "libpipeline/vertex_kernel.h"
+#include "libpipeline/vertex/vertex_kernel.h"
 
 #include <cmath>
 #include <cstddef>
 #include <limits>
 
 #include "libpipeline/numbers/kernel_choice.h"
-#include "libpipeline/vertex_kernel_avx2.h"
-#include "libpipeline/vertex_loops.h"
+#include "libpipeline/vertex/vertex_kernel_avx2.h"
+#include "libpipeline/vertex/vertex_loops.h"
 
 namespace pipeline {
 namespace {

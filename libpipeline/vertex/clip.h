@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "libpipeline/transform.h"
+#include "libpipeline/vertex/transform.h"
 
 namespace pipeline {
 

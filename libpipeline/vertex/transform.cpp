@@ -1,4 +1,4 @@
-#include "libpipeline/transform.h"
+#include "libpipeline/vertex/transform.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,11 +2,11 @@
 
 #include <optional>
 
-#include "libpipeline/attribute_transform.h"
-#include "libpipeline/coordinate_rounder.h"
 #include "libpipeline/stream/triangle_batch.h"
-#include "libpipeline/transform.h"
-#include "libpipeline/vertex_transform.h"
+#include "libpipeline/vertex/attribute_transform.h"
+#include "libpipeline/vertex/coordinate_rounder.h"
+#include "libpipeline/vertex/transform.h"
+#include "libpipeline/vertex/vertex_transform.h"
 
 namespace pipeline {
 

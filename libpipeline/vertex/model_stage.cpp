@@ -1,4 +1,4 @@
-#include "libpipeline/model_stage.h"
+#include "libpipeline/vertex/model_stage.h"
 
 #include <algorithm>
 #include <limits>

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <deque>
 
-#include "libpipeline/mat4.h"
+#include "libpipeline/vertex/mat4.h"
 
 namespace pipeline {
 

@@ -1,4 +1,4 @@
-#include "libpipeline/matrix_stack.h"
+#include "libpipeline/vertex/matrix_stack.h"
 
 namespace pipeline {
 

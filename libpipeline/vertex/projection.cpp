@@ -1,4 +1,4 @@
-#include "libpipeline/projection.h"
+#include "libpipeline/vertex/projection.h"
 
 #include <algorithm>
 #include <cmath>

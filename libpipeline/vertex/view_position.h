@@ -1,7 +1,7 @@
 #pragma once
 
 #include "libpipeline/numbers/vec.h"
-#include "libpipeline/transform.h"
+#include "libpipeline/vertex/transform.h"
 
 namespace pipeline {
 
