@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "libpipeline/exact_grid.h"
+#include "libpipeline/coverage/exact_grid.h"
 #include "libpipeline/scene/color.h"
 #include "libpipeline/stream/triangle_batch.h"
 

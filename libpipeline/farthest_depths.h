@@ -4,7 +4,7 @@
 #include <limits>
 #include <vector>
 
-#include "libpipeline/span.h"
+#include "libpipeline/coverage/span.h"
 
 namespace pipeline {
 

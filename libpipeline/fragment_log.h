@@ -3,11 +3,11 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "libpipeline/exact_grid.h"
+#include "libpipeline/coverage/exact_grid.h"
+#include "libpipeline/coverage/span.h"
 #include "libpipeline/fragment.h"
 #include "libpipeline/raster.h"
 #include "libpipeline/scene/config.h"
-#include "libpipeline/span.h"
 
 namespace pipeline {
 

@@ -8,11 +8,11 @@
 #include <utility>
 
 #include "libpipeline/colored_batch.h"
+#include "libpipeline/coverage/exact_grid.h"
+#include "libpipeline/coverage/span.h"
 #include "libpipeline/draw_order.h"
-#include "libpipeline/exact_grid.h"
 #include "libpipeline/row_bands.h"
 #include "libpipeline/scene/config.h"
-#include "libpipeline/span.h"
 #include "libpipeline/stream/worker_team.h"
 
 namespace pipeline {

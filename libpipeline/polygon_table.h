@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <deque>
 
-#include "libpipeline/exact_grid.h"
+#include "libpipeline/coverage/exact_grid.h"
 #include "libpipeline/numbers/vec.h"
 #include "libpipeline/scene/color.h"
 

@@ -4,10 +4,10 @@
 #include <bit>
 #include <limits>
 
+#include "libpipeline/coverage/span.h"
 #include "libpipeline/numbers/vec.h"
 #include "libpipeline/scene/config.h"
 #include "libpipeline/scene/pixel_grid.h"
-#include "libpipeline/span.h"
 
 namespace pipeline {
 

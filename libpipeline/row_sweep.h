@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "libpipeline/active_edge_list.h"
+#include "libpipeline/coverage/span.h"
 #include "libpipeline/depth_format.h"
 #include "libpipeline/polygon_table.h"
 #include "libpipeline/scene/color.h"
 #include "libpipeline/scene/config.h"
-#include "libpipeline/span.h"
 #include "libpipeline/visible_row.h"
 
 namespace pipeline {

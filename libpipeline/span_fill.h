@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <span>
 
+#include "libpipeline/coverage/span.h"
 #include "libpipeline/depth_format.h"
 #include "libpipeline/farthest_depths.h"
 #include "libpipeline/scene/color.h"
-#include "libpipeline/span.h"
 
 namespace pipeline {
 

@@ -5,7 +5,7 @@
 #include <memory>
 #include <span>
 
-#include "libpipeline/colored_span.h"
+#include "libpipeline/coverage/colored_span.h"
 
 namespace pipeline {
 

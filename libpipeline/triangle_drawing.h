@@ -6,13 +6,13 @@
 
 #include "libpipeline/band_drawing.h"
 #include "libpipeline/colored_batch.h"
+#include "libpipeline/coverage/exact_grid.h"
+#include "libpipeline/coverage/span.h"
 #include "libpipeline/draw_order.h"
-#include "libpipeline/exact_grid.h"
 #include "libpipeline/layer_drawing.h"
 #include "libpipeline/row_bands.h"
 #include "libpipeline/scene/config.h"
 #include "libpipeline/scene/pixel_grid.h"
-#include "libpipeline/span.h"
 #include "libpipeline/stream/triangle_batch.h"
 #include "libpipeline/stream/worker_team.h"
 

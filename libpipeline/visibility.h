@@ -6,12 +6,12 @@
 #include <span>
 #include <vector>
 
-#include "libpipeline/colored_span.h"
-#include "libpipeline/exact_grid.h"
+#include "libpipeline/coverage/colored_span.h"
+#include "libpipeline/coverage/exact_grid.h"
+#include "libpipeline/coverage/span.h"
 #include "libpipeline/scanline.h"
 #include "libpipeline/scene/color.h"
 #include "libpipeline/scene/config.h"
-#include "libpipeline/span.h"
 #include "libpipeline/span_queue.h"
 #include "libpipeline/visible_row.h"
 #include "libpipeline/zbuffer.h"

@@ -4,13 +4,13 @@
 #include <span>
 #include <vector>
 
-#include "libpipeline/colored_span.h"
+#include "libpipeline/coverage/colored_span.h"
+#include "libpipeline/coverage/span.h"
 #include "libpipeline/depth_format.h"
 #include "libpipeline/farthest_depths.h"
 #include "libpipeline/raster.h"
 #include "libpipeline/scene/color.h"
 #include "libpipeline/scene/config.h"
-#include "libpipeline/span.h"
 #include "libpipeline/span_fill.h"
 #include "libpipeline/visible_row.h"
 

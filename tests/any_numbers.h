@@ -6,8 +6,8 @@
 #include <limits>
 #include <vector>
 
+#include "libpipeline/coverage/span.h"
 #include "libpipeline/scene/config.h"
-#include "libpipeline/span.h"
 
 namespace pipeline {
 

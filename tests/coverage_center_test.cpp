@@ -1,4 +1,4 @@
-#include "libpipeline/coverage_center.h"
+#include "libpipeline/coverage/coverage_center.h"
 
 #include <gtest/gtest.h>
 

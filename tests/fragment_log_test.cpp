@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-#include "libpipeline/coverage.h"
+#include "libpipeline/coverage/coverage.h"
 #include "libpipeline/depth_format.h"
 
 namespace pipeline {

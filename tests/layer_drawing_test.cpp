@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "libpipeline/coverage.h"
+#include "libpipeline/coverage/coverage.h"
 #include "libpipeline/visibility.h"
 #include "tests/drawn_scenes.h"
 

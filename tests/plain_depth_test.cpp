@@ -1,6 +1,6 @@
 // Depths as weighted means in doubles, against rational arithmetic (GMP).
 
-#include "libpipeline/plain_depth.h"
+#include "libpipeline/coverage/plain_depth.h"
 
 #include <gmpxx.h>
 #include <gtest/gtest.h>

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <random>
 
-#include "libpipeline/coverage.h"
+#include "libpipeline/coverage/coverage.h"
 #include "tests/sanitizer_rounds.h"
 
 namespace pipeline {

@@ -6,7 +6,7 @@
 #include <functional>
 #include <vector>
 
-#include "libpipeline/coverage.h"
+#include "libpipeline/coverage/coverage.h"
 #include "libpipeline/visibility.h"
 #include "tests/drawn_scenes.h"
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "libpipeline/coverage.h"
+#include "libpipeline/coverage/coverage.h"
 #include "libpipeline/scanline.h"
 #include "libpipeline/visibility.h"
 #include "libpipeline/zbuffer.h"

@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "libpipeline/colored_batch.h"
-#include "libpipeline/coverage.h"
+#include "libpipeline/coverage/coverage.h"
 #include "libpipeline/depth_format.h"
 #include "libpipeline/fragment_log.h"
 #include "libpipeline/text/error.h"

@@ -3,7 +3,7 @@
 #include <memory>
 #include <optional>
 
-#include "libpipeline/coverage.h"
+#include "libpipeline/coverage/coverage.h"
 #include "libpipeline/image_file.h"
 #include "libpipeline/scene/color.h"
 #include "libpipeline/stream/read_ahead.h"

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "libpipeline/coverage.h"
+#include "libpipeline/coverage/coverage.h"
 #include "libpipeline/scene/color.h"
 #include "libpipeline/stream/stage_reader.h"
 #include "libpipeline/triangle_drawing.h"

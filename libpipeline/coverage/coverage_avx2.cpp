@@ -1,4 +1,4 @@
-#include "libpipeline/coverage_avx2.h"
+#include "libpipeline/coverage/coverage_avx2.h"
 
 namespace pipeline {
 

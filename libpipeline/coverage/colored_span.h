@@ -1,8 +1,8 @@
 #pragma once
 
-#include "libpipeline/exact_grid.h"
+#include "libpipeline/coverage/exact_grid.h"
+#include "libpipeline/coverage/span.h"
 #include "libpipeline/scene/color.h"
-#include "libpipeline/span.h"
 
 namespace pipeline {
 

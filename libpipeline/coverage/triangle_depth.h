@@ -6,9 +6,9 @@
 #include <optional>
 #include <type_traits>
 
+#include "libpipeline/coverage/plain_depth.h"
+#include "libpipeline/coverage/span.h"
 #include "libpipeline/numbers/whole_math.h"
-#include "libpipeline/plain_depth.h"
-#include "libpipeline/span.h"
 
 namespace pipeline {
 

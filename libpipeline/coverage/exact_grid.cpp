@@ -1,4 +1,4 @@
-#include "libpipeline/exact_grid.h"
+#include "libpipeline/coverage/exact_grid.h"
 
 #include <bit>
 #include <cassert>

@@ -3,9 +3,9 @@
 #include <array>
 #include <optional>
 
+#include "libpipeline/coverage/span.h"
 #include "libpipeline/numbers/vec.h"
 #include "libpipeline/scene/pixel_grid.h"
-#include "libpipeline/span.h"
 
 namespace pipeline {
 

@@ -1,4 +1,4 @@
-#include "libpipeline/coverage_nearest.h"
+#include "libpipeline/coverage/coverage_nearest.h"
 
 #include <algorithm>
 #include <cmath>

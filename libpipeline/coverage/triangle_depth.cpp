@@ -1,4 +1,4 @@
-#include "libpipeline/triangle_depth.h"
+#include "libpipeline/coverage/triangle_depth.h"
 
 #include <bit>
 #include <cmath>

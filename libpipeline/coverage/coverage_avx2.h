@@ -1,6 +1,6 @@
 #pragma once
 
-#include "libpipeline/coverage_kernel.h"
+#include "libpipeline/coverage/coverage_kernel.h"
 
 namespace pipeline {
 

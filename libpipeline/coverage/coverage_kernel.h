@@ -2,10 +2,10 @@
 
 #include <span>
 
-#include "libpipeline/colored_span.h"
-#include "libpipeline/exact_grid.h"
+#include "libpipeline/coverage/colored_span.h"
+#include "libpipeline/coverage/exact_grid.h"
+#include "libpipeline/coverage/span.h"
 #include "libpipeline/scene/pixel_grid.h"
-#include "libpipeline/span.h"
 
 namespace pipeline {
 

@@ -5,10 +5,10 @@
 #include <optional>
 #include <variant>
 
-#include "libpipeline/exact_grid.h"
-#include "libpipeline/exact_rows.h"
+#include "libpipeline/coverage/exact_grid.h"
+#include "libpipeline/coverage/exact_rows.h"
+#include "libpipeline/coverage/span.h"
 #include "libpipeline/numbers/int128.h"
-#include "libpipeline/span.h"
 
 namespace pipeline {
 

@@ -1,13 +1,13 @@
 #pragma once
 
-#include "libpipeline/four_doubles.h"
+#include "libpipeline/coverage/four_doubles.h"
 
 #if defined(__x86_64__) && defined(__GNUC__)
 
 #include <array>
 #include <cstddef>
 
-#include "libpipeline/colored_span.h"
+#include "libpipeline/coverage/colored_span.h"
 
 namespace pipeline {
 

@@ -1,11 +1,11 @@
 #include <array>
 
-#include "libpipeline/coverage_avx2.h"
-#include "libpipeline/coverage_center.h"
-#include "libpipeline/four_doubles.h"
-#include "libpipeline/four_points.h"
-#include "libpipeline/four_spans.h"
-#include "libpipeline/plain_depth.h"
+#include "libpipeline/coverage/coverage_avx2.h"
+#include "libpipeline/coverage/coverage_center.h"
+#include "libpipeline/coverage/four_doubles.h"
+#include "libpipeline/coverage/four_points.h"
+#include "libpipeline/coverage/four_spans.h"
+#include "libpipeline/coverage/plain_depth.h"
 
 #if defined(__x86_64__) && defined(__GNUC__)
 

@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <cstdlib>
 
+#include "libpipeline/coverage/span.h"
 #include "libpipeline/numbers/double_double.h"
-#include "libpipeline/span.h"
 
 namespace pipeline {
 

@@ -3,7 +3,7 @@
 #include <array>
 #include <cstddef>
 
-#include "libpipeline/exact_grid.h"
+#include "libpipeline/coverage/exact_grid.h"
 
 namespace pipeline {
 

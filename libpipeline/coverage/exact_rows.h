@@ -7,11 +7,11 @@
 #include <cstdint>
 #include <optional>
 
-#include "libpipeline/centre_box.h"
-#include "libpipeline/exact_grid.h"
+#include "libpipeline/coverage/centre_box.h"
+#include "libpipeline/coverage/exact_grid.h"
+#include "libpipeline/coverage/span.h"
+#include "libpipeline/coverage/triangle_depth.h"
 #include "libpipeline/numbers/whole_math.h"
-#include "libpipeline/span.h"
-#include "libpipeline/triangle_depth.h"
 
 namespace pipeline {
 
