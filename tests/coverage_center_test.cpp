@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "libpipeline/zbuffer.h"
+#include "libpipeline/visibility/zbuffer.h"
 #include "tests/any_numbers.h"
 #include "tests/center_reference.h"
 #include "tests/random_numbers.h"

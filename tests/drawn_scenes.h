@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "libpipeline/scene/color.h"
-#include "libpipeline/visibility.h"
+#include "libpipeline/visibility/visibility.h"
 #include "tests/frame.h"
 #include "tests/random_numbers.h"
 

@@ -1,4 +1,4 @@
-#include "libpipeline/fragment_log.h"
+#include "libpipeline/visibility/fragment_log.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "libpipeline/coverage/coverage.h"
-#include "libpipeline/depth_format.h"
+#include "libpipeline/visibility/depth_format.h"
 
 namespace pipeline {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "libpipeline/scene/color.h"
-#include "libpipeline/visible_row.h"
+#include "libpipeline/visibility/visible_row.h"
 
 namespace pipeline {
 

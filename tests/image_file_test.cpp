@@ -8,7 +8,7 @@
 #include <thread>
 #include <vector>
 
-#include "libpipeline/raster.h"
+#include "libpipeline/visibility/raster.h"
 #include "tests/temporary_folder.h"
 #include "tests/text_input.h"
 

@@ -1,11 +1,11 @@
-#include "libpipeline/layer_drawing.h"
+#include "libpipeline/visibility/layer_drawing.h"
 
 #include <gtest/gtest.h>
 
 #include <vector>
 
 #include "libpipeline/coverage/coverage.h"
-#include "libpipeline/visibility.h"
+#include "libpipeline/visibility/visibility.h"
 #include "tests/drawn_scenes.h"
 
 namespace pipeline {

@@ -1,4 +1,4 @@
-#include "libpipeline/raster.h"
+#include "libpipeline/visibility/raster.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "libpipeline/row_bands.h"
+#include "libpipeline/visibility/row_bands.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "libpipeline/scanline.h"
+#include "libpipeline/visibility/scanline.h"
 
 #include <gtest/gtest.h>
 

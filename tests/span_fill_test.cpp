@@ -1,4 +1,4 @@
-#include "libpipeline/span_fill.h"
+#include "libpipeline/visibility/span_fill.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "libpipeline/triangle_drawing.h"
+#include "libpipeline/visibility/triangle_drawing.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "libpipeline/coverage/coverage.h"
-#include "libpipeline/visibility.h"
+#include "libpipeline/visibility/visibility.h"
 #include "tests/drawn_scenes.h"
 
 namespace pipeline {

@@ -3,9 +3,9 @@
 #include <vector>
 
 #include "libpipeline/coverage/coverage.h"
-#include "libpipeline/scanline.h"
-#include "libpipeline/visibility.h"
-#include "libpipeline/zbuffer.h"
+#include "libpipeline/visibility/scanline.h"
+#include "libpipeline/visibility/visibility.h"
+#include "libpipeline/visibility/zbuffer.h"
 #include "tests/frame.h"
 
 namespace pipeline {

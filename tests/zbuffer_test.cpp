@@ -1,11 +1,11 @@
-#include "libpipeline/zbuffer.h"
+#include "libpipeline/visibility/zbuffer.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
 #include <vector>
 
-#include "libpipeline/draw_order.h"
+#include "libpipeline/visibility/draw_order.h"
 
 namespace pipeline {
 namespace {

@@ -4,14 +4,14 @@
 #include <optional>
 #include <string_view>
 
-#include "libpipeline/colored_batch.h"
 #include "libpipeline/coverage/coverage.h"
-#include "libpipeline/depth_format.h"
-#include "libpipeline/fragment_log.h"
 #include "libpipeline/text/error.h"
 #include "libpipeline/text/number_parser.h"
 #include "libpipeline/text/output_file.h"
 #include "libpipeline/text/text_writer.h"
+#include "libpipeline/visibility/colored_batch.h"
+#include "libpipeline/visibility/depth_format.h"
+#include "libpipeline/visibility/fragment_log.h"
 #include "tools/render.h"
 
 namespace pipeline {

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "libpipeline/fragment.h"
 #include "libpipeline/scene/config.h"
 #include "libpipeline/stream/triangle_batch.h"
+#include "libpipeline/visibility/fragment.h"
 #include "tools/command_line.h"
 
 namespace pipeline {

@@ -16,8 +16,8 @@
 #include "libpipeline/coverage/coverage.h"
 #include "libpipeline/scene/color.h"
 #include "libpipeline/stream/stage_reader.h"
-#include "libpipeline/triangle_drawing.h"
-#include "libpipeline/visibility.h"
+#include "libpipeline/visibility/triangle_drawing.h"
+#include "libpipeline/visibility/visibility.h"
 
 namespace {
 

@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "libpipeline/active_edge_list.h"
-#include "libpipeline/polygon_table.h"
-#include "libpipeline/row_sweep.h"
+#include "libpipeline/visibility/active_edge_list.h"
+#include "libpipeline/visibility/polygon_table.h"
+#include "libpipeline/visibility/row_sweep.h"
 
 namespace pipeline {
 

@@ -6,13 +6,13 @@
 #include <span>
 #include <vector>
 
-#include "libpipeline/active_edge_list.h"
 #include "libpipeline/coverage/span.h"
-#include "libpipeline/depth_format.h"
-#include "libpipeline/polygon_table.h"
 #include "libpipeline/scene/color.h"
 #include "libpipeline/scene/config.h"
-#include "libpipeline/visible_row.h"
+#include "libpipeline/visibility/active_edge_list.h"
+#include "libpipeline/visibility/depth_format.h"
+#include "libpipeline/visibility/polygon_table.h"
+#include "libpipeline/visibility/visible_row.h"
 
 namespace pipeline {
 

@@ -1,11 +1,11 @@
-#include "libpipeline/span_fill.h"
+#include "libpipeline/visibility/span_fill.h"
 
 #include <array>
 #include <cstddef>
 
 #include "libpipeline/numbers/kernel_choice.h"
-#include "libpipeline/span_fill_avx2.h"
-#include "libpipeline/span_fill_loop.h"
+#include "libpipeline/visibility/span_fill_avx2.h"
+#include "libpipeline/visibility/span_fill_loop.h"
 
 namespace pipeline {
 namespace {

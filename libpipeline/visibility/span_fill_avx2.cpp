@@ -1,4 +1,4 @@
-#include "libpipeline/span_fill_avx2.h"
+#include "libpipeline/visibility/span_fill_avx2.h"
 
 #if defined(__x86_64__) && defined(__GNUC__)
 
@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-#include "libpipeline/span_fill_loop.h"
+#include "libpipeline/visibility/span_fill_loop.h"
 
 #define PIPELINE_AVX2 __attribute__((target("avx2")))
 

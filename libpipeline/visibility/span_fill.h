@@ -4,9 +4,9 @@
 #include <span>
 
 #include "libpipeline/coverage/span.h"
-#include "libpipeline/depth_format.h"
-#include "libpipeline/farthest_depths.h"
 #include "libpipeline/scene/color.h"
+#include "libpipeline/visibility/depth_format.h"
+#include "libpipeline/visibility/farthest_depths.h"
 
 namespace pipeline {
 

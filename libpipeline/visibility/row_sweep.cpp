@@ -1,4 +1,4 @@
-#include "libpipeline/row_sweep.h"
+#include "libpipeline/visibility/row_sweep.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "libpipeline/large_pages.h"
+#include "libpipeline/visibility/large_pages.h"
 
 namespace pipeline {
 

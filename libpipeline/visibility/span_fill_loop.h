@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "libpipeline/span_fill.h"
+#include "libpipeline/visibility/span_fill.h"
 
 namespace pipeline {
 

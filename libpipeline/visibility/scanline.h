@@ -2,13 +2,13 @@
 
 #include <cstdint>
 
-#include "libpipeline/active_edge_list.h"
-#include "libpipeline/active_polygons.h"
-#include "libpipeline/edge_table.h"
-#include "libpipeline/polygon_table.h"
-#include "libpipeline/row_sweep.h"
 #include "libpipeline/scene/color.h"
 #include "libpipeline/scene/config.h"
+#include "libpipeline/visibility/active_edge_list.h"
+#include "libpipeline/visibility/active_polygons.h"
+#include "libpipeline/visibility/edge_table.h"
+#include "libpipeline/visibility/polygon_table.h"
+#include "libpipeline/visibility/row_sweep.h"
 
 namespace pipeline {
 

@@ -9,12 +9,12 @@
 #include "libpipeline/coverage/colored_span.h"
 #include "libpipeline/coverage/exact_grid.h"
 #include "libpipeline/coverage/span.h"
-#include "libpipeline/scanline.h"
 #include "libpipeline/scene/color.h"
 #include "libpipeline/scene/config.h"
-#include "libpipeline/span_queue.h"
-#include "libpipeline/visible_row.h"
-#include "libpipeline/zbuffer.h"
+#include "libpipeline/visibility/scanline.h"
+#include "libpipeline/visibility/span_queue.h"
+#include "libpipeline/visibility/visible_row.h"
+#include "libpipeline/visibility/zbuffer.h"
 
 namespace pipeline {
 

@@ -6,13 +6,13 @@
 
 #include "libpipeline/coverage/colored_span.h"
 #include "libpipeline/coverage/span.h"
-#include "libpipeline/depth_format.h"
-#include "libpipeline/farthest_depths.h"
-#include "libpipeline/raster.h"
 #include "libpipeline/scene/color.h"
 #include "libpipeline/scene/config.h"
-#include "libpipeline/span_fill.h"
-#include "libpipeline/visible_row.h"
+#include "libpipeline/visibility/depth_format.h"
+#include "libpipeline/visibility/farthest_depths.h"
+#include "libpipeline/visibility/raster.h"
+#include "libpipeline/visibility/span_fill.h"
+#include "libpipeline/visibility/visible_row.h"
 
 namespace pipeline {
 

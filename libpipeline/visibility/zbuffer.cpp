@@ -1,4 +1,4 @@
-#include "libpipeline/zbuffer.h"
+#include "libpipeline/visibility/zbuffer.h"
 
 #include <bit>
 #include <cassert>
@@ -6,8 +6,8 @@
 #include <functional>
 #include <type_traits>
 
-#include "libpipeline/draw_order.h"
 #include "libpipeline/numbers/column_search.h"
+#include "libpipeline/visibility/draw_order.h"
 
 namespace pipeline {
 namespace {

@@ -1,4 +1,4 @@
-#include "libpipeline/large_pages.h"
+#include "libpipeline/visibility/large_pages.h"
 
 #ifdef __linux__
 #include <sys/mman.h>

@@ -7,12 +7,12 @@
 #include <utility>
 #include <vector>
 
-#include "libpipeline/colored_batch.h"
 #include "libpipeline/coverage/exact_grid.h"
 #include "libpipeline/coverage/span.h"
-#include "libpipeline/row_bands.h"
 #include "libpipeline/scene/config.h"
 #include "libpipeline/stream/worker_team.h"
+#include "libpipeline/visibility/colored_batch.h"
+#include "libpipeline/visibility/row_bands.h"
 
 namespace pipeline {
 

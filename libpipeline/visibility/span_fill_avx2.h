@@ -1,6 +1,6 @@
 #pragma once
 
-#include "libpipeline/span_fill.h"
+#include "libpipeline/visibility/span_fill.h"
 
 namespace pipeline {
 

@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-#include "libpipeline/polygon_table.h"
+#include "libpipeline/visibility/polygon_table.h"
 
 namespace pipeline {
 

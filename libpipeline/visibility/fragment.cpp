@@ -1,4 +1,4 @@
-#include "libpipeline/fragment.h"
+#include "libpipeline/visibility/fragment.h"
 
 #include <array>
 #include <charconv>

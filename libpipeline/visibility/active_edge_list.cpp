@@ -1,4 +1,4 @@
-#include "libpipeline/active_edge_list.h"
+#include "libpipeline/visibility/active_edge_list.h"
 
 #include <algorithm>
 #include <iterator>

@@ -5,9 +5,9 @@
 
 #include "libpipeline/coverage/exact_grid.h"
 #include "libpipeline/coverage/span.h"
-#include "libpipeline/fragment.h"
-#include "libpipeline/raster.h"
 #include "libpipeline/scene/config.h"
+#include "libpipeline/visibility/fragment.h"
+#include "libpipeline/visibility/raster.h"
 
 namespace pipeline {
 

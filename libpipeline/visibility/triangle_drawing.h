@@ -4,17 +4,17 @@
 #include <cstddef>
 #include <optional>
 
-#include "libpipeline/band_drawing.h"
-#include "libpipeline/colored_batch.h"
 #include "libpipeline/coverage/exact_grid.h"
 #include "libpipeline/coverage/span.h"
-#include "libpipeline/draw_order.h"
-#include "libpipeline/layer_drawing.h"
-#include "libpipeline/row_bands.h"
 #include "libpipeline/scene/config.h"
 #include "libpipeline/scene/pixel_grid.h"
 #include "libpipeline/stream/triangle_batch.h"
 #include "libpipeline/stream/worker_team.h"
+#include "libpipeline/visibility/band_drawing.h"
+#include "libpipeline/visibility/colored_batch.h"
+#include "libpipeline/visibility/draw_order.h"
+#include "libpipeline/visibility/layer_drawing.h"
+#include "libpipeline/visibility/row_bands.h"
 
 namespace pipeline {
 
