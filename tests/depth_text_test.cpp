@@ -1,4 +1,4 @@
-#include "libpipeline/depth_text.h"
+#include "libpipeline/picture/depth_text.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 #include "tools/depth_files.h"
 
-#include "libpipeline/depth_text.h"
+#include "libpipeline/picture/depth_text.h"
 
 namespace pipeline {
 

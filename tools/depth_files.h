@@ -4,7 +4,7 @@
 #include <span>
 #include <string>
 
-#include "libpipeline/depth_image.h"
+#include "libpipeline/picture/depth_image.h"
 #include "libpipeline/scene/config.h"
 #include "libpipeline/text/output_file.h"
 #include "libpipeline/text/text_writer.h"

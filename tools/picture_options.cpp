@@ -1,7 +1,7 @@
 #include "tools/picture_options.h"
 
-#include "libpipeline/depth_image.h"
-#include "libpipeline/supersampling.h"
+#include "libpipeline/picture/depth_image.h"
+#include "libpipeline/picture/supersampling.h"
 #include "libpipeline/text/number_printer.h"
 #include "tools/shading_options.h"
 

@@ -4,13 +4,13 @@
 #include <optional>
 
 #include "libpipeline/coverage/coverage.h"
-#include "libpipeline/image_file.h"
+#include "libpipeline/picture/image_file.h"
+#include "libpipeline/picture/supersampling.h"
+#include "libpipeline/picture/surface_shader.h"
 #include "libpipeline/scene/color.h"
 #include "libpipeline/stream/read_ahead.h"
 #include "libpipeline/stream/stage_reader.h"
 #include "libpipeline/stream/worker_team.h"
-#include "libpipeline/supersampling.h"
-#include "libpipeline/surface_shader.h"
 #include "libpipeline/text/output_file.h"
 #include "libpipeline/visibility/triangle_drawing.h"
 #include "libpipeline/visibility/visibility.h"

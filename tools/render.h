@@ -3,8 +3,8 @@
 #include <optional>
 #include <string>
 
+#include "libpipeline/picture/surface_shader.h"
 #include "libpipeline/scene/config.h"
-#include "libpipeline/surface_shader.h"
 #include "tools/fragment_report.h"
 #include "tools/tool.h"
 

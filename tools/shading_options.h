@@ -2,8 +2,8 @@
 
 #include <optional>
 
+#include "libpipeline/picture/surface_shader.h"
 #include "libpipeline/stream/stage_reader.h"
-#include "libpipeline/surface_shader.h"
 #include "tools/command_line.h"
 
 namespace pipeline {

@@ -3,7 +3,7 @@
 #include <csignal>
 #include <string>
 
-#include "libpipeline/image_file.h"
+#include "libpipeline/picture/image_file.h"
 #include "libpipeline/scene/config.h"
 #include "libpipeline/text/error.h"
 #include "tools/command_line.h"

@@ -1,7 +1,7 @@
 // In place of png_file.cpp where libpng was not found.
 #include <cassert>
 
-#include "libpipeline/png_file.h"
+#include "libpipeline/picture/png_file.h"
 
 namespace pipeline {
 

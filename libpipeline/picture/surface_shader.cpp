@@ -1,4 +1,4 @@
-#include "libpipeline/surface_shader.h"
+#include "libpipeline/picture/surface_shader.h"
 
 #include <algorithm>
 #include <cassert>

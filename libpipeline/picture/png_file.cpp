@@ -1,4 +1,4 @@
-#include "libpipeline/png_file.h"
+#include "libpipeline/picture/png_file.h"
 
 #include <png.h>
 #include <unistd.h>

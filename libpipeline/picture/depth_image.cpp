@@ -1,9 +1,9 @@
-#include "libpipeline/depth_image.h"
+#include "libpipeline/picture/depth_image.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "libpipeline/image_file.h"
+#include "libpipeline/picture/image_file.h"
 #include "libpipeline/text/error.h"
 
 namespace pipeline {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "libpipeline/png_file.h"
+#include "libpipeline/picture/png_file.h"
 #include "libpipeline/scene/color.h"
 
 namespace pipeline {

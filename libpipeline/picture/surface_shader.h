@@ -7,12 +7,12 @@
 #include <utility>
 #include <vector>
 
+#include "libpipeline/picture/shading.h"
+#include "libpipeline/picture/wireframe.h"
 #include "libpipeline/scene/color.h"
 #include "libpipeline/scene/pixel_grid.h"
-#include "libpipeline/shading.h"
 #include "libpipeline/stream/triangle_batch.h"
 #include "libpipeline/vertex/view_position.h"
-#include "libpipeline/wireframe.h"
 
 namespace pipeline {
 

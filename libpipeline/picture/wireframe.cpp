@@ -1,4 +1,4 @@
-#include "libpipeline/wireframe.h"
+#include "libpipeline/picture/wireframe.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "libpipeline/shading.h"
+#include "libpipeline/picture/shading.h"
 
 #include <algorithm>
 #include <cmath>

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "libpipeline/png_file.h"
+#include "libpipeline/picture/png_file.h"
 #include "libpipeline/scene/config.h"
 #include "libpipeline/text/text_writer.h"
 

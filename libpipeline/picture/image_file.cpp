@@ -1,4 +1,4 @@
-#include "libpipeline/image_file.h"
+#include "libpipeline/picture/image_file.h"
 
 #include <fcntl.h>
 #include <unistd.h>

@@ -1,4 +1,4 @@
-#include "libpipeline/supersampling.h"
+#include "libpipeline/picture/supersampling.h"
 
 #include <cassert>
 
