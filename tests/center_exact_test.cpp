@@ -4,7 +4,7 @@
 
 #include "tests/center_rational.h"
 #include "tests/center_reference.h"
-#include "tests/random_numbers.h"
+#include "tests/numbers/random_numbers.h"
 #include "tests/sanitizer_rounds.h"
 
 namespace pipeline {

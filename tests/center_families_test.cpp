@@ -8,7 +8,7 @@
 
 #include "libpipeline/numbers/int128.h"
 #include "tests/center_reference.h"
-#include "tests/random_numbers.h"
+#include "tests/numbers/random_numbers.h"
 
 namespace pipeline {
 namespace {

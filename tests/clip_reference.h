@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "libpipeline/vertex/clip.h"
-#include "tests/real.h"
+#include "tests/numbers/real.h"
 
 namespace pipeline {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "tests/clip_reference.h"
-#include "tests/random_numbers.h"
+#include "tests/numbers/random_numbers.h"
 
 namespace pipeline {
 namespace {

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "libpipeline/visibility/zbuffer.h"
-#include "tests/any_numbers.h"
 #include "tests/center_reference.h"
-#include "tests/random_numbers.h"
+#include "tests/numbers/any_numbers.h"
+#include "tests/numbers/random_numbers.h"
 
 namespace pipeline {
 namespace {

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "libpipeline/coverage/coverage.h"
-#include "tests/random_numbers.h"
+#include "tests/numbers/random_numbers.h"
 #include "tests/sanitizer_rounds.h"
 
 namespace pipeline {

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/any_numbers.h"
+#include "tests/numbers/any_numbers.h"
 
 namespace pipeline {
 namespace {

@@ -5,7 +5,7 @@
 #include "libpipeline/scene/color.h"
 #include "libpipeline/visibility/visibility.h"
 #include "tests/frame.h"
-#include "tests/random_numbers.h"
+#include "tests/numbers/random_numbers.h"
 
 namespace pipeline {
 

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "tests/random_numbers.h"
+#include "tests/numbers/random_numbers.h"
 
 namespace pipeline {
 namespace {

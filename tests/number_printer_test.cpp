@@ -11,7 +11,7 @@
 #include <string>
 
 #include "tests/comma_locale.h"
-#include "tests/random_numbers.h"
+#include "tests/numbers/random_numbers.h"
 
 namespace pipeline {
 namespace {

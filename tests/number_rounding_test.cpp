@@ -7,8 +7,8 @@
 
 #include "libpipeline/text/number_printer.h"
 #include "libpipeline/text/number_rounding.h"
-#include "tests/random_numbers.h"
-#include "tests/real.h"
+#include "tests/numbers/random_numbers.h"
+#include "tests/numbers/real.h"
 
 namespace pipeline {
 namespace {

@@ -9,7 +9,7 @@
 #include <bit>
 #include <cmath>
 
-#include "tests/random_numbers.h"
+#include "tests/numbers/random_numbers.h"
 
 namespace pipeline {
 namespace {

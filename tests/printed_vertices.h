@@ -10,7 +10,7 @@
 #include "libpipeline/stream/triangle_batch.h"
 #include "libpipeline/text/number_printer.h"
 #include "libpipeline/vertex/coordinate_rounder.h"
-#include "tests/random_numbers.h"
+#include "tests/numbers/random_numbers.h"
 #include "tests/reference_transforms.h"
 
 namespace pipeline {

@@ -8,7 +8,7 @@
 #include "libpipeline/text/number_printer.h"
 #include "libpipeline/vertex/mat4.h"
 #include "libpipeline/vertex/transform.h"
-#include "tests/real.h"
+#include "tests/numbers/real.h"
 
 namespace pipeline {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "tests/random_numbers.h"
+#include "tests/numbers/random_numbers.h"
 #include "tests/visible_frames.h"
 
 namespace pipeline {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "tests/random_numbers.h"
+#include "tests/numbers/random_numbers.h"
 #include "tests/visible_frames.h"
 
 namespace pipeline {

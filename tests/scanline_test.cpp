@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/random_numbers.h"
+#include "tests/numbers/random_numbers.h"
 #include "tests/visible_frames.h"
 
 namespace pipeline {

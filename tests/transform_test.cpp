@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "tests/random_numbers.h"
+#include "tests/numbers/random_numbers.h"
 #include "tests/reference_transforms.h"
 
 namespace pipeline {

@@ -6,8 +6,8 @@
 #include <string>
 
 #include "libpipeline/text/number_printer.h"
-#include "tests/random_numbers.h"
-#include "tests/real.h"
+#include "tests/numbers/random_numbers.h"
+#include "tests/numbers/real.h"
 
 namespace pipeline {
 namespace {

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "libpipeline/numbers/whole_math.h"
-#include "tests/random_numbers.h"
+#include "tests/numbers/random_numbers.h"
 #include "tests/sanitizer_rounds.h"
 
 namespace pipeline {

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/random_numbers.h"
-#include "tests/real.h"
+#include "tests/numbers/random_numbers.h"
+#include "tests/numbers/real.h"
 
 namespace pipeline {
 namespace {

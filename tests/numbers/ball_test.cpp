@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 
-#include "tests/random_numbers.h"
-#include "tests/real.h"
+#include "tests/numbers/random_numbers.h"
+#include "tests/numbers/real.h"
 
 namespace pipeline {
 
