@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "libpipeline/scene/scene.h"
-#include "tests/text_input.h"
+#include "tests/text/text_input.h"
 
 namespace pipeline {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "tests/text_input.h"
+#include "tests/text/text_input.h"
 
 namespace pipeline {
 namespace {

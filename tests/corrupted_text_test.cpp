@@ -17,7 +17,7 @@
 #include "libpipeline/text/error.h"
 #include "libpipeline/vertex/model_stage.h"
 #include "libpipeline/vertex/model_transform.h"
-#include "tests/text_input.h"
+#include "tests/text/text_input.h"
 
 namespace pipeline {
 namespace {

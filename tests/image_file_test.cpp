@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "libpipeline/visibility/raster.h"
-#include "tests/temporary_folder.h"
-#include "tests/text_input.h"
+#include "tests/text/temporary_folder.h"
+#include "tests/text/text_input.h"
 
 namespace pipeline {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "libpipeline/vertex/model_transform.h"
-#include "tests/text_input.h"
+#include "tests/text/text_input.h"
 
 namespace pipeline {
 namespace {

@@ -5,8 +5,8 @@
 #include <string>
 
 #include "libpipeline/stream/stage_reader.h"
-#include "tests/odd_text.h"
-#include "tests/text_input.h"
+#include "tests/text/odd_text.h"
+#include "tests/text/text_input.h"
 
 namespace pipeline {
 namespace {

@@ -6,7 +6,7 @@
 #include <variant>
 #include <vector>
 
-#include "tests/text_input.h"
+#include "tests/text/text_input.h"
 
 namespace pipeline {
 namespace {

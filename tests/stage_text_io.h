@@ -4,7 +4,7 @@
 
 #include "libpipeline/stream/stage_reader.h"
 #include "libpipeline/stream/stage_writer.h"
-#include "tests/text_input.h"
+#include "tests/text/text_input.h"
 
 namespace pipeline {
 

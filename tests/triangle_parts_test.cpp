@@ -13,8 +13,8 @@
 #include "libpipeline/vertex/model_stage.h"
 #include "libpipeline/vertex/model_transform.h"
 #include "tests/by_parts.h"
-#include "tests/odd_text.h"
-#include "tests/text_input.h"
+#include "tests/text/odd_text.h"
+#include "tests/text/text_input.h"
 
 namespace pipeline {
 namespace {

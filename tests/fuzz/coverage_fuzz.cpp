@@ -8,7 +8,7 @@
 #include "tests/center_rational.h"
 #include "tests/center_reference.h"
 #include "tests/fuzz/require.h"
-#include "tests/text_input.h"
+#include "tests/text/text_input.h"
 
 namespace pipeline {
 namespace {

@@ -11,7 +11,7 @@
 
 #include "tests/fuzz/fuzz_bytes.h"
 #include "tests/fuzz/require.h"
-#include "tests/text_input.h"
+#include "tests/text/text_input.h"
 
 // tools/*.cpp, compiled with main renamed.
 int model_main(int argc, char** argv);

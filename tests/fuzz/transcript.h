@@ -13,7 +13,7 @@
 #include "libpipeline/text/text_reader.h"
 #include "libpipeline/text/text_writer.h"
 #include "tests/fuzz/require.h"
-#include "tests/text_input.h"
+#include "tests/text/text_input.h"
 
 namespace pipeline {
 

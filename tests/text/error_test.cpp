@@ -5,7 +5,7 @@
 #include <cerrno>
 #include <string>
 
-#include "tests/text_input.h"
+#include "tests/text/text_input.h"
 
 namespace pipeline {
 namespace {

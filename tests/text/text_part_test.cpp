@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "libpipeline/text/text_reader.h"
-#include "tests/text_input.h"
+#include "tests/text/text_input.h"
 
 namespace pipeline {
 namespace {

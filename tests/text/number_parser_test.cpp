@@ -8,8 +8,8 @@
 #include <limits>
 #include <string>
 
-#include "tests/comma_locale.h"
 #include "tests/numbers/random_numbers.h"
+#include "tests/text/comma_locale.h"
 
 namespace pipeline {
 namespace {

@@ -10,8 +10,8 @@
 #include <string>
 
 #include "libpipeline/text/text_writer.h"
-#include "tests/temporary_folder.h"
-#include "tests/text_input.h"
+#include "tests/text/temporary_folder.h"
+#include "tests/text/text_input.h"
 
 namespace pipeline {
 namespace {

@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "libpipeline/text/error.h"
-#include "tests/text_input.h"
+#include "tests/text/text_input.h"
 
 namespace pipeline {
 namespace {
