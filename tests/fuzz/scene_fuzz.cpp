@@ -5,8 +5,8 @@
 #include "libpipeline/stream/stage_writer.h"
 #include "libpipeline/vertex/model_stage.h"
 #include "libpipeline/vertex/model_transform.h"
-#include "tests/by_parts.h"
 #include "tests/fuzz/transcript.h"
+#include "tests/stream/by_parts.h"
 
 namespace pipeline {
 namespace {

@@ -3,8 +3,8 @@
 
 #include "libpipeline/stream/stage_reader.h"
 #include "libpipeline/stream/stage_writer.h"
-#include "tests/by_parts.h"
 #include "tests/fuzz/transcript.h"
+#include "tests/stream/by_parts.h"
 
 namespace pipeline {
 namespace {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <string>
 
-#include "tests/stage_text_io.h"
+#include "tests/stream/stage_text_io.h"
 
 namespace pipeline {
 namespace {

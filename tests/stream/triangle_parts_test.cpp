@@ -12,7 +12,7 @@
 #include "libpipeline/stream/stage_reader.h"
 #include "libpipeline/vertex/model_stage.h"
 #include "libpipeline/vertex/model_transform.h"
-#include "tests/by_parts.h"
+#include "tests/stream/by_parts.h"
 #include "tests/text/odd_text.h"
 #include "tests/text/text_input.h"
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/stage_text_io.h"
+#include "tests/stream/stage_text_io.h"
 
 namespace pipeline {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "tests/stage_text_io.h"
+#include "tests/stream/stage_text_io.h"
 
 namespace pipeline {
 namespace {
