@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "tests/clip_reference.h"
 #include "tests/fuzz/fuzz_bytes.h"
 #include "tests/fuzz/require.h"
+#include "tests/vertex/clip_reference.h"
 
 namespace pipeline {
 namespace {

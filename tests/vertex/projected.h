@@ -5,7 +5,7 @@
 #include <initializer_list>
 
 #include "libpipeline/vertex/projection.h"
-#include "tests/printed_vertices.h"
+#include "tests/vertex/printed_vertices.h"
 
 namespace pipeline {
 

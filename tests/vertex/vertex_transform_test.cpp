@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "libpipeline/text/error.h"
-#include "tests/printed_vertices.h"
+#include "tests/vertex/printed_vertices.h"
 
 namespace pipeline {
 namespace {

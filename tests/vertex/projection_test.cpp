@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "libpipeline/text/error.h"
-#include "tests/projected.h"
+#include "tests/vertex/projected.h"
 
 namespace pipeline {
 namespace {

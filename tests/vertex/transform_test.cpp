@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "tests/numbers/random_numbers.h"
-#include "tests/reference_transforms.h"
+#include "tests/vertex/reference_transforms.h"
 
 namespace pipeline {
 namespace {

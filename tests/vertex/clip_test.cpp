@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tests/clip_reference.h"
 #include "tests/numbers/random_numbers.h"
+#include "tests/vertex/clip_reference.h"
 
 namespace pipeline {
 namespace {

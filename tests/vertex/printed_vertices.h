@@ -11,7 +11,7 @@
 #include "libpipeline/text/number_printer.h"
 #include "libpipeline/vertex/coordinate_rounder.h"
 #include "tests/numbers/random_numbers.h"
-#include "tests/reference_transforms.h"
+#include "tests/vertex/reference_transforms.h"
 
 namespace pipeline {
 
