@@ -5,8 +5,8 @@
 #include <map>
 
 #include "libpipeline/stream/stage_reader.h"
-#include "tests/center_rational.h"
-#include "tests/center_reference.h"
+#include "tests/coverage/center_rational.h"
+#include "tests/coverage/center_reference.h"
 #include "tests/fuzz/require.h"
 #include "tests/text/text_input.h"
 

@@ -7,7 +7,7 @@
 #include <iostream>
 
 #include "libpipeline/numbers/int128.h"
-#include "tests/center_reference.h"
+#include "tests/coverage/center_reference.h"
 #include "tests/numbers/random_numbers.h"
 
 namespace pipeline {

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/center_rational.h"
-#include "tests/center_reference.h"
+#include "tests/coverage/center_rational.h"
+#include "tests/coverage/center_reference.h"
 #include "tests/numbers/random_numbers.h"
 #include "tests/sanitizer_rounds.h"
 

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "libpipeline/scene/config.h"
-#include "tests/center_reference.h"
+#include "tests/coverage/center_reference.h"
 
 namespace pipeline {
 

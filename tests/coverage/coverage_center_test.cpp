@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "libpipeline/visibility/zbuffer.h"
-#include "tests/center_reference.h"
+#include "tests/coverage/center_reference.h"
 #include "tests/numbers/any_numbers.h"
 #include "tests/numbers/random_numbers.h"
 
