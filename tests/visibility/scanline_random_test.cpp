@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "tests/numbers/random_numbers.h"
-#include "tests/visible_frames.h"
+#include "tests/visibility/visible_frames.h"
 
 namespace pipeline {
 namespace {

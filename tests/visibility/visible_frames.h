@@ -6,7 +6,7 @@
 #include "libpipeline/visibility/scanline.h"
 #include "libpipeline/visibility/visibility.h"
 #include "libpipeline/visibility/zbuffer.h"
-#include "tests/frame.h"
+#include "tests/visibility/frame.h"
 
 namespace pipeline {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "tests/numbers/random_numbers.h"
-#include "tests/visible_frames.h"
+#include "tests/visibility/visible_frames.h"
 
 namespace pipeline {
 namespace {

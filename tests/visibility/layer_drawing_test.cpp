@@ -6,7 +6,7 @@
 
 #include "libpipeline/coverage/coverage.h"
 #include "libpipeline/visibility/visibility.h"
-#include "tests/drawn_scenes.h"
+#include "tests/visibility/drawn_scenes.h"
 
 namespace pipeline {
 namespace {

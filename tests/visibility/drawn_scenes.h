@@ -4,8 +4,8 @@
 
 #include "libpipeline/scene/color.h"
 #include "libpipeline/visibility/visibility.h"
-#include "tests/frame.h"
 #include "tests/numbers/random_numbers.h"
+#include "tests/visibility/frame.h"
 
 namespace pipeline {
 
