@@ -10,7 +10,9 @@ import sys
 import unittest
 
 from student_pipeline import Student
-from toolbox import BIN, SOURCE, ToolTest, run
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "tools"))
+from toolbox import BIN, SOURCE, ToolTest, run  # noqa: E402
 
 sys.path.insert(0, str(SOURCE / "scripts"))
 from pictures import png, read_picture  # noqa: E402

@@ -6,10 +6,13 @@ usage: inspect_test.py BIN_DIR [UNITTEST ARGUMENT...]
 import base64
 import pathlib
 import subprocess
+import sys
 import unittest
 
 from browser import MISSING, Browser
-from toolbox import BIN, SOURCE, ToolTest, run, stage_texts
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "tools"))
+from toolbox import BIN, SOURCE, ToolTest, run, stage_texts  # noqa: E402
 
 SAMPLE = SOURCE / "samples/tilted-camera"
 # Triangle 1 reaches behind the eye and is cut into two pieces; the others stand apart.

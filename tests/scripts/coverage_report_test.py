@@ -9,7 +9,8 @@ import subprocess
 import sys
 import unittest
 
-from toolbox import SOURCE, ToolTest
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "tools"))
+from toolbox import SOURCE, ToolTest  # noqa: E402
 
 SOURCE_LINES = ["int half(int x) {", "  if (x % 2 != 0) fail(x);", "  return x / 2;", "}", "void fail(int x) {", "  std::abort();", "}"]
 REASONS = "# A comment.\n\nNobody lives to tell.\n    lib/half.cpp: std::abort();\n"

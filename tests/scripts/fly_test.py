@@ -12,7 +12,9 @@ import time
 import unittest
 
 from display import MISSING, Display
-from toolbox import BIN, SOURCE, TOOLS, ToolTest, pipe, run
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "tools"))
+from toolbox import BIN, SOURCE, TOOLS, ToolTest, pipe, run  # noqa: E402
 
 sys.path.insert(0, str(SOURCE / "scripts"))
 
