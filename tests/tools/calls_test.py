@@ -2,7 +2,7 @@
 """Reads, writes, renames and requests for memory that fail at any call: the exit status is not 0 or the output is right, an older
 good file stays, nothing else is left.
 
-usage: tools_calls_test.py BIN_DIR FAULT_SHIM [UNITTEST ARGUMENT...]
+usage: tools/calls_test.py BIN_DIR FAULT_SHIM [UNITTEST ARGUMENT...]
 """
 import errno
 import os

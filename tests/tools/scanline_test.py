@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """zbuf --algorithm scanline, end to end: the bytes of the z-buffer, and no memory for the frame.
 
-usage: scanline_tool_test.py BIN_DIR [SameBytes|Memory|LongMemory|Measurement]
+usage: scanline_test.py BIN_DIR [SameBytes|Memory|LongMemory|Measurement]
 """
 import os
 import pathlib

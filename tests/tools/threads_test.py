@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """The text stages say the same with any number of threads: texts, messages, exit statuses.
 
-usage: tools_threads_test.py BIN_DIR [UNITTEST ARGUMENT...]
+usage: threads_test.py BIN_DIR [UNITTEST ARGUMENT...]
 """
 import pathlib
 import random
@@ -9,7 +9,7 @@ import re
 import unittest
 
 from toolbox import CAMERA, HEADER, SCENE, SOURCE, TRIANGLE, ToolTest, run, stage_texts
-from tools_streaming_test import LiveTool
+from streaming_test import LiveTool
 
 THREADS = (2, 3, 8)
 

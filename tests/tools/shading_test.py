@@ -4,7 +4,7 @@
 A ray meets the triangle in view space; colour, normal and place there are means of the corners', and the lighting
 formula is evaluated there. So nothing is projected, and nothing is interpolated on the screen.
 
-usage: tools_shading_test.py BIN_DIR [UNITTEST ARGUMENT...]
+usage: shading_test.py BIN_DIR [UNITTEST ARGUMENT...]
 """
 import math
 import pathlib

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Changes to a scene that must change nothing, or just what they say, over random scenes through the real tools.
 
-usage: tools_properties_test.py BIN_DIR [UNITTEST ARGUMENT...]
+usage: properties_test.py BIN_DIR [UNITTEST ARGUMENT...]
 """
 import os
 import pathlib

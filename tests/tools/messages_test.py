@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Every mistake gets one line on stderr: the tool, the place of the mistake, what was expected and what was found.
 
-usage: tools_messages_test.py BIN_DIR [UNITTEST ARGUMENT...]
+usage: messages_test.py BIN_DIR [UNITTEST ARGUMENT...]
 """
 import os
 import pathlib

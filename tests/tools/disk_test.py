@@ -2,7 +2,7 @@
 """Disks that fill at any byte, folders and file systems that cannot be written: the exit status is not 0, an older good file
 stays, nothing else is left.
 
-usage: tools_disk_test.py BIN_DIR [UNITTEST ARGUMENT...]
+usage: disk_test.py BIN_DIR [UNITTEST ARGUMENT...]
 """
 import os
 import pathlib

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Neighbours that are killed: no picture of a part of a framed scene ever appears.
 
-usage: tools_killed_test.py BIN_DIR [UNITTEST ARGUMENT...]
+usage: killed_test.py BIN_DIR [UNITTEST ARGUMENT...]
 """
 import pathlib
 import random

@@ -11,7 +11,7 @@ import tempfile
 import unittest
 
 BIN = pathlib.Path(sys.argv.pop(1)).resolve() if len(sys.argv) > 1 else sys.exit(__doc__)
-SOURCE = pathlib.Path(__file__).resolve().parent.parent
+SOURCE = pathlib.Path(__file__).resolve().parent.parent.parent
 TOOLS = ("model", "view", "project", "zbuf")
 
 # Lines 1 to 4 of a scene; its commands start on line 5.

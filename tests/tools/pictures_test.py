@@ -2,7 +2,7 @@
 """The pictures zbuf makes beside the default one: PNG, depth images, several samples a pixel, a depth epsilon, a
 wireframe.
 
-usage: tools_pictures_test.py BIN_DIR [UNITTEST ARGUMENT...]
+usage: pictures_test.py BIN_DIR [UNITTEST ARGUMENT...]
 """
 import math
 import pathlib

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Output appears while input still comes, and memory does not grow with the number of triangles.
 
-usage: tools_streaming_test.py BIN_DIR [UNITTEST ARGUMENT...]
+usage: streaming_test.py BIN_DIR [UNITTEST ARGUMENT...]
 """
 import contextlib
 import fcntl

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """What the tools accept: the forms a text may have, and what the options do.
 
-usage: tools_options_test.py BIN_DIR [UNITTEST ARGUMENT...]
+usage: options_test.py BIN_DIR [UNITTEST ARGUMENT...]
 """
 import os
 import pathlib

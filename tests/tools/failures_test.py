@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """A failure in one stage reaches the end of the pipe: no picture is written of a text that is not whole.
 
-usage: tools_failures_test.py BIN_DIR [UNITTEST ARGUMENT...]
+usage: failures_test.py BIN_DIR [UNITTEST ARGUMENT...]
 """
 import pathlib
 import subprocess

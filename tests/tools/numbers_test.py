@@ -2,7 +2,7 @@
 """Random scenes through the pipe: what is printed is always a number, never nan, inf or a zero with a sign.
 
 The seed is fixed, so that a failure can be repeated.
-usage: tools_fuzz_test.py BIN_DIR [UNITTEST ARGUMENT...]
+usage: numbers_test.py BIN_DIR [UNITTEST ARGUMENT...]
 """
 import random
 import re

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """The text stages write the same bytes on every kind of processor: PIPELINE_KERNEL chooses the fast paths of an older one.
 
-usage: tools_kernels_test.py BIN_DIR [UNITTEST ARGUMENT...]
+usage: kernels_test.py BIN_DIR [UNITTEST ARGUMENT...]
 """
 import os
 import random

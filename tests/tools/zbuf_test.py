@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """zbuf, end to end: the same bytes on any number of threads and under every kernel; its line of progress.
 
-usage: zbuf_tool_test.py BIN_DIR
+usage: zbuf_test.py BIN_DIR
 """
 import os
 import pathlib

@@ -2,7 +2,7 @@
 """Texts no one would write: cut at any byte, huge, of no text at all. The answer is one message with its place, or the
 output of what the text now says, in little memory.
 
-usage: tools_hostile_test.py BIN_DIR [UNITTEST ARGUMENT...]
+usage: hostile_test.py BIN_DIR [UNITTEST ARGUMENT...]
 """
 import pathlib
 import re

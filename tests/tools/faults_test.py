@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Full disks, closed pipes, missing channels: nothing is lost silently, nothing waits for ever, nothing is left behind.
 
-usage: tools_faults_test.py BIN_DIR [UNITTEST ARGUMENT...]
+usage: faults_test.py BIN_DIR [UNITTEST ARGUMENT...]
 """
 import os
 import pathlib

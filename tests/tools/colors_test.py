@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Colour, normals and light through model, view and project, against values worked out by hand.
 
-usage: tools_colors_test.py BIN_DIR [UNITTEST ARGUMENT...]
+usage: colors_test.py BIN_DIR [UNITTEST ARGUMENT...]
 """
 import decimal
 import unittest
