@@ -6,9 +6,9 @@ import tempfile
 
 from differences import compare_pictures, compare_stage_texts, compare_z_buffers, same_in_other_colours
 from mistakes import Suspects, hint_of_rounding, hints_from_numbers, hints_from_scene
-from pictures import PictureError, read_picture
-from pipe_tools import ToolFailure
-from stage_text import StageTextError, parse_stage_text
+from lib.pictures import PictureError, read_picture
+from lib.pipe_tools import ToolFailure
+from lib.stage_text import StageTextError, parse_stage_text
 
 # Numbers of 7 decimals that were calculated from numbers of 7 decimals; depths have 6.
 COORDINATE_TOLERANCE = 1e-6

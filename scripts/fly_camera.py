@@ -2,7 +2,7 @@
 import dataclasses
 import math
 
-from vectors import axes, moved, normalized
+from lib.vectors import axes, moved, normalized
 
 STEP = 0.05  # of the distance between eye and look
 TURN = math.radians(3)

@@ -7,7 +7,7 @@ import subprocess
 import tempfile
 import threading
 
-from pipe_tools import ToolFailure
+from lib.pipe_tools import ToolFailure
 
 STAGES = ("model", "view", "project", "zbuf")
 

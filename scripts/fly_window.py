@@ -7,8 +7,8 @@ import tkinter
 from fly_camera import STEP, Camera
 from fly_pipe import FramePipe
 from fly_scene import rewritten
-from pictures import png, read_picture
-from pipe_tools import ToolFailure
+from lib.pictures import png, read_picture
+from lib.pipe_tools import ToolFailure
 
 KEYS = ("w/s forward, back   a/d left, right   q/e up, down   arrows turn   r reset\n"
         "i/k j/l u/o move the first light   1-4 shading none, flat, gouraud, phong\n"

@@ -6,9 +6,9 @@ import pathlib
 import re
 import tempfile
 
-from pictures import read_picture
-from stage_text import parse_stage_text
-from vectors import axes, moved
+from lib.pictures import read_picture
+from lib.stage_text import parse_stage_text
+from lib.vectors import axes, moved
 
 # A page stays quick with so much; beyond it only every so manieth triangle is drawn.
 MAX_DRAWN_TRIANGLES = 12000

@@ -6,8 +6,8 @@ what the mistake would give (`hints_from_scene`), so that no second pipeline hid
 import math
 
 from differences import exceeds
-from stage_text import parse_stage_text
-from vectors import axes
+from lib.stage_text import parse_stage_text
+from lib.vectors import axes
 
 CLOSE = 2e-6  # of numbers that were printed with 7 decimals and calculated with again
 

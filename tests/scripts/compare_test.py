@@ -15,7 +15,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "tools")
 from toolbox import BIN, SOURCE, ToolTest, run  # noqa: E402
 
 sys.path.insert(0, str(SOURCE / "scripts"))
-from pictures import png, read_picture  # noqa: E402
+from lib.pictures import png, read_picture  # noqa: E402
 
 SAMPLE = SOURCE / "samples/tilted-camera"
 SCENE = (SAMPLE / "scene.txt").read_text()

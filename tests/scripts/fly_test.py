@@ -56,7 +56,7 @@ class Flying(ToolTest):
 
     def setUp(self):
         super().setUp()
-        from pipe_tools import Tools
+        from lib.pipe_tools import Tools
         from fly_window import FlyWindow
         pathlib.Path("scene.txt").write_text(SCENE)
         # Tools that write down when they run.
@@ -217,13 +217,13 @@ class Flying(ToolTest):
         self.assertEqual(pipe(["model"], stdin=pathlib.Path("fly.txt").read_text()), pipe(["model"], stdin=SCENE))
 
     def test_P_writes_the_picture(self):
-        from pictures import read_picture
+        from lib.pictures import read_picture
         self.press("d", "P")
         pathlib.Path("shown.ppm").write_bytes(self.shown())
         self.assertEqual(read_picture("fly.png"), read_picture("shown.ppm"))
 
     def test_what_a_tool_refuses_is_said_and_taken_back(self):
-        from pipe_tools import Tools
+        from lib.pipe_tools import Tools
         from fly_window import FlyWindow
         pathlib.Path("dark.txt").write_text("\n".join(line for line in SCENE.split("\n") if not line.startswith("light")))
         self.window = FlyWindow(Tools(BIN), "dark.txt", CONFIG)

@@ -4,7 +4,7 @@ import pathlib
 import re
 import subprocess
 
-SOURCE = pathlib.Path(__file__).resolve().parent.parent
+SOURCE = pathlib.Path(__file__).resolve().parents[2]
 
 
 class ToolFailure(Exception):
