@@ -4,8 +4,8 @@ import dataclasses
 import pathlib
 import tempfile
 
-from differences import compare_pictures, compare_stage_texts, compare_z_buffers, same_in_other_colours
-from mistakes import Suspects, hint_of_rounding, hints_from_numbers, hints_from_scene
+from compare_parts.differences import compare_pictures, compare_stage_texts, compare_z_buffers, same_in_other_colours
+from compare_parts.mistakes import Suspects, hint_of_rounding, hints_from_numbers, hints_from_scene
 from lib.pictures import PictureError, read_picture
 from lib.pipe_tools import ToolFailure
 from lib.stage_text import StageTextError, parse_stage_text

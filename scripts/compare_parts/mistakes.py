@@ -5,7 +5,7 @@ what the mistake would give (`hints_from_scene`), so that no second pipeline hid
 """
 import math
 
-from differences import exceeds
+from compare_parts.differences import exceeds
 from lib.stage_text import parse_stage_text
 from lib.vectors import axes
 
