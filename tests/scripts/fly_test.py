@@ -57,7 +57,7 @@ class Flying(ToolTest):
     def setUp(self):
         super().setUp()
         from lib.pipe_tools import Tools
-        from fly_window import FlyWindow
+        from fly_parts.window import FlyWindow
         pathlib.Path("scene.txt").write_text(SCENE)
         # Tools that write down when they run.
         for tool in TOOLS:
@@ -224,7 +224,7 @@ class Flying(ToolTest):
 
     def test_what_a_tool_refuses_is_said_and_taken_back(self):
         from lib.pipe_tools import Tools
-        from fly_window import FlyWindow
+        from fly_parts.window import FlyWindow
         pathlib.Path("dark.txt").write_text("\n".join(line for line in SCENE.split("\n") if not line.startswith("light")))
         self.window = FlyWindow(Tools(BIN), "dark.txt", CONFIG)
         self.addCleanup(self.window.close)

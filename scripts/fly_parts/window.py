@@ -4,9 +4,9 @@ import pathlib
 import time
 import tkinter
 
-from fly_camera import STEP, Camera
-from fly_pipe import FramePipe
-from fly_scene import rewritten
+from fly_parts.camera import STEP, Camera
+from fly_parts.pipe import FramePipe
+from fly_parts.scene import rewritten
 from lib.pictures import png, read_picture
 from lib.pipe_tools import ToolFailure
 
