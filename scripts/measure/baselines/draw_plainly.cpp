@@ -16,7 +16,7 @@
 #include <utility>
 #include <vector>
 
-#include "scripts/baselines/numbers_of.h"
+#include "scripts/measure/baselines/numbers_of.h"
 
 namespace {
 

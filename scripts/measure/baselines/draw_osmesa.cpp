@@ -11,7 +11,7 @@
 #include <cstdlib>
 #include <vector>
 
-#include "scripts/baselines/numbers_of.h"
+#include "scripts/measure/baselines/numbers_of.h"
 
 int main(int argc, char** argv) {
   if (argc != 4) return 2;
