@@ -210,5 +210,5 @@ def readme_part(results):
 CPU time is that of the whole pipe, relative to the default's: {cost:.1f} s per million triangles, the median of
 {results.rounds} rounds on {results.machine}.
 
-![CPU time against three kinds of error, for every setting](scripts/results/tradeoff.svg)
+![CPU time against three kinds of error, for every setting](scripts/measure/results/tradeoff.svg)
 """
