@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""scripts/bench writes a figure for every group, and what it measures against does the same work.
+"""scripts/measure/bench writes a figure for every group, and what it measures against does the same work.
 
 usage: bench_test.py BIN_DIR SOURCE_DIR
 """
@@ -23,7 +23,7 @@ FILTERED = (b"0.0000000 0.0000000 0.0000000\n0.8000000 0.3600000 0.4800000\n-0.6
 class BenchTest(unittest.TestCase):
     def test_every_group_has_figures(self):
         with tempfile.TemporaryDirectory() as folder:
-            subprocess.run([sys.executable, SOURCE_DIR / "scripts/bench", "--quick", "--bin", BIN_DIR, "--baselines", BIN_DIR,
+            subprocess.run([sys.executable, SOURCE_DIR / "scripts/measure/bench", "--quick", "--bin", BIN_DIR, "--baselines", BIN_DIR,
                             "--out", folder], check=True, stdin=subprocess.DEVNULL)
             with open(pathlib.Path(folder, "bench.csv"), newline="") as file:
                 rows = list(csv.DictReader(file))

@@ -1,4 +1,4 @@
-"""Runs scripts/tradeoff on its tiny scenes and compares what it finds with what arithmetic says.
+"""Runs scripts/measure/tradeoff on its tiny scenes and compares what it finds with what arithmetic says.
 
 usage: tradeoff_test.py BIN_DIR SOURCE_DIR
 """
@@ -20,7 +20,7 @@ DIGITS = ["--digits 5", "--digits 6", "default", "--digits 9", "--digits 12"]
 
 
 def tradeoff(folder, *options):
-    subprocess.run([source / "scripts/tradeoff", "--quick", "--bin", bin_dir, "--out", folder, *options], check=True)
+    subprocess.run([source / "scripts/measure/tradeoff", "--quick", "--bin", bin_dir, "--out", folder, *options], check=True)
 
 
 class Tradeoff(unittest.TestCase):

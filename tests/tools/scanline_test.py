@@ -87,7 +87,7 @@ class LongMemory(MemoryTest):
 
 class Measurement(ToolTest):
     def test_the_quick_measurement_runs(self):
-        subprocess.run([sys.executable, SOURCE / "scripts/algorithms", "--quick", "--bin", BIN, "--out", "results"], check=True,
+        subprocess.run([sys.executable, SOURCE / "scripts/measure/algorithms", "--quick", "--bin", BIN, "--out", "results"], check=True,
                        stdout=subprocess.DEVNULL)
         self.assertEqual(self.files_in("results"), ["algorithms.csv", "algorithms.md", "algorithms.svg"])
 

@@ -1,11 +1,11 @@
-"""What a setting of the pipeline costs and what it gives up: the measurements of scripts/tradeoff."""
+"""What a setting of the pipeline costs and what it gives up: the measurements of scripts/measure/tradeoff."""
 import dataclasses
 import math
 import pathlib
 import statistics
 import subprocess
 
-from measuring import cost_of
+from parts.measuring import cost_of
 
 TOOLS = ("model", "view", "project", "zbuf")
 

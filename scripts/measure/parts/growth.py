@@ -1,12 +1,12 @@
-"""How the cost of drawing grows with triangles and pixels: what scripts/bench measures of it, as a table and a plot."""
+"""How the cost of drawing grows with triangles and pixels: what scripts/measure/bench measures of it, as a table and a plot."""
 import math
 import random
 import resource
 import shutil
 import statistics
 
-from measuring import machine, run
-from svg import STYLE, line, text
+from parts.measuring import machine, run
+from parts.svg import STYLE, line, text
 
 SIZES = (100, 500, 2000, 8192)
 SMALL_COUNTS = (10**3, 10**4, 10**5, 10**6, 10**7)

@@ -1,7 +1,7 @@
-"""Tables of what scripts/tradeoff measured."""
+"""Tables of what scripts/measure/tradeoff measured."""
 import statistics
 
-from tradeoff_measure import ratios_of
+from parts.tradeoff_measure import ratios_of
 
 
 
@@ -138,7 +138,7 @@ def report(results):
 
     return f"""# What accuracy costs
 
-Written by `scripts/tradeoff`; all numbers are in [tradeoff.csv](tradeoff.csv). A setting is named by what differs from
+Written by `scripts/measure/tradeoff`; all numbers are in [tradeoff.csv](tradeoff.csv). A setting is named by what differs from
 the default, `--digits 7 --precision extended --coverage nearest --depth f64`.
 
 ![time against error](tradeoff.svg)

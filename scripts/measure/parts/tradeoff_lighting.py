@@ -5,11 +5,11 @@ import random
 import statistics
 import tempfile
 
-from measuring import put_between, write_csv
-from tradeoff_measure import Bench, ratios_of
-from tradeoff_scenes import Scene
+from parts.measuring import put_between, write_csv
+from parts.tradeoff_measure import Bench, ratios_of
+from parts.tradeoff_scenes import Scene
 
-SAMPLES = pathlib.Path(__file__).resolve().parent.parent / "samples"
+SAMPLES = pathlib.Path(__file__).resolve().parents[3] / "samples"
 TITLES = {"shaded-torus": "torus", "inside": "room from inside"}
 
 

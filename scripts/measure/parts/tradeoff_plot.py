@@ -1,8 +1,8 @@
-"""The plot of scripts/tradeoff: CPU time against three kinds of error, as SVG."""
+"""The plot of scripts/measure/tradeoff: CPU time against three kinds of error, as SVG."""
 import dataclasses
 import math
 
-from svg import STYLE, line, text
+from parts.svg import STYLE, line, text
 
 @dataclasses.dataclass(frozen=True)
 class Panel:

@@ -1,4 +1,4 @@
-"""The scenes of scripts/tradeoff: what puts numbers to the test, and what takes long enough to be timed."""
+"""The scenes of scripts/measure/tradeoff: what puts numbers to the test, and what takes long enough to be timed."""
 import dataclasses
 import math
 import random
