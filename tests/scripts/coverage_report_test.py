@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""scripts/coverage_report.py: what it says of what gcovr has counted, and of the reasons that are given.
+"""scripts/maintain/coverage-report: what it says of what gcovr has counted, and of the reasons that are given.
 
 usage: coverage_report_test.py BIN_DIR [UNITTEST ARGUMENT...]
 """
@@ -26,7 +26,7 @@ class CoverageReport(ToolTest):
         pathlib.Path("lib/half.cpp").write_text("\n".join(SOURCE_LINES) + "\n")
         pathlib.Path("reasons.txt").write_text(reasons)
         pathlib.Path("counted.json").write_text(json.dumps({"files": [{"file": "lib/half.cpp", "lines": lines}]}))
-        return subprocess.run([sys.executable, SOURCE / "scripts/coverage_report.py", "counted.json", "reasons.txt"],
+        return subprocess.run([sys.executable, SOURCE / "scripts/maintain/coverage-report", "counted.json", "reasons.txt"],
                               capture_output=True, text=True, timeout=60)
 
     def test_shares_and_reasons_are_printed(self):

@@ -64,7 +64,7 @@ class Samples(unittest.TestCase):
 
     def test_the_lit_scenes_are_written_by_their_script(self):
         with tempfile.TemporaryDirectory() as folder:
-            subprocess.run([sys.executable, source / "scripts/make-lit-samples", folder], check=True)
+            subprocess.run([sys.executable, source / "scripts/maintain/make-lit-samples", folder], check=True)
             for sample in lit_samples:
                 for name in ("scene.txt", "config.txt"):
                     self.assertEqual((pathlib.Path(folder) / sample.name / name).read_text(), (sample / name).read_text())
