@@ -1,0 +1,50 @@
+#!/usr/bin/env python3
+"""The commands in scripts work from any folder and through a link.
+
+usage: scripts_test.py BIN_DIR [UNITTEST ARGUMENT...]
+"""
+import pathlib
+import shutil
+import subprocess
+import sys
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "tools"))
+from toolbox import BIN, SOURCE, ToolTest  # noqa: E402
+
+
+class ThroughALink(ToolTest):
+    def setUp(self):
+        super().setUp()
+        self.tree = pathlib.Path("a copy").resolve()
+        shutil.copytree(SOURCE / "scripts", self.tree / "scripts")
+        shutil.copytree(SOURCE / "samples/worked-example", self.tree / "samples/worked-example")
+        (self.tree / "build/release").mkdir(parents=True)
+        (self.tree / "build/release/bin").symlink_to(BIN)
+        self.elsewhere = pathlib.Path("some/where/else").resolve()
+        self.elsewhere.mkdir(parents=True)
+
+    def call(self, command, *words):
+        link = self.elsewhere / pathlib.Path(command).name
+        link.symlink_to(self.tree / "scripts" / command)
+        return subprocess.run([link, *words], cwd=self.elsewhere, env={"PATH": "/usr/bin:/bin"}, capture_output=True, text=True,
+                              timeout=60)
+
+    def test_a_shell_command_finds_the_source_tree(self):
+        done = self.call("demo", "no-such-sample")
+        self.assertEqual((done.returncode, done.stderr), (2, "demo: no sample no-such-sample; there are: samples/worked-example/\n"))
+
+    def test_a_shell_command_finds_the_tools(self):
+        sample = self.tree / "samples/worked-example"
+        done = self.call("stages", sample / "scene.txt", sample / "config.txt", "five")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertEqual((self.elsewhere / "five/stage3.txt").read_bytes(), (sample / "stage3.txt").read_bytes())
+
+    def test_a_command_that_maintains_finds_the_source_tree(self):
+        done = self.call("maintain/tidy")  # which fails, as the copy cannot be built
+        self.assertEqual(done.returncode, 1)
+        self.assertTrue((self.tree / "build/tidy.log").exists())
+
+
+if __name__ == "__main__":
+    unittest.main()
