@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
-"""The commands in scripts work from any folder and through a link.
+"""The commands in scripts answer --help, and work from any folder and through a link.
 
 usage: scripts_test.py BIN_DIR [UNITTEST ARGUMENT...]
 """
+import os
 import pathlib
 import shutil
 import subprocess
@@ -11,6 +12,22 @@ import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "tools"))
 from toolbox import BIN, SOURCE, ToolTest  # noqa: E402
+
+ROOMS = (SOURCE / "scripts", SOURCE / "scripts/measure", SOURCE / "scripts/maintain")
+
+
+def commands():
+    return [path for room in ROOMS for path in sorted(room.iterdir()) if path.is_file() and os.access(path, os.X_OK)]
+
+
+class Help(ToolTest):
+    def test_every_command_answers(self):
+        self.assertGreater(len(commands()), 15)
+        for command in commands():
+            with self.subTest(command.relative_to(SOURCE)):
+                done = subprocess.run([command, "--help"], capture_output=True, text=True, timeout=60)
+                self.assertEqual((done.returncode, done.stderr), (0, ""))
+                self.assertRegex(done.stdout, rf"\Ausage: {command.name}\b")
 
 
 class ThroughALink(ToolTest):
