@@ -5,6 +5,7 @@ usage: scripts_test.py BIN_DIR [UNITTEST ARGUMENT...]
 """
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -28,6 +29,13 @@ class Help(ToolTest):
                 done = subprocess.run([command, "--help"], capture_output=True, text=True, timeout=60)
                 self.assertEqual((done.returncode, done.stderr), (0, ""))
                 self.assertRegex(done.stdout, rf"\Ausage: {command.name}\b")
+
+
+class Readme(ToolTest):
+    def test_lists_every_command(self):
+        scripts = SOURCE / "scripts"
+        listed = re.findall(r"^\| `([^`]+)`", (scripts / "README.md").read_text(), re.M)
+        self.assertEqual(sorted(listed), sorted([*(str(path.relative_to(scripts)) for path in commands()), "view.awk"]))
 
 
 class ThroughALink(ToolTest):
