@@ -20,7 +20,7 @@ void add_picture_options(CommandLine& options, RenderOptions& chosen) {
       "the triangles counts then");
   options.add_whole("--samples", chosen.sample_count, 1, kMaxSamples,
                     "Smooth edges: a pixel of the image is the mean of N x N samples, its depth stays that "
-                    "of its centre; N");
+                    "of its center; N");
   add_shading_option(options, chosen.shading);
   options.add_flag("--wireframe", chosen.wireframe,
                    "Show of the visible surfaces only their edges: what lies within half a pixel of one");

@@ -1,4 +1,4 @@
-// project: clips what is behind the eye and divides by w. View space in, normalised device coordinates out.
+// project: clips what is behind the eye and divides by w. View space in, normalized device coordinates out.
 
 #include <deque>
 
@@ -90,7 +90,7 @@ Appearance in_clip_space(Appearance appearance) {
 
 int main(int argc, char** argv) {
   Tool tool({"project",
-             "Reads triangles in view space and writes them in normalised device coordinates (stage3.txt).",
+             "Reads triangles in view space and writes them in normalized device coordinates (stage3.txt).",
              "What view has written (or stage2.txt)"},
             OutputKind::stage_text);
   NumberOptions numbers(tool.options());

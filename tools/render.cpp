@@ -22,7 +22,7 @@
 namespace pipeline {
 namespace {
 
-/// What a triangle is drawn with: its colour, or what its pixels are shaded by later. It is asked for every
+/// What a triangle is drawn with: its color, or what its pixels are shaded by later. It is asked for every
 /// triangle in the order of the stream, and tells `report`, if there is one, of each.
 class Paint {
  public:
@@ -53,19 +53,19 @@ void for_each_batch(Tool& tool, Source& source, Batch&& batch, Draw&& draw) {
   }
 }
 
-/// What is seen at the pixel centres and, with several samples a pixel, also at those.
+/// What is seen at the pixel centers and, with several samples a pixel, also at those.
 template <VisibilityAlgorithm Visible>
 struct SampledVisible {
-  SampledVisible(const ScreenConfig& of_centres, int sample_count, Color background)
-      : centre_screen(of_centres),
-        screen(sample_screen(of_centres, sample_count)),
-        centres(of_centres, background) {
+  SampledVisible(const ScreenConfig& of_centers, int sample_count, Color background)
+      : center_screen(of_centers),
+        screen(sample_screen(of_centers, sample_count)),
+        centers(of_centers, background) {
     if (sample_count > 1) samples.emplace(screen, background);
   }
 
-  ScreenConfig centre_screen;
-  ScreenConfig screen;  // of the samples, or of the centres if they are all
-  Visible centres;
+  ScreenConfig center_screen;
+  ScreenConfig screen;  // of the samples, or of the centers if they are all
+  Visible centers;
   std::optional<Visible> samples;
 };
 
@@ -73,9 +73,9 @@ template <typename CoverageRule, typename Depth>
 void draw_all(Tool& tool, const RenderOptions& chosen, StageReader& reader, Paint& paint,
               SampledVisible<ZBufferAlgorithm<CoverageRule, Depth>>& visible) {
   using Drawing = TriangleDrawing<ZBufferAlgorithm<CoverageRule, Depth>>;
-  visible.centres.set_depth_epsilon(chosen.depth_epsilon);
+  visible.centers.set_depth_epsilon(chosen.depth_epsilon);
   WorkerTeam team(chosen.thread_count);
-  Drawing centres(visible.centres, visible.centre_screen, team, paint.use());
+  Drawing centers(visible.centers, visible.center_screen, team, paint.use());
   std::optional<Drawing> samples;
   if (visible.samples) {
     visible.samples->set_depth_epsilon(chosen.depth_epsilon);
@@ -83,18 +83,18 @@ void draw_all(Tool& tool, const RenderOptions& chosen, StageReader& reader, Pain
   }
   std::vector<Color> colors;
   const auto draw = [&] {
-    if (!samples) return centres.draw_batch(paint);
-    TriangleBatch& batch = samples->next_batch() = centres.next_batch();
+    if (!samples) return centers.draw_batch(paint);
+    TriangleBatch& batch = samples->next_batch() = centers.next_batch();
     colors.clear();
     for (std::size_t i = 0; i < batch.size(); ++i) colors.push_back(paint(batch, i));
     const auto color_of = [&](const TriangleBatch&, std::size_t i) { return colors[i]; };
-    centres.draw_batch(color_of);
+    centers.draw_batch(color_of);
     samples->draw_batch(color_of);
   };
   ReadAhead ahead(reader, team);
   for_each_batch(
-      tool, ahead, [&]() -> TriangleBatch& { return centres.next_batch(); }, draw);
-  centres.finish();
+      tool, ahead, [&]() -> TriangleBatch& { return centers.next_batch(); }, draw);
+  centers.finish();
   if (samples) samples->finish();
 }
 template <typename CoverageRule, typename Depth>
@@ -104,7 +104,7 @@ void draw_all(Tool& tool, const RenderOptions&, StageReader& reader, Paint& pain
   const auto draw = [&] {
     for (std::size_t i = 0; i < p_ndc.size(); ++i) {
       const Color color = paint(p_ndc, i);
-      visible.centres.draw(exact_triangle(p_ndc, i), color);
+      visible.centers.draw(exact_triangle(p_ndc, i), color);
       if (visible.samples) visible.samples->draw(exact_triangle(p_ndc, i), color);
     }
   };
@@ -115,7 +115,7 @@ void draw_all(Tool& tool, const RenderOptions&, StageReader& reader, Paint& pain
 template <VisibilityAlgorithm Visible>
 void write_all(Tool& tool, const RenderOptions& chosen, const SampledVisible<Visible>& visible,
                std::optional<SurfaceShader>& shader) {
-  const ScreenConfig& screen = visible.centre_screen;
+  const ScreenConfig& screen = visible.center_screen;
   OutputFile image(chosen.image_path);
   ImageWriter pixels(image.descriptor(), chosen.image_path, image_format_of(chosen.image_path),
                      screen.columns, screen.rows);
@@ -124,7 +124,7 @@ void write_all(Tool& tool, const RenderOptions& chosen, const SampledVisible<Vis
   const auto shaded = [&](std::span<const Color> seen) {
     return shader ? shader->shade(row_number++, seen) : seen;
   };
-  visible.centres.for_each_row([&](const VisibleRow& row) {
+  visible.centers.for_each_row([&](const VisibleRow& row) {
     depths.write_row(row.depths);
     if (!visible.samples) pixels.write_row(shaded(row.colors));
   });

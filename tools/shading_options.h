@@ -11,10 +11,10 @@ namespace pipeline {
 /// `--shading`.
 void add_shading_option(CommandLine& options, std::optional<ShadingModel>& chosen);
 
-/// The colour of pixels that show no triangle, black unless the text says another.
+/// The color of pixels that show no triangle, black unless the text says another.
 Color background_color(const Appearance& appearance);
 
-/// What shades a text's triangles; nothing for a text without colours and lights, unless a
+/// What shades a text's triangles; nothing for a text without colors and lights, unless a
 /// wireframe is asked for (with pixels of that size). Where nothing is chosen:
 /// none without lights, phong with lights and normals, flat with lights alone. An InputError if light is
 /// asked for and there is none, or if there are lights and the header does not say the projection.

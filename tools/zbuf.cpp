@@ -1,4 +1,4 @@
-// zbuf: decides which triangle is seen at each pixel. Normalised device coordinates in, depths and image out.
+// zbuf: decides which triangle is seen at each pixel. Normalized device coordinates in, depths and image out.
 
 #include <csignal>
 #include <string>
@@ -27,7 +27,7 @@ void add_options(CommandLine& options, RenderOptions& chosen) {
       "--coverage", chosen.coverage, {{"nearest", Coverage::nearest}, {"center", Coverage::center}},
       "Which pixels a triangle covers.\n"
       "nearest: on each row from the pixel nearest to its left end to that nearest to its right end\n"
-      "center: those whose centres lie inside, decided exactly");
+      "center: those whose centers lie inside, decided exactly");
   options.add_choice<Algorithm>(
       "--algorithm", chosen.algorithm, {{"zbuffer", Algorithm::zbuffer}, {"scanline", Algorithm::scanline}},
       "How it is found out which triangle is seen; both give the same output.\n"
@@ -62,7 +62,7 @@ ScreenConfig read_screen(const Tool& tool, const std::string& path) {
 
 int main(int argc, char** argv) {
   Tool tool({"zbuf",
-             "Reads triangles in normalised device coordinates and writes the depth of every pixel that "
+             "Reads triangles in normalized device coordinates and writes the depth of every pixel that "
              "shows one, and the image.",
              "What project has written (or stage3.txt)"},
             OutputKind::other_text);

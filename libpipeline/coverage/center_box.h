@@ -7,11 +7,11 @@
 
 namespace pipeline {
 
-/// Where the pixels of a triangle can lie: the centres in its bounding box, without those on the lower or
+/// Where the pixels of a triangle can lie: the centers in its bounding box, without those on the lower or
 /// right side, as far as they are on the screen.
-struct CentreBox {
+struct CenterBox {
   template <typename Int>
-  CentreBox(const GridTriangle<Int>& triangle, int rows, int columns);
+  CenterBox(const GridTriangle<Int>& triangle, int rows, int columns);
 
   [[nodiscard]] bool is_empty() const { return first_row == end_row || first_column == end_column; }
 
@@ -35,7 +35,7 @@ struct CentreBox {
 };
 
 template <typename Int>
-CentreBox::CentreBox(const GridTriangle<Int>& t, int rows, int columns) {
+CenterBox::CenterBox(const GridTriangle<Int>& t, int rows, int columns) {
   // Rows are sorted together with their vertices.
   const auto row_and_vertex = [&](unsigned i) {
     return 4 * static_cast<unsigned>(t.row_step.quotient_rounded_up(t.v[i], rows)) + i;

@@ -31,7 +31,7 @@ struct NearestCoverage {
   CoverageKernel kernel;
 };
 
-/// The pixels whose centres lie in the triangle.
+/// The pixels whose centers lie in the triangle.
 struct CenterCoverage {
   using Rows = CenterRows;
   explicit CenterCoverage(const ScreenConfig& screen) : grid(screen), kernel(coverage_kernel()) {}

@@ -21,7 +21,7 @@ CenterRows::CenterRows(const ExactGrid& grid, const ExactTriangle& triangle) {
     last_row_ = chosen.last_row();
   };
   if (const auto narrow = narrow_triangle(grid, triangle)) {
-    const CentreBox box(*narrow, rows, columns);
+    const CenterBox box(*narrow, rows, columns);
     if (box.is_empty()) return;
     const double largest = largest_product(*narrow, box);
     if (largest <= kLargestIn64Bits) {
@@ -36,7 +36,7 @@ CenterRows::CenterRows(const ExactGrid& grid, const ExactTriangle& triangle) {
   const AxisUnits x = column_units(grid, triangle), y = row_units(grid, triangle);
   const auto set_on_heap = [&]<typename Int>(std::type_identity<Int>) {
     const GridTriangle<Int> on_grid = grid_triangle<Int>(grid, x, y);
-    const CentreBox box(on_grid, rows, columns);
+    const CenterBox box(on_grid, rows, columns);
     if (box.is_empty()) return;
     set(*rows_.emplace<OnHeap<Int>>(std::make_unique<const ExactRows<Int>>(on_grid, box, z)));
   };

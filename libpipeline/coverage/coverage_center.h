@@ -12,7 +12,7 @@
 
 namespace pipeline {
 
-/// The coverage rule `center` for one triangle: the pixels whose centres lie inside it. A centre on an edge
+/// The coverage rule `center` for one triangle: the pixels whose centers lie inside it. A center on an edge
 /// belongs to the triangle only if that edge is a top or a left edge, so triangles that share edges own every
 /// pixel once. Both windings are drawn alike; a triangle without area covers nothing.
 ///
@@ -26,7 +26,7 @@ class CenterRows {
   [[nodiscard]] int first_row() const { return first_row_; }
   [[nodiscard]] int last_row() const { return last_row_; }
 
-  /// The pixels the triangle covers on `row`, inside the screen; none where no centre lies in it.
+  /// The pixels the triangle covers on `row`, inside the screen; none where no center lies in it.
   [[nodiscard]] std::optional<Span> span(int row) const {
     if (const auto* const narrow = std::get_if<ExactRows<std::int64_t>>(&rows_)) return narrow->span(row);
     if (const auto* const medium = std::get_if<ExactRows<Int128>>(&rows_)) return medium->span(row);

@@ -9,9 +9,9 @@
 
 namespace pipeline {
 
-/// The coverage rule `nearest` for one triangle in NDC: on every row whose line of pixel centres meets the
+/// The coverage rule `nearest` for one triangle in NDC: on every row whose line of pixel centers meets the
 /// triangle, the pixels from the one nearest to the left intersection to the one nearest to the right, both
-/// included (half-way: the pixel on the right). Neighbouring triangles thus both own the pixels on a shared
+/// included (half-way: the pixel on the right). Neighboring triangles thus both own the pixels on a shared
 /// edge, and a triangle that is narrower than a pixel still has one on each row. Horizontal edges do not
 /// count; both ends of the others do.
 ///
@@ -40,7 +40,7 @@ class NearestRows {
 
  private:
   struct Edge {
-    Vec3 lower;  // by y, then x, then z: neighbours get the same point of a shared edge
+    Vec3 lower;  // by y, then x, then z: neighbors get the same point of a shared edge
     Vec3 upper;
   };
   struct Intersection {

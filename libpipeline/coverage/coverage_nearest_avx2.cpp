@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t kCount = 4;
 
 // What NearestRows does, in the same operations, as long as neither a triangle nor a row is out of the
-// ordinary: no product near the ends of a double's range, no corner on the line of pixel centres.
+// ordinary: no product near the ends of a double's range, no corner on the line of pixel centers.
 
 PIPELINE_AVX2_INLINE FourPoints pick_points(FourDoubles mask, const FourPoints& yes, const FourPoints& no) {
   return {pick(mask, yes.x, no.x), pick(mask, yes.y, no.y), pick(mask, yes.z, no.z)};

@@ -34,7 +34,7 @@ struct ExactTriangle {
   std::uint16_t decimal_marks = 0;
 };
 
-/// A triangle on a grid of whole numbers: u to the right, v down, and the centre of the pixel (row, column)
+/// A triangle on a grid of whole numbers: u to the right, v down, and the center of the pixel (row, column)
 /// at u = column * column_step, v = row * row_step.
 template <typename Int>
 struct GridTriangle {
@@ -64,12 +64,12 @@ struct PlainAxis {
   double inverse_step = 1;
   double vertex_factor = 1;
   double origin = 0;
-  /// A vertex whose calculated distance from the centre of pixel 0 is at most this in size was calculated
+  /// A vertex whose calculated distance from the center of pixel 0 is at most this in size was calculated
   /// exactly. Negative where the numbers are not small; then the others mean nothing.
   double largest = -1;
 };
 
-/// One direction of the grid. In units of half_step / 2^k, pixel centres are at (2 i + 1 - count) * half_step
+/// One direction of the grid. In units of half_step / 2^k, pixel centers are at (2 i + 1 - count) * half_step
 /// from the middle of the window and the coordinate n / 10^7 at n * vertex_factor; both are whole for every
 /// number n / (10^7 * 2^k).
 struct GridAxis {
@@ -80,7 +80,7 @@ struct GridAxis {
   int count;  // of pixels
   HugeInt vertex_factor;
   HugeInt half_step;
-  HugeInt origin;  // the distance from the centre of pixel 0 to the middle
+  HugeInt origin;  // the distance from the center of pixel 0 to the middle
   // The same where they are small; then 64 bits are enough for decimals n / 10^7 with |n| <=
   // largest_narrow_units.
   double largest_narrow_units = -1;
@@ -97,7 +97,7 @@ struct AxisUnits {
   int bits = 0;                       // of the largest number on the grid, or more
 };
 
-/// Where the pixel centres of a screen lie, exactly: what PixelGrid is for rounded numbers.
+/// Where the pixel centers of a screen lie, exactly: what PixelGrid is for rounded numbers.
 struct ExactGrid {
   explicit ExactGrid(const ScreenConfig& screen)
       : columns(screen.columns, screen.left, screen.left_low_part, screen.left_is_decimal),

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "libpipeline/coverage/centre_box.h"
+#include "libpipeline/coverage/center_box.h"
 #include "libpipeline/coverage/exact_grid.h"
 #include "libpipeline/coverage/span.h"
 #include "libpipeline/coverage/triangle_depth.h"
@@ -15,7 +15,7 @@
 
 namespace pipeline {
 
-/// The pixels whose centres lie in a triangle on the grid, exactly, row by row.
+/// The pixels whose centers lie in a triangle on the grid, exactly, row by row.
 ///
 /// An edge crosses the rows from the one at or below its upper end (included) to the one at or below its
 /// lower end (excluded), and a row has the pixels from the one at or right of its left crossing (included) to
@@ -30,7 +30,7 @@ class ExactRows {
  public:
   /// The pixels of a triangle whose box is `box`, not empty; `z` are the depths of its vertices.
   template <typename Coordinate>
-  ExactRows(const GridTriangle<Coordinate>& triangle, const CentreBox& box, const std::array<double, 3>& z);
+  ExactRows(const GridTriangle<Coordinate>& triangle, const CenterBox& box, const std::array<double, 3>& z);
 
   /// The rows to ask for, inside the screen; first_row() > last_row() where there are none.
   [[nodiscard]] int first_row() const { return first_row_; }
@@ -59,7 +59,7 @@ class ExactRows {
 };
 
 /// A bound on the numbers that an ExactRows of the triangle calculates with.
-inline double largest_product(const GridTriangle<std::int64_t>& t, const CentreBox& box) {
+inline double largest_product(const GridTriangle<std::int64_t>& t, const CenterBox& box) {
   const auto [left, right] = std::minmax({t.u[0], t.u[1], t.u[2]});
   const auto [top, bottom] = std::minmax({t.v[0], t.v[1], t.v[2]});
   const std::int64_t first = box.first_column * t.column_step.value();
@@ -75,7 +75,7 @@ inline double largest_product(const GridTriangle<std::int64_t>& t, const CentreB
 
 template <typename Int>
 template <typename Coordinate>
-ExactRows<Int>::ExactRows(const GridTriangle<Coordinate>& t, const CentreBox& box,
+ExactRows<Int>::ExactRows(const GridTriangle<Coordinate>& t, const CenterBox& box,
                           const std::array<double, 3>& z)
     : first_column_(box.first_column),
       column_count_(box.end_column - box.first_column),

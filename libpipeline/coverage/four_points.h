@@ -31,7 +31,7 @@ PIPELINE_AVX2_INLINE std::array<FourPoints, 3> vertices_of(const ColoredTriangle
   const double* const q = &triangles[1].triangle.p_ndc[0].x;
   const double* const r = &triangles[2].triangle.p_ndc[0].x;
   const double* const s = &triangles[3].triangle.p_ndc[0].x;
-  // Two neighbouring coordinates of all four.
+  // Two neighboring coordinates of all four.
   const auto pair = [&](std::size_t i, FourDoubles& first, FourDoubles& second) PIPELINE_AVX2 {
     const FourDoubles even = _mm256_loadu2_m128d(r + i, p + i), odd = _mm256_loadu2_m128d(s + i, q + i);
     first = _mm256_unpacklo_pd(even, odd);

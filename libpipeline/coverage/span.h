@@ -8,18 +8,18 @@ namespace pipeline {
 /// A triangle's depth along one row, a linear function of the column. It is evaluated anew for every pixel:
 /// adding up a difference per column would drift.
 struct SpanDepth {
-  /// The depth (NDC z) at the centre of the pixel in `column`. Finite parts give a finite or infinite depth,
+  /// The depth (NDC z) at the center of the pixel in `column`. Finite parts give a finite or infinite depth,
   /// never NaN; only finite ones can be seen.
   [[nodiscard]] double operator()(int column) const { return z0 + (left_x + column * dx - x0) * slope; }
 
-  double left_x = 0;  // x of the centre of column 0
+  double left_x = 0;  // x of the center of column 0
   double dx = 0;      // width of a pixel
   double x0 = 0;      // a point where the depth is known ...
   double z0 = 0;      // ... and that depth
   double slope = 0;   // dz/dx
 };
 
-/// Some neighbouring pixels of one row that a triangle covers. What every coverage rule gives and every
+/// Some neighboring pixels of one row that a triangle covers. What every coverage rule gives and every
 /// visibility algorithm takes.
 struct Span {
   int row = 0;

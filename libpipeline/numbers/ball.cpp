@@ -21,15 +21,15 @@ bool may_be_cut(double part, double moved_part) {
 Ball::Ball(double value) : value_{value, 0} {
   assert(std::isfinite(value));
   const double size = std::fabs(value);
-  if (value != 0 && (size > kSafeMax || size < kSafeMin)) *this = normalised(value_, 0, 0);
+  if (value != 0 && (size > kSafeMax || size < kSafeMin)) *this = normalized(value_, 0, 0);
 }
 
 Ball Ball::with_error(DoubleDouble value, double error) {
-  return normalised(value, error, 0);
+  return normalized(value, error, 0);
 }
 
 /// Where the error exceeds the midpoint, it sets the range.
-Ball Ball::normalised_anew(DoubleDouble value, double error, std::int64_t exponent) {
+Ball Ball::normalized_anew(DoubleDouble value, double error, std::int64_t exponent) {
   const double leading = std::max(std::fabs(value.hi), error);
   if (leading == 0) return {};
   if (exponent == 0 && leading <= kSafeMax && leading >= kSafeMin) return {value, error, 0};
@@ -70,7 +70,7 @@ Ball Ball::add_across_ranges(const Ball& a, const Ball& b) {
   const std::int64_t small_shift = small.exponent_ - common;
   // What is more than 600 binary places smaller is an error.
   if (std::abs(a_magnitude - b_magnitude) > 600)
-    return normalised(large_value, (large_error + kCut) * kRoundUp, common);
+    return normalized(large_value, (large_error + kCut) * kRoundUp, common);
   const DoubleDouble small_value = scaled(small.value_, static_cast<int>(small_shift));
   double small_error = std::ldexp(small.error_, static_cast<int>(small_shift));
   if (may_be_cut(small.value_.lo, small_value.lo) || may_be_cut(small.error_, small_error))
@@ -89,7 +89,7 @@ Ball operator/(const Ball& a, const Ball& b) {
   const bool plain = a.is_exact() && b.is_exact() && a.value_.lo == 0 && b.value_.lo == 0;
   const bool divides = plain && quotient.lo == 0 && std::fma(quotient.hi, b.value_.hi, -a.value_.hi) == 0;
   const double lost = divides ? 0 : std::fabs(quotient.hi) * Ball::kDivSqrtBound;
-  return Ball::normalised(quotient, (spread + lost) * Ball::kRoundUp, a.exponent_ - b.exponent_);
+  return Ball::normalized(quotient, (spread + lost) * Ball::kRoundUp, a.exponent_ - b.exponent_);
 }
 
 Ball sqrt(const Ball& a) {
@@ -98,13 +98,13 @@ Ball sqrt(const Ball& a) {
   const DoubleDouble value = odd ? scaled(a.value_, 1) : a.value_;
   const double error = odd ? 2 * a.error_ : a.error_;
   const std::int64_t exponent = (a.exponent_ - (odd ? 1 : 0)) / 2;
-  if (value.hi <= error) return Ball::normalised({0, 0}, std::sqrt(2 * error) * Ball::kRoundUp, exponent);
+  if (value.hi <= error) return Ball::normalized({0, 0}, std::sqrt(2 * error) * Ball::kRoundUp, exponent);
   const DoubleDouble root = sqrt(value);
   const DoubleDouble square = two_product(root.hi, root.hi);
   const bool perfect = error == 0 && root.lo == 0 && square.hi == value.hi && square.lo == value.lo;
   // |sqrt(v +- e) - sqrt(v)| <= e / sqrt(v).
   const double lost = perfect ? 0 : root.hi * Ball::kDivSqrtBound + error / root.hi * Ball::kRoundUp;
-  return Ball::normalised(root, lost * Ball::kRoundUp, exponent);
+  return Ball::normalized(root, lost * Ball::kRoundUp, exponent);
 }
 
 Ball Ball::with_error_at_most(double bound) const {
@@ -113,7 +113,7 @@ Ball Ball::with_error_at_most(double bound) const {
   // Never 0, even where it leaves the range below: the ball is not exact.
   const double least = std::max(std::fabs(value_.hi), error_) * 0x1p-150;
   const double limit = (exponent_ == 0 ? bound : std::ldexp(bound, shift)) + least;
-  return limit < error_ ? normalised(value_, limit, exponent_) : *this;
+  return limit < error_ ? normalized(value_, limit, exponent_) : *this;
 }
 
 /// A double not below size * 2^exponent, and not 0.
@@ -138,10 +138,10 @@ double Ball::nearest_double() const {
   // Below the normal range ldexp has rounded hi alone; on a tie of hi the low part decides.
   const double back = std::ldexp(nearest, -shift);
   const double rest = value_.hi - back;
-  const double neighbour = std::nextafter(nearest, std::copysign(HUGE_VAL, rest));
-  const bool is_tie = rest != 0 && 2 * rest == std::ldexp(neighbour, -shift) - back;
+  const double neighbor = std::nextafter(nearest, std::copysign(HUGE_VAL, rest));
+  const bool is_tie = rest != 0 && 2 * rest == std::ldexp(neighbor, -shift) - back;
   const bool is_beyond_tie = value_.lo != 0 && std::signbit(value_.lo) == std::signbit(rest);
-  return is_tie && is_beyond_tie ? neighbour : nearest;
+  return is_tie && is_beyond_tie ? neighbor : nearest;
 }
 
 }  // namespace pipeline

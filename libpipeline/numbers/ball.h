@@ -74,19 +74,19 @@ class Ball {
       : value_(value), error_(error), exponent_(exponent) {}
 
   /// Chooses the exponent that the class promises.
-  static Ball normalised(DoubleDouble value, double error, std::int64_t exponent) {
+  static Ball normalized(DoubleDouble value, double error, std::int64_t exponent) {
     const double size = std::fabs(value.hi);
     if (exponent == 0 && size <= kSafeMax && size >= kSafeMin && error <= size) return {value, error, 0};
-    return normalised_anew(value, error, exponent);
+    return normalized_anew(value, error, exponent);
   }
-  static Ball normalised_anew(DoubleDouble value, double error, std::int64_t exponent);
+  static Ball normalized_anew(DoubleDouble value, double error, std::int64_t exponent);
   static Ball add_across_ranges(const Ball& a, const Ball& b);
   static Ball add_parts(DoubleDouble a, double a_error, DoubleDouble b, double b_error,
                         std::int64_t exponent) {
     const bool is_exact = a.lo == 0 && b.lo == 0 && a_error == 0 && b_error == 0;
     const DoubleDouble sum = a + b;
     const double lost = is_exact ? 0 : std::fabs(sum.hi) * kAddMulBound;
-    return normalised(sum, (a_error + b_error + lost) * kRoundUp, exponent);
+    return normalized(sum, (a_error + b_error + lost) * kRoundUp, exponent);
   }
   [[nodiscard]] double scaled_up(double size) const;
 
@@ -104,7 +104,7 @@ inline Ball operator*(const Ball& a, const Ball& b) {
   const double lost = is_exact ? 0 : std::fabs(product.hi) * Ball::kAddMulBound;
   // hi stands for hi + lo here; the enlargement covers |lo| <= 2^-53 |hi|.
   const double error = a_size * b.error_ + b_size * a.error_ + a.error_ * b.error_ + lost;
-  return Ball::normalised(product, error * Ball::kRoundUp, a.exponent_ + b.exponent_);
+  return Ball::normalized(product, error * Ball::kRoundUp, a.exponent_ + b.exponent_);
 }
 
 }  // namespace pipeline

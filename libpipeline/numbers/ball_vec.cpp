@@ -16,7 +16,7 @@ BallVec3 cross(const BallVec3& a, const BallVec3& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-BallVec3 normalised(const BallVec3& a) {
+BallVec3 normalized(const BallVec3& a) {
   const Ball length = sqrt(dot(a, a));
   return {a.x / length, a.y / length, a.z / length};
 }

@@ -17,7 +17,7 @@ BallVec3 operator*(const BallVec3& a, const Ball& factor);
 Ball dot(const BallVec3& a, const BallVec3& b);
 BallVec3 cross(const BallVec3& a, const BallVec3& b);
 /// The vector of length 1 in a's direction; `a` must not contain 0. Any length a double can hold is fine.
-BallVec3 normalised(const BallVec3& a);
+BallVec3 normalized(const BallVec3& a);
 BallVec3 to_balls(const Vec3& v);
 
 }  // namespace pipeline

@@ -14,7 +14,7 @@ namespace pipeline {
 
 enum class DepthImageFormat {
   pgm,  // Netpbm P5, 16 bits, the high byte first
-  png,  // 16 bits of grey; only where can_write_png()
+  png,  // 16 bits of gray; only where can_write_png()
 };
 
 /// The format a file's extension stands for, upper or lower case; a device's name (/dev/stdout) gets PGM. Any

@@ -127,7 +127,7 @@ void ImageWriter::write_bmp_header() {
   append_little_endian(header, std::uint16_t{24});                  // bits a pixel
   append_little_endian(header, std::uint32_t{0});                   // not compressed
   append_little_endian(header, pixels_size);
-  header.append(16, '\0');  // pixels per metre in x and y, colours in the palette, important ones: not said
+  header.append(16, '\0');  // pixels per meter in x and y, colors in the palette, important ones: not said
   write_bytes(descriptor_, header, path_);
 }
 

@@ -19,7 +19,7 @@ struct Lighting {
   bool is_perspective = true;  // otherwise the eye is infinitely far away in the direction +z
 };
 
-/// A point of a surface, in view space, its normal (of any length) and its own colour, channels from 0 to
+/// A point of a surface, in view space, its normal (of any length) and its own color, channels from 0 to
 /// 255.
 struct SurfacePoint {
   Vec3 position;
@@ -27,7 +27,7 @@ struct SurfacePoint {
   Vec3 color;
 };
 
-/// The colour the eye sees, a channel not yet rounded or limited:
+/// The color the eye sees, a channel not yet rounded or limited:
 ///   color (ka ambient + sum att L kd max(0, n.l)) + 255 ks sum att L max(0, n.h)^shininess
 /// n is the normal turned towards the eye, l the direction of a light, h half-way between l and the eye's
 /// direction. A normal of 0 faces nothing, a light in the very point shines on nothing. Source: J. Blinn,

@@ -19,8 +19,8 @@ namespace pipeline {
 /// Where a surface is lit: not at all, once a triangle, at its vertices, at every pixel.
 enum class ShadingModel { none, flat, gouraud, phong };
 
-/// Gives pixels their colours after it is known which triangle each shows: keeps the triangles of a scene
-/// with colours or lights, each under an id that stands in the visibility algorithm's place of a colour. So
+/// Gives pixels their colors after it is known which triangle each shows: keeps the triangles of a scene
+/// with colors or lights, each under an id that stands in the visibility algorithm's place of a color. So
 /// hidden pixels are never shaded. What lies between vertices is interpolated perspective-correctly. Flat and
 /// gouraud shading light triangles as they come, those that were clipped as they were before, phong shading
 /// lights visible pixels; without vertex normals both use the triangle's.
@@ -41,16 +41,16 @@ class SurfaceShader {
 
   SurfaceShader(const ScreenConfig& screen, Setup setup) : grid_(screen), setup_(std::move(setup)) {}
 
-  /// Keeps a triangle of a batch in NDC, whose colour is `own_color` where it carries none; its id.
+  /// Keeps a triangle of a batch in NDC, whose color is `own_color` where it carries none; its id.
   Color add(const TriangleBatch& p_ndc, std::size_t index, Color own_color);
-  /// The colours of a row of the image, by the ids seen in it. Valid until the next call.
+  /// The colors of a row of the image, by the ids seen in it. Valid until the next call.
   std::span<const Color> shade(int row, std::span<const Color> ids);
 
  private:
   struct Surface {
     Triangle screen_corners;  // x and y of clip space, and w in the place of z
     std::array<SurfacePoint, 3>
-        corners;  // in view space; the colours are lit already except for phong shading
+        corners;  // in view space; the colors are lit already except for phong shading
   };
 
   [[nodiscard]] ClipTriangle clip_triangle(const TriangleBatch& p_ndc, std::size_t index,

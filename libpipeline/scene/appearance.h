@@ -34,7 +34,7 @@ struct Attenuation {
   double quadratic = 0;
 };
 
-/// What a scene or a stage text's header says of colour and light, as far as it says it. A plain one says
+/// What a scene or a stage text's header says of color and light, as far as it says it. A plain one says
 /// nothing.
 struct Appearance {
   std::optional<Placed<AttributeSet>> attributes;

@@ -4,7 +4,7 @@
 
 namespace pipeline {
 
-/// A colour of 8 bits a channel, in four bytes: 0x00RRGGBB.
+/// A color of 8 bits a channel, in four bytes: 0x00RRGGBB.
 class Color {
  public:
   constexpr Color() = default;  // black
@@ -28,13 +28,13 @@ class Color {
   std::uint32_t rgb_ = 0;
 };
 
-/// The colours of triangles that have none of their own, from the generator of the course's hand-outs:
+/// The colors of triangles that have none of their own, from the generator of the course's hand-outs:
 /// numbers s = 214013 s + 2531011 (mod 2^32), s starting at 1, each giving (s >> 16) & 0x7fff, modulo 256
 /// (the C library's `rand` of Microsoft Visual C++). Triangle N has numbers 3N, 3N + 1, 3N + 2 as red, green
 /// and blue, whether or not it or any other triangle is drawn.
 class TriangleColors {
  public:
-  /// The colour of triangle `number`. Takes constant time for a triangle after the last one asked for,
+  /// The color of triangle `number`. Takes constant time for a triangle after the last one asked for,
   /// otherwise O(log number).
   Color of(std::uint64_t number);
 

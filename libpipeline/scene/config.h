@@ -31,7 +31,7 @@ struct ScreenConfig {
   /// The width and height of a pixel in NDC.
   [[nodiscard]] double dx() const { return -2 * left / columns; }
   [[nodiscard]] double dy() const { return -2 * bottom / rows; }
-  /// The centre of the pixel (0, 0) in NDC.
+  /// The center of the pixel (0, 0) in NDC.
   [[nodiscard]] double left_x() const { return left + dx() / 2; }
   [[nodiscard]] double top_y() const { return -bottom - dy() / 2; }
 

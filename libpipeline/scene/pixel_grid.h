@@ -4,7 +4,7 @@
 
 namespace pipeline {
 
-/// Where the pixel centres of a screen lie in NDC; row 0 is at the top.
+/// Where the pixel centers of a screen lie in NDC; row 0 is at the top.
 struct PixelGrid {
   explicit PixelGrid(const ScreenConfig& screen)
       : columns(screen.columns),

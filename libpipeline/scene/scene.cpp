@@ -44,7 +44,7 @@ void SceneReader::next_argument_line(std::string_view expected) {
 
 std::size_t SceneReader::read_waiting(std::span<Triangle> room, std::size_t& first_line) {
   static_assert(TextReader::kSlack >= kFixedTextSlack);
-  // With attributes there are more columns, or at least a current colour.
+  // With attributes there are more columns, or at least a current color.
   if (appearance_.attributes || !line_.at_end()) return 0;
   // The blank line between triangles that a reader likes to see.
   if (text_.waiting().starts_with('\n')) text_.skip(1, 1);
@@ -129,8 +129,8 @@ Command SceneReader::read_appearance(std::string_view keyword) {
 }
 
 void SceneReader::read_current_color() {
-  current_color_ = read_color(line_, "the colour");
-  line_.expect_end("the blue of the colour");
+  current_color_ = read_color(line_, "the color");
+  line_.expect_end("the blue of the color");
   if (!appearance_.attributes) appearance_.attributes = {{}, place_};
   appearance_.attributes->value.color = true;
 }

@@ -33,7 +33,7 @@ struct RotateCommand {
 struct PushCommand {};
 struct PopCommand {};
 struct EndCommand {};
-/// The appearance or the current colour has changed: the reader keeps both.
+/// The appearance or the current color has changed: the reader keeps both.
 struct AppearanceCommand {};
 struct LightCommand {
   Placed<Light> light;  // in model space
@@ -65,7 +65,7 @@ class SceneReader {
 
   /// The camera, complete and checked.
   [[nodiscard]] const CameraText& camera() const { return camera_; }
-  /// What was read of colour and light so far, without the lights (each is a command of its own). Its columns
+  /// What was read of color and light so far, without the lights (each is a command of its own). Its columns
   /// are those of the triangles' attributes; complete at the first triangle.
   [[nodiscard]] const Appearance& appearance() const { return appearance_; }
   /// The vertices of the triangle given out last, with the attributes in `appearance()`; nothing to rely on

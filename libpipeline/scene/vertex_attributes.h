@@ -14,7 +14,7 @@
 
 namespace pipeline {
 
-/// Which columns stand behind x y z on a vertex line, in this order: w, the colour, the normal.
+/// Which columns stand behind x y z on a vertex line, in this order: w, the color, the normal.
 struct AttributeSet {
   bool w = false;
   bool color = false;
@@ -24,7 +24,7 @@ struct AttributeSet {
   friend bool operator==(const AttributeSet&, const AttributeSet&) = default;
 };
 
-/// Position, w, colour and normal.
+/// Position, w, color and normal.
 constexpr std::size_t kMaxColumns = 10;
 
 /// What one vertex line may hold; what its text has no columns for stays 0.
@@ -66,7 +66,7 @@ class VertexLineReader {
 
   [[nodiscard]] const AttributeSet& attributes() const { return attributes_; }
   /// Reads the line of vertex `vertex` (0 to 2) to its end. An InputError unless w is in its range and
-  /// colours lie from 0 to 255.
+  /// colors lie from 0 to 255.
   VertexLine read(LineScanner& line, std::size_t vertex) const;
   /// The fast path: reads the three lines of a triangle at `p` and returns the beginning of the line behind
   /// them. Null if they hold anything but plain numbers (plain_number.h), or do not end before `end`, or one

@@ -12,7 +12,7 @@
 namespace pipeline {
 namespace {
 
-// Position, w, colour and normal.
+// Position, w, color and normal.
 constexpr std::size_t kMaxVertexLength = 10 * (kMaxNumberLength + 1);
 // "triangle N", three vertex lines and the blank line.
 constexpr std::size_t kMaxTriangleLength = 40 + 3 * kMaxVertexLength + 1;

@@ -52,7 +52,7 @@ PIPELINE_SSE4 inline const char* read_number(const char* p, char separator, std:
   const __m128i in_range = _mm_cmpeq_epi8(_mm_min_epu8(digits, _mm_set1_epi8(9)), digits);
   const bool is_in_place = (count < 16) & (p[count + 8] == separator);
   good &= _mm_movemask_epi8(in_range) & (is_in_place ? 0xffff : 0);
-  // Neighbouring digits, pairs and fours are joined until 8 digits are one number.
+  // Neighboring digits, pairs and fours are joined until 8 digits are one number.
   const __m128i pairs = _mm_maddubs_epi16(digits, _mm_set1_epi16(10 | (1 << 8)));
   const __m128i fours = _mm_madd_epi16(pairs, _mm_set1_epi32(100 | (1 << 16)));
   const __m128i packed = _mm_packus_epi32(fours, fours);

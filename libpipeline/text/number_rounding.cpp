@@ -62,13 +62,13 @@ PrintableNumber round_to_double(const Ball& ball) {
   const auto [hi, lo] = ball.value();
   const double rest = hi - std::ldexp(nearest, shift);  // not 0 only below a double's normal range
   const double direction = std::copysign(1.0, rest != 0 ? rest : lo);
-  const double neighbour = std::nextafter(nearest, direction * HUGE_VAL);
-  const double half_gap = std::fabs(std::ldexp(neighbour, shift) - std::ldexp(nearest, shift)) / 2;
+  const double neighbor = std::nextafter(nearest, direction * HUGE_VAL);
+  const double half_gap = std::fabs(std::ldexp(neighbor, shift) - std::ldexp(nearest, shift)) / 2;
   const double distance = (half_gap - std::fabs(rest)) - direction * lo;
   if (distance > ball.error()) return {nearest, 0};
   if (ball.error() > 2 * half_gap * kTieTolerance) return {nearest, 0, false};
   const bool nearest_is_even = std::bit_cast<std::uint64_t>(nearest) % 2 == 0;
-  return {nearest_is_even ? nearest : neighbour, 0};
+  return {nearest_is_even ? nearest : neighbor, 0};
 }
 
 }  // namespace

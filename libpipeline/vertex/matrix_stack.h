@@ -12,7 +12,7 @@ namespace pipeline {
 /// without a change in between is kept once and counted, so that repeated pushes cost nothing.
 class MatrixStack {
  public:
-  /// The most saved matrices that differ from their neighbours in the stack.
+  /// The most saved matrices that differ from their neighbors in the stack.
   static constexpr std::size_t kMaxSaved = std::size_t{1} << 20;
 
   explicit MatrixStack(std::size_t max_saved = kMaxSaved) : max_saved_(max_saved) {}

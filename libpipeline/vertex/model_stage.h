@@ -20,7 +20,7 @@ class ModelStage final : public TriangleSource {
   /// Carries out what stands before the first triangle; a mistake there is thrown by the first `read`.
   explicit ModelStage(SceneReader& scene);
 
-  /// The scene's colour and light, the lights in world space.
+  /// The scene's color and light, the lights in world space.
   [[nodiscard]] Appearance appearance() const;
   /// The triangles are in model space, and their transforms to world space pending:
   /// apply_pending_transforms. False at the scene's end. An InputError if the matrix stack under- or

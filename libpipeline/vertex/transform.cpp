@@ -97,7 +97,7 @@ AffineMatrix scaling(const Vec3& factors) {
 }
 
 AffineMatrix rotation(double angle_degrees, const Vec3& axis) {
-  const BallVec3 unit_axis = normalised(to_balls(axis));
+  const BallVec3 unit_axis = normalized(to_balls(axis));
   const SineCosine angle = sine_cosine_of_degrees({angle_degrees, 0});
   AffineMatrix m;
   for (std::size_t j = 0; j < 3; ++j) {
@@ -113,9 +113,9 @@ AffineMatrix rotation(double angle_degrees, const Vec3& axis) {
 
 ViewTransform view_from_world(const Vec3& eye, const Vec3& look, const Vec3& up) {
   const BallVec3 toward = to_balls(look) - to_balls(eye);
-  const BallVec3 forward = normalised(toward);
+  const BallVec3 forward = normalized(toward);
   // The cross product is taken of the vectors as given: their difference in direction may be tiny.
-  const BallVec3 right = normalised(cross(toward, to_balls(up)));
+  const BallVec3 right = normalized(cross(toward, to_balls(up)));
   const BallVec3 camera_up = cross(right, forward);
   return {eye, right, camera_up, {-forward.x, -forward.y, -forward.z}};
 }

@@ -10,7 +10,7 @@
 
 namespace pipeline {
 
-/// A batch of triangles to be drawn, and a colour for each.
+/// A batch of triangles to be drawn, and a color for each.
 struct ColoredBatch {
   TriangleBatch batch;
   std::vector<Color> colors;

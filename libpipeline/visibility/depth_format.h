@@ -27,7 +27,7 @@ struct DepthF32 {
   explicit DepthF32(const ScreenConfig&) {}
   [[nodiscard]] static Stored store(double z) { return static_cast<float>(z); }
   [[nodiscard]] static double depth(Stored stored) { return stored; }
-  // More than the distance of neighbouring floats.
+  // More than the distance of neighboring floats.
   [[nodiscard]] static double separation(double size) {
     const bool is_in_range = size <= std::numeric_limits<float>::max();
     return is_in_range ? size * 0x1.01p-23 + 0x1p-148 : std::numeric_limits<double>::infinity();

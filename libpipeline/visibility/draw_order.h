@@ -7,12 +7,12 @@
 
 namespace pipeline {
 
-// When a pixel was drawn, kept with its colour in the byte that a Color leaves free: 0 for all that was drawn
+// When a pixel was drawn, kept with its color in the byte that a Color leaves free: 0 for all that was drawn
 // long ago, then a number for each of the latest batches.
 
 constexpr std::uint32_t kMostOrders = 0xff;
 
-/// A colour 0x00RRGGBB as that of the batch `order`, at most kMostOrders.
+/// A color 0x00RRGGBB as that of the batch `order`, at most kMostOrders.
 constexpr Color with_order(Color color, std::uint32_t order) {
   assert(color.rgb() >> 24 == 0 && order <= kMostOrders);
   return Color::from_rgb(color.rgb() | order << 24);

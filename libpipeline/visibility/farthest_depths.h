@@ -8,7 +8,7 @@
 
 namespace pipeline {
 
-/// So many neighbouring pixels of a row, from a multiple of it, are a block.
+/// So many neighboring pixels of a row, from a multiple of it, are a block.
 constexpr int kBlockColumns = 32;
 
 /// For each block of some rows of a z-buffer a depth that no pixel of it exceeds. Depths only become less, so

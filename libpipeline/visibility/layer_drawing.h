@@ -41,7 +41,7 @@ class LayerDrawing {
   LayerDrawing& operator=(const LayerDrawing&) = delete;
 
   /// Takes the batch, in exchange for another one's memory. It may be drawn later, at the latest in finish().
-  /// Its colours are 0x00RRGGBB. Layers are laid together after kMostOrders batches, however small.
+  /// Its colors are 0x00RRGGBB. Layers are laid together after kMostOrders batches, however small.
   void draw(ColoredBatch& batch) {
     if (layers_.empty()) make_layers();
     Place& place = places_[last_order_ % kPlaces];

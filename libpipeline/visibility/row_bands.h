@@ -11,8 +11,8 @@
 
 namespace pipeline {
 
-/// A screen cut into bands of neighbouring rows: so many that threads can share them out, and each so low
-/// that its depths and colours stay in a core's cache while many triangles are drawn into it.
+/// A screen cut into bands of neighboring rows: so many that threads can share them out, and each so low
+/// that its depths and colors stay in a core's cache while many triangles are drawn into it.
 class RowBands {
  public:
   /// Of a double and a Color.
@@ -27,7 +27,7 @@ class RowBands {
   }
 
   /// The bands in which a triangle in NDC can have pixels, whatever the coverage rule: perhaps one too many,
-  /// where a vertex is next to the line of centres of a band's outermost row.
+  /// where a vertex is next to the line of centers of a band's outermost row.
   [[nodiscard]] RowRange bands_of(const Triangle& p_ndc) const {
     // In a window next to the smallest doubles rows cannot be calculated like this.
     if (!(rows_per_dy_ <= std::numeric_limits<double>::max())) return {0, count()};

@@ -16,7 +16,7 @@
 
 namespace pipeline {
 
-/// What of a polygon can be seen on one scanline, were it alone: neighbouring pixels between the limits of
+/// What of a polygon can be seen on one scanline, were it alone: neighboring pixels between the limits of
 /// depth.
 template <typename Depth>
 struct RowPolygon {
@@ -39,7 +39,7 @@ struct RowPolygon {
 };
 
 /// One scanline of the scan-line algorithm: goes from edge to edge, keeps the list of active polygons (those
-/// it is between the edges of), and gives the pixels between neighbouring edges to the nearest of them.
+/// it is between the edges of), and gives the pixels between neighboring edges to the nearest of them.
 ///
 /// The textbook compares depths once for every interval between two edges, at its left end, and is wrong
 /// where polygons interpenetrate. Here the owner of an interval is compared with the others at both ends.

@@ -25,7 +25,7 @@ namespace pipeline {
 template <typename Coverage, typename Depth>
 class Scanline {
  public:
-  /// Nothing is seen yet, all pixels are at the rear limit and of the colour `background`.
+  /// Nothing is seen yet, all pixels are at the rear limit and of the color `background`.
   explicit Scanline(const ScreenConfig& screen, Color background = {})
       : screen_(screen), background_(background), coverage_(screen), edge_table_(screen.rows) {}
 

@@ -43,7 +43,7 @@ struct SpanBlocks {
 };
 
 // The loop that draws: every pixel of the span whose depth, as it is stored, is less than the one there gets
-// the span's depth and colour. A kernel is that loop for one kind of processor; all give the same bytes.
+// the span's depth and color. A kernel is that loop for one kind of processor; all give the same bytes.
 //
 // Every rounding in a SpanDepth is monotone, so depths as they are calculated and stored rise or fall along
 // the row: the nearest in a block is at one of its ends. If that is not nearer than the farthest depth there,

@@ -18,7 +18,7 @@
 
 namespace pipeline {
 
-/// What the colours of triangles are: colours 0x00RRGGBB, or whatever has 32 bits.
+/// What the colors of triangles are: colors 0x00RRGGBB, or whatever has 32 bits.
 enum class ColorUse { rgb, id };
 
 /// Draws the triangles of a stream on the threads of a team, batch by batch, each in the way that suits its
@@ -44,7 +44,7 @@ class TriangleDrawing {
 
   /// Where the next batch is to be put.
   [[nodiscard]] TriangleBatch& next_batch() { return next_.batch; }
-  /// Takes what was put there, each triangle in the colour `color_of(batch, index)`, which is asked for at
+  /// Takes what was put there, each triangle in the color `color_of(batch, index)`, which is asked for at
   /// once and in order. It may be drawn later, at the latest in finish().
   template <typename ColorOf>
   void draw_batch(ColorOf&& color_of) {

@@ -7,7 +7,7 @@
 namespace pipeline {
 
 /// One row of what a visibility algorithm found: for every column the depth (NDC z) of the nearest triangle
-/// and its colour, or the rear limit and the background. All that comes after (depth text, image) sees only
+/// and its color, or the rear limit and the background. All that comes after (depth text, image) sees only
 /// this.
 struct VisibleRow {
   std::span<const double> depths;

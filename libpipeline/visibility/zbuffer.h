@@ -16,16 +16,16 @@
 
 namespace pipeline {
 
-/// The visibility algorithm `zbuffer`: every pixel keeps the nearest depth drawn so far and its colour, 12
+/// The visibility algorithm `zbuffer`: every pixel keeps the nearest depth drawn so far and its color, 12
 /// bytes a pixel if depths are doubles. `Depth` is a depth format. Source: E. Catmull, "A subdivision
 /// algorithm for computer display of curved surfaces", 1974.
 template <typename Depth = DepthF64>
 class ZBuffer {
  public:
-  /// A buffer of the screen's size, every pixel at the rear limit and of the colour `background`.
+  /// A buffer of the screen's size, every pixel at the rear limit and of the color `background`.
   explicit ZBuffer(const ScreenConfig& screen, Color background = {});
 
-  /// Draws a span of a triangle of the colour `color`. A pixel is written if its depth, as it is stored, is
+  /// Draws a span of a triangle of the color `color`. A pixel is written if its depth, as it is stored, is
   /// less than the one there (of equal depths the first drawn stays) and not less than the front limit.
   /// `farthest`, if there is one, is of rows of this buffer; its bounds hold whoever else draws there.
   void draw(const Span& span, Color color, FarthestDepths<Depth>* farthest = nullptr);
@@ -46,10 +46,10 @@ class ZBuffer {
   [[nodiscard]] bool needs_no_order() const { return depth_epsilon_ == 0; }
 
   /// Takes from `layer`, of the same screen, what is nearer there in these rows, or as near and of an earlier
-  /// order (draw_order.h). The background's colour has order 0. What was taken, or was not, may stay in the
+  /// order (draw_order.h). The background's color has order 0. What was taken, or was not, may stay in the
   /// layer: once the order is forgotten here, it will not be taken again.
   void take_nearer(const ZBuffer& layer, const RowRange& rows);
-  /// Takes the order off the colours in these rows: all there is was drawn before whatever comes.
+  /// Takes the order off the colors in these rows: all there is was drawn before whatever comes.
   void forget_order(const RowRange& rows);
 
   /// To draw into these rows with.

@@ -114,8 +114,8 @@ def compare_pictures(a, b, tolerance):
     return result, mask
 
 
-def same_in_other_colours(a, b):
-    """Whether one picture becomes the other if its colours are replaced one by one."""
+def same_in_other_colors(a, b):
+    """Whether one picture becomes the other if its colors are replaced one by one."""
     there, back = {}, {}
     for line_a, line_b in zip(a[2], b[2]):
         for i in range(0, len(line_a), 3):
@@ -126,13 +126,13 @@ def same_in_other_colours(a, b):
 
 
 def difference_picture(b, mask):
-    """Picture b in pale grey, with the pixels of the mask in red."""
+    """Picture b in pale gray, with the pixels of the mask in red."""
     width, height, rows = b
     painted = []
     for row, line in enumerate(rows):
-        grey = bytearray()
+        gray = bytearray()
         for column in range(width):
             shade = 255 - sum(line[3 * column:3 * column + 3]) // 6
-            grey += bytes((220, 0, 30)) if (column, row) in mask else bytes((shade,) * 3)
-        painted.append(bytes(grey))
+            gray += bytes((220, 0, 30)) if (column, row) in mask else bytes((shade,) * 3)
+        painted.append(bytes(gray))
     return width, height, painted

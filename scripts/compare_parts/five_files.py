@@ -4,7 +4,7 @@ import dataclasses
 import pathlib
 import tempfile
 
-from compare_parts.differences import compare_pictures, compare_stage_texts, compare_z_buffers, same_in_other_colours
+from compare_parts.differences import compare_pictures, compare_stage_texts, compare_z_buffers, same_in_other_colors
 from compare_parts.mistakes import Suspects, hint_of_rounding, hints_from_numbers, hints_from_scene
 from lib.pictures import PictureError, read_picture
 from lib.pipe_tools import ToolFailure
@@ -17,7 +17,7 @@ HALF_A_UNIT = 5.1e-8  # of 7 decimals
 
 
 @dataclasses.dataclass
-class Judgement:
+class Judgment:
     stage: str
     file: str
     verdict: str             # right, wrong, missing, unreadable
@@ -57,7 +57,7 @@ class FiveFiles:
         self.depth_tolerance = max(DEPTH_TOLERANCE, self.tolerance)
 
     def judge(self):
-        """A Judgement for each of the five files."""
+        """A Judgment for each of the five files."""
         text1 = self.tools.output("model", "--digits", "exact", self.scene)
         text2 = self.tools.output("view", "--digits", "exact", stdin=text1)
         text3 = self.tools.output("project", "--digits", "exact", stdin=text2)
@@ -105,20 +105,20 @@ class FiveFiles:
         try:
             theirs = parse_stage_text((self.folder / name).read_text(errors="replace"), name)
         except OSError as error:
-            return Judgement(tool, name, "missing", error.strerror)
+            return Judgment(tool, name, "missing", error.strerror)
         except StageTextError as error:
-            return Judgement(tool, name, "unreadable", str(error))
+            return Judgment(tool, name, "unreadable", str(error))
         candidates = list(self.candidates(makers))
         compared = [compare_stage_texts(theirs, ours, self.tolerance, is_relative=True) for ours in candidates]
         for differences in compared:
             if not differences.found:
                 is_same = any(hint_of_rounding(theirs.points, ours.points, HALF_A_UNIT) for ours in candidates)
-                return Judgement(tool, name, "right", "" if is_same else "differs by rounding alone", differences)
+                return Judgment(tool, name, "right", "" if is_same else "differs by rounding alone", differences)
         for ours, differences in zip(candidates, compared):
             if len(theirs.points) == len(ours.points):
                 hints = hints_from_scene(self.suspects, number, theirs.points, ours.points, previous)
-                return Judgement(tool, name, "wrong", "", differences, hints or hints_from_numbers(theirs.points, ours.points))
-        return Judgement(tool, name, "wrong", "", compared[0])
+                return Judgment(tool, name, "wrong", "", differences, hints or hints_from_numbers(theirs.points, ours.points))
+        return Judgment(tool, name, "wrong", "", compared[0])
 
     def pixels(self, stage3):
         with tempfile.TemporaryDirectory() as folder:
@@ -132,38 +132,38 @@ class FiveFiles:
         try:
             differences = compare_z_buffers(read_z_buffer(self.folder / name), read_z_buffer(ours), self.depth_tolerance, is_relative=True)
         except OSError as error:
-            return Judgement("zbuf", name, "missing", error.strerror)
+            return Judgment("zbuf", name, "missing", error.strerror)
         except StageTextError as error:
-            return Judgement("zbuf", name, "unreadable", str(error))
-        return Judgement("zbuf", name, "wrong" if differences.found else "right", "", differences)
+            return Judgment("zbuf", name, "unreadable", str(error))
+        return Judgment("zbuf", name, "wrong" if differences.found else "right", "", differences)
 
     def picture(self, ours):
         name = "out.bmp"
         try:
             theirs, ours = read_picture(self.folder / name), read_picture(ours)
         except OSError as error:
-            return Judgement("zbuf", name, "missing", error.strerror)
+            return Judgment("zbuf", name, "missing", error.strerror)
         except PictureError as error:
-            return Judgement("zbuf", name, "unreadable", str(error))
+            return Judgment("zbuf", name, "unreadable", str(error))
         differences, _ = compare_pictures(theirs, ours, 0)
         if not differences.found:
-            return Judgement("zbuf", name, "right", "", differences)
-        if not differences.unlike and same_in_other_colours(theirs, ours):
-            return Judgement("zbuf", name, "right", "the same picture in other colours", differences)
+            return Judgment("zbuf", name, "right", "", differences)
+        if not differences.unlike and same_in_other_colors(theirs, ours):
+            return Judgment("zbuf", name, "right", "the same picture in other colors", differences)
         hints = []
         if not differences.unlike and theirs[2][::-1] == ours[2]:
             hints = ["the picture is upside down"]
-        return Judgement("zbuf", name, "wrong", "", differences, hints)
+        return Judgment("zbuf", name, "wrong", "", differences, hints)
 
 
-def verdict_of(judgements):
+def verdict_of(judgments):
     """One sentence: the first stage that went wrong, and what else is wrong by itself."""
-    wrong = [judgement for judgement in judgements if not judgement.is_right]
+    wrong = [judgment for judgment in judgments if not judgment.is_right]
     if not wrong:
         return "all five files are right"
     first = wrong[0]
     words = f"the first stage that went wrong is {first.stage} ({first.file} is {first.verdict})"
     if first.hints:
         words += ": " + first.hints[0]
-    others = [judgement.file for judgement in wrong[1:]]
+    others = [judgment.file for judgment in wrong[1:]]
     return words + (f"; by themselves wrong are also {', '.join(others)}" if others else "; what follows is right, given that")

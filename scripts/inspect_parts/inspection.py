@@ -72,7 +72,7 @@ class Inspection:
         self.parsed = {tool: parse_stage_text(done.stdout.decode(), tool) for tool, done in texts.items()}
         self.count = max([0, *(name + 1 for name in self.parsed["model"].names)])
         self.step = max(1, math.ceil(self.count / MAX_DRAWN_TRIANGLES))
-        titles = {"model": "world space", "view": "view space", "project": "normalised device coordinates"}
+        titles = {"model": "world space", "view": "view space", "project": "normalized device coordinates"}
         self.stages = [self.stage(tool, titles[tool], texts[tool]) for tool in texts]
         with tempfile.TemporaryDirectory() as folder:
             self.draw(data, pathlib.Path(folder))

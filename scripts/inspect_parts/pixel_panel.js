@@ -27,9 +27,9 @@ class PixelPanel {
     return canvas;
   }
 
-  paint(canvas, colour) {
+  paint(canvas, color) {
     const picture = new ImageData(this.columns, this.rows);
-    for (let p = 0; p < this.columns * this.rows; ++p) picture.data.set(colour(p), 4 * p);
+    for (let p = 0; p < this.columns * this.rows; ++p) picture.data.set(color(p), 4 * p);
     canvas.getContext("2d").putImageData(picture, 0, 0);
   }
 

@@ -61,8 +61,8 @@ def read_png(data):
         size, kind = struct.unpack_from(">I4s", data, at)
         chunk = data[at + 8:at + 8 + size]
         if kind == b"IHDR":
-            width, height, bits, colours, _, _, interlaced = struct.unpack(">IIBBBBB", chunk)
-            if (bits, colours, interlaced) != (8, 2, 0):
+            width, height, bits, colors, _, _, interlaced = struct.unpack(">IIBBBBB", chunk)
+            if (bits, colors, interlaced) != (8, 2, 0):
                 raise PictureError("expected a PNG of 8 bits RGB without interlacing")
         elif kind == b"IDAT":
             body += chunk

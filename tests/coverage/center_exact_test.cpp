@@ -60,10 +60,10 @@ TEST(CenterExact, DoublesCoverWhatTheyCoverExactly) {
   }
 }
 
-TEST(CenterExact, DoublesOnPixelCentresToo) {
+TEST(CenterExact, DoublesOnPixelCentersToo) {
   RandomNumbers random(2);
   for (int i = 0; i < sanitizer_rounds(1500); ++i) {
-    // A size that is a power of two and a limit that is a double: all centres and half pixels are doubles.
+    // A size that is a power of two and a limit that is a double: all centers and half pixels are doubles.
     const double limit = std::ldexp(random.between(1, 2), random.whole(-1, 1));
     const ScreenConfig screen = {8, 16, -limit, -limit, -1, 1};
     Triangle p{};
@@ -118,9 +118,9 @@ TEST(CenterExact, DepthsAreWithinTheirBound) {
                                                  ScreenConfig{640, 480, -1.1, -0.9, -1, 1}};
     UnitTriangle units{};
     const int size = i % 2 == 0 ? 200'000 : 8'000'000;
-    const std::array<int, 2> centre = {random.whole(-9'000'000, 9'000'000),
+    const std::array<int, 2> center = {random.whole(-9'000'000, 9'000'000),
                                        random.whole(-9'000'000, 9'000'000)};
-    for (auto& p : units) p = {centre[0] + random.whole(-size, size), centre[1] + random.whole(-size, size)};
+    for (auto& p : units) p = {center[0] + random.whole(-size, size), center[1] + random.whole(-size, size)};
     // Depths of one size, of very different sizes, nearly equal, or of opposite sign.
     std::array<double, 3> z{};
     const double base = random.between(-1, 1);

@@ -25,7 +25,7 @@ struct Screen {
   }
 };
 
-/// The edge function of a directed edge at pixel centres, in units in which everything is whole; y upwards.
+/// The edge function of a directed edge at pixel centers, in units in which everything is whole; y upwards.
 class EdgeFunction {
  public:
   EdgeFunction(const Screen& s, std::array<std::int64_t, 2> from, std::array<std::int64_t, 2> to)
@@ -159,12 +159,12 @@ std::array<double, 2> pixel_size(const Screen& s) {
 }
 
 UnitTriangle about_ten_pixels(RandomNumbers& random, const Screen& s) {
-  const auto centre = any_point(random, s);
+  const auto center = any_point(random, s);
   const auto size = pixel_size(s);
   UnitTriangle t{};
   for (auto& p : t)
     for (std::size_t k = 0; k < 2; ++k)
-      p[k] = centre[k] + static_cast<std::int64_t>(random.between(-4.6, 4.6) * size[k]);
+      p[k] = center[k] + static_cast<std::int64_t>(random.between(-4.6, 4.6) * size[k]);
   return t;
 }
 
@@ -172,10 +172,10 @@ UnitTriangle on_half_pixels(RandomNumbers& random, const Screen& s) {
   const auto size = pixel_size(s);
   const std::array<int, 2> counts = {s.columns, s.rows};
   UnitTriangle t{};
-  std::array<int, 2> centre = {random.whole(-counts[0], counts[0]), random.whole(-counts[1], counts[1])};
+  std::array<int, 2> center = {random.whole(-counts[0], counts[0]), random.whole(-counts[1], counts[1])};
   for (auto& p : t)
     for (std::size_t k = 0; k < 2; ++k)
-      p[k] = std::llround((centre[k] + random.whole(-10, 10)) * size[k] / 2);
+      p[k] = std::llround((center[k] + random.whole(-10, 10)) * size[k] / 2);
   return t;
 }
 
@@ -195,10 +195,10 @@ UnitTriangle sliver(RandomNumbers& random, const Screen& s) {
 
 UnitTriangle on_hundredths(RandomNumbers& random, const Screen& s) {
   constexpr int kHundredth = 100'000;
-  const auto centre = any_point(random, s);
+  const auto center = any_point(random, s);
   UnitTriangle t{};
   for (auto& p : t)
-    for (std::size_t k = 0; k < 2; ++k) p[k] = (centre[k] / kHundredth + random.whole(-4, 4)) * kHundredth;
+    for (std::size_t k = 0; k < 2; ++k) p[k] = (center[k] / kHundredth + random.whole(-4, 4)) * kHundredth;
   return t;
 }
 

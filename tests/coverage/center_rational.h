@@ -11,7 +11,7 @@
 
 namespace pipeline {
 
-/// A vertex or a pixel centre.
+/// A vertex or a pixel center.
 struct RationalPoint {
   mpq_class x, y, z;
 };
@@ -49,12 +49,12 @@ class ExactCoverage {
   }
 
   [[nodiscard]] bool covers(int row, int column) const {
-    const RationalPoint centre = centre_of(row, column);
+    const RationalPoint center = center_of(row, column);
     bool result = area_ != 0;
     for (std::size_t i = 0; i < 3 && result; ++i) {
       const RationalPoint& from = p_[i];
       const RationalPoint& to = p_[(i + 1) % 3];
-      const mpq_class value = edge(from, to, centre);
+      const mpq_class value = edge(from, to, center);
       const bool is_top_or_left = to.y < from.y || (to.y == from.y && to.x < from.x);
       result = value > 0 || (value == 0 && is_top_or_left);
     }
@@ -62,9 +62,9 @@ class ExactCoverage {
   }
 
   [[nodiscard]] mpq_class depth(int row, int column) const {
-    const RationalPoint centre = centre_of(row, column);
+    const RationalPoint center = center_of(row, column);
     mpq_class sum = 0;
-    for (std::size_t i = 0; i < 3; ++i) sum += edge(p_[(i + 1) % 3], p_[(i + 2) % 3], centre) * p_[i].z;
+    for (std::size_t i = 0; i < 3; ++i) sum += edge(p_[(i + 1) % 3], p_[(i + 2) % 3], center) * p_[i].z;
     return sum / area_;
   }
 
@@ -76,7 +76,7 @@ class ExactCoverage {
   static mpq_class edge(const RationalPoint& a, const RationalPoint& b, const RationalPoint& p) {
     return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
   }
-  [[nodiscard]] RationalPoint centre_of(int row, int column) const {
+  [[nodiscard]] RationalPoint center_of(int row, int column) const {
     return {left_ + dx_ * (2 * column + 1) / 2, -bottom_ - dy_ * (2 * row + 1) / 2, 0};
   }
 

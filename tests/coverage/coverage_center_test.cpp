@@ -16,7 +16,7 @@ namespace {
 
 using Picture = std::vector<std::string>;
 
-// Pixels of size 1, centres at -3.5, -2.5 ... 3.5 in x and y.
+// Pixels of size 1, centers at -3.5, -2.5 ... 3.5 in x and y.
 const ScreenConfig kEightByEight = decimal_screen(8, 8, -4, -4);
 
 Picture picture_of(std::string_view triangle, const ScreenConfig& screen = kEightByEight) {
@@ -33,7 +33,7 @@ Owners owners_of(const std::vector<TextTriangle>& triangles, const ScreenConfig&
 
 const Picture kNothing(8, "........");
 
-TEST(CoverageCenter, TakesThePixelsWhoseCentresAreInside) {
+TEST(CoverageCenter, TakesThePixelsWhoseCentersAreInside) {
   EXPECT_EQ(picture_of("-3 -3 0 3 -3 0 0 3 0"), (Picture{
                                                     "........",
                                                     "........",
@@ -46,7 +46,7 @@ TEST(CoverageCenter, TakesThePixelsWhoseCentresAreInside) {
                                                 }));
 }
 
-TEST(CoverageCenter, ATopEdgeThroughCentresOwnsThemAndABottomEdgeDoesNot) {
+TEST(CoverageCenter, ATopEdgeThroughCentersOwnsThemAndABottomEdgeDoesNot) {
   // y from -1.5 to 1.5: both on a row.
   EXPECT_EQ(picture_of("-4 1.5 0 4 1.5 0 0 -1.5 0"), (Picture{
                                                          "........",
@@ -70,7 +70,7 @@ TEST(CoverageCenter, ATopEdgeThroughCentresOwnsThemAndABottomEdgeDoesNot) {
                                                       }));
 }
 
-TEST(CoverageCenter, ALeftEdgeThroughCentresOwnsThemAndARightEdgeDoesNot) {
+TEST(CoverageCenter, ALeftEdgeThroughCentersOwnsThemAndARightEdgeDoesNot) {
   EXPECT_EQ(picture_of("-1.5 -2 0 -1.5 2 0 1.5 0 0"), (Picture{
                                                           "........",
                                                           "........",
@@ -93,7 +93,7 @@ TEST(CoverageCenter, ALeftEdgeThroughCentresOwnsThemAndARightEdgeDoesNot) {
                                                      }));
 }
 
-TEST(CoverageCenter, SlopingEdgesThroughCentresBelongToTheTriangleOnTheirRight) {
+TEST(CoverageCenter, SlopingEdgesThroughCentersBelongToTheTriangleOnTheirRight) {
   // The same diagonal is a left edge of one and a right edge of the other.
   EXPECT_EQ(picture_of("-2.5 2.5 0 2.5 -2.5 0 2.5 2.5 0"), (Picture{
                                                                "........",
@@ -133,7 +133,7 @@ TEST(CoverageCenter, ATriangleWithoutAreaCoversNothing) {
   EXPECT_EQ(picture_of("0.5 0.5 0 0.5 0.5 0 0.5 0.5 0"), kNothing);
 }
 
-TEST(CoverageCenter, BetweenTheCentresThereIsNothing) {
+TEST(CoverageCenter, BetweenTheCentersThereIsNothing) {
   EXPECT_EQ(picture_of("-3.4 -3 0 3.4 -3 0 3.4 -2.6 0"), kNothing);
   EXPECT_EQ(picture_of("0.6 -3 0 1.4 3 0 0.6 3 0"), kNothing);
 }
@@ -156,7 +156,7 @@ TEST(CoverageCenter, IsCutAtTheBordersOfTheScreen) {
 }
 
 TEST(CoverageCenter, ADecimalIsThatDecimalAndNotItsNearestDouble) {
-  // Pixels of size 0.2: the centres are at -0.9, -0.7 ... No double is 0.3, 0.1 or 0.7.
+  // Pixels of size 0.2: the centers are at -0.9, -0.7 ... No double is 0.3, 0.1 or 0.7.
   const ScreenConfig tenths = decimal_screen(10, 2, -1, -0.2);
   const Picture expected = {"......##..", "......##.."};
   EXPECT_EQ(picture_of("0.3 -0.2 0 0.3 0.2 0 0.7 -0.2 0", tenths)[1], "......##..");
@@ -168,7 +168,7 @@ TEST(CoverageCenter, ADecimalIsThatDecimalAndNotItsNearestDouble) {
 
 TEST(CoverageCenter, OtherNumbersAreTheirNearestDoubles) {
   const ScreenConfig tenths = decimal_screen(10, 1, -1, -1);
-  // The double nearest to 0.3 lies below it, that nearest to 0.1 above, so the centre of column 6 is in and
+  // The double nearest to 0.3 lies below it, that nearest to 0.1 above, so the center of column 6 is in and
   // that of column 5 is not; as the decimals 0.3 and 0.1 they would be on left edges, and in.
   EXPECT_EQ(picture_of("3e-1 -1 0 3e-1 1 0 0.5 -1 0", tenths)[0], "......#...");
   EXPECT_EQ(picture_of("1e-1 -1 0 1e-1 1 0 0.3 -1 0", tenths)[0], "..........");
@@ -177,8 +177,8 @@ TEST(CoverageCenter, OtherNumbersAreTheirNearestDoubles) {
 }
 
 TEST(CoverageCenter, LimitsAreDecimalsToo) {
-  // Pixels of size 0.1, centres at -0.25 ... 0.25; the left edge is at 0.05. The double nearest to 0.3 is
-  // less, and so would be the centre of column 3.
+  // Pixels of size 0.1, centers at -0.25 ... 0.25; the left edge is at 0.05. The double nearest to 0.3 is
+  // less, and so would be the center of column 3.
   const char* triangle = "0.05 -0.3 0 0.05 0.3 0 0.25 -0.3 0";
   ScreenConfig screen = decimal_screen(6, 6, -0.3, -0.3);
   EXPECT_EQ(picture_of(triangle, screen)[5], "...##.");
@@ -196,8 +196,8 @@ TEST(CoverageCenter, MoreDigitsThanADoubleHasDecide) {
   EXPECT_EQ(row_of("10000000001.5000003"), ".....###");
 }
 
-TEST(CoverageCenter, AMeshThroughPixelCentresOwnsEveryPixelOnce) {
-  // A quad of two triangles; the diagonal goes through n centres, which one of them owns.
+TEST(CoverageCenter, AMeshThroughPixelCentersOwnsEveryPixelOnce) {
+  // A quad of two triangles; the diagonal goes through n centers, which one of them owns.
   constexpr int n = 48;
   const ScreenConfig screen = decimal_screen(n, n);
   const TextTriangle lower = triangle_of("-1 -1 0 1 -1 0 1 1 0"), upper = triangle_of("-1 -1 0 1 1 0 -1 1 0");
@@ -206,8 +206,8 @@ TEST(CoverageCenter, AMeshThroughPixelCentresOwnsEveryPixelOnce) {
   EXPECT_EQ(owners_of({upper}, screen).pixels_with(1), n * (n - 1) / 2);
 }
 
-TEST(CoverageCenter, ASquareBetweenCentresHasTheTopAndTheLeftOnes) {
-  // Centres at odd multiples of 0.05; the square from -0.45 to 0.25 has 7 x 7 of them.
+TEST(CoverageCenter, ASquareBetweenCentersHasTheTopAndTheLeftOnes) {
+  // Centers at odd multiples of 0.05; the square from -0.45 to 0.25 has 7 x 7 of them.
   const ScreenConfig screen = decimal_screen(20, 20);
   const Owners owners = owners_of({triangle_of("-0.45 -0.45 0 0.25 -0.45 0 0.25 0.25 0"),
                                    triangle_of("-0.45 -0.45 0 0.25 0.25 0 -0.45 0.25 0")},
@@ -219,7 +219,7 @@ TEST(CoverageCenter, ASquareBetweenCentresHasTheTopAndTheLeftOnes) {
   EXPECT_EQ(owners.count(7, 12), 0);  // top right
 }
 
-TEST(CoverageCenter, AFanAroundAPixelCentreOwnsEveryPixelOnce) {
+TEST(CoverageCenter, AFanAroundAPixelCenterOwnsEveryPixelOnce) {
   const ScreenConfig screen = decimal_screen(20, 14, -1, -0.7);
   const std::array<std::string, 9> rim = {"2 0.05",   "2 2",   "0.05 2", "-0.3 2", "-2 2",
                                           "-2 -0.15", "-2 -2", "0.5 -2", "2 -2"};
@@ -282,14 +282,14 @@ TEST(CoverageCenter, ManyRandomMeshesOfFarDoublesOwnEveryPixelOnce) {
     const ScreenConfig screen = {
         random.whole(1, 40), random.whole(1, 40), -random.between(0.1, 3), -random.between(0.1, 3), -1, 1};
     const double far = std::ldexp(random.between(1, 2), random.whole(3, i % 3 == 0 ? 900 : 55));
-    const Vec3 centre = {random.between(-0.1, 0.1), random.between(-0.1, 0.1), 0};
+    const Vec3 center = {random.between(-0.1, 0.1), random.between(-0.1, 0.1), 0};
     std::array<Vec3, 6> rim{};
     for (std::size_t k = 0; k < rim.size(); ++k) {
       const double angle = 2 * 3.14159265358979 / 6 * (static_cast<double>(k) + random.between(0, 0.3));
       rim[k] = {far * std::cos(angle), far * std::sin(angle), 0};
     }
     Owners owners(screen);
-    for (std::size_t k = 0; k < rim.size(); ++k) owners.add({{centre, rim[k], rim[(k + 1) % rim.size()]}});
+    for (std::size_t k = 0; k < rim.size(); ++k) owners.add({{center, rim[k], rim[(k + 1) % rim.size()]}});
     ASSERT_EQ(owners.pixels_with(1), owners.all()) << "mesh " << i;
   }
 }
@@ -319,7 +319,7 @@ TEST(CoverageCenter, AllWidthsOfNumbersGiveTheSamePixelsAndDepths) {
         using Int = decltype(type);
         const auto on_grid =
             grid_triangle<Int>(grid, column_units(grid, t.exact()), row_units(grid, t.exact()));
-        const CentreBox box(on_grid, screen.rows, screen.columns);
+        const CenterBox box(on_grid, screen.rows, screen.columns);
         const std::vector<Span> spans =
             box.is_empty() ? std::vector<Span>() : spans_of(ExactRows<Int>(on_grid, box, z));
         ASSERT_EQ(spans.size(), expected.size());

@@ -38,7 +38,7 @@ struct Source {
 /// way.
 enum class Family {
   decimals,
-  pixel_centres,
+  pixel_centers,
   lines,
   off_the_screen,
   far_away,
@@ -51,11 +51,11 @@ enum class Family {
 Vec3 vertex_of(Family family, const ScreenConfig& screen, const Vec3& middle, double pixels,
                RandomNumbers& random) {
   const PixelGrid grid(screen);
-  const auto near = [&](double centre, double pixel) {
-    return std::nearbyint((centre + random.between(-pixels, pixels) * pixel) * 1e7) / 1e7;
+  const auto near = [&](double center, double pixel) {
+    return std::nearbyint((center + random.between(-pixels, pixels) * pixel) * 1e7) / 1e7;
   };
   switch (family) {
-    case Family::pixel_centres:  // or on the lines between them
+    case Family::pixel_centers:  // or on the lines between them
       return {grid.x_of(random.whole(-2, 2 * screen.columns)) / 2,
               grid.top_y - random.whole(0, 2 * screen.rows) * grid.dy / 2, random.between(-1, 1)};
     case Family::lines:  // along a row, or a column, or in a point

@@ -16,7 +16,7 @@ namespace {
 
 using Picture = std::vector<std::string>;
 
-// Pixels of size 1, centres at -3.5, -2.5 ... 3.5 in x and y: all small halves are exact.
+// Pixels of size 1, centers at -3.5, -2.5 ... 3.5 in x and y: all small halves are exact.
 constexpr ScreenConfig kEightByEight = {8, 8, -4, -4, -1, 1};
 // The assignment's example: pixels of size 0.004.
 constexpr ScreenConfig kExample = {500, 500, -1, -1, 0, 2};
@@ -53,7 +53,7 @@ TEST(CoverageNearest, TakesThePixelsNearestToBothEdges) {
 }
 
 TEST(CoverageNearest, HalfWayBetweenTwoPixelsTheRightOneIsTaken) {
-  // Edges at x = -1, 0 and 1, half-way between the centres of columns 2 and 3, 3 and 4, 4 and 5.
+  // Edges at x = -1, 0 and 1, half-way between the centers of columns 2 and 3, 3 and 4, 4 and 5.
   EXPECT_EQ(picture_of({{{-1, -1, 0}, {-1, 0, 0}, {1, -1, 0}}})[4], "...##...");
   EXPECT_EQ(picture_of({{{1, -1, 0}, {1, 0, 0}, {-1, -1, 0}}})[4], "....##..");
 }
@@ -286,10 +286,10 @@ TEST(CoverageNearest, RandomTrianglesAreThoseOfASecondImplementation) {
   std::mt19937_64 random(1);
   for (const double size : {0.05, 0.5, 3.0})
     for (int i = 0; i < 1000; ++i) {
-      std::uniform_real_distribution<double> centre(-1, 1), offset(-size, size);
-      const double x = centre(random), y = centre(random);
+      std::uniform_real_distribution<double> center(-1, 1), offset(-size, size);
+      const double x = center(random), y = center(random);
       Triangle t;
-      for (Vec3& p : t) p = {x + offset(random), y + offset(random), centre(random)};
+      for (Vec3& p : t) p = {x + offset(random), y + offset(random), center(random)};
       expect_like_second_implementation(t, {97, 61, -1, -0.75, -1, 1});
       if (HasFatalFailure()) FAIL() << "triangle " << i << " of size " << size;
     }

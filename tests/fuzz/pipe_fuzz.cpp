@@ -128,8 +128,8 @@ void check(FuzzBytes bytes) {
   std::vector<std::string> model_words = with_digits({"model"});
   if ((options & 2) != 0) model_words.emplace_back("--framed");
   const Run scene = {0, std::string(bytes.rest()), ""};
-  const Run modelled = run_stage(model_main, model_words, scene);
-  const Run viewed = run_stage(view_main, with_digits({"view"}), modelled);
+  const Run modeled = run_stage(model_main, model_words, scene);
+  const Run viewed = run_stage(view_main, with_digits({"view"}), modeled);
   const std::string& clip = clips[static_cast<std::size_t>(options >> 2 & 3)];
   const Run projected = run_stage(project_main, with_digits({"project", "--clip", clip}), viewed);
   check_picture(projected, (options & 16) != 0 ? "center" : "nearest");

@@ -81,7 +81,7 @@ TEST(DoubleDouble, RootOfZeroIsZero) {
   EXPECT_EQ(sqrt(DoubleDouble{0, 0}), (DoubleDouble{0, 0}));
 }
 
-TEST(DoubleDouble, ResultsAreNormalised) {
+TEST(DoubleDouble, ResultsAreNormalized) {
   RandomNumbers random(8);
   for (int i = 0; i < 100'000; ++i) {
     const DoubleDouble a = random.double_double(-100, 100);

@@ -93,7 +93,7 @@ TEST(Appearance, TheCurrentColorGoesWithNormalsInEitherOrder) {
 
 TEST(Appearance, ColorsLieFrom0To255) {
   EXPECT_EQ(error_of("color 0 256 0\n"),
-            "scene.txt:5:9: expected the green of the colour from 0 to 255, found '256'");
+            "scene.txt:5:9: expected the green of the color from 0 to 255, found '256'");
   EXPECT_EQ(error_of("background\n-1 0 0\n"),
             "scene.txt:6:1: expected the red of the background from 0 to 255, found '-1'");
   EXPECT_EQ(error_of("attributes color\ntriangle 0 0 0 0 0 300\n"),

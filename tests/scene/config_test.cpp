@@ -56,7 +56,7 @@ TEST(Config, TakesTheSmallestAndTheLargestScreen) {
   EXPECT_EQ(config_of("1 65535").rows, 65535);
 }
 
-TEST(Config, PixelCentresLieHalfAPixelInsideTheLimits) {
+TEST(Config, PixelCentersLieHalfAPixelInsideTheLimits) {
   const ScreenConfig config = config_of("8 4\n-4\n-1\n0 1");
   EXPECT_EQ(config.dx(), 1);
   EXPECT_EQ(config.dy(), 0.5);

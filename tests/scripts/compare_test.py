@@ -191,7 +191,7 @@ class Five(ToolTest):
         self.assertIn("by themselves wrong are also z_buffer.txt", sentence)
         self.assertEqual(verdicts, ["wrong", "right", "right", "wrong", "right"])
 
-    def test_colours_are_the_students_own(self):
+    def test_colors_are_the_students_own(self):
         self.hand_in(Student(SCENE))
         width, height, rows = read_picture("theirs/out.bmp")
         pathlib.Path("theirs/out.bmp").write_bytes(bmp(width, height, lambda c, r: [rows[r][3 * c + i] ^ 85 for i in range(3)]))

@@ -72,7 +72,7 @@ class Tradeoff(unittest.TestCase):
         for scene in self.scenes:
             for setting in ("--digits exact", "--digits exact --coverage center"):
                 row = self.rows[scene, setting]
-                for column in ("vertex_error_pixels", "flipped_pixels", "wrong_pixels", "neighbour_pixels",
+                for column in ("vertex_error_pixels", "flipped_pixels", "wrong_pixels", "neighbor_pixels",
                                "depth_error_max"):
                     if row[column]:
                         self.assertEqual(float(row[column]), 0, (scene, setting, column))
@@ -118,11 +118,11 @@ class Tradeoff(unittest.TestCase):
             error = self.value(scene, "--depth f32", "depth_error_max")
             self.assertTrue(2.0**-25 < error < 2.0**-25 + 6e-8, error)
 
-    def test_pixels_show_the_triangle_at_their_centre_where_coverage_is_by_centres(self):
-        for scene in dict.fromkeys(scene for scene, _ in self.values("off_centre_pixels")):
-            self.assertEqual(self.value(scene, "--digits exact --coverage center", "off_centre_pixels"), 0)
+    def test_pixels_show_the_triangle_at_their_center_where_coverage_is_by_centers(self):
+        for scene in dict.fromkeys(scene for scene, _ in self.values("off_center_pixels")):
+            self.assertEqual(self.value(scene, "--digits exact --coverage center", "off_center_pixels"), 0)
             covered = self.value(scene, "default", "covered_pixels")
-            self.assertGreater(self.value(scene, "--digits exact", "off_centre_pixels"), 0.01 * covered)
+            self.assertGreater(self.value(scene, "--digits exact", "off_center_pixels"), 0.01 * covered)
 
     def test_the_default_is_one_default(self):
         self.assertEqual({value for key, value in self.values("ratio_max").items() if key[1] == "default"}, {1})

@@ -30,7 +30,7 @@ TEST(StageText, WhatIsWrittenShortestReadsBackAsItWas) {
   EXPECT_EQ(triangles_of(written(batch, {.shortest = true})).triangles, batch.triangles);
 }
 
-// Header and columns of colour and light.
+// Header and columns of color and light.
 
 const std::string kLooks =
     "attributes w color normal\nbackground 1 2 3\nambient 0.1 0.2 0.3\nmaterial 1 0.5 0.25 100000\n"

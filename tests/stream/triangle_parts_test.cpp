@@ -112,7 +112,7 @@ TEST(TriangleParts, LeaveTheEndOfATextToTheSource) {
     for (const std::string header : {"", "framed\n"}) expect_same_by_parts(header + text + end, 20000);
 }
 
-const std::string kColumns = " 2.5 255 0 0.125 0 -1 0.5";  // w, colour, normal
+const std::string kColumns = " 2.5 255 0 0.125 0 -1 0.5";  // w, color, normal
 
 TEST(TriangleParts, MayHaveOtherCountsOfDecimalsAndColumns) {
   for (const int decimals : {0, 3, 9, 17})

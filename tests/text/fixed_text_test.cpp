@@ -249,7 +249,7 @@ TEST_P(FixedText, PrintsWhatLiesBesideATieOrLeavesIt) {
 }
 
 // Where digits join or leave: powers of ten, what is one unit beside them, and those of two up to 2^53.
-TEST_P(FixedText, PrintsPowersAndTheirNeighboursOrLeavesThem) {
+TEST_P(FixedText, PrintsPowersAndTheirNeighborsOrLeavesThem) {
   std::vector<double> values;
   for (int exponent = -9; exponent <= 9; ++exponent) values.push_back(std::pow(10.0, exponent));
   for (int exponent = -60; exponent <= 54; ++exponent) values.push_back(std::ldexp(1.0, exponent));

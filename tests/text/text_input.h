@@ -37,10 +37,10 @@ class TextFile {
   int descriptor_;
 };
 
-/// A descriptor that gives out one piece of text a read, as a slow neighbour in a pipe may do.
+/// A descriptor that gives out one piece of text a read, as a slow neighbor in a pipe may do.
 class TextInPieces {
  public:
-  /// What a reader meets behind the last piece. `silence` is a neighbour that neither writes nor ends:
+  /// What a reader meets behind the last piece. `silence` is a neighbor that neither writes nor ends:
   /// whoever reads on fails after two seconds instead of waiting for ever.
   enum class Then { end, silence };
 

@@ -54,7 +54,7 @@ class ClipInset(ToolTest):
         text = PERSPECTIVE + "0.1 0.2 -1.4\n0.3 0 -1.6\n0 0.3 -1.5\n\n"
         self.assertEqual(self.cut(text, "0.1"), triangles(pipe(["project"], stdin=text)))
 
-    def test_colours_are_cut_where_the_planes_stand(self):
+    def test_colors_are_cut_where_the_planes_stand(self):
         text = "attributes color\n" + ORTHO + "-1 0 -2 0 0 0\n1 0 -2 200 0 0\n1 1 -2 200 0 0\n\n"
         lines = pipe(["project", "--clip", "frustum", "--clip-inset", "0.5"], stdin=text).decode().splitlines()
         vertices = [list(map(float, line.split())) for line in lines if line and not line[0].isalpha()]

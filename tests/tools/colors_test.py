@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Colour, normals and light through model, view and project, against values worked out by hand.
+"""Color, normals and light through model, view and project, against values worked out by hand.
 
 usage: colors_test.py BIN_DIR [UNITTEST ARGUMENT...]
 """
@@ -158,7 +158,7 @@ class Clipping(ToolTest):
 
     def test_interpolates_attributes_in_clip_space(self):
         text = pipe(["project", "--digits", "exact"], stdin=self.TEXT)
-        # w runs from 3 to -1, so it is 1 half-way: the colours there are the means, and so are the normals.
+        # w runs from 3 to -1, so it is 1 half-way: the colors there are the means, and so are the normals.
         by_color = {tuple(v[4:7]): v for v in vertices(text)}
         self.assertEqual(set(by_color), {(0, 0, 0), (90, 0, 0), (145, 20, 0), (100, 20, 0)})
         self.assertEqual(by_color[145, 20, 0][3:], [1, 145, 20, 0, 0, 0.5, 0.5])

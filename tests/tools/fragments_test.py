@@ -12,9 +12,9 @@ import unittest
 from toolbox import SOURCE, ToolTest, pipe, run
 
 LINE = re.compile(r"(\d+),(\d+): triangle (\d+), depth (\S+): (kept|lost, .*)")
-# Without colours of their own.
+# Without colors of their own.
 SAMPLES = sorted(path for path in SOURCE.glob("samples/*/stage3.txt") if "attributes" not in path.read_text())
-# The 4 x 4 screen's pixel (1, 2) has its centre at (-0.25, -0.25).
+# The 4 x 4 screen's pixel (1, 2) has its center at (-0.25, -0.25).
 LIMITS = "4 4\n-1\n-1\n0 1\n"
 
 
@@ -22,7 +22,7 @@ def wall(z):
     return f"-9 -9 {z}\n9 -9 {z}\n0 9 {z}\n\n"
 
 
-def colours_by_number(count):
+def colors_by_number(count):
     """The course's generator: triangle N has draws 3N to 3N + 2."""
     state, drawn = 1, []
     for _ in range(3 * count):
@@ -95,7 +95,7 @@ class Fragments(ToolTest):
         self.assertEqual(self.files(), ["config.txt", "scene.txt"])
 
     def assert_tells_what_is_drawn(self, config, stage3, *options):
-        """The last fragment kept at each pixel gives its depth, and its colour where the text has none of its own; without one
+        """The last fragment kept at each pixel gives its depth, and its color where the text has none of its own; without one
         it is the background."""
         is_plain = not stage3.lstrip()[:1].isalpha()
         done = self.zbuf("--fragments", "fragments.txt", *options, stdin=stage3, config=config)
@@ -105,15 +105,15 @@ class Fragments(ToolTest):
             column, row, triangle, depth, fate = LINE.fullmatch(line).groups()
             if fate == "kept":
                 kept[int(column), int(row)] = int(triangle), float(depth)
-        colours = colours_by_number(1 + max((triangle for triangle, _ in kept.values()), default=0))
+        colors = colors_by_number(1 + max((triangle for triangle, _ in kept.values()), default=0))
         pixels = pathlib.Path("out.ppm").read_bytes()[-3 * columns * rows:]
         for row, line in enumerate(done.stdout.decode().splitlines()):
             shown = [f"{kept[column, row][1] + 0.0:.6f}" for column in range(columns) if (column, row) in kept]
             self.assertEqual(["0.000000" if word == "-0.000000" else word for word in shown], line.split(), row)
             for column in range(columns if is_plain else 0):
                 at = 3 * (row * columns + column)
-                colour = colours[kept[column, row][0]] if (column, row) in kept else (0, 0, 0)
-                self.assertEqual(tuple(pixels[at:at + 3]), colour, (column, row))
+                color = colors[kept[column, row][0]] if (column, row) in kept else (0, 0, 0)
+                self.assertEqual(tuple(pixels[at:at + 3]), color, (column, row))
 
     def test_samples_are_explained(self):
         self.assertTrue(SAMPLES)

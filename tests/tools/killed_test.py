@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Neighbours that are killed: no picture of a part of a framed scene ever appears.
+"""Neighbors that are killed: no picture of a part of a framed scene ever appears.
 
 usage: killed_test.py BIN_DIR [UNITTEST ARGUMENT...]
 """

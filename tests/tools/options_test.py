@@ -229,7 +229,7 @@ class NumbersOfTriangles(ToolTest):
         lines = pipe(["view"], stdin=text).decode().splitlines()
         self.assertEqual([line for line in lines if line.startswith("triangle")], ["triangle 7"])
 
-    def test_they_choose_the_colour(self):
+    def test_they_choose_the_color(self):
         triangle = "-1 -1 0\n1 -1 0\n0 1 0\n\n"
         pictures = []
         for text in (triangle, "triangle 1\n" + triangle, "5 5 5\n5 5 5\n5 5 5\n\n" + triangle):

@@ -156,7 +156,7 @@ class Samples(Pictures):
                 self.assertEqual(self.pixels(stage3, "--coverage", coverage, "--samples", count),
                                  self.means(large, count))
 
-    def test_depths_stay_those_of_the_centres(self):
+    def test_depths_stay_those_of_the_centers(self):
         stage3 = random_triangles(5, 12)
         text = self.zbuf(stage3, "--depth-image", "one.pgm")
         self.assertEqual(self.zbuf(stage3, "--samples", "4", "--depth-image", "many.pgm"), text)

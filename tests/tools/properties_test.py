@@ -99,7 +99,7 @@ class Properties(ToolTest):
             for coverage in ("nearest", "center"):
                 expected = self.picture("".join(bodies), "--coverage", coverage)
                 scene.random.shuffle(bodies)
-                # These triangles cross; no two have the same depth at a pixel's centre.
+                # These triangles cross; no two have the same depth at a pixel's center.
                 self.assertEqual(self.picture("".join(bodies), "--coverage", coverage), expected)
 
     def test_of_equal_depths_the_first_stays_and_the_depths_are_the_same(self):

@@ -99,7 +99,7 @@ class RandomScenes(unittest.TestCase):
             config_file.write_text(config_text)
             got = run("zbuf", config_file, "--image", image_file, stdin=stage3).decode()
             self.assertEqual(got, reference_pipeline.depth_text(depth, config.rear))
-            self.assertTrue(image_file.read_bytes() == reference_pipeline.bmp(reference_pipeline.coloured(owners)), "the pictures differ")
+            self.assertTrue(image_file.read_bytes() == reference_pipeline.bmp(reference_pipeline.colored(owners)), "the pictures differ")
 
 
 if __name__ == "__main__":

@@ -332,15 +332,15 @@ def pixels_of(triangle, config):
             yield row, column, depth_at(Decimal(config.x_of(column)))
 
 
-def colours():
+def colors():
     """(red, green, blue) of triangle 0, 1, 2 ...: three numbers each of the course's generator."""
     state = 1
     while True:
-        colour = []
+        color = []
         for _ in range(3):
             state = (214013 * state + 2531011) % 2**32
-            colour.append((state >> 16 & 0x7fff) % 256)
-        yield tuple(colour)
+            color.append((state >> 16 & 0x7fff) % 256)
+        yield tuple(color)
 
 
 def z_buffered(stage3, config):
@@ -356,10 +356,10 @@ def z_buffered(stage3, config):
     return depth, owners
 
 
-def coloured(owners):
-    """The image: every triangle in its colour, on black."""
+def colored(owners):
+    """The image: every triangle in its color, on black."""
     numbers = {number for row in owners for number in row if number is not None}
-    by_number = dict(zip(range(max(numbers, default=-1) + 1), colours()))
+    by_number = dict(zip(range(max(numbers, default=-1) + 1), colors()))
     return [[(0, 0, 0) if number is None else by_number[number] for number in row] for row in owners]
 
 
@@ -392,7 +392,7 @@ def stages(scene, config):
 def pipeline(scene_text, config_text):
     """The five files, by name."""
     files, owners = stages(Scene(scene_text), Config(config_text))
-    return files | {"out.bmp": bmp(coloured(owners))}
+    return files | {"out.bmp": bmp(colored(owners))}
 
 
 def read(path):

@@ -1,7 +1,7 @@
-"""Colour and light for reference_pipeline.py: what a lit scene's picture shows, by rays cast in view space.
+"""Color and light for reference_pipeline.py: what a lit scene's picture shows, by rays cast in view space.
 
-The plain pipeline says which triangle each pixel shows. The ray through the pixel's centre meets that triangle's plane
-in view space; the corners' weights there give colour, normal and place, and the lighting formula is evaluated. Nothing
+The plain pipeline says which triangle each pixel shows. The ray through the pixel's center meets that triangle's plane
+in view space; the corners' weights there give color, normal and place, and the lighting formula is evaluated. Nothing
 is interpolated on the screen, no piece of a clipped triangle is looked at, and no code is shared with libpipeline.
 """
 import math
@@ -25,11 +25,11 @@ def mean(weights, vectors):
 
 
 class LitScene(plain.Scene):
-    """Also keeps `looks`, lights in world space, and each triangle's colour and normals in world space."""
+    """Also keeps `looks`, lights in world space, and each triangle's color and normals in world space."""
 
     def __init__(self, text):
-        self.looks, self.lights, self.colour, self.names = dict(DEFAULTS), [], None, []
-        self.colours, self.normals = [], []
+        self.looks, self.lights, self.color, self.names = dict(DEFAULTS), [], None, []
+        self.colors, self.normals = [], []
         super().__init__(text)
 
     def other_command(self, command, transform):
@@ -37,20 +37,20 @@ class LitScene(plain.Scene):
             while self.words[self.next] in ("color", "normal"):
                 self.names.append(self.word())
         elif command == "color":
-            self.colour = self.point()
+            self.color = self.point()
         elif command == "light":
             self.lights.append((plain.applied(transform, self.point()), self.point()))
         else:
             self.looks[command] = self.numbers(len(DEFAULTS[command]))
 
     def triangle(self, transform):
-        corners, colours, normals = [], [], []
+        corners, colors, normals = [], [], []
         for _ in range(3):
             corners.append(plain.applied(transform, self.point()))
-            colours.append(self.point() if "color" in self.names else self.colour)
+            colors.append(self.point() if "color" in self.names else self.color)
             if "normal" in self.names:
                 normals.append(self.world_normal(transform, self.point()))
-        self.colours.append(colours)
+        self.colors.append(colors)
         self.normals.append(normals)
         return corners
 
@@ -63,14 +63,14 @@ class LitScene(plain.Scene):
         return plain.times(1 if determinant > 0 else -1, mean(n, cofactors))
 
 
-def lit(p, normal, colour, lights, looks, is_ortho):
+def lit(p, normal, color, lights, looks, is_ortho):
     """The lighting formula at a point of view space."""
     to_eye = (0.0, 0.0, 1.0) if is_ortho else unit(plain.times(-1, p))
     n = unit(normal)
     n = plain.times(-1, n) if plain.dot(n, to_eye) < 0 else n
     ka, kd, ks, shininess = looks["material"]
     constant, linear, quadratic = looks["attenuation"]
-    result = [c * ka * a for c, a in zip(colour, looks["ambient"])]
+    result = [c * ka * a for c, a in zip(color, looks["ambient"])]
     for place, intensity in lights:
         way = plain.subtract(place, p)
         distance = math.sqrt(plain.dot(way, way))
@@ -80,12 +80,12 @@ def lit(p, normal, colour, lights, looks, is_ortho):
         diffuse = kd * max(0.0, plain.dot(n, to_light))
         highlight = 255 * ks * max(0.0, plain.dot(n, half)) ** shininess
         for i in range(3):
-            result[i] += arriving * intensity[i] * (colour[i] * diffuse + highlight)
+            result[i] += arriving * intensity[i] * (color[i] * diffuse + highlight)
     return result
 
 
 def weights_of(corners, start, way):
-    """Of the corners, where the ray from `start` meets their plane; a pixel's centre may lie a little outside."""
+    """Of the corners, where the ray from `start` meets their plane; a pixel's center may lie a little outside."""
     volumes = [plain.dot(plain.subtract(corners[i - 2], start), plain.cross(plain.subtract(corners[i - 1], start), way))
                for i in range(3)]
     weights = [max(0.0, volume / sum(volumes)) for volume in volumes]
@@ -93,7 +93,7 @@ def weights_of(corners, start, way):
 
 
 def lit_image(scene, config, owners, model):
-    """The rows of the image as real colours; `owners` says which triangle each pixel shows, or None."""
+    """The rows of the image as real colors; `owners` says which triangle each pixel shows, or None."""
     left, right, bottom, top, near, _ = floats(plain.window(scene.projection))
     is_ortho = scene.projection[0] == "ortho"
     l = plain.normalized(plain.subtract(scene.look, scene.eye))
@@ -105,22 +105,22 @@ def lit_image(scene, config, owners, model):
 
     looks = {name: floats(values) for name, values in scene.looks.items()}
     lights = [(turned(plain.subtract(place, scene.eye)), floats(intensity)) for place, intensity in scene.lights]
-    surfaces = [([floats(p) for p in triangle], [turned(n) for n in normals], [floats(c) for c in colours])
-                for triangle, normals, colours in zip(plain.view(scene), scene.normals, scene.colours)]
+    surfaces = [([floats(p) for p in triangle], [turned(n) for n in normals], [floats(c) for c in colors])
+                for triangle, normals, colors in zip(plain.view(scene), scene.normals, scene.colors)]
 
-    def colour_at(number, row, column):
+    def color_at(number, row, column):
         x = left + (config.x_of(column) + 1) / 2 * (right - left)
         y = bottom + (config.y_of(row) + 1) / 2 * (top - bottom)
         start, way = ((x, y, 0.0), (0.0, 0.0, -1.0)) if is_ortho else ((0.0, 0.0, 0.0), (x, y, -near))
-        corners, normals, colours = surfaces[number]
+        corners, normals, colors = surfaces[number]
         weights = weights_of(corners, start, way)
         if model == "flat":
             weights = [1 / 3] * 3
         if model == "flat" or not normals:
             normals = [plain.cross(plain.subtract(corners[1], corners[0]), plain.subtract(corners[2], corners[0]))] * 3
         if model == "gouraud":
-            return mean(weights, [lit(*corner, lights, looks, is_ortho) for corner in zip(corners, normals, colours)])
-        return lit(mean(weights, corners), mean(weights, normals), mean(weights, colours), lights, looks, is_ortho)
+            return mean(weights, [lit(*corner, lights, looks, is_ortho) for corner in zip(corners, normals, colors)])
+        return lit(mean(weights, corners), mean(weights, normals), mean(weights, colors), lights, looks, is_ortho)
 
-    return [[looks["background"] if number is None else colour_at(number, row, column)
+    return [[looks["background"] if number is None else color_at(number, row, column)
              for column, number in enumerate(line)] for row, line in enumerate(owners)]

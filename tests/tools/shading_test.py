@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""What zbuf makes of colours and lights, against rays cast through the pixels.
+"""What zbuf makes of colors and lights, against rays cast through the pixels.
 
-A ray meets the triangle in view space; colour, normal and place there are means of the corners', and the lighting
+A ray meets the triangle in view space; color, normal and place there are means of the corners', and the lighting
 formula is evaluated there. So nothing is projected, and nothing is interpolated on the screen.
 
 usage: shading_test.py BIN_DIR [UNITTEST ARGUMENT...]
@@ -21,7 +21,7 @@ LIGHTS = [((2, 3, 4), (0.5, 0.25, 1)), ((-3, 0, 2), (0.5, 0.5, 0.25))]
 AMBIENT = (0.1, 0.2, 0.1)
 MATERIAL = (1, 0.75, 0.5, 12)
 ATTENUATION = (1, 0.01, 0.02)
-# Position, colour, normal; the triangle is slanted, so that perspective shows.
+# Position, color, normal; the triangle is slanted, so that perspective shows.
 CORNERS = [((-2, -2, 2), (255, 0, 0), (0, 0, 1)), ((2, -1, -3), (0, 255, 30), (0.6, 0, 0.8)),
            ((0, 2, 0), (30, 60, 255), (0, 0.8, 0.6))]
 # Beyond the edges of the picture.
@@ -92,7 +92,7 @@ def lit(p, color, normal, eye_direction):
 
 
 def expected_pixel(row, column, corners, projection, model):
-    """The colour a ray finds, or nothing where it misses the triangle."""
+    """The color a ray finds, or nothing where it misses the triangle."""
     x, y = (2 * column + 1) / SIZE - 1, 1 - (2 * row + 1) / SIZE
     is_perspective = projection == PERSPECTIVE
     slope = math.tan(math.pi / 6)
@@ -195,7 +195,7 @@ class Shading(ToolTest):
             self.assertEqual(set(sum(self.image_of(stage3, "--shading", model), [])), {(255, 255, 255)})
 
     def test_lights_alone_light_the_triangles_own_colors_flatly(self):
-        # Triangle 0's colour is 41 35 190; the light stands straight before it, at the eye.
+        # Triangle 0's color is 41 35 190; the light stands straight before it, at the eye.
         scene = (EYE_AT_5 + PERSPECTIVE + "\nlight 0 0 5 1 1 1\nattenuation 0 0.4 0\n"
                  "triangle\n-90 -90 0\n90 -90 0\n0 180 0\nend\n")
         stage3 = pipe(["model"], ["view"], ["project"], stdin=scene)
@@ -230,7 +230,7 @@ def without_looks(stage3):
 
 
 class WholeScenes(ToolTest):
-    """The lit samples, small, under every model: every pixel against a ray through its centre.
+    """The lit samples, small, under every model: every pixel against a ray through its center.
 
     Which triangle a pixel shows is taken from the plain picture: the diagonal of a flat side belongs to either half.
     """
@@ -243,7 +243,7 @@ class WholeScenes(ToolTest):
         return [tuple(data[i:i + 3]) for i in range(0, len(data), 3)]
 
     def owners(self, stage3, coverage, count):
-        numbers = {colour: number for number, colour in zip(range(count), reference_pipeline.colours())}
+        numbers = {color: number for number, color in zip(range(count), reference_pipeline.colors())}
         seen = [numbers.get(pixel) for pixel in self.pixels(without_looks(stage3), "--coverage", coverage)]
         return [seen[i:i + self.COLUMNS] for i in range(0, len(seen), self.COLUMNS)]
 
@@ -251,7 +251,7 @@ class WholeScenes(ToolTest):
         config_text = f"{self.COLUMNS} {self.ROWS}\n"
         pathlib.Path("config.txt").write_text(config_text)
         config = reference_pipeline.Config(config_text)
-        for name in ("inside", "orthographic", "coloured-lights"):
+        for name in ("inside", "orthographic", "colored-lights"):
             text = (SOURCE / "samples" / name / "scene.txt").read_text()
             scene = reference_shading.LitScene(text)
             stage3 = pipe(["model", "--digits", "exact"], ["view", "--digits", "exact"], ["project"], stdin=text)
@@ -308,7 +308,7 @@ class WholePictures(ToolTest):
                  "light 300 400 900 1 1 1\n" + "".join(ball(12, 24)) + "end\n")
         # The brightness of a true ball bends by about 255 / 45^2 = 0.13; rounding three values adds less than 2.
         self.assertLessEqual(self.largest_bend(self.image_of(scene, "--coverage", "center")), 2)
-        # Pixels whose centres lie beyond an edge, by half a pixel at most, show the edge: half of a pixel's rise of
+        # Pixels whose centers lie beyond an edge, by half a pixel at most, show the edge: half of a pixel's rise of
         # 255 / 45 is missing there, and a bend has it twice.
         self.assertLessEqual(self.largest_bend(self.image_of(scene, "--coverage", "nearest")), 2 + 255 / 45)
         # What has edges shows them.
@@ -319,7 +319,7 @@ class WholePictures(ToolTest):
                  "ambient 0.1 0.1 0.1\nlight 3e7 4e7 5e7 0.9 0.8 0.7\ntriangle\n"
                  "-2 -2 0 -0.6 0 0.8\n2 -2 3 -0.6 0 0.8\n-2 2 0 -0.6 0 0.8\nend\n")
         images = [sum(self.image_of(scene, "--shading", model), []) for model in ("flat", "gouraud", "phong")]
-        # Not black, of one colour: 255 * (0.1 + 0.9 * 0.9 * (-1.8 + 4) / sqrt(50)) and so on.
+        # Not black, of one color: 255 * (0.1 + 0.9 * 0.9 * (-1.8 + 4) / sqrt(50)) and so on.
         share = 0.9 * (-0.6 * 3 + 0.8 * 5) / math.sqrt(50)
         expected = [c * (0.1 + share * i) for c, i in zip((255, 128, 64), (0.9, 0.8, 0.7))]
         for pixels in zip(*images):
@@ -330,9 +330,9 @@ class WholePictures(ToolTest):
     def test_a_mirrored_scene_gives_the_mirrored_image(self):
         scene = (EYE_AT_5.replace("0 0 5", "0 0 4") + PERSPECTIVE + "\nattributes color normal\nmaterial 1 0.7 0.4 20\n"
                  "MIRROR\nlight 2 3 4 1 0.8 0.6\nlight -4 -1 1 0.3 0.3 0.5\nrotate 33 1 2 3\n" +
-                 "".join(line + "\n" if len(line.split()) < 6 else words(*line.split()[:3], *colour, *line.split()[3:]) + "\n"
+                 "".join(line + "\n" if len(line.split()) < 6 else words(*line.split()[:3], *color, *line.split()[3:]) + "\n"
                          for triangle in ball(5, 7)
-                         for line, colour in zip(triangle.splitlines(), ("", (255, 0, 9), (20, 255, 3), (90, 40, 255)))) +
+                         for line, color in zip(triangle.splitlines(), ("", (255, 0, 9), (20, 255, 3), (90, 40, 255)))) +
                  "end\n")
         for model in MODELS:
             options = ("--shading", model, "--coverage", "center")

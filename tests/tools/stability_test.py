@@ -329,7 +329,7 @@ class ProjectOtherwise(StabilityTest):
         cut = self.printed("project", stdin=with_camera + whole)
         self.assertEqual(cut.replace("triangle 0\n", ""), self.printed("project", "--clip", "none", stdin=with_camera + by_hand))
 
-    def test_neighbours_get_the_same_points_on_the_edge_they_share(self):
+    def test_neighbors_get_the_same_points_on_the_edge_they_share(self):
         with_camera = "perspective " + PERSPECTIVE + "\n"
         left = self.printed("project", stdin=with_camera + lines_of(("0.1 0.7 3", "1.3 -0.5 -7", "-4 2 -3")))
         right = self.printed("project", stdin=with_camera + lines_of(("1.3 -0.5 -7", "0.1 0.7 3", "5 1 -2")))

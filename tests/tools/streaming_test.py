@@ -207,7 +207,7 @@ class Memory(ToolTest):
 
 
 class BufferMemory(ToolTest):
-    """zbuf takes its buffers, 12 bytes a pixel in doubles with colour, and less than 32 MiB more."""
+    """zbuf takes its buffers, 12 bytes a pixel in doubles with color, and less than 32 MiB more."""
 
     SIZE = 2048
     LARGE = "-1.0000000 -1.0000000 0.5000000\n0.2000000 -1.0000000 0.5000000\n-1.0000000 1.0000000 0.5000000\n\n"

@@ -249,7 +249,7 @@ Polygon corners_on_edge(const Polygon& polygon, const ClipVertex& a, const ClipV
   return found;
 }
 
-void expect_same_cuts_for_neighbours(RandomNumbers& random) {
+void expect_same_cuts_for_neighbors(RandomNumbers& random) {
   const ClipVertex a = random_vertex(random);
   const ClipVertex b = random_vertex(random);
   const Polygon first = clip_polygon(Polygon{a, b, random_vertex(random)}, kAllClipPlanes);
@@ -280,12 +280,12 @@ TEST(ClipPolygon, WindingIsKept) {
   for_random_triangles(3, 3'000, expect_winding_kept);
 }
 
-TEST(ClipPolygon, NeighboursGetTheSamePointsOnTheirEdge) {
+TEST(ClipPolygon, NeighborsGetTheSamePointsOnTheirEdge) {
   RandomNumbers random(4);
-  for (int i = 0; i < 5'000 && !HasFatalFailure(); ++i) expect_same_cuts_for_neighbours(random);
+  for (int i = 0; i < 5'000 && !HasFatalFailure(); ++i) expect_same_cuts_for_neighbors(random);
 }
 
-TEST(ClipPolygon, NeighboursGetTheSamePointWhereOnlyWDiffers) {
+TEST(ClipPolygon, NeighborsGetTheSamePointWhereOnlyWDiffers) {
   const ClipVertex a = {-4, -4, -4, 7};
   // One is farther behind the plane than a is before it, the other as far.
   for (const ClipVertex& b : {ClipVertex{-4, -4, -4, -4.3}, ClipVertex{-4, -4, -4, 1}}) {
@@ -302,7 +302,7 @@ TEST(ClipPolygon, LongAllPropertiesHold) {
   for_random_triangles(102, 100'000, expect_nothing_outside);
   for_random_triangles(103, 100'000, expect_winding_kept);
   RandomNumbers random(104);
-  for (int i = 0; i < 100'000 && !HasFatalFailure(); ++i) expect_same_cuts_for_neighbours(random);
+  for (int i = 0; i < 100'000 && !HasFatalFailure(); ++i) expect_same_cuts_for_neighbors(random);
 }
 
 TEST(ClipPolygon, PiecesAreNearlyExact) {

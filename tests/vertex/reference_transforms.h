@@ -35,7 +35,7 @@ struct ReferenceVec3 {
   friend ReferenceVec3 cross(const ReferenceVec3& a, const ReferenceVec3& b) {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
   }
-  friend ReferenceVec3 normalised(const ReferenceVec3& a) {
+  friend ReferenceVec3 normalized(const ReferenceVec3& a) {
     const Real<bits> length = sqrt(dot(a, a));
     return {a.x / length, a.y / length, a.z / length};
   }
@@ -86,7 +86,7 @@ Real<bits> radians(const Real<bits>& degrees) {
 template <int bits>
 ReferenceMatrix<bits> reference_rotation(double angle_degrees, const Vec3& axis) {
   using R = Real<bits>;
-  const ReferenceVec3<bits> a = normalised(ReferenceVec3<bits>(axis));
+  const ReferenceVec3<bits> a = normalized(ReferenceVec3<bits>(axis));
   const R half = times_power_of_two(radians(R(angle_degrees)), -1);
   const R w = cos(half);
   const R x = sin(half) * a.x;
@@ -103,8 +103,8 @@ ReferenceMatrix<bits> reference_rotation(double angle_degrees, const Vec3& axis)
 template <int bits>
 ReferenceMatrix<bits> reference_view(const Vec3& eye, const Vec3& look, const Vec3& up) {
   using V = ReferenceVec3<bits>;
-  const V forward = normalised(V(look) - V(eye));
-  const V right = normalised(cross(forward, normalised(V(up))));
+  const V forward = normalized(V(look) - V(eye));
+  const V right = normalized(cross(forward, normalized(V(up))));
   const V camera_up = cross(right, forward);
   const V backward = V() - forward;
   ReferenceMatrix<bits> m = {{right, camera_up, backward}, {}};

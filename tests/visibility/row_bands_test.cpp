@@ -83,7 +83,7 @@ void expect_no_pixel_elsewhere(const ScreenConfig& screen) {
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> unit(-1, 1);
   for (int i = 0; i < sanitizer_rounds(3000); ++i) {
-    // Vertices on, next to and between the lines of pixel centres.
+    // Vertices on, next to and between the lines of pixel centers.
     const auto y = [&] {
       const double on_a_line = screen.top_y() - std::floor(unit(random) * screen.rows) * screen.dy();
       return random() % 3 == 0 ? unit(random) * -screen.bottom

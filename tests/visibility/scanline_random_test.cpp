@@ -50,9 +50,9 @@ class RandomScenes {
         case 3:
         case 4:  // with a shared edge
           if (!scene.empty()) {
-            const Triangle& neighbour = scene[random_.bits() % scene.size()];
-            triangle[0] = neighbour[1];
-            triangle[1] = neighbour[0];
+            const Triangle& neighbor = scene[random_.bits() % scene.size()];
+            triangle[0] = neighbor[1];
+            triangle[1] = neighbor[0];
           }
           break;
         default:

@@ -13,7 +13,7 @@ namespace {
 
 using Picture = std::vector<std::string>;
 
-// Pixels of size 1, centres at -3.5, -2.5 ... 3.5 in x and y: all small halves are exact.
+// Pixels of size 1, centers at -3.5, -2.5 ... 3.5 in x and y: all small halves are exact.
 constexpr ScreenConfig kEightByFour = {8, 4, -4, -2, 0, 2};
 
 /// The visible triangles as letters: a is the first triangle, a dot the background.
@@ -64,7 +64,7 @@ TEST(Scanline, TheTextbooksTwoPolygons) {
 }
 
 TEST(Scanline, TheNearerTriangleIsSeenWhateverTheOrder) {
-  // A centre on the diagonal belongs to the triangle on its right.
+  // A center on the diagonal belongs to the triangle on its right.
   const Scene near_scene = rectangle(-2, 2, -1, 1, 0.5), far_scene = rectangle(-4, 4, -2, 2, 1);
   EXPECT_EQ(picture_of(near_scene + far_scene), (Picture{
                                                     "dddddddc",
@@ -87,13 +87,13 @@ Triangle half_plane(double z, double slope) {
 }
 
 TEST(Scanline, AnIntervalIsSplitWherePolygonsInterpenetrate) {
-  // The depths are equal at x = 0.75, between two centres.
+  // The depths are equal at x = 0.75, between two centers.
   EXPECT_EQ(picture_of({half_plane(1, 0.125), half_plane(1.1875, -0.125)}), Picture(4, "aaaaabbb"));
   EXPECT_EQ(picture_of({half_plane(1.1875, -0.125), half_plane(1, 0.125)}), Picture(4, "bbbbbaaa"));
 }
 
-TEST(Scanline, WhereTheyMeetAtACentreTheEarlierIsSeen) {
-  // The depths are equal at x = 0.5, the centre of column 4.
+TEST(Scanline, WhereTheyMeetAtACenterTheEarlierIsSeen) {
+  // The depths are equal at x = 0.5, the center of column 4.
   EXPECT_EQ(picture_of({half_plane(1, 0.125), half_plane(1.125, -0.125)}), Picture(4, "aaaaabbb"));
   EXPECT_EQ(picture_of({half_plane(1.125, -0.125), half_plane(1, 0.125)}), Picture(4, "bbbbaaaa"));
 }
@@ -155,7 +155,7 @@ TEST(Scanline, TheFrontLimitIsSeenAndTheRearLimitIsNot) {
   EXPECT_EQ(picture_of({half_plane(0.625, 0.25)}), Picture(4, ".aaaaaaa"));  // 0 at column 1
   EXPECT_EQ(picture_of({half_plane(1.25, 0.5)}), Picture(4, ".aaaa..."));    // 0 at column 1, 2 at column 5
   EXPECT_EQ(picture_of({half_plane(0.75, -0.5)}), Picture(4, "..aaaa.."));   // 2 at column 1, 0 at column 5
-  EXPECT_EQ(picture_of({half_plane(1, 8)}), Picture(4, "........"));         // never between them at a centre
+  EXPECT_EQ(picture_of({half_plane(1, 8)}), Picture(4, "........"));         // never between them at a center
 }
 
 TEST(Scanline, WhatIsInFrontOfTheFrontLimitHidesNothing) {
@@ -201,7 +201,7 @@ TEST(Scanline, DepthsThatAreStoredAsEqualAreEqual) {
 }
 
 TEST(Scanline, KeepsTheDigitsThatDoublesDoNotHold) {
-  // A vertex on a centre but for 1e-20, to the left or to the right.
+  // A vertex on a center but for 1e-20, to the left or to the right.
   for (const double low_part : {-1e-20, 1e-20}) {
     const Triangle triangle = {{{0.5, -3, 1}, {3, -3, 1}, {0.5, 3, 1}}};
     Triangle low_parts = {};

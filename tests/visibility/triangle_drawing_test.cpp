@@ -13,7 +13,7 @@
 namespace pipeline {
 namespace {
 
-/// `color_of(i)` is the colour of triangle i.
+/// `color_of(i)` is the color of triangle i.
 template <typename Visible, typename ColorOf>
 void draw_on_threads(Visible& visible, const std::vector<Triangle>& scene, const ScreenConfig& screen,
                      int thread_count, std::size_t batch_size, ColorUse use, const ColorOf& color_of) {

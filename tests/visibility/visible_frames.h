@@ -15,7 +15,7 @@ using Scene = std::vector<Triangle>;
 // The screens on which coordinates are decimals of at most 7 places; their doubles are read as such.
 inline constexpr std::uint16_t kAllDecimals = 0x1ff;
 
-/// The colour of triangle `index`: never black.
+/// The color of triangle `index`: never black.
 inline Color color_of(std::size_t index) {
   return Color::from_rgb(static_cast<std::uint32_t>(index + 1));
 }

@@ -1,5 +1,5 @@
 // Draws the triangles of a bare NDC text as one would write it first: every pixel of the bounding box is
-// asked whether its centre is in the triangle, all in doubles; each thread draws a part of the triangles into
+// asked whether its center is in the triangle, all in doubles; each thread draws a part of the triangles into
 // a picture of its own, and the pictures are merged. Prints the seconds that the drawing took, and how many
 // pixels show a triangle.
 //

@@ -7,12 +7,12 @@ DARK = {"card": "#0d1117", "edge": "#3d444d", "grid": "#262c34", "axis": "#656c7
         "band": "#2b2214", "ink": "#e6edf3", "soft": "#9198a1", "series": ("#ff7088", "#eda63a", "#45c4bc", "#a79bff")}
 
 
-def colours(theme):
+def colors(theme):
     rules = """.card { fill: %(card)s; stroke: %(edge)s } .grid { stroke: %(grid)s } .axis { stroke: %(axis)s }
 .guide { stroke: %(guide)s } .band { fill: %(band)s } text { fill: %(ink)s } .soft { fill: %(soft)s }
 """ % theme
-    for i, colour in enumerate(theme["series"]):
-        rules += f".s{i} text, .s{i} .dot {{ fill: {colour} }} .s{i} .front, .s{i} circle {{ stroke: {colour} }}\n"
+    for i, color in enumerate(theme["series"]):
+        rules += f".s{i} text, .s{i} .dot {{ fill: {color} }} .s{i} .front, .s{i} circle {{ stroke: {color} }}\n"
     return rules
 
 
@@ -21,8 +21,8 @@ STYLE = f"""
 text {{ font: 12px system-ui, "Segoe UI", "DejaVu Sans", sans-serif }}
 .title {{ font-size: 14px; font-weight: 600 }}
 .guide {{ stroke-dasharray: 1 3 }} .front {{ stroke-width: 2 }} .behind {{ fill: none; opacity: .7 }}
-{colours(LIGHT)}@media (prefers-color-scheme: dark) {{
-{colours(DARK)}}}
+{colors(LIGHT)}@media (prefers-color-scheme: dark) {{
+{colors(DARK)}}}
 """
 
 

@@ -121,7 +121,7 @@ DEPTH_SCALE = 2.0**20
 NOBODY = bytes(3)  # black, the background
 
 
-def colours_by_number(count):
+def colors_by_number(count):
     """What zbuf gives triangles 0, 1, 2 ...: red, green, blue, each the next number of its generator."""
     state, drawn = 1, bytearray()
     for _ in range(3 * count):
@@ -130,12 +130,12 @@ def colours_by_number(count):
     return [bytes(drawn[i:i + 3]) for i in range(0, len(drawn), 3)]
 
 
-def distinct_colours(count):
-    """{colour: number} for `count` triangles that zbuf gives different colours, and none the background's."""
+def distinct_colors(count):
+    """{color: number} for `count` triangles that zbuf gives different colors, and none the background's."""
     numbers = {}
-    for number, colour in enumerate(colours_by_number(count + count // 8 + 8)):
-        if colour != NOBODY and len(numbers) < count:
-            numbers.setdefault(colour, number)
+    for number, color in enumerate(colors_by_number(count + count // 8 + 8)):
+        if color != NOBODY and len(numbers) < count:
+            numbers.setdefault(color, number)
     assert len(numbers) == count
     return numbers
 
@@ -146,10 +146,10 @@ class Errors:
     def __init__(self, bench):
         self.bench = bench
         self.scene = bench.scene
-        self.owner_of_colour = {NOBODY: None}
+        self.owner_of_color = {NOBODY: None}
         self.numbers = []
-        for triangle, (colour, number) in enumerate(distinct_colours(self.scene.triangle_count).items()):
-            self.owner_of_colour[colour] = triangle
+        for triangle, (color, number) in enumerate(distinct_colors(self.scene.triangle_count).items()):
+            self.owner_of_color[color] = triangle
             self.numbers.append(number)
         self.projections = {}  # by digits and precision: the vertices as words, and the bytes in the pipes
         self.pictures = {}     # by setting
@@ -172,8 +172,8 @@ class Errors:
             "covered_pixels": sum(owner is not None for owner, _ in true_picture),
             "flipped_pixels": differences["flip"],
             "wrong_pixels": differences["wrong"],
-            "neighbour_pixels": differences["neighbour"],
-            "off_centre_pixels": sum(against_centers.values()),
+            "neighbor_pixels": differences["neighbor"],
+            "off_center_pixels": sum(against_centers.values()),
             "depth_error_median": depth_errors[len(depth_errors) // 2] if depth_errors else "",
             "depth_error_max": depth_errors[-1] if depth_errors else "",
         }
@@ -198,23 +198,23 @@ class Errors:
             self.bench.set_depth_limits(DEPTH_SCALE)
             depths = iter(self.bench.run("zbuf", setting, "\n".join(lines).encode()).split())
             image = (self.bench.folder / "picture.ppm").read_bytes()[-3 * self.scene.columns * self.scene.rows:]
-            owners = [self.owner_of_colour[image[i:i + 3]] for i in range(0, len(image), 3)]
+            owners = [self.owner_of_color[image[i:i + 3]] for i in range(0, len(image), 3)]
             self.pictures[setting] = [(None, 1.0) if owner is None else (owner, float(next(depths)) / DEPTH_SCALE)
                                       for owner in owners]
-            assert next(depths, None) is None, "the z-buffer's text has more depths than the image has coloured pixels"
+            assert next(depths, None) is None, "the z-buffer's text has more depths than the image has colored pixels"
         return self.pictures[setting]
 
     def differences(self, picture, true_picture):
-        """How many pixels are covered in only one of two pictures (flip); show a neighbour of the right triangle,
-        one with a common vertex (neighbour); or another triangle that should be hidden (wrong)."""
-        counts = {"flip": 0, "neighbour": 0, "wrong": 0}
+        """How many pixels are covered in only one of two pictures (flip); show a neighbor of the right triangle,
+        one with a common vertex (neighbor); or another triangle that should be hidden (wrong)."""
+        counts = {"flip": 0, "neighbor": 0, "wrong": 0}
         for (owner, _), (true_owner, _) in zip(picture, true_picture):
             if owner == true_owner:
                 continue
             if owner is None or true_owner is None:
                 counts["flip"] += 1
             elif self.corners[owner] & self.corners[true_owner]:
-                counts["neighbour"] += 1
+                counts["neighbor"] += 1
             else:
                 counts["wrong"] += 1
         return counts

@@ -125,8 +125,8 @@ def plot(results):
     def wrong_percent(scene, setting):
         return 100 * results.share(scene, setting, "flipped_pixels", "wrong_pixels")
 
-    def off_centre_percent(scene, setting):
-        return 100 * results.share(scene, setting, "off_centre_pixels")
+    def off_center_percent(scene, setting):
+        return 100 * results.share(scene, setting, "off_center_pixels")
 
     def percent_tick(power):
         return f"{10.0**power:g} %"
@@ -136,13 +136,13 @@ def plot(results):
 
     layers = {f"1e{n}": errors(f"layers 1e{n}", without("center"), wrong_percent) for n in (6, 4, 2)}
     vertices = {name: errors(name, without("center", "depth"), vertex_pixels) for name in ("1e-5", "1e-3", "unit")}
-    edges = {name: errors(name, without("double", "depth"), off_centre_percent) for name in ("1e-5", "1e-3", "unit")}
+    edges = {name: errors(name, without("double", "depth"), off_center_percent) for name in ("1e-5", "1e-3", "unit")}
     panels = [
         Panel("How far vertices move", "largest error in pixels; an object of size ...",
               vertices, (-15, 3), lambda power: f"1e{power}", (0.5, "half a pixel and more")),
         Panel("How much hidden shows", "wrong pixels; two layers 1e-5 apart, far/near ...",
               layers, (-1, 2), percent_tick),
-        Panel("How true edges are", "pixels not of the triangle at their centre; size ...",
+        Panel("How true edges are", "pixels not of the triangle at their center; size ...",
               edges, (-3, 2), percent_tick),
     ]
     footnote = ("Along the top: decimals (--digits), and what else differs from the default. Filled and joined by "

@@ -103,7 +103,7 @@ def gains(results, setting):
     yield SPEED, [scene for scene in results.cost_scenes if is_faster(scene)]
     for what, columns, least in (("vertices", ["vertex_error_pixels"], 0), ("depths", ["depth_error_median"], 0),
                                  ("pixels", ["flipped_pixels", "wrong_pixels"], 9),
-                                 ("edges", ["off_centre_pixels"], 9)):
+                                 ("edges", ["off_center_pixels"], 9)):
         yield what, [scene for scene in results.error_scenes if is_better(scene, columns, least)]
 
 
@@ -125,11 +125,11 @@ def report(results):
     def vertex(scene, setting):
         return number(results.cell(scene, setting, "vertex_error_pixels"))
 
-    def off_centre(scene, setting):
-        return percent(results.share(scene, setting, "off_centre_pixels"))
+    def off_center(scene, setting):
+        return percent(results.share(scene, setting, "off_center_pixels"))
 
     def pixels(scene, setting):
-        counts = [results.cell(scene, setting, f"{kind}_pixels") for kind in ("flipped", "wrong", "neighbour")]
+        counts = [results.cell(scene, setting, f"{kind}_pixels") for kind in ("flipped", "wrong", "neighbor")]
         return " / ".join("%d" % count for count in counts) if any(counts) else "0"
 
     def depth(scene, setting):
@@ -158,18 +158,18 @@ Against a lossless run (`--digits exact --precision extended --depth f64`) with 
 Largest error of a vertex on the screen, in pixels:
 
 {error_table(results, vertex)}
-Pixels: flipped (covered here or there, not in both) / wrong (a triangle that should be hidden) / neighbour (one that
+Pixels: flipped (covered here or there, not in both) / wrong (a triangle that should be hidden) / neighbor (one that
 shares a vertex with the right triangle). `nearest` lights pixels on a common edge twice, and which of the two triangles
-is nearer there hangs on the last bits of their depths: hence neighbours, whatever the number of digits.
+is nearer there hangs on the last bits of their depths: hence neighbors, whatever the number of digits.
 
 {error_table(results, pixels)}
 Depth (NDC z) where the right triangle is seen: median / largest error. The largest are on triangles seen nearly
 edge-on, of which a pixel shows depths from end to end.
 
 {error_table(results, depth)}
-Pixels that show another triangle than the nearest in which their centre lies, as a share of those covered:
+Pixels that show another triangle than the nearest in which their center lies, as a share of those covered:
 
-{error_table(results, off_centre)}
+{error_table(results, off_center)}
 ## What each value buys
 
 Speed: 3 % less CPU time, both by the median of the ratios and by the fastest runs. Accuracy: a tenth of an error or
@@ -196,10 +196,10 @@ def readme_table(results):
             yield number(results.cell(scene, setting, "vertex_error_pixels"), 1)
         for scene in ("layers 1e2", "layers 1e4", "layers 1e6"):
             yield percent(results.share(scene, setting, "flipped_pixels", "wrong_pixels"))
-        yield percent(results.share("unit", setting, "off_centre_pixels"))
+        yield percent(results.share("unit", setting, "off_center_pixels"))
 
     header = ["setting", "CPU time", "bytes per triangle", "vertex error, object of size 1", "1e-3", "1e-5",
-              "wrong pixels, far/near 1e2", "1e4", "1e6", "off-centre pixels"]
+              "wrong pixels, far/near 1e2", "1e4", "1e6", "off-center pixels"]
     return table(header, [list(cells(setting)) for setting in README_SETTINGS])
 
 

@@ -60,9 +60,9 @@ def ball_scene(name, title, radius, detail, size):
 
 
 def planet(name, title, detail, size):
-    centre = (4e6, 5e6, 1e5)
-    eye = [c + x for c, x in zip(centre, EYE)]
-    return scene(name, title, camera(eye, centre, 40, 1, 10), ["translate", "4e6 5e6 1e5", *TURN],
+    center = (4e6, 5e6, 1e5)
+    eye = [c + x for c, x in zip(center, EYE)]
+    return scene(name, title, camera(eye, center, 40, 1, 10), ["translate", "4e6 5e6 1e5", *TURN],
                  ball(1, *detail), size)
 
 
@@ -90,9 +90,9 @@ def room(name, title, detail, size):
     triangles = [triangle for wall in walls for triangle in grid(cells, cells, wall)]
     dice = random.Random(1)
     for _ in range(8):
-        centre = [dice.uniform(-350, 350) for _ in range(3)]
+        center = [dice.uniform(-350, 350) for _ in range(3)]
         for triangle in ball(120, detail[0] // 4, detail[1] // 4):
-            triangles.append([tuple(c + x for c, x in zip(centre, vertex)) for vertex in triangle])
+            triangles.append([tuple(c + x for c, x in zip(center, vertex)) for vertex in triangle])
     return scene(name, title, camera((37, 11, 1300), (3, -7, 0), 60, 1, 3000), [], triangles, size)
 
 
