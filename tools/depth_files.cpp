@@ -5,7 +5,7 @@
 namespace pipeline {
 
 DepthFiles::DepthFiles(TextWriter& standard_output, const std::string& text_path,
-                       const std::string& image_path, const ScreenConfig& screen)
+                       const std::string& image_path, const Viewport& screen)
     : rear_(screen.rear), standard_output_(standard_output) {
   if (text_path != "-") {
     text_file_.emplace(text_path);

@@ -17,7 +17,7 @@ class DepthFiles {
  public:
   /// `text_path` is "-" for `standard_output`; an empty `image_path` means no image.
   DepthFiles(TextWriter& standard_output, const std::string& text_path, const std::string& image_path,
-             const ScreenConfig& screen);
+             const Viewport& screen);
 
   /// Takes the depths of the next row, from the top.
   void write_row(std::span<const double> depths);

@@ -17,7 +17,7 @@
 namespace pipeline {
 namespace {
 
-PixelPlace parsed_place(const std::string& word, const ScreenConfig& screen) {
+Pixel parsed_place(const std::string& word, const Viewport& screen) {
   const std::size_t comma = word.find(',');
   const std::string_view columns = std::string_view(word).substr(0, comma);
   const std::string_view rows =
@@ -36,7 +36,7 @@ PixelPlace parsed_place(const std::string& word, const ScreenConfig& screen) {
 template <typename CoverageRule, typename Depth>
 class ReportOf final : public FragmentReport {
  public:
-  ReportOf(const RenderOptions& chosen, const ScreenConfig& screen) {
+  ReportOf(const RenderOptions& chosen, const Viewport& screen) {
     for (const std::string& word : chosen.fragments.probes)
       probes_.emplace_back(screen, parsed_place(word, screen), chosen.depth_epsilon);
     if (!chosen.fragments.file_path.empty())
@@ -66,15 +66,15 @@ class ReportOf final : public FragmentReport {
 
  private:
   struct Probe {
-    Probe(const ScreenConfig& screen, const PixelPlace& place, double epsilon)
-        : pixel(place), test(screen, place, epsilon) {}
+    Probe(const Viewport& screen, const Pixel& location, double epsilon)
+        : pixel(location), test(screen, location, epsilon) {}
 
-    PixelPlace pixel;
+    Pixel pixel;
     PixelProbe<CoverageRule, Depth> test;
     std::vector<Fragment> found;
   };
   struct LogFile {
-    LogFile(const std::string& path, const ScreenConfig& screen, double epsilon)
+    LogFile(const std::string& path, const Viewport& screen, double epsilon)
         : file(path), text(file.descriptor(), path), log(screen, epsilon) {}
 
     OutputFile file;
@@ -94,7 +94,7 @@ class ReportOf final : public FragmentReport {
 };
 
 template <typename Depth>
-std::unique_ptr<FragmentReport> report_in(const RenderOptions& chosen, const ScreenConfig& screen) {
+std::unique_ptr<FragmentReport> report_in(const RenderOptions& chosen, const Viewport& screen) {
   if (chosen.coverage == Coverage::center)
     return std::make_unique<ReportOf<CenterCoverage, Depth>>(chosen, screen);
   return std::make_unique<ReportOf<NearestCoverage, Depth>>(chosen, screen);
@@ -109,7 +109,7 @@ void add_fragment_options(CommandLine& options, FragmentOptions& chosen) {
   options.add_word("--fragments", "FILE", chosen.file_path, "Write the same for the whole picture to a file");
 }
 
-std::unique_ptr<FragmentReport> fragment_report(const RenderOptions& chosen, const ScreenConfig& screen) {
+std::unique_ptr<FragmentReport> fragment_report(const RenderOptions& chosen, const Viewport& screen) {
   if (chosen.fragments.probes.empty() && chosen.fragments.file_path.empty()) return nullptr;
   switch (chosen.depth) {
     case DepthFormat::f64:

@@ -37,6 +37,6 @@ class FragmentReport {
 
 /// The report that was asked for, with the coverage rule and the depth format that draw; none if none was. A
 /// UsageError if a probe is not on the screen.
-std::unique_ptr<FragmentReport> fragment_report(const RenderOptions& chosen, const ScreenConfig& screen);
+std::unique_ptr<FragmentReport> fragment_report(const RenderOptions& chosen, const Viewport& screen);
 
 }  // namespace pipeline

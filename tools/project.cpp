@@ -53,7 +53,7 @@ void check_inset(const ProjectOptions& chosen) {
                      expected_but_found("--clip near, frustum or reject with it", "none of these"));
 }
 
-const Placed<Projection>& projection_of(const CameraText& camera, const Place& header_end) {
+const Located<Projection>& projection_of(const CameraParameters& camera, const SourceLocation& header_end) {
   if (!camera.projection)
     throw InputError(header_end,
                      expected_but_found("a projection (a header line perspective, frustum or ortho; or "
@@ -101,13 +101,14 @@ int main(int argc, char** argv) {
   return tool.run(argc, argv, [&] {
     check_inset(chosen);
     StageReader reader(tool.input());
-    const CameraText camera = cameras.camera(without_position(reader.header().camera), tool);
+    const CameraParameters camera = cameras.camera(without_position(reader.header().camera), tool);
     const auto projection = clip_from_view(projection_of(camera, reader.header_end()), chosen.aspect);
     StageWriter writer(tool.output(), numbers.format(), false);
     const Appearance appearance = in_clip_space(reader.header().appearance);
-    CameraText rest;
+    CameraParameters rest;
     const bool is_lit = !appearance.lights.empty();
-    if (is_lit) rest.projection = {volume_of(camera.projection->value, projection), camera.projection->place};
+    if (is_lit)
+      rest.projection = {volume_of(camera.projection->value, projection), camera.projection->location};
     writer.write_header({reader.header().framed, rest, appearance});
 
     std::deque<Worker> workers;

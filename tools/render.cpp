@@ -10,7 +10,7 @@
 #include "libpipeline/scene/color.h"
 #include "libpipeline/stream/read_ahead.h"
 #include "libpipeline/stream/stage_reader.h"
-#include "libpipeline/stream/worker_team.h"
+#include "libpipeline/stream/thread_pool.h"
 #include "libpipeline/text/output_file.h"
 #include "libpipeline/visibility/triangle_drawing.h"
 #include "libpipeline/visibility/visibility.h"
@@ -24,9 +24,10 @@ namespace {
 
 /// What a triangle is drawn with: its color, or what its pixels are shaded by later. It is asked for every
 /// triangle in the order of the stream, and tells `report`, if there is one, of each.
-class Paint {
+class TriangleColorSource {
  public:
-  Paint(std::optional<SurfaceShader>& shader, FragmentReport* report) : shader_(shader), report_(report) {}
+  TriangleColorSource(std::optional<SurfaceShader>& shader, FragmentReport* report)
+      : shader_(shader), report_(report) {}
   [[nodiscard]] ColorUse use() const { return shader_ ? ColorUse::id : ColorUse::rgb; }
   Color operator()(const TriangleBatch& p_ndc, std::size_t index) {
     if (report_ != nullptr) report_->add(p_ndc, index);
@@ -56,30 +57,30 @@ void for_each_batch(Tool& tool, Source& source, Batch&& batch, Draw&& draw) {
 /// What is seen at the pixel centers and, with several samples a pixel, also at those.
 template <VisibilityAlgorithm Visible>
 struct SampledVisible {
-  SampledVisible(const ScreenConfig& of_centers, int sample_count, Color background)
+  SampledVisible(const Viewport& of_centers, int sample_count, Color background)
       : center_screen(of_centers),
         screen(sample_screen(of_centers, sample_count)),
         centers(of_centers, background) {
     if (sample_count > 1) samples.emplace(screen, background);
   }
 
-  ScreenConfig center_screen;
-  ScreenConfig screen;  // of the samples, or of the centers if they are all
+  Viewport center_screen;
+  Viewport screen;  // of the samples, or of the centers if they are all
   Visible centers;
   std::optional<Visible> samples;
 };
 
 template <typename CoverageRule, typename Depth>
-void draw_all(Tool& tool, const RenderOptions& chosen, StageReader& reader, Paint& paint,
+void draw_all(Tool& tool, const RenderOptions& chosen, StageReader& reader, TriangleColorSource& paint,
               SampledVisible<ZBufferAlgorithm<CoverageRule, Depth>>& visible) {
   using Drawing = TriangleDrawing<ZBufferAlgorithm<CoverageRule, Depth>>;
   visible.centers.set_depth_epsilon(chosen.depth_epsilon);
-  WorkerTeam team(chosen.thread_count);
-  Drawing centers(visible.centers, visible.center_screen, team, paint.use());
+  ThreadPool pool(chosen.thread_count);
+  Drawing centers(visible.centers, visible.center_screen, pool, paint.use());
   std::optional<Drawing> samples;
   if (visible.samples) {
     visible.samples->set_depth_epsilon(chosen.depth_epsilon);
-    samples.emplace(*visible.samples, visible.screen, team, paint.use());
+    samples.emplace(*visible.samples, visible.screen, pool, paint.use());
   }
   std::vector<Color> colors;
   const auto draw = [&] {
@@ -91,14 +92,14 @@ void draw_all(Tool& tool, const RenderOptions& chosen, StageReader& reader, Pain
     centers.draw_batch(color_of);
     samples->draw_batch(color_of);
   };
-  ReadAhead ahead(reader, team);
+  ReadAhead ahead(reader, pool);
   for_each_batch(
       tool, ahead, [&]() -> TriangleBatch& { return centers.next_batch(); }, draw);
   centers.finish();
   if (samples) samples->finish();
 }
 template <typename CoverageRule, typename Depth>
-void draw_all(Tool& tool, const RenderOptions&, StageReader& reader, Paint& paint,
+void draw_all(Tool& tool, const RenderOptions&, StageReader& reader, TriangleColorSource& paint,
               SampledVisible<ScanlineAlgorithm<CoverageRule, Depth>>& visible) {
   TriangleBatch p_ndc;
   const auto draw = [&] {
@@ -115,7 +116,7 @@ void draw_all(Tool& tool, const RenderOptions&, StageReader& reader, Paint& pain
 template <VisibilityAlgorithm Visible>
 void write_all(Tool& tool, const RenderOptions& chosen, const SampledVisible<Visible>& visible,
                std::optional<SurfaceShader>& shader) {
-  const ScreenConfig& screen = visible.center_screen;
+  const Viewport& screen = visible.center_screen;
   OutputFile image(chosen.image_path);
   ImageWriter pixels(image.descriptor(), chosen.image_path, image_format_of(chosen.image_path),
                      screen.columns, screen.rows);
@@ -129,7 +130,7 @@ void write_all(Tool& tool, const RenderOptions& chosen, const SampledVisible<Vis
     if (!visible.samples) pixels.write_row(shaded(row.colors));
   });
   if (visible.samples) {
-    SampleMeans means(screen.columns, chosen.sample_count);
+    Downsampler means(screen.columns, chosen.sample_count);
     visible.samples->for_each_row([&](const VisibleRow& row) {
       if (const auto complete = means.add(shaded(row.colors))) pixels.write_row(*complete);
     });
@@ -144,11 +145,11 @@ void write_all(Tool& tool, const RenderOptions& chosen, const SampledVisible<Vis
 }
 
 template <VisibilityAlgorithm Visible>
-void render_with(Tool& tool, const RenderOptions& chosen, const ScreenConfig& screen) {
+void render_with(Tool& tool, const RenderOptions& chosen, const Viewport& screen) {
   StageReader reader(tool.input(), chosen.coverage == Coverage::center);
   reader.accept_clipped();
   if (chosen.framed) reader.expect_framed();
-  const ScreenConfig shaded_screen = sample_screen(screen, chosen.sample_count);
+  const Viewport shaded_screen = sample_screen(screen, chosen.sample_count);
   std::optional<PixelSize> wireframe;
   if (chosen.wireframe) wireframe = {screen.dx(), screen.dy()};
   std::optional<SurfaceShader> shader = surface_shader(reader, shaded_screen, chosen.shading, wireframe);
@@ -157,7 +158,7 @@ void render_with(Tool& tool, const RenderOptions& chosen, const ScreenConfig& sc
   SampledVisible<Visible> visible(screen, chosen.sample_count, background);
   tool.timing().lap(&Timing::work_seconds);
   const std::unique_ptr<FragmentReport> report = fragment_report(chosen, screen);
-  Paint paint(shader, report.get());
+  TriangleColorSource paint(shader, report.get());
   draw_all(tool, chosen, reader, paint, visible);
   if (report) report->finish();
   tool.timing().lap(&Timing::work_seconds);
@@ -166,7 +167,7 @@ void render_with(Tool& tool, const RenderOptions& chosen, const ScreenConfig& sc
 }
 
 template <typename CoverageRule, typename Depth>
-void render_with(Tool& tool, const RenderOptions& chosen, const ScreenConfig& screen) {
+void render_with(Tool& tool, const RenderOptions& chosen, const Viewport& screen) {
   switch (chosen.algorithm) {
     case Algorithm::zbuffer:
       return render_with<ZBufferAlgorithm<CoverageRule, Depth>>(tool, chosen, screen);
@@ -176,7 +177,7 @@ void render_with(Tool& tool, const RenderOptions& chosen, const ScreenConfig& sc
 }
 
 template <typename Depth>
-void render_in(Tool& tool, const RenderOptions& chosen, const ScreenConfig& screen) {
+void render_in(Tool& tool, const RenderOptions& chosen, const Viewport& screen) {
   switch (chosen.coverage) {
     case Coverage::nearest:
       return render_with<NearestCoverage, Depth>(tool, chosen, screen);
@@ -187,7 +188,7 @@ void render_in(Tool& tool, const RenderOptions& chosen, const ScreenConfig& scre
 
 }  // namespace
 
-void render(Tool& tool, const RenderOptions& chosen, const ScreenConfig& screen) {
+void render(Tool& tool, const RenderOptions& chosen, const Viewport& screen) {
   switch (chosen.depth) {
     case DepthFormat::f64:
       return render_in<DepthF64>(tool, chosen, screen);

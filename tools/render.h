@@ -34,6 +34,6 @@ struct RenderOptions {
 
 /// Draws the tool's input and writes the image and the depths. Neither depends on the algorithm or on the
 /// number of threads. Nothing takes an older file's place before everything is written.
-void render(Tool& tool, const RenderOptions& chosen, const ScreenConfig& screen);
+void render(Tool& tool, const RenderOptions& chosen, const Viewport& screen);
 
 }  // namespace pipeline

@@ -41,7 +41,7 @@ Color background_color(const Appearance& appearance) {
   return appearance.background ? rounded_color(appearance.background->value) : Color();
 }
 
-std::optional<SurfaceShader> surface_shader(const StageReader& reader, const ScreenConfig& screen,
+std::optional<SurfaceShader> surface_shader(const StageReader& reader, const Viewport& screen,
                                             std::optional<ShadingModel> chosen,
                                             std::optional<PixelSize> wireframe) {
   const StageHeader& header = reader.header();

@@ -18,7 +18,7 @@ Color background_color(const Appearance& appearance);
 /// wireframe is asked for (with pixels of that size). Where nothing is chosen:
 /// none without lights, phong with lights and normals, flat with lights alone. An InputError if light is
 /// asked for and there is none, or if there are lights and the header does not say the projection.
-std::optional<SurfaceShader> surface_shader(const StageReader& reader, const ScreenConfig& screen,
+std::optional<SurfaceShader> surface_shader(const StageReader& reader, const Viewport& screen,
                                             std::optional<ShadingModel> chosen,
                                             std::optional<PixelSize> wireframe);
 

@@ -48,7 +48,7 @@ void StageLoop::run(TriangleSource& source,
                          : StageTeam(tool_, writer_, rounder_, thread_count_, source, make_transform).run();
   writer_.finish();
   if (uncertain.is_known())
-    tool_.note(to_string(rounder_.place_of(uncertain)) +
+    tool_.note(to_string(rounder_.location_of(uncertain)) +
                ": numbers cancel here beyond 31 digits; the last digits of this vertex are not certain");
   if (!writer_.keeps_four_digits())
     tool_.note("the largest coordinate keeps fewer than 4 significant digits; use --digits exact");

@@ -28,7 +28,7 @@ NumberOptions::NumberOptions(CommandLine& options) {
                    "Decimals of a coordinate, 0 to 17, or exact: as many as read back to the same double",
                    check);
   options.add_choice<Precision>("--precision", precision_,
-                                {{"double", Precision::plain}, {"extended", Precision::extended}},
+                                {{"double", Precision::in_doubles}, {"extended", Precision::extended}},
                                 "extended: every number printed is correctly rounded; double: faster");
   options.add_threads(thread_count_, "How many threads read, calculate and print");
 }
@@ -61,8 +61,8 @@ CameraOptions::CameraOptions(CommandLine& options, Parts parts) {
                    "header of INPUT");
 }
 
-CameraText CameraOptions::camera(const CameraText& header, const Tool& tool) const {
-  CameraText camera;
+CameraParameters CameraOptions::camera(const CameraParameters& header, const Tool& tool) const {
+  CameraParameters camera;
   for (const auto& [name, words] : words_) {
     if (words.empty()) continue;
     const std::string text = joined(words);

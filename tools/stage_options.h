@@ -37,7 +37,7 @@ class CameraOptions {
 
   /// The camera from the options, what they leave out from the scene, what that leaves out from `header`.
   /// What is wrong is an InputError whose place is the option or lies in the scene.
-  [[nodiscard]] CameraText camera(const CameraText& header, const Tool& tool) const;
+  [[nodiscard]] CameraParameters camera(const CameraParameters& header, const Tool& tool) const;
 
  private:
   std::map<std::string, std::vector<std::string>>

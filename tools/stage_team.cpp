@@ -20,7 +20,7 @@ struct WriteFailure {
 StageTeam::StageTeam(Tool& tool, StageWriter& writer, const CoordinateRounder& rounder, int thread_count,
                      TriangleSource& source,
                      const std::function<BatchTransform(CoordinateRounder&)>& make_transform)
-    : tool_(tool), writer_(writer), source_(source), parts_(source, kPartSize), team_(thread_count) {
+    : tool_(tool), writer_(writer), source_(source), parts_(source, kPartSize), pool_(thread_count) {
   for (int i = 0; i < thread_count * kSlotsPerThread; ++i)
     slots_.emplace_back(writer, rounder, make_transform);
   // What is in work is not kept back while the input is waited for.
@@ -62,14 +62,14 @@ LineAndColumn StageTeam::run() {
     if (!fill_next()) break;
     Slot& next = slot(end_++);
     next.is_done = false;
-    team_.start(1, [this, &next](int, int) { next.work(parts_); });
+    pool_.start(1, [this, &next](int, int) { next.work(parts_); });
   }
   write_all();
   if (read_failure_ != nullptr) std::rethrow_exception(read_failure_);
   LineAndColumn first;
   for (const Slot& slot : slots_) {
-    const LineAndColumn place = slot.rounder.first_uncertain();
-    if (place.is_known() && (!first.is_known() || place.line() < first.line())) first = place;
+    const LineAndColumn location = slot.rounder.first_uncertain();
+    if (location.is_known() && (!first.is_known() || location.line() < first.line())) first = location;
   }
   return first;
 }
@@ -107,13 +107,13 @@ bool StageTeam::try_to_read(const std::function<bool()>& read) {
 
 /// Works until the first slot is done, and writes it.
 void StageTeam::make_room() {
-  while (!slot(begin_).is_done) team_.help();
+  while (!slot(begin_).is_done) pool_.run_one();
   tool_.timing().lap(&Timing::work_seconds);
   write_done();
 }
 
 void StageTeam::write_all() {
-  team_.finish();
+  pool_.finish();
   tool_.timing().lap(&Timing::work_seconds);
   write_done();
 }
@@ -127,7 +127,7 @@ void StageTeam::write_done() {
 
 /// Puts back all that is in work: parts of which the first holds more than triangles.
 void StageTeam::put_back() {
-  team_.finish();
+  pool_.finish();
   for (; end_ != begin_; --end_) parts_.put_back(slot(end_ - 1).part);
   parts_.close();
 }

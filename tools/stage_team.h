@@ -7,10 +7,10 @@
 #include <functional>
 
 #include "libpipeline/stream/stage_writer.h"
+#include "libpipeline/stream/thread_pool.h"
 #include "libpipeline/stream/triangle_batch.h"
 #include "libpipeline/stream/triangle_parts.h"
 #include "libpipeline/stream/triangle_source.h"
-#include "libpipeline/stream/worker_team.h"
 #include "libpipeline/text/text_writer.h"
 #include "libpipeline/vertex/coordinate_rounder.h"
 #include "tools/stage_loop.h"
@@ -18,7 +18,7 @@
 
 namespace pipeline {
 
-/// The work of a StageLoop on several threads. This thread takes parts of the text, which a team reads,
+/// The work of a StageLoop on several threads. This thread takes parts of the text, which a pool reads,
 /// transforms and prints, and writes what is done; when all slots are taken, it helps. All is written in
 /// order. Text with anything but triangles this thread reads itself, batch by batch.
 class StageTeam {
@@ -76,7 +76,7 @@ class StageTeam {
   std::size_t begin_ = 0;
   std::size_t end_ = 0;
   std::exception_ptr read_failure_;
-  WorkerTeam team_;  // the last member: its threads end before what they work on
+  ThreadPool pool_;  // the last member: its threads end before what they work on
 };
 
 }  // namespace pipeline

@@ -58,7 +58,7 @@ void Timing::lap(double Timing::*phase) {
 }
 
 Tool::Tool(const ToolDescription& description, OutputKind output_kind)
-    : lack_of_memory_(end_process_without_memory({description.name, output_kind == OutputKind::stage_text})),
+    : out_of_memory_(end_process_without_memory({description.name, output_kind == OutputKind::stage_text})),
       name_(description.name),
       output_kind_(output_kind),
       options_(name_, description.purpose, name_ + " (pipeline) " + kVersion),
@@ -119,7 +119,7 @@ int Tool::status_of(const std::function<void()>& work) try {
     // What is passed on is the first failure, not what every stage behind it says.
     return fail(error.what(), error.reason(), kExitFailure);
   } catch (const InputError& error) {
-    return error.place().is_option() ? fail_misuse(error.what()) : fail(error.what(), kExitFailure);
+    return error.location().is_option() ? fail_misuse(error.what()) : fail(error.what(), kExitFailure);
   } catch (const IoError& error) {
     if (error.error_number() == EPIPE) return kExitFailure;  // the reader has what it wanted
     return fail(error.what(), kExitFailure);
@@ -168,13 +168,13 @@ int Tool::fail(const std::string& message, const std::string& reason, int status
 }
 
 int Tool::fail_without_memory() noexcept {
-  lack_of_memory_.is_told_to_next_stage = output_kind_ == OutputKind::stage_text;
+  out_of_memory_.is_told_to_next_stage = output_kind_ == OutputKind::stage_text;
   try {
-    if (lack_of_memory_.is_told_to_next_stage) output_.flush();
+    if (out_of_memory_.is_told_to_next_stage) output_.flush();
   } catch (const std::exception&) {
     // The output has failed as well; the exit status tells.
   }
-  lack_of_memory_.report();
+  out_of_memory_.report();
   return kExitFailure;
 }
 

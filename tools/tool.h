@@ -10,7 +10,7 @@
 #include "libpipeline/text/text_writer.h"
 #include "tools/command_line.h"
 #include "tools/exit_status.h"
-#include "tools/lack_of_memory.h"
+#include "tools/out_of_memory.h"
 
 namespace pipeline {
 
@@ -88,7 +88,7 @@ class Tool {
   int fail_without_memory() noexcept;
   void report_timing();
 
-  LackOfMemory lack_of_memory_;  // first, as what comes next needs memory
+  OutOfMemoryReport out_of_memory_;  // first, as what comes next needs memory
   std::string name_;
   OutputKind output_kind_;
   CommandLine options_;

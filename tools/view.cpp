@@ -15,7 +15,7 @@ using namespace pipeline;
 namespace {
 
 /// The camera needs all three of its parts here.
-ViewTransform view_of(const CameraText& camera, const Place& header_end) {
+ViewTransform view_of(const CameraParameters& camera, const SourceLocation& header_end) {
   std::vector<std::string> missing;
   if (!camera.eye) missing.emplace_back("eye");
   if (!camera.look) missing.emplace_back("look");
@@ -47,7 +47,7 @@ int main(int argc, char** argv) {
 
   return tool.run(argc, argv, [&] {
     StageReader reader(tool.input());
-    const CameraText camera = cameras.camera(reader.header().camera, tool);
+    const CameraParameters camera = cameras.camera(reader.header().camera, tool);
     const ViewTransform view = view_of(camera, reader.header_end());
     const VertexTransform view_from_world(view);
     const NormalTransform view_normal_from_world(view);

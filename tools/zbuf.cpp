@@ -53,7 +53,7 @@ void check_threads(const RenderOptions& chosen) {
                                         "'" + std::to_string(chosen.thread_count) + "'"));
 }
 
-ScreenConfig read_screen(const Tool& tool, const std::string& path) {
+Viewport read_screen(const Tool& tool, const std::string& path) {
   InputFile file = tool.second_input(path, "CONFIG");
   return read_config(file.text());
 }
@@ -74,7 +74,7 @@ int main(int argc, char** argv) {
   return tool.run(argc, argv, [&] {
     check_threads(chosen);
     check_picture_options(chosen);
-    const ScreenConfig screen = read_screen(tool, chosen.config_path);
+    const Viewport screen = read_screen(tool, chosen.config_path);
     check_image_size(image_format_of(chosen.image_path), screen.columns, screen.rows, chosen.image_path);
     render(tool, chosen, screen);
   });

@@ -20,7 +20,7 @@ namespace pipeline {
 /// From the pixel nearest to the left end of a row to the one nearest to its right end.
 struct NearestCoverage {
   using Rows = NearestRows;
-  explicit NearestCoverage(const ScreenConfig& screen) : grid(screen), kernel(coverage_kernel()) {}
+  explicit NearestCoverage(const Viewport& screen) : grid(screen), kernel(coverage_kernel()) {}
   [[nodiscard]] Rows rows(const ExactTriangle& triangle) const { return {grid, triangle.p_ndc}; }
   ColoredSpan* spans(std::span<const ColoredTriangle> triangles, const RowRange& rows,
                      ColoredSpan* begin) const {
@@ -34,7 +34,7 @@ struct NearestCoverage {
 /// The pixels whose centers lie in the triangle.
 struct CenterCoverage {
   using Rows = CenterRows;
-  explicit CenterCoverage(const ScreenConfig& screen) : grid(screen), kernel(coverage_kernel()) {}
+  explicit CenterCoverage(const Viewport& screen) : grid(screen), kernel(coverage_kernel()) {}
   [[nodiscard]] Rows rows(const ExactTriangle& triangle) const { return {grid, triangle}; }
   ColoredSpan* spans(std::span<const ColoredTriangle> triangles, const RowRange& rows,
                      ColoredSpan* begin) const {

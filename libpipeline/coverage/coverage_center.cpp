@@ -7,8 +7,8 @@ namespace pipeline {
 namespace {
 
 // Below the ends of the types by more than the bound can be rounded.
-constexpr double kLargestIn64Bits = 0x1p61;
-constexpr double kLargestIn128Bits = 0x1p125;
+constexpr double kMaxIn64Bits = 0x1p61;
+constexpr double kMaxIn128Bits = 0x1p125;
 constexpr int kBitsOfWideInt = 64 * 6;
 
 }  // namespace
@@ -24,11 +24,11 @@ CenterRows::CenterRows(const ExactGrid& grid, const ExactTriangle& triangle) {
     const CenterBox box(*narrow, rows, columns);
     if (box.is_empty()) return;
     const double largest = largest_product(*narrow, box);
-    if (largest <= kLargestIn64Bits) {
+    if (largest <= kMaxIn64Bits) {
       set(rows_.emplace<ExactRows<std::int64_t>>(*narrow, box, z));
       return;
     }
-    if (largest <= kLargestIn128Bits) {
+    if (largest <= kMaxIn128Bits) {
       set(rows_.emplace<ExactRows<Int128>>(*narrow, box, z));
       return;
     }

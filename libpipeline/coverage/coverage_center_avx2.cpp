@@ -2,10 +2,10 @@
 
 #include "libpipeline/coverage/coverage_avx2.h"
 #include "libpipeline/coverage/coverage_center.h"
+#include "libpipeline/coverage/depth_in_doubles.h"
 #include "libpipeline/coverage/four_doubles.h"
 #include "libpipeline/coverage/four_points.h"
 #include "libpipeline/coverage/four_spans.h"
-#include "libpipeline/coverage/plain_depth.h"
 
 #if defined(__x86_64__) && defined(__GNUC__)
 
@@ -16,7 +16,7 @@ constexpr std::size_t kCount = 4;
 
 // What CenterRows does in 64 bits, in doubles, which hold whole numbers up to 2^53. Triangles whose numbers
 // could be larger are left to CenterRows.
-static_assert(kLargestPlain <= PlainDepth::kLargestWeight);
+static_assert(kMaxExactDouble <= DepthInDoubles::kMaxWeight);
 
 PIPELINE_AVX2_INLINE FourDoubles nearest_whole(FourDoubles value) {
   return _mm256_round_pd(value, _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC);
@@ -44,9 +44,9 @@ PIPELINE_AVX2_INLINE FourSums two_sum(FourDoubles a, FourDoubles b) {
   return {sum, (a - (sum - b_part)) + (b - b_part)};
 }
 
-/// A PlainAxis, four times.
+/// A AxisInDoubles, four times.
 struct AxisLanes {
-  PIPELINE_AVX2_INLINE explicit AxisLanes(const PlainAxis& axis)
+  PIPELINE_AVX2_INLINE explicit AxisLanes(const AxisInDoubles& axis)
       : count(all(axis.count)),
         step(all(axis.step)),
         inverse(all(axis.inverse_step)),
@@ -144,7 +144,7 @@ struct FourTriangles {
     const FourDoubles first = left * columns.step;
     const FourDoubles x = larger(size_of(u_left - first), size_of(u_right - first)) + all(2) * columns.step;
     const FourDoubles y = v_bottom - v_top + rows.step;
-    ordinary_ = marks(triangles) & bits_of(both(fits, is_at_most(all(4) * x * y, all(kLargestPlain))));
+    ordinary_ = marks(triangles) & bits_of(both(fits, is_at_most(all(4) * x * y, all(kMaxExactDouble))));
 
     const FourDoubles is_beside = either(is_less(u_right, all(0)), is_at_most(columns.count, left));
     rows_of.first_column = left;
@@ -211,19 +211,19 @@ struct FourTriangles {
     rows_of.upper = edge(a, b);
     rows_of.lower = edge(b, c);
   }
-  /// See PlainDepth.
+  /// See DepthInDoubles.
   PIPELINE_AVX2_INLINE void set_depth(FourDoubles a, FourDoubles b, FourDoubles c, FourDoubles twice_weights,
                                       FourDoubles b_step, FourDoubles c_step) {
     const FourDoubles flat = both(is_equal(a, b), is_equal(a, c));
     const FourDoubles size = larger(larger(size_of(a), size_of(b)), size_of(c));
-    const FourDoubles is_in_range = both(is_at_most(all(PlainDepth::kSmallestDepth), size),
-                                         is_at_most(size, all(PlainDepth::kLargestDepth)));
+    const FourDoubles is_in_range = both(is_at_most(all(DepthInDoubles::kMinDepth), size),
+                                         is_at_most(size, all(DepthInDoubles::kMaxDepth)));
     ordinary_ &= bits_of(either(flat, is_in_range));
 
     const FourSums of_two = two_sum(b_step * b, c_step * c);
     const FourSums of_three = two_sum(of_two.sum, (-b_step - c_step) * a);
     const FourDoubles slope =
-        (of_three.sum + (of_two.lost + of_three.lost)) / twice_weights + all(PlainDepth::kNoMinus);
+        (of_three.sum + (of_two.lost + of_three.lost)) / twice_weights + all(DepthInDoubles::kNoMinus);
     half_slope = numbers_of(but_not(slope, flat));
     rows_of.is_flat = flat;
     rows_of.twice_total = twice_weights;
@@ -267,7 +267,7 @@ struct FourRows {
     const FourDoubles twice_a = pick(is_upper_, rest, opposite_shorter_);
     const FourDoubles mean =
         ((opposite_longest_ * of.b_z + twice_c * of.c_z) + twice_a * of.a_z) / of.twice_total +
-        all(PlainDepth::kNoMinus);
+        all(DepthInDoubles::kNoMinus);
     spans.set_points(columns_added_up_, pick(of.is_flat, of.a_z, mean));
   }
 
@@ -319,16 +319,16 @@ PIPELINE_AVX2 ColoredSpan* append_triangle(const ExactGrid& grid, const FourTria
 PIPELINE_AVX2 ColoredSpan* append_triangles(const ExactGrid& grid, const FourTriangles& four,
                                             const ColoredTriangle* triangles, const RowRange& rows,
                                             ColoredSpan* spans) {
-  constexpr int kMostLowRows = 8;
+  constexpr int kMaxLowRows = 8;
   const RowSources& of = four.rows_of;
   const double most = largest_of(of.end_row - four.begin_row);
-  if (!four.are_ordinary() || most > kMostLowRows) {
+  if (!four.are_ordinary() || most > kMaxLowRows) {
     for (std::size_t lane = 0; lane < kCount; ++lane)
       spans = append_triangle(grid, four, lane, triangles[lane], rows, spans);
     return spans;
   }
   const int count = static_cast<int>(most);
-  std::array<FourRows, kMostLowRows> low;
+  std::array<FourRows, kMaxLowRows> low;
   // One loop after the other: a processor looks ahead further than a turn of it, if that is short.
   for (int i = 0; i < count; ++i) low[static_cast<std::size_t>(i)] = FourRows(of, four.begin_row + all(i));
   for (int i = 0; i < count; ++i) low[static_cast<std::size_t>(i)].set_depths(of);

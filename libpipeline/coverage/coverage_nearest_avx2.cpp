@@ -173,11 +173,11 @@ PIPELINE_AVX2 ColoredSpan* append_triangle(const PixelGrid& grid, const FourTria
 PIPELINE_AVX2 ColoredSpan* append_triangles(const PixelGrid& grid, const FourTriangles& four,
                                             const ColoredTriangle* triangles, const RowRange& rows,
                                             ColoredSpan* spans) {
-  constexpr int kMostLowRows = 8;
+  constexpr int kMaxLowRows = 8;
   const double most = largest_of(four.rows_of.last_row - four.begin_row) + 1;
-  bool are_ordinary = four.are_ordinary() && most <= kMostLowRows;
+  bool are_ordinary = four.are_ordinary() && most <= kMaxLowRows;
   const int count = are_ordinary ? static_cast<int>(most) : 0;
-  std::array<FourRows, kMostLowRows> low;
+  std::array<FourRows, kMaxLowRows> low;
   for (int i = 0; i < count; ++i) {
     FourRows& some = low[static_cast<std::size_t>(i)];
     some = FourRows(grid, four.rows_of, four.begin_row + all(i));

@@ -10,9 +10,9 @@ namespace pipeline {
 namespace {
 
 // hi * 10^7 is within 2^-52 of the n it stands for, relatively, so n is the nearest whole number up to here.
-constexpr double kLargestRoundedUnits = 0x1p50;
-constexpr double kLargestNarrow = 0x1p60;
-constexpr double kLargestDecimal = 1e22;
+constexpr double kMaxRoundedUnits = 0x1p50;
+constexpr double kMaxNarrow = 0x1p60;
+constexpr double kMaxDecimal = 1e22;
 
 /// `units`, at most 2^51 in size, rounded to the nearest whole number.
 std::int64_t nearest_whole(double units) {
@@ -47,13 +47,13 @@ Int128 fixed_point_units(double value) {
 /// The whole number of units nearest to hi + lo.
 Int128 decimal_units(double hi, double lo) {
   const double units = hi * kGridUnitsPerOne;
-  if (std::fabs(units) <= kLargestRoundedUnits) return nearest_whole(units);
+  if (std::fabs(units) <= kMaxRoundedUnits) return nearest_whole(units);
   constexpr Int128 kOne = 1 << 20;
   return (fixed_point_units(hi) + fixed_point_units(lo) + kOne / 2) >> 20;
 }
 
 BinaryNumber exact_units(double value, double low_part, bool is_decimal) {
-  const bool has_decimals = is_decimal && std::fabs(value) <= kLargestDecimal;
+  const bool has_decimals = is_decimal && std::fabs(value) <= kMaxDecimal;
   return has_decimals ? reduced(decimal_units(value, low_part), 0) : binary_units(value);
 }
 
@@ -99,15 +99,14 @@ GridAxis::GridAxis(int pixel_count, double limit, double limit_low_part, bool li
   narrow_vertex_factor = cut(vertex_factor, 0);
   narrow_origin = cut(origin, 0);
   narrow_step = Divisor<std::int64_t>(2 * cut(half_step, 0));
-  largest_narrow_units =
-      std::min(kLargestRoundedUnits, kLargestNarrow / static_cast<double>(narrow_vertex_factor));
+  largest_narrow_units = std::min(kMaxRoundedUnits, kMaxNarrow / static_cast<double>(narrow_vertex_factor));
 
   plain.count = count;
   plain.step = static_cast<double>(narrow_step.value());
   plain.inverse_step = 1 / plain.step;
   plain.vertex_factor = static_cast<double>(narrow_vertex_factor);
   plain.origin = static_cast<double>(narrow_origin);
-  if (plain.step * count <= kLargestPlain) plain.largest = kLargestPlain - plain.origin;
+  if (plain.step * count <= kMaxExactDouble) plain.largest = kMaxExactDouble - plain.origin;
 }
 
 std::optional<GridTriangle<std::int64_t>> narrow_triangle(const ExactGrid& grid,

@@ -55,10 +55,10 @@ constexpr std::int64_t kGridUnitsPerOne = 10'000'000;
 
 /// The largest whole number in what is calculated with doubles: there is room for sums, and for a quotient's
 /// rounding.
-constexpr double kLargestPlain = 0x1p50;
+constexpr double kMaxExactDouble = 0x1p50;
 
 /// A GridAxis whose numbers are small, in doubles.
-struct PlainAxis {
+struct AxisInDoubles {
   double count = 0;  // of pixels
   double step = 1;   // from one to the next
   double inverse_step = 1;
@@ -87,7 +87,7 @@ struct GridAxis {
   std::int64_t narrow_vertex_factor = 0;
   std::int64_t narrow_origin = 0;
   Divisor<std::int64_t> narrow_step;
-  PlainAxis plain;
+  AxisInDoubles plain;
 };
 
 /// The coordinates of a triangle along one axis as exact numbers, and how fine a grid they need.
@@ -99,7 +99,7 @@ struct AxisUnits {
 
 /// Where the pixel centers of a screen lie, exactly: what PixelGrid is for rounded numbers.
 struct ExactGrid {
-  explicit ExactGrid(const ScreenConfig& screen)
+  explicit ExactGrid(const Viewport& screen)
       : columns(screen.columns, screen.left, screen.left_low_part, screen.left_is_decimal),
         rows(screen.rows, screen.bottom, screen.bottom_low_part, screen.bottom_is_decimal) {}
 

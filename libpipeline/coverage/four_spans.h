@@ -30,10 +30,10 @@ class FourSpans {
   /// The points where depths are known.
   PIPELINE_AVX2_INLINE void set_points(FourDoubles x0, FourDoubles z0) {
     const FourDoubles even = _mm256_unpacklo_pd(x0, z0), odd = _mm256_unpackhi_pd(x0, z0);
-    places_[0].point = _mm256_castpd256_pd128(even);
-    places_[1].point = _mm256_castpd256_pd128(odd);
-    places_[2].point = _mm256_extractf128_pd(even, 1);
-    places_[3].point = _mm256_extractf128_pd(odd, 1);
+    lanes_[0].point = _mm256_castpd256_pd128(even);
+    lanes_[1].point = _mm256_castpd256_pd128(odd);
+    lanes_[2].point = _mm256_extractf128_pd(even, 1);
+    lanes_[3].point = _mm256_extractf128_pd(odd, 1);
   }
 
   /// Writes one of them to `spans`; returns where the next one goes: there, if this one has no pixel. `axis`
@@ -44,33 +44,33 @@ class FourSpans {
     static_assert(offsetof(Span, last_column) == 8 && offsetof(Span, depth) == 16);
     static_assert(offsetof(SpanDepth, left_x) == 0 && offsetof(SpanDepth, dx) == 8);
     static_assert(offsetof(SpanDepth, x0) == 16 && offsetof(SpanDepth, z0) == 24);
-    const Place& place = places_[lane];
+    const Lane& stored = lanes_[lane];
     Span& span = spans->span;
     // The fourth number falls between the columns and the depth.
-    _mm_storeu_si128(reinterpret_cast<__m128i*>(&span.row), load(place.columns));
+    _mm_storeu_si128(reinterpret_cast<__m128i*>(&span.row), load(stored.columns));
     _mm_storeu_pd(&span.depth.left_x, axis);
-    _mm_storeu_pd(&span.depth.x0, place.point);
+    _mm_storeu_pd(&span.depth.x0, stored.point);
     span.depth.slope = slope;
     spans->color = color;
-    return reinterpret_cast<ColoredSpan*>(reinterpret_cast<char*>(spans) + place.columns[3]);
+    return reinterpret_cast<ColoredSpan*>(reinterpret_cast<char*>(spans) + stored.columns[3]);
   }
 
  private:
   // Row, first and last column, and the size of a span if there is one, else 0.
   using Columns = std::array<int, 4>;
-  struct Place {
+  struct Lane {
     alignas(16) Columns columns;
     __m128d point;
   };
 
   PIPELINE_AVX2_INLINE void store(std::size_t lane, __m128i columns) {
-    _mm_store_si128(reinterpret_cast<__m128i*>(places_[lane].columns.data()), columns);
+    _mm_store_si128(reinterpret_cast<__m128i*>(lanes_[lane].columns.data()), columns);
   }
   PIPELINE_AVX2_INLINE static __m128i load(const Columns& columns) {
     return _mm_load_si128(reinterpret_cast<const __m128i*>(columns.data()));
   }
 
-  std::array<Place, 4> places_;
+  std::array<Lane, 4> lanes_;
 };
 
 }  // namespace pipeline

@@ -9,12 +9,12 @@ namespace {
 
 constexpr int kDepthBits = 61;
 // The smallest unit that is, like its inverse, a normal double.
-constexpr int kSmallestUnit = -1020;
+constexpr int kMinUnit = -1020;
 
 /// The exponent of the unit in which a number of this size has kDepthBits bits.
 int unit_exponent(double size) {
   const int exponent = static_cast<int>(std::bit_cast<std::uint64_t>(size) >> 52) - 1023;
-  return std::max(exponent - (kDepthBits - 1), kSmallestUnit);
+  return std::max(exponent - (kDepthBits - 1), kMinUnit);
 }
 
 }  // namespace

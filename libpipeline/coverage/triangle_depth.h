@@ -6,7 +6,7 @@
 #include <optional>
 #include <type_traits>
 
-#include "libpipeline/coverage/plain_depth.h"
+#include "libpipeline/coverage/depth_in_doubles.h"
 #include "libpipeline/coverage/span.h"
 #include "libpipeline/numbers/whole_math.h"
 
@@ -20,13 +20,14 @@ namespace pipeline {
 /// Z is at least 1e-288), and a triangle of one depth has just that everywhere. It does not matter whether
 /// the depths are doubles or the decimals next to them: that is another 2^-53 Z.
 ///
-/// Why. Where weights are whole numbers that doubles hold, it is a PlainDepth. Otherwise depths become whole
-/// numbers of 61 bits, so that the depth m in the middle of a span and its slope s per half column are exact
-/// sums of products over the total. In units of u = 2^-53: m is off by u|m| for each of four roundings (the
-/// sum to a double, the total to a double, its inverse, their product), h s at h half columns from the middle
-/// by u|h s| for five, the sum of the two by u|m + h s|. |m| + |h s| is at most Z, because the span's ends
-/// are in the triangle and are m + h s and m - h s. So it is 6 u Z and what is cut off: depths below 61 bits
-/// (less than 3 * 2^-60 Z) and weights below 60 bits (less than 2^-56 Z), together u Z / 4. 2^-50 is 8 u.
+/// Why. Where weights are whole numbers that doubles hold, it is a DepthInDoubles. Otherwise depths become
+/// whole numbers of 61 bits, so that the depth m in the middle of a span and its slope s per half column are
+/// exact sums of products over the total. In units of u = 2^-53: m is off by u|m| for each of four roundings
+/// (the sum to a double, the total to a double, its inverse, their product), h s at h half columns from the
+/// middle by u|h s| for five, the sum of the two by u|m + h s|. |m| + |h s| is at most Z, because the span's
+/// ends are in the triangle and are m + h s and m - h s. So it is 6 u Z and what is cut off: depths below 61
+/// bits (less than 3 * 2^-60 Z) and weights below 60 bits (less than 2^-56 Z), together u Z / 4. 2^-50 is 8
+/// u.
 class TriangleDepth {
  public:
   TriangleDepth() = default;
@@ -62,9 +63,9 @@ class TriangleDepth {
   void set_depths(const std::array<double, 3>& z, std::int64_t total);
   void set_slope(std::int64_t b_step, std::int64_t c_step, double total);
 
-  std::optional<PlainDepth> plain_;  // if there is one, all else is unused
-  int weight_shift_ = 0;             // how many low bits of the weights are cut off
-  double inverse_ = 0;               // 1 / (2 * total weight)
+  std::optional<DepthInDoubles> plain_;  // if there is one, all else is unused
+  int weight_shift_ = 0;                 // how many low bits of the weights are cut off
+  double inverse_ = 0;                   // 1 / (2 * total weight)
   double flat_depth_ = 0;  // the depth of a triangle of one depth; what follows is 0 then, and otherwise this
   double half_slope_ = 0;  // per half column
   double unit_ = 0;        // depths are whole multiples of this:
@@ -78,7 +79,7 @@ TriangleDepth::TriangleDepth(const std::array<double, 3>& z, const Int& total, c
                              const Int& c_step)
     : weight_shift_(bits_to_cut(total)) {
   if constexpr (std::is_same_v<Int, std::int64_t>)
-    if (PlainDepth::can_take(z, total, b_step, c_step)) {
+    if (DepthInDoubles::can_take(z, total, b_step, c_step)) {
       plain_.emplace(z, static_cast<double>(total), static_cast<double>(b_step), static_cast<double>(c_step));
       return;
     }

@@ -15,13 +15,13 @@ DepthImageFormat depth_image_format_of(const std::string& path) {
   reject_extension(path, "a depth image file", ".pgm");
 }
 
-std::uint16_t depth_brightness(double depth, const ScreenConfig& screen) {
+std::uint16_t depth_brightness(double depth, const Viewport& screen) {
   // Halves, so that the difference of two large limits stays finite.
   const double nearness = (screen.rear / 2 - depth / 2) / (screen.rear / 2 - screen.front / 2);
   return static_cast<std::uint16_t>(std::floor(std::clamp(nearness, 0.0, 1.0) * 65535 + 0.5));
 }
 
-DepthImageWriter::DepthImageWriter(int descriptor, const std::string& path, const ScreenConfig& screen)
+DepthImageWriter::DepthImageWriter(int descriptor, const std::string& path, const Viewport& screen)
     : screen_(screen), pgm_(descriptor, path) {
   if (depth_image_format_of(path) == DepthImageFormat::png)
     png_.emplace(descriptor, path, PngPixels::gray16, screen.columns, screen.rows);

@@ -23,14 +23,14 @@ DepthImageFormat depth_image_format_of(const std::string& path);
 
 /// How bright a depth is: 65535 at the front limit, 0 at the rear limit and where nothing is seen, linear
 /// between and rounded to the nearest, halves up.
-std::uint16_t depth_brightness(double depth, const ScreenConfig& screen);
+std::uint16_t depth_brightness(double depth, const Viewport& screen);
 
 /// Takes the depths of an image row by row, from the top, and writes them as brightness. Failures to write
 /// are IoErrors.
 class DepthImageWriter {
  public:
   /// Writes to a file descriptor, which stays the caller's; `path` names it in messages and says the format.
-  DepthImageWriter(int descriptor, const std::string& path, const ScreenConfig& screen);
+  DepthImageWriter(int descriptor, const std::string& path, const Viewport& screen);
 
   /// Takes the depths (NDC z) of the next row, from the left.
   void write_row(std::span<const double> depths);
@@ -38,7 +38,7 @@ class DepthImageWriter {
   void finish();
 
  private:
-  ScreenConfig screen_;
+  Viewport screen_;
   TextWriter pgm_;
   std::optional<PngWriter> png_;
   std::vector<unsigned char> row_;

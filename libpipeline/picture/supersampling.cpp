@@ -4,20 +4,20 @@
 
 namespace pipeline {
 
-ScreenConfig sample_screen(const ScreenConfig& screen, int count) {
+Viewport sample_screen(const Viewport& screen, int count) {
   assert(count >= 1 && count <= kMaxSamples);
-  ScreenConfig samples = screen;
+  Viewport samples = screen;
   samples.columns *= count;
   samples.rows *= count;
   return samples;
 }
 
-SampleMeans::SampleMeans(int columns, int count)
+Downsampler::Downsampler(int columns, int count)
     : count_(static_cast<std::size_t>(count)),
       sums_(static_cast<std::size_t>(columns)),
       row_(static_cast<std::size_t>(columns)) {}
 
-std::optional<std::span<const Color>> SampleMeans::add(std::span<const Color> samples) {
+std::optional<std::span<const Color>> Downsampler::add(std::span<const Color> samples) {
   assert(samples.size() == count_ * sums_.size());
   for (std::size_t i = 0; i < samples.size(); ++i) {
     auto& [red, green, blue] = sums_[i / count_];

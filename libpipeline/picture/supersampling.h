@@ -16,14 +16,14 @@ namespace pipeline {
 constexpr int kMaxSamples = 16;
 
 /// The screen whose pixels are the samples of `screen`: `count` x `count` a pixel, in a regular grid.
-ScreenConfig sample_screen(const ScreenConfig& screen, int count);
+Viewport sample_screen(const Viewport& screen, int count);
 
 /// Turns rows of samples into rows of pixels: each channel is the mean of the pixel's samples, rounded to the
 /// nearest, halves up.
-class SampleMeans {
+class Downsampler {
  public:
   /// For rows of `columns` pixels with `count` x `count` samples each.
-  SampleMeans(int columns, int count);
+  Downsampler(int columns, int count);
 
   /// Takes the next row of samples; gives a row of pixels, valid until the next call, when it is complete.
   std::optional<std::span<const Color>> add(std::span<const Color> samples);

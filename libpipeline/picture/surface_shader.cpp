@@ -55,10 +55,10 @@ Weights weights_at(const Triangle& screen_corners, double x, double y) {
 }  // namespace
 
 /// The triangle in clip space with all its attributes, if it is a piece of a clipped one that one.
-ClipTriangle SurfaceShader::clip_triangle(const TriangleBatch& p_ndc, std::size_t index,
-                                          Color own_color) const {
+ClipTriangle SurfaceShader::unclipped_in_clip_space(const TriangleBatch& p_ndc, std::size_t index,
+                                                    Color own_color) const {
   const AttributeArrays& attributes = p_ndc.attributes;
-  const ClipTriangle* const whole = p_ndc.whole_of(index);
+  const ClipTriangle* const whole = p_ndc.unclipped_of(index);
   ClipTriangle corners;
   if (whole != nullptr) corners = *whole;
   for (std::size_t v = 0; v < 3; ++v) {
@@ -77,7 +77,7 @@ ClipTriangle SurfaceShader::clip_triangle(const TriangleBatch& p_ndc, std::size_
 }
 
 Color SurfaceShader::add(const TriangleBatch& p_ndc, std::size_t index, Color own_color) {
-  const ClipTriangle corners = clip_triangle(p_ndc, index, own_color);
+  const ClipTriangle corners = unclipped_in_clip_space(p_ndc, index, own_color);
   // Only the ratios of weights count: scaled like this, nothing leaves a double's range.
   const double scale =
       1 / std::max({std::fabs(corners[0].w), std::fabs(corners[1].w), std::fabs(corners[2].w)});

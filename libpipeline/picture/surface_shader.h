@@ -12,7 +12,7 @@
 #include "libpipeline/scene/color.h"
 #include "libpipeline/scene/pixel_grid.h"
 #include "libpipeline/stream/triangle_batch.h"
-#include "libpipeline/vertex/view_position.h"
+#include "libpipeline/vertex/view_from_clip.h"
 
 namespace pipeline {
 
@@ -39,7 +39,7 @@ class SurfaceShader {
     bool says_what_was_clipped = false;  // as texts with lights do
   };
 
-  SurfaceShader(const ScreenConfig& screen, Setup setup) : grid_(screen), setup_(std::move(setup)) {}
+  SurfaceShader(const Viewport& screen, Setup setup) : grid_(screen), setup_(std::move(setup)) {}
 
   /// Keeps a triangle of a batch in NDC, whose color is `own_color` where it carries none; its id.
   Color add(const TriangleBatch& p_ndc, std::size_t index, Color own_color);
@@ -53,8 +53,8 @@ class SurfaceShader {
         corners;  // in view space; the colors are lit already except for phong shading
   };
 
-  [[nodiscard]] ClipTriangle clip_triangle(const TriangleBatch& p_ndc, std::size_t index,
-                                           Color own_color) const;
+  [[nodiscard]] ClipTriangle unclipped_in_clip_space(const TriangleBatch& p_ndc, std::size_t index,
+                                                     Color own_color) const;
   void light_corners(Surface& surface) const;
   void add_edges(const TriangleBatch& p_ndc, std::size_t index, const Triangle& screen_corners);
   [[nodiscard]] Color color_at(std::uint32_t id, double x, double y) const;

@@ -66,7 +66,7 @@ Attenuation read_attenuation(LineScanner& line) {
   attenuation.quadratic = number_from_zero(line, "the quadratic attenuation");
   line.expect_end("the quadratic attenuation");
   if (attenuation.constant == 0 && attenuation.linear == 0 && attenuation.quadratic == 0)
-    throw InputError(at_first.place(), expected_but_found("an attenuation other than 0 0 0", "0 0 0"));
+    throw InputError(at_first.location(), expected_but_found("an attenuation other than 0 0 0", "0 0 0"));
   return attenuation;
 }
 
@@ -80,13 +80,13 @@ Light read_light(LineScanner& line) {
 }
 
 template <typename T, typename Read>
-void set_once(std::optional<Placed<T>>& part, std::string_view keyword, const Place& keyword_place,
-              const LineScanner& line, Read&& read) {
+void set_once(std::optional<Located<T>>& part, std::string_view keyword,
+              const SourceLocation& keyword_location, const LineScanner& line, Read&& read) {
   if (part)
-    throw InputError(keyword_place, expected_but_found("one " + quoted(keyword),
-                                                       "a second one after " + to_string(part->place)));
-  const Place place = line.place();
-  part = {read(), place};
+    throw InputError(keyword_location, expected_but_found("one " + quoted(keyword),
+                                                          "a second one after " + to_string(part->location)));
+  const SourceLocation location = line.location();
+  part = {read(), location};
 }
 
 }  // namespace
@@ -97,9 +97,9 @@ bool is_appearance_keyword(std::string_view keyword) {
   return std::find(kKeywords.begin(), kKeywords.end(), keyword) != kKeywords.end();
 }
 
-void read_appearance_part(std::string_view keyword, const Place& keyword_place, LineScanner& line,
+void read_appearance_part(std::string_view keyword, const SourceLocation& keyword_location, LineScanner& line,
                           AttributeSource source, Appearance& appearance) {
-  const auto set = [&](auto& part, auto&& read) { set_once(part, keyword, keyword_place, line, read); };
+  const auto set = [&](auto& part, auto&& read) { set_once(part, keyword, keyword_location, line, read); };
   if (keyword == "attributes") {
     set(appearance.attributes, [&] { return read_attributes(line, source); });
   } else if (keyword == "background") {
@@ -112,14 +112,14 @@ void read_appearance_part(std::string_view keyword, const Place& keyword_place, 
     set(appearance.attenuation, [&] { return read_attenuation(line); });
   } else {
     assert(keyword == "light");
-    const Place place = line.place();
-    appearance.lights.push_back({read_light(line), place});
+    const SourceLocation location = line.location();
+    appearance.lights.push_back({read_light(line), location});
   }
 }
 
 void expect_no_w(const Appearance& appearance) {
   if (appearance.columns().w)
-    throw InputError(appearance.attributes->place,
+    throw InputError(appearance.attributes->location,
                      expected_but_found("a text that is not projected yet",
                                         "one with the column 'w', which project adds"));
 }

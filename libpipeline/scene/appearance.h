@@ -37,12 +37,12 @@ struct Attenuation {
 /// What a scene or a stage text's header says of color and light, as far as it says it. A plain one says
 /// nothing.
 struct Appearance {
-  std::optional<Placed<AttributeSet>> attributes;
-  std::optional<Placed<Vec3>> background;  // red, green, blue from 0 to 255
-  std::optional<Placed<Vec3>> ambient;     // intensities
-  std::optional<Placed<Material>> material;
-  std::optional<Placed<Attenuation>> attenuation;
-  std::vector<Placed<Light>> lights;
+  std::optional<Located<AttributeSet>> attributes;
+  std::optional<Located<Vec3>> background;  // red, green, blue from 0 to 255
+  std::optional<Located<Vec3>> ambient;     // intensities
+  std::optional<Located<Material>> material;
+  std::optional<Located<Attenuation>> attenuation;
+  std::vector<Located<Light>> lights;
 
   /// The columns of the vertex lines.
   [[nodiscard]] AttributeSet columns() const { return attributes ? attributes->value : AttributeSet{}; }
@@ -55,8 +55,8 @@ enum class AttributeSource { scene, stage_text };
 bool is_appearance_keyword(std::string_view keyword);
 
 /// Reads what follows such a keyword, to the end of the line, and adds it to `appearance`. An InputError if
-/// it is out of range, or there already (reported at `keyword_place`); only lights may be many.
-void read_appearance_part(std::string_view keyword, const Place& keyword_place, LineScanner& line,
+/// it is out of range, or there already (reported at `keyword_location`); only lights may be many.
+void read_appearance_part(std::string_view keyword, const SourceLocation& keyword_location, LineScanner& line,
                           AttributeSource source, Appearance& appearance);
 
 /// An InputError if the text has a column w, which only a projected text may have.

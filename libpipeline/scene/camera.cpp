@@ -64,22 +64,23 @@ Volume read_volume(LineScanner& line) {
 }
 
 template <typename T>
-void expect_first(const std::optional<Placed<T>>& part, const Place& place, const std::string& name) {
+void expect_first(const std::optional<Located<T>>& part, const SourceLocation& location,
+                  const std::string& name) {
   if (part)
-    throw InputError(place,
-                     expected_but_found("one " + name, "a second one after " + to_string(part->place)));
+    throw InputError(location,
+                     expected_but_found("one " + name, "a second one after " + to_string(part->location)));
 }
 
 /// The part of the camera with that keyword and what messages call it; nothing for other keywords.
 struct PositionPart {
-  std::optional<Placed<Vec3>> CameraText::*part = nullptr;
+  std::optional<Located<Vec3>> CameraParameters::*part = nullptr;
   std::string_view name;
 };
 
 PositionPart position_part(std::string_view keyword) {
-  if (keyword == "eye") return {&CameraText::eye, "the eye"};
-  if (keyword == "look") return {&CameraText::look, "the point looked at"};
-  if (keyword == "up") return {&CameraText::up, "the up direction"};
+  if (keyword == "eye") return {&CameraParameters::eye, "the eye"};
+  if (keyword == "look") return {&CameraParameters::look, "the point looked at"};
+  if (keyword == "up") return {&CameraParameters::up, "the up direction"};
   return {};
 }
 
@@ -92,17 +93,17 @@ Projection read_projection(std::string_view keyword, LineScanner& line) {
   return read_volume<Orthographic>(line);
 }
 
-bool read_camera_part(std::string_view keyword, const Place& keyword_place, LineScanner& line,
-                      CameraText& camera) {
-  const Place place = line.place();
+bool read_camera_part(std::string_view keyword, const SourceLocation& keyword_location, LineScanner& line,
+                      CameraParameters& camera) {
+  const SourceLocation location = line.location();
   if (const auto [part, name] = position_part(keyword); part != nullptr) {
-    expect_first(camera.*part, keyword_place, std::string(keyword));
-    camera.*part = {line.vec3(name), place};
+    expect_first(camera.*part, keyword_location, std::string(keyword));
+    camera.*part = {line.vec3(name), location};
     return true;
   }
   if (keyword != "perspective" && keyword != "frustum" && keyword != "ortho") return false;
-  expect_first(camera.projection, keyword_place, "projection");
-  camera.projection = {read_projection(keyword, line), place};
+  expect_first(camera.projection, keyword_location, "projection");
+  camera.projection = {read_projection(keyword, line), location};
   return true;
 }
 
@@ -112,27 +113,27 @@ bool is_parallel_to_view(const Vec3& eye, const Vec3& look, const Vec3& up) {
   return dot(normal, normal).sign() == 0;
 }
 
-void check_camera(const CameraText& camera) {
+void check_camera(const CameraParameters& camera) {
   if (camera.up && camera.up->value == Vec3{})
-    throw InputError(camera.up->place, expected_but_found("an up direction", "0 0 0"));
+    throw InputError(camera.up->location, expected_but_found("an up direction", "0 0 0"));
   if (!camera.eye || !camera.look) return;
   if (camera.eye->value == camera.look->value)
-    throw InputError(camera.look->place, expected_but_found("a point other than the eye to look at",
-                                                            to_text(camera.look->value)));
+    throw InputError(camera.look->location, expected_but_found("a point other than the eye to look at",
+                                                               to_text(camera.look->value)));
   if (camera.up && is_parallel_to_view(camera.eye->value, camera.look->value, camera.up->value))
-    throw InputError(camera.up->place,
+    throw InputError(camera.up->location,
                      expected_but_found("an up direction that is not parallel to the view direction",
                                         to_text(camera.up->value)));
 }
 
-CameraText without_position(const CameraText& camera) {
-  CameraText rest;
+CameraParameters without_position(const CameraParameters& camera) {
+  CameraParameters rest;
   rest.projection = camera.projection;
   return rest;
 }
 
-CameraText merged(const CameraText& preferred, const CameraText& otherwise) {
-  CameraText camera = preferred;
+CameraParameters merged(const CameraParameters& preferred, const CameraParameters& otherwise) {
+  CameraParameters camera = preferred;
   if (!camera.eye) camera.eye = otherwise.eye;
   if (!camera.look) camera.look = otherwise.look;
   if (!camera.up) camera.up = otherwise.up;

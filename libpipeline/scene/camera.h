@@ -32,18 +32,18 @@ using Projection = std::variant<Perspective, Frustum, Orthographic>;
 
 /// A value and the place in the input it came from.
 template <typename T>
-struct Placed {
+struct Located {
   T value;
-  Place place;
+  SourceLocation location;
 };
 
 /// What a scene or a stage text's header says of the camera, as far as it says it.
 /// `look` is the point looked at, in world space like `eye`.
-struct CameraText {
-  std::optional<Placed<Vec3>> eye;
-  std::optional<Placed<Vec3>> look;
-  std::optional<Placed<Vec3>> up;
-  std::optional<Placed<Projection>> projection;
+struct CameraParameters {
+  std::optional<Located<Vec3>> eye;
+  std::optional<Located<Vec3>> look;
+  std::optional<Located<Vec3>> up;
+  std::optional<Located<Projection>> projection;
 };
 
 /// Reads what follows the keyword `perspective`, `frustum` or `ortho`, and checks it: fovY lies in (0, 180)
@@ -51,22 +51,22 @@ struct CameraText {
 Projection read_projection(std::string_view keyword, LineScanner& line);
 
 /// Reads what follows the keyword `eye`, `look`, `up` or one of a projection into that part of the camera,
-/// which must not be there yet (`keyword_place` is where a second one is reported); false if it is another
+/// which must not be there yet (`keyword_location` is where a second one is reported); false if it is another
 /// keyword.
-bool read_camera_part(std::string_view keyword, const Place& keyword_place, LineScanner& line,
-                      CameraText& camera);
+bool read_camera_part(std::string_view keyword, const SourceLocation& keyword_location, LineScanner& line,
+                      CameraParameters& camera);
 
 /// The projection alone: what is left once the view transform is done.
-CameraText without_position(const CameraText& camera);
+CameraParameters without_position(const CameraParameters& camera);
 
 /// True if up x (look - eye) is 0, as far as 31 digits can tell.
 bool is_parallel_to_view(const Vec3& eye, const Vec3& look, const Vec3& up);
 
 /// An error at its place unless the parts that are there go together: eye and look differ, up is not parallel
 /// to the view direction and not 0.
-void check_camera(const CameraText& camera);
+void check_camera(const CameraParameters& camera);
 
 /// The parts of `preferred`, and those of `otherwise` that `preferred` does not have.
-CameraText merged(const CameraText& preferred, const CameraText& otherwise);
+CameraParameters merged(const CameraParameters& preferred, const CameraParameters& otherwise);
 
 }  // namespace pipeline

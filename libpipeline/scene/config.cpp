@@ -12,7 +12,7 @@ namespace {
 LineScanner required_line(TextReader& text, const std::string& expected) {
   LineScanner line;
   if (!text.next_filled_line(line))
-    throw InputError(text.end_place(), expected_but_found(expected, "the end of the input"));
+    throw InputError(text.end_location(), expected_but_found(expected, "the end of the input"));
   return line;
 }
 
@@ -39,7 +39,7 @@ Limit read_negative_limit(const LineScanner& line, const std::string& name) {
   LineScanner ahead = line;
   const double limit = ahead.number("the " + name + ", a negative number");
   if (limit >= 0) line.fail("the " + name + ", a negative number");
-  if (-limit < kSmallestLimit || -limit > kLargestLimit)
+  if (-limit < kMinLimit || -limit > kMaxLimit)
     line.fail("the " + name + ", a number from -1e200 to -1e-200");
   ahead.expect_end("the " + name);
   DoubleDouble exact;
@@ -47,7 +47,7 @@ Limit read_negative_limit(const LineScanner& line, const std::string& name) {
   return {exact.hi, exact.lo, true};
 }
 
-void read_depth_limits(LineScanner line, ScreenConfig& config) {
+void read_depth_limits(LineScanner line, Viewport& config) {
   const std::string expected_rear = "the rear limit of Z, a number greater than the front limit";
   config.front = line.number("the front limit of Z");
   LineScanner ahead = line;
@@ -58,8 +58,8 @@ void read_depth_limits(LineScanner line, ScreenConfig& config) {
 
 }  // namespace
 
-ScreenConfig read_config(TextReader& text) {
-  ScreenConfig config;
+Viewport read_config(TextReader& text) {
+  Viewport config;
   LineScanner line = required_line(text, "the width and height in pixels");
   config.columns = read_size(line, "width");
   config.rows = read_size(line, "height");

@@ -7,14 +7,14 @@ namespace pipeline {
 /// The largest width and height of a screen, in pixels.
 constexpr int kMaxScreenSize = 65535;
 
-/// The limits -left and -bottom lie in [kSmallestLimit, kLargestLimit], so that neither a pixel's size nor
+/// The limits -left and -bottom lie in [kMinLimit, kMaxLimit], so that neither a pixel's size nor
 /// the distance from a pixel to any finite vertex leaves the range of a double.
-constexpr double kSmallestLimit = 1e-200;
-constexpr double kLargestLimit = 1e200;
+constexpr double kMinLimit = 1e-200;
+constexpr double kMaxLimit = 1e200;
 
 /// What stage 4 maps to what: the window [left, -left] x [bottom, -bottom] of NDC to columns x rows pixels,
 /// and the depths that are seen, front <= z < rear. Row 0 is at the top, column 0 on the left.
-struct ScreenConfig {
+struct Viewport {
   int columns = 0;
   int rows = 0;
   double left = -1;
@@ -35,12 +35,12 @@ struct ScreenConfig {
   [[nodiscard]] double left_x() const { return left + dx() / 2; }
   [[nodiscard]] double top_y() const { return -bottom - dy() / 2; }
 
-  friend bool operator==(const ScreenConfig&, const ScreenConfig&) = default;
+  friend bool operator==(const Viewport&, const Viewport&) = default;
 };
 
 /// Reads config.txt: a line `columns rows`, alone (then the limits are -1, -1 and z in [-1, 1]) or followed
 /// by a line `left`, a line `bottom` and a line `front rear`. Sizes are whole numbers from 1 to 65535, left
 /// and bottom negative, front < rear. What is wrong, missing or too much is an InputError with its place.
-ScreenConfig read_config(TextReader& text);
+Viewport read_config(TextReader& text);
 
 }  // namespace pipeline

@@ -6,7 +6,7 @@ namespace pipeline {
 
 /// Where the pixel centers of a screen lie in NDC; row 0 is at the top.
 struct PixelGrid {
-  explicit PixelGrid(const ScreenConfig& screen)
+  explicit PixelGrid(const Viewport& screen)
       : columns(screen.columns),
         rows(screen.rows),
         left_x(screen.left_x()),

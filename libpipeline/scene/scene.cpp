@@ -21,34 +21,34 @@ SceneReader::SceneReader(TextReader& text, const SceneReader& reader)
       current_color_(reader.current_color_),
       has_triangle_(reader.has_triangle_) {}
 
-Placed<Vec3> SceneReader::read_camera_vec3(const std::string& name) {
+Located<Vec3> SceneReader::read_camera_vec3(const std::string& name) {
   next_argument_line(name + " (three numbers)");
-  const Place place = line_.place();
-  return {line_.vec3(name), place};
+  const SourceLocation location = line_.location();
+  return {line_.vec3(name), location};
 }
 
-Placed<Projection> SceneReader::read_camera_projection() {
+Located<Projection> SceneReader::read_camera_projection() {
   next_argument_line("fovY aspect near far (or: ortho L R B T N F, or: frustum L R B T N F)");
   const std::string_view first = line_.peek();
   const bool is_named = first == "ortho" || first == "frustum";
   if (is_named) line_.word();
-  const Place place = line_.place();
-  return {read_projection(is_named ? first : "perspective", line_), place};
+  const SourceLocation location = line_.location();
+  return {read_projection(is_named ? first : "perspective", line_), location};
 }
 
 /// Moves on to the next line that is not blank, unless the command's own line still holds something.
 void SceneReader::next_argument_line(std::string_view expected) {
   if (line_.at_end() && !text_.next_filled_line(line_))
-    throw InputError(text_.end_place(), expected_but_found(std::string(expected), "the end of the input"));
+    throw InputError(text_.end_location(), expected_but_found(std::string(expected), "the end of the input"));
 }
 
-std::size_t SceneReader::read_waiting(std::span<Triangle> room, std::size_t& first_line) {
+std::size_t SceneReader::read_buffered(std::span<Triangle> room, std::size_t& first_line) {
   static_assert(TextReader::kSlack >= kFixedTextSlack);
   // With attributes there are more columns, or at least a current color.
   if (appearance_.attributes || !line_.at_end()) return 0;
   // The blank line between triangles that a reader likes to see.
-  if (text_.waiting().starts_with('\n')) text_.skip(1, 1);
-  const FixedTextPart part = fixed_text_kernel().read_scene(text_.waiting(), room);
+  if (text_.buffered().starts_with('\n')) text_.skip(1, 1);
+  const FixedTextPart part = fixed_text_kernel().read_scene(text_.buffered(), room);
   first_line = text_.line_number() + 1;
   text_.skip(part.length, 4 * part.triangle_count);
   if (part.triangle_count > 0) has_triangle_ = true;
@@ -60,11 +60,11 @@ bool SceneReader::take_part(std::size_t size, TextPart& part) {
 }
 
 Command SceneReader::next() {
-  if (TriangleCommand triangle; read_plain_triangle(triangle)) return triangle;
+  if (TriangleCommand triangle; read_decimal_triangle(triangle)) return triangle;
   if (!text_.next_filled_line(line_))
-    throw InputError(text_.end_place(),
+    throw InputError(text_.end_location(),
                      expected_but_found("'end', which closes a scene", "the end of the input"));
-  place_ = line_.place();
+  location_ = line_.location();
   const std::string_view keyword = line_.peek();
   const auto takes_no_arguments = [&] {
     line_.word();
@@ -108,14 +108,14 @@ Command SceneReader::read_appearance(std::string_view keyword) {
   if (has_triangle_ && !(is_color && appearance_.columns().color)) {
     const std::string expected = is_color ? "'color' or 'attributes color' before the first triangle, too"
                                           : quoted(keyword) + " before the first triangle";
-    throw InputError(place_, expected_but_found(expected, quoted(keyword) + " behind it"));
+    throw InputError(location_, expected_but_found(expected, quoted(keyword) + " behind it"));
   }
   const std::string name(line_.word());
   next_argument_line("the arguments of " + quoted(name));
   if (is_color) return read_current_color(), AppearanceCommand{};
   const bool has_color = appearance_.columns().color;
   if (name == "attributes" && !vertex_line_.attributes().any()) appearance_.attributes.reset();
-  read_appearance_part(name, place_, line_, AttributeSource::scene, appearance_);
+  read_appearance_part(name, location_, line_, AttributeSource::scene, appearance_);
   if (name == "light") {
     const LightCommand command{appearance_.lights.back()};
     appearance_.lights.clear();
@@ -131,7 +131,7 @@ Command SceneReader::read_appearance(std::string_view keyword) {
 void SceneReader::read_current_color() {
   current_color_ = read_color(line_, "the color");
   line_.expect_end("the blue of the color");
-  if (!appearance_.attributes) appearance_.attributes = {{}, place_};
+  if (!appearance_.attributes) appearance_.attributes = {{}, location_};
   appearance_.attributes->value.color = true;
 }
 
@@ -143,7 +143,7 @@ VertexLine SceneReader::read_vertex(std::size_t index) {
   if (vertex_line_.attributes().normal && vertex.normal == Vec3{}) {
     for (int i = vertex_line_.attributes().color ? 6 : 3; i > 0; --i) at_normal.word();
     throw InputError(
-        at_normal.place(),
+        at_normal.location(),
         expected_but_found("a normal of " + std::string(kVertexNames[index]) + " other than 0 0 0", "0 0 0"));
   }
   return vertex;
@@ -156,7 +156,7 @@ TriangleCommand SceneReader::read_triangle() {
   TriangleCommand command;
   for (std::size_t i = 0; i < 3; ++i) {
     next_argument_line(kVertexNames[i]);
-    command.places[i] = {line_.line_number(), line_.column()};
+    command.locations[i] = {line_.line_number(), line_.column()};
     if (has_attributes) {
       vertices_[i] = read_vertex(i);
       command.p_model[i] = vertices_[i].position;
@@ -169,29 +169,29 @@ TriangleCommand SceneReader::read_triangle() {
 
 /// The fast path: takes a triangle that is waiting, its keyword and its vertices on lines of their own and
 /// nothing else. False if the next command is another, or has to be read with more care.
-bool SceneReader::read_plain_triangle(TriangleCommand& triangle) {
+bool SceneReader::read_decimal_triangle(TriangleCommand& triangle) {
   constexpr std::string_view kKeyword = "triangle";
-  const std::string_view waiting = text_.waiting();
+  const std::string_view waiting = text_.buffered();
   const std::size_t begin = waiting.find_first_not_of(" \t\r\n");
   if (begin == std::string_view::npos || !waiting.substr(begin).starts_with(kKeyword)) return false;
   const char* const end = waiting.data() + waiting.size();
-  const char* p = read_plain_line(waiting.data() + begin + kKeyword.size(), end, {});
-  if (p != nullptr) p = vertex_line_.read_plain(p, end, plain_vertices_);
-  if (p == nullptr || !take_plain_vertices()) return false;
+  const char* p = read_decimal_line(waiting.data() + begin + kKeyword.size(), end, {});
+  if (p != nullptr) p = vertex_line_.read_decimals(p, end, decimal_vertices_);
+  if (p == nullptr || !take_decimal_vertices()) return false;
   const auto blank_lines = std::count(waiting.begin(), waiting.begin() + begin, '\n');
   const std::size_t first_line = text_.line_number() + static_cast<std::size_t>(blank_lines) + 2;
   triangle.p_model = {vertices_[0].position, vertices_[1].position, vertices_[2].position};
-  triangle.places = places_of(plain_vertices_, first_line);
+  triangle.locations = locations_of(decimal_vertices_, first_line);
   text_.skip(static_cast<std::size_t>(p - waiting.data()), static_cast<std::size_t>(blank_lines) + 4);
   has_triangle_ = true;
   return true;
 }
 
 /// False if one of the vertices is wrong.
-bool SceneReader::take_plain_vertices() {
+bool SceneReader::take_decimal_vertices() {
   const AttributeSet& columns = vertex_line_.attributes();
   for (std::size_t i = 0; i < 3; ++i) {
-    vertices_[i] = to_vertex_line(plain_vertices_[i], columns);
+    vertices_[i] = to_vertex_line(decimal_vertices_[i], columns);
     if (!columns.color) vertices_[i].color = current_color_;
     if (columns.normal && vertices_[i].normal == Vec3{}) return false;
   }
@@ -203,9 +203,9 @@ RotateCommand SceneReader::read_rotation() {
   next_argument_line("an angle and an axis (four numbers)");
   RotateCommand command;
   command.angle_degrees = line_.number("an angle in degrees");
-  const Place axis_place = line_.place();
+  const SourceLocation axis_location = line_.location();
   command.axis = line_.vec3("the axis");
-  if (command.axis == Vec3{}) throw InputError(axis_place, expected_but_found("a rotation axis", "0 0 0"));
+  if (command.axis == Vec3{}) throw InputError(axis_location, expected_but_found("a rotation axis", "0 0 0"));
   return command;
 }
 

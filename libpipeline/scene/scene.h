@@ -18,7 +18,7 @@ namespace pipeline {
 // The commands of a scene, as they are written: angles in degrees, no arithmetic done.
 struct TriangleCommand {
   Triangle p_model;
-  VertexPlaces places;
+  VertexLocations locations;
 };
 struct TranslateCommand {
   Vec3 offset;
@@ -36,7 +36,7 @@ struct EndCommand {};
 /// The appearance or the current color has changed: the reader keeps both.
 struct AppearanceCommand {};
 struct LightCommand {
-  Placed<Light> light;  // in model space
+  Located<Light> light;  // in model space
 };
 
 using Command = std::variant<TriangleCommand, TranslateCommand, ScaleCommand, RotateCommand, PushCommand,
@@ -64,7 +64,7 @@ class SceneReader {
   SceneReader(TextReader& text, const SceneReader& reader);
 
   /// The camera, complete and checked.
-  [[nodiscard]] const CameraText& camera() const { return camera_; }
+  [[nodiscard]] const CameraParameters& camera() const { return camera_; }
   /// What was read of color and light so far, without the lights (each is a command of its own). Its columns
   /// are those of the triangles' attributes; complete at the first triangle.
   [[nodiscard]] const Appearance& appearance() const { return appearance_; }
@@ -76,7 +76,7 @@ class SceneReader {
   /// The fast path: puts triangles that come next and are in memory as a whole into `room`, and says how
   /// many; each has four lines, and the first begins at `first_line`. None if the next command is another, or
   /// a triangle in another form, or with more than positions.
-  std::size_t read_waiting(std::span<Triangle> room, std::size_t& first_line);
+  std::size_t read_buffered(std::span<Triangle> room, std::size_t& first_line);
   /// Takes whole triangles as text, and perhaps more; see TriangleSource.
   bool take_part(std::size_t size, TextPart& part);
   void put_back(const TextPart& part) { text_.put_back(part); }
@@ -84,18 +84,18 @@ class SceneReader {
   [[nodiscard]] std::size_t line_count() const { return text_.line_number(); }
   void pass_lines(std::size_t line_count) { text_.skip(0, line_count - text_.line_number()); }
   /// The place of the command given out last, unless that is a triangle.
-  [[nodiscard]] const Place& place() const { return place_; }
+  [[nodiscard]] const SourceLocation& location() const { return location_; }
   /// True if the next command can be had without waiting for the input, whatever it is: none has more than
   /// four lines.
-  [[nodiscard]] bool has_command_waiting() const { return text_.has_lines_waiting(4); }
+  [[nodiscard]] bool has_buffered_command() const { return text_.has_buffered_lines(4); }
 
  private:
-  Placed<Vec3> read_camera_vec3(const std::string& name);
-  Placed<Projection> read_camera_projection();
+  Located<Vec3> read_camera_vec3(const std::string& name);
+  Located<Projection> read_camera_projection();
   void next_argument_line(std::string_view expected);
   TriangleCommand read_triangle();
-  bool read_plain_triangle(TriangleCommand& triangle);
-  bool take_plain_vertices();
+  bool read_decimal_triangle(TriangleCommand& triangle);
+  bool take_decimal_vertices();
   VertexLine read_vertex(std::size_t index);
   [[nodiscard]] std::string expected_commands() const;
   Command read_appearance(std::string_view keyword);
@@ -103,15 +103,15 @@ class SceneReader {
   RotateCommand read_rotation();
 
   TextReader& text_;
-  CameraText camera_;
+  CameraParameters camera_;
   Appearance appearance_;
   VertexLineReader vertex_line_;  // what the vertex lines of the scene carry
   Vec3 current_color_;
   std::array<VertexLine, 3> vertices_;
   bool has_triangle_ = false;
-  PlainVertexLines plain_vertices_;  // where a triangle is read
+  DecimalVertexLines decimal_vertices_;  // where a triangle is read
   LineScanner line_;
-  Place place_;
+  SourceLocation location_;
 };
 
 }  // namespace pipeline

@@ -44,7 +44,7 @@ Vec3 read_color(LineScanner& line, std::string_view of) {
   return color;
 }
 
-VertexLine to_vertex_line(const PlainVertexLine& line, const AttributeSet& attributes) {
+VertexLine to_vertex_line(const DecimalVertexLine& line, const AttributeSet& attributes) {
   const auto* next = line.numbers.data();
   const auto vec3 = [&] {
     const Vec3 v = {next[0].value, next[1].value, next[2].value};
@@ -88,20 +88,21 @@ VertexLine VertexLineReader::read(LineScanner& line, std::size_t vertex) const {
   return values;
 }
 
-bool VertexLineReader::are_in_range(std::span<const PlainNumber> columns) const {
+bool VertexLineReader::are_in_range(std::span<const DecimalNumber> columns) const {
   const auto behind_position = columns.subspan(3);
   if (attributes_.w && !(behind_position[0].value > 0)) return false;
   if (!attributes_.color) return true;
   const auto color = behind_position.subspan(attributes_.w ? 1 : 0, 3);
   return std::all_of(color.begin(), color.end(),
-                     [](const PlainNumber& channel) { return channel.value >= 0 && channel.value <= 255; });
+                     [](const DecimalNumber& channel) { return channel.value >= 0 && channel.value <= 255; });
 }
 
-const char* VertexLineReader::read_plain(const char* p, const char* end, PlainVertexLines& vertices) const {
-  for (PlainVertexLine& line : vertices) {
+const char* VertexLineReader::read_decimals(const char* p, const char* end,
+                                            DecimalVertexLines& vertices) const {
+  for (DecimalVertexLine& line : vertices) {
     const auto taken = std::span(line.numbers).first(column_count_);
     const char* const begin = p;
-    p = read_plain_line(p, end, taken);
+    p = read_decimal_line(p, end, taken);
     if (p == nullptr || !are_in_range(taken)) return nullptr;
     line.indent = blanks_at(begin);
   }

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "libpipeline/numbers/vec.h"
-#include "libpipeline/text/plain_number.h"
+#include "libpipeline/text/decimal_number.h"
 #include "libpipeline/text/source_location.h"
 #include "libpipeline/text/text_reader.h"
 
@@ -36,20 +36,20 @@ struct VertexLine {
 };
 
 /// A vertex line of plain numbers: the first three are the position.
-struct PlainVertexLine {
-  std::array<PlainNumber, kMaxColumns> numbers;
+struct DecimalVertexLine {
+  std::array<DecimalNumber, kMaxColumns> numbers;
   std::size_t indent = 0;  // the blanks before the first number
 };
-using PlainVertexLines = std::array<PlainVertexLine, 3>;
+using DecimalVertexLines = std::array<DecimalVertexLine, 3>;
 
 /// Where the vertices on these lines begin; the first stands on line `first_line`.
-inline VertexPlaces places_of(const PlainVertexLines& lines, std::size_t first_line) {
+inline VertexLocations locations_of(const DecimalVertexLines& lines, std::size_t first_line) {
   return {LineAndColumn(first_line, lines[0].indent + 1), LineAndColumn(first_line + 1, lines[1].indent + 1),
           LineAndColumn(first_line + 2, lines[2].indent + 1)};
 }
 
 /// The vertex on a line with these attributes.
-VertexLine to_vertex_line(const PlainVertexLine& line, const AttributeSet& attributes);
+VertexLine to_vertex_line(const DecimalVertexLine& line, const AttributeSet& attributes);
 /// A triangle in clip space, before the divide: w may be anything.
 using ClipTriangle = std::array<VertexLine, 3>;
 
@@ -71,10 +71,10 @@ class VertexLineReader {
   /// The fast path: reads the three lines of a triangle at `p` and returns the beginning of the line behind
   /// them. Null if they hold anything but plain numbers (plain_number.h), or do not end before `end`, or one
   /// is wrong; the general path then says so.
-  const char* read_plain(const char* p, const char* end, PlainVertexLines& vertices) const;
+  const char* read_decimals(const char* p, const char* end, DecimalVertexLines& vertices) const;
 
  private:
-  [[nodiscard]] bool are_in_range(std::span<const PlainNumber> columns) const;
+  [[nodiscard]] bool are_in_range(std::span<const DecimalNumber> columns) const;
 
   AttributeSet attributes_;
   RangeOfW range_of_w_;

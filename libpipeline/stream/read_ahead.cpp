@@ -11,9 +11,9 @@ constexpr std::size_t kSlotsPerThread = 2;
 
 }  // namespace
 
-ReadAhead::ReadAhead(TriangleSource& source, WorkerTeam& team)
-    : source_(source), parts_(source, kPartSize), team_(team) {
-  if (team.size() > 1) slots_.resize(kSlotsPerThread * static_cast<std::size_t>(team.size()));
+ReadAhead::ReadAhead(TriangleSource& source, ThreadPool& pool)
+    : source_(source), parts_(source, kPartSize), pool_(pool) {
+  if (pool.size() > 1) slots_.resize(kSlotsPerThread * static_cast<std::size_t>(pool.size()));
 }
 
 bool ReadAhead::read(TriangleBatch& batch) {
@@ -27,12 +27,12 @@ bool ReadAhead::read(TriangleBatch& batch) {
   return true;
 }
 
-/// Has the team read parts, as long as there is room and text.
+/// Has the pool read parts, as long as there is room and text.
 void ReadAhead::take_parts() {
   while (end_ - begin_ < slots_.size() && parts_.take(slot(end_).part, slot(end_).batch)) {
     Slot& next = slot(end_++);
     next.is_done = false;
-    team_.start(1, [this, &next](int, int) {
+    pool_.start(1, [this, &next](int, int) {
       next.is_read = parts_.read(next.part, next.batch);
       next.is_done = true;
     });
@@ -42,12 +42,12 @@ void ReadAhead::take_parts() {
 /// Waits for the first part in work; false if there is none, or none that could be read.
 bool ReadAhead::take_first(TriangleBatch& batch) {
   if (begin_ == end_) return false;
-  while (!slot(begin_).is_done) team_.help();
+  while (!slot(begin_).is_done) pool_.run_one();
   if (slot(begin_).is_read) {
     std::swap(batch, slot(begin_++).batch);
     return true;
   }
-  team_.finish();
+  pool_.finish();
   for (; end_ != begin_; --end_) parts_.put_back(slot(end_ - 1).part);
   return false;
 }

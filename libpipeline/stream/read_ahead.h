@@ -4,20 +4,20 @@
 #include <cstddef>
 #include <deque>
 
+#include "libpipeline/stream/thread_pool.h"
 #include "libpipeline/stream/triangle_batch.h"
 #include "libpipeline/stream/triangle_parts.h"
 #include "libpipeline/stream/triangle_source.h"
-#include "libpipeline/stream/worker_team.h"
 
 namespace pipeline {
 
-/// A source's triangles, batch by batch as it gives them, of which a team reads the next ones ahead, part by
+/// A source's triangles, batch by batch as it gives them, of which a pool reads the next ones ahead, part by
 /// part. It never waits for the input while there is something to give.
 class ReadAhead {
  public:
-  /// The team may have other work besides. A team of one reads nothing ahead.
-  ReadAhead(TriangleSource& source, WorkerTeam& team);
-  ~ReadAhead() { team_.give_up(); }
+  /// The pool may have other work besides. A pool of one reads nothing ahead.
+  ReadAhead(TriangleSource& source, ThreadPool& pool);
+  ~ReadAhead() { pool_.cancel(); }
   ReadAhead(const ReadAhead&) = delete;
   ReadAhead& operator=(const ReadAhead&) = delete;
 
@@ -42,7 +42,7 @@ class ReadAhead {
   // Those from number `begin_` to `end_` are in work.
   std::size_t begin_ = 0;
   std::size_t end_ = 0;
-  WorkerTeam& team_;
+  ThreadPool& pool_;
 };
 
 }  // namespace pipeline

@@ -34,7 +34,7 @@ StageReader::StageReader(TextReader& text, bool marks_decimals)
   columns_in_clip_space.w = true;
   clip_vertex_line_ = VertexLineReader(columns_in_clip_space, RangeOfW::any);
   // A mistake here is told before anybody misses a header line that it hides.
-  header_end_ = line_is_pending_ ? line_.place() : text_.end_place();
+  header_end_ = line_is_pending_ ? line_.location() : text_.end_location();
   if (!line_is_pending_) expect_unframed_end();
   const bool is_body =
       is_vertex(line_.peek()) || line_.peek() == "triangle" || line_.peek() == "clipped" || is_end(line_);
@@ -43,19 +43,19 @@ StageReader::StageReader(TextReader& text, bool marks_decimals)
 
 /// Takes a header line; false if the line belongs to the body.
 bool StageReader::read_header_line(LineScanner& line) {
-  const Place place = line.place();
+  const SourceLocation location = line.location();
   const std::string_view keyword = line.word();
   if (is_appearance_keyword(keyword)) {
-    read_appearance_part(keyword, place, line, AttributeSource::stage_text, header_.appearance);
+    read_appearance_part(keyword, location, line, AttributeSource::stage_text, header_.appearance);
     return true;
   }
-  if (keyword != "framed") return read_camera_part(keyword, place, line, header_.camera);
+  if (keyword != "framed") return read_camera_part(keyword, location, line, header_.camera);
   if (header_.framed)
-    throw InputError(place,
-                     expected_but_found("one 'framed'", "a second one after " + to_string(framed_place_)));
+    throw InputError(location,
+                     expected_but_found("one 'framed'", "a second one after " + to_string(framed_location_)));
   line.expect_end("'framed'");
   header_.framed = true;
-  framed_place_ = place;
+  framed_location_ = location;
   return true;
 }
 
@@ -67,15 +67,15 @@ void StageReader::expect_framed() const {
 }
 
 bool StageReader::read(TriangleBatch& batch) {
-  return mistake_.read(batch, [&] { fill(batch); });
+  return deferred_error_.read(batch, [&] { fill(batch); });
 }
 
 bool StageReader::take_part(std::size_t size, TextPart& part, TriangleBatch& batch) {
   batch.clear();
-  const bool is_between_triangles = !line_is_pending_ && !whole_ && !done_ && !mistake_.is_kept();
+  const bool is_between_triangles = !line_is_pending_ && !whole_ && !done_ && !deferred_error_.is_kept();
   if (!is_between_triangles) return false;
   // A text's lines end alike: what none of them ends with is not looked for all through the part.
-  const bool has_returns = text_.waiting().substr(0, text_.waiting().find('\n')).ends_with('\r');
+  const bool has_returns = text_.buffered().substr(0, text_.buffered().find('\n')).ends_with('\r');
   const auto take = [&](bool with_returns) {
     return with_returns ? text_.take_part("\n\r\n", 3, size, part) : text_.take_part("\n\n", 2, size, part);
   };
@@ -88,7 +88,7 @@ PartContents StageReader::read_part(TextReader& part, TriangleBatch& batch) cons
   LineScanner line;
   try {
     for (;;) {
-      if (triangles.read_waiting(batch, std::numeric_limits<std::size_t>::max())) continue;
+      if (triangles.read_buffered(batch, std::numeric_limits<std::size_t>::max())) continue;
       if (!part.next_filled_line(line)) break;
       if (is_vertex(line.peek())) {
         triangles.read(line, batch);
@@ -107,22 +107,22 @@ PartContents StageReader::read_part(TextReader& part, TriangleBatch& batch) cons
   return contents;
 }
 
-TrianglePlace StageReader::place() const {
+StreamPosition StageReader::location() const {
   return {text_.line_number(), triangles_->next_number()};
 }
 
-void StageReader::pass(const TrianglePlace& place) {
-  text_.skip(0, place.line_count - text_.line_number());
-  triangles_->count_from(place.number);
+void StageReader::pass(const StreamPosition& location) {
+  text_.skip(0, location.line_count - text_.line_number());
+  triangles_->count_from(location.number);
 }
 
 void StageReader::fill(TriangleBatch& batch) {
   while (!done_) {
     // What is in memory is passed on before the reader waits for more: a triangle has three lines.
-    if (!line_is_pending_ && !batch.empty() && (batch.size() >= kBatchSize || !text_.has_lines_waiting(3)))
+    if (!line_is_pending_ && !batch.empty() && (batch.size() >= kBatchSize || !text_.has_buffered_lines(3)))
       break;
-    const bool may_be_plain = !line_is_pending_ && !whole_;
-    if (may_be_plain && triangles_->read_waiting(batch, kBatchSize)) continue;
+    const bool may_be_decimal = !line_is_pending_ && !whole_;
+    if (may_be_decimal && triangles_->read_buffered(batch, kBatchSize)) continue;
     if (!line_is_pending_ && !text_.next_filled_line(line_)) {
       expect_unframed_end();
       done_ = true;
@@ -147,7 +147,7 @@ void StageReader::fill(TriangleBatch& batch) {
 void StageReader::read_triangle(LineScanner& line, TriangleBatch& batch) {
   if (whole_ && triangles_->next_number() != whole_number_) whole_.reset();
   triangles_->read(line, batch);
-  if (whole_) batch.set_last_whole(whole_);
+  if (whole_) batch.set_last_unclipped(whole_);
 }
 
 /// Reads the line `clipped` and the three of a triangle in clip space.
@@ -172,7 +172,7 @@ void StageReader::read_end(LineScanner& line) {
   line.word();
   line.expect_end("'end'");
   if (!text_.last_line_was_ended())
-    throw InputError(line.place(),
+    throw InputError(line.location(),
                      expected_but_found("the end of the line after 'end', which closes a framed text",
                                         "the end of the input"));
   if (text_.next_filled_line(line)) {
@@ -184,19 +184,19 @@ void StageReader::read_end(LineScanner& line) {
 
 void StageReader::expect_unframed_end() const {
   if (header_.framed)
-    throw InputError(text_.end_place(),
+    throw InputError(text_.end_location(),
                      expected_but_found("'end', which closes a framed text", "the end of the input"));
 }
 
 /// Says what is wrong with a line that has no place in a body. `also_expected` is what might have stood there
 /// besides triangles.
 void StageReader::reject(LineScanner& line, const std::string& also_expected) {
-  const Place place = line.place();
+  const SourceLocation location = line.location();
   const LineScanner at_keyword = line;
   if (line.peek() == "error") throw earlier_failure(line);
   const std::string_view keyword = line.word();
   if (is_header_keyword(keyword))
-    throw InputError(place, expected_but_found("header lines before the first triangle", quoted(keyword)));
+    throw InputError(location, expected_but_found("header lines before the first triangle", quoted(keyword)));
   const std::string hint = keyword == "end" ? " ('end' needs a line 'framed' in the header)" : "";
   at_keyword.fail(also_expected + "'triangle N' or a vertex" + hint);
 }

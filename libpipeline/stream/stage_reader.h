@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "libpipeline/stream/late_mistake.h"
+#include "libpipeline/stream/deferred_error.h"
 #include "libpipeline/stream/stage_text.h"
 #include "libpipeline/stream/triangle_batch.h"
 #include "libpipeline/stream/triangle_reader.h"
@@ -23,7 +23,7 @@ class StageReader final : public TriangleSource {
   [[nodiscard]] const StageHeader& header() const { return header_; }
   /// The place of the first word behind the header: where a header line that is missing should have stood
   /// before.
-  [[nodiscard]] const Place& header_end() const { return header_end_; }
+  [[nodiscard]] const SourceLocation& header_end() const { return header_end_; }
   /// From now on `clipped` triangles are read, which only projected texts have; before, they are mistakes.
   void accept_clipped() { accepts_clipped_ = true; }
   /// An InputError unless the text is framed: for who has to know that it is whole, even if nothing came of
@@ -35,8 +35,8 @@ class StageReader final : public TriangleSource {
   bool take_part(std::size_t size, TextPart& part, TriangleBatch& batch) override;
   [[nodiscard]] PartContents read_part(TextReader& part, TriangleBatch& batch) const override;
   void put_back(const TextPart& part) override { text_.put_back(part); }
-  [[nodiscard]] TrianglePlace place() const override;
-  void pass(const TrianglePlace& place) override;
+  [[nodiscard]] StreamPosition location() const override;
+  void pass(const StreamPosition& location) override;
 
  private:
   bool read_header_line(LineScanner& line);
@@ -51,8 +51,8 @@ class StageReader final : public TriangleSource {
   TextReader& text_;
   bool marks_decimals_;
   StageHeader header_;
-  Place header_end_;
-  Place framed_place_;
+  SourceLocation header_end_;
+  SourceLocation framed_location_;
   LineScanner line_;
   std::optional<TriangleReader> triangles_;  // behind the header
   bool line_is_pending_ = false;             // line_ was read but not yet used
@@ -61,7 +61,7 @@ class StageReader final : public TriangleSource {
   VertexLineReader clip_vertex_line_;
   std::shared_ptr<const ClipTriangle> whole_;  // what the next triangles with its number are pieces of
   std::uint64_t whole_number_ = 0;
-  LateMistake mistake_;  // found behind triangles that were still to be given out
+  DeferredError deferred_error_;  // found behind triangles that were still to be given out
 };
 
 }  // namespace pipeline

@@ -8,15 +8,15 @@ std::string error_line(const std::string& reason) {
   return "error " + on_one_line(reason) + "\n";
 }
 
-EarlierFailure::EarlierFailure(const Place& place, std::string reason)
-    : InputError(place,
+EarlierFailure::EarlierFailure(const SourceLocation& location, std::string reason)
+    : InputError(location,
                  "an earlier stage failed" + (reason.empty() ? ", without saying why" : ": " + reason)),
       reason_(std::move(reason)) {}
 
 EarlierFailure earlier_failure(LineScanner line) {
-  const Place place = line.place();
+  const SourceLocation location = line.location();
   line.word();
-  return {place, std::string(line.rest_with_comment())};
+  return {location, std::string(line.rest_with_comment())};
 }
 
 }  // namespace pipeline

@@ -33,7 +33,7 @@ namespace pipeline {
 /// The header of a stage text: what later stages still need.
 struct StageHeader {
   bool framed = false;
-  CameraText camera;
+  CameraParameters camera;
   Appearance appearance = {};
 };
 
@@ -44,7 +44,7 @@ std::string error_line(const std::string& reason);
 /// failed.
 class EarlierFailure : public InputError {
  public:
-  EarlierFailure(const Place& place, std::string reason);
+  EarlierFailure(const SourceLocation& location, std::string reason);
   [[nodiscard]] const std::string& reason() const { return reason_; }
 
  private:

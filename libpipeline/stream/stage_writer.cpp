@@ -51,7 +51,7 @@ void print_attribute_names(TextWriter& text, const AttributeSet& attributes) {
 }
 
 void print_appearance(TextWriter& text, const Appearance& look) {
-  const auto print_vec3 = [&](std::string_view keyword, const std::optional<Placed<Vec3>>& v) {
+  const auto print_vec3 = [&](std::string_view keyword, const std::optional<Located<Vec3>>& v) {
     if (v) print_header_numbers(text, keyword, {v->value.x, v->value.y, v->value.z});
   };
   if (look.attributes) print_attribute_names(text, look.attributes->value);
@@ -66,7 +66,7 @@ void print_appearance(TextWriter& text, const Appearance& look) {
     const Attenuation& a = look.attenuation->value;
     print_header_numbers(text, "attenuation", {a.constant, a.linear, a.quadratic});
   }
-  for (const auto& [light, place] : look.lights) {
+  for (const auto& [light, location] : look.lights) {
     const auto& [p, i] = light;
     print_header_numbers(text, "light", {p.x, p.y, p.z, i.x, i.y, i.z});
   }
@@ -84,8 +84,8 @@ void StageWriter::write_header(const StageHeader& header) {
   if (bare_) return;
   framed_ = header.framed;
   if (framed_) text_.append("framed\n");
-  const CameraText& camera = header.camera;
-  const auto print_vec3 = [&](std::string_view keyword, const std::optional<Placed<Vec3>>& v) {
+  const CameraParameters& camera = header.camera;
+  const auto print_vec3 = [&](std::string_view keyword, const std::optional<Located<Vec3>>& v) {
     if (v) print_header_numbers(text_, keyword, {v->value.x, v->value.y, v->value.z});
   };
   print_vec3("eye", camera.eye);
@@ -100,7 +100,7 @@ void StageWriter::write(const TriangleBatch& batch) {
   assert(batch.low_parts.empty() || batch.low_parts.size() == batch.size());
   if (!keeps_four_digits_) note_sizes(batch);
   const bool may_be_fixed = format_.decimals == 7 && !format_.shortest && batch.low_parts.empty() &&
-                            batch.wholes.empty() && !columns_.any();
+                            batch.unclipped.empty() && !columns_.any();
   std::size_t index = 0;
   while (index < batch.size()) {
     if (may_be_fixed) index += write_fixed_form(batch, index);
@@ -126,8 +126,8 @@ void StageWriter::note_sizes(const TriangleBatch& batch) {
 /// Prints triangles from `begin` on as long as counting goes right and they fit the form nearly all stage
 /// text has; says how many.
 std::size_t StageWriter::write_fixed_form(const TriangleBatch& batch, std::size_t begin) {
-  constexpr std::size_t kMostAtOnce = 256;
-  const std::size_t limit = std::min(batch.size(), begin + kMostAtOnce);
+  constexpr std::size_t kMaxAtOnce = 256;
+  const std::size_t limit = std::min(batch.size(), begin + kMaxAtOnce);
   std::size_t end = begin;
   while (end < limit && (bare_ || batch.numbers[end] == next_number_ + (end - begin))) ++end;
   if (end == begin) return 0;
@@ -142,10 +142,10 @@ std::size_t StageWriter::write_fixed_form(const TriangleBatch& batch, std::size_
 void StageWriter::write_triangle(const TriangleBatch& batch, std::size_t index) {
   write_number(batch.numbers[index]);
   next_number_ = batch.numbers[index] + 1;
-  if (const ClipTriangle* const whole = batch.whole_of(index);
+  if (const ClipTriangle* const whole = batch.unclipped_of(index);
       whole != nullptr && whole != last_whole_.get()) {
     write_clipped(*whole);
-    last_whole_ = batch.wholes[index];
+    last_whole_ = batch.unclipped[index];
   }
   const Triangle low_part = batch.low_parts.empty() ? Triangle{} : batch.low_parts[index];
   char* out = text_.reserve(kMaxTriangleLength);

@@ -32,7 +32,7 @@ struct TriangleBatch {
   std::vector<Triangle> low_parts;
   /// The triangle's number in the scene, from 0.
   std::vector<std::uint64_t> numbers;
-  std::vector<VertexPlaces> places;
+  std::vector<VertexLocations> locations;
   /// Which coordinates were written as plain numbers with at most 7 decimals, so that they are that decimal
   /// (hi + low part, to 7 decimals) and not only its nearest double: bit 3 * vertex + axis. Empty if not
   /// asked for.
@@ -43,7 +43,7 @@ struct TriangleBatch {
   std::vector<PendingTransform> pending_transforms;
   /// For each triangle that is a piece of a clipped one, that one; empty if there is none, else as long as
   /// `triangles`. Only lit scenes have them: corners are lit before the cut, and a piece holds not all.
-  std::vector<std::shared_ptr<const ClipTriangle>> wholes;
+  std::vector<std::shared_ptr<const ClipTriangle>> unclipped;
 
   [[nodiscard]] std::size_t size() const { return triangles.size(); }
   [[nodiscard]] bool empty() const { return triangles.empty(); }
@@ -51,57 +51,57 @@ struct TriangleBatch {
     triangles.clear();
     low_parts.clear();
     numbers.clear();
-    places.clear();
+    locations.clear();
     decimal_marks.clear();
     attributes.clear();
     pending_transforms.clear();
-    wholes.clear();
+    unclipped.clear();
   }
   /// Makes room for as many.
   void reserve(std::size_t count) {
     triangles.reserve(count);
     numbers.reserve(count);
-    places.reserve(count);
+    locations.reserve(count);
   }
   /// Keeps the first `count` triangles.
   void truncate(std::size_t count) {
     triangles.resize(count);
     numbers.resize(count);
-    places.resize(count);
+    locations.resize(count);
     if (!low_parts.empty()) low_parts.resize(count);
     if (!decimal_marks.empty()) decimal_marks.resize(count);
     attributes.truncate(count);
-    if (!wholes.empty()) wholes.resize(count);
+    if (!unclipped.empty()) unclipped.resize(count);
   }
-  void add(const Triangle& triangle, std::uint64_t number, const VertexPlaces& vertex_places) {
+  void add(const Triangle& triangle, std::uint64_t number, const VertexLocations& vertex_locations) {
     triangles.push_back(triangle);
     numbers.push_back(number);
-    places.push_back(vertex_places);
+    locations.push_back(vertex_locations);
     if (!low_parts.empty()) low_parts.emplace_back();
     if (!decimal_marks.empty()) decimal_marks.emplace_back();
-    if (!wholes.empty()) wholes.emplace_back();
+    if (!unclipped.empty()) unclipped.emplace_back();
   }
   /// Adds what belongs to triangles that were added to `triangles` alone: those of a text of four lines each,
   /// the first vertex on line `first_vertex`.
   void complete(std::uint64_t first_number, std::size_t first_vertex) {
     const std::size_t old_size = numbers.size();
     numbers.resize(size());
-    places.resize(size());
+    locations.resize(size());
     for (std::size_t i = old_size, line = first_vertex; i < size(); ++i, line += 4) {
       numbers[i] = first_number++;
-      places[i] = {line, line + 1, line + 2};
+      locations[i] = {line, line + 1, line + 2};
     }
     if (!low_parts.empty()) low_parts.resize(size());
     if (!decimal_marks.empty()) decimal_marks.resize(size());
-    if (!wholes.empty()) wholes.resize(size());
+    if (!unclipped.empty()) unclipped.resize(size());
   }
   /// Says of which triangle the last one is a piece.
-  void set_last_whole(std::shared_ptr<const ClipTriangle> whole) {
-    wholes.resize(size());
-    wholes.back() = std::move(whole);
+  void set_last_unclipped(std::shared_ptr<const ClipTriangle> whole) {
+    unclipped.resize(size());
+    unclipped.back() = std::move(whole);
   }
-  [[nodiscard]] const ClipTriangle* whole_of(std::size_t index) const {
-    return wholes.empty() ? nullptr : wholes[index].get();
+  [[nodiscard]] const ClipTriangle* unclipped_of(std::size_t index) const {
+    return unclipped.empty() ? nullptr : unclipped[index].get();
   }
 };
 

@@ -9,11 +9,12 @@ namespace pipeline {
 namespace {
 
 /// Says where the triangles of the batch are, which was read as if the text began with it.
-void move_to(const TrianglePlace& begin, const PartContents& contents, TriangleBatch& batch) {
+void move_to(const StreamPosition& begin, const PartContents& contents, TriangleBatch& batch) {
   const std::size_t counted = contents.first_numbered.value_or(batch.size());
   for (std::uint64_t& number : std::span(batch.numbers).first(counted)) number += begin.number;
-  for (VertexPlaces& places : batch.places)
-    for (LineAndColumn& place : places) place = {place.line() + begin.line_count, place.column()};
+  for (VertexLocations& locations : batch.locations)
+    for (LineAndColumn& location : locations)
+      location = {location.line() + begin.line_count, location.column()};
 }
 
 /// Keeps a failure.
@@ -21,7 +22,7 @@ PartContents contents_of(TextReader& part, const TriangleSource& source, Triangl
                          std::exception_ptr& failure) {
   constexpr std::size_t kUsualLength = 91;  // of a triangle: nine numbers such as 0.1234567, and line ends
   try {
-    batch.reserve(part.waiting().size() / kUsualLength);
+    batch.reserve(part.buffered().size() / kUsualLength);
     return source.read_part(part, batch);
   } catch (...) {
     failure = std::current_exception();
@@ -32,17 +33,18 @@ PartContents contents_of(TextReader& part, const TriangleSource& source, Triangl
 }  // namespace
 
 bool TriangleParts::take(TrianglePart& part, TriangleBatch& batch) {
-  if (!is_open_ && source_.place().line_count < first_line_) return false;
+  if (!is_open_ && source_.location().line_count < first_line_) return false;
   if (!source_.take_part(part_size_, part.text, batch)) {
     // To look for one takes time, too: the longer there was none, the longer nobody looks.
     if (!is_open_)
-      first_line_ = source_.place().line_count + std::exchange(pause_, std::min(2 * pause_, kLongestPause));
+      first_line_ =
+          source_.location().line_count + std::exchange(pause_, std::min(2 * pause_, kLongestPause));
     return false;
   }
   pause_ = kShortestPause;
   if (!is_open_) {
     is_open_ = true;
-    place_ = source_.place();
+    location_ = source_.location();
     is_broken_ = false;
   }
   part.turn = taken_count_++;
@@ -56,10 +58,10 @@ bool TriangleParts::read(TrianglePart& part, TriangleBatch& batch) {
   for (std::uint64_t turn = turn_; turn != part.turn; turn = turn_) turn_.wait(turn);
   is_broken_ |= !contents.is_whole;
   const bool is_read = !is_broken_;
-  const TrianglePlace begin = place_;
+  const StreamPosition begin = location_;
   if (is_read) {
-    place_.line_count += text.line_number();
-    place_.number = contents.next_number + (contents.first_numbered ? 0 : begin.number);
+    location_.line_count += text.line_number();
+    location_.number = contents.next_number + (contents.first_numbered ? 0 : begin.number);
   }
   // Others need the turn even where this thread has failed.
   turn_ = part.turn + 1;
@@ -77,9 +79,9 @@ void TriangleParts::put_back(const TrianglePart& part) {
 void TriangleParts::close() {
   if (!is_open_) return;
   is_open_ = false;
-  source_.pass(place_);
+  source_.pass(location_);
   // So that no text is read in vain for long.
-  if (is_broken_) first_line_ = place_.line_count + kLongestPause;
+  if (is_broken_) first_line_ = location_.line_count + kLongestPause;
 }
 
 }  // namespace pipeline

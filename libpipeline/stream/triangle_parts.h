@@ -46,8 +46,8 @@ class TriangleParts {
   std::size_t pause_ = kShortestPause;
   std::size_t first_line_ = 0;
   // Of whoever has the turn, or of the owner, if no part is being read.
-  TrianglePlace place_;     // where the next part begins
-  bool is_broken_ = false;  // there is more than triangles
+  StreamPosition location_;  // where the next part begins
+  bool is_broken_ = false;   // there is more than triangles
   std::atomic<std::uint64_t> turn_ = 0;
 };
 

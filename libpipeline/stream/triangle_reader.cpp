@@ -15,7 +15,7 @@ constexpr std::uint16_t kAllDecimal = 0x1ff;
 
 /// Which coordinates are exact decimals, as in a batch: with at most eight digits before the point those with
 /// few behind it.
-std::uint16_t decimal_marks(const PlainVertexLines& lines) {
+std::uint16_t decimal_marks(const DecimalVertexLines& lines) {
   unsigned marks = 0;
   for (std::size_t i = 0; i < 9; ++i)
     if (lines[i / 3].numbers[i % 3].decimals <= kExactDecimals) marks |= 1u << i;
@@ -54,8 +54,8 @@ struct ExactParts {
 TriangleReader::TriangleReader(TextReader& text, const AttributeSet& attributes, bool marks_decimals)
     : text_(text), vertex_line_(attributes), marks_decimals_(marks_decimals) {}
 
-bool TriangleReader::read_waiting(TriangleBatch& batch, std::size_t most) {
-  return read_fixed_form(batch, most) || read_plain_form(batch, most);
+bool TriangleReader::read_buffered(TriangleBatch& batch, std::size_t most) {
+  return read_fixed_form(batch, most) || read_decimal_form(batch, most);
 }
 
 /// Takes the triangles that are waiting as long as they have the form nearly all stage text has; false if the
@@ -63,14 +63,14 @@ bool TriangleReader::read_waiting(TriangleBatch& batch, std::size_t most) {
 bool TriangleReader::read_fixed_form(TriangleBatch& batch, std::size_t most) {
   static_assert(TextReader::kSlack >= kFixedTextSlack);
   constexpr std::size_t kLinesPerTriangle = 4;
-  constexpr std::size_t kMostAtOnce = 64;
+  constexpr std::size_t kMaxAtOnce = 64;
   if (vertex_line_.attributes().any()) return false;
   // The blank line behind a triangle that the general reader took.
-  if (text_.waiting().starts_with('\n')) text_.skip(1, 1);
+  if (text_.buffered().starts_with('\n')) text_.skip(1, 1);
   const std::size_t old_size = batch.size();
-  batch.triangles.resize(std::max(old_size, std::min(most, old_size + kMostAtOnce)));
+  batch.triangles.resize(std::max(old_size, std::min(most, old_size + kMaxAtOnce)));
   const FixedTextPart part =
-      fixed_text_kernel().read(text_.waiting(), std::span(batch.triangles).subspan(old_size));
+      fixed_text_kernel().read(text_.buffered(), std::span(batch.triangles).subspan(old_size));
   batch.triangles.resize(old_size + part.triangle_count);
   batch.complete(next_number_, text_.line_number() + 1);
   next_number_ += part.triangle_count;
@@ -85,26 +85,26 @@ bool TriangleReader::read_fixed_form(TriangleBatch& batch, std::size_t most) {
 
 /// Takes some of the triangles that are waiting, as long as their lines hold plain numbers and nothing else;
 /// false if the next does not. After a few the faster form is worth another try.
-bool TriangleReader::read_plain_form(TriangleBatch& batch, std::size_t most) {
-  constexpr std::size_t kMostAtOnce = 32;
-  const std::size_t limit = std::min(most, batch.size() + kMostAtOnce);
+bool TriangleReader::read_decimal_form(TriangleBatch& batch, std::size_t most) {
+  constexpr std::size_t kMaxAtOnce = 32;
+  const std::size_t limit = std::min(most, batch.size() + kMaxAtOnce);
   const std::size_t old_size = batch.size();
-  while (batch.size() < limit && read_plain_triangle(batch)) {
+  while (batch.size() < limit && read_decimal_triangle(batch)) {
   }
   return batch.size() > old_size;
 }
 
-bool TriangleReader::read_plain_triangle(TriangleBatch& batch) {
-  static_assert(TextReader::kSlack >= kPlainNumberSlack);
-  if (text_.waiting().starts_with('\n')) text_.skip(1, 1);
-  const std::string_view waiting = text_.waiting();
-  PlainVertexLines& lines = plain_form_;
-  const char* const end = vertex_line_.read_plain(waiting.data(), waiting.data() + waiting.size(), lines);
+bool TriangleReader::read_decimal_triangle(TriangleBatch& batch) {
+  static_assert(TextReader::kSlack >= kDecimalNumberSlack);
+  if (text_.buffered().starts_with('\n')) text_.skip(1, 1);
+  const std::string_view waiting = text_.buffered();
+  DecimalVertexLines& lines = decimal_lines_;
+  const char* const end = vertex_line_.read_decimals(waiting.data(), waiting.data() + waiting.size(), lines);
   if (end == nullptr) return false;
   std::array<VertexLine, 3> vertices;
   for (std::size_t i = 0; i < 3; ++i) vertices[i] = to_vertex_line(lines[i], vertex_line_.attributes());
   batch.add({vertices[0].position, vertices[1].position, vertices[2].position}, next_number_++,
-            places_of(lines, text_.line_number() + 1));
+            locations_of(lines, text_.line_number() + 1));
   batch.attributes.add(vertices, vertex_line_.attributes());
   if (marks_decimals_) {
     batch.decimal_marks.resize(batch.size());
@@ -122,13 +122,13 @@ void TriangleReader::read_number(LineScanner& line) {
 
 void TriangleReader::read(LineScanner& line, TriangleBatch& batch) {
   Triangle triangle;
-  VertexPlaces places;
+  VertexLocations locations;
   ExactParts exact;
   std::array<VertexLine, 3> vertices;
   const AttributeSet& attributes = vertex_line_.attributes();
   for (std::size_t i = 0; i < 3; ++i) {
     if (i > 0) next_vertex_line(text_, line, i);
-    places[i] = {line.line_number(), line.column()};
+    locations[i] = {line.line_number(), line.column()};
     if (marks_decimals_) exact.add_vertex(line, i);
     if (attributes.any()) {
       vertices[i] = vertex_line_.read(line, i);
@@ -137,7 +137,7 @@ void TriangleReader::read(LineScanner& line, TriangleBatch& batch) {
       triangle[i] = line.vec3(kVertexNames[i]);
     }
   }
-  batch.add(triangle, next_number_++, places);
+  batch.add(triangle, next_number_++, locations);
   batch.attributes.add(vertices, attributes);
   if (marks_decimals_) exact.set_last(batch);
 }
@@ -146,10 +146,10 @@ void next_vertex_line(TextReader& text, LineScanner& line, std::size_t index) {
   const std::string expected(kVertexNames[index]);
   do {
     if (!text.next_line(line))
-      throw InputError(text.end_place(),
+      throw InputError(text.end_location(),
                        expected_but_found(expected, "the end of the input inside a triangle"));
     if (line.at_end() && !line.is_comment())
-      throw InputError(line.place(), expected_but_found(expected, "a blank line inside a triangle"));
+      throw InputError(line.location(), expected_but_found(expected, "a blank line inside a triangle"));
   } while (line.at_end());
   if (line.peek() == "error") throw earlier_failure(line);
 }

@@ -23,7 +23,7 @@ class TriangleReader {
 
   /// Adds some of the triangles that are waiting, as long as they hold plain numbers and nothing else and the
   /// batch has less than `most`; false if there is no such triangle.
-  bool read_waiting(TriangleBatch& batch, std::size_t most);
+  bool read_buffered(TriangleBatch& batch, std::size_t most);
   /// Takes the line `triangle N` before a triangle. An InputError where it is wrong.
   void read_number(LineScanner& line);
   /// Adds the triangle whose first line is `line`. An InputError where it is wrong.
@@ -31,13 +31,13 @@ class TriangleReader {
 
  private:
   bool read_fixed_form(TriangleBatch& batch, std::size_t most);
-  bool read_plain_form(TriangleBatch& batch, std::size_t most);
-  bool read_plain_triangle(TriangleBatch& batch);
+  bool read_decimal_form(TriangleBatch& batch, std::size_t most);
+  bool read_decimal_triangle(TriangleBatch& batch);
 
   TextReader& text_;
   VertexLineReader vertex_line_;
   bool marks_decimals_;
-  PlainVertexLines plain_form_;  // where triangles are read before they join a batch
+  DecimalVertexLines decimal_lines_;  // where triangles are read before they join a batch
   std::uint64_t next_number_ = 0;
 };
 

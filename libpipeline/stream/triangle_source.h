@@ -10,7 +10,7 @@
 namespace pipeline {
 
 /// A place between the triangles of a text.
-struct TrianglePlace {
+struct StreamPosition {
   std::size_t line_count = 0;  // before it
   std::uint64_t number = 0;    // the next triangle's
 };
@@ -49,9 +49,9 @@ class TriangleSource {
   /// Undoes the last take_part() that was not undone.
   virtual void put_back(const TextPart& part) = 0;
   /// Where the triangles are of which the first part was or would be taken.
-  [[nodiscard]] virtual TrianglePlace place() const = 0;
+  [[nodiscard]] virtual StreamPosition location() const = 0;
   /// Goes on at `place`, up to where the parts that were not put back go.
-  virtual void pass(const TrianglePlace& place) = 0;
+  virtual void pass(const StreamPosition& location) = 0;
 
  protected:
   TriangleSource() = default;

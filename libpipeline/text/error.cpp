@@ -18,15 +18,15 @@ std::string hexadecimal(char c) {
 
 }  // namespace
 
-std::string to_string(const Place& place) {
-  std::string text = place.file;
-  if (place.line > 0) text += ":" + std::to_string(place.line);
-  if (place.line > 0 && place.column > 0) text += ":" + std::to_string(place.column);
+std::string to_string(const SourceLocation& location) {
+  std::string text = location.file;
+  if (location.line > 0) text += ":" + std::to_string(location.line);
+  if (location.line > 0 && location.column > 0) text += ":" + std::to_string(location.column);
   return text;
 }
 
-InputError::InputError(const Place& place, const std::string& message)
-    : std::runtime_error(to_string(place) + ": " + message), place_(place) {}
+InputError::InputError(const SourceLocation& location, const std::string& message)
+    : std::runtime_error(to_string(location) + ": " + message), location_(location) {}
 
 std::string quoted(std::string_view text) {
   constexpr std::size_t kLongest = 40;

@@ -9,7 +9,7 @@ namespace pipeline {
 
 /// Where in the input something stands. Lines and columns count from 1; 0 means "not known".
 /// `file` is a file's name, `<stdin>`, or the name of a command-line option.
-struct Place {
+struct SourceLocation {
   std::string file;
   std::size_t line = 0;
   std::size_t column = 0;
@@ -18,16 +18,16 @@ struct Place {
 };
 
 /// "file:line:column", without the parts that are not known.
-std::string to_string(const Place& place);
+std::string to_string(const SourceLocation& location);
 
 /// Bad input. `what()` is the whole message: "file:line:column: expected ..., found ...".
 class InputError : public std::runtime_error {
  public:
-  InputError(const Place& place, const std::string& message);
-  [[nodiscard]] const Place& place() const { return place_; }
+  InputError(const SourceLocation& location, const std::string& message);
+  [[nodiscard]] const SourceLocation& location() const { return location_; }
 
  private:
-  Place place_;
+  SourceLocation location_;
 };
 
 /// Text as it appears in a message: in quotes, unprintable bytes as \xNN, cut where it is long.

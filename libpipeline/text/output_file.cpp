@@ -18,7 +18,7 @@ namespace pipeline {
 namespace {
 
 constexpr int kNone = -1;
-constexpr int kMostAttempts = 1000;  // to find a temporary name
+constexpr int kMaxAttempts = 1000;  // to find a temporary name
 
 /// The N of a path that names this process's open file N, else kNone. Such a file is not ours to replace,
 /// even if it happens to be a regular one.
@@ -36,10 +36,10 @@ int own_descriptor_of(const std::string& path) {
 
 /// Where the symbolic links that start at `path` end, whether or not there is a file.
 std::string target_of(const std::string& path) {
-  constexpr int kMostLinks = 40;  // as the kernel
+  constexpr int kMaxLinks = 40;  // as the kernel
   std::filesystem::path target = path;
   std::error_code error;
-  for (int i = 0; i < kMostLinks; ++i) {
+  for (int i = 0; i < kMaxLinks; ++i) {
     if (own_descriptor_of(target) != kNone || !std::filesystem::is_symlink(target, error)) return target;
     target = target.parent_path() / std::filesystem::read_symlink(target, error);
     if (error) throw IoError("open", path, error.value());
@@ -95,7 +95,7 @@ bool OutputFile::open_unnamed(const std::string& folder, unsigned mode) {
 void OutputFile::open_beside(bool exists, unsigned mode) {
   const std::string folder = std::filesystem::path(target_).parent_path();
   if (!open_unnamed(folder.empty() ? "." : folder, mode)) {
-    for (int i = 0; i < kMostAttempts; ++i) {
+    for (int i = 0; i < kMaxAttempts; ++i) {
       std::string name = temporary_name(i);
       descriptor_ = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
       if (descriptor_ >= 0) temporary_path_ = std::move(name);
@@ -131,7 +131,7 @@ void OutputFile::link_into_place() {
     return ::linkat(AT_FDCWD, file.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0;
   };
   bool is_linked = link_to(target_);
-  for (int i = 0; !is_linked && errno == EEXIST && i < kMostAttempts; ++i) {
+  for (int i = 0; !is_linked && errno == EEXIST && i < kMaxAttempts; ++i) {
     std::string name = temporary_name(i);
     is_linked = link_to(name);
     if (is_linked) temporary_path_ = std::move(name);

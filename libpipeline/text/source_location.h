@@ -28,7 +28,7 @@ class LineAndColumn {
 };
 
 /// Where the three vertices of a triangle begin.
-using VertexPlaces = std::array<LineAndColumn, 3>;
+using VertexLocations = std::array<LineAndColumn, 3>;
 
 /// What messages call the vertices of a triangle.
 constexpr std::array<std::string_view, 3> kVertexNames = {"vertex 1 of 3", "vertex 2 of 3", "vertex 3 of 3"};

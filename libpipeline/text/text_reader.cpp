@@ -93,16 +93,17 @@ std::string_view LineScanner::rest_with_comment() const {
   return without_trailing_blanks(text);
 }
 
-Place LineScanner::place() const {
+SourceLocation LineScanner::location() const {
   return {*file_, line_number_, column()};
 }
 
-Place LineScanner::place_of(std::string_view word) const {
+SourceLocation LineScanner::location_of(std::string_view word) const {
   return {*file_, line_number_, static_cast<std::size_t>(word.data() - line_.data()) + 1};
 }
 
 void LineScanner::fail(const std::string& expected) const {
-  throw InputError(place(), expected_but_found(expected, at_end() ? "the end of the line" : quoted(peek())));
+  throw InputError(location(),
+                   expected_but_found(expected, at_end() ? "the end of the line" : quoted(peek())));
 }
 
 TextReader::TextReader(int descriptor, std::string file)
@@ -148,7 +149,7 @@ bool TextReader::next_filled_line(LineScanner& line) {
   return false;
 }
 
-bool TextReader::has_lines_waiting(std::size_t count) const {
+bool TextReader::has_buffered_lines(std::size_t count) const {
   std::string_view waiting(buffer_.data() + begin_, end_ - begin_);
   while (count > 0) {
     const std::size_t length = waiting.find('\n');
@@ -172,12 +173,12 @@ void TextReader::skip(std::size_t length, std::size_t line_count) {
 }
 
 bool TextReader::take_part(std::string_view boundary, std::size_t length, std::size_t size, TextPart& part) {
-  while (waiting().size() < size && !at_end_of_file_ && read_error_ == 0 && input_is_ready()) read_block();
+  while (buffered().size() < size && !at_end_of_file_ && read_error_ == 0 && input_is_ready()) read_block();
   const std::size_t most = size + kBlockSize;
-  const std::size_t place = waiting().size() > most ? std::string_view::npos : waiting().rfind(boundary);
-  if (place == std::string_view::npos) return false;
+  const std::size_t location = buffered().size() > most ? std::string_view::npos : buffered().rfind(boundary);
+  if (location == std::string_view::npos) return false;
   if (buffer_.size() > 4 * most) move_to(0, most);  // what was put back has left it large
-  const std::size_t part_end = begin_ + place + length;
+  const std::size_t part_end = begin_ + location + length;
   const std::size_t rest = end_ - part_end;
   part.buffer.resize(std::max(part.buffer.size(), rest + kBlockSize + kSlack));
   std::memcpy(part.buffer.data(), buffer_.data() + part_end, rest);
@@ -192,7 +193,7 @@ bool TextReader::take_part(std::string_view boundary, std::size_t length, std::s
 void TextReader::put_back(const TextPart& part) {
   const std::string_view text = part.text();
   // Room for as much again: others may follow.
-  if (begin_ < text.size()) move_to(2 * text.size() + waiting().size(), 0);
+  if (begin_ < text.size()) move_to(2 * text.size() + buffered().size(), 0);
   begin_ -= text.size();
   scanned_ = begin_;
   std::memcpy(buffer_.data() + begin_, text.data(), text.size());
@@ -200,14 +201,14 @@ void TextReader::put_back(const TextPart& part) {
 
 /// Moves what is waiting to place `begin` of a new buffer with `room` behind it.
 void TextReader::move_to(std::size_t begin, std::size_t room) {
-  std::vector<char> buffer(begin + waiting().size() + room + kSlack);
-  std::memcpy(buffer.data() + begin, waiting().data(), waiting().size());
-  end_ = begin + waiting().size();
+  std::vector<char> buffer(begin + buffered().size() + room + kSlack);
+  std::memcpy(buffer.data() + begin, buffered().data(), buffered().size());
+  end_ = begin + buffered().size();
   begin_ = scanned_ = begin;
   buffer_ = std::move(buffer);
 }
 
-Place TextReader::end_place() const {
+SourceLocation TextReader::end_location() const {
   return {file_, line_number_ + 1, 1};
 }
 

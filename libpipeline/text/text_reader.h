@@ -44,9 +44,9 @@ class LineScanner {
     return static_cast<std::size_t>(rest_.data() - line_.data()) + 1;
   }
   /// Its place.
-  [[nodiscard]] Place place() const;
+  [[nodiscard]] SourceLocation location() const;
   /// The place of a word taken from this line.
-  [[nodiscard]] Place place_of(std::string_view word) const;
+  [[nodiscard]] SourceLocation location_of(std::string_view word) const;
   [[nodiscard]] std::size_t line_number() const { return line_number_; }
   /// All that was not taken yet, without the blanks around it.
   [[nodiscard]] std::string_view rest() const { return rest_; }
@@ -93,14 +93,14 @@ class TextReader {
   /// The next line that holds a word; false at the end of the text.
   bool next_filled_line(LineScanner& line);
   /// True if the next `count` lines that hold a word are in memory, so that no call has to wait for them.
-  [[nodiscard]] bool has_lines_waiting(std::size_t count) const;
+  [[nodiscard]] bool has_buffered_lines(std::size_t count) const;
   /// True if the line given out last ended with a newline, not with the text.
   [[nodiscard]] bool last_line_was_ended() const { return last_line_was_ended_; }
 
   /// Text that is in memory and was not given out, from the beginning of a line. It is followed by kSlack
   /// characters that may be looked at and mean nothing. For readers that take several lines at a time, then
   /// `skip`.
-  [[nodiscard]] std::string_view waiting() const { return {buffer_.data() + begin_, end_ - begin_}; }
+  [[nodiscard]] std::string_view buffered() const { return {buffer_.data() + begin_, end_ - begin_}; }
   static constexpr std::size_t kSlack = 512;
   /// Leaves out `length` characters of what is waiting: `line_count` whole lines.
   void skip(std::size_t length, std::size_t line_count);
@@ -120,7 +120,7 @@ class TextReader {
   [[nodiscard]] std::size_t line_number() const { return line_number_; }
   [[nodiscard]] std::size_t bytes_read() const { return bytes_read_; }
   /// The place just after the last line: where something that is missing should have stood.
-  [[nodiscard]] Place end_place() const;
+  [[nodiscard]] SourceLocation end_location() const;
 
  private:
   bool fill();

@@ -21,16 +21,16 @@ BallVec3 over_largest(const BallVec3& row, double largest) {
   return {row.x / Ball(largest), row.y / Ball(largest), row.z / Ball(largest)};
 }
 
-Placed<Light> moved_to(const Placed<Light>& light, const Vec3& position) {
+Located<Light> moved_to(const Located<Light>& light, const Vec3& position) {
   const auto expect_finite = [&](double coordinate, const char* name) {
     if (std::isfinite(coordinate)) return;
-    throw InputError(light.place, expected_but_found("a light whose image is within a double's range",
-                                                     std::string("an overflow of its ") + name));
+    throw InputError(light.location, expected_but_found("a light whose image is within a double's range",
+                                                        std::string("an overflow of its ") + name));
   };
   expect_finite(position.x, "x");
   expect_finite(position.y, "y");
   expect_finite(position.z, "z");
-  return {{position, light.value.intensity}, light.place};
+  return {{position, light.value.intensity}, light.location};
 }
 
 }  // namespace
@@ -60,14 +60,14 @@ Vec3 NormalTransform::operator()(const Vec3& normal) const {
   return unit_vector({dot(rows_[0], n), dot(rows_[1], n), dot(rows_[2], n)});
 }
 
-Placed<Light> transformed(const AffineMatrix& world_from_model, const Placed<Light>& light) {
+Located<Light> transformed(const AffineMatrix& world_from_model, const Located<Light>& light) {
   const BallVec3 p = to_balls(light.value.position);
   const auto image = [&](const std::array<Ball, 4>& row) { return dot(linear_row(row), p) + row[3]; };
   const auto& rows = world_from_model.rows;
   return moved_to(light, nearest({image(rows[0]), image(rows[1]), image(rows[2])}));
 }
 
-Placed<Light> transformed(const ViewTransform& view, const Placed<Light>& light) {
+Located<Light> transformed(const ViewTransform& view, const Located<Light>& light) {
   const BallVec3 p = to_balls(light.value.position) - to_balls(view.eye);
   return moved_to(light, nearest({dot(view.right, p), dot(view.up, p), dot(view.backward, p)}));
 }

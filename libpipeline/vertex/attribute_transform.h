@@ -4,7 +4,7 @@
 
 #include "libpipeline/scene/appearance.h"
 #include "libpipeline/stream/triangle_batch.h"
-#include "libpipeline/vertex/mat4.h"
+#include "libpipeline/vertex/affine_matrix.h"
 #include "libpipeline/vertex/transform.h"
 
 namespace pipeline {
@@ -29,7 +29,7 @@ class NormalTransform {
 };
 
 /// The light where the transform takes it. An InputError at its place if that is beyond a double's range.
-Placed<Light> transformed(const AffineMatrix& world_from_model, const Placed<Light>& light);
-Placed<Light> transformed(const ViewTransform& view_from_world, const Placed<Light>& light);
+Located<Light> transformed(const AffineMatrix& world_from_model, const Located<Light>& light);
+Located<Light> transformed(const ViewTransform& view_from_world, const Located<Light>& light);
 
 }  // namespace pipeline

@@ -12,31 +12,31 @@ CoordinateRounder::CoordinateRounder(Precision precision, NumberFormat format, s
     : precision_(precision), format_(format), file_(std::move(file)) {}
 
 CoordinateTest CoordinateRounder::test() const {
-  if (precision_ == Precision::plain) return {CoordinateTestKind::finite};
+  if (precision_ == Precision::in_doubles) return {CoordinateTestKind::finite};
   if (format_.shortest) return {CoordinateTestKind::nearest};
   // With more decimals the last bits of a coordinate of ordinary size show.
-  constexpr int kMostDecimalsOfDoubles = 10;
+  constexpr int kMaxDecimalsOfDoubles = 10;
   return {CoordinateTestKind::decimals, kPowersOfTen[static_cast<std::size_t>(format_.decimals)],
-          format_.decimals > kMostDecimalsOfDoubles};
+          format_.decimals > kMaxDecimalsOfDoubles};
 }
 
 void CoordinateRounder::expect_finite(double coordinate, const char* name, LineAndColumn vertex) const {
   if (std::isfinite(coordinate)) return;
-  throw InputError(place_of(vertex), expected_but_found("a vertex whose image is within a double's range",
-                                                        std::string("an overflow of its ") + name));
+  throw InputError(location_of(vertex), expected_but_found("a vertex whose image is within a double's range",
+                                                           std::string("an overflow of its ") + name));
 }
 
-void CoordinateRounder::set_vertex(TriangleBatch& batch, std::size_t triangle, std::size_t vertex,
-                                   const BallVec3& p) {
-  const LineAndColumn place = batch.places[triangle][vertex];
+void CoordinateRounder::set_vertex_exactly(TriangleBatch& batch, std::size_t triangle, std::size_t vertex,
+                                           const BallVec3& p) {
+  const LineAndColumn location = batch.locations[triangle][vertex];
   const PrintableNumber x = round_to_text(p.x, format_);
   const PrintableNumber y = round_to_text(p.y, format_);
   const PrintableNumber z = round_to_text(p.z, format_);
-  expect_finite(x.hi, "x", place);
-  expect_finite(y.hi, "y", place);
-  expect_finite(z.hi, "z", place);
+  expect_finite(x.hi, "x", location);
+  expect_finite(y.hi, "y", location);
+  expect_finite(z.hi, "z", location);
   if (!(x.is_certain && y.is_certain && z.is_certain) && !first_uncertain_.is_known())
-    first_uncertain_ = place;
+    first_uncertain_ = location;
   batch.triangles[triangle][vertex] = {x.hi, y.hi, z.hi};
   if (batch.low_parts.empty()) {
     if (x.lo == 0 && y.lo == 0 && z.lo == 0) return;

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <deque>
 
-#include "libpipeline/vertex/mat4.h"
+#include "libpipeline/vertex/affine_matrix.h"
 
 namespace pipeline {
 

@@ -10,12 +10,12 @@ namespace pipeline {
 namespace {
 
 /// Adds triangles by the fast path, as long as the batch has less than `most`; false if there is none.
-bool add_waiting(SceneReader& scene, std::size_t most, std::uint64_t& next_number, TriangleBatch& batch) {
-  constexpr std::size_t kMostAtOnce = 64;
+bool add_buffered(SceneReader& scene, std::size_t most, std::uint64_t& next_number, TriangleBatch& batch) {
+  constexpr std::size_t kMaxAtOnce = 64;
   const std::size_t old_size = batch.size();
-  batch.triangles.resize(std::max(old_size, std::min(most, old_size + kMostAtOnce)));
+  batch.triangles.resize(std::max(old_size, std::min(most, old_size + kMaxAtOnce)));
   std::size_t line = 0;
-  const std::size_t count = scene.read_waiting(std::span(batch.triangles).subspan(old_size), line);
+  const std::size_t count = scene.read_buffered(std::span(batch.triangles).subspan(old_size), line);
   batch.triangles.resize(old_size + count);
   batch.complete(next_number, line + 1);
   next_number += count;
@@ -25,7 +25,7 @@ bool add_waiting(SceneReader& scene, std::size_t most, std::uint64_t& next_numbe
 /// Adds the triangle that the scene has given out last.
 void add(const TriangleCommand& command, const SceneReader& scene, std::uint64_t& next_number,
          TriangleBatch& batch) {
-  batch.add(command.p_model, next_number++, command.places);
+  batch.add(command.p_model, next_number++, command.locations);
   const AttributeSet columns = scene.appearance().columns();
   if (columns.any()) batch.attributes.add(scene.vertices(), columns);
 }
@@ -36,7 +36,7 @@ ModelStage::ModelStage(SceneReader& scene) : scene_(scene) {
   try {
     read_until_triangle();
   } catch (...) {
-    mistake_.keep();
+    deferred_error_.keep();
   }
 }
 
@@ -59,12 +59,12 @@ Appearance ModelStage::appearance() const {
 }
 
 bool ModelStage::read(TriangleBatch& batch) {
-  return mistake_.read(batch, [&] { fill(batch); });
+  return deferred_error_.read(batch, [&] { fill(batch); });
 }
 
 bool ModelStage::take_part(std::size_t size, TextPart& part, TriangleBatch& batch) {
   batch.clear();
-  if (first_triangle_ || done_ || mistake_.is_kept() || !scene_.take_part(size, part)) return false;
+  if (first_triangle_ || done_ || deferred_error_.is_kept() || !scene_.take_part(size, part)) return false;
   set_transform(batch, 0);
   return true;
 }
@@ -74,8 +74,8 @@ PartContents ModelStage::read_part(TextReader& part, TriangleBatch& batch) const
   PartContents contents;
   try {
     for (;;) {
-      if (add_waiting(scene, std::numeric_limits<std::size_t>::max(), contents.next_number, batch)) continue;
-      if (!part.has_lines_waiting(1)) break;
+      if (add_buffered(scene, std::numeric_limits<std::size_t>::max(), contents.next_number, batch)) continue;
+      if (!part.has_buffered_lines(1)) break;
       const Command command = scene.next();
       const auto* const triangle = std::get_if<TriangleCommand>(&command);
       if (triangle == nullptr) return {};
@@ -90,9 +90,9 @@ PartContents ModelStage::read_part(TextReader& part, TriangleBatch& batch) const
   return contents;
 }
 
-void ModelStage::pass(const TrianglePlace& place) {
-  scene_.pass_lines(place.line_count);
-  next_number_ = place.number;
+void ModelStage::pass(const StreamPosition& location) {
+  scene_.pass_lines(location.line_count);
+  next_number_ = location.number;
 }
 
 void ModelStage::fill(TriangleBatch& batch) {
@@ -103,12 +103,12 @@ void ModelStage::fill(TriangleBatch& batch) {
   if (first_triangle_) add_one(*std::exchange(first_triangle_, std::nullopt));
   while (!done_) {
     const std::size_t size = batch.size();
-    if (add_waiting(scene_, kBatchSize, next_number_, batch)) {
+    if (add_buffered(scene_, kBatchSize, next_number_, batch)) {
       set_transform(batch, size);
       continue;
     }
     // What is in memory is passed on before the reader waits for more.
-    if (!batch.empty() && (batch.size() >= kBatchSize || !scene_.has_command_waiting())) break;
+    if (!batch.empty() && (batch.size() >= kBatchSize || !scene_.has_buffered_command())) break;
     const Command command = scene_.next();
     if (const auto* triangle = std::get_if<TriangleCommand>(&command)) {
       add_one(*triangle);
@@ -150,14 +150,14 @@ void ModelStage::set_transform(TriangleBatch& batch, std::size_t first) {
 
 void ModelStage::push() {
   if (stack_.push()) return;
-  throw InputError(scene_.place(),
+  throw InputError(scene_.location(),
                    expected_but_found("at most " + std::to_string(stack_.max_saved()) + " saved matrices",
                                       "another 'push' after a change"));
 }
 
 void ModelStage::pop() {
   if (!stack_.pop())
-    throw InputError(scene_.place(),
+    throw InputError(scene_.location(),
                      expected_but_found("a matrix that 'push' has saved", "'pop' without one"));
   transform_.reset();
 }

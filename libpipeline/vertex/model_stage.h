@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "libpipeline/scene/scene.h"
-#include "libpipeline/stream/late_mistake.h"
+#include "libpipeline/stream/deferred_error.h"
 #include "libpipeline/stream/triangle_batch.h"
 #include "libpipeline/stream/triangle_source.h"
 #include "libpipeline/vertex/matrix_stack.h"
@@ -29,8 +29,8 @@ class ModelStage final : public TriangleSource {
   bool take_part(std::size_t size, TextPart& part, TriangleBatch& batch) override;
   [[nodiscard]] PartContents read_part(TextReader& part, TriangleBatch& batch) const override;
   void put_back(const TextPart& part) override { scene_.put_back(part); }
-  [[nodiscard]] TrianglePlace place() const override { return {scene_.line_count(), next_number_}; }
-  void pass(const TrianglePlace& place) override;
+  [[nodiscard]] StreamPosition location() const override { return {scene_.line_count(), next_number_}; }
+  void pass(const StreamPosition& location) override;
 
  private:
   void read_until_triangle();
@@ -43,11 +43,11 @@ class ModelStage final : public TriangleSource {
   SceneReader& scene_;
   MatrixStack stack_;
   std::shared_ptr<const ModelTransform> transform_;  // of the stack's top; made when a triangle needs it
-  std::vector<Placed<Light>> lights_;                // in world space
+  std::vector<Located<Light>> lights_;               // in world space
   std::optional<TriangleCommand> first_triangle_;    // read, but not yet given out
   std::uint64_t next_number_ = 0;
   bool done_ = false;
-  LateMistake mistake_;  // found behind triangles that were still to be given out
+  DeferredError deferred_error_;  // found behind triangles that were still to be given out
 };
 
 }  // namespace pipeline

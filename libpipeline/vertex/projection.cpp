@@ -46,15 +46,16 @@ double as_factor(const Ball& number) {
 }
 
 /// What the fast paths multiply with: in pairs z' = (z_scale z + z_offset) / w.
-ProjectionFactors factors_of(const ProjectionTransform& projection) {
+ProjectionCoefficients factors_of(const ProjectionTransform& projection) {
   const Ball near = projection.near;
   const Ball far = projection.far;
   const Ball z_scale = (projection.is_perspective ? -(far + near) : Ball(-2)) / (far - near);
   const Ball z_offset = (projection.is_perspective ? Ball(-2) * far * near : -(far + near)) / (far - near);
-  ProjectionFactors factors;
+  ProjectionCoefficients factors;
   factors.is_perspective = projection.is_perspective;
-  factors.scales = {Factor(projection.x_scale), Factor(projection.y_scale), Factor(z_scale)};
-  factors.offsets = {Factor(projection.x_offset), Factor(projection.y_offset), Factor(z_offset)};
+  factors.scales = {Coefficient(projection.x_scale), Coefficient(projection.y_scale), Coefficient(z_scale)};
+  factors.offsets = {Coefficient(projection.x_offset), Coefficient(projection.y_offset),
+                     Coefficient(z_offset)};
   factors.scales[0].value = as_factor(projection.x_scale);
   factors.scales[1].value = as_factor(projection.y_scale);
   factors.offsets[0].value = as_factor(projection.x_offset);
@@ -75,8 +76,9 @@ Vec3 clamped_color(const Vec3& c) {
 }
 
 /// The triangle with its attributes in clip space; nothing if a coordinate is too large for a double.
-std::shared_ptr<const ClipTriangle> clip_triangle(const std::array<ClipVertex, 3>& corners,
-                                                  const AttributeArrays& attributes, std::size_t index) {
+std::shared_ptr<const ClipTriangle> unclipped_in_clip_space(const std::array<ClipVertex, 3>& corners,
+                                                            const AttributeArrays& attributes,
+                                                            std::size_t index) {
   ClipTriangle whole;
   for (std::size_t v = 0; v < 3; ++v) {
     const auto& [x, y, z, w, weights] = corners[v];
@@ -91,7 +93,7 @@ std::shared_ptr<const ClipTriangle> clip_triangle(const std::array<ClipVertex, 3
 }
 
 /// Where the corner stands that has the most weight in the vertex, which may be a cut.
-LineAndColumn place_of(const ClipVertex& vertex, const VertexPlaces& corners) {
+LineAndColumn location_of(const ClipVertex& vertex, const VertexLocations& corners) {
   const auto heaviest = std::max_element(vertex.weights.begin(), vertex.weights.end());
   return corners[static_cast<std::size_t>(heaviest - vertex.weights.begin())];
 }
@@ -170,19 +172,19 @@ void ProjectionStage::add_attributes(const TriangleBatch& p_view, std::size_t in
 
 void ProjectionStage::project_whole(const TriangleBatch& p_view, std::size_t index, TriangleBatch& p_ndc) {
   const std::size_t target = p_ndc.size();
-  p_ndc.add({}, p_view.numbers[index], p_view.places[index]);
+  p_ndc.add({}, p_view.numbers[index], p_view.locations[index]);
   for (std::size_t v = 0; v < 3; ++v) {
     const Vec3& p = p_view.triangles[index][v];
     if (projection_.is_perspective && p.z >= 0)
       throw InputError(
-          rounder_.place_of(p_view.places[index][v]),
+          rounder_.location_of(p_view.locations[index][v]),
           expected_but_found("a vertex in front of the eye (z below 0; --clip auto cuts what is not)",
                              "z = " + shortest_text(p.z)));
     const std::size_t in_block = 3 * (index % VertexBlock::kTriangles) + v;
-    if (block_.is_settled[in_block] != 0) {
+    if (block_.passes_rounding_test[in_block] != 0) {
       p_ndc.triangles[target][v] = block_.vertex(in_block);
     } else {
-      rounder_.set_vertex(p_ndc, target, v, perspective_divide(to_clip_space(projection_, p)));
+      rounder_.set_vertex_exactly(p_ndc, target, v, perspective_divide(to_clip_space(projection_, p)));
     }
   }
   const auto& [a, b, c] = p_view.triangles[index];
@@ -220,24 +222,24 @@ void ProjectionStage::project_clipped(const TriangleBatch& p_view, std::size_t i
   if (clip_extent_ != 1)
     for (ClipVertex& vertex : polygon) vertex.w = vertex.w / clip_extent_;
   ++counts_.clipped;
-  const auto whole = keeps_clipped_ ? clip_triangle(corners, p_view.attributes, index) : nullptr;
+  const auto whole = keeps_clipped_ ? unclipped_in_clip_space(corners, p_view.attributes, index) : nullptr;
   for (std::size_t i = 1; i + 1 < polygon.size(); ++i) {
     ++counts_.pieces;
     const std::size_t target = p_ndc.size();
     const std::array<const ClipVertex*, 3> piece = {&polygon[0], &polygon[i], &polygon[i + 1]};
-    VertexPlaces places;
-    for (std::size_t v = 0; v < 3; ++v) places[v] = place_of(*piece[v], p_view.places[index]);
-    p_ndc.add({}, p_view.numbers[index], places);
+    VertexLocations locations;
+    for (std::size_t v = 0; v < 3; ++v) locations[v] = location_of(*piece[v], p_view.locations[index]);
+    p_ndc.add({}, p_view.numbers[index], locations);
     for (std::size_t v = 0; v < 3; ++v) {
       // Nothing is known of a quotient whose divisor may be 0.
       if (piece[v]->w.sign() <= 0)
         throw InputError(
-            rounder_.place_of(places[v]),
+            rounder_.location_of(locations[v]),
             expected_but_found("a cut that 31 digits can tell from the eye plane (a larger near helps)",
                                "one nearer to it"));
-      rounder_.set_vertex(p_ndc, target, v, perspective_divide(*piece[v]));
+      rounder_.set_vertex_exactly(p_ndc, target, v, perspective_divide(*piece[v]));
     }
-    if (whole) p_ndc.set_last_whole(whole);
+    if (whole) p_ndc.set_last_unclipped(whole);
     if (!has_attributes(p_view)) continue;
     const auto mix = [&](std::size_t v) {
       return CornerMix{piece[v]->weights, piece[v]->w.nearest_double()};

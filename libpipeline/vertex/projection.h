@@ -55,7 +55,7 @@ class ProjectionStage {
   /// images of the triangles before it.
   void project(const TriangleBatch& p_view, TriangleBatch& p_ndc);
 
-  /// From now on pieces say of which triangle they are, which lighting needs: see TriangleBatch::wholes.
+  /// From now on pieces say of which triangle they are, which lighting needs: see TriangleBatch::unclipped.
   void keep_clipped_triangles() { keeps_clipped_ = true; }
 
   [[nodiscard]] const ProjectionCounts& counts() const { return counts_; }
@@ -81,7 +81,7 @@ class ProjectionStage {
   CullMode cull_;
   double clip_extent_;
   CoordinateRounder& rounder_;
-  ProjectionFactors factors_;
+  ProjectionCoefficients factors_;
   ImageBlock block_;  // the images of the triangles around the one that is projected
   bool mirrored_;
   bool keeps_clipped_ = false;

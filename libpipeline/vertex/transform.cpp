@@ -32,7 +32,8 @@ bool is_inside_half_turn(const Ball& degrees) {
   return degrees.sign() > 0 && (degrees - Ball(180)).sign() < 0;
 }
 
-ProjectionTransform perspective(const Perspective& p, const Place& place, AspectRule aspect_rule) {
+ProjectionTransform perspective(const Perspective& p, const SourceLocation& location,
+                                AspectRule aspect_rule) {
   ProjectionTransform transform;
   transform.y_scale = cotangent_of_half(p.fov_y_degrees);
   if (aspect_rule == AspectRule::ratio) {
@@ -40,9 +41,9 @@ ProjectionTransform perspective(const Perspective& p, const Place& place, Aspect
   } else {
     const Ball fov_x_degrees = Ball(p.fov_y_degrees) * Ball(p.aspect);
     if (!is_inside_half_turn(fov_x_degrees))
-      throw InputError(
-          place, expected_but_found("fovX = fovY * aspect above 0 and below 180 degrees (or --aspect ratio)",
-                                    shortest_text(p.fov_y_degrees) + " * " + shortest_text(p.aspect)));
+      throw InputError(location, expected_but_found(
+                                     "fovX = fovY * aspect above 0 and below 180 degrees (or --aspect ratio)",
+                                     shortest_text(p.fov_y_degrees) + " * " + shortest_text(p.aspect)));
     transform.x_scale = cotangent_of_half(fov_x_degrees);
   }
   transform.near = p.near;
@@ -120,9 +121,9 @@ ViewTransform view_from_world(const Vec3& eye, const Vec3& look, const Vec3& up)
   return {eye, right, camera_up, {-forward.x, -forward.y, -forward.z}};
 }
 
-ProjectionTransform clip_from_view(const Placed<Projection>& projection, AspectRule aspect_rule) {
+ProjectionTransform clip_from_view(const Located<Projection>& projection, AspectRule aspect_rule) {
   if (const auto* p = std::get_if<Perspective>(&projection.value))
-    return perspective(*p, projection.place, aspect_rule);
+    return perspective(*p, projection.location, aspect_rule);
   if (const auto* f = std::get_if<Frustum>(&projection.value)) return frustum(*f);
   return orthographic(std::get<Orthographic>(projection.value));
 }

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "libpipeline/scene/camera.h"
-#include "libpipeline/vertex/mat4.h"
+#include "libpipeline/vertex/affine_matrix.h"
 
 namespace pipeline {
 
@@ -43,8 +43,8 @@ struct ProjectionTransform {
   double far = 0;
 };
 
-/// The camera's projection. An InputError at `projection.place` if fovX is not within (0, 180) degrees.
-ProjectionTransform clip_from_view(const Placed<Projection>& projection, AspectRule aspect_rule);
+/// The camera's projection. An InputError at `projection.location` if fovX is not within (0, 180) degrees.
+ProjectionTransform clip_from_view(const Located<Projection>& projection, AspectRule aspect_rule);
 
 /// The projection with the aspect rule already in it: a perspective as the frustum that `transform`, made of
 /// it, is.

@@ -34,7 +34,7 @@ struct VertexBlock {
 
 /// The images of a block's vertices, and which of them have to be calculated again by other means.
 struct ImageBlock : VertexBlock {
-  std::array<std::uint64_t, kSize> is_settled;
+  std::array<std::uint64_t, kSize> passes_rounding_test;
 };
 
 }  // namespace pipeline

@@ -11,13 +11,14 @@
 namespace pipeline {
 namespace {
 
-void transform(const AffineFactors& m, const CoordinateTest& test, const VertexBlock& p, ImageBlock& image) {
-  transform_block<SplitRest>(m, test, p, image);
+void transform(const AffineCoefficients& m, const CoordinateTest& test, const VertexBlock& p,
+               ImageBlock& image) {
+  transform_block<DekkerError>(m, test, p, image);
 }
 
-void project(const ProjectionFactors& m, const CoordinateTest& test, const VertexBlock& p,
+void project(const ProjectionCoefficients& m, const CoordinateTest& test, const VertexBlock& p,
              ImageBlock& p_ndc) {
-  project_block<SplitRest>(m, test, p, p_ndc);
+  project_block<DekkerError>(m, test, p, p_ndc);
 }
 
 struct KernelList {
@@ -32,7 +33,7 @@ struct KernelList {
 
 }  // namespace
 
-Factor::Factor(const Ball& number) {
+Coefficient::Coefficient(const Ball& number) {
   if (number.is_exact_zero()) return;
   value = number.nearest_double();
   is_filled = 1;

@@ -16,31 +16,31 @@ namespace pipeline {
 
 /// A factor of a coordinate: a number as a pair of doubles, and what it adds to the error of an image per
 /// unit of the coordinate, if the calculation is in doubles or in pairs.
-struct Factor {
+struct Coefficient {
   double value = 0;  // the nearest double
   double error = 0;
   DoubleDouble pair;
   double pair_error = 0;
   double is_filled = 0;  // 0 if the number is exactly 0, else 1
 
-  Factor() = default;
+  Coefficient() = default;
   /// NaN, which settles nothing, as the pair where the ball is beyond the range in which products of pairs
   /// are safe.
-  explicit Factor(const Ball& number);
+  explicit Coefficient(const Ball& number);
 };
 
 /// p' = rows * (p - origin, 1).
-struct AffineFactors {
+struct AffineCoefficients {
   Vec3 origin;
-  std::array<std::array<Factor, 4>, 3> rows;
+  std::array<std::array<Coefficient, 4>, 3> rows;
 };
 
 /// With w = -z (perspective) or 1: x' = (x_scale x + x_offset (-w)) / w, likewise y, z' in doubles by the
 /// formula that near and far do not spoil.
-struct ProjectionFactors {
+struct ProjectionCoefficients {
   bool is_perspective = true;
-  std::array<Factor, 3> scales;   // of x, y, z
-  std::array<Factor, 3> offsets;  // of z or of 1, for x, y; of 1 for z
+  std::array<Coefficient, 3> scales;   // of x, y, z
+  std::array<Coefficient, 3> offsets;  // of z or of 1, for x, y; of 1 for z
   double near = 0;
   double far = 0;
   double depth_range = 0;
@@ -49,8 +49,9 @@ struct ProjectionFactors {
 /// One implementation of the loops over a block's vertices.
 struct VertexKernel {
   const char* name;
-  void (*transform)(const AffineFactors&, const CoordinateTest&, const VertexBlock& p, ImageBlock& image);
-  void (*project)(const ProjectionFactors&, const CoordinateTest&, const VertexBlock& p_view,
+  void (*transform)(const AffineCoefficients&, const CoordinateTest&, const VertexBlock& p,
+                    ImageBlock& image);
+  void (*project)(const ProjectionCoefficients&, const CoordinateTest&, const VertexBlock& p_view,
                   ImageBlock& p_ndc);
 };
 

@@ -8,14 +8,14 @@ namespace pipeline {
 
 namespace {
 
-__attribute__((target("avx2,fma"))) void transform(const AffineFactors& m, const CoordinateTest& test,
+__attribute__((target("avx2,fma"))) void transform(const AffineCoefficients& m, const CoordinateTest& test,
                                                    const VertexBlock& p, ImageBlock& image) {
-  transform_block<FusedRest>(m, test, p, image);
+  transform_block<FmaError>(m, test, p, image);
 }
 
-__attribute__((target("avx2,fma"))) void project(const ProjectionFactors& m, const CoordinateTest& test,
+__attribute__((target("avx2,fma"))) void project(const ProjectionCoefficients& m, const CoordinateTest& test,
                                                  const VertexBlock& p, ImageBlock& p_ndc) {
-  project_block<FusedRest>(m, test, p, p_ndc);
+  project_block<FmaError>(m, test, p, p_ndc);
 }
 
 constexpr VertexKernel kKernel = {"avx2", transform, project};

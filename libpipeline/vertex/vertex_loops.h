@@ -19,7 +19,7 @@ constexpr double kUnitRoundoff = 0x1p-53;
 
 /// Rest by the splitting of Dekker ("A floating-point technique for extending the available precision",
 /// 1971), for processors without a fused multiply-add.
-struct SplitRest {
+struct DekkerError {
   PIPELINE_LOOP static double of(double a, double b, double product) {
     constexpr double kSplitter = 0x1p27 + 1;
     const double a_high = kSplitter * a - (kSplitter * a - a);
@@ -30,7 +30,7 @@ struct SplitRest {
   }
 };
 
-struct FusedRest {
+struct FmaError {
   PIPELINE_LOOP static double of(double a, double b, double product) { return __builtin_fma(a, b, -product); }
 };
 
@@ -89,13 +89,13 @@ PIPELINE_LOOP bool has_one_double(const PairEstimate& e, double& value) {
 
 /// Settles a coordinate calculated in doubles.
 template <CoordinateTestKind kind>
-PIPELINE_LOOP bool is_settled(const Estimate& e, double scale, double& value) {
+PIPELINE_LOOP bool passes_rounding_test(const Estimate& e, double scale, double& value) {
   if constexpr (kind == CoordinateTestKind::finite) return is_finite(e, value);
   return has_one_text(e, scale, value);
 }
 
 template <CoordinateTestKind kind, typename Rest>
-PIPELINE_LOOP bool is_settled(const PairEstimate& e, double scale, double& value) {
+PIPELINE_LOOP bool passes_rounding_test(const PairEstimate& e, double scale, double& value) {
   if constexpr (kind == CoordinateTestKind::nearest) return has_one_double(e, value);
   return has_one_text(e, scale, Rest{}, value);
 }
@@ -126,7 +126,7 @@ PIPELINE_LOOP Pair product(const DoubleDouble& a, const Pair& b) {
 
 // ---- affine transforms ----
 
-PIPELINE_LOOP Estimate image_in_doubles(const std::array<Factor, 4>& row, double x, double y, double z) {
+PIPELINE_LOOP Estimate image_in_doubles(const std::array<Coefficient, 4>& row, double x, double y, double z) {
   const auto& [a, b, c, d] = row;
   return {a.value * x + b.value * y + c.value * z + d.value,
           // Products below a double's range lose less than 2^-1070 together.
@@ -136,7 +136,7 @@ PIPELINE_LOOP Estimate image_in_doubles(const std::array<Factor, 4>& row, double
 /// The dot product in twice a double's precision (T. Ogita, S. Rump, S. Oishi, "Accurate sum and dot
 /// product", 2005): within 2^-100 of the sum of the terms' absolute values.
 template <typename Rest>
-PIPELINE_LOOP PairEstimate image_in_pairs(const std::array<Factor, 4>& row, Pair x, Pair y, Pair z) {
+PIPELINE_LOOP PairEstimate image_in_pairs(const std::array<Coefficient, 4>& row, Pair x, Pair y, Pair z) {
   const auto& [a, b, c, d] = row;
   const Pair ax = product<Rest>(a.pair, x);
   const Pair by = product<Rest>(b.pair, y);
@@ -155,40 +155,40 @@ PIPELINE_LOOP PairEstimate image_in_pairs(const std::array<Factor, 4>& row, Pair
 }
 
 template <CoordinateTestKind kind>
-PIPELINE_LOOP void transform_in_doubles(const AffineFactors& m, double scale, const VertexBlock& p,
+PIPELINE_LOOP void transform_in_doubles(const AffineCoefficients& m, double scale, const VertexBlock& p,
                                         ImageBlock& image) {
   const auto [ox, oy, oz] = m.origin;
   const std::size_t count = p.count;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const std::array<Factor, 4> row = m.rows[axis];
+    const std::array<Coefficient, 4> row = m.rows[axis];
     for (std::size_t i = 0; i < count; ++i) {
       const Estimate e = image_in_doubles(row, p.p[0][i] - ox, p.p[1][i] - oy, p.p[2][i] - oz);
-      image.is_settled[i] &= mask(is_settled<kind>(e, scale, image.p[axis][i]));
+      image.passes_rounding_test[i] &= mask(passes_rounding_test<kind>(e, scale, image.p[axis][i]));
     }
   }
 }
 
 template <CoordinateTestKind kind, typename Rest>
-PIPELINE_LOOP void transform_in_pairs(const AffineFactors& m, double scale, const VertexBlock& p,
+PIPELINE_LOOP void transform_in_pairs(const AffineCoefficients& m, double scale, const VertexBlock& p,
                                       ImageBlock& image) {
   const auto [ox, oy, oz] = m.origin;
   const std::size_t count = p.count;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const std::array<Factor, 4> row = m.rows[axis];
+    const std::array<Coefficient, 4> row = m.rows[axis];
     for (std::size_t i = 0; i < count; ++i) {
       const PairEstimate e = image_in_pairs<Rest>(row, exact_sum(p.p[0][i], -ox), exact_sum(p.p[1][i], -oy),
                                                   exact_sum(p.p[2][i], -oz));
-      image.is_settled[i] &= mask(is_settled<kind, Rest>(e, scale, image.p[axis][i]));
+      image.passes_rounding_test[i] &= mask(passes_rounding_test<kind, Rest>(e, scale, image.p[axis][i]));
     }
   }
 }
 
 template <typename Rest>
-PIPELINE_LOOP void transform_block(const AffineFactors& m, const CoordinateTest& test, const VertexBlock& p,
-                                   ImageBlock& image) {
+PIPELINE_LOOP void transform_block(const AffineCoefficients& m, const CoordinateTest& test,
+                                   const VertexBlock& p, ImageBlock& image) {
   using Kind = CoordinateTestKind;
   image.count = p.count;
-  for (std::size_t i = 0; i < p.count; ++i) image.is_settled[i] = ~std::uint64_t{0};
+  for (std::size_t i = 0; i < p.count; ++i) image.passes_rounding_test[i] = ~std::uint64_t{0};
   if (test.kind == Kind::finite) {
     transform_in_doubles<Kind::finite>(m, test.scale, p, image);
   } else if (test.kind == Kind::nearest) {
@@ -208,7 +208,7 @@ PIPELINE_LOOP bool is_safe_divisor(double w) {
 }
 
 template <CoordinateTestKind kind, bool is_perspective>
-PIPELINE_LOOP void project_in_doubles(const ProjectionFactors& m, double scale, const VertexBlock& p,
+PIPELINE_LOOP void project_in_doubles(const ProjectionCoefficients& m, double scale, const VertexBlock& p,
                                       ImageBlock& p_ndc) {
   // Products below a double's range lose less than 2^-150 of a quotient.
   constexpr double kLost = 0x1p-150;
@@ -224,7 +224,8 @@ PIPELINE_LOOP void project_in_doubles(const ProjectionFactors& m, double scale, 
       const double shift = offset * (is_perspective ? z : 1);
       const Estimate e = {(scaled + shift) / w,
                           kRelative * ((std::fabs(scaled) + std::fabs(shift)) / w) + kLost};
-      p_ndc.is_settled[i] &= mask(is_settled<kind>(e, scale, p_ndc.p[axis][i])) & mask(is_safe_divisor(w));
+      p_ndc.passes_rounding_test[i] &=
+          mask(passes_rounding_test<kind>(e, scale, p_ndc.p[axis][i])) & mask(is_safe_divisor(w));
     }
   }
   for (std::size_t i = 0; i < count; ++i) {
@@ -235,18 +236,18 @@ PIPELINE_LOOP void project_in_doubles(const ProjectionFactors& m, double scale, 
     const double depth_scale = w * m.depth_range;
     const Estimate e = {(beyond_near - before_far) / depth_scale,
                         kRelative * ((std::fabs(beyond_near) + std::fabs(before_far)) / depth_scale) + kLost};
-    p_ndc.is_settled[i] &= mask(is_settled<kind>(e, scale, p_ndc.p[2][i]));
+    p_ndc.passes_rounding_test[i] &= mask(passes_rounding_test<kind>(e, scale, p_ndc.p[2][i]));
   }
 }
 
 /// (scale p + offset q) / w: the numerator like an affine image, and one correction of the quotient.
 template <CoordinateTestKind kind, typename Rest, bool is_perspective>
-PIPELINE_LOOP void project_in_pairs(const ProjectionFactors& m, double scale, const VertexBlock& p,
+PIPELINE_LOOP void project_in_pairs(const ProjectionCoefficients& m, double scale, const VertexBlock& p,
                                     ImageBlock& p_ndc) {
   const std::size_t count = p.count;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const Factor a = m.scales[axis];
-    const Factor b = m.offsets[axis];
+    const Coefficient a = m.scales[axis];
+    const Coefficient b = m.offsets[axis];
     const bool has_shift = is_perspective && axis < 2;
     for (std::size_t i = 0; i < count; ++i) {
       const double z = p.p[2][i];
@@ -266,15 +267,15 @@ PIPELINE_LOOP void project_in_pairs(const ProjectionFactors& m, double scale, co
       const double error = (a.pair_error * v_size + b.pair_error * q_size) / w;
       const bool is_zero = a.is_filled * v_size + b.is_filled * q_size == 0;
       const PairEstimate e = {result.high, result.low, error, is_zero};
-      p_ndc.is_settled[i] &=
-          mask(is_settled<kind, Rest>(e, scale, p_ndc.p[axis][i])) & mask(is_safe_divisor(w));
+      p_ndc.passes_rounding_test[i] &=
+          mask(passes_rounding_test<kind, Rest>(e, scale, p_ndc.p[axis][i])) & mask(is_safe_divisor(w));
     }
   }
 }
 
 template <typename Rest, bool is_perspective>
-PIPELINE_LOOP void project_all(const ProjectionFactors& m, const CoordinateTest& test, const VertexBlock& p,
-                               ImageBlock& p_ndc) {
+PIPELINE_LOOP void project_all(const ProjectionCoefficients& m, const CoordinateTest& test,
+                               const VertexBlock& p, ImageBlock& p_ndc) {
   using Kind = CoordinateTestKind;
   if (test.kind == Kind::finite) {
     project_in_doubles<Kind::finite, is_perspective>(m, test.scale, p, p_ndc);
@@ -288,10 +289,10 @@ PIPELINE_LOOP void project_all(const ProjectionFactors& m, const CoordinateTest&
 }
 
 template <typename Rest>
-PIPELINE_LOOP void project_block(const ProjectionFactors& m, const CoordinateTest& test, const VertexBlock& p,
-                                 ImageBlock& p_ndc) {
+PIPELINE_LOOP void project_block(const ProjectionCoefficients& m, const CoordinateTest& test,
+                                 const VertexBlock& p, ImageBlock& p_ndc) {
   p_ndc.count = p.count;
-  for (std::size_t i = 0; i < p.count; ++i) p_ndc.is_settled[i] = ~std::uint64_t{0};
+  for (std::size_t i = 0; i < p.count; ++i) p_ndc.passes_rounding_test[i] = ~std::uint64_t{0};
   if (m.is_perspective) {
     project_all<Rest, true>(m, test, p, p_ndc);
   } else {

@@ -29,7 +29,7 @@ VertexTransform::VertexTransform(const ViewTransform& view_from_world) {
 
 void VertexTransform::set_factors() {
   for (std::size_t i = 0; i < 3; ++i)
-    for (std::size_t j = 0; j < 4; ++j) factors_.rows[i][j] = Factor(matrix_.rows[i][j]);
+    for (std::size_t j = 0; j < 4; ++j) factors_.rows[i][j] = Coefficient(matrix_.rows[i][j]);
 }
 
 void VertexTransform::apply(TriangleBatch& batch, std::size_t begin, std::size_t end,
@@ -55,10 +55,10 @@ void VertexTransform::set_image(TriangleBatch& batch, std::size_t index, const I
                                 std::size_t first_vertex, CoordinateRounder& rounder) const {
   for (std::size_t v = 0; v < 3; ++v) {
     Vec3& p = batch.triangles[index][v];
-    if (image.is_settled[first_vertex + v] != 0) {
+    if (image.passes_rounding_test[first_vertex + v] != 0) {
       p = image.vertex(first_vertex + v);
     } else {
-      rounder.set_vertex(batch, index, v, apply_in_balls(matrix_, factors_.origin, p));
+      rounder.set_vertex_exactly(batch, index, v, apply_in_balls(matrix_, factors_.origin, p));
     }
   }
 }

@@ -32,7 +32,7 @@ class VertexTransform {
                  CoordinateRounder& rounder) const;
 
   AffineMatrix matrix_;
-  AffineFactors factors_;
+  AffineCoefficients factors_;
 };
 
 }  // namespace pipeline

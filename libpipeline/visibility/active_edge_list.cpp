@@ -18,11 +18,11 @@ void sort_nearly_sorted(Edges edges) {
   std::size_t steps_left = 16 * edges.size();
   for (std::size_t i = 1; i < edges.size(); ++i) {
     const ActiveEdge edge = edges[i];
-    std::size_t place = i;
-    for (; place > 0 && is_left_of(edge, edges[place - 1]); --place) edges[place] = edges[place - 1];
-    edges[place] = edge;
-    if (i - place > steps_left) return std::sort(edges.begin(), edges.end(), is_left_of);
-    steps_left -= i - place;
+    std::size_t target = i;
+    for (; target > 0 && is_left_of(edge, edges[target - 1]); --target) edges[target] = edges[target - 1];
+    edges[target] = edge;
+    if (i - target > steps_left) return std::sort(edges.begin(), edges.end(), is_left_of);
+    steps_left -= i - target;
   }
 }
 

@@ -9,8 +9,8 @@ namespace pipeline {
 
 /// Where on a scanline a polygon begins (left edge) or has just ended (right edge).
 struct ActiveEdge {
-  int column;           // the polygon's first, or the first after its last
-  std::uint32_t place;  // of the polygon among the active ones
+  int column;          // the polygon's first, or the first after its last
+  std::uint32_t slot;  // of the polygon among the active ones
   bool is_right;
 };
 
@@ -26,24 +26,24 @@ class ActiveEdgeList {
   /// end.
   static constexpr int kNowhere = std::numeric_limits<int>::max();
 
-  /// Adds the two edges of the polygon at `place`. Their columns are not known before `sort`.
-  void add(std::uint32_t place) {
-    edges_.push_back({kNowhere, place, false});
-    edges_.push_back({kNowhere, place, true});
+  /// Adds the two edges of the polygon at `slot`. Their columns are not known before `sort`.
+  void add(std::uint32_t slot) {
+    edges_.push_back({kNowhere, slot, false});
+    edges_.push_back({kNowhere, slot, true});
   }
 
-  /// Removes both edges of every polygon for which has_ended(place).
+  /// Removes both edges of every polygon for which has_ended(slot).
   template <typename Predicate>
   void remove_if(Predicate&& has_ended) {
-    std::erase_if(edges_, [&](const ActiveEdge& edge) { return has_ended(edge.place); });
+    std::erase_if(edges_, [&](const ActiveEdge& edge) { return has_ended(edge.slot); });
     sorted_count_ = edges_.size();
   }
 
-  /// Calls `visit(place)` once for every polygon.
+  /// Calls `visit(slot)` once for every polygon.
   template <typename Visitor>
   void for_each_polygon(Visitor&& visit) const {
     for (const ActiveEdge& edge : edges_)
-      if (!edge.is_right) visit(edge.place);
+      if (!edge.is_right) visit(edge.slot);
   }
 
   /// Sets every edge's column to column_of(edge) and sorts: edges that were there on the scanline before are

@@ -14,48 +14,48 @@
 namespace pipeline {
 
 /// The polygons that cross the current scanline, with what the coverage rule made of them (`Rows`) and their
-/// pixels there. A polygon keeps its place while it is here; the places of polygons that are gone are used
+/// pixels there. A polygon keeps its slot while it is here; the slots of polygons that are gone are used
 /// again.
 template <typename Rows, typename Depth>
 class ActivePolygons {
  public:
-  /// Adds polygon `id`; returns its place.
+  /// Adds polygon `id`; returns its slot.
   std::uint32_t add(PolygonId id, Color color, Rows&& rows) {
-    if (free_places_.empty()) {
-      free_places_.push_back(static_cast<std::uint32_t>(polygons_.size()));
+    if (free_slots_.empty()) {
+      free_slots_.push_back(static_cast<std::uint32_t>(polygons_.size()));
       polygons_.emplace_back();
       on_row_.emplace_back();
     }
-    const std::uint32_t place = free_places_.back();
-    free_places_.pop_back();
-    polygons_[place].rows.emplace(std::move(rows));
-    polygons_[place].id = id;
-    polygons_[place].color = color;
-    return place;
+    const std::uint32_t slot = free_slots_.back();
+    free_slots_.pop_back();
+    polygons_[slot].rows.emplace(std::move(rows));
+    polygons_[slot].id = id;
+    polygons_[slot].color = color;
+    return slot;
   }
 
-  /// Finds the pixels of the polygon at `place` on `row` that could be seen.
-  void update(std::uint32_t place, int row, const RowSweep<Depth>& sweep) {
-    const Polygon& polygon = polygons_[place];
+  /// Finds the pixels of the polygon at `slot` on `row` that could be seen.
+  void update(std::uint32_t slot, int row, const RowSweep<Depth>& sweep) {
+    const Polygon& polygon = polygons_[slot];
     const auto span = polygon.rows->span(row);
-    on_row_[place] = span ? sweep.polygon(*span, polygon.id, polygon.color) : RowPolygon<Depth>();
+    on_row_[slot] = span ? sweep.polygon(*span, polygon.id, polygon.color) : RowPolygon<Depth>();
   }
 
   /// The column of an edge on the row of the last update.
   [[nodiscard]] int column_of(const ActiveEdge& edge) const {
-    const RowPolygon<Depth>& polygon = on_row_[edge.place];
+    const RowPolygon<Depth>& polygon = on_row_[edge.slot];
     if (polygon.is_empty()) return ActiveEdgeList::kNowhere;
     return edge.is_right ? polygon.last_column + 1 : polygon.first_column;
   }
   [[nodiscard]] std::span<RowPolygon<Depth>> on_row() { return on_row_; }
 
-  /// Removes the polygon at `place` if `row` is its last.
-  void remove_if_ended(std::uint32_t place, int row) {
-    if (row < polygons_[place].rows->last_row()) return;
-    polygons_[place].rows.reset();
-    free_places_.push_back(place);
+  /// Removes the polygon at `slot` if `row` is its last.
+  void remove_if_ended(std::uint32_t slot, int row) {
+    if (row < polygons_[slot].rows->last_row()) return;
+    polygons_[slot].rows.reset();
+    free_slots_.push_back(slot);
   }
-  [[nodiscard]] bool has(std::uint32_t place) const { return polygons_[place].rows.has_value(); }
+  [[nodiscard]] bool has(std::uint32_t slot) const { return polygons_[slot].rows.has_value(); }
 
  private:
   struct Polygon {
@@ -65,8 +65,8 @@ class ActivePolygons {
   };
 
   std::vector<Polygon> polygons_;
-  std::vector<RowPolygon<Depth>> on_row_;  // at the same places
-  std::vector<std::uint32_t> free_places_;
+  std::vector<RowPolygon<Depth>> on_row_;  // at the same slots
+  std::vector<std::uint32_t> free_slots_;
 };
 
 }  // namespace pipeline

@@ -10,7 +10,7 @@
 #include "libpipeline/coverage/exact_grid.h"
 #include "libpipeline/coverage/span.h"
 #include "libpipeline/scene/config.h"
-#include "libpipeline/stream/worker_team.h"
+#include "libpipeline/stream/thread_pool.h"
 #include "libpipeline/visibility/colored_batch.h"
 #include "libpipeline/visibility/row_bands.h"
 
@@ -27,12 +27,12 @@ namespace pipeline {
 template <typename Visible>
 class BandDrawing {
  public:
-  /// The team may have other work besides.
-  BandDrawing(Visible& visible, const ScreenConfig& screen, WorkerTeam& team)
-      : visible_(visible), bands_(screen), team_(team) {
+  /// The pool may have other work besides.
+  BandDrawing(Visible& visible, const Viewport& screen, ThreadPool& pool)
+      : visible_(visible), bands_(screen), pool_(pool) {
     for (Round& round : rounds_) round.bands.resize(static_cast<std::size_t>(bands_.count()));
   }
-  ~BandDrawing() { team_.give_up(); }
+  ~BandDrawing() { pool_.cancel(); }
   BandDrawing(const BandDrawing&) = delete;
   BandDrawing& operator=(const BandDrawing&) = delete;
 
@@ -48,7 +48,7 @@ class BandDrawing {
   void finish() {
     if (is_idle_) return;
     draw_round();
-    team_.finish();
+    pool_.finish();
     is_idle_ = true;
   }
 
@@ -93,12 +93,12 @@ class BandDrawing {
     }
   }
 
-  /// Has the team draw what was collected, once it is done with what came before.
+  /// Has the pool draw what was collected, once it is done with what came before.
   void draw_round() {
-    team_.finish();
+    pool_.finish();
     Round& round = rounds_[filling_];
     if (round.batch_count == 0) return;
-    team_.start(bands_.count(), [this, &round](int band, int) { draw_band(round, band); });
+    pool_.start(bands_.count(), [this, &round](int band, int) { draw_band(round, band); });
     filling_ = 1 - filling_;
     rounds_[filling_].batch_count = 0;
     rounds_[filling_].triangle_count = 0;
@@ -122,7 +122,7 @@ class BandDrawing {
   std::array<Round, 2> rounds_;  // one is filled while the other is drawn
   std::size_t filling_ = 0;
   bool is_idle_ = true;
-  WorkerTeam& team_;
+  ThreadPool& pool_;
 };
 
 }  // namespace pipeline

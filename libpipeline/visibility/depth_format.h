@@ -15,7 +15,7 @@ namespace pipeline {
 /// A double: what was calculated.
 struct DepthF64 {
   using Stored = double;
-  explicit DepthF64(const ScreenConfig&) {}
+  explicit DepthF64(const Viewport&) {}
   [[nodiscard]] static Stored store(double z) { return z; }
   [[nodiscard]] static double depth(Stored stored) { return stored; }
   [[nodiscard]] static double separation(double) { return std::numeric_limits<double>::denorm_min(); }
@@ -24,7 +24,7 @@ struct DepthF64 {
 /// A float, 24 bits that are finer near 0.
 struct DepthF32 {
   using Stored = float;
-  explicit DepthF32(const ScreenConfig&) {}
+  explicit DepthF32(const Viewport&) {}
   [[nodiscard]] static Stored store(double z) { return static_cast<float>(z); }
   [[nodiscard]] static double depth(Stored stored) { return stored; }
   // More than the distance of neighboring floats.
@@ -41,7 +41,7 @@ struct DepthF32 {
 struct DepthU24 {
   using Stored = std::int32_t;
   static constexpr double kSteps = (1 << 24) - 1;
-  explicit DepthU24(const ScreenConfig& screen)
+  explicit DepthU24(const Viewport& screen)
       : front(screen.front),
         steps_per_depth(kSteps / (screen.rear - screen.front)),
         depth_per_step((screen.rear - screen.front) / kSteps) {}

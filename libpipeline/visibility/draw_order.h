@@ -10,11 +10,11 @@ namespace pipeline {
 // When a pixel was drawn, kept with its color in the byte that a Color leaves free: 0 for all that was drawn
 // long ago, then a number for each of the latest batches.
 
-constexpr std::uint32_t kMostOrders = 0xff;
+constexpr std::uint32_t kMaxOrders = 0xff;
 
-/// A color 0x00RRGGBB as that of the batch `order`, at most kMostOrders.
+/// A color 0x00RRGGBB as that of the batch `order`, at most kMaxOrders.
 constexpr Color with_order(Color color, std::uint32_t order) {
-  assert(color.rgb() >> 24 == 0 && order <= kMostOrders);
+  assert(color.rgb() >> 24 == 0 && order <= kMaxOrders);
   return Color::from_rgb(color.rgb() | order << 24);
 }
 

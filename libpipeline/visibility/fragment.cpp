@@ -14,19 +14,19 @@ std::string shortest(double depth) {
   return {text.data(), end};
 }
 
-std::string to_text(Fate fate, std::uint64_t winner) {
+std::string to_text(DepthTestResult fate, std::uint64_t winner) {
   switch (fate) {
-    case Fate::kept:
+    case DepthTestResult::kept:
       return "kept";
-    case Fate::behind:
+    case DepthTestResult::behind:
       return "lost, behind triangle " + std::to_string(winner);
-    case Fate::equal:
+    case DepthTestResult::equal:
       return "lost, equal and later than triangle " + std::to_string(winner);
-    case Fate::too_close:
+    case DepthTestResult::too_close:
       return "lost, nearer by too little than triangle " + std::to_string(winner);
-    case Fate::before_front:
+    case DepthTestResult::before_front:
       return "lost, before the front limit";
-    case Fate::beyond_rear:
+    case DepthTestResult::beyond_rear:
       break;
   }
   return "lost, beyond the rear limit";

@@ -6,15 +6,15 @@
 namespace pipeline {
 
 /// A pixel of the screen; row 0 is at the top, column 0 on the left.
-struct PixelPlace {
+struct Pixel {
   int column = 0;
   int row = 0;
 
-  friend bool operator==(const PixelPlace&, const PixelPlace&) = default;
+  friend bool operator==(const Pixel&, const Pixel&) = default;
 };
 
 /// What the depth test says of a fragment.
-enum class Fate {
+enum class DepthTestResult {
   kept,
   behind,        // something nearer is there
   equal,         // something as near is there, and it came earlier
@@ -25,10 +25,10 @@ enum class Fate {
 
 /// What one triangle brings to one pixel.
 struct Fragment {
-  PixelPlace pixel;
+  Pixel pixel;
   std::uint64_t triangle = 0;
   double depth = 0;  // NDC z, as the depth format stores it; outside the limits as it was calculated
-  Fate fate = Fate::kept;
+  DepthTestResult fate = DepthTestResult::kept;
   std::uint64_t winner = 0;  // the triangle it lost against, if it is behind, equal or too close
 
   friend bool operator==(const Fragment&, const Fragment&) = default;

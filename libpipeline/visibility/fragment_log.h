@@ -23,24 +23,25 @@ class FragmentTest {
   };
 
   /// Beside a triangle that is seen, a fragment has to be nearer by more than `epsilon`, at least 0.
-  explicit FragmentTest(const ScreenConfig& screen, double epsilon = 0)
+  explicit FragmentTest(const Viewport& screen, double epsilon = 0)
       : format_(screen), front_(screen.front), rear_(format_.store(screen.rear)), epsilon_(epsilon) {}
 
   /// A pixel that shows no triangle.
   [[nodiscard]] Seen nothing() const { return {rear_, 0}; }
 
   /// What becomes of the next triangle's fragment of depth z at a pixel; `seen` is brought up to date.
-  Fragment judge(Seen& seen, const PixelPlace& pixel, std::uint64_t triangle, double z) const {
+  Fragment judge(Seen& seen, const Pixel& pixel, std::uint64_t triangle, double z) const {
     const typename Depth::Stored stored = format_.store(z);
-    if (z < front_) return {pixel, triangle, z, Fate::before_front, 0};
-    if (!(stored < rear_)) return {pixel, triangle, z, Fate::beyond_rear, 0};
+    if (z < front_) return {pixel, triangle, z, DepthTestResult::before_front, 0};
+    if (!(stored < rear_)) return {pixel, triangle, z, DepthTestResult::beyond_rear, 0};
     const double depth = format_.depth(stored);
     if (!(stored < seen.depth))
-      return {pixel, triangle, depth, seen.depth < stored ? Fate::behind : Fate::equal, seen.triangle};
+      return {pixel, triangle, depth, seen.depth < stored ? DepthTestResult::behind : DepthTestResult::equal,
+              seen.triangle};
     if (seen.depth < rear_ && epsilon_ > 0 && !(format_.depth(seen.depth) - depth > epsilon_))
-      return {pixel, triangle, depth, Fate::too_close, seen.triangle};
+      return {pixel, triangle, depth, DepthTestResult::too_close, seen.triangle};
     seen = {stored, triangle};
-    return {pixel, triangle, depth, Fate::kept, 0};
+    return {pixel, triangle, depth, DepthTestResult::kept, 0};
   }
 
  private:
@@ -55,7 +56,7 @@ class FragmentTest {
 template <typename Coverage, typename Depth>
 class FragmentLog {
  public:
-  explicit FragmentLog(const ScreenConfig& screen, double epsilon = 0)
+  explicit FragmentLog(const Viewport& screen, double epsilon = 0)
       : coverage_(screen), test_(screen, epsilon), seen_(screen.rows, screen.columns, test_.nothing()) {}
 
   /// Calls `visit(fragment)` for every pixel the next triangle covers.
@@ -79,7 +80,7 @@ template <typename Coverage, typename Depth>
 class PixelProbe {
  public:
   /// `pixel` is on the screen.
-  PixelProbe(const ScreenConfig& screen, const PixelPlace& pixel, double epsilon = 0)
+  PixelProbe(const Viewport& screen, const Pixel& pixel, double epsilon = 0)
       : coverage_(screen), test_(screen, epsilon), pixel_(pixel), seen_(test_.nothing()) {}
 
   /// Calls `visit(fragment)` if the next triangle covers the pixel.
@@ -94,7 +95,7 @@ class PixelProbe {
  private:
   Coverage coverage_;
   FragmentTest<Depth> test_;
-  PixelPlace pixel_;
+  Pixel pixel_;
   typename FragmentTest<Depth>::Seen seen_;
 };
 

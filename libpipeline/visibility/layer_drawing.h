@@ -10,7 +10,7 @@
 #include "libpipeline/coverage/exact_grid.h"
 #include "libpipeline/coverage/span.h"
 #include "libpipeline/scene/config.h"
-#include "libpipeline/stream/worker_team.h"
+#include "libpipeline/stream/thread_pool.h"
 #include "libpipeline/visibility/colored_batch.h"
 #include "libpipeline/visibility/draw_order.h"
 #include "libpipeline/visibility/row_bands.h"
@@ -33,40 +33,40 @@ namespace pipeline {
 template <typename Visible>
 class LayerDrawing {
  public:
-  /// `visible` is the first layer. The team may have other work besides.
-  LayerDrawing(Visible& visible, const ScreenConfig& screen, WorkerTeam& team)
-      : first_(visible), screen_(screen), bands_(screen), team_(team) {}
-  ~LayerDrawing() { team_.give_up(); }
+  /// `visible` is the first layer. The pool may have other work besides.
+  LayerDrawing(Visible& visible, const Viewport& screen, ThreadPool& pool)
+      : first_(visible), screen_(screen), bands_(screen), pool_(pool) {}
+  ~LayerDrawing() { pool_.cancel(); }
   LayerDrawing(const LayerDrawing&) = delete;
   LayerDrawing& operator=(const LayerDrawing&) = delete;
 
   /// Takes the batch, in exchange for another one's memory. It may be drawn later, at the latest in finish().
-  /// Its colors are 0x00RRGGBB. Layers are laid together after kMostOrders batches, however small.
+  /// Its colors are 0x00RRGGBB. Layers are laid together after kMaxOrders batches, however small.
   void draw(ColoredBatch& batch) {
     if (layers_.empty()) make_layers();
-    Place& place = places_[last_order_ % kPlaces];
-    while (!place.is_free) team_.help();
-    std::swap(place.drawn, batch);
-    place.order = ++last_order_;
-    place.is_free = false;
-    team_.start(
-        1, [this, &place](int, int worker) { draw_into(layers_[static_cast<std::size_t>(worker)], place); });
-    if (last_order_ == kMostOrders) finish();
+    Slot& slot = slots_[last_order_ % kSlots];
+    while (!slot.is_free) pool_.run_one();
+    std::swap(slot.drawn, batch);
+    slot.order = ++last_order_;
+    slot.is_free = false;
+    pool_.start(
+        1, [this, &slot](int, int worker) { draw_into(layers_[static_cast<std::size_t>(worker)], slot); });
+    if (last_order_ == kMaxOrders) finish();
   }
   /// Draws all that is not drawn yet, and lays the layers together in the first.
   void finish() {
     if (last_order_ == 0) return;
-    team_.finish();
-    team_.start(bands_.count(), [this](int band, int) { lay_together(bands_.rows(band)); });
-    team_.finish();
+    pool_.finish();
+    pool_.start(bands_.count(), [this](int band, int) { lay_together(bands_.rows(band)); });
+    pool_.finish();
     last_order_ = 0;
   }
 
  private:
-  static constexpr std::size_t kPlaces = 8;
+  static constexpr std::size_t kSlots = 8;
 
   /// Where a batch waits for a thread.
-  struct Place {
+  struct Slot {
     ColoredBatch drawn;
     std::uint32_t order = 0;
     std::atomic<bool> is_free = true;
@@ -76,14 +76,14 @@ class LayerDrawing {
   void make_layers() {
     const RowRange all_rows = {0, screen_.rows};
     layers_.emplace_back(first_, all_rows);
-    for (int i = 1; i < team_.size(); ++i) layers_.emplace_back(others_.emplace_back(screen_), all_rows);
+    for (int i = 1; i < pool_.size(); ++i) layers_.emplace_back(others_.emplace_back(screen_), all_rows);
   }
-  static void draw_into(Layer& layer, Place& place) {
-    const ColoredBatch& drawn = place.drawn;
+  static void draw_into(Layer& layer, Slot& slot) {
+    const ColoredBatch& drawn = slot.drawn;
     for (std::size_t i = 0; i < drawn.batch.size(); ++i)
-      layer.draw(exact_triangle(drawn.batch, i), with_order(drawn.colors[i], place.order));
+      layer.draw(exact_triangle(drawn.batch, i), with_order(drawn.colors[i], slot.order));
     layer.finish();
-    place.is_free = true;
+    slot.is_free = true;
   }
   void lay_together(const RowRange& rows) {
     for (Visible& other : others_) first_.take_nearer(other, rows);
@@ -93,11 +93,11 @@ class LayerDrawing {
   Visible& first_;
   std::deque<Visible> others_;
   std::deque<Layer> layers_;  // each thread's
-  std::array<Place, kPlaces> places_;
+  std::array<Slot, kSlots> slots_;
   std::uint32_t last_order_ = 0;
-  ScreenConfig screen_;
+  Viewport screen_;
   RowBands bands_;
-  WorkerTeam& team_;
+  ThreadPool& pool_;
 };
 
 }  // namespace pipeline

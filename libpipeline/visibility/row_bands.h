@@ -18,7 +18,7 @@ class RowBands {
   /// Of a double and a Color.
   static constexpr int kBytesPerPixel = 12;
 
-  explicit RowBands(const ScreenConfig& screen)
+  explicit RowBands(const Viewport& screen)
       : grid_(screen), rows_per_dy_(1 / grid_.dy), height_bits_(height_bits_for(screen)) {}
 
   [[nodiscard]] int count() const { return ((grid_.rows - 1) >> height_bits_) + 1; }
@@ -49,7 +49,7 @@ class RowBands {
   static constexpr int kBytesInCache = 1 << 19;
   static constexpr int kMaxCount = 512;
 
-  static int height_bits_for(const ScreenConfig& screen) {
+  static int height_bits_for(const Viewport& screen) {
     const int in_cache = std::clamp(kBytesInCache / (kBytesPerPixel * screen.columns), 8, 64);
     const int least = (screen.rows + kMaxCount - 1) / kMaxCount;
     return std::max(std::bit_width(static_cast<unsigned>(in_cache)) - 1,

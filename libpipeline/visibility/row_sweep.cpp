@@ -20,7 +20,7 @@ bool is_nearer(Stored depth, PolygonId id, Stored other_depth, PolygonId other_i
 }  // namespace
 
 template <typename Depth>
-RowSweep<Depth>::RowSweep(const ScreenConfig& screen, Color background)
+RowSweep<Depth>::RowSweep(const Viewport& screen, Color background)
     : format_(screen),
       front_(screen.front),
       rear_limit_(screen.rear),
@@ -80,9 +80,9 @@ VisibleRow RowSweep<Depth>::sweep(std::span<const ActiveEdge> edges, std::span<P
     const int column = edge->column;
     for (; edge != edges.end() && edge->column == column; ++edge) {
       if (edge->is_right)
-        leave(polygons_[edge->place]);
+        leave(polygons_[edge->slot]);
       else
-        enter(edge->place, column);
+        enter(edge->slot, column);
     }
     if (edge != edges.end()) give(column, edge->column);
   }
@@ -97,19 +97,19 @@ void RowSweep<Depth>::clear_pixels() {
 }
 
 template <typename Depth>
-void RowSweep<Depth>::enter(std::uint32_t place, int column) {
-  Polygon& polygon = polygons_[place];
-  polygon.place_in_list = static_cast<std::uint32_t>(active_.size());
-  active_.push_back({polygon.nearest, place});
+void RowSweep<Depth>::enter(std::uint32_t slot, int column) {
+  Polygon& polygon = polygons_[slot];
+  polygon.index_in_list = static_cast<std::uint32_t>(active_.size());
+  active_.push_back({polygon.nearest, slot});
   if (owner_ != nullptr && column < owned_end_) challenge_owner(polygon, column);
 }
 
 template <typename Depth>
 void RowSweep<Depth>::leave(Polygon& polygon) {
-  active(active_.size() - 1).place_in_list = polygon.place_in_list;
-  active_[polygon.place_in_list] = active_.back();
+  active(active_.size() - 1).index_in_list = polygon.index_in_list;
+  active_[polygon.index_in_list] = active_.back();
   active_.pop_back();
-  polygon.place_in_list = Polygon::kOut;
+  polygon.index_in_list = Polygon::kOut;
   if (&polygon == owner_) owner_ = nullptr;
   std::erase(rivals_, &polygon);
 }
@@ -143,7 +143,7 @@ void RowSweep<Depth>::choose_owner(int column) {
   rivals_.clear();
   for (const ActivePolygon& other : active_) {
     if (owner_->farthest < other.nearest) continue;
-    Polygon& polygon = polygons_[other.place];
+    Polygon& polygon = polygons_[other.slot];
     if (&polygon == owner_) continue;
     const int lead_end = end_of_lead(*owner_, polygon, column, owned_end_);
     if (lead_end > column)
@@ -162,7 +162,7 @@ RowPolygon<Depth>* RowSweep<Depth>::nearest_at(int column) {
   typename Depth::Stored nearest_depth = rear_;
   for (const ActivePolygon& candidate : active_) {
     if (candidate.nearest > nearest_depth) continue;
-    Polygon& polygon = polygons_[candidate.place];
+    Polygon& polygon = polygons_[candidate.slot];
     const auto depth = format_.store(polygon.depth(column));
     if (nearest != nullptr && !is_nearer(depth, polygon.id, nearest_depth, nearest->id)) continue;
     nearest = &polygon;

@@ -20,7 +20,7 @@ namespace pipeline {
 /// depth.
 template <typename Depth>
 struct RowPolygon {
-  /// The value of place_in_list of a polygon whose in-out flag is "out": the sweep is not between its edges.
+  /// The value of index_in_list of a polygon whose in-out flag is "out": the sweep is not between its edges.
   static constexpr std::uint32_t kOut = std::numeric_limits<std::uint32_t>::max();
 
   [[nodiscard]] bool is_empty() const { return first_column > last_column; }
@@ -35,7 +35,7 @@ struct RowPolygon {
       0;  // at least twice what a depth can be off from the exact linear function; 0 if it is exact
   PolygonId id = 0;
   Color color;
-  std::uint32_t place_in_list = kOut;  // in the active polygon list
+  std::uint32_t index_in_list = kOut;  // in the active polygon list
 };
 
 /// One scanline of the scan-line algorithm: goes from edge to edge, keeps the list of active polygons (those
@@ -54,26 +54,26 @@ struct RowPolygon {
 template <typename Depth>
 class RowSweep {
  public:
-  RowSweep(const ScreenConfig& screen, Color background);
+  RowSweep(const Viewport& screen, Color background);
 
   /// The pixels of `span` that can be seen, with their depths' range and precision.
   [[nodiscard]] RowPolygon<Depth> polygon(const Span& span, PolygonId id, Color color) const;
 
   /// The visible row: `edges`, sorted by column, are the two edges of every polygon that is not empty, each
-  /// with its place in `polygons`. What is returned is valid until the next call.
+  /// with its slot in `polygons`. What is returned is valid until the next call.
   VisibleRow sweep(std::span<const ActiveEdge> edges, std::span<RowPolygon<Depth>> polygons);
 
  private:
   using Polygon = RowPolygon<Depth>;
   struct ActivePolygon {
     typename Depth::Stored nearest;
-    std::uint32_t place;
+    std::uint32_t slot;
   };
 
   [[nodiscard]] bool is_before_rear(double z) const { return format_.store(z) < rear_; }
-  [[nodiscard]] Polygon& active(std::size_t i) { return polygons_[active_[i].place]; }
+  [[nodiscard]] Polygon& active(std::size_t i) { return polygons_[active_[i].slot]; }
   void clear_pixels();
-  void enter(std::uint32_t place, int column);
+  void enter(std::uint32_t slot, int column);
   void leave(Polygon& polygon);
   void challenge_owner(Polygon& polygon, int column);
   void choose_owner(int column);

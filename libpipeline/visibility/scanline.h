@@ -26,7 +26,7 @@ template <typename Coverage, typename Depth>
 class Scanline {
  public:
   /// Nothing is seen yet, all pixels are at the rear limit and of the color `background`.
-  explicit Scanline(const ScreenConfig& screen, Color background = {})
+  explicit Scanline(const Viewport& screen, Color background = {})
       : screen_(screen), background_(background), coverage_(screen), edge_table_(screen.rows) {}
 
   /// Takes the next triangle.
@@ -47,16 +47,16 @@ class Scanline {
       edge_table_.for_each_from(row, [&](PolygonId id) {
         edges.add(active.add(id, polygon_table_.color(id), coverage_.rows(polygon_table_.triangle(id))));
       });
-      edges.for_each_polygon([&](std::uint32_t place) { active.update(place, row, sweep); });
+      edges.for_each_polygon([&](std::uint32_t slot) { active.update(slot, row, sweep); });
       edges.sort([&](const ActiveEdge& edge) { return active.column_of(edge); });
       visit(sweep.sweep(edges.on_scanline(), active.on_row()));
-      edges.for_each_polygon([&](std::uint32_t place) { active.remove_if_ended(place, row); });
-      edges.remove_if([&](std::uint32_t place) { return !active.has(place); });
+      edges.for_each_polygon([&](std::uint32_t slot) { active.remove_if_ended(slot, row); });
+      edges.remove_if([&](std::uint32_t slot) { return !active.has(slot); });
     }
   }
 
  private:
-  ScreenConfig screen_;
+  Viewport screen_;
   Color background_;
   Coverage coverage_;
   EdgeTable edge_table_;

@@ -6,7 +6,7 @@
 #include "libpipeline/coverage/span.h"
 #include "libpipeline/scene/color.h"
 #include "libpipeline/visibility/depth_format.h"
-#include "libpipeline/visibility/farthest_depths.h"
+#include "libpipeline/visibility/hierarchical_depth.h"
 
 namespace pipeline {
 
@@ -19,10 +19,11 @@ struct SpanFill {
   const Span& span;
   Color color;
   const Depth& format;
-  int columns;                 // of the row
-  Stored* depths;              // of its first pixel
-  Color* colors;               // likewise
-  Stored* farthest = nullptr;  // of its first block (see FarthestDepths), brought up to date; may be missing
+  int columns;     // of the row
+  Stored* depths;  // of its first pixel
+  Color* colors;   // likewise
+  Stored* farthest =
+      nullptr;  // of its first block (see HierarchicalDepth), brought up to date; may be missing
 };
 
 /// The blocks of a row that a span meets, and those of them that it covers as a whole.

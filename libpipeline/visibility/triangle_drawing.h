@@ -8,8 +8,8 @@
 #include "libpipeline/coverage/span.h"
 #include "libpipeline/scene/config.h"
 #include "libpipeline/scene/pixel_grid.h"
+#include "libpipeline/stream/thread_pool.h"
 #include "libpipeline/stream/triangle_batch.h"
-#include "libpipeline/stream/worker_team.h"
 #include "libpipeline/visibility/band_drawing.h"
 #include "libpipeline/visibility/colored_batch.h"
 #include "libpipeline/visibility/draw_order.h"
@@ -21,7 +21,7 @@ namespace pipeline {
 /// What the colors of triangles are: colors 0x00RRGGBB, or whatever has 32 bits.
 enum class ColorUse { rgb, id };
 
-/// Draws the triangles of a stream on the threads of a team, batch by batch, each in the way that suits its
+/// Draws the triangles of a stream on the threads of a pool, batch by batch, each in the way that suits its
 /// triangles. What is seen in the end does not depend on the number of threads: it is what the triangles give
 /// one after the other. `Visible` is what BandDrawing and LayerDrawing ask for, and has needs_no_order().
 ///
@@ -31,15 +31,15 @@ enum class ColorUse { rgb, id };
 template <typename Visible>
 class TriangleDrawing {
  public:
-  /// The team may have other work besides.
-  TriangleDrawing(Visible& visible, const ScreenConfig& screen, WorkerTeam& team, ColorUse use)
+  /// The pool may have other work besides.
+  TriangleDrawing(Visible& visible, const Viewport& screen, ThreadPool& pool, ColorUse use)
       : visible_(visible),
         grid_(screen),
-        may_use_layers_(team.size() > 1 && use == ColorUse::rgb && layers_fit(screen, team.size())),
+        may_use_layers_(pool.size() > 1 && use == ColorUse::rgb && layers_fit(screen, pool.size())),
         worth_layers_(static_cast<std::size_t>(screen.rows) * static_cast<std::size_t>(screen.columns) / 8),
-        bands_(visible, screen, team),
-        layers_(visible, screen, team) {
-    if (team.size() == 1) whole_.emplace(visible, RowRange{0, screen.rows});
+        bands_(visible, screen, pool),
+        layers_(visible, screen, pool) {
+    if (pool.size() == 1) whole_.emplace(visible, RowRange{0, screen.rows});
   }
 
   /// Where the next batch is to be put.
@@ -79,13 +79,13 @@ class TriangleDrawing {
   }
 
   /// Where the layers beside the first are larger, bands win: their pixels are in a nearer cache.
-  static bool layers_fit(const ScreenConfig& screen, int thread_count) {
-    constexpr double kMostBytes = 1 << 23;
-    return 1.0 * RowBands::kBytesPerPixel * screen.rows * screen.columns * (thread_count - 1) <= kMostBytes;
+  static bool layers_fit(const Viewport& screen, int thread_count) {
+    constexpr double kMaxBytes = 1 << 23;
+    return 1.0 * RowBands::kBytesPerPixel * screen.rows * screen.columns * (thread_count - 1) <= kMaxBytes;
   }
   /// For the time until layers of such batches have to be laid together.
   [[nodiscard]] bool has_enough_for_layers(const TriangleBatch& batch) const {
-    return batch.size() * kMostOrders > worth_layers_;
+    return batch.size() * kMaxOrders > worth_layers_;
   }
 
   void draw_in_layers() {

@@ -23,7 +23,7 @@ namespace pipeline {
 /// format stores it, of equal ones the earliest. So the answer does not depend on the algorithm. Each is a
 /// class template of a coverage rule and a depth format, whose objects are made from the screen.
 template <typename Algorithm>
-concept VisibilityAlgorithm = std::constructible_from<Algorithm, const ScreenConfig&> &&
+concept VisibilityAlgorithm = std::constructible_from<Algorithm, const Viewport&> &&
     requires(Algorithm& algorithm, const Algorithm& complete, const ExactTriangle& triangle, Color color) {
   algorithm.draw(triangle, color);
   complete.for_each_row([](const VisibleRow&) {});
@@ -34,8 +34,8 @@ concept VisibilityAlgorithm = std::constructible_from<Algorithm, const ScreenCon
 template <typename Coverage, typename Depth>
 class ZBufferAlgorithm {
  public:
-  explicit ZBufferAlgorithm(const ScreenConfig& screen, Color background = {})
-      : coverage_(screen), buffer_(screen, background), most_height_((kMostRows - 1) * screen.dy()) {}
+  explicit ZBufferAlgorithm(const Viewport& screen, Color background = {})
+      : coverage_(screen), buffer_(screen, background), most_height_((kMaxRows - 1) * screen.dy()) {}
 
   /// From now on a fragment has to be nearer than the last by more than `epsilon`.
   void set_depth_epsilon(double epsilon) { buffer_.set_depth_epsilon(epsilon); }
@@ -55,9 +55,9 @@ class ZBufferAlgorithm {
     Band(ZBufferAlgorithm& whole, const RowRange& rows)
         : whole_(whole),
           rows_(rows),
-          is_low_(rows.end - rows.first <= kMostRows),
-          farthest_(whole.buffer_.farthest_depths(rows)),
-          queue_(kTriangles * kMostRows) {
+          is_low_(rows.end - rows.first <= kMaxRows),
+          farthest_(whole.buffer_.hierarchical_depth(rows)),
+          queue_(kTriangles * kMaxRows) {
       triangles_.reserve(kTriangles);
     }
     /// It may be drawn later, at the latest in finish(); until then what it consists of has to stay.
@@ -102,7 +102,7 @@ class ZBufferAlgorithm {
     ZBufferAlgorithm& whole_;
     RowRange rows_;
     bool is_low_;
-    FarthestDepths<Depth> farthest_;
+    HierarchicalDepth<Depth> farthest_;
     std::vector<ColoredTriangle> triangles_;
     bool is_any_high_ = false;  // where that matters
     SpanQueue queue_;
@@ -115,11 +115,11 @@ class ZBufferAlgorithm {
 
  private:
   // Of a triangle whose spans may wait. Bands are higher only in pictures of more than 65536 rows of samples.
-  static constexpr int kMostRows = 128;
+  static constexpr int kMaxRows = 128;
 
   Coverage coverage_;
   ZBuffer<Depth> buffer_;
-  double most_height_;  // of a triangle with less than kMostRows rows
+  double most_height_;  // of a triangle with less than kMaxRows rows
 };
 
 /// The scan-line algorithm: keeps the triangles until it is asked.

@@ -39,7 +39,7 @@ void draw_pixel_by_pixel(const Span& span, Color color, const Depth& format, dou
 }  // namespace
 
 template <typename Depth>
-ZBuffer<Depth>::ZBuffer(const ScreenConfig& screen, Color background)
+ZBuffer<Depth>::ZBuffer(const Viewport& screen, Color background)
     : kernel_(span_fill_kernel()),
       format_(screen),
       front_(screen.front),
@@ -49,7 +49,7 @@ ZBuffer<Depth>::ZBuffer(const ScreenConfig& screen, Color background)
       colors_(screen.rows, screen.columns, background) {}
 
 template <typename Depth>
-void ZBuffer<Depth>::draw(const Span& span, Color color, FarthestDepths<Depth>* farthest) {
+void ZBuffer<Depth>::draw(const Span& span, Color color, HierarchicalDepth<Depth>* farthest) {
   assert(span.first_column >= 0 && span.last_column < depths_.columns());
   if (!(span.depth(span.first_column) >= front_ && span.depth(span.last_column) >= front_)) {
     const Span part = part_behind_front(span);
@@ -64,7 +64,7 @@ void ZBuffer<Depth>::draw(const Span& span, Color color, FarthestDepths<Depth>* 
 }
 
 template <typename Depth>
-void ZBuffer<Depth>::draw(std::span<const ColoredSpan> spans, FarthestDepths<Depth>* farthest) {
+void ZBuffer<Depth>::draw(std::span<const ColoredSpan> spans, HierarchicalDepth<Depth>* farthest) {
   // Fewer pixels are done before a kernel has begun.
   constexpr int kShort = 4;
   // Copies, which no pixel that is written could have changed.

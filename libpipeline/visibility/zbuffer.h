@@ -9,7 +9,7 @@
 #include "libpipeline/scene/color.h"
 #include "libpipeline/scene/config.h"
 #include "libpipeline/visibility/depth_format.h"
-#include "libpipeline/visibility/farthest_depths.h"
+#include "libpipeline/visibility/hierarchical_depth.h"
 #include "libpipeline/visibility/raster.h"
 #include "libpipeline/visibility/span_fill.h"
 #include "libpipeline/visibility/visible_row.h"
@@ -23,15 +23,15 @@ template <typename Depth = DepthF64>
 class ZBuffer {
  public:
   /// A buffer of the screen's size, every pixel at the rear limit and of the color `background`.
-  explicit ZBuffer(const ScreenConfig& screen, Color background = {});
+  explicit ZBuffer(const Viewport& screen, Color background = {});
 
   /// Draws a span of a triangle of the color `color`. A pixel is written if its depth, as it is stored, is
   /// less than the one there (of equal depths the first drawn stays) and not less than the front limit.
   /// `farthest`, if there is one, is of rows of this buffer; its bounds hold whoever else draws there.
-  void draw(const Span& span, Color color, FarthestDepths<Depth>* farthest = nullptr);
+  void draw(const Span& span, Color color, HierarchicalDepth<Depth>* farthest = nullptr);
 
   /// Draws several spans, one after the other.
-  void draw(std::span<const ColoredSpan> spans, FarthestDepths<Depth>* farthest);
+  void draw(std::span<const ColoredSpan> spans, HierarchicalDepth<Depth>* farthest);
 
   /// Asks for the first pixels of a span that is going to be drawn, so that they are in the cache by then.
   void fetch(const Span& span) const {
@@ -53,7 +53,7 @@ class ZBuffer {
   void forget_order(const RowRange& rows);
 
   /// To draw into these rows with.
-  [[nodiscard]] FarthestDepths<Depth> farthest_depths(const RowRange& rows) const {
+  [[nodiscard]] HierarchicalDepth<Depth> hierarchical_depth(const RowRange& rows) const {
     return {rows, depths_.columns()};
   }
 

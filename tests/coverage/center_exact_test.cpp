@@ -11,7 +11,7 @@ namespace pipeline {
 namespace {
 
 /// Compares every pixel of a small screen.
-void expect_exact(const TextTriangle& t, const ScreenConfig& screen) {
+void expect_exact(const TextTriangle& t, const Viewport& screen) {
   const ExactCoverage exact(t, screen);
   const std::vector<Span> spans = spans_of(CenterRows(ExactGrid(screen), t.exact()));
   auto span = spans.begin();
@@ -26,7 +26,7 @@ void expect_exact(const TextTriangle& t, const ScreenConfig& screen) {
 }
 
 /// Compares depths at the ends and in the middle of some rows.
-void expect_depths_within_bound(const TextTriangle& t, const ScreenConfig& screen) {
+void expect_depths_within_bound(const TextTriangle& t, const Viewport& screen) {
   const ExactCoverage exact(t, screen);
   const mpq_class bound = exact.largest_depth() * mpq_class(0x1p-50);
   const std::vector<Span> spans = spans_of(CenterRows(ExactGrid(screen), t.exact()));
@@ -46,7 +46,7 @@ TextTriangle with_vertices(const Triangle& p) {
 TEST(CenterExact, DoublesCoverWhatTheyCoverExactly) {
   RandomNumbers random(1);
   for (int i = 0; i < sanitizer_rounds(1500); ++i) {
-    ScreenConfig screen = {
+    Viewport screen = {
         random.whole(1, 12), random.whole(1, 12), -random.between(0.5, 2), -random.between(0.5, 2), -1, 1};
     screen.left_is_decimal = i % 2 == 0;
     Triangle p{};
@@ -65,7 +65,7 @@ TEST(CenterExact, DoublesOnPixelCentersToo) {
   for (int i = 0; i < sanitizer_rounds(1500); ++i) {
     // A size that is a power of two and a limit that is a double: all centers and half pixels are doubles.
     const double limit = std::ldexp(random.between(1, 2), random.whole(-1, 1));
-    const ScreenConfig screen = {8, 16, -limit, -limit, -1, 1};
+    const Viewport screen = {8, 16, -limit, -limit, -1, 1};
     Triangle p{};
     for (Vec3& v : p) v = {random.whole(-9, 9) * limit / 8, random.whole(-18, 18) * limit / 16, 0};
     expect_exact(with_vertices(p), screen);
@@ -77,7 +77,7 @@ TEST(CenterExact, AnyDoublesCoverWhatTheyCoverExactly) {
   RandomNumbers random(3);
   for (int i = 0; i < 400; ++i) {
     const double limit = i % 2 == 0 ? 1.0 : std::ldexp(random.between(1, 2), random.whole(-660, 660));
-    const ScreenConfig screen = {5, 4, -limit, -limit, -1, 1};
+    const Viewport screen = {5, 4, -limit, -limit, -1, 1};
     const int range = i % 3 == 0 ? 400 : 60;
     Triangle p{};
     for (Vec3& v : p)
@@ -93,7 +93,7 @@ TEST(CenterExact, AnyDoublesCoverWhatTheyCoverExactly) {
 TEST(CenterExact, DecimalsOfEverySizeMixedWithDoubles) {
   RandomNumbers random(4);
   for (int i = 0; i < 1000; ++i) {
-    const ScreenConfig screen =
+    const Viewport screen =
         decimal_screen(random.whole(1, 9), random.whole(1, 9), -random.whole(1, 30'000'000) / 1e7, -1);
     std::string text;
     for (int k = 0; k < 9; ++k) {
@@ -114,8 +114,8 @@ TEST(CenterExact, DecimalsOfEverySizeMixedWithDoubles) {
 TEST(CenterExact, DepthsAreWithinTheirBound) {
   RandomNumbers random(5);
   for (int i = 0; i < sanitizer_rounds(3000); ++i) {
-    const std::array<ScreenConfig, 3> screens = {decimal_screen(500, 500), decimal_screen(1023, 40),
-                                                 ScreenConfig{640, 480, -1.1, -0.9, -1, 1}};
+    const std::array<Viewport, 3> screens = {decimal_screen(500, 500), decimal_screen(1023, 40),
+                                             Viewport{640, 480, -1.1, -0.9, -1, 1}};
     UnitTriangle units{};
     const int size = i % 2 == 0 ? 200'000 : 8'000'000;
     const std::array<int, 2> center = {random.whole(-9'000'000, 9'000'000),
@@ -139,7 +139,7 @@ TEST(CenterExact, DepthsAreWithinTheirBound) {
 
 TEST(CenterExact, DepthsOfSliversAndOfFarVerticesAreWithinTheirBound) {
   RandomNumbers random(6);
-  const ScreenConfig screen = decimal_screen(400, 300, -1, -0.75);
+  const Viewport screen = decimal_screen(400, 300, -1, -0.75);
   for (int i = 0; i < 600; ++i) {
     UnitTriangle units{};
     const int size = i % 2 == 0 ? 10'000'000 : 1'000'000'000;
@@ -163,7 +163,7 @@ TEST(CenterExact, DepthsOfSliversAndOfFarVerticesAreWithinTheirBound) {
 
 TEST(CenterExact, DepthsReadAsDecimalsAreWithinTheSameBound) {
   RandomNumbers random(7);
-  const ScreenConfig screen = decimal_screen(500, 500);
+  const Viewport screen = decimal_screen(500, 500);
   for (int i = 0; i < 1000; ++i) {
     UnitTriangle units{};
     for (auto& p : units) p = {random.whole(-10'000'000, 10'000'000), random.whole(-10'000'000, 10'000'000)};

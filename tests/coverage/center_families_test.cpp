@@ -19,7 +19,7 @@ struct Screen {
   std::int64_t limit_x;  // in units of 10^-7, like all below
   std::int64_t limit_y;
 
-  [[nodiscard]] ScreenConfig config() const {
+  [[nodiscard]] Viewport config() const {
     return decimal_screen(columns, rows, -static_cast<double>(limit_x) / 1e7,
                           -static_cast<double>(limit_y) / 1e7);
   }
@@ -112,7 +112,7 @@ bool is_like_reference(const Screen& s, const UnitTriangle& t, const std::vector
 
 /// The same decision in plain doubles: what exactness is for.
 bool is_wrong_in_doubles(const Screen& s, const UnitTriangle& units, const std::vector<Span>& spans) {
-  const ScreenConfig config = s.config();
+  const Viewport config = s.config();
   Triangle p = triangle_of(units).p;
   const auto edge = [](const Vec3& a, const Vec3& b, double x, double y) {
     return (b.x - a.x) * (y - a.y) - (b.y - a.y) * (x - a.x);

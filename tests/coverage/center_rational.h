@@ -30,7 +30,7 @@ inline mpq_class decimal(double hi, double lo) {
 /// triangle and a screen taken by their definition, one pixel at a time.
 class ExactCoverage {
  public:
-  ExactCoverage(const TextTriangle& t, const ScreenConfig& s) {
+  ExactCoverage(const TextTriangle& t, const Viewport& s) {
     const auto number = [&](std::size_t i, double hi, double lo) {
       return ((t.decimal_marks >> i) & 1u) != 0 ? decimal(hi, lo) : mpq_class(hi);
     };

@@ -60,8 +60,8 @@ inline TextTriangle triangle_of(const UnitTriangle& units, std::array<double, 3>
   return t;
 }
 
-inline ScreenConfig decimal_screen(int columns, int rows, double left = -1, double bottom = -1) {
-  ScreenConfig screen = {columns, rows, left, bottom, -1, 1};
+inline Viewport decimal_screen(int columns, int rows, double left = -1, double bottom = -1) {
+  Viewport screen = {columns, rows, left, bottom, -1, 1};
   screen.left_is_decimal = screen.bottom_is_decimal = true;
   return screen;
 }
@@ -76,7 +76,7 @@ std::vector<Span> spans_of(const Rows& rows) {
 /// How many triangles own each pixel, row after row.
 class Owners {
  public:
-  explicit Owners(const ScreenConfig& screen)
+  explicit Owners(const Viewport& screen)
       : grid_(screen),
         screen_(screen),
         counts_(static_cast<std::size_t>(screen.columns) * static_cast<std::size_t>(screen.rows)) {}
@@ -108,7 +108,7 @@ class Owners {
   int& at(int row, int column) { return counts_.at(index(row, column)); }
 
   ExactGrid grid_;
-  ScreenConfig screen_;
+  Viewport screen_;
   std::vector<int> counts_;
 };
 

@@ -17,15 +17,15 @@ namespace {
 using Picture = std::vector<std::string>;
 
 // Pixels of size 1, centers at -3.5, -2.5 ... 3.5 in x and y.
-const ScreenConfig kEightByEight = decimal_screen(8, 8, -4, -4);
+const Viewport kEightByEight = decimal_screen(8, 8, -4, -4);
 
-Picture picture_of(std::string_view triangle, const ScreenConfig& screen = kEightByEight) {
+Picture picture_of(std::string_view triangle, const Viewport& screen = kEightByEight) {
   Owners owners(screen);
   owners.add(triangle_of(triangle));
   return owners.picture();
 }
 
-Owners owners_of(const std::vector<TextTriangle>& triangles, const ScreenConfig& screen) {
+Owners owners_of(const std::vector<TextTriangle>& triangles, const Viewport& screen) {
   Owners owners(screen);
   for (const TextTriangle& triangle : triangles) owners.add(triangle);
   return owners;
@@ -157,7 +157,7 @@ TEST(CoverageCenter, IsCutAtTheBordersOfTheScreen) {
 
 TEST(CoverageCenter, ADecimalIsThatDecimalAndNotItsNearestDouble) {
   // Pixels of size 0.2: the centers are at -0.9, -0.7 ... No double is 0.3, 0.1 or 0.7.
-  const ScreenConfig tenths = decimal_screen(10, 2, -1, -0.2);
+  const Viewport tenths = decimal_screen(10, 2, -1, -0.2);
   const Picture expected = {"......##..", "......##.."};
   EXPECT_EQ(picture_of("0.3 -0.2 0 0.3 0.2 0 0.7 -0.2 0", tenths)[1], "......##..");
   Owners strip(tenths);
@@ -167,7 +167,7 @@ TEST(CoverageCenter, ADecimalIsThatDecimalAndNotItsNearestDouble) {
 }
 
 TEST(CoverageCenter, OtherNumbersAreTheirNearestDoubles) {
-  const ScreenConfig tenths = decimal_screen(10, 1, -1, -1);
+  const Viewport tenths = decimal_screen(10, 1, -1, -1);
   // The double nearest to 0.3 lies below it, that nearest to 0.1 above, so the center of column 6 is in and
   // that of column 5 is not; as the decimals 0.3 and 0.1 they would be on left edges, and in.
   EXPECT_EQ(picture_of("3e-1 -1 0 3e-1 1 0 0.5 -1 0", tenths)[0], "......#...");
@@ -180,7 +180,7 @@ TEST(CoverageCenter, LimitsAreDecimalsToo) {
   // Pixels of size 0.1, centers at -0.25 ... 0.25; the left edge is at 0.05. The double nearest to 0.3 is
   // less, and so would be the center of column 3.
   const char* triangle = "0.05 -0.3 0 0.05 0.3 0 0.25 -0.3 0";
-  ScreenConfig screen = decimal_screen(6, 6, -0.3, -0.3);
+  Viewport screen = decimal_screen(6, 6, -0.3, -0.3);
   EXPECT_EQ(picture_of(triangle, screen)[5], "...##.");
   screen.left_is_decimal = false;
   EXPECT_EQ(picture_of(triangle, screen)[5], "....#.");
@@ -199,7 +199,7 @@ TEST(CoverageCenter, MoreDigitsThanADoubleHasDecide) {
 TEST(CoverageCenter, AMeshThroughPixelCentersOwnsEveryPixelOnce) {
   // A quad of two triangles; the diagonal goes through n centers, which one of them owns.
   constexpr int n = 48;
-  const ScreenConfig screen = decimal_screen(n, n);
+  const Viewport screen = decimal_screen(n, n);
   const TextTriangle lower = triangle_of("-1 -1 0 1 -1 0 1 1 0"), upper = triangle_of("-1 -1 0 1 1 0 -1 1 0");
   EXPECT_EQ(owners_of({lower, upper}, screen).pixels_with(1), n * n);
   EXPECT_EQ(owners_of({lower}, screen).pixels_with(1), n * (n + 1) / 2);
@@ -208,7 +208,7 @@ TEST(CoverageCenter, AMeshThroughPixelCentersOwnsEveryPixelOnce) {
 
 TEST(CoverageCenter, ASquareBetweenCentersHasTheTopAndTheLeftOnes) {
   // Centers at odd multiples of 0.05; the square from -0.45 to 0.25 has 7 x 7 of them.
-  const ScreenConfig screen = decimal_screen(20, 20);
+  const Viewport screen = decimal_screen(20, 20);
   const Owners owners = owners_of({triangle_of("-0.45 -0.45 0 0.25 -0.45 0 0.25 0.25 0"),
                                    triangle_of("-0.45 -0.45 0 0.25 0.25 0 -0.45 0.25 0")},
                                   screen);
@@ -220,7 +220,7 @@ TEST(CoverageCenter, ASquareBetweenCentersHasTheTopAndTheLeftOnes) {
 }
 
 TEST(CoverageCenter, AFanAroundAPixelCenterOwnsEveryPixelOnce) {
-  const ScreenConfig screen = decimal_screen(20, 14, -1, -0.7);
+  const Viewport screen = decimal_screen(20, 14, -1, -0.7);
   const std::array<std::string, 9> rim = {"2 0.05",   "2 2",   "0.05 2", "-0.3 2", "-2 2",
                                           "-2 -0.15", "-2 -2", "0.5 -2", "2 -2"};
   Owners owners(screen);
@@ -263,7 +263,7 @@ TEST(CoverageCenter, RandomTriangulationsOwnEveryPixelOnce) {
 }
 
 TEST(CoverageCenter, VerticesVeryFarAwayShareTheirEdgesToo) {
-  const ScreenConfig screen = decimal_screen(100, 80);
+  const Viewport screen = decimal_screen(100, 80);
   // An edge through the screen between vertices 5e10 pixels away, then 1e15, then beyond.
   for (const char* far : {"1000000000", "20000000000000", "3e25", "1e300"}) {
     const std::string left = std::string("-") + far;
@@ -279,7 +279,7 @@ TEST(CoverageCenter, VerticesVeryFarAwayShareTheirEdgesToo) {
 TEST(CoverageCenter, ManyRandomMeshesOfFarDoublesOwnEveryPixelOnce) {
   RandomNumbers random(2);
   for (int i = 0; i < 300; ++i) {
-    const ScreenConfig screen = {
+    const Viewport screen = {
         random.whole(1, 40), random.whole(1, 40), -random.between(0.1, 3), -random.between(0.1, 3), -1, 1};
     const double far = std::ldexp(random.between(1, 2), random.whole(3, i % 3 == 0 ? 900 : 55));
     const Vec3 center = {random.between(-0.1, 0.1), random.between(-0.1, 0.1), 0};
@@ -296,7 +296,7 @@ TEST(CoverageCenter, ManyRandomMeshesOfFarDoublesOwnEveryPixelOnce) {
 
 TEST(CoverageCenter, AllWidthsOfNumbersGiveTheSamePixelsAndDepths) {
   RandomNumbers random(3);
-  for (const ScreenConfig& screen :
+  for (const Viewport& screen :
        {decimal_screen(50, 50), decimal_screen(1023, 777), decimal_screen(640, 480, -1.3333333, -1),
         decimal_screen(211, 333, -100000.0000001, -1)}) {
     const ExactGrid grid(screen);
@@ -344,7 +344,7 @@ TEST(CoverageCenter, AnyFiniteNumbersGiveSpansOnTheScreen) {
     return kAnyNumbers[static_cast<std::size_t>(random.whole(0, static_cast<int>(kAnyNumbers.size()) - 1))];
   };
   for (const double limit : {1.0, 1e-200, 1e200}) {
-    const ScreenConfig screen = {5, 4, -limit, -limit, -1, 1};
+    const Viewport screen = {5, 4, -limit, -limit, -1, 1};
     const ExactGrid grid(screen);
     for (int i = 0; i < 700; ++i) {
       TextTriangle t;
@@ -396,7 +396,7 @@ TEST(CoverageCenter, ATinyWorldLooksLikeALargeOne) {
 /// The triangle seen in each column of a screen one row high, each quad given as its depths on the left and
 /// the right.
 std::vector<int> nearest_in_each_column(int columns, const std::vector<std::array<std::string, 2>>& depths) {
-  const ScreenConfig screen = decimal_screen(columns, 1);
+  const Viewport screen = decimal_screen(columns, 1);
   const ExactGrid grid(screen);
   ZBuffer<> buffer(screen);
   for (std::size_t i = 0; i < depths.size(); ++i) {

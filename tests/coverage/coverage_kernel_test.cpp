@@ -21,8 +21,8 @@ namespace {
 /// Every claim is made of every kernel that this processor can run.
 class CoverageKernelTest : public testing::TestWithParam<CoverageKernel> {};
 
-ScreenConfig screen_of(int columns, int rows, double left, double bottom, bool is_decimal) {
-  ScreenConfig screen{columns, rows, left, bottom};
+Viewport screen_of(int columns, int rows, double left, double bottom, bool is_decimal) {
+  Viewport screen{columns, rows, left, bottom};
   screen.left_is_decimal = screen.bottom_is_decimal = is_decimal;
   return screen;
 }
@@ -48,7 +48,7 @@ enum class Family {
   kCount
 };
 
-Vec3 vertex_of(Family family, const ScreenConfig& screen, const Vec3& middle, double pixels,
+Vec3 vertex_of(Family family, const Viewport& screen, const Vec3& middle, double pixels,
                RandomNumbers& random) {
   const PixelGrid grid(screen);
   const auto near = [&](double center, double pixel) {
@@ -86,7 +86,7 @@ Vec3 vertex_of(Family family, const ScreenConfig& screen, const Vec3& middle, do
   return {near(middle.x, grid.dx), near(middle.y, grid.dy), near(middle.z, 0.01)};
 }
 
-Source random_source(const ScreenConfig& screen, RandomNumbers& random) {
+Source random_source(const Viewport& screen, RandomNumbers& random) {
   // Half of them decimals, so that there are often four in a row.
   const Family family = random.whole(0, 1) == 0
                             ? Family::decimals
@@ -121,7 +121,7 @@ std::array<std::uint64_t, 9> bits_of(const ColoredSpan& span) {
 template <typename Coverage>
 void expect_the_spans_of_the_rule(const CoverageKernel& kernel) {
   RandomNumbers random(11);
-  for (const ScreenConfig& screen :
+  for (const Viewport& screen :
        {screen_of(500, 500, -1, -1, true), screen_of(1920, 1080, -1.6, -0.9, true),
         screen_of(7, 5, -1, -1, true), screen_of(3, 2000, -1, -0.3333333, true),
         screen_of(65535, 11, -1, -1, true), screen_of(100, 100, -0.1, -1.0 / 3, false),

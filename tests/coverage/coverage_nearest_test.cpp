@@ -17,17 +17,17 @@ namespace {
 using Picture = std::vector<std::string>;
 
 // Pixels of size 1, centers at -3.5, -2.5 ... 3.5 in x and y: all small halves are exact.
-constexpr ScreenConfig kEightByEight = {8, 8, -4, -4, -1, 1};
+constexpr Viewport kEightByEight = {8, 8, -4, -4, -1, 1};
 // The assignment's example: pixels of size 0.004.
-constexpr ScreenConfig kExample = {500, 500, -1, -1, 0, 2};
+constexpr Viewport kExample = {500, 500, -1, -1, 0, 2};
 
-std::vector<Span> spans_of(const Triangle& p_ndc, const ScreenConfig& screen) {
+std::vector<Span> spans_of(const Triangle& p_ndc, const Viewport& screen) {
   std::vector<Span> spans;
   for_each_span(NearestRows(PixelGrid(screen), p_ndc), [&](const Span& span) { spans.push_back(span); });
   return spans;
 }
 
-Picture picture_of(const Triangle& p_ndc, const ScreenConfig& screen = kEightByEight) {
+Picture picture_of(const Triangle& p_ndc, const Viewport& screen = kEightByEight) {
   Picture picture(static_cast<std::size_t>(screen.rows),
                   std::string(static_cast<std::size_t>(screen.columns), '.'));
   for (const Span& span : spans_of(p_ndc, screen))
@@ -244,7 +244,7 @@ long double depth_by_areas(const Triangle& t, long double x, long double y) {
   return (wa * t[0].z + wb * t[1].z + wc * t[2].z) / (wa + wb + wc);
 }
 
-void expect_like_second_implementation(const Triangle& t, const ScreenConfig& screen) {
+void expect_like_second_implementation(const Triangle& t, const Viewport& screen) {
   const std::vector<Span> spans = spans_of(t, screen);
   auto span = spans.begin();
   const long double dx = -2 * static_cast<long double>(screen.left) / screen.columns;
@@ -320,7 +320,7 @@ TEST(CoverageNearest, AnyFiniteCoordinatesGiveSpansOnTheScreenAndDepthsThatAreNu
   std::uniform_int_distribution<std::size_t> any(0, kAnyNumbers.size() - 1);
   const auto value = [&] { return kAnyNumbers[any(random)]; };
   for (const double limit : {1.0, 1e-200, 1e200}) {
-    const ScreenConfig screen = {50, 40, -limit, -limit, -1, 1};
+    const Viewport screen = {50, 40, -limit, -limit, -1, 1};
     for (int i = 0; i < 50000; ++i) {
       Triangle t;
       for (Vec3& p : t) p = {value(), value(), value()};

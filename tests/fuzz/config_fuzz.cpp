@@ -15,7 +15,7 @@ std::string shortest(double value) {
   return {text, print_number(text, value, 0, {.decimals = 7, .shortest = true})};
 }
 
-void check_screen(const ScreenConfig& screen) {
+void check_screen(const Viewport& screen) {
   require(screen.columns >= 1 && screen.columns <= kMaxScreenSize, "the width is within its limits");
   require(screen.rows >= 1 && screen.rows <= kMaxScreenSize, "the height is within its limits");
   require(screen.left < 0 && screen.bottom < 0, "left and bottom are negative");
@@ -26,7 +26,7 @@ void check_screen(const ScreenConfig& screen) {
 }
 
 void rewrite(TextReader& text, TextWriter& output) {
-  const ScreenConfig screen = read_config(text);
+  const Viewport screen = read_config(text);
   check_screen(screen);
   output.append(std::to_string(screen.columns) + " " + std::to_string(screen.rows) + "\n" +
                 shortest(screen.left) + "\n" + shortest(screen.bottom) + "\n" + shortest(screen.front) + " " +

@@ -13,10 +13,10 @@
 namespace pipeline {
 namespace {
 
-constexpr int kMostPixels = 200;
-constexpr std::size_t kMostTriangles = 4;
+constexpr int kMaxPixels = 200;
+constexpr std::size_t kMaxTriangles = 4;
 
-void check_triangle(const TextTriangle& triangle, const ScreenConfig& screen) {
+void check_triangle(const TextTriangle& triangle, const Viewport& screen) {
   const ExactCoverage exact(triangle, screen);
   std::map<int, Span> spans;
   for (const Span& span : spans_of(CenterRows(ExactGrid(screen), triangle.exact()))) spans[span.row] = span;
@@ -40,12 +40,12 @@ void check_triangle(const TextTriangle& triangle, const ScreenConfig& screen) {
 void check(std::string_view config_text, std::string_view stage_text) {
   const TextFile config_file(config_text), stage_file(stage_text);
   TextReader config(config_file.descriptor(), "config"), text(stage_file.descriptor(), "in");
-  const ScreenConfig screen = read_config(config);
-  if (screen.columns > kMostPixels || screen.columns * screen.rows > kMostPixels) return;
+  const Viewport screen = read_config(config);
+  if (screen.columns > kMaxPixels || screen.columns * screen.rows > kMaxPixels) return;
   StageReader reader(text, true);
   TriangleBatch batch;
   if (!reader.read(batch)) return;
-  for (std::size_t i = 0; i < std::min(batch.size(), kMostTriangles); ++i) {
+  for (std::size_t i = 0; i < std::min(batch.size(), kMaxTriangles); ++i) {
     TextTriangle triangle = {batch.triangles[i]};
     if (!batch.low_parts.empty()) triangle.low_parts = batch.low_parts[i];
     triangle.decimal_marks = batch.decimal_marks[i];

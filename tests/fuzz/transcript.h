@@ -28,12 +28,12 @@ struct Transcript {
 using Work = std::function<void(TextReader&, TextWriter&)>;
 
 /// Line and column of a mistake lie in the text, or just behind it.
-inline void require_place_within(const Place& place, std::string_view text) {
+inline void require_location_within(const SourceLocation& location, std::string_view text) {
   const auto line_count = static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')) + 1;
-  require(place.line >= 1 && place.line <= line_count + 1, "a mistake is on a line of the text");
-  for (std::size_t i = 1; i < place.line && !text.empty(); ++i)
+  require(location.line >= 1 && location.line <= line_count + 1, "a mistake is on a line of the text");
+  for (std::size_t i = 1; i < location.line && !text.empty(); ++i)
     text.remove_prefix(std::min(text.find('\n'), text.size() - 1) + 1);
-  require(place.column <= std::min(text.find('\n'), text.size()) + 1, "a mistake is within its line");
+  require(location.column <= std::min(text.find('\n'), text.size()) + 1, "a mistake is within its line");
 }
 
 inline Transcript transcript(int descriptor, std::string_view text, const Work& work) {
@@ -43,7 +43,7 @@ inline Transcript transcript(int descriptor, std::string_view text, const Work& 
   try {
     work(reader, writer);
   } catch (const InputError& error) {
-    require_place_within(error.place(), text);
+    require_location_within(error.location(), text);
     result.mistake = error.what();
   }
   result.written = writer.collected();

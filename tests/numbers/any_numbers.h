@@ -18,7 +18,7 @@ inline const std::vector<double> kAnyNumbers = {0,      -0.0,  5e-324, -5e-324, 
                                                 -1e300, 1e308, -1e308, kLargest, -kLargest};
 
 /// Expects spans of pixels there are, with depths that are numbers.
-inline void expect_on_screen(const std::vector<Span>& spans, const ScreenConfig& screen) {
+inline void expect_on_screen(const std::vector<Span>& spans, const Viewport& screen) {
   for (const Span& span : spans) {
     ASSERT_GE(span.row, 0);
     ASSERT_LT(span.row, screen.rows);

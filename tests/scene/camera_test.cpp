@@ -9,15 +9,15 @@
 namespace pipeline {
 namespace {
 
-CameraText camera(const Vec3& eye, const Vec3& look, const Vec3& up) {
-  CameraText camera;
+CameraParameters camera(const Vec3& eye, const Vec3& look, const Vec3& up) {
+  CameraParameters camera;
   camera.eye = {eye, {"in.txt", 1, 5}};
   camera.look = {look, {"in.txt", 2, 6}};
   camera.up = {up, {"in.txt", 3, 4}};
   return camera;
 }
 
-std::string error_of(const CameraText& camera) {
+std::string error_of(const CameraParameters& camera) {
   return message_of([&] { check_camera(camera); });
 }
 
@@ -46,7 +46,7 @@ TEST(Camera, MayLookAtTheNextDouble) {
 }
 
 TEST(Camera, HasAnUpDirectionEvenIfItIsAlone) {
-  CameraText alone;
+  CameraParameters alone;
   alone.up = {Vec3{}, {"--up"}};
   EXPECT_EQ(error_of(alone), "--up: expected an up direction, found 0 0 0");
 }
@@ -78,7 +78,7 @@ TEST(Camera, AnOptionMayLackNumbers) {
 TEST(Camera, EachPartIsReadOnce) {
   const std::string file = "in.txt";
   const std::string numbers = "0 1 0";
-  CameraText camera;
+  CameraParameters camera;
   LineScanner first(numbers, file, 3);
   EXPECT_TRUE(read_camera_part("up", {file, 3, 1}, first, camera));
   LineScanner second(numbers, file, 4);
@@ -91,25 +91,25 @@ TEST(Camera, EachPartIsReadOnce) {
 TEST(Camera, OtherKeywordsAreNoParts) {
   const std::string file = "in.txt";
   LineScanner line("0 1 0", file, 1);
-  CameraText camera;
+  CameraParameters camera;
   EXPECT_FALSE(read_camera_part("upward", {file, 1, 1}, line, camera));
 }
 
 TEST(Camera, WithoutItsPositionIsTheProjection) {
-  CameraText whole = camera({0, 0, 5}, {}, {0, 1, 0});
+  CameraParameters whole = camera({0, 0, 5}, {}, {0, 1, 0});
   whole.projection = {Perspective{60, 1, 1, 100}, {"in.txt", 4, 1}};
-  const CameraText rest = without_position(whole);
+  const CameraParameters rest = without_position(whole);
   EXPECT_FALSE(rest.eye || rest.look || rest.up);
-  EXPECT_EQ(to_string(rest.projection->place), "in.txt:4:1");
+  EXPECT_EQ(to_string(rest.projection->location), "in.txt:4:1");
 }
 
 TEST(Camera, MergedPartsAreThePreferredOnes) {
-  CameraText preferred;
+  CameraParameters preferred;
   preferred.look = {{1, 1, 1}, {"--look"}};
-  const CameraText both = merged(preferred, camera({0, 0, 5}, {}, {0, 1, 0}));
-  EXPECT_EQ(to_string(both.eye->place), "in.txt:1:5");
-  EXPECT_EQ(to_string(both.look->place), "--look");
-  EXPECT_EQ(to_string(both.up->place), "in.txt:3:4");
+  const CameraParameters both = merged(preferred, camera({0, 0, 5}, {}, {0, 1, 0}));
+  EXPECT_EQ(to_string(both.eye->location), "in.txt:1:5");
+  EXPECT_EQ(to_string(both.look->location), "--look");
+  EXPECT_EQ(to_string(both.up->location), "in.txt:3:4");
   EXPECT_FALSE(both.projection);
 }
 

@@ -10,7 +10,7 @@
 namespace pipeline {
 namespace {
 
-ScreenConfig config_of(const std::string& text) {
+Viewport config_of(const std::string& text) {
   const TextFile file(text);
   TextReader reader(file.descriptor(), "config.txt");
   return read_config(reader);
@@ -22,7 +22,7 @@ std::string error_of(const std::string& text) {
 
 /// Columns, rows, left, bottom, front and rear.
 std::vector<double> numbers_of(const std::string& text) {
-  const ScreenConfig config = config_of(text);
+  const Viewport config = config_of(text);
   return {static_cast<double>(config.columns),
           static_cast<double>(config.rows),
           config.left,
@@ -57,7 +57,7 @@ TEST(Config, TakesTheSmallestAndTheLargestScreen) {
 }
 
 TEST(Config, PixelCentersLieHalfAPixelInsideTheLimits) {
-  const ScreenConfig config = config_of("8 4\n-4\n-1\n0 1");
+  const Viewport config = config_of("8 4\n-4\n-1\n0 1");
   EXPECT_EQ(config.dx(), 1);
   EXPECT_EQ(config.dy(), 0.5);
   EXPECT_EQ(config.left_x(), -3.5);

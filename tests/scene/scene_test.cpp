@@ -25,7 +25,7 @@ std::vector<Command> commands_of(const std::string& scene) {
   return commands;
 }
 
-CameraText camera_of(const std::string& scene) {
+CameraParameters camera_of(const std::string& scene) {
   const TextFile file(scene);
   TextReader text(file.descriptor(), "scene.txt");
   return SceneReader(text).camera();
@@ -53,7 +53,7 @@ std::string error_of_projection(const std::string& line) {
 constexpr Triangle kTriangle = {Vec3{0, 1, 2}, Vec3{3, 4, 5}, Vec3{6, 7, 8}};
 
 TEST(Scene, StartsWithTheCamera) {
-  const CameraText camera = camera_of("1 2 3\n4 5 6\n0 1 0\n60 1.5 0.5 100\nend\n");
+  const CameraParameters camera = camera_of("1 2 3\n4 5 6\n0 1 0\n60 1.5 0.5 100\nend\n");
   EXPECT_EQ(camera.eye->value, (Vec3{1, 2, 3}));
   EXPECT_EQ(camera.look->value, (Vec3{4, 5, 6}));
   EXPECT_EQ(camera.up->value, (Vec3{0, 1, 0}));
@@ -81,7 +81,7 @@ TEST(Scene, TrianglesAreTheSameByEitherPath) {
         const TriangleCommand fast = triangle_of(commands_of(scene("")));
         const TriangleCommand slow = triangle_of(commands_of(scene(" # slow")));
         EXPECT_EQ(fast.p_model, slow.p_model) << scene("");
-        EXPECT_EQ(fast.places, slow.places) << scene("");
+        EXPECT_EQ(fast.locations, slow.locations) << scene("");
       }
     }
   }
@@ -94,7 +94,7 @@ TEST(Scene, KnowsItsLinesBehindPlainTriangles) {
 }
 
 TEST(Scene, TakesAFrustumInPlaceOfThePerspective) {
-  const CameraText camera = camera_of("0 0 5\n0 0 0\n0 1 0\nfrustum -1 2 -3 4 5 6\nend\n");
+  const CameraParameters camera = camera_of("0 0 5\n0 0 0\n0 1 0\nfrustum -1 2 -3 4 5 6\nend\n");
   const auto& frustum = std::get<Frustum>(camera.projection->value);
   EXPECT_EQ(
       (std::vector{frustum.left, frustum.right, frustum.bottom, frustum.top, frustum.near, frustum.far}),
@@ -102,18 +102,18 @@ TEST(Scene, TakesAFrustumInPlaceOfThePerspective) {
 }
 
 TEST(Scene, TakesAnOrthographicProjectionInPlaceOfThePerspective) {
-  const CameraText camera = camera_of("0 0 5\n0 0 0\n0 1 0\northo -1 2 -3 4 -5 6\nend\n");
+  const CameraParameters camera = camera_of("0 0 5\n0 0 0\n0 1 0\northo -1 2 -3 4 -5 6\nend\n");
   const auto& ortho = std::get<Orthographic>(camera.projection->value);
   EXPECT_EQ((std::vector{ortho.left, ortho.right, ortho.bottom, ortho.top, ortho.near, ortho.far}),
             (std::vector<double>{-1, 2, -3, 4, -5, 6}));
 }
 
 TEST(Scene, RemembersWhereTheCameraStands) {
-  const CameraText camera = camera_of("# a scene\n\n 0 0 5\n0 0 0\n\t0 1 0\northo -1 1 -1 1 0 1\nend");
-  EXPECT_EQ(to_string(camera.eye->place), "scene.txt:3:2");
-  EXPECT_EQ(to_string(camera.look->place), "scene.txt:4:1");
-  EXPECT_EQ(to_string(camera.up->place), "scene.txt:5:2");
-  EXPECT_EQ(to_string(camera.projection->place), "scene.txt:6:7");
+  const CameraParameters camera = camera_of("# a scene\n\n 0 0 5\n0 0 0\n\t0 1 0\northo -1 1 -1 1 0 1\nend");
+  EXPECT_EQ(to_string(camera.eye->location), "scene.txt:3:2");
+  EXPECT_EQ(to_string(camera.look->location), "scene.txt:4:1");
+  EXPECT_EQ(to_string(camera.up->location), "scene.txt:5:2");
+  EXPECT_EQ(to_string(camera.projection->location), "scene.txt:6:7");
 }
 
 TEST(Scene, MayHoldNothingButItsCamera) {
@@ -124,14 +124,14 @@ TEST(Scene, ATriangleIsThreeLinesOfThreeNumbers) {
   const auto commands = commands_of(kCamera + "triangle\n0 1 2\n3 4 5\n6 7 8\nend\n");
   const auto& triangle = std::get<TriangleCommand>(commands.at(0));
   EXPECT_EQ(triangle.p_model, kTriangle);
-  EXPECT_EQ(triangle.places, (VertexPlaces{6, 7, 8}));
+  EXPECT_EQ(triangle.locations, (VertexLocations{6, 7, 8}));
 }
 
 TEST(Scene, TheFirstVertexMayStandOnTheTrianglesLine) {
   const auto commands = commands_of(kCamera + "triangle 0 1 2\n3 4 5\n6 7 8\nend\n");
   const auto& triangle = std::get<TriangleCommand>(commands.at(0));
   EXPECT_EQ(triangle.p_model, kTriangle);
-  EXPECT_EQ(triangle.places, (VertexPlaces{{{5, 10}, 6, 7}}));
+  EXPECT_EQ(triangle.locations, (VertexLocations{{{5, 10}, 6, 7}}));
 }
 
 TEST(Scene, BlankLinesAndCommentsMayStandInsideATriangle) {
@@ -161,7 +161,7 @@ TEST(Scene, KnowsThePlaceOfItsCommand) {
   TextReader text(file.descriptor(), "scene.txt");
   SceneReader reader(text);
   reader.next();
-  EXPECT_EQ(to_string(reader.place()), "scene.txt:6:3");
+  EXPECT_EQ(to_string(reader.location()), "scene.txt:6:3");
 }
 
 TEST(Scene, TakesTabsCarriageReturnsCommentsSignsAndExponents) {

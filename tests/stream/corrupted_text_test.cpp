@@ -49,7 +49,7 @@ Numbers coordinates_of_stage_text(TextReader& text) {
 }
 
 Numbers numbers_of_config(TextReader& text) {
-  const ScreenConfig screen = read_config(text);
+  const Viewport screen = read_config(text);
   return {double(screen.columns), double(screen.rows), screen.left, screen.bottom, screen.front, screen.rear};
 }
 
@@ -92,8 +92,8 @@ void check_one(const Reading& reading, const std::string& text, std::size_t line
     ++counts.read;
   } catch (const InputError& error) {
     const auto line_count = static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')) + 1;
-    EXPECT_GE(error.place().line, line_of_change) << error.what() << "\n" << text;
-    EXPECT_LE(error.place().line, line_count) << error.what() << "\n" << text;
+    EXPECT_GE(error.location().line, line_of_change) << error.what() << "\n" << text;
+    EXPECT_LE(error.location().line, line_count) << error.what() << "\n" << text;
     ++counts.refused;
   }
 }

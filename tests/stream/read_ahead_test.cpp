@@ -22,7 +22,7 @@ Reading read_from(Source& source) {
   reading.end = message_of([&] {
     for (TriangleBatch batch; source.read(batch);)
       for (std::size_t i = 0; i < batch.size(); ++i)
-        reading.all.add(batch.triangles[i], batch.numbers[i], batch.places[i]);
+        reading.all.add(batch.triangles[i], batch.numbers[i], batch.locations[i]);
   });
   return reading;
 }
@@ -36,12 +36,12 @@ void expect_same_for_all_threads(const std::string& text) {
     const TextFile same_file(text);
     TextReader same_text(same_file.descriptor(), "in.txt");
     StageReader same_source(same_text);
-    WorkerTeam team(thread_count);
-    ReadAhead ahead(same_source, team);
+    ThreadPool pool(thread_count);
+    ReadAhead ahead(same_source, pool);
     const Reading actual = read_from(ahead);
     EXPECT_TRUE(actual.all.triangles == expected.all.triangles) << thread_count << " threads";
     EXPECT_TRUE(actual.all.numbers == expected.all.numbers) << thread_count << " threads";
-    EXPECT_TRUE(actual.all.places == expected.all.places) << thread_count << " threads";
+    EXPECT_TRUE(actual.all.locations == expected.all.locations) << thread_count << " threads";
     EXPECT_EQ(actual.end, expected.end);
   }
 }
@@ -78,11 +78,11 @@ TEST(ReadAhead, GivesTheSameOfAPipeThatIsFilledSlowly) {
   const TextInPieces pipe(pieces);
   TextReader same_text(pipe.descriptor(), "in.txt");
   StageReader same_source(same_text);
-  WorkerTeam team(3);
-  ReadAhead ahead(same_source, team);
+  ThreadPool pool(3);
+  ReadAhead ahead(same_source, pool);
   const Reading actual = read_from(ahead);
   EXPECT_TRUE(actual.all.triangles == expected.all.triangles);
-  EXPECT_TRUE(actual.all.places == expected.all.places);
+  EXPECT_TRUE(actual.all.locations == expected.all.locations);
   EXPECT_EQ(actual.end, expected.end);
 }
 
@@ -90,9 +90,9 @@ TEST(ReadAhead, MayBeGivenUpInTheMiddle) {
   const TextFile file(odd_stage_text(30000, 1 << 25, 10));
   TextReader text(file.descriptor(), "in.txt");
   StageReader source(text);
-  WorkerTeam team(3);
+  ThreadPool pool(3);
   TriangleBatch batch;
-  ReadAhead ahead(source, team);
+  ReadAhead ahead(source, pool);
   for (int i = 0; i < 4; ++i) EXPECT_TRUE(ahead.read(batch));
 }
 

@@ -41,7 +41,7 @@ TEST(StageReader, ATriangleIsThreeVertexLines) {
   const TriangleBatch batch = triangles_of("0 1 2\n3 4 5\n-6 .7 8e0\n\n");
   ASSERT_EQ(batch.size(), 1u);
   EXPECT_EQ(batch.triangles[0], (Triangle{Vec3{0, 1, 2}, Vec3{3, 4, 5}, Vec3{-6, 0.7, 8}}));
-  EXPECT_EQ(batch.places[0], (VertexPlaces{1, 2, 3}));
+  EXPECT_EQ(batch.locations[0], (VertexLocations{1, 2, 3}));
 }
 
 // A comment keeps a line from the fast paths.
@@ -67,7 +67,7 @@ TEST(StageReader, TrianglesAreTheSameByEveryPath) {
       const TriangleBatch slow = read(text(" # slow"));
       ASSERT_EQ(fast.size(), 2u);
       EXPECT_EQ(fast.triangles, slow.triangles) << text("");
-      EXPECT_EQ(fast.places, slow.places) << text("");
+      EXPECT_EQ(fast.locations, slow.locations) << text("");
       EXPECT_EQ(fast.numbers, slow.numbers) << text("");
       EXPECT_EQ(fast.decimal_marks, slow.decimal_marks) << text("");
       EXPECT_EQ(fast.attributes.w, slow.attributes.w) << text("");
@@ -106,7 +106,7 @@ TEST(StageReader, BlankLinesMayStandBetweenTriangles) {
 TEST(StageReader, CommentsMayStandAnywhere) {
   const TriangleBatch batch = triangles_of("# a\n0 0 0 # b\n# c\n1 0 0\n  # d\n0 1 0\n# e\n\n# f");
   ASSERT_EQ(batch.size(), 1u);
-  EXPECT_EQ(batch.places[0], (VertexPlaces{2, 4, 6}));
+  EXPECT_EQ(batch.locations[0], (VertexLocations{2, 4, 6}));
 }
 
 TEST(StageReader, TakesTabsAndCarriageReturns) {

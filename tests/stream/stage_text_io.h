@@ -15,7 +15,7 @@ inline TriangleBatch triangles_from(int descriptor) {
   TriangleBatch all;
   for (TriangleBatch batch; reader.read(batch);)
     for (std::size_t i = 0; i < batch.size(); ++i)
-      all.add(batch.triangles[i], batch.numbers[i], batch.places[i]);
+      all.add(batch.triangles[i], batch.numbers[i], batch.locations[i]);
   return all;
 }
 

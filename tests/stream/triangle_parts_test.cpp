@@ -23,22 +23,22 @@ namespace {
 struct ReadTriangles {
   TriangleBatch all;
   std::vector<Triangle> low_parts;
-  std::vector<Vec3> wholes;  // their first corners
+  std::vector<Vec3> unclipped;  // their first corners
   std::string end = "no error";
 
   void add(TriangleBatch batch) {
     CoordinateRounder rounder(Precision::extended, {}, "in.txt");
     if (!batch.pending_transforms.empty()) apply_pending_transforms(batch, rounder);
     for (std::size_t i = 0; i < batch.size(); ++i)
-      all.add(batch.triangles[i], batch.numbers[i], batch.places[i]);
+      all.add(batch.triangles[i], batch.numbers[i], batch.locations[i]);
     const auto append = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
     append(all.attributes.w, batch.attributes.w);
     append(all.attributes.colors, batch.attributes.colors);
     append(all.attributes.normals, batch.attributes.normals);
     for (std::size_t i = 0; i < batch.size(); ++i) {
-      const ClipTriangle* const whole = batch.whole_of(i);
+      const ClipTriangle* const whole = batch.unclipped_of(i);
       low_parts.push_back(batch.low_parts.empty() ? Triangle{} : batch.low_parts[i]);
-      wholes.push_back(whole == nullptr ? Vec3{} : (*whole)[0].position);
+      unclipped.push_back(whole == nullptr ? Vec3{} : (*whole)[0].position);
     }
     if (batch.decimal_marks.empty()) return;
     all.decimal_marks.resize(all.size() - batch.size());  // add() has made them longer
@@ -58,12 +58,12 @@ ReadTriangles read_from(Source& source) {
 void expect_same(const ReadTriangles& actual, const ReadTriangles& expected) {
   EXPECT_TRUE(actual.all.triangles == expected.all.triangles);
   EXPECT_TRUE(actual.all.numbers == expected.all.numbers);
-  EXPECT_TRUE(actual.all.places == expected.all.places);
+  EXPECT_TRUE(actual.all.locations == expected.all.locations);
   EXPECT_TRUE(actual.all.attributes.w == expected.all.attributes.w);
   EXPECT_TRUE(actual.all.attributes.colors == expected.all.attributes.colors);
   EXPECT_TRUE(actual.all.attributes.normals == expected.all.attributes.normals);
   EXPECT_TRUE(actual.low_parts == expected.low_parts);
-  EXPECT_TRUE(actual.wholes == expected.wholes);
+  EXPECT_TRUE(actual.unclipped == expected.unclipped);
   EXPECT_TRUE(actual.all.decimal_marks == expected.all.decimal_marks);
   EXPECT_EQ(actual.end, expected.end);
 }
@@ -176,8 +176,8 @@ class SourceWithoutMemory final : public TriangleSource {
     return {.is_whole = true};
   }
   void put_back(const TextPart&) override {}
-  [[nodiscard]] TrianglePlace place() const override { return {}; }
-  void pass(const TrianglePlace&) override {}
+  [[nodiscard]] StreamPosition location() const override { return {}; }
+  void pass(const StreamPosition&) override {}
 
  private:
   mutable std::atomic<bool> is_first_ = true;
@@ -207,7 +207,7 @@ TEST(TriangleParts, DoNotWaitForTheInput) {
   EXPECT_FALSE(parts.take(part, batch));
   // Parts are not looked for again at once: the source is asked.
   do EXPECT_FALSE(source.take_part(20000, part.text, batch));
-  while (!text.waiting().ends_with("0.5.25 1 2\n"));
+  while (!text.buffered().ends_with("0.5.25 1 2\n"));
   EXPECT_FALSE(source.take_part(20000, part.text, batch));
 }
 
@@ -223,8 +223,8 @@ class LinesBeforeAPart final : public TriangleSource {
   }
   [[nodiscard]] PartContents read_part(TextReader&, TriangleBatch&) const override { return {}; }
   void put_back(const TextPart&) override {}
-  [[nodiscard]] TrianglePlace place() const override { return {.line_count = line_}; }
-  void pass(const TrianglePlace&) override {}
+  [[nodiscard]] StreamPosition location() const override { return {.line_count = line_}; }
+  void pass(const StreamPosition&) override {}
 
   [[nodiscard]] std::uint64_t line() const { return line_; }
   [[nodiscard]] int asked_count() const { return asked_count_; }

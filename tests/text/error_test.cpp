@@ -10,26 +10,26 @@
 namespace pipeline {
 namespace {
 
-TEST(Place, NamesFileLineAndColumn) {
+TEST(SourceLocation, NamesFileLineAndColumn) {
   EXPECT_EQ(to_string({"in.txt", 3, 14}), "in.txt:3:14");
 }
 
-TEST(Place, LeavesOutWhatIsNotKnown) {
+TEST(SourceLocation, LeavesOutWhatIsNotKnown) {
   EXPECT_EQ(to_string({"in.txt", 3, 0}), "in.txt:3");
   EXPECT_EQ(to_string({"in.txt", 0, 0}), "in.txt");
   EXPECT_EQ(to_string({"in.txt", 0, 5}), "in.txt");
 }
 
-TEST(Place, TellsAnOptionFromAFile) {
-  EXPECT_TRUE((Place{"--eye"}.is_option()));
-  EXPECT_FALSE((Place{"-"}.is_option()));
-  EXPECT_FALSE((Place{""}.is_option()));
+TEST(SourceLocation, TellsAnOptionFromAFile) {
+  EXPECT_TRUE((SourceLocation{"--eye"}.is_option()));
+  EXPECT_FALSE((SourceLocation{"-"}.is_option()));
+  EXPECT_FALSE((SourceLocation{""}.is_option()));
 }
 
 TEST(InputError, StartsWithItsPlace) {
   const InputError error({"in.txt", 3, 14}, expected_but_found("a number", "'x'"));
   EXPECT_EQ(std::string(error.what()), "in.txt:3:14: expected a number, found 'x'");
-  EXPECT_EQ(to_string(error.place()), "in.txt:3:14");
+  EXPECT_EQ(to_string(error.location()), "in.txt:3:14");
 }
 
 TEST(IoError, NamesWhatFailedTheFileAndTheReason) {

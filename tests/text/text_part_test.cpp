@@ -30,7 +30,7 @@ TEST(TextPart, EndsAtABoundary) {
   const TextFile file("a\nb\n\nc\n\nd\n");
   TextReader reader(file.descriptor(), "in.txt");
   EXPECT_EQ(parts_of(reader, 1), std::vector<std::string>{"a\nb\n\nc\n\n"});
-  EXPECT_EQ(reader.waiting(), "d\n");
+  EXPECT_EQ(reader.buffered(), "d\n");
 }
 
 TEST(TextPart, WhatIsBehindTheLengthOfABoundaryStays) {
@@ -39,7 +39,7 @@ TEST(TextPart, WhatIsBehindTheLengthOfABoundaryStays) {
   TextPart part;
   ASSERT_TRUE(reader.take_part("\nb", 1, 1, part));
   EXPECT_EQ(part.text(), "a\nb\na\n");
-  EXPECT_EQ(reader.waiting(), "b\n");
+  EXPECT_EQ(reader.buffered(), "b\n");
 }
 
 TEST(TextPart, IsNotTakenWithoutABoundary) {
@@ -100,11 +100,11 @@ TEST(TextPart, MayBePutBackBehindManyOthers) {
   parts.pop_back();
   EXPECT_GE(parts.size(), 15u);
   for (std::size_t i = parts.size(); i-- > 0;) reader.put_back(parts[i]);
-  EXPECT_TRUE(reader.waiting() == text);
+  EXPECT_TRUE(reader.buffered() == text);
   // That is no part again: it would be one of the whole.
   TextPart part;
   EXPECT_FALSE(reader.take_part("\n\n", 2, 20000, part));
-  while (reader.waiting().size() > 20000) reader.skip(reader.waiting().find("\n\n") + 2, 2);
+  while (reader.buffered().size() > 20000) reader.skip(reader.buffered().find("\n\n") + 2, 2);
   ASSERT_TRUE(reader.take_part("\n\n", 2, 20000, part));
   EXPECT_TRUE(text.ends_with(part.text()));
   EXPECT_LT(part.buffer.size() + TextReader::kSlack, text.size());

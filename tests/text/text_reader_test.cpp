@@ -200,13 +200,13 @@ TEST(TextReader, TheEndIsThePlaceAfterTheLastLine) {
   TextReader reader(file.descriptor(), "in.txt");
   for (LineScanner line; reader.next_line(line);) {
   }
-  EXPECT_EQ(to_string(reader.end_place()), "in.txt:3:1");
+  EXPECT_EQ(to_string(reader.end_location()), "in.txt:3:1");
 }
 
 TEST(TextReader, TheEndOfAnEmptyTextIsItsStart) {
   const TextFile file("");
   const TextReader reader(file.descriptor(), "in.txt");
-  EXPECT_EQ(to_string(reader.end_place()), "in.txt:1:1");
+  EXPECT_EQ(to_string(reader.end_location()), "in.txt:1:1");
 }
 
 TEST(TextReader, CountsTheBytesItHasRead) {
@@ -226,7 +226,7 @@ TEST(TextReader, AFailureToReadNamesTheFileAndTheReason) {
 TEST(TextReader, NoLineWaitsBeforeTheFirstRead) {
   const TextFile file("a\n");
   const TextReader reader(file.descriptor(), "in.txt");
-  EXPECT_FALSE(reader.has_lines_waiting(1));
+  EXPECT_FALSE(reader.has_buffered_lines(1));
 }
 
 TEST(TextReader, LinesThatHaveArrivedAreWaiting) {
@@ -234,8 +234,8 @@ TEST(TextReader, LinesThatHaveArrivedAreWaiting) {
   TextReader reader(slow.descriptor(), "in.txt");
   LineScanner line;
   reader.next_line(line);
-  EXPECT_TRUE(reader.has_lines_waiting(2));
-  EXPECT_FALSE(reader.has_lines_waiting(3));
+  EXPECT_TRUE(reader.has_buffered_lines(2));
+  EXPECT_FALSE(reader.has_buffered_lines(3));
 }
 
 TEST(TextReader, HalfALineIsNotWaiting) {
@@ -243,7 +243,7 @@ TEST(TextReader, HalfALineIsNotWaiting) {
   TextReader reader(slow.descriptor(), "in.txt");
   LineScanner line;
   reader.next_line(line);
-  EXPECT_FALSE(reader.has_lines_waiting(1));
+  EXPECT_FALSE(reader.has_buffered_lines(1));
   reader.next_line(line);
   EXPECT_EQ(line.rest(), "bc");
 }
@@ -253,7 +253,7 @@ TEST(TextReader, BlankLinesAndCommentsAreNotWaitedFor) {
   TextReader reader(slow.descriptor(), "in.txt");
   LineScanner line;
   reader.next_line(line);
-  EXPECT_FALSE(reader.has_lines_waiting(1));
+  EXPECT_FALSE(reader.has_buffered_lines(1));
 }
 
 TEST(TextReader, SaysWhenItIsAboutToWait) {
@@ -288,12 +288,12 @@ TEST(LineScanner, PlacesAreColumnsFromOne) {
   TextReader reader(file.descriptor(), "in.txt");
   LineScanner line;
   reader.next_filled_line(line);
-  EXPECT_EQ(to_string(line.place()), "in.txt:2:3");
+  EXPECT_EQ(to_string(line.location()), "in.txt:2:3");
   const std::string_view first = line.word();
-  EXPECT_EQ(to_string(line.place()), "in.txt:2:6");
-  EXPECT_EQ(to_string(line.place_of(first)), "in.txt:2:3");
+  EXPECT_EQ(to_string(line.location()), "in.txt:2:6");
+  EXPECT_EQ(to_string(line.location_of(first)), "in.txt:2:3");
   line.word();
-  EXPECT_EQ(to_string(line.place()), "in.txt:2:7");
+  EXPECT_EQ(to_string(line.location()), "in.txt:2:7");
 }
 
 TEST(LineScanner, ReadsNumbersInEveryDecimalForm) {

@@ -74,7 +74,7 @@ TEST(Culling, FollowsTheExactDeterminantOfTinyAndHugeTriangles) {
            random.with_exponent(-x_exponent, 2 - x_exponent),
            -std::fabs(random.with_exponent(z_exponent, z_exponent + 2))};
     const auto winding = [&](CullMode cull) {
-      CoordinateRounder rounder(Precision::plain, {7}, "stage2.txt");
+      CoordinateRounder rounder(Precision::in_doubles, {7}, "stage2.txt");
       ProjectionStage stage(kSimple, ClipMode::reject, cull, rounder);
       TriangleBatch p_ndc;
       try {

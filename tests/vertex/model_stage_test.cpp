@@ -25,7 +25,7 @@ TriangleBatch triangles_from(int descriptor) {
   for (TriangleBatch batch; stage.read(batch);) {
     apply_pending_transforms(batch, rounder);
     for (std::size_t i = 0; i < batch.size(); ++i)
-      all.add(batch.triangles[i], batch.numbers[i], batch.places[i]);
+      all.add(batch.triangles[i], batch.numbers[i], batch.locations[i]);
   }
   return all;
 }
@@ -95,8 +95,8 @@ TEST(ModelStage, NumbersTrianglesFromZero) {
 }
 
 TEST(ModelStage, KnowsWhereItsVerticesStand) {
-  EXPECT_EQ(triangles_of("triangle\n\n1 2 3\n 0 0 0\n# c\n0 0 0\n").places[0],
-            (VertexPlaces{{7, {8, 2}, 10}}));
+  EXPECT_EQ(triangles_of("triangle\n\n1 2 3\n 0 0 0\n# c\n0 0 0\n").locations[0],
+            (VertexLocations{{7, {8, 2}, 10}}));
 }
 
 TEST(ModelStage, ReadsMoreTrianglesThanABatchHolds) {
@@ -118,7 +118,7 @@ TEST(ModelStage, TrianglesAreTheSameByEveryPath) {
   ASSERT_EQ(fast.size(), 7u);
   EXPECT_EQ(fast.triangles, slow.triangles);
   EXPECT_EQ(fast.numbers, slow.numbers);
-  EXPECT_EQ(fast.places, slow.places);
+  EXPECT_EQ(fast.locations, slow.locations);
 }
 
 TEST(ModelStage, PopWithoutPushIsAnErrorAtThePop) {

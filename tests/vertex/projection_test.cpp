@@ -170,7 +170,7 @@ TEST(Projection, LongPrintsNoNumberThatDiffersFromTheReference) {
                  reference);
     if (i % 10 != 0) continue;
     plain.add(projected(batch_of(vertices), transform_of(p), ClipMode::automatic, CullMode::nothing, {7},
-                        Precision::plain)
+                        Precision::in_doubles)
                   .p_ndc,
               vertices, reference);
   }

@@ -6,7 +6,7 @@
 
 #include "libpipeline/scene/camera.h"
 #include "libpipeline/text/number_printer.h"
-#include "libpipeline/vertex/mat4.h"
+#include "libpipeline/vertex/affine_matrix.h"
 #include "libpipeline/vertex/transform.h"
 #include "tests/numbers/real.h"
 

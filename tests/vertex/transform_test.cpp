@@ -389,7 +389,7 @@ TEST(ClipFromView, NinetyDegreesHaveTheScaleOne) {
 }
 
 TEST(ClipFromView, RefusesAnAngleFromASideToASide) {
-  const Placed<Projection> wide = {Perspective{90, 2, 1, 2}, {"scene.txt", 4, 1}};
+  const Located<Projection> wide = {Perspective{90, 2, 1, 2}, {"scene.txt", 4, 1}};
   try {
     clip_from_view(wide, AspectRule::angle);
     FAIL() << "no error";

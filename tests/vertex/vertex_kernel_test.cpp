@@ -26,11 +26,11 @@ std::string printed(double value, int decimals) {
 }
 
 /// A transform of which every row is the same.
-AffineFactors factors_of(const std::array<Ball, 4>& row, const Vec3& origin = {}) {
-  AffineFactors factors;
+AffineCoefficients factors_of(const std::array<Ball, 4>& row, const Vec3& origin = {}) {
+  AffineCoefficients factors;
   factors.origin = origin;
   for (auto& factor_row : factors.rows)
-    for (std::size_t j = 0; j < 4; ++j) factor_row[j] = Factor(row[j]);
+    for (std::size_t j = 0; j < 4; ++j) factor_row[j] = Coefficient(row[j]);
   return factors;
 }
 
@@ -43,14 +43,14 @@ VertexBlock block_of(const Vec3& p) {
 
 class VertexKernels : public testing::TestWithParam<VertexKernel> {
  protected:
-  static ImageBlock image_of(const AffineFactors& factors, const Vec3& p,
+  static ImageBlock image_of(const AffineCoefficients& factors, const Vec3& p,
                              const CoordinateTest& test = kNearest) {
     ImageBlock image;
     GetParam().transform(factors, test, block_of(p), image);
     return image;
   }
   static bool settles(const std::array<Ball, 4>& row, const Vec3& p, const CoordinateTest& test = kNearest) {
-    return image_of(factors_of(row), p, test).is_settled[0] != 0;
+    return image_of(factors_of(row), p, test).passes_rounding_test[0] != 0;
   }
 };
 
@@ -83,7 +83,7 @@ TEST_P(VertexKernels, SettleNothingButTheNearestDouble) {
     const Vec3 origin = random_vec3(random, largest_exponent);
     const Vec3 p = random_vec3(random, largest_exponent);
     const ImageBlock image = image_of(factors_of(row, origin), p);
-    if (image.is_settled[0] == 0) continue;
+    if (image.passes_rounding_test[0] == 0) continue;
     ++settled_count;
     ASSERT_EQ(image.p[0][0], exact_image(row, origin, p).nearest_double()) << i;
   }
@@ -99,7 +99,7 @@ TEST_P(VertexKernels, SettleNothingButTheNearestDecimal) {
     const Vec3 origin = random_vec3(random, 3);
     const Vec3 p = random_vec3(random, 3);
     const ImageBlock image = image_of(factors_of(row, origin), p, test_of_decimals(decimals, i % 2 == 0));
-    if (image.is_settled[0] == 0) continue;
+    if (image.passes_rounding_test[0] == 0) continue;
     ++settled_count;
     ASSERT_EQ(printed(image.p[0][0], decimals), exact_image(row, origin, p).text(decimals)) << i;
   }
@@ -155,21 +155,21 @@ TEST_P(VertexKernels, SettleEveryVertexOfABlockByItself) {
   ASSERT_EQ(image.count, 3 * triangles.size());
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     EXPECT_EQ(image.p[0][3 * i], static_cast<double>(i + 1));
-    EXPECT_NE(image.is_settled[3 * i], 0u);
-    EXPECT_NE(image.is_settled[3 * i + 2], 0u);
+    EXPECT_NE(image.passes_rounding_test[3 * i], 0u);
+    EXPECT_NE(image.passes_rounding_test[3 * i + 2], 0u);
   }
-  EXPECT_EQ(image.is_settled[1], 0u);  // 1 + 2^-53
+  EXPECT_EQ(image.passes_rounding_test[1], 0u);  // 1 + 2^-53
 }
 
-ProjectionFactors random_projection(RandomNumbers& random, std::array<Ball, 3>& scales,
-                                    std::array<Ball, 3>& offsets) {
-  ProjectionFactors factors;
+ProjectionCoefficients random_projection(RandomNumbers& random, std::array<Ball, 3>& scales,
+                                         std::array<Ball, 3>& offsets) {
+  ProjectionCoefficients factors;
   factors.is_perspective = random.bits() % 2 == 0;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     scales[axis] = Ball::with_error(random.double_double(-10, 10), 0);
     offsets[axis] = random.bits() % 4 == 0 ? Ball() : Ball::with_error(random.double_double(-10, 10), 0);
-    factors.scales[axis] = Factor(scales[axis]);
-    factors.offsets[axis] = Factor(offsets[axis]);
+    factors.scales[axis] = Coefficient(scales[axis]);
+    factors.offsets[axis] = Coefficient(offsets[axis]);
   }
   return factors;
 }
@@ -181,14 +181,14 @@ TEST_P(VertexKernels, SettleNothingButTheNearestQuotient) {
   for (int i = 0; i < 20'000; ++i) {
     std::array<Ball, 3> scales;
     std::array<Ball, 3> offsets;
-    const ProjectionFactors factors = random_projection(random, scales, offsets);
+    const ProjectionCoefficients factors = random_projection(random, scales, offsets);
     Vec3 p = random_vec3(random, 20);
     if (i % 16 != 0) p.z = -std::fabs(p.z);
     const int decimals = random.whole(11, 17);
     const bool is_nearest = i % 2 == 0;
     ImageBlock p_ndc;
     GetParam().project(factors, is_nearest ? kNearest : test_of_decimals(decimals, true), block_of(p), p_ndc);
-    if (p_ndc.is_settled[0] == 0) continue;
+    if (p_ndc.passes_rounding_test[0] == 0) continue;
     ++settled_count;
     const Exact w = factors.is_perspective ? -p.z : 1;
     ASSERT_GT(w.sign(), 0);
@@ -207,12 +207,12 @@ TEST_P(VertexKernels, SettleNothingButTheNearestQuotient) {
 }
 
 TEST_P(VertexKernels, SettleNoQuotientBehindTheEyeOrOnItsPlane) {
-  ProjectionFactors factors;
-  for (Factor& factor : factors.scales) factor = Factor(Ball(1));
+  ProjectionCoefficients factors;
+  for (Coefficient& factor : factors.scales) factor = Coefficient(Ball(1));
   for (const double z : {0.0, -0.0, 1.0, -0x1p-500, -0x1p500}) {
     ImageBlock p_ndc;
     GetParam().project(factors, kNearest, block_of({1, 1, z}), p_ndc);
-    EXPECT_EQ(p_ndc.is_settled[0], 0u) << z;
+    EXPECT_EQ(p_ndc.passes_rounding_test[0], 0u) << z;
   }
 }
 

@@ -184,7 +184,7 @@ TEST(ModelTransform, AnOverflowNamesTheVertexsPlace) {
 
 TEST(ModelTransform, AnOverflowIsAnErrorInPlainPrecisionToo) {
   TriangleBatch batch = batch_of({{1, 0, 0}, {0, 1, 0}, {0, 0, 1}});
-  CoordinateRounder rounder(Precision::plain, {7}, "scene.txt");
+  CoordinateRounder rounder(Precision::in_doubles, {7}, "scene.txt");
   const VertexTransform transform(scaling({1e300, 1, 1}) * scaling({1e300, 1, 1}));
   EXPECT_THROW(transform.apply(batch, rounder), InputError);
 }
@@ -258,7 +258,7 @@ TEST(ModelTransform, LongPrintsNoNumberThatDiffersFromTheReference) {
     const auto reference = [&](const auto& p) { return model.exact * p; };
     extended.add(images_of(vertices, model.computed, {7}), vertices, reference);
     if (i % 10 == 0)
-      plain.add(images_of(vertices, model.computed, {7}, Precision::plain), vertices, reference);
+      plain.add(images_of(vertices, model.computed, {7}, Precision::in_doubles), vertices, reference);
   }
   extended.report("model, extended");
   plain.report("model, double");
@@ -276,7 +276,7 @@ TEST(ViewTransform, LongPrintsNoNumberThatDiffersFromTheReference) {
     const std::vector<Vec3> vertices = random_points(random, kVerticesOfEach, 1e6);
     const auto reference = [&](const auto& p) { return exact * p; };
     extended.add(images_of(vertices, view, {7}), vertices, reference);
-    if (i % 10 == 0) plain.add(images_of(vertices, view, {7}, Precision::plain), vertices, reference);
+    if (i % 10 == 0) plain.add(images_of(vertices, view, {7}, Precision::in_doubles), vertices, reference);
   }
   extended.report("view, extended");
   plain.report("view, double");

@@ -11,7 +11,7 @@ namespace pipeline {
 
 /// Triangle after triangle, each as a whole.
 template <typename Visible>
-Frame drawn_one_by_one(const std::vector<Triangle>& scene, const ScreenConfig& screen) {
+Frame drawn_one_by_one(const std::vector<Triangle>& scene, const Viewport& screen) {
   Visible visible(screen);
   TriangleColors colors;
   for (std::size_t i = 0; i < scene.size(); ++i) visible.draw({scene[i]}, colors.of(i));
@@ -24,12 +24,12 @@ inline std::vector<Triangle> random_scene(int triangle_count, std::uint64_t seed
   std::vector<Triangle> scene;
   for (int i = 0; i < triangle_count; ++i) {
     const double size = i % 7 == 0 ? 3 : (i % 7 == 1 ? 1e6 : 0.05);
-    const Vec3 place = {random.between(-1.2, 1.2), random.between(-1.2, 1.2), i % 3 / 4.0};
+    const Vec3 location = {random.between(-1.2, 1.2), random.between(-1.2, 1.2), i % 3 / 4.0};
     const double depth_range = i % 2 == 0 ? 0 : 0.5;
     Triangle triangle;
     for (Vec3& p : triangle)
-      p = {place.x + random.between(-size, size), place.y + random.between(-size, size),
-           place.z + random.between(-depth_range, depth_range)};
+      p = {location.x + random.between(-size, size), location.y + random.between(-size, size),
+           location.z + random.between(-depth_range, depth_range)};
     scene.push_back(triangle);
   }
   return scene;
@@ -41,10 +41,10 @@ inline std::vector<Triangle> scene_of_small_triangles(int triangle_count) {
   std::vector<Triangle> scene;
   for (int i = 0; i < triangle_count; ++i) {
     const double size = i % 101 == 3 ? 0.9 : 0.02;
-    const Vec3 place = {random.between(-1, 1), random.between(-1, 1), i % 3 / 4.0};
+    const Vec3 location = {random.between(-1, 1), random.between(-1, 1), i % 3 / 4.0};
     Triangle triangle;
     for (Vec3& p : triangle)
-      p = {place.x + random.between(-size, size), place.y + random.between(-size, size), place.z};
+      p = {location.x + random.between(-size, size), location.y + random.between(-size, size), location.z};
     scene.push_back(triangle);
   }
   return scene;

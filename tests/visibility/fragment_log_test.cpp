@@ -11,8 +11,8 @@
 namespace pipeline {
 namespace {
 
-constexpr ScreenConfig kScreen = {4, 4, -1, -1, 0, 2};
-constexpr PixelPlace kPixel = {1, 2};
+constexpr Viewport kScreen = {4, 4, -1, -1, 0, 2};
+constexpr Pixel kPixel = {1, 2};
 
 /// A triangle of one depth that covers the whole screen.
 Triangle wall(double z) {
@@ -29,64 +29,66 @@ std::vector<Fragment> judged(const std::vector<double>& depths) {
 }
 
 TEST(FragmentTest, TheNearerIsKeptAndTheFartherIsBehindIt) {
-  EXPECT_EQ(judged({1, 1.5, 0.5}), (std::vector<Fragment>{{kPixel, 10, 1, Fate::kept, 0},
-                                                          {kPixel, 11, 1.5, Fate::behind, 10},
-                                                          {kPixel, 12, 0.5, Fate::kept, 0}}));
+  EXPECT_EQ(judged({1, 1.5, 0.5}), (std::vector<Fragment>{{kPixel, 10, 1, DepthTestResult::kept, 0},
+                                                          {kPixel, 11, 1.5, DepthTestResult::behind, 10},
+                                                          {kPixel, 12, 0.5, DepthTestResult::kept, 0}}));
 }
 
 TEST(FragmentTest, OfEqualDepthsTheLaterIsLost) {
-  EXPECT_EQ(judged({1, 1}).back(), (Fragment{kPixel, 11, 1, Fate::equal, 10}));
+  EXPECT_EQ(judged({1, 1}).back(), (Fragment{kPixel, 11, 1, DepthTestResult::equal, 10}));
 }
 
 TEST(FragmentTest, TheFrontLimitIsSeenAndTheRearLimitIsNot) {
-  EXPECT_EQ(judged({0}).back().fate, Fate::kept);
-  EXPECT_EQ(judged({2}).back().fate, Fate::beyond_rear);
+  EXPECT_EQ(judged({0}).back().fate, DepthTestResult::kept);
+  EXPECT_EQ(judged({2}).back().fate, DepthTestResult::beyond_rear);
 }
 
 TEST(FragmentTest, WhatLiesOutsideTheLimitsHidesNothing) {
-  EXPECT_EQ(judged({-0.5, 2.5, 1}), (std::vector<Fragment>{{kPixel, 10, -0.5, Fate::before_front, 0},
-                                                           {kPixel, 11, 2.5, Fate::beyond_rear, 0},
-                                                           {kPixel, 12, 1, Fate::kept, 0}}));
+  EXPECT_EQ(judged({-0.5, 2.5, 1}),
+            (std::vector<Fragment>{{kPixel, 10, -0.5, DepthTestResult::before_front, 0},
+                                   {kPixel, 11, 2.5, DepthTestResult::beyond_rear, 0},
+                                   {kPixel, 12, 1, DepthTestResult::kept, 0}}));
 }
 
 TEST(FragmentTest, WhatIsSeenAlreadyDoesNotExplainWhatIsBeyondTheRear) {
-  EXPECT_EQ(judged({1, 3}).back().fate, Fate::beyond_rear);
+  EXPECT_EQ(judged({1, 3}).back().fate, DepthTestResult::beyond_rear);
 }
 
 TEST(FragmentTest, DepthsAFormatCannotTellApartAreEqual) {
-  EXPECT_EQ(judged<DepthF32>({1, 1 - 0x1p-40}).back().fate, Fate::equal);
-  EXPECT_EQ(judged<DepthF64>({1, 1 - 0x1p-40}).back().fate, Fate::kept);
+  EXPECT_EQ(judged<DepthF32>({1, 1 - 0x1p-40}).back().fate, DepthTestResult::equal);
+  EXPECT_EQ(judged<DepthF64>({1, 1 - 0x1p-40}).back().fate, DepthTestResult::kept);
 }
 
 TEST(FragmentTest, WithAnEpsilonAFragmentHasToBeNearerByMore) {
   const FragmentTest<DepthF64> test(kScreen, 0.25);
   auto seen = test.nothing();
-  EXPECT_EQ(test.judge(seen, kPixel, 0, 1.875).fate, Fate::kept);  // the rear limit is no triangle
-  EXPECT_EQ(test.judge(seen, kPixel, 1, 1.625), (Fragment{kPixel, 1, 1.625, Fate::too_close, 0}));
-  EXPECT_EQ(test.judge(seen, kPixel, 2, 1.5).fate, Fate::kept);
+  EXPECT_EQ(test.judge(seen, kPixel, 0, 1.875).fate, DepthTestResult::kept);  // the rear limit is no triangle
+  EXPECT_EQ(test.judge(seen, kPixel, 1, 1.625), (Fragment{kPixel, 1, 1.625, DepthTestResult::too_close, 0}));
+  EXPECT_EQ(test.judge(seen, kPixel, 2, 1.5).fate, DepthTestResult::kept);
 }
 
 TEST(FragmentTest, InfiniteDepthsLieOutsideTheLimits) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  EXPECT_EQ(judged({-kInfinity}).back().fate, Fate::before_front);
-  EXPECT_EQ(judged<DepthU24>({kInfinity}).back().fate, Fate::beyond_rear);
+  EXPECT_EQ(judged({-kInfinity}).back().fate, DepthTestResult::before_front);
+  EXPECT_EQ(judged<DepthU24>({kInfinity}).back().fate, DepthTestResult::beyond_rear);
 }
 
 TEST(FragmentLog, TellsOfEveryPixelFromTheTopLeft) {
-  FragmentLog<CenterCoverage, DepthF64> log(ScreenConfig{2, 2, -1, -1, 0, 2});
-  std::vector<PixelPlace> places;
-  log.add({wall(1)}, 0, [&](const Fragment& fragment) { places.push_back(fragment.pixel); });
-  EXPECT_EQ(places, (std::vector<PixelPlace>{{0, 0}, {1, 0}, {0, 1}, {1, 1}}));
+  FragmentLog<CenterCoverage, DepthF64> log(Viewport{2, 2, -1, -1, 0, 2});
+  std::vector<Pixel> locations;
+  log.add({wall(1)}, 0, [&](const Fragment& fragment) { locations.push_back(fragment.pixel); });
+  EXPECT_EQ(locations, (std::vector<Pixel>{{0, 0}, {1, 0}, {0, 1}, {1, 1}}));
 }
 
 TEST(FragmentLog, PixelsDoNotKnowOfEachOther) {
-  FragmentLog<CenterCoverage, DepthF64> log(ScreenConfig{2, 1, -1, -1, 0, 2});
+  FragmentLog<CenterCoverage, DepthF64> log(Viewport{2, 1, -1, -1, 0, 2});
   const Triangle on_the_left = {{{-9, -9, 0.5}, {0, -9, 0.5}, {0, 99, 0.5}}};
-  std::vector<Fate> fates;
+  std::vector<DepthTestResult> fates;
   const auto visit = [&](const Fragment& fragment) { fates.push_back(fragment.fate); };
   log.add({on_the_left}, 0, visit);
   log.add({wall(1)}, 1, visit);
-  EXPECT_EQ(fates, (std::vector<Fate>{Fate::kept, Fate::behind, Fate::kept}));
+  EXPECT_EQ(fates, (std::vector<DepthTestResult>{DepthTestResult::kept, DepthTestResult::behind,
+                                                 DepthTestResult::kept}));
 }
 
 TEST(PixelProbe, TellsOfItsPixelAlone) {
@@ -98,18 +100,19 @@ TEST(PixelProbe, TellsOfItsPixelAlone) {
   probe.add({above}, 0, visit);
   probe.add({right}, 1, visit);
   probe.add({wall(1)}, 2, visit);
-  EXPECT_EQ(fragments, (std::vector<Fragment>{{kPixel, 2, 1, Fate::kept, 0}}));
+  EXPECT_EQ(fragments, (std::vector<Fragment>{{kPixel, 2, 1, DepthTestResult::kept, 0}}));
 }
 
 TEST(FragmentText, NamesPixelTriangleDepthAndReason) {
-  EXPECT_EQ(to_text(Fragment{{3, 5}, 7, 0.25, Fate::kept, 0}), "3,5: triangle 7, depth 0.25: kept");
-  EXPECT_EQ(to_text(Fragment{{3, 5}, 7, 0.1, Fate::behind, 2}),
+  EXPECT_EQ(to_text(Fragment{{3, 5}, 7, 0.25, DepthTestResult::kept, 0}),
+            "3,5: triangle 7, depth 0.25: kept");
+  EXPECT_EQ(to_text(Fragment{{3, 5}, 7, 0.1, DepthTestResult::behind, 2}),
             "3,5: triangle 7, depth 0.1: lost, behind triangle 2");
-  EXPECT_EQ(to_text(Fragment{{3, 5}, 7, -0.0, Fate::equal, 2}),
+  EXPECT_EQ(to_text(Fragment{{3, 5}, 7, -0.0, DepthTestResult::equal, 2}),
             "3,5: triangle 7, depth 0: lost, equal and later than triangle 2");
-  EXPECT_EQ(to_text(Fragment{{3, 5}, 7, -2, Fate::before_front, 0}),
+  EXPECT_EQ(to_text(Fragment{{3, 5}, 7, -2, DepthTestResult::before_front, 0}),
             "3,5: triangle 7, depth -2: lost, before the front limit");
-  EXPECT_EQ(to_text(Fragment{{3, 5}, 7, 1, Fate::beyond_rear, 0}),
+  EXPECT_EQ(to_text(Fragment{{3, 5}, 7, 1, DepthTestResult::beyond_rear, 0}),
             "3,5: triangle 7, depth 1: lost, beyond the rear limit");
 }
 

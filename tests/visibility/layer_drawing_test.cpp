@@ -11,7 +11,7 @@
 namespace pipeline {
 namespace {
 
-constexpr ScreenConfig kScreen = {60, 70};
+constexpr Viewport kScreen = {60, 70};
 
 /// Gives batches of a scene, one after the other, to a drawing.
 class Stream {
@@ -43,8 +43,8 @@ void expect_what_is_drawn_one_by_one(const std::vector<Triangle>& scene,
   for (const int thread_count : {1, 2, 3, 8})
     for (const std::size_t batch_size : batch_sizes) {
       Visible visible(kScreen);
-      WorkerTeam team(thread_count);
-      LayerDrawing drawing(visible, kScreen, team);
+      ThreadPool pool(thread_count);
+      LayerDrawing drawing(visible, kScreen, pool);
       Stream(scene).draw(drawing, batch_size, scene.size());
       drawing.finish();
       EXPECT_TRUE(frame_of(visible) == expected) << thread_count << " threads, batches of " << batch_size;
@@ -58,7 +58,7 @@ TEST(LayerDrawing, OfEqualDepthsTheFirstStaysWhateverLayerItIsIn) {
 
 TEST(LayerDrawing, SoItIsWhenTheNumbersOfBatchesBeginAnew) {
   using Visible = ZBufferAlgorithm<NearestCoverage, DepthF32>;
-  constexpr int kTriangles = 5 * static_cast<int>(kMostOrders) + 17;
+  constexpr int kTriangles = 5 * static_cast<int>(kMaxOrders) + 17;
   expect_what_is_drawn_one_by_one<Visible>(scene_of_small_triangles(kTriangles), {1, 2, 3});
 }
 
@@ -71,8 +71,8 @@ TEST(LayerDrawing, MayBeFinishedManyTimes) {
   using Visible = ZBufferAlgorithm<NearestCoverage, DepthF64>;
   const std::vector<Triangle> scene = scene_of_small_triangles(3000);
   Visible visible(kScreen);
-  WorkerTeam team(3);
-  LayerDrawing drawing(visible, kScreen, team);
+  ThreadPool pool(3);
+  LayerDrawing drawing(visible, kScreen, pool);
   Stream stream(scene);
   for (const std::size_t end : {0u, 1u, 700u, 705u, 3000u}) {
     stream.draw(drawing, 10, end);
@@ -86,8 +86,8 @@ TEST(LayerDrawing, MayBeFinishedManyTimes) {
 
 TEST(LayerDrawing, LeavesTheBackgroundWhereNothingIsDrawn) {
   ZBufferAlgorithm<NearestCoverage, DepthF64> visible(kScreen, Color(1, 2, 3));
-  WorkerTeam team(2);
-  LayerDrawing drawing(visible, kScreen, team);
+  ThreadPool pool(2);
+  LayerDrawing drawing(visible, kScreen, pool);
   for (int i = 0; i < 20; ++i) {
     ColoredBatch behind_the_rear_limit = {{}, {Color(9, 9, 9)}};
     behind_the_rear_limit.batch.add({{{-9, -9, 1}, {9, -9, 1}, {0, 9, 1}}}, 0, {});

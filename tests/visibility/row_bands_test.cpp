@@ -17,7 +17,7 @@ Triangle at(double a, double b, double c) {
 }
 
 TEST(RowBands, HoldEveryRowOnce) {
-  for (const ScreenConfig& screen : {ScreenConfig{1, 1}, {1920, 1080}, {500, 500}, {65535, 3}, {1, 65535}}) {
+  for (const Viewport& screen : {Viewport{1, 1}, {1920, 1080}, {500, 500}, {65535, 3}, {1, 65535}}) {
     const RowBands bands(screen);
     int next_row = 0;
     for (int band = 0; band < bands.count(); ++band) {
@@ -46,7 +46,7 @@ TEST(RowBands, ATriangleOverTheScreenReachesAll) {
 }
 
 TEST(RowBands, InAWindowNextToTheSmallestDoublesATriangleReachesItsRows) {
-  const ScreenConfig screen = {10, 640, -1, -1e-310};
+  const Viewport screen = {10, 640, -1, -1e-310};
   const RowRange range = RowBands(screen).bands_of(at(-0.9e-310, -0.8e-310, -0.9e-310));
   EXPECT_LE(range.first, RowBands(screen).count() - 1);
   EXPECT_EQ(range.end, RowBands(screen).count());
@@ -65,7 +65,7 @@ TEST(RowBands, ATriangleReachesTheBandsOfItsRows) {
 }
 
 template <typename Coverage>
-void expect_no_span_elsewhere(const ScreenConfig& screen, const Triangle& p_ndc) {
+void expect_no_span_elsewhere(const Viewport& screen, const Triangle& p_ndc) {
   const RowBands bands(screen);
   const RowRange range = bands.bands_of(p_ndc);
   int first = screen.rows, last = -1;
@@ -79,7 +79,7 @@ void expect_no_span_elsewhere(const ScreenConfig& screen, const Triangle& p_ndc)
   ASSERT_LT(last, bands.rows(range.end - 1).end);
 }
 
-void expect_no_pixel_elsewhere(const ScreenConfig& screen) {
+void expect_no_pixel_elsewhere(const Viewport& screen) {
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> unit(-1, 1);
   for (int i = 0; i < sanitizer_rounds(3000); ++i) {
@@ -96,7 +96,7 @@ void expect_no_pixel_elsewhere(const ScreenConfig& screen) {
 }
 
 TEST(RowBands, NoCoverageRuleHasPixelsElsewhere) {
-  for (const ScreenConfig& screen : {ScreenConfig{5, 640}, {5, 1000, -3, -0.7}, {7, 97, -1, -1e100}})
+  for (const Viewport& screen : {Viewport{5, 640}, {5, 1000, -3, -0.7}, {7, 97, -1, -1e100}})
     expect_no_pixel_elsewhere(screen);
 }
 

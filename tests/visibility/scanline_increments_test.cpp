@@ -58,7 +58,7 @@ class RoundedRows {
 
 TEST(Scanline, IncrementalXWouldGiveOtherColumns) {
   // Vertices with two decimals, as people write them, on 1000 rows.
-  ScreenConfig screen = {1000, 1000, -1, -1, -1, 1};
+  Viewport screen = {1000, 1000, -1, -1, -1, 1};
   screen.left_is_decimal = screen.bottom_is_decimal = true;
   const CenterCoverage exact(screen);
   RandomNumbers random(1);

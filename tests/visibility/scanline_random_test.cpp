@@ -14,8 +14,8 @@ class RandomScenes {
  public:
   explicit RandomScenes(std::uint64_t seed) : random_(seed) {}
 
-  ScreenConfig screen() {
-    ScreenConfig screen;
+  Viewport screen() {
+    Viewport screen;
     screen.columns = random_.whole(0, 9) == 0 ? random_.whole(60, 200) : random_.whole(1, 24);
     screen.rows = random_.whole(1, 8);
     screen.left_is_decimal = screen.bottom_is_decimal = true;
@@ -107,7 +107,7 @@ class RandomScenes {
 };
 
 template <typename Coverage, typename Depth>
-void expect_the_same(const Scene& scene, const ScreenConfig& screen, int number) {
+void expect_the_same(const Scene& scene, const Viewport& screen, int number) {
   const Frame expected = zbuffer_frame<Coverage, Depth>(scene, screen);
   const Frame found = scanline_frame<Coverage, Depth>(scene, screen);
   ASSERT_TRUE(expected == found) << "scene " << number << ", " << scene.size() << " triangles, "
@@ -115,7 +115,7 @@ void expect_the_same(const Scene& scene, const ScreenConfig& screen, int number)
 }
 
 template <typename Coverage>
-void expect_the_same_in_all_formats(const Scene& scene, const ScreenConfig& screen, int number) {
+void expect_the_same_in_all_formats(const Scene& scene, const Viewport& screen, int number) {
   expect_the_same<Coverage, DepthF64>(scene, screen, number);
   expect_the_same<Coverage, DepthF32>(scene, screen, number);
   expect_the_same<Coverage, DepthU24>(scene, screen, number);
@@ -124,7 +124,7 @@ void expect_the_same_in_all_formats(const Scene& scene, const ScreenConfig& scre
 void expect_the_same_in_random_scenes(int scene_count, std::uint64_t seed) {
   RandomScenes random(seed);
   for (int i = 0; i < scene_count; ++i) {
-    const ScreenConfig screen = random.screen();
+    const Viewport screen = random.screen();
     const Scene scene = random.scene();
     expect_the_same_in_all_formats<NearestCoverage>(scene, screen, i);
     expect_the_same_in_all_formats<CenterCoverage>(scene, screen, i);
@@ -150,7 +150,7 @@ TEST(Scanline, AnOverdrawOfManyLayersIsTheZBuffers) {
       p = {random.between(-1.5, 1.5), random.between(-1.5, 1.5), random.between(-1.1, 1.1)};
     scene.push_back(triangle);
   }
-  constexpr ScreenConfig kScreen = {300, 60, -1, -1, -1, 1};
+  constexpr Viewport kScreen = {300, 60, -1, -1, -1, 1};
   EXPECT_TRUE((scanline_frame<NearestCoverage, DepthF64>(scene, kScreen, 0) ==
                zbuffer_frame<NearestCoverage, DepthF64>(scene, kScreen, 0)));
   EXPECT_TRUE((scanline_frame<CenterCoverage, DepthU24>(scene, kScreen, 0) ==

@@ -14,11 +14,11 @@ namespace {
 using Picture = std::vector<std::string>;
 
 // Pixels of size 1, centers at -3.5, -2.5 ... 3.5 in x and y: all small halves are exact.
-constexpr ScreenConfig kEightByFour = {8, 4, -4, -2, 0, 2};
+constexpr Viewport kEightByFour = {8, 4, -4, -2, 0, 2};
 
 /// The visible triangles as letters: a is the first triangle, a dot the background.
 template <typename Coverage = CenterCoverage, typename Depth = DepthF64>
-Picture picture_of(const Scene& scene, const ScreenConfig& screen = kEightByFour) {
+Picture picture_of(const Scene& scene, const Viewport& screen = kEightByFour) {
   const Frame frame = scanline_frame<Coverage, Depth>(scene, screen);
   Picture picture(static_cast<std::size_t>(screen.rows));
   for (std::size_t i = 0; i < frame.colors.size(); ++i)
@@ -171,7 +171,7 @@ Scene coplanar_pair() {
 }
 
 TEST(Scanline, CoplanarTrianglesWhoseRoundedDepthsAlternateAreComparedPixelByPixel) {
-  constexpr ScreenConfig kSixty = {60, 60, -1, -1, 0, 2};
+  constexpr Viewport kSixty = {60, 60, -1, -1, 0, 2};
   const Frame frame = scanline_frame<NearestCoverage, DepthF64>(coplanar_pair(), kSixty);
   EXPECT_TRUE(frame == (zbuffer_frame<NearestCoverage, DepthF64>(coplanar_pair(), kSixty)));
   // It is a trap: inside one row the owner changes many times.
@@ -190,8 +190,7 @@ TEST(Scanline, DepthsThatAreStoredAsEqualAreEqual) {
   const Scene farther_first = {half_plane(1 + 0x1p-18, 0.01), half_plane(1, 0.01)};
   EXPECT_EQ((picture_of<CenterCoverage, DepthF64>(farther_first)), Picture(4, "bbbbbbbb"));
   EXPECT_EQ((picture_of<CenterCoverage, DepthU24>(farther_first)), Picture(4, "bbbbbbbb"));
-  for (const ScreenConfig screen :
-       {ScreenConfig{1000, 2, -4, -2, 0, 2}, ScreenConfig{999, 2, -4, -2, 0, 3}}) {
+  for (const Viewport screen : {Viewport{1000, 2, -4, -2, 0, 2}, Viewport{999, 2, -4, -2, 0, 3}}) {
     const Scene scene = {half_plane(1 + 0x1p-27, 0.01), half_plane(1, 0.01)};
     EXPECT_TRUE((scanline_frame<CenterCoverage, DepthU24>(scene, screen) ==
                  zbuffer_frame<CenterCoverage, DepthU24>(scene, screen)));

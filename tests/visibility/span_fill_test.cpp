@@ -13,7 +13,7 @@ namespace {
 
 // Ten blocks of pixels and a part of one.
 constexpr int kColumns = 10 * kBlockColumns + 13;
-constexpr ScreenConfig kScreen = {kColumns, 1, -1, -1, 0.25, 0.75};
+constexpr Viewport kScreen = {kColumns, 1, -1, -1, 0.25, 0.75};
 
 /// Every claim is made of every kernel that this processor can run.
 class SpanFillTest : public testing::TestWithParam<SpanFillKernel> {};
@@ -102,7 +102,7 @@ void expect_blocks_to_change_nothing(const SpanFillKernel& kernel) {
   RandomSpans spans(2);
   for (int picture = 0; picture < 400; ++picture) {
     PixelRow<Depth> expected(format), found(format);
-    FarthestDepths<Depth> farthest({0, 1}, kColumns);
+    HierarchicalDepth<Depth> farthest({0, 1}, kColumns);
     for (std::uint32_t number = 1; number <= 40; ++number) {
       const Span span = spans.next();
       const Color color = Color::from_rgb(number);
@@ -120,7 +120,7 @@ template <typename Depth>
 void expect_to_learn_the_farthest_depth(const SpanFillKernel& kernel) {
   const Depth format(kScreen);
   PixelRow<Depth> row(format);
-  FarthestDepths<Depth> farthest({0, 1}, kColumns);
+  HierarchicalDepth<Depth> farthest({0, 1}, kColumns);
   const auto draw = [&](int first, int last, double z) {
     draw_with(kernel, row, {0, first, last, {0, 1, 0, z, 0}}, Color(), format, farthest.row(0));
   };

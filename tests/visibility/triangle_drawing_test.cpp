@@ -15,10 +15,10 @@ namespace {
 
 /// `color_of(i)` is the color of triangle i.
 template <typename Visible, typename ColorOf>
-void draw_on_threads(Visible& visible, const std::vector<Triangle>& scene, const ScreenConfig& screen,
+void draw_on_threads(Visible& visible, const std::vector<Triangle>& scene, const Viewport& screen,
                      int thread_count, std::size_t batch_size, ColorUse use, const ColorOf& color_of) {
-  WorkerTeam team(thread_count);
-  TriangleDrawing drawing(visible, screen, team, use);
+  ThreadPool pool(thread_count);
+  TriangleDrawing drawing(visible, screen, pool, use);
   for (std::size_t i = 0; i < scene.size();) {
     TriangleBatch& batch = drawing.next_batch();
     batch.clear();
@@ -29,7 +29,7 @@ void draw_on_threads(Visible& visible, const std::vector<Triangle>& scene, const
 }
 
 template <typename Visible>
-Frame drawn_on_threads(const std::vector<Triangle>& scene, const ScreenConfig& screen, int thread_count,
+Frame drawn_on_threads(const std::vector<Triangle>& scene, const Viewport& screen, int thread_count,
                        std::size_t batch_size) {
   Visible visible(screen);
   TriangleColors colors;
@@ -40,7 +40,7 @@ Frame drawn_on_threads(const std::vector<Triangle>& scene, const ScreenConfig& s
 
 template <typename Visible>
 void expect_the_same_for_all_threads() {
-  constexpr ScreenConfig kScreen = {150, 300, -1, -1, -1, 0.6};
+  constexpr Viewport kScreen = {150, 300, -1, -1, -1, 0.6};
   const std::vector<Triangle> scene = random_scene(1500, 1);
   const Frame expected = drawn_one_by_one<Visible>(scene, kScreen);
   for (const int thread_count : {1, 2, 3, 8})
@@ -51,12 +51,12 @@ void expect_the_same_for_all_threads() {
 
 TEST(TriangleDrawing, SmallTrianglesAreDrawnInTheirOrder) {
   // On several threads in bands at first, and in layers when there have been many.
-  constexpr ScreenConfig kScreen = {100, 150};
+  constexpr Viewport kScreen = {100, 150};
   using Visible = ZBufferAlgorithm<NearestCoverage, DepthF64>;
   std::vector<Triangle> scene = scene_of_small_triangles(12000);
   // Rounds of large triangles between them.
   const std::vector<Triangle> large = random_scene(40, 3);
-  for (const int place : {2100, 7000}) scene.insert(scene.begin() + place, large.begin(), large.end());
+  for (const int location : {2100, 7000}) scene.insert(scene.begin() + location, large.begin(), large.end());
   const Frame expected = drawn_one_by_one<Visible>(scene, kScreen);
   for (const int thread_count : {1, 2, 3})
     for (const std::size_t batch_size : {7u, 64u, 2048u})
@@ -73,7 +73,7 @@ TEST(TriangleDrawing, CenterCoverageIsThatOfOneTriangleAfterTheOther) {
 }
 
 TEST(TriangleDrawing, InHighBandsATriangleStaysInItsRowsToo) {
-  constexpr ScreenConfig kScreen = {2, 70000};
+  constexpr Viewport kScreen = {2, 70000};
   using Visible = ZBufferAlgorithm<NearestCoverage, DepthF64>;
   // The first two are near the bottom and as deep as the third, which reaches all bands.
   const std::vector<Triangle> scene = {{{{-1, -0.9, 0}, {1, -0.9, 0}, {0, -0.8, 0}}},
@@ -85,7 +85,7 @@ TEST(TriangleDrawing, InHighBandsATriangleStaysInItsRowsToo) {
 }
 
 TEST(TriangleDrawing, MayHaveIdsForColors) {
-  constexpr ScreenConfig kScreen = {40, 30};
+  constexpr Viewport kScreen = {40, 30};
   const std::vector<Triangle> scene = scene_of_small_triangles(3000);
   const auto id_of = [](std::uint64_t i) {
     return Color::from_rgb(0xff123456 - static_cast<std::uint32_t>(i));
@@ -97,7 +97,7 @@ TEST(TriangleDrawing, MayHaveIdsForColors) {
 }
 
 TEST(TriangleDrawing, KeepsTheOrderWhereAllThatIsSeenDependsOnIt) {
-  constexpr ScreenConfig kScreen = {40, 30};
+  constexpr Viewport kScreen = {40, 30};
   // From the top to the bottom, so that there are pixels nobody has drawn yet whenever a thread begins.
   std::vector<Triangle> scene = scene_of_small_triangles(30000);
   std::ranges::sort(scene, std::greater(), [](const Triangle& p) { return p[0].y; });
@@ -111,16 +111,16 @@ TEST(TriangleDrawing, KeepsTheOrderWhereAllThatIsSeenDependsOnIt) {
 }
 
 TEST(TriangleDrawing, NothingDrawnIsTheBackground) {
-  constexpr ScreenConfig kScreen = {5, 5};
+  constexpr Viewport kScreen = {5, 5};
   EXPECT_TRUE((drawn_on_threads<ZBufferAlgorithm<NearestCoverage, DepthF64>>({}, kScreen, 2, 1) ==
                Frame{std::vector<double>(25, 1), std::vector<std::uint32_t>(25)}));
 }
 
 TEST(TriangleDrawing, MayBeGivenUpInTheMiddle) {
-  constexpr ScreenConfig kScreen = {150, 300};
+  constexpr Viewport kScreen = {150, 300};
   ZBufferAlgorithm<NearestCoverage, DepthF64> visible(kScreen);
-  WorkerTeam team(3);
-  TriangleDrawing drawing(visible, kScreen, team, ColorUse::rgb);
+  ThreadPool pool(3);
+  TriangleDrawing drawing(visible, kScreen, pool, ColorUse::rgb);
   for (int i = 0; i < 5; ++i) {
     drawing.next_batch().add({{{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}}}, 0, {});
     drawing.draw_batch([](const TriangleBatch&, std::size_t) { return Color(); });

@@ -21,7 +21,7 @@ inline Color color_of(std::size_t index) {
 }
 
 template <typename Coverage, typename Depth>
-Frame zbuffer_frame(const Scene& scene, const ScreenConfig& screen, std::uint16_t marks = kAllDecimals) {
+Frame zbuffer_frame(const Scene& scene, const Viewport& screen, std::uint16_t marks = kAllDecimals) {
   const Coverage coverage(screen);
   ZBuffer<Depth> buffer(screen);
   for (std::size_t i = 0; i < scene.size(); ++i)
@@ -31,7 +31,7 @@ Frame zbuffer_frame(const Scene& scene, const ScreenConfig& screen, std::uint16_
 }
 
 template <typename Coverage, typename Depth>
-Frame scanline_frame(const Scene& scene, const ScreenConfig& screen, std::uint16_t marks = kAllDecimals) {
+Frame scanline_frame(const Scene& scene, const Viewport& screen, std::uint16_t marks = kAllDecimals) {
   Scanline<Coverage, Depth> scanline(screen);
   for (std::size_t i = 0; i < scene.size(); ++i) scanline.draw({scene[i], nullptr, marks}, color_of(i));
   return frame_of(scanline);

@@ -12,7 +12,7 @@ namespace {
 
 constexpr Color kRed(255, 0, 0);
 constexpr Color kGreen(0, 255, 0);
-constexpr ScreenConfig kSixByTwo = {6, 2, -1, -1, 0, 2};
+constexpr Viewport kSixByTwo = {6, 2, -1, -1, 0, 2};
 
 /// Columns first to last of a row at the depth z0 + slope * column.
 Span span_at(int row, int first_column, int last_column, double z0, double slope = 0) {
@@ -97,7 +97,7 @@ TEST(ZBuffer, InfiniteDepthsAreNotSeen) {
 }
 
 TEST(ZBuffer, RandomSpansGiveWhatALoopOverPixelsGives) {
-  constexpr ScreenConfig kWide = {37, 1, -1, -1, 0.25, 0.75};
+  constexpr Viewport kWide = {37, 1, -1, -1, 0.25, 0.75};
   std::mt19937_64 random(1);
   std::uniform_int_distribution<int> column(0, 36), sixteenth(0, 16);
   ZBuffer<> buffer(kWide);
@@ -155,7 +155,7 @@ TEST(ZBuffer, TwentyFourBitsRoundToTheNearestOf16777215Steps) {
 
 TEST(ZBuffer, BetweenNarrowLimitsTwentyFourBitsAreFinerThanAFloat) {
   // Floats are 2^-24 apart below 1, a step is 0.001 / 2^24; these depths are 2^-28 apart.
-  constexpr ScreenConfig kNarrow = {6, 2, -1, -1, 0.999, 1};
+  constexpr Viewport kNarrow = {6, 2, -1, -1, 0.999, 1};
   const Span far_span = span_at(0, 0, 5, 0.9995 + 0x1p-28), near_span = span_at(0, 0, 5, 0.9995);
   ZBuffer<DepthU24> steps(kNarrow);
   steps.draw(far_span, kRed);

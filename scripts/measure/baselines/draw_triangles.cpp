@@ -33,14 +33,13 @@ std::vector<TriangleBatch> batches_of(const char* path, bool marks_decimals) {
 
 /// One frame, an empty buffer to begin with.
 template <typename Coverage>
-double seconds_for(std::vector<TriangleBatch> batches, const pipeline::ScreenConfig& screen,
-                   int thread_count) {
+double seconds_for(std::vector<TriangleBatch> batches, const pipeline::Viewport& screen, int thread_count) {
   using Visible = pipeline::ZBufferAlgorithm<Coverage, pipeline::DepthF64>;
   pipeline::TriangleColors colors;
   const auto begin = std::chrono::steady_clock::now();
   Visible visible(screen);
-  pipeline::WorkerTeam team(thread_count);
-  pipeline::TriangleDrawing<Visible> drawing(visible, screen, team, pipeline::ColorUse::rgb);
+  pipeline::ThreadPool pool(thread_count);
+  pipeline::TriangleDrawing<Visible> drawing(visible, screen, pool, pipeline::ColorUse::rgb);
   for (TriangleBatch& batch : batches) {
     std::swap(drawing.next_batch(), batch);
     drawing.draw_batch([&](const TriangleBatch& of, std::size_t i) { return colors.of(of.numbers[i]); });
@@ -53,7 +52,7 @@ double seconds_for(std::vector<TriangleBatch> batches, const pipeline::ScreenCon
 
 int main(int argc, char** argv) {
   if (argc != 6) return 2;
-  const pipeline::ScreenConfig screen{std::atoi(argv[1]), std::atoi(argv[2])};
+  const pipeline::Viewport screen{std::atoi(argv[1]), std::atoi(argv[2])};
   const bool is_center = std::string(argv[4]) == "center";
   const int thread_count = std::atoi(argv[5]);
   const std::vector<TriangleBatch> batches = batches_of(argv[3], is_center);

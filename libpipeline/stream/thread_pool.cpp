@@ -1,4 +1,4 @@
-#include "libpipeline/stream/worker_team.h"
+#include "libpipeline/stream/thread_pool.h"
 
 #include <cassert>
 #include <memory>
@@ -6,7 +6,7 @@
 
 namespace pipeline {
 
-WorkerTeam::WorkerTeam(int thread_count) {
+ThreadPool::ThreadPool(int thread_count) {
   assert(thread_count >= 1);
   threads_.reserve(static_cast<std::size_t>(thread_count));
   try {
@@ -16,8 +16,8 @@ WorkerTeam::WorkerTeam(int thread_count) {
   }
 }
 
-WorkerTeam::~WorkerTeam() {
-  give_up();
+ThreadPool::~ThreadPool() {
+  cancel();
   {
     const std::lock_guard lock(mutex_);
     is_over_ = true;
@@ -26,7 +26,7 @@ WorkerTeam::~WorkerTeam() {
   for (std::thread& thread : threads_) thread.join();
 }
 
-void WorkerTeam::start(int task_count, Task task) {
+void ThreadPool::start(int task_count, Task task) {
   if (task_count == 0) return;
   {
     const std::lock_guard lock(mutex_);
@@ -39,7 +39,7 @@ void WorkerTeam::start(int task_count, Task task) {
     has_tasks_.notify_all();
 }
 
-void WorkerTeam::help() {
+void ThreadPool::run_one() {
   Lock lock(mutex_);
   if (!jobs_.empty()) {
     do_next_task(lock, kOwner);
@@ -51,21 +51,21 @@ void WorkerTeam::help() {
   throw_failure();
 }
 
-void WorkerTeam::finish() {
+void ThreadPool::finish() {
   Lock lock(mutex_);
   while (!jobs_.empty()) do_next_task(lock, kOwner);
   is_task_done_.wait(lock, [this] { return busy_count_ == 0; });
   throw_failure();
 }
 
-void WorkerTeam::give_up() {
+void ThreadPool::cancel() {
   Lock lock(mutex_);
   jobs_.clear();
   is_task_done_.wait(lock, [this] { return busy_count_ == 0; });
   failure_ = nullptr;
 }
 
-void WorkerTeam::work(int worker) {
+void ThreadPool::work(int worker) {
   Lock lock(mutex_);
   for (;;) {
     has_tasks_.wait(lock, [this] { return is_over_ || !jobs_.empty(); });
@@ -74,7 +74,7 @@ void WorkerTeam::work(int worker) {
   }
 }
 
-void WorkerTeam::do_next_task(Lock& lock, int worker) {
+void ThreadPool::do_next_task(Lock& lock, int worker) {
   const std::shared_ptr<Job> job = jobs_.front();
   const int number = job->next_task++;
   if (job->next_task == job->task_count) jobs_.pop_front();
@@ -95,7 +95,7 @@ void WorkerTeam::do_next_task(Lock& lock, int worker) {
   is_task_done_.notify_one();
 }
 
-void WorkerTeam::throw_failure() {
+void ThreadPool::throw_failure() {
   if (failure_ != nullptr) std::rethrow_exception(std::exchange(failure_, nullptr));
 }
 

@@ -11,18 +11,18 @@
 
 namespace pipeline {
 
-/// Some threads that, together with the one that owns the team, do the numbered tasks of jobs. Tasks are
+/// Some threads that, together with the one that owns the pool, do the numbered tasks of jobs. Tasks are
 /// begun in order, by whoever is free; nothing is said of the order in which those of several workers end. A
 /// worker does one task at a time. Workers have numbers, too, less than size(); the owner is 0.
-class WorkerTeam {
+class ThreadPool {
  public:
-  /// `thread_count`, at least 1, includes the owner: a team of 1 does everything in help() and finish().
-  /// Where the system has fewer threads to give, the team is smaller.
-  explicit WorkerTeam(int thread_count);
-  /// As give_up().
-  ~WorkerTeam();
-  WorkerTeam(const WorkerTeam&) = delete;
-  WorkerTeam& operator=(const WorkerTeam&) = delete;
+  /// `thread_count`, at least 1, includes the owner: a pool of 1 does everything in run_one() and finish().
+  /// Where the system has fewer threads to give, the pool is smaller.
+  explicit ThreadPool(int thread_count);
+  /// As cancel().
+  ~ThreadPool();
+  ThreadPool(const ThreadPool&) = delete;
+  ThreadPool& operator=(const ThreadPool&) = delete;
 
   /// How many threads there are, the owner included.
   [[nodiscard]] int size() const { return static_cast<int>(threads_.size()) + 1; }
@@ -35,12 +35,12 @@ class WorkerTeam {
   /// Does the next task or, where all are begun, waits until one is done; returns at once if all are done.
   /// What a task threw is thrown here, in start() or in finish(); the tasks started before and not yet begun
   /// are left out.
-  void help();
+  void run_one();
   /// Helps until every task is done.
   void finish();
   /// Waits for tasks that were begun, whatever they throw; others are not done any more. For destructors of
   /// what tasks use.
-  void give_up();
+  void cancel();
 
  private:
   static constexpr int kOwner = 0;

@@ -1,4 +1,4 @@
-#include "tools/lack_of_memory.h"
+#include "tools/out_of_memory.h"
 
 #include <unistd.h>
 
@@ -14,7 +14,7 @@ namespace {
 constexpr const char* kMessage = ": not enough memory\n";
 
 /// Known before main; constant, as no constructor has run when it is first asked for.
-constinit LackOfMemory current = {nullptr, false};
+constinit OutOfMemoryReport current = {nullptr, false};
 
 /// "BEFORE TOOL: not enough memory" in one write, so that it stays one line among those of the other stages.
 void write_line(int descriptor, const char* before, const char* tool) noexcept {
@@ -38,13 +38,13 @@ void write_line(int descriptor, const char* before, const char* tool) noexcept {
 
 }  // namespace
 
-void LackOfMemory::report() const noexcept {
+void OutOfMemoryReport::report() const noexcept {
   write_line(STDERR_FILENO, "", tool);
   // A person at a terminal has just read it.
   if (is_told_to_next_stage && ::isatty(STDOUT_FILENO) == 0) write_line(STDOUT_FILENO, "error ", tool);
 }
 
-LackOfMemory end_process_without_memory(const LackOfMemory& report) noexcept {
+OutOfMemoryReport end_process_without_memory(const OutOfMemoryReport& report) noexcept {
   current = report;
   std::set_new_handler(end_process);
   return report;

@@ -1,4 +1,4 @@
-#include "libpipeline/text/plain_number.h"
+#include "libpipeline/text/decimal_number.h"
 
 #include <gtest/gtest.h>
 
@@ -15,18 +15,18 @@ namespace pipeline {
 namespace {
 
 /// What follows the text, and must not become part of it.
-const std::string kSlack(kPlainNumberSlack, '7');
+const std::string kSlack(kDecimalNumberSlack, '7');
 
 /// The length of the number at the beginning of `text`, -1 if it is left to others.
-long length_of(const std::string& text, PlainNumber& number) {
+long length_of(const std::string& text, DecimalNumber& number) {
   const std::string with_slack = text + " " + kSlack;
-  const char* const end = read_plain_number(with_slack.data(), number);
+  const char* const end = read_decimal_number(with_slack.data(), number);
   return end == nullptr ? -1 : end - with_slack.data();
 }
 
-bool reads_line(const std::string& line, std::vector<PlainNumber>& numbers) {
+bool reads_line(const std::string& line, std::vector<DecimalNumber>& numbers) {
   const std::string with_slack = line + kSlack;
-  const char* const end = read_plain_line(with_slack.data(), with_slack.data() + line.size(), numbers);
+  const char* const end = read_decimal_line(with_slack.data(), with_slack.data() + line.size(), numbers);
   return end == with_slack.data() + line.size();
 }
 
@@ -38,14 +38,14 @@ double from_chars(const std::string& text) {
 
 /// True if the number is left to others, or is what from_chars makes of it.
 bool is_right(const std::string& text, bool& was_read) {
-  PlainNumber number;
+  DecimalNumber number;
   const long length = length_of(text, number);
   was_read = length == static_cast<long>(text.size());
   return length == -1 || (was_read && std::bit_cast<std::uint64_t>(number.value) ==
                                           std::bit_cast<std::uint64_t>(from_chars(text)));
 }
 
-TEST(PlainNumber, ReadsWhatPeopleWrite) {
+TEST(DecimalNumber, ReadsWhatPeopleWrite) {
   for (const char* text :
        {"0", "-0", "1", "-1.5", "00012", "12345678", "0.1", ".5", "-.5", "5.", "0.30000000000000004",
         "99999999.99999999", "3.14159265358979323", "0.000000000000000000000001"}) {
@@ -55,35 +55,35 @@ TEST(PlainNumber, ReadsWhatPeopleWrite) {
   }
 }
 
-TEST(PlainNumber, LeavesOthersToTheGeneralReader) {
+TEST(DecimalNumber, LeavesOthersToTheGeneralReader) {
   for (const char* text : {"", "-", ".", "-.", "--1", "+1", "x", "nan", "inf", "123456789", "123456789.5",
                            "0.1234567890123456789012345", "99999999.123456789012"}) {
-    PlainNumber number;
+    DecimalNumber number;
     EXPECT_EQ(length_of(text, number), -1) << text;
   }
 }
 
-TEST(PlainNumber, EndsWhereTheNumberEnds) {
+TEST(DecimalNumber, EndsWhereTheNumberEnds) {
   for (const char* rest : {"e5", ",5", ".5", "-5", "x", "/", ":", "\xff", "\x80", "\n"}) {
-    PlainNumber number;
+    DecimalNumber number;
     EXPECT_EQ(length_of(std::string("1.25") + rest, number), 4) << rest;
     EXPECT_EQ(number.value, 1.25);
     EXPECT_EQ(number.decimals, 2);
   }
 }
 
-TEST(PlainNumber, CountsDecimals) {
+TEST(DecimalNumber, CountsDecimals) {
   for (const auto& [text, decimals] :
        {std::pair{"7", 0}, {"7.", 0}, {"0.5", 1}, {"1.50", 2}, {"-1.2345678", 7}, {".00000000", 8}}) {
-    PlainNumber number;
+    DecimalNumber number;
     ASSERT_GT(length_of(text, number), 0) << text;
     EXPECT_EQ(number.decimals, decimals) << text;
   }
 }
 
-TEST(PlainNumber, ZeroMayHaveManyDecimals) {
+TEST(DecimalNumber, ZeroMayHaveManyDecimals) {
   for (const std::size_t decimals : {8, 16, 22, 23, 24}) {
-    PlainNumber number;
+    DecimalNumber number;
     const std::string text = "-0." + std::string(decimals, '0');
     EXPECT_EQ(length_of(text, number), static_cast<long>(text.size()));
     EXPECT_EQ(std::bit_cast<std::uint64_t>(number.value), std::uint64_t{1} << 63) << text;
@@ -92,7 +92,7 @@ TEST(PlainNumber, ZeroMayHaveManyDecimals) {
 }
 
 // 2^53 + 1 lies in the middle between two doubles, and so do quotients that are whole numbers of it.
-TEST(PlainNumber, TiesAreRoundedLikeAnyOther) {
+TEST(DecimalNumber, TiesAreRoundedLikeAnyOther) {
   for (const char* text : {"9007199.254740993", "900719.9254740993", "0.9007199254740993",
                            "4503599.62737049650", "1.50000000000000011102", "1.00000000000000011102",
                            "0.50000000000000005551", "90071.992547409910", "90071.992547409930"}) {
@@ -102,7 +102,7 @@ TEST(PlainNumber, TiesAreRoundedLikeAnyOther) {
 }
 
 // Long: every count of digits before and behind the point, 10^8 numbers.
-TEST(PlainNumberLong, ReadsWhatFromCharsReads) {
+TEST(DecimalNumberLong, ReadsWhatFromCharsReads) {
   RandomNumbers random(3);
   std::int64_t read_count = 0;
   constexpr int kCount = 100'000'000;
@@ -128,7 +128,7 @@ TEST(PlainNumberLong, ReadsWhatFromCharsReads) {
 }
 
 // Long: doubles in the shortest form that reads back to them, as `--digits exact` prints them.
-TEST(PlainNumberLong, ReadsTheShortestFormBack) {
+TEST(DecimalNumberLong, ReadsTheShortestFormBack) {
   RandomNumbers random(4);
   std::array<char, 32> text{};
   int read_count = 0;
@@ -143,29 +143,29 @@ TEST(PlainNumberLong, ReadsTheShortestFormBack) {
   EXPECT_GT(read_count, kCount * 9 / 10);
 }
 
-TEST(PlainLine, HoldsItsNumbersAndBlanks) {
+TEST(DecimalLine, HoldsItsNumbersAndBlanks) {
   for (const char* line : {"1 2 3\n", "  1\t2   3 \n", "1 2 3\r\n", "-1 .5 3.\n"}) {
-    std::vector<PlainNumber> numbers(3);
+    std::vector<DecimalNumber> numbers(3);
     EXPECT_TRUE(reads_line(line, numbers)) << line;
     EXPECT_EQ(numbers[2].value, 3) << line;
   }
 }
 
-TEST(PlainLine, AnyOtherIsLeftToTheGeneralReader) {
+TEST(DecimalLine, AnyOtherIsLeftToTheGeneralReader) {
   for (const char* line : {"", "\n", "1 2\n", "1 2 3 4\n", "1 2 3", "1 2 3 # a comment\n", "1 2 3e5\n",
                            "1 2-3\n", "1 2 3\r", "1 2 3\r\r\n", "1,5 2 3\n", "1 2 \n", "1 2 3\v\n"}) {
-    std::vector<PlainNumber> numbers(3);
+    std::vector<DecimalNumber> numbers(3);
     EXPECT_FALSE(reads_line(line, numbers)) << line;
   }
 }
 
 // The slack goes on with what would complete the line.
-TEST(PlainLine, DoesNotReadOnBehindTheEnd) {
+TEST(DecimalLine, DoesNotReadOnBehindTheEnd) {
   const std::string text = "1 2 34\n";
   for (std::size_t length = 0; length < text.size(); ++length) {
-    std::vector<PlainNumber> numbers(3);
+    std::vector<DecimalNumber> numbers(3);
     const std::string with_slack = text + kSlack;
-    EXPECT_EQ(read_plain_line(with_slack.data(), with_slack.data() + length, numbers), nullptr) << length;
+    EXPECT_EQ(read_decimal_line(with_slack.data(), with_slack.data() + length, numbers), nullptr) << length;
   }
 }
 

@@ -1,4 +1,4 @@
-#include "libpipeline/vertex/view_position.h"
+#include "libpipeline/vertex/view_from_clip.h"
 
 namespace pipeline {
 

@@ -9,19 +9,19 @@ namespace pipeline {
 
 /// A mistake in a text, kept until the triangles before it were given out: how much of the text passes then
 /// does not depend on the size of batches.
-class LateMistake {
+class DeferredError {
  public:
   /// The next call of `read` throws the exception that is being handled.
-  void keep() { mistake_ = std::current_exception(); }
+  void keep() { deferred_error_ = std::current_exception(); }
 
-  [[nodiscard]] bool is_kept() const { return mistake_ != nullptr; }
+  [[nodiscard]] bool is_kept() const { return deferred_error_ != nullptr; }
 
   /// Has `fill` put triangles into the batch, emptied before; false if there were none. What `fill` throws
   /// is thrown at once if there are none before it, else by the next call.
   template <typename Fill>
   bool read(TriangleBatch& batch, const Fill& fill) {
     batch.clear();
-    if (mistake_) std::rethrow_exception(mistake_);
+    if (deferred_error_) std::rethrow_exception(deferred_error_);
     try {
       fill();
     } catch (const std::runtime_error&) {  // lack of memory may have left the batch half filled
@@ -32,7 +32,7 @@ class LateMistake {
   }
 
  private:
-  std::exception_ptr mistake_;
+  std::exception_ptr deferred_error_;
 };
 
 }  // namespace pipeline

@@ -1,6 +1,6 @@
 // Depths as weighted means in doubles, against rational arithmetic (GMP).
 
-#include "libpipeline/coverage/plain_depth.h"
+#include "libpipeline/coverage/depth_in_doubles.h"
 
 #include <gmpxx.h>
 #include <gtest/gtest.h>
@@ -31,7 +31,7 @@ struct Row {
 
 /// Rows that end at random places of the triangle, often on an edge or in a corner.
 Row random_row(RandomNumbers& random) {
-  const std::int64_t most = PlainDepth::kLargestWeight >> random.whole(0, 40);
+  const std::int64_t most = DepthInDoubles::kMaxWeight >> random.whole(0, 40);
   const auto below = [&](std::int64_t end) {
     return random.whole(0, 3) == 0
                ? 0
@@ -65,15 +65,15 @@ std::array<double, 3> random_depths(RandomNumbers& random) {
   return z;
 }
 
-TEST(PlainDepth, IsWithinItsBoundAlongEveryRow) {
+TEST(DepthInDoubles, IsWithinItsBoundAlongEveryRow) {
   RandomNumbers random(1);
   double largest_error = 0;
   for (int i = 0; i < 20'000; ++i) {
     const Row row = random_row(random);
     const std::array<double, 3> z = random_depths(random);
-    ASSERT_TRUE(PlainDepth::can_take(z, row.total, row.b_step, row.c_step));
-    const PlainDepth plain(z, static_cast<double>(row.total), static_cast<double>(row.b_step),
-                           static_cast<double>(row.c_step));
+    ASSERT_TRUE(DepthInDoubles::can_take(z, row.total, row.b_step, row.c_step));
+    const DepthInDoubles plain(z, static_cast<double>(row.total), static_cast<double>(row.b_step),
+                               static_cast<double>(row.c_step));
     const int first = random.whole(0, 60'000), gaps = row.pixel_count - 1, last = first + gaps;
     const SpanDepth depth = plain.along(first, last, static_cast<double>(2 * row.b + gaps * row.b_step),
                                         static_cast<double>(2 * row.c + gaps * row.c_step));
@@ -95,30 +95,31 @@ TEST(PlainDepth, IsWithinItsBoundAlongEveryRow) {
   EXPECT_GT(largest_error, 6.5 / 3 * 0x1p-53);
 }
 
-TEST(PlainDepth, OneDepthIsThatDepthEverywhere) {
+TEST(DepthInDoubles, OneDepthIsThatDepthEverywhere) {
   for (const double z : {0.1, -0.0, 5e-324, 1e308}) {
-    ASSERT_TRUE(PlainDepth::can_take({z, z, z}, 7, 3, -2));
-    const SpanDepth depth = PlainDepth({z, z, z}, 7, 3, -2).along(10, 11, 5, 2);
+    ASSERT_TRUE(DepthInDoubles::can_take({z, z, z}, 7, 3, -2));
+    const SpanDepth depth = DepthInDoubles({z, z, z}, 7, 3, -2).along(10, 11, 5, 2);
     EXPECT_EQ(std::bit_cast<std::uint64_t>(depth(10)), std::bit_cast<std::uint64_t>(z));
     EXPECT_EQ(depth(11), z);
   }
 }
 
-TEST(PlainDepth, ZeroHasNoSign) {
+TEST(DepthInDoubles, ZeroHasNoSign) {
   // At b: 2 * -0.0 and two weights of 0, of which one meets -1.
-  const SpanDepth depth = PlainDepth({-1, -0.0, -0.0}, 1, 0, 0).along(3, 3, 2, 0);
+  const SpanDepth depth = DepthInDoubles({-1, -0.0, -0.0}, 1, 0, 0).along(3, 3, 2, 0);
   EXPECT_EQ(std::bit_cast<std::uint64_t>(depth.z0), 0u);
   EXPECT_EQ(std::bit_cast<std::uint64_t>(depth.slope), 0u);
 }
 
-TEST(PlainDepth, TakesWhatDoublesHold) {
-  constexpr std::int64_t kMost = PlainDepth::kLargestWeight;
-  EXPECT_TRUE(PlainDepth::can_take({0, 1, 2}, kMost, kMost, -kMost));
-  EXPECT_FALSE(PlainDepth::can_take({0, 1, 2}, kMost + 1, 0, 0));
-  EXPECT_FALSE(PlainDepth::can_take({0, 1, 2}, 1, kMost + 1, 0));
-  EXPECT_FALSE(PlainDepth::can_take({0, 1, 2}, 1, 0, -kMost - 1));
-  EXPECT_FALSE(PlainDepth::can_take({1e-300, 0, 0}, 1, 0, 0)) << "products with weights would lose digits";
-  EXPECT_FALSE(PlainDepth::can_take({1e300, 0, 0}, 1, 0, 0)) << "products with weights would be infinite";
+TEST(DepthInDoubles, TakesWhatDoublesHold) {
+  constexpr std::int64_t kMost = DepthInDoubles::kMaxWeight;
+  EXPECT_TRUE(DepthInDoubles::can_take({0, 1, 2}, kMost, kMost, -kMost));
+  EXPECT_FALSE(DepthInDoubles::can_take({0, 1, 2}, kMost + 1, 0, 0));
+  EXPECT_FALSE(DepthInDoubles::can_take({0, 1, 2}, 1, kMost + 1, 0));
+  EXPECT_FALSE(DepthInDoubles::can_take({0, 1, 2}, 1, 0, -kMost - 1));
+  EXPECT_FALSE(DepthInDoubles::can_take({1e-300, 0, 0}, 1, 0, 0))
+      << "products with weights would lose digits";
+  EXPECT_FALSE(DepthInDoubles::can_take({1e300, 0, 0}, 1, 0, 0)) << "products with weights would be infinite";
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "libpipeline/text/plain_number.h"
+#include "libpipeline/text/decimal_number.h"
 
 #include <array>
 #include <bit>
@@ -109,7 +109,7 @@ const char* read_more_decimals(const char* p, std::uint64_t& digits, int& decima
 
 }  // namespace
 
-const char* read_plain_number(const char* p, PlainNumber& number) {
+const char* read_decimal_number(const char* p, DecimalNumber& number) {
   const std::uint64_t sign = *p == '-' ? std::uint64_t{1} << 63 : 0;
   p += sign >> 63;
   std::uint64_t digits = 0;
@@ -136,16 +136,16 @@ const char* read_plain_number(const char* p, PlainNumber& number) {
   return p;
 }
 
-const char* read_plain_line(const char* p, const char* end, std::span<PlainNumber> numbers) {
+const char* read_decimal_line(const char* p, const char* end, std::span<DecimalNumber> numbers) {
   const auto skip_blanks = [&] {
     while (p < end && (*p == ' ' || *p == '\t')) ++p;
   };
   skip_blanks();
   const char* before = nullptr;
-  for (PlainNumber& number : numbers) {
+  for (DecimalNumber& number : numbers) {
     // A blank separates it from the number before.
     if (p == before || p >= end) return nullptr;
-    p = read_plain_number(p, number);
+    p = read_decimal_number(p, number);
     if (p == nullptr) return nullptr;
     before = p;
     skip_blanks();

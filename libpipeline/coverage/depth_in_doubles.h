@@ -24,11 +24,11 @@ namespace pipeline {
 /// whose rests are added; u |h s| for the last sum, for the quotient and for the product with h. The sum of
 /// both is off by u Z. |m| + |h s| is at most Z, because the span's ends are in the triangle and are m + h s
 /// and m - h s: 3.5 u Z + 2.5 u |m| + 3 u |h s| in all.
-class PlainDepth {
+class DepthInDoubles {
  public:
-  static constexpr std::int64_t kLargestWeight = std::int64_t{1} << 50;
+  static constexpr std::int64_t kMaxWeight = std::int64_t{1} << 50;
   /// No product with a weight leaves a double's range between these, and a depth below them is not missed.
-  static constexpr double kSmallestDepth = 0x1p-900, kLargestDepth = 0x1p900;
+  static constexpr double kMinDepth = 0x1p-900, kMaxDepth = 0x1p900;
 
   /// Makes 0 of -0, so that the sign of a zero does not depend on the signs of the weights, nor on zeros
   /// among them.
@@ -38,11 +38,11 @@ class PlainDepth {
   static bool can_take(const std::array<double, 3>& z, std::int64_t total, std::int64_t b_step,
                        std::int64_t c_step) {
     const double size = std::max({std::fabs(z[0]), std::fabs(z[1]), std::fabs(z[2])});
-    return std::max({total, std::abs(b_step), std::abs(c_step)}) <= kLargestWeight &&
-           (is_flat(z) || (kSmallestDepth <= size && size <= kLargestDepth));
+    return std::max({total, std::abs(b_step), std::abs(c_step)}) <= kMaxWeight &&
+           (is_flat(z) || (kMinDepth <= size && size <= kMaxDepth));
   }
 
-  PlainDepth(const std::array<double, 3>& z, double total, double b_step, double c_step)
+  DepthInDoubles(const std::array<double, 3>& z, double total, double b_step, double c_step)
       : z_(z), twice_total_(2 * total), is_flat_(is_flat(z)) {
     if (is_flat_) return;
     const DoubleDouble of_two = two_sum(b_step * z[1], c_step * z[2]);

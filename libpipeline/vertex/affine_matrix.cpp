@@ -1,4 +1,4 @@
-#include "libpipeline/vertex/mat4.h"
+#include "libpipeline/vertex/affine_matrix.h"
 
 #include <algorithm>
 #include <cmath>

@@ -16,14 +16,14 @@ constexpr int kBlockColumns = 32;
 /// nowhere in it. Source: N. Greene, M. Kass, G. Miller, "Hierarchical Z-buffer visibility", 1993. `Depth` is
 /// a depth format.
 template <typename Depth>
-class FarthestDepths {
+class HierarchicalDepth {
  public:
   using Stored = typename Depth::Stored;
   /// Behind the last block of a row so many may be read.
   static constexpr std::size_t kPadding = 7;
 
   /// For rows of `columns` pixels. Takes memory when it is asked for a row.
-  FarthestDepths(const RowRange& rows, int columns)
+  HierarchicalDepth(const RowRange& rows, int columns)
       : rows_(rows), stride_(static_cast<std::size_t>((columns + kBlockColumns - 1) / kBlockColumns)) {}
 
   /// Those of a row, block by block; at first more than any depth of a pixel.
