@@ -1,0 +1,172 @@
+"""The runs whose instructions scripts/bench --instructions counts, and their inputs.
+
+The inputs come from integers alone, so that every version of Python writes the same bytes.
+"""
+import dataclasses
+
+UNIT = 10**7  # lengths are integers in units of the seventh decimal
+CAMERA = "eye 1.8 1.2 2.4\nlook 0 0 0\nup 0 1 0\n"
+PROJECTION = "perspective 40 1 1 10\n"
+LIGHTS = "ambient 0.1 0.1 0.1\nmaterial 1 0.8 0.6 30\nlight -3 2.5 -1 1 0.6 0.5\nlight 3 2 0.5 0.3 0.5 1\n"
+
+
+class Integers:
+    """The linear congruential generator of D. E. Knuth's MMIX, less its 24 low bits."""
+
+    def __init__(self):
+        self.state = 1
+
+    def within(self, reach):
+        """An integer from -reach to reach."""
+        self.state = (self.state * 6364136223846793005 + 1442695040888963407) % 2**64
+        return (self.state >> 24) % (2 * reach + 1) - reach
+
+
+def decimal(number):
+    whole, rest = divmod(abs(number), UNIT)
+    return f"{'-' * (number < 0)}{whole}.{rest:07}"
+
+
+def triangles(count, reach, size, middle_z=0, columns=()):
+    """Bare stage text: corners within `size` (x, y, z) of middles that lie within `reach` of (0 0 middle_z), and further columns."""
+    integers, lines = Integers(), []
+    for _ in range(count):
+        middle = [offset + integers.within(limit) for offset, limit in zip((0, 0, middle_z), reach)]
+        for _ in range(3):
+            numbers = [center + integers.within(limit) for center, limit in zip(middle, size)]
+            numbers += [5 * UNIT + integers.within(4 * UNIT)] * ("w" in columns)
+            numbers += [(128 + integers.within(127)) * UNIT for _ in range(3 * ("color" in columns))]
+            numbers += [integers.within(UNIT) for _ in range(3 * ("normal" in columns))]
+            lines.append(" ".join(map(decimal, numbers)))
+        lines.append("")
+    return "\n".join(lines) + "\n"
+
+
+def in_world(count, **columns):
+    return triangles(count, (UNIT,) * 3, (UNIT // 50,) * 3, **columns)
+
+
+def in_view(count, **columns):
+    return triangles(count, (UNIT,) * 3, (UNIT // 50,) * 3, middle_z=-4 * UNIT, **columns)
+
+
+def across_the_frustum(count, **columns):
+    """In view space: about half of them cross planes of the frustum, the near one, too, and some are outside."""
+    return triangles(count, (2 * UNIT, 2 * UNIT, 3 * UNIT), (UNIT,) * 3, middle_z=-4 * UNIT, **columns)
+
+
+def small_on_screen(count, **columns):
+    """About three pixels of 500 x 500 each."""
+    return triangles(count, (UNIT,) * 3, (UNIT // 130, UNIT // 130, UNIT // 500), **columns)
+
+
+def large_on_screen(count, **columns):
+    return triangles(count, (UNIT // 10,) * 3, (UNIT * 9 // 10,) * 3, **columns)
+
+
+def header(space, columns):
+    """What stands before the first triangle."""
+    names = f"attributes {' '.join(columns)}\n" if columns else ""
+    return {"scene": "", "world": CAMERA + PROJECTION, "view": PROJECTION, "screen": "frustum -0.4 0.4 -0.4 0.4 1 10\n" * bool(columns)}[space] + names + (LIGHTS if columns else "")
+
+
+def lit(space, make, count, repeats=1):
+    columns = ("w",) * (space == "screen") + ("color", "normal")
+    return header(space, columns) + make(count, columns=columns) * repeats
+
+
+def scene(stage_text, before_each="", after_each="", columns=()):
+    """A scene of the triangles of a bare stage text, with commands around each."""
+    camera = "".join(line.split(" ", 1)[1] + "\n" for line in (CAMERA + PROJECTION).splitlines())
+    body = "".join(f"{before_each}triangle\n{triangle}\n{after_each}" for triangle in stage_text.split("\n\n") if triangle)
+    return camera + header("scene", columns) + body + "end\n"
+
+
+def odd_numbers(stage_text):
+    """The same vertices with exponents and up to 16 digits."""
+    return "\n".join(" ".join(f"{number}123456e-1" for number in line.split()) for line in stage_text.split("\n"))
+
+
+TURNED = "push\ntranslate 0.25 -0.5 0.125\nrotate 30 1 2 3\nscale 0.5 2 1.5\n"
+
+TEXTS = {
+    "one-scene.txt": lambda: scene(in_world(1)),
+    "one-world.txt": lambda: header("world", ()) + in_world(1),
+    "one-view.txt": lambda: header("view", ()) + in_view(1),
+    "one-screen.txt": lambda: small_on_screen(1),
+    "scene.txt": lambda: scene(in_world(2000) * 15),
+    "turned-scene.txt": lambda: scene(in_world(600), TURNED + TURNED, "pop\npop\n"),
+    "odd-scene.txt": lambda: scene(odd_numbers(in_world(2000)) * 3),
+    "lit-scene.txt": lambda: scene(in_world(2000, columns=("color", "normal")) * 4, columns=("color", "normal")),
+    "world.txt": lambda: header("world", ()) + in_world(2000) * 25,
+    "lit-world.txt": lambda: lit("world", in_world, 2000, 6),
+    "short-world.txt": lambda: header("world", ()) + in_world(2000) * 10,
+    "view.txt": lambda: header("view", ()) + in_view(2000) * 25,
+    "short-view.txt": lambda: header("view", ()) + in_view(2000) * 10,
+    "lit-view.txt": lambda: lit("view", in_view, 2000, 6),
+    "crossing.txt": lambda: header("view", ()) + across_the_frustum(2000) * 3,
+    "lit-crossing.txt": lambda: lit("view", across_the_frustum, 2000, 2),
+    "small.txt": lambda: small_on_screen(40_000),
+    "large.txt": lambda: large_on_screen(1500),
+    "few-large.txt": lambda: large_on_screen(100),
+    "lit-screen.txt": lambda: lit("screen", large_on_screen, 100),
+    "config.txt": lambda: "500 500\n",
+    "narrow.txt": lambda: "300 300\n",
+    "tiny.txt": lambda: "4 4\n",
+}
+
+
+@dataclasses.dataclass(frozen=True)
+class Row:
+    name: str
+    words: str  # the tool and its arguments
+    kernel: str = "avx2"
+
+    @property
+    def tool(self):
+        return self.words.split()[0]
+
+
+NO_IMAGE = "--image /dev/null"
+
+ROWS = [
+    Row("model: one triangle", "model one-scene.txt"),
+    Row("view: one triangle", "view one-world.txt"),
+    Row("project: one triangle", "project one-view.txt"),
+    Row("zbuf: one triangle", f"zbuf tiny.txt one-screen.txt {NO_IMAGE}"),
+    Row("model: plain", "model scene.txt"),
+    Row("view: plain", "view world.txt"),
+    Row("view: plain, sse4", "view world.txt", "sse4"),
+    Row("view: plain, portable", "view world.txt", "portable"),
+    Row("project: plain", "project view.txt"),
+    Row("model: transforms", "model turned-scene.txt"),
+    Row("model: exponents and 16 digits", "model odd-scene.txt"),
+    Row("model: lit", "model lit-scene.txt"),
+    Row("view: lit", "view lit-world.txt"),
+    Row("project: lit", "project lit-view.txt"),
+    Row("view: exact digits", "view short-world.txt --digits exact"),
+    Row("view: 9 digits", "view short-world.txt --digits 9"),
+    Row("view: double precision", "view world.txt --precision double"),
+    Row("project: exact digits", "project short-view.txt --digits exact"),
+    Row("project: double precision", "project view.txt --precision double"),
+    Row("project: clipped at the near plane", "project crossing.txt --clip near"),
+    Row("project: clipped at the frustum", "project crossing.txt --clip frustum"),
+    Row("project: lit, clipped at the frustum", "project lit-crossing.txt --clip frustum"),
+    Row("project: culled", "project view.txt --cull back"),
+    Row("zbuf: small, nearest", f"zbuf config.txt small.txt {NO_IMAGE}"),
+    Row("zbuf: small, nearest, portable", f"zbuf config.txt small.txt {NO_IMAGE}", "portable"),
+    Row("zbuf: small, center", f"zbuf config.txt small.txt {NO_IMAGE} --coverage center"),
+    Row("zbuf: large, nearest", f"zbuf config.txt large.txt {NO_IMAGE}"),
+    Row("zbuf: large, center", f"zbuf config.txt large.txt {NO_IMAGE} --coverage center"),
+    Row("zbuf: small, scan-line", f"zbuf config.txt small.txt {NO_IMAGE} --algorithm scanline"),
+    Row("zbuf: large, scan-line", f"zbuf config.txt few-large.txt {NO_IMAGE} --algorithm scanline"),
+    Row("zbuf: flat", f"zbuf narrow.txt lit-screen.txt {NO_IMAGE} --shading flat"),
+    Row("zbuf: gouraud", f"zbuf narrow.txt lit-screen.txt {NO_IMAGE} --shading gouraud"),
+    Row("zbuf: phong", f"zbuf narrow.txt lit-screen.txt {NO_IMAGE} --shading phong"),
+    Row("zbuf: 2 x 2 samples", f"zbuf config.txt few-large.txt {NO_IMAGE} --samples 2"),
+    Row("zbuf: float depths", f"zbuf config.txt large.txt {NO_IMAGE} --depth f32"),
+    Row("zbuf: 24-bit depths", f"zbuf config.txt large.txt {NO_IMAGE} --depth u24"),
+    Row("zbuf: depths into a file", f"zbuf config.txt large.txt {NO_IMAGE} --z-buffer depths.txt"),
+    Row("zbuf: PNG", "zbuf narrow.txt small.txt --image image.png"),
+    Row("zbuf: wireframe", f"zbuf config.txt few-large.txt {NO_IMAGE} --wireframe"),
+]

@@ -1,0 +1,155 @@
+"""Holds the speed of the tools: the instructions of every row of instruction_rows.py against the committed count.
+
+Counts do not depend on what else the machine does. Valgrind shows a program the same processor on every host that has AVX2, so
+they do not depend on the host either; they do on the compiler and the kernel, which a row therefore names.
+"""
+import csv
+import dataclasses
+import os
+import pathlib
+import platform
+import re
+import shutil
+import subprocess
+import tempfile
+
+from parts.instruction_rows import ROWS, TEXTS
+from parts.measuring import write_csv
+
+TOLERATED_PERCENT = 1.0
+FLAGS = {"portable": set(), "sse4": {"sse4_2", "bmi1"}, "avx2": {"sse4_2", "bmi1", "avx2", "fma"}}  # in /proc/cpuinfo
+
+
+class RunFailed(Exception):
+    """A tool, or Valgrind, gave up."""
+
+
+def compiler_of(program):
+    """Name and version, from the section .comment. What clang links holds objects of GCC's, too, hence the order."""
+    content = program.read_bytes()
+    for name, mark in (("clang", rb"clang version (\d[\d.]*)"), ("GCC", rb"GCC: \([^)]*\) (\d[\d.]*)")):
+        if found := re.search(mark, content):
+            return f"{name} {found[1].decode()}"
+    return "an unknown compiler"
+
+
+def processor_flags():
+    lines = pathlib.Path("/proc/cpuinfo").read_text().splitlines()
+    return next((set(line.split(":", 1)[1].split()) for line in lines if line.startswith("flags")), set())
+
+
+def no_count_at_all():
+    """Why nothing can be counted here, or None."""
+    if platform.machine() != "x86_64":
+        return f"the committed counts are those of x86-64, this is {platform.machine()}"
+    return None if shutil.which("valgrind") else "valgrind is not installed (Debian: valgrind)"
+
+
+def count(row, folder):
+    """The instructions of one run in `folder`, in which bin/ has the tools, in the same environment whatever the caller's."""
+    for word in row.words.split():
+        if word in TEXTS and not (folder / word).exists():
+            (folder / word).write_text(TEXTS[word]())
+    words = [shutil.which("valgrind"), "--tool=callgrind", "--callgrind-out-file=/dev/null", f"bin/{row.tool}", *row.words.split()[1:], "--threads", "1"]
+    done = subprocess.run(words, cwd=folder, env={"PATH": "/usr/bin:/bin", "LC_ALL": "C", "PIPELINE_KERNEL": row.kernel}, stdin=subprocess.DEVNULL,
+                          stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, errors="replace")
+    collected = re.search(r"Collected : (\d+)", done.stderr)
+    if done.returncode != 0 or not collected:
+        own = [line for line in done.stderr.splitlines() if line and not line.startswith("==")]
+        raise RunFailed(f"{row.words} failed with status {done.returncode}: {' '.join(own) or 'valgrind has counted nothing'}")
+    return int(collected[1])
+
+
+@dataclasses.dataclass
+class Committed:
+    compiler: str
+    instructions: int
+
+
+def committed_counts(path):
+    """{(row, kernel): Committed}"""
+    if not path.exists():
+        return {}
+    with open(path, newline="") as file:
+        return {(line["row"], line["kernel"]): Committed(line["compiler"], int(line["instructions"])) for line in csv.DictReader(file)}
+
+
+class Comparison:
+    """One run over the rows: what was counted, and what came of it."""
+
+    def __init__(self, committed, accept):
+        self.committed, self.accept = committed, accept
+        self.counted = {}  # {(row, kernel): Committed}
+        self.passed, self.failures, self.shrunk, self.skipped = 0, [], [], 0
+
+    def tell(self, row, *cells):
+        print(f"{row.name:36} {row.kernel:8}", *cells, flush=True)
+
+    def skip(self, row, reason):
+        self.skipped += 1
+        self.tell(row, "skipped:", reason)
+
+    def fail(self, row, reason):
+        self.failures.append(f"{row.name}: {reason}")
+
+    def compare(self, row, compiler, folder):
+        key = row.name, row.kernel
+        before = self.committed.get(key)
+        if before and before.compiler != compiler and not self.accept:
+            return self.skip(row, f"built by {compiler}, the committed count is for {before.compiler}")
+        try:
+            now = count(row, folder)
+        except RunFailed as error:
+            self.tell(row, "failed")
+            return self.fail(row, str(error))
+        self.counted[key] = Committed(compiler, now)
+        change = 100 * (now - before.instructions) / before.instructions if before else 0.0
+        self.tell(row, *((f"{before.instructions:15,}", f"{now:15,}", f"{change:+8.2f} %") if before else (f"{'none':>15}", f"{now:15,}")))
+        if self.accept or (before and change <= TOLERATED_PERCENT):
+            self.passed += 1
+        elif before:
+            self.fail(row, f"{before.instructions:,} instructions committed, {now:,} counted, {change:+.2f} %")
+        else:
+            self.fail(row, f"no count is committed, {now:,} instructions counted; commit it with --accept")
+        if change < -TOLERATED_PERCENT and not self.accept:
+            self.shrunk.append(f"{row.name}: {change:+.2f} %, commit the new count with --accept")
+
+    def report(self):
+        for line in self.shrunk:
+            print("faster:", line)
+        for line in self.failures:
+            print("failed:", line)
+        if not self.passed and not self.failures:
+            print("NOTHING WAS COUNTED, for the reasons above")
+        print(f"{self.passed} passed, {len(self.failures)} failed" + f", {self.skipped} skipped" * bool(self.skipped))
+
+
+def write_counts(path, counts, rows):
+    """In the order of the rows; one that could not run here keeps the count it had."""
+    keys = [key for row in rows if (key := (row.name, row.kernel)) in counts]
+    write_csv(path, [{"row": name, "kernel": kernel, **dataclasses.asdict(counts[name, kernel])} for name, kernel in keys])
+
+
+def hold(tools, path, accept=False, rows=ROWS):
+    """Compares what the tools in a folder take with the counts in a CSV file, or accepts it as the new counts; gives the exit status."""
+    if missing := sorted({row.tool for row in rows if not (tools / row.tool).exists()}):
+        print(f"bench: {tools} has no {', '.join(missing)}; scripts/build-release builds the tools")
+        return 1
+    comparison = Comparison(committed_counts(path), accept)
+    compilers = {tool: compiler_of(tools / tool) for tool in {row.tool for row in rows}}
+    nowhere, flags = no_count_at_all(), processor_flags()
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        os.symlink(tools.resolve(), folder / "bin")
+        print(f"{'row':36} {'kernel':8} {'committed':>15} {'counted':>15} {'change':>10}")
+        for row in rows:
+            if nowhere:
+                comparison.skip(row, nowhere)
+            elif lacking := sorted(FLAGS[row.kernel] - flags):
+                comparison.skip(row, f"this processor has no {', '.join(lacking)}")
+            else:
+                comparison.compare(row, compilers[row.tool], folder)
+    if accept and comparison.counted:
+        write_counts(path, {**comparison.committed, **comparison.counted}, rows)
+    comparison.report()
+    return 1 if comparison.failures or (accept and not comparison.counted) else 0

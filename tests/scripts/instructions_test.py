@@ -1,0 +1,172 @@
+#!/usr/bin/env python3
+"""scripts/measure/bench --instructions holds every row to its committed count. The tools and valgrind are scripts here: no instruction is counted.
+
+usage: instructions_test.py SOURCE_DIR
+"""
+import contextlib
+import csv
+import io
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+from unittest import mock
+
+SOURCE_DIR = pathlib.Path(sys.argv.pop(1)).resolve()
+sys.path.insert(0, str(SOURCE_DIR / "scripts/measure"))
+
+from parts import instructions  # noqa: E402
+from parts.instruction_rows import ROWS, Row
+
+HEADER = "row,kernel,compiler,instructions\n"
+VIEW, ZBUF = Row("one view", "view one-world.txt", "portable"), Row("one zbuf", "zbuf tiny.txt one-screen.txt", "portable")
+# Says that the tool, its fourth word, takes as many instructions as a file beside this script says, and keeps what it was given.
+VALGRIND = """#!/bin/sh
+tool=${3#bin/}
+env > "$0.environment"
+echo "$@" > "$0.words"
+[ ! -e "$0.$tool.message" ] || { cat "$0.$tool.message" >&2; exit 1; }
+echo "==1== Collected : $(cat "$0.$tool")" >&2
+"""
+
+
+class Instructions(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+        self.tools, self.valgrind, self.counts = self.folder / "tools", self.folder / "path/valgrind", self.folder / "instructions.csv"
+        for name in ("tools", "path"):
+            (self.folder / name).mkdir()
+        for tool in ("model", "view", "project", "zbuf"):
+            (self.tools / tool).write_text("GCC: (Debian 12.2.0-14+deb12u1) 12.2.0\0")
+            self.take(tool, 1_000_000)
+        self.valgrind.write_text(VALGRIND)
+        self.valgrind.chmod(0o755)
+        for patch in (mock.patch.dict(os.environ, PATH=f"{self.valgrind.parent}:{os.environ['PATH']}"),
+                      mock.patch("platform.machine", return_value="x86_64")):
+            patch.start()
+            self.addCleanup(patch.stop)
+
+    def take(self, tool, count):
+        pathlib.Path(f"{self.valgrind}.{tool}").write_text(f"{count}\n")
+
+    def commit(self, *lines):
+        self.counts.write_text(HEADER + "".join(line + "\n" for line in lines))
+
+    def hold(self, *rows, **options):
+        """The exit status and the lines it prints."""
+        with contextlib.redirect_stdout(io.StringIO()) as printed:
+            status = instructions.hold(self.tools, self.counts, rows=rows, **options)
+        return status, printed.getvalue().splitlines()
+
+    def test_rows_within_one_percent_pass(self):
+        self.commit("one view,portable,GCC 12.2.0,1000000", "one zbuf,portable,GCC 12.2.0,1000000")
+        self.take("view", 1_010_000)
+        self.take("zbuf", 990_000)
+        status, lines = self.hold(VIEW, ZBUF)
+        self.assertEqual((status, lines[-1]), (0, "2 passed, 0 failed"))
+        self.assertRegex(lines[1], r"^one view +portable +1,000,000 +1,010,000 +\+1\.00 %$")
+        self.assertRegex(lines[2], r"^one zbuf +portable +1,000,000 +990,000 +-1\.00 %$")
+        self.assertEqual(len(lines), 4)
+
+    def test_a_row_that_grew_fails_and_is_named(self):
+        self.commit("one view,portable,GCC 12.2.0,1000000", "one zbuf,portable,GCC 12.2.0,1000000")
+        self.take("zbuf", 1_010_100)
+        status, lines = self.hold(VIEW, ZBUF)
+        self.assertEqual((status, lines[-2:]), (1, ["failed: one zbuf: 1,000,000 instructions committed, 1,010,100 counted, +1.01 %",
+                                                    "1 passed, 1 failed"]))
+
+    def test_a_row_that_shrank_passes_and_is_named(self):
+        self.commit("one view,portable,GCC 12.2.0,1000000")
+        self.take("view", 980_000)
+        status, lines = self.hold(VIEW)
+        self.assertEqual((status, lines[-2:]), (0, ["faster: one view: -2.00 %, commit the new count with --accept", "1 passed, 0 failed"]))
+
+    def test_a_row_without_a_count_fails(self):
+        self.commit("one view,avx2,GCC 12.2.0,1000000")
+        status, lines = self.hold(VIEW)
+        self.assertEqual((status, lines[-2:]), (1, ["failed: one view: no count is committed, 1,000,000 instructions counted; commit it with --accept",
+                                                    "0 passed, 1 failed"]))
+
+    def test_a_tool_that_fails_fails_its_row_alone(self):
+        self.commit("one view,portable,GCC 12.2.0,1000000", "one zbuf,portable,GCC 12.2.0,1000000")
+        pathlib.Path(f"{self.valgrind}.view.message").write_text("==1== Callgrind\nview: one-world.txt:1:1: wrong\n")
+        status, lines = self.hold(VIEW, ZBUF)
+        self.assertEqual((status, lines[-2:]), (1, ["failed: one view: view one-world.txt failed with status 1: view: one-world.txt:1:1: wrong",
+                                                    "1 passed, 1 failed"]))
+
+    def test_another_compiler_skips_the_row_and_is_named(self):
+        self.commit("one view,portable,GCC 12.2.0,1", "one zbuf,portable,GCC 12.2.0,1000000")
+        # Startup objects of GCC's are in what clang links.
+        (self.tools / "view").write_text("GCC: (Debian 12.2.0-14+deb12u1) 12.2.0\0Debian clang version 14.0.6\0")
+        status, lines = self.hold(VIEW, ZBUF)
+        self.assertEqual((status, lines[-1]), (0, "1 passed, 0 failed, 1 skipped"))
+        self.assertRegex(lines[1], r"^one view +portable +skipped: built by clang 14\.0\.6, the committed count is for GCC 12\.2\.0$")
+
+    def test_a_processor_without_the_kernel_skips_the_row(self):
+        self.commit("one view,portable,GCC 12.2.0,1000000")
+        with mock.patch("parts.instructions.processor_flags", return_value={"sse4_2", "bmi1", "avx2"}):
+            status, lines = self.hold(VIEW, Row("a view", "view one-world.txt", "avx2"))
+        self.assertEqual((status, lines[-1]), (0, "1 passed, 0 failed, 1 skipped"))
+        self.assertRegex(lines[2], r"^a view +avx2 +skipped: this processor has no fma$")
+
+    def test_accept_writes_what_was_counted_and_keeps_the_rest(self):
+        self.commit("gone,portable,GCC 12.2.0,5", "a view,avx2,GCC 12.2.0,7", "one view,portable,GCC 11.1.0,900000")
+        with mock.patch("parts.instructions.processor_flags", return_value=set()):
+            status, lines = self.hold(VIEW, Row("a view", "view one-world.txt", "avx2"), ZBUF, accept=True)
+        self.assertEqual((status, lines[-1]), (0, "2 passed, 0 failed, 1 skipped"))
+        self.assertEqual(self.counts.read_text(), HEADER + "one view,portable,GCC 12.2.0,1000000\na view,avx2,GCC 12.2.0,7\n"
+                         "one zbuf,portable,GCC 12.2.0,1000000\n")
+
+    def test_nothing_but_accept_writes(self):
+        self.commit("one view,portable,GCC 12.2.0,2000000")
+        before = self.counts.read_bytes()
+        self.hold(VIEW)
+        self.assertEqual(self.counts.read_bytes(), before)
+
+    def test_the_tools_run_in_an_environment_of_their_own(self):
+        with mock.patch.dict(os.environ, LC_ALL="de_DE.UTF-8", PIPELINE_KERNEL="avx2", SOMETHING="else"):
+            self.hold(VIEW, accept=True)
+        environment = dict(line.split("=", 1) for line in pathlib.Path(f"{self.valgrind}.environment").read_text().splitlines())
+        given = {name: value for name, value in environment.items() if name not in ("PWD", "OLDPWD", "SHLVL", "_")}  # the shell's own
+        self.assertEqual(given, {"PATH": "/usr/bin:/bin", "LC_ALL": "C", "PIPELINE_KERNEL": "portable"})
+        self.assertEqual(pathlib.Path(f"{self.valgrind}.words").read_text(),
+                         "--tool=callgrind --callgrind-out-file=/dev/null bin/view one-world.txt --threads 1\n")
+
+    def bench(self, *options, **environment):
+        return subprocess.run([sys.executable, SOURCE_DIR / "scripts/measure/bench", "--instructions", "--bin", self.tools, "--out", self.folder, *options],
+                              capture_output=True, text=True, stdin=subprocess.DEVNULL, env={**os.environ, **environment})
+
+    @unittest.skipUnless(os.uname().machine == "x86_64", "the counts are those of x86-64")
+    def test_the_command_accepts_and_then_holds(self):
+        self.assertEqual(self.bench("--accept").returncode, 0)
+        self.assertIn('"view: plain, portable",portable,GCC 12.2.0,1000000\n', self.counts.read_text())
+        self.take("view", 1_020_000)
+        done = self.bench()
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("failed: view: plain, portable: 1,000,000 instructions committed, 1,020,000 counted, +2.00 %\n", done.stdout)
+
+    def test_without_valgrind_every_row_is_skipped(self):
+        done = self.bench(PATH=str(self.tools))
+        self.assertEqual(done.returncode, 0)
+        self.assertEqual(done.stdout.splitlines()[-2:], ["NOTHING WAS COUNTED, for the reasons above", f"0 passed, 0 failed, {len(ROWS)} skipped"])
+        self.assertFalse(self.counts.exists())
+        self.assertEqual(self.bench("--accept", PATH=str(self.tools)).returncode, 1)
+
+    def test_without_a_tool_it_fails(self):
+        (self.tools / "zbuf").unlink()
+        done = self.bench()
+        self.assertEqual((done.returncode, done.stdout), (1, f"bench: {self.tools} has no zbuf; scripts/build-release builds the tools\n"))
+
+    def test_every_row_has_its_count_committed(self):
+        with open(SOURCE_DIR / "scripts/measure/results/instructions.csv", newline="") as file:
+            committed = [(line["row"], line["kernel"]) for line in csv.DictReader(file)]
+        self.assertEqual(committed, [(row.name, row.kernel) for row in ROWS])
+        self.assertEqual(len(set(row.name for row in ROWS)), len(ROWS))
+
+
+if __name__ == "__main__":
+    unittest.main()
