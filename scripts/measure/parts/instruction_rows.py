@@ -1,4 +1,4 @@
-"""The runs whose instructions scripts/bench --instructions counts, and their inputs.
+"""The runs whose instructions scripts/measure/bench --instructions counts, and their inputs.
 
 The inputs come from integers alone, so that every version of Python writes the same bytes.
 """
