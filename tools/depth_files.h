@@ -5,7 +5,7 @@
 #include <string>
 
 #include "libpipeline/picture/depth_image.h"
-#include "libpipeline/scene/config.h"
+#include "libpipeline/scene/viewport.h"
 #include "libpipeline/text/output_file.h"
 #include "libpipeline/text/text_writer.h"
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "libpipeline/scene/config.h"
+#include "libpipeline/scene/viewport.h"
 #include "libpipeline/stream/triangle_batch.h"
 #include "libpipeline/visibility/fragment.h"
 #include "tools/command_line.h"

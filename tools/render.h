@@ -4,7 +4,7 @@
 #include <string>
 
 #include "libpipeline/picture/surface_shader.h"
-#include "libpipeline/scene/config.h"
+#include "libpipeline/scene/viewport.h"
 #include "tools/fragment_report.h"
 #include "tools/tool.h"
 

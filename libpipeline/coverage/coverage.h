@@ -7,8 +7,8 @@
 #include "libpipeline/coverage/coverage_kernel.h"
 #include "libpipeline/coverage/coverage_nearest.h"
 #include "libpipeline/coverage/exact_grid.h"
-#include "libpipeline/scene/config.h"
 #include "libpipeline/scene/pixel_grid.h"
+#include "libpipeline/scene/viewport.h"
 
 namespace pipeline {
 

@@ -8,7 +8,7 @@
 
 #include "libpipeline/numbers/vec.h"
 #include "libpipeline/numbers/whole_math.h"
-#include "libpipeline/scene/config.h"
+#include "libpipeline/scene/viewport.h"
 
 namespace pipeline {
 

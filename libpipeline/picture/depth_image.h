@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "libpipeline/picture/png_file.h"
-#include "libpipeline/scene/config.h"
+#include "libpipeline/scene/viewport.h"
 #include "libpipeline/text/text_writer.h"
 
 namespace pipeline {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "libpipeline/scene/color.h"
-#include "libpipeline/scene/config.h"
+#include "libpipeline/scene/viewport.h"
 
 namespace pipeline {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "libpipeline/scene/config.h"
+#include "libpipeline/scene/viewport.h"
 
 namespace pipeline {
 

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <limits>
 
-#include "libpipeline/scene/config.h"
+#include "libpipeline/scene/viewport.h"
 
 namespace pipeline {
 

@@ -5,7 +5,7 @@
 
 #include "libpipeline/coverage/exact_grid.h"
 #include "libpipeline/coverage/span.h"
-#include "libpipeline/scene/config.h"
+#include "libpipeline/scene/viewport.h"
 #include "libpipeline/visibility/fragment.h"
 #include "libpipeline/visibility/raster.h"
 

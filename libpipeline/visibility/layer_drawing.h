@@ -9,7 +9,7 @@
 
 #include "libpipeline/coverage/exact_grid.h"
 #include "libpipeline/coverage/span.h"
-#include "libpipeline/scene/config.h"
+#include "libpipeline/scene/viewport.h"
 #include "libpipeline/stream/thread_pool.h"
 #include "libpipeline/visibility/colored_batch.h"
 #include "libpipeline/visibility/draw_order.h"

@@ -6,8 +6,8 @@
 
 #include "libpipeline/coverage/span.h"
 #include "libpipeline/numbers/vec.h"
-#include "libpipeline/scene/config.h"
 #include "libpipeline/scene/pixel_grid.h"
+#include "libpipeline/scene/viewport.h"
 
 namespace pipeline {
 

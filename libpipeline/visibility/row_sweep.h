@@ -8,7 +8,7 @@
 
 #include "libpipeline/coverage/span.h"
 #include "libpipeline/scene/color.h"
-#include "libpipeline/scene/config.h"
+#include "libpipeline/scene/viewport.h"
 #include "libpipeline/visibility/active_edge_list.h"
 #include "libpipeline/visibility/depth_format.h"
 #include "libpipeline/visibility/polygon_table.h"

@@ -3,7 +3,7 @@
 #include <cstdint>
 
 #include "libpipeline/scene/color.h"
-#include "libpipeline/scene/config.h"
+#include "libpipeline/scene/viewport.h"
 #include "libpipeline/visibility/active_edge_list.h"
 #include "libpipeline/visibility/active_polygons.h"
 #include "libpipeline/visibility/edge_table.h"

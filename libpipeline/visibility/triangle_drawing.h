@@ -6,8 +6,8 @@
 
 #include "libpipeline/coverage/exact_grid.h"
 #include "libpipeline/coverage/span.h"
-#include "libpipeline/scene/config.h"
 #include "libpipeline/scene/pixel_grid.h"
+#include "libpipeline/scene/viewport.h"
 #include "libpipeline/stream/thread_pool.h"
 #include "libpipeline/stream/triangle_batch.h"
 #include "libpipeline/visibility/band_drawing.h"

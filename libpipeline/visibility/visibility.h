@@ -10,7 +10,7 @@
 #include "libpipeline/coverage/exact_grid.h"
 #include "libpipeline/coverage/span.h"
 #include "libpipeline/scene/color.h"
-#include "libpipeline/scene/config.h"
+#include "libpipeline/scene/viewport.h"
 #include "libpipeline/visibility/scanline.h"
 #include "libpipeline/visibility/span_queue.h"
 #include "libpipeline/visibility/visible_row.h"

@@ -7,7 +7,7 @@
 #include "libpipeline/coverage/colored_span.h"
 #include "libpipeline/coverage/span.h"
 #include "libpipeline/scene/color.h"
-#include "libpipeline/scene/config.h"
+#include "libpipeline/scene/viewport.h"
 #include "libpipeline/visibility/depth_format.h"
 #include "libpipeline/visibility/hierarchical_depth.h"
 #include "libpipeline/visibility/raster.h"

@@ -6,7 +6,7 @@
 #include <array>
 #include <utility>
 
-#include "libpipeline/scene/config.h"
+#include "libpipeline/scene/viewport.h"
 #include "tests/coverage/center_reference.h"
 
 namespace pipeline {

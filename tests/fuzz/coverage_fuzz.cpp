@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 
+#include "libpipeline/scene/config.h"
 #include "libpipeline/stream/stage_reader.h"
 #include "tests/coverage/center_rational.h"
 #include "tests/coverage/center_reference.h"

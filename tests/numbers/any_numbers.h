@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "libpipeline/coverage/span.h"
-#include "libpipeline/scene/config.h"
+#include "libpipeline/scene/viewport.h"
 
 namespace pipeline {
 

@@ -1,0 +1,39 @@
+#pragma once
+
+namespace pipeline {
+
+/// The largest width and height of a screen, in pixels.
+constexpr int kMaxScreenSize = 65535;
+
+/// The limits -left and -bottom lie in [kMinLimit, kMaxLimit], so that neither a pixel's size nor
+/// the distance from a pixel to any finite vertex leaves the range of a double.
+constexpr double kMinLimit = 1e-200;
+constexpr double kMaxLimit = 1e200;
+
+/// What stage 4 maps to what: the window [left, -left] x [bottom, -bottom] of NDC to columns x rows pixels,
+/// and the depths that are seen, front <= z < rear. Row 0 is at the top, column 0 on the left.
+struct Viewport {
+  int columns = 0;
+  int rows = 0;
+  double left = -1;
+  double bottom = -1;
+  double front = -1;
+  double rear = 1;
+  /// For exact calculations: true where the limit was written as a plain number with at most 7 decimals, so
+  /// that it is that decimal (limit + low part, to 7 decimals) and not only its nearest double.
+  bool left_is_decimal = false;
+  bool bottom_is_decimal = false;
+  double left_low_part = 0;
+  double bottom_low_part = 0;
+
+  /// The width and height of a pixel in NDC.
+  [[nodiscard]] double dx() const { return -2 * left / columns; }
+  [[nodiscard]] double dy() const { return -2 * bottom / rows; }
+  /// The center of the pixel (0, 0) in NDC.
+  [[nodiscard]] double left_x() const { return left + dx() / 2; }
+  [[nodiscard]] double top_y() const { return -bottom - dy() / 2; }
+
+  friend bool operator==(const Viewport&, const Viewport&) = default;
+};
+
+}  // namespace pipeline
