@@ -5,21 +5,20 @@
 #include <cassert>
 #include <string>
 
+#include "libpipeline/scene/header_line.h"
+
 namespace pipeline {
 namespace {
 
-double number_from_zero(LineScanner& line, const std::string& name) {
-  const LineScanner at_number = line;
-  const double value = line.number(name);
-  if (!(value >= 0)) at_number.fail(name + " of at least 0");
-  return value;
+double number_from_zero(LineScanner& line, std::string_view name, std::string_view of = {}) {
+  return number_where(line, {name, of}, "of at least 0", [](double value) { return value >= 0; });
 }
 
-Vec3 read_intensity(LineScanner& line, const std::string& of) {
+Vec3 read_intensity(LineScanner& line, std::string_view of) {
   Vec3 intensity;
-  intensity.x = number_from_zero(line, "the red of " + of);
-  intensity.y = number_from_zero(line, "the green of " + of);
-  intensity.z = number_from_zero(line, "the blue of " + of);
+  intensity.x = number_from_zero(line, "the red of ", of);
+  intensity.y = number_from_zero(line, "the green of ", of);
+  intensity.z = number_from_zero(line, "the blue of ", of);
   line.expect_end("the blue of ", of);
   return intensity;
 }
@@ -82,9 +81,7 @@ Light read_light(LineScanner& line) {
 template <typename T, typename Read>
 void set_once(std::optional<Located<T>>& part, std::string_view keyword,
               const SourceLocation& keyword_location, const LineScanner& line, Read&& read) {
-  if (part)
-    throw InputError(keyword_location, expected_but_found("one " + quoted(keyword),
-                                                          "a second one after " + to_string(part->location)));
+  if (part) throw given_twice(quoted(keyword), part->location, keyword_location);
   const SourceLocation location = line.location();
   part = {read(), location};
 }

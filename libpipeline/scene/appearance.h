@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "libpipeline/numbers/vec.h"
-#include "libpipeline/scene/camera.h"
+#include "libpipeline/scene/header_line.h"
 #include "libpipeline/scene/vertex_attributes.h"
 #include "libpipeline/text/text_reader.h"
 

@@ -14,36 +14,27 @@ std::string to_text(const Vec3& v) {
   return shortest_text(v.x) + " " + shortest_text(v.y) + " " + shortest_text(v.z);
 }
 
-/// Takes the next number; an error at its place unless `holds` is true of it.
-template <typename Condition>
-double checked_number(LineScanner& line, const std::string& name, const std::string& condition,
-                      Condition holds) {
-  const LineScanner at_number = line;
-  const double value = line.number(name);
-  if (!holds(value)) at_number.fail(name + " " + condition);
-  return value;
+double number_above_zero(LineScanner& line, std::string_view name) {
+  return number_where(line, {name}, "above 0", [](double value) { return value > 0; });
 }
 
-double number_above_zero(LineScanner& line, const std::string& name) {
-  return checked_number(line, name, "above 0", [](double value) { return value > 0; });
-}
-
-double number_other_than(double other, LineScanner& line, const std::string& name,
-                         const std::string& other_name) {
-  return checked_number(line, name, "other than " + other_name, [&](double value) { return value != other; });
+double number_other_than(double other, std::string_view other_name, LineScanner& line,
+                         std::string_view name) {
+  const std::string condition = "other than " + std::string(other_name);
+  return number_where(line, {name}, condition, [&](double value) { return value != other; });
 }
 
 /// The last number of every projection.
 double far_beyond(double near, LineScanner& line) {
-  const double far = checked_number(line, "far", "beyond near", [&](double value) { return value > near; });
+  const double far = number_where(line, {"far"}, "beyond near", [&](double value) { return value > near; });
   line.expect_end("far");
   return far;
 }
 
 Perspective read_perspective(LineScanner& line) {
   Perspective p;
-  p.fov_y_degrees = checked_number(line, "fovY", "above 0 and below 180 degrees",
-                                   [](double value) { return value > 0 && value < 180; });
+  const auto is_inside_half_turn = [](double degrees) { return degrees > 0 && degrees < 180; };
+  p.fov_y_degrees = number_where(line, {"fovY"}, "above 0 and below 180 degrees", is_inside_half_turn);
   p.aspect = number_above_zero(line, "aspect");
   p.near = number_above_zero(line, "near");
   p.far = far_beyond(p.near, line);
@@ -55,20 +46,12 @@ template <typename Volume>
 Volume read_volume(LineScanner& line) {
   Volume v;
   v.left = line.number("left");
-  v.right = number_other_than(v.left, line, "right", "left");
+  v.right = number_other_than(v.left, "left", line, "right");
   v.bottom = line.number("bottom");
-  v.top = number_other_than(v.bottom, line, "top", "bottom");
+  v.top = number_other_than(v.bottom, "bottom", line, "top");
   v.near = std::is_same_v<Volume, Frustum> ? number_above_zero(line, "near") : line.number("near");
   v.far = far_beyond(v.near, line);
   return v;
-}
-
-template <typename T>
-void expect_first(const std::optional<Located<T>>& part, const SourceLocation& location,
-                  const std::string& name) {
-  if (part)
-    throw InputError(location,
-                     expected_but_found("one " + name, "a second one after " + to_string(part->location)));
 }
 
 /// The part of the camera with that keyword and what messages call it; nothing for other keywords.
@@ -97,12 +80,12 @@ bool read_camera_part(std::string_view keyword, const SourceLocation& keyword_lo
                       CameraParameters& camera) {
   const SourceLocation location = line.location();
   if (const auto [part, name] = position_part(keyword); part != nullptr) {
-    expect_first(camera.*part, keyword_location, std::string(keyword));
+    if (camera.*part) throw given_twice(std::string(keyword), (camera.*part)->location, keyword_location);
     camera.*part = {line.vec3(name), location};
     return true;
   }
   if (keyword != "perspective" && keyword != "frustum" && keyword != "ortho") return false;
-  expect_first(camera.projection, keyword_location, "projection");
+  if (camera.projection) throw given_twice("projection", camera.projection->location, keyword_location);
   camera.projection = {read_projection(keyword, line), location};
   return true;
 }

@@ -5,6 +5,7 @@
 #include <variant>
 
 #include "libpipeline/numbers/vec.h"
+#include "libpipeline/scene/header_line.h"
 #include "libpipeline/text/error.h"
 #include "libpipeline/text/text_reader.h"
 
@@ -29,13 +30,6 @@ struct Orthographic {
 };
 
 using Projection = std::variant<Perspective, Frustum, Orthographic>;
-
-/// A value and the place in the input it came from.
-template <typename T>
-struct Located {
-  T value;
-  SourceLocation location;
-};
 
 /// What a scene or a stage text's header says of the camera, as far as it says it.
 /// `look` is the point looked at, in world space like `eye`.

@@ -2,17 +2,10 @@
 
 #include <algorithm>
 
+#include "libpipeline/scene/header_line.h"
+
 namespace pipeline {
 namespace {
-
-template <typename Condition>
-double read_number(LineScanner& line, std::string_view name, std::string_view of, std::string_view range,
-                   Condition&& is_in_range) {
-  const LineScanner at_number = line;
-  const double value = line.number(name, of);
-  if (!is_in_range(value)) at_number.fail(std::string(name).append(of).append(range));
-  return value;
-}
 
 /// How many blanks and tabs stand at `p`, before something else.
 std::size_t blanks_at(const char* p) {
@@ -22,8 +15,8 @@ std::size_t blanks_at(const char* p) {
 }
 
 double read_channel(LineScanner& line, std::string_view name, std::string_view of) {
-  return read_number(line, name, of, " from 0 to 255",
-                     [](double value) { return value >= 0 && value <= 255; });
+  const auto is_in_range = [](double value) { return value >= 0 && value <= 255; };
+  return number_where(line, {name, of}, "from 0 to 255", is_in_range);
 }
 
 }  // namespace
@@ -77,7 +70,7 @@ VertexLine VertexLineReader::read(LineScanner& line, std::size_t vertex) const {
   if (attributes_.w && range_of_w_ == RangeOfW::any)
     values.w = line.number("the w of ", name);
   else if (attributes_.w)
-    values.w = read_number(line, "the w of ", name, " above 0", [](double value) { return value > 0; });
+    values.w = number_where(line, {"the w of ", name}, "above 0", [](double value) { return value > 0; });
   if (attributes_.color) values.color = read_color(line, name);
   if (attributes_.normal) {
     values.normal.x = line.number("the normal's x of ", name);

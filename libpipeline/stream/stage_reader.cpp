@@ -5,6 +5,8 @@
 #include <limits>
 #include <string_view>
 
+#include "libpipeline/scene/header_line.h"
+
 namespace pipeline {
 namespace {
 
@@ -50,9 +52,7 @@ bool StageReader::read_header_line(LineScanner& line) {
     return true;
   }
   if (keyword != "framed") return read_camera_part(keyword, location, line, header_.camera);
-  if (header_.framed)
-    throw InputError(location,
-                     expected_but_found("one 'framed'", "a second one after " + to_string(framed_location_)));
+  if (header_.framed) throw given_twice("'framed'", framed_location_, location);
   line.expect_end("'framed'");
   header_.framed = true;
   framed_location_ = location;
