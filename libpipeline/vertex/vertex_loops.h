@@ -104,24 +104,13 @@ PIPELINE_LOOP std::uint64_t mask(bool condition) {
   return condition ? ~std::uint64_t{0} : 0;
 }
 
-// ---- sums of pairs ----
-
-struct Pair {
-  double high;
-  double low;
-};
-
-PIPELINE_LOOP Pair exact_sum(double a, double b) {
-  const double sum = a + b;
-  const double b_part = sum - a;
-  return {sum, (a - (sum - b_part)) + (b - b_part)};
-}
+// ---- products of pairs ----
 
 /// a * b within 2^-103 of itself.
 template <typename Rest>
-PIPELINE_LOOP Pair product(const DoubleDouble& a, const Pair& b) {
-  const double high = a.hi * b.high;
-  return {high, Rest::of(a.hi, b.high, high) + (a.hi * b.low + a.lo * b.high)};
+PIPELINE_LOOP DoubleDouble product(DoubleDouble a, DoubleDouble b) {
+  const double high = a.hi * b.hi;
+  return {high, Rest::of(a.hi, b.hi, high) + (a.hi * b.lo + a.lo * b.hi)};
 }
 
 // ---- affine transforms ----
@@ -136,22 +125,23 @@ PIPELINE_LOOP Estimate image_in_doubles(const std::array<Coefficient, 4>& row, d
 /// The dot product in twice a double's precision (T. Ogita, S. Rump, S. Oishi, "Accurate sum and dot
 /// product", 2005): within 2^-100 of the sum of the terms' absolute values.
 template <typename Rest>
-PIPELINE_LOOP PairEstimate image_in_pairs(const std::array<Coefficient, 4>& row, Pair x, Pair y, Pair z) {
+PIPELINE_LOOP PairEstimate image_in_pairs(const std::array<Coefficient, 4>& row, DoubleDouble x,
+                                          DoubleDouble y, DoubleDouble z) {
   const auto& [a, b, c, d] = row;
-  const Pair ax = product<Rest>(a.pair, x);
-  const Pair by = product<Rest>(b.pair, y);
-  const Pair cz = product<Rest>(c.pair, z);
-  const Pair two = exact_sum(ax.high, by.high);
-  const Pair three = exact_sum(two.high, cz.high);
-  const Pair four = exact_sum(three.high, d.pair.hi);
-  const double low = ((ax.low + by.low) + (cz.low + d.pair.lo)) + ((two.low + three.low) + four.low);
-  const Pair sum = exact_sum(four.high, low);
-  const double x_size = std::fabs(x.high);
-  const double y_size = std::fabs(y.high);
-  const double z_size = std::fabs(z.high);
+  const DoubleDouble ax = product<Rest>(a.pair, x);
+  const DoubleDouble by = product<Rest>(b.pair, y);
+  const DoubleDouble cz = product<Rest>(c.pair, z);
+  const DoubleDouble two = two_sum(ax.hi, by.hi);
+  const DoubleDouble three = two_sum(two.hi, cz.hi);
+  const DoubleDouble four = two_sum(three.hi, d.pair.hi);
+  const double low = ((ax.lo + by.lo) + (cz.lo + d.pair.lo)) + ((two.lo + three.lo) + four.lo);
+  const DoubleDouble sum = two_sum(four.hi, low);
+  const double x_size = std::fabs(x.hi);
+  const double y_size = std::fabs(y.hi);
+  const double z_size = std::fabs(z.hi);
   const double error = a.pair_error * x_size + b.pair_error * y_size + c.pair_error * z_size + d.pair_error;
   const double filled = a.is_filled * x_size + b.is_filled * y_size + c.is_filled * z_size + d.is_filled;
-  return {sum.high, sum.low, error, filled == 0};
+  return {sum.hi, sum.lo, error, filled == 0};
 }
 
 template <CoordinateTestKind kind>
@@ -176,8 +166,8 @@ PIPELINE_LOOP void transform_in_pairs(const AffineCoefficients& m, double scale,
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const std::array<Coefficient, 4> row = m.rows[axis];
     for (std::size_t i = 0; i < count; ++i) {
-      const PairEstimate e = image_in_pairs<Rest>(row, exact_sum(p.p[0][i], -ox), exact_sum(p.p[1][i], -oy),
-                                                  exact_sum(p.p[2][i], -oz));
+      const PairEstimate e = image_in_pairs<Rest>(row, two_sum(p.p[0][i], -ox), two_sum(p.p[1][i], -oy),
+                                                  two_sum(p.p[2][i], -oz));
       image.passes_rounding_test[i] &= mask(passes_rounding_test<kind, Rest>(e, scale, image.p[axis][i]));
     }
   }
@@ -254,19 +244,19 @@ PIPELINE_LOOP void project_in_pairs(const ProjectionCoefficients& m, double scal
       const double w = is_perspective ? -z : 1;
       const double q = has_shift ? z : 1;
       const double v = p.p[axis][i];
-      const Pair scaled = product<Rest>(a.pair, {v, 0});
-      const Pair shift = product<Rest>(b.pair, {q, 0});
-      const Pair sum = exact_sum(scaled.high, shift.high);
-      const Pair numerator = exact_sum(sum.high, sum.low + (scaled.low + shift.low));
-      const double quotient = numerator.high / w;
+      const DoubleDouble scaled = product<Rest>(a.pair, {v, 0});
+      const DoubleDouble shift = product<Rest>(b.pair, {q, 0});
+      const DoubleDouble sum = two_sum(scaled.hi, shift.hi);
+      const DoubleDouble numerator = two_sum(sum.hi, sum.lo + (scaled.lo + shift.lo));
+      const double quotient = numerator.hi / w;
       const double back = quotient * w;
-      const double rest = ((numerator.high - back) - Rest::of(quotient, w, back)) + numerator.low;
-      const Pair result = exact_sum(quotient, rest / w);
+      const double rest = ((numerator.hi - back) - Rest::of(quotient, w, back)) + numerator.lo;
+      const DoubleDouble result = two_sum(quotient, rest / w);
       const double v_size = std::fabs(v);
       const double q_size = std::fabs(q);
       const double error = (a.pair_error * v_size + b.pair_error * q_size) / w;
       const bool is_zero = a.is_filled * v_size + b.is_filled * q_size == 0;
-      const PairEstimate e = {result.high, result.low, error, is_zero};
+      const PairEstimate e = {result.hi, result.lo, error, is_zero};
       p_ndc.passes_rounding_test[i] &=
           mask(passes_rounding_test<kind, Rest>(e, scale, p_ndc.p[axis][i])) & mask(is_safe_divisor(w));
     }
