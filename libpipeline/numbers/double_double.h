@@ -15,8 +15,9 @@ struct DoubleDouble {
   friend bool operator==(const DoubleDouble&, const DoubleDouble&) = default;
 };
 
-/// a + b exactly (Knuth's 2Sum).
-inline DoubleDouble two_sum(double a, double b) {
+/// a + b exactly (Knuth's 2Sum). Forced inline: left to GCC 12, the portable vertex loops spill registers and
+/// take 1.5 % more instructions in all.
+inline __attribute__((always_inline)) DoubleDouble two_sum(double a, double b) {
   const double sum = a + b;
   const double b_part = sum - a;
   const double a_part = sum - b_part;
