@@ -5,29 +5,49 @@
 #include <limits>
 
 #include "libpipeline/numbers/kernel_choice.h"
-#include "libpipeline/vertex/vertex_kernel_avx2.h"
 #include "libpipeline/vertex/vertex_loops.h"
 
 namespace pipeline {
 namespace {
 
-void transform(const AffineCoefficients& m, const CoordinateTest& test, const VertexBlock& p,
-               ImageBlock& image) {
+void transform_portable(const AffineCoefficients& m, const CoordinateTest& test, const VertexBlock& p,
+                        ImageBlock& image) {
   transform_block<DekkerError>(m, test, p, image);
 }
 
-void project(const ProjectionCoefficients& m, const CoordinateTest& test, const VertexBlock& p,
-             ImageBlock& p_ndc) {
+void project_portable(const ProjectionCoefficients& m, const CoordinateTest& test, const VertexBlock& p,
+                      ImageBlock& p_ndc) {
   project_block<DekkerError>(m, test, p, p_ndc);
 }
+
+#if defined(__x86_64__) && defined(__GNUC__)
+
+// Four vertices at a time, with fused multiply-adds.
+
+__attribute__((target("avx2,fma"))) void transform_avx2(const AffineCoefficients& m,
+                                                        const CoordinateTest& test, const VertexBlock& p,
+                                                        ImageBlock& image) {
+  transform_block<FmaError>(m, test, p, image);
+}
+
+__attribute__((target("avx2,fma"))) void project_avx2(const ProjectionCoefficients& m,
+                                                      const CoordinateTest& test, const VertexBlock& p,
+                                                      ImageBlock& p_ndc) {
+  project_block<FmaError>(m, test, p, p_ndc);
+}
+
+#endif
 
 struct KernelList {
   std::array<VertexKernel, 2> kernels{};
   std::size_t count = 0;
 
   KernelList() {
-    kernels[count++] = {"portable", transform, project};
-    if (const VertexKernel* const avx2 = vertex_kernel_avx2()) kernels[count++] = *avx2;
+    kernels[count++] = {"portable", transform_portable, project_portable};
+#if defined(__x86_64__) && defined(__GNUC__)
+    if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
+      kernels[count++] = {"avx2", transform_avx2, project_avx2};
+#endif
   }
 };
 
