@@ -11,12 +11,12 @@ namespace pipeline {
 CoordinateRounder::CoordinateRounder(Precision precision, NumberFormat format, std::string file)
     : precision_(precision), format_(format), file_(std::move(file)) {}
 
-CoordinateTest CoordinateRounder::test() const {
-  if (precision_ == Precision::in_doubles) return {CoordinateTestKind::finite};
-  if (format_.shortest) return {CoordinateTestKind::nearest};
-  // With more decimals the last bits of a coordinate of ordinary size show.
+RoundingTest CoordinateRounder::rounding_test() const {
+  if (precision_ == Precision::in_doubles) return {RoundingTestKind::finite};
+  if (format_.shortest) return {RoundingTestKind::nearest};
+  // More of them show the last bits of a double of ordinary size.
   constexpr int kMaxDecimalsOfDoubles = 10;
-  return {CoordinateTestKind::decimals, kPowersOfTen[static_cast<std::size_t>(format_.decimals)],
+  return {RoundingTestKind::decimals, kPowersOfTen[static_cast<std::size_t>(format_.decimals)],
           format_.decimals > kMaxDecimalsOfDoubles};
 }
 

@@ -7,32 +7,35 @@
 #include "libpipeline/text/error.h"
 #include "libpipeline/text/number_rounding.h"
 #include "libpipeline/vertex/affine_matrix.h"
-#include "libpipeline/vertex/coordinate_test.h"
+#include "libpipeline/vertex/vertex_kernel.h"
 
 namespace pipeline {
 
-/// How vertices are calculated: `in_doubles` by stable formulas, printed as they come out; `extended`
-/// so that every number printed is the correctly rounded result of exact arithmetic.
-enum class Precision { in_doubles, extended };
+/// How vertices are calculated.
+enum class Precision {
+  in_doubles,  // by stable formulas, printed as they come out
+  extended     // every printed number is the correctly rounded result of exact arithmetic
+};
 
-/// Decides which text a calculated coordinate gets. A number of one or two doubles and a bound of its error
-/// are enough for most; where they are not, the caller calculates the number again as a ball.
+/// Rounds calculated coordinates to the numbers that are printed. Most pass the rounding test of a kernel
+/// (vertex_kernel.h); the caller calculates the others again as balls, which this class rounds. It remembers
+/// whether a printed digit was uncertain.
 class CoordinateRounder {
  public:
   /// `file` names the input in messages.
   CoordinateRounder(Precision precision, NumberFormat format, std::string file);
 
-  /// What a calculated coordinate has to meet to be printed as it is.
-  [[nodiscard]] CoordinateTest test() const;
+  /// The test that a kernel's coordinate must pass to be printed as it is.
+  [[nodiscard]] RoundingTest rounding_test() const;
 
-  /// Sets one vertex of a triangle of the batch from balls. An InputError at the vertex's place if a
-  /// coordinate is beyond a double's range.
+  /// Sets one vertex of a triangle of the batch: the slow, exact path. `p` holds the true image. An
+  /// InputError at the vertex's location if a coordinate is beyond a double's range.
   void set_vertex_exactly(TriangleBatch& batch, std::size_t triangle, std::size_t vertex, const BallVec3& p);
 
-  /// Where the first vertex stands that was printed with digits that are not certain; nowhere if there is
-  /// none.
+  /// The location of the first vertex printed with an uncertain digit: its ball was too wide to decide it.
+  /// Not known (is_known()) if there is none.
   [[nodiscard]] LineAndColumn first_uncertain() const { return first_uncertain_; }
-  /// The place of a vertex of the input.
+  /// The location of a vertex of the input, for messages.
   [[nodiscard]] SourceLocation location_of(LineAndColumn vertex) const {
     return {file_, vertex.line(), vertex.column()};
   }

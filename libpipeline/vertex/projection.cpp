@@ -37,7 +37,7 @@ int winding_sign(const Triangle& p_view, bool is_perspective) {
 
 /// The number as a double whose products are within a rounding of those of the number itself; NaN, which no
 /// rounder accepts, if there is none.
-double as_factor(const Ball& number) {
+double safe_double(const Ball& number) {
   if (number.is_exact_zero()) return 0;
   const double nearest = number.nearest_double();
   const double size = std::fabs(nearest);
@@ -46,24 +46,25 @@ double as_factor(const Ball& number) {
 }
 
 /// What the fast paths multiply with: in pairs z' = (z_scale z + z_offset) / w.
-ProjectionCoefficients factors_of(const ProjectionTransform& projection) {
+ProjectionCoefficients coefficients_of(const ProjectionTransform& projection) {
   const Ball near = projection.near;
   const Ball far = projection.far;
   const Ball z_scale = (projection.is_perspective ? -(far + near) : Ball(-2)) / (far - near);
   const Ball z_offset = (projection.is_perspective ? Ball(-2) * far * near : -(far + near)) / (far - near);
-  ProjectionCoefficients factors;
-  factors.is_perspective = projection.is_perspective;
-  factors.scales = {Coefficient(projection.x_scale), Coefficient(projection.y_scale), Coefficient(z_scale)};
-  factors.offsets = {Coefficient(projection.x_offset), Coefficient(projection.y_offset),
-                     Coefficient(z_offset)};
-  factors.scales[0].value = as_factor(projection.x_scale);
-  factors.scales[1].value = as_factor(projection.y_scale);
-  factors.offsets[0].value = as_factor(projection.x_offset);
-  factors.offsets[1].value = as_factor(projection.y_offset);
-  factors.near = projection.near;
-  factors.far = projection.far;
-  factors.depth_range = as_factor(far - near);
-  return factors;
+  ProjectionCoefficients coefficients;
+  coefficients.is_perspective = projection.is_perspective;
+  coefficients.scales = {Coefficient(projection.x_scale), Coefficient(projection.y_scale),
+                         Coefficient(z_scale)};
+  coefficients.offsets = {Coefficient(projection.x_offset), Coefficient(projection.y_offset),
+                          Coefficient(z_offset)};
+  coefficients.scales[0].value = safe_double(projection.x_scale);
+  coefficients.scales[1].value = safe_double(projection.y_scale);
+  coefficients.offsets[0].value = safe_double(projection.x_offset);
+  coefficients.offsets[1].value = safe_double(projection.y_offset);
+  coefficients.near = projection.near;
+  coefficients.far = projection.far;
+  coefficients.depth_range = safe_double(far - near);
+  return coefficients;
 }
 
 bool has_attributes(const TriangleBatch& batch) {
@@ -111,7 +112,7 @@ ProjectionStage::ProjectionStage(const ProjectionTransform& projection, ClipMode
       cull_(cull),
       clip_extent_(1 - clip_inset),
       rounder_(rounder),
-      factors_(factors_of(projection)),
+      coefficients_(coefficients_of(projection)),
       mirrored_(projection.x_scale.sign() * projection.y_scale.sign() < 0) {}
 
 void ProjectionStage::project(const TriangleBatch& p_view, TriangleBatch& p_ndc) {
@@ -121,7 +122,7 @@ void ProjectionStage::project(const TriangleBatch& p_view, TriangleBatch& p_ndc)
     if (i % VertexBlock::kTriangles == 0) {
       const std::size_t count = std::min(p_view.size() - i, VertexBlock::kTriangles);
       block.fill(std::span(p_view.triangles).subspan(i, count));
-      vertex_kernel().project(factors_, rounder_.test(), block, block_);
+      vertex_kernel().project(coefficients_, rounder_.rounding_test(), block, block_);
     }
     const std::size_t done_count = p_ndc.size();
     try {

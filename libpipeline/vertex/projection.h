@@ -81,7 +81,7 @@ class ProjectionStage {
   CullMode cull_;
   double clip_extent_;
   CoordinateRounder& rounder_;
-  ProjectionCoefficients factors_;
+  ProjectionCoefficients coefficients_;
   ImageBlock block_;  // the images of the triangles around the one that is projected
   bool mirrored_;
   bool keeps_clipped_ = false;

@@ -10,12 +10,12 @@
 namespace pipeline {
 namespace {
 
-void transform_portable(const AffineCoefficients& m, const CoordinateTest& test, const VertexBlock& p,
+void transform_portable(const AffineCoefficients& m, const RoundingTest& test, const VertexBlock& p,
                         ImageBlock& image) {
   transform_block<DekkerError>(m, test, p, image);
 }
 
-void project_portable(const ProjectionCoefficients& m, const CoordinateTest& test, const VertexBlock& p,
+void project_portable(const ProjectionCoefficients& m, const RoundingTest& test, const VertexBlock& p,
                       ImageBlock& p_ndc) {
   project_block<DekkerError>(m, test, p, p_ndc);
 }
@@ -24,14 +24,13 @@ void project_portable(const ProjectionCoefficients& m, const CoordinateTest& tes
 
 // Four vertices at a time, with fused multiply-adds.
 
-__attribute__((target("avx2,fma"))) void transform_avx2(const AffineCoefficients& m,
-                                                        const CoordinateTest& test, const VertexBlock& p,
-                                                        ImageBlock& image) {
+__attribute__((target("avx2,fma"))) void transform_avx2(const AffineCoefficients& m, const RoundingTest& test,
+                                                        const VertexBlock& p, ImageBlock& image) {
   transform_block<FmaError>(m, test, p, image);
 }
 
 __attribute__((target("avx2,fma"))) void project_avx2(const ProjectionCoefficients& m,
-                                                      const CoordinateTest& test, const VertexBlock& p,
+                                                      const RoundingTest& test, const VertexBlock& p,
                                                       ImageBlock& p_ndc) {
   project_block<FmaError>(m, test, p, p_ndc);
 }
@@ -56,14 +55,13 @@ struct KernelList {
 Coefficient::Coefficient(const Ball& number) {
   if (number.is_exact_zero()) return;
   value = number.nearest_double();
-  is_filled = 1;
-  // Each term meets at most six roundings: the factor (1), the subtraction of the origin (1), the product (1)
-  // and the sums (3); to them comes the factor's own error. A factor may have been cut at the end of a
-  // double's range.
+  is_nonzero = 1;
+  // Each term is rounded at most six times: in the coefficient (1), the subtraction of the origin (1), the
+  // product (1) and the sums (3). To that comes the ball's own error, and what a subnormal value lacks.
   error = 8 * kUnitRoundoff * std::fabs(value) + number.radius() + 0x1p-1073;
   pair = number.value();
-  // The calculation in pairs loses less than 2^-98 of the terms, a quotient included, and ball arithmetic on
-  // the same numbers less than 2^-98: what the pair settles is not a tie for the ball.
+  // The calculation in pairs, a quotient included, loses less than 2^-98 of the terms, and so does ball
+  // arithmetic on the same numbers: a pair that passes the test is not a tie for the ball.
   pair_error = number.exponent() == 0 ? 0x1p-94 * std::fabs(value) + 8 * number.radius()
                                       : std::numeric_limits<double>::quiet_NaN();
 }

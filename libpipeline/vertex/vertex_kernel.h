@@ -1,31 +1,75 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <cstdint>
 #include <span>
 
 #include "libpipeline/numbers/ball.h"
-#include "libpipeline/vertex/coordinate_test.h"
-#include "libpipeline/vertex/vertex_block.h"
+#include "libpipeline/numbers/vec.h"
 
 namespace pipeline {
 
-// The fast paths of the arithmetic on vertices. A number is calculated in doubles, or as an unevaluated sum
-// of two, together with a bound of its error; where the bound leaves the text open, the vertex is left to
-// ball arithmetic. So the bytes of a correctly rounded text are those of exact arithmetic whichever kernel
-// runs, and in plain doubles every kernel does the same operations in the same order.
+// The fast arithmetic on vertices. A kernel calculates a coordinate in doubles, or as an unevaluated sum of
+// two (a pair), together with a bound of its error. Where the bound leaves the printed text open, the vertex
+// fails the rounding test and the caller calculates it again in ball arithmetic. So the text of a correctly
+// rounded coordinate does not depend on the kernel. With RoundingTestKind::finite every kernel does the same
+// operations in the same order.
 
-/// A factor of a coordinate: a number as a pair of doubles, and what it adds to the error of an image per
-/// unit of the coordinate, if the calculation is in doubles or in pairs.
+/// When a calculated coordinate may be printed as it is.
+enum class RoundingTestKind {
+  finite,    // it is finite
+  decimals,  // all numbers within its error bound have the same text with that many decimals
+  nearest    // all numbers within its error bound have the same nearest double
+};
+
+struct RoundingTest {
+  RoundingTestKind kind = RoundingTestKind::finite;
+  double scale = 1;  // 10^decimals
+  /// Calculates in pairs: with that many decimals the rounding error of a double shows.
+  bool needs_pairs = false;
+};
+
+/// The vertices of some triangles, axis by axis, so that a loop can work on several vertices at a time.
+struct VertexBlock {
+  static constexpr std::size_t kTriangles = 32;
+  static constexpr std::size_t kSize = 3 * kTriangles;
+  using Axis = std::array<double, kSize>;
+
+  std::size_t count = 0;
+  std::array<Axis, 3> p;  // x, y, z
+
+  /// Takes the vertices of at most kTriangles triangles.
+  void fill(std::span<const Triangle> triangles) {
+    count = 0;
+    for (const Triangle& triangle : triangles)
+      for (const Vec3& vertex : triangle) {
+        p[0][count] = vertex.x;
+        p[1][count] = vertex.y;
+        p[2][count] = vertex.z;
+        ++count;
+      }
+  }
+  [[nodiscard]] Vec3 vertex(std::size_t index) const { return {p[0][index], p[1][index], p[2][index]}; }
+};
+
+/// The images of a block's vertices. One that fails the rounding test must be calculated again by other
+/// means.
+struct ImageBlock : VertexBlock {
+  std::array<std::uint64_t, kSize> passes_rounding_test;  // all bits or none
+};
+
+/// An entry of a matrix, and the error it adds to an image per unit of the coordinate it is multiplied by.
 struct Coefficient {
   double value = 0;  // the nearest double
-  double error = 0;
+  double error = 0;  // added by a calculation in doubles
   DoubleDouble pair;
-  double pair_error = 0;
-  double is_filled = 0;  // 0 if the number is exactly 0, else 1
+  double pair_error = 0;  // added by a calculation in pairs
+  double is_nonzero = 0;  // 0 if the entry is exactly 0, else 1: summed up instead of tested
 
   Coefficient() = default;
-  /// NaN, which settles nothing, as the pair where the ball is beyond the range in which products of pairs
-  /// are safe.
+  /// `pair_error` is NaN, which fails every test, where the ball is beyond the range in which products of
+  /// pairs are safe.
   explicit Coefficient(const Ball& number);
 };
 
@@ -35,23 +79,23 @@ struct AffineCoefficients {
   std::array<std::array<Coefficient, 4>, 3> rows;
 };
 
-/// With w = -z (perspective) or 1: x' = (x_scale x + x_offset (-w)) / w, likewise y, z' in doubles by the
-/// formula that near and far do not spoil.
+/// x' = (x_scale x + x_offset q) / w and likewise y', with w = -z and q = z for a perspective, w = q = 1 for
+/// an orthographic projection. z' is (z_scale z + z_offset) / w in pairs; in doubles it comes from `near`,
+/// `far` and `depth_range`, by the formula that keeps its digits however close or far apart the planes are.
 struct ProjectionCoefficients {
   bool is_perspective = true;
   std::array<Coefficient, 3> scales;   // of x, y, z
-  std::array<Coefficient, 3> offsets;  // of z or of 1, for x, y; of 1 for z
+  std::array<Coefficient, 3> offsets;  // of x, y, z
   double near = 0;
   double far = 0;
-  double depth_range = 0;
+  double depth_range = 0;  // far - near
 };
 
 /// One implementation of the loops over a block's vertices.
 struct VertexKernel {
   const char* name;
-  void (*transform)(const AffineCoefficients&, const CoordinateTest&, const VertexBlock& p,
-                    ImageBlock& image);
-  void (*project)(const ProjectionCoefficients&, const CoordinateTest&, const VertexBlock& p_view,
+  void (*transform)(const AffineCoefficients&, const RoundingTest&, const VertexBlock& p, ImageBlock& image);
+  void (*project)(const ProjectionCoefficients&, const RoundingTest&, const VertexBlock& p_view,
                   ImageBlock& p_ndc);
 };
 

@@ -12,13 +12,13 @@
 
 namespace pipeline {
 
-// The loops of all kernels (vertex_kernel.h). `Rest` gives the exact rest of a rounded product; they differ
-// in nothing else. No loop has a branch.
+// The loops of all kernels (vertex_kernel.h), without a branch. Kernels differ in nothing but `ProductError`,
+// which gives the rounding error of a product exactly.
 
 constexpr double kUnitRoundoff = 0x1p-53;
 
-/// Rest by the splitting of Dekker ("A floating-point technique for extending the available precision",
-/// 1971), for processors without a fused multiply-add.
+/// Splits the factors (T. Dekker, "A floating-point technique for extending the available precision", 1971),
+/// for processors without a fused multiply-add: std::fma would be a call there.
 struct DekkerError {
   PIPELINE_LOOP static double of(double a, double b, double product) {
     constexpr double kSplitter = 0x1p27 + 1;
@@ -30,6 +30,7 @@ struct DekkerError {
   }
 };
 
+/// For processors with a fused multiply-add.
 struct FmaError {
   PIPELINE_LOOP static double of(double a, double b, double product) { return __builtin_fma(a, b, -product); }
 };
@@ -47,7 +48,7 @@ struct PairEstimate {
   bool is_zero;  // exactly
 };
 
-// ---- what settles a coordinate; `value` becomes the double that is printed ----
+// ---- rounding tests; `value` becomes the double that is printed ----
 
 PIPELINE_LOOP bool is_finite(const Estimate& e, double& value) {
   value = e.value;
@@ -87,17 +88,16 @@ PIPELINE_LOOP bool has_one_double(const PairEstimate& e, double& value) {
   return (is_nearest & (std::fabs(e.high) >= 0x1p-500)) | e.is_zero;
 }
 
-/// Settles a coordinate calculated in doubles.
-template <CoordinateTestKind kind>
+template <RoundingTestKind kind>
 PIPELINE_LOOP bool passes_rounding_test(const Estimate& e, double scale, double& value) {
-  if constexpr (kind == CoordinateTestKind::finite) return is_finite(e, value);
+  if constexpr (kind == RoundingTestKind::finite) return is_finite(e, value);
   return has_one_text(e, scale, value);
 }
 
-template <CoordinateTestKind kind, typename Rest>
+template <RoundingTestKind kind, typename ProductError>
 PIPELINE_LOOP bool passes_rounding_test(const PairEstimate& e, double scale, double& value) {
-  if constexpr (kind == CoordinateTestKind::nearest) return has_one_double(e, value);
-  return has_one_text(e, scale, Rest{}, value);
+  if constexpr (kind == RoundingTestKind::nearest) return has_one_double(e, value);
+  return has_one_text(e, scale, ProductError{}, value);
 }
 
 PIPELINE_LOOP std::uint64_t mask(bool condition) {
@@ -107,10 +107,10 @@ PIPELINE_LOOP std::uint64_t mask(bool condition) {
 // ---- products of pairs ----
 
 /// a * b within 2^-103 of itself.
-template <typename Rest>
+template <typename ProductError>
 PIPELINE_LOOP DoubleDouble product(DoubleDouble a, DoubleDouble b) {
   const double high = a.hi * b.hi;
-  return {high, Rest::of(a.hi, b.hi, high) + (a.hi * b.lo + a.lo * b.hi)};
+  return {high, ProductError::of(a.hi, b.hi, high) + (a.hi * b.lo + a.lo * b.hi)};
 }
 
 // ---- affine transforms ----
@@ -118,19 +118,19 @@ PIPELINE_LOOP DoubleDouble product(DoubleDouble a, DoubleDouble b) {
 PIPELINE_LOOP Estimate image_in_doubles(const std::array<Coefficient, 4>& row, double x, double y, double z) {
   const auto& [a, b, c, d] = row;
   return {a.value * x + b.value * y + c.value * z + d.value,
-          // Products below a double's range lose less than 2^-1070 together.
+          // Products that underflow lose less than 2^-1070 together.
           a.error * std::fabs(x) + b.error * std::fabs(y) + c.error * std::fabs(z) + d.error + 0x1p-1070};
 }
 
 /// The dot product in twice a double's precision (T. Ogita, S. Rump, S. Oishi, "Accurate sum and dot
 /// product", 2005): within 2^-100 of the sum of the terms' absolute values.
-template <typename Rest>
+template <typename ProductError>
 PIPELINE_LOOP PairEstimate image_in_pairs(const std::array<Coefficient, 4>& row, DoubleDouble x,
                                           DoubleDouble y, DoubleDouble z) {
   const auto& [a, b, c, d] = row;
-  const DoubleDouble ax = product<Rest>(a.pair, x);
-  const DoubleDouble by = product<Rest>(b.pair, y);
-  const DoubleDouble cz = product<Rest>(c.pair, z);
+  const DoubleDouble ax = product<ProductError>(a.pair, x);
+  const DoubleDouble by = product<ProductError>(b.pair, y);
+  const DoubleDouble cz = product<ProductError>(c.pair, z);
   const DoubleDouble two = two_sum(ax.hi, by.hi);
   const DoubleDouble three = two_sum(two.hi, cz.hi);
   const DoubleDouble four = two_sum(three.hi, d.pair.hi);
@@ -140,11 +140,11 @@ PIPELINE_LOOP PairEstimate image_in_pairs(const std::array<Coefficient, 4>& row,
   const double y_size = std::fabs(y.hi);
   const double z_size = std::fabs(z.hi);
   const double error = a.pair_error * x_size + b.pair_error * y_size + c.pair_error * z_size + d.pair_error;
-  const double filled = a.is_filled * x_size + b.is_filled * y_size + c.is_filled * z_size + d.is_filled;
-  return {sum.hi, sum.lo, error, filled == 0};
+  const double nonzero = a.is_nonzero * x_size + b.is_nonzero * y_size + c.is_nonzero * z_size + d.is_nonzero;
+  return {sum.hi, sum.lo, error, nonzero == 0};
 }
 
-template <CoordinateTestKind kind>
+template <RoundingTestKind kind>
 PIPELINE_LOOP void transform_in_doubles(const AffineCoefficients& m, double scale, const VertexBlock& p,
                                         ImageBlock& image) {
   const auto [ox, oy, oz] = m.origin;
@@ -158,7 +158,7 @@ PIPELINE_LOOP void transform_in_doubles(const AffineCoefficients& m, double scal
   }
 }
 
-template <CoordinateTestKind kind, typename Rest>
+template <RoundingTestKind kind, typename ProductError>
 PIPELINE_LOOP void transform_in_pairs(const AffineCoefficients& m, double scale, const VertexBlock& p,
                                       ImageBlock& image) {
   const auto [ox, oy, oz] = m.origin;
@@ -166,25 +166,26 @@ PIPELINE_LOOP void transform_in_pairs(const AffineCoefficients& m, double scale,
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const std::array<Coefficient, 4> row = m.rows[axis];
     for (std::size_t i = 0; i < count; ++i) {
-      const PairEstimate e = image_in_pairs<Rest>(row, two_sum(p.p[0][i], -ox), two_sum(p.p[1][i], -oy),
-                                                  two_sum(p.p[2][i], -oz));
-      image.passes_rounding_test[i] &= mask(passes_rounding_test<kind, Rest>(e, scale, image.p[axis][i]));
+      const PairEstimate e = image_in_pairs<ProductError>(row, two_sum(p.p[0][i], -ox),
+                                                          two_sum(p.p[1][i], -oy), two_sum(p.p[2][i], -oz));
+      image.passes_rounding_test[i] &=
+          mask(passes_rounding_test<kind, ProductError>(e, scale, image.p[axis][i]));
     }
   }
 }
 
-template <typename Rest>
-PIPELINE_LOOP void transform_block(const AffineCoefficients& m, const CoordinateTest& test,
+template <typename ProductError>
+PIPELINE_LOOP void transform_block(const AffineCoefficients& m, const RoundingTest& test,
                                    const VertexBlock& p, ImageBlock& image) {
-  using Kind = CoordinateTestKind;
+  using Kind = RoundingTestKind;
   image.count = p.count;
   for (std::size_t i = 0; i < p.count; ++i) image.passes_rounding_test[i] = ~std::uint64_t{0};
   if (test.kind == Kind::finite) {
     transform_in_doubles<Kind::finite>(m, test.scale, p, image);
   } else if (test.kind == Kind::nearest) {
-    transform_in_pairs<Kind::nearest, Rest>(m, test.scale, p, image);
+    transform_in_pairs<Kind::nearest, ProductError>(m, test.scale, p, image);
   } else if (test.needs_pairs) {
-    transform_in_pairs<Kind::decimals, Rest>(m, test.scale, p, image);
+    transform_in_pairs<Kind::decimals, ProductError>(m, test.scale, p, image);
   } else {
     transform_in_doubles<Kind::decimals>(m, test.scale, p, image);
   }
@@ -192,25 +193,26 @@ PIPELINE_LOOP void transform_block(const AffineCoefficients& m, const Coordinate
 
 // ---- projections ----
 
-/// Beyond these sizes of w, intermediate results may leave a double's range.
+/// For other w, behind the eye included, the kernels give no result: intermediate results of a w outside
+/// these bounds may leave a double's range.
 PIPELINE_LOOP bool is_safe_divisor(double w) {
   return (w > 0x1p-400) & (w < 0x1p400);
 }
 
-template <CoordinateTestKind kind, bool is_perspective>
+template <RoundingTestKind kind, bool is_perspective>
 PIPELINE_LOOP void project_in_doubles(const ProjectionCoefficients& m, double scale, const VertexBlock& p,
                                       ImageBlock& p_ndc) {
-  // Products below a double's range lose less than 2^-150 of a quotient.
+  // Products that underflow change a quotient by less than 2^-150.
   constexpr double kLost = 0x1p-150;
   constexpr double kRelative = 8 * kUnitRoundoff;
   const std::size_t count = p.count;
   for (std::size_t axis = 0; axis < 2; ++axis) {
-    const double factor = m.scales[axis].value;
+    const double coefficient = m.scales[axis].value;
     const double offset = m.offsets[axis].value;
     for (std::size_t i = 0; i < count; ++i) {
       const double z = p.p[2][i];
       const double w = is_perspective ? -z : 1;
-      const double scaled = factor * p.p[axis][i];
+      const double scaled = coefficient * p.p[axis][i];
       const double shift = offset * (is_perspective ? z : 1);
       const Estimate e = {(scaled + shift) / w,
                           kRelative * ((std::fabs(scaled) + std::fabs(shift)) / w) + kLost};
@@ -230,8 +232,8 @@ PIPELINE_LOOP void project_in_doubles(const ProjectionCoefficients& m, double sc
   }
 }
 
-/// (scale p + offset q) / w: the numerator like an affine image, and one correction of the quotient.
-template <CoordinateTestKind kind, typename Rest, bool is_perspective>
+/// (scale p + offset q) / w: the numerator as in image_in_pairs, the quotient with one correction.
+template <RoundingTestKind kind, typename ProductError, bool is_perspective>
 PIPELINE_LOOP void project_in_pairs(const ProjectionCoefficients& m, double scale, const VertexBlock& p,
                                     ImageBlock& p_ndc) {
   const std::size_t count = p.count;
@@ -244,49 +246,50 @@ PIPELINE_LOOP void project_in_pairs(const ProjectionCoefficients& m, double scal
       const double w = is_perspective ? -z : 1;
       const double q = has_shift ? z : 1;
       const double v = p.p[axis][i];
-      const DoubleDouble scaled = product<Rest>(a.pair, {v, 0});
-      const DoubleDouble shift = product<Rest>(b.pair, {q, 0});
+      const DoubleDouble scaled = product<ProductError>(a.pair, {v, 0});
+      const DoubleDouble shift = product<ProductError>(b.pair, {q, 0});
       const DoubleDouble sum = two_sum(scaled.hi, shift.hi);
       const DoubleDouble numerator = two_sum(sum.hi, sum.lo + (scaled.lo + shift.lo));
       const double quotient = numerator.hi / w;
       const double back = quotient * w;
-      const double rest = ((numerator.hi - back) - Rest::of(quotient, w, back)) + numerator.lo;
-      const DoubleDouble result = two_sum(quotient, rest / w);
+      const double remainder = ((numerator.hi - back) - ProductError::of(quotient, w, back)) + numerator.lo;
+      const DoubleDouble result = two_sum(quotient, remainder / w);
       const double v_size = std::fabs(v);
       const double q_size = std::fabs(q);
       const double error = (a.pair_error * v_size + b.pair_error * q_size) / w;
-      const bool is_zero = a.is_filled * v_size + b.is_filled * q_size == 0;
+      const bool is_zero = a.is_nonzero * v_size + b.is_nonzero * q_size == 0;
       const PairEstimate e = {result.hi, result.lo, error, is_zero};
       p_ndc.passes_rounding_test[i] &=
-          mask(passes_rounding_test<kind, Rest>(e, scale, p_ndc.p[axis][i])) & mask(is_safe_divisor(w));
+          mask(passes_rounding_test<kind, ProductError>(e, scale, p_ndc.p[axis][i])) &
+          mask(is_safe_divisor(w));
     }
   }
 }
 
-template <typename Rest, bool is_perspective>
-PIPELINE_LOOP void project_all(const ProjectionCoefficients& m, const CoordinateTest& test,
+template <typename ProductError, bool is_perspective>
+PIPELINE_LOOP void project_all(const ProjectionCoefficients& m, const RoundingTest& test,
                                const VertexBlock& p, ImageBlock& p_ndc) {
-  using Kind = CoordinateTestKind;
+  using Kind = RoundingTestKind;
   if (test.kind == Kind::finite) {
     project_in_doubles<Kind::finite, is_perspective>(m, test.scale, p, p_ndc);
   } else if (test.kind == Kind::nearest) {
-    project_in_pairs<Kind::nearest, Rest, is_perspective>(m, test.scale, p, p_ndc);
+    project_in_pairs<Kind::nearest, ProductError, is_perspective>(m, test.scale, p, p_ndc);
   } else if (test.needs_pairs) {
-    project_in_pairs<Kind::decimals, Rest, is_perspective>(m, test.scale, p, p_ndc);
+    project_in_pairs<Kind::decimals, ProductError, is_perspective>(m, test.scale, p, p_ndc);
   } else {
     project_in_doubles<Kind::decimals, is_perspective>(m, test.scale, p, p_ndc);
   }
 }
 
-template <typename Rest>
-PIPELINE_LOOP void project_block(const ProjectionCoefficients& m, const CoordinateTest& test,
+template <typename ProductError>
+PIPELINE_LOOP void project_block(const ProjectionCoefficients& m, const RoundingTest& test,
                                  const VertexBlock& p, ImageBlock& p_ndc) {
   p_ndc.count = p.count;
   for (std::size_t i = 0; i < p.count; ++i) p_ndc.passes_rounding_test[i] = ~std::uint64_t{0};
   if (m.is_perspective) {
-    project_all<Rest, true>(m, test, p, p_ndc);
+    project_all<ProductError, true>(m, test, p, p_ndc);
   } else {
-    project_all<Rest, false>(m, test, p, p_ndc);
+    project_all<ProductError, false>(m, test, p, p_ndc);
   }
 }
 

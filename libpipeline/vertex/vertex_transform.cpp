@@ -17,30 +17,30 @@ BallVec3 apply_in_balls(const AffineMatrix& m, const Vec3& origin, const Vec3& p
 }  // namespace
 
 VertexTransform::VertexTransform(const AffineMatrix& world_from_model) : matrix_(world_from_model) {
-  set_factors();
+  set_coefficients();
 }
 
 VertexTransform::VertexTransform(const ViewTransform& view_from_world) {
   const auto row = [](const BallVec3& v) { return std::array<Ball, 4>{v.x, v.y, v.z, Ball()}; };
   matrix_.rows = {row(view_from_world.right), row(view_from_world.up), row(view_from_world.backward)};
-  factors_.origin = view_from_world.eye;
-  set_factors();
+  coefficients_.origin = view_from_world.eye;
+  set_coefficients();
 }
 
-void VertexTransform::set_factors() {
+void VertexTransform::set_coefficients() {
   for (std::size_t i = 0; i < 3; ++i)
-    for (std::size_t j = 0; j < 4; ++j) factors_.rows[i][j] = Coefficient(matrix_.rows[i][j]);
+    for (std::size_t j = 0; j < 4; ++j) coefficients_.rows[i][j] = Coefficient(matrix_.rows[i][j]);
 }
 
 void VertexTransform::apply(TriangleBatch& batch, std::size_t begin, std::size_t end,
                             CoordinateRounder& rounder) const {
-  const CoordinateTest test = rounder.test();
+  const RoundingTest test = rounder.rounding_test();
   VertexBlock p;
   ImageBlock image;
   for (std::size_t first = begin; first < end; first += VertexBlock::kTriangles) {
     const std::size_t count = std::min(end - first, VertexBlock::kTriangles);
     p.fill(std::span(batch.triangles).subspan(first, count));
-    vertex_kernel().transform(factors_, test, p, image);
+    vertex_kernel().transform(coefficients_, test, p, image);
     for (std::size_t i = 0; i < count; ++i) try {
         set_image(batch, first + i, image, 3 * i, rounder);
       } catch (...) {
@@ -50,7 +50,8 @@ void VertexTransform::apply(TriangleBatch& batch, std::size_t begin, std::size_t
   }
 }
 
-/// Replaces a triangle by its image, which begins at `first_vertex`; what is not settled is calculated again.
+/// Replaces a triangle by its image, which begins at `first_vertex` of the block; vertices that failed the
+/// rounding test are calculated again.
 void VertexTransform::set_image(TriangleBatch& batch, std::size_t index, const ImageBlock& image,
                                 std::size_t first_vertex, CoordinateRounder& rounder) const {
   for (std::size_t v = 0; v < 3; ++v) {
@@ -58,7 +59,7 @@ void VertexTransform::set_image(TriangleBatch& batch, std::size_t index, const I
     if (image.passes_rounding_test[first_vertex + v] != 0) {
       p = image.vertex(first_vertex + v);
     } else {
-      rounder.set_vertex_exactly(batch, index, v, apply_in_balls(matrix_, factors_.origin, p));
+      rounder.set_vertex_exactly(batch, index, v, apply_in_balls(matrix_, coefficients_.origin, p));
     }
   }
 }

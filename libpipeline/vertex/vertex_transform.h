@@ -27,12 +27,12 @@ class VertexTransform {
   }
 
  private:
-  void set_factors();
+  void set_coefficients();
   void set_image(TriangleBatch& batch, std::size_t index, const ImageBlock& image, std::size_t first_vertex,
                  CoordinateRounder& rounder) const;
 
   AffineMatrix matrix_;
-  AffineCoefficients factors_;
+  AffineCoefficients coefficients_;
 };
 
 }  // namespace pipeline

@@ -14,10 +14,10 @@ namespace {
 
 using Exact = Real<4096>;
 
-constexpr CoordinateTest kNearest = {CoordinateTestKind::nearest};
+constexpr RoundingTest kNearest = {RoundingTestKind::nearest};
 
-CoordinateTest test_of_decimals(int decimals, bool needs_pairs) {
-  return {CoordinateTestKind::decimals, std::pow(10.0, decimals), needs_pairs};
+RoundingTest test_of_decimals(int decimals, bool needs_pairs) {
+  return {RoundingTestKind::decimals, std::pow(10.0, decimals), needs_pairs};
 }
 
 std::string printed(double value, int decimals) {
@@ -26,12 +26,12 @@ std::string printed(double value, int decimals) {
 }
 
 /// A transform of which every row is the same.
-AffineCoefficients factors_of(const std::array<Ball, 4>& row, const Vec3& origin = {}) {
-  AffineCoefficients factors;
-  factors.origin = origin;
-  for (auto& factor_row : factors.rows)
-    for (std::size_t j = 0; j < 4; ++j) factor_row[j] = Coefficient(row[j]);
-  return factors;
+AffineCoefficients coefficients_of(const std::array<Ball, 4>& row, const Vec3& origin = {}) {
+  AffineCoefficients coefficients;
+  coefficients.origin = origin;
+  for (auto& coefficient_row : coefficients.rows)
+    for (std::size_t j = 0; j < 4; ++j) coefficient_row[j] = Coefficient(row[j]);
+  return coefficients;
 }
 
 VertexBlock block_of(const Vec3& p) {
@@ -43,14 +43,14 @@ VertexBlock block_of(const Vec3& p) {
 
 class VertexKernels : public testing::TestWithParam<VertexKernel> {
  protected:
-  static ImageBlock image_of(const AffineCoefficients& factors, const Vec3& p,
-                             const CoordinateTest& test = kNearest) {
+  static ImageBlock image_of(const AffineCoefficients& coefficients, const Vec3& p,
+                             const RoundingTest& test = kNearest) {
     ImageBlock image;
-    GetParam().transform(factors, test, block_of(p), image);
+    GetParam().transform(coefficients, test, block_of(p), image);
     return image;
   }
-  static bool settles(const std::array<Ball, 4>& row, const Vec3& p, const CoordinateTest& test = kNearest) {
-    return image_of(factors_of(row), p, test).passes_rounding_test[0] != 0;
+  static bool accepts(const std::array<Ball, 4>& row, const Vec3& p, const RoundingTest& test = kNearest) {
+    return image_of(coefficients_of(row), p, test).passes_rounding_test[0] != 0;
   }
 };
 
@@ -74,75 +74,76 @@ Exact exact_image(const std::array<Ball, 4>& row, const Vec3& origin, const Vec3
          midpoint<4096>(row[2]) * (Exact(p.z) - Exact(origin.z)) + midpoint<4096>(row[3]);
 }
 
-TEST_P(VertexKernels, SettleNothingButTheNearestDouble) {
+TEST_P(VertexKernels, AcceptOnlyTheNearestDouble) {
   RandomNumbers random(1);
-  int settled_count = 0;
+  int passed_count = 0;
   for (int i = 0; i < 30'000; ++i) {
     const int largest_exponent = i % 10 == 0 ? 290 : 20;
     const std::array<Ball, 4> row = random_row(random, largest_exponent);
     const Vec3 origin = random_vec3(random, largest_exponent);
     const Vec3 p = random_vec3(random, largest_exponent);
-    const ImageBlock image = image_of(factors_of(row, origin), p);
+    const ImageBlock image = image_of(coefficients_of(row, origin), p);
     if (image.passes_rounding_test[0] == 0) continue;
-    ++settled_count;
+    ++passed_count;
     ASSERT_EQ(image.p[0][0], exact_image(row, origin, p).nearest_double()) << i;
   }
-  EXPECT_GT(settled_count, 27'000);
+  EXPECT_GT(passed_count, 27'000);
 }
 
-TEST_P(VertexKernels, SettleNothingButTheNearestDecimal) {
+TEST_P(VertexKernels, AcceptOnlyTheNearestDecimal) {
   RandomNumbers random(2);
-  int settled_count = 0;
+  int passed_count = 0;
   for (int i = 0; i < 30'000; ++i) {
     const int decimals = random.whole(0, 17);
     const std::array<Ball, 4> row = random_row(random, 3);
     const Vec3 origin = random_vec3(random, 3);
     const Vec3 p = random_vec3(random, 3);
-    const ImageBlock image = image_of(factors_of(row, origin), p, test_of_decimals(decimals, i % 2 == 0));
+    const ImageBlock image =
+        image_of(coefficients_of(row, origin), p, test_of_decimals(decimals, i % 2 == 0));
     if (image.passes_rounding_test[0] == 0) continue;
-    ++settled_count;
+    ++passed_count;
     ASSERT_EQ(printed(image.p[0][0], decimals), exact_image(row, origin, p).text(decimals)) << i;
   }
-  EXPECT_GT(settled_count, 15'000);
+  EXPECT_GT(passed_count, 15'000);
 }
 
-TEST_P(VertexKernels, SettleNoTieBetweenTwoDoubles) {
-  EXPECT_TRUE(settles({1, 0, 0, 0}, {1, 0, 0}));
-  EXPECT_FALSE(settles({1, 0x1p-53, 0, 0}, {1, 1, 0}));
-  EXPECT_FALSE(settles({1, 0, 0, 3}, {0x1p-52, 0, 0}));
+TEST_P(VertexKernels, AcceptNoTieBetweenTwoDoubles) {
+  EXPECT_TRUE(accepts({1, 0, 0, 0}, {1, 0, 0}));
+  EXPECT_FALSE(accepts({1, 0x1p-53, 0, 0}, {1, 1, 0}));
+  EXPECT_FALSE(accepts({1, 0, 0, 3}, {0x1p-52, 0, 0}));
 }
 
-TEST_P(VertexKernels, SettleNoTieOfDecimals) {
+TEST_P(VertexKernels, AcceptNoTieOfDecimals) {
   for (const bool needs_pairs : {false, true}) {
-    EXPECT_TRUE(settles({1, 0, 0, 0}, {0.25, 0, 0}, test_of_decimals(2, needs_pairs)));
-    EXPECT_FALSE(settles({1, 0, 0, 0}, {0.125, 0, 0}, test_of_decimals(2, needs_pairs)));
-    EXPECT_FALSE(settles({1, 1, 0, 0}, {0.5, -1, 0}, test_of_decimals(0, needs_pairs)));
+    EXPECT_TRUE(accepts({1, 0, 0, 0}, {0.25, 0, 0}, test_of_decimals(2, needs_pairs)));
+    EXPECT_FALSE(accepts({1, 0, 0, 0}, {0.125, 0, 0}, test_of_decimals(2, needs_pairs)));
+    EXPECT_FALSE(accepts({1, 1, 0, 0}, {0.5, -1, 0}, test_of_decimals(0, needs_pairs)));
   }
 }
 
-TEST_P(VertexKernels, SettleNoNumberWhoseErrorReachesATie) {
+TEST_P(VertexKernels, AcceptNoNumberWhoseErrorReachesATie) {
   const Ball wide = Ball::with_error({1, 0x1p-53 - 0x1p-100}, 0x1p-90);
-  EXPECT_FALSE(settles({wide, 0, 0, 0}, {1, 0, 0}));
-  EXPECT_FALSE(settles({1, 0, 0, wide}, {0, 0, 0}));
+  EXPECT_FALSE(accepts({wide, 0, 0, 0}, {1, 0, 0}));
+  EXPECT_FALSE(accepts({1, 0, 0, wide}, {0, 0, 0}));
 }
 
-TEST_P(VertexKernels, SettleZeroIfEveryTermIsZero) {
-  EXPECT_TRUE(settles({0, 5, 0, 0}, {7, 0, -0.0}));
-  EXPECT_FALSE(settles({1, 1, 0, 0}, {3, -3, 0}));
-  EXPECT_FALSE(settles({Ball::with_error({0, 0}, 0x1p-200), 0, 0, 0}, {1, 0, 0}));
+TEST_P(VertexKernels, AcceptZeroIfEveryTermIsZero) {
+  EXPECT_TRUE(accepts({0, 5, 0, 0}, {7, 0, -0.0}));
+  EXPECT_FALSE(accepts({1, 1, 0, 0}, {3, -3, 0}));
+  EXPECT_FALSE(accepts({Ball::with_error({0, 0}, 0x1p-200), 0, 0, 0}, {1, 0, 0}));
   // A product that a double has no room for is not zero.
-  EXPECT_FALSE(settles({0x1p-280, 0, 0, 0}, {0x1p-900, 0, 0}));
+  EXPECT_FALSE(accepts({0x1p-280, 0, 0, 0}, {0x1p-900, 0, 0}));
 }
 
-TEST_P(VertexKernels, LeaveWhatIsBeyondTheirRange) {
-  EXPECT_FALSE(settles({Ball(0x1p1000), 0, 0, 0}, {1, 0, 0}));
-  EXPECT_FALSE(settles({Ball(0x1p-1000), 0, 0, 0}, {1, 0, 0}));
-  EXPECT_FALSE(settles({0x1p200, 0, 0, 0}, {0x1p900, 0, 0}));
-  for (const CoordinateTest test : {CoordinateTest{}, kNearest, test_of_decimals(7, false)})
-    EXPECT_FALSE(settles({2, 0, 0, 0}, {0x1.8p1023, 0, 0}, test));
+TEST_P(VertexKernels, RejectWhatIsBeyondTheirRange) {
+  EXPECT_FALSE(accepts({Ball(0x1p1000), 0, 0, 0}, {1, 0, 0}));
+  EXPECT_FALSE(accepts({Ball(0x1p-1000), 0, 0, 0}, {1, 0, 0}));
+  EXPECT_FALSE(accepts({0x1p200, 0, 0, 0}, {0x1p900, 0, 0}));
+  for (const RoundingTest test : {RoundingTest{}, kNearest, test_of_decimals(7, false)})
+    EXPECT_FALSE(accepts({2, 0, 0, 0}, {0x1.8p1023, 0, 0}, test));
 }
 
-TEST_P(VertexKernels, SettleEveryVertexOfABlockByItself) {
+TEST_P(VertexKernels, TestEveryVertexOfABlockByItself) {
   std::array<Triangle, VertexBlock::kTriangles> triangles;
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     const auto x = static_cast<double>(i);
@@ -151,7 +152,7 @@ TEST_P(VertexKernels, SettleEveryVertexOfABlockByItself) {
   VertexBlock block;
   block.fill(triangles);
   ImageBlock image;
-  GetParam().transform(factors_of({1, 0x1p-53, 0, 1}), kNearest, block, image);
+  GetParam().transform(coefficients_of({1, 0x1p-53, 0, 1}), kNearest, block, image);
   ASSERT_EQ(image.count, 3 * triangles.size());
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     EXPECT_EQ(image.p[0][3 * i], static_cast<double>(i + 1));
@@ -163,37 +164,38 @@ TEST_P(VertexKernels, SettleEveryVertexOfABlockByItself) {
 
 ProjectionCoefficients random_projection(RandomNumbers& random, std::array<Ball, 3>& scales,
                                          std::array<Ball, 3>& offsets) {
-  ProjectionCoefficients factors;
-  factors.is_perspective = random.bits() % 2 == 0;
+  ProjectionCoefficients coefficients;
+  coefficients.is_perspective = random.bits() % 2 == 0;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     scales[axis] = Ball::with_error(random.double_double(-10, 10), 0);
     offsets[axis] = random.bits() % 4 == 0 ? Ball() : Ball::with_error(random.double_double(-10, 10), 0);
-    factors.scales[axis] = Coefficient(scales[axis]);
-    factors.offsets[axis] = Coefficient(offsets[axis]);
+    coefficients.scales[axis] = Coefficient(scales[axis]);
+    coefficients.offsets[axis] = Coefficient(offsets[axis]);
   }
-  return factors;
+  return coefficients;
 }
 
 // Of the depth in doubles, the tests of ProjectionStage tell.
-TEST_P(VertexKernels, SettleNothingButTheNearestQuotient) {
+TEST_P(VertexKernels, AcceptOnlyTheNearestQuotient) {
   RandomNumbers random(3);
-  int settled_count = 0;
+  int passed_count = 0;
   for (int i = 0; i < 20'000; ++i) {
     std::array<Ball, 3> scales;
     std::array<Ball, 3> offsets;
-    const ProjectionCoefficients factors = random_projection(random, scales, offsets);
+    const ProjectionCoefficients coefficients = random_projection(random, scales, offsets);
     Vec3 p = random_vec3(random, 20);
     if (i % 16 != 0) p.z = -std::fabs(p.z);
     const int decimals = random.whole(11, 17);
     const bool is_nearest = i % 2 == 0;
     ImageBlock p_ndc;
-    GetParam().project(factors, is_nearest ? kNearest : test_of_decimals(decimals, true), block_of(p), p_ndc);
+    GetParam().project(coefficients, is_nearest ? kNearest : test_of_decimals(decimals, true), block_of(p),
+                       p_ndc);
     if (p_ndc.passes_rounding_test[0] == 0) continue;
-    ++settled_count;
-    const Exact w = factors.is_perspective ? -p.z : 1;
+    ++passed_count;
+    const Exact w = coefficients.is_perspective ? -p.z : 1;
     ASSERT_GT(w.sign(), 0);
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const Exact q = factors.is_perspective && axis < 2 ? p.z : 1;
+      const Exact q = coefficients.is_perspective && axis < 2 ? p.z : 1;
       const Exact v = axis == 0 ? p.x : (axis == 1 ? p.y : p.z);
       const Exact truth = (midpoint<4096>(scales[axis]) * v + midpoint<4096>(offsets[axis]) * q) / w;
       if (is_nearest) {
@@ -203,15 +205,15 @@ TEST_P(VertexKernels, SettleNothingButTheNearestQuotient) {
       }
     }
   }
-  EXPECT_GT(settled_count, 8'000);
+  EXPECT_GT(passed_count, 8'000);
 }
 
-TEST_P(VertexKernels, SettleNoQuotientBehindTheEyeOrOnItsPlane) {
-  ProjectionCoefficients factors;
-  for (Coefficient& factor : factors.scales) factor = Coefficient(Ball(1));
+TEST_P(VertexKernels, AcceptNoQuotientBehindTheEyeOrOnItsPlane) {
+  ProjectionCoefficients coefficients;
+  for (Coefficient& coefficient : coefficients.scales) coefficient = Coefficient(Ball(1));
   for (const double z : {0.0, -0.0, 1.0, -0x1p-500, -0x1p500}) {
     ImageBlock p_ndc;
-    GetParam().project(factors, kNearest, block_of({1, 1, z}), p_ndc);
+    GetParam().project(coefficients, kNearest, block_of({1, 1, z}), p_ndc);
     EXPECT_EQ(p_ndc.passes_rounding_test[0], 0u) << z;
   }
 }
