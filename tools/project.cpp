@@ -115,7 +115,7 @@ int main(int argc, char** argv) {
     const auto make_transform = [&](CoordinateRounder& rounder) {
       workers.push_back({ProjectionStage(projection, chosen.clip, chosen.cull, rounder, chosen.clip_inset)});
       Worker& worker = workers.back();
-      if (is_lit) worker.stage.keep_clipped_triangles();
+      if (is_lit) worker.stage.keep_unclipped_triangles();
       return [&worker](TriangleBatch& batch) { worker.project(batch); };
     };
     StageLoop(tool, writer, numbers.rounder(tool.input().file()), numbers.thread_count())
