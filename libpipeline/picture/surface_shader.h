@@ -12,7 +12,7 @@
 #include "libpipeline/scene/color.h"
 #include "libpipeline/scene/pixel_grid.h"
 #include "libpipeline/stream/triangle_batch.h"
-#include "libpipeline/vertex/view_from_clip.h"
+#include "libpipeline/vertex/transform.h"
 
 namespace pipeline {
 

@@ -50,4 +50,20 @@ ProjectionTransform clip_from_view(const Located<Projection>& projection, Aspect
 /// it, is.
 Projection volume_of(const Projection& projection, const ProjectionTransform& transform);
 
+/// From clip to view space: the inverse of a projection, in doubles.
+class ViewFromClip {
+ public:
+  explicit ViewFromClip(const ProjectionTransform& clip_from_view);
+
+  [[nodiscard]] bool is_perspective() const { return is_perspective_; }
+  /// A point's w in clip space, from its depth in NDC: its distance in front of the eye, 1 if orthographic.
+  [[nodiscard]] double w_of(const Vec3& p_ndc) const;
+  /// The point in view space; it may lie behind the eye.
+  [[nodiscard]] Vec3 operator()(const Vec3& p_clip, double w) const;
+
+ private:
+  bool is_perspective_;
+  double x_scale_, x_offset_, y_scale_, y_offset_, near_, far_;
+};
+
 }  // namespace pipeline
