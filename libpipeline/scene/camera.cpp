@@ -110,9 +110,9 @@ void check_camera(const CameraParameters& camera) {
 }
 
 CameraParameters without_position(const CameraParameters& camera) {
-  CameraParameters rest;
-  rest.projection = camera.projection;
-  return rest;
+  CameraParameters projection_only;
+  projection_only.projection = camera.projection;
+  return projection_only;
 }
 
 CameraParameters merged(const CameraParameters& preferred, const CameraParameters& otherwise) {

@@ -23,7 +23,7 @@ int read_size(LineScanner& line, const std::string& name) {
   const std::string expected = "the " + name + " in pixels, a whole number from 1 to 65535";
   LineScanner ahead = line;
   const std::size_t size = ahead.count(expected);
-  if (size < 1 || size > kMaxScreenSize) line.fail(expected);
+  if (size < 1 || size > kMaxViewportSize) line.fail(expected);
   line = ahead;
   return static_cast<int>(size);
 }
@@ -47,36 +47,36 @@ Limit read_negative_limit(const LineScanner& line, const std::string& name) {
   return {exact.hi, exact.lo, true};
 }
 
-void read_depth_limits(LineScanner line, Viewport& config) {
+void read_depth_limits(LineScanner line, Viewport& viewport) {
   const std::string expected_rear = "the rear limit of Z, a number greater than the front limit";
-  config.front = line.number("the front limit of Z");
+  viewport.front = line.number("the front limit of Z");
   LineScanner ahead = line;
-  config.rear = ahead.number(expected_rear);
-  if (config.rear <= config.front) line.fail(expected_rear);
+  viewport.rear = ahead.number(expected_rear);
+  if (viewport.rear <= viewport.front) line.fail(expected_rear);
   ahead.expect_end("the rear limit of Z");
 }
 
 }  // namespace
 
 Viewport read_config(TextReader& text) {
-  Viewport config;
+  Viewport viewport;
   LineScanner line = required_line(text, "the width and height in pixels");
-  config.columns = read_size(line, "width");
-  config.rows = read_size(line, "height");
+  viewport.columns = read_size(line, "width");
+  viewport.rows = read_size(line, "height");
   line.expect_end("the height");
-  // Width and height alone are a whole config.
-  if (!text.next_filled_line(line)) return config;
+  // Width and height alone are a complete config.
+  if (!text.next_filled_line(line)) return viewport;
   const Limit left = read_negative_limit(line, "left limit of X");
   const Limit bottom = read_negative_limit(required_line(text, "the bottom limit of Y"), "bottom limit of Y");
-  config.left = left.value;
-  config.left_low_part = left.low_part;
-  config.left_is_decimal = left.is_decimal;
-  config.bottom = bottom.value;
-  config.bottom_low_part = bottom.low_part;
-  config.bottom_is_decimal = bottom.is_decimal;
-  read_depth_limits(required_line(text, "the front and rear limits of Z"), config);
+  viewport.left = left.value;
+  viewport.left_low_part = left.low_part;
+  viewport.left_is_decimal = left.is_decimal;
+  viewport.bottom = bottom.value;
+  viewport.bottom_low_part = bottom.low_part;
+  viewport.bottom_is_decimal = bottom.is_decimal;
+  read_depth_limits(required_line(text, "the front and rear limits of Z"), viewport);
   if (text.next_filled_line(line)) line.fail("nothing after the limits of Z");
-  return config;
+  return viewport;
 }
 
 }  // namespace pipeline

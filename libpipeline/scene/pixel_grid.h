@@ -6,13 +6,13 @@ namespace pipeline {
 
 /// Where the pixel centers of a screen lie in NDC; row 0 is at the top.
 struct PixelGrid {
-  explicit PixelGrid(const Viewport& screen)
-      : columns(screen.columns),
-        rows(screen.rows),
-        left_x(screen.left_x()),
-        top_y(screen.top_y()),
-        dx(screen.dx()),
-        dy(screen.dy()) {}
+  explicit PixelGrid(const Viewport& viewport)
+      : columns(viewport.columns),
+        rows(viewport.rows),
+        left_x(viewport.left_x()),
+        top_y(viewport.top_y()),
+        dx(viewport.dx()),
+        dy(viewport.dy()) {}
 
   [[nodiscard]] double x_of(int column) const { return left_x + column * dx; }
   [[nodiscard]] double y_of(int row) const { return top_y - row * dy; }

@@ -3,7 +3,7 @@
 namespace pipeline {
 
 /// The largest width and height of a screen, in pixels.
-constexpr int kMaxScreenSize = 65535;
+constexpr int kMaxViewportSize = 65535;
 
 /// The limits -left and -bottom lie in [kMinLimit, kMaxLimit], so that neither a pixel's size nor
 /// the distance from a pixel to any finite vertex leaves the range of a double.

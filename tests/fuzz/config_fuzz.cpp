@@ -16,8 +16,8 @@ std::string shortest(double value) {
 }
 
 void check_screen(const Viewport& screen) {
-  require(screen.columns >= 1 && screen.columns <= kMaxScreenSize, "the width is within its limits");
-  require(screen.rows >= 1 && screen.rows <= kMaxScreenSize, "the height is within its limits");
+  require(screen.columns >= 1 && screen.columns <= kMaxViewportSize, "the width is within its limits");
+  require(screen.rows >= 1 && screen.rows <= kMaxViewportSize, "the height is within its limits");
   require(screen.left < 0 && screen.bottom < 0, "left and bottom are negative");
   require(std::isnormal(screen.dx()) && screen.dx() > 0, "a pixel has a width");
   require(std::isnormal(screen.dy()) && screen.dy() > 0, "a pixel has a height");

@@ -16,7 +16,7 @@ namespace {
 const std::string kCamera = "0 0 5\n0 0 0\n0 1 0\n60 1 1 100\n";
 const std::string kTriangle = "triangle\n0 0 0\n1 0 0\n0 1 0\n";
 
-/// What is known of a scene when all of it is read.
+/// The contents of a scene.
 struct ReadScene {
   Appearance appearance;
   std::vector<Light> lights;
@@ -41,7 +41,7 @@ std::string error_of(const std::string& commands) {
   return message_of([&] { scene_of(commands); });
 }
 
-TEST(Appearance, APlainSceneSaysNothing) {
+TEST(Appearance, APlainSceneGivesNone) {
   const Appearance appearance = scene_of(kTriangle).appearance;
   EXPECT_FALSE(appearance.attributes || appearance.background || appearance.ambient || appearance.material ||
                appearance.attenuation || !appearance.lights.empty());
@@ -145,7 +145,7 @@ TEST(Appearance, AnAttenuationIsNotAllZero) {
             "scene.txt:5:13: expected an attenuation other than 0 0 0, found 0 0 0");
 }
 
-TEST(Appearance, IsSettledByTheFirstTriangle) {
+TEST(Appearance, IsFixedByTheFirstTriangle) {
   EXPECT_EQ(error_of(kTriangle + "light 0 0 0 1 1 1\n"),
             "scene.txt:9:1: expected 'light' before the first triangle, found 'light' behind it");
   EXPECT_EQ(error_of(kTriangle + "color 1 2 3\n"),

@@ -96,11 +96,11 @@ TEST(Camera, OtherKeywordsAreNoParts) {
 }
 
 TEST(Camera, WithoutItsPositionIsTheProjection) {
-  CameraParameters whole = camera({0, 0, 5}, {}, {0, 1, 0});
-  whole.projection = {Perspective{60, 1, 1, 100}, {"in.txt", 4, 1}};
-  const CameraParameters rest = without_position(whole);
-  EXPECT_FALSE(rest.eye || rest.look || rest.up);
-  EXPECT_EQ(to_string(rest.projection->location), "in.txt:4:1");
+  CameraParameters complete = camera({0, 0, 5}, {}, {0, 1, 0});
+  complete.projection = {Perspective{60, 1, 1, 100}, {"in.txt", 4, 1}};
+  const CameraParameters projection_only = without_position(complete);
+  EXPECT_FALSE(projection_only.eye || projection_only.look || projection_only.up);
+  EXPECT_EQ(to_string(projection_only.projection->location), "in.txt:4:1");
 }
 
 TEST(Camera, MergedPartsAreThePreferredOnes) {

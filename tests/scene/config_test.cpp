@@ -22,18 +22,18 @@ std::string error_of(const std::string& text) {
 
 /// Columns, rows, left, bottom, front and rear.
 std::vector<double> numbers_of(const std::string& text) {
-  const Viewport config = config_of(text);
-  return {static_cast<double>(config.columns),
-          static_cast<double>(config.rows),
-          config.left,
-          config.bottom,
-          config.front,
-          config.rear};
+  const Viewport viewport = config_of(text);
+  return {static_cast<double>(viewport.columns),
+          static_cast<double>(viewport.rows),
+          viewport.left,
+          viewport.bottom,
+          viewport.front,
+          viewport.rear};
 }
 
 const std::vector<double> kExample = {500, 500, -1, -1, 0, 2};  // the assignment's
 
-TEST(Config, FourLinesSaySizeAndLimits) {
+TEST(Config, FourLinesGiveSizeAndLimits) {
   EXPECT_EQ(numbers_of("640 480\n-1.5\n-0.75\n-0.25 2\n"),
             (std::vector<double>{640, 480, -1.5, -0.75, -0.25, 2}));
 }
@@ -47,21 +47,21 @@ TEST(Config, SizeAloneLeavesTheLimitsAtOne) {
 }
 
 TEST(Config, TakesCarriageReturnsTabsBlankLinesAndComments) {
-  EXPECT_EQ(numbers_of("# screen\r\n\r\n\t500\t500 \r\n-1 # left\r\n-1\r\n\r\n+0 2e0  \r\n# the end"),
+  EXPECT_EQ(numbers_of("# viewport\r\n\r\n\t500\t500 \r\n-1 # left\r\n-1\r\n\r\n+0 2e0  \r\n# the end"),
             kExample);
 }
 
-TEST(Config, TakesTheSmallestAndTheLargestScreen) {
+TEST(Config, TakesTheSmallestAndTheLargestSize) {
   EXPECT_EQ(config_of("1 65535").columns, 1);
   EXPECT_EQ(config_of("1 65535").rows, 65535);
 }
 
 TEST(Config, PixelCentersLieHalfAPixelInsideTheLimits) {
-  const Viewport config = config_of("8 4\n-4\n-1\n0 1");
-  EXPECT_EQ(config.dx(), 1);
-  EXPECT_EQ(config.dy(), 0.5);
-  EXPECT_EQ(config.left_x(), -3.5);
-  EXPECT_EQ(config.top_y(), 0.75);
+  const Viewport viewport = config_of("8 4\n-4\n-1\n0 1");
+  EXPECT_EQ(viewport.dx(), 1);
+  EXPECT_EQ(viewport.dy(), 0.5);
+  EXPECT_EQ(viewport.left_x(), -3.5);
+  EXPECT_EQ(viewport.top_y(), 0.75);
 }
 
 TEST(Config, AnEmptyFileIsAnError) {

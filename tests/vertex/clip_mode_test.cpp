@@ -148,12 +148,12 @@ TEST(ProjectionStage, ACutTriangleIsThatCutByHand) {
   const Triangle crossing = {Vec3{0, 0, 2}, Vec3{1, 0, -2}, Vec3{0, 1, -2}};
   const Vec3 cut_x = {0.75, 0, -1};
   const Vec3 cut_y = {0, 0.75, -1};
-  const Result whole = projected(batch_of({crossing}), kSimple, ClipMode::automatic);
+  const Result clipped = projected(batch_of({crossing}), kSimple, ClipMode::automatic);
   const Result by_hand = projected(batch_of({{cut_x, crossing[1], crossing[2]}, {cut_x, crossing[2], cut_y}}),
                                    kSimple, ClipMode::none);
-  ASSERT_EQ(whole.p_ndc.size(), 2u);
+  ASSERT_EQ(clipped.p_ndc.size(), 2u);
   for (std::size_t i = 0; i < 6; ++i)
-    EXPECT_EQ(printed_vertex(whole.p_ndc, i, {7}), printed_vertex(by_hand.p_ndc, i, {7}));
+    EXPECT_EQ(printed_vertex(clipped.p_ndc, i, {7}), printed_vertex(by_hand.p_ndc, i, {7}));
 }
 
 TEST(ProjectionStage, CutsPrintTheCorrectlyRoundedNumbers) {

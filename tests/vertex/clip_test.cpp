@@ -189,14 +189,14 @@ TEST(ClipPolygon, OfNothingIsNothing) {
 
 /// Cuts off what is outside of one plane after the other, and adds up the shadows of what was cut off.
 void expect_area_conserved(const Polygon& triangle) {
-  Polygon rest = triangle;
+  Polygon remaining = triangle;
   std::vector<Polygon> parts;
   for (const ClipPlane plane : kAllClipPlanes) {
-    parts.push_back(clipped_at(plane, turned_inside_out(rest)));
-    rest = clipped_at(plane, rest);
+    parts.push_back(clipped_at(plane, turned_inside_out(remaining)));
+    remaining = clipped_at(plane, remaining);
   }
-  ASSERT_TRUE(is_same(rest, clip_polygon(triangle, kAllClipPlanes)));
-  parts.push_back(rest);
+  ASSERT_TRUE(is_same(remaining, clip_polygon(triangle, kAllClipPlanes)));
+  parts.push_back(remaining);
   const Exact size = size_of(triangle);
   for (const Coordinate first : kCoordinates) {
     for (const Coordinate second : kCoordinates) {

@@ -96,7 +96,7 @@ TEST(Culling, KeepsATriangleSeenExactlyFromTheEdge) {
   EXPECT_EQ(projected(batch, kSimple, ClipMode::automatic, CullMode::front).counts.culled, 0u);
 }
 
-TEST(Culling, APieceOfACutTriangleTurnsAsTheWhole) {
+TEST(Culling, PiecesOfAClippedTriangleKeepItsWinding) {
   RandomNumbers random(10);
   for (int i = 0; i < 2'000; ++i) {
     const Triangle t = {random_point(random, 10), random_point(random, 10), random_point(random, 10)};

@@ -144,7 +144,7 @@ TEST(Projection, TheNearAndFarPlanesAreExactlyMinusOneAndOne) {
   EXPECT_EQ(result.p_ndc.triangles[0][1].z, 1);
 }
 
-TEST(Projection, AnOverflowNamesTheVertexsPlace) {
+TEST(Projection, AnOverflowNamesTheVertexsLocation) {
   const TriangleBatch batch = batch_of({{Vec3{0, 0, -1e-5}, Vec3{1e306, 0, -1e-5}, Vec3{0, 1, -1e-5}}});
   const ProjectionTransform close = {true, 1, 0, 1, 0, 1e-5, 1};
   try {
@@ -160,7 +160,7 @@ TEST(Projection, AnOverflowNamesTheVertexsPlace) {
 TEST(Projection, LongPrintsNoNumberThatDiffersFromTheReference) {
   RandomNumbers random(101);
   DifferenceCount extended;
-  DifferenceCount plain;
+  DifferenceCount in_doubles;
   for (int i = 0; i < 1'000; ++i) {
     const Perspective p = random_perspective(random);
     const auto exact = reference_projection<448>(p, AspectRule::angle);
@@ -169,13 +169,13 @@ TEST(Projection, LongPrintsNoNumberThatDiffersFromTheReference) {
     extended.add(projected(batch_of(vertices), transform_of(p), ClipMode::automatic).p_ndc, vertices,
                  reference);
     if (i % 10 != 0) continue;
-    plain.add(projected(batch_of(vertices), transform_of(p), ClipMode::automatic, CullMode::nothing, {7},
-                        Precision::in_doubles)
-                  .p_ndc,
-              vertices, reference);
+    in_doubles.add(projected(batch_of(vertices), transform_of(p), ClipMode::automatic, CullMode::nothing, {7},
+                             Precision::in_doubles)
+                       .p_ndc,
+                   vertices, reference);
   }
   extended.report("project, extended");
-  plain.report("project, double");
+  in_doubles.report("project, double");
   EXPECT_EQ(extended.different, 0u) << extended.first;
 }
 

@@ -300,7 +300,7 @@ TEST(IsParallelToView, SeesTheLastBitOfADifference) {
       is_parallel_to_view({0, 0, 0}, {1e-300, 2e-300, 3e-300}, {1e300, 2e300, 3.0000000000000004e300}));
 }
 
-TEST(IsParallelToView, WhatItLetsPassHasAViewTransform) {
+TEST(IsParallelToView, AnUpThatIsNotParallelHasAViewTransform) {
   // Nearly parallel to what 31 digits tell, with an eye that makes the view direction longer than a double.
   RandomNumbers random(7);
   for (int i = 0; i < 20'000; ++i) {
@@ -406,7 +406,7 @@ TEST(ClipFromView, TakesAnAngleJustBelowAHalfTurn) {
   EXPECT_THROW(clip_from_view({Perspective{100, 1e308, 1, 2}, {}}, AspectRule::angle), InputError);
 }
 
-TEST(ClipFromView, KnowsAFieldOfViewThatReachesAHalfTurnOnlyInItsLowPart) {
+TEST(ClipFromView, TakesAFieldOfViewThatOnlyItsLowPartKeepsBelowAHalfTurn) {
   // (180 - 45 * 2^-45) (1 + 32 * 2^-52) = 180 - 1440 * 2^-97; in doubles that is 180.
   const double fov_y = 180 - 45 * 0x1p-45;
   const double aspect = 1 + 32 * 0x1p-52;

@@ -139,7 +139,7 @@ TEST(ModelTransform, PrintsTheCorrectlyRoundedNumbersAroundAFarPivot) {
   });
 }
 
-TEST(ModelTransform, SaysThatItCannotKnowTheDigitsAroundAPivotAtOneE30) {
+TEST(ModelTransform, ReportsUncertainDigitsAroundAPivotAtOneE30) {
   Model<448> model;
   model.translate({1e30, 0, 0}).rotate(33, {1, 2, 3}).translate({-1e30, 0, 0});
   TriangleBatch batch = batch_of({{1, 2, 3}, {4, 5, 6}, {7, 8, 9}});
@@ -167,7 +167,7 @@ TEST(ModelTransform, PrintsNoSignOfZero) {
   EXPECT_EQ(printed_vertex(images, 2, {7}), "0.0000000 0.0000000 -1.0000000");
 }
 
-TEST(ModelTransform, AnOverflowNamesTheVertexsPlace) {
+TEST(ModelTransform, AnOverflowNamesTheVertexsLocation) {
   TriangleBatch batch;
   batch.add({Vec3{0, 0, 0}, Vec3{1, 0, 0}, Vec3{0, 1, 0}}, 0, {11, {12, 5}, 13});
   CoordinateRounder rounder(Precision::extended, {7}, "scene.txt");
@@ -182,7 +182,7 @@ TEST(ModelTransform, AnOverflowNamesTheVertexsPlace) {
   }
 }
 
-TEST(ModelTransform, AnOverflowIsAnErrorInPlainPrecisionToo) {
+TEST(ModelTransform, AnOverflowIsAnErrorInDoublesToo) {
   TriangleBatch batch = batch_of({{1, 0, 0}, {0, 1, 0}, {0, 0, 1}});
   CoordinateRounder rounder(Precision::in_doubles, {7}, "scene.txt");
   const VertexTransform transform(scaling({1e300, 1, 1}) * scaling({1e300, 1, 1}));
@@ -251,24 +251,24 @@ constexpr std::size_t kVerticesOfEach = 10'000;
 TEST(ModelTransform, LongPrintsNoNumberThatDiffersFromTheReference) {
   RandomNumbers random(101);
   DifferenceCount extended;
-  DifferenceCount plain;
+  DifferenceCount in_doubles;
   for (int i = 0; i < kTransforms; ++i) {
     const Model<448> model = random_model<448>(random);
     const std::vector<Vec3> vertices = random_points(random, kVerticesOfEach, 1e6);
     const auto reference = [&](const auto& p) { return model.exact * p; };
     extended.add(images_of(vertices, model.computed, {7}), vertices, reference);
     if (i % 10 == 0)
-      plain.add(images_of(vertices, model.computed, {7}, Precision::in_doubles), vertices, reference);
+      in_doubles.add(images_of(vertices, model.computed, {7}, Precision::in_doubles), vertices, reference);
   }
   extended.report("model, extended");
-  plain.report("model, double");
+  in_doubles.report("model, double");
   EXPECT_EQ(extended.different, 0u) << extended.first;
 }
 
 TEST(ViewTransform, LongPrintsNoNumberThatDiffersFromTheReference) {
   RandomNumbers random(102);
   DifferenceCount extended;
-  DifferenceCount plain;
+  DifferenceCount in_doubles;
   for (int i = 0; i < kTransforms; ++i) {
     const RandomCamera c = random_camera(random);
     const ViewTransform view = view_from_world(c.eye, c.look, c.up);
@@ -276,10 +276,11 @@ TEST(ViewTransform, LongPrintsNoNumberThatDiffersFromTheReference) {
     const std::vector<Vec3> vertices = random_points(random, kVerticesOfEach, 1e6);
     const auto reference = [&](const auto& p) { return exact * p; };
     extended.add(images_of(vertices, view, {7}), vertices, reference);
-    if (i % 10 == 0) plain.add(images_of(vertices, view, {7}, Precision::in_doubles), vertices, reference);
+    if (i % 10 == 0)
+      in_doubles.add(images_of(vertices, view, {7}, Precision::in_doubles), vertices, reference);
   }
   extended.report("view, extended");
-  plain.report("view, double");
+  in_doubles.report("view, double");
   EXPECT_EQ(extended.different, 0u) << extended.first;
 }
 
