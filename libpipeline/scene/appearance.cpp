@@ -29,7 +29,7 @@ Vec3 read_background(LineScanner& line) {
   return color;
 }
 
-/// The names of attributes, at least one, in the order of their columns.
+/// Takes the names of attributes to the end of the line: at least one, in the order of their columns.
 AttributeSet read_attributes(LineScanner& line, AttributeSource source) {
   const bool may_be_w = source == AttributeSource::stage_text;
   AttributeSet set;

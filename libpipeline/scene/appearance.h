@@ -12,14 +12,15 @@
 
 namespace pipeline {
 
-/// A point that shines in all directions; an intensity of 1 a channel is full light.
+/// A point light. Each stage transforms its position: model space in a scene, world space after `model`, view
+/// space after `view`.
 struct Light {
   Vec3 position;
-  Vec3 intensity;
+  Vec3 intensity;  // red, green, blue, each at least 0; 1 is full light
 };
 
-/// How much of the light a surface gives back: factors of the ambient, diffuse and specular parts, and the
-/// whole exponent of the specular one.
+/// How a surface reflects light: the coefficients of its ambient, diffuse and specular reflection, each at
+/// least 0, and the exponent of the specular highlight.
 struct Material {
   double ambient = 1;
   double diffuse = 1;
@@ -27,39 +28,41 @@ struct Material {
   std::size_t shininess = 1;
 };
 
-/// A light at distance d counts 1 / (constant + linear d + quadratic d^2).
+/// Scales a light at distance d, in view space, by 1 / (constant + linear d + quadratic d^2). The three are
+/// at least 0, and one of them is above 0.
 struct Attenuation {
   double constant = 1;
   double linear = 0;
   double quadratic = 0;
 };
 
-/// What a scene or a stage text's header says of color and light, as far as it says it. A plain one says
-/// nothing.
+/// The color and light of a scene or of a stage text's header: each part that was given, with the location of
+/// its arguments, and nullopt for the others. A plain scene gives none.
 struct Appearance {
   std::optional<Located<AttributeSet>> attributes;
   std::optional<Located<Vec3>> background;  // red, green, blue from 0 to 255
-  std::optional<Located<Vec3>> ambient;     // intensities
+  std::optional<Located<Vec3>> ambient;     // intensities, each at least 0
   std::optional<Located<Material>> material;
   std::optional<Located<Attenuation>> attenuation;
   std::vector<Located<Light>> lights;
 
-  /// The columns of the vertex lines.
+  /// The columns of the vertex lines beside x y z.
   [[nodiscard]] AttributeSet columns() const { return attributes ? attributes->value : AttributeSet{}; }
 };
 
-/// Who writes `attributes`: a scene may not ask for w, which is made by a projection.
+/// Where a line `attributes` stands: a scene may not ask for w, which the project stage adds.
 enum class AttributeSource { scene, stage_text };
 
 /// True for `attributes`, `background`, `ambient`, `material`, `attenuation` and `light`.
 bool is_appearance_keyword(std::string_view keyword);
 
-/// Reads what follows such a keyword, to the end of the line, and adds it to `appearance`. An InputError if
-/// it is out of range, or there already (reported at `keyword_location`); only lights may be many.
+/// Reads the arguments of such a keyword, to the end of the line, and adds them to `appearance`. An
+/// InputError if a number is missing or out of range, and, at `keyword_location`, if the part was given
+/// before; only lights may be given more than once.
 void read_appearance_part(std::string_view keyword, const SourceLocation& keyword_location, LineScanner& line,
                           AttributeSource source, Appearance& appearance);
 
-/// An InputError if the text has a column w, which only a projected text may have.
+/// An InputError, at the line `attributes`, if the text has the column w: then it is projected already.
 void expect_no_w(const Appearance& appearance);
 
 }  // namespace pipeline

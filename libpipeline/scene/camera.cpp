@@ -24,7 +24,7 @@ double number_other_than(double other, std::string_view other_name, LineScanner&
   return number_where(line, {name}, condition, [&](double value) { return value != other; });
 }
 
-/// The last number of every projection.
+/// The last number of every projection, to the end of the line.
 double far_beyond(double near, LineScanner& line) {
   const double far = number_where(line, {"far"}, "beyond near", [&](double value) { return value > near; });
   line.expect_end("far");
@@ -41,7 +41,7 @@ Perspective read_perspective(LineScanner& line) {
   return p;
 }
 
-/// The six planes of a frustum or of an orthographic volume, which hold the same fields.
+/// The six planes of a Frustum or an Orthographic.
 template <typename Volume>
 Volume read_volume(LineScanner& line) {
   Volume v;
@@ -54,7 +54,7 @@ Volume read_volume(LineScanner& line) {
   return v;
 }
 
-/// The part of the camera with that keyword and what messages call it; nothing for other keywords.
+/// A part of the camera and its name in messages; null for a keyword of no such part.
 struct PositionPart {
   std::optional<Located<Vec3>> CameraParameters::*part = nullptr;
   std::string_view name;

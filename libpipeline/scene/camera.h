@@ -11,56 +11,59 @@
 
 namespace pipeline {
 
-/// gluPerspective's parameters. `near` and `far` are distances from the eye, 0 < near < far.
+/// gluPerspective's parameters. `near` and `far` are distances from the eye along the view direction,
+/// 0 < near < far.
 struct Perspective {
-  double fov_y_degrees = 0;
-  double aspect = 1;
+  double fov_y_degrees = 0;  // above 0, below 180
+  double aspect = 1;         // width by height, above 0; see AspectRule
   double near = 0;
   double far = 0;
 };
 
-/// glFrustum's parameters: the window on the near plane, 0 < near < far.
+/// glFrustum's parameters: the window on the near plane, in x and y of view space, and 0 < near < far.
+/// left != right and bottom != top; a descending pair mirrors its axis.
 struct Frustum {
   double left = 0, right = 0, bottom = 0, top = 0, near = 0, far = 0;
 };
 
-/// glOrtho's parameters; near and far may have any sign, near < far.
+/// glOrtho's parameters: the bounds of the view volume in x and y of view space, as a Frustum's, and near <
+/// far, distances that may have any sign.
 struct Orthographic {
   double left = 0, right = 0, bottom = 0, top = 0, near = 0, far = 0;
 };
 
 using Projection = std::variant<Perspective, Frustum, Orthographic>;
 
-/// What a scene or a stage text's header says of the camera, as far as it says it.
-/// `look` is the point looked at, in world space like `eye`.
+/// The camera parameters that were given, each with the location of its numbers; nullopt where a scene, a
+/// stage text's header or the options are silent.
 struct CameraParameters {
-  std::optional<Located<Vec3>> eye;
-  std::optional<Located<Vec3>> look;
-  std::optional<Located<Vec3>> up;
+  std::optional<Located<Vec3>> eye;   // a point in world space
+  std::optional<Located<Vec3>> look;  // the point looked at, in world space
+  std::optional<Located<Vec3>> up;    // a direction of any length but 0, in world space
   std::optional<Located<Projection>> projection;
 };
 
-/// Reads what follows the keyword `perspective`, `frustum` or `ortho`, and checks it: fovY lies in (0, 180)
-/// degrees, aspect > 0, near < far, near > 0 for a perspective, left != right, bottom != top.
+/// Reads the numbers after the keyword `perspective`, `frustum` or `ortho`, to the end of the line. An
+/// InputError at the number that is missing or breaks a condition of its struct above.
 Projection read_projection(std::string_view keyword, LineScanner& line);
 
-/// Reads what follows the keyword `eye`, `look`, `up` or one of a projection into that part of the camera,
-/// which must not be there yet (`keyword_location` is where a second one is reported); false if it is another
-/// keyword.
+/// Reads the numbers after the keyword `eye`, `look`, `up`, `perspective`, `frustum` or `ortho`, to the end
+/// of the line, into `camera`; false, with nothing read, for another keyword. An InputError at
+/// `keyword_location` if the camera has that part already.
 bool read_camera_part(std::string_view keyword, const SourceLocation& keyword_location, LineScanner& line,
                       CameraParameters& camera);
 
-/// The projection alone: what is left once the view transform is done.
+/// The projection alone, which is all that later stages need after the view transform.
 CameraParameters without_position(const CameraParameters& camera);
 
-/// True if up x (look - eye) is 0, as far as 31 digits can tell.
+/// True if up x (look - eye) is 0 as far as 31 digits can tell.
 bool is_parallel_to_view(const Vec3& eye, const Vec3& look, const Vec3& up);
 
-/// An error at its place unless the parts that are there go together: eye and look differ, up is not parallel
-/// to the view direction and not 0.
+/// Checks the parts that are given: an InputError at `look` if it is the eye, and at `up` if that is 0 or
+/// parallel to the view direction.
 void check_camera(const CameraParameters& camera);
 
-/// The parts of `preferred`, and those of `otherwise` that `preferred` does not have.
+/// `preferred`, with the parts it lacks taken from `otherwise`.
 CameraParameters merged(const CameraParameters& preferred, const CameraParameters& otherwise);
 
 }  // namespace pipeline

@@ -4,7 +4,7 @@
 
 namespace pipeline {
 
-/// A color of 8 bits a channel, in four bytes: 0x00RRGGBB.
+/// A color of 8 bits a channel, packed as 0x00RRGGBB.
 class Color {
  public:
   constexpr Color() = default;  // black
@@ -28,21 +28,21 @@ class Color {
   std::uint32_t rgb_ = 0;
 };
 
-/// The colors of triangles that have none of their own, from the generator of the course's hand-outs:
-/// numbers s = 214013 s + 2531011 (mod 2^32), s starting at 1, each giving (s >> 16) & 0x7fff, modulo 256
-/// (the C library's `rand` of Microsoft Visual C++). Triangle N has numbers 3N, 3N + 1, 3N + 2 as red, green
-/// and blue, whether or not it or any other triangle is drawn.
+/// The colors of triangles that have none of their own, from the random numbers of the course's hand-outs
+/// (`rand` of Microsoft Visual C++): s starts at 1, a draw sets s = 214013 s + 2531011 (mod 2^32) and gives
+/// (s >> 16) & 0x7fff, modulo 256. Triangle N has draws 3N, 3N + 1 and 3N + 2 as red, green and blue, whether
+/// or not it or any other triangle is drawn.
 class TriangleColors {
  public:
-  /// The color of triangle `number`. Takes constant time for a triangle after the last one asked for,
-  /// otherwise O(log number).
+  /// The color of triangle `number`, in constant time for the successor of the last one asked for, otherwise
+  /// in O(log number).
   Color of(std::uint64_t number);
 
  private:
   std::uint8_t draw();
 
   std::uint32_t state_ = 1;
-  std::uint64_t next_number_ = 0;  // state_ stands before this triangle's draws
+  std::uint64_t next_number_ = 0;  // the triangle whose draws follow state_
 };
 
 }  // namespace pipeline

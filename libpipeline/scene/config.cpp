@@ -16,8 +16,8 @@ LineScanner required_line(TextReader& text, const std::string& expected) {
   return line;
 }
 
-// The readers below take a word from `ahead`, so that `line` still stands at it when it turns out to be
-// wrong.
+// The readers below take a word from a copy of the line, so that the line itself can report the word when it
+// is out of range.
 
 int read_size(LineScanner& line, const std::string& name) {
   const std::string expected = "the " + name + " in pixels, a whole number from 1 to 65535";
@@ -34,7 +34,7 @@ struct Limit {
   bool is_decimal = false;
 };
 
-/// Reads a line that holds the limit on one side; its negation is the limit on the other.
+/// Reads the line of a limit, left or bottom; its negation is the opposite limit.
 Limit read_negative_limit(const LineScanner& line, const std::string& name) {
   LineScanner ahead = line;
   const double limit = ahead.number("the " + name + ", a negative number");

@@ -6,8 +6,9 @@
 namespace pipeline {
 
 /// Reads config.txt: a line `columns rows`, alone (then the limits are -1, -1 and z in [-1, 1]) or followed
-/// by a line `left`, a line `bottom` and a line `front rear`. Sizes are whole numbers from 1 to 65535, left
-/// and bottom negative, front < rear. What is wrong, missing or too much is an InputError with its place.
+/// by a line `left`, a line `bottom` and a line `front rear`. Sizes are whole numbers from 1 to
+/// kMaxViewportSize, left and bottom lie in [-kMaxLimit, -kMinLimit], front < rear. An InputError at the
+/// location of anything that is wrong, missing or left over.
 Viewport read_config(TextReader& text);
 
 }  // namespace pipeline

@@ -4,7 +4,7 @@
 
 namespace pipeline {
 
-/// Where the pixel centers of a screen lie in NDC; row 0 is at the top.
+/// The positions of a viewport's pixel centers in NDC: row 0 at the top, column 0 on the left.
 struct PixelGrid {
   explicit PixelGrid(const Viewport& viewport)
       : columns(viewport.columns),

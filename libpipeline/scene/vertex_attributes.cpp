@@ -7,7 +7,7 @@
 namespace pipeline {
 namespace {
 
-/// How many blanks and tabs stand at `p`, before something else.
+/// The number of blanks and tabs at `p`; another character must follow.
 std::size_t blanks_at(const char* p) {
   std::size_t count = 0;
   while (p[count] == ' ' || p[count] == '\t') ++count;
@@ -82,10 +82,10 @@ VertexLine VertexLineReader::read(LineScanner& line, std::size_t vertex) const {
 }
 
 bool VertexLineReader::are_in_range(std::span<const DecimalNumber> columns) const {
-  const auto behind_position = columns.subspan(3);
-  if (attributes_.w && !(behind_position[0].value > 0)) return false;
+  const auto after_position = columns.subspan(3);
+  if (attributes_.w && !(after_position[0].value > 0)) return false;
   if (!attributes_.color) return true;
-  const auto color = behind_position.subspan(attributes_.w ? 1 : 0, 3);
+  const auto color = after_position.subspan(attributes_.w ? 1 : 0, 3);
   return std::all_of(color.begin(), color.end(),
                      [](const DecimalNumber& channel) { return channel.value >= 0 && channel.value <= 255; });
 }

@@ -14,7 +14,7 @@
 
 namespace pipeline {
 
-/// Which columns stand behind x y z on a vertex line, in this order: w, the color, the normal.
+/// The columns of a vertex line after x y z, in this order: w, color (3), normal (3).
 struct AttributeSet {
   bool w = false;
   bool color = false;
@@ -24,53 +24,53 @@ struct AttributeSet {
   friend bool operator==(const AttributeSet&, const AttributeSet&) = default;
 };
 
-/// Position, w, color and normal.
-constexpr std::size_t kMaxColumns = 10;
+constexpr std::size_t kMaxColumns = 10;  // position, w, color and normal
 
-/// What one vertex line may hold; what its text has no columns for stays 0.
+/// The values of a vertex line; those its text has no columns for are 0.
 struct VertexLine {
   Vec3 position;
-  double w = 0;  // of clip space, above 0
+  double w = 0;  // of clip space; see RangeOfW
   Vec3 color;    // red, green, blue from 0 to 255
-  Vec3 normal;
+  Vec3 normal;   // in the space of the position
 };
 
-/// A vertex line of plain numbers: the first three are the position.
+/// A vertex line of decimal numbers (decimal_number.h); the first three are the position.
 struct DecimalVertexLine {
   std::array<DecimalNumber, kMaxColumns> numbers;
-  std::size_t indent = 0;  // the blanks before the first number
+  std::size_t indent = 0;  // blanks and tabs before the first number
 };
 using DecimalVertexLines = std::array<DecimalVertexLine, 3>;
 
-/// Where the vertices on these lines begin; the first stands on line `first_line`.
+/// The locations of three vertices on consecutive lines, the first on line `first_line`.
 inline VertexLocations locations_of(const DecimalVertexLines& lines, std::size_t first_line) {
   return {LineAndColumn(first_line, lines[0].indent + 1), LineAndColumn(first_line + 1, lines[1].indent + 1),
           LineAndColumn(first_line + 2, lines[2].indent + 1)};
 }
 
-/// The vertex on a line with these attributes.
+/// The values of a line with these attributes.
 VertexLine to_vertex_line(const DecimalVertexLine& line, const AttributeSet& attributes);
+
 /// A triangle in clip space, before the divide: w may be anything.
 using ClipTriangle = std::array<VertexLine, 3>;
 
 /// The names of all columns: "x y z", then those of the attributes.
 std::string column_names(const AttributeSet& attributes);
 
-/// Whether the column w must be above 0, as behind the divide, or may be anything, as in clip space.
+/// Whether the column w must be above 0, as after the divide, or may be any number, as in clip space.
 enum class RangeOfW { above_zero, any };
 
-/// Reads vertex lines with these attributes. Errors name the columns that are expected.
+/// Reads vertex lines with certain attributes. Errors name the expected columns.
 class VertexLineReader {
  public:
   explicit VertexLineReader(const AttributeSet& attributes = {}, RangeOfW range_of_w = RangeOfW::above_zero);
 
   [[nodiscard]] const AttributeSet& attributes() const { return attributes_; }
-  /// Reads the line of vertex `vertex` (0 to 2) to its end. An InputError unless w is in its range and
-  /// colors lie from 0 to 255.
+  /// Reads the line of vertex `vertex` (0 to 2) to its end. An InputError if a column is missing or left
+  /// over, w is out of its range, or a color channel is not from 0 to 255.
   VertexLine read(LineScanner& line, std::size_t vertex) const;
-  /// The fast path: reads the three lines of a triangle at `p` and returns the beginning of the line behind
-  /// them. Null if they hold anything but plain numbers (plain_number.h), or do not end before `end`, or one
-  /// is wrong; the general path then says so.
+  /// The fast path: reads the three lines of a triangle at `p` and returns the beginning of the next line.
+  /// Null if they hold anything but decimal numbers (decimal_number.h), do not end before `end`, or hold a
+  /// value out of range; the general path then reads them or reports the error.
   const char* read_decimals(const char* p, const char* end, DecimalVertexLines& vertices) const;
 
  private:
@@ -82,11 +82,11 @@ class VertexLineReader {
   std::array<std::string, 3> names_;
 };
 
-/// Takes the red, green and blue of `of`, each from 0 to 255.
+/// Takes three numbers, each from 0 to 255 (else an InputError); `of` names the colored thing in messages.
 Vec3 read_color(LineScanner& line, std::string_view of);
 
-/// The attributes of a batch's triangles: each array is empty where the text has no such columns, else as
-/// long as the batch.
+/// The attributes of a batch's triangles: each array is empty where the text has no such columns, otherwise
+/// as long as the batch.
 struct AttributeArrays {
   std::vector<std::array<double, 3>> w;      // by vertex
   std::vector<std::array<Vec3, 3>> colors;   // by vertex: red, green, blue from 0 to 255
@@ -95,7 +95,7 @@ struct AttributeArrays {
   void clear();
   /// Keeps the first `count` triangles.
   void truncate(std::size_t count);
-  /// Adds what `attributes` names of a triangle's vertex lines.
+  /// Adds those values of a triangle's vertex lines that `attributes` names.
   void add(const std::array<VertexLine, 3>& vertices, const AttributeSet& attributes);
 };
 

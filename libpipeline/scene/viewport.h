@@ -2,16 +2,16 @@
 
 namespace pipeline {
 
-/// The largest width and height of a screen, in pixels.
+/// The largest width and height, in pixels.
 constexpr int kMaxViewportSize = 65535;
 
-/// The limits -left and -bottom lie in [kMinLimit, kMaxLimit], so that neither a pixel's size nor
-/// the distance from a pixel to any finite vertex leaves the range of a double.
+/// -left and -bottom lie in [kMinLimit, kMaxLimit], so that neither a pixel's size nor the distance from a
+/// pixel to any finite vertex leaves the range of a double.
 constexpr double kMinLimit = 1e-200;
 constexpr double kMaxLimit = 1e200;
 
-/// What stage 4 maps to what: the window [left, -left] x [bottom, -bottom] of NDC to columns x rows pixels,
-/// and the depths that are seen, front <= z < rear. Row 0 is at the top, column 0 on the left.
+/// The viewport transform's parameters: the window [left, -left] x [bottom, -bottom] of NDC becomes
+/// columns x rows pixels, row 0 at the top, column 0 on the left. Depths are visible where front <= z < rear.
 struct Viewport {
   int columns = 0;
   int rows = 0;
@@ -19,8 +19,8 @@ struct Viewport {
   double bottom = -1;
   double front = -1;
   double rear = 1;
-  /// For exact calculations: true where the limit was written as a plain number with at most 7 decimals, so
-  /// that it is that decimal (limit + low part, to 7 decimals) and not only its nearest double.
+  /// For exact calculations: true where the limit was written as a decimal number with at most 7 decimals.
+  /// Then it is that decimal, limit + low part rounded to 7 decimals, and not its nearest double.
   bool left_is_decimal = false;
   bool bottom_is_decimal = false;
   double left_low_part = 0;

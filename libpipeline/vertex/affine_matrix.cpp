@@ -13,13 +13,12 @@ AffineMatrix identity() {
 
 namespace {
 
-// Enlarges a bound by more than the few operations that made it can have rounded off, or lost below the
-// range.
+/// Enlarges a bound by more than the few operations behind it can have lost to rounding and underflow.
 double rounded_up(double bound) {
   return bound * (1 + 0x1p-40) + 0x1p-1000;
 }
 
-/// At least the Euclidean length of the linear part of a row.
+/// An upper bound of the Euclidean length of a row's linear part.
 double row_length_bound(const std::array<Ball, 4>& row) {
   // The largest entry is taken out, so that no square leaves a double's range.
   const double largest = std::max({row[0].magnitude(), row[1].magnitude(), row[2].magnitude()});
@@ -30,8 +29,8 @@ double row_length_bound(const std::array<Ball, 4>& row) {
   return rounded_up(largest * std::sqrt(x * x + y * y + z * z));
 }
 
-/// The parts of a row's error in a * b that depend on b alone, per unit of the length of a's row: b's own
-/// error and the roundings of the product.
+/// The error of a row of a * b that comes from b's own errors and from rounding the product, per unit of the
+/// length of a's row.
 double error_per_length(const AffineMatrix& b) {
   double error = 0;
   for (std::size_t i = 0; i < 3; ++i) error += b.row_errors[i] + 0x1p-101 * row_length_bound(b.rows[i]);

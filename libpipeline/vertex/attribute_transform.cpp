@@ -50,7 +50,7 @@ void NormalTransform::set_rows(const BallVec3& x, const BallVec3& y, const BallV
   double largest = 0;
   for (const BallVec3& row : cofactors)
     largest = std::max({largest, row.x.magnitude(), row.y.magnitude(), row.z.magnitude()});
-  // Only directions count: brought near 1, the cofactors stay within a double's range.
+  // Only directions count: divided by the largest entry, the cofactors stay within a double's range.
   if (largest == 0 || !std::isfinite(largest)) largest = 1;
   for (std::size_t i = 0; i < 3; ++i) rows_[i] = nearest(over_largest(cofactors[i], side * largest));
 }

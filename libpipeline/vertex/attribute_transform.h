@@ -9,17 +9,16 @@
 
 namespace pipeline {
 
-/// Takes normals from one space to another: by the inverse transpose of the linear part M of the transform
-/// that the points meet, so that they stay normal under any scale and keep their side under a mirroring.
-/// Calculated as sign(det M) times M's cofactors, which a singular M has, too: what it makes flat keeps the
-/// normals of the plane, and normals that it leaves no direction become 0 (they belong to triangles without
-/// area).
+/// Transforms normals by the inverse transpose of the linear part M of the points' transform, so that they
+/// stay perpendicular to their surface under any scale and on their side of it under a mirroring. Calculated
+/// as sign(det M) times the cofactors of M, which exist for a singular M too: if M flattens space to a plane,
+/// the normals become that plane's, and a normal left without direction becomes 0 (its triangle has no area).
 class NormalTransform {
  public:
   explicit NormalTransform(const AffineMatrix& world_from_model);
   explicit NormalTransform(const ViewTransform& view_from_world);
 
-  /// The image of a normal, of length 1 or 0.
+  /// The image of a normal of any length: of length 1, or 0.
   [[nodiscard]] Vec3 operator()(const Vec3& normal) const;
 
  private:
@@ -28,7 +27,8 @@ class NormalTransform {
   std::array<Vec3, 3> rows_;
 };
 
-/// The light where the transform takes it. An InputError at its place if that is beyond a double's range.
+/// The light with its position transformed, to the nearest doubles. An InputError at the light's location if
+/// the position is beyond a double's range.
 Located<Light> transformed(const AffineMatrix& world_from_model, const Located<Light>& light);
 Located<Light> transformed(const ViewTransform& view_from_world, const Located<Light>& light);
 

@@ -5,13 +5,13 @@
 namespace pipeline {
 namespace {
 
-/// -1, 0 or 1 as the midpoint of a is below, at or above that of b.
+/// -1, 0 or 1: the midpoint of a is below, at or above that of b.
 int compare(const Ball& a, const Ball& b) {
   const double difference = (a - b).value().hi;
   return difference < 0 ? -1 : (difference > 0 ? 1 : 0);
 }
 
-/// By y, x and z; w decides between points that are one in these and still not the same.
+/// Orders by y, x and z, then by w, so that only equal points tie.
 bool is_lower(const ClipVertex& a, const ClipVertex& b) {
   if (const int y = compare(a.y, b.y); y != 0) return y < 0;
   if (const int x = compare(a.x, b.x); x != 0) return x < 0;
@@ -30,8 +30,8 @@ ClipVertex interpolate(const ClipVertex& a, const ClipVertex& b, const Ball& t) 
           {weight(0), weight(1), weight(2)}};
 }
 
-/// Where the edge between two vertices on different sides meets the plane, counted from the vertex that is
-/// nearer to it: the other may be so large that the cut would be lost in its last digits.
+/// The intersection of a plane with the edge between two vertices on different sides, interpolated from the
+/// vertex nearer to the plane: the other may be so large that its last digits hide the cut.
 ClipVertex cut(ClipPlane plane, const ClipVertex& a, const ClipVertex& b) {
   const Ball from = distance_inside(plane, a);
   const Ball to = distance_inside(plane, b);
@@ -53,7 +53,7 @@ std::vector<ClipVertex> clip_at(ClipPlane plane, std::span<const ClipVertex> pol
     if (here_side > 0) ++strictly_inside_count;
     if (here_side * next_side < 0) inside.push_back(cut(plane, here, next));
   }
-  // What only touches the plane from outside has no area inside; what lies in the plane does.
+  // A polygon that touches the plane from outside has no area inside; one that lies in the plane is kept.
   if (strictly_inside_count == 0 && inside.size() < polygon.size()) inside.clear();
   return inside;
 }

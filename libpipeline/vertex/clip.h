@@ -9,23 +9,24 @@
 
 namespace pipeline {
 
-/// A point in clip space before the divide: inside the view volume where -w <= x, y, z <= w.
-/// `weights` say which mean of the triangle's corners it is, for their attributes.
+/// A point in clip space, before the divide: inside the view volume where -w <= x, y, z <= w. `weights` are
+/// its barycentric coordinates in the triangle it was cut from, for interpolating attributes.
 struct ClipVertex {
   Ball x, y, z, w;
   std::array<double, 3> weights{};
 };
 
+/// The image of a point, with weights 0.
 ClipVertex to_clip_space(const ProjectionTransform& projection, const Vec3& p_view);
 
-/// A plane of the view frustum, as it stands in clip space.
+/// The planes of the view volume.
 enum class ClipPlane { near, far, left, right, bottom, top };
 
 constexpr std::array<ClipPlane, 6> kAllClipPlanes = {ClipPlane::near,  ClipPlane::far,    ClipPlane::left,
                                                      ClipPlane::right, ClipPlane::bottom, ClipPlane::top};
 constexpr std::array<ClipPlane, 1> kNearPlane = {ClipPlane::near};
 
-/// The signed distance from the plane, up to a factor: positive inside. The near plane's is z + w.
+/// The signed distance from a plane in clip space, scaled: w + z for the near plane. Positive inside.
 Ball distance_inside(ClipPlane plane, const ClipVertex& vertex);
 
 /// The planes (bit i for kAllClipPlanes[i]) a vertex lies strictly outside of: its outcode (D. Cohen and
@@ -33,9 +34,9 @@ Ball distance_inside(ClipPlane plane, const ClipVertex& vertex);
 unsigned outcode(const ClipVertex& vertex);
 
 /// The part of a convex polygon inside all `planes` (I. Sutherland, G. Hodgman, "Reentrant polygon clipping",
-/// 1974), in the same order round; empty if nothing but an edge or a corner is left. A cut is calculated from
-/// the end of the edge that is nearer to the plane (of equals from the lower one, by y, x, z), so that
-/// polygons that share an edge get the same point.
+/// 1974), in the same winding order; empty if no more than an edge or a corner is left. A cut is
+/// interpolated from the end of the edge nearer to the plane (of equals from the lower one, by y, x, z), so
+/// that polygons that share an edge get the same point.
 std::vector<ClipVertex> clip_polygon(std::span<const ClipVertex> polygon, std::span<const ClipPlane> planes);
 
 }  // namespace pipeline

@@ -10,8 +10,7 @@
 namespace pipeline {
 namespace {
 
-/// R(x, a, angle) = cos x + (1 - cos) (a.x) a + sin (a x x): where the rotation about the unit axis a takes
-/// x.
+/// The image of x under a rotation about the unit axis a: cos x + (1 - cos) (a.x) a + sin (a x x).
 BallVec3 rodrigues(const BallVec3& x, const BallVec3& axis, const SineCosine& angle) {
   const BallVec3 kept = x * angle.cosine;
   const BallVec3 along = axis * (angle.versine * dot(axis, x));
@@ -21,7 +20,7 @@ BallVec3 rodrigues(const BallVec3& x, const BallVec3& axis, const SineCosine& an
 
 /// 1 / tan of half the angle; the angle, an exact product, must lie in (0, 180) degrees.
 Ball cotangent_of_half(const Ball& angle_degrees) {
-  // There 1 / tan(x / 2) is 2 / x, to far more digits than there are.
+  // So near 0, 1 / tan(x / 2) is 2 / x to far more digits than a ball has.
   if (angle_degrees.nearest_double() < kTinyDegrees) return Ball(2) / to_radians(angle_degrees);
   const DoubleDouble angle = angle_degrees.value();
   const SineCosine half = sine_cosine_of_degrees({angle.hi / 2, angle.lo / 2});
@@ -115,7 +114,7 @@ AffineMatrix rotation(double angle_degrees, const Vec3& axis) {
 ViewTransform view_from_world(const Vec3& eye, const Vec3& look, const Vec3& up) {
   const BallVec3 toward = to_balls(look) - to_balls(eye);
   const BallVec3 forward = normalized(toward);
-  // The cross product is taken of the vectors as given: their difference in direction may be tiny.
+  // The cross product of the vectors as given, not normalized: they may be almost parallel.
   const BallVec3 right = normalized(cross(toward, to_balls(up)));
   const BallVec3 camera_up = cross(right, forward);
   return {eye, right, camera_up, {-forward.x, -forward.y, -forward.z}};

@@ -6,7 +6,7 @@
 namespace pipeline {
 
 // The matrices of OpenGL's glTranslate, glScale, glRotate, gluLookAt, gluPerspective, glFrustum and glOrtho.
-// Each entry is within its stated error of exact arithmetic on the numbers as they were read.
+// Each entry is a ball that contains the exact entry for the given doubles.
 
 AffineMatrix translation(const Vec3& offset);
 AffineMatrix scaling(const Vec3& factors);
@@ -14,8 +14,8 @@ AffineMatrix scaling(const Vec3& factors);
 /// at the observer. Column by column from Rodrigues' formula in vector form.
 AffineMatrix rotation(double angle_degrees, const Vec3& axis);
 
-/// From world to view space: p_view = rows * (p_world - eye). The rows are right, up and backward,
-/// orthonormal. The eye is kept apart: subtracting it from a point first is what keeps the digits far from
+/// From world to view space: p_view = rows * (p_world - eye). The rows right, up and backward are
+/// orthonormal. The eye is kept apart: subtracting it from a point first keeps the digits of points far from
 /// the origin.
 struct ViewTransform {
   Vec3 eye;
@@ -24,11 +24,12 @@ struct ViewTransform {
   BallVec3 backward;
 };
 
-/// The camera's view transform; eye and look differ, up is not parallel to the view direction.
+/// The view transform of a camera. `look` must differ from `eye`, and `up` must not be parallel to the view
+/// direction (check_camera).
 ViewTransform view_from_world(const Vec3& eye, const Vec3& look, const Vec3& up);
 
-/// How `--aspect` makes the horizontal field of view: the course's fovX = fovY * aspect, or gluPerspective's
-/// tan(fovX / 2) = tan(fovY / 2) * aspect.
+/// How the aspect gives the horizontal field of view: by `angle`, the course's fovX = fovY * aspect, or by
+/// `ratio`, gluPerspective's tan(fovX / 2) = tan(fovY / 2) * aspect.
 enum class AspectRule { angle, ratio };
 
 /// From view to clip space. With d = -z the distance in front of the eye:
@@ -43,11 +44,12 @@ struct ProjectionTransform {
   double far = 0;
 };
 
-/// The camera's projection. An InputError at `projection.location` if fovX is not within (0, 180) degrees.
+/// The projection as scales and offsets. An InputError at `projection.location` if fovX, by the rule `angle`,
+/// is not in (0, 180) degrees.
 ProjectionTransform clip_from_view(const Located<Projection>& projection, AspectRule aspect_rule);
 
-/// The projection with the aspect rule already in it: a perspective as the frustum that `transform`, made of
-/// it, is.
+/// The projection's view volume, which needs no aspect rule: a perspective as the Frustum of `transform`,
+/// which must come from `projection`; others unchanged.
 Projection volume_of(const Projection& projection, const ProjectionTransform& transform);
 
 /// From clip to view space: the inverse of a projection, in doubles.

@@ -9,8 +9,9 @@
 
 namespace pipeline {
 
-/// Takes points from one space to another by p' = M (p - origin): the model transform (origin 0) and the view
-/// transform (origin the eye, M the rotation).
+/// Transforms vertices by p' = M (p - origin): the model transform (origin 0) and the view transform (origin
+/// the eye, M the rotation). A kernel transforms blocks of them; those that fail its rounding test are
+/// calculated again in ball arithmetic.
 class VertexTransform {
  public:
   /// From model to world space.
@@ -18,8 +19,8 @@ class VertexTransform {
   /// From world to view space.
   explicit VertexTransform(const ViewTransform& view_from_world);
 
-  /// Replaces the triangles of the batch from `begin` to before `end` by their images. An InputError with the
-  /// vertex's line on overflow; the batch then keeps those before that triangle.
+  /// Replaces the triangles [begin, end) of the batch by their images. An InputError at the vertex's location
+  /// on overflow; the batch then keeps the triangles before it.
   void apply(TriangleBatch& batch, std::size_t begin, std::size_t end, CoordinateRounder& rounder) const;
   /// Replaces all triangles of the batch.
   void apply(TriangleBatch& batch, CoordinateRounder& rounder) const {

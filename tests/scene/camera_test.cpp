@@ -21,7 +21,7 @@ std::string error_of(const CameraParameters& camera) {
   return message_of([&] { check_camera(camera); });
 }
 
-/// What reading a projection says, from a line as it stands behind the option or keyword of that name.
+/// The error of reading a projection from the numbers after the option of that name.
 std::string error_of_projection(const std::string& keyword, const std::string& numbers) {
   const std::string file = "--" + keyword;
   LineScanner line(numbers, file, 0);

@@ -91,7 +91,7 @@ TEST(ClipModeFrustum, CutsAtAllSixPlanes) {
 }
 
 TEST(ClipModeFrustum, DropsWhatIsOutsideWithoutBeingOutsideOfOnePlane) {
-  // Its corners are left, right and above, but it passes the upper left corner of the view by.
+  // No plane has all its corners outside, yet it misses the upper left corner of the view.
   const Triangle passing = {Vec3{-5, 0, -1}, Vec3{0, 5, -1}, Vec3{-5, 5, -1}};
   const Result result = projected(batch_of({passing}), kSimple, ClipMode::frustum);
   EXPECT_EQ(result.p_ndc.size(), 0u);
@@ -144,7 +144,7 @@ TEST(ProjectionStage, EveryPieceHasItsTrianglesNumber) {
 }
 
 TEST(ProjectionStage, ACutTriangleIsThatCutByHand) {
-  // The near plane cuts the edges at x = 3/4 and y = 3/4: the numbers have few bits on purpose.
+  // The near plane cuts the edges at x = 3/4 and y = 3/4, numbers of few bits, so that doubles hold them.
   const Triangle crossing = {Vec3{0, 0, 2}, Vec3{1, 0, -2}, Vec3{0, 1, -2}};
   const Vec3 cut_x = {0.75, 0, -1};
   const Vec3 cut_y = {0, 0.75, -1};

@@ -16,7 +16,7 @@ using Coordinate = Ball ClipVertex::*;
 
 constexpr Coordinate kCoordinates[] = {&ClipVertex::x, &ClipVertex::y, &ClipVertex::z, &ClipVertex::w};
 
-// What a cut may be wrong by, in parts of the polygon's size.
+// The error allowed in a cut, relative to the polygon's size.
 inline const Exact kTolerance = times_power_of_two(Exact(1), -85);
 
 inline bool is_same(const ClipVertex& a, const ClipVertex& b) {
@@ -28,7 +28,7 @@ inline Exact value(const Ball& ball) {
   return midpoint<448>(ball);
 }
 
-/// Twice the signed area of a polygon's shadow on the plane of two coordinates.
+/// Twice the signed area of a polygon's projection onto the plane of two coordinates.
 inline Exact double_area(const Polygon& polygon, Coordinate first, Coordinate second) {
   Exact sum;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -47,7 +47,7 @@ inline Exact size_of(const Polygon& polygon) {
   return size;
 }
 
-/// What was outside of a plane is inside now.
+/// Exchanges the inside and the outside of every plane.
 inline Polygon turned_inside_out(Polygon polygon) {
   for (ClipVertex& v : polygon)
     for (const Coordinate c : kCoordinates) v.*c = -(v.*c);

@@ -11,8 +11,7 @@
 namespace pipeline {
 namespace {
 
-/// A vertex as it comes out of a projection: any w, behind the eye as well, coordinates of few or of all
-/// bits.
+/// A vertex in clip space, in front of the eye or behind it, with coordinates of few or of all bits.
 ClipVertex random_vertex(RandomNumbers& random) {
   const auto number = [&] { return random.bits() % 3 == 0 ? random.whole(-4, 4) : random.between(-4, 4); };
   return {number(), number(), number(), number() + 1};
@@ -166,7 +165,7 @@ TEST(ClipPolygon, CutsAnEdgeWhereItMeetsThePlane) {
 }
 
 TEST(ClipPolygon, ACutNextToASmallCornerKeepsItsDigits) {
-  // Only (1 2 -4 3) is outside, 1 before the near plane; the others are 10^230 behind it.
+  // Only (1 2 -4 3) is outside, at distance 1 from the near plane; the others are 10^230 inside.
   const Polygon triangle = {{1, 2, -4, 3}, {1e200, 0, 1e230, 0}, {-1e200, 0, 1e230, 0}};
   for (const std::size_t first : {0u, 1u, 2u}) {
     const Polygon rotated = {triangle[first], triangle[(first + 1) % 3], triangle[(first + 2) % 3]};
@@ -174,7 +173,7 @@ TEST(ClipPolygon, ACutNextToASmallCornerKeepsItsDigits) {
     for (const ClipVertex& v : clipped_at(ClipPlane::near, rotated)) {
       if (abs(value(v.x)) > Exact(1e100)) continue;
       ++near_count;
-      // A part of 10^-230 of the way: x = 1 +- 10^-30, y = 2.
+      // The cuts lie 10^-230 along their edges: x = 1 +- 10^-30, y = 2.
       EXPECT_LE(abs(value(v.x) - Exact(1)), Exact(1.1e-30));
       EXPECT_LE(abs(value(v.y) - Exact(2)), Exact(1e-30));
       EXPECT_LE(v.y.radius(), 1e-30);
@@ -187,7 +186,8 @@ TEST(ClipPolygon, OfNothingIsNothing) {
   EXPECT_TRUE(clip_polygon({}, kAllClipPlanes).empty());
 }
 
-/// Cuts off what is outside of one plane after the other, and adds up the shadows of what was cut off.
+/// Clips at one plane after the other; the projected areas of the parts cut off and of the part that remains
+/// must add up to the triangle's.
 void expect_area_conserved(const Polygon& triangle) {
   Polygon remaining = triangle;
   std::vector<Polygon> parts;
@@ -218,7 +218,7 @@ void expect_nothing_outside(const Polygon& triangle) {
                                                          << to_text(inside);
 }
 
-/// Every triangle of the fan turns as the whole does.
+/// Every triangle of the fan must wind like the clipped one.
 void expect_winding_kept(const Polygon& triangle) {
   const Polygon inside = clip_polygon(triangle, kAllClipPlanes);
   const Exact size = size_of(triangle);
@@ -287,7 +287,7 @@ TEST(ClipPolygon, NeighborsGetTheSamePointsOnTheirEdge) {
 
 TEST(ClipPolygon, NeighborsGetTheSamePointWhereOnlyWDiffers) {
   const ClipVertex a = {-4, -4, -4, 7};
-  // One is farther behind the plane than a is before it, the other as far.
+  // The first b is farther outside the plane than a is inside, the second equally far.
   for (const ClipVertex& b : {ClipVertex{-4, -4, -4, -4.3}, ClipVertex{-4, -4, -4, 1}}) {
     const Polygon first = clipped_at(ClipPlane::near, {a, b, {0, 0, -4, -4}});
     const Polygon second = clipped_at(ClipPlane::near, {b, a, {0, 0, -4, -4}});

@@ -57,7 +57,7 @@ TEST(Culling, FollowsTheExactDeterminantOfTrianglesSeenFromTheEdge) {
     const Vec3 b = random_point(random, 100);
     const double s = random.between(-1, 2);
     const double t = random.between(-1, 2);
-    // In the plane of the eye, a and b, but for the rounding.
+    // In the plane through the eye, a and b, up to rounding.
     const Vec3 c = {s * a.x + t * b.x, s * a.y + t * b.y, s * a.z + t * b.z};
     expect_culled_by_winding({a, b, c}, true, 1);
   }
@@ -79,7 +79,7 @@ TEST(Culling, FollowsTheExactDeterminantOfTinyAndHugeTriangles) {
       TriangleBatch p_ndc;
       try {
         stage.project(batch_of({t}), p_ndc);
-      } catch (const InputError&) {  // an overflow of what is not culled
+      } catch (const InputError&) {  // the image of a triangle that is not culled overflows
       }
       return stage.counts().culled == 1;
     };

@@ -15,7 +15,7 @@
 
 namespace pipeline {
 
-/// The forms of numbers the tests go through.
+/// The number formats under test.
 constexpr NumberFormat kFormats[] = {{7}, {0}, {12}, {17}, {.decimals = 0, .shortest = true}};
 
 inline std::string to_text(const Vec3& v) {
@@ -24,7 +24,7 @@ inline std::string to_text(const Vec3& v) {
   return text;
 }
 
-/// A coordinate up to `largest`: of any size, with 7 decimals, a whole number, or one that makes ties.
+/// A coordinate up to `largest`: of any size, with 7 decimals, a whole number, or one that leads to ties.
 inline double random_coordinate(RandomNumbers& random, double largest) {
   const double value = random.between(-largest, largest);
   switch (random.bits() % 8) {
@@ -79,7 +79,7 @@ void expect_printed(const TriangleBatch& images, const std::vector<Vec3>& vertic
         << "vertex " << to_text(vertices[i]);
 }
 
-/// How many of many printed numbers are not the reference's.
+/// Counts the printed numbers that differ from the reference.
 struct DifferenceCount {
   std::uint64_t numbers = 0;
   std::uint64_t different = 0;

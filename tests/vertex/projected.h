@@ -9,7 +9,7 @@
 
 namespace pipeline {
 
-// x and y are left as they are at distance 1, the planes at 1 and 100.
+// Leaves x and y unchanged at distance 1; its planes lie at 1 and 100.
 inline const ProjectionTransform kSimple = {true, 1, 0, 1, 0, 1, 100};
 
 /// Corners at x, y = (0, 0), (1, 0) and (0, 1), in view space, with these z.
@@ -27,13 +27,13 @@ inline TriangleBatch batch_of(std::initializer_list<Triangle> triangles) {
   return batch;
 }
 
-/// The triangles in NDC and what became of those read.
+/// The triangles in NDC, and what the stage counted.
 struct Result {
   TriangleBatch p_ndc;
   ProjectionCounts counts;
 };
 
-/// What `project` makes of a batch from a file stage2.txt; expects that no number was left uncertain.
+/// Projects a batch read from stage2.txt; expects every printed digit to be certain.
 inline Result projected(const TriangleBatch& p_view, const ProjectionTransform& projection, ClipMode clip,
                         CullMode cull = CullMode::nothing, NumberFormat format = {7},
                         Precision precision = Precision::extended) {

@@ -58,11 +58,11 @@ TEST(Projection, PrintsTheCorrectlyRoundedNumbersOfAParallelProjection) {
   }
 }
 
-/// Projections at the ends of what a camera can say, with vertices that are in their view.
+/// Projections at the limits of a camera's parameters, with vertices in their view.
 struct Extreme {
   const char* what;
   Perspective perspective;
-  double width, height;  // of what is seen at distance `depth`
+  double width, height;  // of the view at distance `depth`
   double depth;
 };
 constexpr Extreme kExtremes[] = {

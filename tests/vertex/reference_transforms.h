@@ -12,8 +12,8 @@
 
 namespace pipeline {
 
-// The stages' formulas once more, with `bits` bits instead of 106 and by other formulas than the library's
-// where there are some: rotations from quaternions, projections from their textbook matrices.
+// The transforms of the stages with `bits` bits instead of 106, by other formulas than the library's where
+// others exist: rotations from quaternions, projections from their textbook matrices.
 
 template <int bits>
 struct ReferenceVec3 {
@@ -153,15 +153,15 @@ Real<bits> power_of_ten(int exponent) {
   return exponent == 0 ? Real<bits>(1) : Real<bits>(10) * power_of_ten<bits>(exponent - 1);
 }
 
-/// A calculated number in units of the last of some decimals, rounded, ties to even. What is within 2^-150
-/// units of a tie is one: the reference has rounding errors of its own.
+/// A calculated number in units of the last printed decimal, rounded, ties to even. A number within 2^-150
+/// units of a tie counts as the tie: the reference has rounding errors of its own.
 template <int bits>
 Real<bits> in_units(const Real<bits>& value, const Real<bits>& units_per_one) {
   const Real<bits> fine = round_to_even(times_power_of_two(value * units_per_one, 150));
   return round_to_even(times_power_of_two(fine, -150));
 }
 
-/// The text a calculated number should get; `size` is the size of what it was calculated from.
+/// The expected text of a calculated number; `size` is that of the largest number it was calculated from.
 template <int bits>
 std::string reference_text(const Real<bits>& value, NumberFormat format, const Real<bits>& size = 1) {
   if (!format.shortest) {

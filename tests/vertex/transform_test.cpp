@@ -15,7 +15,7 @@ using Exact = Real<kBits>;
 using ExactVec3 = ReferenceVec3<kBits>;
 using ExactMatrix = ReferenceMatrix<kBits>;
 
-// What the reference itself may be wrong by, in parts of the largest numbers that were added.
+// The reference's own error, relative to the largest term of its sums.
 const Exact kSlack = times_power_of_two(Exact(1), -500);
 
 void expect_contained(const BallVec3& computed, const ExactVec3& truth, const Exact& size) {
@@ -32,7 +32,7 @@ void expect_contained(const AffineMatrix& computed, const ExactMatrix& truth, co
   expect_contained({computed.rows[0][3], computed.rows[1][3], computed.rows[2][3]}, truth.offset, size);
 }
 
-/// The largest error of the linear part, in parts of its largest entry.
+/// The largest error of the linear part, relative to its largest entry.
 double relative_error(const AffineMatrix& m) {
   double largest = 0;
   double error = 0;
@@ -61,7 +61,7 @@ double random_angle(RandomNumbers& random) {
   }
 }
 
-/// The same random transform twice.
+/// A random transform, as computed and exactly.
 struct RandomTransform {
   AffineMatrix computed;
   ExactMatrix exact;
@@ -140,7 +140,7 @@ TEST(Rotation, AboutADiagonalByAThirdOfATurnPermutesTheAxes) {
 }
 
 TEST(Rotation, ByATinyAngleKeepsTheVersine) {
-  // The entry (1 - cos) x y, which later scalings can show.
+  // The entry (1 - cos) x y, which a later scaling can make visible.
   const AffineMatrix m = rotation(1e-200, {1, 1, 0});
   const Exact half_sine = sin(times_power_of_two(radians(Exact(1e-200)), -1));
   EXPECT_TRUE(contains(m.rows[0][1], half_sine * half_sine));
@@ -301,7 +301,7 @@ TEST(IsParallelToView, SeesTheLastBitOfADifference) {
 }
 
 TEST(IsParallelToView, AnUpThatIsNotParallelHasAViewTransform) {
-  // Nearly parallel to what 31 digits tell, with an eye that makes the view direction longer than a double.
+  // Parallel up to about the 31st digit, with an eye whose bits make the view direction wider than a double.
   RandomNumbers random(7);
   for (int i = 0; i < 20'000; ++i) {
     const double p = random.whole(1 << 20, 1 << 26) * 0x1p26 + random.whole(0, 1 << 26);

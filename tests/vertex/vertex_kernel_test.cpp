@@ -25,7 +25,7 @@ std::string printed(double value, int decimals) {
   return {text, print_number(text, value, 0, {.decimals = decimals})};
 }
 
-/// A transform of which every row is the same.
+/// A transform with three equal rows.
 AffineCoefficients coefficients_of(const std::array<Ball, 4>& row, const Vec3& origin = {}) {
   AffineCoefficients coefficients;
   coefficients.origin = origin;
@@ -131,7 +131,7 @@ TEST_P(VertexKernels, AcceptZeroIfEveryTermIsZero) {
   EXPECT_TRUE(accepts({0, 5, 0, 0}, {7, 0, -0.0}));
   EXPECT_FALSE(accepts({1, 1, 0, 0}, {3, -3, 0}));
   EXPECT_FALSE(accepts({Ball::with_error({0, 0}, 0x1p-200), 0, 0, 0}, {1, 0, 0}));
-  // A product that a double has no room for is not zero.
+  // A product that underflows is not zero.
   EXPECT_FALSE(accepts({0x1p-280, 0, 0, 0}, {0x1p-900, 0, 0}));
 }
 
@@ -175,7 +175,7 @@ ProjectionCoefficients random_projection(RandomNumbers& random, std::array<Ball,
   return coefficients;
 }
 
-// Of the depth in doubles, the tests of ProjectionStage tell.
+// The tests of ProjectionStage cover the depth in doubles.
 TEST_P(VertexKernels, AcceptOnlyTheNearestQuotient) {
   RandomNumbers random(3);
   int passed_count = 0;

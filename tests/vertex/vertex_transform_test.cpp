@@ -1,4 +1,4 @@
-// The model and the view stage: what is printed against a reference of 448 bits and more.
+// The model and view stages: printed numbers against a reference of at least 448 bits.
 
 #include "libpipeline/vertex/vertex_transform.h"
 
@@ -12,7 +12,7 @@
 namespace pipeline {
 namespace {
 
-/// The images of vertices, which must all be certain.
+/// The images of vertices, whose printed digits must all be certain.
 template <typename Transform>
 TriangleBatch images_of(const std::vector<Vec3>& vertices, const Transform& transform, NumberFormat format,
                         Precision precision = Precision::extended) {
@@ -23,7 +23,7 @@ TriangleBatch images_of(const std::vector<Vec3>& vertices, const Transform& tran
   return batch;
 }
 
-/// A model transform twice.
+/// A model transform, as computed and exactly.
 template <int bits>
 struct Model {
   AffineMatrix computed = identity();
@@ -94,7 +94,7 @@ void expect_view(const RandomCamera& c, const std::vector<Vec3>& vertices, Numbe
   expect_printed<bits>(images, vertices, format, size, [&](const auto& p) { return exact * p; });
 }
 
-/// Runs `check(random, format)` for every form of numbers.
+/// Runs `check(random, format)` for every number format.
 template <typename Check>
 void for_every_format(std::uint64_t seed, int count, Check check) {
   for (const NumberFormat format : kFormats) {
@@ -134,7 +134,7 @@ TEST(ModelTransform, PrintsTheCorrectlyRoundedNumbersAroundAFarPivot) {
     model.translate({pivot, -pivot, pivot})
         .rotate(random.between(-360, 360), {1, 2, 3})
         .translate({-pivot, pivot, -pivot});
-    // 17 decimals of a number next to 1e9 are more than 31 digits can tell at a tie.
+    // At a tie, 17 decimals beside 1e9 need more than the 31 digits of a ball.
     if (format.decimals < 17) expect_model<448>(model, random_points(random, 9, 100), format, 1e10);
   });
 }
