@@ -56,8 +56,7 @@ struct AxisLanes {
 
   /// How far a coordinate is from the middle, on the grid.
   PIPELINE_AVX2_INLINE FourDoubles scaled(FourDoubles coordinate) const {
-    const FourDoubles rounder = all(0x1.8p52);
-    return ((coordinate * all(kGridUnitsPerOne) + rounder) - rounder) * factor;
+    return nearest_whole(coordinate * all(kGridUnitsPerOne)) * factor;
   }
   /// Whether the distances from pixel 0 that were calculated, of which these are the extremes, are exact.
   PIPELINE_AVX2_INLINE FourDoubles fit(FourDoubles least, FourDoubles most) const {

@@ -6,6 +6,8 @@
 #include <cstdlib>
 #include <numeric>
 
+#include "libpipeline/numbers/decimal_units.h"
+
 namespace pipeline {
 namespace {
 
@@ -14,10 +16,8 @@ constexpr double kMaxRoundedUnits = 0x1p50;
 constexpr double kMaxNarrow = 0x1p60;
 constexpr double kMaxDecimal = 1e22;
 
-/// `units`, at most 2^51 in size, rounded to the nearest whole number.
-std::int64_t nearest_whole(double units) {
-  constexpr double kRounder = 0x1.8p52;
-  return static_cast<std::int64_t>((units + kRounder) - kRounder);
+std::int64_t nearest_int(double units) {
+  return static_cast<std::int64_t>(nearest_whole(units));
 }
 
 /// The same number with an odd mantissa (or 0).
@@ -47,7 +47,7 @@ Int128 fixed_point_units(double value) {
 /// The whole number of units nearest to hi + lo.
 Int128 decimal_units(double hi, double lo) {
   const double units = hi * kGridUnitsPerOne;
-  if (std::fabs(units) <= kMaxRoundedUnits) return nearest_whole(units);
+  if (std::fabs(units) <= kMaxRoundedUnits) return nearest_int(units);
   constexpr Int128 kOne = 1 << 20;
   return (fixed_point_units(hi) + fixed_point_units(lo) + kOne / 2) >> 20;
 }
@@ -121,8 +121,8 @@ std::optional<GridTriangle<std::int64_t>> narrow_triangle(const ExactGrid& grid,
     const bool fits =
         (std::fabs(x) <= columns.largest_narrow_units) & (std::fabs(y) <= rows.largest_narrow_units);
     if (!fits) return std::nullopt;
-    result.u[i] = columns.narrow_origin + nearest_whole(x) * columns.narrow_vertex_factor;
-    result.v[i] = rows.narrow_origin - nearest_whole(y) * rows.narrow_vertex_factor;
+    result.u[i] = columns.narrow_origin + nearest_int(x) * columns.narrow_vertex_factor;
+    result.v[i] = rows.narrow_origin - nearest_int(y) * rows.narrow_vertex_factor;
   }
   return result;
 }

@@ -8,6 +8,8 @@
 #include <bit>
 #include <cstdint>
 
+#include "libpipeline/numbers/decimal_units.h"
+
 #define PIPELINE_AVX2 __attribute__((target("avx2,bmi")))
 
 namespace pipeline {
@@ -25,15 +27,15 @@ struct SplitUnits {
 /// `good` loses its bits where a coordinate is too large, not finite, or too near to a tie.
 PIPELINE_AVX2 inline SplitUnits split(__m256d values, __m256d& good) {
   const __m256d sign_bit = _mm256_set1_pd(-0.0);
-  const __m256d rounder = _mm256_set1_pd(0x1.8p52);
+  const __m256d rounder = _mm256_set1_pd(kWholeRounder);
   const __m256d one = _mm256_set1_pd(1);
   const __m256d per_one = _mm256_set1_pd(kUnitsPerOne);
   const __m256d scaled = _mm256_mul_pd(_mm256_andnot_pd(sign_bit, values), per_one);
   const __m256d units = _mm256_sub_pd(_mm256_add_pd(scaled, rounder), rounder);
   const __m256d distance = _mm256_andnot_pd(sign_bit, _mm256_sub_pd(scaled, units));
-  // The product is rounded: by at most 2^-53 of itself.
-  const __m256d reach = _mm256_add_pd(distance, _mm256_mul_pd(scaled, _mm256_set1_pd(0x1p-52)));
-  good = _mm256_and_pd(good, _mm256_cmp_pd(reach, _mm256_set1_pd(0.5), _CMP_LT_OQ));
+  // As DecimalUnits::is_certain.
+  const __m256d reach = _mm256_add_pd(distance, _mm256_mul_pd(scaled, _mm256_set1_pd(kProductError)));
+  good = _mm256_and_pd(good, _mm256_cmp_pd(reach, _mm256_set1_pd(kBelowHalf), _CMP_LT_OQ));
   good = _mm256_and_pd(good, _mm256_cmp_pd(units, _mm256_set1_pd(1e15), _CMP_LT_OQ));
   // units / 10^7, right or one too small or too large; the remainder, which is exact, tells.
   const __m256d quotient = _mm256_floor_pd(_mm256_mul_pd(units, _mm256_set1_pd(1e-7)));

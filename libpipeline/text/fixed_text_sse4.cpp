@@ -1,4 +1,3 @@
-#include "libpipeline/text/eight_digits.h"
 #include "libpipeline/text/fixed_text_kernels.h"
 
 #ifdef PIPELINE_HAS_X86_KERNELS
@@ -8,6 +7,9 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+
+#include "libpipeline/numbers/decimal_units.h"
+#include "libpipeline/text/eight_digits.h"
 
 #define PIPELINE_SSE4 __attribute__((target("sse4.2,bmi")))
 
@@ -131,8 +133,8 @@ struct SplitUnits {
 /// False where a coordinate is too large, not finite, or too near to a tie.
 PIPELINE_SSE4 inline bool split(const double* coordinates, SplitUnits& split_units) {
   const __m128d sign_bit = _mm_set1_pd(-0.0);
-  const __m128d rounder = _mm_set1_pd(0x1.8p52);
-  const __m128d half = _mm_set1_pd(0.5);
+  const __m128d rounder = _mm_set1_pd(kWholeRounder);
+  const __m128d below_half = _mm_set1_pd(kBelowHalf);
   __m128d good = _mm_castsi128_pd(_mm_set1_epi32(-1));
   unsigned negative = 0;
   for (std::size_t i = 0; i < 10; i += 2) {
@@ -140,9 +142,10 @@ PIPELINE_SSE4 inline bool split(const double* coordinates, SplitUnits& split_uni
     const __m128d scaled = _mm_mul_pd(_mm_andnot_pd(sign_bit, value), _mm_set1_pd(kUnitsPerOne));
     const __m128d units = _mm_sub_pd(_mm_add_pd(scaled, rounder), rounder);
     const __m128d distance = _mm_andnot_pd(sign_bit, _mm_sub_pd(scaled, units));
-    // The product is rounded: by at most 2^-53 of itself.
-    const __m128d reach = _mm_add_pd(distance, _mm_mul_pd(scaled, _mm_set1_pd(0x1p-52)));
-    good = _mm_and_pd(good, _mm_and_pd(_mm_cmplt_pd(reach, half), _mm_cmplt_pd(units, _mm_set1_pd(1e15))));
+    // As DecimalUnits::is_certain.
+    const __m128d reach = _mm_add_pd(distance, _mm_mul_pd(scaled, _mm_set1_pd(kProductError)));
+    good =
+        _mm_and_pd(good, _mm_and_pd(_mm_cmplt_pd(reach, below_half), _mm_cmplt_pd(units, _mm_set1_pd(1e15))));
     // units / 10^7, right or one too small or too large; the remainder, which is exact, tells.
     __m128d whole = _mm_floor_pd(_mm_mul_pd(units, _mm_set1_pd(1e-7)));
     __m128d decimals = _mm_sub_pd(units, _mm_mul_pd(whole, _mm_set1_pd(kUnitsPerOne)));

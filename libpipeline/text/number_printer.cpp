@@ -7,10 +7,10 @@
 #include <cmath>
 #include <cstdint>
 
+#include "libpipeline/numbers/decimal_units.h"
 #include "libpipeline/numbers/int128.h"
 #include "libpipeline/numbers/powers_of_ten.h"
 #include "libpipeline/text/eight_digits.h"
-#include "libpipeline/text/number_rounding.h"
 #include "libpipeline/text/shortest_decimal.h"
 #include "libpipeline/text/wide_decimal.h"
 
@@ -63,8 +63,9 @@ char* print_sign(char* out, bool is_negative) {
 /// more than 51 bits, or lies so near to a tie that the scaling may decide.
 char* print_scaled(char* out, double value, int decimals) {
   const auto n = static_cast<std::size_t>(decimals);
-  if (decimals > 15 || !rounds_safely(value, 0, {.decimals = decimals})) return nullptr;
-  const auto units = static_cast<std::uint64_t>(nearest_whole(std::fabs(value) * kPowersOfTen[n]));
+  const DecimalUnits rounded(value, kPowersOfTen[n]);
+  if (decimals > 15 || !rounded.is_certain()) return nullptr;
+  const auto units = static_cast<std::uint64_t>(rounded.whole);
   out = print_sign(out, (value < 0) & (units != 0));
   // Cut off instead of divided, which is right but for what was rounded up to a whole number.
   auto whole = static_cast<std::uint64_t>(std::fabs(value));

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "libpipeline/numbers/decimal_units.h"
 #include "libpipeline/vertex/vertex_kernel.h"
 
 // Inlined, so that each kernel's loops are compiled for its processor.
@@ -55,27 +56,20 @@ PIPELINE_LOOP bool is_finite(const Estimate& e, double& value) {
   return std::fabs(value) <= std::numeric_limits<double>::max();
 }
 
-/// As rounds_safely.
 PIPELINE_LOOP bool has_one_text(const Estimate& e, double scale, double& value) {
-  constexpr double kRounder = 0x1.8p52;
-  constexpr double kHalf = 0.5 - 0x1p-52;
   value = e.value;
-  const double scaled = std::fabs(value) * scale;
-  const double units = (scaled + kRounder) - kRounder;
-  const double reach = std::fabs(scaled - units) + e.error * scale + scaled * 0x1p-52;
-  return (reach < kHalf) & (scaled < 0x1p51);
+  return DecimalUnits(value, scale).is_certain(e.error * scale);
 }
 
-/// A pair that lies so far from a tie has the text of the nearest whole number of units.
+/// The rounding test of DecimalUnits for a pair: its product with the scale is exact but for the pair's
+/// error. Far enough from a tie, it has the text of the nearest whole number of units.
 PIPELINE_LOOP bool has_one_text(const PairEstimate& e, double scale, auto rest, double& value) {
-  constexpr double kRounder = 0x1.8p52;
-  constexpr double kHalf = 0.5 - 0x1p-40;
   const double scaled = e.high * scale;
   const double scaled_low = rest.of(e.high, scale, scaled) + e.low * scale;
-  const double units = (scaled + kRounder) - kRounder;
+  const double units = nearest_whole(scaled);
   const double reach = std::fabs((scaled - units) + scaled_low) + e.error * scale;
   value = units / scale;
-  return (reach < kHalf) & (std::fabs(scaled) < 0x1p51);
+  return (reach < kBelowHalf) & (std::fabs(scaled) < 0x1p51);
 }
 
 /// Both ends of the interval round to the same double, and so does what lies between (A. Ziv, "Fast

@@ -7,8 +7,9 @@
 #include <cstdlib>
 #include <string>
 
+#include "libpipeline/numbers/decimal_units.h"
+#include "libpipeline/numbers/powers_of_ten.h"
 #include "libpipeline/text/number_printer.h"
-#include "libpipeline/text/number_rounding.h"
 #include "tests/fuzz/fuzz_bytes.h"
 #include "tests/fuzz/require.h"
 
@@ -58,7 +59,8 @@ void check_shortest(double value) {
 }
 
 void check_safety(double value, double error, NumberFormat format) {
-  if (!rounds_safely(value, error, format)) return;
+  const double scale = kPowersOfTen[static_cast<std::size_t>(format.decimals)];
+  if (!DecimalUnits(value, scale).is_certain(error * scale)) return;
   const std::string text = printed(value, 0, format);
   require(text == without_sign_of_zero(reference(value - error, format.decimals)),
           "a safe number may be smaller");

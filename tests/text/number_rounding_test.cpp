@@ -1,4 +1,4 @@
-// round_to_text and rounds_safely against exact arithmetic.
+// round_to_text against exact arithmetic.
 
 #include <gtest/gtest.h>
 
@@ -8,17 +8,11 @@
 #include "libpipeline/text/number_printer.h"
 #include "libpipeline/text/number_rounding.h"
 #include "tests/numbers/random_numbers.h"
+#include "tests/numbers/random_tie.h"
 #include "tests/numbers/real.h"
 
 namespace pipeline {
 namespace {
-
-// Holds any double, and any sum of two that are no more than 700 binary places apart.
-using Exact = Real<768>;
-
-Exact power_of_ten(int exponent) {
-  return exponent == 0 ? Exact(1) : Exact(10) * power_of_ten(exponent - 1);
-}
 
 DoubleDouble to_double_double(const Exact& value) {
   const double hi = value.nearest_double();
@@ -28,25 +22,6 @@ DoubleDouble to_double_double(const Exact& value) {
 std::string text_of(const PrintableNumber& number, NumberFormat format) {
   char text[kMaxNumberLength];
   return {text, print_number(text, number.hi, number.lo, format)};
-}
-
-/// A tie: halfway between two numbers of `decimals` decimals.
-struct Tie {
-  int decimals;
-  Exact value;
-  Exact unit;        // of the last decimal
-  std::string text;  // ties to even
-};
-
-Tie random_tie(RandomNumbers& random, double largest_whole) {
-  const int decimals = random.whole(0, kMaxDecimals);
-  const double whole = std::floor(std::exp2(random.between(0, std::log2(largest_whole))));
-  const int sign = random.bits() % 2 == 0 ? 1 : -1;
-  const Exact scale = power_of_ten(decimals);
-  const Exact even = round_to_even(Exact(whole) + Exact(0.5));
-  // The quotient is not quite the decimal, but prints as it.
-  return {decimals, Exact(sign) * (Exact(whole) + Exact(0.5)) / scale, Exact(1) / scale,
-          (Exact(sign) * even / scale).text(decimals)};
 }
 
 TEST(RoundToText, ATieWithinTheErrorCountsAsTheTie) {
@@ -200,68 +175,6 @@ TEST(RoundToShortest, ANumberBesideATieOfSubnormalNumbersIsTheNearest) {
   const Ball beside = Ball(0x1p-80);
   EXPECT_EQ(round_to_text(unit * (Ball(2.5) + beside), {.shortest = true}).hi, 3 * 0x1p-1074);
   EXPECT_EQ(round_to_text(unit * (Ball(3.5) - beside), {.shortest = true}).hi, 3 * 0x1p-1074);
-}
-
-/// Checks values a few units in the last place around a tie, with errors that just reach it or just do not.
-void expect_never_wrongly_safe(std::uint64_t seed, int count) {
-  RandomNumbers random(seed);
-  int safe_count = 0;
-  for (int i = 0; i < count; ++i) {
-    const Tie tie = random_tie(random, i % 4 == 0 ? 2 : 0x1p51);
-    double value = tie.value.nearest_double();
-    const double step = std::ldexp(tie.unit.nearest_double(), random.whole(-60, -2));
-    value += step * random.between(-1, 1);
-    double error = std::fabs((tie.value - Exact(value)).nearest_double());
-    for (int ulps = random.whole(-3, 3); ulps != 0; ulps += ulps < 0 ? 1 : -1)
-      error = std::nextafter(error, ulps < 0 ? 0 : HUGE_VAL);
-    if (i % 8 == 7) error = std::fabs(error) * random.between(0, 1.01);
-    if (!rounds_safely(value, error, {tie.decimals})) continue;
-    ++safe_count;
-    const std::string text = Exact(value).text(tie.decimals);
-    for (const double sign : {-1, 1})
-      ASSERT_EQ((Exact(value) + Exact(sign * error)).text(tie.decimals), text)
-          << std::hexfloat << value << " +- " << error << ", " << tie.decimals << " decimals";
-  }
-  EXPECT_GT(safe_count, count / 100);
-}
-
-TEST(RoundsSafely, IsNeverTrueForANumberWhoseErrorReachesATie) {
-  expect_never_wrongly_safe(8, 40'000);
-}
-TEST(RoundsSafely, LongIsNeverTrueForANumberWhoseErrorReachesATie) {
-  expect_never_wrongly_safe(108, 1'000'000);
-}
-
-TEST(RoundsSafely, TakesMostNumbersOfDoubleAccuracy) {
-  RandomNumbers random(9);
-  int safe_count = 0;
-  for (int i = 0; i < 10'000; ++i) {
-    const double value = random.between(-100, 100);
-    if (rounds_safely(value, 8 * 0x1p-53 * std::fabs(value), {7})) ++safe_count;
-  }
-  EXPECT_GT(safe_count, 9'990);
-}
-
-TEST(RoundsSafely, TakesANumberFarFromATie) {
-  EXPECT_TRUE(rounds_safely(0.12345670, 1e-12, {7}));
-}
-
-TEST(RoundsSafely, RefusesANumberWithinItsErrorOfATie) {
-  EXPECT_FALSE(rounds_safely(0.12345675, 1e-16, {7}));
-  EXPECT_FALSE(rounds_safely(0.5, 0, {0}));
-}
-
-TEST(RoundsSafely, RefusesInfinitiesAndNan) {
-  EXPECT_FALSE(rounds_safely(HUGE_VAL, 0, {7}));
-  EXPECT_FALSE(rounds_safely(-HUGE_VAL, 0, {7}));
-  EXPECT_FALSE(rounds_safely(NAN, 0, {7}));
-  EXPECT_FALSE(rounds_safely(1, HUGE_VAL, {7}));
-  EXPECT_FALSE(rounds_safely(1, NAN, {7}));
-}
-
-TEST(RoundsSafely, TakesAShortestNumberOnlyWithoutError) {
-  EXPECT_TRUE(rounds_safely(0.1, 0, {.shortest = true}));
-  EXPECT_FALSE(rounds_safely(0.1, 0x1p-1074, {.shortest = true}));
 }
 
 }  // namespace

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cmath>
+
+namespace pipeline {
+
+// Rounding to n decimals. Such a decimal is a whole number of units of 10^-n, so a number is scaled by 10^n
+// and rounded to a whole number. The scaled number is a double and not quite right; the result is taken only
+// if that cannot matter, else the caller computes it exactly (A. Ziv, "Fast evaluation of elementary
+// mathematical functions with correctly rounded last bit", ACM TOMS 17(3), 1991). Kernels written in
+// intrinsics repeat these formulas lane by lane, with these constants.
+
+/// Doubles from 2^52 to 2^53 are whole numbers: adding this number and taking it away again rounds to one.
+constexpr double kWholeRounder = 0x1.8p52;
+
+/// The whole number nearest to a number from -2^51 to 2^51, ties to even.
+[[gnu::always_inline]] inline double nearest_whole(double value) {
+  return (value + kWholeRounder) - kWholeRounder;
+}
+
+/// A product of two doubles is off by at most 2^-53 of the exact one, hence by less than this part of itself.
+constexpr double kProductError = 0x1p-52;
+
+/// A number whose distance from a whole number stays below this rounds to it. The few sums that make up such
+/// a distance lose at most 2^-54 each near 1/2; the rest is margin that costs nothing.
+constexpr double kBelowHalf = 0.5 - 0x1p-40;
+
+/// The absolute value of a number in units of its last decimal. Always inlined, so that each kernel's loops
+/// are compiled for its processor.
+struct DecimalUnits {
+  double scaled;  // the rounded product |value| * scale
+  double whole;   // the whole number nearest to it, ties to even
+
+  /// `scale` is 10^decimals, one of kPowersOfTen, which are exact.
+  [[gnu::always_inline]] DecimalUnits(double value, double scale)
+      : scaled(std::fabs(value) * scale), whole(nearest_whole(scaled)) {}
+
+  /// The rounding test: true only if every number within `error`, in units, of the exact |value| * scale is
+  /// nearer to `whole` than to any other whole number. It refuses ties, numbers from 2^51 units on (their
+  /// product may be off by half a unit), infinities and NaN, and may refuse a number just beside a tie.
+  [[nodiscard, gnu::always_inline]] bool is_certain(double error = 0) const {
+    return std::fabs(scaled - whole) + scaled * kProductError < kBelowHalf - error;
+  }
+};
+
+}  // namespace pipeline
