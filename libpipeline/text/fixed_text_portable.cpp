@@ -1,9 +1,7 @@
-#include <array>
-#include <cmath>
 #include <cstdint>
-#include <cstring>
 
 #include "libpipeline/text/eight_digits.h"
+#include "libpipeline/text/fixed_number.h"
 #include "libpipeline/text/fixed_text_kernels.h"
 
 namespace pipeline {
@@ -67,68 +65,13 @@ FixedTextPart read_fixed_text(std::string_view text, std::span<Triangle> triangl
 
 // ---- printing ----
 
-struct DigitPairs {
-  std::array<char, 200> characters{};
-  constexpr DigitPairs() {
-    for (std::size_t i = 0; i < 100; ++i) {
-      characters[2 * i] = static_cast<char>('0' + i / 10);
-      characters[2 * i + 1] = static_cast<char>('0' + i % 10);
-    }
-  }
-};
-
-constexpr DigitPairs kDigitPairs;
-
-char* write_pair(char* out, std::uint32_t pair) {
-  std::memcpy(out, kDigitPairs.characters.data() + std::size_t{2} * pair, 2);
-  return out + 2;
-}
-
-char* write_whole(char* out, std::uint32_t whole) {
-  std::array<char, 8> digits;
-  char* const last = digits.data() + digits.size();
-  char* first = last;
-  for (; whole >= 100; whole /= 100) {
-    first -= 2;
-    write_pair(first, whole % 100);
-  }
-  if (whole >= 10) {
-    first -= 2;
-    write_pair(first, whole);
-  } else {
-    *--first = static_cast<char>('0' + whole);
-  }
-  const auto length = static_cast<std::size_t>(last - first);
-  std::memcpy(out, first, length);
-  return out + length;
-}
-
-/// Null where the number is too large, not finite, or too near to a tie.
-char* write_number(char* out, double value) {
-  constexpr double kRounder = 0x1.8p52;
-  const double scaled = std::fabs(value) * kUnitsPerOne;
-  if (!(scaled < 1e15)) return nullptr;
-  const double units = (scaled + kRounder) - kRounder;
-  // The product is rounded: by at most 2^-53 of itself.
-  if (std::fabs(scaled - units) + scaled * 0x1p-52 >= 0.5 || units >= 1e15) return nullptr;
-  const auto whole_units = static_cast<std::uint64_t>(units);
-  const auto decimals = static_cast<std::uint32_t>(whole_units % 10'000'000);
-  if (value < 0 && whole_units != 0) *out++ = '-';
-  out = write_whole(out, static_cast<std::uint32_t>(whole_units / 10'000'000));
-  *out++ = '.';
-  *out++ = static_cast<char>('0' + decimals / 1'000'000);
-  out = write_pair(out, decimals / 10'000 % 100);
-  out = write_pair(out, decimals / 100 % 100);
-  return write_pair(out, decimals % 100);
-}
-
 char* write_triangle(char* out, const Triangle& triangle) {
   for (const Vec3& vertex : triangle) {
-    if ((out = write_number(out, vertex.x)) == nullptr) return nullptr;
+    if ((out = write_fixed<7>(out, vertex.x)) == nullptr) return nullptr;
     *out++ = ' ';
-    if ((out = write_number(out, vertex.y)) == nullptr) return nullptr;
+    if ((out = write_fixed<7>(out, vertex.y)) == nullptr) return nullptr;
     *out++ = ' ';
-    if ((out = write_number(out, vertex.z)) == nullptr) return nullptr;
+    if ((out = write_fixed<7>(out, vertex.z)) == nullptr) return nullptr;
     *out++ = '\n';
   }
   *out++ = '\n';

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+
+#include "libpipeline/numbers/decimal_units.h"
+#include "libpipeline/numbers/powers_of_ten.h"
+
+namespace pipeline {
+
+// The fast path of printing a number with a fixed count of decimals: a whole number of units of the last
+// decimal, cut into groups of three digits that a table holds.
+
+struct DigitTriples {
+  std::array<char, 4000> characters{};
+  constexpr DigitTriples() {
+    for (std::size_t i = 0; i < 1000; ++i) {
+      characters[4 * i] = static_cast<char>('0' + i / 100);
+      characters[4 * i + 1] = static_cast<char>('0' + i / 10 % 10);
+      characters[4 * i + 2] = static_cast<char>('0' + i % 10);
+    }
+  }
+};
+
+inline constexpr DigitTriples kDigitTriples;
+
+/// Three digits; a fourth character is written and has to be overwritten.
+inline char* write_triple(char* out, std::uint32_t triple) {
+  std::memcpy(out, kDigitTriples.characters.data() + std::size_t{4} * triple, 4);
+  return out + 3;
+}
+
+inline char* write_whole(char* out, std::uint32_t whole) {
+  std::array<char, 9> digits;
+  std::size_t first = digits.size();
+  for (; whole >= 10; whole /= 10) digits[--first] = static_cast<char>('0' + whole % 10);
+  digits[--first] = static_cast<char>('0' + whole);
+  std::memcpy(out, &digits[first], digits.size() - first);
+  return out + (digits.size() - first);
+}
+
+/// Prints a number with 6 or 7 decimals, ties excluded, and returns the end of its text; one more character
+/// is written. Null where the number has 10^15 units of the last decimal or more, is not finite, or lies so
+/// near to a tie that it takes exact arithmetic to round it. A number that rounds to zero carries no sign.
+template <int decimals>
+char* write_fixed(char* out, double value) {
+  static_assert(decimals == 6 || decimals == 7);
+  constexpr std::uint32_t kUnitsPerOne = kWholePowersOfTen[decimals];
+  const DecimalUnits rounded(value, kUnitsPerOne);
+  if (!(rounded.whole < 1e15) || !rounded.is_certain()) return nullptr;
+  const auto units = static_cast<std::uint64_t>(rounded.whole);
+  *out = '-';
+  out += static_cast<int>(value < 0) & static_cast<int>(units != 0);
+  std::uint32_t behind_point = static_cast<std::uint32_t>(units);
+  if (units < std::uint64_t{10} * kUnitsPerOne) {
+    const std::uint32_t whole = behind_point / kUnitsPerOne;
+    *out++ = static_cast<char>('0' + whole);
+    behind_point -= whole * kUnitsPerOne;
+  } else {
+    out = write_whole(out, static_cast<std::uint32_t>(units / kUnitsPerOne));
+    behind_point = static_cast<std::uint32_t>(units % kUnitsPerOne);
+  }
+  *out++ = '.';
+  if constexpr (decimals == 7) {
+    *out++ = static_cast<char>('0' + behind_point / 1'000'000);
+    behind_point %= 1'000'000;
+  }
+  return write_triple(write_triple(out, behind_point / 1000), behind_point % 1000);
+}
+
+}  // namespace pipeline
