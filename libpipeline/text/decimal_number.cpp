@@ -82,11 +82,9 @@ bool divide_by_power_of_ten(std::uint64_t digits, int decimals, double& value) {
 /// Reads up to eight digits; says how many.
 int read_digits(const char* p, std::uint64_t& number) {
   const std::uint64_t less_zeros = load_eight(p) - kEightZeros;
-  const std::uint64_t ends = no_digits(less_zeros);
-  const int count = ends == 0 ? 8 : std::countr_zero(ends) / 8;
-  // Shifted so that the digits are the last of eight; what comes in is zeros.
-  number = count == 0 ? 0 : join_digits(less_zeros << (64 - 8 * count));
-  return count;
+  const std::size_t count = leading_digit_count(less_zeros);
+  number = count == 0 ? 0 : join_leading_digits(less_zeros, count);
+  return static_cast<int>(count);
 }
 
 bool is_digit(char c) {

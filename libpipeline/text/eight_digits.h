@@ -1,6 +1,7 @@
 #pragma once
 
 #include <bit>
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 
@@ -37,8 +38,19 @@ inline std::uint64_t join_digits(std::uint64_t digits) {
   return (outer + inner) >> 32;
 }
 
-/// The opposite: the digits of a number below 10^8, each in a byte, the first in the lowest. Quotients are
-/// products with rounded-up inverses, right for four and for two digits.
+/// How many of eight characters minus kEightZeros are digits before the first that is none.
+inline std::size_t leading_digit_count(std::uint64_t less_zeros) {
+  return static_cast<std::size_t>(std::countr_zero(no_digits(less_zeros))) / 8;
+}
+
+/// The number that the first `count` digits make, at least one: shifted to the end of the eight, behind
+/// zeros.
+inline std::uint64_t join_leading_digits(std::uint64_t less_zeros, std::size_t count) {
+  return join_digits(less_zeros << (64 - 8 * count));
+}
+
+/// The opposite of join_digits: the digits of a number below 10^8, each in a byte, the first in the lowest.
+/// Quotients are products with rounded-up inverses, right for four and for two digits.
 inline std::uint64_t split_digits(std::uint32_t number) {
   const std::uint64_t fours = number / 10000 | static_cast<std::uint64_t>(number % 10000) << 32;
   const std::uint64_t hundreds = (fours * 10486 >> 20) & 0x0000007f0000007f;

@@ -11,27 +11,19 @@ constexpr double kUnitsPerOne = 1e7;
 
 // ---- reading ----
 
-/// How many characters stand before the point, 9 or more if it is not among the first nine.
-unsigned digits_before_point(const char* p) {
-  unsigned count = 0;
-  while (count < 9 && p[count] != '.') ++count;
-  return count;
-}
-
 /// Reads one number and the separator behind it; null where the form differs.
 const char* read_number(const char* p, char separator, double& value) {
   const bool is_negative = *p == '-';
   p += is_negative ? 1 : 0;
-  const unsigned count = digits_before_point(p);
-  if (count < 1 || count > 8 || p[count + 8] != separator) return nullptr;
-  // Shifted so that the digits are the last of eight; what comes in is zeros.
-  const std::uint64_t before = (load_eight(p) - kEightZeros) << (8 * (8 - count));
+  const std::uint64_t before = load_eight(p) - kEightZeros;
+  const std::size_t count = leading_digit_count(before);
+  if (count == 0 || p[count] != '.' || p[count + 8] != separator) return nullptr;
   const std::uint64_t behind = (load_eight(p + count + 1) - kEightZeros) << 8;
-  if (no_digits(before) != 0 || no_digits(behind) != 0) return nullptr;
-  const std::uint64_t units = join_digits(before) * 10'000'000 + join_digits(behind);
+  if (no_digits(behind) != 0) return nullptr;
+  const std::uint64_t units = join_leading_digits(before, count) * 10'000'000 + join_digits(behind);
   // Below 2^53 the conversion is exact, so that the quotient is the nearest double to the decimal.
-  value = static_cast<double>(units) / kUnitsPerOne;
-  if (is_negative) value = -value;
+  const double magnitude = static_cast<double>(units) / kUnitsPerOne;
+  value = is_negative ? -magnitude : magnitude;
   return p + count + 9;
 }
 

@@ -43,6 +43,20 @@ TEST(EightDigits, AreSplitAndJoinedWhateverTheyAre) {
   for (int i = 0; i < 100000; ++i) check(random.bits() % (kEight * kEight));
 }
 
+TEST(EightDigits, TheFirstOnesAreANumber) {
+  const std::string text = "98765432";
+  for (std::size_t count = 0; count <= 8; ++count) {
+    for (const char end : {'.', ' ', '-', '/', ':', '\0', '\x80', '\xff'}) {
+      std::string ended = text;
+      if (count < 8) ended[count] = end;
+      const std::uint64_t less_zeros = load_eight(ended.data()) - kEightZeros;
+      ASSERT_EQ(leading_digit_count(less_zeros), count) << ended;
+      if (count == 0) continue;
+      EXPECT_EQ(join_leading_digits(less_zeros, count), std::stoull(text.substr(0, count))) << ended;
+    }
+  }
+}
+
 TEST(EightDigits, OtherCharactersAreFound) {
   for (int c = 0; c < 256; ++c) {
     std::string text = "01234567";
