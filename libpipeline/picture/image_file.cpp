@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include "libpipeline/text/error.h"
+#include "libpipeline/text/text_writer.h"
 
 namespace pipeline {
 namespace {
@@ -32,15 +33,6 @@ std::size_t row_size(ImageFormat format, int columns) {
 bool can_seek(int descriptor) {
   const int flags = ::fcntl(descriptor, F_GETFL);
   return flags >= 0 && (flags & O_APPEND) == 0 && ::lseek(descriptor, 0, SEEK_CUR) == 0;
-}
-
-void write_bytes(int descriptor, std::string_view bytes, const std::string& path) {
-  while (!bytes.empty()) {
-    const ssize_t count = ::write(descriptor, bytes.data(), bytes.size());
-    if (count < 0 && errno == EINTR) continue;
-    if (count < 0) throw IoError("write", path, errno);
-    bytes.remove_prefix(static_cast<std::size_t>(count));
-  }
 }
 
 template <typename UInt>
@@ -105,8 +97,7 @@ ImageWriter::ImageWriter(int descriptor, const std::string& path, ImageFormat fo
   else if (format == ImageFormat::png)
     png_.emplace(descriptor, path, PngPixels::rgb8, columns, rows);
   else
-    write_bytes(descriptor_, "P6\n" + std::to_string(columns) + " " + std::to_string(rows) + "\n255\n",
-                path_);
+    write_all(descriptor_, "P6\n" + std::to_string(columns) + " " + std::to_string(rows) + "\n255\n", path_);
   const bool needs_all_rows = format == ImageFormat::bmp && !can_seek_;
   const std::size_t all_rows = static_cast<std::size_t>(rows);
   const std::size_t block_rows = png_ ? 1 : std::clamp<std::size_t>(kBlockSize / row_size_, 1, all_rows);
@@ -128,7 +119,7 @@ void ImageWriter::write_bmp_header() {
   append_little_endian(header, std::uint32_t{0});                   // not compressed
   append_little_endian(header, pixels_size);
   header.append(16, '\0');  // pixels per meter in x and y, colors in the palette, important ones: not said
-  write_bytes(descriptor_, header, path_);
+  write_all(descriptor_, header, path_);
 }
 
 char* ImageWriter::place_for_next_row() {
@@ -164,7 +155,7 @@ void ImageWriter::write_rows() {
   if (png_)
     png_->write_row({reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()});
   else
-    write_bytes(descriptor_, bytes, path_);
+    write_all(descriptor_, bytes, path_);
 }
 
 void ImageWriter::finish() {

@@ -1,12 +1,12 @@
 #include "libpipeline/picture/png_file.h"
 
 #include <png.h>
-#include <unistd.h>
 
 #include <cerrno>
 #include <csetjmp>
 
 #include "libpipeline/text/error.h"
+#include "libpipeline/text/text_writer.h"
 
 namespace pipeline {
 namespace {
@@ -22,16 +22,8 @@ struct Sink {
 
 void write_bytes(png_structp png, png_bytep bytes, png_size_t size) {
   Sink& sink = *static_cast<Sink*>(png_get_io_ptr(png));
-  while (size > 0) {
-    const ssize_t count = ::write(sink.descriptor, bytes, size);
-    if (count < 0 && errno == EINTR) continue;
-    if (count < 0) {
-      sink.error_number = errno;
-      png_longjmp(png, 1);
-    }
-    bytes += count;
-    size -= static_cast<png_size_t>(count);
-  }
+  sink.error_number = try_write_all(sink.descriptor, {reinterpret_cast<const char*>(bytes), size});
+  if (sink.error_number != 0) png_longjmp(png, 1);
 }
 
 void jump_back(png_structp png, png_const_charp) {

@@ -2,7 +2,6 @@
 
 #include <unistd.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <cstring>
 
@@ -16,6 +15,21 @@ constexpr std::size_t kBlockSize = std::size_t{1} << 16;
 constexpr std::size_t kLongText = kBlockSize / 2;
 
 }  // namespace
+
+int try_write_all(int descriptor, std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t count = ::write(descriptor, bytes.data(), bytes.size());
+    if (count >= 0)
+      bytes.remove_prefix(static_cast<std::size_t>(count));
+    else if (errno != EINTR)
+      return errno;
+  }
+  return 0;
+}
+
+void write_all(int descriptor, std::string_view bytes, const std::string& path) {
+  if (const int error = try_write_all(descriptor, bytes)) throw IoError("write", path, error);
+}
 
 TextWriter::TextWriter(int descriptor, std::string file)
     : descriptor_(descriptor), file_(std::move(file)), buffer_(2 * kBlockSize) {}
@@ -49,11 +63,10 @@ void TextWriter::flush() {
 
 void TextWriter::write(std::string_view text) {
   while (!text.empty()) {
-    const ssize_t count = ::write(descriptor_, text.data(), std::min(text.size(), kBlockSize));
-    if (count < 0 && errno == EINTR) continue;
-    if (count < 0) throw IoError("write", file_, errno);
-    text.remove_prefix(static_cast<std::size_t>(count));
-    bytes_written_ += static_cast<std::size_t>(count);
+    const std::string_view block = text.substr(0, kBlockSize);
+    write_all(descriptor_, block, file_);
+    text.remove_prefix(block.size());
+    bytes_written_ += block.size();
   }
 }
 

@@ -7,6 +7,13 @@
 
 namespace pipeline {
 
+/// Writes all bytes to a file descriptor, however many calls that takes. Returns 0, or the errno value of the
+/// call that failed.
+int try_write_all(int descriptor, std::string_view bytes);
+
+/// The same; a failure is an IoError that names `path`.
+void write_all(int descriptor, std::string_view bytes, const std::string& path);
+
 /// Collects text and writes it in blocks of at most 64 KiB, what a pipe holds: larger ones would make the
 /// stages of a pipe wait for each other. Failures to write are IoErrors; nothing is written on destruction.
 class TextWriter {

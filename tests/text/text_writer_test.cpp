@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <chrono>
 #include <csignal>
 #include <string>
@@ -51,6 +52,23 @@ class FullDevice {
  private:
   int descriptor_;
 };
+
+TEST(WriteAll, WritesEveryByte) {
+  const TextFile file("");
+  const std::string bytes = std::string(200'000, 'x') + '\0' + "y";
+  EXPECT_EQ(try_write_all(file.descriptor(), bytes), 0);
+  EXPECT_TRUE(file.whole_text() == bytes);
+}
+
+TEST(WriteAll, WritesNothingForNoBytes) {
+  EXPECT_EQ(try_write_all(FullDevice().descriptor(), ""), 0);
+}
+
+TEST(WriteAll, GivesTheReasonOfAFailure) {
+  EXPECT_EQ(try_write_all(FullDevice().descriptor(), "abc"), ENOSPC);
+  EXPECT_EQ(message_of([] { write_all(FullDevice().descriptor(), "abc", "out.bmp"); }),
+            "cannot write out.bmp: No space left on device");
+}
 
 TEST(TextWriter, WritesNothingBeforeItIsFlushed) {
   const TextFile file("");
