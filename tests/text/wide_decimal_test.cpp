@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "libpipeline/text/number_printer.h"
@@ -33,7 +34,7 @@ void expect_exact(DoubleDouble value, int decimals) {
 
 TEST(WideDecimal, PrintsAnySumExactly) {
   RandomNumbers random(1);
-  for (int i = 0; i < 20'000; ++i)
+  for (int i = 0; i < 60'000; ++i)
     expect_exact(random.double_double(-80, 300), random.whole(0, kMaxDecimals));
 }
 
@@ -72,6 +73,27 @@ TEST(WideDecimal, TheLeastBitBesideATieDecides) {
     expect_exact({tie, beside}, decimals);
     expect_exact({-tie, beside}, decimals);
   }
+}
+
+TEST(WideDecimal, LongPrintsAMillionSumsOfAnySizeExactly) {
+  RandomNumbers random(4);
+  for (int i = 0; i < 1'000'000; ++i)
+    expect_exact(random.double_double(-900, 1000), random.whole(0, kMaxDecimals));
+}
+
+TEST(WideDecimal, PrintsTheSumOfTheLargestNumbers) {
+  constexpr double kMaxDouble = std::numeric_limits<double>::max();
+  expect_exact({kMaxDouble, 0}, kMaxDecimals);
+  expect_exact({kMaxDouble, -0x1p-1074}, kMaxDecimals);
+  expect_exact({kMaxDouble, 0x1p-1074}, 0);
+  expect_exact({-kMaxDouble, -0x1p969}, 1);
+}
+
+TEST(WideDecimal, CarriesIntoANewFirstDigit) {
+  EXPECT_EQ(printed({999, 0x1p-1}, 0), "1000");
+  EXPECT_EQ(printed({9, 1}, 0), "10");
+  EXPECT_EQ(printed({9, 0x1.fffffffffffffp-1}, 7), "10.0000000");
+  EXPECT_EQ(printed({-9, -9}, 2), "-18.00");
 }
 
 TEST(WideDecimal, CarriesThroughAllDigits) {
