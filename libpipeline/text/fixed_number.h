@@ -47,20 +47,20 @@ inline char* write_whole(char* out, std::uint32_t whole) {
 template <int decimals>
 char* write_fixed(char* out, double value) {
   static_assert(decimals == 6 || decimals == 7);
-  constexpr std::uint32_t kUnitsPerOne = kWholePowersOfTen[decimals];
-  const DecimalUnits rounded(value, kUnitsPerOne);
+  constexpr std::uint32_t kScale = kWholePowersOfTen[decimals];
+  const DecimalUnits rounded(value, kScale);
   if (!(rounded.whole < 1e15) || !rounded.is_certain()) return nullptr;
   const auto units = static_cast<std::uint64_t>(rounded.whole);
   *out = '-';
   out += static_cast<int>(value < 0) & static_cast<int>(units != 0);
   std::uint32_t behind_point = static_cast<std::uint32_t>(units);
-  if (units < std::uint64_t{10} * kUnitsPerOne) {
-    const std::uint32_t whole = behind_point / kUnitsPerOne;
+  if (units < std::uint64_t{10} * kScale) {
+    const std::uint32_t whole = behind_point / kScale;
     *out++ = static_cast<char>('0' + whole);
-    behind_point -= whole * kUnitsPerOne;
+    behind_point -= whole * kScale;
   } else {
-    out = write_whole(out, static_cast<std::uint32_t>(units / kUnitsPerOne));
-    behind_point = static_cast<std::uint32_t>(units % kUnitsPerOne);
+    out = write_whole(out, static_cast<std::uint32_t>(units / kScale));
+    behind_point = static_cast<std::uint32_t>(units % kScale);
   }
   *out++ = '.';
   if constexpr (decimals == 7) {

@@ -15,8 +15,6 @@
 namespace pipeline {
 namespace {
 
-constexpr double kUnitsPerOne = 1e7;
-
 /// Four coordinates as whole units of 10^-7, split at the point.
 struct SplitUnits {
   __m128i whole;
@@ -65,15 +63,6 @@ PIPELINE_AVX2 inline __m256i sixteen_digits(__m128i whole_and_decimals) {
   const __m256i ones = _mm256_sub_epi16(pairs, _mm256_mullo_epi16(tens, _mm256_set1_epi16(10)));
   return _mm256_or_si256(tens, _mm256_slli_epi16(ones, 8));
 }
-
-struct ByteShifts {
-  alignas(16) std::array<std::uint8_t, 32> bytes{};
-  constexpr ByteShifts() {
-    for (unsigned i = 0; i < 32; ++i) bytes[i] = static_cast<std::uint8_t>(i < 16 ? i : 0x80);
-  }
-};
-
-constexpr ByteShifts kByteShifts;
 
 /// `filled` has a bit for each character that is a digit above 0.
 PIPELINE_AVX2 inline char* write_number(char* out, unsigned is_negative, __m128i text, unsigned filled) {

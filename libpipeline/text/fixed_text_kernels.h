@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <string_view>
 
 #include "libpipeline/text/fixed_text.h"
@@ -26,9 +28,23 @@ const char* vertex_lines(const char* p) {
   return std::string_view(p, kLine.size()) == kLine ? p + kLine.size() : nullptr;
 }
 
+/// Numbers are read and printed as a whole number of units of 10^-7.
+constexpr double kUnitsPerOne = 1e7;
+
 extern const FixedTextKernel kPortableKernel;
 
 #ifdef PIPELINE_HAS_X86_KERNELS
+/// Sixteen bytes from byte n on make a shuffle that moves a register's bytes to the front by n, zeros behind
+/// them.
+struct ByteShifts {
+  alignas(16) std::array<std::uint8_t, 32> bytes{};
+  constexpr ByteShifts() {
+    for (unsigned i = 0; i < 32; ++i) bytes[i] = static_cast<std::uint8_t>(i < 16 ? i : 0x80);
+  }
+};
+
+inline constexpr ByteShifts kByteShifts;
+
 extern const FixedTextKernel kSse4Kernel;
 bool processor_has_sse4();
 // Reading gains nothing from wider registers: the place of a number depends on the one before it.

@@ -7,8 +7,6 @@
 namespace pipeline {
 namespace {
 
-constexpr double kUnitsPerOne = 1e7;
-
 // ---- reading ----
 
 /// Reads one number and the separator behind it; null where the form differs.

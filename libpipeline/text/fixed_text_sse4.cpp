@@ -16,7 +16,6 @@
 namespace pipeline {
 namespace {
 
-constexpr double kUnitsPerOne = 1e7;
 constexpr std::uint64_t kSignBit = std::uint64_t{1} << 63;
 
 // ---- reading ----
@@ -94,15 +93,6 @@ PIPELINE_SSE4 FixedTextPart read_fixed_text(std::string_view text, std::span<Tri
 }
 
 // ---- printing ----
-
-struct ByteShifts {
-  alignas(16) std::array<std::uint8_t, 32> bytes{};
-  constexpr ByteShifts() {
-    for (unsigned i = 0; i < 32; ++i) bytes[i] = static_cast<std::uint8_t>(i < 16 ? i : 0x80);
-  }
-};
-
-constexpr ByteShifts kByteShifts;
 
 PIPELINE_SSE4 inline char* write_number(char* out, bool is_negative, std::uint32_t whole,
                                         std::uint32_t decimals) {
