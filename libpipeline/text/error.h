@@ -1,24 +1,12 @@
 #pragma once
 
-#include <cstddef>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 
+#include "libpipeline/text/source_location.h"
+
 namespace pipeline {
-
-/// Where in the input something stands. Lines and columns count from 1; 0 means "not known".
-/// `file` is a file's name, `<stdin>`, or the name of a command-line option.
-struct SourceLocation {
-  std::string file;
-  std::size_t line = 0;
-  std::size_t column = 0;
-
-  [[nodiscard]] bool is_option() const { return file.starts_with("--"); }
-};
-
-/// "file:line:column", without the parts that are not known.
-std::string to_string(const SourceLocation& location);
 
 /// Bad input. `what()` is the whole message: "file:line:column: expected ..., found ...".
 class InputError : public std::runtime_error {

@@ -3,9 +3,23 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <string_view>
 
 namespace pipeline {
+
+/// Where in the input something stands. Lines and columns count from 1; 0 means "not known".
+/// `file` is a file's name, `<stdin>`, or the name of a command-line option.
+struct SourceLocation {
+  std::string file;
+  std::size_t line = 0;
+  std::size_t column = 0;
+
+  [[nodiscard]] bool is_option() const { return file.starts_with("--"); }
+};
+
+/// "file:line:column", without the parts that are not known.
+std::string to_string(const SourceLocation& location);
 
 /// Where on which line of the input something begins, both from 1. Every vertex has one: it is as small as it
 /// can be.
