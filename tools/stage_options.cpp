@@ -1,8 +1,8 @@
 #include "tools/stage_options.h"
 
 #include "libpipeline/scene/scene.h"
-#include "libpipeline/text/number_format.h"
 #include "libpipeline/text/number_parser.h"
+#include "libpipeline/text/number_printer.h"
 #include "tools/command_line.h"
 
 namespace pipeline {

@@ -5,7 +5,7 @@
 
 #include "libpipeline/stream/stage_text.h"
 #include "libpipeline/stream/triangle_batch.h"
-#include "libpipeline/text/number_format.h"
+#include "libpipeline/text/number_printer.h"
 #include "libpipeline/text/text_writer.h"
 
 namespace pipeline {

@@ -3,9 +3,16 @@
 #include <cstddef>
 #include <string>
 
-#include "libpipeline/text/number_format.h"
-
 namespace pipeline {
+
+/// How coordinates are printed: with a fixed count of decimals, or in the shortest form that reads back to
+/// the same double.
+struct NumberFormat {
+  int decimals = 7;
+  bool shortest = false;
+};
+
+constexpr int kMaxDecimals = 17;
 
 /// The most characters `print_number` writes: a sign, 309 digits, a point and the decimals.
 constexpr std::size_t kMaxNumberLength = 1 + 309 + 1 + kMaxDecimals;

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "libpipeline/numbers/ball.h"
-#include "libpipeline/text/number_format.h"
+#include "libpipeline/text/number_printer.h"
 
 namespace pipeline {
 
