@@ -46,8 +46,8 @@ constexpr std::array<DoubleDouble, 14> kInverseEvenFactorials = {{
 // pi / 180, within 2^-109 of itself.
 constexpr DoubleDouble kRadiansPerDegree = {0x1.1df46a2529d39p-6, 0x1.5c1d8becdd291p-62};
 
-// What the reduced angle in radians and either series may be wrong by, relative to the result: 2^-102 for the
-// angle, 2^-103 and less for each of the steps that count, 2^-111 for the terms left out at 45 degrees.
+// A bound of the relative error of either series: 2^-102 from the reduced angle in radians, at most 2^-103
+// from each step that matters, 2^-111 from the omitted terms at 45 degrees.
 constexpr double kSeriesError = 0x1p-99;
 
 /// c0 - c1 t + c2 t^2 - ... by Horner's rule.
@@ -61,11 +61,11 @@ Ball with_relative_error(DoubleDouble value) {
   return Ball::with_error(value, std::fabs(value.hi) * kSeriesError);
 }
 
-/// Of an angle in [-45, 45] degrees.
+/// For an angle in [-45, 45] degrees.
 SineCosine sine_cosine_of_reduced(DoubleDouble degrees) {
   if (degrees.hi == 0) return {0, 1, 0};
   if (std::fabs(degrees.hi) < kTinyDegrees) {
-    // sin x = x and 1 - cos x = x^2 / 2, to far more digits than there are.
+    // sin x = x and 1 - cos x = x^2 / 2, far beyond the precision of a ball.
     const Ball angle = to_radians(Ball(degrees.hi) + Ball(degrees.lo));
     const Ball tiny_versine = angle * angle * Ball(0.5);
     return {angle, Ball(1) - tiny_versine, tiny_versine};
@@ -87,7 +87,7 @@ Ball to_radians(const Ball& degrees) {
 }
 
 SineCosine sine_cosine_of_degrees(DoubleDouble degrees) {
-  // fmod is exact, and so are the sums: what is left of either part shares the grid of the larger one.
+  // fmod is exact, and so are the sums: both remainders lie on the grid of the larger part.
   const DoubleDouble turned = two_sum(std::fmod(degrees.hi, 360), std::fmod(degrees.lo, 360));
   const double quarter_turns = std::nearbyint(turned.hi / 90);
   const DoubleDouble reduced = two_sum(turned.hi - 90 * quarter_turns, turned.lo);

@@ -11,7 +11,7 @@ DoubleDouble scaled(DoubleDouble a, int exponent) {
   return {std::ldexp(a.hi, exponent), std::ldexp(a.lo, exponent)};
 }
 
-/// True if moving a part of a ball by a power of two may have cut bits off at the end of a double's range.
+/// True if scaling a part of a ball by a power of two may have cut off bits near the subnormal range.
 bool may_be_cut(double part, double moved_part) {
   return part != 0 && std::fabs(moved_part) < 0x1p-1000;
 }
@@ -28,7 +28,7 @@ Ball Ball::with_error(DoubleDouble value, double error) {
   return normalized(value, error, 0);
 }
 
-/// Where the error exceeds the midpoint, it sets the range.
+/// The larger of the midpoint and the error sets the exponent.
 Ball Ball::normalized_anew(DoubleDouble value, double error, std::int64_t exponent) {
   const double leading = std::max(std::fabs(value.hi), error);
   if (leading == 0) return {};
@@ -37,7 +37,7 @@ Ball Ball::normalized_anew(DoubleDouble value, double error, std::int64_t expone
   const std::int64_t whole = own + exponent;
   const bool safe = whole <= kSafeExponent && whole >= -kSafeExponent;
   const int shift = safe ? static_cast<int>(exponent) : -own;
-  // The two steps of a long shift meet no subnormal number on their way: what arrives is about 2^whole or 1.
+  // Two steps, so that no intermediate number is subnormal: the result is near 2^whole or near 1.
   const int half = shift / 2;
   const DoubleDouble moved = scaled(scaled(value, half), shift - half);
   double moved_error = std::ldexp(std::ldexp(error, half), shift - half);
@@ -50,7 +50,7 @@ Ball operator-(const Ball& a) {
   return {-a.value_, a.error_, a.exponent_};
 }
 
-/// The general sum: the smaller operand is moved to the range of the larger one.
+/// The general sum: scales the smaller operand to the exponent of the larger one.
 Ball Ball::add_across_ranges(const Ball& a, const Ball& b) {
   const auto magnitude = [](const Ball& ball) {
     return std::ilogb(std::fabs(ball.value_.hi) + ball.error_) + ball.exponent_;
@@ -62,13 +62,13 @@ Ball Ball::add_across_ranges(const Ball& a, const Ball& b) {
   const Ball& small = a_is_larger ? b : a;
   const int large_shift = -std::ilogb(std::fabs(large.value_.hi) + large.error_);
   const DoubleDouble large_value = scaled(large.value_, large_shift);
-  // Well below the digits there are, and above whatever is cut off.
+  // Far below the last bit of the midpoint, and above anything that scaling cuts off.
   constexpr double kCut = 0x1p-500;
   double large_error = std::ldexp(large.error_, large_shift);
   if (may_be_cut(large.value_.lo, large_value.lo)) large_error += kCut;
   const std::int64_t common = large.exponent_ - large_shift;
   const std::int64_t small_shift = small.exponent_ - common;
-  // What is more than 600 binary places smaller is an error.
+  // An operand more than 600 binary places smaller only adds to the error.
   if (std::abs(a_magnitude - b_magnitude) > 600)
     return normalized(large_value, (large_error + kCut) * kRoundUp, common);
   const DoubleDouble small_value = scaled(small.value_, static_cast<int>(small_shift));
@@ -110,13 +110,13 @@ Ball sqrt(const Ball& a) {
 Ball Ball::with_error_at_most(double bound) const {
   if (error_ == 0) return *this;
   const auto shift = static_cast<int>(std::clamp<std::int64_t>(-exponent_, -3000, 3000));
-  // Never 0, even where it leaves the range below: the ball is not exact.
+  // Never 0, even where the bound underflows: the ball is not exact.
   const double least = std::max(std::fabs(value_.hi), error_) * 0x1p-150;
   const double limit = (exponent_ == 0 ? bound : std::ldexp(bound, shift)) + least;
   return limit < error_ ? normalized(value_, limit, exponent_) : *this;
 }
 
-/// A double not below size * 2^exponent, and not 0.
+/// An upper bound of size * 2^exponent; above 0 for a size above 0.
 double Ball::scaled_up(double size) const {
   if (exponent_ == 0) return size * kRoundUp;
   const auto shift = static_cast<int>(std::clamp<std::int64_t>(exponent_, -3000, 3000));
@@ -124,14 +124,14 @@ double Ball::scaled_up(double size) const {
 }
 
 int Ball::sign() const {
-  // Enlarged twice, so that the lower end of a divisor stays above 0 when it is rounded down once.
+  // Rounded up twice, so that the lower end of a divisor stays above 0 after one rounding down.
   if (std::fabs(value_.hi) <= error_ * (kRoundUp * kRoundUp)) return 0;
   return value_.hi > 0 ? 1 : -1;
 }
 
 double Ball::nearest_double() const {
   if (exponent_ == 0) return value_.hi;
-  // Past +-3000 any double but 0 has left the range.
+  // Beyond +-3000 every double but 0 over- or underflows.
   const auto shift = static_cast<int>(std::clamp<std::int64_t>(exponent_, -3000, 3000));
   const double nearest = std::ldexp(value_.hi, shift);
   if (!std::isfinite(nearest)) return nearest;

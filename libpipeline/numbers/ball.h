@@ -8,9 +8,9 @@ namespace pipeline {
 
 /// A real number known to lie within `error` of a midpoint: (hi + lo +- error) * 2^exponent.
 ///
-/// The midpoint has about 106 bits and every operation adds what it may have lost to the error, so a result
-/// says itself how many of its digits are right ("ball arithmetic": J. van der Hoeven, 2009). The exponent
-/// takes part only where a double's range ends: it is 0 while |hi| lies in [2^-300, 2^300], so that no
+/// The midpoint has about 106 bits, and every operation adds its own rounding error to the error, so a result
+/// carries a bound of how wrong it is ("ball arithmetic": J. van der Hoeven, 2009). The exponent is used only
+/// near the ends of a double's range: it is 0 while |hi| lies in [2^-300, 2^300], so that no
 /// intermediate step can overflow or underflow. Exact operations on exact numbers stay exact (error 0): the
 /// product of two doubles, the sum of two that are at most 600 binary places apart, a quotient or root that
 /// is a double.
@@ -35,17 +35,17 @@ class Ball {
   friend Ball sqrt(const Ball& a);
   friend Ball operator-(const Ball& a);
   friend Ball operator-(const Ball& a, const Ball& b) { return a + -b; }
-  /// Equal as data: the same midpoint and the same error.
+  /// The same representation: equal midpoints and equal errors.
   friend bool operator==(const Ball& a, const Ball& b) = default;
 
-  /// The same midpoint, known to be no further off than `bound`.
+  /// The same midpoint with an error of at most `bound`, which the caller has proved.
   [[nodiscard]] Ball with_error_at_most(double bound) const;
-  /// A double not below the absolute value of anything in the ball, infinite past the range.
+  /// An upper bound of |x| for every x in the ball; infinite beyond a double's range.
   [[nodiscard]] double magnitude() const { return scaled_up(std::fabs(value_.hi) + error_); }
-  /// A double not below the radius.
+  /// An upper bound of the radius.
   [[nodiscard]] double radius() const { return error_ == 0 ? 0 : scaled_up(error_); }
 
-  /// -1, 0 or +1; 0 where the error leaves the sign open (or the number is 0).
+  /// -1, 0 or +1; 0 if the ball contains 0, or its error almost reaches it.
   [[nodiscard]] int sign() const;
   [[nodiscard]] bool is_exact() const { return error_ == 0; }
   [[nodiscard]] bool is_exact_zero() const { return value_.hi == 0 && error_ == 0; }
@@ -55,16 +55,16 @@ class Ball {
   [[nodiscard]] double error() const { return error_; }
   [[nodiscard]] std::int64_t exponent() const { return exponent_; }
 
-  /// The nearest double to the midpoint, ties by the low part; +-infinity past the range, 0 or a subnormal
-  /// below it.
+  /// The nearest double to the midpoint, where the low part breaks ties; +-infinity above a double's range, 0
+  /// or a subnormal number below it.
   [[nodiscard]] double nearest_double() const;
 
  private:
-  // Bounds of the double-double operations, relative to the result, with room for the rounding of the error
-  // calculation itself: 3 u^2 and 5 u^2 are below 2^-103, 16 u^2 is 2^-102.
+  // Relative error bounds of the double-double operations, with room for the rounding of the error itself: 3
+  // u^2 and 5 u^2 are below 2^-103, 16 u^2 is 2^-102.
   static constexpr double kAddMulBound = 0x1p-103;
   static constexpr double kDivSqrtBound = 0x1p-101;
-  // Errors are added up in doubles; each sum of a few terms is enlarged by more than it can have lost.
+  // Errors are summed in doubles; this factor exceeds what a sum of a few terms can lose by rounding.
   static constexpr double kRoundUp = 1 + 0x1p-40;
   static constexpr int kSafeExponent = 300;
   static constexpr double kSafeMax = 0x1p300;
@@ -73,7 +73,7 @@ class Ball {
   Ball(DoubleDouble value, double error, std::int64_t exponent)
       : value_(value), error_(error), exponent_(exponent) {}
 
-  /// Chooses the exponent that the class promises.
+  /// Chooses the exponent that the class guarantees.
   static Ball normalized(DoubleDouble value, double error, std::int64_t exponent) {
     const double size = std::fabs(value.hi);
     if (exponent == 0 && size <= kSafeMax && size >= kSafeMin && error <= size) return {value, error, 0};
@@ -102,7 +102,7 @@ inline Ball operator*(const Ball& a, const Ball& b) {
   const double a_size = std::fabs(a.value_.hi);
   const double b_size = std::fabs(b.value_.hi);
   const double lost = is_exact ? 0 : std::fabs(product.hi) * Ball::kAddMulBound;
-  // hi stands for hi + lo here; the enlargement covers |lo| <= 2^-53 |hi|.
+  // hi stands for hi + lo here; kRoundUp covers |lo| <= 2^-53 |hi|.
   const double error = a_size * b.error_ + b_size * a.error_ + a.error_ * b.error_ + lost;
   return Ball::normalized(product, error * Ball::kRoundUp, a.exponent_ + b.exponent_);
 }

@@ -5,7 +5,7 @@
 
 namespace pipeline {
 
-/// A vector of numbers that know their error.
+/// A vector of balls: each component carries its error bound.
 struct BallVec3 {
   Ball x, y, z;
 
@@ -16,7 +16,7 @@ BallVec3 operator-(const BallVec3& a, const BallVec3& b);
 BallVec3 operator*(const BallVec3& a, const Ball& factor);
 Ball dot(const BallVec3& a, const BallVec3& b);
 BallVec3 cross(const BallVec3& a, const BallVec3& b);
-/// The vector of length 1 in a's direction; `a` must not contain 0. Any length a double can hold is fine.
+/// The unit vector in a's direction; `a` must not contain 0 and may have any finite length.
 BallVec3 normalized(const BallVec3& a);
 BallVec3 to_balls(const Vec3& v);
 

@@ -2,7 +2,8 @@
 
 namespace pipeline {
 
-/// The first column in [first, end) where `is_true`, or `end`; from there on it has to be true.
+/// The first column in [first, end) for which `is_true` holds, or `end`, by bisection: the predicate must
+/// hold for all columns after the first one for which it does.
 template <typename Predicate>
 int first_column_where(int first, int end, Predicate&& is_true) {
   while (first < end) {

@@ -4,9 +4,9 @@
 
 namespace pipeline {
 
-/// An unevaluated sum hi + lo with |lo| <= ulp(hi) / 2: about 106 bits, the range of a double.
-/// The algorithms are those of M. Joldes, J.-M. Muller, V. Popescu, "Tight and rigorous error bounds for
-/// basic building blocks of double-word arithmetic", ACM TOMS 44(2), 2017. Their bounds are given as
+/// An unevaluated sum hi + lo with |lo| <= ulp(hi) / 2: about 106 bits in the range of a double.
+/// The algorithms and their error bounds are from M. Joldes, J.-M. Muller, V. Popescu, "Tight and rigorous
+/// error bounds for basic building blocks of double-word arithmetic", ACM TOMS 44(2), 2017. Bounds are
 /// multiples of u^2, u = 2^-53, relative to the exact result; they hold while nothing over- or underflows.
 struct DoubleDouble {
   double hi = 0;

@@ -12,9 +12,9 @@
 
 namespace pipeline {
 
-/// A whole number of 64 * `Limbs` bits in two's complement. Like the built-in types, it must be chosen large
-/// enough for all that is calculated with it. Loops have a fixed length and no branches, so that a few limbs
-/// cost a few instructions.
+/// An integer of 64 * `Limbs` bits in two's complement. Like the built-in types it does not detect overflow:
+/// the caller chooses enough limbs. Loops have a fixed length and no branches, so a few limbs cost a few
+/// instructions.
 template <std::size_t Limbs>
 class FixedInt {
  public:
@@ -104,7 +104,7 @@ class FixedInt {
   std::array<std::uint64_t, Limbs> limbs_;
 };
 
-/// The number of bits without the sign and what repeats it.
+/// The count of bits without the sign bit and its copies.
 template <std::size_t Limbs>
 int bit_length(const FixedInt<Limbs>& value) {
   const std::uint64_t sign = value.is_negative() ? ~std::uint64_t{0} : 0;
@@ -113,7 +113,7 @@ int bit_length(const FixedInt<Limbs>& value) {
   return limbs == 0 ? 0 : static_cast<int>(64 * limbs) - std::countl_zero(value.limb(limbs - 1) ^ sign);
 }
 
-/// value / 2^bits, rounded down, where 63 bits are enough for that.
+/// value / 2^bits, rounded down; the result must fit in 63 bits.
 template <std::size_t Limbs>
 std::int64_t cut(const FixedInt<Limbs>& value, int bits) {
   const auto whole = static_cast<std::size_t>(bits / 64);
@@ -121,7 +121,7 @@ std::int64_t cut(const FixedInt<Limbs>& value, int bits) {
   return static_cast<std::int64_t>((value.limb(whole) >> rest) | (value.limb(whole + 1) << 1 << (63 - rest)));
 }
 
-/// value / 2^exponent as a double, within 2^-53 + 2^-61 of its size; infinite or 0 where that is out of
+/// value / 2^exponent as a double, with a relative error of at most 2^-53 + 2^-61; infinite or 0 out of
 /// range.
 template <std::size_t Limbs>
 double to_double(const FixedInt<Limbs>& value, int exponent) {

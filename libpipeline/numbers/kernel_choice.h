@@ -8,9 +8,8 @@
 
 namespace pipeline {
 
-/// Which of these kernels is used: the last, or, for tests, the best that is not better than the one the
-/// environment variable PIPELINE_KERNEL names. The first is "portable"; a name that means nothing is passed
-/// over.
+/// The kernel in use, of a list from "portable" to the fastest: the last, or the fastest one up to the level
+/// that the environment variable PIPELINE_KERNEL names (for tests). An unknown name has no effect.
 template <typename Kernel>
 const Kernel& chosen_kernel(std::span<const Kernel> kernels) {
   constexpr std::array<std::string_view, 3> kNames = {"portable", "sse4", "avx2"};

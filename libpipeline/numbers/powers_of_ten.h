@@ -5,7 +5,7 @@
 
 namespace pipeline {
 
-/// 10^n for every n of which it is a double.
+/// 10^n for every n for which a double holds it exactly.
 constexpr auto kPowersOfTen = [] {
   std::array<double, 23> powers{};
   double power = 1;
@@ -16,7 +16,7 @@ constexpr auto kPowersOfTen = [] {
   return powers;
 }();
 
-/// 10^n for every n of which it has 64 bits.
+/// 10^n for every n for which it fits in 64 bits.
 constexpr auto kWholePowersOfTen = [] {
   std::array<std::uint64_t, 20> powers{};
   std::uint64_t power = 1;

@@ -8,7 +8,7 @@
 
 namespace pipeline {
 
-// Vectors in doubles, for what is interpolated and lit. Positions are calculated with error bounds (ball.h).
+// Vectors in doubles, for interpolation and lighting. Positions are computed with error bounds (ball.h).
 
 inline double dot(const Vec3& a, const Vec3& b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
@@ -30,17 +30,17 @@ inline Vec3 cross(const Vec3& a, const Vec3& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-/// The vector of length 1 in v's direction, 0 for 0. Any length a double can hold is fine.
+/// The unit vector in v's direction, 0 for 0. v may have any finite length.
 inline Vec3 unit_vector(const Vec3& v) {
   const double largest = std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)});
   if (largest == 0) return {};
-  // Divided first, so that no square leaves a double's range.
+  // Scaled first, so that no square over- or underflows.
   const Vec3 near_1 = {v.x / largest, v.y / largest, v.z / largest};
   const double length = std::sqrt(dot(near_1, near_1));
   return {near_1.x / length, near_1.y / length, near_1.z / length};
 }
 
-/// The mean of the corners of a triangle, or of what belongs to them; the weights add up to 1.
+/// The weighted mean of a triangle's vertices or of their attributes; the weights add up to 1.
 inline Vec3 mean(const std::array<Vec3, 3>& corners, const std::array<double, 3>& weights) {
   const auto& [a, b, c] = corners;
   const auto& [i, j, k] = weights;

@@ -9,8 +9,8 @@
 
 namespace pipeline {
 
-// What exact geometry asks of a type of whole numbers beside + - * and comparisons: bit_length, to_double and
-// cut, the same words for 64 bits, 128 bits and a FixedInt.
+// The operations exact geometry needs of an integer type beside + - * and comparisons: bit_length, to_double
+// and cut, under the same names for 64 bits, 128 bits and a FixedInt.
 
 inline int bit_length(Int128 value) {
   return bit_length(static_cast<UInt128>(value < 0 ? ~value : value));
@@ -30,7 +30,7 @@ inline std::int64_t cut(Int128 value, int bits) {
   return static_cast<std::int64_t>(value >> bits);
 }
 
-/// A whole number above 0 to divide others by.
+/// A positive integer divisor with its inverse.
 template <typename Int>
 class Divisor {
  public:
@@ -43,11 +43,11 @@ class Divisor {
   [[nodiscard]] const Int& value() const { return value_; }
 
   /// The smallest whole c in [0, most] with c * value >= dividend, or `most` if there is none; `most` is at
-  /// most 2^20. A double says which c it is but for one (it is off by less than 2^-30), and the exact rest
-  /// decides.
+  /// most 2^20. The quotient in doubles is off by less than 2^-30, so it leaves two candidates; the exact
+  /// remainder decides.
   [[nodiscard]] int quotient_rounded_up(const Int& dividend, int most) const {
     const double estimate = in_range(dividend) * inverse_;
-    // The conversion takes what lies between -1 and 0 to 0; anything less is rare, and its branch predicted.
+    // The conversion truncates (-1, 0) to 0; smaller estimates are rare, and their branch is predicted.
     const double clamped = std::min(std::max(estimate, -1.0), static_cast<double>(most));
     const int near =
         static_cast<int>(clamped + 0.5);  // NOLINT(bugprone-incorrect-roundings): one less is as good
@@ -57,7 +57,7 @@ class Divisor {
  private:
   static constexpr bool kMayBeHuge = !std::is_same_v<Int, std::int64_t> && !std::is_same_v<Int, Int128>;
 
-  /// number / 2^exponent_; a double has room for that, or it is so large that infinity will do.
+  /// number / 2^exponent_ as a double; infinity where that is too large, which serves as well.
   [[nodiscard]] double in_range(const Int& number) const {
     if constexpr (kMayBeHuge) return to_double(number, exponent_);
     if constexpr (std::is_same_v<Int, Int128>) return to_double(number);

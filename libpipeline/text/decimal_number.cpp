@@ -13,14 +13,14 @@ namespace {
 
 constexpr int kMaxDecimals = 24;  // three words of eight digits
 
-/// 10^-n as factor * 2^exponent, the factor cut off to 128 bits of which the highest is 1.
+/// 10^-n as factor * 2^exponent; the factor is truncated to 128 bits, the highest of which is 1.
 struct InversePower {
   std::uint64_t high = 0;
   std::uint64_t low = 0;
   int exponent = 0;
 };
 
-/// Long division, bit by bit: 2^k / 10^n until 128 bits of the quotient are known.
+/// Long division of 2^k by 10^n, bit by bit, until the quotient has 128 bits.
 constexpr InversePower inverse_power_of_ten(int n) {
   UInt128 divisor = 1;
   for (int i = 0; i < n; ++i) divisor *= 10;
@@ -43,12 +43,12 @@ constexpr auto kInversePowers = [] {
   return powers;
 }();
 
-/// The nearest double to digits / 10^decimals; false where the product does not tell.
+/// The nearest double to digits / 10^decimals; false where the product is too close to a tie to decide.
 bool divide_by_power_of_ten(std::uint64_t digits, int decimals, double& value) {
   constexpr std::uint64_t kExactLimit = std::uint64_t{1} << 53;
   const auto n = static_cast<std::size_t>(decimals);
   if (digits < kExactLimit && n < kPowersOfTen.size()) {
-    // Both are doubles, so that the quotient is rounded once.
+    // Both are exact in doubles, so the quotient is rounded once.
     value = static_cast<double>(digits) / kPowersOfTen[n];
     return true;
   }
@@ -56,8 +56,8 @@ bool divide_by_power_of_ten(std::uint64_t digits, int decimals, double& value) {
     value = 0;
     return true;
   }
-  // digits * 10^-n to 128 bits. What the power lacks and what is cut off here are less than a unit each, and
-  // twice that where the product is shifted: it is too small by less than kError.
+  // digits * 10^-n to 128 bits. The truncation of the power and the one here lose less than a unit each,
+  // twice that after the shift: the product is too small by less than kError.
   constexpr UInt128 kError = 4;
   const InversePower& power = kInversePowers[n];
   const int shift = std::countl_zero(digits);
@@ -73,13 +73,13 @@ bool divide_by_power_of_ten(std::uint64_t digits, int decimals, double& value) {
   constexpr UInt128 kHalf = UInt128{1} << (kCutBits - 1);
   const UInt128 rest = product & (2 * kHalf - 1);
   if (rest <= kHalf && rest + kError >= kHalf) return false;
-  // The exponent fills its field beside a mantissa whose leading bit counts as 1 there; a carry runs into it.
+  // The mantissa's leading bit adds 1 to the exponent field, and a carry out of the mantissa another 1.
   const auto mantissa = static_cast<std::uint64_t>(product >> kCutBits) + (rest >= kHalf ? 1 : 0);
   value = std::bit_cast<double>((static_cast<std::uint64_t>(exponent + kCutBits + 1074) << 52) + mantissa);
   return true;
 }
 
-/// Reads up to eight digits; says how many.
+/// Reads up to eight digits and returns how many.
 int read_digits(const char* p, std::uint64_t& number) {
   const std::uint64_t less_zeros = load_eight(p) - kEightZeros;
   const std::size_t count = leading_digit_count(less_zeros);
@@ -91,7 +91,7 @@ bool is_digit(char c) {
   return c >= '0' && c <= '9';
 }
 
-/// Goes on behind eight decimals; null if the digits are too many.
+/// Continues after eight decimals; null if there are too many digits.
 const char* read_more_decimals(const char* p, std::uint64_t& digits, int& decimals) {
   for (int count = 8; count == 8 && decimals < kMaxDecimals;) {
     std::uint64_t behind = 0;
@@ -123,7 +123,7 @@ const char* read_decimal_number(const char* p, DecimalNumber& number) {
   }
   if (decimals < 8) {
     if (whole_count + decimals == 0 || (whole_count == 8 && decimals == 0 && is_digit(*p))) return nullptr;
-    // Below 10^15, so that both are doubles.
+    // Below 10^15, so both are exact in doubles.
     magnitude = static_cast<double>(static_cast<std::int64_t>(digits)) /
                 kPowersOfTen[static_cast<std::size_t>(decimals)];
   } else {
@@ -141,7 +141,7 @@ const char* read_decimal_line(const char* p, const char* end, std::span<DecimalN
   skip_blanks();
   const char* before = nullptr;
   for (DecimalNumber& number : numbers) {
-    // A blank separates it from the number before.
+    // A blank must separate it from the number before.
     if (p == before || p >= end) return nullptr;
     p = read_decimal_number(p, number);
     if (p == nullptr) return nullptr;

@@ -13,7 +13,7 @@ namespace pipeline {
 
 // Decimal digits, eight at a time in a 64-bit word.
 
-/// Eight characters as they stand, the first in the lowest byte.
+/// Eight characters, the first in the lowest byte.
 inline std::uint64_t load_eight(const char* p) {
   std::uint64_t eight = 0;
   std::memcpy(&eight, p, sizeof eight);
@@ -23,13 +23,14 @@ inline std::uint64_t load_eight(const char* p) {
 
 constexpr std::uint64_t kEightZeros = 0x3030303030303030;
 
-/// Bit 7 of each byte of `less_zeros` (eight characters minus kEightZeros) that is no digit, right up to the
-/// first such byte; 0 if all are digits.
+/// Sets bit 7 of each byte of `less_zeros` (eight characters minus kEightZeros) that is not a digit; reliable
+/// up to and including the first such byte. 0 if all are digits.
 inline std::uint64_t no_digits(std::uint64_t less_zeros) {
   return (less_zeros | (less_zeros + 0x7676767676767676)) & 0x8080808080808080;
 }
 
-/// The number eight digits make, each in a byte, the first in the lowest: pairs, fours and eights are joined.
+/// The number formed by eight digits, one a byte, the first in the lowest. Joins pairs, then fours, then
+/// eights.
 inline std::uint64_t join_digits(std::uint64_t digits) {
   const std::uint64_t pairs = digits * 10 + (digits >> 8);
   constexpr std::uint64_t kMask = 0x000000ff000000ff;
@@ -38,19 +39,18 @@ inline std::uint64_t join_digits(std::uint64_t digits) {
   return (outer + inner) >> 32;
 }
 
-/// How many of eight characters minus kEightZeros are digits before the first that is none.
+/// The count of digits before the first other character among eight characters minus kEightZeros.
 inline std::size_t leading_digit_count(std::uint64_t less_zeros) {
   return static_cast<std::size_t>(std::countr_zero(no_digits(less_zeros))) / 8;
 }
 
-/// The number that the first `count` digits make, at least one: shifted to the end of the eight, behind
-/// zeros.
+/// The number formed by the first `count` digits, 1 to 8: shifted to the end of the word, behind zeros.
 inline std::uint64_t join_leading_digits(std::uint64_t less_zeros, std::size_t count) {
   return join_digits(less_zeros << (64 - 8 * count));
 }
 
-/// The opposite of join_digits: the digits of a number below 10^8, each in a byte, the first in the lowest.
-/// Quotients are products with rounded-up inverses, right for four and for two digits.
+/// The inverse of join_digits: the digits of a number below 10^8, one a byte, the first in the lowest.
+/// Quotients are products with rounded-up inverses, exact for four and for two digits.
 inline std::uint64_t split_digits(std::uint32_t number) {
   const std::uint64_t fours = number / 10000 | static_cast<std::uint64_t>(number % 10000) << 32;
   const std::uint64_t hundreds = (fours * 10486 >> 20) & 0x0000007f0000007f;
@@ -60,7 +60,7 @@ inline std::uint64_t split_digits(std::uint32_t number) {
 }
 
 #ifdef __x86_64__
-/// The digits of two numbers below 10^8 at a time, each in a byte.
+/// The digits of two numbers below 10^8 at once, one a byte.
 inline __m128i sixteen_digits(std::uint32_t first, std::uint32_t last) {
   const __m128i eights = _mm_set_epi64x(static_cast<std::int64_t>(last), static_cast<std::int64_t>(first));
   // x / 10000 for x < 10^8, in 64 bits.
@@ -77,7 +77,7 @@ inline __m128i sixteen_digits(std::uint32_t first, std::uint32_t last) {
 }
 #endif
 
-/// Sixteen digits, each in a byte.
+/// Sixteen digits, one a byte.
 struct SixteenDigits {
   std::uint64_t first;
   std::uint64_t last;

@@ -29,13 +29,13 @@ InputError::InputError(const SourceLocation& location, const std::string& messag
     : std::runtime_error(to_string(location) + ": " + message), location_(location) {}
 
 std::string quoted(std::string_view text) {
-  constexpr std::size_t kLongest = 40;
+  constexpr std::size_t kMaxLength = 40;
   std::string result = "'";
-  for (const char c : text.substr(0, kLongest)) {
+  for (const char c : text.substr(0, kMaxLength)) {
     const bool is_plain = !is_control(c) && static_cast<unsigned char>(c) < 0x80;
     result += is_plain ? std::string(1, c) : hexadecimal(c);
   }
-  return result + (text.size() > kLongest ? "...'" : "'");
+  return result + (text.size() > kMaxLength ? "...'" : "'");
 }
 
 std::string on_one_line(std::string_view text) {

@@ -18,13 +18,13 @@ class InputError : public std::runtime_error {
   SourceLocation location_;
 };
 
-/// Text as it appears in a message: in quotes, unprintable bytes as \xNN, cut where it is long.
+/// Text as it appears in a message: in quotes, unprintable bytes as \xNN, cut after 40 bytes.
 std::string quoted(std::string_view text);
 
 /// The text with its control characters as \xNN, so that it stays on its line.
 std::string on_one_line(std::string_view text);
 
-/// "expected `expected`, found `found`": the form every message about input has.
+/// "expected `expected`, found `found`": the form of every message about input.
 std::string expected_but_found(const std::string& expected, const std::string& found);
 
 /// Reading or writing failed: a full disk, a missing file. `what()` names the file and the system's reason.

@@ -10,8 +10,8 @@
 
 namespace pipeline {
 
-// The fast path of printing a number with a fixed count of decimals: a whole number of units of the last
-// decimal, cut into groups of three digits that a table holds.
+// The fast path of printing a number with a fixed count of decimals: it is scaled to a whole number of units
+// of the last decimal, and the decimals are taken from a table of all groups of three digits.
 
 struct DigitTriples {
   std::array<char, 4000> characters{};
@@ -26,7 +26,7 @@ struct DigitTriples {
 
 inline constexpr DigitTriples kDigitTriples;
 
-/// Three digits; a fourth character is written and has to be overwritten.
+/// Writes three digits, and a fourth character for the caller to overwrite.
 inline char* write_triple(char* out, std::uint32_t triple) {
   std::memcpy(out, kDigitTriples.characters.data() + std::size_t{4} * triple, 4);
   return out + 3;

@@ -8,36 +8,36 @@
 
 namespace pipeline {
 
-// The fast paths of stage text. Nearly all of it looks the same: numbers of up to eight digits, a point and
-// seven decimals, one blank between, three lines and a blank one a triangle. That form is read and written
-// here, many digits at a time; whatever differs is left to the general reader and printer, and the bytes are
-// the same. There is one kernel a kind of processor; which one runs is decided once, when the program starts.
+// The fast paths of stage text. Nearly all of it has one form: numbers of up to eight digits, a point and
+// seven decimals, separated by one blank, three lines and a blank one a triangle. That form is read and
+// written here, many digits at a time; everything else is left to the general reader and printer, and the
+// bytes are the same. There is one kernel for each kind of processor, chosen once, when the program starts.
 
-/// How much of a text is plain triangles.
+/// The part of a text that is triangles in fixed form.
 struct FixedTextPart {
   std::size_t triangle_count = 0;
-  std::size_t length = 0;  // of their text, in characters
+  std::size_t length = 0;  // in characters
 };
 
-/// Reading may look this many characters beyond the end of the text; they need not mean anything.
+/// Readers may look at this many characters of any content after the end of the text.
 constexpr std::size_t kFixedTextSlack = 320;
 
-/// The most characters a triangle in fixed form takes: nine numbers with a separator each, and a line end.
+/// The maximum length of a triangle in fixed form: nine numbers with a separator each, and a line end.
 constexpr std::size_t kMaxFixedTriangleLength = 9 * 18 + 1;
 
-/// Reads triangles in fixed form from the beginning of `text` until one is not, or `triangles` is full, or
-/// the text ends. A number becomes the double nearest to it, as from_chars gives it.
+/// Reads triangles from the beginning of `text` until one is not in fixed form, `triangles` is full, or the
+/// text ends. Every number becomes the nearest double, as from_chars gives it.
 using ReadFixedText = FixedTextPart (*)(std::string_view text, std::span<Triangle> triangles);
 
 /// The same for the triangles of a scene: a line `triangle`, then three vertex lines.
 using ReadFixedScene = FixedTextPart (*)(std::string_view text, std::span<Triangle> triangles);
 
-/// Prints triangles in fixed form until there is one of which a coordinate has more than eight digits before
-/// the point, or lies so near to a tie that it takes exact arithmetic to round it; says how many were
-/// printed. `out` has room for kMaxFixedTriangleLength each, and kFixedTextSlack more.
+/// Prints triangles in fixed form and returns how many. Stops before one with a coordinate of more than eight
+/// digits before the point, or so close to a tie that only exact arithmetic can round it. `out` has room for
+/// kMaxFixedTriangleLength each, and kFixedTextSlack more.
 using WriteFixedText = FixedTextPart (*)(std::span<const Triangle> triangles, char* out);
 
-/// One implementation of them all.
+/// One implementation of all three.
 struct FixedTextKernel {
   const char* name;
   ReadFixedText read;
@@ -48,7 +48,8 @@ struct FixedTextKernel {
 /// The kernels this processor can run, the fastest last; the first, "portable", runs everywhere.
 std::span<const FixedTextKernel> fixed_text_kernels();
 
-/// The one in use: the fastest, or the one the environment variable PIPELINE_KERNEL names (kernel_choice.h).
+/// The kernel in use: the fastest, or the one that the environment variable PIPELINE_KERNEL names
+/// (kernel_choice.h).
 const FixedTextKernel& fixed_text_kernel();
 
 }  // namespace pipeline

@@ -19,10 +19,10 @@ namespace {
 struct SplitUnits {
   __m128i whole;
   __m128i decimals;
-  unsigned negative;  // bit i: coordinate i is below 0, and does not round to 0
+  unsigned negative;  // bit i: coordinate i is negative and does not round to 0
 };
 
-/// `good` loses its bits where a coordinate is too large, not finite, or too near to a tie.
+/// Clears the lanes of `good` whose coordinate is too large, not finite, or too close to a tie.
 PIPELINE_AVX2 inline SplitUnits split(__m256d values, __m256d& good) {
   const __m256d sign_bit = _mm256_set1_pd(-0.0);
   const __m256d rounder = _mm256_set1_pd(kWholeRounder);
@@ -35,7 +35,7 @@ PIPELINE_AVX2 inline SplitUnits split(__m256d values, __m256d& good) {
   const __m256d reach = _mm256_add_pd(distance, _mm256_mul_pd(scaled, _mm256_set1_pd(kProductError)));
   good = _mm256_and_pd(good, _mm256_cmp_pd(reach, _mm256_set1_pd(kBelowHalf), _CMP_LT_OQ));
   good = _mm256_and_pd(good, _mm256_cmp_pd(units, _mm256_set1_pd(1e15), _CMP_LT_OQ));
-  // units / 10^7, right or one too small or too large; the remainder, which is exact, tells.
+  // units / 10^7, off by at most one; the exact remainder corrects it.
   const __m256d quotient = _mm256_floor_pd(_mm256_mul_pd(units, _mm256_set1_pd(1e-7)));
   const __m256d rest = _mm256_sub_pd(units, _mm256_mul_pd(quotient, per_one));
   const __m256d too_large = _mm256_cmp_pd(rest, _mm256_setzero_pd(), _CMP_LT_OQ);
@@ -47,8 +47,8 @@ PIPELINE_AVX2 inline SplitUnits split(__m256d values, __m256d& good) {
           static_cast<unsigned>(_mm256_movemask_pd(below_zero))};
 }
 
-/// For two numbers, a half each: 16 digits, the first of 8 before the point, a 0 where the point will be, 7
-/// behind it.
+/// As sixteen_digits of eight_digits.h for two numbers, one in each half: 8 digits before the point, a 0 in
+/// its position, 7 digits after it.
 PIPELINE_AVX2 inline __m256i sixteen_digits(__m128i whole_and_decimals) {
   const __m256i eights = _mm256_cvtepu32_epi64(whole_and_decimals);
   // x / 10000 for x < 10^8, in 64 bits.
@@ -66,7 +66,7 @@ PIPELINE_AVX2 inline __m256i sixteen_digits(__m128i whole_and_decimals) {
 
 /// `filled` has a bit for each character that is a digit above 0.
 PIPELINE_AVX2 inline char* write_number(char* out, unsigned is_negative, __m128i text, unsigned filled) {
-  // The last digit before the point stays even if it is 0.
+  // Keeps the last digit before the point even if it is 0.
   const auto leading_zero_count = static_cast<unsigned>(std::countr_zero(filled | 0x80u));
   const __m128i shift =
       _mm_loadu_si128(reinterpret_cast<const __m128i*>(kByteShifts.bytes.data() + leading_zero_count));
@@ -105,10 +105,10 @@ PIPELINE_AVX2 FixedTextPart write_fixed_text(std::span<const Triangle> triangles
     out = write_two(out, _mm_unpackhi_epi32(a.whole, a.decimals), a.negative >> 2, '\n', ' ');
     out = write_two(out, _mm_unpacklo_epi32(b.whole, b.decimals), b.negative, ' ', '\n');
     out = write_two(out, _mm_unpackhi_epi32(b.whole, b.decimals), b.negative >> 2, ' ', ' ');
-    // The last number stands alone; the text of its empty companion is written over.
-    char* const after_companion =
+    // The last number has no partner; the text of the empty lane is overwritten.
+    char* const after_empty_lane =
         write_two(out, _mm_unpacklo_epi32(c.whole, c.decimals), c.negative, '\n', '\n');
-    out = after_companion - (sizeof "0.0000000\n" - 1);
+    out = after_empty_lane - (sizeof "0.0000000\n" - 1);
     *out++ = '\n';
     ++part.triangle_count;
   }

@@ -12,11 +12,11 @@
 
 namespace pipeline {
 
-// The kernels behind fixed_text.h, each in a file of its own.
+// The kernels of fixed_text.h, each in a file of its own.
 
-/// What stands around the three vertex lines of a triangle.
+/// The line that belongs to a triangle beside its three vertex lines.
 enum class TriangleFrame {
-  stage_text,  // a blank line behind them
+  stage_text,  // a blank line after them
   scene        // the line `triangle` before them
 };
 
@@ -47,7 +47,7 @@ inline constexpr ByteShifts kByteShifts;
 
 extern const FixedTextKernel kSse4Kernel;
 bool processor_has_sse4();
-// Reading gains nothing from wider registers: the place of a number depends on the one before it.
+// Reading gains nothing from wider registers: where a number begins depends on the one before it.
 extern const WriteFixedText kWriteFixedTextAvx2;
 bool processor_has_avx2();
 #endif

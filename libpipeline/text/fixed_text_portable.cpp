@@ -9,7 +9,7 @@ namespace {
 
 // ---- reading ----
 
-/// Reads one number and the separator behind it; null where the form differs.
+/// Reads one number and the separator after it; null if the form differs.
 const char* read_number(const char* p, char separator, double& value) {
   const bool is_negative = *p == '-';
   p += is_negative ? 1 : 0;
@@ -19,7 +19,7 @@ const char* read_number(const char* p, char separator, double& value) {
   const std::uint64_t behind = (load_eight(p + count + 1) - kEightZeros) << 8;
   if (no_digits(behind) != 0) return nullptr;
   const std::uint64_t units = join_leading_digits(before, count) * 10'000'000 + join_digits(behind);
-  // Below 2^53 the conversion is exact, so that the quotient is the nearest double to the decimal.
+  // Below 2^53 the conversion is exact, so the quotient is the nearest double to the decimal.
   const double magnitude = static_cast<double>(units) / kUnitsPerOne;
   value = is_negative ? -magnitude : magnitude;
   return p + count + 9;

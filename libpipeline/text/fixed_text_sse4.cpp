@@ -20,9 +20,9 @@ constexpr std::uint64_t kSignBit = std::uint64_t{1} << 63;
 
 // ---- reading ----
 
-/// For each count of digits before the point: where the bytes of [8 digits before][0][7 digits behind] come
-/// from. An impossible count has a row that picks the point, which is no digit; without a point, 16, there is
-/// nothing to pick.
+/// For each count of digits before the point, the source bytes of [8 digits before][0][7 digits after]. The
+/// row of an impossible count selects the point, which is not a digit and fails the test; without a point
+/// (16) the count alone fails it.
 struct DigitShuffles {
   alignas(16) std::array<std::array<std::uint8_t, 16>, 17> rows{};
 
@@ -41,7 +41,7 @@ struct DigitShuffles {
 
 constexpr DigitShuffles kDigitShuffles;
 
-/// Reads one number and the separator behind it; `good` loses its bits where the form differs.
+/// Reads one number and the separator after it; clears bits of `good` if the form differs.
 PIPELINE_SSE4 inline const char* read_number(const char* p, char separator, std::uint64_t& bits, int& good) {
   const std::uint64_t sign = *p == '-' ? kSignBit : 0;
   p += sign >> 63;
@@ -53,14 +53,14 @@ PIPELINE_SSE4 inline const char* read_number(const char* p, char separator, std:
   const __m128i in_range = _mm_cmpeq_epi8(_mm_min_epu8(digits, _mm_set1_epi8(9)), digits);
   const bool is_in_place = (count < 16) & (p[count + 8] == separator);
   good &= _mm_movemask_epi8(in_range) & (is_in_place ? 0xffff : 0);
-  // Neighboring digits, pairs and fours are joined until 8 digits are one number.
+  // Joins neighboring digits, then pairs, then fours, until 8 digits are one number.
   const __m128i pairs = _mm_maddubs_epi16(digits, _mm_set1_epi16(10 | (1 << 8)));
   const __m128i fours = _mm_madd_epi16(pairs, _mm_set1_epi32(100 | (1 << 16)));
   const __m128i packed = _mm_packus_epi32(fours, fours);
   const __m128i eights = _mm_madd_epi16(packed, _mm_set1_epi32(10000 | (1 << 16)));
   const auto both = static_cast<std::uint64_t>(_mm_cvtsi128_si64(eights));
   const std::uint64_t units = (both & 0xffffffff) * 10'000'000 + (both >> 32);
-  // Below 2^53 the conversion is exact, so that the quotient is the nearest double to the decimal.
+  // Below 2^53 the conversion is exact, so the quotient is the nearest double to the decimal.
   const double value = static_cast<double>(static_cast<std::int64_t>(units)) / kUnitsPerOne;
   bits = std::bit_cast<std::uint64_t>(value) | sign;
   return p + count + 9;
@@ -96,12 +96,12 @@ PIPELINE_SSE4 FixedTextPart read_fixed_text(std::string_view text, std::span<Tri
 
 PIPELINE_SSE4 inline char* write_number(char* out, bool is_negative, std::uint32_t whole,
                                         std::uint32_t decimals) {
-  // The first of 8 before the point, then a 0 where the point will be, and 7 behind it.
+  // 8 digits before the point, a 0 in its position, 7 digits after it.
   const __m128i digits = sixteen_digits(whole, decimals);
   const __m128i characters =
       _mm_setr_epi8('0', '0', '0', '0', '0', '0', '0', '0', '.', '0', '0', '0', '0', '0', '0', '0');
   const __m128i text = _mm_add_epi8(digits, characters);
-  // The last digit before the point stays even if it is 0.
+  // Keeps the last digit before the point even if it is 0.
   const auto filled =
       static_cast<unsigned>(_mm_movemask_epi8(_mm_cmpgt_epi8(digits, _mm_setzero_si128()))) | 0x80u;
   const auto leading_zero_count = static_cast<unsigned>(std::countr_zero(filled));
@@ -113,14 +113,14 @@ PIPELINE_SSE4 inline char* write_number(char* out, bool is_negative, std::uint32
   return out + 16 - leading_zero_count;
 }
 
-/// The nine coordinates of a triangle in whole units of 10^-7, split at the point.
+/// The nine coordinates of a triangle as whole units of 10^-7, split at the point.
 struct SplitUnits {
   alignas(16) std::array<std::int32_t, 12> whole;
   alignas(16) std::array<std::int32_t, 12> decimals;
-  unsigned negative = 0;  // bit i: coordinate i is below 0, and does not round to 0
+  unsigned negative = 0;  // bit i: coordinate i is negative and does not round to 0
 };
 
-/// False where a coordinate is too large, not finite, or too near to a tie.
+/// False if a coordinate is too large, not finite, or too close to a tie.
 PIPELINE_SSE4 inline bool split(const double* coordinates, SplitUnits& split_units) {
   const __m128d sign_bit = _mm_set1_pd(-0.0);
   const __m128d rounder = _mm_set1_pd(kWholeRounder);
@@ -136,7 +136,7 @@ PIPELINE_SSE4 inline bool split(const double* coordinates, SplitUnits& split_uni
     const __m128d reach = _mm_add_pd(distance, _mm_mul_pd(scaled, _mm_set1_pd(kProductError)));
     good =
         _mm_and_pd(good, _mm_and_pd(_mm_cmplt_pd(reach, below_half), _mm_cmplt_pd(units, _mm_set1_pd(1e15))));
-    // units / 10^7, right or one too small or too large; the remainder, which is exact, tells.
+    // units / 10^7, off by at most one; the exact remainder corrects it.
     __m128d whole = _mm_floor_pd(_mm_mul_pd(units, _mm_set1_pd(1e-7)));
     __m128d decimals = _mm_sub_pd(units, _mm_mul_pd(whole, _mm_set1_pd(kUnitsPerOne)));
     const __m128d too_large = _mm_cmplt_pd(decimals, _mm_setzero_pd());

@@ -13,7 +13,7 @@ bool is_digit(char c) {
   return c >= '0' && c <= '9';
 }
 
-/// The decimal exponent of the first digit that is not 0 in a word from_chars has accepted.
+/// The decimal exponent of the first nonzero digit of a word that from_chars has accepted.
 long long leading_exponent(std::string_view word) {
   const std::size_t e = word.find_first_of("eE");
   const std::string_view mantissa = word.substr(0, e);
@@ -21,11 +21,11 @@ long long leading_exponent(std::string_view word) {
   if (e != std::string_view::npos) {
     std::string_view digits = word.substr(e + 1);
     if (digits.front() == '+') digits.remove_prefix(1);
-    // Far beyond any double's; the digits of a line added to it are far from the end of 64 bits.
-    constexpr long long kLargest = 1'000'000'000'000;
+    // Far beyond any double's exponent, and far from overflow when the digits of a line are added to it.
+    constexpr long long kMaxExponent = 1'000'000'000'000;
     const auto result = std::from_chars(digits.data(), digits.data() + digits.size(), exponent);
-    if (result.ec != std::errc()) exponent = digits.front() == '-' ? -kLargest : kLargest;
-    exponent = std::clamp(exponent, -kLargest, kLargest);
+    if (result.ec != std::errc()) exponent = digits.front() == '-' ? -kMaxExponent : kMaxExponent;
+    exponent = std::clamp(exponent, -kMaxExponent, kMaxExponent);
   }
   const std::size_t point = std::min(mantissa.find('.'), mantissa.size());
   const std::size_t leading = mantissa.find_first_of("123456789");
@@ -41,7 +41,7 @@ ParsedNumber parse_number(std::string_view word) {
     if (!word.empty() && word.front() == '-') return {0, NumberError::not_a_number};
   }
   const std::string_view unsigned_word = !word.empty() && word.front() == '-' ? word.substr(1) : word;
-  // from_chars also takes "inf", "nan" and ".5"; the last is a number here as well.
+  // from_chars also accepts "inf", "nan" and ".5"; only the last is a number here.
   if (unsigned_word.empty() || (!is_digit(unsigned_word.front()) && unsigned_word.front() != '.'))
     return {0, NumberError::not_a_number};
   ParsedNumber parsed;
@@ -60,7 +60,7 @@ bool parse_exact_decimal(std::string_view word, DoubleDouble& value) {
   const std::size_t point = std::min(word.find('.'), word.size());
   if (word.size() > point + 1 + kExactDecimals) return false;
   value = {parse_number(word).value, 0};
-  // A whole number of 10^-7 below 2^53 is the only one near its double.
+  // Below 2^53 units of 10^-7, at most one such decimal rounds to a given double.
   if (std::fabs(value.hi) < 9e8) return true;
   if (std::fabs(value.hi) >= 1e22) return false;
   DoubleDouble units;

@@ -14,20 +14,21 @@ struct ParsedNumber {
   NumberError error = NumberError::none;
 };
 
-/// The nearest double to a whole word of decimal text: [+-] digits [. digits] [e [+-] digits], with at least
-/// one digit before the exponent. What is too small for a double is 0 of either sign. `nan`, `inf`,
-/// hexadecimal, a comma and trailing characters are not numbers. The locale has no influence.
+/// Parses a whole word of decimal text, [+-] digits [. digits] [e [+-] digits] with at least one digit before
+/// the exponent, as the nearest double. Numbers too small for a double become 0 of their sign. `nan`, `inf`,
+/// hexadecimal, a comma and trailing characters are errors. The locale has no influence.
 ParsedNumber parse_number(std::string_view word);
 
-/// The most decimals a number may have to be taken as that decimal by an exact calculation.
+/// The maximum count of decimals of a number that exact arithmetic takes as that decimal.
 constexpr int kExactDecimals = 7;
 
-/// What an exact calculation makes of a word that parse_number accepts: a plain number (no exponent) below
-/// 10^22 with at most kExactDecimals decimals is that decimal, given as hi + lo within 2^-98 of itself; false
-/// for any other, which is its nearest double. hi is what parse_number gives.
+/// The value that exact arithmetic takes for a word that parse_number accepts. A number without exponent,
+/// below 10^22 and with at most kExactDecimals decimals, is that decimal: hi + lo, within 2^-98 of itself,
+/// where hi is the double that parse_number gives. False for any other number, which stands for its nearest
+/// double.
 bool parse_exact_decimal(std::string_view word, DoubleDouble& value);
 
-/// A whole word of decimal digits; false where it is anything else or does not fit.
+/// Parses a whole word of decimal digits; false for anything else or a number that does not fit.
 bool parse_count(std::string_view word, std::size_t& value);
 
 }  // namespace pipeline

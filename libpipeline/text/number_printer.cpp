@@ -46,28 +46,28 @@ char* print_digits(char* out, std::uint64_t number, int count) {
   return out + count;
 }
 
-/// Prints the digits before the point: most numbers have one there.
+/// Prints the digits before the point; most numbers have one.
 char* print_before_point(char* out, std::uint64_t whole) {
   if (whole >= 10) return print_whole(out, whole);
   *out = static_cast<char>('0' + whole);
   return out + 1;
 }
 
-/// Without a branch, which would be foreseen half the time.
+/// Branch-free: the sign is unpredictable.
 char* print_sign(char* out, bool is_negative) {
   *out = '-';
   return out + (is_negative ? 1 : 0);
 }
 
-/// The fast path of a fixed number of decimals: prints the scaled number as a whole one. Null where that has
-/// more than 51 bits, or lies so near to a tie that the scaling may decide.
+/// The fast path of a fixed count of decimals: prints the scaled number as a whole number. Null where that
+/// has more than 51 bits, or lies so close to a tie that the rounding of the product matters.
 char* print_scaled(char* out, double value, int decimals) {
   const auto n = static_cast<std::size_t>(decimals);
   const DecimalUnits rounded(value, kPowersOfTen[n]);
   if (decimals > 15 || !rounded.is_certain()) return nullptr;
   const auto units = static_cast<std::uint64_t>(rounded.whole);
   out = print_sign(out, (value < 0) & (units != 0));
-  // Cut off instead of divided, which is right but for what was rounded up to a whole number.
+  // Truncation instead of a division: exact unless the decimals were rounded up to the next whole number.
   auto whole = static_cast<std::uint64_t>(std::fabs(value));
   std::uint64_t behind = units - whole * kWholePowersOfTen[n];
   if (behind >= kWholePowersOfTen[n]) {
@@ -80,25 +80,25 @@ char* print_scaled(char* out, double value, int decimals) {
   return print_digits(out, behind, decimals);
 }
 
-/// How many digits a number below 10^17 has.
+/// The count of digits of a number below 10^17.
 int digit_count(std::uint64_t number) {
-  // From log10(2), rounded up; one too many below a power of ten, which is then looked up.
+  // bit_width * log10(2), rounded down, is the count or one less; the table decides.
   const auto count = static_cast<std::size_t>(std::bit_width(number) * 1233 >> 12);
   return static_cast<int>(count) + (number >= kWholePowersOfTen[count] ? 1 : 0);
 }
 
-/// Prints a number whose shortest decimal has digits behind the point, at most 17 and zeros before them.
+/// Prints a number whose shortest decimal has digits after the point: at most 17, with zeros before them.
 char* print_decimals(char* out, double value, const Decimal& decimal) {
   const auto decimals = static_cast<std::size_t>(-decimal.exponent);
   const std::uint64_t scale = decimals < kWholePowersOfTen.size() ? kWholePowersOfTen[decimals] : 0;
   out = print_sign(out, value < 0);
-  // A decimal beyond the next whole number would not read back to this one.
+  // The decimal has the same whole part: beyond the next whole number it would not read back to this double.
   const auto whole = static_cast<std::uint64_t>(std::fabs(value));
   out = print_before_point(out, whole);
   *out++ = '.';
   const std::uint64_t behind = decimal.digits - whole * scale;
-  // Zeros and a digit where there are more than sixteen, then those. No branch: whether there are 16 or 17
-  // cannot be foreseen.
+  // Digits beyond sixteen (zeros and at most one other) first, then the sixteen. Branch-free: whether there
+  // are 16 or 17 is unpredictable.
   constexpr std::uint64_t kSixteenDigits = 10'000'000'000'000'000;
   const std::uint64_t high = behind / kSixteenDigits;
   const int high_count = std::max(-decimal.exponent - 16, 0);
@@ -106,15 +106,15 @@ char* print_decimals(char* out, double value, const Decimal& decimal) {
   return print_digits(out + high_count, behind - high * kSixteenDigits, std::min(-decimal.exponent, 16));
 }
 
-/// Prints in the shortest form that reads back to the number; null where that is one with an exponent, or the
-/// number is not of a coordinate's size.
+/// Prints the shortest form that reads back to the number; null if that has an exponent, or the number is not
+/// of a coordinate's size.
 char* print_shortest(char* out, double value) {
   Decimal decimal;
   if (!shortest_decimal(std::fabs(value), decimal)) return nullptr;
   const auto& [digits, exponent] = decimal;
-  // From 0.001 on, zeros behind the point are shorter than an exponent.
+  // From 0.001 on, zeros after the point are shorter than an exponent.
   if (exponent < 0 && std::fabs(value) >= 0.001) return print_decimals(out, value, decimal);
-  // Written out, it must not be longer than with a point behind its first digit and "e+10".
+  // Written out, it must not be longer than in scientific notation, "d.ddde+10".
   const int length = digit_count(digits);
   const int point_length = length > 1 ? 1 : 0;
   if (exponent > 4 + point_length || exponent < -(length + 2 + point_length)) return nullptr;

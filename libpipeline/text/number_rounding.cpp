@@ -10,10 +10,10 @@
 namespace pipeline {
 namespace {
 
-// A ball narrower than this part of the last printed unit that reaches a tie counts as the tie.
+// A ball that contains a tie counts as the tie if its radius is below this part of the last printed unit.
 constexpr double kTieTolerance = 0x1p-20;
 
-/// A number as the sum of a whole number and the exact rest, whose high part lies in [-1/2, 1/2].
+/// A number as the sum of a whole number and the exact remainder, whose high part lies in [-1/2, 1/2].
 struct SplitNumber {
   DoubleDouble whole;
   DoubleDouble rest;
@@ -47,9 +47,9 @@ PrintableNumber round_to_decimals(DoubleDouble value, double error, int decimals
   if (is_tie ? is_odd(whole) : distance < 0) whole = whole + DoubleDouble{direction, 0};
   const bool is_certain = is_tie || !may_be_tie;
   const DoubleDouble decimal = whole / DoubleDouble{scale, 0};
-  // A double that is nearer to the decimal than half a unit prints as that decimal by itself.
+  // A double within half a unit of the decimal prints as that decimal.
   if (std::fabs(whole.hi) < 0x1p51) return {decimal.hi, 0, is_certain};
-  // A tie must be printed as the decimal chosen; other numbers are rounded right by the printing.
+  // A tie must print as the decimal chosen here; the printer rounds all other numbers correctly.
   return is_tie ? PrintableNumber{decimal.hi, decimal.lo} : PrintableNumber{value.hi, value.lo, is_certain};
 }
 
@@ -77,7 +77,7 @@ PrintableNumber round_to_text(const Ball& ball, NumberFormat format) {
   const double nearest = ball.nearest_double();
   if (!std::isfinite(nearest)) return {nearest, 0, true};
   if (format.shortest) return round_to_double(ball);
-  // What is below the range with an exponent of its own is far below half a unit of any decimals.
+  // A negative exponent means a number far below half a unit of any count of decimals.
   if (ball.exponent() < 0) return {nearest, 0, true};
   if (ball.exponent() > 0) {
     const int shift = static_cast<int>(ball.exponent());

@@ -20,8 +20,8 @@ namespace {
 constexpr int kNone = -1;
 constexpr int kMaxAttempts = 1000;  // to find a temporary name
 
-/// The N of a path that names this process's open file N, else kNone. Such a file is not ours to replace,
-/// even if it happens to be a regular one.
+/// N for a path that names the open descriptor N of this process, else kNone. Such a file must not be
+/// replaced, even if it is a regular one.
 int own_descriptor_of(const std::string& path) {
   if (path == "/dev/stdout") return STDOUT_FILENO;
   if (path == "/dev/stderr") return STDERR_FILENO;
@@ -34,7 +34,7 @@ int own_descriptor_of(const std::string& path) {
   return kNone;
 }
 
-/// Where the symbolic links that start at `path` end, whether or not there is a file.
+/// The target of the symbolic links from `path` on, whether or not a file exists there.
 std::string target_of(const std::string& path) {
   constexpr int kMaxLinks = 40;  // as the kernel
   std::filesystem::path target = path;
@@ -68,7 +68,7 @@ OutputFile::~OutputFile() {
 }
 
 void OutputFile::open_directly(int own_descriptor) {
-  // A copy of the descriptor, not the file opened anew, keeps the position in it.
+  // A duplicate descriptor keeps the file offset; reopening the file would not.
   descriptor_ = own_descriptor != kNone ? ::fcntl(own_descriptor, F_DUPFD_CLOEXEC, 0)
                                         : ::open(target_.c_str(), O_WRONLY | O_NOCTTY | O_CLOEXEC);
   if (descriptor_ < 0) throw IoError("open", path_, errno);
@@ -79,7 +79,8 @@ std::string OutputFile::temporary_name(int attempt) const {
   return std::filesystem::path(target_).parent_path() / name;
 }
 
-/// Opens a file that has no name yet; false where the system has none such. It is linked by way of /proc.
+/// Opens a file that has no name yet; false where the system does not support it. /proc serves to link it
+/// later.
 bool OutputFile::open_unnamed(const std::string& folder, unsigned mode) {
 #ifdef O_TMPFILE
   if (::access("/proc/self/fd", X_OK) != 0) return false;
@@ -103,8 +104,7 @@ void OutputFile::open_beside(bool exists, unsigned mode) {
     }
   }
   if (descriptor_ < 0) throw IoError("open", path_, errno);
-  // The umask has no say in a file that was there. Where the file system refuses, less is permitted, not
-  // more.
+  // The umask does not apply to an existing file. If chmod fails, the file has fewer permissions, never more.
   if (exists) static_cast<void>(::fchmod(descriptor_, mode));
 }
 
@@ -112,7 +112,7 @@ void OutputFile::close() {
   if (descriptor_ == kNone) return;
   const int result = ::close(descriptor_);
   descriptor_ = kNone;
-  // Linux has closed the file also when a signal interrupted the call.
+  // Linux closes the descriptor even if a signal interrupts the call.
   if (result != 0 && errno != EINTR) throw IoError("write", path_, errno);
 }
 
@@ -124,7 +124,7 @@ void OutputFile::commit() {
   temporary_path_.clear();
 }
 
-/// Gives the file its name, or a temporary one where an older file has that.
+/// Links the file to its name, or to a temporary one if an older file has that name.
 void OutputFile::link_into_place() {
   const std::string file = "/proc/self/fd/" + std::to_string(unnamed_);
   const auto link_to = [&](const std::string& name) {

@@ -4,18 +4,19 @@
 
 namespace pipeline {
 
-/// A file that appears complete or not at all: it is written beside its place, in the same folder, and
-/// put into it by `commit`. Without `commit` (an exception, say) what was written is removed and a file
-/// that was there before stays as it was. Every failure is an IoError that names the path as given.
+/// A file that appears complete or not at all: it is written under no name or a temporary one in the same
+/// folder, and `commit` gives it its name. Without `commit` (an exception, say) the written data are removed
+/// and an existing file stays as it was. Every failure is an IoError that names the path as given.
 ///
-/// Where the file system can (O_TMPFILE), the file has no name until `commit`: nothing is left of it even if
-/// the process is killed. A link cannot take an older file's place, so then it gets a temporary name and is
-/// renamed at once; a process killed between these two calls leaves the complete file under the temporary
-/// name. Elsewhere it has that name from the beginning, and a killed process leaves what was written so far.
+/// Where the file system supports it (O_TMPFILE), the file has no name until `commit`: nothing is left of it
+/// even if the process is killed. A link cannot replace an existing file, so in that case it gets a temporary
+/// name and is renamed at once; a process killed between these two calls leaves the complete file under the
+/// temporary name. Elsewhere it has the temporary name from the beginning, and a killed process leaves the
+/// data written so far.
 ///
-/// A new file gets the permissions a plain creat gives, a replaced one keeps its own; one that must not be
-/// written is not replaced either. A symbolic link stays, the file it points at is replaced. What exists and
-/// is no regular file (a device, a pipe) and /dev/stdout and the like are written directly.
+/// A new file gets the permissions that creat gives, a replaced one keeps its own; a read-only file is not
+/// replaced. A symbolic link stays, and the file it points at is replaced. An existing file that is not
+/// regular (a device, a pipe), /dev/stdout and the like are written directly.
 class OutputFile {
  public:
   explicit OutputFile(const std::string& path);
@@ -26,10 +27,10 @@ class OutputFile {
   /// Open for writing until `close`.
   [[nodiscard]] int descriptor() const { return descriptor_; }
 
-  /// Ends the writing; the last moment at which the system may say that data were lost. With several files,
-  /// close all before the first is committed.
+  /// Ends the writing; the last moment at which the system may report lost data. Of several files, close all
+  /// before committing the first.
   void close();
-  /// Closes the file, if that was not done yet, and puts it in its place.
+  /// Closes the file if it is still open, and gives it its name.
   void commit();
 
  private:
@@ -41,7 +42,7 @@ class OutputFile {
 
   std::string path_;
   std::string target_;          // where the symbolic links lead
-  std::string temporary_path_;  // empty if there is nothing to rename or to remove
+  std::string temporary_path_;  // empty if there is nothing to rename or remove
   int descriptor_ = -1;
   int unnamed_ = -1;  // a file without a name, open until it gets one
 };

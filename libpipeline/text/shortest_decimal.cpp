@@ -8,15 +8,15 @@
 namespace pipeline {
 namespace {
 
-// A double is significand * 2^exponent with 53 bits; for the values that are taken the exponents are these.
+// A double is significand * 2^exponent with a 53-bit significand; these exponents belong to accepted values.
 constexpr int kMinExponent = -40 - 52;
 constexpr int kMaxExponent = 0;
 
-// The powers of ten that go with them: from 10^0 to 10^28.
+// They need the powers from 10^0 to 10^28.
 constexpr int kMaxPower = 28;
 
-/// 10^n = factor * 2^(log2 - 127) but for the last bit: the factor has 128 bits, and is rounded up even where
-/// it is exact, as the algorithm wants it.
+/// 10^n = factor * 2^(log2 - 127) but for the last bit: the factor has 128 bits and is rounded up even where
+/// it is exact, as the algorithm requires.
 struct PowerOfTen {
   std::uint64_t high = 0;
   std::uint64_t low = 0;
@@ -47,7 +47,7 @@ constexpr int floor_log10(int exponent, bool of_three_quarters) {
 std::uint64_t rounded_to_odd(const PowerOfTen& power, std::uint64_t factor) {
   const UInt128 low = static_cast<UInt128>(power.low) * factor;
   const UInt128 high = static_cast<UInt128>(power.high) * factor + (low >> 64);
-  // The power is a last bit too large: what that makes is not cut off.
+  // The power is one unit too large in its last bit; the excess of that does not count as cut off.
   const bool is_inexact = static_cast<std::uint64_t>(high) > 1;
   return static_cast<std::uint64_t>(high >> 64) | (is_inexact ? 1 : 0);
 }
@@ -80,12 +80,12 @@ bool shortest_decimal(double value, Decimal& decimal) {
   const int k = floor_log10(exponent, is_lower_gap_halved);
   const PowerOfTen& power = kPowersOfTen[static_cast<std::size_t>(-k)];
   const int shift = exponent + power.log2 + 1;
-  // Four times the value and the ends of the interval that reads back to it, as multiples of 10^k.
+  // Four times the value and four times the ends of its rounding interval, in multiples of 10^k.
   const std::uint64_t center = rounded_to_odd(power, 4 * significand << shift);
   const std::uint64_t left =
       rounded_to_odd(power, (4 * significand - (is_lower_gap_halved ? 1 : 2)) << shift);
   const std::uint64_t right = rounded_to_odd(power, (4 * significand + 2) << shift);
-  // The ends themselves belong to it only where ties go to this value.
+  // The ends belong to the interval only if ties round to this value.
   const std::uint64_t is_odd = significand & 1;
   const auto contains = [&](std::uint64_t units) {
     return (left + is_odd <= 4 * units) & (4 * units <= right - is_odd);
@@ -99,7 +99,7 @@ bool shortest_decimal(double value, Decimal& decimal) {
   const std::uint64_t middle = 4 * below + 2;
   const bool is_nearer_above = (center > middle) | ((center == middle) & (below % 2 == 1));
   const bool round_up = (is_above & !is_below) | ((is_above == is_below) & is_nearer_above);
-  // Chosen by arithmetic, not by a branch: whether a digit can be spared is as good as random.
+  // Branch-free: whether a digit can be saved is unpredictable.
   const std::uint64_t longer = below + (round_up ? 1 : 0);
   const std::uint64_t shorter = tens / 10 + (tens_above ? 1 : 0);
   const bool is_shorter = tens_below != tens_above;

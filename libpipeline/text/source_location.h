@@ -8,7 +8,7 @@
 
 namespace pipeline {
 
-/// Where in the input something stands. Lines and columns count from 1; 0 means "not known".
+/// A position in the input. Lines and columns count from 1; 0 means "unknown".
 /// `file` is a file's name, `<stdin>`, or the name of a command-line option.
 struct SourceLocation {
   std::string file;
@@ -18,14 +18,13 @@ struct SourceLocation {
   [[nodiscard]] bool is_option() const { return file.starts_with("--"); }
 };
 
-/// "file:line:column", without the parts that are not known.
+/// "file:line:column", without the unknown parts.
 std::string to_string(const SourceLocation& location);
 
-/// Where on which line of the input something begins, both from 1. Every vertex has one: it is as small as it
-/// can be.
+/// A 1-based line and column, packed into 64 bits because every vertex has one.
 class LineAndColumn {
  public:
-  /// Nowhere.
+  /// Unknown.
   constexpr LineAndColumn() = default;
   constexpr LineAndColumn(std::size_t line, std::size_t column = 1)
       : bits_(line | (column - 1) << kLineBits) {}
@@ -41,10 +40,10 @@ class LineAndColumn {
   std::uint64_t bits_ = 0;
 };
 
-/// Where the three vertices of a triangle begin.
+/// The positions at which the three vertices of a triangle begin.
 using VertexLocations = std::array<LineAndColumn, 3>;
 
-/// What messages call the vertices of a triangle.
+/// The names of a triangle's vertices in messages.
 constexpr std::array<std::string_view, 3> kVertexNames = {"vertex 1 of 3", "vertex 2 of 3", "vertex 3 of 3"};
 
 }  // namespace pipeline

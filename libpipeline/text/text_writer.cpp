@@ -11,7 +11,7 @@ namespace pipeline {
 namespace {
 
 constexpr std::size_t kBlockSize = std::size_t{1} << 16;
-// Texts from this length on are written from where they are.
+// Texts from this length on are written without being copied.
 constexpr std::size_t kLongText = kBlockSize / 2;
 
 }  // namespace

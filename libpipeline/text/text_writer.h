@@ -14,23 +14,23 @@ int try_write_all(int descriptor, std::string_view bytes);
 /// The same; a failure is an IoError that names `path`.
 void write_all(int descriptor, std::string_view bytes, const std::string& path);
 
-/// Collects text and writes it in blocks of at most 64 KiB, what a pipe holds: larger ones would make the
-/// stages of a pipe wait for each other. Failures to write are IoErrors; nothing is written on destruction.
+/// Buffers text and writes it in blocks of at most 64 KiB, the capacity of a pipe: larger blocks would make
+/// the stages of a pipeline wait for each other. A failed write is an IoError; the destructor writes nothing.
 class TextWriter {
  public:
-  /// Writes to a file descriptor, which stays the caller's; `file` names it in messages.
+  /// Writes to a file descriptor, which the caller keeps and closes; `file` names it in messages.
   TextWriter(int descriptor, std::string file);
-  /// Only collects, however much it is.
+  /// Buffers all text and writes none.
   TextWriter() = default;
 
   void append(std::string_view text);
-  /// Room for at least `size` characters; `commit` says up to where they were filled.
+  /// Room for at least `size` characters; `commit` marks the end of those that were filled.
   char* reserve(std::size_t size);
   void commit(const char* end);
-  /// Writes what was collected, unless this writer only collects.
+  /// Writes the buffered text, unless this writer has no descriptor.
   void flush();
   [[nodiscard]] std::string_view collected() const { return {buffer_.data(), end_}; }
-  /// Forgets what was collected and not yet written.
+  /// Drops the buffered text.
   void discard() { end_ = 0; }
 
   [[nodiscard]] std::size_t bytes_written() const { return bytes_written_; }

@@ -11,10 +11,10 @@ namespace pipeline {
 namespace {
 
 using Exact = Real<512>;
-// Holds the exact angle, whatever the distance of its two parts.
+// Holds the exact angle, however far apart its two parts are.
 using ExactAngle = Real<2304>;
 
-/// An angle in radians, after its whole turns were taken off in degrees.
+/// An angle in radians; its whole turns are removed in degrees.
 Exact radians(DoubleDouble degrees) {
   const ExactAngle reduced = remainder(ExactAngle(degrees), ExactAngle(360));
   return Exact::nearest(reduced * ExactAngle::pi() / ExactAngle(180));
@@ -23,7 +23,7 @@ Exact radians(DoubleDouble degrees) {
 void expect_contained(DoubleDouble degrees) {
   const Exact x = radians(degrees);
   const Exact half_sine = sin(times_power_of_two(x, -1));
-  // What the rounding of x does to the functions.
+  // The effect of the rounding of x on the functions.
   const Exact slack = abs(times_power_of_two(x, -500));
   const SineCosine computed = sine_cosine_of_degrees(degrees);
   ASSERT_TRUE(contains(computed.sine, sin(x), slack));
@@ -110,8 +110,7 @@ TEST(Angle, LongContainsTheTruth) {
   expect_all_contained(near_to_special, 107, 200'000);
 }
 
-/// 0, +-1/2 or +-1 by the angle's place among the multiples of 30 degrees; nullopt where the sine is not
-/// rational.
+/// 0, +-1/2 or +-1 for a multiple of 30 degrees; nullopt where the sine is not rational.
 struct RationalSine {
   int thirties;
   double sine;

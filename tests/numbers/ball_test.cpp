@@ -25,8 +25,8 @@ using Exact = Real<2304>;
 constexpr double kSmallest = std::numeric_limits<double>::denorm_min();
 constexpr double kLargest = std::numeric_limits<double>::max();
 
-/// Balls as they come up in a pipeline and far beyond: exact doubles of any size, wide and narrow balls,
-/// balls around 0, numbers past a double's range, double-doubles with far parts.
+/// Balls as they occur in the pipeline and far beyond: exact doubles of any size, wide and narrow balls,
+/// balls around 0, numbers outside a double's range, double-doubles whose parts are far apart.
 Ball any_ball(RandomNumbers& random) {
   switch (random.bits() % 8) {
     case 0:
@@ -50,21 +50,21 @@ Ball any_ball(RandomNumbers& random) {
   }
 }
 
-/// A ball close to `ball`, so that their difference cancels; of the other sign half of the time.
+/// A ball close to `ball`, so that their difference cancels; half of the time negated.
 Ball near_to(const Ball& ball, RandomNumbers& random) {
   const Ball factor = Ball(1) + Ball(random.with_exponent(-110, -40));
   const Ball near = random.bits() % 4 == 0 ? ball : ball * factor;
   return random.bits() % 2 == 0 ? near : -near;
 }
 
-/// Some numbers of a ball: the midpoint, both ends, one between.
+/// Some members of a ball: the midpoint, both ends, one between.
 std::array<Exact, 4> members(const Ball& ball, RandomNumbers& random) {
   const Exact middle = midpoint<2304>(ball);
   const Exact error = radius<2304>(ball);
   return {middle, middle - error, middle + error, middle + error * Exact(random.between(-1, 1))};
 }
 
-/// What every ball promises of itself.
+/// The invariants of every ball.
 void expect_sound(const Ball& ball) {
   const auto [hi, lo] = ball.value();
   const double leading = std::max(std::fabs(hi), ball.error());

@@ -21,7 +21,7 @@ void expect_within(double units, Computed computed, Truth truth, std::uint64_t s
   for (int i = 0; i < count; ++i) {
     const DoubleDouble a = random.double_double(-100, 100);
     DoubleDouble b = random.double_double(-100, 100);
-    // Cancellation: the high parts alone, or all but the last bits.
+    // Cancellation of the high parts alone, or of all but the last bits.
     if (i % 4 == 1) b = fast_two_sum(-a.hi, random.double_double(-160, -155).hi * a.hi);
     if (i % 4 == 2) b = -a + random.double_double(-100, 0) * (a.hi * 0x1p-60);
     const Exact exact = truth(a, b);

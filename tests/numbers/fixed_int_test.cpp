@@ -23,7 +23,7 @@ mpz_class exact(const Int& value) {
   return value.is_negative() ? mpz_class(result - (mpz_class(1) << 384)) : result;
 }
 
-/// A number of at most `most_bits` bits, of either sign; often next to a power of two.
+/// A number of at most `most_bits` bits and either sign, often next to a power of two.
 Int any_number(RandomNumbers& random, int most_bits) {
   const int bits = random.whole(0, most_bits);
   Int value(0);

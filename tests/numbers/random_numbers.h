@@ -8,7 +8,7 @@
 
 namespace pipeline {
 
-/// Numbers that look random and are the same on every system (SplitMix64: G. Steele, D. Lea, C. Flood, "Fast
+/// Pseudorandom numbers, the same on every system (SplitMix64: G. Steele, D. Lea, C. Flood, "Fast
 /// splittable pseudorandom number generators", 2014).
 class RandomNumbers {
  public:
@@ -29,7 +29,7 @@ class RandomNumbers {
   double between(double low, double high) {
     return low + (high - low) * (static_cast<double>(bits() >> 11) * 0x1p-53);
   }
-  /// Of either sign, with a size in [2^first, 2^(last + 1)); often a number of few bits.
+  /// Of either sign, with an absolute value in [2^first, 2^(last + 1)); often of few bits.
   double with_exponent(int first, int last) {
     double significand = 1 + static_cast<double>(bits() >> 12) * 0x1p-52;
     const std::uint64_t shape = bits();
@@ -38,13 +38,13 @@ class RandomNumbers {
     if (shape % 8 == 2) significand = 1 + std::floor((significand - 1) * 16) / 16;
     return std::ldexp((shape >> 63) != 0 ? -significand : significand, whole(first, last));
   }
-  /// Any finite double: every exponent is as likely.
+  /// Any finite double; all exponents are equally likely.
   double any_double() {
     const std::uint64_t pattern = bits();
     const double value = std::bit_cast<double>(pattern);
     return std::isfinite(value) ? value : std::bit_cast<double>(pattern & ~(std::uint64_t{1} << 62));
   }
-  /// A sum of two doubles as DoubleDouble promises it: the low part is often 0, near its limit, or far below.
+  /// A normalized DoubleDouble, whose low part is often 0, near its limit, or far below it.
   DoubleDouble double_double(int first, int last) {
     const double hi = with_exponent(first, last);
     const double ulp = std::ldexp(1.0, std::ilogb(hi) - 52);

@@ -9,7 +9,7 @@
 
 namespace pipeline {
 
-// Holds any double, and any sum of two that are no more than 700 binary places apart.
+// Holds any double, and any sum of two that are at most 700 binary places apart.
 using Exact = Real<768>;
 
 inline Exact power_of_ten(int exponent) {
@@ -30,7 +30,7 @@ inline Tie random_tie(RandomNumbers& random, double largest_whole) {
   const int sign = random.bits() % 2 == 0 ? 1 : -1;
   const Exact scale = power_of_ten(decimals);
   const Exact even = round_to_even(Exact(whole) + Exact(0.5));
-  // The quotient is not quite the decimal, but prints as it.
+  // The quotient is rounded, but prints as the decimal.
   return {decimals, Exact(sign) * (Exact(whole) + Exact(0.5)) / scale, Exact(1) / scale,
           (Exact(sign) * even / scale).text(decimals)};
 }

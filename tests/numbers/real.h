@@ -11,9 +11,8 @@
 
 namespace pipeline {
 
-/// A floating-point number of `bits` bits with an exponent that does not end: MPFR's, as a value. What the
-/// tests compare the library with. The digits live in the object itself, so that millions of them cost no
-/// allocation.
+/// MPFR's floating-point number of `bits` bits and unlimited exponent, as a value: the tests' reference. The
+/// digits are stored in the object, so millions of them cost no allocation.
 template <int bits>
 class Real {
  public:
@@ -29,7 +28,7 @@ class Real {
   }
   ~Real() = default;
 
-  /// The nearest number to one of another length.
+  /// The nearest number to one of another precision.
   template <int other_bits>
   static Real nearest(const Real<other_bits>& other) {
     Real result;
@@ -78,7 +77,7 @@ class Real {
   [[nodiscard]] double nearest_double() const { return mpfr_get_d(value_, MPFR_RNDN); }
   [[nodiscard]] long nearest_long() const { return mpfr_get_si(value_, MPFR_RNDN); }
 
-  /// With `decimals` decimals, ties to even, the sign of a negative zero left out.
+  /// With `decimals` decimals, ties to even, without the sign of a negative zero.
   [[nodiscard]] std::string text(int decimals) const {
     char* printed = nullptr;
     mpfr_asprintf(&printed, "%.*RNf", decimals, value_);
@@ -121,7 +120,7 @@ Real<bits> radius(const Ball& ball) {
   return times_power_of_two(Real<bits>(ball.error()), static_cast<long>(ball.exponent()));
 }
 
-/// True if a number lies in the ball that is within `slack` of `truth`.
+/// True if the ball contains a number within `slack` of `truth`.
 template <int bits>
 bool contains(const Ball& ball, const Real<bits>& truth, const Real<bits>& slack) {
   return abs(midpoint<bits>(ball) - truth) <= radius<bits>(ball) + slack;

@@ -14,10 +14,10 @@
 namespace pipeline {
 namespace {
 
-/// What follows the text, and must not become part of it.
+/// Characters after the text, which must not become part of it.
 const std::string kSlack(kDecimalNumberSlack, '7');
 
-/// The length of the number at the beginning of `text`, -1 if it is left to others.
+/// The length of the number at the beginning of `text`, -1 if the general reader has to take it.
 long length_of(const std::string& text, DecimalNumber& number) {
   const std::string with_slack = text + " " + kSlack;
   const char* const end = read_decimal_number(with_slack.data(), number);
@@ -36,7 +36,7 @@ double from_chars(const std::string& text) {
   return value;
 }
 
-/// True if the number is left to others, or is what from_chars makes of it.
+/// True if the number is left to the general reader, or equals the double from_chars gives.
 bool is_right(const std::string& text, bool& was_read) {
   DecimalNumber number;
   const long length = length_of(text, number);
@@ -91,7 +91,7 @@ TEST(DecimalNumber, ZeroMayHaveManyDecimals) {
   }
 }
 
-// 2^53 + 1 lies in the middle between two doubles, and so do quotients that are whole numbers of it.
+// 2^53 + 1 is the midpoint of two doubles; decimals of its digits lie on or next to midpoints, too.
 TEST(DecimalNumber, TiesAreRoundedLikeAnyOther) {
   for (const char* text : {"9007199.254740993", "900719.9254740993", "0.9007199254740993",
                            "4503599.62737049650", "1.50000000000000011102", "1.00000000000000011102",
@@ -101,7 +101,7 @@ TEST(DecimalNumber, TiesAreRoundedLikeAnyOther) {
   }
 }
 
-// Long: every count of digits before and behind the point, 10^8 numbers.
+// Long: every count of digits before and after the point, 10^8 numbers.
 TEST(DecimalNumberLong, ReadsWhatFromCharsReads) {
   RandomNumbers random(3);
   std::int64_t read_count = 0;
@@ -159,7 +159,7 @@ TEST(DecimalLine, AnyOtherIsLeftToTheGeneralReader) {
   }
 }
 
-// The slack goes on with what would complete the line.
+// The slack continues with text that would complete the line.
 TEST(DecimalLine, DoesNotReadOnBehindTheEnd) {
   const std::string text = "1 2 34\n";
   for (std::size_t length = 0; length < text.size(); ++length) {

@@ -43,7 +43,7 @@ TEST(FixedDepths, ZeroCarriesNoSign) {
 }
 
 TEST(FixedDepths, StopBeforeWhatTheyCannotPrint) {
-  // Exact ties (2^-7 has seven decimals), ten digits, no numbers.
+  // Exact ties (2^-7 has seven decimals), ten digits, infinity.
   for (const double depth : {0.0078125, -0.0234375, 1e9, -1e22, -HUGE_VAL}) {
     std::size_t count = 0;
     EXPECT_EQ(written({0.5, depth, 0.5}, kFar, count), "0.500000\t") << depth;
@@ -51,7 +51,8 @@ TEST(FixedDepths, StopBeforeWhatTheyCannotPrint) {
   }
 }
 
-/// Random depths, many of them next to ties, against the general printer. Says how many the fast one printed.
+/// Compares random depths, many of them next to ties, with the general printer. Returns how many the fast
+/// path printed.
 int print_random(int depth_count, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   std::uniform_real_distribution<double> unit(-1, 1);

@@ -14,7 +14,7 @@
 namespace pipeline {
 namespace {
 
-/// Every claim is made of every kernel that this processor can run.
+/// Every claim is tested with every kernel that this processor can run.
 class FixedText : public testing::TestWithParam<FixedTextKernel> {
  protected:
   /// Reads from a copy that is followed by digits, which must not become part of the last number.
@@ -99,7 +99,7 @@ TEST_P(FixedText, StopsWhenThereIsNoRoom) {
 }
 
 TEST_P(FixedText, EveryOneOfItsBytesMatters) {
-  // Whatever byte is put in place of another: read as what it says now, or left to the general reader.
+  // A triangle with one byte replaced is read only if a digit replaced a digit.
   for (std::size_t i = 0; i < kUnit.size(); ++i) {
     for (int byte = 0; byte < 256; ++byte) {
       std::string text = kUnit;
@@ -158,7 +158,7 @@ TEST_P(FixedText, StopsBeforeATriangleOfASceneThatIsNotThereAsAWhole) {
   }
 }
 
-/// A decimal of up to eight digits before the point and seven behind it.
+/// A decimal of up to eight digits before the point and seven after it.
 std::string random_word(std::mt19937_64& random) {
   const std::uint64_t units = random() % 1'000'000'000'000'000 >> (random() % 50);
   std::string decimals = std::to_string(units % 10'000'000);
@@ -211,7 +211,7 @@ TEST_P(FixedText, PrintsUpToEightDigitsBeforeThePoint) {
 }
 
 TEST_P(FixedText, LeavesToTheGeneralPrinterWhatItCannotPrint) {
-  // Nine digits, a carry into the ninth, exact ties at the eighth decimal, no numbers at all.
+  // Nine digits, a carry into the ninth, exact ties at the eighth decimal, infinities and NaN.
   for (const double value :
        {1e8, 99999999.99999999, 0.00390625, -1.01171875, 1e300, HUGE_VAL, std::nan("")}) {
     std::size_t count = 1;
@@ -248,7 +248,7 @@ TEST_P(FixedText, PrintsWhatLiesBesideATieOrLeavesIt) {
   EXPECT_GT(printed_count, 20000);
 }
 
-// Where digits join or leave: powers of ten, what is one unit beside them, and those of two up to 2^53.
+// Where the count of digits changes: powers of ten, one unit beside them, and powers of two up to 2^53.
 TEST_P(FixedText, PrintsPowersAndTheirNeighborsOrLeavesThem) {
   std::vector<double> values;
   for (int exponent = -9; exponent <= 9; ++exponent) values.push_back(std::pow(10.0, exponent));

@@ -23,7 +23,7 @@ std::string printed(double hi, double lo, NumberFormat format) {
   return {text, print_number(text, hi, lo, format)};
 }
 
-/// What the C library prints, which is exact; the sign of a zero left out.
+/// The C library's text, which is exact, without the sign of a zero.
 std::string printed_by_c(double value, int decimals) {
   char text[400];
   std::snprintf(text, sizeof text, "%.*f", decimals, value);
@@ -41,7 +41,7 @@ TEST(PrintNumber, AgreesWithTheCLibraryForAnyDoubleAndAnyDecimals) {
   }
 }
 
-// Numbers of the size that coordinates have, many of them a few digits long: near and on ties.
+// Numbers of the magnitude of coordinates, many of them of few digits: near and on ties.
 TEST(PrintNumberLong, AgreesWithToCharsForEveryCountOfDecimals) {
   RandomNumbers random(5);
   char expected[kMaxNumberLength];
@@ -142,7 +142,7 @@ TEST(PrintNumber, ShortestNumbersAreThoseOfToCharsNearPowersOfTen) {
     }
 }
 
-// Numbers of many digits and of few, of every size that coordinates have.
+// Numbers of many digits and of few, of every magnitude of coordinates.
 TEST(PrintNumberLong, ShortestNumbersAreThoseOfToChars) {
   RandomNumbers random(6);
   for (int i = 0; i < 100'000'000; ++i) {

@@ -164,7 +164,7 @@ TEST(RoundToShortest, ATieWithinTheErrorCountsAsTheTie) {
 }
 
 TEST(RoundToShortest, ATieBetweenSubnormalNumbersCountsAsTheTie) {
-  // 2.5 and 3.5 times the smallest double, and what is known to within 2^-90 of it.
+  // 2.5 and 3.5 times the smallest double, which is known within 2^-90 of itself.
   const Ball unit = Ball(0x1p-1074) * Ball::with_error({1, 0}, 0x1p-90);
   EXPECT_EQ(round_to_text(unit * Ball(2.5), {.shortest = true}).hi, 2 * 0x1p-1074);
   EXPECT_EQ(round_to_text(unit * Ball(3.5), {.shortest = true}).hi, 4 * 0x1p-1074);

@@ -35,7 +35,7 @@ mode_t mode_of(const std::string& path) {
   return ::lstat(path.c_str(), &status) == 0 ? status.st_mode & 07777 : 0;
 }
 
-/// Sets the umask for a test.
+/// Sets the umask during a test.
 class Umask {
  public:
   explicit Umask(mode_t mask) : before_(::umask(mask)) {}
@@ -79,7 +79,7 @@ TEST(OutputFile, WithoutCommitThereIsNoFileAlsoAfterClose) {
   EXPECT_EQ(folder.file_count(), 0u);
 }
 
-/// True where files may be without a name until they are complete.
+/// True where the system supports files without a name.
 bool has_unnamed_files(const TemporaryFolder& folder) {
   const int descriptor = ::open(folder.path("").c_str(), O_WRONLY | O_TMPFILE | O_CLOEXEC, 0600);
   if (descriptor >= 0) ::close(descriptor);

@@ -21,7 +21,7 @@
 namespace pipeline {
 namespace {
 
-/// The sizes of the blocks in which `use` writes. A packet socket keeps the borders of the writes.
+/// The sizes of the blocks in which `use` writes. A packet socket keeps the boundaries of writes.
 template <typename Use>
 std::vector<std::size_t> block_sizes_of(Use&& use) {
   int ends[2];
@@ -137,7 +137,7 @@ TEST(TextWriter, WaitsUntilABlockIsFull) {
     for (int i = 0; i < 65536; ++i) writer.append("0.1234567\n");
     writer.flush();
   });
-  EXPECT_LE(sizes.size(), 21u);  // 655360 bytes are 10 blocks; each may leave a little for the next write
+  EXPECT_LE(sizes.size(), 21u);  // 655360 bytes are 10 blocks; each may leave a few bytes for the next write
 }
 
 TEST(TextWriter, KeepsLongTextsInTheirOrder) {
@@ -165,7 +165,7 @@ TEST(TextWriter, CountsTheBytesItHasWritten) {
 }
 
 TEST(TextWriter, GoesOnAfterShortAndInterruptedWrites) {
-  // Signals that nobody restarts after interrupt a write to a full pipe, before its first byte or behind it.
+  // Signals without SA_RESTART interrupt a write to a full pipe before or after its first byte.
   int ends[2];
   ASSERT_EQ(::pipe2(ends, O_CLOEXEC), 0);
   ::fcntl(ends[1], F_SETPIPE_SZ, 4096);
