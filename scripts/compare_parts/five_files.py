@@ -1,14 +1,17 @@
 """A student's five files against ours: every stage is fed what the student's own stage before it wrote, so that one mistake
 counts once."""
 import dataclasses
+import os
 import pathlib
 import tempfile
 
 from compare_parts.differences import compare_pictures, compare_stage_texts, compare_z_buffers, same_in_other_colors
-from compare_parts.mistakes import Suspects, hint_of_rounding, hints_from_numbers, hints_from_scene
-from lib.pictures import PictureError, read_picture
+from compare_parts.mistakes import Suspects, hint_of_rounding, hints_but_for_the_eye, hints_from_numbers, hints_from_scene
+from lib.command import shown
+from lib.input_file import InputError, name_of, read_input
+from lib.pictures import PictureError, picture_of, read_picture
 from lib.pipe_tools import ToolFailure
-from lib.stage_text import StageTextError, parse_stage_text
+from lib.stage_text import StageTextError, parse_stage_text, real, text_of
 
 # Numbers of 7 decimals that were calculated from numbers of 7 decimals; depths have 6.
 COORDINATE_TOLERANCE = 1e-6
@@ -30,17 +33,24 @@ class Judgment:
         return self.verdict == "right"
 
 
-def read_z_buffer(path):
+def parse_z_buffer(text, path):
     """Rows of depths, one a line."""
     rows = []
-    for number, line in enumerate(pathlib.Path(path).read_text(errors="replace").split("\n"), 1):
+    for number, line in enumerate(text.split("\n"), 1):
         try:
-            rows.append([float(word) for word in line.split()])
+            rows.append([real(word) for word in line.split()])
         except ValueError:
-            raise StageTextError(f"{path}:{number}: expected depths, found '{line.strip()[:40]}'") from None
+            raise StageTextError(f"{name_of(path)}:{number}: expected depths, found '{shown(line.strip()[:40])}'") from None
     while rows and not rows[-1]:  # empty rows at the end tell nothing
         rows.pop()
     return rows
+
+
+def unreadable(tool, name, error):
+    """The Judgment of a file for which there is an InputError, StageTextError or PictureError."""
+    if isinstance(error, InputError):
+        return Judgment(tool, name, "missing" if error.is_missing else "unreadable", error.reason)
+    return Judgment(tool, name, "unreadable", str(error))
 
 
 def stage_text_of(points):
@@ -51,7 +61,8 @@ def stage_text_of(points):
 class FiveFiles:
     def __init__(self, tools, folder, scene, config, tolerance=None):
         self.tools, self.scene, self.config = tools, scene, config
-        self.folder = pathlib.Path(folder)
+        self.folder = folder
+        self.contents = {}  # of the student's files, as they are asked for
         self.suspects = Suspects(tools, scene)
         self.tolerance = COORDINATE_TOLERANCE if tolerance is None else tolerance
         self.depth_tolerance = max(DEPTH_TOLERANCE, self.tolerance)
@@ -67,14 +78,26 @@ class FiveFiles:
         yield self.stage("model", 1, [lambda: text1])
         yield self.stage("view", 2, [lambda: self.ours("view", given1), lambda: text2], given1)
         yield self.stage("project", 3, [lambda: self.ours("project", given2), lambda: self.without_clipping(given2), lambda: text3], given2)
-        yield from self.pixels(given3)
+        try:
+            drawn = list(self.pixels(given3))
+        except ToolFailure:  # theirs is no text for zbuf, though its numbers can be compared
+            drawn = list(self.pixels(text3))
+        yield from drawn
+
+    def data(self, name):
+        """The bytes of the student's file, read once. No pipe is waited for."""
+        if name not in self.contents:
+            self.contents[name] = read_input(os.path.join(self.folder, name), only_regular=True)
+        return self.contents[name]
+
+    def stage_text(self, name):
+        return parse_stage_text(text_of(self.data(name), name), name)
 
     def given(self, name, instead):
         """What the student's file says; ours, where there is none that can be read."""
         try:
-            data = (self.folder / name).read_bytes()
-            return data if parse_stage_text(data.decode(errors="replace"), name).triangles else instead
-        except (OSError, StageTextError):
+            return self.data(name) if self.stage_text(name).triangles else instead
+        except (InputError, StageTextError):
             return instead
 
     def ours(self, tool, text, *words):
@@ -86,7 +109,7 @@ class FiveFiles:
         after: x / w and y / w are the same, and z / w, an A + B / z, is told from the A + B / -z of the other.
         """
         near, far = map(float, (self.suspects.camera.get("perspective") or self.suspects.camera["frustum"])[-2:])
-        points = parse_stage_text(text.decode(errors="replace"), "").points
+        points = parse_stage_text(text_of(text, ""), "").points
         turned = [tuple(-x for x in p) if p[2] > 0 else p for p in points]
         done = parse_stage_text(self.ours("project", stage_text_of(turned), "--clip", "none").decode(), "").points
         twice_a = 2 * (far + near) / (far - near)
@@ -103,11 +126,9 @@ class FiveFiles:
     def stage(self, tool, number, makers, previous=b""):
         name = f"stage{number}.txt"
         try:
-            theirs = parse_stage_text((self.folder / name).read_text(errors="replace"), name)
-        except OSError as error:
-            return Judgment(tool, name, "missing", error.strerror)
-        except StageTextError as error:
-            return Judgment(tool, name, "unreadable", str(error))
+            theirs = self.stage_text(name)
+        except (InputError, StageTextError) as error:
+            return unreadable(tool, name, error)
         candidates = list(self.candidates(makers))
         compared = [compare_stage_texts(theirs, ours, self.tolerance, is_relative=True) for ours in candidates]
         for differences in compared:
@@ -117,7 +138,8 @@ class FiveFiles:
         for ours, differences in zip(candidates, compared):
             if len(theirs.points) == len(ours.points):
                 hints = hints_from_scene(self.suspects, number, theirs.points, ours.points, previous)
-                return Judgment(tool, name, "wrong", "", differences, hints or hints_from_numbers(theirs.points, ours.points))
+                hints = hints or hints_from_numbers(theirs.points, ours.points)
+                return Judgment(tool, name, "wrong", "", differences, hints if tool == "view" else hints_but_for_the_eye(hints))
         return Judgment(tool, name, "wrong", "", compared[0])
 
     def pixels(self, stage3):
@@ -130,21 +152,18 @@ class FiveFiles:
     def z_buffer(self, ours):
         name = "z_buffer.txt"
         try:
-            differences = compare_z_buffers(read_z_buffer(self.folder / name), read_z_buffer(ours), self.depth_tolerance, is_relative=True)
-        except OSError as error:
-            return Judgment("zbuf", name, "missing", error.strerror)
-        except StageTextError as error:
-            return Judgment("zbuf", name, "unreadable", str(error))
+            theirs, ours = (parse_z_buffer(text_of(data, name), name) for data in (self.data(name), ours.read_bytes()))
+        except (InputError, StageTextError) as error:
+            return unreadable("zbuf", name, error)
+        differences = compare_z_buffers(theirs, ours, self.depth_tolerance, is_relative=True)
         return Judgment("zbuf", name, "wrong" if differences.found else "right", "", differences)
 
     def picture(self, ours):
         name = "out.bmp"
         try:
-            theirs, ours = read_picture(self.folder / name), read_picture(ours)
-        except OSError as error:
-            return Judgment("zbuf", name, "missing", error.strerror)
-        except PictureError as error:
-            return Judgment("zbuf", name, "unreadable", str(error))
+            theirs, ours = picture_of(self.data(name), name), read_picture(ours)
+        except (InputError, PictureError) as error:
+            return unreadable("zbuf", name, error)
         differences, _ = compare_pictures(theirs, ours, 0)
         if not differences.found:
             return Judgment("zbuf", name, "right", "", differences)

@@ -6,6 +6,8 @@ what the mistake would give (`hints_from_scene`), so that no second pipeline hid
 import math
 
 from compare_parts.differences import exceeds
+from lib.input_file import read_input
+from lib.pipe_tools import ToolFailure
 from lib.stage_text import parse_stage_text
 from lib.vectors import axes
 
@@ -15,6 +17,10 @@ SWAPPED = "rows and columns of the rotation are swapped (the matrix is the trans
 UP_AS_GIVEN = "up is used as it is given, not made perpendicular to the line of sight (u = r x l)"
 RADIANS = "degrees are taken for radians"
 NO_DIVIDE = "the divide by w is missing"
+FLIPPED = "handedness is flipped: {} has the opposite sign everywhere"
+EYE_ADDED = "the eye is added instead of subtracted"
+FLIPPED_OR_ADDED = "z has the opposite sign everywhere: handedness is flipped, or " + EYE_ADDED
+ARITHMETIC_ERRORS = (OverflowError, ValueError, ZeroDivisionError)  # numbers of which no hint can be calculated
 ROUNDING = "all differences are of one unit in the last decimal: rounding"
 
 
@@ -50,7 +56,8 @@ def hint_of_handedness(theirs, ours):
     for axis in range(3):
         flipped = [tuple(-x if i == axis else x for i, x in enumerate(p)) for p in ours]
         if flipped != ours and is_close(theirs, flipped):
-            return f"handedness is flipped: {'xyz'[axis]} has the opposite sign everywhere"
+            # An eye that is added moves all points the same way, which flips z only if all have the same.
+            return FLIPPED_OR_ADDED if axis == 2 and is_close(ours, [(x, y, ours[0][2]) for x, y, _ in ours]) else FLIPPED.format("xyz"[axis])
     return None
 
 
@@ -97,10 +104,18 @@ def hints_from_numbers(theirs, ours):
     if len(theirs) != len(ours) or not ours:
         return []
     for hint_of in (hint_of_rounding, hint_of_handedness, hint_of_window, hint_of_up, hint_of_divide):
-        hint = hint_of(theirs, ours)
+        try:
+            hint = hint_of(theirs, ours)
+        except ARITHMETIC_ERRORS:
+            continue
         if hint:
             return [hint]
     return []
+
+
+def hints_but_for_the_eye(hints):
+    """Hints of a stage in which no eye is added or subtracted."""
+    return [FLIPPED.format("z") if hint == FLIPPED_OR_ADDED else hint for hint in hints]
 
 
 def with_angles(scene, changed):
@@ -125,8 +140,7 @@ class Suspects:
     def __init__(self, tools, scene_path):
         self.tools = tools
         self.path = scene_path
-        with open(scene_path, encoding="utf-8", errors="replace") as file:
-            self.scene = file.read()
+        self.scene = read_input(scene_path).decode("utf-8-sig", errors="replace")
         self.camera = parse_stage_text(tools.output("model", scene_path).decode(), "model").header
 
     def points(self, tool, *words, stdin):
@@ -144,6 +158,13 @@ class Suspects:
         _, column_y, column_z = zip(r, u, back)
         words = ["--eye", *eye, "--look", *(e - c for e, c in zip(eye, column_z)), "--up", *column_y]
         yield SWAPPED, self.points("view", "--bare", *map(repr_of, words), stdin=stage1)
+        yield EYE_ADDED, self.with_eye_added(stage1)
+
+    def with_eye_added(self, stage1):
+        """The same axes, seen from the eye's mirror image in the origin."""
+        eye, look = (tuple(map(float, self.camera[name])) for name in ("eye", "look"))
+        words = ["--eye", *(-e for e in eye), "--look", *(x - 2 * e for x, e in zip(look, eye)), "--up", *self.camera["up"]]
+        return self.points("view", "--bare", *map(repr_of, words), stdin=stage1)
 
     def of_window(self, theirs, ours):
         """Degrees for radians in the field of view."""
@@ -164,11 +185,19 @@ def repr_of(word):
 
 def hints_from_scene(suspects, stage, theirs, ours, previous=b""):
     """At most one hint for stage 1, 2 or 3 of a scene; `previous` is the text the stage read."""
+    try:
+        hint = hint_from_scene(suspects, stage, theirs, ours, previous)
+    except (ToolFailure, *ARITHMETIC_ERRORS):  # a text or a camera that the tools refuse
+        return []
+    return [hint] if hint else []
+
+
+def hint_from_scene(suspects, stage, theirs, ours, previous):
     if stage == 3:
-        hint = suspects.of_window(theirs, ours)
-        return [hint] if hint else []
+        return suspects.of_window(theirs, ours)
+    is_flipped = stage == 2 and hint_of_handedness(theirs, ours) == FLIPPED_OR_ADDED
     drawn = suspects.of_model() if stage == 1 else suspects.of_view(previous)
     for hint, points in drawn:
         if points != ours and is_close(theirs, points) and not is_close(ours, points):
-            return [hint]
-    return []
+            return FLIPPED_OR_ADDED if is_flipped and hint == EYE_ADDED else hint
+    return FLIPPED.format("z") if is_flipped else None

@@ -1,19 +1,40 @@
 """Pictures in files: BMP, PPM and PNG of 8 bits a channel read, PNG written. A picture is a width, a height and rows of
 RGB bytes, top first."""
+import itertools
+import re
 import struct
 import zlib
 
+from lib.command import CommandFailure
+from lib.input_file import name_of, read_input
 
-class PictureError(Exception):
+MAX_PNG_PIXELS = 1 << 25  # a PNG of a few KB may claim millions, and every byte that is filtered costs Python's time
+PPM_HEADER = re.compile(rb"P6" + rb"(?:\s|#[^\n]*\n)+(\d{1,9})" * 3 + rb"\s")
+MAX_PPM_HEADER = 4096
+
+
+class PictureError(CommandFailure):
     """Not a picture that can be read."""
 
 
+def checked_size(width, height, row_bytes, pixel_bytes):
+    """Raises a PictureError if the header cannot be true. `row_bytes` lie between two rows, `pixel_bytes` are there."""
+    if width <= 0 or height <= 0:
+        raise PictureError(f"expected a width and a height of at least 1, found {width} x {height}")
+    needed = (height - 1) * row_bytes + 3 * width
+    if needed > pixel_bytes:
+        raise PictureError(f"expected {needed} bytes of {width} x {height} pixels, found {max(0, pixel_bytes)}")
+
+
 def read_bmp(data):
-    offset, = struct.unpack_from("<I", data, 10)
-    width, height, _, bits = struct.unpack_from("<iiHH", data, 18)
-    if bits != 24:
-        raise PictureError(f"expected a BMP of 24 bits a pixel, found {bits}")
+    offset, header_size = struct.unpack_from("<I", data, 10)[0], struct.unpack_from("<I", data, 14)[0]
+    if header_size < 40 or offset < 14 + header_size:
+        raise PictureError("expected a BMP with a header of 54 bytes or more, and the pixels behind it")
+    width, height, _, bits, compression = struct.unpack_from("<iiHHI", data, 18)
+    if bits != 24 or compression != 0:
+        raise PictureError(f"expected a BMP of 24 bits a pixel, not compressed, found {bits}{' and compressed' if compression else ''}")
     stride = (3 * width + 3) // 4 * 4
+    checked_size(width, abs(height), stride, len(data) - offset)
     rows = []
     for y in range(abs(height)):
         row = bytearray(data[offset + y * stride:offset + y * stride + 3 * width])
@@ -23,55 +44,79 @@ def read_bmp(data):
 
 
 def read_ppm(data):
-    words, at = [], 0
-    while len(words) < 4:
-        while data[at:at + 1].isspace():
-            at += 1
-        if data[at:at + 1] == b"#":
-            at = data.index(b"\n", at)
-            continue
-        end = at
-        while end < len(data) and not data[end:end + 1].isspace():
-            end += 1
-        words.append(data[at:end])
-        at = end
-    width, height, largest = map(int, words[1:])
+    header = PPM_HEADER.match(data[:MAX_PPM_HEADER])
+    if not header:
+        raise PictureError("expected width, height and the largest value behind P6")
+    width, height, largest = map(int, header.groups())
     if largest != 255:
         raise PictureError(f"expected a PPM of 8 bits a channel, found a largest value of {largest}")
-    pixels = data[at + 1:]
-    return width, height, [pixels[3 * width * y:3 * width * (y + 1)] for y in range(height)]
+    checked_size(width, height, 3 * width, len(data) - header.end())
+    begins = range(header.end(), header.end() + 3 * width * height, 3 * width)
+    return width, height, [data[begin:begin + 3 * width] for begin in begins]
+
+
+def paeth(row, above):
+    """A row, each byte of which was stored as its distance to the one of left, above and above left that is nearest to
+    left + above - above left."""
+    out = bytearray(3) + row  # of a pixel that is 0, on the left
+    above = bytes(3) + above
+    for i in range(3, len(out)):
+        a, b, c = out[i - 3], above[i], above[i - 3]
+        to_a, to_b, to_c = abs(b - c), abs(a - c), abs(a + b - 2 * c)
+        out[i] = (out[i] + (a if to_a <= to_b and to_a <= to_c else b if to_b <= to_c else c)) & 255
+    return bytes(out[3:])
 
 
 def unfiltered(kind, row, above):
     """A row of a PNG of three bytes a pixel without its filter."""
-    out = bytearray(row)
-    for i, value in enumerate(row):
-        a, b, c = (out[i - 3] if i >= 3 else 0), above[i], (above[i - 3] if i >= 3 else 0)
-        if kind == 4:  # the one of a, b and c that is nearest to a + b - c
-            guess = min((a, b, c), key=lambda x: abs(a + b - c - x))
+    if kind == 0:
+        return row
+    if kind == 2:
+        return bytes((x + b) & 255 for x, b in zip(row, above))
+    if kind == 4:
+        return paeth(row, above)
+    if kind not in (1, 3):
+        raise PictureError(f"expected a filter from 0 to 4, found {kind}")
+    out = bytearray(len(row))
+    for channel in range(3):
+        if kind == 1:
+            sums = itertools.accumulate(row[channel::3], lambda a, x: (a + x) & 255)
         else:
-            guess = (0, a, b, (a + b) // 2)[kind]
-        out[i] = (value + guess) & 255
+            sums = itertools.accumulate(zip(row[channel::3], above[channel::3]), lambda a, x: (x[0] + (a + x[1]) // 2) & 255, initial=0)
+            next(sums)
+        out[channel::3] = bytes(sums)
     return bytes(out)
 
 
-def read_png(data):
-    at, body = 8, b""
-    while at < len(data):
+def png_chunks(data):
+    """Pairs of a kind and a body."""
+    at = 8
+    while at + 8 <= len(data):
         size, kind = struct.unpack_from(">I4s", data, at)
-        chunk = data[at + 8:at + 8 + size]
-        if kind == b"IHDR":
-            width, height, bits, colors, _, _, interlaced = struct.unpack(">IIBBBBB", chunk)
-            if (bits, colors, interlaced) != (8, 2, 0):
-                raise PictureError("expected a PNG of 8 bits RGB without interlacing")
-        elif kind == b"IDAT":
-            body += chunk
+        yield kind, data[at + 8:at + 8 + size]
         at += 12 + size
-    pixels, stride = zlib.decompress(body), 3 * width + 1
+
+
+def read_png(data):
+    header, bodies = None, []
+    for kind, body in png_chunks(data):
+        if kind == b"IHDR":
+            header = struct.unpack(">IIBBBBB", body)
+        elif kind == b"IDAT":
+            bodies.append(body)
+    if header is None:
+        raise PictureError("expected a PNG with a header, found none")
+    width, height, bits, colors, _, _, interlaced = header
+    if (bits, colors, interlaced) != (8, 2, 0):
+        raise PictureError("expected a PNG of 8 bits RGB without interlacing")
+    if width * height > MAX_PNG_PIXELS:
+        raise PictureError(f"expected a PNG of at most {MAX_PNG_PIXELS} pixels, found {width} x {height}")
+    stride = 3 * width + 1
+    pixels = zlib.decompressobj().decompress(b"".join(bodies), max(1, stride * height))
+    checked_size(width, height, stride, len(pixels) - 1)
     rows = [bytes(3 * width)]
     for y in range(height):
-        line = pixels[y * stride:(y + 1) * stride]
-        rows.append(unfiltered(line[0], line[1:], rows[-1]) if line[0] else line[1:])
+        rows.append(unfiltered(pixels[y * stride], pixels[y * stride + 1:(y + 1) * stride], rows[-1]))
     return width, height, rows[1:]
 
 
@@ -82,21 +127,21 @@ def is_picture(data):
     return data[:2] in READERS
 
 
-def read_picture(path):
-    """The picture in a file, whatever its name."""
-    with open(path, "rb") as file:
-        data = file.read()
+def picture_of(data, path):
+    """The picture in the bytes of a file, whatever its name."""
     if not is_picture(data):
-        raise PictureError(f"{path}: expected a BMP, PPM or PNG")
+        raise PictureError(f"{name_of(path)}: expected a BMP, PPM or PNG")
     try:
-        width, height, rows = READERS[data[:2]](data)
-    except (ValueError, IndexError, struct.error, zlib.error, UnboundLocalError) as error:
-        raise PictureError(f"{path}: not a whole picture ({error})") from error
+        return READERS[data[:2]](data)
+    except (struct.error, zlib.error) as error:
+        raise PictureError(f"{name_of(path)}: not a whole picture ({error})") from None
     except PictureError as error:
-        raise PictureError(f"{path}: {error}") from error
-    if len(rows) != height or any(len(row) != 3 * width for row in rows):
-        raise PictureError(f"{path}: not a whole picture")
-    return width, height, rows
+        raise PictureError(f"{name_of(path)}: {error}") from None
+
+
+def read_picture(path):
+    """The picture in a file."""
+    return picture_of(read_input(path), path)
 
 
 def png(width, height, rows):

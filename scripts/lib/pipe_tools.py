@@ -4,10 +4,12 @@ import pathlib
 import re
 import subprocess
 
+from lib.command import CommandFailure
+
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 
 
-class ToolFailure(Exception):
+class ToolFailure(CommandFailure):
     """A tool ended with another status than 0; the text is what it said."""
 
 
@@ -15,7 +17,8 @@ class Tools:
     """The tools of a folder, by default $BIN, else build/release/bin of this source tree."""
 
     def __init__(self, folder=None):
-        self.folder = pathlib.Path(folder or os.environ.get("BIN") or SOURCE / "build/release/bin")
+        # Absolute, since a bare name would be looked up on the PATH, where `view` is an editor.
+        self.folder = pathlib.Path(folder or os.environ.get("BIN") or SOURCE / "build/release/bin").absolute()
         if not os.access(self.folder / "zbuf", os.X_OK):
             raise ToolFailure(f"no tools in {self.folder}: build them (scripts/demo does), or set BIN")
 

@@ -1,9 +1,21 @@
 """Stage text as numbers, each with the line it stands on."""
+import codecs
 import dataclasses
+import itertools
 import math
+import re
+
+from lib.command import CommandFailure, shown
+from lib.input_file import name_of
+
+# What begins a line of a scene but not of a stage text, where the word triangle is followed by one number.
+SCENE_COMMAND = re.compile(r"^[ \t]*(?:(?:translate|scale|rotate|push|pop)\b|triangle[ \t\r]*(?:#|$)|triangle[ \t]+[^\s#]+[ \t]+[^\s#])", re.M)
+KEYWORD = re.compile("[A-Za-z]")
+NUMBER = re.compile(r"[-+]?\.?[0-9]")
+NO_KEYWORDS = ("nan", "inf", "infinity")
 
 
-class StageTextError(Exception):
+class StageTextError(CommandFailure):
     """Not a stage text; the message says where."""
 
 
@@ -28,25 +40,67 @@ class StageText:
         return [vertex.numbers[:3] for vertex in self.vertices]
 
 
+def text_of(data, path):
+    """The bytes of a file as text. What is not UTF-8 does no harm in a comment, and is no number elsewhere."""
+    if data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)) or is_utf16(data):
+        raise StageTextError(f"{name_of(path)}: this is UTF-16: save it as UTF-8")
+    if b"\0" in data:
+        raise StageTextError(f"{name_of(path)}: this is neither a text nor a BMP, PPM or PNG")
+    return data.decode("utf-8-sig", errors="surrogateescape")
+
+
+def is_utf16(data):
+    """Whether every other byte is 0, as in UTF-16 of plain letters and numbers without a mark at the beginning."""
+    even, odd = data[:1000:2], data[1:1000:2]
+    return any(b"\0" not in letters and len(zeros) > 0 and not any(zeros) for letters, zeros in ((even, odd), (odd, even)))
+
+
+def is_scene(text):
+    return SCENE_COMMAND.search(text) is not None
+
+
+def begins_with_a_camera(text):
+    """Whether the first four lines are those of a scene, of which one without commands consists."""
+    lines = (line.split("#")[0].split() for line in text.split("\n"))
+    first = list(itertools.islice((words for words in lines if words), 4))
+    if [len(words) for words in first[:3]] != [3, 3, 3] or len(first) < 4:
+        return False
+    last = first[3]
+    return last[0] in ("perspective", "ortho", "frustum") or len(last) > 3 and all(NUMBER.match(word) for word in last[:4])
+
+
+def parse_stage_text(text, path):
+    """The StageText of a str; `path` is its file in messages."""
+    scene = StageTextError(f"{name_of(path)}: this is a scene, not a stage text: run model on it")
+    if is_scene(text):
+        raise scene
+    try:
+        return parsed(text, name_of(path))
+    except StageTextError:
+        if begins_with_a_camera(text):
+            raise scene from None
+        raise
+
+
 def real(word):
+    """The number that a word is for the tools, too: decimal and finite."""
     value = float(word)
-    if not math.isfinite(value):
+    if not (math.isfinite(value) and word.isascii() and "_" not in word):
         raise ValueError
     return value
 
 
-def parse_stage_text(text, file):
-    """The StageText of a str; `file` is its name in messages."""
+def parsed(text, name):
     header, vertices, names, next_name, passed_over = {}, [], [], 0, 0
     for number, line in enumerate(text.split("\n"), 1):
         words = line.split("#")[0].split()
         if not words or words[0] in ("framed", "end"):
             continue
         if words[0] == "error":
-            raise StageTextError(f"{file}:{number}: {' '.join(words[1:])}")
-        if words[0][0].isalpha() and words[0].lower() not in ("nan", "inf"):
+            raise StageTextError(f"{name}:{number}: {shown(' '.join(words[1:]))}")
+        if KEYWORD.match(words[0]) and words[0].lower() not in NO_KEYWORDS:
             if words[0] == "triangle":
-                next_name = int(words[1])
+                next_name = triangle_number(" ".join(words[1:]), f"{name}:{number}")
             elif words[0] == "clipped":  # the whole triangle in clip space; its pieces follow
                 passed_over = 3
             else:
@@ -58,13 +112,19 @@ def parse_stage_text(text, file):
         try:
             numbers = tuple(real(word) for word in words)
         except ValueError:
-            raise StageTextError(f"{file}:{number}: expected numbers, found '{line.strip()[:40]}'") from None
+            raise StageTextError(f"{name}:{number}: expected numbers, found '{shown(line.strip()[:40])}'") from None
         if len(numbers) < 3:
-            raise StageTextError(f"{file}:{number}: expected x, y and z, found {len(numbers)} numbers")
+            raise StageTextError(f"{name}:{number}: expected x, y and z, found {len(numbers)} numbers")
         if len(vertices) % 3 == 0:
             names.append(next_name)
             next_name += 1
         vertices.append(Vertex(number, numbers))
     if len(vertices) % 3:
-        raise StageTextError(f"{file}: expected three vertices a triangle, found {len(vertices)} in all")
+        raise StageTextError(f"{name}: expected three vertices a triangle, found {len(vertices)} in all")
     return StageText(header, [vertices[i:i + 3] for i in range(0, len(vertices), 3)], names)
+
+
+def triangle_number(word, place):
+    if not re.fullmatch("[0-9]{1,20}", word):
+        raise StageTextError(f"{place}: expected a triangle's number, found '{shown(word[:40])}'")
+    return int(word)

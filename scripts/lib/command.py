@@ -1,0 +1,114 @@
+"""How a command ends: with a status and one line on stderr, or quietly by the signal that stopped it; never with a traceback
+that the user's files or the user's shell brought about."""
+import io
+import os
+import signal
+import sys
+import traceback
+
+
+class CommandFailure(Exception):
+    """The command cannot do what it was asked; the text is a sentence for the user, without the command's name."""
+
+
+class Ended(BaseException):
+    """A signal asks the command to end."""
+
+    def __init__(self, signal_number):
+        super().__init__(signal_number)
+        self.signal_number = signal_number
+
+
+def shown(name):
+    """A file's name, or a piece of a file, as it can stand in a line: what is not printable is escaped."""
+    characters = []
+    for c in os.fspath(name):
+        if c.isprintable():
+            characters.append(c)
+        else:  # a byte that is not UTF-8 has been read as one of 128 surrogates
+            characters.append(f"\\x{ord(c) - 0xdc00:02x}" if "\udc80" <= c <= "\udcff" else c.encode("unicode_escape").decode())
+    return "".join(characters)
+
+
+def run_command(main, name, failure_status=1):
+    """Runs `main`, prints what went wrong, and ends the process with the status that `main` returns (None is 0), or with
+    `failure_status`. What `main` printed has reached stdout by then, or that is the failure."""
+    prepare()
+    try:
+        status = status_of(main, name, failure_status)
+    except Ended as end:
+        end_by(end.signal_number)
+    except KeyboardInterrupt:
+        end_by(signal.SIGINT)
+    except BrokenPipeError:
+        end_by(signal.SIGPIPE)
+    silence_stdout()
+    sys.exit(status)
+
+
+class Stdout(io.FileIO):
+    """Descriptor 1, which says what failed when it does."""
+
+    def write(self, data):
+        try:
+            return super().write(data)
+        except BrokenPipeError:  # who reads a pipe may leave
+            raise
+        except OSError as error:
+            raise CommandFailure(f"cannot write <stdout>: {error.strerror}") from None
+
+
+def prepare():
+    if sys.stdout is None:  # closed: writing shall fail, and no file that is opened get its descriptor
+        os.open(os.devnull, os.O_RDONLY)
+    sys.stdout = io.TextIOWrapper(io.BufferedWriter(Stdout(1, "w", closefd=False)), errors="backslashreplace", line_buffering=os.isatty(1))
+
+    def end(signal_number, _):
+        raise Ended(signal_number)
+
+    for number in (signal.SIGTERM, signal.SIGHUP):
+        if signal.getsignal(number) == signal.SIG_DFL:  # nohup ignores SIGHUP
+            signal.signal(number, end)
+
+
+def status_of(main, name, failure_status):
+    try:
+        try:
+            status = main() or 0
+        except SystemExit as end:  # of argparse
+            status = end.code or 0
+        sys.stdout.flush()
+        return status
+    except BrokenPipeError:
+        raise
+    except CommandFailure as failure:
+        return told(name, failure, failure_status)
+    except OSError as error:
+        where = f"{shown(os.fsdecode(error.filename))}: " if error.filename else ""
+        return told(name, where + (error.strerror or str(error)), failure_status)
+    except MemoryError:
+        return told(name, "not enough memory", failure_status)
+    except Exception:  # a mistake of ours; its status shall not be taken for an answer
+        traceback.print_exc()
+        return failure_status
+
+
+def told(name, message, status):
+    try:
+        print(f"{name}: {message}", file=sys.stderr, flush=True)
+    except OSError:
+        pass
+    return status
+
+
+def silence_stdout():
+    """Python flushes stdout once more at its end, which would fail as before."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
+
+
+def end_by(signal_number):
+    """Ends the process as the signal would have, so that a shell sees what happened."""
+    silence_stdout()
+    signal.signal(signal_number, signal.SIG_DFL)
+    os.kill(os.getpid(), signal_number)
+    sys.exit(128 + signal_number)

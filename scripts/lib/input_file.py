@@ -1,0 +1,93 @@
+"""Input files, read once and never without end."""
+import contextlib
+import os
+import stat
+import tempfile
+
+from lib.command import CommandFailure, shown
+from lib.output_file import write_file
+
+MAX_BYTES = 1 << 29
+BLOCK = 1 << 20
+
+
+class InputError(CommandFailure):
+    """A file that cannot be read; `reason` is the text without the file's name."""
+
+    def __init__(self, path, reason, is_missing=False):
+        super().__init__(f"cannot read {name_of(path)}: {reason}")
+        self.reason = reason
+        self.is_missing = is_missing
+
+
+def name_of(path):
+    """What messages call an input."""
+    return "<stdin>" if path == "-" else shown(path)
+
+
+@contextlib.contextmanager
+def input_errors(path):
+    try:
+        yield
+    except OSError as error:
+        raise InputError(path, error.strerror, isinstance(error, FileNotFoundError)) from None
+
+
+def read_input(path, only_regular=False):
+    """The bytes of a file, of standard input if the path is `-`. With `only_regular`, a pipe or a device is an InputError
+    and not waited for; so is what is longer than MAX_BYTES, in any case."""
+    with input_errors(path):
+        if path == "-" and not only_regular:
+            return read_all(0, path)
+        # Opening a pipe waits for who writes it, unless told not to.
+        descriptor = os.open(path, os.O_RDONLY | os.O_CLOEXEC | os.O_NOCTTY | (os.O_NONBLOCK if only_regular else 0))
+        try:
+            mode = os.fstat(descriptor).st_mode
+            if only_regular and not (stat.S_ISREG(mode) or stat.S_ISDIR(mode)):
+                raise InputError(path, "Not a regular file")
+            return read_all(descriptor, path)
+        finally:
+            os.close(descriptor)
+
+
+def read_all(descriptor, path):
+    data = bytearray()
+    while block := os.read(descriptor, BLOCK):
+        data += block
+        if len(data) > MAX_BYTES:
+            raise InputError(path, f"it is longer than {MAX_BYTES >> 20} MiB")
+    return bytes(data)
+
+
+def is_same_stream(a, b):
+    """Whether two paths name the same pipe, which can be read only once."""
+    def status(path):
+        return os.fstat(0) if path == "-" else os.stat(path)
+
+    try:
+        a, b = status(a), status(b)
+    except OSError:
+        return False
+    return os.path.samestat(a, b) and (stat.S_ISFIFO(a.st_mode) or stat.S_ISSOCK(a.st_mode))
+
+
+@contextlib.contextmanager
+def readable_again(*paths):
+    """Paths of the same inputs that can be opened more than once, and that a tool takes for a file, whatever their names
+    begin with. An input that is no regular file is copied to one, which is gone afterwards."""
+    if paths.count("-") > 1:
+        raise CommandFailure("expected '-' once, as standard input can be read only once")
+    with tempfile.TemporaryDirectory() as folder:
+        yield [path_again(path, os.path.join(folder, str(i))) for i, path in enumerate(paths)]
+
+
+def path_again(path, folder):
+    if path != "-":
+        with input_errors(path):
+            if stat.S_ISREG(os.stat(path).st_mode):
+                return os.path.join(os.curdir, path) if path.startswith("-") else path
+    data = read_input(path)
+    os.mkdir(folder)
+    copy = os.path.join(folder, "stdin" if path == "-" else os.path.basename(path))
+    write_file(copy, data)
+    return copy

@@ -1,0 +1,120 @@
+"""A file that appears complete or not at all, as the tools' own files do (libpipeline/text/output_file.h)."""
+import contextlib
+import errno
+import os
+import re
+import secrets
+import stat
+
+from lib.command import CommandFailure, shown
+
+MAX_LINKS = 40  # as the kernel
+OWN_FILE = re.compile(r"/dev/(?:(stdout)|(stderr)|fd/(\d+))|/proc/self/fd/(\d+)")
+
+
+class OutputError(CommandFailure):
+    """A file that cannot be written."""
+
+
+def own_descriptor(path):
+    """The N of a path that names this process's open file N, else None. Such a file is not ours to replace, even if it
+    happens to be a regular one."""
+    found = OWN_FILE.fullmatch(path)
+    if not found:
+        return None
+    return 1 if found[1] else 2 if found[2] else int(found[3] or found[4])
+
+
+def target_of(path):
+    """Where the symbolic links that start at `path` end, whether or not there is a file."""
+    for _ in range(MAX_LINKS):
+        if own_descriptor(path) is not None or not os.path.islink(path):
+            return path
+        path = os.path.join(os.path.dirname(path), os.readlink(path))
+    raise OSError(errno.ELOOP, os.strerror(errno.ELOOP))
+
+
+class OutputFile:
+    """The file is written beside its place, in the same folder and under a name that nobody can know before, and put into
+    its place by `commit`. Without that, what was written is removed at the end of the `with`, and a file that was there
+    before stays.
+
+    A new file gets the permissions that the umask leaves, a replaced one keeps its own; one that must not be written is not
+    replaced either. A symbolic link stays, the file it points at is replaced. What exists and is no regular file (a device,
+    a pipe) and /dev/stdout and the like are written directly.
+    """
+
+    def __init__(self, path):
+        self.path = os.fspath(path)
+        self.temporary = None  # the path under which it is written; None if directly
+        self.descriptor = None
+        with self.errors("open"):
+            self.target = target_of(self.path)
+            own = own_descriptor(self.target)
+            status = self.status()
+            if own is not None:
+                self.descriptor = os.dup(own)
+            elif status and not stat.S_ISREG(status.st_mode):
+                self.descriptor = os.open(self.target, os.O_WRONLY | os.O_NOCTTY | os.O_CLOEXEC)
+            elif status and not os.access(self.target, os.W_OK):
+                raise PermissionError(errno.EACCES, os.strerror(errno.EACCES))
+            else:
+                self.open_beside(status)
+
+    def status(self):
+        try:
+            return os.stat(self.target)
+        except FileNotFoundError:
+            return None
+
+    def open_beside(self, status):
+        mode = stat.S_IMODE(status.st_mode) & 0o777 if status else 0o666
+        name = os.path.join(os.path.dirname(self.target), ".pipeline-" + secrets.token_hex(8))
+        self.descriptor = os.open(name, os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_CLOEXEC, mode)
+        self.temporary = name
+        if status:  # the umask has no say in a file that was there
+            with contextlib.suppress(OSError):
+                os.fchmod(self.descriptor, mode)
+
+    @contextlib.contextmanager
+    def errors(self, action):
+        """Failures name the path as it was given."""
+        try:
+            yield
+        except BrokenPipeError:  # who reads a pipe may leave
+            raise
+        except OSError as error:
+            raise OutputError(f"cannot {action} {shown(self.path)}: {error.strerror}") from None
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        with contextlib.suppress(OSError):
+            if self.descriptor is not None:
+                os.close(self.descriptor)
+        if self.temporary:
+            with contextlib.suppress(OSError):
+                os.unlink(self.temporary)
+
+    def write(self, data):
+        rest = memoryview(data)
+        with self.errors("write"):
+            while rest:
+                rest = rest[os.write(self.descriptor, rest):]
+
+    def commit(self):
+        with self.errors("write"):
+            descriptor, self.descriptor = self.descriptor, None
+            os.close(descriptor)
+        if self.temporary:
+            with self.errors("replace"):
+                os.replace(self.temporary, self.target)
+            self.temporary = None
+
+
+def write_file(path, data):
+    """Writes the bytes as the whole of a file."""
+    with OutputFile(path) as file:
+        file.write(data)
+        file.commit()
