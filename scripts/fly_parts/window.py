@@ -3,10 +3,14 @@ import dataclasses
 import pathlib
 import time
 import tkinter
+import traceback
 
 from fly_parts.camera import STEP, Camera
 from fly_parts.pipe import FramePipe
 from fly_parts.scene import rewritten
+from lib.command import CommandFailure, shown
+from lib.input_file import read_input
+from lib.output_file import write_file
 from lib.pictures import png, read_picture
 from lib.pipe_tools import ToolFailure
 
@@ -20,6 +24,7 @@ LIGHT_MOVES = {"i": (0, 0, -1), "k": (0, 0, 1), "j": (-1, 0, 0), "l": (1, 0, 0),
 SHADINGS = {"1": "none", "2": "flat", "3": "gouraud", "4": "phong"}
 SLOW_SECONDS = 0.05  # a frame that takes longer is drawn small first
 SMALL = 4            # how many times smaller
+SIGNAL_MS = 200      # between two looks whether a signal has come
 REST_MS = 150        # without a key before the whole frame is drawn
 
 
@@ -54,12 +59,13 @@ class FlyWindow:
         self.before = self.settings  # to go back to where a tool refuses the new ones
         self.whole_seconds = 0
         self.pending = self.resting = None
+        self.end = None  # the KeyboardInterrupt or Ended that came while a key or a frame was dealt with
         self.build()
         self.draw(self.size)
 
     def build(self):
         self.root = tkinter.Tk()
-        self.root.title(f"fly {self.scene.name}")
+        self.root.title(f"fly {shown(self.scene.name)}")
         self.photo = tkinter.PhotoImage(master=self.root)
         self.keys = tkinter.Label(self.root, text=KEYS, justify="left", anchor="w", font=("TkFixedFont", 8))
         # Its text asks for no room of its own: the window shall not change size with it.
@@ -191,16 +197,50 @@ class FlyWindow:
 
     def scene_text(self):
         light = self.pipe.light if self.is_light_moved else None
-        return rewritten(self.scene.read_text(), self.settings.camera.lines(), light)
+        # A comment that is not UTF-8 stays as it is.
+        text = read_input(str(self.scene)).decode("utf-8-sig", errors="surrogateescape")
+        return rewritten(text, self.settings.camera.lines(), light).encode(errors="surrogateescape")
 
     def write_scene(self):
-        pathlib.Path(self.outputs[0]).write_text(self.scene_text())
-        self.say(f"wrote {self.outputs[0]}")
+        self.write(self.outputs[0], self.scene_text)
 
     def write_picture(self):
         self.draw(self.size)
-        pathlib.Path(self.outputs[1]).write_bytes(png(*read_picture(self.pipe.image)))
-        self.say(f"wrote {self.outputs[1]}")
+        self.write(self.outputs[1], lambda: png(*read_picture(self.pipe.image)))
+
+    def write(self, path, content):
+        try:
+            write_file(path, content())
+        except (CommandFailure, BrokenPipeError) as error:
+            return self.say(str(error))
+        return self.say(f"wrote {shown(path)}")
+
+    # Its life
+
+    def run(self):
+        """Until the window is closed, or a signal ends it."""
+        self.root.protocol("WM_DELETE_WINDOW", self.close)
+        self.root.report_callback_exception = self.failed
+        self.look_up()
+        try:
+            self.root.mainloop()
+        except BaseException:
+            self.close()
+            raise
+        if self.end:
+            self.close()
+            raise self.end
+
+    def look_up(self):
+        """Python handles a signal only when it runs, which in a window that waits it does not."""
+        self.root.after(SIGNAL_MS, self.look_up)
+
+    def failed(self, kind, error, trace):
+        if issubclass(kind, Exception):
+            traceback.print_exception(kind, error, trace)
+        else:
+            self.end = error
+            self.root.quit()
 
     def close(self):
         self.root.destroy()

@@ -6,6 +6,7 @@ import pathlib
 import re
 import tempfile
 
+from lib.input_file import read_input
 from lib.pictures import read_picture
 from lib.stage_text import parse_stage_text
 from lib.vectors import axes, moved
@@ -64,7 +65,7 @@ class Inspection:
     def __init__(self, tools, scene, config):
         self.tools, self.scene, self.config = tools, scene, config
         self.notes = []
-        texts, data = {}, pathlib.Path(scene).read_bytes()
+        texts, data = {}, read_input(scene)
         for tool in ("model", "view", "project"):
             done = tools.run(tool, "--timing", stdin=data)
             data = done.stdout
@@ -78,7 +79,7 @@ class Inspection:
             self.draw(data, pathlib.Path(folder))
 
     def stage(self, tool, title, done):
-        parsed, stderr = self.parsed[tool], done.stderr.decode()
+        parsed, stderr = self.parsed[tool], done.stderr.decode(errors="replace")
         self.notes += notes_told(stderr)
         kept = [(name, triangle) for name, triangle in zip(parsed.names, parsed.triangles) if name % self.step == 0]
         return {"tool": tool, "title": title, "seconds": time_told(stderr), "triangles": len(parsed.triangles), "bytes": len(done.stdout),
@@ -112,7 +113,7 @@ class Inspection:
     def draw(self, stage3, folder):
         z_buffer, image, log = (folder / name for name in ("z_buffer.txt", "out.ppm", "fragments.txt"))
         # Timed as it is without the log, which takes longer than the picture.
-        timed = self.tools.run("zbuf", self.config, "--timing", "--z-buffer", z_buffer, "--image", image, stdin=stage3).stderr.decode()
+        timed = self.tools.run("zbuf", self.config, "--timing", "--z-buffer", z_buffer, "--image", image, stdin=stage3).stderr.decode(errors="replace")
         self.tools.run("zbuf", self.config, "--z-buffer", "/dev/null", "--image", folder / "again.ppm", "--fragments", log, stdin=stage3)
         self.notes += notes_told(timed)
         self.columns, self.rows, pixels = read_picture(image)

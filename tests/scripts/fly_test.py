@@ -6,6 +6,7 @@ usage: fly_test.py BIN_DIR [UNITTEST ARGUMENT...]
 import math
 import os
 import pathlib
+import signal
 import subprocess
 import sys
 import time
@@ -237,6 +238,27 @@ class Flying(ToolTest):
         self.assertEqual(self.shown(), first)
         self.press("i")
         self.assertEqual(self.status(), "the scene has no light")
+
+
+@unittest.skipIf(MISSING, f"needs {' and '.join(MISSING)}")
+class Ending(ToolTest):
+    @classmethod
+    def setUpClass(cls):
+        cls.enterClassContext(Display())
+
+    def test_a_signal_ends_it_without_a_traceback(self):
+        pathlib.Path("scene.txt").write_text(SCENE)
+        for number in (signal.SIGINT, signal.SIGTERM):
+            # It says when its window waits.
+            program = ("import sys; sys.path.insert(0, sys.argv[1]); sys.dont_write_bytecode = True; sys.argv[1:] = ['scene.txt']\n"
+                       "from importlib.machinery import SourceFileLoader as Loader; from fly_parts.window import FlyWindow\n"
+                       "draw = FlyWindow.tell; FlyWindow.tell = lambda *words: (draw(*words), print('.', flush=True), sys.stdout.flush())\n"
+                       "Loader('__main__', sys.path[0] + '/fly').load_module()")
+            process = subprocess.Popen([sys.executable, "-c", program, SOURCE / "scripts"], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                                       env={**os.environ, "BIN": str(BIN)})
+            self.assertEqual(process.stdout.readline(), b".\n")
+            process.send_signal(number)
+            self.assertEqual((process.communicate(timeout=60)[1], process.returncode), (b"", -number))
 
 
 class Messages(ToolTest):

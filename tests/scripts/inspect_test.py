@@ -35,7 +35,7 @@ class Messages(ToolTest):
 
     def test_a_missing_scene_is_named(self):
         done = inspect("none.txt", "config.txt")
-        self.assertEqual((done.returncode, done.stderr), (1, "inspect: none.txt: No such file or directory\n"))
+        self.assertEqual((done.returncode, done.stderr), (1, "inspect: cannot read none.txt: No such file or directory\n"))
 
     def test_the_page_stands_alone(self):
         self.assertEqual(inspect("scene.txt", "config.txt", "-o", "page.html").returncode, 0)
