@@ -246,6 +246,23 @@ class Fly(ToolTest):
             self.assertRegex(done.stderr.decode(), rf"\Afly: {message}\n\Z")
 
 
+class MakeTorus(ToolTest):
+    def run_in_shell(self, channels):
+        return subprocess.run(["bash", "-c", f'"{SCRIPTS}/make-torus" --around 200 {channels}; echo ${{PIPESTATUS[0]}} >&2'], capture_output=True)
+
+    def test_its_output_is_checked(self):
+        self.assertEqual(self.run_in_shell("> /dev/full").stderr, b"make-torus: cannot write <stdout>: No space left on device\n1\n")
+        self.assertEqual(self.run_in_shell(">&-").stderr, b"make-torus: cannot write <stdout>: Bad file descriptor\n1\n")
+        self.assertEqual(self.run_in_shell("| head -n 1").stderr, b"141\n")
+
+    def test_what_makes_no_torus_is_refused(self):
+        for option, value, expected in (("around", "2", "a whole number of at least 3"), ("tube", "x", "a whole number of at least 3"),
+                                        ("major", "0", "a number greater than 0"), ("minor", "nan", "a number greater than 0")):
+            done = script("make-torus", f"--{option}={value}")
+            self.assertEqual(done.returncode, 2)
+            self.assertIn(f"argument --{option}: expected {expected}, found '{value}'", done.stderr.decode())
+
+
 class OwnFiles(ToolTest):
     """Descriptors that are written to; nothing is written here."""
 
