@@ -4,7 +4,7 @@
 #include <optional>
 #include <string_view>
 
-#include "libpipeline/coverage/coverage.h"
+#include "libpipeline/coverage/rules.h"
 #include "libpipeline/text/error.h"
 #include "libpipeline/text/number_parser.h"
 #include "libpipeline/text/output_file.h"

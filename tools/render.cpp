@@ -3,7 +3,7 @@
 #include <memory>
 #include <optional>
 
-#include "libpipeline/coverage/coverage.h"
+#include "libpipeline/coverage/rules.h"
 #include "libpipeline/picture/image_file.h"
 #include "libpipeline/picture/supersampling.h"
 #include "libpipeline/picture/surface_shader.h"
@@ -12,8 +12,8 @@
 #include "libpipeline/stream/stage_reader.h"
 #include "libpipeline/stream/thread_pool.h"
 #include "libpipeline/text/output_file.h"
+#include "libpipeline/visibility/algorithms.h"
 #include "libpipeline/visibility/triangle_drawing.h"
-#include "libpipeline/visibility/visibility.h"
 #include "tools/depth_files.h"
 #include "tools/fragment_report.h"
 #include "tools/progress.h"

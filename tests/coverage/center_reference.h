@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "libpipeline/coverage/coverage_center.h"
+#include "libpipeline/coverage/center.h"
 #include "libpipeline/text/number_parser.h"
 
 namespace pipeline {

@@ -1,6 +1,6 @@
 // The kernels that make the spans of many triangles, against the coverage rules, triangle by triangle.
 
-#include "libpipeline/coverage/coverage_kernel.h"
+#include "libpipeline/coverage/kernel.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "libpipeline/coverage/coverage.h"
+#include "libpipeline/coverage/rules.h"
 #include "tests/numbers/random_numbers.h"
 #include "tests/sanitizer_rounds.h"
 

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "libpipeline/scene/color.h"
-#include "libpipeline/visibility/visibility.h"
+#include "libpipeline/visibility/algorithms.h"
 #include "tests/numbers/random_numbers.h"
 #include "tests/visibility/frame.h"
 

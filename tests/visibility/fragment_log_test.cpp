@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-#include "libpipeline/coverage/coverage.h"
+#include "libpipeline/coverage/rules.h"
 #include "libpipeline/visibility/depth_format.h"
 
 namespace pipeline {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <random>
 
-#include "libpipeline/coverage/coverage.h"
+#include "libpipeline/coverage/rules.h"
 #include "tests/sanitizer_rounds.h"
 
 namespace pipeline {

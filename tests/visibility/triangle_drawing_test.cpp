@@ -6,8 +6,8 @@
 #include <functional>
 #include <vector>
 
-#include "libpipeline/coverage/coverage.h"
-#include "libpipeline/visibility/visibility.h"
+#include "libpipeline/coverage/rules.h"
+#include "libpipeline/visibility/algorithms.h"
 #include "tests/visibility/drawn_scenes.h"
 
 namespace pipeline {

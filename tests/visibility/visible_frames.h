@@ -2,9 +2,9 @@
 
 #include <vector>
 
-#include "libpipeline/coverage/coverage.h"
+#include "libpipeline/coverage/rules.h"
+#include "libpipeline/visibility/algorithms.h"
 #include "libpipeline/visibility/scanline.h"
-#include "libpipeline/visibility/visibility.h"
 #include "libpipeline/visibility/zbuffer.h"
 #include "tests/visibility/frame.h"
 

@@ -13,11 +13,11 @@
 #include <utility>
 #include <vector>
 
-#include "libpipeline/coverage/coverage.h"
+#include "libpipeline/coverage/rules.h"
 #include "libpipeline/scene/color.h"
 #include "libpipeline/stream/stage_reader.h"
+#include "libpipeline/visibility/algorithms.h"
 #include "libpipeline/visibility/triangle_drawing.h"
-#include "libpipeline/visibility/visibility.h"
 
 namespace {
 

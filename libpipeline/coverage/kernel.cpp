@@ -1,11 +1,11 @@
-#include "libpipeline/coverage/coverage_kernel.h"
+#include "libpipeline/coverage/kernel.h"
 
 #include <array>
 #include <cstddef>
 
-#include "libpipeline/coverage/coverage_avx2.h"
-#include "libpipeline/coverage/coverage_center.h"
-#include "libpipeline/coverage/coverage_nearest.h"
+#include "libpipeline/coverage/avx2.h"
+#include "libpipeline/coverage/center.h"
+#include "libpipeline/coverage/nearest.h"
 #include "libpipeline/numbers/kernel_choice.h"
 
 namespace pipeline {

@@ -1,4 +1,4 @@
-#include "libpipeline/coverage/coverage_nearest.h"
+#include "libpipeline/coverage/nearest.h"
 
 #include <gtest/gtest.h>
 

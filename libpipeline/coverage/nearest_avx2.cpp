@@ -1,10 +1,10 @@
 #include <array>
 
-#include "libpipeline/coverage/coverage_avx2.h"
-#include "libpipeline/coverage/coverage_nearest.h"
+#include "libpipeline/coverage/avx2.h"
 #include "libpipeline/coverage/four_doubles.h"
 #include "libpipeline/coverage/four_points.h"
 #include "libpipeline/coverage/four_spans.h"
+#include "libpipeline/coverage/nearest.h"
 
 #if defined(__x86_64__) && defined(__GNUC__)
 

@@ -1,4 +1,4 @@
-#include "libpipeline/coverage/coverage_avx2.h"
+#include "libpipeline/coverage/avx2.h"
 
 namespace pipeline {
 

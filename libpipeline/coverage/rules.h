@@ -2,11 +2,11 @@
 
 #include <span>
 
+#include "libpipeline/coverage/center.h"
 #include "libpipeline/coverage/colored_span.h"
-#include "libpipeline/coverage/coverage_center.h"
-#include "libpipeline/coverage/coverage_kernel.h"
-#include "libpipeline/coverage/coverage_nearest.h"
 #include "libpipeline/coverage/exact_grid.h"
+#include "libpipeline/coverage/kernel.h"
+#include "libpipeline/coverage/nearest.h"
 #include "libpipeline/scene/pixel_grid.h"
 #include "libpipeline/scene/viewport.h"
 

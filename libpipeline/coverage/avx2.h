@@ -1,10 +1,10 @@
 #pragma once
 
-#include "libpipeline/coverage/coverage_kernel.h"
+#include "libpipeline/coverage/kernel.h"
 
 namespace pipeline {
 
-/// The kernel "avx2" of coverage_kernel.h; null where the processor cannot run it.
+/// The kernel "avx2" of kernel.h; null where the processor cannot run it.
 const CoverageKernel* coverage_avx2();
 
 // Its functions, which only such a processor runs. They work on four triangles at a time, and then on a

@@ -1,7 +1,7 @@
 #include <array>
 
-#include "libpipeline/coverage/coverage_avx2.h"
-#include "libpipeline/coverage/coverage_center.h"
+#include "libpipeline/coverage/avx2.h"
+#include "libpipeline/coverage/center.h"
 #include "libpipeline/coverage/depth_in_doubles.h"
 #include "libpipeline/coverage/four_doubles.h"
 #include "libpipeline/coverage/four_points.h"

@@ -1,4 +1,4 @@
-#include "libpipeline/coverage/coverage_center.h"
+#include "libpipeline/coverage/center.h"
 
 #include <gtest/gtest.h>
 
