@@ -28,7 +28,6 @@ class TriangleColorSource {
  public:
   TriangleColorSource(std::optional<SurfaceShader>& shader, FragmentReport* report)
       : shader_(shader), report_(report) {}
-  [[nodiscard]] ColorUse use() const { return shader_ ? ColorUse::id : ColorUse::rgb; }
   Color operator()(const TriangleBatch& p_ndc, std::size_t index) {
     if (report_ != nullptr) report_->add(p_ndc, index);
     const Color color = colors_.of(p_ndc.numbers[index]);
@@ -76,11 +75,11 @@ void draw_all(Tool& tool, const RenderOptions& chosen, StageReader& reader, Tria
   using Drawing = TriangleDrawing<ZBufferAlgorithm<CoverageRule, Depth>>;
   visible.centers.set_depth_epsilon(chosen.depth_epsilon);
   ThreadPool pool(chosen.thread_count);
-  Drawing centers(visible.centers, visible.center_screen, pool, paint.use());
+  Drawing centers(visible.centers, visible.center_screen, pool);
   std::optional<Drawing> samples;
   if (visible.samples) {
     visible.samples->set_depth_epsilon(chosen.depth_epsilon);
-    samples.emplace(*visible.samples, visible.screen, pool, paint.use());
+    samples.emplace(*visible.samples, visible.screen, pool);
   }
   std::vector<Color> colors;
   const auto draw = [&] {

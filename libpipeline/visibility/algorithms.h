@@ -39,13 +39,6 @@ class ZBufferAlgorithm {
 
   /// From now on a fragment has to be nearer than the last by more than `epsilon`.
   void set_depth_epsilon(double epsilon) { buffer_.set_depth_epsilon(epsilon); }
-  /// Whether what is seen can be found in any order, if only of equal depths the earlier stays.
-  [[nodiscard]] bool needs_no_order() const { return buffer_.needs_no_order(); }
-  /// See ZBuffer.
-  void take_nearer(const ZBufferAlgorithm& layer, const RowRange& rows) {
-    buffer_.take_nearer(layer.buffer_, rows);
-  }
-  void forget_order(const RowRange& rows) { buffer_.forget_order(rows); }
   void draw(const ExactTriangle& triangle, Color color) {
     for_each_span(coverage_.rows(triangle), [&](const Span& span) { buffer_.draw(span, color); });
   }

@@ -7,7 +7,6 @@
 #include <type_traits>
 
 #include "libpipeline/numbers/column_search.h"
-#include "libpipeline/visibility/draw_order.h"
 
 namespace pipeline {
 namespace {
@@ -113,30 +112,6 @@ void ZBuffer<Depth>::draw_what_is_nearer_by_epsilon(const Span& span, Color colo
     depths[at] = stored;
     colors[at] = color;
   }
-}
-
-template <typename Depth>
-void ZBuffer<Depth>::take_nearer(const ZBuffer& layer, const RowRange& rows) {
-  for (int row = rows.first; row < rows.end; ++row) {
-    const std::span<Stored> depths = depths_.row(row);
-    const std::span<Color> colors = colors_.row(row);
-    const std::span<const Stored> other_depths = layer.depths_.row(row);
-    const std::span<const Color> other_colors = layer.colors_.row(row);
-    for (std::size_t i = 0; i < depths.size(); ++i) {
-      // Of equal depths the earlier. Where neither shows a triangle, nothing is earlier than order 0 here.
-      bool takes_other = order_of(other_colors[i]) < order_of(colors[i]);
-      takes_other &= other_depths[i] == depths[i];
-      takes_other |= other_depths[i] < depths[i];
-      depths[i] = select(takes_other, other_depths[i], depths[i]);
-      colors[i] = select(takes_other, other_colors[i], colors[i]);
-    }
-  }
-}
-
-template <typename Depth>
-void ZBuffer<Depth>::forget_order(const RowRange& rows) {
-  for (int row = rows.first; row < rows.end; ++row)
-    for (Color& color : colors_.row(row)) color = without_order(color);
 }
 
 template class ZBuffer<DepthF64>;

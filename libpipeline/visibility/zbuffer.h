@@ -43,14 +43,6 @@ class ZBuffer {
   /// From now on a pixel that shows a triangle is written only if its depth is less by more than `epsilon`,
   /// at least 0. What is drawn then depends on the order of the triangles.
   void set_depth_epsilon(double epsilon) { depth_epsilon_ = epsilon; }
-  [[nodiscard]] bool needs_no_order() const { return depth_epsilon_ == 0; }
-
-  /// Takes from `layer`, of the same screen, what is nearer there in these rows, or as near and of an earlier
-  /// order (draw_order.h). The background's color has order 0. What was taken, or was not, may stay in the
-  /// layer: once the order is forgotten here, it will not be taken again.
-  void take_nearer(const ZBuffer& layer, const RowRange& rows);
-  /// Takes the order off the colors in these rows: all there is was drawn before whatever comes.
-  void forget_order(const RowRange& rows);
 
   /// To draw into these rows with.
   [[nodiscard]] HierarchicalDepth<Depth> hierarchical_depth(const RowRange& rows) const {

@@ -16,9 +16,9 @@ namespace {
 /// `color_of(i)` is the color of triangle i.
 template <typename Visible, typename ColorOf>
 void draw_on_threads(Visible& visible, const std::vector<Triangle>& scene, const Viewport& screen,
-                     int thread_count, std::size_t batch_size, ColorUse use, const ColorOf& color_of) {
+                     int thread_count, std::size_t batch_size, const ColorOf& color_of) {
   ThreadPool pool(thread_count);
-  TriangleDrawing drawing(visible, screen, pool, use);
+  TriangleDrawing drawing(visible, screen, pool);
   for (std::size_t i = 0; i < scene.size();) {
     TriangleBatch& batch = drawing.next_batch();
     batch.clear();
@@ -33,7 +33,7 @@ Frame drawn_on_threads(const std::vector<Triangle>& scene, const Viewport& scree
                        std::size_t batch_size) {
   Visible visible(screen);
   TriangleColors colors;
-  draw_on_threads(visible, scene, screen, thread_count, batch_size, ColorUse::rgb,
+  draw_on_threads(visible, scene, screen, thread_count, batch_size,
                   [&](std::uint64_t number) { return colors.of(number); });
   return frame_of(visible);
 }
@@ -50,7 +50,7 @@ void expect_the_same_for_all_threads() {
 }
 
 TEST(TriangleDrawing, SmallTrianglesAreDrawnInTheirOrder) {
-  // On several threads in bands at first, and in layers when there have been many.
+  // On one thread some batches at once and some in bands, on several all in bands.
   constexpr Viewport kScreen = {100, 150};
   using Visible = ZBufferAlgorithm<NearestCoverage, DepthF64>;
   std::vector<Triangle> scene = scene_of_small_triangles(12000);
@@ -92,7 +92,7 @@ TEST(TriangleDrawing, MayHaveIdsForColors) {
   };
   ZBufferAlgorithm<NearestCoverage, DepthF64> expected(kScreen), visible(kScreen);
   for (std::size_t i = 0; i < scene.size(); ++i) expected.draw({scene[i]}, id_of(i));
-  draw_on_threads(visible, scene, kScreen, 2, 50, ColorUse::id, id_of);
+  draw_on_threads(visible, scene, kScreen, 2, 50, id_of);
   EXPECT_TRUE(frame_of(visible) == frame_of(expected));
 }
 
@@ -106,7 +106,7 @@ TEST(TriangleDrawing, KeepsTheOrderWhereAllThatIsSeenDependsOnIt) {
   expected.set_depth_epsilon(0.3);  // more than the distance of two of the scene's depths
   visible.set_depth_epsilon(0.3);
   for (std::size_t i = 0; i < scene.size(); ++i) expected.draw({scene[i]}, color_of(i));
-  draw_on_threads(visible, scene, kScreen, 2, 50, ColorUse::rgb, color_of);
+  draw_on_threads(visible, scene, kScreen, 2, 50, color_of);
   EXPECT_TRUE(frame_of(visible) == frame_of(expected));
 }
 
@@ -120,7 +120,7 @@ TEST(TriangleDrawing, MayBeGivenUpInTheMiddle) {
   constexpr Viewport kScreen = {150, 300};
   ZBufferAlgorithm<NearestCoverage, DepthF64> visible(kScreen);
   ThreadPool pool(3);
-  TriangleDrawing drawing(visible, kScreen, pool, ColorUse::rgb);
+  TriangleDrawing drawing(visible, kScreen, pool);
   for (int i = 0; i < 5; ++i) {
     drawing.next_batch().add({{{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}}}, 0, {});
     drawing.draw_batch([](const TriangleBatch&, std::size_t) { return Color(); });

@@ -5,8 +5,6 @@
 #include <random>
 #include <vector>
 
-#include "libpipeline/visibility/draw_order.h"
-
 namespace pipeline {
 namespace {
 
@@ -181,51 +179,6 @@ TEST(ZBuffer, EveryFormatKeepsTheLimits) {
   EXPECT_EQ(colors_of_first_row(buffer)[1], Color());
   buffer.draw(span_at(0, 2, 2, -1e300), kRed);
   EXPECT_EQ(colors_of_first_row(buffer)[2], Color());
-}
-
-TEST(ZBuffer, TakesWhatIsNearerInALayer) {
-  ZBuffer<> buffer(kSixByTwo), layer(kSixByTwo);
-  buffer.draw(span_at(0, 0, 3, 0.5, 0.25), kRed);      // 0.5, 0.75, 1, 1.25
-  layer.draw(span_at(0, 1, 5, 1.25, -0.125), kGreen);  // 1.125, 1, 0.875, 0.75, 0.625
-  buffer.take_nearer(layer, {0, 2});
-  EXPECT_EQ(depths_of(buffer, 0), (std::vector<double>{0.5, 0.75, 1, 0.875, 0.75, 0.625}));
-  EXPECT_EQ(colors_of(buffer, 0), (std::vector<Color>{kRed, kRed, kRed, kGreen, kGreen, kGreen}));
-}
-
-TEST(ZBuffer, OfEqualDepthsInTwoLayersTheOneOfTheEarlierOrderStays) {
-  for (const bool layer_is_earlier : {false, true}) {
-    ZBuffer<> buffer(kSixByTwo), layer(kSixByTwo);
-    buffer.draw(span_at(0, 0, 5, 0.5), with_order(kRed, 200));
-    layer.draw(span_at(0, 0, 2, 0.5), with_order(kGreen, layer_is_earlier ? 199 : 201));
-    buffer.take_nearer(layer, {0, 2});
-    const Color seen = layer_is_earlier ? with_order(kGreen, 199) : with_order(kRed, 200),
-                red = with_order(kRed, 200);
-    EXPECT_EQ(colors_of(buffer, 0), (std::vector<Color>{seen, seen, seen, red, red, red}));
-    buffer.forget_order({0, 2});
-    const Color rgb = layer_is_earlier ? kGreen : kRed;
-    EXPECT_EQ(colors_of(buffer, 0), (std::vector<Color>{rgb, rgb, rgb, kRed, kRed, kRed}));
-  }
-}
-
-TEST(ZBuffer, WhatIsTakenFromALayerIsInTheRowsAskedFor) {
-  ZBuffer<> buffer(kSixByTwo), layer(kSixByTwo);
-  layer.draw(span_at(0, 0, 5, 0.5), kRed);
-  layer.draw(span_at(1, 0, 5, 0.5), kGreen);
-  buffer.take_nearer(layer, {1, 2});
-  EXPECT_EQ(colors_of(buffer, 0), std::vector<Color>(6));
-  EXPECT_EQ(colors_of(buffer, 1), std::vector<Color>(6, kGreen));
-}
-
-TEST(ZBuffer, WhatWasTakenFromALayerIsNotTakenOnceMore) {
-  ZBuffer<> buffer(kSixByTwo), layer(kSixByTwo);
-  layer.draw(span_at(0, 0, 5, 0.5), with_order(kRed, 1));
-  buffer.take_nearer(layer, {0, 2});
-  buffer.forget_order({0, 2});
-  buffer.draw(span_at(0, 0, 2, 0.25), with_order(kGreen, 2));
-  buffer.draw(span_at(0, 3, 5, 0.5), with_order(kGreen, 2));
-  buffer.take_nearer(layer, {0, 2});
-  buffer.forget_order({0, 2});
-  EXPECT_EQ(colors_of(buffer, 0), (std::vector<Color>{kGreen, kGreen, kGreen, kRed, kRed, kRed}));
 }
 
 }  // namespace

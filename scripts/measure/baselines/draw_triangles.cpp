@@ -39,7 +39,7 @@ double seconds_for(std::vector<TriangleBatch> batches, const pipeline::Viewport&
   const auto begin = std::chrono::steady_clock::now();
   Visible visible(screen);
   pipeline::ThreadPool pool(thread_count);
-  pipeline::TriangleDrawing<Visible> drawing(visible, screen, pool, pipeline::ColorUse::rgb);
+  pipeline::TriangleDrawing<Visible> drawing(visible, screen, pool);
   for (TriangleBatch& batch : batches) {
     std::swap(drawing.next_batch(), batch);
     drawing.draw_batch([&](const TriangleBatch& of, std::size_t i) { return colors.of(of.numbers[i]); });
