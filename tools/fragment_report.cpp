@@ -9,7 +9,7 @@
 #include "libpipeline/text/number_parser.h"
 #include "libpipeline/text/output_file.h"
 #include "libpipeline/text/text_writer.h"
-#include "libpipeline/visibility/colored_batch.h"
+#include "libpipeline/visibility/tagged_batch.h"
 #include "libpipeline/visibility/depth_format.h"
 #include "libpipeline/visibility/fragment_log.h"
 #include "tools/render.h"

@@ -1,5 +1,6 @@
 #include "tools/render.h"
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 
@@ -22,16 +23,16 @@
 namespace pipeline {
 namespace {
 
-/// What a triangle is drawn with: its color, or what its pixels are shaded by later. It is asked for every
-/// triangle in the order of the stream, and tells `report`, if there is one, of each.
-class TriangleColorSource {
+/// Gives every triangle of the stream, in order, the tag of its pixels: the RGB value of its color, or the id
+/// under which a surface shader keeps it. Hands each to the report, if there is one.
+class TriangleTagSource {
  public:
-  TriangleColorSource(std::optional<SurfaceShader>& shader, FragmentReport* report)
+  TriangleTagSource(std::optional<SurfaceShader>& shader, FragmentReport* report)
       : shader_(shader), report_(report) {}
-  Color operator()(const TriangleBatch& p_ndc, std::size_t index) {
+  PixelTag operator()(const TriangleBatch& p_ndc, std::size_t index) {
     if (report_ != nullptr) report_->add(p_ndc, index);
     const Color color = colors_.of(p_ndc.numbers[index]);
-    return shader_ ? shader_->add(p_ndc, index, color) : color;
+    return shader_ ? shader_->add(p_ndc, index, color) : color.rgb();
   }
 
  private:
@@ -56,7 +57,7 @@ void for_each_batch(Tool& tool, Source& source, Batch&& batch, Draw&& draw) {
 /// What is seen at the pixel centers and, with several samples a pixel, also at those.
 template <VisibilityAlgorithm Visible>
 struct SampledVisible {
-  SampledVisible(const Viewport& of_centers, int sample_count, Color background)
+  SampledVisible(const Viewport& of_centers, int sample_count, PixelTag background)
       : center_screen(of_centers),
         screen(sample_screen(of_centers, sample_count)),
         centers(of_centers, background) {
@@ -70,7 +71,7 @@ struct SampledVisible {
 };
 
 template <typename CoverageRule, typename Depth>
-void draw_all(Tool& tool, const RenderOptions& chosen, StageReader& reader, TriangleColorSource& paint,
+void draw_all(Tool& tool, const RenderOptions& chosen, StageReader& reader, TriangleTagSource& tag_of,
               SampledVisible<ZBufferAlgorithm<CoverageRule, Depth>>& visible) {
   using Drawing = TriangleDrawing<ZBufferAlgorithm<CoverageRule, Depth>>;
   visible.centers.set_depth_epsilon(chosen.depth_epsilon);
@@ -81,15 +82,15 @@ void draw_all(Tool& tool, const RenderOptions& chosen, StageReader& reader, Tria
     visible.samples->set_depth_epsilon(chosen.depth_epsilon);
     samples.emplace(*visible.samples, visible.screen, pool);
   }
-  std::vector<Color> colors;
+  std::vector<PixelTag> tags;
   const auto draw = [&] {
-    if (!samples) return centers.draw_batch(paint);
+    if (!samples) return centers.draw_batch(tag_of);
     TriangleBatch& batch = samples->next_batch() = centers.next_batch();
-    colors.clear();
-    for (std::size_t i = 0; i < batch.size(); ++i) colors.push_back(paint(batch, i));
-    const auto color_of = [&](const TriangleBatch&, std::size_t i) { return colors[i]; };
-    centers.draw_batch(color_of);
-    samples->draw_batch(color_of);
+    tags.clear();
+    for (std::size_t i = 0; i < batch.size(); ++i) tags.push_back(tag_of(batch, i));
+    const auto kept_tag = [&](const TriangleBatch&, std::size_t i) { return tags[i]; };
+    centers.draw_batch(kept_tag);
+    samples->draw_batch(kept_tag);
   };
   ReadAhead ahead(reader, pool);
   for_each_batch(
@@ -98,14 +99,14 @@ void draw_all(Tool& tool, const RenderOptions& chosen, StageReader& reader, Tria
   if (samples) samples->finish();
 }
 template <typename CoverageRule, typename Depth>
-void draw_all(Tool& tool, const RenderOptions&, StageReader& reader, TriangleColorSource& paint,
+void draw_all(Tool& tool, const RenderOptions&, StageReader& reader, TriangleTagSource& tag_of,
               SampledVisible<ScanlineAlgorithm<CoverageRule, Depth>>& visible) {
   TriangleBatch p_ndc;
   const auto draw = [&] {
     for (std::size_t i = 0; i < p_ndc.size(); ++i) {
-      const Color color = paint(p_ndc, i);
-      visible.centers.draw(exact_triangle(p_ndc, i), color);
-      if (visible.samples) visible.samples->draw(exact_triangle(p_ndc, i), color);
+      const PixelTag tag = tag_of(p_ndc, i);
+      visible.centers.draw(exact_triangle(p_ndc, i), tag);
+      if (visible.samples) visible.samples->draw(exact_triangle(p_ndc, i), tag);
     }
   };
   for_each_batch(
@@ -121,17 +122,21 @@ void write_all(Tool& tool, const RenderOptions& chosen, const SampledVisible<Vis
                      screen.columns, screen.rows);
   DepthFiles depths(tool.output(), chosen.z_buffer_path, chosen.depth_image_path, screen);
   int row_number = 0;
-  const auto shaded = [&](std::span<const Color> seen) {
-    return shader ? shader->shade(row_number++, seen) : seen;
+  std::vector<Color> colors;
+  const auto shaded = [&](std::span<const PixelTag> tags) -> std::span<const Color> {
+    if (shader) return shader->shade(row_number++, tags);
+    colors.resize(tags.size());
+    std::ranges::transform(tags, colors.begin(), Color::from_rgb);
+    return colors;
   };
   visible.centers.for_each_row([&](const VisibleRow& row) {
     depths.write_row(row.depths);
-    if (!visible.samples) pixels.write_row(shaded(row.colors));
+    if (!visible.samples) pixels.write_row(shaded(row.tags));
   });
   if (visible.samples) {
     Downsampler means(screen.columns, chosen.sample_count);
     visible.samples->for_each_row([&](const VisibleRow& row) {
-      if (const auto complete = means.add(shaded(row.colors))) pixels.write_row(*complete);
+      if (const auto complete = means.add(shaded(row.tags))) pixels.write_row(*complete);
     });
   }
   pixels.finish();
@@ -153,12 +158,13 @@ void render_with(Tool& tool, const RenderOptions& chosen, const Viewport& screen
   if (chosen.wireframe) wireframe = {screen.dx(), screen.dy()};
   std::optional<SurfaceShader> shader = surface_shader(reader, shaded_screen, chosen.shading, wireframe);
   tool.timing().lap(&Timing::read_seconds);
-  const Color background = shader ? SurfaceShader::kNoSurface : background_color(reader.header().appearance);
+  const PixelTag background =
+      shader ? SurfaceShader::kNoSurface : background_color(reader.header().appearance).rgb();
   SampledVisible<Visible> visible(screen, chosen.sample_count, background);
   tool.timing().lap(&Timing::work_seconds);
   const std::unique_ptr<FragmentReport> report = fragment_report(chosen, screen);
-  TriangleColorSource paint(shader, report.get());
-  draw_all(tool, chosen, reader, paint, visible);
+  TriangleTagSource tag_of(shader, report.get());
+  draw_all(tool, chosen, reader, tag_of, visible);
   if (report) report->finish();
   tool.timing().lap(&Timing::work_seconds);
   write_all(tool, chosen, visible, shader);

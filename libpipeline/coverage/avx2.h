@@ -10,9 +10,9 @@ const CoverageKernel* coverage_avx2();
 // Its functions, which only such a processor runs. They work on four triangles at a time, and then on a
 // row of each or, where one is high or out of the ordinary, on four rows of one after the other.
 
-ColoredSpan* nearest_spans_avx2(const PixelGrid& grid, std::span<const ColoredTriangle> triangles,
-                                const RowRange& rows, ColoredSpan* spans);
-ColoredSpan* center_spans_avx2(const ExactGrid& grid, std::span<const ColoredTriangle> triangles,
-                               const RowRange& rows, ColoredSpan* spans);
+TaggedSpan* nearest_spans_avx2(const PixelGrid& grid, std::span<const TaggedTriangle> triangles,
+                               const RowRange& rows, TaggedSpan* spans);
+TaggedSpan* center_spans_avx2(const ExactGrid& grid, std::span<const TaggedTriangle> triangles,
+                              const RowRange& rows, TaggedSpan* spans);
 
 }  // namespace pipeline

@@ -127,7 +127,7 @@ struct RowSources {
 /// Four triangles made ready for their rows.
 struct FourTriangles {
   PIPELINE_AVX2_INLINE FourTriangles(const AxisLanes& columns, const AxisLanes& rows,
-                                     const ColoredTriangle* triangles, const RowRange& range) {
+                                     const TaggedTriangle* triangles, const RowRange& range) {
     const auto [a, b, c] = vertices_of(triangles);
     const GridPoints p = on_grid(columns, rows, a);
     const GridPoints q = on_grid(columns, rows, b);
@@ -180,7 +180,7 @@ struct FourTriangles {
     return {columns.origin + columns.scaled(p.x), rows.origin - rows.scaled(p.y), p.z};
   }
   /// A bit for each triangle whose x and y are decimals. Usually all are.
-  static int marks(const ColoredTriangle* triangles) {
+  static int marks(const TaggedTriangle* triangles) {
     ExactTriangle all_of_them = triangles[0].triangle;
     for (std::size_t i = 1; i < kCount; ++i) all_of_them.decimal_marks &= triangles[i].triangle.decimal_marks;
     if (all_of_them.is_decimal()) return (1 << kCount) - 1;
@@ -287,9 +287,9 @@ struct FourRows {
 };
 
 /// What CenterRows has on these rows.
-ColoredSpan* append_exactly(const ExactGrid& grid, const ColoredTriangle& triangle, const RowRange& rows,
-                            ColoredSpan* spans) {
-  return append_spans(CenterRows(grid, triangle.triangle), triangle.color, rows, spans);
+TaggedSpan* append_exactly(const ExactGrid& grid, const TaggedTriangle& triangle, const RowRange& rows,
+                           TaggedSpan* spans) {
+  return append_spans(CenterRows(grid, triangle.triangle), triangle.tag, rows, spans);
 }
 
 /// What is the same in the depths of all spans: columns are counted in halves.
@@ -298,9 +298,9 @@ PIPELINE_AVX2_INLINE __m128d axis() {
 }
 
 /// As CoverageKernel says, for one of four triangles: four rows at a time.
-PIPELINE_AVX2 ColoredSpan* append_triangle(const ExactGrid& grid, const FourTriangles& four, std::size_t lane,
-                                           const ColoredTriangle& triangle, const RowRange& rows,
-                                           ColoredSpan* spans) {
+PIPELINE_AVX2 TaggedSpan* append_triangle(const ExactGrid& grid, const FourTriangles& four, std::size_t lane,
+                                          const TaggedTriangle& triangle, const RowRange& rows,
+                                          TaggedSpan* spans) {
   if (!four.is_ordinary(lane)) return append_exactly(grid, triangle, rows, spans);
   const RowSources of = four.rows_of.of(lane);
   const int end = static_cast<int>(four.rows_of.end_row[lane]);
@@ -308,16 +308,16 @@ PIPELINE_AVX2 ColoredSpan* append_triangle(const ExactGrid& grid, const FourTria
     FourRows some(of, all(row) + _mm256_setr_pd(0, 1, 2, 3));
     some.set_depths(of);
     for (std::size_t i = 0; i < kCount && row < end; ++i, ++row)
-      spans = some.spans.append(i, axis(), four.half_slope[lane], triangle.color, spans);
+      spans = some.spans.append(i, axis(), four.half_slope[lane], triangle.tag, spans);
   }
   return spans;
 }
 
 /// As CoverageKernel says, for four triangles: a row of each at a time, as low ones have too few for four
 /// lanes.
-PIPELINE_AVX2 ColoredSpan* append_triangles(const ExactGrid& grid, const FourTriangles& four,
-                                            const ColoredTriangle* triangles, const RowRange& rows,
-                                            ColoredSpan* spans) {
+PIPELINE_AVX2 TaggedSpan* append_triangles(const ExactGrid& grid, const FourTriangles& four,
+                                           const TaggedTriangle* triangles, const RowRange& rows,
+                                           TaggedSpan* spans) {
   constexpr int kMaxLowRows = 8;
   const RowSources& of = four.rows_of;
   const double most = largest_of(of.end_row - four.begin_row);
@@ -334,24 +334,23 @@ PIPELINE_AVX2 ColoredSpan* append_triangles(const ExactGrid& grid, const FourTri
   // As many rows of each, covered or not: no processor could predict how many are.
   for (std::size_t lane = 0; lane < kCount; ++lane) {
     const double half_slope = four.half_slope[lane];
-    const Color color = triangles[lane].color;
+    const PixelTag tag = triangles[lane].tag;
     for (int i = 0; i < count; ++i)
-      spans = low[static_cast<std::size_t>(i)].spans.append(lane, axis(), half_slope, color, spans);
+      spans = low[static_cast<std::size_t>(i)].spans.append(lane, axis(), half_slope, tag, spans);
   }
   return spans;
 }
 
 }  // namespace
 
-PIPELINE_AVX2 ColoredSpan* center_spans_avx2(const ExactGrid& grid,
-                                             std::span<const ColoredTriangle> triangles, const RowRange& rows,
-                                             ColoredSpan* spans) {
+PIPELINE_AVX2 TaggedSpan* center_spans_avx2(const ExactGrid& grid, std::span<const TaggedTriangle> triangles,
+                                            const RowRange& rows, TaggedSpan* spans) {
   const AxisLanes column_axis(grid.columns.plain), row_axis(grid.rows.plain);
   for (; triangles.size() >= kCount; triangles = triangles.subspan(kCount)) {
     const FourTriangles four(column_axis, row_axis, triangles.data(), rows);
     spans = append_triangles(grid, four, triangles.data(), rows, spans);
   }
-  for (const ColoredTriangle& triangle : triangles) spans = append_exactly(grid, triangle, rows, spans);
+  for (const TaggedTriangle& triangle : triangles) spans = append_exactly(grid, triangle, rows, spans);
   return spans;
 }
 

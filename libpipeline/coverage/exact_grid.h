@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "libpipeline/coverage/span.h"
 #include "libpipeline/numbers/vec.h"
 #include "libpipeline/numbers/whole_math.h"
 #include "libpipeline/scene/viewport.h"
@@ -32,6 +33,12 @@ struct ExactTriangle {
   const Triangle& p_ndc;
   const Triangle* low_parts = nullptr;  // none: all 0
   std::uint16_t decimal_marks = 0;
+};
+
+/// A triangle to be drawn.
+struct TaggedTriangle {
+  ExactTriangle triangle;
+  PixelTag tag;
 };
 
 /// A triangle on a grid of whole numbers: u to the right, v down, and the center of the pixel (row, column)

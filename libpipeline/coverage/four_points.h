@@ -7,7 +7,7 @@
 #include <array>
 #include <cstddef>
 
-#include "libpipeline/coverage/colored_span.h"
+#include "libpipeline/coverage/exact_grid.h"
 #include "libpipeline/numbers/vec.h"
 
 namespace pipeline {
@@ -25,7 +25,7 @@ struct FourPoints {
 };
 
 /// The vertices of four triangles.
-PIPELINE_AVX2_INLINE std::array<FourPoints, 3> vertices_of(const ColoredTriangle* triangles) {
+PIPELINE_AVX2_INLINE std::array<FourPoints, 3> vertices_of(const TaggedTriangle* triangles) {
   static_assert(sizeof(Triangle) == 9 * sizeof(double));
   const double* const p = &triangles[0].triangle.p_ndc[0].x;
   const double* const q = &triangles[1].triangle.p_ndc[0].x;

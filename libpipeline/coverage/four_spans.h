@@ -7,7 +7,7 @@
 #include <array>
 #include <cstddef>
 
-#include "libpipeline/coverage/colored_span.h"
+#include "libpipeline/coverage/exact_grid.h"
 
 namespace pipeline {
 
@@ -18,7 +18,7 @@ class FourSpans {
   PIPELINE_AVX2_INLINE void set_columns(FourDoubles row, FourDoubles first, FourDoubles last) {
     const __m128i rows = _mm256_cvtpd_epi32(row), firsts = _mm256_cvtpd_epi32(first);
     const __m128i lasts = _mm256_cvtpd_epi32(last);
-    const __m128i size = _mm_set1_epi32(sizeof(ColoredSpan));
+    const __m128i size = _mm_set1_epi32(sizeof(TaggedSpan));
     const __m128i step = _mm_andnot_si128(_mm_cmpgt_epi32(firsts, lasts), size);
     const __m128i low = _mm_unpacklo_epi32(rows, firsts), high = _mm_unpackhi_epi32(rows, firsts);
     const __m128i low_ends = _mm_unpacklo_epi32(lasts, step), high_ends = _mm_unpackhi_epi32(lasts, step);
@@ -38,8 +38,8 @@ class FourSpans {
 
   /// Writes one of them to `spans`; returns where the next one goes: there, if this one has no pixel. `axis`
   /// is left_x and dx of its depth. Without a branch, as no processor could predict it.
-  PIPELINE_AVX2_INLINE ColoredSpan* append(std::size_t lane, __m128d axis, double slope, Color color,
-                                           ColoredSpan* spans) const {
+  PIPELINE_AVX2_INLINE TaggedSpan* append(std::size_t lane, __m128d axis, double slope, PixelTag tag,
+                                          TaggedSpan* spans) const {
     static_assert(offsetof(Span, row) == 0 && offsetof(Span, first_column) == 4);
     static_assert(offsetof(Span, last_column) == 8 && offsetof(Span, depth) == 16);
     static_assert(offsetof(SpanDepth, left_x) == 0 && offsetof(SpanDepth, dx) == 8);
@@ -51,8 +51,8 @@ class FourSpans {
     _mm_storeu_pd(&span.depth.left_x, axis);
     _mm_storeu_pd(&span.depth.x0, stored.point);
     span.depth.slope = slope;
-    spans->color = color;
-    return reinterpret_cast<ColoredSpan*>(reinterpret_cast<char*>(spans) + stored.columns[3]);
+    spans->tag = tag;
+    return reinterpret_cast<TaggedSpan*>(reinterpret_cast<char*>(spans) + stored.columns[3]);
   }
 
  private:

@@ -11,17 +11,17 @@
 namespace pipeline {
 namespace {
 
-ColoredSpan* nearest_spans(const PixelGrid& grid, std::span<const ColoredTriangle> triangles,
-                           const RowRange& rows, ColoredSpan* spans) {
-  for (const auto& [triangle, color] : triangles)
-    spans = append_spans(NearestRows(grid, triangle.p_ndc), color, rows, spans);
+TaggedSpan* nearest_spans(const PixelGrid& grid, std::span<const TaggedTriangle> triangles,
+                          const RowRange& rows, TaggedSpan* spans) {
+  for (const auto& [triangle, tag] : triangles)
+    spans = append_spans(NearestRows(grid, triangle.p_ndc), tag, rows, spans);
   return spans;
 }
 
-ColoredSpan* center_spans(const ExactGrid& grid, std::span<const ColoredTriangle> triangles,
-                          const RowRange& rows, ColoredSpan* spans) {
-  for (const auto& [triangle, color] : triangles)
-    spans = append_spans(CenterRows(grid, triangle), color, rows, spans);
+TaggedSpan* center_spans(const ExactGrid& grid, std::span<const TaggedTriangle> triangles,
+                         const RowRange& rows, TaggedSpan* spans) {
+  for (const auto& [triangle, tag] : triangles)
+    spans = append_spans(CenterRows(grid, triangle), tag, rows, spans);
   return spans;
 }
 

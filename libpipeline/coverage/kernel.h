@@ -2,7 +2,6 @@
 
 #include <span>
 
-#include "libpipeline/coverage/colored_span.h"
 #include "libpipeline/coverage/exact_grid.h"
 #include "libpipeline/coverage/span.h"
 #include "libpipeline/scene/pixel_grid.h"
@@ -17,10 +16,10 @@ namespace pipeline {
 /// many spans as there are rows, for every triangle; what lies behind the last one in it may be overwritten.
 struct CoverageKernel {
   const char* name;
-  ColoredSpan* (*nearest_spans)(const PixelGrid&, std::span<const ColoredTriangle>, const RowRange& rows,
-                                ColoredSpan* spans);
-  ColoredSpan* (*center_spans)(const ExactGrid&, std::span<const ColoredTriangle>, const RowRange& rows,
-                               ColoredSpan* spans);
+  TaggedSpan* (*nearest_spans)(const PixelGrid&, std::span<const TaggedTriangle>, const RowRange& rows,
+                               TaggedSpan* spans);
+  TaggedSpan* (*center_spans)(const ExactGrid&, std::span<const TaggedTriangle>, const RowRange& rows,
+                              TaggedSpan* spans);
 };
 
 /// The kernels this processor can run, the fastest last; the first, "portable", runs everywhere.
@@ -31,8 +30,8 @@ const CoverageKernel& coverage_kernel();
 
 /// Writes the spans of one triangle likewise; `covered` is what a coverage rule makes of it.
 template <typename CoveredRows>
-ColoredSpan* append_spans(const CoveredRows& covered, Color color, const RowRange& rows, ColoredSpan* spans) {
-  for_each_span(covered, rows, [&](const Span& span) { *spans++ = {span, color}; });
+TaggedSpan* append_spans(const CoveredRows& covered, PixelTag tag, const RowRange& rows, TaggedSpan* spans) {
+  for_each_span(covered, rows, [&](const Span& span) { *spans++ = {span, tag}; });
   return spans;
 }
 

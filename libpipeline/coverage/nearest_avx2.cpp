@@ -46,7 +46,7 @@ struct RowSources {
 
 /// Four triangles made ready for their rows.
 struct FourTriangles {
-  PIPELINE_AVX2_INLINE FourTriangles(const PixelGrid& grid, const ColoredTriangle* triangles,
+  PIPELINE_AVX2_INLINE FourTriangles(const PixelGrid& grid, const TaggedTriangle* triangles,
                                      const RowRange& rows) {
     const auto [a, b, c] = vertices_of(triangles);
     const FourDoubles b_first = is_lower(b, a), c_before_a = is_lower(c, a), c_before_b = is_lower(c, b);
@@ -146,15 +146,15 @@ struct FourRows {
 };
 
 /// What NearestRows has on these rows.
-ColoredSpan* append_one_by_one(const PixelGrid& grid, const ColoredTriangle& triangle, const RowRange& rows,
-                               ColoredSpan* spans) {
-  return append_spans(NearestRows(grid, triangle.triangle.p_ndc), triangle.color, rows, spans);
+TaggedSpan* append_one_by_one(const PixelGrid& grid, const TaggedTriangle& triangle, const RowRange& rows,
+                              TaggedSpan* spans) {
+  return append_spans(NearestRows(grid, triangle.triangle.p_ndc), triangle.tag, rows, spans);
 }
 
 /// As CoverageKernel says, for one of four triangles: four rows at a time.
-PIPELINE_AVX2 ColoredSpan* append_triangle(const PixelGrid& grid, const FourTriangles& four, std::size_t lane,
-                                           const ColoredTriangle& triangle, const RowRange& rows,
-                                           ColoredSpan* spans) {
+PIPELINE_AVX2 TaggedSpan* append_triangle(const PixelGrid& grid, const FourTriangles& four, std::size_t lane,
+                                          const TaggedTriangle& triangle, const RowRange& rows,
+                                          TaggedSpan* spans) {
   if (!four.is_ordinary(lane)) return append_one_by_one(grid, triangle, rows, spans);
   const RowSources of = four.rows_of.of(lane);
   const __m128d axis = _mm_setr_pd(grid.left_x, grid.dx);
@@ -162,7 +162,7 @@ PIPELINE_AVX2 ColoredSpan* append_triangle(const PixelGrid& grid, const FourTria
   for (int row = static_cast<int>(four.begin_row[lane]); row < end;) {
     const FourRows some(grid, of, all(row) + _mm256_setr_pd(0, 1, 2, 3));
     for (std::size_t i = 0; i < kCount && row < end; ++i, ++row)
-      spans = some.is_ordinary(i) ? some.spans.append(i, axis, some.slope[i], triangle.color, spans)
+      spans = some.is_ordinary(i) ? some.spans.append(i, axis, some.slope[i], triangle.tag, spans)
                                   : append_one_by_one(grid, triangle, {row, row + 1}, spans);
   }
   return spans;
@@ -170,9 +170,9 @@ PIPELINE_AVX2 ColoredSpan* append_triangle(const PixelGrid& grid, const FourTria
 
 /// As CoverageKernel says, for four triangles: a row of each at a time, as low ones have too few for four
 /// lanes.
-PIPELINE_AVX2 ColoredSpan* append_triangles(const PixelGrid& grid, const FourTriangles& four,
-                                            const ColoredTriangle* triangles, const RowRange& rows,
-                                            ColoredSpan* spans) {
+PIPELINE_AVX2 TaggedSpan* append_triangles(const PixelGrid& grid, const FourTriangles& four,
+                                           const TaggedTriangle* triangles, const RowRange& rows,
+                                           TaggedSpan* spans) {
   constexpr int kMaxLowRows = 8;
   const double most = largest_of(four.rows_of.last_row - four.begin_row) + 1;
   bool are_ordinary = four.are_ordinary() && most <= kMaxLowRows;
@@ -191,10 +191,10 @@ PIPELINE_AVX2 ColoredSpan* append_triangles(const PixelGrid& grid, const FourTri
   // As many rows of each, covered or not: no processor could predict how many are.
   const __m128d axis = _mm_setr_pd(grid.left_x, grid.dx);
   for (std::size_t lane = 0; lane < kCount; ++lane) {
-    const Color color = triangles[lane].color;
+    const PixelTag tag = triangles[lane].tag;
     for (int i = 0; i < count; ++i) {
       const FourRows& some = low[static_cast<std::size_t>(i)];
-      spans = some.spans.append(lane, axis, some.slope[lane], color, spans);
+      spans = some.spans.append(lane, axis, some.slope[lane], tag, spans);
     }
   }
   return spans;
@@ -202,14 +202,13 @@ PIPELINE_AVX2 ColoredSpan* append_triangles(const PixelGrid& grid, const FourTri
 
 }  // namespace
 
-PIPELINE_AVX2 ColoredSpan* nearest_spans_avx2(const PixelGrid& grid,
-                                              std::span<const ColoredTriangle> triangles,
-                                              const RowRange& rows, ColoredSpan* spans) {
+PIPELINE_AVX2 TaggedSpan* nearest_spans_avx2(const PixelGrid& grid, std::span<const TaggedTriangle> triangles,
+                                             const RowRange& rows, TaggedSpan* spans) {
   for (; triangles.size() >= kCount; triangles = triangles.subspan(kCount)) {
     const FourTriangles four(grid, triangles.data(), rows);
     spans = append_triangles(grid, four, triangles.data(), rows, spans);
   }
-  for (const ColoredTriangle& triangle : triangles) spans = append_one_by_one(grid, triangle, rows, spans);
+  for (const TaggedTriangle& triangle : triangles) spans = append_one_by_one(grid, triangle, rows, spans);
   return spans;
 }
 

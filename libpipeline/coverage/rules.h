@@ -3,7 +3,6 @@
 #include <span>
 
 #include "libpipeline/coverage/center.h"
-#include "libpipeline/coverage/colored_span.h"
 #include "libpipeline/coverage/exact_grid.h"
 #include "libpipeline/coverage/kernel.h"
 #include "libpipeline/coverage/nearest.h"
@@ -22,8 +21,8 @@ struct NearestCoverage {
   using Rows = NearestRows;
   explicit NearestCoverage(const Viewport& screen) : grid(screen), kernel(coverage_kernel()) {}
   [[nodiscard]] Rows rows(const ExactTriangle& triangle) const { return {grid, triangle.p_ndc}; }
-  ColoredSpan* spans(std::span<const ColoredTriangle> triangles, const RowRange& rows,
-                     ColoredSpan* begin) const {
+  TaggedSpan* spans(std::span<const TaggedTriangle> triangles, const RowRange& rows,
+                    TaggedSpan* begin) const {
     return kernel.nearest_spans(grid, triangles, rows, begin);
   }
 
@@ -36,8 +35,8 @@ struct CenterCoverage {
   using Rows = CenterRows;
   explicit CenterCoverage(const Viewport& screen) : grid(screen), kernel(coverage_kernel()) {}
   [[nodiscard]] Rows rows(const ExactTriangle& triangle) const { return {grid, triangle}; }
-  ColoredSpan* spans(std::span<const ColoredTriangle> triangles, const RowRange& rows,
-                     ColoredSpan* begin) const {
+  TaggedSpan* spans(std::span<const TaggedTriangle> triangles, const RowRange& rows,
+                    TaggedSpan* begin) const {
     return kernel.center_spans(grid, triangles, rows, begin);
   }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
 #include <limits>
 
 namespace pipeline {
@@ -26,6 +27,16 @@ struct Span {
   int first_column = 0;
   int last_column = 0;  // included, not less than first_column
   SpanDepth depth;
+};
+
+/// The 32 bits kept for a triangle at every pixel that shows it, whose meaning is the caller's: the RGB value
+/// of a color, or the number of a surface.
+using PixelTag = std::uint32_t;
+
+/// A span to be drawn.
+struct TaggedSpan {
+  Span span;
+  PixelTag tag;
 };
 
 /// Rows, or bands of rows, from `first` to before `end`.

@@ -76,7 +76,7 @@ ClipTriangle SurfaceShader::unclipped_in_clip_space(const TriangleBatch& p_ndc, 
   return corners;
 }
 
-Color SurfaceShader::add(const TriangleBatch& p_ndc, std::size_t index, Color own_color) {
+SurfaceShader::SurfaceId SurfaceShader::add(const TriangleBatch& p_ndc, std::size_t index, Color own_color) {
   const ClipTriangle corners = unclipped_in_clip_space(p_ndc, index, own_color);
   // Only the ratios of weights count: scaled like this, nothing leaves a double's range.
   const double scale =
@@ -93,8 +93,8 @@ Color SurfaceShader::add(const TriangleBatch& p_ndc, std::size_t index, Color ow
   light_corners(surface);
   if (setup_.wireframe) add_edges(p_ndc, index, surface.screen_corners);
   surfaces_.push_back(surface);
-  assert(surfaces_.size() < kNoSurface.rgb());
-  return Color::from_rgb(static_cast<std::uint32_t>(surfaces_.size() - 1));
+  assert(surfaces_.size() < kNoSurface);
+  return static_cast<SurfaceId>(surfaces_.size() - 1);
 }
 
 void SurfaceShader::add_edges(const TriangleBatch& p_ndc, std::size_t index, const Triangle& screen_corners) {
@@ -113,18 +113,18 @@ void SurfaceShader::light_corners(Surface& surface) const {
   }
 }
 
-std::span<const Color> SurfaceShader::shade(int row, std::span<const Color> ids) {
+std::span<const Color> SurfaceShader::shade(int row, std::span<const SurfaceId> ids) {
   row_.resize(ids.size());
   const double y = grid_.y_of(row);
   for (std::size_t column = 0; column < ids.size(); ++column) {
-    const Color id = ids[column];
+    const SurfaceId id = ids[column];
     row_[column] =
-        id == kNoSurface ? setup_.background : color_at(id.rgb(), grid_.x_of(static_cast<int>(column)), y);
+        id == kNoSurface ? setup_.background : color_at(id, grid_.x_of(static_cast<int>(column)), y);
   }
   return row_;
 }
 
-Color SurfaceShader::color_at(std::uint32_t id, double x, double y) const {
+Color SurfaceShader::color_at(SurfaceId id, double x, double y) const {
   if (setup_.wireframe && !setup_.wireframe->is_on_edge(id, x, y)) return setup_.background;
   const Surface& surface = surfaces_[id];
   const SurfacePoint point = mean(surface.corners, weights_at(surface.screen_corners, x, y));

@@ -19,15 +19,16 @@ namespace pipeline {
 /// Where a surface is lit: not at all, once a triangle, at its vertices, at every pixel.
 enum class ShadingModel { none, flat, gouraud, phong };
 
-/// Gives pixels their colors after it is known which triangle each shows: keeps the triangles of a scene
-/// with colors or lights, each under an id that stands in the visibility algorithm's place of a color. So
-/// hidden pixels are never shaded. What lies between vertices is interpolated perspective-correctly. Flat and
+/// Gives pixels their colors once the triangle that each one shows is known: keeps the triangles of a scene
+/// with colors or lights, each under an id by which the visibility algorithm refers to it. So hidden surfaces
+/// are never shaded. What lies between vertices is interpolated perspective-correctly. Flat and
 /// gouraud shading light triangles as they come, those that were clipped as they were before, phong shading
 /// lights visible pixels; without vertex normals both use the triangle's.
 class SurfaceShader {
  public:
+  using SurfaceId = std::uint32_t;
   /// The id of a pixel without a triangle.
-  static constexpr Color kNoSurface = Color::from_rgb(0xffffffff);
+  static constexpr SurfaceId kNoSurface = 0xffffffff;
 
   /// How a scene is lit. `view_from_clip` is needed by every model but `none`.
   struct Setup {
@@ -41,10 +42,10 @@ class SurfaceShader {
 
   SurfaceShader(const Viewport& screen, Setup setup) : grid_(screen), setup_(std::move(setup)) {}
 
-  /// Keeps a triangle of a batch in NDC, whose color is `own_color` where it carries none; its id.
-  Color add(const TriangleBatch& p_ndc, std::size_t index, Color own_color);
+  /// Keeps a triangle of a batch in NDC and returns its id; `own_color` is its color if it carries none.
+  SurfaceId add(const TriangleBatch& p_ndc, std::size_t index, Color own_color);
   /// The colors of a row of the image, by the ids seen in it. Valid until the next call.
-  std::span<const Color> shade(int row, std::span<const Color> ids);
+  std::span<const Color> shade(int row, std::span<const SurfaceId> ids);
 
  private:
   struct Surface {
@@ -57,7 +58,7 @@ class SurfaceShader {
                                                      Color own_color) const;
   void light_corners(Surface& surface) const;
   void add_edges(const TriangleBatch& p_ndc, std::size_t index, const Triangle& screen_corners);
-  [[nodiscard]] Color color_at(std::uint32_t id, double x, double y) const;
+  [[nodiscard]] Color color_at(SurfaceId id, double x, double y) const;
 
   PixelGrid grid_;
   Setup setup_;

@@ -20,7 +20,7 @@ template <typename Rows, typename Depth>
 class ActivePolygons {
  public:
   /// Adds polygon `id`; returns its slot.
-  std::uint32_t add(PolygonId id, Color color, Rows&& rows) {
+  std::uint32_t add(PolygonId id, PixelTag tag, Rows&& rows) {
     if (free_slots_.empty()) {
       free_slots_.push_back(static_cast<std::uint32_t>(polygons_.size()));
       polygons_.emplace_back();
@@ -30,7 +30,7 @@ class ActivePolygons {
     free_slots_.pop_back();
     polygons_[slot].rows.emplace(std::move(rows));
     polygons_[slot].id = id;
-    polygons_[slot].color = color;
+    polygons_[slot].tag = tag;
     return slot;
   }
 
@@ -38,7 +38,7 @@ class ActivePolygons {
   void update(std::uint32_t slot, int row, const RowSweep<Depth>& sweep) {
     const Polygon& polygon = polygons_[slot];
     const auto span = polygon.rows->span(row);
-    on_row_[slot] = span ? sweep.polygon(*span, polygon.id, polygon.color) : RowPolygon<Depth>();
+    on_row_[slot] = span ? sweep.polygon(*span, polygon.id, polygon.tag) : RowPolygon<Depth>();
   }
 
   /// The column of an edge on the row of the last update.
@@ -61,7 +61,7 @@ class ActivePolygons {
   struct Polygon {
     std::optional<Rows> rows;
     PolygonId id = 0;
-    Color color;
+    PixelTag tag = 0;
   };
 
   std::vector<Polygon> polygons_;

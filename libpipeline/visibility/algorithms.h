@@ -6,10 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "libpipeline/coverage/colored_span.h"
 #include "libpipeline/coverage/exact_grid.h"
 #include "libpipeline/coverage/span.h"
-#include "libpipeline/scene/color.h"
 #include "libpipeline/scene/viewport.h"
 #include "libpipeline/visibility/scanline.h"
 #include "libpipeline/visibility/span_queue.h"
@@ -24,8 +22,8 @@ namespace pipeline {
 /// class template of a coverage rule and a depth format, whose objects are made from the screen.
 template <typename Algorithm>
 concept VisibilityAlgorithm = std::constructible_from<Algorithm, const Viewport&> &&
-    requires(Algorithm& algorithm, const Algorithm& complete, const ExactTriangle& triangle, Color color) {
-  algorithm.draw(triangle, color);
+    requires(Algorithm& algorithm, const Algorithm& complete, const ExactTriangle& triangle, PixelTag tag) {
+  algorithm.draw(triangle, tag);
   complete.for_each_row([](const VisibleRow&) {});
 };
 
@@ -34,13 +32,13 @@ concept VisibilityAlgorithm = std::constructible_from<Algorithm, const Viewport&
 template <typename Coverage, typename Depth>
 class ZBufferAlgorithm {
  public:
-  explicit ZBufferAlgorithm(const Viewport& screen, Color background = {})
+  explicit ZBufferAlgorithm(const Viewport& screen, PixelTag background = {})
       : coverage_(screen), buffer_(screen, background), most_height_((kMaxRows - 1) * screen.dy()) {}
 
   /// From now on a fragment has to be nearer than the last by more than `epsilon`.
   void set_depth_epsilon(double epsilon) { buffer_.set_depth_epsilon(epsilon); }
-  void draw(const ExactTriangle& triangle, Color color) {
-    for_each_span(coverage_.rows(triangle), [&](const Span& span) { buffer_.draw(span, color); });
+  void draw(const ExactTriangle& triangle, PixelTag tag) {
+    for_each_span(coverage_.rows(triangle), [&](const Span& span) { buffer_.draw(span, tag); });
   }
   /// What draws into some rows, triangle by triangle; nothing else may while it is in use.
   class Band {
@@ -54,14 +52,14 @@ class ZBufferAlgorithm {
       triangles_.reserve(kTriangles);
     }
     /// It may be drawn later, at the latest in finish(); until then what it consists of has to stay.
-    void draw(const ExactTriangle& triangle, Color color) {
-      triangles_.push_back({triangle, color});
+    void draw(const ExactTriangle& triangle, PixelTag tag) {
+      triangles_.push_back({triangle, tag});
       if (!is_low_) is_any_high_ |= !(height_of(triangle.p_ndc) < whole_.most_height_);
       if (triangles_.size() == kTriangles) make_spans();
     }
     void finish() {
       make_spans();
-      queue_.finish([this](std::span<const ColoredSpan> spans) { draw_spans(spans); });
+      queue_.finish([this](std::span<const TaggedSpan> spans) { draw_spans(spans); });
     }
 
    private:
@@ -73,22 +71,22 @@ class ZBufferAlgorithm {
       return std::max(std::max(a, b), c) - std::min(std::min(a, b), c);
     }
     void make_spans() {
-      const auto draw_waiting = [this](std::span<const ColoredSpan> spans) { draw_spans(spans); };
+      const auto draw_waiting = [this](std::span<const TaggedSpan> spans) { draw_spans(spans); };
       if (!is_any_high_) {
         queue_.put(
             whole_.coverage_.spans(triangles_, rows_, queue_.end()),
-            [this](const ColoredSpan& span) { whole_.buffer_.fetch(span.span); }, draw_waiting);
+            [this](const TaggedSpan& span) { whole_.buffer_.fetch(span.span); }, draw_waiting);
       } else {
         queue_.finish(draw_waiting);
-        for (const auto& [triangle, color] : triangles_)
+        for (const auto& [triangle, tag] : triangles_)
           for_each_span(whole_.coverage_.rows(triangle), rows_,
-                        [&, of = color](const Span& span) { whole_.buffer_.draw(span, of); });
+                        [&, of = tag](const Span& span) { whole_.buffer_.draw(span, of); });
       }
       triangles_.clear();
       is_any_high_ = false;
     }
     // Bounds for all rows of a high picture would take too much memory.
-    void draw_spans(std::span<const ColoredSpan> spans) {
+    void draw_spans(std::span<const TaggedSpan> spans) {
       whole_.buffer_.draw(spans, is_low_ ? &farthest_ : nullptr);
     }
 
@@ -96,7 +94,7 @@ class ZBufferAlgorithm {
     RowRange rows_;
     bool is_low_;
     HierarchicalDepth<Depth> farthest_;
-    std::vector<ColoredTriangle> triangles_;
+    std::vector<TaggedTriangle> triangles_;
     bool is_any_high_ = false;  // where that matters
     SpanQueue queue_;
   };

@@ -11,8 +11,8 @@
 #include "libpipeline/coverage/span.h"
 #include "libpipeline/scene/viewport.h"
 #include "libpipeline/stream/thread_pool.h"
-#include "libpipeline/visibility/colored_batch.h"
 #include "libpipeline/visibility/row_bands.h"
+#include "libpipeline/visibility/tagged_batch.h"
 
 namespace pipeline {
 
@@ -20,7 +20,7 @@ namespace pipeline {
 /// next band, so that its pixels stay in the cache; and with several threads, each band by one of them, while
 /// the caller reads on. A pixel belongs to one band and sees its triangles in the order of the stream, so the
 /// result does not depend on the number of threads. `Visible` has a class Band(visible, rows) with
-/// draw(triangle, color) and finish(), which only touch those rows.
+/// draw(triangle, tag) and finish(), which only touch those rows.
 ///
 /// Source: "sort-middle" in S. Molnar, M. Cox, D. Ellsworth, H. Fuchs, "A sorting classification of parallel
 /// rendering", 1994.
@@ -37,7 +37,7 @@ class BandDrawing {
   BandDrawing& operator=(const BandDrawing&) = delete;
 
   /// Takes the batch, in exchange for another one's memory. It may be drawn later, at the latest in finish().
-  void draw(ColoredBatch& batch) {
+  void draw(TaggedBatch& batch) {
     is_idle_ = false;
     Round& round = rounds_[filling_];
     std::swap(round.batches[round.batch_count], batch);
@@ -71,7 +71,7 @@ class BandDrawing {
              (batch_count >= kBatchesInCache && is_of_small_triangles);
     }
 
-    std::array<ColoredBatch, kMaxBatches> batches;
+    std::array<TaggedBatch, kMaxBatches> batches;
     std::vector<std::vector<Entry>> bands;  // which triangles reach a band
     std::size_t batch_count = 0;
     std::size_t triangle_count = 0;
@@ -110,8 +110,8 @@ class BandDrawing {
     if (entries.empty()) return;
     typename Visible::Band rows(visible_, bands_.rows(band));
     for (const Entry entry : entries) {
-      const ColoredBatch& drawn = round.batches[entry.batch];
-      rows.draw(exact_triangle(drawn.batch, entry.index), drawn.colors[entry.index]);
+      const TaggedBatch& drawn = round.batches[entry.batch];
+      rows.draw(exact_triangle(drawn.batch, entry.index), drawn.tags[entry.index]);
     }
     rows.finish();
     entries.clear();

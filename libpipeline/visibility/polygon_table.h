@@ -6,7 +6,6 @@
 
 #include "libpipeline/coverage/exact_grid.h"
 #include "libpipeline/numbers/vec.h"
-#include "libpipeline/scene/color.h"
 
 namespace pipeline {
 
@@ -22,11 +21,11 @@ using PolygonId = std::uint32_t;
 class PolygonTable {
  public:
   /// Takes the next triangle; its number is the count so far.
-  void add(const ExactTriangle& triangle, Color color) {
+  void add(const ExactTriangle& triangle, PixelTag tag) {
     const bool has_low_parts = triangle.low_parts != nullptr && *triangle.low_parts != Triangle{};
     if (has_low_parts) low_parts_.push_back(*triangle.low_parts);
     const auto low_parts = static_cast<std::uint32_t>(has_low_parts ? low_parts_.size() : 0);
-    polygons_.push_back({triangle.p_ndc, color, low_parts, triangle.decimal_marks});
+    polygons_.push_back({triangle.p_ndc, tag, low_parts, triangle.decimal_marks});
   }
 
   /// The triangle as it was given; refers to the table.
@@ -35,13 +34,13 @@ class PolygonTable {
     return {polygon.p_ndc, polygon.low_parts == 0 ? nullptr : &low_parts_[polygon.low_parts - 1],
             polygon.decimal_marks};
   }
-  [[nodiscard]] Color color(PolygonId id) const { return polygons_[id].color; }
+  [[nodiscard]] PixelTag tag(PolygonId id) const { return polygons_[id].tag; }
   [[nodiscard]] PolygonId size() const { return static_cast<PolygonId>(polygons_.size()); }
 
  private:
   struct Polygon {
     Triangle p_ndc;
-    Color color;
+    PixelTag tag;
     std::uint32_t low_parts;  // their place in low_parts_, counted from 1; 0: none
     std::uint16_t decimal_marks;
   };

@@ -12,10 +12,10 @@
 namespace pipeline {
 
 /// A screen cut into bands of neighboring rows: so many that threads can share them out, and each so low
-/// that its depths and colors stay in a core's cache while many triangles are drawn into it.
+/// that its depths and tags stay in a core's cache while many triangles are drawn into it.
 class RowBands {
  public:
-  /// Of a double and a Color.
+  /// Of a double and a PixelTag.
   static constexpr int kBytesPerPixel = 12;
 
   explicit RowBands(const Viewport& screen)

@@ -20,7 +20,7 @@ bool is_nearer(Stored depth, PolygonId id, Stored other_depth, PolygonId other_i
 }  // namespace
 
 template <typename Depth>
-RowSweep<Depth>::RowSweep(const Viewport& screen, Color background)
+RowSweep<Depth>::RowSweep(const Viewport& screen, PixelTag background)
     : format_(screen),
       front_(screen.front),
       rear_limit_(screen.rear),
@@ -28,11 +28,11 @@ RowSweep<Depth>::RowSweep(const Viewport& screen, Color background)
       reach_columns_(screen.columns),
       background_(background),
       depths_(static_cast<std::size_t>(screen.columns), screen.rear),
-      colors_(static_cast<std::size_t>(screen.columns), background) {}
+      tags_(static_cast<std::size_t>(screen.columns), background) {}
 
 template <typename Depth>
-RowPolygon<Depth> RowSweep<Depth>::polygon(const Span& span, PolygonId id, Color color) const {
-  Polygon polygon = {span.depth, span.first_column, span.last_column, {}, {}, {}, {}, id, color};
+RowPolygon<Depth> RowSweep<Depth>::polygon(const Span& span, PolygonId id, PixelTag tag) const {
+  Polygon polygon = {span.depth, span.first_column, span.last_column, {}, {}, {}, {}, id, tag};
   const SpanDepth& depth = span.depth;
   double left_z = depth(polygon.first_column), right_z = depth(polygon.last_column);
   const auto is_seen = [&](double z) { return z >= front_ && is_before_rear(z); };
@@ -71,7 +71,7 @@ RowPolygon<Depth> RowSweep<Depth>::polygon(const Span& span, PolygonId id, Color
 template <typename Depth>
 VisibleRow RowSweep<Depth>::sweep(std::span<const ActiveEdge> edges, std::span<Polygon> polygons) {
   clear_pixels();
-  if (edges.empty()) return {depths_, colors_};
+  if (edges.empty()) return {depths_, tags_};
   polygons_ = polygons;
   first_painted_ = edges.front().column;
   end_painted_ = edges.back().column;
@@ -86,13 +86,13 @@ VisibleRow RowSweep<Depth>::sweep(std::span<const ActiveEdge> edges, std::span<P
     }
     if (edge != edges.end()) give(column, edge->column);
   }
-  return {depths_, colors_};
+  return {depths_, tags_};
 }
 
 template <typename Depth>
 void RowSweep<Depth>::clear_pixels() {
   std::fill(depths_.begin() + first_painted_, depths_.begin() + end_painted_, rear_limit_);
-  std::fill(colors_.begin() + first_painted_, colors_.begin() + end_painted_, background_);
+  std::fill(tags_.begin() + first_painted_, tags_.begin() + end_painted_, background_);
   end_painted_ = first_painted_;
 }
 
@@ -196,7 +196,7 @@ void RowSweep<Depth>::give(int column, int end) {
   while (column < end) {
     if (active_.empty()) {
       std::fill(depths_.begin() + column, depths_.begin() + end, rear_limit_);
-      std::fill(colors_.begin() + column, colors_.begin() + end, background_);
+      std::fill(tags_.begin() + column, tags_.begin() + end, background_);
       return;
     }
     if (owner_ == nullptr || column >= owned_end_) choose_owner(column);
@@ -215,7 +215,7 @@ void RowSweep<Depth>::paint(const Polygon& polygon, int column, int end) {
   const SpanDepth depth = polygon.depth;
   double* const depths = depths_.data();
   for (int c = column; c < end; ++c) depths[c] = format.depth(format.store(depth(c)));
-  std::fill(colors_.begin() + column, colors_.begin() + end, polygon.color);
+  std::fill(tags_.begin() + column, tags_.begin() + end, polygon.tag);
 }
 
 template <typename Depth>
@@ -230,7 +230,7 @@ void RowSweep<Depth>::paint_pixel_by_pixel(int column, int end) {
       nearest_depth = depth;
     }
     depths_[static_cast<std::size_t>(c)] = format_.depth(nearest_depth);
-    colors_[static_cast<std::size_t>(c)] = nearest->color;
+    tags_[static_cast<std::size_t>(c)] = nearest->tag;
   }
 }
 

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "libpipeline/coverage/span.h"
-#include "libpipeline/scene/color.h"
 #include "libpipeline/scene/viewport.h"
 #include "libpipeline/visibility/active_edge_list.h"
 #include "libpipeline/visibility/depth_format.h"
@@ -34,7 +33,7 @@ struct RowPolygon {
   double error =
       0;  // at least twice what a depth can be off from the exact linear function; 0 if it is exact
   PolygonId id = 0;
-  Color color;
+  PixelTag tag = 0;
   std::uint32_t index_in_list = kOut;  // in the active polygon list
 };
 
@@ -54,10 +53,10 @@ struct RowPolygon {
 template <typename Depth>
 class RowSweep {
  public:
-  RowSweep(const Viewport& screen, Color background);
+  RowSweep(const Viewport& screen, PixelTag background);
 
   /// The pixels of `span` that can be seen, with their depths' range and precision.
-  [[nodiscard]] RowPolygon<Depth> polygon(const Span& span, PolygonId id, Color color) const;
+  [[nodiscard]] RowPolygon<Depth> polygon(const Span& span, PolygonId id, PixelTag tag) const;
 
   /// The visible row: `edges`, sorted by column, are the two edges of every polygon that is not empty, each
   /// with its slot in `polygons`. What is returned is valid until the next call.
@@ -88,9 +87,9 @@ class RowSweep {
   double rear_limit_;
   typename Depth::Stored rear_;
   double reach_columns_;
-  Color background_;
+  PixelTag background_;
   std::vector<double> depths_;
-  std::vector<Color> colors_;
+  std::vector<PixelTag> tags_;
   int first_painted_ = 0;
   int end_painted_ = 0;
 

@@ -2,7 +2,6 @@
 
 #include <cstdint>
 
-#include "libpipeline/scene/color.h"
 #include "libpipeline/scene/viewport.h"
 #include "libpipeline/visibility/active_edge_list.h"
 #include "libpipeline/visibility/active_polygons.h"
@@ -25,16 +24,16 @@ namespace pipeline {
 template <typename Coverage, typename Depth>
 class Scanline {
  public:
-  /// Nothing is seen yet, all pixels are at the rear limit and of the color `background`.
-  explicit Scanline(const Viewport& screen, Color background = {})
+  /// Nothing is seen yet, every pixel is at the rear limit and has the tag `background`.
+  explicit Scanline(const Viewport& screen, PixelTag background = {})
       : screen_(screen), background_(background), coverage_(screen), edge_table_(screen.rows) {}
 
   /// Takes the next triangle.
-  void draw(const ExactTriangle& triangle, Color color) {
+  void draw(const ExactTriangle& triangle, PixelTag tag) {
     const auto rows = coverage_.rows(triangle);
     if (rows.first_row() > rows.last_row()) return;
     edge_table_.add(rows.first_row());
-    polygon_table_.add(triangle, color);
+    polygon_table_.add(triangle, tag);
   }
 
   /// Calls `visit(VisibleRow)` for every row of the screen, from the top.
@@ -45,7 +44,7 @@ class Scanline {
     RowSweep<Depth> sweep(screen_, background_);
     for (int row = 0; row < screen_.rows; ++row) {
       edge_table_.for_each_from(row, [&](PolygonId id) {
-        edges.add(active.add(id, polygon_table_.color(id), coverage_.rows(polygon_table_.triangle(id))));
+        edges.add(active.add(id, polygon_table_.tag(id), coverage_.rows(polygon_table_.triangle(id))));
       });
       edges.for_each_polygon([&](std::uint32_t slot) { active.update(slot, row, sweep); });
       edges.sort([&](const ActiveEdge& edge) { return active.column_of(edge); });
@@ -57,7 +56,7 @@ class Scanline {
 
  private:
   Viewport screen_;
-  Color background_;
+  PixelTag background_;
   Coverage coverage_;
   EdgeTable edge_table_;
   PolygonTable polygon_table_;

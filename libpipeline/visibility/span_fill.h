@@ -4,7 +4,6 @@
 #include <span>
 
 #include "libpipeline/coverage/span.h"
-#include "libpipeline/scene/color.h"
 #include "libpipeline/visibility/depth_format.h"
 #include "libpipeline/visibility/hierarchical_depth.h"
 
@@ -17,11 +16,11 @@ struct SpanFill {
   using Stored = typename Depth::Stored;
 
   const Span& span;
-  Color color;
+  PixelTag tag;
   const Depth& format;
   int columns;     // of the row
   Stored* depths;  // of its first pixel
-  Color* colors;   // likewise
+  PixelTag* tags;  // likewise
   Stored* farthest =
       nullptr;  // of its first block (see HierarchicalDepth), brought up to date; may be missing
 };
@@ -44,7 +43,7 @@ struct SpanBlocks {
 };
 
 // The loop that draws: every pixel of the span whose depth, as it is stored, is less than the one there gets
-// the span's depth and color. A kernel is that loop for one kind of processor; all give the same bytes.
+// the span's depth and tag. A kernel is that loop for one kind of processor; all give the same bytes.
 //
 // Every rounding in a SpanDepth is monotone, so depths as they are calculated and stored rise or fall along
 // the row: the nearest in a block is at one of its ends. If that is not nearer than the farthest depth there,

@@ -160,16 +160,16 @@ class SpanLanes {
         lanes_(pixels.format),
         depth_(pixels.span.depth),
         is_rising_(pixels.span.depth(pixels.span.first_column) <= pixels.span.depth(pixels.span.last_column)),
-        color_(_mm256_set1_epi32(static_cast<int>(pixels.color.rgb()))) {}
+        tag_(_mm256_set1_epi32(static_cast<int>(pixels.tag))) {}
 
   /// Draws the pixels from the column `first` to before `end`; says whether one of them is seen.
   PIPELINE_AVX2 bool fill_columns(int first, int end) const {
     const __m256d eight = _mm256_set1_pd(8), four = _mm256_set1_pd(4);
     __m256d columns = _mm256_add_pd(_mm256_set1_pd(first), _mm256_setr_pd(0, 1, 2, 3));
     auto* depths = pixels_.depths + first;
-    int* colors = reinterpret_cast<int*>(pixels_.colors) + first;
+    int* tags = reinterpret_cast<int*>(pixels_.tags) + first;
     bool is_any_seen = false;
-    for (int left = end - first; left > 0; left -= 8, depths += 8, colors += 8) {
+    for (int left = end - first; left > 0; left -= 8, depths += 8, tags += 8) {
       const auto stored = lanes_.store({depth_(columns), depth_(_mm256_add_pd(columns, four))});
       columns = _mm256_add_pd(columns, eight);
       typename Lanes::Mask is_seen;
@@ -181,7 +181,7 @@ class SpanLanes {
       }
       if (!lanes_.is_any(is_seen)) continue;
       lanes_.write_some(depths, stored, is_seen);
-      _mm256_maskstore_epi32(colors, lanes_.in_32_bits(is_seen), color_);
+      _mm256_maskstore_epi32(tags, lanes_.in_32_bits(is_seen), tag_);
       is_any_seen = true;
     }
     return is_any_seen;
@@ -243,7 +243,7 @@ class SpanLanes {
   Lanes lanes_;
   EightDepths depth_;
   bool is_rising_;
-  __m256i color_;
+  __m256i tag_;
 };
 
 template <typename Lanes, typename Depth>

@@ -15,7 +15,7 @@ bool fill_columns_in_a_loop(const SpanFill<Depth>& pixels, int first, int end) {
     const typename Depth::Stored stored = pixels.format.store(depth(column));
     if (!(stored < pixels.depths[column])) continue;
     pixels.depths[column] = stored;
-    pixels.colors[column] = pixels.color;
+    pixels.tags[column] = pixels.tag;
     is_any_seen = true;
   }
   return is_any_seen;

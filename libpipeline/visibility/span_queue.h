@@ -5,7 +5,7 @@
 #include <memory>
 #include <span>
 
-#include "libpipeline/coverage/colored_span.h"
+#include "libpipeline/coverage/exact_grid.h"
 
 namespace pipeline {
 
@@ -19,13 +19,13 @@ class SpanQueue {
       : halves_{Half(kWaiting + most_spans), Half(kWaiting + most_spans)} {}
 
   /// Where the next spans are to be written, one after the other.
-  [[nodiscard]] ColoredSpan* end() { return halves_[filling_].end; }
+  [[nodiscard]] TaggedSpan* end() { return halves_[filling_].end; }
   /// Takes what was written there, up to `new_end`. Calls `fetch(span)` for each at once, and
   /// `draw(spans)` for those that have waited.
   template <typename Fetch, typename Draw>
-  void put(ColoredSpan* new_end, Fetch&& fetch, Draw&& draw) {
+  void put(TaggedSpan* new_end, Fetch&& fetch, Draw&& draw) {
     Half& half = halves_[filling_];
-    for (const ColoredSpan* span = half.end; span != new_end; ++span) fetch(*span);
+    for (const TaggedSpan* span = half.end; span != new_end; ++span) fetch(*span);
     half.end = new_end;
     if (half.end < half.begin() + kWaiting) return;
     filling_ = 1 - filling_;
@@ -43,20 +43,20 @@ class SpanQueue {
   static constexpr std::size_t kWaiting = 32;
 
   struct Half {
-    explicit Half(std::size_t count) : memory(::operator new(count * sizeof(ColoredSpan))), end(begin()) {}
-    [[nodiscard]] ColoredSpan* begin() const { return static_cast<ColoredSpan*>(memory.get()); }
+    explicit Half(std::size_t count) : memory(::operator new(count * sizeof(TaggedSpan))), end(begin()) {}
+    [[nodiscard]] TaggedSpan* begin() const { return static_cast<TaggedSpan*>(memory.get()); }
 
     struct Delete {
       void operator()(void* p) const { ::operator delete(p); }
     };
     // Nothing is there before it is written.
     std::unique_ptr<void, Delete> memory;
-    ColoredSpan* end;
+    TaggedSpan* end;
   };
 
   template <typename Draw>
   void take(Half& half, Draw& draw) {
-    draw(std::span<const ColoredSpan>(half.begin(), half.end));
+    draw(std::span<const TaggedSpan>(half.begin(), half.end));
     half.end = half.begin();
   }
 

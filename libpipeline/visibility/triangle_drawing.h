@@ -11,7 +11,7 @@
 #include "libpipeline/stream/thread_pool.h"
 #include "libpipeline/stream/triangle_batch.h"
 #include "libpipeline/visibility/band_drawing.h"
-#include "libpipeline/visibility/colored_batch.h"
+#include "libpipeline/visibility/tagged_batch.h"
 
 namespace pipeline {
 
@@ -31,13 +31,13 @@ class TriangleDrawing {
 
   /// Where the next batch is to be put.
   [[nodiscard]] TriangleBatch& next_batch() { return next_.batch; }
-  /// Takes what was put there, each triangle in the color `color_of(batch, index)`, which is asked for at
-  /// once and in order. It may be drawn later, at the latest in finish().
-  template <typename ColorOf>
-  void draw_batch(ColorOf&& color_of) {
-    if (whole_ && has_small_triangles(next_.batch)) return draw_at_once(color_of);
-    next_.colors.resize(next_.batch.size());
-    for (std::size_t i = 0; i < next_.batch.size(); ++i) next_.colors[i] = color_of(next_.batch, i);
+  /// Draws that batch, each triangle with the tag `tag_of(batch, index)`, which is called at once and in
+  /// order. The drawing itself may be put off, at the latest to finish().
+  template <typename TagOf>
+  void draw_batch(TagOf&& tag_of) {
+    if (whole_ && has_small_triangles(next_.batch)) return draw_at_once(tag_of);
+    next_.tags.resize(next_.batch.size());
+    for (std::size_t i = 0; i < next_.batch.size(); ++i) next_.tags[i] = tag_of(next_.batch, i);
     bands_.draw(next_);
   }
   /// Draws all that is not drawn yet.
@@ -57,16 +57,16 @@ class TriangleDrawing {
     return width / grid_.dx + height / grid_.dy < kSmall * count;
   }
 
-  template <typename ColorOf>
-  void draw_at_once(ColorOf& color_of) {
+  template <typename TagOf>
+  void draw_at_once(TagOf& tag_of) {
     bands_.finish();
     for (std::size_t i = 0; i < next_.batch.size(); ++i)
-      whole_->draw(exact_triangle(next_.batch, i), color_of(next_.batch, i));
+      whole_->draw(exact_triangle(next_.batch, i), tag_of(next_.batch, i));
     whole_->finish();
   }
 
   PixelGrid grid_;
-  ColoredBatch next_;
+  TaggedBatch next_;
   std::optional<typename Visible::Band> whole_;  // on one thread: for what is drawn at once
   BandDrawing<Visible> bands_;
 };

@@ -2,16 +2,15 @@
 
 #include <span>
 
-#include "libpipeline/scene/color.h"
+#include "libpipeline/coverage/span.h"
 
 namespace pipeline {
 
-/// One row of what a visibility algorithm found: for every column the depth (NDC z) of the nearest triangle
-/// and its color, or the rear limit and the background. All that comes after (depth text, image) sees only
-/// this.
+/// One row of a visibility algorithm's answer: for every column the depth (NDC z) of the nearest triangle and
+/// its tag, or the rear limit and the background's tag. Depth text and image are made from these rows alone.
 struct VisibleRow {
   std::span<const double> depths;
-  std::span<const Color> colors;
+  std::span<const PixelTag> tags;
 };
 
 }  // namespace pipeline

@@ -19,10 +19,10 @@ T select(bool takes_a, T a, T b) {
   return std::bit_cast<T>((std::bit_cast<Bits>(a) & mask) | (std::bit_cast<Bits>(b) & ~mask));
 }
 
-/// Into a row whose first pixel is at `depths` and `colors`.
+/// Into a row whose first pixel is at `depths` and `tags`.
 template <typename Depth>
-void draw_pixel_by_pixel(const Span& span, Color color, const Depth& format, double front,
-                         typename Depth::Stored* depths, Color* colors) {
+void draw_pixel_by_pixel(const Span& span, PixelTag tag, const Depth& format, double front,
+                         typename Depth::Stored* depths, PixelTag* tags) {
   const SpanDepth depth = span.depth;
   const int last_column = span.last_column;
   for (int column = span.first_column; column <= last_column; ++column) {
@@ -31,39 +31,39 @@ void draw_pixel_by_pixel(const Span& span, Color color, const Depth& format, dou
     if (!(z >= front)) continue;
     const typename Depth::Stored old = depths[column];
     depths[column] = stored < old ? stored : old;
-    colors[column] = select(stored < old, color, colors[column]);
+    tags[column] = select(stored < old, tag, tags[column]);
   }
 }
 
 }  // namespace
 
 template <typename Depth>
-ZBuffer<Depth>::ZBuffer(const Viewport& screen, Color background)
+ZBuffer<Depth>::ZBuffer(const Viewport& screen, PixelTag background)
     : kernel_(span_fill_kernel()),
       format_(screen),
       front_(screen.front),
       rear_limit_(screen.rear),
       rear_(format_.store(screen.rear)),
       depths_(screen.rows, screen.columns, rear_),
-      colors_(screen.rows, screen.columns, background) {}
+      tags_(screen.rows, screen.columns, background) {}
 
 template <typename Depth>
-void ZBuffer<Depth>::draw(const Span& span, Color color, HierarchicalDepth<Depth>* farthest) {
+void ZBuffer<Depth>::draw(const Span& span, PixelTag tag, HierarchicalDepth<Depth>* farthest) {
   assert(span.first_column >= 0 && span.last_column < depths_.columns());
   if (!(span.depth(span.first_column) >= front_ && span.depth(span.last_column) >= front_)) {
     const Span part = part_behind_front(span);
-    if (part.first_column <= part.last_column) draw(part, color, farthest);
+    if (part.first_column <= part.last_column) draw(part, tag, farthest);
     return;
   }
-  if (depth_epsilon_ > 0) return draw_what_is_nearer_by_epsilon(span, color);
+  if (depth_epsilon_ > 0) return draw_what_is_nearer_by_epsilon(span, tag);
   const bool is_long = span.last_column - span.first_column >= kBlockColumns;
-  kernel_.fill(SpanFill<Depth>{span, color, format_, depths_.columns(), depths_.row(span.row).data(),
-                               colors_.row(span.row).data(),
+  kernel_.fill(SpanFill<Depth>{span, tag, format_, depths_.columns(), depths_.row(span.row).data(),
+                               tags_.row(span.row).data(),
                                farthest != nullptr && is_long ? farthest->row(span.row) : nullptr});
 }
 
 template <typename Depth>
-void ZBuffer<Depth>::draw(std::span<const ColoredSpan> spans, HierarchicalDepth<Depth>* farthest) {
+void ZBuffer<Depth>::draw(std::span<const TaggedSpan> spans, HierarchicalDepth<Depth>* farthest) {
   // Fewer pixels are done before a kernel has begun.
   constexpr int kShort = 4;
   // Copies, which no pixel that is written could have changed.
@@ -72,16 +72,16 @@ void ZBuffer<Depth>::draw(std::span<const ColoredSpan> spans, HierarchicalDepth<
   const bool has_epsilon = depth_epsilon_ > 0;
   const auto columns = static_cast<std::size_t>(depths_.columns());
   Stored* const first_depth = depths_.row(0).data();
-  Color* const first_color = colors_.row(0).data();
-  for (const auto& [span, color] : spans) {
+  PixelTag* const first_tag = tags_.row(0).data();
+  for (const auto& [span, tag] : spans) {
     assert(span.row >= 0 && span.row < depths_.rows());
     assert(span.first_column >= 0 && span.last_column < depths_.columns());
     const bool is_short = span.last_column - span.first_column < kShort;
     const std::size_t row_begin = static_cast<std::size_t>(span.row) * columns;
     if (is_short && !has_epsilon)
-      draw_pixel_by_pixel(span, color, format, front, first_depth + row_begin, first_color + row_begin);
+      draw_pixel_by_pixel(span, tag, format, front, first_depth + row_begin, first_tag + row_begin);
     else
-      draw(span, color, farthest);
+      draw(span, tag, farthest);
   }
 }
 
@@ -99,9 +99,9 @@ Span ZBuffer<Depth>::part_behind_front(const Span& span) const {
 }
 
 template <typename Depth>
-void ZBuffer<Depth>::draw_what_is_nearer_by_epsilon(const Span& span, Color color) {
+void ZBuffer<Depth>::draw_what_is_nearer_by_epsilon(const Span& span, PixelTag tag) {
   const std::span<Stored> depths = depths_.row(span.row);
-  const std::span<Color> colors = colors_.row(span.row);
+  const std::span<PixelTag> tags = tags_.row(span.row);
   for (int column = span.first_column; column <= span.last_column; ++column) {
     const auto at = static_cast<std::size_t>(column);
     const Stored stored = format_.store(span.depth(column));
@@ -110,7 +110,7 @@ void ZBuffer<Depth>::draw_what_is_nearer_by_epsilon(const Span& span, Color colo
         is_empty ? stored < rear_ : format_.depth(depths[at]) - format_.depth(stored) > depth_epsilon_;
     if (!is_nearer) continue;
     depths[at] = stored;
-    colors[at] = color;
+    tags[at] = tag;
   }
 }
 

@@ -4,9 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "libpipeline/coverage/colored_span.h"
+#include "libpipeline/coverage/exact_grid.h"
 #include "libpipeline/coverage/span.h"
-#include "libpipeline/scene/color.h"
 #include "libpipeline/scene/viewport.h"
 #include "libpipeline/visibility/depth_format.h"
 #include "libpipeline/visibility/hierarchical_depth.h"
@@ -16,28 +15,28 @@
 
 namespace pipeline {
 
-/// The visibility algorithm `zbuffer`: every pixel keeps the nearest depth drawn so far and its color, 12
+/// The visibility algorithm `zbuffer`: every pixel keeps the nearest depth drawn so far and its tag, 12
 /// bytes a pixel if depths are doubles. `Depth` is a depth format. Source: E. Catmull, "A subdivision
 /// algorithm for computer display of curved surfaces", 1974.
 template <typename Depth = DepthF64>
 class ZBuffer {
  public:
-  /// A buffer of the screen's size, every pixel at the rear limit and of the color `background`.
-  explicit ZBuffer(const Viewport& screen, Color background = {});
+  /// A buffer of the screen's size, every pixel at the rear limit and with the tag `background`.
+  explicit ZBuffer(const Viewport& screen, PixelTag background = {});
 
-  /// Draws a span of a triangle of the color `color`. A pixel is written if its depth, as it is stored, is
+  /// Draws a span of the triangle `tag` stands for. A pixel is written if its depth, as it is stored, is
   /// less than the one there (of equal depths the first drawn stays) and not less than the front limit.
   /// `farthest`, if there is one, is of rows of this buffer; its bounds hold whoever else draws there.
-  void draw(const Span& span, Color color, HierarchicalDepth<Depth>* farthest = nullptr);
+  void draw(const Span& span, PixelTag tag, HierarchicalDepth<Depth>* farthest = nullptr);
 
   /// Draws several spans, one after the other.
-  void draw(std::span<const ColoredSpan> spans, HierarchicalDepth<Depth>* farthest);
+  void draw(std::span<const TaggedSpan> spans, HierarchicalDepth<Depth>* farthest);
 
   /// Asks for the first pixels of a span that is going to be drawn, so that they are in the cache by then.
   void fetch(const Span& span) const {
     const auto column = static_cast<std::size_t>(span.first_column);
     __builtin_prefetch(&depths_.row(span.row)[column], 1);
-    __builtin_prefetch(&colors_.row(span.row)[column], 1);
+    __builtin_prefetch(&tags_.row(span.row)[column], 1);
   }
 
   /// From now on a pixel that shows a triangle is written only if its depth is less by more than `epsilon`,
@@ -57,7 +56,7 @@ class ZBuffer {
       const auto is_seen = [&](Stored stored) { return stored < rear_; };
       const auto depth = [&](Stored stored) { return is_seen(stored) ? format_.depth(stored) : rear_limit_; };
       std::transform(depths_.row(row).begin(), depths_.row(row).end(), depths.begin(), depth);
-      visit(VisibleRow{depths, colors_.row(row)});
+      visit(VisibleRow{depths, tags_.row(row)});
     }
   }
 
@@ -65,7 +64,7 @@ class ZBuffer {
   using Stored = typename Depth::Stored;
 
   [[nodiscard]] Span part_behind_front(const Span& span) const;
-  void draw_what_is_nearer_by_epsilon(const Span& span, Color color);
+  void draw_what_is_nearer_by_epsilon(const Span& span, PixelTag tag);
 
   SpanFillKernel kernel_;
   Depth format_;
@@ -74,7 +73,7 @@ class ZBuffer {
   Stored rear_;
   double depth_epsilon_ = 0;
   Raster<Stored> depths_;
-  Raster<Color> colors_;
+  Raster<PixelTag> tags_;
 };
 
 }  // namespace pipeline

@@ -404,11 +404,11 @@ std::vector<int> nearest_in_each_column(int columns, const std::vector<std::arra
     for (const std::string& half : {joined({"-1 -1", left, "1 -1", right, "1 1", right}),
                                     joined({"-1 -1", left, "1 1", right, "-1 1", left})})
       for (const Span& span : spans_of(CenterRows(grid, triangle_of(half).exact())))
-        buffer.draw(span, Color::from_rgb(static_cast<std::uint32_t>(i + 1)));
+        buffer.draw(span, static_cast<PixelTag>(i + 1));
   }
   std::vector<int> seen;
   buffer.for_each_row([&](const VisibleRow& row) {
-    for (const Color color : row.colors) seen.push_back(static_cast<int>(color.rgb()));
+    for (const PixelTag tag : row.tags) seen.push_back(static_cast<int>(tag));
   });
   return seen;
 }

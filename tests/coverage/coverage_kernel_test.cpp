@@ -104,7 +104,7 @@ Source random_source(const Viewport& screen, RandomNumbers& random) {
 }
 
 /// All that a span says, bit by bit.
-std::array<std::uint64_t, 9> bits_of(const ColoredSpan& span) {
+std::array<std::uint64_t, 9> bits_of(const TaggedSpan& span) {
   const auto& [row, first, last, depth] = span.span;
   const auto bits = [](double part) { return std::bit_cast<std::uint64_t>(part); };
   return {static_cast<std::uint64_t>(row),
@@ -115,7 +115,7 @@ std::array<std::uint64_t, 9> bits_of(const ColoredSpan& span) {
           bits(depth.x0),
           bits(depth.z0),
           bits(depth.slope),
-          span.color.rgb()};
+          span.tag};
 }
 
 template <typename Coverage>
@@ -131,24 +131,24 @@ void expect_the_spans_of_the_rule(const CoverageKernel& kernel) {
     int span_count = 0;
     for (int i = 0; i < sanitizer_rounds(500); ++i) {
       std::vector<Source> sources(static_cast<std::size_t>(random.whole(0, 11)));
-      std::vector<ColoredTriangle> triangles;
+      std::vector<TaggedTriangle> triangles;
       for (Source& source : sources) {
         source = random_source(screen, random);
         triangles.push_back({{source.p_ndc, &source.low_parts, source.decimal_marks},
-                             Color::from_rgb(static_cast<std::uint32_t>(triangles.size()))});
+                             static_cast<PixelTag>(triangles.size())});
       }
       RowRange rows = {random.whole(0, screen.rows - 1), screen.rows};
       if (random.whole(0, 1) == 0) rows.end = random.whole(rows.first, screen.rows);
       if (random.whole(0, 9) == 0) rows = RowRange();
       const int row_count = std::min(rows.end, screen.rows) - rows.first;
 
-      std::vector<ColoredSpan> expected;
-      for (const auto& [triangle, color] : triangles)
-        for_each_span(rule.rows(triangle), rows, [&, of = color](const Span& span) {
+      std::vector<TaggedSpan> expected;
+      for (const auto& [triangle, tag] : triangles)
+        for_each_span(rule.rows(triangle), rows, [&, of = tag](const Span& span) {
           expected.push_back({span, of});
         });
-      std::vector<ColoredSpan> found(triangles.size() * static_cast<std::size_t>(row_count));
-      const ColoredSpan* const end = rule.spans(triangles, rows, found.data());
+      std::vector<TaggedSpan> found(triangles.size() * static_cast<std::size_t>(row_count));
+      const TaggedSpan* const end = rule.spans(triangles, rows, found.data());
 
       found.resize(static_cast<std::size_t>(end - found.data()));
       ASSERT_EQ(found.size(), expected.size()) << "round " << i;

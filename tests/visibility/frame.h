@@ -1,10 +1,8 @@
 #pragma once
 
-#include <cstdint>
 #include <cstring>
 #include <vector>
 
-#include "libpipeline/scene/color.h"
 #include "libpipeline/visibility/visible_row.h"
 
 namespace pipeline {
@@ -12,15 +10,15 @@ namespace pipeline {
 /// All that is seen of a picture.
 struct Frame {
   std::vector<double> depths;
-  std::vector<std::uint32_t> colors;
+  std::vector<PixelTag> tags;
 
   void add(const VisibleRow& row) {
     depths.insert(depths.end(), row.depths.begin(), row.depths.end());
-    for (const Color color : row.colors) colors.push_back(color.rgb());
+    tags.insert(tags.end(), row.tags.begin(), row.tags.end());
   }
   /// Bit by bit: 0 is not -0.
   friend bool operator==(const Frame& a, const Frame& b) {
-    return a.colors == b.colors && a.depths.size() == b.depths.size() &&
+    return a.tags == b.tags && a.depths.size() == b.depths.size() &&
            std::memcmp(a.depths.data(), b.depths.data(), a.depths.size() * sizeof(double)) == 0;
   }
 };

@@ -21,9 +21,9 @@ template <typename Coverage = CenterCoverage, typename Depth = DepthF64>
 Picture picture_of(const Scene& scene, const Viewport& screen = kEightByFour) {
   const Frame frame = scanline_frame<Coverage, Depth>(scene, screen);
   Picture picture(static_cast<std::size_t>(screen.rows));
-  for (std::size_t i = 0; i < frame.colors.size(); ++i)
+  for (std::size_t i = 0; i < frame.tags.size(); ++i)
     picture[i / static_cast<std::size_t>(screen.columns)] +=
-        frame.colors[i] == 0 ? '.' : static_cast<char>('a' + static_cast<int>(frame.colors[i]) - 1);
+        frame.tags[i] == 0 ? '.' : static_cast<char>('a' + static_cast<int>(frame.tags[i]) - 1);
   return picture;
 }
 
@@ -40,13 +40,13 @@ Scene operator+(Scene a, const Scene& b) {
 }
 
 TEST(Scanline, WithoutTrianglesThereIsTheBackground) {
-  const Scanline<NearestCoverage, DepthF64> scanline(kEightByFour, Color(1, 2, 3));
+  const Scanline<NearestCoverage, DepthF64> scanline(kEightByFour, PixelTag{0x010203});
   int row_count = 0;
   scanline.for_each_row([&](const VisibleRow& row) {
     ++row_count;
     EXPECT_EQ(std::vector<double>(row.depths.begin(), row.depths.end()), std::vector<double>(8, 2));
-    EXPECT_EQ(std::vector<Color>(row.colors.begin(), row.colors.end()),
-              std::vector<Color>(8, Color(1, 2, 3)));
+    EXPECT_EQ(std::vector<PixelTag>(row.tags.begin(), row.tags.end()),
+              std::vector<PixelTag>(8, PixelTag{0x010203}));
   });
   EXPECT_EQ(row_count, 4);
 }
@@ -178,8 +178,7 @@ TEST(Scanline, CoplanarTrianglesWhoseRoundedDepthsAlternateAreComparedPixelByPix
   int most_changes = 0;
   for (std::size_t row = 0; row < 60; ++row) {
     int changes = 0;
-    for (std::size_t i = 60 * row + 1; i < 60 * row + 60; ++i)
-      changes += frame.colors[i] != frame.colors[i - 1];
+    for (std::size_t i = 60 * row + 1; i < 60 * row + 60; ++i) changes += frame.tags[i] != frame.tags[i - 1];
     most_changes = std::max(most_changes, changes);
   }
   EXPECT_GE(most_changes, 8);
@@ -206,11 +205,11 @@ TEST(Scanline, KeepsTheDigitsThatDoublesDoNotHold) {
     Triangle low_parts = {};
     low_parts[0].x = low_parts[2].x = low_part;
     Scanline<CenterCoverage, DepthF64> scanline(kEightByFour);
-    scanline.draw({triangle, &low_parts, 0}, color_of(0));
+    scanline.draw({triangle, &low_parts, 0}, tag_of(0));
     Frame frame;
     scanline.for_each_row([&](const VisibleRow& row) { frame.add(row); });
     ZBufferAlgorithm<CenterCoverage, DepthF64> buffer(kEightByFour);
-    buffer.draw({triangle, &low_parts, 0}, color_of(0));
+    buffer.draw({triangle, &low_parts, 0}, tag_of(0));
     Frame expected;
     buffer.for_each_row([&](const VisibleRow& row) { expected.add(row); });
     EXPECT_TRUE(frame == expected);
@@ -219,7 +218,7 @@ TEST(Scanline, KeepsTheDigitsThatDoublesDoNotHold) {
 
 TEST(Scanline, RowsCanBeAskedForTwice) {
   Scanline<NearestCoverage, DepthF64> scanline(kEightByFour);
-  scanline.draw({half_plane(1, 0.25)}, color_of(0));
+  scanline.draw({half_plane(1, 0.25)}, tag_of(0));
   Frame first, second;
   scanline.for_each_row([&](const VisibleRow& row) { first.add(row); });
   scanline.for_each_row([&](const VisibleRow& row) { second.add(row); });

@@ -20,30 +20,30 @@ class SpanFillTest : public testing::TestWithParam<SpanFillKernel> {};
 
 template <typename Depth>
 struct PixelRow {
-  explicit PixelRow(const Depth& format) : depths(kColumns, format.store(kScreen.rear)), colors(kColumns) {}
+  explicit PixelRow(const Depth& format) : depths(kColumns, format.store(kScreen.rear)), tags(kColumns) {}
 
   std::vector<typename Depth::Stored> depths;
-  std::vector<Color> colors;
+  std::vector<PixelTag> tags;
 
   friend bool operator==(const PixelRow&, const PixelRow&) = default;
 };
 
 /// What a span does to a row, pixel by pixel.
 template <typename Depth>
-void draw_slowly(PixelRow<Depth>& row, const Span& span, Color color, const Depth& format) {
+void draw_slowly(PixelRow<Depth>& row, const Span& span, PixelTag tag, const Depth& format) {
   for (int column = span.first_column; column <= span.last_column; ++column) {
     const auto i = static_cast<std::size_t>(column);
     const auto stored = format.store(span.depth(column));
     if (stored >= row.depths[i]) continue;
     row.depths[i] = stored;
-    row.colors[i] = color;
+    row.tags[i] = tag;
   }
 }
 
 template <typename Depth>
-void draw_with(const SpanFillKernel& kernel, PixelRow<Depth>& row, const Span& span, Color color,
+void draw_with(const SpanFillKernel& kernel, PixelRow<Depth>& row, const Span& span, PixelTag tag,
                const Depth& format, typename Depth::Stored* farthest = nullptr) {
-  kernel.fill(SpanFill<Depth>{span, color, format, kColumns, row.depths.data(), row.colors.data(), farthest});
+  kernel.fill(SpanFill<Depth>{span, tag, format, kColumns, row.depths.data(), row.tags.data(), farthest});
 }
 
 /// Spans of every length from every column, with depths that tie, cross the limits, or are not finite.
@@ -60,9 +60,9 @@ void expect_pixels_of_a_loop(const SpanFillKernel& kernel) {
     for (int last = first; last < 41; ++last) {
       const double slope = between(0, 50) == 0 ? 1e308 : between(-8, 8) / 3000.0;
       const Span span = {0, first, last, {0.1, 0.1, between(0, 9) * 0.5, between(0, 64) / 64.0, slope}};
-      const Color color = Color::from_rgb(++number);
-      draw_slowly(expected, span, color, format);
-      draw_with(kernel, found, span, color, format);
+      const PixelTag tag = ++number;
+      draw_slowly(expected, span, tag, format);
+      draw_with(kernel, found, span, tag, format);
       ASSERT_TRUE(found == expected) << "columns " << first << " to " << last;
       if (number % 100 == 0) found = expected = PixelRow<Depth>(format);
     }
@@ -105,9 +105,9 @@ void expect_blocks_to_change_nothing(const SpanFillKernel& kernel) {
     HierarchicalDepth<Depth> farthest({0, 1}, kColumns);
     for (std::uint32_t number = 1; number <= 40; ++number) {
       const Span span = spans.next();
-      const Color color = Color::from_rgb(number);
-      draw_slowly(expected, span, color, format);
-      draw_with(kernel, found, span, color, format, farthest.row(0));
+      const PixelTag tag = number;
+      draw_slowly(expected, span, tag, format);
+      draw_with(kernel, found, span, tag, format, farthest.row(0));
       ASSERT_TRUE(found == expected) << "picture " << picture << ", span " << number;
       for (int column = 0; column < kColumns; ++column)
         ASSERT_LE(found.depths[static_cast<std::size_t>(column)], farthest.row(0)[column / kBlockColumns]);
@@ -122,7 +122,7 @@ void expect_to_learn_the_farthest_depth(const SpanFillKernel& kernel) {
   PixelRow<Depth> row(format);
   HierarchicalDepth<Depth> farthest({0, 1}, kColumns);
   const auto draw = [&](int first, int last, double z) {
-    draw_with(kernel, row, {0, first, last, {0, 1, 0, z, 0}}, Color(), format, farthest.row(0));
+    draw_with(kernel, row, {0, first, last, {0, 1, 0, z, 0}}, PixelTag(), format, farthest.row(0));
   };
   const auto farthest_of_block = [&](int block) { return farthest.row(0)[block]; };
   draw(0, kColumns - 1, 0.625);

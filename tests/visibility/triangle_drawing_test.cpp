@@ -8,22 +8,67 @@
 
 #include "libpipeline/coverage/rules.h"
 #include "libpipeline/visibility/algorithms.h"
-#include "tests/visibility/drawn_scenes.h"
+#include "tests/numbers/random_numbers.h"
+#include "tests/visibility/frame.h"
 
 namespace pipeline {
 namespace {
 
-/// `color_of(i)` is the color of triangle i.
-template <typename Visible, typename ColorOf>
+/// The tag of triangle `index`: never 0, the background's, and above 2^24 for most, so that every bit counts.
+PixelTag tag_of(std::size_t index) {
+  return 0xff123456 - static_cast<PixelTag>(index);
+}
+
+/// Triangle after triangle, each as a whole.
+template <typename Visible>
+Frame drawn_one_by_one(const std::vector<Triangle>& scene, const Viewport& screen) {
+  Visible visible(screen);
+  for (std::size_t i = 0; i < scene.size(); ++i) visible.draw({scene[i]}, tag_of(i));
+  return frame_of(visible);
+}
+
+/// Tiny and huge triangles, on and off the screen, many at one of few depths, so that some are equal.
+std::vector<Triangle> random_scene(int triangle_count, std::uint64_t seed) {
+  RandomNumbers random(seed);
+  std::vector<Triangle> scene;
+  for (int i = 0; i < triangle_count; ++i) {
+    const double size = i % 7 == 0 ? 3 : (i % 7 == 1 ? 1e6 : 0.05);
+    const Vec3 location = {random.between(-1.2, 1.2), random.between(-1.2, 1.2), i % 3 / 4.0};
+    const double depth_range = i % 2 == 0 ? 0 : 0.5;
+    Triangle triangle;
+    for (Vec3& p : triangle)
+      p = {location.x + random.between(-size, size), location.y + random.between(-size, size),
+           location.z + random.between(-depth_range, depth_range)};
+    scene.push_back(triangle);
+  }
+  return scene;
+}
+
+/// Nearly all of them small, some from the top to the bottom, at three depths.
+std::vector<Triangle> scene_of_small_triangles(int triangle_count) {
+  RandomNumbers random(2);
+  std::vector<Triangle> scene;
+  for (int i = 0; i < triangle_count; ++i) {
+    const double size = i % 101 == 3 ? 0.9 : 0.02;
+    const Vec3 location = {random.between(-1, 1), random.between(-1, 1), i % 3 / 4.0};
+    Triangle triangle;
+    for (Vec3& p : triangle)
+      p = {location.x + random.between(-size, size), location.y + random.between(-size, size), location.z};
+    scene.push_back(triangle);
+  }
+  return scene;
+}
+
+template <typename Visible>
 void draw_on_threads(Visible& visible, const std::vector<Triangle>& scene, const Viewport& screen,
-                     int thread_count, std::size_t batch_size, const ColorOf& color_of) {
+                     int thread_count, std::size_t batch_size) {
   ThreadPool pool(thread_count);
   TriangleDrawing drawing(visible, screen, pool);
   for (std::size_t i = 0; i < scene.size();) {
     TriangleBatch& batch = drawing.next_batch();
     batch.clear();
     for (; batch.size() < batch_size && i < scene.size(); ++i) batch.add(scene[i], i, {});
-    drawing.draw_batch([&](const TriangleBatch& of, std::size_t k) { return color_of(of.numbers[k]); });
+    drawing.draw_batch([&](const TriangleBatch& of, std::size_t k) { return tag_of(of.numbers[k]); });
   }
   drawing.finish();
 }
@@ -32,9 +77,7 @@ template <typename Visible>
 Frame drawn_on_threads(const std::vector<Triangle>& scene, const Viewport& screen, int thread_count,
                        std::size_t batch_size) {
   Visible visible(screen);
-  TriangleColors colors;
-  draw_on_threads(visible, scene, screen, thread_count, batch_size,
-                  [&](std::uint64_t number) { return colors.of(number); });
+  draw_on_threads(visible, scene, screen, thread_count, batch_size);
   return frame_of(visible);
 }
 
@@ -84,36 +127,23 @@ TEST(TriangleDrawing, InHighBandsATriangleStaysInItsRowsToo) {
     EXPECT_TRUE(drawn_on_threads<Visible>(scene, kScreen, thread_count, 3) == expected);
 }
 
-TEST(TriangleDrawing, MayHaveIdsForColors) {
-  constexpr Viewport kScreen = {40, 30};
-  const std::vector<Triangle> scene = scene_of_small_triangles(3000);
-  const auto id_of = [](std::uint64_t i) {
-    return Color::from_rgb(0xff123456 - static_cast<std::uint32_t>(i));
-  };
-  ZBufferAlgorithm<NearestCoverage, DepthF64> expected(kScreen), visible(kScreen);
-  for (std::size_t i = 0; i < scene.size(); ++i) expected.draw({scene[i]}, id_of(i));
-  draw_on_threads(visible, scene, kScreen, 2, 50, id_of);
-  EXPECT_TRUE(frame_of(visible) == frame_of(expected));
-}
-
 TEST(TriangleDrawing, KeepsTheOrderWhereAllThatIsSeenDependsOnIt) {
   constexpr Viewport kScreen = {40, 30};
   // From the top to the bottom, so that there are pixels nobody has drawn yet whenever a thread begins.
   std::vector<Triangle> scene = scene_of_small_triangles(30000);
   std::ranges::sort(scene, std::greater(), [](const Triangle& p) { return p[0].y; });
-  const auto color_of = [](std::uint64_t i) { return Color::from_rgb(static_cast<std::uint32_t>(i)); };
   ZBufferAlgorithm<NearestCoverage, DepthF64> expected(kScreen), visible(kScreen);
   expected.set_depth_epsilon(0.3);  // more than the distance of two of the scene's depths
   visible.set_depth_epsilon(0.3);
-  for (std::size_t i = 0; i < scene.size(); ++i) expected.draw({scene[i]}, color_of(i));
-  draw_on_threads(visible, scene, kScreen, 2, 50, color_of);
+  for (std::size_t i = 0; i < scene.size(); ++i) expected.draw({scene[i]}, tag_of(i));
+  draw_on_threads(visible, scene, kScreen, 2, 50);
   EXPECT_TRUE(frame_of(visible) == frame_of(expected));
 }
 
 TEST(TriangleDrawing, NothingDrawnIsTheBackground) {
   constexpr Viewport kScreen = {5, 5};
   EXPECT_TRUE((drawn_on_threads<ZBufferAlgorithm<NearestCoverage, DepthF64>>({}, kScreen, 2, 1) ==
-               Frame{std::vector<double>(25, 1), std::vector<std::uint32_t>(25)}));
+               Frame{std::vector<double>(25, 1), std::vector<PixelTag>(25)}));
 }
 
 TEST(TriangleDrawing, MayBeGivenUpInTheMiddle) {
@@ -123,7 +153,7 @@ TEST(TriangleDrawing, MayBeGivenUpInTheMiddle) {
   TriangleDrawing drawing(visible, kScreen, pool);
   for (int i = 0; i < 5; ++i) {
     drawing.next_batch().add({{{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}}}, 0, {});
-    drawing.draw_batch([](const TriangleBatch&, std::size_t) { return Color(); });
+    drawing.draw_batch([](const TriangleBatch&, std::size_t) { return PixelTag(); });
   }
 }
 

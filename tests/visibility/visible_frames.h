@@ -15,9 +15,9 @@ using Scene = std::vector<Triangle>;
 // The screens on which coordinates are decimals of at most 7 places; their doubles are read as such.
 inline constexpr std::uint16_t kAllDecimals = 0x1ff;
 
-/// The color of triangle `index`: never black.
-inline Color color_of(std::size_t index) {
-  return Color::from_rgb(static_cast<std::uint32_t>(index + 1));
+/// The tag of triangle `index`: never 0, the background's.
+inline PixelTag tag_of(std::size_t index) {
+  return static_cast<PixelTag>(index + 1);
 }
 
 template <typename Coverage, typename Depth>
@@ -26,14 +26,14 @@ Frame zbuffer_frame(const Scene& scene, const Viewport& screen, std::uint16_t ma
   ZBuffer<Depth> buffer(screen);
   for (std::size_t i = 0; i < scene.size(); ++i)
     for_each_span(coverage.rows({scene[i], nullptr, marks}),
-                  [&](const Span& span) { buffer.draw(span, color_of(i)); });
+                  [&](const Span& span) { buffer.draw(span, tag_of(i)); });
   return frame_of(buffer);
 }
 
 template <typename Coverage, typename Depth>
 Frame scanline_frame(const Scene& scene, const Viewport& screen, std::uint16_t marks = kAllDecimals) {
   Scanline<Coverage, Depth> scanline(screen);
-  for (std::size_t i = 0; i < scene.size(); ++i) scanline.draw({scene[i], nullptr, marks}, color_of(i));
+  for (std::size_t i = 0; i < scene.size(); ++i) scanline.draw({scene[i], nullptr, marks}, tag_of(i));
   return frame_of(scanline);
 }
 

@@ -8,8 +8,8 @@
 namespace pipeline {
 namespace {
 
-constexpr Color kRed(255, 0, 0);
-constexpr Color kGreen(0, 255, 0);
+constexpr PixelTag kRed = 0xff0000;
+constexpr PixelTag kGreen = 0x00ff00;
 constexpr Viewport kSixByTwo = {6, 2, -1, -1, 0, 2};
 
 /// Columns first to last of a row at the depth z0 + slope * column.
@@ -23,20 +23,20 @@ std::vector<double> depths_of(const ZBuffer<>& buffer, int row) {
   return rows.at(static_cast<std::size_t>(row));
 }
 
-std::vector<Color> colors_of(const ZBuffer<>& buffer, int row) {
-  std::vector<std::vector<Color>> rows;
-  buffer.for_each_row([&](const VisibleRow& r) { rows.emplace_back(r.colors.begin(), r.colors.end()); });
+std::vector<PixelTag> tags_of(const ZBuffer<>& buffer, int row) {
+  std::vector<std::vector<PixelTag>> rows;
+  buffer.for_each_row([&](const VisibleRow& r) { rows.emplace_back(r.tags.begin(), r.tags.end()); });
   return rows.at(static_cast<std::size_t>(row));
 }
 
-TEST(ZBuffer, StartsAtTheRearInTheColorOfTheBackground) {
+TEST(ZBuffer, StartsAtTheRearWithTheTagOfTheBackground) {
   const ZBuffer<> buffer(kSixByTwo, kGreen);
   EXPECT_EQ(depths_of(buffer, 1), std::vector<double>(6, 2));
-  EXPECT_EQ(colors_of(buffer, 1), std::vector<Color>(6, kGreen));
+  EXPECT_EQ(tags_of(buffer, 1), std::vector<PixelTag>(6, kGreen));
 }
 
-TEST(ZBuffer, TheBackgroundIsBlackUnlessSaidOtherwise) {
-  EXPECT_EQ(colors_of(ZBuffer<>(kSixByTwo), 0), std::vector<Color>(6, Color(0, 0, 0)));
+TEST(ZBuffer, TheBackgroundsTagIs0UnlessAnotherIsGiven) {
+  EXPECT_EQ(tags_of(ZBuffer<>(kSixByTwo), 0), std::vector<PixelTag>(6, PixelTag{0}));
 }
 
 TEST(ZBuffer, DrawsFromTheFirstToTheLastColumn) {
@@ -44,7 +44,7 @@ TEST(ZBuffer, DrawsFromTheFirstToTheLastColumn) {
   buffer.draw(span_at(1, 2, 4, 0.5, 0.25), kRed);
   EXPECT_EQ(depths_of(buffer, 0), std::vector<double>(6, 2));
   EXPECT_EQ(depths_of(buffer, 1), (std::vector<double>{2, 2, 1, 1.25, 1.5, 2}));
-  EXPECT_EQ(colors_of(buffer, 1), (std::vector<Color>{{}, {}, kRed, kRed, kRed, {}}));
+  EXPECT_EQ(tags_of(buffer, 1), (std::vector<PixelTag>{{}, {}, kRed, kRed, kRed, {}}));
 }
 
 TEST(ZBuffer, TheNearerTriangleIsSeenWhateverTheOrder) {
@@ -54,9 +54,9 @@ TEST(ZBuffer, TheNearerTriangleIsSeenWhateverTheOrder) {
   near_first.draw(far_span, kGreen);
   far_first.draw(far_span, kGreen);
   far_first.draw(near_span, kRed);
-  const std::vector<Color> expected = {kRed, kRed, kRed, kRed, kGreen, kGreen};
-  EXPECT_EQ(colors_of(near_first, 0), expected);
-  EXPECT_EQ(colors_of(far_first, 0), expected);
+  const std::vector<PixelTag> expected = {kRed, kRed, kRed, kRed, kGreen, kGreen};
+  EXPECT_EQ(tags_of(near_first, 0), expected);
+  EXPECT_EQ(tags_of(far_first, 0), expected);
   EXPECT_EQ(depths_of(near_first, 0), (std::vector<double>{0.5, 0.5, 0.5, 0.5, 1, 1}));
 }
 
@@ -64,34 +64,34 @@ TEST(ZBuffer, TrianglesThatInterpenetrateSwapWhereTheyMeet) {
   ZBuffer<> buffer(kSixByTwo);
   buffer.draw(span_at(0, 0, 5, 0.5, 0.25), kRed);
   buffer.draw(span_at(0, 0, 5, 1.625, -0.25), kGreen);
-  EXPECT_EQ(colors_of(buffer, 0), (std::vector<Color>{kRed, kRed, kRed, kGreen, kGreen, kGreen}));
+  EXPECT_EQ(tags_of(buffer, 0), (std::vector<PixelTag>{kRed, kRed, kRed, kGreen, kGreen, kGreen}));
 }
 
 TEST(ZBuffer, AtEqualDepthTheEarlierTriangleStays) {
   ZBuffer<> buffer(kSixByTwo);
   buffer.draw(span_at(0, 0, 5, 0.1, 0.1), kRed);
   buffer.draw(span_at(0, 0, 5, 0.1, 0.1), kGreen);
-  EXPECT_EQ(colors_of(buffer, 0), std::vector<Color>(6, kRed));
+  EXPECT_EQ(tags_of(buffer, 0), std::vector<PixelTag>(6, kRed));
 }
 
 TEST(ZBuffer, TheFrontLimitIsSeenAndTheRearLimitIsNot) {
   ZBuffer<> buffer(kSixByTwo);
   buffer.draw(span_at(0, 0, 5, -0.5, 0.5), kRed);  // -0.5, 0, 0.5, 1, 1.5, 2
-  EXPECT_EQ(colors_of(buffer, 0), (std::vector<Color>{{}, kRed, kRed, kRed, kRed, {}}));
+  EXPECT_EQ(tags_of(buffer, 0), (std::vector<PixelTag>{{}, kRed, kRed, kRed, kRed, {}}));
 }
 
 TEST(ZBuffer, WhatIsInFrontOfTheFrontLimitHidesNothing) {
   ZBuffer<> buffer(kSixByTwo);
   buffer.draw(span_at(0, 0, 5, -0.5), kRed);
   buffer.draw(span_at(0, 0, 5, 1), kGreen);
-  EXPECT_EQ(colors_of(buffer, 0), std::vector<Color>(6, kGreen));
+  EXPECT_EQ(tags_of(buffer, 0), std::vector<PixelTag>(6, kGreen));
 }
 
 TEST(ZBuffer, InfiniteDepthsAreNotSeen) {
   ZBuffer<> buffer(kSixByTwo);
   buffer.draw(span_at(0, 1, 5, 0, 1e308 * 10), kRed);
   buffer.draw(span_at(0, 1, 5, 0, -1e308 * 10), kRed);
-  EXPECT_EQ(colors_of(buffer, 0), std::vector<Color>(6));
+  EXPECT_EQ(tags_of(buffer, 0), std::vector<PixelTag>(6));
 }
 
 TEST(ZBuffer, RandomSpansGiveWhatALoopOverPixelsGives) {
@@ -100,31 +100,31 @@ TEST(ZBuffer, RandomSpansGiveWhatALoopOverPixelsGives) {
   std::uniform_int_distribution<int> column(0, 36), sixteenth(0, 16);
   ZBuffer<> buffer(kWide);
   std::vector<double> depths(37, 0.75);
-  std::vector<Color> colors(37);
+  std::vector<PixelTag> tags(37);
   for (int i = 0; i < 2000; ++i) {
     const int a = column(random), b = column(random);
     const Span span =
         span_at(0, std::min(a, b), std::max(a, b), sixteenth(random) / 16.0, (sixteenth(random) - 8) / 256.0);
-    const Color color = Color::from_rgb(static_cast<std::uint32_t>(i + 1));
-    buffer.draw(span, color);
+    const PixelTag tag = static_cast<PixelTag>(i + 1);
+    buffer.draw(span, tag);
     for (int c = span.first_column; c <= span.last_column; ++c) {
       const double z = span.depth.z0 + c * span.depth.slope;
       if (z < 0.25 || z >= depths[static_cast<std::size_t>(c)]) continue;
       depths[static_cast<std::size_t>(c)] = z;
-      colors[static_cast<std::size_t>(c)] = color;
+      tags[static_cast<std::size_t>(c)] = tag;
     }
     ASSERT_EQ(depths_of(buffer, 0), depths);
-    ASSERT_EQ(colors_of(buffer, 0), colors);
+    ASSERT_EQ(tags_of(buffer, 0), tags);
   }
 }
 
 template <typename Depth>
-std::vector<Color> colors_of_first_row(const ZBuffer<Depth>& buffer) {
-  std::vector<Color> colors;
+std::vector<PixelTag> tags_of_first_row(const ZBuffer<Depth>& buffer) {
+  std::vector<PixelTag> tags;
   buffer.for_each_row([&](const VisibleRow& r) {
-    if (colors.empty()) colors.assign(r.colors.begin(), r.colors.end());
+    if (tags.empty()) tags.assign(r.tags.begin(), r.tags.end());
   });
-  return colors;
+  return tags;
 }
 
 template <typename Depth>
@@ -139,10 +139,10 @@ TEST(ZBuffer, DepthsAFormatCannotTellApartAreEqual) {
   ZBuffer<DepthU24> told_apart(kSixByTwo), equal(kSixByTwo);
   told_apart.draw(span_at(0, 0, 5, 1 + 0x1p-18), kRed);
   told_apart.draw(span_at(0, 0, 5, 1), kGreen);
-  EXPECT_EQ(colors_of_first_row(told_apart), std::vector<Color>(6, kGreen));
+  EXPECT_EQ(tags_of_first_row(told_apart), std::vector<PixelTag>(6, kGreen));
   equal.draw(span_at(0, 0, 5, 1 + 0x1p-27), kRed);
   equal.draw(span_at(0, 0, 5, 1), kGreen);
-  EXPECT_EQ(colors_of_first_row(equal), std::vector<Color>(6, kRed));
+  EXPECT_EQ(tags_of_first_row(equal), std::vector<PixelTag>(6, kRed));
 }
 
 TEST(ZBuffer, TwentyFourBitsRoundToTheNearestOf16777215Steps) {
@@ -158,11 +158,11 @@ TEST(ZBuffer, BetweenNarrowLimitsTwentyFourBitsAreFinerThanAFloat) {
   ZBuffer<DepthU24> steps(kNarrow);
   steps.draw(far_span, kRed);
   steps.draw(near_span, kGreen);
-  EXPECT_EQ(colors_of_first_row(steps), std::vector<Color>(6, kGreen));
+  EXPECT_EQ(tags_of_first_row(steps), std::vector<PixelTag>(6, kGreen));
   ZBuffer<DepthF32> floats(kNarrow);
   floats.draw(far_span, kRed);
   floats.draw(near_span, kGreen);
-  EXPECT_EQ(colors_of_first_row(floats), std::vector<Color>(6, kRed));
+  EXPECT_EQ(tags_of_first_row(floats), std::vector<PixelTag>(6, kRed));
 }
 
 TEST(ZBuffer, AFloatRoundsToTheNearestFloat) {
@@ -176,9 +176,9 @@ TEST(ZBuffer, EveryFormatKeepsTheLimits) {
   buffer.draw(span_at(0, 0, 0, 0), kRed);
   EXPECT_EQ(depth_of_first_pixel(buffer), 0);
   buffer.draw(span_at(0, 1, 1, 2), kRed);
-  EXPECT_EQ(colors_of_first_row(buffer)[1], Color());
+  EXPECT_EQ(tags_of_first_row(buffer)[1], PixelTag());
   buffer.draw(span_at(0, 2, 2, -1e300), kRed);
-  EXPECT_EQ(colors_of_first_row(buffer)[2], Color());
+  EXPECT_EQ(tags_of_first_row(buffer)[2], PixelTag());
 }
 
 }  // namespace

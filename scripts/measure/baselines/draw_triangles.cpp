@@ -42,7 +42,8 @@ double seconds_for(std::vector<TriangleBatch> batches, const pipeline::Viewport&
   pipeline::TriangleDrawing<Visible> drawing(visible, screen, pool);
   for (TriangleBatch& batch : batches) {
     std::swap(drawing.next_batch(), batch);
-    drawing.draw_batch([&](const TriangleBatch& of, std::size_t i) { return colors.of(of.numbers[i]); });
+    drawing.draw_batch(
+        [&](const TriangleBatch& of, std::size_t i) { return colors.of(of.numbers[i]).rgb(); });
   }
   drawing.finish();
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

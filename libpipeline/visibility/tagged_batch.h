@@ -5,15 +5,14 @@
 #include <vector>
 
 #include "libpipeline/coverage/exact_grid.h"
-#include "libpipeline/scene/color.h"
 #include "libpipeline/stream/triangle_batch.h"
 
 namespace pipeline {
 
-/// A batch of triangles to be drawn, and a color for each.
-struct ColoredBatch {
+/// A batch of triangles to be drawn, and a tag for each.
+struct TaggedBatch {
   TriangleBatch batch;
-  std::vector<Color> colors;
+  std::vector<PixelTag> tags;
 };
 
 /// Triangle `index` of a batch in NDC, which has to stay where it is.
