@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "libpipeline/coverage/exact_grid.h"
+#include "libpipeline/coverage/rules.h"
 #include "libpipeline/coverage/span.h"
 #include "libpipeline/scene/viewport.h"
 #include "libpipeline/visibility/scanline.h"
@@ -32,6 +33,8 @@ concept VisibilityAlgorithm = std::constructible_from<Algorithm, const Viewport&
 template <typename Coverage, typename Depth>
 class ZBufferAlgorithm {
  public:
+  using CoverageRule = Coverage;
+
   explicit ZBufferAlgorithm(const Viewport& screen, PixelTag background = {})
       : coverage_(screen), buffer_(screen, background), most_height_((kMaxRows - 1) * screen.dy()) {}
 
@@ -74,7 +77,7 @@ class ZBufferAlgorithm {
       const auto draw_waiting = [this](std::span<const TaggedSpan> spans) { draw_spans(spans); };
       if (!is_any_high_) {
         queue_.put(
-            whole_.coverage_.spans(triangles_, rows_, queue_.end()),
+            spans_by(whole_.coverage_, triangles_, rows_, queue_.end()),
             [this](const TaggedSpan& span) { whole_.buffer_.fetch(span.span); }, draw_waiting);
       } else {
         queue_.finish(draw_waiting);

@@ -2,7 +2,9 @@
 
 #include <cstdint>
 #include <limits>
+#include <string_view>
 
+#include "libpipeline/coverage/type_list.h"
 #include "libpipeline/scene/viewport.h"
 
 namespace pipeline {
@@ -10,10 +12,12 @@ namespace pipeline {
 // How a depth is kept. A format rounds depths to what it can store and compares what is stored, so two depths
 // that round to the same are equal and the earlier triangle stays. `store` is monotone; `depth` gives back
 // the depth a stored value stands for. Two depths, neither larger than `size`, of which one exceeds the other
-// by `separation(size)` or more are never stored as the same value.
+// by `separation(size)` or more are never stored as the same value. Users choose a format by kName and read
+// kMeaning beside it.
 
 /// A double: what was calculated.
 struct DepthF64 {
+  static constexpr std::string_view kName = "f64", kMeaning = "as a double";
   using Stored = double;
   explicit DepthF64(const Viewport&) {}
   [[nodiscard]] static Stored store(double z) { return z; }
@@ -23,6 +27,7 @@ struct DepthF64 {
 
 /// A float, 24 bits that are finer near 0.
 struct DepthF32 {
+  static constexpr std::string_view kName = "f32", kMeaning = "as a float";
   using Stored = float;
   explicit DepthF32(const Viewport&) {}
   [[nodiscard]] static Stored store(double z) { return static_cast<float>(z); }
@@ -39,6 +44,7 @@ struct DepthF32 {
 /// than a float where the limits are close together, as from 0.999 to 1. Signed, because processors convert
 /// doubles to signed numbers only.
 struct DepthU24 {
+  static constexpr std::string_view kName = "u24", kMeaning = "in 2^24 equal steps between the limits";
   using Stored = std::int32_t;
   static constexpr double kSteps = (1 << 24) - 1;
   explicit DepthU24(const Viewport& screen)
@@ -59,5 +65,15 @@ struct DepthU24 {
   double steps_per_depth;
   double depth_per_step;
 };
+
+/// Every depth format, in the order of --help; the first is the default. Functions that are compiled once for
+/// each of them are instantiated from the same list, by PIPELINE_FOR_EACH_DEPTH_FORMAT.
+#define PIPELINE_FOR_EACH_DEPTH_FORMAT(DO) DO(DepthF64) DO(DepthF32) DO(DepthU24)
+
+template <typename First, typename... Others>
+using TypesAfter = TypeList<Others...>;
+#define PIPELINE_LIST(Format) , Format
+using DepthFormats = TypesAfter<void PIPELINE_FOR_EACH_DEPTH_FORMAT(PIPELINE_LIST)>;
+#undef PIPELINE_LIST
 
 }  // namespace pipeline

@@ -234,8 +234,8 @@ void RowSweep<Depth>::paint_pixel_by_pixel(int column, int end) {
   }
 }
 
-template class RowSweep<DepthF64>;
-template class RowSweep<DepthF32>;
-template class RowSweep<DepthU24>;
+#define PIPELINE_INSTANTIATE(Depth) template class RowSweep<Depth>;
+PIPELINE_FOR_EACH_DEPTH_FORMAT(PIPELINE_INSTANTIATE)
+#undef PIPELINE_INSTANTIATE
 
 }  // namespace pipeline

@@ -102,8 +102,8 @@ class RowSweep {
   int stretch_ = 1;                    // for so many columns, before asking again whether that is still so
 };
 
-extern template class RowSweep<DepthF64>;
-extern template class RowSweep<DepthF32>;
-extern template class RowSweep<DepthU24>;
+#define PIPELINE_DECLARE(Depth) extern template class RowSweep<Depth>;
+PIPELINE_FOR_EACH_DEPTH_FORMAT(PIPELINE_DECLARE)
+#undef PIPELINE_DECLARE
 
 }  // namespace pipeline

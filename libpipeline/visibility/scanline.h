@@ -24,6 +24,8 @@ namespace pipeline {
 template <typename Coverage, typename Depth>
 class Scanline {
  public:
+  using CoverageRule = Coverage;
+
   /// Nothing is seen yet, every pixel is at the rear limit and has the tag `background`.
   explicit Scanline(const Viewport& screen, PixelTag background = {})
       : screen_(screen), background_(background), coverage_(screen), edge_table_(screen.rows) {}

@@ -49,24 +49,22 @@ struct SpanBlocks {
 // the row: the nearest in a block is at one of its ends. If that is not nearer than the farthest depth there,
 // the block is passed over.
 
-/// One implementation, for all depth formats.
+/// One implementation, for one depth format.
+template <typename Depth>
 struct SpanFillKernel {
   const char* name;
-  void (*fill_f64)(const SpanFill<DepthF64>&);
-  void (*fill_f32)(const SpanFill<DepthF32>&);
-  void (*fill_u24)(const SpanFill<DepthU24>&);
-
-  void fill(const SpanFill<DepthF64>& pixels) const { fill_f64(pixels); }
-  void fill(const SpanFill<DepthF32>& pixels) const { fill_f32(pixels); }
-  void fill(const SpanFill<DepthU24>& pixels) const { fill_u24(pixels); }
+  void (*fill)(const SpanFill<Depth>&);
 };
 
-/// The kernels this processor can run, the fastest last; the first, "portable", runs everywhere.
-std::span<const SpanFillKernel> span_fill_kernels();
+/// The kernels this processor can run, the fastest last; the first, "portable", runs everywhere. The vector
+/// kernels are there for formats that have lanes (span_fill_avx2.cpp).
+template <typename Depth>
+std::span<const SpanFillKernel<Depth>> span_fill_kernels();
 
 /// The one in use: the fastest, or the one the environment variable PIPELINE_KERNEL names, for tests. Of the
 /// names that mean something to other parts only, "sse4" is "portable" here; any other unknown name is passed
 /// over.
-const SpanFillKernel& span_fill_kernel();
+template <typename Depth>
+const SpanFillKernel<Depth>& span_fill_kernel();
 
 }  // namespace pipeline

@@ -21,13 +21,17 @@ struct EightDoubles {
   __m256d high;
 };
 
-// For each format: what is stored of eight depths, and how it is read, compared and written. A mask is all
-// ones for "yes" in as many bits as what it was compared from; `_some` touch only memory where it says so.
+/// Eight depths of a format as they are stored (`Eight`), and how they are made, read, compared and written.
+/// A mask is all ones for "yes" in as many bits as what it was compared from; `_some` touch only memory where
+/// it says so. A format without a specialization has no vector kernel.
+template <typename Depth>
+struct Lanes;
 
-struct LanesF64 {
+template <>
+struct Lanes<DepthF64> {
   using Eight = EightDoubles;
   using Mask = EightDoubles;
-  PIPELINE_AVX2 explicit LanesF64(const DepthF64&) {}
+  PIPELINE_AVX2 explicit Lanes(const DepthF64&) {}
   PIPELINE_AVX2 Eight store(const EightDoubles& z) const { return z; }
   PIPELINE_AVX2 static Eight load(const double* p) { return {_mm256_loadu_pd(p), _mm256_loadu_pd(p + 4)}; }
   PIPELINE_AVX2 static Eight load_some(const double* p, const Mask& mask) {
@@ -74,9 +78,10 @@ struct Masks32 {
   PIPELINE_AVX2 static __m256i in_32_bits(Mask mask) { return mask; }
 };
 
-struct LanesF32 : Masks32 {
+template <>
+struct Lanes<DepthF32> : Masks32 {
   using Eight = __m256;
-  PIPELINE_AVX2 explicit LanesF32(const DepthF32&) {}
+  PIPELINE_AVX2 explicit Lanes(const DepthF32&) {}
   PIPELINE_AVX2 Eight store(const EightDoubles& z) const {
     return _mm256_set_m128(_mm256_cvtpd_ps(z.high), _mm256_cvtpd_ps(z.low));
   }
@@ -96,9 +101,10 @@ struct LanesF32 : Masks32 {
   }
 };
 
-struct LanesU24 : Masks32 {
+template <>
+struct Lanes<DepthU24> : Masks32 {
   using Eight = __m256i;
-  PIPELINE_AVX2 explicit LanesU24(const DepthU24& format)
+  PIPELINE_AVX2 explicit Lanes(const DepthU24& format)
       : front(_mm256_set1_pd(format.front)), steps_per_depth(_mm256_set1_pd(format.steps_per_depth)) {}
   PIPELINE_AVX2 __m128i store(__m256d z) const {
     const __m256d steps =
@@ -152,7 +158,7 @@ PIPELINE_AVX2 inline __m256i first_of_eight(int count) {
 }
 
 /// A span being drawn.
-template <typename Lanes, typename Depth>
+template <typename Depth>
 class SpanLanes {
  public:
   PIPELINE_AVX2 explicit SpanLanes(const SpanFill<Depth>& pixels)
@@ -172,7 +178,7 @@ class SpanLanes {
     for (int left = end - first; left > 0; left -= 8, depths += 8, tags += 8) {
       const auto stored = lanes_.store({depth_(columns), depth_(_mm256_add_pd(columns, four))});
       columns = _mm256_add_pd(columns, eight);
-      typename Lanes::Mask is_seen;
+      typename Lanes<Depth>::Mask is_seen;
       if (left >= 8) {
         is_seen = lanes_.is_less(stored, lanes_.load(depths));
       } else {
@@ -240,40 +246,45 @@ class SpanLanes {
   }
 
   const SpanFill<Depth>& pixels_;
-  Lanes lanes_;
+  Lanes<Depth> lanes_;
   EightDepths depth_;
   bool is_rising_;
   __m256i tag_;
 };
 
-template <typename Lanes, typename Depth>
+template <typename Depth>
 PIPELINE_AVX2 void fill_span(const SpanFill<Depth>& pixels) {
-  const SpanLanes<Lanes, Depth> lanes(pixels);
+  const SpanLanes<Depth> lanes(pixels);
   if (pixels.farthest == nullptr)
     lanes.fill_columns(pixels.span.first_column, pixels.span.last_column + 1);
   else
     lanes.fill_blocks();
 }
 
-constexpr SpanFillKernel kAvx2Kernel = {"avx2", fill_span<LanesF64, DepthF64>, fill_span<LanesF32, DepthF32>,
-                                        fill_span<LanesU24, DepthU24>};
-
 }  // namespace
 
-const SpanFillKernel* span_fill_avx2() {
-  return __builtin_cpu_supports("avx2") ? &kAvx2Kernel : nullptr;
+template <typename Depth>
+const SpanFillKernel<Depth>* span_fill_avx2() {
+  if constexpr (requires { typename Lanes<Depth>::Eight; }) {
+    static constexpr SpanFillKernel<Depth> kKernel = {"avx2", fill_span};
+    return __builtin_cpu_supports("avx2") ? &kKernel : nullptr;
+  }
+  return nullptr;
 }
-
-}  // namespace pipeline
 
 #else
 
 namespace pipeline {
 
-const SpanFillKernel* span_fill_avx2() {
+template <typename Depth>
+const SpanFillKernel<Depth>* span_fill_avx2() {
   return nullptr;
 }
 
-}  // namespace pipeline
-
 #endif
+
+#define PIPELINE_INSTANTIATE(Depth) template const SpanFillKernel<Depth>* span_fill_avx2<Depth>();
+PIPELINE_FOR_EACH_DEPTH_FORMAT(PIPELINE_INSTANTIATE)
+#undef PIPELINE_INSTANTIATE
+
+}  // namespace pipeline

@@ -4,7 +4,8 @@
 
 namespace pipeline {
 
-/// The kernel "avx2" of span_fill.h; null where the processor cannot run it.
-const SpanFillKernel* span_fill_avx2();
+/// The kernel "avx2" of span_fill.h; null where the processor cannot run it or the format has no lanes.
+template <typename Depth>
+const SpanFillKernel<Depth>* span_fill_avx2();
 
 }  // namespace pipeline

@@ -1,22 +1,17 @@
 #include "libpipeline/visibility/zbuffer.h"
 
-#include <bit>
 #include <cassert>
-#include <cstdint>
 #include <functional>
-#include <type_traits>
 
 #include "libpipeline/numbers/column_search.h"
 
 namespace pipeline {
 namespace {
 
-/// `a` if `takes_a`, else `b`. Without a branch, as no processor could predict which of two depths is nearer.
-template <typename T>
-T select(bool takes_a, T a, T b) {
-  using Bits = std::conditional_t<sizeof(T) == sizeof(std::uint64_t), std::uint64_t, std::uint32_t>;
-  const Bits mask = Bits{0} - Bits{takes_a};
-  return std::bit_cast<T>((std::bit_cast<Bits>(a) & mask) | (std::bit_cast<Bits>(b) & ~mask));
+/// `a` if `takes_a`, else `b`. Branch-free: which of two depths is nearer is unpredictable.
+PixelTag select(bool takes_a, PixelTag a, PixelTag b) {
+  const PixelTag mask = PixelTag{0} - PixelTag{takes_a};
+  return (a & mask) | (b & ~mask);
 }
 
 /// Into a row whose first pixel is at `depths` and `tags`.
@@ -39,7 +34,7 @@ void draw_pixel_by_pixel(const Span& span, PixelTag tag, const Depth& format, do
 
 template <typename Depth>
 ZBuffer<Depth>::ZBuffer(const Viewport& screen, PixelTag background)
-    : kernel_(span_fill_kernel()),
+    : fill_(span_fill_kernel<Depth>().fill),
       format_(screen),
       front_(screen.front),
       rear_limit_(screen.rear),
@@ -57,9 +52,9 @@ void ZBuffer<Depth>::draw(const Span& span, PixelTag tag, HierarchicalDepth<Dept
   }
   if (depth_epsilon_ > 0) return draw_what_is_nearer_by_epsilon(span, tag);
   const bool is_long = span.last_column - span.first_column >= kBlockColumns;
-  kernel_.fill(SpanFill<Depth>{span, tag, format_, depths_.columns(), depths_.row(span.row).data(),
-                               tags_.row(span.row).data(),
-                               farthest != nullptr && is_long ? farthest->row(span.row) : nullptr});
+  fill_(SpanFill<Depth>{span, tag, format_, depths_.columns(), depths_.row(span.row).data(),
+                        tags_.row(span.row).data(),
+                        farthest != nullptr && is_long ? farthest->row(span.row) : nullptr});
 }
 
 template <typename Depth>
@@ -114,8 +109,8 @@ void ZBuffer<Depth>::draw_what_is_nearer_by_epsilon(const Span& span, PixelTag t
   }
 }
 
-template class ZBuffer<DepthF64>;
-template class ZBuffer<DepthF32>;
-template class ZBuffer<DepthU24>;
+#define PIPELINE_INSTANTIATE(Depth) template class ZBuffer<Depth>;
+PIPELINE_FOR_EACH_DEPTH_FORMAT(PIPELINE_INSTANTIATE)
+#undef PIPELINE_INSTANTIATE
 
 }  // namespace pipeline

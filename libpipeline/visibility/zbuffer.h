@@ -66,7 +66,7 @@ class ZBuffer {
   [[nodiscard]] Span part_behind_front(const Span& span) const;
   void draw_what_is_nearer_by_epsilon(const Span& span, PixelTag tag);
 
-  SpanFillKernel kernel_;
+  void (*fill_)(const SpanFill<Depth>&);
   Depth format_;
   double front_;
   double rear_limit_;

@@ -15,8 +15,31 @@ namespace {
 constexpr int kColumns = 10 * kBlockColumns + 13;
 constexpr Viewport kScreen = {kColumns, 1, -1, -1, 0.25, 0.75};
 
-/// Every claim is made of every kernel that this processor can run.
-class SpanFillTest : public testing::TestWithParam<SpanFillKernel> {};
+/// Every claim is made of every depth format and every kernel for it that this processor can run.
+template <typename Depth>
+class SpanFillTest : public testing::Test {
+ protected:
+  template <typename Expect>
+  void for_each_kernel(const Expect& expect) const {
+    for (const SpanFillKernel<Depth>& kernel : span_fill_kernels<Depth>()) {
+      SCOPED_TRACE(kernel.name);
+      expect(kernel);
+    }
+  }
+};
+template <typename List>
+struct TestedTypesOf;
+template <typename... Formats>
+struct TestedTypesOf<TypeList<Formats...>> {
+  using Types = testing::Types<Formats...>;
+};
+struct NameOfFormat {
+  template <typename Depth>
+  static std::string GetName(int) {
+    return std::string(Depth::kName);
+  }
+};
+TYPED_TEST_SUITE(SpanFillTest, TestedTypesOf<DepthFormats>::Types, NameOfFormat);
 
 template <typename Depth>
 struct PixelRow {
@@ -41,14 +64,14 @@ void draw_slowly(PixelRow<Depth>& row, const Span& span, PixelTag tag, const Dep
 }
 
 template <typename Depth>
-void draw_with(const SpanFillKernel& kernel, PixelRow<Depth>& row, const Span& span, PixelTag tag,
+void draw_with(const SpanFillKernel<Depth>& kernel, PixelRow<Depth>& row, const Span& span, PixelTag tag,
                const Depth& format, typename Depth::Stored* farthest = nullptr) {
   kernel.fill(SpanFill<Depth>{span, tag, format, kColumns, row.depths.data(), row.tags.data(), farthest});
 }
 
 /// Spans of every length from every column, with depths that tie, cross the limits, or are not finite.
 template <typename Depth>
-void expect_pixels_of_a_loop(const SpanFillKernel& kernel) {
+void expect_pixels_of_a_loop(const SpanFillKernel<Depth>& kernel) {
   const Depth format(kScreen);
   PixelRow<Depth> expected(format), found(format);
   std::mt19937_64 random(1);
@@ -97,7 +120,7 @@ class RandomSpans {
 };
 
 template <typename Depth>
-void expect_blocks_to_change_nothing(const SpanFillKernel& kernel) {
+void expect_blocks_to_change_nothing(const SpanFillKernel<Depth>& kernel) {
   const Depth format(kScreen);
   RandomSpans spans(2);
   for (int picture = 0; picture < 400; ++picture) {
@@ -117,7 +140,7 @@ void expect_blocks_to_change_nothing(const SpanFillKernel& kernel) {
 
 /// A block is passed over as soon as its farthest pixel is nearer: the bound is not only true but small.
 template <typename Depth>
-void expect_to_learn_the_farthest_depth(const SpanFillKernel& kernel) {
+void expect_to_learn_the_farthest_depth(const SpanFillKernel<Depth>& kernel) {
   const Depth format(kScreen);
   PixelRow<Depth> row(format);
   HierarchicalDepth<Depth> farthest({0, 1}, kColumns);
@@ -136,40 +159,15 @@ void expect_to_learn_the_farthest_depth(const SpanFillKernel& kernel) {
   EXPECT_EQ(farthest_of_block(0), format.store(0.375));
 }
 
-TEST_P(SpanFillTest, DoublesAreThoseOfALoopOverPixels) {
-  expect_pixels_of_a_loop<DepthF64>(GetParam());
+TYPED_TEST(SpanFillTest, DrawsThePixelsOfALoop) {
+  this->for_each_kernel(expect_pixels_of_a_loop<TypeParam>);
 }
-TEST_P(SpanFillTest, FloatsAreThoseOfALoopOverPixels) {
-  expect_pixels_of_a_loop<DepthF32>(GetParam());
+TYPED_TEST(SpanFillTest, HiddenBlocksArePassedOverAndNoOthers) {
+  this->for_each_kernel(expect_blocks_to_change_nothing<TypeParam>);
 }
-TEST_P(SpanFillTest, StepsAreThoseOfALoopOverPixels) {
-  expect_pixels_of_a_loop<DepthU24>(GetParam());
+TYPED_TEST(SpanFillTest, TellsTheFarthestOfABlock) {
+  this->for_each_kernel(expect_to_learn_the_farthest_depth<TypeParam>);
 }
-
-TEST_P(SpanFillTest, DoublesOfHiddenBlocksArePassedOverAndNoOthers) {
-  expect_blocks_to_change_nothing<DepthF64>(GetParam());
-}
-TEST_P(SpanFillTest, DoublesTellTheFarthestOfABlock) {
-  expect_to_learn_the_farthest_depth<DepthF64>(GetParam());
-}
-
-TEST_P(SpanFillTest, FloatsOfHiddenBlocksArePassedOverAndNoOthers) {
-  expect_blocks_to_change_nothing<DepthF32>(GetParam());
-}
-TEST_P(SpanFillTest, FloatsTellTheFarthestOfABlock) {
-  expect_to_learn_the_farthest_depth<DepthF32>(GetParam());
-}
-
-TEST_P(SpanFillTest, StepsOfHiddenBlocksArePassedOverAndNoOthers) {
-  expect_blocks_to_change_nothing<DepthU24>(GetParam());
-}
-TEST_P(SpanFillTest, StepsTellTheFarthestOfABlock) {
-  expect_to_learn_the_farthest_depth<DepthU24>(GetParam());
-}
-
-INSTANTIATE_TEST_SUITE_P(Kernels, SpanFillTest,
-                         testing::ValuesIn(span_fill_kernels().begin(), span_fill_kernels().end()),
-                         [](const auto& test) { return std::string(test.param.name); });
 
 }  // namespace
 }  // namespace pipeline
