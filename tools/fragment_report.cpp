@@ -9,10 +9,9 @@
 #include "libpipeline/text/number_parser.h"
 #include "libpipeline/text/output_file.h"
 #include "libpipeline/text/text_writer.h"
-#include "libpipeline/visibility/tagged_batch.h"
 #include "libpipeline/visibility/depth_format.h"
 #include "libpipeline/visibility/fragment_log.h"
-#include "tools/render.h"
+#include "libpipeline/visibility/tagged_batch.h"
 
 namespace pipeline {
 namespace {
@@ -36,11 +35,10 @@ Pixel parsed_place(const std::string& word, const Viewport& screen) {
 template <typename CoverageRule, typename Depth>
 class ReportOf final : public FragmentReport {
  public:
-  ReportOf(const RenderOptions& chosen, const Viewport& screen) {
-    for (const std::string& word : chosen.fragments.probes)
+  ReportOf(const ZbufOptions& chosen, const Viewport& screen) {
+    for (const std::string& word : chosen.probes)
       probes_.emplace_back(screen, parsed_place(word, screen), chosen.depth_epsilon);
-    if (!chosen.fragments.file_path.empty())
-      file_.emplace(chosen.fragments.file_path, screen, chosen.depth_epsilon);
+    if (!chosen.fragments_path.empty()) file_.emplace(chosen.fragments_path, screen, chosen.depth_epsilon);
   }
 
   void add(const TriangleBatch& p_ndc, std::size_t index) override {
@@ -93,33 +91,13 @@ class ReportOf final : public FragmentReport {
   std::optional<LogFile> file_;
 };
 
-template <typename Depth>
-std::unique_ptr<FragmentReport> report_in(const RenderOptions& chosen, const Viewport& screen) {
-  if (chosen.coverage == Coverage::center)
-    return std::make_unique<ReportOf<CenterCoverage, Depth>>(chosen, screen);
-  return std::make_unique<ReportOf<NearestCoverage, Depth>>(chosen, screen);
-}
-
 }  // namespace
 
-void add_fragment_options(CommandLine& options, FragmentOptions& chosen) {
-  options.add_repeatable("--probe", "COLUMN,ROW", chosen.probes,
-                         "Say on stderr of every triangle at this pixel how deep it is there, and whether it "
-                         "was kept or why it was lost; may be given again");
-  options.add_word("--fragments", "FILE", chosen.file_path, "Write the same for the whole picture to a file");
-}
-
-std::unique_ptr<FragmentReport> fragment_report(const RenderOptions& chosen, const Viewport& screen) {
-  if (chosen.fragments.probes.empty() && chosen.fragments.file_path.empty()) return nullptr;
-  switch (chosen.depth) {
-    case DepthFormat::f64:
-      return report_in<DepthF64>(chosen, screen);
-    case DepthFormat::f32:
-      return report_in<DepthF32>(chosen, screen);
-    case DepthFormat::u24:
-      break;
-  }
-  return report_in<DepthU24>(chosen, screen);
+std::unique_ptr<FragmentReport> fragment_report(const ZbufOptions& chosen, const Viewport& screen) {
+  if (chosen.probes.empty() && chosen.fragments_path.empty()) return nullptr;
+  return dispatch(chosen, [&]<typename Rule, typename Depth>() -> std::unique_ptr<FragmentReport> {
+    return std::make_unique<ReportOf<Rule, Depth>>(chosen, screen);
+  });
 }
 
 }  // namespace pipeline

@@ -2,25 +2,12 @@
 
 #include <cstddef>
 #include <memory>
-#include <string>
-#include <vector>
 
 #include "libpipeline/scene/viewport.h"
 #include "libpipeline/stream/triangle_batch.h"
-#include "libpipeline/visibility/fragment.h"
-#include "tools/command_line.h"
+#include "tools/zbuf_options.h"
 
 namespace pipeline {
-
-struct RenderOptions;
-
-/// `--probe` and `--fragments`.
-struct FragmentOptions {
-  std::vector<std::string> probes;  // "COLUMN,ROW" each
-  std::string file_path;            // empty: no file
-};
-
-void add_fragment_options(CommandLine& options, FragmentOptions& chosen);
 
 /// Tells what every triangle brings to the pixels that were asked for. It takes triangles in the order of the
 /// stream, so what it says does not depend on who draws them.
@@ -37,6 +24,6 @@ class FragmentReport {
 
 /// The report that was asked for, with the coverage rule and the depth format that draw; none if none was. A
 /// UsageError if a probe is not on the screen.
-std::unique_ptr<FragmentReport> fragment_report(const RenderOptions& chosen, const Viewport& screen);
+std::unique_ptr<FragmentReport> fragment_report(const ZbufOptions& chosen, const Viewport& screen);
 
 }  // namespace pipeline

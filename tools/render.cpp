@@ -18,7 +18,7 @@
 #include "tools/depth_files.h"
 #include "tools/fragment_report.h"
 #include "tools/progress.h"
-#include "tools/shading_options.h"
+#include "tools/surface_shading.h"
 
 namespace pipeline {
 namespace {
@@ -71,7 +71,7 @@ struct SampledVisible {
 };
 
 template <typename CoverageRule, typename Depth>
-void draw_all(Tool& tool, const RenderOptions& chosen, StageReader& reader, TriangleTagSource& tag_of,
+void draw_all(Tool& tool, const ZbufOptions& chosen, StageReader& reader, TriangleTagSource& tag_of,
               SampledVisible<ZBufferAlgorithm<CoverageRule, Depth>>& visible) {
   using Drawing = TriangleDrawing<ZBufferAlgorithm<CoverageRule, Depth>>;
   visible.centers.set_depth_epsilon(chosen.depth_epsilon);
@@ -99,7 +99,7 @@ void draw_all(Tool& tool, const RenderOptions& chosen, StageReader& reader, Tria
   if (samples) samples->finish();
 }
 template <typename CoverageRule, typename Depth>
-void draw_all(Tool& tool, const RenderOptions&, StageReader& reader, TriangleTagSource& tag_of,
+void draw_all(Tool& tool, const ZbufOptions&, StageReader& reader, TriangleTagSource& tag_of,
               SampledVisible<ScanlineAlgorithm<CoverageRule, Depth>>& visible) {
   TriangleBatch p_ndc;
   const auto draw = [&] {
@@ -114,7 +114,7 @@ void draw_all(Tool& tool, const RenderOptions&, StageReader& reader, TriangleTag
 }
 
 template <VisibilityAlgorithm Visible>
-void write_all(Tool& tool, const RenderOptions& chosen, const SampledVisible<Visible>& visible,
+void write_all(Tool& tool, const ZbufOptions& chosen, const SampledVisible<Visible>& visible,
                std::optional<SurfaceShader>& shader) {
   const Viewport& screen = visible.center_screen;
   OutputFile image(chosen.image_path);
@@ -149,8 +149,8 @@ void write_all(Tool& tool, const RenderOptions& chosen, const SampledVisible<Vis
 }
 
 template <VisibilityAlgorithm Visible>
-void render_with(Tool& tool, const RenderOptions& chosen, const Viewport& screen) {
-  StageReader reader(tool.input(), chosen.coverage == Coverage::center);
+void render_with(Tool& tool, const ZbufOptions& chosen, const Viewport& screen) {
+  StageReader reader(tool.input(), Visible::CoverageRule::kUsesDecimals);
   reader.accept_clipped();
   if (chosen.framed) reader.expect_framed();
   const Viewport shaded_screen = sample_screen(screen, chosen.sample_count);
@@ -171,37 +171,17 @@ void render_with(Tool& tool, const RenderOptions& chosen, const Viewport& screen
   if (report) report->commit();
 }
 
-template <typename CoverageRule, typename Depth>
-void render_with(Tool& tool, const RenderOptions& chosen, const Viewport& screen) {
-  switch (chosen.algorithm) {
-    case Algorithm::zbuffer:
-      return render_with<ZBufferAlgorithm<CoverageRule, Depth>>(tool, chosen, screen);
-    case Algorithm::scanline:
-      return render_with<ScanlineAlgorithm<CoverageRule, Depth>>(tool, chosen, screen);
-  }
-}
-
-template <typename Depth>
-void render_in(Tool& tool, const RenderOptions& chosen, const Viewport& screen) {
-  switch (chosen.coverage) {
-    case Coverage::nearest:
-      return render_with<NearestCoverage, Depth>(tool, chosen, screen);
-    case Coverage::center:
-      return render_with<CenterCoverage, Depth>(tool, chosen, screen);
-  }
-}
-
 }  // namespace
 
-void render(Tool& tool, const RenderOptions& chosen, const Viewport& screen) {
-  switch (chosen.depth) {
-    case DepthFormat::f64:
-      return render_in<DepthF64>(tool, chosen, screen);
-    case DepthFormat::f32:
-      return render_in<DepthF32>(tool, chosen, screen);
-    case DepthFormat::u24:
-      return render_in<DepthU24>(tool, chosen, screen);
-  }
+void render(Tool& tool, const ZbufOptions& chosen, const Viewport& screen) {
+  dispatch(chosen, [&]<typename Rule, typename Depth>() {
+    switch (chosen.algorithm) {
+      case Algorithm::zbuffer:
+        return render_with<ZBufferAlgorithm<Rule, Depth>>(tool, chosen, screen);
+      case Algorithm::scanline:
+        return render_with<ScanlineAlgorithm<Rule, Depth>>(tool, chosen, screen);
+    }
+  });
 }
 
 }  // namespace pipeline

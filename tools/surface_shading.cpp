@@ -1,9 +1,9 @@
-#include "tools/shading_options.h"
+#include "tools/surface_shading.h"
 
 #include <utility>
 
+#include "libpipeline/text/error.h"
 #include "libpipeline/vertex/transform.h"
-#include "tools/command_line.h"
 
 namespace pipeline {
 namespace {
@@ -24,18 +24,6 @@ ShadingModel default_model(const Appearance& appearance) {
 }
 
 }  // namespace
-
-void add_shading_option(CommandLine& options, std::optional<ShadingModel>& chosen) {
-  options.add_choice<std::optional<ShadingModel>>(
-      "--shading", chosen,
-      {{"none", ShadingModel::none},
-       {"flat", ShadingModel::flat},
-       {"gouraud", ShadingModel::gouraud},
-       {"phong", ShadingModel::phong}},
-      "Where surfaces are lit. none: nowhere; flat: once a triangle;\n"
-      "gouraud: at its vertices; phong: at every pixel.\n"
-      "Without the option: phong with lights and normals, flat with lights alone, else none");
-}
 
 Color background_color(const Appearance& appearance) {
   return appearance.background ? rounded_color(appearance.background->value) : Color();

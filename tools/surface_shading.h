@@ -4,12 +4,8 @@
 
 #include "libpipeline/picture/surface_shader.h"
 #include "libpipeline/stream/stage_reader.h"
-#include "tools/command_line.h"
 
 namespace pipeline {
-
-/// `--shading`.
-void add_shading_option(CommandLine& options, std::optional<ShadingModel>& chosen);
 
 /// The color of pixels that show no triangle, black unless the text says another.
 Color background_color(const Appearance& appearance);

@@ -1,0 +1,20 @@
+#include "tools/zbuf_options.h"
+
+#include "libpipeline/text/error.h"
+#include "libpipeline/text/number_printer.h"
+
+namespace pipeline {
+
+void ZbufOptions::check() const {
+  if (algorithm != Algorithm::scanline) return;
+  if (thread_count > 1)
+    throw UsageError("--threads: " +
+                     expected_but_found("1 with --algorithm scanline, which goes through the rows in turn",
+                                        "'" + std::to_string(thread_count) + "'"));
+  if (depth_epsilon > 0)
+    throw UsageError("--depth-epsilon: " +
+                     expected_but_found("0 with --algorithm scanline, which keeps no order of drawing",
+                                        "'" + shortest_text(depth_epsilon) + "'"));
+}
+
+}  // namespace pipeline

@@ -1,0 +1,118 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "libpipeline/coverage/rules.h"
+#include "libpipeline/coverage/type_list.h"
+#include "libpipeline/picture/depth_image.h"
+#include "libpipeline/picture/image_file.h"
+#include "libpipeline/picture/supersampling.h"
+#include "libpipeline/picture/surface_shader.h"
+#include "libpipeline/visibility/depth_format.h"
+#include "tools/command_line.h"
+
+namespace pipeline {
+
+enum class Algorithm { zbuffer, scanline };
+
+/// The options of `zbuf`, as members with their defaults and, in the same order, as words of the command
+/// line.
+struct ZbufOptions {
+  std::string config_path;
+  std::string image_path = "out.bmp";
+  std::string z_buffer_path = "-";
+  TypeChoice<CoverageRules> coverage;
+  Algorithm algorithm = Algorithm::zbuffer;
+  TypeChoice<DepthFormats> depth;
+  int thread_count = 1;
+  std::string depth_image_path;  // empty: none
+  double depth_epsilon = 0;
+  int sample_count = 1;                 // along each side of a pixel, for the image alone
+  std::optional<ShadingModel> shading;  // nothing: what the text asks for
+  bool wireframe = false;
+  std::vector<std::string> probes;  // "COLUMN,ROW" each
+  std::string fragments_path;       // empty: no file
+  bool framed = false;              // the input has to be
+
+  void add_to(CommandLine& options);
+  /// A UsageError if options exclude each other.
+  void check() const;
+};
+
+/// Calls visit<Rule, Depth>() for the coverage rule and the depth format chosen.
+template <typename Visitor>
+decltype(auto) dispatch(const ZbufOptions& chosen, Visitor&& visit) {
+  return std::visit(
+      [&]<typename Rule, typename Depth>(TypeValue<Rule>, TypeValue<Depth>) -> decltype(auto) {
+        return visit.template operator()<Rule, Depth>();
+      },
+      chosen.coverage, chosen.depth);
+}
+
+/// Adds an option that takes the name of one type of a list; its help ends with what each of them means.
+template <typename... Types>
+void add_type_choice(CommandLine& options, const std::string& name, TypeList<Types...>,
+                     TypeChoice<TypeList<Types...>>& chosen, std::string help) {
+  const auto line = [](std::string_view word, std::string_view meaning) {
+    return "\n" + std::string(word) + ": " + std::string(meaning);
+  };
+  ((help += line(Types::kName, Types::kMeaning)), ...);
+  options.add_choice<TypeChoice<TypeList<Types...>>>(
+      name, chosen, {{std::string(Types::kName), TypeValue<Types>()}...}, help);
+}
+
+// Beside the members, so that an option is written in one file.
+inline void ZbufOptions::add_to(CommandLine& options) {
+  options.add_operand("CONFIG", config_path, true,
+                      "The screen (config.txt): WIDTH HEIGHT in pixels; or on four lines\n"
+                      "that, the left limit of x, the bottom limit of y, the front and rear limits of z");
+  options.add_word("--image", "FILE", image_path, "Where the image goes, a .bmp, .ppm or .png file",
+                   wrong_with_name(image_format_of));
+  options.add_word("--z-buffer", "FILE", z_buffer_path, "Where the depths go; - is standard output");
+  add_type_choice(options, "--coverage", CoverageRules(), coverage, "Which pixels a triangle covers.");
+  options.add_choice<Algorithm>(
+      "--algorithm", algorithm, {{"zbuffer", Algorithm::zbuffer}, {"scanline", Algorithm::scanline}},
+      "How the visible triangle is found; both give the same output.\n"
+      "zbuffer: every pixel keeps the nearest depth so far\n"
+      "scanline: triangles are kept and compared row by row, without memory for the image");
+  add_type_choice(options, "--depth", DepthFormats(), depth, "How a pixel keeps its depth.");
+  options.add_threads(thread_count, "How many threads draw with the z-buffer");
+  options.add_word(
+      "--depth-image", "FILE", depth_image_path,
+      "Also write the depths as an image of 16 bits, a .pgm or .png file: white at the front limit, "
+      "black at the rear limit",
+      wrong_with_name(depth_image_format_of));
+  options.add_number(
+      "--depth-epsilon", "E", depth_epsilon, [](double epsilon) { return epsilon >= 0; },
+      "a number of at least 0",
+      "Let a triangle through only where it is nearer than the one seen so far by more than E; the order of "
+      "the triangles counts then");
+  options.add_whole("--samples", sample_count, 1, kMaxSamples,
+                    "Smooth edges: a pixel of the image is the mean of N x N samples, its depth stays that "
+                    "of its center; N");
+  options.add_choice<std::optional<ShadingModel>>(
+      "--shading", shading,
+      {{"none", ShadingModel::none},
+       {"flat", ShadingModel::flat},
+       {"gouraud", ShadingModel::gouraud},
+       {"phong", ShadingModel::phong}},
+      "Where surfaces are lit. none: nowhere; flat: once a triangle;\n"
+      "gouraud: at its vertices; phong: at every pixel.\n"
+      "Without the option: phong with lights and normals, flat with lights alone, else none");
+  options.add_flag("--wireframe", wireframe,
+                   "Show of the visible surfaces only their edges: what lies within half a pixel of one");
+  options.add_repeatable("--probe", "COLUMN,ROW", probes,
+                         "Say on stderr of every triangle at this pixel how deep it is there, and whether it "
+                         "was kept or why it was lost; may be given again");
+  options.add_word("--fragments", "FILE", fragments_path, "Write the same for the whole picture to a file");
+  options.add_flag("--framed", framed,
+                   "Refuse a text without the frame that model --framed gives it: an empty one may come from "
+                   "a stage that was killed");
+}
+
+}  // namespace pipeline
