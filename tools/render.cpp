@@ -118,8 +118,8 @@ void write_all(Tool& tool, const ZbufOptions& chosen, const SampledVisible<Visib
                std::optional<SurfaceShader>& shader) {
   const Viewport& screen = visible.center_screen;
   OutputFile image(chosen.image_path);
-  ImageWriter pixels(image.descriptor(), chosen.image_path, image_format_of(chosen.image_path),
-                     screen.columns, screen.rows);
+  const std::unique_ptr<ImageWriter> pixels =
+      image_writer(image.descriptor(), chosen.image_path, screen.columns, screen.rows);
   DepthFiles depths(tool.output(), chosen.z_buffer_path, chosen.depth_image_path, screen);
   int row_number = 0;
   std::vector<Color> colors;
@@ -131,15 +131,15 @@ void write_all(Tool& tool, const ZbufOptions& chosen, const SampledVisible<Visib
   };
   visible.centers.for_each_row([&](const VisibleRow& row) {
     depths.write_row(row.depths);
-    if (!visible.samples) pixels.write_row(shaded(row.tags));
+    if (!visible.samples) pixels->write_row(shaded(row.tags));
   });
   if (visible.samples) {
     Downsampler means(screen.columns, chosen.sample_count);
     visible.samples->for_each_row([&](const VisibleRow& row) {
-      if (const auto complete = means.add(shaded(row.tags))) pixels.write_row(*complete);
+      if (const auto complete = means.add(shaded(row.tags))) pixels->write_row(*complete);
     });
   }
-  pixels.finish();
+  pixels->finish();
   depths.close();
   image.close();
   tool.close_output();

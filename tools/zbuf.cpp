@@ -34,7 +34,7 @@ int main(int argc, char** argv) {
   return tool.run(argc, argv, [&] {
     chosen.check();
     const Viewport screen = read_screen(tool, chosen.config_path);
-    check_image_size(image_format_of(chosen.image_path), screen.columns, screen.rows, chosen.image_path);
+    check_image_size(chosen.image_path, screen.columns, screen.rows);
     render(tool, chosen, screen);
   });
 }

@@ -71,8 +71,10 @@ inline void ZbufOptions::add_to(CommandLine& options) {
   options.add_operand("CONFIG", config_path, true,
                       "The screen (config.txt): WIDTH HEIGHT in pixels; or on four lines\n"
                       "that, the left limit of x, the bottom limit of y, the front and rear limits of z");
-  options.add_word("--image", "FILE", image_path, "Where the image goes, a .bmp, .ppm or .png file",
-                   wrong_with_name(image_format_of));
+  const std::vector<std::string_view> extensions = image_extensions();
+  options.add_word("--image", "FILE", image_path,
+                   "Where the image goes, a " + listed({extensions.begin(), extensions.end()}) + " file",
+                   wrong_with_name(check_image_name));
   options.add_word("--z-buffer", "FILE", z_buffer_path, "Where the depths go; - is standard output");
   add_type_choice(options, "--coverage", CoverageRules(), coverage, "Which pixels a triangle covers.");
   options.add_choice<Algorithm>(
@@ -86,7 +88,7 @@ inline void ZbufOptions::add_to(CommandLine& options) {
       "--depth-image", "FILE", depth_image_path,
       "Also write the depths as an image of 16 bits, a .pgm or .png file: white at the front limit, "
       "black at the rear limit",
-      wrong_with_name(depth_image_format_of));
+      wrong_with_name(check_depth_image_name));
   options.add_number(
       "--depth-epsilon", "E", depth_epsilon, [](double epsilon) { return epsilon >= 0; },
       "a number of at least 0",

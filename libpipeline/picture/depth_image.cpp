@@ -4,15 +4,31 @@
 #include <cmath>
 
 #include "libpipeline/picture/image_file.h"
-#include "libpipeline/text/error.h"
 
 namespace pipeline {
+namespace {
 
-DepthImageFormat depth_image_format_of(const std::string& path) {
+using Gray16Writer = std::variant<NetpbmWriter, PngWriter>;
+
+bool is_png(const std::string& path) {
   const std::string extension = extension_of(path);
-  if (extension == ".pgm" || is_device_without_extension(path)) return DepthImageFormat::pgm;
-  if (extension == ".png" && can_write_png()) return DepthImageFormat::png;
-  reject_extension(path, "a depth image file", ".pgm");
+  if (extension == ".pgm" || is_device_without_extension(path)) return false;
+  if (extension == ".png" && can_write_png()) return true;
+  if (can_write_png()) reject_extension(path, "a depth image file", {".pgm", ".png"});
+  reject_extension(path, "a depth image file", {".pgm"});
+}
+
+Gray16Writer writer_for(int descriptor, const std::string& path, const Viewport& screen) {
+  const auto make = [&]<typename Writer>(std::in_place_type_t<Writer> type) {
+    return Gray16Writer(type, descriptor, path, PixelBytes::gray16, screen.columns, screen.rows);
+  };
+  return is_png(path) ? make(std::in_place_type<PngWriter>) : make(std::in_place_type<NetpbmWriter>);
+}
+
+}  // namespace
+
+void check_depth_image_name(const std::string& path) {
+  is_png(path);
 }
 
 std::uint16_t depth_brightness(double depth, const Viewport& screen) {
@@ -22,12 +38,7 @@ std::uint16_t depth_brightness(double depth, const Viewport& screen) {
 }
 
 DepthImageWriter::DepthImageWriter(int descriptor, const std::string& path, const Viewport& screen)
-    : screen_(screen), pgm_(descriptor, path) {
-  if (depth_image_format_of(path) == DepthImageFormat::png)
-    png_.emplace(descriptor, path, PngPixels::gray16, screen.columns, screen.rows);
-  else
-    pgm_.append("P5\n" + std::to_string(screen.columns) + " " + std::to_string(screen.rows) + "\n65535\n");
-}
+    : screen_(screen), file_(writer_for(descriptor, path, screen)) {}
 
 void DepthImageWriter::write_row(std::span<const double> depths) {
   row_.clear();
@@ -36,17 +47,11 @@ void DepthImageWriter::write_row(std::span<const double> depths) {
     row_.push_back(static_cast<unsigned char>(brightness >> 8));
     row_.push_back(static_cast<unsigned char>(brightness & 0xff));
   }
-  if (png_)
-    png_->write_row(row_);
-  else
-    pgm_.append({reinterpret_cast<const char*>(row_.data()), row_.size()});
+  std::visit([&](auto& file) { file.write_row(row_); }, file_);
 }
 
 void DepthImageWriter::finish() {
-  if (png_)
-    png_->finish();
-  else
-    pgm_.flush();
+  std::visit([](auto& file) { file.finish(); }, file_);
 }
 
 }  // namespace pipeline

@@ -1,25 +1,21 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <string>
+#include <variant>
 #include <vector>
 
+#include "libpipeline/picture/netpbm_file.h"
 #include "libpipeline/picture/png_file.h"
 #include "libpipeline/scene/viewport.h"
-#include "libpipeline/text/text_writer.h"
 
 namespace pipeline {
 
-enum class DepthImageFormat {
-  pgm,  // Netpbm P5, 16 bits, the high byte first
-  png,  // 16 bits of gray; only where can_write_png()
-};
-
-/// The format a file's extension stands for, upper or lower case; a device's name (/dev/stdout) gets PGM. Any
-/// other name is an InputError, and so is .png where there is no libpng.
-DepthImageFormat depth_image_format_of(const std::string& path);
+/// An InputError unless the file's extension, in upper or lower case, names a format of depth images: .pgm
+/// (Netpbm P5) or, where can_write_png(), .png, both with 16 bits of gray. A device's name (/dev/stdout) gets
+/// PGM.
+void check_depth_image_name(const std::string& path);
 
 /// How bright a depth is: 65535 at the front limit, 0 at the rear limit and where nothing is seen, linear
 /// between and rounded to the nearest, halves up.
@@ -29,18 +25,18 @@ std::uint16_t depth_brightness(double depth, const Viewport& screen);
 /// are IoErrors.
 class DepthImageWriter {
  public:
-  /// Writes to a file descriptor, which stays the caller's; `path` names it in messages and says the format.
+  /// Writes to a file descriptor, which stays the caller's; `path` chooses the format and names the file in
+  /// messages.
   DepthImageWriter(int descriptor, const std::string& path, const Viewport& screen);
 
   /// Takes the depths (NDC z) of the next row, from the left.
   void write_row(std::span<const double> depths);
-  /// Writes what is not written yet; to be called after the last row.
+  /// Writes the rows still buffered; to be called after the last row.
   void finish();
 
  private:
   Viewport screen_;
-  TextWriter pgm_;
-  std::optional<PngWriter> png_;
+  std::variant<NetpbmWriter, PngWriter> file_;
   std::vector<unsigned char> row_;
 };
 

@@ -1,72 +1,53 @@
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
-#include <optional>
+#include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "libpipeline/picture/png_file.h"
 #include "libpipeline/scene/color.h"
 
 namespace pipeline {
 
-enum class ImageFormat {
-  bmp,  // Windows bitmap, 24 bits a pixel, rows from the bottom; at most 4 GiB
-  ppm,  // Netpbm P6, 8 bits a channel, rows from the top
-  png,  // 8 bits a channel; only where can_write_png()
+/// Takes an image row by row, from the top, and writes it in some format. Failures to write are IoErrors.
+class ImageWriter {
+ public:
+  ImageWriter() = default;
+  virtual ~ImageWriter() = default;
+  ImageWriter(const ImageWriter&) = delete;
+  ImageWriter& operator=(const ImageWriter&) = delete;
+
+  /// Takes the next row, all its pixels from the left.
+  virtual void write_row(std::span<const Color> colors) = 0;
+  /// Writes the rows still buffered; to be called after the last row.
+  virtual void finish() = 0;
 };
 
-/// The format a file's extension stands for, upper or lower case. A device's name (/dev/null, /dev/stdout)
-/// has none: it gets PPM, which can be written from start to end. Any other name is an InputError, and so is
-/// .png where there is no libpng.
-ImageFormat image_format_of(const std::string& path);
+// The extension of a file's name, in upper or lower case, chooses the format: BMP (24 bits a pixel, at most
+// 4 GiB), PPM (Netpbm P6) or, where can_write_png(), PNG (8 bits a channel). A device's name (/dev/null,
+// /dev/stdout) has none: it gets PPM, which can be written from start to end. Any other name is an
+// InputError, and so is an image larger than the format holds.
+
+/// The extensions of all formats that can be written: ".bmp", ...
+std::vector<std::string_view> image_extensions();
+
+/// Throws these errors.
+void check_image_name(const std::string& path);
+void check_image_size(const std::string& path, int columns, int rows);
+
+/// Writes an image to a file descriptor, which stays the caller's; `path` chooses the format and names the
+/// file in messages. Throws like the checks.
+std::unique_ptr<ImageWriter> image_writer(int descriptor, const std::string& path, int columns, int rows);
+
+// For files of images of any kind.
 
 /// The extension of a file's name in lower case: ".bmp".
 std::string extension_of(const std::string& path);
-/// True for names like /dev/null, where no extension says a format.
+/// True for names like /dev/null, which have no extension to choose a format.
 bool is_device_without_extension(const std::string& path);
-/// Throws the InputError that says which extensions `kind` ("an image file") may have: `formats` and, where
-/// there is libpng, .png.
+/// Throws the InputError that names the extensions a file of this kind ("an image file") may have.
 [[noreturn]] void reject_extension(const std::string& path, const std::string& kind,
-                                   const std::string& formats);
-
-/// An InputError naming `path` if the format cannot hold an image of that size: BMP counts its bytes in 32
-/// bits.
-void check_image_size(ImageFormat format, int columns, int rows, const std::string& path);
-
-/// Takes an image row by row, from the top, and writes it in blocks of 4 MiB, so that only few rows are in
-/// memory; but a BMP that goes where there is no seeking (a pipe) is held as a whole. Failures to write are
-/// IoErrors.
-class ImageWriter {
- public:
-  /// Writes to a file descriptor, which stays the caller's; `path` names it in messages.
-  /// Throws like check_image_size.
-  ImageWriter(int descriptor, const std::string& path, ImageFormat format, int columns, int rows);
-
-  /// Takes the next row, `columns` pixels from the left.
-  void write_row(std::span<const Color> colors);
-  /// Writes what is not written yet; to be called after the last row.
-  void finish();
-
- private:
-  void write_bmp_header();
-  char* place_for_next_row();
-  void write_rows();
-
-  int descriptor_;
-  std::string path_;
-  ImageFormat format_;
-  int columns_;
-  int rows_;
-  std::size_t row_size_;  // bytes, padding included
-  bool can_seek_;
-  // Rows that wait to be written, in the order of the file: a BMP's block is filled from its end.
-  std::vector<char> block_;
-  std::size_t waiting_row_count_ = 0;
-  std::size_t written_row_count_ = 0;
-  std::optional<PngWriter> png_;
-};
+                                   const std::vector<std::string_view>& extensions);
 
 }  // namespace pipeline

@@ -60,11 +60,11 @@ bool can_write_png() {
   return true;
 }
 
-PngWriter::PngWriter(int descriptor, const std::string& path, PngPixels pixels, int columns, int rows)
+PngWriter::PngWriter(int descriptor, const std::string& path, PixelBytes pixels, int columns, int rows)
     : state_(std::make_unique<State>(descriptor, path)) {
   State& s = *state_;
-  const int bits = pixels == PngPixels::rgb8 ? 8 : 16;
-  const int type = pixels == PngPixels::rgb8 ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_GRAY;
+  const int bits = pixels == PixelBytes::rgb8 ? 8 : 16;
+  const int type = pixels == PixelBytes::rgb8 ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_GRAY;
   s.guarded([&] {
     png_set_write_fn(s.png, &s.sink, write_bytes, nullptr);
     png_set_IHDR(s.png, s.info, static_cast<png_uint_32>(columns), static_cast<png_uint_32>(rows), bits, type,
@@ -74,6 +74,7 @@ PngWriter::PngWriter(int descriptor, const std::string& path, PngPixels pixels, 
 }
 
 PngWriter::~PngWriter() = default;
+PngWriter::PngWriter(PngWriter&&) noexcept = default;
 
 void PngWriter::write_row(std::span<const unsigned char> bytes) {
   state_->guarded([&] { png_write_row(state_->png, bytes.data()); });

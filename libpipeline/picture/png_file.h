@@ -4,10 +4,9 @@
 #include <span>
 #include <string>
 
-namespace pipeline {
+#include "libpipeline/picture/pixel_bytes.h"
 
-/// What stands in a PNG's pixels; samples of 16 bits have the high byte first.
-enum class PngPixels { rgb8, gray16 };
+namespace pipeline {
 
 /// True if PNG files can be written: where the library was built with libpng.
 bool can_write_png();
@@ -17,10 +16,10 @@ class PngWriter {
  public:
   /// Writes to a file descriptor, which stays the caller's; `path` names it in messages. Only where
   /// can_write_png().
-  PngWriter(int descriptor, const std::string& path, PngPixels pixels, int columns, int rows);
+  PngWriter(int descriptor, const std::string& path, PixelBytes pixels, int columns, int rows);
   ~PngWriter();
-  PngWriter(const PngWriter&) = delete;
-  PngWriter& operator=(const PngWriter&) = delete;
+  PngWriter(PngWriter&&) noexcept;
+  PngWriter& operator=(PngWriter&&) = delete;
 
   /// Takes the bytes of the next row.
   void write_row(std::span<const unsigned char> bytes);

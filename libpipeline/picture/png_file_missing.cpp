@@ -11,11 +11,12 @@ bool can_write_png() {
   return false;
 }
 
-PngWriter::PngWriter(int, const std::string&, PngPixels, int, int) {
+PngWriter::PngWriter(int, const std::string&, PixelBytes, int, int) {
   assert(can_write_png());
 }
 
 PngWriter::~PngWriter() = default;
+PngWriter::PngWriter(PngWriter&&) noexcept = default;
 
 void PngWriter::write_row(std::span<const unsigned char>) {}
 

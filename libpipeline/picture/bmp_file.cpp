@@ -1,0 +1,109 @@
+#include "libpipeline/picture/bmp_file.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cerrno>
+#include <cstdint>
+#include <limits>
+#include <string_view>
+
+#include "libpipeline/text/error.h"
+#include "libpipeline/text/text_writer.h"
+
+namespace pipeline {
+namespace {
+
+constexpr std::size_t kHeaderSize = 14 + 40;
+constexpr std::size_t kBlockSize = std::size_t{1} << 22;
+
+/// Bytes of one row in the file; rows start at multiples of four.
+std::size_t row_size(int columns) {
+  return (3 * static_cast<std::size_t>(columns) + 3) / 4 * 4;
+}
+
+/// True where every byte written goes where the last seek pointed.
+bool can_seek(int descriptor) {
+  const int flags = ::fcntl(descriptor, F_GETFL);
+  return flags >= 0 && (flags & O_APPEND) == 0 && ::lseek(descriptor, 0, SEEK_CUR) == 0;
+}
+
+template <typename UInt>
+void append_little_endian(std::string& bytes, UInt value) {
+  for (std::size_t i = 0; i < sizeof value; ++i) bytes += static_cast<char>(value >> (8 * i) & 0xff);
+}
+
+}  // namespace
+
+void check_bmp_size(const std::string& path, int columns, int rows) {
+  const std::uint64_t size = kHeaderSize + std::uint64_t{row_size(columns)} * static_cast<unsigned>(rows);
+  if (size <= std::numeric_limits<std::uint32_t>::max()) return;
+  throw InputError(
+      {path}, expected_but_found(
+                  "an image that fits into the 4 GiB of a .bmp file (--image FILE.ppm has no such limit)",
+                  std::to_string(columns) + " x " + std::to_string(rows) + " pixels, " +
+                      std::to_string(size) + " bytes"));
+}
+
+BmpWriter::BmpWriter(int descriptor, const std::string& path, int columns, int rows)
+    : descriptor_(descriptor),
+      path_(path),
+      columns_(columns),
+      rows_(rows),
+      row_size_(row_size(columns)),
+      can_seek_(can_seek(descriptor)) {
+  check_bmp_size(path, columns, rows);
+  write_header();
+  const std::size_t all_rows = static_cast<std::size_t>(rows);
+  const std::size_t rows_at_once = std::clamp<std::size_t>(kBlockSize / row_size_, 1, all_rows);
+  block_.resize(row_size_ * (can_seek_ ? rows_at_once : all_rows));
+}
+
+void BmpWriter::write_header() {
+  const auto pixels_size = static_cast<std::uint32_t>(row_size_ * static_cast<std::size_t>(rows_));
+  const auto header_size = static_cast<std::uint32_t>(kHeaderSize);
+  std::string header = "BM";
+  append_little_endian(header, header_size + pixels_size);
+  append_little_endian(header, std::uint32_t{0});   // reserved
+  append_little_endian(header, header_size);        // where the pixels start
+  append_little_endian(header, std::uint32_t{40});  // size of the second header, BITMAPINFOHEADER
+  append_little_endian(header, static_cast<std::uint32_t>(columns_));
+  append_little_endian(header, static_cast<std::uint32_t>(rows_));  // positive: from the bottom
+  append_little_endian(header, std::uint16_t{1});                   // planes
+  append_little_endian(header, std::uint16_t{24});                  // bits a pixel
+  append_little_endian(header, std::uint32_t{0});                   // not compressed
+  append_little_endian(header, pixels_size);
+  header.append(16, '\0');  // left open: pixels per meter in x and y, colors in the palette, important ones
+  write_all(descriptor_, header, path_);
+}
+
+void BmpWriter::write_row(std::span<const Color> colors) {
+  assert(colors.size() == static_cast<std::size_t>(columns_));
+  if (buffered_row_count_ == block_rows()) write_block();
+  char* out = block_.data() + row_size_ * (block_rows() - ++buffered_row_count_);
+  for (const Color color : colors) {
+    *out++ = static_cast<char>(color.blue());
+    *out++ = static_cast<char>(color.green());
+    *out++ = static_cast<char>(color.red());
+  }
+}
+
+void BmpWriter::write_block() {
+  const std::size_t size = buffered_row_count_ * row_size_;
+  written_row_count_ += buffered_row_count_;
+  buffered_row_count_ = 0;
+  const std::size_t rows_below = static_cast<std::size_t>(rows_) - written_row_count_;
+  if (can_seek_ &&
+      ::lseek(descriptor_, static_cast<off_t>(kHeaderSize + rows_below * row_size_), SEEK_SET) < 0)
+    throw IoError("write", path_, errno);
+  write_all(descriptor_, {block_.data() + block_.size() - size, size}, path_);
+}
+
+void BmpWriter::finish() {
+  write_block();
+  assert(written_row_count_ == static_cast<std::size_t>(rows_));
+}
+
+}  // namespace pipeline

@@ -1,0 +1,8 @@
+#pragma once
+
+namespace pipeline {
+
+/// How the pixels of a row become bytes: red, green and blue; or 16 bits of gray, the high byte first.
+enum class PixelBytes { rgb8, gray16 };
+
+}  // namespace pipeline
