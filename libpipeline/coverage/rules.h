@@ -13,12 +13,15 @@
 
 namespace pipeline {
 
-// The coverage rules of a screen. A rule turns a triangle into rows of pixels: rows(triangle) has first_row()
-// and last_row(), inside the screen, and span(row), a std::optional<Span>. A rule with a kernel for many
-// triangles has spans(triangles, rows, begin), too, which writes the same spans as a CoverageKernel does. A
-// visibility algorithm takes a rule as its template parameter `Coverage`; users choose one by kName and read
-// kMeaning beside it. kUsesDecimals: whether a coordinate written as a decimal is that decimal, not its
-// nearest double.
+// The coverage rules of a screen. A visibility algorithm takes one as its template parameter `Coverage`. A
+// rule has
+//   kName, kMeaning   the word users choose it by, and the line of --help beside it;
+//   kUsesDecimals     whether a coordinate written as a decimal is that decimal, not its nearest double;
+//   rows(triangle)    the triangle's pixels: first_row() and last_row(), inside the screen, and span(row), a
+//                     std::optional<Span>. Only a row whose line of pixel centers meets the triangle has any:
+//                     bands and buffers are chosen by the triangle's height;
+//   spans(triangles, rows, begin)   if it has a kernel for many triangles: the same spans, written as a
+//                     CoverageKernel does.
 
 /// From the pixel nearest to the left end of a row to the one nearest to its right end.
 struct NearestCoverage {
