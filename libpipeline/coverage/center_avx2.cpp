@@ -1,18 +1,17 @@
 #include <array>
 
-#include "libpipeline/coverage/avx2.h"
+#include "libpipeline/coverage/append_four.h"
 #include "libpipeline/coverage/center.h"
 #include "libpipeline/coverage/depth_in_doubles.h"
 #include "libpipeline/coverage/four_doubles.h"
 #include "libpipeline/coverage/four_points.h"
 #include "libpipeline/coverage/four_spans.h"
+#include "libpipeline/coverage/kernel.h"
 
 #if defined(__x86_64__) && defined(__GNUC__)
 
 namespace pipeline {
 namespace {
-
-constexpr std::size_t kCount = 4;
 
 // What CenterRows does in 64 bits, in doubles, which hold whole numbers up to 2^53. Triangles whose numbers
 // could be larger are left to CenterRows.
@@ -143,16 +142,16 @@ struct FourTriangles {
     const FourDoubles first = left * columns.step;
     const FourDoubles x = larger(size_of(u_left - first), size_of(u_right - first)) + all(2) * columns.step;
     const FourDoubles y = v_bottom - v_top + rows.step;
-    ordinary_ = marks(triangles) & bits_of(both(fits, is_at_most(all(4) * x * y, all(kMaxExactDouble))));
+    ordinary.bits = marks(triangles) & bits_of(both(fits, is_at_most(all(4) * x * y, all(kMaxExactDouble))));
 
     const FourDoubles is_beside = either(is_less(u_right, all(0)), is_at_most(columns.count, left));
-    rows_of.first_column = left;
-    rows_of.column_count = columns.count - left;
+    sources.first_column = left;
+    sources.column_count = columns.count - left;
     // From the top by the first row at or below a vertex, then by its number.
     const FourDoubles p_row = rows.pixel(p.v), q_row = rows.pixel(q.v), r_row = rows.pixel(r.v);
     const FourDoubles high_row = smaller(p_row, q_row), low_row = larger(p_row, q_row);
-    rows_of.first_row = smaller(high_row, r_row);
-    rows_of.middle_row = larger(high_row, smaller(low_row, r_row));
+    sources.first_row = smaller(high_row, r_row);
+    sources.middle_row = larger(high_row, smaller(low_row, r_row));
     const FourDoubles q_first = is_less(q_row, p_row);
     const FourDoubles r_before_high = is_less(r_row, high_row), r_before_low = is_less(r_row, low_row);
     const GridPoints high = pick_points(q_first, q, p), low = pick_points(q_first, p, q);
@@ -160,21 +159,17 @@ struct FourTriangles {
                 pick_points(r_before_high, high, pick_points(r_before_low, r, low)),
                 pick_points(r_before_low, low, r), smaller(larger(low_row, r_row), all(range.end)),
                 is_beside);
-    begin_row = larger(rows_of.first_row, all(range.first));
+    begin_row = larger(sources.first_row, all(range.first));
   }
 
-  /// Whether the numbers of a triangle are of the size that is done here.
-  [[nodiscard]] bool is_ordinary(std::size_t lane) const { return (ordinary_ >> lane & 1) != 0; }
-  /// Whether those of all are.
-  [[nodiscard]] bool are_ordinary() const { return ordinary_ == (1 << kCount) - 1; }
+  PIPELINE_AVX2_INLINE FourDoubles end_row() const { return sources.end_row; }
 
-  RowSources rows_of;
+  RowSources sources;
   FourDoubles begin_row;  // the first in the range
+  LaneSet ordinary;       // triangles whose numbers are of the size that doubles hold
   FourNumbers half_slope;
 
  private:
-  int ordinary_;  // a bit a triangle
-
   PIPELINE_AVX2_INLINE static GridPoints on_grid(const AxisLanes& columns, const AxisLanes& rows,
                                                  const FourPoints& p) {
     return {columns.origin + columns.scaled(p.x), rows.origin - rows.scaled(p.y), p.z};
@@ -182,10 +177,10 @@ struct FourTriangles {
   /// A bit for each triangle whose x and y are decimals. Usually all are.
   static int marks(const TaggedTriangle* triangles) {
     ExactTriangle all_of_them = triangles[0].triangle;
-    for (std::size_t i = 1; i < kCount; ++i) all_of_them.decimal_marks &= triangles[i].triangle.decimal_marks;
-    if (all_of_them.is_decimal()) return (1 << kCount) - 1;
+    for (std::size_t i = 1; i < kFour; ++i) all_of_them.decimal_marks &= triangles[i].triangle.decimal_marks;
+    if (all_of_them.is_decimal()) return LaneSet::kAll;
     int result = 0;
-    for (std::size_t i = 0; i < kCount; ++i)
+    for (std::size_t i = 0; i < kFour; ++i)
       result |= static_cast<int>(triangles[i].triangle.is_decimal()) << i;
     return result;
   }
@@ -193,22 +188,22 @@ struct FourTriangles {
                                         const GridPoints& a, const GridPoints& b, const GridPoints& c,
                                         FourDoubles end_row, FourDoubles is_beside) {
     const FourDoubles weight = (b.u - a.u) * (c.v - a.v) - (b.v - a.v) * (c.u - a.u);
-    rows_of.longest_is_left = is_less(all(0), weight);
+    sources.longest_is_left = is_less(all(0), weight);
     // All weights and their sum have the same sign, whichever it is.
     set_depth(a.z, b.z, c.z, weight + weight, columns.step * (c.v - a.v), columns.step * (a.v - b.v));
 
     const FourDoubles is_empty = either(is_equal(weight, all(0)), is_beside);
-    rows_of.end_row = pick(is_empty, rows_of.first_row, end_row);
+    sources.end_row = pick(is_empty, sources.first_row, end_row);
 
-    const FourDoubles first_u = left * columns.step, first_v = rows_of.first_row * rows.step;
+    const FourDoubles first_u = left * columns.step, first_v = sources.first_row * rows.step;
     const auto edge = [&](const GridPoints& from, const GridPoints& to) PIPELINE_AVX2 {
       const FourDoubles du = to.u - from.u, dv = to.v - from.v, column_step = columns.step * dv;
       return FourEdges{(from.u - first_u) * dv + (first_v - from.v) * du, rows.step * du, column_step,
                        all(1) / column_step};
     };
-    rows_of.longest = edge(a, c);
-    rows_of.upper = edge(a, b);
-    rows_of.lower = edge(b, c);
+    sources.longest = edge(a, c);
+    sources.upper = edge(a, b);
+    sources.lower = edge(b, c);
   }
   /// See DepthInDoubles.
   PIPELINE_AVX2_INLINE void set_depth(FourDoubles a, FourDoubles b, FourDoubles c, FourDoubles twice_weights,
@@ -217,18 +212,18 @@ struct FourTriangles {
     const FourDoubles size = larger(larger(size_of(a), size_of(b)), size_of(c));
     const FourDoubles is_in_range = both(is_at_most(all(DepthInDoubles::kMinDepth), size),
                                          is_at_most(size, all(DepthInDoubles::kMaxDepth)));
-    ordinary_ &= bits_of(either(flat, is_in_range));
+    ordinary.bits &= bits_of(either(flat, is_in_range));
 
     const FourSums of_two = two_sum(b_step * b, c_step * c);
     const FourSums of_three = two_sum(of_two.sum, (-b_step - c_step) * a);
     const FourDoubles slope =
         (of_three.sum + (of_two.lost + of_three.lost)) / twice_weights + all(DepthInDoubles::kNoMinus);
     half_slope = numbers_of(but_not(slope, flat));
-    rows_of.is_flat = flat;
-    rows_of.twice_total = twice_weights;
-    rows_of.a_z = a;
-    rows_of.b_z = b;
-    rows_of.c_z = c;
+    sources.is_flat = flat;
+    sources.twice_total = twice_weights;
+    sources.a_z = a;
+    sources.b_z = b;
+    sources.c_z = c;
   }
 };
 
@@ -270,6 +265,9 @@ struct FourRows {
     spans.set_points(columns_added_up_, pick(of.is_flat, of.a_z, mean));
   }
 
+  /// All of them: triangles with any other are not ordinary.
+  static LaneSet ordinary() { return {}; }
+
   FourSpans spans;
 
  private:
@@ -286,72 +284,35 @@ struct FourRows {
   }
 };
 
-/// What CenterRows has on these rows.
-TaggedSpan* append_exactly(const ExactGrid& grid, const TaggedTriangle& triangle, const RowRange& rows,
-                           TaggedSpan* spans) {
-  return append_spans(CenterRows(grid, triangle.triangle), triangle.tag, rows, spans);
-}
+/// What append_four.h asks for.
+struct Rule {
+  using FourRows = pipeline::FourRows;
+  PIPELINE_AVX2_INLINE explicit Rule(const ExactGrid& exact_grid)
+      : grid(exact_grid), column_axis(exact_grid.columns.plain), row_axis(exact_grid.rows.plain) {}
 
-/// What is the same in the depths of all spans: columns are counted in halves.
-PIPELINE_AVX2_INLINE __m128d axis() {
-  return _mm_setr_pd(0, 2);
-}
+  [[nodiscard]] CenterRows rows(const TaggedTriangle& triangle) const { return {grid, triangle.triangle}; }
+  PIPELINE_AVX2_INLINE FourTriangles four(const TaggedTriangle* triangles, const RowRange& range) const {
+    return {column_axis, row_axis, triangles, range};
+  }
+  PIPELINE_AVX2_INLINE static FourRows four_rows(const RowSources& sources, FourDoubles rows) {
+    return {sources, rows};
+  }
+  static double slope(const FourTriangles& four, std::size_t lane, const FourRows&, std::size_t) {
+    return four.half_slope[lane];
+  }
+  /// Columns are counted in halves.
+  PIPELINE_AVX2_INLINE static __m128d axis() { return _mm_setr_pd(0, 2); }
 
-/// As CoverageKernel says, for one of four triangles: four rows at a time.
-PIPELINE_AVX2 TaggedSpan* append_triangle(const ExactGrid& grid, const FourTriangles& four, std::size_t lane,
-                                          const TaggedTriangle& triangle, const RowRange& rows,
-                                          TaggedSpan* spans) {
-  if (!four.is_ordinary(lane)) return append_exactly(grid, triangle, rows, spans);
-  const RowSources of = four.rows_of.of(lane);
-  const int end = static_cast<int>(four.rows_of.end_row[lane]);
-  for (int row = static_cast<int>(four.begin_row[lane]); row < end;) {
-    FourRows some(of, all(row) + _mm256_setr_pd(0, 1, 2, 3));
-    some.set_depths(of);
-    for (std::size_t i = 0; i < kCount && row < end; ++i, ++row)
-      spans = some.spans.append(i, axis(), four.half_slope[lane], triangle.tag, spans);
-  }
-  return spans;
-}
-
-/// As CoverageKernel says, for four triangles: a row of each at a time, as low ones have too few for four
-/// lanes.
-PIPELINE_AVX2 TaggedSpan* append_triangles(const ExactGrid& grid, const FourTriangles& four,
-                                           const TaggedTriangle* triangles, const RowRange& rows,
-                                           TaggedSpan* spans) {
-  constexpr int kMaxLowRows = 8;
-  const RowSources& of = four.rows_of;
-  const double most = largest_of(of.end_row - four.begin_row);
-  if (!four.are_ordinary() || most > kMaxLowRows) {
-    for (std::size_t lane = 0; lane < kCount; ++lane)
-      spans = append_triangle(grid, four, lane, triangles[lane], rows, spans);
-    return spans;
-  }
-  const int count = static_cast<int>(most);
-  std::array<FourRows, kMaxLowRows> low;
-  // One loop after the other: a processor looks ahead further than a turn of it, if that is short.
-  for (int i = 0; i < count; ++i) low[static_cast<std::size_t>(i)] = FourRows(of, four.begin_row + all(i));
-  for (int i = 0; i < count; ++i) low[static_cast<std::size_t>(i)].set_depths(of);
-  // As many rows of each, covered or not: no processor could predict how many are.
-  for (std::size_t lane = 0; lane < kCount; ++lane) {
-    const double half_slope = four.half_slope[lane];
-    const PixelTag tag = triangles[lane].tag;
-    for (int i = 0; i < count; ++i)
-      spans = low[static_cast<std::size_t>(i)].spans.append(lane, axis(), half_slope, tag, spans);
-  }
-  return spans;
-}
+  const ExactGrid& grid;
+  AxisLanes column_axis;
+  AxisLanes row_axis;
+};
 
 }  // namespace
 
 PIPELINE_AVX2 TaggedSpan* center_spans_avx2(const ExactGrid& grid, std::span<const TaggedTriangle> triangles,
                                             const RowRange& rows, TaggedSpan* spans) {
-  const AxisLanes column_axis(grid.columns.plain), row_axis(grid.rows.plain);
-  for (; triangles.size() >= kCount; triangles = triangles.subspan(kCount)) {
-    const FourTriangles four(column_axis, row_axis, triangles.data(), rows);
-    spans = append_triangles(grid, four, triangles.data(), rows, spans);
-  }
-  for (const TaggedTriangle& triangle : triangles) spans = append_exactly(grid, triangle, rows, spans);
-  return spans;
+  return append_four_by_four(Rule(grid), triangles, rows, spans);
 }
 
 }  // namespace pipeline

@@ -3,7 +3,6 @@
 #include <array>
 #include <cstddef>
 
-#include "libpipeline/coverage/avx2.h"
 #include "libpipeline/coverage/center.h"
 #include "libpipeline/coverage/nearest.h"
 #include "libpipeline/numbers/kernel_choice.h"
@@ -31,7 +30,9 @@ struct KernelList {
 
   KernelList() {
     kernels[count++] = {"portable", nearest_spans, center_spans};
-    if (const CoverageKernel* const avx2 = coverage_avx2()) kernels[count++] = *avx2;
+#if defined(__x86_64__) && defined(__GNUC__)
+    if (__builtin_cpu_supports("avx2")) kernels[count++] = {"avx2", nearest_spans_avx2, center_spans_avx2};
+#endif
   }
 };
 

@@ -22,6 +22,12 @@ struct CoverageKernel {
                               TaggedSpan* spans);
 };
 
+// Those of the kernel "avx2", which only a processor with AVX2 runs.
+TaggedSpan* nearest_spans_avx2(const PixelGrid& grid, std::span<const TaggedTriangle> triangles,
+                               const RowRange& rows, TaggedSpan* spans);
+TaggedSpan* center_spans_avx2(const ExactGrid& grid, std::span<const TaggedTriangle> triangles,
+                              const RowRange& rows, TaggedSpan* spans);
+
 /// The kernels this processor can run, the fastest last; the first, "portable", runs everywhere.
 std::span<const CoverageKernel> coverage_kernels();
 

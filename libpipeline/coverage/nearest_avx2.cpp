@@ -1,17 +1,16 @@
 #include <array>
 
-#include "libpipeline/coverage/avx2.h"
+#include "libpipeline/coverage/append_four.h"
 #include "libpipeline/coverage/four_doubles.h"
 #include "libpipeline/coverage/four_points.h"
 #include "libpipeline/coverage/four_spans.h"
+#include "libpipeline/coverage/kernel.h"
 #include "libpipeline/coverage/nearest.h"
 
 #if defined(__x86_64__) && defined(__GNUC__)
 
 namespace pipeline {
 namespace {
-
-constexpr std::size_t kCount = 4;
 
 // What NearestRows does, in the same operations, as long as neither a triangle nor a row is out of the
 // ordinary: no product near the ends of a double's range, no corner on the line of pixel centers.
@@ -57,29 +56,25 @@ struct FourTriangles {
                 pick_points(c_before_low, low, pick_points(c_before_high, c, high)),
                 pick_points(c_before_high, high, c));
     begin_row = larger(begin_row, all(rows.first));
-    rows_of.last_row = smaller(rows_of.last_row, all(rows.end) - all(1));
+    sources.last_row = smaller(sources.last_row, all(rows.end) - all(1));
   }
 
-  /// Whether a triangle can be done here.
-  [[nodiscard]] bool is_ordinary(std::size_t lane) const { return (ordinary_ >> lane & 1) != 0; }
-  /// Whether all can.
-  [[nodiscard]] bool are_ordinary() const { return ordinary_ == (1 << kCount) - 1; }
+  PIPELINE_AVX2_INLINE FourDoubles end_row() const { return sources.last_row + all(1); }
 
-  RowSources rows_of;
+  RowSources sources;
   FourDoubles begin_row;  // the first in the range
+  LaneSet ordinary;       // triangles none of whose numbers leaves the range of this arithmetic
 
  private:
-  int ordinary_;  // a bit a triangle
-
   PIPELINE_AVX2_INLINE void set_corners(const PixelGrid& grid, const FourPoints& p, const FourPoints& q,
                                         const FourPoints& r) {
-    rows_of.lowest = p;
-    rows_of.middle = q;
-    rows_of.highest = r;
+    sources.lowest = p;
+    sources.middle = q;
+    sources.highest = r;
     const FourDoubles top = (all(grid.top_y) - r.y) / all(grid.dy);
     const FourDoubles bottom = (all(grid.top_y) - p.y) / all(grid.dy);
     begin_row = _mm256_ceil_pd(clamped(top, 0, grid.rows));
-    rows_of.last_row = _mm256_floor_pd(clamped(bottom, -1, grid.rows - 1));
+    sources.last_row = _mm256_floor_pd(clamped(bottom, -1, grid.rows - 1));
     set_slope(q - p, r - p);
   }
   /// From the edges that leave the lowest corner.
@@ -90,12 +85,12 @@ struct FourTriangles {
     const FourDoubles area = forward - backward, terms = size_of(forward) + size_of(backward);
     const FourDoubles has_no_slope = is_at_most(size_of(area), all(NearestRows::kAreaError) * terms);
     const FourDoubles slopes = but_not(rise / area, has_no_slope);
-    rows_of.slope = slopes;
-    rows_of.is_edge_on = has_no_slope;
+    sources.slope = slopes;
+    sources.is_edge_on = has_no_slope;
     const FourDoubles reach = size_of(b.x) + size_of(c.x) + size_of(b.z) + size_of(c.z);
     const FourDoubles is_in_range = both(is_less(all(0x1p-900), terms), is_less(terms, all(0x1p900)));
     const FourDoubles is_finite = both(is_less(reach, all(kHuge)), is_less(size_of(rise), all(kHuge)));
-    ordinary_ = bits_of(both(both(is_in_range, is_finite), is_less(size_of(slopes), all(kHuge))));
+    ordinary.bits = bits_of(both(both(is_in_range, is_finite), is_less(size_of(slopes), all(kHuge))));
   }
 };
 
@@ -123,19 +118,19 @@ struct FourRows {
     slope = numbers_of(both(is_slanted, of.slope));
     const FourDoubles is_between = both(is_less(of.lowest.y, y), is_less(y, of.highest.y));
     const FourDoubles is_at_corner = but_not(is_there, but_not(is_between, is_equal(y, of.middle.y)));
-    ordinary_ = ~bits_of(is_at_corner);
+    ordinary_.bits = LaneSet::kAll & ~bits_of(is_at_corner);
   }
+  /// Depths are set with the columns.
+  void set_depths(const RowSources&) {}
 
-  /// Whether a row can be done here.
-  [[nodiscard]] bool is_ordinary(std::size_t lane) const { return (ordinary_ >> lane & 1) != 0; }
-  /// Whether all can.
-  [[nodiscard]] bool are_ordinary() const { return ordinary_ == -1; }
+  /// The rows without a corner on their line of pixel centers.
+  [[nodiscard]] LaneSet ordinary() const { return ordinary_; }
 
   FourSpans spans;
   FourNumbers slope;
 
  private:
-  int ordinary_;  // a bit a row; others are set
+  LaneSet ordinary_;
 
   PIPELINE_AVX2_INLINE static FourPoints intersection(const FourPoints& lower, const FourPoints& upper,
                                                       FourDoubles y) {
@@ -145,71 +140,31 @@ struct FourRows {
   }
 };
 
-/// What NearestRows has on these rows.
-TaggedSpan* append_one_by_one(const PixelGrid& grid, const TaggedTriangle& triangle, const RowRange& rows,
-                              TaggedSpan* spans) {
-  return append_spans(NearestRows(grid, triangle.triangle.p_ndc), triangle.tag, rows, spans);
-}
+/// What append_four.h asks for.
+struct Rule {
+  using FourRows = pipeline::FourRows;
+  [[nodiscard]] NearestRows rows(const TaggedTriangle& triangle) const {
+    return {grid, triangle.triangle.p_ndc};
+  }
+  PIPELINE_AVX2_INLINE FourTriangles four(const TaggedTriangle* triangles, const RowRange& range) const {
+    return {grid, triangles, range};
+  }
+  PIPELINE_AVX2_INLINE FourRows four_rows(const RowSources& sources, FourDoubles rows) const {
+    return {grid, sources, rows};
+  }
+  static double slope(const FourTriangles&, std::size_t, const FourRows& rows, std::size_t row) {
+    return rows.slope[row];
+  }
+  PIPELINE_AVX2_INLINE __m128d axis() const { return _mm_setr_pd(grid.left_x, grid.dx); }
 
-/// As CoverageKernel says, for one of four triangles: four rows at a time.
-PIPELINE_AVX2 TaggedSpan* append_triangle(const PixelGrid& grid, const FourTriangles& four, std::size_t lane,
-                                          const TaggedTriangle& triangle, const RowRange& rows,
-                                          TaggedSpan* spans) {
-  if (!four.is_ordinary(lane)) return append_one_by_one(grid, triangle, rows, spans);
-  const RowSources of = four.rows_of.of(lane);
-  const __m128d axis = _mm_setr_pd(grid.left_x, grid.dx);
-  const int end = static_cast<int>(four.rows_of.last_row[lane]) + 1;
-  for (int row = static_cast<int>(four.begin_row[lane]); row < end;) {
-    const FourRows some(grid, of, all(row) + _mm256_setr_pd(0, 1, 2, 3));
-    for (std::size_t i = 0; i < kCount && row < end; ++i, ++row)
-      spans = some.is_ordinary(i) ? some.spans.append(i, axis, some.slope[i], triangle.tag, spans)
-                                  : append_one_by_one(grid, triangle, {row, row + 1}, spans);
-  }
-  return spans;
-}
-
-/// As CoverageKernel says, for four triangles: a row of each at a time, as low ones have too few for four
-/// lanes.
-PIPELINE_AVX2 TaggedSpan* append_triangles(const PixelGrid& grid, const FourTriangles& four,
-                                           const TaggedTriangle* triangles, const RowRange& rows,
-                                           TaggedSpan* spans) {
-  constexpr int kMaxLowRows = 8;
-  const double most = largest_of(four.rows_of.last_row - four.begin_row) + 1;
-  bool are_ordinary = four.are_ordinary() && most <= kMaxLowRows;
-  const int count = are_ordinary ? static_cast<int>(most) : 0;
-  std::array<FourRows, kMaxLowRows> low;
-  for (int i = 0; i < count; ++i) {
-    FourRows& some = low[static_cast<std::size_t>(i)];
-    some = FourRows(grid, four.rows_of, four.begin_row + all(i));
-    are_ordinary &= some.are_ordinary();
-  }
-  if (!are_ordinary) {
-    for (std::size_t lane = 0; lane < kCount; ++lane)
-      spans = append_triangle(grid, four, lane, triangles[lane], rows, spans);
-    return spans;
-  }
-  // As many rows of each, covered or not: no processor could predict how many are.
-  const __m128d axis = _mm_setr_pd(grid.left_x, grid.dx);
-  for (std::size_t lane = 0; lane < kCount; ++lane) {
-    const PixelTag tag = triangles[lane].tag;
-    for (int i = 0; i < count; ++i) {
-      const FourRows& some = low[static_cast<std::size_t>(i)];
-      spans = some.spans.append(lane, axis, some.slope[lane], tag, spans);
-    }
-  }
-  return spans;
-}
+  const PixelGrid& grid;
+};
 
 }  // namespace
 
 PIPELINE_AVX2 TaggedSpan* nearest_spans_avx2(const PixelGrid& grid, std::span<const TaggedTriangle> triangles,
                                              const RowRange& rows, TaggedSpan* spans) {
-  for (; triangles.size() >= kCount; triangles = triangles.subspan(kCount)) {
-    const FourTriangles four(grid, triangles.data(), rows);
-    spans = append_triangles(grid, four, triangles.data(), rows, spans);
-  }
-  for (const TaggedTriangle& triangle : triangles) spans = append_one_by_one(grid, triangle, rows, spans);
-  return spans;
+  return append_four_by_four(Rule{grid}, triangles, rows, spans);
 }
 
 }  // namespace pipeline
