@@ -16,7 +16,7 @@
 namespace pipeline {
 namespace {
 
-Pixel parsed_place(const std::string& word, const Viewport& screen) {
+Pixel parsed_pixel(const std::string& word, const Viewport& screen) {
   const std::size_t comma = word.find(',');
   const std::string_view columns = std::string_view(word).substr(0, comma);
   const std::string_view rows =
@@ -37,7 +37,7 @@ class ReportOf final : public FragmentReport {
  public:
   ReportOf(const ZbufOptions& chosen, const Viewport& screen) {
     for (const std::string& word : chosen.probes)
-      probes_.emplace_back(screen, parsed_place(word, screen), chosen.depth_epsilon);
+      probes_.emplace_back(screen, parsed_pixel(word, screen), chosen.depth_epsilon);
     if (!chosen.fragments_path.empty()) file_.emplace(chosen.fragments_path, screen, chosen.depth_epsilon);
   }
 

@@ -43,21 +43,21 @@ class ZBufferAlgorithm {
   void draw(const ExactTriangle& triangle, PixelTag tag) {
     for_each_span(coverage_.rows(triangle), [&](const Span& span) { buffer_.draw(span, tag); });
   }
-  /// What draws into some rows, triangle by triangle; nothing else may while it is in use.
-  class Band {
+  /// Draws into some rows, or all of them, triangle by triangle; nothing else may while it is in use.
+  class Drawer {
    public:
-    Band(ZBufferAlgorithm& whole, const RowRange& rows)
-        : whole_(whole),
+    Drawer(ZBufferAlgorithm& algorithm, const RowRange& rows)
+        : algorithm_(algorithm),
           rows_(rows),
           is_low_(rows.end - rows.first <= kMaxRows),
-          farthest_(whole.buffer_.hierarchical_depth(rows)),
+          farthest_(algorithm.buffer_.hierarchical_depth(rows)),
           queue_(kTriangles * kMaxRows) {
       triangles_.reserve(kTriangles);
     }
     /// It may be drawn later, at the latest in finish(); until then what it consists of has to stay.
     void draw(const ExactTriangle& triangle, PixelTag tag) {
       triangles_.push_back({triangle, tag});
-      if (!is_low_) is_any_high_ |= !(height_of(triangle.p_ndc) < whole_.most_height_);
+      if (!is_low_) is_any_high_ |= !(height_of(triangle.p_ndc) < algorithm_.most_height_);
       if (triangles_.size() == kTriangles) make_spans();
     }
     void finish() {
@@ -77,23 +77,23 @@ class ZBufferAlgorithm {
       const auto draw_waiting = [this](std::span<const TaggedSpan> spans) { draw_spans(spans); };
       if (!is_any_high_) {
         queue_.put(
-            spans_by(whole_.coverage_, triangles_, rows_, queue_.end()),
-            [this](const TaggedSpan& span) { whole_.buffer_.fetch(span.span); }, draw_waiting);
+            spans_by(algorithm_.coverage_, triangles_, rows_, queue_.end()),
+            [this](const TaggedSpan& span) { algorithm_.buffer_.fetch(span.span); }, draw_waiting);
       } else {
         queue_.finish(draw_waiting);
         for (const auto& [triangle, tag] : triangles_)
-          for_each_span(whole_.coverage_.rows(triangle), rows_,
-                        [&, of = tag](const Span& span) { whole_.buffer_.draw(span, of); });
+          for_each_span(algorithm_.coverage_.rows(triangle), rows_,
+                        [&, of = tag](const Span& span) { algorithm_.buffer_.draw(span, of); });
       }
       triangles_.clear();
       is_any_high_ = false;
     }
     // Bounds for all rows of a high picture would take too much memory.
     void draw_spans(std::span<const TaggedSpan> spans) {
-      whole_.buffer_.draw(spans, is_low_ ? &farthest_ : nullptr);
+      algorithm_.buffer_.draw(spans, is_low_ ? &farthest_ : nullptr);
     }
 
-    ZBufferAlgorithm& whole_;
+    ZBufferAlgorithm& algorithm_;
     RowRange rows_;
     bool is_low_;
     HierarchicalDepth<Depth> farthest_;

@@ -19,8 +19,8 @@ namespace pipeline {
 /// Draws triangles band by band of the screen: several batches at a time, all that reach a band before the
 /// next band, so that its pixels stay in the cache; and with several threads, each band by one of them, while
 /// the caller reads on. A pixel belongs to one band and sees its triangles in the order of the stream, so the
-/// result does not depend on the number of threads. `Visible` has a class Band(visible, rows) with
-/// draw(triangle, tag) and finish(), which only touch those rows.
+/// result does not depend on the number of threads. `Visible` has a class Drawer(visible, rows)
+/// with draw(triangle, tag) and finish(), which only touch those rows.
 ///
 /// Source: "sort-middle" in S. Molnar, M. Cox, D. Ellsworth, H. Fuchs, "A sorting classification of parallel
 /// rendering", 1994.
@@ -108,12 +108,12 @@ class BandDrawing {
   void draw_band(Round& round, int band) {
     std::vector<Entry>& entries = round.bands[static_cast<std::size_t>(band)];
     if (entries.empty()) return;
-    typename Visible::Band rows(visible_, bands_.rows(band));
+    typename Visible::Drawer drawer(visible_, bands_.rows(band));
     for (const Entry entry : entries) {
       const TaggedBatch& drawn = round.batches[entry.batch];
-      rows.draw(exact_triangle(drawn.batch, entry.index), drawn.tags[entry.index]);
+      drawer.draw(exact_triangle(drawn.batch, entry.index), drawn.tags[entry.index]);
     }
-    rows.finish();
+    drawer.finish();
     entries.clear();
   }
 

@@ -14,8 +14,8 @@ std::string shortest(double depth) {
   return {text.data(), end};
 }
 
-std::string to_text(DepthTestResult fate, std::uint64_t winner) {
-  switch (fate) {
+std::string to_text(DepthTestResult result, std::uint64_t winner) {
+  switch (result) {
     case DepthTestResult::kept:
       return "kept";
     case DepthTestResult::behind:
@@ -37,7 +37,7 @@ std::string to_text(DepthTestResult fate, std::uint64_t winner) {
 std::string to_text(const Fragment& fragment) {
   return std::to_string(fragment.pixel.column) + "," + std::to_string(fragment.pixel.row) + ": triangle " +
          std::to_string(fragment.triangle) + ", depth " + shortest(fragment.depth) + ": " +
-         to_text(fragment.fate, fragment.winner);
+         to_text(fragment.result, fragment.winner);
 }
 
 }  // namespace pipeline

@@ -8,8 +8,8 @@
 namespace pipeline {
 namespace {
 
-constexpr int kFirstStretch = 4;
-constexpr int kLongestStretch = 1 << 16;
+constexpr int kFirstRun = 4;
+constexpr int kMaxRun = 1 << 16;
 
 /// At equal depth the earlier polygon stays.
 template <typename Stored>
@@ -75,7 +75,7 @@ VisibleRow RowSweep<Depth>::sweep(std::span<const ActiveEdge> edges, std::span<P
   polygons_ = polygons;
   first_painted_ = edges.front().column;
   end_painted_ = edges.back().column;
-  owner_ = nullptr;
+  visible_ = nullptr;
   for (auto edge = edges.begin(); edge != edges.end();) {
     const int column = edge->column;
     for (; edge != edges.end() && edge->column == column; ++edge) {
@@ -101,7 +101,7 @@ void RowSweep<Depth>::enter(std::uint32_t slot, int column) {
   Polygon& polygon = polygons_[slot];
   polygon.index_in_list = static_cast<std::uint32_t>(active_.size());
   active_.push_back({polygon.nearest, slot});
-  if (owner_ != nullptr && column < owned_end_) challenge_owner(polygon, column);
+  if (visible_ != nullptr && column < visible_end_) compare_with_visible(polygon, column);
 }
 
 template <typename Depth>
@@ -110,50 +110,50 @@ void RowSweep<Depth>::leave(Polygon& polygon) {
   active_[polygon.index_in_list] = active_.back();
   active_.pop_back();
   polygon.index_in_list = Polygon::kOut;
-  if (&polygon == owner_) owner_ = nullptr;
-  std::erase(rivals_, &polygon);
+  if (&polygon == visible_) visible_ = nullptr;
+  std::erase(contenders_, &polygon);
 }
 
-/// `polygon` begins at `column`. Whoever is nearer than the owner is nearer than all that the owner is nearer
-/// than.
+/// `polygon` begins at `column`. If it is nearer than the visible polygon, it is nearer than all those behind
+/// that one, too.
 template <typename Depth>
-void RowSweep<Depth>::challenge_owner(Polygon& polygon, int column) {
-  if (owner_->farthest < polygon.nearest) return;
-  const int owner_lead_end = end_of_lead(*owner_, polygon, column, owned_end_);
-  if (owner_lead_end > column) {
-    owned_end_ = owner_lead_end;
+void RowSweep<Depth>::compare_with_visible(Polygon& polygon, int column) {
+  if (visible_->farthest < polygon.nearest) return;
+  const int visible_end = end_of_nearer(*visible_, polygon, column, visible_end_);
+  if (visible_end > column) {
+    visible_end_ = visible_end;
     return;
   }
-  const int polygon_lead_end = end_of_lead(polygon, *owner_, column, owned_end_);
-  if (polygon_lead_end == column) {
-    rivals_.push_back(&polygon);
-  } else if (rivals_.empty()) {
-    owner_ = &polygon;
-    owned_end_ = std::min(polygon_lead_end, polygon.last_column + 1);
+  const int polygon_end = end_of_nearer(polygon, *visible_, column, visible_end_);
+  if (polygon_end == column) {
+    contenders_.push_back(&polygon);
+  } else if (contenders_.empty()) {
+    visible_ = &polygon;
+    visible_end_ = std::min(polygon_end, polygon.last_column + 1);
   } else {
-    owner_ = nullptr;
+    visible_ = nullptr;
   }
 }
 
 /// Finds the nearest polygon at `column`, and how far it is sure to be nearest.
 template <typename Depth>
-void RowSweep<Depth>::choose_owner(int column) {
-  owner_ = nearest_at(column);
-  owned_end_ = owner_->last_column + 1;
-  rivals_.clear();
+void RowSweep<Depth>::choose_visible(int column) {
+  visible_ = nearest_at(column);
+  visible_end_ = visible_->last_column + 1;
+  contenders_.clear();
   for (const ActivePolygon& other : active_) {
-    if (owner_->farthest < other.nearest) continue;
+    if (visible_->farthest < other.nearest) continue;
     Polygon& polygon = polygons_[other.slot];
-    if (&polygon == owner_) continue;
-    const int lead_end = end_of_lead(*owner_, polygon, column, owned_end_);
-    if (lead_end > column)
-      owned_end_ = lead_end;
+    if (&polygon == visible_) continue;
+    const int nearer_end = end_of_nearer(*visible_, polygon, column, visible_end_);
+    if (nearer_end > column)
+      visible_end_ = nearer_end;
     else
-      rivals_.push_back(&polygon);
+      contenders_.push_back(&polygon);
   }
-  // Near a crossing a few pixels are enough; coplanar polygons get longer and longer stretches.
-  stretch_ = rivals_.empty() ? kFirstStretch : std::min(2 * stretch_, kLongestStretch);
-  if (!rivals_.empty()) owned_end_ = std::min(owned_end_, column + stretch_);
+  // Near a crossing a few pixels are enough; coplanar polygons get longer and longer runs.
+  run_length_ = contenders_.empty() ? kFirstRun : std::min(2 * run_length_, kMaxRun);
+  if (!contenders_.empty()) visible_end_ = std::min(visible_end_, column + run_length_);
 }
 
 template <typename Depth>
@@ -173,24 +173,24 @@ RowPolygon<Depth>* RowSweep<Depth>::nearest_at(int column) {
 
 /// The first column in [column, end] at which `front` may not be nearer than `back`, as far as both go.
 template <typename Depth>
-int RowSweep<Depth>::end_of_lead(const Polygon& front, const Polygon& back, int column, int end) const {
+int RowSweep<Depth>::end_of_nearer(const Polygon& front, const Polygon& back, int column, int end) const {
   const int last = std::min({end - 1, front.last_column, back.last_column});
   double needed = front.error + back.error;
   // A later polygon has to be stored as nearer.
   if (front.id > back.id) needed += format_.separation(std::max(front.size, back.size));
-  const auto leads_at = [&](int c) { return back.depth(c) - front.depth(c) >= needed; };
-  const double lead = back.depth(column) - front.depth(column);
-  if (!(lead >= needed)) return column;
-  const double last_lead = back.depth(last) - front.depth(last);
-  if (last_lead >= needed) return end;
+  const auto is_nearer_at = [&](int c) { return back.depth(c) - front.depth(c) >= needed; };
+  const double distance = back.depth(column) - front.depth(column);
+  if (!(distance >= needed)) return column;
+  const double last_distance = back.depth(last) - front.depth(last);
+  if (last_distance >= needed) return end;
   // Split at the crossing, which is where it is calculated or a column before.
-  const double part = (lead - needed) / (lead - last_lead);
+  const double part = (distance - needed) / (distance - last_distance);
   const int crossing = column + static_cast<int>(part > 0 ? part * (last - column) : 0);
-  if (leads_at(crossing)) return crossing + 1;
-  return leads_at(std::max(crossing - 1, column)) ? std::max(crossing, column + 1) : column + 1;
+  if (is_nearer_at(crossing)) return crossing + 1;
+  return is_nearer_at(std::max(crossing - 1, column)) ? std::max(crossing, column + 1) : column + 1;
 }
 
-/// Gives the pixels of the interval [column, end) to their owners.
+/// Gives the pixels of the interval [column, end) to the polygons visible there.
 template <typename Depth>
 void RowSweep<Depth>::give(int column, int end) {
   while (column < end) {
@@ -199,13 +199,13 @@ void RowSweep<Depth>::give(int column, int end) {
       std::fill(tags_.begin() + column, tags_.begin() + end, background_);
       return;
     }
-    if (owner_ == nullptr || column >= owned_end_) choose_owner(column);
-    const int owned_end = std::min(end, owned_end_);
-    if (rivals_.empty())
-      paint(*owner_, column, owned_end);
+    if (visible_ == nullptr || column >= visible_end_) choose_visible(column);
+    const int visible_end = std::min(end, visible_end_);
+    if (contenders_.empty())
+      paint(*visible_, column, visible_end);
     else
-      paint_pixel_by_pixel(column, owned_end);
-    column = owned_end;
+      paint_pixel_by_pixel(column, visible_end);
+    column = visible_end;
   }
 }
 
@@ -221,12 +221,12 @@ void RowSweep<Depth>::paint(const Polygon& polygon, int column, int end) {
 template <typename Depth>
 void RowSweep<Depth>::paint_pixel_by_pixel(int column, int end) {
   for (int c = column; c < end; ++c) {
-    const Polygon* nearest = owner_;
-    auto nearest_depth = format_.store(owner_->depth(c));
-    for (const Polygon* rival : rivals_) {
-      const auto depth = format_.store(rival->depth(c));
-      if (!is_nearer(depth, rival->id, nearest_depth, nearest->id)) continue;
-      nearest = rival;
+    const Polygon* nearest = visible_;
+    auto nearest_depth = format_.store(visible_->depth(c));
+    for (const Polygon* contender : contenders_) {
+      const auto depth = format_.store(contender->depth(c));
+      if (!is_nearer(depth, contender->id, nearest_depth, nearest->id)) continue;
+      nearest = contender;
       nearest_depth = depth;
     }
     depths_[static_cast<std::size_t>(c)] = format_.depth(nearest_depth);

@@ -41,15 +41,16 @@ struct RowPolygon {
 /// it is between the edges of), and gives the pixels between neighboring edges to the nearest of them.
 ///
 /// The textbook compares depths once for every interval between two edges, at its left end, and is wrong
-/// where polygons interpenetrate. Here the owner of an interval is compared with the others at both ends.
+/// where polygons interpenetrate. Here the visible polygon of an interval is compared with the others at both
+/// ends.
 /// Along a row depths are linear functions, so where the difference of two exceeds what rounding can add at
 /// both ends, it has the same sign at every pixel between. Where it does not, the interval is split at the
 /// crossing, and what rounding decides is compared pixel by pixel, as the z-buffer does it: the smaller
 /// stored depth wins, of equal ones the earlier polygon.
 ///
-/// An owner stays for as long as it is sure to be nearest, also over edges of polygons behind it, and a new
-/// polygon is compared with the owner only (depth coherence), so a scanline takes time for its edges and for
-/// what is seen, not for every pixel of every layer.
+/// A polygon stays the visible one for as long as it is sure to be nearest, also over edges of polygons
+/// behind it, and a new polygon is compared with it only (depth coherence), so a scanline takes time for its
+/// edges and for what is seen, not for every pixel of every layer.
 template <typename Depth>
 class RowSweep {
  public:
@@ -74,10 +75,10 @@ class RowSweep {
   void clear_pixels();
   void enter(std::uint32_t slot, int column);
   void leave(Polygon& polygon);
-  void challenge_owner(Polygon& polygon, int column);
-  void choose_owner(int column);
+  void compare_with_visible(Polygon& polygon, int column);
+  void choose_visible(int column);
   [[nodiscard]] Polygon* nearest_at(int column);
-  [[nodiscard]] int end_of_lead(const Polygon& front, const Polygon& back, int column, int end) const;
+  [[nodiscard]] int end_of_nearer(const Polygon& front, const Polygon& back, int column, int end) const;
   void give(int column, int end);
   void paint(const Polygon& polygon, int column, int end);
   void paint_pixel_by_pixel(int column, int end);
@@ -96,10 +97,10 @@ class RowSweep {
   // The state of a sweep.
   std::span<Polygon> polygons_;
   std::vector<ActivePolygon> active_;  // the active polygon list
-  Polygon* owner_ = nullptr;           // nearest of all active polygons but the rivals ...
-  int owned_end_ = 0;                  // ... from the current column up to this one
-  std::vector<Polygon*> rivals_;       // to be compared with the owner at every pixel
-  int stretch_ = 1;                    // for so many columns, before asking again whether that is still so
+  Polygon* visible_ = nullptr;         // nearest of all active polygons but the contenders ...
+  int visible_end_ = 0;                // ... from the current column up to this one
+  std::vector<Polygon*> contenders_;   // to be compared with it at every pixel
+  int run_length_ = 1;                 // for so many columns, before asking again whether that is still so
 };
 
 #define PIPELINE_DECLARE(Depth) extern template class RowSweep<Depth>;

@@ -61,6 +61,10 @@ struct SpanFillKernel {
 template <typename Depth>
 std::span<const SpanFillKernel<Depth>> span_fill_kernels();
 
+/// The kernel "avx2"; null where the processor cannot run it or the format has no lanes.
+template <typename Depth>
+const SpanFillKernel<Depth>* span_fill_avx2();
+
 /// The one in use: the fastest, or the one the environment variable PIPELINE_KERNEL names, for tests. Of the
 /// names that mean something to other parts only, "sse4" is "portable" here; any other unknown name is passed
 /// over.

@@ -1,12 +1,10 @@
-#include "libpipeline/visibility/span_fill_avx2.h"
+#include "libpipeline/visibility/span_fill.h"
 
 #if defined(__x86_64__) && defined(__GNUC__)
 
 #include <immintrin.h>
 
 #include <algorithm>
-
-#include "libpipeline/visibility/span_fill_loop.h"
 
 #define PIPELINE_AVX2 __attribute__((target("avx2")))
 

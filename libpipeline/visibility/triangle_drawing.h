@@ -26,7 +26,7 @@ class TriangleDrawing {
   /// The pool may have other work besides.
   TriangleDrawing(Visible& visible, const Viewport& screen, ThreadPool& pool)
       : grid_(screen), bands_(visible, screen, pool) {
-    if (pool.size() == 1) whole_.emplace(visible, RowRange{0, screen.rows});
+    if (pool.size() == 1) picture_.emplace(visible, RowRange{0, screen.rows});
   }
 
   /// Where the next batch is to be put.
@@ -35,7 +35,7 @@ class TriangleDrawing {
   /// order. The drawing itself may be put off, at the latest to finish().
   template <typename TagOf>
   void draw_batch(TagOf&& tag_of) {
-    if (whole_ && has_small_triangles(next_.batch)) return draw_at_once(tag_of);
+    if (picture_ && has_small_triangles(next_.batch)) return draw_at_once(tag_of);
     next_.tags.resize(next_.batch.size());
     for (std::size_t i = 0; i < next_.batch.size(); ++i) next_.tags[i] = tag_of(next_.batch, i);
     bands_.draw(next_);
@@ -61,13 +61,13 @@ class TriangleDrawing {
   void draw_at_once(TagOf& tag_of) {
     bands_.finish();
     for (std::size_t i = 0; i < next_.batch.size(); ++i)
-      whole_->draw(exact_triangle(next_.batch, i), tag_of(next_.batch, i));
-    whole_->finish();
+      picture_->draw(exact_triangle(next_.batch, i), tag_of(next_.batch, i));
+    picture_->finish();
   }
 
   PixelGrid grid_;
   TaggedBatch next_;
-  std::optional<typename Visible::Band> whole_;  // on one thread: for what is drawn at once
+  std::optional<typename Visible::Drawer> picture_;  // on one thread: for what is drawn at once
   BandDrawing<Visible> bands_;
 };
 

@@ -39,8 +39,8 @@ TEST(FragmentTest, OfEqualDepthsTheLaterIsLost) {
 }
 
 TEST(FragmentTest, TheFrontLimitIsSeenAndTheRearLimitIsNot) {
-  EXPECT_EQ(judged({0}).back().fate, DepthTestResult::kept);
-  EXPECT_EQ(judged({2}).back().fate, DepthTestResult::beyond_rear);
+  EXPECT_EQ(judged({0}).back().result, DepthTestResult::kept);
+  EXPECT_EQ(judged({2}).back().result, DepthTestResult::beyond_rear);
 }
 
 TEST(FragmentTest, WhatLiesOutsideTheLimitsHidesNothing) {
@@ -51,26 +51,27 @@ TEST(FragmentTest, WhatLiesOutsideTheLimitsHidesNothing) {
 }
 
 TEST(FragmentTest, WhatIsSeenAlreadyDoesNotExplainWhatIsBeyondTheRear) {
-  EXPECT_EQ(judged({1, 3}).back().fate, DepthTestResult::beyond_rear);
+  EXPECT_EQ(judged({1, 3}).back().result, DepthTestResult::beyond_rear);
 }
 
 TEST(FragmentTest, DepthsAFormatCannotTellApartAreEqual) {
-  EXPECT_EQ(judged<DepthF32>({1, 1 - 0x1p-40}).back().fate, DepthTestResult::equal);
-  EXPECT_EQ(judged<DepthF64>({1, 1 - 0x1p-40}).back().fate, DepthTestResult::kept);
+  EXPECT_EQ(judged<DepthF32>({1, 1 - 0x1p-40}).back().result, DepthTestResult::equal);
+  EXPECT_EQ(judged<DepthF64>({1, 1 - 0x1p-40}).back().result, DepthTestResult::kept);
 }
 
 TEST(FragmentTest, WithAnEpsilonAFragmentHasToBeNearerByMore) {
   const FragmentTest<DepthF64> test(kScreen, 0.25);
   auto seen = test.nothing();
-  EXPECT_EQ(test.judge(seen, kPixel, 0, 1.875).fate, DepthTestResult::kept);  // the rear limit is no triangle
+  EXPECT_EQ(test.judge(seen, kPixel, 0, 1.875).result,
+            DepthTestResult::kept);  // the rear limit is no triangle
   EXPECT_EQ(test.judge(seen, kPixel, 1, 1.625), (Fragment{kPixel, 1, 1.625, DepthTestResult::too_close, 0}));
-  EXPECT_EQ(test.judge(seen, kPixel, 2, 1.5).fate, DepthTestResult::kept);
+  EXPECT_EQ(test.judge(seen, kPixel, 2, 1.5).result, DepthTestResult::kept);
 }
 
 TEST(FragmentTest, InfiniteDepthsLieOutsideTheLimits) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  EXPECT_EQ(judged({-kInfinity}).back().fate, DepthTestResult::before_front);
-  EXPECT_EQ(judged<DepthU24>({kInfinity}).back().fate, DepthTestResult::beyond_rear);
+  EXPECT_EQ(judged({-kInfinity}).back().result, DepthTestResult::before_front);
+  EXPECT_EQ(judged<DepthU24>({kInfinity}).back().result, DepthTestResult::beyond_rear);
 }
 
 TEST(FragmentLog, TellsOfEveryPixelFromTheTopLeft) {
@@ -83,12 +84,12 @@ TEST(FragmentLog, TellsOfEveryPixelFromTheTopLeft) {
 TEST(FragmentLog, PixelsDoNotKnowOfEachOther) {
   FragmentLog<CenterCoverage, DepthF64> log(Viewport{2, 1, -1, -1, 0, 2});
   const Triangle on_the_left = {{{-9, -9, 0.5}, {0, -9, 0.5}, {0, 99, 0.5}}};
-  std::vector<DepthTestResult> fates;
-  const auto visit = [&](const Fragment& fragment) { fates.push_back(fragment.fate); };
+  std::vector<DepthTestResult> results;
+  const auto visit = [&](const Fragment& fragment) { results.push_back(fragment.result); };
   log.add({on_the_left}, 0, visit);
   log.add({wall(1)}, 1, visit);
-  EXPECT_EQ(fates, (std::vector<DepthTestResult>{DepthTestResult::kept, DepthTestResult::behind,
-                                                 DepthTestResult::kept}));
+  EXPECT_EQ(results, (std::vector<DepthTestResult>{DepthTestResult::kept, DepthTestResult::behind,
+                                                   DepthTestResult::kept}));
 }
 
 TEST(PixelProbe, TellsOfItsPixelAlone) {

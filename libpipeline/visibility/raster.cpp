@@ -1,4 +1,4 @@
-#include "libpipeline/visibility/large_pages.h"
+#include "libpipeline/visibility/raster.h"
 
 #ifdef __linux__
 #include <sys/mman.h>
