@@ -11,8 +11,8 @@
 
 namespace pipeline {
 
-/// Where the depths of all pixels go: as text to standard output or a file, and into an image if one is
-/// asked for. Files take their places in `commit`.
+/// Writes the depths of all pixels: as text to standard output or a file, and as an image if one is wanted.
+/// `commit` moves the files to their names.
 class DepthFiles {
  public:
   /// `text_path` is "-" for `standard_output`; an empty `image_path` means no image.
@@ -21,7 +21,7 @@ class DepthFiles {
 
   /// Takes the depths of the next row, from the top.
   void write_row(std::span<const double> depths);
-  /// Writes what is not written yet and closes the files.
+  /// Writes the rows still buffered and closes the files.
   void close();
   void commit();
 

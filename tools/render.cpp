@@ -41,7 +41,7 @@ class TriangleTagSource {
   FragmentReport* report_;
 };
 
-/// Reads the triangles: `batch()` is where the next ones go, `draw()` draws them.
+/// Reads the triangles into `batch()`, batch by batch, and calls `draw()` for each.
 template <typename Source, typename Batch, typename Draw>
 void for_each_batch(Tool& tool, Source& source, Batch&& batch, Draw&& draw) {
   Progress progress("zbuf");
@@ -54,7 +54,7 @@ void for_each_batch(Tool& tool, Source& source, Batch&& batch, Draw&& draw) {
   }
 }
 
-/// What is seen at the pixel centers and, with several samples a pixel, also at those.
+/// The visible triangles at the pixel centers and, with several samples a pixel, at the samples.
 template <VisibilityAlgorithm Visible>
 struct SampledVisible {
   SampledVisible(const Viewport& of_centers, int sample_count, PixelTag background)
@@ -65,7 +65,7 @@ struct SampledVisible {
   }
 
   Viewport center_screen;
-  Viewport screen;  // of the samples, or of the centers if they are all
+  Viewport screen;  // of the samples; of the centers if there is one sample a pixel
   Visible centers;
   std::optional<Visible> samples;
 };

@@ -7,13 +7,13 @@
 
 namespace pipeline {
 
-/// The color of pixels that show no triangle, black unless the text says another.
+/// The color of pixels that show no triangle: black unless the header sets another.
 Color background_color(const Appearance& appearance);
 
-/// What shades a text's triangles; nothing for a text without colors and lights, unless a
-/// wireframe is asked for (with pixels of that size). Where nothing is chosen:
-/// none without lights, phong with lights and normals, flat with lights alone. An InputError if light is
-/// asked for and there is none, or if there are lights and the header does not say the projection.
+/// The shader of a text's triangles; none for a text without colors and lights, unless a wireframe is wanted
+/// (of pixels of that size). The default model: none without lights, phong with lights and normals, flat with
+/// lights alone. An InputError if a model needs lights and there are none, or if there are lights and the
+/// header has no projection.
 std::optional<SurfaceShader> surface_shader(const StageReader& reader, const Viewport& screen,
                                             std::optional<ShadingModel> chosen,
                                             std::optional<PixelSize> wireframe);

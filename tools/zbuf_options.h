@@ -33,7 +33,7 @@ struct ZbufOptions {
   std::string depth_image_path;  // empty: none
   double depth_epsilon = 0;
   int sample_count = 1;                 // along each side of a pixel, for the image alone
-  std::optional<ShadingModel> shading;  // nothing: what the text asks for
+  std::optional<ShadingModel> shading;  // none: as the text's header implies
   bool wireframe = false;
   std::vector<std::string> probes;  // "COLUMN,ROW" each
   std::string fragments_path;       // empty: no file
@@ -54,7 +54,7 @@ decltype(auto) dispatch(const ZbufOptions& chosen, Visitor&& visit) {
       chosen.coverage, chosen.depth);
 }
 
-/// Adds an option that takes the name of one type of a list; its help ends with what each of them means.
+/// Adds an option that takes the name of one type of a list; its help ends with a line for each.
 template <typename... Types>
 void add_type_choice(CommandLine& options, const std::string& name, TypeList<Types...>,
                      TypeChoice<TypeList<Types...>>& chosen, std::string help) {

@@ -15,16 +15,16 @@ namespace pipeline {
 // The loops of every kernel that works on four triangles at a time, and then on a row of each or, where one
 // is high or out of the ordinary, on four rows of one after the other.
 //
-// `Rule` is what such a kernel brings:
-//   rows(triangle)                   one triangle, as its coverage rule has it;
-//   four(triangles, range)           four made ready for their rows in `range`: `sources`, begin_row,
+// `Rule` is the part of a kernel that is its own:
+//   rows(triangle)                 one triangle, as its coverage rule has it;
+//   four(triangles, range)         four made ready for their rows in `range`: `sources`, begin_row,
 //   end_row(),
-//                                    and which lanes are `ordinary`;
-//   four_rows(sources, rows)         a row of each of four triangles, or four rows of one: `spans`,
+//                                  and the lanes that are `ordinary`;
+//   four_rows(sources, rows)       a row of each of four triangles, or four rows of one: `spans`,
 //   set_depths()
-//                                    and which lanes are `ordinary`;
-//   slope(four, lane, rows, row)     of the depth in lane `row` of `rows`, of the triangle in `lane` of
-//   `four`; axis()                           left_x and dx of all depths.
+//                                  and the lanes that are ordinary();
+//   slope(four, lane, rows, row)   of the depth in lane `row` of `rows`, of the triangle in `lane` of `four`;
+//   axis()                         left_x and dx of all depths.
 // Lanes that are not ordinary are left to rows().
 
 constexpr std::size_t kFour = 4;

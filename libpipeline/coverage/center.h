@@ -22,7 +22,7 @@ class CenterRows {
  public:
   CenterRows(const ExactGrid& grid, const ExactTriangle& triangle);
 
-  /// The rows to ask for, inside the screen; first_row() > last_row() where there are none.
+  /// The rows that may have pixels, inside the screen; first_row() > last_row() if there are none.
   [[nodiscard]] int first_row() const { return first_row_; }
   [[nodiscard]] int last_row() const { return last_row_; }
 

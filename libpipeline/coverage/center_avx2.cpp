@@ -13,8 +13,8 @@
 namespace pipeline {
 namespace {
 
-// What CenterRows does in 64 bits, in doubles, which hold whole numbers up to 2^53. Triangles whose numbers
-// could be larger are left to CenterRows.
+// CenterRows in doubles instead of 64 bits: they hold whole numbers up to 2^53. Triangles whose numbers could
+// be larger are left to CenterRows.
 static_assert(kMaxExactDouble <= DepthInDoubles::kMaxWeight);
 
 PIPELINE_AVX2_INLINE FourDoubles nearest_whole(FourDoubles value) {
@@ -43,7 +43,7 @@ PIPELINE_AVX2_INLINE FourSums two_sum(FourDoubles a, FourDoubles b) {
   return {sum, (a - (sum - b_part)) + (b - b_part)};
 }
 
-/// A AxisInDoubles, four times.
+/// An AxisInDoubles, four times.
 struct AxisLanes {
   PIPELINE_AVX2_INLINE explicit AxisLanes(const AxisInDoubles& axis)
       : count(all(axis.count)),
@@ -96,7 +96,8 @@ struct FourEdges {
   FourDoubles inverse;
 };
 
-/// What the rows of four triangles are made from; see ExactRows. Or of one triangle, four times.
+/// The numbers from which the rows of four triangles are calculated (see ExactRows), or those of one, four
+/// times.
 struct RowSources {
   PIPELINE_AVX2_INLINE RowSources of(std::size_t lane) const {
     return {all(first_row[lane]),    all(middle_row[lane]),   all(end_row[lane]),
@@ -284,7 +285,7 @@ struct FourRows {
   }
 };
 
-/// What append_four.h asks for.
+/// The rule `center` for append_four.h.
 struct Rule {
   using FourRows = pipeline::FourRows;
   PIPELINE_AVX2_INLINE explicit Rule(const ExactGrid& exact_grid)

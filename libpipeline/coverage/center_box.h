@@ -7,8 +7,8 @@
 
 namespace pipeline {
 
-/// Where the pixels of a triangle can lie: the centers in its bounding box, without those on the lower or
-/// right side, as far as they are on the screen.
+/// The pixels that a triangle can cover: the centers on the screen in its bounding box, without those on its
+/// lower or right side.
 struct CenterBox {
   template <typename Int>
   CenterBox(const GridTriangle<Int>& triangle, int rows, int columns);
@@ -25,7 +25,7 @@ struct CenterBox {
   int end_column;
 
  private:
-  /// Without a branch: no processor can predict which of three corners comes first.
+  /// Branch-free: which of three corners comes first is unpredictable.
   static std::array<unsigned, 3> sorted(unsigned p, unsigned q, unsigned r) {
     const auto smaller = [](unsigned i, unsigned j) { return i < j ? i : j; };
     const auto larger = [](unsigned i, unsigned j) { return i < j ? j : i; };

@@ -11,7 +11,7 @@
 
 namespace pipeline {
 
-/// What TriangleDepth says, for weights that are whole numbers a double holds: nearly always.
+/// TriangleDepth for weights that are whole numbers a double holds: nearly always.
 ///
 /// It is the mean of the three depths, weighted: at most 6.5 u Z from the exact one, where u = 2^-53 and Z is
 /// the largest |z|. (2^-50 Z is 8 u Z, and the decimals next to the depths are another u Z away.)
@@ -34,7 +34,7 @@ class DepthInDoubles {
   /// among them.
   static constexpr double kNoMinus = 0;
 
-  /// Whether these depths and weights can be taken; they are what a TriangleDepth takes.
+  /// Whether these depths and weights, those of a TriangleDepth, are in range.
   static bool can_take(const std::array<double, 3>& z, std::int64_t total, std::int64_t b_step,
                        std::int64_t c_step) {
     const double size = std::max({std::fabs(z[0]), std::fabs(z[1]), std::fabs(z[2])});

@@ -21,9 +21,9 @@ using WideInt = FixedInt<6>;
 /// 5705.
 using HugeInt = FixedInt<92>;
 
-/// A triangle in NDC with all that its text says about x and y: a coordinate whose mark (bit 3 * vertex +
-/// axis) is set, below 10^22, is the decimal of at most 7 decimals nearest to the double plus the low part;
-/// any other is its double.
+/// A triangle in NDC with the exact x and y of its text: a coordinate whose mark (bit 3 * vertex + axis) is
+/// set, below 10^22, is the decimal of at most 7 decimals nearest to the double plus the low part; any other
+/// is its double.
 struct ExactTriangle {
   /// Whether all of x and y are decimals.
   [[nodiscard]] bool is_decimal() const {
@@ -61,8 +61,7 @@ struct BinaryNumber {
 /// A coordinate n / 10^7 is n units.
 constexpr std::int64_t kGridUnitsPerOne = 10'000'000;
 
-/// The largest whole number in what is calculated with doubles: there is room for sums, and for a quotient's
-/// rounding.
+/// The largest whole number calculated in doubles: leaves room for sums and for the rounding of a quotient.
 constexpr double kMaxExactDouble = 0x1p50;
 
 /// A GridAxis whose numbers are small, in doubles.
@@ -105,7 +104,7 @@ struct AxisUnits {
   int bits = 0;                       // of the largest number on the grid, or more
 };
 
-/// Where the pixel centers of a screen lie, exactly: what PixelGrid is for rounded numbers.
+/// Where the pixel centers of a screen lie, exactly; PixelGrid has them rounded.
 struct ExactGrid {
   explicit ExactGrid(const Viewport& screen)
       : columns(screen.columns, screen.left, screen.left_low_part, screen.left_is_decimal),

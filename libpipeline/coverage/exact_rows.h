@@ -19,12 +19,12 @@ namespace pipeline {
 ///
 /// An edge crosses the rows from the one at or below its upper end (included) to the one at or below its
 /// lower end (excluded), and a row has the pixels from the one at or right of its left crossing (included) to
-/// the one at or right of its right crossing (excluded). This is the whole of the top-left rule: two edges
-/// cross each row, and a crossing is the same fraction for both triangles at the edge.
+/// the one at or right of its right crossing (excluded). This is the entire top-left rule: two edges cross
+/// each row, and a crossing is the same fraction for both triangles at the edge.
 ///
 /// Crossings are kept as exact numerators over exact denominators. The same numbers, at a pixel, are edge
 /// functions (J. Pineda, "A parallel algorithm for polygon rasterization", 1988), the weights of the
-/// vertices. Where `Int` is of limited size, largest_product() says whether all of them fit.
+/// vertices. Where `Int` is of limited size, largest_product() bounds them.
 template <typename Int>
 class ExactRows {
  public:

@@ -11,7 +11,7 @@
 
 namespace pipeline {
 
-/// Four spans that kernels find in four lanes, each kept in few pieces that lie there as they will in memory.
+/// Four spans that kernels find in four lanes, each kept in few pieces laid out as they will be in memory.
 class FourSpans {
  public:
   /// There is a span where the last column is not before the first.
@@ -37,7 +37,7 @@ class FourSpans {
   }
 
   /// Writes one of them to `spans`; returns where the next one goes: there, if this one has no pixel. `axis`
-  /// is left_x and dx of its depth. Without a branch, as no processor could predict it.
+  /// is left_x and dx of its depth. Branch-free: whether it has is unpredictable.
   PIPELINE_AVX2_INLINE TaggedSpan* append(std::size_t lane, __m128d axis, double slope, PixelTag tag,
                                           TaggedSpan* spans) const {
     static_assert(offsetof(Span, row) == 0 && offsetof(Span, first_column) == 4);

@@ -12,8 +12,8 @@ namespace pipeline {
 // make the same ones, to the last bit: those of NearestRows and CenterRows.
 
 /// One implementation. Its functions write the spans of the triangles, one triangle after the other and row
-/// by row, as far as they are in `rows`, and give back where the last one ends. There has to be room for as
-/// many spans as there are rows, for every triangle; what lies behind the last one in it may be overwritten.
+/// by row, within `rows`, and return the end of the last one. There has to be room for as many spans as there
+/// are rows, for every triangle; the room behind the last one may be overwritten.
 struct CoverageKernel {
   const char* name;
   TaggedSpan* (*nearest_spans)(const PixelGrid&, std::span<const TaggedTriangle>, const RowRange& rows,
@@ -34,7 +34,7 @@ std::span<const CoverageKernel> coverage_kernels();
 /// The one in use: the fastest, or the one the environment variable PIPELINE_KERNEL names (kernel_choice.h).
 const CoverageKernel& coverage_kernel();
 
-/// Writes the spans of one triangle likewise; `covered` is what a coverage rule makes of it.
+/// Writes the spans of one triangle likewise; `covered` are its rows by a coverage rule.
 template <typename CoveredRows>
 TaggedSpan* append_spans(const CoveredRows& covered, PixelTag tag, const RowRange& rows, TaggedSpan* spans) {
   for_each_span(covered, rows, [&](const Span& span) { *spans++ = {span, tag}; });

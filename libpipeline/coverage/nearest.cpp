@@ -7,8 +7,8 @@
 namespace pipeline {
 namespace {
 
-// What follows is written without branches where no processor could predict them: which vertex of a small
-// triangle comes first, which of its edges is on the left.
+// Branch-free where a branch would be unpredictable: which vertex of a small triangle comes first, which of
+// its edges is on the left.
 
 bool is_lower(const Vec3& a, const Vec3& b) {
   const bool at_equal_x = (a.x == b.x) & (a.z < b.z);
@@ -115,7 +115,7 @@ std::optional<NearestRows::Ends> NearestRows::ends(double y) const {
   const double middle_y = edges_[0].upper.y;
   const bool is_between_corners = (longest.lower.y <= y) & (y <= longest.upper.y) & (y != middle_y);
   if (!is_between_corners) return ends_at_corner(y);
-  // Just the longest edge and, below or above the middle corner, one of the others.
+  // The longest edge and, below or above the middle corner, one of the others.
   const std::array<Intersection, 2> points = {intersect(edges_[static_cast<std::size_t>(y > middle_y)], y),
                                               intersect(longest, y)};
   const auto& [first, second] = points;

@@ -15,20 +15,18 @@ namespace pipeline {
 /// edge, and a triangle that is narrower than a pixel still has one on each row. Horizontal edges do not
 /// count; both ends of the others do.
 ///
-/// Everything is plain double arithmetic in a fixed order. Any finite coordinates are allowed, also where
-/// differences or products of them are not finite. Source: "Raster Based Graphics Pipeline", CSE 410
-/// offline 2, 2022.
+/// All arithmetic is in doubles, in a fixed order. Any finite coordinates are allowed, also where differences
+/// or products of them are not finite. Source: "Raster Based Graphics Pipeline", CSE 410 offline 2, 2022.
 class NearestRows {
  public:
-  /// How much the area of a triangle may be wrong by, in parts of the sum of the two products whose
-  /// difference it is: below that, rounding hides whether the triangle is seen edge-on (J. Shewchuk,
-  /// "Adaptive precision floating-point arithmetic and fast robust geometric predicates", 1997,
-  /// ccwerrboundA).
+  /// A bound on the error of a triangle's area, relative to the sum of the two products whose difference it
+  /// is. Up to that bound, rounding hides whether the triangle is seen edge-on (J. Shewchuk, "Adaptive
+  /// precision floating-point arithmetic and fast robust geometric predicates", 1997, ccwerrboundA).
   static constexpr double kAreaError = (3 + 16 * 0x1p-53) * 0x1p-53;
 
   NearestRows(const PixelGrid& grid, const Triangle& p_ndc);
 
-  /// The rows to ask for, inside the screen; first_row() > last_row() where there are none.
+  /// The rows that may have pixels, inside the screen; first_row() > last_row() if there are none.
   [[nodiscard]] int first_row() const { return first_row_; }
   [[nodiscard]] int last_row() const { return last_row_; }
 

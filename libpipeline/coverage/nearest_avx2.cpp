@@ -12,8 +12,8 @@
 namespace pipeline {
 namespace {
 
-// What NearestRows does, in the same operations, as long as neither a triangle nor a row is out of the
-// ordinary: no product near the ends of a double's range, no corner on the line of pixel centers.
+// NearestRows in the same operations, as long as neither a triangle nor a row is out of the ordinary: no
+// product near the ends of a double's range, no corner on the line of pixel centers.
 
 PIPELINE_AVX2_INLINE FourPoints pick_points(FourDoubles mask, const FourPoints& yes, const FourPoints& no) {
   return {pick(mask, yes.x, no.x), pick(mask, yes.y, no.y), pick(mask, yes.z, no.z)};
@@ -28,7 +28,7 @@ PIPELINE_AVX2_INLINE FourDoubles is_lower(const FourPoints& a, const FourPoints&
   return either(is_less(a.y, b.y), both(is_equal(a.y, b.y), by_x));
 }
 
-/// What the rows of four triangles are made from. Or of one triangle, four times.
+/// The numbers from which the rows of four triangles are calculated, or those of one, four times.
 struct RowSources {
   PIPELINE_AVX2_INLINE RowSources of(std::size_t lane) const {
     return {lowest.of(lane),  middle.of(lane),       highest.of(lane),
@@ -140,7 +140,7 @@ struct FourRows {
   }
 };
 
-/// What append_four.h asks for.
+/// The rule `nearest` for append_four.h.
 struct Rule {
   using FourRows = pipeline::FourRows;
   [[nodiscard]] NearestRows rows(const TaggedTriangle& triangle) const {

@@ -20,8 +20,8 @@ struct SpanDepth {
   double slope = 0;   // dz/dx
 };
 
-/// Some neighboring pixels of one row that a triangle covers. What every coverage rule gives and every
-/// visibility algorithm takes.
+/// A run of adjacent pixels of one row, covered by one triangle: from a coverage rule to a visibility
+/// algorithm.
 struct Span {
   int row = 0;
   int first_column = 0;
@@ -45,9 +45,8 @@ struct RowRange {
   int end = std::numeric_limits<int>::max();
 };
 
-/// Calls `visit(span)` for every row of `range` a triangle covers, from the top. `rows` is what a coverage
-/// rule makes of the triangle: it has first_row() and last_row(), inside the screen, and span(row), a
-/// std::optional<Span>.
+/// Calls `visit(span)` for every row of `range` a triangle covers, from the top. `rows` are the triangle's by
+/// a coverage rule: first_row() and last_row(), inside the screen, and span(row), a std::optional<Span>.
 template <typename CoveredRows, typename Visitor>
 void for_each_span(const CoveredRows& rows, const RowRange& range, Visitor&& visit) {
   const int end = std::min(rows.last_row() + 1, range.end);

@@ -25,14 +25,14 @@ namespace pipeline {
 /// exact sums of products over the total. In units of u = 2^-53: m is off by u|m| for each of four roundings
 /// (the sum to a double, the total to a double, its inverse, their product), h s at h half columns from the
 /// middle by u|h s| for five, the sum of the two by u|m + h s|. |m| + |h s| is at most Z, because the span's
-/// ends are in the triangle and are m + h s and m - h s. So it is 6 u Z and what is cut off: depths below 61
+/// ends are in the triangle and are m + h s and m - h s. So it is 6 u Z and the bits cut off: depths below 61
 /// bits (less than 3 * 2^-60 Z) and weights below 60 bits (less than 2^-56 Z), together u Z / 4. 2^-50 is 8
 /// u.
 class TriangleDepth {
  public:
   TriangleDepth() = default;
-  /// `z` are the depths of a, b and c, `total` is above 0, and `b_step` and `c_step` are what the weights of
-  /// b and c grow by from a column to the next.
+  /// `z` are the depths of a, b and c, `total` is above 0, and `b_step` and `c_step` are the growth of the
+  /// weights of b and c from a column to the next.
   template <typename Int>
   TriangleDepth(const std::array<double, 3>& z, const Int& total, const Int& b_step, const Int& c_step);
 
@@ -66,10 +66,10 @@ class TriangleDepth {
   std::optional<DepthInDoubles> plain_;  // if there is one, all else is unused
   int weight_shift_ = 0;                 // how many low bits of the weights are cut off
   double inverse_ = 0;                   // 1 / (2 * total weight)
-  double flat_depth_ = 0;  // the depth of a triangle of one depth; what follows is 0 then, and otherwise this
-  double half_slope_ = 0;  // per half column
-  double unit_ = 0;        // depths are whole multiples of this:
-  Int128 a_sum_ = 0;       // twice the total weight times the depth of a
+  double flat_depth_ = 0;    // of a triangle of one depth; then all below are 0, otherwise this is
+  double half_slope_ = 0;    // per half column
+  double unit_ = 0;          // depths are whole multiples of this:
+  Int128 a_sum_ = 0;         // twice the total weight times the depth of a
   std::int64_t b_rise_ = 0;  // from the depth of a to that of b
   std::int64_t c_rise_ = 0;  // and to that of c
 };

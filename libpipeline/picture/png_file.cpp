@@ -11,10 +11,9 @@
 namespace pipeline {
 namespace {
 
-// libpng reports errors by longjmp: what it calls, and what calls it, keeps no object that has to be
-// destroyed.
+// libpng reports errors by longjmp: neither its callers nor its callbacks may hold objects with destructors.
 
-/// Where the bytes go, and what went wrong there.
+/// Where the bytes go, and the errno of a failed write.
 struct Sink {
   int descriptor;
   int error_number = 0;

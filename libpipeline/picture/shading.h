@@ -9,8 +9,8 @@
 
 namespace pipeline {
 
-/// All that shines and how it is given back. Positions are in view space: the eye is the origin and looks
-/// down -z.
+/// Lights, and how a surface reflects them. Positions are in view space: the eye is the origin and looks down
+/// -z.
 struct Lighting {
   Vec3 ambient;
   Material material;

@@ -11,7 +11,7 @@
 
 namespace pipeline {
 
-/// The most samples along each side of a pixel: what the exact coverage rule has room for on the largest
+/// The most samples along each side of a pixel: the exact coverage rule has room for them on the largest
 /// screen.
 constexpr int kMaxSamples = 16;
 
@@ -25,7 +25,8 @@ class Downsampler {
   /// For rows of `columns` pixels with `count` x `count` samples each.
   Downsampler(int columns, int count);
 
-  /// Takes the next row of samples; gives a row of pixels, valid until the next call, when it is complete.
+  /// Takes the next row of samples; returns a row of pixels, valid until the next call, if that completes
+  /// one.
   std::optional<std::span<const Color>> add(std::span<const Color> samples);
 
  private:

@@ -34,7 +34,7 @@ void use_face_normal(std::array<SurfacePoint, 3>& corners) {
 }
 
 /// Twice the signed area that the points p and q of the screen make with (x, y), times their w. A point is x
-/// and y of clip space, and w in the place of z, of any sign.
+/// and y of clip space, and w for z, of any sign.
 double area(const Vec3& p, const Vec3& q, double x, double y) {
   return (p.x - x * p.z) * (q.y - y * q.z) - (p.y - y * p.z) * (q.x - x * q.z);
 }
@@ -54,7 +54,7 @@ Weights weights_at(const Triangle& screen_corners, double x, double y) {
 
 }  // namespace
 
-/// The triangle in clip space with all its attributes, if it is a piece of a clipped one that one.
+/// The triangle in clip space with its attributes; for a piece, the triangle it was clipped from.
 ClipTriangle SurfaceShader::unclipped_in_clip_space(const TriangleBatch& p_ndc, std::size_t index,
                                                     Color own_color) const {
   const AttributeArrays& attributes = p_ndc.attributes;

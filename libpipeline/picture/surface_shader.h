@@ -21,9 +21,9 @@ enum class ShadingModel { none, flat, gouraud, phong };
 
 /// Gives pixels their colors once the triangle that each one shows is known: keeps the triangles of a scene
 /// with colors or lights, each under an id by which the visibility algorithm refers to it. So hidden surfaces
-/// are never shaded. What lies between vertices is interpolated perspective-correctly. Flat and
-/// gouraud shading light triangles as they come, those that were clipped as they were before, phong shading
-/// lights visible pixels; without vertex normals both use the triangle's.
+/// are never shaded. Attributes are interpolated between vertices perspective-correctly. Flat and gouraud
+/// shading light each triangle as it comes, a clipped one as it was before the cut; phong shading lights
+/// visible pixels. Without vertex normals all use the triangle's.
 class SurfaceShader {
  public:
   using SurfaceId = std::uint32_t;
@@ -49,7 +49,7 @@ class SurfaceShader {
 
  private:
   struct Surface {
-    Triangle screen_corners;  // x and y of clip space, and w in the place of z
+    Triangle screen_corners;  // x and y of clip space, and w for z
     std::array<SurfacePoint, 3>
         corners;  // in view space; the colors are lit already except for phong shading
   };

@@ -8,7 +8,7 @@
 namespace pipeline {
 namespace {
 
-// Half a pixel, and what rounding may take away where a line runs just between two rows of centers.
+// Half a pixel, and a margin for rounding where a line runs just between two rows of centers.
 constexpr double kReach = 0.5 + 0x1p-30;
 
 /// True if both points lie in one of the planes that clipping cuts at.

@@ -23,8 +23,8 @@ class Wireframe {
   /// Adds a triangle all of whose edges are drawn. Of a corner x, y and w of clip space are given, w of any
   /// sign.
   void add(const Triangle& screen_corners);
-  /// Adds a triangle of a text that does not say what was clipped: not drawn are the edges it shares with the
-  /// one before if both are pieces of triangle `number`, and those that lie in a plane of the view volume.
+  /// Adds a triangle of a text that does not record clipping. Edges are not drawn if they lie in a plane of
+  /// the view volume, or are shared with the triangle before and both are pieces of triangle `number`.
   void add_piece(const Triangle& p_ndc, const Triangle& screen_corners, std::uint64_t number);
 
   /// True if (x, y) in NDC lies within half a pixel of an edge of triangle `index` that is drawn. Edges are

@@ -18,15 +18,15 @@ struct ActiveEdge {
 ///
 /// The textbook goes from one scanline to the next by x += dx. In doubles that puts 6816 of 1020230 span ends
 /// (0.7%) into another column than the exact one, for triangles whose vertices have two decimals on a screen
-/// of 1000 x 1000 pixels (4028 without the adding up, with x calculated anew; the test that counts is
-/// Scanline.IncrementalXWouldGiveOtherColumns). So columns are what the coverage rule says, on every row.
+/// of 1000 x 1000 pixels (4028 if x is calculated anew instead of added up;
+/// Scanline.IncrementalXWouldGiveOtherColumns counts them). So the coverage rule gives the columns, on every
+/// row.
 class ActiveEdgeList {
  public:
-  /// The column of an edge of a polygon that shows nothing on this scanline; such edges are sorted to the
-  /// end.
+  /// The column of an edge whose polygon has no pixel on this scanline; such edges are sorted to the end.
   static constexpr int kNowhere = std::numeric_limits<int>::max();
 
-  /// Adds the two edges of the polygon at `slot`. Their columns are not known before `sort`.
+  /// Adds the two edges of the polygon at `slot`. `sort` sets their columns.
   void add(std::uint32_t slot) {
     edges_.push_back({kNowhere, slot, false});
     edges_.push_back({kNowhere, slot, true});
@@ -54,7 +54,7 @@ class ActiveEdgeList {
     sort_by_column();
   }
 
-  /// The edges that are somewhere on the scanline.
+  /// The edges of the polygons that have pixels on the scanline.
   [[nodiscard]] std::span<const ActiveEdge> on_scanline() const;
 
  private:

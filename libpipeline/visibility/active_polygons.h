@@ -13,9 +13,8 @@
 
 namespace pipeline {
 
-/// The polygons that cross the current scanline, with what the coverage rule made of them (`Rows`) and their
-/// pixels there. A polygon keeps its slot while it is here; the slots of polygons that are gone are used
-/// again.
+/// The polygons that cross the current scanline, each with its rows by the coverage rule (`Rows`) and its
+/// pixels on this one. A polygon keeps its slot until it is removed; then the slot is free for another.
 template <typename Rows, typename Depth>
 class ActivePolygons {
  public:

@@ -17,10 +17,10 @@
 
 namespace pipeline {
 
-/// A visibility algorithm takes the triangles of the stream one by one, and then answers, row by row, which
-/// of them is seen where and how deep: the one with the smallest depth between the limits, as the depth
-/// format stores it, of equal ones the earliest. So the answer does not depend on the algorithm. Each is a
-/// class template of a coverage rule and a depth format, whose objects are made from the screen.
+/// A visibility algorithm takes the triangles of the stream one by one, and then gives, row by row, the
+/// visible triangle at every pixel and its depth: the one with the smallest depth between the limits, as the
+/// depth format stores it, of equal ones the earliest. So the answer does not depend on the algorithm. Each
+/// is a class template of a coverage rule and a depth format, constructed from the viewport.
 template <typename Algorithm>
 concept VisibilityAlgorithm = std::constructible_from<Algorithm, const Viewport&> &&
     requires(Algorithm& algorithm, const Algorithm& complete, const ExactTriangle& triangle, PixelTag tag) {
@@ -28,7 +28,7 @@ concept VisibilityAlgorithm = std::constructible_from<Algorithm, const Viewport&
   complete.for_each_row([](const VisibleRow&) {});
 };
 
-/// The z-buffer: draws a triangle as soon as it comes, as a whole or the part in some rows; threads may draw
+/// The z-buffer: draws a triangle as soon as it comes, all of it or its part in some rows; threads may draw
 /// into different rows at the same time.
 template <typename Coverage, typename Depth>
 class ZBufferAlgorithm {
@@ -38,7 +38,7 @@ class ZBufferAlgorithm {
   explicit ZBufferAlgorithm(const Viewport& screen, PixelTag background = {})
       : coverage_(screen), buffer_(screen, background), most_height_((kMaxRows - 1) * screen.dy()) {}
 
-  /// From now on a fragment has to be nearer than the last by more than `epsilon`.
+  /// From now on a fragment wins only if it is nearer than the visible one by more than `epsilon`.
   void set_depth_epsilon(double epsilon) { buffer_.set_depth_epsilon(epsilon); }
   void draw(const ExactTriangle& triangle, PixelTag tag) {
     for_each_span(coverage_.rows(triangle), [&](const Span& span) { buffer_.draw(span, tag); });
@@ -54,7 +54,8 @@ class ZBufferAlgorithm {
           queue_(kTriangles * kMaxRows) {
       triangles_.reserve(kTriangles);
     }
-    /// It may be drawn later, at the latest in finish(); until then what it consists of has to stay.
+    /// Draws the triangle now or later, at the latest in finish(); until then its coordinates must stay in
+    /// memory.
     void draw(const ExactTriangle& triangle, PixelTag tag) {
       triangles_.push_back({triangle, tag});
       if (!is_low_) is_any_high_ |= !(height_of(triangle.p_ndc) < algorithm_.most_height_);
@@ -88,7 +89,7 @@ class ZBufferAlgorithm {
       triangles_.clear();
       is_any_high_ = false;
     }
-    // Bounds for all rows of a high picture would take too much memory.
+    // Without bounds where the rows are many: those of a whole tall picture would take too much memory.
     void draw_spans(std::span<const TaggedSpan> spans) {
       algorithm_.buffer_.draw(spans, is_low_ ? &farthest_ : nullptr);
     }
@@ -108,7 +109,8 @@ class ZBufferAlgorithm {
   }
 
  private:
-  // Of a triangle whose spans may wait. Bands are higher only in pictures of more than 65536 rows of samples.
+  // The most rows of a triangle whose spans are queued. Bands are higher only in pictures of more than 65536
+  // rows of samples.
   static constexpr int kMaxRows = 128;
 
   Coverage coverage_;
@@ -116,7 +118,7 @@ class ZBufferAlgorithm {
   double most_height_;  // of a triangle with less than kMaxRows rows
 };
 
-/// The scan-line algorithm: keeps the triangles until it is asked.
+/// The scan-line algorithm: keeps the triangles until their rows are visited.
 template <typename Coverage, typename Depth>
 using ScanlineAlgorithm = Scanline<Coverage, Depth>;
 

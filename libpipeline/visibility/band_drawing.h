@@ -16,18 +16,18 @@
 
 namespace pipeline {
 
-/// Draws triangles band by band of the screen: several batches at a time, all that reach a band before the
-/// next band, so that its pixels stay in the cache; and with several threads, each band by one of them, while
-/// the caller reads on. A pixel belongs to one band and sees its triangles in the order of the stream, so the
-/// result does not depend on the number of threads. `Visible` has a class Drawer(visible, rows)
-/// with draw(triangle, tag) and finish(), which only touch those rows.
+/// Draws triangles band by band of the picture: of several batches, all triangles that reach a band are drawn
+/// before those of the next, so that its pixels stay in the cache. With several threads, each band is drawn
+/// by one of them, while the caller reads on. A pixel belongs to one band and sees its triangles in the order
+/// of the stream, so the result does not depend on the number of threads. `Visible` has a class
+/// Drawer(visible, rows) with draw(triangle, tag) and finish(), which only touch those rows.
 ///
 /// Source: "sort-middle" in S. Molnar, M. Cox, D. Ellsworth, H. Fuchs, "A sorting classification of parallel
 /// rendering", 1994.
 template <typename Visible>
 class BandDrawing {
  public:
-  /// The pool may have other work besides.
+  /// The pool may do other work, too.
   BandDrawing(Visible& visible, const Viewport& screen, ThreadPool& pool)
       : visible_(visible), bands_(screen), pool_(pool) {
     for (Round& round : rounds_) round.bands.resize(static_cast<std::size_t>(bands_.count()));
@@ -36,7 +36,8 @@ class BandDrawing {
   BandDrawing(const BandDrawing&) = delete;
   BandDrawing& operator=(const BandDrawing&) = delete;
 
-  /// Takes the batch, in exchange for another one's memory. It may be drawn later, at the latest in finish().
+  /// Swaps the batch in and hands back an empty one to refill. Draws it now or later, at the latest in
+  /// finish().
   void draw(TaggedBatch& batch) {
     is_idle_ = false;
     Round& round = rounds_[filling_];
@@ -44,7 +45,7 @@ class BandDrawing {
     sort_into_bands(round);
     if (round.is_full()) draw_round();
   }
-  /// Draws all that is not drawn yet.
+  /// Draws the batches still waiting.
   void finish() {
     if (is_idle_) return;
     draw_round();
@@ -61,10 +62,11 @@ class BandDrawing {
     std::uint16_t batch;
     std::uint16_t index;
   };
-  /// Batches that are drawn together.
+  /// Batches drawn together.
   struct Round {
-    /// Where triangles reach several bands, a band's pixels are drawn more often while they are in the cache
-    /// if there are many; small ones had better stay in it themselves.
+    /// Large triangles, which reach several bands, are collected in many batches: while a band's pixels are
+    /// in the cache, more of them are drawn. Small triangles fill few batches, so that they stay in the cache
+    /// themselves.
     [[nodiscard]] bool is_full() const {
       const bool is_of_small_triangles = entry_count < 2 * triangle_count;
       return batch_count == kMaxBatches || entry_count >= kMaxEntries ||
@@ -78,7 +80,7 @@ class BandDrawing {
     std::size_t entry_count = 0;
   };
 
-  /// Of the round's next batch.
+  /// Lists the triangles of the round's next batch by the bands they reach.
   void sort_into_bands(Round& round) {
     const std::size_t number = round.batch_count++;
     const TriangleBatch& batch = round.batches[number].batch;
@@ -93,7 +95,7 @@ class BandDrawing {
     }
   }
 
-  /// Has the pool draw what was collected, once it is done with what came before.
+  /// Has the pool draw the round, once it has drawn the one before.
   void draw_round() {
     pool_.finish();
     Round& round = rounds_[filling_];

@@ -9,13 +9,13 @@
 
 namespace pipeline {
 
-// How a depth is kept. A format rounds depths to what it can store and compares what is stored, so two depths
-// that round to the same are equal and the earlier triangle stays. `store` is monotone; `depth` gives back
-// the depth a stored value stands for. Two depths, neither larger than `size`, of which one exceeds the other
-// by `separation(size)` or more are never stored as the same value. Users choose a format by kName and read
-// kMeaning beside it.
+// How the z-buffer stores a depth. A format rounds depths to values it can store and compares those, so two
+// depths that round to the same value are equal and the earlier triangle stays. `store` is monotone; `depth`
+// gives the depth of a stored value. Two depths that differ by `separation(size)` or more, neither larger
+// than `size`, are never stored as the same value. Users choose a format by kName and read kMeaning beside
+// it.
 
-/// A double: what was calculated.
+/// A double: the depth as calculated.
 struct DepthF64 {
   static constexpr std::string_view kName = "f64", kMeaning = "as a double";
   using Stored = double;
@@ -40,9 +40,9 @@ struct DepthF32 {
 };
 
 /// A whole number of 2^24 - 1 equal steps between the front and the rear limit, as graphics hardware keeps
-/// it: the limits are stored exactly, what lies between is rounded to the nearest step, half a step up. Finer
-/// than a float where the limits are close together, as from 0.999 to 1. Signed, because processors convert
-/// doubles to signed numbers only.
+/// it: the limits are stored exactly, depths between them are rounded to the nearest step, half a step up.
+/// Finer than a float where the limits are close together, as from 0.999 to 1. Signed, because processors
+/// convert doubles to signed numbers only.
 struct DepthU24 {
   static constexpr std::string_view kName = "u24", kMeaning = "in 2^24 equal steps between the limits";
   using Stored = std::int32_t;
@@ -58,7 +58,7 @@ struct DepthU24 {
     return static_cast<Stored>(kSteps < steps_from_front ? kSteps : steps_from_front);
   }
   [[nodiscard]] double depth(Stored stored) const { return front + stored * depth_per_step; }
-  // More than a step by what `store` may be off before it rounds, less than 2^-26 steps.
+  // A step and more than the error of `store` before it rounds, which is less than 2^-26 steps.
   [[nodiscard]] double separation(double) const { return depth_per_step * (1 + 0x1p-20); }
 
   double front;

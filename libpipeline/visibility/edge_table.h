@@ -14,14 +14,14 @@ namespace pipeline {
 /// there, a linked list as in the textbook; 4 bytes a scanline and 4 a polygon.
 ///
 /// The textbook's entry is one edge with its x on the first scanline, its last scanline, dx per scanline and
-/// polygon. Here an entry stands for the two edges of a polygon that cross a scanline, left and right: both
-/// ends come from one question to the coverage rule, which also knows where one edge of a triangle ends and
-/// the next begins, and the last row. There is no dx: see ActiveEdgeList.
+/// polygon. Here an entry stands for the two edges of a polygon that cross a scanline, left and right: one
+/// call of the coverage rule gives both ends, wherever one edge of a triangle ends and the next begins, and
+/// the last row. There is no dx: see ActiveEdgeList.
 class EdgeTable {
  public:
   explicit EdgeTable(int rows) : first_in_bucket_(static_cast<std::size_t>(rows), kNone) {}
 
-  /// Takes the next polygon, whose edges begin on `first_row`; its number is the count so far.
+  /// Adds the next polygon, whose edges begin on `first_row`; its number is the count so far.
   void add(int first_row) {
     PolygonId& first = first_in_bucket_[static_cast<std::size_t>(first_row)];
     const auto id = static_cast<PolygonId>(next_in_bucket_.size());

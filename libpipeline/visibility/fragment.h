@@ -13,17 +13,17 @@ struct Pixel {
   friend bool operator==(const Pixel&, const Pixel&) = default;
 };
 
-/// What the depth test says of a fragment.
+/// The result of a fragment's depth test.
 enum class DepthTestResult {
   kept,
-  behind,        // something nearer is there
-  equal,         // something as near is there, and it came earlier
-  too_close,     // it is nearer than what is there, but not by more than the depth epsilon
+  behind,        // the visible one is nearer
+  equal,         // the visible one is as near and came earlier
+  too_close,     // it is nearer than the visible one, but not by more than the depth epsilon
   before_front,  // nearer than the front limit
   beyond_rear    // not nearer than the rear limit
 };
 
-/// What one triangle brings to one pixel.
+/// One triangle at one pixel.
 struct Fragment {
   Pixel pixel;
   std::uint64_t triangle = 0;

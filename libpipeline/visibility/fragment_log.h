@@ -11,25 +11,25 @@
 
 namespace pipeline {
 
-/// The depth test, fragment by fragment and with its reasons: what the visibility algorithms decide in their
-/// loops. `Depth` is a depth format.
+/// The depth test of the visibility algorithms, one fragment at a time and with the reason for its result.
+/// `Depth` is a depth format.
 template <typename Depth>
 class FragmentTest {
  public:
-  /// What is seen at a pixel so far.
+  /// The fragment visible at a pixel so far.
   struct Seen {
     typename Depth::Stored depth;
     std::uint64_t triangle;
   };
 
-  /// Beside a triangle that is seen, a fragment has to be nearer by more than `epsilon`, at least 0.
+  /// Where a triangle is visible, a fragment wins only if it is nearer by more than `epsilon`, at least 0.
   explicit FragmentTest(const Viewport& screen, double epsilon = 0)
       : format_(screen), front_(screen.front), rear_(format_.store(screen.rear)), epsilon_(epsilon) {}
 
   /// A pixel that shows no triangle.
   [[nodiscard]] Seen nothing() const { return {rear_, 0}; }
 
-  /// What becomes of the next triangle's fragment of depth z at a pixel; `seen` is brought up to date.
+  /// Tests the next triangle's fragment of depth z at a pixel and updates `seen`.
   Fragment judge(Seen& seen, const Pixel& pixel, std::uint64_t triangle, double z) const {
     const typename Depth::Stored stored = format_.store(z);
     if (z < front_) return {pixel, triangle, z, DepthTestResult::before_front, 0};
@@ -51,8 +51,9 @@ class FragmentTest {
   double epsilon_;
 };
 
-/// Tells of every fragment of the picture, triangle by triangle in the order of the stream and each from the
-/// top left. Takes a coverage rule and a depth format, the same that draw, and a depth and a number a pixel.
+/// Reports every fragment of the picture, triangle by triangle in the order of the stream and each from the
+/// top left. A template of the coverage rule and the depth format that draw; its memory is a depth and a
+/// number a pixel.
 template <typename Coverage, typename Depth>
 class FragmentLog {
  public:

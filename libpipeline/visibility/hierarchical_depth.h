@@ -8,25 +8,25 @@
 
 namespace pipeline {
 
-/// So many neighboring pixels of a row, from a multiple of it, are a block.
+/// The length of a block of neighboring pixels of a row; its first column is a multiple of it.
 constexpr int kBlockColumns = 32;
 
-/// For each block of some rows of a z-buffer a depth that no pixel of it exceeds. Depths only become less, so
-/// the bound stays one without being touched; what is nowhere in a block nearer than the bound is seen
-/// nowhere in it. Source: N. Greene, M. Kass, G. Miller, "Hierarchical Z-buffer visibility", 1993. `Depth` is
-/// a depth format.
+/// For each block of some rows of a z-buffer a depth that no pixel of it exceeds. Stored depths only
+/// decrease, so a bound stays valid without updates. A span that is nowhere in a block nearer than the bound
+/// is hidden in all of it. Source: N. Greene, M. Kass, G. Miller, "Hierarchical Z-buffer visibility", 1993.
+/// `Depth` is a depth format.
 template <typename Depth>
 class HierarchicalDepth {
  public:
   using Stored = typename Depth::Stored;
-  /// Behind the last block of a row so many may be read.
+  /// Kernels may read this many bounds past the last block of a row.
   static constexpr std::size_t kPadding = 7;
 
-  /// For rows of `columns` pixels. Takes memory when it is asked for a row.
+  /// For rows of `columns` pixels. Allocates at the first call of row().
   HierarchicalDepth(const RowRange& rows, int columns)
       : rows_(rows), stride_(static_cast<std::size_t>((columns + kBlockColumns - 1) / kBlockColumns)) {}
 
-  /// Those of a row, block by block; at first more than any depth of a pixel.
+  /// The bounds of a row, block by block; at first no less than any depth.
   [[nodiscard]] Stored* row(int row) {
     if (farthest_.empty()) farthest_.assign(stride_ * row_count(rows_.end) + kPadding, kLargest);
     return &farthest_[stride_ * row_count(row)];

@@ -20,7 +20,7 @@ using PolygonId = std::uint32_t;
 /// for the polygons on the scanline (`RowPolygon`).
 class PolygonTable {
  public:
-  /// Takes the next triangle; its number is the count so far.
+  /// Adds the next triangle; its number is the count so far.
   void add(const ExactTriangle& triangle, PixelTag tag) {
     const bool has_low_parts = triangle.low_parts != nullptr && *triangle.low_parts != Triangle{};
     if (has_low_parts) low_parts_.push_back(*triangle.low_parts);
@@ -28,7 +28,7 @@ class PolygonTable {
     polygons_.push_back({triangle.p_ndc, tag, low_parts, triangle.decimal_marks});
   }
 
-  /// The triangle as it was given; refers to the table.
+  /// The triangle as it was added; refers to the table.
   [[nodiscard]] ExactTriangle triangle(PolygonId id) const {
     const Polygon& polygon = polygons_[id];
     return {polygon.p_ndc, polygon.low_parts == 0 ? nullptr : &low_parts_[polygon.low_parts - 1],
@@ -41,7 +41,7 @@ class PolygonTable {
   struct Polygon {
     Triangle p_ndc;
     PixelTag tag;
-    std::uint32_t low_parts;  // their place in low_parts_, counted from 1; 0: none
+    std::uint32_t low_parts;  // their index in low_parts_, counted from 1; 0: none
     std::uint16_t decimal_marks;
   };
 

@@ -8,7 +8,7 @@ namespace pipeline {
 
 void prefer_large_pages([[maybe_unused]] void* begin, [[maybe_unused]] std::size_t size) {
 #ifdef MADV_HUGEPAGE
-  // What is less than a large page at the end stays on small ones: memory is not taken that is not asked for.
+  // The tail stays on small pages, so nothing is over-allocated.
   madvise(begin, size, MADV_HUGEPAGE);
 #endif
 }

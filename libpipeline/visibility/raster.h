@@ -9,7 +9,7 @@
 
 namespace pipeline {
 
-/// Where an array is large, it begins at a multiple of this.
+/// The alignment of large arrays: the size of a large page.
 constexpr std::size_t kLargePage = std::size_t{1} << 21;
 
 /// Asks the system to back `size` bytes from `begin`, a multiple of kLargePage, with large pages, where it

@@ -11,8 +11,8 @@
 
 namespace pipeline {
 
-/// A screen cut into bands of neighboring rows: so many that threads can share them out, and each so low
-/// that its depths and tags stay in a core's cache while many triangles are drawn into it.
+/// A picture cut into bands of neighboring rows: enough of them for every thread, and each low enough that
+/// its depths and tags stay in a core's cache while many triangles are drawn into it.
 class RowBands {
  public:
   /// Of a double and a PixelTag.
@@ -26,17 +26,17 @@ class RowBands {
     return {band << height_bits_, std::min((band + 1) << height_bits_, grid_.rows)};
   }
 
-  /// The bands in which a triangle in NDC can have pixels, whatever the coverage rule: perhaps one too many,
+  /// The bands in which a triangle in NDC can have pixels by any coverage rule; there may be one too many
   /// where a vertex is next to the line of centers of a band's outermost row.
   [[nodiscard]] RowRange bands_of(const Triangle& p_ndc) const {
-    // In a window next to the smallest doubles rows cannot be calculated like this.
+    // In a window next to the smallest doubles, the division would overflow.
     if (!(rows_per_dy_ <= std::numeric_limits<double>::max())) return {0, count()};
     const double a = p_ndc[0].y, b = p_ndc[1].y, c = p_ndc[2].y;
     const double low = std::min(std::min(a, b), c), high = std::max(std::max(a, b), c);
     // In rows from the top of the screen, clamped to the screen and one more row.
     const double above = std::clamp((grid_.top_y - high) * rows_per_dy_ - kReach, -1.0, 1.0 * grid_.rows);
     const double below = std::clamp((grid_.top_y - low) * rows_per_dy_ + kReach, -1.0, 1.0 * grid_.rows);
-    // Rounded up and down: a conversion rounds down what is not negative.
+    // Rounded up and down: a conversion truncates, which rounds a number down unless it is negative.
     const int first_row = std::max(grid_.rows - static_cast<int>(grid_.rows - above), 0);
     const int last_row = std::min(static_cast<int>(below + 1) - 1, grid_.rows - 1);
     const int end = (last_row >> height_bits_) + 1, first = first_row >> height_bits_;

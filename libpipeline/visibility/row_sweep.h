@@ -15,8 +15,8 @@
 
 namespace pipeline {
 
-/// What of a polygon can be seen on one scanline, were it alone: neighboring pixels between the limits of
-/// depth.
+/// The part of a polygon's span that passes the depth limits, were it alone: neighboring pixels of one
+/// scanline.
 template <typename Depth>
 struct RowPolygon {
   /// The value of index_in_list of a polygon whose in-out flag is "out": the sweep is not between its edges.
@@ -27,40 +27,39 @@ struct RowPolygon {
   SpanDepth depth;
   int first_column = 0;
   int last_column = -1;
-  typename Depth::Stored nearest = {};  // of the depths at its pixels, as they are stored
+  typename Depth::Stored nearest = {};  // of the stored depths of its pixels
   typename Depth::Stored farthest = {};
   double size = 0;  // no depth along the row, and nothing it is calculated from, is larger
-  double error =
-      0;  // at least twice what a depth can be off from the exact linear function; 0 if it is exact
+  // At least twice the error of a depth against the exact linear function; 0 if depths are exact.
+  double error = 0;
   PolygonId id = 0;
   PixelTag tag = 0;
   std::uint32_t index_in_list = kOut;  // in the active polygon list
 };
 
 /// One scanline of the scan-line algorithm: goes from edge to edge, keeps the list of active polygons (those
-/// it is between the edges of), and gives the pixels between neighboring edges to the nearest of them.
+/// whose two edges enclose it), and gives the pixels between neighboring edges to the nearest of them.
 ///
 /// The textbook compares depths once for every interval between two edges, at its left end, and is wrong
 /// where polygons interpenetrate. Here the visible polygon of an interval is compared with the others at both
-/// ends.
-/// Along a row depths are linear functions, so where the difference of two exceeds what rounding can add at
-/// both ends, it has the same sign at every pixel between. Where it does not, the interval is split at the
-/// crossing, and what rounding decides is compared pixel by pixel, as the z-buffer does it: the smaller
-/// stored depth wins, of equal ones the earlier polygon.
+/// ends. Along a row depths are linear functions, so where the difference of two exceeds what rounding can
+/// add at both ends, it has the same sign at every pixel between. Where it does not, the interval is split at
+/// the crossing, and the pixels that rounding decides are compared one by one, as by the z-buffer: the
+/// smaller stored depth wins, of equal ones the earlier polygon.
 ///
 /// A polygon stays the visible one for as long as it is sure to be nearest, also over edges of polygons
 /// behind it, and a new polygon is compared with it only (depth coherence), so a scanline takes time for its
-/// edges and for what is seen, not for every pixel of every layer.
+/// edges and its visible pixels, not for every pixel of every layer.
 template <typename Depth>
 class RowSweep {
  public:
   RowSweep(const Viewport& screen, PixelTag background);
 
-  /// The pixels of `span` that can be seen, with their depths' range and precision.
+  /// The pixels of `span` between the depth limits, with the range and precision of their depths.
   [[nodiscard]] RowPolygon<Depth> polygon(const Span& span, PolygonId id, PixelTag tag) const;
 
   /// The visible row: `edges`, sorted by column, are the two edges of every polygon that is not empty, each
-  /// with its slot in `polygons`. What is returned is valid until the next call.
+  /// with its slot in `polygons`. The row is valid until the next call.
   VisibleRow sweep(std::span<const ActiveEdge> edges, std::span<RowPolygon<Depth>> polygons);
 
  private:
@@ -100,7 +99,7 @@ class RowSweep {
   Polygon* visible_ = nullptr;         // nearest of all active polygons but the contenders ...
   int visible_end_ = 0;                // ... from the current column up to this one
   std::vector<Polygon*> contenders_;   // to be compared with it at every pixel
-  int run_length_ = 1;                 // for so many columns, before asking again whether that is still so
+  int run_length_ = 1;                 // columns until the contenders are chosen anew
 };
 
 #define PIPELINE_DECLARE(Depth) extern template class RowSweep<Depth>;

@@ -11,11 +11,11 @@
 
 namespace pipeline {
 
-/// The visibility algorithm `scanline`: keeps the triangles and finds row by row who is nearest where. Takes
-/// the memory of the triangles that reach the screen (92 bytes each, see PolygonTable and EdgeTable), of
-/// those that cross one row, and of one row of pixels; never that of the frame. The rows are the z-buffer's,
-/// to the last bit: both ask the same coverage rule for columns and depths, and compare what the same depth
-/// format stores.
+/// The visibility algorithm `scanline`: keeps the triangles and finds, row by row, the nearest at every
+/// pixel. Needs memory for the triangles that reach the screen (92 bytes each, see PolygonTable and
+/// EdgeTable), for those that cross one row, and for one row of pixels; never for the frame. The rows are the
+/// z-buffer's, to the last bit: both take columns and depths from the same coverage rule, and compare depths
+/// as the same format stores them.
 ///
 /// Source: J. Foley, A. van Dam, S. Feiner, J. Hughes, "Computer Graphics: Principles and Practice", 2nd
 /// edition, section 15.6 (and 3.6 for the edge table); D. Hearn, M. P. Baker, "Computer Graphics", 2nd
@@ -26,11 +26,11 @@ class Scanline {
  public:
   using CoverageRule = Coverage;
 
-  /// Nothing is seen yet, every pixel is at the rear limit and has the tag `background`.
+  /// Every pixel is at the rear limit and has the tag `background`.
   explicit Scanline(const Viewport& screen, PixelTag background = {})
       : screen_(screen), background_(background), coverage_(screen), edge_table_(screen.rows) {}
 
-  /// Takes the next triangle.
+  /// Adds the next triangle.
   void draw(const ExactTriangle& triangle, PixelTag tag) {
     const auto rows = coverage_.rows(triangle);
     if (rows.first_row() > rows.last_row()) return;

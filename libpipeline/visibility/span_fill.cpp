@@ -9,7 +9,7 @@
 namespace pipeline {
 namespace {
 
-/// Draws the span's pixels from the column `first` to before `end`; says whether one of them is seen.
+/// Draws the span's pixels from the column `first` to before `end`; returns whether any is visible.
 template <typename Depth>
 bool fill_columns_in_a_loop(const SpanFill<Depth>& pixels, int first, int end) {
   const SpanDepth depth = pixels.span.depth;

@@ -18,14 +18,13 @@ struct SpanFill {
   const Span& span;
   PixelTag tag;
   const Depth& format;
-  int columns;     // of the row
-  Stored* depths;  // of its first pixel
-  PixelTag* tags;  // likewise
-  Stored* farthest =
-      nullptr;  // of its first block (see HierarchicalDepth), brought up to date; may be missing
+  int columns;                 // of the row
+  Stored* depths;              // of its first pixel
+  PixelTag* tags;              // likewise
+  Stored* farthest = nullptr;  // of its first block (see HierarchicalDepth), updated; may be null
 };
 
-/// The blocks of a row that a span meets, and those of them that it covers as a whole.
+/// The blocks of a row that a span reaches, and those that it covers entirely.
 struct SpanBlocks {
   template <typename Depth>
   explicit SpanBlocks(const SpanFill<Depth>& pixels)
@@ -47,7 +46,7 @@ struct SpanBlocks {
 //
 // Every rounding in a SpanDepth is monotone, so depths as they are calculated and stored rise or fall along
 // the row: the nearest in a block is at one of its ends. If that is not nearer than the farthest depth there,
-// the block is passed over.
+// the block is skipped.
 
 /// One implementation, for one depth format.
 template <typename Depth>
@@ -65,9 +64,8 @@ std::span<const SpanFillKernel<Depth>> span_fill_kernels();
 template <typename Depth>
 const SpanFillKernel<Depth>* span_fill_avx2();
 
-/// The one in use: the fastest, or the one the environment variable PIPELINE_KERNEL names, for tests. Of the
-/// names that mean something to other parts only, "sse4" is "portable" here; any other unknown name is passed
-/// over.
+/// The one in use: the fastest, or the one the environment variable PIPELINE_KERNEL names, for tests. "sse4",
+/// which names kernels of other parts, means "portable" here; an unknown name is ignored.
 template <typename Depth>
 const SpanFillKernel<Depth>& span_fill_kernel();
 

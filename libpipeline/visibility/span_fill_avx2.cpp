@@ -20,8 +20,8 @@ struct EightDoubles {
 };
 
 /// Eight depths of a format as they are stored (`Eight`), and how they are made, read, compared and written.
-/// A mask is all ones for "yes" in as many bits as what it was compared from; `_some` touch only memory where
-/// it says so. A format without a specialization has no vector kernel.
+/// A mask is all ones for "yes", as wide as the numbers compared; functions named `_some` touch memory only
+/// in the lanes of their mask. A format without a specialization has no vector kernel.
 template <typename Depth>
 struct Lanes;
 
@@ -67,7 +67,7 @@ struct Lanes<DepthF64> {
   }
 };
 
-/// What formats of 32 bits share.
+/// The masks of formats of 32 bits.
 struct Masks32 {
   using Mask = __m256i;
   PIPELINE_AVX2 static Mask both(Mask a, Mask b) { return _mm256_and_si256(a, b); }
@@ -166,7 +166,7 @@ class SpanLanes {
         is_rising_(pixels.span.depth(pixels.span.first_column) <= pixels.span.depth(pixels.span.last_column)),
         tag_(_mm256_set1_epi32(static_cast<int>(pixels.tag))) {}
 
-  /// Draws the pixels from the column `first` to before `end`; says whether one of them is seen.
+  /// Draws the pixels from the column `first` to before `end`; returns whether any is visible.
   PIPELINE_AVX2 bool fill_columns(int first, int end) const {
     const __m256d eight = _mm256_set1_pd(8), four = _mm256_set1_pd(4);
     __m256d columns = _mm256_add_pd(_mm256_set1_pd(first), _mm256_setr_pd(0, 1, 2, 3));

@@ -9,19 +9,18 @@
 
 namespace pipeline {
 
-/// Spans on their way into a buffer of pixels. The memory of a small triangle's pixels is somewhere else than
-/// that of the last one's, so a span waits, while its pixels are fetched into the cache, until others have
-/// been made. Spans leave in the order in which they came.
+/// Spans on their way into a buffer of pixels. A small triangle's pixels are far in memory from those of the
+/// one before, so a span is queued while its pixels are fetched into the cache. First in, first out.
 class SpanQueue {
  public:
-  /// What is put in at a time has at most `most_spans` spans.
+  /// At most `most_spans` spans are put in at a time.
   explicit SpanQueue(std::size_t most_spans)
       : halves_{Half(kWaiting + most_spans), Half(kWaiting + most_spans)} {}
 
-  /// Where the next spans are to be written, one after the other.
+  /// Where to write the next spans, one after the other.
   [[nodiscard]] TaggedSpan* end() { return halves_[filling_].end; }
-  /// Takes what was written there, up to `new_end`. Calls `fetch(span)` for each at once, and
-  /// `draw(spans)` for those that have waited.
+  /// Queues the spans written there, up to `new_end`. Calls `fetch(span)` for each at once, and `draw(spans)`
+  /// for those queued long enough.
   template <typename Fetch, typename Draw>
   void put(TaggedSpan* new_end, Fetch&& fetch, Draw&& draw) {
     Half& half = halves_[filling_];
@@ -31,7 +30,7 @@ class SpanQueue {
     filling_ = 1 - filling_;
     take(halves_[filling_], draw);
   }
-  /// Calls `draw(spans)` for all that wait.
+  /// Calls `draw(spans)` for all still queued.
   template <typename Draw>
   void finish(Draw&& draw) {
     take(halves_[1 - filling_], draw);
@@ -39,7 +38,7 @@ class SpanQueue {
   }
 
  private:
-  // So many are fetched before the first of them is drawn.
+  // The number of spans fetched before the first of them is drawn.
   static constexpr std::size_t kWaiting = 32;
 
   struct Half {
@@ -49,7 +48,7 @@ class SpanQueue {
     struct Delete {
       void operator()(void* p) const { ::operator delete(p); }
     };
-    // Nothing is there before it is written.
+    // Not initialized: spans are written before they are read.
     std::unique_ptr<void, Delete> memory;
     TaggedSpan* end;
   };

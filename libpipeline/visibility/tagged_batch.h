@@ -15,7 +15,7 @@ struct TaggedBatch {
   std::vector<PixelTag> tags;
 };
 
-/// Triangle `index` of a batch in NDC, which has to stay where it is.
+/// Triangle `index` of a batch in NDC; refers to the batch.
 inline ExactTriangle exact_triangle(const TriangleBatch& batch, std::size_t index) {
   return {batch.triangles[index], batch.low_parts.empty() ? nullptr : &batch.low_parts[index],
           batch.decimal_marks.empty() ? std::uint16_t{0} : batch.decimal_marks[index]};

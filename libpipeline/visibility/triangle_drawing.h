@@ -16,20 +16,20 @@
 namespace pipeline {
 
 /// Draws the triangles of a stream on the threads of a pool, batch by batch. The result is that of drawing
-/// the triangles one after the other, whatever the number of threads. `Visible` is what BandDrawing asks for.
+/// the triangles one after the other, whatever the number of threads. `Visible` is as for BandDrawing.
 ///
 /// On one thread, batches of small triangles are drawn at once: their pixels are scattered over the picture
 /// anyway, and the triangles themselves are still in the cache. All others are drawn in bands.
 template <typename Visible>
 class TriangleDrawing {
  public:
-  /// The pool may have other work besides.
+  /// The pool may do other work, too.
   TriangleDrawing(Visible& visible, const Viewport& screen, ThreadPool& pool)
       : grid_(screen), bands_(visible, screen, pool) {
     if (pool.size() == 1) picture_.emplace(visible, RowRange{0, screen.rows});
   }
 
-  /// Where the next batch is to be put.
+  /// Where to put the next batch.
   [[nodiscard]] TriangleBatch& next_batch() { return next_.batch; }
   /// Draws that batch, each triangle with the tag `tag_of(batch, index)`, which is called at once and in
   /// order. The drawing itself may be put off, at the latest to finish().
@@ -40,11 +40,11 @@ class TriangleDrawing {
     for (std::size_t i = 0; i < next_.batch.size(); ++i) next_.tags[i] = tag_of(next_.batch, i);
     bands_.draw(next_);
   }
-  /// Draws all that is not drawn yet.
+  /// Draws the batches still waiting.
   void finish() { bands_.finish(); }
 
  private:
-  /// By some of them.
+  /// Judges by every eighth triangle.
   [[nodiscard]] bool has_small_triangles(const TriangleBatch& batch) const {
     constexpr double kSmall = 32;  // width and height together, in pixels
     constexpr std::size_t kStep = 8;
@@ -67,7 +67,7 @@ class TriangleDrawing {
 
   PixelGrid grid_;
   TaggedBatch next_;
-  std::optional<typename Visible::Drawer> picture_;  // on one thread: for what is drawn at once
+  std::optional<typename Visible::Drawer> picture_;  // on one thread: for batches drawn at once
   BandDrawing<Visible> bands_;
 };
 

@@ -59,9 +59,9 @@ void ZBuffer<Depth>::draw(const Span& span, PixelTag tag, HierarchicalDepth<Dept
 
 template <typename Depth>
 void ZBuffer<Depth>::draw(std::span<const TaggedSpan> spans, HierarchicalDepth<Depth>* farthest) {
-  // Fewer pixels are done before a kernel has begun.
+  // Shorter spans take less time than the call of a kernel.
   constexpr int kShort = 4;
-  // Copies, which no pixel that is written could have changed.
+  // Copies, so that the compiler sees that no pixel written changes them.
   const Depth format = format_;
   const double front = front_;
   const bool has_epsilon = depth_epsilon_ > 0;

@@ -24,26 +24,26 @@ class ZBuffer {
   /// A buffer of the screen's size, every pixel at the rear limit and with the tag `background`.
   explicit ZBuffer(const Viewport& screen, PixelTag background = {});
 
-  /// Draws a span of the triangle `tag` stands for. A pixel is written if its depth, as it is stored, is
-  /// less than the one there (of equal depths the first drawn stays) and not less than the front limit.
-  /// `farthest`, if there is one, is of rows of this buffer; its bounds hold whoever else draws there.
+  /// Draws a span of the triangle `tag` stands for. A pixel is written if its depth, as it is stored, is less
+  /// than the one there (of equal depths the first drawn stays) and not less than the front limit.
+  /// `farthest`, if there is one, has rows of this buffer; its bounds stay valid when others draw there.
   void draw(const Span& span, PixelTag tag, HierarchicalDepth<Depth>* farthest = nullptr);
 
   /// Draws several spans, one after the other.
   void draw(std::span<const TaggedSpan> spans, HierarchicalDepth<Depth>* farthest);
 
-  /// Asks for the first pixels of a span that is going to be drawn, so that they are in the cache by then.
+  /// Prefetches the first pixels of a span that will be drawn soon.
   void fetch(const Span& span) const {
     const auto column = static_cast<std::size_t>(span.first_column);
     __builtin_prefetch(&depths_.row(span.row)[column], 1);
     __builtin_prefetch(&tags_.row(span.row)[column], 1);
   }
 
-  /// From now on a pixel that shows a triangle is written only if its depth is less by more than `epsilon`,
-  /// at least 0. What is drawn then depends on the order of the triangles.
+  /// From now on a pixel that shows a triangle is written only if the new depth is less by more than
+  /// `epsilon`, at least 0. The picture then depends on the order of the triangles.
   void set_depth_epsilon(double epsilon) { depth_epsilon_ = epsilon; }
 
-  /// To draw into these rows with.
+  /// Bounds for drawing into these rows.
   [[nodiscard]] HierarchicalDepth<Depth> hierarchical_depth(const RowRange& rows) const {
     return {rows, depths_.columns()};
   }
