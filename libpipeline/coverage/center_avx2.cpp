@@ -289,7 +289,7 @@ struct FourRows {
 struct Rule {
   using FourRows = pipeline::FourRows;
   PIPELINE_AVX2_INLINE explicit Rule(const ExactGrid& exact_grid)
-      : grid(exact_grid), column_axis(exact_grid.columns.plain), row_axis(exact_grid.rows.plain) {}
+      : grid(exact_grid), column_axis(exact_grid.columns.in_doubles), row_axis(exact_grid.rows.in_doubles) {}
 
   [[nodiscard]] CenterRows rows(const TaggedTriangle& triangle) const { return {grid, triangle.triangle}; }
   PIPELINE_AVX2_INLINE FourTriangles four(const TaggedTriangle* triangles, const RowRange& range) const {

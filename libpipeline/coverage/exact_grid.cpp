@@ -101,12 +101,12 @@ GridAxis::GridAxis(int pixel_count, double limit, double limit_low_part, bool li
   narrow_step = Divisor<std::int64_t>(2 * cut(half_step, 0));
   largest_narrow_units = std::min(kMaxRoundedUnits, kMaxNarrow / static_cast<double>(narrow_vertex_factor));
 
-  plain.count = count;
-  plain.step = static_cast<double>(narrow_step.value());
-  plain.inverse_step = 1 / plain.step;
-  plain.vertex_factor = static_cast<double>(narrow_vertex_factor);
-  plain.origin = static_cast<double>(narrow_origin);
-  if (plain.step * count <= kMaxExactDouble) plain.largest = kMaxExactDouble - plain.origin;
+  in_doubles.count = count;
+  in_doubles.step = static_cast<double>(narrow_step.value());
+  in_doubles.inverse_step = 1 / in_doubles.step;
+  in_doubles.vertex_factor = static_cast<double>(narrow_vertex_factor);
+  in_doubles.origin = static_cast<double>(narrow_origin);
+  if (in_doubles.step * count <= kMaxExactDouble) in_doubles.largest = kMaxExactDouble - in_doubles.origin;
 }
 
 std::optional<GridTriangle<std::int64_t>> narrow_triangle(const ExactGrid& grid,

@@ -94,7 +94,7 @@ struct GridAxis {
   std::int64_t narrow_vertex_factor = 0;
   std::int64_t narrow_origin = 0;
   Divisor<std::int64_t> narrow_step;
-  AxisInDoubles plain;
+  AxisInDoubles in_doubles;
 };
 
 /// The coordinates of a triangle along one axis as exact numbers, and how fine a grid they need.

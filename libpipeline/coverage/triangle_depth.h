@@ -42,9 +42,9 @@ class TriangleDepth {
   [[nodiscard]] SpanDepth along(int first_column, int last_column, const Int& twice_b,
                                 const Int& twice_c) const {
     if constexpr (std::is_same_v<Int, std::int64_t>)
-      if (plain_)
-        return plain_->along(first_column, last_column, static_cast<double>(twice_b),
-                             static_cast<double>(twice_c));
+      if (in_doubles_)
+        return in_doubles_->along(first_column, last_column, static_cast<double>(twice_b),
+                                  static_cast<double>(twice_c));
     const Int128 sum = a_sum_ + Int128{cut(twice_b, weight_shift_)} * b_rise_ +
                        Int128{cut(twice_c, weight_shift_)} * c_rise_;
     const double middle = flat_depth_ + to_double(sum) * inverse_ * unit_;
@@ -63,9 +63,9 @@ class TriangleDepth {
   void set_depths(const std::array<double, 3>& z, std::int64_t total);
   void set_slope(std::int64_t b_step, std::int64_t c_step, double total);
 
-  std::optional<DepthInDoubles> plain_;  // if there is one, all else is unused
-  int weight_shift_ = 0;                 // how many low bits of the weights are cut off
-  double inverse_ = 0;                   // 1 / (2 * total weight)
+  std::optional<DepthInDoubles> in_doubles_;  // if there is one, all else is unused
+  int weight_shift_ = 0;                      // how many low bits of the weights are cut off
+  double inverse_ = 0;                        // 1 / (2 * total weight)
   double flat_depth_ = 0;    // of a triangle of one depth; then all below are 0, otherwise this is
   double half_slope_ = 0;    // per half column
   double unit_ = 0;          // depths are whole multiples of this:
@@ -80,7 +80,8 @@ TriangleDepth::TriangleDepth(const std::array<double, 3>& z, const Int& total, c
     : weight_shift_(bits_to_cut(total)) {
   if constexpr (std::is_same_v<Int, std::int64_t>)
     if (DepthInDoubles::can_take(z, total, b_step, c_step)) {
-      plain_.emplace(z, static_cast<double>(total), static_cast<double>(b_step), static_cast<double>(c_step));
+      in_doubles_.emplace(z, static_cast<double>(total), static_cast<double>(b_step),
+                          static_cast<double>(c_step));
       return;
     }
   set_depths(z, cut(total, weight_shift_));

@@ -72,11 +72,12 @@ TEST(DepthInDoubles, IsWithinItsBoundAlongEveryRow) {
     const Row row = random_row(random);
     const std::array<double, 3> z = random_depths(random);
     ASSERT_TRUE(DepthInDoubles::can_take(z, row.total, row.b_step, row.c_step));
-    const DepthInDoubles plain(z, static_cast<double>(row.total), static_cast<double>(row.b_step),
-                               static_cast<double>(row.c_step));
+    const DepthInDoubles depth_in_doubles(z, static_cast<double>(row.total), static_cast<double>(row.b_step),
+                                          static_cast<double>(row.c_step));
     const int first = random.whole(0, 60'000), gaps = row.pixel_count - 1, last = first + gaps;
-    const SpanDepth depth = plain.along(first, last, static_cast<double>(2 * row.b + gaps * row.b_step),
-                                        static_cast<double>(2 * row.c + gaps * row.c_step));
+    const SpanDepth depth =
+        depth_in_doubles.along(first, last, static_cast<double>(2 * row.b + gaps * row.b_step),
+                               static_cast<double>(2 * row.c + gaps * row.c_step));
 
     const mpq_class size = std::max({std::fabs(z[0]), std::fabs(z[1]), std::fabs(z[2])});
     for (const int column : {first, (first + last) / 2, last}) {
