@@ -150,7 +150,7 @@ void CommandLine::add_number(const std::string& name, const std::string& type_na
 }
 
 void CommandLine::add_threads(int& thread_count, const std::string& help) {
-  add_whole("--threads", thread_count, 1, 256, help + " (the output does not depend on it)");
+  add_whole("--threads", thread_count, 1, 256, help);
 }
 
 void CommandLine::add_operand(const std::string& name, std::string& word, bool is_required,

@@ -78,7 +78,7 @@ class CommandLine {
     const auto take = [&chosen, choices](std::size_t index) { chosen = choices[index].second; };
     add_choice_of_words(name, words, default_word, help, take);
   }
-  /// `--threads`: `help` says what they do. From 1 to 256.
+  /// `--threads`, from 1 to 256.
   void add_threads(int& thread_count, const std::string& help);
   void add_operand(const std::string& name, std::string& word, bool is_required, const std::string& help);
 

@@ -28,10 +28,8 @@ int main(int argc, char** argv) {
     StageWriter writer(tool.output(), numbers.format(), bare);
     writer.write_header({framed, scene.camera(), stage.appearance()});
 
-    const auto make_transform = [](CoordinateRounder& rounder) {
-      return [&rounder](TriangleBatch& batch) { apply_pending_transforms(batch, rounder); };
-    };
-    StageLoop(tool, writer, numbers.rounder(tool.input().file()), numbers.thread_count())
-        .run(stage, make_transform);
+    CoordinateRounder rounder = numbers.rounder(tool.input().file());
+    const auto transform = [&](TriangleBatch& batch) { apply_pending_transforms(batch, rounder); };
+    StageLoop(tool, writer, rounder).run(stage, transform);
   });
 }

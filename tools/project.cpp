@@ -1,6 +1,6 @@
 // project: clips what is behind the eye and divides by w. View space in, normalized device coordinates out.
 
-#include <deque>
+#include <utility>
 
 #include "libpipeline/stream/stage_reader.h"
 #include "libpipeline/stream/stage_writer.h"
@@ -67,18 +67,6 @@ std::string to_text(const ProjectionCounts& counts) {
          std::to_string(counts.clipped) + " cut into " + std::to_string(counts.pieces);
 }
 
-/// One thread's work.
-struct Worker {
-  ProjectionStage stage;
-  TriangleBatch p_view = {};
-
-  /// Replaces what is in view space by what is in NDC.
-  void project(TriangleBatch& batch) {
-    std::swap(batch, p_view);
-    stage.project(p_view, batch);
-  }
-};
-
 /// The columns of a projected text: with others, w.
 Appearance in_clip_space(Appearance appearance) {
   expect_no_w(appearance);
@@ -111,17 +99,15 @@ int main(int argc, char** argv) {
       rest.projection = {volume_of(camera.projection->value, projection), camera.projection->location};
     writer.write_header({reader.header().framed, rest, appearance});
 
-    std::deque<Worker> workers;
-    const auto make_transform = [&](CoordinateRounder& rounder) {
-      workers.push_back({ProjectionStage(projection, chosen.clip, chosen.cull, rounder, chosen.clip_inset)});
-      Worker& worker = workers.back();
-      if (is_lit) worker.stage.keep_unclipped_triangles();
-      return [&worker](TriangleBatch& batch) { worker.project(batch); };
+    CoordinateRounder rounder = numbers.rounder(tool.input().file());
+    ProjectionStage stage(projection, chosen.clip, chosen.cull, rounder, chosen.clip_inset);
+    if (is_lit) stage.keep_unclipped_triangles();
+    TriangleBatch p_view;
+    const auto transform = [&](TriangleBatch& batch) {
+      std::swap(batch, p_view);
+      stage.project(p_view, batch);
     };
-    StageLoop(tool, writer, numbers.rounder(tool.input().file()), numbers.thread_count())
-        .run(reader, make_transform);
-    ProjectionCounts counts;
-    for (const Worker& worker : workers) counts += worker.stage.counts();
-    tool.timing().details = to_text(counts);
+    StageLoop(tool, writer, rounder).run(reader, transform);
+    tool.timing().details = to_text(stage.counts());
   });
 }

@@ -1,35 +1,49 @@
 #pragma once
 
-#include <functional>
+#include <stdexcept>
 
 #include "libpipeline/stream/stage_writer.h"
 #include "libpipeline/stream/triangle_batch.h"
-#include "libpipeline/stream/triangle_source.h"
 #include "libpipeline/vertex/coordinate_rounder.h"
 #include "tools/tool.h"
 
 namespace pipeline {
 
-/// Transforms a batch in place.
-using BatchTransform = std::function<void(TriangleBatch&)>;
-
-/// What a stage does batch by batch until its input ends: read a batch, transform it, write it, and pass it
-/// on at once. What was done before a mistake is written before the mistake is thrown. At the end the text is
-/// finished, and what the user should know of its digits is said on stderr.
+/// The loop of a text filter: reads a batch, transforms it, writes it, and passes it on at once, until the
+/// input ends. An error comes after the triangles before it.
 class StageLoop {
  public:
-  /// `rounder` is the pattern of those of the transforms. The output does not depend on `thread_count`,
-  /// from 1.
-  StageLoop(Tool& tool, StageWriter& writer, CoordinateRounder rounder, int thread_count);
+  /// `rounder` is the one that the transform uses.
+  StageLoop(Tool& tool, StageWriter& writer, const CoordinateRounder& rounder)
+      : tool_(tool), writer_(writer), rounder_(rounder) {}
 
-  /// Every thread's work is done by a transform of its own, which `make_transform` makes for its rounder.
-  void run(TriangleSource& source, const std::function<BatchTransform(CoordinateRounder&)>& make_transform);
+  /// `source.read(batch)` fills a batch; false at the end of the input. `transform(batch)` changes a batch in
+  /// place; where it throws, the batch keeps the triangles before the error.
+  template <typename Source, typename Transform>
+  void run(Source& source, const Transform& transform) {
+    Timing& timing = tool_.timing();
+    for (TriangleBatch batch; source.read(batch);) {
+      timing.triangle_count += batch.size();
+      timing.lap(&Timing::read_seconds);
+      try {
+        transform(batch);
+      } catch (const std::runtime_error&) {  // after std::bad_alloc a batch may be half filled
+        write(batch);
+        throw;
+      }
+      timing.lap(&Timing::work_seconds);
+      write(batch);
+    }
+    finish();
+  }
 
  private:
+  void write(const TriangleBatch& batch);
+  void finish();
+
   Tool& tool_;
   StageWriter& writer_;
-  CoordinateRounder rounder_;
-  int thread_count_;
+  const CoordinateRounder& rounder_;
 };
 
 }  // namespace pipeline

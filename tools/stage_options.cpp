@@ -30,7 +30,7 @@ NumberOptions::NumberOptions(CommandLine& options) {
   options.add_choice<Precision>("--precision", precision_,
                                 {{"double", Precision::in_doubles}, {"extended", Precision::extended}},
                                 "extended: every number printed is correctly rounded; double: faster");
-  options.add_threads(thread_count_, "How many threads read, calculate and print");
+  options.add_threads(ignored_thread_count_, "Accepted for compatibility; one thread does the work");
 }
 
 NumberFormat NumberOptions::format() const {

@@ -11,20 +11,20 @@
 
 namespace pipeline {
 
-/// `--digits`, `--precision` and `--threads`: how coordinates are calculated and printed.
+/// `--digits` and `--precision`: how coordinates are calculated and printed. Also takes `--threads`, which
+/// changes nothing.
 class NumberOptions {
  public:
   explicit NumberOptions(CommandLine& options);
 
   [[nodiscard]] NumberFormat format() const;
-  [[nodiscard]] int thread_count() const { return thread_count_; }
   /// A rounder for coordinates whose vertices come from `file`.
   [[nodiscard]] CoordinateRounder rounder(const std::string& file) const;
 
  private:
   std::string digits_ = "7";
   Precision precision_ = Precision::extended;
-  int thread_count_ = 1;
+  int ignored_thread_count_ = 1;
 };
 
 /// The camera as options, and `--scene`, which takes it from a scene file.

@@ -49,20 +49,18 @@ int main(int argc, char** argv) {
     StageReader reader(tool.input());
     const CameraParameters camera = cameras.camera(reader.header().camera, tool);
     const ViewTransform view = view_of(camera, reader.header_end());
-    const VertexTransform view_from_world(view);
-    const NormalTransform view_normal_from_world(view);
+    const VertexTransform to_view(view);
+    const NormalTransform normal_to_view(view);
     StageWriter writer(tool.output(), numbers.format(), bare);
     writer.write_header(
         {reader.header().framed, without_position(camera), in_view_space(reader.header().appearance, view)});
 
-    const auto make_transform = [&](CoordinateRounder& rounder) {
-      return [&](TriangleBatch& batch) {
-        for (auto& normals : batch.attributes.normals)
-          for (Vec3& normal : normals) normal = view_normal_from_world(normal);
-        view_from_world.apply(batch, rounder);
-      };
+    CoordinateRounder rounder = numbers.rounder(tool.input().file());
+    const auto transform = [&](TriangleBatch& batch) {
+      for (auto& normals : batch.attributes.normals)
+        for (Vec3& normal : normals) normal = normal_to_view(normal);
+      to_view.apply(batch, rounder);
     };
-    StageLoop(tool, writer, numbers.rounder(tool.input().file()), numbers.thread_count())
-        .run(reader, make_transform);
+    StageLoop(tool, writer, rounder).run(reader, transform);
   });
 }

@@ -30,14 +30,6 @@ struct ProjectionCounts {
   std::uint64_t pieces = 0;   // triangles they became
   std::uint64_t outside = 0;  // triangles dropped by clipping
   std::uint64_t culled = 0;   // triangles dropped by their winding
-
-  ProjectionCounts& operator+=(const ProjectionCounts& other) {
-    clipped += other.clipped;
-    pieces += other.pieces;
-    outside += other.outside;
-    culled += other.culled;
-    return *this;
-  }
 };
 
 /// The project stage: view space to NDC, by way of clip space.

@@ -274,7 +274,7 @@ add_claims(CameraMessages, [
 
 
 class VertexPlaces(ToolTest):
-    """What a stage finds out by calculating, it says at the vertex: by every kernel, on one thread or several."""
+    """What a stage finds out by calculating, it says at the vertex: by every kernel."""
 
     GOOD = "0.0000000 0.0000000 -2.0000000"
     # A vertex's line, and the column of its first number.
@@ -289,11 +289,9 @@ class VertexPlaces(ToolTest):
                 text = header + good + bad + good
                 line = (header + good + bad).split(vertex)[0].count("\n") + 1
                 for kernel in ("portable", "sse4", "avx2"):
-                    for threads in (1, 3):
-                        with self.subTest(tool=tool, form=form, kernel=kernel, threads=threads):
-                            done = run(tool, *options, "--threads", threads, stdin=text,
-                                       env=os.environ | {"PIPELINE_KERNEL": kernel})
-                            self.assert_fails(done, 1, f"{tool}: <stdin>:{line}:{column}: {reason}")
+                    with self.subTest(tool=tool, form=form, kernel=kernel):
+                        done = run(tool, *options, stdin=text, env=os.environ | {"PIPELINE_KERNEL": kernel})
+                        self.assert_fails(done, 1, f"{tool}: <stdin>:{line}:{column}: {reason}")
 
     @staticmethod
     def of_scene(*vertices):
@@ -320,10 +318,9 @@ class VertexPlaces(ToolTest):
     def test_project_without_clipping(self):
         for form, column in self.LINES:
             text = self.of_stage_text(*3 * (self.GOOD,)) * 1000 + self.of_stage_text(self.GOOD, self.GOOD, form.format("1 1 2.50"))
-            for threads in (1, 3):
-                with self.subTest(form=form, threads=threads):
-                    done = run("project", "--clip", "none", "--perspective", 60, 1, 1, 9, "--threads", threads, stdin=text)
-                    self.assert_fails(done, 1, f"project: <stdin>:4003:{column}: {IN_FRONT}, found z = 2.5")
+            with self.subTest(form=form):
+                done = run("project", "--clip", "none", "--perspective", 60, 1, 1, 9, stdin=text)
+                self.assert_fails(done, 1, f"project: <stdin>:4003:{column}: {IN_FRONT}, found z = 2.5")
 
     def test_the_columns_that_follow_a_vertex_change_nothing(self):
         text = CAMERA + "color 1 2 3\nscale 1 1e305 1\ntriangle\n0 0 0\n  0 99999.5 0\n0 0 0\nend\n"
@@ -338,11 +335,10 @@ class VertexPlaces(ToolTest):
     def test_digits_that_are_not_certain(self):
         # 1e30 is added and taken away around a rotation: of 31 digits none is left.
         scene = CAMERA + "translate 1e30 0 0\nrotate 33 1 2 3\ntranslate -1e30 0 0\ntriangle\n  1 2 3\n4 5 6\n7 8 9\nend\n"
-        for threads in (1, 3):
-            done = run("model", "--threads", threads, stdin=scene)
-            self.assertEqual((done.stderr.decode(), done.returncode), (
-                "model: note: <stdin>:9:3: numbers cancel here beyond 31 digits; "
-                "the last digits of this vertex are not certain\n", 0))
+        done = run("model", stdin=scene)
+        self.assertEqual((done.stderr.decode(), done.returncode), (
+            "model: note: <stdin>:9:3: numbers cancel here beyond 31 digits; "
+            "the last digits of this vertex are not certain\n", 0))
 
 
 class ConfigMessages(ToolTest):

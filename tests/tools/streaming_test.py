@@ -97,6 +97,14 @@ class Streaming(ToolTest):
                 live.send(HEADER + VERTICES + "\n" + VERTICES[:-3])
                 self.assertEqual(live.receive(1), 1)
 
+    def test_they_pass_them_on_whatever_stands_behind(self):
+        texts = {"view": HEADER + 2048 * "0 0 0\n1 0 0\n0 1 0\n\n", "model": CAMERA + 2048 * TRIANGLE}
+        for tool, behind in (("view", "triangle 1\n" * 8), ("view", "# " + 150000 * "c"), ("view", "# c\n" * 20000),
+                             ("model", "push\npop\n" * 3), ("model", "# " + 150000 * "c")):
+            with LiveTool(tool) as live:
+                live.send(texts[tool] + behind)
+                self.assertEqual(live.receive(2048), 2048, (tool, behind[:10]))
+
     def test_framed_text_is_passed_on_at_once_as_well(self):
         self.check("view", "framed\n" + HEADER, VERTICES + "\n", "end\n")
 
@@ -110,6 +118,39 @@ class Streaming(ToolTest):
                 live.send(triangle * 200 + end)
                 self.assertEqual(live.receive(400), 400, tool)
                 self.assertEqual(live.finish(), 0)
+
+
+class Errors(ToolTest):
+    """An error comes after the triangles before it, whatever the size of batches."""
+
+    COUNT = 3000
+    GOOD = "0 0 -1\n1 0 -1\n0 1 -1\n\n"
+
+    def assert_error_behind(self, triangle_count, message, tool, *options, stdin):
+        done = run(tool, *options, stdin=stdin)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn(message, done.stderr.decode())
+        self.assertEqual(done.stdout.count(b"\n\n"), triangle_count)
+
+    def test_in_the_text(self):
+        text = self.GOOD * self.COUNT
+        for mistake, message in (("1 2 3\n4 5 six\n", ":12006:5: "), ("eye 1 2 3\n", ":12005:1: "), ("1 2 3\n\n", ":12006:1: "),
+                                 ("error model: it broke\n", "it broke"), ("1 2 3 ", ":12005:7: ")):
+            self.assert_error_behind(self.COUNT, message, "view", stdin=HEADER + text + mistake + text)
+
+    def test_in_a_scene(self):
+        text = TRIANGLE * self.COUNT
+        for mistake, message in (("triangle\n1 2 3\n4 5 six\n", ":12007:5: "), ("pop\n", ":12005:1: ")):
+            self.assert_error_behind(self.COUNT, message, "model", stdin=CAMERA + text + mistake + text)
+
+    def test_of_a_vertex_that_has_no_image(self):
+        beyond = "triangle\n1e300 0 0\n0 0 0\n0 0 0\n"
+        self.assert_error_behind(self.COUNT + 1, ":12011:1: ", "model",
+                                 stdin=CAMERA + TRIANGLE * self.COUNT + "scale 1e300 1 1\n" + TRIANGLE + beyond + "pop\n")
+        self.assert_error_behind(self.COUNT, "overflow", "view", "--eye", "-1e308", "0", "0", "--look", "0", "0", "0", "--up", "0", "1", "0",
+                                 stdin=self.GOOD * self.COUNT + "1.7e308 0 0\n0 0 0\n0 0 0\n\nnonsense\n")
+        self.assert_error_behind(self.COUNT, "a vertex in front of the eye", "project", "--clip", "none", "--perspective", "60", "1", "1", "100",
+                                 stdin=self.GOOD * self.COUNT + "0 0 1\n0 0 1\n0 0 1\n\nnonsense\n")
 
 
 class Pieces(ToolTest):
@@ -191,9 +232,9 @@ class Memory(ToolTest):
             self.assertLess(many, few + MEBIBYTE, f"{tool}: {few} KiB for 20,000 triangles, {many} KiB for 200,000")
             self.assertLess(many, 16 * MEBIBYTE, tool)
 
-    def test_two_threads_and_long_digits_stay_below_16_mebibytes(self):
+    def test_long_digits_stay_below_16_mebibytes(self):
         for tool, (start, triangle, end) in INPUTS.items():
-            memory = peak_memory(tool, start, triangle, 200_000, end, "--threads", "2", "--digits", "exact")
+            memory = peak_memory(tool, start, triangle, 200_000, end, "--digits", "exact")
             self.assertLess(memory, 16 * MEBIBYTE, tool)
 
     def test_ten_million_pushes_stay_below_64_mebibytes(self):
