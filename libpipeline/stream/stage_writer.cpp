@@ -77,9 +77,6 @@ void print_appearance(TextWriter& text, const Appearance& look) {
 StageWriter::StageWriter(TextWriter& text, NumberFormat format, bool bare)
     : text_(text), format_(format), bare_(bare) {}
 
-StageWriter::StageWriter(TextWriter& text, const StageWriter& whole)
-    : text_(text), format_(whole.format_), bare_(whole.bare_), columns_(whole.columns_) {}
-
 void StageWriter::write_header(const StageHeader& header) {
   if (bare_) return;
   framed_ = header.framed;
@@ -205,23 +202,6 @@ char* StageWriter::print_attributes(char* out, const AttributeArrays& attributes
 /// Says which triangle is the next, where plain counting would go wrong.
 void StageWriter::write_number(std::uint64_t number) {
   if (number != next_number_ && !bare_) text_.append("triangle " + std::to_string(number) + "\n");
-}
-
-void StageWriter::begin_part(std::uint64_t first_number) {
-  text_.discard();
-  first_number_ = first_number;
-  next_number_ = first_number;
-  last_whole_.reset();
-}
-
-void StageWriter::append_part(const StageWriter& part) {
-  keeps_four_digits_ |= part.keeps_four_digits_;
-  has_filled_coordinate_ |= part.has_filled_coordinate_;
-  const std::string_view text = part.text_.collected();
-  if (text.empty()) return;
-  write_number(part.first_number_);
-  text_.append(text);
-  next_number_ = part.next_number_;
 }
 
 void StageWriter::finish() {

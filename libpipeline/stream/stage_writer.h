@@ -15,15 +15,8 @@ class StageWriter {
  public:
   StageWriter(TextWriter& text, NumberFormat format, bool bare);
 
-  /// A writer of a part of a text, for `append_part` of `whole`, whose header is written.
-  StageWriter(TextWriter& text, const StageWriter& whole);
-
   void write_header(const StageHeader& header);
   void write(const TriangleBatch& batch);
-  /// Begins a new part: a text that goes on from triangle `first_number`.
-  void begin_part(std::uint64_t first_number);
-  /// Writes what another writer has collected, its whole part, behind what was written so far.
-  void append_part(const StageWriter& part);
   /// Writes what a whole text ends with, and flushes.
   void finish();
 
@@ -46,7 +39,6 @@ class StageWriter {
   bool framed_ = false;
   AttributeSet columns_;
   std::uint64_t next_number_ = 0;
-  std::uint64_t first_number_ = 0;  // of a part
   std::shared_ptr<const ClipTriangle> last_whole_;
   bool keeps_four_digits_ = false;
   bool has_filled_coordinate_ = false;
