@@ -3,7 +3,6 @@
 #include "libpipeline/scene/scene.h"
 #include "libpipeline/stream/stage_writer.h"
 #include "libpipeline/vertex/model_stage.h"
-#include "libpipeline/vertex/model_transform.h"
 #include "tools/stage_loop.h"
 #include "tools/stage_options.h"
 #include "tools/tool.h"
@@ -29,7 +28,7 @@ int main(int argc, char** argv) {
     writer.write_header({framed, scene.camera(), stage.appearance()});
 
     CoordinateRounder rounder = numbers.rounder(tool.input().file());
-    const auto transform = [&](TriangleBatch& batch) { apply_pending_transforms(batch, rounder); };
+    const auto transform = [&](TriangleBatch& batch) { stage.transform(batch, rounder); };
     StageLoop(tool, writer, rounder).run(stage, transform);
   });
 }

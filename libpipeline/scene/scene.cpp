@@ -6,6 +6,7 @@
 #include "libpipeline/text/fixed_text.h"
 
 namespace pipeline {
+
 SceneReader::SceneReader(TextReader& text) : text_(text) {
   camera_.eye = read_camera_vec3("the eye");
   camera_.look = read_camera_vec3("the point looked at");
@@ -13,13 +14,6 @@ SceneReader::SceneReader(TextReader& text) : text_(text) {
   camera_.projection = read_camera_projection();
   check_camera(camera_);
 }
-
-SceneReader::SceneReader(TextReader& text, const SceneReader& reader)
-    : text_(text),
-      appearance_(reader.appearance_),
-      vertex_line_(reader.vertex_line_),
-      current_color_(reader.current_color_),
-      has_triangle_(reader.has_triangle_) {}
 
 Located<Vec3> SceneReader::read_camera_vec3(const std::string& name) {
   next_argument_line(name + " (three numbers)");
@@ -53,10 +47,6 @@ std::size_t SceneReader::read_buffered(std::span<Triangle> room, std::size_t& fi
   text_.skip(part.length, 4 * part.triangle_count);
   if (part.triangle_count > 0) has_triangle_ = true;
   return part.triangle_count;
-}
-
-bool SceneReader::take_part(std::size_t size, TextPart& part) {
-  return line_.at_end() && text_.take_part("\ntriangle\n", 1, size, part);
 }
 
 Command SceneReader::next() {

@@ -60,8 +60,6 @@ using Command = std::variant<TriangleCommand, TranslateCommand, ScaleCommand, Ro
 class SceneReader {
  public:
   explicit SceneReader(TextReader& text);
-  /// Goes on in another text where `reader` is.
-  SceneReader(TextReader& text, const SceneReader& reader);
 
   /// The camera, complete and checked.
   [[nodiscard]] const CameraParameters& camera() const { return camera_; }
@@ -77,12 +75,6 @@ class SceneReader {
   /// many; each has four lines, and the first begins at `first_line`. None if the next command is another, or
   /// a triangle in another form, or with more than positions.
   std::size_t read_buffered(std::span<Triangle> room, std::size_t& first_line);
-  /// Takes whole triangles as text, and perhaps more; see TriangleSource.
-  bool take_part(std::size_t size, TextPart& part);
-  void put_back(const TextPart& part) { text_.put_back(part); }
-  /// How many lines were read, those of parts not counted until they are passed.
-  [[nodiscard]] std::size_t line_count() const { return text_.line_number(); }
-  void pass_lines(std::size_t line_count) { text_.skip(0, line_count - text_.line_number()); }
   /// The place of the command given out last, unless that is a triangle.
   [[nodiscard]] const SourceLocation& location() const { return location_; }
   /// True if the next command can be had without waiting for the input, whatever it is: none has more than

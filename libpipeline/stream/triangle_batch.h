@@ -16,14 +16,6 @@ namespace pipeline {
 /// The most triangles a batch is filled with before it is passed on, unless they come of a part of a text.
 constexpr std::size_t kBatchSize = 2048;
 
-class ModelTransform;
-
-/// A transform for the triangles of a batch from `first_triangle` up to the next one's.
-struct PendingTransform {
-  std::size_t first_triangle = 0;
-  std::shared_ptr<const ModelTransform> transform;
-};
-
 /// Some triangles on their way through a stage. All vectors of theirs have one entry a triangle.
 struct TriangleBatch {
   std::vector<Triangle> triangles;
@@ -39,8 +31,6 @@ struct TriangleBatch {
   std::vector<std::uint16_t> decimal_marks;
   /// What vertices carry beside their position, in scenes that ask for it.
   AttributeArrays attributes;
-  /// What the model stage has read but not yet calculated: in order, the first for the first triangle.
-  std::vector<PendingTransform> pending_transforms;
   /// For each triangle that is a piece of a clipped one, that one; empty if there is none, else as long as
   /// `triangles`. Only lit scenes have them: corners are lit before the cut, and a piece holds not all.
   std::vector<std::shared_ptr<const ClipTriangle>> unclipped;
@@ -54,7 +44,6 @@ struct TriangleBatch {
     locations.clear();
     decimal_marks.clear();
     attributes.clear();
-    pending_transforms.clear();
     unclipped.clear();
   }
   /// Makes room for as many.

@@ -1,53 +1,62 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <vector>
 
 #include "libpipeline/scene/scene.h"
 #include "libpipeline/stream/deferred_error.h"
 #include "libpipeline/stream/triangle_batch.h"
-#include "libpipeline/stream/triangle_source.h"
+#include "libpipeline/vertex/attribute_transform.h"
+#include "libpipeline/vertex/coordinate_rounder.h"
 #include "libpipeline/vertex/matrix_stack.h"
-#include "libpipeline/vertex/model_transform.h"
+#include "libpipeline/vertex/vertex_transform.h"
 
 namespace pipeline {
 
 /// The model stage: carries out a scene's commands, model space to world space.
-class ModelStage final : public TriangleSource {
+class ModelStage {
  public:
-  /// Carries out what stands before the first triangle; a mistake there is thrown by the first `read`.
+  /// Carries out the commands before the first triangle; an error there is thrown by the first `read`.
   explicit ModelStage(SceneReader& scene);
 
   /// The scene's color and light, the lights in world space.
   [[nodiscard]] Appearance appearance() const;
-  /// The triangles are in model space, and their transforms to world space pending:
-  /// apply_pending_transforms. False at the scene's end. An InputError if the matrix stack under- or
-  /// overflows.
-  bool read(TriangleBatch& batch) override;
-  bool take_part(std::size_t size, TextPart& part, TriangleBatch& batch) override;
-  [[nodiscard]] PartContents read_part(TextReader& part, TriangleBatch& batch) const override;
-  void put_back(const TextPart& part) override { scene_.put_back(part); }
-  [[nodiscard]] StreamPosition location() const override { return {scene_.line_count(), next_number_}; }
-  void pass(const StreamPosition& location) override;
+  /// Fills the batch with the next triangles, in model space; false at the scene's end. An InputError if the
+  /// scene is wrong or the matrix stack under- or overflows, after the triangles before it.
+  bool read(TriangleBatch& batch);
+  /// Takes the batch that was read last to world space, normals included. An InputError at the vertex on
+  /// overflow; the batch then keeps the triangles before it.
+  void transform(TriangleBatch& batch, CoordinateRounder& rounder) const;
 
  private:
+  /// The triangles of a batch under one matrix: from `first` up to the next run's.
+  struct Run {
+    std::size_t first;
+    VertexTransform world_from_model;
+    std::optional<NormalTransform> world_normal_from_model;
+  };
+
   void read_until_triangle();
   void fill(TriangleBatch& batch);
+  bool add_buffered(TriangleBatch& batch);
+  void add(const TriangleCommand& triangle, TriangleBatch& batch);
   void carry_out(const Command& command);
-  void set_transform(TriangleBatch& batch, std::size_t first);
+  void keep_last_run();
+  void begin_run(std::size_t first);
   void push();
   void pop();
 
   SceneReader& scene_;
   MatrixStack stack_;
-  std::shared_ptr<const ModelTransform> transform_;  // of the stack's top; made when a triangle needs it
-  std::vector<Located<Light>> lights_;               // in world space
-  std::optional<TriangleCommand> first_triangle_;    // read, but not yet given out
+  bool is_matrix_new_ = true;                      // it is that of no run yet
+  std::vector<Run> runs_;                          // of the batch that was read last
+  std::vector<Located<Light>> lights_;             // in world space
+  std::optional<TriangleCommand> first_triangle_;  // read, but not yet in a batch
   std::uint64_t next_number_ = 0;
   bool done_ = false;
-  DeferredError deferred_error_;  // found behind triangles that were still to be given out
+  DeferredError deferred_error_;
 };
 
 }  // namespace pipeline

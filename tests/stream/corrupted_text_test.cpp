@@ -16,7 +16,6 @@
 #include "libpipeline/stream/stage_reader.h"
 #include "libpipeline/text/error.h"
 #include "libpipeline/vertex/model_stage.h"
-#include "libpipeline/vertex/model_transform.h"
 #include "tests/text/text_input.h"
 
 namespace pipeline {
@@ -35,7 +34,7 @@ Numbers coordinates_of_scene(TextReader& text) {
   ModelStage stage(scene);
   Numbers numbers;
   for (TriangleBatch batch; stage.read(batch);) {
-    apply_pending_transforms(batch, rounder);
+    stage.transform(batch, rounder);
     append(numbers, batch);
   }
   return numbers;

@@ -8,10 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "libpipeline/scene/scene.h"
 #include "libpipeline/stream/stage_reader.h"
-#include "libpipeline/vertex/model_stage.h"
-#include "libpipeline/vertex/model_transform.h"
 #include "tests/stream/by_parts.h"
 #include "tests/text/odd_text.h"
 #include "tests/text/text_input.h"
@@ -27,8 +24,6 @@ struct ReadTriangles {
   std::string end = "no error";
 
   void add(TriangleBatch batch) {
-    CoordinateRounder rounder(Precision::extended, {}, "in.txt");
-    if (!batch.pending_transforms.empty()) apply_pending_transforms(batch, rounder);
     for (std::size_t i = 0; i < batch.size(); ++i)
       all.add(batch.triangles[i], batch.numbers[i], batch.locations[i]);
     const auto append = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
@@ -245,56 +240,6 @@ TEST(TriangleParts, AreLookedForLessOftenWhereThereAreNone) {
   EXPECT_LE(source.line(), 33 * kLongestPause);
   EXPECT_GE(source.asked_count(), 32);
   EXPECT_LE(source.asked_count(), 40);  // the first pauses are shorter
-}
-
-/// Returns how many parts could be read.
-int expect_same_scene_by_parts(const std::string& commands) {
-  const std::string text = "0 0 5\n0 0 0\n0 1 0\n60 1 1 100\n" + commands;
-  const TextFile file(text), same_file(text);
-  TextReader in_order(file.descriptor(), "in.txt"), by_parts(same_file.descriptor(), "in.txt");
-  SceneReader scene(in_order), same_scene(by_parts);
-  ModelStage stage(scene), part_stage(same_scene);
-  const ReadTriangles expected = read_from(stage);
-  ByParts parts(part_stage, 20000);
-  expect_same(read_from(parts), expected);
-  return parts.part_count();
-}
-
-std::string scene_triangles(int count, RandomNumbers& random, const TextForm& form = {}) {
-  std::string text;
-  for (int i = 0; i < count; ++i) text += "triangle\n" + three_vertices(random, form);
-  return text;
-}
-
-TEST(TriangleParts, OfAScene) {
-  RandomNumbers random(9);
-  EXPECT_GE(expect_same_scene_by_parts(scene_triangles(5000, random) + "end\n"), 3);
-}
-
-TEST(TriangleParts, OfASceneWithOtherCommands) {
-  RandomNumbers random(10);
-  std::string text;
-  for (const int count : {30000, 25000, 100, 1, 40000}) {
-    text += scene_triangles(count, random);
-    for (const std::string command : {"push\ntranslate\n1 2 3\n", "pop\n", "# a comment\n", "\n"})
-      text += command + scene_triangles(random.whole(0, 3), random);
-  }
-  EXPECT_GE(expect_same_scene_by_parts(text + "end\n"), 10);
-  for (const std::string mistake : {"", "pop\n", "triangle\n1 2 3\n", "end\nend\n", "tri"})
-    expect_same_scene_by_parts(text + mistake);
-}
-
-TEST(TriangleParts, OfASceneWithColumns) {
-  RandomNumbers random(11);
-  const TextForm form = {4, " 1 2 3 0 0 1"};
-  EXPECT_GE(
-      expect_same_scene_by_parts("attributes color normal\n" + scene_triangles(5000, random, form) + "end\n"),
-      3);
-  EXPECT_GE(expect_same_scene_by_parts("color 1 2 3\n" + scene_triangles(5000, random) + "color 4 5 6\n" +
-                                       scene_triangles(30000, random) + "end\n"),
-            3);
-  expect_same_scene_by_parts("attributes normal\n" + scene_triangles(3000, random, {7, " 0 0 1"}) +
-                             scene_triangles(1, random, {7, " 0 0 0"}) + "end\n");
 }
 
 }  // namespace

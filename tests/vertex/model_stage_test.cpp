@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "libpipeline/vertex/model_transform.h"
 #include "tests/text/text_input.h"
 
 namespace pipeline {
@@ -23,7 +22,7 @@ TriangleBatch triangles_from(int descriptor) {
   ModelStage stage(scene);
   TriangleBatch all;
   for (TriangleBatch batch; stage.read(batch);) {
-    apply_pending_transforms(batch, rounder);
+    stage.transform(batch, rounder);
     for (std::size_t i = 0; i < batch.size(); ++i)
       all.add(batch.triangles[i], batch.numbers[i], batch.locations[i]);
   }
@@ -103,6 +102,16 @@ TEST(ModelStage, ReadsMoreTrianglesThanABatchHolds) {
   std::string commands;
   for (std::size_t i = 0; i < 2 * kBatchSize + 1; ++i) commands += kTriangle;
   EXPECT_EQ(triangles_of(commands).size(), 2 * kBatchSize + 1);
+}
+
+TEST(ModelStage, AMatrixHoldsAcrossBatches) {
+  std::string many;
+  for (std::size_t i = 0; i < kBatchSize; ++i) many += kTriangle;
+  const std::vector<Vec3> vertices =
+      first_vertices_of("translate 1 0 0\n" + many + many + "translate 1 0 0\n" + many);
+  std::vector<Vec3> expected(2 * kBatchSize, {2, 2, 3});
+  expected.resize(3 * kBatchSize, {3, 2, 3});
+  EXPECT_EQ(vertices, expected);
 }
 
 // A comment keeps a line from the fast paths.
