@@ -1,55 +1,97 @@
 #include "libpipeline/stream/read_ahead.h"
 
+#include <algorithm>
+#include <span>
 #include <utility>
+
+#include "libpipeline/text/fixed_text.h"
 
 namespace pipeline {
 namespace {
 
-// In characters: about as many triangles as a batch has.
-constexpr std::size_t kPartSize = std::size_t{1} << 17;
 constexpr std::size_t kSlotsPerThread = 2;
+// Text in another form goes on like that, and parts of it are parsed in vain.
+constexpr int kPause = 32;
+// Nine numbers such as 0.1234567 with a separator each, and the blank line.
+constexpr std::size_t kMinFixedTriangleLength = 9 * 10 + 1;
+static_assert(ReadAhead::kPartSize / kMinFixedTriangleLength <= kBatchSize);
 
 }  // namespace
 
-ReadAhead::ReadAhead(TriangleSource& source, ThreadPool& pool)
-    : source_(source), parts_(source, kPartSize), pool_(pool) {
+ReadAhead::ReadAhead(StageReader& reader, ThreadPool& pool, std::size_t part_size)
+    : reader_(reader), part_size_(part_size), pool_(pool) {
   if (pool.size() > 1) slots_.resize(kSlotsPerThread * static_cast<std::size_t>(pool.size()));
 }
 
 bool ReadAhead::read(TriangleBatch& batch) {
-  do {
-    take_parts();
-    if (!take_first(batch)) {
-      parts_.close();
-      return source_.read(batch);
-    }
-  } while (batch.empty());  // a part may hold comments alone
+  if (pause_ > 0)
+    --pause_;
+  else
+    start_parts();
+  if (begin_ == end_) return reader_.read(batch);
+  Slot& first = slot(begin_);
+  wait_for(first);
+  if (!first.is_in_fixed_form) {
+    drop_parts();
+    pause_ = kPause;
+    return reader_.read(batch);
+  }
+  ++begin_;
+  length_ -= first.length;
+  reader_.consume_fixed_form(first.length, first.batch);
+  std::swap(batch, first.batch);
   return true;
 }
 
-/// Has the pool read parts, as long as there is room and text.
-void ReadAhead::take_parts() {
-  while (end_ - begin_ < slots_.size() && parts_.take(slot(end_).part, slot(end_).batch)) {
-    Slot& next = slot(end_++);
+void ReadAhead::Slot::parse() {
+  batch.clear();
+  batch.triangles.resize(length / kMinFixedTriangleLength);
+  const FixedTextPart parsed =
+      fixed_text_kernel().read(std::string_view(text).substr(0, length), batch.triangles);
+  batch.triangles.resize(parsed.triangle_count);
+  is_in_fixed_form = parsed.length == length;
+  is_done = true;
+}
+
+/// Has the pool parse parts, as long as there is a slot and text.
+void ReadAhead::start_parts() {
+  static_assert(TextReader::kSlack >= kFixedTextSlack);
+  while (end_ - begin_ < slots_.size()) {
+    const std::string_view part = next_part();
+    if (part.empty()) return;
+    Slot& next = slot(end_);
+    next.text.assign(part.data(), part.size() + TextReader::kSlack);
+    next.length = part.size();
     next.is_done = false;
-    pool_.start(1, [this, &next](int, int) {
-      next.is_read = parts_.read(next.part, next.batch);
-      next.is_done = true;
-    });
+    pool_.start(1, [&next](int, int) { next.parse(); });
+    ++end_;
+    length_ += part.size();
   }
 }
 
-/// Waits for the first part in work; false if there is none, or none that could be read.
-bool ReadAhead::take_first(TriangleBatch& batch) {
-  if (begin_ == end_) return false;
-  while (!slot(begin_).is_done) pool_.run_one();
-  if (slot(begin_).is_read) {
-    std::swap(batch, slot(begin_++).batch);
-    return true;
-  }
-  pool_.finish();
-  for (; end_ != begin_; --end_) parts_.put_back(slot(end_ - 1).part);
-  return false;
+/// Whole triangles behind those on their way, as many as a part holds and can be had without waiting; empty
+/// if there are none.
+std::string_view ReadAhead::next_part() {
+  constexpr std::string_view kTriangleEnd = "\n\n";
+  std::string_view text = reader_.buffered_triangles(length_ + part_size_);
+  text.remove_prefix(std::min(length_, text.size()));
+  text = text.substr(0, part_size_);
+  const std::size_t last = text.rfind(kTriangleEnd);
+  if (last != std::string_view::npos) return text.substr(0, last + kTriangleEnd.size());
+  if (text.size() == part_size_) pause_ = kPause;
+  return {};
+}
+
+/// Works until the pool has parsed the slot.
+void ReadAhead::wait_for(const Slot& slot) {
+  while (!slot.is_done) pool_.run_one();
+}
+
+/// Leaves the text of all parts on their way to the reader.
+void ReadAhead::drop_parts() {
+  for (std::size_t i = begin_; i != end_; ++i) wait_for(slot(i));
+  end_ = begin_;
+  length_ = 0;
 }
 
 }  // namespace pipeline

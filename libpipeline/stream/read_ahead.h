@@ -3,45 +3,60 @@
 #include <atomic>
 #include <cstddef>
 #include <deque>
+#include <string>
+#include <string_view>
 
+#include "libpipeline/stream/stage_reader.h"
 #include "libpipeline/stream/thread_pool.h"
 #include "libpipeline/stream/triangle_batch.h"
-#include "libpipeline/stream/triangle_parts.h"
-#include "libpipeline/stream/triangle_source.h"
 
 namespace pipeline {
 
-/// A source's triangles, batch by batch as it gives them, of which a pool reads the next ones ahead, part by
-/// part. It never waits for the input while there is something to give.
+/// The triangles of a stage text, batch by batch and in order, of which a thread pool parses the next ones
+/// ahead. It never waits for the input while it has triangles to give.
+///
+/// Only text in fixed form (fixed_text.h) is parsed ahead, as nearly all text is: there the numbers and lines
+/// of the triangles follow from their count. Where other text comes, the reader parses it as usual.
 class ReadAhead {
  public:
-  /// The pool may have other work besides. A pool of one reads nothing ahead.
-  ReadAhead(TriangleSource& source, ThreadPool& pool);
+  static constexpr std::size_t kPartSize = std::size_t{1} << 16;  // about 700 triangles
+
+  /// The pool may have other work besides; a pool of one parses nothing ahead. A part of the text has at
+  /// most `part_size` characters.
+  ReadAhead(StageReader& reader, ThreadPool& pool, std::size_t part_size = kPartSize);
   ~ReadAhead() { pool_.cancel(); }
   ReadAhead(const ReadAhead&) = delete;
   ReadAhead& operator=(const ReadAhead&) = delete;
 
-  /// See TriangleSource::read.
+  /// See StageReader::read.
   bool read(TriangleBatch& batch);
 
  private:
+  /// A part of the text on its way through the pool; the reader keeps that text, too, until it is delivered.
   struct Slot {
-    TrianglePart part;
+    void parse();
+
+    std::string text;        // and what the kernel may look at behind it
+    std::size_t length = 0;  // of the text
     TriangleBatch batch;
-    bool is_read = false;  // or else the part holds more than triangles
+    bool is_in_fixed_form = false;  // all of it
     std::atomic<bool> is_done = false;
   };
 
-  void take_parts();
-  bool take_first(TriangleBatch& batch);
+  void start_parts();
+  std::string_view next_part();
+  void wait_for(const Slot& slot);
+  void drop_parts();
   [[nodiscard]] Slot& slot(std::size_t number) { return slots_[number % slots_.size()]; }
 
-  TriangleSource& source_;
-  TriangleParts parts_;
+  StageReader& reader_;
+  std::size_t part_size_;
   std::deque<Slot> slots_;
-  // Those from number `begin_` to `end_` are in work.
+  // The parts from number `begin_` to before `end_` are on their way.
   std::size_t begin_ = 0;
   std::size_t end_ = 0;
+  std::size_t length_ = 0;  // of their text together
+  int pause_ = 0;           // how many batches the reader parses before the next part is tried
   ThreadPool& pool_;
 };
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <string_view>
 
 #include "libpipeline/scene/header_line.h"
@@ -70,50 +69,16 @@ bool StageReader::read(TriangleBatch& batch) {
   return deferred_error_.read(batch, [&] { fill(batch); });
 }
 
-bool StageReader::take_part(std::size_t size, TextPart& part, TriangleBatch& batch) {
-  batch.clear();
+std::string_view StageReader::buffered_triangles(std::size_t size) {
   const bool is_between_triangles = !line_is_pending_ && !whole_ && !done_ && !deferred_error_.is_kept();
-  if (!is_between_triangles) return false;
-  // A text's lines end alike: what none of them ends with is not looked for all through the part.
-  const bool has_returns = text_.buffered().substr(0, text_.buffered().find('\n')).ends_with('\r');
-  const auto take = [&](bool with_returns) {
-    return with_returns ? text_.take_part("\n\r\n", 3, size, part) : text_.take_part("\n\n", 2, size, part);
-  };
-  return take(has_returns) || take(!has_returns);
-}
-
-PartContents StageReader::read_part(TextReader& part, TriangleBatch& batch) const {
-  TriangleReader triangles(part, header_.appearance.columns(), marks_decimals_);
-  PartContents contents;
-  LineScanner line;
-  try {
-    for (;;) {
-      if (triangles.read_buffered(batch, std::numeric_limits<std::size_t>::max())) continue;
-      if (!part.next_filled_line(line)) break;
-      if (is_vertex(line.peek())) {
-        triangles.read(line, batch);
-      } else if (line.peek() == "triangle") {
-        triangles.read_number(line);
-        if (!contents.first_numbered) contents.first_numbered = batch.size();
-      } else {
-        return {};
-      }
-    }
-  } catch (const InputError&) {
-    return {};
+  if (!is_between_triangles || header_.appearance.columns().any()) return {};
+  while (text_.buffered().size() < size && text_.buffer_more()) {
   }
-  contents.next_number = triangles.next_number();
-  contents.is_whole = true;
-  return contents;
+  return text_.buffered();
 }
 
-StreamPosition StageReader::location() const {
-  return {text_.line_number(), triangles_->next_number()};
-}
-
-void StageReader::pass(const StreamPosition& location) {
-  text_.skip(0, location.line_count - text_.line_number());
-  triangles_->count_from(location.number);
+void StageReader::consume_fixed_form(std::size_t length, TriangleBatch& batch) {
+  triangles_->consume_fixed_form(length, batch);
 }
 
 void StageReader::fill(TriangleBatch& batch) {
@@ -122,7 +87,7 @@ void StageReader::fill(TriangleBatch& batch) {
     if (!line_is_pending_ && !batch.empty() && (batch.size() >= kBatchSize || !text_.has_buffered_lines(3)))
       break;
     const bool may_be_decimal = !line_is_pending_ && !whole_;
-    if (may_be_decimal && triangles_->read_buffered(batch, kBatchSize)) continue;
+    if (may_be_decimal && triangles_->read_buffered(batch)) continue;
     if (!line_is_pending_ && !text_.next_filled_line(line_)) {
       expect_unframed_end();
       done_ = true;

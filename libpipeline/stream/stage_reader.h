@@ -9,13 +9,12 @@
 #include "libpipeline/stream/stage_text.h"
 #include "libpipeline/stream/triangle_batch.h"
 #include "libpipeline/stream/triangle_reader.h"
-#include "libpipeline/stream/triangle_source.h"
 #include "libpipeline/text/text_reader.h"
 
 namespace pipeline {
 
 /// Reads a stage text: the header on construction, then batch after batch. Errors are InputErrors.
-class StageReader final : public TriangleSource {
+class StageReader {
  public:
   /// With `marks_decimals` batches say which coordinates are exact decimals, for exact coverage.
   explicit StageReader(TextReader& text, bool marks_decimals = false);
@@ -29,14 +28,17 @@ class StageReader final : public TriangleSource {
   /// An InputError unless the text is framed: for who has to know that it is whole, even if nothing came of
   /// it.
   void expect_framed() const;
-  /// False at the end of a text that ends as it should. How much of a text with a mistake passes does not
-  /// depend on the size of blocks.
-  bool read(TriangleBatch& batch) override;
-  bool take_part(std::size_t size, TextPart& part, TriangleBatch& batch) override;
-  [[nodiscard]] PartContents read_part(TextReader& part, TriangleBatch& batch) const override;
-  void put_back(const TextPart& part) override { text_.put_back(part); }
-  [[nodiscard]] StreamPosition location() const override;
-  void pass(const StreamPosition& location) override;
+  /// Fills the batch with the next triangles, at least one and as many as are buffered up to kBatchSize;
+  /// false (and an empty batch) at the end of a text that ends as it should. An error comes after the
+  /// triangles before it, whatever the size of blocks.
+  bool read(TriangleBatch& batch);
+
+  /// The buffered text from the next triangle on, if triangles in fixed form may stand there; else empty. Of
+  /// `size` characters as many as can be had without waiting, or more. For ReadAhead.
+  [[nodiscard]] std::string_view buffered_triangles(std::size_t size);
+  /// Consumes the first `length` buffered characters: the triangles that `batch` holds, in fixed form.
+  /// Completes the batch with all else that belongs to them.
+  void consume_fixed_form(std::size_t length, TriangleBatch& batch);
 
  private:
   bool read_header_line(LineScanner& line);

@@ -13,7 +13,7 @@
 
 namespace pipeline {
 
-/// The most triangles a batch is filled with before it is passed on, unless they come of a part of a text.
+/// The most triangles a batch is filled with before it is passed on.
 constexpr std::size_t kBatchSize = 2048;
 
 /// Some triangles on their way through a stage. All vectors of theirs have one entry a triangle.

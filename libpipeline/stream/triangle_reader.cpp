@@ -54,40 +54,46 @@ struct ExactParts {
 TriangleReader::TriangleReader(TextReader& text, const AttributeSet& attributes, bool marks_decimals)
     : text_(text), vertex_line_(attributes), marks_decimals_(marks_decimals) {}
 
-bool TriangleReader::read_buffered(TriangleBatch& batch, std::size_t most) {
-  return read_fixed_form(batch, most) || read_decimal_form(batch, most);
+bool TriangleReader::read_buffered(TriangleBatch& batch) {
+  return read_fixed_form(batch) || read_decimal_form(batch);
 }
 
-/// Takes the triangles that are waiting as long as they have the form nearly all stage text has; false if the
-/// next has another form, or is not there as a whole.
-bool TriangleReader::read_fixed_form(TriangleBatch& batch, std::size_t most) {
+/// Takes buffered triangles as long as they have the form nearly all stage text has; false if the next has
+/// another form, or is not buffered as a whole.
+bool TriangleReader::read_fixed_form(TriangleBatch& batch) {
   static_assert(TextReader::kSlack >= kFixedTextSlack);
-  constexpr std::size_t kLinesPerTriangle = 4;
   constexpr std::size_t kMaxAtOnce = 64;
   if (vertex_line_.attributes().any()) return false;
   // The blank line behind a triangle that the general reader took.
   if (text_.buffered().starts_with('\n')) text_.skip(1, 1);
   const std::size_t old_size = batch.size();
-  batch.triangles.resize(std::max(old_size, std::min(most, old_size + kMaxAtOnce)));
+  batch.triangles.resize(std::max(old_size, std::min(kBatchSize, old_size + kMaxAtOnce)));
   const FixedTextPart part =
       fixed_text_kernel().read(text_.buffered(), std::span(batch.triangles).subspan(old_size));
   batch.triangles.resize(old_size + part.triangle_count);
+  consume_fixed_form(part.length, batch);
+  return part.triangle_count > 0;
+}
+
+void TriangleReader::consume_fixed_form(std::size_t length, TriangleBatch& batch) {
+  constexpr std::size_t kLinesPerTriangle = 4;
+  const std::size_t old_size = batch.numbers.size();
+  const std::size_t count = batch.size() - old_size;
   batch.complete(next_number_, text_.line_number() + 1);
-  next_number_ += part.triangle_count;
-  text_.skip(part.length, part.triangle_count * kLinesPerTriangle);
+  next_number_ += count;
+  text_.skip(length, count * kLinesPerTriangle);
   // Seven decimals and at most eight digits before the point: every coordinate is its decimal.
   if (marks_decimals_) {
     batch.decimal_marks.resize(old_size);
     batch.decimal_marks.resize(batch.size(), kAllDecimal);
   }
-  return part.triangle_count > 0;
 }
 
-/// Takes some of the triangles that are waiting, as long as their lines hold plain numbers and nothing else;
-/// false if the next does not. After a few the faster form is worth another try.
-bool TriangleReader::read_decimal_form(TriangleBatch& batch, std::size_t most) {
+/// Takes some of the buffered triangles, as long as their lines hold decimal numbers and nothing else; false
+/// if the next does not. After a few the faster form is worth another try.
+bool TriangleReader::read_decimal_form(TriangleBatch& batch) {
   constexpr std::size_t kMaxAtOnce = 32;
-  const std::size_t limit = std::min(most, batch.size() + kMaxAtOnce);
+  const std::size_t limit = std::min(kBatchSize, batch.size() + kMaxAtOnce);
   const std::size_t old_size = batch.size();
   while (batch.size() < limit && read_decimal_triangle(batch)) {
   }

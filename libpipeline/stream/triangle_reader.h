@@ -19,19 +19,21 @@ class TriangleReader {
 
   /// The number of the next triangle.
   [[nodiscard]] std::uint64_t next_number() const { return next_number_; }
-  void count_from(std::uint64_t number) { next_number_ = number; }
 
-  /// Adds some of the triangles that are waiting, as long as they hold plain numbers and nothing else and the
-  /// batch has less than `most`; false if there is no such triangle.
-  bool read_buffered(TriangleBatch& batch, std::size_t most);
+  /// Adds some of the buffered triangles, as long as they hold decimal numbers without exponent and nothing
+  /// else and the batch has room; false if there is no such triangle.
+  bool read_buffered(TriangleBatch& batch);
+  /// Consumes the next `length` characters: the last triangles of the batch, in fixed form, which were added
+  /// to `triangles` alone. Completes the batch.
+  void consume_fixed_form(std::size_t length, TriangleBatch& batch);
   /// Takes the line `triangle N` before a triangle. An InputError where it is wrong.
   void read_number(LineScanner& line);
   /// Adds the triangle whose first line is `line`. An InputError where it is wrong.
   void read(LineScanner& line, TriangleBatch& batch);
 
  private:
-  bool read_fixed_form(TriangleBatch& batch, std::size_t most);
-  bool read_decimal_form(TriangleBatch& batch, std::size_t most);
+  bool read_fixed_form(TriangleBatch& batch);
+  bool read_decimal_form(TriangleBatch& batch);
   bool read_decimal_triangle(TriangleBatch& batch);
 
   TextReader& text_;

@@ -109,14 +109,6 @@ void LineScanner::fail(const std::string& expected) const {
 TextReader::TextReader(int descriptor, std::string file)
     : descriptor_(descriptor), file_(std::move(file)), buffer_(kBlockSize + kSlack) {}
 
-TextReader::TextReader(TextPart& part)
-    : buffer_(std::move(part.buffer)),
-      begin_(part.begin),
-      end_(part.end),
-      scanned_(begin_),
-      begins_text_(false),
-      at_end_of_file_(true) {}
-
 bool TextReader::next_line(LineScanner& line) {
   for (;;) {
     const char* const from = buffer_.data() + scanned_;
@@ -139,7 +131,7 @@ LineScanner TextReader::take_line(std::size_t length, bool is_ended) {
   begin_ += length + (is_ended ? 1 : 0);
   scanned_ = begin_;
   last_line_was_ended_ = is_ended;
-  if (++line_number_ == 1 && begins_text_ && line.starts_with("\xEF\xBB\xBF")) line.remove_prefix(3);
+  if (++line_number_ == 1 && line.starts_with("\xEF\xBB\xBF")) line.remove_prefix(3);
   return {line, file_, line_number_};
 }
 
@@ -160,7 +152,7 @@ bool TextReader::has_buffered_lines(std::size_t count) const {
   return true;
 }
 
-/// True if the next read has not to wait for the input.
+/// True if the next read will not block.
 bool TextReader::input_is_ready() const {
   pollfd input = {.fd = descriptor_, .events = POLLIN, .revents = 0};
   return ::poll(&input, 1, 0) != 0;
@@ -172,40 +164,10 @@ void TextReader::skip(std::size_t length, std::size_t line_count) {
   line_number_ += line_count;
 }
 
-bool TextReader::take_part(std::string_view boundary, std::size_t length, std::size_t size, TextPart& part) {
-  while (buffered().size() < size && !at_end_of_file_ && read_error_ == 0 && input_is_ready()) read_block();
-  const std::size_t most = size + kBlockSize;
-  const std::size_t location = buffered().size() > most ? std::string_view::npos : buffered().rfind(boundary);
-  if (location == std::string_view::npos) return false;
-  if (buffer_.size() > 4 * most) move_to(0, most);  // what was put back has left it large
-  const std::size_t part_end = begin_ + location + length;
-  const std::size_t rest = end_ - part_end;
-  part.buffer.resize(std::max(part.buffer.size(), rest + kBlockSize + kSlack));
-  std::memcpy(part.buffer.data(), buffer_.data() + part_end, rest);
-  std::swap(part.buffer, buffer_);
-  part.begin = std::exchange(begin_, 0);
-  part.end = part_end;
-  end_ = rest;
-  scanned_ = 0;
-  return true;
-}
-
-void TextReader::put_back(const TextPart& part) {
-  const std::string_view text = part.text();
-  // Room for as much again: others may follow.
-  if (begin_ < text.size()) move_to(2 * text.size() + buffered().size(), 0);
-  begin_ -= text.size();
-  scanned_ = begin_;
-  std::memcpy(buffer_.data() + begin_, text.data(), text.size());
-}
-
-/// Moves what is waiting to place `begin` of a new buffer with `room` behind it.
-void TextReader::move_to(std::size_t begin, std::size_t room) {
-  std::vector<char> buffer(begin + buffered().size() + room + kSlack);
-  std::memcpy(buffer.data() + begin, buffered().data(), buffered().size());
-  end_ = begin + buffered().size();
-  begin_ = scanned_ = begin;
-  buffer_ = std::move(buffer);
+bool TextReader::buffer_more() {
+  if (at_end_of_file_ || read_error_ != 0 || !input_is_ready()) return false;
+  read_block();
+  return !at_end_of_file_ && read_error_ == 0;
 }
 
 SourceLocation TextReader::end_location() const {
@@ -215,14 +177,14 @@ SourceLocation TextReader::end_location() const {
 /// Has one more block behind the unread part; false at the end of the file.
 bool TextReader::fill() {
   if (at_end_of_file_) return false;
-  if (before_waiting_ && !input_is_ready()) before_waiting_();
   if (read_error_ == 0) read_block();
   if (read_error_ != 0) throw IoError("read", file_, read_error_);
   return !at_end_of_file_;
 }
 
 void TextReader::read_block() {
-  if (begin_ > 0) {
+  const bool has_room = buffer_.size() - end_ >= kBlockSize + kSlack;
+  if (!has_room && begin_ >= end_ - begin_) {  // or else it would be moved too often
     std::memmove(buffer_.data(), buffer_.data() + begin_, end_ - begin_);
     end_ -= begin_;
     scanned_ -= begin_;

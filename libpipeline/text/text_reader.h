@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -68,25 +67,12 @@ class LineScanner {
   bool has_comment_ = false;
 };
 
-/// A piece of a text that was taken out of a reader, for another one.
-struct TextPart {
-  std::vector<char> buffer;
-  std::size_t begin = 0;
-  std::size_t end = 0;
-
-  /// Followed by TextReader::kSlack characters that may be looked at and mean nothing.
-  [[nodiscard]] std::string_view text() const { return {buffer.data() + begin, end - begin}; }
-};
-
 /// Reads text in blocks and gives it out line by line. CRLF and LF both end a line, the last line needs no
 /// end, `#` starts a comment, trailing blanks are dropped, a UTF-8 byte order mark at the start is skipped.
 class TextReader {
  public:
   /// Reads from a file descriptor, which stays the caller's; `file` names it in messages.
   TextReader(int descriptor, std::string file);
-  /// Reads a part from within a text, whose memory it has until give_back(). Lines are counted from 1.
-  explicit TextReader(TextPart& part);
-  void give_back(TextPart& part) { part.buffer = std::move(buffer_); }
 
   /// The next line, blank ones included; false at the end of the text.
   bool next_line(LineScanner& line);
@@ -102,18 +88,10 @@ class TextReader {
   /// `skip`.
   [[nodiscard]] std::string_view buffered() const { return {buffer_.data() + begin_, end_ - begin_}; }
   static constexpr std::size_t kSlack = 512;
-  /// Leaves out `length` characters of what is waiting: `line_count` whole lines.
+  /// Consumes `length` buffered characters, `line_count` whole lines.
   void skip(std::size_t length, std::size_t line_count);
-  /// Takes what is waiting, up to a `boundary`, of which the first `length` characters go with it and the
-  /// others stay: about `size` characters, more than lie between two boundaries, or fewer if no more can be
-  /// read without waiting for them. False if there is no boundary, or so much was put back that it is waiting
-  /// still. The part's lines are not counted: skip(0, line_count) does it later, or put_back undoes it.
-  bool take_part(std::string_view boundary, std::size_t length, std::size_t size, TextPart& part);
-  /// Puts a part back in front of what is waiting: the one that was taken last, unless that is back already.
-  void put_back(const TextPart& part);
-
-  /// Something to be done whenever the reader is about to wait for its input.
-  void set_before_waiting(std::function<void()> action) { before_waiting_ = std::move(action); }
+  /// Buffers one more block of the input; false if there is none, or none without waiting.
+  bool buffer_more();
 
   [[nodiscard]] const std::string& file() const { return file_; }
   /// The number of the line given out last, 0 before the first.
@@ -125,7 +103,6 @@ class TextReader {
  private:
   bool fill();
   void read_block();
-  void move_to(std::size_t begin, std::size_t room);
   [[nodiscard]] bool input_is_ready() const;
   LineScanner take_line(std::size_t length, bool is_ended);
 
@@ -138,10 +115,8 @@ class TextReader {
   std::size_t line_number_ = 0;
   std::size_t bytes_read_ = 0;
   bool last_line_was_ended_ = false;
-  bool begins_text_ = true;
   bool at_end_of_file_ = false;
   int read_error_ = 0;  // an errno; told when what was read before is used up
-  std::function<void()> before_waiting_;
 };
 
 }  // namespace pipeline

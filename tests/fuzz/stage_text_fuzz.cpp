@@ -1,10 +1,10 @@
 // The reader and the writer of stage text: any text gives triangles or a mistake with its place, and what was
-// written reads back to the same. So it is if the text is read by parts.
+// written reads back to the same. So it is if threads parse the text ahead.
 
+#include "libpipeline/stream/read_ahead.h"
 #include "libpipeline/stream/stage_reader.h"
 #include "libpipeline/stream/stage_writer.h"
 #include "tests/fuzz/transcript.h"
-#include "tests/stream/by_parts.h"
 
 namespace pipeline {
 namespace {
@@ -15,16 +15,17 @@ void write_all(Source& source, StageWriter& writer) {
   writer.finish();
 }
 
-enum class Reading { in_order, by_parts };
+enum class Reading { in_order, ahead };
 
 void copy(TextReader& text, TextWriter& output, NumberFormat format, Reading reading) {
-  constexpr std::size_t kPartSize = 100;
+  constexpr std::size_t kPartSize = 200;  // two triangles
+  static ThreadPool pool(2);
   StageReader reader(text, true);
   StageWriter writer(output, format, false);
   writer.write_header(reader.header());
   if (reading == Reading::in_order) return write_all(reader, writer);
-  ByParts parts(reader, kPartSize);
-  write_all(parts, writer);
+  ReadAhead ahead(reader, pool, kPartSize);
+  write_all(ahead, writer);
 }
 
 void check(std::string_view text, NumberFormat format) {
@@ -33,7 +34,7 @@ void check(std::string_view text, NumberFormat format) {
   };
   const Work work = by(Reading::in_order);
   const Transcript once = transcript(text, work);
-  require(transcript(text, by(Reading::by_parts)) == once, "parts change nothing");
+  require(transcript(text, by(Reading::ahead)) == once, "threads change nothing");
   if (!once.mistake.empty()) return;
   const Transcript twice = transcript(once.written, work);
   require(twice.mistake.empty(), "what is written can be read");

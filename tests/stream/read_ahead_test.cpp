@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <vector>
 
 #include "libpipeline/stream/stage_reader.h"
 #include "tests/text/odd_text.h"
@@ -11,83 +12,194 @@
 namespace pipeline {
 namespace {
 
+constexpr int kNoOddText = 1 << 25;
+// Of a triangle in fixed form.
+constexpr std::size_t kMinLength = 91;
+
+/// What a source gives until its end, and the error it ends with.
 struct Reading {
-  TriangleBatch all;
+  std::vector<Triangle> triangles;
+  std::vector<Triangle> low_parts;
+  std::vector<std::uint64_t> numbers;
+  std::vector<VertexLocations> locations;
+  std::vector<std::uint16_t> decimal_marks;
+  std::vector<std::array<Vec3, 3>> colors;
+  std::vector<Vec3> unclipped;  // its first corner
   std::string end;
+  friend bool operator==(const Reading&, const Reading&) = default;
+
+  void add(TriangleBatch batch) {
+    batch.low_parts.resize(batch.size());
+    batch.decimal_marks.resize(batch.size());
+    const auto append = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
+    append(triangles, batch.triangles);
+    append(low_parts, batch.low_parts);
+    append(numbers, batch.numbers);
+    append(locations, batch.locations);
+    append(decimal_marks, batch.decimal_marks);
+    append(colors, batch.attributes.colors);
+    for (std::size_t i = 0; i < batch.size(); ++i) {
+      const ClipTriangle* const whole = batch.unclipped_of(i);
+      unclipped.push_back(whole == nullptr ? Vec3{} : (*whole)[0].position);
+    }
+  }
+};
+
+struct Counts {
+  int batches = 0;
+  int small_batches = 0;  // at most as large as a part of the text makes them
 };
 
 template <typename Source>
-Reading read_from(Source& source) {
+Reading read_from(Source& source, Counts& counts, std::size_t part_size) {
   Reading reading;
   reading.end = message_of([&] {
-    for (TriangleBatch batch; source.read(batch);)
-      for (std::size_t i = 0; i < batch.size(); ++i)
-        reading.all.add(batch.triangles[i], batch.numbers[i], batch.locations[i]);
+    for (TriangleBatch batch; source.read(batch);) {
+      ++counts.batches;
+      if (batch.size() <= part_size / kMinLength) ++counts.small_batches;
+      reading.add(batch);
+    }
   });
   return reading;
 }
 
-void expect_same_for_all_threads(const std::string& text) {
+Reading read_in_order(const std::string& text) {
   const TextFile file(text);
-  TextReader in_order(file.descriptor(), "in.txt");
-  StageReader source(in_order);
-  const Reading expected = read_from(source);
+  TextReader reader(file.descriptor(), "in.txt");
+  StageReader source(reader, true);
+  source.accept_clipped();
+  Counts counts;
+  return read_from(source, counts, 0);
+}
+
+Reading read_ahead(int descriptor, int thread_count, std::size_t part_size, Counts& counts) {
+  TextReader text(descriptor, "in.txt");
+  StageReader source(text, true);
+  source.accept_clipped();
+  ThreadPool pool(thread_count);
+  ReadAhead ahead(source, pool, part_size);
+  return read_from(ahead, counts, part_size);
+}
+
+/// Returns what was counted on several threads.
+Counts expect_same_by_parts(const std::string& text, std::size_t part_size) {
+  const Reading expected = read_in_order(text);
+  Counts counts;
   for (const int thread_count : {1, 2, 3, 8}) {
-    const TextFile same_file(text);
-    TextReader same_text(same_file.descriptor(), "in.txt");
-    StageReader same_source(same_text);
-    ThreadPool pool(thread_count);
-    ReadAhead ahead(same_source, pool);
-    const Reading actual = read_from(ahead);
-    EXPECT_TRUE(actual.all.triangles == expected.all.triangles) << thread_count << " threads";
-    EXPECT_TRUE(actual.all.numbers == expected.all.numbers) << thread_count << " threads";
-    EXPECT_TRUE(actual.all.locations == expected.all.locations) << thread_count << " threads";
-    EXPECT_EQ(actual.end, expected.end);
+    const TextFile file(text);
+    counts = {};
+    EXPECT_TRUE(read_ahead(file.descriptor(), thread_count, part_size, counts) == expected)
+        << thread_count << " threads, parts of " << part_size;
+  }
+  return counts;
+}
+
+TEST(ReadAhead, GivesWhatTheReaderGives) {
+  expect_same_by_parts("", ReadAhead::kPartSize);
+  expect_same_by_parts(odd_stage_text(1, kNoOddText, 1), ReadAhead::kPartSize);
+  expect_same_by_parts(odd_stage_text(30000, kNoOddText, 2), ReadAhead::kPartSize);
+}
+
+TEST(ReadAhead, ParsesPartsOfTheText) {
+  const std::string text = odd_stage_text(5000, kNoOddText, 1);
+  for (const std::size_t size : {100u, 1000u, 20000u}) {
+    const Counts counts = expect_same_by_parts(text, size);
+    // The first line of all is looked at for a header; so the reader parses the first block.
+    EXPECT_EQ(counts.small_batches, counts.batches - 1) << size;
+    EXPECT_GE(counts.batches, static_cast<int>((text.size() - (1 << 16)) / size)) << size;
   }
 }
 
-TEST(ReadAhead, GivesWhatTheSourceGives) {
-  expect_same_for_all_threads("");
-  expect_same_for_all_threads(odd_stage_text(1, 1 << 25, 1));
-  expect_same_for_all_threads(odd_stage_text(30000, 1 << 25, 2));
+TEST(ReadAhead, LeavesOtherTextToTheReader) {
+  for (std::uint64_t seed = 3; seed < 10; ++seed) {
+    EXPECT_GE(expect_same_by_parts(odd_stage_text(3000, 1000, seed), 1000).small_batches, 2);
+    expect_same_by_parts(odd_stage_text(3000, 5, seed), 1000);
+  }
+  expect_same_by_parts(odd_stage_text(50000, 5000, 3), ReadAhead::kPartSize);
+  for (const int decimals : {0, 3, 9, 17})
+    expect_same_by_parts(odd_stage_text(5000, 1000, 4, {decimals, ""}), 1000);
+  expect_same_by_parts("attributes color\n" + odd_stage_text(5000, 1000, 5, {7, " 1 2 3"}), 1000);
 }
 
-TEST(ReadAhead, GivesWhatTheSourceGivesOfTextInOtherForms) {
-  expect_same_for_all_threads(odd_stage_text(50000, 5000, 3));
-  expect_same_for_all_threads(odd_stage_text(5000, 10, 4));
-  expect_same_for_all_threads("attributes color\n" + odd_stage_text(20000, 5000, 5, {7, " 1 2 3"}));
+TEST(ReadAhead, GoesOnBehindOtherText) {
+  const std::string text =
+      odd_stage_text(2000, kNoOddText, 6) + "# a comment\n" + odd_stage_text(80000, kNoOddText, 7);
+  const Counts counts = expect_same_by_parts(text, 20000);
+  EXPECT_GE(counts.batches - counts.small_batches, 10);
+  EXPECT_GE(counts.small_batches, 50);
 }
 
-TEST(ReadAhead, GivesMistakesBehindTheTrianglesBeforeThem) {
-  expect_same_for_all_threads(odd_stage_text(20000, 1 << 25, 6) + "0.5 0.5 six\n" +
-                              odd_stage_text(20000, 1 << 25, 7));
+TEST(ReadAhead, ReadsAsUsualWhatHoldsNoBlankLines) {
+  RandomNumbers random(7);
+  std::string text, with_returns;
+  for (int i = 0; i < 3000; ++i) {
+    text += three_vertices(random);
+    with_returns += "1.0000000 2.0000000 3.0000000\r\n2 2 2\r\n3 3 3\r\n\r\n";
+  }
+  expect_same_by_parts(text, 1000);
+  expect_same_by_parts(with_returns, 1000);
+}
+
+TEST(ReadAhead, GivesErrorsBehindTheTrianglesBeforeThem) {
+  const std::string before = odd_stage_text(2500, kNoOddText, 6);
+  for (const std::string error :
+       {"1 2 3\n4 5 six\n", "1.0000000 2.0000000 3.0000000\n\n", "error view: no\n", "eye 1 2 3\n", "1 2\n",
+        "1.0000000 2.0000000 3.0000000 4.0000000\n", "end\n", "1.0000000 2.0000000 1e999\n"})
+    for (const std::string& behind : {std::string(), before}) {
+      expect_same_by_parts(before + error + behind, 20000);
+      expect_same_by_parts(before + error + behind, 1000);
+    }
+}
+
+TEST(ReadAhead, LeavesTheEndOfATextToTheReader) {
+  const std::string text = odd_stage_text(3000, kNoOddText, 7);
+  for (const std::string end : {"", "end\n", "end", "end\n1 2 3\n", "\n\n", "1.0000000", "# that is all"})
+    for (const std::string header : {"", "framed\n"}) expect_same_by_parts(header + text + end, 20000);
+}
+
+TEST(ReadAhead, LeavesClippedTrianglesToTheReader) {
+  RandomNumbers random(12);
+  std::string text;
+  for (const int count : {300, 1, 500}) {
+    for (int i = 0; i < count; ++i) text += three_vertices(random) + "\n";
+    for (int i = 0; i < 2; ++i) {
+      text += "clipped\n";
+      for (int k = 0; k < 3; ++k) text += "1 2 3 4\n";
+      text += three_vertices(random) + "\n";
+    }
+  }
+  expect_same_by_parts(text, 1000);
 }
 
 TEST(ReadAhead, GivesTheSameOfAPipeThatIsFilledSlowly) {
   const std::string text = odd_stage_text(6000, 3000, 8);
-  const TextFile file(text);
-  TextReader in_order(file.descriptor(), "in.txt");
-  StageReader source(in_order);
-  const Reading expected = read_from(source);
   std::vector<std::string> pieces;
   RandomNumbers random(9);
   for (std::size_t begin = 0; begin < text.size();) {
     pieces.push_back(text.substr(begin, static_cast<std::size_t>(random.whole(1, 30000))));
     begin += pieces.back().size();
   }
-  const TextInPieces pipe(pieces);
-  TextReader same_text(pipe.descriptor(), "in.txt");
-  StageReader same_source(same_text);
+  for (const std::size_t part_size : {std::size_t{1000}, ReadAhead::kPartSize}) {
+    const TextInPieces pipe(pieces);
+    Counts counts;
+    EXPECT_TRUE(read_ahead(pipe.descriptor(), 3, part_size, counts) == read_in_order(text));
+  }
+}
+
+TEST(ReadAhead, DoesNotWaitForTheInputWithTrianglesToGive) {
+  const std::string text = odd_stage_text(100, kNoOddText, 10);
+  const TextInPieces pipe({text + "0.5"}, TextInPieces::Then::silence);
+  TextReader reader(pipe.descriptor(), "in.txt");
+  StageReader source(reader);
   ThreadPool pool(3);
-  ReadAhead ahead(same_source, pool);
-  const Reading actual = read_from(ahead);
-  EXPECT_TRUE(actual.all.triangles == expected.all.triangles);
-  EXPECT_TRUE(actual.all.locations == expected.all.locations);
-  EXPECT_EQ(actual.end, expected.end);
+  ReadAhead ahead(source, pool, 1000);
+  std::size_t count = 0;
+  for (TriangleBatch batch; count < 100 && ahead.read(batch);) count += batch.size();
+  EXPECT_EQ(count, 100u);
 }
 
 TEST(ReadAhead, MayBeGivenUpInTheMiddle) {
-  const TextFile file(odd_stage_text(30000, 1 << 25, 10));
+  const TextFile file(odd_stage_text(30000, kNoOddText, 10));
   TextReader text(file.descriptor(), "in.txt");
   StageReader source(text);
   ThreadPool pool(3);
