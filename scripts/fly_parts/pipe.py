@@ -90,7 +90,7 @@ class FramePipe:
         self.config_text = self.frame_image = None
         self.stages = {name: Stage() for name in STAGES}
         # The output does not depend on threads.
-        self.threads = {name: ["--threads", "2"] if tools.has_option(name, "--threads") else [] for name in STAGES}
+        self.threads = {"zbuf": ["--threads", "2"]} if tools.has_option("zbuf", "--threads") else {}
         self.run([("model", [str(scene)])], None)
         self.light = self.first_light()
 
@@ -102,10 +102,10 @@ class FramePipe:
         runs = []
         stdin = source.rewound() if source else subprocess.DEVNULL
         # Two stages share the processor already.
-        threads = {name: self.threads[name] if len(calls) == 1 else [] for name, _ in calls}
+        threads = self.threads if len(calls) == 1 else {}
         for name, words in calls:
             is_last = name == calls[-1][0]
-            run = Run(name, [self.tools.folder / name, *self.files(name), *threads[name], *words], stdin, not is_last)
+            run = Run(name, [self.tools.folder / name, *self.files(name), *threads.get(name, []), *words], stdin, not is_last)
             if runs:
                 os.close(stdin)
             stdin = run.to_next
