@@ -93,11 +93,11 @@ int main(int argc, char** argv) {
     const auto projection = clip_from_view(projection_of(camera, reader.header_end()), chosen.aspect);
     StageWriter writer(tool.output(), numbers.format(), false);
     const Appearance appearance = in_clip_space(reader.header().appearance);
-    CameraParameters rest;
+    CameraParameters passed_on;
     const bool is_lit = !appearance.lights.empty();
     if (is_lit)
-      rest.projection = {volume_of(camera.projection->value, projection), camera.projection->location};
-    writer.write_header({reader.header().framed, rest, appearance});
+      passed_on.projection = {volume_of(camera.projection->value, projection), camera.projection->location};
+    writer.write_header({reader.header().framed, passed_on, appearance});
 
     CoordinateRounder rounder = numbers.rounder(tool.input().file());
     ProjectionStage stage(projection, chosen.clip, chosen.cull, rounder, chosen.clip_inset);

@@ -10,7 +10,6 @@
 
 #include "libpipeline/stream/stage_reader.h"
 #include "libpipeline/text/error.h"
-#include "tools/pipe_size.h"
 #include "tools/version.h"
 
 namespace pipeline {
@@ -39,6 +38,17 @@ void open_closed_descriptors() {
 /// that kills.
 void make_file_size_limit_an_error() {
   std::signal(SIGXFSZ, SIG_IGN);
+}
+
+/// Lets the pipe behind a file descriptor hold 1 MiB, where the system can do that and allows it, so that the
+/// stages of a pipe seldom wait for each other. A larger pipe, and any other file, stays as it is.
+void enlarge_pipe([[maybe_unused]] int descriptor) {
+#ifdef F_SETPIPE_SZ
+  constexpr int kPipeSize = 1 << 20;
+  // Of a file that is no pipe the size is -1; where the system refuses, the pipe keeps its size.
+  const int size = ::fcntl(descriptor, F_GETPIPE_SZ);
+  if (size >= 0 && size < kPipeSize) ::fcntl(descriptor, F_SETPIPE_SZ, kPipeSize);
+#endif
 }
 
 }  // namespace

@@ -70,7 +70,7 @@ bool StageReader::read(TriangleBatch& batch) {
 }
 
 std::string_view StageReader::buffered_triangles(std::size_t size) {
-  const bool is_between_triangles = !line_is_pending_ && !whole_ && !done_ && !deferred_error_.is_kept();
+  const bool is_between_triangles = !line_is_pending_ && !unclipped_ && !done_ && !deferred_error_.is_kept();
   if (!is_between_triangles || header_.appearance.columns().any()) return {};
   while (text_.buffered().size() < size && text_.buffer_more()) {
   }
@@ -86,7 +86,7 @@ void StageReader::fill(TriangleBatch& batch) {
     // What is in memory is passed on before the reader waits for more: a triangle has three lines.
     if (!line_is_pending_ && !batch.empty() && (batch.size() >= kBatchSize || !text_.has_buffered_lines(3)))
       break;
-    const bool may_be_decimal = !line_is_pending_ && !whole_;
+    const bool may_be_decimal = !line_is_pending_ && !unclipped_;
     if (may_be_decimal && triangles_->read_buffered(batch)) continue;
     if (!line_is_pending_ && !text_.next_filled_line(line_)) {
       expect_unframed_end();
@@ -110,22 +110,22 @@ void StageReader::fill(TriangleBatch& batch) {
 
 /// Reads the triangle whose first line is `line`.
 void StageReader::read_triangle(LineScanner& line, TriangleBatch& batch) {
-  if (whole_ && triangles_->next_number() != whole_number_) whole_.reset();
+  if (unclipped_ && triangles_->next_number() != unclipped_number_) unclipped_.reset();
   triangles_->read(line, batch);
-  if (whole_) batch.set_last_unclipped(whole_);
+  if (unclipped_) batch.set_last_unclipped(unclipped_);
 }
 
 /// Reads the line `clipped` and the three of a triangle in clip space.
 void StageReader::read_clipped(LineScanner& line) {
   line.word();
   line.expect_end("'clipped'");
-  ClipTriangle whole;
+  ClipTriangle unclipped;
   for (std::size_t i = 0; i < 3; ++i) {
     next_vertex_line(text_, line, i);
-    whole[i] = clip_vertex_line_.read(line, i);
+    unclipped[i] = clip_vertex_line_.read(line, i);
   }
-  whole_ = std::make_shared<const ClipTriangle>(whole);
-  whole_number_ = triangles_->next_number();
+  unclipped_ = std::make_shared<const ClipTriangle>(unclipped);
+  unclipped_number_ = triangles_->next_number();
 }
 
 bool StageReader::is_end(const LineScanner& line) const {

@@ -61,8 +61,8 @@ class StageReader {
   bool done_ = false;
   bool accepts_clipped_ = false;
   VertexLineReader clip_vertex_line_;
-  std::shared_ptr<const ClipTriangle> whole_;  // what the next triangles with its number are pieces of
-  std::uint64_t whole_number_ = 0;
+  std::shared_ptr<const ClipTriangle> unclipped_;  // what the next triangles with its number are pieces of
+  std::uint64_t unclipped_number_ = 0;
   DeferredError deferred_error_;  // found behind triangles that were still to be given out
 };
 

@@ -50,23 +50,23 @@ void print_attribute_names(TextWriter& text, const AttributeSet& attributes) {
   text.append("\n");
 }
 
-void print_appearance(TextWriter& text, const Appearance& look) {
+void print_appearance(TextWriter& text, const Appearance& appearance) {
   const auto print_vec3 = [&](std::string_view keyword, const std::optional<Located<Vec3>>& v) {
     if (v) print_header_numbers(text, keyword, {v->value.x, v->value.y, v->value.z});
   };
-  if (look.attributes) print_attribute_names(text, look.attributes->value);
-  print_vec3("background", look.background);
-  print_vec3("ambient", look.ambient);
-  if (look.material) {
-    const Material& m = look.material->value;
+  if (appearance.attributes) print_attribute_names(text, appearance.attributes->value);
+  print_vec3("background", appearance.background);
+  print_vec3("ambient", appearance.ambient);
+  if (appearance.material) {
+    const Material& m = appearance.material->value;
     print_numbers(text, "material", {m.ambient, m.diffuse, m.specular});
     text.append(" " + std::to_string(m.shininess) + "\n");
   }
-  if (look.attenuation) {
-    const Attenuation& a = look.attenuation->value;
+  if (appearance.attenuation) {
+    const Attenuation& a = appearance.attenuation->value;
     print_header_numbers(text, "attenuation", {a.constant, a.linear, a.quadratic});
   }
-  for (const auto& [light, location] : look.lights) {
+  for (const auto& [light, location] : appearance.lights) {
     const auto& [p, i] = light;
     print_header_numbers(text, "light", {p.x, p.y, p.z, i.x, i.y, i.z});
   }
@@ -139,10 +139,10 @@ std::size_t StageWriter::write_fixed_form(const TriangleBatch& batch, std::size_
 void StageWriter::write_triangle(const TriangleBatch& batch, std::size_t index) {
   write_number(batch.numbers[index]);
   next_number_ = batch.numbers[index] + 1;
-  if (const ClipTriangle* const whole = batch.unclipped_of(index);
-      whole != nullptr && whole != last_whole_.get()) {
-    write_clipped(*whole);
-    last_whole_ = batch.unclipped[index];
+  if (const ClipTriangle* const unclipped = batch.unclipped_of(index);
+      unclipped != nullptr && unclipped != last_unclipped_.get()) {
+    write_clipped(*unclipped);
+    last_unclipped_ = batch.unclipped[index];
   }
   const Triangle low_part = batch.low_parts.empty() ? Triangle{} : batch.low_parts[index];
   char* out = text_.reserve(kMaxTriangleLength);
@@ -156,9 +156,9 @@ void StageWriter::write_triangle(const TriangleBatch& batch, std::size_t index) 
 }
 
 /// Prints a whole triangle before its first piece. Its corners are lit: they are not rounded.
-void StageWriter::write_clipped(const ClipTriangle& whole) {
+void StageWriter::write_clipped(const ClipTriangle& unclipped) {
   text_.append("clipped\n");
-  for (const auto& [p, w, color, normal] : whole) {
+  for (const auto& [p, w, color, normal] : unclipped) {
     char* out = text_.reserve(kMaxVertexLength);
     const auto print = [&](std::initializer_list<double> numbers) {
       for (const double number : numbers) {

@@ -29,7 +29,7 @@ class StageWriter {
   void note_sizes(const TriangleBatch& batch);
   std::size_t write_fixed_form(const TriangleBatch& batch, std::size_t begin);
   void write_triangle(const TriangleBatch& batch, std::size_t index);
-  void write_clipped(const ClipTriangle& whole);
+  void write_clipped(const ClipTriangle& unclipped);
   char* print_vertex(char* out, const Vec3& vertex, const Vec3& low_part);
   char* print_attributes(char* out, const AttributeArrays& attributes, std::size_t index, std::size_t vertex);
 
@@ -39,7 +39,7 @@ class StageWriter {
   bool framed_ = false;
   AttributeSet columns_;
   std::uint64_t next_number_ = 0;
-  std::shared_ptr<const ClipTriangle> last_whole_;
+  std::shared_ptr<const ClipTriangle> last_unclipped_;
   bool keeps_four_digits_ = false;
   bool has_filled_coordinate_ = false;
 };

@@ -85,9 +85,9 @@ struct TriangleBatch {
     if (!unclipped.empty()) unclipped.resize(size());
   }
   /// Says of which triangle the last one is a piece.
-  void set_last_unclipped(std::shared_ptr<const ClipTriangle> whole) {
+  void set_last_unclipped(std::shared_ptr<const ClipTriangle> triangle) {
     unclipped.resize(size());
-    unclipped.back() = std::move(whole);
+    unclipped.back() = std::move(triangle);
   }
   [[nodiscard]] const ClipTriangle* unclipped_of(std::size_t index) const {
     return unclipped.empty() ? nullptr : unclipped[index].get();
