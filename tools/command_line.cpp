@@ -26,8 +26,7 @@ class HelpForm : public CLI::Formatter {
   }
 };
 
-/// The option or operand an error of CLI11's is about: the one it names, of "--depth" and "--depth-image" the
-/// longer.
+/// The option or operand that a message of CLI11 names; of "--depth" and "--depth-image" the longer.
 const CLI::Option* named_in(const CLI::App& options, const std::string& message) {
   const CLI::Option* named = nullptr;
   for (const CLI::Option* option : options.get_options()) {
@@ -52,8 +51,8 @@ std::string explained_count(const CLI::Option& option) {
       found == 0 ? "none" : std::to_string(found));
 }
 
-/// The words as CLI11 takes them, last word first. A word like "-.5" becomes "-0.5": only a digit behind the
-/// minus tells CLI11 that it is a number and no option.
+/// The words as CLI11 takes them, last word first. A word like "-.5" becomes "-0.5": CLI11 takes it for an
+/// option unless a digit follows the minus.
 std::vector<std::string> words_for_parsing(int argc, char** argv) {
   std::vector<std::string> words(argv + 1, argv + argc);
   for (std::string& word : words)
@@ -62,7 +61,7 @@ std::vector<std::string> words_for_parsing(int argc, char** argv) {
   return words;
 }
 
-/// What is wrong with the command line: "option: expected ..., found ...".
+/// The fault of the command line: "option: expected ..., found ...".
 std::string explained(const CLI::App& options, const CLI::ParseError& error) {
   if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) return explained_extra(options);
   const CLI::Option* const option = named_in(options, error.what());

@@ -16,7 +16,7 @@ class App;
 
 namespace pipeline {
 
-/// The command line says something impossible. `what()` is the whole message.
+/// The command line is wrong. `what()` is the complete message.
 class UsageError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -25,10 +25,10 @@ class UsageError : public std::runtime_error {
 /// "a, b or c".
 std::string listed(const std::vector<std::string>& words);
 
-/// What is wrong with a word; empty if nothing is.
+/// Returns the fault of a word; empty if it has none.
 using WordCheck = std::function<std::string(const std::string& word)>;
 
-/// The check of a name: what `check` throws as an InputError is wrong with it.
+/// The check of a name: its fault is the message of the InputError that `check` throws.
 template <typename F>
 WordCheck wrong_with_name(F check) {
   return [check](const std::string& name) -> std::string {
@@ -41,8 +41,8 @@ WordCheck wrong_with_name(F check) {
   };
 }
 
-/// CLI11 in our words: the same form for every option, every message and every help text. What an option is
-/// given goes straight into the variable it was added with; what that holds before is the default.
+/// CLI11 with one form for all options, messages and help texts. The value of an option goes straight into
+/// the variable it was added with; the variable's earlier value is the default.
 class CommandLine {
  public:
   CommandLine(const std::string& tool, const std::string& description, const std::string& version);
@@ -60,12 +60,12 @@ class CommandLine {
                       const std::string& help);
   /// An option that takes a whole number from `least` to `most`.
   void add_whole(const std::string& name, int& number, int least, int most, const std::string& help);
-  /// An option that takes a number for which `is_fine`, of which messages say that it is `expected`.
+  /// An option that takes a number for which `is_fine` holds; messages describe it as `expected`.
   void add_number(const std::string& name, const std::string& type_name, double& number,
                   const std::function<bool(double)>& is_fine, const std::string& expected,
                   const std::string& help);
-  /// An option that takes one of a few words, each of which stands for a value. What `chosen` holds is the
-  /// default, if it is one of those.
+  /// An option that takes one of a few words, each of which stands for a value. The value in `chosen` is the
+  /// default if it is one of those.
   template <typename T>
   void add_choice(const std::string& name, T& chosen, const std::vector<std::pair<std::string, T>>& choices,
                   const std::string& help) {

@@ -2,9 +2,9 @@
 
 namespace pipeline {
 
-// Exit statuses all tools share.
+// The exit statuses of all tools.
 constexpr int kExitDone = 0;
 constexpr int kExitFailure = 1;  // bad input, or reading or writing failed
-constexpr int kExitMisuse = 2;   // the command line is not one the tool knows
+constexpr int kExitMisuse = 2;   // a wrong command line
 
 }  // namespace pipeline

@@ -13,7 +13,7 @@ namespace {
 
 constexpr const char* kMessage = ": not enough memory\n";
 
-/// Known before main; constant, as no constructor has run when it is first asked for.
+/// Initialized at compile time: it is needed before any constructor has run.
 constinit OutOfMemoryReport current = {nullptr, false};
 
 /// "BEFORE TOOL: not enough memory" in one write, so that it stays one line among those of the other stages.
@@ -22,7 +22,7 @@ void write_line(int descriptor, const char* before, const char* tool) noexcept {
   std::strncat(line, before, sizeof line / 4);
   std::strncat(line, tool, sizeof line / 4);
   std::strncat(line, kMessage, sizeof line / 4);
-  // Where this fails, too, the exit status tells.
+  // If this fails, too, the exit status remains.
   static_cast<void>(!::write(descriptor, line, std::strlen(line)));
 }
 
@@ -40,7 +40,7 @@ void write_line(int descriptor, const char* before, const char* tool) noexcept {
 
 void OutOfMemoryReport::report() const noexcept {
   write_line(STDERR_FILENO, "", tool);
-  // A person at a terminal has just read it.
+  // At a terminal the line above is enough.
   if (is_told_to_next_stage && ::isatty(STDOUT_FILENO) == 0) write_line(STDOUT_FILENO, "error ", tool);
 }
 

@@ -22,7 +22,7 @@ void Progress::show(std::uint64_t triangle_count) {
   is_shown_ = true;
   const double rate =
       static_cast<double>(triangle_count) / std::chrono::duration<double>(now - start_).count();
-  // The blanks cover what a longer line left.
+  // The blanks overwrite the end of a longer line.
   std::fprintf(stderr, "\r%s: %llu triangles, %.3g million a second    ", tool_.c_str(),
                static_cast<unsigned long long>(triangle_count), rate / 1e6);
   std::fflush(stderr);

@@ -6,18 +6,18 @@
 
 namespace pipeline {
 
-/// A line on stderr that tells how far a long run is: triangles, and triangles a second. There is none unless
-/// stderr is a terminal, and none in the first second.
+/// A line on stderr that shows the progress of a long run: triangles, and triangles a second. It appears only
+/// on a terminal, and not in the first second.
 class Progress {
  public:
-  /// `tool` is what the line begins with.
+  /// The line begins with `tool`.
   explicit Progress(std::string tool);
-  /// Ends the line, so that what follows stands on one of its own.
+  /// Ends the line.
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// To be called now and then with the number of triangles so far.
+  /// Shows the number of triangles so far, at most five times a second.
   void show(std::uint64_t triangle_count);
 
  private:

@@ -1,4 +1,4 @@
-// project: clips what is behind the eye and divides by w. View space in, normalized device coordinates out.
+// project: clips triangles behind the eye and divides by w. View space in, normalized device coordinates out.
 
 #include <utility>
 
@@ -31,19 +31,19 @@ void add_options(CommandLine& options, ProjectOptions& chosen) {
                                 {"frustum", ClipMode::frustum},
                                 {"reject", ClipMode::reject},
                                 {"none", ClipMode::none}},
-                               "auto: cut at the near plane what comes near the eye\n"
+                               "auto: cut triangles that come near the eye at the near plane\n"
                                "near: cut everything there\n"
                                "frustum: cut everything at all six planes\n"
-                               "reject: drop what is wholly outside one of them, cut nothing\n"
+                               "reject: drop triangles wholly outside one of them, cut nothing\n"
                                "none: a vertex that is not in front of the eye is an error");
   options.add_number(
       "--clip-inset", "F", chosen.clip_inset, [](double inset) { return inset >= 0 && inset < 1; },
       "a number from 0 to less than 1",
-      "Pull in the planes of --clip near, frustum or reject, so that the cuts can be seen: 0.1 leaves what "
-      "lies\n"
+      "Pull in the planes of --clip near, frustum or reject, so that the cuts can be seen: 0.1 keeps "
+      "the triangles\n"
       "between -0.9 and 0.9 in NDC");
   options.add_choice<CullMode>("--cull", chosen.cull, {{"back", CullMode::back}, {"front", CullMode::front}},
-                               "Drop triangles that turn this side to the eye; counter-clockwise is front");
+                               "Drop triangles that show this side to the eye; counter-clockwise is front");
 }
 
 void check_inset(const ProjectOptions& chosen) {
@@ -67,7 +67,7 @@ std::string to_text(const ProjectionCounts& counts) {
          std::to_string(counts.clipped) + " cut into " + std::to_string(counts.pieces);
 }
 
-/// The columns of a projected text: with others, w.
+/// The appearance in a projected text: where there are other columns, w joins them.
 Appearance in_clip_space(Appearance appearance) {
   expect_no_w(appearance);
   if (appearance.attributes) appearance.attributes->value.w = true;
@@ -79,7 +79,7 @@ Appearance in_clip_space(Appearance appearance) {
 int main(int argc, char** argv) {
   Tool tool({"project",
              "Reads triangles in view space and writes them in normalized device coordinates (stage3.txt).",
-             "What view has written (or stage2.txt)"},
+             "The output of view (or stage2.txt)"},
             OutputKind::stage_text);
   NumberOptions numbers(tool.options());
   CameraOptions cameras(tool.options(), CameraOptions::Parts::projection);

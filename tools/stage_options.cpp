@@ -57,7 +57,7 @@ CameraOptions::CameraOptions(CommandLine& options, Parts parts) {
       "The same by the planes left, right, bottom, top, near, far, as glFrustum takes them");
   add("--ortho", 6, planes, "A parallel projection between such planes, as glOrtho takes them");
   options.add_word("--scene", "FILE", scene_path_,
-                   "Take from this scene what of the camera other options leave out; else it comes from the "
+                   "Take the parts of the camera that other options leave out from this scene instead of the "
                    "header of INPUT");
 }
 
@@ -70,7 +70,7 @@ CameraParameters CameraOptions::camera(const CameraParameters& header, const Too
     read_camera_part(name.substr(2), {name}, line, camera);
   }
   if (!scene_path_.empty()) {
-    // The scene's commands are not read.
+    // The camera stands before the commands, which are not read.
     InputFile scene = tool.second_input(scene_path_, "--scene");
     camera = merged(camera, SceneReader(scene.text()).camera());
   }

@@ -30,13 +30,13 @@ class NumberOptions {
 /// The camera as options, and `--scene`, which takes it from a scene file.
 class CameraOptions {
  public:
-  /// Which parts of the camera a tool uses.
+  /// The parts of the camera that a tool uses.
   enum class Parts { position_and_projection, projection };
 
   CameraOptions(CommandLine& options, Parts parts);
 
-  /// The camera from the options, what they leave out from the scene, what that leaves out from `header`.
-  /// What is wrong is an InputError whose place is the option or lies in the scene.
+  /// The camera from the options; parts that they leave out come from the scene, and parts that it leaves out
+  /// from `header`. An InputError, located at the option or in the scene, if a part is wrong.
   [[nodiscard]] CameraParameters camera(const CameraParameters& header, const Tool& tool) const;
 
  private:

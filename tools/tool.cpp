@@ -26,16 +26,16 @@ void print_on_stderr(const std::string& line) {
   std::fprintf(stderr, "%s\n", on_one_line(line).c_str());
 }
 
-/// Opens what the caller has closed of stdin, stdout and stderr, for the wrong direction: to use it stays an
-/// error, and no file of ours gets its number.
+/// Opens those of stdin, stdout and stderr that the caller has closed, for the wrong direction: using them
+/// remains an error, and no file of ours gets their numbers.
 void open_closed_descriptors() {
   for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
     if (::fcntl(descriptor, F_GETFD) < 0)
       ::open("/dev/null", descriptor == STDIN_FILENO ? O_WRONLY : O_RDONLY);
 }
 
-/// A file that may grow no further is then a failed write, which is told and cleaned up after, not a signal
-/// that kills.
+/// With the signal ignored, a file at its size limit is a failed write, which is reported and cleaned up
+/// after.
 void make_file_size_limit_an_error() {
   std::signal(SIGXFSZ, SIG_IGN);
 }
@@ -108,7 +108,7 @@ int Tool::run(int argc, char** argv, const std::function<void()>& work) {
   });
 }
 
-/// Prints what a user asked to know of the tool itself.
+/// Prints the text of --help or --version.
 int Tool::answer(const std::string& text) {
   output_kind_ = OutputKind::other_text;
   return status_of([&] {
@@ -117,7 +117,7 @@ int Tool::answer(const std::string& text) {
   });
 }
 
-/// A report may lack the memory it needs, too.
+/// Memory may also run out while another failure is reported.
 int Tool::status_of(const std::function<void()>& work) try {
   throw_without_memory();
   try {
@@ -126,12 +126,12 @@ int Tool::status_of(const std::function<void()>& work) try {
   } catch (const UsageError& error) {
     return fail_misuse(error.what());
   } catch (const EarlierFailure& error) {
-    // What is passed on is the first failure, not what every stage behind it says.
+    // The next stage gets the message of the stage that failed first.
     return fail(error.what(), error.reason(), kExitFailure);
   } catch (const InputError& error) {
     return error.location().is_option() ? fail_misuse(error.what()) : fail(error.what(), kExitFailure);
   } catch (const IoError& error) {
-    if (error.error_number() == EPIPE) return kExitFailure;  // the reader has what it wanted
+    if (error.error_number() == EPIPE) return kExitFailure;  // the reader wants no more
     return fail(error.what(), kExitFailure);
   } catch (const std::bad_alloc&) {
     return fail_without_memory();
@@ -163,16 +163,16 @@ int Tool::fail(const std::string& message, int status) {
   return fail(message, name_ + ": " + message, status);
 }
 
-/// Says on stderr what is wrong, and to the next stage the `reason`.
+/// Reports the message on stderr and the `reason` to the next stage.
 int Tool::fail(const std::string& message, const std::string& reason, int status) {
   print_on_stderr(name_ + ": " + message);
   if (output_kind_ == OutputKind::other_text) return status;
   try {
-    // A person at a terminal has just read the message.
+    // At a terminal the line above is enough.
     if (::isatty(STDOUT_FILENO) == 0) output_.append(error_line(reason));
     output_.flush();
   } catch (const IoError&) {
-    // The output is what failed, or it failed as well; the exit status tells.
+    // The output has failed, too, or was the failure; the exit status remains.
   }
   return status;
 }
@@ -182,7 +182,7 @@ int Tool::fail_without_memory() noexcept {
   try {
     if (out_of_memory_.is_told_to_next_stage) output_.flush();
   } catch (const std::exception&) {
-    // The output has failed as well; the exit status tells.
+    // The output has failed, too; the exit status remains.
   }
   out_of_memory_.report();
   return kExitFailure;

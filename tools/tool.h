@@ -30,13 +30,13 @@ class InputFile {
   std::optional<TextReader> text_;
 };
 
-/// How a run's time was spent, for `--timing`. Waiting for the stage before counts as reading.
+/// The time of a run by phase, for `--timing`. Waiting for the stage before counts as reading.
 struct Timing {
   double read_seconds = 0;
   double work_seconds = 0;
   double write_seconds = 0;
   std::uint64_t triangle_count = 0;
-  std::string details;  // what one tool alone has to tell
+  std::string details;  // counts of one tool alone
 
   /// Adds the time since the last call (or the start) to `phase`, one of the three above.
   void lap(double Timing::*phase);
@@ -45,38 +45,38 @@ struct Timing {
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
-/// What a tool's output is to the next program: stage text is ended with an error line when the tool fails.
+/// The kind of a tool's output: stage text ends with an error line when the tool fails.
 enum class OutputKind { stage_text, other_text };
 
-/// What --help says of a tool.
+/// A tool's part of --help.
 struct ToolDescription {
   const char* name;
   const char* purpose;
-  const char* input;  // what the last operand is
+  const char* input;  // of the last operand
 };
 
-/// The rim the four tools share: the options every tool has, input and output, one report of a failure, the
-/// exit status.
+/// The rim that the four tools share: common options, input and output, one report of a failure, the exit
+/// status.
 class Tool {
  public:
   Tool(const ToolDescription& description, OutputKind output_kind);
 
-  /// A tool adds its own options and operands here, then calls `run`.
+  /// For the tool's own options and operands, before it calls `run`.
   CommandLine& options() { return options_; }
   /// Parses the command line, does `work`, checks that everything was written; returns the exit status.
   int run(int argc, char** argv, const std::function<void()>& work);
 
-  /// The input: the last operand, else standard input; opened at the first call.
+  /// The input: the last operand, else standard input. The first call opens it.
   TextReader& input();
-  /// Opens a text that is read besides the input; a UsageError, which calls it `name`, if both are standard
-  /// input.
+  /// Opens a text besides the input. A UsageError that names it `name` if both are standard input.
   [[nodiscard]] InputFile second_input(const std::string& path, const std::string& name) const;
   /// Standard output.
   TextWriter& output() { return output_; }
-  /// Writes and closes the output, for a tool that has something to do once it is safe; `run` does it else.
+  /// Flushes and closes the output, for a tool that has work left once the output is safe; otherwise `run`
+  /// does it.
   void close_output();
   Timing& timing() { return timing_; }
-  /// "tool: note: ..." on stderr: what a user should know of a run that goes on.
+  /// "tool: note: ..." on stderr: a warning; the run continues.
   void note(const std::string& message) const;
 
  private:
@@ -88,7 +88,7 @@ class Tool {
   int fail_without_memory() noexcept;
   void report_timing();
 
-  OutOfMemoryReport out_of_memory_;  // first, as what comes next needs memory
+  OutOfMemoryReport out_of_memory_;  // first: the other members allocate
   std::string name_;
   OutputKind output_kind_;
   CommandLine options_;

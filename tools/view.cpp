@@ -14,7 +14,7 @@ using namespace pipeline;
 
 namespace {
 
-/// The camera needs all three of its parts here.
+/// The view transform of a camera, which needs all three parts.
 ViewTransform view_of(const CameraParameters& camera, const SourceLocation& header_end) {
   std::vector<std::string> missing;
   if (!camera.eye) missing.emplace_back("eye");
@@ -38,7 +38,7 @@ Appearance in_view_space(Appearance appearance, const ViewTransform& view) {
 
 int main(int argc, char** argv) {
   Tool tool({"view", "Reads triangles in world space and writes them in view space.",
-             "What model has written (or stage1.txt)"},
+             "The output of model (or stage1.txt)"},
             OutputKind::stage_text);
   NumberOptions numbers(tool.options());
   CameraOptions cameras(tool.options(), CameraOptions::Parts::position_and_projection);

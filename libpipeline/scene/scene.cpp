@@ -30,7 +30,7 @@ Located<Projection> SceneReader::read_camera_projection() {
   return {read_projection(is_named ? first : "perspective", line_), location};
 }
 
-/// Moves on to the next line that is not blank, unless the command's own line still holds something.
+/// Moves on to the next line that is not blank, unless a word is left on the command's own line.
 void SceneReader::next_argument_line(std::string_view expected) {
   if (line_.at_end() && !text_.next_filled_line(line_))
     throw InputError(text_.end_location(), expected_but_found(std::string(expected), "the end of the input"));
@@ -40,7 +40,7 @@ std::size_t SceneReader::read_buffered(std::span<Triangle> room, std::size_t& fi
   static_assert(TextReader::kSlack >= kFixedTextSlack);
   // With attributes there are more columns, or at least a current color.
   if (appearance_.attributes || !line_.at_end()) return 0;
-  // The blank line between triangles that a reader likes to see.
+  // A blank line between triangles.
   if (text_.buffered().starts_with('\n')) text_.skip(1, 1);
   const FixedTextPart part = fixed_text_kernel().read_scene(text_.buffered(), room);
   first_line = text_.line_number() + 1;
@@ -80,7 +80,7 @@ Command SceneReader::next() {
   line_.fail(expected_commands());
 }
 
-/// The commands that may stand here.
+/// The commands that are allowed here.
 std::string SceneReader::expected_commands() const {
   std::string commands = "a command (triangle, translate, scale, rotate, push, pop or end";
   if (!has_triangle_)
@@ -92,7 +92,7 @@ std::string SceneReader::expected_commands() const {
   return commands + ")";
 }
 
-/// Takes a command that says how things look. All but `color` are settled by the first triangle.
+/// Takes a command of color or light. All but `color` must come before the first triangle.
 Command SceneReader::read_appearance(std::string_view keyword) {
   const bool is_color = keyword == "color";
   if (has_triangle_ && !(is_color && appearance_.columns().color)) {
@@ -125,7 +125,7 @@ void SceneReader::read_current_color() {
   appearance_.attributes->value.color = true;
 }
 
-/// Takes a vertex line of a scene with attributes; what has no columns is the current state.
+/// Takes a vertex line of a scene with attributes; a color without columns is the current one.
 VertexLine SceneReader::read_vertex(std::size_t index) {
   LineScanner at_normal = line_;
   VertexLine vertex = vertex_line_.read(line_, index);
@@ -157,27 +157,27 @@ TriangleCommand SceneReader::read_triangle() {
   return command;
 }
 
-/// The fast path: takes a triangle that is waiting, its keyword and its vertices on lines of their own and
-/// nothing else. False if the next command is another, or has to be read with more care.
+/// The fast path: takes a buffered triangle whose keyword and vertices stand on lines of their own, with
+/// nothing else. False if another command comes next, or the general path has to read it.
 bool SceneReader::read_decimal_triangle(TriangleCommand& triangle) {
   constexpr std::string_view kKeyword = "triangle";
-  const std::string_view waiting = text_.buffered();
-  const std::size_t begin = waiting.find_first_not_of(" \t\r\n");
-  if (begin == std::string_view::npos || !waiting.substr(begin).starts_with(kKeyword)) return false;
-  const char* const end = waiting.data() + waiting.size();
-  const char* p = read_decimal_line(waiting.data() + begin + kKeyword.size(), end, {});
+  const std::string_view buffered = text_.buffered();
+  const std::size_t begin = buffered.find_first_not_of(" \t\r\n");
+  if (begin == std::string_view::npos || !buffered.substr(begin).starts_with(kKeyword)) return false;
+  const char* const end = buffered.data() + buffered.size();
+  const char* p = read_decimal_line(buffered.data() + begin + kKeyword.size(), end, {});
   if (p != nullptr) p = vertex_line_.read_decimals(p, end, decimal_vertices_);
   if (p == nullptr || !take_decimal_vertices()) return false;
-  const auto blank_lines = std::count(waiting.begin(), waiting.begin() + begin, '\n');
+  const auto blank_lines = std::count(buffered.begin(), buffered.begin() + begin, '\n');
   const std::size_t first_line = text_.line_number() + static_cast<std::size_t>(blank_lines) + 2;
   triangle.p_model = {vertices_[0].position, vertices_[1].position, vertices_[2].position};
   triangle.locations = locations_of(decimal_vertices_, first_line);
-  text_.skip(static_cast<std::size_t>(p - waiting.data()), static_cast<std::size_t>(blank_lines) + 4);
+  text_.skip(static_cast<std::size_t>(p - buffered.data()), static_cast<std::size_t>(blank_lines) + 4);
   has_triangle_ = true;
   return true;
 }
 
-/// False if one of the vertices is wrong.
+/// Sets the vertices; false if one of them is wrong.
 bool SceneReader::take_decimal_vertices() {
   const AttributeSet& columns = vertex_line_.attributes();
   for (std::size_t i = 0; i < 3; ++i) {

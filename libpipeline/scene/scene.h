@@ -15,7 +15,7 @@
 
 namespace pipeline {
 
-// The commands of a scene, as they are written: angles in degrees, no arithmetic done.
+// The commands of a scene as they are written: angles in degrees, before any arithmetic.
 struct TriangleCommand {
   Triangle p_model;
   VertexLocations locations;
@@ -33,7 +33,7 @@ struct RotateCommand {
 struct PushCommand {};
 struct PopCommand {};
 struct EndCommand {};
-/// The appearance or the current color has changed: the reader keeps both.
+/// The appearance or the current color has changed; the reader keeps both.
 struct AppearanceCommand {};
 struct LightCommand {
   Located<Light> light;  // in model space
@@ -54,7 +54,7 @@ using Command = std::variant<TriangleCommand, TranslateCommand, ScaleCommand, Ro
 /// Before the first triangle, only where a scene needs them:
 ///
 ///     attributes [color] [normal]  vertex lines carry x y z [r g b] [nx ny nz]
-///     color r g b                  of the triangles that follow; may then change later
+///     color r g b                  of the triangles that follow; may change later if it stands here
 ///     background r g b | ambient r g b | light x y z r g b
 ///     material ambient diffuse specular shininess | attenuation constant linear quadratic
 class SceneReader {
@@ -63,22 +63,21 @@ class SceneReader {
 
   /// The camera, complete and checked.
   [[nodiscard]] const CameraParameters& camera() const { return camera_; }
-  /// What was read of color and light so far, without the lights (each is a command of its own). Its columns
-  /// are those of the triangles' attributes; complete at the first triangle.
+  /// The color and light read so far, without the lights, which are commands. Complete at the first triangle;
+  /// its columns are those of the triangles' attributes.
   [[nodiscard]] const Appearance& appearance() const { return appearance_; }
-  /// The vertices of the triangle given out last, with the attributes in `appearance()`; nothing to rely on
-  /// where there are none.
+  /// The vertices of the triangle that `next` returned last, with the attributes in `appearance()`. Undefined
+  /// if there are none.
   [[nodiscard]] const std::array<VertexLine, 3>& vertices() const { return vertices_; }
-  /// The next command. After EndCommand nothing may be read.
+  /// Reads the next command. After EndCommand nothing may be read.
   Command next();
-  /// The fast path: puts triangles that come next and are in memory as a whole into `room`, and says how
-  /// many; each has four lines, and the first begins at `first_line`. None if the next command is another, or
-  /// a triangle in another form, or with more than positions.
+  /// The fast path: reads the triangles that come next, are completely buffered and have the fixed form
+  /// (fixed_text.h) into `room`, and returns their count; each has four lines, the first begins at
+  /// `first_line`. 0 if another command comes next, or a triangle in another form or with attributes.
   std::size_t read_buffered(std::span<Triangle> room, std::size_t& first_line);
-  /// The place of the command given out last, unless that is a triangle.
+  /// The location of the command that `next` returned last, unless that is a triangle.
   [[nodiscard]] const SourceLocation& location() const { return location_; }
-  /// True if the next command can be had without waiting for the input, whatever it is: none has more than
-  /// four lines.
+  /// True if the next command is buffered, whatever it is: none has more than four lines.
   [[nodiscard]] bool has_buffered_command() const { return text_.has_buffered_lines(4); }
 
  private:
@@ -97,11 +96,11 @@ class SceneReader {
   TextReader& text_;
   CameraParameters camera_;
   Appearance appearance_;
-  VertexLineReader vertex_line_;  // what the vertex lines of the scene carry
+  VertexLineReader vertex_line_;
   Vec3 current_color_;
   std::array<VertexLine, 3> vertices_;
   bool has_triangle_ = false;
-  DecimalVertexLines decimal_vertices_;  // where a triangle is read
+  DecimalVertexLines decimal_vertices_;  // of the triangle that is being read
   LineScanner line_;
   SourceLocation location_;
 };

@@ -7,24 +7,24 @@
 
 namespace pipeline {
 
-/// A mistake in a text, kept until the triangles before it were given out: how much of the text passes then
-/// does not depend on the size of batches.
+/// Holds back an input error until the triangles before it are delivered, so the output does not depend on
+/// the size of batches.
 class DeferredError {
  public:
-  /// The next call of `read` throws the exception that is being handled.
+  /// Keeps the exception that is being handled; the next call of `read` throws it.
   void keep() { deferred_error_ = std::current_exception(); }
 
   [[nodiscard]] bool is_kept() const { return deferred_error_ != nullptr; }
 
-  /// Has `fill` put triangles into the batch, emptied before; false if there were none. What `fill` throws
-  /// is thrown at once if there are none before it, else by the next call.
+  /// Clears the batch and calls `fill`, which adds triangles to it; false if it added none. An error that
+  /// `fill` throws is thrown at once if the batch is empty, else by the next call.
   template <typename Fill>
   bool read(TriangleBatch& batch, const Fill& fill) {
     batch.clear();
     if (deferred_error_) std::rethrow_exception(deferred_error_);
     try {
       fill();
-    } catch (const std::runtime_error&) {  // lack of memory may have left the batch half filled
+    } catch (const std::runtime_error&) {  // after std::bad_alloc the batch may be half filled
       if (batch.empty()) throw;
       keep();
     }

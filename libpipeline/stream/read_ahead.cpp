@@ -10,7 +10,7 @@ namespace pipeline {
 namespace {
 
 constexpr std::size_t kSlotsPerThread = 2;
-// Text in another form goes on like that, and parts of it are parsed in vain.
+// In batches. Text in another form usually goes on in that form, and parsing its parts is wasted work.
 constexpr int kPause = 32;
 // Nine numbers such as 0.1234567 with a separator each, and the blank line.
 constexpr std::size_t kMinFixedTriangleLength = 9 * 10 + 1;
@@ -53,7 +53,7 @@ void ReadAhead::Slot::parse() {
   is_done = true;
 }
 
-/// Has the pool parse parts, as long as there is a slot and text.
+/// Hands parts to the pool as long as there is a free slot and text.
 void ReadAhead::start_parts() {
   static_assert(TextReader::kSlack >= kFixedTextSlack);
   while (end_ - begin_ < slots_.size()) {
@@ -69,8 +69,8 @@ void ReadAhead::start_parts() {
   }
 }
 
-/// Whole triangles behind those on their way, as many as a part holds and can be had without waiting; empty
-/// if there are none.
+/// The text of the next complete triangles behind the slots in work: as many as fit a part and can be
+/// buffered without waiting; empty if there are none.
 std::string_view ReadAhead::next_part() {
   constexpr std::string_view kTriangleEnd = "\n\n";
   std::string_view text = reader_.buffered_triangles(length_ + part_size_);
@@ -82,12 +82,12 @@ std::string_view ReadAhead::next_part() {
   return {};
 }
 
-/// Works until the pool has parsed the slot.
+/// Does tasks of the pool until the slot is parsed.
 void ReadAhead::wait_for(const Slot& slot) {
   while (!slot.is_done) pool_.run_one();
 }
 
-/// Leaves the text of all parts on their way to the reader.
+/// Empties all slots; the reader still has their text.
 void ReadAhead::drop_parts() {
   for (std::size_t i = begin_; i != end_; ++i) wait_for(slot(i));
   end_ = begin_;

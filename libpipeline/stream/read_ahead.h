@@ -12,17 +12,17 @@
 
 namespace pipeline {
 
-/// The triangles of a stage text, batch by batch and in order, of which a thread pool parses the next ones
-/// ahead. It never waits for the input while it has triangles to give.
+/// Delivers the triangles of a stage text batch by batch and in order, while a thread pool parses the next
+/// ones. It never waits for the input while it has triangles to deliver.
 ///
-/// Only text in fixed form (fixed_text.h) is parsed ahead, as nearly all text is: there the numbers and lines
-/// of the triangles follow from their count. Where other text comes, the reader parses it as usual.
+/// Only text in fixed form (fixed_text.h), which nearly all text has, is parsed ahead: there the numbers and
+/// lines of the triangles follow from their count. The reader parses any other text, in order.
 class ReadAhead {
  public:
   static constexpr std::size_t kPartSize = std::size_t{1} << 16;  // about 700 triangles
 
-  /// The pool may have other work besides; a pool of one parses nothing ahead. A part of the text has at
-  /// most `part_size` characters.
+  /// The pool may also have other tasks; a pool of one parses nothing ahead. A part of the text has at most
+  /// `part_size` characters.
   ReadAhead(StageReader& reader, ThreadPool& pool, std::size_t part_size = kPartSize);
   ~ReadAhead() { pool_.cancel(); }
   ReadAhead(const ReadAhead&) = delete;
@@ -32,12 +32,13 @@ class ReadAhead {
   bool read(TriangleBatch& batch);
 
  private:
-  /// A part of the text on its way through the pool; the reader keeps that text, too, until it is delivered.
+  /// A copy of a part of the text, and its triangles. The reader keeps the text until they are delivered, so
+  /// it can parse the part itself.
   struct Slot {
     void parse();
 
-    std::string text;        // and what the kernel may look at behind it
-    std::size_t length = 0;  // of the text
+    std::string text;        // the part, then characters that the kernel may read but does not use
+    std::size_t length = 0;  // of the part
     TriangleBatch batch;
     bool is_in_fixed_form = false;  // all of it
     std::atomic<bool> is_done = false;
@@ -52,11 +53,11 @@ class ReadAhead {
   StageReader& reader_;
   std::size_t part_size_;
   std::deque<Slot> slots_;
-  // The parts from number `begin_` to before `end_` are on their way.
+  // Slots from number `begin_` to before `end_` are in work or done.
   std::size_t begin_ = 0;
   std::size_t end_ = 0;
-  std::size_t length_ = 0;  // of their text together
-  int pause_ = 0;           // how many batches the reader parses before the next part is tried
+  std::size_t length_ = 0;  // of their parts together
+  int pause_ = 0;           // this many batches are left to the reader before the next part is tried
   ThreadPool& pool_;
 };
 

@@ -34,7 +34,7 @@ StageReader::StageReader(TextReader& text, bool marks_decimals)
   AttributeSet columns_in_clip_space = header_.appearance.columns();
   columns_in_clip_space.w = true;
   clip_vertex_line_ = VertexLineReader(columns_in_clip_space, RangeOfW::any);
-  // A mistake here is told before anybody misses a header line that it hides.
+  // An error here may hide a header line, so it is reported before any caller misses that line.
   header_end_ = line_is_pending_ ? line_.location() : text_.end_location();
   if (!line_is_pending_) expect_unframed_end();
   const bool is_body =
@@ -83,7 +83,7 @@ void StageReader::consume_fixed_form(std::size_t length, TriangleBatch& batch) {
 
 void StageReader::fill(TriangleBatch& batch) {
   while (!done_) {
-    // What is in memory is passed on before the reader waits for more: a triangle has three lines.
+    // Triangles are passed on before the reader waits for more text; a triangle has three lines.
     if (!line_is_pending_ && !batch.empty() && (batch.size() >= kBatchSize || !text_.has_buffered_lines(3)))
       break;
     const bool may_be_decimal = !line_is_pending_ && !unclipped_;
@@ -132,7 +132,7 @@ bool StageReader::is_end(const LineScanner& line) const {
   return header_.framed && line.peek() == "end";
 }
 
-/// Takes the last line of a framed text. Its newline is a part of it: a text that is cut there is cut.
+/// Takes the last line of a framed text, newline included: a text without it has been cut.
 void StageReader::read_end(LineScanner& line) {
   line.word();
   line.expect_end("'end'");
@@ -153,8 +153,8 @@ void StageReader::expect_unframed_end() const {
                      expected_but_found("'end', which closes a framed text", "the end of the input"));
 }
 
-/// Says what is wrong with a line that has no place in a body. `also_expected` is what might have stood there
-/// besides triangles.
+/// Throws the error of a line that does not belong in a body. `also_expected` names other lines that may
+/// stand there.
 void StageReader::reject(LineScanner& line, const std::string& also_expected) {
   const SourceLocation location = line.location();
   const LineScanner at_keyword = line;

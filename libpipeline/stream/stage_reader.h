@@ -16,28 +16,26 @@ namespace pipeline {
 /// Reads a stage text: the header on construction, then batch after batch. Errors are InputErrors.
 class StageReader {
  public:
-  /// With `marks_decimals` batches say which coordinates are exact decimals, for exact coverage.
+  /// With `marks_decimals` batches mark the coordinates that are exact decimals, for exact coverage.
   explicit StageReader(TextReader& text, bool marks_decimals = false);
 
   [[nodiscard]] const StageHeader& header() const { return header_; }
-  /// The place of the first word behind the header: where a header line that is missing should have stood
-  /// before.
+  /// The location of the first word after the header: a missing header line belongs before it.
   [[nodiscard]] const SourceLocation& header_end() const { return header_end_; }
-  /// From now on `clipped` triangles are read, which only projected texts have; before, they are mistakes.
+  /// Accepts `clipped` triangles from now on, which only projected texts have; without this they are errors.
   void accept_clipped() { accepts_clipped_ = true; }
-  /// An InputError unless the text is framed: for who has to know that it is whole, even if nothing came of
-  /// it.
+  /// An InputError unless the text is framed: only then is an empty text known to be complete.
   void expect_framed() const;
-  /// Fills the batch with the next triangles, at least one and as many as are buffered up to kBatchSize;
-  /// false (and an empty batch) at the end of a text that ends as it should. An error comes after the
-  /// triangles before it, whatever the size of blocks.
+  /// Fills the batch with the next triangles: at least one, and as many as are buffered, up to kBatchSize.
+  /// False, with an empty batch, at the proper end of the text. An error comes after the triangles before it,
+  /// whatever the size of blocks.
   bool read(TriangleBatch& batch);
 
-  /// The buffered text from the next triangle on, if triangles in fixed form may stand there; else empty. Of
-  /// `size` characters as many as can be had without waiting, or more. For ReadAhead.
+  /// The buffered text from the next triangle on if triangles in fixed form may stand there, else empty.
+  /// First buffers up to `size` characters, as far as that needs no waiting. For ReadAhead.
   [[nodiscard]] std::string_view buffered_triangles(std::size_t size);
-  /// Consumes the first `length` buffered characters: the triangles that `batch` holds, in fixed form.
-  /// Completes the batch with all else that belongs to them.
+  /// Consumes the first `length` buffered characters, which are the triangles in `batch` in fixed form, and
+  /// adds their numbers, locations and marks to the batch.
   void consume_fixed_form(std::size_t length, TriangleBatch& batch);
 
  private:
@@ -56,14 +54,14 @@ class StageReader {
   SourceLocation header_end_;
   SourceLocation framed_location_;
   LineScanner line_;
-  std::optional<TriangleReader> triangles_;  // behind the header
-  bool line_is_pending_ = false;             // line_ was read but not yet used
+  std::optional<TriangleReader> triangles_;  // made when the header is read
+  bool line_is_pending_ = false;             // line_ is read but not yet used
   bool done_ = false;
   bool accepts_clipped_ = false;
   VertexLineReader clip_vertex_line_;
-  std::shared_ptr<const ClipTriangle> unclipped_;  // what the next triangles with its number are pieces of
+  std::shared_ptr<const ClipTriangle> unclipped_;  // the next triangles with its number are its pieces
   std::uint64_t unclipped_number_ = 0;
-  DeferredError deferred_error_;  // found behind triangles that were still to be given out
+  DeferredError deferred_error_;
 };
 
 }  // namespace pipeline

@@ -10,7 +10,7 @@
 
 namespace pipeline {
 
-// Stage text, what flows in the pipes between the tools:
+// Stage text flows in the pipes between the tools:
 //
 //   header lines   a keyword and its numbers, each at most once, before the first triangle:
 //                    framed | eye X Y Z | look X Y Z | up X Y Z |
@@ -20,28 +20,26 @@ namespace pipeline {
 //                    attenuation CONSTANT LINEAR QUADRATIC | light X Y Z R G B (any number)
 //   triangle N     optional: the next triangle is triangle N of the scene; counting goes on from there
 //   clipped        optional, in projected texts with lights: three vertex lines in clip space (X Y Z W and
-//   the
-//                  other columns) follow, the whole triangle that the next ones of its number are pieces of
-//   X Y Z          three vertex lines, then a blank line; behind the position the columns that `attributes`
+//                  the other columns) follow; the next triangles of its number are pieces of this one
+//   X Y Z          three vertex lines, then a blank line; after the position the columns that `attributes`
 //                  names, in this order: W, R G B (0 to 255), NX NY NZ
-//   error ...      an earlier stage failed, and what it said; nothing follows
+//   error ...      an earlier stage failed, with its message; nothing follows
 //   end            the last line of a framed text
 //
 // Comments (from # to the end of the line) and blank lines may stand anywhere, but no blank line inside a
 // triangle.
 
-/// The header of a stage text: what later stages still need.
+/// The header of a stage text: the settings that later stages still need.
 struct StageHeader {
   bool framed = false;
   CameraParameters camera;
   Appearance appearance = {};
 };
 
-/// The line a failed stage ends its output with: "error tool: message".
+/// The last line of a failed stage's output: "error tool: message".
 std::string error_line(const std::string& reason);
 
-/// The text ends with an `error` line. `reason()` is what stands on it: "tool: message" of the stage that
-/// failed.
+/// The text ends with an `error` line. `reason()` is its content: "tool: message" of the stage that failed.
 class EarlierFailure : public InputError {
  public:
   EarlierFailure(const SourceLocation& location, std::string reason);
@@ -51,7 +49,7 @@ class EarlierFailure : public InputError {
   std::string reason_;
 };
 
-/// The failure that `line` tells of, at whose word `error` it stands.
+/// The failure that an `error` line reports; `line` stands at the word `error`.
 EarlierFailure earlier_failure(LineScanner line);
 
 }  // namespace pipeline

@@ -105,7 +105,7 @@ void StageWriter::write(const TriangleBatch& batch) {
   }
 }
 
-/// A coordinate of which the text keeps four digits settles the question; until then every one is looked at.
+/// Looks at every coordinate until one keeps four digits in the text, which settles the question.
 void StageWriter::note_sizes(const TriangleBatch& batch) {
   double smallest_with_four_digits = 1000;
   for (int i = 0; i < format_.decimals; ++i) smallest_with_four_digits /= 10;
@@ -120,8 +120,8 @@ void StageWriter::note_sizes(const TriangleBatch& batch) {
   }
 }
 
-/// Prints triangles from `begin` on as long as counting goes right and they fit the form nearly all stage
-/// text has; says how many.
+/// Prints triangles from `begin` on as long as they need no `triangle N` and have the fixed form; returns how
+/// many.
 std::size_t StageWriter::write_fixed_form(const TriangleBatch& batch, std::size_t begin) {
   constexpr std::size_t kMaxAtOnce = 256;
   const std::size_t limit = std::min(batch.size(), begin + kMaxAtOnce);
@@ -155,7 +155,7 @@ void StageWriter::write_triangle(const TriangleBatch& batch, std::size_t index) 
   text_.commit(out);
 }
 
-/// Prints a whole triangle before its first piece. Its corners are lit: they are not rounded.
+/// Prints an unclipped triangle before its first piece. Its corners are lit, so they are not rounded.
 void StageWriter::write_clipped(const ClipTriangle& unclipped) {
   text_.append("clipped\n");
   for (const auto& [p, w, color, normal] : unclipped) {
@@ -175,7 +175,7 @@ void StageWriter::write_clipped(const ClipTriangle& unclipped) {
   text_.append("\n");
 }
 
-/// Prints three numbers, blanks between.
+/// Prints three numbers separated by blanks.
 char* StageWriter::print_vertex(char* out, const Vec3& vertex, const Vec3& low_part) {
   out = print_number(out, vertex.x, low_part.x, format_);
   *out++ = ' ';
@@ -199,7 +199,7 @@ char* StageWriter::print_attributes(char* out, const AttributeArrays& attributes
   return out;
 }
 
-/// Says which triangle is the next, where plain counting would go wrong.
+/// Prints the number of the next triangle where counting would give another one.
 void StageWriter::write_number(std::uint64_t number) {
   if (number != next_number_ && !bare_) text_.append("triangle " + std::to_string(number) + "\n");
 }

@@ -10,18 +10,18 @@
 
 namespace pipeline {
 
-/// Writes a stage text. `bare` leaves out everything but the triangles: the course's form.
+/// Writes a stage text. `bare` text is triangles alone: the course's form.
 class StageWriter {
  public:
   StageWriter(TextWriter& text, NumberFormat format, bool bare);
 
   void write_header(const StageHeader& header);
   void write(const TriangleBatch& batch);
-  /// Writes what a whole text ends with, and flushes.
+  /// Ends the text, and flushes it.
   void finish();
 
-  /// True unless all coordinates written so far, some of them not 0, are so small that their decimals hold
-  /// fewer than four significant digits.
+  /// False if some coordinates written so far are not 0, but all are so small that the text holds fewer than
+  /// four of their significant digits.
   [[nodiscard]] bool keeps_four_digits() const { return keeps_four_digits_ || !has_filled_coordinate_; }
 
  private:

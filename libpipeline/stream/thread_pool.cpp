@@ -12,7 +12,7 @@ ThreadPool::ThreadPool(int thread_count) {
   try {
     for (int i = 1; i < thread_count; ++i) threads_.emplace_back([this, i] { work(i); });
   } catch (const std::exception&) {
-    // The system gives no more threads. Those that are there do the same work.
+    // The system refuses further threads; those that run do the same work.
   }
 }
 
@@ -44,7 +44,7 @@ void ThreadPool::run_one() {
   if (!jobs_.empty()) {
     do_next_task(lock, kOwner);
   } else if (busy_count_ > 0) {
-    // Nobody else starts a job in the meantime.
+    // Only the owner starts jobs, so the count cannot rise meanwhile.
     const int before = busy_count_;
     is_task_done_.wait(lock, [&] { return busy_count_ < before; });
   }

@@ -13,26 +13,26 @@
 
 namespace pipeline {
 
-/// The most triangles a batch is filled with before it is passed on.
+/// A reader passes a batch on when it holds this many triangles.
 constexpr std::size_t kBatchSize = 2048;
 
-/// Some triangles on their way through a stage. All vectors of theirs have one entry a triangle.
+/// Triangles on their way through a stage, as arrays with one entry a triangle.
 struct TriangleBatch {
   std::vector<Triangle> triangles;
-  /// The part of a coordinate below its double, where a stage text shows more digits than a double holds:
-  /// empty, or as long as `triangles`.
+  /// The rest of each coordinate that its double does not hold, where a stage text shows more digits: empty,
+  /// or as long as `triangles`.
   std::vector<Triangle> low_parts;
   /// The triangle's number in the scene, from 0.
   std::vector<std::uint64_t> numbers;
   std::vector<VertexLocations> locations;
-  /// Which coordinates were written as plain numbers with at most 7 decimals, so that they are that decimal
+  /// Which coordinates were written with at most 7 decimals and no exponent, so that they are that decimal
   /// (hi + low part, to 7 decimals) and not only its nearest double: bit 3 * vertex + axis. Empty if not
   /// asked for.
   std::vector<std::uint16_t> decimal_marks;
-  /// What vertices carry beside their position, in scenes that ask for it.
+  /// The vertices' attributes, in scenes that have them.
   AttributeArrays attributes;
-  /// For each triangle that is a piece of a clipped one, that one; empty if there is none, else as long as
-  /// `triangles`. Only lit scenes have them: corners are lit before the cut, and a piece holds not all.
+  /// For each piece of a clipped triangle the triangle before the cut, in clip space; empty if there is none,
+  /// else as long as `triangles`. Only in lit scenes, where the corners before the cut are lit.
   std::vector<std::shared_ptr<const ClipTriangle>> unclipped;
 
   [[nodiscard]] std::size_t size() const { return triangles.size(); }
@@ -45,12 +45,6 @@ struct TriangleBatch {
     decimal_marks.clear();
     attributes.clear();
     unclipped.clear();
-  }
-  /// Makes room for as many.
-  void reserve(std::size_t count) {
-    triangles.reserve(count);
-    numbers.reserve(count);
-    locations.reserve(count);
   }
   /// Keeps the first `count` triangles.
   void truncate(std::size_t count) {
@@ -70,8 +64,8 @@ struct TriangleBatch {
     if (!decimal_marks.empty()) decimal_marks.emplace_back();
     if (!unclipped.empty()) unclipped.emplace_back();
   }
-  /// Adds what belongs to triangles that were added to `triangles` alone: those of a text of four lines each,
-  /// the first vertex on line `first_vertex`.
+  /// Completes triangles that were added to `triangles` alone: their text has four lines each, and the first
+  /// vertex of all stands on line `first_vertex`.
   void complete(std::uint64_t first_number, std::size_t first_vertex) {
     const std::size_t old_size = numbers.size();
     numbers.resize(size());
@@ -84,7 +78,7 @@ struct TriangleBatch {
     if (!decimal_marks.empty()) decimal_marks.resize(size());
     if (!unclipped.empty()) unclipped.resize(size());
   }
-  /// Says of which triangle the last one is a piece.
+  /// Sets the triangle of which the last one is a piece.
   void set_last_unclipped(std::shared_ptr<const ClipTriangle> triangle) {
     unclipped.resize(size());
     unclipped.back() = std::move(triangle);

@@ -13,8 +13,8 @@ namespace {
 
 constexpr std::uint16_t kAllDecimal = 0x1ff;
 
-/// Which coordinates are exact decimals, as in a batch: with at most eight digits before the point those with
-/// few behind it.
+/// The marks of the coordinates that are exact decimals, as in a batch: with at most eight digits before the
+/// point, those with at most kExactDecimals after it.
 std::uint16_t decimal_marks(const DecimalVertexLines& lines) {
   unsigned marks = 0;
   for (std::size_t i = 0; i < 9; ++i)
@@ -22,12 +22,12 @@ std::uint16_t decimal_marks(const DecimalVertexLines& lines) {
   return static_cast<std::uint16_t>(marks);
 }
 
-/// What is exact of a triangle's coordinates, as in a batch.
+/// The marks and low parts of a triangle's coordinates, as in a batch.
 struct ExactParts {
   std::uint16_t marks = 0;
   Triangle low_parts{};
 
-  /// Notes the vertex on `line`; words that are no numbers are left for others to find.
+  /// Adds the vertex on `line`; a word that is no number is ignored here, the reader reports it.
   void add_vertex(LineScanner line, std::size_t vertex) {
     constexpr std::array<double Vec3::*, 3> kAxes = {&Vec3::x, &Vec3::y, &Vec3::z};
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -39,7 +39,7 @@ struct ExactParts {
     }
   }
 
-  /// Hands the notes to the batch's last triangle.
+  /// Stores them for the batch's last triangle.
   void set_last(TriangleBatch& batch) const {
     batch.decimal_marks.resize(batch.size());
     batch.decimal_marks.back() = marks;
@@ -58,13 +58,13 @@ bool TriangleReader::read_buffered(TriangleBatch& batch) {
   return read_fixed_form(batch) || read_decimal_form(batch);
 }
 
-/// Takes buffered triangles as long as they have the form nearly all stage text has; false if the next has
-/// another form, or is not buffered as a whole.
+/// Takes buffered triangles as long as they have the fixed form; false if the next has another form, or is
+/// not completely buffered.
 bool TriangleReader::read_fixed_form(TriangleBatch& batch) {
   static_assert(TextReader::kSlack >= kFixedTextSlack);
   constexpr std::size_t kMaxAtOnce = 64;
   if (vertex_line_.attributes().any()) return false;
-  // The blank line behind a triangle that the general reader took.
+  // The blank line after a triangle that the general path has read.
   if (text_.buffered().starts_with('\n')) text_.skip(1, 1);
   const std::size_t old_size = batch.size();
   batch.triangles.resize(std::max(old_size, std::min(kBatchSize, old_size + kMaxAtOnce)));
@@ -82,15 +82,15 @@ void TriangleReader::consume_fixed_form(std::size_t length, TriangleBatch& batch
   batch.complete(next_number_, text_.line_number() + 1);
   next_number_ += count;
   text_.skip(length, count * kLinesPerTriangle);
-  // Seven decimals and at most eight digits before the point: every coordinate is its decimal.
+  // With seven decimals and at most eight digits before the point, every coordinate is exactly its decimal.
   if (marks_decimals_) {
     batch.decimal_marks.resize(old_size);
     batch.decimal_marks.resize(batch.size(), kAllDecimal);
   }
 }
 
-/// Takes some of the buffered triangles, as long as their lines hold decimal numbers and nothing else; false
-/// if the next does not. After a few the faster form is worth another try.
+/// Takes some of the buffered triangles, as long as their lines hold numbers without exponent and nothing
+/// else; false if the next does not. After a few, the faster form is worth another try.
 bool TriangleReader::read_decimal_form(TriangleBatch& batch) {
   constexpr std::size_t kMaxAtOnce = 32;
   const std::size_t limit = std::min(kBatchSize, batch.size() + kMaxAtOnce);
@@ -103,9 +103,9 @@ bool TriangleReader::read_decimal_form(TriangleBatch& batch) {
 bool TriangleReader::read_decimal_triangle(TriangleBatch& batch) {
   static_assert(TextReader::kSlack >= kDecimalNumberSlack);
   if (text_.buffered().starts_with('\n')) text_.skip(1, 1);
-  const std::string_view waiting = text_.buffered();
+  const std::string_view buffered = text_.buffered();
   DecimalVertexLines& lines = decimal_lines_;
-  const char* const end = vertex_line_.read_decimals(waiting.data(), waiting.data() + waiting.size(), lines);
+  const char* const end = vertex_line_.read_decimals(buffered.data(), buffered.data() + buffered.size(), lines);
   if (end == nullptr) return false;
   std::array<VertexLine, 3> vertices;
   for (std::size_t i = 0; i < 3; ++i) vertices[i] = to_vertex_line(lines[i], vertex_line_.attributes());
@@ -116,7 +116,7 @@ bool TriangleReader::read_decimal_triangle(TriangleBatch& batch) {
     batch.decimal_marks.resize(batch.size());
     batch.decimal_marks.back() = decimal_marks(lines);
   }
-  text_.skip(static_cast<std::size_t>(end - waiting.data()), 3);
+  text_.skip(static_cast<std::size_t>(end - buffered.data()), 3);
   return true;
 }
 

@@ -9,26 +9,26 @@
 
 namespace pipeline {
 
-/// Reads the triangles of a stage text's body and counts them. Two fast paths take what nearly all text is
-/// made of, triangles that are in memory as a whole; the general path takes any, line by line.
+/// Reads the triangles of a stage text's body and counts them. Two fast paths read nearly all text, as long
+/// as a triangle is completely buffered; the general path reads any triangle, line by line.
 class TriangleReader {
  public:
-  /// `attributes` says which columns the vertex lines have. With `marks_decimals` batches say which
-  /// coordinates are exact decimals.
+  /// `attributes` are the columns of the vertex lines. With `marks_decimals` batches mark the coordinates
+  /// that are exact decimals.
   TriangleReader(TextReader& text, const AttributeSet& attributes, bool marks_decimals);
 
   /// The number of the next triangle.
   [[nodiscard]] std::uint64_t next_number() const { return next_number_; }
 
-  /// Adds some of the buffered triangles, as long as they hold decimal numbers without exponent and nothing
-  /// else and the batch has room; false if there is no such triangle.
+  /// Adds some of the buffered triangles, as long as they hold numbers without exponent and nothing else and
+  /// the batch has fewer than kBatchSize; false if there is no such triangle.
   bool read_buffered(TriangleBatch& batch);
-  /// Consumes the next `length` characters: the last triangles of the batch, in fixed form, which were added
-  /// to `triangles` alone. Completes the batch.
+  /// Consumes the next `length` characters, which are triangles in fixed form that were added to the batch's
+  /// `triangles` alone, and completes the batch.
   void consume_fixed_form(std::size_t length, TriangleBatch& batch);
-  /// Takes the line `triangle N` before a triangle. An InputError where it is wrong.
+  /// Takes the line `triangle N` before a triangle. An InputError at the word that is wrong.
   void read_number(LineScanner& line);
-  /// Adds the triangle whose first line is `line`. An InputError where it is wrong.
+  /// Adds the triangle whose first line is `line`. An InputError at the word that is wrong.
   void read(LineScanner& line, TriangleBatch& batch);
 
  private:
@@ -39,7 +39,7 @@ class TriangleReader {
   TextReader& text_;
   VertexLineReader vertex_line_;
   bool marks_decimals_;
-  DecimalVertexLines decimal_lines_;  // where triangles are read before they join a batch
+  DecimalVertexLines decimal_lines_;  // of the triangle that is being read
   std::uint64_t next_number_ = 0;
 };
 

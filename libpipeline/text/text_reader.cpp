@@ -142,12 +142,12 @@ bool TextReader::next_filled_line(LineScanner& line) {
 }
 
 bool TextReader::has_buffered_lines(std::size_t count) const {
-  std::string_view waiting(buffer_.data() + begin_, end_ - begin_);
+  std::string_view rest = buffered();
   while (count > 0) {
-    const std::size_t length = waiting.find('\n');
+    const std::size_t length = rest.find('\n');
     if (length == std::string_view::npos) return false;
-    if (is_filled(waiting.substr(0, length))) --count;
-    waiting.remove_prefix(length + 1);
+    if (is_filled(rest.substr(0, length))) --count;
+    rest.remove_prefix(length + 1);
   }
   return true;
 }
@@ -174,7 +174,7 @@ SourceLocation TextReader::end_location() const {
   return {file_, line_number_ + 1, 1};
 }
 
-/// Has one more block behind the unread part; false at the end of the file.
+/// Reads one more block behind the unread part; false at the end of the file. May block.
 bool TextReader::fill() {
   if (at_end_of_file_) return false;
   if (read_error_ == 0) read_block();
@@ -184,7 +184,7 @@ bool TextReader::fill() {
 
 void TextReader::read_block() {
   const bool has_room = buffer_.size() - end_ >= kBlockSize + kSlack;
-  if (!has_room && begin_ >= end_ - begin_) {  // or else it would be moved too often
+  if (!has_room && begin_ >= end_ - begin_) {  // so that each character is moved once on average
     std::memmove(buffer_.data(), buffer_.data() + begin_, end_ - begin_);
     end_ -= begin_;
     scanned_ -= begin_;

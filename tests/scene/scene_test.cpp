@@ -87,7 +87,7 @@ TEST(Scene, TrianglesAreTheSameByEitherPath) {
   }
 }
 
-TEST(Scene, KnowsItsLinesBehindPlainTriangles) {
+TEST(Scene, CountsTheLinesOfTrianglesInFixedForm) {
   const std::string error =
       error_of_commands("triangle\n1 2 3\n4 5 6\n7 8 9\n\ntriangle\n1 2 3\n4 5 6\n7 8 9\nsphere\n");
   EXPECT_EQ(error.substr(0, error.find(' ')), "scene.txt:14:1:");
@@ -156,7 +156,7 @@ TEST(Scene, PushAndPopTakeNoArguments) {
   EXPECT_TRUE(std::holds_alternative<PopCommand>(commands.at(1)));
 }
 
-TEST(Scene, KnowsThePlaceOfItsCommand) {
+TEST(Scene, LocatesItsCommand) {
   const TextFile file(kCamera + "\n  push\nend\n");
   TextReader text(file.descriptor(), "scene.txt");
   SceneReader reader(text);
@@ -176,7 +176,7 @@ TEST(Scene, BlanksAndCommentsMayFollowTheEnd) {
   EXPECT_EQ(commands_of(kCamera + "end # all\n\n \t\r\n# done").size(), 1u);
 }
 
-// What is wrong with the camera.
+// Errors of the camera.
 
 TEST(Scene, AnEmptyTextLacksAnEye) {
   EXPECT_EQ(error_of(""), "scene.txt:1:1: expected the eye (three numbers), found the end of the input");
@@ -296,7 +296,7 @@ TEST(Scene, UpIsNotParallelToTheViewDirection) {
   EXPECT_EQ(error_of_camera("0 0 5", "0 0 0", "0 1e-300 2", "60 1 1 100"), "no error");
 }
 
-// What is wrong with the commands.
+// Errors of the commands.
 
 TEST(Scene, EndsWithEnd) {
   EXPECT_EQ(error_of_commands("push\n"),

@@ -1,5 +1,5 @@
-// Every byte of a text becomes every other byte: the text is refused, at a place that is not before the
-// change, or it is read as it now reads.
+// Every byte of a text becomes every other byte: the text is refused, at a location that is not before the
+// change, or read as it now stands.
 
 #include <gtest/gtest.h>
 
@@ -54,7 +54,8 @@ Numbers numbers_of_config(TextReader& text) {
 
 enum class Format { scene, stage_text, config };
 
-/// The numbers a person reads, without comments, the camera of a scene (four lines) and what words begin.
+/// The numbers a person reads in the text, except in comments, in the camera of a scene (four lines), and on
+/// header lines.
 Numbers numbers_to_see(const std::string& text, Format format) {
   Numbers numbers;
   int camera_lines = format == Format::scene ? 4 : 0;

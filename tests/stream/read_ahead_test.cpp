@@ -16,7 +16,7 @@ constexpr int kNoOddText = 1 << 25;
 // Of a triangle in fixed form.
 constexpr std::size_t kMinLength = 91;
 
-/// What a source gives until its end, and the error it ends with.
+/// The triangles that a source delivers, and the message of the error it ends with.
 struct Reading {
   std::vector<Triangle> triangles;
   std::vector<Triangle> low_parts;
@@ -47,7 +47,7 @@ struct Reading {
 
 struct Counts {
   int batches = 0;
-  int small_batches = 0;  // at most as large as a part of the text makes them
+  int small_batches = 0;  // no larger than a part of the text
 };
 
 template <typename Source>
@@ -81,7 +81,7 @@ Reading read_ahead(int descriptor, int thread_count, std::size_t part_size, Coun
   return read_from(ahead, counts, part_size);
 }
 
-/// Returns what was counted on several threads.
+/// Returns the counts of the run on most threads.
 Counts expect_same_by_parts(const std::string& text, std::size_t part_size) {
   const Reading expected = read_in_order(text);
   Counts counts;
@@ -94,7 +94,7 @@ Counts expect_same_by_parts(const std::string& text, std::size_t part_size) {
   return counts;
 }
 
-TEST(ReadAhead, GivesWhatTheReaderGives) {
+TEST(ReadAhead, DeliversTheTrianglesOfTheReader) {
   expect_same_by_parts("", ReadAhead::kPartSize);
   expect_same_by_parts(odd_stage_text(1, kNoOddText, 1), ReadAhead::kPartSize);
   expect_same_by_parts(odd_stage_text(30000, kNoOddText, 2), ReadAhead::kPartSize);
@@ -104,7 +104,7 @@ TEST(ReadAhead, ParsesPartsOfTheText) {
   const std::string text = odd_stage_text(5000, kNoOddText, 1);
   for (const std::size_t size : {100u, 1000u, 20000u}) {
     const Counts counts = expect_same_by_parts(text, size);
-    // The first line of all is looked at for a header; so the reader parses the first block.
+    // The reader has looked at the first line, so it parses the first block itself.
     EXPECT_EQ(counts.small_batches, counts.batches - 1) << size;
     EXPECT_GE(counts.batches, static_cast<int>((text.size() - (1 << 16)) / size)) << size;
   }
@@ -121,7 +121,7 @@ TEST(ReadAhead, LeavesOtherTextToTheReader) {
   expect_same_by_parts("attributes color\n" + odd_stage_text(5000, 1000, 5, {7, " 1 2 3"}), 1000);
 }
 
-TEST(ReadAhead, GoesOnBehindOtherText) {
+TEST(ReadAhead, GoesOnAfterOtherText) {
   const std::string text =
       odd_stage_text(2000, kNoOddText, 6) + "# a comment\n" + odd_stage_text(80000, kNoOddText, 7);
   const Counts counts = expect_same_by_parts(text, 20000);
@@ -129,7 +129,7 @@ TEST(ReadAhead, GoesOnBehindOtherText) {
   EXPECT_GE(counts.small_batches, 50);
 }
 
-TEST(ReadAhead, ReadsAsUsualWhatHoldsNoBlankLines) {
+TEST(ReadAhead, LeavesTextWithoutBlankLinesToTheReader) {
   RandomNumbers random(7);
   std::string text, with_returns;
   for (int i = 0; i < 3000; ++i) {
@@ -140,7 +140,7 @@ TEST(ReadAhead, ReadsAsUsualWhatHoldsNoBlankLines) {
   expect_same_by_parts(with_returns, 1000);
 }
 
-TEST(ReadAhead, GivesErrorsBehindTheTrianglesBeforeThem) {
+TEST(ReadAhead, DeliversErrorsAfterTheTrianglesBeforeThem) {
   const std::string before = odd_stage_text(2500, kNoOddText, 6);
   for (const std::string error :
        {"1 2 3\n4 5 six\n", "1.0000000 2.0000000 3.0000000\n\n", "error view: no\n", "eye 1 2 3\n", "1 2\n",
@@ -171,7 +171,7 @@ TEST(ReadAhead, LeavesClippedTrianglesToTheReader) {
   expect_same_by_parts(text, 1000);
 }
 
-TEST(ReadAhead, GivesTheSameOfAPipeThatIsFilledSlowly) {
+TEST(ReadAhead, DeliversTheSameFromASlowPipe) {
   const std::string text = odd_stage_text(6000, 3000, 8);
   std::vector<std::string> pieces;
   RandomNumbers random(9);
@@ -186,7 +186,7 @@ TEST(ReadAhead, GivesTheSameOfAPipeThatIsFilledSlowly) {
   }
 }
 
-TEST(ReadAhead, DoesNotWaitForTheInputWithTrianglesToGive) {
+TEST(ReadAhead, DoesNotWaitWithTrianglesToDeliver) {
   const std::string text = odd_stage_text(100, kNoOddText, 10);
   const TextInPieces pipe({text + "0.5"}, TextInPieces::Then::silence);
   TextReader reader(pipe.descriptor(), "in.txt");
@@ -198,7 +198,7 @@ TEST(ReadAhead, DoesNotWaitForTheInputWithTrianglesToGive) {
   EXPECT_EQ(count, 100u);
 }
 
-TEST(ReadAhead, MayBeGivenUpInTheMiddle) {
+TEST(ReadAhead, MayBeDestroyedInTheMiddle) {
   const TextFile file(odd_stage_text(30000, kNoOddText, 10));
   TextReader text(file.descriptor(), "in.txt");
   StageReader source(text);

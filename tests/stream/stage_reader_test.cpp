@@ -214,8 +214,8 @@ TEST(StageReader, NamesAKeywordItDoesNotKnow) {
   EXPECT_EQ(error_of(kTriangle + "quad\n"), "in.txt:5:1: expected 'triangle N' or a vertex, found 'quad'");
 }
 
-TEST(StageReader, NamesAMistakeBeforeTheFirstTriangleAtOnce) {
-  // So that a stage does not say that a header is missing when it is misspelt.
+TEST(StageReader, ReportsAnErrorBeforeTheFirstTriangleAtOnce) {
+  // A misspelt header line must not be reported as a missing one.
   EXPECT_EQ(message_of([] { header_of("eyes 0 0 5\n"); }),
             "in.txt:1:1: expected a header line, 'triangle N' or a vertex, found 'eyes'");
   EXPECT_EQ(message_of([] { header_of("error model: no scene\n"); }),
@@ -274,7 +274,7 @@ TEST(StageReader, ANumberStandsBeforeItsTriangleNotInsideIt) {
             "in.txt:2:1: expected the x of vertex 2 of 3, found 'triangle'");
 }
 
-// Mistakes in triangles.
+// Errors in triangles.
 
 TEST(StageReader, ABlankLineInsideATriangleIsAnError) {
   EXPECT_EQ(error_of("0 0 0\n\n1 0 0\n0 1 0\n"),
@@ -314,7 +314,7 @@ TEST(StageReader, NamesANumberThatIsNone) {
             "in.txt:1:1: expected a header line, 'triangle N' or a vertex, found 'inf'");
 }
 
-TEST(StageReader, GivesOutTheTrianglesBeforeAMistake) {
+TEST(StageReader, DeliversTheTrianglesBeforeAnError) {
   const TextFile file(kTriangle + kTriangle + "0 0 x\n");
   TextReader reader(file.descriptor(), "in.txt");
   StageReader stage(reader);
@@ -380,7 +380,7 @@ TEST(StageReader, AFramedTextWithoutEndIsAnError) {
             "in.txt:6:1: expected 'end', which closes a framed text, found the end of the input");
 }
 
-TEST(StageReader, TheEndOfAFramedTextIsAWholeLine) {
+TEST(StageReader, TheEndOfAFramedTextIsACompleteLine) {
   EXPECT_EQ(error_of("framed\n" + kTriangle + "end"),
             "in.txt:6:4: expected the end of the line after 'end', which closes a framed text, found the end "
             "of the input");
@@ -402,7 +402,7 @@ TEST(StageReader, AnUnframedTextIsTakenAsItReads) {
   EXPECT_EQ(triangles_of("0 0 0\n1 0 0\n0 1 1").triangles[0][2].z, 1);
 }
 
-// Streaming: what has arrived is given out before the reader waits.
+// Streaming: triangles that have arrived are delivered before the reader waits.
 
 TEST(StageReader, DoesNotWaitBehindATriangle) {
   const TextInPieces slow({kTriangle}, TextInPieces::Then::silence);

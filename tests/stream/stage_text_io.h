@@ -23,7 +23,7 @@ inline TriangleBatch triangles_of(const std::string& text) {
   return triangles_from(TextFile(text).descriptor());
 }
 
-/// The text a batch is written as.
+/// The text of a batch.
 inline std::string written(const TriangleBatch& batch, NumberFormat format = {}, bool bare = false,
                            const StageHeader& header = {}) {
   const TextFile file("");

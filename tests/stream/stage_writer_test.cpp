@@ -18,7 +18,7 @@ TriangleBatch numbered(std::initializer_list<std::uint64_t> numbers) {
   return batch;
 }
 
-/// The text with its vertices left out.
+/// The text, each triangle shortened to a dot.
 std::string written_numbers(std::initializer_list<std::uint64_t> numbers, bool bare = false) {
   std::string text = written(numbered(numbers), {.shortest = true}, bare);
   for (std::size_t at = 0; (at = text.find("0 0 0\n0 0 0\n0 0 0\n\n")) != std::string::npos;)
@@ -81,7 +81,7 @@ TEST(StageWriter, BareTextIsTrianglesAlone) {
   EXPECT_EQ(written(numbered({4}), {.shortest = true}, true, header), "0 0 0\n0 0 0\n0 0 0\n\n");
 }
 
-TEST(StageWriter, WritesNoNumbersWherePlainCountingIsRight) {
+TEST(StageWriter, WritesNoNumbersWhereCountingIsRight) {
   EXPECT_EQ(written_numbers({0, 1, 2}), "...");
 }
 

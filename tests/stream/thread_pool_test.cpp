@@ -11,9 +11,9 @@
 namespace pipeline {
 namespace {
 
-class WorkerTeamTest : public testing::TestWithParam<int> {};
+class ThreadPoolTest : public testing::TestWithParam<int> {};
 
-TEST_P(WorkerTeamTest, DoesEveryTaskOfEveryJobOnce) {
+TEST_P(ThreadPoolTest, DoesEveryTaskOfEveryJobOnce) {
   ThreadPool pool(GetParam());
   for (int task_count = 0; task_count < 50; ++task_count) {
     std::vector<int> times_done(static_cast<std::size_t>(task_count));
@@ -23,7 +23,7 @@ TEST_P(WorkerTeamTest, DoesEveryTaskOfEveryJobOnce) {
   }
 }
 
-TEST_P(WorkerTeamTest, FinishesWithoutAJob) {
+TEST_P(ThreadPoolTest, FinishesWithoutAJob) {
   ThreadPool pool(GetParam());
   pool.start(0, [](int, int) { ADD_FAILURE(); });
   pool.run_one();
@@ -31,7 +31,7 @@ TEST_P(WorkerTeamTest, FinishesWithoutAJob) {
   pool.finish();
 }
 
-TEST_P(WorkerTeamTest, DoesJobsThatWereStartedBeforeOthersWereDone) {
+TEST_P(ThreadPoolTest, DoesJobsThatStartBeforeOthersAreDone) {
   ThreadPool pool(GetParam());
   std::array<std::atomic<int>, 100> times_done = {};
   for (std::size_t job = 0; job < times_done.size(); ++job) {
@@ -43,7 +43,7 @@ TEST_P(WorkerTeamTest, DoesJobsThatWereStartedBeforeOthersWereDone) {
     EXPECT_EQ(times_done[job], job % 2 == 0 ? 1 : 1 + 2 + 3) << job;
 }
 
-TEST_P(WorkerTeamTest, HelpGetsOneMoreTaskDone) {
+TEST_P(ThreadPoolTest, RunOneGetsOneMoreTaskDone) {
   ThreadPool pool(GetParam());
   std::atomic<int> done_count = 0;
   for (int i = 1; i <= 200; ++i) {
@@ -53,7 +53,7 @@ TEST_P(WorkerTeamTest, HelpGetsOneMoreTaskDone) {
   EXPECT_EQ(done_count, 200);
 }
 
-TEST_P(WorkerTeamTest, AWorkerDoesOneTaskAtATime) {
+TEST_P(ThreadPoolTest, AWorkerDoesOneTaskAtATime) {
   ThreadPool pool(GetParam());
   std::vector<std::atomic<bool>> is_busy(static_cast<std::size_t>(pool.size()));
   pool.start(1000, [&](int, int worker) {
@@ -65,7 +65,7 @@ TEST_P(WorkerTeamTest, AWorkerDoesOneTaskAtATime) {
   pool.finish();
 }
 
-TEST(ThreadPool, BeginsTasksInOrder) {
+TEST(ThreadPool, StartsTasksInOrder) {
   ThreadPool alone(1);
   std::vector<int> begun;
   for (const int job : {10, 20, 30}) alone.start(3, [&, job](int task, int) { begun.push_back(job + task); });
@@ -75,7 +75,7 @@ TEST(ThreadPool, BeginsTasksInOrder) {
   EXPECT_EQ(begun, (std::vector<int>{10, 11, 12, 20, 21, 22, 30, 31, 32}));
 }
 
-TEST(ThreadPool, LeavesOutWhatWasNotBegunWhenATaskThrew) {
+TEST(ThreadPool, DropsQueuedTasksWhenATaskThrows) {
   ThreadPool alone(1);
   std::vector<int> begun;
   for (const int job : {10, 20})
@@ -88,7 +88,7 @@ TEST(ThreadPool, LeavesOutWhatWasNotBegunWhenATaskThrew) {
   EXPECT_EQ(begun, (std::vector<int>{10, 11}));
 }
 
-TEST_P(WorkerTeamTest, HelpThrowsWhatATaskThrew) {
+TEST_P(ThreadPoolTest, RunOneRethrowsTheExceptionOfATask) {
   ThreadPool pool(GetParam());
   pool.start(1, [](int, int) { throw std::runtime_error("task"); });
   const auto help_until_it_throws = [&] {
@@ -98,7 +98,7 @@ TEST_P(WorkerTeamTest, HelpThrowsWhatATaskThrew) {
   pool.finish();
 }
 
-TEST_P(WorkerTeamTest, ThrowsWhatATaskThrewAndGoesOnWithTheNextJob) {
+TEST_P(ThreadPoolTest, RethrowsTheExceptionOfATaskAndGoesOnWithTheNextJob) {
   ThreadPool pool(GetParam());
   pool.start(10, [](int task, int) {
     if (task == 3) throw std::runtime_error("task 3");
@@ -110,7 +110,7 @@ TEST_P(WorkerTeamTest, ThrowsWhatATaskThrewAndGoesOnWithTheNextJob) {
   EXPECT_EQ(done_count, 10);
 }
 
-TEST_P(WorkerTeamTest, MayBeDestroyedInTheMiddleOfAJob) {
+TEST_P(ThreadPoolTest, MayBeDestroyedInTheMiddleOfAJob) {
   std::atomic<int> begun_count = 0, done_count = 0;
   {
     ThreadPool pool(GetParam());
@@ -123,13 +123,13 @@ TEST_P(WorkerTeamTest, MayBeDestroyedInTheMiddleOfAJob) {
   EXPECT_EQ(done_count, begun_count);
 }
 
-TEST_P(WorkerTeamTest, BeginsNothingBehindWhatWasLeftOut) {
+TEST_P(ThreadPoolTest, StartsNoJobAfterADroppedTask) {
   ThreadPool pool(GetParam());
   std::atomic<int> next = 0;
   const auto start_many = [&] {
     for (int number = 0; number < 1000; ++number)
       pool.start(1, [&, number](int, int) {
-        while (next != number) std::this_thread::yield();  // for ever, had one before it been left out
+        while (next != number) std::this_thread::yield();  // forever if an earlier task was dropped
         next = number + 1;
         if (number == 20) throw std::runtime_error("task 20");
       });
@@ -138,7 +138,7 @@ TEST_P(WorkerTeamTest, BeginsNothingBehindWhatWasLeftOut) {
   EXPECT_THROW(start_many(), std::runtime_error);
 }
 
-TEST_P(WorkerTeamTest, MayBeGivenUpInTheMiddleOfAJobAndGoOn) {
+TEST_P(ThreadPoolTest, MayCancelInTheMiddleOfAJobAndGoOn) {
   ThreadPool pool(GetParam());
   std::atomic<int> begun_count = 0, done_count = 0;
   pool.start(1000, [&](int, int) {
@@ -155,7 +155,7 @@ TEST_P(WorkerTeamTest, MayBeGivenUpInTheMiddleOfAJobAndGoOn) {
   EXPECT_EQ(begun_count, count + 10);
 }
 
-INSTANTIATE_TEST_SUITE_P(Threads, WorkerTeamTest, testing::Values(1, 2, 3, 8));
+INSTANTIATE_TEST_SUITE_P(Threads, ThreadPoolTest, testing::Values(1, 2, 3, 8));
 
 }  // namespace
 }  // namespace pipeline

@@ -13,7 +13,7 @@ namespace {
 
 using Lines = std::vector<std::string>;
 
-/// The lines as the reader gives them out, without the blanks around them.
+/// The lines that the reader delivers, without the blanks around them.
 Lines lines_from(int descriptor) {
   TextReader reader(descriptor, "in.txt");
   LineScanner line;
@@ -30,7 +30,7 @@ std::string error_of_reading(const std::string& text) {
   return message_of([&] { lines_of(text); });
 }
 
-/// What `use` says about the first line of a text.
+/// The message of the exception that `use` throws for the first line of a text.
 template <typename Use>
 std::string error_in(const std::string& text, Use&& use) {
   const TextFile file(text);
@@ -136,7 +136,7 @@ TEST(TextReader, ANulByteAloneIsNotABlankLine) {
 }
 
 TEST(TextReader, ReadsLinesAcrossBlocks) {
-  // A block is 65536 bytes: the line ends, a carriage return or a word lie on its border in turn.
+  // A block is 65536 bytes: the line ends, a carriage return or a word cross its end in turn.
   for (std::size_t length = 65530; length < 65542; ++length) {
     const std::string filler(length, 'x');
     EXPECT_EQ(lines_of(filler + " 12\r\n34\r\n56"), (Lines{filler + " 12", "34", "56"})) << length;
@@ -195,7 +195,7 @@ TEST(TextReader, FilledLinesPassOverBlankLinesAndComments) {
   EXPECT_FALSE(reader.next_filled_line(line));
 }
 
-TEST(TextReader, TheEndIsThePlaceAfterTheLastLine) {
+TEST(TextReader, TheEndIsTheLocationAfterTheLastLine) {
   const TextFile file("a\nb\n");
   TextReader reader(file.descriptor(), "in.txt");
   for (LineScanner line; reader.next_line(line);) {
@@ -223,13 +223,13 @@ TEST(TextReader, AFailureToReadNamesTheFileAndTheReason) {
   ::close(folder);
 }
 
-TEST(TextReader, NoLineWaitsBeforeTheFirstRead) {
+TEST(TextReader, NothingIsBufferedBeforeTheFirstRead) {
   const TextFile file("a\n");
   const TextReader reader(file.descriptor(), "in.txt");
   EXPECT_FALSE(reader.has_buffered_lines(1));
 }
 
-TEST(TextReader, LinesThatHaveArrivedAreWaiting) {
+TEST(TextReader, LinesThatHaveArrivedAreBuffered) {
   const TextInPieces slow({"a\nb\nc\n"}, TextInPieces::Then::silence);
   TextReader reader(slow.descriptor(), "in.txt");
   LineScanner line;
@@ -238,7 +238,7 @@ TEST(TextReader, LinesThatHaveArrivedAreWaiting) {
   EXPECT_FALSE(reader.has_buffered_lines(3));
 }
 
-TEST(TextReader, HalfALineIsNotWaiting) {
+TEST(TextReader, HalfALineDoesNotCountAsBuffered) {
   const TextInPieces slow({"a\nb", "c\n"}, TextInPieces::Then::silence);
   TextReader reader(slow.descriptor(), "in.txt");
   LineScanner line;
@@ -248,7 +248,7 @@ TEST(TextReader, HalfALineIsNotWaiting) {
   EXPECT_EQ(line.rest(), "bc");
 }
 
-TEST(TextReader, BlankLinesAndCommentsAreNotWaitedFor) {
+TEST(TextReader, BlankLinesAndCommentsDoNotCountAsBuffered) {
   const TextInPieces slow({"a\n\n \t\r\n # b\n\n"}, TextInPieces::Then::silence);
   TextReader reader(slow.descriptor(), "in.txt");
   LineScanner line;
@@ -298,7 +298,7 @@ TEST(TextReader, DoesNotWaitToBufferMore) {
   EXPECT_EQ(reader.buffered(), "b\n");
 }
 
-// The text that was buffered before is given out first.
+// The text before it is delivered first.
 TEST(TextReader, AFailureToBufferMoreComesBehindTheTextBeforeIt) {
   int ends[2];
   ASSERT_EQ(::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends), 0);
@@ -333,7 +333,7 @@ TEST(LineScanner, TakesWordsBetweenBlanksAndTabs) {
   EXPECT_EQ(line.word(), "");
 }
 
-TEST(LineScanner, PlacesAreColumnsFromOne) {
+TEST(LineScanner, ColumnsCountFromOne) {
   const TextFile file("\n  ab\tc");
   TextReader reader(file.descriptor(), "in.txt");
   LineScanner line;
@@ -355,7 +355,7 @@ TEST(LineScanner, ReadsNumbersInEveryDecimalForm) {
   EXPECT_EQ(number_in("+1.5E-1"), 0.15);
 }
 
-TEST(LineScanner, NamesThePlaceOfABadNumber) {
+TEST(LineScanner, LocatesABadNumber) {
   EXPECT_EQ(error_of_number("  1,5 2"), "in.txt:1:3: expected the x of the eye, found '1,5'");
 }
 
@@ -374,7 +374,7 @@ TEST(LineScanner, NamesTheEndOfTheLineWhereANumberIsMissing) {
   EXPECT_EQ(error_of_number("  # 5"), "in.txt:1:1: expected the x of the eye, found the end of the line");
 }
 
-TEST(LineScanner, NamesThePlaceBehindTheLastWordWhereANumberIsMissing) {
+TEST(LineScanner, LocatesAMissingNumberAfterTheLastWord) {
   EXPECT_EQ(error_in("12 \t # 5", [](LineScanner& line) { line.word(), line.number("a number"); }),
             "in.txt:1:3: expected a number, found the end of the line");
 }

@@ -34,7 +34,7 @@ TriangleBatch triangles_of(const std::string& commands) {
   return triangles_from(TextFile(kCamera + commands + "end\n").descriptor());
 }
 
-/// Where the commands take the point (1 2 3) of each of their triangles.
+/// The image of the point (1 2 3) of each triangle of the commands.
 std::vector<Vec3> first_vertices_of(const std::string& commands) {
   std::vector<Vec3> vertices;
   for (const Triangle& triangle : triangles_of(commands).triangles) vertices.push_back(triangle[0]);
@@ -93,7 +93,7 @@ TEST(ModelStage, NumbersTrianglesFromZero) {
   EXPECT_EQ(triangles_of(kTriangle + kTriangle).numbers, (std::vector<std::uint64_t>{0, 1}));
 }
 
-TEST(ModelStage, KnowsWhereItsVerticesStand) {
+TEST(ModelStage, LocatesItsVertices) {
   EXPECT_EQ(triangles_of("triangle\n\n1 2 3\n 0 0 0\n# c\n0 0 0\n").locations[0],
             (VertexLocations{{7, {8, 2}, 10}}));
 }
@@ -147,7 +147,7 @@ TEST(ModelStage, ALargeTransformThatIsTakenBackIsFine) {
   EXPECT_NEAR(vertices.at(0).x, 1, 1e-15);
 }
 
-TEST(ModelStage, GivesOutTheTrianglesBeforeAMistake) {
+TEST(ModelStage, DeliversTheTrianglesBeforeAnError) {
   const TextFile file(kCamera + kTriangle + kTriangle + "pop\n");
   TextReader text(file.descriptor(), "scene.txt");
   SceneReader scene(text);
@@ -165,7 +165,7 @@ TEST(ModelStage, ReadsASceneThatArrivesByteByByte) {
   EXPECT_EQ(triangles_from(slow.descriptor()).triangles.at(0)[0], (Vec3{2, 2, 3}));
 }
 
-/// How many triangles a stage gives out of a scene that goes on, and is silent after `commands`.
+/// The number of triangles that a stage delivers while its input is open but silent after `commands`.
 std::size_t size_before_silence(const std::string& commands) {
   const TextInPieces slow({kCamera + commands}, TextInPieces::Then::silence);
   TextReader text(slow.descriptor(), "scene.txt");
