@@ -47,6 +47,25 @@ class Umask {
   mode_t before_;
 };
 
+/// Runs a test as nobody where root started it, from whom no file is protected. The real user changes, too:
+/// access() asks for it. Other users' processes stay as they are.
+class Unprivileged {
+ public:
+  Unprivileged() : was_root_(::geteuid() == 0), is_(!was_root_ || ::setresuid(kNobody, kNobody, 0) == 0) {}
+  ~Unprivileged() {
+    if (was_root_ && is_) {
+      EXPECT_EQ(::setresuid(0, 0, 0), 0);
+    }
+  }
+  Unprivileged(const Unprivileged&) = delete;
+  Unprivileged& operator=(const Unprivileged&) = delete;
+  explicit operator bool() const { return is_; }
+
+ private:
+  static constexpr uid_t kNobody = 65534;
+  bool was_root_, is_;
+};
+
 TEST(OutputFile, AppearsWithItsCommit) {
   const TemporaryFolder folder;
   OutputFile file(folder.path("out"));
@@ -163,7 +182,8 @@ TEST(OutputFile, AReplacedFileKeepsItsPermissions) {
 }
 
 TEST(OutputFile, AWriteProtectedFileIsNotReplaced) {
-  if (::geteuid() == 0) GTEST_SKIP() << "nothing is protected from root";
+  const Unprivileged user;
+  if (!user) GTEST_SKIP() << "root may not become another user here";
   const TemporaryFolder folder;
   folder.write("out", "old");
   ::chmod(folder.path("out").c_str(), 0444);
@@ -237,7 +257,8 @@ TEST(OutputFile, AFolderIsNoFile) {
 }
 
 TEST(OutputFile, AFolderThatMayNotBeWrittenIsAnError) {
-  if (::geteuid() == 0) GTEST_SKIP() << "nothing is protected from root";
+  const Unprivileged user;
+  if (!user) GTEST_SKIP() << "root may not become another user here";
   const TemporaryFolder folder;
   fs::create_directory(folder.path("inner"));
   ::chmod(folder.path("inner").c_str(), 0555);
