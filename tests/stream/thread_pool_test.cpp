@@ -155,7 +155,8 @@ TEST_P(ThreadPoolTest, MayCancelInTheMiddleOfAJobAndGoOn) {
   EXPECT_EQ(begun_count, count + 10);
 }
 
-INSTANTIATE_TEST_SUITE_P(Threads, ThreadPoolTest, testing::Values(1, 2, 3, 8));
+INSTANTIATE_TEST_SUITE_P(Threads, ThreadPoolTest, testing::Values(1, 2, 3, 8),
+                         testing::PrintToStringParamName());
 
 }  // namespace
 }  // namespace pipeline
