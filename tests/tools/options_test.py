@@ -89,12 +89,11 @@ add_claims(FormsOfStageText, [
 
 class Locale(ToolTest):
     def test_a_decimal_comma_of_the_locale_changes_nothing(self):
-        locales = subprocess.run(["locale", "-a"], capture_output=True, text=True).stdout.split()
-        german = [name for name in locales if name.lower() in ("de_de.utf8", "de_de.utf-8", "de_de")]
-        if not german:
-            self.skipTest("the locale de_DE is not installed")
+        environment = dict(os.environ, LC_ALL="de_DE.UTF-8")
+        if subprocess.run(["locale", "decimal_point"], capture_output=True, text=True, env=environment).stdout != ",\n":
+            self.skipTest("the locale de_DE.UTF-8 is not installed")
         texts = []
-        for name in ("C", german[0]):
+        for name in ("C", "de_DE.UTF-8"):
             environment = dict(os.environ, LC_ALL=name)
             texts.append(pipe(["model"], ["view"], ["project"], ["zbuf", "config.txt"], stdin=PLAIN, env=environment))
         self.assertEqual(*texts)
