@@ -11,7 +11,7 @@ import subprocess
 import time
 import unittest
 
-from toolbox import CAMERA, HEADER, SCENE, TOOLS, TRIANGLE, ToolTest, command, run, run_with, stage_texts
+from toolbox import CAMERA, HEADER, SCENE, TOOLS, TRIANGLE, ToolTest, command, pseudo_terminal, run, run_with, stage_texts
 
 VERTICES = "0 0 -2\n1 0 -2\n0 1 -2\n\n"
 OPERANDS = {"model": [], "view": [], "project": [], "zbuf": ["config.txt"]}
@@ -198,7 +198,7 @@ class MissingChannels(FaultTest):
 
 class Terminal(ToolTest):
     def test_a_terminal_shows_a_mistake_once(self):
-        ours, theirs = os.openpty()
+        ours, theirs = pseudo_terminal()
         try:
             done = run("model", stdin="x\n", stdout=theirs)
             self.assertEqual(done.returncode, 1)

@@ -58,6 +58,14 @@ def stage_texts(scene=SCENE, *model_options):
     return stage1, stage2, pipe(["project"], stdin=stage2)
 
 
+def pseudo_terminal():
+    """The two ends of a new one; the test is skipped where the system has none to give, as in a container without /dev/pts."""
+    try:
+        return os.openpty()
+    except OSError as error:
+        raise unittest.SkipTest(f"no pseudo-terminal: {error.strerror}") from None
+
+
 class ToolTest(unittest.TestCase):
     """A test with a folder of its own as the current one."""
 

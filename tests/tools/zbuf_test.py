@@ -5,13 +5,12 @@ usage: zbuf_test.py BIN_DIR
 """
 import os
 import pathlib
-import pty
 import random
 import re
 import subprocess
 import unittest
 
-from toolbox import CAMERA, CONFIG, SOURCE, ToolTest, command, pipe, run
+from toolbox import CAMERA, CONFIG, SOURCE, ToolTest, command, pipe, pseudo_terminal, run
 
 TRIANGLE = "0 0 0\n1 0 0\n0 1 0\n\n"
 
@@ -114,7 +113,7 @@ class Progress(ToolTest):
         return done
 
     def on_a_terminal(self, seconds):
-        reader, terminal = pty.openpty()
+        reader, terminal = pseudo_terminal()
         self.run_for(seconds, terminal)
         os.write(terminal, b"|")  # the end of what there is to read
         shown = ""
