@@ -1,0 +1,157 @@
+#!/usr/bin/env python3
+"""scripts/check and scripts/maintain/test-report count what did not pass, and name it. The ctest is a real one, its tests are a line
+of shell each; whatever else is called is a stub.
+
+usage: ci_test.py SOURCE_DIR [UNITTEST ARGUMENT...]
+"""
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+SOURCE = pathlib.Path(sys.argv.pop(1)).resolve()
+PRESETS = ("release", "asan", "fuzz", "tsan", "clang")
+STUBS = ("scripts/install-packages", "scripts/build-release", "scripts/check", "scripts/measure/bench", "scripts/maintain/fuzz",
+         "scripts/maintain/tidy", "scripts/maintain/compare-builds", "bin/cmake", "bin/git", "bin/clang-format")
+# The folder of a preset's tests is one of this tree.
+CTEST = f"""#!/bin/sh
+[ "$1" = --preset ] || exit 99
+tests=presets/$2
+shift 2
+exec {shutil.which("ctest")} --test-dir "$tests" "$@"
+"""
+GTEST_SKIP = r"printf 'a_test.cpp:7: Skipped\nno moon tonight\n\n[  SKIPPED ] A.B (0 ms)\n'"
+CASES = """import unittest
+class Cases(unittest.TestCase):
+    def test_with_a_browser(self): self.skipTest("no browser")
+    def test_with_another(self): self.skipTest("no browser")
+    def test_with_nothing(self): %s
+unittest.main(module=None if __name__ != "__main__" else "__main__")
+"""
+
+
+class Tree(unittest.TestCase):
+    """A source tree in which everything passes."""
+
+    maxDiff = None
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.tree = pathlib.Path(folder.name, "tree")
+        for stub in STUBS:
+            self.put(stub, "#!/bin/sh\n")
+        for sums in ("scripts/check", "scripts/measure/bench", "scripts/maintain/fuzz", "scripts/maintain/compare-builds"):
+            self.put(sums, "#!/bin/sh\necho 1 passed, 0 failed\n")
+        self.put("bin/ctest", CTEST)
+        self.put("Makefile.samples", "check:\n\t@echo 2 passed, 0 failed\n")
+        for preset in PRESETS:
+            self.set_tests(preset, ("ThreadPool.Works", "true"))
+        self.set_tests("release", ("Passes", "true"), ("Takes.Long", "true", "LABELS", "long"))
+        for real in (".ci/run", "scripts/maintain/test-report"):
+            self.put(real, (SOURCE / real).read_text())
+
+    def put(self, path, text):
+        (self.tree / path).parent.mkdir(parents=True, exist_ok=True)
+        (self.tree / path).write_text(text)
+        (self.tree / path).chmod(0o755)
+
+    def set_tests(self, preset, *tests):
+        """Sets the tests of a preset: (name, command of a shell, property, its value)."""
+        lines = []
+        for name, command, *properties in tests:
+            lines.append(f"add_test([=[{name}]=] sh -c [=[{command}]=])")
+            if properties:
+                lines.append(f"set_tests_properties([=[{name}]=] PROPERTIES {properties[0]} [=[{properties[1]}]=])")
+        self.put(f"presets/{preset}/CTestTestfile.cmake", "\n".join(lines) + "\n")
+
+    def run_there(self, *words, **variables):
+        environment = {name: value for name, value in os.environ.items() if not name.startswith(("CTEST_", "LIMIT"))}
+        environment |= {"PATH": f"{self.tree}/bin:{os.environ['PATH']}", **variables}
+        return subprocess.run(words, cwd=self.tree, env=environment, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                              text=True, timeout=100)
+
+    def assert_ends(self, done, status, *lines):
+        """It ends with the status, these named failures and skips, and the counts."""
+        printed = done.stdout.splitlines()
+        begin = max(number for number, line in enumerate(printed) if not line.startswith(("failed: ", "skipped: ")) and number < len(printed) - 1)
+        self.assertEqual((done.returncode, printed[begin + 1:]), (status, list(lines)), done.stdout)
+
+
+class Check(Tree):
+    def setUp(self):
+        super().setUp()
+        self.put("scripts/check", (SOURCE / "scripts/check").read_text())
+
+    def check(self, *options):
+        return self.run_there("scripts/check", *options)
+
+    def cases(self, name, last):
+        """A test of three cases of Python's, the last of which is as told."""
+        self.put(f"{name}.py", CASES % last)
+        return name, f"python3 {SOURCE}/tests/run_cases.py {self.tree}/{name}.py", "SKIP_RETURN_CODE", "77"
+
+    def test_tests_and_samples_add_up(self):
+        self.assert_ends(self.check(), 0, "3 passed, 0 failed")
+
+    def test_long_tests_are_run_on_demand(self):
+        self.assert_ends(self.check("--long"), 0, "4 passed, 0 failed")
+
+    def test_every_failed_test_is_named(self):
+        self.set_tests("release", ("First", "true"), ("Second", "false"), ("Third.Fails", "kill -SEGV $$"), ("Fourth", "sleep 9", "TIMEOUT", "1"))
+        self.assert_ends(self.check(), 1, "failed: Second", "failed: Third.Fails", "failed: Fourth", "3 passed, 3 failed")
+
+    def test_a_failed_case_is_named_with_its_test(self):
+        self.set_tests("release", self.cases("Cases", "self.fail()"))
+        self.assert_ends(self.check(), 1, "failed: Cases: test_with_nothing", "skipped: Cases: no browser (2 cases)",
+                         "2 passed, 1 failed, 2 skipped")
+
+    def test_a_skipped_test_has_not_passed(self):
+        self.set_tests("release", ("Passes", "true"), ("A.B", GTEST_SKIP, "SKIP_REGULAR_EXPRESSION", r"\[  SKIPPED \]"))
+        self.assert_ends(self.check(), 0, "skipped: A.B: no moon tonight", "3 passed, 0 failed, 1 skipped")
+
+    def test_skipped_cases_are_counted_beside_their_test(self):
+        self.set_tests("release", self.cases("Cases", "print('x' * 5000)"))
+        self.assert_ends(self.check(), 0, "skipped: Cases: no browser (2 cases)", "3 passed, 0 failed, 2 skipped")
+
+    def test_a_test_whose_cases_are_all_skipped_has_not_passed(self):
+        self.set_tests("release", ("Passes", "true"), self.cases("Cases", "self.skipTest('nor this')"))
+        self.assert_ends(self.check(), 0, "skipped: Cases: no browser (2 cases)", "skipped: Cases: nor this",
+                         "3 passed, 0 failed, 3 skipped")
+
+    def test_a_test_without_its_program_is_a_failure(self):
+        self.put("presets/release/CTestTestfile.cmake", "add_test(Missing /no/such/program)\nadd_test(Passes true)\n")
+        self.assert_ends(self.check(), 1, "failed: Missing", "3 passed, 1 failed")
+
+    def test_no_test_is_a_failure(self):
+        self.assert_ends(self.check("-R", "NoSuchTest"), 1, "failed: no test ran", "2 passed, 1 failed")
+
+    def test_a_ctest_that_fails_without_results_is_one(self):
+        self.put("bin/ctest", "#!/bin/sh\nexit 8\n")
+        self.assert_ends(self.check(), 1, "failed: ctest: there are no results", "2 passed, 1 failed")
+
+    def test_a_ctest_that_fails_though_its_tests_passed_is_one(self):
+        self.put("bin/ctest", CTEST.replace("exec ", "") + "exit 7\n")
+        self.assert_ends(self.check(), 1, "failed: ctest: exit status 7", "3 passed, 1 failed")
+
+    def test_a_sample_that_differs_is_named(self):
+        self.put("Makefile.samples", "check:\n\t@echo 'FAIL  samples/a differs'; echo 1 passed, 1 failed; false\n")
+        self.assert_ends(self.check(), 1, "failed: samples/a differs", "2 passed, 1 failed")
+
+    def test_samples_that_are_not_made_are_a_failure(self):
+        self.put("Makefile.samples", "check:\n\t@false\n")
+        self.assert_ends(self.check(), 1, "failed: samples: they were not made", "1 passed, 1 failed")
+
+    def test_packages_or_a_build_that_fail_are_named(self):
+        for stub, name in (("install-packages", "packages"), ("build-release", "build")):
+            with self.subTest(stub):
+                self.put(f"scripts/{stub}", "#!/bin/sh\nexit 1\n")
+                self.assert_ends(self.check(), 1, f"failed: {name}", "0 passed, 1 failed")
+                self.put(f"scripts/{stub}", "#!/bin/sh\n")
+
+
+if __name__ == "__main__":
+    unittest.main()
