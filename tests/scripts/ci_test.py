@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""scripts/check and scripts/maintain/test-report count what did not pass, and name it. The ctest is a real one, its tests are a line
+""".ci/run, scripts/check and scripts/maintain/test-report count what did not pass, and name it. The ctest is a real one, its tests are a line
 of shell each; whatever else is called is a stub.
 
 usage: ci_test.py SOURCE_DIR [UNITTEST ARGUMENT...]
@@ -151,6 +151,72 @@ class Check(Tree):
                 self.put(f"scripts/{stub}", "#!/bin/sh\nexit 1\n")
                 self.assert_ends(self.check(), 1, f"failed: {name}", "0 passed, 1 failed")
                 self.put(f"scripts/{stub}", "#!/bin/sh\n")
+
+
+class Ci(Tree):
+    def ci(self, *options, **variables):
+        return self.run_there("bash", ".ci/run", *options, CI="true", **variables)
+
+    def test_what_passes_adds_up(self):
+        done = self.ci()
+        self.assertEqual(done.returncode, 0, done.stdout)
+        self.assertRegex(done.stdout, r"\n[1-9][0-9]* passed, 0 failed\n$")
+
+    def test_without_time_every_step_is_a_failure(self):
+        done = self.ci(LIMIT="0")
+        names = done.stdout.splitlines()[:-1]
+        self.assertGreater(len(names), 8)
+        for name in names:
+            self.assertRegex(name, "^failed: .*: left out, the time was over$")
+        self.assertEqual((done.returncode, done.stdout.splitlines()[-1]), (1, f"0 passed, {len(names)} failed"))
+
+    def test_a_step_that_is_stopped_is_a_failure(self):
+        for step, name in (("scripts/install-packages", "packages and preset"), ("scripts/check", "gcc, release: all tests")):
+            with self.subTest(step):
+                before = (self.tree / step).read_text()
+                self.put(step, "#!/bin/sh\necho 1 passed, 0 failed\nsleep 60\n")
+                done = self.ci(LIMIT="0.05")
+                self.assertIn(f"failed: {name}: stopped, the time was over\n", done.stdout)
+                self.assertRegex(done.stdout, r"\n(\d+) passed, [1-9]\d* failed\n$")
+                self.assertEqual(done.returncode, 1)
+                self.put(step, before)
+
+    def test_a_limit_that_is_no_number_is_a_mistake(self):
+        for limit in ("soon", "-1", "1e9", "."):
+            done = self.ci(LIMIT=limit)
+            self.assertEqual((done.returncode, done.stdout), (2, "usage: [LIMIT=MINUTES] .ci/run [--matrix]\n"))
+        self.assertEqual(self.ci("--quick").returncode, 2)
+
+    def test_the_matrix_has_steps_of_its_own_and_no_limit(self):
+        self.put("scripts/maintain/tidy", "#!/bin/sh\nexit 1\n")
+        self.assertEqual(self.ci().returncode, 0)
+        self.assert_ends(self.ci("--matrix", LIMIT="0"), 1, "failed: clang-tidy", self.ci("--matrix").stdout.splitlines()[-1])
+
+    def test_failed_and_skipped_tests_of_all_presets_are_named(self):
+        self.put("scripts/check", "#!/bin/sh\necho failed: A.B\necho 'skipped: C.D: no moon'\necho 3 passed, 1 failed, 1 skipped\nexit 1\n")
+        self.set_tests("asan", ("Overflows.Here", "false"))
+        self.set_tests("clang", ("Ends.Early", "false"), ("A.B", GTEST_SKIP, "SKIP_REGULAR_EXPRESSION", r"\[  SKIPPED \]"))
+        done = self.ci()
+        self.assert_ends(done, 1, "failed: gcc, release: all tests: A.B", "skipped: gcc, release: all tests: C.D: no moon",
+                         "failed: gcc, ASan and UBSan: all tests: Overflows.Here", "failed: clang, release: modules: Ends.Early",
+                         "skipped: clang, release: modules: A.B: no moon tonight", done.stdout.splitlines()[-1])
+        self.assertRegex(done.stdout.splitlines()[-1], r"^\d+ passed, 3 failed, 2 skipped$")
+
+    def test_counts_without_names_are_named_by_their_step(self):
+        self.put("scripts/measure/bench", "#!/bin/sh\necho 0 passed, 0 failed, 39 skipped\n")
+        self.put("scripts/maintain/fuzz", "#!/bin/sh\necho 7 passed, 1 failed\nexit 1\n")
+        done = self.ci()
+        self.assert_ends(done, 1, "skipped: gcc, release: instructions: 39, see there",
+                         "failed: clang, ASan and UBSan: corpora and new inputs: 1, see there", done.stdout.splitlines()[-1])
+
+    def test_a_status_or_counts_that_are_missing_are_a_failure(self):
+        self.put("scripts/check", "#!/bin/sh\necho 3 passed, 0 failed\nexit 1\n")
+        self.put("scripts/measure/bench", "#!/bin/sh\n")
+        self.put("bin/cmake", "#!/bin/sh\ncase $* in *asan*) echo no compiler; exit 1 ;; esac\n")
+        done = self.ci()
+        self.assert_ends(done, 1, "failed: gcc, release: all tests", "failed: gcc, release: instructions",
+                         "failed: gcc, ASan and UBSan: all tests", done.stdout.splitlines()[-1])
+        self.assertIn("no compiler\n", done.stdout)
 
 
 if __name__ == "__main__":
