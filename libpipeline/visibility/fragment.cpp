@@ -1,17 +1,16 @@
 #include "libpipeline/visibility/fragment.h"
 
-#include <array>
-#include <charconv>
+#include <cmath>
+
+#include "libpipeline/text/number_printer.h"
 
 namespace pipeline {
 namespace {
 
-/// The shortest text that reads back to the same double; zero has no sign. Unlike shortest_text, it takes the
-/// infinite depths that huge coordinates overflow to.
-std::string shortest(double depth) {
-  std::array<char, 32> text{};
-  const auto end = std::to_chars(text.data(), text.data() + text.size(), depth == 0 ? 0.0 : depth).ptr;
-  return {text.data(), end};
+/// As shortest_text, also for the infinite depths that huge coordinates overflow to.
+std::string depth_text(double depth) {
+  if (std::isfinite(depth)) return shortest_text(depth);
+  return depth < 0 ? "-inf" : "inf";
 }
 
 std::string to_text(DepthTestResult result, std::uint64_t winner) {
@@ -36,7 +35,7 @@ std::string to_text(DepthTestResult result, std::uint64_t winner) {
 
 std::string to_text(const Fragment& fragment) {
   return std::to_string(fragment.pixel.column) + "," + std::to_string(fragment.pixel.row) + ": triangle " +
-         std::to_string(fragment.triangle) + ", depth " + shortest(fragment.depth) + ": " +
+         std::to_string(fragment.triangle) + ", depth " + depth_text(fragment.depth) + ": " +
          to_text(fragment.result, fragment.winner);
 }
 

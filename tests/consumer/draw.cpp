@@ -2,8 +2,8 @@
 
 #include <cstdio>
 
-#include "libpipeline/coverage/coverage.h"
-#include "libpipeline/visibility/visibility.h"
+#include "libpipeline/coverage/rules.h"
+#include "libpipeline/visibility/algorithms.h"
 
 int main() {
   const pipeline::Viewport viewport{.columns = 8, .rows = 4};

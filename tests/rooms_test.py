@@ -1,0 +1,138 @@
+#!/usr/bin/env python3
+"""The rooms of libpipeline and the arrows between them are those of its map, libpipeline/README.md.
+
+usage: rooms_test.py SOURCE_DIR [UNITTEST ARGUMENT...]
+"""
+import pathlib
+import re
+import sys
+import tempfile
+import unittest
+
+SOURCE = pathlib.Path(sys.argv.pop(1)).resolve() if len(sys.argv) > 1 else sys.exit(__doc__)
+LIBRARY = SOURCE / "libpipeline"
+MAP = (LIBRARY / "README.md").read_text()
+INCLUDE = re.compile(r'^\s*#\s*include\s+"libpipeline/(\w+)/([\w.]+)"', re.MULTILINE)
+
+
+def arrows_of(text):
+    """{room: the rooms it may include} of the lines 'room -> room room' of a map."""
+    return {room: set(others.split()) for room, others in re.findall(r"^    (\w+) +->((?: +\w+)*)$", text, re.MULTILINE)}
+
+
+def sources(root):
+    return sorted(path for path in root.rglob("*") if path.suffix in (".h", ".cpp"))
+
+
+def wrong_includes(library, arrows):
+    """A line for every include that no arrow allows."""
+    return [f"{path.relative_to(library)} includes {room}/{name}, but there is no arrow {path.parent.name} -> {room}"
+            for path in sources(library) for room, name in INCLUDE.findall(path.read_text())
+            if room != path.parent.name and room not in arrows.get(path.parent.name, ())]
+
+
+def circle(arrows):
+    """Some rooms that lead back to the first, or nothing."""
+    def search(path):
+        for room in sorted(arrows.get(path[-1], ())):
+            if room in path:
+                return path[path.index(room):] + [room]
+            if found := search(path + [room]):
+                return found
+        return None
+
+    return next((found for room in sorted(arrows) if (found := search([room]))), None)
+
+
+class Rooms(unittest.TestCase):
+    def test_the_map_names_every_room_and_no_other(self):
+        rooms = {path.name for path in LIBRARY.iterdir() if path.is_dir()}
+        self.assertEqual(set(arrows_of(MAP)), rooms)
+        self.assertLessEqual(len(rooms), 9)
+
+    def test_a_room_has_about_thirty_files_at_most(self):
+        for room in arrows_of(MAP):
+            self.assertLessEqual(len(list((LIBRARY / room).iterdir())), 31, room)
+
+    def test_arrows_make_no_circle(self):
+        self.assertIsNone(circle(arrows_of(MAP)))
+
+    def test_picture_and_visibility_are_blind_to_each_other(self):
+        arrows = arrows_of(MAP)
+        self.assertNotIn("visibility", arrows["picture"])
+        self.assertNotIn("picture", arrows["visibility"])
+
+    def test_every_include_follows_an_arrow(self):
+        self.assertEqual(wrong_includes(LIBRARY, arrows_of(MAP)), [])
+
+    def test_every_file_is_in_a_room(self):
+        self.assertEqual([path.name for path in LIBRARY.iterdir() if path.suffix in (".h", ".cpp")], [])
+
+    def test_the_library_needs_nothing_of_the_tools(self):
+        for path in sources(LIBRARY):
+            self.assertNotRegex(path.read_text(), r'#\s*include\s+["<](?:tools/|CLI/)', str(path))
+
+    def test_the_map_is_short(self):
+        self.assertLessEqual(MAP.count("\n"), 100)
+
+
+class Invariants(unittest.TestCase):
+    """What the map promises of the whole code, as far as words can show it."""
+
+    def assert_only_in(self, pattern, roots, allowed):
+        found = {str(path.relative_to(SOURCE)) for root in roots for path in sources(SOURCE / root)
+                 if re.search(pattern, re.sub(r"//[^\n]*", "", path.read_text()))}
+        self.assertEqual(found, set(allowed))
+
+    def test_nothing_but_tools_writes_to_stderr(self):
+        self.assert_only_in(r"(?<!/dev/)\bstderr\b|std::cerr|\bperror\b|\bdprintf\b|\bsyslog\b", ["libpipeline"], [])
+
+    def test_nothing_but_tools_exits_or_reads_the_command_line(self):
+        self.assert_only_in(r"\bargv\b|\b_?[eE]xit\(|std::abort\(", ["libpipeline"], [])
+
+    def test_the_environment_is_read_in_one_place(self):
+        self.assert_only_in(r"\bgetenv\b", ["libpipeline", "tools"], ["libpipeline/numbers/kernel_choice.h"])
+
+    def test_cli11_is_named_in_one_source(self):
+        self.assert_only_in(r"#include <CLI/", ["libpipeline", "tools"], ["tools/command_line.cpp"])
+
+    def test_only_text_knows_digits(self):
+        self.assert_only_in(r"\b(?:from_chars|to_chars|strto\w+|ato[fil]|s\w*scanf|iostream|sstream|setlocale)\b",
+                            [f"libpipeline/{room}" for room in arrows_of(MAP) if room != "text"], [])
+
+
+class Promises(unittest.TestCase):
+    def test_every_test_and_file_the_map_names_is_there(self):
+        tests = "\n".join(path.read_text() for path in (SOURCE / "tests").rglob("*") if path.suffix in (".cpp", ".txt"))
+        for suite, name in re.findall(r"`(\w+)\.(\w+)`", MAP[MAP.index("## What always holds"):MAP.index("## Public headers")]):
+            form = rf"tools_test\({name} |\bTools\.{name} " if suite == "Tools" else rf"TEST(?:_[FP])?\({suite},\s+{name}\)|\b{suite}\.{name}\b"
+            self.assertTrue(re.search(form, tests), f"no test {suite}.{name}")
+        for room, name in re.findall(r"`(\w+)/(\w+\.(?:h|cpp))`", MAP):
+            self.assertTrue((LIBRARY / room / name).is_file() or (SOURCE / room / name).is_file(), f"{room}/{name}")
+
+
+class PublicHeaders(unittest.TestCase):
+    def test_the_map_lists_those_that_cmake_lists(self):
+        in_cmake = re.search(r"set\(PIPELINE_PUBLIC_HEADERS\n(.*?)\)", (LIBRARY / "CMakeLists.txt").read_text(), re.DOTALL)[1].split()
+        in_map = re.findall(r"`(\w+/\w+\.h)`", MAP[MAP.index("## Public headers"):])
+        self.assertEqual(sorted(in_map), sorted(in_cmake))
+        for header in in_cmake:
+            self.assertTrue((LIBRARY / header).is_file(), header)
+
+
+class TheTestItself(unittest.TestCase):
+    def test_a_wrong_include_is_named(self):
+        with tempfile.TemporaryDirectory() as folder:
+            root = pathlib.Path(folder)
+            for room, text in {"low": '#pragma once\n#include "libpipeline/high/b.h"\n', "high": '#include "libpipeline/low/a.h"\n'}.items():
+                (root / room).mkdir()
+                (root / room / f"{'a' if room == 'low' else 'b'}.h").write_text(text)
+            self.assertEqual(wrong_includes(root, {"low": set(), "high": {"low"}}),
+                             ["low/a.h includes high/b.h, but there is no arrow low -> high"])
+
+    def test_a_circle_is_found(self):
+        self.assertEqual(circle({"a": {"b"}, "b": {"c"}, "c": {"b"}}), ["b", "c", "b"])
+        self.assertIsNone(circle({"a": {"b", "c"}, "b": {"c"}, "c": set()}))
+
+
+unittest.main()
