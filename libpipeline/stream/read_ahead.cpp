@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t kSlotsPerThread = 2;
 // In batches. Text in another form usually goes on in that form, and parsing its parts is wasted work.
-constexpr int kPause = 32;
+constexpr int kPause = 16;
 // Nine numbers such as 0.1234567 with a separator each, and the blank line.
 constexpr std::size_t kMinFixedTriangleLength = 9 * 10 + 1;
 static_assert(ReadAhead::kPartSize / kMinFixedTriangleLength <= kBatchSize);

@@ -97,7 +97,7 @@ Counts expect_same_by_parts(const std::string& text, std::size_t part_size) {
 TEST(ReadAhead, DeliversTheTrianglesOfTheReader) {
   expect_same_by_parts("", ReadAhead::kPartSize);
   expect_same_by_parts(odd_stage_text(1, kNoOddText, 1), ReadAhead::kPartSize);
-  expect_same_by_parts(odd_stage_text(30000, kNoOddText, 2), ReadAhead::kPartSize);
+  expect_same_by_parts(odd_stage_text(20000, kNoOddText, 2), ReadAhead::kPartSize);
 }
 
 TEST(ReadAhead, ParsesPartsOfTheText) {
@@ -115,7 +115,7 @@ TEST(ReadAhead, LeavesOtherTextToTheReader) {
     EXPECT_GE(expect_same_by_parts(odd_stage_text(3000, 1000, seed), 1000).small_batches, 2);
     expect_same_by_parts(odd_stage_text(3000, 5, seed), 1000);
   }
-  expect_same_by_parts(odd_stage_text(50000, 5000, 3), ReadAhead::kPartSize);
+  expect_same_by_parts(odd_stage_text(20000, 5000, 3), ReadAhead::kPartSize);
   for (const int decimals : {0, 3, 9, 17})
     expect_same_by_parts(odd_stage_text(5000, 1000, 4, {decimals, ""}), 1000);
   expect_same_by_parts("attributes color\n" + odd_stage_text(5000, 1000, 5, {7, " 1 2 3"}), 1000);
@@ -123,7 +123,7 @@ TEST(ReadAhead, LeavesOtherTextToTheReader) {
 
 TEST(ReadAhead, GoesOnAfterOtherText) {
   const std::string text =
-      odd_stage_text(2000, kNoOddText, 6) + "# a comment\n" + odd_stage_text(80000, kNoOddText, 7);
+      odd_stage_text(2000, kNoOddText, 6) + "# a comment\n" + odd_stage_text(40000, kNoOddText, 7);
   const Counts counts = expect_same_by_parts(text, 20000);
   EXPECT_GE(counts.batches - counts.small_batches, 10);
   EXPECT_GE(counts.small_batches, 50);
