@@ -116,7 +116,7 @@ Ball Ball::with_error_at_most(double bound) const {
   return limit < error_ ? normalized(value_, limit, exponent_) : *this;
 }
 
-/// An upper bound of size * 2^exponent; above 0 for a size above 0.
+/// An upper bound on size * 2^exponent; above 0 for a size above 0.
 double Ball::scaled_up(double size) const {
   if (exponent_ == 0) return size * kRoundUp;
   const auto shift = static_cast<int>(std::clamp<std::int64_t>(exponent_, -3000, 3000));

@@ -8,9 +8,9 @@ namespace pipeline {
 
 /// A real number known to lie within `error` of a midpoint: (hi + lo +- error) * 2^exponent.
 ///
-/// The midpoint has about 106 bits, and every operation adds its own rounding error to the error, so a result
-/// carries a bound of how wrong it is ("ball arithmetic": J. van der Hoeven, 2009). The exponent is used only
-/// near the ends of a double's range: it is 0 while |hi| lies in [2^-300, 2^300], so that no
+/// The midpoint has about 106 bits, and every operation adds its own rounding error to the error, so every
+/// result carries a bound on its error ("ball arithmetic": J. van der Hoeven, 2009). The exponent is used
+/// only near the ends of a double's range: it is 0 while |hi| lies in [2^-300, 2^300], so that no
 /// intermediate step can overflow or underflow. Exact operations on exact numbers stay exact (error 0): the
 /// product of two doubles, the sum of two that are at most 600 binary places apart, a quotient or root that
 /// is a double.
@@ -40,12 +40,12 @@ class Ball {
 
   /// The same midpoint with an error of at most `bound`, which the caller has proved.
   [[nodiscard]] Ball with_error_at_most(double bound) const;
-  /// An upper bound of |x| for every x in the ball; infinite beyond a double's range.
+  /// An upper bound on |x| for every x in the ball; infinite beyond a double's range.
   [[nodiscard]] double magnitude() const { return scaled_up(std::fabs(value_.hi) + error_); }
-  /// An upper bound of the radius.
+  /// An upper bound on the radius.
   [[nodiscard]] double radius() const { return error_ == 0 ? 0 : scaled_up(error_); }
 
-  /// -1, 0 or +1; 0 if the ball contains 0, or its error almost reaches it.
+  /// -1, 0 or +1; 0 if the ball contains 0 or nearly does.
   [[nodiscard]] int sign() const;
   [[nodiscard]] bool is_exact() const { return error_ == 0; }
   [[nodiscard]] bool is_exact_zero() const { return value_.hi == 0 && error_ == 0; }

@@ -5,12 +5,13 @@
 namespace pipeline {
 
 // Rounding to n decimals. Such a decimal is a whole number of units of 10^-n, so a number is scaled by 10^n
-// and rounded to a whole number. The scaled number is a double and not quite right; the result is taken only
-// if that cannot matter, else the caller computes it exactly (A. Ziv, "Fast evaluation of elementary
-// mathematical functions with correctly rounded last bit", ACM TOMS 17(3), 1991). Kernels written in
-// intrinsics repeat these formulas lane by lane, with these constants.
+// and rounded to a whole number. The scaled number is rounded to a double; the result is accepted only if
+// that rounding cannot change it, otherwise the caller computes it exactly (A. Ziv, "Fast evaluation of
+// elementary mathematical functions with correctly rounded last bit", ACM TOMS 17(3), 1991). Kernels written
+// in intrinsics repeat these formulas lane by lane, with these constants.
 
-/// Doubles from 2^52 to 2^53 are whole numbers: adding this number and taking it away again rounds to one.
+/// Doubles from 2^52 to 2^53 are whole numbers: adding this number and subtracting it again rounds to a whole
+/// number.
 constexpr double kWholeRounder = 0x1.8p52;
 
 /// The whole number nearest to a number from -2^51 to 2^51, ties to even.
@@ -18,7 +19,8 @@ constexpr double kWholeRounder = 0x1.8p52;
   return (value + kWholeRounder) - kWholeRounder;
 }
 
-/// A product of two doubles is off by at most 2^-53 of the exact one, hence by less than this part of itself.
+/// A product of two doubles is off by at most 2^-53 of the exact one, hence by less than this fraction of
+/// itself.
 constexpr double kProductError = 0x1p-52;
 
 /// A number whose distance from a whole number stays below this rounds to it. The few sums that make up such
@@ -36,8 +38,8 @@ struct DecimalUnits {
       : scaled(std::fabs(value) * scale), whole(nearest_whole(scaled)) {}
 
   /// The rounding test: true only if every number within `error`, in units, of the exact |value| * scale is
-  /// nearer to `whole` than to any other whole number. It refuses ties, numbers from 2^51 units on (their
-  /// product may be off by half a unit), infinities and NaN, and may refuse a number just beside a tie.
+  /// nearer to `whole` than to any other whole number. It rejects ties, numbers from 2^51 units on (their
+  /// product may be off by half a unit), infinities and NaN, and may reject a number right next to a tie.
   [[nodiscard, gnu::always_inline]] bool is_certain(double error = 0) const {
     return std::fabs(scaled - whole) + scaled * kProductError < kBelowHalf - error;
   }

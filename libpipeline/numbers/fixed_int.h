@@ -19,7 +19,7 @@ template <std::size_t Limbs>
 class FixedInt {
  public:
   FixedInt() = default;
-  FixedInt(Int128 value) {  // NOLINT(google-explicit-constructor): no number is lost
+  FixedInt(Int128 value) {  // NOLINT(google-explicit-constructor): every value fits
     limbs_.fill(value < 0 ? ~std::uint64_t{0} : 0);
     limbs_[0] = static_cast<std::uint64_t>(value);
     // NOLINTNEXTLINE(clang-analyzer-core.UndefinedBinaryOperatorResult): the type has 128 bits
@@ -32,7 +32,7 @@ class FixedInt {
   }
 
   [[nodiscard]] bool is_negative() const { return (limbs_[Limbs - 1] >> 63) != 0; }
-  /// 64 of its bits; beyond the last limb those of its sign.
+  /// 64 of its bits; beyond the last limb, copies of the sign bit.
   [[nodiscard]] std::uint64_t limb(std::size_t index) const {
     return index < Limbs ? limbs_[index] : is_negative() ? ~std::uint64_t{0} : 0;
   }

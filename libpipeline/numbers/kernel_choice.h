@@ -8,8 +8,9 @@
 
 namespace pipeline {
 
-/// The kernel in use, of a list from "portable" to the fastest: the last, or the fastest one up to the level
-/// that the environment variable PIPELINE_KERNEL names (for tests). An unknown name has no effect.
+/// Chooses the kernel to use from a list that runs from "portable" to the fastest: the last, or the fastest
+/// one up to the level that the environment variable PIPELINE_KERNEL names (for tests). An unknown name has
+/// no effect.
 template <typename Kernel>
 const Kernel& chosen_kernel(std::span<const Kernel> kernels) {
   constexpr std::array<std::string_view, 3> kNames = {"portable", "sse4", "avx2"};

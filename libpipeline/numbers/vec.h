@@ -4,7 +4,7 @@
 
 namespace pipeline {
 
-/// A point or a direction; the name of the variable gives its space (p_world, p_view, p_ndc).
+/// A point or a direction; the name of the variable shows its space (p_world, p_view, p_ndc).
 struct Vec3 {
   double x = 0;
   double y = 0;

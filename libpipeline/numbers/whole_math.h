@@ -9,8 +9,8 @@
 
 namespace pipeline {
 
-// The operations exact geometry needs of an integer type beside + - * and comparisons: bit_length, to_double
-// and cut, under the same names for 64 bits, 128 bits and a FixedInt.
+// The operations that exact geometry needs of an integer type besides + - * and comparisons: bit_length,
+// to_double and cut, under the same names for 64 bits, 128 bits and a FixedInt.
 
 inline int bit_length(Int128 value) {
   return bit_length(static_cast<UInt128>(value < 0 ? ~value : value));
@@ -57,7 +57,7 @@ class Divisor {
  private:
   static constexpr bool kMayBeHuge = !std::is_same_v<Int, std::int64_t> && !std::is_same_v<Int, Int128>;
 
-  /// number / 2^exponent_ as a double; infinity where that is too large, which serves as well.
+  /// number / 2^exponent_ as a double; infinity where that is too large, which does no harm.
   [[nodiscard]] double in_range(const Int& number) const {
     if constexpr (kMayBeHuge) return to_double(number, exponent_);
     if constexpr (std::is_same_v<Int, Int128>) return to_double(number);

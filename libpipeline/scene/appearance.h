@@ -16,7 +16,7 @@ namespace pipeline {
 /// space after `view`.
 struct Light {
   Vec3 position;
-  Vec3 intensity;  // red, green, blue, each at least 0; 1 is full light
+  Vec3 intensity;  // red, green, blue, each at least 0; 1 is full intensity
 };
 
 /// How a surface reflects light: the coefficients of its ambient, diffuse and specular reflection, each at
@@ -37,7 +37,7 @@ struct Attenuation {
 };
 
 /// The color and light of a scene or of a stage text's header: each part that was given, with the location of
-/// its arguments, and nullopt for the others. A plain scene gives none.
+/// its arguments, and nullopt for the others. A plain scene sets none.
 struct Appearance {
   std::optional<Located<AttributeSet>> attributes;
   std::optional<Located<Vec3>> background;  // red, green, blue from 0 to 255
@@ -46,11 +46,11 @@ struct Appearance {
   std::optional<Located<Attenuation>> attenuation;
   std::vector<Located<Light>> lights;
 
-  /// The columns of the vertex lines beside x y z.
+  /// The columns of the vertex lines besides x y z.
   [[nodiscard]] AttributeSet columns() const { return attributes ? attributes->value : AttributeSet{}; }
 };
 
-/// Where a line `attributes` stands: a scene may not ask for w, which the project stage adds.
+/// Where a line `attributes` stands: a scene may not name w, which the project stage adds.
 enum class AttributeSource { scene, stage_text };
 
 /// True for `attributes`, `background`, `ambient`, `material`, `attenuation` and `light`.

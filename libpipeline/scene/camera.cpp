@@ -54,7 +54,7 @@ Volume read_volume(LineScanner& line) {
   return v;
 }
 
-/// A part of the camera and its name in messages; null for a keyword of no such part.
+/// A part of the camera and its name in messages; null if the keyword names no such part.
 struct PositionPart {
   std::optional<Located<Vec3>> CameraParameters::*part = nullptr;
   std::string_view name;

@@ -26,16 +26,16 @@ struct Frustum {
   double left = 0, right = 0, bottom = 0, top = 0, near = 0, far = 0;
 };
 
-/// glOrtho's parameters: the bounds of the view volume in x and y of view space, as a Frustum's, and near <
-/// far, distances that may have any sign.
+/// glOrtho's parameters: the bounds of the view volume in x and y of view space, under the same conditions as
+/// a Frustum's, and near < far, distances that may have any sign.
 struct Orthographic {
   double left = 0, right = 0, bottom = 0, top = 0, near = 0, far = 0;
 };
 
 using Projection = std::variant<Perspective, Frustum, Orthographic>;
 
-/// The camera parameters that were given, each with the location of its numbers; nullopt where a scene, a
-/// stage text's header or the options are silent.
+/// The camera parameters that were given, each with the location of its numbers; nullopt for the parts that a
+/// scene, a stage text's header or the options leave out.
 struct CameraParameters {
   std::optional<Located<Vec3>> eye;   // a point in world space
   std::optional<Located<Vec3>> look;  // the point looked at, in world space
@@ -53,13 +53,13 @@ Projection read_projection(std::string_view keyword, LineScanner& line);
 bool read_camera_part(std::string_view keyword, const SourceLocation& keyword_location, LineScanner& line,
                       CameraParameters& camera);
 
-/// The projection alone, which is all that later stages need after the view transform.
+/// The projection alone, which is all that the stages after view need.
 CameraParameters without_position(const CameraParameters& camera);
 
 /// True if up x (look - eye) is 0 as far as 31 digits can tell.
 bool is_parallel_to_view(const Vec3& eye, const Vec3& look, const Vec3& up);
 
-/// Checks the parts that are given: an InputError at `look` if it is the eye, and at `up` if that is 0 or
+/// Checks the parts that are given: an InputError at `look` if it equals the eye, and at `up` if that is 0 or
 /// parallel to the view direction.
 void check_camera(const CameraParameters& camera);
 

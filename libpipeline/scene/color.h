@@ -4,7 +4,7 @@
 
 namespace pipeline {
 
-/// A color of 8 bits a channel, packed as 0x00RRGGBB.
+/// A color with 8 bits per channel, packed as 0x00RRGGBB.
 class Color {
  public:
   constexpr Color() = default;  // black
@@ -28,13 +28,13 @@ class Color {
   std::uint32_t rgb_ = 0;
 };
 
-/// The colors of triangles that have none of their own, from the random numbers of the course's hand-outs
+/// The colors of triangles that have none of their own, from the random numbers of the course's handouts
 /// (`rand` of Microsoft Visual C++): s starts at 1, a draw sets s = 214013 s + 2531011 (mod 2^32) and gives
-/// (s >> 16) & 0x7fff, modulo 256. Triangle N has draws 3N, 3N + 1 and 3N + 2 as red, green and blue, whether
-/// or not it or any other triangle is drawn.
+/// (s >> 16) & 0x7fff, modulo 256. Triangle N uses draws 3N, 3N + 1 and 3N + 2 as its red, green and blue,
+/// whether or not it or any other triangle is drawn.
 class TriangleColors {
  public:
-  /// The color of triangle `number`, in constant time for the successor of the last one asked for, otherwise
+  /// The color of triangle `number`, in constant time if it follows the triangle of the last call, otherwise
   /// in O(log number).
   Color of(std::uint64_t number);
 

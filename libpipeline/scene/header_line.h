@@ -17,7 +17,7 @@ struct Located {
   SourceLocation location;
 };
 
-/// The error, at `second`, for a part of which a text may have only one: "expected one `name`, found a second
+/// The error, at `second`, for a part that a text may have only once: "expected one `name`, found a second
 /// one after `first`".
 inline InputError given_twice(const std::string& name, const SourceLocation& first,
                               const SourceLocation& second) {

@@ -92,13 +92,13 @@ std::string SceneReader::expected_commands() const {
   return commands + ")";
 }
 
-/// Takes a command of color or light. All but `color` must come before the first triangle.
+/// Reads a color or light command. All but `color` must come before the first triangle.
 Command SceneReader::read_appearance(std::string_view keyword) {
   const bool is_color = keyword == "color";
   if (has_triangle_ && !(is_color && appearance_.columns().color)) {
     const std::string expected = is_color ? "'color' or 'attributes color' before the first triangle, too"
                                           : quoted(keyword) + " before the first triangle";
-    throw InputError(location_, expected_but_found(expected, quoted(keyword) + " behind it"));
+    throw InputError(location_, expected_but_found(expected, quoted(keyword) + " after it"));
   }
   const std::string name(line_.word());
   next_argument_line("the arguments of " + quoted(name));

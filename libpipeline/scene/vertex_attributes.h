@@ -50,7 +50,7 @@ inline VertexLocations locations_of(const DecimalVertexLines& lines, std::size_t
 /// The values of a line with these attributes.
 VertexLine to_vertex_line(const DecimalVertexLine& line, const AttributeSet& attributes);
 
-/// A triangle in clip space, before the divide: w may be anything.
+/// A triangle in clip space, before the divide: w may be any number.
 using ClipTriangle = std::array<VertexLine, 3>;
 
 /// The names of all columns: "x y z", then those of the attributes.

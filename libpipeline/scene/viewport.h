@@ -20,7 +20,7 @@ struct Viewport {
   double front = -1;
   double rear = 1;
   /// For exact calculations: true where the limit was written as a decimal number with at most 7 decimals.
-  /// Then it is that decimal, limit + low part rounded to 7 decimals, and not its nearest double.
+  /// Then it stands for that decimal, limit + low part rounded to 7 decimals, and not for its nearest double.
   bool left_is_decimal = false;
   bool bottom_is_decimal = false;
   double left_low_part = 0;

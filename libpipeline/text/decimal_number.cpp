@@ -56,8 +56,8 @@ bool divide_by_power_of_ten(std::uint64_t digits, int decimals, double& value) {
     value = 0;
     return true;
   }
-  // digits * 10^-n to 128 bits. The truncation of the power and the one here lose less than a unit each,
-  // twice that after the shift: the product is too small by less than kError.
+  // digits * 10^-n to 128 bits. Truncating the power and truncating here each lose less than one unit, or two
+  // after the shift, so the product is too small by less than kError.
   constexpr UInt128 kError = 4;
   const InversePower& power = kInversePowers[n];
   const int shift = std::countl_zero(digits);

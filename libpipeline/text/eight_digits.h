@@ -23,14 +23,14 @@ inline std::uint64_t load_eight(const char* p) {
 
 constexpr std::uint64_t kEightZeros = 0x3030303030303030;
 
-/// Sets bit 7 of each byte of `less_zeros` (eight characters minus kEightZeros) that is not a digit; reliable
-/// up to and including the first such byte. 0 if all are digits.
+/// A word with bit 7 set in each byte whose character in `less_zeros` (eight characters minus kEightZeros) is
+/// not a digit; reliable up to and including the first such byte. 0 if all are digits.
 inline std::uint64_t no_digits(std::uint64_t less_zeros) {
   return (less_zeros | (less_zeros + 0x7676767676767676)) & 0x8080808080808080;
 }
 
-/// The number formed by eight digits, one a byte, the first in the lowest. Joins pairs, then fours, then
-/// eights.
+/// The number formed by eight digits, one per byte, the first in the lowest byte. Joins digits into pairs,
+/// pairs into fours, and fours into eights.
 inline std::uint64_t join_digits(std::uint64_t digits) {
   const std::uint64_t pairs = digits * 10 + (digits >> 8);
   constexpr std::uint64_t kMask = 0x000000ff000000ff;
@@ -44,13 +44,14 @@ inline std::size_t leading_digit_count(std::uint64_t less_zeros) {
   return static_cast<std::size_t>(std::countr_zero(no_digits(less_zeros))) / 8;
 }
 
-/// The number formed by the first `count` digits, 1 to 8: shifted to the end of the word, behind zeros.
+/// The number formed by the first `count` digits, 1 to 8: shifted to the end of the word, with zeros before
+/// them.
 inline std::uint64_t join_leading_digits(std::uint64_t less_zeros, std::size_t count) {
   return join_digits(less_zeros << (64 - 8 * count));
 }
 
-/// The inverse of join_digits: the digits of a number below 10^8, one a byte, the first in the lowest.
-/// Quotients are products with rounded-up inverses, exact for four and for two digits.
+/// The inverse of join_digits: the digits of a number below 10^8, one per byte, the first in the lowest byte.
+/// Divides by multiplying with rounded-up inverses, which is exact for four and for two digits.
 inline std::uint64_t split_digits(std::uint32_t number) {
   const std::uint64_t fours = number / 10000 | static_cast<std::uint64_t>(number % 10000) << 32;
   const std::uint64_t hundreds = (fours * 10486 >> 20) & 0x0000007f0000007f;
@@ -60,7 +61,7 @@ inline std::uint64_t split_digits(std::uint32_t number) {
 }
 
 #ifdef __x86_64__
-/// The digits of two numbers below 10^8 at once, one a byte.
+/// The digits of two numbers below 10^8 at once, one per byte.
 inline __m128i sixteen_digits(std::uint32_t first, std::uint32_t last) {
   const __m128i eights = _mm_set_epi64x(static_cast<std::int64_t>(last), static_cast<std::int64_t>(first));
   // x / 10000 for x < 10^8, in 64 bits.
@@ -77,7 +78,7 @@ inline __m128i sixteen_digits(std::uint32_t first, std::uint32_t last) {
 }
 #endif
 
-/// Sixteen digits, one a byte.
+/// Sixteen digits, one per byte.
 struct SixteenDigits {
   std::uint64_t first;
   std::uint64_t last;

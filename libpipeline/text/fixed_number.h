@@ -10,8 +10,8 @@
 
 namespace pipeline {
 
-// The fast path of printing a number with a fixed count of decimals: it is scaled to a whole number of units
-// of the last decimal, and the decimals are taken from a table of all groups of three digits.
+// The fast path for printing a number with a fixed count of decimals: it is scaled to a whole number of units
+// of the last decimal, and its digits are looked up in a table of all groups of three digits.
 
 struct DigitTriples {
   std::array<char, 4000> characters{};
@@ -41,9 +41,10 @@ inline char* write_whole(char* out, std::uint32_t whole) {
   return out + (digits.size() - first);
 }
 
-/// Prints a number with 6 or 7 decimals, ties excluded, and returns the end of its text; one more character
-/// is written. Null where the number has 10^15 units of the last decimal or more, is not finite, or lies so
-/// near to a tie that it takes exact arithmetic to round it. A number that rounds to zero carries no sign.
+/// Prints a number with 6 or 7 decimals, ties excluded, and returns the end of its text; the character after
+/// it is overwritten, too. Null where the number has 10^15 units of the last decimal or more, is not finite,
+/// or lies so close to a tie that only exact arithmetic can round it. A number that rounds to zero carries no
+/// sign.
 template <int decimals>
 char* write_fixed(char* out, double value) {
   static_assert(decimals == 6 || decimals == 7);

@@ -8,10 +8,11 @@
 
 namespace pipeline {
 
-// The fast paths of stage text. Nearly all of it has one form: numbers of up to eight digits, a point and
-// seven decimals, separated by one blank, three lines and a blank one a triangle. That form is read and
-// written here, many digits at a time; everything else is left to the general reader and printer, and the
-// bytes are the same. There is one kernel for each kind of processor, chosen once, when the program starts.
+// The fast paths for stage text. Nearly all of it has one form: three lines of numbers and a blank line per
+// triangle, each number with up to eight digits, a point and seven decimals, and single blanks between
+// numbers. That form is read and written here, many digits at a time; everything else is left to the general
+// reader and printer. The bytes are the same either way. There is one kernel for each kind of processor,
+// chosen once, when the program starts.
 
 /// The part of a text that is triangles in fixed form.
 struct FixedTextPart {
@@ -19,22 +20,23 @@ struct FixedTextPart {
   std::size_t length = 0;  // in characters
 };
 
-/// Readers may look at this many characters of any content after the end of the text.
+/// Readers may read this many characters past the end of the text, whatever they are.
 constexpr std::size_t kFixedTextSlack = 320;
 
 /// The maximum length of a triangle in fixed form: nine numbers with a separator each, and a line end.
 constexpr std::size_t kMaxFixedTriangleLength = 9 * 18 + 1;
 
 /// Reads triangles from the beginning of `text` until one is not in fixed form, `triangles` is full, or the
-/// text ends. Every number becomes the nearest double, as from_chars gives it.
+/// text ends. Every number becomes the nearest double, as from_chars returns it.
 using ReadFixedText = FixedTextPart (*)(std::string_view text, std::span<Triangle> triangles);
 
 /// The same for the triangles of a scene: a line `triangle`, then three vertex lines.
 using ReadFixedScene = FixedTextPart (*)(std::string_view text, std::span<Triangle> triangles);
 
-/// Prints triangles in fixed form and returns how many. Stops before one with a coordinate of more than eight
-/// digits before the point, or so close to a tie that only exact arithmetic can round it. `out` has room for
-/// kMaxFixedTriangleLength each, and kFixedTextSlack more.
+/// Prints triangles in fixed form and returns how many it printed. Stops before a triangle with a coordinate
+/// that has more than eight digits before the point, or is so close to a tie that only exact arithmetic can
+/// round it. `out` must have room for kMaxFixedTriangleLength characters per triangle, and kFixedTextSlack
+/// more.
 using WriteFixedText = FixedTextPart (*)(std::span<const Triangle> triangles, char* out);
 
 /// One implementation of all three.

@@ -31,7 +31,7 @@ PIPELINE_AVX2 inline SplitUnits split(__m256d values, __m256d& good) {
   const __m256d scaled = _mm256_mul_pd(_mm256_andnot_pd(sign_bit, values), per_one);
   const __m256d units = _mm256_sub_pd(_mm256_add_pd(scaled, rounder), rounder);
   const __m256d distance = _mm256_andnot_pd(sign_bit, _mm256_sub_pd(scaled, units));
-  // As DecimalUnits::is_certain.
+  // The same test as DecimalUnits::is_certain.
   const __m256d reach = _mm256_add_pd(distance, _mm256_mul_pd(scaled, _mm256_set1_pd(kProductError)));
   good = _mm256_and_pd(good, _mm256_cmp_pd(reach, _mm256_set1_pd(kBelowHalf), _CMP_LT_OQ));
   good = _mm256_and_pd(good, _mm256_cmp_pd(units, _mm256_set1_pd(1e15), _CMP_LT_OQ));
@@ -47,8 +47,8 @@ PIPELINE_AVX2 inline SplitUnits split(__m256d values, __m256d& good) {
           static_cast<unsigned>(_mm256_movemask_pd(below_zero))};
 }
 
-/// As sixteen_digits of eight_digits.h for two numbers, one in each half: 8 digits before the point, a 0 in
-/// its position, 7 digits after it.
+/// Like sixteen_digits in eight_digits.h, for two numbers, one in each half: 8 digits before the point, a 0
+/// in the point's position, 7 digits after it.
 PIPELINE_AVX2 inline __m256i sixteen_digits(__m128i whole_and_decimals) {
   const __m256i eights = _mm256_cvtepu32_epi64(whole_and_decimals);
   // x / 10000 for x < 10^8, in 64 bits.

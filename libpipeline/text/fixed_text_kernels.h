@@ -14,7 +14,7 @@ namespace pipeline {
 
 // The kernels of fixed_text.h, each in a file of its own.
 
-/// The line that belongs to a triangle beside its three vertex lines.
+/// The line that belongs to a triangle besides its three vertex lines.
 enum class TriangleFrame {
   stage_text,  // a blank line after them
   scene        // the line `triangle` before them
@@ -28,14 +28,14 @@ const char* vertex_lines(const char* p) {
   return std::string_view(p, kLine.size()) == kLine ? p + kLine.size() : nullptr;
 }
 
-/// Numbers are read and printed as a whole number of units of 10^-7.
+/// Numbers are read and printed as whole numbers of units of 10^-7.
 constexpr double kUnitsPerOne = 1e7;
 
 extern const FixedTextKernel kPortableKernel;
 
 #ifdef PIPELINE_HAS_X86_KERNELS
-/// Sixteen bytes from byte n on make a shuffle that moves a register's bytes to the front by n, zeros behind
-/// them.
+/// Sixteen bytes starting at byte n form a shuffle mask that moves a register's bytes to the front by n and
+/// fills the end with zeros.
 struct ByteShifts {
   alignas(16) std::array<std::uint8_t, 32> bytes{};
   constexpr ByteShifts() {

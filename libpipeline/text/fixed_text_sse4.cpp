@@ -96,7 +96,7 @@ PIPELINE_SSE4 FixedTextPart read_fixed_text(std::string_view text, std::span<Tri
 
 PIPELINE_SSE4 inline char* write_number(char* out, bool is_negative, std::uint32_t whole,
                                         std::uint32_t decimals) {
-  // 8 digits before the point, a 0 in its position, 7 digits after it.
+  // 8 digits before the point, a 0 in the point's position, 7 digits after it.
   const __m128i digits = sixteen_digits(whole, decimals);
   const __m128i characters =
       _mm_setr_epi8('0', '0', '0', '0', '0', '0', '0', '0', '.', '0', '0', '0', '0', '0', '0', '0');
@@ -132,7 +132,7 @@ PIPELINE_SSE4 inline bool split(const double* coordinates, SplitUnits& split_uni
     const __m128d scaled = _mm_mul_pd(_mm_andnot_pd(sign_bit, value), _mm_set1_pd(kUnitsPerOne));
     const __m128d units = _mm_sub_pd(_mm_add_pd(scaled, rounder), rounder);
     const __m128d distance = _mm_andnot_pd(sign_bit, _mm_sub_pd(scaled, units));
-    // As DecimalUnits::is_certain.
+    // The same test as DecimalUnits::is_certain.
     const __m128d reach = _mm_add_pd(distance, _mm_mul_pd(scaled, _mm_set1_pd(kProductError)));
     good =
         _mm_and_pd(good, _mm_and_pd(_mm_cmplt_pd(reach, below_half), _mm_cmplt_pd(units, _mm_set1_pd(1e15))));

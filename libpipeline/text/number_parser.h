@@ -15,17 +15,17 @@ struct ParsedNumber {
 };
 
 /// Parses a whole word of decimal text, [+-] digits [. digits] [e [+-] digits] with at least one digit before
-/// the exponent, as the nearest double. Numbers too small for a double become 0 of their sign. `nan`, `inf`,
-/// hexadecimal, a comma and trailing characters are errors. The locale has no influence.
+/// the exponent, as the nearest double. Numbers too small for a double become a zero of the same sign. `nan`,
+/// `inf`, hexadecimal, a comma and trailing characters are errors. The locale has no influence.
 ParsedNumber parse_number(std::string_view word);
 
-/// The maximum count of decimals of a number that exact arithmetic takes as that decimal.
+/// In exact arithmetic, a number with at most this many decimals stands for exactly that decimal.
 constexpr int kExactDecimals = 7;
 
-/// The value that exact arithmetic takes for a word that parse_number accepts. A number without exponent,
-/// below 10^22 and with at most kExactDecimals decimals, is that decimal: hi + lo, within 2^-98 of itself,
-/// where hi is the double that parse_number gives. False for any other number, which stands for its nearest
-/// double.
+/// The value that exact arithmetic uses for a word that parse_number accepts. A number below 10^22, without
+/// an exponent and with at most kExactDecimals decimals, stands for exactly that decimal: hi + lo, with a
+/// relative error of at most 2^-98, where hi is the double that parse_number returns. False for any other
+/// number, which stands for its nearest double.
 bool parse_exact_decimal(std::string_view word, DoubleDouble& value);
 
 /// Parses a whole word of decimal digits; false for anything else or a number that does not fit.

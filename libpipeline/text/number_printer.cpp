@@ -59,7 +59,7 @@ char* print_sign(char* out, bool is_negative) {
   return out + (is_negative ? 1 : 0);
 }
 
-/// The fast path of a fixed count of decimals: prints the scaled number as a whole number. Null where that
+/// The fast path for a fixed count of decimals: prints the scaled number as a whole number. Null where that
 /// has more than 51 bits, or lies so close to a tie that the rounding of the product matters.
 char* print_scaled(char* out, double value, int decimals) {
   const auto n = static_cast<std::size_t>(decimals);
@@ -106,8 +106,8 @@ char* print_decimals(char* out, double value, const Decimal& decimal) {
   return print_digits(out + high_count, behind - high * kSixteenDigits, std::min(-decimal.exponent, 16));
 }
 
-/// Prints the shortest form that reads back to the number; null if that has an exponent, or the number is not
-/// of a coordinate's size.
+/// Prints the shortest form that reads back to the number; null if that has an exponent, or the number's
+/// magnitude is unusual for a coordinate.
 char* print_shortest(char* out, double value) {
   Decimal decimal;
   if (!shortest_decimal(std::fabs(value), decimal)) return nullptr;

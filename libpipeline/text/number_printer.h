@@ -19,7 +19,7 @@ constexpr std::size_t kMaxNumberLength = 1 + 309 + 1 + kMaxDecimals;
 
 /// Prints the nearest decimal to hi + lo, ties to even, in the form of `format`, and returns the end of the
 /// text. Zero has no sign and is always "0.000..." or "0". Both parts must be finite, |lo| <= ulp(hi) / 2;
-/// the shortest form uses hi alone. `out` has room for kMaxNumberLength.
+/// the shortest form uses hi alone. `out` must have room for kMaxNumberLength characters.
 char* print_number(char* out, double hi, double lo, NumberFormat format);
 
 /// The shortest text that reads back to `value`, which must be finite.

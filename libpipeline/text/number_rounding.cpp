@@ -10,7 +10,8 @@
 namespace pipeline {
 namespace {
 
-// A ball that contains a tie counts as the tie if its radius is below this part of the last printed unit.
+// A ball that contains a tie counts as the tie if its radius is below this fraction of a unit in the last
+// printed place.
 constexpr double kTieTolerance = 0x1p-20;
 
 /// A number as the sum of a whole number and the exact remainder, whose high part lies in [-1/2, 1/2].
@@ -40,7 +41,7 @@ PrintableNumber round_to_decimals(DoubleDouble value, double error, int decimals
   const double scaled_error = (error * scale + std::fabs(scaled.hi) * 0x1p-104) * (1 + 0x1p-40);
   auto [whole, rest] = split_at_whole(scaled);
   const double direction = std::copysign(1.0, rest.hi);
-  // From the tie towards the whole number; exact where it is small.
+  // From the tie toward the whole number; exact where it is small.
   const double distance = (0.5 - std::fabs(rest.hi)) - direction * rest.lo;
   const bool may_be_tie = std::fabs(distance) <= scaled_error;
   const bool is_tie = may_be_tie && scaled_error <= kTieTolerance;
@@ -60,7 +61,7 @@ PrintableNumber round_to_double(const Ball& ball) {
   // Distances are measured on the midpoint's own scale; past +-3000 they are infinite.
   const auto shift = static_cast<int>(std::clamp<std::int64_t>(-ball.exponent(), -3000, 3000));
   const auto [hi, lo] = ball.value();
-  const double rest = hi - std::ldexp(nearest, shift);  // not 0 only below a double's normal range
+  const double rest = hi - std::ldexp(nearest, shift);  // nonzero only below a double's normal range
   const double direction = std::copysign(1.0, rest != 0 ? rest : lo);
   const double neighbor = std::nextafter(nearest, direction * HUGE_VAL);
   const double half_gap = std::fabs(std::ldexp(neighbor, shift) - std::ldexp(nearest, shift)) / 2;
@@ -77,7 +78,7 @@ PrintableNumber round_to_text(const Ball& ball, NumberFormat format) {
   const double nearest = ball.nearest_double();
   if (!std::isfinite(nearest)) return {nearest, 0, true};
   if (format.shortest) return round_to_double(ball);
-  // A negative exponent means a number far below half a unit of any count of decimals.
+  // A negative exponent means a number far below half a unit in the last decimal, for any count of decimals.
   if (ball.exponent() < 0) return {nearest, 0, true};
   if (ball.exponent() > 0) {
     const int shift = static_cast<int>(ball.exponent());

@@ -16,7 +16,7 @@ struct PrintableNumber {
 
 /// The number whose text is the correctly rounded text of every number in the ball. A ball that contains a
 /// tie and is narrower than 2^-20 of the last unit counts as the tie (rounded to even). In the shortest form,
-/// a ball that contains 0 is 0. Overflow gives an infinite hi.
+/// a ball that contains 0 becomes 0. On overflow, hi is infinite.
 PrintableNumber round_to_text(const Ball& ball, NumberFormat format);
 
 }  // namespace pipeline

@@ -34,9 +34,9 @@ int own_descriptor_of(const std::string& path) {
   return kNone;
 }
 
-/// The target of the symbolic links from `path` on, whether or not a file exists there.
+/// The end of the chain of symbolic links that begins at `path`, whether or not a file exists there.
 std::string target_of(const std::string& path) {
-  constexpr int kMaxLinks = 40;  // as the kernel
+  constexpr int kMaxLinks = 40;  // the kernel's limit
   std::filesystem::path target = path;
   std::error_code error;
   for (int i = 0; i < kMaxLinks; ++i) {
@@ -79,8 +79,8 @@ std::string OutputFile::temporary_name(int attempt) const {
   return std::filesystem::path(target_).parent_path() / name;
 }
 
-/// Opens a file that has no name yet; false where the system does not support it. /proc serves to link it
-/// later.
+/// Opens a file that has no name yet; false where the system does not support it. It is linked later through
+/// /proc.
 bool OutputFile::open_unnamed(const std::string& folder, unsigned mode) {
 #ifdef O_TMPFILE
   if (::access("/proc/self/fd", X_OK) != 0) return false;

@@ -4,9 +4,9 @@
 
 namespace pipeline {
 
-/// A file that appears complete or not at all: it is written under no name or a temporary one in the same
-/// folder, and `commit` gives it its name. Without `commit` (an exception, say) the written data are removed
-/// and an existing file stays as it was. Every failure is an IoError that names the path as given.
+/// A file that appears complete or not at all: it is written without a name, or under a temporary one in the
+/// same folder, and `commit` gives it its name. Without `commit` (an exception, say) the written data are
+/// removed and an existing file stays as it was. Every failure is an IoError that names the path as given.
 ///
 /// Where the file system supports it (O_TMPFILE), the file has no name until `commit`: nothing is left of it
 /// even if the process is killed. A link cannot replace an existing file, so in that case it gets a temporary
@@ -27,8 +27,8 @@ class OutputFile {
   /// Open for writing until `close`.
   [[nodiscard]] int descriptor() const { return descriptor_; }
 
-  /// Ends the writing; the last moment at which the system may report lost data. Of several files, close all
-  /// before committing the first.
+  /// Ends writing: the last moment at which the system may report lost data. When writing several files,
+  /// close all of them before committing the first.
   void close();
   /// Closes the file if it is still open, and gives it its name.
   void commit();

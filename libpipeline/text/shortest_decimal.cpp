@@ -8,7 +8,7 @@
 namespace pipeline {
 namespace {
 
-// A double is significand * 2^exponent with a 53-bit significand; these exponents belong to accepted values.
+// A double is significand * 2^exponent with a 53-bit significand; these are the exponents of accepted values.
 constexpr int kMinExponent = -40 - 52;
 constexpr int kMaxExponent = 0;
 
@@ -38,7 +38,7 @@ constexpr auto kPowersOfTen = [] {
   return powers;
 }();
 
-/// floor(log10(2^exponent)), or of 3/4 of that, for small exponents.
+/// floor(log10(2^exponent)), or floor(log10(3/4 * 2^exponent)), for small exponents.
 constexpr int floor_log10(int exponent, bool of_three_quarters) {
   return (exponent * 1262611 - (of_three_quarters ? 524031 : 0)) >> 22;
 }
@@ -47,7 +47,7 @@ constexpr int floor_log10(int exponent, bool of_three_quarters) {
 std::uint64_t rounded_to_odd(const PowerOfTen& power, std::uint64_t factor) {
   const UInt128 low = static_cast<UInt128>(power.low) * factor;
   const UInt128 high = static_cast<UInt128>(power.high) * factor + (low >> 64);
-  // The power is one unit too large in its last bit; the excess of that does not count as cut off.
+  // The power is one unit too large in its last bit; the excess that this causes does not count as cut off.
   const bool is_inexact = static_cast<std::uint64_t>(high) > 1;
   return static_cast<std::uint64_t>(high >> 64) | (is_inexact ? 1 : 0);
 }
@@ -75,7 +75,7 @@ bool shortest_decimal(double value, Decimal& decimal) {
   const std::uint64_t significand = fraction | kHiddenBit;
   const int exponent = static_cast<int>(bits >> 52) - 1075;
   static_assert(floor_log10(kMinExponent, true) == -kMaxPower && floor_log10(kMaxExponent, false) == 0);
-  // The next smaller double is half as far away below a power of two.
+  // Below a power of two, the next smaller double is only half as far away.
   const bool is_lower_gap_halved = fraction == 0;
   const int k = floor_log10(exponent, is_lower_gap_halved);
   const PowerOfTen& power = kPowersOfTen[static_cast<std::size_t>(-k)];

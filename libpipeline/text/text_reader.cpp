@@ -174,7 +174,7 @@ SourceLocation TextReader::end_location() const {
   return {file_, line_number_ + 1, 1};
 }
 
-/// Reads one more block behind the unread part; false at the end of the file. May block.
+/// Reads one more block after the unread part; false at the end of the file. May block.
 bool TextReader::fill() {
   if (at_end_of_file_) return false;
   if (read_error_ == 0) read_block();

@@ -14,8 +14,8 @@ namespace pipeline {
 /// In characters. A longer line is an error, so that memory stays bounded.
 constexpr std::size_t kMaxLineLength = std::size_t{1} << 20;
 
-/// Takes a line apart, word by word. Words are separated by blanks and tabs.
-/// The scanner points into the reader's buffer: it is valid until the next line is read.
+/// Splits a line, word by word. Words are separated by blanks and tabs. The scanner points into the reader's
+/// buffer: it is valid until the next line is read.
 class LineScanner {
  public:
   LineScanner() = default;
@@ -26,8 +26,8 @@ class LineScanner {
   [[nodiscard]] bool at_end() const { return rest_.empty(); }
   /// Takes the next word; an empty one at the end of the line.
   std::string_view word();
-  /// Takes the next word as a decimal number; an error names `expected` and `of`, one after the other, as
-  /// what was expected ("the x of " "the eye").
+  /// Takes the next word as a decimal number; an error names `expected` followed by `of` as the missing thing
+  /// ("the x of " "the eye").
   double number(std::string_view expected, std::string_view of = {});
   /// Takes three numbers, which must end the line; `of` names the point or direction in errors.
   Vec3 vec3(std::string_view of);
@@ -49,7 +49,7 @@ class LineScanner {
   [[nodiscard]] std::size_t line_number() const { return line_number_; }
   /// The rest of the line, without the blanks around it.
   [[nodiscard]] std::string_view rest() const { return rest_; }
-  /// The same with the comment, for text that is a message.
+  /// The same, including the comment, for text that is a message.
   [[nodiscard]] std::string_view rest_with_comment() const;
   /// True if the line holds nothing but a comment.
   [[nodiscard]] bool is_comment() const { return line_.empty() && has_comment_; }
@@ -72,7 +72,7 @@ class LineScanner {
 /// skipped.
 class TextReader {
  public:
-  /// Reads from a file descriptor, which stays the caller's; `file` names it in messages.
+  /// Reads from a file descriptor, which the caller keeps and closes; `file` names it in messages.
   TextReader(int descriptor, std::string file);
 
   /// The next line, blank ones included; false at the end of the text.
@@ -84,14 +84,14 @@ class TextReader {
   /// True if the line read last ended with a newline, not with the text.
   [[nodiscard]] bool last_line_was_ended() const { return last_line_was_ended_; }
 
-  /// The text that is in memory and not yet read, from the beginning of a line. kSlack readable characters
-  /// without meaning follow it. For callers that parse several lines at a time, then `skip` them.
+  /// The text in memory that has not been read yet, from the beginning of a line. It is followed by kSlack
+  /// readable characters without meaning. For callers that parse several lines at a time, then `skip` them.
   [[nodiscard]] std::string_view buffered() const { return {buffer_.data() + begin_, end_ - begin_}; }
   static constexpr std::size_t kSlack = 512;
   /// Consumes `length` buffered characters, `line_count` whole lines.
   void skip(std::size_t length, std::size_t line_count);
-  /// Buffers one more block of the input, behind what is buffered; false at the end of the input, or if
-  /// reading would block or has failed. A failure is thrown when the text before it is used up.
+  /// Appends one more block of the input to the buffer; false at the end of the input, or if reading would
+  /// block or has failed. A failure is thrown when the text before it is used up.
   bool buffer_more();
 
   [[nodiscard]] const std::string& file() const { return file_; }

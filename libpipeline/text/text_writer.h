@@ -20,7 +20,7 @@ class TextWriter {
  public:
   /// Writes to a file descriptor, which the caller keeps and closes; `file` names it in messages.
   TextWriter(int descriptor, std::string file);
-  /// Buffers all text and writes none.
+  /// Buffers all text and never writes it.
   TextWriter() = default;
 
   void append(std::string_view text);

@@ -13,12 +13,14 @@ namespace {
 
 constexpr int kMaxExactDecimals = 1074;  // those of 2^-1074
 
-/// Enough decimals to write a number exactly: its last bit is worth 2^(ilogb - 52) or more, and 2^-n has n.
+/// Enough decimals to write a number exactly: its last bit is worth 2^(ilogb - 52) or more, and 2^-n has n
+/// decimals.
 int exact_decimals(double value) {
   return value == 0 ? 0 : std::clamp(52 - std::ilogb(value), 0, kMaxExactDecimals);
 }
 
-/// The exact digits of a number's absolute value without its point, behind zeros for a whole block of eight.
+/// The exact digits of a number's absolute value, without the point; eight zeros precede them to complete a
+/// block.
 struct ExactDigits {
   static constexpr std::size_t kZeros = 8;
   std::array<char, kZeros + 309 + 1 + kMaxExactDecimals> characters;
@@ -64,7 +66,7 @@ void round_at(char* cut, char* end) {
 }  // namespace
 
 char* print_exact_sum(char* out, double hi, double lo, int decimals) {
-  // One decimal more than asked for at least, to round by.
+  // At least one decimal more than requested, to round by.
   const int exact = std::max({exact_decimals(hi), exact_decimals(lo), decimals + 1});
   ExactDigits sum(hi, exact);
   ExactDigits low(lo, exact);

@@ -147,7 +147,7 @@ TEST(Appearance, AnAttenuationIsNotAllZero) {
 
 TEST(Appearance, IsFixedByTheFirstTriangle) {
   EXPECT_EQ(error_of(kTriangle + "light 0 0 0 1 1 1\n"),
-            "scene.txt:9:1: expected 'light' before the first triangle, found 'light' behind it");
+            "scene.txt:9:1: expected 'light' before the first triangle, found 'light' after it");
   EXPECT_EQ(error_of(kTriangle + "color 1 2 3\n"),
             "scene.txt:9:1: expected 'color' or 'attributes color' before the first triangle, too, found "
             "'color' behind "
