@@ -7,7 +7,7 @@
 namespace pipeline {
 namespace {
 
-// 1/1!, 1/3!, ... 1/27!, each within 2^-107 of itself.
+// 1/1!, 1/3!, ... 1/27!, each with a relative error of at most 2^-107.
 constexpr std::array<DoubleDouble, 14> kInverseOddFactorials = {{
     {0x1.0000000000000p+0, 0x0.0p+0},                  // 1/1!
     {0x1.5555555555555p-3, 0x1.5555555555555p-57},     // 1/3!
@@ -25,7 +25,7 @@ constexpr std::array<DoubleDouble, 14> kInverseOddFactorials = {{
     {0x1.d1ab1c2dccea3p-94, 0x1.054d0c78aea14p-149},   // 1/27!
 }};
 
-// 1/2!, 1/4!, ... 1/28!, each within 2^-107 of itself.
+// 1/2!, 1/4!, ... 1/28!, each with a relative error of at most 2^-107.
 constexpr std::array<DoubleDouble, 14> kInverseEvenFactorials = {{
     {0x1.0000000000000p-1, 0x0.0p+0},                  // 1/2!
     {0x1.5555555555555p-5, 0x1.5555555555555p-59},     // 1/4!
@@ -43,7 +43,7 @@ constexpr std::array<DoubleDouble, 14> kInverseEvenFactorials = {{
     {0x1.0a18a2635085dp-98, 0x1.b9e2e28e1aa54p-153},   // 1/28!
 }};
 
-// pi / 180, within 2^-109 of itself.
+// pi / 180, with a relative error of at most 2^-109.
 constexpr DoubleDouble kRadiansPerDegree = {0x1.1df46a2529d39p-6, 0x1.5c1d8becdd291p-62};
 
 // A bound on the relative error of either series: 2^-102 from the reduced angle in radians, at most 2^-103

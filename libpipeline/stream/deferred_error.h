@@ -11,7 +11,7 @@ namespace pipeline {
 /// the size of batches.
 class DeferredError {
  public:
-  /// Keeps the exception that is being handled; the next call of `read` throws it.
+  /// Keeps the exception being handled; the next call of `read` throws it.
   void keep() { deferred_error_ = std::current_exception(); }
 
   [[nodiscard]] bool is_kept() const { return deferred_error_ != nullptr; }

@@ -10,7 +10,7 @@ namespace pipeline {
 namespace {
 
 constexpr std::size_t kSlotsPerThread = 2;
-// In batches. Text in another form usually goes on in that form, and parsing its parts is wasted work.
+// In batches. Text in another form usually stays in that form, and parsing it ahead would be wasted work.
 constexpr int kPause = 16;
 // Nine numbers such as 0.1234567 with a separator each, and the blank line.
 constexpr std::size_t kMinFixedTriangleLength = 9 * 10 + 1;
@@ -69,7 +69,7 @@ void ReadAhead::start_parts() {
   }
 }
 
-/// The text of the next complete triangles behind the slots in work: as many as fit a part and can be
+/// The text of the next complete triangles after those in the slots: as many as fit a part and can be
 /// buffered without waiting; empty if there are none.
 std::string_view ReadAhead::next_part() {
   constexpr std::string_view kTriangleEnd = "\n\n";
@@ -82,7 +82,7 @@ std::string_view ReadAhead::next_part() {
   return {};
 }
 
-/// Does tasks of the pool until the slot is parsed.
+/// Runs tasks of the pool until the slot is parsed.
 void ReadAhead::wait_for(const Slot& slot) {
   while (!slot.is_done) pool_.run_one();
 }

@@ -15,8 +15,8 @@ namespace pipeline {
 /// Delivers the triangles of a stage text batch by batch and in order, while a thread pool parses the next
 /// ones. It never waits for the input while it has triangles to deliver.
 ///
-/// Only text in fixed form (fixed_text.h), which nearly all text has, is parsed ahead: there the numbers and
-/// lines of the triangles follow from their count. The reader parses any other text, in order.
+/// Only text in fixed form (fixed_text.h), which nearly all text has, is parsed ahead: there, the triangles'
+/// numbers and lines follow from their count. The reader parses any other text, in order.
 class ReadAhead {
  public:
   static constexpr std::size_t kPartSize = std::size_t{1} << 16;  // about 700 triangles

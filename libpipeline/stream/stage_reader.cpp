@@ -132,7 +132,7 @@ bool StageReader::is_end(const LineScanner& line) const {
   return header_.framed && line.peek() == "end";
 }
 
-/// Takes the last line of a framed text, newline included: a text without it has been cut.
+/// Takes the last line of a framed text, newline included: a text without it has been truncated.
 void StageReader::read_end(LineScanner& line) {
   line.word();
   line.expect_end("'end'");

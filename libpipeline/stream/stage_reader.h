@@ -16,7 +16,7 @@ namespace pipeline {
 /// Reads a stage text: the header on construction, then batch after batch. Errors are InputErrors.
 class StageReader {
  public:
-  /// With `marks_decimals` batches mark the coordinates that are exact decimals, for exact coverage.
+  /// With `marks_decimals`, batches mark the coordinates that are exact decimals, for exact coverage.
   explicit StageReader(TextReader& text, bool marks_decimals = false);
 
   [[nodiscard]] const StageHeader& header() const { return header_; }
@@ -27,12 +27,12 @@ class StageReader {
   /// An InputError unless the text is framed: only then is an empty text known to be complete.
   void expect_framed() const;
   /// Fills the batch with the next triangles: at least one, and as many as are buffered, up to kBatchSize.
-  /// False, with an empty batch, at the proper end of the text. An error comes after the triangles before it,
-  /// whatever the size of blocks.
+  /// False, with an empty batch, at the proper end of the text. An error is thrown only after the triangles
+  /// before it are delivered, whatever the block size.
   bool read(TriangleBatch& batch);
 
   /// The buffered text from the next triangle on if triangles in fixed form may stand there, else empty.
-  /// First buffers up to `size` characters, as far as that needs no waiting. For ReadAhead.
+  /// First buffers up to `size` characters, as far as that is possible without waiting. For ReadAhead.
   [[nodiscard]] std::string_view buffered_triangles(std::size_t size);
   /// Consumes the first `length` buffered characters, which are the triangles in `batch` in fixed form, and
   /// adds their numbers, locations and marks to the batch.

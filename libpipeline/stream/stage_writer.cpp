@@ -199,7 +199,7 @@ char* StageWriter::print_attributes(char* out, const AttributeArrays& attributes
   return out;
 }
 
-/// Prints the number of the next triangle where counting would give another one.
+/// Prints the number of the next triangle if it is not the one that counting on would give.
 void StageWriter::write_number(std::uint64_t number) {
   if (number != next_number_ && !bare_) text_.append("triangle " + std::to_string(number) + "\n");
 }

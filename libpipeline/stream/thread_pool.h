@@ -12,11 +12,11 @@
 namespace pipeline {
 
 /// A thread pool in which the owner works too. A job is a number of tasks; tasks start in order and may
-/// finish in any order. A worker does one task at a time. Workers are numbered from 0, the owner, to size()
-/// - 1.
+/// finish in any order. A worker runs one task at a time. Workers are numbered from 0, the owner, to size() -
+/// 1.
 class ThreadPool {
  public:
-  /// `thread_count`, at least 1, includes the owner: a pool of 1 does all tasks in run_one() and finish().
+  /// `thread_count`, at least 1, includes the owner: a pool of 1 runs all tasks in run_one() and finish().
   /// Where the system refuses threads, the pool is smaller.
   explicit ThreadPool(int thread_count);
   /// Cancels, see cancel().
@@ -29,13 +29,13 @@ class ThreadPool {
 
   using Task = std::function<void(int number, int worker)>;
 
-  /// Queues `task(number, worker)` for numbers from 0 to task_count - 1 behind the jobs before. Rethrows an
-  /// earlier task's exception, so no job starts after one that was dropped.
+  /// Queues `task(number, worker)` for numbers from 0 to task_count - 1 after the jobs already queued.
+  /// Rethrows an earlier task's exception, so no job starts after one that was dropped.
   void start(int task_count, Task task);
-  /// Does the next task or, if none is queued, waits until a running one is done; returns at once if there is
+  /// Runs the next task or, if none is queued, waits until a running one is done; returns at once if there is
   /// none. An exception of a task is rethrown here, in start() or in finish(), and drops all queued tasks.
   void run_one();
-  /// Does tasks until all are done.
+  /// Runs tasks until all are done.
   void finish();
   /// Drops all queued tasks and waits for the running ones, whose exceptions are lost. For destructors of
   /// objects that tasks use.

@@ -16,18 +16,18 @@ namespace pipeline {
 /// A reader passes a batch on when it holds this many triangles.
 constexpr std::size_t kBatchSize = 2048;
 
-/// Triangles on their way through a stage, as arrays with one entry a triangle.
+/// Triangles on their way through a stage, as arrays with one entry per triangle.
 struct TriangleBatch {
   std::vector<Triangle> triangles;
-  /// The rest of each coordinate that its double does not hold, where a stage text shows more digits: empty,
-  /// or as long as `triangles`.
+  /// The part of each coordinate that its double does not hold, where a stage text has more digits: empty, or
+  /// as long as `triangles`.
   std::vector<Triangle> low_parts;
   /// The triangle's number in the scene, from 0.
   std::vector<std::uint64_t> numbers;
   std::vector<VertexLocations> locations;
-  /// Which coordinates were written with at most 7 decimals and no exponent, so that they are that decimal
-  /// (hi + low part, to 7 decimals) and not only its nearest double: bit 3 * vertex + axis. Empty if not
-  /// asked for.
+  /// Which coordinates were written with at most 7 decimals and no exponent, so that they stand for that
+  /// decimal (hi + low part, to 7 decimals) and not for its nearest double: bit 3 * vertex + axis. Empty if
+  /// not requested.
   std::vector<std::uint16_t> decimal_marks;
   /// The vertices' attributes, in scenes that have them.
   AttributeArrays attributes;

@@ -27,7 +27,7 @@ struct ExactParts {
   std::uint16_t marks = 0;
   Triangle low_parts{};
 
-  /// Adds the vertex on `line`; a word that is no number is ignored here, the reader reports it.
+  /// Adds the vertex on `line`; a word that is not a number is ignored here; the reader reports it.
   void add_vertex(LineScanner line, std::size_t vertex) {
     constexpr std::array<double Vec3::*, 3> kAxes = {&Vec3::x, &Vec3::y, &Vec3::z};
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -105,7 +105,8 @@ bool TriangleReader::read_decimal_triangle(TriangleBatch& batch) {
   if (text_.buffered().starts_with('\n')) text_.skip(1, 1);
   const std::string_view buffered = text_.buffered();
   DecimalVertexLines& lines = decimal_lines_;
-  const char* const end = vertex_line_.read_decimals(buffered.data(), buffered.data() + buffered.size(), lines);
+  const char* const end =
+      vertex_line_.read_decimals(buffered.data(), buffered.data() + buffered.size(), lines);
   if (end == nullptr) return false;
   std::array<VertexLine, 3> vertices;
   for (std::size_t i = 0; i < 3; ++i) vertices[i] = to_vertex_line(lines[i], vertex_line_.attributes());

@@ -13,7 +13,7 @@ namespace pipeline {
 /// as a triangle is completely buffered; the general path reads any triangle, line by line.
 class TriangleReader {
  public:
-  /// `attributes` are the columns of the vertex lines. With `marks_decimals` batches mark the coordinates
+  /// `attributes` are the columns of the vertex lines. With `marks_decimals`, batches mark the coordinates
   /// that are exact decimals.
   TriangleReader(TextReader& text, const AttributeSet& attributes, bool marks_decimals);
 

@@ -13,14 +13,14 @@ AffineMatrix identity() {
 
 namespace {
 
-/// Enlarges a bound by more than the few operations behind it can have lost to rounding and underflow.
+/// Enlarges a bound by more than the few operations that computed it can have lost to rounding and underflow.
 double rounded_up(double bound) {
   return bound * (1 + 0x1p-40) + 0x1p-1000;
 }
 
-/// An upper bound of the Euclidean length of a row's linear part.
+/// An upper bound on the Euclidean length of a row's linear part.
 double row_length_bound(const std::array<Ball, 4>& row) {
-  // The largest entry is taken out, so that no square leaves a double's range.
+  // The largest entry is factored out, so that no square leaves a double's range.
   const double largest = std::max({row[0].magnitude(), row[1].magnitude(), row[2].magnitude()});
   if (largest == 0 || !std::isfinite(largest)) return largest;
   const double x = row[0].magnitude() / largest;

@@ -12,12 +12,13 @@ namespace pipeline {
 ///
 /// If each entry's error were bounded by itself, the bound would grow by up to sqrt(3) with every rotation,
 /// although a rotation turns errors without lengthening them (the wrapping effect: R. Moore, "Interval
-/// Analysis", 1966). So a matrix also bounds, for each row, the Euclidean length of the errors of its first
-/// three entries, and by how much the linear part can lengthen a vector. An entry takes the smaller bound.
+/// Analysis", 1966). So a matrix also has bounds, for each row, on the Euclidean length of the errors of its
+/// first three entries, and on how much the linear part can lengthen a vector. Each entry uses the smaller of
+/// its two bounds.
 struct AffineMatrix {
   std::array<std::array<Ball, 4>, 3> rows;
-  std::array<double, 3> row_errors{};  // bounds of the lengths; infinite where nothing is known
-  double norm = 1;                     // an upper bound of the linear part's 2-norm
+  std::array<double, 3> row_errors{};  // bounds on the lengths; infinite where unknown
+  double norm = 1;                     // an upper bound on the linear part's 2-norm
 
   friend bool operator==(const AffineMatrix&, const AffineMatrix&) = default;
 };

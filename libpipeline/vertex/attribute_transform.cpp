@@ -43,14 +43,14 @@ NormalTransform::NormalTransform(const AffineMatrix& world_from_model) {
 NormalTransform::NormalTransform(const ViewTransform& view_from_world)
     : rows_{nearest(view_from_world.right), nearest(view_from_world.up), nearest(view_from_world.backward)} {}
 
-/// Row i of the cofactors is the cross product of the other two rows of M, in turn.
+/// Row i of the cofactors is the cross product of the other two rows of M, in cyclic order.
 void NormalTransform::set_rows(const BallVec3& x, const BallVec3& y, const BallVec3& z) {
   const std::array<BallVec3, 3> cofactors = {cross(y, z), cross(z, x), cross(x, y)};
   const double side = dot(x, cofactors[0]).sign() < 0 ? -1 : 1;
   double largest = 0;
   for (const BallVec3& row : cofactors)
     largest = std::max({largest, row.x.magnitude(), row.y.magnitude(), row.z.magnitude()});
-  // Only directions count: divided by the largest entry, the cofactors stay within a double's range.
+  // Only directions matter: divided by the largest entry, the cofactors stay within a double's range.
   if (largest == 0 || !std::isfinite(largest)) largest = 1;
   for (std::size_t i = 0; i < 3; ++i) rows_[i] = nearest(over_largest(cofactors[i], side * largest));
 }

@@ -10,9 +10,10 @@
 namespace pipeline {
 
 /// Transforms normals by the inverse transpose of the linear part M of the points' transform, so that they
-/// stay perpendicular to their surface under any scale and on their side of it under a mirroring. Calculated
-/// as sign(det M) times the cofactors of M, which exist for a singular M too: if M flattens space to a plane,
-/// the normals become that plane's, and a normal left without direction becomes 0 (its triangle has no area).
+/// stay perpendicular to their surface under any scaling and on their side of it under a reflection.
+/// Calculated as sign(det M) times the cofactors of M, which exist for a singular M too: if M flattens space
+/// to a plane, the normals become that plane's, and a normal left without direction becomes 0 (its triangle
+/// has no area).
 class NormalTransform {
  public:
   explicit NormalTransform(const AffineMatrix& world_from_model);

@@ -34,9 +34,9 @@ Ball distance_inside(ClipPlane plane, const ClipVertex& vertex);
 unsigned outcode(const ClipVertex& vertex);
 
 /// The part of a convex polygon inside all `planes` (I. Sutherland, G. Hodgman, "Reentrant polygon clipping",
-/// 1974), in the same winding order; empty if no more than an edge or a corner is left. A cut is
-/// interpolated from the end of the edge nearer to the plane (of equals from the lower one, by y, x, z), so
-/// that polygons that share an edge get the same point.
+/// 1974), in the same winding order; empty if no more than an edge or a corner is left. A cut is interpolated
+/// from the end of the edge nearer to the plane (from the lower one, by y, x, z, if both are equally near),
+/// so that polygons that share an edge get the same point.
 std::vector<ClipVertex> clip_polygon(std::span<const ClipVertex> polygon, std::span<const ClipPlane> planes);
 
 }  // namespace pipeline

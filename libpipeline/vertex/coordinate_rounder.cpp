@@ -14,7 +14,7 @@ CoordinateRounder::CoordinateRounder(Precision precision, NumberFormat format, s
 RoundingTest CoordinateRounder::rounding_test() const {
   if (precision_ == Precision::in_doubles) return {RoundingTestKind::finite};
   if (format_.shortest) return {RoundingTestKind::nearest};
-  // More of them show the last bits of a double of ordinary size.
+  // More decimals would show the last bits of a double of ordinary magnitude.
   constexpr int kMaxDecimalsOfDoubles = 10;
   return {RoundingTestKind::decimals, kPowersOfTen[static_cast<std::size_t>(format_.decimals)],
           format_.decimals > kMaxDecimalsOfDoubles};

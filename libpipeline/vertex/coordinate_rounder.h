@@ -13,7 +13,7 @@ namespace pipeline {
 
 /// How vertices are calculated.
 enum class Precision {
-  in_doubles,  // by stable formulas, printed as they come out
+  in_doubles,  // by stable formulas, and printed as calculated
   extended     // every printed number is the correctly rounded result of exact arithmetic
 };
 
@@ -28,7 +28,7 @@ class CoordinateRounder {
   /// The test that a kernel's coordinate must pass to be printed as it is.
   [[nodiscard]] RoundingTest rounding_test() const;
 
-  /// Sets one vertex of a triangle of the batch: the slow, exact path. `p` holds the true image. An
+  /// Sets one vertex of a triangle of the batch: the slow, exact path. `p` contains the exact image. An
   /// InputError at the vertex's location if a coordinate is beyond a double's range.
   void set_vertex_exactly(TriangleBatch& batch, std::size_t triangle, std::size_t vertex, const BallVec3& p);
 

@@ -79,7 +79,7 @@ bool ModelStage::add_buffered(TriangleBatch& batch) {
   return true;
 }
 
-/// Adds the triangle that the scene has given out last.
+/// Adds the triangle that the scene reader returned last.
 void ModelStage::add(const TriangleCommand& triangle, TriangleBatch& batch) {
   begin_run(batch.size());
   batch.add(triangle.p_model, next_number_++, triangle.locations);
@@ -109,14 +109,14 @@ void ModelStage::carry_out(const Command& command) {
   }
 }
 
-/// The next batch begins under the matrix under which the last one ended.
+/// The next batch begins with the matrix with which the last one ended.
 void ModelStage::keep_last_run() {
   if (runs_.empty()) return;
   runs_.erase(runs_.begin(), runs_.end() - 1);
   runs_.front().first = 0;
 }
 
-/// From triangle `first` of the batch on the top of the stack holds.
+/// From triangle `first` of the batch on, the matrix on top of the stack applies.
 void ModelStage::begin_run(std::size_t first) {
   if (!is_matrix_new_) return;
   is_matrix_new_ = false;

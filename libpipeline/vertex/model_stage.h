@@ -24,9 +24,10 @@ class ModelStage {
   /// The scene's color and light, the lights in world space.
   [[nodiscard]] Appearance appearance() const;
   /// Fills the batch with the next triangles, in model space; false at the scene's end. An InputError if the
-  /// scene is wrong or the matrix stack under- or overflows, after the triangles before it.
+  /// scene is wrong or the matrix stack under- or overflows; it is thrown after the triangles before it are
+  /// delivered.
   bool read(TriangleBatch& batch);
-  /// Takes the batch that was read last to world space, normals included. An InputError at the vertex on
+  /// Transforms the batch read last to world space, normals included. An InputError at the vertex on
   /// overflow; the batch then keeps the triangles before it.
   void transform(TriangleBatch& batch, CoordinateRounder& rounder) const;
 
@@ -50,7 +51,7 @@ class ModelStage {
 
   SceneReader& scene_;
   MatrixStack stack_;
-  bool is_matrix_new_ = true;                      // it is that of no run yet
+  bool is_matrix_new_ = true;                      // no run has it yet
   std::vector<Run> runs_;                          // of the batch that was read last
   std::vector<Located<Light>> lights_;             // in world space
   std::optional<TriangleCommand> first_triangle_;  // read, but not yet in a batch

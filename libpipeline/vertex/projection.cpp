@@ -71,7 +71,7 @@ bool has_attributes(const TriangleBatch& batch) {
   return !batch.attributes.colors.empty() || !batch.attributes.normals.empty();
 }
 
-/// Rounded weights may take a color at a limit past it.
+/// Rounded weights may push a color at a limit beyond it.
 Vec3 clamped_color(const Vec3& c) {
   return {std::clamp(c.x, 0.0, 255.0), std::clamp(c.y, 0.0, 255.0), std::clamp(c.z, 0.0, 255.0)};
 }
@@ -99,8 +99,8 @@ LineAndColumn location_of(const ClipVertex& vertex, const VertexLocations& corne
   return corners[static_cast<std::size_t>(heaviest - vertex.weights.begin())];
 }
 
-/// How the corners of a triangle lie to the clip planes: the planes that some, and that all of them are
-/// outside of, as outcodes.
+/// The corners of a triangle relative to the clip planes, as outcodes: the planes that at least one corner is
+/// outside of, and those that all corners are outside of.
 struct TriangleOutcode {
   unsigned any = 0;
   unsigned all = ~0u;
@@ -137,8 +137,8 @@ void ProjectionStage::project(const TriangleBatch& p_view, TriangleBatch& p_ndc)
   p_ndc.clear();
   VertexBlock block;
   for (std::size_t i = 0; i < p_view.size(); ++i) {
-    // A block before its triangles are culled or clipped: with AVX2 the kernel takes 7 % of the instructions
-    // of `project`, so to drop half of the triangles first would save 3 % at most.
+    // A block is transformed before its triangles are culled or clipped: with AVX2 the kernel takes 7 % of
+    // the instructions of `project`, so dropping half of the triangles first would save 3 % at most.
     if (i % VertexBlock::kTriangles == 0) {
       const std::size_t count = std::min(p_view.size() - i, VertexBlock::kTriangles);
       block.fill(std::span(p_view.triangles).subspan(i, count));
@@ -200,7 +200,7 @@ void ProjectionStage::project_unclipped(const TriangleBatch& p_view, std::size_t
     if (projection_.is_perspective && p.z >= 0)
       throw InputError(
           rounder_.location_of(p_view.locations[index][v]),
-          expected_but_found("a vertex in front of the eye (z below 0; --clip auto cuts what is not)",
+          expected_but_found("a vertex in front of the eye (z below 0; --clip auto cuts the others)",
                              "z = " + shortest_text(p.z)));
     const std::size_t in_block = 3 * (index % VertexBlock::kTriangles) + v;
     if (block_.passes_rounding_test[in_block] != 0) {

@@ -21,7 +21,7 @@ enum class ClipMode {
   none        // clips and drops none; a vertex not in front of the eye is an error
 };
 
-/// Which triangles are dropped by their winding as seen from the eye; counter-clockwise is front. A triangle
+/// Which triangles are dropped by their winding as seen from the eye; counterclockwise is front. A triangle
 /// seen edge-on, as far as 31 digits can tell, is kept.
 enum class CullMode { nothing, back, front };
 
@@ -42,9 +42,9 @@ class ProjectionStage {
 
   /// Fills `p_ndc` with the images of the triangles in `p_view`, in order. A clipped triangle becomes the fan
   /// of its polygon, all pieces with its number; a dropped one becomes none. Attributes are interpolated
-  /// linearly in clip space and w joins them; normals are not normalized again, so that a piece is shaded
-  /// like the whole. An InputError at the vertex's location if w <= 0 in a vertex to be divided, or an image
-  /// overflows; `p_ndc` then holds the images of the triangles before it.
+  /// linearly in clip space and w is added to them; normals are not normalized again, so that a piece is
+  /// shaded like the whole. An InputError at the vertex's location if w <= 0 in a vertex to be divided, or an
+  /// image overflows; `p_ndc` then holds the images of the triangles before it.
   void project(const TriangleBatch& p_view, TriangleBatch& p_ndc);
 
   /// From now on pieces keep the triangle they were cut from (TriangleBatch::unclipped), as lighting needs.
@@ -80,7 +80,7 @@ class ProjectionStage {
   CoordinateRounder& rounder_;
   ProjectionCoefficients coefficients_;
   ImageBlock block_;  // the images of the block around the current triangle
-  bool mirrored_;     // one axis: clockwise and counter-clockwise change places
+  bool mirrored_;     // one axis is, so clockwise and counterclockwise change places
   bool keeps_unclipped_ = false;
   ProjectionCounts counts_;
 };

@@ -20,7 +20,7 @@ BallVec3 rodrigues(const BallVec3& x, const BallVec3& axis, const SineCosine& an
 
 /// 1 / tan of half the angle; the angle, an exact product, must lie in (0, 180) degrees.
 Ball cotangent_of_half(const Ball& angle_degrees) {
-  // So near 0, 1 / tan(x / 2) is 2 / x to far more digits than a ball has.
+  // This close to 0, 1 / tan(x / 2) is 2 / x to far more digits than a ball has.
   if (angle_degrees.nearest_double() < kTinyDegrees) return Ball(2) / to_radians(angle_degrees);
   const DoubleDouble angle = angle_degrees.value();
   const SineCosine half = sine_cosine_of_degrees({angle.hi / 2, angle.lo / 2});

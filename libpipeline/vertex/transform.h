@@ -10,13 +10,13 @@ namespace pipeline {
 
 AffineMatrix translation(const Vec3& offset);
 AffineMatrix scaling(const Vec3& factors);
-/// The rotation by `angle_degrees` about an axis of any length but 0, counter-clockwise when the axis points
+/// The rotation by `angle_degrees` about an axis of any length but 0, counterclockwise when the axis points
 /// at the observer. Column by column from Rodrigues' formula in vector form.
 AffineMatrix rotation(double angle_degrees, const Vec3& axis);
 
 /// From world to view space: p_view = rows * (p_world - eye). The rows right, up and backward are
-/// orthonormal. The eye is kept apart: subtracting it from a point first keeps the digits of points far from
-/// the origin.
+/// orthonormal. The eye is kept separate: subtracting it from a point first keeps the digits of points far
+/// from the origin.
 struct ViewTransform {
   Vec3 eye;
   BallVec3 right;
@@ -28,8 +28,8 @@ struct ViewTransform {
 /// direction (check_camera).
 ViewTransform view_from_world(const Vec3& eye, const Vec3& look, const Vec3& up);
 
-/// How the aspect gives the horizontal field of view: by `angle`, the course's fovX = fovY * aspect, or by
-/// `ratio`, gluPerspective's tan(fovX / 2) = tan(fovY / 2) * aspect.
+/// How the aspect determines the horizontal field of view: by `angle`, the course's fovX = fovY * aspect, or
+/// by `ratio`, gluPerspective's tan(fovX / 2) = tan(fovY / 2) * aspect.
 enum class AspectRule { angle, ratio };
 
 /// From view to clip space. With d = -z the distance in front of the eye:

@@ -57,7 +57,8 @@ Coefficient::Coefficient(const Ball& number) {
   value = number.nearest_double();
   is_nonzero = 1;
   // Each term is rounded at most six times: in the coefficient (1), the subtraction of the origin (1), the
-  // product (1) and the sums (3). To that comes the ball's own error, and what a subnormal value lacks.
+  // product (1) and the sums (3). Added to that are the ball's own error and the bits that a subnormal value
+  // lacks.
   error = 8 * kUnitRoundoff * std::fabs(value) + number.radius() + 0x1p-1073;
   pair = number.value();
   // The calculation in pairs, a quotient included, loses less than 2^-98 of the terms, and so does ball

@@ -11,10 +11,10 @@
 namespace pipeline {
 
 // The fast arithmetic on vertices. A kernel calculates a coordinate in doubles, or as an unevaluated sum of
-// two (a pair), together with a bound of its error. Where the bound leaves the printed text open, the vertex
-// fails the rounding test and the caller calculates it again in ball arithmetic. So the text of a correctly
-// rounded coordinate does not depend on the kernel. With RoundingTestKind::finite every kernel does the same
-// operations in the same order.
+// two (a pair), together with a bound on its error. Where the bound does not determine the printed text, the
+// vertex fails the rounding test and the caller calculates it again in ball arithmetic. So the text of a
+// correctly rounded coordinate does not depend on the kernel. With RoundingTestKind::finite every kernel does
+// the same operations in the same order.
 
 /// When a calculated coordinate may be printed as it is.
 enum class RoundingTestKind {
@@ -53,8 +53,8 @@ struct VertexBlock {
   [[nodiscard]] Vec3 vertex(std::size_t index) const { return {p[0][index], p[1][index], p[2][index]}; }
 };
 
-/// The images of a block's vertices. One that fails the rounding test must be calculated again by other
-/// means.
+/// The images of a block's vertices. One that fails the rounding test must be calculated again in another
+/// way.
 struct ImageBlock : VertexBlock {
   std::array<std::uint64_t, kSize> passes_rounding_test;  // all bits or none
 };
@@ -102,7 +102,8 @@ struct VertexKernel {
 /// The kernels this processor can run, the fastest last; the first, "portable", runs everywhere.
 std::span<const VertexKernel> vertex_kernels();
 
-/// The one in use: the fastest, or the one the environment variable PIPELINE_KERNEL names (kernel_choice.h).
+/// The kernel in use: the fastest, or the one that the environment variable PIPELINE_KERNEL names
+/// (kernel_choice.h).
 const VertexKernel& vertex_kernel();
 
 }  // namespace pipeline

@@ -13,8 +13,8 @@
 
 namespace pipeline {
 
-// The loops of all kernels (vertex_kernel.h), without a branch. Kernels differ in nothing but `ProductError`,
-// which gives the rounding error of a product exactly.
+// The loops of all kernels (vertex_kernel.h), free of branches. Kernels differ only in `ProductError`, which
+// calculates the exact rounding error of a product.
 
 constexpr double kUnitRoundoff = 0x1p-53;
 
@@ -36,7 +36,7 @@ struct FmaError {
   PIPELINE_LOOP static double of(double a, double b, double product) { return __builtin_fma(a, b, -product); }
 };
 
-/// A coordinate and a bound of its error.
+/// A coordinate and a bound on its error.
 struct Estimate {
   double value;
   double error;
@@ -72,9 +72,10 @@ PIPELINE_LOOP bool has_one_text(const PairEstimate& e, double scale, auto rest, 
   return (reach < kBelowHalf) & (std::fabs(scaled) < 0x1p51);
 }
 
-/// Both ends of the interval round to the same double, and so does what lies between (A. Ziv, "Fast
-/// evaluation of elementary mathematical functions with correctly rounded last bit", 1991). Far above the
-/// range's lower end, so that what products below it have lost is nothing against the error.
+/// Both ends of the interval round to the same double, and so does every number between them (A. Ziv, "Fast
+/// evaluation of elementary mathematical functions with correctly rounded last bit", 1991). Accepts only
+/// values far above the lower end of a double's range, so that the underflow of products is negligible
+/// against the error.
 PIPELINE_LOOP bool has_one_double(const PairEstimate& e, double& value) {
   const double error = e.error + std::fabs(e.low) * 0x1p-50;
   value = e.high;
@@ -100,7 +101,7 @@ PIPELINE_LOOP std::uint64_t mask(bool condition) {
 
 // ---- products of pairs ----
 
-/// a * b within 2^-103 of itself.
+/// a * b, with a relative error of at most 2^-103.
 template <typename ProductError>
 PIPELINE_LOOP DoubleDouble product(DoubleDouble a, DoubleDouble b) {
   const double high = a.hi * b.hi;
@@ -187,7 +188,7 @@ PIPELINE_LOOP void transform_block(const AffineCoefficients& m, const RoundingTe
 
 // ---- projections ----
 
-/// For other w, behind the eye included, the kernels give no result: intermediate results of a w outside
+/// For any other w, behind the eye included, the kernels have no result: intermediate results of a w outside
 /// these bounds may leave a double's range.
 PIPELINE_LOOP bool is_safe_divisor(double w) {
   return (w > 0x1p-400) & (w < 0x1p400);

@@ -14,7 +14,7 @@ FIRST_COMMANDS = COMMANDS[:-1] + ("; before the first triangle also color, attri
                                   "material or attenuation)")
 VERTICES = "0 0 0\n1 0 0\n0 1 0\n"
 IN_RANGE = "expected a vertex whose image is within a double's range"
-IN_FRONT = "expected a vertex in front of the eye (z below 0; --clip auto cuts what is not)"
+IN_FRONT = "expected a vertex in front of the eye (z below 0; --clip auto cuts the others)"
 
 
 class SceneMessages(ToolTest):

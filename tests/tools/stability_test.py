@@ -354,7 +354,7 @@ class ProjectOtherwise(StabilityTest):
         for z, found in (("0", "0"), ("-0.0", "0"), ("5", "5"), ("1e-320", "1e-320")):
             text = "perspective " + PERSPECTIVE + "\n" + lines_of(("0 0 -1", f"1 1 {z}", "0 1 -1"))
             self.assert_error("project", text, "3:1: expected a vertex in front of the eye "
-                              f"(z below 0; --clip auto cuts what is not), found z = {found}", "--clip", "none")
+                              f"(z below 0; --clip auto cuts the others), found z = {found}", "--clip", "none")
 
     def test_a_horizontal_angle_of_180_degrees_is_an_error(self):
         done = run("project", stdin="perspective 90 2 1 100\n" + lines_of(NEAR_ORIGIN))

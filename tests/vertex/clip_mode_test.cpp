@@ -109,10 +109,9 @@ TEST(ClipModeReject, DropsOnlyWhatIsOutsideOfOnePlane) {
 }
 
 TEST(ClipModeReject, AVertexBehindTheEyeOfWhatIsNotDroppedIsAnError) {
-  EXPECT_EQ(
-      message_of(batch_of({triangle_at(-2, -2, 1)}), ClipMode::reject),
-      "stage2.txt:3:1: expected a vertex in front of the eye (z below 0; --clip auto cuts what is not), "
-      "found z = 1");
+  EXPECT_EQ(message_of(batch_of({triangle_at(-2, -2, 1)}), ClipMode::reject),
+            "stage2.txt:3:1: expected a vertex in front of the eye (z below 0; --clip auto cuts the others), "
+            "found z = 1");
 }
 
 TEST(ClipModeNone, LeavesEverythingWhole) {
@@ -122,7 +121,7 @@ TEST(ClipModeNone, LeavesEverythingWhole) {
 
 TEST(ClipModeNone, AVertexOnOrBehindTheEyePlaneIsAnError) {
   const std::string expected =
-      "expected a vertex in front of the eye (z below 0; --clip auto cuts what is not), found z = ";
+      "expected a vertex in front of the eye (z below 0; --clip auto cuts the others), found z = ";
   EXPECT_EQ(message_of(batch_of({triangle_at(-2, 0, -2)}), ClipMode::none),
             "stage2.txt:2:1: " + expected + "0");
   EXPECT_EQ(message_of(batch_of({triangle_at(-2, -2, -0.0)}), ClipMode::none),
