@@ -12,24 +12,23 @@
 
 namespace pipeline {
 
-// The loops of every kernel that works on four triangles at a time, and then on a row of each or, where one
-// is high or out of the ordinary, on four rows of one after the other.
+// The loops of every kernel that prepares four triangles at a time, and then works on a row of each or, where
+// one of them is tall or not ordinary, on one triangle after the other, four rows at a time.
 //
-// `Rule` is the part of a kernel that is its own:
-//   rows(triangle)                 one triangle, as its coverage rule has it;
-//   four(triangles, range)         four made ready for their rows in `range`: `sources`, begin_row,
-//   end_row(),
-//                                  and the lanes that are `ordinary`;
+// `Rule` is the part in which kernels differ:
+//   rows(triangle)                 the rows of one triangle, by its coverage rule;
+//   four(triangles, range)         four triangles prepared for their rows in `range`: `sources`, begin_row,
+//                                  end_row(), and the lanes that are `ordinary`;
 //   four_rows(sources, rows)       a row of each of four triangles, or four rows of one: `spans`,
-//   set_depths()
-//                                  and the lanes that are ordinary();
-//   slope(four, lane, rows, row)   of the depth in lane `row` of `rows`, of the triangle in `lane` of `four`;
+//                                  set_depths(), and the lanes that are ordinary();
+//   slope(four, lane, rows, row)   the slope of the depth in lane `row` of `rows`, for the triangle in `lane`
+//                                  of `four`;
 //   axis()                         left_x and dx of all depths.
 // Lanes that are not ordinary are left to rows().
 
 constexpr std::size_t kFour = 4;
 
-/// A bit for each of four lanes.
+/// One bit for each of four lanes.
 struct LaneSet {
   [[nodiscard]] bool has(std::size_t lane) const { return (bits >> lane & 1) != 0; }
   [[nodiscard]] bool has_all() const { return bits == kAll; }
@@ -58,7 +57,8 @@ PIPELINE_AVX2 TaggedSpan* append_triangle(const Rule& rule, const FourTriangles&
   return spans;
 }
 
-/// Appends the spans of four triangles: a row of each at a time, as low ones have too few for four lanes.
+/// Appends the spans of four triangles: a row of each at a time, because short ones have too few rows to fill
+/// four lanes.
 template <typename Rule, typename FourTriangles>
 PIPELINE_AVX2 TaggedSpan* append_triangles(const Rule& rule, const FourTriangles& four,
                                            const TaggedTriangle* triangles, const RowRange& range,
@@ -68,7 +68,7 @@ PIPELINE_AVX2 TaggedSpan* append_triangles(const Rule& rule, const FourTriangles
   bool are_ordinary = four.ordinary.has_all() && most <= kMaxLowRows;
   const int count = are_ordinary ? static_cast<int>(most) : 0;
   std::array<typename Rule::FourRows, kMaxLowRows> low;
-  // One loop after the other: a processor looks ahead further than a turn of it, if that is short.
+  // Separate loops: a processor can look ahead beyond the current iteration if iterations are short.
   for (int i = 0; i < count; ++i) {
     auto& rows = low[static_cast<std::size_t>(i)];
     rows = rule.four_rows(four.sources, four.begin_row + all(i));
@@ -80,7 +80,7 @@ PIPELINE_AVX2 TaggedSpan* append_triangles(const Rule& rule, const FourTriangles
     return spans;
   }
   for (int i = 0; i < count; ++i) low[static_cast<std::size_t>(i)].set_depths(four.sources);
-  // As many rows of each, covered or not: how many are is unpredictable.
+  // The same number of rows of each, covered or not: how many are covered is unpredictable.
   const __m128d axis = rule.axis();
   for (std::size_t lane = 0; lane < kFour; ++lane) {
     const PixelTag tag = triangles[lane].tag;

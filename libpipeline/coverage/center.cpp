@@ -6,7 +6,7 @@
 namespace pipeline {
 namespace {
 
-// Below the ends of the types by more than the bound can be rounded.
+// Below the limits of the types by more than the rounding error of the bound.
 constexpr double kMaxIn64Bits = 0x1p61;
 constexpr double kMaxIn128Bits = 0x1p125;
 constexpr int kBitsOfWideInt = 64 * 6;

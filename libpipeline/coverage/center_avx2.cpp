@@ -22,8 +22,8 @@ PIPELINE_AVX2_INLINE FourDoubles nearest_whole(FourDoubles value) {
 }
 
 /// The smallest whole c in [0, most] with c * divisor >= dividend, or `most` if there is none. The estimate
-/// for a dividend up to 2^50 is off by a fourth at most, so c is the whole number nearest to it or the one
-/// after that.
+/// for a dividend up to 2^50 is off by at most 1/4, so c is the whole number nearest to it or the one after
+/// that.
 PIPELINE_AVX2_INLINE FourDoubles quotient_rounded_up(FourDoubles dividend, FourDoubles divisor,
                                                      FourDoubles inverse, FourDoubles most) {
   const FourDoubles near = nearest_whole(dividend * inverse);
@@ -57,7 +57,7 @@ struct AxisLanes {
   PIPELINE_AVX2_INLINE FourDoubles scaled(FourDoubles coordinate) const {
     return nearest_whole(coordinate * all(kGridUnitsPerOne)) * factor;
   }
-  /// Whether the distances from pixel 0 that were calculated, of which these are the extremes, are exact.
+  /// Whether the calculated distances from pixel 0, of which these are the extremes, are exact.
   PIPELINE_AVX2_INLINE FourDoubles fit(FourDoubles least, FourDoubles most) const {
     return is_at_most(larger(size_of(least), size_of(most)), largest);
   }
@@ -124,7 +124,7 @@ struct RowSources {
   FourEdges lower;    // b to c
 };
 
-/// Four triangles made ready for their rows.
+/// Four triangles prepared for their rows.
 struct FourTriangles {
   PIPELINE_AVX2_INLINE FourTriangles(const AxisLanes& columns, const AxisLanes& rows,
                                      const TaggedTriangle* triangles, const RowRange& range) {
@@ -136,10 +136,10 @@ struct FourTriangles {
     const FourDoubles u_left = smaller(smaller(p.u, q.u), r.u), u_right = larger(larger(p.u, q.u), r.u);
     const FourDoubles v_top = smaller(smaller(p.v, q.v), r.v), v_bottom = larger(larger(p.v, q.v), r.v);
     const FourDoubles fits = both(columns.fit(u_left, u_right), rows.fit(v_top, v_bottom));
-    // A column not after the first that may be covered.
+    // A column at or before the first that may be covered.
     const FourDoubles left = larger(nearest_whole(u_left * columns.inverse) - all(1), all(0));
     // The bound of largest_product, from that column. Triangles without a row may have larger products, which
-    // no one uses.
+    // are never used.
     const FourDoubles first = left * columns.step;
     const FourDoubles x = larger(size_of(u_left - first), size_of(u_right - first)) + all(2) * columns.step;
     const FourDoubles y = v_bottom - v_top + rows.step;
@@ -148,7 +148,7 @@ struct FourTriangles {
     const FourDoubles is_beside = either(is_less(u_right, all(0)), is_at_most(columns.count, left));
     sources.first_column = left;
     sources.column_count = columns.count - left;
-    // From the top by the first row at or below a vertex, then by its number.
+    // Sorted from the top by the first row at or below a vertex, then by the vertex number.
     const FourDoubles p_row = rows.pixel(p.v), q_row = rows.pixel(q.v), r_row = rows.pixel(r.v);
     const FourDoubles high_row = smaller(p_row, q_row), low_row = larger(p_row, q_row);
     sources.first_row = smaller(high_row, r_row);
@@ -167,7 +167,7 @@ struct FourTriangles {
 
   RowSources sources;
   FourDoubles begin_row;  // the first in the range
-  LaneSet ordinary;       // triangles whose numbers are of the size that doubles hold
+  LaneSet ordinary;       // triangles whose numbers doubles hold exactly
   FourNumbers half_slope;
 
  private:
@@ -255,7 +255,7 @@ struct FourRows {
     is_upper_ = is_upper;
     columns_added_up_ = of.first_column + of.first_column + sum;
   }
-  /// How deep they are.
+  /// Sets their depths.
   PIPELINE_AVX2_INLINE void set_depths(const RowSources& of) {
     const FourDoubles rest = of.twice_total - opposite_longest_ - opposite_shorter_;
     const FourDoubles twice_c = pick(is_upper_, opposite_shorter_, rest);

@@ -11,26 +11,27 @@
 
 namespace pipeline {
 
-/// TriangleDepth for weights that are whole numbers a double holds: nearly always.
+/// TriangleDepth for weights that are whole numbers and fit in a double, as they nearly always do.
 ///
-/// It is the mean of the three depths, weighted: at most 6.5 u Z from the exact one, where u = 2^-53 and Z is
-/// the largest |z|. (2^-50 Z is 8 u Z, and the decimals next to the depths are another u Z away.)
+/// The depth is the weighted mean of the three depths, at most 6.5 u Z from the exact one, where u = 2^-53
+/// and Z is the largest |z|. (2^-50 Z is 8 u Z, and the decimals next to the depths are another u Z away.)
 ///
-/// Why. Weights are exact. In the middle of a span, let A be that of a over the total, and m the depth. The
-/// products are off by u Z together; the sum of two by u |m - A z_a|, which is at most u (|m| + A Z) and at
-/// most u (1 - A) Z, so at most u (|m| + Z) / 2; the sum of three and the quotient by u |m| each. At h half
-/// columns from there, up to the ends of the span, a weight is not below 0 on either side, so it differs by
-/// no more than it is. The slope s, times h, is off by u Z for its products; nothing for the first sums,
-/// whose rests are added; u |h s| for the last sum, for the quotient and for the product with h. The sum of
-/// both is off by u Z. |m| + |h s| is at most Z, because the span's ends are in the triangle and are m + h s
-/// and m - h s: 3.5 u Z + 2.5 u |m| + 3 u |h s| in all.
+/// Proof. Weights are exact. In the middle of a span, let A be the weight of a over the total, and m the
+/// depth. The products are off by u Z together; the sum of two by u |m - A z_a|, which is at most u (|m| + A
+/// Z) and at most u (1 - A) Z, so at most u (|m| + Z) / 2; the sum of three and the quotient by u |m| each.
+/// At h half columns from there, up to the ends of the span, no weight is negative on either side, so it
+/// changes by no more than its value in the middle. The slope s, times h, is off by u Z for its products; by
+/// nothing for the first sums, whose remainders are added; by u |h s| for the last sum, for the quotient and
+/// for the product with h. The sum of both is off by u Z. |m| + |h s| is at most Z, because the span's ends
+/// are in the triangle and are m + h s and m - h s: 3.5 u Z + 2.5 u |m| + 3 u |h s| in all.
 class DepthInDoubles {
  public:
   static constexpr std::int64_t kMaxWeight = std::int64_t{1} << 50;
-  /// No product with a weight leaves a double's range between these, and a depth below them is not missed.
+  /// While the largest |z| lies between these, no product with a weight overflows, and the underflow of a
+  /// smaller one is negligible.
   static constexpr double kMinDepth = 0x1p-900, kMaxDepth = 0x1p900;
 
-  /// Makes 0 of -0, so that the sign of a zero does not depend on the signs of the weights, nor on zeros
+  /// Turns -0 into 0, so that the sign of a zero does not depend on the signs of the weights, nor on zeros
   /// among them.
   static constexpr double kNoMinus = 0;
 
@@ -50,7 +51,7 @@ class DepthInDoubles {
     half_slope_ = (of_three.hi + (of_two.lo + of_three.lo)) / twice_total_ + kNoMinus;
   }
 
-  /// As TriangleDepth::along().
+  /// See TriangleDepth::along().
   [[nodiscard]] SpanDepth along(int first_column, int last_column, double twice_b, double twice_c) const {
     const double twice_a = twice_total_ - twice_b - twice_c;
     const double mean = ((twice_b * z_[1] + twice_c * z_[2]) + twice_a * z_[0]) / twice_total_ + kNoMinus;

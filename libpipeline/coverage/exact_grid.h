@@ -22,8 +22,8 @@ using WideInt = FixedInt<6>;
 using HugeInt = FixedInt<92>;
 
 /// A triangle in NDC with the exact x and y of its text: a coordinate whose mark (bit 3 * vertex + axis) is
-/// set, below 10^22, is the decimal of at most 7 decimals nearest to the double plus the low part; any other
-/// is its double.
+/// set, below 10^22, is the decimal with at most 7 digits after the point that is nearest to the double plus
+/// the low part; any other is exactly its double.
 struct ExactTriangle {
   /// Whether all of x and y are decimals.
   [[nodiscard]] bool is_decimal() const {
@@ -71,8 +71,8 @@ struct AxisInDoubles {
   double inverse_step = 1;
   double vertex_factor = 1;
   double origin = 0;
-  /// A vertex whose calculated distance from the center of pixel 0 is at most this in size was calculated
-  /// exactly. Negative where the numbers are not small; then the others mean nothing.
+  /// A vertex whose calculated distance from the center of pixel 0 has at most this absolute value was
+  /// calculated exactly. Negative where the numbers are not small; then the other members are meaningless.
   double largest = -1;
 };
 
@@ -104,7 +104,7 @@ struct AxisUnits {
   int bits = 0;                       // of the largest number on the grid, or more
 };
 
-/// Where the pixel centers of a screen lie, exactly; PixelGrid has them rounded.
+/// The exact positions of a screen's pixel centers; PixelGrid has them rounded.
 struct ExactGrid {
   explicit ExactGrid(const Viewport& screen)
       : columns(screen.columns, screen.left, screen.left_low_part, screen.left_is_decimal),

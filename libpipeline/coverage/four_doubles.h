@@ -8,13 +8,13 @@
 #include <array>
 
 #define PIPELINE_AVX2 __attribute__((target("avx2")))
-// Inlined, so that all is kept in registers.
+// Inlined, so that everything stays in registers.
 #define PIPELINE_AVX2_INLINE PIPELINE_AVX2 inline __attribute__((always_inline))
 
 namespace pipeline {
 
-// Words for kernels that work on four doubles at a time: + - * / are those of the processor, each lane on its
-// own. A mask has all bits set in a lane for "yes".
+// Operations for kernels that work on four doubles at a time: + - * / are the processor's, lane by lane. A
+// mask has all bits set in a lane for "yes".
 
 using FourDoubles = __m256d;
 
@@ -42,7 +42,7 @@ PIPELINE_AVX2_INLINE FourDoubles but_not(FourDoubles a, FourDoubles b) {
 PIPELINE_AVX2_INLINE FourDoubles pick(FourDoubles mask, FourDoubles yes, FourDoubles no) {
   return _mm256_blendv_pd(no, yes, mask);
 }
-/// A bit a lane.
+/// One bit per lane.
 PIPELINE_AVX2_INLINE int bits_of(FourDoubles mask) {
   return _mm256_movemask_pd(mask);
 }
@@ -61,7 +61,7 @@ PIPELINE_AVX2_INLINE FourDoubles clamped(FourDoubles value, double low, double h
   return smaller(larger(value, all(low)), all(high));
 }
 
-// Lanes one by one.
+// Access to single lanes.
 
 using FourNumbers = std::array<double, 4>;
 

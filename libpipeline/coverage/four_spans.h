@@ -36,8 +36,8 @@ class FourSpans {
     lanes_[3].point = _mm256_extractf128_pd(odd, 1);
   }
 
-  /// Writes one of them to `spans`; returns where the next one goes: there, if this one has no pixel. `axis`
-  /// is left_x and dx of its depth. Branch-free: whether it has is unpredictable.
+  /// Writes one of them to `spans`; returns where the next one goes, which is `spans` again if this one has
+  /// no pixel. `axis` is left_x and dx of its depth. Branch-free: whether it has one is unpredictable.
   PIPELINE_AVX2_INLINE TaggedSpan* append(std::size_t lane, __m128d axis, double slope, PixelTag tag,
                                           TaggedSpan* spans) const {
     static_assert(offsetof(Span, row) == 0 && offsetof(Span, first_column) == 4);

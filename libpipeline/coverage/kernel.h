@@ -12,8 +12,8 @@ namespace pipeline {
 // make the same ones, to the last bit: those of NearestRows and CenterRows.
 
 /// One implementation. Its functions write the spans of the triangles, one triangle after the other and row
-/// by row, within `rows`, and return the end of the last one. There has to be room for as many spans as there
-/// are rows, for every triangle; the room behind the last one may be overwritten.
+/// by row, within `rows`, and return the end of the last one. There must be room for as many spans as there
+/// are rows, for every triangle; the room after the last one may be overwritten.
 struct CoverageKernel {
   const char* name;
   TaggedSpan* (*nearest_spans)(const PixelGrid&, std::span<const TaggedTriangle>, const RowRange& rows,
@@ -22,7 +22,7 @@ struct CoverageKernel {
                               TaggedSpan* spans);
 };
 
-// Those of the kernel "avx2", which only a processor with AVX2 runs.
+// The functions of the kernel "avx2", which only a processor with AVX2 can run.
 TaggedSpan* nearest_spans_avx2(const PixelGrid& grid, std::span<const TaggedTriangle> triangles,
                                const RowRange& rows, TaggedSpan* spans);
 TaggedSpan* center_spans_avx2(const ExactGrid& grid, std::span<const TaggedTriangle> triangles,
@@ -31,7 +31,8 @@ TaggedSpan* center_spans_avx2(const ExactGrid& grid, std::span<const TaggedTrian
 /// The kernels this processor can run, the fastest last; the first, "portable", runs everywhere.
 std::span<const CoverageKernel> coverage_kernels();
 
-/// The one in use: the fastest, or the one the environment variable PIPELINE_KERNEL names (kernel_choice.h).
+/// The kernel in use: the fastest, or the one that the environment variable PIPELINE_KERNEL names
+/// (kernel_choice.h).
 const CoverageKernel& coverage_kernel();
 
 /// Writes the spans of one triangle likewise; `covered` are its rows by a coverage rule.

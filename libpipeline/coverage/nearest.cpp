@@ -52,7 +52,7 @@ std::array<double, 3> scaled(const std::array<double, 3>& values, int& exponent)
 struct Plane {
   double rise;   // slope = rise / area
   double area;   // twice the signed area of the triangle in x and y
-  double terms;  // the sum of the absolute terms that `area` is the difference of
+  double terms;  // the sum of the absolute values of the two terms of `area`
 };
 
 Plane plane_of(const Vec3& a, const Vec3& b, const Vec3& c) {
@@ -63,13 +63,13 @@ Plane plane_of(const Vec3& a, const Vec3& b, const Vec3& c) {
 }
 
 /// dz/dx of the plane through three points, none where the triangle may be seen edge-on. One slope for all
-/// rows: the quotient of the differences between the ends of a row has no right digit where the row meets the
-/// triangle next to a corner.
+/// rows: the quotient of the differences between the ends of a row has no correct digit where the row crosses
+/// the triangle next to a corner.
 std::optional<double> slope_in_x(const Vec3& a, const Vec3& b, const Vec3& c) {
   Plane plane = plane_of(a, b, c);
   int exponent = 0;
   if (!(plane.terms > 0x1p-900 && plane.terms < 0x1p900 && std::isfinite(plane.rise))) {
-    // Products near the ends of a double's range: calculate with powers of two taken out.
+    // Products near the ends of a double's range: calculate with powers of two factored out.
     int x_exponent = 0, y_exponent = 0, z_exponent = 0;
     const auto x = scaled({a.x, b.x, c.x}, x_exponent);
     const auto y = scaled({a.y, b.y, c.y}, y_exponent);

@@ -11,7 +11,7 @@ namespace pipeline {
 
 /// The coverage rule `nearest` for one triangle in NDC: on every row whose line of pixel centers meets the
 /// triangle, the pixels from the one nearest to the left intersection to the one nearest to the right, both
-/// included (half-way: the pixel on the right). Neighboring triangles thus both own the pixels on a shared
+/// included (halfway: the pixel on the right). Neighboring triangles thus both own the pixels on a shared
 /// edge, and a triangle that is narrower than a pixel still has one on each row. Horizontal edges do not
 /// count; both ends of the others do.
 ///
@@ -31,9 +31,9 @@ class NearestRows {
   [[nodiscard]] int last_row() const { return last_row_; }
 
   /// The pixels the triangle covers on `row`, inside the screen; none where it has fewer than two
-  /// intersections or all is left or right of the screen. The depth is linear through the left intersection
-  /// and has the slope of the triangle's plane; where left and right intersection have the same x, and where
-  /// the triangle is seen edge-on, the depth is the smaller of the two.
+  /// intersections or lies entirely left or right of the screen. The depth is linear through the left
+  /// intersection and has the slope of the triangle's plane; where left and right intersection have the same
+  /// x, and where the triangle is seen edge-on, the depth is the smaller of the two.
   [[nodiscard]] std::optional<Span> span(int row) const;
 
  private:

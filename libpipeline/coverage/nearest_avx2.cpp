@@ -12,7 +12,7 @@
 namespace pipeline {
 namespace {
 
-// NearestRows in the same operations, as long as neither a triangle nor a row is out of the ordinary: no
+// The same operations as in NearestRows, as long as neither a triangle nor a row is out of the ordinary: no
 // product near the ends of a double's range, no corner on the line of pixel centers.
 
 PIPELINE_AVX2_INLINE FourPoints pick_points(FourDoubles mask, const FourPoints& yes, const FourPoints& no) {
@@ -43,7 +43,7 @@ struct RowSources {
   FourDoubles last_row;
 };
 
-/// Four triangles made ready for their rows.
+/// Four triangles prepared for their rows.
 struct FourTriangles {
   PIPELINE_AVX2_INLINE FourTriangles(const PixelGrid& grid, const TaggedTriangle* triangles,
                                      const RowRange& rows) {
@@ -63,7 +63,7 @@ struct FourTriangles {
 
   RowSources sources;
   FourDoubles begin_row;  // the first in the range
-  LaneSet ordinary;       // triangles none of whose numbers leaves the range of this arithmetic
+  LaneSet ordinary;       // triangles whose numbers all stay in the range of this arithmetic
 
  private:
   PIPELINE_AVX2_INLINE void set_corners(const PixelGrid& grid, const FourPoints& p, const FourPoints& q,

@@ -17,22 +17,22 @@ namespace pipeline {
 /// up to `total`.
 ///
 /// For Z the largest |z| of the three, the depth at a pixel inside is within 2^-50 Z of the exact one (while
-/// Z is at least 1e-288), and a triangle of one depth has just that everywhere. It does not matter whether
-/// the depths are doubles or the decimals next to them: that is another 2^-53 Z.
+/// Z is at least 1e-288), and a triangle of one depth has exactly that depth everywhere. Taking the decimals
+/// next to the doubles as the depths changes the depth by no more than another 2^-53 Z.
 ///
-/// Why. Where weights are whole numbers that doubles hold, it is a DepthInDoubles. Otherwise depths become
-/// whole numbers of 61 bits, so that the depth m in the middle of a span and its slope s per half column are
-/// exact sums of products over the total. In units of u = 2^-53: m is off by u|m| for each of four roundings
-/// (the sum to a double, the total to a double, its inverse, their product), h s at h half columns from the
-/// middle by u|h s| for five, the sum of the two by u|m + h s|. |m| + |h s| is at most Z, because the span's
-/// ends are in the triangle and are m + h s and m - h s. So it is 6 u Z and the bits cut off: depths below 61
-/// bits (less than 3 * 2^-60 Z) and weights below 60 bits (less than 2^-56 Z), together u Z / 4. 2^-50 is 8
-/// u.
+/// Proof. Where weights are whole numbers that doubles hold, the depth comes from DepthInDoubles. Otherwise
+/// depths become whole numbers of 61 bits, so that the depth m in the middle of a span and its slope s per
+/// half column are exact sums of products over the total. In units of u = 2^-53: m is off by u|m| for each of
+/// four roundings (the sum to a double, the total to a double, its inverse, their product), h s at h half
+/// columns from the middle by u|h s| for five, the sum of the two by u|m + h s|. |m| + |h s| is at most Z,
+/// because the span's ends are in the triangle and are m + h s and m - h s. In all, that is 6 u Z plus the
+/// bits cut off: depths below 61 bits (less than 3 * 2^-60 Z) and weights below 60 bits (less than 2^-56 Z),
+/// together u Z / 4. 2^-50 is 8 u.
 class TriangleDepth {
  public:
   TriangleDepth() = default;
   /// `z` are the depths of a, b and c, `total` is above 0, and `b_step` and `c_step` are the growth of the
-  /// weights of b and c from a column to the next.
+  /// weights of b and c from one column to the next.
   template <typename Int>
   TriangleDepth(const std::array<double, 3>& z, const Int& total, const Int& b_step, const Int& c_step);
 

@@ -17,10 +17,10 @@ struct ActiveEdge {
 /// The active edge list of the scan-line algorithm: the edges on the current scanline, sorted by column.
 ///
 /// The textbook goes from one scanline to the next by x += dx. In doubles that puts 6816 of 1020230 span ends
-/// (0.7%) into another column than the exact one, for triangles whose vertices have two decimals on a screen
-/// of 1000 x 1000 pixels (4028 if x is calculated anew instead of added up;
-/// Scanline.IncrementalXWouldGiveOtherColumns counts them). So the coverage rule gives the columns, on every
-/// row.
+/// (0.7%) into a column other than the exact one, for triangles whose vertices have two decimals on a screen
+/// of 1000 x 1000 pixels (4028 if x is calculated anew instead of accumulated;
+/// Scanline.IncrementalXWouldGiveOtherColumns counts them). So the coverage rule calculates the columns on
+/// every row.
 class ActiveEdgeList {
  public:
   /// The column of an edge whose polygon has no pixel on this scanline; such edges are sorted to the end.
@@ -46,8 +46,8 @@ class ActiveEdgeList {
       if (!edge.is_right) visit(edge.slot);
   }
 
-  /// Sets every edge's column to column_of(edge) and sorts: edges that were there on the scanline before are
-  /// nearly in order, new ones are sorted by themselves and merged in.
+  /// Sets every edge's column to column_of(edge) and sorts: edges from the previous scanline are nearly in
+  /// order, new ones are sorted by themselves and merged in.
   template <typename ColumnOf>
   void sort(ColumnOf&& column_of) {
     for (ActiveEdge& edge : edges_) edge.column = column_of(edge);
@@ -61,7 +61,7 @@ class ActiveEdgeList {
   void sort_by_column();
 
   std::vector<ActiveEdge> edges_;
-  std::size_t sorted_count_ = 0;  // the edges from the scanline before; new ones come after them
+  std::size_t sorted_count_ = 0;  // the edges from the previous scanline; new ones come after them
 };
 
 }  // namespace pipeline

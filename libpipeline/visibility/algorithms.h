@@ -17,10 +17,11 @@
 
 namespace pipeline {
 
-/// A visibility algorithm takes the triangles of the stream one by one, and then gives, row by row, the
-/// visible triangle at every pixel and its depth: the one with the smallest depth between the limits, as the
-/// depth format stores it, of equal ones the earliest. So the answer does not depend on the algorithm. Each
-/// is a class template of a coverage rule and a depth format, constructed from the viewport.
+/// A visibility algorithm receives the triangles of the stream one by one, and then reports, row by row, the
+/// visible triangle at every pixel and its depth. The visible triangle is the one with the smallest depth
+/// between the limits, as the depth format stores it; among equal depths, the earliest. So the result does
+/// not depend on the algorithm. Each is a class template of a coverage rule and a depth format, constructed
+/// from the viewport.
 template <typename Algorithm>
 concept VisibilityAlgorithm = std::constructible_from<Algorithm, const Viewport&> &&
     requires(Algorithm& algorithm, const Algorithm& complete, const ExactTriangle& triangle, PixelTag tag) {
@@ -28,7 +29,7 @@ concept VisibilityAlgorithm = std::constructible_from<Algorithm, const Viewport&
   complete.for_each_row([](const VisibleRow&) {});
 };
 
-/// The z-buffer: draws a triangle as soon as it comes, all of it or its part in some rows; threads may draw
+/// The z-buffer: draws a triangle as soon as it arrives, all of it or its part in some rows; threads may draw
 /// into different rows at the same time.
 template <typename Coverage, typename Depth>
 class ZBufferAlgorithm {
@@ -43,7 +44,8 @@ class ZBufferAlgorithm {
   void draw(const ExactTriangle& triangle, PixelTag tag) {
     for_each_span(coverage_.rows(triangle), [&](const Span& span) { buffer_.draw(span, tag); });
   }
-  /// Draws into some rows, or all of them, triangle by triangle; nothing else may while it is in use.
+  /// Draws into some rows, or all of them, triangle by triangle; nothing else may draw there while it is in
+  /// use.
   class Drawer {
    public:
     Drawer(ZBufferAlgorithm& algorithm, const RowRange& rows)
@@ -67,7 +69,7 @@ class ZBufferAlgorithm {
     }
 
    private:
-    // As many as a coverage kernel takes at a time, or a multiple.
+    // As many as a coverage kernel processes at a time, or a multiple of that.
     static constexpr std::size_t kTriangles = 4;
 
     static double height_of(const Triangle& p_ndc) {
@@ -89,7 +91,8 @@ class ZBufferAlgorithm {
       triangles_.clear();
       is_any_high_ = false;
     }
-    // Without bounds where the rows are many: those of a whole tall picture would take too much memory.
+    // If there are many rows, draws without depth bounds: those of a whole tall picture would take too much
+    // memory.
     void draw_spans(std::span<const TaggedSpan> spans) {
       algorithm_.buffer_.draw(spans, is_low_ ? &farthest_ : nullptr);
     }
@@ -109,8 +112,8 @@ class ZBufferAlgorithm {
   }
 
  private:
-  // The most rows of a triangle whose spans are queued. Bands are higher only in pictures of more than 65536
-  // rows of samples.
+  // The maximum number of rows of a triangle whose spans are queued. Bands are higher only in pictures of
+  // more than 65536 rows of samples.
   static constexpr int kMaxRows = 128;
 
   Coverage coverage_;

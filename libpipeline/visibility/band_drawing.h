@@ -16,11 +16,11 @@
 
 namespace pipeline {
 
-/// Draws triangles band by band of the picture: of several batches, all triangles that reach a band are drawn
-/// before those of the next, so that its pixels stay in the cache. With several threads, each band is drawn
-/// by one of them, while the caller reads on. A pixel belongs to one band and sees its triangles in the order
-/// of the stream, so the result does not depend on the number of threads. `Visible` has a class
-/// Drawer(visible, rows) with draw(triangle, tag) and finish(), which only touch those rows.
+/// Draws a picture band by band: all triangles of several batches that reach one band are drawn before those
+/// of the next band, so that the band's pixels stay in the cache. With several threads, each band is drawn by
+/// one of them while the caller reads on. A pixel belongs to one band, and a band's triangles are drawn in
+/// the order of the stream, so the result does not depend on the number of threads. `Visible` has a class
+/// Drawer(visible, rows) with draw(triangle, tag) and finish(), which touch only those rows.
 ///
 /// Source: "sort-middle" in S. Molnar, M. Cox, D. Ellsworth, H. Fuchs, "A sorting classification of parallel
 /// rendering", 1994.
@@ -64,9 +64,9 @@ class BandDrawing {
   };
   /// Batches drawn together.
   struct Round {
-    /// Large triangles, which reach several bands, are collected in many batches: while a band's pixels are
-    /// in the cache, more of them are drawn. Small triangles fill few batches, so that they stay in the cache
-    /// themselves.
+    /// Large triangles, which reach several bands, are collected over many batches, so that more of them are
+    /// drawn while a band's pixels are in the cache. Small triangles are collected over few batches, so that
+    /// they themselves stay in the cache.
     [[nodiscard]] bool is_full() const {
       const bool is_of_small_triangles = entry_count < 2 * triangle_count;
       return batch_count == kMaxBatches || entry_count >= kMaxEntries ||
@@ -95,7 +95,7 @@ class BandDrawing {
     }
   }
 
-  /// Has the pool draw the round, once it has drawn the one before.
+  /// Has the pool draw the round once it has drawn the previous one.
   void draw_round() {
     pool_.finish();
     Round& round = rounds_[filling_];

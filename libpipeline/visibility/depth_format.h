@@ -25,7 +25,7 @@ struct DepthF64 {
   [[nodiscard]] static double separation(double) { return std::numeric_limits<double>::denorm_min(); }
 };
 
-/// A float, 24 bits that are finer near 0.
+/// A float: 24 significant bits, so steps are finer near 0.
 struct DepthF32 {
   static constexpr std::string_view kName = "f32", kMeaning = "as a float";
   using Stored = float;
@@ -39,10 +39,10 @@ struct DepthF32 {
   }
 };
 
-/// A whole number of 2^24 - 1 equal steps between the front and the rear limit, as graphics hardware keeps
-/// it: the limits are stored exactly, depths between them are rounded to the nearest step, half a step up.
-/// Finer than a float where the limits are close together, as from 0.999 to 1. Signed, because processors
-/// convert doubles to signed numbers only.
+/// A whole number of 2^24 - 1 equal steps between the front and the rear limit, as in graphics hardware: the
+/// limits are stored exactly, depths between them are rounded to the nearest step, halves up. Finer than a
+/// float where the limits are close together, as from 0.999 to 1. Signed, because processors convert doubles
+/// to signed numbers only.
 struct DepthU24 {
   static constexpr std::string_view kName = "u24", kMeaning = "in 2^24 equal steps between the limits";
   using Stored = std::int32_t;
@@ -58,7 +58,7 @@ struct DepthU24 {
     return static_cast<Stored>(kSteps < steps_from_front ? kSteps : steps_from_front);
   }
   [[nodiscard]] double depth(Stored stored) const { return front + stored * depth_per_step; }
-  // A step and more than the error of `store` before it rounds, which is less than 2^-26 steps.
+  // One step plus more than the error of `store` before rounding, which is less than 2^-26 steps.
   [[nodiscard]] double separation(double) const { return depth_per_step * (1 + 0x1p-20); }
 
   double front;

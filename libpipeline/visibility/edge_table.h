@@ -10,8 +10,8 @@
 
 namespace pipeline {
 
-/// The edge table of the scan-line algorithm: a bucket for every scanline with the polygons whose edges begin
-/// there, a linked list as in the textbook; 4 bytes a scanline and 4 a polygon.
+/// The edge table of the scan-line algorithm: for every scanline a bucket of the polygons whose edges begin
+/// there, as a linked list like the textbook's; 4 bytes per scanline and 4 per polygon.
 ///
 /// The textbook's entry is one edge with its x on the first scanline, its last scanline, dx per scanline and
 /// polygon. Here an entry stands for the two edges of a polygon that cross a scanline, left and right: one

@@ -29,7 +29,7 @@ struct Fragment {
   std::uint64_t triangle = 0;
   double depth = 0;  // NDC z, as the depth format stores it; outside the limits as it was calculated
   DepthTestResult result = DepthTestResult::kept;
-  std::uint64_t winner = 0;  // the triangle it lost against, if it is behind, equal or too close
+  std::uint64_t winner = 0;  // the triangle it lost to, if it is behind, equal or too close
 
   friend bool operator==(const Fragment&, const Fragment&) = default;
 };

@@ -52,8 +52,8 @@ class FragmentTest {
 };
 
 /// Reports every fragment of the picture, triangle by triangle in the order of the stream and each from the
-/// top left. A template of the coverage rule and the depth format that draw; its memory is a depth and a
-/// number a pixel.
+/// top left. A template of the coverage rule and the depth format in use; it keeps a depth and a number per
+/// pixel.
 template <typename Coverage, typename Depth>
 class FragmentLog {
  public:
@@ -76,7 +76,7 @@ class FragmentLog {
   Raster<typename FragmentTest<Depth>::Seen> seen_;
 };
 
-/// The same for one pixel, in the memory of one.
+/// The same for one pixel, with memory for that pixel alone.
 template <typename Coverage, typename Depth>
 class PixelProbe {
  public:

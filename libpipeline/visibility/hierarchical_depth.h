@@ -11,10 +11,10 @@ namespace pipeline {
 /// The length of a block of neighboring pixels of a row; its first column is a multiple of it.
 constexpr int kBlockColumns = 32;
 
-/// For each block of some rows of a z-buffer a depth that no pixel of it exceeds. Stored depths only
-/// decrease, so a bound stays valid without updates. A span that is nowhere in a block nearer than the bound
-/// is hidden in all of it. Source: N. Greene, M. Kass, G. Miller, "Hierarchical Z-buffer visibility", 1993.
-/// `Depth` is a depth format.
+/// For each block of some rows of a z-buffer, a depth that none of its pixels exceeds. Stored depths only
+/// decrease, so a bound stays valid without updates. A span that is nowhere nearer than the bound within a
+/// block is hidden in the whole block. Source: N. Greene, M. Kass, G. Miller, "Hierarchical Z-buffer
+/// visibility", 1993. `Depth` is a depth format.
 template <typename Depth>
 class HierarchicalDepth {
  public:

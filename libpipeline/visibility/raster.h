@@ -13,8 +13,8 @@ namespace pipeline {
 constexpr std::size_t kLargePage = std::size_t{1} << 21;
 
 /// Asks the system to back `size` bytes from `begin`, a multiple of kLargePage, with large pages, where it
-/// has them and leaves the choice to programs. They are filled with fewer page faults, and random accesses
-/// find them in the processor's table of pages. Nothing depends on the answer.
+/// has them and lets programs choose. Filling them causes fewer page faults, and random accesses cause fewer
+/// TLB misses. No result depends on whether the system complies.
 void prefer_large_pages(void* begin, std::size_t size);
 
 /// The allocator of arrays that may be large: from two large pages on, they are on large pages.

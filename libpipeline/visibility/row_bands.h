@@ -15,7 +15,7 @@ namespace pipeline {
 /// its depths and tags stay in a core's cache while many triangles are drawn into it.
 class RowBands {
  public:
-  /// Of a double and a PixelTag.
+  /// A double and a PixelTag.
   static constexpr int kBytesPerPixel = 12;
 
   explicit RowBands(const Viewport& screen)
@@ -27,9 +27,9 @@ class RowBands {
   }
 
   /// The bands in which a triangle in NDC can have pixels by any coverage rule; there may be one too many
-  /// where a vertex is next to the line of centers of a band's outermost row.
+  /// where a vertex is close to the line of centers of a band's outermost row.
   [[nodiscard]] RowRange bands_of(const Triangle& p_ndc) const {
-    // In a window next to the smallest doubles, the division would overflow.
+    // In a window whose size is near the smallest doubles, the division would overflow.
     if (!(rows_per_dy_ <= std::numeric_limits<double>::max())) return {0, count()};
     const double a = p_ndc[0].y, b = p_ndc[1].y, c = p_ndc[2].y;
     const double low = std::min(std::min(a, b), c), high = std::max(std::max(a, b), c);

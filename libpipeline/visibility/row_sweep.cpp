@@ -57,8 +57,8 @@ RowPolygon<Depth> RowSweep<Depth>::polygon(const Span& span, PolygonId id, Pixel
   }
   polygon.nearest = format_.store(std::min(left_z, right_z));
   polygon.farthest = format_.store(std::max(left_z, right_z));
-  // With X = |left_x| + columns |dx|, the five roundings are off by at most
-  // 2^-53 (|slope| (5 X + 3 |x0|) + |z0|); without a slope by nothing.
+  // With X = |left_x| + columns |dx|, the five roundings are off by at most 2^-53 (|slope| (5 X + 3 |x0|) +
+  // |z0|); without a slope they are exact.
   const double reach = std::fabs(depth.left_x) + reach_columns_ * std::fabs(depth.dx) + std::fabs(depth.x0);
   polygon.size = std::fabs(depth.z0);
   if (depth.slope != 0) {
@@ -171,7 +171,7 @@ RowPolygon<Depth>* RowSweep<Depth>::nearest_at(int column) {
   return nearest;
 }
 
-/// The first column in [column, end] at which `front` may not be nearer than `back`, as far as both go.
+/// The first column in [column, end] at which `front` may not be nearer than `back`, as far as both reach.
 template <typename Depth>
 int RowSweep<Depth>::end_of_nearer(const Polygon& front, const Polygon& back, int column, int end) const {
   const int last = std::min({end - 1, front.last_column, back.last_column});
@@ -183,14 +183,14 @@ int RowSweep<Depth>::end_of_nearer(const Polygon& front, const Polygon& back, in
   if (!(distance >= needed)) return column;
   const double last_distance = back.depth(last) - front.depth(last);
   if (last_distance >= needed) return end;
-  // Split at the crossing, which is where it is calculated or a column before.
+  // Split at the crossing, which is at the calculated column or one before it.
   const double part = (distance - needed) / (distance - last_distance);
   const int crossing = column + static_cast<int>(part > 0 ? part * (last - column) : 0);
   if (is_nearer_at(crossing)) return crossing + 1;
   return is_nearer_at(std::max(crossing - 1, column)) ? std::max(crossing, column + 1) : column + 1;
 }
 
-/// Gives the pixels of the interval [column, end) to the polygons visible there.
+/// Assigns the pixels of the interval [column, end) to the polygons visible there.
 template <typename Depth>
 void RowSweep<Depth>::give(int column, int end) {
   while (column < end) {

@@ -15,8 +15,8 @@
 
 namespace pipeline {
 
-/// The part of a polygon's span that passes the depth limits, were it alone: neighboring pixels of one
-/// scanline.
+/// The part of a polygon's span that would be visible between the depth limits if the polygon were alone:
+/// neighboring pixels of one scanline.
 template <typename Depth>
 struct RowPolygon {
   /// The value of index_in_list of a polygon whose in-out flag is "out": the sweep is not between its edges.
@@ -38,16 +38,16 @@ struct RowPolygon {
 };
 
 /// One scanline of the scan-line algorithm: goes from edge to edge, keeps the list of active polygons (those
-/// whose two edges enclose it), and gives the pixels between neighboring edges to the nearest of them.
+/// whose two edges enclose it), and assigns the pixels between neighboring edges to the nearest of them.
 ///
 /// The textbook compares depths once for every interval between two edges, at its left end, and is wrong
 /// where polygons interpenetrate. Here the visible polygon of an interval is compared with the others at both
 /// ends. Along a row depths are linear functions, so where the difference of two exceeds what rounding can
 /// add at both ends, it has the same sign at every pixel between. Where it does not, the interval is split at
 /// the crossing, and the pixels that rounding decides are compared one by one, as by the z-buffer: the
-/// smaller stored depth wins, of equal ones the earlier polygon.
+/// smaller stored depth wins, or the earlier polygon if both are equal.
 ///
-/// A polygon stays the visible one for as long as it is sure to be nearest, also over edges of polygons
+/// A polygon stays the visible one for as long as it is sure to be nearest, even across edges of polygons
 /// behind it, and a new polygon is compared with it only (depth coherence), so a scanline takes time for its
 /// edges and its visible pixels, not for every pixel of every layer.
 template <typename Depth>

@@ -41,8 +41,8 @@ struct SpanBlocks {
   int last_whole;  // included
 };
 
-// The loop that draws: every pixel of the span whose depth, as it is stored, is less than the one there gets
-// the span's depth and tag. A kernel is that loop for one kind of processor; all give the same bytes.
+// The loop that draws: a pixel gets the span's depth and tag if that depth, as stored, is less than the
+// pixel's own. A kernel is that loop for one kind of processor; all give the same bytes.
 //
 // Every rounding in a SpanDepth is monotone, so depths as they are calculated and stored rise or fall along
 // the row: the nearest in a block is at one of its ends. If that is not nearer than the farthest depth there,
@@ -55,8 +55,8 @@ struct SpanFillKernel {
   void (*fill)(const SpanFill<Depth>&);
 };
 
-/// The kernels this processor can run, the fastest last; the first, "portable", runs everywhere. The vector
-/// kernels are there for formats that have lanes (span_fill_avx2.cpp).
+/// The kernels this processor can run, the fastest last; the first, "portable", runs everywhere. Vector
+/// kernels exist for the formats that have lanes (span_fill_avx2.cpp).
 template <typename Depth>
 std::span<const SpanFillKernel<Depth>> span_fill_kernels();
 
@@ -64,8 +64,8 @@ std::span<const SpanFillKernel<Depth>> span_fill_kernels();
 template <typename Depth>
 const SpanFillKernel<Depth>* span_fill_avx2();
 
-/// The one in use: the fastest, or the one the environment variable PIPELINE_KERNEL names, for tests. "sse4",
-/// which names kernels of other parts, means "portable" here; an unknown name is ignored.
+/// The kernel in use: the fastest, or the one that the environment variable PIPELINE_KERNEL names, for tests.
+/// "sse4", which names kernels elsewhere in the library, means "portable" here; an unknown name is ignored.
 template <typename Depth>
 const SpanFillKernel<Depth>& span_fill_kernel();
 

@@ -13,7 +13,7 @@ namespace pipeline {
 /// one before, so a span is queued while its pixels are fetched into the cache. First in, first out.
 class SpanQueue {
  public:
-  /// At most `most_spans` spans are put in at a time.
+  /// At most `most_spans` spans are queued at a time.
   explicit SpanQueue(std::size_t most_spans)
       : halves_{Half(kWaiting + most_spans), Half(kWaiting + most_spans)} {}
 

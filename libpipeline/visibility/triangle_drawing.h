@@ -32,7 +32,7 @@ class TriangleDrawing {
   /// Where to put the next batch.
   [[nodiscard]] TriangleBatch& next_batch() { return next_.batch; }
   /// Draws that batch, each triangle with the tag `tag_of(batch, index)`, which is called at once and in
-  /// order. The drawing itself may be put off, at the latest to finish().
+  /// order. The drawing itself may be deferred, but not beyond finish().
   template <typename TagOf>
   void draw_batch(TagOf&& tag_of) {
     if (picture_ && has_small_triangles(next_.batch)) return draw_at_once(tag_of);
@@ -44,7 +44,7 @@ class TriangleDrawing {
   void finish() { bands_.finish(); }
 
  private:
-  /// Judges by every eighth triangle.
+  /// Decides by every eighth triangle.
   [[nodiscard]] bool has_small_triangles(const TriangleBatch& batch) const {
     constexpr double kSmall = 32;  // width and height together, in pixels
     constexpr std::size_t kStep = 8;

@@ -59,7 +59,7 @@ void ZBuffer<Depth>::draw(const Span& span, PixelTag tag, HierarchicalDepth<Dept
 
 template <typename Depth>
 void ZBuffer<Depth>::draw(std::span<const TaggedSpan> spans, HierarchicalDepth<Depth>* farthest) {
-  // Shorter spans take less time than the call of a kernel.
+  // Drawing a shorter span takes less time than calling a kernel.
   constexpr int kShort = 4;
   // Copies, so that the compiler sees that no pixel written changes them.
   const Depth format = format_;

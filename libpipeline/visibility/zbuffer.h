@@ -15,18 +15,19 @@
 
 namespace pipeline {
 
-/// The visibility algorithm `zbuffer`: every pixel keeps the nearest depth drawn so far and its tag, 12
-/// bytes a pixel if depths are doubles. `Depth` is a depth format. Source: E. Catmull, "A subdivision
-/// algorithm for computer display of curved surfaces", 1974.
+/// The visibility algorithm `zbuffer`: every pixel keeps the nearest depth drawn so far and its tag, 12 bytes
+/// per pixel if depths are doubles. `Depth` is a depth format. Source: E. Catmull, "A subdivision algorithm
+/// for computer display of curved surfaces", 1974.
 template <typename Depth = DepthF64>
 class ZBuffer {
  public:
   /// A buffer of the screen's size, every pixel at the rear limit and with the tag `background`.
   explicit ZBuffer(const Viewport& screen, PixelTag background = {});
 
-  /// Draws a span of the triangle `tag` stands for. A pixel is written if its depth, as it is stored, is less
-  /// than the one there (of equal depths the first drawn stays) and not less than the front limit.
-  /// `farthest`, if there is one, has rows of this buffer; its bounds stay valid when others draw there.
+  /// Draws a span of the triangle that `tag` stands for. A pixel is written if its depth, as it is stored, is
+  /// less than the one there (of equal depths the first drawn stays) and not less than the front limit.
+  /// `farthest`, if there is one, has rows of this buffer; its bounds stay valid even if others draw into
+  /// those rows.
   void draw(const Span& span, PixelTag tag, HierarchicalDepth<Depth>* farthest = nullptr);
 
   /// Draws several spans, one after the other.
