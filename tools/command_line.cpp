@@ -61,7 +61,7 @@ std::vector<std::string> words_for_parsing(int argc, char** argv) {
   return words;
 }
 
-/// The fault of the command line: "option: expected ..., found ...".
+/// The error in the command line: "option: expected ..., found ...".
 std::string explained(const CLI::App& options, const CLI::ParseError& error) {
   if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) return explained_extra(options);
   const CLI::Option* const option = named_in(options, error.what());

@@ -25,10 +25,10 @@ class UsageError : public std::runtime_error {
 /// "a, b or c".
 std::string listed(const std::vector<std::string>& words);
 
-/// Returns the fault of a word; empty if it has none.
+/// Describes the error in a word; empty if there is none.
 using WordCheck = std::function<std::string(const std::string& word)>;
 
-/// The check of a name: its fault is the message of the InputError that `check` throws.
+/// A check that describes an error by the message of the InputError that `check` throws.
 template <typename F>
 WordCheck wrong_with_name(F check) {
   return [check](const std::string& name) -> std::string {
@@ -41,8 +41,8 @@ WordCheck wrong_with_name(F check) {
   };
 }
 
-/// CLI11 with one form for all options, messages and help texts. The value of an option goes straight into
-/// the variable it was added with; the variable's earlier value is the default.
+/// CLI11 with one form for all options, messages and help texts. An option's value is stored in the variable
+/// it was added with; the variable's initial value is the default.
 class CommandLine {
  public:
   CommandLine(const std::string& tool, const std::string& description, const std::string& version);
@@ -55,7 +55,7 @@ class CommandLine {
   /// An option that takes `count` words.
   void add_words(const std::string& name, std::size_t count, const std::string& type_name,
                  std::vector<std::string>& words, const std::string& help);
-  /// An option that takes one word and may be given again.
+  /// An option that takes one word and may be repeated.
   void add_repeatable(const std::string& name, const std::string& type_name, std::vector<std::string>& words,
                       const std::string& help);
   /// An option that takes a whole number from `least` to `most`.
@@ -82,8 +82,8 @@ class CommandLine {
   void add_threads(int& thread_count, const std::string& help);
   void add_operand(const std::string& name, std::string& word, bool is_required, const std::string& help);
 
-  /// Takes the words of `main`. Returns the text that --help or --version asked for, else nothing. A
-  /// UsageError ("option: expected ..., found ...") if the words are not such a command line.
+  /// Parses the arguments of `main`. Returns the text requested by --help or --version, else nothing. A
+  /// UsageError ("option: expected ..., found ...") if the command line is wrong.
   std::optional<std::string> parse(int argc, char** argv);
 
  private:

@@ -11,8 +11,8 @@
 
 namespace pipeline {
 
-/// Writes the depths of all pixels: as text to standard output or a file, and as an image if one is wanted.
-/// `commit` moves the files to their names.
+/// Writes the depths of all pixels: as text to standard output or a file, and as an image if one is
+/// requested. `commit` moves the files to their names.
 class DepthFiles {
  public:
   /// `text_path` is "-" for `standard_output`; an empty `image_path` means no image.

@@ -9,7 +9,7 @@
 
 namespace pipeline {
 
-/// Reports every triangle's fragments at the pixels asked for. Takes triangles in the order of the stream, so
+/// Reports every triangle's fragments at the requested pixels. Takes triangles in the order of the stream, so
 /// the report does not depend on the threads that draw them.
 class FragmentReport {
  public:
@@ -22,7 +22,7 @@ class FragmentReport {
   virtual void commit() = 0;
 };
 
-/// The report asked for, with the coverage rule and the depth format that draw; null if none was. A
+/// The requested report, with the coverage rule and the depth format in use; null if none is requested. A
 /// UsageError if a probe is not on the screen.
 std::unique_ptr<FragmentReport> fragment_report(const ZbufOptions& chosen, const Viewport& screen);
 

@@ -18,7 +18,7 @@ int main(int argc, char** argv) {
   bool framed = false;
   tool.options().add_flag("--bare", bare, "Write the triangles alone (stage1.txt)");
   tool.options().add_flag("--framed", framed,
-                          "Write 'framed' and 'end' around the text, so that a cut is noticed");
+                          "Write 'framed' and 'end' around the text, so that a truncated text is noticed");
 
   return tool.run(argc, argv, [&] {
     if (bare && framed) throw UsageError(expected_but_found("--bare or --framed", "both"));

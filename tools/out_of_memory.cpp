@@ -22,7 +22,7 @@ void write_line(int descriptor, const char* before, const char* tool) noexcept {
   std::strncat(line, before, sizeof line / 4);
   std::strncat(line, tool, sizeof line / 4);
   std::strncat(line, kMessage, sizeof line / 4);
-  // If this fails, too, the exit status remains.
+  // If this fails as well, only the exit status remains.
   static_cast<void>(!::write(descriptor, line, std::strlen(line)));
 }
 

@@ -24,17 +24,17 @@ struct ProjectOptions {
 void add_options(CommandLine& options, ProjectOptions& chosen) {
   options.add_choice<AspectRule>(
       "--aspect", chosen.aspect, {{"angle", AspectRule::angle}, {"ratio", AspectRule::ratio}},
-      "angle: fovX = fovY * aspect; ratio: tan(fovX/2) = tan(fovY/2) * aspect, as gluPerspective");
+      "angle: fovX = fovY * aspect; ratio: tan(fovX/2) = tan(fovY/2) * aspect, as in gluPerspective");
   options.add_choice<ClipMode>("--clip", chosen.clip,
                                {{"auto", ClipMode::automatic},
                                 {"near", ClipMode::near},
                                 {"frustum", ClipMode::frustum},
                                 {"reject", ClipMode::reject},
                                 {"none", ClipMode::none}},
-                               "auto: cut triangles that come near the eye at the near plane\n"
-                               "near: cut everything there\n"
-                               "frustum: cut everything at all six planes\n"
-                               "reject: drop triangles wholly outside one of them, cut nothing\n"
+                               "auto: cut only triangles that come near the eye, at the near plane\n"
+                               "near: cut all triangles at the near plane\n"
+                               "frustum: cut all triangles at all six planes\n"
+                               "reject: drop triangles wholly outside one plane, cut nothing\n"
                                "none: a vertex that is not in front of the eye is an error");
   options.add_number(
       "--clip-inset", "F", chosen.clip_inset, [](double inset) { return inset >= 0 && inset < 1; },
@@ -43,7 +43,7 @@ void add_options(CommandLine& options, ProjectOptions& chosen) {
       "the triangles\n"
       "between -0.9 and 0.9 in NDC");
   options.add_choice<CullMode>("--cull", chosen.cull, {{"back", CullMode::back}, {"front", CullMode::front}},
-                               "Drop triangles that show this side to the eye; counter-clockwise is front");
+                               "Drop triangles that show this side to the eye; counterclockwise is front");
 }
 
 void check_inset(const ProjectOptions& chosen) {
@@ -67,7 +67,7 @@ std::string to_text(const ProjectionCounts& counts) {
          std::to_string(counts.clipped) + " cut into " + std::to_string(counts.pieces);
 }
 
-/// The appearance in a projected text: where there are other columns, w joins them.
+/// The appearance in a projected text: if there are other columns, w is added to them.
 Appearance in_clip_space(Appearance appearance) {
   expect_no_w(appearance);
   if (appearance.attributes) appearance.attributes->value.w = true;

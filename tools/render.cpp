@@ -23,8 +23,8 @@
 namespace pipeline {
 namespace {
 
-/// Gives every triangle of the stream, in order, the tag of its pixels: the RGB value of its color, or the id
-/// under which a surface shader keeps it. Hands each to the report, if there is one.
+/// Assigns every triangle of the stream, in order, the tag of its pixels: the RGB value of its color, or the
+/// id under which a surface shader keeps it. Hands each to the report, if there is one.
 class TriangleTagSource {
  public:
   TriangleTagSource(std::optional<SurfaceShader>& shader, FragmentReport* report)

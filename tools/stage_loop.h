@@ -10,7 +10,7 @@
 namespace pipeline {
 
 /// The loop of a text filter: reads a batch, transforms it, writes it, and passes it on at once, until the
-/// input ends. An error comes after the triangles before it.
+/// input ends. An error is reported after the triangles before it are written.
 class StageLoop {
  public:
   /// `rounder` is the one that the transform uses.

@@ -24,9 +24,9 @@ NumberOptions::NumberOptions(CommandLine& options) {
                ? std::string()
                : expected_but_found("a number of decimals from 0 to 17, or exact", pipeline::quoted(text));
   };
-  options.add_word("--digits", "N|exact", digits_,
-                   "Decimals of a coordinate, 0 to 17, or exact: as many as read back to the same double",
-                   check);
+  options.add_word(
+      "--digits", "N|exact", digits_,
+      "Decimals of a coordinate, 0 to 17, or exact: as many as it takes to read back the same double", check);
   options.add_choice<Precision>("--precision", precision_,
                                 {{"double", Precision::in_doubles}, {"extended", Precision::extended}},
                                 "extended: every number printed is correctly rounded; double: faster");
@@ -54,8 +54,8 @@ CameraOptions::CameraOptions(CommandLine& options, Parts parts) {
   const std::string planes = "L R B T N F";
   add("--perspective", 4, "FOVY ASPECT NEAR FAR", "The projection, as in a scene; angles in degrees");
   add("--frustum", 6, planes,
-      "The same by the planes left, right, bottom, top, near, far, as glFrustum takes them");
-  add("--ortho", 6, planes, "A parallel projection between such planes, as glOrtho takes them");
+      "The same, given by the planes left, right, bottom, top, near, far, as for glFrustum");
+  add("--ortho", 6, planes, "A parallel projection between such planes, as for glOrtho");
   options.add_word("--scene", "FILE", scene_path_,
                    "Take the parts of the camera that other options leave out from this scene instead of the "
                    "header of INPUT");
@@ -70,7 +70,7 @@ CameraParameters CameraOptions::camera(const CameraParameters& header, const Too
     read_camera_part(name.substr(2), {name}, line, camera);
   }
   if (!scene_path_.empty()) {
-    // The camera stands before the commands, which are not read.
+    // The camera precedes the commands, which are not read.
     InputFile scene = tool.second_input(scene_path_, "--scene");
     camera = merged(camera, SceneReader(scene.text()).camera());
   }

@@ -35,8 +35,8 @@ class CameraOptions {
 
   CameraOptions(CommandLine& options, Parts parts);
 
-  /// The camera from the options; parts that they leave out come from the scene, and parts that it leaves out
-  /// from `header`. An InputError, located at the option or in the scene, if a part is wrong.
+  /// The camera from the options; parts missing there come from the scene, and parts missing in both from
+  /// `header`. An InputError, located at the option or in the scene, if a part is wrong.
   [[nodiscard]] CameraParameters camera(const CameraParameters& header, const Tool& tool) const;
 
  private:

@@ -34,18 +34,18 @@ void open_closed_descriptors() {
       ::open("/dev/null", descriptor == STDIN_FILENO ? O_WRONLY : O_RDONLY);
 }
 
-/// With the signal ignored, a file at its size limit is a failed write, which is reported and cleaned up
-/// after.
+/// With the signal ignored, writing to a file at its size limit fails like any other write, which is reported
+/// and cleaned up.
 void make_file_size_limit_an_error() {
   std::signal(SIGXFSZ, SIG_IGN);
 }
 
 /// Lets the pipe behind a file descriptor hold 1 MiB, where the system can do that and allows it, so that the
-/// stages of a pipe seldom wait for each other. A larger pipe, and any other file, stays as it is.
+/// stages of a pipe seldom wait for each other. A larger pipe and any other file stay as they are.
 void enlarge_pipe([[maybe_unused]] int descriptor) {
 #ifdef F_SETPIPE_SZ
   constexpr int kPipeSize = 1 << 20;
-  // Of a file that is no pipe the size is -1; where the system refuses, the pipe keeps its size.
+  // For a file that is not a pipe, the size is -1; where the system refuses, the pipe keeps its size.
   const int size = ::fcntl(descriptor, F_GETPIPE_SZ);
   if (size >= 0 && size < kPipeSize) ::fcntl(descriptor, F_SETPIPE_SZ, kPipeSize);
 #endif
@@ -76,7 +76,7 @@ Tool::Tool(const ToolDescription& description, OutputKind output_kind)
       output_(STDOUT_FILENO, "<stdout>") {
   open_closed_descriptors();
   make_file_size_limit_an_error();
-  options_.add_flag("--timing", wants_timing_, "Say on stderr how long reading, working and writing took");
+  options_.add_flag("--timing", wants_timing_, "Report on stderr how long reading, working and writing took");
 }
 
 TextReader& Tool::input() {
@@ -131,7 +131,7 @@ int Tool::status_of(const std::function<void()>& work) try {
   } catch (const InputError& error) {
     return error.location().is_option() ? fail_misuse(error.what()) : fail(error.what(), kExitFailure);
   } catch (const IoError& error) {
-    if (error.error_number() == EPIPE) return kExitFailure;  // the reader wants no more
+    if (error.error_number() == EPIPE) return kExitFailure;  // the reader has closed the pipe
     return fail(error.what(), kExitFailure);
   } catch (const std::bad_alloc&) {
     return fail_without_memory();

@@ -30,7 +30,7 @@ class InputFile {
   std::optional<TextReader> text_;
 };
 
-/// The time of a run by phase, for `--timing`. Waiting for the stage before counts as reading.
+/// The time of a run by phase, for `--timing`. Waiting for the previous stage counts as reading.
 struct Timing {
   double read_seconds = 0;
   double work_seconds = 0;

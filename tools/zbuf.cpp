@@ -24,11 +24,11 @@ int main(int argc, char** argv) {
   Tool tool({"zbuf",
              "Reads triangles in normalized device coordinates and writes the depth of every pixel that "
              "shows one, and the image.",
-             "What project has written (or stage3.txt)"},
+             "The output of project (or stage3.txt)"},
             OutputKind::other_text);
   ZbufOptions chosen;
   chosen.add_to(tool.options());
-  // A closed reader is a failure to write like any other: the image that was begun has to be removed.
+  // A closed pipe is a failure to write like any other: the image that was begun has to be removed.
   std::signal(SIGPIPE, SIG_IGN);
 
   return tool.run(argc, argv, [&] {

@@ -66,11 +66,11 @@ void add_type_choice(CommandLine& options, const std::string& name, TypeList<Typ
       name, chosen, {{std::string(Types::kName), TypeValue<Types>()}...}, help);
 }
 
-// Beside the members, so that an option is written in one file.
+// Next to the members, so that each option is defined in one file.
 inline void ZbufOptions::add_to(CommandLine& options) {
   options.add_operand("CONFIG", config_path, true,
-                      "The screen (config.txt): WIDTH HEIGHT in pixels; or on four lines\n"
-                      "that, the left limit of x, the bottom limit of y, the front and rear limits of z");
+                      "The screen (config.txt): WIDTH HEIGHT in pixels, alone or before three lines:\n"
+                      "the left limit of x, the bottom limit of y, the front and rear limits of z");
   const std::vector<std::string_view> extensions = image_extensions();
   options.add_word("--image", "FILE", image_path,
                    "Where the image goes, a " + listed({extensions.begin(), extensions.end()}) + " file",
@@ -82,18 +82,17 @@ inline void ZbufOptions::add_to(CommandLine& options) {
       "How the visible triangle is found; both give the same output.\n"
       "zbuffer: every pixel keeps the nearest depth so far\n"
       "scanline: triangles are kept and compared row by row, without memory for the image");
-  add_type_choice(options, "--depth", DepthFormats(), depth, "How a pixel keeps its depth.");
+  add_type_choice(options, "--depth", DepthFormats(), depth, "How a pixel stores its depth.");
   options.add_threads(thread_count, "How many threads draw with the z-buffer");
-  options.add_word(
-      "--depth-image", "FILE", depth_image_path,
-      "Also write the depths as an image of 16 bits, a .pgm or .png file: white at the front limit, "
-      "black at the rear limit",
-      wrong_with_name(check_depth_image_name));
+  options.add_word("--depth-image", "FILE", depth_image_path,
+                   "Also write the depths as a 16-bit image, a .pgm or .png file: white at the front limit, "
+                   "black at the rear limit",
+                   wrong_with_name(check_depth_image_name));
   options.add_number(
       "--depth-epsilon", "E", depth_epsilon, [](double epsilon) { return epsilon >= 0; },
       "a number of at least 0",
-      "Let a triangle through only where it is nearer than the one seen so far by more than E; the order of "
-      "the triangles counts then");
+      "Draw a triangle only where it is nearer than the visible one by more than E; the result then depends "
+      "on the order of the triangles");
   options.add_whole("--samples", sample_count, 1, kMaxSamples,
                     "Smooth edges: a pixel of the image is the mean of N x N samples, its depth stays that "
                     "of its center; N");
@@ -103,14 +102,14 @@ inline void ZbufOptions::add_to(CommandLine& options) {
        {"flat", ShadingModel::flat},
        {"gouraud", ShadingModel::gouraud},
        {"phong", ShadingModel::phong}},
-      "Where surfaces are lit. none: nowhere; flat: once a triangle;\n"
+      "Where surfaces are lit. none: nowhere; flat: once per triangle;\n"
       "gouraud: at its vertices; phong: at every pixel.\n"
       "Without the option: phong with lights and normals, flat with lights alone, else none");
   options.add_flag("--wireframe", wireframe,
-                   "Show of the visible surfaces only their edges: what lies within half a pixel of one");
+                   "Show only the edges of the visible surfaces: the pixels within half a pixel of an edge");
   options.add_repeatable("--probe", "COLUMN,ROW", probes,
-                         "Say on stderr of every triangle at this pixel how deep it is there, and whether it "
-                         "was kept or why it was lost; may be given again");
+                         "Report on stderr, for every triangle at this pixel, its depth there and whether it "
+                         "was kept or why it was lost; may be repeated");
   options.add_word("--fragments", "FILE", fragments_path, "Write the same for the whole picture to a file");
   options.add_flag("--framed", framed,
                    "Refuse a text without the frame that model --framed gives it: an empty one may come from "

@@ -24,7 +24,7 @@ std::size_t row_size(int columns) {
   return (3 * static_cast<std::size_t>(columns) + 3) / 4 * 4;
 }
 
-/// True where every byte written goes where the last seek pointed.
+/// True if written bytes go to the position of the last seek.
 bool can_seek(int descriptor) {
   const int flags = ::fcntl(descriptor, F_GETFL);
   return flags >= 0 && (flags & O_APPEND) == 0 && ::lseek(descriptor, 0, SEEK_CUR) == 0;
@@ -72,10 +72,10 @@ void BmpWriter::write_header() {
   append_little_endian(header, static_cast<std::uint32_t>(columns_));
   append_little_endian(header, static_cast<std::uint32_t>(rows_));  // positive: from the bottom
   append_little_endian(header, std::uint16_t{1});                   // planes
-  append_little_endian(header, std::uint16_t{24});                  // bits a pixel
+  append_little_endian(header, std::uint16_t{24});                  // bits per pixel
   append_little_endian(header, std::uint32_t{0});                   // not compressed
   append_little_endian(header, pixels_size);
-  header.append(16, '\0');  // left open: pixels per meter in x and y, colors in the palette, important ones
+  header.append(16, '\0');  // unspecified: pixels per meter in x and y, palette size, important colors
   write_all(descriptor_, header, path_);
 }
 

@@ -17,16 +17,16 @@ namespace pipeline {
 /// PGM.
 void check_depth_image_name(const std::string& path);
 
-/// How bright a depth is: 65535 at the front limit, 0 at the rear limit and where nothing is seen, linear
-/// between and rounded to the nearest, halves up.
+/// The brightness of a depth: 65535 at the front limit, 0 at the rear limit and where nothing is seen, linear
+/// in between, rounded to the nearest integer, halves up.
 std::uint16_t depth_brightness(double depth, const Viewport& screen);
 
 /// Takes the depths of an image row by row, from the top, and writes them as brightness. Failures to write
 /// are IoErrors.
 class DepthImageWriter {
  public:
-  /// Writes to a file descriptor, which stays the caller's; `path` chooses the format and names the file in
-  /// messages.
+  /// Writes to a file descriptor, which the caller keeps and closes; `path` chooses the format and names the
+  /// file in messages.
   DepthImageWriter(int descriptor, const std::string& path, const Viewport& screen);
 
   /// Takes the depths (NDC z) of the next row, from the left.

@@ -55,7 +55,7 @@ void take_any_size(const std::string&, int, int) {}
 
 constexpr ImageFormat kPpm = {".ppm", make<RgbWriter<NetpbmWriter>>, take_any_size};
 constexpr ImageFormat kFormats[] = {{".bmp", make<BmpWriter>, check_bmp_size}, kPpm};
-// Where there is libpng.
+// With libpng only.
 constexpr ImageFormat kPng = {".png", make<RgbWriter<PngWriter>>, take_any_size};
 
 const ImageFormat& format_of(const std::string& path) {

@@ -24,10 +24,10 @@ class ImageWriter {
   virtual void finish() = 0;
 };
 
-// The extension of a file's name, in upper or lower case, chooses the format: BMP (24 bits a pixel, at most
-// 4 GiB), PPM (Netpbm P6) or, where can_write_png(), PNG (8 bits a channel). A device's name (/dev/null,
-// /dev/stdout) has none: it gets PPM, which can be written from start to end. Any other name is an
-// InputError, and so is an image larger than the format holds.
+// The extension of a file's name, in upper or lower case, chooses the format: BMP (24 bits per pixel, at most
+// 4 GiB), PPM (Netpbm P6) or, where can_write_png(), PNG (8 bits per channel). A device's name (/dev/null,
+// /dev/stdout) has none: it gets PPM, which can be written sequentially. Any other name is an InputError, and
+// so is an image larger than the format holds.
 
 /// The extensions of all formats that can be written: ".bmp", ...
 std::vector<std::string_view> image_extensions();
@@ -36,11 +36,11 @@ std::vector<std::string_view> image_extensions();
 void check_image_name(const std::string& path);
 void check_image_size(const std::string& path, int columns, int rows);
 
-/// Writes an image to a file descriptor, which stays the caller's; `path` chooses the format and names the
-/// file in messages. Throws like the checks.
+/// Writes an image to a file descriptor, which the caller keeps and closes; `path` chooses the format and
+/// names the file in messages. Throws like the checks.
 std::unique_ptr<ImageWriter> image_writer(int descriptor, const std::string& path, int columns, int rows);
 
-// For files of images of any kind.
+// For image files of any kind.
 
 /// Writes all bytes to a file descriptor; an IoError naming `path` if that fails.
 void write_bytes(int descriptor, std::string_view bytes, const std::string& path);

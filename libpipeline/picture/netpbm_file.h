@@ -11,7 +11,7 @@ namespace pipeline {
 /// Failures to write are IoErrors.
 class NetpbmWriter {
  public:
-  /// Writes to a file descriptor, which stays the caller's; `path` names it in messages.
+  /// Writes to a file descriptor, which the caller keeps and closes; `path` names it in messages.
   NetpbmWriter(int descriptor, const std::string& path, PixelBytes pixels, int columns, int rows);
 
   /// Takes the bytes of the next row.

@@ -45,7 +45,7 @@ struct PngWriter::State {
   }
   ~State() { png_destroy_write_struct(&png, &info); }
 
-  /// Calls libpng; an IoError if it gives up, which is for lack of memory if the sink took all bytes.
+  /// Calls libpng; an IoError if it fails, which is for lack of memory if the sink has taken all bytes.
   template <typename Call>
   void guarded(Call&& call) {
     if (png == nullptr || info == nullptr) throw IoError("write", path, ENOMEM);

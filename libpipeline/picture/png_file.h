@@ -11,10 +11,11 @@ namespace pipeline {
 /// True if PNG files can be written: where the library was built with libpng.
 bool can_write_png();
 
-/// Takes a PNG image row by row, from the top, and writes it as it comes. Failures to write are IoErrors.
+/// Takes a PNG image row by row, from the top, and writes the rows as they come. Failures to write are
+/// IoErrors.
 class PngWriter {
  public:
-  /// Writes to a file descriptor, which stays the caller's; `path` names it in messages. Only where
+  /// Writes to a file descriptor, which the caller keeps and closes; `path` names it in messages. Only where
   /// can_write_png().
   PngWriter(int descriptor, const std::string& path, PixelBytes pixels, int columns, int rows);
   ~PngWriter();

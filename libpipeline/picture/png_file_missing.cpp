@@ -1,4 +1,4 @@
-// In place of png_file.cpp where libpng was not found.
+// Replaces png_file.cpp where libpng was not found.
 #include <cassert>
 
 #include "libpipeline/picture/png_file.h"

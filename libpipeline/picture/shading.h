@@ -27,18 +27,18 @@ struct SurfacePoint {
   Vec3 color;
 };
 
-/// The color the eye sees, a channel not yet rounded or limited:
+/// The color the eye sees, with channels not yet rounded or clamped:
 ///   color (ka ambient + sum att L kd max(0, n.l)) + 255 ks sum att L max(0, n.h)^shininess
-/// n is the normal turned towards the eye, l the direction of a light, h half-way between l and the eye's
-/// direction. A normal of 0 faces nothing, a light in the very point shines on nothing. Source: J. Blinn,
-/// "Models of light reflection for computer synthesized pictures", 1977.
+/// n is the normal turned toward the eye, l the direction of a light, h halfway between l and the eye's
+/// direction. A normal of 0 faces no light, and a light at the point itself does not light it. Source: J.
+/// Blinn, "Models of light reflection for computer synthesized pictures", 1977.
 Vec3 lit_color(const SurfacePoint& point, const Lighting& lighting);
 
 /// `base` to a whole power by repeated squaring, so that it does not depend on the system's library; 1 to the
 /// power 0.
 double whole_power(double base, std::size_t exponent);
 
-/// Each channel rounded, halves up, and limited to 0 to 255.
+/// Each channel rounded, halves up, and clamped to 0 to 255.
 Color rounded_color(const Vec3& color);
 
 }  // namespace pipeline

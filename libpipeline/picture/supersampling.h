@@ -11,15 +11,15 @@
 
 namespace pipeline {
 
-/// The most samples along each side of a pixel: the exact coverage rule has room for them on the largest
-/// screen.
+/// The maximum number of samples along each side of a pixel: the exact coverage rule has room for these on
+/// the largest screen.
 constexpr int kMaxSamples = 16;
 
-/// The screen whose pixels are the samples of `screen`: `count` x `count` a pixel, in a regular grid.
+/// The screen whose pixels are the samples of `screen`: `count` x `count` per pixel, in a regular grid.
 Viewport sample_screen(const Viewport& screen, int count);
 
 /// Turns rows of samples into rows of pixels: each channel is the mean of the pixel's samples, rounded to the
-/// nearest, halves up.
+/// nearest integer, halves up.
 class Downsampler {
  public:
   /// For rows of `columns` pixels with `count` x `count` samples each.

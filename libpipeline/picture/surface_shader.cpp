@@ -41,7 +41,7 @@ double area(const Vec3& p, const Vec3& q, double x, double y) {
 
 /// The weights of the corners, in view space, at a point of the screen (M. Olano, T. Greer, "Triangle scan
 /// conversion using 2D homogeneous coordinates", 1997): their sum has the sign of the winding, wherever the
-/// corners lie. A pixel's center may lie a little outside: no weight leaves [0, 1].
+/// corners lie. A pixel's center may lie a little outside, so weights are clamped to [0, 1].
 Weights weights_at(const Triangle& screen_corners, double x, double y) {
   const auto& [a, b, c] = screen_corners;
   Weights weights = {area(b, c, x, y), area(c, a, x, y), area(a, b, x, y)};

@@ -16,14 +16,14 @@
 
 namespace pipeline {
 
-/// Where a surface is lit: not at all, once a triangle, at its vertices, at every pixel.
+/// Where a surface is lit: nowhere, once per triangle, at its vertices, or at every pixel.
 enum class ShadingModel { none, flat, gouraud, phong };
 
 /// Gives pixels their colors once the triangle that each one shows is known: keeps the triangles of a scene
 /// with colors or lights, each under an id by which the visibility algorithm refers to it. So hidden surfaces
 /// are never shaded. Attributes are interpolated between vertices perspective-correctly. Flat and gouraud
-/// shading light each triangle as it comes, a clipped one as it was before the cut; phong shading lights
-/// visible pixels. Without vertex normals all use the triangle's.
+/// shading light each triangle as it arrives, a clipped one as it was before the cut; phong shading lights
+/// visible pixels. Without vertex normals, all models use the triangle's.
 class SurfaceShader {
  public:
   using SurfaceId = std::uint32_t;

@@ -9,7 +9,7 @@
 
 namespace pipeline {
 
-/// How wide and high a pixel is in NDC.
+/// The width and height of a pixel in NDC.
 struct PixelSize {
   double dx;
   double dy;
@@ -20,8 +20,8 @@ class Wireframe {
  public:
   explicit Wireframe(const PixelSize& pixel) : pixel_(pixel) {}
 
-  /// Adds a triangle all of whose edges are drawn. Of a corner x, y and w of clip space are given, w of any
-  /// sign.
+  /// Adds a triangle all of whose edges are drawn. A corner is given as its x, y and w in clip space; w may
+  /// have any sign.
   void add(const Triangle& screen_corners);
   /// Adds a triangle of a text that does not record clipping. Edges are not drawn if they lie in a plane of
   /// the view volume, or are shared with the triangle before and both are pieces of triangle `number`.
@@ -32,7 +32,7 @@ class Wireframe {
   [[nodiscard]] bool is_on_edge(std::size_t index, double x, double y) const;
 
  private:
-  /// The distance in pixels, with its sign, is a x + b y + c.
+  /// The signed distance in pixels is a x + b y + c.
   struct Line {
     double a, b, c;
   };

@@ -14,8 +14,8 @@ namespace pipeline {
 /// temporary name. Elsewhere it has the temporary name from the beginning, and a killed process leaves the
 /// data written so far.
 ///
-/// A new file gets the permissions that creat gives, a replaced one keeps its own; a read-only file is not
-/// replaced. A symbolic link stays, and the file it points at is replaced. An existing file that is not
+/// A new file gets the permissions that creat would set, a replaced one keeps its own; a read-only file is
+/// not replaced. A symbolic link stays, and the file it points at is replaced. An existing file that is not
 /// regular (a device, a pipe), /dev/stdout and the like are written directly.
 class OutputFile {
  public:
