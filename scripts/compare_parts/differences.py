@@ -4,7 +4,7 @@ import math
 
 
 def exceeds(a, b, tolerance):
-    """Whether a and b differ by more than the tolerance; what reading decimals as doubles may add does not count."""
+    """Whether a and b differ by more than the tolerance and by more than reading decimals as doubles can add."""
     return abs(a - b) > tolerance + 4 * math.ulp(max(abs(a), abs(b)))
 
 
@@ -24,7 +24,7 @@ class Pair:
 
 @dataclasses.dataclass
 class Differences:
-    """What is compared are `things`; with `is_relative` the tolerance of a number beyond 1 grows with it."""
+    """Compares `things`; with `is_relative`, the tolerance of a number beyond 1 grows with the number."""
     things: str
     tolerance: float
     is_relative: bool = False
@@ -32,10 +32,10 @@ class Differences:
     differing: int = 0
     first: Pair = None
     largest: Pair = None
-    unlike: list = dataclasses.field(default_factory=list)  # what cannot be compared number by number
+    unlike: list = dataclasses.field(default_factory=list)  # differences that no pair of numbers shows
 
     def add(self, place, a, b):
-        """Compares a and b; `place` is a function that says where they stand."""
+        """Compares a and b; `place` returns their position as text."""
         self.compared += 1
         if a == b or not exceeds(a, b, self.tolerance * (max(1, abs(b)) if self.is_relative else 1)):
             return False
@@ -95,7 +95,7 @@ def compare_z_buffers(a, b, tolerance, is_relative=False):
 
 
 def compare_pictures(a, b, tolerance):
-    """The Differences of two pictures, pixel by pixel (that of its channels that differs most), and which pixels differ."""
+    """The Differences of two pictures, by the channel that differs most in each pixel, and the pixels that differ."""
     result, mask = Differences("pixels", tolerance), set()
     (width_a, height_a, rows_a), (width_b, height_b, rows_b) = a, b
     if (width_a, height_a) != (width_b, height_b):

@@ -1,5 +1,5 @@
-"""A student's five files against ours: every stage is fed what the student's own stage before it wrote, so that one mistake
-counts once."""
+"""Compares a student's five files with ours: each of our stages reads the output of the student's previous stage, so that
+an error counts once."""
 import dataclasses
 import os
 import pathlib
@@ -13,7 +13,7 @@ from lib.pictures import PictureError, picture_of, read_picture
 from lib.pipe_tools import ToolFailure
 from lib.stage_text import StageTextError, parse_stage_text, real, text_of
 
-# Numbers of 7 decimals that were calculated from numbers of 7 decimals; depths have 6.
+# For numbers of 7 decimals that were calculated from numbers of 7 decimals; depths have 6.
 COORDINATE_TOLERANCE = 1e-6
 DEPTH_TOLERANCE = 2e-6
 HALF_A_UNIT = 5.1e-8  # of 7 decimals
@@ -41,13 +41,13 @@ def parse_z_buffer(text, path):
             rows.append([real(word) for word in line.split()])
         except ValueError:
             raise StageTextError(f"{name_of(path)}:{number}: expected depths, found '{shown(line.strip()[:40])}'") from None
-    while rows and not rows[-1]:  # empty rows at the end tell nothing
+    while rows and not rows[-1]:  # rows at the end may be empty
         rows.pop()
     return rows
 
 
 def unreadable(tool, name, error):
-    """The Judgment of a file for which there is an InputError, StageTextError or PictureError."""
+    """The Judgment of a file that raised an InputError, StageTextError or PictureError."""
     if isinstance(error, InputError):
         return Judgment(tool, name, "missing" if error.is_missing else "unreadable", error.reason)
     return Judgment(tool, name, "unreadable", str(error))
@@ -62,7 +62,7 @@ class FiveFiles:
     def __init__(self, tools, folder, scene, config, tolerance=None):
         self.tools, self.scene, self.config = tools, scene, config
         self.folder = folder
-        self.contents = {}  # of the student's files, as they are asked for
+        self.contents = {}  # of the student's files, filled on demand
         self.suspects = Suspects(tools, scene)
         self.tolerance = COORDINATE_TOLERANCE if tolerance is None else tolerance
         self.depth_tolerance = max(DEPTH_TOLERANCE, self.tolerance)
@@ -80,12 +80,12 @@ class FiveFiles:
         yield self.stage("project", 3, [lambda: self.ours("project", given2), lambda: self.without_clipping(given2), lambda: text3], given2)
         try:
             drawn = list(self.pixels(given3))
-        except ToolFailure:  # theirs is no text for zbuf, though its numbers can be compared
+        except ToolFailure:  # zbuf refuses their text, though its numbers can be compared
             drawn = list(self.pixels(text3))
         yield from drawn
 
     def data(self, name):
-        """The bytes of the student's file, read once. No pipe is waited for."""
+        """The bytes of the student's file, read once. Never waits for a pipe."""
         if name not in self.contents:
             self.contents[name] = read_input(os.path.join(self.folder, name), only_regular=True)
         return self.contents[name]
@@ -94,7 +94,7 @@ class FiveFiles:
         return parse_stage_text(text_of(self.data(name), name), name)
 
     def given(self, name, instead):
-        """What the student's file says; ours, where there is none that can be read."""
+        """The student's text, or ours if theirs cannot be read."""
         try:
             return self.data(name) if self.stage_text(name).triangles else instead
         except (InputError, StageTextError):
@@ -104,9 +104,9 @@ class FiveFiles:
         return self.tools.output(tool, "--scene", self.scene, "--digits", "exact", *words, stdin=text)
 
     def without_clipping(self, text):
-        """What the projection makes of a text if nothing is cut, although vertices lie behind the eye (a course's program
-        that knows no clipping, on a view space that is wrong). A vertex behind the eye is turned round the eye before and
-        after: x / w and y / w are the same, and z / w, an A + B / z, is told from the A + B / -z of the other.
+        """The projection of a text without any clipping, although vertices lie behind the eye (a course's program that does not
+        clip, given a wrong view space). A vertex behind the eye is mirrored through the eye before projecting: x / w and y / w
+        stay the same, and z / w = A + B / z follows from A + B / -z of the mirrored vertex.
         """
         near, far = map(float, (self.suspects.camera.get("perspective") or self.suspects.camera["frustum"])[-2:])
         points = parse_stage_text(text_of(text, ""), "").points
@@ -116,12 +116,12 @@ class FiveFiles:
         return stage_text_of((x, y, twice_a - z) if p[2] > 0 else (x, y, z) for p, (x, y, z) in zip(points, done))
 
     def candidates(self, makers):
-        """The texts that would be right, the likeliest first. Who keeps unrounded numbers in memory is right as well."""
+        """The texts that would be right, the likeliest first. Keeping unrounded numbers in memory is right, too."""
         for maker in makers:
             try:
                 yield parse_stage_text(maker().decode(), "ours")
             except (ToolFailure, KeyError):
-                pass  # a student's text that no tool takes, or an orthographic camera; the last of the makers needs neither
+                pass  # a tool refuses the student's text, or the camera is orthographic; the last maker depends on neither
 
     def stage(self, tool, number, makers, previous=b""):
         name = f"stage{number}.txt"
@@ -176,7 +176,7 @@ class FiveFiles:
 
 
 def verdict_of(judgments):
-    """One sentence: the first stage that went wrong, and what else is wrong by itself."""
+    """One sentence: the first stage that went wrong, and the later ones with errors of their own."""
     wrong = [judgment for judgment in judgments if not judgment.is_right]
     if not wrong:
         return "all five files are right"

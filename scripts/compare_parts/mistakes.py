@@ -1,7 +1,7 @@
-"""The mistakes everybody makes once, known by what they do to the numbers of a stage.
+"""The common errors, recognized by their effect on the numbers of a stage.
 
-Some show in the numbers alone (`hints_from_numbers`). Others depend on the scene: for those the tools themselves draw
-what the mistake would give (`hints_from_scene`), so that no second pipeline hides here.
+Some show in the numbers alone (`hints_from_numbers`). Others depend on the scene: for those the tools themselves compute
+the output with the error (`hints_from_scene`), so that no second pipeline hides here.
 """
 import math
 
@@ -11,7 +11,7 @@ from lib.pipe_tools import ToolFailure
 from lib.stage_text import parse_stage_text
 from lib.vectors import axes
 
-CLOSE = 2e-6  # of numbers that were printed with 7 decimals and calculated with again
+CLOSE = 2e-6  # for numbers calculated from numbers that were printed with 7 decimals
 
 SWAPPED = "rows and columns of the rotation are swapped (the matrix is the transpose of the right one)"
 UP_AS_GIVEN = "up is used as it is given, not made perpendicular to the line of sight (u = r x l)"
@@ -20,18 +20,18 @@ NO_DIVIDE = "the divide by w is missing"
 FLIPPED = "handedness is flipped: {} has the opposite sign everywhere"
 EYE_ADDED = "the eye is added instead of subtracted"
 FLIPPED_OR_ADDED = "z has the opposite sign everywhere: handedness is flipped, or " + EYE_ADDED
-ARITHMETIC_ERRORS = (OverflowError, ValueError, ZeroDivisionError)  # numbers of which no hint can be calculated
+ARITHMETIC_ERRORS = (OverflowError, ValueError, ZeroDivisionError)  # raised by numbers that allow no hint
 ROUNDING = "all differences are of one unit in the last decimal: rounding"
 
 
 def is_close(theirs, expected):
-    """Whether two lists of points are the same but for rounding."""
+    """Whether two lists of points are equal up to rounding."""
     return len(theirs) == len(expected) and all(
         abs(a - b) <= CLOSE * max(1, abs(b)) for p, q in zip(theirs, expected) for a, b in zip(p, q))
 
 
 def fitted(targets, *columns):
-    """The factors with which the columns add up to the targets, by least squares; None where they are not determined."""
+    """The factors for which the weighted columns add up to the targets, by least squares; None if undetermined."""
     def dot(u, v):
         return math.fsum(x * y for x, y in zip(u, v))
 
@@ -56,13 +56,13 @@ def hint_of_handedness(theirs, ours):
     for axis in range(3):
         flipped = [tuple(-x if i == axis else x for i, x in enumerate(p)) for p in ours]
         if flipped != ours and is_close(theirs, flipped):
-            # An eye that is added moves all points the same way, which flips z only if all have the same.
+            # Adding the eye instead moves all points by the same vector, which flips z only if all points share it.
             return FLIPPED_OR_ADDED if axis == 2 and is_close(ours, [(x, y, ours[0][2]) for x, y, _ in ours]) else FLIPPED.format("xyz"[axis])
     return None
 
 
 def hint_of_divide(theirs, ours):
-    """Each vertex is its right place times a number of its own."""
+    """Each vertex is its correct position times a factor of its own."""
     factors, expected = [], []
     for p, q in zip(theirs, ours):
         square = sum(x * x for x in q)
@@ -76,7 +76,7 @@ def hint_of_divide(theirs, ours):
 
 
 def hint_of_up(theirs, ours):
-    """Of the view space's numbers only y is wrong, and has got some of z."""
+    """In view space only y is wrong: it contains a part of z."""
     factors = fitted([p[1] for p in theirs], [q[1] for q in ours], [q[2] for q in ours])
     if factors is None or abs(factors[1]) < 1e-4:
         return None
@@ -84,7 +84,7 @@ def hint_of_up(theirs, ours):
 
 
 def window_factors(theirs, ours):
-    """What x and y are multiplied by, if that is all that is wrong."""
+    """The factors of x and y, if nothing else is wrong."""
     kx = fitted([p[0] for p in theirs], [q[0] for q in ours])
     ky = fitted([p[1] for p in theirs], [q[1] for q in ours])
     if kx is None or ky is None or not is_close(theirs, [(kx[0] * x, ky[0] * y, z) for x, y, z in ours]):
@@ -100,7 +100,7 @@ def hint_of_window(theirs, ours):
 
 
 def hints_from_numbers(theirs, ours):
-    """What the points alone tell, the simplest first; at most one."""
+    """A hint from the points alone, the simplest that fits; at most one."""
     if len(theirs) != len(ours) or not ours:
         return []
     for hint_of in (hint_of_rounding, hint_of_handedness, hint_of_window, hint_of_up, hint_of_divide):
@@ -135,7 +135,7 @@ def with_angles(scene, changed):
 
 
 class Suspects:
-    """What the known mistakes make of a scene, stage by stage; `tools` draw it."""
+    """A scene's output with each known error, stage by stage; `tools` compute it."""
 
     def __init__(self, tools, scene_path):
         self.tools = tools
@@ -161,13 +161,13 @@ class Suspects:
         yield EYE_ADDED, self.with_eye_added(stage1)
 
     def with_eye_added(self, stage1):
-        """The same axes, seen from the eye's mirror image in the origin."""
+        """The same axes, with the eye mirrored through the origin."""
         eye, look = (tuple(map(float, self.camera[name])) for name in ("eye", "look"))
         words = ["--eye", *(-e for e in eye), "--look", *(x - 2 * e for x, e in zip(look, eye)), "--up", *self.camera["up"]]
         return self.points("view", "--bare", *map(repr_of, words), stdin=stage1)
 
     def of_window(self, theirs, ours):
-        """Degrees for radians in the field of view."""
+        """A hint if the field of view was taken as radians."""
         factors = window_factors(theirs, ours)
         if factors is None or "perspective" not in self.camera:
             return None
@@ -187,7 +187,7 @@ def hints_from_scene(suspects, stage, theirs, ours, previous=b""):
     """At most one hint for stage 1, 2 or 3 of a scene; `previous` is the text the stage read."""
     try:
         hint = hint_from_scene(suspects, stage, theirs, ours, previous)
-    except (ToolFailure, *ARITHMETIC_ERRORS):  # a text or a camera that the tools refuse
+    except (ToolFailure, *ARITHMETIC_ERRORS):  # the tools refuse the text or the camera
         return []
     return [hint] if hint else []
 

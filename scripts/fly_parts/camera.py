@@ -1,4 +1,4 @@
-"""A camera that flies: where it stands, which way it looks, and the numbers a scene has for that."""
+"""A camera that flies: its position, its direction, and the numbers that a scene has for them."""
 import dataclasses
 import math
 
@@ -9,13 +9,13 @@ TURN = math.radians(3)
 
 
 def plain(vector):
-    """Numbers as words that read back to the same doubles."""
+    """Numbers as words that read back as the same doubles."""
     return [repr(x + 0.0) for x in vector]
 
 
 @dataclasses.dataclass(frozen=True)
 class Camera:
-    """The eye, the three axes and how far away the point looked at is. `words` are those of the scene, while it stands there."""
+    """The eye, the three axes and the distance to the point looked at. `words` are the scene's, until the camera moves."""
     eye: tuple
     right: tuple
     up: tuple
@@ -34,13 +34,13 @@ class Camera:
         return self.words or (plain(self.eye), plain(moved(self.eye, (self.distance, self.forward))), plain(self.up))
 
     def stepped(self, right, up, forward):
-        """Moved by so many steps."""
+        """Moved by the given number of steps along each axis."""
         step = STEP * self.distance
         eye = moved(self.eye, (right * step, self.right), (up * step, self.up), (forward * step, self.forward))
         return dataclasses.replace(self, eye=eye, words=None)
 
     def turned(self, right, up):
-        """Turned where it stands, by so many turns."""
+        """Turned on the spot, by the given numbers of turns."""
         def turn(a, b, angle):
             c, s = math.cos(angle), math.sin(angle)
             return normalized(tuple(c * x + s * y for x, y in zip(a, b))), normalized(tuple(c * y - s * x for x, y in zip(a, b)))

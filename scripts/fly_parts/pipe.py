@@ -1,5 +1,5 @@
-"""The pipe for one frame after the other: every stage's output is kept in memory, and a stage runs only if what it reads or
-how it is called has changed. The stages that do run side by side, as in a shell's pipe."""
+"""The pipe for one frame after another: every stage's output is kept in memory, and a stage runs only if its input or its
+arguments have changed. Those stages run in parallel, as in a shell's pipe."""
 import dataclasses
 import os
 import pathlib
@@ -40,14 +40,14 @@ class MemoryFile:
 
 @dataclasses.dataclass
 class Stage:
-    words: list = None      # what it was last called with, and
+    words: list = None      # its last arguments, and
     source: object = None   # the MemoryFile it read
     output: object = None
-    seconds: float = None   # of the processor's time; None if the last frame reused its output
+    seconds: float = None   # of processor time; None if the last frame reused its output
 
 
 class Run:
-    """A tool at work. Its output goes into memory and, where a stage behind it runs as well, to that."""
+    """A running tool. Its output goes into memory and, if the next stage runs as well, to that stage."""
 
     def __init__(self, name, argv, stdin, has_next):
         self.name = name
@@ -63,14 +63,14 @@ class Run:
             try:
                 if sink is not None:
                     write_all(sink, data)
-            except BrokenPipeError:  # the stage behind has failed, and says why itself
+            except BrokenPipeError:  # the next stage has failed, and reports it itself
                 os.close(sink)
                 sink = None
         if sink is not None:
             os.close(sink)
 
     def wait(self):
-        """Waits for its end. Returns what went wrong, None if nothing did."""
+        """Waits for its end. Returns its error message, None if it succeeded."""
         message = self.process.stderr.read().decode(errors="replace").strip()
         self.copier.join()
         _, status, usage = os.wait4(self.process.pid, 0)
@@ -98,10 +98,10 @@ class FramePipe:
         self.folder.cleanup()
 
     def run(self, calls, source):
-        """Runs the stages, pairs of a name and its words, one behind the other and side by side. The first reads `source`."""
+        """Runs the stages, pairs of a name and its words, as a pipe. The first reads `source`."""
         runs = []
         stdin = source.rewound() if source else subprocess.DEVNULL
-        # Two stages share the processor already.
+        # Two stages already share the processors.
         threads = self.threads if len(calls) == 1 else {}
         for name, words in calls:
             is_last = name == calls[-1][0]
@@ -110,7 +110,7 @@ class FramePipe:
                 os.close(stdin)
             stdin = run.to_next
             runs.append(run)
-        # What stage 1 says first is what is wrong: those behind it only pass it on.
+        # The first failing stage has the cause: later stages only pass it on.
         failures = [message for message in [run.wait() for run in runs] if message]
         if failures:
             raise ToolFailure(failures[0])
@@ -121,7 +121,7 @@ class FramePipe:
     def files(self, name):
         return [self.config, "--z-buffer", "/dev/null", "--image", self.image] if name == "zbuf" else []
 
-    # The world as stage 1 tells it
+    # The world, from the output of stage 1
 
     def header(self, keyword):
         """The words behind a header keyword, None if it is not there."""
@@ -137,7 +137,7 @@ class FramePipe:
         return self.header("light")
 
     def put_light(self, words):
-        """Moves the first light; stage 1 does not run again for that."""
+        """Moves the first light without running stage 1 again."""
         old = self.stages["model"]
         output = MemoryFile()
         output.append(old.output.read().replace(("light " + " ".join(self.light)).encode(), ("light " + " ".join(words)).encode(), 1))
@@ -165,5 +165,5 @@ class FramePipe:
         return self.frame_image
 
     def seconds(self):
-        """A pair for each stage: its name, and the processor's time the last frame took there, or None."""
+        """A pair for each stage: its name and its processor time in the last frame, or None."""
         return [(name, self.stages[name].seconds) for name in STAGES]

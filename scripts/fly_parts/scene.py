@@ -1,4 +1,4 @@
-"""A scene's text with another camera, and with its first light elsewhere."""
+"""A scene's text with another camera, and with its first light moved."""
 
 
 def words_of(line):
@@ -10,7 +10,7 @@ def without_first_light(lines):
     for i, line in enumerate(lines):
         if words_of(line)[:1] == ["light"]:
             end = i + 1
-            if len(words_of(line)) == 1:  # its numbers stand on the next line that has any
+            if len(words_of(line)) == 1:  # its numbers are on the next line that has any
                 while not words_of(lines[end]):
                     end += 1
                 end += 1
@@ -19,8 +19,8 @@ def without_first_light(lines):
 
 
 def rewritten(scene, camera_lines, light=None):
-    """The scene with eye, look and up replaced. `light`, six words, takes the place of the first light; it stands in front of
-    all transforms, as its position is that in world space."""
+    """The scene with eye, look and up replaced. `light`, six words, replaces the first light; it goes in front of all
+    transforms, since its position is in world space."""
     lines, places = scene.split("\n"), []
     for i, line in enumerate(lines):
         if words_of(line):

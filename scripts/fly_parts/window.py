@@ -24,8 +24,8 @@ LIGHT_MOVES = {"i": (0, 0, -1), "k": (0, 0, 1), "j": (-1, 0, 0), "l": (1, 0, 0),
 SHADINGS = {"1": "none", "2": "flat", "3": "gouraud", "4": "phong"}
 SLOW_SECONDS = 0.05  # a frame that takes longer is drawn small first
 SMALL = 4            # how many times smaller
-SIGNAL_MS = 200      # between two looks whether a signal has come
-REST_MS = 150        # without a key before the whole frame is drawn
+SIGNAL_MS = 200      # between two checks for a signal
+REST_MS = 150        # without a key, until the full-size frame is drawn
 
 
 @dataclasses.dataclass(frozen=True)
@@ -56,10 +56,10 @@ class FlyWindow:
         self.settings = self.start = Settings(Camera.of(*(self.pipe.header(name) for name in ("eye", "look", "up"))))
         self.start_light = self.pipe.light
         self.is_light_moved = False
-        self.before = self.settings  # to go back to where a tool refuses the new ones
+        self.before = self.settings  # restored if a tool refuses the new ones
         self.whole_seconds = 0
         self.pending = self.resting = None
-        self.end = None  # the KeyboardInterrupt or Ended that came while a key or a frame was dealt with
+        self.end = None  # the KeyboardInterrupt or Ended raised while a key or a frame was handled
         self.build()
         self.draw(self.size)
 
@@ -68,7 +68,7 @@ class FlyWindow:
         self.root.title(f"fly {shown(self.scene.name)}")
         self.photo = tkinter.PhotoImage(master=self.root)
         self.keys = tkinter.Label(self.root, text=KEYS, justify="left", anchor="w", font=("TkFixedFont", 8))
-        # Its text asks for no room of its own: the window shall not change size with it.
+        # A fixed size: the text of the status line must not resize the window.
         self.status = tkinter.Label(self.root, anchor="w", justify="left", font=("TkFixedFont", 8), width=1, height=2,
                                     wraplength=max(480, self.size[0]))
         self.keys.pack(side="bottom", fill="x")
@@ -136,7 +136,7 @@ class FlyWindow:
         self.draw_soon()
 
     def resize(self, width, height):
-        """The largest picture of the config's shape that the window has room for."""
+        """The largest picture with the config's aspect ratio that fits into the window."""
         scale = min(width / self.whole[0], height / self.whole[1])
         size = tuple(max(1, round(scale * x)) for x in self.whole)
         if size != self.size:
@@ -150,7 +150,7 @@ class FlyWindow:
             self.pending = self.root.after_idle(self.draw_first)
 
     def draw_first(self):
-        """The next frame; a small one if a whole one takes long, and the whole one when no key has come for a while."""
+        """The next frame; a small one if full size takes long, and the full-size one after a pause without keys."""
         self.pending = None
         if self.resting is not None:
             self.root.after_cancel(self.resting)
@@ -178,7 +178,7 @@ class FlyWindow:
         if size != self.size:
             shown = self.enlarged = self.photo.zoom(SMALL)
         self.picture.configure(image=shown)
-        self.root.update_idletasks()  # on the screen before the clock is read
+        self.root.update_idletasks()  # show the frame before reading the clock
         seconds = time.perf_counter() - begin
         if size == self.size:
             self.whole_seconds = seconds
@@ -215,10 +215,10 @@ class FlyWindow:
             return self.say(str(error))
         return self.say(f"wrote {shown(path)}")
 
-    # Its life
+    # Running and closing
 
     def run(self):
-        """Until the window is closed, or a signal ends it."""
+        """Runs until the window is closed or a signal ends it."""
         self.root.protocol("WM_DELETE_WINDOW", self.close)
         self.root.report_callback_exception = self.failed
         self.look_up()
@@ -232,7 +232,7 @@ class FlyWindow:
             raise self.end
 
     def look_up(self):
-        """Python handles a signal only when it runs, which in a window that waits it does not."""
+        """Lets Python run, since it handles signals only then; a waiting window would keep it from that."""
         self.root.after(SIGNAL_MS, self.look_up)
 
     def failed(self, kind, error, trace):

@@ -1,4 +1,4 @@
-"""What the inspector's page shows: a scene sent through the real pipe, and what every stage wrote."""
+"""The data of the inspector's page: a scene sent through the real pipe, and the output of every stage."""
 import array
 import base64
 import math
@@ -11,14 +11,14 @@ from lib.pictures import read_picture
 from lib.stage_text import parse_stage_text
 from lib.vectors import axes, moved
 
-# A page stays quick with so much; beyond it only every so manieth triangle is drawn.
+# A page stays fast up to this number; beyond it only every n-th triangle is drawn.
 MAX_DRAWN_TRIANGLES = 12000
 MAX_FRAGMENTS = 3000000
 FATES = ("kept", "behind", "equal", "before", "beyond")
 
 
 def packed(kind, numbers):
-    """Numbers as the bytes of a typed array, in base64. Little-endian, as JavaScript's are wherever this runs."""
+    """Numbers as the bytes of a typed array, in base64. Little-endian, as in JavaScript on every machine this runs on."""
     return base64.b64encode(array.array(kind, numbers).tobytes()).decode()
 
 
@@ -32,7 +32,7 @@ def notes_told(stderr):
 
 
 def frustum_corners(header):
-    """The four corners of the near and the four of the far plane in view space, in the same order round."""
+    """The four corners of the near plane and the four of the far plane in view space, in the same winding."""
     if "perspective" in header:
         fov_y, aspect, near, far = map(float, header["perspective"])
         right, top = (near * math.tan(math.radians(fov) / 2) for fov in (fov_y * aspect, fov_y))
@@ -48,19 +48,19 @@ def frustum_corners(header):
 
 
 def box_lines(corners):
-    """The twelve edges of what has four corners and four corners."""
+    """The twelve edges of a box with four corners on each of two sides."""
     pairs = [(i, (i + 1) % 4) for i in range(4)]
     pairs += [(i + 4, j + 4) for i, j in pairs] + [(i, i + 4) for i in range(4)]
     return [[corners[i], corners[j]] for i, j in pairs]
 
 
 def camera_lines(corners, eye):
-    """The frustum, and the way from the eye to its near plane."""
+    """The frustum, and the lines from the eye to its near plane."""
     return box_lines(corners) + [[eye, corner] for corner in corners[:4]]
 
 
 class Inspection:
-    """A run of the pipe, every stage's output kept."""
+    """A run of the pipe that keeps every stage's output."""
 
     def __init__(self, tools, scene, config):
         self.tools, self.scene, self.config = tools, scene, config
@@ -89,7 +89,7 @@ class Inspection:
                 "text": self.text_shown(done.stdout.decode().split("\n"), parsed, kept), "guide": self.guide(tool)}
 
     def text_shown(self, lines, parsed, kept):
-        """The lines of the text with their numbers; of a long one the header's and the drawn triangles'."""
+        """The lines of the text with their numbers; of a long text only the header and the drawn triangles."""
         if self.step == 1:
             return {"numbers": None, "lines": lines}
         header_end = parsed.triangles[0][0].line if parsed.triangles else len(lines)
@@ -99,7 +99,7 @@ class Inspection:
         return {"numbers": numbers, "lines": [lines[number - 1] for number in numbers]}
 
     def guide(self, tool):
-        """The line segments that show the camera, or the cube."""
+        """The line segments that show the camera, or the NDC cube."""
         header = self.parsed["model"].header
         if tool == "project":
             return box_lines([(x, y, z) for z in (-1, 1) for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1))])
@@ -112,7 +112,7 @@ class Inspection:
 
     def draw(self, stage3, folder):
         z_buffer, image, log = (folder / name for name in ("z_buffer.txt", "out.ppm", "fragments.txt"))
-        # Timed as it is without the log, which takes longer than the picture.
+        # Timed without the log, which takes longer than the picture.
         timed = self.tools.run("zbuf", self.config, "--timing", "--z-buffer", z_buffer, "--image", image, stdin=stage3).stderr.decode(errors="replace")
         self.tools.run("zbuf", self.config, "--z-buffer", "/dev/null", "--image", folder / "again.ppm", "--fragments", log, stdin=stage3)
         self.notes += notes_told(timed)
@@ -124,8 +124,8 @@ class Inspection:
         self.fragments = self.fragments_of(log)
 
     def fragments_of(self, log):
-        """All fragments, pixel by pixel from the top left and in the order they came: where a pixel's begin, triangles,
-        depths, fates. Where there are very many, those that lost are left out."""
+        """All fragments, pixel by pixel from the top left, in the order they arrived: the start of each pixel's fragments, then
+        triangles, depths and fates. If there are very many, losing fragments are left out."""
         found = []
         with open(log, encoding="ascii") as lines:
             for line in lines:

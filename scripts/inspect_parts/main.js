@@ -1,4 +1,4 @@
-// Puts the page together: what is pointed at in one place is shown in all.
+// Assembles the page: pointing at something in one panel highlights it in all.
 
 const STARTS = {
   model: {yaw: -0.6, pitch: 0.45},
@@ -74,7 +74,7 @@ class Inspector {
     this.show(name, true);
   }
 
-  // "#pixel=COLUMN,ROW" and "#triangle=N" in the address choose one.
+  // "#pixel=COLUMN,ROW" or "#triangle=N" in the address selects one.
   follow(hash) {
     const pixel = hash.match(/^#pixel=(\d+),(\d+)$/), triangle = hash.match(/^#triangle=(\d+)$/);
     if (pixel && Number(pixel[1]) < this.pixels.columns && Number(pixel[2]) < this.pixels.rows)

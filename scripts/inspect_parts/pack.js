@@ -1,4 +1,4 @@
-// The data as they stand in the page: JSON, deflated, in base64; arrays of numbers in base64 once more.
+// The page's data: JSON, deflated, in base64; arrays of numbers in base64 once more.
 
 function bytesOf(base64) {
   return Uint8Array.from(atob(base64), letter => letter.charCodeAt(0));

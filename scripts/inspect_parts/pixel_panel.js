@@ -1,4 +1,4 @@
-// The image and the depth map, and what zbuf told of every pixel. Nothing is drawn here that zbuf did not draw.
+// The image and the depth map, and zbuf's report on every pixel. It draws only zbuf's own pixels.
 
 const FATES = ["kept", "lost, behind", "lost, equal and later than", "lost, before the front limit", "lost, beyond the rear limit"];
 
@@ -9,7 +9,7 @@ class PixelPanel {
     this.triangles = intsOf(data.fragments.triangles);
     this.depths = realsOf(data.fragments.depths);
     this.fates = bytesOf(data.fragments.fates);
-    // What a pixel shows is the last fragment that was kept.
+    // A pixel shows the last fragment that was kept.
     this.seen = new Int32Array(this.columns * this.rows).fill(-1);
     for (let p = 0; p < this.seen.length; ++p)
       for (let f = this.begins[p]; f < this.begins[p + 1]; ++f) if (this.fates[f] === 0) this.seen[p] = f;
@@ -48,7 +48,7 @@ class PixelPanel {
     for (const row of document.querySelectorAll("#competitors tbody tr")) row.className = row.className.replace(" hot", "") + (Number(row.dataset.name) === name ? " hot" : "");
   }
 
-  // Tells of a pixel; `select(name)` is called for a competitor that is clicked.
+  // Describes a pixel; clicking one of its competitors calls `select(name)`.
   tell(p, select) {
     const row = Math.floor(p / this.columns), column = p % this.columns, place = document.getElementById("pixel-place");
     place.textContent = `row ${row}, column ${column}: ` + (this.seen[p] < 0 ? "background" : `triangle ${this.owner(p)}, depth ${this.depths[this.seen[p]]}`) +

@@ -1,9 +1,9 @@
-// A text with line numbers. Only the lines that can be seen are in the document.
+// A text with line numbers. Only the visible lines are in the document.
 
 const LINE_HEIGHT = 16;
 
 class TextPanel {
-  // `nameOf(number)` says which triangle a line belongs to, -1 for none.
+  // `nameOf(number)` returns the triangle a line belongs to, -1 for none.
   constructor(box, text, nameOf) {
     Object.assign(this, {box, lines: text.lines, numbers: text.numbers, nameOf});
     this.hot = new Set();
@@ -37,7 +37,7 @@ class TextPanel {
     this.part.replaceChildren(...rows);
   }
 
-  // Marks lines; brings the first into view if it is not.
+  // Marks lines; scrolls to the first of them if it is out of view.
   highlight(numbers, isToBeSeen) {
     this.hot = new Set(numbers);
     if (numbers.length && isToBeSeen) {

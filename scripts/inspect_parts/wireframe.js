@@ -1,4 +1,4 @@
-// A turnable wireframe of a stage's triangles. It shows where they are; what hides what is zbuf's business.
+// A rotatable wireframe of a stage's triangles. It shows their positions; hidden surfaces are zbuf's business.
 
 const styleOf = name => getComputedStyle(document.documentElement).getPropertyValue(name);
 
@@ -19,7 +19,7 @@ class Wireframe {
     this.draw();
   }
 
-  // The middle and the size of what is shown: a box that is given, or the one around triangles and eye.
+  // The center and the size of the view: the given box, or the bounding box of the triangles and the eye.
   fit(box) {
     const low = box ? [-box, -box, -box] : [Infinity, Infinity, Infinity];
     const high = low.map(x => -x);
@@ -31,7 +31,7 @@ class Wireframe {
     this.size = Math.hypot(...low.map((x, i) => Number.isFinite(x) ? high[i] - x : 1)) || 1;
   }
 
-  // Where a point stands on the canvas, in its pixels, and how near: larger is nearer.
+  // A point's position on the canvas, in its pixels, and its nearness: larger is nearer.
   place(x, y, z) {
     const [u, v, w] = [x - this.middle[0], y - this.middle[1], z - this.middle[2]];
     const [cy, sy, cp, sp] = [Math.cos(this.yaw), Math.sin(this.yaw), Math.cos(this.pitch), Math.sin(this.pitch)];
@@ -75,7 +75,7 @@ class Wireframe {
     this.highlight(this.highlighted);
   }
 
-  // Shows triangle `name`, all pieces of it.
+  // Highlights triangle `name`, all pieces of it.
   highlight(name) {
     this.highlighted = name;
     const context = this.mark.getContext("2d");
@@ -93,7 +93,7 @@ class Wireframe {
     }
   }
 
-  // The triangle whose middle is nearest to the onlooker of those under a point of the canvas; -1 if none is.
+  // Of the triangles under a point of the canvas, the one whose center is nearest to the viewer; -1 if there is none.
   triangleAt(x, y) {
     let found = -1, nearest = -Infinity;
     for (let i = 0; i < this.names.length; ++i) {

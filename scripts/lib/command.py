@@ -1,5 +1,5 @@
 """How a command ends: with a status and one line on stderr, or quietly by the signal that stopped it; never with a traceback
-that the user's files or the user's shell brought about."""
+caused by the user's files or shell."""
 import io
 import os
 import signal
@@ -8,11 +8,11 @@ import traceback
 
 
 class CommandFailure(Exception):
-    """The command cannot do what it was asked; the text is a sentence for the user, without the command's name."""
+    """The command cannot do its job; the text is a sentence for the user, without the command's name."""
 
 
 class Ended(BaseException):
-    """A signal asks the command to end."""
+    """A signal asks the command to stop."""
 
     def __init__(self, signal_number):
         super().__init__(signal_number)
@@ -20,7 +20,7 @@ class Ended(BaseException):
 
 
 def shown(name):
-    """A file's name, or a piece of a file, as it can stand in a line: what is not printable is escaped."""
+    """A file's name, or a part of a file, fit for one line: unprintable characters are escaped."""
     characters = []
     for c in os.fspath(name):
         if c.isprintable():
@@ -31,8 +31,8 @@ def shown(name):
 
 
 def run_command(main, name, failure_status=1):
-    """Runs `main`, prints what went wrong, and ends the process with the status that `main` returns (None is 0), or with
-    `failure_status`. What `main` printed has reached stdout by then, or that is the failure."""
+    """Runs `main`, prints any error, and ends the process with the status that `main` returns (None is 0), or with
+    `failure_status`. By then the output of `main` has reached stdout; if it could not, that is the error."""
     prepare()
     try:
         status = status_of(main, name, failure_status)
@@ -47,19 +47,19 @@ def run_command(main, name, failure_status=1):
 
 
 class Stdout(io.FileIO):
-    """Descriptor 1, which says what failed when it does."""
+    """Descriptor 1; its errors name stdout."""
 
     def write(self, data):
         try:
             return super().write(data)
-        except BrokenPipeError:  # who reads a pipe may leave
+        except BrokenPipeError:  # a pipe's reader may leave
             raise
         except OSError as error:
             raise CommandFailure(f"cannot write <stdout>: {error.strerror}") from None
 
 
 def prepare():
-    if sys.stdout is None:  # closed: writing shall fail, and no file that is opened get its descriptor
+    if sys.stdout is None:  # closed: writing must fail, and no opened file may get its descriptor
         os.open(os.devnull, os.O_RDONLY)
     sys.stdout = io.TextIOWrapper(io.BufferedWriter(Stdout(1, "w", closefd=False)), errors="backslashreplace", line_buffering=os.isatty(1))
 
@@ -75,7 +75,7 @@ def status_of(main, name, failure_status):
     try:
         try:
             status = main() or 0
-        except SystemExit as end:  # of argparse
+        except SystemExit as end:  # raised by argparse
             status = end.code or 0
         sys.stdout.flush()
         return status
@@ -88,7 +88,7 @@ def status_of(main, name, failure_status):
         return told(name, where + (error.strerror or str(error)), failure_status)
     except MemoryError:
         return told(name, "not enough memory", failure_status)
-    except Exception:  # a mistake of ours; its status shall not be taken for an answer
+    except Exception:  # an error of ours; its status must not look like an answer
         traceback.print_exc()
         return failure_status
 
@@ -102,12 +102,12 @@ def told(name, message, status):
 
 
 def silence_stdout():
-    """Python flushes stdout once more at its end, which would fail as before."""
+    """Keeps Python from flushing stdout again at exit, which would fail again."""
     os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
 
 
 def end_by(signal_number):
-    """Ends the process as the signal would have, so that a shell sees what happened."""
+    """Ends the process as the signal would have, so that a shell sees the signal."""
     silence_stdout()
     signal.signal(signal_number, signal.SIG_DFL)
     os.kill(os.getpid(), signal_number)

@@ -1,4 +1,4 @@
-"""Input files, read once and never without end."""
+"""Input files, read once and only up to a limit."""
 import contextlib
 import os
 import stat
@@ -21,7 +21,7 @@ class InputError(CommandFailure):
 
 
 def name_of(path):
-    """What messages call an input."""
+    """The name of an input in messages."""
     return "<stdin>" if path == "-" else shown(path)
 
 
@@ -34,12 +34,12 @@ def input_errors(path):
 
 
 def read_input(path, only_regular=False):
-    """The bytes of a file, of standard input if the path is `-`. With `only_regular`, a pipe or a device is an InputError
-    and not waited for; so is what is longer than MAX_BYTES, in any case."""
+    """The bytes of a file, or of standard input if the path is `-`. With `only_regular`, a pipe or a device raises an
+    InputError instead of being waited for. Input longer than MAX_BYTES always does."""
     with input_errors(path):
         if path == "-" and not only_regular:
             return read_all(0, path)
-        # Opening a pipe waits for who writes it, unless told not to.
+        # Opening a pipe waits for its writer, unless O_NONBLOCK is set.
         descriptor = os.open(path, os.O_RDONLY | os.O_CLOEXEC | os.O_NOCTTY | (os.O_NONBLOCK if only_regular else 0))
         try:
             mode = os.fstat(descriptor).st_mode
@@ -73,8 +73,8 @@ def is_same_stream(a, b):
 
 @contextlib.contextmanager
 def readable_again(*paths):
-    """Paths of the same inputs that can be opened more than once, and that a tool takes for a file, whatever their names
-    begin with. An input that is no regular file is copied to one, which is gone afterwards."""
+    """Paths to the same inputs that can be opened more than once and that no tool takes for an option. An input that is not
+    a regular file is copied to one, which is removed afterwards."""
     if paths.count("-") > 1:
         raise CommandFailure("expected '-' once, as standard input can be read only once")
     with tempfile.TemporaryDirectory() as folder:

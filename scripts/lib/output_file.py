@@ -8,7 +8,7 @@ import stat
 
 from lib.command import CommandFailure, shown
 
-MAX_LINKS = 40  # as the kernel
+MAX_LINKS = 40  # the kernel's limit
 OWN_FILE = re.compile(r"/dev/(?:(stdout)|(stderr)|fd/(\d+))|/proc/self/fd/(\d+)")
 
 
@@ -17,8 +17,8 @@ class OutputError(CommandFailure):
 
 
 def own_descriptor(path):
-    """The N of a path that names this process's open file N, else None. Such a file is not ours to replace, even if it
-    happens to be a regular one."""
+    """The N of a path that names this process's open file N, else None. Such a file must not be replaced, even if it is
+    a regular one."""
     found = OWN_FILE.fullmatch(path)
     if not found:
         return None
@@ -26,7 +26,7 @@ def own_descriptor(path):
 
 
 def target_of(path):
-    """Where the symbolic links that start at `path` end, whether or not there is a file."""
+    """The path where the symbolic links that start at `path` end, whether or not a file exists there."""
     for _ in range(MAX_LINKS):
         if own_descriptor(path) is not None or not os.path.islink(path):
             return path
@@ -35,18 +35,17 @@ def target_of(path):
 
 
 class OutputFile:
-    """The file is written beside its place, in the same folder and under a name that nobody can know before, and put into
-    its place by `commit`. Without that, what was written is removed at the end of the `with`, and a file that was there
-    before stays.
+    """The file is written beside its target, in the same folder and under an unpredictable name; `commit` moves it to the
+    target. Without `commit`, the end of the `with` removes it, and an older file stays.
 
-    A new file gets the permissions that the umask leaves, a replaced one keeps its own; one that must not be written is not
-    replaced either. A symbolic link stays, the file it points at is replaced. What exists and is no regular file (a device,
-    a pipe) and /dev/stdout and the like are written directly.
+    A new file gets the permissions that the umask leaves; a replaced one keeps its own, and a read-only one is not
+    replaced. A symbolic link stays, and the file it points at is replaced. An existing file that is not regular (a device,
+    a pipe), /dev/stdout and the like are written directly.
     """
 
     def __init__(self, path):
         self.path = os.fspath(path)
-        self.temporary = None  # the path under which it is written; None if directly
+        self.temporary = None  # the path it is written to; None if directly
         self.descriptor = None
         with self.errors("open"):
             self.target = target_of(self.path)
@@ -72,16 +71,16 @@ class OutputFile:
         name = os.path.join(os.path.dirname(self.target), ".pipeline-" + secrets.token_hex(8))
         self.descriptor = os.open(name, os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_CLOEXEC, mode)
         self.temporary = name
-        if status:  # the umask has no say in a file that was there
+        if status:  # the umask does not apply to an existing file
             with contextlib.suppress(OSError):
                 os.fchmod(self.descriptor, mode)
 
     @contextlib.contextmanager
     def errors(self, action):
-        """Failures name the path as it was given."""
+        """Failures name the path as given."""
         try:
             yield
-        except BrokenPipeError:  # who reads a pipe may leave
+        except BrokenPipeError:  # a pipe's reader may leave
             raise
         except OSError as error:
             raise OutputError(f"cannot {action} {shown(self.path)}: {error.strerror}") from None
@@ -114,7 +113,7 @@ class OutputFile:
 
 
 def write_file(path, data):
-    """Writes the bytes as the whole of a file."""
+    """Writes the bytes as the complete content of a file."""
     with OutputFile(path) as file:
         file.write(data)
         file.commit()

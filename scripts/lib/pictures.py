@@ -1,4 +1,4 @@
-"""Pictures in files: BMP, PPM and PNG of 8 bits a channel read, PNG written. A picture is a width, a height and rows of
+"""Picture files: reads BMP, PPM and PNG of 8 bits a channel, writes PNG. A picture is a width, a height and rows of
 RGB bytes, top first."""
 import itertools
 import re
@@ -8,17 +8,17 @@ import zlib
 from lib.command import CommandFailure
 from lib.input_file import name_of, read_input
 
-MAX_PNG_PIXELS = 1 << 25  # a PNG of a few KB may claim millions, and every byte that is filtered costs Python's time
+MAX_PNG_PIXELS = 1 << 25  # a PNG of a few KB may claim millions, and Python is slow to filter bytes
 PPM_HEADER = re.compile(rb"P6" + rb"(?:\s|#[^\n]*\n)+(\d{1,9})" * 3 + rb"\s")
 MAX_PPM_HEADER = 4096
 
 
 class PictureError(CommandFailure):
-    """Not a picture that can be read."""
+    """Not a readable picture."""
 
 
 def checked_size(width, height, row_bytes, pixel_bytes):
-    """Raises a PictureError if the header cannot be true. `row_bytes` lie between two rows, `pixel_bytes` are there."""
+    """Raises a PictureError if the header cannot be true. Rows start `row_bytes` apart; the file has `pixel_bytes`."""
     if width <= 0 or height <= 0:
         raise PictureError(f"expected a width and a height of at least 1, found {width} x {height}")
     needed = (height - 1) * row_bytes + 3 * width
@@ -56,9 +56,9 @@ def read_ppm(data):
 
 
 def paeth(row, above):
-    """A row, each byte of which was stored as its distance to the one of left, above and above left that is nearest to
+    """A row of which each byte was stored minus its predictor: whichever of left, above and above left is nearest to
     left + above - above left."""
-    out = bytearray(3) + row  # of a pixel that is 0, on the left
+    out = bytearray(3) + row  # starts with a zero pixel on the left
     above = bytes(3) + above
     for i in range(3, len(out)):
         a, b, c = out[i - 3], above[i], above[i - 3]
@@ -68,7 +68,7 @@ def paeth(row, above):
 
 
 def unfiltered(kind, row, above):
-    """A row of a PNG of three bytes a pixel without its filter."""
+    """A row of a PNG of three bytes a pixel, with its filter undone."""
     if kind == 0:
         return row
     if kind == 2:

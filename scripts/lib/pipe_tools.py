@@ -1,4 +1,4 @@
-"""The four tools, for scripts that run them: where they are, and one run of one."""
+"""The four tools, for scripts that run them: their location, and a single run."""
 import os
 import pathlib
 import re
@@ -10,11 +10,11 @@ SOURCE = pathlib.Path(__file__).resolve().parents[2]
 
 
 class ToolFailure(CommandFailure):
-    """A tool ended with another status than 0; the text is what it said."""
+    """A tool ended with a status other than 0; the text is its message."""
 
 
 class Tools:
-    """The tools of a folder, by default $BIN, else build/release/bin of this source tree."""
+    """The tools in a folder, by default $BIN, else build/release/bin of this source tree."""
 
     def __init__(self, folder=None):
         # Absolute, since a bare name would be looked up on the PATH, where `view` is an editor.
@@ -23,7 +23,7 @@ class Tools:
             raise ToolFailure(f"no tools in {self.folder}: build them (scripts/demo does), or set BIN")
 
     def run(self, tool, *words, stdin=b""):
-        """The finished run, its stdout and stderr as bytes. It reads the bytes `stdin`."""
+        """A finished run with the bytes `stdin` as input, its stdout and stderr as bytes."""
         done = subprocess.run([self.folder / tool, *map(str, words)], input=stdin, capture_output=True)
         if done.returncode != 0:
             raise ToolFailure(done.stderr.decode(errors="replace").strip() or f"{tool}: exit status {done.returncode}")
@@ -33,5 +33,5 @@ class Tools:
         return self.run(tool, *words, stdin=stdin).stdout
 
     def has_option(self, tool, option):
-        """Whether --help of the tool names the option."""
+        """Whether the tool's --help lists the option."""
         return re.search(rf"(?<![\w-]){option}(?![\w-])", self.output(tool, "--help").decode()) is not None

@@ -1,4 +1,4 @@
-"""Stage text as numbers, each with the line it stands on."""
+"""Stage text as numbers, each with its line."""
 import codecs
 import dataclasses
 import itertools
@@ -8,7 +8,7 @@ import re
 from lib.command import CommandFailure, shown
 from lib.input_file import name_of
 
-# What begins a line of a scene but not of a stage text, where the word triangle is followed by one number.
+# Beginnings of lines of a scene, not of a stage text, in which the word triangle is followed by one number.
 SCENE_COMMAND = re.compile(r"^[ \t]*(?:(?:translate|scale|rotate|push|pop)\b|triangle[ \t\r]*(?:#|$)|triangle[ \t]+[^\s#]+[ \t]+[^\s#])", re.M)
 KEYWORD = re.compile("[A-Za-z]")
 NUMBER = re.compile(r"[-+]?\.?[0-9]")
@@ -16,18 +16,18 @@ NO_KEYWORDS = ("nan", "inf", "infinity")
 
 
 class StageTextError(CommandFailure):
-    """Not a stage text; the message says where."""
+    """Not a stage text; the message names the location."""
 
 
 @dataclasses.dataclass
 class Vertex:
     line: int       # from 1
-    numbers: tuple  # x, y, z and what the attributes add
+    numbers: tuple  # x, y, z and the attributes
 
 
 @dataclasses.dataclass
 class StageText:
-    header: dict     # of a keyword's words; of light, those of the last one
+    header: dict     # {keyword: words}; for light, those of the last one
     triangles: list  # of three vertices each
     names: list      # the scene's number of each triangle
 
@@ -41,7 +41,7 @@ class StageText:
 
 
 def text_of(data, path):
-    """The bytes of a file as text. What is not UTF-8 does no harm in a comment, and is no number elsewhere."""
+    """The bytes of a file as text. Bytes that are not UTF-8 do no harm in a comment, and are no number elsewhere."""
     if data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)) or is_utf16(data):
         raise StageTextError(f"{name_of(path)}: this is UTF-16: save it as UTF-8")
     if b"\0" in data:
@@ -50,7 +50,7 @@ def text_of(data, path):
 
 
 def is_utf16(data):
-    """Whether every other byte is 0, as in UTF-16 of plain letters and numbers without a mark at the beginning."""
+    """Whether every other byte is 0, as in UTF-16 text of ASCII characters without a byte order mark."""
     even, odd = data[:1000:2], data[1:1000:2]
     return any(b"\0" not in letters and len(zeros) > 0 and not any(zeros) for letters, zeros in ((even, odd), (odd, even)))
 
@@ -60,7 +60,7 @@ def is_scene(text):
 
 
 def begins_with_a_camera(text):
-    """Whether the first four lines are those of a scene, of which one without commands consists."""
+    """Whether the first four lines are a camera's; a scene without commands consists of those alone."""
     lines = (line.split("#")[0].split() for line in text.split("\n"))
     first = list(itertools.islice((words for words in lines if words), 4))
     if [len(words) for words in first[:3]] != [3, 3, 3] or len(first) < 4:
@@ -70,7 +70,7 @@ def begins_with_a_camera(text):
 
 
 def parse_stage_text(text, path):
-    """The StageText of a str; `path` is its file in messages."""
+    """The StageText of a str; `path` names the file in messages."""
     scene = StageTextError(f"{name_of(path)}: this is a scene, not a stage text: run model on it")
     if is_scene(text):
         raise scene
@@ -83,7 +83,7 @@ def parse_stage_text(text, path):
 
 
 def real(word):
-    """The number that a word is for the tools, too: decimal and finite."""
+    """The value of a word that the tools accept as a number, too: decimal and finite."""
     value = float(word)
     if not (math.isfinite(value) and word.isascii() and "_" not in word):
         raise ValueError

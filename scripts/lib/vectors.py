@@ -17,7 +17,7 @@ def moved(p, *steps):
 
 
 def axes(eye, look, up):
-    """Right, up and forward of a camera, at right angles and of length 1."""
+    """Right, up and forward of a camera: orthogonal unit vectors."""
     forward = normalized(tuple(b - a for a, b in zip(eye, look)))
     right = normalized(cross(forward, up))
     return right, cross(right, forward), forward
