@@ -1,5 +1,5 @@
-// Draws the triangles of a bare NDC text with Mesa's software renderer and prints the seconds that the
-// drawing took.
+// Draws the triangles of a bare NDC text with Mesa's software renderer and prints the seconds that drawing
+// took.
 //
 // usage: draw_osmesa WIDTH HEIGHT TRIANGLES
 

@@ -1,6 +1,6 @@
-// Draws the triangles of a bare NDC text as one would write it first: every pixel of the bounding box is
-// asked whether its center is in the triangle, all in doubles; each thread draws a part of the triangles into
-// a picture of its own, and the pictures are merged. Prints the seconds that the drawing took, and how many
+// Draws the triangles of a bare NDC text in the most obvious way: it tests for every pixel of the bounding
+// box whether its center is in the triangle, all in doubles; each thread draws a part of the triangles into
+// a picture of its own, and the pictures are merged. Prints the seconds that drawing took, and how many
 // pixels show a triangle.
 //
 // usage: draw_plainly WIDTH HEIGHT TRIANGLES THREADS
@@ -80,7 +80,7 @@ struct Picture {
     }
   }
 
-  /// Takes what is nearer in a picture whose triangles came later, as far as `part` of `parts` reaches.
+  /// Merges part `part` of `parts` of a picture with later triangles: the nearer pixels win.
   void merge(const Picture& later, std::size_t part, std::size_t parts) {
     for (std::size_t i = depths.size() * part / parts; i < depths.size() * (part + 1) / parts; ++i)
       if (later.depths[i] < depths[i]) {
@@ -94,7 +94,7 @@ struct Picture {
   std::vector<std::uint32_t> colors;
 };
 
-/// Calls work(0) to work(count - 1) on a thread each.
+/// Calls work(0) to work(count - 1), each on a thread of its own.
 template <typename Work>
 void on_threads(std::size_t count, const Work& work) {
   std::vector<std::thread> others;

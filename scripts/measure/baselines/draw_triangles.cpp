@@ -1,5 +1,5 @@
-// Draws the triangles of a bare NDC text as zbuf does, without reading, writing or anything else besides, and
-// prints the seconds that the drawing took: what draw_osmesa does with Mesa.
+// Draws the triangles of a bare NDC text as zbuf does, without reading or writing, and prints the seconds
+// that drawing took: the counterpart of draw_osmesa.
 //
 // usage: draw_triangles WIDTH HEIGHT TRIANGLES nearest|center THREADS
 
@@ -31,7 +31,7 @@ std::vector<TriangleBatch> batches_of(const char* path, bool marks_decimals) {
   return batches;
 }
 
-/// One frame, an empty buffer to begin with.
+/// Draws one frame into an empty buffer.
 template <typename Coverage>
 double seconds_for(std::vector<TriangleBatch> batches, const pipeline::Viewport& screen, int thread_count) {
   using Visible = pipeline::ZBufferAlgorithm<Coverage, pipeline::DepthF64>;

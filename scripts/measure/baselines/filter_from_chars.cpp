@@ -1,4 +1,4 @@
-// A plain filter of bare stage text: std::from_chars in, a matrix, std::to_chars out. Standard input to
+// A minimal filter of bare stage text: std::from_chars, a matrix, std::to_chars. Reads standard input, writes
 // standard output.
 
 #include <unistd.h>

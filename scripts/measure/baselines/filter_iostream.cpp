@@ -1,5 +1,5 @@
-// A plain filter of bare stage text: iostreams in and out, a matrix between. Standard input to standard
-// output.
+// A minimal filter of bare stage text: iostreams for input and output, a matrix between them. Reads standard
+// input, writes standard output.
 
 #include <array>
 #include <iomanip>

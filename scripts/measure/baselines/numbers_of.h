@@ -7,7 +7,7 @@
 #include <system_error>
 #include <vector>
 
-/// All numbers of a text, whatever stands between them.
+/// All numbers in a text, whatever separates them.
 template <typename Number>
 std::vector<Number> numbers_of(const char* path) {
   std::ifstream file(path, std::ios::binary);

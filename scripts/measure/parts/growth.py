@@ -1,4 +1,4 @@
-"""How the cost of drawing grows with triangles and pixels: what scripts/measure/bench measures of it, as a table and a plot."""
+"""How the cost of drawing grows with triangles and pixels: measured by scripts/measure/bench, as a table and a plot."""
 import math
 import random
 import resource
@@ -11,7 +11,7 @@ from parts.svg import STYLE, line, text
 SIZES = (100, 500, 2000, 8192)
 SMALL_COUNTS = (10**3, 10**4, 10**5, 10**6, 10**7)
 LARGE_COUNTS = (1, 10, 100)
-DISTINCT = 10**6  # more triangles than these are these again
+DISTINCT = 10**6  # larger counts repeat these triangles
 
 
 def write_small(path, count, size):
@@ -35,7 +35,7 @@ def write_small(path, count, size):
 
 
 def write_large(path, count):
-    """Triangles that cover half the screen each, nearer and farther in turn."""
+    """Triangles that each cover half the screen, alternately nearer and farther."""
     rng = random.Random(2)
     corners = [(-1, -1), (1, -1), (1, 1), (-1, 1)]
     with open(path, "w") as file:
@@ -46,9 +46,9 @@ def write_large(path, count):
 
 
 def measured(zbuf, folder, rounds, quick):
-    """Rows {kind, triangles, size, cpu_seconds, mib}: whole runs of zbuf, text in and out included.
+    """Rows {kind, triangles, size, cpu_seconds, mib}: whole runs of zbuf, including reading and writing text.
 
-    The system counts the memory of the process that starts another as that one's, too: mib is empty where it is no more."""
+    The system charges a started process with its parent's peak memory, too: mib is empty unless zbuf needed more than that."""
     sizes, small, large = ((50, 100), (10, 100), (1, 2)) if quick else (SIZES, SMALL_COUNTS, LARGE_COUNTS)
     triangles, config = folder / "growth.txt", folder / "growth-config.txt"
     for size in sizes:
@@ -96,7 +96,7 @@ def report(rows):
 
 
 def plot(rows):
-    """CPU seconds over triangles, both logarithmic: a panel a kind, a line a size."""
+    """CPU seconds over triangles, both logarithmic: one panel for each kind, one line for each size."""
     table = cells(rows)
     kinds, sizes = axes(rows)
     seconds = [row["cpu_seconds"] for row in rows]

@@ -11,7 +11,7 @@ LIGHTS = "ambient 0.1 0.1 0.1\nmaterial 1 0.8 0.6 30\nlight -3 2.5 -1 1 0.6 0.5\
 
 
 class Integers:
-    """The linear congruential generator of D. E. Knuth's MMIX, less its 24 low bits."""
+    """The linear congruential generator of D. E. Knuth's MMIX, without its 24 low bits."""
 
     def __init__(self):
         self.state = 1
@@ -28,7 +28,7 @@ def decimal(number):
 
 
 def triangles(count, reach, size, middle_z=0, columns=()):
-    """Bare stage text: corners within `size` (x, y, z) of middles that lie within `reach` of (0 0 middle_z), and further columns."""
+    """Bare stage text: corners within `size` (x, y, z) of a middle that lies within `reach` of (0 0 middle_z), and more columns."""
     integers, lines = Integers(), []
     for _ in range(count):
         middle = [offset + integers.within(limit) for offset, limit in zip((0, 0, middle_z), reach)]
@@ -51,12 +51,12 @@ def in_view(count, **columns):
 
 
 def across_the_frustum(count, **columns):
-    """In view space: about half of them cross planes of the frustum, the near one, too, and some are outside."""
+    """In view space: about half of them cross planes of the frustum, including the near one, and some lie outside."""
     return triangles(count, (2 * UNIT, 2 * UNIT, 3 * UNIT), (UNIT,) * 3, middle_z=-4 * UNIT, **columns)
 
 
 def small_on_screen(count, **columns):
-    """About three pixels of 500 x 500 each."""
+    """Triangles of about three pixels each on a 500 x 500 screen."""
     return triangles(count, (UNIT,) * 3, (UNIT // 130, UNIT // 130, UNIT // 500), **columns)
 
 
@@ -65,7 +65,7 @@ def large_on_screen(count, **columns):
 
 
 def header(space, columns):
-    """What stands before the first triangle."""
+    """The header, before the first triangle."""
     names = f"attributes {' '.join(columns)}\n" if columns else ""
     return {"scene": "", "world": CAMERA + PROJECTION, "view": PROJECTION, "screen": "frustum -0.4 0.4 -0.4 0.4 1 10\n" * bool(columns)}[space] + names + (LIGHTS if columns else "")
 
@@ -76,7 +76,7 @@ def lit(space, make, count, repeats=1):
 
 
 def scene(stage_text, before_each="", after_each="", columns=()):
-    """A scene of the triangles of a bare stage text, with commands around each."""
+    """A scene with the triangles of a bare stage text, and commands around each."""
     camera = "".join(line.split(" ", 1)[1] + "\n" for line in (CAMERA + PROJECTION).splitlines())
     body = "".join(f"{before_each}triangle\n{triangle}\n{after_each}" for triangle in stage_text.split("\n\n") if triangle)
     return camera + header("scene", columns) + body + "end\n"

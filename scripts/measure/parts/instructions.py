@@ -1,7 +1,7 @@
-"""Holds the speed of the tools: the instructions of every row of instruction_rows.py against the committed count.
+"""Guards the speed of the tools: compares the instructions of every row of instruction_rows.py with the committed count.
 
-Counts do not depend on what else the machine does. Valgrind shows a program the same processor on every host that has AVX2, so
-they do not depend on the host either; they do on the compiler and the kernel, which a row therefore names.
+Counts do not depend on other load on the machine. Valgrind emulates the same processor on every host that has AVX2, so
+they do not depend on the host either; they do depend on the compiler and the kernel, which each row therefore names.
 """
 import csv
 import dataclasses
@@ -21,11 +21,11 @@ FLAGS = {"portable": set(), "sse4": {"sse4_2", "bmi1"}, "avx2": {"sse4_2", "bmi1
 
 
 class RunFailed(Exception):
-    """A tool, or Valgrind, gave up."""
+    """A tool or Valgrind failed."""
 
 
 def compiler_of(program):
-    """Name and version, from the section .comment. What clang links holds objects of GCC's, too, hence the order."""
+    """Name and version, from the section .comment. A program linked by clang contains objects of GCC's, too, hence the order."""
     content = program.read_bytes()
     for name, mark in (("clang", rb"clang version (\d[\d.]*)"), ("GCC", rb"GCC: \([^)]*\) (\d[\d.]*)")):
         if found := re.search(mark, content):
@@ -39,14 +39,14 @@ def processor_flags():
 
 
 def no_count_at_all():
-    """Why nothing can be counted here, or None."""
+    """The reason why nothing can be counted here, or None."""
     if platform.machine() != "x86_64":
         return f"the committed counts are those of x86-64, this is {platform.machine()}"
     return None if shutil.which("valgrind") else "valgrind is not installed (Debian: valgrind)"
 
 
 def count(row, folder):
-    """The instructions of one run in `folder`, in which bin/ has the tools, in the same environment whatever the caller's."""
+    """The instructions of one run in `folder`, whose bin/ has the tools, in the same environment whatever the caller's."""
     for word in row.words.split():
         if word in TEXTS and not (folder / word).exists():
             (folder / word).write_text(TEXTS[word]())
@@ -75,7 +75,7 @@ def committed_counts(path):
 
 
 class Comparison:
-    """One run over the rows: what was counted, and what came of it."""
+    """One run over the rows: the counts and the results."""
 
     def __init__(self, committed, accept):
         self.committed, self.accept = committed, accept
@@ -125,13 +125,13 @@ class Comparison:
 
 
 def write_counts(path, counts, rows):
-    """In the order of the rows; one that could not run here keeps the count it had."""
+    """Writes the counts in the order of the rows; a row that could not run here keeps its count."""
     keys = [key for row in rows if (key := (row.name, row.kernel)) in counts]
     write_csv(path, [{"row": name, "kernel": kernel, **dataclasses.asdict(counts[name, kernel])} for name, kernel in keys])
 
 
 def hold(tools, path, accept=False, rows=ROWS):
-    """Compares what the tools in a folder take with the counts in a CSV file, or accepts it as the new counts; gives the exit status."""
+    """Compares the instructions of a folder's tools with a CSV file, or accepts them as its new counts; gives the exit status."""
     if missing := sorted({row.tool for row in rows if not (tools / row.tool).exists()}):
         print(f"bench: {tools} has no {', '.join(missing)}; scripts/build-release builds the tools")
         return 1

@@ -1,4 +1,4 @@
-"""What the measuring scripts share: the machine's name, runs with their costs, and tables that go into README.md."""
+"""Shared by the measuring scripts: the machine's name, runs with their costs, and tables that go into README.md."""
 import csv
 import dataclasses
 import os
@@ -6,19 +6,19 @@ import subprocess
 
 
 def machine():
-    """The processor's name and the number of cores that may be used."""
+    """The processor's name and the number of available cores."""
     models = [line.split(":", 1)[1].strip() for line in open("/proc/cpuinfo") if line.startswith("model name")]
     return f"{models[0] if models else 'unknown processor'}, {len(os.sched_getaffinity(0))} cores"
 
 
 @dataclasses.dataclass(frozen=True)
 class Cost:
-    cpu_seconds: float  # user's and system's
-    mib: float          # resident at most
+    cpu_seconds: float  # user and system
+    mib: float          # peak resident memory
 
 
 def cost_of(process, name, messages=None):
-    """Waits for a process; ends the script if it failed, with what stands in the file `messages`."""
+    """Waits for a process; ends the script if it failed, printing the contents of the file `messages`."""
     _, status, usage = os.wait4(process.pid, 0)
     process.returncode = os.waitstatus_to_exitcode(status)
     if process.returncode != 0:
@@ -34,7 +34,7 @@ def run(words, name="a tool", **streams):
 
 
 def write_csv(path, rows, digits=4):
-    """A column for whatever a row has; numbers with so many significant digits."""
+    """Writes a column for each key of any row; numbers get a fixed count of significant digits."""
     columns = list(dict.fromkeys(column for row in rows for column in row))
     with open(path, "w", newline="") as file:
         table = csv.DictWriter(file, columns, restval="", lineterminator="\n")
@@ -43,7 +43,7 @@ def write_csv(path, rows, digits=4):
 
 
 def put_between(readme, name, words):
-    """Replaces what stands in README.md between the marks of a script."""
+    """Replaces the text in README.md between a script's marks."""
     begin, end = f"<!-- {name}: begin -->", f"<!-- {name}: end -->"
     whole = readme.read_text()
     if begin not in whole or end not in whole:

@@ -1,4 +1,4 @@
-"""What the plots of the measuring scripts are drawn with: SVG in the reader's theme."""
+"""Drawing for the plots of the measuring scripts: SVG in the reader's theme."""
 import html
 
 LIGHT = {"card": "#ffffff", "edge": "#d0d7de", "grid": "#e4e8ec", "axis": "#8c959f", "guide": "#afb8c1",
@@ -16,7 +16,7 @@ def colors(theme):
     return rules
 
 
-# The card is of the reader's theme, and so is what stands on it.
+# The card and everything on it follow the reader's theme.
 STYLE = f"""
 text {{ font: 12px system-ui, "Segoe UI", "DejaVu Sans", sans-serif }}
 .title {{ font-size: 14px; font-weight: 600 }}

@@ -1,4 +1,4 @@
-"""What culling, clipping, shading models and samples cost, and how far the pictures are from 8 x 8 supersampling."""
+"""The cost of culling, clipping, shading models and samples, and how far the pictures are from 8 x 8 supersampling."""
 import dataclasses
 import pathlib
 import random
@@ -40,7 +40,7 @@ SETTINGS = [BASE, *(LightSetting(shading=model) for model in ("none", "flat", "g
 
 
 def settings_of(scene):
-    """Who stands in a room has triangles behind the eye: they must be cut."""
+    """A viewer inside a room has triangles behind the eye, which must be clipped."""
     return [setting for setting in SETTINGS if scene.name != "inside" or setting.clip != "reject"]
 
 
@@ -59,7 +59,7 @@ def picture(bench, setting):
 
 
 def measured_on(bench, rounds):
-    """A row for each setting: what it costs, and its mean and largest difference of a channel to FINEST."""
+    """A row for each setting: its cost, and the mean and largest difference of a channel from FINEST."""
     settings = settings_of(bench.scene)
     dice, seconds = random.Random(1), {setting: [] for setting in settings}
     for _ in range(rounds):

@@ -1,4 +1,4 @@
-"""What a setting of the pipeline costs and what it gives up: the measurements of scripts/measure/tradeoff."""
+"""The cost and the errors of a setting of the pipeline: the measurements of scripts/measure/tradeoff."""
 import dataclasses
 import math
 import pathlib
@@ -50,21 +50,21 @@ class Bench:
         (self.folder / "config.txt").write_text(f"{size}\n-1\n-1\n{-limit} {limit}\n")
 
     def run(self, tool, setting, text):
-        """What the tool makes of a text."""
+        """The tool's output for a text."""
         done = subprocess.run(setting.command(self.bin_dir, tool), cwd=self.folder, input=text, capture_output=True)
         if done.returncode != 0:
             raise SystemExit(f"tradeoff: {tool}, {setting}: {done.stderr.decode()}")
         return done.stdout
 
     def stage_texts(self, setting):
-        """What model, view and project write."""
+        """The output of model, view and project."""
         texts = [self.scene.text.encode()]
         for tool in TOOLS[:3]:
             texts.append(self.run(tool, setting, texts[-1]))
         return texts[1:]
 
     def cpu_seconds(self, setting):
-        """The CPU time, user's and system's, of each stage of a whole pipe."""
+        """The CPU time, user and system, of each stage of a whole pipe."""
         processes, seconds = [], []
         source = open(self.folder / "scene.txt", "rb")
         with open(self.folder / "notes.txt", "w+b") as notes:
@@ -82,8 +82,8 @@ class Bench:
 # Cost
 
 def costs(bench, settings, rounds, dice):
-    """For each setting what its pipe takes. A round runs all of them once, in a new order, so that what else the
-    machine does meets all alike."""
+    """The cost of the pipe for each setting. A round runs all settings once, in a new order, so that other load on the
+    machine affects all alike."""
     runs = {setting: [] for setting in settings}
     for _ in range(rounds):
         for setting in dice.sample(settings, len(settings)):
@@ -109,20 +109,20 @@ def costs(bench, settings, rounds, dice):
 
 
 def ratios_of(totals, base_totals):
-    """Round by round: what slows the machine down for a while slows both."""
+    """Round by round, since a temporary load on the machine slows both."""
     return [total / base_total for total, base_total in zip(totals, base_totals)]
 
 
 # Error
 
-# The text of the z-buffer has six decimals. So that smaller errors show, depths are multiplied by this before zbuf
+# The text of the z-buffer has six decimals. To show smaller errors, depths are multiplied by this before zbuf
 # reads them, and so are its limits: a power of two changes neither roundings nor comparisons.
 DEPTH_SCALE = 2.0**20
 NOBODY = bytes(3)  # black, the background
 
 
 def colors_by_number(count):
-    """What zbuf gives triangles 0, 1, 2 ...: red, green, blue, each the next number of its generator."""
+    """The colors zbuf gives triangles 0, 1, 2 ...: red, green and blue are successive numbers of its generator."""
     state, drawn = 1, bytearray()
     for _ in range(3 * count):
         state = (214013 * state + 2531011) % 2**32
@@ -131,7 +131,7 @@ def colors_by_number(count):
 
 
 def distinct_colors(count):
-    """{color: number} for `count` triangles that zbuf gives different colors, and none the background's."""
+    """{color: number} for `count` triangles that zbuf gives different colors, none of them the background's."""
     numbers = {}
     for number, color in enumerate(colors_by_number(count + count // 8 + 8)):
         if color != NOBODY and len(numbers) < count:
@@ -141,7 +141,7 @@ def distinct_colors(count):
 
 
 class Errors:
-    """What settings give up on a scene, against a lossless run with the same rule of coverage."""
+    """The errors of settings on a scene, against a lossless run with the same coverage rule."""
 
     def __init__(self, bench):
         self.bench = bench
@@ -154,7 +154,7 @@ class Errors:
         self.projections = {}  # by digits and precision: the vertices as words, and the bytes in the pipes
         self.pictures = {}     # by setting
         true_vertices = self.projection(MOST_EXACT)[0]
-        # The scenes are made so that nothing is clipped.
+        # The scenes avoid clipping.
         assert len(true_vertices) == 3 * self.scene.triangle_count
         self.corners = [{tuple(vertex) for vertex in true_vertices[3 * i:3 * i + 3]}
                         for i in range(self.scene.triangle_count)]
@@ -187,7 +187,7 @@ class Errors:
         return self.projections[key]
 
     def picture(self, setting):
-        """Which triangle is seen at each pixel, or None, and how deep it is, from the top left."""
+        """The triangle seen at each pixel, or None, and its depth, from the top left."""
         if setting not in self.pictures:
             vertices = self.projection(setting)[0]
             lines = []
@@ -205,8 +205,8 @@ class Errors:
         return self.pictures[setting]
 
     def differences(self, picture, true_picture):
-        """How many pixels are covered in only one of two pictures (flip); show a neighbor of the right triangle,
-        one with a common vertex (neighbor); or another triangle that should be hidden (wrong)."""
+        """How many pixels are covered in only one of two pictures (flip), show a neighbor of the right triangle, with a
+        common vertex (neighbor), or show another triangle that should be hidden (wrong)."""
         counts = {"flip": 0, "neighbor": 0, "wrong": 0}
         for (owner, _), (true_owner, _) in zip(picture, true_picture):
             if owner == true_owner:
@@ -220,7 +220,7 @@ class Errors:
         return counts
 
     def vertex_error(self, setting, lossless):
-        """In pixels, the largest of the vertices that are on the screen."""
+        """The largest error, in pixels, of a vertex on the screen."""
         largest = 0.0
         for words, true_words in zip(self.projection(setting)[0], self.projection(lossless)[0]):
             if words == true_words:

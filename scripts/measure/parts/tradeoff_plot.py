@@ -10,8 +10,8 @@ class Panel:
     unit: str
     series: dict        # at most three: {name: {setting: error}}
     decades: tuple      # powers of ten at the bottom and the top of the axis
-    tick: object        # text of a power of ten
-    band: tuple = None  # (error from which on it matters, text)
+    tick: object        # gives the text of a power of ten
+    band: tuple = None  # (smallest error that matters, text)
 
 
 WIDTH, HEIGHT = 1160, 520
@@ -20,7 +20,7 @@ LEFTS = (75, 455, 835)
 
 
 def front(points):
-    """The Pareto front: those of the points (x, y) that no other beats in one and equals or beats in the other."""
+    """The Pareto front: the points (x, y) that no other point beats in one and at least equals in the other coordinate."""
     best, chosen = math.inf, []
     for point in sorted(points):
         if point[1] < best:
@@ -36,8 +36,8 @@ def short(setting):
 
 
 def spread_out(wanted, gap):
-    """Places as near as may be to those wanted (ascending), and `gap` apart."""
-    groups = []  # [sum of the places that each would have as the group's first, count]
+    """Positions as near as possible to the wanted ones (ascending), at least `gap` apart."""
+    groups = []  # [sum of the positions that each would have as the group's first, count]
     for place in wanted:
         groups.append([place, 1])
         while len(groups) > 1 and groups[-2][0] / groups[-2][1] + groups[-2][1] * gap > groups[-1][0] / groups[-1][1]:
@@ -48,7 +48,7 @@ def spread_out(wanted, gap):
 
 
 def ticks(low, high):
-    """Round numbers from low to high, about five."""
+    """About five round numbers from low to high."""
     step = 10.0 ** math.floor(math.log10((high - low) / 3))
     step *= max(factor for factor in (1, 2, 5) if factor * step <= (high - low) / 3)
     return [step * i for i in range(math.ceil(low / step), math.floor(high / step) + 1)]

@@ -1,4 +1,4 @@
-"""Tables of what scripts/measure/tradeoff measured."""
+"""The tables of scripts/measure/tradeoff."""
 import statistics
 
 from parts.tradeoff_measure import ratios_of
@@ -6,7 +6,7 @@ from parts.tradeoff_measure import ratios_of
 
 
 class Results:
-    """The rows of tradeoff.csv: cell(scene, setting, column) is a number, None where nothing was measured."""
+    """The rows of tradeoff.csv: cell(scene, setting, column) is a number, or None if not measured."""
 
     def __init__(self, rows):
         self.rows = {(row["scene"], row["setting"]): row for row in rows}
@@ -25,7 +25,7 @@ class Results:
         return [float(word) for word in self.rows[scene, setting]["runs_seconds"].split()]
 
     def share(self, scene, setting, *columns):
-        """The sum of columns as a share of the pixels that are covered."""
+        """The sum of columns as a share of the covered pixels."""
         count = sum(self.cell(scene, setting, column) for column in columns)
         return count / self.cell(scene, setting, "covered_pixels")
 
@@ -35,7 +35,7 @@ def code(setting):
 
 
 def number(value, digits=2):
-    """Few digits, and a power of ten only where it is shorter."""
+    """A few digits, with a power of ten only if that is shorter."""
     if value is None:
         return ""
     if value == 0:
@@ -79,14 +79,14 @@ def error_table(results, text_of_cell):
                   for setting in results.settings])
 
 
-# What a value of a knob is compared with: the same without it.
+# Settings whose base is not the default but the same setting without its last option.
 BASES = {"--digits exact --precision double": "--digits exact"}
 SPEED = "speed"
 
 
 def gains(results, setting):
-    """(what it buys, scenes) against its base. Speed: 3 % less CPU time, by the median of the ratios and by the
-    fastest runs. Accuracy: a tenth of an error, and in pixels 10 fewer."""
+    """(the gain, scenes) against its base. Speed: 3 % less CPU time, by the median of the ratios and by the
+    fastest runs. Accuracy: a tenth of an error, and for pixels 10 fewer."""
     base = BASES.get(setting, "default")
 
     def is_faster(scene):
@@ -204,7 +204,7 @@ def readme_table(results):
 
 
 def readme_part(results):
-    """What stands between the marks in README.md."""
+    """The text between the marks in README.md."""
     cost = results.cell("unit", "default", "seconds_per_million_median")
     return f"""{readme_table(results)}
 CPU time is that of the whole pipe, relative to the default's: {cost:.1f} s per million triangles, the median of

@@ -1,4 +1,4 @@
-"""The scenes of scripts/measure/tradeoff: what puts numbers to the test, and what takes long enough to be timed."""
+"""The scenes of scripts/measure/tradeoff: those that stress numbers, and those that run long enough to be timed."""
 import dataclasses
 import math
 import random
@@ -15,7 +15,7 @@ class Scene:
 
 
 def ball(radius, rings, sectors):
-    """A ball with bumps, 2 * RINGS * SECTORS triangles: it hides parts of itself, its edges lie in all directions."""
+    """A ball with bumps, 2 * RINGS * SECTORS triangles: it hides parts of itself, and its edges have all directions."""
     def point(i, k):
         u, v = math.pi * (i + 0.5) / (rings + 1), math.tau * (k % sectors) / sectors
         r = radius * (0.85 + 0.15 * math.sin(5 * u) * math.cos(7 * v))
@@ -34,7 +34,7 @@ def grid(rows, columns, point):
 
 
 def scene(name, title, camera, commands, triangles, size, digits=7):
-    """A scene's vertices are written with `digits` significant digits, as files of meshes are."""
+    """Writes a scene's vertices with `digits` significant digits, as mesh files do."""
     columns, rows = size
     lines = [*camera, *commands]
     count = 0
@@ -67,7 +67,7 @@ def planet(name, title, detail, size):
 
 
 def pivot(name, title, detail, size):
-    """Its vertices lie 1e9 from the origin, and the matrix takes them back: what is left are the differences."""
+    """Its vertices lie 1e9 from the origin, and the matrix moves them back: only the differences remain."""
     triangles = ([tuple(1e9 + x for x in vertex) for vertex in triangle] for triangle in ball(1, *detail))
     return scene(name, title, camera(EYE, (0, 0, 0), 40, 1, 10), [*TURN, "translate", "-1e9 -1e9 -1e9"],
                  triangles, size, digits=17)
@@ -81,7 +81,7 @@ def telescope(name, title, detail, size):
 
 
 def room(name, title, detail, size):
-    """Five walls 1000 across, and eight balls; the eye looks in where the sixth wall would be."""
+    """Five walls 1000 across, and eight balls; the eye looks in through the missing sixth wall."""
     cells = detail[0] // 4
     place = [1000 * i / cells - 500 for i in range(cells + 1)]
     walls = [lambda i, k: (place[k], -500, place[i]), lambda i, k: (place[k], 500, place[i]),
@@ -97,7 +97,7 @@ def room(name, title, detail, size):
 
 
 def layers(name, title, ratio, detail, size):
-    """Two oblique planes 1e-5 apart; the rear one stands first, so that it also wins where both depths are equal."""
+    """Two oblique planes 1e-5 apart; the rear one comes first, so that it also wins where both depths are equal."""
     normal = [x / math.hypot(0.6, 0.3, 1) for x in (-0.6, -0.3, 1)]
 
     def plane(cells, lift):
@@ -125,11 +125,11 @@ def scenes_of_errors(quick):
 
 
 def fill(name, title, count, size):
-    """Oblique rectangles as large as the picture, in no order of depth: nearly all time goes into pixels."""
+    """Oblique rectangles as large as the picture, not sorted by depth: nearly all time goes into pixels."""
     dice = random.Random(1)
     triangles = []
     for _ in range(count):
-        # At 45 degrees the picture is as wide as its distance twice.
+        # At 45 degrees the picture is twice as wide as its distance.
         corners = [(x * d, y * d, -d) for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1))
                    for d in [dice.uniform(1, 10)]]
         triangles += [(corners[0], corners[1], corners[2]), (corners[0], corners[2], corners[3])]
