@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The rooms of libpipeline and the arrows between them are those of its map, libpipeline/README.md.
+"""The rooms of libpipeline and the arrows between them match its map, libpipeline/README.md.
 
 usage: rooms_test.py SOURCE_DIR [UNITTEST ARGUMENT...]
 """
@@ -16,7 +16,7 @@ INCLUDE = re.compile(r'^\s*#\s*include\s+"libpipeline/(\w+)/([\w.]+)"', re.MULTI
 
 
 def arrows_of(text):
-    """{room: the rooms it may include} of the lines 'room -> room room' of a map."""
+    """{room: the rooms it may include} from a map's lines 'room -> room room'."""
     return {room: set(others.split()) for room, others in re.findall(r"^    (\w+) +->((?: +\w+)*)$", text, re.MULTILINE)}
 
 
@@ -32,7 +32,7 @@ def wrong_includes(library, arrows):
 
 
 def circle(arrows):
-    """Some rooms that lead back to the first, or nothing."""
+    """Some rooms that form a cycle, or nothing."""
     def search(path):
         for room in sorted(arrows.get(path[-1], ())):
             if room in path:
@@ -77,7 +77,7 @@ class Rooms(unittest.TestCase):
 
 
 class Invariants(unittest.TestCase):
-    """What the map promises of the whole code, as far as words can show it."""
+    """The map's promises about the whole code, as far as a text search can check them."""
 
     def assert_only_in(self, pattern, roots, allowed):
         found = {str(path.relative_to(SOURCE)) for root in roots for path in sources(SOURCE / root)

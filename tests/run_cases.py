@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Runs a script of unittest's, and then prints a line 'N skipped: REASON' for each reason that kept cases from running.
+"""Runs a unittest script, and then prints a line 'N skipped: REASON' for each reason that kept cases from running.
 
 usage: run_cases.py SCRIPT [ARGUMENT...]
 
-The exit status is unittest's, but 77 where every case was skipped: ctest's SKIP_RETURN_CODE for all scripts.
+The exit status is unittest's, but 77 if every case was skipped: ctest's SKIP_RETURN_CODE for all scripts.
 """
 import collections
 import pathlib
@@ -13,18 +13,18 @@ import unittest
 
 
 class Program(unittest.TestProgram):
-    """Takes the place of unittest.main."""
+    """Replaces unittest.main."""
 
     def runTests(self):  # noqa: N802
         self.exit = False
         super().runTests()
-        # A case counts once for a reason, however many of its parts (subTest) gave it.
+        # A case counts once for each reason, however many of its parts (subTest) gave it.
         skipped = {(getattr(case, "test_case", case), " ".join(reason.split())): None for case, reason in self.result.skipped}
         for reason, count in collections.Counter(reason for _, reason in skipped).items():
             print(f"{count} skipped: {reason}", file=sys.stderr)
         if not self.result.wasSuccessful():
             sys.exit(1)
-        cases = {case for case, _ in skipped if isinstance(case, unittest.TestCase)}  # a class that skips as a whole is none
+        cases = {case for case, _ in skipped if isinstance(case, unittest.TestCase)}  # a skipped class is not a case
         sys.exit(77 if skipped and len(cases) == self.result.testsRun else 0)
 
 

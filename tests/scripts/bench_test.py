@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""scripts/measure/bench writes a figure for every group, and what it measures against does the same work.
+"""scripts/measure/bench writes a figure for every group, and its baselines do the same work as the tools.
 
 usage: bench_test.py BIN_DIR SOURCE_DIR
 """
@@ -16,7 +16,7 @@ BIN_DIR, SOURCE_DIR = (pathlib.Path(word).resolve() for word in sys.argv[1:3])
 del sys.argv[1:3]
 
 TRIANGLE = b"1.8000000 1.2000000 2.4000000\n2.8000000 1.2000000 2.4000000\n1.8000000 2.2000000 3.4000000\n\n"
-# The baselines' camera stands at (1.8 1.2 2.4); what is left of a unit step are columns of its rotation.
+# The baselines' camera is at (1.8 1.2 2.4): in view space, unit steps from there are columns of its rotation.
 FILTERED = (b"0.0000000 0.0000000 0.0000000\n0.8000000 0.3600000 0.4800000\n-0.6000000 1.2800000 0.0400000\n\n")
 
 
@@ -32,7 +32,7 @@ class BenchTest(unittest.TestCase):
             self.assertIn("| filter | iostream |", pathlib.Path(folder, "bench.md").read_text())
             with open(pathlib.Path(folder, "growth.csv"), newline="") as file:
                 growth = list(csv.DictReader(file))
-            self.assertEqual(len(growth), 8)  # two sizes, two counts of two kinds
+            self.assertEqual(len(growth), 8)  # two sizes, two counts, two kinds
             self.assertTrue(all(float(row["cpu_seconds"]) > 0 for row in growth))
             ElementTree.parse(pathlib.Path(folder, "growth.svg"))
 

@@ -10,7 +10,7 @@ import urllib.error
 import urllib.request
 
 MISSING = [name for name in ("chromium", "chromedriver") if shutil.which(name) is None]
-ELEMENT = "element-6066-11e4-a52e-4f735466cecf"  # what the standard calls a reference to an element
+ELEMENT = "element-6066-11e4-a52e-4f735466cecf"  # the standard's key of a reference to an element
 
 
 def free_port():
@@ -20,7 +20,7 @@ def free_port():
 
 
 class Browser:
-    """A browser with a window of a size, closed with the `with` block."""
+    """A browser with a window of a given size, closed at the end of the `with` block."""
 
     def __init__(self, width=1400, height=1000):
         self.profile = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
@@ -72,14 +72,14 @@ class Browser:
         self.call("POST", "/url", {"url": f"file://{path}"})
 
     def run(self, script, *words):
-        """What a JavaScript function's body returns."""
+        """The result of a JavaScript function's body."""
         return self.call("POST", "/execute/sync", {"script": script, "args": list(words)})
 
     def element(self, selector):
         return self.call("POST", "/element", {"using": "css selector", "value": selector})[ELEMENT]
 
     def point(self, selector, x, y, is_click=False):
-        """Moves the pointer to a place in an element, counted from its top left corner, and clicks there."""
+        """Moves the pointer to a point in an element, counted from its top left corner, and clicks there."""
         self.run("document.querySelector(arguments[0]).scrollIntoView({block: 'center'})", selector)
         left, top = self.run("const box = document.querySelector(arguments[0]).getBoundingClientRect(); return [box.left, box.top]", selector)
         actions = [{"type": "pointerMove", "duration": 0, "x": round(left + x), "y": round(top + y)}]
@@ -94,5 +94,5 @@ class Browser:
         return base64.b64decode(self.call("GET", "/screenshot"))
 
     def complaints(self):
-        """What the page logged as an error."""
+        """The errors that the page logged."""
         return [entry["message"] for entry in self.call("POST", "/se/log", {"type": "browser"}) if entry["level"] == "SEVERE"]

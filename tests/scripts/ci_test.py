@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-""".ci/run, scripts/check and scripts/maintain/test-report count what did not pass, and name it. The ctest is a real one, its tests are a line
-of shell each; whatever else is called is a stub.
+""".ci/run, scripts/check and scripts/maintain/test-report count and name everything that did not pass. The ctest is real, with
+tests of one shell line each; all other programs are stubs.
 
 usage: ci_test.py SOURCE_DIR [UNITTEST ARGUMENT...]
 """
@@ -16,7 +16,7 @@ SOURCE = pathlib.Path(sys.argv.pop(1)).resolve()
 PRESETS = ("release", "asan", "fuzz", "tsan", "clang")
 STUBS = ("scripts/install-packages", "scripts/build-release", "scripts/check", "scripts/measure/bench", "scripts/maintain/fuzz",
          "scripts/maintain/tidy", "scripts/maintain/compare-builds", "bin/cmake", "bin/git", "bin/clang-format")
-# The folder of a preset's tests is one of this tree.
+# The folder of a preset's tests, in this tree.
 CTEST = f"""#!/bin/sh
 [ "$1" = --preset ] || exit 99
 tests=presets/$2
@@ -60,7 +60,7 @@ class Tree(unittest.TestCase):
         (self.tree / path).chmod(0o755)
 
     def set_tests(self, preset, *tests):
-        """Sets the tests of a preset: (name, command of a shell, property, its value)."""
+        """Sets the tests of a preset: (name, shell command, property, its value)."""
         lines = []
         for name, command, *properties in tests:
             lines.append(f"add_test([=[{name}]=] sh -c [=[{command}]=])")
@@ -75,7 +75,7 @@ class Tree(unittest.TestCase):
                               text=True, timeout=100)
 
     def assert_ends(self, done, status, *lines):
-        """It ends with the status, these named failures and skips, and the counts."""
+        """The run ends with this status, these named failures and skips, and the counts."""
         printed = done.stdout.splitlines()
         begin = max(number for number, line in enumerate(printed) if not line.startswith(("failed: ", "skipped: ")) and number < len(printed) - 1)
         self.assertEqual((done.returncode, printed[begin + 1:]), (status, list(lines)), done.stdout)
@@ -90,7 +90,7 @@ class Check(Tree):
         return self.run_there("scripts/check", *options)
 
     def cases(self, name, last):
-        """A test of three cases of Python's, the last of which is as told."""
+        """A test with three Python cases, whose last one is `last`."""
         self.put(f"{name}.py", CASES % last)
         return name, f"python3 {SOURCE}/tests/run_cases.py {self.tree}/{name}.py", "SKIP_RETURN_CODE", "77"
 

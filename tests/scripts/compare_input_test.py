@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""scripts/compare on inputs that are pipes, empty, of another kind, endless or a lie: the status says whether it compared.
+"""scripts/compare on inputs that are pipes, empty, of another kind, endless or false: the status tells whether it compared.
 
 usage: compare_input_test.py BIN_DIR [UNITTEST ARGUMENT...]
 """
@@ -21,7 +21,7 @@ ENVIRONMENT = {"BIN": str(BIN), "PATH": "/usr/bin:/bin", "LANG": "C.UTF-8"}
 TRIANGLE = "0.1 0.2 0.3\n1 0 0.5\n0 1 0.7\n\n"
 OTHER = "0.1 0.2 0.3\n1 0 0.5\n0 1 0.25\n\n"
 SCENE = "0 0 5\n0 0 0\n0 1 0\n60 1 1 100\ntriangle\n0 0 0\n1 0 0\n0 1 0\nend\n"
-MEMORY = 3 << 30  # what a lying header may not exceed
+MEMORY = 3 << 30  # limit of memory, whatever a false header claims
 SECONDS = 60
 
 
@@ -257,7 +257,7 @@ class Pictures(InputTest):
         write("b", b"P6 1 1 255\n\1\2\3")
 
     def refused(self, content, message):
-        """In next to no time, too."""
+        """And in hardly any time."""
         write("a", content)
         before = resource.getrusage(resource.RUSAGE_CHILDREN)
         self.assert_not_compared(compare("a", "b"), f"a: {message}")
@@ -293,10 +293,10 @@ class Pictures(InputTest):
     def test_a_png_that_unpacks_to_more_than_it_says(self):
         packer = zlib.compressobj(9)
         begin = packer.compress(b"") + packer.flush(zlib.Z_FULL_FLUSH)
-        block = packer.compress(bytes(1 << 20)) + packer.flush(zlib.Z_FULL_FLUSH)  # may stand there any number of times
+        block = packer.compress(bytes(1 << 20)) + packer.flush(zlib.Z_FULL_FLUSH)  # may be repeated any number of times
         write("a", png_file(1, 1, begin + 4096 * block))
         done = compare("a", "b")
-        self.assertEqual((done.stderr, done.returncode), (b"", 1))  # one pixel, and it differs
+        self.assertEqual((done.stderr, done.returncode), (b"", 1))  # a single pixel, which differs
 
     def test_cut_pictures(self):
         whole = png_file(2, 2, zlib.compress(b"\0\1\2\3\4\5\6" * 2))
@@ -347,7 +347,7 @@ class Endings(InputTest):
             with self.subTest(number):
                 os.mkfifo("pipe")
                 process = subprocess.Popen([COMPARE, "pipe", "b"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, env=ENVIRONMENT)
-                with open("pipe", "wb") as pipe:  # opens once it reads
+                with open("pipe", "wb") as pipe:  # opens once the script reads
                     pipe.write(b"1")
                     pipe.flush()
                     process.send_signal(number)
@@ -357,7 +357,7 @@ class Endings(InputTest):
 
 
 class FiveFiles(InputTest):
-    """A student's file that cannot be read is judged; the rest is, too."""
+    """A student's file that cannot be read gets a verdict, and so do the others."""
 
     def setUp(self):
         super().setUp()
@@ -428,14 +428,14 @@ class FiveFiles(InputTest):
 
 
 class Hints(InputTest):
-    """Who adds the eye where it is to be subtracted moves every point the same way."""
+    """Adding the eye instead of subtracting it moves every point by the same vector."""
     SCENE = "{}\n{}\n0 1 0\n60 1 1 100\ntriangle\n{}\nend\n"
     EITHER = "z has the opposite sign everywhere: handedness is flipped, or the eye is added instead of subtracted"
     FLIPPED = "handedness is flipped: z has the opposite sign everywhere"
     ADDED = "the eye is added instead of subtracted"
 
     def hint(self, points, eye="0 0 2", look="0 0 0", added=True, with_scene=False):
-        """For a camera that looks down -z, in whose view space p is p - eye, and is p + eye with the mistake."""
+        """For a camera that looks down -z: in its view space p becomes p - eye, and p + eye with the error."""
         write("scene", self.SCENE.format(eye, look, points))
         p = [list(map(float, line.split())) for line in points.split("\n")]
         e = list(map(float, eye.split()))

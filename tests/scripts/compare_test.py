@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""scripts/compare: what it says of texts and pictures that differ, and of students who made a mistake.
+"""scripts/compare: its reports on texts and pictures that differ, and on students' errors.
 
 usage: compare_test.py BIN_DIR [UNITTEST ARGUMENT...]
 """
@@ -34,7 +34,7 @@ def cells(table, name):
 
 
 def bmp(width, height, pixels):
-    """A BMP of a function of column and row."""
+    """A BMP whose pixels are a function of column and row."""
     body = b""
     for row in reversed(range(height)):
         line = b"".join(bytes(reversed(pixels(column, row))) for column in range(width))
@@ -173,7 +173,7 @@ class Five(ToolTest):
                 ("radians 3", "project", "degrees are taken for radians in the field of view")):
             for in_memory in (True, False):
                 with self.subTest(mistake, in_memory=in_memory):
-                    # Some put the scene behind the eye, where our project clips; theirs does not.
+                    # Some errors move the scene behind the eye, where our project clips and theirs does not.
                     self.hand_in(Student(SCENE, mistake), in_memory)
                     sentence, verdicts = self.verdict()
                     self.assertIn(f"the first stage that went wrong is {stage} ", sentence)

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""scripts/maintain/coverage-report: what it says of what gcovr has counted, and of the reasons that are given.
+"""scripts/maintain/coverage-report: its report on gcovr's counts and on the given reasons.
 
 usage: coverage_report_test.py BIN_DIR [UNITTEST ARGUMENT...]
 """

@@ -1,4 +1,4 @@
-"""Devices to write to: nobody's but root's to replace, and root gets nodes of his own."""
+"""Devices to write to: only root could replace them, and root gets nodes of its own."""
 import os
 import stat
 import unittest
@@ -7,8 +7,8 @@ IS_ROOT = os.geteuid() == 0
 
 
 def device(minor, name):
-    """A path to a memory device: /dev/NAME, which only root could replace. Root gets a node of his own, in the current folder, so
-    that a writer with a mistake harms no machine."""
+    """A path to a memory device: /dev/NAME, which only root could replace. Root gets a node of its own, in the current folder, so
+    that a faulty writer does no harm to the machine."""
     if not IS_ROOT:
         return f"/dev/{name}"
     try:

@@ -1,4 +1,4 @@
-"""An X server without a screen, for windows that nobody looks at."""
+"""An X server without a screen, for windows that nobody sees."""
 import importlib.util
 import os
 import shutil

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""scripts/fly in a window that nobody sees: keys are sent, and what it shows is compared with what the pipe writes.
+"""scripts/fly in an invisible window: the tests send keys and compare its picture with the output of the pipe.
 
 usage: fly_test.py BIN_DIR [UNITTEST ARGUMENT...]
 """
@@ -60,7 +60,7 @@ class Flying(ToolTest):
         from lib.pipe_tools import Tools
         from fly_parts.window import FlyWindow
         pathlib.Path("scene.txt").write_text(SCENE)
-        # Tools that write down when they run.
+        # Tools that log their runs.
         for tool in TOOLS:
             shim = pathlib.Path("tools", tool)
             shim.parent.mkdir(exist_ok=True)
@@ -91,7 +91,7 @@ class Flying(ToolTest):
             self.settle()
 
     def shown(self):
-        """What the window's picture holds, as PPM."""
+        """The window's picture, as PPM."""
         self.window.photo.write("shown.ppm", format="ppm")
         return pathlib.Path("shown.ppm").read_bytes()
 
@@ -99,7 +99,7 @@ class Flying(ToolTest):
         return self.window.status.cget("text")
 
     def ran(self):
-        """The stages that have run, in the order of the pipe: side by side, which is first to start is left open."""
+        """The stages that have run, in the order of the pipe: they run in parallel, so any may start first."""
         path = pathlib.Path("ran")
         words = path.read_text().split() if path.exists() else []
         path.unlink(missing_ok=True)
@@ -109,7 +109,7 @@ class Flying(ToolTest):
         self.assertEqual(self.shown(), frame_of(SCENE))
 
     def test_steps_move_the_eye_along_its_axes(self):
-        # The camera looks from (1 2 5) to the origin; a step is a twentieth of that way.
+        # The camera looks from (1 2 5) to the origin; a step is a twentieth of that distance.
         distance = math.sqrt(30)
         forward = tuple(-x / distance for x in (1, 2, 5))
         right = (5 / math.sqrt(26), 0, -1 / math.sqrt(26))
@@ -249,7 +249,7 @@ class Ending(ToolTest):
     def test_a_signal_ends_it_without_a_traceback(self):
         pathlib.Path("scene.txt").write_text(SCENE)
         for number in (signal.SIGINT, signal.SIGTERM):
-            # It says when its window waits.
+            # It prints a line when its window waits.
             program = ("import sys; sys.path.insert(0, sys.argv[1]); sys.dont_write_bytecode = True; sys.argv[1:] = ['scene.txt']\n"
                        "from importlib.machinery import SourceFileLoader as Loader; from fly_parts.window import FlyWindow\n"
                        "draw = FlyWindow.tell; FlyWindow.tell = lambda *words: (draw(*words), print('.', flush=True), sys.stdout.flush())\n"

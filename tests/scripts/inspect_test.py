@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""scripts/inspect in a real browser: what is clicked in one stage is shown in all, and pixels tell what zbuf told.
+"""scripts/inspect in a real browser: a click in one stage highlights in all, and pixels show zbuf's report.
 
 usage: inspect_test.py BIN_DIR [UNITTEST ARGUMENT...]
 """
@@ -15,7 +15,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "tools")
 from toolbox import BIN, SOURCE, ToolTest, run, stage_texts  # noqa: E402
 
 SAMPLE = SOURCE / "samples/tilted-camera"
-# Triangle 1 reaches behind the eye and is cut into two pieces; the others stand apart.
+# Triangle 1 reaches behind the eye and is cut into two pieces; the others are separate.
 SCENE = ("0 0 5\n0 0 0\n0 1 0\n60 1 1 100\ntriangle\n-2 0 0\n-1 0 0\n-2 1 0\n"
          "triangle\n0.2 -1 0\n0.2 -1 9\n3 -1 0\ntriangle\n1 1 0\n2 1 0\n1 2 0\nend\n")
 
@@ -66,12 +66,12 @@ class InABrowser(ToolTest):
         return [text.decode().split("\n") for text in stage_texts(SCENE)]
 
     def hot_lines(self, tool):
-        """Numbers and texts of the lines that are marked."""
+        """Numbers and texts of the marked lines."""
         return self.browser.run("return [...document.querySelectorAll('#text-' + arguments[0] + ' .hot')].map("
                                 "row => [Number(row.dataset.number), row.lastChild.textContent])", tool)
 
     def click_triangle(self, tool, points):
-        """Clicks where the wireframe shows the middle of a triangle."""
+        """Clicks where the wireframe shows the center of a triangle."""
         middle = [sum(axis) / 3 for axis in zip(*points)]
         at = self.browser.run("const wire = inspector.panels[['model', 'view', 'project'].indexOf(arguments[0])].wire;"
                               "const p = wire.place(...arguments[1]); return [p[0] * 480 / wire.canvas.width, p[1] * 340 / wire.canvas.height]", tool, middle)
@@ -87,7 +87,7 @@ class InABrowser(ToolTest):
         model, view, project = self.load_own_scene()
         for tool in ("model", "view"):
             text = {"model": model, "view": view}[tool]
-            first = {"model": 13, "view": 10}[tool]  # a header line or four, and two triangles of four lines before
+            first = {"model": 13, "view": 10}[tool]  # after a header of one line or four, and two triangles of four lines
             lines = text[first - 1:first + 2]
             self.click_triangle(tool, [tuple(map(float, line.split())) for line in lines])
             self.assertEqual(self.browser.run("return document.body.dataset.triangle"), "2")

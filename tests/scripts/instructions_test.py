@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""scripts/measure/bench --instructions holds every row to its committed count. The tools and valgrind are scripts here: no instruction is counted.
+"""scripts/measure/bench --instructions compares every row with its committed count. The tools and valgrind are scripts here:
+no instruction is counted.
 
 usage: instructions_test.py SOURCE_DIR
 """
@@ -22,7 +23,7 @@ from parts.instruction_rows import ROWS, Row
 
 HEADER = "row,kernel,compiler,instructions\n"
 VIEW, ZBUF = Row("one view", "view one-world.txt", "portable"), Row("one zbuf", "zbuf tiny.txt one-screen.txt", "portable")
-# Says that the tool, its fourth word, takes as many instructions as a file beside this script says, and keeps what it was given.
+# Reports the count from the tool's file beside this script, and records its own environment and arguments.
 VALGRIND = """#!/bin/sh
 tool=${3#bin/}
 env > "$0.environment"
@@ -100,7 +101,7 @@ class Instructions(unittest.TestCase):
 
     def test_another_compiler_skips_the_row_and_is_named(self):
         self.commit("one view,portable,GCC 12.2.0,1", "one zbuf,portable,GCC 12.2.0,1000000")
-        # Startup objects of GCC's are in what clang links.
+        # Programs linked by clang contain GCC's startup objects.
         (self.tools / "view").write_text("GCC: (Debian 12.2.0-14+deb12u1) 12.2.0\0Debian clang version 14.0.6\0")
         status, lines = self.hold(VIEW, ZBUF)
         self.assertEqual((status, lines[-1]), (0, "1 passed, 0 failed, 1 skipped"))

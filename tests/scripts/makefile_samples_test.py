@@ -41,7 +41,7 @@ class OnACopy(unittest.TestCase):
         return self.root / "samples" / sample / name
 
     def replace(self, tool, text):
-        """Puts a script in the place of a tool."""
+        """Replaces a tool by a script."""
         (self.bin / tool).unlink()
         (self.bin / tool).write_text(text)
         (self.bin / tool).chmod(0o755)

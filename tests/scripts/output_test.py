@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What the scripts write in Python appears complete or not at all, and nothing else changes.
+"""The files that the Python scripts write appear complete or not at all, and nothing else changes.
 
 usage: output_test.py BIN_DIR [UNITTEST ARGUMENT...]
 """
@@ -31,7 +31,7 @@ def script(name, *words, **settings):
 
 
 def in_fly(python, **settings):
-    """Runs a line with fly's window in it, as far as it writes; no display is needed for that."""
+    """Runs a line with fly's window, for its writing only; that needs no display."""
     program = ("import sys; sys.path.insert(0, sys.argv[1]); sys.dont_write_bytecode = True\n"
                "from fly_parts.window import FlyWindow\n"
                "window = FlyWindow.__new__(FlyWindow); window.say = print\n" + python)
@@ -43,7 +43,7 @@ def mode_of(path):
 
 
 class Writers:
-    """Claims about every command that writes a file; `write(path)` runs one, `is_whole(bytes)` knows its output."""
+    """Claims about every command that writes a file; `write(path)` runs one, `is_whole(bytes)` checks its output."""
     status = 1
 
     def assert_written(self, done):
@@ -93,7 +93,7 @@ class Writers:
             self.assertEqual(os.listdir("there"), ["x"])
 
     def test_nobodys_file_is_in_the_way(self):
-        """Names that were predictable, and links from them."""
+        """Predictable names, and links from them."""
         pathlib.Path("precious").write_text("mine")
         pathlib.Path("x.new").write_text("mine")
         os.symlink("precious", "y.new")
@@ -188,7 +188,7 @@ class Inspect(Writers, ToolTest):
         return data.startswith(b"<!") and data.rstrip().endswith(b"</html>")
 
     def test_where_there_is_no_room_the_old_file_stays(self):
-        """zbuf's own files have room, the page has not."""
+        """zbuf's own files fit on the disk, the page does not."""
         def limit():
             resource.setrlimit(resource.RLIMIT_FSIZE, (10000, 10000))
         pathlib.Path("x").write_text("old")
@@ -219,7 +219,7 @@ class Inspect(Writers, ToolTest):
 
 
 class Fly(ToolTest):
-    """What p and P write goes through the same module; an error is said in the window."""
+    """p and P write through the same module; the window shows the error."""
 
     def test_what_it_writes_is_whole(self):
         os.mkdir("folder")
@@ -264,7 +264,7 @@ class MakeTorus(ToolTest):
 
 
 class OwnFiles(ToolTest):
-    """Descriptors that are written to; nothing is written here."""
+    """Descriptors the scripts write to; these tests write nothing themselves."""
 
     def test_names_of_the_process_own_files(self):
         sys.path.insert(0, str(SCRIPTS))
@@ -279,7 +279,7 @@ class OwnFiles(ToolTest):
 
 class Tools(ToolTest):
     def test_the_current_folder_may_be_theirs(self):
-        """Not what the PATH has under these names."""
+        """Not the programs of the same names on the PATH."""
         for tool in ("model", "view", "project", "zbuf"):
             os.symlink(BIN / tool, tool)
         done = subprocess.run([SCRIPTS / "inspect", "scene.txt", "config.txt"], capture_output=True, env={"BIN": ".", "PATH": "/usr/bin:/bin"})

@@ -1,9 +1,9 @@
-"""Runs every command of the README's console blocks and compares what it prints.
+"""Runs every command of the README's console blocks and compares its output.
 
 usage: readme_test.py BIN_DIR SOURCE_DIR
 
-In a block ```console a line '$ COMMAND' is run by bash in the source folder with the tools on the PATH; the lines up to the
-next command are what it has to print, on stdout and stderr together.
+In a block ```console bash runs each line '$ COMMAND' in the source folder with the tools on the PATH; the lines up to the
+next command are its expected output, stdout and stderr together.
 """
 import os
 import pathlib
@@ -18,7 +18,7 @@ BIN_DIR, SOURCE_DIR = (pathlib.Path(word).resolve() for word in sys.argv[1:3])
 
 
 def examples():
-    """Pairs of a command and what it prints."""
+    """Pairs of a command and its expected output."""
     readme = (SOURCE_DIR / "README.md").read_text()
     for block in re.findall(r"^```console\n(.*?)^```$", readme, re.M | re.S):
         for example in re.split(r"^\$ ", block, flags=re.M)[1:]:

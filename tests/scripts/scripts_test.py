@@ -66,7 +66,7 @@ class ThroughALink(ToolTest):
         self.assertEqual((self.elsewhere / "five/stage3.txt").read_bytes(), (sample / "stage3.txt").read_bytes())
 
     def test_a_command_that_maintains_finds_the_source_tree(self):
-        done = self.call("maintain/tidy")  # which fails, as the copy cannot be built
+        done = self.call("maintain/tidy")  # it fails, since the copy cannot be built
         self.assertEqual(done.returncode, 1)
         self.assertTrue((self.tree / "build/tidy.log").exists())
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""scripts/stages: all five files or none, whatever is in their place, and whatever anything is called.
+"""scripts/stages: all five files or none, whatever was there before, and whatever the names.
 
 usage: stages_test.py BIN_DIR [UNITTEST ARGUMENT...]
 """
@@ -99,7 +99,7 @@ class Stages(ToolTest):
         reader = threading.Thread(target=lambda: got.append(pathlib.Path("dir/out.bmp").read_bytes()))
         reader.start()
         done = self.stages("dir", preexec_fn=lambda: os.umask(0o027))
-        with contextlib.suppress(OSError):  # so that the reader ends if nobody writes
+        with contextlib.suppress(OSError):  # so that the reader ends if there is no writer
             os.close(os.open("dir/out.bmp", os.O_WRONLY | os.O_NONBLOCK))
         reader.join(60)
         self.assertEqual((done.stderr.decode(), done.returncode), ("", 0))

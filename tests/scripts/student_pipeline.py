@@ -1,7 +1,7 @@
-"""A student's stages 1 to 3, in plain doubles with 4 x 4 matrices, and with the mistakes that students make.
+"""A student's stages 1 to 3, in plain doubles with 4 x 4 matrices, and with students' errors.
 
-A mistake is a word: "swapped 1" and "swapped 2" (rows and columns of the rotation), "radians 1" and "radians 3" (degrees taken
-for radians by the rotations, in the field of view), "up", "divide", "handedness", "rounding".
+An error is a word: "swapped 1" and "swapped 2" (rows and columns of the rotation), "radians 1" and "radians 3" (degrees taken
+as radians by the rotations, or in the field of view), "up", "divide", "handedness", "rounding".
 """
 import math
 
@@ -100,7 +100,7 @@ class Student:
         return [(x, y, z) if self.made("divide") else (x / w, y / w, z / w) for x, y, z, w in (image(m, p) for p in points)]
 
     def text(self, points):
-        """Stage text; a student who rounds cuts the decimals off."""
+        """Stage text; the student who does not round correctly truncates the decimals."""
         lines = []
         for i, p in enumerate(points):
             cut = [math.trunc(x * 1e7) / 1e7 for x in p] if self.made("rounding") else p
@@ -108,7 +108,7 @@ class Student:
         return "".join(lines)
 
     def texts(self, in_memory=True):
-        """The three stage texts; each stage calculates with the numbers of the one before, or reads its text."""
+        """The three stage texts; each stage continues with the numbers of the previous one, or reads its text."""
         def handed_on(points):
             return points if in_memory else [tuple(map(float, line.split())) for line in self.text(points).split("\n") if line]
 

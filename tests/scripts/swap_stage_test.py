@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""A stage can be replaced by something that reads and writes the same text.
+"""A stage can be replaced by any program that reads and writes the same text.
 
 usage: swap_stage_test.py BIN_DIR SOURCE_DIR
 """
@@ -16,7 +16,7 @@ environment = dict(os.environ, LC_ALL="C")
 
 
 def run(*command, stdin=b""):
-    """The command's stdout; the first word is a tool of ours if there is one of that name."""
+    """The command's stdout; a first word that names a tool stands for ours."""
     tool = bin_dir / command[0]
     words = [tool if tool.exists() else command[0], *command[1:]]
     done = subprocess.run(words, input=stdin, stdout=subprocess.PIPE, env=environment, check=True)
@@ -32,7 +32,7 @@ def picture(stage3, config):
 
 class SwappedStage(unittest.TestCase):
     def setUp(self):
-        # Its camera looks down -z with y up, which is what view.awk can do.
+        # Its camera looks down -z with y up, as view.awk requires.
         self.sample = source / "samples" / "nested-transforms"
         self.scene = self.sample / "scene.txt"
         self.expected = (self.sample / "z_buffer.txt").read_bytes(), (self.sample / "out.bmp").read_bytes()
@@ -68,7 +68,7 @@ class SwappedStage(unittest.TestCase):
         self.assertTrue(picture(stage3, self.sample / "config.txt") == self.expected, "the picture differs")
 
     def assert_close(self, got, want):
-        """The same numbers but for one unit in the seventh decimal: the stage before was rounded."""
+        """The same numbers up to one unit in the seventh decimal, since the stage before was rounded."""
         got, want = ([round(float(word) * 10**7) for word in text.split()] for text in (got, want))
         self.assertEqual(len(got), len(want))
         self.assertLessEqual(max(abs(p - q) for p, q in zip(got, want)), 1)

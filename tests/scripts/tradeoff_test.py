@@ -1,4 +1,4 @@
-"""Runs scripts/measure/tradeoff on its tiny scenes and compares what it finds with what arithmetic says.
+"""Runs scripts/measure/tradeoff on its tiny scenes and compares its results with arithmetic.
 
 usage: tradeoff_test.py BIN_DIR SOURCE_DIR
 """
@@ -41,7 +41,7 @@ class Tradeoff(unittest.TestCase):
         return float(self.rows[scene, setting][column])
 
     def values(self, column):
-        """By scene and setting, where there is one."""
+        """A column's values by scene and setting, if measured."""
         return {key: float(row[column]) for key, row in self.rows.items() if row[column]}
 
     def test_every_value_that_the_tools_offer_is_measured(self):
@@ -105,8 +105,8 @@ class Tradeoff(unittest.TestCase):
                 self.assertEqual(error, self.value(scene, "default", "vertex_error_pixels"))
 
     def test_two_layers_need_two_digits_more_for_a_hundred_times_the_range(self):
-        # Between the planes lie depths of 1.6e-7, 1.6e-9 and 1.6e-11 or more; rounding takes away one unit of the last
-        # decimal at most.
+        # The planes are 1.6e-7, 1.6e-9 and 1.6e-11 or more apart in depth; rounding removes at most one unit of the last
+        # decimal.
         for scene, enough, too_few in (("layers 1e2", "default", "--digits 5"), ("layers 1e4", "--digits 9", "default"),
                                        ("layers 1e6", "--digits 12", "--digits 9")):
             self.assertEqual(self.value(scene, enough, "wrong_pixels"), 0, scene)
@@ -141,7 +141,7 @@ class Tradeoff(unittest.TestCase):
             self.assertEqual(row[0], 0)
             self.assertEqual(row, sorted(row))
             self.assertLess(difference[scene, "default"], difference[scene, "--shading flat"])
-        # What is hidden anyway may be dropped, and what is outside shows nowhere.
+        # Dropping triangles that are hidden or outside changes no picture.
         for setting in ("--clip near", "--clip frustum", "--clip reject", "--cull back"):
             self.assertLess(abs(difference["shaded-torus", setting] - difference["shaded-torus", "default"]), 0.2, setting)
 
