@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Reads, writes, renames and requests for memory that fail at any call: the exit status is not 0 or the output is right, an older
-good file stays, nothing else is left.
+"""Reads, writes, renames and memory requests fail at any call: the exit status is not 0 or the output is right, an older
+good file stays, and nothing else is left.
 
 usage: tools/calls_test.py BIN_DIR FAULT_SHIM [UNITTEST ARGUMENT...]
 """
@@ -19,10 +19,10 @@ SHIM = str(pathlib.Path(sys.argv.pop(1)).resolve())
 
 
 class FaultTest(OlderImageTest):
-    """One call fails (fault_shim.cpp), for every number of the call that a run comes to."""
+    """Lets one call fail (fault_shim.cpp), for every number of the call that a run reaches."""
 
     def run_with_fault(self, call, number, error, tool, operands, text):
-        """The run, and whether it came to the call."""
+        """The run, and whether it reached the call."""
         mark = pathlib.Path(self.outside, "mark")
         mark.unlink(missing_ok=True)
         environment = {"LD_PRELOAD": SHIM, "FAULT_CALL": call, "FAULT_AT": str(number), "FAULT_ERRNO": str(error),
@@ -38,7 +38,7 @@ class FaultTest(OlderImageTest):
 
 class Faults(FaultTest):
     def each_failing_call(self, call, error, *options):
-        """(what failed, run, good output) until a run does not come to the call."""
+        """(failure, run, good output) until a run does not reach the call."""
         for tool, operands, text in small_inputs():
             operands = [*operands, *options]
             good, _ = self.good_run(tool, operands, text)
@@ -65,10 +65,10 @@ class Faults(FaultTest):
         self.check_failures("write", errno.ENOSPC)
 
     def test_any_read_that_fails_is_a_failure(self):
-        self.check_failures("read", errno.EIO, may_succeed=True)  # not those of the C library's start
+        self.check_failures("read", errno.EIO, may_succeed=True)  # not the C library's own reads at startup
 
     def test_any_close_that_fails_says_so_where_data_may_be_lost(self):
-        self.check_failures("close", errno.EIO, may_succeed=True)  # not of a file that was only read
+        self.check_failures("close", errno.EIO, may_succeed=True)  # not the close of a file that was only read
 
     def test_the_image_waits_for_the_close_of_standard_output(self):
         for tool, operands, text in small_inputs():
@@ -80,7 +80,7 @@ class Faults(FaultTest):
     def check_allocations(self, *options):
         without_memory = 0
         for which, done, good in self.each_failing_call("malloc", errno.ENOMEM, *options):
-            if done.returncode == 0:  # the C library and the C++ library's start can do without some
+            if done.returncode == 0:  # some allocations of the C library and of the C++ library's startup are dispensable
                 self.assertEqual(done.stdout, good, which)
                 pathlib.Path("out.bmp").write_bytes(OLD_IMAGE)
             else:
@@ -99,7 +99,7 @@ class Faults(FaultTest):
         self.check_allocations("--threads", 2)
 
     def test_while_threads_draw_a_long_text(self):
-        # Of more forms than one.
+        # The triangles have several text forms.
         triangles = "".join(f"0.{i:07} 0.5 -3\n0.1234567 0.{i:07} -4\n1 2 -5.5\n\n" for i in range(6000))
         pathlib.Path("config.txt").write_text("20 20\n")
         without_memory = 0
@@ -160,7 +160,7 @@ class Faults(FaultTest):
             self.assert_as_before()
 
     def test_a_bmp_is_written_from_its_end_where_the_file_can_seek(self):
-        """The first seek only asks; without it the picture is kept until it can be written as a whole."""
+        """The first seek is only a probe; if it fails, the picture is kept until it can be written as a whole."""
         tool, operands, text = small_inputs()[3]
         good, image = self.good_run(tool, operands, text)
         done, was_reached = self.run_with_fault("seek", 1, errno.ESPIPE, tool, operands, text)
@@ -183,10 +183,10 @@ class Faults(FaultTest):
 
 
 class ManyFiles(FaultTest):
-    """zbuf writes several files, some through libpng: all are the old ones until everything is written."""
+    """zbuf writes several files, some through libpng: until everything is written, all of them are the old ones."""
 
     def each_failing_call(self, call, error, options):
-        """(what failed, run, the files then, the good files) until a run does not come to the call."""
+        """(failure, run, the files then, the good files) until a run does not reach the call."""
         names = [word for word in options if "." in word]
         text = stage_texts()[2]
         done = run("zbuf", "config.txt", *options, stdin=text)
@@ -209,7 +209,7 @@ class ManyFiles(FaultTest):
 
     def check(self, call, error, *options, some_may_be_new=False):
         for which, done, files, good in self.each_failing_call(call, error, options):
-            if done.returncode == 0:  # a close of what was only read, an allocation that can be done without
+            if done.returncode == 0:  # the close of a file that was only read, or a dispensable allocation
                 self.assertEqual((files, call in ("close", "malloc")), (good, True), which)
                 continue
             self.assertEqual((done.returncode, len(done.stderr.splitlines())), (1, 1), which)

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""project --clip-inset: the planes of --clip stand nearer together.
+"""project --clip-inset moves the planes of --clip inward.
 
 usage: clip_inset_test.py BIN_DIR [UNITTEST ARGUMENT...]
 """
@@ -12,7 +12,7 @@ PERSPECTIVE = "perspective 90 1 1 3\n"  # x and y are -x/z and -y/z in NDC
 
 
 def wall(z, size):
-    """Two triangles that make a square of view space."""
+    """Two triangles that form a square in view space."""
     return (f"{-size} {-size} {z}\n{size} {-size} {z}\n{size} {size} {z}\n\n"
             f"{-size} {-size} {z}\n{size} {size} {z}\n{-size} {size} {z}\n\n")
 
@@ -39,7 +39,7 @@ class ClipInset(ToolTest):
                 self.assertAlmostEqual(sum(map(area, pieces)), (2 * extent) ** 2, 6)
 
     def test_near_and_far_come_nearer_together(self):
-        slope = ORTHO + "0 0 -0.5\n0.1 0 -3.5\n0 0.1 -3.5\n\n"  # z in NDC is the distance less 2
+        slope = ORTHO + "0 0 -0.5\n0.1 0 -3.5\n0 0.1 -3.5\n\n"  # z in NDC is the distance minus 2
         for clip, low, high in (("frustum", -0.75, 0.75), ("near", -0.75, 1.5)):
             depths = [z for piece in self.cut(slope, "0.25", clip) for *_, z in piece]
             self.assertEqual((min(depths), max(depths)), (low, high))

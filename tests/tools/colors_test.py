@@ -46,7 +46,7 @@ class ThroughTheStages(ToolTest):
             "1.0000000 1.0000000 0.0000000 1.0000000 2.0000000 3.0000000 1.0000000 0.0000000 0.0000000\n\n"))
 
     def test_view_takes_the_lights_and_normals_along(self):
-        # Seen from +x, what points along +x points at the eye (+z), and +z is to the left.
+        # Seen from +x, a normal along +x points at the eye (+z), and +z is to the left.
         scene = LIT.replace("0 0 5\n", "5 0 0\n", 1)
         text = pipe(["model"], ["view"], stdin=scene)
         self.assertIn("light 0 2 -4 1 0.5 0\n", text.decode())
@@ -55,7 +55,7 @@ class ThroughTheStages(ToolTest):
     def test_project_adds_w_and_says_what_it_projected_by(self):
         text = pipe(["model"], ["view"], ["project"], stdin=LIT)
         header = text.decode().splitlines()[:8]
-        top = float(1 / decimal.Decimal(3).sqrt())  # near tan 30 degrees, the nearest double
+        top = float(1 / decimal.Decimal(3).sqrt())  # near tan 30 degrees: the nearest double
         self.assertEqual(header[0], f"frustum {-top!r} {top!r} {-top!r} {top!r} 1 100")
         self.assertEqual(header[1], "attributes w color normal")
         self.assertEqual(header[-2], "light 1 2 -5 1 0.5 0")
@@ -77,7 +77,7 @@ class ThroughTheStages(ToolTest):
         lit = CAMERA.replace("60 1 1 100", "90 1 1 3").replace("0 0 5", "0 0 0", 1).replace("0 0 0\n0 1 0", "0 0 -1\n0 1 0")
         lit += "color 9 8 7\nLIGHTtriangle\n-1 0 -3\n1 0 -3\n0 2 0.5\nend\n"
         text = pipe(["model"], ["view"], ["project", "--digits", "2"], stdin=lit.replace("LIGHT", "light 0 0 0 1 1 1\n"))
-        # From d = 3 to d = -0.5 the near plane, d = 1, is met after 4/7.
+        # From d = 3 to d = -0.5 an edge crosses the near plane, d = 1, after 4/7.
         body = text.decode().split("light 0 0 0 1 1 1\n")[1]
         self.assertEqual(body, (
             "clipped\n-1 0 3 3 9 8 7\n1 0 3 3 9 8 7\n0 2 -4 -0.5 9 8 7\n\n"
@@ -117,7 +117,7 @@ class ThroughTheStages(ToolTest):
 
 class Normals(ToolTest):
     def normal_after(self, transform, normal):
-        """Of a triangle that has this normal, in world space."""
+        """The printed normal of a triangle with this normal, in world space."""
         triangle = "".join(f"{p} {normal}\n" for p in ("0 0 0", "1 0 0", "0 1 0"))
         scene = CAMERA + f"attributes normal\n{transform}\ntriangle\n{triangle}end\n"
         return vertices(pipe(["model", "--digits", "exact"], stdin=scene))[0][3:]
@@ -152,13 +152,13 @@ class Normals(ToolTest):
 
 
 class Clipping(ToolTest):
-    # One vertex stands behind the eye: cuts at z = -1, half-way from (0 0 -2) to (0 0 0)... in clip space.
+    # One vertex is behind the eye: the cuts are at z = -1, half-way from (0 0 -2) to (0 0 0) in clip space.
     TEXT = ("perspective 90 1 1 100\nattributes color normal\n"
             "-3 0 -3 0 0 0 1 0 0\n3 0 -3 90 0 0 0 1 0\n0 1 1 200 40 0 0 0 1\n\n")
 
     def test_interpolates_attributes_in_clip_space(self):
         text = pipe(["project", "--digits", "exact"], stdin=self.TEXT)
-        # w runs from 3 to -1, so it is 1 half-way: the colors there are the means, and so are the normals.
+        # w goes from 3 to -1, so it is 1 half-way: there the colors and the normals are the means.
         by_color = {tuple(v[4:7]): v for v in vertices(text)}
         self.assertEqual(set(by_color), {(0, 0, 0), (90, 0, 0), (145, 20, 0), (100, 20, 0)})
         self.assertEqual(by_color[145, 20, 0][3:], [1, 145, 20, 0, 0, 0.5, 0.5])

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Disks that fill at any byte, folders and file systems that cannot be written: the exit status is not 0, an older good file
-stays, nothing else is left.
+"""Disks that fill up at any byte, folders and file systems that are not writable: the exit status is not 0, an older good
+file stays, and nothing else is left.
 
 usage: disk_test.py BIN_DIR [UNITTEST ARGUMENT...]
 """
@@ -20,7 +20,7 @@ NOBODY = 65534
 
 class FilledDisk(OlderImageTest):
     def run_limited(self, size, tool, operands, text):
-        """A run that may write no file beyond `size` bytes; stdout is a file elsewhere."""
+        """A run that may write no file beyond `size` bytes; stdout is a file in another folder."""
         with tempfile.TemporaryFile() as out:
             done = run(tool, *operands, stdin=text, stdout=out,
                        preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (size, size)))
@@ -69,10 +69,10 @@ class Folders(OlderImageTest):
 
 
 class SmallFileSystem(OlderImageTest):
-    """File systems of the test's own, in a namespace that ends with the command."""
+    """Private file systems, in a namespace that ends with the command."""
 
     def run_there(self, mount_options, words, text):
-        """A command in a new file system that holds the older image; afterwards what that file system holds is listed on stdout."""
+        """Runs a command in a new file system that holds the older image, then lists that file system on stdout."""
         script = ('mkdir there && mount -t tmpfs -o size=64k none there && cp out.bmp there || exit 77; cd there; mount -o "remount,$0" . || exit 77; '
                   '"$@"; status=$?; cmp -s out.bmp ../out.bmp && echo the older image; ls -A; exit $status')
         done = subprocess.run(["unshare", "--mount", "--map-root-user", "sh", "-c", script, mount_options, *words], input=text,

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""A failure in one stage reaches the end of the pipe: no picture is written of a text that is not whole.
+"""A failure in one stage reaches the end of the pipe: an incomplete text gives no picture.
 
 usage: failures_test.py BIN_DIR [UNITTEST ARGUMENT...]
 """
@@ -14,7 +14,7 @@ OLD_IMAGE = b"an older image\x00\xff"
 
 
 def shell(text, **settings):
-    """Runs a line of shell in which the tools are found by their names."""
+    """Runs a shell line in which the tools are on the PATH."""
     environment = {"PATH": f"{BIN}:/usr/bin:/bin"}
     return subprocess.run(["sh", "-c", text], stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=60,
                           env=environment, **settings)

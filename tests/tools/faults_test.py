@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Full disks, closed pipes, missing channels: nothing is lost silently, nothing waits for ever, nothing is left behind.
+"""Full disks, closed pipes, missing channels: nothing is lost silently, nothing waits forever, nothing is left behind.
 
 usage: faults_test.py BIN_DIR [UNITTEST ARGUMENT...]
 """
@@ -19,7 +19,7 @@ OLD_IMAGE = b"an older image"
 
 
 def small_and_large_inputs():
-    """(tool, input) with an output below and far above 64 KiB."""
+    """(tool, input) pairs with an output below and far above 64 KiB."""
     for count in (1, 5000):
         yield "model", CAMERA + TRIANGLE * count + "end\n"
         yield "view", HEADER + VERTICES * count
@@ -35,7 +35,7 @@ class FaultTest(ToolTest):
         pathlib.Path("out.bmp").write_bytes(OLD_IMAGE)
 
     def assert_nothing_happened(self):
-        """The older image is as it was and no temporary file is left."""
+        """The older image is unchanged and no temporary file is left."""
         self.assertEqual(pathlib.Path("out.bmp").read_bytes(), OLD_IMAGE)
         self.assertEqual([name for name in self.files() if name not in ("config.txt", "scene.txt", "input.txt")], ["out.bmp"])
 
@@ -98,7 +98,7 @@ class FileSizeLimit(FaultTest):
 
 
 class ClosedReader(FaultTest):
-    """Whoever reads the output has gone, as `head` does."""
+    """The reader of the output has gone, as `head` does."""
 
     def run_without_reader(self, tool, text, ignore):
         pathlib.Path("input.txt").write_text(text)
@@ -111,7 +111,7 @@ class ClosedReader(FaultTest):
             done = run(tool, *OPERANDS[tool], "input.txt", stdout=writing, **settings)
         finally:
             os.close(writing)
-        self.assertLess(time.monotonic() - begin, 3)  # a second, and room for a busy machine
+        self.assertLess(time.monotonic() - begin, 3)  # a second, plus slack for a busy machine
         self.assertEqual(done.stderr, b"")
         return done.returncode
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""zbuf --probe and --fragments, end to end: what they tell is what zbuf draws.
+"""zbuf --probe and --fragments, end to end: their reports match zbuf's picture.
 
 usage: fragments_test.py BIN_DIR [UNITTEST ARGUMENT...]
 """
@@ -14,7 +14,7 @@ from toolbox import SOURCE, ToolTest, pipe, run
 LINE = re.compile(r"(\d+),(\d+): triangle (\d+), depth (\S+): (kept|lost, .*)")
 # Without colors of their own.
 SAMPLES = sorted(path for path in SOURCE.glob("samples/*/stage3.txt") if "attributes" not in path.read_text())
-# The 4 x 4 screen's pixel (1, 2) has its center at (-0.25, -0.25).
+# In a 4 x 4 picture, pixel (1, 2) has its center at (-0.25, -0.25).
 LIMITS = "4 4\n-1\n-1\n0 1\n"
 
 
@@ -32,7 +32,7 @@ def colors_by_number(count):
 
 
 def random_triangles(count, seed):
-    """Triangles of few depths, some beyond the limits, so that every fate turns up."""
+    """Triangles at few depths, some beyond the limits, so that every fate occurs."""
     numbers = random.Random(seed)
     def vertex(z):
         return f"{numbers.uniform(-1.5, 1.5):.7f} {numbers.uniform(-1.5, 1.5):.7f} {z:.7f}\n"
@@ -95,8 +95,8 @@ class Fragments(ToolTest):
         self.assertEqual(self.files(), ["config.txt", "scene.txt"])
 
     def assert_tells_what_is_drawn(self, config, stage3, *options):
-        """The last fragment kept at each pixel gives its depth, and its color where the text has none of its own; without one
-        it is the background."""
+        """The last fragment kept at each pixel gives its depth, and its color if the text has none; a pixel without one
+        shows the background."""
         is_plain = not stage3.lstrip()[:1].isalpha()
         done = self.zbuf("--fragments", "fragments.txt", *options, stdin=stage3, config=config)
         columns, rows = map(int, config.split()[:2])

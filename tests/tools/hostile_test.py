@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Texts no one would write: cut at any byte, huge, of no text at all. The answer is one message with its place, or the
-output of what the text now says, in little memory.
+"""Texts that nobody would write: cut at any byte, huge, or no text at all. The result is one message with its location, or
+the output for the text as it now reads, in little memory.
 
 usage: hostile_test.py BIN_DIR [UNITTEST ARGUMENT...]
 """
@@ -51,7 +51,7 @@ class Hostile(ToolTest):
                     self.assert_placed(done, tool, text[:length])
                 else:
                     self.assertEqual(done.stderr, b"")
-                    # Three vertices are there, or none.
+                    # Three vertices are complete, or none.
                     body = [line for line in text[:length].split(b"\n") if re.match(rb"-?\d", line)]
                     self.assertIn(len(body), (0, 3), text[:length])
                     whole += 1
@@ -86,7 +86,7 @@ class Hostile(ToolTest):
                 pathlib.Path("config.txt").write_bytes(changed)
                 done = run("zbuf", "config.txt")
                 if done.returncode == 0:
-                    # What it reads has as many rows as the text says.
+                    # The output has as many rows as the text gives.
                     rows = int(changed.split()[1])
                     self.assertEqual((done.stderr, done.stdout.count(b"\n")), (b"", rows), changed)
                     read += 1

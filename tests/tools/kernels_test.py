@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The text stages write the same bytes on every kind of processor: PIPELINE_KERNEL chooses the fast paths of an older one.
+"""The text stages write the same bytes on every kind of processor: PIPELINE_KERNEL selects the fast paths of an older one.
 
 usage: kernels_test.py BIN_DIR [UNITTEST ARGUMENT...]
 """
@@ -15,7 +15,7 @@ DIGITS = ([], ["--digits", "3"], ["--digits", "12"], ["--digits", "17"], ["--dig
 
 
 def random_text(count):
-    """Triangles in front of the eye; numbers of few digits and of many, ties at the eighth decimal among them."""
+    """Triangles in front of the eye; numbers of few and of many digits, some of them ties at the eighth decimal."""
     rng = random.Random(1)
 
     def number(low, high):
@@ -27,7 +27,7 @@ def random_text(count):
 
 class Kernels(ToolTest):
     def assert_same(self, tool, *options, stdin):
-        """The text, which every kernel writes."""
+        """The text that every kernel writes."""
         texts = {kernel: run(tool, *options, stdin=stdin, env=os.environ | {"PIPELINE_KERNEL": kernel}) for kernel in KERNELS}
         for kernel, done in texts.items():
             self.assertEqual((done.stderr, done.returncode), (texts["portable"].stderr, 0))

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Neighbors that are killed: no picture of a part of a framed scene ever appears.
+"""Stages of a pipe are killed: no picture of a part of a framed scene ever appears.
 
 usage: killed_test.py BIN_DIR [UNITTEST ARGUMENT...]
 """
@@ -14,13 +14,13 @@ from toolbox import CAMERA, TRIANGLE, command
 
 
 class KilledStages(OlderImageTest):
-    """A stage is killed (SIGKILL) when a random part of the scene has been sent."""
+    """A stage is killed (SIGKILL) after a random part of the scene has been sent."""
 
     SCENE = CAMERA + TRIANGLE * 3000 + "end\n"
     STAGES = (["model", "--framed"], ["view"], ["project"], ["zbuf", "--framed", "config.txt"])
 
     def start_pipe(self):
-        """The four processes and the end to write the scene to."""
+        """The four processes, and the pipe end that takes the scene."""
         processes, before, feed = [], subprocess.PIPE, None
         for tool, *options in self.STAGES:
             last = tool == "zbuf"
@@ -35,7 +35,7 @@ class KilledStages(OlderImageTest):
         return processes, feed
 
     def run_pipe(self, victim, sent):
-        """Kills stage `victim` after so many bytes; None for nobody. The statuses."""
+        """Kills stage `victim` (None for no stage) after so many bytes; returns the exit statuses."""
         processes, feed = self.start_pipe()
         text = self.SCENE.encode()
         try:
@@ -64,7 +64,7 @@ class KilledStages(OlderImageTest):
                 with self.subTest(victim=self.STAGES[victim][0], sent=sent):
                     statuses = self.run_pipe(victim, sent)
                     image = pathlib.Path("out.bmp").read_bytes()
-                    # A stage that had done its part before the signal came is not missed.
+                    # A stage that had already finished when the signal came is no loss.
                     self.assertEqual(image, good if statuses[3] == 0 else OLD_IMAGE)
                     self.assertTrue(statuses[victim] == -signal.SIGKILL or statuses == [0, 0, 0, 0], statuses)
                     self.assertEqual(self.files(), ["config.txt", "out.bmp", "scene.txt"])

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Every mistake gets one line on stderr: the tool, the place of the mistake, what was expected and what was found.
+"""Every error gets one line on stderr: the tool, the location, the expected and the found text.
 
 usage: messages_test.py BIN_DIR [UNITTEST ARGUMENT...]
 """
@@ -98,7 +98,7 @@ add_claims(SceneMessages, [
     ("a rotation axis is not zero", CAMERA + "rotate\n90 0 0.0 -0\n", "6:4: expected a rotation axis, found 0 0 0"),
     ("a vertex may leave a doubles range", CAMERA + "scale 1e200 1 1\nscale 1e200 1 1\ntriangle\n0 0 0\n1 0 0\n0 1 0\nend\n",
      f"9:1: {IN_RANGE}, found an overflow of its x"),
-    # How things look.
+    # Appearance.
     ("a color has three channels", CAMERA + "color 1 2\n", "5:10: expected the blue of the color, found the end of the line"),
     ("a channel is at most 255", CAMERA + "color\n\t1 256 0\n", "6:4: expected the green of the color from 0 to 255, found '256'"),
     ("a channel is not negative", CAMERA + "background 1 2 -1\n",
@@ -143,7 +143,7 @@ add_claims(SceneMessages, [
 
 
 class StageMessages(ToolTest):
-    """The three readers of stage text find the same mistakes."""
+    """The three readers of stage text find the same errors."""
 
     def check(self, text, message):
         pathlib.Path("stage.txt").write_text(text)
@@ -230,7 +230,7 @@ add_claims(CameraMessages, [
      f"<stdin>:2:1: {IN_FRONT}, found z = 2"),
     ("a cut may be too near to the eye", "project",
      "perspective 120 1 1e-200 1e200\n1.8 -0.4 0.4\n-0.3 -1.1 1.0\n0.9 -0.6 -2.0\n", 1,
-     # The first cut lies on the edge from vertex 2 to vertex 3, two thirds of it nearer to vertex 2.
+     # The first cut is on the edge from vertex 2 to vertex 3, a third of the way along.
      "<stdin>:3:1: expected a cut that 31 digits can tell from the eye plane (a larger near helps), found one nearer to it"),
     ("a vertex may leave a doubles range in view", "view --eye 1e308 0 0 --look 0 1e308 0 --up 0 0 1",
      "0 0 0\n-1e308 -1e308 0\n0 0 0\n", 1,
@@ -274,14 +274,14 @@ add_claims(CameraMessages, [
 
 
 class VertexPlaces(ToolTest):
-    """What a stage finds out by calculating, it says at the vertex: by every kernel."""
+    """An error found by calculating is reported at the vertex, by every kernel."""
 
     GOOD = "0.0000000 0.0000000 -2.0000000"
     # A vertex's line, and the column of its first number.
     LINES = (("{}", 1), ("  {}", 3), ("\t {}", 3), ("{} # here", 1), ("   {}\r", 4), (" {} \t", 2))
 
     def assert_placed(self, tool, *options, header, frame, x, reason):
-        """The mistake is the x of vertex 2 of triangle 1000; `frame` makes a triangle of three lines."""
+        """The error is the x of vertex 2 of triangle 1000; `frame` makes a triangle of three lines."""
         for vertex in (f"{x} 0 -2", f"{x} 0.000000000 -2e0"):
             for form, column in self.LINES:
                 good = "".join(frame(*3 * (self.GOOD,)) for _ in range(1000))
@@ -306,7 +306,7 @@ class VertexPlaces(ToolTest):
                            reason=f"{IN_RANGE}, found an overflow of its x")
 
     def test_view(self):
-        # Turned by 180 degrees about y, and the eye is subtracted: 1.7e308 + 1.7e308.
+        # Turned by 180 degrees about y, then the eye is subtracted: 1.7e308 + 1.7e308.
         self.assert_placed("view", header="eye 1.7e308 0 0\nlook 1.7e308 0 1\nup 0 1 0\n", frame=self.of_stage_text,
                            x="-1.7e308", reason=f"{IN_RANGE}, found an overflow of its x")
 
@@ -333,7 +333,7 @@ class VertexPlaces(ToolTest):
         self.assert_fails(run("model", stdin=scene), 1, f"model: <stdin>:6:13: {IN_RANGE}, found an overflow of its z")
 
     def test_digits_that_are_not_certain(self):
-        # 1e30 is added and taken away around a rotation: of 31 digits none is left.
+        # 1e30 is added before a rotation and subtracted after it: none of 31 digits is left.
         scene = CAMERA + "translate 1e30 0 0\nrotate 33 1 2 3\ntranslate -1e30 0 0\ntriangle\n  1 2 3\n4 5 6\n7 8 9\nend\n"
         done = run("model", stdin=scene)
         self.assertEqual((done.stderr.decode(), done.returncode), (

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Random scenes through the pipe: what is printed is always a number, never nan, inf or a zero with a sign.
+"""Random scenes through the pipe: every printed word is a number, never nan, inf or a zero with a sign.
 
 The seed is fixed, so that a failure can be repeated.
 usage: numbers_test.py BIN_DIR [UNITTEST ARGUMENT...]
@@ -35,7 +35,7 @@ class Scenes:
         return kind + (" " + self.vec3(numbers) if kind in ("translate", "scale") else "") + "\n"
 
     def small_scene(self, numbers):
-        """Commands that leave the matrix as it was: pop does not reach below its push."""
+        """Commands that leave the matrix unchanged: no pop reaches below its push."""
         lines, depth = [], 0
         for _ in range(self.random.randrange(1, 12)):
             line = self.command(numbers)
@@ -62,7 +62,7 @@ class PrintedNumbers(ToolTest):
                     self.fail(f"{tool} prints {word} in {line!r}")
 
     def run_stage(self, tool, options, text):
-        """The output, good or bad; a failure is one line on stderr."""
+        """The output, good or bad; a failure prints one line on stderr."""
         done = run(tool, *options, stdin=text)
         self.assertIn(done.returncode, (0, 1), done.stderr)
         messages = [line for line in done.stderr.decode().splitlines() if not line.startswith(f"{tool}: note: ")]
@@ -71,7 +71,7 @@ class PrintedNumbers(ToolTest):
         return done
 
     def check_scene(self, scene, choose):
-        """How many of the four stages take what the stage before wrote."""
+        """How many of the four stages accept the output of the previous one."""
         digits = ["--digits", choose(["0", "1", "7", "7", "7", "17", "exact"])]
         clip = ["--clip", choose(["auto", "near", "frustum", "reject"])]
         with open("config.txt", "w") as config:

@@ -1,4 +1,4 @@
-"""What the tests of failures share: a run of each tool, and an older image that stays where a run fails."""
+"""Shared by the failure tests: a run of each tool, and an older image that stays if a run fails."""
 import pathlib
 
 from toolbox import SCENE, ToolTest, run, stage_texts
@@ -19,7 +19,7 @@ class OlderImageTest(ToolTest):
         pathlib.Path("out.bmp").write_bytes(OLD_IMAGE)
 
     def good_run(self, tool, operands, text):
-        """(stdout, image) of a run that meets no fault; the older image is put back."""
+        """(stdout, image) of a run without a fault; the older image is put back."""
         done = run(tool, *operands, stdin=text)
         self.assert_quiet_success(done)
         image = pathlib.Path("out.bmp").read_bytes()

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What the tools accept: the forms a text may have, and what the options do.
+"""The tools' input and options: the accepted forms of a text, and the effect of each option.
 
 usage: options_test.py BIN_DIR [UNITTEST ARGUMENT...]
 """
@@ -239,7 +239,7 @@ class NumbersOfTriangles(ToolTest):
 
 
 class CameraPrecedence(ToolTest):
-    """Options come before --scene, --scene before the header, part by part."""
+    """Options override --scene, and --scene overrides the header, part by part."""
 
     def view(self, *options, header=""):
         return pipe(["view", "--bare", *options], stdin=header + "1 2 3\n0 0 0\n0 0 0\n\n").decode().splitlines()[0]

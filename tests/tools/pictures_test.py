@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The pictures zbuf makes beside the default one: PNG, depth images, several samples a pixel, a depth epsilon, a
+"""The pictures that zbuf makes besides the default one: PNG, depth images, several samples a pixel, a depth epsilon, a
 wireframe.
 
 usage: pictures_test.py BIN_DIR [UNITTEST ARGUMENT...]
@@ -28,12 +28,12 @@ def random_triangles(seed, count):
 
 
 def wall(z):
-    """A triangle of one depth that fills the picture."""
+    """A triangle of constant depth that fills the picture."""
     return triangles([(-9, -9, z), (9, -9, z), (0, 9, z)])
 
 
 def read_png(path):
-    """Width, height, bits and the bytes of the pixels, by the format's own document (RFC 2083)."""
+    """Width, height, bits and the bytes of the pixels, decoded by the format's specification (RFC 2083)."""
     data = pathlib.Path(path).read_bytes()
     assert data[:8] == b"\x89PNG\r\n\x1a\n"
     at, chunks = 8, {}
@@ -64,7 +64,7 @@ class Pictures(ToolTest):
         pathlib.Path("config.txt").write_text(f"{COLUMNS} {ROWS}\n")
 
     def zbuf(self, stage3, *options):
-        """The text of the depths."""
+        """The depth text."""
         done = run("zbuf", "config.txt", *options, stdin=stage3)
         self.assert_quiet_success(done)
         return done.stdout
@@ -112,7 +112,7 @@ class DepthImages(Pictures):
         return struct.unpack(f">{COLUMNS * ROWS}H", data)
 
     def test_near_is_bright(self):
-        # Half-way between the limits, at the front, a quarter before the rear: 0.125 * 65535 = 8191.875.
+        # Half-way between the limits, at the front, and a quarter before the rear: 0.125 * 65535 = 8191.875.
         for z, expected in ((0, 32768), (-1, 65535), (0.75, 8192)):
             self.assertEqual(set(self.brightness(wall(z))), {expected})
 
@@ -135,7 +135,7 @@ class DepthImages(Pictures):
 
 class Samples(Pictures):
     def means(self, data, count):
-        """Of count x count pixels each, of an image that is so many times as large; halves up."""
+        """The means of count x count pixels, of an image that is so many times as large; halves rounded up."""
         wide = COLUMNS * count
         result = bytearray()
         for row in range(ROWS):
@@ -215,8 +215,8 @@ def distance_to_segment(p, a, b):
 
 class Wireframes(Pictures):
     SCENE = "0 0 0\n0 0 -1\n0 1 0\n90 1 1 10\nLIGHTcolor 255 255 255\ntriangle\n"
-    # All in front of the eye, one corner in the picture; two of them; one far behind the eye; two of them; one beyond the
-    # far plane, none in the picture.
+    # At the sides, all corners are in front of the eye: one is in the picture, or two, or none and one beyond the far plane.
+    # At the eye, one corner is far behind it, or two.
     CUT_AT_SIDES = ("-1 1.5 -5\n9 -3 -4\n-4 -9 -6\n", "-1 -1 -4\n1.3 -2 -5\n3 40 -6\n", "-9 -3 -5\n9 -4 -6\n1 90 -40\n")
     CUT_AT_THE_EYE = ("-1 -1 -2.9\n2 -1.3 -3\n3 4 7\n", "0.5 0.6 -5\n3 -9 4\n-4 -7 9\n")
 

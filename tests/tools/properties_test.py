@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Changes to a scene that must change nothing, or just what they say, over random scenes through the real tools.
+"""Changes to a scene that must change nothing, or only what they state, over random scenes through the real tools.
 
 usage: properties_test.py BIN_DIR [UNITTEST ARGUMENT...]
 """
@@ -10,11 +10,11 @@ import unittest
 
 from toolbox import ToolTest, pipe, run
 
-SCENE_COUNT = int(os.environ.get("TOOLS_SCENES", 12))  # fewer with sanitizers, see tools.cmake
+SCENE_COUNT = int(os.environ.get("TOOLS_SCENES", 12))  # fewer with sanitizers, see CMakeLists.txt
 
 
 class Scene:
-    """A random scene as pieces of text: a camera that looks at what lies around the origin, and its triangles."""
+    """A random scene as pieces of text: a camera that looks at the surroundings of the origin, and triangles there."""
 
     def __init__(self, seed):
         self.random = random.Random(seed)
@@ -48,13 +48,13 @@ class Properties(ToolTest):
         return pipe(["model", *digits], ["view", *digits], ["project", "--clip", "near", *digits], stdin=text)
 
     def picture(self, ndc, *options):
-        """(depths, image) of a text of NDC."""
+        """(depths, image) of an NDC text."""
         done = run("zbuf", "config.txt", *options, stdin=ndc)
         self.assert_quiet_success(done)
         return done.stdout, pathlib.Path("out.bmp").read_bytes()
 
     def drawn(self, stdout):
-        """Row by row the depths; what is covered is how many there are, as each row's are those of its pixels."""
+        """The depths, row by row; the text has only those of covered pixels."""
         return [[float(word) for word in line.split()] for line in stdout.decode().split("\n")]
 
     def test_push_anything_pop_changes_nothing_behind_it(self):
@@ -113,7 +113,7 @@ class Properties(ToolTest):
     def test_a_triangle_in_pieces_covers_what_it_covered(self):
         for scene in self.scenes():
             for _ in range(10):
-                # A corner of the pieces lies on the edge from b to c, all of them decimals.
+                # The pieces share a corner on the edge from b to c; all coordinates are decimals.
                 a, b, c = ([2 * scene.random.randrange(-600, 600) for _ in range(2)] for _ in range(3))
                 d = [(b[i] + c[i]) // 2 for i in range(2)]
                 text = lambda *points: "".join("triangle 0\n" + "".join(f"{x / 1000:.3f} {y / 1000:.3f} 0.25\n" for x, y in t) + "\n"

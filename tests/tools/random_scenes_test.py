@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Random scenes come out of the four tools as reference_pipeline.py calculates them.
+"""Random scenes come out of the four tools as reference_pipeline.py computes them.
 
 usage: random_scenes_test.py BIN_DIR [SCENE_COUNT]
 """
@@ -17,7 +17,7 @@ bin_dir = pathlib.Path(sys.argv.pop()).resolve()
 
 
 def random_number(rng, limit):
-    """Text of a number: often round, sometimes tiny or large."""
+    """A number as text: often round, sometimes tiny or large."""
     if rng.random() < 0.1:
         return "%g" % (rng.uniform(-1, 1) * 10 ** rng.randint(-6, 4))
     return "%.*f" % (rng.choice((0, 1, 2, 6)), rng.uniform(-limit, limit))
@@ -83,7 +83,7 @@ class RandomScenes(unittest.TestCase):
         self.assert_same_picture(stage3)
 
     def assert_close(self, got, want):
-        """Equal, but for what a stage cannot know: the digits of the stage before it beyond a double."""
+        """Equal up to the digits of the previous stage that a double cannot carry."""
         self.assertEqual(len(got.split("\n")), len(want.split("\n")))
         for got_line, want_line in zip(got.split("\n"), want.split("\n")):
             if got_line != want_line:

@@ -1,15 +1,15 @@
 #!/usr/bin/env python3
-"""A second implementation of the plain pipeline, to compare the tools with.
+"""A second implementation of the unlit pipeline, as a reference for the tools.
 
 usage: reference_pipeline.py SCENE CONFIG DIR
 
 Writes stage1.txt, stage2.txt, stage3.txt, z_buffer.txt and out.bmp to DIR.
 
-It shares no code with libpipeline and goes other ways. Stages 1 to 3 are calculated with 700 decimal digits, which
-hold the sum of any two doubles; each takes the unrounded numbers of the stage before it, and a number becomes
-text by rounding once, to 7 decimals. Stage 4 reads the text of stage 3, as the course's does. It finds in doubles which
-pixels a triangle covers, as the rule `nearest` has it, and with 100 digits how deep it is there.
-It is meant to be read: it does one thing after the other and checks next to nothing.
+It shares no code with libpipeline and uses other methods. Stages 1 to 3 calculate with 700 decimal digits, which
+hold the sum of any two doubles; each takes the unrounded numbers of the previous stage, and a number becomes
+text by rounding once, to 7 decimals. Stage 4 reads the text of stage 3, as the course's does. In doubles it finds the
+pixels that a triangle covers by the rule `nearest`, and with 100 digits the depth there.
+It is meant to be read: it does one thing after another and checks almost nothing.
 """
 import decimal
 import math
@@ -26,21 +26,21 @@ decimal.setcontext(DIGITS)
 # Numbers and text
 
 def real(word):
-    """The nearest double to a word, exactly."""
+    """The double nearest to a word, exactly."""
     return Decimal(float(word))
 
 
 def fixed(x):
     """x with 7 decimals, ties to even, no sign on zero.
 
-    What is left of a tie after 700 digits, such as 0.00000004999...9, is one: hence the first rounding.
+    After 700 digits a tie may read 0.00000004999...9: hence the first rounding.
     """
     rounded = x.quantize(Decimal("1e-60")).quantize(Decimal("1e-7"))
     return f"{abs(rounded) if rounded.is_zero() else rounded:f}"
 
 
 def words_of(text):
-    """All words of a text without its comments: the plain formats need no lines to be understood."""
+    """All words of a text without its comments: the unlit formats can be read without regard to lines."""
     return [word for line in text.split("\n") for word in line.split("#")[0].split()]
 
 
@@ -103,14 +103,14 @@ def normalized(a):
     return times(1 / dot(a, a).sqrt(), a)
 
 
-# Stage 1, modelling: a transform is where the origin and the three unit vectors go
+# Stage 1, modeling: a transform is the images of the origin and of the three unit vectors
 
 AXES = ((Decimal(1), Decimal(0), Decimal(0)), (Decimal(0), Decimal(1), Decimal(0)), (Decimal(0), Decimal(0), Decimal(1)))
 IDENTITY = ((Decimal(0),) * 3,) + AXES
 
 
 def applied(transform, p):
-    """The point p, in the space the transform leads to."""
+    """The image of the point p."""
     origin, x_axis, y_axis, z_axis = transform
     return add(add(origin, times(p[0], x_axis)), add(times(p[1], y_axis), times(p[2], z_axis)))
 
@@ -138,7 +138,7 @@ def rotation(degrees, axis):
 
 
 class Scene:
-    """What a scene.txt says: eye, look, up, projection (kind and numbers) and the triangles in world space."""
+    """The contents of a scene.txt: eye, look, up, projection (kind and numbers) and the triangles in world space."""
 
     def __init__(self, text):
         self.words = words_of(text)
@@ -159,7 +159,7 @@ class Scene:
         return self.numbers(3)
 
     def run(self):
-        """Carries out the commands; gives the triangles on the way."""
+        """Executes the commands; yields the triangles as they come."""
         transform, saved = IDENTITY, []
         while (command := self.word()) != "end":
             if command == "triangle":
@@ -200,10 +200,10 @@ def view(scene):
     return [[seen(p) for p in triangle] for triangle in scene.triangles]
 
 
-# Stage 3, projection; from here on a triangle goes with its number
+# Stage 3, projection; from here on each triangle carries its number
 
 def window(projection):
-    """left, right, bottom, top, near, far of a projection; for a perspective the course's rule fovX = fovY * aspect."""
+    """left, right, bottom, top, near, far of a projection; for a perspective by the course's rule fovX = fovY * aspect."""
     kind, numbers = projection
     if kind != "perspective":
         return numbers
@@ -213,7 +213,7 @@ def window(projection):
 
 
 def clipped_at_near(triangle, near):
-    """The polygon of what lies behind the near plane (z <= -near in view space), along the triangle's outline."""
+    """The polygon beyond the near plane (z <= -near in view space), in the order of the triangle's outline."""
     polygon = []
     for p, q in zip(triangle, triangle[1:] + triangle[:1]):
         p_is_in, q_is_in = p[2] <= -near, q[2] <= -near
@@ -225,7 +225,7 @@ def clipped_at_near(triangle, near):
 
 
 def pieces(triangle, near):
-    """The triangle itself unless it comes near the eye's plane; else what the near plane leaves of it, as a fan."""
+    """The triangle itself unless it comes near the eye's plane; else the part beyond the near plane, as a fan."""
     if all(-p[2] >= near / 1024 for p in triangle):
         return [triangle]
     polygon = clipped_at_near(triangle, near)
@@ -233,7 +233,7 @@ def pieces(triangle, near):
 
 
 def project(scene, triangles):
-    """From view space to NDC: pairs of a scene triangle's number and its coordinates, or those of a piece of it."""
+    """From view space to NDC: pairs of a scene triangle's number and the coordinates of the triangle or of a piece of it."""
     left, right, bottom, top, near, far = window(scene.projection)
     is_ortho = scene.projection[0] == "ortho"
 
@@ -252,7 +252,7 @@ def project(scene, triangles):
 
 
 def stage_text(numbered):
-    """Three vertex lines and a blank line a triangle; `triangle N` where plain counting would give another number."""
+    """Three vertex lines and a blank line for each triangle; `triangle N` wherever the number is not the next one."""
     lines, expected = [], 0
     for number, triangle in numbered:
         if number != expected:
@@ -262,10 +262,10 @@ def stage_text(numbered):
     return "".join(line + "\n" for line in lines)
 
 
-# Stage 4, visibility: coordinates are doubles now
+# Stage 4, visibility: coordinates are doubles from here on
 
 class Config:
-    """What a config.txt says: the image's size in pixels, and the limits of the box that is seen."""
+    """The contents of a config.txt: the image's size in pixels, and the limits of the visible box."""
 
     def __init__(self, text):
         words = words_of(text)
@@ -293,7 +293,7 @@ def read_stage_text(text):
 
 
 def crossings(triangle, y):
-    """Where the triangle's edges meet the horizontal line at y: (x, z), by x."""
+    """The crossings of the triangle's edges with the horizontal line at y: (x, z), ordered by x."""
     found = []
     for p, q in ((0, 1), (1, 2), (2, 0)):
         low, high = sorted((triangle[p], triangle[q]), key=lambda v: (v[1], v[0], v[2]))
@@ -304,7 +304,7 @@ def crossings(triangle, y):
 
 
 def depth_along(met):
-    """The depth as a function of x on a row, from where the triangle's edges meet it; the nearest double."""
+    """The depth as a function of x on a row, from the crossings with the triangle's edges; the nearest double."""
     (x_left, z_left), (x_right, z_right) = met[0], met[-1]
     slope = 0 if x_left == x_right else (z_right - z_left) / (x_right - x_left)
     return lambda x: float(z_left + (x - x_left) * slope)
@@ -315,7 +315,7 @@ def between(first, x, last):
 
 
 def pixels_of(triangle, config):
-    """The pixels a triangle covers by the rule `nearest`, and its depth there: (row, column, z)."""
+    """The pixels that a triangle covers by the rule `nearest`, with its depth there: (row, column, z)."""
     exact = [tuple(map(Decimal, v)) for v in triangle]
     highest, lowest = max(v[1] for v in triangle), min(v[1] for v in triangle)
     first_row = math.ceil(between(0, (config.top_y - highest) / config.dy, config.height))
@@ -333,7 +333,7 @@ def pixels_of(triangle, config):
 
 
 def colors():
-    """(red, green, blue) of triangle 0, 1, 2 ...: three numbers each of the course's generator."""
+    """(red, green, blue) of triangles 0, 1, 2 ...: three numbers of the course's generator each."""
     state = 1
     while True:
         color = []
@@ -344,7 +344,7 @@ def colors():
 
 
 def z_buffered(stage3, config):
-    """The depth of every pixel and the number of the triangle it shows, or None; each a list of rows from the top."""
+    """The depth of every pixel and the number of its visible triangle, or None; each a list of rows from the top."""
     depth = [[config.rear] * config.width for _ in range(config.height)]
     owners = [[None] * config.width for _ in range(config.height)]
     with decimal.localcontext(DIGITS_OF_DEPTH):
@@ -364,12 +364,12 @@ def colored(owners):
 
 
 def depth_text(depth, rear):
-    """A line a row; every value below rear with 6 decimals and a tab."""
+    """A line for each row; every value below rear with 6 decimals and a tab."""
     return "".join("".join("%.6f\t" % z for z in row if z < rear) + "\n" for row in depth).replace("-0.000000", "0.000000")
 
 
 def bmp(image):
-    """A 24-bit BMP file: rows from the bottom, blue green red, each row filled up to a multiple of 4 bytes."""
+    """A 24-bit BMP file: rows from the bottom, blue green red, each row padded to a multiple of 4 bytes."""
     height, width = len(image), len(image[0])
     fill = bytes(-3 * width % 4)
     rows = b"".join(b"".join(bytes((b, g, r)) for r, g, b in row) + fill for row in reversed(image))
@@ -378,7 +378,7 @@ def bmp(image):
 
 
 def stages(scene, config):
-    """The four texts, by name, and which triangle each pixel shows."""
+    """The four texts, by name, and the visible triangle of each pixel."""
     in_world = scene.triangles
     in_view = view(scene)
     in_ndc = project(scene, in_view)

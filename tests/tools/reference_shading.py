@@ -1,8 +1,8 @@
-"""Color and light for reference_pipeline.py: what a lit scene's picture shows, by rays cast in view space.
+"""Color and light for reference_pipeline.py: the picture of a lit scene, by ray casting in view space.
 
-The plain pipeline says which triangle each pixel shows. The ray through the pixel's center meets that triangle's plane
-in view space; the corners' weights there give color, normal and place, and the lighting formula is evaluated. Nothing
-is interpolated on the screen, no piece of a clipped triangle is looked at, and no code is shared with libpipeline.
+The unlit pipeline gives the visible triangle of each pixel. The ray through the pixel's center intersects that triangle's
+plane in view space; the barycentric weights there give color, normal and position for the lighting formula. Nothing is
+interpolated on the screen, pieces of clipped triangles are ignored, and no code is shared with libpipeline.
 """
 import math
 
@@ -25,7 +25,7 @@ def mean(weights, vectors):
 
 
 class LitScene(plain.Scene):
-    """Also keeps `looks`, lights in world space, and each triangle's color and normals in world space."""
+    """A scene with its `looks`, lights in world space, and each triangle's color and normals in world space."""
 
     def __init__(self, text):
         self.looks, self.lights, self.color, self.names = dict(DEFAULTS), [], None, []
@@ -56,7 +56,7 @@ class LitScene(plain.Scene):
 
     @staticmethod
     def world_normal(transform, n):
-        """By the cofactors of the matrix, which are its inverse transpose but for the determinant."""
+        """The normal's image, by the cofactors of the matrix: its inverse transpose up to the determinant."""
         _, x, y, z = transform
         cofactors = (plain.cross(y, z), plain.cross(z, x), plain.cross(x, y))
         determinant = plain.dot(x, cofactors[0])
@@ -85,7 +85,7 @@ def lit(p, normal, color, lights, looks, is_ortho):
 
 
 def weights_of(corners, start, way):
-    """Of the corners, where the ray from `start` meets their plane; a pixel's center may lie a little outside."""
+    """The corners' weights where the ray from `start` intersects their plane; a pixel's center may lie slightly outside."""
     volumes = [plain.dot(plain.subtract(corners[i - 2], start), plain.cross(plain.subtract(corners[i - 1], start), way))
                for i in range(3)]
     weights = [max(0.0, volume / sum(volumes)) for volume in volumes]
@@ -93,7 +93,7 @@ def weights_of(corners, start, way):
 
 
 def lit_image(scene, config, owners, model):
-    """The rows of the image as real colors; `owners` says which triangle each pixel shows, or None."""
+    """The rows of the image as real colors; `owners` gives the visible triangle of each pixel, or None."""
     left, right, bottom, top, near, _ = floats(plain.window(scene.projection))
     is_ortho = scene.projection[0] == "ortho"
     l = plain.normalized(plain.subtract(scene.look, scene.eye))

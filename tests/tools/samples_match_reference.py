@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What is committed in samples/ is what reference_pipeline.py calculates; the torus is what make-torus writes.
+"""The files committed in samples/ match reference_pipeline.py; the torus matches make-torus.
 
 usage: samples_match_reference.py SOURCE_DIR
 """

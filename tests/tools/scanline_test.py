@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""zbuf --algorithm scanline, end to end: the bytes of the z-buffer, and no memory for the frame.
+"""zbuf --algorithm scanline, end to end: the same bytes as the z-buffer, and no memory for the frame.
 
 usage: scanline_test.py BIN_DIR [SameBytes|Memory|LongMemory|Measurement]
 """
@@ -22,7 +22,7 @@ def zbuf(config, stage3, *options):
 
 
 def triangle(rng, size):
-    """A triangle around a random place, as text, with the digits of a stage text or all of a double."""
+    """A triangle around a random point, as text, with the digits of a stage text or all those of a double."""
     x, y = rng.uniform(-1.2, 1.2), rng.uniform(-1.2, 1.2)
     form = rng.choice(("%.7f", "%.7f", "%.2f", "%.17g", "%.25f"))
     points = [[x + rng.uniform(-size, size), y + rng.uniform(-size, size), rng.uniform(-1.2, 1.2)] for _ in range(3)]
@@ -59,7 +59,7 @@ class SameBytes(ToolTest):
 
 
 class MemoryTest(ToolTest):
-    FEW = ("-0.01 -0.02 0.5\n0.02 -0.01 0.1\n0.0 0.02 -0.3\n\n"  # a piece of the middle
+    FEW = ("-0.01 -0.02 0.5\n0.02 -0.01 0.1\n0.0 0.02 -0.3\n\n"  # in the middle
            "-1 -1 0.9\n1 -0.9999 0.9\n1 -1 0.9\n\n"               # along the lower border
            "-0.9 0.9 0\n-0.88 0.9 0.4\n-0.9 0.88 0.3\n\n")
 
@@ -76,7 +76,7 @@ class MemoryTest(ToolTest):
 
 class Memory(MemoryTest):
     def test_a_large_screen_takes_no_memory(self):
-        # The z-buffer would take 65535 * 4000 * 12 bytes, 3 GB.
+        # The z-buffer would need 65535 * 4000 * 12 bytes, 3 GB.
         self.assertLess(self.check("65535 4000\n"), 40)
 
 

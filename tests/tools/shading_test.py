@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""What zbuf makes of colors and lights, against rays cast through the pixels.
+"""zbuf's colors and lights, against rays cast through the pixels.
 
-A ray meets the triangle in view space; color, normal and place there are means of the corners', and the lighting
-formula is evaluated there. So nothing is projected, and nothing is interpolated on the screen.
+A ray intersects the triangle in view space; color, normal and position there are weighted means of the corners', and the
+lighting formula is evaluated there. So nothing is projected, and nothing is interpolated on the screen.
 
 usage: shading_test.py BIN_DIR [UNITTEST ARGUMENT...]
 """
@@ -24,12 +24,12 @@ ATTENUATION = (1, 0.01, 0.02)
 # Position, color, normal; the triangle is slanted, so that perspective shows.
 CORNERS = [((-2, -2, 2), (255, 0, 0), (0, 0, 1)), ((2, -1, -3), (0, 255, 30), (0.6, 0, 0.8)),
            ((0, 2, 0), (30, 60, 255), (0, 0.8, 0.6))]
-# Beyond the edges of the picture.
+# Extends beyond the edges of the picture.
 LARGE = [(tuple(2 * x for x in p), c, n) for p, c, n in CORNERS]
-# The last corner lies behind the eye.
+# The last corner is behind the eye.
 CUT = [((-2, -2, 0), (255, 0, 0), (0, 0, 1)), ((2, -2, 0), (0, 255, 30), (0.6, 0, 0.8)),
        ((0, -1, 6), (30, 60, 255), (0, 0.8, 0.6))]
-# The last two do, so that one edge is gone.
+# The last two are, so that one edge disappears.
 CUT_TWICE = [((-0.5, 1, -9), (255, 0, 0), (0, 0, 1)), ((6, -3, 9), (0, 255, 30), (0.6, 0, 0.8)),
              ((-5, -2.5, 7), (30, 60, 255), (0, 0.8, 0.6))]
 MODELS = ("none", "flat", "gouraud", "phong")
@@ -92,7 +92,7 @@ def lit(p, color, normal, eye_direction):
 
 
 def expected_pixel(row, column, corners, projection, model):
-    """The color a ray finds, or nothing where it misses the triangle."""
+    """The color at the ray's hit, or None if it misses the triangle."""
     x, y = (2 * column + 1) / SIZE - 1, 1 - (2 * row + 1) / SIZE
     is_perspective = projection == PERSPECTIVE
     slope = math.tan(math.pi / 6)
@@ -195,7 +195,7 @@ class Shading(ToolTest):
             self.assertEqual(set(sum(self.image_of(stage3, "--shading", model), [])), {(255, 255, 255)})
 
     def test_lights_alone_light_the_triangles_own_colors_flatly(self):
-        # Triangle 0's color is 41 35 190; the light stands straight before it, at the eye.
+        # Triangle 0's color is 41 35 190; the light is straight in front of it, at the eye.
         scene = (EYE_AT_5 + PERSPECTIVE + "\nlight 0 0 5 1 1 1\nattenuation 0 0.4 0\n"
                  "triangle\n-90 -90 0\n90 -90 0\n0 180 0\nend\n")
         stage3 = pipe(["model"], ["view"], ["project"], stdin=scene)
@@ -218,7 +218,7 @@ class Shading(ToolTest):
 
 
 def without_looks(stage3):
-    """The plain text of a lit one: no header, positions only."""
+    """A lit text as an unlit one: no header, positions only."""
     lines, result = stage3.decode().splitlines(), []
     while lines:
         line = lines.pop(0)
@@ -232,7 +232,7 @@ def without_looks(stage3):
 class WholeScenes(ToolTest):
     """The lit samples, small, under every model: every pixel against a ray through its center.
 
-    Which triangle a pixel shows is taken from the plain picture: the diagonal of a flat side belongs to either half.
+    The visible triangle comes from the unlit picture: the diagonal of a flat side may belong to either half.
     """
 
     COLUMNS, ROWS = 60, 45
@@ -292,7 +292,7 @@ class WholePictures(ToolTest):
         return [pixels[i:i + self.SIZE] for i in range(0, len(pixels), self.SIZE)]
 
     def largest_bend(self, image):
-        """Of the brightness along rows and columns inside the ball, whose radius is 45 pixels, away from its rim."""
+        """The largest second difference of brightness along rows and columns in the ball, of radius 45 pixels, away from its rim."""
         bends = []
         for i in range(70, 130):
             for k in range(70, 130):
@@ -306,12 +306,12 @@ class WholePictures(ToolTest):
     def test_a_ball_under_phong_shows_no_edge(self):
         scene = (EYE_AT_5.replace("0 0 5", "0 0 4") + PERSPECTIVE + "\ncolor 255 255 255\nattributes normal\n"
                  "light 300 400 900 1 1 1\n" + "".join(ball(12, 24)) + "end\n")
-        # The brightness of a true ball bends by about 255 / 45^2 = 0.13; rounding three values adds less than 2.
+        # The brightness of a true ball has a second difference of about 255 / 45^2 = 0.13; rounding three values adds less than 2.
         self.assertLessEqual(self.largest_bend(self.image_of(scene, "--coverage", "center")), 2)
-        # Pixels whose centers lie beyond an edge, by half a pixel at most, show the edge: half of a pixel's rise of
-        # 255 / 45 is missing there, and a bend has it twice.
+        # Pixels whose centers lie up to half a pixel beyond an edge show the color on the edge: they lack half of a pixel's
+        # rise of 255 / 45, which a second difference counts twice.
         self.assertLessEqual(self.largest_bend(self.image_of(scene, "--coverage", "nearest")), 2 + 255 / 45)
-        # What has edges shows them.
+        # Flat shading shows the edges.
         self.assertGreater(self.largest_bend(self.image_of(scene, "--shading", "flat")), 10)
 
     def test_a_flat_surface_under_a_distant_light_is_lit_alike_by_all_models(self):
@@ -319,7 +319,7 @@ class WholePictures(ToolTest):
                  "ambient 0.1 0.1 0.1\nlight 3e7 4e7 5e7 0.9 0.8 0.7\ntriangle\n"
                  "-2 -2 0 -0.6 0 0.8\n2 -2 3 -0.6 0 0.8\n-2 2 0 -0.6 0 0.8\nend\n")
         images = [sum(self.image_of(scene, "--shading", model), []) for model in ("flat", "gouraud", "phong")]
-        # Not black, of one color: 255 * (0.1 + 0.9 * 0.9 * (-1.8 + 4) / sqrt(50)) and so on.
+        # Not black, but one color: 255 * (0.1 + 0.9 * 0.9 * (-1.8 + 4) / sqrt(50)) and so on.
         share = 0.9 * (-0.6 * 3 + 0.8 * 5) / math.sqrt(50)
         expected = [c * (0.1 + share * i) for c, i in zip((255, 128, 64), (0.9, 0.8, 0.7))]
         for pixels in zip(*images):

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""The tools print correctly rounded numbers at the extremes, or say why they cannot.
+"""The tools print correctly rounded numbers at the extremes, or report why they cannot.
 
 usage: stability_test.py BIN_DIR [--cases FILE] [unittest's arguments]
 
-Every case runs a real tool; what it has to print is calculated here and now by reference_pipeline.py, with 700 digits.
+Every case runs a real tool; reference_pipeline.py calculates the expected output at run time, with 700 digits.
 With --cases, the model, view and project cases of a JSON file run as well: {"cases": [{"id", "stage", "title", "input",
 "expect7" or "expect_policy"}]}, expect7 being three numbers with 7 decimals a vertex.
 """
@@ -26,16 +26,16 @@ LOOK_AT_ORIGIN = "0 0 5\n0 0 0\n0 1 0\n"
 PERSPECTIVE = "60 1 1 100"
 
 
-# What a tool has to print
+# Expected output
 
 def rounded(x, decimals):
-    """x with some decimals, ties to even, no sign on zero; what is left of a tie after 700 digits is one."""
+    """x with some decimals, ties to even, no sign on zero; a number that 700 digits cannot tell from a tie counts as one."""
     text = f"{x.quantize(Decimal('1e-100')).quantize(Decimal(1).scaleb(-decimals)):f}"
     return text.lstrip("-") if not text.strip("-0.") else text
 
 
 def is_nearest_double(word, x):
-    """True if a word is the nearest double to x, and no longer than it need be."""
+    """True if a word is the double nearest to x, in its shortest form."""
     nearest = float(x.quantize(Decimal("1e-400")) if abs(x) < 1e250 else x)
     return float(word) == nearest and len(word) <= len(repr(nearest)) + 1 and not (nearest == 0 and word != "0")
 
@@ -59,13 +59,13 @@ LARGE = triangle("1e6 -2e6 3e6", "999999.9999999 1e-7 0.5", "123456.7890123 -654
 
 
 def world(points, camera=CAMERA):
-    """The reference's scene with one triangle a three points, as they are."""
+    """The reference's scene with a triangle for every three points, unchanged."""
     return reference.Scene(camera + "".join("triangle\n" + lines_of(points[i:i + 3]) for i in range(0, len(points), 3)) + "end\n")
 
 
 class StabilityTest(ToolTest):
     def output(self, done):
-        """What a tool has printed, which never contains what no number is."""
+        """A tool's output, after checking that it contains no nan, no inf and no signed zero."""
         text = done.stdout.decode()
         self.assertNotRegex(text.lower(), r"\b(nan|inf|infinity)\b")
         self.assertNotRegex(text, r"(?<![\d.])-0(\.0*)?(?![\d.e])")
@@ -81,7 +81,7 @@ class StabilityTest(ToolTest):
         self.assertEqual(text, reference.stage_text(enumerate(triangles)))
 
     def assert_all_digits(self, run_with_digits, triangles):
-        """`run_with_digits(word)` prints triangles right for other numbers of digits."""
+        """`run_with_digits(word)` prints triangles correctly for other numbers of digits."""
         numbers = [x for points in triangles for point in points for x in point]
         for decimals in (0, 3, 12):
             words = run_with_digits(str(decimals)).split()
@@ -92,7 +92,7 @@ class StabilityTest(ToolTest):
             self.assertTrue(is_nearest_double(word, x), f"--digits exact: {word} for {x}")
 
     def assert_error(self, tool, stdin, message, *tool_options):
-        """Exit 1, and one line on stderr: the tool, the place and what is wrong."""
+        """Exit 1, and one line on stderr: the tool, the location and the error."""
         done = run(tool, *tool_options, stdin=stdin)
         self.assertEqual((done.returncode, done.stderr.decode()), (1, f"{tool}: <stdin>:{message}\n"))
         self.output(done)
@@ -231,7 +231,7 @@ add_claims(View, [
 
 
 class ViewNotes(StabilityTest):
-    """What takes more digits than there are is said, and right as far as there are digits."""
+    """A vertex that needs more digits than there are is reported, and is right as far as the digits go."""
 
     def check(self, eye, look, up, *points):
         done = run("view", "--bare", stdin=f"eye {eye}\nlook {look}\nup {up}\n" + lines_of(points))
@@ -362,11 +362,11 @@ class ProjectOtherwise(StabilityTest):
         self.assertIn("<stdin>:1:13: expected fovX = fovY * aspect above 0 and below 180 degrees", done.stderr.decode())
 
 
-# Cases of a file
+# Cases from a file
 
 def expanded(case):
-    """The lines of a model case's scene after the camera. `rotrep N` stands for N rotations, `[repeat N]` in the title for
-    N times each push and pop."""
+    """The lines of a model case's scene after the camera. `rotrep N` stands for N rotations; `[repeat N]` in the title repeats
+    each push and pop N times."""
     repeat = re.search(r"\[repeat (\d+)\]", case["title"])
     for line in case["input"]:
         word, *numbers = line.split(None, 1)
@@ -382,7 +382,7 @@ def expanded(case):
 
 
 def case_run(case):
-    """The options and the input of a case, and how many vertices it is about."""
+    """The options and the input of a case, and its number of vertices."""
     if case["stage"] == "model":
         count = sum(line.count(";") + 1 for line in case["input"] if line.startswith("triangle"))
         return ["--bare"], CAMERA + "".join(expanded(case)) + "end\n", count

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Output appears while input still comes, and memory does not grow with the number of triangles.
+"""Output appears while input is still arriving, and memory does not grow with the number of triangles.
 
 usage: streaming_test.py BIN_DIR [UNITTEST ARGUMENT...]
 """
@@ -20,7 +20,7 @@ VERTICES = "0.1234567 -1.2345678 -12.3456789\n1.1234567 -1.2345678 -12.3456789\n
 
 
 class LiveTool:
-    """A tool whose input is written bit by bit."""
+    """A tool whose input is written piece by piece."""
 
     def __init__(self, tool, *options, stdout=subprocess.PIPE):
         self.process = subprocess.Popen(command(tool, *options), stdin=subprocess.PIPE, stdout=stdout, stderr=subprocess.PIPE)
@@ -41,7 +41,7 @@ class LiveTool:
         self.process.stdin.flush()
 
     def receive(self, triangle_count, seconds=10):
-        """What comes out until so many triangles are complete, or until the time is over."""
+        """Reads output until it has so many complete triangles, or until the time is over; returns their number."""
         end = time.monotonic() + seconds
         while self.received.count(b"\n\n") < triangle_count:
             ready, _, _ = select.select([self.process.stdout], [], [], max(0, end - time.monotonic()))
@@ -52,20 +52,20 @@ class LiveTool:
         return self.received.count(b"\n\n")
 
     def finish(self):
-        """The exit status, once the input has ended."""
+        """The exit status, after the input has ended."""
         self.process.stdin.close()
         self.received += self.process.stdout.read() if self.process.stdout else b""
         return self.process.wait(timeout=60)
 
     def peak_memory(self):
-        """The largest resident set so far in KiB: of this program alone, not of whoever has started it."""
+        """The largest resident set so far in KiB: of this program alone, not of the process that started it."""
         with open(f"/proc/{self.process.pid}/status") as status:
             return int(re.search(r"VmHWM:\s+(\d+) kB", status.read()).group(1))
 
 
 class Streaming(ToolTest):
     def check(self, tool, start, piece, end):
-        """Every piece, a triangle, has left the tool before the next one is sent."""
+        """Each piece, a triangle, leaves the tool before the next one is sent."""
         with LiveTool(tool) as live:
             live.send(start)
             for i in range(1, 6):
@@ -121,7 +121,7 @@ class Streaming(ToolTest):
 
 
 class Errors(ToolTest):
-    """An error comes after the triangles before it, whatever the size of batches."""
+    """An error is reported after the triangles before it are written, whatever the batch size."""
 
     COUNT = 3000
     GOOD = "0 0 -1\n1 0 -1\n0 1 -1\n\n"
@@ -170,7 +170,7 @@ F_SETPIPE_SZ, F_GETPIPE_SZ = 1031, 1032  # Linux; Python has names for them sinc
 
 
 def pipe_of(size):
-    """The ends of a pipe that holds so many bytes; the test is skipped where there is none."""
+    """The ends of a pipe with this capacity; the test is skipped if the system allows none."""
     ends = [os.fdopen(end, mode, buffering=0) for end, mode in zip(os.pipe(), ("rb", "wb"))]
     try:
         fcntl.fcntl(ends[0], F_SETPIPE_SZ, size)
@@ -184,8 +184,8 @@ def pipe_of(size):
 @unittest.skipUnless(os.uname().sysname == "Linux", "the size of a pipe can be set on Linux alone")
 class PipeSize(ToolTest):
     def sizes_after_a_run(self, size):
-        """What the pipes before and behind a tool hold at its end, if it is given pipes of `size`."""
-        mebibyte_ends = pipe_of(1 << 20)  # or the system does not allow what the tool wants
+        """The capacities of a tool's input and output pipes after a run that starts with pipes of `size`."""
+        mebibyte_ends = pipe_of(1 << 20)  # skips the test if the system forbids the tool's size
         for end in mebibyte_ends:
             end.close()
         source, feed = pipe_of(size)
@@ -209,7 +209,7 @@ INPUTS = {"model": (CAMERA, "triangle\n" + VERTICES, "end\n"), "view": (HEADER, 
 
 
 def peak_memory(tool, start, repeated, count, end, *options):
-    """The peak memory of a tool that reads `repeated` so many times, in KiB."""
+    """The peak memory in KiB of a tool that reads `repeated` `count` times."""
     block_count = 10_000
     with LiveTool(tool, *options, stdout=subprocess.DEVNULL) as live:
         live.send(start)
@@ -248,20 +248,20 @@ class Memory(ToolTest):
 
 
 class BufferMemory(ToolTest):
-    """zbuf takes its buffers, 12 bytes a pixel in doubles with color, and less than 32 MiB more."""
+    """zbuf needs its buffers, 12 bytes a pixel in doubles with color, and less than 32 MiB more."""
 
     SIZE = 2048
     LARGE = "-1.0000000 -1.0000000 0.5000000\n0.2000000 -1.0000000 0.5000000\n-1.0000000 1.0000000 0.5000000\n\n"
     SMALL = "0.0100000 0.0100000 0.1000000\n0.0110000 0.0100000 0.1000000\n0.0100000 0.0110000 0.1000000\n\n"
 
     def memory_beside_buffers(self, *options):
-        """In KiB, at the most, until the last depths come out."""
+        """The peak memory in KiB, until the last depths are written."""
         pathlib.Path("config.txt").write_text(f"{self.SIZE} {self.SIZE}\n")
         pathlib.Path("stage3.txt").write_text((self.LARGE + self.SMALL * 999) * 200)
         with LiveTool("zbuf", "config.txt", "stage3.txt", "--image", "/dev/null", *options) as live:
             memory = 0
             while live.process.stdout.read1():
-                with contextlib.suppress(OSError, AttributeError):  # it may have ended since
+                with contextlib.suppress(OSError, AttributeError):  # it may have ended by now
                     memory = live.peak_memory()
             self.assertEqual(live.finish(), 0)
         buffers = 12 * self.SIZE**2 // 1024

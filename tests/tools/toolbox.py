@@ -1,6 +1,6 @@
-"""What the end-to-end tests share: running the real tools and looking at all they leave behind.
+"""Shared by the end-to-end tests: runs the real tools and checks all their output and files.
 
-A test script is called with the folder of the binaries, then unittest's own arguments.
+A test script takes the folder of the binaries, then unittest's own arguments.
 """
 import os
 import pathlib
@@ -52,14 +52,14 @@ def pipe(*stages, stdin=SCENE, **settings):
 
 
 def stage_texts(scene=SCENE, *model_options):
-    """What model, view and project write for a scene."""
+    """The output of model, view and project for a scene."""
     stage1 = pipe(["model", *model_options], stdin=scene)
     stage2 = pipe(["view"], stdin=stage1)
     return stage1, stage2, pipe(["project"], stdin=stage2)
 
 
 def pseudo_terminal():
-    """The two ends of a new one; the test is skipped where the system has none to give, as in a container without /dev/pts."""
+    """The two ends of a new pseudo-terminal; skips the test if the system has none, as in a container without /dev/pts."""
     try:
         return os.openpty()
     except OSError as error:
@@ -67,7 +67,7 @@ def pseudo_terminal():
 
 
 class ToolTest(unittest.TestCase):
-    """A test with a folder of its own as the current one."""
+    """A test that runs in a folder of its own."""
 
     maxDiff = None
 
@@ -80,7 +80,7 @@ class ToolTest(unittest.TestCase):
         pathlib.Path("scene.txt").write_text(SCENE)
 
     def assert_fails(self, done, status, message):
-        """One line on stderr, the whole of it, and the exit status."""
+        """The exit status, and exactly one line on stderr."""
         self.assertEqual((done.stderr.decode(), done.returncode), (message + "\n", status))
 
     def assert_quiet_success(self, done):
@@ -91,7 +91,7 @@ class ToolTest(unittest.TestCase):
 
 
 def add_claims(case, rows):
-    """One test for each row (claim, arguments of `case.check`...)."""
+    """Adds one test for each row (claim, arguments of `case.check`...)."""
     for claim, *row in rows:
         def test(self, row=tuple(row)):
             self.check(*row)

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""zbuf, end to end: the same bytes on any number of threads and under every kernel; its line of progress.
+"""zbuf, end to end: the same bytes on any number of threads and with every kernel; its progress line.
 
 usage: zbuf_test.py BIN_DIR
 """
@@ -24,7 +24,7 @@ def zbuf(config, stage3, *options, kernel=None):
 
 
 def random_triangle(rng, sizes):
-    """Often at the depth of others."""
+    """Triangles of which many share their depths."""
     size = rng.choice(sizes)
     x, y, z = rng.uniform(-1.2, 1.2), rng.uniform(-1.2, 1.2), rng.choice((0, 0.25, rng.uniform(-1, 1)))
     points = [[x + rng.uniform(-size, size), y + rng.uniform(-size, size), z] for _ in range(3)]
@@ -115,7 +115,7 @@ class Progress(ToolTest):
     def on_a_terminal(self, seconds):
         reader, terminal = pseudo_terminal()
         self.run_for(seconds, terminal)
-        os.write(terminal, b"|")  # the end of what there is to read
+        os.write(terminal, b"|")  # marks the end of the output
         shown = ""
         while not shown.endswith("|"):
             shown += os.read(reader, 65536).decode()
