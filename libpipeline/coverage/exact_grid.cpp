@@ -11,8 +11,8 @@
 namespace pipeline {
 namespace {
 
-// hi * 10^7 differs from the n it stands for by a relative error of at most 2^-52, so n is the nearest whole
-// number up to here.
+// hi * 10^7 is off from the n it stands for by at most 2^-52 of n, so n is the nearest whole number up to
+// here.
 constexpr double kMaxRoundedUnits = 0x1p50;
 constexpr double kMaxNarrow = 0x1p60;
 constexpr double kMaxDecimal = 1e22;

@@ -17,8 +17,8 @@ namespace pipeline {
 /// up to `total`.
 ///
 /// For Z the largest |z| of the three, the depth at a pixel inside is within 2^-50 Z of the exact one (while
-/// Z is at least 1e-288), and a triangle of one depth has exactly that depth everywhere. Taking the decimals
-/// next to the doubles as the depths changes the depth by no more than another 2^-53 Z.
+/// Z is at least 1e-288), and a triangle of one depth has exactly that depth everywhere. If the depths are
+/// taken to be the decimals next to the doubles, that adds no more than another 2^-53 Z.
 ///
 /// Proof. Where weights are whole numbers that doubles hold, the depth comes from DepthInDoubles. Otherwise
 /// depths become whole numbers of 61 bits, so that the depth m in the middle of a span and its slope s per

@@ -58,7 +58,7 @@ RowPolygon<Depth> RowSweep<Depth>::polygon(const Span& span, PolygonId id, Pixel
   polygon.nearest = format_.store(std::min(left_z, right_z));
   polygon.farthest = format_.store(std::max(left_z, right_z));
   // With X = |left_x| + columns |dx|, the five roundings are off by at most 2^-53 (|slope| (5 X + 3 |x0|) +
-  // |z0|); without a slope they are exact.
+  // |z0|); without a slope, by nothing.
   const double reach = std::fabs(depth.left_x) + reach_columns_ * std::fabs(depth.dx) + std::fabs(depth.x0);
   polygon.size = std::fabs(depth.z0);
   if (depth.slope != 0) {
