@@ -2,8 +2,8 @@
 
 namespace pipeline {
 
-/// How many of `rounds` random inputs a test tries: with a sanitizer, which slows arithmetic down tenfold and
-/// finds its mistakes in a few, one in five.
+/// How many of `rounds` random inputs a test tries: one in five with a sanitizer, which slows arithmetic down
+/// tenfold and finds its errors in a few rounds.
 constexpr int sanitizer_rounds(int rounds) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   return rounds / 5;

@@ -1,1 +1,1 @@
-// Nothing but what is compiled ahead for the tests: see CMakeLists.txt.
+// Empty: it only precompiles the headers for the tests, see CMakeLists.txt.

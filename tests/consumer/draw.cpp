@@ -11,7 +11,7 @@ int main() {
   pipeline::ZBufferAlgorithm<pipeline::CenterCoverage, pipeline::DepthF64> picture(viewport);
   picture.draw({p_ndc}, {});
   picture.for_each_row([&](const pipeline::VisibleRow& row) {
-    // The library's own warnings, -Wconversion among them, are not ours: this narrows.
+    // The library's own warning options, including -Wconversion, do not apply here: this narrows.
     for (const float depth : row.depths) std::putchar(depth < viewport.rear ? '#' : '.');
     std::putchar('\n');
   });

@@ -51,7 +51,7 @@ TEST(CenterExact, DoublesCoverWhatTheyCoverExactly) {
     screen.left_is_decimal = i % 2 == 0;
     Triangle p{};
     for (Vec3& v : p) v = {random.between(-2, 2), random.between(-2, 2), 0};
-    // Some coordinates near 0, and some triangles on a line but for rounding.
+    // Some coordinates near 0, and some triangles whose corners lie on a line up to rounding.
     if (i % 5 == 0) p[0].x = random.with_exponent(-120, -3);
     if (i % 7 == 0) p[2] = {(p[0].x + p[1].x) / 2, (p[0].y + p[1].y) / 2, 0};
     if (i % 11 == 0) p[1].y = p[0].y;
@@ -63,7 +63,7 @@ TEST(CenterExact, DoublesCoverWhatTheyCoverExactly) {
 TEST(CenterExact, DoublesOnPixelCentersToo) {
   RandomNumbers random(2);
   for (int i = 0; i < sanitizer_rounds(1500); ++i) {
-    // A size that is a power of two and a limit that is a double: all centers and half pixels are doubles.
+    // The size is a power of two and the limit a double, so all centers and half pixels are doubles.
     const double limit = std::ldexp(random.between(1, 2), random.whole(-1, 1));
     const Viewport screen = {8, 16, -limit, -limit, -1, 1};
     Triangle p{};

@@ -1,5 +1,5 @@
-// The coverage rule `center` against a second decision by another method: exact edge functions, evaluated at
-// every pixel near the triangle, and the top-left rule as the books state it.
+// The coverage rule `center` against a second implementation by another method: exact edge functions,
+// evaluated at every pixel near the triangle, and the top-left rule as textbooks state it.
 
 #include <gtest/gtest.h>
 
@@ -25,7 +25,8 @@ struct Screen {
   }
 };
 
-/// The edge function of a directed edge at pixel centers, in units in which everything is whole; y upwards.
+/// The edge function of a directed edge at pixel centers, in units that make all values integers; y points
+/// up.
 class EdgeFunction {
  public:
   EdgeFunction(const Screen& s, std::array<std::int64_t, 2> from, std::array<std::int64_t, 2> to)
@@ -41,7 +42,7 @@ class EdgeFunction {
     const Int128 y = Int128{screen_.rows - 1 - 2 * row} * screen_.limit_y;
     return dx_ * (y - from_y_) - dy_ * (x - from_x_);
   }
-  /// For a triangle counter-clockwise: the edge is at its top or at its left.
+  /// For a counter-clockwise triangle: whether the edge is a top or a left edge.
   [[nodiscard]] bool owns_its_points() const { return dy_ < 0 || (dy_ == 0 && dx_ < 0); }
   [[nodiscard]] Int128 per_column() const { return -dy_ * 2 * screen_.limit_x; }
 
@@ -50,11 +51,12 @@ class EdgeFunction {
   Int128 dx_, dy_, from_x_, from_y_;
 };
 
-/// The pixels of a row that all three functions accept; calls visit(column, is_inside).
+/// The pixels of a row where all three functions accept; calls visit(column, is_inside).
 struct Reference {
   Reference(const Screen& s, UnitTriangle t) {
     const EdgeFunction ab(s, t[0], t[1]);
-    // Twice the area has the sign of the third vertex's edge function, which is that of any point beyond.
+    // Twice the area is the edge function at the third vertex; its sign is that of every point on the same
+    // side.
     const Int128 area =
         Int128{t[1][0] - t[0][0]} * (t[2][1] - t[0][1]) - Int128{t[2][0] - t[0][0]} * (t[1][1] - t[0][1]);
     has_area = area != 0;
@@ -69,7 +71,7 @@ struct PixelBox {
   int first_row, last_row, first_column, last_column;
 };
 
-/// The pixels within two of the triangle.
+/// The pixels within two of the triangle's bounding box.
 PixelBox box_around(const Screen& s, const UnitTriangle& t) {
   const auto [left, right] = std::minmax({t[0][0], t[1][0], t[2][0]});
   const auto [bottom, top] = std::minmax({t[0][1], t[1][1], t[2][1]});
@@ -110,7 +112,7 @@ bool is_like_reference(const Screen& s, const UnitTriangle& t, const std::vector
   return span == spans.end();
 }
 
-/// The same decision in plain doubles: what exactness is for.
+/// The same decision in doubles, to show that exactness is necessary.
 bool is_wrong_in_doubles(const Screen& s, const UnitTriangle& units, const std::vector<Span>& spans) {
   const Viewport config = s.config();
   Triangle p = triangle_of(units).p;
@@ -148,7 +150,7 @@ constexpr std::array<Screen, 5> kScreens = {{
 
 using Family = std::function<UnitTriangle(RandomNumbers&, const Screen&)>;
 
-/// A point on the screen, or a little outside.
+/// A point on the screen, or slightly outside.
 std::array<std::int64_t, 2> any_point(RandomNumbers& random, const Screen& s) {
   return {static_cast<std::int64_t>(random.between(-1.02, 1.02) * static_cast<double>(s.limit_x)),
           static_cast<std::int64_t>(random.between(-1.02, 1.02) * static_cast<double>(s.limit_y))};

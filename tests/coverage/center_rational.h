@@ -26,8 +26,8 @@ inline mpq_class decimal(double hi, double lo) {
   return result;
 }
 
-/// Which pixels a triangle owns by the rule `center`, and how deep it is there, in rational numbers: a
-/// triangle and a screen taken by their definition, one pixel at a time.
+/// The pixels that a triangle owns by the rule `center`, and its depth there, in rational numbers: straight
+/// from the definition, one pixel at a time.
 class ExactCoverage {
  public:
   ExactCoverage(const TextTriangle& t, const Viewport& s) {

@@ -14,7 +14,7 @@
 
 namespace pipeline {
 
-/// A triangle as its text gives it.
+/// A triangle as its text.
 struct TextTriangle {
   Triangle p;
   Triangle low_parts{};
@@ -23,7 +23,7 @@ struct TextTriangle {
   [[nodiscard]] ExactTriangle exact() const { return {p, &low_parts, decimal_marks}; }
 };
 
-/// The words with a blank between them.
+/// The words, separated by blanks.
 inline std::string joined(std::initializer_list<std::string_view> words) {
   std::string text;
   for (const std::string_view word : words) {
@@ -86,12 +86,12 @@ class Owners {
       for (int column = span.first_column; column <= span.last_column; ++column) ++at(span.row, column);
   }
   [[nodiscard]] int count(int row, int column) const { return counts_[index(row, column)]; }
-  /// How many pixels have this number of owners.
+  /// The number of pixels with this many owners.
   [[nodiscard]] long pixels_with(int owner_count) const {
     return std::count(counts_.begin(), counts_.end(), owner_count);
   }
   [[nodiscard]] long all() const { return static_cast<long>(counts_.size()); }
-  /// A line a row: '.' for no owner, '#' for one, else the number.
+  /// A line for each row: '.' for no owner, '#' for one, else their number.
   [[nodiscard]] std::vector<std::string> picture() const {
     std::vector<std::string> lines(static_cast<std::size_t>(screen_.rows));
     for (std::size_t i = 0; i < counts_.size(); ++i)

@@ -94,7 +94,7 @@ TEST(CoverageCenter, ALeftEdgeThroughCentersOwnsThemAndARightEdgeDoesNot) {
 }
 
 TEST(CoverageCenter, SlopingEdgesThroughCentersBelongToTheTriangleOnTheirRight) {
-  // The same diagonal is a left edge of one and a right edge of the other.
+  // The same diagonal is a left edge of one triangle and a right edge of the other.
   EXPECT_EQ(picture_of("-2.5 2.5 0 2.5 -2.5 0 2.5 2.5 0"), (Picture{
                                                                "........",
                                                                ".#####..",
@@ -156,7 +156,7 @@ TEST(CoverageCenter, IsCutAtTheBordersOfTheScreen) {
 }
 
 TEST(CoverageCenter, ADecimalIsThatDecimalAndNotItsNearestDouble) {
-  // Pixels of size 0.2: the centers are at -0.9, -0.7 ... No double is 0.3, 0.1 or 0.7.
+  // Pixels of size 0.2: the centers are at -0.9, -0.7 ... None of 0.3, 0.1 and 0.7 is a double.
   const Viewport tenths = decimal_screen(10, 2, -1, -0.2);
   const Picture expected = {"......##..", "......##.."};
   EXPECT_EQ(picture_of("0.3 -0.2 0 0.3 0.2 0 0.7 -0.2 0", tenths)[1], "......##..");
@@ -168,8 +168,9 @@ TEST(CoverageCenter, ADecimalIsThatDecimalAndNotItsNearestDouble) {
 
 TEST(CoverageCenter, OtherNumbersAreTheirNearestDoubles) {
   const Viewport tenths = decimal_screen(10, 1, -1, -1);
-  // The double nearest to 0.3 lies below it, that nearest to 0.1 above, so the center of column 6 is in and
-  // that of column 5 is not; as the decimals 0.3 and 0.1 they would be on left edges, and in.
+  // The double nearest to 0.3 is below it, the one nearest to 0.1 above, so the center of column 6 is inside
+  // and that of column 5 is not; with the decimals 0.3 and 0.1 both centers would be on left edges, and
+  // inside.
   EXPECT_EQ(picture_of("3e-1 -1 0 3e-1 1 0 0.5 -1 0", tenths)[0], "......#...");
   EXPECT_EQ(picture_of("1e-1 -1 0 1e-1 1 0 0.3 -1 0", tenths)[0], "..........");
   EXPECT_EQ(picture_of("0.10000000 -1 0 0.10000000 1 0 0.3 -1 0", tenths)[0], "..........");
@@ -178,7 +179,7 @@ TEST(CoverageCenter, OtherNumbersAreTheirNearestDoubles) {
 
 TEST(CoverageCenter, LimitsAreDecimalsToo) {
   // Pixels of size 0.1, centers at -0.25 ... 0.25; the left edge is at 0.05. The double nearest to 0.3 is
-  // less, and so would be the center of column 3.
+  // smaller, and so would be the center of column 3.
   const char* triangle = "0.05 -0.3 0 0.05 0.3 0 0.25 -0.3 0";
   Viewport screen = decimal_screen(6, 6, -0.3, -0.3);
   EXPECT_EQ(picture_of(triangle, screen)[5], "...##.");
@@ -197,7 +198,7 @@ TEST(CoverageCenter, MoreDigitsThanADoubleHasDecide) {
 }
 
 TEST(CoverageCenter, AMeshThroughPixelCentersOwnsEveryPixelOnce) {
-  // A quad of two triangles; the diagonal goes through n centers, which one of them owns.
+  // A quad of two triangles; the diagonal passes through n centers, each owned by one of them.
   constexpr int n = 48;
   const Viewport screen = decimal_screen(n, n);
   const TextTriangle lower = triangle_of("-1 -1 0 1 -1 0 1 1 0"), upper = triangle_of("-1 -1 0 1 1 0 -1 1 0");
@@ -207,7 +208,7 @@ TEST(CoverageCenter, AMeshThroughPixelCentersOwnsEveryPixelOnce) {
 }
 
 TEST(CoverageCenter, ASquareBetweenCentersHasTheTopAndTheLeftOnes) {
-  // Centers at odd multiples of 0.05; the square from -0.45 to 0.25 has 7 x 7 of them.
+  // Centers at odd multiples of 0.05; the square from -0.45 to 0.25 contains 7 x 7 of them.
   const Viewport screen = decimal_screen(20, 20);
   const Owners owners = owners_of({triangle_of("-0.45 -0.45 0 0.25 -0.45 0 0.25 0.25 0"),
                                    triangle_of("-0.45 -0.45 0 0.25 0.25 0 -0.45 0.25 0")},
@@ -229,7 +230,7 @@ TEST(CoverageCenter, AFanAroundAPixelCenterOwnsEveryPixelOnce) {
   EXPECT_EQ(owners.pixels_with(1), owners.all());
 }
 
-/// Splits the triangle at a point inside it, `depth` times over.
+/// Splits the triangle at a point inside it, recursively, `depth` times.
 void split(const UnitTriangle& t, int depth, RandomNumbers& random, Owners& owners) {
   if (depth == 0) {
     owners.add(triangle_of(t));
@@ -253,8 +254,8 @@ TEST(CoverageCenter, RandomTriangulationsOwnEveryPixelOnce) {
        {std::tuple{64, 48, 1.0}, {33, 57, 0.75}, {1023, 2, 1.0}, {7, 401, 3.1415927}})
     for (int i = 0; i < 20; ++i) {
       Owners owners(decimal_screen(columns, rows, -limit, -limit));
-      // Corners of the screen's square and far outside; the points inside are rounded to the same 10^-7 for
-      // all.
+      // Corners of the screen's square and points far outside; each inner point is rounded to 10^-7 once, for
+      // all its triangles.
       const std::int64_t far = random.whole(40'000'000, 900'000'000);
       split({{{-far, -far}, {far, -far}, {far, far}}}, 4, random, owners);
       split({{{-far, -far}, {far, far}, {-far, far}}}, 4, random, owners);
@@ -308,7 +309,7 @@ TEST(CoverageCenter, AllWidthsOfNumbersGiveTheSamePixelsAndDepths) {
         for (std::size_t k = 1; k < 3; ++k)
           units[k] = {units[0][0] + random.whole(-400'000, 400'000),
                       units[0][1] + random.whole(-400'000, 400'000)};
-      // Up to 10^8, where 64 bits still hold the coordinates, but 128 are needed for products.
+      // Up to 10^8: 64 bits still hold the coordinates, but products need 128.
       const std::int64_t far = i % 4 == 1 ? random.whole(1, 80'000'000) : 1;
       for (auto& vertex : units) vertex = {vertex[0] * far, vertex[1] * far};
       const TextTriangle t =
@@ -356,7 +357,8 @@ TEST(CoverageCenter, AnyFiniteNumbersGiveSpansOnTheScreen) {
 }
 
 TEST(CoverageCenter, TheLargestNumbersGiveTheRightPicture) {
-  // x + y <= 0 with the diagonal as right edge, drawn with corners whose differences a double cannot hold.
+  // x + y <= 0 with the diagonal as right edge, drawn with corners whose differences exceed a double's
+  // precision.
   EXPECT_EQ(picture_of("-1.7976931348623157e308 1.7976931348623157e308 0 1.7976931348623157e308 "
                        "-1.7976931348623157e308 0 -1.7976931348623157e308 -1.7976931348623157e308 0"),
             (Picture{
@@ -390,11 +392,11 @@ TEST(CoverageCenter, ATinyWorldLooksLikeALargeOne) {
   }
 }
 
-// Depths that meet, in a row of many columns: who is nearest is decided by exact depths, evaluated at each
-// pixel.
+// Depths that cross within a row of many columns: exact depths, evaluated at each pixel, decide which is
+// nearest.
 
-/// The triangle seen in each column of a screen one row high, each quad given as its depths on the left and
-/// the right.
+/// The triangle visible in each column of a screen one row high; each quad is given by its depths on the left
+/// and on the right.
 std::vector<int> nearest_in_each_column(int columns, const std::vector<std::array<std::string, 2>>& depths) {
   const Viewport screen = decimal_screen(columns, 1);
   const ExactGrid grid(screen);

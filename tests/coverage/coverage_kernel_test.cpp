@@ -1,4 +1,4 @@
-// The kernels that make the spans of many triangles, against the coverage rules, triangle by triangle.
+// The kernels that compute the spans of many triangles, against the coverage rules, triangle by triangle.
 
 #include "libpipeline/coverage/kernel.h"
 
@@ -18,7 +18,7 @@
 namespace pipeline {
 namespace {
 
-/// Every claim is made of every kernel that this processor can run.
+/// Every claim is tested with every kernel that this processor can run.
 class CoverageKernelTest : public testing::TestWithParam<CoverageKernel> {};
 
 Viewport screen_of(int columns, int rows, double left, double bottom, bool is_decimal) {
@@ -27,15 +27,14 @@ Viewport screen_of(int columns, int rows, double left, double bottom, bool is_de
   return screen;
 }
 
-/// A triangle and what an ExactTriangle refers to.
+/// A triangle and the data that its ExactTriangle refers to.
 struct Source {
   Triangle p_ndc;
   Triangle low_parts;
   std::uint16_t decimal_marks;
 };
 
-/// What all of a triangle's vertices have in common, so that they are ordinary, or out of the ordinary in one
-/// way.
+/// A property common to all vertices of a triangle, which makes them ordinary, or unusual in one way.
 enum class Family {
   decimals,
   pixel_centers,
@@ -87,7 +86,7 @@ Vec3 vertex_of(Family family, const Viewport& screen, const Vec3& middle, double
 }
 
 Source random_source(const Viewport& screen, RandomNumbers& random) {
-  // Half of them decimals, so that there are often four in a row.
+  // Half of them decimals, so that four in a row are frequent.
   const Family family = random.whole(0, 1) == 0
                             ? Family::decimals
                             : static_cast<Family>(random.whole(0, static_cast<int>(Family::kCount) - 1));
@@ -103,7 +102,7 @@ Source random_source(const Viewport& screen, RandomNumbers& random) {
   return source;
 }
 
-/// All that a span says, bit by bit.
+/// All members of a span, bit by bit.
 std::array<std::uint64_t, 9> bits_of(const TaggedSpan& span) {
   const auto& [row, first, last, depth] = span.span;
   const auto bits = [](double part) { return std::bit_cast<std::uint64_t>(part); };

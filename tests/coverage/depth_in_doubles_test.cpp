@@ -18,8 +18,8 @@ mpz_class whole(std::int64_t value) {
   return mpz_class(static_cast<double>(value));  // below 2^53
 }
 
-/// A row of pixels in a triangle: the weights of b and c at the first one, and what they grow by from each to
-/// the next. No weight, a's included, is below 0.
+/// A row of pixels in a triangle: the weights of b and c at the first one, and their increments from each to
+/// the next. No weight, including a's, is below 0.
 struct Row {
   std::int64_t total;
   std::int64_t b;
@@ -29,7 +29,7 @@ struct Row {
   int pixel_count;
 };
 
-/// Rows that end at random places of the triangle, often on an edge or in a corner.
+/// Rows that end at random points of the triangle, often on an edge or in a corner.
 Row random_row(RandomNumbers& random) {
   const std::int64_t most = DepthInDoubles::kMaxWeight >> random.whole(0, 40);
   const auto below = [&](std::int64_t end) {
@@ -40,7 +40,7 @@ Row random_row(RandomNumbers& random) {
   Row row{};
   row.pixel_count = 1 + random.whole(0, 3) * random.whole(0, 300);
   const std::int64_t gaps = std::max(row.pixel_count - 1, 1);
-  // What each weight is at the ends, in steps: multiples of `gaps` apart.
+  // Each weight at the ends, in steps: multiples of `gaps` apart.
   const std::int64_t first_b = below(most / 3 + 1), first_c = below(most / 3 + 1);
   const std::int64_t last_b = first_b % gaps + gaps * below(most / 3 / gaps + 1);
   const std::int64_t last_c = first_c % gaps + gaps * below(most / 3 / gaps + 1);
@@ -92,7 +92,7 @@ TEST(DepthInDoubles, IsWithinItsBoundAlongEveryRow) {
       largest_error = std::max(largest_error, mpq_class(error / size).get_d());
     }
   }
-  // The bound is no exaggeration: a third of it is met.
+  // The bound is realistic: errors reach a third of it.
   EXPECT_GT(largest_error, 6.5 / 3 * 0x1p-53);
 }
 
@@ -106,7 +106,7 @@ TEST(DepthInDoubles, OneDepthIsThatDepthEverywhere) {
 }
 
 TEST(DepthInDoubles, ZeroHasNoSign) {
-  // At b: 2 * -0.0 and two weights of 0, of which one meets -1.
+  // At b: 2 * -0.0 and two zero weights, one of them times -1.
   const SpanDepth depth = DepthInDoubles({-1, -0.0, -0.0}, 1, 0, 0).along(3, 3, 2, 0);
   EXPECT_EQ(std::bit_cast<std::uint64_t>(depth.z0), 0u);
   EXPECT_EQ(std::bit_cast<std::uint64_t>(depth.slope), 0u);

@@ -39,7 +39,7 @@ Picture picture_of(const Triangle& p_ndc, const Viewport& screen = kEightByEight
 const Picture kNothing(8, "........");
 
 TEST(CoverageNearest, TakesThePixelsNearestToBothEdges) {
-  // In the row at y the edges are at x = -3 + (y + 3) / 2 and its mirror image.
+  // On the row at y the edges are at x = -3 + (y + 3) / 2 and its mirror image.
   EXPECT_EQ(picture_of({{{-3, -3, 0}, {3, -3, 0}, {0, 3, 0}}}), (Picture{
                                                                     "........",
                                                                     "...##...",
@@ -116,7 +116,7 @@ TEST(CoverageNearest, TheBorderItselfBelongsToTheLeftAndNotToTheRight) {
 }
 
 TEST(CoverageNearest, HorizontalEdgeIsSkipped) {
-  // Its row is drawn by the other two edges; alone, as a triangle of no height, it draws nothing.
+  // The other two edges draw its row; alone, as a triangle of no height, it draws nothing.
   EXPECT_EQ(picture_of({{{-2.5, 0.5, 0}, {2.5, 0.5, 0}, {0, 1, 0}}})[3], ".######.");
   EXPECT_EQ(picture_of({{{-2.5, 0.5, 0}, {2.5, 0.5, 0}, {0, 0.5, 0}}}), kNothing);
 }
@@ -146,7 +146,7 @@ TEST(CoverageNearest, ALineIsDrawnAndItsSmallerDepthHolds) {
 }
 
 TEST(CoverageNearest, ATriangleSeenEdgeOnKeepsItsSmallerDepthWhereRoundingMakesItLean) {
-  // 0.1, 0.2 and 0.3 are not exactly on a line as doubles; a slope taken from that would be noise.
+  // As doubles, 0.1, 0.2 and 0.3 are not exactly on a line; a slope computed from them would be noise.
   for (const Span& span : spans_of({{{0.1, 0.1, 0.3}, {0.2, 0.2, 0.9}, {0.3, 0.3, 0.5}}}, kExample)) {
     const double y = 0.998 - 0.004 * span.row;
     EXPECT_NEAR(span.depth(span.first_column), 0.3 + (y - 0.1), 1e-9);
@@ -169,8 +169,8 @@ TEST(CoverageNearest, OnTheRowOfACornerDepthIsThatOfTheCorner) {
 }
 
 TEST(CoverageNearest, NextToACornerDepthKeepsTheSlopeOfThePlane) {
-  // A corner whose y is that of a row in decimals, but not exactly: the row meets the triangle in two points
-  // that are as far apart as rounding makes them, and the quotient of their differences says nothing.
+  // In decimals the corner's y is that of a row, but not exactly: the row crosses the triangle in two points
+  // whose distance is a rounding error, and the quotient of their differences is meaningless.
   const auto z = [](double x, double y) { return 1 + 0.5 * x + 0.25 * y; };
   int met_count = 0;
   for (int row = 10; row < 490; ++row) {
@@ -221,8 +221,9 @@ TEST(CoverageNearest, SecondExampleOfTheAssignment) {
   }
 }
 
-// A second implementation, in long double: the corners are not sorted, x and z come from the weights of the
-// ends, depth from the areas that a point makes with the edges.
+// A second implementation, in long double: it does not sort the corners, interpolates x and z with the
+// weights of an edge's ends, and computes depth from the areas of the triangles that a point forms with the
+// edges.
 
 struct Crossing {
   long double x;
@@ -258,7 +259,7 @@ void expect_like_second_implementation(const Triangle& t, const Viewport& screen
       left = std::min(left, found.x);
       right = std::max(right, found.x);
     }
-    // The edges of pixels are where rounding decides: these rows are left to the tests with exact numbers.
+    // Rounding decides at the borders of pixels: these rows are left to the tests with exact numbers.
     const long double first = (left - screen.left) / dx, last = (right - screen.left) / dx;
     const bool has_row = left <= right && first < screen.columns && last >= 0;
     if (span == spans.end() || span->row != row) {
@@ -345,7 +346,7 @@ TEST(CoverageNearest, DepthsWhoseDifferenceADoubleCannotHoldAreInterpolated) {
 }
 
 TEST(CoverageNearest, ATinyWorldLooksLikeALargeOne) {
-  // A power of two takes nothing from any number, only the range does.
+  // Multiplying by a power of two is exact; only the range changes.
   const Triangle t = {{{-3, -3, 0.1}, {3, -2, 0.2}, {0.3, 3, 0.7}}};
   const std::vector<Span> expected = spans_of(t, kEightByEight);
   for (const double scale : {0x1p-600, 0x1p600}) {

@@ -1,4 +1,4 @@
-// Clipping: what clip_polygon promises, for triangles in clip space with coordinates of any size.
+// Clipping: the promises of clip_polygon, for triangles in clip space with coordinates of any size.
 
 #include <algorithm>
 
@@ -23,8 +23,8 @@ void check_inside(const Polygon& triangle, const Polygon& inside) {
       require(value(distance_inside(plane, v)) >= least, "no corner lies outside");
 }
 
-/// The shadows of what is inside of a plane and of what is outside add up to the whole's; but a triangle in
-/// the plane is on both sides.
+/// The projected areas of the parts inside and outside of a plane add up to the whole's; except that a
+/// triangle in the plane is on both sides.
 void check_area(const Polygon& triangle, ClipPlane plane) {
   const auto is_on_plane = [&](const ClipVertex& v) { return distance_inside(plane, v).sign() == 0; };
   if (std::all_of(triangle.begin(), triangle.end(), is_on_plane)) return;
@@ -39,7 +39,7 @@ void check_area(const Polygon& triangle, ClipPlane plane) {
     }
 }
 
-/// A triangle drawn from another corner, or the other way round, is cut at the same points.
+/// A triangle that starts at another corner, or runs the other way round, is cut at the same points.
 void check_same_corners(const Polygon& cut, const Polygon& other) {
   require(other.size() == cut.size(), "the order of the corners does not change how many are left");
   for (const ClipVertex& v : cut)

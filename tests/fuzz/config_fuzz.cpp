@@ -1,4 +1,4 @@
-// The config reader: any text gives a screen within its limits or a mistake with its place.
+// The config reader: any text gives a viewport within its limits or an error at its location.
 
 #include <cmath>
 #include <optional>

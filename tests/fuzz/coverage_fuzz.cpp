@@ -28,7 +28,7 @@ void check_triangle(const TextTriangle& triangle, const Viewport& screen) {
       const bool is_covered =
           found != spans.end() && column >= found->second.first_column && column <= found->second.last_column;
       require(is_covered == exact.covers(row, column), "a pixel is covered as exact arithmetic says");
-      // Below this size TriangleDepth promises nothing.
+      // Below this size TriangleDepth makes no promises.
       if (!is_covered || largest < mpq_class(1e-288)) continue;
       const double depth = found->second.depth(column);
       require(std::isfinite(depth), "a depth is finite");
@@ -64,7 +64,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   try {
     pipeline::check(text.substr(0, blank_line), text.substr(std::min(blank_line + 2, text.size())));
   } catch (const pipeline::InputError&) {
-    // What is no config or no stage text is the business of other targets.
+    // Other targets check text that is no config or no stage text.
   }
   return 0;
 }

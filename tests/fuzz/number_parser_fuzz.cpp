@@ -89,7 +89,7 @@ void check_exact_decimal(const std::string& word) {
 // NOLINTNEXTLINE(readability-identifier-naming): libFuzzer's name
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string word(reinterpret_cast<const char*>(data), size);
-  // A word holds no NUL for strtod to stop at; the parser has to refuse it.
+  // strtod would stop at a NUL in a word; the parser has to refuse it.
   if (word.find('\0') != std::string::npos) {
     pipeline::require(pipeline::parse_number(word).error == pipeline::NumberError::not_a_number,
                       "NUL is no digit");

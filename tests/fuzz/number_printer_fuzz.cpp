@@ -26,7 +26,7 @@ std::string without_sign_of_zero(const std::string& text) {
   return text.find_first_of("123456789") == std::string::npos && text.front() == '-' ? text.substr(1) : text;
 }
 
-/// What glibc prints, which rounds exactly, ties to even.
+/// The output of glibc, which rounds exactly, ties to even.
 std::string reference(double value, int decimals) {
   char text[kMaxNumberLength + 1];
   return {text, static_cast<std::size_t>(std::snprintf(text, sizeof text, "%.*f", decimals, value))};
@@ -74,7 +74,7 @@ void check(FuzzBytes bytes) {
   require(printed(hi, 0, format) == without_sign_of_zero(reference(hi, format.decimals)),
           "doubles are printed right");
   check_shortest(hi);
-  // A part below half of the last place of hi, as PrintableNumber promises it.
+  // A low part below half of the last place of hi, as PrintableNumber promises.
   const double ulp = std::nextafter(std::fabs(hi), HUGE_VAL) - std::fabs(hi);
   const double lo = std::isfinite(ulp) ? ulp / 2 * ((bytes.byte() - 128) / 128.0) : 0;
   if (std::isfinite(hi + lo))

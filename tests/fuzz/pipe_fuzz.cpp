@@ -1,5 +1,5 @@
-// The whole pipe in one process: the four tools' own main functions, each reading what the one before wrote.
-// The first byte of the input chooses options, the rest is the scene.
+// The whole pipe in one process: the four tools' own main functions, each reading the output of the previous
+// one. The first byte of the input selects options, the rest is the scene.
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -22,7 +22,7 @@ int zbuf_main(int argc, char** argv);
 namespace pipeline {
 namespace {
 
-/// Has a descriptor stand for another one's file while this object lives.
+/// Makes a descriptor refer to another one's file as long as this object lives.
 class Redirected {
  public:
   Redirected(int descriptor, int file)
@@ -67,7 +67,7 @@ Run run(int (*tool)(int, char**), std::vector<std::string> words, const std::str
   return done;
 }
 
-/// One line says why a run failed; a run that did not fail says nothing but notes.
+/// One line gives the reason if a run failed; a successful run prints only notes.
 void check_messages(const Run& done) {
   require(done.status == 0 || done.status == 1, "what is in a scene is no misuse");
   std::size_t failures = 0;
@@ -79,7 +79,7 @@ void check_messages(const Run& done) {
   require(failures == static_cast<std::size_t>(done.status), "a failure is one line, success is quiet");
 }
 
-/// A stage text ends with an error line if the stage failed, and holds nothing but numbers otherwise.
+/// A stage text ends with an error line if the stage failed, and contains only numbers otherwise.
 void check_stage_text(const Run& done) {
   const std::size_t last_line = done.output.rfind('\n', done.output.size() < 2 ? 0 : done.output.size() - 2);
   const std::string last = done.output.substr(last_line == std::string::npos ? 0 : last_line + 1);

@@ -1,5 +1,4 @@
-// Where there is no libFuzzer: gives a fuzz target the files that are named, or that lie in the folders
-// named.
+// Without libFuzzer: runs a fuzz target on the named files, or on the files in the named folders.
 
 #include <algorithm>
 #include <cstdio>

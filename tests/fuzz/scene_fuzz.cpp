@@ -18,7 +18,7 @@ void model(TextReader& text, TextWriter& output) {
   for (TriangleBatch batch; stage.read(batch);) {
     try {
       stage.transform(batch, rounder);
-    } catch (const InputError&) {  // an overflow; the triangles before it are written, as by the tools
+    } catch (const InputError&) {  // an overflow; the triangles before it are written, as in the tools
       writer.write(batch);
       throw;
     }

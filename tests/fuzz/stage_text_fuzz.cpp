@@ -1,5 +1,5 @@
-// The reader and the writer of stage text: any text gives triangles or a mistake with its place, and what was
-// written reads back to the same. So it is if threads parse the text ahead.
+// The reader and the writer of stage text: any text gives triangles or an error at its location, and the
+// written text reads back as the same. Both also hold if threads parse the text ahead.
 
 #include "libpipeline/stream/read_ahead.h"
 #include "libpipeline/stream/stage_reader.h"

@@ -17,17 +17,17 @@
 
 namespace pipeline {
 
-/// What a text becomes: what was written, and the mistake it ended with, if any.
+/// The result of a text: the written text, and the error it ended with, if any.
 struct Transcript {
   std::string written;
   std::string mistake;
   friend bool operator==(const Transcript&, const Transcript&) = default;
 };
 
-/// Reads from a text and writes what it makes of it.
+/// Reads a text and writes its result.
 using Work = std::function<void(TextReader&, TextWriter&)>;
 
-/// Line and column of a mistake lie in the text, or just behind it.
+/// The line and column of an error lie in the text, or just behind it.
 inline void require_location_within(const SourceLocation& location, std::string_view text) {
   const auto line_count = static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')) + 1;
   require(location.line >= 1 && location.line <= line_count + 1, "a mistake is on a line of the text");
@@ -50,7 +50,7 @@ inline Transcript transcript(int descriptor, std::string_view text, const Work& 
   return result;
 }
 
-/// A short text that a reader gets in pieces. All of it waits in a socket, so no thread has to send it.
+/// A short text that a reader gets in pieces. A socket buffers all of it, so no thread has to send it.
 class WaitingPieces {
  public:
   WaitingPieces(std::string_view text, std::size_t piece_size) {
@@ -72,7 +72,7 @@ class WaitingPieces {
   int descriptor_ = -1;
 };
 
-/// What `work` makes of the text; the same whether it comes as a whole or in pieces.
+/// The transcript of `work` on the text; the same whether the text comes as a whole or in pieces.
 inline Transcript transcript(std::string_view text, const Work& work) {
   const TextFile file(text);
   Transcript whole = transcript(file.descriptor(), text, work);

@@ -14,7 +14,7 @@ using Exact = Real<512>;
 // Holds the exact angle, however far apart its two parts are.
 using ExactAngle = Real<2304>;
 
-/// An angle in radians; its whole turns are removed in degrees.
+/// An angle in radians, after whole turns are removed in degrees.
 Exact radians(DoubleDouble degrees) {
   const ExactAngle reduced = remainder(ExactAngle(degrees), ExactAngle(360));
   return Exact::nearest(reduced * ExactAngle::pi() / ExactAngle(180));
@@ -31,7 +31,7 @@ void expect_contained(DoubleDouble degrees) {
   ASSERT_TRUE(contains(computed.versine, times_power_of_two(half_sine * half_sine, 1), slack * abs(x)));
 }
 
-/// The errors must not only be true but also small: 2^-98 of the result.
+/// The error bounds must be not only true but also small: 2^-98 of the result.
 void expect_narrow(const Ball& ball) {
   ASSERT_LE(ball.error(), std::fabs(ball.value().hi) * 0x1p-97) << std::hexfloat << ball.value().hi;
 }
@@ -110,7 +110,7 @@ TEST(Angle, LongContainsTheTruth) {
   expect_all_contained(near_to_special, 107, 200'000);
 }
 
-/// 0, +-1/2 or +-1 for a multiple of 30 degrees; nullopt where the sine is not rational.
+/// 0, +-1/2 or +-1 for a multiple of 30 degrees; nullopt if the sine is not rational.
 struct RationalSine {
   int thirties;
   double sine;
@@ -140,7 +140,7 @@ TEST(Angle, RationalCosinesAreExact) {
 }
 
 TEST(Angle, RightAnglesOfHugeSizeAreExact) {
-  // 90 * 2^80 degrees are whole turns, 2^70 * 30 degrees are 240 more than whole turns (2^70 = 16 mod 24).
+  // 90 * 2^80 degrees are whole turns, 2^70 * 30 degrees exceed whole turns by 240 (2^70 = 16 mod 24).
   EXPECT_EQ(sine_cosine_of_degrees({90 * 0x1p80, 0}).cosine, Ball(1));
   EXPECT_EQ(sine_cosine_of_degrees({90 * 0x1p80, 0}).sine, Ball());
   EXPECT_EQ(sine_cosine_of_degrees({30 * 0x1p70, 0}).cosine, Ball(-0.5));

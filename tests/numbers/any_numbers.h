@@ -11,13 +11,13 @@
 
 namespace pipeline {
 
-/// Finite numbers of every size, among them those whose differences and products leave a double's range.
+/// Finite numbers of every size, some with differences and products outside a double's range.
 inline constexpr double kLargest = std::numeric_limits<double>::max();
 inline const std::vector<double> kAnyNumbers = {0,      -0.0,  5e-324, -5e-324,  1e-310,   1e-200, -1e-160,
                                                 0.5,    -0.5,  1,      -1.002,   1e154,    -1e160, 1e300,
                                                 -1e300, 1e308, -1e308, kLargest, -kLargest};
 
-/// Expects spans of pixels there are, with depths that are numbers.
+/// Expects spans within the screen, with depths that are not NaN.
 inline void expect_on_screen(const std::vector<Span>& spans, const Viewport& screen) {
   for (const Span& span : spans) {
     ASSERT_GE(span.row, 0);

@@ -291,7 +291,7 @@ TEST(Ball, NearestDoubleIsThatOfTheMidpoint) {
 TEST(Ball, NearestDoubleBelowTheNormalRangeIsRoundedOnce) {
   RandomNumbers random(13);
   for (int i = 0; i < 200'000; ++i) {
-    // Halfway between two subnormal numbers, and the least bit to one side or on the tie itself.
+    // Halfway between two subnormal numbers, and the smallest amount to one side or exactly on the tie.
     const double half = std::ldexp(2.0 * random.whole(0, 100) + 1, 0);
     const double low = random.whole(-1, 1) * std::ldexp(1.0, random.whole(-90, -60));
     const Ball ball = (Ball(half) + Ball(low)) * Ball(kSmallest) * Ball(0.5);

@@ -29,7 +29,7 @@ class RandomNumbers {
   double between(double low, double high) {
     return low + (high - low) * (static_cast<double>(bits() >> 11) * 0x1p-53);
   }
-  /// Of either sign, with an absolute value in [2^first, 2^(last + 1)); often of few bits.
+  /// Of either sign, with an absolute value in [2^first, 2^(last + 1)); often with few bits.
   double with_exponent(int first, int last) {
     double significand = 1 + static_cast<double>(bits() >> 12) * 0x1p-52;
     const std::uint64_t shape = bits();
@@ -44,7 +44,7 @@ class RandomNumbers {
     const double value = std::bit_cast<double>(pattern);
     return std::isfinite(value) ? value : std::bit_cast<double>(pattern & ~(std::uint64_t{1} << 62));
   }
-  /// A normalized DoubleDouble, whose low part is often 0, near its limit, or far below it.
+  /// A normalized DoubleDouble whose low part is often 0, near its limit, or far below it.
   DoubleDouble double_double(int first, int last) {
     const double hi = with_exponent(first, last);
     const double ulp = std::ldexp(1.0, std::ilogb(hi) - 52);

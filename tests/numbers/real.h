@@ -11,8 +11,8 @@
 
 namespace pipeline {
 
-/// MPFR's floating-point number of `bits` bits and unlimited exponent, as a value: the tests' reference. The
-/// digits are stored in the object, so millions of them cost no allocation.
+/// MPFR's floating-point number with `bits` bits and unlimited exponent, as a value: the tests' reference.
+/// The digits are stored in the object, so millions of numbers need no allocation.
 template <int bits>
 class Real {
  public:
@@ -28,7 +28,7 @@ class Real {
   }
   ~Real() = default;
 
-  /// The nearest number to one of another precision.
+  /// The number nearest to one of another precision.
   template <int other_bits>
   static Real nearest(const Real<other_bits>& other) {
     Real result;
@@ -59,7 +59,7 @@ class Real {
     mpfr_mul_2si(result.value_, a.value_, exponent, MPFR_RNDN);
     return result;
   }
-  /// The nearest number of `fewer_bits` bits.
+  /// The nearest number with `fewer_bits` bits.
   friend Real rounded_to_bits(const Real& a, int fewer_bits) {
     Real result(a);
     mpfr_prec_round(result.value_, fewer_bits, MPFR_RNDN);
@@ -126,7 +126,7 @@ bool contains(const Ball& ball, const Real<bits>& truth, const Real<bits>& slack
   return abs(midpoint<bits>(ball) - truth) <= radius<bits>(ball) + slack;
 }
 
-/// The same for a truth that has all but its last 20 bits right.
+/// The same for a truth that is correct except for its last 20 bits.
 template <int bits>
 bool contains(const Ball& ball, const Real<bits>& truth) {
   return contains(ball, truth, abs(times_power_of_two(truth, 20 - bits)));

@@ -18,7 +18,7 @@ namespace {
 
 using namespace std::string_literals;
 
-/// In the format of the extension `format`.
+/// An image file in the format of the extension `format`.
 void write_image(int descriptor, const std::string& format, const Raster<Color>& image) {
   const auto writer = image_writer(descriptor, "image" + format, image.columns(), image.rows());
   for (int row = 0; row < image.rows(); ++row) writer->write_row(image.row(row));
@@ -60,7 +60,7 @@ Raster<Color> small_image() {
   return image;
 }
 
-/// Larger than the blocks an image is written in.
+/// Larger than the blocks in which an image is written.
 Raster<Color> large_image() {
   Raster<Color> image(1201, 999, Color());
   for (int row = 0; row < image.rows(); ++row)
@@ -132,7 +132,7 @@ TEST(ImageFile, AFullDiskIsAnError) {
   ::close(full);
 }
 
-/// Of an image whose file has that name.
+/// The error of writing an image to a file of that name.
 std::string first_two_bytes(const std::string& name) {
   const TemporaryFolder folder;
   const int descriptor = ::open(folder.path("image").c_str(), O_WRONLY | O_CREAT, 0600);

@@ -9,7 +9,7 @@
 namespace pipeline {
 namespace {
 
-/// The generator of the hand-outs, step by step from the start.
+/// The generator of the hand-outs, step by step from its seed.
 Color color_by_counting(std::uint64_t number) {
   std::uint64_t s = 1;
   std::uint8_t rgb[3] = {};

@@ -1,5 +1,5 @@
-// Every byte of a text becomes every other byte: the text is refused, at a location that is not before the
-// change, or read as it now stands.
+// Each byte of a text is replaced by every other byte: the text is refused, at a location that is not before
+// the change, or read as it now stands.
 
 #include <gtest/gtest.h>
 
@@ -54,8 +54,8 @@ Numbers numbers_of_config(TextReader& text) {
 
 enum class Format { scene, stage_text, config };
 
-/// The numbers a person reads in the text, except in comments, in the camera of a scene (four lines), and on
-/// header lines.
+/// The numbers that a person would read in the text, except in comments, in a scene's camera (four lines),
+/// and on header lines.
 Numbers numbers_to_see(const std::string& text, Format format) {
   Numbers numbers;
   int camera_lines = format == Format::scene ? 4 : 0;

@@ -13,7 +13,7 @@ namespace pipeline {
 namespace {
 
 constexpr int kNoOddText = 1 << 25;
-// Of a triangle in fixed form.
+// The shortest length of a triangle in fixed form.
 constexpr std::size_t kMinLength = 91;
 
 /// The triangles that a source delivers, and the message of the error it ends with.
@@ -24,7 +24,7 @@ struct Reading {
   std::vector<VertexLocations> locations;
   std::vector<std::uint16_t> decimal_marks;
   std::vector<std::array<Vec3, 3>> colors;
-  std::vector<Vec3> unclipped;  // its first corner
+  std::vector<Vec3> unclipped;  // first corners of the unclipped triangles
   std::string end;
   friend bool operator==(const Reading&, const Reading&) = default;
 
@@ -47,7 +47,7 @@ struct Reading {
 
 struct Counts {
   int batches = 0;
-  int small_batches = 0;  // no larger than a part of the text
+  int small_batches = 0;  // batches no larger than a part of the text
 };
 
 template <typename Source>
@@ -81,7 +81,7 @@ Reading read_ahead(int descriptor, int thread_count, std::size_t part_size, Coun
   return read_from(ahead, counts, part_size);
 }
 
-/// Returns the counts of the run on most threads.
+/// Returns the counts of the run with the most threads.
 Counts expect_same_by_parts(const std::string& text, std::size_t part_size) {
   const Reading expected = read_in_order(text);
   Counts counts;
@@ -104,7 +104,7 @@ TEST(ReadAhead, ParsesPartsOfTheText) {
   const std::string text = odd_stage_text(5000, kNoOddText, 1);
   for (const std::size_t size : {100u, 1000u, 20000u}) {
     const Counts counts = expect_same_by_parts(text, size);
-    // The reader has looked at the first line, so it parses the first block itself.
+    // The reader has already read the first line, so it parses the first block itself.
     EXPECT_EQ(counts.small_batches, counts.batches - 1) << size;
     EXPECT_GE(counts.batches, static_cast<int>((text.size() - (1 << 16)) / size)) << size;
   }

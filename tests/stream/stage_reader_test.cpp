@@ -78,7 +78,7 @@ TEST(StageReader, TrianglesAreTheSameByEveryPath) {
 }
 
 TEST(StageReader, KeepsTheDigitsADoubleHasNoRoomForOfAnyTriangle) {
-  // 2^53 + 0.5 and 2^53 - 1; behind a triangle that has no such digits, and before another.
+  // 2^53 + 0.5 and 2^53 - 1; between triangles whose numbers have fewer digits.
   const std::string plain = "0 0 0\n1 0 0\n0 1 0 # slow\n\n";
   const TextFile file(plain + "0 0 0\n9007199254740992.5 9007199254740991 0\n0 1 0\n\n" + plain);
   TextReader reader(file.descriptor(), "in.txt");
@@ -236,7 +236,7 @@ TEST(StageReader, TheHeaderOfAnEmptyTextEndsAtItsStart) {
   EXPECT_EQ(to_string(StageReader(reader).header_end()), "in.txt:1:1");
 }
 
-// The numbers of triangles.
+// Triangle numbers.
 
 TEST(StageReader, CountsTrianglesFromZero) {
   EXPECT_EQ(numbers_of(kTriangle + kTriangle + kTriangle), (std::vector<std::uint64_t>{0, 1, 2}));
@@ -402,7 +402,7 @@ TEST(StageReader, AnUnframedTextIsTakenAsItReads) {
   EXPECT_EQ(triangles_of("0 0 0\n1 0 0\n0 1 1").triangles[0][2].z, 1);
 }
 
-// Streaming: triangles that have arrived are delivered before the reader waits.
+// Streaming: complete triangles are delivered before the reader waits.
 
 TEST(StageReader, DoesNotWaitBehindATriangle) {
   const TextInPieces slow({kTriangle}, TextInPieces::Then::silence);

@@ -30,7 +30,7 @@ TEST(StageText, WhatIsWrittenShortestReadsBackAsItWas) {
   EXPECT_EQ(triangles_of(written(batch, {.shortest = true})).triangles, batch.triangles);
 }
 
-// Header and columns of color and light.
+// Header and columns for color and light.
 
 const std::string kLooks =
     "attributes w color normal\nbackground 1 2 3\nambient 0.1 0.2 0.3\nmaterial 1 0.5 0.25 100000\n"
@@ -38,7 +38,7 @@ const std::string kLooks =
 const std::string kFullTriangle =
     "1 2 3 0.1 4 5 6 0 0 1\n4 5 6 12.5 7 8 255 1 0 0\n7 8 9 1e+22 0 0 0 0 0 0\n\n";
 
-/// The text that a writer writes of all that a reader reads.
+/// The text written from everything that a reader reads.
 std::string copy_of(const std::string& text, NumberFormat format, bool bare) {
   const TextFile in(text);
   const TextFile out("");

@@ -18,7 +18,7 @@ TriangleBatch numbered(std::initializer_list<std::uint64_t> numbers) {
   return batch;
 }
 
-/// The text, each triangle shortened to a dot.
+/// The text, with each triangle shortened to a dot.
 std::string written_numbers(std::initializer_list<std::uint64_t> numbers, bool bare = false) {
   std::string text = written(numbered(numbers), {.shortest = true}, bare);
   for (std::size_t at = 0; (at = text.find("0 0 0\n0 0 0\n0 0 0\n\n")) != std::string::npos;)

@@ -14,10 +14,10 @@
 namespace pipeline {
 namespace {
 
-/// Characters after the text, which must not become part of it.
+/// Characters behind the text, which must not become part of it.
 const std::string kSlack(kDecimalNumberSlack, '7');
 
-/// The length of the number at the beginning of `text`, -1 if the general reader has to take it.
+/// The length of the number at the beginning of `text`, or -1 if it is left to the general reader.
 long length_of(const std::string& text, DecimalNumber& number) {
   const std::string with_slack = text + " " + kSlack;
   const char* const end = read_decimal_number(with_slack.data(), number);
@@ -36,7 +36,7 @@ double from_chars(const std::string& text) {
   return value;
 }
 
-/// True if the number is left to the general reader, or equals the double from_chars gives.
+/// True if the number is left to the general reader, or equals the double that from_chars gives.
 bool is_right(const std::string& text, bool& was_read) {
   DecimalNumber number;
   const long length = length_of(text, number);
@@ -91,7 +91,7 @@ TEST(DecimalNumber, ZeroMayHaveManyDecimals) {
   }
 }
 
-// 2^53 + 1 is the midpoint of two doubles; decimals of its digits lie on or next to midpoints, too.
+// 2^53 + 1 is the midpoint of two doubles; decimals with its digits lie on or next to midpoints, too.
 TEST(DecimalNumber, TiesAreRoundedLikeAnyOther) {
   for (const char* text : {"9007199.254740993", "900719.9254740993", "0.9007199254740993",
                            "4503599.62737049650", "1.50000000000000011102", "1.00000000000000011102",

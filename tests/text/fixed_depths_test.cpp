@@ -51,8 +51,8 @@ TEST(FixedDepths, StopBeforeWhatTheyCannotPrint) {
   }
 }
 
-/// Compares random depths, many of them next to ties, with the general printer. Returns how many the fast
-/// path printed.
+/// Compares random depths, many of them next to ties, with the general printer. Returns how many of them the
+/// fast path printed.
 int print_random(int depth_count, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   std::uniform_real_distribution<double> unit(-1, 1);

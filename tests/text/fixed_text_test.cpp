@@ -248,7 +248,8 @@ TEST_P(FixedText, PrintsWhatLiesBesideATieOrLeavesIt) {
   EXPECT_GT(printed_count, 20000);
 }
 
-// Where the count of digits changes: powers of ten, one unit beside them, and powers of two up to 2^53.
+// Where the number of digits changes: powers of ten, their neighbors one unit away, and powers of two up to
+// 2^53.
 TEST_P(FixedText, PrintsPowersAndTheirNeighborsOrLeavesThem) {
   std::vector<double> values;
   for (int exponent = -9; exponent <= 9; ++exponent) values.push_back(std::pow(10.0, exponent));

@@ -41,7 +41,7 @@ TEST(PrintNumber, AgreesWithTheCLibraryForAnyDoubleAndAnyDecimals) {
   }
 }
 
-// Numbers of the magnitude of coordinates, many of them of few digits: near and on ties.
+// Numbers of the magnitude of coordinates, many of them with few digits: near and on ties.
 TEST(PrintNumberLong, AgreesWithToCharsForEveryCountOfDecimals) {
   RandomNumbers random(5);
   char expected[kMaxNumberLength];
@@ -70,7 +70,7 @@ TEST(PrintNumber, TiesAgreeWithTheCLibraryForAllDecimals) {
   RandomNumbers random(3);
   for (int decimals = 0; decimals <= kMaxDecimals; ++decimals) {
     for (int i = 0; i < 2'000; ++i) {
-      // An odd multiple of 2^-(decimals + 1) has one decimal more than that, a 5.
+      // An odd multiple of 2^-(decimals + 1) has one more decimal, a 5.
       const double tie = std::ldexp(2.0 * random.whole(-100'000, 100'000) + 1, -decimals - 1);
       ASSERT_EQ(printed(tie, 0, {decimals}), printed_by_c(tie, decimals)) << std::hexfloat << tie;
     }
@@ -142,7 +142,7 @@ TEST(PrintNumber, ShortestNumbersAreThoseOfToCharsNearPowersOfTen) {
     }
 }
 
-// Numbers of many digits and of few, of every magnitude of coordinates.
+// Numbers with many digits and with few, of every magnitude of coordinates.
 TEST(PrintNumberLong, ShortestNumbersAreThoseOfToChars) {
   RandomNumbers random(6);
   for (int i = 0; i < 100'000'000; ++i) {

@@ -51,7 +51,7 @@ TEST(RoundToText, ATieOutsideTheErrorDecidesNothing) {
 }
 
 TEST(RoundToText, ANumberCloseToATieIsNotTakenForItIfItsErrorIsSmaller) {
-  // 0.00390625 + 1e-25 is known within 1e-30 here, although no double tells it from the tie.
+  // 0.00390625 + 1e-25 is known within 1e-30 here, although no double distinguishes it from the tie.
   const Ball ball = Ball::with_error({0.00390625, 1e-25}, 1e-30);
   EXPECT_EQ(text_of(round_to_text(ball, {7}), {7}), "0.0039063");
 }

@@ -8,7 +8,7 @@
 
 namespace pipeline {
 
-/// What the vertex lines of a text look like: numbers with so many decimals, and columns behind them.
+/// The form of a text's vertex lines: the number of decimals, and the columns behind the coordinates.
 struct TextForm {
   int decimals = 7;
   std::string columns = {};
@@ -25,8 +25,8 @@ inline std::string three_vertices(RandomNumbers& random, const TextForm& form = 
   return lines;
 }
 
-/// A body of stage text of so many triangles, nothing else standing between them but about once in `distance`
-/// triangles.
+/// A body of stage text with so many triangles and, about once in `distance` triangles, something unusual
+/// between them.
 inline std::string odd_stage_text(int triangle_count, int distance, std::uint64_t seed,
                                   const TextForm& form = {}) {
   RandomNumbers random(seed);

@@ -47,8 +47,8 @@ class Umask {
   mode_t before_;
 };
 
-/// Runs a test as nobody where root started it, from whom no file is protected. The real user changes, too:
-/// access() asks for it. Other users' processes stay as they are.
+/// Runs a test as nobody if root started it, since permissions do not stop root. The real user changes, too,
+/// because access() checks it. Processes of other users are not affected.
 class Unprivileged {
  public:
   Unprivileged() : was_root_(::geteuid() == 0), is_(!was_root_ || ::setresuid(kNobody, kNobody, 0) == 0) {}

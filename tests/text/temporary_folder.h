@@ -8,7 +8,7 @@
 #include <iterator>
 #include <string>
 
-/// A folder of a test's own, removed with all that is in it.
+/// A test's own folder, removed with all its contents.
 class TemporaryFolder {
  public:
   TemporaryFolder() {

@@ -25,7 +25,7 @@ class TextFile {
   TextFile& operator=(const TextFile&) = delete;
 
   [[nodiscard]] int descriptor() const { return descriptor_; }
-  /// All that was written to the descriptor, or stands there to be read.
+  /// The complete text behind the descriptor.
   [[nodiscard]] std::string whole_text() const {
     std::string text(static_cast<std::size_t>(::lseek(descriptor_, 0, SEEK_END)), '\0');
     const ssize_t count = ::pread(descriptor_, text.data(), text.size(), 0);
@@ -37,11 +37,11 @@ class TextFile {
   int descriptor_;
 };
 
-/// A descriptor that gives out one piece of text a read, as a slow neighbor in a pipe may do.
+/// A descriptor that delivers one piece of text per read, as a slow neighbor in a pipe may do.
 class TextInPieces {
  public:
-  /// What a reader meets behind the last piece. `silence` is a neighbor that neither writes nor ends:
-  /// whoever reads on fails after two seconds instead of waiting for ever.
+  /// The state of the pipe behind the last piece. `silence` is a neighbor that neither writes nor ends: a
+  /// reader that reads on fails after two seconds instead of waiting forever.
   enum class Then { end, silence };
 
   explicit TextInPieces(std::vector<std::string> pieces, Then then = Then::end) {
@@ -81,7 +81,7 @@ class TextInPieces {
   std::thread sender_;
 };
 
-/// What an exception of `action` says.
+/// The message of the exception that `action` throws.
 template <typename Action>
 std::string message_of(Action&& action) {
   try {

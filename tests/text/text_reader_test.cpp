@@ -136,7 +136,7 @@ TEST(TextReader, ANulByteAloneIsNotABlankLine) {
 }
 
 TEST(TextReader, ReadsLinesAcrossBlocks) {
-  // A block is 65536 bytes: the line ends, a carriage return or a word cross its end in turn.
+  // A block is 65536 bytes: in turn, the end of a line, a carriage return and a word lie across its end.
   for (std::size_t length = 65530; length < 65542; ++length) {
     const std::string filler(length, 'x');
     EXPECT_EQ(lines_of(filler + " 12\r\n34\r\n56"), (Lines{filler + " 12", "34", "56"})) << length;
@@ -304,7 +304,7 @@ TEST(TextReader, AFailureToBufferMoreComesBehindTheTextBeforeIt) {
   ASSERT_EQ(::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends), 0);
   ASSERT_EQ(::send(ends[1], "a\n\nb\n", 5, 0), 5);
   ASSERT_EQ(::send(ends[0], "never read", 10, 0), 10);
-  ::close(ends[1]);  // with something unread: a reset connection
+  ::close(ends[1]);  // with unread data: the connection is reset
   TextReader reader(ends[0], "in.txt");
   while (reader.buffer_more()) {
   }

@@ -21,7 +21,7 @@
 namespace pipeline {
 namespace {
 
-/// The sizes of the blocks in which `use` writes. A packet socket keeps the boundaries of writes.
+/// The sizes of the blocks that `use` writes. A packet socket keeps the boundaries between writes.
 template <typename Use>
 std::vector<std::size_t> block_sizes_of(Use&& use) {
   int ends[2];

@@ -21,7 +21,7 @@ std::string printed(DoubleDouble value, int decimals) {
   return {text, print_exact_sum(text, value.hi, value.lo, decimals)};
 }
 
-/// print_exact_sum keeps the sign of a negative zero, which print_number removes.
+/// print_exact_sum keeps the sign of a negative zero; print_number removes it.
 std::string without_sign_of_zero(const std::string& text) {
   const bool is_zero = text.find_first_of("123456789") == std::string::npos;
   return is_zero && text.front() == '-' ? text.substr(1) : text;

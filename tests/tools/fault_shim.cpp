@@ -1,11 +1,11 @@
-// Loaded before a tool (LD_PRELOAD), lets one system call or allocation fail, or all reads and writes be
+// Loaded before a tool (LD_PRELOAD), makes one system call or allocation fail, or all reads and writes
 // short.
 //
 //   FAULT_CALL   malloc (any allocation), write, read, seek, close, close of stdout, link or rename
 //   FAULT_AT     the number of the call that fails, from 1
-//   FAULT_ERRNO  what it fails with
-//   FAULT_MARK   a file that is made when it does
-//   FAULT_SHORT  if set, read and write handle one byte a call
+//   FAULT_ERRNO  its errno
+//   FAULT_MARK   a file that is created when it fails
+//   FAULT_SHORT  if set, read and write transfer one byte a call
 
 #include <dlfcn.h>
 #include <fcntl.h>
@@ -47,7 +47,7 @@ std::size_t allowed(std::size_t size) {
 extern "C" {
 
 void* malloc(std::size_t size) {
-  // The C library's own names: dlsym allocates.
+  // The C library's internal names, since dlsym allocates.
   extern void* __libc_malloc(std::size_t);  // NOLINT(bugprone-reserved-identifier)
   return fails("malloc") ? nullptr : __libc_malloc(size);
 }

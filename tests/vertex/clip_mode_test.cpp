@@ -143,7 +143,7 @@ TEST(ProjectionStage, EveryPieceHasItsTrianglesNumber) {
 }
 
 TEST(ProjectionStage, ACutTriangleIsThatCutByHand) {
-  // The near plane cuts the edges at x = 3/4 and y = 3/4, numbers of few bits, so that doubles hold them.
+  // The near plane cuts the edges at x = 3/4 and y = 3/4: few bits, so doubles hold them exactly.
   const Triangle crossing = {Vec3{0, 0, 2}, Vec3{1, 0, -2}, Vec3{0, 1, -2}};
   const Vec3 cut_x = {0.75, 0, -1};
   const Vec3 cut_y = {0, 0.75, -1};

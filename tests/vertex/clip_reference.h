@@ -16,7 +16,7 @@ using Coordinate = Ball ClipVertex::*;
 
 constexpr Coordinate kCoordinates[] = {&ClipVertex::x, &ClipVertex::y, &ClipVertex::z, &ClipVertex::w};
 
-// The error allowed in a cut, relative to the polygon's size.
+// The allowed error of a cut, relative to the polygon's size.
 inline const Exact kTolerance = times_power_of_two(Exact(1), -85);
 
 inline bool is_same(const ClipVertex& a, const ClipVertex& b) {

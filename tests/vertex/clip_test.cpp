@@ -11,7 +11,8 @@
 namespace pipeline {
 namespace {
 
-/// A vertex in clip space, in front of the eye or behind it, with coordinates of few or of all bits.
+/// A vertex in clip space, in front of the eye or behind it, with coordinates of few bits or of full
+/// precision.
 ClipVertex random_vertex(RandomNumbers& random) {
   const auto number = [&] { return random.bits() % 3 == 0 ? random.whole(-4, 4) : random.between(-4, 4); };
   return {number(), number(), number(), number() + 1};
@@ -29,7 +30,7 @@ std::string to_text(const Polygon& polygon) {
   return text;
 }
 
-/// A point with the given distance inside `plane`, well inside the others.
+/// A point at the given distance inside `plane`, well inside the others.
 ClipVertex at_distance(ClipPlane plane, double distance, double along) {
   const double far_inside = 100;
   ClipVertex v = {along, 2 * along, 3 * along, far_inside};
@@ -57,7 +58,7 @@ ClipVertex at_distance(ClipPlane plane, double distance, double along) {
   return v;
 }
 
-/// A triangle whose corners have these distances inside `plane`.
+/// A triangle whose corners lie at these distances inside `plane`.
 Polygon at_distances(ClipPlane plane, double a, double b, double c) {
   return {at_distance(plane, a, 0), at_distance(plane, b, 1), at_distance(plane, c, -1)};
 }
@@ -186,8 +187,8 @@ TEST(ClipPolygon, OfNothingIsNothing) {
   EXPECT_TRUE(clip_polygon({}, kAllClipPlanes).empty());
 }
 
-/// Clips at one plane after the other; the projected areas of the parts cut off and of the part that remains
-/// must add up to the triangle's.
+/// Clips at one plane after another; the projected areas of the parts cut off and of the remaining part must
+/// add up to the triangle's.
 void expect_area_conserved(const Polygon& triangle) {
   Polygon remaining = triangle;
   std::vector<Polygon> parts;
@@ -218,7 +219,7 @@ void expect_nothing_outside(const Polygon& triangle) {
                                                          << to_text(inside);
 }
 
-/// Every triangle of the fan must wind like the clipped one.
+/// Every triangle of the fan must have the winding of the clipped one.
 void expect_winding_kept(const Polygon& triangle) {
   const Polygon inside = clip_polygon(triangle, kAllClipPlanes);
   const Exact size = size_of(triangle);

@@ -8,8 +8,8 @@
 namespace pipeline {
 namespace {
 
-/// The sign of the determinant with rows (x, y, w): that of the area in NDC. Exact for coordinates of any
-/// size.
+/// The sign of the determinant with rows (x, y, w), which is the sign of the area in NDC. Exact for
+/// coordinates of any size.
 int exact_winding(const Triangle& t, bool is_perspective) {
   using Exact = Real<6500>;
   const auto w = [&](const Vec3& p) { return Exact(is_perspective ? -p.z : 1); };

@@ -7,7 +7,7 @@
 namespace pipeline {
 namespace {
 
-/// Where the stack's matrix takes the origin.
+/// The image of the origin under the stack's matrix.
 Vec3 image_of_origin(const MatrixStack& stack) {
   const auto& rows = stack.top().rows;
   return {rows[0][3].nearest_double(), rows[1][3].nearest_double(), rows[2][3].nearest_double()};

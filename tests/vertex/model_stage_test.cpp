@@ -34,7 +34,7 @@ TriangleBatch triangles_of(const std::string& commands) {
   return triangles_from(TextFile(kCamera + commands + "end\n").descriptor());
 }
 
-/// The image of the point (1 2 3) of each triangle of the commands.
+/// The images of the point (1 2 3), one for each triangle of the commands.
 std::vector<Vec3> first_vertices_of(const std::string& commands) {
   std::vector<Vec3> vertices;
   for (const Triangle& triangle : triangles_of(commands).triangles) vertices.push_back(triangle[0]);
@@ -165,7 +165,7 @@ TEST(ModelStage, ReadsASceneThatArrivesByteByByte) {
   EXPECT_EQ(triangles_from(slow.descriptor()).triangles.at(0)[0], (Vec3{2, 2, 3}));
 }
 
-/// The number of triangles that a stage delivers while its input is open but silent after `commands`.
+/// The number of triangles that a stage delivers while its input is open but nothing follows `commands`.
 std::size_t size_before_silence(const std::string& commands) {
   const TextInPieces slow({kCamera + commands}, TextInPieces::Then::silence);
   TextReader text(slow.descriptor(), "scene.txt");

@@ -47,7 +47,7 @@ inline Vec3 random_point(RandomNumbers& random, double largest) {
   return {coordinate(), coordinate(), coordinate()};
 }
 
-/// Triangles of these vertices, the last repeated to fill the last triangle.
+/// Triangles of these vertices; the last vertex is repeated to complete the last triangle.
 inline TriangleBatch batch_of(const std::vector<Vec3>& vertices) {
   TriangleBatch batch;
   const auto vertex = [&](std::size_t i) { return vertices[std::min(i, vertices.size() - 1)]; };
@@ -68,8 +68,8 @@ std::string reference_vertex(const ReferenceVec3<bits>& p, NumberFormat format, 
          reference_text(p.z, format, size);
 }
 
-/// Checks that every vertex of `images` prints as `reference` of the vertex it came from. `size` is that of
-/// the largest numbers on the way.
+/// Checks that every vertex of `images` prints as `reference` of its original vertex. `size` is the size of
+/// the largest intermediate number.
 template <int bits, typename Reference>
 void expect_printed(const TriangleBatch& images, const std::vector<Vec3>& vertices, NumberFormat format,
                     const Real<bits>& size, Reference reference) {
@@ -83,7 +83,7 @@ void expect_printed(const TriangleBatch& images, const std::vector<Vec3>& vertic
 struct DifferenceCount {
   std::uint64_t numbers = 0;
   std::uint64_t different = 0;
-  std::string first;  // the vertex of the first one
+  std::string first;  // the vertex of the first different number
 
   void add(double hi, double lo, const Real<448>& truth, const Vec3& vertex) {
     static const Real<448> scale = power_of_ten<448>(7);
@@ -94,7 +94,7 @@ struct DifferenceCount {
     for (const char* c = text; c != end; ++c)
       if (*c >= '0' && *c <= '9') units = 10 * units + (*c - '0');
     ++numbers;
-    const bool fits = end - text <= 18;  // more digits leave a long's range
+    const bool fits = end - text <= 18;  // more digits exceed a long's range
     if (fits && (text[0] == '-' ? -units : units) == truth_in_units.nearest_long()) return;
     if (!fits &&
         std::string_view(text, static_cast<std::size_t>(end - text)) == (truth_in_units / scale).text(7))

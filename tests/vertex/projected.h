@@ -9,7 +9,7 @@
 
 namespace pipeline {
 
-// Leaves x and y unchanged at distance 1; its planes lie at 1 and 100.
+// Leaves x and y unchanged at distance 1; its near and far planes are at 1 and 100.
 inline const ProjectionTransform kSimple = {true, 1, 0, 1, 0, 1, 100};
 
 /// Corners at x, y = (0, 0), (1, 0) and (0, 1), in view space, with these z.
@@ -17,7 +17,7 @@ inline Triangle triangle_at(double z1, double z2, double z3) {
   return {Vec3{0, 0, z1}, Vec3{1, 0, z2}, Vec3{0, 1, z3}};
 }
 
-/// As if the triangles stood in a text of four lines a triangle, the first at line 1.
+/// Locations as in a text with four lines a triangle, the first at line 1.
 inline TriangleBatch batch_of(std::initializer_list<Triangle> triangles) {
   TriangleBatch batch;
   for (const Triangle& t : triangles) {
@@ -27,7 +27,7 @@ inline TriangleBatch batch_of(std::initializer_list<Triangle> triangles) {
   return batch;
 }
 
-/// The triangles in NDC, and what the stage counted.
+/// The triangles in NDC, and the stage's counts.
 struct Result {
   TriangleBatch p_ndc;
   ProjectionCounts counts;

@@ -58,7 +58,7 @@ TEST(Projection, PrintsTheCorrectlyRoundedNumbersOfAParallelProjection) {
   }
 }
 
-/// Projections at the limits of a camera's parameters, with vertices in their view.
+/// Projections at the limits of a camera's parameters, with vertices in view.
 struct Extreme {
   const char* what;
   Perspective perspective;

@@ -12,8 +12,8 @@
 
 namespace pipeline {
 
-// The transforms of the stages with `bits` bits instead of 106, by other formulas than the library's where
-// others exist: rotations from quaternions, projections from their textbook matrices.
+// The transforms of the stages with `bits` bits instead of 106, by formulas other than the library's if such
+// exist: rotations from quaternions, projections from their textbook matrices.
 
 template <int bits>
 struct ReferenceVec3 {
@@ -99,7 +99,8 @@ ReferenceMatrix<bits> reference_rotation(double angle_degrees, const Vec3& axis)
           {}};
 }
 
-/// Subtracts the eye after the rotation, as the textbook's matrix does; enough bits forgive that.
+/// Subtracts the eye after the rotation, as the textbook matrix does; the extra bits make up for the
+/// cancellation.
 template <int bits>
 ReferenceMatrix<bits> reference_view(const Vec3& eye, const Vec3& look, const Vec3& up) {
   using V = ReferenceVec3<bits>;
@@ -112,13 +113,13 @@ ReferenceMatrix<bits> reference_view(const Vec3& eye, const Vec3& look, const Ve
   return m;
 }
 
-/// A projection as its window on the near plane (perspective and frustum) or in space (orthographic).
+/// A projection, given by its window on the near plane (perspective and frustum) or in space (orthographic).
 template <int bits>
 struct ReferenceProjection {
   bool is_perspective = true;
   Real<bits> left, right, bottom, top, near, far;
 
-  /// NDC by glFrustum's and glOrtho's matrices and the divide.
+  /// NDC by the matrices of glFrustum and glOrtho and the perspective divide.
   [[nodiscard]] ReferenceVec3<bits> ndc(const ReferenceVec3<bits>& p) const {
     using R = Real<bits>;
     const R two = 2;
@@ -154,14 +155,14 @@ Real<bits> power_of_ten(int exponent) {
 }
 
 /// A calculated number in units of the last printed decimal, rounded, ties to even. A number within 2^-150
-/// units of a tie counts as the tie: the reference has rounding errors of its own.
+/// units of a tie counts as the tie, since the reference has rounding errors of its own.
 template <int bits>
 Real<bits> in_units(const Real<bits>& value, const Real<bits>& units_per_one) {
   const Real<bits> fine = round_to_even(times_power_of_two(value * units_per_one, 150));
   return round_to_even(times_power_of_two(fine, -150));
 }
 
-/// The expected text of a calculated number; `size` is that of the largest number it was calculated from.
+/// The expected text of a calculated number; `size` is the size of the largest number in the calculation.
 template <int bits>
 std::string reference_text(const Real<bits>& value, NumberFormat format, const Real<bits>& size = 1) {
   if (!format.shortest) {

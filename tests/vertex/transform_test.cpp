@@ -306,7 +306,7 @@ TEST(IsParallelToView, AnUpThatIsNotParallelHasAViewTransform) {
   for (int i = 0; i < 20'000; ++i) {
     const double p = random.whole(1 << 20, 1 << 26) * 0x1p26 + random.whole(0, 1 << 26);
     const double q = random.whole(1 << 20, 1 << 26) * 0x1p26 + random.whole(0, 1 << 26);
-    // look - eye = p + a few bits below the low end of a double-double, in ratio almost that of up.
+    // look - eye = p + a few bits below the low end of a double-double, in almost the ratio of up.
     const Vec3 eye = {-p * std::ldexp(1.0, -random.whole(48, 108)), 0, 0};
     const Vec3 look = {p, q, 0};
     const Vec3 up = {p, q, 0};

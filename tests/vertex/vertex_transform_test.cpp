@@ -12,7 +12,7 @@
 namespace pipeline {
 namespace {
 
-/// The images of vertices, whose printed digits must all be certain.
+/// The images of vertices; all printed digits must be certain.
 template <typename Transform>
 TriangleBatch images_of(const std::vector<Vec3>& vertices, const Transform& transform, NumberFormat format,
                         Precision precision = Precision::extended) {
@@ -134,7 +134,7 @@ TEST(ModelTransform, PrintsTheCorrectlyRoundedNumbersAroundAFarPivot) {
     model.translate({pivot, -pivot, pivot})
         .rotate(random.between(-360, 360), {1, 2, 3})
         .translate({-pivot, pivot, -pivot});
-    // At a tie, 17 decimals beside 1e9 need more than the 31 digits of a ball.
+    // At a tie, 17 decimals next to 1e9 need more than the 31 digits of a ball.
     if (format.decimals < 17) expect_model<448>(model, random_points(random, 9, 100), format, 1e10);
   });
 }

@@ -14,7 +14,7 @@ namespace {
 constexpr Viewport kScreen = {4, 4, -1, -1, 0, 2};
 constexpr Pixel kPixel = {1, 2};
 
-/// A triangle of one depth that covers the whole screen.
+/// A triangle of constant depth that covers the whole screen.
 Triangle wall(double z) {
   return {{{-9, -9, z}, {9, -9, z}, {0, 9, z}}};
 }
@@ -63,7 +63,7 @@ TEST(FragmentTest, WithAnEpsilonAFragmentHasToBeNearerByMore) {
   const FragmentTest<DepthF64> test(kScreen, 0.25);
   auto seen = test.nothing();
   EXPECT_EQ(test.judge(seen, kPixel, 0, 1.875).result,
-            DepthTestResult::kept);  // the rear limit is no triangle
+            DepthTestResult::kept);  // the rear limit is not a triangle
   EXPECT_EQ(test.judge(seen, kPixel, 1, 1.625), (Fragment{kPixel, 1, 1.625, DepthTestResult::too_close, 0}));
   EXPECT_EQ(test.judge(seen, kPixel, 2, 1.5).result, DepthTestResult::kept);
 }

@@ -7,7 +7,7 @@
 
 namespace pipeline {
 
-/// All that is seen of a picture.
+/// The visible contents of a picture.
 struct Frame {
   std::vector<double> depths;
   std::vector<PixelTag> tags;
@@ -16,7 +16,7 @@ struct Frame {
     depths.insert(depths.end(), row.depths.begin(), row.depths.end());
     tags.insert(tags.end(), row.tags.begin(), row.tags.end());
   }
-  /// Bit by bit: 0 is not -0.
+  /// Compares bit by bit: 0 is not -0.
   friend bool operator==(const Frame& a, const Frame& b) {
     return a.tags == b.tags && a.depths.size() == b.depths.size() &&
            std::memcmp(a.depths.data(), b.depths.data(), a.depths.size() * sizeof(double)) == 0;

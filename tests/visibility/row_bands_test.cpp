@@ -11,7 +11,7 @@
 namespace pipeline {
 namespace {
 
-/// A triangle whose vertices have these y.
+/// A triangle whose vertices have these y coordinates.
 Triangle at(double a, double b, double c) {
   return {{{0, a, 0}, {1, b, 0}, {0, c, 0}}};
 }
@@ -53,7 +53,7 @@ TEST(RowBands, InAWindowNextToTheSmallestDoublesATriangleReachesItsRows) {
 }
 
 TEST(RowBands, ATriangleReachesTheBandsOfItsRows) {
-  // 64 rows a band, 2/640 a row: 0.8 is between rows 63 and 64, a half row of 0.0015625 away from both.
+  // 64 rows a band, 2/640 a row: 0.8 is between rows 63 and 64, half a row (0.0015625) away from both.
   const RowBands bands({10, 640});
   ASSERT_EQ(bands.rows(0).end, 64);
   const RowRange above = bands.bands_of(at(0.9, 0.8001, 0.85)),

@@ -10,7 +10,7 @@
 namespace pipeline {
 namespace {
 
-/// The ends of a triangle's rows in doubles, either as the textbook finds them, x at an edge's first scanline
+/// The ends of a triangle's rows in doubles, either by the textbook method, x at an edge's first scanline
 /// and then x += dx, or with x calculated anew on every scanline.
 class RoundedRows {
  public:
@@ -21,7 +21,7 @@ class RoundedRows {
     for (std::size_t i = 0; i < 3; ++i) add_edge(p_ndc[i], p_ndc[(i + 1) % 3]);
   }
 
-  /// How many of the row's two ends are not the span's.
+  /// How many of the row's two ends differ from the span's.
   [[nodiscard]] int wrong_ends(const Span& span) const {
     const std::vector<double> found = ends(span.row);
     if (found.size() != 2) return 2;
@@ -29,7 +29,7 @@ class RoundedRows {
            static_cast<int>(found[1] != span.last_column + 1);
   }
 
-  /// The first column and the one after the last, where two edges cross the row.
+  /// The first column and the one after the last, from two edges' crossings with the row.
   [[nodiscard]] std::vector<double> ends(int row) const {
     std::vector<double> ends = columns_[static_cast<std::size_t>(row)];
     std::sort(ends.begin(), ends.end());

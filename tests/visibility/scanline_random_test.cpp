@@ -8,8 +8,8 @@
 namespace pipeline {
 namespace {
 
-/// Scenes that look for trouble: the same depths, shared edges, crossings, triangles without area, off the
-/// screen, in front of and behind the limits, and coplanar ones.
+/// Difficult scenes: equal depths, shared edges, intersections, triangles without area, off the screen, in
+/// front of and behind the limits, and coplanar ones.
 class RandomScenes {
  public:
   explicit RandomScenes(std::uint64_t seed) : random_(seed) {}
@@ -92,7 +92,7 @@ class RandomScenes {
       case 3:  // nearly coplanar: to the last printed digit
         return decimal(0, 0) + std::round((plane_.z + plane_.x * p.x + plane_.y * p.y) * 1e7) / 1e7;
       case 4:
-      case 5:  // coplanar, as far as doubles can be
+      case 5:  // coplanar up to the rounding of doubles
         return plane_.z + plane_.x * p.x + plane_.y * p.y;
       default:
         return decimal(-1.2, 1.2);
@@ -141,7 +141,7 @@ TEST(ScanlineLong, AHundredThousandRandomScenesAreTheZBuffers) {
 }
 
 TEST(Scanline, AnOverdrawOfManyLayersIsTheZBuffers) {
-  // Large triangles, many crossings.
+  // Large triangles, many intersections.
   RandomNumbers random(3);
   Scene scene;
   for (int i = 0; i < 400; ++i) {

@@ -27,7 +27,7 @@ Picture picture_of(const Scene& scene, const Viewport& screen = kEightByFour) {
   return picture;
 }
 
-/// A rectangle as two triangles, at the depth z + slope * x.
+/// A rectangle of two triangles, at the depth z + slope * x.
 Scene rectangle(double left, double right, double bottom, double top, double z, double slope = 0) {
   const auto corner = [&](double x, double y) { return Vec3{x, y, z + slope * x}; };
   return {{corner(left, bottom), corner(right, bottom), corner(right, top)},
@@ -52,7 +52,7 @@ TEST(Scanline, WithoutTrianglesThereIsTheBackground) {
 }
 
 TEST(Scanline, TheTextbooksTwoPolygons) {
-  // Foley et al., figure 15.34: two triangles, of which the nearer overlaps the other on some scanlines only.
+  // Foley et al., figure 15.34: two triangles; the nearer one overlaps the other on some scanlines only.
   EXPECT_EQ(
       picture_of({{{{-4, -2, 1}, {0, 2, 1}, {1, -2, 1}}}, {{{-1, -2, 0.5}, {4, -2, 0.5}, {2, 0.5, 0.5}}}}),
       (Picture{
@@ -80,7 +80,7 @@ TEST(Scanline, TheNearerTriangleIsSeenWhateverTheOrder) {
                                                 }));
 }
 
-// Triangles so large that every row of the screen is one interval of each.
+// Triangles so large that each has one interval covering the whole row, on every row of the screen.
 Triangle half_plane(double z, double slope) {
   const auto corner = [&](double x, double y) { return Vec3{x, y, z + slope * x}; };
   return {corner(-100, -100), corner(100, -100), corner(0, 200)};
@@ -99,7 +99,7 @@ TEST(Scanline, WhereTheyMeetAtACenterTheEarlierIsSeen) {
 }
 
 TEST(Scanline, ThreePolygonsCrossInOneInterval) {
-  // b is below the crossing of a and c: 1 + x/8, 0.9, 1 - x/8.
+  // b is in front of the intersection of a and c: 1 + x/8, 0.9, 1 - x/8.
   EXPECT_EQ(picture_of({half_plane(1, 0.125), half_plane(0.9, 0), half_plane(1, -0.125)}),
             Picture(4, "aaabbccc"));
 }
@@ -163,7 +163,8 @@ TEST(Scanline, WhatIsInFrontOfTheFrontLimitHidesNothing) {
   EXPECT_EQ(picture_of({half_plane(0, 0.5), half_plane(1.75, 0)}), Picture(4, "bbbbaaaa"));
 }
 
-/// Coplanar triangles share no vertex, so each has its own rounded depths, now one is below, now the other.
+/// Coplanar triangles without a common vertex: each has its own rounded depths, and now one is smaller, now
+/// the other.
 Scene coplanar_pair() {
   const auto on_plane = [](double x, double y) { return Vec3{x, y, 0.9 + 0.0123 * x + 0.0456 * y}; };
   return {{on_plane(-0.913, -0.977), on_plane(0.931, -0.853), on_plane(0.117, 0.971)},
@@ -174,7 +175,7 @@ TEST(Scanline, CoplanarTrianglesWhoseRoundedDepthsAlternateAreComparedPixelByPix
   constexpr Viewport kSixty = {60, 60, -1, -1, 0, 2};
   const Frame frame = scanline_frame<NearestCoverage, DepthF64>(coplanar_pair(), kSixty);
   EXPECT_TRUE(frame == (zbuffer_frame<NearestCoverage, DepthF64>(coplanar_pair(), kSixty)));
-  // It is a trap: inside one row the owner changes many times.
+  // The scene is a real trap: within one row the owner changes many times.
   int most_changes = 0;
   for (std::size_t row = 0; row < 60; ++row) {
     int changes = 0;
@@ -199,7 +200,7 @@ TEST(Scanline, DepthsThatAreStoredAsEqualAreEqual) {
 }
 
 TEST(Scanline, KeepsTheDigitsThatDoublesDoNotHold) {
-  // A vertex on a center but for 1e-20, to the left or to the right.
+  // A vertex within 1e-20 of a center, to the left or to the right.
   for (const double low_part : {-1e-20, 1e-20}) {
     const Triangle triangle = {{{0.5, -3, 1}, {3, -3, 1}, {0.5, 3, 1}}};
     Triangle low_parts = {};

@@ -15,7 +15,7 @@ namespace {
 constexpr int kColumns = 10 * kBlockColumns + 13;
 constexpr Viewport kScreen = {kColumns, 1, -1, -1, 0.25, 0.75};
 
-/// Every claim is made of every depth format and every kernel for it that this processor can run.
+/// Every claim is tested with every depth format and every kernel for it that this processor can run.
 template <typename Depth>
 class SpanFillTest : public testing::Test {
  protected:
@@ -51,7 +51,7 @@ struct PixelRow {
   friend bool operator==(const PixelRow&, const PixelRow&) = default;
 };
 
-/// What a span does to a row, pixel by pixel.
+/// The effect of a span on a row, pixel by pixel.
 template <typename Depth>
 void draw_slowly(PixelRow<Depth>& row, const Span& span, PixelTag tag, const Depth& format) {
   for (int column = span.first_column; column <= span.last_column; ++column) {
@@ -92,8 +92,8 @@ void expect_pixels_of_a_loop(const SpanFillKernel<Depth>& kernel) {
   }
 }
 
-/// Depths along a row of the kinds that a bound could be wrong for: layers that differ by an ulp or by
-/// nothing, slopes that hide in rounding, and others so large that depths are not finite.
+/// Depths along a row that could break a bound: layers that differ by an ulp or not at all, slopes smaller
+/// than rounding, and slopes so large that depths are not finite.
 class RandomSpans {
  public:
   explicit RandomSpans(std::uint64_t seed) : random_(seed) {}
@@ -102,7 +102,7 @@ class RandomSpans {
     const int a = between(0, kColumns - 1), b = between(0, kColumns - 1);
     Span span = {0, std::min(a, b), std::max(a, b), {}};
     if (between(0, 2) == 0) span.first_column = 0, span.last_column = kColumns - 1;
-    // In NDC as the coverage rule nearest has it, or by halves of columns from the middle as center has it.
+    // In NDC, as from the coverage rule nearest, or in half columns from the middle, as from center.
     const double middle = span.first_column + span.last_column;
     if (between(0, 1) == 0)
       span.depth = {-1 + 1.0 / kColumns, 2.0 / kColumns, between(-9, 9) / 9.0, 0, 0};
@@ -138,7 +138,7 @@ void expect_blocks_to_change_nothing(const SpanFillKernel<Depth>& kernel) {
   }
 }
 
-/// A block is passed over as soon as its farthest pixel is nearer: the bound is not only true but small.
+/// A block is skipped as soon as its farthest pixel is nearer: the bound must be not only true but tight.
 template <typename Depth>
 void expect_to_learn_the_farthest_depth(const SpanFillKernel<Depth>& kernel) {
   const Depth format(kScreen);
@@ -151,8 +151,8 @@ void expect_to_learn_the_farthest_depth(const SpanFillKernel<Depth>& kernel) {
   draw(0, kColumns - 1, 0.625);
   for (int block = 0; block <= 10; ++block) EXPECT_EQ(farthest_of_block(block), format.store(0.625));
   draw(10, kColumns - 1, 0.5);
-  draw(0, kColumns - 1, 0.5625);   // seen in the first ten columns, the others are nearer
-  draw(0, kColumns - 1, 0.59375);  // seen nowhere
+  draw(0, kColumns - 1, 0.5625);   // visible in the first ten columns, the others are nearer
+  draw(0, kColumns - 1, 0.59375);  // visible nowhere
   EXPECT_EQ(farthest_of_block(0), format.store(0.5625));
   for (int block = 1; block <= 10; ++block) EXPECT_EQ(farthest_of_block(block), format.store(0.5));
   draw(0, kBlockColumns - 1, 0.375);

@@ -14,12 +14,12 @@
 namespace pipeline {
 namespace {
 
-/// The tag of triangle `index`: never 0, the background's, and above 2^24 for most, so that every bit counts.
+/// The tag of triangle `index`: never 0, the background's, and mostly above 2^24, so that every bit counts.
 PixelTag tag_of(std::size_t index) {
   return 0xff123456 - static_cast<PixelTag>(index);
 }
 
-/// Triangle after triangle, each as a whole.
+/// Draws triangle after triangle, each as a whole.
 template <typename Visible>
 Frame drawn_one_by_one(const std::vector<Triangle>& scene, const Viewport& screen) {
   Visible visible(screen);
@@ -27,7 +27,8 @@ Frame drawn_one_by_one(const std::vector<Triangle>& scene, const Viewport& scree
   return frame_of(visible);
 }
 
-/// Tiny and huge triangles, on and off the screen, many at one of few depths, so that some are equal.
+/// Tiny and huge triangles, on and off the screen, many at one of a few depths, so that some depths are
+/// equal.
 std::vector<Triangle> random_scene(int triangle_count, std::uint64_t seed) {
   RandomNumbers random(seed);
   std::vector<Triangle> scene;
@@ -44,7 +45,7 @@ std::vector<Triangle> random_scene(int triangle_count, std::uint64_t seed) {
   return scene;
 }
 
-/// Nearly all of them small, some from the top to the bottom, at three depths.
+/// Triangles at three depths, nearly all of them small, some as high as the screen.
 std::vector<Triangle> scene_of_small_triangles(int triangle_count) {
   RandomNumbers random(2);
   std::vector<Triangle> scene;
@@ -93,11 +94,11 @@ void expect_the_same_for_all_threads() {
 }
 
 TEST(TriangleDrawing, SmallTrianglesAreDrawnInTheirOrder) {
-  // On one thread some batches at once and some in bands, on several all in bands.
+  // One thread draws some batches directly and some in bands; several threads draw all in bands.
   constexpr Viewport kScreen = {100, 150};
   using Visible = ZBufferAlgorithm<NearestCoverage, DepthF64>;
   std::vector<Triangle> scene = scene_of_small_triangles(12000);
-  // Rounds of large triangles between them.
+  // Groups of large triangles among them.
   const std::vector<Triangle> large = random_scene(40, 3);
   for (const int location : {2100, 7000}) scene.insert(scene.begin() + location, large.begin(), large.end());
   const Frame expected = drawn_one_by_one<Visible>(scene, kScreen);
@@ -129,11 +130,11 @@ TEST(TriangleDrawing, InHighBandsATriangleStaysInItsRowsToo) {
 
 TEST(TriangleDrawing, KeepsTheOrderWhereAllThatIsSeenDependsOnIt) {
   constexpr Viewport kScreen = {40, 30};
-  // From the top to the bottom, so that there are pixels nobody has drawn yet whenever a thread begins.
+  // From top to bottom, so that each thread starts on pixels that are still undrawn.
   std::vector<Triangle> scene = scene_of_small_triangles(30000);
   std::ranges::sort(scene, std::greater(), [](const Triangle& p) { return p[0].y; });
   ZBufferAlgorithm<NearestCoverage, DepthF64> expected(kScreen), visible(kScreen);
-  expected.set_depth_epsilon(0.3);  // more than the distance of two of the scene's depths
+  expected.set_depth_epsilon(0.3);  // larger than the difference between two of the scene's depths
   visible.set_depth_epsilon(0.3);
   for (std::size_t i = 0; i < scene.size(); ++i) expected.draw({scene[i]}, tag_of(i));
   draw_on_threads(visible, scene, kScreen, 2, 50);
