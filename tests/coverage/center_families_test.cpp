@@ -55,7 +55,7 @@ class EdgeFunction {
 struct Reference {
   Reference(const Screen& s, UnitTriangle t) {
     const EdgeFunction ab(s, t[0], t[1]);
-    // Twice the area is the edge function at the third vertex; its sign is that of every point on the same
+    // Twice the area is the edge function at the third vertex, whose sign is the same for all points on its
     // side.
     const Int128 area =
         Int128{t[1][0] - t[0][0]} * (t[2][1] - t[0][1]) - Int128{t[2][0] - t[0][0]} * (t[1][1] - t[0][1]);

@@ -113,7 +113,7 @@ class Tradeoff(unittest.TestCase):
             self.assertGreater(self.value(scene, too_few, "wrong_pixels"), 0, scene)
 
     def test_floats_round_depths_by_half_an_ulp(self):
-        # 2^-25 at most below 1, on top of half a unit of the seventh decimal and what the slope makes of it in x and y.
+        # 2^-25 at most below 1, on top of half a unit of the seventh decimal and its effect through the slope in x and y.
         for scene in ("layers 1e2", "layers 1e4", "layers 1e6"):
             error = self.value(scene, "--depth f32", "depth_error_max")
             self.assertTrue(2.0**-25 < error < 2.0**-25 + 6e-8, error)

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Changes to a scene that must change nothing, or only what they state, over random scenes through the real tools.
+"""Changes to a scene that must change nothing, or only one stated thing, over random scenes through the real tools.
 
 usage: properties_test.py BIN_DIR [UNITTEST ARGUMENT...]
 """
