@@ -150,8 +150,7 @@ TEST(Appearance, IsFixedByTheFirstTriangle) {
             "scene.txt:9:1: expected 'light' before the first triangle, found 'light' after it");
   EXPECT_EQ(error_of(kTriangle + "color 1 2 3\n"),
             "scene.txt:9:1: expected 'color' or 'attributes color' before the first triangle, too, found "
-            "'color' behind "
-            "it");
+            "'color' after it");
 }
 
 }  // namespace

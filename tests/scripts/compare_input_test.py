@@ -14,7 +14,7 @@ import unittest
 import zlib
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "tools"))
-from toolbox import BIN, SOURCE, ToolTest  # noqa: E402
+from toolbox import BIN, SOURCE, ToolTest, end_by_signal, heed_signals  # noqa: E402
 
 COMPARE = SOURCE / "scripts/compare"
 ENVIRONMENT = {"BIN": str(BIN), "PATH": "/usr/bin:/bin", "LANG": "C.UTF-8"}
@@ -346,12 +346,12 @@ class Endings(InputTest):
         for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
             with self.subTest(number):
                 os.mkfifo("pipe")
-                process = subprocess.Popen([COMPARE, "pipe", "b"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, env=ENVIRONMENT)
+                process = subprocess.Popen([COMPARE, "pipe", "b"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, env=ENVIRONMENT,
+                                           preexec_fn=heed_signals)
                 with open("pipe", "wb") as pipe:  # opens once the script reads
                     pipe.write(b"1")
                     pipe.flush()
-                    process.send_signal(number)
-                    output, errors = process.communicate(timeout=SECONDS)
+                    errors = end_by_signal(process, number)[1]
                 self.assertEqual((errors, process.returncode), (b"", -number))
                 os.unlink("pipe")
 

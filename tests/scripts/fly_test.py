@@ -15,7 +15,7 @@ import unittest
 from display import MISSING, Display
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "tools"))
-from toolbox import BIN, SOURCE, TOOLS, ToolTest, pipe, run  # noqa: E402
+from toolbox import BIN, SOURCE, TOOLS, ToolTest, end_by_signal, heed_signals, pipe, run  # noqa: E402
 
 sys.path.insert(0, str(SOURCE / "scripts"))
 
@@ -255,10 +255,9 @@ class Ending(ToolTest):
                        "draw = FlyWindow.tell; FlyWindow.tell = lambda *words: (draw(*words), print('.', flush=True), sys.stdout.flush())\n"
                        "Loader('__main__', sys.path[0] + '/fly').load_module()")
             process = subprocess.Popen([sys.executable, "-c", program, SOURCE / "scripts"], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                                       env={**os.environ, "BIN": str(BIN)})
+                                       env={**os.environ, "BIN": str(BIN)}, preexec_fn=heed_signals)
             self.assertEqual(process.stdout.readline(), b".\n")
-            process.send_signal(number)
-            self.assertEqual((process.communicate(timeout=60)[1], process.returncode), (b"", -number))
+            self.assertEqual((end_by_signal(process, number)[1], process.returncode), (b"", -number))
 
 
 class Messages(ToolTest):

@@ -16,7 +16,7 @@ import unittest
 from devices import IS_ROOT, full_device, null_device
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "tools"))
-from toolbox import BIN, SOURCE, ToolTest  # noqa: E402
+from toolbox import BIN, SOURCE, ToolTest, end_by_signal, heed_signals  # noqa: E402
 
 SCRIPTS = SOURCE / "scripts"
 
@@ -210,10 +210,10 @@ class Inspect(Writers, ToolTest):
     def test_a_signal_leaves_nothing(self):
         os.mkfifo("pipe")
         for number in (signal.SIGINT, signal.SIGTERM):
-            process = subprocess.Popen([SCRIPTS / "inspect", "pipe", "config.txt", "-o", "page"], stderr=subprocess.PIPE, env={"BIN": str(BIN), "PATH": "/usr/bin:/bin"})
+            process = subprocess.Popen([SCRIPTS / "inspect", "pipe", "config.txt", "-o", "page"], stderr=subprocess.PIPE, env={"BIN": str(BIN), "PATH": "/usr/bin:/bin"},
+                                       preexec_fn=heed_signals)
             with open("pipe", "wb"):
-                process.send_signal(number)
-                self.assertEqual(process.communicate(timeout=60)[1], b"")
+                self.assertEqual(end_by_signal(process, number)[1], b"")
             self.assertEqual(process.returncode, -number)
         self.assertEqual(self.left(), ["pipe"])
 

@@ -5,6 +5,7 @@ A test script takes the folder of the binaries, then unittest's own arguments.
 import os
 import pathlib
 import re
+import signal
 import subprocess
 import sys
 import tempfile
@@ -64,6 +65,25 @@ def pseudo_terminal():
         return os.openpty()
     except OSError as error:
         raise unittest.SkipTest(f"no pseudo-terminal: {error.strerror}") from None
+
+
+def end_by_signal(process, number):
+    """What a process that is waiting has written to stdout and stderr when the signal has ended it. Python may be about to wait
+    when a signal arrives and would then notice it only after the next one, so the signal is sent until the process ends."""
+    for _ in range(60):
+        process.send_signal(number)
+        try:
+            return process.communicate(timeout=1)
+        except subprocess.TimeoutExpired:
+            pass
+    raise AssertionError(f"the process is still there after signal {number}")
+
+
+def heed_signals():
+    """To be called by a process before it becomes a script: a job in the background starts with SIGINT ignored, and nohup
+    ignores SIGHUP."""
+    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+        signal.signal(number, signal.SIG_DFL)
 
 
 class ToolTest(unittest.TestCase):
