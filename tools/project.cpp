@@ -96,7 +96,7 @@ int main(int argc, char** argv) {
     CameraParameters passed_on;
     const bool is_lit = !appearance.lights.empty();
     if (is_lit)
-      passed_on.projection = {volume_of(camera.projection->value, projection), camera.projection->location};
+      passed_on.projection = {volume_of(*camera.projection, projection), camera.projection->location};
     writer.write_header({reader.header().framed, passed_on, appearance});
 
     CoordinateRounder rounder = numbers.rounder(tool.input().file());

@@ -127,10 +127,16 @@ ProjectionTransform clip_from_view(const Located<Projection>& projection, Aspect
   return orthographic(std::get<Orthographic>(projection.value));
 }
 
-Projection volume_of(const Projection& projection, const ProjectionTransform& transform) {
-  if (!std::holds_alternative<Perspective>(projection)) return projection;
+Projection volume_of(const Located<Projection>& projection, const ProjectionTransform& transform) {
+  if (!std::holds_alternative<Perspective>(projection.value)) return projection.value;
+  // All three are known to far more digits than a double's, so that the midpoint's nearest double is theirs.
   const double right = (Ball(transform.near) / transform.x_scale).nearest_double();
   const double top = (Ball(transform.near) / transform.y_scale).nearest_double();
+  if (!std::isfinite(right) || !std::isfinite(top))
+    throw InputError(
+        projection.location,
+        expected_but_found("a perspective whose window is within a double's range",
+                           std::string("an overflow of its ") + (std::isfinite(right) ? "height" : "width")));
   return Frustum{-right, right, -top, top, transform.near, transform.far};
 }
 

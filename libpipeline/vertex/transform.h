@@ -49,8 +49,9 @@ struct ProjectionTransform {
 ProjectionTransform clip_from_view(const Located<Projection>& projection, AspectRule aspect_rule);
 
 /// The projection's view volume, which needs no aspect rule: a perspective as the Frustum of `transform`,
-/// which must come from `projection`; others unchanged.
-Projection volume_of(const Projection& projection, const ProjectionTransform& transform);
+/// which must come from `projection`; others unchanged. An InputError at `projection.location` if a plane is
+/// beyond a double's range.
+Projection volume_of(const Located<Projection>& projection, const ProjectionTransform& transform);
 
 /// From clip to view space: the inverse of a projection, in doubles.
 class ViewFromClip {

@@ -340,6 +340,11 @@ class VertexPlaces(ToolTest):
             "model: note: <stdin>:9:3: numbers cancel here beyond 31 digits; "
             "the last digits of this vertex are not certain\n", 0))
 
+    def test_a_window_of_a_lit_perspective_has_to_fit_a_double(self):
+        text = "perspective 179.9999999999 1 1e305 1e306\nlight 0 0 0 1 1 1\n"
+        self.assert_fails(run("project", stdin=text), 1,
+                          "project: <stdin>:1:13: expected a perspective whose window is within a double's range, found an overflow of its width")
+
 
 class ConfigMessages(ToolTest):
     def check(self, config, message):
