@@ -76,15 +76,17 @@ Vec3 clamped_color(const Vec3& c) {
   return {std::clamp(c.x, 0.0, 255.0), std::clamp(c.y, 0.0, 255.0), std::clamp(c.z, 0.0, 255.0)};
 }
 
-/// The triangle with its attributes in clip space; null if a coordinate is too large for a double.
+/// The triangle with its attributes in clip space, at the `true_w` of its corners; null if a coordinate is
+/// too large for a double.
 std::shared_ptr<const ClipTriangle> unclipped_in_clip_space(const std::array<ClipVertex, 3>& corners,
+                                                            const std::array<double, 3>& true_w,
                                                             const AttributeArrays& attributes,
                                                             std::size_t index) {
   ClipTriangle triangle;
   for (std::size_t v = 0; v < 3; ++v) {
-    const auto& [x, y, z, w, weights] = corners[v];
-    triangle[v].position = {x.nearest_double(), y.nearest_double(), z.nearest_double()};
-    triangle[v].w = w.nearest_double();
+    const ClipVertex& corner = corners[v];
+    triangle[v].position = {corner.x.nearest_double(), corner.y.nearest_double(), corner.z.nearest_double()};
+    triangle[v].w = true_w[v];
     const Vec3& p = triangle[v].position;
     if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) return nullptr;
     if (!attributes.colors.empty()) triangle[v].color = attributes.colors[index][v];
@@ -252,8 +254,10 @@ void ProjectionStage::project_clipped(const TriangleBatch& p_view, std::size_t i
     return;
   }
   ++counts_.clipped;
-  const auto unclipped =
-      keeps_unclipped_ ? unclipped_in_clip_space(corners, p_view.attributes, index) : nullptr;
+  const auto& [a, b, c] = p_view.triangles[index];
+  const auto unclipped = keeps_unclipped_ ? unclipped_in_clip_space(corners, {w_of(a), w_of(b), w_of(c)},
+                                                                    p_view.attributes, index)
+                                          : nullptr;
   for (std::size_t i = 1; i + 1 < polygon.size(); ++i) {
     ++counts_.pieces;
     add_piece(p_view, index, {&polygon[0], &polygon[i], &polygon[i + 1]}, p_ndc);

@@ -62,6 +62,20 @@ class ClipInset(ToolTest):
         for x, y, z, w, red, *_ in vertices:
             self.assertEqual((w, round(red, 6)), (1, round(100 * (x + 1), 6)))
 
+    def test_a_lit_triangle_keeps_its_corners_in_clip_space(self):
+        corners = [(-9, -9, -1.0625), (9, -9, -1.0625), (0, 9, -2.5)]
+        # cot 45 degrees is 1; z = ((far + near) distance - 2 far near) / (far - near), and w is the distance.
+        expected = [[x, y, ((3 + 1) * -z - 2 * 3 * 1) / (3 - 1), -z] for x, y, z in corners]
+        text = "light 0 0 0 1 1 1\n" + PERSPECTIVE + "".join(f"{x} {y} {z}\n" for x, y, z in corners) + "\n"
+        for inset in ("0", "0.25", "0.5"):
+            for clip in ("near", "frustum"):
+                lines = pipe(["project", "--clip", clip, "--clip-inset", inset], stdin=text).decode().splitlines()
+                if "clipped" not in lines:
+                    self.assertEqual((clip, inset), ("near", "0"))  # the near plane cuts nothing there
+                    continue
+                at = lines.index("clipped")
+                self.assertEqual([list(map(float, line.split())) for line in lines[at + 1:at + 4]], expected)
+
     def test_it_needs_planes_to_move(self):
         for words in ([], ["--clip", "none"], ["--clip", "auto"]):
             done = run("project", "--clip-inset", "0.1", *words, stdin=ORTHO)
