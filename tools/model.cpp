@@ -29,6 +29,6 @@ int main(int argc, char** argv) {
 
     CoordinateRounder rounder = numbers.rounder(tool.input().file());
     const auto transform = [&](TriangleBatch& batch) { stage.transform(batch, rounder); };
-    StageLoop(tool, writer, rounder).run(stage, transform);
+    StageLoop(tool, writer, rounder).run(stage, transform, stage.uncertain_lights());
   });
 }

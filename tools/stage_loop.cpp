@@ -1,5 +1,8 @@
 #include "tools/stage_loop.h"
 
+#include <cstdint>
+#include <string>
+
 namespace pipeline {
 
 void StageLoop::write(const TriangleBatch& batch) {
@@ -9,13 +12,20 @@ void StageLoop::write(const TriangleBatch& batch) {
 }
 
 /// Completes the text, and notes on stderr where its digits are uncertain or too few.
-void StageLoop::finish() {
+void StageLoop::finish(const UncertainDigits& uncertain_lights) {
   writer_.finish();
-  if (const LineAndColumn uncertain = rounder_.first_uncertain(); uncertain.is_known())
-    tool_.note(to_string(rounder_.location_of(uncertain)) +
-               ": numbers cancel here beyond 31 digits; the last digits of this vertex are not certain");
+  note_uncertain("light", uncertain_lights);
+  note_uncertain("vertex", rounder_.uncertain());
   if (!writer_.keeps_four_digits())
     tool_.note("the largest coordinate keeps fewer than 4 significant digits; use --digits exact");
+}
+
+void StageLoop::note_uncertain(const char* one_of_them, const UncertainDigits& uncertain) const {
+  if (uncertain.count == 0) return;
+  const std::uint64_t others = uncertain.count - 1;
+  const std::string and_others = others == 0 ? "" : " and of " + std::to_string(others) + " more";
+  tool_.note(to_string(rounder_.location_of(uncertain.first)) + ": the digits of this " + one_of_them +
+             and_others + " are not certain: numbers cancel here beyond 31 digits");
 }
 
 }  // namespace pipeline

@@ -18,9 +18,10 @@ class StageLoop {
       : tool_(tool), writer_(writer), rounder_(rounder) {}
 
   /// `source.read(batch)` fills a batch; false at the end of the input. `transform(batch)` changes a batch in
-  /// place; where it throws, the batch keeps the triangles before the error.
+  /// place; where it throws, the batch keeps the triangles before the error. `uncertain_lights` are those of
+  /// the header that was written.
   template <typename Source, typename Transform>
-  void run(Source& source, const Transform& transform) {
+  void run(Source& source, const Transform& transform, const UncertainDigits& uncertain_lights = {}) {
     Timing& timing = tool_.timing();
     for (TriangleBatch batch; source.read(batch);) {
       timing.triangle_count += batch.size();
@@ -34,12 +35,13 @@ class StageLoop {
       timing.lap(&Timing::work_seconds);
       write(batch);
     }
-    finish();
+    finish(uncertain_lights);
   }
 
  private:
   void write(const TriangleBatch& batch);
-  void finish();
+  void finish(const UncertainDigits& uncertain_lights);
+  void note_uncertain(const char* one_of_them, const UncertainDigits& uncertain) const;
 
   Tool& tool_;
   StageWriter& writer_;

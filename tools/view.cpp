@@ -28,9 +28,10 @@ ViewTransform view_of(const CameraParameters& camera, const SourceLocation& head
   return view_from_world(camera.eye->value, camera.look->value, camera.up->value);
 }
 
-Appearance in_view_space(Appearance appearance, const ViewTransform& view) {
+Appearance in_view_space(Appearance appearance, const ViewTransform& view,
+                         UncertainDigits& uncertain_lights) {
   expect_no_w(appearance);
-  for (auto& light : appearance.lights) light = transformed(view, light);
+  for (auto& light : appearance.lights) light = transformed(view, light, uncertain_lights);
   return appearance;
 }
 
@@ -52,8 +53,9 @@ int main(int argc, char** argv) {
     const VertexTransform to_view(view);
     const NormalTransform normal_to_view(view);
     StageWriter writer(tool.output(), numbers.format(), bare);
-    writer.write_header(
-        {reader.header().framed, without_position(camera), in_view_space(reader.header().appearance, view)});
+    UncertainDigits uncertain_lights;
+    writer.write_header({reader.header().framed, without_position(camera),
+                         in_view_space(reader.header().appearance, view, uncertain_lights)});
 
     CoordinateRounder rounder = numbers.rounder(tool.input().file());
     const auto transform = [&](TriangleBatch& batch) {
@@ -61,6 +63,6 @@ int main(int argc, char** argv) {
         for (Vec3& normal : normals) normal = normal_to_view(normal);
       to_view.apply(batch, rounder);
     };
-    StageLoop(tool, writer, rounder).run(reader, transform);
+    StageLoop(tool, writer, rounder).run(reader, transform, uncertain_lights);
   });
 }

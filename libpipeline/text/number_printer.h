@@ -12,6 +12,8 @@ struct NumberFormat {
   bool shortest = false;
 };
 
+constexpr NumberFormat kShortest = {.shortest = true};
+
 constexpr int kMaxDecimals = 17;
 
 /// The maximum length of a printed number: a sign, 309 digits, a point and the decimals.

@@ -13,6 +13,8 @@ namespace {
 // A ball that contains a tie counts as the tie if its radius is below this fraction of a unit in the last
 // printed place.
 constexpr double kTieTolerance = 0x1p-20;
+// A ball that contains 0 is certainly 0, in the shortest form, within this part of the size of what was read.
+constexpr double kZeroTolerance = 0x1p-60;
 
 /// A number as the sum of a whole number and the exact remainder, whose high part lies in [-1/2, 1/2].
 struct SplitNumber {
@@ -46,18 +48,21 @@ PrintableNumber round_to_decimals(DoubleDouble value, double error, int decimals
   const bool may_be_tie = std::fabs(distance) <= scaled_error;
   const bool is_tie = may_be_tie && scaled_error <= kTieTolerance;
   if (is_tie ? is_odd(whole) : distance < 0) whole = whole + DoubleDouble{direction, 0};
-  const bool is_certain = is_tie || !may_be_tie;
+  const bool is_certain = !may_be_tie || std::fabs(distance) + scaled_error <= kTieTolerance;
   const DoubleDouble decimal = whole / DoubleDouble{scale, 0};
   // A double within half a unit of the decimal prints as that decimal.
   if (std::fabs(whole.hi) < 0x1p51) return {decimal.hi, 0, is_certain};
   // A tie must print as the decimal chosen here; the printer rounds all other numbers correctly.
-  return is_tie ? PrintableNumber{decimal.hi, decimal.lo} : PrintableNumber{value.hi, value.lo, is_certain};
+  if (is_tie) return {decimal.hi, decimal.lo, is_certain};
+  return {value.hi, value.lo, is_certain};
 }
 
-PrintableNumber round_to_double(const Ball& ball) {
+}  // namespace
+
+PrintableNumber round_wide_to_shortest(const Ball& ball, double input_size) {
   const double nearest = ball.nearest_double();
-  if (ball.is_exact()) return {nearest, 0};
-  if (ball.sign() == 0) return {0, 0};
+  if (ball.is_exact() || !std::isfinite(nearest)) return {nearest, 0};
+  if (ball.sign() == 0) return {0, 0, ball.magnitude() <= kZeroTolerance * input_size};
   // Distances are measured on the midpoint's own scale; past +-3000 they are infinite.
   const auto shift = static_cast<int>(std::clamp<std::int64_t>(-ball.exponent(), -3000, 3000));
   const auto [hi, lo] = ball.value();
@@ -67,17 +72,16 @@ PrintableNumber round_to_double(const Ball& ball) {
   const double half_gap = std::fabs(std::ldexp(neighbor, shift) - std::ldexp(nearest, shift)) / 2;
   const double distance = (half_gap - std::fabs(rest)) - direction * lo;
   if (distance > ball.error()) return {nearest, 0};
-  if (ball.error() > 2 * half_gap * kTieTolerance) return {nearest, 0, false};
+  const double tolerance = 2 * half_gap * kTieTolerance;
+  if (ball.error() > tolerance) return {nearest, 0, false};
   const bool nearest_is_even = std::bit_cast<std::uint64_t>(nearest) % 2 == 0;
-  return {nearest_is_even ? nearest : neighbor, 0};
+  return {nearest_is_even ? nearest : neighbor, 0, std::fabs(distance) + ball.error() <= tolerance};
 }
 
-}  // namespace
-
-PrintableNumber round_to_text(const Ball& ball, NumberFormat format) {
+PrintableNumber round_to_text(const Ball& ball, NumberFormat format, double input_size) {
+  if (format.shortest) return round_to_shortest(ball, input_size);
   const double nearest = ball.nearest_double();
   if (!std::isfinite(nearest)) return {nearest, 0, true};
-  if (format.shortest) return round_to_double(ball);
   // A negative exponent means a number far below half a unit in the last decimal, for any count of decimals.
   if (ball.exponent() < 0) return {nearest, 0, true};
   if (ball.exponent() > 0) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+
 #include "libpipeline/numbers/ball.h"
 #include "libpipeline/text/number_printer.h"
 
@@ -10,13 +12,28 @@ namespace pipeline {
 struct PrintableNumber {
   double hi = 0;
   double lo = 0;
-  /// False if the ball was too wide to determine every printed digit.
+  /// False if the ball was too wide to determine every printed digit (round_to_text).
   bool is_certain = true;
 };
 
 /// The number whose text is the correctly rounded text of every number in the ball. A ball that contains a
-/// tie and is narrower than 2^-20 of the last unit counts as the tie (rounded to even). In the shortest form,
-/// a ball that contains 0 becomes 0. On overflow, hi is infinite.
-PrintableNumber round_to_text(const Ball& ball, NumberFormat format);
+/// tie and is narrower than 2^-20 of the last unit counts as the tie (rounded to even); it is certain if all
+/// of it lies within 2^-20 of a unit of the tie. In the shortest form, a ball that contains 0 is 0; it is
+/// certain if all of it lies within 2^-60 of `input_size`, the size of the numbers that were read: so where
+/// numbers cancel on the way, no more of them is taken for 0. Overflow gives an infinite hi.
+PrintableNumber round_to_text(const Ball& ball, NumberFormat format, double input_size = 1);
+
+/// The same for a ball that one double may not be enough for (round_to_shortest).
+PrintableNumber round_wide_to_shortest(const Ball& ball, double input_size);
+
+/// The same in the shortest form.
+inline PrintableNumber round_to_shortest(const Ball& ball, double input_size = 1) {
+  // Both ends of most balls round to the midpoint's double, which no search for its neighbors need show. The
+  // bound is enlarged by more than the sums lose.
+  const auto [hi, lo] = ball.value();
+  const double error = ball.error() + (ball.error() + std::fabs(lo)) * 0x1p-50;
+  if (ball.exponent() == 0 && hi + (lo + error) == hi && hi + (lo - error) == hi) return {hi, 0};
+  return round_wide_to_shortest(ball, input_size);
+}
 
 }  // namespace pipeline

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "libpipeline/numbers/vec_math.h"
+#include "libpipeline/text/number_rounding.h"
 
 namespace pipeline {
 namespace {
@@ -21,16 +22,19 @@ BallVec3 over_largest(const BallVec3& row, double largest) {
   return {row.x / Ball(largest), row.y / Ball(largest), row.z / Ball(largest)};
 }
 
-Located<Light> moved_to(const Located<Light>& light, const Vec3& position) {
-  const auto expect_finite = [&](double coordinate, const char* name) {
-    if (std::isfinite(coordinate)) return;
-    throw InputError(light.location, expected_but_found("a light whose image is within a double's range",
-                                                        std::string("an overflow of its ") + name));
+Located<Light> moved_to(const Located<Light>& light, const BallVec3& position, UncertainDigits& uncertain) {
+  bool is_certain = true;
+  const auto rounded = [&](const Ball& coordinate, const char* name) {
+    const PrintableNumber number = round_to_shortest(coordinate, size_of(light.value.position));
+    if (!std::isfinite(number.hi))
+      throw InputError(light.location, expected_but_found("a light whose image is within a double's range",
+                                                          std::string("an overflow of its ") + name));
+    is_certain = is_certain && number.is_certain;
+    return number.hi;
   };
-  expect_finite(position.x, "x");
-  expect_finite(position.y, "y");
-  expect_finite(position.z, "z");
-  return {{position, light.value.intensity}, light.location};
+  const Vec3 p = {rounded(position.x, "x"), rounded(position.y, "y"), rounded(position.z, "z")};
+  if (!is_certain) uncertain.add(LineAndColumn(light.location.line, light.location.column));
+  return {{p, light.value.intensity}, light.location};
 }
 
 }  // namespace
@@ -60,16 +64,18 @@ Vec3 NormalTransform::operator()(const Vec3& normal) const {
   return unit_vector({dot(rows_[0], n), dot(rows_[1], n), dot(rows_[2], n)});
 }
 
-Located<Light> transformed(const AffineMatrix& world_from_model, const Located<Light>& light) {
+Located<Light> transformed(const AffineMatrix& world_from_model, const Located<Light>& light,
+                           UncertainDigits& uncertain) {
   const BallVec3 p = to_balls(light.value.position);
   const auto image = [&](const std::array<Ball, 4>& row) { return dot(linear_row(row), p) + row[3]; };
   const auto& rows = world_from_model.rows;
-  return moved_to(light, nearest({image(rows[0]), image(rows[1]), image(rows[2])}));
+  return moved_to(light, {image(rows[0]), image(rows[1]), image(rows[2])}, uncertain);
 }
 
-Located<Light> transformed(const ViewTransform& view, const Located<Light>& light) {
+Located<Light> transformed(const ViewTransform& view, const Located<Light>& light,
+                           UncertainDigits& uncertain) {
   const BallVec3 p = to_balls(light.value.position) - to_balls(view.eye);
-  return moved_to(light, nearest({dot(view.right, p), dot(view.up, p), dot(view.backward, p)}));
+  return moved_to(light, {dot(view.right, p), dot(view.up, p), dot(view.backward, p)}, uncertain);
 }
 
 }  // namespace pipeline

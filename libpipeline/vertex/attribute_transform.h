@@ -5,6 +5,7 @@
 #include "libpipeline/scene/appearance.h"
 #include "libpipeline/stream/triangle_batch.h"
 #include "libpipeline/vertex/affine_matrix.h"
+#include "libpipeline/vertex/coordinate_rounder.h"
 #include "libpipeline/vertex/transform.h"
 
 namespace pipeline {
@@ -28,9 +29,12 @@ class NormalTransform {
   std::array<Vec3, 3> rows_;
 };
 
-/// The light with its position transformed, to the nearest doubles. An InputError at the light's location if
-/// the position is beyond a double's range.
-Located<Light> transformed(const AffineMatrix& world_from_model, const Located<Light>& light);
-Located<Light> transformed(const ViewTransform& view_from_world, const Located<Light>& light);
+/// The light with its position transformed and rounded to doubles, like a vertex's (round_to_text); added to
+/// `uncertain` if not all its digits are certain. An InputError at the light's location if the position is
+/// beyond a double's range.
+Located<Light> transformed(const AffineMatrix& world_from_model, const Located<Light>& light,
+                           UncertainDigits& uncertain);
+Located<Light> transformed(const ViewTransform& view_from_world, const Located<Light>& light,
+                           UncertainDigits& uncertain);
 
 }  // namespace pipeline

@@ -1,5 +1,6 @@
 #include "libpipeline/vertex/coordinate_rounder.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -7,6 +8,23 @@
 #include "libpipeline/text/error.h"
 
 namespace pipeline {
+namespace {
+
+double largest_in(const Vec3& p) {
+  return std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
+}
+
+}  // namespace
+
+double size_of(const Vec3& point) {
+  const double largest = largest_in(point);
+  return largest == 0 ? 1 : largest;
+}
+
+double size_of(const Triangle& triangle) {
+  const auto& [a, b, c] = triangle;
+  return size_of(Vec3{largest_in(a), largest_in(b), largest_in(c)});
+}
 
 CoordinateRounder::CoordinateRounder(Precision precision, NumberFormat format, std::string file)
     : precision_(precision), format_(format), file_(std::move(file)) {}
@@ -27,16 +45,15 @@ void CoordinateRounder::expect_finite(double coordinate, const char* name, LineA
 }
 
 void CoordinateRounder::set_vertex_exactly(TriangleBatch& batch, std::size_t triangle, std::size_t vertex,
-                                           const BallVec3& p) {
+                                           const BallVec3& p, double input_size, bool is_certain) {
   const LineAndColumn location = batch.locations[triangle][vertex];
-  const PrintableNumber x = round_to_text(p.x, format_);
-  const PrintableNumber y = round_to_text(p.y, format_);
-  const PrintableNumber z = round_to_text(p.z, format_);
+  const PrintableNumber x = round_to_text(p.x, format_, input_size);
+  const PrintableNumber y = round_to_text(p.y, format_, input_size);
+  const PrintableNumber z = round_to_text(p.z, format_, input_size);
   expect_finite(x.hi, "x", location);
   expect_finite(y.hi, "y", location);
   expect_finite(z.hi, "z", location);
-  if (!(x.is_certain && y.is_certain && z.is_certain) && !first_uncertain_.is_known())
-    first_uncertain_ = location;
+  if (!(is_certain && x.is_certain && y.is_certain && z.is_certain)) uncertain_.add(location);
   batch.triangles[triangle][vertex] = {x.hi, y.hi, z.hi};
   if (batch.low_parts.empty()) {
     if (x.lo == 0 && y.lo == 0 && z.lo == 0) return;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 
 #include "libpipeline/stream/triangle_batch.h"
@@ -14,12 +15,27 @@ namespace pipeline {
 /// How vertices are calculated.
 enum class Precision {
   in_doubles,  // by stable formulas, and printed as calculated
-  extended     // every printed number is the correctly rounded result of exact arithmetic
+  extended     // every printed coordinate is the correctly rounded result of exact arithmetic, or noted
 };
 
+/// Vertices, or lights, printed with an uncertain digit: the first, and how many there are.
+struct UncertainDigits {
+  LineAndColumn first;  // in the input; not known if there is none
+  std::uint64_t count = 0;
+
+  void add(LineAndColumn location) {
+    if (count++ == 0) first = location;
+  }
+};
+
+/// The largest coordinate in absolute value; 1 if all are 0. Below 2^-60 of it, what is left where numbers
+/// cancel counts as 0 (round_to_text).
+double size_of(const Vec3& point);
+double size_of(const Triangle& triangle);
+
 /// Rounds calculated coordinates to the numbers that are printed. Most pass the rounding test of a kernel
-/// (vertex_kernel.h); the caller calculates the others again as balls, which this class rounds. It remembers
-/// whether a printed digit was uncertain.
+/// (vertex_kernel.h); the caller calculates the others again as balls, which this class rounds. It counts the
+/// vertices of which a printed digit is uncertain.
 class CoordinateRounder {
  public:
   /// `file` names the input in messages.
@@ -28,13 +44,17 @@ class CoordinateRounder {
   /// The test that a kernel's coordinate must pass to be printed as it is.
   [[nodiscard]] RoundingTest rounding_test() const;
 
-  /// Sets one vertex of a triangle of the batch: the slow, exact path. `p` contains the exact image. An
-  /// InputError at the vertex's location if a coordinate is beyond a double's range.
-  void set_vertex_exactly(TriangleBatch& batch, std::size_t triangle, std::size_t vertex, const BallVec3& p);
+  /// Sets one vertex of a triangle of the batch: the slow, exact path. `p` contains the exact image,
+  /// `input_size` is the size of the triangle that was read (size_of). `is_certain` is false if a number that
+  /// is printed beside these is uncertain. An InputError at the vertex's location if a coordinate is beyond a
+  /// double's range.
+  void set_vertex_exactly(TriangleBatch& batch, std::size_t triangle, std::size_t vertex, const BallVec3& p,
+                          double input_size, bool is_certain = true);
+  /// Counts a vertex that was rounded elsewhere.
+  void add_uncertain(LineAndColumn vertex) { uncertain_.add(vertex); }
 
-  /// The location of the first vertex printed with an uncertain digit: its ball was too wide to decide it.
-  /// Not known (is_known()) if there is none.
-  [[nodiscard]] LineAndColumn first_uncertain() const { return first_uncertain_; }
+  /// The vertices printed with an uncertain digit: their balls were too wide to decide it.
+  [[nodiscard]] const UncertainDigits& uncertain() const { return uncertain_; }
   /// The location of a vertex of the input, for messages.
   [[nodiscard]] SourceLocation location_of(LineAndColumn vertex) const {
     return {file_, vertex.line(), vertex.column()};
@@ -46,7 +66,7 @@ class CoordinateRounder {
   Precision precision_;
   NumberFormat format_;
   std::string file_;
-  LineAndColumn first_uncertain_;
+  UncertainDigits uncertain_;
 };
 
 }  // namespace pipeline

@@ -103,7 +103,7 @@ void ModelStage::carry_out(const Command& command) {
   } else if (std::holds_alternative<PopCommand>(command)) {
     pop();
   } else if (const auto* light = std::get_if<LightCommand>(&command)) {
-    lights_.push_back(transformed(stack_.top(), light->light));
+    lights_.push_back(transformed(stack_.top(), light->light, uncertain_lights_));
   } else {
     done_ = std::holds_alternative<EndCommand>(command);
   }

@@ -23,6 +23,8 @@ class ModelStage {
 
   /// The scene's color and light, the lights in world space.
   [[nodiscard]] Appearance appearance() const;
+  /// The lights whose coordinates have an uncertain digit.
+  [[nodiscard]] const UncertainDigits& uncertain_lights() const { return uncertain_lights_; }
   /// Fills the batch with the next triangles, in model space; false at the scene's end. An InputError if the
   /// scene is wrong or the matrix stack under- or overflows; it is thrown after the triangles before it are
   /// delivered.
@@ -51,9 +53,10 @@ class ModelStage {
 
   SceneReader& scene_;
   MatrixStack stack_;
-  bool is_matrix_new_ = true;                      // no run has it yet
-  std::vector<Run> runs_;                          // of the batch that was read last
-  std::vector<Located<Light>> lights_;             // in world space
+  bool is_matrix_new_ = true;           // no run has it yet
+  std::vector<Run> runs_;               // of the batch that was read last
+  std::vector<Located<Light>> lights_;  // in world space
+  UncertainDigits uncertain_lights_;
   std::optional<TriangleCommand> first_triangle_;  // read, but not yet in a batch
   std::uint64_t next_number_ = 0;
   bool done_ = false;

@@ -76,25 +76,6 @@ Vec3 clamped_color(const Vec3& c) {
   return {std::clamp(c.x, 0.0, 255.0), std::clamp(c.y, 0.0, 255.0), std::clamp(c.z, 0.0, 255.0)};
 }
 
-/// The triangle with its attributes in clip space, at the `true_w` of its corners; null if a coordinate is
-/// too large for a double.
-std::shared_ptr<const ClipTriangle> unclipped_in_clip_space(const std::array<ClipVertex, 3>& corners,
-                                                            const std::array<double, 3>& true_w,
-                                                            const AttributeArrays& attributes,
-                                                            std::size_t index) {
-  ClipTriangle triangle;
-  for (std::size_t v = 0; v < 3; ++v) {
-    const ClipVertex& corner = corners[v];
-    triangle[v].position = {corner.x.nearest_double(), corner.y.nearest_double(), corner.z.nearest_double()};
-    triangle[v].w = true_w[v];
-    const Vec3& p = triangle[v].position;
-    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) return nullptr;
-    if (!attributes.colors.empty()) triangle[v].color = attributes.colors[index][v];
-    if (!attributes.normals.empty()) triangle[v].normal = attributes.normals[index][v];
-  }
-  return std::make_shared<const ClipTriangle>(triangle);
-}
-
 /// The location of the corner with the largest weight in a vertex of a piece, for messages.
 LineAndColumn location_of(const ClipVertex& vertex, const VertexLocations& corners) {
   const auto heaviest = std::max_element(vertex.weights.begin(), vertex.weights.end());
@@ -208,7 +189,8 @@ void ProjectionStage::project_unclipped(const TriangleBatch& p_view, std::size_t
     if (block_.passes_rounding_test[in_block] != 0) {
       p_ndc.triangles[target][v] = block_.vertex(in_block);
     } else {
-      rounder_.set_vertex_exactly(p_ndc, target, v, perspective_divide(to_clip_space(projection_, p)));
+      rounder_.set_vertex_exactly(p_ndc, target, v, perspective_divide(to_clip_space(projection_, p)),
+                                  size_of(p_view.triangles[index]));
     }
   }
   const auto& [a, b, c] = p_view.triangles[index];
@@ -254,15 +236,36 @@ void ProjectionStage::project_clipped(const TriangleBatch& p_view, std::size_t i
     return;
   }
   ++counts_.clipped;
-  const auto& [a, b, c] = p_view.triangles[index];
-  const auto unclipped = keeps_unclipped_ ? unclipped_in_clip_space(corners, {w_of(a), w_of(b), w_of(c)},
-                                                                    p_view.attributes, index)
-                                          : nullptr;
+  const auto unclipped = keeps_unclipped_ ? unclipped_in_clip_space(corners, p_view, index) : nullptr;
   for (std::size_t i = 1; i + 1 < polygon.size(); ++i) {
     ++counts_.pieces;
     add_piece(p_view, index, {&polygon[0], &polygon[i], &polygon[i + 1]}, p_ndc);
     if (unclipped) p_ndc.set_last_unclipped(unclipped);
   }
+}
+
+/// The triangle with its attributes in clip space; null if a coordinate is too large for a double. The w of
+/// `corners`, which the clip extent may have multiplied, does not count.
+std::shared_ptr<const ClipTriangle> ProjectionStage::unclipped_in_clip_space(
+    const std::array<ClipVertex, 3>& corners, const TriangleBatch& p_view, std::size_t index) {
+  const double input_size = size_of(p_view.triangles[index]);
+  const AttributeArrays& attributes = p_view.attributes;
+  ClipTriangle triangle;
+  std::array<bool, 3> is_certain = {};
+  for (std::size_t v = 0; v < 3; ++v) {
+    const PrintableNumber x = round_to_shortest(corners[v].x, input_size);
+    const PrintableNumber y = round_to_shortest(corners[v].y, input_size);
+    const PrintableNumber z = round_to_shortest(corners[v].z, input_size);
+    if (!std::isfinite(x.hi) || !std::isfinite(y.hi) || !std::isfinite(z.hi)) return nullptr;
+    triangle[v].position = {x.hi, y.hi, z.hi};
+    triangle[v].w = w_of(p_view.triangles[index][v]);
+    is_certain[v] = x.is_certain && y.is_certain && z.is_certain;
+    if (!attributes.colors.empty()) triangle[v].color = attributes.colors[index][v];
+    if (!attributes.normals.empty()) triangle[v].normal = attributes.normals[index][v];
+  }
+  for (std::size_t v = 0; v < 3; ++v)
+    if (!is_certain[v]) rounder_.add_uncertain(p_view.locations[index][v]);
+  return std::make_shared<const ClipTriangle>(triangle);
 }
 
 /// Adds the image of a piece of triangle `index`, with that triangle's number.
@@ -272,6 +275,9 @@ void ProjectionStage::add_piece(const TriangleBatch& p_view, std::size_t index, 
   VertexLocations locations;
   for (std::size_t v = 0; v < 3; ++v) locations[v] = location_of(*piece[v], p_view.locations[index]);
   p_ndc.add({}, p_view.numbers[index], locations);
+  const double input_size = size_of(p_view.triangles[index]);
+  const bool prints_w = has_attributes(p_view);
+  std::array<CornerMix, 3> mixes;
   for (std::size_t v = 0; v < 3; ++v) {
     // A divisor that may be 0 leaves the quotient unknown.
     if (piece[v]->w.sign() <= 0)
@@ -279,11 +285,12 @@ void ProjectionStage::add_piece(const TriangleBatch& p_view, std::size_t index, 
           rounder_.location_of(locations[v]),
           expected_but_found("a cut that 31 digits can tell from the eye plane (a larger near helps)",
                              "one nearer to it"));
-    rounder_.set_vertex_exactly(p_ndc, target, v, perspective_divide(*piece[v]));
+    PrintableNumber w;
+    if (prints_w) w = round_to_shortest(piece[v]->w, input_size);
+    mixes[v] = {piece[v]->weights, w.hi};
+    rounder_.set_vertex_exactly(p_ndc, target, v, perspective_divide(*piece[v]), input_size, w.is_certain);
   }
-  if (!has_attributes(p_view)) return;
-  const auto mix = [&](std::size_t v) { return CornerMix{piece[v]->weights, piece[v]->w.nearest_double()}; };
-  add_attributes(p_view, index, {mix(0), mix(1), mix(2)}, p_ndc);
+  if (prints_w) add_attributes(p_view, index, mixes, p_ndc);
 }
 
 }  // namespace pipeline

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "libpipeline/stream/triangle_batch.h"
@@ -72,6 +73,8 @@ class ProjectionStage {
   [[nodiscard]] std::array<ClipVertex, 3> corners_in_clip_space(const Triangle& p_view) const;
   [[nodiscard]] std::vector<ClipVertex> clipped(const std::array<ClipVertex, 3>& corners) const;
   void add_piece(const TriangleBatch& p_view, std::size_t index, const Piece& piece, TriangleBatch& p_ndc);
+  [[nodiscard]] std::shared_ptr<const ClipTriangle> unclipped_in_clip_space(
+      const std::array<ClipVertex, 3>& corners, const TriangleBatch& p_view, std::size_t index);
 
   ProjectionTransform projection_;
   ClipMode clip_;

@@ -51,6 +51,9 @@ struct VertexBlock {
       }
   }
   [[nodiscard]] Vec3 vertex(std::size_t index) const { return {p[0][index], p[1][index], p[2][index]}; }
+  [[nodiscard]] Triangle triangle(std::size_t index) const {
+    return {vertex(3 * index), vertex(3 * index + 1), vertex(3 * index + 2)};
+  }
 };
 
 /// The images of a block's vertices. One that fails the rounding test must be calculated again in another

@@ -35,14 +35,14 @@ void VertexTransform::set_coefficients() {
 void VertexTransform::apply(TriangleBatch& batch, std::size_t begin, std::size_t end,
                             CoordinateRounder& rounder) const {
   const RoundingTest test = rounder.rounding_test();
-  VertexBlock p;
-  ImageBlock image;
+  TransformedBlock block;
   for (std::size_t first = begin; first < end; first += VertexBlock::kTriangles) {
     const std::size_t count = std::min(end - first, VertexBlock::kTriangles);
-    p.fill(std::span(batch.triangles).subspan(first, count));
-    vertex_kernel().transform(coefficients_, test, p, image);
+    block.first_triangle = first;
+    block.p.fill(std::span(batch.triangles).subspan(first, count));
+    vertex_kernel().transform(coefficients_, test, block.p, block.image);
     for (std::size_t i = 0; i < count; ++i) try {
-        set_image(batch, first + i, image, 3 * i, rounder);
+        set_image(batch, block, i, rounder);
       } catch (...) {
         batch.truncate(first + i);
         throw;
@@ -50,16 +50,19 @@ void VertexTransform::apply(TriangleBatch& batch, std::size_t begin, std::size_t
   }
 }
 
-/// Replaces a triangle by its image, which begins at `first_vertex` of the block; vertices that failed the
-/// rounding test are calculated again.
-void VertexTransform::set_image(TriangleBatch& batch, std::size_t index, const ImageBlock& image,
-                                std::size_t first_vertex, CoordinateRounder& rounder) const {
+/// Replaces triangle `index` of a block by its image; vertices that failed the rounding test are calculated
+/// again.
+void VertexTransform::set_image(TriangleBatch& batch, const TransformedBlock& block, std::size_t index,
+                                CoordinateRounder& rounder) const {
+  const std::size_t triangle = block.first_triangle + index;
   for (std::size_t v = 0; v < 3; ++v) {
-    Vec3& p = batch.triangles[index][v];
-    if (image.passes_rounding_test[first_vertex + v] != 0) {
-      p = image.vertex(first_vertex + v);
+    const std::size_t i = 3 * index + v;
+    if (block.image.passes_rounding_test[i] != 0) {
+      batch.triangles[triangle][v] = block.image.vertex(i);
     } else {
-      rounder.set_vertex_exactly(batch, index, v, apply_in_balls(matrix_, coefficients_.origin, p));
+      const double input_size = size_of(block.p.triangle(index));
+      const BallVec3 image = apply_in_balls(matrix_, coefficients_.origin, block.p.vertex(i));
+      rounder.set_vertex_exactly(batch, triangle, v, image, input_size);
     }
   }
 }

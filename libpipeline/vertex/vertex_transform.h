@@ -28,9 +28,17 @@ class VertexTransform {
   }
 
  private:
-  void set_coefficients();
-  void set_image(TriangleBatch& batch, std::size_t index, const ImageBlock& image, std::size_t first_vertex,
+  /// Some triangles of a batch, from `first_triangle` on, and their images by a kernel.
+  struct TransformedBlock {
+    std::size_t first_triangle = 0;
+    VertexBlock p;
+    ImageBlock image;
+  };
+
+  void set_image(TriangleBatch& batch, const TransformedBlock& block, std::size_t index,
                  CoordinateRounder& rounder) const;
+
+  void set_coefficients();
 
   AffineMatrix matrix_;
   AffineCoefficients coefficients_;

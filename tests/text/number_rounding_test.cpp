@@ -37,6 +37,19 @@ TEST(RoundToText, ATieWithinTheErrorCountsAsTheTie) {
   }
 }
 
+TEST(RoundToText, ATieIsCertainOnlyIfTheWholeBallIsWithinTwoToTheMinus20) {
+  const double unit = 1e-7;
+  const double tie = 0.5 * unit;
+  const auto is_certain = [&](double distance, double error) {
+    return round_to_text(Ball::with_error(two_sum(tie, distance * 0x1p-20 * unit), error * 0x1p-20 * unit),
+                         {7})
+        .is_certain;
+  };
+  EXPECT_TRUE(is_certain(0.45, 0.5));
+  EXPECT_FALSE(is_certain(0.6, 0.7));
+  EXPECT_FALSE(is_certain(-0.6, 0.7));
+}
+
 TEST(RoundToText, ATieOutsideTheErrorDecidesNothing) {
   RandomNumbers random(2);
   for (int i = 0; i < 8'000; ++i) {
@@ -119,6 +132,17 @@ TEST(RoundToText, ABallAroundZeroIsZero) {
       "0");
 }
 
+TEST(RoundToText, ABallAroundZeroIsCertainBesideTwoToThe60TimesItsSize) {
+  for (const double size : {1e-30, 1.0, 1e32}) {
+    const auto around_zero = [&](double error) {
+      return round_to_text(Ball::with_error({0, 0}, error * 0x1p-60 * size), {.shortest = true}, size);
+    };
+    EXPECT_TRUE(around_zero(0.99).is_certain) << size;
+    EXPECT_FALSE(around_zero(1.01).is_certain) << size;
+    EXPECT_EQ(around_zero(1.01).hi, 0) << size;
+  }
+}
+
 TEST(RoundToText, OverflowIsInfinite) {
   EXPECT_EQ(round_to_text(Ball(1e300) * Ball(1e300), {7}).hi, HUGE_VAL);
   EXPECT_EQ(round_to_text(Ball(-1e300) * Ball(1e300), {.shortest = true}).hi, -HUGE_VAL);
@@ -161,6 +185,15 @@ TEST(RoundToShortest, ATieWithinTheErrorCountsAsTheTie) {
     ASSERT_EQ(rounded.hi, tie.nearest_double()) << std::hexfloat << below << " +- " << error;
     ASSERT_TRUE(rounded.is_certain) << std::hexfloat << below << " +- " << error;
   }
+}
+
+TEST(RoundToShortest, ATieIsCertainOnlyIfTheWholeBallIsWithinTwoToTheMinus20) {
+  const auto is_certain = [](double distance, double error) {
+    return round_to_text(Ball::with_error({1, 0x1p-53 + distance * 0x1p-72}, error * 0x1p-72), kShortest)
+        .is_certain;
+  };
+  EXPECT_TRUE(is_certain(-0.45, 0.5));
+  EXPECT_FALSE(is_certain(-0.6, 0.7));
 }
 
 TEST(RoundToShortest, ATieBetweenSubnormalNumbersCountsAsTheTie) {

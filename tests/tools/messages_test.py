@@ -7,7 +7,7 @@ import os
 import pathlib
 import unittest
 
-from toolbox import CAMERA, HEADER, TRIANGLE, ToolTest, add_claims, run
+from toolbox import CAMERA, HEADER, SOURCE, TRIANGLE, ToolTest, add_claims, run
 
 COMMANDS = "a command (triangle, translate, scale, rotate, push, pop or end)"
 FIRST_COMMANDS = COMMANDS[:-1] + ("; before the first triangle also color, attributes, background, light, ambient, "
@@ -335,10 +335,53 @@ class VertexPlaces(ToolTest):
     def test_digits_that_are_not_certain(self):
         # 1e30 is added before a rotation and subtracted after it: none of 31 digits is left.
         scene = CAMERA + "translate 1e30 0 0\nrotate 33 1 2 3\ntranslate -1e30 0 0\ntriangle\n  1 2 3\n4 5 6\n7 8 9\nend\n"
-        done = run("model", stdin=scene)
+        for threads in (1, 3):
+            done = run("model", "--threads", threads, stdin=scene)
+            self.assertEqual((done.stderr.decode(), done.returncode), (
+                "model: note: <stdin>:9:3: the digits of this vertex and of 2 more are not certain: "
+                "numbers cancel here beyond 31 digits\n", 0))
+
+    def test_digits_that_are_not_certain_are_counted(self):
+        lost = "push\ntranslate 1e31 0 0\nrotate 120 1 1 1\nrotate 240 1 1 1\ntranslate -1e31 0 0\n"
+        lights = "light 1 2 3 1 1 1\n"
+        triangles = "triangle\n1 2 3\n4 5 6\n7 8 10\n"
+        beyond = "are not certain: numbers cancel here beyond 31 digits\n"
+        for text, notes in (
+                (lost + lights + "pop\n" + triangles, [f"10:7: the digits of this light {beyond}"]),
+                (lost + 3 * lights + "pop\n" + triangles, [f"10:7: the digits of this light and of 2 more {beyond}"]),
+                (triangles + lost + "scale 0 0 1\ntriangle\n0 0 0\n0 0 0\n0 0 0\n", [f"16:1: the digits of this vertex and of 2 more {beyond}"]),
+                # Enough for more than one part of a text; what stands behind it takes the parts back.
+                (lost + lights + 3000 * triangles + "pop\n" + triangles, [
+                    f"10:7: the digits of this light {beyond}", f"12:1: the digits of this vertex and of 8999 more {beyond}"])):
+            for threads in (1, 2, 5):
+                with self.subTest(notes=notes, threads=threads):
+                    done = run("model", "--digits", "exact", "--threads", threads, stdin=CAMERA + text + "end\n")
+                    self.assertEqual((done.stderr.decode(), done.returncode), (
+                        "".join("model: note: <stdin>:" + note for note in notes), 0))
+
+    def test_the_digits_of_one_vertex(self):
+        # Cut at w = 1e-20: one cut lies on the axis, of the other's x no digit is right.
+        done = run("project", "--clip", "near", "--perspective", 90, 1, "1e-20", 10, stdin="0 0 -2\n0 0 2\n 1 0 1\n")
         self.assertEqual((done.stderr.decode(), done.returncode), (
-            "model: note: <stdin>:9:3: numbers cancel here beyond 31 digits; "
-            "the last digits of this vertex are not certain\n", 0))
+            "project: note: <stdin>:3:2: the digits of this vertex are not certain: numbers cancel here beyond 31 digits\n", 0))
+
+    def test_digits_of_a_light_in_view_space(self):
+        text = "eye -1e34 0.5 1e32\nlook 0 5 9\nup 0 1 0\n  light 1 2 3 1 1 1\n"
+        done = run("view", stdin=text)
+        self.assertEqual((done.stderr.decode(), done.returncode), (
+            "view: note: <stdin>:4:9: the digits of this light are not certain: numbers cancel here beyond 31 digits\n", 0))
+
+    def test_no_sample_has_digits_that_are_not_certain(self):
+        scenes = sorted(SOURCE.glob("samples/*/scene.txt"))
+        self.assertGreaterEqual(len(scenes), 8)
+        for scene in scenes:
+            for digits in ("7", "9", "exact"):
+                text = scene.read_bytes()
+                for stage in ("model", "view", "project"):
+                    done = run(stage, "--digits", digits, stdin=text)
+                    text = done.stdout
+                    self.assertNotIn(b"certain", done.stderr, f"{stage} --digits {digits} {scene}")
+                    self.assertEqual(done.returncode, 0)
 
     def test_a_window_of_a_lit_perspective_has_to_fit_a_double(self):
         text = "perspective 179.9999999999 1 1e305 1e306\nlight 0 0 0 1 1 1\n"

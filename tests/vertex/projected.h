@@ -42,7 +42,7 @@ inline Result projected(const TriangleBatch& p_view, const ProjectionTransform& 
   Result result;
   stage.project(p_view, result.p_ndc);
   result.counts = stage.counts();
-  EXPECT_FALSE(rounder.first_uncertain().is_known());
+  EXPECT_FALSE(rounder.uncertain().first.is_known());
   return result;
 }
 

@@ -19,7 +19,7 @@ TriangleBatch images_of(const std::vector<Vec3>& vertices, const Transform& tran
   TriangleBatch batch = batch_of(vertices);
   CoordinateRounder rounder(precision, format, "input");
   VertexTransform(transform).apply(batch, rounder);
-  EXPECT_FALSE(rounder.first_uncertain().is_known());
+  EXPECT_FALSE(rounder.uncertain().first.is_known());
   return batch;
 }
 
@@ -145,7 +145,7 @@ TEST(ModelTransform, ReportsUncertainDigitsAroundAPivotAtOneE30) {
   TriangleBatch batch = batch_of({{1, 2, 3}, {4, 5, 6}, {7, 8, 9}});
   CoordinateRounder rounder(Precision::extended, {7}, "input");
   VertexTransform(model.computed).apply(batch, rounder);
-  EXPECT_EQ(rounder.first_uncertain(), LineAndColumn(1));
+  EXPECT_EQ(rounder.uncertain().first, LineAndColumn(1));
 }
 
 TEST(ModelTransform, AddsTheLastDigitBesideOneE16) {
