@@ -45,7 +45,8 @@ class ProjectionStage {
   /// of its polygon, all pieces with its number; a dropped one becomes none. Attributes are interpolated
   /// linearly in clip space and w is added to them; normals are not normalized again, so that a piece is
   /// shaded like the whole. An InputError at the vertex's location if w <= 0 in a vertex to be divided, or an
-  /// image overflows; `p_ndc` then holds the images of the triangles before it.
+  /// image overflows; `p_ndc` then holds the images of the triangles before it. Colors and
+  /// normals of cut vertices are calculated in doubles: within 1e-12 and 1e-14 of the exact means.
   void project(const TriangleBatch& p_view, TriangleBatch& p_ndc);
 
   /// From now on pieces keep the triangle they were cut from (TriangleBatch::unclipped), as lighting needs.

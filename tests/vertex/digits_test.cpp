@@ -467,5 +467,92 @@ TEST(Digits, OfTheWindowOfAPerspectiveAreRight) {
   }
 }
 
+// ---- what is calculated in doubles ----
+
+/// The exact image of a normal.
+ReferencePoint reference_normal(const ReferenceMatrix<kBits>& m, const Vec3& normal) {
+  const auto& [x, y, z] = m.rows;
+  const ReferencePoint n = normalized(ReferencePoint(normal));
+  const ReferencePoint image = {dot(cross(y, z), n), dot(cross(z, x), n), dot(cross(x, y), n)};
+  return normalized(dot(x, cross(y, z)).sign() < 0 ? ReferencePoint() - image : image);
+}
+
+double largest_difference(const Vec3& a, const ReferencePoint& b) {
+  return std::max({abs(R(a.x) - b.x), abs(R(a.y) - b.y), abs(R(a.z) - b.z)}).nearest_double();
+}
+
+TEST(Normals, AreWithinTheirBound) {
+  RandomNumbers random(3);
+  double worst = 0;
+  for (int i = 0; i < 3'000; ++i) {
+    const Model model = random_ordinary_model(random);
+    const NormalTransform transform(model.computed);
+    const Vec3 normal = random_point(random, 10);
+    const double error = largest_difference(transform(normal), reference_normal(model.exact, normal));
+    worst = std::max(worst, error / model.stretch);
+  }
+  std::printf("%g\n", worst);
+  EXPECT_LE(worst, 1e-15);
+}
+
+TEST(Normals, AreWithinTheirBoundInViewSpace) {
+  RandomNumbers random(4);
+  double worst = 0;
+  for (int i = 0; i < 3'000; ++i) {
+    const Vec3 eye = random_point(random, 10);
+    const Vec3 look = {eye.x + 1, eye.y + random.between(-3, 3), eye.z + random.between(-9, 9)};
+    const NormalTransform transform(view_from_world(eye, look, {0, 1, 0}));
+    const Vec3 normal = random_point(random, 10);
+    const ReferencePoint truth = reference_normal(reference_view<kBits>(eye, look, {0, 1, 0}), normal);
+    worst = std::max(worst, largest_difference(transform(normal), truth));
+  }
+  std::printf("%g\n", worst);
+  EXPECT_LE(worst, 1e-15);
+}
+
+TEST(CutCorners, HaveColorsAndNormalsWithinTheirBounds) {
+  // View space is NDC, but for z. Colors and normals are linear functions of the position, so a cut tells
+  // its own; with few bits at the corners they are exact there.
+  const Orthographic box = {-1, 1, -1, 1, -1, 1};
+  const ProjectionTransform projection = clip_from_view({box, {}}, AspectRule::angle);
+  RandomNumbers random(5);
+  double worst_color = 0;
+  double worst_normal = 0;
+  std::size_t cuts = 0;
+  for (int i = 0; i < 3'000; ++i) {
+    std::array<VertexLine, 3> lines;
+    for (VertexLine& line : lines) {
+      const auto coordinate = [&] { return std::nearbyint(random.between(-2048, 2048)) / 1024; };
+      line.position = {coordinate(), coordinate(), coordinate()};
+      line.color = {63.75 * (line.position.x + 2), 63.75 * (line.position.y + 2),
+                    63.75 * (2 - line.position.z)};
+      line.normal = {line.position.x / 2, line.position.y / 2, -line.position.z / 2};
+    }
+    TriangleBatch p_view = batch_of(Triangle{lines[0].position, lines[1].position, lines[2].position});
+    p_view.attributes.add(lines, {false, true, true});
+    CoordinateRounder rounder(Precision::extended, kShortest, "input");
+    ProjectionStage stage(projection, ClipMode::frustum, CullMode::nothing, rounder);
+    TriangleBatch p_ndc;
+    stage.project(p_view, p_ndc);
+    cuts += p_ndc.size();
+    for (std::size_t t = 0; t < p_ndc.size(); ++t)
+      for (std::size_t v = 0; v < 3; ++v) {
+        const Vec3& p = p_ndc.triangles[t][v];
+        const Vec3& color = p_ndc.attributes.colors[t][v];
+        const Vec3& normal = p_ndc.attributes.normals[t][v];
+        const auto off = [](double a, double b) { return std::fabs(a - b); };
+        worst_color = std::max({worst_color, off(color.x, 63.75 * (p.x + 2)), off(color.y, 63.75 * (p.y + 2)),
+                                off(color.z, 63.75 * (p.z + 2))});
+        worst_normal =
+            std::max({worst_normal, off(normal.x, p.x / 2), off(normal.y, p.y / 2), off(normal.z, p.z / 2)});
+      }
+  }
+  EXPECT_GT(cuts, 3'000);
+  std::printf("%g\n", worst_color);
+  EXPECT_LE(worst_color, 1e-12);
+  std::printf("%g\n", worst_normal);
+  EXPECT_LE(worst_normal, 1e-14);
+}
+
 }  // namespace
 }  // namespace pipeline
