@@ -23,8 +23,7 @@ bool is_header_keyword(std::string_view word) {
 
 }  // namespace
 
-StageReader::StageReader(TextReader& text, bool marks_decimals)
-    : text_(text), marks_decimals_(marks_decimals) {
+StageReader::StageReader(TextReader& text, bool marks_decimals) : text_(text) {
   while (!line_is_pending_ && text_.next_filled_line(line_)) {
     LineScanner line = line_;
     line_is_pending_ = !read_header_line(line);

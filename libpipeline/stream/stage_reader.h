@@ -49,7 +49,6 @@ class StageReader {
   [[noreturn]] void reject(LineScanner& line, const std::string& also_expected);
 
   TextReader& text_;
-  bool marks_decimals_;
   StageHeader header_;
   SourceLocation header_end_;
   SourceLocation framed_location_;
