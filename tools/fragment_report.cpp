@@ -91,13 +91,17 @@ class ReportOf final : public FragmentReport {
   std::optional<LogFile> file_;
 };
 
+template <typename CoverageRule, typename Depth>
+std::unique_ptr<FragmentReport> report_of(const ZbufOptions& chosen, const Viewport& screen) {
+  return std::make_unique<ReportOf<CoverageRule, Depth>>(chosen, screen);
+}
+
 }  // namespace
 
 std::unique_ptr<FragmentReport> fragment_report(const ZbufOptions& chosen, const Viewport& screen) {
   if (chosen.probes.empty() && chosen.fragments_path.empty()) return nullptr;
-  return dispatch(chosen, [&]<typename Rule, typename Depth>() -> std::unique_ptr<FragmentReport> {
-    return std::make_unique<ReportOf<Rule, Depth>>(chosen, screen);
-  });
+  return dispatch(chosen,
+                  [&]<typename Rule, typename Depth>() { return report_of<Rule, Depth>(chosen, screen); });
 }
 
 }  // namespace pipeline
