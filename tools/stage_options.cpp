@@ -27,9 +27,9 @@ NumberOptions::NumberOptions(CommandLine& options) {
   options.add_word(
       "--digits", "N|exact", digits_,
       "Decimals of a coordinate, 0 to 17, or exact: as many as it takes to read back the same double", check);
-  options.add_choice<Precision>("--precision", precision_,
-                                {{"double", Precision::in_doubles}, {"extended", Precision::extended}},
-                                "extended: every number printed is correctly rounded; double: faster");
+  options.add_choice<Precision>(
+      "--precision", precision_, {{"double", Precision::in_doubles}, {"extended", Precision::extended}},
+      "extended: every coordinate printed is correctly rounded, or noted; double: faster");
   options.add_threads(ignored_thread_count_, "Accepted for compatibility; one thread does the work");
 }
 
