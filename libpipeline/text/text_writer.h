@@ -30,8 +30,6 @@ class TextWriter {
   /// Writes the buffered text, unless this writer has no descriptor.
   void flush();
   [[nodiscard]] std::string_view collected() const { return {buffer_.data(), end_}; }
-  /// Drops the buffered text.
-  void discard() { end_ = 0; }
 
   [[nodiscard]] std::size_t bytes_written() const { return bytes_written_; }
 

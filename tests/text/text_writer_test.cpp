@@ -89,16 +89,6 @@ TEST(TextWriter, FlushingNothingWritesNothing) {
   EXPECT_EQ(block_sizes_of([](TextWriter& writer) { writer.flush(); }), std::vector<std::size_t>{});
 }
 
-TEST(TextWriter, ForgetsWhatIsDiscarded) {
-  const TextFile file("");
-  TextWriter writer(file.descriptor(), "out.txt");
-  writer.append("abc");
-  writer.discard();
-  writer.append("d");
-  writer.flush();
-  EXPECT_EQ(file.whole_text(), "d");
-}
-
 TEST(TextWriter, ReservedRoomCountsAsFarAsItIsCommitted) {
   const TextFile file("");
   TextWriter writer(file.descriptor(), "out.txt");
@@ -256,8 +246,6 @@ TEST(TextWriter, MayOnlyCollect) {
   for (int i = 0; i < 3; ++i) writer.append(std::string(100000, 'x'));
   writer.flush();
   EXPECT_EQ(writer.collected(), std::string(300000, 'x'));
-  writer.discard();
-  EXPECT_EQ(writer.collected(), "");
 }
 
 TEST(TextWriter, WhatCouldNotBeWrittenIsNotTriedAgain) {
