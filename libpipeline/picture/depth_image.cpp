@@ -32,8 +32,11 @@ void check_depth_image_name(const std::string& path) {
 }
 
 std::uint16_t depth_brightness(double depth, const Viewport& screen) {
-  // Halves, so that the difference of two large limits stays finite.
-  const double nearness = (screen.rear / 2 - depth / 2) / (screen.rear / 2 - screen.front / 2);
+  // Halves, so that the difference of two large limits stays finite; but only there, as the half of the
+  // smallest double is 0.
+  const double scale = std::isfinite(screen.rear - screen.front) ? 1 : 0.5;
+  const double rear = scale * screen.rear;
+  const double nearness = (rear - scale * depth) / (rear - scale * screen.front);
   return static_cast<std::uint16_t>(std::floor(std::clamp(nearness, 0.0, 1.0) * 65535 + 0.5));
 }
 

@@ -27,9 +27,13 @@ def random_triangles(seed, count):
                        for _ in range(count)))
 
 
+def wall_at(word):
+    """A triangle that fills the picture, of the depth written as `word`."""
+    return f"-9 -9 {word}\n9 -9 {word}\n0 9 {word}\n"
+
+
 def wall(z):
-    """A triangle of constant depth that fills the picture."""
-    return triangles([(-9, -9, z), (9, -9, z), (0, 9, z)])
+    return wall_at(f"{z:.7f}") + "\n"
 
 
 def read_png(path):
@@ -122,6 +126,13 @@ class DepthImages(Pictures):
     def test_it_goes_from_limit_to_limit(self):
         pathlib.Path("config.txt").write_text(f"{COLUMNS} {ROWS}\n-1\n-1\n0.2 0.7\n")
         self.assertEqual(set(self.brightness(wall(0.5))), {26214})  # 0.4 * 65535
+
+    def test_it_goes_from_limit_to_limit_however_far_they_are_apart(self):
+        # The smallest double, limits whose difference is none, and a third of the way between such limits.
+        for front, rear, z, expected in (("0", "5e-324", "0", 65535), ("-1.5e308", "1.5e308", "-1.5e308", 65535),
+                                         ("-1.5e308", "1.5e308", "-0.5e308", 43690)):
+            pathlib.Path("config.txt").write_text(f"{COLUMNS} {ROWS}\n-1\n-1\n{front} {rear}\n")
+            self.assertEqual(set(self.brightness(wall_at(z))), {expected}, (front, rear, z))
 
     def test_every_pixel_is_that_of_the_text(self):
         stage3 = random_triangles(3, 5)
