@@ -34,6 +34,7 @@ int main(int argc, char** argv) {
   return tool.run(argc, argv, [&] {
     chosen.check();
     const Viewport screen = read_screen(tool, chosen.config_path);
+    chosen.check_limits(screen);
     check_image_size(chosen.image_path, screen.columns, screen.rows);
     render(tool, chosen, screen);
   });

@@ -1,5 +1,7 @@
 #include "tools/zbuf_options.h"
 
+#include <string_view>
+
 #include "libpipeline/text/error.h"
 #include "libpipeline/text/number_printer.h"
 
@@ -15,6 +17,16 @@ void ZbufOptions::check() const {
     throw UsageError("--depth-epsilon: " +
                      expected_but_found("0 with --algorithm scanline, which keeps no order of drawing",
                                         "'" + shortest_text(depth_epsilon) + "'"));
+}
+
+void ZbufOptions::check_limits(const Viewport& screen) const {
+  dispatch(*this, [&]<typename Rule, typename Depth>() {
+    const std::string_view needed = Depth::needed_limits(screen);
+    if (needed.empty()) return;
+    throw UsageError("--depth " + std::string(Depth::kName) + ": " +
+                     expected_but_found("limits of Z " + std::string(needed),
+                                        shortest_text(screen.front) + " and " + shortest_text(screen.rear)));
+  });
 }
 
 }  // namespace pipeline

@@ -42,6 +42,8 @@ struct ZbufOptions {
   void add_to(CommandLine& options);
   /// A UsageError if options exclude each other.
   void check() const;
+  /// A UsageError if the depth format cannot store the depths between the limits of Z.
+  void check_limits(const Viewport& screen) const;
 };
 
 /// Calls visit<Rule, Depth>() for the coverage rule and the depth format chosen.

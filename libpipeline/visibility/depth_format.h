@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cassert>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <string_view>
@@ -13,13 +15,15 @@ namespace pipeline {
 // depths that round to the same value are equal and the earlier triangle stays. `store` is monotone; `depth`
 // gives the depth of a stored value. Two depths that differ by `separation(size)` or more, neither larger
 // than `size`, are never stored as the same value. Users choose a format by kName and read kMeaning beside
-// it.
+// it. Not every format has room for every pair of limits: `needed_limits` is what it needs, in words, where
+// it cannot store the depths between those of a screen, and empty where it can.
 
 /// A double: the depth as calculated.
 struct DepthF64 {
   static constexpr std::string_view kName = "f64", kMeaning = "as a double";
   using Stored = double;
   explicit DepthF64(const Viewport&) {}
+  [[nodiscard]] static std::string_view needed_limits(const Viewport&) { return {}; }
   [[nodiscard]] static Stored store(double z) { return z; }
   [[nodiscard]] static double depth(Stored stored) { return stored; }
   [[nodiscard]] static double separation(double) { return std::numeric_limits<double>::denorm_min(); }
@@ -29,7 +33,12 @@ struct DepthF64 {
 struct DepthF32 {
   static constexpr std::string_view kName = "f32", kMeaning = "as a float";
   using Stored = float;
-  explicit DepthF32(const Viewport&) {}
+  explicit DepthF32([[maybe_unused]] const Viewport& screen) { assert(needed_limits(screen).empty()); }
+  [[nodiscard]] static std::string_view needed_limits(const Viewport& screen) {
+    const Stored front = store(screen.front), rear = store(screen.rear);
+    if (!std::isfinite(front) || !std::isfinite(rear)) return "from -3.4028235e+38 to 3.4028235e+38";
+    return front < rear ? "" : "that are two different floats";
+  }
   [[nodiscard]] static Stored store(double z) { return static_cast<float>(z); }
   [[nodiscard]] static double depth(Stored stored) { return stored; }
   // More than the distance of neighboring floats.
@@ -50,7 +59,14 @@ struct DepthU24 {
   explicit DepthU24(const Viewport& screen)
       : front(screen.front),
         steps_per_depth(kSteps / (screen.rear - screen.front)),
-        depth_per_step((screen.rear - screen.front) / kSteps) {}
+        depth_per_step((screen.rear - screen.front) / kSteps) {
+    assert(needed_limits(screen).empty());
+  }
+  [[nodiscard]] static std::string_view needed_limits(const Viewport& screen) {
+    // Closer together, a step or the number of steps a unit leaves a double's range.
+    const double distance = screen.rear - screen.front;
+    return 1e-300 <= distance && std::isfinite(distance) ? "" : "1e-300 to 1.7976931e+308 apart";
+  }
   /// `z` outside the limits is stored as the nearer limit.
   [[nodiscard]] Stored store(double z) const {
     const double steps = (z - front) * steps_per_depth + 0.5;

@@ -419,6 +419,28 @@ add_claims(ConfigMessages, [
 ])
 
 
+class DepthFormatMessages(ToolTest):
+    def check(self, words, message):
+        depth, front, rear = words.split()
+        pathlib.Path("config.txt").write_text(f"8 8\n-1\n-1\n{front} {rear}\n")
+        for options in ([], ["--algorithm", "scanline"], ["--probe", "1,1"]):
+            done = run("zbuf", "config.txt", "--depth", depth, *options)
+            self.assert_fails(done, 2, f"zbuf: --depth {depth}: expected limits of Z {message} (try zbuf --help)")
+            self.assertEqual(self.files(), ["config.txt", "scene.txt"])
+
+
+FLOAT = "from -3.4028235e+38 to 3.4028235e+38"
+APART = "1e-300 to 1.7976931e+308 apart"
+add_claims(DepthFormatMessages, [
+    ("the front limit is a float", "f32 -1e308 1", f"{FLOAT}, found -1e+308 and 1"),
+    ("the rear limit is a float", "f32 -1 3.4028236e38", f"{FLOAT}, found -1 and 3.4028236e+38"),
+    ("the limits are two floats", "f32 1 1.00000001", "that are two different floats, found 1 and 1.00000001"),
+    ("a float may underflow to the other limit", "f32 0 1e-46", "that are two different floats, found 0 and 1e-46"),
+    ("24 bits need a distance of the limits", "u24 -1e308 1e308", f"{APART}, found -1e+308 and 1e+308"),
+    ("24 bits need a distance that can be divided", "u24 0 9.9e-301", f"{APART}, found 0 and 9.9e-301"),
+])
+
+
 class OptionMessages(ToolTest):
     def check(self, words, message):
         tool, *options = words.split()

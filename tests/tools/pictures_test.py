@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """The pictures that zbuf makes besides the default one: PNG, depth images, several samples a pixel, a depth epsilon, a
-wireframe.
+wireframe; and depths between extreme limits.
 
 usage: pictures_test.py BIN_DIR [UNITTEST ARGUMENT...]
 """
@@ -215,6 +215,41 @@ class DepthEpsilon(Pictures):
         done = run("zbuf", "config.txt", "--depth-epsilon", "0.1", "--algorithm", "scanline")
         self.assert_fails(done, 2, "zbuf: --depth-epsilon: expected 0 with --algorithm scanline, which keeps no order of "
                                    "drawing, found '0.1' (try zbuf --help)")
+
+
+class DepthLimits(Pictures):
+    """The limits of Z may be as far apart as the depth format allows; messages_test.py has those that are refused."""
+
+    def expect_depth(self, format_name, front, rear, z, expected):
+        pathlib.Path("config.txt").write_text(f"{COLUMNS} {ROWS}\n-1\n-1\n{front} {rear}\n")
+        for options in ([], ["--algorithm", "scanline"], ["--coverage", "center"], ["--depth-epsilon", "1e300"]):
+            with self.subTest(depth=format_name, front=front, rear=rear, z=z, options=options):
+                words = self.zbuf(wall_at(z), "--depth", format_name, *options).decode().split()
+                self.assertEqual({float(word) for word in words}, {expected})
+                self.assertEqual(len(words), COLUMNS * ROWS)
+
+    def test_a_double_holds_all(self):
+        for z in ("-1.7e308", "1.6e308", "0"):
+            self.expect_depth("f64", "-1.7e308", "1.7e308", z, float(z))
+
+    def test_a_float_holds_floats(self):
+        for z in ("-3.4e38", "3.3e38", "0.5"):
+            self.expect_depth("f32", "-3.4028235e38", "3.4028235e38", z, struct.unpack("f", struct.pack("f", float(z)))[0])
+
+    def test_24_bits_hold_what_is_a_double_apart(self):
+        # The front limit is exact. A step is 1.7e308 / (2^24 - 1), so 1.23e307 is 1213880.85 steps.
+        self.expect_depth("u24", "-0.85e308", "0.85e308", "-0.85e308", -0.85e308)
+        self.expect_depth("u24", "0", "1.7e308", "1.23e307", 1213881 * (1.7e308 / 16777215))
+
+    def test_what_lies_outside_the_limits_of_a_float_is_not_drawn(self):
+        pathlib.Path("config.txt").write_text(f"{COLUMNS} {ROWS}\n-1\n-1\n-3e38 3e38\n")
+        for z in ("-1e39", "1e39", "-1e308", "1e308"):
+            self.assertEqual(self.zbuf(wall_at(z), "--depth", "f32").split(), [])
+
+    def test_a_depth_epsilon_sees_differences_beyond_a_double(self):
+        pathlib.Path("config.txt").write_text(f"{COLUMNS} {ROWS}\n-1\n-1\n-1.7e308 1.7e308\n")
+        stage3 = wall_at("1e308") + "\n" + wall_at("-1e308")
+        self.assertEqual({float(word) for word in self.zbuf(stage3, "--depth-epsilon", "1.7e308").split()}, {-1e308})
 
 
 def distance_to_segment(p, a, b):

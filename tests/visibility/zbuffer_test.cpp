@@ -171,6 +171,44 @@ TEST(ZBuffer, AFloatRoundsToTheNearestFloat) {
   EXPECT_EQ(depth_of_first_pixel(buffer), 0x1.99999ap-4);  // 0.100000001490116, the float nearest to 0.1
 }
 
+Viewport between(double front, double rear) {
+  return {6, 2, -1, -1, front, rear};
+}
+
+TEST(DepthFormat, TheDefaultLimitsSuitAll) {
+  EXPECT_EQ(DepthF64::needed_limits(between(-1, 1)), "");
+  EXPECT_EQ(DepthF32::needed_limits(between(-1, 1)), "");
+  EXPECT_EQ(DepthU24::needed_limits(between(-1, 1)), "");
+}
+
+TEST(DepthFormat, ADoubleTakesAllLimits) {
+  EXPECT_EQ(DepthF64::needed_limits(between(-1.7e308, 1.7e308)), "");
+  EXPECT_EQ(DepthF64::needed_limits(between(0, 5e-324)), "");
+}
+
+TEST(DepthFormat, AFloatTakesLimitsThatAreTwoFloats) {
+  // The largest float is 0x1.fffffep127; halfway to 2^128, doubles round to infinity.
+  EXPECT_EQ(DepthF32::needed_limits(between(-0x1.fffffefffffffp127, 0x1.fffffefffffffp127)), "");
+  EXPECT_NE(DepthF32::needed_limits(between(-0x1.ffffffp127, 0)), "");
+  EXPECT_NE(DepthF32::needed_limits(between(0, 0x1.ffffffp127)), "");
+  EXPECT_EQ(DepthF32::needed_limits(between(1, 1 + 0x1p-23)), "");
+  EXPECT_NE(DepthF32::needed_limits(between(1, 1 + 0x1p-24)), "");
+}
+
+TEST(DepthFormat, TwentyFourBitsTakeLimitsWhoseDistanceCanBeDivided) {
+  EXPECT_EQ(DepthU24::needed_limits(between(0, 1.7e308)), "");
+  EXPECT_EQ(DepthU24::needed_limits(between(-0.8e308, 0.8e308)), "");
+  EXPECT_NE(DepthU24::needed_limits(between(-0.9e308, 0.9e308)), "");
+  EXPECT_EQ(DepthU24::needed_limits(between(0, 1e-300)), "");
+  EXPECT_NE(DepthU24::needed_limits(between(0, 0.9e-300)), "");
+}
+
+TEST(DepthFormat, BetweenTheClosestLimitsTwentyFourBitsStillRoundToTheNearestStep) {
+  const DepthU24 format(between(0, 1e-300));
+  EXPECT_EQ(format.store(0.25e-300), 4194304);  // 4194303.75
+  EXPECT_DOUBLE_EQ(format.depth(4194304), 4194304 * 1e-300 / 16777215);
+}
+
 TEST(ZBuffer, EveryFormatKeepsTheLimits) {
   ZBuffer<DepthU24> buffer(kSixByTwo);
   buffer.draw(span_at(0, 0, 0, 0), kRed);
