@@ -21,8 +21,12 @@ double attenuation_at(double distance, const Attenuation& a) {
   return 1 / (a.constant + a.linear * distance + a.quadratic * distance * distance);
 }
 
+double clamped_channel(double value) {
+  return std::clamp(value, 0.0, 255.0);
+}
+
 std::uint8_t rounded_channel(double value) {
-  return static_cast<std::uint8_t>(std::floor(std::clamp(value, 0.0, 255.0) + 0.5));
+  return static_cast<std::uint8_t>(std::floor(clamped_channel(value) + 0.5));
 }
 
 }  // namespace
@@ -45,15 +49,19 @@ Vec3 lit_color(const SurfacePoint& point, const Lighting& lighting) {
   for (const Light& light : lighting.lights) {
     const Vec3 way = difference(light.position, point.position);
     const Vec3 to_light = unit_vector(way);
-    const double distance = dot(way, to_light);
-    if (!(distance > 0)) continue;
-    const Vec3 intensity = scaled(light.intensity, attenuation_at(distance, lighting.attenuation));
-    diffuse = sum(diffuse, scaled(intensity, material.diffuse * std::max(0.0, dot(normal, to_light))));
+    const double cosine = dot(normal, to_light);
+    if (!(cosine > 0)) continue;
+    const Vec3 intensity = scaled(light.intensity, attenuation_at(dot(way, to_light), lighting.attenuation));
+    diffuse = sum(diffuse, scaled(intensity, material.diffuse * cosine));
     const Vec3 half = unit_vector(sum(to_light, to_eye));
     const double highlight = whole_power(std::max(0.0, dot(normal, half)), material.shininess);
     specular = sum(specular, scaled(intensity, material.specular * highlight));
   }
   return sum(product(point.color, diffuse), scaled(specular, 255));
+}
+
+Vec3 clamped_color(const Vec3& color) {
+  return {clamped_channel(color.x), clamped_channel(color.y), clamped_channel(color.z)};
 }
 
 Color rounded_color(const Vec3& color) {

@@ -28,17 +28,21 @@ struct SurfacePoint {
 };
 
 /// The color the eye sees, with channels not yet rounded or clamped:
-///   color (ka ambient + sum att L kd max(0, n.l)) + 255 ks sum att L max(0, n.h)^shininess
-/// n is the normal turned toward the eye, l the direction of a light, h halfway between l and the eye's
-/// direction. A normal of 0 faces no light, and a light at the point itself does not light it. Source: J.
-/// Blinn, "Models of light reflection for computer synthesized pictures", 1977.
+///   color (ka ambient + sum att L kd n.l) + 255 ks sum att L max(0, n.h)^shininess
+/// with both sums over the lights in front of the surface, n.l > 0, as in OpenGL. n is the normal turned
+/// toward the eye, l the direction of a light, h halfway between l and the eye's direction. A normal of 0
+/// faces no light, and a light at the point itself does not light it. Source: J. Blinn, "Models of light
+/// reflection for computer synthesized pictures", 1977.
 Vec3 lit_color(const SurfacePoint& point, const Lighting& lighting);
 
 /// `base` to a whole power by repeated squaring, so that it does not depend on the system's library; 1 to the
 /// power 0.
 double whole_power(double base, std::size_t exponent);
 
-/// Each channel rounded, halves up, and clamped to 0 to 255.
+/// Each channel clamped to 0 to 255.
+Vec3 clamped_color(const Vec3& color);
+
+/// Each channel clamped to 0 to 255 and rounded, halves up.
 Color rounded_color(const Vec3& color);
 
 }  // namespace pipeline

@@ -109,7 +109,8 @@ void SurfaceShader::light_corners(Surface& surface) const {
     const Vec3 color = lit_color(mean(surface.corners, {1.0 / 3, 1.0 / 3, 1.0 / 3}), setup_.lighting);
     for (SurfacePoint& corner : surface.corners) corner.color = color;
   } else if (setup_.model == ShadingModel::gouraud) {
-    for (SurfacePoint& corner : surface.corners) corner.color = lit_color(corner, setup_.lighting);
+    for (SurfacePoint& corner : surface.corners)
+      corner.color = clamped_color(lit_color(corner, setup_.lighting));
   }
 }
 

@@ -23,7 +23,8 @@ enum class ShadingModel { none, flat, gouraud, phong };
 /// with colors or lights, each under an id by which the visibility algorithm refers to it. So hidden surfaces
 /// are never shaded. Attributes are interpolated between vertices perspective-correctly. Flat and gouraud
 /// shading light each triangle as it arrives, a clipped one as it was before the cut; phong shading lights
-/// visible pixels. Without vertex normals, all models use the triangle's.
+/// visible pixels. Gouraud shading clamps the vertices' colors before it interpolates them, as OpenGL does.
+/// Without vertex normals, all models use the triangle's.
 class SurfaceShader {
  public:
   using SurfaceId = std::uint32_t;

@@ -65,6 +65,34 @@ TEST(Shading, TheHighlightTakesTheHalfVectorToThePowerAndTheLightsColor) {
   expect_near(lit_color(kFacing, lighting), {255 * 0.5 * 0.64, 255 * 0.25 * 0.64, 0});
 }
 
+TEST(Shading, ALightBehindTheSurfaceGivesNoHighlight) {
+  // l = (4 0 -3) / 5 and v = (0 0 1): h = (4 0 2) / sqrt 20, n.h = 1 / sqrt 5, but n.l = -0.6.
+  Lighting lighting = lit_by({4, 0, -5}, {1, 1, 1});
+  lighting.material = {1, 1, 1, 2};
+  EXPECT_EQ(lit_color(kFacing, lighting), (Vec3{}));
+  // Opposite the eye h is 0, and 0 to the power 0 is 1.
+  lighting.lights = {{{0, 0, -5}, {1, 1, 1}}};
+  lighting.material.shininess = 0;
+  EXPECT_EQ(lit_color(kFacing, lighting), (Vec3{}));
+}
+
+TEST(Shading, ALightInTheSurfacesPlaneGivesNoHighlight) {
+  // n.l = 0; h = (1 0 1) / sqrt 2, n.h squared is 1 / 2.
+  Lighting lighting = lit_by({1, 0, -2}, {1, 1, 1});
+  lighting.material = {1, 1, 1, 2};
+  EXPECT_EQ(lit_color(kFacing, lighting), (Vec3{}));
+  // Just above the plane, the whole highlight is there: n.l = 2^-20, n.h squared is about (1 + 2^-20) / 2.
+  lighting.lights = {{{1, 0, -2 + 0x1p-20}, {1, 1, 1}}};
+  EXPECT_NEAR(lit_color(kFacing, lighting).y, 127.5 + (127.5 + 128) * 0x1p-20, 1e-9);
+}
+
+TEST(Shading, OneLightBehindTheSurfaceTakesNothingFromTheOthers) {
+  Lighting lighting = lit_by({4, 0, -5}, {1, 1, 1});
+  lighting.lights.push_back({{4, 0, 1}, {1, 0.5, 0}});
+  lighting.material = {1, 0, 0.5, 4};
+  expect_near(lit_color(kFacing, lighting), {255 * 0.5 * 0.64, 255 * 0.25 * 0.64, 0});
+}
+
 TEST(Shading, TheEyeOfAnOrthographicViewIsFarAway) {
   // The light stands above the point, so h = (0 0 1); seen from an eye at the origin it would not be.
   const SurfacePoint point = {{3, 0, -4}, {0, 0, 1}, {0, 0, 0}};
@@ -101,6 +129,11 @@ TEST(Shading, PowersAreWhole) {
   EXPECT_EQ(whole_power(3, 5), 243);
   EXPECT_EQ(whole_power(0.5, 1000), 0x1p-1000);
   EXPECT_EQ(whole_power(0.5, std::numeric_limits<std::size_t>::max()), 0);
+}
+
+TEST(Shading, ClampedChannelsStayBetween0And255) {
+  EXPECT_EQ(clamped_color({-3, 255.5, 1e300}), (Vec3{0, 255, 255}));
+  EXPECT_EQ(clamped_color({0.25, 254.75, 255}), (Vec3{0.25, 254.75, 255}));
 }
 
 TEST(Shading, ChannelsRoundHalvesUpAndStopAtTheEnds) {

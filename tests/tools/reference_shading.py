@@ -75,9 +75,11 @@ def lit(p, normal, color, lights, looks, is_ortho):
         way = plain.subtract(place, p)
         distance = math.sqrt(plain.dot(way, way))
         to_light = unit(way)
+        if plain.dot(n, to_light) <= 0:
+            continue
         half = unit(plain.add(to_light, to_eye))
         arriving = 1 / (constant + linear * distance + quadratic * distance ** 2)
-        diffuse = kd * max(0.0, plain.dot(n, to_light))
+        diffuse = kd * plain.dot(n, to_light)
         highlight = 255 * ks * max(0.0, plain.dot(n, half)) ** shininess
         for i in range(3):
             result[i] += arriving * intensity[i] * (color[i] * diffuse + highlight)
@@ -119,7 +121,8 @@ def lit_image(scene, config, owners, model):
         if model == "flat" or not normals:
             normals = [plain.cross(plain.subtract(corners[1], corners[0]), plain.subtract(corners[2], corners[0]))] * 3
         if model == "gouraud":
-            return mean(weights, [lit(*corner, lights, looks, is_ortho) for corner in zip(corners, normals, colors)])
+            at_corners = [lit(*corner, lights, looks, is_ortho) for corner in zip(corners, normals, colors)]
+            return mean(weights, [[min(255, channel) for channel in color] for color in at_corners])
         return lit(mean(weights, corners), mean(weights, normals), mean(weights, colors), lights, looks, is_ortho)
 
     return [[looks["background"] if number is None else color_at(number, row, column)

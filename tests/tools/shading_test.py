@@ -85,9 +85,10 @@ def lit(p, color, normal, eye_direction):
         light = unit(way)
         half = unit(tuple(a + b for a, b in zip(light, v)))
         att = 1 / (ATTENUATION[0] + ATTENUATION[1] * d + ATTENUATION[2] * d * d)
+        if dot(n, light) <= 0:
+            continue
         for i in range(3):
-            result[i] += att * intensity[i] * (color[i] * kd * max(0, dot(n, light))
-                                               + 255 * ks * max(0, dot(n, half)) ** shininess)
+            result[i] += att * intensity[i] * (color[i] * kd * dot(n, light) + 255 * ks * max(0, dot(n, half)) ** shininess)
     return tuple(result)
 
 
@@ -114,7 +115,8 @@ def expected_pixel(row, column, corners, projection, model):
     if model == "none":
         return mean(weights, colors)
     if model == "gouraud":
-        return mean(weights, [lit(q, c, n, towards_eye(q)) for q, c, n in zip(points, colors, normals)])
+        at_corners = [lit(q, c, n, towards_eye(q)) for q, c, n in zip(points, colors, normals)]
+        return mean(weights, [[min(255, channel) for channel in color] for color in at_corners])
     if model == "flat":
         middle = mean([1 / 3] * 3, points)
         face = cross(minus(points[1], points[0]), minus(points[2], points[0]))
@@ -201,6 +203,25 @@ class Shading(ToolTest):
         stage3 = pipe(["model"], ["view"], ["project"], stdin=scene)
         # d = 5, so half of the light arrives.
         self.assertEqual(set(sum(self.image_of(stage3), [])), {(21, 18, 95)})
+
+    def test_a_light_behind_a_surface_gives_it_no_highlight(self):
+        # As fixed-function OpenGL draws it. Without the condition n.l > 0, the triangle shines at 11 to 14 of 255.
+        scene = ("0 0 3\n0 0 0\n0 1 0\n60 1 1 10\nambient 0 0 0\nmaterial 0 1 1 2\nlight 1 0 -2 1 1 1\ncolor 0 0 0\nbackground 9 9 9\n"
+                 "triangle\n-1 -1 0\n1 -1 0\n0 1 0\nend\n")
+        stage3 = pipe(["model"], ["view"], ["project"], stdin=scene)
+        for model in ("flat", "gouraud", "phong"):
+            self.assertEqual(set(sum(self.image_of(stage3, "--shading", model), [])), {(0, 0, 0), (9, 9, 9)}, model)
+
+    def test_gouraud_clamps_the_colors_of_vertices_before_it_interpolates_them(self):
+        # Ambient light of 2 makes 510 of the red 255 at the upper edge, and leaves the 0 at the lower one. A ramp of 24 rows
+        # begins with 255 * 47/48; under phong every row is clamped by itself.
+        scene = ("0 0 5\n0 0 0\n0 1 0\northo -1 1 -1 1 1 9\nattributes color\nambient 2 2 2\nlight 0 0 5 0 0 0\n"
+                 "triangle\n-1 1 0 255 0 0\n-1 -1 0 0 0 0\n3 1 0 255 0 0\ntriangle\n-1 -1 0 0 0 0\n3 -1 0 0 0 0\n3 1 0 255 0 0\nend\n")
+        stage3 = pipe(["model"], ["view"], ["project"], stdin=scene)
+        weights = [(2 * (SIZE - row) - 1) / (2 * SIZE) for row in range(SIZE)]
+        for model, reds in (("gouraud", [255 * w for w in weights]), ("phong", [min(255, 510 * w) for w in weights])):
+            expected = [[(math.floor(red + 0.5), 0, 0)] * SIZE for red in reds]
+            self.assertEqual(self.image_of(stage3, "--shading", model), expected, model)
 
     def test_a_background_alone_leaves_the_triangles_as_they_are(self):
         scene = EYE_AT_5 + PERSPECTIVE + "\nbackground 1 2.5 3\ntriangle\n-9 -9 0\n9 -9 0\n-9 9 0\nend\n"
