@@ -141,9 +141,22 @@ class Tradeoff(unittest.TestCase):
             self.assertEqual(row[0], 0)
             self.assertEqual(row, sorted(row))
             self.assertLess(difference[scene, "default"], difference[scene, "--shading flat"])
-        # Dropping triangles that are hidden or outside changes no picture.
-        for setting in ("--clip near", "--clip frustum", "--clip reject", "--cull back"):
+        # Dropping triangles that are outside changes no picture.
+        for setting in ("--clip near", "--clip frustum", "--clip reject"):
             self.assertLess(abs(difference["shaded-torus", setting] - difference["shaded-torus", "default"]), 0.2, setting)
+
+    def test_culling_is_measured_on_a_closed_ball(self):
+        with open(self.folder / "culling.csv", newline="") as file:
+            rows = {row["coverage"]: row for row in csv.DictReader(file)}
+        for row in rows.values():
+            self.assertEqual((row["triangles"], row["channels"]), ("256", str(3 * 60 * 45)))
+            for tool in ("project", "zbuf"):
+                if row.get(f"{tool}_instructions"):
+                    self.assertLess(int(row[f"{tool}_instructions_culled"]), int(row[f"{tool}_instructions"]))
+        # Backs are hidden, but `nearest` draws those at the silhouette up to half a pixel beyond it.
+        self.assertEqual(rows["center"]["channels_changed"], "0")
+        self.assertGreater(int(rows["nearest"]["channels_changed"]), 0)
+        self.assertIn(f"{int(rows['nearest']['channels_changed']):,} of 8,100 |", (self.folder / "lighting.md").read_text())
 
     def test_tables_and_plot_can_be_drawn_again_without_measuring(self):
         plot = (self.folder / "tradeoff.svg").read_text()

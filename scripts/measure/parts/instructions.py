@@ -45,19 +45,27 @@ def no_count_at_all():
     return None if shutil.which("valgrind") else "valgrind is not installed (Debian: valgrind)"
 
 
-def count(row, folder):
-    """The instructions of one run in `folder`, whose bin/ has the tools, in the same environment whatever the caller's."""
-    for word in row.words.split():
-        if word in TEXTS and not (folder / word).exists():
-            (folder / word).write_text(TEXTS[word]())
-    words = [shutil.which("valgrind"), "--tool=callgrind", "--callgrind-out-file=/dev/null", f"bin/{row.tool}", *row.words.split()[1:], "--threads", "1"]
-    done = subprocess.run(words, cwd=folder, env={"PATH": "/usr/bin:/bin", "LC_ALL": "C", "PIPELINE_KERNEL": row.kernel}, stdin=subprocess.DEVNULL,
+def callgrind_count(words, folder, **environment):
+    """The instructions of one command in `folder`, in the same environment, but for what is given, whatever the caller's."""
+    done = subprocess.run([shutil.which("valgrind"), "--tool=callgrind", "--callgrind-out-file=/dev/null", *words], cwd=folder,
+                          env={"PATH": "/usr/bin:/bin", "LC_ALL": "C", **environment}, stdin=subprocess.DEVNULL,
                           stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, errors="replace")
     collected = re.search(r"Collected : (\d+)", done.stderr)
     if done.returncode != 0 or not collected:
         own = [line for line in done.stderr.splitlines() if line and not line.startswith("==")]
-        raise RunFailed(f"{row.words} failed with status {done.returncode}: {' '.join(own) or 'valgrind has counted nothing'}")
+        raise RunFailed(f"failed with status {done.returncode}: {' '.join(own) or 'valgrind has counted nothing'}")
     return int(collected[1])
+
+
+def count(row, folder):
+    """The instructions of a row's run in `folder`, whose bin/ has the tools."""
+    for word in row.words.split():
+        if word in TEXTS and not (folder / word).exists():
+            (folder / word).write_text(TEXTS[word]())
+    try:
+        return callgrind_count([f"bin/{row.tool}", *row.words.split()[1:], "--threads", "1"], folder, PIPELINE_KERNEL=row.kernel)
+    except RunFailed as error:
+        raise RunFailed(f"{row.words} {error}") from None
 
 
 @dataclasses.dataclass

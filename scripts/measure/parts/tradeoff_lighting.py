@@ -1,12 +1,11 @@
-"""The cost of culling, clipping, shading models and samples, and how far the pictures are from 8 x 8 supersampling."""
+"""The cost of clipping, shading models and samples, and how far the pictures are from 8 x 8 supersampling."""
 import dataclasses
 import pathlib
-import random
 import statistics
 import tempfile
 
-from parts.measuring import put_between, write_csv
-from parts.tradeoff_measure import Bench, ratios_of
+from parts.measuring import write_csv
+from parts.tradeoff_measure import Bench, cpu_seconds_in_turn, median_ratio
 from parts.tradeoff_scenes import Scene
 
 SAMPLES = pathlib.Path(__file__).resolve().parents[3] / "samples"
@@ -15,7 +14,6 @@ TITLES = {"shaded-torus": "torus", "inside": "room from inside"}
 
 @dataclasses.dataclass(frozen=True)
 class LightSetting:
-    cull: str = ""
     clip: str = "auto"
     shading: str = "phong"
     samples: str = "1"
@@ -26,7 +24,7 @@ class LightSetting:
         return " ".join(changed) or "default"
 
     def command(self, bin_dir, tool):
-        options = {"project": ["--clip", self.clip] + (["--cull", self.cull] if self.cull else []),
+        options = {"project": ["--clip", self.clip],
                    "zbuf": ["--shading", self.shading, "--samples", self.samples, "--image", "picture.ppm", "config.txt"]}
         return [str(bin_dir / tool), *options.get(tool, [])]
 
@@ -35,7 +33,7 @@ BASE = LightSetting()
 FINEST = LightSetting(samples="8")
 SETTINGS = [BASE, *(LightSetting(shading=model) for model in ("none", "flat", "gouraud")),
             *(LightSetting(samples=count) for count in ("2", "4", "8")),
-            *(LightSetting(clip=mode) for mode in ("near", "frustum", "reject")), LightSetting(cull="back"),
+            *(LightSetting(clip=mode) for mode in ("near", "frustum", "reject")),
             *(LightSetting(shading=model, samples="4") for model in ("flat", "gouraud"))]
 
 
@@ -51,26 +49,16 @@ def scenes(quick):
         yield Scene(name, title, text, *size, text.count("triangle\n"))
 
 
-def picture(bench, setting):
-    text = bench.scene.text.encode()
-    for tool in ("model", "view", "project", "zbuf"):
-        text = bench.run(tool, setting, text)
-    return (bench.folder / "picture.ppm").read_bytes()[-3 * bench.scene.columns * bench.scene.rows:]
-
-
 def measured_on(bench, rounds):
     """A row for each setting: its cost, and the mean and largest difference of a channel from FINEST."""
     settings = settings_of(bench.scene)
-    dice, seconds = random.Random(1), {setting: [] for setting in settings}
-    for _ in range(rounds):
-        for setting in dice.sample(settings, len(settings)):
-            seconds[setting].append(sum(bench.cpu_seconds(setting)))
-    finest = picture(bench, FINEST)
+    seconds = cpu_seconds_in_turn(bench, settings, rounds)
+    finest = bench.picture(FINEST)
     for setting in settings:
-        differences = [abs(a - b) for a, b in zip(picture(bench, setting), finest)]
+        differences = [abs(a - b) for a, b in zip(bench.picture(setting), finest)]
         yield {"scene": bench.scene.name, "setting": str(setting),
                "seconds_median": statistics.median(seconds[setting]),
-               "ratio_median": statistics.median(ratios_of(seconds[setting], seconds[BASE])),
+               "ratio_median": median_ratio(seconds[setting], seconds[BASE]),
                "difference_mean": statistics.fmean(differences), "difference_max": max(differences)}
 
 
@@ -90,17 +78,10 @@ def table(rows):
 
 
 def measure(bin_dir, out, quick, rounds):
-    """Writes lighting.csv and lighting.md to `out`; gives the table."""
+    """Writes lighting.csv to `out`; gives the table."""
     rows = []
     for scene in scenes(quick):
         with tempfile.TemporaryDirectory() as folder:
             rows += measured_on(Bench(bin_dir, folder, scene), rounds)
     write_csv(out / "lighting.csv", rows)
-    (out / "lighting.md").write_text("# What light and smooth edges cost\n\n" + table(rows))
     return table(rows)
-
-
-def put_into_readme(readme, words, machine, rounds):
-    put_between(readme, "lighting", words + f"""
-CPU time is that of the whole pipe at 480 x 360 pixels, relative to the default's (phong, one sample), the median of {rounds} rounds on {machine}.
-""")

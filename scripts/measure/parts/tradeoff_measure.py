@@ -2,6 +2,7 @@
 import dataclasses
 import math
 import pathlib
+import random
 import statistics
 import subprocess
 
@@ -63,6 +64,13 @@ class Bench:
             texts.append(self.run(tool, setting, texts[-1]))
         return texts[1:]
 
+    def picture(self, setting):
+        """The channels of the image, from the top left."""
+        text = self.scene.text.encode()
+        for tool in TOOLS:
+            text = self.run(tool, setting, text)
+        return (self.folder / "picture.ppm").read_bytes()[-3 * self.scene.columns * self.scene.rows:]
+
     def cpu_seconds(self, setting):
         """The CPU time, user and system, of each stage of a whole pipe."""
         processes, seconds = [], []
@@ -111,6 +119,19 @@ def costs(bench, settings, rounds, dice):
 def ratios_of(totals, base_totals):
     """Round by round, since a temporary load on the machine slows both."""
     return [total / base_total for total, base_total in zip(totals, base_totals)]
+
+
+def median_ratio(totals, base_totals):
+    return statistics.median(ratios_of(totals, base_totals))
+
+
+def cpu_seconds_in_turn(bench, settings, rounds):
+    """The CPU time of the whole pipe, {setting: [of each round]}, in a new order each round."""
+    dice, seconds = random.Random(1), {setting: [] for setting in settings}
+    for _ in range(rounds):
+        for setting in dice.sample(settings, len(settings)):
+            seconds[setting].append(sum(bench.cpu_seconds(setting)))
+    return seconds
 
 
 # Error
