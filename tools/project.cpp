@@ -42,8 +42,10 @@ void add_options(CommandLine& options, ProjectOptions& chosen) {
       "Pull in the planes of --clip near, frustum or reject, so that the cuts can be seen: 0.1 keeps "
       "the triangles\n"
       "between -0.9 and 0.9 in NDC");
-  options.add_choice<CullMode>("--cull", chosen.cull, {{"back", CullMode::back}, {"front", CullMode::front}},
-                               "Drop triangles that show this side to the eye; counterclockwise is front");
+  options.add_choice<CullMode>(
+      "--cull", chosen.cull, {{"back", CullMode::back}, {"front", CullMode::front}},
+      "Drop triangles that show this side to the eye; counterclockwise is front. Without its backs,\n"
+      "a closed surface looks the same under zbuf --coverage center, not at its silhouette under nearest");
 }
 
 void check_inset(const ProjectOptions& chosen) {
