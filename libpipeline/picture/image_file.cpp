@@ -1,10 +1,7 @@
 #include "libpipeline/picture/image_file.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <cassert>
-#include <cerrno>
 #include <filesystem>
 
 #include "libpipeline/picture/bmp_file.h"
@@ -90,15 +87,6 @@ void check_image_size(const std::string& path, int columns, int rows) {
 
 std::unique_ptr<ImageWriter> image_writer(int descriptor, const std::string& path, int columns, int rows) {
   return format_of(path).writer(descriptor, path, columns, rows);
-}
-
-void write_bytes(int descriptor, std::string_view bytes, const std::string& path) {
-  while (!bytes.empty()) {
-    const ssize_t count = ::write(descriptor, bytes.data(), bytes.size());
-    if (count < 0 && errno == EINTR) continue;
-    if (count < 0) throw IoError("write", path, errno);
-    bytes.remove_prefix(static_cast<std::size_t>(count));
-  }
 }
 
 std::string extension_of(const std::string& path) {

@@ -42,8 +42,6 @@ std::unique_ptr<ImageWriter> image_writer(int descriptor, const std::string& pat
 
 // For image files of any kind.
 
-/// Writes all bytes to a file descriptor; an IoError naming `path` if that fails.
-void write_bytes(int descriptor, std::string_view bytes, const std::string& path);
 /// The extension of a file's name in lower case: ".bmp".
 std::string extension_of(const std::string& path);
 /// True for names like /dev/null, which have no extension to choose a format.

@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-#include "libpipeline/picture/image_file.h"
+#include "libpipeline/text/text_writer.h"
 
 namespace pipeline {
 namespace {
@@ -24,7 +24,7 @@ void NetpbmWriter::write_row(std::span<const unsigned char> bytes) {
 }
 
 void NetpbmWriter::finish() {
-  write_bytes(descriptor_, buffered_, path_);
+  write_all(descriptor_, buffered_, path_);
   buffered_.clear();
 }
 
