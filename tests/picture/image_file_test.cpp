@@ -60,9 +60,9 @@ Raster<Color> small_image() {
   return image;
 }
 
-/// Larger than the blocks in which an image is written.
+/// Larger than the blocks of 4 MiB in which a BMP file is written.
 Raster<Color> large_image() {
-  Raster<Color> image(1201, 999, Color());
+  Raster<Color> image(1501, 999, Color());
   for (int row = 0; row < image.rows(); ++row)
     for (int column = 0; column < image.columns(); ++column)
       image.row(row)[static_cast<std::size_t>(column)] =
@@ -92,11 +92,11 @@ TEST(ImageFile, APixelAloneIsAnImage) {
 TEST(ImageFile, EveryPixelOfALargeBmpIsInItsPlace) {
   const Raster<Color> image = large_image();
   const std::string bytes = bytes_in_file(".bmp", image);
-  ASSERT_EQ(bytes.size(), 54u + 1201 * 3000);
-  for (int row = 0; row < 1201; ++row)
+  ASSERT_EQ(bytes.size(), 54u + 1501 * 3000);
+  for (int row = 0; row < 1501; ++row)
     for (int column = 0; column < 999; ++column) {
       const std::size_t at =
-          54 + static_cast<std::size_t>(1200 - row) * 3000 + 3 * static_cast<std::size_t>(column);
+          54 + static_cast<std::size_t>(1500 - row) * 3000 + 3 * static_cast<std::size_t>(column);
       const std::uint32_t rgb = static_cast<std::uint32_t>(row * 4099 + column);
       ASSERT_EQ(bytes[at], static_cast<char>(rgb));
       ASSERT_EQ(bytes[at + 1], static_cast<char>(rgb >> 8));
@@ -106,9 +106,9 @@ TEST(ImageFile, EveryPixelOfALargeBmpIsInItsPlace) {
 
 TEST(ImageFile, EveryPixelOfALargePpmIsInItsPlace) {
   const std::string bytes = bytes_in_file(".ppm", large_image());
-  const std::string header = "P6\n999 1201\n255\n";
-  ASSERT_EQ(bytes.size(), header.size() + 3599397);  // 3 * 999 * 1201
-  for (std::size_t i = 0; i < 1199799; ++i) {
+  const std::string header = "P6\n999 1501\n255\n";
+  ASSERT_EQ(bytes.size(), header.size() + 4498497);  // 3 * 999 * 1501
+  for (std::size_t i = 0; i < 1499499; ++i) {
     const auto rgb = static_cast<std::uint32_t>(i / 999 * 4099 + i % 999);
     ASSERT_EQ(bytes[header.size() + 3 * i], static_cast<char>(rgb >> 16));
     ASSERT_EQ(bytes[header.size() + 3 * i + 2], static_cast<char>(rgb));

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <filesystem>
+#include <memory>
 #include <string>
 
 #include "libpipeline/text/text_writer.h"
@@ -113,16 +114,62 @@ TEST(OutputFile, HasNoNameBeforeItsCommit) {
   EXPECT_EQ(folder.file_count(), 0u);
 }
 
+/// Leaves the process one more descriptor: too few for a file without a name.
+class OneMoreDescriptor {
+ public:
+  OneMoreDescriptor() {
+    EXPECT_EQ(::getrlimit(RLIMIT_NOFILE, &before_), 0);
+    const int next_descriptor = ::dup(STDIN_FILENO);
+    ::close(next_descriptor);
+    const rlimit one_more = {static_cast<rlim_t>(next_descriptor) + 1, before_.rlim_max};
+    EXPECT_EQ(::setrlimit(RLIMIT_NOFILE, &one_more), 0);
+  }
+  ~OneMoreDescriptor() { ::setrlimit(RLIMIT_NOFILE, &before_); }
+  OneMoreDescriptor(const OneMoreDescriptor&) = delete;
+  OneMoreDescriptor& operator=(const OneMoreDescriptor&) = delete;
+
+ private:
+  rlimit before_ = {};
+};
+
+/// An output file that has a temporary name before its commit, as on systems without unnamed files.
+std::unique_ptr<OutputFile> named_from_the_beginning(const std::string& path) {
+  const OneMoreDescriptor limit;
+  return std::make_unique<OutputFile>(path);
+}
+
+/// The first temporary name this process would choose.
+std::string first_temporary_name() {
+  return ".pipeline-" + std::to_string(::getpid()) + "-0";
+}
+
+TEST(OutputFile, AFileUnderTheTemporaryNameStaysAsItIs) {
+  const TemporaryFolder folder;
+  folder.write("precious", "another's");
+  fs::create_symlink("precious", folder.path(first_temporary_name()));
+  const auto file = named_from_the_beginning(folder.path("out"));
+  write_text(*file, "new");
+  file->commit();
+  EXPECT_EQ(folder.read("precious"), "another's");
+  EXPECT_TRUE(fs::is_symlink(folder.path(first_temporary_name())));
+  EXPECT_EQ(folder.read("out"), "new");
+  EXPECT_EQ(folder.file_count(), 3u);
+}
+
+TEST(OutputFile, AFileUnderTheTemporaryNameOfItsReplacementStaysAsItIs) {
+  const TemporaryFolder folder;
+  folder.write("out", "old");
+  folder.write(first_temporary_name(), "another's");
+  write_and_commit(folder.path("out"), "new");
+  EXPECT_EQ(folder.read(first_temporary_name()), "another's");
+  EXPECT_EQ(folder.read("out"), "new");
+  EXPECT_EQ(folder.file_count(), 2u);
+}
+
 TEST(OutputFile, WithoutASecondDescriptorItHasATemporaryNameBeforeItsCommit) {
   const TemporaryFolder folder;
-  rlimit before = {};
-  ASSERT_EQ(::getrlimit(RLIMIT_NOFILE, &before), 0);
-  const int next_descriptor = ::dup(STDIN_FILENO);
-  ::close(next_descriptor);
-  const rlimit one_more = {static_cast<rlim_t>(next_descriptor) + 1, before.rlim_max};
-  ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &one_more), 0);
-  OutputFile file(folder.path("out"));
-  ::setrlimit(RLIMIT_NOFILE, &before);
+  const auto opened = named_from_the_beginning(folder.path("out"));
+  OutputFile& file = *opened;
   write_text(file, "new");
   EXPECT_EQ(folder.file_count(), 1u);
   EXPECT_FALSE(fs::exists(folder.path("out")));

@@ -224,6 +224,22 @@ class ManyFiles(FaultTest):
             self.check("write", errno.ENOSPC, *options)
             self.check("close", errno.EIO, *options)
 
+    BMP = ["--image", "out-new.bmp"]
+
+    def test_the_failing_close_of_any_file_that_was_written_is_a_failure(self):
+        for options in (self.BMP, self.PLAIN, self.PNGS):
+            messages = set()
+            for which, done, files, _ in self.each_failing_call("close of data", errno.EIO, options):
+                self.assertEqual((done.returncode, set(files.values())), (1, {OLD_IMAGE}), which)
+                messages.add(done.stderr.decode())
+            self.assertEqual(messages, {f"zbuf: cannot write {name}: Input/output error\n" for name in options if "." in name})
+
+    def test_an_interrupted_write_or_close_of_any_file_goes_on(self):
+        for options in (self.BMP, self.PLAIN, self.PNGS):
+            for call in ("write", "close of data"):
+                for which, done, files, good in self.each_failing_call(call, errno.EINTR, options):
+                    self.assertEqual((done.returncode, done.stderr, files), (0, b"", good), which)
+
     def test_a_failing_rename_leaves_old_files_or_complete_ones(self):
         self.check("rename", errno.EPERM, *self.PLAIN, some_may_be_new=True)
 

@@ -1,7 +1,8 @@
 // Loaded before a tool (LD_PRELOAD), makes one system call or allocation fail, or all reads and writes
 // short.
 //
-//   FAULT_CALL   malloc (any allocation), write, read, seek, close, close of stdout, link or rename
+//   FAULT_CALL   malloc (any allocation), write, read, seek, close, close of stdout, close of data (of
+//                a file that was written to), link or rename
 //   FAULT_AT     the number of the call that fails, from 1
 //   FAULT_ERRNO  its errno
 //   FAULT_MARK   a file that is created when it fails
@@ -12,6 +13,7 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
+#include <array>
 #include <atomic>
 #include <cerrno>
 #include <cstdio>
@@ -21,6 +23,7 @@
 namespace {
 
 std::atomic<int> calls = 0;
+std::array<std::atomic<bool>, 64> was_written;  // by descriptor
 
 template <typename Function>
 Function next_one(const char* name) {
@@ -36,6 +39,10 @@ bool fails(const char* call) {
             static_cast<int>(::syscall(SYS_open, std::getenv("FAULT_MARK"), O_WRONLY | O_CREAT, 0600)));
   errno = std::atoi(std::getenv("FAULT_ERRNO"));
   return true;
+}
+
+bool is_file(int descriptor) {
+  return descriptor > STDERR_FILENO && descriptor < static_cast<int>(was_written.size());
 }
 
 std::size_t allowed(std::size_t size) {
@@ -68,6 +75,7 @@ void* aligned_alloc(std::size_t alignment, std::size_t size) {
 }
 
 ssize_t write(int descriptor, const void* text, std::size_t size) {
+  if (is_file(descriptor)) was_written[static_cast<std::size_t>(descriptor)] = true;
   return fails("write") ? -1 : ::syscall(SYS_write, descriptor, text, allowed(size));
 }
 
@@ -80,7 +88,10 @@ off_t lseek(int descriptor, off_t offset, int origin) noexcept {
 }
 
 int close(int descriptor) {
-  const bool is_failing = fails("close") || (descriptor == STDOUT_FILENO && fails("close of stdout"));
+  const bool had_data =
+      is_file(descriptor) && was_written[static_cast<std::size_t>(descriptor)].exchange(false);
+  const bool is_failing = fails("close") || (descriptor == STDOUT_FILENO && fails("close of stdout")) ||
+                          (had_data && fails("close of data"));
   const int error = errno;
   const int result = static_cast<int>(::syscall(SYS_close, descriptor));
   if (is_failing) errno = error;
