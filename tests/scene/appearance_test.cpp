@@ -115,6 +115,16 @@ TEST(Appearance, ANormalIsNotZero) {
             "scene.txt:7:7: expected a normal of vertex 1 of 3 other than 0 0 0, found 0 0 0");
 }
 
+TEST(Appearance, NoNormalOfACompleteTriangleIsZero) {
+  for (std::size_t zero = 0; zero < 3; ++zero) {
+    std::array<std::string, 3> lines = {"0 0 0 0 0 1\n", "1 0 0 0 0 1\n", "0 1 0 0 0 1\n"};
+    lines[zero] = "2 3 4 0 0 0\n";
+    EXPECT_EQ(error_of("attributes normal\ntriangle\n" + lines[0] + lines[1] + lines[2]),
+              "scene.txt:" + std::to_string(7 + zero) + ":7: expected a normal of vertex " +
+                  std::to_string(zero + 1) + " of 3 other than 0 0 0, found 0 0 0");
+  }
+}
+
 TEST(Appearance, AttributesAreNamedOnceInTheirOrder) {
   const std::string expected = "expected attributes of [color] [normal], in this order, found ";
   EXPECT_EQ(error_of("attributes normal color\n"), "scene.txt:5:19: " + expected + "'color'");
