@@ -117,6 +117,21 @@ TEST(MatrixStack, RepeatedPushesDoNotCountAgainstTheLimit) {
   for (int i = 0; i < 10; ++i) EXPECT_TRUE(stack.push());
 }
 
+TEST(MatrixStack, AMatrixEqualToTheOneSavedLastDoesNotCountEither) {
+  MatrixStack stack(1);
+  stack.multiply(translation({1, 0, 0}));
+  EXPECT_TRUE(stack.push());
+  stack.translate({2, 0, 0});
+  stack.translate({-2, 0, 0});
+  EXPECT_TRUE(stack.push());
+  for (int i = 0; i < 2; ++i) {
+    stack.multiply(translation({5, 0, 0}));
+    EXPECT_TRUE(stack.pop());
+    EXPECT_EQ(image_of_origin(stack), (Vec3{1, 0, 0}));
+  }
+  EXPECT_FALSE(stack.pop());
+}
+
 TEST(MatrixStack, TheLimitIsTwoToTheTwentieth) {
   EXPECT_EQ(MatrixStack().max_saved(), 1048576u);
 }
