@@ -51,6 +51,13 @@ TEST(Shading, ANormalTurnedAwayCountsAsTurnedTowardsTheEye) {
   EXPECT_EQ(lit_color(point, lit_by({0, 0, 1}, {1, 1, 1})), kFacing.color);
 }
 
+TEST(Shading, ANormalAtARightAngleToTheEyeIsNotTurned) {
+  SurfacePoint point = kFacing;
+  point.normal = {0, 1, 0};
+  EXPECT_EQ(lit_color(point, lit_by({0, 3, -2}, {1, 1, 1})), kFacing.color);
+  EXPECT_EQ(lit_color(point, lit_by({0, -3, -2}, {1, 1, 1})), (Vec3{}));
+}
+
 TEST(Shading, DistanceAttenuatesByTheWholeQuadratic) {
   // d = 3: 1 / (1 + 2 * 3 + 3 * 9) = 1 / 34.
   Lighting lighting = lit_by({0, 0, 1}, {1, 1, 1});

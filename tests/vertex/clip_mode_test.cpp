@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "libpipeline/text/error.h"
@@ -153,6 +154,18 @@ TEST(ProjectionStage, ACutTriangleIsThatCutByHand) {
   ASSERT_EQ(clipped.p_ndc.size(), 2u);
   for (std::size_t i = 0; i < 6; ++i)
     EXPECT_EQ(printed_vertex(clipped.p_ndc, i, {7}), printed_vertex(by_hand.p_ndc, i, {7}));
+}
+
+TEST(ProjectionStage, TheColorsOfCutsStayInTheirRange) {
+  RandomNumbers random(4);
+  for (int i = 0; i < 300; ++i) {
+    TriangleBatch p_view = batch_of({triangle_at(random.between(-9, -1), random.between(-9, -1), 0.5)});
+    p_view.attributes.colors = {{Vec3{255, 255, 255}, Vec3{255, 255, 255}, Vec3{255, 255, 255}}};
+    const Result result = projected(p_view, kSimple, ClipMode::near);
+    ASSERT_EQ(result.p_ndc.attributes.colors.size(), 2u);
+    for (const auto& piece : result.p_ndc.attributes.colors)
+      for (const Vec3& color : piece) EXPECT_LE(std::max({color.x, color.y, color.z}), 255);
+  }
 }
 
 TEST(ProjectionStage, CutsPrintTheCorrectlyRoundedNumbers) {
