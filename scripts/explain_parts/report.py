@@ -1,0 +1,34 @@
+"""The whole report: what happens to one triangle, stage by stage, and at a pixel."""
+from explain_parts.calculation import Calculation
+from explain_parts.exact import decimal_or_double
+from explain_parts.pixel_section import pixel_section, winner_lines
+from explain_parts.stage_sections import model_section, project_section, view_section, window_section
+
+MAX_LINES = 60
+
+
+def report(stages, triangle, window, name, options):
+    calculation = Calculation(stages, triangle)
+    columns = [f"color and light take {triangle.columns} more numbers per vertex, which the geometry does not need"] * (triangle.columns > 0)
+    lines = [f"triangle {options.triangle} of {stages.count}, numbered from 0: {name}, line {triangle.line}", *columns, "",
+             *model_section(stages, triangle, calculation), "", *view_section(stages, calculation), "", *project_section(calculation)]
+    pieces = [([vertex.name for vertex in piece], [tuple(map(decimal_or_double, vertex)) for vertex in words])
+              for piece, words in zip(calculation.clipped.pieces, stages.ndc)]
+    if pieces:
+        lines += ["", *window_section(stages, calculation, window)]
+    if len(stages.ndc) != len(calculation.clipped.pieces):
+        lines.append(f"  project itself has written {len(stages.ndc)} triangles")
+    if not options.pixel:
+        return lines + suggestion(window, pieces)
+    coverage, fragments = pixel_section(stages, window, pieces, options.triangle, options.pixel)
+    lines += ["", *coverage]
+    return lines + winner_lines(fragments, options.triangle, MAX_LINES - len(lines))
+
+
+def suggestion(window, pieces):
+    """The pixel in the middle of a triangle, if there is one."""
+    if pieces:
+        column, row = (round(sum(numbers) / 3) for numbers in zip(*map(window.place, pieces[0][1])))
+        if 0 <= column < window.width and 0 <= row < window.height:
+            return ["", f"with --pixel {column},{row}, in its middle, the report goes on at that pixel"]
+    return []

@@ -1,0 +1,70 @@
+"""One triangle of a scene: its line, its numbers, and the transforms in force. `model` has accepted the scene before."""
+import dataclasses
+import functools
+
+from explain_parts.exact import double
+from explain_parts.matrices import IDENTITY, TRANSFORMS, product
+
+CAMERA_LINES = 4
+ARGUMENT_LINES = {"triangle": 3, "push": 0, "pop": 0, "end": 0}  # others have one
+
+
+@dataclasses.dataclass
+class Command:
+    line: int
+    keyword: str
+    arguments: list  # lists of words, one for each line
+
+    def matrix(self):
+        return TRANSFORMS[self.keyword]([double(word) for word in self.arguments[0]])
+
+
+@dataclasses.dataclass
+class SceneTriangle:
+    line: int
+    points: list      # the x, y and z of three vertices, as written
+    columns: list     # how many numbers each vertex has besides
+    transforms: list  # of Command, as they stand in the scene
+
+    def matrix(self):
+        """The product of the transforms: each is multiplied from the right, so that the last one is applied first."""
+        return functools.reduce(product, (transform.matrix() for transform in self.transforms), IDENTITY)
+
+
+def commands(text):
+    """The commands of a scene, in order."""
+    filled = ((number, words) for number, line in enumerate(text.split("\n"), 1) if (words := line.split("#")[0].split()))
+    for _ in range(CAMERA_LINES):
+        next(filled)
+    for number, (keyword, *rest) in filled:
+        count = ARGUMENT_LINES.get(keyword, 1)
+        arguments = [rest] if rest else []  # the first line of arguments may begin beside the keyword
+        while len(arguments) < count:
+            arguments.append(next(filled)[1])
+        yield Command(number, keyword, arguments)
+
+
+def find_triangle(text, number):
+    """The SceneTriangle of a number counted from 0."""
+    in_force, saved, count = None, [], 0  # in_force is the last transform and those before it: (command, (command, ...))
+    for command in commands(text):
+        if command.keyword in TRANSFORMS:
+            in_force = (command, in_force)
+        elif command.keyword == "push":
+            saved.append(in_force)
+        elif command.keyword == "pop":
+            in_force = saved.pop()
+        elif command.keyword == "triangle":
+            if count == number:
+                lines = command.arguments
+                return SceneTriangle(command.line, [words[:3] for words in lines], len(lines[0]) - 3, listed(in_force))
+            count += 1
+    raise IndexError(number)
+
+
+def listed(in_force):
+    transforms = []
+    while in_force:
+        transform, in_force = in_force
+        transforms.append(transform)
+    return transforms[::-1]

@@ -1,0 +1,101 @@
+"""The tools' own texts of one triangle, and zbuf's report on a pixel.
+
+As in scripts/stages, every stage passes lossless text on and prints its numbers rounded once; zbuf reads what project printed."""
+import dataclasses
+import pathlib
+import re
+import tempfile
+
+from explain_parts.window import Window
+from lib.input_file import read_input
+from lib.stage_text import parse_stage_text, text_of
+
+FRAGMENT = re.compile(r"zbuf: \d+,\d+: triangle (\d+), depth (\S+): (.*)")
+EXACT = ("--digits", "exact")
+
+
+@dataclasses.dataclass
+class Fragment:
+    triangle: int
+    depth: str
+    fate: str
+
+    @property
+    def is_kept(self):
+        return self.fate == "kept"
+
+
+@dataclasses.dataclass
+class Settings:
+    """The words of the tools' options; None is the tool's default."""
+    digits: str = "7"
+    aspect: str = None
+    clip: str = None
+    cull: str = None
+    coverage: str = "nearest"
+
+    @property
+    def of_project(self):
+        given = {"--aspect": self.aspect, "--clip": self.clip, "--cull": self.cull}
+        return [word for option, value in given.items() if value for word in (option, value)]
+
+
+class Stages:
+    """A scene in world space, from which a single triangle goes through the other stages."""
+
+    def __init__(self, tools, scene, config, settings):
+        self.tools, self.scene, self.config, self.settings = tools, scene, config, settings
+        self.lossless = tools.output("model", *EXACT, scene)
+        lines = self.lossless.decode().split("\n")
+        begin = next((i for i, line in enumerate(lines) if not line[:1].isalpha()), len(lines))
+        self.header, self.body = lines[:begin], lines[begin:]
+        self.count = len(self.body) // 4  # three vertex lines and a blank line each
+
+    def camera(self):
+        """The header's lines of the camera: {keyword: words}."""
+        return {words[0]: words[1:] for line in self.header if (words := line.split())}
+
+    def send(self, number):
+        """Sends triangle `number` through the stages: its text after each, lossless and as printed."""
+        digits = ("--digits", self.settings.digits)
+        printed = self.tools.output("model", "--bare", *digits, self.scene).decode().split("\n")
+        self.world = words_of(printed[4 * number:4 * number + 3])
+        vertices = self.body[4 * number:4 * number + 3]
+        self.world_lossless = words_of(vertices)
+        alone = "\n".join([*self.header, f"triangle {number}", *vertices, "", ""]).encode()
+        self.view = words_of(self.tools.output("view", "--bare", *digits, stdin=alone).decode().split("\n")[:3])
+        in_view = self.tools.output("view", *EXACT, stdin=alone)
+        self.view_lossless = words_of(vertex_lines(in_view)[0])
+        self.projected = self.tools.output("project", *digits, *self.settings.of_project, stdin=in_view)
+        self.ndc = [words_of(lines) for lines in vertex_lines(self.projected)]
+
+    def window(self):
+        """The Window of the config; a ToolFailure with zbuf's message if something is wrong with it."""
+        self.zbuf(self.projected)
+        return Window(text_of(read_input(self.config), self.config))
+
+    def zbuf(self, text, *options):
+        with tempfile.TemporaryDirectory() as folder:
+            image = pathlib.Path(folder, "out.ppm")
+            done = self.tools.run("zbuf", "--coverage", self.settings.coverage, "--image", image, "--z-buffer", "/dev/null", *options,
+                                  self.config, stdin=text)
+            return done.stderr.decode(errors="replace")
+
+    def fragments(self, column, row):
+        """Every Fragment of the whole scene at a pixel, in the order they come."""
+        in_view = self.tools.output("view", *EXACT, stdin=self.lossless)
+        text = self.tools.output("project", "--digits", self.settings.digits, *self.settings.of_project, stdin=in_view)
+        report = self.zbuf(text, "--probe", f"{column},{row}")
+        return [Fragment(int(n), depth, fate) for n, depth, fate in FRAGMENT.findall(report)]
+
+
+def words_of(lines):
+    """The words of the x, y and z in vertex lines."""
+    return [line.split()[:3] for line in lines]
+
+
+def vertex_lines(data):
+    """The three vertex lines of each triangle of a stage text; the whole triangles of its `clipped` blocks do not count."""
+    text = data.decode()
+    lines = text.split("\n")
+    return [[lines[vertex.line - 1] for vertex in triangle] for triangle in parse_stage_text(text, "stage text").triangles]
