@@ -2,10 +2,12 @@
 
 #include <csignal>
 #include <string>
+#include <vector>
 
 #include "libpipeline/picture/image_file.h"
 #include "libpipeline/scene/config.h"
 #include "tools/render.h"
+#include "tools/separate_outputs.h"
 #include "tools/tool.h"
 #include "tools/zbuf_options.h"
 
@@ -16,6 +18,14 @@ namespace {
 Viewport read_screen(const Tool& tool, const std::string& path) {
   InputFile file = tool.second_input(path, "CONFIG");
   return read_config(file.text());
+}
+
+std::vector<NamedOutput> outputs_of(const ZbufOptions& chosen) {
+  const bool is_filter = chosen.z_buffer_path == "-";
+  return {{"--image", chosen.image_path},
+          is_filter ? standard_output() : NamedOutput{"--z-buffer", chosen.z_buffer_path},
+          {"--depth-image", chosen.depth_image_path},
+          {"--fragments", chosen.fragments_path}};
 }
 
 }  // namespace
@@ -33,6 +43,7 @@ int main(int argc, char** argv) {
 
   return tool.run(argc, argv, [&] {
     chosen.check();
+    expect_separate(outputs_of(chosen));
     const Viewport screen = read_screen(tool, chosen.config_path);
     chosen.check_limits(screen);
     check_image_size(chosen.image_path, screen.columns, screen.rows);

@@ -49,6 +49,23 @@ std::string target_of(const std::string& path) {
 
 }  // namespace
 
+std::optional<OutputPlace> place_of_output(const std::string& path) {
+  struct stat status = {};
+  if (::stat(path.c_str(), &status) != 0) {
+    const std::string target = ::lstat(path.c_str(), &status) == 0 ? target_of(path) : path;
+    if (const int own_descriptor = own_descriptor_of(target); own_descriptor != kNone) {
+      if (::fstat(own_descriptor, &status) != 0) return std::nullopt;
+    } else {
+      const std::size_t name = target.rfind('/') + 1;  // 0 if there is no slash
+      const std::string folder = name == 0 ? "." : target.substr(0, name);
+      if (::stat(folder.c_str(), &status) != 0) return std::nullopt;
+      return OutputPlace{status.st_dev, status.st_ino, target.substr(name)};
+    }
+  }
+  if (S_ISCHR(status.st_mode) || S_ISBLK(status.st_mode)) return std::nullopt;
+  return OutputPlace{status.st_dev, status.st_ino, ""};
+}
+
 OutputFile::OutputFile(const std::string& path) : path_(path), target_(target_of(path)) {
   const int own_descriptor = own_descriptor_of(target_);
   struct stat status = {};

@@ -1,8 +1,25 @@
 #pragma once
 
+#include <sys/types.h>
+
+#include <optional>
 #include <string>
 
 namespace pipeline {
+
+/// Where an output ends up: a regular file or a pipe, or a name in a folder that has no such file yet.
+struct OutputPlace {
+  dev_t device = 0;
+  ino_t inode = 0;   // of the file; of the folder if the file does not exist
+  std::string name;  // empty if the file exists
+
+  bool operator==(const OutputPlace&) const = default;
+};
+
+/// The place of the OutputFile `path`: links are followed, so all names of a file give the same one. Nothing
+/// for a device, which any number of outputs may share, and where opening will fail. An IoError if symbolic
+/// links form a circle.
+std::optional<OutputPlace> place_of_output(const std::string& path);
 
 /// A file that appears complete or not at all: it is written without a name, or under a temporary one in the
 /// same folder, and `commit` gives it its name. Without `commit` (an exception, say) the written data are

@@ -1,0 +1,140 @@
+#!/usr/bin/env python3
+"""Two outputs of a run that would end up in one file or one pipe are refused before anything is read or written.
+
+usage: outputs_test.py BIN_DIR [UNITTEST ARGUMENT...]
+"""
+import os
+import pathlib
+import subprocess
+import unittest
+
+from toolbox import ToolTest, command, pseudo_terminal, run, stage_texts
+
+OLD = b"an older file"
+DEPTH_LINES = 8  # of the screen in config.txt
+
+
+class SeparateOutputs(ToolTest):
+    def setUp(self):
+        super().setUp()
+        pathlib.Path("stage3.txt").write_bytes(stage_texts()[2])
+
+    def refused(self, first, second):
+        return (f"zbuf: expected a place of its own for every output, found the same one for {first} and {second} "
+                "(try zbuf --help)")
+
+    def check_refused(self, words, first, second, **settings):
+        """The run is refused, and every file stays as it was."""
+        before = {name: pathlib.Path(name).read_bytes() for name in self.files()}
+        done = run("zbuf", "config.txt", "stage3.txt", *words.split(), **settings)
+        self.assert_fails(done, 2, self.refused(first, second))
+        self.assertEqual({name: pathlib.Path(name).read_bytes() for name in self.files()}, before)
+
+    def check_fine(self, words, **settings):
+        done = run("zbuf", "config.txt", "stage3.txt", *words.split(), **settings)
+        self.assert_quiet_success(done)
+        return done
+
+    def test_one_name_serves_one_output(self):
+        for options in (("--image", "--z-buffer"), ("--image", "--fragments"), ("--z-buffer", "--fragments")):
+            with self.subTest(options=options):
+                self.check_refused(" ".join(f"{option} x.bmp" for option in options), *(f"{option} 'x.bmp'" for option in options))
+        self.check_refused("--image x.png --depth-image x.png", "--image 'x.png'", "--depth-image 'x.png'")
+        self.check_refused("--z-buffer x.pgm --depth-image x.pgm", "--z-buffer 'x.pgm'", "--depth-image 'x.pgm'")
+        self.check_refused("--depth-image x.pgm --fragments x.pgm", "--depth-image 'x.pgm'", "--fragments 'x.pgm'")
+
+    def test_the_image_has_its_name_also_if_nobody_gave_it(self):
+        self.check_refused("--fragments out.bmp", "--image 'out.bmp'", "--fragments 'out.bmp'")
+
+    def test_the_two_need_not_stand_next_to_each_other(self):
+        self.check_refused("--z-buffer z.txt --depth-image d.pgm --fragments ./out.bmp", "--image 'out.bmp'", "--fragments './out.bmp'")
+
+    def test_other_words_for_the_folder_are_the_same_file(self):
+        os.mkdir("folder")
+        os.symlink(".", "here")
+        for exists in (False, True):
+            for name in ("./x.bmp", "folder/../x.bmp", os.path.abspath("x.bmp"), ".//x.bmp", "here/x.bmp"):
+                with self.subTest(exists=exists, name=name):
+                    done = run("zbuf", "config.txt", "stage3.txt", "--image", "x.bmp", "--z-buffer", name)
+                    shown = name if len(name) <= 40 else name[:40] + "..."
+                    self.assert_fails(done, 2, self.refused("--image 'x.bmp'", f"--z-buffer '{shown}'"))
+                    self.assertEqual(os.path.exists("x.bmp"), exists)
+            pathlib.Path("x.bmp").write_bytes(OLD)
+        self.assertEqual(pathlib.Path("x.bmp").read_bytes(), OLD)
+
+    def test_a_symbolic_link_is_the_file_it_leads_to(self):
+        os.symlink("x.bmp", "link.txt")
+        done = run("zbuf", "config.txt", "stage3.txt", "--image", "x.bmp", "--z-buffer", "link.txt")
+        self.assert_fails(done, 2, self.refused("--image 'x.bmp'", "--z-buffer 'link.txt'"))
+        pathlib.Path("x.bmp").write_bytes(OLD)
+        self.check_refused("--image x.bmp --z-buffer link.txt", "--image 'x.bmp'", "--z-buffer 'link.txt'")
+
+    def test_a_hard_link_is_the_same_file(self):
+        pathlib.Path("x.bmp").write_bytes(OLD)
+        os.link("x.bmp", "y.txt")
+        self.check_refused("--image x.bmp --z-buffer y.txt", "--image 'x.bmp'", "--z-buffer 'y.txt'")
+
+    def test_standard_output_may_be_the_file(self):
+        for mode in ("wb", "ab"):
+            with open("out.bmp", mode) as output:
+                self.check_refused("", "--image 'out.bmp'", "standard output", stdout=output)
+        with open("out.bmp", "wb") as output:
+            self.check_refused("--image x.bmp --fragments out.bmp", "standard output", "--fragments 'out.bmp'", stdout=output)
+
+    def test_standard_output_without_depths_is_no_output(self):
+        with open("z.txt", "wb") as output:
+            self.check_fine("--z-buffer z.txt", stdout=output)
+        self.assertEqual(len(pathlib.Path("z.txt").read_bytes().splitlines()), DEPTH_LINES)
+
+    def test_a_pipe_takes_one_output(self):
+        self.check_refused("--fragments /dev/stdout", "standard output", "--fragments '/dev/stdout'")
+        self.check_refused("--z-buffer /dev/fd/1 --fragments /proc/self/fd/1", "--z-buffer '/dev/fd/1'", "--fragments '/proc/self/fd/1'")
+        os.symlink("/dev/stdout", "x.ppm")
+        done = run("zbuf", "config.txt", "stage3.txt", "--image", "x.ppm")
+        self.assert_fails(done, 2, self.refused("--image 'x.ppm'", "standard output"))
+
+    def test_a_named_pipe_takes_one_output(self):
+        os.mkfifo("x.ppm")
+        done = run("zbuf", "config.txt", "stage3.txt", "--image", "x.ppm", "--z-buffer", "x.ppm")
+        self.assert_fails(done, 2, self.refused("--image 'x.ppm'", "--z-buffer 'x.ppm'"))
+
+    def test_an_image_alone_may_go_to_the_pipe(self):
+        os.symlink("/dev/stdout", "x.ppm")
+        self.assertTrue(self.check_fine("--image x.ppm --z-buffer z.txt").stdout.startswith(b"P6\n8 8\n"))
+
+    def test_a_device_takes_any_number(self):
+        self.check_fine("--z-buffer /dev/null --fragments /dev/null")
+        os.symlink("/dev/null", "x.bmp")
+        self.check_fine("--image x.bmp --z-buffer /dev/null")
+        self.check_fine("--fragments /dev/null", stdout=subprocess.DEVNULL)
+
+    def test_a_terminal_takes_any_number(self):
+        ours, theirs = pseudo_terminal()
+        self.addCleanup(os.close, ours)
+        with open(theirs, "wb") as terminal:
+            self.check_fine("--fragments /dev/stdout", stdout=terminal)
+
+    def test_files_of_one_name_in_two_folders_are_two(self):
+        os.mkdir("folder")
+        self.check_fine("--image x.bmp --z-buffer folder/x.bmp")
+        self.check_fine("--image x.bmp --z-buffer folder/x.bmp")
+
+    def test_a_file_named_dash_is_not_standard_output(self):
+        self.check_fine("--fragments -")
+        self.assertIn("-", self.files())
+
+    def test_an_input_may_be_replaced_by_its_own_output(self):
+        pathlib.Path("stage3.txt").write_bytes(stage_texts()[2])
+        expected = run("zbuf", "config.txt", "stage3.txt").stdout
+        self.check_fine("--z-buffer stage3.txt")
+        self.assertEqual(pathlib.Path("stage3.txt").read_bytes(), expected)
+
+    def test_nothing_is_read_before(self):
+        with subprocess.Popen(command("zbuf", "none.txt", "--z-buffer", "out.bmp"), stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+                              stderr=subprocess.PIPE) as waiting:  # its input stays open
+            self.assertEqual(waiting.wait(60), 2)
+            self.assertEqual(waiting.stderr.read().decode(), self.refused("--image 'out.bmp'", "--z-buffer 'out.bmp'") + "\n")
+
+
+if __name__ == "__main__":
+    unittest.main()
