@@ -1,6 +1,8 @@
 // project: clips triangles behind the eye and divides by w. View space in, normalized device coordinates out.
 
+#include <optional>
 #include <utility>
+#include <variant>
 
 #include "libpipeline/stream/stage_reader.h"
 #include "libpipeline/stream/stage_writer.h"
@@ -15,16 +17,19 @@ using namespace pipeline;
 namespace {
 
 struct ProjectOptions {
-  AspectRule aspect = AspectRule::angle;
+  std::optional<AspectRule> aspect;  // none: the perspective's own
   ClipMode clip = ClipMode::automatic;
   CullMode cull = CullMode::nothing;
   double clip_inset = 0;
 };
 
 void add_options(CommandLine& options, ProjectOptions& chosen) {
-  options.add_choice<AspectRule>(
+  options.add_choice<std::optional<AspectRule>>(
       "--aspect", chosen.aspect, {{"angle", AspectRule::angle}, {"ratio", AspectRule::ratio}},
-      "angle: fovX = fovY * aspect; ratio: tan(fovX/2) = tan(fovY/2) * aspect, as in gluPerspective");
+      "How a perspective's aspect is meant.\n"
+      "angle: fovX = fovY * aspect\n"
+      "ratio: tan(fovX/2) = tan(fovY/2) * aspect, as in gluPerspective\n"
+      "Without the option: as the perspective says, angle if it ends in neither word");
   options.add_choice<ClipMode>("--clip", chosen.clip,
                                {{"auto", ClipMode::automatic},
                                 {"near", ClipMode::near},
@@ -55,13 +60,18 @@ void check_inset(const ProjectOptions& chosen) {
                      expected_but_found("--clip near, frustum or reject with it", "none of these"));
 }
 
-const Located<Projection>& projection_of(const CameraParameters& camera, const SourceLocation& header_end) {
+/// The camera's projection, with the aspect rule of the option if there is one.
+Located<Projection> projection_of(const CameraParameters& camera, std::optional<AspectRule> aspect,
+                                  const SourceLocation& header_end) {
   if (!camera.projection)
     throw InputError(header_end,
                      expected_but_found("a projection (a header line perspective, frustum or ortho; or "
                                         "--scene; or --perspective, --frustum or --ortho)",
                                         "none"));
-  return *camera.projection;
+  Located<Projection> projection = *camera.projection;
+  if (auto* perspective = std::get_if<Perspective>(&projection.value); perspective != nullptr && aspect)
+    perspective->aspect_rule = *aspect;
+  return projection;
 }
 
 std::string to_text(const ProjectionCounts& counts) {
@@ -92,13 +102,13 @@ int main(int argc, char** argv) {
     check_inset(chosen);
     StageReader reader(tool.input());
     const CameraParameters camera = cameras.camera(without_position(reader.header().camera), tool);
-    const auto projection = clip_from_view(projection_of(camera, reader.header_end()), chosen.aspect);
+    const Located<Projection> given = projection_of(camera, chosen.aspect, reader.header_end());
+    const ProjectionTransform projection = clip_from_view(given);
     StageWriter writer(tool.output(), numbers.format(), false);
     const Appearance appearance = in_clip_space(reader.header().appearance);
     CameraParameters passed_on;
     const bool is_lit = !appearance.lights.empty();
-    if (is_lit)
-      passed_on.projection = {volume_of(*camera.projection, projection), camera.projection->location};
+    if (is_lit) passed_on.projection = {volume_of(given, projection), given.location};
     writer.write_header({reader.header().framed, passed_on, appearance});
 
     CoordinateRounder rounder = numbers.rounder(tool.input().file());

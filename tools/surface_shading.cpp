@@ -50,7 +50,7 @@ std::optional<SurfaceShader> surface_shader(const StageReader& reader, const Vie
     throw InputError(
         reader.header_end(),
         expected_but_found("the projection of a text with lights (a header line frustum or ortho)", "none"));
-  const ProjectionTransform projection = clip_from_view(*header.camera.projection, AspectRule::angle);
+  const ProjectionTransform projection = clip_from_view(*header.camera.projection);
   setup.view_from_clip.emplace(projection);
   setup.lighting = lighting_of(appearance, projection.is_perspective);
   return SurfaceShader(screen, std::move(setup));

@@ -24,11 +24,19 @@ double number_other_than(double other, std::string_view other_name, LineScanner&
   return number_where(line, {name}, condition, [&](double value) { return value != other; });
 }
 
-/// The last number of every projection, to the end of the line.
+/// The last number of every projection.
 double far_beyond(double near, LineScanner& line) {
-  const double far = number_where(line, {"far"}, "beyond near", [&](double value) { return value > near; });
-  line.expect_end("far");
-  return far;
+  return number_where(line, {"far"}, "beyond near", [&](double value) { return value > near; });
+}
+
+/// Takes the word behind a perspective's numbers, if there is one, to the end of the line.
+AspectRule read_aspect_rule(LineScanner& line) {
+  if (line.at_end()) return AspectRule::angle;
+  const bool is_ratio = line.peek() == "ratio";
+  if (!is_ratio && line.peek() != "angle") line.fail("ratio, angle or the end of the line after far");
+  line.word();
+  line.expect_end(is_ratio ? "'ratio'" : "'angle'");
+  return is_ratio ? AspectRule::ratio : AspectRule::angle;
 }
 
 Perspective read_perspective(LineScanner& line) {
@@ -38,6 +46,7 @@ Perspective read_perspective(LineScanner& line) {
   p.aspect = number_above_zero(line, "aspect");
   p.near = number_above_zero(line, "near");
   p.far = far_beyond(p.near, line);
+  p.aspect_rule = read_aspect_rule(line);
   return p;
 }
 
@@ -51,6 +60,7 @@ Volume read_volume(LineScanner& line) {
   v.top = number_other_than(v.bottom, "bottom", line, "top");
   v.near = std::is_same_v<Volume, Frustum> ? number_above_zero(line, "near") : line.number("near");
   v.far = far_beyond(v.near, line);
+  line.expect_end("far");
   return v;
 }
 

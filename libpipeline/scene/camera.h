@@ -11,13 +11,18 @@
 
 namespace pipeline {
 
+/// How the aspect determines the horizontal field of view: by `angle`, the course's fovX = fovY * aspect, or
+/// by `ratio`, gluPerspective's tan(fovX / 2) = tan(fovY / 2) * aspect.
+enum class AspectRule { angle, ratio };
+
 /// gluPerspective's parameters. `near` and `far` are distances from the eye along the view direction,
 /// 0 < near < far.
 struct Perspective {
   double fov_y_degrees = 0;  // above 0, below 180
-  double aspect = 1;         // width by height, above 0; see AspectRule
+  double aspect = 1;         // width by height, above 0
   double near = 0;
   double far = 0;
+  AspectRule aspect_rule = AspectRule::angle;
 };
 
 /// glFrustum's parameters: the window on the near plane, in x and y of view space, and 0 < near < far.
@@ -43,8 +48,9 @@ struct CameraParameters {
   std::optional<Located<Projection>> projection;
 };
 
-/// Reads the numbers after the keyword `perspective`, `frustum` or `ortho`, to the end of the line. An
-/// InputError at the number that is missing or breaks a condition of its struct above.
+/// Reads the numbers after the keyword `perspective`, `frustum` or `ortho`, to the end of the line. Those of a
+/// perspective may be followed by the name of its aspect rule. An InputError at the number that is missing or
+/// breaks a condition of its struct above.
 Projection read_projection(std::string_view keyword, LineScanner& line);
 
 /// Reads the numbers after the keyword `eye`, `look`, `up`, `perspective`, `frustum` or `ortho`, to the end

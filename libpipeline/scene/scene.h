@@ -47,7 +47,7 @@ using Command = std::variant<TriangleCommand, TranslateCommand, ScaleCommand, Ro
 ///     eyeX eyeY eyeZ
 ///     lookX lookY lookZ
 ///     upX upY upZ
-///     fovY aspect near far         or: ortho L R B T N F, or: frustum L R B T N F
+///     fovY aspect near far [ratio] or: ortho L R B T N F, or: frustum L R B T N F
 ///     triangle | translate | scale | rotate | push | pop, each with its arguments
 ///     end
 ///

@@ -33,7 +33,8 @@ void print_header_numbers(TextWriter& text, std::string_view keyword, std::initi
 
 void print_projection(TextWriter& text, const Projection& projection) {
   if (const auto* p = std::get_if<Perspective>(&projection)) {
-    print_header_numbers(text, "perspective", {p->fov_y_degrees, p->aspect, p->near, p->far});
+    print_numbers(text, "perspective", {p->fov_y_degrees, p->aspect, p->near, p->far});
+    text.append(p->aspect_rule == AspectRule::ratio ? " ratio\n" : "\n");
   } else if (const auto* f = std::get_if<Frustum>(&projection)) {
     print_header_numbers(text, "frustum", {f->left, f->right, f->bottom, f->top, f->near, f->far});
   } else {

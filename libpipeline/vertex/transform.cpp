@@ -31,11 +31,10 @@ bool is_inside_half_turn(const Ball& degrees) {
   return degrees.sign() > 0 && (degrees - Ball(180)).sign() < 0;
 }
 
-ProjectionTransform perspective(const Perspective& p, const SourceLocation& location,
-                                AspectRule aspect_rule) {
+ProjectionTransform perspective(const Perspective& p, const SourceLocation& location) {
   ProjectionTransform transform;
   transform.y_scale = cotangent_of_half(p.fov_y_degrees);
-  if (aspect_rule == AspectRule::ratio) {
+  if (p.aspect_rule == AspectRule::ratio) {
     transform.x_scale = transform.y_scale / Ball(p.aspect);
   } else {
     const Ball fov_x_degrees = Ball(p.fov_y_degrees) * Ball(p.aspect);
@@ -120,9 +119,9 @@ ViewTransform view_from_world(const Vec3& eye, const Vec3& look, const Vec3& up)
   return {eye, right, camera_up, {-forward.x, -forward.y, -forward.z}};
 }
 
-ProjectionTransform clip_from_view(const Located<Projection>& projection, AspectRule aspect_rule) {
+ProjectionTransform clip_from_view(const Located<Projection>& projection) {
   if (const auto* p = std::get_if<Perspective>(&projection.value))
-    return perspective(*p, projection.location, aspect_rule);
+    return perspective(*p, projection.location);
   if (const auto* f = std::get_if<Frustum>(&projection.value)) return frustum(*f);
   return orthographic(std::get<Orthographic>(projection.value));
 }

@@ -28,10 +28,6 @@ struct ViewTransform {
 /// direction (check_camera).
 ViewTransform view_from_world(const Vec3& eye, const Vec3& look, const Vec3& up);
 
-/// How the aspect determines the horizontal field of view: by `angle`, the course's fovX = fovY * aspect, or
-/// by `ratio`, gluPerspective's tan(fovX / 2) = tan(fovY / 2) * aspect.
-enum class AspectRule { angle, ratio };
-
 /// From view to clip space. With d = -z the distance in front of the eye:
 ///   perspective:   x_clip = x_scale x + x_offset z,  w = d
 ///   orthographic:  x_clip = x_scale x + x_offset,    w = 1
@@ -46,7 +42,7 @@ struct ProjectionTransform {
 
 /// The projection as scales and offsets. An InputError at `projection.location` if fovX, by the rule `angle`,
 /// is not in (0, 180) degrees.
-ProjectionTransform clip_from_view(const Located<Projection>& projection, AspectRule aspect_rule);
+ProjectionTransform clip_from_view(const Located<Projection>& projection);
 
 /// The projection's view volume, which needs no aspect rule: a perspective as the Frustum of `transform`,
 /// which must come from `projection`; others unchanged. An InputError at `projection.location` if a plane is

@@ -108,7 +108,8 @@ class FiveFiles:
         clip, given a wrong view space). A vertex behind the eye is mirrored through the eye before projecting: x / w and y / w
         stay the same, and z / w = A + B / z follows from A + B / -z of the mirrored vertex.
         """
-        near, far = map(float, (self.suspects.camera.get("perspective") or self.suspects.camera["frustum"])[-2:])
+        camera = self.suspects.camera
+        near, far = map(float, camera["perspective"][2:4] if "perspective" in camera else camera["frustum"][4:])
         points = parse_stage_text(text_of(text, ""), "").points
         turned = [tuple(-x for x in p) if p[2] > 0 else p for p in points]
         done = parse_stage_text(self.ours("project", stage_text_of(turned), "--clip", "none").decode(), "").points

@@ -8,6 +8,7 @@ import math
 from compare_parts.differences import exceeds
 from lib.input_file import read_input
 from lib.pipe_tools import ToolFailure
+from lib.projection import tangents
 from lib.stage_text import parse_stage_text
 from lib.vectors import axes
 
@@ -171,9 +172,8 @@ class Suspects:
         factors = window_factors(theirs, ours)
         if factors is None or "perspective" not in self.camera:
             return None
-        fov_y, aspect = map(float, self.camera["perspective"][:2])
-        right = [math.tan(math.radians(fov) / 2) for fov in (fov_y * aspect, fov_y)]
-        wrong = [math.tan(fov / 2) for fov in (fov_y * aspect, fov_y)]
+        right = tangents(self.camera)
+        wrong = tangents(self.camera, lambda angle: angle)
         if all(abs(k * w - t) <= 1e-4 * abs(t) for k, w, t in zip(factors, wrong, right)):
             return RADIANS + " in the field of view"
         return None

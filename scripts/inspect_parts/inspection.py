@@ -8,6 +8,7 @@ import tempfile
 
 from lib.input_file import read_input
 from lib.pictures import read_picture
+from lib.projection import window_of
 from lib.stage_text import parse_stage_text
 from lib.vectors import axes, moved
 
@@ -33,13 +34,7 @@ def notes_told(stderr):
 
 def frustum_corners(header):
     """The four corners of the near plane and the four of the far plane in view space, in the same winding."""
-    if "perspective" in header:
-        fov_y, aspect, near, far = map(float, header["perspective"])
-        right, top = (near * math.tan(math.radians(fov) / 2) for fov in (fov_y * aspect, fov_y))
-        window = -right, right, -top, top
-    else:
-        *window, near, far = map(float, header.get("frustum") or header["ortho"])
-    left, right, bottom, top = window
+    left, right, bottom, top, near, far = window_of(header)
     corners = []
     for distance in (near, far):
         scale = 1 if "ortho" in header else distance / near

@@ -62,6 +62,31 @@ TEST(Scene, StartsWithTheCamera) {
   EXPECT_EQ(perspective.aspect, 1.5);
   EXPECT_EQ(perspective.near, 0.5);
   EXPECT_EQ(perspective.far, 100);
+  EXPECT_EQ(perspective.aspect_rule, AspectRule::angle);
+}
+
+TEST(Scene, TheFourthLineMayNameTheAspectRule) {
+  const auto rule_of = [](const std::string& projection) {
+    const CameraParameters camera = camera_of("1 2 3\n4 5 6\n0 1 0\n" + projection + "\nend\n");
+    return std::get<Perspective>(camera.projection->value).aspect_rule;
+  };
+  EXPECT_EQ(rule_of("60 1.5 0.5 100 ratio"), AspectRule::ratio);
+  EXPECT_EQ(rule_of("60 1.5 0.5 100\tratio # as in OpenGL\r"), AspectRule::ratio);
+  EXPECT_EQ(rule_of("60 1.5 0.5 100 angle"), AspectRule::angle);
+}
+
+TEST(Scene, OnlyAPerspectiveHasAnAspectRule) {
+  EXPECT_EQ(error_of_projection("frustum -1 1 -1 1 1 9 ratio"),
+            "scene.txt:4:23: expected the end of the line after far, found 'ratio'");
+  EXPECT_EQ(error_of_projection("ortho -1 1 -1 1 1 9 ratio"),
+            "scene.txt:4:21: expected the end of the line after far, found 'ratio'");
+}
+
+TEST(Scene, TheAspectRuleEndsTheFourthLine) {
+  EXPECT_EQ(error_of_projection("60 1 1 100 ratio 1"),
+            "scene.txt:4:18: expected the end of the line after 'ratio', found '1'");
+  EXPECT_EQ(error_of_projection("60 1 1 100 angle ratio"),
+            "scene.txt:4:18: expected the end of the line after 'angle', found 'ratio'");
 }
 
 // A comment keeps a line from the fast path.
@@ -223,7 +248,7 @@ TEST(Scene, NamesTheNumberThatIsWrongInTheProjection) {
   EXPECT_EQ(error_of_projection("60 1 x 100"), "scene.txt:4:6: expected near, found 'x'");
   EXPECT_EQ(error_of_projection("60 1 1"), "scene.txt:4:7: expected far, found the end of the line");
   EXPECT_EQ(error_of_projection("60 1 1 100 5"),
-            "scene.txt:4:12: expected the end of the line after far, found '5'");
+            "scene.txt:4:12: expected ratio, angle or the end of the line after far, found '5'");
 }
 
 TEST(Scene, NamesTheNumberThatIsWrongInAFrustumOrOrtho) {

@@ -151,8 +151,8 @@ class Five(ToolTest):
         done = run("zbuf", SAMPLE / "config.txt", "theirs/stage3.txt", "--z-buffer", "theirs/z_buffer.txt", "--image", "theirs/out.bmp")
         self.assertEqual(done.returncode, 0, done.stderr)
 
-    def verdict(self, status=1):
-        done = compare("--five", "theirs", SAMPLE / "scene.txt", SAMPLE / "config.txt")
+    def verdict(self, status=1, scene=SAMPLE / "scene.txt"):
+        done = compare("--five", "theirs", scene, SAMPLE / "config.txt")
         self.assertEqual((done.stderr, done.returncode), ("", status), done.stdout)
         return done.stdout.splitlines()[-1], [line.split("|")[3].strip() for line in done.stdout.splitlines()[2:7]]
 
@@ -179,6 +179,22 @@ class Five(ToolTest):
                     self.assertIn(f"the first stage that went wrong is {stage} ", sentence)
                     self.assertIn(words, sentence)
                     self.assertEqual(verdicts.count("wrong"), 1, sentence)
+
+    def test_the_aspect_rule_of_the_scene_is_ours_too(self):
+        scene = SCENE.replace("\n41 1 2 25 ", "\n41 1.25 2 25 ratio ")
+        pathlib.Path("ratio.txt").write_text(scene)
+        self.hand_in(Student(scene))
+        self.assertEqual(self.verdict(status=0, scene="ratio.txt")[1], ["right"] * 5)
+        self.hand_in(Student(SCENE.replace("\n41 1 2 25 ", "\n41 1.25 2 25 ")))
+        self.assertIn("the first stage that went wrong is project", self.verdict(scene="ratio.txt")[0])
+        for mistake, stage, words in (("radians 3", "project", "degrees are taken for radians in the field of view"),
+                                      ("handedness", "view", "handedness is flipped: z")):
+            with self.subTest(mistake):
+                self.hand_in(Student(scene, mistake))
+                sentence, verdicts = self.verdict(scene="ratio.txt")
+                self.assertIn(f"the first stage that went wrong is {stage} ", sentence)
+                self.assertIn(words, sentence)
+                self.assertEqual(verdicts.count("wrong"), 1)
 
     def test_two_mistakes_are_both_found(self):
         self.hand_in(Student(SCENE, "swapped 1"))

@@ -5,6 +5,7 @@ usage: inspect_test.py BIN_DIR [UNITTEST ARGUMENT...]
 """
 import base64
 import pathlib
+import re
 import subprocess
 import sys
 import unittest
@@ -12,7 +13,7 @@ import unittest
 from browser import MISSING, Browser
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "tools"))
-from toolbox import BIN, SOURCE, ToolTest, run, stage_texts  # noqa: E402
+from toolbox import BIN, SOURCE, ToolTest, pipe, run, stage_texts  # noqa: E402
 
 SAMPLE = SOURCE / "samples/tilted-camera"
 # Triangle 1 reaches behind the eye and is cut into two pieces; the others are separate.
@@ -42,6 +43,20 @@ class Messages(ToolTest):
         page = pathlib.Path("page.html").read_text()
         for word in ("src=", "href=", "http:", "https:", "@import", "url("):
             self.assertNotIn(word, page)
+
+
+class Frustum(ToolTest):
+    def test_is_the_one_that_project_uses(self):
+        sys.path.insert(0, str(SOURCE / "scripts"))
+        from lib.projection import window_of
+        for projection in ("60 1.5 0.5 100", "60 1.5 0.5 100 ratio", "frustum -1 2 -3 4 5 6", "ortho -1 2 -3 4 -5 6"):
+            with self.subTest(projection):
+                line = projection if projection[0].isalpha() else "perspective " + projection
+                keyword, *words = line.split()
+                printed = pipe(["project"], stdin=line + "\nlight 0 0 0 1 1 1\n").decode()
+                expected = re.search(r"(?:frustum|ortho) (.*)", printed)[1].split()
+                for got, want in zip(window_of({keyword: words}), map(float, expected), strict=True):
+                    self.assertAlmostEqual(got, want, places=12)
 
 
 @unittest.skipIf(MISSING, f"needs {' and '.join(MISSING)} (Debian: chromium chromium-driver)")

@@ -53,7 +53,9 @@ def scaling(factors):
 class Student:
     def __init__(self, scene, mistake=""):
         self.mistake = mistake
-        words = iter([word for line in scene.split("\n") for word in line.split("#")[0].split()])
+        words = [word for line in scene.split("\n") for word in line.split("#")[0].split()]
+        self.is_ratio = words[13] == "ratio"
+        words = iter(words[:13] + words[14:] if self.is_ratio else words)
         self.next = lambda count: [float(next(words)) for _ in range(count)]
         self.eye, self.look, self.up = self.next(3), self.next(3), self.next(3)
         self.fov_y, self.aspect, self.near, self.far = self.next(4)
@@ -95,7 +97,8 @@ class Student:
             return self.near * math.tan((fov if self.made("radians 3") else math.radians(fov)) / 2)
 
         n, f = self.near, self.far
-        m = [[n / window(self.fov_y * self.aspect), 0, 0, 0], [0, n / window(self.fov_y), 0, 0],
+        right = self.aspect * window(self.fov_y) if self.is_ratio else window(self.fov_y * self.aspect)
+        m = [[n / right, 0, 0, 0], [0, n / window(self.fov_y), 0, 0],
              [0, 0, -(f + n) / (f - n), -2 * f * n / (f - n)], [0, 0, -1, 0]]
         return [(x, y, z) if self.made("divide") else (x / w, y / w, z / w) for x, y, z, w in (image(m, p) for p in points)]
 

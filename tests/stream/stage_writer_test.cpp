@@ -62,6 +62,14 @@ TEST(StageWriter, WritesTheHeaderInTheShortestFormWhateverTheDecimals) {
             "100\nend\n");
 }
 
+TEST(StageWriter, NamesNoAspectRuleButRatio) {
+  StageHeader header;
+  header.camera.projection = {Perspective{60, 1.5, 0.5, 100, AspectRule::angle}, {}};
+  EXPECT_EQ(written({}, {}, false, header), "perspective 60 1.5 0.5 100\n");
+  header.camera.projection = {Perspective{60, 1.5, 0.5, 100, AspectRule::ratio}, {}};
+  EXPECT_EQ(written({}, {}, false, header), "perspective 60 1.5 0.5 100 ratio\n");
+}
+
 TEST(StageWriter, WritesAFrustum) {
   StageHeader header;
   header.camera.projection = {Frustum{-1, 2, -3, 4, 5, 6}, {}};

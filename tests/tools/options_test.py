@@ -281,6 +281,45 @@ class CameraPrecedence(ToolTest):
         self.assertTrue(by_header.startswith(b"0.0000000 0.0000000 0.0000000\n"))
         self.assertTrue(by_scene.startswith(b"0.0000000 0.0000000 -0.5000000\n"))
 
+    RATIO_SCENE = SCENE.replace("60 1 1 100", "60 1.5 1 100 ratio")
+
+    def test_the_aspect_rule_of_a_scene_travels_with_its_projection(self):
+        stage1, stage2, _ = stage_texts(self.RATIO_SCENE)
+        for text in (stage1, stage2):
+            self.assertIn("perspective 60 1.5 1 100 ratio\n", text.decode())
+        self.assertNotIn(b"angle", pipe(["model"], stdin=self.RATIO_SCENE.replace("ratio", "angle")))
+
+    def test_the_aspect_rule_of_a_scene_is_that_of_the_option(self):
+        stage1 = pipe(["model"], stdin=self.RATIO_SCENE)
+        by_scene = pipe(["view"], ["project"], stdin=stage1)
+        by_option = pipe(["view"], ["project", "--aspect", "ratio"], stdin=stage1.replace(b" ratio", b""))
+        by_angle = pipe(["view"], ["project"], stdin=stage1.replace(b" ratio", b""))
+        self.assertEqual(by_scene, by_option)
+        self.assertNotEqual(by_scene, by_angle)
+        self.assertEqual(pipe(["view"], ["project", "--aspect", "angle"], stdin=stage1), by_angle)
+
+    def test_a_projection_that_is_replaced_loses_its_aspect_rule(self):
+        stage1 = pipe(["model"], stdin=self.RATIO_SCENE)
+        stage2 = pipe(["view", "--perspective", "60", "1.5", "1", "100"], stdin=stage1)
+        self.assertTrue(stage2.startswith(b"perspective 60 1.5 1 100\n"))
+        by_angle = pipe(["project"], stdin=stage2)
+        self.assertEqual(pipe(["view"], ["project", "--perspective", "60", "1.5", "1", "100"], stdin=stage1), by_angle)
+        self.assertEqual(pipe(["view"], ["project", "--perspective", "60", "1.5", "1", "100", "--aspect", "ratio"], stdin=stage1),
+                         pipe(["view"], ["project"], stdin=stage1))
+
+    def test_the_aspect_rule_of_a_scene_replaces_that_of_the_header(self):
+        pathlib.Path("camera.txt").write_text(self.RATIO_SCENE)
+        stage1 = pipe(["model"], stdin=self.RATIO_SCENE.replace(" ratio", ""))
+        expected = pipe(["model"], ["view"], ["project"], stdin=self.RATIO_SCENE)
+        self.assertEqual(pipe(["view", "--scene", "camera.txt"], ["project"], stdin=stage1), expected)
+        self.assertEqual(pipe(["view"], ["project", "--scene", "camera.txt"], stdin=stage1), expected)
+
+    def test_an_aspect_rule_changes_no_other_projection(self):
+        for words in ("--frustum -1 2 -1 1 1 3", "--ortho -2 2 -3 2 1 3"):
+            for rule in ("ratio", "angle"):
+                self.assertEqual(pipe(["project", *words.split(), "--aspect", rule], stdin=VIEW_SPACE),
+                                 pipe(["project", *words.split()], stdin=VIEW_SPACE))
+
     def test_project_takes_every_projection_as_an_option(self):
         for words in ("--perspective 90 1 1 3", "--frustum -1 1 -1 1 1 3", "--ortho -2 2 -2 2 1 3"):
             vertices = pipe(["project", *words.split()], stdin=VIEW_SPACE).decode().splitlines()

@@ -32,16 +32,16 @@ def random_rotation(rng):
     return "%s 1 %s %s" % (angle, random_number(rng, 2), random_number(rng, 2))
 
 
-def random_projection(rng):
+def random_projection(rng, aspect_rule):
     kind = rng.choice(("perspective",) * 8 + ("ortho", "frustum"))
     if kind == "perspective":
-        return "%g %g %s %s" % (rng.uniform(5, 120), rng.uniform(0.3, 1.45), rng.choice(("0.01", "0.1", "1", "2.5")),
-                                rng.choice(("10", "100", "1e4")))
+        return "%g %g %s %s%s" % (rng.uniform(5, 120), rng.uniform(0.3, 1.45), rng.choice(("0.01", "0.1", "1", "2.5")),
+                                  rng.choice(("10", "100", "1e4")), aspect_rule)
     return kind + (" -3 4 -2.5 2 0.5 20" if kind == "ortho" else " -1 1.5 -0.5 1 0.7 30")
 
 
-def random_scene(rng):
-    lines = [random_point(rng), random_point(rng), random_point(rng), random_projection(rng)]
+def random_scene(rng, aspect_rule):
+    lines = [random_point(rng), random_point(rng), random_point(rng), random_projection(rng, aspect_rule)]
     depth = 0
     for _ in range(rng.randint(5, 40)):
         command = rng.choice(("triangle",) * 4 + ("translate", "scale", "rotate", "push", "pop"))
@@ -65,7 +65,7 @@ class RandomScenes(unittest.TestCase):
     def test_match_the_reference(self):
         rng = random.Random(410)
         for index in range(scene_count):
-            text = random_scene(rng)
+            text = random_scene(rng, ("", " ratio", " angle")[index % 3])
             with self.subTest(scene=index, text=text):
                 self.compare(text)
 

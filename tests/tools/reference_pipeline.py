@@ -145,7 +145,10 @@ class Scene:
         self.next = 0
         self.eye, self.look, self.up = self.point(), self.point(), self.point()
         kind = self.word() if self.words[self.next] in ("ortho", "frustum") else "perspective"
-        self.projection = (kind, self.numbers(4 if kind == "perspective" else 6))
+        numbers = self.numbers(4 if kind == "perspective" else 6)
+        if self.words[self.next:self.next + 1] and self.words[self.next] in ("ratio", "angle"):
+            kind = self.word()
+        self.projection = (kind, numbers)
         self.triangles = list(self.run())
 
     def word(self):
@@ -203,12 +206,14 @@ def view(scene):
 # Stage 3, projection; from here on each triangle carries its number
 
 def window(projection):
-    """left, right, bottom, top, near, far of a projection; for a perspective by the course's rule fovX = fovY * aspect."""
+    """left, right, bottom, top, near, far of a projection; for a perspective by the course's rule fovX = fovY * aspect, unless it is
+    named `ratio`."""
     kind, numbers = projection
-    if kind != "perspective":
+    if kind in ("ortho", "frustum"):
         return numbers
     fov_y, aspect, near, far = numbers
-    top, right = near * tan(fov_y / 2), near * tan(fov_y * aspect / 2)
+    top = near * tan(fov_y / 2)
+    right = aspect * top if kind == "ratio" else near * tan(fov_y * aspect / 2)
     return (-right, right, -top, top, near, far)
 
 

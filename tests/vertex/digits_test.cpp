@@ -291,8 +291,8 @@ void add_projected(RandomNumbers& random, Verdict& verdict) {
   const double left = -near * random.between(0, 2);
   const double right = left + near * random.between(0.1, 3);
   const Frustum frustum = {left, right, -near, near * random.whole(1, 3), near, far};
-  const ProjectionTransform projection = clip_from_view({frustum, {}}, AspectRule::angle);
-  const auto exact = reference_projection<kBits>(frustum, AspectRule::angle);
+  const ProjectionTransform projection = clip_from_view({frustum, {}});
+  const auto exact = reference_projection<kBits>(frustum);
   CoordinateRounder rounder(Precision::extended, kShortest, "input");
   ProjectionStage stage(projection, ClipMode::none, CullMode::nothing, rounder);
   for (int i = 0; i < 4; ++i) {
@@ -382,7 +382,7 @@ Model random_ordinary_model(RandomNumbers& random) {
 TEST(Digits, OfOrdinaryScenesAreCertain) {
   RandomNumbers random(2);
   const ProjectionTransform projection =
-      clip_from_view({Perspective{60, 1.25, 0.1, 100}, {}}, AspectRule::angle);
+      clip_from_view({Perspective{60, 1.25, 0.1, 100}, {}});
   for (int i = 0; i < 1'000; ++i) {
     const AffineMatrix model = random_ordinary_model(random).computed;
     Vec3 eye = random_ordinary_point(random, 10);
@@ -412,7 +412,7 @@ TEST(Digits, OfTheWOfACutVertexAreNoted) {
   // Cut at w = 1e-20 between 1 and -1: of the 31 digits 11 are left, which is enough for -1.0000000 but not
   // for the w of a double. The cut of the other edge has no digit of its x right.
   const ProjectionTransform projection =
-      clip_from_view({Perspective{90, 1, 1e-20, 10}, {}}, AspectRule::angle);
+      clip_from_view({Perspective{90, 1, 1e-20, 10}, {}});
   for (const bool has_colors : {false, true}) {
     TriangleBatch p_view = batch_of(Triangle{Vec3{0, 0, -1}, Vec3{0, 0, 1}, Vec3{1, 0, 1}});
     if (has_colors) p_view.attributes.add(std::array<VertexLine, 3>(), {false, true, false});
@@ -431,7 +431,7 @@ TEST(Digits, OfClippedTrianglesInClipSpaceAreRightOrNoted) {
     const double near = random.between(0.1, 1);
     const double far = near + random.between(0.1, 5);
     const Frustum frustum = {-1, 1, -1, 1, near, far};
-    const ProjectionTransform projection = clip_from_view({frustum, {}}, AspectRule::angle);
+    const ProjectionTransform projection = clip_from_view({frustum, {}});
     // z is 0 there in clip space, but for the rounding of the distance.
     const double middle = 2 * near * far / (near + far);
     const TriangleBatch p_view =
@@ -459,9 +459,9 @@ TEST(Digits, OfTheWindowOfAPerspectiveAreRight) {
     if (i % 3 == 1) fov = random_size(random, -250, 0);
     if (i % 3 == 2) fov = 180 - random_size(random, -13, 0);
     const Located<Projection> perspective = {Perspective{fov, 1, random_size(random, -20, 20), 1e30}, {}};
-    const auto exact = reference_projection<kBits>(perspective.value, AspectRule::angle);
+    const auto exact = reference_projection<kBits>(perspective.value);
     const auto window =
-        std::get<Frustum>(volume_of(perspective, clip_from_view(perspective, AspectRule::angle)));
+        std::get<Frustum>(volume_of(perspective, clip_from_view(perspective)));
     ASSERT_EQ(window.right, exact.right.nearest_double()) << fov;
     ASSERT_EQ(window.top, exact.top.nearest_double()) << fov;
   }
@@ -514,7 +514,7 @@ TEST(CutCorners, HaveColorsAndNormalsWithinTheirBounds) {
   // View space is NDC, but for z. Colors and normals are linear functions of the position, so a cut tells
   // its own; with few bits at the corners they are exact there.
   const Orthographic box = {-1, 1, -1, 1, -1, 1};
-  const ProjectionTransform projection = clip_from_view({box, {}}, AspectRule::angle);
+  const ProjectionTransform projection = clip_from_view({box, {}});
   RandomNumbers random(5);
   double worst_color = 0;
   double worst_normal = 0;

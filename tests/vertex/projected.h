@@ -46,8 +46,8 @@ inline Result projected(const TriangleBatch& p_view, const ProjectionTransform& 
   return result;
 }
 
-inline ProjectionTransform transform_of(const Projection& projection, AspectRule rule = AspectRule::angle) {
-  return clip_from_view({projection, {}}, rule);
+inline ProjectionTransform transform_of(const Projection& projection) {
+  return clip_from_view({projection, {}});
 }
 
 inline Perspective random_perspective(RandomNumbers& random) {

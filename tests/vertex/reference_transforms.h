@@ -134,7 +134,7 @@ struct ReferenceProjection {
 };
 
 template <int bits>
-ReferenceProjection<bits> reference_projection(const Projection& projection, AspectRule rule) {
+ReferenceProjection<bits> reference_projection(const Projection& projection) {
   using R = Real<bits>;
   if (const auto* f = std::get_if<Frustum>(&projection))
     return {true, f->left, f->right, f->bottom, f->top, f->near, f->far};
@@ -144,7 +144,7 @@ ReferenceProjection<bits> reference_projection(const Projection& projection, Asp
   const R half_y = times_power_of_two(radians(R(p.fov_y_degrees)), -1);
   const R half_x = times_power_of_two(radians(R(p.fov_y_degrees) * R(p.aspect)), -1);
   const R top = R(p.near) * tan(half_y);
-  const R right = rule == AspectRule::angle ? R(p.near) * tan(half_x) : top * R(p.aspect);
+  const R right = p.aspect_rule == AspectRule::angle ? R(p.near) * tan(half_x) : top * R(p.aspect);
   return {true, -right, right, -top, top, p.near, p.far};
 }
 

@@ -1,0 +1,21 @@
+"""The projection in a stage text's header, in doubles."""
+import math
+
+
+def tangents(header, angle_in_radians=math.radians):
+    """Of half the field of view of a perspective: the horizontal tangent and the vertical one. `angle_in_radians` converts fovY
+    and fovX."""
+    fov_y, aspect = map(float, header["perspective"][:2])
+    top = math.tan(angle_in_radians(fov_y) / 2)
+    if header["perspective"][4:] == ["ratio"]:
+        return aspect * top, top
+    return math.tan(angle_in_radians(fov_y * aspect) / 2), top
+
+
+def window_of(header):
+    """left, right, bottom, top, near and far of a perspective, a frustum or an ortho."""
+    if "perspective" not in header:
+        return tuple(map(float, header.get("frustum") or header["ortho"]))
+    near, far = map(float, header["perspective"][2:4])
+    right, top = (near * tangent for tangent in tangents(header))
+    return -right, right, -top, top, near, far
