@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <utility>
 
+#include "libpipeline/text/error.h"
+
 namespace pipeline {
 
 Progress::Progress(std::string tool) : tool_(std::move(tool)), is_wanted_(::isatty(STDERR_FILENO) == 1) {}
@@ -23,8 +25,8 @@ void Progress::show(std::uint64_t triangle_count) {
   const double rate =
       static_cast<double>(triangle_count) / std::chrono::duration<double>(now - start_).count();
   // The blanks overwrite the end of a longer line.
-  std::fprintf(stderr, "\r%s: %llu triangles, %.3g million a second    ", tool_.c_str(),
-               static_cast<unsigned long long>(triangle_count), rate / 1e6);
+  std::fprintf(stderr, "\r%s: %s, %.3g million a second    ", tool_.c_str(),
+               counted(triangle_count, "triangle").c_str(), rate / 1e6);
   std::fflush(stderr);
 }
 

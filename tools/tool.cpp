@@ -193,12 +193,11 @@ void Tool::report_timing() {
   const double seconds = timing_.read_seconds + timing_.work_seconds + timing_.write_seconds;
   const double read_mb = static_cast<double>(input().bytes_read()) / 1e6;
   const double written_mb = static_cast<double>(output_.bytes_written()) / 1e6;
-  std::snprintf(
-      line, sizeof line,
-      "%s: %llu triangles in %.3f s (read %.3f, work %.3f, write %.3f), %.1f MB in, %.1f MB out, %.0f MB/s",
-      name_.c_str(), static_cast<unsigned long long>(timing_.triangle_count), seconds, timing_.read_seconds,
-      timing_.work_seconds, timing_.write_seconds, read_mb, written_mb,
-      seconds > 0 ? read_mb / seconds : 0.0);
+  std::snprintf(line, sizeof line,
+                "%s: %s in %.3f s (read %.3f, work %.3f, write %.3f), %.1f MB in, %.1f MB out, %.0f MB/s",
+                name_.c_str(), counted(timing_.triangle_count, "triangle").c_str(), seconds,
+                timing_.read_seconds, timing_.work_seconds, timing_.write_seconds, read_mb, written_mb,
+                seconds > 0 ? read_mb / seconds : 0.0);
   print_on_stderr(line + (timing_.details.empty() ? "" : "; " + timing_.details));
 }
 

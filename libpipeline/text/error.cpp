@@ -44,6 +44,10 @@ std::string on_one_line(std::string_view text) {
   return result;
 }
 
+std::string counted(std::uint64_t count, std::string_view noun) {
+  return (std::to_string(count) + " ").append(noun) + (count == 1 ? "" : "s");
+}
+
 std::string expected_but_found(const std::string& expected, const std::string& found) {
   return "expected " + expected + ", found " + found;
 }

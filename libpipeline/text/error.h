@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -23,6 +24,9 @@ std::string quoted(std::string_view text);
 
 /// The text with its control characters as \xNN, so that it stays on its line.
 std::string on_one_line(std::string_view text);
+
+/// A count with its noun, singular only for 1: "1 triangle", "0 triangles".
+std::string counted(std::uint64_t count, std::string_view noun);
 
 /// "expected `expected`, found `found`": the form of every message about input.
 std::string expected_but_found(const std::string& expected, const std::string& found);

@@ -86,7 +86,8 @@ def compare_z_buffers(a, b, tolerance, is_relative=False):
     uneven = [(row, len(line_a), len(line_b)) for row, (line_a, line_b) in enumerate(zip(a, b)) if len(line_a) != len(line_b)]
     if uneven:
         row, count_a, count_b = uneven[0]
-        result.unlike.append(f"{len(uneven)} rows show another number of pixels, first row {row}: {count_a} and {count_b}")
+        rows = f"1 row shows another number of pixels, row {row}" if len(uneven) == 1 else f"{len(uneven)} rows show another number of pixels, first row {row}"
+        result.unlike.append(f"{rows}: {count_a} and {count_b}")
     for row, (line_a, line_b) in enumerate(zip(a, b)):
         if len(line_a) == len(line_b):
             for i, (x, y) in enumerate(zip(line_a, line_b)):

@@ -25,7 +25,7 @@ def packed(kind, numbers):
 
 def time_told(stderr):
     """Seconds of a --timing line."""
-    return float(re.search(r"triangles in (\d+\.\d+) s", stderr).group(1))
+    return float(re.search(r"triangles? in (\d+\.\d+) s", stderr).group(1))
 
 
 def notes_told(stderr):

@@ -114,7 +114,7 @@ def parsed(text, name):
         except ValueError:
             raise StageTextError(f"{name}:{number}: expected numbers, found '{shown(line.strip()[:40])}'") from None
         if len(numbers) < 3:
-            raise StageTextError(f"{name}:{number}: expected x, y and z, found {len(numbers)} numbers")
+            raise StageTextError(f"{name}:{number}: expected x, y and z, found {'1 number' if len(numbers) == 1 else f'{len(numbers)} numbers'}")
         if len(vertices) % 3 == 0:
             names.append(next_name)
             next_name += 1

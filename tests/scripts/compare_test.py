@@ -105,7 +105,7 @@ class TwoFiles(ToolTest):
 
     def test_z_buffers_are_compared_row_by_row(self):
         table = self.told("\n0.5\t0.25\t\n0.1\t\n", "\n0.5\t0.5\t\n0.1\t0.2\t\n")
-        self.assertEqual(cells(table, "not alike"), ["1 rows show another number of pixels, first row 2: 1 and 2"])
+        self.assertEqual(cells(table, "not alike"), ["1 row shows another number of pixels, row 2: 1 and 2"])
         self.assertEqual(cells(table, "first difference"), ["line 2, number 2: 0.25 and 0.5"])
 
     def test_pixels_differ_by_their_worst_channel(self):

@@ -56,6 +56,12 @@ TEST(Quoted, NothingIsAPairOfQuotes) {
   EXPECT_EQ(pipeline::quoted(""), "''");
 }
 
+TEST(Counted, OneIsSingular) {
+  EXPECT_EQ(counted(0, "triangle"), "0 triangles");
+  EXPECT_EQ(counted(1, "triangle"), "1 triangle");
+  EXPECT_EQ(counted(18446744073709551615u, "pixel"), "18446744073709551615 pixels");
+}
+
 TEST(OnOneLine, ShowsControlCharactersInHexadecimal) {
   EXPECT_EQ(on_one_line("a\nb\r\x7f"), "a\\x0ab\\x0d\\x7f");
 }

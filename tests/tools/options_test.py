@@ -166,6 +166,10 @@ class Answers(ToolTest):
             self.assertEqual((timed.returncode, timed.stdout), (0, plain.stdout))
             self.assertRegex(timed.stderr.decode(), rf"\A{tool}: 2 triangles in \d+\.\d+ s .*\n\Z")
 
+    def test_timing_counts_one_triangle_in_the_singular(self):
+        for tool, text in zip(TOOLS, [SCENE.encode(), *stage_texts()]):
+            self.assertRegex(run(tool, *OPERANDS[tool], "--timing", stdin=text).stderr.decode(), rf"\A{tool}: 1 triangle in \d")
+
     def test_timing_says_nothing_of_a_failed_run(self):
         self.assertNotIn(b"triangles in", run("model", "--timing", stdin="x").stderr)
 
