@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "libpipeline/scene/spelling.h"
 #include "libpipeline/text/number_parser.h"
 #include "libpipeline/text/number_printer.h"
 
@@ -36,10 +37,21 @@ const CLI::Option* named_in(const CLI::App& options, const std::string& message)
   return named;
 }
 
+/// " (did you mean --image?)" for a word such as --imgae=out.bmp, or nothing.
+std::string option_hint(const CLI::App& options, const std::string& word) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : options.get_options())
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  const std::string_view nearest =
+      nearest_word(word.substr(0, word.find('=')), std::vector<std::string_view>(names.begin(), names.end()));
+  return nearest.empty() ? "" : " (did you mean " + std::string(nearest) + "?)";
+}
+
 std::string explained_extra(const CLI::App& options) {
   const std::string word = options.remaining().front();
   if (word.size() > 1 && word.front() == '-')
-    return expected_but_found("an option of " + options.get_name(), pipeline::quoted(word));
+    return expected_but_found("an option of " + options.get_name(), pipeline::quoted(word)) +
+           option_hint(options, word);
   return expected_but_found("no further operand", pipeline::quoted(word));
 }
 
@@ -165,7 +177,9 @@ void CommandLine::add_choice_of_words(const std::string& name, const std::vector
   const auto choose = [name, words, take](const std::string& found) {
     const auto word = std::find(words.begin(), words.end(), found);
     if (word == words.end())
-      throw CLI::ValidationError(name, expected_but_found(listed(words), pipeline::quoted(found)));
+      throw CLI::ValidationError(
+          name, expected_but_found(listed(words), pipeline::quoted(found)) +
+                    spelling_hint(found, std::vector<std::string_view>(words.begin(), words.end())));
     take(static_cast<std::size_t>(word - words.begin()));
   };
   app_->add_option_function<std::string>(name, choose, help)->type_name(type_name)->default_str(default_word);

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "libpipeline/scene/header_line.h"
+#include "libpipeline/scene/spelling.h"
 
 namespace pipeline {
 namespace {
@@ -41,9 +42,12 @@ AttributeSet read_attributes(LineScanner& line, AttributeSource source) {
   set.w = may_be_w && take("w");
   set.color = take("color");
   set.normal = take("normal");
-  if (!set.any() || !line.at_end())
+  if (!set.any() || !line.at_end()) {
+    constexpr std::array<std::string_view, 3> kNames = {"w", "color", "normal"};
     line.fail(may_be_w ? "attributes of [w] [color] [normal], in this order"
-                       : "attributes of [color] [normal], in this order");
+                       : "attributes of [color] [normal], in this order",
+              spelling_hint(line.peek(), kNames));
+  }
   return set;
 }
 
@@ -88,10 +92,14 @@ void set_once(std::optional<Located<T>>& part, std::string_view keyword,
 
 }  // namespace
 
+std::span<const std::string_view> appearance_keywords() {
+  static constexpr std::array<std::string_view, 6> kKeywords = {"attributes", "background",  "ambient",
+                                                                "material",   "attenuation", "light"};
+  return kKeywords;
+}
+
 bool is_appearance_keyword(std::string_view keyword) {
-  constexpr std::array<std::string_view, 6> kKeywords = {"attributes", "background",  "ambient",
-                                                         "material",   "attenuation", "light"};
-  return std::find(kKeywords.begin(), kKeywords.end(), keyword) != kKeywords.end();
+  return std::ranges::find(appearance_keywords(), keyword) != appearance_keywords().end();
 }
 
 void read_appearance_part(std::string_view keyword, const SourceLocation& keyword_location, LineScanner& line,

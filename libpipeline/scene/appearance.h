@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -53,7 +54,8 @@ struct Appearance {
 /// Where a line `attributes` stands: a scene may not name w, which the project stage adds.
 enum class AttributeSource { scene, stage_text };
 
-/// True for `attributes`, `background`, `ambient`, `material`, `attenuation` and `light`.
+/// `attributes`, `background`, `ambient`, `material`, `attenuation` and `light`.
+std::span<const std::string_view> appearance_keywords();
 bool is_appearance_keyword(std::string_view keyword);
 
 /// Reads the arguments of such a keyword, to the end of the line, and adds them to `appearance`. An

@@ -1,10 +1,12 @@
 #include "libpipeline/scene/camera.h"
 
+#include <array>
 #include <cassert>
 #include <string>
 #include <type_traits>
 
 #include "libpipeline/numbers/ball_vec.h"
+#include "libpipeline/scene/spelling.h"
 #include "libpipeline/text/number_printer.h"
 
 namespace pipeline {
@@ -32,8 +34,10 @@ double far_beyond(double near, LineScanner& line) {
 /// Takes the word behind a perspective's numbers, if there is one, to the end of the line.
 AspectRule read_aspect_rule(LineScanner& line) {
   if (line.at_end()) return AspectRule::angle;
+  constexpr std::array<std::string_view, 2> kRules = {"ratio", "angle"};
   const bool is_ratio = line.peek() == "ratio";
-  if (!is_ratio && line.peek() != "angle") line.fail("ratio, angle or the end of the line after far");
+  if (!is_ratio && line.peek() != "angle")
+    line.fail("ratio, angle or the end of the line after far", spelling_hint(line.peek(), kRules));
   line.word();
   line.expect_end(is_ratio ? "'ratio'" : "'angle'");
   return is_ratio ? AspectRule::ratio : AspectRule::angle;

@@ -48,9 +48,9 @@ struct CameraParameters {
   std::optional<Located<Projection>> projection;
 };
 
-/// Reads the numbers after the keyword `perspective`, `frustum` or `ortho`, to the end of the line. Those of a
-/// perspective may be followed by the name of its aspect rule. An InputError at the number that is missing or
-/// breaks a condition of its struct above.
+/// Reads the numbers after the keyword `perspective`, `frustum` or `ortho`, to the end of the line. Those of
+/// a perspective may be followed by the name of its aspect rule. An InputError at the number that is missing
+/// or breaks a condition of its struct above.
 Projection read_projection(std::string_view keyword, LineScanner& line);
 
 /// Reads the numbers after the keyword `eye`, `look`, `up`, `perspective`, `frustum` or `ortho`, to the end

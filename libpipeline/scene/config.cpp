@@ -1,5 +1,6 @@
 #include "libpipeline/scene/config.h"
 
+#include <cstddef>
 #include <string>
 
 #include "libpipeline/numbers/double_double.h"
@@ -16,14 +17,20 @@ LineScanner required_line(TextReader& text, const std::string& expected) {
   return line;
 }
 
+bool is_size(std::size_t size) {
+  return size >= 1 && size <= kMaxViewportSize;
+}
+
 // The readers below take a word from a copy of the line, so that the line itself can report the word when it
 // is out of range.
 
 int read_size(LineScanner& line, const std::string& name) {
   const std::string expected = "the " + name + " in pixels, a whole number from 1 to 65535";
+  if (const auto both = parse_size(line.peek()))
+    line.fail(expected, " (write " + std::to_string(both->columns) + " " + std::to_string(both->rows) + ")");
   LineScanner ahead = line;
   const std::size_t size = ahead.count(expected);
-  if (size < 1 || size > kMaxViewportSize) line.fail(expected);
+  if (!is_size(size)) line.fail(expected);
   line = ahead;
   return static_cast<int>(size);
 }
@@ -57,6 +64,19 @@ void read_depth_limits(LineScanner line, Viewport& viewport) {
 }
 
 }  // namespace
+
+std::optional<Viewport> parse_size(std::string_view word) {
+  const std::size_t x = word.find('x');
+  std::size_t columns = 0;
+  std::size_t rows = 0;
+  if (x == std::string_view::npos || !parse_count(word.substr(0, x), columns) ||
+      !parse_count(word.substr(x + 1), rows) || !is_size(columns) || !is_size(rows))
+    return std::nullopt;
+  Viewport viewport;
+  viewport.columns = static_cast<int>(columns);
+  viewport.rows = static_cast<int>(rows);
+  return viewport;
+}
 
 Viewport read_config(TextReader& text) {
   Viewport viewport;

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <optional>
+#include <string_view>
+
 #include "libpipeline/scene/viewport.h"
 #include "libpipeline/text/text_reader.h"
 
@@ -10,5 +13,8 @@ namespace pipeline {
 /// kMaxViewportSize, left and bottom lie in [-kMaxLimit, -kMinLimit], front < rear. An InputError at the
 /// location of anything that is wrong, missing or left over.
 Viewport read_config(TextReader& text);
+
+/// The viewport of a config that is `WIDTHxHEIGHT` in one word, without limits; nullopt for any other word.
+std::optional<Viewport> parse_size(std::string_view word);
 
 }  // namespace pipeline

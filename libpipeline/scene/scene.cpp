@@ -1,11 +1,20 @@
 #include "libpipeline/scene/scene.h"
 
 #include <algorithm>
+#include <array>
 #include <string_view>
 
+#include "libpipeline/scene/spelling.h"
 #include "libpipeline/text/fixed_text.h"
 
 namespace pipeline {
+namespace {
+
+constexpr std::array<std::string_view, 14> kCommands = {
+    "triangle", "translate",  "scale",      "rotate", "push",    "pop",      "end",
+    "color",    "attributes", "background", "light",  "ambient", "material", "attenuation"};
+
+}  // namespace
 
 SceneReader::SceneReader(TextReader& text) : text_(text) {
   camera_.eye = read_camera_vec3("the eye");
@@ -77,7 +86,7 @@ Command SceneReader::next() {
     return EndCommand{};
   }
   if (keyword == "color" || is_appearance_keyword(keyword)) return read_appearance(keyword);
-  line_.fail(expected_commands());
+  line_.fail(expected_commands(), spelling_hint(keyword, kCommands));
 }
 
 /// The commands that are allowed here.

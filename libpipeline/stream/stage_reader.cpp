@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <string_view>
+#include <vector>
 
 #include "libpipeline/scene/header_line.h"
+#include "libpipeline/scene/spelling.h"
 
 namespace pipeline {
 namespace {
@@ -14,11 +16,20 @@ bool is_vertex(std::string_view word) {
                            (word.front() >= '0' && word.front() <= '9'));
 }
 
+// Of the header, besides those of the appearance.
+constexpr std::array<std::string_view, 7> kKeywords = {"framed",      "eye",     "look", "up",
+                                                       "perspective", "frustum", "ortho"};
+
 bool is_header_keyword(std::string_view word) {
-  constexpr std::array<std::string_view, 7> kKeywords = {"framed",      "eye",     "look", "up",
-                                                         "perspective", "frustum", "ortho"};
   return std::find(kKeywords.begin(), kKeywords.end(), word) != kKeywords.end() ||
          is_appearance_keyword(word);
+}
+
+std::string keyword_hint(std::string_view word) {
+  std::vector<std::string_view> known(kKeywords.begin(), kKeywords.end());
+  known.insert(known.end(), appearance_keywords().begin(), appearance_keywords().end());
+  known.insert(known.end(), {"triangle", "clipped"});
+  return spelling_hint(word, known);
 }
 
 }  // namespace
@@ -162,7 +173,7 @@ void StageReader::reject(LineScanner& line, const std::string& also_expected) {
   if (is_header_keyword(keyword))
     throw InputError(location, expected_but_found("header lines before the first triangle", quoted(keyword)));
   const std::string hint = keyword == "end" ? " ('end' needs a line 'framed' in the header)" : "";
-  at_keyword.fail(also_expected + "'triangle N' or a vertex" + hint);
+  at_keyword.fail(also_expected + "'triangle N' or a vertex" + hint, keyword_hint(keyword));
 }
 
 }  // namespace pipeline

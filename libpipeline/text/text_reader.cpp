@@ -101,9 +101,9 @@ SourceLocation LineScanner::location_of(std::string_view word) const {
   return {*file_, line_number_, static_cast<std::size_t>(word.data() - line_.data()) + 1};
 }
 
-void LineScanner::fail(const std::string& expected) const {
+void LineScanner::fail(const std::string& expected, const std::string& hint) const {
   throw InputError(location(),
-                   expected_but_found(expected, at_end() ? "the end of the line" : quoted(peek())));
+                   expected_but_found(expected, at_end() ? "the end of the line" : quoted(peek())) + hint);
 }
 
 TextReader::TextReader(int descriptor, std::string file)

@@ -53,8 +53,8 @@ class LineScanner {
   [[nodiscard]] std::string_view rest_with_comment() const;
   /// True if the line holds nothing but a comment.
   [[nodiscard]] bool is_comment() const { return line_.empty() && has_comment_; }
-  /// Throws "expected `expected`, found" the next word, at its location.
-  [[noreturn]] void fail(const std::string& expected) const;
+  /// Throws "expected `expected`, found" the next word, at its location. `hint` ends the message.
+  [[noreturn]] void fail(const std::string& expected, const std::string& hint = "") const;
 
  private:
   void skip_blanks();

@@ -345,7 +345,7 @@ TEST(Scene, NamesACommandItDoesNotKnow) {
 
 TEST(Scene, CommandsAreInLowerCase) {
   EXPECT_EQ(error_of_commands("Triangle\n"),
-            "scene.txt:5:1: expected " + kFirstCommands + ", found 'Triangle'");
+            "scene.txt:5:1: expected " + kFirstCommands + ", found 'Triangle' (keywords are lower case)");
 }
 
 TEST(Scene, NamesColorWhereItMayChange) {

@@ -210,14 +210,14 @@ TEST(StageReader, AHeaderLineBehindTheFirstTriangleIsAnError) {
 
 TEST(StageReader, NamesAKeywordItDoesNotKnow) {
   EXPECT_EQ(error_of("eyes 0 0 5\n"),
-            "in.txt:1:1: expected a header line, 'triangle N' or a vertex, found 'eyes'");
+            "in.txt:1:1: expected a header line, 'triangle N' or a vertex, found 'eyes' (did you mean eye?)");
   EXPECT_EQ(error_of(kTriangle + "quad\n"), "in.txt:5:1: expected 'triangle N' or a vertex, found 'quad'");
 }
 
 TEST(StageReader, ReportsAnErrorBeforeTheFirstTriangleAtOnce) {
   // A misspelt header line must not be reported as a missing one.
   EXPECT_EQ(message_of([] { header_of("eyes 0 0 5\n"); }),
-            "in.txt:1:1: expected a header line, 'triangle N' or a vertex, found 'eyes'");
+            "in.txt:1:1: expected a header line, 'triangle N' or a vertex, found 'eyes' (did you mean eye?)");
   EXPECT_EQ(message_of([] { header_of("error model: no scene\n"); }),
             "in.txt:1:1: an earlier stage failed: model: no scene");
   EXPECT_EQ(message_of([] { header_of("framed\n"); }),

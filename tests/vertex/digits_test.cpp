@@ -381,8 +381,7 @@ Model random_ordinary_model(RandomNumbers& random) {
 
 TEST(Digits, OfOrdinaryScenesAreCertain) {
   RandomNumbers random(2);
-  const ProjectionTransform projection =
-      clip_from_view({Perspective{60, 1.25, 0.1, 100}, {}});
+  const ProjectionTransform projection = clip_from_view({Perspective{60, 1.25, 0.1, 100}, {}});
   for (int i = 0; i < 1'000; ++i) {
     const AffineMatrix model = random_ordinary_model(random).computed;
     Vec3 eye = random_ordinary_point(random, 10);
@@ -411,8 +410,7 @@ TEST(Digits, OfOrdinaryScenesAreCertain) {
 TEST(Digits, OfTheWOfACutVertexAreNoted) {
   // Cut at w = 1e-20 between 1 and -1: of the 31 digits 11 are left, which is enough for -1.0000000 but not
   // for the w of a double. The cut of the other edge has no digit of its x right.
-  const ProjectionTransform projection =
-      clip_from_view({Perspective{90, 1, 1e-20, 10}, {}});
+  const ProjectionTransform projection = clip_from_view({Perspective{90, 1, 1e-20, 10}, {}});
   for (const bool has_colors : {false, true}) {
     TriangleBatch p_view = batch_of(Triangle{Vec3{0, 0, -1}, Vec3{0, 0, 1}, Vec3{1, 0, 1}});
     if (has_colors) p_view.attributes.add(std::array<VertexLine, 3>(), {false, true, false});
@@ -460,8 +458,7 @@ TEST(Digits, OfTheWindowOfAPerspectiveAreRight) {
     if (i % 3 == 2) fov = 180 - random_size(random, -13, 0);
     const Located<Projection> perspective = {Perspective{fov, 1, random_size(random, -20, 20), 1e30}, {}};
     const auto exact = reference_projection<kBits>(perspective.value);
-    const auto window =
-        std::get<Frustum>(volume_of(perspective, clip_from_view(perspective)));
+    const auto window = std::get<Frustum>(volume_of(perspective, clip_from_view(perspective)));
     ASSERT_EQ(window.right, exact.right.nearest_double()) << fov;
     ASSERT_EQ(window.top, exact.top.nearest_double()) << fov;
   }

@@ -12,11 +12,11 @@ namespace {
 
 /// Checks the images of vertices that need no clipping.
 template <int bits>
-void expect_images(const Projection& projection, const std::vector<Vec3>& vertices,
-                   NumberFormat format, const Real<bits>& size) {
+void expect_images(const Projection& projection, const std::vector<Vec3>& vertices, NumberFormat format,
+                   const Real<bits>& size) {
   const auto exact = reference_projection<bits>(projection);
-  const Result result = projected(batch_of(vertices), transform_of(projection), ClipMode::automatic,
-                                  CullMode::nothing, format);
+  const Result result =
+      projected(batch_of(vertices), transform_of(projection), ClipMode::automatic, CullMode::nothing, format);
   expect_printed<bits>(result.p_ndc, vertices, format, size, [&](const auto& p) { return exact.ndc(p); });
 }
 

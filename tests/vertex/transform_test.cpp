@@ -345,8 +345,8 @@ TEST(ClipFromView, ContainsTheTruthOfAPerspective) {
   RandomNumbers random(8);
   for (int i = 0; i < 2'000; ++i) {
     const double fov_y = random.between(0.001, 179.999);
-    Perspective p = {fov_y, random.between(0.001, 179.99 / fov_y),
-                           std::fabs(random.with_exponent(-20, 20)), 0x1p30};
+    Perspective p = {fov_y, random.between(0.001, 179.99 / fov_y), std::fabs(random.with_exponent(-20, 20)),
+                     0x1p30};
     expect_projection(p);
     p.aspect_rule = AspectRule::ratio;
     expect_projection(p);

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace pipeline {
+
+/// The known word that `found` is most likely meant to be: the nearest, if at most every third letter has to
+/// be inserted, deleted, replaced or swapped with its neighbor; empty if there is none. Upper and lower case
+/// are the same letter. (F. Damerau, A technique for computer detection and correction of spelling errors,
+/// 1964.)
+std::string_view nearest_word(std::string_view found, std::span<const std::string_view> known);
+
+/// The end of a message "expected ..., found `found`" where one of the known words was expected:
+/// " (keywords are lower case)", " (did you mean triangle?)", or nothing, also for a known word out of place.
+std::string spelling_hint(std::string_view found, std::span<const std::string_view> known);
+
+}  // namespace pipeline
