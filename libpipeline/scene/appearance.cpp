@@ -56,7 +56,7 @@ Material read_material(LineScanner& line) {
   material.ambient = number_from_zero(line, "the ambient factor");
   material.diffuse = number_from_zero(line, "the diffuse factor");
   material.specular = number_from_zero(line, "the specular factor");
-  material.shininess = line.count("the shininess, a whole number below 2^64");
+  material.shininess = line.whole("the shininess, a whole number below 2^64");
   line.expect_end("the shininess");
   return material;
 }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <cstring>
 #include <utility>
 
@@ -81,6 +82,18 @@ std::size_t LineScanner::count(std::string_view expected) {
   if (!parse_count(peek(), value)) fail(std::string(expected));
   word();
   return value;
+}
+
+std::size_t LineScanner::whole(std::string_view expected) {
+  constexpr double kEnd = 0x1p64;
+  static_assert(sizeof(std::size_t) == 8);
+  std::size_t value = 0;
+  if (parse_count(peek(), value)) return word(), value;
+  const auto [number, error] = parse_number(peek());
+  if (error != NumberError::none || !(number >= 0 && number < kEnd) || number != std::floor(number))
+    fail(std::string(expected));
+  word();
+  return static_cast<std::size_t>(number);
 }
 
 void LineScanner::expect_end(std::string_view after, std::string_view of) const {

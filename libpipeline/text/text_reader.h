@@ -53,6 +53,8 @@ class LineScanner {
   [[nodiscard]] std::string_view rest_with_comment() const;
   /// True if the line holds nothing but a comment.
   [[nodiscard]] bool is_comment() const { return line_.empty() && has_comment_; }
+  /// Takes the next word as a whole number, which may be written with decimals or an exponent: 16.0.
+  std::size_t whole(std::string_view expected);
   /// Throws "expected `expected`, found" the next word, at its location. `hint` ends the message.
   [[noreturn]] void fail(const std::string& expected, const std::string& hint = "") const;
 

@@ -150,6 +150,22 @@ TEST(Appearance, TheShininessIsWhole) {
             "scene.txt:5:16: expected the shininess, a whole number below 2^64, found '1.5'");
 }
 
+TEST(Appearance, AWholeShininessMayBeWrittenWithDecimals) {
+  const auto shininess_of = [](const std::string& number) {
+    return scene_of("material 1 1 0 " + number + "\n").appearance.material->value.shininess;
+  };
+  EXPECT_EQ(shininess_of("16.0"), 16u);
+  EXPECT_EQ(shininess_of("+1.6e1"), 16u);
+  EXPECT_EQ(shininess_of("0.000"), 0u);
+  EXPECT_EQ(shininess_of("18446744073709551615"), 18446744073709551615u);
+}
+
+TEST(Appearance, AShininessIsBelowTwoToThe64) {
+  for (const std::string number : {"18446744073709551616", "1e20", "1e999", "-1.0", "nan", "16.5"})
+    EXPECT_EQ(error_of("material 1 1 0 " + number + "\n"),
+              "scene.txt:5:16: expected the shininess, a whole number below 2^64, found '" + number + "'");
+}
+
 TEST(Appearance, AnAttenuationIsNotAllZero) {
   EXPECT_EQ(error_of("attenuation 0 0 0\n"),
             "scene.txt:5:13: expected an attenuation other than 0 0 0, found 0 0 0");
