@@ -11,21 +11,36 @@
 namespace pipeline {
 namespace {
 
+// Of --help, in characters.
+constexpr std::size_t kLineWidth = 100;
+constexpr std::size_t kNameWidth = 28;
+
+constexpr const char* kLastGroup = "General";
+
 bool is_flag(const CLI::Option& option) {
   return option.get_expected_max() == 0;
 }
 
-class HelpForm : public CLI::Formatter {
- public:
-  std::string make_option_opts(const CLI::Option* option) const override {
-    const bool is_operand = option->get_lnames().empty();
-    return is_operand || is_flag(*option) ? "" : " " + option->get_type_name();
+/// The text with line breaks in place of blanks where a line would be longer than `width`.
+std::string wrapped(std::string_view text, std::size_t width) {
+  std::string lines;
+  std::size_t column = 0;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find_first_of(" \n", begin), text.size());
+    const std::string_view word = text.substr(begin, end - begin);
+    const bool is_first = column == 0;
+    const bool has_room = column + 1 + word.size() <= width;
+    if (!is_first) lines += has_room ? ' ' : '\n';
+    column = is_first || !has_room ? word.size() : column + 1 + word.size();
+    lines += word;
+    begin = end + 1;
+    if (end < text.size() && text[end] == '\n') {
+      lines += '\n';
+      column = 0;
+    }
   }
-  std::string make_option_desc(const CLI::Option* option) const override {
-    const std::string standard = option->get_default_str();
-    return option->get_description() + (standard.empty() ? "" : " (default: " + standard + ")");
-  }
-};
+  return lines;
+}
 
 /// The option or operand that a message of CLI11 names; of "--depth" and "--depth-image" the longer.
 const CLI::Option* named_in(const CLI::App& options, const std::string& message) {
@@ -78,8 +93,6 @@ std::string explained(const CLI::App& options, const CLI::ParseError& error) {
   if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) return explained_extra(options);
   const CLI::Option* const option = named_in(options, error.what());
   if (option == nullptr) return error.what();
-  if (dynamic_cast<const CLI::RequiredError*>(&error) != nullptr)
-    return expected_but_found("an operand " + option->get_name(), "none");
   if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr)
     return option->get_name() + ": " + explained_count(*option);
   if (is_flag(*option) && !option->results().empty())
@@ -90,6 +103,52 @@ std::string explained(const CLI::App& options, const CLI::ParseError& error) {
 
 }  // namespace
 
+class HelpForm : public CLI::Formatter {
+ public:
+  HelpForm() {
+    column_width(kNameWidth);
+    label("Positionals", "Operands");
+  }
+
+  void set_usage(const std::string& usage) { usage_ = usage; }
+
+  std::string make_description(const CLI::App* app) const override {
+    return wrapped(app->get_description(), kLineWidth) + "\n";
+  }
+  std::string make_usage(const CLI::App* app, std::string name) const override {
+    return usage_.empty() ? CLI::Formatter::make_usage(app, std::move(name)) : usage_ + "\n";
+  }
+  std::string make_help(const CLI::App* app, std::string name, CLI::AppFormatMode) const override {
+    return make_description(app) + make_usage(app, std::move(name)) + make_positionals(app) + groups_of(app) +
+           "\n" + make_footer(app);
+  }
+  std::string make_option_opts(const CLI::Option* option) const override {
+    const bool is_operand = option->get_lnames().empty();
+    return is_operand || is_flag(*option) ? "" : " " + option->get_type_name();
+  }
+  std::string make_option_desc(const CLI::Option* option) const override {
+    const std::string standard = option->get_default_str();
+    return wrapped(option->get_description() + (standard.empty() ? "" : " (default: " + standard + ")"),
+                   kLineWidth - kNameWidth);
+  }
+
+ private:
+  std::string groups_of(const CLI::App* app) const {
+    std::vector<std::string> groups = app->get_groups();
+    std::stable_partition(groups.begin(), groups.end(),
+                          [](const std::string& group) { return group != kLastGroup; });
+    std::string text;
+    for (const std::string& group : groups) {
+      const auto options = app->get_options(
+          [&](const CLI::Option* option) { return option->get_group() == group && option->nonpositional(); });
+      if (!options.empty()) text += make_group(group, false, options);
+    }
+    return text;
+  }
+
+  std::string usage_;  // empty: CLI11's
+};
+
 std::string listed(const std::vector<std::string>& words) {
   std::string text;
   for (std::size_t i = 0; i < words.size(); ++i)
@@ -97,16 +156,32 @@ std::string listed(const std::vector<std::string>& words) {
   return text;
 }
 
-CommandLine::CommandLine(const std::string& tool, const std::string& description, const std::string& version)
-    : app_(std::make_unique<CLI::App>(description, tool)) {
-  app_->formatter(std::make_shared<HelpForm>());
-  app_->footer(
-      "The pipeline: model scene.txt | view | project | zbuf config.txt\n"
-      "Exit status: 0 done; 1 bad input, or reading or writing failed; 2 a wrong command line");
+CommandLine::CommandLine(const std::string& tool, const std::string& description,
+                         std::span<const char* const> examples, const std::string& version)
+    : app_(std::make_unique<CLI::App>(description, tool)), help_form_(std::make_shared<HelpForm>()) {
+  app_->formatter(help_form_);
+  std::string footer = "Examples:\n";
+  for (const char* example : examples) footer += "  " + std::string(example) + "\n";
+  app_->footer(footer +
+               "\nExit status: 0 done; 1 bad input, or reading or writing failed; 2 a wrong command line");
+  app_->option_defaults()->group(kLastGroup);
+  app_->get_help_ptr()->group(kLastGroup);
   app_->set_version_flag("--version", version);
 }
 
 CommandLine::~CommandLine() = default;
+
+void CommandLine::begin_group(const std::string& name) {
+  app_->option_defaults()->group(name);
+}
+
+void CommandLine::set_usage(const std::string& usage) {
+  help_form_->set_usage(usage);
+}
+
+bool CommandLine::is_given(const std::string& name) const {
+  return app_->count(name) > 0;
+}
 
 void CommandLine::add_flag(const std::string& name, bool& chosen, const std::string& help) {
   app_->add_flag(name, chosen, help);
@@ -164,9 +239,8 @@ void CommandLine::add_threads(int& thread_count, const std::string& help) {
   add_whole("--threads", thread_count, 1, 256, help);
 }
 
-void CommandLine::add_operand(const std::string& name, std::string& word, bool is_required,
-                              const std::string& help) {
-  app_->add_option(name, word, help)->required(is_required)->capture_default_str();
+void CommandLine::add_operand(const std::string& name, std::string& word, const std::string& help) {
+  app_->add_option(name, word, help)->capture_default_str();
 }
 
 void CommandLine::add_choice_of_words(const std::string& name, const std::vector<std::string>& words,

@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -41,13 +42,21 @@ WordCheck wrong_with_name(F check) {
   };
 }
 
+class HelpForm;
+
 /// CLI11 with one form for all options, messages and help texts. An option's value is stored in the variable
-/// it was added with; the variable's initial value is the default.
+/// it was added with; the variable's initial value is the default. --help wraps its lines.
 class CommandLine {
  public:
-  CommandLine(const std::string& tool, const std::string& description, const std::string& version);
+  CommandLine(const std::string& tool, const std::string& description, std::span<const char* const> examples,
+              const std::string& version);
   ~CommandLine();
 
+  /// The options added from here on stand in this group of --help; those before the first call, with --help,
+  /// in the last one.
+  void begin_group(const std::string& name);
+  /// The first lines of --help, in place of those that follow from the operands.
+  void set_usage(const std::string& usage);
   void add_flag(const std::string& name, bool& chosen, const std::string& help);
   /// An option that takes one word of any kind, which --help calls `type_name`.
   void add_word(const std::string& name, const std::string& type_name, std::string& word,
@@ -80,11 +89,14 @@ class CommandLine {
   }
   /// `--threads`, from 1 to 256.
   void add_threads(int& thread_count, const std::string& help);
-  void add_operand(const std::string& name, std::string& word, bool is_required, const std::string& help);
+  /// An operand, which may be left out.
+  void add_operand(const std::string& name, std::string& word, const std::string& help);
 
   /// Parses the arguments of `main`. Returns the text requested by --help or --version, else nothing. A
   /// UsageError ("option: expected ..., found ...") if the command line is wrong.
   std::optional<std::string> parse(int argc, char** argv);
+  /// True if the option or operand of that name stood on the command line.
+  [[nodiscard]] bool is_given(const std::string& name) const;
 
  private:
   void add_choice_of_words(const std::string& name, const std::vector<std::string>& words,
@@ -92,6 +104,7 @@ class CommandLine {
                            const std::function<void(std::size_t)>& take);
 
   std::unique_ptr<CLI::App> app_;
+  std::shared_ptr<HelpForm> help_form_;
 };
 
 }  // namespace pipeline

@@ -6,10 +6,12 @@ namespace pipeline {
 
 DepthFiles::DepthFiles(TextWriter& standard_output, const std::string& text_path,
                        const std::string& image_path, const Viewport& screen)
-    : rear_(screen.rear), standard_output_(standard_output) {
-  if (text_path != "-") {
+    : rear_(screen.rear) {
+  if (text_path == "-") {
+    text_ = &standard_output;
+  } else if (text_path != "none") {
     text_file_.emplace(text_path);
-    text_.emplace(text_file_->descriptor(), text_path);
+    text_ = &text_of_file_.emplace(text_file_->descriptor(), text_path);
   }
   if (!image_path.empty()) {
     image_file_.emplace(image_path);
@@ -18,12 +20,12 @@ DepthFiles::DepthFiles(TextWriter& standard_output, const std::string& text_path
 }
 
 void DepthFiles::write_row(std::span<const double> depths) {
-  write_depth_row(text_ ? *text_ : standard_output_, depths, rear_);
+  if (text_ != nullptr) write_depth_row(*text_, depths, rear_);
   if (image_) image_->write_row(depths);
 }
 
 void DepthFiles::close() {
-  (text_ ? *text_ : standard_output_).flush();
+  if (text_ != nullptr) text_->flush();
   if (image_) image_->finish();
   if (text_file_) text_file_->close();
   if (image_file_) image_file_->close();

@@ -15,7 +15,7 @@ namespace pipeline {
 /// requested. `commit` moves the files to their names.
 class DepthFiles {
  public:
-  /// `text_path` is "-" for `standard_output`; an empty `image_path` means no image.
+  /// `text_path` is "-" for `standard_output`, "none" for no text; an empty `image_path` means no image.
   DepthFiles(TextWriter& standard_output, const std::string& text_path, const std::string& image_path,
              const Viewport& screen);
 
@@ -27,9 +27,9 @@ class DepthFiles {
 
  private:
   double rear_;
-  TextWriter& standard_output_;
   std::optional<OutputFile> text_file_;
-  std::optional<TextWriter> text_;
+  std::optional<TextWriter> text_of_file_;
+  TextWriter* text_ = nullptr;  // standard output or that of the file; null: none
   std::optional<OutputFile> image_file_;
   std::optional<DepthImageWriter> image_;
 };

@@ -10,12 +10,16 @@
 using namespace pipeline;
 
 int main(int argc, char** argv) {
-  Tool tool({"model", "Reads a scene and writes its triangles in world space, with the camera in the header.",
-             "The scene (scene.txt)"},
+  Tool tool({"model",
+             "Reads a scene and writes its triangles in world space, with the camera in the header.",
+             "The scene (scene.txt)",
+             {"model scene.txt | view | project | zbuf config.txt > z_buffer.txt",
+              "model --bare scene.txt > stage1.txt"}},
             OutputKind::stage_text);
   NumberOptions numbers(tool.options());
   bool bare = false;
   bool framed = false;
+  tool.options().begin_group("Output");
   tool.options().add_flag("--bare", bare, "Write the triangles alone (stage1.txt)");
   tool.options().add_flag("--framed", framed,
                           "Write 'framed' and 'end' around the text, so that a truncated text is noticed");

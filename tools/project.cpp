@@ -30,6 +30,7 @@ void add_options(CommandLine& options, ProjectOptions& chosen) {
       "angle: fovX = fovY * aspect\n"
       "ratio: tan(fovX/2) = tan(fovY/2) * aspect, as in gluPerspective\n"
       "Without the option: as the perspective says, angle if it ends in neither word");
+  options.begin_group("Clipping");
   options.add_choice<ClipMode>("--clip", chosen.clip,
                                {{"auto", ClipMode::automatic},
                                 {"near", ClipMode::near},
@@ -45,7 +46,7 @@ void add_options(CommandLine& options, ProjectOptions& chosen) {
       "--clip-inset", "F", chosen.clip_inset, [](double inset) { return inset >= 0 && inset < 1; },
       "a number from 0 to less than 1",
       "Pull in the planes of --clip near, frustum or reject, so that the cuts can be seen: 0.1 keeps "
-      "the triangles\n"
+      "the triangles "
       "between -0.9 and 0.9 in NDC");
   options.add_choice<CullMode>(
       "--cull", chosen.cull, {{"back", CullMode::back}, {"front", CullMode::front}},
@@ -89,10 +90,13 @@ Appearance in_clip_space(Appearance appearance) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  Tool tool({"project",
-             "Reads triangles in view space and writes them in normalized device coordinates (stage3.txt).",
-             "The output of view (or stage2.txt)"},
-            OutputKind::stage_text);
+  Tool tool(
+      {"project",
+       "Reads triangles in view space and writes them in normalized device coordinates (stage3.txt).",
+       "The output of view (or stage2.txt)",
+       {"project --scene scene.txt stage2.txt > stage3.txt",
+        "model scene.txt | view | project --cull back --clip frustum | zbuf config.txt > z_buffer.txt"}},
+      OutputKind::stage_text);
   NumberOptions numbers(tool.options());
   CameraOptions cameras(tool.options(), CameraOptions::Parts::projection);
   ProjectOptions chosen;

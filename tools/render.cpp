@@ -1,8 +1,10 @@
 #include "tools/render.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "libpipeline/coverage/rules.h"
 #include "libpipeline/picture/image_file.h"
@@ -113,6 +115,15 @@ void draw_all(Tool& tool, const ZbufOptions&, StageReader& reader, TriangleTagSo
       tool, reader, [&]() -> TriangleBatch& { return p_ndc; }, draw);
 }
 
+/// "out.bmp: 400 x 300, 61 % covered". Only an empty picture has 0 %, only a full one 100 %.
+std::string summary(const std::string& image_path, const Viewport& screen, std::uint64_t covered_count) {
+  const std::uint64_t pixel_count = std::uint64_t(screen.columns) * std::uint64_t(screen.rows);
+  std::uint64_t percent = (200 * covered_count / pixel_count + 1) / 2;  // rounded half up
+  if (covered_count > 0 && covered_count < pixel_count) percent = std::clamp<std::uint64_t>(percent, 1, 99);
+  return image_path + ": " + std::to_string(screen.columns) + " x " + std::to_string(screen.rows) + ", " +
+         std::to_string(percent) + " % covered";
+}
+
 template <VisibilityAlgorithm Visible>
 void write_all(Tool& tool, const ZbufOptions& chosen, const SampledVisible<Visible>& visible,
                std::optional<SurfaceShader>& shader) {
@@ -129,8 +140,12 @@ void write_all(Tool& tool, const ZbufOptions& chosen, const SampledVisible<Visib
     std::ranges::transform(tags, colors.begin(), Color::from_rgb);
     return colors;
   };
+  std::uint64_t covered_count = 0;
   visible.centers.for_each_row([&](const VisibleRow& row) {
     depths.write_row(row.depths);
+    if (chosen.summarizes)
+      covered_count += static_cast<std::uint64_t>(
+          std::ranges::count_if(row.depths, [&](double depth) { return depth < screen.rear; }));
     if (!visible.samples) pixels->write_row(shaded(row.tags));
   });
   if (visible.samples) {
@@ -145,6 +160,7 @@ void write_all(Tool& tool, const ZbufOptions& chosen, const SampledVisible<Visib
   tool.close_output();
   image.commit();
   depths.commit();
+  if (chosen.summarizes) Tool::report(summary(chosen.image_path, screen, covered_count));
   tool.timing().lap(&Timing::write_seconds);
 }
 
@@ -154,12 +170,15 @@ void render_with(Tool& tool, const ZbufOptions& chosen, const Viewport& screen) 
   reader.accept_clipped();
   if (chosen.framed) reader.expect_framed();
   const Viewport shaded_screen = sample_screen(screen, chosen.sample_count);
-  std::optional<PixelSize> wireframe;
-  if (chosen.wireframe) wireframe = {screen.dx(), screen.dy()};
-  std::optional<SurfaceShader> shader = surface_shader(reader, shaded_screen, chosen.shading, wireframe);
+  SurfaceOptions surfaces;
+  surfaces.model = chosen.shading;
+  surfaces.background = parse_color(chosen.background);
+  if (chosen.wireframe) surfaces.wireframe = {screen.dx(), screen.dy()};
+  std::optional<SurfaceShader> shader = surface_shader(reader, shaded_screen, surfaces);
   tool.timing().lap(&Timing::read_seconds);
-  const PixelTag background =
-      shader ? SurfaceShader::kNoSurface : background_color(reader.header().appearance).rgb();
+  const PixelTag background = shader
+                                  ? SurfaceShader::kNoSurface
+                                  : background_color(reader.header().appearance, surfaces.background).rgb();
   SampledVisible<Visible> visible(screen, chosen.sample_count, background);
   tool.timing().lap(&Timing::work_seconds);
   const std::unique_ptr<FragmentReport> report = fragment_report(chosen, screen);

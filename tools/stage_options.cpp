@@ -24,6 +24,7 @@ NumberOptions::NumberOptions(CommandLine& options) {
                ? std::string()
                : expected_but_found("a number of decimals from 0 to 17, or exact", pipeline::quoted(text));
   };
+  options.begin_group("Numbers");
   options.add_word(
       "--digits", "N|exact", digits_,
       "Decimals of a coordinate, 0 to 17, or exact: as many as it takes to read back the same double", check);
@@ -46,6 +47,7 @@ CoordinateRounder NumberOptions::rounder(const std::string& file) const {
 CameraOptions::CameraOptions(CommandLine& options, Parts parts) {
   const auto add = [&](const std::string& name, std::size_t count, const std::string& type,
                        const std::string& help) { options.add_words(name, count, type, words_[name], help); };
+  options.begin_group(parts == Parts::projection ? "Projection" : "Camera");
   if (parts == Parts::position_and_projection) {
     add("--eye", 3, "X Y Z", "Where the camera stands, in world space");
     add("--look", 3, "X Y Z", "The point it looks at");

@@ -25,22 +25,22 @@ ShadingModel default_model(const Appearance& appearance) {
 
 }  // namespace
 
-Color background_color(const Appearance& appearance) {
+Color background_color(const Appearance& appearance, std::optional<Color> chosen) {
+  if (chosen) return *chosen;
   return appearance.background ? rounded_color(appearance.background->value) : Color();
 }
 
 std::optional<SurfaceShader> surface_shader(const StageReader& reader, const Viewport& screen,
-                                            std::optional<ShadingModel> chosen,
-                                            std::optional<PixelSize> wireframe) {
+                                            const SurfaceOptions& chosen) {
   const StageHeader& header = reader.header();
   const Appearance& appearance = header.appearance;
   SurfaceShader::Setup setup;
-  setup.model = chosen.value_or(default_model(appearance));
-  setup.background = background_color(appearance);
+  setup.model = chosen.model.value_or(default_model(appearance));
+  setup.background = background_color(appearance, chosen.background);
   setup.says_what_was_clipped = !appearance.lights.empty();
-  if (wireframe) setup.wireframe.emplace(*wireframe);
+  if (chosen.wireframe) setup.wireframe.emplace(*chosen.wireframe);
   if (setup.model == ShadingModel::none) {
-    if (!appearance.columns().color && !wireframe) return std::nullopt;
+    if (!appearance.columns().color && !chosen.wireframe) return std::nullopt;
     return SurfaceShader(screen, std::move(setup));
   }
   if (appearance.lights.empty())

@@ -7,15 +7,21 @@
 
 namespace pipeline {
 
-/// The color of pixels that show no triangle: black unless the header sets another.
-Color background_color(const Appearance& appearance);
+/// Of a picture's surfaces, what a user may choose; nullopt: as the text says.
+struct SurfaceOptions {
+  std::optional<ShadingModel> model;
+  std::optional<PixelSize> wireframe;  // of pixels of that size; nullopt: none
+  std::optional<Color> background;
+};
+
+/// The color of pixels that show no triangle: black unless one is chosen or the header sets one.
+Color background_color(const Appearance& appearance, std::optional<Color> chosen);
 
 /// The shader of a text's triangles; none for a text without colors and lights, unless a wireframe is
 /// requested (with pixels of that size). The default model: none without lights, phong with lights and
 /// normals, flat with lights alone. An InputError if a model needs lights and there are none, or if there are
 /// lights and the header has no projection.
 std::optional<SurfaceShader> surface_shader(const StageReader& reader, const Viewport& screen,
-                                            std::optional<ShadingModel> chosen,
-                                            std::optional<PixelSize> wireframe);
+                                            const SurfaceOptions& chosen);
 
 }  // namespace pipeline

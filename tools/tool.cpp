@@ -71,7 +71,7 @@ Tool::Tool(const ToolDescription& description, OutputKind output_kind)
     : out_of_memory_(end_process_without_memory({description.name, output_kind == OutputKind::stage_text})),
       name_(description.name),
       output_kind_(output_kind),
-      options_(name_, description.purpose, name_ + " (pipeline) " + kVersion),
+      options_(name_, description.purpose, description.examples, name_ + " (pipeline) " + kVersion),
       input_help_(std::string(description.input) + "; - is standard input"),
       output_(STDOUT_FILENO, "<stdout>") {
   open_closed_descriptors();
@@ -94,7 +94,7 @@ InputFile Tool::second_input(const std::string& path, const std::string& name) c
 }
 
 int Tool::run(int argc, char** argv, const std::function<void()>& work) {
-  options_.add_operand("INPUT", input_path_, false, input_help_);
+  options_.add_operand("INPUT", input_path_, input_help_);
   try {
     if (const auto asked_for = options_.parse(argc, argv)) return answer(*asked_for);
   } catch (const UsageError& error) {
@@ -153,6 +153,10 @@ void Tool::close_output() {
 
 void Tool::note(const std::string& message) const {
   print_on_stderr(name_ + ": note: " + message);
+}
+
+void Tool::report(const std::string& line) {
+  print_on_stderr(line);
 }
 
 int Tool::fail_misuse(const std::string& message) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <chrono>
 #include <cstdint>
 #include <functional>
@@ -52,7 +53,8 @@ enum class OutputKind { stage_text, other_text };
 struct ToolDescription {
   const char* name;
   const char* purpose;
-  const char* input;  // of the last operand
+  const char* input;                    // of the last operand
+  std::array<const char*, 2> examples;  // command lines
 };
 
 /// The rim that the four tools share: common options, input and output, one report of a failure, the exit
@@ -68,6 +70,8 @@ class Tool {
 
   /// The input: the last operand, else standard input. The first call opens it.
   TextReader& input();
+  /// Takes another operand in place of the last one.
+  void set_input(const std::string& path) { input_path_ = path; }
   /// Opens a text besides the input. A UsageError that names it `name` if both are standard input.
   [[nodiscard]] InputFile second_input(const std::string& path, const std::string& name) const;
   /// Standard output.
@@ -78,6 +82,8 @@ class Tool {
   Timing& timing() { return timing_; }
   /// "tool: note: ..." on stderr: a warning; the run continues.
   void note(const std::string& message) const;
+  /// A line on stderr that is a result, without the tool's name.
+  static void report(const std::string& line);
 
  private:
   int answer(const std::string& text);

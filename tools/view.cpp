@@ -38,12 +38,16 @@ Appearance in_view_space(Appearance appearance, const ViewTransform& view,
 }  // namespace
 
 int main(int argc, char** argv) {
-  Tool tool({"view", "Reads triangles in world space and writes them in view space.",
-             "The output of model (or stage1.txt)"},
+  Tool tool({"view",
+             "Reads triangles in world space and writes them in view space.",
+             "The output of model (or stage1.txt)",
+             {"model scene.txt | view --eye 4 3 9 | project | zbuf config.txt > z_buffer.txt",
+              "view --bare --scene scene.txt stage1.txt > stage2.txt"}},
             OutputKind::stage_text);
   NumberOptions numbers(tool.options());
   CameraOptions cameras(tool.options(), CameraOptions::Parts::position_and_projection);
   bool bare = false;
+  tool.options().begin_group("Output");
   tool.options().add_flag("--bare", bare, "Write the triangles alone (stage2.txt)");
 
   return tool.run(argc, argv, [&] {

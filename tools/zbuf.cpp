@@ -1,6 +1,9 @@
 // zbuf: decides which triangle is seen at each pixel. Normalized device coordinates in, depths and image out.
 
+#include <unistd.h>
+
 #include <csignal>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -15,15 +18,35 @@ using namespace pipeline;
 
 namespace {
 
-Viewport read_screen(const Tool& tool, const std::string& path) {
-  InputFile file = tool.second_input(path, "CONFIG");
-  return read_config(file.text());
+/// The screen of --size, with which INPUT is the only operand, or else of CONFIG.
+Viewport read_screen(Tool& tool, const ZbufOptions& chosen) {
+  const bool has_operand = tool.options().is_given("CONFIG");
+  if (const auto screen = parse_size(chosen.size)) {
+    if (tool.options().is_given("INPUT"))
+      throw UsageError(expected_but_found("INPUT as the only operand with --size",
+                                          pipeline::quoted(chosen.config_path) + " before it"));
+    if (has_operand) tool.set_input(chosen.config_path);
+    return *screen;
+  }
+  if (!has_operand) throw UsageError(expected_but_found("an operand CONFIG, or --size", "none"));
+  try {
+    InputFile file = tool.second_input(chosen.config_path, "CONFIG");
+    return read_config(file.text());
+  } catch (const IoError& error) {
+    if (!parse_size(chosen.config_path)) throw;
+    throw std::runtime_error(std::string(error.what()) + " (did you mean --size " + chosen.config_path +
+                             "?)");
+  }
+}
+
+NamedOutput depth_output(const std::string& path) {
+  if (path == "-") return standard_output();
+  return {"--z-buffer", path == "none" ? "" : path};
 }
 
 std::vector<NamedOutput> outputs_of(const ZbufOptions& chosen) {
-  const bool is_filter = chosen.z_buffer_path == "-";
   return {{"--image", chosen.image_path},
-          is_filter ? standard_output() : NamedOutput{"--z-buffer", chosen.z_buffer_path},
+          depth_output(chosen.z_buffer_path),
           {"--depth-image", chosen.depth_image_path},
           {"--fragments", chosen.fragments_path}};
 }
@@ -34,7 +57,10 @@ int main(int argc, char** argv) {
   Tool tool({"zbuf",
              "Reads triangles in normalized device coordinates and writes the depth of every pixel that "
              "shows one, and the image.",
-             "The output of project (or stage3.txt)"},
+             "The output of project (or stage3.txt)",
+             {"zbuf --size 400x300 stage3.txt",
+              "model scene.txt | view | project | zbuf config.txt --coverage center -o picture.ppm > "
+              "z_buffer.txt"}},
             OutputKind::other_text);
   ZbufOptions chosen;
   chosen.add_to(tool.options());
@@ -42,9 +68,9 @@ int main(int argc, char** argv) {
   std::signal(SIGPIPE, SIG_IGN);
 
   return tool.run(argc, argv, [&] {
-    chosen.check();
+    chosen.complete(::isatty(STDOUT_FILENO) == 1);
     expect_separate(outputs_of(chosen));
-    const Viewport screen = read_screen(tool, chosen.config_path);
+    const Viewport screen = read_screen(tool, chosen);
     chosen.check_limits(screen);
     check_image_size(chosen.image_path, screen.columns, screen.rows);
     render(tool, chosen, screen);

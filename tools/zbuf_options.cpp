@@ -7,7 +7,17 @@
 
 namespace pipeline {
 
-void ZbufOptions::check() const {
+void ZbufOptions::complete(bool is_terminal) {
+  const bool image_is_output = image_path == "-";
+  if (image_is_output && z_buffer_path == "-")
+    throw UsageError("--z-buffer: " +
+                     expected_but_found("a file or none, as the image is standard output", "'-'"));
+  // OutputFile writes to this name without replacing anything.
+  if (image_is_output) image_path = "/dev/stdout";
+  if (z_buffer_path.empty()) {
+    summarizes = is_terminal && !image_is_output;
+    z_buffer_path = is_terminal || image_is_output ? "none" : "-";
+  }
   if (algorithm != Algorithm::scanline) return;
   if (thread_count > 1)
     throw UsageError("--threads: " +

@@ -13,6 +13,8 @@
 #include "libpipeline/picture/image_file.h"
 #include "libpipeline/picture/supersampling.h"
 #include "libpipeline/picture/surface_shader.h"
+#include "libpipeline/scene/color.h"
+#include "libpipeline/scene/config.h"
 #include "libpipeline/visibility/depth_format.h"
 #include "tools/command_line.h"
 
@@ -24,8 +26,9 @@ enum class Algorithm { zbuffer, scanline };
 /// line.
 struct ZbufOptions {
   std::string config_path;
-  std::string image_path = "out.bmp";
-  std::string z_buffer_path = "-";
+  std::string size;                    // "WIDTHxHEIGHT"; empty: that of the config
+  std::string image_path = "out.bmp";  // "-": standard output
+  std::string z_buffer_path;           // "-": standard output; "none": nowhere; empty: as `complete` chooses
   TypeChoice<CoverageRules> coverage;
   Algorithm algorithm = Algorithm::zbuffer;
   TypeChoice<DepthFormats> depth;
@@ -35,13 +38,16 @@ struct ZbufOptions {
   int sample_count = 1;                 // along each side of a pixel, for the image alone
   std::optional<ShadingModel> shading;  // none: as the text's header implies
   bool wireframe = false;
+  std::string background;           // "RRGGBB"; empty: that of the text
   std::vector<std::string> probes;  // "COLUMN,ROW" each
   std::string fragments_path;       // empty: no file
   bool framed = false;              // the input has to be
+  bool summarizes = false;          // on stderr, as the depths are not shown on the terminal
 
   void add_to(CommandLine& options);
-  /// A UsageError if options exclude each other.
-  void check() const;
+  /// Chooses the options that depend on others, and on whether standard output is a terminal. A UsageError if
+  /// options exclude each other.
+  void complete(bool is_terminal);
   /// A UsageError if the depth format cannot store the depths between the limits of Z.
   void check_limits(const Viewport& screen) const;
 };
@@ -70,14 +76,36 @@ void add_type_choice(CommandLine& options, const std::string& name, TypeList<Typ
 
 // Next to the members, so that each option is defined in one file.
 inline void ZbufOptions::add_to(CommandLine& options) {
-  options.add_operand("CONFIG", config_path, true,
-                      "The screen (config.txt): WIDTH HEIGHT in pixels, alone or before three lines:\n"
-                      "the left limit of x, the bottom limit of y, the front and rear limits of z");
+  options.set_usage(
+      "Usage: zbuf [OPTIONS] CONFIG [INPUT]\n"
+      "       zbuf [OPTIONS] --size WIDTHxHEIGHT [INPUT]");
+  options.add_operand(
+      "CONFIG", config_path,
+      "The screen (config.txt): WIDTH HEIGHT in pixels, alone or before three lines: the left "
+      "limit of x, the bottom limit of y, the front and rear limits of z");
+  options.begin_group("Output");
+  options.add_word(
+      "--size", "WIDTHxHEIGHT", size,
+      "The screen's size in place of CONFIG; x, y and z are shown from -1 to 1", [](const std::string& word) {
+        return parse_size(word)
+                   ? std::string()
+                   : expected_but_found("WIDTHxHEIGHT in pixels, such as 400x300", pipeline::quoted(word));
+      });
   const std::vector<std::string_view> extensions = image_extensions();
-  options.add_word("--image", "FILE", image_path,
-                   "Where the image goes, a " + listed({extensions.begin(), extensions.end()}) + " file",
-                   wrong_with_name(check_image_name));
-  options.add_word("--z-buffer", "FILE", z_buffer_path, "Where the depths go; - is standard output");
+  options.add_word("-o,--image", "FILE", image_path,
+                   "Where the image goes, a " + listed({extensions.begin(), extensions.end()}) +
+                       " file; - is standard output, as PPM and without the depths",
+                   [](const std::string& name) {
+                     return name == "-" ? std::string() : wrong_with_name(check_image_name)(name);
+                   });
+  options.add_word("--z-buffer", "FILE", z_buffer_path,
+                   "Where the depths go; - is standard output, none is nowhere (default: -, but none with "
+                   "-o - and at a terminal)");
+  options.add_word("--depth-image", "FILE", depth_image_path,
+                   "Also write the depths as a 16-bit image, a .pgm or .png file: white at the front limit, "
+                   "black at the rear limit",
+                   wrong_with_name(check_depth_image_name));
+  options.begin_group("Pixels");
   add_type_choice(options, "--coverage", CoverageRules(), coverage, "Which pixels a triangle covers.");
   options.add_choice<Algorithm>(
       "--algorithm", algorithm, {{"zbuffer", Algorithm::zbuffer}, {"scanline", Algorithm::scanline}},
@@ -85,11 +113,6 @@ inline void ZbufOptions::add_to(CommandLine& options) {
       "zbuffer: every pixel keeps the nearest depth so far\n"
       "scanline: triangles are kept and compared row by row, without memory for the image");
   add_type_choice(options, "--depth", DepthFormats(), depth, "How a pixel stores its depth.");
-  options.add_threads(thread_count, "How many threads draw with the z-buffer");
-  options.add_word("--depth-image", "FILE", depth_image_path,
-                   "Also write the depths as a 16-bit image, a .pgm or .png file: white at the front limit, "
-                   "black at the rear limit",
-                   wrong_with_name(check_depth_image_name));
   options.add_number(
       "--depth-epsilon", "E", depth_epsilon, [](double epsilon) { return epsilon >= 0; },
       "a number of at least 0",
@@ -98,17 +121,27 @@ inline void ZbufOptions::add_to(CommandLine& options) {
   options.add_whole("--samples", sample_count, 1, kMaxSamples,
                     "Smooth edges: a pixel of the image is the mean of N x N samples, its depth stays that "
                     "of its center; N");
+  options.add_threads(thread_count, "How many threads draw with the z-buffer");
+  options.begin_group("Color and light");
   options.add_choice<std::optional<ShadingModel>>(
       "--shading", shading,
       {{"none", ShadingModel::none},
        {"flat", ShadingModel::flat},
        {"gouraud", ShadingModel::gouraud},
        {"phong", ShadingModel::phong}},
-      "Where surfaces are lit. none: nowhere; flat: once per triangle;\n"
-      "gouraud: at its vertices; phong: at every pixel.\n"
-      "Without the option: phong with lights and normals, flat with lights alone, else none");
+      "Where surfaces are lit. none: nowhere; flat: once per triangle; gouraud: at its vertices; phong: at "
+      "every pixel. Without the option: phong with lights and normals, flat with lights alone, else none");
   options.add_flag("--wireframe", wireframe,
                    "Show only the edges of the visible surfaces: the pixels within half a pixel of an edge");
+  options.add_word("--background", "RRGGBB", background,
+                   "The color of pixels that show no triangle, six hexadecimal digits, in place of the "
+                   "scene's; black if neither gives one",
+                   [](const std::string& word) {
+                     return parse_color(word) ? std::string()
+                                              : expected_but_found("RRGGBB, six hexadecimal digits",
+                                                                   pipeline::quoted(word));
+                   });
+  options.begin_group("Debugging");
   options.add_repeatable("--probe", "COLUMN,ROW", probes,
                          "Report on stderr, for every triangle at this pixel, its depth there and whether it "
                          "was kept or why it was lost; may be repeated");

@@ -22,7 +22,26 @@ std::uint32_t state_after(std::uint64_t steps) {
   return state;
 }
 
+/// The value of a hexadecimal digit; 16 for any other character.
+std::uint32_t hexadecimal_digit(char c) {
+  if (c >= '0' && c <= '9') return static_cast<std::uint32_t>(c - '0');
+  if (c >= 'a' && c <= 'f') return static_cast<std::uint32_t>(c - 'a' + 10);
+  if (c >= 'A' && c <= 'F') return static_cast<std::uint32_t>(c - 'A' + 10);
+  return 16;
+}
+
 }  // namespace
+
+std::optional<Color> parse_color(std::string_view word) {
+  if (word.size() != 6) return std::nullopt;
+  std::uint32_t rgb = 0;
+  for (const char c : word) {
+    const std::uint32_t digit = hexadecimal_digit(c);
+    if (digit == 16) return std::nullopt;
+    rgb = 16 * rgb + digit;
+  }
+  return Color::from_rgb(rgb);
+}
 
 Color TriangleColors::of(std::uint64_t number) {
   // 3 * number wraps at 2^64, a multiple of the generator's period.

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
+#include <string_view>
 
 namespace pipeline {
 
@@ -27,6 +29,9 @@ class Color {
  private:
   std::uint32_t rgb_ = 0;
 };
+
+/// The color of six hexadecimal digits, RRGGBB, in upper or lower case; nullopt for any other word.
+std::optional<Color> parse_color(std::string_view word);
 
 /// The colors of triangles that have none of their own, from the random numbers of the course's handouts
 /// (`rand` of Microsoft Visual C++): s starts at 1, a draw sets s = 214013 s + 2531011 (mod 2^32) and gives

@@ -66,5 +66,17 @@ TEST(TriangleColors, TheLastNumberIsFollowedByTheFirst) {
   EXPECT_EQ(colors.of(0), Color(41, 35, 190));
 }
 
+TEST(ParseColor, TakesSixHexadecimalDigits) {
+  EXPECT_EQ(parse_color("0a1B9f"), Color(0x0a, 0x1b, 0x9f));
+  EXPECT_EQ(parse_color("FFFFFF"), Color(255, 255, 255));
+  EXPECT_EQ(parse_color("000000"), Color());
+}
+
+TEST(ParseColor, TakesNothingElse) {
+  for (const char* const word :
+       {"", "fff", "12345", "1234567", "#12345", "12345g", "12345G", "0x1234", "12 456", "-12345"})
+    EXPECT_EQ(parse_color(word), std::nullopt) << word;
+}
+
 }  // namespace
 }  // namespace pipeline

@@ -131,5 +131,18 @@ TEST(Config, NothingFollowsTheLimits) {
             "config.txt:6:3: expected nothing after the limits of Z, found '3'");
 }
 
+TEST(ParseSize, IsAViewportWithoutLimits) {
+  Viewport expected;
+  expected.columns = 400;
+  expected.rows = 65535;
+  EXPECT_EQ(parse_size("400x65535"), expected);
+}
+
+TEST(ParseSize, TakesOneWordWithAnXInIt) {
+  for (const char* const word : {"", "x", "400", "400x", "x300", "400X300", "400x300x1", "0x3", "3x0",
+                                 "65536x1", "1x65536", "+1x1", "1.0x1", "1 x1"})
+    EXPECT_EQ(parse_size(word), std::nullopt) << word;
+}
+
 }  // namespace
 }  // namespace pipeline

@@ -9,7 +9,7 @@ import re
 import subprocess
 import unittest
 
-from toolbox import CAMERA, HEADER, SCENE, SOURCE, TOOLS, ToolTest, add_claims, pipe, run, stage_texts
+from toolbox import BIN, CAMERA, HEADER, SCENE, SOURCE, TOOLS, ToolTest, add_claims, pipe, run, stage_texts
 
 PLAIN = """1 2 6
 1 0.5 0
@@ -141,11 +141,39 @@ class Answers(ToolTest):
                  "view": stage + projection + ["--bare", "--eye X Y Z", "--look X Y Z", "--up X Y Z"],
                  "project": stage + projection + ["--aspect angle|ratio", "--clip auto|near|frustum|reject|none",
                                                   "--cull back|front"],
-                 "zbuf": ["CONFIG", "--image FILE", "--z-buffer FILE", "--coverage ", "--algorithm "]}
+                 "zbuf": ["CONFIG", "--size WIDTHxHEIGHT", "-o,--image FILE", "--z-buffer FILE", "--coverage ", "--algorithm ",
+                          "--background RRGGBB"]}
         for tool in TOOLS:
             text = run(tool, "--help").stdout.decode()
             for word in common + words[tool]:
                 self.assertIn(word, text)
+
+    def test_no_line_of_help_is_longer_than_100_characters(self):
+        for tool in TOOLS:
+            self.assertEqual([line for line in run(tool, "--help").stdout.decode().split("\n") if len(line) > 100 or line != line.rstrip()], [])
+
+    def test_help_has_its_options_in_groups(self):
+        groups = {"model": ["Numbers", "Output"], "view": ["Numbers", "Camera", "Output"], "project": ["Numbers", "Projection", "Clipping"],
+                  "zbuf": ["Output", "Pixels", "Color and light", "Debugging"]}
+        for tool in TOOLS:
+            found = re.findall(r"^(\w[\w ]*):$", run(tool, "--help").stdout.decode(), re.M)
+            self.assertEqual(found, ["Operands", *groups[tool], "General", "Examples"])
+
+    def test_the_examples_of_help_do_what_they_show(self):
+        path = f"{BIN}:{os.environ['PATH']}"
+        for tool in TOOLS:
+            examples = re.search(r"^Examples:\n((?:  .*\n)+)", run(tool, "--help").stdout.decode(), re.M)[1].splitlines()
+            self.assertEqual(len(examples), 2)
+            for example in examples:
+                with self.subTest(example):
+                    for name, text in zip(("stage1.txt", "stage2.txt", "stage3.txt"), stage_texts(PLAIN)):
+                        pathlib.Path(name).write_bytes(text)
+                    pathlib.Path("scene.txt").write_text(PLAIN)
+                    self.assertIn(tool, example)
+                    done = subprocess.run(["bash", "-eo", "pipefail", "-c", example], capture_output=True, env={**os.environ, "PATH": path})
+                    self.assert_quiet_success(done)
+                    for result in re.findall(r"(?:>|-o) (\S+)", example):
+                        self.assertGreater(pathlib.Path(result).stat().st_size, 0)
 
     def test_help_and_version_read_no_input(self):
         for tool in TOOLS:
