@@ -8,8 +8,9 @@ import tempfile
 
 from lib.input_file import read_input
 from lib.pictures import read_picture
-from lib.projection import window_of
-from lib.stage_text import parse_stage_text
+from lib.projection import line_of, window_of
+from lib.square import note_on_squares
+from lib.stage_text import parse_stage_text, text_of
 from lib.vectors import axes, moved
 
 # A page stays fast up to this number; beyond it only every n-th triangle is drawn.
@@ -70,6 +71,8 @@ class Inspection:
         self.step = max(1, math.ceil(self.count / MAX_DRAWN_TRIANGLES))
         titles = {"model": "world space", "view": "view space", "project": "normalized device coordinates"}
         self.stages = [self.stage(tool, titles[tool], texts[tool]) for tool in texts]
+        note = note_on_squares(line_of(self.parsed["model"].header.get), text_of(read_input(config), config))
+        self.square_notes = [f"note: {note}"] if note else []
         with tempfile.TemporaryDirectory() as folder:
             self.draw(data, pathlib.Path(folder))
 
@@ -144,4 +147,4 @@ class Inspection:
     def as_json(self):
         return {"scene": pathlib.Path(self.scene).name, "config": pathlib.Path(self.config).name, "triangles": self.count, "step": self.step,
                 "columns": self.columns, "rows": self.rows, "stages": self.stages, "pixels": self.pixels, "fragments": self.fragments,
-                "fragmentCount": self.fragment_count, "leftOut": self.left_out_count, "notes": self.notes}
+                "fragmentCount": self.fragment_count, "leftOut": self.left_out_count, "notes": self.notes + self.square_notes}

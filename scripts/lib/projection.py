@@ -1,6 +1,13 @@
 """The projection in a stage text's header, in doubles."""
 import math
 
+KEYWORDS = ("perspective", "frustum", "ortho")
+
+
+def line_of(words_of):
+    """The header line of the projection, in words; `words_of` gives the words behind a keyword, or None."""
+    return next([keyword, *words_of(keyword)] for keyword in KEYWORDS if words_of(keyword))
+
 
 def tangents(header, angle_in_radians=math.radians):
     """Of half the field of view of a perspective: the horizontal tangent and the vertical one. `angle_in_radians` converts fovY
