@@ -5,6 +5,7 @@ usage: makefile_samples_test.py BIN_DIR SOURCE_DIR
 """
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -49,9 +50,11 @@ class OnACopy(unittest.TestCase):
 
 class MakefileSamples(OnACopy):
     def make(self, *words):
-        command = ["make", "-f", "Makefile.samples", "BIN=bin", "OUT=out", *words]
+        return self.call_make("-f", "Makefile.samples", "BIN=bin", "OUT=out", *words)
+
+    def call_make(self, *words, folder="."):
         environment = {name: value for name, value in os.environ.items() if name not in ("MAKEFLAGS", "MFLAGS")}
-        return subprocess.run(command, cwd=self.root, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+        return subprocess.run(["make", *words], cwd=self.root / folder, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
                               text=True, check=False)
 
     def make_well(self, *words):
@@ -111,6 +114,80 @@ class MakefileSamples(OnACopy):
         self.file("wide-clipped", "stage2.txt").write_text("0 0 0\n")
         self.make_well("accept")
         self.assertIn("10 passed, 0 failed", self.make_well("check"))
+
+    def test_diff_says_that_nothing_has_changed(self):
+        self.make_well()
+        self.assertEqual(self.make_well("diff"), "nested-transforms: nothing has changed\nwide-clipped: nothing has changed\n")
+
+    def test_diff_shows_the_first_stage_that_has_changed(self):
+        stages = (("stage1.txt", "model"), ("stage2.txt", "view"), ("stage3.txt", "project"), ("z_buffer.txt", "zbuf"), ("out.bmp", "zbuf"))
+        self.make_well()
+        for name, stage in reversed(stages):  # those behind it differ, too
+            data = self.file("wide-clipped", name).read_bytes()
+            if name == "out.bmp":
+                self.file("wide-clipped", name).write_bytes(data[:-4] + bytes(255 - byte for byte in data[-4:-3]) + data[-3:])
+            else:
+                text, digit = data.decode(), re.search("[1-8]", data.decode())
+                self.file("wide-clipped", name).write_text(text[:digit.start()] + str(int(digit[0]) + 1) + text[digit.end():])
+            printed = self.make_well("diff", f"COMPARE={source}/scripts/compare").split("\n")
+            self.assertEqual(printed[:2], ["nested-transforms: nothing has changed",
+                                           f"wide-clipped: {stage} is the first stage that has changed ({name})"])
+            self.assertIn(f"out/wide-clipped/{name} and samples/wide-clipped/{name}", printed[2])
+            self.assertEqual([line.split()[-2] for line in printed if " that differ " in line or " differing " in line], ["1"], printed)
+
+    def test_diff_misses_a_file_that_was_not_accepted(self):
+        self.make_well()
+        self.file("wide-clipped", "stage3.txt").unlink()
+        self.assertIn("wide-clipped: stage3.txt of project has not been accepted yet\n", self.make_well("diff"))
+
+    def test_diff_fails_if_files_cannot_be_compared(self):
+        self.file("wide-clipped", "stage2.txt").write_text("0 0 0\n", "utf-16")
+        done = self.make("diff", f"COMPARE={source}/scripts/compare")
+        self.assertNotEqual(done.returncode, 0)
+        self.assertIn("wide-clipped: view is the first stage that has changed (stage2.txt)\n", done.stdout)
+
+    def test_digits_concern_the_text_files_and_what_is_drawn_of_them(self):
+        self.make_well()
+        self.assertEqual(self.runs_of_tools("DIGITS=exact"), {"model": 2, "view": 2, "project": 2, "zbuf": 2})
+        self.assertEqual(self.runs_of_tools("DIGITS=exact"), {"model": 0, "view": 0, "project": 0, "zbuf": 0})
+        scene = self.file("wide-clipped", "scene.txt")
+        for name, stages in (("stage1.txt", "bin/model --bare --digits exact"),
+                             ("stage3.txt", "bin/model --digits exact | bin/view --digits exact | bin/project --digits exact")):
+            with open(scene, "rb") as stdin:
+                expected = subprocess.run(stages, shell=True, cwd=self.root, stdin=stdin, stdout=subprocess.PIPE, check=True).stdout
+            self.assertEqual((self.root / "out/wide-clipped" / name).read_bytes(), expected)
+
+    def test_coverage_concerns_zbuf_alone(self):
+        self.make_well()
+        self.assertEqual(self.runs_of_tools("COVERAGE=center"), {"model": 0, "view": 0, "project": 0, "zbuf": 2})
+        self.assertEqual(self.runs_of_tools("COVERAGE=center"), {"model": 0, "view": 0, "project": 0, "zbuf": 0})
+        depths = subprocess.run([self.bin / "zbuf", "--coverage", "center", self.file("wide-clipped", "config.txt"),
+                                 self.root / "out/wide-clipped/stage3.txt"], cwd=self.root, stdout=subprocess.PIPE, check=True).stdout
+        self.assertEqual((self.root / "out/wide-clipped/z_buffer.txt").read_bytes(), depths)
+        self.assertIn("6 passed, 4 failed\n", self.make("check", "COVERAGE=center").stdout)
+
+    def test_the_folder_may_be_any(self):
+        before = {path: path.stat().st_mtime_ns for path in (self.root / "samples").rglob("*")}
+        for folder in ("mine", "elsewhere/mine", str(self.root / "there")):
+            shutil.copytree(source / "samples/worked-example", self.root / folder / "a")
+            words = ["-f", "Makefile.samples", "BIN=bin", "-j2", f"DIR={folder}"]
+            done = self.call_make(*words, "check")
+            self.assertEqual((done.stdout.split("\n")[-2], done.returncode), ("5 passed, 0 failed", 0))
+            (self.root / folder / "a/stage1.txt").unlink()
+            self.assertEqual(self.call_make(*words, "accept").returncode, 0)
+            self.assertEqual((self.root / folder / "a/stage1.txt").read_bytes(), (source / "samples/worked-example/stage1.txt").read_bytes())
+        self.assertEqual(sorted(os.listdir(self.root / "build")), ["elsewhere", "mine", "there"])
+        self.assertEqual({path: path.stat().st_mtime_ns for path in (self.root / "samples").rglob("*")}, before)
+
+    def test_it_may_be_called_from_another_folder(self):
+        shutil.copytree(source / "samples/worked-example", self.root / "user/mine/a")
+        done = self.call_make("-f", "../Makefile.samples", "BIN=../bin", "DIR=mine", "check", folder="user")
+        self.assertEqual((done.stdout.split("\n")[-2], done.returncode), ("5 passed, 0 failed", 0))
+
+    def test_a_folder_without_samples_is_said_to_have_none(self):
+        done = self.make("DIR=bin")
+        self.assertNotEqual(done.returncode, 0)
+        self.assertIn("no folder in bin has a scene.txt", done.stdout)
 
     def test_a_failing_tool_leaves_no_half_target(self):
         for tool, targets in (("model", ("stage1.exact", "stage1.txt")), ("view", ("stage2.exact", "stage2.txt")),
