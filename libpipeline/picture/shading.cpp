@@ -17,8 +17,12 @@ Vec3 turned_towards(const Vec3& direction, const Vec3& v) {
   return dot(v, direction) < 0 ? scaled(v, -1) : v;
 }
 
+/// A factor of 0 weakens nothing, not even at a distance that overflows a double.
 double attenuation_at(double distance, const Attenuation& a) {
-  return 1 / (a.constant + a.linear * distance + a.quadratic * distance * distance);
+  double weakening = a.constant;
+  if (a.linear != 0) weakening += a.linear * distance;
+  if (a.quadratic != 0) weakening += a.quadratic * distance * distance;
+  return 1 / weakening;
 }
 
 double clamped_channel(double value) {

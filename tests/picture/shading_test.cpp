@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 namespace pipeline {
@@ -63,6 +64,17 @@ TEST(Shading, DistanceAttenuatesByTheWholeQuadratic) {
   Lighting lighting = lit_by({0, 0, 1}, {1, 1, 1});
   lighting.attenuation = {1, 2, 3};
   expect_near(lit_color(kFacing, lighting), {255.0 / 34, 128.0 / 34, 10.0 / 34});
+}
+
+TEST(Shading, LightFromADistanceBeyondADoubleIsWeakenedOnlyAsAsked) {
+  // The two parts of the distance are doubles, the distance itself is not: it overflows to infinity.
+  Lighting lighting = lit_by({0, 1.5e308, 1.5e308}, {1, 1, 1});
+  const double cosine = std::sqrt(0.5);
+  expect_near(lit_color(kFacing, lighting), {255 * cosine, 128 * cosine, 10 * cosine});
+  lighting.attenuation = {1, 1e-300, 0};
+  EXPECT_EQ(lit_color(kFacing, lighting), (Vec3{}));
+  lighting.attenuation = {1, 0, 1e-300};
+  EXPECT_EQ(lit_color(kFacing, lighting), (Vec3{}));
 }
 
 TEST(Shading, TheHighlightTakesTheHalfVectorToThePowerAndTheLightsColor) {
