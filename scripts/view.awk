@@ -1,4 +1,5 @@
 # The view stage of a camera that looks down -z with y up: it subtracts the eye. Give the eye with -v eye='X Y Z'.
-BEGIN   { split(eye, e) }
-NF == 3 { printf "%.7f %.7f %.7f\n", $1 - e[1], $2 - e[2], $3 - e[3] }
-NF != 3 { print }
+BEGIN             { split(eye, e) }
+/^(eye|look|up) / { next }
+/^[-0-9]/         { for (i = 1; i <= 3; i++) $i = sprintf("%.7f", $i - e[i]) }
+                  { print }

@@ -2,6 +2,7 @@
 
 #include "libpipeline/scene/scene.h"
 #include "libpipeline/stream/stage_writer.h"
+#include "libpipeline/stream/text_kind.h"
 #include "libpipeline/vertex/model_stage.h"
 #include "tools/stage_loop.h"
 #include "tools/stage_options.h"
@@ -26,6 +27,7 @@ int main(int argc, char** argv) {
 
   return tool.run(argc, argv, [&] {
     if (bare && framed) throw UsageError(expected_but_found("--bare or --framed", "both"));
+    expect_kind(tool.input(), TextKind::scene);
     SceneReader scene(tool.input());
     ModelStage stage(scene);
     StageWriter writer(tool.output(), numbers.format(), bare);

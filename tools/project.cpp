@@ -6,6 +6,7 @@
 
 #include "libpipeline/stream/stage_reader.h"
 #include "libpipeline/stream/stage_writer.h"
+#include "libpipeline/stream/text_kind.h"
 #include "libpipeline/vertex/projection.h"
 #include "tools/command_line.h"
 #include "tools/stage_loop.h"
@@ -63,12 +64,12 @@ void check_inset(const ProjectOptions& chosen) {
 
 /// The camera's projection, with the aspect rule of the option if there is one.
 Located<Projection> projection_of(const CameraParameters& camera, std::optional<AspectRule> aspect,
-                                  const SourceLocation& header_end) {
+                                  const StageReader& reader) {
   if (!camera.projection)
-    throw InputError(header_end,
+    throw InputError(reader.header_end(),
                      expected_but_found("a projection (a header line perspective, frustum or ortho; or "
                                         "--scene; or --perspective, --frustum or --ortho)",
-                                        "none"));
+                                        "none" + reason_without_camera(reader)));
   Located<Projection> projection = *camera.projection;
   if (auto* perspective = std::get_if<Perspective>(&projection.value); perspective != nullptr && aspect)
     perspective->aspect_rule = *aspect;
@@ -82,7 +83,6 @@ std::string to_text(const ProjectionCounts& counts) {
 
 /// The appearance in a projected text: if there are other columns, w is added to them.
 Appearance in_clip_space(Appearance appearance) {
-  expect_no_w(appearance);
   if (appearance.attributes) appearance.attributes->value.w = true;
   return appearance;
 }
@@ -104,16 +104,18 @@ int main(int argc, char** argv) {
 
   return tool.run(argc, argv, [&] {
     check_inset(chosen);
+    expect_kind(tool.input(), TextKind::view);
     StageReader reader(tool.input());
-    const CameraParameters camera = cameras.camera(without_position(reader.header().camera), tool);
-    const Located<Projection> given = projection_of(camera, chosen.aspect, reader.header_end());
+    expect_header(reader, TextKind::view);
+    const CameraParameters camera = cameras.camera(reader.header().camera, tool);
+    const Located<Projection> given = projection_of(camera, chosen.aspect, reader);
     const ProjectionTransform projection = clip_from_view(given);
     StageWriter writer(tool.output(), numbers.format(), false);
     const Appearance appearance = in_clip_space(reader.header().appearance);
-    CameraParameters passed_on;
+    StageHeader header = {.framed = reader.header().framed, .camera = {}, .appearance = appearance};
     const bool is_lit = !appearance.lights.empty();
-    if (is_lit) passed_on.projection = {volume_of(given, projection), given.location};
-    writer.write_header({reader.header().framed, passed_on, appearance});
+    if (is_lit) header.projected = {volume_of(given, projection), given.location};
+    writer.write_header(header);
 
     CoordinateRounder rounder = numbers.rounder(tool.input().file());
     ProjectionStage stage(projection, chosen.clip, chosen.cull, rounder, chosen.clip_inset);

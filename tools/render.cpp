@@ -13,6 +13,7 @@
 #include "libpipeline/scene/color.h"
 #include "libpipeline/stream/read_ahead.h"
 #include "libpipeline/stream/stage_reader.h"
+#include "libpipeline/stream/text_kind.h"
 #include "libpipeline/stream/thread_pool.h"
 #include "libpipeline/text/output_file.h"
 #include "libpipeline/visibility/algorithms.h"
@@ -166,7 +167,9 @@ void write_all(Tool& tool, const ZbufOptions& chosen, const SampledVisible<Visib
 
 template <VisibilityAlgorithm Visible>
 void render_with(Tool& tool, const ZbufOptions& chosen, const Viewport& screen) {
+  expect_kind(tool.input(), TextKind::ndc);
   StageReader reader(tool.input(), Visible::CoverageRule::kUsesDecimals);
+  expect_header(reader, TextKind::ndc);
   reader.accept_clipped();
   if (chosen.framed) reader.expect_framed();
   const Viewport shaded_screen = sample_screen(screen, chosen.sample_count);

@@ -1,6 +1,7 @@
 #include "tools/stage_options.h"
 
 #include "libpipeline/scene/scene.h"
+#include "libpipeline/stream/text_kind.h"
 #include "libpipeline/text/number_parser.h"
 #include "libpipeline/text/number_printer.h"
 #include "tools/command_line.h"
@@ -74,6 +75,7 @@ CameraParameters CameraOptions::camera(const CameraParameters& header, const Too
   if (!scene_path_.empty()) {
     // The camera precedes the commands, which are not read.
     InputFile scene = tool.second_input(scene_path_, "--scene");
+    expect_kind(scene.text(), TextKind::scene);
     camera = merged(camera, SceneReader(scene.text()).camera());
   }
   camera = merged(camera, header);

@@ -46,11 +46,7 @@ std::optional<SurfaceShader> surface_shader(const StageReader& reader, const Vie
   if (appearance.lights.empty())
     throw InputError(reader.header_end(),
                      expected_but_found("a light for --shading (a header line light)", "none"));
-  if (!header.camera.projection)
-    throw InputError(
-        reader.header_end(),
-        expected_but_found("the projection of a text with lights (a header line frustum or ortho)", "none"));
-  const ProjectionTransform projection = clip_from_view(*header.camera.projection);
+  const ProjectionTransform projection = clip_from_view(*header.projected);
   setup.view_from_clip.emplace(projection);
   setup.lighting = lighting_of(appearance, projection.is_perspective);
   return SurfaceShader(screen, std::move(setup));

@@ -19,8 +19,8 @@ Color background_color(const Appearance& appearance, std::optional<Color> chosen
 
 /// The shader of a text's triangles; none for a text without colors and lights, unless a wireframe is
 /// requested (with pixels of that size). The default model: none without lights, phong with lights and
-/// normals, flat with lights alone. An InputError if a model needs lights and there are none, or if there are
-/// lights and the header has no projection.
+/// normals, flat with lights alone. The header of a text with lights must say how it was projected. An
+/// InputError if a model needs lights and there are none.
 std::optional<SurfaceShader> surface_shader(const StageReader& reader, const Viewport& screen,
                                             const SurfaceOptions& chosen);
 

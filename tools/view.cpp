@@ -2,6 +2,7 @@
 
 #include "libpipeline/stream/stage_reader.h"
 #include "libpipeline/stream/stage_writer.h"
+#include "libpipeline/stream/text_kind.h"
 #include "libpipeline/vertex/attribute_transform.h"
 #include "libpipeline/vertex/transform.h"
 #include "libpipeline/vertex/vertex_transform.h"
@@ -15,22 +16,22 @@ using namespace pipeline;
 namespace {
 
 /// The view transform of a camera, which needs all three parts.
-ViewTransform view_of(const CameraParameters& camera, const SourceLocation& header_end) {
+ViewTransform view_of(const CameraParameters& camera, const StageReader& reader) {
   std::vector<std::string> missing;
   if (!camera.eye) missing.emplace_back("eye");
   if (!camera.look) missing.emplace_back("look");
   if (!camera.up) missing.emplace_back("up");
   if (!missing.empty())
-    throw InputError(header_end,
+    throw InputError(reader.header_end(),
                      expected_but_found("a camera (header lines eye, look and up; or --scene; or --eye, "
                                         "--look and --up)",
-                                        "no " + listed(missing)));
+                                        "no " + listed(missing) +
+                                            (missing.size() == 3 ? reason_without_camera(reader) : "")));
   return view_from_world(camera.eye->value, camera.look->value, camera.up->value);
 }
 
 Appearance in_view_space(Appearance appearance, const ViewTransform& view,
                          UncertainDigits& uncertain_lights) {
-  expect_no_w(appearance);
   for (auto& light : appearance.lights) light = transformed(view, light, uncertain_lights);
   return appearance;
 }
@@ -51,9 +52,11 @@ int main(int argc, char** argv) {
   tool.options().add_flag("--bare", bare, "Write the triangles alone (stage2.txt)");
 
   return tool.run(argc, argv, [&] {
+    expect_kind(tool.input(), TextKind::world);
     StageReader reader(tool.input());
+    expect_header(reader, TextKind::world);
     const CameraParameters camera = cameras.camera(reader.header().camera, tool);
-    const ViewTransform view = view_of(camera, reader.header_end());
+    const ViewTransform view = view_of(camera, reader);
     const VertexTransform to_view(view);
     const NormalTransform normal_to_view(view);
     StageWriter writer(tool.output(), numbers.format(), bare);

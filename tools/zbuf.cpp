@@ -9,6 +9,7 @@
 
 #include "libpipeline/picture/image_file.h"
 #include "libpipeline/scene/config.h"
+#include "libpipeline/stream/text_kind.h"
 #include "tools/render.h"
 #include "tools/separate_outputs.h"
 #include "tools/tool.h"
@@ -31,6 +32,7 @@ Viewport read_screen(Tool& tool, const ZbufOptions& chosen) {
   if (!has_operand) throw UsageError(expected_but_found("an operand CONFIG, or --size", "none"));
   try {
     InputFile file = tool.second_input(chosen.config_path, "CONFIG");
+    expect_kind(file.text(), TextKind::config);
     return read_config(file.text());
   } catch (const IoError& error) {
     if (!parse_size(chosen.config_path)) throw;

@@ -17,8 +17,8 @@ bool is_vertex(std::string_view word) {
 }
 
 // Of the header, besides those of the appearance.
-constexpr std::array<std::string_view, 7> kKeywords = {"framed",      "eye",     "look", "up",
-                                                       "perspective", "frustum", "ortho"};
+constexpr std::array<std::string_view, 8> kKeywords = {"framed",      "eye",     "look",  "up",
+                                                       "perspective", "frustum", "ortho", "projected"};
 
 bool is_header_keyword(std::string_view word) {
   return std::find(kKeywords.begin(), kKeywords.end(), word) != kKeywords.end() ||
@@ -39,6 +39,7 @@ StageReader::StageReader(TextReader& text, bool marks_decimals) : text_(text) {
     LineScanner line = line_;
     line_is_pending_ = !read_header_line(line);
   }
+  has_body_ = line_is_pending_;
   check_camera(header_.camera);
   triangles_.emplace(text_, header_.appearance.columns(), marks_decimals);
   AttributeSet columns_in_clip_space = header_.appearance.columns();
@@ -60,11 +61,28 @@ bool StageReader::read_header_line(LineScanner& line) {
     read_appearance_part(keyword, location, line, AttributeSource::stage_text, header_.appearance);
     return true;
   }
-  if (keyword != "framed") return read_camera_part(keyword, location, line, header_.camera);
+  if (keyword != "framed") {
+    const bool is_of_camera = read_camera_line(keyword, location, line);
+    if (is_of_camera) header_.camera_lines.push_back({std::string(keyword), location});
+    return is_of_camera;
+  }
   if (header_.framed) throw given_twice("'framed'", framed_location_, location);
   line.expect_end("'framed'");
   header_.framed = true;
   framed_location_ = location;
+  return true;
+}
+
+/// Takes a line about the camera, of which `keyword` has been taken; false for another line.
+bool StageReader::read_camera_line(std::string_view keyword, const SourceLocation& location,
+                                   LineScanner& line) {
+  if (keyword != "projected") return read_camera_part(keyword, location, line, header_.camera);
+  if (header_.projected) throw given_twice("'projected'", header_.projected->location, location);
+  const std::string_view volume = line.peek();
+  if (volume != "frustum" && volume != "ortho") line.fail("frustum or ortho");
+  line.word();
+  const SourceLocation planes = line.location();
+  header_.projected = {read_projection(volume, line), planes};
   return true;
 }
 

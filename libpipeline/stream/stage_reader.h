@@ -22,6 +22,8 @@ class StageReader {
   [[nodiscard]] const StageHeader& header() const { return header_; }
   /// The location of the first word after the header: a missing header line belongs before it.
   [[nodiscard]] const SourceLocation& header_end() const { return header_end_; }
+  /// False if the text ends with its header.
+  [[nodiscard]] bool has_body() const { return has_body_; }
   /// Accepts `clipped` triangles from now on, which only projected texts have; without this they are errors.
   void accept_clipped() { accepts_clipped_ = true; }
   /// An InputError unless the text is framed: only then is an empty text known to be complete.
@@ -40,6 +42,7 @@ class StageReader {
 
  private:
   bool read_header_line(LineScanner& line);
+  bool read_camera_line(std::string_view keyword, const SourceLocation& location, LineScanner& line);
   void fill(TriangleBatch& batch);
   void read_triangle(LineScanner& line, TriangleBatch& batch);
   void read_clipped(LineScanner& line);
@@ -55,6 +58,7 @@ class StageReader {
   LineScanner line_;
   std::optional<TriangleReader> triangles_;  // made when the header is read
   bool line_is_pending_ = false;             // line_ is read but not yet used
+  bool has_body_ = false;
   bool done_ = false;
   bool accepts_clipped_ = false;
   VertexLineReader clip_vertex_line_;

@@ -1,10 +1,13 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "libpipeline/scene/appearance.h"
 #include "libpipeline/scene/camera.h"
+#include "libpipeline/scene/header_line.h"
 #include "libpipeline/text/error.h"
 #include "libpipeline/text/text_reader.h"
 
@@ -15,6 +18,7 @@ namespace pipeline {
 //   header lines   a keyword and its numbers, each at most once, before the first triangle:
 //                    framed | eye X Y Z | look X Y Z | up X Y Z |
 //                    perspective FOVY ASPECT NEAR FAR | frustum L R B T N F | ortho L R B T N F |
+//                    projected frustum L R B T N F | projected ortho L R B T N F |
 //                    attributes [w] [color] [normal] | background R G B | ambient R G B |
 //                    material AMBIENT DIFFUSE SPECULAR SHININESS |
 //                    attenuation CONSTANT LINEAR QUADRATIC | light X Y Z R G B (any number)
@@ -32,8 +36,10 @@ namespace pipeline {
 /// The header of a stage text: the settings that later stages still need.
 struct StageHeader {
   bool framed = false;
-  CameraParameters camera;
+  CameraParameters camera;  // for stages that have not been run yet
   Appearance appearance = {};
+  std::optional<Located<Projection>> projected = {};  // what `project` has done, a Frustum or an Orthographic
+  std::vector<Located<std::string>> camera_lines = {};  // the keywords of what was read of these two
 };
 
 /// The last line of a failed stage's output: "error tool: message".

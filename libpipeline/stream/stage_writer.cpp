@@ -90,6 +90,10 @@ void StageWriter::write_header(const StageHeader& header) {
   print_vec3("look", camera.look);
   print_vec3("up", camera.up);
   if (camera.projection) print_projection(text_, camera.projection->value);
+  if (header.projected) {
+    text_.append("projected ");
+    print_projection(text_, header.projected->value);
+  }
   print_appearance(text_, header.appearance);
   columns_ = header.appearance.columns();
 }

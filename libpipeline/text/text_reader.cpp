@@ -15,6 +15,7 @@ namespace pipeline {
 namespace {
 
 constexpr std::size_t kBlockSize = std::size_t{1} << 16;
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
 bool is_blank(char c) {
   return c == ' ' || c == '\t';
@@ -139,12 +140,21 @@ bool TextReader::next_line(LineScanner& line) {
   }
 }
 
+std::string_view TextReader::beginning() {
+  while (buffered().find('\n') == std::string_view::npos && end_ - begin_ <= kMaxLineLength && fill()) {
+  }
+  std::string_view text = buffered();
+  if (!at_end_of_file_) text = text.substr(0, text.rfind('\n') + 1);
+  if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
+  return text;
+}
+
 LineScanner TextReader::take_line(std::size_t length, bool is_ended) {
   std::string_view line(buffer_.data() + begin_, length);
   begin_ += length + (is_ended ? 1 : 0);
   scanned_ = begin_;
   last_line_was_ended_ = is_ended;
-  if (++line_number_ == 1 && line.starts_with("\xEF\xBB\xBF")) line.remove_prefix(3);
+  if (++line_number_ == 1 && line.starts_with(kByteOrderMark)) line.remove_prefix(kByteOrderMark.size());
   return {line, file_, line_number_};
 }
 

@@ -86,6 +86,10 @@ class TextReader {
   /// True if the line read last ended with a newline, not with the text.
   [[nodiscard]] bool last_line_was_ended() const { return last_line_was_ended_; }
 
+  /// The whole lines of the first block, of which none is consumed; for use before any other function. Waits
+  /// for the first line only, so a slow neighbor in a pipe may give no more than that one.
+  std::string_view beginning();
+
   /// The text in memory that has not been read yet, from the beginning of a line. It is followed by kSlack
   /// readable characters without meaning. For callers that parse several lines at a time, then `skip` them.
   [[nodiscard]] std::string_view buffered() const { return {buffer_.data() + begin_, end_ - begin_}; }

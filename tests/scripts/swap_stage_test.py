@@ -37,15 +37,22 @@ class SwappedStage(unittest.TestCase):
         self.scene = self.sample / "scene.txt"
         self.expected = (self.sample / "z_buffer.txt").read_bytes(), (self.sample / "out.bmp").read_bytes()
 
-    def test_three_lines_of_awk_do_for_view(self):
-        stage1 = run("model", "--bare", self.scene)
-        stage2 = run("awk", "-v", "eye=0 0 12", "-f", source / "scripts/view.awk", stdin=stage1)
-        stage3 = run("project", "--scene", self.scene, stdin=stage2)
-        self.assertTrue(picture(stage3, self.sample / "config.txt") == self.expected, "the picture differs")
+    def test_four_lines_of_awk_do_for_view(self):
+        for model, project in ((["--bare"], ["--scene", self.scene]), ([], []), (["--framed"], [])):
+            with self.subTest(model=model):
+                stage1 = run("model", *model, self.scene)
+                stage2 = run("awk", "-v", "eye=0 0 12", "-f", source / "scripts/view.awk", stdin=stage1)
+                stage3 = run("project", *project, stdin=stage2)
+                self.assertTrue(picture(stage3, self.sample / "config.txt") == self.expected, "the picture differs")
 
-    def test_the_awk_script_has_three_lines(self):
+    def test_the_awk_script_passes_other_columns_on(self):
+        text = b"perspective 60 1 1 30\nattributes color normal\n1 2 3 255 0 0.5 0 0 1\n"
+        self.assertEqual(run("awk", "-v", "eye=0 0 12", "-f", source / "scripts/view.awk", stdin=text),
+                         text.replace(b"1 2 3 ", b"1.0000000 2.0000000 -9.0000000 "))
+
+    def test_the_awk_script_has_four_lines(self):
         lines = (source / "scripts/view.awk").read_text().splitlines()
-        self.assertEqual(len([line for line in lines if not line.startswith("#")]), 3)
+        self.assertEqual(len([line for line in lines if not line.startswith("#")]), 4)
 
     def test_view_reads_a_bare_stage_1_with_the_camera_of_a_scene(self):
         bare = (self.sample / "stage1.txt").read_bytes()

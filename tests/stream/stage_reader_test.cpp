@@ -173,6 +173,38 @@ TEST(StageReader, HeadersMayHoldAnOrthographicProjection) {
             (std::vector<double>{-1, 2, -3, 4, -5, 6}));
 }
 
+TEST(StageReader, HeadersMayHoldWhatWasProjected) {
+  const StageHeader header = header_of("projected frustum -1 2 -3 4 5 6\n");
+  EXPECT_FALSE(header.camera.projection);
+  EXPECT_EQ(to_string(header.projected->location), "in.txt:1:19");
+  const auto frustum = std::get<Frustum>(header.projected->value);
+  EXPECT_EQ((std::vector{frustum.left, frustum.far}), (std::vector<double>{-1, 6}));
+  const auto ortho = std::get<Orthographic>(header_of("projected ortho -1 2 -3 4 -5 6\n").projected->value);
+  EXPECT_EQ((std::vector{ortho.top, ortho.near}), (std::vector<double>{4, -5}));
+}
+
+TEST(StageReader, KnowsTheLinesAboutTheCamera) {
+  const StageHeader header = header_of(
+      "framed\n  up 0 1 0\nlight 0 0 0 1 1 1\northo -1 1 -1 1 0 1\nprojected ortho -1 1 -1 1 0 1\nend\n");
+  std::string lines;
+  for (const auto& [keyword, location] : header.camera_lines)
+    lines += to_string(location) + " " + keyword + "; ";
+  EXPECT_EQ(lines, "in.txt:2:3 up; in.txt:4:1 ortho; in.txt:5:1 projected; ");
+}
+
+TEST(StageReader, KnowsWhetherThereIsMoreThanAHeader) {
+  for (const std::string text : {"", "eye 0 0 5\n", "# c\n"}) {
+    const TextFile file(text);
+    TextReader reader(file.descriptor(), "in.txt");
+    EXPECT_FALSE(StageReader(reader).has_body()) << text;
+  }
+  for (const std::string text : {"0 0 0\n", "eye 0 0 5\ntriangle 7\n", "framed\nend\n"}) {
+    const TextFile file(text);
+    TextReader reader(file.descriptor(), "in.txt");
+    EXPECT_TRUE(StageReader(reader).has_body()) << text;
+  }
+}
+
 TEST(StageReader, EachHeaderLineStandsAtMostOnce) {
   EXPECT_EQ(error_of("eye 0 0 5\n\neye 0 0 5\n"),
             "in.txt:3:1: expected one eye, found a second one after in.txt:1:5");

@@ -82,8 +82,17 @@ TEST(StageWriter, WritesAnOrthographicProjection) {
   EXPECT_EQ(written({}, {}, false, header), "ortho -1 2 -3 4 -5 6\n");
 }
 
+TEST(StageWriter, WritesWhatWasProjected) {
+  StageHeader header;
+  header.projected = {Frustum{-1, 2, -3, 4, 5, 6}, {}};
+  EXPECT_EQ(written({}, {}, false, header), "projected frustum -1 2 -3 4 5 6\n");
+  header.projected = {Orthographic{-1, 2, -3, 4, -5, 6}, {}};
+  EXPECT_EQ(written({}, {}, false, header), "projected ortho -1 2 -3 4 -5 6\n");
+}
+
 TEST(StageWriter, BareTextIsTrianglesAlone) {
   StageHeader header;
+  header.projected = {Frustum{-1, 2, -3, 4, 5, 6}, {}};
   header.framed = true;
   header.camera.up = {Vec3{0, 1, 0}, {}};
   EXPECT_EQ(written(numbered({4}), {.shortest = true}, true, header), "0 0 0\n0 0 0\n0 0 0\n\n");

@@ -319,6 +319,62 @@ TEST(TextReader, AFailureToBufferMoreComesBehindTheTextBeforeIt) {
   EXPECT_EQ(message, "cannot read in.txt: Connection reset by peer");
 }
 
+// The beginning.
+
+std::string beginning_from(int descriptor) {
+  TextReader reader(descriptor, "in.txt");
+  return std::string(reader.beginning());
+}
+
+TEST(TextReader, TheBeginningIsTheWholeLinesOfTheFirstBlock) {
+  EXPECT_EQ(beginning_from(TextFile("a\n\nb\n").descriptor()), "a\n\nb\n");
+  EXPECT_EQ(beginning_from(TextFile("a\n\nb").descriptor()), "a\n\n");
+  EXPECT_EQ(beginning_from(TextFile("a").descriptor()), "a");
+  EXPECT_EQ(beginning_from(TextFile("").descriptor()), "");
+}
+
+TEST(TextReader, TheBeginningIsNotConsumed) {
+  const TextFile file("a\nb\nc\nd\ne\n");
+  TextReader reader(file.descriptor(), "in.txt");
+  EXPECT_EQ(reader.beginning(), "a\nb\nc\nd\ne\n");
+  LineScanner line;
+  EXPECT_TRUE(reader.next_line(line));
+  EXPECT_EQ(line.location().line, 1u);
+  EXPECT_EQ(line.rest(), "a");
+}
+
+TEST(TextReader, TheBeginningHasNoByteOrderMark) {
+  EXPECT_EQ(beginning_from(TextFile("\xEF\xBB\xBFx\n").descriptor()), "x\n");
+}
+
+TEST(TextReader, TheBeginningOfAPipeIsWholeLines) {
+  const TextInPieces pieces({"a\nb"}, TextInPieces::Then::silence);
+  EXPECT_EQ(beginning_from(pieces.descriptor()), "a\n");
+}
+
+TEST(TextReader, TheBeginningWaitsForTheFirstLine) {
+  const TextInPieces lines(TextInPieces::bytes_of("ab\n"), TextInPieces::Then::silence);
+  EXPECT_EQ(beginning_from(lines.descriptor()), "ab\n");
+  const TextInPieces half_a_line(TextInPieces::bytes_of("ab"), TextInPieces::Then::end);
+  EXPECT_EQ(beginning_from(half_a_line.descriptor()), "ab");
+}
+
+TEST(TextReader, TheBeginningOfALongTextIsShort) {
+  std::string comments;
+  while (comments.size() < 1'000'000) comments += "# nothing\n";
+  EXPECT_LT(beginning_from(TextFile(comments).descriptor()).size(), 200'000u);
+  const std::string endless(4 * kMaxLineLength, 'x');
+  const TextFile file(endless);
+  TextReader reader(file.descriptor(), "in.txt");
+  EXPECT_EQ(reader.beginning(), "");
+  EXPECT_LT(reader.bytes_read(), 2 * kMaxLineLength);
+}
+
+TEST(TextReader, AFailureToReadTheBeginningNamesTheFileAndTheReason) {
+  TextReader reader(-1, "in.txt");
+  EXPECT_EQ(message_of([&] { reader.beginning(); }), "cannot read in.txt: Bad file descriptor");
+}
+
 TEST(LineScanner, TakesWordsBetweenBlanksAndTabs) {
   const TextFile file("  ab\tc \t d\n");
   TextReader reader(file.descriptor(), "in.txt");

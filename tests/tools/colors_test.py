@@ -6,7 +6,7 @@ usage: colors_test.py BIN_DIR [UNITTEST ARGUMENT...]
 import decimal
 import unittest
 
-from toolbox import CAMERA, HEADER, ToolTest, pipe, run
+from toolbox import CAMERA, HEADER, HEADERS, ToolTest, pipe, run
 
 LOOKS = "background 1 2 3\nambient 0.1 0.2 0.3\nmaterial 1 0.5 0.25 100000\nattenuation 1 0 0.125\n"
 LIT = CAMERA + LOOKS + """color 255 0 127.5
@@ -56,7 +56,7 @@ class ThroughTheStages(ToolTest):
         text = pipe(["model"], ["view"], ["project"], stdin=LIT)
         header = text.decode().splitlines()[:8]
         top = float(1 / decimal.Decimal(3).sqrt())  # near tan 30 degrees: the nearest double
-        self.assertEqual(header[0], f"frustum {-top!r} {top!r} {-top!r} {top!r} 1 100")
+        self.assertEqual(header[0], f"projected frustum {-top!r} {top!r} {-top!r} {top!r} 1 100")
         self.assertEqual(header[1], "attributes w color normal")
         self.assertEqual(header[-2], "light 1 2 -5 1 0.5 0")
         self.assertTrue(all(v[3] == 5 for v in vertices(text)))
@@ -64,7 +64,7 @@ class ThroughTheStages(ToolTest):
     def test_an_orthographic_projection_is_passed_on_with_lights_and_w_is_1(self):
         scene = LIT.replace("60 1 1 100", "ortho -2 2 -3 3 0 10")
         text = pipe(["model"], ["view"], ["project"], stdin=scene)
-        self.assertTrue(text.decode().startswith("ortho -2 2 -3 3 0 10\nattributes w color normal\n"))
+        self.assertTrue(text.decode().startswith("projected ortho -2 2 -3 3 0 10\nattributes w color normal\n"))
         self.assertTrue(all(v[3] == 1 for v in vertices(text)))
 
     def test_without_lights_the_projection_goes(self):
@@ -88,11 +88,11 @@ class ThroughTheStages(ToolTest):
 
     def test_only_projected_texts_have_clipped_triangles(self):
         for tool in ("view", "project"):
-            done = run(tool, stdin=HEADER + "clipped\n")
+            done = run(tool, stdin=HEADERS[tool] + "clipped\n")
             self.assert_fails(done, 1, f"{tool}: <stdin>:5:1: expected 'triangle N' or a vertex, found 'clipped'")
 
     def test_a_clipped_triangle_has_w(self):
-        done = run("zbuf", "config.txt", stdin="ortho -1 1 -1 1 1 2\nattributes w color\nlight 0 0 0 1 1 1\nclipped\n"
+        done = run("zbuf", "config.txt", stdin="projected ortho -1 1 -1 1 1 2\nattributes w color\nlight 0 0 0 1 1 1\nclipped\n"
                    "0 0 0 -1 255 0 0\n0 0 0 0 255 0\n")
         self.assert_fails(done, 1, "zbuf: <stdin>:6:14: expected the blue of vertex 2 of 3 (x y z w r g b), found the end "
                                    "of the line")
@@ -105,7 +105,7 @@ class ThroughTheStages(ToolTest):
 
     def test_w_is_for_projected_texts(self):
         for tool in ("view", "project"):
-            done = run(tool, stdin=HEADER + "attributes w color\n")
+            done = run(tool, stdin=HEADERS[tool] + "attributes w color\n")
             self.assert_fails(done, 1, f"{tool}: <stdin>:5:12: expected a text that is not projected yet, "
                               "found one with the column 'w', which project adds")
 

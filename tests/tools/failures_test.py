@@ -7,7 +7,7 @@ import pathlib
 import subprocess
 import unittest
 
-from toolbox import BIN, CAMERA, HEADER, SCENE, TRIANGLE, ToolTest, run, stage_texts
+from toolbox import BIN, CAMERA, HEADER, HEADERS, SCENE, TRIANGLE, ToolTest, run, stage_texts
 
 WHY = "model: <stdin>:9:1: expected 'end', which closes a scene, found the end of the input"
 OLD_IMAGE = b"an older image\x00\xff"
@@ -49,14 +49,13 @@ class ErrorLines(ToolTest):
 
     def test_what_was_done_before_the_mistake_is_written(self):
         for tool in ("view", "project"):
-            done = run(tool, stdin=HEADER + "0 0 -2\n1 0 -2\n0 1 -2\n\n0 0 x\n")
+            done = run(tool, stdin=HEADERS[tool] + "0 0 -2\n1 0 -2\n0 1 -2\n\n0 0 x\n")
             self.assertEqual(done.stdout.decode().count("\n\n"), 1, done.stdout)
             self.assertTrue(done.stdout.decode().endswith("\n\nerror " + done.stderr.decode()), done.stdout)
 
     def test_view_and_project_pass_it_on_unchanged(self):
-        text = HEADER + "0 0 -2\n1 0 -2\n0 1 -2\n\nerror model: a #1 mistake\n"
         for tool in ("view", "project"):
-            done = run(tool, stdin=text)
+            done = run(tool, stdin=HEADERS[tool] + "0 0 -2\n1 0 -2\n0 1 -2\n\nerror model: a #1 mistake\n")
             self.assert_fails(done, 1, f"{tool}: <stdin>:9:1: an earlier stage failed: model: a #1 mistake")
             self.assertTrue(done.stdout.endswith(b"\n\nerror model: a #1 mistake\n"), done.stdout)
 
@@ -193,7 +192,7 @@ class UnframedText(ToolTest):
 
     def test_a_cut_inside_a_triangle_is(self):
         for tool, options in (("view", []), ("project", []), ("zbuf", ["config.txt"])):
-            done = run(tool, *options, stdin=HEADER + "0 0 -2\n1 0 -2\n")
+            done = run(tool, *options, stdin=HEADERS[tool] + "0 0 -2\n1 0 -2\n")
             self.assert_fails(done, 1, f"{tool}: <stdin>:7:1: expected vertex 3 of 3, found the end of the input inside a triangle")
 
 

@@ -11,7 +11,7 @@ import subprocess
 import time
 import unittest
 
-from toolbox import CAMERA, HEADER, SCENE, TOOLS, TRIANGLE, ToolTest, command, pseudo_terminal, run, run_with, stage_texts
+from toolbox import CAMERA, HEADER, HEADERS, SCENE, TOOLS, TRIANGLE, ToolTest, command, pseudo_terminal, run, run_with, stage_texts
 
 VERTICES = "0 0 -2\n1 0 -2\n0 1 -2\n\n"
 OPERANDS = {"model": [], "view": [], "project": [], "zbuf": ["config.txt"]}
@@ -23,7 +23,7 @@ def small_and_large_inputs():
     for count in (1, 5000):
         yield "model", CAMERA + TRIANGLE * count + "end\n"
         yield "view", HEADER + VERTICES * count
-        yield "project", HEADER + VERTICES * count
+        yield "project", HEADERS["project"] + VERTICES * count
     yield "zbuf", "0 0 0\n0.1 0 0\n0 0.1 0\n"
     yield "zbuf", "-1 -1 0\n1 -1 0\n-1 1 0\n"
 
@@ -135,7 +135,7 @@ class ClosedReader(FaultTest):
         self.assert_nothing_happened()
 
     def test_it_ends_a_filter_whose_input_never_ends(self):
-        endless = {"model": ("triangle 0 0 0\n1 0 0\n0 1 0\n", CAMERA), "view": (VERTICES, HEADER), "project": (VERTICES, HEADER)}
+        endless = {"model": ("triangle 0 0 0\n1 0 0\n0 1 0\n", CAMERA), "view": (VERTICES, HEADER), "project": (VERTICES, HEADERS["project"])}
         for tool, (repeated, start) in endless.items():
             pathlib.Path("input.txt").write_text(start + repeated)
             script = '{ cat input.txt; yes "$1"; } 2>/dev/null | { "$2"; echo $? > status; } 2> errors | head -c 1000'

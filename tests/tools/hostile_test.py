@@ -9,7 +9,7 @@ import re
 import resource
 import unittest
 
-from toolbox import CAMERA, HEADER, SCENE, TRIANGLE, ToolTest, command, run, stage_texts
+from toolbox import CAMERA, HEADER, HEADERS, SCENE, TRIANGLE, ToolTest, command, run, stage_texts
 
 MEMORY = 256 << 20
 VERTICES = "0 0 -2\n1 0 -2\n0 1 -2\n\n"
@@ -99,7 +99,7 @@ class Hostile(ToolTest):
     def test_a_nul_is_no_blank_and_no_end(self):
         bad_vertex = "0 0\0 -2\n"
         for tool, text, line in (("model", CAMERA + "triangle\n" + bad_vertex, 6), ("view", HEADER + bad_vertex, 5),
-                                 ("project", HEADER + bad_vertex, 5), ("zbuf", bad_vertex, 1)):
+                                 ("project", HEADERS["project"] + bad_vertex, 5), ("zbuf", bad_vertex, 1)):
             pathlib.Path("config.txt").write_text("8 8\n")
             done = run(tool, *["config.txt"] * (tool == "zbuf"), stdin=text)
             self.assert_fails(done, 1, rf"{tool}: <stdin>:{line}:3: expected the y of vertex 1 of 3, found '0\x00'")
@@ -118,7 +118,7 @@ class Hostile(ToolTest):
                 ("model", f"{CAMERA}triangle\n{third} 0 0\n1 0 0\n0 1 0\nend\n", "0.3333333 0.0000000 0.0000000"),
                 ("view", f"{HEADER}{third} 0 -2\n1 0 -2\n0 1 -2\n", "0.3333333 0.0000000 -7.0000000"),
                 # A third of 1 / tan 30 degrees, over the distance 2; 101 / 99 - 200 / (99 * 2).
-                ("project", f"{HEADER}{third} 0 -2\n1 0 -2\n0 1 -2\n", "0.2886751 0.0000000 0.0101010")):
+                ("project", f"{HEADERS['project']}{third} 0 -2\n1 0 -2\n0 1 -2\n", "0.2886751 0.0000000 0.0101010")):
             done = self.run_limited(tool, text)
             self.assert_quiet_success(done)
             self.assertIn(expected.encode(), done.stdout.split(b"\n"), tool)
@@ -160,11 +160,11 @@ class Hostile(ToolTest):
 
     def test_a_triangles_number_may_be_as_large_as_64_bits_hold(self):
         largest = (1 << 64) - 1
-        done = run("project", stdin=HEADER + f"triangle {largest}\n" + VERTICES)
+        done = run("project", stdin=HEADERS["project"] + f"triangle {largest}\n" + VERTICES)
         self.assert_quiet_success(done)
         self.assertTrue(done.stdout.startswith(f"triangle {largest}\n".encode()), done.stdout)
-        self.assert_placed(run("project", stdin=HEADER + f"triangle {largest + 1}\n" + VERTICES), "project",
-                           (HEADER + f"triangle {largest + 1}\n" + VERTICES).encode())
+        self.assert_placed(run("project", stdin=HEADERS["project"] + f"triangle {largest + 1}\n" + VERTICES), "project",
+                           (HEADERS["project"] + f"triangle {largest + 1}\n" + VERTICES).encode())
 
 
 if __name__ == "__main__":

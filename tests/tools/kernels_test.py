@@ -7,7 +7,7 @@ import os
 import random
 import unittest
 
-from toolbox import HEADER, SOURCE, ToolTest, run
+from toolbox import HEADER, HEADERS, SOURCE, ToolTest, run
 
 KERNELS = ("portable", "sse4", "avx2")
 DIGITS = ([], ["--digits", "3"], ["--digits", "12"], ["--digits", "17"], ["--digits", "exact"],
@@ -47,7 +47,7 @@ class Kernels(ToolTest):
         for digits in DIGITS:
             self.assert_same("model", *digits, stdin=scene)
             self.assert_same("view", *digits, stdin=HEADER + text)
-            self.assert_same("project", *digits, stdin=HEADER + text)
+            self.assert_same("project", *digits, stdin=HEADERS["project"] + text)
             self.assert_same("project", "--ortho", "-4", "4", "-4", "4", "1", "10", *digits, stdin=text)
 
 

@@ -7,7 +7,7 @@ import os
 import pathlib
 import unittest
 
-from toolbox import CAMERA, HEADER, SOURCE, TRIANGLE, ToolTest, add_claims, run
+from toolbox import CAMERA, HEADER, HEADERS, SOURCE, TRIANGLE, ToolTest, add_claims, run
 
 COMMANDS = "a command (triangle, translate, scale, rotate, push, pop or end)"
 FIRST_COMMANDS = COMMANDS[:-1] + ("; before the first triangle also color, attributes, background, light, ambient, "
@@ -155,38 +155,22 @@ add_claims(SceneMessages, [
 
 
 class StageMessages(ToolTest):
-    """The three readers of stage text find the same errors."""
+    """The three readers of stage text find the same errors; each reads its own header, in place of HEADER."""
 
     def check(self, text, message):
-        pathlib.Path("stage.txt").write_text(text)
         for tool, *options in (["view"], ["project"], ["zbuf", "config.txt"]):
+            pathlib.Path("stage.txt").write_text(text.replace(HEADER, HEADERS[tool]))
             with self.subTest(tool=tool):
                 self.assert_fails(run(tool, *options, "stage.txt"), 1, f"{tool}: stage.txt:{message}")
 
 
 add_claims(StageMessages, [
-    ("header lines stand once", HEADER + "eye 0 0 5\n", "5:1: expected one eye, found a second one after stage.txt:1:5"),
-    ("there is one projection", HEADER + "ortho -1 1 -1 1 1 9\n",
-     "5:1: expected one projection, found a second one after stage.txt:4:13"),
-    ("framed stands once", HEADER + "framed\nframed\n", "6:1: expected one 'framed', found a second one after stage.txt:5:1"),
-    ("framed stands alone", "framed yes\n", "1:8: expected the end of the line after 'framed', found 'yes'"),
-    ("header lines are complete", "look 0 0\n" + HEADER,
-     "1:9: expected the z of the point looked at, found the end of the line"),
-    ("header lines hold numbers", "perspective 60 1 one 100\n", "1:18: expected near, found 'one'"),
-    ("a camera in the header makes sense", "eye 0 0 5\nlook 0 0 5\n",
-     "2:6: expected a point other than the eye to look at, found 0 0 5"),
     ("header lines come before the triangles", HEADER + VERTICES + "\nup 0 1 0\n",
      "9:1: expected header lines before the first triangle, found 'up'"),
-    ("keywords are known", HEADER + "camera 1\n", "5:1: expected a header line, 'triangle N' or a vertex, found 'camera'"),
-    ("misspelled keywords are guessed", HEADER + "perpective 60 1 1 9\n",
-     "5:1: expected a header line, 'triangle N' or a vertex, found 'perpective' (did you mean perspective?)"),
-    ("keywords are in lower case", "Eye 0 0 5\n",
-     "1:1: expected a header line, 'triangle N' or a vertex, found 'Eye' (keywords are lower case)"),
     ("keywords are known behind the header", HEADER + VERTICES + "quad\n",
      "8:1: expected 'triangle N' or a vertex, found 'quad'"),
     ("a vertex has the columns of its attributes", "attributes color\n" + HEADER + "0 0 0 1 1\n",
      "6:10: expected the blue of vertex 1 of 3 (x y z r g b), found the end of the line"),
-    ("attributes have an order", "attributes color w\n", "1:18: expected attributes of [w] [color] [normal], in this order, found 'w'"),
     ("a number of a triangle is below 2 to the 64", HEADER + "triangle 18446744073709551616\n",
      "5:10: expected the number of a triangle, a whole number below 2^64, found '18446744073709551616'"),
     ("an earlier stage may have failed without a word", HEADER + VERTICES + "error\n",
@@ -206,14 +190,44 @@ add_claims(StageMessages, [
     ("nan is no coordinate", HEADER + "0 0 0\n1 -nan 0\n", "6:3: expected the y of vertex 2 of 3, found '-nan'"),
     ("a coordinate may be too large", HEADER + "0 0 0\n1 0 0\n0 1e999 0\n",
      "7:3: expected the y of vertex 3 of 3 within a double's range, found '1e999'"),
-    ("an unframed text has no end", HEADER + "end\n",
-     "5:1: expected a header line, 'triangle N' or a vertex ('end' needs a line 'framed' in the header), found 'end'"),
     ("a framed text has an end", "framed\n" + HEADER + VERTICES,
      "9:1: expected 'end', which closes a framed text, found the end of the input"),
     ("the end of a framed text is a line", "framed\n" + HEADER + "end",
      "6:4: expected the end of the line after 'end', which closes a framed text, found the end of the input"),
     ("nothing follows the end of a framed text", "framed\n" + HEADER + "end\n0 0 0\n",
      "7:1: expected nothing after 'end', found '0'"),
+])
+
+
+class HeaderMessages(ToolTest):
+    """An error in the header is found before the header is judged: here it is that of every tool, view's."""
+
+    def check(self, text, message):
+        pathlib.Path("stage.txt").write_text(text)
+        for tool, *options in (["view"], ["project"], ["zbuf", "config.txt"]):
+            with self.subTest(tool=tool):
+                self.assert_fails(run(tool, *options, "stage.txt"), 1, f"{tool}: stage.txt:{message}")
+
+
+add_claims(HeaderMessages, [
+    ("header lines stand once", HEADER + "eye 0 0 5\n", "5:1: expected one eye, found a second one after stage.txt:1:5"),
+    ("there is one projection", HEADER + "ortho -1 1 -1 1 1 9\n",
+     "5:1: expected one projection, found a second one after stage.txt:4:13"),
+    ("framed stands once", HEADER + "framed\nframed\n", "6:1: expected one 'framed', found a second one after stage.txt:5:1"),
+    ("framed stands alone", "framed yes\n", "1:8: expected the end of the line after 'framed', found 'yes'"),
+    ("header lines are complete", "look 0 0\n" + HEADER,
+     "1:9: expected the z of the point looked at, found the end of the line"),
+    ("header lines hold numbers", "perspective 60 1 one 100\n", "1:18: expected near, found 'one'"),
+    ("a camera in the header makes sense", "eye 0 0 5\nlook 0 0 5\n",
+     "2:6: expected a point other than the eye to look at, found 0 0 5"),
+    ("keywords are known", HEADER + "camera 1\n", "5:1: expected a header line, 'triangle N' or a vertex, found 'camera'"),
+    ("misspelled keywords are guessed", HEADER + "perpective 60 1 1 9\n",
+     "5:1: expected a header line, 'triangle N' or a vertex, found 'perpective' (did you mean perspective?)"),
+    ("keywords are in lower case", "Eye 0 0 5\n",
+     "1:1: expected a header line, 'triangle N' or a vertex, found 'Eye' (keywords are lower case)"),
+    ("attributes have an order", "attributes color w\n", "1:18: expected attributes of [w] [color] [normal], in this order, found 'w'"),
+    ("an unframed text has no end", HEADER + "end\n",
+     "5:1: expected a header line, 'triangle N' or a vertex ('end' needs a line 'framed' in the header), found 'end'"),
     ("an earlier stage may have failed", HEADER + "error model: scene.txt:9:1: no #1 scene\n",
      "5:1: an earlier stage failed: model: scene.txt:9:1: no #1 scene"),
 ])
@@ -228,13 +242,14 @@ class CameraMessages(ToolTest):
 CAMERA_FORM = "a camera (header lines eye, look and up; or --scene; or --eye, --look and --up)"
 PROJECTION_FORM = ("a projection (a header line perspective, frustum or ortho; or --scene; or --perspective, --frustum or "
                    "--ortho)")
+OF_NO_STAGE = ": this text is bare, or has been through project already"
 add_claims(CameraMessages, [
-    ("view needs a camera", "view", VERTICES, 1, f"<stdin>:1:1: expected {CAMERA_FORM}, found no eye, look or up"),
+    ("view needs a camera", "view", VERTICES, 1, f"<stdin>:1:1: expected {CAMERA_FORM}, found no eye, look or up" + OF_NO_STAGE),
     ("view needs a whole camera", "view", "eye 0 0 5\n# c\n\n 0 0 0\n", 1,
      f"<stdin>:4:2: expected {CAMERA_FORM}, found no look or up"),
     ("view says which option is missing", "view --eye 0 0 5 --look 0 0 0", VERTICES, 1,
      f"<stdin>:1:1: expected {CAMERA_FORM}, found no up"),
-    ("project needs a projection", "project", VERTICES, 1, f"<stdin>:1:1: expected {PROJECTION_FORM}, found none"),
+    ("project needs a projection", "project", VERTICES, 1, f"<stdin>:1:1: expected {PROJECTION_FORM}, found none" + OF_NO_STAGE),
     ("project needs it also without triangles", "project", "", 1, f"<stdin>:1:1: expected {PROJECTION_FORM}, found none"),
     ("fovX has to make sense in project", "project", "# c\nperspective 90 2 1 9\n", 1,
      "<stdin>:2:13: expected fovX = fovY * aspect above 0 and below 180 degrees (or --aspect ratio), found 90 * 2"),
@@ -266,7 +281,8 @@ add_claims(CameraMessages, [
     ("shading needs a light", "zbuf config.txt --shading flat", "background 1 2 3\n" + VERTICES, 1,
      "<stdin>:2:1: expected a light for --shading (a header line light), found none"),
     ("light needs a projection", "zbuf config.txt", "light 1 1 1 1 1 1\n" + VERTICES, 1,
-     "<stdin>:2:1: expected the projection of a text with lights (a header line frustum or ortho), found none"),
+     "<stdin>:2:1: expected a header line 'projected frustum L R B T N F' (or ortho) in a text with lights, found none: "
+     "this text has not been through project"),
     ("a whole of a clipped triangle is in clip space", "zbuf config.txt", "clipped\n0 0 0\n", 1,
      "<stdin>:2:6: expected the w of vertex 1 of 3 (x y z w), found the end of the line"),
     ("clipped stands alone", "zbuf config.txt", "clipped 1\n", 1,
@@ -281,7 +297,7 @@ add_claims(CameraMessages, [
      "--scene: expected a file, as INPUT is standard input, found '-' (try view --help)"),
     ("a scene besides the input exists", "view --scene none.txt", "", 1, "cannot open none.txt: No such file or directory"),
     ("a scene besides the input is one", "project --scene config.txt", "", 1,
-     "config.txt:1:4: expected the z of the eye, found the end of the line"),
+     "config.txt:1:1: expected a scene, but this looks like a config: zbuf reads those"),
     ("a camera of option and header makes sense", "view --look 0 0 5", HEADER, 2,
      "--look: expected a point other than the eye to look at, found 0 0 5 (try view --help)"),
     ("an eye of the header is looked at by no option", "view --eye 0 0 0", HEADER, 1,

@@ -9,7 +9,7 @@ import re
 import subprocess
 import unittest
 
-from toolbox import BIN, CAMERA, HEADER, SCENE, SOURCE, TOOLS, ToolTest, add_claims, pipe, run, stage_texts
+from toolbox import BIN, CAMERA, HEADER, HEADERS, SCENE, SOURCE, TOOLS, ToolTest, add_claims, pipe, run, stage_texts
 
 PLAIN = """1 2 6
 1 0.5 0
@@ -35,7 +35,7 @@ end
 """
 VIEW_SPACE = "0 0 -2\n1 0 -2\n0 1 -3\n\n"
 OPERANDS = {"model": [], "view": [], "project": [], "zbuf": ["config.txt"]}
-INPUTS = {"model": SCENE, "view": HEADER, "project": HEADER, "zbuf": ""}
+INPUTS = {"model": SCENE, "view": HEADER, "project": HEADERS["project"], "zbuf": ""}
 
 
 class FormsOfAScene(ToolTest):

@@ -234,8 +234,8 @@ class Shading(ToolTest):
 
     def test_lights_need_the_projection(self):
         done = run("zbuf", "config.txt", stdin="light 0 0 0 1 1 1\n")
-        self.assert_fails(done, 1, "zbuf: <stdin>:2:1: expected the projection of a text with lights (a header line "
-                                   "frustum or ortho), found none")
+        self.assert_fails(done, 1, "zbuf: <stdin>:2:1: expected a header line 'projected frustum L R B T N F' (or ortho) in a "
+                                   "text with lights, found none: this text has not been through project")
 
 
 def without_looks(stage3):

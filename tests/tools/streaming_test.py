@@ -13,7 +13,7 @@ import subprocess
 import time
 import unittest
 
-from toolbox import CAMERA, HEADER, SCENE, TRIANGLE, ToolTest, command, run, stage_texts
+from toolbox import CAMERA, HEADER, HEADERS, SCENE, TRIANGLE, ToolTest, command, run, stage_texts
 
 MEBIBYTE = 1024  # in the units of /proc, which are KiB
 VERTICES = "0.1234567 -1.2345678 -12.3456789\n1.1234567 -1.2345678 -12.3456789\n0.1234567 -0.2345678 -12.3456789\n"
@@ -89,12 +89,12 @@ class Streaming(ToolTest):
         self.check("view", HEADER, VERTICES + "\n", "")
 
     def test_project_passes_every_triangle_on_at_once(self):
-        self.check("project", HEADER, VERTICES + "\n", "")
+        self.check("project", HEADERS["project"], VERTICES + "\n", "")
 
     def test_view_and_project_pass_it_on_while_the_next_is_cut(self):
         for tool in ("view", "project"):
             with LiveTool(tool) as live:
-                live.send(HEADER + VERTICES + "\n" + VERTICES[:-3])
+                live.send(HEADERS[tool] + VERTICES + "\n" + VERTICES[:-3])
                 self.assertEqual(live.receive(1), 1)
 
     def test_they_pass_them_on_whatever_stands_behind(self):
@@ -110,7 +110,7 @@ class Streaming(ToolTest):
 
     def test_half_of_the_input_gives_half_of_the_output(self):
         scenes = {"model": (CAMERA, TRIANGLE, "end\n"), "view": (HEADER, VERTICES + "\n", ""),
-                  "project": (HEADER, VERTICES + "\n", "")}
+                  "project": (HEADERS["project"], VERTICES + "\n", "")}
         for tool, (start, triangle, end) in scenes.items():
             with LiveTool(tool) as live:
                 live.send(start + triangle * 200)
@@ -205,7 +205,7 @@ class PipeSize(ToolTest):
 
 
 INPUTS = {"model": (CAMERA, "triangle\n" + VERTICES, "end\n"), "view": (HEADER, VERTICES + "\n", ""),
-          "project": (HEADER, VERTICES + "\n", "")}
+          "project": (HEADERS["project"], VERTICES + "\n", "")}
 
 
 def peak_memory(tool, start, repeated, count, end, *options):

@@ -20,6 +20,8 @@ CAMERA = "0 0 5\n0 0 0\n0 1 0\n60 1 1 100\n"
 TRIANGLE = "triangle\n0 0 0\n1 0 0\n0 1 0\n"
 SCENE = CAMERA + TRIANGLE + "end\n"
 HEADER = "eye 0 0 5\nlook 0 0 0\nup 0 1 0\nperspective 60 1 1 100\n"
+# The header that each tool reads, always in four lines: earlier stages have used up what is a comment.
+HEADERS = {"view": HEADER, "project": "# eye\n# look\n# up\nperspective 60 1 1 100\n", "zbuf": "# eye\n# look\n# up\n# projection\n"}
 CONFIG = "8 8\n"
 
 

@@ -67,7 +67,7 @@ def large_on_screen(count, **columns):
 def header(space, columns):
     """The header, before the first triangle."""
     names = f"attributes {' '.join(columns)}\n" if columns else ""
-    return {"scene": "", "world": CAMERA + PROJECTION, "view": PROJECTION, "screen": "frustum -0.4 0.4 -0.4 0.4 1 10\n" * bool(columns)}[space] + names + (LIGHTS if columns else "")
+    return {"scene": "", "world": CAMERA + PROJECTION, "view": PROJECTION, "screen": "projected frustum -0.4 0.4 -0.4 0.4 1 10\n" * bool(columns)}[space] + names + (LIGHTS if columns else "")
 
 
 def lit(space, make, count, repeats=1):

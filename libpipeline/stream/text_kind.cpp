@@ -1,0 +1,204 @@
+#include "libpipeline/stream/text_kind.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <string_view>
+#include <vector>
+
+#include "libpipeline/scene/viewport.h"
+#include "libpipeline/text/number_parser.h"
+
+namespace pipeline {
+namespace {
+
+using Words = std::vector<std::string_view>;
+
+// A scene's camera takes four lines, and a header tells its kind within as many.
+constexpr std::size_t kLinesLookedAt = 4;
+
+bool is_one_of(std::string_view word, std::initializer_list<std::string_view> words) {
+  return std::find(words.begin(), words.end(), word) != words.end();
+}
+
+bool is_position(std::string_view keyword) {
+  return is_one_of(keyword, {"eye", "look", "up"});
+}
+
+/// True for a word that begins like a number; whether it is one shows when it is read.
+bool is_number(std::string_view word) {
+  const char first = word.front();
+  return (first >= '0' && first <= '9') || first == '-' || first == '+' || first == '.';
+}
+
+/// True for a line that begins with `count` numbers.
+bool begins_with_numbers(const Words& line, std::size_t count) {
+  return line.size() >= count &&
+         std::all_of(line.begin(), line.begin() + static_cast<std::ptrdiff_t>(count), is_number);
+}
+
+bool is_point(const Words& line) {
+  return line.size() == 3 && begins_with_numbers(line, 3);
+}
+
+bool is_size(std::string_view word) {
+  std::size_t size = 0;
+  return parse_count(word, size) && size >= 1 && size <= kMaxViewportSize;
+}
+
+/// True for a line that only scenes have: a command, but not the `triangle N` of a stage text.
+bool is_command(const Words& line) {
+  if (line.front() == "triangle") return line.size() != 2;
+  return is_one_of(line.front(), {"translate", "scale", "rotate", "push", "pop", "color"});
+}
+
+bool is_scene(const std::vector<Words>& lines) {
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    if (is_command(lines[i])) return true;
+    const bool is_projection =
+        begins_with_numbers(lines[i], 4) || is_one_of(lines[i].front(), {"ortho", "frustum"});
+    if (i == 3) return is_projection;
+    if (!is_point(lines[i])) return false;
+  }
+  return false;
+}
+
+bool is_config(const std::vector<Words>& lines) {
+  const Words& first = lines.front();
+  return first.size() == 2 && is_size(first[0]) && is_size(first[1]) &&
+         (lines.size() == 1 || lines[1].size() == 1);
+}
+
+/// The kind of a text that begins with a header, else unknown. Lines about color and light tell nothing: a
+/// scene has them, too.
+TextKind kind_by_header(const std::vector<Words>& lines) {
+  TextKind kind = TextKind::unknown;
+  for (const Words& line : lines) {
+    const std::string_view keyword = line.front();
+    if (keyword == "projected" || (keyword == "attributes" && line.size() > 1 && line[1] == "w"))
+      return TextKind::ndc;
+    if (is_position(keyword)) return TextKind::world;
+    if (is_one_of(keyword, {"perspective", "frustum", "ortho"}))
+      kind = TextKind::view;
+    else if (keyword != "framed" && !is_appearance_keyword(keyword))
+      break;
+  }
+  return kind;
+}
+
+TextKind kind_of(const std::vector<Words>& lines) {
+  if (lines.empty()) return TextKind::unknown;
+  if (lines.front().front().find('\x1b') != std::string_view::npos) return TextKind::editor_screen;
+  if (is_config(lines)) return TextKind::config;
+  if (is_scene(lines)) return TextKind::scene;
+  if (lines.size() >= 3 && std::all_of(lines.begin(), lines.begin() + 3, is_point))
+    return TextKind::triangles;
+  return kind_by_header(lines);
+}
+
+std::string named(TextKind expected) {
+  switch (expected) {
+    case TextKind::scene:
+      return "a scene";
+    case TextKind::world:
+      return "the output of model";
+    case TextKind::view:
+      return "the output of view";
+    case TextKind::ndc:
+      return "the output of project";
+    default:
+      return "a config";
+  }
+}
+
+std::string described(TextKind found) {
+  switch (found) {
+    case TextKind::scene:
+      return "a scene: model reads those";
+    case TextKind::world:
+      return "the output of model: view reads that";
+    case TextKind::view:
+      return "the output of view: project reads that";
+    case TextKind::ndc:
+      return "the output of project: zbuf reads that";
+    case TextKind::triangles:
+      return "triangles: CONFIG comes before INPUT";
+    case TextKind::editor_screen:
+      return "an editor's screen: was Vim's view run in place of ours?";
+    default:
+      return "a config: zbuf reads those";
+  }
+}
+
+/// True if a text of the kind `found` cannot be one of the kind `expected`. Stage texts are told apart by
+/// their whole header, later.
+bool excludes(TextKind found, TextKind expected) {
+  if (found == expected || found == TextKind::unknown) return false;
+  const bool is_of_any_stage = found == TextKind::triangles;
+  const bool has_header = found == TextKind::world || found == TextKind::view || found == TextKind::ndc;
+  if (expected == TextKind::config) return true;
+  if (expected == TextKind::scene) return !is_of_any_stage;
+  return !is_of_any_stage && !has_header;
+}
+
+/// What a project stage does with the projection in the header that it reads.
+std::string duty_of_project(const StageHeader& header) {
+  return header.appearance.lights.empty() ? "drop this line"
+                                          : "write 'projected frustum L R B T N F' (or ortho) in its place";
+}
+
+}  // namespace
+
+void expect_kind(TextReader& text, TextKind expected) {
+  std::string_view rest = text.beginning();
+  std::vector<Words> lines;
+  lines.reserve(kLinesLookedAt);
+  LineScanner first;
+  for (std::size_t number = 1; !rest.empty() && lines.size() < kLinesLookedAt; ++number) {
+    const std::size_t length = std::min(rest.find('\n'), rest.size());
+    LineScanner line(rest.substr(0, length), text.file(), number);
+    rest.remove_prefix(std::min(length + 1, rest.size()));
+    if (line.at_end()) continue;
+    if (lines.empty()) first = line;
+    lines.emplace_back().reserve(4);
+    while (!line.at_end()) lines.back().push_back(line.word());
+  }
+  const TextKind found = kind_of(lines);
+  if (excludes(found, expected))
+    throw InputError(first.location(),
+                     "expected " + named(expected) + ", but this looks like " + described(found));
+}
+
+void expect_header(const StageReader& reader, TextKind expected) {
+  const StageHeader& header = reader.header();
+  const auto refuse = [&](const Located<std::string>& line, const std::string& why) {
+    throw InputError(line.location, expected_but_found(named(expected), quoted(line.value) + ": " + why));
+  };
+  for (const Located<std::string>& line : header.camera_lines) {
+    const bool is_projected = line.value == "projected";
+    if (expected != TextKind::ndc && is_projected) refuse(line, "this text has been through project already");
+    if (expected == TextKind::view && is_position(line.value))
+      refuse(line,
+             "this text has not been through view; a view of your own must drop the lines eye, look and up");
+    if (expected == TextKind::ndc && is_position(line.value))
+      refuse(
+          line,
+          "this text has not been through view and project; stages of your own must drop the camera's lines");
+    if (expected == TextKind::ndc && !is_projected)
+      refuse(line,
+             "this text has not been through project; a project of your own must " + duty_of_project(header));
+  }
+  if (expected != TextKind::ndc) return expect_no_w(header.appearance);
+  if (!header.appearance.lights.empty() && !header.projected)
+    throw InputError(
+        reader.header_end(),
+        expected_but_found("a header line 'projected frustum L R B T N F' (or ortho) in a text with lights",
+                           "none: this text has not been through project"));
+}
+
+std::string reason_without_camera(const StageReader& reader) {
+  if (reader.header().camera.projection) return ": this text has been through view already";
+  return reader.has_body() ? ": this text is bare, or has been through project already" : "";
+}
+
+}  // namespace pipeline
