@@ -1,6 +1,7 @@
 #include "tools/tool.h"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -32,6 +33,12 @@ void open_closed_descriptors() {
   for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
     if (::fcntl(descriptor, F_GETFD) < 0)
       ::open("/dev/null", descriptor == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+}
+
+/// True for a pipe, and for a socket, of which some shells make their pipes.
+bool is_pipe(int descriptor) {
+  struct stat status = {};
+  return ::fstat(descriptor, &status) == 0 && (S_ISFIFO(status.st_mode) || S_ISSOCK(status.st_mode));
 }
 
 /// With the signal ignored, writing to a file at its size limit fails like any other write, which is reported
@@ -126,8 +133,7 @@ int Tool::status_of(const std::function<void()>& work) try {
   } catch (const UsageError& error) {
     return fail_misuse(error.what());
   } catch (const EarlierFailure& error) {
-    // The next stage gets the message of the stage that failed first.
-    return fail(error.what(), error.reason(), kExitFailure);
+    return fail_after(error);
   } catch (const InputError& error) {
     return error.location().is_option() ? fail_misuse(error.what()) : fail(error.what(), kExitFailure);
   } catch (const IoError& error) {
@@ -163,22 +169,35 @@ int Tool::fail_misuse(const std::string& message) {
   return fail(message + " (try " + name_ + " --help)", kExitMisuse);
 }
 
+/// Reports the message on stderr and to the next stage.
 int Tool::fail(const std::string& message, int status) {
-  return fail(message, name_ + ": " + message, status);
+  print_on_stderr(name_ + ": " + message);
+  tell_next_stage(name_ + ": " + message);
+  return status;
 }
 
-/// Reports the message on stderr and the `reason` to the next stage.
-int Tool::fail(const std::string& message, const std::string& reason, int status) {
-  print_on_stderr(name_ + ": " + message);
-  if (output_kind_ == OutputKind::other_text) return status;
+/// Passes the failure of an earlier stage on. In a pipe that stage has reported it on the same stderr, so
+/// only the last stage adds that nothing came of it.
+int Tool::fail_after(const EarlierFailure& failure) {
+  const bool makes_picture = output_kind_ == OutputKind::other_text;
+  if (!is_pipe(input_->descriptor()))
+    print_on_stderr(name_ + ": " + failure.what());
+  else if (makes_picture || !is_pipe(STDOUT_FILENO))
+    print_on_stderr(name_ + (makes_picture ? ": no picture: " : ": no output: ") + failure.in_short());
+  tell_next_stage(failure.reason());
+  return kExitFailure;
+}
+
+/// Ends a stage text with an error line.
+void Tool::tell_next_stage(const std::string& reason) {
+  if (output_kind_ == OutputKind::other_text) return;
   try {
-    // At a terminal the line above is enough.
+    // At a terminal the message on stderr is enough.
     if (::isatty(STDOUT_FILENO) == 0) output_.append(error_line(reason));
     output_.flush();
   } catch (const IoError&) {
     // The output has failed, too, or was the failure; the exit status remains.
   }
-  return status;
 }
 
 int Tool::fail_without_memory() noexcept {

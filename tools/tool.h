@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "libpipeline/stream/stage_text.h"
 #include "libpipeline/text/text_reader.h"
 #include "libpipeline/text/text_writer.h"
 #include "tools/command_line.h"
@@ -25,6 +26,7 @@ class InputFile {
   InputFile& operator=(const InputFile&) = delete;
 
   TextReader& text() { return *text_; }
+  [[nodiscard]] int descriptor() const { return descriptor_; }
 
  private:
   int descriptor_;
@@ -89,9 +91,10 @@ class Tool {
   int answer(const std::string& text);
   int status_of(const std::function<void()>& work);
   int fail(const std::string& message, int status);
-  int fail(const std::string& message, const std::string& reason, int status);
+  int fail_after(const EarlierFailure& failure);
   int fail_misuse(const std::string& message);
   int fail_without_memory() noexcept;
+  void tell_next_stage(const std::string& reason);
   void report_timing();
 
   OutOfMemoryReport out_of_memory_;  // first: the other members allocate

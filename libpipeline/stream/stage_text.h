@@ -27,7 +27,8 @@ namespace pipeline {
 //                  the other columns) follow; the next triangles of its number are pieces of this one
 //   X Y Z          three vertex lines, then a blank line; after the position the columns that `attributes`
 //                  names, in this order: W, R G B (0 to 255), NX NY NZ
-//   error ...      an earlier stage failed, with its message; nothing follows
+//   error ...      an earlier stage failed, with its message, which it has also printed on stderr; nothing
+//                  follows
 //   end            the last line of a framed text
 //
 // Comments (from # to the end of the line) and blank lines may stand anywhere, but no blank line inside a
@@ -50,6 +51,8 @@ class EarlierFailure : public InputError {
  public:
   EarlierFailure(const SourceLocation& location, std::string reason);
   [[nodiscard]] const std::string& reason() const { return reason_; }
+  /// "tool failed"; the whole reason if it does not name a tool.
+  [[nodiscard]] std::string in_short() const;
 
  private:
   std::string reason_;

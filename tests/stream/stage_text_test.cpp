@@ -24,6 +24,16 @@ TEST(StageText, AnErrorLineCanBePassedOnAsItWas) {
   }
 }
 
+TEST(StageText, AnEarlierFailureNamesItsToolInShort) {
+  const auto in_short = [](const std::string& reason) { return EarlierFailure({}, reason).in_short(); };
+  EXPECT_EQ(in_short("model: scene.txt:9:1: no"), "model failed");
+  EXPECT_EQ(in_short("model:"), "model failed");
+  EXPECT_EQ(in_short("model"), "an earlier stage failed: model");
+  EXPECT_EQ(in_short("it broke: badly"), "an earlier stage failed: it broke: badly");
+  EXPECT_EQ(in_short(": no"), "an earlier stage failed: : no");
+  EXPECT_EQ(in_short(""), "an earlier stage failed, without saying why");
+}
+
 TEST(StageText, WhatIsWrittenShortestReadsBackAsItWas) {
   TriangleBatch batch;
   batch.add({Vec3{0.1, 1.0 / 3, 5e-324}, Vec3{-1e300, 2, 3}, Vec3{4, 5, 6}}, 7, {});

@@ -3,11 +3,13 @@
 
 usage: failures_test.py BIN_DIR [UNITTEST ARGUMENT...]
 """
+import os
 import pathlib
+import socket
 import subprocess
 import unittest
 
-from toolbox import BIN, CAMERA, HEADER, HEADERS, SCENE, TRIANGLE, ToolTest, run, stage_texts
+from toolbox import BIN, CAMERA, HEADER, HEADERS, SCENE, TRIANGLE, ToolTest, command, pseudo_terminal, run, run_with, stage_texts
 
 WHY = "model: <stdin>:9:1: expected 'end', which closes a scene, found the end of the input"
 OLD_IMAGE = b"an older image\x00\xff"
@@ -53,11 +55,56 @@ class ErrorLines(ToolTest):
             self.assertEqual(done.stdout.decode().count("\n\n"), 1, done.stdout)
             self.assertTrue(done.stdout.decode().endswith("\n\nerror " + done.stderr.decode()), done.stdout)
 
-    def test_view_and_project_pass_it_on_unchanged(self):
+    def test_view_and_project_pass_it_on_unchanged_and_in_silence(self):
         for tool in ("view", "project"):
             done = run(tool, stdin=HEADERS[tool] + "0 0 -2\n1 0 -2\n0 1 -2\n\nerror model: a #1 mistake\n")
-            self.assert_fails(done, 1, f"{tool}: <stdin>:9:1: an earlier stage failed: model: a #1 mistake")
+            self.assertEqual((done.returncode, done.stderr), (1, b""))
             self.assertTrue(done.stdout.endswith(b"\n\nerror model: a #1 mistake\n"), done.stdout)
+
+    def test_the_last_stage_says_that_there_is_no_output(self):
+        for tool in ("view", "project"):
+            with open("output.txt", "wb") as output:
+                done = run(tool, stdin="error model: a #1 mistake\n", stdout=output)
+            self.assert_fails(done, 1, f"{tool}: no output: model failed")
+            self.assertEqual(pathlib.Path("output.txt").read_text(), "error model: a #1 mistake\n")
+            self.assert_fails(run(tool, stdin="error model: a #1 mistake\n", stdout=subprocess.DEVNULL), 1, f"{tool}: no output: model failed")
+
+    def test_at_a_terminal_the_message_is_enough(self):
+        ours, theirs = pseudo_terminal()
+        self.addCleanup(os.close, ours)
+        with open(theirs, "wb") as terminal:
+            self.assert_fails(run("view", stdin="error model: a mistake\n", stdout=terminal), 1, "view: no output: model failed")
+            terminal.write(b"nothing else\n")
+        self.assertEqual(os.read(ours, 100), b"nothing else\r\n")
+
+    def test_zbuf_says_that_there_is_no_picture(self):
+        for settings in ({}, {"stdout": subprocess.DEVNULL}):
+            self.assert_fails(run("zbuf", "config.txt", stdin="error model: a #1 mistake\n", **settings), 1, "zbuf: no picture: model failed")
+
+    def test_a_reason_without_a_tool_is_told_as_it_is(self):
+        for line, told in (("error my-stage: no", "my-stage failed"), ("error a b: c", "an earlier stage failed: a b: c"),
+                           ("error no colon", "an earlier stage failed: no colon"), ("error nothing", "an earlier stage failed: nothing"),
+                           ("error : x", "an earlier stage failed: : x"), ("error", "an earlier stage failed, without saying why")):
+            self.assert_fails(run("zbuf", "config.txt", stdin=line + "\n"), 1, f"zbuf: no picture: {told}")
+
+    def test_from_a_file_the_whole_message_is_repeated(self):
+        pathlib.Path("failed.txt").write_text("error model: a #1 mistake\n")
+        message = "an earlier stage failed: model: a #1 mistake"
+        for tool, *operands in (("view",), ("project",), ("zbuf", "config.txt")):
+            self.assert_fails(run(tool, *operands, "failed.txt"), 1, f"{tool}: failed.txt:1:1: {message}")
+            self.assert_fails(run_with("< failed.txt", tool, *operands), 1, f"{tool}: <stdin>:1:1: {message}")
+        # Whatever standard input is: it is not read.
+        self.assert_fails(run("view", "failed.txt", stdin="0 0 0\n"), 1, f"view: failed.txt:1:1: {message}")
+
+    def test_a_named_pipe_and_a_socket_are_pipes(self):
+        os.mkfifo("pipe")
+        self.assert_fails(shell("echo 'error model: no' > pipe & exec zbuf config.txt pipe"), 1, "zbuf: no picture: model failed")
+        ours, theirs = socket.socketpair()
+        with ours, theirs:
+            ours.sendall(b"error model: no\n")
+            ours.shutdown(socket.SHUT_WR)
+            done = subprocess.run(command("zbuf", "config.txt"), stdin=theirs, capture_output=True, timeout=60)
+        self.assert_fails(done, 1, "zbuf: no picture: model failed")
 
     def test_bare_and_framed_output_ends_with_one_as_well(self):
         for option in ("--bare", "--framed"):
@@ -67,8 +114,8 @@ class ErrorLines(ToolTest):
 
     def test_nobody_misses_a_camera_where_an_error_line_says_more(self):
         for tool in ("view", "project"):
-            self.assert_fails(run(tool, stdin="error model: no scene\n"), 1,
-                              f"{tool}: <stdin>:1:1: an earlier stage failed: model: no scene")
+            done = run(tool, stdin="error model: no scene\n")
+            self.assertEqual((done.returncode, done.stdout, done.stderr), (1, b"error model: no scene\n", b""))
 
 
 class WholePipe(ToolTest):
@@ -87,30 +134,37 @@ class WholePipe(ToolTest):
     def test_a_mistake_in_the_scene_leaves_the_old_picture(self):
         pathlib.Path("scene.txt").write_text(CAMERA + TRIANGLE)
         why = "model: scene.txt:9:1: expected 'end', which closes a scene, found the end of the input"
-        self.check_no_picture("model scene.txt | view | project | zbuf config.txt", why,
-                              f"view: <stdin>:9:1: an earlier stage failed: {why}",
-                              f"project: <stdin>:6:1: an earlier stage failed: {why}",
-                              f"zbuf: <stdin>:5:1: an earlier stage failed: {why}")
+        self.check_no_picture("model scene.txt | view | project | zbuf config.txt", why, "zbuf: no picture: model failed")
 
     def test_misuse_of_model_leaves_the_old_picture(self):
         why = "model: expected an option of model, found '--bogus' (try model --help)"
-        self.check_no_picture("model --bogus | view | project | zbuf config.txt", why,
-                              *(f"{tool}: <stdin>:1:1: an earlier stage failed: {why}" for tool in ("view", "project", "zbuf")))
+        self.check_no_picture("model --bogus | view | project | zbuf config.txt", why, "zbuf: no picture: model failed")
 
     def test_misuse_of_view_leaves_the_old_picture(self):
         why = "view: expected an option of view, found '--bogus' (try view --help)"
-        self.check_no_picture("model scene.txt | view --bogus | project | zbuf config.txt", why,
-                              *(f"{tool}: <stdin>:1:1: an earlier stage failed: {why}" for tool in ("project", "zbuf")))
+        self.check_no_picture("model scene.txt | view --bogus | project | zbuf config.txt", why, "zbuf: no picture: view failed")
 
     def test_misuse_of_project_leaves_the_old_picture(self):
         why = "project: --clip: expected auto, near, frustum, reject or none, found 'x' (try project --help)"
-        self.check_no_picture("model scene.txt | view | project --clip x | zbuf config.txt", why,
-                              f"zbuf: <stdin>:1:1: an earlier stage failed: {why}")
+        self.check_no_picture("model scene.txt | view | project --clip x | zbuf config.txt", why, "zbuf: no picture: project failed")
 
     def test_a_missing_scene_leaves_the_old_picture(self):
         why = "model: cannot open none.txt: No such file or directory"
-        self.check_no_picture("model none.txt | view | project | zbuf config.txt", why,
-                              *(f"{tool}: <stdin>:1:1: an earlier stage failed: {why}" for tool in ("view", "project", "zbuf")))
+        self.check_no_picture("model none.txt | view | project | zbuf config.txt", why, "zbuf: no picture: model failed")
+
+    def test_a_mistake_is_told_once_and_the_last_stage_adds_a_short_line(self):
+        pathlib.Path("scene.txt").write_text(CAMERA + TRIANGLE.replace("triangle", "Triangle"))
+        done = shell("model scene.txt | view | project > stage3.txt")
+        first, last = done.stderr.decode().splitlines()
+        self.assertTrue(first.startswith("model: scene.txt:5:1: expected a command"), first)
+        self.assertEqual(last, "project: no output: model failed")
+        os.remove("stage3.txt")
+        self.check_no_picture("model scene.txt | view | project | zbuf config.txt > /dev/null", first, "zbuf: no picture: model failed")
+
+    def test_a_forgotten_stage_is_told_once(self):
+        self.check_no_picture("model scene.txt | project | zbuf config.txt",
+                              "project: <stdin>:1:1: expected the output of view, found 'eye': this text has not been through view; a view of "
+                              "your own must drop the lines eye, look and up", "zbuf: no picture: project failed")
 
     def test_a_mistake_in_the_config_leaves_the_old_picture(self):
         pathlib.Path("config.txt").write_text("8 x\n")

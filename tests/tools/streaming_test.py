@@ -129,7 +129,7 @@ class Errors(ToolTest):
     def assert_error_behind(self, triangle_count, message, tool, *options, stdin):
         done = run(tool, *options, stdin=stdin)
         self.assertEqual(done.returncode, 1)
-        self.assertIn(message, done.stderr.decode())
+        self.assertIn(message, done.stdout.decode().splitlines()[-1])
         self.assertEqual(done.stdout.count(b"\n\n"), triangle_count)
 
     def test_in_the_text(self):

@@ -98,8 +98,6 @@ add_claims(Lines, [
     ("what was projected has six planes", "zbuf", "config.txt", "projected frustum -1 1 -1 1 1\n", "1:30: expected far, found the end of the line"),
     ("projected stands in the header", "zbuf", "config.txt", "0 0 0\n1 0 0\n0 1 0\n\nprojected ortho -1 1 -1 1 1 9\n",
      "5:1: expected header lines before the first triangle, found 'projected'"),
-    ("an error line says more", "project", "", "eye 0 0 5\nlook 0 0 0\nerror model: no scene\n",
-     "3:1: an earlier stage failed: model: no scene"),
 ])
 
 
@@ -127,6 +125,8 @@ add_claims(Recognized, [
     ("a point that lacks a number makes no config", "model", "8 8\n0 0 0\n0 1 0\n60 1 1 100\n", "1:4: expected the z of the eye, found the end of the line"),
     ("lights do not tell a stage text from a scene without its camera", "model", "light 0 0 5 1 1 1\n" + TRIANGLE,
      "1:1: expected the x of the eye, found 'light'"),
+    ("an error line says more", "project", "eye 0 0 5\nlook 0 0 0\nerror model: no scene\n",
+     "3:1: an earlier stage failed: model: no scene"),
     ("a framed text is known behind its frame", "model", "framed\neye 0 0 5\n",
      "1:1: expected a scene, but this looks like the output of model: view reads that"),
 ])
