@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -36,10 +37,20 @@ class TextWriter {
  private:
   void write(std::string_view text);
 
+  /// Leaves the elements of a vector that grows as they are: they are written before they are read.
+  struct UninitializedAllocator : std::allocator<char> {
+    template <typename U>
+    struct rebind {
+      using other = UninitializedAllocator;
+    };
+    void construct(char*) {}
+    void construct(char* p, char value) { *p = value; }
+  };
+
   static constexpr int kNowhere = -1;
   int descriptor_ = kNowhere;
   std::string file_;
-  std::vector<char> buffer_;
+  std::vector<char, UninitializedAllocator> buffer_;
   std::size_t end_ = 0;
   std::size_t bytes_written_ = 0;
 };
