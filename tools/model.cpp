@@ -4,8 +4,10 @@
 #include "libpipeline/stream/stage_writer.h"
 #include "libpipeline/stream/text_kind.h"
 #include "libpipeline/vertex/model_stage.h"
+#include "tools/empty_picture_note.h"
 #include "tools/stage_loop.h"
 #include "tools/stage_options.h"
+#include "tools/statistics.h"
 #include "tools/tool.h"
 
 using namespace pipeline;
@@ -24,6 +26,7 @@ int main(int argc, char** argv) {
   tool.options().add_flag("--bare", bare, "Write the triangles alone (stage1.txt)");
   tool.options().add_flag("--framed", framed,
                           "Write 'framed' and 'end' around the text, so that a truncated text is noticed");
+  Statistics statistics(tool.options());
 
   return tool.run(argc, argv, [&] {
     if (bare && framed) throw UsageError(expected_but_found("--bare or --framed", "both"));
@@ -35,6 +38,10 @@ int main(int argc, char** argv) {
 
     CoordinateRounder rounder = numbers.rounder(tool.input().file());
     const auto transform = [&](TriangleBatch& batch) { stage.transform(batch, rounder); };
-    StageLoop(tool, writer, rounder).run(stage, transform, stage.uncertain_lights());
+    StageLoop loop(tool, writer, rounder, statistics);
+    loop.run(stage, transform, stage.uncertain_lights());
+    const std::uint64_t count = tool.timing().triangle_count;
+    if (count == 0 || stage.flattening_scale()) tool.note(empty_scene_note(count, stage.flattening_scale()));
+    loop.write_statistics(numbers.format());
   });
 }

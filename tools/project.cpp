@@ -11,7 +11,9 @@
 #include "tools/command_line.h"
 #include "tools/stage_loop.h"
 #include "tools/stage_options.h"
+#include "tools/statistics.h"
 #include "tools/tool.h"
+#include "tools/view_report.h"
 
 using namespace pipeline;
 
@@ -101,6 +103,7 @@ int main(int argc, char** argv) {
   CameraOptions cameras(tool.options(), CameraOptions::Parts::projection);
   ProjectOptions chosen;
   add_options(tool.options(), chosen);
+  Statistics statistics(tool.options());
 
   return tool.run(argc, argv, [&] {
     check_inset(chosen);
@@ -120,12 +123,20 @@ int main(int argc, char** argv) {
     CoordinateRounder rounder = numbers.rounder(tool.input().file());
     ProjectionStage stage(projection, chosen.clip, chosen.cull, rounder, chosen.clip_inset);
     if (is_lit) stage.keep_unclipped_triangles();
+    ViewReport report(stage, ViewVolume(projection, chosen.clip_inset), statistics.is_wanted());
+    report.suspect_radians(given);
     TriangleBatch p_view;
     const auto transform = [&](TriangleBatch& batch) {
       std::swap(batch, p_view);
       stage.project(p_view, batch);
+      report.add(p_view, batch);
     };
-    StageLoop(tool, writer, rounder).run(reader, transform);
+    StageLoop loop(tool, writer, rounder, statistics);
+    loop.run(reader, transform);
     tool.timing().details = to_text(stage.counts());
+    loop.note_if_no_triangle_came();
+    if (const auto note = report.note()) tool.note(*note);
+    report.add_to(statistics);
+    loop.write_statistics(numbers.format());
   });
 }

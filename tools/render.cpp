@@ -19,6 +19,8 @@
 #include "libpipeline/visibility/algorithms.h"
 #include "libpipeline/visibility/triangle_drawing.h"
 #include "tools/depth_files.h"
+#include "tools/drawing_report.h"
+#include "tools/empty_picture_note.h"
 #include "tools/fragment_report.h"
 #include "tools/progress.h"
 #include "tools/surface_shading.h"
@@ -44,13 +46,14 @@ class TriangleTagSource {
   FragmentReport* report_;
 };
 
-/// Reads the triangles into `batch()`, batch by batch, and calls `draw()` for each.
+/// Reads the triangles into `batch()`, batch by batch, hands each to the report and calls `draw()`.
 template <typename Source, typename Batch, typename Draw>
-void for_each_batch(Tool& tool, Source& source, Batch&& batch, Draw&& draw) {
+void for_each_batch(Tool& tool, Source& source, DrawingReport& report, Batch&& batch, Draw&& draw) {
   Progress progress("zbuf");
   while (source.read(batch())) {
     tool.timing().triangle_count += batch().size();
     tool.timing().lap(&Timing::read_seconds);
+    report.add(batch());
     draw();
     tool.timing().lap(&Timing::work_seconds);
     progress.show(tool.timing().triangle_count);
@@ -75,7 +78,7 @@ struct SampledVisible {
 
 template <typename CoverageRule, typename Depth>
 void draw_all(Tool& tool, const ZbufOptions& chosen, StageReader& reader, TriangleTagSource& tag_of,
-              SampledVisible<ZBufferAlgorithm<CoverageRule, Depth>>& visible) {
+              DrawingReport& report, SampledVisible<ZBufferAlgorithm<CoverageRule, Depth>>& visible) {
   using Drawing = TriangleDrawing<ZBufferAlgorithm<CoverageRule, Depth>>;
   visible.centers.set_depth_epsilon(chosen.depth_epsilon);
   ThreadPool pool(chosen.thread_count);
@@ -97,13 +100,13 @@ void draw_all(Tool& tool, const ZbufOptions& chosen, StageReader& reader, Triang
   };
   ReadAhead ahead(reader, pool);
   for_each_batch(
-      tool, ahead, [&]() -> TriangleBatch& { return centers.next_batch(); }, draw);
+      tool, ahead, report, [&]() -> TriangleBatch& { return centers.next_batch(); }, draw);
   centers.finish();
   if (samples) samples->finish();
 }
 template <typename CoverageRule, typename Depth>
 void draw_all(Tool& tool, const ZbufOptions&, StageReader& reader, TriangleTagSource& tag_of,
-              SampledVisible<ScanlineAlgorithm<CoverageRule, Depth>>& visible) {
+              DrawingReport& report, SampledVisible<ScanlineAlgorithm<CoverageRule, Depth>>& visible) {
   TriangleBatch p_ndc;
   const auto draw = [&] {
     for (std::size_t i = 0; i < p_ndc.size(); ++i) {
@@ -113,7 +116,7 @@ void draw_all(Tool& tool, const ZbufOptions&, StageReader& reader, TriangleTagSo
     }
   };
   for_each_batch(
-      tool, reader, [&]() -> TriangleBatch& { return p_ndc; }, draw);
+      tool, reader, report, [&]() -> TriangleBatch& { return p_ndc; }, draw);
 }
 
 /// "out.bmp: 400 x 300, 61 % covered". Only an empty picture has 0 %, only a full one 100 %.
@@ -165,8 +168,16 @@ void write_all(Tool& tool, const ZbufOptions& chosen, const SampledVisible<Visib
   tool.timing().lap(&Timing::write_seconds);
 }
 
+void note_empty_picture(const Tool& tool, const DrawingReport& report,
+                        const std::optional<SurfaceShader>& shader) {
+  std::optional<std::string> note = report.empty_picture_note();
+  if (!note && shader) note = invisible_colors_note(*shader);
+  if (note) tool.note(*note);
+}
+
 template <VisibilityAlgorithm Visible>
-void render_with(Tool& tool, const ZbufOptions& chosen, const Viewport& screen) {
+void render_with(Tool& tool, const ZbufOptions& chosen, const Viewport& screen, Statistics& statistics) {
+  statistics.open();
   expect_kind(tool.input(), TextKind::ndc);
   StageReader reader(tool.input(), Visible::CoverageRule::kUsesDecimals);
   expect_header(reader, TextKind::ndc);
@@ -184,24 +195,29 @@ void render_with(Tool& tool, const ZbufOptions& chosen, const Viewport& screen) 
                                   : background_color(reader.header().appearance, surfaces.background).rgb();
   SampledVisible<Visible> visible(screen, chosen.sample_count, background);
   tool.timing().lap(&Timing::work_seconds);
-  const std::unique_ptr<FragmentReport> report = fragment_report(chosen, screen);
-  TriangleTagSource tag_of(shader, report.get());
-  draw_all(tool, chosen, reader, tag_of, visible);
-  if (report) report->finish();
+  const std::unique_ptr<FragmentReport> fragments = fragment_report(chosen, screen);
+  const std::unique_ptr<DrawingReport> report = drawing_report(chosen, screen, statistics.is_wanted());
+  TriangleTagSource tag_of(shader, fragments.get());
+  draw_all(tool, chosen, reader, tag_of, *report, visible);
+  if (fragments) fragments->finish();
+  report->add_to(statistics);
+  statistics.finish();
   tool.timing().lap(&Timing::work_seconds);
   write_all(tool, chosen, visible, shader);
-  if (report) report->commit();
+  if (fragments) fragments->commit();
+  statistics.commit();
+  note_empty_picture(tool, *report, shader);
 }
 
 }  // namespace
 
-void render(Tool& tool, const ZbufOptions& chosen, const Viewport& screen) {
+void render(Tool& tool, const ZbufOptions& chosen, const Viewport& screen, Statistics& statistics) {
   dispatch(chosen, [&]<typename Rule, typename Depth>() {
     switch (chosen.algorithm) {
       case Algorithm::zbuffer:
-        return render_with<ZBufferAlgorithm<Rule, Depth>>(tool, chosen, screen);
+        return render_with<ZBufferAlgorithm<Rule, Depth>>(tool, chosen, screen, statistics);
       case Algorithm::scanline:
-        return render_with<ScanlineAlgorithm<Rule, Depth>>(tool, chosen, screen);
+        return render_with<ScanlineAlgorithm<Rule, Depth>>(tool, chosen, screen, statistics);
     }
   });
 }

@@ -1,13 +1,15 @@
 #pragma once
 
 #include "libpipeline/scene/viewport.h"
+#include "tools/statistics.h"
 #include "tools/tool.h"
 #include "tools/zbuf_options.h"
 
 namespace pipeline {
 
 /// Draws the tool's input and writes the image and the depths. Neither depends on the algorithm or on the
-/// number of threads. No file replaces an older one before everything is written.
-void render(Tool& tool, const ZbufOptions& chosen, const Viewport& screen);
+/// number of threads. No file replaces an older one before everything is written. Notes why the picture is
+/// empty, if it is.
+void render(Tool& tool, const ZbufOptions& chosen, const Viewport& screen, Statistics& statistics);
 
 }  // namespace pipeline

@@ -2,9 +2,11 @@
 
 #include <stdexcept>
 
+#include "libpipeline/stream/coordinate_extent.h"
 #include "libpipeline/stream/stage_writer.h"
 #include "libpipeline/stream/triangle_batch.h"
 #include "libpipeline/vertex/coordinate_rounder.h"
+#include "tools/statistics.h"
 #include "tools/tool.h"
 
 namespace pipeline {
@@ -14,8 +16,11 @@ namespace pipeline {
 class StageLoop {
  public:
   /// `rounder` is the one that the transform uses.
-  StageLoop(Tool& tool, StageWriter& writer, const CoordinateRounder& rounder)
-      : tool_(tool), writer_(writer), rounder_(rounder) {}
+  StageLoop(Tool& tool, StageWriter& writer, const CoordinateRounder& rounder, Statistics& statistics)
+      : tool_(tool), writer_(writer), rounder_(rounder), statistics_(statistics) {
+    if (statistics_.is_wanted()) expect_separate({standard_output(), statistics_.output()});
+    statistics_.open();
+  }
 
   /// `source.read(batch)` fills a batch; false at the end of the input. `transform(batch)` changes a batch in
   /// place; where it throws, the batch keeps the triangles before the error. `uncertain_lights` are those of
@@ -38,6 +43,11 @@ class StageLoop {
     finish(uncertain_lights);
   }
 
+  /// For a stage that reads triangles, if it is the last; otherwise the next one notes it.
+  void note_if_no_triangle_came() const;
+  /// Adds the extents in `format` to the statistics, and writes them once the output is safe.
+  void write_statistics(NumberFormat format);
+
  private:
   void write(const TriangleBatch& batch);
   void finish(const UncertainDigits& uncertain_lights);
@@ -46,6 +56,8 @@ class StageLoop {
   Tool& tool_;
   StageWriter& writer_;
   const CoordinateRounder& rounder_;
+  Statistics& statistics_;
+  CoordinateExtent extent_;  // for the statistics
 };
 
 }  // namespace pipeline

@@ -157,6 +157,11 @@ void Tool::close_output() {
   timing_.lap(&Timing::write_seconds);
 }
 
+bool Tool::is_last_stage() {
+  struct stat status = {};
+  return ::fstat(STDOUT_FILENO, &status) != 0 || !(S_ISFIFO(status.st_mode) || S_ISSOCK(status.st_mode));
+}
+
 void Tool::note(const std::string& message) const {
   print_on_stderr(name_ + ": note: " + message);
 }

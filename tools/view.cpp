@@ -9,6 +9,7 @@
 #include "tools/command_line.h"
 #include "tools/stage_loop.h"
 #include "tools/stage_options.h"
+#include "tools/statistics.h"
 #include "tools/tool.h"
 
 using namespace pipeline;
@@ -50,6 +51,7 @@ int main(int argc, char** argv) {
   bool bare = false;
   tool.options().begin_group("Output");
   tool.options().add_flag("--bare", bare, "Write the triangles alone (stage2.txt)");
+  Statistics statistics(tool.options());
 
   return tool.run(argc, argv, [&] {
     expect_kind(tool.input(), TextKind::world);
@@ -70,6 +72,9 @@ int main(int argc, char** argv) {
         for (Vec3& normal : normals) normal = normal_to_view(normal);
       to_view.apply(batch, rounder);
     };
-    StageLoop(tool, writer, rounder).run(reader, transform, uncertain_lights);
+    StageLoop loop(tool, writer, rounder, statistics);
+    loop.run(reader, transform, uncertain_lights);
+    loop.note_if_no_triangle_came();
+    loop.write_statistics(numbers.format());
   });
 }

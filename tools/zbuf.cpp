@@ -12,6 +12,7 @@
 #include "libpipeline/stream/text_kind.h"
 #include "tools/render.h"
 #include "tools/separate_outputs.h"
+#include "tools/statistics.h"
 #include "tools/tool.h"
 #include "tools/zbuf_options.h"
 
@@ -46,11 +47,12 @@ NamedOutput depth_output(const std::string& path) {
   return {"--z-buffer", path == "none" ? "" : path};
 }
 
-std::vector<NamedOutput> outputs_of(const ZbufOptions& chosen) {
+std::vector<NamedOutput> outputs_of(const ZbufOptions& chosen, const Statistics& statistics) {
   return {{"--image", chosen.image_path},
           depth_output(chosen.z_buffer_path),
           {"--depth-image", chosen.depth_image_path},
-          {"--fragments", chosen.fragments_path}};
+          {"--fragments", chosen.fragments_path},
+          statistics.output()};
 }
 
 }  // namespace
@@ -66,15 +68,16 @@ int main(int argc, char** argv) {
             OutputKind::other_text);
   ZbufOptions chosen;
   chosen.add_to(tool.options());
+  Statistics statistics(tool.options());
   // A closed pipe is a failure to write like any other: the image that was begun has to be removed.
   std::signal(SIGPIPE, SIG_IGN);
 
   return tool.run(argc, argv, [&] {
     chosen.complete(::isatty(STDOUT_FILENO) == 1);
-    expect_separate(outputs_of(chosen));
+    expect_separate(outputs_of(chosen, statistics));
     const Viewport screen = read_screen(tool, chosen);
     chosen.check_limits(screen);
     check_image_size(chosen.image_path, screen.columns, screen.rows);
-    render(tool, chosen, screen);
+    render(tool, chosen, screen, statistics);
   });
 }

@@ -52,6 +52,17 @@ Weights weights_at(const Triangle& screen_corners, double x, double y) {
   return {weights[0] / sum, weights[1] / sum, weights[2] / sum};
 }
 
+/// The index of the first pixel that shows a surface; the number of pixels if none does.
+std::size_t first_surface(std::span<const SurfaceShader::SurfaceId> ids) {
+  const auto is_surface = [](SurfaceShader::SurfaceId id) { return id != SurfaceShader::kNoSurface; };
+  return static_cast<std::size_t>(std::ranges::find_if(ids, is_surface) - ids.begin());
+}
+
+bool differ_visibly(Color a, Color b) {
+  const auto differ = [](int p, int q) { return std::abs(p - q) > 1; };
+  return differ(a.red(), b.red()) || differ(a.green(), b.green()) || differ(a.blue(), b.blue());
+}
+
 }  // namespace
 
 /// The triangle in clip space with its attributes; for a piece, the triangle it was clipped from.
@@ -77,6 +88,8 @@ ClipTriangle SurfaceShader::unclipped_in_clip_space(const TriangleBatch& p_ndc, 
 }
 
 SurfaceShader::SurfaceId SurfaceShader::add(const TriangleBatch& p_ndc, std::size_t index, Color own_color) {
+  if (!p_ndc.attributes.colors.empty() && greatest_channel_.value_or(0) <= 1)
+    note_colors(p_ndc.attributes.colors[index]);
   const ClipTriangle corners = unclipped_in_clip_space(p_ndc, index, own_color);
   // Only the ratios of weights count: scaled like this, nothing leaves a double's range.
   const double scale =
@@ -95,6 +108,10 @@ SurfaceShader::SurfaceId SurfaceShader::add(const TriangleBatch& p_ndc, std::siz
   surfaces_.push_back(surface);
   assert(surfaces_.size() < kNoSurface);
   return static_cast<SurfaceId>(surfaces_.size() - 1);
+}
+
+void SurfaceShader::note_colors(const std::array<Vec3, 3>& colors) {
+  for (const Vec3& c : colors) greatest_channel_ = std::max({greatest_channel_.value_or(0), c.x, c.y, c.z});
 }
 
 void SurfaceShader::add_edges(const TriangleBatch& p_ndc, std::size_t index, const Triangle& screen_corners) {
@@ -117,12 +134,20 @@ void SurfaceShader::light_corners(Surface& surface) const {
 std::span<const Color> SurfaceShader::shade(int row, std::span<const SurfaceId> ids) {
   row_.resize(ids.size());
   const double y = grid_.y_of(row);
-  for (std::size_t column = 0; column < ids.size(); ++column) {
+  const std::size_t first = first_surface(ids);
+  std::fill_n(row_.begin(), first, setup_.background);
+  for (std::size_t column = first; column < ids.size(); ++column) {
     const SurfaceId id = ids[column];
     row_[column] =
         id == kNoSurface ? setup_.background : color_at(id, grid_.x_of(static_cast<int>(column)), y);
   }
+  if (!shows_something_ && first < ids.size()) look_for_something(std::span(row_).subspan(first));
   return row_;
+}
+
+void SurfaceShader::look_for_something(std::span<const Color> colors) {
+  shows_something_ =
+      std::ranges::any_of(colors, [&](Color color) { return differ_visibly(color, setup_.background); });
 }
 
 Color SurfaceShader::color_at(SurfaceId id, double x, double y) const {

@@ -48,6 +48,13 @@ class SurfaceShader {
   /// The colors of a row of the image, by the ids seen in it. Valid until the next call.
   std::span<const Color> shade(int row, std::span<const SurfaceId> ids);
 
+  /// Whether some pixel shaded so far differs from the background, by more than one step in a channel.
+  [[nodiscard]] bool shows_something() const { return shows_something_; }
+  /// The largest channel of all colors that triangles carry, or some channel above 1; none if they carry
+  /// none.
+  [[nodiscard]] std::optional<double> greatest_channel() const { return greatest_channel_; }
+  [[nodiscard]] const Setup& setup() const { return setup_; }
+
  private:
   struct Surface {
     Triangle screen_corners;  // x and y of clip space, and w for z
@@ -58,6 +65,8 @@ class SurfaceShader {
   [[nodiscard]] ClipTriangle unclipped_in_clip_space(const TriangleBatch& p_ndc, std::size_t index,
                                                      Color own_color) const;
   void light_corners(Surface& surface) const;
+  void look_for_something(std::span<const Color> colors);
+  void note_colors(const std::array<Vec3, 3>& colors);
   void add_edges(const TriangleBatch& p_ndc, std::size_t index, const Triangle& screen_corners);
   [[nodiscard]] Color color_at(SurfaceId id, double x, double y) const;
 
@@ -65,6 +74,8 @@ class SurfaceShader {
   Setup setup_;
   std::vector<Surface> surfaces_;
   std::vector<Color> row_;
+  bool shows_something_ = false;
+  std::optional<double> greatest_channel_;
 };
 
 }  // namespace pipeline

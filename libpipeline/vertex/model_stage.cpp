@@ -37,7 +37,8 @@ bool ModelStage::read(TriangleBatch& batch) {
   return deferred_error_.read(batch, [&] { fill(batch); });
 }
 
-void ModelStage::transform(TriangleBatch& batch, CoordinateRounder& rounder) const {
+void ModelStage::transform(TriangleBatch& batch, CoordinateRounder& rounder) {
+  if (!has_area_) look_for_area(batch);
   for (std::size_t i = 0; i < runs_.size(); ++i) {
     const auto& [first, world_from_model, world_normal_from_model] = runs_[i];
     const std::size_t end = i + 1 < runs_.size() ? runs_[i + 1].first : batch.size();
@@ -45,6 +46,15 @@ void ModelStage::transform(TriangleBatch& batch, CoordinateRounder& rounder) con
       for (auto& normals : std::span(batch.attributes.normals).subspan(first, end - first))
         for (Vec3& normal : normals) normal = (*world_normal_from_model)(normal);
     world_from_model.apply(batch, first, end, rounder);
+  }
+}
+
+/// Without a scale by 0, no triangle loses its area.
+void ModelStage::look_for_area(const TriangleBatch& p_model) {
+  has_area_ = !scale_by_0_;
+  for (std::size_t i = 0, run = 0; i < p_model.size() && !has_area_; ++i) {
+    if (run + 1 < runs_.size() && runs_[run + 1].first <= i) ++run;
+    has_area_ = !runs_[run].world_from_model.flattens(p_model.triangles[i]);
   }
 }
 
@@ -93,7 +103,9 @@ void ModelStage::carry_out(const Command& command) {
     stack_.translate(translate->offset);
     is_matrix_new_ = true;
   } else if (const auto* scale = std::get_if<ScaleCommand>(&command)) {
-    stack_.scale(scale->factors);
+    const Vec3& factors = scale->factors;
+    if (!scale_by_0_ && (factors.x == 0 || factors.y == 0 || factors.z == 0)) scale_by_0_ = scene_.location();
+    stack_.scale(factors);
     is_matrix_new_ = true;
   } else if (const auto* rotate = std::get_if<RotateCommand>(&command)) {
     stack_.multiply(rotation(rotate->angle_degrees, rotate->axis));

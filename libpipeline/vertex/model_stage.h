@@ -31,7 +31,11 @@ class ModelStage {
   bool read(TriangleBatch& batch);
   /// Transforms the batch read last to world space, normals included. An InputError at the vertex on
   /// overflow; the batch then keeps the triangles before it.
-  void transform(TriangleBatch& batch, CoordinateRounder& rounder) const;
+  void transform(TriangleBatch& batch, CoordinateRounder& rounder);
+  /// The first scale by 0, if no triangle transformed so far has an area; else none.
+  [[nodiscard]] std::optional<SourceLocation> flattening_scale() const {
+    return has_area_ ? std::nullopt : scale_by_0_;
+  }
 
  private:
   /// The triangles of a batch under one matrix: from `first` up to the next run's.
@@ -50,6 +54,7 @@ class ModelStage {
   void begin_run(std::size_t first);
   void push();
   void pop();
+  void look_for_area(const TriangleBatch& p_model);
 
   SceneReader& scene_;
   MatrixStack stack_;
@@ -57,6 +62,8 @@ class ModelStage {
   std::vector<Run> runs_;               // of the batch that was read last
   std::vector<Located<Light>> lights_;  // in world space
   UncertainDigits uncertain_lights_;
+  std::optional<SourceLocation> scale_by_0_;       // the first
+  bool has_area_ = false;                          // some triangle has, in world space
   std::optional<TriangleCommand> first_triangle_;  // read, but not yet in a batch
   std::uint64_t next_number_ = 0;
   bool done_ = false;

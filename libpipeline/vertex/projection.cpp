@@ -138,7 +138,7 @@ void ProjectionStage::project(const TriangleBatch& p_view, TriangleBatch& p_ndc)
 }
 
 void ProjectionStage::project_triangle(const TriangleBatch& p_view, std::size_t index, TriangleBatch& p_ndc) {
-  if (cull_ != CullMode::nothing && is_culled(p_view.triangles[index])) {
+  if (culls(p_view.triangles[index])) {
     ++counts_.culled;
   } else if (needs_clipping(p_view.triangles[index])) {
     project_clipped(p_view, index, p_ndc);

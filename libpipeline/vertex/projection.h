@@ -53,6 +53,10 @@ class ProjectionStage {
   void keep_unclipped_triangles() { keeps_unclipped_ = true; }
 
   [[nodiscard]] const ProjectionCounts& counts() const { return counts_; }
+  /// Whether the triangle's winding is one that the stage drops.
+  [[nodiscard]] bool culls(const Triangle& p_view) const {
+    return cull_ != CullMode::nothing && is_culled(p_view);
+  }
 
  private:
   /// A vertex as a weighted mean of its triangle's corners, and its w.

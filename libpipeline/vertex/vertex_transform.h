@@ -26,6 +26,8 @@ class VertexTransform {
   void apply(TriangleBatch& batch, CoordinateRounder& rounder) const {
     apply(batch, 0, batch.size(), rounder);
   }
+  /// Whether the image of a triangle has no area, as far as 31 digits can tell.
+  [[nodiscard]] bool flattens(const Triangle& triangle) const;
 
  private:
   /// Some triangles of a batch, from `first_triangle` on, and their images by a kernel.

@@ -9,7 +9,7 @@ import socket
 import subprocess
 import unittest
 
-from toolbox import BIN, CAMERA, HEADER, HEADERS, SCENE, TRIANGLE, ToolTest, command, pseudo_terminal, run, run_with, stage_texts
+from toolbox import BIN, CAMERA, HEADER, HEADERS, NO_TRIANGLE, SCENE, TRIANGLE, ToolTest, command, pseudo_terminal, run, run_with, stage_texts
 
 WHY = "model: <stdin>:9:1: expected 'end', which closes a scene, found the end of the input"
 OLD_IMAGE = b"an older image\x00\xff"
@@ -242,7 +242,8 @@ class UnframedText(ToolTest):
 
     def test_a_cut_between_triangles_is_not_noticed(self):
         self.assert_quiet_success(run("zbuf", "config.txt", stdin=stage_texts()[2] * 2))
-        self.assert_quiet_success(run("zbuf", "config.txt", stdin=b""))
+        done = run("zbuf", "config.txt", stdin=b"")
+        self.assertEqual((done.stderr.decode(), done.returncode), (NO_TRIANGLE, 0))
 
     def test_a_cut_inside_a_triangle_is(self):
         for tool, options in (("view", []), ("project", []), ("zbuf", ["config.txt"])):

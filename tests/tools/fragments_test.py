@@ -9,7 +9,7 @@ import random
 import re
 import unittest
 
-from toolbox import SOURCE, ToolTest, pipe, run
+from toolbox import NO_TRIANGLE, SOURCE, ToolTest, pipe, run
 
 LINE = re.compile(r"(\d+),(\d+): triangle (\d+), depth (\S+): (kept|lost, .*)")
 # Without colors of their own.
@@ -63,7 +63,7 @@ class Fragments(ToolTest):
             "zbuf: 1,2: triangle 5, depth 1: lost, beyond the rear limit"])
 
     def test_a_pixel_without_triangles_says_so(self):
-        self.assertEqual(self.probe(""), ["zbuf: 1,2: no fragment"])
+        self.assertEqual(self.probe(""), ["zbuf: 1,2: no fragment", NO_TRIANGLE.rstrip()])
 
     def test_triangles_are_named_as_in_the_scene(self):
         self.assertEqual(self.probe("triangle 41\n" + wall(0.5)), ["zbuf: 1,2: triangle 41, depth 0.5: kept"])

@@ -23,6 +23,7 @@ HEADER = "eye 0 0 5\nlook 0 0 0\nup 0 1 0\nperspective 60 1 1 100\n"
 # The header that each tool reads, always in four lines: earlier stages have used up what is a comment.
 HEADERS = {"view": HEADER, "project": "# eye\n# look\n# up\nperspective 60 1 1 100\n", "zbuf": "# eye\n# look\n# up\n# projection\n"}
 CONFIG = "8 8\n"
+NO_TRIANGLE = "zbuf: note: the picture is empty: no triangle came\n"  # on stderr
 
 
 def command(tool, *options):

@@ -1,0 +1,41 @@
+#include "libpipeline/vertex/view_volume.h"
+
+#include <algorithm>
+#include <bit>
+#include <span>
+#include <vector>
+
+namespace pipeline {
+namespace {
+
+/// The part outside plane `index` of kAllClipPlanes.
+OutsidePart outside_of(std::size_t index) {
+  static_assert(kAllClipPlanes.size() + 1 == kOutsidePartCount);
+  return static_cast<OutsidePart>(index + 1);
+}
+
+}  // namespace
+
+std::optional<OutsidePart> ViewVolume::outside(const Triangle& p_view) const {
+  if (projection_.is_perspective &&
+      std::all_of(p_view.begin(), p_view.end(), [](const Vec3& p) { return p.z >= 0; }))
+    return OutsidePart::behind;
+  std::vector<ClipVertex> polygon;
+  unsigned any = 0, all = ~0u;
+  for (const Vec3& p : p_view) {
+    ClipVertex& corner = polygon.emplace_back(to_clip_space(projection_, p));
+    if (extent_ != 1) corner.w = corner.w * extent_;
+    const unsigned code = outcode(corner);
+    any |= code;
+    all &= code;
+  }
+  if (any == 0) return std::nullopt;
+  if (all != 0) return outside_of(static_cast<std::size_t>(std::countr_zero(all)));
+  for (std::size_t i = 0; i < kAllClipPlanes.size(); ++i) {
+    polygon = clip_polygon(polygon, std::span(kAllClipPlanes).subspan(i, 1));
+    if (polygon.empty()) return outside_of(i);
+  }
+  return std::nullopt;
+}
+
+}  // namespace pipeline

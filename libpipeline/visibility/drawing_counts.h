@@ -1,0 +1,97 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "libpipeline/coverage/exact_grid.h"
+#include "libpipeline/coverage/span.h"
+#include "libpipeline/numbers/bounding_box.h"
+#include "libpipeline/scene/viewport.h"
+#include "libpipeline/visibility/fragment_log.h"
+#include "libpipeline/visibility/raster.h"
+#include "libpipeline/visibility/unseen.h"
+
+namespace pipeline {
+
+/// What became of the triangles of a picture. Every triangle is counted once: as seen, as hidden, or by the
+/// reason for which it would show nowhere.
+struct DrawingCounts {
+  std::array<std::uint64_t, kUnseenReasonCount> unseen{};  // by UnseenReason
+  std::uint64_t triangles = 0;
+  std::uint64_t seen = 0;              // triangles that own a pixel of the complete picture
+  std::uint64_t hidden = 0;            // that own none, but would if they were alone
+  std::uint64_t pixels_written = 0;    // pixels that show a triangle
+  std::uint64_t fragments_tested = 0;  // pixels that each triangle covers, added up
+  BoundingBox extent;                  // in NDC
+};
+
+/// Counts by drawing the triangles of a stream once more, pixel by pixel and in order, so that no count
+/// depends on the visibility algorithm, its kernels or its threads. A template of the coverage rule and the
+/// depth format in use; it keeps a depth and a number per pixel.
+template <typename Coverage, typename Depth>
+class DrawingCounter {
+ public:
+  explicit DrawingCounter(const Viewport& screen, double epsilon = 0)
+      : screen_(screen),
+        coverage_(screen),
+        test_(screen, epsilon),
+        visible_(screen.rows, screen.columns, test_.nothing()) {}
+
+  void add(const TriangleBatch& p_ndc) {
+    for (std::size_t i = 0; i < p_ndc.size(); ++i) add(exact_triangle(p_ndc, i));
+  }
+
+  /// The counts for the triangles so far.
+  [[nodiscard]] DrawingCounts counts() const {
+    DrawingCounts counts = counts_;
+    std::vector<bool> is_seen(counts.triangles);
+    for (int row = 0; row < visible_.rows(); ++row) {
+      for (const auto& pixel : visible_.row(row)) {
+        if (!(pixel.depth < test_.nothing().depth)) continue;
+        ++counts.pixels_written;
+        is_seen[pixel.triangle] = true;
+      }
+    }
+    for (const bool seen : is_seen) counts.seen += seen ? 1 : 0;
+    counts.hidden -= counts.seen;
+    return counts;
+  }
+
+ private:
+  void add(const ExactTriangle& triangle) {
+    FragmentDepths found;
+    for_each_span(coverage_.rows(triangle), [&](const Span& span) { add(span, found); });
+    counts_.extent.add(triangle.p_ndc);
+    ++counts_.triangles;
+    if (found.visible)
+      ++counts_.hidden;  // or seen, which only the complete picture shows
+    else
+      ++counts_.unseen[static_cast<std::size_t>(unseen_reason(triangle.p_ndc, found, screen_))];
+  }
+
+  void add(const Span& span, FragmentDepths& found) {
+    for (int column = span.first_column; column <= span.last_column; ++column) {
+      const DepthTestResult result = test_
+                                         .judge(visible_.row(span.row)[static_cast<std::size_t>(column)],
+                                                {column, span.row}, counts_.triangles, span.depth(column))
+                                         .result;
+      ++counts_.fragments_tested;
+      if (result == DepthTestResult::before_front)
+        found.before_front = true;
+      else if (result == DepthTestResult::beyond_rear)
+        found.beyond_rear = true;
+      else
+        found.visible = true;
+    }
+  }
+
+  Viewport screen_;
+  Coverage coverage_;
+  FragmentTest<Depth> test_;
+  Raster<typename FragmentTest<Depth>::Seen> visible_;  // `triangle` counts those of the stream
+  DrawingCounts counts_;
+};
+
+}  // namespace pipeline

@@ -1,0 +1,129 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+#include "libpipeline/coverage/exact_grid.h"
+#include "libpipeline/coverage/span.h"
+#include "libpipeline/numbers/bounding_box.h"
+#include "libpipeline/numbers/column_search.h"
+#include "libpipeline/scene/viewport.h"
+#include "libpipeline/stream/triangle_batch.h"
+#include "libpipeline/visibility/tagged_batch.h"
+
+namespace pipeline {
+
+/// Why a triangle would show at no pixel even if it were alone.
+enum class UnseenReason {
+  before_front,  // all of it, or all of its fragments that are not beyond the rear limit
+  beyond_rear,   // likewise
+  left,          // of the window, all of it
+  right,         // likewise ...
+  below,
+  above,
+  without_area,    // as seen from the eye
+  between_centers  // it covers no pixel
+};
+constexpr std::size_t kUnseenReasonCount = 8;
+
+/// Which sides of the depth limits a triangle has fragments on.
+struct FragmentDepths {
+  bool before_front = false;
+  bool visible = false;
+  bool beyond_rear = false;
+};
+
+/// The first reason, in the order above, that applies to a triangle without visible fragments. A triangle
+/// that is before or beyond a limit with its fragments alone has none of the reasons between.
+UnseenReason unseen_reason(const Triangle& p_ndc, const FragmentDepths& fragments, const Viewport& screen);
+
+/// Triangles that show nowhere, by reason.
+struct UnseenTriangles {
+  struct Group {
+    std::uint64_t count = 0;
+    BoundingBox extent;
+  };
+  [[nodiscard]] const Group& operator[](UnseenReason reason) const {
+    return groups[static_cast<std::size_t>(reason)];
+  }
+
+  std::array<Group, kUnseenReasonCount> groups;
+  std::uint64_t count = 0;
+};
+
+/// Watches the triangles of a stream until the first that shows at a pixel; if none does, the picture is
+/// empty. A template of the coverage rule and the depth format in use.
+template <typename Coverage, typename Depth>
+class EmptyPicture {
+ public:
+  explicit EmptyPicture(const Viewport& screen)
+      : screen_(screen), coverage_(screen), format_(screen), rear_(format_.store(screen.rear)) {}
+
+  /// Looks at the next triangles, unless one before them shows.
+  void add(const TriangleBatch& p_ndc) {
+    for (std::size_t i = 0; i < p_ndc.size() && is_empty_; ++i) add(exact_triangle(p_ndc, i));
+  }
+  /// True while no triangle shows.
+  [[nodiscard]] bool is_empty() const { return is_empty_; }
+  /// The triangles before the first that shows.
+  [[nodiscard]] const UnseenTriangles& triangles() const { return triangles_; }
+
+ private:
+  void add(const ExactTriangle& triangle) {
+    const BoundingBox extent(triangle.p_ndc);
+    FragmentDepths found;
+    if (reaches_window(extent)) found = fragments(triangle);
+    is_empty_ = !found.visible;
+    if (found.visible) return;
+    auto& group = triangles_.groups[static_cast<std::size_t>(unseen_reason(triangle.p_ndc, found, screen_))];
+    ++group.count;
+    group.extent.add(extent);
+    ++triangles_.count;
+  }
+
+  /// A pixel more than the window: rounding may move a vertex that touches it.
+  [[nodiscard]] bool reaches_window(const BoundingBox& extent) const {
+    const double dx = screen_.dx(), dy = screen_.dy();
+    return extent.high.x >= screen_.left - dx && extent.low.x <= -screen_.left + dx &&
+           extent.high.y >= screen_.bottom - dy && extent.low.y <= -screen_.bottom + dy;
+  }
+
+  /// The depths of a triangle's fragments, as far as the first visible one.
+  [[nodiscard]] FragmentDepths fragments(const ExactTriangle& triangle) const {
+    FragmentDepths found;
+    const auto rows = coverage_.rows(triangle);
+    for (int row = rows.first_row(); row <= rows.last_row() && !found.visible; ++row)
+      if (const auto span = rows.span(row)) add(*span, found);
+    return found;
+  }
+
+  /// Every rounding in a SpanDepth is monotone, so depths rise or fall along the row and cross a limit once.
+  void add(const Span& span, FragmentDepths& found) const {
+    const auto is_behind_front = [&](int column) { return span.depth(column) >= screen_.front; };
+    const auto is_before_rear = [&](int column) { return format_.store(span.depth(column)) < rear_; };
+    const auto add_pixel = [&](int column) {
+      found.before_front |= !is_behind_front(column);
+      found.beyond_rear |= !is_before_rear(column);
+      found.visible |= is_behind_front(column) && is_before_rear(column);
+    };
+    add_pixel(span.first_column);
+    add_pixel(span.last_column);
+    if (found.visible) return;
+    const bool rises = is_behind_front(span.last_column);
+    const int end = span.last_column + 1;
+    const int inside = rises ? first_column_where(span.first_column, end, is_behind_front)
+                             : first_column_where(span.first_column, end, is_before_rear);
+    if (inside < end) add_pixel(inside);
+  }
+
+  Viewport screen_;
+  Coverage coverage_;
+  Depth format_;
+  typename Depth::Stored rear_;
+  bool is_empty_ = true;
+  UnseenTriangles triangles_;
+};
+
+}  // namespace pipeline

@@ -1,0 +1,165 @@
+#!/usr/bin/env python3
+"""A picture that shows nothing: one stage notes the reason on stderr; any other picture draws no remark.
+
+usage: empty_picture_test.py BIN_DIR [UNITTEST ARGUMENT...]
+"""
+import os
+import pathlib
+import random
+import unittest
+
+from toolbox import CAMERA, NO_TRIANGLE, SOURCE, TRIANGLE, ToolTest, add_claims, run
+
+NONE_CAME = NO_TRIANGLE.rstrip()
+EMPTY = "zbuf: note: the picture is empty: "
+WILL_BE_EMPTY = "project: note: the picture will be empty: "
+WINDOW = "the window from -1 to 1)"
+LIT = "light 0 0 -9 1 1 1\n"
+
+
+def stderr_of(scene, config, options):
+    """What the four stages of a pipe write to stderr, one after the other."""
+    data, told = scene.encode(), []
+    for tool in ("model", "view", "project", "zbuf"):
+        words = [config] if tool == "zbuf" else []
+        done = run(tool, *words, *options.get(tool, ()), stdin=data)
+        if done.returncode != 0:
+            raise AssertionError(f"{tool}: exit {done.returncode}: {done.stderr.decode()}")
+        data = done.stdout
+        told += done.stderr.decode().splitlines()
+    return told
+
+
+def claim(text, body, *told, camera=CAMERA, config="8 8\n", **options):
+    """A row of the table: the scene's body, the lines on stderr, and options by tool."""
+    return text, camera + body + "end\n", config, options, list(told)
+
+
+class Notes(ToolTest):
+    def check(self, scene, config, options, told):
+        pathlib.Path("config.txt").write_text(config)
+        self.assertEqual(stderr_of(scene, "config.txt", options), told)
+
+
+add_claims(Notes, [
+    # Noted by model.
+    claim("a scene may be empty", "", "model: note: the picture will be empty: the scene has no triangle", NONE_CAME),
+    claim("a scale by 0", "scale 0 0 0\n" + TRIANGLE, "model: note: <stdin>:5:1: this scale by 0 leaves the triangle without area",
+          EMPTY + "the triangle is without area"),
+    claim("a scale by 0 among others", "rotate 30 1 1 1\nscale 1 2 3\nscale 1 0 1\nrotate 9 3 2 1\nscale 0 1 1\n" + 3 * TRIANGLE,
+          "model: note: <stdin>:7:1: this scale by 0 leaves all 3 triangles without area", EMPTY + "all 3 triangles are without area"),
+    claim("a scale by 0 that a triangle escapes", "push\nscale 0 0 0\n" + TRIANGLE + "pop\n" + TRIANGLE),
+    claim("a scale by 0 along the normal", "scale 1 1 0\n" + TRIANGLE),
+    # Noted by project.
+    claim("all behind the eye", "translate 0 0 7\n" + TRIANGLE + "translate 0 0 4\n" + TRIANGLE,
+          WILL_BE_EMPTY + "all 2 triangles are behind the eye (z from 2 to 6; the camera looks down -z)", NONE_CAME),
+    claim("too near to be divided", "translate 0 0 4.9999\n" + TRIANGLE,
+          WILL_BE_EMPTY + "the triangle is nearer than the near plane (z is -0.0001)", NONE_CAME),
+    claim("culled", TRIANGLE, WILL_BE_EMPTY + "the triangle is dropped by --cull", NONE_CAME, project=["--cull", "front"]),
+    claim("outside, clipped", "translate 20 0 0\n" + TRIANGLE + "translate -40 0 0\n" + TRIANGLE,
+          WILL_BE_EMPTY + "none of 2 triangles is left: 1 left of the view volume, 1 right of the view volume", NONE_CAME,
+          project=["--clip", "frustum"]),
+    claim("outside, rejected", "translate 0 20 0\n" + TRIANGLE, WILL_BE_EMPTY + "the triangle is above the view volume", NONE_CAME,
+          project=["--clip", "reject"]),
+    claim("past a corner of the view volume", "triangle\n0 6 0\n6 0 0\n6 6 0\n", WILL_BE_EMPTY + "the triangle is above the view volume",
+          NONE_CAME, project=["--clip", "frustum"]),
+    claim("behind and culled", "translate 0 0 9\n" + TRIANGLE + "translate 0 0 -9\n" + TRIANGLE,
+          WILL_BE_EMPTY + "none of 2 triangles is left: 1 behind the eye (z is 4; the camera looks down -z), 1 dropped by --cull",
+          NONE_CAME, project=["--cull", "front"]),
+    claim("radians", "translate 1 0 0\n" + TRIANGLE,
+          "project: note: nothing is in view, but with a fovY of 60 degrees in place of 1.047, 1 triangle would be: is the angle in radians?",
+          EMPTY + "the triangle is right of the window (x from 21.88 to 43.77, " + WINDOW, camera="0 0 5\n0 0 0\n0 1 0\n1.0472 1 1 100\n"),
+    claim("radians, clipped", "translate 1 0 0\n" + TRIANGLE,
+          "project: note: nothing is in view, but with a fovY of 60 degrees in place of 1.047, 1 triangle would be: is the angle in radians?",
+          NONE_CAME, camera="0 0 5\n0 0 0\n0 1 0\n1.0472 1 1 100\n", project=["--clip", "frustum"]),
+    claim("no radians where no angle would help", "translate 100 0 0\n" + TRIANGLE,
+          EMPTY + "the triangle is right of the window (x from 2188 to 2210, " + WINDOW, camera="0 0 5\n0 0 0\n0 1 0\n1.0472 1 1 100\n"),
+    claim("a telescope", TRIANGLE, camera="0 0 5\n0 0 0\n0 1 0\n1.0472 1 1 100\n"),
+    # Noted by zbuf.
+    claim("right of the window", "translate 100 0 0\n" + TRIANGLE, EMPTY + "the triangle is right of the window (x from 34.64 to 34.99, " + WINDOW),
+    claim("left of the window", "translate -100 0 0\n" + TRIANGLE, EMPTY + "the triangle is left of the window (x from -34.64 to -34.29, " + WINDOW),
+    claim("above the window", "translate 0 100 0\n" + TRIANGLE, EMPTY + "the triangle is above the window (y from 34.64 to 34.99, " + WINDOW),
+    claim("below the window", "translate 0 -100 0\n" + TRIANGLE, EMPTY + "the triangle is below the window (y from -34.64 to -34.29, " + WINDOW),
+    claim("before the front limit", "translate 0 0 4.5\n" + TRIANGLE,
+          EMPTY + "the triangle is before the front limit (z is -3.02, the limit is -1)"),
+    claim("beyond the rear limit", "translate 0 0 -200\n" + TRIANGLE,
+          EMPTY + "the triangle is beyond the rear limit (z is 1.01, the limit is 1)"),
+    claim("beyond the rear limit by the last digit", "translate 0 0 -95.0001\n" + TRIANGLE,
+          EMPTY + "the triangle is beyond the rear limit (z is 1.00000002, the limit is 1)", project=["--digits", "10"]),
+    claim("between pixel centers", "scale 0.01 0.01 1\n" + TRIANGLE,
+          EMPTY + "the triangle is between pixel centers (a pixel is 0.25 by 0.25)"),
+    claim("between pixel centers but on samples", "scale 0.4 0.4 1\ntranslate -0.9 -0.9 0\n" + TRIANGLE, zbuf=["--samples", "4"]),
+    claim("without area", "triangle\n0 0 0\n1 0 0\n2 0 0\n", EMPTY + "the triangle is without area"),
+    claim("several reasons", "translate 100 0 0\n" + 2 * TRIANGLE + "translate -200 0 0\n" + TRIANGLE,
+          EMPTY + f"none of 3 triangles shows: 1 left of the window (x from -34.64 to -34.29, {WINDOW}, "
+          f"2 right of the window (x from 34.64 to 34.99, {WINDOW}"),
+    claim("a window of its own", "translate 0.9 0 0\n" + TRIANGLE,
+          EMPTY + "the triangle is right of the window (x from 0.3118 to 0.6582, the window from -0.25 to 0.25)", config="8 8\n-0.25\n-0.5\n-1 1\n"),
+    # Triangles show, but as black as the background.
+    claim("colors within 0 and 1", "color 1 0.5 0\n" + TRIANGLE,
+          "zbuf: note: the picture is black: every color is within 0 and 1, but channels run from 0 to 255"),
+    claim("colors within 0 and 1, lit", "color 1 0.5 0\nambient 1 1 1\n" + LIT + TRIANGLE,
+          "zbuf: note: the picture is black: every color is within 0 and 1, but channels run from 0 to 255"),
+    claim("colors of 0", "color 0 0 0\n" + TRIANGLE, "zbuf: note: the picture is black: every color is 0"),
+    claim("colors of 0 on another background", "background 0 9 0\ncolor 0 0 0\n" + TRIANGLE),
+    claim("one color above 1", "color 1 1 1\n" + TRIANGLE + "color 255 0 0\n" + TRIANGLE + "translate 0 0 0.5\n" + TRIANGLE),
+    claim("a light behind the surface", LIT + TRIANGLE,
+          "zbuf: note: the picture is black: no light reaches what is seen (ambient 0.2 0.2 0.2 would show it)"),
+    claim("a light behind the surface, as the note advises", "ambient 0.2 0.2 0.2\n" + LIT + TRIANGLE),
+    claim("a silhouette", "background 255 255 255\n" + LIT + TRIANGLE),
+    claim("the color of the background", "background 255 255 255\ncolor 255 255 255\n" + TRIANGLE,
+          EMPTY + "what is seen has the color of the background"),
+    claim("no edge in sight", "scale 99 99 1\ntranslate -0.3 -0.3 0\n" + TRIANGLE,
+          EMPTY + "--wireframe shows edges alone, and none is in sight", zbuf=["--wireframe"]),
+])
+
+
+class Silence(ToolTest):
+    def test_every_sample(self):
+        for scene in sorted(SOURCE.glob("samples/*/scene.txt")):
+            for options in ((), ("--coverage", "center"), ("--samples", "2"), ("--algorithm", "scanline"), ("--wireframe",)):
+                with self.subTest(scene=scene.parent.name, options=options):
+                    self.assertEqual(stderr_of(scene.read_text(), scene.parent / "config.txt", {"zbuf": options}), [])
+
+    def test_a_stage_in_the_middle_that_reads_nothing(self):
+        for tool in ("view", "project"):
+            header = "eye 0 0 5\nlook 0 0 0\nup 0 1 0\nperspective 60 1 1 9\n"
+            self.assert_quiet_success(run(tool, stdin=header))
+            with open("out.txt", "wb") as file:
+                last = run(tool, stdin=header, stdout=file)
+            self.assertEqual((last.stderr.decode(), last.returncode), (f"{tool}: note: no triangle came\n", 0))
+
+
+class FirstVisible(ToolTest):
+    """The note is there exactly if no pixel has a depth, whatever the rule, the format, the algorithm and the kernel."""
+
+    def random_text(self, rng):
+        def vertex():
+            reach = rng.choice((1.02, 1.3, 3))
+            return "%.7f %.7f %.7f\n" % (rng.uniform(-reach, reach), rng.uniform(-reach, reach), rng.choice((-1.2, -1, 0.999, 1, 1.0000001, 1.2)))
+        return "".join("".join(vertex() for _ in range(3)) + "\n" for _ in range(rng.choice((1, 1, 2, 3))))
+
+    def test_random_triangles_at_the_limits(self):
+        rng, outcomes = random.Random(5), []
+        pathlib.Path("config.txt").write_text("3 3\n")
+        for number in range(150):
+            text = self.random_text(rng)
+            options = ["--coverage", rng.choice(("nearest", "center")), "--depth", rng.choice(("f64", "f32", "u24")),
+                       "--algorithm", rng.choice(("zbuffer", "scanline"))]
+            kernel = rng.choice(("portable", "avx2"))
+            with self.subTest(text=text, options=options):
+                done = run("zbuf", "config.txt", "--image", "out.ppm", *options, stdin=text, env=os.environ | {"PIPELINE_KERNEL": kernel})
+                is_empty = done.stdout.split() == []
+                self.assertEqual(done.stderr.decode().startswith(EMPTY), is_empty, done.stderr)
+                outcomes.append(is_empty)
+        self.assertGreater(outcomes.count(True), 20)
+        self.assertGreater(outcomes.count(False), 20)
+
+    def test_a_visible_triangle_after_many_others(self):
+        pathlib.Path("config.txt").write_text("8 8\n")
+        lost = "9 9 0\n10 9 0\n9 10 0\n\n" * 5000
+        self.assert_quiet_success(run("zbuf", "config.txt", "--image", "out.ppm", stdin=lost + "-1 -1 0\n1 -1 0\n0 1 0\n"))
+
+
+if __name__ == "__main__":
+    unittest.main()

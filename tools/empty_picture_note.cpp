@@ -1,0 +1,170 @@
+#include "tools/empty_picture_note.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+namespace pipeline {
+namespace {
+
+/// "1 triangle", "2 triangles".
+std::string triangles(std::uint64_t count) {
+  return std::to_string(count) + (count == 1 ? " triangle" : " triangles");
+}
+
+/// "the triangle", "all 2 triangles".
+std::string all_triangles(std::uint64_t count) {
+  return count == 1 ? "the triangle" : "all " + triangles(count);
+}
+
+const char* are(std::uint64_t count) {
+  return count == 1 ? "is " : "are ";
+}
+
+/// With four digits, or as many as it takes to show on which side of `limit` the value lies.
+std::string rounded(double value, double limit) {
+  std::array<char, 32> text{};
+  for (int digits = 4; digits <= 17; ++digits) {
+    std::snprintf(text.data(), text.size(), "%.*g", digits, value);
+    const double shown = std::strtod(text.data(), nullptr);
+    if ((shown < limit) == (value < limit) && (shown > limit) == (value > limit)) break;
+  }
+  return text.data();
+}
+
+std::string rounded(double value) {
+  return rounded(value, value < 0 ? value - 1 : value + 1);
+}
+
+/// "x from -3 to -1.5", or "x is 2".
+std::string range(char axis, double low, double high, double limit) {
+  const std::string from = rounded(low, limit), to = rounded(high, limit);
+  return axis + (from == to ? " is " + from : " from " + from + " to " + to);
+}
+
+std::string window(double limit) {
+  return "the window from " + rounded(limit) + " to " + rounded(-limit);
+}
+
+std::string where(UnseenReason reason, const BoundingBox& extent, const Viewport& screen) {
+  const auto& [low, high] = extent;
+  const double left = screen.left, bottom = screen.bottom;
+  switch (reason) {
+    case UnseenReason::before_front:
+      return "before the front limit (" + range('z', low.z, high.z, screen.front) + ", the limit is " +
+             rounded(screen.front) + ")";
+    case UnseenReason::beyond_rear:
+      return "beyond the rear limit (" + range('z', low.z, high.z, screen.rear) + ", the limit is " +
+             rounded(screen.rear) + ")";
+    case UnseenReason::left:
+      return "left of the window (" + range('x', low.x, high.x, left) + ", " + window(left) + ")";
+    case UnseenReason::right:
+      return "right of the window (" + range('x', low.x, high.x, -left) + ", " + window(left) + ")";
+    case UnseenReason::below:
+      return "below the window (" + range('y', low.y, high.y, bottom) + ", " + window(bottom) + ")";
+    case UnseenReason::above:
+      return "above the window (" + range('y', low.y, high.y, -bottom) + ", " + window(bottom) + ")";
+    case UnseenReason::without_area:
+      return "without area";
+    case UnseenReason::between_centers:
+      break;
+  }
+  return "between pixel centers (a pixel is " + rounded(screen.dx()) + " by " + rounded(screen.dy()) + ")";
+}
+
+std::string where(OutsidePart part, const BoundingBox& extent) {
+  const auto& [low, high] = extent;
+  switch (part) {
+    case OutsidePart::behind:
+      return "behind the eye (" + range('z', low.z, high.z, 0) + "; the camera looks down -z)";
+    case OutsidePart::near:
+      return "nearer than the near plane (" + range('z', low.z, high.z, 0) + ")";
+    case OutsidePart::far:
+      return "beyond the far plane (" + range('z', low.z, high.z, 0) + ")";
+    case OutsidePart::left:
+      return "left of the view volume";
+    case OutsidePart::right:
+      return "right of the view volume";
+    case OutsidePart::below:
+      return "below the view volume";
+    case OutsidePart::above:
+      break;
+  }
+  return "above the view volume";
+}
+
+/// Some triangles, and where they are.
+using Group = std::pair<std::uint64_t, std::string>;
+
+/// "all 3 triangles are behind the eye", or "none of 3 triangles is left: 2 behind the eye, 1 culled".
+std::string list_of(const std::vector<Group>& groups, const std::string& none_of) {
+  if (groups.size() == 1)
+    return all_triangles(groups[0].first) + " " + are(groups[0].first) + groups[0].second;
+  std::uint64_t count = 0;
+  std::string list;
+  for (const auto& [group_count, place] : groups) {
+    count += group_count;
+    list += (list.empty() ? ": " : ", ") + std::to_string(group_count) + " " + place;
+  }
+  return "none of " + triangles(count) + " " + none_of + list;
+}
+
+bool is_black(Color color) {
+  return std::max({color.red(), color.green(), color.blue()}) <= 1;
+}
+
+}  // namespace
+
+std::string empty_scene_note(std::uint64_t triangle_count, const std::optional<SourceLocation>& scale_by_0) {
+  if (triangle_count == 0) return "the picture will be empty: the scene has no triangle";
+  return (scale_by_0 ? to_string(*scale_by_0) + ": this scale by 0 leaves " : "") +
+         all_triangles(triangle_count) + " without area";
+}
+
+std::string dropped_note(const OutsideCounts& outside, std::uint64_t culled_count) {
+  std::vector<Group> groups;
+  for (std::size_t i = 0; i < kOutsidePartCount; ++i)
+    if (const auto& [count, extent] = outside.groups[i]; count > 0)
+      groups.emplace_back(count, where(static_cast<OutsidePart>(i), extent));
+  if (culled_count > 0) groups.emplace_back(culled_count, "dropped by --cull");
+  return "the picture will be empty: " + list_of(groups, "is left");
+}
+
+std::string radians_note(double fov_y_degrees, std::uint64_t hidden_count) {
+  return "nothing is in view, but with a fovY of " + rounded(fov_y_degrees * 180 / std::numbers::pi) +
+         " degrees in place of " + rounded(fov_y_degrees) + ", " + triangles(hidden_count) +
+         " would be: is the angle in radians?";
+}
+
+std::string unseen_note(const UnseenTriangles& unseen, const Viewport& screen) {
+  std::string note = "the picture is empty: ";
+  if (unseen.count == 0) return note + "no triangle came";
+  std::vector<Group> groups;
+  for (std::size_t i = 0; i < kUnseenReasonCount; ++i)
+    if (const auto& [count, extent] = unseen.groups[i]; count > 0)
+      groups.emplace_back(count, where(static_cast<UnseenReason>(i), extent, screen));
+  return note + list_of(groups, "shows");
+}
+
+std::optional<std::string> invisible_colors_note(const SurfaceShader& shader) {
+  if (shader.shows_something()) return std::nullopt;
+  const SurfaceShader::Setup& setup = shader.setup();
+  const bool is_lit = setup.model != ShadingModel::none;
+  if (is_black(setup.background)) {
+    const auto greatest = shader.greatest_channel();
+    if (greatest && *greatest == 0) return "the picture is black: every color is 0";
+    if (greatest && *greatest <= 1)
+      return "the picture is black: every color is within 0 and 1, but channels run from 0 to 255";
+    if (is_lit && !setup.wireframe)
+      return "the picture is black: no light reaches what is seen (ambient 0.2 0.2 0.2 would show it)";
+  }
+  if (setup.wireframe && !is_lit)
+    return "the picture is empty: --wireframe shows edges alone, and none is in sight";
+  return "the picture is empty: what is seen has the color of the background";
+}
+
+}  // namespace pipeline

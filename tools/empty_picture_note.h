@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "libpipeline/picture/surface_shader.h"
+#include "libpipeline/scene/viewport.h"
+#include "libpipeline/text/source_location.h"
+#include "libpipeline/vertex/view_volume.h"
+#include "libpipeline/visibility/unseen.h"
+
+namespace pipeline {
+
+// The words with which a stage notes why the picture is empty. All functions but the last are called only
+// where it is.
+
+/// For `model`: the scene has no triangle, or a scale by 0 left none of them an area.
+std::string empty_scene_note(std::uint64_t triangle_count, const std::optional<SourceLocation>& scale_by_0);
+
+/// For `project`: all triangles were dropped, `culled_count` by their winding.
+std::string dropped_note(const OutsideCounts& outside, std::uint64_t culled_count);
+
+/// For `project`: `hidden_count` triangles would be in view if the field of view were 57.3 times as wide.
+std::string radians_note(double fov_y_degrees, std::uint64_t hidden_count);
+
+/// For `zbuf`: no triangle shows at a pixel.
+std::string unseen_note(const UnseenTriangles& unseen, const Viewport& screen);
+
+/// For `zbuf`: why pixels that show triangles all look like the background; none if they do not.
+std::optional<std::string> invisible_colors_note(const SurfaceShader& shader);
+
+}  // namespace pipeline
