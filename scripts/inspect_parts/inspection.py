@@ -33,14 +33,21 @@ def notes_told(stderr):
     return [line for line in stderr.splitlines() if ": note: " in line]
 
 
-def frustum_corners(header):
-    """The four corners of the near plane and the four of the far plane in view space, in the same winding."""
+def statistics(path):
+    """The lines of --stats, as pairs of a key and a word."""
+    return [line.split() for line in path.read_text().splitlines()]
+
+
+def frustum_corners(header, reach):
+    """The four corners of the near plane and the four of the far plane in view space, in the same winding. A far plane far beyond
+    `reach`, the distance of the farthest vertex, is drawn nearer, so that what there is does not shrink; and whether it is."""
     left, right, bottom, top, near, far = window_of(header)
+    is_shortened = near < reach and far > 2 * reach
     corners = []
-    for distance in (near, far):
+    for distance in (near, 1.5 * reach if is_shortened else far):
         scale = 1 if "ortho" in header else distance / near
         corners += [(x * scale, y * scale, -distance) for x, y in ((left, bottom), (right, bottom), (right, top), (left, top))]
-    return corners
+    return corners, is_shortened
 
 
 def box_lines(corners):
@@ -61,9 +68,17 @@ class Inspection:
     def __init__(self, tools, scene, config):
         self.tools, self.scene, self.config = tools, scene, config
         self.notes = []
-        texts, data = {}, read_input(scene)
+        self.statistics = {}
+        with tempfile.TemporaryDirectory() as folder:
+            self.run(pathlib.Path(folder))
+
+    def run(self, folder):
+        texts, data = {}, read_input(self.scene)
         for tool in ("model", "view", "project"):
-            done = tools.run(tool, "--timing", stdin=data)
+            # Timed without counting.
+            done = self.tools.run(tool, "--timing", stdin=data)
+            self.tools.run(tool, "--stats", folder / tool, stdin=data)
+            self.statistics[tool] = statistics(folder / tool)
             data = done.stdout
             texts[tool] = done
         self.parsed = {tool: parse_stage_text(done.stdout.decode(), tool) for tool, done in texts.items()}
@@ -73,18 +88,17 @@ class Inspection:
         self.stages = [self.stage(tool, titles[tool], texts[tool]) for tool in texts]
         note = note_on_squares(line_of(self.parsed["model"].header.get), text_of(read_input(config), config))
         self.square_notes = [f"note: {note}"] if note else []
-        with tempfile.TemporaryDirectory() as folder:
-            self.draw(data, pathlib.Path(folder))
+        self.draw(data, folder)
 
     def stage(self, tool, title, done):
         parsed, stderr = self.parsed[tool], done.stderr.decode(errors="replace")
         self.notes += notes_told(stderr)
         kept = [(name, triangle) for name, triangle in zip(parsed.names, parsed.triangles) if name % self.step == 0]
-        return {"tool": tool, "title": title, "seconds": time_told(stderr), "triangles": len(parsed.triangles), "bytes": len(done.stdout),
+        return {"tool": tool, "title": title, "seconds": time_told(stderr), "triangles": len(parsed.triangles), "bytes": len(done.stdout), "statistics": self.statistics[tool],
                 "names": packed("i", [name for name, _ in kept]),
                 "points": packed("d", [x for _, triangle in kept for vertex in triangle for x in vertex.numbers[:3]]),
                 "firstLines": packed("i", [triangle[0].line for _, triangle in kept]),
-                "text": self.text_shown(done.stdout.decode().split("\n"), parsed, kept), "guide": self.guide(tool)}
+                "text": self.text_shown(done.stdout.decode().split("\n"), parsed, kept), **self.guide(tool)}
 
     def text_shown(self, lines, parsed, kept):
         """The lines of the text with their numbers; of a long text only the header and the drawn triangles."""
@@ -97,27 +111,28 @@ class Inspection:
         return {"numbers": numbers, "lines": [lines[number - 1] for number in numbers]}
 
     def guide(self, tool):
-        """The line segments that show the camera, or the NDC cube."""
+        """The line segments that show the camera, or the NDC cube; and a remark if they do not go all the way."""
         header = self.parsed["model"].header
         if tool == "project":
-            return box_lines([(x, y, z) for z in (-1, 1) for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1))])
-        corners = frustum_corners(header)
+            return {"guide": box_lines([(x, y, z) for z in (-1, 1) for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1))]), "remark": ""}
+        corners, is_shortened = frustum_corners(header, -float(dict(self.statistics["view"]).get("z_min", 0)))
+        remark = f"the far plane is at distance {(header.get('perspective') or header.get('frustum') or header['ortho'])[-1]}, drawn nearer" if is_shortened else ""
         if tool == "view":
-            return camera_lines(corners, (0, 0, 0))
+            return {"guide": camera_lines(corners, (0, 0, 0)), "remark": remark}
         eye = tuple(map(float, header["eye"]))
         right, up, forward = axes(eye, *(tuple(map(float, header[name])) for name in ("look", "up")))
-        return camera_lines([moved(eye, (x, right), (y, up), (-z, forward)) for x, y, z in corners], eye)
+        return {"guide": camera_lines([moved(eye, (x, right), (y, up), (-z, forward)) for x, y, z in corners], eye), "remark": remark}
 
     def draw(self, stage3, folder):
         z_buffer, image, log = (folder / name for name in ("z_buffer.txt", "out.ppm", "fragments.txt"))
-        # Timed without the log, which takes longer than the picture.
+        # Timed without log and counts, which take longer than the picture.
         timed = self.tools.run("zbuf", self.config, "--timing", "--z-buffer", z_buffer, "--image", image, stdin=stage3).stderr.decode(errors="replace")
-        self.tools.run("zbuf", self.config, "--z-buffer", "/dev/null", "--image", folder / "again.ppm", "--fragments", log, stdin=stage3)
+        self.tools.run("zbuf", self.config, "--z-buffer", "/dev/null", "--image", folder / "again.ppm", "--fragments", log, "--stats", folder / "zbuf", stdin=stage3)
         self.notes += notes_told(timed)
         self.columns, self.rows, pixels = read_picture(image)
         text = z_buffer.read_text()
         self.stages.append({"tool": "zbuf", "title": "pixels", "seconds": time_told(timed), "triangles": len(self.parsed["project"].triangles),
-                            "bytes": len(text), "text": {"numbers": None, "lines": text.split("\n")}})
+                            "bytes": len(text), "statistics": statistics(folder / "zbuf"), "text": {"numbers": None, "lines": text.split("\n")}})
         self.pixels = base64.b64encode(b"".join(pixels)).decode()
         self.fragments = self.fragments_of(log)
 

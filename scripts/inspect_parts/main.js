@@ -3,14 +3,25 @@
 const STARTS = {
   model: {yaw: -0.6, pitch: 0.45},
   view: {yaw: -0.6, pitch: 0.35},
-  project: {yaw: -0.45, pitch: 0.3, box: 1.2},
+  project: {yaw: -0.45, pitch: 0.3},
 };
 
 function stageSection(stage) {
   const section = document.createElement("section");
-  section.innerHTML = `<h2>${stage.tool} <span>${stage.title}</span></h2><div><div class="stack"><canvas id="wire-${stage.tool}"></canvas><canvas></canvas></div><div class="text" id="text-${stage.tool}"></div></div>`;
+  section.innerHTML = `<h2>${stage.tool} <span>${stage.title}</span> <span>${stage.remark && "(" + stage.remark + ")"}</span></h2><div><div class="stack"><canvas id="wire-${stage.tool}"></canvas><canvas></canvas></div><div class="text" id="text-${stage.tool}"></div></div>`;
   document.getElementById("stages").append(section);
   return section.querySelectorAll("canvas");
+}
+
+// What --stats counts, without zeros: "19 seen, 3 hidden".
+function countsOf(statistics) {
+  return statistics.filter(([key, word]) => !/^triangles$|_(min|max)$/.test(key) && word !== "0").map(([key, word]) => `${word} ${key.replaceAll("_", " ")}`).join(", ");
+}
+
+// "-1.5 to 2", with four digits.
+function rangeOf(statistics, axis) {
+  const words = new Map(statistics), short = end => String(Number(Number(words.get(`${axis}_${end}`)).toPrecision(4)));
+  return words.has(axis + "_min") ? `${short("min")} to ${short("max")}` : "";
 }
 
 function tellCounts(data) {
@@ -21,7 +32,8 @@ function tellCounts(data) {
   document.getElementById("notes").textContent = notes.join(" ");
   for (const stage of data.stages) {
     const row = document.querySelector("#counts tbody").insertRow();
-    for (const words of [stage.tool, stage.title, stage.triangles, size(stage.bytes), stage.seconds > 0 ? `${Math.round(1000 * stage.seconds)} ms` : "< 1 ms"]) row.insertCell().textContent = words;
+    for (const words of [stage.tool, stage.title, stage.triangles, size(stage.bytes), stage.seconds > 0 ? `${Math.round(1000 * stage.seconds)} ms` : "< 1 ms",
+      countsOf(stage.statistics), ...["x", "y", "z"].map(axis => rangeOf(stage.statistics, axis))]) row.insertCell().textContent = words;
   }
 }
 

@@ -2,6 +2,9 @@
 
 const styleOf = name => getComputedStyle(document.documentElement).getPropertyValue(name);
 
+// So many times its own size, triangles around the frustum or the cube may shrink it.
+const FARTHEST = 20;
+
 class Wireframe {
   constructor(canvas, mark, stage, start) {
     Object.assign(this, {canvas, mark, names: intsOf(stage.names), points: realsOf(stage.points), guide: stage.guide});
@@ -15,20 +18,23 @@ class Wireframe {
       c.height = 340 * scale;
       c.className = "wire";
     }
-    this.fit(start.box);
+    this.fit();
     this.draw();
   }
 
-  // The center and the size of the view: the given box, or the bounding box of the triangles and the eye.
-  fit(box) {
-    const low = box ? [-box, -box, -box] : [Infinity, Infinity, Infinity];
-    const high = low.map(x => -x);
-    const eyes = box ? [] : this.guide.length > 12 ? [this.guide[12][0]] : [];
-    const include = p => p.forEach((x, i) => { low[i] = Math.min(low[i], x); high[i] = Math.max(high[i], x); });
-    if (!box) for (let i = 0; i < this.points.length; i += 3) include([this.points[i], this.points[i + 1], this.points[i + 2]]);
-    eyes.forEach(include);
-    this.middle = low.map((x, i) => Number.isFinite(x) ? (x + high[i]) / 2 : 0);
-    this.size = Math.hypot(...low.map((x, i) => Number.isFinite(x) ? high[i] - x : 1)) || 1;
+  // Chooses center and size so that the frustum or the cube is in sight, and the triangles as far as that leaves it to be seen.
+  fit() {
+    const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity], shown = [];
+    const include = p => { shown.push(p); p.forEach((x, i) => { low[i] = Math.min(low[i], x); high[i] = Math.max(high[i], x); }); };
+    this.guide.flat().forEach(include);
+    const first = low.map((x, i) => x - FARTHEST * (high[i] - x)), last = high.map((x, i) => x + FARTHEST * (x - low[i]));
+    for (let at = 0; at < this.points.length; at += 3)
+      include([0, 1, 2].map(i => Math.max(first[i], Math.min(last[i], this.points[at + i]))));
+    this.middle = low.map((x, i) => (x + high[i]) / 2);
+    const {width, height} = this.canvas;
+    this.size = height;  // one canvas pixel per unit
+    const placed = shown.map(p => this.place(...p));
+    this.size = 2.1 * placed.reduce((most, [x, y]) => Math.max(most, Math.abs(x - width / 2) * height / width, Math.abs(y - height / 2)), 0);
   }
 
   // A point's position on the canvas, in its pixels, and its nearness: larger is nearer.

@@ -160,6 +160,59 @@ class InABrowser(ToolTest):
         self.browser.wait_for(lambda: self.browser.run("return document.body.dataset.ready") == "yes")
         self.assertIn("row 2, column 3:", self.browser.run("return document.getElementById('pixel-place').textContent"))
 
+    def rows(self):
+        return self.browser.run("return [...document.querySelectorAll('#counts tbody tr')].map(row => [...row.cells].map(cell => cell.textContent))")
+
+    def test_the_table_has_the_statistics(self):
+        model, view, project = ("\n".join(text).encode() for text in self.load_own_scene())
+        told = {}
+        for tool, data in (("model", SCENE), ("view", model), ("project", view), ("zbuf", project)):
+            words = ["config.txt"] if tool == "zbuf" else []
+            run(tool, *words, "--stats", "stats.txt", stdin=data)
+            told[tool] = dict(line.split() for line in pathlib.Path("stats.txt").read_text().splitlines())
+        rows = {row[0]: row for row in self.rows()}
+        self.assertEqual(rows["model"][5:], ["", "-2 to 3", "-1 to 2", "0 to 9"])
+        self.assertEqual(rows["project"][5], "1 cut")
+        zbuf = {key: word for key, word in told["zbuf"].items() if word != "0" and key != "triangles" and key[:2] not in ("x_", "y_", "z_")}
+        self.assertEqual(rows["zbuf"][5], ", ".join(f"{word} {key.replace('_', ' ')}" for key, word in zbuf.items()))
+        self.assertIn("seen", rows["zbuf"][5])
+        for tool, row in rows.items():
+            for axis, cell in zip("xyz", row[6:]):
+                self.assertEqual([float(word) for word in cell.split(" to ")], [float("%.4g" % float(told[tool][f"{axis}_{end}"])) for end in ("min", "max")])
+
+    def points_out_of_sight(self, tool):
+        """Corners of the guide and of the triangles that no pixel of the pane shows at first."""
+        return self.browser.run(
+            "const wire = inspector.panels[['model', 'view', 'project'].indexOf(arguments[0])].wire, lost = [];"
+            "const points = wire.guide.flat(); for (let i = 0; i < wire.points.length; i += 3) points.push([...wire.points.slice(i, i + 3)]);"
+            "for (const p of points) { const [x, y] = wire.place(...p); if (x < 0 || y < 0 || x > wire.canvas.width || y > wire.canvas.height) lost.push(p); }"
+            "return lost", tool)
+
+    def test_all_that_is_there_is_in_sight(self):
+        pathlib.Path("config.txt").write_text("40 40\n")
+        scenes = {"own": SCENE, "beside": SCENE.replace("triangle", "translate\n4 3 0\ntriangle", 1), "empty": SCENE[:SCENE.index("triangle")] + "end\n",
+                  "behind": SCENE.replace("triangle", "translate\n0 0 30\ntriangle", 1), "ortho": SCENE.replace("60 1 1 100", "ortho -1 1 -1 1 -5 5")}
+        for name, scene in scenes.items():
+            pathlib.Path("scene.txt").write_text(scene)
+            self.load("scene.txt", "config.txt")
+            for tool in ("model", "view", "project"):
+                with self.subTest(scene=name, tool=tool):
+                    self.assertEqual(self.points_out_of_sight(tool), [])
+
+    def test_a_far_plane_in_the_distance_does_not_shrink_the_rest(self):
+        pathlib.Path("config.txt").write_text("40 40\n")
+        pathlib.Path("scene.txt").write_text(SCENE.replace("60 1 1 100", "60 1 1 1e6"))
+        self.load("scene.txt", "config.txt")
+        self.assertLess(self.browser.run("return inspector.panels[1].wire.size"), 40)
+        self.assertIn("(the far plane is at distance 1e+06, drawn nearer)", self.browser.run("return document.querySelector('#stages').textContent"))
+
+    def test_a_triangle_in_the_distance_does_not_hide_the_cube(self):
+        pathlib.Path("config.txt").write_text("40 40\n")
+        pathlib.Path("scene.txt").write_text(SCENE.replace("triangle", "push\ntranslate\n1e6 0 0\ntriangle\n0 0 0\n1 0 0\n0 1 0\npop\ntriangle", 1))
+        self.load("scene.txt", "config.txt")
+        width = self.browser.run("const wire = inspector.panels[2].wire; Object.assign(wire, {yaw: 0, pitch: 0}); return wire.place(1, 0, 0)[0] - wire.place(-1, 0, 0)[0]")
+        self.assertGreater(width, 5)
+
     def test_dragging_turns_without_choosing(self):
         self.load_own_scene()
         before = self.browser.run("return inspector.panels[0].wire.yaw")
