@@ -11,25 +11,27 @@ namespace pipeline {
 /// none.
 struct BoundingBox {
   BoundingBox() = default;
-  explicit BoundingBox(const Triangle& triangle) { add(triangle); }
+  explicit BoundingBox(const Triangle& p)
+      : low(smallest(smallest(p[0], p[1]), p[2])), high(largest(largest(p[0], p[1]), p[2])) {}
 
-  void add(const Vec3& p) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-  void add(const Triangle& triangle) {
-    for (const Vec3& vertex : triangle) add(vertex);
-  }
   void add(const BoundingBox& box) {
-    add(box.low);
-    add(box.high);
+    low = smallest(low, box.low);
+    high = largest(high, box.high);
   }
+  void add(const Triangle& triangle) { add(BoundingBox(triangle)); }
 
   Vec3 low = {kInfinity, kInfinity, kInfinity};
   Vec3 high = {-kInfinity, -kInfinity, -kInfinity};
 
  private:
   static constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+  static Vec3 smallest(const Vec3& a, const Vec3& b) {
+    return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)};
+  }
+  static Vec3 largest(const Vec3& a, const Vec3& b) {
+    return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)};
+  }
 };
 
 }  // namespace pipeline

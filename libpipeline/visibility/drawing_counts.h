@@ -63,12 +63,13 @@ class DrawingCounter {
   void add(const ExactTriangle& triangle) {
     FragmentDepths found;
     for_each_span(coverage_.rows(triangle), [&](const Span& span) { add(span, found); });
-    counts_.extent.add(triangle.p_ndc);
+    const BoundingBox extent(triangle.p_ndc);
+    counts_.extent.add(extent);
     ++counts_.triangles;
     if (found.visible)
       ++counts_.hidden;  // or seen, which only the complete picture shows
     else
-      ++counts_.unseen[static_cast<std::size_t>(unseen_reason(triangle.p_ndc, found, screen_))];
+      ++counts_.unseen[static_cast<std::size_t>(unseen_reason(triangle.p_ndc, extent, found, screen_))];
   }
 
   void add(const Span& span, FragmentDepths& found) {

@@ -1,9 +1,12 @@
 #include "libpipeline/visibility/unseen.h"
 
 #include <cmath>
+#include <limits>
 
 namespace pipeline {
 namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Whether the area of a triangle in x and y is more than the rounding of its coordinates to doubles, and of
 /// the calculation here, can make it.
@@ -17,10 +20,37 @@ bool has_area(const Triangle& p) {
   return !(std::fabs(forward - backward) <= 0x1p-52 * error);
 }
 
+/// How far a fragment's depth may lie outside the triangle's own depths: the rule `nearest` follows the plane
+/// of a triangle up to half a pixel outside it. Infinite where the plane is so steep that rounding matters.
+double depth_reach(const Triangle& p, const BoundingBox& extent, double dx) {
+  if (extent.low.z == extent.high.z) return 0;
+  const auto& [a, b, c] = p;
+  const double forward = (b.x - a.x) * (c.y - a.y);
+  const double backward = (c.x - a.x) * (b.y - a.y);
+  const double rise = (b.z - a.z) * (c.y - a.y) - (c.z - a.z) * (b.y - a.y);
+  const double area = std::fabs(forward - backward);
+  if (!(area > 0x1p-20 * (std::fabs(forward) + std::fabs(backward)))) return kInfinity;
+  // Twice as far, and more than all roundings.
+  return std::fabs(rise) / area * dx + 0x1p-20 * (std::fabs(extent.low.z) + std::fabs(extent.high.z));
+}
+
 }  // namespace
 
-UnseenReason unseen_reason(const Triangle& p_ndc, const FragmentDepths& fragments, const Viewport& screen) {
-  const auto [low, high] = std::pair(BoundingBox(p_ndc).low, BoundingBox(p_ndc).high);
+bool may_be_visible(const Triangle& p_ndc, const BoundingBox& extent, const Viewport& screen) {
+  const auto& [low, high] = extent;
+  // A pixel more than the window: rounding may move a vertex that touches it.
+  const double dx = screen.dx(), dy = screen.dy();
+  if (high.x < screen.left - dx || low.x > -screen.left + dx || high.y < screen.bottom - dy ||
+      low.y > -screen.bottom + dy)
+    return false;
+  if (high.z >= screen.front && low.z < screen.rear) return true;
+  const double reach = depth_reach(p_ndc, extent, dx);
+  return high.z + reach >= screen.front && low.z - reach < screen.rear;
+}
+
+UnseenReason unseen_reason(const Triangle& p_ndc, const BoundingBox& extent, const FragmentDepths& fragments,
+                           const Viewport& screen) {
+  const auto& [low, high] = extent;
   if (high.z < screen.front) return UnseenReason::before_front;
   if (low.z >= screen.rear) return UnseenReason::beyond_rear;
   if (high.x < screen.left) return UnseenReason::left;

@@ -35,9 +35,14 @@ struct FragmentDepths {
   bool beyond_rear = false;
 };
 
-/// The first reason, in the order above, that applies to a triangle without visible fragments. A triangle
-/// that is before or beyond a limit with its fragments alone has none of the reasons between.
-UnseenReason unseen_reason(const Triangle& p_ndc, const FragmentDepths& fragments, const Viewport& screen);
+/// The first reason, in the order above, that applies to a triangle without visible fragments, in the box
+/// `extent`. A triangle that is before or beyond a limit with its fragments alone has none of the reasons
+/// between.
+UnseenReason unseen_reason(const Triangle& p_ndc, const BoundingBox& extent, const FragmentDepths& fragments,
+                           const Viewport& screen);
+
+/// False only if the triangle surely shows at no pixel: a quick test by the box `extent` around it.
+bool may_be_visible(const Triangle& p_ndc, const BoundingBox& extent, const Viewport& screen);
 
 /// Triangles that show nowhere, by reason.
 struct UnseenTriangles {
@@ -74,20 +79,14 @@ class EmptyPicture {
   void add(const ExactTriangle& triangle) {
     const BoundingBox extent(triangle.p_ndc);
     FragmentDepths found;
-    if (reaches_window(extent)) found = fragments(triangle);
+    if (may_be_visible(triangle.p_ndc, extent, screen_)) found = fragments(triangle);
     is_empty_ = !found.visible;
     if (found.visible) return;
-    auto& group = triangles_.groups[static_cast<std::size_t>(unseen_reason(triangle.p_ndc, found, screen_))];
+    const UnseenReason reason = unseen_reason(triangle.p_ndc, extent, found, screen_);
+    auto& group = triangles_.groups[static_cast<std::size_t>(reason)];
     ++group.count;
     group.extent.add(extent);
     ++triangles_.count;
-  }
-
-  /// A pixel more than the window: rounding may move a vertex that touches it.
-  [[nodiscard]] bool reaches_window(const BoundingBox& extent) const {
-    const double dx = screen_.dx(), dy = screen_.dy();
-    return extent.high.x >= screen_.left - dx && extent.low.x <= -screen_.left + dx &&
-           extent.high.y >= screen_.bottom - dy && extent.low.y <= -screen_.bottom + dy;
   }
 
   /// The depths of a triangle's fragments, as far as the first visible one.
