@@ -158,8 +158,7 @@ void Tool::close_output() {
 }
 
 bool Tool::is_last_stage() {
-  struct stat status = {};
-  return ::fstat(STDOUT_FILENO, &status) != 0 || !(S_ISFIFO(status.st_mode) || S_ISSOCK(status.st_mode));
+  return !is_pipe(STDOUT_FILENO);
 }
 
 void Tool::note(const std::string& message) const {
@@ -187,7 +186,7 @@ int Tool::fail_after(const EarlierFailure& failure) {
   const bool makes_picture = output_kind_ == OutputKind::other_text;
   if (!is_pipe(input_->descriptor()))
     print_on_stderr(name_ + ": " + failure.what());
-  else if (makes_picture || !is_pipe(STDOUT_FILENO))
+  else if (makes_picture || is_last_stage())
     print_on_stderr(name_ + (makes_picture ? ": no picture: " : ": no output: ") + failure.in_short());
   tell_next_stage(failure.reason());
   return kExitFailure;

@@ -86,7 +86,7 @@ class Inspection:
         self.step = max(1, math.ceil(self.count / MAX_DRAWN_TRIANGLES))
         titles = {"model": "world space", "view": "view space", "project": "normalized device coordinates"}
         self.stages = [self.stage(tool, titles[tool], texts[tool]) for tool in texts]
-        note = note_on_squares(line_of(self.parsed["model"].header.get), text_of(read_input(config), config))
+        note = note_on_squares(line_of(self.parsed["model"].header.get), text_of(read_input(self.config), self.config))
         self.square_notes = [f"note: {note}"] if note else []
         self.draw(data, folder)
 
