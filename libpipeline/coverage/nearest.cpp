@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <tuple>
+#include <utility>
+
+#include "libpipeline/numbers/vec_math.h"
 
 namespace pipeline {
 namespace {
@@ -49,37 +52,47 @@ std::array<double, 3> scaled(const std::array<double, 3>& values, int& exponent)
           std::ldexp(values[2], -exponent)};
 }
 
+/// A triangle's plane by the vectors b and c from its lowest vertex to the others.
 struct Plane {
+  Vec3 b;
+  Vec3 c;
   double rise;   // slope = rise / area
   double area;   // twice the signed area of the triangle in x and y
   double terms;  // the sum of the absolute values of the two terms of `area`
+
+  /// Whether no product is so near to the ends of a double's range that it may have lost digits.
+  [[nodiscard]] bool is_in_range() const {
+    return terms > 0x1p-900 && terms < 0x1p900 && std::isfinite(rise);
+  }
+  [[nodiscard]] bool is_seen_edge_on() const { return std::fabs(area) <= NearestRows::kAreaError * terms; }
+  /// Whether depths are to be calculated in pairs; `size` is the sum of the vertices' |z|.
+  [[nodiscard]] bool needs_pairs(const PixelGrid& grid, double size) const {
+    const double rise_in_y = b.x * c.z - c.x * b.z;
+    const double reach_in_x = grid.half_width + (std::fabs(b.x) + std::fabs(c.x));
+    const double reach_in_y = grid.half_height + c.y;
+    const double change = std::fabs(rise) * reach_in_x + std::fabs(rise_in_y) * reach_in_y;
+    const double net_area =
+        std::fabs(area) - NearestRows::kNarrowest * terms - NearestRows::kNarrowestRow * grid.dx * c.y;
+    return !(change <= std::min(NearestRows::kSteepest * size * net_area, NearestRows::kHuge));
+  }
 };
 
-Plane plane_of(const Vec3& a, const Vec3& b, const Vec3& c) {
-  const double forward = (b.x - a.x) * (c.y - a.y);
-  const double backward = (c.x - a.x) * (b.y - a.y);
-  const double rise = (b.z - a.z) * (c.y - a.y) - (c.z - a.z) * (b.y - a.y);
-  return {rise, forward - backward, std::fabs(forward) + std::fabs(backward)};
+Plane plane_of(const Vec3& lowest, const Vec3& middle, const Vec3& highest) {
+  const Vec3 b = difference(middle, lowest), c = difference(highest, lowest);
+  const double forward = b.x * c.y, backward = c.x * b.y;
+  return {b, c, b.z * c.y - c.z * b.y, forward - backward, std::fabs(forward) + std::fabs(backward)};
 }
 
-/// dz/dx of the plane through three points, none where the triangle may be seen edge-on. One slope for all
-/// rows: the quotient of the differences between the ends of a row has no correct digit where the row crosses
-/// the triangle next to a corner.
-std::optional<double> slope_in_x(const Vec3& a, const Vec3& b, const Vec3& c) {
-  Plane plane = plane_of(a, b, c);
-  int exponent = 0;
-  if (!(plane.terms > 0x1p-900 && plane.terms < 0x1p900 && std::isfinite(plane.rise))) {
-    // Products near the ends of a double's range: calculate with powers of two factored out.
-    int x_exponent = 0, y_exponent = 0, z_exponent = 0;
-    const auto x = scaled({a.x, b.x, c.x}, x_exponent);
-    const auto y = scaled({a.y, b.y, c.y}, y_exponent);
-    const auto z = scaled({a.z, b.z, c.z}, z_exponent);
-    plane = plane_of({x[0], y[0], z[0]}, {x[1], y[1], z[1]}, {x[2], y[2], z[2]});
-    exponent = z_exponent - x_exponent;
-  }
-  if (std::fabs(plane.area) <= NearestRows::kAreaError * plane.terms) return std::nullopt;
-  const double unscaled = plane.rise / plane.area;
-  const double slope = exponent == 0 ? unscaled : std::ldexp(unscaled, exponent);
+/// dz/dx of a triangle with products near the ends of a double's range, none where it may be seen edge-on:
+/// calculated with powers of two factored out.
+[[gnu::noinline]] std::optional<double> slope_of_scaled(const Vec3& a, const Vec3& b, const Vec3& c) {
+  int x_exponent = 0, y_exponent = 0, z_exponent = 0;
+  const auto x = scaled({a.x, b.x, c.x}, x_exponent);
+  const auto y = scaled({a.y, b.y, c.y}, y_exponent);
+  const auto z = scaled({a.z, b.z, c.z}, z_exponent);
+  const Plane plane = plane_of({x[0], y[0], z[0]}, {x[1], y[1], z[1]}, {x[2], y[2], z[2]});
+  if (plane.is_seen_edge_on()) return std::nullopt;
+  const double slope = std::ldexp(plane.rise / plane.area, z_exponent - x_exponent);
   return std::isfinite(slope) ? std::optional(slope) : std::nullopt;
 }
 
@@ -91,17 +104,22 @@ double interpolate(double from, double to, double t) {
 
 }  // namespace
 
-NearestRows::NearestRows(const PixelGrid& grid, const Triangle& p_ndc) : grid_(grid) {
-  const Triangle p = sorted(p_ndc);
-  edges_ = {Edge{p[0], p[1]}, Edge{p[1], p[2]}, Edge{p[0], p[2]}};
-  slope_ = slope_in_x(p[0], p[1], p[2]);
-  first_row_ = clamped_ceil((grid.top_y - p[2].y) / grid.dy, 0, grid.rows);
-  last_row_ = clamped_floor((grid.top_y - p[0].y) / grid.dy, -1, grid.rows - 1);
+NearestRows::NearestRows(const PixelGrid& grid, const Triangle& p_ndc) : grid_(grid), p_(sorted(p_ndc)) {
+  const auto& [a, b, c] = p_;
+  const Plane plane = plane_of(a, b, c);
+  if (!plane.is_in_range()) {
+    slope_ = slope_of_scaled(a, b, c);
+  } else if (!plane.is_seen_edge_on()) {
+    const double slope = plane.rise / plane.area;
+    if (std::isfinite(slope)) slope_ = slope;
+    if (plane.needs_pairs(grid, std::fabs(a.z) + std::fabs(b.z) + std::fabs(c.z)))
+      in_pairs_.emplace(grid, p_);
+  }
+  first_row_ = clamped_ceil((grid.top_y - c.y) / grid.dy, 0, grid.rows);
+  last_row_ = clamped_floor((grid.top_y - a.y) / grid.dy, -1, grid.rows - 1);
 }
 
-NearestRows::Intersection NearestRows::intersect(const Edge& edge, double y) {
-  const Vec3& lower = edge.lower;
-  const Vec3& upper = edge.upper;
+inline NearestRows::Intersection NearestRows::intersect(const Vec3& lower, const Vec3& upper, double y) {
   // Exact at the corners, where two edges have to meet.
   if (y == upper.y) return {upper.x, upper.z};
   const double length = upper.y - lower.y;
@@ -111,13 +129,13 @@ NearestRows::Intersection NearestRows::intersect(const Edge& edge, double y) {
 }
 
 std::optional<NearestRows::Ends> NearestRows::ends(double y) const {
-  const Edge& longest = edges_[2];
-  const double middle_y = edges_[0].upper.y;
-  const bool is_between_corners = (longest.lower.y <= y) & (y <= longest.upper.y) & (y != middle_y);
+  const double lowest_y = p_[0].y, middle_y = p_[1].y, highest_y = p_[2].y;
+  const bool is_between_corners = (lowest_y <= y) & (y <= highest_y) & (y != middle_y);
   if (!is_between_corners) return ends_at_corner(y);
   // The longest edge and, below or above the middle corner, one of the others.
-  const std::array<Intersection, 2> points = {intersect(edges_[static_cast<std::size_t>(y > middle_y)], y),
-                                              intersect(longest, y)};
+  const Vec3* const shorter = &p_[static_cast<std::size_t>(y > middle_y)];
+  const std::array<Intersection, 2> points = {intersect(shorter[0], shorter[1], y),
+                                              intersect(p_[0], p_[2], y)};
   const auto& [first, second] = points;
   const bool is_lower_z = (second.x == first.x) & (second.z < first.z);
   return Ends{points[static_cast<std::size_t>((second.x < first.x) | is_lower_z)],
@@ -127,10 +145,12 @@ std::optional<NearestRows::Ends> NearestRows::ends(double y) const {
 std::optional<NearestRows::Ends> NearestRows::ends_at_corner(double y) const {
   int count = 0;
   Intersection left = {}, right = {};
-  for (const Edge& edge : edges_) {
-    const bool is_horizontal = edge.lower.y == edge.upper.y;
-    if (is_horizontal || y < edge.lower.y || y > edge.upper.y) continue;
-    const Intersection point = intersect(edge, y);
+  for (const auto& [from, to] : {std::pair(0, 1), std::pair(1, 2), std::pair(0, 2)}) {
+    const Vec3& lower = p_[static_cast<std::size_t>(from)];
+    const Vec3& upper = p_[static_cast<std::size_t>(to)];
+    const bool is_horizontal = lower.y == upper.y;
+    if (is_horizontal || y < lower.y || y > upper.y) continue;
+    const Intersection point = intersect(lower, upper, y);
     if (count == 0 || std::tie(point.x, point.z) < std::tie(left.x, left.z)) left = point;
     if (count == 0 || point.x > right.x || (point.x == right.x && point.z < right.z)) right = point;
     ++count;
@@ -148,10 +168,17 @@ std::optional<Span> NearestRows::span(int row) const {
                {}};
   if (span.first_column > span.last_column) return std::nullopt;
   span.depth = {grid_.left_x, grid_.dx, left.x, left.z, 0};
-  if (slope_ && left.x < right.x)
+  if (slope_ && left.x < right.x) {
     span.depth.slope = *slope_;
-  else
+    if (in_pairs_) return refined(span);
+  } else {
     span.depth.z0 = std::min(left.z, right.z);
+  }
+  return span;
+}
+
+Span NearestRows::refined(Span span) const {
+  if (const auto depth = in_pairs_->along(span.row, span.first_column, span.last_column)) span.depth = *depth;
   return span;
 }
 

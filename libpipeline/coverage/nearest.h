@@ -3,6 +3,7 @@
 #include <array>
 #include <optional>
 
+#include "libpipeline/coverage/depth_in_pairs.h"
 #include "libpipeline/coverage/span.h"
 #include "libpipeline/numbers/vec.h"
 #include "libpipeline/scene/pixel_grid.h"
@@ -24,6 +25,15 @@ class NearestRows {
   /// precision floating-point arithmetic and fast robust geometric predicates", 1997, ccwerrboundA).
   static constexpr double kAreaError = (3 + 16 * 0x1p-53) * 0x1p-53;
 
+  /// Doubles are enough for the depths of a triangle whose depth changes, with its slopes in x and in y, over
+  /// the window and the triangle by at most kSteepest times the sum of its vertices' |z|; if its area is more
+  /// than kNarrowest of the sum of its two products, and its widest row wider than kNarrowestRow of a pixel.
+  /// (The comparison adds up the three.) The depths of any other triangle are calculated in pairs. What
+  /// follows for their errors: tests/proofs/nearest_depth.g.
+  static constexpr double kSteepest = 0x1p9, kNarrowest = 0x1p-40, kNarrowestRow = 0x1p-12;
+  /// Larger numbers do not occur in that comparison, lest both sides be infinite.
+  static constexpr double kHuge = 0x1p1000;
+
   NearestRows(const PixelGrid& grid, const Triangle& p_ndc);
 
   /// The rows that may have pixels, inside the screen; first_row() > last_row() if there are none.
@@ -33,14 +43,12 @@ class NearestRows {
   /// The pixels the triangle covers on `row`, inside the screen; none where it has fewer than two
   /// intersections or lies entirely left or right of the screen. The depth is linear through the left
   /// intersection and has the slope of the triangle's plane; where left and right intersection have the same
-  /// x, and where the triangle is seen edge-on, the depth is the smaller of the two.
+  /// x, and where the triangle is seen edge-on, the depth is the smaller of the two. Everywhere else it is
+  /// the plane's at the exact center of the pixel within 2^-39 of the largest |z| of a vertex; at a pixel
+  /// whose center lies beyond an end of the row within 2^-28, or of its own |z| if that is larger.
   [[nodiscard]] std::optional<Span> span(int row) const;
 
  private:
-  struct Edge {
-    Vec3 lower;  // by y, then x, then z: neighbors get the same point of a shared edge
-    Vec3 upper;
-  };
   struct Intersection {
     double x;
     double z;
@@ -49,14 +57,22 @@ class NearestRows {
     Intersection left;
     Intersection right;
   };
-  static Intersection intersect(const Edge& edge, double y);
+  /// Where the line at `y` meets the edge. Inlined: a call would cost a third of it.
+  [[gnu::always_inline]] static inline Intersection intersect(const Vec3& lower, const Vec3& upper, double y);
   /// Where the line at `y` enters and leaves the triangle; none where it has fewer than two intersections.
   [[nodiscard]] std::optional<Ends> ends(double y) const;
   [[nodiscard]] std::optional<Ends> ends_at_corner(double y) const;
 
+  /// The span with a depth in pairs instead of doubles.
+  [[gnu::noinline]] [[nodiscard]] Span refined(Span span) const;
+
   PixelGrid grid_;
-  std::array<Edge, 3> edges_;
-  std::optional<double> slope_;  // dz/dx of the triangle's plane; none for a triangle seen edge-on
+  Triangle p_;  // by y, then x, then z, from the lowest: neighbors get the same point of a shared edge
+  // dz/dx of the triangle's plane, none for a triangle seen edge-on. One slope for all rows: the quotient of
+  // the differences between the ends of a row has no correct digit where the row crosses the triangle next to
+  // a corner.
+  std::optional<double> slope_;
+  std::optional<DepthInPairs> in_pairs_;
   int first_row_;
   int last_row_;
 };

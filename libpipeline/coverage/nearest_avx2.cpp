@@ -75,11 +75,11 @@ struct FourTriangles {
     const FourDoubles bottom = (all(grid.top_y) - p.y) / all(grid.dy);
     begin_row = _mm256_ceil_pd(clamped(top, 0, grid.rows));
     sources.last_row = _mm256_floor_pd(clamped(bottom, -1, grid.rows - 1));
-    set_slope(q - p, r - p);
+    set_slope(grid, q - p, r - p, size_of(p.z) + size_of(q.z) + size_of(r.z));
   }
   /// From the edges that leave the lowest corner.
-  PIPELINE_AVX2_INLINE void set_slope(const FourPoints& b, const FourPoints& c) {
-    constexpr double kHuge = 0x1p1000;
+  PIPELINE_AVX2_INLINE void set_slope(const PixelGrid& grid, const FourPoints& b, const FourPoints& c,
+                                      FourDoubles size) {
     const FourDoubles forward = b.x * c.y, backward = c.x * b.y;
     const FourDoubles rise = b.z * c.y - c.z * b.y;
     const FourDoubles area = forward - backward, terms = size_of(forward) + size_of(backward);
@@ -87,10 +87,19 @@ struct FourTriangles {
     const FourDoubles slopes = but_not(rise / area, has_no_slope);
     sources.slope = slopes;
     sources.is_edge_on = has_no_slope;
-    const FourDoubles reach = size_of(b.x) + size_of(c.x) + size_of(b.z) + size_of(c.z);
+    const FourDoubles reach = size_of(b.x) + size_of(c.x);
+    const FourDoubles rise_in_y = b.x * c.z - c.x * b.z;
+    const FourDoubles change =
+        size_of(rise) * (all(grid.half_width) + reach) + size_of(rise_in_y) * (all(grid.half_height) + c.y);
+    const FourDoubles net_area = size_of(area) - all(NearestRows::kNarrowest) * terms -
+                                 all(NearestRows::kNarrowestRow * grid.dx) * c.y;
+    const FourDoubles huge = all(NearestRows::kHuge);
+    const FourDoubles limit = smaller(all(NearestRows::kSteepest) * size * net_area, huge);
+    const FourDoubles is_good = is_at_most(change, pick(has_no_slope, huge, limit));
     const FourDoubles is_in_range = both(is_less(all(0x1p-900), terms), is_less(terms, all(0x1p900)));
-    const FourDoubles is_finite = both(is_less(reach, all(kHuge)), is_less(size_of(rise), all(kHuge)));
-    ordinary.bits = bits_of(both(both(is_in_range, is_finite), is_less(size_of(slopes), all(kHuge))));
+    const FourDoubles largest = larger(reach + (size_of(b.z) + size_of(c.z)), size_of(slopes));
+    const FourDoubles is_finite = is_less(largest, huge);
+    ordinary.bits = bits_of(both(both(is_good, is_in_range), is_finite));
   }
 };
 

@@ -9,6 +9,8 @@ struct PixelGrid {
   explicit PixelGrid(const Viewport& viewport)
       : columns(viewport.columns),
         rows(viewport.rows),
+        half_width(-viewport.left),
+        half_height(-viewport.bottom),
         left_x(viewport.left_x()),
         top_y(viewport.top_y()),
         dx(viewport.dx()),
@@ -19,6 +21,8 @@ struct PixelGrid {
 
   int columns;
   int rows;
+  double half_width;  // of the window, exactly; the numbers below are rounded
+  double half_height;
   double left_x;
   double top_y;
   double dx;
