@@ -13,17 +13,8 @@ namespace pipeline {
 
 /// TriangleDepth for weights that are whole numbers and fit in a double, as they nearly always do.
 ///
-/// The depth is the weighted mean of the three depths, at most 6.5 u Z from the exact one, where u = 2^-53
-/// and Z is the largest |z|. (2^-50 Z is 8 u Z, and the decimals next to the depths are another u Z away.)
-///
-/// Proof. Weights are exact. In the middle of a span, let A be the weight of a over the total, and m the
-/// depth. The products are off by u Z together; the sum of two by u |m - A z_a|, which is at most u (|m| + A
-/// Z) and at most u (1 - A) Z, so at most u (|m| + Z) / 2; the sum of three and the quotient by u |m| each.
-/// At h half columns from there, up to the ends of the span, no weight is negative on either side, so it
-/// changes by no more than its value in the middle. The slope s, times h, is off by u Z for its products; by
-/// nothing for the first sums, whose remainders are added; by u |h s| for the last sum, for the quotient and
-/// for the product with h. The sum of both is off by u Z. |m| + |h s| is at most Z, because the span's ends
-/// are in the triangle and are m + h s and m - h s: 3.5 u Z + 2.5 u |m| + 3 u |h s| in all.
+/// The depth is the weighted mean of the three depths, within the bound of tests/proofs/depth_in_doubles.g of
+/// the exact one.
 class DepthInDoubles {
  public:
   static constexpr std::int64_t kMaxWeight = std::int64_t{1} << 50;

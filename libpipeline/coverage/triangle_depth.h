@@ -20,14 +20,9 @@ namespace pipeline {
 /// Z is at least 1e-288), and a triangle of one depth has exactly that depth everywhere. If the depths are
 /// taken to be the decimals next to the doubles, that adds no more than another 2^-53 Z.
 ///
-/// Proof. Where weights are whole numbers that doubles hold, the depth comes from DepthInDoubles. Otherwise
-/// depths become whole numbers of 61 bits, so that the depth m in the middle of a span and its slope s per
-/// half column are exact sums of products over the total. In units of u = 2^-53: m is off by u|m| for each of
-/// four roundings (the sum to a double, the total to a double, its inverse, their product), h s at h half
-/// columns from the middle by u|h s| for five, the sum of the two by u|m + h s|. |m| + |h s| is at most Z,
-/// because the span's ends are in the triangle and are m + h s and m - h s. In all, that is 6 u Z plus the
-/// bits cut off: depths below 61 bits (less than 3 * 2^-60 Z) and weights below 60 bits (less than 2^-56 Z),
-/// together u Z / 4. 2^-50 is 8 u.
+/// Where weights are whole numbers that doubles hold, the depth comes from DepthInDoubles. Otherwise depths
+/// become whole numbers of 61 bits, so that the depth in the middle of a span and its slope per half column
+/// are exact sums of products over the total: tests/proofs/depth_in_wide_integers.g.
 class TriangleDepth {
  public:
   TriangleDepth() = default;

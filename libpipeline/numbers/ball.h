@@ -60,8 +60,8 @@ class Ball {
   [[nodiscard]] double nearest_double() const;
 
  private:
-  // Relative error bounds of the double-double operations, with room for the rounding of the error itself: 3
-  // u^2 and 5 u^2 are below 2^-103, 16 u^2 is 2^-102.
+  // Relative error bounds of the double-double operations, with room for the rounding of the error itself
+  // (tests/proofs/ball.g).
   static constexpr double kAddMulBound = 0x1p-103;
   static constexpr double kDivSqrtBound = 0x1p-101;
   // Errors are summed in doubles; this factor exceeds what a sum of a few terms can lose by rounding.

@@ -19,12 +19,12 @@ constexpr double kWholeRounder = 0x1.8p52;
   return (value + kWholeRounder) - kWholeRounder;
 }
 
-/// A product of two doubles is off by at most 2^-53 of the exact one, hence by less than this fraction of
-/// itself.
+/// More than a product of two doubles can be off by, in parts of itself. (For this and the next constant:
+/// tests/proofs/rounding_test.g.)
 constexpr double kProductError = 0x1p-52;
 
-/// A number whose distance from a whole number stays below this rounds to it. The few sums that make up such
-/// a distance lose at most 2^-54 each near 1/2; the rest is margin that costs nothing.
+/// A number whose distance from a whole number stays below this rounds to it, whatever the few sums that make
+/// up such a distance lose.
 constexpr double kBelowHalf = 0.5 - 0x1p-40;
 
 /// The absolute value of a number in units of its last decimal. Always inlined, so that each kernel's loops

@@ -4,7 +4,8 @@
 
 namespace pipeline {
 
-/// The positions of a viewport's pixel centers in NDC: row 0 at the top, column 0 on the left.
+/// The positions of a viewport's pixel centers in NDC: row 0 at the top, column 0 on the left. Their error:
+/// tests/proofs/pixel_center.g.
 struct PixelGrid {
   explicit PixelGrid(const Viewport& viewport)
       : columns(viewport.columns),

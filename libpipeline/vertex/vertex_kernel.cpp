@@ -56,13 +56,12 @@ Coefficient::Coefficient(const Ball& number) {
   if (number.is_exact_zero()) return;
   value = number.nearest_double();
   is_nonzero = 1;
-  // Each term is rounded at most six times: in the coefficient (1), the subtraction of the origin (1), the
-  // product (1) and the sums (3). Added to that are the ball's own error and the bits that a subnormal value
-  // lacks.
+  // tests/proofs/coordinate_in_doubles.g. Added to that are the ball's own error and the bits that a
+  // subnormal value lacks.
   error = 8 * kUnitRoundoff * std::fabs(value) + number.radius() + 0x1p-1073;
   pair = number.value();
-  // The calculation in pairs, a quotient included, loses less than 2^-98 of the terms, and so does ball
-  // arithmetic on the same numbers: a pair that passes the test is not a tie for the ball.
+  // Far more than a calculation in pairs loses (tests/proofs/coordinate_in_pairs.g), and ball arithmetic on
+  // the same numbers: a pair that passes the test is not a tie for the ball.
   pair_error = number.exponent() == 0 ? 0x1p-94 * std::fabs(value) + 8 * number.radius()
                                       : std::numeric_limits<double>::quiet_NaN();
 }

@@ -5,6 +5,7 @@
 #include "tests/coverage/center_rational.h"
 #include "tests/coverage/center_reference.h"
 #include "tests/numbers/random_numbers.h"
+#include "tests/numbers/worst_error.h"
 #include "tests/sanitizer_rounds.h"
 
 namespace pipeline {
@@ -26,7 +27,7 @@ void expect_exact(const TextTriangle& t, const Viewport& screen) {
 }
 
 /// Compares depths at the ends and in the middle of some rows.
-void expect_depths_within_bound(const TextTriangle& t, const Viewport& screen) {
+void expect_depths_within_bound(const TextTriangle& t, const Viewport& screen, WorstError& worst) {
   const ExactCoverage exact(t, screen);
   const mpq_class bound = exact.largest_depth() * mpq_class(0x1p-50);
   const std::vector<Span> spans = spans_of(CenterRows(ExactGrid(screen), t.exact()));
@@ -36,6 +37,7 @@ void expect_depths_within_bound(const TextTriangle& t, const Viewport& screen) {
          {spans[i].first_column, (spans[i].first_column + spans[i].last_column) / 2, spans[i].last_column}) {
       const mpq_class error = abs(mpq_class(spans[i].depth(column)) - exact.depth(spans[i].row, column));
       ASSERT_TRUE(error <= bound) << "row " << spans[i].row << ", column " << column;
+      if (bound != 0) worst.add(mpq_class(error / exact.largest_depth()).get_d());
     }
 }
 
@@ -112,6 +114,7 @@ TEST(CenterExact, DecimalsOfEverySizeMixedWithDoubles) {
 }
 
 TEST(CenterExact, DepthsAreWithinTheirBound) {
+  WorstError worst("depth under center, parts of the largest |z|");
   RandomNumbers random(5);
   for (int i = 0; i < sanitizer_rounds(3000); ++i) {
     const std::array<Viewport, 3> screens = {decimal_screen(500, 500), decimal_screen(1023, 40),
@@ -132,12 +135,13 @@ TEST(CenterExact, DepthsAreWithinTheirBound) {
     }
     TextTriangle t = triangle_of(units, z);
     t.decimal_marks = i % 3 == 0 ? 0 : 0b011'011'011;
-    expect_depths_within_bound(t, screens[static_cast<std::size_t>(i / 2) % screens.size()]);
+    expect_depths_within_bound(t, screens[static_cast<std::size_t>(i / 2) % screens.size()], worst);
     if (HasFatalFailure()) FAIL() << "triangle " << i;
   }
 }
 
 TEST(CenterExact, DepthsOfSliversAndOfFarVerticesAreWithinTheirBound) {
+  WorstError worst("depth under center, parts of the largest |z|");
   RandomNumbers random(6);
   const Viewport screen = decimal_screen(400, 300, -1, -0.75);
   for (int i = 0; i < 600; ++i) {
@@ -156,19 +160,20 @@ TEST(CenterExact, DepthsOfSliversAndOfFarVerticesAreWithinTheirBound) {
       for (Vec3& p : t.p) p = {p.x * far, p.y * far, p.z};
       t.decimal_marks = 0;
     }
-    expect_depths_within_bound(t, screen);
+    expect_depths_within_bound(t, screen, worst);
     if (HasFatalFailure()) FAIL() << "triangle " << i;
   }
 }
 
 TEST(CenterExact, DepthsReadAsDecimalsAreWithinTheSameBound) {
+  WorstError worst("depth under center, parts of the largest |z|");
   RandomNumbers random(7);
   const Viewport screen = decimal_screen(500, 500);
   for (int i = 0; i < 1000; ++i) {
     UnitTriangle units{};
     for (auto& p : units) p = {random.whole(-10'000'000, 10'000'000), random.whole(-10'000'000, 10'000'000)};
     const auto depth = [&] { return random.whole(-10'000'000, 10'000'000) / 1e7; };
-    expect_depths_within_bound(triangle_of(units, {depth(), depth(), depth()}), screen);
+    expect_depths_within_bound(triangle_of(units, {depth(), depth(), depth()}), screen, worst);
     if (HasFatalFailure()) FAIL() << "triangle " << i;
   }
 }

@@ -10,6 +10,7 @@
 #include <cmath>
 
 #include "tests/numbers/random_numbers.h"
+#include "tests/numbers/worst_error.h"
 
 namespace pipeline {
 namespace {
@@ -94,6 +95,7 @@ TEST(DepthInDoubles, IsWithinItsBoundAlongEveryRow) {
   }
   // The bound is realistic: errors reach a third of it.
   EXPECT_GT(largest_error, 6.5 / 3 * 0x1p-53);
+  WorstError("depth under center in doubles, parts of the largest |z|").add(largest_error);
 }
 
 TEST(DepthInDoubles, OneDepthIsThatDepthEverywhere) {

@@ -13,6 +13,7 @@
 
 #include "libpipeline/coverage/nearest.h"
 #include "tests/numbers/random_numbers.h"
+#include "tests/numbers/worst_error.h"
 
 namespace pipeline {
 namespace {
@@ -173,6 +174,29 @@ TEST(NearestDepth, IsWithinItsBoundForNarrowSmallAndFlatTriangles) {
   // Both ways of calculation were measured.
   EXPECT_GT(worst.count_in_pairs, 100);
   EXPECT_GT(worst.count - worst.count_in_pairs, 100);
+}
+
+TEST(NearestDepth, PixelCentersAreWithin2ToMinus50OfTheHalfWidth) {
+  RandomNumbers random(3);
+  WorstError worst("pixel center, parts of the half width");
+  for (int i = 0; i < 20'000; ++i) {
+    const Viewport screen = {random.whole(1, kMaxViewportSize),
+                             random.whole(1, 2000),
+                             -random.between(0.1, 10),
+                             -random.between(0.1, 10),
+                             -1,
+                             1};
+    const int column = random.whole(0, 1) == 0 ? screen.columns - 1 : random.whole(0, screen.columns - 1);
+    const int row = random.whole(0, screen.rows - 1);
+    const PixelGrid grid(screen);
+    const mpq_class x = mpq_class(grid.x_of(column)) - center(screen.left, column, screen.columns);
+    const mpq_class y = mpq_class(grid.y_of(row)) - center(-screen.bottom, row, screen.rows);
+    for (const double error :
+         {std::fabs(x.get_d()) / grid.half_width, std::fabs(y.get_d()) / grid.half_height}) {
+      ASSERT_LE(error, 0x1p-50);
+      worst.add(error);
+    }
+  }
 }
 
 TEST(NearestDepth, FarVerticesCostNoPrintedDigit) {

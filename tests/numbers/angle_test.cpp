@@ -6,6 +6,7 @@
 
 #include "tests/numbers/random_numbers.h"
 #include "tests/numbers/real.h"
+#include "tests/numbers/worst_error.h"
 
 namespace pipeline {
 namespace {
@@ -98,6 +99,23 @@ TEST(Angle, ContainsTheTruthOfHugeAnglesWithALowPart) {
 }
 TEST(Angle, ContainsTheTruthNearMultiplesOfFifteen) {
   expect_all_contained(near_to_special, 7, 5'000);
+}
+
+TEST(Angle, SeriesAreWithin2ToMinus99) {
+  RandomNumbers random(8);
+  WorstError worst("angle series, parts of sine and 1 - cosine");
+  for (int i = 0; i < 20'000; ++i) {
+    const DoubleDouble degrees =
+        i % 2 == 0 ? random.double_double(-40, 4) : two_sum(random.between(-45, 45), 0x1p-50);
+    const Exact x = radians(degrees), half_sine = sin(times_power_of_two(x, -1));
+    const Exact versine = times_power_of_two(half_sine * half_sine, 1);
+    const SineCosine computed = sine_cosine_of_degrees(degrees);
+    const Exact sine_error = abs(midpoint<512>(computed.sine) - sin(x)) / abs(sin(x));
+    const Exact versine_error = abs(midpoint<512>(computed.versine) - versine) / versine;
+    ASSERT_LE(sine_error, Exact(0x1p-99)) << std::hexfloat << degrees.hi;
+    ASSERT_LE(versine_error, Exact(0x1p-99)) << std::hexfloat << degrees.hi;
+    worst.add(std::max(sine_error.nearest_double(), versine_error.nearest_double()));
+  }
 }
 
 TEST(Angle, LongContainsTheTruth) {

@@ -4,6 +4,7 @@
 
 #include "tests/numbers/random_numbers.h"
 #include "tests/numbers/real.h"
+#include "tests/numbers/worst_error.h"
 
 namespace pipeline {
 namespace {
@@ -18,6 +19,7 @@ using Exact = Real<1024>;
 template <typename Computed, typename Truth>
 void expect_within(double units, Computed computed, Truth truth, std::uint64_t seed, int count) {
   RandomNumbers random(seed);
+  WorstError worst(testing::UnitTest::GetInstance()->current_test_info()->name());
   for (int i = 0; i < count; ++i) {
     const DoubleDouble a = random.double_double(-100, 100);
     DoubleDouble b = random.double_double(-100, 100);
@@ -28,6 +30,7 @@ void expect_within(double units, Computed computed, Truth truth, std::uint64_t s
     const Exact error = abs(Exact(computed(a, b)) - exact);
     ASSERT_LE(error, abs(exact) * Exact(units * kUnitSquared) * Exact(1 + 0x1p-40))
         << std::hexfloat << a.hi << " + " << a.lo << ", " << b.hi << " + " << b.lo;
+    if (exact.sign() != 0) worst.add((error / abs(exact)).nearest_double());
   }
 }
 
