@@ -1,0 +1,97 @@
+"""What the specification leaves open where the reference calculates exactly: notes Z9 and L7, and T21 and T22."""
+import decimal
+import re
+from fractions import Fraction
+
+import reference
+
+CLOSE = Fraction(1, 10**12)  # depths nearer to each other than this may be ordered either way
+HALF = decimal.Decimal("0.500001")
+
+
+def expect_same_text(case, got, want, precise, read):
+    """Both texts of a stage are equal, but for what is open; `precise()` is `want` with 17 decimals, `read` what the stage read."""
+    if got == want:
+        return
+    numbers = [abs(float(word)) for line in re.findall(rb"(?m)^(?:-?[0-9.e+-]+ ?)+$", read) for word in line.split()]
+    smallest = 2.0**-60 * max(numbers, default=1)
+    case.assertEqual(got.count(b"\n"), want.count(b"\n"))
+    for got_line, want_line, precise_line in zip(*(text.decode().split("\n") for text in (got, want, precise()))):
+        for a, b, x in zip(got_line.split(" "), want_line.split(" "), precise_line.split(" ")) if got_line != want_line else ():
+            if a != b:
+                unit = Fraction(1, 10 ** len(a.partition(".")[2]))
+                is_tie = abs(abs(Fraction(a) - Fraction(x)) - unit / 2) < unit / 2**20
+                is_close = abs(Fraction(a) - Fraction(b)) < CLOSE or a == "0" and abs(float(b)) <= smallest
+                case.assertTrue(is_tie or is_close, (got_line, want_line, precise_line))
+
+
+def expect_same_picture(case, triangles, stage, config, options, model_name, depth_text, image, check_colors=True):
+    """The depths and the image are those of the reference, or at each pixel one that is open."""
+    depths, seen = reference.draw(triangles, config, options["--coverage"])
+    with decimal.localcontext(reference.SHADING):
+        picture = reference.shade(seen, stage.header, config, model_name)
+    if depth_text == reference.depth_text(depths, config.rear) and image == reference.bmp([[*map(reference.rounded, row)] for row in picture]):
+        return
+    rivals = close_fragments(triangles, config, options["--coverage"], depths)
+    expect_same_depths(case, depth_text, depths, config, rivals)
+    case.assertEqual(image[:54], reference.bmp([[(0, 0, 0)] * config.width] * config.height)[:54])
+    for row, column, rgb in pixels_of(image, config) if check_colors else ():
+        if not is_shown(rgb, picture[row][column]) and not is_edge_on(seen[row][column]):
+            others = [alone(triangle, row, column, stage, config, model_name) for triangle in rivals.get((row, column), ())]
+            case.assertTrue(any(other is None or is_shown(rgb, other) for other in others), (row, column, rgb, picture[row][column]))
+
+
+def close_fragments(triangles, config, coverage, depths):
+    """For pixels where doubles may see another triangle (Z9): those triangles, and None for the background."""
+    rivals = {}
+    for triangle in triangles:
+        for row, column, z in getattr(reference, coverage)(triangle, config):
+            is_at_limit = min(abs(z - config.front), abs(z - config.rear)) < CLOSE
+            if z >= config.front - CLOSE and z < depths[row][column] + CLOSE and (is_at_limit or z != depths[row][column]):
+                rivals.setdefault((row, column), []).append(None if is_at_limit else triangle)
+            elif z == depths[row][column]:
+                rivals.setdefault((row, column), []).append(triangle)
+    return {pixel: found for pixel, found in rivals.items() if len(found) > 1 or None in found}
+
+
+def expect_same_depths(case, text, depths, config, rivals):
+    rows = text.decode().split("\n")
+    case.assertEqual(len(rows), config.height + 1)
+    for row, (line, want) in enumerate(zip(rows, depths)):
+        if any(None in rivals.get((row, column), ()) for column in range(config.width)):
+            continue  # one more or one less on this row
+        want, words = [z for z in want if z < config.rear], line.split("\t")[:-1]
+        case.assertEqual(len(words), len(want), (row, line))
+        for word, z in zip(words, want):
+            case.assertTrue(word == reference.fixed(z, 6) or abs(Fraction(word) - z) < Fraction(1, 2 * 10**6) + CLOSE, (row, word, float(z)))
+
+
+def pixels_of(image, config):
+    """(row, column, (red, green, blue)) of a BMP file."""
+    stride = (3 * config.width + 3) // 4 * 4
+    for row in range(config.height):
+        for column in range(config.width):
+            at = 54 + stride * (config.height - 1 - row) + 3 * column
+            yield row, column, tuple(image[at:at + 3][::-1])
+
+
+def is_shown(rgb, color):
+    """True if a color may be rounded so (L6, L7)."""
+    return all(abs(reference.clamped(channel) - c) < HALF for channel, c in zip(color, rgb))
+
+
+def alone(triangle, row, column, stage, config, model_name):
+    """The color of a pixel if it shows this triangle; None for no triangle."""
+    seen = [[None] * config.width for _ in range(config.height)]
+    seen[row][column] = triangle
+    with decimal.localcontext(reference.SHADING):
+        return triangle and reference.shade(seen, stage.header, config, model_name)[row][column]
+
+
+def is_edge_on(triangle):
+    """True if doubles have no digits of a triangle's area, and so of the weights of its corners (L3)."""
+    if triangle is None:
+        return False
+    a, b, c = ([float(x) for x in corner.position[:2]] for corner in (triangle.whole or triangle.corners))
+    terms = [a[0] * b[1], -a[1] * b[0], b[0] * c[1], -b[1] * c[0], c[0] * a[1], -c[1] * a[0]]
+    return abs(sum(terms)) < 1e-6 * sum(map(abs, terms))

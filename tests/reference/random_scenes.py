@@ -1,0 +1,129 @@
+"""Random scenes that use everything a scene can say, and random options for the four stages."""
+
+ROUND_ANGLES = ("90", "-90", "180", "45", "-30", "120", "360", "60")
+
+
+def number(rng, limit):
+    """A number as text: often round, sometimes tiny or large, sometimes written in an unusual way."""
+    kind = rng.random()
+    if kind < 0.05:
+        return "%g" % (rng.uniform(-1, 1) * 10 ** rng.randint(-6, 4))
+    if kind < 0.1:
+        return rng.choice(("+1.5", ".5", "2.", "-0", "1e0", "25E-1", "0.1", "-.25"))
+    return "%.*f" % (rng.choice((0, 0, 1, 2, 6, 9)), rng.uniform(-limit, limit))
+
+
+def numbers(rng, count, limit=6):
+    return " ".join(number(rng, limit) for _ in range(count))
+
+
+def positive(rng, count, limit):
+    return " ".join("%.*f" % (rng.choice((0, 1, 3)), rng.uniform(0, limit)) for _ in range(count))
+
+
+def camera(rng, has_new_words):
+    eye, look, up = rng.choice(((numbers(rng, 3), numbers(rng, 3), numbers(rng, 3)),
+                                ("0 0 %d" % rng.randint(2, 9), "0 0 0", "0 1 0"),
+                                ("0 %d 0" % rng.randint(2, 9), "0 0 0", "0 0 -1")))
+    return [eye, look, up, projection(rng, has_new_words)]
+
+
+def projection(rng, has_new_words):
+    kind = rng.choice(("perspective",) * 6 + ("ortho", "frustum"))
+    if kind == "perspective":
+        rule = rng.choice(("", "", " angle", " ratio")) if has_new_words else ""
+        fov_y = rng.choice(("90", "60", "45", "%g" % rng.uniform(5, 120)))
+        return "%s %s %s %s" % (fov_y, rng.choice(("1", "1.25", "%g" % rng.uniform(0.3, 1.45))),
+                                rng.choice(("0.01", "0.1", "1", "2.5")), rng.choice(("10", "100", "1e4"))) + rule
+    return kind + rng.choice((" -3 4 -2.5 2 0.5 20", " -1 1 -1 1 1 10", " 2 -1.5 -1 1 0.7 30"))
+
+
+def transform(rng):
+    return rng.choice((lambda: "translate\n" + numbers(rng, 3, 3), lambda: "scale " + numbers(rng, 3, 2),
+                       lambda: "scale\n-1 1 1", lambda: "rotate\n%s %s 1 %s" % (rng.choice((*ROUND_ANGLES, number(rng, 400))),
+                                                                               number(rng, 2), number(rng, 2)),
+                       lambda: "rotate %s %s" % (rng.choice(ROUND_ANGLES), rng.choice(("0 0 1", "1 0 0", "1 1 1", "3 0 -4")))))()
+
+
+def looks(rng, has_light, has_new_words):
+    """The lines of color and light, and whether vertex lines have colors and normals; `color` may come later if any has."""
+    lines, columns = [], rng.choice(((), (), ("color",), ("normal",), ("color", "normal")))
+    if rng.random() < 0.4:
+        lines.append("background " + positive(rng, 3, 255))
+    if columns:
+        lines.append("attributes " + " ".join(columns))
+    has_color = "color" in columns or rng.random() < 0.3
+    if has_color and "color" not in columns:
+        lines.append("color " + positive(rng, 3, 255))
+    if has_light:
+        lines += ["ambient " + positive(rng, 3, 0.5)] * rng.randint(0, 1)
+        shininess = rng.choice(("0", "1", "5", "40") + (("16.0", "1e1") if has_new_words else ()))
+        lines += ["material %s %s" % (positive(rng, 3, 1.2), shininess)] * rng.randint(0, 1)
+        lines += ["attenuation 1 " + positive(rng, 2, 0.2)] * rng.randint(0, 1)
+        lines += ["light %s %s" % (numbers(rng, 3, 9), positive(rng, 3, 1)) for _ in range(rng.randint(1, 3))]
+    rng.shuffle(lines)
+    return lines, columns, has_color
+
+
+def vertex(rng, columns):
+    words = [numbers(rng, 3, rng.choice((2, 6)))]
+    if "color" in columns:
+        words.append(positive(rng, 3, 255))
+    if "normal" in columns:
+        words.append("%s %s 1" % (number(rng, 1), number(rng, 1)))
+    return " ".join(words)
+
+
+def scene(rng, has_new_words):
+    """The text of a scene that is right."""
+    lines = camera(rng, has_new_words)
+    lines += [transform(rng)] * rng.randint(0, 1)
+    more, columns, has_color = looks(rng, rng.random() < 0.4, has_new_words) if rng.random() < 0.6 else ([], (), False)
+    lines += more
+    depth = 0
+    for _ in range(rng.randint(3, 24)):
+        command = rng.choice(("triangle",) * 5 + ("transform", "transform", "push", "pop", "color", "again"))
+        if command == "triangle":
+            corners = [vertex(rng, columns) for _ in range(3)]
+            lines.append("triangle\n" + "\n".join(corners))
+        elif command == "again" and lines[-1].startswith("triangle"):
+            lines.append(lines[-1])  # equal depths everywhere
+        elif command == "transform":
+            lines.append(transform(rng))
+        elif command == "push" or command == "pop" and depth:
+            depth += 1 if command == "push" else -1
+            lines.append(command)
+        elif command == "color" and has_color:
+            lines.append("color " + positive(rng, 3, 255))
+    text = "\n".join(lines + ["end", ""])
+    return untidy(rng, text) if rng.random() < 0.3 else text
+
+
+def untidy(rng, text):
+    """The same scene with comments, blank lines, tabs and CRLF."""
+    lines = []
+    for line in text.split("\n")[:-1]:
+        lines += [""] * (rng.random() < 0.1) + ["# a comment"] * (rng.random() < 0.1)
+        lines.append(" " * rng.randint(0, 1) + line.replace(" ", rng.choice((" ", "\t", "  "))) + rng.choice(("", "", " ", " # c", "\t")))
+    return rng.choice(("\n", "\r\n")).join(lines) + rng.choice(("", "\n"))
+
+
+def config(rng):
+    size = "%d %d" % (rng.randint(6, 24), rng.randint(6, 20))
+    return size + rng.choice(("\n", "\n-1\n-0.75\n-0.9 1\n", "\n-1.5\n-1\n0 1.5\n", "\n-1\n-1\n-1 1", "\n-0.3333333\n-0.7\n-1 0.99\n"))
+
+
+def options(rng):
+    """For the four stages."""
+    digits = rng.choice((["--digits", "exact"], [], [], ["--digits", str(rng.randint(2, 12))]))
+    of_model = digits + rng.choice(([], ["--framed"]))
+    clip = rng.choice((["auto"], ["auto"], ["near"], ["frustum"], ["reject"], ["frustum", "--clip-inset", "0.25"], ["none"]))
+    of_project = digits + ["--clip", *clip] + rng.choice(([], [], ["--cull", "back"], ["--cull", "front"]))
+    of_project += rng.choice(([], [], ["--aspect", "ratio"]))
+    of_zbuf = ["--coverage", rng.choice(("nearest", "center")), "--algorithm", rng.choice(("zbuffer", "scanline"))]
+    return {"model": of_model, "view": digits, "project": of_project, "zbuf": of_zbuf}
+
+
+def shading(rng):
+    """For zbuf and a text with lights."""
+    return rng.choice(([], ["--shading", rng.choice(("none", "flat", "gouraud", "phong"))]))
