@@ -3,41 +3,40 @@
 
 usage: stability_test.py BIN_DIR [--cases FILE] [unittest's arguments]
 
-Every case runs a real tool; reference_pipeline.py calculates the expected output at run time, with 700 digits.
+Every case runs a real tool; the reference (tests/reference) calculates the expected output at run time, exactly.
 With --cases, the model, view and project cases of a JSON file run as well: {"cases": [{"id", "stage", "title", "input",
 "expect7" or "expect_policy"}]}, expect7 being three numbers with 7 decimals a vertex.
 """
 import argparse
 import json
+import pathlib
 import re
 import sys
 import unittest
 from decimal import Decimal
+from fractions import Fraction
 
-import reference_pipeline as reference
 from toolbox import CAMERA, ToolTest, add_claims, run
+
+sys.path.append(str(pathlib.Path(__file__).resolve().parent.parent / "reference"))
+import reference  # noqa: E402
 
 parser = argparse.ArgumentParser(add_help=False)
 parser.add_argument("--cases")
 options, rest = parser.parse_known_args(sys.argv[1:])
 sys.argv[1:] = rest
 
-LOOK_AT_ORIGIN = "0 0 5\n0 0 0\n0 1 0\n"
 PERSPECTIVE = "60 1 1 100"
 
 
 # Expected output
 
-def rounded(x, decimals):
-    """x with some decimals, ties to even, no sign on zero; a number that 700 digits cannot tell from a tie counts as one."""
-    text = f"{x.quantize(Decimal('1e-100')).quantize(Decimal(1).scaleb(-decimals)):f}"
-    return text.lstrip("-") if not text.strip("-0.") else text
+DIGITS = ("7", "0", "3", "12", "exact")
 
 
-def is_nearest_double(word, x):
-    """True if a word is the double nearest to x, in its shortest form."""
-    nearest = float(x.quantize(Decimal("1e-400")) if abs(x) < 1e250 else x)
-    return float(word) == nearest and len(word) <= len(repr(nearest)) + 1 and not (nearest == 0 and word != "0")
+def expected(stage, text, *words):
+    """The reference's output."""
+    return getattr(reference, stage)(text.encode(), reference.read_options(stage, list(words))).decode()
 
 
 def lines_of(points):
@@ -58,11 +57,6 @@ POINTS = triangle("1 2 3", "-4 5.5 -6.25", "0.1 -0.2 0.3")
 LARGE = triangle("1e6 -2e6 3e6", "999999.9999999 1e-7 0.5", "123456.7890123 -654321.0987654 1e5")
 
 
-def world(points, camera=CAMERA):
-    """The reference's scene with a triangle for every three points, unchanged."""
-    return reference.Scene(camera + "".join("triangle\n" + lines_of(points[i:i + 3]) for i in range(0, len(points), 3)) + "end\n")
-
-
 class StabilityTest(ToolTest):
     def output(self, done):
         """A tool's output, after checking that it contains no nan, no inf and no signed zero."""
@@ -76,20 +70,11 @@ class StabilityTest(ToolTest):
         self.assertEqual(done.returncode, 0, done.stderr.decode())
         return self.output(done)
 
-    def assert_numbers(self, text, triangles):
-        """With 7 decimals, and in the words of the stage text."""
-        self.assertEqual(text, reference.stage_text(enumerate(triangles)))
-
-    def assert_all_digits(self, run_with_digits, triangles):
-        """`run_with_digits(word)` prints triangles correctly for other numbers of digits."""
-        numbers = [x for points in triangles for point in points for x in point]
-        for decimals in (0, 3, 12):
-            words = run_with_digits(str(decimals)).split()
-            self.assertEqual(words, [rounded(x, decimals) for x in numbers], f"--digits {decimals}")
-        words = run_with_digits("exact").split()
-        self.assertEqual(len(words), len(numbers))
-        for word, x in zip(words, numbers):
-            self.assertTrue(is_nearest_double(word, x), f"--digits exact: {word} for {x}")
+    def assert_output(self, stage, text, *words):
+        """The tool writes what the reference does, with any number of digits."""
+        for digits in DIGITS:
+            options = (*words, "--digits", digits)
+            self.assertEqual(self.printed(stage, *options, stdin=text), expected(stage, text, *options), f"--digits {digits}")
 
     def assert_error(self, tool, stdin, message, *tool_options):
         """Exit 1, and one line on stderr: the tool, the location and the error."""
@@ -104,10 +89,7 @@ class Model(StabilityTest):
     """Scene commands; the reference runs them too."""
 
     def check(self, *commands):
-        text = scene_text(commands)
-        triangles = reference.Scene(text).triangles
-        self.assert_numbers(self.printed("model", "--bare", stdin=text), triangles)
-        self.assert_all_digits(lambda n: self.printed("model", "--bare", "--digits", n, stdin=text), triangles)
+        self.assert_output("model", scene_text(commands), "--bare")
 
 
 add_claims(Model, [
@@ -157,17 +139,18 @@ add_claims(Model, [
 class ModelAtLength(StabilityTest):
     def test_a_million_rotations_are_one_by_the_sum_of_the_angles(self):
         text = CAMERA + "rotate\n1.3 3 -2 1\n" * 10**6 + LARGE.replace(";", "\n") + "\nend\n"
-        turn = reference.rotation(10**6 * reference.real("1.3"), tuple(map(reference.real, ("3", "-2", "1"))))
-        points = reference.Scene(scene_text([LARGE])).triangles[0]
-        self.assert_numbers(self.printed("model", "--bare", stdin=text), [[reference.applied(turn, p) for p in points]])
+        turn = reference.transform("rotate", (10**6 * Fraction(1.3), *map(Fraction, (3, -2, 1))))
+        points = [turn.moved([Fraction(float(word)) for word in line.split()]) for line in LARGE.split(";")[1:]]
+        self.assertEqual(self.printed("model", "--bare", stdin=text),
+                         "".join(" ".join(reference.fixed(x, 7) for x in p) + "\n" for p in points) + "\n")
 
     def test_a_hundred_thousand_pushes_and_moves_are_undone(self):
         text = CAMERA + "push\ntranslate\n0.1 1e6 -1e-6\n" * 10**5 + "pop\n" * 10**5 + POINTS.replace(";", "\n") + "\nend\n"
-        self.assert_numbers(self.printed("model", "--bare", stdin=text), reference.Scene(scene_text([POINTS])).triangles)
+        self.assertEqual(self.printed("model", "--bare", stdin=text), expected("model", scene_text([POINTS]), "--bare"))
 
     def test_a_million_pushes_of_one_matrix_are_undone(self):
         text = CAMERA + "push\n" * 10**6 + "pop\n" * 10**6 + POINTS.replace(";", "\n") + "\nend\n"
-        self.assert_numbers(self.printed("model", "--bare", stdin=text), reference.Scene(scene_text([POINTS])).triangles)
+        self.assertEqual(self.printed("model", "--bare", stdin=text), expected("model", scene_text([POINTS]), "--bare"))
 
 
 class ModelErrors(StabilityTest):
@@ -186,18 +169,15 @@ add_claims(ModelErrors, [
 
 # View
 
-def camera_lines(eye, look, up):
-    return f"{eye}\n{look}\n{up}\n{PERSPECTIVE}\n"
+def seen_text(eye, look, up, points):
+    return f"eye {eye}\nlook {look}\nup {up}\n" + lines_of(points)
 
 
 class View(StabilityTest):
     """Eye, look, up, and points in world space."""
 
     def check(self, eye, look, up, *points):
-        text = f"eye {eye}\nlook {look}\nup {up}\n" + lines_of(points)
-        triangles = reference.view(world(points, camera_lines(eye, look, up)))
-        self.assert_numbers(self.printed("view", "--bare", stdin=text), triangles)
-        self.assert_all_digits(lambda n: self.printed("view", "--bare", "--digits", n, stdin=text), triangles)
+        self.assert_output("view", seen_text(eye, look, up, points), "--bare")
 
 
 NEAR_ORIGIN = ("1 2 3", "-4 5 -6", "0.1 0.2 -0.3")
@@ -234,11 +214,12 @@ class ViewNotes(StabilityTest):
     """A vertex that needs more digits than there are is reported, and is right as far as the digits go."""
 
     def check(self, eye, look, up, *points):
-        done = run("view", "--bare", stdin=f"eye {eye}\nlook {look}\nup {up}\n" + lines_of(points))
+        text = seen_text(eye, look, up, points)
+        done = run("view", "--bare", stdin=text)
         self.assertEqual(done.returncode, 0)
         self.assertIn("view: note: <stdin>:4:1: ", done.stderr.decode())
-        expected = reference.stage_text(enumerate(reference.view(world(points, camera_lines(eye, look, up)))))
-        self.assertEqual([word[:28] for word in self.output(done).split()], [word[:28] for word in expected.split()])
+        words = expected("view", text, "--bare").split()
+        self.assertEqual([word[:28] for word in self.output(done).split()], [word[:28] for word in words])
 
 
 add_claims(ViewNotes, [
@@ -249,7 +230,7 @@ add_claims(ViewNotes, [
 
 class ViewErrors(StabilityTest):
     def check(self, message, eye, look, up, *points):
-        self.assert_error("view", f"eye {eye}\nlook {look}\nup {up}\n" + lines_of(points), message)
+        self.assert_error("view", seen_text(eye, look, up, points), message)
 
 
 PARALLEL = "3:4: expected an up direction that is not parallel to the view direction, found "
@@ -269,12 +250,7 @@ class Project(StabilityTest):
 
     def check(self, projection, *points):
         keyword = "" if projection.split()[0] in ("ortho", "frustum") else "perspective "
-        text = keyword + projection + "\n" + lines_of(points)
-        scene = world(points, LOOK_AT_ORIGIN + projection + "\n")
-        expected = reference.project(scene, scene.triangles)
-        self.assertEqual(self.printed("project", stdin=text), reference.stage_text(expected))
-        if [number for number, _ in expected] == list(range(len(scene.triangles))):
-            self.assert_all_digits(lambda n: self.printed("project", "--digits", n, stdin=text), [t for _, t in expected])
+        self.assert_output("project", keyword + projection + "\n" + lines_of(points))
 
 
 add_claims(Project, [
@@ -313,13 +289,8 @@ add_claims(Project, [
 
 class ProjectOtherwise(StabilityTest):
     def test_the_ratio_rule_widens_the_tangent(self):
-        points = ("1 2 -3", "-4 5 -6", "0.1 0.2 -10")
-        fov_y, aspect, near, far = map(reference.real, ("77.7", "2.9", "0.1", "1000"))
-        top = near * reference.tan(fov_y / 2)
-        scene = world(points)
-        scene.projection = ("frustum", (-top * aspect, top * aspect, -top, top, near, far))
-        text = self.printed("project", "--aspect", "ratio", "--perspective", "77.7", "2.9", "0.1", "1000", stdin=lines_of(points))
-        self.assertEqual(text, reference.stage_text(reference.project(scene, scene.triangles)))
+        words = ("--aspect", "ratio", "--perspective", "77.7", "2.9", "0.1", "1000")
+        self.assert_output("project", lines_of(("1 2 -3", "-4 5 -6", "0.1 0.2 -10")), *words)
 
     def test_a_triangle_behind_the_eye_is_the_same_triangle_cut_by_hand(self):
         # The near plane halves the edges to the vertex behind the eye: (a + b) / 2 and (c + a) / 2.

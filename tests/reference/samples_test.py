@@ -1,0 +1,67 @@
+#!/usr/bin/env python3
+"""The files committed in samples/ are those of the reference; scenes that scripts write are what the scripts write.
+
+usage: samples_test.py SOURCE_DIR
+"""
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import leeway
+import reference
+import transition
+
+source = pathlib.Path(sys.argv.pop()).resolve()
+samples = sorted(scene.parent for scene in source.glob("samples/*/scene.txt"))
+lit_samples = [sample for sample in samples if "\nlight " in (sample / "scene.txt").read_text()]
+# Samples of before (transition.py): lit texts without `projected`, and surfaces that shine where no light reaches them.
+ARE_AS_SPECIFIED = all(b"projected" in (sample / "stage3.txt").read_bytes() for sample in lit_samples)
+
+
+def stage(name, data, *words):
+    return getattr(reference, name)(data, reference.read_options(name, list(words)))
+
+
+class Samples(unittest.TestCase):
+    def test_expected_files_are_those_of_the_reference(self):
+        """Made as by Makefile.samples: the stages pass on all digits, and zbuf reads stage3.txt."""
+        self.assertGreaterEqual(len(samples), 11)
+        self.assertEqual(len(lit_samples), 4)
+        for sample in samples:
+            with self.subTest(sample=sample.name):
+                files = {path.name: path.read_bytes() for path in sample.glob("*.*")}
+                stage1 = stage("model", files["scene.txt"], "--digits", "exact")
+                stage2 = stage("view", stage1, "--digits", "exact")
+                stage3 = stage("project", stage2)
+                self.assertTrue(stage("model", files["scene.txt"], "--bare") == files["stage1.txt"], "stage1.txt differs")
+                self.assertTrue(stage("view", stage1, "--bare") == files["stage2.txt"], "stage2.txt differs")
+                self.assertTrue(stage3 == transition.as_projected(files["stage3.txt"]), "stage3.txt differs")
+                text, config = reference.Stage(stage3, "zbuf"), reference.read_config(reference.Text(files["config.txt"]))
+                leeway.expect_same_picture(
+                    self, list(text.triangles()), text, config, {"--coverage": "nearest"}, reference.shading_model(text, None),
+                    files["z_buffer.txt"], files["out.bmp"], ARE_AS_SPECIFIED or sample not in lit_samples)
+
+    def test_the_lit_scenes_are_written_by_their_script(self):
+        with tempfile.TemporaryDirectory() as folder:
+            subprocess.run([sys.executable, source / "scripts/maintain/make-lit-samples", folder], check=True)
+            for sample in lit_samples:
+                for name in ("scene.txt", "config.txt"):
+                    self.assertEqual((pathlib.Path(folder) / sample.name / name).read_text(), (sample / name).read_text())
+
+    def test_the_torus_is_written_by_its_script(self):
+        scene = subprocess.run([sys.executable, source / "scripts/make-torus"], stdout=subprocess.PIPE, check=True).stdout
+        self.assertTrue((source / "samples/torus/scene.txt").read_bytes() == scene, "differs")
+
+    def test_the_worked_examples_reach_stage_3_as_the_assignment_gives_them(self):
+        given = {"one-triangle": "0.50 0.00 0.50  -0.50 0.00 0.50  0.00 0.50 0.50",
+                 "two-triangles": "1.5 0 0.5  -0.5 0 0.5  0 1.5 0.5  0.5 0 0.25  -1.0 0 0.25  0 0.5 0.25"}
+        for name, numbers in given.items():
+            with self.subTest(sample=name):
+                stage3 = (source / "samples" / name / "stage3.txt").read_text()
+                self.assertEqual([float(word) for word in stage3.split()], [float(word) for word in numbers.split()])
+
+
+if __name__ == "__main__":
+    unittest.main()
