@@ -94,7 +94,7 @@ ARGUMENTS = {
     "perspective": [lambda degrees: 0 < degrees < 180, POSITIVE, POSITIVE] + DEPTHS,
     "frustum": WINDOW + [POSITIVE] + DEPTHS, "ortho": WINDOW + [ANY] + DEPTHS,
     "color": [CHANNEL] * 3, "background": [CHANNEL] * 3, "ambient": [NOT_NEGATIVE] * 3, "light": [ANY] * 3 + [NOT_NEGATIVE] * 3,
-    "material": [NOT_NEGATIVE] * 3 + [lambda x, *before: 0 <= x < 2**64 and x.denominator == 1],
+    "material": [NOT_NEGATIVE] * 3,  # and the shininess, in read_part
     "attenuation": [NOT_NEGATIVE] * 2 + [lambda x, *before: x >= 0 and any((x, *before))]}
 COLUMNS = {"w": [POSITIVE], "color": [CHANNEL] * 3, "normal": [ANY] * 3}
 POSITION, PROJECTIONS = ("eye", "look", "up"), ("perspective", "frustum", "ortho")
@@ -102,6 +102,9 @@ ONCE = ("background", "ambient", "material", "attenuation")
 
 def read_part(line, keyword):  # S6 to S8, S12, S17 to S21, T2 to T6: the rest of a line, behind the keyword if it is there
     numbers = line.reals(*ARGUMENTS[keyword])
+    if keyword == "material":
+        is_whole = line.words and re.fullmatch("[0-9]+", line.words[0])
+        numbers += (line.whole(),) if is_whole else line.reals(lambda x: 0 <= x < 2**64 and x.denominator == 1)
     rule = line.take("angle", "ratio") if keyword == "perspective" else None
     line.end()
     return Part(line.number, keyword, numbers, rule)

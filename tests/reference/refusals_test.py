@@ -107,6 +107,12 @@ class Refusals(unittest.TestCase):
         for paragraph, line, command, text in FORGOTTEN:
             self.check(paragraph, line, command, text)
 
+    def test_a_shininess_keeps_all_its_digits(self):
+        scene = (CAMERA + "material 1 1 0.5 9007199254740993\nend\n").encode()
+        done = subprocess.run([BIN / "model"], input=scene, stdout=subprocess.PIPE, check=True)
+        self.assertIn(b"material 1 1 0.5 9007199254740993\n", done.stdout)
+        self.assertEqual(done.stdout, reference.model(scene, reference.read_options("model", [])))
+
     def test_configs(self):
         for paragraph, line, config in CONFIGS:
             self.check(paragraph, line, "zbuf", "", config)

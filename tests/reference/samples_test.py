@@ -43,6 +43,26 @@ class Samples(unittest.TestCase):
                     self, list(text.triangles()), text, config, {"--coverage": "nearest"}, reference.shading_model(text, None),
                     files["z_buffer.txt"], files["out.bmp"], ARE_AS_SPECIFIED or sample not in lit_samples)
 
+    def test_the_reference_is_a_program_with_the_options_of_the_tools(self):
+        sample = source / "samples/worked-example"
+
+        def run(*words, stdin):
+            return subprocess.run([sys.executable, source / "tests/reference/reference.py", *words], input=stdin, capture_output=True)
+
+        with tempfile.TemporaryDirectory() as folder:
+            image = pathlib.Path(folder, "picture.bmp")
+            stage1 = run("model", "--framed", stdin=(sample / "scene.txt").read_bytes()).stdout
+            stage2 = run("view", "--eye", "0", "0", "2", "--digits", "exact", stdin=stage1).stdout
+            stage3 = run("project", "--perspective", "60", "1", "1", "1e1", stdin=stage2).stdout
+            depths = run("zbuf", sample / "config.txt", "--framed", "--image", image, stdin=stage3)
+            self.assertEqual((depths.returncode, depths.stderr, depths.stdout), (0, b"", (sample / "z_buffer.txt").read_bytes()))
+            self.assertEqual(image.read_bytes(), (sample / "out.bmp").read_bytes())
+        refused = run("project", stdin=b"# c\northo 1 1 -1 1 1 9\n")
+        self.assertEqual((refused.returncode, refused.stdout[:21]), (1, b"error project: line 2:"[:21]))
+        self.assertIn(b"reference project: line 2:", refused.stderr)
+        for words in (["zbuf"], ["model", "--digits", "18"], ["view", "--eye", "0", "0"], ["project", "--eye", "0", "0", "0"], ["trace"], []):
+            self.assertEqual(run(*words, stdin=b"").returncode, 2, words)
+
     def test_the_lit_scenes_are_written_by_their_script(self):
         with tempfile.TemporaryDirectory() as folder:
             subprocess.run([sys.executable, source / "scripts/maintain/make-lit-samples", folder], check=True)
