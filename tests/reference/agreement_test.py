@@ -16,13 +16,11 @@ import unittest
 import leeway
 import random_scenes
 import reference
-import transition
 
 FIRST = int(sys.argv.pop()) if len(sys.argv) > 3 else 0
 SCENES = int(sys.argv.pop()) if len(sys.argv) > 2 else 40
 BIN = pathlib.Path(sys.argv.pop()).resolve()
 STAGES = ("model", "view", "project", "zbuf")
-HAS_NEW_WORDS, LIGHTS_FRONTS_ONLY = transition.reads_what_is_new(BIN), transition.lights_fronts_only(BIN)
 WORDS = (b"0", b"-1", b"nan", b"1e309", b"1e300", b"x", b"0x1", b"1,5", b"256", b"1e-400", b"+", b".", b"1.5.2", b"#", b"ratio")
 LINES = (b"pop", b"push", b"end", b"triangle", b"", b"# c", b"framed", b"1 2 3", b"triangle 7", b"light 1 1 1 1 1 1", b"color 1 2 3",
          b"attributes normal", b"background 1 2 3", b"error model: x", b"Triangle", b"clipped", b"material 1 1 1 1", b"attenuation 0 0 0")
@@ -63,7 +61,7 @@ class Agreement(unittest.TestCase):
         self.assertGreater(SCENES, 0)
         for index in range(FIRST, FIRST + SCENES):
             rng = random.Random(index)
-            text, options = random_scenes.scene(rng, HAS_NEW_WORDS).encode(), random_scenes.options(rng)
+            text, options = random_scenes.scene(rng).encode(), random_scenes.options(rng)
             hit = rng.choice(STAGES) if index % 2 else None
             with self.subTest(scene=index, options=options, damaged=hit), tempfile.TemporaryDirectory() as folder:
                 self.config, self.image = pathlib.Path(folder, "config.txt"), pathlib.Path(folder, "out.bmp")
@@ -83,7 +81,7 @@ class Agreement(unittest.TestCase):
         options = reference.read_options(stage, [*words])
         try:
             if stage == "zbuf":
-                self.compare_picture(options, transition.as_projected(text), done)
+                self.compare_picture(options, text, done)
                 return None
             want = getattr(reference, stage)(text, options)
         except reference.Refused as refusal:
@@ -93,7 +91,7 @@ class Agreement(unittest.TestCase):
             self.assertTrue(refused_line(done) == refusal.args[0] or not is_told, (stage, refusal, done.stderr, text))
             return None
         self.assertIsNone(refused_line(done), (stage, done.stderr, text))
-        leeway.expect_same_text(self, transition.as_projected(done.stdout) if stage == "project" else done.stdout, want,
+        leeway.expect_same_text(self, done.stdout, want,
                                 lambda: getattr(reference, stage)(text, {**options, "--digits": "17"}), text)
         return done.stdout
 
@@ -102,8 +100,7 @@ class Agreement(unittest.TestCase):
         model_name = reference.shading_model(stage, options.get("--shading"))
         triangles = list(stage.triangles())
         self.assertIsNone(refused_line(done), (done.stderr, text))
-        leeway.expect_same_picture(self, triangles, stage, config, options, model_name, done.stdout, self.image.read_bytes(),
-                                   LIGHTS_FRONTS_ONLY or model_name == "none")
+        leeway.expect_same_picture(self, triangles, stage, config, options, model_name, done.stdout, self.image.read_bytes())
 
 
 if __name__ == "__main__":

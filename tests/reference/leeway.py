@@ -27,7 +27,7 @@ def expect_same_text(case, got, want, precise, read):
                 case.assertTrue(is_tie or is_close or a == "0" and abs(float(b)) <= smallest, (got_line, want_line, precise_line))
 
 
-def expect_same_picture(case, triangles, stage, config, options, model_name, depth_text, image, check_colors=True):
+def expect_same_picture(case, triangles, stage, config, options, model_name, depth_text, image):
     """The depths and the image are those of the reference, or at each pixel one that is open."""
     depths, seen = reference.draw(triangles, config, options["--coverage"])
     with decimal.localcontext(reference.SHADING):
@@ -37,7 +37,7 @@ def expect_same_picture(case, triangles, stage, config, options, model_name, dep
     rivals = close_fragments(triangles, config, options["--coverage"], depths)
     expect_same_depths(case, depth_text, depths, config, rivals)
     case.assertEqual(image[:54], reference.bmp([[(0, 0, 0)] * config.width] * config.height)[:54])
-    for row, column, rgb in pixels_of(image, config) if check_colors else ():
+    for row, column, rgb in pixels_of(image, config):
         if not is_shown(rgb, picture[row][column]) and not is_edge_on(seen[row][column]):
             others = [alone(triangle, row, column, stage, config, model_name) for triangle in rivals.get((row, column), ())]
             case.assertTrue(any(other is None or is_shown(rgb, other) for other in others), (row, column, rgb, picture[row][column]))

@@ -21,17 +21,17 @@ def positive(rng, count, limit):
     return " ".join("%.*f" % (rng.choice((0, 1, 3)), rng.uniform(0, limit)) for _ in range(count))
 
 
-def camera(rng, has_new_words):
+def camera(rng):
     eye, look, up = rng.choice(((numbers(rng, 3), numbers(rng, 3), numbers(rng, 3)),
                                 ("0 0 %d" % rng.randint(2, 9), "0 0 0", "0 1 0"),
                                 ("0 %d 0" % rng.randint(2, 9), "0 0 0", "0 0 -1")))
-    return [eye, look, up, projection(rng, has_new_words)]
+    return [eye, look, up, projection(rng)]
 
 
-def projection(rng, has_new_words):
+def projection(rng):
     kind = rng.choice(("perspective",) * 6 + ("ortho", "frustum"))
     if kind == "perspective":
-        rule = rng.choice(("", "", " angle", " ratio")) if has_new_words else ""
+        rule = rng.choice(("", "", " angle", " ratio"))
         fov_y = rng.choice(("90", "60", "45", "%g" % rng.uniform(5, 120)))
         return "%s %s %s %s" % (fov_y, rng.choice(("1", "1.25", "%g" % rng.uniform(0.3, 1.45))),
                                 rng.choice(("0.01", "0.1", "1", "2.5")), rng.choice(("10", "100", "1e4"))) + rule
@@ -45,7 +45,7 @@ def transform(rng):
                        lambda: "rotate %s %s" % (rng.choice(ROUND_ANGLES), rng.choice(("0 0 1", "1 0 0", "1 1 1", "3 0 -4")))))()
 
 
-def looks(rng, has_light, has_new_words):
+def looks(rng, has_light):
     """The lines of color and light, and whether vertex lines have colors and normals; `color` may come later if any has."""
     lines, columns = [], rng.choice(((), (), ("color",), ("normal",), ("color", "normal")))
     if rng.random() < 0.4:
@@ -57,7 +57,7 @@ def looks(rng, has_light, has_new_words):
         lines.append("color " + positive(rng, 3, 255))
     if has_light:
         lines += ["ambient " + positive(rng, 3, 0.5)] * rng.randint(0, 1)
-        shininess = rng.choice(("0", "1", "5", "40") + (("16.0", "1e1") if has_new_words else ()))
+        shininess = rng.choice(("0", "1", "5", "40", "16.0", "1e1"))
         lines += ["material %s %s" % (positive(rng, 3, 1.2), shininess)] * rng.randint(0, 1)
         lines += ["attenuation 1 " + positive(rng, 2, 0.2)] * rng.randint(0, 1)
         lines += ["light %s %s" % (numbers(rng, 3, 9), positive(rng, 3, 1)) for _ in range(rng.randint(1, 3))]
@@ -74,11 +74,11 @@ def vertex(rng, columns):
     return " ".join(words)
 
 
-def scene(rng, has_new_words):
+def scene(rng):
     """The text of a scene that is right."""
-    lines = camera(rng, has_new_words)
+    lines = camera(rng)
     lines += [transform(rng)] * rng.randint(0, 1)
-    more, columns, has_color = looks(rng, rng.random() < 0.4, has_new_words) if rng.random() < 0.6 else ([], (), False)
+    more, columns, has_color = looks(rng, rng.random() < 0.4) if rng.random() < 0.6 else ([], (), False)
     lines += more
     depth = 0
     for _ in range(rng.randint(3, 24)):

@@ -10,7 +10,6 @@ import tempfile
 import unittest
 
 import reference
-import transition
 
 BIN = pathlib.Path(sys.argv.pop()).resolve()
 CAMERA = "0 0 5\n0 0 0\n0 1 0\n60 1 1 100\n"  # the commands of a scene begin on line 5
@@ -102,7 +101,6 @@ class Refusals(unittest.TestCase):
         for paragraph, line, command, text in OTHERS:
             self.check(paragraph, line, command, text)
 
-    @unittest.skipUnless(transition.refuses_forgotten_stages(BIN), "texts whose stage was forgotten are taken as they read")
     def test_texts_whose_stage_was_forgotten(self):
         for paragraph, line, command, text in FORGOTTEN:
             self.check(paragraph, line, command, text)

@@ -11,13 +11,10 @@ import unittest
 
 import leeway
 import reference
-import transition
 
 source = pathlib.Path(sys.argv.pop()).resolve()
 samples = sorted(scene.parent for scene in source.glob("samples/*/scene.txt"))
 lit_samples = [sample for sample in samples if "\nlight " in (sample / "scene.txt").read_text()]
-# Samples of before (transition.py): lit texts without `projected`, and surfaces that shine where no light reaches them.
-ARE_AS_SPECIFIED = all(b"projected" in (sample / "stage3.txt").read_bytes() for sample in lit_samples)
 
 
 def stage(name, data, *words):
@@ -37,12 +34,12 @@ class Samples(unittest.TestCase):
                 stage3 = stage("project", stage2)
                 self.assertTrue(stage("model", files["scene.txt"], "--bare") == files["stage1.txt"], "stage1.txt differs")
                 self.assertTrue(stage("view", stage1, "--bare") == files["stage2.txt"], "stage2.txt differs")
-                given = transition.as_projected(files["stage3.txt"])
+                given = files["stage3.txt"]
                 leeway.expect_same_text(self, given, stage3, lambda: stage("project", stage2, "--digits", "17"), stage2)
                 text, config = reference.Stage(given, "zbuf"), reference.read_config(reference.Text(files["config.txt"]))
                 leeway.expect_same_picture(
                     self, list(text.triangles()), text, config, {"--coverage": "nearest"}, reference.shading_model(text, None),
-                    files["z_buffer.txt"], files["out.bmp"], ARE_AS_SPECIFIED or sample not in lit_samples)
+                    files["z_buffer.txt"], files["out.bmp"])
 
     def test_the_reference_is_a_program_with_the_options_of_the_tools(self):
         sample = source / "samples/worked-example"

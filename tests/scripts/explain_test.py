@@ -14,8 +14,10 @@ from fractions import Fraction
 from types import SimpleNamespace
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "tools"))
-import reference_pipeline as reference  # noqa: E402
 from toolbox import BIN, CAMERA, SOURCE, ToolTest, pipe, run  # noqa: E402
+
+sys.path.insert(0, str(SOURCE / "tests/reference"))
+import reference  # noqa: E402
 
 sys.path.insert(0, str(SOURCE / "scripts"))
 from explain_parts.calculation import Calculation, agrees  # noqa: E402
@@ -372,12 +374,13 @@ class RandomPairs(ToolTest):
         covered = {"nearest": 0, "center": 0}
         for start in range(0, self.COUNT, self.TRIANGLES_AT_ONCE * self.PIXELS_EACH):
             config = choice.choice(self.CONFIGS)
-            window, reference_config = Window(config), reference.Config(config)
+            window, reference_config = Window(config), reference.read_config(reference.Text(config.encode()))
             triangles = [self.triangle(choice) for _ in range(self.TRIANGLES_AT_ONCE)]
             drawn = self.drawn(config, triangles)
             for number, points in enumerate(triangles):
                 in_doubles = [tuple(map(float, p)) for p in points]
-                by_reference = {(column, row): z for row, column, z in reference.pixels_of(in_doubles, reference_config)}
+                corners = [reference.Vertex(0, tuple(map(Fraction, p))) for p in in_doubles]
+                by_reference = {(column, row) for row, column, _ in reference.nearest(reference.Triangle(number, corners), reference_config)}
                 for _ in range(self.PIXELS_EACH):
                     pixel = self.pixel_near(choice, window, points)
                     found = PixelOfTriangle(window, "012", points, pixel)

@@ -17,7 +17,6 @@ from toolbox import BIN, SOURCE, ToolTest, pipe, run
 sys.path.append(str(SOURCE / "tests/reference"))
 import leeway  # noqa: E402
 import reference  # noqa: E402
-import transition  # noqa: E402
 
 SIZE = 24
 EYE_AT_5 = "0 0 5\n0 0 0\n0 1 0\n"
@@ -269,14 +268,13 @@ class WholeScenes(ToolTest):
         pixels = [tuple(data[i:i + 3]) for i in range(0, len(data), 3)]
         return [pixels[i:i + self.COLUMNS] for i in range(0, len(pixels), self.COLUMNS)]
 
-    @unittest.skipUnless(transition.lights_fronts_only(BIN), "surfaces shine where no light reaches them")
     def test_every_pixel_is_what_the_reference_lights(self):
         pathlib.Path("config.txt").write_text(f"{self.COLUMNS} {self.ROWS}\n")
         config = reference.read_config(reference.Text(pathlib.Path("config.txt").read_bytes()))
         for name in ("inside", "orthographic", "colored-lights"):
             scene = (SOURCE / "samples" / name / "scene.txt").read_text()
             stage3 = pipe(["model", "--digits", "exact"], ["view", "--digits", "exact"], ["project"], stdin=scene)
-            text = reference.Stage(transition.as_projected(stage3), "zbuf")
+            text = reference.Stage(stage3, "zbuf")
             by_color = {tuple(reference.generated_color(triangle.number)): triangle for triangle in text.triangles()}
             for coverage in ("nearest", "center"):
                 unlit = self.pixels(without_looks(stage3), "--coverage", coverage)

@@ -3,15 +3,17 @@
 
 usage: statistics_test.py BIN_DIR [UNITTEST ARGUMENT...]
 """
-import decimal
 import os
 import pathlib
 import random
+import sys
 import unittest
 from fractions import Fraction
 
-import reference_pipeline as reference
 from toolbox import SOURCE, ToolTest, run
+
+sys.path.append(str(SOURCE / "tests/reference"))
+import reference  # noqa: E402
 
 SIDES = ("left", "right", "below", "above", "near", "far")
 PROJECT_KEYS = ["triangles", "behind", *("outside_" + side for side in SIDES), "cut", "culled"]
@@ -156,7 +158,7 @@ class Places(ToolTest):
         expected = {key: str(places.count(key)) for key in PROJECT_KEYS[1:-2]}
         self.assertEqual({key: told[key] for key in expected}, expected)
         self.assertEqual((told["triangles"], told["culled"]), ("40", "0"))
-        numbers = [number for number, _ in reference.read_stage_text(done.stdout.decode())]
+        numbers = [triangle.number for triangle in reference.Stage(done.stdout, "zbuf").triangles()]
         return places, numbers, told
 
     def test_a_frustum(self):
@@ -220,8 +222,7 @@ def center_pixels(triangle, config):
 
 
 def nearest_pixels(triangle, config):
-    with decimal.localcontext(reference.DIGITS_OF_DEPTH):
-        yield from reference.pixels_of([tuple(map(float, p)) for p in triangle], config)
+    return reference.nearest(reference.Triangle(0, [reference.Vertex(0, tuple(Fraction(float(x)) for x in p)) for p in triangle]), config)
 
 
 def drawn(triangles, config, pixels_of):
@@ -262,8 +263,7 @@ class Pixels(ToolTest):
     def setUp(self):
         super().setUp()
         pathlib.Path("config.txt").write_text("9 7\n-0.75\n-1.25\n-0.5 0.5\n")
-        self.config = reference.Config("9 7\n-0.75\n-1.25\n-0.5 0.5\n")
-        self.config.left, self.config.bottom = -0.75, -1.25
+        self.config = reference.read_config(reference.Text(pathlib.Path("config.txt").read_bytes()))
 
     def text(self, rng, count):
         """Small triangles among large ones, at few depths, some off the window or without area."""
