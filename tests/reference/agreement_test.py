@@ -61,11 +61,12 @@ class Agreement(unittest.TestCase):
         self.assertGreater(SCENES, 0)
         for index in range(FIRST, FIRST + SCENES):
             rng = random.Random(index)
-            text, options = random_scenes.scene(rng).encode(), random_scenes.options(rng)
+            scene, options = random_scenes.scene(rng), random_scenes.options(rng)
+            text, config = scene.encode(), random_scenes.config(rng, scene)
             hit = rng.choice(STAGES) if index % 2 else None
             with self.subTest(scene=index, options=options, damaged=hit), tempfile.TemporaryDirectory() as folder:
                 self.config, self.image = pathlib.Path(folder, "config.txt"), pathlib.Path(folder, "out.bmp")
-                self.config.write_text(random_scenes.config(rng))
+                self.config.write_text(config)
                 for stage in STAGES:
                     text = damaged(rng, text) if stage == hit else text
                     words = options[stage]
@@ -101,6 +102,26 @@ class Agreement(unittest.TestCase):
         triangles = list(stage.triangles())
         self.assertIsNone(refused_line(done), (done.stderr, text))
         leeway.expect_same_picture(self, triangles, stage, config, options, model_name, done.stdout, self.image.read_bytes())
+
+
+class CentersOnEdges(unittest.TestCase):
+    """The corners are pixel centers of a screen of 4 x 4 pixels, so that centers lie on all edges (Z5)."""
+
+    def check(self, text, picture):
+        config = reference.read_config(reference.Text(b"4 4\n"))
+        seen = reference.draw(reference.Stage(text, "zbuf").triangles(), config, "center")[1]
+        self.assertEqual(["".join("#" if triangle else "." for triangle in row) for row in seen], picture)
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder, "config.txt")
+            path.write_text("4 4\n")
+            done = subprocess.run([BIN / "zbuf", path, "--coverage", "center", "--image", path.with_name("out.bmp")], input=text, stdout=subprocess.PIPE)
+            self.assertEqual([line.count(b"\t") for line in done.stdout.splitlines()], [row.count("#") for row in picture])
+
+    def test_top_and_left_edges_belong_to_the_triangle(self):
+        self.check(b"-0.75 0.75 0\n0.75 0.75 0\n-0.75 -0.75 0\n", ["###.", "##..", "#...", "...."])
+
+    def test_bottom_and_right_edges_do_not(self):
+        self.check(b"0.75 0.75 0\n0.75 -0.75 0\n-0.75 -0.75 0\n", ["....", "..#.", ".##.", "...."])
 
 
 if __name__ == "__main__":

@@ -34,7 +34,7 @@ def expect_same_picture(case, triangles, stage, config, options, model_name, dep
         picture = reference.shade(seen, stage.header, config, model_name)
     if depth_text == reference.depth_text(depths, config.rear) and image == reference.bmp([[*map(reference.rounded, row)] for row in picture]):
         return
-    rivals = close_fragments(triangles, config, options["--coverage"], depths)
+    rivals = close_fragments(triangles, config, options["--coverage"], depths, seen)
     expect_same_depths(case, depth_text, depths, config, rivals)
     case.assertEqual(image[:54], reference.bmp([[(0, 0, 0)] * config.width] * config.height)[:54])
     for row, column, rgb in pixels_of(image, config):
@@ -43,17 +43,26 @@ def expect_same_picture(case, triangles, stage, config, options, model_name, dep
             case.assertTrue(any(other is None or is_shown(rgb, other) for other in others), (row, column, rgb, picture[row][column]))
 
 
-def close_fragments(triangles, config, coverage, depths):
-    """For pixels where doubles may see another triangle (Z9): those triangles, and None for the background."""
+def close_fragments(triangles, config, coverage, depths, seen):
+    """For pixels where doubles may see another triangle (Z9): those triangles, and None for the background. Of one place, or of
+    one depth, doubles have the same depth as well."""
     rivals = {}
     for triangle in triangles:
         for row, column, z in getattr(reference, coverage)(triangle, config):
-            is_at_limit = min(abs(z - config.front), abs(z - config.rear)) < CLOSE
-            if z >= config.front - CLOSE and z < depths[row][column] + CLOSE and (is_at_limit or z != depths[row][column]):
-                rivals.setdefault((row, column), []).append(None if is_at_limit else triangle)
-            elif z == depths[row][column]:
+            winner, is_flat = seen[row][column], len({corner.position[2] for corner in triangle.corners}) == 1
+            is_at_limit = not is_flat and min(abs(z - config.front), abs(z - config.rear)) < CLOSE
+            is_close = config.front <= z < depths[row][column] + CLOSE and triangle is not winner
+            if is_at_limit:
+                rivals.setdefault((row, column), []).append(None)
+            if is_at_limit or is_close and not (winner and depths_are_alike(triangle, winner)):
                 rivals.setdefault((row, column), []).append(triangle)
-    return {pixel: found for pixel, found in rivals.items() if len(found) > 1 or None in found}
+    return rivals
+
+
+def depths_are_alike(a, b):
+    """True if two triangles stand at one place, or each has one depth."""
+    places = [[corner.position for corner in triangle.corners] for triangle in (a, b)]
+    return places[0] == places[1] or all(len({z for _, _, z in place}) == 1 for place in places)
 
 
 def expect_same_depths(case, text, depths, config, rivals):

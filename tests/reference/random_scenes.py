@@ -1,5 +1,6 @@
 """Random scenes that use everything a scene can say, and random options for the four stages."""
 
+SNAPPED_CAMERA = "0 0 5\n0 0 0\n0 1 0\northo -1 1 -1 1 1 9"
 ROUND_ANGLES = ("90", "-90", "180", "45", "-30", "120", "360", "60")
 
 
@@ -74,8 +75,23 @@ def vertex(rng, columns):
     return " ".join(words)
 
 
+def snapped(rng):
+    """A scene whose vertices lie on the pixel centers and corners of 8 x 8 pixels, at few depths."""
+    lines = [SNAPPED_CAMERA]
+    for _ in range(rng.randint(2, 14)):
+        lines.append("triangle")
+        z = rng.choice(("0", "1", "4", "-4", None))
+        step = rng.choice((1, 2, 2))  # 2: from center to center of 8 x 8 pixels
+        xs, ys = ([rng.randrange(-9, 10, step) / 8 for _ in range(3)] for _ in "xy")
+        ys[1] = ys[rng.randint(0, 1)]  # often horizontal
+        lines += ["%g %g %s" % (x, y, z or rng.choice(("0", "4", "-4", "2"))) for x, y in zip(xs, ys)]
+    return "\n".join(lines + ["end", ""])
+
+
 def scene(rng):
     """The text of a scene that is right."""
+    if rng.random() < 0.25:
+        return snapped(rng)
     lines = camera(rng)
     lines += [transform(rng)] * rng.randint(0, 1)
     more, columns, has_color = looks(rng, rng.random() < 0.4) if rng.random() < 0.6 else ([], (), False)
@@ -108,9 +124,12 @@ def untidy(rng, text):
     return rng.choice(("\n", "\r\n")).join(lines) + rng.choice(("", "\n"))
 
 
-def config(rng):
+def config(rng, scene_text):
+    """A small screen; for a snapped scene one on whose pixel centers its vertices lie."""
+    if SNAPPED_CAMERA in scene_text:
+        return rng.choice(("8 8", "24 8", "8 24")) + rng.choice(("\n", "\n-1\n-1\n0 1\n"))
     size = "%d %d" % (rng.randint(6, 24), rng.randint(6, 20))
-    return size + rng.choice(("\n", "\n-1\n-0.75\n-0.9 1\n", "\n-1.5\n-1\n0 1.5\n", "\n-1\n-1\n-1 1", "\n-0.3333333\n-0.7\n-1 0.99\n"))
+    return size + rng.choice(("\n", "\n", "\n-1\n-1\n0 1\n", "\n-1\n-0.75\n-0.9 1\n", "\n-1.5\n-1\n0 1.5\n", "\n-1\n-1\n-1 1", "\n-0.3333333\n-0.7\n-1 0.99\n"))
 
 
 def options(rng):

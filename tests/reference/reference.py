@@ -530,8 +530,8 @@ def nearest(triangle, config):  # Z1 to Z4: the pixels, (row, column, depth)
         met = crossings(corners, y)
         if len(met) >= 2:
             (x_left, z_left), *_, (x_right, z_right) = crossings(exact_corners, Fraction(y))
-            slope = (z_right - z_left) / (x_right - x_left) if x_left != x_right else 0
-            start = z_left - x_left * slope
+            slope = 0 if met[0][0] == met[-1][0] or x_left == x_right else (z_right - z_left) / (x_right - x_left)
+            start = z_left - x_left * slope if slope else min(z_left, z_right)
             first = max(-1.0, min((met[0][0] - x_0) / dx + 0.5, config.width))
             for column in inside(math.floor(first), (met[-1][0] - x_0) / dx + 0.5, config.width):
                 yield row, column, start + Fraction(x_0 + column * dx) * slope
