@@ -8,17 +8,14 @@
 #include <utility>
 #include <vector>
 
+#include "libpipeline/text/error.h"
+
 namespace pipeline {
 namespace {
 
-/// "1 triangle", "2 triangles".
-std::string triangles(std::uint64_t count) {
-  return std::to_string(count) + (count == 1 ? " triangle" : " triangles");
-}
-
 /// "the triangle", "all 2 triangles".
 std::string all_triangles(std::uint64_t count) {
-  return count == 1 ? "the triangle" : "all " + triangles(count);
+  return count == 1 ? "the triangle" : "all " + counted(count, "triangle");
 }
 
 const char* are(std::uint64_t count) {
@@ -50,16 +47,21 @@ std::string window(double limit) {
   return "the window from " + rounded(limit) + " to " + rounded(-limit);
 }
 
+/// "(z is 0.6, the limit of the config is 0.5)"; a limit that is the default is a plane of the camera.
+std::string beside_limit(double low, double high, double limit, double default_limit, const char* plane) {
+  const bool is_plane = limit == default_limit;
+  return "(" + range('z', low, high, limit) + ", the limit " + (is_plane ? "" : "of the config ") + "is " +
+         rounded(limit) + (is_plane ? std::string(", the camera's ") + plane : "") + ")";
+}
+
 std::string where(UnseenReason reason, const BoundingBox& extent, const Viewport& screen) {
   const auto& [low, high] = extent;
   const double left = screen.left, bottom = screen.bottom;
   switch (reason) {
     case UnseenReason::before_front:
-      return "before the front limit (" + range('z', low.z, high.z, screen.front) + ", the limit is " +
-             rounded(screen.front) + ")";
+      return "before the front limit " + beside_limit(low.z, high.z, screen.front, -1, "near");
     case UnseenReason::beyond_rear:
-      return "beyond the rear limit (" + range('z', low.z, high.z, screen.rear) + ", the limit is " +
-             rounded(screen.rear) + ")";
+      return "beyond the rear limit " + beside_limit(low.z, high.z, screen.rear, 1, "far");
     case UnseenReason::left:
       return "left of the window (" + range('x', low.x, high.x, left) + ", " + window(left) + ")";
     case UnseenReason::right:
@@ -80,7 +82,7 @@ std::string where(OutsidePart part, const BoundingBox& extent) {
   const auto& [low, high] = extent;
   switch (part) {
     case OutsidePart::behind:
-      return "behind the eye (" + range('z', low.z, high.z, 0) + "; the camera looks down -z)";
+      return "behind the eye (" + range('z', low.z, high.z, 0) + " in view space; the camera looks down -z)";
     case OutsidePart::near:
       return "nearer than the near plane (" + range('z', low.z, high.z, 0) + ")";
     case OutsidePart::far:
@@ -110,7 +112,7 @@ std::string list_of(const std::vector<Group>& groups, const std::string& none_of
     count += group_count;
     list += (list.empty() ? ": " : ", ") + std::to_string(group_count) + " " + place;
   }
-  return "none of " + triangles(count) + " " + none_of + list;
+  return "none of " + counted(count, "triangle") + " " + none_of + list;
 }
 
 bool is_black(Color color) {
@@ -122,7 +124,8 @@ bool is_black(Color color) {
 std::string empty_scene_note(std::uint64_t triangle_count, const std::optional<SourceLocation>& scale_by_0) {
   if (triangle_count == 0) return "the picture will be empty: the scene has no triangle";
   return (scale_by_0 ? to_string(*scale_by_0) + ": this scale by 0 leaves " : "") +
-         all_triangles(triangle_count) + " without area";
+         all_triangles(triangle_count) + " without area" +
+         (scale_by_0 ? "; 1 keeps a direction as it is" : "");
 }
 
 std::string dropped_note(const OutsideCounts& outside, std::uint64_t culled_count) {
@@ -136,8 +139,8 @@ std::string dropped_note(const OutsideCounts& outside, std::uint64_t culled_coun
 
 std::string radians_note(double fov_y_degrees, std::uint64_t hidden_count) {
   return "nothing is in view, but with a fovY of " + rounded(fov_y_degrees * 180 / std::numbers::pi) +
-         " degrees in place of " + rounded(fov_y_degrees) + ", " + triangles(hidden_count) +
-         " would be: is the angle in radians?";
+         " degrees in place of " + rounded(fov_y_degrees) + ", " + counted(hidden_count, "triangle") +
+         " would be: angles are in degrees; was this one in radians?";
 }
 
 std::string unseen_note(const UnseenTriangles& unseen, const Viewport& screen) {
@@ -160,7 +163,9 @@ std::optional<std::string> invisible_colors_note(const SurfaceShader& shader) {
     if (greatest && *greatest <= 1)
       return "the picture is black: every color is within 0 and 1, but channels run from 0 to 255";
     if (is_lit && !setup.wireframe)
-      return "the picture is black: no light reaches what is seen (ambient 0.2 0.2 0.2 would show it)";
+      return "the picture is black: no light reaches what is seen; a light reaches only the side of a "
+             "surface "
+             "that it is on (ambient 0.2 0.2 0.2 would show all)";
   }
   if (setup.wireframe && !is_lit)
     return "the picture is empty: --wireframe shows edges alone, and none is in sight";

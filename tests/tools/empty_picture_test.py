@@ -8,7 +8,7 @@ import pathlib
 import random
 import unittest
 
-from toolbox import CAMERA, NO_TRIANGLE, SOURCE, TRIANGLE, ToolTest, add_claims, run
+from toolbox import CAMERA, HEADERS, NO_TRIANGLE, SOURCE, TRIANGLE, ToolTest, add_claims, run
 
 NONE_CAME = NO_TRIANGLE.rstrip()
 EMPTY = "zbuf: note: the picture is empty: "
@@ -44,15 +44,15 @@ class Notes(ToolTest):
 add_claims(Notes, [
     # Noted by model.
     claim("a scene may be empty", "", "model: note: the picture will be empty: the scene has no triangle", NONE_CAME),
-    claim("a scale by 0", "scale 0 0 0\n" + TRIANGLE, "model: note: <stdin>:5:1: this scale by 0 leaves the triangle without area",
+    claim("a scale by 0", "scale 0 0 0\n" + TRIANGLE, "model: note: <stdin>:5:1: this scale by 0 leaves the triangle without area; 1 keeps a direction as it is",
           EMPTY + "the triangle is without area"),
     claim("a scale by 0 among others", "rotate 30 1 1 1\nscale 1 2 3\nscale 1 0 1\nrotate 9 3 2 1\nscale 0 1 1\n" + 3 * TRIANGLE,
-          "model: note: <stdin>:7:1: this scale by 0 leaves all 3 triangles without area", EMPTY + "all 3 triangles are without area"),
+          "model: note: <stdin>:7:1: this scale by 0 leaves all 3 triangles without area; 1 keeps a direction as it is", EMPTY + "all 3 triangles are without area"),
     claim("a scale by 0 that a triangle escapes", "push\nscale 0 0 0\n" + TRIANGLE + "pop\n" + TRIANGLE),
     claim("a scale by 0 along the normal", "scale 1 1 0\n" + TRIANGLE),
     # Noted by project.
     claim("all behind the eye", "translate 0 0 7\n" + TRIANGLE + "translate 0 0 4\n" + TRIANGLE,
-          WILL_BE_EMPTY + "all 2 triangles are behind the eye (z from 2 to 6; the camera looks down -z)", NONE_CAME),
+          WILL_BE_EMPTY + "all 2 triangles are behind the eye (z from 2 to 6 in view space; the camera looks down -z)", NONE_CAME),
     claim("too near to be divided", "translate 0 0 4.9999\n" + TRIANGLE,
           WILL_BE_EMPTY + "the triangle is nearer than the near plane (z is -0.0001)", NONE_CAME),
     claim("culled", TRIANGLE, WILL_BE_EMPTY + "the triangle is dropped by --cull", NONE_CAME, project=["--cull", "front"]),
@@ -64,13 +64,13 @@ add_claims(Notes, [
     claim("past a corner of the view volume", "triangle\n0 6 0\n6 0 0\n6 6 0\n", WILL_BE_EMPTY + "the triangle is above the view volume",
           NONE_CAME, project=["--clip", "frustum"]),
     claim("behind and culled", "translate 0 0 9\n" + TRIANGLE + "translate 0 0 -9\n" + TRIANGLE,
-          WILL_BE_EMPTY + "none of 2 triangles is left: 1 behind the eye (z is 4; the camera looks down -z), 1 dropped by --cull",
+          WILL_BE_EMPTY + "none of 2 triangles is left: 1 behind the eye (z is 4 in view space; the camera looks down -z), 1 dropped by --cull",
           NONE_CAME, project=["--cull", "front"]),
     claim("radians", "translate 1 0 0\n" + TRIANGLE,
-          "project: note: nothing is in view, but with a fovY of 60 degrees in place of 1.047, 1 triangle would be: is the angle in radians?",
+          "project: note: nothing is in view, but with a fovY of 60 degrees in place of 1.047, 1 triangle would be: angles are in degrees; was this one in radians?",
           EMPTY + "the triangle is right of the window (x from 21.88 to 43.77, " + WINDOW, camera="0 0 5\n0 0 0\n0 1 0\n1.0472 1 1 100\n"),
     claim("radians, clipped", "translate 1 0 0\n" + TRIANGLE,
-          "project: note: nothing is in view, but with a fovY of 60 degrees in place of 1.047, 1 triangle would be: is the angle in radians?",
+          "project: note: nothing is in view, but with a fovY of 60 degrees in place of 1.047, 1 triangle would be: angles are in degrees; was this one in radians?",
           NONE_CAME, camera="0 0 5\n0 0 0\n0 1 0\n1.0472 1 1 100\n", project=["--clip", "frustum"]),
     claim("no radians where no angle would help", "translate 100 0 0\n" + TRIANGLE,
           EMPTY + "the triangle is right of the window (x from 2188 to 2210, " + WINDOW, camera="0 0 5\n0 0 0\n0 1 0\n1.0472 1 1 100\n"),
@@ -81,11 +81,11 @@ add_claims(Notes, [
     claim("above the window", "translate 0 100 0\n" + TRIANGLE, EMPTY + "the triangle is above the window (y from 34.64 to 34.99, " + WINDOW),
     claim("below the window", "translate 0 -100 0\n" + TRIANGLE, EMPTY + "the triangle is below the window (y from -34.64 to -34.29, " + WINDOW),
     claim("before the front limit", "translate 0 0 4.5\n" + TRIANGLE,
-          EMPTY + "the triangle is before the front limit (z is -3.02, the limit is -1)"),
+          EMPTY + "the triangle is before the front limit (z is -3.02, the limit is -1, the camera's near)"),
     claim("beyond the rear limit", "translate 0 0 -200\n" + TRIANGLE,
-          EMPTY + "the triangle is beyond the rear limit (z is 1.01, the limit is 1)"),
+          EMPTY + "the triangle is beyond the rear limit (z is 1.01, the limit is 1, the camera's far)"),
     claim("beyond the rear limit by the last digit", "translate 0 0 -95.0001\n" + TRIANGLE,
-          EMPTY + "the triangle is beyond the rear limit (z is 1.00000002, the limit is 1)", project=["--digits", "10"]),
+          EMPTY + "the triangle is beyond the rear limit (z is 1.00000002, the limit is 1, the camera's far)", project=["--digits", "10"]),
     claim("between pixel centers", "scale 0.01 0.01 1\n" + TRIANGLE,
           EMPTY + "the triangle is between pixel centers (a pixel is 0.25 by 0.25)"),
     claim("between pixel centers but on samples", "scale 0.4 0.4 1\ntranslate -0.9 -0.9 0\n" + TRIANGLE, zbuf=["--samples", "4"]),
@@ -104,7 +104,7 @@ add_claims(Notes, [
     claim("colors of 0 on another background", "background 0 9 0\ncolor 0 0 0\n" + TRIANGLE),
     claim("one color above 1", "color 1 1 1\n" + TRIANGLE + "color 255 0 0\n" + TRIANGLE + "translate 0 0 0.5\n" + TRIANGLE),
     claim("a light behind the surface", LIT + TRIANGLE,
-          "zbuf: note: the picture is black: no light reaches what is seen (ambient 0.2 0.2 0.2 would show it)"),
+          "zbuf: note: the picture is black: no light reaches what is seen; a light reaches only the side of a surface that it is on (ambient 0.2 0.2 0.2 would show all)"),
     claim("a light behind the surface, as the note advises", "ambient 0.2 0.2 0.2\n" + LIT + TRIANGLE),
     claim("a silhouette", "background 255 255 255\n" + LIT + TRIANGLE),
     claim("the color of the background", "background 255 255 255\ncolor 255 255 255\n" + TRIANGLE,
@@ -123,10 +123,9 @@ class Silence(ToolTest):
 
     def test_a_stage_in_the_middle_that_reads_nothing(self):
         for tool in ("view", "project"):
-            header = "eye 0 0 5\nlook 0 0 0\nup 0 1 0\nperspective 60 1 1 9\n"
-            self.assert_quiet_success(run(tool, stdin=header))
+            self.assert_quiet_success(run(tool, stdin=HEADERS[tool]))
             with open("out.txt", "wb") as file:
-                last = run(tool, stdin=header, stdout=file)
+                last = run(tool, stdin=HEADERS[tool], stdout=file)
             self.assertEqual((last.stderr.decode(), last.returncode), (f"{tool}: note: no triangle came\n", 0))
 
 

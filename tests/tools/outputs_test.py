@@ -112,7 +112,7 @@ class SeparateOutputs(ToolTest):
         ours, theirs = pseudo_terminal()
         self.addCleanup(os.close, ours)
         with open(theirs, "wb") as terminal:
-            self.check_fine("--fragments /dev/stdout", stdout=terminal)
+            self.check_fine("--z-buffer - --fragments /dev/stdout", stdout=terminal)
 
     def test_files_of_one_name_in_two_folders_are_two(self):
         os.mkdir("folder")

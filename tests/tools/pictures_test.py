@@ -244,7 +244,9 @@ class DepthLimits(Pictures):
     def test_what_lies_outside_the_limits_of_a_float_is_not_drawn(self):
         pathlib.Path("config.txt").write_text(f"{COLUMNS} {ROWS}\n-1\n-1\n-3e38 3e38\n")
         for z in ("-1e39", "1e39", "-1e308", "1e308"):
-            self.assertEqual(self.zbuf(wall_at(z), "--depth", "f32").split(), [])
+            side, limit = ("before the front", "-3e+38") if z.startswith("-") else ("beyond the rear", "3e+38")
+            note = f"zbuf: note: the picture is empty: the triangle is {side} limit (z is {float(z):.4g}, the limit of the config is {limit})\n"
+            self.assertEqual(self.zbuf(wall_at(z), "--depth", "f32", note=note).split(), [])
 
     def test_a_depth_epsilon_sees_differences_beyond_a_double(self):
         pathlib.Path("config.txt").write_text(f"{COLUMNS} {ROWS}\n-1\n-1\n-1.7e308 1.7e308\n")

@@ -9,7 +9,7 @@ import shutil
 import subprocess
 import unittest
 
-from toolbox import BIN, CAMERA, SCENE, SOURCE, TRIANGLE, ToolTest, add_claims, command, pipe, run
+from toolbox import BIN, CAMERA, NO_TRIANGLE, SCENE, SOURCE, TRIANGLE, ToolTest, add_claims, command, pipe, run
 
 LIT = CAMERA + "light 0 0 5 1 1 1\n" + TRIANGLE + "end\n"
 COLORED = CAMERA + "color 1 2 3\n" + TRIANGLE + "end\n"
@@ -155,11 +155,13 @@ class Unlike(ToolTest):
                               f"{tool}: stage1.txt:1:1: expected a scene, but this looks like the output of model: view reads that")
 
     def test_text_without_a_header_is_taken_as_it_reads(self):
-        text = pipe(["model", "--bare"])
+        text = pipe(["model", "--bare"], ["view", "--bare", "--scene", "scene.txt"])
         view = pipe(["view", "--perspective", "60", "1", "1", "100"], stdin="eye 0 0 5\nlook 0 0 0\nup 0 1 0\n" + text.decode())
         self.assertTrue(view.startswith(b"perspective 60 1 1 100\n"))
-        for tool, options in (("project", ["--scene", "scene.txt"]), ("zbuf", ["config.txt"])):
-            self.assert_quiet_success(run(tool, *options, stdin=text))
+        for tool, *options in (["project", "--scene", "scene.txt"], ["zbuf", "config.txt"]):
+            done = run(tool, *options, stdin=text)
+            self.assert_quiet_success(done)
+            text = done.stdout
 
     def test_a_bare_text_passes_every_stage_twice(self):
         text = pipe(["view", "--bare", "--scene", "scene.txt"], ["view", "--bare", "--scene", "scene.txt"],
@@ -199,7 +201,8 @@ class AnotherView(ToolTest):
                                   f"zbuf: <stdin>:1:1: expected the output of project, {self.MESSAGE}")
 
     def test_a_comment_may_be_colored(self):
-        self.assert_quiet_success(run("zbuf", "config.txt", stdin="# \x1b[31mred\x1b[0m\n"))
+        done = run("zbuf", "config.txt", stdin="# \x1b[31mred\x1b[0m\n")
+        self.assertEqual((done.stderr.decode(), done.returncode), (NO_TRIANGLE, 0))
 
     def test_the_real_one_is_suspected(self):
         vim = next((path for name in ("view", "vim", "vi") if (path := shutil.which(name)) and
