@@ -1,6 +1,7 @@
 #include "libpipeline/coverage/center.h"
 
 #include <array>
+#include <cassert>
 #include <type_traits>
 
 namespace pipeline {
@@ -8,7 +9,7 @@ namespace {
 
 // Below the limits of the types by more than the rounding error of the bound.
 constexpr double kMaxIn64Bits = 0x1p61;
-constexpr double kMaxIn128Bits = 0x1p125;
+[[maybe_unused]] constexpr double kMaxIn128Bits = 0x1p125;
 constexpr int kBitsOfWideInt = 64 * 6;
 
 }  // namespace
@@ -28,10 +29,10 @@ CenterRows::CenterRows(const ExactGrid& grid, const ExactTriangle& triangle) {
       set(rows_.emplace<ExactRows<std::int64_t>>(*narrow, box, z));
       return;
     }
-    if (largest <= kMaxIn128Bits) {
-      set(rows_.emplace<ExactRows<Int128>>(*narrow, box, z));
-      return;
-    }
+    // No coordinate in 64 bits is more than 2^60 from the middle of the window.
+    assert(largest <= kMaxIn128Bits);
+    set(rows_.emplace<ExactRows<Int128>>(*narrow, box, z));
+    return;
   }
   const AxisUnits x = column_units(grid, triangle), y = row_units(grid, triangle);
   const auto set_on_heap = [&]<typename Int>(std::type_identity<Int>) {

@@ -295,12 +295,31 @@ TEST(CoverageCenter, ManyRandomMeshesOfFarDoublesOwnEveryPixelOnce) {
   }
 }
 
+/// Compares the spans of a triangle with those calculated in a wider type.
+template <typename Int>
+void expect_spans_in(const TextTriangle& t, const Viewport& screen) {
+  const ExactGrid grid(screen);
+  const std::array<double, 3> z = {t.p[0].z, t.p[1].z, t.p[2].z};
+  const auto on_grid = grid_triangle<Int>(grid, column_units(grid, t.exact()), row_units(grid, t.exact()));
+  const CenterBox box(on_grid, screen.rows, screen.columns);
+  const std::vector<Span> expected =
+      box.is_empty() ? std::vector<Span>() : spans_of(ExactRows<Int>(on_grid, box, z));
+  const std::vector<Span> spans = spans_of(CenterRows(grid, t.exact()));
+  ASSERT_EQ(spans.size(), expected.size());
+  for (std::size_t k = 0; k < spans.size(); ++k) {
+    ASSERT_EQ(spans[k].row, expected[k].row);
+    ASSERT_EQ(spans[k].first_column, expected[k].first_column);
+    ASSERT_EQ(spans[k].last_column, expected[k].last_column);
+    for (const int column : {spans[k].first_column, spans[k].last_column})
+      ASSERT_NEAR(spans[k].depth(column), expected[k].depth(column), 0x1p-51);
+  }
+}
+
 TEST(CoverageCenter, AllWidthsOfNumbersGiveTheSamePixelsAndDepths) {
   RandomNumbers random(3);
   for (const Viewport& screen :
        {decimal_screen(50, 50), decimal_screen(1023, 777), decimal_screen(640, 480, -1.3333333, -1),
         decimal_screen(211, 333, -100000.0000001, -1)}) {
-    const ExactGrid grid(screen);
     for (int i = 0; i < 800; ++i) {
       UnitTriangle units{};
       for (auto& vertex : units)
@@ -314,29 +333,42 @@ TEST(CoverageCenter, AllWidthsOfNumbersGiveTheSamePixelsAndDepths) {
       for (auto& vertex : units) vertex = {vertex[0] * far, vertex[1] * far};
       const TextTriangle t =
           triangle_of(units, {random.between(-1, 1), random.between(-1, 1), random.between(-1, 1)});
-      const std::array<double, 3> z = {t.p[0].z, t.p[1].z, t.p[2].z};
-      const std::vector<Span> expected = spans_of(CenterRows(grid, t.exact()));
-      const auto expect_same = [&](auto type) {
-        using Int = decltype(type);
-        const auto on_grid =
-            grid_triangle<Int>(grid, column_units(grid, t.exact()), row_units(grid, t.exact()));
-        const CenterBox box(on_grid, screen.rows, screen.columns);
-        const std::vector<Span> spans =
-            box.is_empty() ? std::vector<Span>() : spans_of(ExactRows<Int>(on_grid, box, z));
-        ASSERT_EQ(spans.size(), expected.size());
-        for (std::size_t k = 0; k < spans.size(); ++k) {
-          ASSERT_EQ(spans[k].row, expected[k].row);
-          ASSERT_EQ(spans[k].first_column, expected[k].first_column);
-          ASSERT_EQ(spans[k].last_column, expected[k].last_column);
-          for (const int column : {spans[k].first_column, spans[k].last_column})
-            ASSERT_NEAR(spans[k].depth(column), expected[k].depth(column), 0x1p-51);
-        }
-      };
-      expect_same(WideInt());
-      if (i % 100 == 0) expect_same(HugeInt());
+      expect_spans_in<WideInt>(t, screen);
+      if (i % 100 == 0) expect_spans_in<HugeInt>(t, screen);
       if (HasFatalFailure()) FAIL() << "triangle " << i;
     }
   }
+}
+
+TEST(CoverageCenter, TheLargestNumbersIn64BitsGiveTheSamePixels) {
+  // The limits are 2^44 - 3 units, and no divisor is common to them and to the count of columns or rows.
+  constexpr std::int64_t kLimit = 17592186044413;
+  const Viewport screen = decimal_screen(65521, 11, -1759218.6044413, -1759218.6044413);
+  RandomNumbers random(5);
+  for (int i = 0; i < 200; ++i) {
+    const auto coordinate = [&] {
+      return (random.whole(0, 1) == 0 ? kLimit : -kLimit) / (i % 2 == 0 ? 1 : random.whole(1, 9));
+    };
+    UnitTriangle units{};
+    for (auto& vertex : units) vertex = {coordinate(), coordinate()};
+    const TextTriangle t = triangle_of(units, {0.5, 0.25, -1});
+    ASSERT_TRUE(narrow_triangle(ExactGrid(screen), t.exact()));
+    expect_spans_in<WideInt>(t, screen);
+    if (HasFatalFailure()) FAIL() << "triangle " << i;
+  }
+}
+
+TEST(CoverageCenter, ALowPartFarBelowTheLastDecimalChangesNothing) {
+  const auto row_of = [](double low_part) {
+    TextTriangle t = triangle_of("-1000000000 -3 0 -1000000000 3 0 1000000000 -3 0");
+    t.low_parts[2].x = low_part;
+    Owners owners(kEightByEight);
+    owners.add(t);
+    return owners.picture();
+  };
+  EXPECT_EQ(row_of(1e-60), row_of(0));
+  EXPECT_EQ(row_of(-1e-60), row_of(0));
+  EXPECT_NE(row_of(-1e9), row_of(0));
 }
 
 TEST(CoverageCenter, AnyFiniteNumbersGiveSpansOnTheScreen) {
