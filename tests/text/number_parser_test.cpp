@@ -168,6 +168,30 @@ TEST(ParseNumber, TheLocaleHasNoInfluence) {
   if (!is_set) GTEST_SKIP() << "no locale with a decimal comma is installed";
 }
 
+TEST(ParseExactDecimal, TakesUpToSevenDecimals) {
+  DoubleDouble value;
+  for (const std::string_view word : {"0", "-3", "5.", "0.1234567", "-.1234567", "+900000000.0000001"}) {
+    EXPECT_TRUE(parse_exact_decimal(word, value)) << word;
+    EXPECT_EQ(value.hi, parse_number(word).value) << word;
+  }
+  for (const std::string_view word :
+       {"0.12345678", "0.00000000", "1e0", "2.5E-3", "1e22", "10000000000000000000000"})
+    EXPECT_FALSE(parse_exact_decimal(word, value)) << word;
+}
+
+TEST(ParseExactDecimal, GivesThePartThatADoubleDoesNotHold) {
+  // The doubles next to each other here are 2^-23, 2^-16 and 2^7 apart; below 9e8 the double is enough.
+  DoubleDouble value;
+  EXPECT_TRUE(parse_exact_decimal("1073741824.0000001", value));
+  EXPECT_EQ(value, (DoubleDouble{1073741824, 1e-7}));
+  EXPECT_TRUE(parse_exact_decimal("-68719476736.0000030", value));
+  EXPECT_EQ(value, (DoubleDouble{-68719476736, -3e-6}));
+  EXPECT_TRUE(parse_exact_decimal("1152921504606847001.", value));
+  EXPECT_EQ(value, (DoubleDouble{1152921504606846976, 25}));
+  EXPECT_TRUE(parse_exact_decimal("0.1", value));
+  EXPECT_EQ(value, (DoubleDouble{0.1, 0}));
+}
+
 TEST(ParseCount, TakesDecimalDigitsThatFit) {
   std::size_t value = 0;
   EXPECT_TRUE(parse_count("0", value));

@@ -166,6 +166,20 @@ TEST(OutputFile, AFileUnderTheTemporaryNameOfItsReplacementStaysAsItIs) {
   EXPECT_EQ(folder.file_count(), 2u);
 }
 
+TEST(OutputFile, WithoutAFreeTemporaryNameNothingIsReplacedOrRemoved) {
+  const TemporaryFolder folder;
+  folder.write("out", "old");
+  for (int i = 0; i < 1000; ++i)
+    folder.write(".pipeline-" + std::to_string(::getpid()) + "-" + std::to_string(i), "another's");
+  const auto message = [&](const std::string& what) {
+    return "cannot " + what + " " + folder.path("out") + ": File exists";
+  };
+  EXPECT_EQ(message_of([&] { write_and_commit(folder.path("out"), "new"); }), message("replace"));
+  EXPECT_EQ(message_of([&] { named_from_the_beginning(folder.path("out")); }), message("open"));
+  EXPECT_EQ(folder.read("out"), "old");
+  EXPECT_EQ(folder.file_count(), 1001u);
+}
+
 TEST(OutputFile, WithoutASecondDescriptorItHasATemporaryNameBeforeItsCommit) {
   const TemporaryFolder folder;
   const auto opened = named_from_the_beginning(folder.path("out"));

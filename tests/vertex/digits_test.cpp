@@ -100,6 +100,27 @@ TEST(Digits, OfAnOriginThatAreAllLostAreNoted) {
   EXPECT_EQ(images_of(batch_of(Triangle{}), around_pivot(1e10).computed, kShortest).uncertain.count, 0);
 }
 
+TEST(Digits, OfAnyCornerThatIsKeptBeforeTheCutAreNoted) {
+  // In clip space, y of the corner in the middle of this narrow window is 0, but for errors of 2^-50.
+  constexpr double kMiddle = 1 + 0x3p-52;
+  const ProjectionTransform narrow =
+      clip_from_view({Frustum{-1, 1, 1, 1 + 0x6p-52, 1, 100}, {}}, AspectRule::angle);
+  const auto uncertain_count = [&](const Triangle& triangle, bool keeps_unclipped) {
+    CoordinateRounder rounder(Precision::extended, kShortest, "input");
+    ProjectionStage stage(narrow, ClipMode::near, CullMode::nothing, rounder);
+    if (keeps_unclipped) stage.keep_unclipped_triangles();
+    TriangleBatch pieces;
+    stage.project(batch_of(triangle), pieces);
+    EXPECT_EQ(stage.counts().clipped, 1u);
+    return rounder.uncertain().count;
+  };
+  Triangle triangle = {Vec3{0, 2 * kMiddle, -2}, Vec3{1, 0, -0.5}, Vec3{-1, 0, -2}};
+  for (int corner = 0; corner < 3; ++corner) {
+    EXPECT_EQ(uncertain_count(triangle, true), uncertain_count(triangle, false) + 1) << corner;
+    std::rotate(triangle.begin(), triangle.begin() + 1, triangle.end());
+  }
+}
+
 TEST(Digits, FarBelowTheLargestCoordinateReadAreZero) {
   // Exactly 28.9 beside 9.2e32.
   const Triangle triangle = {

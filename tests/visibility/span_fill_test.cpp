@@ -43,7 +43,9 @@ TYPED_TEST_SUITE(SpanFillTest, TestedTypesOf<DepthFormats>::Types, NameOfFormat)
 
 template <typename Depth>
 struct PixelRow {
-  explicit PixelRow(const Depth& format) : depths(kColumns, format.store(kScreen.rear)), tags(kColumns) {}
+  // Behind its pixels are those of the next row, as in a z-buffer.
+  explicit PixelRow(const Depth& format)
+      : depths(2 * kColumns, format.store(kScreen.rear)), tags(2 * kColumns) {}
 
   std::vector<typename Depth::Stored> depths;
   std::vector<PixelTag> tags;
@@ -157,6 +159,11 @@ void expect_to_learn_the_farthest_depth(const SpanFillKernel<Depth>& kernel) {
   for (int block = 1; block <= 10; ++block) EXPECT_EQ(farthest_of_block(block), format.store(0.5));
   draw(0, kBlockColumns - 1, 0.375);
   EXPECT_EQ(farthest_of_block(0), format.store(0.375));
+  // The last block ends with the row.
+  draw(10 * kBlockColumns, 10 * kBlockColumns + 4, 0.375);
+  draw(10 * kBlockColumns + 5, kColumns - 1, 0.4375);
+  draw(10 * kBlockColumns, kColumns - 1, 0.46875);  // visible nowhere
+  EXPECT_EQ(farthest_of_block(10), format.store(0.4375));
 }
 
 TYPED_TEST(SpanFillTest, DrawsThePixelsOfALoop) {
