@@ -20,7 +20,7 @@ namespace pipeline {
 //   four(triangles, range)         four triangles prepared for their rows in `range`: `sources`, begin_row,
 //                                  end_row(), and the lanes that are `ordinary`;
 //   four_rows(sources, rows)       a row of each of four triangles, or four rows of one: `spans`,
-//                                  set_depths(), and the lanes that are ordinary();
+//                                  set_depths(), and the lanes that are ordinary(), unless all are;
 //   slope(four, lane, rows, row)   the slope of the depth in lane `row` of `rows`, for the triangle in `lane`
 //                                  of `four`;
 //   axis()                         left_x and dx of all depths.
@@ -49,10 +49,14 @@ PIPELINE_AVX2 TaggedSpan* append_triangle(const Rule& rule, const FourTriangles&
   for (int row = static_cast<int>(four.begin_row[lane]); row < end;) {
     auto rows = rule.four_rows(sources, all(row) + _mm256_setr_pd(0, 1, 2, 3));
     rows.set_depths(sources);
-    for (std::size_t i = 0; i < kFour && row < end; ++i, ++row)
-      spans = rows.ordinary().has(i)
-                  ? rows.spans.append(i, axis, rule.slope(four, lane, rows, i), triangle.tag, spans)
-                  : append_spans(rule.rows(triangle), triangle.tag, {row, row + 1}, spans);
+    for (std::size_t i = 0; i < kFour && row < end; ++i, ++row) {
+      if constexpr (requires { rows.ordinary(); })
+        if (!rows.ordinary().has(i)) {
+          spans = append_spans(rule.rows(triangle), triangle.tag, {row, row + 1}, spans);
+          continue;
+        }
+      spans = rows.spans.append(i, axis, rule.slope(four, lane, rows, i), triangle.tag, spans);
+    }
   }
   return spans;
 }
@@ -72,7 +76,7 @@ PIPELINE_AVX2 TaggedSpan* append_triangles(const Rule& rule, const FourTriangles
   for (int i = 0; i < count; ++i) {
     auto& rows = low[static_cast<std::size_t>(i)];
     rows = rule.four_rows(four.sources, four.begin_row + all(i));
-    are_ordinary &= rows.ordinary().has_all();
+    if constexpr (requires { rows.ordinary(); }) are_ordinary &= rows.ordinary().has_all();
   }
   if (!are_ordinary) {
     for (std::size_t lane = 0; lane < kFour; ++lane)

@@ -228,7 +228,7 @@ struct FourTriangles {
   }
 };
 
-/// A row of each of four triangles, or four rows of one.
+/// A row of each of four triangles, or four rows of one. All are ordinary where the triangles are.
 struct FourRows {
   FourRows() = default;
   /// Which pixels are covered.
@@ -265,9 +265,6 @@ struct FourRows {
         all(DepthInDoubles::kNoMinus);
     spans.set_points(columns_added_up_, pick(of.is_flat, of.a_z, mean));
   }
-
-  /// All of them: triangles with any other are not ordinary.
-  static LaneSet ordinary() { return {}; }
 
   FourSpans spans;
 

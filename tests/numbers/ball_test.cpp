@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "libpipeline/numbers/ball_vec.h"
 #include "tests/numbers/random_numbers.h"
 #include "tests/numbers/real.h"
 
@@ -358,6 +359,35 @@ TEST(Ball, AnErrorThatLosesBitsOnTheWayToAnotherRangeDoesNotShrink) {
   const Ball ball = Ball::with_error({0x1p1000, 0}, 0x1.4p-74);
   EXPECT_EQ(midpoint<2304>(ball), Exact(0x1p1000));
   EXPECT_GE(radius<2304>(ball), Exact(0x1.4p-74));
+}
+
+TEST(Ball, MidpointsFarBelowTheirErrorsAreContained) {
+  RandomNumbers random(16);
+  const std::array<Ball, 6> balls = {Ball::with_error({0x1p-740, 0x1p-800}, 0x1p290),
+                                     Ball::with_error({0x1p-380, 0x1p-440}, 0x1p600),
+                                     Ball::with_error({-0x1p-1000, 0x1p-1060}, 0x1p600),
+                                     Ball(0x1p-400),
+                                     Ball(0x1p700),
+                                     Ball(-3)};
+  for (const Ball& a : balls)
+    for (const Ball& b : balls) {
+      expect_image(a + b, a, b, random, kAdd);
+      expect_image(a - b, a, b, random, kSubtract);
+      expect_image(a * b, a, b, random, kMultiply);
+    }
+}
+
+TEST(Ball, IsEqualIfAllItsPartsAre) {
+  const Ball ball = Ball::with_error({1, 0x1p-60}, 0x1p-110);
+  EXPECT_EQ(ball, Ball::with_error({1, 0x1p-60}, 0x1p-110));
+  EXPECT_NE(ball, Ball::with_error({2, 0x1p-60}, 0x1p-110));
+  EXPECT_NE(ball, Ball::with_error({1, 0x1p-61}, 0x1p-110));
+  EXPECT_NE(ball, Ball::with_error({1, 0x1p-60}, 0x1p-111));
+  EXPECT_EQ(Ball(0x1p-400), Ball(0x1p-400));
+  EXPECT_NE(Ball(0x1p-400), Ball(0x1p-401));
+  EXPECT_EQ((BallVec3{1, 2, 3}), (BallVec3{1, 2, 3}));
+  for (const BallVec3& other : {BallVec3{0, 2, 3}, BallVec3{1, 0, 3}, BallVec3{1, 2, 0}})
+    EXPECT_FALSE((BallVec3{1, 2, 3}) == other);
 }
 
 TEST(Ball, AVerySmallErrorIsNotForgotten) {

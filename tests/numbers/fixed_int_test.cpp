@@ -56,6 +56,8 @@ TEST(FixedInt, TakesBuiltInNumbersOfEitherSign) {
   EXPECT_TRUE(exact(Int(-1)) == -1);
   EXPECT_TRUE(exact(Int((Int128{-5} << 100))) == mpz_class(-5) * (mpz_class(1) << 100));
   EXPECT_TRUE(exact(Int(FixedInt<9>(-7) * FixedInt<9>(11))) == -77);
+  EXPECT_TRUE(exact(Int(FixedInt<2>(-7))) == -7);
+  EXPECT_TRUE(exact(Int(FixedInt<2>(7))) == 7);
 }
 
 TEST(FixedInt, ShiftsAndCutsAtEveryBit) {
