@@ -119,7 +119,7 @@ class OneMoreDescriptor {
  public:
   OneMoreDescriptor() {
     EXPECT_EQ(::getrlimit(RLIMIT_NOFILE, &before_), 0);
-    const int next_descriptor = ::dup(STDIN_FILENO);
+    const int next_descriptor = ::open("/dev/null", O_RDONLY);
     ::close(next_descriptor);
     const rlimit one_more = {static_cast<rlim_t>(next_descriptor) + 1, before_.rlim_max};
     EXPECT_EQ(::setrlimit(RLIMIT_NOFILE, &one_more), 0);
@@ -304,6 +304,39 @@ TEST(OutputFile, AnOpenFileOfTheProcessIsWrittenFromWhereItStands) {
   ASSERT_EQ(::write(descriptor, "third", 5), 5);
   ::close(descriptor);
   EXPECT_EQ(folder.read("out"), "first, second, third");
+}
+
+/// Closes standard input during a test, so that the next file gets descriptor 0.
+class NoStandardInput {
+ public:
+  NoStandardInput() : before_(::dup(STDIN_FILENO)) { ::close(STDIN_FILENO); }
+  ~NoStandardInput() {
+    ::dup2(before_, STDIN_FILENO);
+    ::close(before_);
+  }
+  NoStandardInput(const NoStandardInput&) = delete;
+  NoStandardInput& operator=(const NoStandardInput&) = delete;
+
+ private:
+  int before_;
+};
+
+TEST(OutputFile, ZeroIsADescriptorLikeAnyOther) {
+  const TemporaryFolder folder;
+  const NoStandardInput closed;
+  for (const std::string old : {"", "old"}) {
+    if (!old.empty()) folder.write("out", old);
+    write_and_commit(folder.path("out"), "new");
+    EXPECT_EQ(folder.read("out"), "new");
+    const auto file = named_from_the_beginning(folder.path("out"));
+    EXPECT_EQ(file->descriptor(), 0);
+    write_text(*file, "newer");
+    file->commit();
+    EXPECT_EQ(folder.read("out"), "newer");
+  }
+  OutputFile device("/dev/null");
+  EXPECT_EQ(device.descriptor(), 0);
+  EXPECT_EQ(folder.file_count(), 1u);
 }
 
 TEST(OutputFile, AFolderThatIsMissingIsAnError) {

@@ -241,6 +241,15 @@ class ManyFiles(FaultTest):
                 for which, done, files, good in self.each_failing_call(call, errno.EINTR, options):
                     self.assertEqual((done.returncode, done.stderr, files), (0, b"", good), which)
 
+    def test_without_proc_files_have_temporary_names(self):
+        """zbuf asks whether it may replace a file, and then whether /proc is there, without which a file needs a name."""
+        for options in (self.BMP, self.PLAIN, self.PNGS):
+            names = sorted(name for name in options if "." in name)
+            outcomes = [(done.stderr.decode(), set(files.values())) if done.returncode != 0 else files == good
+                        for _, done, files, good in self.each_failing_call("access", errno.EACCES, options)]
+            self.assertEqual(sorted(outcomes[::2]), [(f"zbuf: cannot open {name}: Permission denied\n", {OLD_IMAGE}) for name in names])
+            self.assertEqual(outcomes[1::2], [True] * len(names))
+
     def test_a_failing_rename_leaves_old_files_or_complete_ones(self):
         self.check("rename", errno.EPERM, *self.PLAIN, some_may_be_new=True)
 

@@ -2,7 +2,7 @@
 // short.
 //
 //   FAULT_CALL   malloc (any allocation), write, read, seek, close, close of stdout, close of data (of
-//                a file that was written to), link or rename
+//                a file that was written to), access, link or rename
 //   FAULT_AT     the number of the call that fails, from 1
 //   FAULT_ERRNO  its errno
 //   FAULT_MARK   a file that is created when it fails
@@ -101,6 +101,11 @@ int close(int descriptor) {
 int linkat(int from_folder, const char* from, int to_folder, const char* to, int flags) {
   return fails("link") ? -1
                        : static_cast<int>(::syscall(SYS_linkat, from_folder, from, to_folder, to, flags));
+}
+
+int access(const char* path, int mode) noexcept {
+  static const auto next = next_one<int (*)(const char*, int)>("access");
+  return fails("access") ? -1 : next(path, mode);
 }
 
 int rename(const char* from, const char* to) noexcept {
