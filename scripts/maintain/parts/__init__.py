@@ -1,0 +1,1 @@
+"""The modules of the commands that maintain the project."""
