@@ -321,6 +321,16 @@ class NoStandardInput {
   int before_;
 };
 
+TEST(OutputFile, AProgramStartedMeanwhileDoesNotInheritIt) {
+  const TemporaryFolder folder;
+  const auto is_inherited = [](const OutputFile& file) {
+    return (::fcntl(file.descriptor(), F_GETFD) & FD_CLOEXEC) == 0;
+  };
+  for (const std::string& path : {folder.path("out"), std::string("/dev/null"), std::string("/dev/stdout")})
+    EXPECT_FALSE(is_inherited(OutputFile(path))) << path;
+  EXPECT_FALSE(is_inherited(*named_from_the_beginning(folder.path("out"))));
+}
+
 TEST(OutputFile, ZeroIsADescriptorLikeAnyOther) {
   const TemporaryFolder folder;
   const NoStandardInput closed;

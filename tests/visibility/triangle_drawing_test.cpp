@@ -128,6 +128,18 @@ TEST(TriangleDrawing, InHighBandsATriangleStaysInItsRowsToo) {
     EXPECT_TRUE(drawn_on_threads<Visible>(scene, kScreen, thread_count, 3) == expected);
 }
 
+TEST(TriangleDrawing, AmongSmallTrianglesOneMayBeHighByAnyOfItsCorners) {
+  constexpr Viewport kScreen = {2, 60000};
+  using Visible = ZBufferAlgorithm<NearestCoverage, DepthF64>;
+  const Triangle small = {{{0, 0, 0}, {0.1, 0, 0}, {0, 0.0001, 0}}};
+  Triangle high = {{{-1, -0.9, 0.5}, {1, -0.9, 0.25}, {0, 0.9, 0}}};
+  for (int i = 0; i < 3; ++i) {
+    const std::vector<Triangle> scene = {small, high, small, small};
+    EXPECT_TRUE(drawn_on_threads<Visible>(scene, kScreen, 1, 4) == drawn_one_by_one<Visible>(scene, kScreen));
+    std::ranges::rotate(high, high.begin() + 1);
+  }
+}
+
 TEST(TriangleDrawing, KeepsTheOrderWhereAllThatIsSeenDependsOnIt) {
   constexpr Viewport kScreen = {40, 30};
   // From top to bottom, so that each thread starts on pixels that are still undrawn.
