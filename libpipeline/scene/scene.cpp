@@ -51,7 +51,8 @@ std::size_t SceneReader::read_buffered(std::span<Triangle> room, std::size_t& fi
   if (appearance_.attributes || !line_.at_end()) return 0;
   // A blank line between triangles.
   if (text_.buffered().starts_with('\n')) text_.skip(1, 1);
-  const FixedTextPart part = fixed_text_kernel().read_scene(text_.buffered(), room);
+  const FixedTextPart part =
+      fixed_text_kernel().read_scene(text_.buffered(), decimals_of_scene(text_.buffered()), room);
   first_line = text_.line_number() + 1;
   text_.skip(part.length, 4 * part.triangle_count);
   if (part.triangle_count > 0) has_triangle_ = true;

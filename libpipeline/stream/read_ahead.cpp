@@ -12,9 +12,11 @@ namespace {
 constexpr std::size_t kSlotsPerThread = 2;
 // In batches. Text in another form usually stays in that form, and parsing it ahead would be wasted work.
 constexpr int kPause = 16;
-// Nine numbers such as 0.1234567 with a separator each, and the blank line.
-constexpr std::size_t kMinFixedTriangleLength = 9 * 10 + 1;
-static_assert(ReadAhead::kPartSize / kMinFixedTriangleLength <= kBatchSize);
+
+/// Nine numbers such as 0.1234567 with a separator each, and the blank line.
+constexpr std::size_t min_fixed_triangle_length(std::size_t decimals) {
+  return 9 * (decimals + (decimals > 0 ? 3 : 2)) + 1;
+}
 
 }  // namespace
 
@@ -38,16 +40,18 @@ bool ReadAhead::read(TriangleBatch& batch) {
   }
   ++begin_;
   length_ -= first.length;
-  reader_.consume_fixed_form(first.length, first.batch);
+  reader_.consume_fixed_form(first.length, first.decimals, first.batch);
   std::swap(batch, first.batch);
   return true;
 }
 
 void ReadAhead::Slot::parse() {
+  decimals = decimals_of_stage_text(text);
+  const std::size_t min_length = min_fixed_triangle_length(static_cast<std::size_t>(decimals));
   batch.clear();
-  batch.triangles.resize(length / kMinFixedTriangleLength);
+  batch.triangles.resize(std::min(kBatchSize, length / min_length));
   const FixedTextPart parsed =
-      fixed_text_kernel().read(std::string_view(text).substr(0, length), batch.triangles);
+      fixed_text_kernel().read(std::string_view(text).substr(0, length), decimals, batch.triangles);
   batch.triangles.resize(parsed.triangle_count);
   is_in_fixed_form = parsed.length == length;
   is_done = true;

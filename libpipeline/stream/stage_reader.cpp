@@ -105,8 +105,8 @@ std::string_view StageReader::buffered_triangles(std::size_t size) {
   return text_.buffered();
 }
 
-void StageReader::consume_fixed_form(std::size_t length, TriangleBatch& batch) {
-  triangles_->consume_fixed_form(length, batch);
+void StageReader::consume_fixed_form(std::size_t length, int decimals, TriangleBatch& batch) {
+  triangles_->consume_fixed_form(length, decimals, batch);
 }
 
 void StageReader::fill(TriangleBatch& batch) {

@@ -38,7 +38,7 @@ class StageReader {
   [[nodiscard]] std::string_view buffered_triangles(std::size_t size);
   /// Consumes the first `length` buffered characters, which are the triangles in `batch` in fixed form, and
   /// adds their numbers, locations and marks to the batch.
-  void consume_fixed_form(std::size_t length, TriangleBatch& batch);
+  void consume_fixed_form(std::size_t length, int decimals, TriangleBatch& batch);
 
  private:
   bool read_header_line(LineScanner& line);

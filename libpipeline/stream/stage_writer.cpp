@@ -101,8 +101,8 @@ void StageWriter::write_header(const StageHeader& header) {
 void StageWriter::write(const TriangleBatch& batch) {
   assert(batch.low_parts.empty() || batch.low_parts.size() == batch.size());
   if (!keeps_four_digits_) note_sizes(batch);
-  const bool may_be_fixed = format_.decimals == 7 && !format_.shortest && batch.low_parts.empty() &&
-                            batch.unclipped.empty() && !columns_.any();
+  const bool may_be_fixed = format_.decimals <= kMaxFixedDecimals && !format_.shortest &&
+                            batch.low_parts.empty() && batch.unclipped.empty() && !columns_.any();
   std::size_t index = 0;
   while (index < batch.size()) {
     if (may_be_fixed) index += write_fixed_form(batch, index);
@@ -135,7 +135,7 @@ std::size_t StageWriter::write_fixed_form(const TriangleBatch& batch, std::size_
   if (end == begin) return 0;
   char* const out = text_.reserve((end - begin) * kMaxFixedTriangleLength + kFixedTextSlack);
   const auto triangles = std::span(batch.triangles).subspan(begin, end - begin);
-  const FixedTextPart part = fixed_text_kernel().write(triangles, out);
+  const FixedTextPart part = fixed_text_kernel().write(triangles, format_.decimals, out);
   text_.commit(out + part.length);
   if (part.triangle_count > 0) next_number_ = batch.numbers[begin + part.triangle_count - 1] + 1;
   return part.triangle_count;

@@ -68,24 +68,25 @@ bool TriangleReader::read_fixed_form(TriangleBatch& batch) {
   if (text_.buffered().starts_with('\n')) text_.skip(1, 1);
   const std::size_t old_size = batch.size();
   batch.triangles.resize(std::max(old_size, std::min(kBatchSize, old_size + kMaxAtOnce)));
+  const int decimals = decimals_of_stage_text(text_.buffered());
   const FixedTextPart part =
-      fixed_text_kernel().read(text_.buffered(), std::span(batch.triangles).subspan(old_size));
+      fixed_text_kernel().read(text_.buffered(), decimals, std::span(batch.triangles).subspan(old_size));
   batch.triangles.resize(old_size + part.triangle_count);
-  consume_fixed_form(part.length, batch);
+  consume_fixed_form(part.length, decimals, batch);
   return part.triangle_count > 0;
 }
 
-void TriangleReader::consume_fixed_form(std::size_t length, TriangleBatch& batch) {
+void TriangleReader::consume_fixed_form(std::size_t length, int decimals, TriangleBatch& batch) {
   constexpr std::size_t kLinesPerTriangle = 4;
   const std::size_t old_size = batch.numbers.size();
   const std::size_t count = batch.size() - old_size;
   batch.complete(next_number_, text_.line_number() + 1);
   next_number_ += count;
   text_.skip(length, count * kLinesPerTriangle);
-  // With seven decimals and at most eight digits before the point, every coordinate is exactly its decimal.
+  // With at most seven decimals and eight digits before the point, every coordinate is exactly its decimal.
   if (marks_decimals_) {
     batch.decimal_marks.resize(old_size);
-    batch.decimal_marks.resize(batch.size(), kAllDecimal);
+    batch.decimal_marks.resize(batch.size(), decimals <= kExactDecimals ? kAllDecimal : std::uint16_t{0});
   }
 }
 

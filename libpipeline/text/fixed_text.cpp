@@ -1,5 +1,6 @@
 #include "libpipeline/text/fixed_text.h"
 
+#include <algorithm>
 #include <array>
 
 #include "libpipeline/numbers/kernel_choice.h"
@@ -24,6 +25,22 @@ struct KernelList {
 };
 
 }  // namespace
+
+int decimals_of_stage_text(std::string_view text) {
+  constexpr std::size_t kMaxLength = 1 + 15 + 1;  // a sign, digits and a point
+  int decimals = 0;
+  bool is_behind_point = false;
+  for (const char c : text.substr(0, kMaxLength)) {
+    if (c == ' ' || c == '\n') break;
+    if (is_behind_point) ++decimals;
+    if (c == '.') is_behind_point = true;
+  }
+  return std::min(decimals, kMaxFixedDecimals);
+}
+
+int decimals_of_scene(std::string_view text) {
+  return decimals_of_stage_text(text.substr(std::min(text.find('\n'), text.size() - 1) + 1));
+}
 
 std::span<const FixedTextKernel> fixed_text_kernels() {
   static const KernelList list;

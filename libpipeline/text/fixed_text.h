@@ -9,10 +9,14 @@
 namespace pipeline {
 
 // The fast paths for stage text. Nearly all of it has one form: three lines of numbers and a blank line per
-// triangle, each number with up to eight digits, a point and seven decimals, and single blanks between
+// triangle, all numbers with the same count of decimals (no point if that is 0), and single blanks between
 // numbers. That form is read and written here, many digits at a time; everything else is left to the general
 // reader and printer. The bytes are the same either way. There is one kernel for each kind of processor,
 // chosen once, when the program starts.
+
+/// The largest count of decimals in fixed form. A number has at most 15 digits there: it is a whole number of
+/// units of its last decimal that a double holds.
+constexpr int kMaxFixedDecimals = 14;
 
 /// The part of a text that is triangles in fixed form.
 struct FixedTextPart {
@@ -23,21 +27,28 @@ struct FixedTextPart {
 /// Readers may read this many characters past the end of the text, whatever they are.
 constexpr std::size_t kFixedTextSlack = 320;
 
-/// The maximum length of a triangle in fixed form: nine numbers with a separator each, and a line end.
-constexpr std::size_t kMaxFixedTriangleLength = 9 * 18 + 1;
+/// The maximum length of a triangle in fixed form: nine numbers of a sign, 16 digits and a point, with a
+/// separator each, and a line end.
+constexpr std::size_t kMaxFixedTriangleLength = 9 * 19 + 1;
 
-/// Reads triangles from the beginning of `text` until one is not in fixed form, `triangles` is full, or the
-/// text ends. Every number becomes the nearest double, as from_chars returns it.
-using ReadFixedText = FixedTextPart (*)(std::string_view text, std::span<Triangle> triangles);
+/// The decimals of the first number of a stage text, or of the line after the first line of a scene: those to
+/// read it with, at most kMaxFixedDecimals.
+int decimals_of_stage_text(std::string_view text);
+int decimals_of_scene(std::string_view text);
+
+/// Reads triangles from the beginning of `text` until one is not in fixed form, with `decimals` decimals and
+/// at most eight digits before the point, `triangles` is full, or the text ends. Every number becomes the
+/// nearest double, as from_chars returns it.
+using ReadFixedText = FixedTextPart (*)(std::string_view text, int decimals, std::span<Triangle> triangles);
 
 /// The same for the triangles of a scene: a line `triangle`, then three vertex lines.
-using ReadFixedScene = FixedTextPart (*)(std::string_view text, std::span<Triangle> triangles);
+using ReadFixedScene = FixedTextPart (*)(std::string_view text, int decimals, std::span<Triangle> triangles);
 
 /// Prints triangles in fixed form and returns how many it printed. Stops before a triangle with a coordinate
-/// that has more than eight digits before the point, or is so close to a tie that only exact arithmetic can
-/// round it. `out` must have room for kMaxFixedTriangleLength characters per triangle, and kFixedTextSlack
-/// more.
-using WriteFixedText = FixedTextPart (*)(std::span<const Triangle> triangles, char* out);
+/// that has more than 15 digits (kernels differ in 16), or is so close to a tie that only exact arithmetic
+/// can round it. `out` must have room for kMaxFixedTriangleLength characters per triangle, and
+/// kFixedTextSlack more.
+using WriteFixedText = FixedTextPart (*)(std::span<const Triangle> triangles, int decimals, char* out);
 
 /// One implementation of all three.
 struct FixedTextKernel {

@@ -9,48 +9,48 @@
 #include <cstdint>
 
 #include "libpipeline/numbers/decimal_units.h"
+#include "libpipeline/numbers/powers_of_ten.h"
 
 #define PIPELINE_AVX2 __attribute__((target("avx2,bmi")))
 
 namespace pipeline {
 namespace {
 
-/// Four coordinates as whole units of 10^-7, split at the point.
+/// Four coordinates as whole units of the last decimal, split before their last eight digits.
 struct SplitUnits {
-  __m128i whole;
-  __m128i decimals;
+  __m128i first;
+  __m128i last;
   unsigned negative;  // bit i: coordinate i is negative and does not round to 0
 };
 
 /// Clears the lanes of `good` whose coordinate is too large, not finite, or too close to a tie.
-PIPELINE_AVX2 inline SplitUnits split(__m256d values, __m256d& good) {
+PIPELINE_AVX2 inline SplitUnits split(__m256d values, __m256d scale, __m256d& good) {
   const __m256d sign_bit = _mm256_set1_pd(-0.0);
   const __m256d rounder = _mm256_set1_pd(kWholeRounder);
   const __m256d one = _mm256_set1_pd(1);
-  const __m256d per_one = _mm256_set1_pd(kUnitsPerOne);
-  const __m256d scaled = _mm256_mul_pd(_mm256_andnot_pd(sign_bit, values), per_one);
+  const __m256d eight_digits = _mm256_set1_pd(1e8);
+  const __m256d scaled = _mm256_mul_pd(_mm256_andnot_pd(sign_bit, values), scale);
   const __m256d units = _mm256_sub_pd(_mm256_add_pd(scaled, rounder), rounder);
   const __m256d distance = _mm256_andnot_pd(sign_bit, _mm256_sub_pd(scaled, units));
   // The same test as DecimalUnits::is_certain.
   const __m256d reach = _mm256_add_pd(distance, _mm256_mul_pd(scaled, _mm256_set1_pd(kProductError)));
   good = _mm256_and_pd(good, _mm256_cmp_pd(reach, _mm256_set1_pd(kBelowHalf), _CMP_LT_OQ));
-  good = _mm256_and_pd(good, _mm256_cmp_pd(units, _mm256_set1_pd(1e15), _CMP_LT_OQ));
-  // units / 10^7, off by at most one; the exact remainder corrects it.
-  const __m256d quotient = _mm256_floor_pd(_mm256_mul_pd(units, _mm256_set1_pd(1e-7)));
-  const __m256d rest = _mm256_sub_pd(units, _mm256_mul_pd(quotient, per_one));
+  good = _mm256_and_pd(good, _mm256_cmp_pd(units, _mm256_set1_pd(kUnitsLimit), _CMP_LT_OQ));
+  // units / 10^8, off by at most one; the exact remainder corrects it.
+  const __m256d quotient = _mm256_floor_pd(_mm256_mul_pd(units, _mm256_set1_pd(1e-8)));
+  const __m256d rest = _mm256_sub_pd(units, _mm256_mul_pd(quotient, eight_digits));
   const __m256d too_large = _mm256_cmp_pd(rest, _mm256_setzero_pd(), _CMP_LT_OQ);
-  const __m256d too_small = _mm256_cmp_pd(rest, per_one, _CMP_GE_OQ);
+  const __m256d too_small = _mm256_cmp_pd(rest, eight_digits, _CMP_GE_OQ);
   const __m256d step = _mm256_sub_pd(_mm256_and_pd(too_small, one), _mm256_and_pd(too_large, one));
   const __m256d below_zero = _mm256_and_pd(values, _mm256_cmp_pd(units, _mm256_setzero_pd(), _CMP_GT_OQ));
   return {_mm256_cvttpd_epi32(_mm256_add_pd(quotient, step)),
-          _mm256_cvttpd_epi32(_mm256_sub_pd(rest, _mm256_mul_pd(step, per_one))),
+          _mm256_cvttpd_epi32(_mm256_sub_pd(rest, _mm256_mul_pd(step, eight_digits))),
           static_cast<unsigned>(_mm256_movemask_pd(below_zero))};
 }
 
-/// Like sixteen_digits in eight_digits.h, for two numbers, one in each half: 8 digits before the point, a 0
-/// in the point's position, 7 digits after it.
-PIPELINE_AVX2 inline __m256i sixteen_digits(__m128i whole_and_decimals) {
-  const __m256i eights = _mm256_cvtepu32_epi64(whole_and_decimals);
+/// Like sixteen_digits in eight_digits.h, for two numbers, one in each half.
+PIPELINE_AVX2 inline __m256i sixteen_digits(__m128i first_and_last) {
+  const __m256i eights = _mm256_cvtepu32_epi64(first_and_last);
   // x / 10000 for x < 10^8, in 64 bits.
   const __m256i high = _mm256_srli_epi64(_mm256_mul_epu32(eights, _mm256_set1_epi64x(0xd1b71759)), 45);
   const __m256i low = _mm256_sub_epi32(eights, _mm256_mul_epu32(high, _mm256_set1_epi64x(10000)));
@@ -65,50 +65,53 @@ PIPELINE_AVX2 inline __m256i sixteen_digits(__m128i whole_and_decimals) {
 }
 
 /// `filled` has a bit for each character that is a digit above 0.
-PIPELINE_AVX2 inline char* write_number(char* out, unsigned is_negative, __m128i text, unsigned filled) {
-  // Keeps the last digit before the point even if it is 0.
-  const auto leading_zero_count = static_cast<unsigned>(std::countr_zero(filled | 0x80u));
-  const __m128i shift =
-      _mm_loadu_si128(reinterpret_cast<const __m128i*>(kByteShifts.bytes.data() + leading_zero_count));
+PIPELINE_AVX2 inline char* write_number(char* out, const PrintedForm& form, unsigned is_negative,
+                                        __m128i text, unsigned filled) {
+  const auto leading_zero_count = static_cast<unsigned>(std::countr_zero(filled | form.last_whole_digit));
+  const __m128i shuffle =
+      _mm_loadu_si128(reinterpret_cast<const __m128i*>(form.shuffle.data() + leading_zero_count));
   *out = '-';
   out += is_negative & 1;
-  _mm_storeu_si128(reinterpret_cast<__m128i*>(out), _mm_shuffle_epi8(text, shift));
-  return out + 16 - leading_zero_count;
+  _mm_storeu_si128(reinterpret_cast<__m128i*>(out), _mm_shuffle_epi8(text, shuffle));
+  return out + form.length - leading_zero_count;
 }
 
-PIPELINE_AVX2 inline char* write_two(char* out, __m128i whole_and_decimals, unsigned negative,
-                                     char first_separator, char second_separator) {
-  const __m256i characters = _mm256_broadcastsi128_si256(
-      _mm_setr_epi8('0', '0', '0', '0', '0', '0', '0', '0', '.', '0', '0', '0', '0', '0', '0', '0'));
-  const __m256i digits = sixteen_digits(whole_and_decimals);
+PIPELINE_AVX2 inline char* write_two(char* out, const PrintedForm& form, __m128i first_and_last,
+                                     unsigned negative, char first_separator, char second_separator) {
+  const __m256i characters =
+      _mm256_broadcastsi128_si256(_mm_load_si128(reinterpret_cast<const __m128i*>(kPointAndZeros.data())));
+  const __m256i digits = sixteen_digits(first_and_last);
   const __m256i text = _mm256_add_epi8(digits, characters);
   const auto filled =
       static_cast<unsigned>(_mm256_movemask_epi8(_mm256_cmpgt_epi8(digits, _mm256_setzero_si256())));
-  out = write_number(out, negative, _mm256_castsi256_si128(text), filled & 0xffff);
+  out = write_number(out, form, negative, _mm256_castsi256_si128(text), filled & 0xffff);
   *out++ = first_separator;
-  out = write_number(out, negative >> 1, _mm256_extracti128_si256(text, 1), filled >> 16);
+  out = write_number(out, form, negative >> 1, _mm256_extracti128_si256(text, 1), filled >> 16);
   *out++ = second_separator;
   return out;
 }
 
-PIPELINE_AVX2 FixedTextPart write_fixed_text(std::span<const Triangle> triangles, char* out) {
+PIPELINE_AVX2 FixedTextPart write_fixed_text(std::span<const Triangle> triangles, int decimals, char* out) {
+  const PrintedForm& form = kPrintedForms[static_cast<std::size_t>(decimals)];
+  const __m256d scale = _mm256_set1_pd(kPowersOfTen[static_cast<std::size_t>(decimals)]);
+  const std::size_t length_of_zero = form.length - 15 + static_cast<std::size_t>(decimals);
   FixedTextPart part;
   char* const begin = out;
   for (const Triangle& triangle : triangles) {
     const double* const p = &triangle[0].x;
     __m256d good = _mm256_castsi256_pd(_mm256_set1_epi32(-1));
-    const SplitUnits a = split(_mm256_loadu_pd(p), good);
-    const SplitUnits b = split(_mm256_loadu_pd(p + 4), good);
-    const SplitUnits c = split(_mm256_zextpd128_pd256(_mm_load_sd(p + 8)), good);
+    const SplitUnits a = split(_mm256_loadu_pd(p), scale, good);
+    const SplitUnits b = split(_mm256_loadu_pd(p + 4), scale, good);
+    const SplitUnits c = split(_mm256_zextpd128_pd256(_mm_load_sd(p + 8)), scale, good);
     if (_mm256_movemask_pd(good) != 0xf) break;
-    out = write_two(out, _mm_unpacklo_epi32(a.whole, a.decimals), a.negative, ' ', ' ');
-    out = write_two(out, _mm_unpackhi_epi32(a.whole, a.decimals), a.negative >> 2, '\n', ' ');
-    out = write_two(out, _mm_unpacklo_epi32(b.whole, b.decimals), b.negative, ' ', '\n');
-    out = write_two(out, _mm_unpackhi_epi32(b.whole, b.decimals), b.negative >> 2, ' ', ' ');
+    out = write_two(out, form, _mm_unpacklo_epi32(a.first, a.last), a.negative, ' ', ' ');
+    out = write_two(out, form, _mm_unpackhi_epi32(a.first, a.last), a.negative >> 2, '\n', ' ');
+    out = write_two(out, form, _mm_unpacklo_epi32(b.first, b.last), b.negative, ' ', '\n');
+    out = write_two(out, form, _mm_unpackhi_epi32(b.first, b.last), b.negative >> 2, ' ', ' ');
     // The last number has no partner; the text of the empty lane is overwritten.
     char* const after_empty_lane =
-        write_two(out, _mm_unpacklo_epi32(c.whole, c.decimals), c.negative, '\n', '\n');
-    out = after_empty_lane - (sizeof "0.0000000\n" - 1);
+        write_two(out, form, _mm_unpacklo_epi32(c.first, c.last), c.negative, '\n', '\n');
+    out = after_empty_lane - length_of_zero - 1;
     *out++ = '\n';
     ++part.triangle_count;
   }

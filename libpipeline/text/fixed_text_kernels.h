@@ -28,22 +28,39 @@ const char* vertex_lines(const char* p) {
   return std::string_view(p, kLine.size()) == kLine ? p + kLine.size() : nullptr;
 }
 
-/// Numbers are read and printed as whole numbers of units of 10^-7.
-constexpr double kUnitsPerOne = 1e7;
+/// Numbers are read and printed as whole numbers of units of their last decimal; those printed are below
+/// this.
+constexpr double kUnitsLimit = 1e15;
 
 extern const FixedTextKernel kPortableKernel;
 
 #ifdef PIPELINE_HAS_X86_KERNELS
-/// Sixteen bytes starting at byte n form a shuffle mask that moves a register's bytes to the front by n and
-/// fills the end with zeros.
-struct ByteShifts {
-  alignas(16) std::array<std::uint8_t, 32> bytes{};
-  constexpr ByteShifts() {
-    for (unsigned i = 0; i < 32; ++i) bytes[i] = static_cast<std::uint8_t>(i < 16 ? i : 0x80);
+/// How to print the sixteen digits of a whole number of units, the first of which is 0 and replaced by a
+/// point.
+struct PrintedForm {
+  /// Sixteen bytes starting at byte n form a shuffle mask that drops the first n digits and moves the point
+  /// to its position.
+  alignas(16) std::array<std::uint8_t, 32> shuffle{};
+  unsigned last_whole_digit = 0;  // a bit
+  unsigned length = 0;            // of sixteen digits and, if there are decimals, the point
+
+  constexpr explicit PrintedForm(unsigned decimals = 0)
+      : last_whole_digit(1u << (15 - decimals)), length(decimals > 0 ? 17 : 16) {
+    const unsigned point = 16 - decimals;
+    for (unsigned i = 0; i < 32; ++i)
+      shuffle[i] = static_cast<std::uint8_t>(i < point ? i : i == point ? 0 : i - 1);
   }
 };
 
-inline constexpr ByteShifts kByteShifts;
+inline constexpr auto kPrintedForms = [] {
+  std::array<PrintedForm, kMaxFixedDecimals + 1> forms;
+  for (unsigned decimals = 0; decimals < forms.size(); ++decimals) forms[decimals] = PrintedForm(decimals);
+  return forms;
+}();
+
+/// The digits to print: '0' is added to all but the first, which is 0 and becomes the point.
+alignas(16) inline constexpr std::array<char, 16> kPointAndZeros = {'.', '0', '0', '0', '0', '0', '0', '0',
+                                                                    '0', '0', '0', '0', '0', '0', '0', '0'};
 
 extern const FixedTextKernel kSse4Kernel;
 bool processor_has_sse4();

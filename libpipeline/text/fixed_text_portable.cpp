@@ -1,50 +1,84 @@
+#include <algorithm>
 #include <cstdint>
 
+#include "libpipeline/numbers/powers_of_ten.h"
 #include "libpipeline/text/eight_digits.h"
 #include "libpipeline/text/fixed_number.h"
 #include "libpipeline/text/fixed_text_kernels.h"
+#include "libpipeline/text/number_printer.h"
 
 namespace pipeline {
 namespace {
 
 // ---- reading ----
 
+/// How to read numbers with a count of decimals.
+struct ReadForm {
+  std::size_t decimals;
+  std::size_t max_count;  // of digits before the point
+  std::size_t
+      end;  // the separator's position after that of the point, which it takes if there are no decimals
+  unsigned shift;       // moves the decimals, at most eight of them, to the end of a word
+  std::uint64_t scale;  // 10 to the power of their count
+  double units_per_one;
+
+  constexpr explicit ReadForm(std::size_t count)
+      : decimals(count),
+        max_count(std::min<std::size_t>(15 - count, 8)),
+        end(count > 0 ? count + 1 : 0),
+        shift(8 * (8 - static_cast<unsigned>(std::clamp<std::size_t>(count, 1, 8)))),
+        scale(kWholePowersOfTen[std::min<std::size_t>(count, 8)]),
+        units_per_one(kPowersOfTen[count]) {}
+};
+
 /// Reads one number and the separator after it; null if the form differs.
-const char* read_number(const char* p, char separator, double& value) {
+[[gnu::always_inline]] inline const char* read_number(const char* p, const ReadForm& form, char separator,
+                                                      double& value) {
   const bool is_negative = *p == '-';
   p += is_negative ? 1 : 0;
   const std::uint64_t before = load_eight(p) - kEightZeros;
   const std::size_t count = leading_digit_count(before);
-  if (count == 0 || p[count] != '.' || p[count + 8] != separator) return nullptr;
-  const std::uint64_t behind = (load_eight(p + count + 1) - kEightZeros) << 8;
-  if (no_digits(behind) != 0) return nullptr;
-  const std::uint64_t units = join_leading_digits(before, count) * 10'000'000 + join_digits(behind);
+  if (count - 1 >= form.max_count || p[count + form.end] != separator) return nullptr;
+  std::uint64_t units = join_leading_digits(before, count);
+  if (form.end > 0) {
+    const std::uint64_t behind = (load_eight(p + count + 1) - kEightZeros) << form.shift;
+    if (p[count] != '.' || no_digits(behind) != 0) return nullptr;
+    units = units * form.scale + join_digits(behind);
+  }
+  if (form.decimals > 8) {
+    const std::size_t more = form.decimals - 8;
+    const std::uint64_t behind = load_eight(p + count + 9) - kEightZeros;
+    if (leading_digit_count(behind) < more) return nullptr;
+    units = units * kWholePowersOfTen[more] + join_leading_digits(behind, more);
+  }
   // Below 2^53 the conversion is exact, so the quotient is the nearest double to the decimal.
-  const double magnitude = static_cast<double>(units) / kUnitsPerOne;
+  const double magnitude = static_cast<double>(units) / form.units_per_one;
   value = is_negative ? -magnitude : magnitude;
-  return p + count + 9;
+  return p + count + form.end + 1;
 }
 
 template <TriangleFrame frame>
-const char* read_triangle(const char* p, Triangle& triangle) {
+[[gnu::always_inline]] inline const char* read_triangle(const char* p, const ReadForm& form,
+                                                        Triangle& triangle) {
   if ((p = vertex_lines<frame>(p)) == nullptr) return nullptr;
   for (Vec3& vertex : triangle) {
-    if ((p = read_number(p, ' ', vertex.x)) == nullptr) return nullptr;
-    if ((p = read_number(p, ' ', vertex.y)) == nullptr) return nullptr;
-    if ((p = read_number(p, '\n', vertex.z)) == nullptr) return nullptr;
+    if ((p = read_number(p, form, ' ', vertex.x)) == nullptr) return nullptr;
+    if ((p = read_number(p, form, ' ', vertex.y)) == nullptr) return nullptr;
+    if ((p = read_number(p, form, '\n', vertex.z)) == nullptr) return nullptr;
   }
   if constexpr (frame == TriangleFrame::scene) return p;
   return *p == '\n' ? p + 1 : nullptr;
 }
 
 template <TriangleFrame frame>
-FixedTextPart read_fixed_text(std::string_view text, std::span<Triangle> triangles) {
+[[gnu::always_inline]] inline FixedTextPart read_triangles(std::string_view text, const ReadForm& form,
+                                                           std::span<Triangle> triangles) {
   FixedTextPart part;
   const char* p = text.data();
   const char* const end = p + text.size();
   for (Triangle& triangle : triangles) {
     if (p >= end) break;
-    const char* const next = read_triangle<frame>(p, triangle);
+    const char* const next = read_triangle<frame>(p, form, triangle);
     if (next == nullptr || next > end) break;
     p = next;
     ++part.triangle_count;
@@ -53,26 +87,38 @@ FixedTextPart read_fixed_text(std::string_view text, std::span<Triangle> triangl
   return part;
 }
 
+/// Compiled once more for the seven decimals of nearly all text.
+template <TriangleFrame frame>
+FixedTextPart read_fixed_text(std::string_view text, int decimals, std::span<Triangle> triangles) {
+  if (decimals == 7) return read_triangles<frame>(text, ReadForm(7), triangles);
+  return read_triangles<frame>(text, ReadForm(static_cast<std::size_t>(decimals)), triangles);
+}
+
 // ---- printing ----
 
-char* write_triangle(char* out, const Triangle& triangle) {
+/// Seven decimals are those of nearly all text.
+char* write_number(char* out, double value, int decimals) {
+  return decimals == 7 ? write_fixed<7>(out, value) : print_scaled(out, value, decimals);
+}
+
+char* write_triangle(char* out, const Triangle& triangle, int decimals) {
   for (const Vec3& vertex : triangle) {
-    if ((out = write_fixed<7>(out, vertex.x)) == nullptr) return nullptr;
+    if ((out = write_number(out, vertex.x, decimals)) == nullptr) return nullptr;
     *out++ = ' ';
-    if ((out = write_fixed<7>(out, vertex.y)) == nullptr) return nullptr;
+    if ((out = write_number(out, vertex.y, decimals)) == nullptr) return nullptr;
     *out++ = ' ';
-    if ((out = write_fixed<7>(out, vertex.z)) == nullptr) return nullptr;
+    if ((out = write_number(out, vertex.z, decimals)) == nullptr) return nullptr;
     *out++ = '\n';
   }
   *out++ = '\n';
   return out;
 }
 
-FixedTextPart write_fixed_text(std::span<const Triangle> triangles, char* out) {
+FixedTextPart write_fixed_text(std::span<const Triangle> triangles, int decimals, char* out) {
   FixedTextPart part;
   char* const begin = out;
   for (const Triangle& triangle : triangles) {
-    char* const next = write_triangle(out, triangle);
+    char* const next = write_triangle(out, triangle, decimals);
     if (next == nullptr) break;
     out = next;
     ++part.triangle_count;

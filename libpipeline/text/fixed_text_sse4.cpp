@@ -9,6 +9,7 @@
 #include <cstdint>
 
 #include "libpipeline/numbers/decimal_units.h"
+#include "libpipeline/numbers/powers_of_ten.h"
 #include "libpipeline/text/eight_digits.h"
 
 #define PIPELINE_SSE4 __attribute__((target("sse4.2,bmi")))
@@ -20,38 +21,59 @@ constexpr std::uint64_t kSignBit = std::uint64_t{1} << 63;
 
 // ---- reading ----
 
-/// For each count of digits before the point, the source bytes of [8 digits before][0][7 digits after]. The
-/// row of an impossible count selects the point, which is not a digit and fails the test; without a point
-/// (16) the count alone fails it.
+/// For each count of digits before the point, the source bytes of the last sixteen digits: those before the
+/// point, and `decimals` after it. The row of an impossible count selects the point, which is not a digit and
+/// fails the test; without a point (16) the count alone fails it.
 struct DigitShuffles {
   alignas(16) std::array<std::array<std::uint8_t, 16>, 17> rows{};
 
-  constexpr DigitShuffles() {
+  constexpr explicit DigitShuffles(unsigned decimals = 0) {
     for (unsigned count = 0; count <= 16; ++count) {
-      const bool is_possible = count >= 1 && count <= 8;
+      const bool is_possible = count >= 1 && count <= 8 && count + 1 + decimals <= 16;
+      const unsigned first = 16 - decimals - count;
       for (unsigned i = 0; i < 16; ++i) {
         std::uint8_t from = is_possible ? 0x80 : static_cast<std::uint8_t>(count & 15);
-        if (is_possible && i < 8 && i + count >= 8) from = static_cast<std::uint8_t>(i + count - 8);
-        if (is_possible && i > 8) from = static_cast<std::uint8_t>(count + i - 8);
+        if (is_possible && i >= first)
+          from = static_cast<std::uint8_t>(i - first + (i >= 16 - decimals ? 1 : 0));
         rows[count][i] = from;
       }
     }
   }
 };
 
-constexpr DigitShuffles kDigitShuffles;
+constexpr auto kDigitShuffles = [] {
+  std::array<DigitShuffles, kMaxFixedDecimals + 1> shuffles;
+  for (unsigned decimals = 0; decimals < shuffles.size(); ++decimals)
+    shuffles[decimals] = DigitShuffles(decimals);
+  return shuffles;
+}();
+
+/// How to read numbers with a count of decimals.
+struct ReadForm {
+  const DigitShuffles& shuffles;
+  std::size_t
+      end;  // the separator's position after that of the point, which it takes if there are no decimals
+  double units_per_one;
+
+  explicit ReadForm(std::size_t decimals)
+      : shuffles(kDigitShuffles[decimals]),
+        end(decimals > 0 ? decimals + 1 : 0),
+        units_per_one(kPowersOfTen[decimals]) {}
+};
 
 /// Reads one number and the separator after it; clears bits of `good` if the form differs.
-PIPELINE_SSE4 inline const char* read_number(const char* p, char separator, std::uint64_t& bits, int& good) {
+PIPELINE_SSE4 inline const char* read_number(const char* p, const ReadForm& form, char separator,
+                                             std::uint64_t& bits, int& good) {
   const std::uint64_t sign = *p == '-' ? kSignBit : 0;
   p += sign >> 63;
   const __m128i text = _mm_loadu_si128(reinterpret_cast<const __m128i*>(p));
-  const auto points = static_cast<unsigned>(_mm_movemask_epi8(_mm_cmpeq_epi8(text, _mm_set1_epi8('.'))));
+  const __m128i point = _mm_set1_epi8(form.end > 0 ? '.' : separator);
+  const auto points = static_cast<unsigned>(_mm_movemask_epi8(_mm_cmpeq_epi8(text, point)));
   const auto count = static_cast<unsigned>(std::countr_zero(points | 0x10000u));
-  const __m128i shuffle = _mm_load_si128(reinterpret_cast<const __m128i*>(kDigitShuffles.rows[count].data()));
+  const __m128i shuffle = _mm_load_si128(reinterpret_cast<const __m128i*>(form.shuffles.rows[count].data()));
   const __m128i digits = _mm_shuffle_epi8(_mm_sub_epi8(text, _mm_set1_epi8('0')), shuffle);
   const __m128i in_range = _mm_cmpeq_epi8(_mm_min_epu8(digits, _mm_set1_epi8(9)), digits);
-  const bool is_in_place = (count < 16) & (p[count + 8] == separator);
+  const bool is_in_place = (count < 16) & (p[count + form.end] == separator);
   good &= _mm_movemask_epi8(in_range) & (is_in_place ? 0xffff : 0);
   // Joins neighboring digits, then pairs, then fours, until 8 digits are one number.
   const __m128i pairs = _mm_maddubs_epi16(digits, _mm_set1_epi16(10 | (1 << 8)));
@@ -59,15 +81,17 @@ PIPELINE_SSE4 inline const char* read_number(const char* p, char separator, std:
   const __m128i packed = _mm_packus_epi32(fours, fours);
   const __m128i eights = _mm_madd_epi16(packed, _mm_set1_epi32(10000 | (1 << 16)));
   const auto both = static_cast<std::uint64_t>(_mm_cvtsi128_si64(eights));
-  const std::uint64_t units = (both & 0xffffffff) * 10'000'000 + (both >> 32);
+  const std::uint64_t units = (both & 0xffffffff) * 100'000'000 + (both >> 32);
   // Below 2^53 the conversion is exact, so the quotient is the nearest double to the decimal.
-  const double value = static_cast<double>(static_cast<std::int64_t>(units)) / kUnitsPerOne;
+  const double value = static_cast<double>(static_cast<std::int64_t>(units)) / form.units_per_one;
   bits = std::bit_cast<std::uint64_t>(value) | sign;
-  return p + count + 9;
+  return p + count + form.end + 1;
 }
 
 template <TriangleFrame frame>
-PIPELINE_SSE4 FixedTextPart read_fixed_text(std::string_view text, std::span<Triangle> triangles) {
+PIPELINE_SSE4 FixedTextPart read_fixed_text(std::string_view text, int decimals,
+                                            std::span<Triangle> triangles) {
+  const ReadForm form(static_cast<std::size_t>(decimals));
   FixedTextPart part;
   const char* p = text.data();
   const char* const end = p + text.size();
@@ -78,9 +102,9 @@ PIPELINE_SSE4 FixedTextPart read_fixed_text(std::string_view text, std::span<Tri
     if (q == nullptr) break;
     int good = 0xffff;
     for (std::size_t v = 0; v < 3; ++v) {
-      q = read_number(q, ' ', bits[3 * v], good);
-      q = read_number(q, ' ', bits[3 * v + 1], good);
-      q = read_number(q, '\n', bits[3 * v + 2], good);
+      q = read_number(q, form, ' ', bits[3 * v], good);
+      q = read_number(q, form, ' ', bits[3 * v + 1], good);
+      q = read_number(q, form, '\n', bits[3 * v + 2], good);
     }
     if (frame == TriangleFrame::stage_text && *q++ != '\n') break;
     if (good != 0xffff || q > end) break;
@@ -94,34 +118,31 @@ PIPELINE_SSE4 FixedTextPart read_fixed_text(std::string_view text, std::span<Tri
 
 // ---- printing ----
 
-PIPELINE_SSE4 inline char* write_number(char* out, bool is_negative, std::uint32_t whole,
-                                        std::uint32_t decimals) {
-  // 8 digits before the point, a 0 in the point's position, 7 digits after it.
-  const __m128i digits = sixteen_digits(whole, decimals);
-  const __m128i characters =
-      _mm_setr_epi8('0', '0', '0', '0', '0', '0', '0', '0', '.', '0', '0', '0', '0', '0', '0', '0');
-  const __m128i text = _mm_add_epi8(digits, characters);
-  // Keeps the last digit before the point even if it is 0.
-  const auto filled =
-      static_cast<unsigned>(_mm_movemask_epi8(_mm_cmpgt_epi8(digits, _mm_setzero_si128()))) | 0x80u;
-  const auto leading_zero_count = static_cast<unsigned>(std::countr_zero(filled));
-  const __m128i shift =
-      _mm_loadu_si128(reinterpret_cast<const __m128i*>(kByteShifts.bytes.data() + leading_zero_count));
+PIPELINE_SSE4 inline char* write_number(char* out, const PrintedForm& form, bool is_negative,
+                                        std::uint32_t first, std::uint32_t last) {
+  const __m128i digits = sixteen_digits(first, last);
+  const __m128i text =
+      _mm_add_epi8(digits, _mm_load_si128(reinterpret_cast<const __m128i*>(kPointAndZeros.data())));
+  const auto filled = static_cast<unsigned>(_mm_movemask_epi8(_mm_cmpgt_epi8(digits, _mm_setzero_si128())));
+  const auto leading_zero_count = static_cast<unsigned>(std::countr_zero(filled | form.last_whole_digit));
+  const __m128i shuffle =
+      _mm_loadu_si128(reinterpret_cast<const __m128i*>(form.shuffle.data() + leading_zero_count));
   *out = '-';
   out += is_negative ? 1 : 0;
-  _mm_storeu_si128(reinterpret_cast<__m128i*>(out), _mm_shuffle_epi8(text, shift));
-  return out + 16 - leading_zero_count;
+  _mm_storeu_si128(reinterpret_cast<__m128i*>(out), _mm_shuffle_epi8(text, shuffle));
+  return out + form.length - leading_zero_count;
 }
 
-/// The nine coordinates of a triangle as whole units of 10^-7, split at the point.
+/// The nine coordinates of a triangle as whole units of the last decimal, split before their last eight
+/// digits.
 struct SplitUnits {
-  alignas(16) std::array<std::int32_t, 12> whole;
-  alignas(16) std::array<std::int32_t, 12> decimals;
+  alignas(16) std::array<std::int32_t, 12> first;
+  alignas(16) std::array<std::int32_t, 12> last;
   unsigned negative = 0;  // bit i: coordinate i is negative and does not round to 0
 };
 
 /// False if a coordinate is too large, not finite, or too close to a tie.
-PIPELINE_SSE4 inline bool split(const double* coordinates, SplitUnits& split_units) {
+PIPELINE_SSE4 inline bool split(const double* coordinates, double scale, SplitUnits& split_units) {
   const __m128d sign_bit = _mm_set1_pd(-0.0);
   const __m128d rounder = _mm_set1_pd(kWholeRounder);
   const __m128d below_half = _mm_set1_pd(kBelowHalf);
@@ -129,24 +150,25 @@ PIPELINE_SSE4 inline bool split(const double* coordinates, SplitUnits& split_uni
   unsigned negative = 0;
   for (std::size_t i = 0; i < 10; i += 2) {
     const __m128d value = i < 8 ? _mm_loadu_pd(coordinates + i) : _mm_load_sd(coordinates + i);
-    const __m128d scaled = _mm_mul_pd(_mm_andnot_pd(sign_bit, value), _mm_set1_pd(kUnitsPerOne));
+    const __m128d scaled = _mm_mul_pd(_mm_andnot_pd(sign_bit, value), _mm_set1_pd(scale));
     const __m128d units = _mm_sub_pd(_mm_add_pd(scaled, rounder), rounder);
     const __m128d distance = _mm_andnot_pd(sign_bit, _mm_sub_pd(scaled, units));
     // The same test as DecimalUnits::is_certain.
     const __m128d reach = _mm_add_pd(distance, _mm_mul_pd(scaled, _mm_set1_pd(kProductError)));
-    good =
-        _mm_and_pd(good, _mm_and_pd(_mm_cmplt_pd(reach, below_half), _mm_cmplt_pd(units, _mm_set1_pd(1e15))));
-    // units / 10^7, off by at most one; the exact remainder corrects it.
-    __m128d whole = _mm_floor_pd(_mm_mul_pd(units, _mm_set1_pd(1e-7)));
-    __m128d decimals = _mm_sub_pd(units, _mm_mul_pd(whole, _mm_set1_pd(kUnitsPerOne)));
-    const __m128d too_large = _mm_cmplt_pd(decimals, _mm_setzero_pd());
-    const __m128d too_small = _mm_cmpge_pd(decimals, _mm_set1_pd(kUnitsPerOne));
-    whole = _mm_sub_pd(whole, _mm_and_pd(too_large, _mm_set1_pd(1)));
-    whole = _mm_add_pd(whole, _mm_and_pd(too_small, _mm_set1_pd(1)));
-    decimals = _mm_add_pd(decimals, _mm_and_pd(too_large, _mm_set1_pd(kUnitsPerOne)));
-    decimals = _mm_sub_pd(decimals, _mm_and_pd(too_small, _mm_set1_pd(kUnitsPerOne)));
-    _mm_storel_epi64(reinterpret_cast<__m128i*>(&split_units.whole[i]), _mm_cvttpd_epi32(whole));
-    _mm_storel_epi64(reinterpret_cast<__m128i*>(&split_units.decimals[i]), _mm_cvttpd_epi32(decimals));
+    good = _mm_and_pd(
+        good, _mm_and_pd(_mm_cmplt_pd(reach, below_half), _mm_cmplt_pd(units, _mm_set1_pd(kUnitsLimit))));
+    // units / 10^8, off by at most one; the exact remainder corrects it.
+    const __m128d eight_digits = _mm_set1_pd(1e8);
+    __m128d first = _mm_floor_pd(_mm_mul_pd(units, _mm_set1_pd(1e-8)));
+    __m128d last = _mm_sub_pd(units, _mm_mul_pd(first, eight_digits));
+    const __m128d too_large = _mm_cmplt_pd(last, _mm_setzero_pd());
+    const __m128d too_small = _mm_cmpge_pd(last, eight_digits);
+    first = _mm_sub_pd(first, _mm_and_pd(too_large, _mm_set1_pd(1)));
+    first = _mm_add_pd(first, _mm_and_pd(too_small, _mm_set1_pd(1)));
+    last = _mm_add_pd(last, _mm_and_pd(too_large, eight_digits));
+    last = _mm_sub_pd(last, _mm_and_pd(too_small, eight_digits));
+    _mm_storel_epi64(reinterpret_cast<__m128i*>(&split_units.first[i]), _mm_cvttpd_epi32(first));
+    _mm_storel_epi64(reinterpret_cast<__m128i*>(&split_units.last[i]), _mm_cvttpd_epi32(last));
     const __m128d below_zero = _mm_and_pd(value, _mm_cmpgt_pd(units, _mm_setzero_pd()));
     negative |= static_cast<unsigned>(_mm_movemask_pd(below_zero)) << i;
   }
@@ -154,15 +176,18 @@ PIPELINE_SSE4 inline bool split(const double* coordinates, SplitUnits& split_uni
   return _mm_movemask_pd(good) == 3;
 }
 
-PIPELINE_SSE4 FixedTextPart write_fixed_text(std::span<const Triangle> triangles, char* out) {
+PIPELINE_SSE4 FixedTextPart write_fixed_text(std::span<const Triangle> triangles, int decimals, char* out) {
+  const PrintedForm form = kPrintedForms[static_cast<std::size_t>(decimals)];
+  const double scale = kPowersOfTen[static_cast<std::size_t>(decimals)];
   FixedTextPart part;
   char* const begin = out;
   for (const Triangle& triangle : triangles) {
     SplitUnits units;
-    if (!split(&triangle[0].x, units)) break;
+    if (!split(&triangle[0].x, scale, units)) break;
     for (unsigned i = 0; i < 9; ++i) {
-      out = write_number(out, ((units.negative >> i) & 1u) != 0, static_cast<std::uint32_t>(units.whole[i]),
-                         static_cast<std::uint32_t>(units.decimals[i]));
+      out =
+          write_number(out, form, ((units.negative >> i) & 1u) != 0,
+                       static_cast<std::uint32_t>(units.first[i]), static_cast<std::uint32_t>(units.last[i]));
       *out++ = i % 3 == 2 ? '\n' : ' ';
     }
     *out++ = '\n';

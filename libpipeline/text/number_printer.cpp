@@ -59,27 +59,6 @@ char* print_sign(char* out, bool is_negative) {
   return out + (is_negative ? 1 : 0);
 }
 
-/// The fast path for a fixed count of decimals: prints the scaled number as a whole number. Null where that
-/// has more than 51 bits, or lies so close to a tie that the rounding of the product matters.
-char* print_scaled(char* out, double value, int decimals) {
-  const auto n = static_cast<std::size_t>(decimals);
-  const DecimalUnits rounded(value, kPowersOfTen[n]);
-  if (decimals > 15 || !rounded.is_certain()) return nullptr;
-  const auto units = static_cast<std::uint64_t>(rounded.whole);
-  out = print_sign(out, (value < 0) & (units != 0));
-  // Truncation instead of a division: exact unless the decimals were rounded up to the next whole number.
-  auto whole = static_cast<std::uint64_t>(std::fabs(value));
-  std::uint64_t behind = units - whole * kWholePowersOfTen[n];
-  if (behind >= kWholePowersOfTen[n]) {
-    ++whole;
-    behind -= kWholePowersOfTen[n];
-  }
-  out = print_before_point(out, whole);
-  if (decimals == 0) return out;
-  *out++ = '.';
-  return print_digits(out, behind, decimals);
-}
-
 /// The count of digits of a number below 10^17.
 int digit_count(std::uint64_t number) {
   // bit_width * log10(2), rounded down, is the count or one less; the table decides.
@@ -133,13 +112,33 @@ char* without_sign_of_zero(char* first, char* last) {
 
 }  // namespace
 
+char* print_scaled(char* out, double value, int decimals) {
+  const auto n = static_cast<std::size_t>(decimals);
+  const DecimalUnits rounded(value, kPowersOfTen[n]);
+  if (!rounded.is_certain()) return nullptr;
+  const auto units = static_cast<std::uint64_t>(rounded.whole);
+  out = print_sign(out, (value < 0) & (units != 0));
+  // Truncation instead of a division: exact unless the decimals were rounded up to the next whole number.
+  auto whole = static_cast<std::uint64_t>(std::fabs(value));
+  std::uint64_t behind = units - whole * kWholePowersOfTen[n];
+  if (behind >= kWholePowersOfTen[n]) {
+    ++whole;
+    behind -= kWholePowersOfTen[n];
+  }
+  out = print_before_point(out, whole);
+  if (decimals == 0) return out;
+  *out++ = '.';
+  return print_digits(out, behind, decimals);
+}
+
 char* print_number(char* out, double hi, double lo, NumberFormat format) {
   assert(std::isfinite(hi) && std::isfinite(lo));
   if (format.shortest) {
     char* const end = print_shortest(out, hi);
     return end != nullptr ? end : std::to_chars(out, out + kMaxNumberLength, hi == 0 ? 0.0 : hi).ptr;
   }
-  if (char* const end = lo == 0 ? print_scaled(out, hi, format.decimals) : nullptr) return end;
+  if (lo == 0 && format.decimals <= kMaxScaledDecimals)
+    if (char* const end = print_scaled(out, hi, format.decimals)) return end;
   char* const end =
       lo == 0 ? std::to_chars(out, out + kMaxNumberLength, hi, std::chars_format::fixed, format.decimals).ptr
               : print_exact_sum(out, hi, lo, format.decimals);

@@ -24,6 +24,13 @@ constexpr std::size_t kMaxNumberLength = 1 + 309 + 1 + kMaxDecimals;
 /// the shortest form uses hi alone. `out` must have room for kMaxNumberLength characters.
 char* print_number(char* out, double hi, double lo, NumberFormat format);
 
+constexpr int kMaxScaledDecimals = 15;
+
+/// The fast path of print_number for a fixed count of decimals, at most kMaxScaledDecimals: prints the scaled
+/// number as a whole number, of at most 16 digits. Null where that has more than 51 bits, or lies so close to
+/// a tie that the rounding of the product matters. 16 characters after the end may be overwritten.
+char* print_scaled(char* out, double value, int decimals);
+
 /// The shortest text that reads back to `value`, which must be finite.
 std::string shortest_text(double value);
 

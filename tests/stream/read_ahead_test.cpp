@@ -110,6 +110,14 @@ TEST(ReadAhead, ParsesPartsOfTheText) {
   }
 }
 
+TEST(ReadAhead, ParsesTextWithAnyDecimals) {
+  for (const int decimals : {0, 5, 8, 14}) {
+    const std::string text = odd_stage_text(5000, kNoOddText, 1, {decimals, ""});
+    const Counts counts = expect_same_by_parts(text, 1000);
+    EXPECT_GE(counts.batches, static_cast<int>((text.size() - (1 << 16)) / 1000)) << decimals;
+  }
+}
+
 TEST(ReadAhead, LeavesOtherTextToTheReader) {
   for (std::uint64_t seed = 3; seed < 10; ++seed) {
     EXPECT_GE(expect_same_by_parts(odd_stage_text(3000, 1000, seed), 1000).small_batches, 2);

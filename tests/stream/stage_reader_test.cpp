@@ -49,8 +49,9 @@ TEST(StageReader, TrianglesAreTheSameByEveryPath) {
   for (const std::string header : {"", "attributes w color normal\n"}) {
     const std::string columns = header.empty() ? "" : " 2.5 255 0 0.125 0 -1 0.5";
     for (const std::string vertex :
-         {"0.1000000 -2.0000000 3.0000000", "0.123456789 5 -.5", " \t0.125 5 -.5",
-          "0.30000000000000004 1e2 7", "123456789.25 12345678.1234567 0.12345678"}) {
+         {"0.1000000 -2.0000000 3.0000000", "0.10000000 -2.00000000 3.00000000", "0.100 -2.000 3.000",
+          "1 -2 3", "0.123456789 5 -.5", " \t0.125 5 -.5", "0.30000000000000004 1e2 7",
+          "123456789.25 12345678.1234567 0.12345678"}) {
       const auto text = [&](const std::string& comment) {
         const std::string line = vertex + columns + comment + "\n";
         return header + line + line + line + "\n" + line + line + line;

@@ -18,42 +18,45 @@ namespace {
 class FixedText : public testing::TestWithParam<FixedTextKernel> {
  protected:
   /// Reads from a copy that is followed by digits, which must not become part of the last number.
-  static FixedTextPart read(const std::string& text, std::vector<Triangle>& triangles) {
+  static FixedTextPart read(const std::string& text, std::vector<Triangle>& triangles, int decimals = 7) {
     const std::string with_slack = text + std::string(kFixedTextSlack, '7');
-    return GetParam().read({with_slack.data(), text.size()}, triangles);
+    return GetParam().read({with_slack.data(), text.size()}, decimals, triangles);
   }
 
-  static FixedTextPart read_scene(const std::string& text, std::vector<Triangle>& triangles) {
+  static FixedTextPart read_scene(const std::string& text, std::vector<Triangle>& triangles,
+                                  int decimals = 7) {
     const std::string with_slack = text + std::string(kFixedTextSlack, '7');
-    return GetParam().read_scene({with_slack.data(), text.size()}, triangles);
+    return GetParam().read_scene({with_slack.data(), text.size()}, decimals, triangles);
   }
 
-  static std::size_t count_read(const std::string& text) {
+  static std::size_t count_read(const std::string& text, int decimals = 7) {
     std::vector<Triangle> triangles(10);
-    return read(text, triangles).triangle_count;
+    return read(text, triangles, decimals).triangle_count;
   }
 
-  static std::string write(const std::vector<Triangle>& triangles, std::size_t& count) {
+  static std::string write(const std::vector<Triangle>& triangles, std::size_t& count, int decimals = 7) {
     std::string out(triangles.size() * kMaxFixedTriangleLength + kFixedTextSlack, '\0');
-    const FixedTextPart part = GetParam().write(triangles, out.data());
+    const FixedTextPart part = GetParam().write(triangles, decimals, out.data());
     count = part.triangle_count;
     out.resize(part.length);
     return out;
   }
 };
 
-std::string general_text(double value) {
+std::string general_text(double value, int decimals = 7) {
   std::array<char, 400> text;
   const auto end =
-      std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::fixed, 7).ptr;
+      std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::fixed, decimals).ptr;
   const std::string printed(text.data(), end);
-  return printed == "-0.0000000" ? "0.0000000" : printed;
+  return printed[0] == '-' && printed.find_first_not_of("-0.") == std::string::npos ? printed.substr(1)
+                                                                                    : printed;
 }
 
-std::string general_text(const Triangle& t) {
+std::string general_text(const Triangle& t, int decimals = 7) {
   std::string text;
   for (const Vec3& v : t)
-    text += general_text(v.x) + " " + general_text(v.y) + " " + general_text(v.z) + "\n";
+    text += general_text(v.x, decimals) + " " + general_text(v.y, decimals) + " " +
+            general_text(v.z, decimals) + "\n";
   return text + "\n";
 }
 
@@ -61,6 +64,24 @@ double general_number(const std::string& text) {
   double value = 0;
   std::from_chars(text.data(), text.data() + text.size(), value);
   return value;
+}
+
+/// `digits` after `whole`, or the bare whole number if there are none.
+std::string number_text(const std::string& whole, const std::string& digits) {
+  return digits.empty() ? whole : whole + "." + digits;
+}
+
+/// A triangle whose numbers are all `number`.
+std::string text_of_nine(const std::string& number) {
+  const std::string line = number + " " + number + " " + number + "\n";
+  return line + line + line + "\n";
+}
+
+/// The counts of decimals that the kernels read and print.
+std::vector<int> all_decimals() {
+  std::vector<int> counts;
+  for (int count = 0; count <= kMaxFixedDecimals; ++count) counts.push_back(count);
+  return counts;
 }
 
 const std::string kUnit =
@@ -108,6 +129,51 @@ TEST_P(FixedText, EveryOneOfItsBytesMatters) {
       ASSERT_EQ(count_read(text), is_digit_for_digit || text == kUnit ? 1u : 0u) << i << " " << byte;
     }
   }
+}
+
+TEST_P(FixedText, EveryOneOfItsBytesMattersWithAnyDecimals) {
+  for (std::size_t decimals = 0; decimals < kMaxFixedDecimals; ++decimals) {
+    const std::string whole = text_of_nine(number_text("12", std::string(decimals, '5')));
+    const auto count = [&](const std::string& text) { return count_read(text, static_cast<int>(decimals)); };
+    ASSERT_EQ(count(whole), 1u) << decimals;
+    for (std::size_t i = 0; i < whole.size(); ++i)
+      for (const char byte : {'7', '/', ':', '.', ' ', '\n', '-', '+', 'e', '\r'}) {
+        std::string text = whole;
+        text[i] = byte;
+        const bool is_digit_for_digit = byte == '7' && whole[i] >= '0' && whole[i] <= '9';
+        const bool is_negative_now = byte == '-' && whole[i] == '1';  // -2.5 for 12.5
+        const bool ends_earlier = decimals == 0 && byte == '\n' && i == whole.size() - 3;
+        const bool is_fine = is_digit_for_digit || is_negative_now || ends_earlier || text == whole;
+        ASSERT_EQ(count(text), is_fine ? 1u : 0u) << decimals << " " << i << " " << byte;
+      }
+  }
+}
+
+TEST_P(FixedText, LeavesNumbersWithOtherDecimalsAlone) {
+  for (const int decimals : all_decimals())
+    for (const int others : {decimals - 1, decimals + 1, decimals + 5}) {
+      if (others < 0) continue;
+      const auto digits = [](int count) { return std::string(static_cast<std::size_t>(count), '1'); };
+      const std::string number = number_text("3", digits(decimals));
+      std::string text = text_of_nine(number);
+      ASSERT_EQ(count_read(text, decimals), 1u) << decimals;
+      text.replace(0, number.size(), number_text("3", digits(others)));
+      ASSERT_EQ(count_read(text, decimals), 0u) << decimals << " " << others;
+    }
+}
+
+TEST_P(FixedText, ReadsAtMostEightDigitsBeforeThePointAndFifteenInAll) {
+  for (const int decimals : all_decimals())
+    for (int count = 1; count <= 40; ++count) {
+      const std::string number = number_text(std::string(static_cast<std::size_t>(count), '9'),
+                                             std::string(static_cast<std::size_t>(decimals), '9'));
+      std::vector<Triangle> triangles(1);
+      const bool is_read = read(text_of_nine("-" + number), triangles, decimals).triangle_count == 1;
+      ASSERT_EQ(is_read, count <= 8 && count + decimals <= 15) << number;
+      if (is_read) {
+        ASSERT_EQ(triangles[0][2].z, -general_number(number)) << number;
+      }
+    }
 }
 
 TEST_P(FixedText, LeavesEveryOtherFormAlone) {
@@ -158,22 +224,26 @@ TEST_P(FixedText, StopsBeforeATriangleOfASceneThatIsNotThereAsAWhole) {
   }
 }
 
-/// A decimal of up to eight digits before the point and seven after it.
-std::string random_word(std::mt19937_64& random) {
-  const std::uint64_t units = random() % 1'000'000'000'000'000 >> (random() % 50);
-  std::string decimals = std::to_string(units % 10'000'000);
-  decimals.insert(0, 7 - decimals.size(), '0');
-  return (random() % 2 == 0 ? "-" : "") + std::to_string(units / 10'000'000) + "." + decimals;
+/// A decimal of up to eight digits before the point, and 15 in all.
+std::string random_word(std::mt19937_64& random, int decimals) {
+  const std::uint64_t limit = decimals < 7 ? 100'000'000 : 1'000'000'000'000'000;
+  std::string digits = std::to_string(random() % limit >> (random() % 50));
+  if (decimals < 7)
+    for (int i = 0; i < decimals; ++i) digits += static_cast<char>('0' + random() % 10);
+  const auto count = static_cast<std::size_t>(decimals);
+  if (digits.size() <= count) digits.insert(0, count + 1 - digits.size(), '0');
+  const std::size_t point = digits.size() - count;
+  return (random() % 2 == 0 ? "-" : "") + number_text(digits.substr(0, point), digits.substr(point));
 }
 
 /// Reads random triangles and compares with from_chars.
-void read_random(const ReadFixedText read_kernel, int triangle_count, std::uint64_t seed) {
+void read_random(const ReadFixedText read_kernel, int decimals, int triangle_count, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   for (int i = 0; i < triangle_count; ++i) {
     std::array<double, 9> expected;
     std::string text;
     for (std::size_t k = 0; k < 9; ++k) {
-      const std::string word = random_word(random);
+      const std::string word = random_word(random, decimals);
       expected[k] = general_number(word);
       text += word + (k % 3 == 2 ? "\n" : " ");
     }
@@ -181,18 +251,20 @@ void read_random(const ReadFixedText read_kernel, int triangle_count, std::uint6
     const std::size_t length = text.size();
     text.append(kFixedTextSlack, '7');
     std::array<Triangle, 1> triangle;
-    ASSERT_EQ(read_kernel({text.data(), length}, triangle).triangle_count, 1u) << text;
+    ASSERT_EQ(read_kernel({text.data(), length}, decimals, triangle).triangle_count, 1u) << text;
     const auto bits = std::bit_cast<std::array<std::uint64_t, 9>>(triangle);
     ASSERT_EQ(bits, (std::bit_cast<std::array<std::uint64_t, 9>>(expected))) << text;
   }
 }
 
 TEST_P(FixedText, ReadsWhatTheGeneralReaderReads) {
-  read_random(GetParam().read, 30000, 1);
+  read_random(GetParam().read, 7, 30000, 1);
+  for (const int decimals : all_decimals()) read_random(GetParam().read, decimals, 3000, 1);
 }
 
 TEST_P(FixedText, LongReadsWhatTheGeneralReaderReadsOnAHundredMillionNumbers) {
-  read_random(GetParam().read, 100'000'000 / 9, 4);
+  for (const int decimals : all_decimals())
+    read_random(GetParam().read, decimals, (decimals == 7 ? 100'000'000 : 10'000'000) / 9, 4);
 }
 
 TEST_P(FixedText, PrintsZeroWithoutASign) {
@@ -200,6 +272,36 @@ TEST_P(FixedText, PrintsZeroWithoutASign) {
   EXPECT_EQ(
       write({Triangle{{{-0.0, -4e-8, 0}, {1, -1, -1e-300}, {-5.1e-8, 0, 0}}}}, count),
       "0.0000000 0.0000000 0.0000000\n1.0000000 -1.0000000 0.0000000\n-0.0000001 0.0000000 0.0000000\n\n");
+}
+
+TEST_P(FixedText, PrintsAnyDecimals) {
+  std::size_t count = 0;
+  const Triangle triangle = {{{9.9961, -9.9961, 1234}, {-0.0, -0x1p-60, 0.5078125}, {99.76, 1, -7.625}}};
+  EXPECT_EQ(write({triangle}, count, 0), "10 -10 1234\n0 0 1\n100 1 -8\n\n");
+  EXPECT_EQ(write({triangle}, count, 1), "10.0 -10.0 1234.0\n0.0 0.0 0.5\n99.8 1.0 -7.6\n\n");
+  EXPECT_EQ(write({triangle}, count, 2), "");  // -7.625 is a tie
+  EXPECT_EQ(write({triangle}, count, 3), "9.996 -9.996 1234.000\n0.000 0.000 0.508\n99.760 1.000 -7.625\n\n");
+  EXPECT_EQ(write({{triangle[1], triangle[2], {1e-9, 0.1234567891234, 1}}}, count, 9),
+            "0.000000000 0.000000000 0.507812500\n99.760000000 1.000000000 -7.625000000\n"
+            "0.000000001 0.123456789 1.000000000\n\n");
+  EXPECT_EQ(write({{triangle[1], triangle[2], {9.9999999999996, -0.9999999999996, 123.456}}}, count, 12),
+            "0.000000000000 0.000000000000 0.507812500000\n99.760000000000 1.000000000000 -7.625000000000\n"
+            "10.000000000000 -1.000000000000 123.456000000000\n\n");
+  EXPECT_EQ(write({{triangle[1], triangle[1], {1, -7.625, 0.25}}}, count, 14),
+            "0.00000000000000 0.00000000000000 0.50781250000000\n"
+            "0.00000000000000 0.00000000000000 0.50781250000000\n"
+            "1.00000000000000 -7.62500000000000 0.25000000000000\n\n");
+}
+
+TEST_P(FixedText, PrintsFifteenDigits) {
+  for (const int decimals : all_decimals()) {
+    const double largest = 999'999'999'999'999 / std::pow(10.0, decimals);
+    for (const double value : {largest, -largest}) {
+      const Triangle triangle = {{{value, 0, 0}, {0, 1, 0}, {0, 0, value}}};
+      std::size_t count = 0;
+      EXPECT_EQ(write({triangle}, count, decimals), general_text(triangle, decimals)) << decimals;
+    }
+  }
 }
 
 TEST_P(FixedText, PrintsUpToEightDigitsBeforeThePoint) {
@@ -218,6 +320,11 @@ TEST_P(FixedText, LeavesToTheGeneralPrinterWhatItCannotPrint) {
     EXPECT_EQ(write({Triangle{{{0, 0, 0}, {0, value, 0}, {0, 0, 0}}}}, count), "") << value;
     EXPECT_EQ(count, 0u) << value;
   }
+  for (const int decimals : all_decimals())
+    for (const double value : {3e15, 0x1p60, 1e300, HUGE_VAL, -HUGE_VAL, std::nan("")}) {
+      std::size_t count = 1;
+      EXPECT_EQ(write({Triangle{{{0, 0, 0}, {0, 0, 0}, {0, 0, value}}}}, count, decimals), "") << value;
+    }
 }
 
 // An odd multiple of 2^-8 ends in a 5 at the eighth decimal.
@@ -228,6 +335,30 @@ TEST_P(FixedText, LeavesEveryTieToTheGeneralPrinter) {
     std::size_t count = 1;
     write({Triangle{{{0, 0, 0}, {random() % 2 == 0 ? tie : -tie, 0, 0}, {0, 0, 0}}}}, count);
     ASSERT_EQ(count, 0u) << tie;
+  }
+}
+
+// An odd multiple of 2^-(n + 1) ends in a 5 at decimal n + 1.
+TEST_P(FixedText, LeavesTiesWithAnyDecimalsAndPrintsWhatLiesBesideThem) {
+  std::mt19937_64 random(7);
+  for (const int decimals : all_decimals()) {
+    int printed_count = 0;
+    for (int i = 0; i < 3000; ++i) {
+      const auto odd = static_cast<double>(2 * (random() % (1u << 12 >> random() % 12)) + 1);
+      const double tie = std::ldexp(odd, -decimals - 1);
+      std::size_t count = 1;
+      write({Triangle{{{0, 0, 0}, {random() % 2 == 0 ? tie : -tie, 0, 0}, {0, 0, 0}}}}, count, decimals);
+      ASSERT_EQ(count, 0u) << decimals << " " << tie;
+      const double unit = std::pow(10.0, -decimals);
+      for (const double value :
+           {std::nextafter(tie, 0), std::nextafter(tie, HUGE_VAL), tie - unit / 64, tie + unit / 64}) {
+        const Triangle triangle = {{{0, 0, 0}, {0, 0, value}, {-value, 0, 0}}};
+        const std::string text = write({triangle}, count, decimals);
+        ASSERT_EQ(text, count > 0 ? general_text(triangle, decimals) : "") << decimals << " " << tie;
+        printed_count += count > 0 ? 1 : 0;
+      }
+    }
+    EXPECT_GE(printed_count, 3000) << decimals;
   }
 }
 
@@ -254,17 +385,20 @@ TEST_P(FixedText, PrintsPowersAndTheirNeighborsOrLeavesThem) {
   std::vector<double> values;
   for (int exponent = -9; exponent <= 9; ++exponent) values.push_back(std::pow(10.0, exponent));
   for (int exponent = -60; exponent <= 54; ++exponent) values.push_back(std::ldexp(1.0, exponent));
-  int printed_count = 0;
-  for (const double power : values)
-    for (const double step : {0.0, 1e-7, 0.5e-7, 0.49e-7, 1e-15})
-      for (const double value : {power - step, power + step, step - power}) {
-        const Triangle triangle = {{{value, 0, 0}, {0, value, 0}, {0, 0, value}}};
-        std::size_t count = 0;
-        const std::string text = write({triangle}, count);
-        ASSERT_EQ(text, count > 0 ? general_text(triangle) : "") << value;
-        printed_count += count > 0 ? 1 : 0;
-      }
-  EXPECT_GT(printed_count, 800);
+  for (const int decimals : all_decimals()) {
+    const double unit = std::pow(10.0, -decimals);
+    int printed_count = 0;
+    for (const double power : values)
+      for (const double step : {0.0, unit, 0.5 * unit, 0.49 * unit, 1e-8 * unit})
+        for (const double value : {power - step, power + step, step - power}) {
+          const Triangle triangle = {{{value, 0, 0}, {0, value, 0}, {0, 0, value}}};
+          std::size_t count = 0;
+          const std::string text = write({triangle}, count, decimals);
+          ASSERT_EQ(text, count > 0 ? general_text(triangle, decimals) : "") << decimals << " " << value;
+          printed_count += count > 0 ? 1 : 0;
+        }
+    EXPECT_GT(printed_count, 800) << decimals;
+  }
 }
 
 TEST_P(FixedText, StopsBeforeTheFirstTriangleItCannotPrint) {
@@ -276,35 +410,52 @@ TEST_P(FixedText, StopsBeforeTheFirstTriangleItCannotPrint) {
 }
 
 /// Prints random coordinates, many of them next to ties, and compares with the general printer.
-void print_random(const WriteFixedText write_kernel, int triangle_count, std::uint64_t seed) {
+void print_random(const WriteFixedText write_kernel, int decimals, int triangle_count, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   std::uniform_real_distribution<double> mantissa(-1, 1);
   std::string out(kMaxFixedTriangleLength + kFixedTextSlack, '\0');
+  const double scale = std::pow(10.0, decimals);
   int printed_count = 0;
   for (int i = 0; i < triangle_count; ++i) {
     std::array<double, 9> values;
     for (double& value : values) {
-      value = std::ldexp(mantissa(random), static_cast<int>(random() % 60) - 33);
+      value = std::ldexp(mantissa(random), static_cast<int>(random() % 60) - 10 - 10 * decimals / 3);
       if (random() % 4 != 0) continue;
-      value = (std::floor(std::fabs(value) * 1e7) + 0.5) / 1e7;
+      value = (std::floor(std::fabs(value) * scale) + 0.5) / scale;
       for (std::uint64_t steps = random() % 4; steps > 0; --steps)
         value = std::nextafter(value, random() % 2 == 0 ? 1e9 : -1e9);
     }
     const auto triangle = std::bit_cast<Triangle>(values);
-    const FixedTextPart part = write_kernel({&triangle, 1}, out.data());
+    const FixedTextPart part = write_kernel({&triangle, 1}, decimals, out.data());
     if (part.triangle_count == 0) continue;
     ++printed_count;
-    ASSERT_EQ(out.substr(0, part.length), general_text(triangle));
+    ASSERT_EQ(out.substr(0, part.length), general_text(triangle, decimals));
   }
   EXPECT_GT(printed_count, triangle_count / 10);
 }
 
 TEST_P(FixedText, PrintsWhatTheGeneralPrinterPrints) {
-  print_random(GetParam().write, 30000, 2);
+  print_random(GetParam().write, 7, 30000, 2);
+  for (const int decimals : all_decimals()) print_random(GetParam().write, decimals, 3000, 2);
 }
 
 TEST_P(FixedText, LongPrintsWhatTheGeneralPrinterPrintsOnAHundredMillionNumbers) {
-  print_random(GetParam().write, 100'000'000 / 9, 3);
+  for (const int decimals : all_decimals())
+    print_random(GetParam().write, decimals, (decimals == 7 ? 100'000'000 : 10'000'000) / 9, 3);
+}
+
+TEST(DecimalsOfText, AreThoseOfTheFirstNumber) {
+  EXPECT_EQ(decimals_of_stage_text("1.25 0.123 3\n"), 2);
+  EXPECT_EQ(decimals_of_stage_text("-1.0000000 0.123 3\n"), 7);
+  EXPECT_EQ(decimals_of_stage_text("12 0.123 3\n"), 0);
+  EXPECT_EQ(decimals_of_stage_text("12\n0.123\n"), 0);
+  EXPECT_EQ(decimals_of_stage_text("0.12345678901234 1"), 14);
+  EXPECT_EQ(decimals_of_stage_text("0.123456789012345678901234567890 1"), 14);
+  EXPECT_EQ(decimals_of_stage_text("1."), 0);
+  EXPECT_EQ(decimals_of_stage_text(""), 0);
+  EXPECT_EQ(decimals_of_scene("triangle\n1.25 0.123 3\n"), 2);
+  EXPECT_EQ(decimals_of_scene("triangle"), 0);
+  EXPECT_EQ(decimals_of_scene(""), 0);
 }
 
 INSTANTIATE_TEST_SUITE_P(Kernels, FixedText,

@@ -10,7 +10,7 @@ import unittest
 from toolbox import HEADER, HEADERS, SOURCE, ToolTest, run
 
 KERNELS = ("portable", "sse4", "avx2")
-DIGITS = ([], ["--digits", "3"], ["--digits", "12"], ["--digits", "17"], ["--digits", "exact"],
+DIGITS = ([], *(["--digits", str(decimals)] for decimals in range(18)), ["--digits", "exact"],
           ["--digits", "exact", "--precision", "double"], ["--precision", "double"])
 
 
