@@ -16,7 +16,8 @@ BallVec3 apply_in_balls(const AffineMatrix& m, const Vec3& origin, const Vec3& p
 
 }  // namespace
 
-VertexTransform::VertexTransform(const AffineMatrix& world_from_model) : matrix_(world_from_model) {
+VertexTransform::VertexTransform(const AffineMatrix& world_from_model)
+    : matrix_(world_from_model), is_identity_(world_from_model.rows == identity().rows) {
   set_coefficients();
 }
 
@@ -34,6 +35,7 @@ void VertexTransform::set_coefficients() {
 
 void VertexTransform::apply(TriangleBatch& batch, std::size_t begin, std::size_t end,
                             CoordinateRounder& rounder) const {
+  if (is_identity_) return;
   const RoundingTest test = rounder.rounding_test();
   TransformedBlock block;
   for (std::size_t first = begin; first < end; first += VertexBlock::kTriangles) {

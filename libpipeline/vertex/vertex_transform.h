@@ -43,6 +43,7 @@ class VertexTransform {
   void set_coefficients();
 
   AffineMatrix matrix_;
+  bool is_identity_ = false;  // so that the images are the vertices
   AffineCoefficients coefficients_;
 };
 

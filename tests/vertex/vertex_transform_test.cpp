@@ -114,6 +114,22 @@ TEST(ModelTransform, PrintsTheCorrectlyRoundedNumbers) {
   });
 }
 
+// The nearest doubles to ties, too: 5 at the seventh decimal.
+TEST(ModelTransform, PrintsTheCorrectlyRoundedNumbersOfUntransformedVertices) {
+  for_every_format(4, 30, [](RandomNumbers& random, NumberFormat format) {
+    std::vector<Vec3> points = random_points(random, 30, 1e6);
+    for (Vec3& p : points) p.x = std::floor(p.x) + random.whole(0, 999'999) / 1e6 + 5e-7;
+    expect_model<448>(Model<448>(), points, format, 1e6);
+  });
+}
+
+// 3 times the double 1/3 is 1 - 2^-54, of which 1 is the nearest double.
+TEST(ModelTransform, DoesNotTakeForTheIdentityWhatIsNearIt) {
+  Model<448> model;
+  model.scale({3, 3, 3}).scale({1 / 3.0, 1 / 3.0, 1 / 3.0});
+  expect_model<448>(model, {{3.5, 0.25, 1.75}}, {17}, 1e6);
+}
+
 TEST(ModelTransform, PrintsTheCorrectlyRoundedNumbersOfExtremeScales) {
   for_every_format(2, 20, [](RandomNumbers& random, NumberFormat format) {
     const double scale = random.with_exponent(-990, 990);
