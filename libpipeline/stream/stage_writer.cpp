@@ -104,10 +104,21 @@ void StageWriter::write(const TriangleBatch& batch) {
   const bool may_be_fixed = format_.decimals <= kMaxFixedDecimals && !format_.shortest &&
                             batch.low_parts.empty() && batch.unclipped.empty() && !columns_.any();
   std::size_t index = 0;
+  std::size_t end_of_run = 0;
   while (index < batch.size()) {
-    if (may_be_fixed) index += write_fixed_form(batch, index);
+    if (may_be_fixed && index >= end_of_run) end_of_run = end_of_numbered_run(batch, index);
+    if (index < end_of_run) index += write_fixed_form(batch, index, end_of_run);
     if (index < batch.size()) write_triangle(batch, index++);
   }
+}
+
+/// The end of the triangles from `begin` on that need no `triangle N`, or of a part of them.
+std::size_t StageWriter::end_of_numbered_run(const TriangleBatch& batch, std::size_t begin) const {
+  constexpr std::size_t kMaxAtOnce = 256;
+  const std::size_t limit = std::min(batch.size(), begin + kMaxAtOnce);
+  std::size_t end = begin;
+  while (end < limit && (bare_ || batch.numbers[end] == next_number_ + (end - begin))) ++end;
+  return end;
 }
 
 /// Looks at every coordinate until one keeps four digits in the text, which settles the question.
@@ -125,14 +136,9 @@ void StageWriter::note_sizes(const TriangleBatch& batch) {
   }
 }
 
-/// Prints triangles from `begin` on as long as they need no `triangle N` and have the fixed form; returns how
-/// many.
-std::size_t StageWriter::write_fixed_form(const TriangleBatch& batch, std::size_t begin) {
-  constexpr std::size_t kMaxAtOnce = 256;
-  const std::size_t limit = std::min(batch.size(), begin + kMaxAtOnce);
-  std::size_t end = begin;
-  while (end < limit && (bare_ || batch.numbers[end] == next_number_ + (end - begin))) ++end;
-  if (end == begin) return 0;
+/// Prints the triangles [begin, end), which need no `triangle N`, as long as they have the fixed form;
+/// returns how many.
+std::size_t StageWriter::write_fixed_form(const TriangleBatch& batch, std::size_t begin, std::size_t end) {
   char* const out = text_.reserve((end - begin) * kMaxFixedTriangleLength + kFixedTextSlack);
   const auto triangles = std::span(batch.triangles).subspan(begin, end - begin);
   const FixedTextPart part = fixed_text_kernel().write(triangles, format_.decimals, out);

@@ -27,7 +27,8 @@ class StageWriter {
  private:
   void write_number(std::uint64_t number);
   void note_sizes(const TriangleBatch& batch);
-  std::size_t write_fixed_form(const TriangleBatch& batch, std::size_t begin);
+  [[nodiscard]] std::size_t end_of_numbered_run(const TriangleBatch& batch, std::size_t begin) const;
+  std::size_t write_fixed_form(const TriangleBatch& batch, std::size_t begin, std::size_t end);
   void write_triangle(const TriangleBatch& batch, std::size_t index);
   void write_clipped(const ClipTriangle& unclipped);
   char* print_vertex(char* out, const Vec3& vertex, const Vec3& low_part);

@@ -46,8 +46,8 @@ using ReadFixedScene = FixedTextPart (*)(std::string_view text, int decimals, st
 
 /// Prints triangles in fixed form and returns how many it printed. Stops before a triangle with a coordinate
 /// that has more than 15 digits (kernels differ in 16), or is so close to a tie that only exact arithmetic
-/// can round it. `out` must have room for kMaxFixedTriangleLength characters per triangle, and
-/// kFixedTextSlack more.
+/// can round it (one kernel has it). `out` must have room for kMaxFixedTriangleLength characters per
+/// triangle, and kFixedTextSlack more.
 using WriteFixedText = FixedTextPart (*)(std::span<const Triangle> triangles, int decimals, char* out);
 
 /// One implementation of all three.

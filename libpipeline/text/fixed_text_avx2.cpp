@@ -11,7 +11,7 @@
 #include "libpipeline/numbers/decimal_units.h"
 #include "libpipeline/numbers/powers_of_ten.h"
 
-#define PIPELINE_AVX2 __attribute__((target("avx2,bmi")))
+#define PIPELINE_AVX2 __attribute__((target("avx2,bmi,fma")))
 
 namespace pipeline {
 namespace {
@@ -23,18 +23,31 @@ struct SplitUnits {
   unsigned negative;  // bit i: coordinate i is negative and does not round to 0
 };
 
-/// Clears the lanes of `good` whose coordinate is too large, not finite, or too close to a tie.
+/// Clears the lanes of `good` whose coordinate is too large or not finite or, unless `exactly`, too close to
+/// a tie.
+template <bool exactly>
 PIPELINE_AVX2 inline SplitUnits split(__m256d values, __m256d scale, __m256d& good) {
   const __m256d sign_bit = _mm256_set1_pd(-0.0);
   const __m256d rounder = _mm256_set1_pd(kWholeRounder);
   const __m256d one = _mm256_set1_pd(1);
   const __m256d eight_digits = _mm256_set1_pd(1e8);
-  const __m256d scaled = _mm256_mul_pd(_mm256_andnot_pd(sign_bit, values), scale);
-  const __m256d units = _mm256_sub_pd(_mm256_add_pd(scaled, rounder), rounder);
-  const __m256d distance = _mm256_andnot_pd(sign_bit, _mm256_sub_pd(scaled, units));
-  // The same test as DecimalUnits::is_certain.
-  const __m256d reach = _mm256_add_pd(distance, _mm256_mul_pd(scaled, _mm256_set1_pd(kProductError)));
-  good = _mm256_and_pd(good, _mm256_cmp_pd(reach, _mm256_set1_pd(kBelowHalf), _CMP_LT_OQ));
+  const __m256d sizes = _mm256_andnot_pd(sign_bit, values);
+  const __m256d scaled = _mm256_mul_pd(sizes, scale);
+  __m256d units = _mm256_sub_pd(_mm256_add_pd(scaled, rounder), rounder);
+  const __m256d offset = _mm256_sub_pd(scaled, units);
+  const __m256d distance = _mm256_andnot_pd(sign_bit, offset);
+  if constexpr (exactly) {
+    // A product that is a tie was rounded to it, or is it. What the rounding lost tells on which side it was.
+    const __m256d lost = _mm256_fmsub_pd(sizes, scale, scaled);
+    const __m256d is_tie = _mm256_cmp_pd(distance, _mm256_set1_pd(0.5), _CMP_EQ_OQ);
+    const __m256d is_beyond = _mm256_cmp_pd(_mm256_mul_pd(lost, offset), _mm256_setzero_pd(), _CMP_GT_OQ);
+    units =
+        _mm256_add_pd(units, _mm256_and_pd(_mm256_and_pd(is_tie, is_beyond), _mm256_add_pd(offset, offset)));
+  } else {
+    // The same test as DecimalUnits::is_certain.
+    const __m256d reach = _mm256_add_pd(distance, _mm256_mul_pd(scaled, _mm256_set1_pd(kProductError)));
+    good = _mm256_and_pd(good, _mm256_cmp_pd(reach, _mm256_set1_pd(kBelowHalf), _CMP_LT_OQ));
+  }
   good = _mm256_and_pd(good, _mm256_cmp_pd(units, _mm256_set1_pd(kUnitsLimit), _CMP_LT_OQ));
   // units / 10^8, off by at most one; the exact remainder corrects it.
   const __m256d quotient = _mm256_floor_pd(_mm256_mul_pd(units, _mm256_set1_pd(1e-8)));
@@ -91,18 +104,19 @@ PIPELINE_AVX2 inline char* write_two(char* out, const PrintedForm& form, __m128i
   return out;
 }
 
-PIPELINE_AVX2 FixedTextPart write_fixed_text(std::span<const Triangle> triangles, int decimals, char* out) {
+/// Stops before a triangle with a coordinate that `split` refuses.
+template <bool exactly>
+PIPELINE_AVX2 FixedTextPart write_triangles(std::span<const Triangle> triangles, int decimals, char* out) {
   const PrintedForm& form = kPrintedForms[static_cast<std::size_t>(decimals)];
   const __m256d scale = _mm256_set1_pd(kPowersOfTen[static_cast<std::size_t>(decimals)]);
-  const std::size_t length_of_zero = form.length - 15 + static_cast<std::size_t>(decimals);
   FixedTextPart part;
   char* const begin = out;
   for (const Triangle& triangle : triangles) {
     const double* const p = &triangle[0].x;
     __m256d good = _mm256_castsi256_pd(_mm256_set1_epi32(-1));
-    const SplitUnits a = split(_mm256_loadu_pd(p), scale, good);
-    const SplitUnits b = split(_mm256_loadu_pd(p + 4), scale, good);
-    const SplitUnits c = split(_mm256_zextpd128_pd256(_mm_load_sd(p + 8)), scale, good);
+    const SplitUnits a = split<exactly>(_mm256_loadu_pd(p), scale, good);
+    const SplitUnits b = split<exactly>(_mm256_loadu_pd(p + 4), scale, good);
+    const SplitUnits c = split<exactly>(_mm256_zextpd128_pd256(_mm_load_sd(p + 8)), scale, good);
     if (_mm256_movemask_pd(good) != 0xf) break;
     out = write_two(out, form, _mm_unpacklo_epi32(a.first, a.last), a.negative, ' ', ' ');
     out = write_two(out, form, _mm_unpackhi_epi32(a.first, a.last), a.negative >> 2, '\n', ' ');
@@ -111,7 +125,7 @@ PIPELINE_AVX2 FixedTextPart write_fixed_text(std::span<const Triangle> triangles
     // The last number has no partner; the text of the empty lane is overwritten.
     char* const after_empty_lane =
         write_two(out, form, _mm_unpacklo_epi32(c.first, c.last), c.negative, '\n', '\n');
-    out = after_empty_lane - length_of_zero - 1;
+    out = after_empty_lane - form.length_of_zero - 1;
     *out++ = '\n';
     ++part.triangle_count;
   }
@@ -119,12 +133,21 @@ PIPELINE_AVX2 FixedTextPart write_fixed_text(std::span<const Triangle> triangles
   return part;
 }
 
+/// Exactly from the first tie on: where there is one, others follow.
+FixedTextPart write_fixed_text(std::span<const Triangle> triangles, int decimals, char* out) {
+  const FixedTextPart part = write_triangles<false>(triangles, decimals, out);
+  if (part.triangle_count == triangles.size()) return part;
+  const FixedTextPart rest =
+      write_triangles<true>(triangles.subspan(part.triangle_count), decimals, out + part.length);
+  return {part.triangle_count + rest.triangle_count, part.length + rest.length};
+}
+
 }  // namespace
 
 constinit const WriteFixedText kWriteFixedTextAvx2 = write_fixed_text;
 
 bool processor_has_avx2() {
-  return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi");
+  return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi") && __builtin_cpu_supports("fma");
 }
 
 }  // namespace pipeline

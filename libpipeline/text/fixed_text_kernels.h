@@ -43,9 +43,12 @@ struct PrintedForm {
   alignas(16) std::array<std::uint8_t, 32> shuffle{};
   unsigned last_whole_digit = 0;  // a bit
   unsigned length = 0;            // of sixteen digits and, if there are decimals, the point
+  unsigned length_of_zero = 0;    // without a sign
 
   constexpr explicit PrintedForm(unsigned decimals = 0)
-      : last_whole_digit(1u << (15 - decimals)), length(decimals > 0 ? 17 : 16) {
+      : last_whole_digit(1u << (15 - decimals)),
+        length(decimals > 0 ? 17 : 16),
+        length_of_zero(length + decimals - 15) {
     const unsigned point = 16 - decimals;
     for (unsigned i = 0; i < 32; ++i)
       shuffle[i] = static_cast<std::uint8_t>(i < point ? i : i == point ? 0 : i - 1);

@@ -279,7 +279,6 @@ TEST_P(FixedText, PrintsAnyDecimals) {
   const Triangle triangle = {{{9.9961, -9.9961, 1234}, {-0.0, -0x1p-60, 0.5078125}, {99.76, 1, -7.625}}};
   EXPECT_EQ(write({triangle}, count, 0), "10 -10 1234\n0 0 1\n100 1 -8\n\n");
   EXPECT_EQ(write({triangle}, count, 1), "10.0 -10.0 1234.0\n0.0 0.0 0.5\n99.8 1.0 -7.6\n\n");
-  EXPECT_EQ(write({triangle}, count, 2), "");  // -7.625 is a tie
   EXPECT_EQ(write({triangle}, count, 3), "9.996 -9.996 1234.000\n0.000 0.000 0.508\n99.760 1.000 -7.625\n\n");
   EXPECT_EQ(write({{triangle[1], triangle[2], {1e-9, 0.1234567891234, 1}}}, count, 9),
             "0.000000000 0.000000000 0.507812500\n99.760000000 1.000000000 -7.625000000\n"
@@ -313,9 +312,8 @@ TEST_P(FixedText, PrintsUpToEightDigitsBeforeThePoint) {
 }
 
 TEST_P(FixedText, LeavesToTheGeneralPrinterWhatItCannotPrint) {
-  // Nine digits, a carry into the ninth, exact ties at the eighth decimal, infinities and NaN.
-  for (const double value :
-       {1e8, 99999999.99999999, 0.00390625, -1.01171875, 1e300, HUGE_VAL, std::nan("")}) {
+  // Nine digits, a carry into the ninth, infinities and NaN.
+  for (const double value : {1e8, 99999999.99999999, 1e300, HUGE_VAL, std::nan("")}) {
     std::size_t count = 1;
     EXPECT_EQ(write({Triangle{{{0, 0, 0}, {0, value, 0}, {0, 0, 0}}}}, count), "") << value;
     EXPECT_EQ(count, 0u) << value;
@@ -327,31 +325,20 @@ TEST_P(FixedText, LeavesToTheGeneralPrinterWhatItCannotPrint) {
     }
 }
 
-// An odd multiple of 2^-8 ends in a 5 at the eighth decimal.
-TEST_P(FixedText, LeavesEveryTieToTheGeneralPrinter) {
-  std::mt19937_64 random(5);
-  for (int i = 0; i < 20000; ++i) {
-    const double tie = static_cast<double>(2 * (random() % (1u << 30 >> random() % 30)) + 1) / 256;
-    std::size_t count = 1;
-    write({Triangle{{{0, 0, 0}, {random() % 2 == 0 ? tie : -tie, 0, 0}, {0, 0, 0}}}}, count);
-    ASSERT_EQ(count, 0u) << tie;
-  }
-}
-
 // An odd multiple of 2^-(n + 1) ends in a 5 at decimal n + 1.
-TEST_P(FixedText, LeavesTiesWithAnyDecimalsAndPrintsWhatLiesBesideThem) {
+TEST_P(FixedText, PrintsTiesWithAnyDecimalsAndWhatLiesBesideThemOrLeavesThem) {
   std::mt19937_64 random(7);
   for (const int decimals : all_decimals()) {
     int printed_count = 0;
     for (int i = 0; i < 3000; ++i) {
       const auto odd = static_cast<double>(2 * (random() % (1u << 12 >> random() % 12)) + 1);
       const double tie = std::ldexp(odd, -decimals - 1);
-      std::size_t count = 1;
-      write({Triangle{{{0, 0, 0}, {random() % 2 == 0 ? tie : -tie, 0, 0}, {0, 0, 0}}}}, count, decimals);
-      ASSERT_EQ(count, 0u) << decimals << " " << tie;
       const double unit = std::pow(10.0, -decimals);
-      for (const double value :
-           {std::nextafter(tie, 0), std::nextafter(tie, HUGE_VAL), tie - unit / 64, tie + unit / 64}) {
+      // The nearest double to a decimal that ends in a 5, which lies beside it.
+      const double decimal = (odd / 2) * unit;
+      for (const double value : {tie, std::nextafter(tie, 0), std::nextafter(tie, HUGE_VAL), tie - unit / 64,
+                                 tie + unit / 64, decimal}) {
+        std::size_t count = 0;
         const Triangle triangle = {{{0, 0, 0}, {0, 0, value}, {-value, 0, 0}}};
         const std::string text = write({triangle}, count, decimals);
         ASSERT_EQ(text, count > 0 ? general_text(triangle, decimals) : "") << decimals << " " << tie;
