@@ -1,5 +1,6 @@
 #include "libpipeline/coverage/center.h"
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <type_traits>
@@ -10,6 +11,7 @@ namespace {
 // Below the limits of the types by more than the rounding error of the bound.
 constexpr double kMaxIn64Bits = 0x1p61;
 [[maybe_unused]] constexpr double kMaxIn128Bits = 0x1p125;
+constexpr int kMaxBitsOfCoordinate = 126;
 constexpr int kBitsOfWideInt = 64 * 6;
 
 }  // namespace
@@ -35,14 +37,16 @@ CenterRows::CenterRows(const ExactGrid& grid, const ExactTriangle& triangle) {
     return;
   }
   const AxisUnits x = column_units(grid, triangle), y = row_units(grid, triangle);
-  const auto set_on_heap = [&]<typename Int>(std::type_identity<Int>) {
-    const GridTriangle<Int> on_grid = grid_triangle<Int>(grid, x, y);
+  const auto set_on_heap = [&]<typename Int, typename Coordinate = Int>(std::type_identity<Int>,
+                                                                        std::type_identity<Coordinate> = {}) {
+    const GridTriangle<Coordinate> on_grid = grid_triangle<Coordinate>(grid, x, y);
     const CenterBox box(on_grid, rows, columns);
     if (box.is_empty()) return;
     set(*rows_.emplace<OnHeap<Int>>(std::make_unique<const ExactRows<Int>>(on_grid, box, z)));
   };
-  const bool fits = x.bits + y.bits + 3 < kBitsOfWideInt;
-  if (fits) {
+  if (std::max(x.bits, y.bits) <= kMaxBitsOfCoordinate) {
+    set_on_heap(std::type_identity<DoublesInt>{}, std::type_identity<Int128>{});
+  } else if (x.bits + y.bits + 3 < kBitsOfWideInt) {
     set_on_heap(std::type_identity<WideInt>{});
   } else {
     set_on_heap(std::type_identity<HugeInt>{});

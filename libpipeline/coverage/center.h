@@ -30,6 +30,7 @@ class CenterRows {
   [[nodiscard]] std::optional<Span> span(int row) const {
     if (const auto* const narrow = std::get_if<ExactRows<std::int64_t>>(&rows_)) return narrow->span(row);
     if (const auto* const medium = std::get_if<ExactRows<Int128>>(&rows_)) return medium->span(row);
+    if (const auto* const doubles = std::get_if<OnHeap<DoublesInt>>(&rows_)) return (*doubles)->span(row);
     if (const auto* const wide = std::get_if<OnHeap<WideInt>>(&rows_)) return (*wide)->span(row);
     return std::get<OnHeap<HugeInt>>(rows_)->span(row);
   }
@@ -39,7 +40,8 @@ class CenterRows {
   int last_row_ = -1;
   template <typename Int>
   using OnHeap = std::unique_ptr<const ExactRows<Int>>;
-  std::variant<std::monostate, ExactRows<std::int64_t>, ExactRows<Int128>, OnHeap<WideInt>, OnHeap<HugeInt>>
+  std::variant<std::monostate, ExactRows<std::int64_t>, ExactRows<Int128>, OnHeap<DoublesInt>,
+               OnHeap<WideInt>, OnHeap<HugeInt>>
       rows_;
 };
 

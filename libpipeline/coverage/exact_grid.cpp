@@ -30,10 +30,13 @@ BinaryNumber reduced(Int128 mantissa, int exponent) {
 }
 
 BinaryNumber binary_units(double value) {
-  int exponent = 0;
-  const double fraction = std::frexp(value, &exponent);
-  return reduced(Int128{static_cast<std::int64_t>(std::ldexp(fraction, 53))} * kGridUnitsPerOne,
-                 exponent - 53);
+  constexpr std::int64_t kHiddenBit = std::int64_t{1} << 52;
+  const auto bits = std::bit_cast<std::uint64_t>(value);
+  const auto fraction = static_cast<std::int64_t>(bits) & (kHiddenBit - 1);
+  const auto biased = static_cast<int>(bits >> 52 & 0x7ff);
+  // Subnormal numbers, and 0, have no hidden bit, and the exponent of the smallest others.
+  const std::int64_t size = fraction + (biased > 0 ? kHiddenBit : 0);
+  return reduced(Int128{value < 0 ? -size : size} * kGridUnitsPerOne, std::max(biased, 1) - 1075);
 }
 
 /// `value` units in 2^-20 units, rounded down; below 2^126 for |value| <= 10^22.
@@ -75,8 +78,7 @@ AxisUnits axis_units(const GridAxis& axis, const ExactTriangle& triangle, double
   }
   // The sum of two terms: a vertex from the middle of the window, and up to 2^17 half steps to either side of
   // it; and a factor of 2 for the distance between two such points.
-  result.bits = result.twos +
-                std::max(value_bits + bit_length(axis.vertex_factor), bit_length(axis.half_step) + 18) + 2;
+  result.bits = result.twos + std::max(value_bits + axis.vertex_factor_bits, axis.half_step_bits + 18) + 2;
   return result;
 }
 
@@ -94,9 +96,11 @@ GridAxis::GridAxis(int pixel_count, double limit, double limit_low_part, bool li
   vertex_factor = HugeInt(factor) << std::max(-size.exponent, 0);
   half_step = HugeInt(size.mantissa) << std::max(size.exponent, 0);
   origin = HugeInt(count - 1) * half_step;
+  vertex_factor_bits = bit_length(vertex_factor);
+  half_step_bits = bit_length(half_step);
 
   // 2^44 leaves room for a product with any number of pixels.
-  if (bit_length(vertex_factor) > 44 || bit_length(half_step) > 44) return;
+  if (vertex_factor_bits > 44 || half_step_bits > 44) return;
   narrow_vertex_factor = cut(vertex_factor, 0);
   narrow_origin = cut(origin, 0);
   narrow_step = Divisor<std::int64_t>(2 * cut(half_step, 0));

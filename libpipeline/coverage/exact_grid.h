@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <type_traits>
 
 #include "libpipeline/coverage/span.h"
 #include "libpipeline/numbers/vec.h"
@@ -13,6 +14,9 @@
 
 namespace pipeline {
 
+/// Enough bits for products of coordinates of 126 bits each: those of texts with more than 7 decimals
+/// (--digits exact) in pictures as usual.
+using DoublesInt = FixedInt<4>;
 /// Enough bits for all exact geometry in practice: every text with more than 7 decimals (--digits exact),
 /// vertices 10^30 pixels away, coordinates of 10^-30 beside others of 1. In HugeInt, such triangles take some
 /// 50 times as long.
@@ -88,6 +92,8 @@ struct GridAxis {
   HugeInt vertex_factor;
   HugeInt half_step;
   HugeInt origin;  // the distance from the center of pixel 0 to the middle
+  int vertex_factor_bits = 0;
+  int half_step_bits = 0;
   // The same where they are small; then 64 bits are enough for decimals n / 10^7 with |n| <=
   // largest_narrow_units.
   double largest_narrow_units = -1;
@@ -125,10 +131,16 @@ AxisUnits row_units(const ExactGrid& grid, const ExactTriangle& triangle);
 /// The triangle in a type that has enough bits for it.
 template <typename Int>
 GridTriangle<Int> grid_triangle(const ExactGrid& grid, const AxisUnits& x, const AxisUnits& y) {
-  const auto on_grid = [](const BinaryNumber& number, const GridAxis& axis, int twos) {
-    return (Int(number.mantissa) << (number.exponent + twos)) * Int(axis.vertex_factor);
+  const auto cut_to_size = [](const HugeInt& value) {
+    if constexpr (std::is_same_v<Int, Int128>)
+      return static_cast<Int128>(UInt128{value.limb(1)} << 64 | value.limb(0));
+    else
+      return Int(value);
   };
-  const auto finer = [](const HugeInt& value, int twos) { return Int(value) << twos; };
+  const auto on_grid = [&](const BinaryNumber& number, const GridAxis& axis, int twos) {
+    return (Int(number.mantissa) << (number.exponent + twos)) * cut_to_size(axis.vertex_factor);
+  };
+  const auto finer = [&](const HugeInt& value, int twos) { return Int(cut_to_size(value) << twos); };
   GridTriangle<Int> result;
   for (std::size_t i = 0; i < 3; ++i) {
     result.u[i] = finer(grid.columns.origin, x.twos) + on_grid(x.units[i], grid.columns, x.twos);

@@ -106,9 +106,10 @@ typename ExactRows<Int>::Edge ExactRows<Int>::edge(const GridTriangle<Coordinate
                                                    std::size_t lower) const {
   const Int du = t.u[lower] - t.u[upper];
   const Int dv = t.v[lower] - t.v[upper];
-  const Coordinate upper_u = t.u[upper] - first_column_ * t.column_step.value();
-  const Coordinate below_upper = first_row_ * t.row_step.value() - t.v[upper];
-  return {upper_u * dv + below_upper * du, t.row_step.value() * du, Divisor<Int>(t.column_step.value() * dv)};
+  const Int upper_u = t.u[upper] - first_column_ * t.column_step.value();
+  const Int below_upper = first_row_ * t.row_step.value() - t.v[upper];
+  return {upper_u * dv + below_upper * du, Int(t.row_step.value()) * du,
+          Divisor<Int>(Int(t.column_step.value()) * dv)};
 }
 
 template <typename Int>

@@ -126,7 +126,9 @@ std::int64_t cut(const FixedInt<Limbs>& value, int bits) {
 template <std::size_t Limbs>
 double to_double(const FixedInt<Limbs>& value, int exponent) {
   const int cut_off = std::max(bit_length(value) - 62, 0);
-  return std::ldexp(static_cast<double>(cut(value, cut_off)), cut_off - exponent);
+  const auto kept = static_cast<double>(cut(value, cut_off));
+  const int shift = cut_off - exponent;
+  return shift > -1000 && shift < 1000 ? kept * power_of_two(shift) : std::ldexp(kept, shift);
 }
 
 }  // namespace pipeline

@@ -296,11 +296,12 @@ TEST(CoverageCenter, ManyRandomMeshesOfFarDoublesOwnEveryPixelOnce) {
 }
 
 /// Compares the spans of a triangle with those calculated in a wider type.
-template <typename Int>
+template <typename Int, typename Coordinate = Int>
 void expect_spans_in(const TextTriangle& t, const Viewport& screen) {
   const ExactGrid grid(screen);
   const std::array<double, 3> z = {t.p[0].z, t.p[1].z, t.p[2].z};
-  const auto on_grid = grid_triangle<Int>(grid, column_units(grid, t.exact()), row_units(grid, t.exact()));
+  const auto on_grid =
+      grid_triangle<Coordinate>(grid, column_units(grid, t.exact()), row_units(grid, t.exact()));
   const CenterBox box(on_grid, screen.rows, screen.columns);
   const std::vector<Span> expected =
       box.is_empty() ? std::vector<Span>() : spans_of(ExactRows<Int>(on_grid, box, z));
@@ -333,6 +334,7 @@ TEST(CoverageCenter, AllWidthsOfNumbersGiveTheSamePixelsAndDepths) {
       for (auto& vertex : units) vertex = {vertex[0] * far, vertex[1] * far};
       const TextTriangle t =
           triangle_of(units, {random.between(-1, 1), random.between(-1, 1), random.between(-1, 1)});
+      expect_spans_in<DoublesInt, Int128>(t, screen);
       expect_spans_in<WideInt>(t, screen);
       if (i % 100 == 0) expect_spans_in<HugeInt>(t, screen);
       if (HasFatalFailure()) FAIL() << "triangle " << i;
