@@ -103,8 +103,7 @@ TEST(Digits, OfAnOriginThatAreAllLostAreNoted) {
 TEST(Digits, OfAnyCornerThatIsKeptBeforeTheCutAreNoted) {
   // In clip space, y of the corner in the middle of this narrow window is 0, but for errors of 2^-50.
   constexpr double kMiddle = 1 + 0x3p-52;
-  const ProjectionTransform narrow =
-      clip_from_view({Frustum{-1, 1, 1, 1 + 0x6p-52, 1, 100}, {}}, AspectRule::angle);
+  const ProjectionTransform narrow = clip_from_view({Frustum{-1, 1, 1, 1 + 0x6p-52, 1, 100}, {}});
   const auto uncertain_count = [&](const Triangle& triangle, bool keeps_unclipped) {
     CoordinateRounder rounder(Precision::extended, kShortest, "input");
     ProjectionStage stage(narrow, ClipMode::near, CullMode::nothing, rounder);
