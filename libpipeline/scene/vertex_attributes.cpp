@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "libpipeline/scene/header_line.h"
+#include "libpipeline/text/fixed_text.h"
 
 namespace pipeline {
 namespace {
@@ -90,12 +91,40 @@ bool VertexLineReader::are_in_range(std::span<const DecimalNumber> columns) cons
                      [](const DecimalNumber& channel) { return channel.value >= 0 && channel.value <= 255; });
 }
 
+/// Reads a line in fixed form (fixed_text.h), but for w. Three numbers each have the same decimals, and those
+/// that `numbers` had before: usually the ones of the last triangle.
+const char* VertexLineReader::read_fixed_line(const char* p, std::span<DecimalNumber> numbers) const {
+  std::size_t column = 0;
+  const auto separator = [&] { return column == column_count_ ? '\n' : ' '; };
+  while (column < column_count_) {
+    const auto next = numbers.subspan(column);
+    if (attributes_.w && column == 3) {
+      ++column;
+      p = read_decimal_number(p, next[0]);
+      if (p == nullptr || *p++ != separator()) return nullptr;
+    } else {
+      column += 3;
+      Vec3 values;
+      const int decimals = next[0].decimals;
+      const bool may_be_fixed = decimals == next[1].decimals && decimals == next[2].decimals;
+      if (!may_be_fixed || decimals > kMaxFixedDecimals) return nullptr;
+      p = fixed_text_kernel().read_three(p, decimals, separator(), values);
+      if (p == nullptr) return nullptr;
+      next[0] = {values.x, decimals};
+      next[1] = {values.y, decimals};
+      next[2] = {values.z, decimals};
+    }
+  }
+  return p;
+}
+
 const char* VertexLineReader::read_decimals(const char* p, const char* end,
                                             DecimalVertexLines& vertices) const {
   for (DecimalVertexLine& line : vertices) {
     const auto taken = std::span(line.numbers).first(column_count_);
     const char* const begin = p;
-    p = read_decimal_line(p, end, taken);
+    p = read_fixed_line(p, taken);
+    if (p == nullptr || p > end) p = read_decimal_line(begin, end, taken);
     if (p == nullptr || !are_in_range(taken)) return nullptr;
     line.indent = blanks_at(begin);
   }

@@ -74,6 +74,7 @@ class VertexLineReader {
   const char* read_decimals(const char* p, const char* end, DecimalVertexLines& vertices) const;
 
  private:
+  const char* read_fixed_line(const char* p, std::span<DecimalNumber> numbers) const;
   [[nodiscard]] bool are_in_range(std::span<const DecimalNumber> columns) const;
 
   AttributeSet attributes_;

@@ -188,6 +188,8 @@ void StageWriter::write_clipped(const ClipTriangle& unclipped) {
 
 /// Prints three numbers separated by blanks.
 char* StageWriter::print_vertex(char* out, const Vec3& vertex, const Vec3& low_part) {
+  if (!format_.shortest && format_.decimals <= kMaxFixedDecimals && low_part == Vec3{})
+    if (char* const end = fixed_text_kernel().write_three(vertex, format_.decimals, out)) return end;
   out = print_number(out, vertex.x, low_part.x, format_);
   *out++ = ' ';
   out = print_number(out, vertex.y, low_part.y, format_);

@@ -50,12 +50,23 @@ using ReadFixedScene = FixedTextPart (*)(std::string_view text, int decimals, st
 /// triangle, and kFixedTextSlack more.
 using WriteFixedText = FixedTextPart (*)(std::span<const Triangle> triangles, int decimals, char* out);
 
-/// One implementation of all three.
+/// Reads three numbers in fixed form with single blanks between them and `separator` after them, for lines
+/// with more columns. Returns the position after the separator; null if the form differs. May read as far
+/// past the end as the others.
+using ReadThreeFixed = const char* (*)(const char* p, int decimals, char separator, Vec3& numbers);
+
+/// Prints three numbers in fixed form with single blanks between them. Returns their end; null if one of them
+/// would stop WriteFixedText.
+using WriteThreeFixed = char* (*)(const Vec3& numbers, int decimals, char* out);
+
+/// One implementation of all five.
 struct FixedTextKernel {
   const char* name;
   ReadFixedText read;
   ReadFixedScene read_scene;
   WriteFixedText write;
+  ReadThreeFixed read_three;
+  WriteThreeFixed write_three;
 };
 
 /// The kernels this processor can run, the fastest last; the first, "portable", runs everywhere.

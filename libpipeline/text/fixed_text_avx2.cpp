@@ -142,9 +142,28 @@ FixedTextPart write_fixed_text(std::span<const Triangle> triangles, int decimals
   return {part.triangle_count + rest.triangle_count, part.length + rest.length};
 }
 
+template <bool exactly>
+PIPELINE_AVX2 inline char* write_three(__m256d numbers, const PrintedForm& form, __m256d scale, char* out) {
+  __m256d good = _mm256_castsi256_pd(_mm256_set1_epi32(-1));
+  const SplitUnits units = split<exactly>(numbers, scale, good);
+  if (_mm256_movemask_pd(good) != 0xf) return nullptr;
+  out = write_two(out, form, _mm_unpacklo_epi32(units.first, units.last), units.negative, ' ', ' ');
+  out = write_two(out, form, _mm_unpackhi_epi32(units.first, units.last), units.negative >> 2, ' ', ' ');
+  return out - form.length_of_zero - 2;  // the empty lane and both separators
+}
+
+PIPELINE_AVX2 char* write_three_fixed(const Vec3& numbers, int decimals, char* out) {
+  const PrintedForm& form = kPrintedForms[static_cast<std::size_t>(decimals)];
+  const __m256d scale = _mm256_set1_pd(kPowersOfTen[static_cast<std::size_t>(decimals)]);
+  const __m256d in_lanes = _mm256_setr_pd(numbers.x, numbers.y, numbers.z, 0);
+  char* const end = write_three<false>(in_lanes, form, scale, out);
+  return end != nullptr ? end : write_three<true>(in_lanes, form, scale, out);
+}
+
 }  // namespace
 
 constinit const WriteFixedText kWriteFixedTextAvx2 = write_fixed_text;
+constinit const WriteThreeFixed kWriteThreeFixedAvx2 = write_three_fixed;
 
 bool processor_has_avx2() {
   return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi") && __builtin_cpu_supports("fma");

@@ -33,6 +33,7 @@ const char* vertex_lines(const char* p) {
 constexpr double kUnitsLimit = 1e15;
 
 extern const FixedTextKernel kPortableKernel;
+char* write_three_portable(const Vec3& numbers, int decimals, char* out);
 
 #ifdef PIPELINE_HAS_X86_KERNELS
 /// How to print the sixteen digits of a whole number of units, the first of which is 0 and replaced by a
@@ -69,6 +70,7 @@ extern const FixedTextKernel kSse4Kernel;
 bool processor_has_sse4();
 // Reading gains nothing from wider registers: where a number begins depends on the one before it.
 extern const WriteFixedText kWriteFixedTextAvx2;
+extern const WriteThreeFixed kWriteThreeFixedAvx2;
 bool processor_has_avx2();
 #endif
 

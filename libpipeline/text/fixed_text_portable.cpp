@@ -94,6 +94,13 @@ FixedTextPart read_fixed_text(std::string_view text, int decimals, std::span<Tri
   return read_triangles<frame>(text, ReadForm(static_cast<std::size_t>(decimals)), triangles);
 }
 
+const char* read_three(const char* p, int decimals, char separator, Vec3& numbers) {
+  const ReadForm form(static_cast<std::size_t>(decimals));
+  if ((p = read_number(p, form, ' ', numbers.x)) == nullptr) return nullptr;
+  if ((p = read_number(p, form, ' ', numbers.y)) == nullptr) return nullptr;
+  return read_number(p, form, separator, numbers.z);
+}
+
 // ---- printing ----
 
 /// Seven decimals are those of nearly all text.
@@ -101,13 +108,17 @@ char* write_number(char* out, double value, int decimals) {
   return decimals == 7 ? write_fixed<7>(out, value) : print_scaled(out, value, decimals);
 }
 
+[[gnu::always_inline]] inline char* write_three(const Vec3& numbers, int decimals, char* out) {
+  if ((out = write_number(out, numbers.x, decimals)) == nullptr) return nullptr;
+  *out++ = ' ';
+  if ((out = write_number(out, numbers.y, decimals)) == nullptr) return nullptr;
+  *out++ = ' ';
+  return write_number(out, numbers.z, decimals);
+}
+
 char* write_triangle(char* out, const Triangle& triangle, int decimals) {
   for (const Vec3& vertex : triangle) {
-    if ((out = write_number(out, vertex.x, decimals)) == nullptr) return nullptr;
-    *out++ = ' ';
-    if ((out = write_number(out, vertex.y, decimals)) == nullptr) return nullptr;
-    *out++ = ' ';
-    if ((out = write_number(out, vertex.z, decimals)) == nullptr) return nullptr;
+    if ((out = write_three(vertex, decimals, out)) == nullptr) return nullptr;
     *out++ = '\n';
   }
   *out++ = '\n';
@@ -129,7 +140,15 @@ FixedTextPart write_fixed_text(std::span<const Triangle> triangles, int decimals
 
 }  // namespace
 
-constinit const FixedTextKernel kPortableKernel = {"portable", read_fixed_text<TriangleFrame::stage_text>,
-                                                   read_fixed_text<TriangleFrame::scene>, write_fixed_text};
+char* write_three_portable(const Vec3& numbers, int decimals, char* out) {
+  return write_three(numbers, decimals, out);
+}
+
+constinit const FixedTextKernel kPortableKernel = {"portable",
+                                                   read_fixed_text<TriangleFrame::stage_text>,
+                                                   read_fixed_text<TriangleFrame::scene>,
+                                                   write_fixed_text,
+                                                   read_three,
+                                                   write_three_portable};
 
 }  // namespace pipeline

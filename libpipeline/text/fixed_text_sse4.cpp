@@ -116,6 +116,17 @@ PIPELINE_SSE4 FixedTextPart read_fixed_text(std::string_view text, int decimals,
   return part;
 }
 
+PIPELINE_SSE4 const char* read_three(const char* p, int decimals, char separator, Vec3& numbers) {
+  const ReadForm form(static_cast<std::size_t>(decimals));
+  std::array<std::uint64_t, 3> bits;
+  int good = 0xffff;
+  p = read_number(p, form, ' ', bits[0], good);
+  p = read_number(p, form, ' ', bits[1], good);
+  p = read_number(p, form, separator, bits[2], good);
+  numbers = std::bit_cast<Vec3>(bits);
+  return good == 0xffff ? p : nullptr;
+}
+
 // ---- printing ----
 
 PIPELINE_SSE4 inline char* write_number(char* out, const PrintedForm& form, bool is_negative,
@@ -199,8 +210,12 @@ PIPELINE_SSE4 FixedTextPart write_fixed_text(std::span<const Triangle> triangles
 
 }  // namespace
 
-constinit const FixedTextKernel kSse4Kernel = {"sse4", read_fixed_text<TriangleFrame::stage_text>,
-                                               read_fixed_text<TriangleFrame::scene>, write_fixed_text};
+constinit const FixedTextKernel kSse4Kernel = {"sse4",
+                                               read_fixed_text<TriangleFrame::stage_text>,
+                                               read_fixed_text<TriangleFrame::scene>,
+                                               write_fixed_text,
+                                               read_three,
+                                               write_three_portable};
 
 bool processor_has_sse4() {
   return __builtin_cpu_supports("sse4.2") && __builtin_cpu_supports("bmi");

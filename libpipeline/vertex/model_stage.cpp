@@ -76,6 +76,7 @@ void ModelStage::fill(TriangleBatch& batch) {
 
 /// Adds triangles by the fast path; false if it finds none, or the batch is full.
 bool ModelStage::add_buffered(TriangleBatch& batch) {
+  if (scene_.appearance().attributes) return false;  // there is no fast path for them
   constexpr std::size_t kMaxAtOnce = 64;
   const std::size_t old_size = batch.size();
   batch.triangles.resize(std::max(old_size, std::min(kBatchSize, old_size + kMaxAtOnce)));

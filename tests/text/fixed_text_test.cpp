@@ -431,6 +431,62 @@ TEST_P(FixedText, LongPrintsWhatTheGeneralPrinterPrintsOnAHundredMillionNumbers)
     print_random(GetParam().write, decimals, (decimals == 7 ? 100'000'000 : 10'000'000) / 9, 3);
 }
 
+TEST_P(FixedText, ReadsThreeNumbersAsTheGeneralReaderDoes) {
+  std::mt19937_64 random(8);
+  for (const int decimals : all_decimals())
+    for (int i = 0; i < 1000; ++i) {
+      const std::array<std::string, 3> words = {random_word(random, decimals), random_word(random, decimals),
+                                                random_word(random, decimals)};
+      const char separator = i % 2 == 0 ? ' ' : '\n';
+      const std::string numbers = words[0] + " " + words[1] + " " + words[2];
+      const std::string text = numbers + separator + std::string(kFixedTextSlack, '7');
+      Vec3 values;
+      ASSERT_EQ(GetParam().read_three(text.data(), decimals, separator, values),
+                text.data() + numbers.size() + 1)
+          << numbers;
+      const Vec3 expected = {general_number(words[0]), general_number(words[1]), general_number(words[2])};
+      ASSERT_EQ((std::bit_cast<std::array<std::uint64_t, 3>>(values)),
+                (std::bit_cast<std::array<std::uint64_t, 3>>(expected)))
+          << numbers;
+      const char other = i % 2 == 0 ? '\n' : ' ';
+      ASSERT_EQ(GetParam().read_three(text.data(), decimals, other, values), nullptr) << numbers;
+    }
+}
+
+TEST_P(FixedText, LeavesThreeNumbersOfAnyOtherForm) {
+  for (const std::string numbers :
+       {"1.5 2.25 3.5 ", "1.5 2.5 3 ", "1.5  2.5 3.5 ", "1.5 2.5\n3.5 ", "1.5 2.5 3.5\r", "1.5 2.5 3e5 ",
+        ".5 2.5 3.5 ", "+1.5 2.5 3.5 ", "1.5 2.5 x.5 ", "1.5 2.5 # 3 "}) {
+    Vec3 values;
+    const std::string text = numbers + std::string(kFixedTextSlack, '7');
+    EXPECT_EQ(GetParam().read_three(text.data(), 1, ' ', values), nullptr) << numbers;
+  }
+}
+
+TEST_P(FixedText, PrintsThreeNumbersAsTheGeneralPrinterDoesOrLeavesThem) {
+  std::mt19937_64 random(9);
+  std::uniform_real_distribution<double> number(-300, 300);
+  for (const int decimals : all_decimals()) {
+    int printed_count = 0;
+    for (int i = 0; i < 1000; ++i) {
+      // A number, a whole one, and a tie.
+      const Vec3 numbers = {number(random) / (1 + i), std::round(number(random)),
+                            i % 4 == 0 ? std::ldexp(std::round(number(random)), -decimals - 1) : -0.0};
+      std::string out(kMaxFixedTriangleLength + kFixedTextSlack, '\0');
+      const char* const end = GetParam().write_three(numbers, decimals, out.data());
+      if (end == nullptr) continue;
+      ++printed_count;
+      ASSERT_EQ(out.substr(0, static_cast<std::size_t>(end - out.data())),
+                general_text(numbers.x, decimals) + " " + general_text(numbers.y, decimals) + " " +
+                    general_text(numbers.z, decimals));
+    }
+    EXPECT_GT(printed_count, decimals < 12 ? 500 : 10) << decimals;
+    std::string out(kMaxFixedTriangleLength + kFixedTextSlack, '\0');
+    EXPECT_EQ(GetParam().write_three({0, 0, 1e17}, decimals, out.data()), nullptr);
+    EXPECT_EQ(GetParam().write_three({std::nan(""), 0, 0}, decimals, out.data()), nullptr);
+  }
+}
+
 TEST(DecimalsOfText, AreThoseOfTheFirstNumber) {
   EXPECT_EQ(decimals_of_stage_text("1.25 0.123 3\n"), 2);
   EXPECT_EQ(decimals_of_stage_text("-1.0000000 0.123 3\n"), 7);
