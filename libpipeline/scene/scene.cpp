@@ -51,8 +51,11 @@ std::size_t SceneReader::read_buffered(std::span<Triangle> room, std::size_t& fi
   if (appearance_.attributes || !line_.at_end()) return 0;
   // A blank line between triangles.
   if (text_.buffered().starts_with('\n')) text_.skip(1, 1);
-  const FixedTextPart part =
-      fixed_text_kernel().read_scene(text_.buffered(), decimals_of_scene(text_.buffered()), room);
+  constexpr std::string_view kLine = "triangle\n";
+  const std::string_view text = text_.buffered();
+  if (!text.starts_with(kLine)) return 0;
+  const int decimals = decimals_of_number(text.data() + kLine.size());
+  const FixedTextPart part = fixed_text_kernel().read_scene(text, decimals, room);
   first_line = text_.line_number() + 1;
   text_.skip(part.length, 4 * part.triangle_count);
   if (part.triangle_count > 0) has_triangle_ = true;

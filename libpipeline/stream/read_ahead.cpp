@@ -46,7 +46,7 @@ bool ReadAhead::read(TriangleBatch& batch) {
 }
 
 void ReadAhead::Slot::parse() {
-  decimals = decimals_of_stage_text(text);
+  decimals = decimals_of_number(text.data());
   const std::size_t min_length = min_fixed_triangle_length(static_cast<std::size_t>(decimals));
   batch.clear();
   batch.triangles.resize(std::min(kBatchSize, length / min_length));

@@ -68,7 +68,7 @@ bool TriangleReader::read_fixed_form(TriangleBatch& batch) {
   if (text_.buffered().starts_with('\n')) text_.skip(1, 1);
   const std::size_t old_size = batch.size();
   batch.triangles.resize(std::max(old_size, std::min(kBatchSize, old_size + kMaxAtOnce)));
-  const int decimals = decimals_of_stage_text(text_.buffered());
+  const int decimals = decimals_of_number(text_.buffered().data());
   const FixedTextPart part =
       fixed_text_kernel().read(text_.buffered(), decimals, std::span(batch.triangles).subspan(old_size));
   batch.triangles.resize(old_size + part.triangle_count);

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "libpipeline/numbers/kernel_choice.h"
+#include "libpipeline/text/eight_digits.h"
 #include "libpipeline/text/fixed_text_kernels.h"
 
 namespace pipeline {
@@ -27,20 +28,15 @@ struct KernelList {
 
 }  // namespace
 
-int decimals_of_stage_text(std::string_view text) {
-  constexpr std::size_t kMaxLength = 1 + 15 + 1;  // a sign, digits and a point
-  int decimals = 0;
-  bool is_behind_point = false;
-  for (const char c : text.substr(0, kMaxLength)) {
-    if (c == ' ' || c == '\n') break;
-    if (is_behind_point) ++decimals;
-    if (c == '.') is_behind_point = true;
-  }
-  return std::min(decimals, kMaxFixedDecimals);
-}
-
-int decimals_of_scene(std::string_view text) {
-  return decimals_of_stage_text(text.substr(std::min(text.find('\n'), text.size() - 1) + 1));
+int decimals_of_number(const char* p) {
+  const auto digit_count = [](const char* from) {
+    return leading_digit_count(load_eight(from) - kEightZeros);
+  };
+  if (*p == '-') ++p;
+  p += digit_count(p);
+  if (*p != '.') return 0;
+  const std::size_t count = digit_count(p + 1);
+  return std::min(static_cast<int>(count == 8 ? count + digit_count(p + 9) : count), kMaxFixedDecimals);
 }
 
 std::span<const FixedTextKernel> fixed_text_kernels() {

@@ -31,10 +31,9 @@ constexpr std::size_t kFixedTextSlack = 320;
 /// separator each, and a line end.
 constexpr std::size_t kMaxFixedTriangleLength = 9 * 19 + 1;
 
-/// The decimals of the first number of a stage text, or of the line after the first line of a scene: those to
-/// read it with, at most kMaxFixedDecimals.
-int decimals_of_stage_text(std::string_view text);
-int decimals_of_scene(std::string_view text);
+/// The count of decimals, at most kMaxFixedDecimals, to read a text with whose first number begins at `p`.
+/// May read 25 characters, whatever they are.
+int decimals_of_number(const char* p);
 
 /// Reads triangles from the beginning of `text` until one is not in fixed form, with `decimals` decimals and
 /// at most eight digits before the point, `triangles` is full, or the text ends. Every number becomes the

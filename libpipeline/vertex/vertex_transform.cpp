@@ -14,10 +14,18 @@ BallVec3 apply_in_balls(const AffineMatrix& m, const Vec3& origin, const Vec3& p
   return {coordinate(m.rows[0]), coordinate(m.rows[1]), coordinate(m.rows[2])};
 }
 
+/// True if every entry is exactly that of the identity.
+bool is_identity(const AffineMatrix& m) {
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 4; ++j)
+      if (m.rows[i][j] != Ball(i == j ? 1 : 0)) return false;
+  return true;
+}
+
 }  // namespace
 
 VertexTransform::VertexTransform(const AffineMatrix& world_from_model)
-    : matrix_(world_from_model), is_identity_(world_from_model.rows == identity().rows) {
+    : matrix_(world_from_model), is_identity_(is_identity(world_from_model)) {
   set_coefficients();
 }
 

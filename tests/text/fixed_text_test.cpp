@@ -487,18 +487,20 @@ TEST_P(FixedText, PrintsThreeNumbersAsTheGeneralPrinterDoesOrLeavesThem) {
   }
 }
 
-TEST(DecimalsOfText, AreThoseOfTheFirstNumber) {
-  EXPECT_EQ(decimals_of_stage_text("1.25 0.123 3\n"), 2);
-  EXPECT_EQ(decimals_of_stage_text("-1.0000000 0.123 3\n"), 7);
-  EXPECT_EQ(decimals_of_stage_text("12 0.123 3\n"), 0);
-  EXPECT_EQ(decimals_of_stage_text("12\n0.123\n"), 0);
-  EXPECT_EQ(decimals_of_stage_text("0.12345678901234 1"), 14);
-  EXPECT_EQ(decimals_of_stage_text("0.123456789012345678901234567890 1"), 14);
-  EXPECT_EQ(decimals_of_stage_text("1."), 0);
-  EXPECT_EQ(decimals_of_stage_text(""), 0);
-  EXPECT_EQ(decimals_of_scene("triangle\n1.25 0.123 3\n"), 2);
-  EXPECT_EQ(decimals_of_scene("triangle"), 0);
-  EXPECT_EQ(decimals_of_scene(""), 0);
+TEST(FixedTextDecimals, AreThoseOfTheFirstNumber) {
+  const auto decimals_of = [](std::string text) {
+    return decimals_of_number((text += std::string(30, '7')).data());
+  };
+  EXPECT_EQ(decimals_of("1.25 0.123 3\n"), 2);
+  EXPECT_EQ(decimals_of("-1.0000000 0.123 3\n"), 7);
+  EXPECT_EQ(decimals_of("12345678.12345678 3\n"), 8);
+  EXPECT_EQ(decimals_of("12 0.123 3\n"), 0);
+  EXPECT_EQ(decimals_of("12\n0.123\n"), 0);
+  EXPECT_EQ(decimals_of("0.12345678901234 1"), 14);
+  EXPECT_EQ(decimals_of("0.123456789012345678901234567890 1"), 14);
+  EXPECT_EQ(decimals_of("1. 3"), 0);
+  EXPECT_EQ(decimals_of("\n"), 0);
+  EXPECT_EQ(decimals_of("# 1.5\n"), 0);
 }
 
 INSTANTIATE_TEST_SUITE_P(Kernels, FixedText,
