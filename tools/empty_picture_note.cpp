@@ -163,9 +163,8 @@ std::optional<std::string> invisible_colors_note(const SurfaceShader& shader) {
     if (greatest && *greatest <= 1)
       return "the picture is black: every color is within 0 and 1, but channels run from 0 to 255";
     if (is_lit && !setup.wireframe)
-      return "the picture is black: no light reaches what is seen; a light reaches only the side of a "
-             "surface "
-             "that it is on (ambient 0.2 0.2 0.2 would show all)";
+      return "the picture is black: no light reaches the side that is seen (ambient 0.2 0.2 0.2 would show "
+             "it)";
   }
   if (setup.wireframe && !is_lit)
     return "the picture is empty: --wireframe shows edges alone, and none is in sight";

@@ -104,7 +104,7 @@ add_claims(Notes, [
     claim("colors of 0 on another background", "background 0 9 0\ncolor 0 0 0\n" + TRIANGLE),
     claim("one color above 1", "color 1 1 1\n" + TRIANGLE + "color 255 0 0\n" + TRIANGLE + "translate 0 0 0.5\n" + TRIANGLE),
     claim("a light behind the surface", LIT + TRIANGLE,
-          "zbuf: note: the picture is black: no light reaches what is seen; a light reaches only the side of a surface that it is on (ambient 0.2 0.2 0.2 would show all)"),
+          "zbuf: note: the picture is black: no light reaches the side that is seen (ambient 0.2 0.2 0.2 would show it)"),
     claim("a light behind the surface, as the note advises", "ambient 0.2 0.2 0.2\n" + LIT + TRIANGLE),
     claim("a silhouette", "background 255 255 255\n" + LIT + TRIANGLE),
     claim("the color of the background", "background 255 255 255\ncolor 255 255 255\n" + TRIANGLE,
