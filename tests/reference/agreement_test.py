@@ -92,8 +92,8 @@ class Agreement(unittest.TestCase):
             self.assertTrue(refused_line(done) == refusal.args[0] or not is_told, (stage, refusal, done.stderr, text))
             return None
         self.assertIsNone(refused_line(done), (stage, done.stderr, text))
-        leeway.expect_same_text(self, done.stdout, want,
-                                lambda: getattr(reference, stage)(text, {**options, "--digits": "17"}), text)
+        leeway.expect_same_text(self, done.stdout, want, lambda: getattr(reference, stage)(text, {**options, "--digits": "17"}), text,
+                                b": note: <stdin>:" in done.stderr)
         return done.stdout
 
     def compare_picture(self, options, text, done):

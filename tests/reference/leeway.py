@@ -9,8 +9,9 @@ CLOSE = Fraction(1, 10**12)  # depths nearer to each other than this may be orde
 HALF = decimal.Decimal("0.500001")
 
 
-def expect_same_text(case, got, want, precise, read):
-    """Both texts of a stage are equal, but for what is open; `precise()` is `want` with 17 decimals, `read` what the stage read."""
+def expect_same_text(case, got, want, precise, read, is_noted=False):
+    """Both texts of a stage are equal, but for what is open; `precise()` is `want` with 17 decimals, `read` what the stage read. If
+    the tool has noted that digits are lost, 28 are right."""
     if got == want:
         return
     numbers = [abs(float(word)) for line in re.findall(rb"(?m)^(?:-?[0-9.e+-]+ ?)+$", read) for word in line.split()]
@@ -24,7 +25,8 @@ def expect_same_text(case, got, want, precise, read):
                 unit = Fraction(1, 10 ** len(a.partition(".")[2]))
                 is_tie = abs(abs(Fraction(a) - Fraction(x)) - unit / 2) < unit / 2**20
                 is_close = column >= color_or_normal and abs(Fraction(a) - Fraction(b)) < CLOSE
-                case.assertTrue(is_tie or is_close or a == "0" and abs(float(b)) <= smallest, (got_line, want_line, precise_line))
+                is_lost = is_noted and abs(Fraction(a) - Fraction(b)) <= abs(Fraction(b)) / 10**28
+                case.assertTrue(is_tie or is_close or is_lost or a == "0" and abs(float(b)) <= smallest, (got_line, want_line, precise_line))
 
 
 def expect_same_picture(case, triangles, stage, config, options, model_name, depth_text, image):
@@ -105,4 +107,4 @@ def is_edge_on(triangle):
         return False
     a, b, c = ([float(x) for x in corner.position[:2]] for corner in (triangle.whole or triangle.corners))
     terms = [a[0] * b[1], -a[1] * b[0], b[0] * c[1], -b[1] * c[0], c[0] * a[1], -c[1] * a[0]]
-    return abs(sum(terms)) < 1e-6 * sum(map(abs, terms))
+    return abs(sum(terms)) <= 1e-6 * sum(map(abs, terms))

@@ -363,7 +363,7 @@ class Matrix(namedtuple("Matrix", "columns offset", defaults=(UNITS, (0, 0, 0)))
     def normal(self, n):  # M7
         x, y, z = self.columns
         cofactors = (cross(y, z), cross(z, x), cross(x, y))
-        return unit(kept(times(-1 if dot(x, cofactors[0]) < 0 else 1, mean(n, cofactors))))
+        return unit(kept(times(-1 if settled(dot(x, cofactors[0])) < 0 else 1, mean(n, cofactors))))
 
 def transform(keyword, numbers):  # M3, M4: the T of a command
     if keyword == "translate":
