@@ -3,9 +3,8 @@
 
 usage: reference.py model|view|project|zbuf [OPTION...] < INPUT > OUTPUT, with the options of the tools (OPTIONS, below)
 
-A comment behind each function names the paragraphs that it carries out. Numbers are fractions, so nothing is rounded by accident;
-sines and roots, which no fraction holds, have 800 decimals. The program needs only the standard library, and shares no code
-with libpipeline.
+A comment behind each function names the paragraphs that it carries out. Numbers are fractions; sines and roots, which no fraction
+holds, have 800 decimals. The program needs only the standard library, and shares no code with libpipeline.
 """
 import decimal, math, pathlib, re, struct, sys  # noqa: E401
 from collections import namedtuple
@@ -103,8 +102,7 @@ ONCE = ("background", "ambient", "material", "attenuation")
 def read_part(line, keyword):  # S6 to S8, S12, S17 to S21, T2 to T6: the rest of a line, behind the keyword if it is there
     numbers = line.reals(*ARGUMENTS[keyword])
     if keyword == "material":
-        is_whole = line.words and re.fullmatch("[0-9]+", line.words[0])
-        numbers += (line.whole(),) if is_whole else line.reals(lambda x: 0 <= x < 2**64 and x.denominator == 1)
+        numbers += (line.whole(),) if re.fullmatch("[0-9]+", "".join(line.words[:1])) else line.reals(lambda x: 0 <= x < 2**64 and x.denominator == 1)
     rule = line.take("angle", "ratio") if keyword == "perspective" else None
     line.end()
     return Part(line.number, keyword, numbers, rule)
@@ -363,7 +361,9 @@ class Matrix(namedtuple("Matrix", "columns offset", defaults=(UNITS, (0, 0, 0)))
     def normal(self, n):  # M7
         x, y, z = self.columns
         cofactors = (cross(y, z), cross(z, x), cross(x, y))
-        return unit(kept(times(-1 if settled(dot(x, cofactors[0])) < 0 else 1, mean(n, cofactors))))
+        size = max(map(abs, x + y + z)) or 1
+        side = -1 if settled(dot(x, cofactors[0]) / size**3) < 0 else 1
+        return unit(tuple(settled(side * p / size**2) for p in mean(n, cofactors)))
 
 def transform(keyword, numbers):  # M3, M4: the T of a command
     if keyword == "translate":
