@@ -156,6 +156,26 @@ TEST(ProjectionStage, ACutTriangleIsThatCutByHand) {
     EXPECT_EQ(printed_vertex(clipped.p_ndc, i, {7}), printed_vertex(by_hand.p_ndc, i, {7}));
 }
 
+TEST(ProjectionStage, PiecesHaveTheAttributesOfTheirTriangleAndNoOthers) {
+  const Triangle crossing = triangle_at(-2, -2, 0.5);
+  for (const ClipMode clip : {ClipMode::near, ClipMode::reject}) {
+    // Nothing is cut under `reject`; then all corners have to be in front of the eye.
+    TriangleBatch with_colors = batch_of({clip == ClipMode::near ? crossing : triangle_at(-2, -2, -3)});
+    TriangleBatch with_normals = with_colors;
+    with_colors.attributes.colors = {{Vec3{1, 2, 3}, Vec3{1, 2, 3}, Vec3{1, 2, 3}}};
+    with_normals.attributes.normals = {{Vec3{0, 0, 1}, Vec3{0, 0, 1}, Vec3{0, 0, 1}}};
+    const AttributeArrays colored = projected(with_colors, kSimple, clip).p_ndc.attributes;
+    const AttributeArrays curved = projected(with_normals, kSimple, clip).p_ndc.attributes;
+    const std::size_t piece_count = clip == ClipMode::near ? 2 : 1;
+    EXPECT_EQ(colored.colors.size(), piece_count);
+    EXPECT_TRUE(colored.normals.empty());
+    EXPECT_EQ(curved.normals.size(), piece_count);
+    EXPECT_TRUE(curved.colors.empty());
+    EXPECT_EQ(curved.w.size(), piece_count);
+    EXPECT_EQ(curved.normals[0][0], (Vec3{0, 0, 1}));
+  }
+}
+
 TEST(ProjectionStage, TheColorsOfCutsStayInTheirRange) {
   RandomNumbers random(4);
   for (int i = 0; i < 300; ++i) {
