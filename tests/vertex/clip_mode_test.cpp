@@ -143,6 +143,16 @@ TEST(ProjectionStage, EveryPieceHasItsTrianglesNumber) {
             (std::vector<std::uint64_t>{0, 1, 1, 3, 4}));
 }
 
+TEST(ProjectionStage, ACutHasTheLocationOfTheCornerThatWeighsMost) {
+  // The near plane, at distance 1, is nearer to the third corner than to the second, but nearest to the
+  // first.
+  const TriangleBatch pieces =
+      projected(batch_of({triangle_at(-1.25, -2, -0.5)}), kSimple, ClipMode::near).p_ndc;
+  ASSERT_EQ(pieces.size(), 2u);
+  EXPECT_EQ(pieces.locations[0], (VertexLocations{1, 2, 3}));
+  EXPECT_EQ(pieces.locations[1], (VertexLocations{1, 3, 1}));
+}
+
 TEST(ProjectionStage, ACutTriangleIsThatCutByHand) {
   // The near plane cuts the edges at x = 3/4 and y = 3/4: few bits, so doubles hold them exactly.
   const Triangle crossing = {Vec3{0, 0, 2}, Vec3{1, 0, -2}, Vec3{0, 1, -2}};
