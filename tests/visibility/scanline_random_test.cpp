@@ -117,8 +117,9 @@ void expect_the_same(const Scene& scene, const Viewport& screen, int number) {
 template <typename Coverage>
 void expect_the_same_in_all_formats(const Scene& scene, const Viewport& screen, int number) {
   expect_the_same<Coverage, DepthF64>(scene, screen, number);
-  expect_the_same<Coverage, DepthF32>(scene, screen, number);
-  expect_the_same<Coverage, DepthU24>(scene, screen, number);
+  // zbuf refuses limits of Z that a format cannot store.
+  if (DepthF32::needed_limits(screen).empty()) expect_the_same<Coverage, DepthF32>(scene, screen, number);
+  if (DepthU24::needed_limits(screen).empty()) expect_the_same<Coverage, DepthU24>(scene, screen, number);
 }
 
 void expect_the_same_in_random_scenes(int scene_count, std::uint64_t seed) {

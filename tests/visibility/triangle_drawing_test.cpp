@@ -136,7 +136,7 @@ TEST(TriangleDrawing, AmongSmallTrianglesOneMayBeHighByAnyOfItsCorners) {
   for (int i = 0; i < 3; ++i) {
     const std::vector<Triangle> scene = {small, high, small, small};
     EXPECT_TRUE(drawn_on_threads<Visible>(scene, kScreen, 1, 4) == drawn_one_by_one<Visible>(scene, kScreen));
-    std::ranges::rotate(high, high.begin() + 1);
+    std::rotate(high.begin(), high.begin() + 1, high.end());
   }
 }
 
