@@ -115,7 +115,7 @@ TEST(DepthInDoubles, ZeroHasNoSign) {
 }
 
 TEST(DepthInDoubles, TakesWhatDoublesHold) {
-  constexpr std::int64_t kMost = DepthInDoubles::kMaxWeight;
+  constexpr std::int64_t kMost = std::int64_t{1} << 50;
   EXPECT_TRUE(DepthInDoubles::can_take({0, 1, 2}, kMost, kMost, -kMost));
   EXPECT_FALSE(DepthInDoubles::can_take({0, 1, 2}, kMost + 1, 0, 0));
   EXPECT_FALSE(DepthInDoubles::can_take({0, 1, 2}, 1, kMost + 1, 0));

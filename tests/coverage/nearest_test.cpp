@@ -71,6 +71,30 @@ TEST(CoverageNearest, ARowThroughTheLowestOrTheHighestPointHasIt) {
                                                                             }));
 }
 
+TEST(CoverageNearest, ARowThroughTheMiddleCornerReachesTheEdgeOppositeToIt) {
+  // The middle corner is at the center of column 1 or 7; the edge opposite is at x = 0.5.
+  EXPECT_EQ(picture_of({{{0.5, -2.5, 0}, {-2.5, 0.5, 0}, {0.5, 2.5, 0}}}), (Picture{
+                                                                               "........",
+                                                                               "....#...",
+                                                                               "...##...",
+                                                                               ".####...",
+                                                                               "..###...",
+                                                                               "...##...",
+                                                                               "....#...",
+                                                                               "........",
+                                                                           }));
+  EXPECT_EQ(picture_of({{{0.5, -2.5, 0}, {3.5, 0.5, 0}, {0.5, 2.5, 0}}}), (Picture{
+                                                                              "........",
+                                                                              "....#...",
+                                                                              "....###.",
+                                                                              "....####",
+                                                                              "....###.",
+                                                                              "....##..",
+                                                                              "....#...",
+                                                                              "........",
+                                                                          }));
+}
+
 TEST(CoverageNearest, BetweenTwoRowsThereIsNothing) {
   EXPECT_EQ(picture_of({{{-3, -0.4, 0}, {3, -0.4, 0}, {0, 0.4, 0}}}), kNothing);
 }

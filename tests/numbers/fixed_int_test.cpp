@@ -81,10 +81,17 @@ TEST(FixedInt, BecomesADoubleNextToIt) {
     ASSERT_TRUE(error <= abs(mpq_class(exact(a))) * (mpq_class(0x1p-53) + mpq_class(0x1p-61)));
     ASSERT_EQ(to_double(a, 40), std::ldexp(to_double(a, 0), -40));
     const auto narrow = static_cast<Int128>(cut(a, std::max(bit_length(a) - 62, 0))) * 987654321;
+    ASSERT_EQ(to_double(narrow, 40), std::ldexp(to_double(narrow), -40));
     const mpq_class narrow_error = abs(mpq_class(to_double(narrow)) - mpq_class(exact(Int(narrow))));
     ASSERT_TRUE(narrow_error <=
                 abs(mpq_class(exact(Int(narrow)))) * (mpq_class(0x1p-53) + mpq_class(0x1p-61)));
   }
+}
+
+TEST(FixedInt, BuiltInNumbersAreScaledLikeIt) {
+  EXPECT_EQ(to_double(std::int64_t{-77}, 40), -77 * 0x1p-40);
+  EXPECT_EQ(to_double(Int128{-77} << 80, 40), -77 * 0x1p40);
+  EXPECT_EQ(to_double(Int(-77), 40), -77 * 0x1p-40);
 }
 
 /// The definition, digit by digit.
