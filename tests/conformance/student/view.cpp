@@ -1,0 +1,39 @@
+// Stage 2: world space to view space.
+
+#include "tests/conformance/student/stages.h"
+#include "tests/conformance/student/switches.h"
+
+namespace {
+
+Matrix view_matrix(const Camera& camera) {
+  Vector l = minus(camera.look, camera.eye);
+  if (mistake("view/look-is-a-direction")) l = camera.look;
+  if (!mistake("view/l-not-unit")) l = normalized(l);
+  Vector r = mistake("view/r-is-up-cross-l") ? cross(camera.up, l) : cross(l, camera.up);
+  if (!mistake("view/r-not-unit")) r = normalized(r);
+  const Vector u = mistake("view/up-as-given") ? camera.up : cross(r, l);
+  const double sign = mistake("view/l-not-negated") ? 1 : -1;
+
+  Matrix turn = {
+      {r[0], r[1], r[2], 0}, {u[0], u[1], u[2], 0}, {sign * l[0], sign * l[1], sign * l[2], 0}, {0, 0, 0, 1}};
+  if (mistake("view/rotation-transposed")) turn = transposed(turn);
+
+  Vector move = {-camera.eye[0], -camera.eye[1], -camera.eye[2]};
+  if (mistake("view/eye-added")) move = camera.eye;
+  if (mistake("view/no-translation")) move = {0, 0, 0};
+  if (mistake("view/translation-after-rotation")) return product(translation(move), turn);
+  return product(turn, translation(move));
+}
+
+}  // namespace
+
+std::vector<Triangle> view(const std::vector<Triangle>& world, const Camera& camera) {
+  const Matrix v = view_matrix(camera);
+  std::vector<Triangle> result = world;
+  for (Triangle& triangle : result)
+    for (Vector& point : triangle.points) {
+      point = homogeneous(v, point);
+      point.pop_back();  // w is 1
+    }
+  return result;
+}

@@ -1,0 +1,436 @@
+#!/usr/bin/env python3
+"""The student's program is right without a switch, and with one it makes exactly that mistake.
+
+usage: student_test.py STUDENT BIN_DIR SOURCE_DIR
+"""
+import math
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+source = pathlib.Path(sys.argv.pop()).resolve()
+bin_dir = pathlib.Path(sys.argv.pop()).resolve()
+student = pathlib.Path(sys.argv.pop()).resolve()
+sys.path.insert(0, str(source / "scripts"))
+from lib.pictures import read_picture  # noqa: E402
+
+PLAIN = ("one-triangle", "two-triangles", "torus", "tilted-camera", "nested-transforms", "worked-example")
+FIVE = ("stage1.txt", "stage2.txt", "stage3.txt", "z_buffer.txt", "out.bmp")
+
+
+def listed(name):
+    """The names of a list in this folder, in their order."""
+    lines = (source / "tests/conformance" / name).read_text().splitlines()
+    return [line.split(":")[0] for line in lines if line and not line.startswith("#")]
+
+
+MISTAKES, HABITS = listed("mistakes.txt"), listed("habits.txt")
+
+
+def switches(*names):
+    return [word for name in names for word in ("--habit" if name in HABITS else "--mistake", name)]
+
+
+def run(program, *words, stdin=b"", folder=None):
+    """The program's stdout, in bytes."""
+    done = subprocess.run([program, *words], input=stdin, stdout=subprocess.PIPE, stderr=subprocess.PIPE, cwd=folder)
+    if done.returncode != 0:
+        raise AssertionError(f"{program} {words}: {done.stderr.decode()}")
+    return done.stdout
+
+
+def five(scene, config, *names):
+    """The five files of the student's program: {name: bytes}."""
+    with tempfile.TemporaryDirectory() as folder:
+        run(student, "all", scene, config, "--folder", folder, *switches(*names))
+        return {path.name: path.read_bytes() for path in pathlib.Path(folder).iterdir()}
+
+
+def drawn(program, *words, stdin):
+    """The depth text and the picture that a zbuf writes."""
+    with tempfile.TemporaryDirectory() as folder:
+        depths = run(program, *words, stdin=stdin, folder=folder)
+        return depths, read_picture(pathlib.Path(folder, "out.bmp"))
+
+
+def numbers(text):
+    return [float(word) for word in text.split()]
+
+
+def points(text):
+    """The points of a stage text, behind its header."""
+    return [numbers(line) for line in text.decode().split("\n") if line and not line[0].isalpha()]
+
+
+def colors(count):
+    """The colors of the first triangles (Z10)."""
+    state, draws = 1, []
+    for _ in range(3 * count):
+        state = (214013 * state + 2531011) % 2**32
+        draws.append((state >> 16) % 2**15 % 256)
+    return [bytes(draws[i:i + 3]) for i in range(0, len(draws), 3)]
+
+
+CAMERA = "0 0 5\n0 0 0\n0 1 0\n60 0.5 1 3\n"
+TAN15, TAN30, TAN60 = (math.tan(math.radians(degrees)) for degrees in (15, 30, 60))
+COS, SIN = math.cos(90), math.sin(90)  # of 90 radians
+
+# The commands before a point 1 2 3, its right image, and that with the mistake.
+MODEL = {
+    "multiplied-on-the-left": ("translate\n10 0 0\nscale\n2 2 2", (12, 4, 6), (22, 4, 6)),
+    "push-and-pop-ignored": ("push\ntranslate\n10 0 0\npop", (1, 2, 3), (11, 2, 3)),
+    "pop-ignored": ("push\ntranslate\n10 0 0\npop", (1, 2, 3), (11, 2, 3)),
+    "push-of-the-identity": ("translate\n10 0 0\npush", (11, 2, 3), (1, 2, 3)),
+    "pop-to-the-identity": ("translate\n10 0 0\npush\ntranslate\n0 5 0\npop", (11, 2, 3), (1, 2, 3)),
+    "second-push-lost": ("push\npush\ntranslate\n10 0 0\npop\ntranslate\n0 5 0\npop", (1, 2, 3), (1, 7, 3)),
+    "push-does-not-nest": ("push\ntranslate\n10 0 0\npush\ntranslate\n0 5 0\npop\npop", (1, 2, 3), (11, 2, 3)),
+    "axis-not-normalized": ("rotate\n90 0 0 2", (-2, 1, 3), (-4, 2, 12)),
+    "angle-in-radians": ("rotate\n90 0 0 1", (-2, 1, 3), (COS - 2 * SIN, SIN + 2 * COS, 3)),
+    "rotation-transposed": ("rotate\n90 0 0 1", (-2, 1, 3), (2, -1, 3)),
+    "rotation-element-from-the-wrong-column": ("rotate\n90 0 0 1", (-2, 1, 3), (-5, 1, 3)),
+    "angle-negated": ("rotate\n90 0 0 1", (-2, 1, 3), (2, -1, 3)),
+}
+
+# The camera looks along x, with an up that is not of unit length: where 7 4 9 is.
+ALONG_X = "eye 1 2 3\nlook 5 2 3\nup 0 2 0\n"
+VIEW = {
+    "translation-after-rotation": (ALONG_X, (6, 2, -6), (8, 2, -10)),
+    "eye-added": (ALONG_X, (6, 2, -6), (12, 6, -8)),
+    "no-translation": (ALONG_X, (6, 2, -6), (9, 4, -7)),
+    "rotation-transposed": (ALONG_X, (6, 2, -6), (-6, 2, 6)),
+    "look-is-a-direction": ("eye -4 0 -1\nlook 0 0 -1\nup 0 1 0\n", (10, 4, -11), (11, 4, 10)),
+    "l-not-unit": (ALONG_X, (6, 2, -6), (6, 8, -24)),
+    "l-not-negated": (ALONG_X, (6, 2, -6), (6, 2, 6)),
+    "r-not-unit": (ALONG_X, (6, 2, -6), (12, 4, -6)),
+    "r-is-up-cross-l": (ALONG_X, (6, 2, -6), (-6, -2, -6)),
+    "up-as-given": (ALONG_X, (6, 2, -6), (6, 4, -6)),
+}
+
+# Where 2 3 -4 is under perspective 60 0.5 1 3.
+X, Y, Z = 0.5 / TAN15, 0.75 / TAN30, 1.25
+PROJECT = {
+    "fov-in-radians": (0.5 / math.tan(15), 0.75 / math.tan(30), Z),
+    "fov-not-halved": (0.5 / TAN30, 0.75 / TAN60, Z),
+    "fovx-equals-fovy": (0.5 / TAN30, Y, Z),
+    "fovx-divided-by-aspect": (0.5 / TAN60, Y, Z),
+    "r-is-t-times-aspect": (1 / TAN30, Y, Z),
+    "r-and-t-swapped": (0.5 / TAN30, 0.75 / TAN15, Z),
+    "near-and-far-swapped": (X, Y, -1.25),
+    "missing-two": (X, Y, 1.625),
+    "z-row-sign": (X, Y, -1.25),
+    "w-is-plus-z": (-X, -Y, -Z),
+    "last-element-is-one": (0.8 * X, 0.8 * Y, 0.8 * Z),
+    "no-divide": (4 * X, 4 * Y, 4 * Z),
+}
+
+WINDOW = "8 8\n-1\n-1\n0 1\n"  # pixels of 0.25 x 0.25, centers at -0.875, -0.625 and so on
+
+# Every mistake of stages 1 to 3 shows in it, and with limits those of stage 4.
+NESTED = """3 4 7
+0.3 -0.2 0.1
+0.2 1 0.1
+50 1.3 1 50
+translate
+0.1 0.2 0.3
+push
+push
+rotate
+35 1 2 3
+triangle
+-1 -1 -1
+1 -1 -0.5
+0 1.2 0.3
+push
+translate
+0.5 0.25 0.75
+scale
+0.5 1.5 0.75
+triangle
+-1 0 0
+1 0 0.5
+0 1 -0.5
+pop
+triangle
+0 0 1
+0.5 0.5 1
+-0.5 0.5 1.2
+pop
+translate
+-0.2 -0.3 0
+pop
+triangle
+-3 -1 -3
+3 -1 -3
+0 -1 4
+triangle
+-3 -1 -1
+3 -1 -1
+0 2 -2
+end
+"""
+
+
+def corner(z0=0.5, z1=0.5, z2=0.5, low=-0.7, high=0.72):
+    """A triangle with its right angle at the bottom left."""
+    return (low, low, z0), (high, low, z1), (low, high, z2)
+
+
+def twice(triangle):
+    return tuple((2 * x, 2 * y, z) for x, y, z in triangle)
+
+
+def rows(*pixels):
+    """A picture of 8 x 8, from the beginnings of its rows."""
+    return [row.ljust(8, ".") for row in (*pixels, *[""] * (8 - len(pixels)))]
+
+
+def stairs(letter="a"):
+    return rows(".", *["." + letter * count for count in range(1, 7)])
+
+
+# Triangles, the config, the right picture, and that with the mistake.
+ZBUF = {
+    "no-half-pixel-in-x": ([corner()], WINDOW, stairs(), rows("", *["." + "a" * count for count in range(2, 8)])),
+    "no-half-pixel-in-y": ([corner()], WINDOW, stairs(), rows("", "", *["." + "a" * count for count in range(2, 7)])),
+    "shifted-by-a-column": ([corner()], WINDOW, stairs(), rows("", *[".." + "a" * count for count in range(1, 7)])),
+    "shifted-by-a-row": ([corner()], WINDOW, stairs(), rows("", "", *["." + "a" * count for count in range(1, 7)])),
+    "column-short": ([corner()], WINDOW, stairs(), rows("", *["." + "a" * count for count in range(6)])),
+    "row-short": ([corner()], WINDOW, stairs(), rows("", *["." + "a" * count for count in range(1, 6)])),
+    "window-is-one": ([twice(corner())], "8 8\n-2\n-2\n0 1\n", stairs(), rows(*["a" * count for count in range(1, 9)])),
+    "front-limit-ignored": ([corner(-0.5, -0.5, -0.5)], WINDOW, rows(), stairs()),
+    "rear-limit-ignored": ([corner(1.5, 1.5, 1.5)], WINDOW, rows(), stairs()),
+    "farthest-wins": ([corner(z, z, z) for z in (0.25, 0.75, 0.5)], WINDOW, stairs(), stairs("b")),
+    "last-wins": ([corner(z, z, z) for z in (0.25, 0.75, 0.5)], WINDOW, stairs(), stairs("c")),
+    "one-color": ([corner(z, z, z) for z in (0.5, 0.25)], WINDOW, stairs("b"), stairs("a")),
+    "flat-depth": ([corner(0, 0.3, 0.6)], WINDOW, stairs(), stairs()),
+    "upside-down": ([corner()], WINDOW, stairs(), stairs()[::-1]),
+    "text-upside-down": ([corner()], WINDOW, stairs(), stairs()),
+    "mirrored": ([corner()], WINDOW, stairs(), [row[::-1] for row in stairs()]),
+}
+
+
+def picture(triangles, config, *names):
+    """The student's depths, a list of numbers for each row, and picture: a letter a triangle, '.' for black, '?' for else."""
+    stage3 = "".join("%r %r %r\n" % point for triangle in triangles for point in triangle)
+    with tempfile.NamedTemporaryFile("w") as file:
+        file.write(config)
+        file.flush()
+        depths, (width, _, image) = drawn(student, "zbuf", file.name, *switches(*names), stdin=stage3.encode())
+    letters = {bytes(3): ".", **dict(zip(colors(5), "abcde"))}
+    return ([numbers(line) for line in depths.decode().split("\n")[:-1]],
+            ["".join(letters.get(row[3 * i:3 * i + 3], "?") for i in range(width)) for row in image])
+
+
+class Lists(unittest.TestCase):
+    def test_the_program_has_a_switch_for_every_line_of_the_lists(self):
+        self.assertEqual(run(student, "switches").decode().split(), MISTAKES + HABITS)
+
+    def test_the_tables_here_have_every_mistake(self):
+        tables = {"model": MODEL, "view": VIEW, "project": PROJECT, "zbuf": ZBUF}
+        self.assertEqual([f"{stage}/{name}" for stage, table in tables.items() for name in table], MISTAKES)
+
+    def test_an_unknown_name_is_refused(self):
+        done = subprocess.run([student, "model", "--mistake", "model/none"], stdin=subprocess.DEVNULL, stderr=subprocess.PIPE)
+        self.assertEqual(done.returncode, 2)
+
+
+class Right(unittest.TestCase):
+    def assert_same_points(self, theirs, expected, unit):
+        """A point that is right to the last digit but one may differ by `unit` in it."""
+        self.assertEqual(len(theirs), len(expected))
+        for p, q in zip(theirs, expected):
+            for x, y in zip(p, q):
+                self.assertLessEqual(abs(x - y), unit)
+
+    def test_the_stages_of_the_plain_samples_with_all_numbers_kept(self):
+        for name in PLAIN:
+            with self.subTest(sample=name):
+                sample = source / "samples" / name
+                files = five(sample / "scene.txt", sample / "config.txt", "all/exact-in-memory")
+                for file in FIVE[:3]:
+                    self.assertEqual(points(files[file]), points((sample / file).read_bytes()), file)
+
+    def test_the_stages_of_the_plain_samples_read_from_text(self):
+        for name in PLAIN:
+            with self.subTest(sample=name):
+                sample = source / "samples" / name
+                files = five(sample / "scene.txt", sample / "config.txt")
+                for file in FIVE[:3]:
+                    self.assert_same_points(points(files[file]), points((sample / file).read_bytes()), 2e-7)
+
+    def test_the_pictures_of_all_samples_without_colors(self):
+        for name in (*PLAIN, "wide-clipped"):
+            with self.subTest(sample=name):
+                sample = source / "samples" / name
+                stage3 = b"".join(line for line in (sample / "stage3.txt").read_bytes().splitlines(True) if not line[:1].isalpha())
+                depths, image = drawn(student, "zbuf", sample / "config.txt", stdin=stage3)
+                self.assertTrue(depths == (sample / "z_buffer.txt").read_bytes(), "the depths differ")
+                if b"triangle" not in (sample / "stage3.txt").read_bytes():
+                    self.assertTrue(image == read_picture(sample / "out.bmp"), "the picture differs")
+
+    def test_stages_joined_by_pipes_need_no_scene(self):
+        sample = source / "samples/tilted-camera"
+        text = (sample / "scene.txt").read_bytes()
+        for stage in ("model", "view", "project"):
+            text = run(student, stage, stdin=text)
+        self.assertEqual(text, five(sample / "scene.txt", sample / "config.txt")["stage3.txt"])
+
+    def test_stages_joined_to_ours(self):
+        """Each stage of the student's between ours, over our header."""
+        scene = (source / "samples/tilted-camera/scene.txt").read_bytes()
+        ours = [scene]
+        for tool in ("model", "view", "project"):
+            ours.append(run(bin_dir / tool, "-", stdin=ours[-1]))
+        for i, stage in enumerate(("model", "view", "project")):
+            with self.subTest(stage=stage):
+                self.assert_same_points(points(run(student, stage, stdin=ours[i])), points(ours[i + 1]), 1.01e-7)
+        self.assert_same_points(points(run(bin_dir / "view", stdin=run(student, "model", stdin=scene))), points(ours[2]), 1.01e-7)
+        self.assert_same_points(points(run(bin_dir / "project", stdin=run(student, "view", stdin=ours[1]))), points(ours[3]), 1.01e-7)
+
+    def test_the_camera_of_a_scene_for_texts_without_a_header(self):
+        scene = source / "samples/tilted-camera/scene.txt"
+        text = run(student, "model", "--bare", stdin=scene.read_bytes())
+        for stage in ("view", "project"):
+            self.assertFalse(any(line[:1].isalpha() for line in text.decode().split("\n")))
+            text = run(student, stage, "--bare", "--scene", scene, stdin=text)
+        self.assertEqual(text, five(scene, scene.with_name("config.txt"))["stage3.txt"])
+
+    def test_depths_are_those_of_the_plane(self):
+        depths, _ = picture([corner(0, 0.3, 0.6)], WINDOW)
+        for row in range(1, 7):
+            for column, depth in enumerate(depths[row], 1):
+                x, y = -0.875 + 0.25 * column, 0.875 - 0.25 * row
+                self.assertLess(abs(depth - (0.3 * (x + 0.7) + 0.6 * (y + 0.7)) / 1.42), 1e-6)
+
+
+class OneMistake(unittest.TestCase):
+    def assert_point(self, text, expected):
+        for x, y in zip(points(text)[0], expected):
+            self.assertAlmostEqual(x, y, delta=1e-7)
+
+    def test_of_model(self):
+        for name, (commands, right, wrong) in MODEL.items():
+            with self.subTest(mistake=name):
+                scene = (CAMERA + commands + "\ntriangle\n1 2 3\n0 0 0\n1 0 0\nend\n").encode()
+                self.assertNotEqual(right, wrong)
+                self.assert_point(run(student, "model", stdin=scene), right)
+                self.assert_point(run(student, "model", *switches("model/" + name), stdin=scene), wrong)
+
+    def test_of_view(self):
+        for name, (camera, right, wrong) in VIEW.items():
+            with self.subTest(mistake=name):
+                text = (camera + "perspective 60 1 1 3\n7 4 9\n0 0 0\n1 0 0\n\n").encode()
+                self.assertNotEqual(right, wrong)
+                self.assert_point(run(student, "view", stdin=text), right)
+                self.assert_point(run(student, "view", *switches("view/" + name), stdin=text), wrong)
+
+    def test_of_project(self):
+        text = b"perspective 60 0.5 1 3\n2 3 -4\n0 0 -1\n1 0 -1\n\n"
+        self.assert_point(run(student, "project", stdin=text), (X, Y, Z))
+        for name, wrong in PROJECT.items():
+            with self.subTest(mistake=name):
+                self.assertNotEqual((X, Y, Z), wrong)
+                self.assert_point(run(student, "project", *switches("project/" + name), stdin=text), wrong)
+
+    def test_of_zbuf(self):
+        for name, (triangles, config, right, wrong) in ZBUF.items():
+            with self.subTest(mistake=name):
+                (depths, image), (wrong_depths, wrong_image) = (picture(triangles, config, *names) for names in ((), ("zbuf/" + name,)))
+                self.assertEqual(image, right)
+                self.assertEqual(wrong_image, wrong)
+                self.assertEqual([len(row) for row in depths], [8 - row.count(".") for row in image])
+                counts = [8 - row.count(".") for row in wrong_image]
+                self.assertEqual([len(row) for row in wrong_depths], counts[::-1] if name == "text-upside-down" else counts)
+                if name == "flat-depth":
+                    self.assertEqual({depth for row in wrong_depths for depth in row}, {0.3})
+                elif name != "text-upside-down":
+                    self.assertNotEqual(right, wrong)
+
+    def test_changes_its_own_stage_and_none_before(self):
+        with tempfile.TemporaryDirectory() as folder:
+            scene, config = pathlib.Path(folder, "scene.txt"), pathlib.Path(folder, "config.txt")
+            scene.write_text(NESTED)
+            config.write_text("40 30\n-0.9\n-0.8\n0.74 0.84\n")
+            right = five(scene, config)
+            for name in MISTAKES:
+                with self.subTest(mistake=name):
+                    wrong = five(scene, config, name)
+                    stage = ("model", "view", "project", "zbuf").index(name.split("/")[0])
+                    for file in FIVE[:stage]:
+                        self.assertTrue(wrong[file] == right[file], f"{file} differs")
+                    self.assertTrue(any(wrong[file] != right[file] for file in FIVE[stage:stage + 1 + (stage == 3)]), "nothing differs")
+
+
+class Habit(unittest.TestCase):
+    def model(self, *names):
+        scene = CAMERA + "scale\n0.5 1 1\ntriangle\n0.24691357 12.5 -0.000123456\n0 0 0\n1 0 0\nend\n"
+        return run(student, "model", "--bare", *switches(*names), stdin=scene.encode())
+
+    def test_numbers_and_lines_look_different(self):
+        for name, line in {"six-digits": b"0.123457 12.5 -0.000123456\n", "four-decimals": b"0.1235 12.5000 -0.0001\n",
+                           "blanks-at-line-ends": b"0.1234568 12.5000000 -0.0001235 \n",
+                           "carriage-returns": b"0.1234568 12.5000000 -0.0001235\r\n"}.items():
+            with self.subTest(habit=name):
+                self.assertTrue(self.model().startswith(b"0.1234568 12.5000000 -0.0001235\n"))
+                self.assertTrue(self.model("all/" + name).startswith(line), self.model("all/" + name))
+
+    def test_numbers_kept_in_memory_are_not_rounded(self):
+        sample = source / "samples/tilted-camera"
+        kept, read = (five(sample / "scene.txt", sample / "config.txt", "all/four-decimals", *names)["z_buffer.txt"]
+                      for names in (("all/exact-in-memory",), ()))
+        right = five(sample / "scene.txt", sample / "config.txt")["z_buffer.txt"]
+        self.assertEqual(len(kept.split()), len(right.split()))
+        self.assertLess(max(abs(x - y) for x, y in zip(numbers(kept.decode()), numbers(right.decode()))), 1e-5)
+        self.assertNotEqual(kept, read)
+
+    def test_other_pixels(self):
+        triangle = corner(low=-0.6, high=0.8)
+        nearest = rows("", *["." + "a" * count for count in range(2, 7)])
+        self.assertEqual(picture([triangle], WINDOW)[1], nearest)
+        self.assertEqual(picture([triangle], WINDOW, "zbuf/center")[1], rows("", "", *[".." + "a" * count for count in range(1, 5)]))
+        self.assertEqual(picture([triangle], WINDOW, "zbuf/truncated-ends")[1], rows("", *["." + "a" * count for count in range(1, 6)]))
+
+    def test_the_center_rule_is_ours(self):
+        for name in ("torus", "tilted-camera", "nested-transforms"):
+            with self.subTest(sample=name):
+                sample = source / "samples" / name
+                stage3 = (sample / "stage3.txt").read_bytes()
+                theirs = drawn(student, "zbuf", sample / "config.txt", *switches("zbuf/center"), stdin=stage3)[1]
+                ours = drawn(bin_dir / "zbuf", sample / "config.txt", "--coverage", "center", stdin=stage3)[1]
+                self.assertTrue(theirs == ours, "the pictures differ")
+
+    def test_depths_between_rounded_ends(self):
+        triangle = corner(0, 0.71, 0)  # z = (x + 0.7) / 2, so 0.6725 at the right end of row 6
+        depths, _ = picture([triangle], WINDOW, "zbuf/rounded-ends-depth")
+        self.assertEqual(depths[6], [0, 0.1345, 0.269, 0.4035, 0.538, 0.6725])
+        self.assertEqual(picture([triangle], WINDOW)[0][6][0], 0.0375)
+
+    def test_slivers(self):
+        line = (-0.6, -0.6, 0.5), (0.1, 0.1, 0.5), (0.6, 0.6, 0.5)
+        self.assertEqual(picture([line], WINDOW)[1], rows("", "", ".....a", "....a", "...a", "..a"))
+        self.assertEqual(picture([line], WINDOW, "zbuf/no-slivers")[1], rows())
+
+    def test_equal_depths(self):
+        self.assertEqual(picture([corner(), corner()], WINDOW)[1], stairs("a"))
+        self.assertEqual(picture([corner(), corner()], WINDOW, "zbuf/later-of-equals")[1], stairs("b"))
+
+    def test_everything_printed(self):
+        depths, image = picture([corner()], WINDOW, "zbuf/everything-printed")
+        self.assertEqual(image, stairs())
+        self.assertEqual(depths, [[1.0 if pixel == "." else 0.5 for pixel in row] for row in stairs()])
+
+    def test_other_colors(self):
+        self.assertEqual(picture([corner()], WINDOW, "zbuf/other-colors"), (picture([corner()], WINDOW)[0], stairs("?")))
+
+    def test_other_file_names(self):
+        sample = source / "samples/worked-example"
+        files = five(sample / "scene.txt", sample / "config.txt", "zbuf/other-file-names")
+        right = five(sample / "scene.txt", sample / "config.txt")
+        self.assertEqual({*files}, {*FIVE[:3], "z-buffer.txt", "output.bmp"})
+        self.assertEqual([files["z-buffer.txt"], files["output.bmp"]], [right["z_buffer.txt"], right["out.bmp"]])
+
+
+if __name__ == "__main__":
+    unittest.main()
