@@ -24,27 +24,10 @@
 #include "tools/fragment_report.h"
 #include "tools/progress.h"
 #include "tools/surface_shading.h"
+#include "tools/triangle_store.h"
 
 namespace pipeline {
 namespace {
-
-/// Assigns every triangle of the stream, in order, the tag of its pixels: the RGB value of its color, or the
-/// id under which a surface shader keeps it. Hands each to the report, if there is one.
-class TriangleTagSource {
- public:
-  TriangleTagSource(std::optional<SurfaceShader>& shader, FragmentReport* report)
-      : shader_(shader), report_(report) {}
-  PixelTag operator()(const TriangleBatch& p_ndc, std::size_t index) {
-    if (report_ != nullptr) report_->add(p_ndc, index);
-    const Color color = colors_.of(p_ndc.numbers[index]);
-    return shader_ ? shader_->add(p_ndc, index, color) : color.rgb();
-  }
-
- private:
-  TriangleColors colors_;
-  std::optional<SurfaceShader>& shader_;
-  FragmentReport* report_;
-};
 
 /// Reads the triangles into `batch()`, batch by batch, hands each to the report and calls `draw()`.
 template <typename Source, typename Batch, typename Draw>
@@ -70,6 +53,9 @@ struct SampledVisible {
     if (sample_count > 1) samples.emplace(screen, background);
   }
 
+  /// Those that the image shows.
+  [[nodiscard]] Visible& shaded() { return samples ? *samples : centers; }
+
   Viewport center_screen;
   Viewport screen;  // of the samples; of the centers if there is one sample a pixel
   Visible centers;
@@ -77,7 +63,7 @@ struct SampledVisible {
 };
 
 template <typename CoverageRule, typename Depth>
-void draw_all(Tool& tool, const ZbufOptions& chosen, StageReader& reader, TriangleTagSource& tag_of,
+void draw_all(Tool& tool, const ZbufOptions& chosen, StageReader& reader, TriangleStore& store,
               DrawingReport& report, SampledVisible<ZBufferAlgorithm<CoverageRule, Depth>>& visible) {
   using Drawing = TriangleDrawing<ZBufferAlgorithm<CoverageRule, Depth>>;
   visible.centers.set_depth_epsilon(chosen.depth_epsilon);
@@ -89,28 +75,39 @@ void draw_all(Tool& tool, const ZbufOptions& chosen, StageReader& reader, Triang
     samples.emplace(*visible.samples, visible.screen, pool);
   }
   std::vector<PixelTag> tags;
-  const auto draw = [&] {
+  const auto tag_of = [&](const TriangleBatch& p_ndc, std::size_t i) { return store.add(p_ndc, i); };
+  const auto draw_batch = [&] {
     if (!samples) return centers.draw_batch(tag_of);
     TriangleBatch& batch = samples->next_batch() = centers.next_batch();
     tags.clear();
-    for (std::size_t i = 0; i < batch.size(); ++i) tags.push_back(tag_of(batch, i));
+    for (std::size_t i = 0; i < batch.size(); ++i) tags.push_back(store.add(batch, i));
     const auto kept_tag = [&](const TriangleBatch&, std::size_t i) { return tags[i]; };
     centers.draw_batch(kept_tag);
     samples->draw_batch(kept_tag);
   };
+  const auto finish = [&] {
+    centers.finish();
+    if (samples) samples->finish();
+  };
+  const auto draw = [&] {
+    draw_batch();
+    if (!store.is_full()) return;
+    finish();
+    store.keep_seen([&](const auto& visit) { visible.shaded().for_each_tag(visit); });
+  };
   ReadAhead ahead(reader, pool);
   for_each_batch(
       tool, ahead, report, [&]() -> TriangleBatch& { return centers.next_batch(); }, draw);
-  centers.finish();
-  if (samples) samples->finish();
+  finish();
 }
+
 template <typename CoverageRule, typename Depth>
-void draw_all(Tool& tool, const ZbufOptions&, StageReader& reader, TriangleTagSource& tag_of,
+void draw_all(Tool& tool, const ZbufOptions&, StageReader& reader, TriangleStore& store,
               DrawingReport& report, SampledVisible<ScanlineAlgorithm<CoverageRule, Depth>>& visible) {
   TriangleBatch p_ndc;
   const auto draw = [&] {
     for (std::size_t i = 0; i < p_ndc.size(); ++i) {
-      const PixelTag tag = tag_of(p_ndc, i);
+      const PixelTag tag = store.add(p_ndc, i);
       visible.centers.draw(exact_triangle(p_ndc, i), tag);
       if (visible.samples) visible.samples->draw(exact_triangle(p_ndc, i), tag);
     }
@@ -175,6 +172,10 @@ void note_empty_picture(const Tool& tool, const DrawingReport& report,
   if (note) tool.note(*note);
 }
 
+std::size_t pixel_count(const Viewport& screen) {
+  return static_cast<std::size_t>(screen.columns) * static_cast<std::size_t>(screen.rows);
+}
+
 template <VisibilityAlgorithm Visible>
 void render_with(Tool& tool, const ZbufOptions& chosen, const Viewport& screen, Statistics& statistics) {
   statistics.open();
@@ -197,8 +198,8 @@ void render_with(Tool& tool, const ZbufOptions& chosen, const Viewport& screen, 
   tool.timing().lap(&Timing::work_seconds);
   const std::unique_ptr<FragmentReport> fragments = fragment_report(chosen, screen);
   const std::unique_ptr<DrawingReport> report = drawing_report(chosen, screen, statistics.is_wanted());
-  TriangleTagSource tag_of(shader, fragments.get());
-  draw_all(tool, chosen, reader, tag_of, *report, visible);
+  TriangleStore store(shader, fragments.get(), pixel_count(shaded_screen));
+  draw_all(tool, chosen, reader, store, *report, visible);
   if (fragments) fragments->finish();
   report->add_to(statistics);
   statistics.finish();

@@ -110,6 +110,12 @@ SurfaceShader::SurfaceId SurfaceShader::add(const TriangleBatch& p_ndc, std::siz
   return static_cast<SurfaceId>(surfaces_.size() - 1);
 }
 
+void SurfaceShader::keep(const KeptIds& kept) {
+  assert(kept.size() == surfaces_.size());
+  surfaces_.keep(kept);
+  if (setup_.wireframe) setup_.wireframe->keep(kept);
+}
+
 void SurfaceShader::note_colors(const std::array<Vec3, 3>& colors) {
   for (const Vec3& c : colors) greatest_channel_ = std::max({greatest_channel_.value_or(0), c.x, c.y, c.z});
 }
@@ -136,10 +142,11 @@ std::span<const Color> SurfaceShader::shade(int row, std::span<const SurfaceId> 
   const double y = grid_.y_of(row);
   const std::size_t first = first_surface(ids);
   std::fill_n(row_.begin(), first, setup_.background);
-  for (std::size_t column = first; column < ids.size(); ++column) {
-    const SurfaceId id = ids[column];
-    row_[column] =
-        id == kNoSurface ? setup_.background : color_at(id, grid_.x_of(static_cast<int>(column)), y);
+  // Neighbors mostly show the same triangle, which is looked up once.
+  for (std::size_t column = first, end; column < ids.size(); column = end) {
+    end = column + 1;
+    while (end < ids.size() && ids[end] == ids[column]) ++end;
+    shade_columns(column, end, y, ids[column]);
   }
   if (!shows_something_ && first < ids.size()) look_for_something(std::span(row_).subspan(first));
   return row_;
@@ -150,9 +157,19 @@ void SurfaceShader::look_for_something(std::span<const Color> colors) {
       std::ranges::any_of(colors, [&](Color color) { return differ_visibly(color, setup_.background); });
 }
 
-Color SurfaceShader::color_at(SurfaceId id, double x, double y) const {
-  if (setup_.wireframe && !setup_.wireframe->is_on_edge(id, x, y)) return setup_.background;
+void SurfaceShader::shade_columns(std::size_t begin, std::size_t end, double y, SurfaceId id) {
+  const std::span<Color> colors = std::span(row_).subspan(begin, end - begin);
+  std::ranges::fill(colors, setup_.background);
+  if (id == kNoSurface) return;
   const Surface& surface = surfaces_[id];
+  const Wireframe::Edges* const edges = setup_.wireframe ? &setup_.wireframe->edges(id) : nullptr;
+  for (std::size_t i = 0; i < colors.size(); ++i) {
+    const double x = grid_.x_of(static_cast<int>(begin + i));
+    if (edges == nullptr || Wireframe::is_on_edge(*edges, x, y)) colors[i] = color_at(surface, x, y);
+  }
+}
+
+Color SurfaceShader::color_at(const Surface& surface, double x, double y) const {
   const SurfacePoint point = mean(surface.corners, weights_at(surface.screen_corners, x, y));
   return rounded_color(setup_.model == ShadingModel::phong ? lit_color(point, setup_.lighting) : point.color);
 }

@@ -11,6 +11,8 @@
 #include "libpipeline/picture/wireframe.h"
 #include "libpipeline/scene/color.h"
 #include "libpipeline/scene/pixel_grid.h"
+#include "libpipeline/stream/chunked_array.h"
+#include "libpipeline/stream/kept_ids.h"
 #include "libpipeline/stream/triangle_batch.h"
 #include "libpipeline/vertex/transform.h"
 
@@ -27,9 +29,9 @@ enum class ShadingModel { none, flat, gouraud, phong };
 /// Without vertex normals, all models use the triangle's.
 class SurfaceShader {
  public:
-  using SurfaceId = std::uint32_t;
+  using SurfaceId = KeptIds::Id;
   /// The id of a pixel without a triangle.
-  static constexpr SurfaceId kNoSurface = 0xffffffff;
+  static constexpr SurfaceId kNoSurface = KeptIds::kNoTriangle;
 
   /// How a scene is lit. `view_from_clip` is needed by every model but `none`.
   struct Setup {
@@ -45,6 +47,11 @@ class SurfaceShader {
 
   /// Keeps a triangle of a batch in NDC and returns its id; `own_color` is its color if it carries none.
   SurfaceId add(const TriangleBatch& p_ndc, std::size_t index, Color own_color);
+  /// The count of triangles kept; their ids are less.
+  [[nodiscard]] std::size_t size() const { return surfaces_.size(); }
+  /// Lets go of the triangles that are not kept; the others have new ids from now on. The one added last has
+  /// to be kept.
+  void keep(const KeptIds& kept);
   /// The colors of a row of the image, by the ids seen in it. Valid until the next call.
   std::span<const Color> shade(int row, std::span<const SurfaceId> ids);
 
@@ -68,11 +75,12 @@ class SurfaceShader {
   void look_for_something(std::span<const Color> colors);
   void note_colors(const std::array<Vec3, 3>& colors);
   void add_edges(const TriangleBatch& p_ndc, std::size_t index, const Triangle& screen_corners);
-  [[nodiscard]] Color color_at(SurfaceId id, double x, double y) const;
+  void shade_columns(std::size_t begin, std::size_t end, double y, SurfaceId id);
+  [[nodiscard]] Color color_at(const Surface& surface, double x, double y) const;
 
   PixelGrid grid_;
   Setup setup_;
-  std::vector<Surface> surfaces_;
+  ChunkedArray<Surface> surfaces_;
   std::vector<Color> row_;
   bool shows_something_ = false;
   std::optional<double> greatest_channel_;

@@ -33,7 +33,7 @@ void Wireframe::add(const Triangle& screen_corners) {
 
 void Wireframe::add_piece(const Triangle& p_ndc, const Triangle& screen_corners, std::uint64_t number) {
   add(screen_corners);
-  std::array<Line, 3>& edges = edges_.back();
+  Edges& edges = edges_.back();
   for (std::size_t i = 0; i < 3; ++i)
     if (is_in_clip_plane(p_ndc[i], p_ndc[(i + 1) % 3])) edges[i] = kNotDrawn;
   // Pieces are a fan around their first corner.
@@ -44,8 +44,8 @@ void Wireframe::add_piece(const Triangle& p_ndc, const Triangle& screen_corners,
   last_ = {number, p_ndc};
 }
 
-bool Wireframe::is_on_edge(std::size_t index, double x, double y) const {
-  return std::any_of(edges_[index].begin(), edges_[index].end(),
+bool Wireframe::is_on_edge(const Edges& edges, double x, double y) {
+  return std::any_of(edges.begin(), edges.end(),
                      [&](const Line& line) { return std::fabs(line.a * x + line.b * y + line.c) <= kReach; });
 }
 

@@ -106,6 +106,11 @@ class ZBufferAlgorithm {
     SpanQueue queue_;
   };
 
+  /// Calls `visit(tag)`, which may change it, for every pixel. No drawer may be in use.
+  template <typename Visitor>
+  void for_each_tag(Visitor&& visit) {
+    buffer_.for_each_tag(visit);
+  }
   template <typename Visitor>
   void for_each_row(Visitor&& visit) const {
     buffer_.for_each_row(visit);

@@ -49,6 +49,12 @@ class ZBuffer {
     return {rows, depths_.columns()};
   }
 
+  /// Calls `visit(tag)`, which may change it, for every pixel.
+  template <typename Visitor>
+  void for_each_tag(Visitor&& visit) {
+    for (int row = 0; row < tags_.rows(); ++row)
+      for (PixelTag& tag : tags_.row(row)) visit(tag);
+  }
   /// Calls `visit(VisibleRow)` for every row of the screen, from the top.
   template <typename Visitor>
   void for_each_row(Visitor&& visit) const {

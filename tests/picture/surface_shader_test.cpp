@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <vector>
 
 namespace pipeline {
 namespace {
@@ -29,6 +30,58 @@ TEST(SurfaceShader, APixelInTheMiddleHasTheMeanColor) {
 // The nearest rule draws such triangles, too.
 TEST(SurfaceShader, APixelOnATriangleWithoutAreaHasTheColorOfTheFirstCorner) {
   EXPECT_EQ(color_on({Vec3{-1, 0, 0}, Vec3{0.5, 0, 0}, Vec3{1, 0, 0}}, kColors), Color(10, 20, 30));
+}
+
+/// A batch of triangles that cover the pixel, each in one color; all have the same number.
+TriangleBatch batch_of(const std::vector<Vec3>& colors) {
+  TriangleBatch batch;
+  for (const Vec3& color : colors) {
+    batch.add({Vec3{-1, -1, 0}, Vec3{1, -1, 0}, Vec3{0, 2, 0}}, 0, {});
+    batch.attributes.colors.push_back({color, color, color});
+  }
+  return batch;
+}
+
+TEST(SurfaceShader, TrianglesKeptHaveTheirColorsUnderTheirNewIds) {
+  const TriangleBatch batch = batch_of({{1, 1, 1}, {2, 2, 2}, {3, 3, 3}, {4, 4, 4}});
+  SurfaceShader shader(kOnePixel, {});
+  for (std::size_t i = 0; i < batch.size(); ++i) shader.add(batch, i, Color());
+  KeptIds kept(4);
+  kept.keep(1);
+  kept.keep(3);
+  kept.renumber();
+  shader.keep(kept);
+  EXPECT_EQ(shader.size(), 2u);
+  const std::array<SurfaceShader::SurfaceId, 1> second = {kept.new_id(1)}, last = {kept.new_id(3)};
+  EXPECT_EQ(shader.shade(0, second)[0], Color(2, 2, 2));
+  EXPECT_EQ(shader.shade(0, last)[0], Color(4, 4, 4));
+  const std::array<SurfaceShader::SurfaceId, 1> next = {shader.add(batch, 0, Color())};
+  EXPECT_EQ(next[0], 2u);
+  EXPECT_EQ(shader.shade(0, next)[0], Color(1, 1, 1));
+}
+
+// The edge from the first corner to the last of one piece, through the middle, is that of the next one.
+TEST(SurfaceShader, AWireframeHasNoEdgeBetweenPiecesOneOfWhichWasKept) {
+  const Vec3 red{255, 0, 0};
+  TriangleBatch pieces;
+  pieces.add({Vec3{-9, -9, 0}, Vec3{-8, -9, 0}, Vec3{-9, -8, 0}}, 0, {});
+  pieces.add({Vec3{-4, -4, 0}, Vec3{4, -4, 0}, Vec3{4, 4, 0}}, 1, {});
+  pieces.add({Vec3{-4, -4, 0}, Vec3{4, 4, 0}, Vec3{-4, 4, 0}}, 1, {});
+  pieces.attributes.colors.assign(3, {red, red, red});
+  SurfaceShader::Setup setup;
+  setup.wireframe.emplace(PixelSize{2, 2});
+  SurfaceShader shader(kOnePixel, setup);
+  shader.add(pieces, 0, Color());
+  shader.add(pieces, 1, Color());
+  const std::array<SurfaceShader::SurfaceId, 1> before = {1};
+  EXPECT_EQ(shader.shade(0, before)[0], Color(255, 0, 0));
+  KeptIds kept(2);
+  kept.keep(1);
+  kept.renumber();
+  shader.keep(kept);
+  const std::array<SurfaceShader::SurfaceId, 1> first = {0}, second = {shader.add(pieces, 2, Color())};
+  EXPECT_EQ(shader.shade(0, first)[0], Color());
+  EXPECT_EQ(shader.shade(0, second)[0], Color());
 }
 
 }  // namespace

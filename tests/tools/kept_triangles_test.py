@@ -1,0 +1,103 @@
+#!/usr/bin/env python3
+"""In scenes with colors or lights, zbuf lets go of triangles that nobody sees: its memory is bounded, the picture stays.
+
+usage: kept_triangles_test.py BIN_DIR [UNITTEST ARGUMENT...]
+"""
+import math
+import pathlib
+import random
+import subprocess
+import unittest
+
+from streaming_test import LiveTool
+from toolbox import ToolTest, run
+
+COLORED = "attributes w color\n"
+LIT = "attributes w color normal\nmaterial 0.5 1 0.5 8\nlight 1 2 3 1 1 1\nprojected frustum -0.5 0.5 -0.5 0.5 1 100\n"
+MEBIBYTE = 1024  # in the units of /proc, which are KiB
+# zbuf looks for unseen triangles when it keeps this many; in a larger picture, one per pixel.
+LEAST = 16384
+
+
+def triangles(count, seed, size, has_normals):
+    """Small triangles all over the screen, in no order."""
+    numbers = random.Random(seed)
+    uniform = numbers.uniform
+    lines = []
+    for _ in range(count):
+        x, y, z = uniform(-1, 1), uniform(-1, 1), uniform(-0.9, 0.9)
+        for _ in range(3):
+            line = "%.7f %.7f %.7f %.3f %.2f %.2f %.2f" % (x + uniform(-size, size), y + uniform(-size, size), z, 2 + z,
+                                                       uniform(0, 255), uniform(0, 255), uniform(0, 255))
+            if has_normals:
+                a, b = uniform(-1.5, 1.5), uniform(-1.5, 1.5)
+                line += " %.7f %.7f %.7f" % (math.cos(a) * math.cos(b), math.sin(a) * math.cos(b), math.sin(b))
+            lines.append(line + "\n")
+        lines.append("\n")
+    return "".join(lines)
+
+
+class KeptTriangles(ToolTest):
+    """The scan-line algorithm keeps all triangles."""
+
+    def check(self, text, *options, config="40 40\n"):
+        pathlib.Path("config.txt").write_text(config)
+        pictures = []
+        for algorithm in (["--algorithm", "scanline"], [], ["--threads", "3"]):
+            done = run("zbuf", "config.txt", *algorithm, *options, stdin=text)
+            self.assert_quiet_success(done)
+            pictures.append((done.stdout, pathlib.Path("out.bmp").read_bytes()))
+        self.assertEqual(pictures[1], pictures[0])
+        self.assertEqual(pictures[2], pictures[0])
+
+    def test_the_picture_does_not_change(self):
+        text = triangles(5 * LEAST, 1, 0.05, has_normals=True)
+        for options in ([], ["--shading", "flat"], ["--shading", "gouraud"], ["--wireframe"], ["--samples", "2"], ["--coverage", "center"]):
+            with self.subTest(options=options):
+                self.check(LIT + text, *options)
+
+    def test_nor_if_every_triangle_hides_those_before(self):
+        walls = "".join(f"-9 -9 {-i / LEAST / 4:.9f} 1 {i % 256} 0 0\n9 -9 {-i / LEAST / 4:.9f} 1 0 {i % 256} 0\n0 9 {-i / LEAST / 4:.9f} 1 0 0 9\n\n"
+                        for i in range(3 * LEAST))
+        self.check(COLORED + walls, config="4 4\n")
+
+    def test_pieces_of_one_triangle_may_be_kept_and_let_go_apart(self):
+        """Two pieces make a square; with --wireframe the edge between them is not drawn, wherever the store is full."""
+        numbers = random.Random(3)
+        texts = []
+        for i in range(2 * LEAST):
+            x, y, z = numbers.uniform(-1, 1), numbers.uniform(-1, 1), numbers.uniform(-0.9, 0.9)
+            a, b, c, d = (f"{x + dx:.7f} {y + dy:.7f} {z:.7f} 1 {i % 251} 100 200\n" for dx, dy in ((0, 0), (0.2, 0), (0.2, 0.2), (0, 0.2)))
+            texts.append(f"{a}{b}{c}\ntriangle {i}\n{a}{c}{d}\n")
+        # One piece more or less before them: then the store is full between two pieces once.
+        single = "5 5 0 1 0 0 0\n6 5 0 1 0 0 0\n5 6 0 1 0 0 0\n\n"
+        for before in ("", "triangle 70000\n" + single + "triangle 0\n"):
+            self.check(COLORED + before + "".join(texts), "--wireframe")
+
+
+class Memory(ToolTest):
+    """At most 2 x samples x the bytes of a triangle, and 20 MiB."""
+
+    TRIANGLE = 288
+    EDGES = 72
+
+    def check(self, text, samples, triangle_size, *options):
+        with LiveTool("zbuf", "config.txt", "--image", "/dev/null", *options, stdout=subprocess.DEVNULL) as live:
+            live.send(text)
+            memory = live.peak_memory()
+            self.assertEqual(live.finish(), 0)
+        limit = 2 * samples * triangle_size // 1024 + 20 * MEBIBYTE
+        self.assertLess(memory, limit, options)
+        # All of them would need more.
+        self.assertGreater(text.count("\n\n") * triangle_size // 1024, limit)
+
+    def test_it_is_bounded_by_the_picture(self):
+        pathlib.Path("config.txt").write_text("60 60\n")
+        text = LIT + triangles(200_000, 4, 0.02, has_normals=True)
+        self.check(text, 60 * 60, self.TRIANGLE)
+        self.check(text, 60 * 60, self.TRIANGLE + self.EDGES, "--wireframe", "--threads", "3")
+        self.check(text, 120 * 120, self.TRIANGLE, "--samples", "2")
+
+
+if __name__ == "__main__":
+    unittest.main()
