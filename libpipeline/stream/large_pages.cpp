@@ -1,4 +1,4 @@
-#include "libpipeline/visibility/raster.h"
+#include "libpipeline/stream/large_pages.h"
 
 #ifdef __linux__
 #include <sys/mman.h>
