@@ -17,12 +17,14 @@
 #include "libpipeline/stream/thread_pool.h"
 #include "libpipeline/text/output_file.h"
 #include "libpipeline/visibility/algorithms.h"
+#include "libpipeline/visibility/fragment_log.h"
 #include "libpipeline/visibility/triangle_drawing.h"
 #include "tools/depth_files.h"
 #include "tools/drawing_report.h"
 #include "tools/empty_picture_note.h"
 #include "tools/fragment_report.h"
 #include "tools/progress.h"
+#include "tools/seen_file.h"
 #include "tools/surface_shading.h"
 #include "tools/triangle_store.h"
 
@@ -53,13 +55,37 @@ struct SampledVisible {
     if (sample_count > 1) samples.emplace(screen, background);
   }
 
-  /// Those that the image shows.
-  [[nodiscard]] Visible& shaded() { return samples ? *samples : centers; }
-
   Viewport center_screen;
   Viewport screen;  // of the samples; of the centers if there is one sample a pixel
   Visible centers;
   std::optional<Visible> samples;
+};
+
+/// Whether a triangle is nearer than all before it somewhere. Under a depth epsilon any other may be left
+/// out: a fragment that is drawn over one of depth c is nearer than c by more than epsilon, and none before
+/// it is.
+template <typename CoverageRule, typename Depth>
+class NearestSoFar {
+ public:
+  template <typename Visible>
+  explicit NearestSoFar(const SampledVisible<Visible>& visible) : at_centers_(visible.center_screen) {
+    if (visible.samples) at_samples_.emplace(visible.screen);
+  }
+
+  /// True if the next triangle is.
+  bool add(const ExactTriangle& p_ndc) {
+    bool is_nearest = false;
+    const auto look_at = [&](const Fragment& fragment) {
+      is_nearest |= fragment.result == DepthTestResult::kept;
+    };
+    at_centers_.add(p_ndc, 0, look_at);
+    if (at_samples_) at_samples_->add(p_ndc, 0, look_at);
+    return is_nearest;
+  }
+
+ private:
+  FragmentLog<CoverageRule, Depth> at_centers_;
+  std::optional<FragmentLog<CoverageRule, Depth>> at_samples_;
 };
 
 template <typename CoverageRule, typename Depth>
@@ -75,12 +101,14 @@ void draw_all(Tool& tool, const ZbufOptions& chosen, StageReader& reader, Triang
     samples.emplace(*visible.samples, visible.screen, pool);
   }
   std::vector<PixelTag> tags;
-  const auto tag_of = [&](const TriangleBatch& p_ndc, std::size_t i) { return store.add(p_ndc, i); };
+  std::optional<NearestSoFar<CoverageRule, Depth>> nearest;
+  if (store.keeps_text() && chosen.depth_epsilon > 0) nearest.emplace(visible);
+  const auto tag_of = [&](const TriangleBatch& p_ndc, std::size_t i) { return store.tag_of(p_ndc, i); };
   const auto draw_batch = [&] {
     if (!samples) return centers.draw_batch(tag_of);
     TriangleBatch& batch = samples->next_batch() = centers.next_batch();
     tags.clear();
-    for (std::size_t i = 0; i < batch.size(); ++i) tags.push_back(store.add(batch, i));
+    for (std::size_t i = 0; i < batch.size(); ++i) tags.push_back(tag_of(batch, i));
     const auto kept_tag = [&](const TriangleBatch&, std::size_t i) { return tags[i]; };
     centers.draw_batch(kept_tag);
     samples->draw_batch(kept_tag);
@@ -90,10 +118,15 @@ void draw_all(Tool& tool, const ZbufOptions& chosen, StageReader& reader, Triang
     if (samples) samples->finish();
   };
   const auto draw = [&] {
+    const TriangleBatch& batch = centers.next_batch();
+    store.add(batch, [&](std::size_t i) { return nearest && nearest->add(exact_triangle(batch, i)); });
     draw_batch();
     if (!store.is_full()) return;
     finish();
-    store.keep_seen([&](const auto& visit) { visible.shaded().for_each_tag(visit); });
+    store.keep_seen([&](const auto& visit) {
+      if (!visible.samples || store.keeps_text()) visible.centers.for_each_tag(visit);
+      if (visible.samples) visible.samples->for_each_tag(visit);
+    });
   };
   ReadAhead ahead(reader, pool);
   for_each_batch(
@@ -106,8 +139,9 @@ void draw_all(Tool& tool, const ZbufOptions&, StageReader& reader, TriangleStore
               DrawingReport& report, SampledVisible<ScanlineAlgorithm<CoverageRule, Depth>>& visible) {
   TriangleBatch p_ndc;
   const auto draw = [&] {
+    store.add(p_ndc, [](std::size_t) { return false; });
     for (std::size_t i = 0; i < p_ndc.size(); ++i) {
-      const PixelTag tag = store.add(p_ndc, i);
+      const PixelTag tag = store.tag_of(p_ndc, i);
       visible.centers.draw(exact_triangle(p_ndc, i), tag);
       if (visible.samples) visible.samples->draw(exact_triangle(p_ndc, i), tag);
     }
@@ -125,42 +159,85 @@ std::string summary(const std::string& image_path, const Viewport& screen, std::
          std::to_string(percent) + " % covered";
 }
 
+/// The image, if one is requested: takes rows of pixels, or of samples, by their tags.
+class ImageRows {
+ public:
+  ImageRows(const ZbufOptions& chosen, const Viewport& screen, TriangleStore& store,
+            std::optional<SurfaceShader>& shader)
+      : store_(store), shader_(shader) {
+    if (!chosen.has_image()) return;
+    file_.emplace(chosen.image_path);
+    pixels_ = image_writer(file_->descriptor(), chosen.image_path, screen.columns, screen.rows);
+    if (chosen.sample_count > 1) means_.emplace(screen.columns, chosen.sample_count);
+  }
+
+  void write_row(std::span<const PixelTag> tags) {
+    if (!pixels_) return;
+    const std::span<const Color> colors = shaded(tags);
+    if (!means_) return pixels_->write_row(colors);
+    if (const auto complete = means_->add(colors)) pixels_->write_row(*complete);
+  }
+  void close() {
+    if (!pixels_) return;
+    pixels_->finish();
+    file_->close();
+  }
+  void commit() {
+    if (file_) file_->commit();
+  }
+
+ private:
+  std::span<const Color> shaded(std::span<const PixelTag> tags) {
+    if (shader_) return shader_->shade(row_number_++, tags);
+    colors_.resize(tags.size());
+    store_.color(tags, colors_);
+    return colors_;
+  }
+
+  TriangleStore& store_;
+  std::optional<SurfaceShader>& shader_;
+  std::optional<OutputFile> file_;
+  std::unique_ptr<ImageWriter> pixels_;
+  std::optional<Downsampler> means_;
+  std::vector<Color> colors_;
+  int row_number_ = 0;
+};
+
 template <VisibilityAlgorithm Visible>
 void write_all(Tool& tool, const ZbufOptions& chosen, const SampledVisible<Visible>& visible,
-               std::optional<SurfaceShader>& shader) {
+               const StageReader& reader, TriangleStore& store, std::optional<SurfaceShader>& shader) {
   const Viewport& screen = visible.center_screen;
-  OutputFile image(chosen.image_path);
-  const std::unique_ptr<ImageWriter> pixels =
-      image_writer(image.descriptor(), chosen.image_path, screen.columns, screen.rows);
+  ImageRows image(chosen, screen, store, shader);
   DepthFiles depths(tool.output(), chosen.z_buffer_path, chosen.depth_image_path, screen);
-  int row_number = 0;
-  std::vector<Color> colors;
-  const auto shaded = [&](std::span<const PixelTag> tags) -> std::span<const Color> {
-    if (shader) return shader->shade(row_number++, tags);
-    colors.resize(tags.size());
-    std::ranges::transform(tags, colors.begin(), Color::from_rgb);
-    return colors;
+  std::optional<SeenFile> seen_file;
+  if (store.keeps_text()) seen_file.emplace(tool.output(), chosen.seen_path);
+  KeptIds seen(store.keeps_text() ? store.size() : 0);
+  const auto mark = [&](std::span<const PixelTag> tags) {
+    if (seen_file) std::ranges::for_each(tags, [&](PixelTag id) { seen.keep(id); });
   };
   std::uint64_t covered_count = 0;
   visible.centers.for_each_row([&](const VisibleRow& row) {
+    mark(row.tags);
     depths.write_row(row.depths);
     if (chosen.summarizes)
       covered_count += static_cast<std::uint64_t>(
           std::ranges::count_if(row.depths, [&](double depth) { return depth < screen.rear; }));
-    if (!visible.samples) pixels->write_row(shaded(row.tags));
+    if (!visible.samples) image.write_row(row.tags);
   });
   if (visible.samples) {
-    Downsampler means(screen.columns, chosen.sample_count);
     visible.samples->for_each_row([&](const VisibleRow& row) {
-      if (const auto complete = means.add(shaded(row.tags))) pixels->write_row(*complete);
+      mark(row.tags);
+      image.write_row(row.tags);
     });
   }
-  pixels->finish();
+  if (seen_file) seen_file->write(reader, store, seen);
   depths.close();
   image.close();
+  if (seen_file) seen_file->close();
   tool.close_output();
   image.commit();
   depths.commit();
+  if (seen_file) seen_file->commit();
   if (chosen.summarizes) Tool::report(summary(chosen.image_path, screen, covered_count));
   tool.timing().lap(&Timing::write_seconds);
 }
@@ -184,30 +261,33 @@ void render_with(Tool& tool, const ZbufOptions& chosen, const Viewport& screen, 
   expect_header(reader, TextKind::ndc);
   reader.accept_clipped();
   if (chosen.framed) reader.expect_framed();
+  if (!chosen.seen_path.empty()) reader.keep_text();
   const Viewport shaded_screen = sample_screen(screen, chosen.sample_count);
   SurfaceOptions surfaces;
   surfaces.model = chosen.shading;
   surfaces.background = parse_color(chosen.background);
   if (chosen.wireframe) surfaces.wireframe = {screen.dx(), screen.dy()};
-  std::optional<SurfaceShader> shader = surface_shader(reader, shaded_screen, surfaces);
+  std::optional<SurfaceShader> shader;
+  if (chosen.has_image()) shader = surface_shader(reader, shaded_screen, surfaces);
   tool.timing().lap(&Timing::read_seconds);
-  const PixelTag background = shader
-                                  ? SurfaceShader::kNoSurface
-                                  : background_color(reader.header().appearance, surfaces.background).rgb();
-  SampledVisible<Visible> visible(screen, chosen.sample_count, background);
-  tool.timing().lap(&Timing::work_seconds);
   const std::unique_ptr<FragmentReport> fragments = fragment_report(chosen, screen);
   const std::unique_ptr<DrawingReport> report = drawing_report(chosen, screen, statistics.is_wanted());
-  TriangleStore store(shader, fragments.get(), pixel_count(shaded_screen));
+  TriangleStore::Setup kept;
+  kept.keeps_text = !chosen.seen_path.empty();
+  kept.background = background_color(reader.header().appearance, surfaces.background);
+  kept.pixel_count = pixel_count(shaded_screen);
+  TriangleStore store(kept, shader, fragments.get());
+  SampledVisible<Visible> visible(screen, chosen.sample_count, store.background());
+  tool.timing().lap(&Timing::work_seconds);
   draw_all(tool, chosen, reader, store, *report, visible);
   if (fragments) fragments->finish();
   report->add_to(statistics);
   statistics.finish();
   tool.timing().lap(&Timing::work_seconds);
-  write_all(tool, chosen, visible, shader);
+  write_all(tool, chosen, visible, reader, store, shader);
   if (fragments) fragments->commit();
   statistics.commit();
-  note_empty_picture(tool, *report, shader);
+  if (chosen.has_image()) note_empty_picture(tool, *report, shader);
 }
 
 }  // namespace

@@ -76,6 +76,8 @@ class Tool {
   void set_input(const std::string& path) { input_path_ = path; }
   /// Opens a text besides the input. A UsageError that names it `name` if both are standard input.
   [[nodiscard]] InputFile second_input(const std::string& path, const std::string& name) const;
+  /// The output is a stage text from now on, though the tool's is another one.
+  void write_stage_text() { output_kind_ = OutputKind::stage_text; }
   /// Standard output.
   TextWriter& output() { return output_; }
   /// Flushes and closes the output, for a tool that has work left once the output is safe; otherwise `run`

@@ -42,16 +42,17 @@ Viewport read_screen(Tool& tool, const ZbufOptions& chosen) {
   }
 }
 
-NamedOutput depth_output(const std::string& path) {
+NamedOutput text_output(const std::string& option, const std::string& path) {
   if (path == "-") return standard_output();
-  return {"--z-buffer", path == "none" ? "" : path};
+  return {option, path};
 }
 
 std::vector<NamedOutput> outputs_of(const ZbufOptions& chosen, const Statistics& statistics) {
   return {{"--image", chosen.image_path},
-          depth_output(chosen.z_buffer_path),
+          text_output("--z-buffer", chosen.z_buffer_path == "none" ? "" : chosen.z_buffer_path),
           {"--depth-image", chosen.depth_image_path},
           {"--fragments", chosen.fragments_path},
+          text_output("--seen", chosen.seen_path),
           statistics.output()};
 }
 
@@ -74,10 +75,11 @@ int main(int argc, char** argv) {
 
   return tool.run(argc, argv, [&] {
     chosen.complete(::isatty(STDOUT_FILENO) == 1);
+    if (chosen.seen_path == "-") tool.write_stage_text();
     expect_separate(outputs_of(chosen, statistics));
     const Viewport screen = read_screen(tool, chosen);
     chosen.check_limits(screen);
-    check_image_size(chosen.image_path, screen.columns, screen.rows);
+    if (chosen.has_image()) check_image_size(chosen.image_path, screen.columns, screen.rows);
     render(tool, chosen, screen, statistics);
   });
 }

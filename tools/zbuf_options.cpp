@@ -8,15 +8,22 @@
 namespace pipeline {
 
 void ZbufOptions::complete(bool is_terminal) {
-  const bool image_is_output = image_path == "-";
-  if (image_is_output && z_buffer_path == "-")
+  const bool image_is_output = image_path == "-", seen_is_output = seen_path == "-";
+  if (image_is_output && seen_is_output)
+    throw UsageError("--image: " + expected_but_found("a file, as --seen is standard output", "'-'"));
+  if ((image_is_output || seen_is_output) && z_buffer_path == "-") {
+    const std::string is_output = image_is_output ? "the image" : "--seen";
     throw UsageError("--z-buffer: " +
-                     expected_but_found("a file or none, as the image is standard output", "'-'"));
+                     expected_but_found("a file or none, as " + is_output + " is standard output", "'-'"));
+  }
+  const bool writes_seen = !seen_path.empty();
+  if (image_path.empty() && !writes_seen) image_path = "out.bmp";
   // OutputFile writes to this name without replacing anything.
   if (image_is_output) image_path = "/dev/stdout";
   if (z_buffer_path.empty()) {
-    summarizes = is_terminal && !image_is_output;
-    z_buffer_path = is_terminal || image_is_output ? "none" : "-";
+    const bool is_wanted = !image_is_output && !writes_seen;
+    summarizes = is_terminal && is_wanted;
+    z_buffer_path = is_terminal || !is_wanted ? "none" : "-";
   }
   if (algorithm != Algorithm::scanline) return;
   if (thread_count > 1)

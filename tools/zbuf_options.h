@@ -26,14 +26,15 @@ enum class Algorithm { zbuffer, scanline };
 /// line.
 struct ZbufOptions {
   std::string config_path;
-  std::string size;                    // "WIDTHxHEIGHT"; empty: that of the config
-  std::string image_path = "out.bmp";  // "-": standard output
-  std::string z_buffer_path;           // "-": standard output; "none": nowhere; empty: as `complete` chooses
+  std::string size;           // "WIDTHxHEIGHT"; empty: that of the config
+  std::string image_path;     // "-": standard output; empty: as `complete` chooses, and then none
+  std::string z_buffer_path;  // "-": standard output; "none": nowhere; empty: as `complete` chooses
   TypeChoice<CoverageRules> coverage;
   Algorithm algorithm = Algorithm::zbuffer;
   TypeChoice<DepthFormats> depth;
   int thread_count = 1;
   std::string depth_image_path;  // empty: none
+  std::string seen_path;         // "-": standard output; empty: no file
   double depth_epsilon = 0;
   int sample_count = 1;                 // along each side of a pixel, for the image alone
   std::optional<ShadingModel> shading;  // none: as the text's header implies
@@ -50,6 +51,8 @@ struct ZbufOptions {
   void complete(bool is_terminal);
   /// A UsageError if the depth format cannot store the depths between the limits of Z.
   void check_limits(const Viewport& screen) const;
+  /// Whether an image is written, once the options are complete.
+  [[nodiscard]] bool has_image() const { return !image_path.empty(); }
 };
 
 /// Calls visit<Rule, Depth>() for the coverage rule and the depth format chosen.
@@ -94,17 +97,22 @@ inline void ZbufOptions::add_to(CommandLine& options) {
   const std::vector<std::string_view> extensions = image_extensions();
   options.add_word("-o,--image", "FILE", image_path,
                    "Where the image goes, a " + listed({extensions.begin(), extensions.end()}) +
-                       " file; - is standard output, as PPM and without the depths",
+                       " file; - is standard output, as PPM and without the depths (default: out.bmp, but "
+                       "none with --seen)",
                    [](const std::string& name) {
                      return name == "-" ? std::string() : wrong_with_name(check_image_name)(name);
                    });
   options.add_word("--z-buffer", "FILE", z_buffer_path,
                    "Where the depths go; - is standard output, none is nowhere (default: -, but none with "
-                   "-o - and at a terminal)");
+                   "-o -, with --seen and at a terminal)");
   options.add_word("--depth-image", "FILE", depth_image_path,
                    "Also write the depths as a 16-bit image, a .pgm or .png file: white at the front limit, "
                    "black at the rear limit",
                    wrong_with_name(check_depth_image_name));
+  options.add_word(
+      "--seen", "FILE", seen_path,
+      "Write the triangles that a pixel or sample shows, as text that zbuf reads and that gives "
+      "the same picture; - is standard output. With it, no image and no depths unless asked for");
   options.begin_group("Pixels");
   add_type_choice(options, "--coverage", CoverageRules(), coverage, "Which pixels a triangle covers.");
   options.add_choice<Algorithm>(

@@ -13,11 +13,6 @@ constexpr std::size_t kSlotsPerThread = 2;
 // In batches. Text in another form usually stays in that form, and parsing it ahead would be wasted work.
 constexpr int kPause = 16;
 
-/// Nine numbers such as 0.1234567 with a separator each, and the blank line.
-constexpr std::size_t min_fixed_triangle_length(std::size_t decimals) {
-  return 9 * (decimals + (decimals > 0 ? 3 : 2)) + 1;
-}
-
 }  // namespace
 
 ReadAhead::ReadAhead(StageReader& reader, ThreadPool& pool, std::size_t part_size)
@@ -47,7 +42,7 @@ bool ReadAhead::read(TriangleBatch& batch) {
 
 void ReadAhead::Slot::parse() {
   decimals = decimals_of_number(text.data());
-  const std::size_t min_length = min_fixed_triangle_length(static_cast<std::size_t>(decimals));
+  const std::size_t min_length = min_fixed_triangle_length(decimals);
   batch.clear();
   batch.triangles.resize(std::min(kBatchSize, length / min_length));
   const FixedTextPart parsed =

@@ -38,6 +38,7 @@ StageReader::StageReader(TextReader& text, bool marks_decimals) : text_(text) {
   while (!line_is_pending_ && text_.next_filled_line(line_)) {
     LineScanner line = line_;
     line_is_pending_ = !read_header_line(line);
+    if (!line_is_pending_) (header_text_ += line_.rest()) += '\n';
   }
   has_body_ = line_is_pending_;
   check_camera(header_.camera);
@@ -84,6 +85,11 @@ bool StageReader::read_camera_line(std::string_view keyword, const SourceLocatio
   const SourceLocation planes = line.location();
   header_.projected = {read_projection(volume, line), planes};
   return true;
+}
+
+void StageReader::keep_text() {
+  keeps_text_ = true;
+  triangles_->keep_text();
 }
 
 void StageReader::expect_framed() const {
@@ -139,6 +145,8 @@ void StageReader::fill(TriangleBatch& batch) {
 /// Reads the triangle whose first line is `line`.
 void StageReader::read_triangle(LineScanner& line, TriangleBatch& batch) {
   if (unclipped_ && triangles_->next_number() != unclipped_number_) unclipped_.reset();
+  if (unclipped_) batch.texts.add(clipped_text_);
+  clipped_text_.clear();
   triangles_->read(line, batch);
   if (unclipped_) batch.set_last_unclipped(unclipped_);
 }
@@ -148,10 +156,13 @@ void StageReader::read_clipped(LineScanner& line) {
   line.word();
   line.expect_end("'clipped'");
   ClipTriangle unclipped;
+  clipped_text_ = keeps_text_ ? "clipped\n" : "";
   for (std::size_t i = 0; i < 3; ++i) {
     next_vertex_line(text_, line, i);
+    if (keeps_text_) (clipped_text_ += line.rest()) += '\n';
     unclipped[i] = clip_vertex_line_.read(line, i);
   }
+  if (keeps_text_) clipped_text_ += '\n';
   unclipped_ = std::make_shared<const ClipTriangle>(unclipped);
   unclipped_number_ = triangles_->next_number();
 }

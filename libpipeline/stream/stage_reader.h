@@ -24,6 +24,10 @@ class StageReader {
   [[nodiscard]] const SourceLocation& header_end() const { return header_end_; }
   /// False if the text ends with its header.
   [[nodiscard]] bool has_body() const { return has_body_; }
+  /// The header's lines as they stand in the text, without comments and the blanks around them.
+  [[nodiscard]] const std::string& header_text() const { return header_text_; }
+  /// From now on, batches get the text of their triangles, too.
+  void keep_text();
   /// Accepts `clipped` triangles from now on, which only projected texts have; without this they are errors.
   void accept_clipped() { accepts_clipped_ = true; }
   /// An InputError unless the text is framed: only then is an empty text known to be complete.
@@ -53,6 +57,7 @@ class StageReader {
 
   TextReader& text_;
   StageHeader header_;
+  std::string header_text_;
   SourceLocation header_end_;
   SourceLocation framed_location_;
   LineScanner line_;
@@ -64,6 +69,8 @@ class StageReader {
   VertexLineReader clip_vertex_line_;
   std::shared_ptr<const ClipTriangle> unclipped_;  // the next triangles with its number are its pieces
   std::uint64_t unclipped_number_ = 0;
+  bool keeps_text_ = false;
+  std::string clipped_text_;  // of unclipped_, until its first piece has come
   DeferredError deferred_error_;
 };
 

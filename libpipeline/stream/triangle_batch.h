@@ -9,6 +9,7 @@
 
 #include "libpipeline/numbers/vec.h"
 #include "libpipeline/scene/vertex_attributes.h"
+#include "libpipeline/stream/triangle_texts.h"
 #include "libpipeline/text/source_location.h"
 
 namespace pipeline {
@@ -34,6 +35,8 @@ struct TriangleBatch {
   /// For each piece of a clipped triangle the triangle before the cut, in clip space; empty if there is none,
   /// else as long as `triangles`. Only in lit scenes, where the corners before the cut are lit.
   std::vector<std::shared_ptr<const ClipTriangle>> unclipped;
+  /// The triangles' lines; empty if not requested.
+  TriangleTexts texts;
 
   [[nodiscard]] std::size_t size() const { return triangles.size(); }
   [[nodiscard]] bool empty() const { return triangles.empty(); }
@@ -45,6 +48,7 @@ struct TriangleBatch {
     decimal_marks.clear();
     attributes.clear();
     unclipped.clear();
+    texts.clear();
   }
   /// Keeps the first `count` triangles.
   void truncate(std::size_t count) {
@@ -55,6 +59,7 @@ struct TriangleBatch {
     if (!decimal_marks.empty()) decimal_marks.resize(count);
     attributes.truncate(count);
     if (!unclipped.empty()) unclipped.resize(count);
+    texts.truncate(count);
   }
   void add(const Triangle& triangle, std::uint64_t number, const VertexLocations& vertex_locations) {
     triangles.push_back(triangle);

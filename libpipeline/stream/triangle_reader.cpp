@@ -82,6 +82,7 @@ void TriangleReader::consume_fixed_form(std::size_t length, int decimals, Triang
   const std::size_t count = batch.size() - old_size;
   batch.complete(next_number_, text_.line_number() + 1);
   next_number_ += count;
+  if (keeps_text_) batch.texts.add_fixed_form(text_.buffered().substr(0, length), decimals);
   text_.skip(length, count * kLinesPerTriangle);
   // With at most seven decimals and eight digits before the point, every coordinate is exactly its decimal.
   if (marks_decimals_) {
@@ -118,7 +119,12 @@ bool TriangleReader::read_decimal_triangle(TriangleBatch& batch) {
     batch.decimal_marks.resize(batch.size());
     batch.decimal_marks.back() = decimal_marks(lines);
   }
-  text_.skip(static_cast<std::size_t>(end - buffered.data()), 3);
+  const auto length = static_cast<std::size_t>(end - buffered.data());
+  if (keeps_text_) {
+    batch.texts.add_trimmed(buffered.substr(0, length));
+    batch.texts.end_triangle();
+  }
+  text_.skip(length, 3);
   return true;
 }
 
@@ -138,6 +144,7 @@ void TriangleReader::read(LineScanner& line, TriangleBatch& batch) {
     if (i > 0) next_vertex_line(text_, line, i);
     locations[i] = {line.line_number(), line.column()};
     if (marks_decimals_) exact.add_vertex(line, i);
+    if (keeps_text_) batch.texts.add_line(line.rest());
     if (attributes.any()) {
       vertices[i] = vertex_line_.read(line, i);
       triangle[i] = vertices[i].position;
@@ -148,6 +155,7 @@ void TriangleReader::read(LineScanner& line, TriangleBatch& batch) {
   batch.add(triangle, next_number_++, locations);
   batch.attributes.add(vertices, attributes);
   if (marks_decimals_) exact.set_last(batch);
+  if (keeps_text_) batch.texts.end_triangle();
 }
 
 void next_vertex_line(TextReader& text, LineScanner& line, std::size_t index) {

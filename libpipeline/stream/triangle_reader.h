@@ -20,6 +20,8 @@ class TriangleReader {
   /// The number of the next triangle.
   [[nodiscard]] std::uint64_t next_number() const { return next_number_; }
 
+  /// From now on, batches get the text of their triangles, too.
+  void keep_text() { keeps_text_ = true; }
   /// Adds some of the buffered triangles, as long as they hold numbers without exponent and nothing else and
   /// the batch has fewer than kBatchSize; false if there is no such triangle.
   bool read_buffered(TriangleBatch& batch);
@@ -39,6 +41,7 @@ class TriangleReader {
   TextReader& text_;
   VertexLineReader vertex_line_;
   bool marks_decimals_;
+  bool keeps_text_ = false;
   DecimalVertexLines decimal_lines_;  // of the triangle that is being read
   std::uint64_t next_number_ = 0;
 };

@@ -31,6 +31,11 @@ constexpr std::size_t kFixedTextSlack = 320;
 /// separator each, and a line end.
 constexpr std::size_t kMaxFixedTriangleLength = 9 * 19 + 1;
 
+/// The minimum length: nine numbers such as 0.1234567 with a separator each, and a line end.
+constexpr std::size_t min_fixed_triangle_length(int decimals) {
+  return 9 * (static_cast<std::size_t>(decimals) + (decimals > 0 ? 3 : 2)) + 1;
+}
+
 /// The count of decimals, at most kMaxFixedDecimals, to read a text with whose first number begins at `p`.
 /// May read 25 characters, whatever they are.
 int decimals_of_number(const char* p);

@@ -82,7 +82,7 @@ class Memory(ToolTest):
     EDGES = 72
 
     def check(self, text, samples, triangle_size, *options):
-        with LiveTool("zbuf", "config.txt", "--image", "/dev/null", *options, stdout=subprocess.DEVNULL) as live:
+        with LiveTool("zbuf", "config.txt", *options, stdout=subprocess.DEVNULL) as live:
             live.send(text)
             memory = live.peak_memory()
             self.assertEqual(live.finish(), 0)
@@ -94,9 +94,12 @@ class Memory(ToolTest):
     def test_it_is_bounded_by_the_picture(self):
         pathlib.Path("config.txt").write_text("60 60\n")
         text = LIT + triangles(200_000, 4, 0.02, has_normals=True)
-        self.check(text, 60 * 60, self.TRIANGLE)
-        self.check(text, 60 * 60, self.TRIANGLE + self.EDGES, "--wireframe", "--threads", "3")
-        self.check(text, 120 * 120, self.TRIANGLE, "--samples", "2")
+        image = ["--image", "/dev/null"]
+        self.check(text, 60 * 60, self.TRIANGLE, *image)
+        self.check(text, 60 * 60, self.TRIANGLE + self.EDGES, "--wireframe", "--threads", "3", *image)
+        self.check(text, 120 * 120, self.TRIANGLE, "--samples", "2", *image)
+        # Three lines of columns, an entry for them, and a blank line.
+        self.check(text, 60 * 60, text.index("\n\n") - len(LIT) + 24, "--seen", "-")
 
 
 if __name__ == "__main__":

@@ -43,6 +43,13 @@ class SeparateOutputs(ToolTest):
         self.check_refused("--z-buffer x.pgm --depth-image x.pgm", "--z-buffer 'x.pgm'", "--depth-image 'x.pgm'")
         self.check_refused("--depth-image x.pgm --fragments x.pgm", "--depth-image 'x.pgm'", "--fragments 'x.pgm'")
 
+    def test_the_triangles_that_are_seen_have_a_place_of_their_own(self):
+        for option in ("--image", "--z-buffer", "--fragments"):
+            self.check_refused(f"{option} x.bmp --seen ./x.bmp", f"{option} 'x.bmp'", "--seen './x.bmp'")
+        self.check_refused("--depth-image x.pgm --seen x.pgm", "--depth-image 'x.pgm'", "--seen 'x.pgm'")
+        self.check_refused("--seen - --fragments /dev/stdout", "--fragments '/dev/stdout'", "standard output")
+        self.check_fine("--seen out.bmp")  # no image
+
     def test_the_image_has_its_name_also_if_nobody_gave_it(self):
         self.check_refused("--fragments out.bmp", "--image 'out.bmp'", "--fragments 'out.bmp'")
 

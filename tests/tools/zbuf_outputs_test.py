@@ -117,6 +117,11 @@ class Terminal(OutputTest):
         self.assertEqual(self.shown("config.txt", "--z-buffer", "z.txt", text=HALF), (b"", ""))
         self.assertEqual(pathlib.Path("z.txt").read_bytes(), depths)
 
+    def test_shows_the_triangles_that_are_seen_alone(self):
+        self.assertEqual(self.shown("config.txt", "--seen", "-", text=HALF), (HALF.encode(), ""))
+        self.assertEqual(self.shown("config.txt", "--seen", "seen.txt", "-o", "a.ppm", text=HALF), (b"", ""))
+        self.assertEqual(pathlib.Path("seen.txt").read_text(), HALF)
+
 
 class Background(OutputTest):
     def corners(self, scene, *options):

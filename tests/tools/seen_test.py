@@ -1,0 +1,373 @@
+#!/usr/bin/env python3
+"""zbuf --seen, end to end: the triangles that a pixel or sample shows, as text that gives the same picture.
+
+usage: seen_test.py BIN_DIR [UNITTEST ARGUMENT...]
+"""
+import itertools
+import os
+import pathlib
+import random
+import re
+import unittest
+
+from streaming_test import LiveTool
+from toolbox import NO_TRIANGLE, SOURCE, ToolTest, pipe, run
+
+SCENE_COUNT = int(os.environ.get("TOOLS_SCENES", 12))  # fewer with sanitizers, see CMakeLists.txt
+SAMPLES = sorted(path.parent for path in SOURCE.glob("samples/*/scene.txt"))
+SETTINGS = ("", "--coverage center", "--wireframe", "--shading flat", "--shading gouraud", "--samples 3", "--depth u24", "--depth f32 --wireframe")
+CLIPS = ("auto", "near", "frustum", "frustum --clip-inset 0.2")
+WALL = "-9 -9 {0}\n9 -9 {0}\n0 9 {0}\n\n"
+
+
+class StageText:
+    """The header lines of a stage text, and its triangles: (number, lines), all pieces of one together."""
+
+    def __init__(self, text):
+        self.header, self.triangles, self.is_framed = [], [], False
+        number, clipped = 0, ""
+        blocks = text.decode().split("\n\n")
+        first = blocks[0].split("\n")
+        while first and re.match(r"(?!triangle|clipped|end)[a-z]", first[0]):
+            self.header.append(first.pop(0) + "\n")
+        for lines in itertools.chain([first], (block.split("\n") for block in blocks[1:])):
+            if lines in ([""], []):
+                continue
+            if lines[0] == "end":
+                self.is_framed = True
+                continue
+            if lines[0].startswith("triangle "):
+                number = int(lines.pop(0).split()[1])
+            block = "\n".join(lines) + "\n\n"
+            if lines[0] == "clipped":
+                clipped = block
+                continue
+            block, clipped = clipped + block, ""
+            if self.triangles and self.triangles[-1][0] == number:
+                self.triangles[-1][1].append(block)
+            else:
+                self.triangles.append((number, [block]))
+            number += 1
+
+    def text(self, triangles):
+        """The stage text of some of the triangles."""
+        body, expected = "", 0
+        for number, pieces in triangles:
+            for piece in pieces:
+                body += (f"triangle {number}\n" if number != expected else "") + piece
+                expected = number + 1
+        return ("".join(self.header) + body + ("end\n" if self.is_framed else "")).encode()
+
+    def parts(self, rng, count):
+        """The text in parts: each has the header, and numbers its triangles."""
+        cuts = sorted(rng.randrange(len(self.triangles) + 1) for _ in range(count - 1))
+        return [self.text(self.triangles[begin:end]) for begin, end in zip([0, *cuts], [*cuts, len(self.triangles)])]
+
+
+def joined(parts):
+    """One text: the first header, all bodies."""
+    texts = [StageText(part) for part in parts]
+    return texts[0].text([triangle for text in texts for triangle in text.triangles])
+
+
+class Seen(ToolTest):
+    def zbuf(self, *options, stdin):
+        done = run("zbuf", "config.txt", *options, stdin=stdin)
+        self.assert_quiet_success(done)
+        return done.stdout
+
+    def picture(self, text, *options):
+        """(depths, image); where the image is empty, why may be noted in other words."""
+        done = run("zbuf", "config.txt", *options, "--image", "picture.ppm", stdin=text)
+        self.assertRegex(done.stderr.decode(), r"\A(zbuf: note: the picture is (empty|black): .*\n)?\Z")
+        self.assertEqual(done.returncode, 0)
+        return done.stdout, pathlib.Path("picture.ppm").read_bytes()
+
+    def seen(self, text, *options):
+        return self.zbuf(*options, "--seen", "-", stdin=text)
+
+    def check(self, text, *options, rng=None):
+        """The seen triangles give the whole picture; so do those of parts, in any grouping."""
+        expected = self.picture(text, *options)
+        seen = self.seen(text, *options)
+        self.assertEqual(self.picture(seen, *options), expected)
+        self.assertEqual(self.seen(seen, *options), seen)
+        whole = StageText(text)
+        self.assertEqual(whole.text(whole.triangles).split(), text.split())
+        if rng is None or not whole.triangles:
+            return seen
+        partial = [self.seen(part, *options) for part in whole.parts(rng, 3)]
+        in_groups = self.seen(joined(partial[:2]), *options)
+        self.assertEqual(self.picture(joined(partial), *options), expected)
+        self.assertEqual(self.picture(joined([in_groups, partial[2]]), *options), expected)
+        if "--depth-epsilon" not in options:
+            self.assertEqual(self.seen(joined([in_groups, partial[2]]), *options), seen)
+        return seen
+
+
+class Pictures(Seen):
+    def test_samples_with_all_settings_are_the_same_from_what_is_seen_and_from_parts(self):
+        rng = random.Random(1)
+        count = 0
+        for sample in SAMPLES:
+            pathlib.Path("config.txt").write_bytes((sample / "config.txt").read_bytes())
+            stage2 = pipe(["model", sample / "scene.txt"], ["view"], stdin="")
+            is_lit = b"\nlight" in stage2
+            for clip in CLIPS:
+                ndc = pipe(["project", "--clip", *clip.split()], stdin=stage2)
+                for setting in SETTINGS:
+                    if "shading" in setting and not is_lit:
+                        continue
+                    with self.subTest(sample=sample.name, clip=clip, setting=setting):
+                        self.check(ndc, *setting.split(), rng=rng if clip != "auto" else None)
+                        count += 1
+        self.assertGreaterEqual(count, 296)
+
+
+class RandomScenes(Seen):
+    """Also with equal depths, several colors, lights and cuts."""
+
+    HEADERS = ("", "background 10 20 30\ncolor 200 100 50\n",
+               "attributes color normal\nbackground 9 9 9\nlight 1 2 3 1 1 1\nambient 0.2 0.2 0.2\nmaterial 1 1 0.5 8\n",
+               "attributes normal\nlight 3 1 3 1 0.5 1\n")
+
+    def scene(self, rng, kind, count):
+        coordinate = lambda: rng.choice((rng.uniform(-2, 2), rng.randrange(-4, 5) / 2))
+        def vertex(z):
+            words = [coordinate(), coordinate(), z if z is not None else coordinate()]
+            if "attributes color" in kind:
+                words += [rng.randrange(256) for _ in range(3)]
+            if "normal" in kind:
+                words += [rng.uniform(-1, 1), rng.uniform(-1, 1), 1]
+            return " ".join(f"{word:.5g}" for word in words) + "\n"
+        lines = "1 0.5 4\n0 0 0\n0 1 0\n50 1 2.5 8\n" + kind
+        for _ in range(count):
+            z = rng.choice((None, None, 0, 0.5))
+            lines += "triangle\n" + "".join(vertex(z) for _ in range(3))
+        return lines + "end\n"
+
+    def options(self, rng, kind):
+        options = ["--coverage", rng.choice(("nearest", "center")), "--depth", rng.choice(("f64", "f32", "u24"))]
+        if rng.random() < 0.4:
+            options += ["--samples", str(rng.choice((2, 3)))]
+        if rng.random() < 0.3:
+            options += ["--wireframe"]
+        if "light" in kind and rng.random() < 0.5:
+            options += ["--shading", rng.choice(("flat", "gouraud", "phong", "none"))]
+        return options
+
+    def ndc(self, rng, kind, count):
+        clip = rng.choice(("near", "frustum", "reject", "auto"))
+        digits = rng.choice(("3", "7", "exact"))
+        return pipe(["model", "--digits", digits, *rng.choice(([], ["--framed"]))], ["view", "--digits", digits],
+                    ["project", "--clip", clip, "--digits", digits], stdin=self.scene(rng, kind, count))
+
+    def test_any_cut_into_parts_in_any_grouping_gives_the_whole(self):
+        pathlib.Path("config.txt").write_text("40 30\n")
+        for seed, kind in itertools.product(range(SCENE_COUNT), self.HEADERS):
+            rng = random.Random(seed)
+            ndc, options = self.ndc(rng, kind, 60), self.options(rng, kind)
+            with self.subTest(seed=seed, kind=kind, options=options):
+                self.check(ndc, *options, rng=rng)
+
+    def test_so_it_does_under_a_depth_epsilon(self):
+        pathlib.Path("config.txt").write_text("20 20\n")
+        differences = 0
+        for seed, kind in itertools.product(range(SCENE_COUNT), self.HEADERS):
+            rng = random.Random(100 + seed)
+            ndc = self.ndc(rng, kind, 200)
+            options = [*self.options(rng, kind), "--depth-epsilon", str(rng.choice((0.001, 0.01, 0.1)))]
+            with self.subTest(seed=seed, kind=kind, options=options):
+                seen = self.check(ndc, *options, rng=rng)
+                differences += len(StageText(seen).triangles) != len(StageText(self.seen(ndc, *options[:-2])).triangles)
+        self.assertGreater(differences, 0)  # the winners alone would not do
+
+    def test_threads_algorithms_and_kernels_write_the_same(self):
+        pathlib.Path("config.txt").write_text("40 30\n")
+        for seed, kind in itertools.product(range(2), self.HEADERS):
+            rng = random.Random(seed)
+            ndc = self.ndc(rng, kind, 100)
+            for options in (["--coverage", "nearest"], ["--coverage", "center", "--samples", "2"]):
+                expected = self.seen(ndc, *options)
+                self.assertEqual(self.seen(ndc, *options, "--threads", "3"), expected)
+                self.assertEqual(self.seen(ndc, *options, "--algorithm", "scanline"), expected)
+                for kernel in ("portable", "sse4", "avx2"):
+                    done = run("zbuf", "config.txt", "--seen", "-", *options, stdin=ndc, env={**os.environ, "PIPELINE_KERNEL": kernel})
+                    self.assertEqual(done.stdout, expected)
+
+
+class Owners(Seen):
+    """Against the fragments that zbuf reports."""
+
+    def numbers(self, text):
+        return [number for number, _ in StageText(text).triangles]
+
+    def fragments(self, text, *options):
+        """(pixel, number) of every fragment that was kept, in order."""
+        self.zbuf("--fragments", "fragments.txt", *options, stdin=text)
+        lines = pathlib.Path("fragments.txt").read_text().splitlines()
+        kept = (re.fullmatch(r"(\S+): triangle (\d+), depth \S+: kept", line) for line in lines)
+        return [(found[1], int(found[2])) for found in kept if found]
+
+    def text(self, seed, count=300):
+        rng = random.Random(seed)
+        vertex = lambda: f"{rng.uniform(-1.5, 1.5):.7f} {rng.uniform(-1.5, 1.5):.7f} {rng.uniform(-1.2, 1.2):.7f}\n"
+        return "".join("".join(vertex() for _ in range(3)) + "\n" for _ in range(count))
+
+    def test_they_are_those_of_the_last_fragments_kept(self):
+        pathlib.Path("config.txt").write_text("25 20\n")
+        for seed in range(SCENE_COUNT):
+            text = self.text(seed)
+            for options in (["--coverage", "nearest"], ["--coverage", "center"], ["--depth", "u24"]):
+                owners = dict(self.fragments(text, *options))
+                seen = self.numbers(self.seen(text, *options, "--stats", "stats.txt"))
+                self.assertEqual(seen, sorted(set(owners.values())))
+                self.assertIn(f"seen {len(seen)}\npixels_written {len(owners)}\n", pathlib.Path("stats.txt").read_text())
+
+    def test_under_a_depth_epsilon_they_are_those_kept_at_any_time_without_it(self):
+        pathlib.Path("config.txt").write_text("25 20\n")
+        for seed in range(SCENE_COUNT):
+            text = self.text(seed)
+            kept = {number for _, number in self.fragments(text)}
+            self.assertEqual(self.numbers(self.seen(text, "--depth-epsilon", "0.01")), sorted(kept))
+
+    def test_a_sample_counts_like_a_pixel(self):
+        pathlib.Path("config.txt").write_text("1 1\n")
+        corner = "0.3 0.3 0\n0.9 0.3 0\n0.3 0.9 0\n\n"
+        self.assertEqual(self.seen(corner, "--coverage", "center"), b"")
+        self.assertEqual(self.seen(corner, "--coverage", "center", "--samples", "2"), corner.encode())
+
+    def test_the_store_is_emptied_many_times(self):
+        """More small triangles than are kept before the hidden ones are let go of; pieces among them."""
+        pathlib.Path("config.txt").write_text("30 30\n")
+        rng = random.Random(7)
+        lines = []
+        for i in range(60_000):
+            x, y, z = rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(-1, 1)
+            a, b, c, d = (f"{x + dx:.7f} {y + dy:.7f} {z:.7f}\n" for dx, dy in ((0, 0), (0.1, 0), (0.1, 0.1), (0, 0.1)))
+            lines.append(f"{a}{b}{c}\n" + (f"triangle {i}\n{a}{c}{d}\n" if i % 3 == 0 else ""))
+        text = "".join(lines).encode()
+        seen = self.seen(text)
+        self.assertEqual(seen, self.seen(text, "--algorithm", "scanline"))
+        self.assertEqual(seen, self.seen(text, "--threads", "4"))
+        self.assertEqual(self.picture(seen, "--wireframe"), self.picture(text, "--wireframe"))
+        self.assertEqual(self.picture(seen, "--samples", "1"), self.picture(text))
+        # With the image at the same time, too.
+        done = self.zbuf("--seen", "seen.txt", "--image", "both.ppm", "--z-buffer", "-", stdin=text)
+        self.assertEqual(pathlib.Path("seen.txt").read_bytes(), seen)
+        self.assertEqual((done, pathlib.Path("both.ppm").read_bytes()), self.picture(text))
+
+
+class Text(Seen):
+    def setUp(self):
+        super().setUp()
+        pathlib.Path("config.txt").write_text("4 4\n")
+
+    def check_text(self, text, expected, *options):
+        self.assertEqual(self.seen(text, *options).decode(), expected)
+
+    def test_numbers_stay_as_they_came(self):
+        wall = "-9.0 -9 +0.50\n9e0 -9.00000000000000000001 0.5\n00 .9e1 5e-1\n\n"
+        self.check_text(wall, wall)
+
+    def test_so_do_header_lines_and_columns(self):
+        text = ("attributes w color\nbackground 1.50 2 3e0\n" + "-9 -9 0.5 1.0 255 0.0 7\n9 -9 0.5 1 1 1 1\n0 9 0.5 2e0 3 3 3.25\n\n")
+        self.check_text(text, text)
+
+    def test_comments_and_blanks_around_lines_go(self):
+        text = "# a wall\nbackground 1 2 3 # dark\n\n -9 -9\t0.5 \r\n# here\n9  -9 0.5\t# corner\n0 9 0.5\r\n"
+        self.check_text(text, "background 1 2 3\n-9 -9\t0.5\n9  -9 0.5\n0 9 0.5\n\n")
+
+    def test_the_sizes_in_which_text_arrives_change_nothing(self):
+        text = " -9 -9 0.5\t\r\n9  -9 0.5\n0 9 0.5 \n\n" + WALL.format("0.2500000") + "-9 -9 0.1\r\n9 -9 0.1\r\n0\t9 0.1\r\n"
+        expected = "triangle 2\n-9 -9 0.1\n9 -9 0.1\n0\t9 0.1\n\n"
+        self.check_text(text, expected)
+        with LiveTool("zbuf", "config.txt", "--seen", "-") as live:
+            for letter in text:
+                live.send(letter)
+            self.assertEqual(live.finish(), 0)
+            self.assertEqual(live.received.decode(), expected)
+
+    def test_a_number_stands_where_counting_breaks(self):
+        walls = [WALL.format(z) for z in (0.9, 0.8, 0.7)]
+        self.check_text("".join(walls), "triangle 2\n" + walls[2])
+        left, right = "-9 -9 0\n-0.1 -9 0\n-0.1 9 0\n\n", "0.1 -9 0\n9 -9 0\n0.1 9 0\n\n"
+        self.check_text("triangle 5\n" + left + right + "triangle 20000000000\n" + walls[0], "triangle 5\n" + left + right)
+        self.check_text("triangle 20000000000\n" + left + walls[0] + right, "triangle 20000000000\n" + left + "triangle 20000000002\n" + right)
+        self.check_text(left + right, left + right)
+
+    def test_pieces_stay_together_with_the_uncut_triangle(self):
+        header = "attributes w\nlight 0 0 9 1 1 1\nprojection\n".replace("projection", "projected frustum -1 1 -1 1 1 9")
+        piece = lambda x: f"{x} 0 0.5 1\n{x}.9 0 0.5 1\n{x} 9 0.5 1\n\n"
+        clipped = "clipped\n0 0 0 1\n1 0 0 1.50\n0 1 0 -1\n\n"
+        seen, unseen = piece("0"), piece("20")
+        text = header + "triangle 3\n" + clipped + unseen + "triangle 3\n" + seen + unseen + "triangle 9\n" + clipped + unseen
+        self.check_text(text, header + "triangle 3\n" + clipped + unseen + "triangle 3\n" + seen)
+
+    def test_an_uncut_triangle_without_pieces_goes(self):
+        clipped = "clipped\n0 0 0 1\n1 0 0 1\n0 1 0 1\n\n"
+        wall = WALL.format(0.5)
+        self.check_text(clipped + "triangle 7\n" + wall, "triangle 7\n" + wall)
+        self.check_text(clipped + clipped.replace("1\n", "2\n") + wall, clipped.replace("1\n", "2\n") + wall)
+        self.check_text(wall + clipped, wall)
+
+    def test_a_frame_is_passed_on(self):
+        wall = WALL.format(0.5)
+        self.check_text("framed\n" + wall + "end\n", "framed\n" + wall + "end\n")
+        self.check_text("framed\nend\n", "framed\nend\n")
+        self.check_text("", "")
+
+    def test_a_failure_ends_the_text_with_an_error_line(self):
+        done = run("zbuf", "config.txt", "--seen", "-", stdin="1 2 three\n")
+        self.assertEqual(done.returncode, 1)
+        self.assertEqual(done.stdout.decode(), "error zbuf: <stdin>:1:5: expected the z of vertex 1 of 3, found 'three'\n")
+        done = run("zbuf", "config.txt", "--seen", "seen.txt", stdin="1 2 three\n")
+        self.assertEqual((done.returncode, done.stdout, os.path.exists("seen.txt")), (1, b"", False))
+
+
+class Outputs(Seen):
+    def test_with_it_there_is_no_image_and_no_depth_unless_asked_for(self):
+        self.assertEqual(self.zbuf("--seen", "seen.txt", stdin=WALL.format(0.5)), b"")
+        self.assertEqual(self.files(), ["config.txt", "scene.txt", "seen.txt"])
+        self.assertEqual(self.zbuf("--seen", "seen.txt", "--z-buffer", "-", stdin=WALL.format(0.5)).count(b"\n"), 8)
+        self.assertFalse(os.path.exists("out.bmp"))
+        self.zbuf("--seen", "-", "--image", "a.png", "--z-buffer", "z.txt", "--depth-image", "d.pgm", stdin=WALL.format(0.5))
+        self.assertEqual(self.files(), ["a.png", "config.txt", "d.pgm", "scene.txt", "seen.txt", "z.txt"])
+
+    def test_depths_and_triangles_cannot_both_be_standard_output(self):
+        self.assert_fails(run("zbuf", "config.txt", "--seen", "-", "--z-buffer", "-"), 2,
+                          "zbuf: --z-buffer: expected a file or none, as --seen is standard output, found '-' (try zbuf --help)")
+
+    def test_nor_can_the_image(self):
+        self.assert_fails(run("zbuf", "config.txt", "--seen", "-", "-o", "-"), 2,
+                          "zbuf: --image: expected a file, as --seen is standard output, found '-' (try zbuf --help)")
+        wall = WALL.format(0.5)
+        self.zbuf("-o", "a.ppm", stdin=wall)
+        self.assertEqual(self.zbuf("--seen", "seen.txt", "-o", "-", stdin=wall), pathlib.Path("a.ppm").read_bytes())
+        self.assertEqual(pathlib.Path("seen.txt").read_text(), wall)
+
+    def test_why_a_picture_is_empty_is_noted_where_there_is_one(self):
+        self.assertEqual(self.zbuf("--seen", "-", stdin=""), b"")
+        done = run("zbuf", "config.txt", "--seen", "-", "-o", "a.ppm", stdin="")
+        self.assertEqual((done.stdout, done.stderr.decode(), done.returncode), (b"", NO_TRIANGLE, 0))
+
+    def test_no_file_is_replaced_by_a_run_that_fails(self):
+        pathlib.Path("seen.txt").write_text("older")
+        self.assertEqual(run("zbuf", "config.txt", "--seen", "seen.txt", stdin=WALL.format(0.5) + "oops\n").returncode, 1)
+        self.assertEqual(pathlib.Path("seen.txt").read_text(), "older")
+
+    def test_a_text_may_be_replaced_by_what_is_seen_of_it(self):
+        pathlib.Path("stage3.txt").write_text(WALL.format(0.5) + WALL.format(0.75))
+        self.assert_quiet_success(run("zbuf", "config.txt", "stage3.txt", "--seen", "stage3.txt"))
+        self.assertEqual(pathlib.Path("stage3.txt").read_text(), WALL.format(0.5))
+
+    @unittest.skipUnless(os.path.exists("/dev/full"), "no /dev/full here")
+    def test_a_full_disk_is_a_failure(self):
+        with open("/dev/full", "wb") as full:
+            done = run("zbuf", "config.txt", "--seen", "-", stdin=WALL.format(0.5), stdout=full)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn(b"No space left on device", done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
