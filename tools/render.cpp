@@ -113,14 +113,33 @@ void draw_all(Tool& tool, const ZbufOptions& chosen, StageReader& reader, Triang
     centers.draw_batch(kept_tag);
     samples->draw_batch(kept_tag);
   };
+  std::vector<std::uint8_t> winners, needed;
+  const auto draw_and_keep_texts = [&] {
+    const TriangleBatch& batch = centers.next_batch();
+    const KeptIds::Id first_id = store.next_id();
+    needed.clear();
+    for (std::size_t i = 0; nearest && i < batch.size(); ++i)
+      needed.push_back(nearest->add(exact_triangle(batch, i)) ? 1 : 0);
+    if (samples || !centers.draws_at_once()) {
+      store.add_texts(batch, first_id, {}, needed);
+      return draw_batch();
+    }
+    centers.finish();  // only this batch is marked
+    winners.assign(batch.size(), 0);
+    visible.centers.mark_winners(first_id, winners.data());
+    draw_batch();
+    visible.centers.mark_winners(0, nullptr);
+    store.add_texts(batch, first_id, winners, needed);
+  };
   const auto finish = [&] {
     centers.finish();
     if (samples) samples->finish();
   };
   const auto draw = [&] {
-    const TriangleBatch& batch = centers.next_batch();
-    store.add(batch, [&](std::size_t i) { return nearest && nearest->add(exact_triangle(batch, i)); });
-    draw_batch();
+    if (store.keeps_text())
+      draw_and_keep_texts();
+    else
+      draw_batch();
     if (!store.is_full()) return;
     finish();
     store.keep_seen([&](const auto& visit) {
@@ -139,7 +158,7 @@ void draw_all(Tool& tool, const ZbufOptions&, StageReader& reader, TriangleStore
               DrawingReport& report, SampledVisible<ScanlineAlgorithm<CoverageRule, Depth>>& visible) {
   TriangleBatch p_ndc;
   const auto draw = [&] {
-    store.add(p_ndc, [](std::size_t) { return false; });
+    if (store.keeps_text()) store.add_texts(p_ndc, store.next_id(), {}, {});
     for (std::size_t i = 0; i < p_ndc.size(); ++i) {
       const PixelTag tag = store.tag_of(p_ndc, i);
       visible.centers.draw(exact_triangle(p_ndc, i), tag);
@@ -211,7 +230,7 @@ void write_all(Tool& tool, const ZbufOptions& chosen, const SampledVisible<Visib
   DepthFiles depths(tool.output(), chosen.z_buffer_path, chosen.depth_image_path, screen);
   std::optional<SeenFile> seen_file;
   if (store.keeps_text()) seen_file.emplace(tool.output(), chosen.seen_path);
-  KeptIds seen(store.keeps_text() ? store.size() : 0);
+  KeptIds seen(store.id_count());
   const auto mark = [&](std::span<const PixelTag> tags) {
     if (seen_file) std::ranges::for_each(tags, [&](PixelTag id) { seen.keep(id); });
   };

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <span>
 
@@ -35,39 +36,40 @@ class TriangleStore {
   [[nodiscard]] PixelTag background() const {
     return has_ids() ? KeptIds::kNoTriangle : setup_.background.rgb();
   }
-  /// Adds the triangles of the next batch. `is_needed(index)`, called in order, is true for those whose text
-  /// is to be kept for good.
-  template <typename IsNeeded>
-  void add(const TriangleBatch& p_ndc, const IsNeeded& is_needed) {
-    if (!texts_) return;
-    first_of_batch_ = static_cast<KeptIds::Id>(texts_->size());
-    texts_->add(p_ndc);
-    for (std::size_t i = 0; i < p_ndc.size(); ++i)
-      if (is_needed(i)) texts_->keep_always(id_of(i));
-  }
-  /// The tag of each triangle of that batch, to be called in order.
+  /// The id of the next triangle, if triangles have ids.
+  [[nodiscard]] KeptIds::Id next_id() const { return next_id_; }
+  /// Adds the texts of a batch whose first triangle has the id `first_id`: of its `winners`, those marked 1
+  /// that may have won a pixel (all, if it is empty), and of those `needed` for good (none, if it is empty).
+  void add_texts(const TriangleBatch& p_ndc, KeptIds::Id first_id, std::span<const std::uint8_t> winners,
+                 std::span<const std::uint8_t> needed);
+  /// The tag of the next triangle.
   PixelTag tag_of(const TriangleBatch& p_ndc, std::size_t index) {
     if (report_ != nullptr) report_->add(p_ndc, index);
-    if (texts_ && !shader_) return id_of(index);
+    if (texts_ && !shader_) return next_id_++;
     const Color color = colors_.of(p_ndc.numbers[index]);
-    return shader_ ? shader_->add(p_ndc, index, color) : color.rgb();
+    if (!shader_) return color.rgb();
+    shader_->add(p_ndc, index, color);
+    return next_id_++;
   }
   /// The colors of pixels with these tags, unless there is a shader.
   void color(std::span<const PixelTag> tags, std::span<Color> colors);
 
   [[nodiscard]] bool keeps_text() const { return texts_.has_value(); }
-  /// The count of triangles kept.
-  [[nodiscard]] std::size_t size() const { return texts_ ? texts_->size() : shader_ ? shader_->size() : 0; }
+  /// Ids are less.
+  [[nodiscard]] std::size_t id_count() const { return next_id_; }
   /// Writes the texts of the triangles that are seen, all pieces of each.
   void write_texts(TextWriter& text, KeptIds& seen) const;
 
   /// True if it is time to let go of triangles.
-  [[nodiscard]] bool is_full() const { return size() >= capacity_; }
+  [[nodiscard]] bool is_full() const {
+    return shader_ ? next_id_ >= capacity_
+                   : texts_ && (texts_->size() >= capacity_ || next_id_ >= max_id_count_);
+  }
   /// Lets go of the triangles that no pixel shows. `for_each_tag(visit)` calls visit(tag), which changes it,
   /// for every pixel; all triangles so far are drawn.
   template <typename ForEachTag>
   void keep_seen(const ForEachTag& for_each_tag) {
-    KeptIds kept(size());
+    KeptIds kept(id_count());
     for_each_tag([&](PixelTag& tag) { kept.keep(tag); });
     let_go(kept);
     for_each_tag([&](PixelTag& tag) { tag = kept.new_id(tag); });
@@ -75,19 +77,18 @@ class TriangleStore {
 
  private:
   [[nodiscard]] bool has_ids() const { return shader_ || texts_; }
-  [[nodiscard]] KeptIds::Id id_of(std::size_t index) const {
-    return first_of_batch_ + static_cast<KeptIds::Id>(index);
-  }
   void let_go(KeptIds& kept);
 
   Setup setup_;
   std::optional<SurfaceShader>& shader_;
   std::optional<TextStore> texts_;
-  KeptIds::Id first_of_batch_ = 0;
+  KeptIds::Id next_id_ = 0;
+  std::uint64_t last_number_ = 0;  // of the triangles so far
   FragmentReport* report_;
   TriangleColors colors_;
   std::size_t min_capacity_;
   std::size_t capacity_;
+  std::size_t max_id_count_;
 };
 
 }  // namespace pipeline

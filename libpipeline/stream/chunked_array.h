@@ -34,9 +34,7 @@ class ChunkedArray {
     truncate(count);
   }
 
- private:
-  static constexpr std::size_t kChunk = 1024;
-
+  /// Keeps the first `count` entries.
   void truncate(std::size_t count) {
     for (std::size_t i = count / kChunk; i < chunks_.size(); ++i) {
       const std::size_t left = std::min(chunks_[i].size(), count - std::min(count, i * kChunk));
@@ -44,6 +42,9 @@ class ChunkedArray {
     }
     size_ = count;
   }
+
+ private:
+  static constexpr std::size_t kChunk = 1024;
 
   std::vector<std::vector<T>> chunks_;
   std::size_t size_ = 0;

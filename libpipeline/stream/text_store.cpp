@@ -12,10 +12,19 @@ constexpr std::size_t kMaxBlockSize = 2 * kLargePage;
 
 }  // namespace
 
-void TextStore::add(const TriangleBatch& batch) {
-  append(batch.texts.lines());
-  for (std::size_t i = 0; i < batch.size(); ++i)
-    entries_.push_back({batch.numbers[i], static_cast<std::uint32_t>(batch.texts.length(i)), false});
+std::uint64_t TextStore::number(KeptIds::Id id) const {
+  std::size_t begin = 0, end = size();
+  while (end - begin > 1) {
+    const std::size_t middle = begin + (end - begin) / 2;
+    (entries_[middle].id <= id ? begin : end) = middle;
+  }
+  return entries_[begin].number;
+}
+
+void TextStore::add(const Triangle& triangle, std::string_view text) {
+  append(text);
+  entries_.push_back({triangle.number, triangle.id, static_cast<std::uint32_t>(text.size()) & 0x7fffffff,
+                      triangle.is_needed});
 }
 
 void TextStore::append(std::string_view text) {
@@ -32,21 +41,17 @@ void TextStore::append(std::string_view text) {
   blocks_.back().insert(blocks_.back().end(), text.begin(), text.end());
 }
 
-void TextStore::complete(KeptIds& kept) const {
-  const auto count = static_cast<KeptIds::Id>(size());
-  for (KeptIds::Id begin = 0, end = 0; begin < count; begin = end) {
-    for (end = begin + 1; end < count && number(end) == number(begin);) ++end;
-    if (end == begin + 1 && !entries_[begin].is_needed) continue;
-    bool is_any_kept = false;
-    for (KeptIds::Id id = begin; id < end; ++id) is_any_kept |= kept.is_kept(id) || entries_[id].is_needed;
-    for (KeptIds::Id id = begin; is_any_kept && id < end; ++id) kept.keep(id);
+void TextStore::complete(KeptIds& kept, bool may_go_on) const {
+  for (std::size_t begin = 0, end = 0; begin < size(); begin = end) {
+    const Entry& first = entries_[begin];
+    for (end = begin + 1; end < size() && entries_[end].number == first.number;) ++end;
+    const bool is_one_piece = end == begin + 1;
+    bool is_any_kept = may_go_on && end == size();
+    if (is_one_piece && !first.is_needed && !is_any_kept) continue;
+    for (std::size_t i = begin; i < end; ++i)
+      is_any_kept |= entries_[i].is_needed || kept.is_kept(entries_[i].id);
+    for (std::size_t i = begin; is_any_kept && i < end; ++i) kept.keep(entries_[i].id);
   }
-}
-
-KeptIds::Id TextStore::begin_of_last() const {
-  auto begin = static_cast<KeptIds::Id>(size() - 1);
-  while (begin > 0 && number(begin - 1) == number(begin)) --begin;
-  return begin;
 }
 
 /// The texts move towards the front; blocks that are read are filled again.
@@ -54,36 +59,41 @@ void TextStore::keep(const KeptIds& kept) {
   std::deque<Block> old;
   old.swap(blocks_);
   std::size_t begin = 0;  // of the next text, in the first block
-  for (KeptIds::Id id = 0; id < size(); ++id) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < size(); ++i) {
     if (begin == old.front().size()) {
       old.front().clear();
       spare_.push_back(std::move(old.front()));
       old.pop_front();
       begin = 0;
     }
-    const std::size_t length = entries_[id].length;
-    if (kept.is_kept(id)) append({&old.front()[begin], length});
-    begin += length;
+    Entry entry = entries_[i];
+    if (kept.is_kept(entry.id)) {
+      append({&old.front()[begin], entry.length});
+      entry.id = kept.new_id(entry.id);
+      entries_[count++] = entry;
+    }
+    begin += entry.length;
   }
-  entries_.keep(kept);
+  entries_.truncate(count);
 }
 
 void TextStore::write(TextWriter& text, const KeptIds& kept) const {
   std::uint64_t next_number = 0;
   auto block = blocks_.begin();
   std::size_t begin = 0;
-  for (KeptIds::Id id = 0; id < size(); ++id) {
+  for (std::size_t i = 0; i < size(); ++i) {
     if (begin == block->size()) {
       ++block;
       begin = 0;
     }
-    const auto& [number, length, is_needed] = entries_[id];
-    if (kept.is_kept(id)) {
-      if (number != next_number) text.append("triangle " + std::to_string(number) + "\n");
-      text.append({&(*block)[begin], length});
-      next_number = number + 1;
+    const Entry& entry = entries_[i];
+    if (kept.is_kept(entry.id)) {
+      if (entry.number != next_number) text.append("triangle " + std::to_string(entry.number) + "\n");
+      text.append({&(*block)[begin], entry.length});
+      next_number = entry.number + 1;
     }
-    begin += length;
+    begin += entry.length;
   }
 }
 

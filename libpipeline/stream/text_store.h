@@ -9,40 +9,42 @@
 #include "libpipeline/stream/chunked_array.h"
 #include "libpipeline/stream/kept_ids.h"
 #include "libpipeline/stream/large_pages.h"
-#include "libpipeline/stream/triangle_batch.h"
 #include "libpipeline/text/text_writer.h"
 
 namespace pipeline {
 
-/// The texts of triangles, under the ids 0, 1, 2 ...
+/// The texts of triangles, each under an id; later ones have greater ids.
 class TextStore {
  public:
-  [[nodiscard]] std::size_t size() const { return entries_.size(); }
-  /// The number in the scene of a triangle.
-  [[nodiscard]] std::uint64_t number(KeptIds::Id id) const { return entries_[id].number; }
+  struct Triangle {
+    std::uint64_t number;  // in the scene
+    KeptIds::Id id;
+    bool is_needed;  // for good
+  };
 
-  /// Adds the triangles of a batch with texts.
-  void add(const TriangleBatch& batch);
-  /// Keeps this one for good.
-  void keep_always(KeptIds::Id id) { entries_[id].is_needed = true; }
+  [[nodiscard]] std::size_t size() const { return entries_.size(); }
+  /// The number of a triangle of the store.
+  [[nodiscard]] std::uint64_t number(KeptIds::Id id) const;
+
+  void add(const Triangle& triangle, std::string_view text);
   /// Adds to those kept the needed ones, and the other pieces of each triangle: a wireframe asks a piece's
-  /// neighbors which of its edges are cuts. Pieces follow one another with one number.
-  void complete(KeptIds& kept) const;
+  /// neighbors which of its edges are cuts. Pieces follow one another with one number. With `may_go_on`, more
+  /// pieces of the last triangle may follow, so it is kept.
+  void complete(KeptIds& kept, bool may_go_on) const;
   /// Keeps those that are kept, under their new ids.
   void keep(const KeptIds& kept);
-  /// The first piece of the last triangle, of which more may follow.
-  [[nodiscard]] KeptIds::Id begin_of_last() const;
   /// Writes those kept as the body of a stage text.
   void write(TextWriter& text, const KeptIds& kept) const;
 
  private:
+  using Block = std::vector<char, LargePageAllocator<char>>;
   struct Entry {
     std::uint64_t number;
-    std::uint32_t length;  // of the text
-    bool is_needed;
+    KeptIds::Id id;
+    std::uint32_t length : 31;  // of the text
+    std::uint32_t is_needed : 1;
   };
-
-  using Block = std::vector<char, LargePageAllocator<char>>;
+  static_assert(sizeof(Entry) == 16);
 
   void append(std::string_view text);
 

@@ -9,9 +9,11 @@ void TriangleTexts::add_fixed_form(std::string_view triangles, int decimals) {
   const std::size_t min_length = min_fixed_triangle_length(decimals) - kTriangleEnd.size();
   const std::size_t offset = lines_.size();
   lines_ += triangles;
-  for (std::size_t begin = 0; begin < triangles.size();) {
-    begin = triangles.find(kTriangleEnd, begin + min_length) + kTriangleEnd.size();
-    ends_.push_back(offset + begin);
+  for (std::size_t end = 0; end < triangles.size();) {
+    // A blank line ends a triangle. Few numbers are longer than the shortest: faster than a search.
+    for (end += min_length; triangles[end] != '\n' || triangles[end + 1] != '\n';) ++end;
+    end += kTriangleEnd.size();
+    ends_.push_back(offset + end);
   }
 }
 

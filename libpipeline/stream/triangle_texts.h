@@ -15,10 +15,11 @@ class TriangleTexts {
  public:
   /// The count of complete triangles.
   [[nodiscard]] std::size_t size() const { return ends_.size(); }
-  /// The lines of all of them.
-  [[nodiscard]] std::string_view lines() const { return std::string_view(lines_).substr(0, end_of(size())); }
-  /// The length of one triangle's.
-  [[nodiscard]] std::size_t length(std::size_t index) const { return ends_[index] - end_of(index); }
+  /// The lines of one triangle.
+  [[nodiscard]] std::string_view operator[](std::size_t index) const {
+    const std::size_t begin = end_of(index);
+    return std::string_view(lines_).substr(begin, ends_[index] - begin);
+  }
   void clear() { truncate(0); }
   /// Keeps the first `count` triangles, or all if there are fewer.
   void truncate(std::size_t count) {

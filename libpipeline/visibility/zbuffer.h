@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -49,6 +50,16 @@ class ZBuffer {
     return {rows, depths_.columns()};
   }
 
+  /// From now on sets marks[tag - first_tag] to 1 for the triangles that win a pixel, and maybe for others,
+  /// where several spans are drawn; no longer if `marks` is null.
+  void mark_winners(PixelTag first_tag, std::uint8_t* marks) {
+    first_marked_ = first_tag;
+    marks_ = marks;
+  }
+  /// Marks a triangle whose spans are drawn singly.
+  void mark(PixelTag tag) {
+    if (marks_ != nullptr) marks_[tag - first_marked_] = 1;
+  }
   /// Calls `visit(tag)`, which may change it, for every pixel.
   template <typename Visitor>
   void for_each_tag(Visitor&& visit) {
@@ -72,6 +83,8 @@ class ZBuffer {
 
   [[nodiscard]] Span part_behind_front(const Span& span) const;
   void draw_what_is_nearer_by_epsilon(const Span& span, PixelTag tag);
+  template <bool kMarks>
+  void draw_spans(std::span<const TaggedSpan> spans, HierarchicalDepth<Depth>* farthest);
 
   void (*fill_)(const SpanFill<Depth>&);
   Depth format_;
@@ -79,6 +92,8 @@ class ZBuffer {
   double rear_limit_;
   Stored rear_;
   double depth_epsilon_ = 0;
+  PixelTag first_marked_ = 0;
+  std::uint8_t* marks_ = nullptr;
   Raster<Stored> depths_;
   Raster<PixelTag> tags_;
 };

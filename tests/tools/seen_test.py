@@ -237,6 +237,14 @@ class Owners(Seen):
         self.assertEqual(self.seen(corner, "--coverage", "center"), b"")
         self.assertEqual(self.seen(corner, "--coverage", "center", "--samples", "2"), corner.encode())
 
+    def test_a_tall_triangle_among_small_ones_is_kept(self):
+        """Batches of small triangles are drawn at once, but the spans of a tall one among them one by one."""
+        pathlib.Path("config.txt").write_text("200 200\n")
+        small = [f"{x / 10} 0 0\n{x / 10 + 0.05} 0 0\n{x / 10} 0.05 0\n\n" for x in range(-9, 9)]
+        tall = "-0.95 -1 0.5\n-0.9 -1 0.5\n-0.95 1 0.5\n\n"
+        text = "".join(small[:5]) + tall + "".join(small[5:])
+        self.assertEqual(self.seen(text).decode(), text)
+
     def test_the_store_is_emptied_many_times(self):
         """More small triangles than are kept before the hidden ones are let go of; pieces among them."""
         pathlib.Path("config.txt").write_text("30 30\n")
