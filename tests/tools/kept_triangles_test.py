@@ -40,12 +40,12 @@ def triangles(count, seed, size, has_normals):
 class KeptTriangles(ToolTest):
     """The scan-line algorithm keeps all triangles."""
 
-    def check(self, text, *options, config="40 40\n"):
+    def check(self, text, *options, config="40 40\n", note=""):
         pathlib.Path("config.txt").write_text(config)
         pictures = []
         for algorithm in (["--algorithm", "scanline"], [], ["--threads", "3"]):
             done = run("zbuf", "config.txt", *algorithm, *options, stdin=text)
-            self.assert_quiet_success(done)
+            self.assertEqual((done.stderr.decode(), done.returncode), (note, 0))
             pictures.append((done.stdout, pathlib.Path("out.bmp").read_bytes()))
         self.assertEqual(pictures[1], pictures[0])
         self.assertEqual(pictures[2], pictures[0])
@@ -60,6 +60,20 @@ class KeptTriangles(ToolTest):
         walls = "".join(f"-9 -9 {-i / LEAST / 4:.9f} 1 {i % 256} 0 0\n9 -9 {-i / LEAST / 4:.9f} 1 0 {i % 256} 0\n0 9 {-i / LEAST / 4:.9f} 1 0 0 9\n\n"
                         for i in range(3 * LEAST))
         self.check(COLORED + walls, config="4 4\n")
+
+    def test_statistics_and_notes_speak_of_those_let_go_of_too(self):
+        """A bright far wall, and black ones before it; one of them reaches far out."""
+        def wall(z, color, right="9"):
+            return f"-9 -9 {z:.6f} 1 {color}\n{right} -9 {z:.6f} 1 {color}\n0 9 {z:.6f} 1 {color}\n\n"
+        black = "".join(wall(-i / LEAST / 4, "0 0 0", "70" if i == 5 else "9") for i in range(3 * LEAST))
+        is_black = "zbuf: note: the picture is black: every color is 0\n"
+        is_background = "zbuf: note: the picture is empty: what is seen has the color of the background\n"
+        for first, z_max, note in ((wall(0.5, "0 0 0"), "0.5", is_black), (wall(0.75, "0 200 0"), "0.75", is_background)):
+            self.check(COLORED + first + black, "--stats", "stats.txt", config="4 4\n", note=note)
+            lines = pathlib.Path("stats.txt").read_text().splitlines()
+            last = f"{-(3 * LEAST - 1) / LEAST / 4:.6f}"
+            for line in (f"triangles {3 * LEAST + 1}", f"hidden {3 * LEAST}", "seen 1", "pixels_written 16", "x_max 70", f"z_min {last}", f"z_max {z_max}"):
+                self.assertIn(line, lines)
 
     def test_pieces_of_one_triangle_may_be_kept_and_let_go_apart(self):
         """Two pieces make a square; with --wireframe the edge between them is not drawn, wherever the store is full."""
