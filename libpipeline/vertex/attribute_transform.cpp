@@ -39,7 +39,7 @@ Located<Light> moved_to(const Located<Light>& light, const BallVec3& position, U
 
 }  // namespace
 
-NormalTransform::NormalTransform(const AffineMatrix& world_from_model) {
+NormalTransform::NormalTransform(const AffineMatrix& world_from_model) : has_scaling_(true) {
   const auto& rows = world_from_model.rows;
   set_rows(linear_row(rows[0]), linear_row(rows[1]), linear_row(rows[2]));
 }
@@ -56,12 +56,30 @@ void NormalTransform::set_rows(const BallVec3& x, const BallVec3& y, const BallV
     largest = std::max({largest, row.x.magnitude(), row.y.magnitude(), row.z.magnitude()});
   // Only directions matter: divided by the largest entry, the cofactors stay within a double's range.
   if (largest == 0 || !std::isfinite(largest)) largest = 1;
-  for (std::size_t i = 0; i < 3; ++i) rows_[i] = nearest(over_largest(cofactors[i], side * largest));
+  for (std::size_t i = 0; i < 3; ++i) {
+    ball_rows_[i] = over_largest(cofactors[i], side * largest);
+    rows_[i] = nearest(ball_rows_[i]);
+  }
 }
 
 Vec3 NormalTransform::operator()(const Vec3& normal) const {
   const Vec3 n = unit_vector(normal);
-  return unit_vector({dot(rows_[0], n), dot(rows_[1], n), dot(rows_[2], n)});
+  const Vec3 image = {dot(rows_[0], n), dot(rows_[1], n), dot(rows_[2], n)};
+  // What is left of a unit vector may be nothing but the rounding errors of doubles.
+  constexpr double kNearlyLost = 0x1p-40;
+  if (has_scaling_ && std::max({std::fabs(image.x), std::fabs(image.y), std::fabs(image.z)}) < kNearlyLost)
+    return image_in_balls(normal);
+  return unit_vector(image);
+}
+
+Vec3 NormalTransform::image_in_balls(const Vec3& normal) const {
+  // A power of two rounds nothing, as making it a unit vector would.
+  const int exponent = std::ilogb(size_of(normal));
+  const auto scaled = [&](double x) { return Ball(std::scalbn(x, -exponent)); };
+  const BallVec3 n = {scaled(normal.x), scaled(normal.y), scaled(normal.z)};
+  const BallVec3 image = {dot(ball_rows_[0], n), dot(ball_rows_[1], n), dot(ball_rows_[2], n)};
+  if (image.x.sign() == 0 && image.y.sign() == 0 && image.z.sign() == 0) return {};
+  return unit_vector(nearest(image));
 }
 
 Located<Light> transformed(const AffineMatrix& world_from_model, const Located<Light>& light,

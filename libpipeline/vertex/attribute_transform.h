@@ -17,7 +17,9 @@ namespace pipeline {
 /// has no area).
 ///
 /// Normals are calculated in doubles: each component is within 1e-15 * r of the exact one, where r is the
-/// product, over all scalings in M, of the ratio of the largest to the smallest factor.
+/// product, over all scalings in M, of the ratio of the largest to the smallest factor. Where nearly all of a
+/// normal is lost (r beyond 10^12, or M singular), it is calculated again with balls, and 0 if they cannot
+/// tell it from 0.
 class NormalTransform {
  public:
   explicit NormalTransform(const AffineMatrix& world_from_model);
@@ -28,8 +30,11 @@ class NormalTransform {
 
  private:
   void set_rows(const BallVec3& x, const BallVec3& y, const BallVec3& z);
+  [[nodiscard]] Vec3 image_in_balls(const Vec3& normal) const;
 
   std::array<Vec3, 3> rows_;
+  std::array<BallVec3, 3> ball_rows_;  // of the model's transforms; those of a view have no scaling
+  bool has_scaling_ = false;
 };
 
 /// The light with its position transformed and rounded to doubles, like a vertex's (round_to_text); added to

@@ -512,6 +512,44 @@ TEST(Normals, AreWithinTheirBound) {
   EXPECT_LE(worst, 1e-15);
 }
 
+TEST(Normals, AreZeroWhereAFlatteningScaleLeavesNone) {
+  // Turned by 180 degrees about (1, 2, 3), only (3, 6, 2) is left of normals where z is flattened: nothing is
+  // left of what is perpendicular to it. Rotations round, so that doubles alone leave 10^-17 of it, in some
+  // direction.
+  RandomNumbers random(8);
+  for (int i = 0; i < 1'000; ++i) {
+    Model model;
+    model.rotate(random.between(-720, 720), random_axis(random));
+    model.scale({1, 3, random.whole(2, 4) * 0.1});
+    model.rotate(random.between(-720, 720), random_axis(random));
+    const NormalTransform transform(scaled(model.computed, {1, 1, 0}) * rotation(180, {1, 2, 3}));
+    const int x = random.whole(1, 9), y = random.whole(1, 9);
+    const double size = std::exp2(random.whole(-300, 300));
+    EXPECT_EQ(transform({2 * x * size, y * size, -3 * (x + y) * size}), Vec3{}) << i;
+    EXPECT_NE(transform({3 * size, 6 * size, 2 * size}), Vec3{}) << i;
+  }
+}
+
+TEST(Normals, KeepTheirDigitsUnderExtremeScalings) {
+  RandomNumbers random(9);
+  double worst = 0;
+  for (int i = 0; i < 3'000; ++i) {
+    Model model;
+    model.rotate(random.between(-720, 720), random_axis(random));
+    model.scale({1, 1, std::exp2(-random.whole(50, 70))});
+    model.rotate(random.between(-720, 720), random_axis(random));
+    const ReferencePoint flat = normalized(cross(model.exact.rows[0], model.exact.rows[1]));
+    // Perpendicular, as far as doubles can be, to the only direction of which much is left.
+    const Vec3 side = random_point(random, 10);
+    const ReferencePoint tangent = cross(flat, ReferencePoint(side));
+    const Vec3 normal = {tangent.x.nearest_double(), tangent.y.nearest_double(), tangent.z.nearest_double()};
+    const NormalTransform transform(model.computed);
+    worst = std::max(worst, largest_difference(transform(normal), reference_normal(model.exact, normal)));
+  }
+  std::printf("%g\n", worst);
+  EXPECT_LE(worst, 1e-8);  // 2^-100 / 2^-70, and a few operations
+}
+
 TEST(Normals, AreWithinTheirBoundInViewSpace) {
   RandomNumbers random(4);
   double worst = 0;
