@@ -3,14 +3,12 @@
 #include <unistd.h>
 
 #include <csignal>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "libpipeline/picture/image_file.h"
-#include "libpipeline/scene/config.h"
-#include "libpipeline/stream/text_kind.h"
 #include "tools/render.h"
+#include "tools/screen.h"
 #include "tools/separate_outputs.h"
 #include "tools/statistics.h"
 #include "tools/tool.h"
@@ -19,28 +17,6 @@
 using namespace pipeline;
 
 namespace {
-
-/// The screen of --size, with which INPUT is the only operand, or else of CONFIG.
-Viewport read_screen(Tool& tool, const ZbufOptions& chosen) {
-  const bool has_operand = tool.options().is_given("CONFIG");
-  if (const auto screen = parse_size(chosen.size)) {
-    if (tool.options().is_given("INPUT"))
-      throw UsageError(expected_but_found("INPUT as the only operand with --size",
-                                          pipeline::quoted(chosen.config_path) + " before it"));
-    if (has_operand) tool.set_input(chosen.config_path);
-    return *screen;
-  }
-  if (!has_operand) throw UsageError(expected_but_found("an operand CONFIG, or --size", "none"));
-  try {
-    InputFile file = tool.second_input(chosen.config_path, "CONFIG");
-    expect_kind(file.text(), TextKind::config);
-    return read_config(file.text());
-  } catch (const IoError& error) {
-    if (!parse_size(chosen.config_path)) throw;
-    throw std::runtime_error(std::string(error.what()) + " (did you mean --size " + chosen.config_path +
-                             "?)");
-  }
-}
 
 NamedOutput text_output(const std::string& option, const std::string& path) {
   if (path == "-") return standard_output();
@@ -58,6 +34,7 @@ std::vector<NamedOutput> outputs_of(const ZbufOptions& chosen, const Statistics&
 
 }  // namespace
 
+// NOLINTNEXTLINE(bugprone-exception-escape): thrown only if memory is out before anything is done
 int main(int argc, char** argv) {
   Tool tool({"zbuf",
              "Reads triangles in normalized device coordinates and writes the depth of every pixel that "

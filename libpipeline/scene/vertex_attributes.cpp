@@ -1,6 +1,7 @@
 #include "libpipeline/scene/vertex_attributes.h"
 
 #include <algorithm>
+#include <cassert>
 
 #include "libpipeline/scene/header_line.h"
 #include "libpipeline/text/fixed_text.h"
@@ -122,6 +123,7 @@ const char* VertexLineReader::read_decimals(const char* p, const char* end,
                                             DecimalVertexLines& vertices) const {
   for (DecimalVertexLine& line : vertices) {
     const auto taken = std::span(line.numbers).first(column_count_);
+    assert(p != nullptr);
     const char* const begin = p;
     p = read_fixed_line(p, taken);
     if (p == nullptr || p > end) p = read_decimal_line(begin, end, taken);

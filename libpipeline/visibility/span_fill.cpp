@@ -72,10 +72,12 @@ const SpanFillKernel<Depth>& span_fill_kernel() {
   return chosen;
 }
 
+// NOLINTBEGIN(bugprone-macro-parentheses): a template's argument
 #define PIPELINE_INSTANTIATE(Depth)                                           \
   template std::span<const SpanFillKernel<Depth>> span_fill_kernels<Depth>(); \
   template const SpanFillKernel<Depth>& span_fill_kernel<Depth>();
 PIPELINE_FOR_EACH_DEPTH_FORMAT(PIPELINE_INSTANTIATE)
 #undef PIPELINE_INSTANTIATE
+// NOLINTEND(bugprone-macro-parentheses)
 
 }  // namespace pipeline
