@@ -1,4 +1,4 @@
-"""Runs every command of the README's console blocks and compares its output.
+"""Runs every command of the console blocks in README.md and docs/ and compares its output.
 
 usage: readme_test.py BIN_DIR SOURCE_DIR
 
@@ -19,11 +19,11 @@ BIN_DIR, SOURCE_DIR = (pathlib.Path(word).resolve() for word in sys.argv[1:3])
 
 def examples():
     """Pairs of a command and its expected output."""
-    readme = (SOURCE_DIR / "README.md").read_text()
-    for block in re.findall(r"^```console\n(.*?)^```$", readme, re.M | re.S):
-        for example in re.split(r"^\$ ", block, flags=re.M)[1:]:
-            command, _, output = example.partition("\n")
-            yield command, output
+    for page in [SOURCE_DIR / "README.md", *sorted((SOURCE_DIR / "docs").glob("*.md"))]:
+        for block in re.findall(r"^```console\n(.*?)^```$", page.read_text(), re.M | re.S):
+            for example in re.split(r"^\$ ", block, flags=re.M)[1:]:
+                command, _, output = example.partition("\n")
+                yield command, output
 
 
 class Readme(unittest.TestCase):

@@ -179,7 +179,7 @@ by 10 pixels at least).
 {gains_table(results)}"""
 
 
-# README.md
+# docs/accuracy.md
 
 README_SETTINGS = [
     "default", "--digits 5", "--digits 9", "--digits 12", "--digits exact", "--precision double",
@@ -204,11 +204,11 @@ def readme_table(results):
 
 
 def readme_part(results):
-    """The text between the marks in README.md."""
+    """The text between the marks in docs/accuracy.md."""
     cost = results.cell("unit", "default", "seconds_per_million_median")
     return f"""{readme_table(results)}
 CPU time is that of the whole pipe, relative to the default's: {cost:.1f} s per million triangles, the median of
 {results.rounds} rounds on {results.machine}.
 
-![CPU time against three kinds of error, for every setting](scripts/measure/results/tradeoff.svg)
+![CPU time against three kinds of error, for every setting](../scripts/measure/results/tradeoff.svg)
 """
