@@ -1,4 +1,4 @@
-"""Shared by the measuring scripts: the machine's name, runs with their costs, and tables that go into the pages of docs."""
+"""Shared by the measuring scripts: the machine's name, and runs with their costs."""
 import csv
 import dataclasses
 import os
@@ -40,13 +40,3 @@ def write_csv(path, rows, digits=4):
         table = csv.DictWriter(file, columns, restval="", lineterminator="\n")
         table.writeheader()
         table.writerows({column: f"{value:.{digits}g}" if isinstance(value, float) else value for column, value in row.items()} for row in rows)
-
-
-def put_between(page, name, words):
-    """Replaces the text of a page between a script's marks."""
-    begin, end = f"<!-- {name}: begin -->", f"<!-- {name}: end -->"
-    whole = page.read_text()
-    if begin not in whole or end not in whole:
-        raise SystemExit(f"{name}: {page.name} has no lines '{begin}' and '{end}'")
-    before, rest = whole.split(begin, 1)
-    page.write_text(before + begin + "\n" + words + end + rest.split(end, 1)[1])

@@ -32,3 +32,22 @@ def text(x, y, words, attributes=""):
 
 def line(kind, *points):
     return f'<polyline class="{kind}" fill="none" points="' + " ".join(f"{x:.1f},{y:.1f}" for x, y in points) + '"/>'
+
+
+def spread_out(wanted, gap):
+    """Positions as near as possible to the wanted ones (ascending), at least `gap` apart."""
+    groups = []  # [sum of the positions that each would have as the group's first, count]
+    for place in wanted:
+        groups.append([place, 1])
+        while len(groups) > 1 and groups[-2][0] / groups[-2][1] + groups[-2][1] * gap > groups[-1][0] / groups[-1][1]:
+            total, count = groups.pop()
+            groups[-1][0] += total - count * groups[-1][1] * gap
+            groups[-1][1] += count
+    return [total / count + i * gap for total, count in groups for i in range(count)]
+
+
+def end_labels(points_of, gap=15):
+    """Where the labels of lines stand that end at these points, {name: (x, y)}: beside the ends, and apart from one another."""
+    names = sorted(points_of, key=lambda name: points_of[name][1])
+    heights = spread_out([points_of[name][1] for name in names], gap)
+    return {name: (points_of[name][0] + 9, y + 4) for name, y in zip(names, heights)}

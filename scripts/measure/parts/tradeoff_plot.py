@@ -2,7 +2,7 @@
 import dataclasses
 import math
 
-from parts.svg import STYLE, line, text
+from parts.svg import STYLE, line, spread_out, text
 
 @dataclasses.dataclass(frozen=True)
 class Panel:
@@ -33,18 +33,6 @@ def short(setting):
     if setting == "default":
         return "7 (default)"
     return ", ".join(word for word in setting.split() if not word.startswith("--"))
-
-
-def spread_out(wanted, gap):
-    """Positions as near as possible to the wanted ones (ascending), at least `gap` apart."""
-    groups = []  # [sum of the positions that each would have as the group's first, count]
-    for place in wanted:
-        groups.append([place, 1])
-        while len(groups) > 1 and groups[-2][0] / groups[-2][1] + groups[-2][1] * gap > groups[-1][0] / groups[-1][1]:
-            total, count = groups.pop()
-            groups[-1][0] += total - count * groups[-1][1] * gap
-            groups[-1][1] += count
-    return [total / count + i * gap for total, count in groups for i in range(count)]
 
 
 def ticks(low, high):

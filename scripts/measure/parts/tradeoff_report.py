@@ -181,13 +181,13 @@ by 10 pixels at least).
 
 # docs/accuracy.md
 
-README_SETTINGS = [
+SHORT_SETTINGS = [
     "default", "--digits 5", "--digits 9", "--digits 12", "--digits exact", "--precision double",
     "--digits exact --precision double", "--depth f32", "--coverage center", "--digits 9 --coverage center",
     "--digits exact --coverage center"]
 
 
-def readme_table(results):
+def short_table(results):
     def cells(setting):
         yield code(setting)
         yield "%.2f" % results.cell("unit", setting, "ratio_median")
@@ -200,13 +200,13 @@ def readme_table(results):
 
     header = ["setting", "CPU time", "bytes per triangle", "vertex error, object of size 1", "1e-3", "1e-5",
               "wrong pixels, far/near 1e2", "1e4", "1e6", "off-center pixels"]
-    return table(header, [list(cells(setting)) for setting in README_SETTINGS])
+    return table(header, [list(cells(setting)) for setting in SHORT_SETTINGS])
 
 
-def readme_part(results):
-    """The text between the marks in docs/accuracy.md."""
+def short_report(results):
+    """The table and the plot for docs/accuracy.md."""
     cost = results.cell("unit", "default", "seconds_per_million_median")
-    return f"""{readme_table(results)}
+    return f"""{short_table(results)}
 CPU time is that of the whole pipe, relative to the default's: {cost:.1f} s per million triangles, the median of
 {results.rounds} rounds on {results.machine}.
 
