@@ -3,6 +3,7 @@ import os
 import pathlib
 import re
 import subprocess
+import sys
 
 from lib.command import CommandFailure
 
@@ -13,12 +14,22 @@ class ToolFailure(CommandFailure):
     """A tool ended with a status other than 0; the text is its message."""
 
 
+def default_folder():
+    """Where an installed command, or one called through `pipeline`, has the tools beside it; else build/release/bin of this source
+    tree."""
+    called = pathlib.Path(sys.argv[0])
+    for folder in (called.parent, called.resolve().parent):
+        if os.access(folder / "zbuf", os.X_OK):
+            return folder
+    return SOURCE / "build/release/bin"
+
+
 class Tools:
-    """The tools in a folder, by default $BIN, else build/release/bin of this source tree."""
+    """The tools in a folder, by default $BIN, else those that belong to the command that runs."""
 
     def __init__(self, folder=None):
         # Absolute, since a bare name would be looked up on the PATH, where `view` is an editor.
-        self.folder = pathlib.Path(folder or os.environ.get("BIN") or SOURCE / "build/release/bin").absolute()
+        self.folder = pathlib.Path(folder or os.environ.get("BIN") or default_folder()).absolute()
         if not os.access(self.folder / "zbuf", os.X_OK):
             raise ToolFailure(f"no tools in {self.folder}: build them (scripts/demo does), or set BIN")
 
