@@ -1,0 +1,214 @@
+#!/usr/bin/env python3
+"""README.md and the pages of docs/ are true: every command of a console block prints what it shows, links lead somewhere, tables
+are the measured ones, and each page and table is listed in docs/README.md with what keeps it true.
+
+usage: docs_test.py BIN_DIR SOURCE_DIR [UNITTEST ARGUMENT...]
+
+In a block ```console bash runs each line '$ COMMAND' in a copy of the source folder with the tools on the PATH; the lines up to the
+next command are its expected output, stdout and stderr together. A page's commands share a folder, which no other page sees.
+"""
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+BIN_DIR, SOURCE = (pathlib.Path(word).resolve() for word in sys.argv[1:3])
+del sys.argv[1:3]
+
+README = SOURCE / "README.md"
+INDEX = SOURCE / "docs/README.md"
+PAGES = [README, SOURCE / "CONTRIBUTING.md", *sorted((SOURCE / "docs").glob("*.md"))]
+OTHER_PAGES = [SOURCE / "CHANGELOG.md", *(SOURCE / room / "README.md" for room in ("libpipeline", "scripts", "tests/proofs"))]
+BLOCK = re.compile(r"^```.*?^```$", re.MULTILINE | re.DOTALL)
+
+
+def name_of(page):
+    return str(page.relative_to(SOURCE))
+
+
+def examples(text):
+    """Pairs of a command and its expected output."""
+    for block in re.findall(r"^```console\n(.*?)^```$", text, re.MULTILINE | re.DOTALL):
+        for example in re.split(r"^\$ ", block, flags=re.MULTILINE)[1:]:
+            command, _, output = example.partition("\n")
+            yield command, output
+
+
+def prose(text):
+    """The text without its blocks and inline code."""
+    return re.sub(r"`[^`\n]*`", "", BLOCK.sub("", text))
+
+
+def links(text):
+    return re.findall(r"\]\(([^)\s]+)\)", prose(text))
+
+
+def anchors(text):
+    """What a link may name behind a #: the headings, in lower case, blanks as dashes, without other punctuation."""
+    headings = re.findall(r"^#+ (.*)$", BLOCK.sub("", text), re.MULTILINE)
+    return {re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-") for heading in headings}
+
+
+def dead_links(page, text):
+    """Those whose file or heading is not there."""
+    dead = []
+    for link in links(text):
+        if re.match(r"[a-z]+:", link):
+            continue
+        path, _, anchor = link.partition("#")
+        target = (page.parent / path).resolve() if path else page
+        if not target.exists() or anchor and anchor not in anchors(text if target == page else target.read_text()):
+            dead.append(link)
+    return dead
+
+
+def marked_tables(text):
+    return re.findall(r"^<!-- ([\w-]+): begin -->$", text, re.MULTILINE)
+
+
+def listed(heading):
+    """{first cell: the rest of the row} of the index's table under a heading."""
+    section = re.search(rf"^## {re.escape(heading)}\n(.*?)(?=^## |\Z)", INDEX.read_text(), re.MULTILINE | re.DOTALL)[1]
+    rows = re.findall(r"^\| (.+?) \|(.*)\|$", section, re.MULTILINE)
+    return {cell: rest for cell, rest in rows if not set(cell) <= set("-: ")}
+
+
+class Commands(unittest.TestCase):
+    maxDiff = None
+
+    def test_every_command_prints_what_the_page_shows(self):
+        count = 0
+        environment = {**os.environ, "PATH": f"{BIN_DIR}:{os.environ['PATH']}", "LC_ALL": "C.UTF-8"}
+        environment.pop("BIN", None)
+        for page in PAGES:
+            with tempfile.TemporaryDirectory() as folder:
+                for name in ("samples", "scripts"):
+                    shutil.copytree(SOURCE / name, pathlib.Path(folder) / name)
+                for command, output in examples(page.read_text()):
+                    with self.subTest(page=name_of(page), command=command):
+                        run = subprocess.run(["bash", "-c", command], cwd=folder, env=environment, stdin=subprocess.DEVNULL,
+                                             stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+                        self.assertEqual(run.stdout, output)
+                    count += 1
+        self.assertGreater(count, 20)
+
+
+class Pages(unittest.TestCase):
+    def test_none_is_too_long(self):
+        for page in PAGES:
+            self.assertLessEqual(page.stat().st_size, 9000 if page == README else 12000, name_of(page))
+
+    def test_every_link_leads_somewhere(self):
+        for page in PAGES + OTHER_PAGES:
+            self.assertEqual(dead_links(page, page.read_text()), [], name_of(page))
+
+    def test_every_picture_is_shown(self):
+        shown = {(page.parent / link).resolve() for page in PAGES for link in links(page.read_text())}
+        pictures = {*(SOURCE / "docs/pictures").iterdir(), *(SOURCE / "samples").glob("*/*.png")}
+        self.assertEqual(sorted(map(name_of, pictures - shown)), [])
+
+    def test_the_index_names_every_page_of_docs(self):
+        named = {(INDEX.parent / link.partition("#")[0]).resolve() for link in links(INDEX.read_text())}
+        self.assertEqual([name_of(page) for page in PAGES if page not in named and page != INDEX], [])
+
+
+class KeptTrue(unittest.TestCase):
+    """The lists of docs/README.md."""
+
+    def assert_keepers(self, item, words):
+        """The words name at least one test or script, and all of them are there."""
+        sources = "\n".join(path.read_text() for path in (SOURCE / "tests").rglob("*") if path.suffix in (".cpp", ".txt"))
+        tests, scripts = re.findall(r"`(\w+)\.([A-Z]\w+)`", words), re.findall(r"`(scripts/[\w/-]+)`", words)
+        self.assertTrue(tests or scripts, f"{item}: nothing keeps it true")
+        for suite, name in tests:
+            form = rf"tools_test\({name} |\bTools\.{name} " if suite == "Tools" else rf"TEST(?:_[FP])?\({suite},\s+{name}\)|\b{suite}\.{name}\b"
+            self.assertTrue(re.search(form, sources), f"{item}: no test {suite}.{name}")
+        for script in scripts:
+            self.assertTrue(os.access(SOURCE / script, os.X_OK), f"{item}: no script {script}")
+
+    def test_every_page_is_listed_with_its_keeper(self):
+        pages = listed("What keeps each page true")
+        pages.pop("page")
+        self.assertEqual(sorted(pages), sorted(f"`{name_of(page)}`" for page in PAGES + OTHER_PAGES))
+        for page, keepers in pages.items():
+            self.assert_keepers(page, keepers)
+
+    def test_every_generated_table_and_picture_is_listed_with_its_script(self):
+        made = listed("What scripts write")
+        made.pop("table or picture")
+        tables = [f"`{name}`" for page in PAGES + OTHER_PAGES for name in marked_tables(page.read_text())]
+        pictures = [f"`{name_of(path)}`" for path in (SOURCE / "docs/pictures").iterdir()]
+        self.assertEqual(sorted(made), sorted([*tables, *pictures, "`samples/*/*.png`"]))
+        for item, words in made.items():
+            self.assert_keepers(item, words)
+
+    def test_the_tables_are_those_of_the_results(self):
+        subprocess.run([sys.executable, SOURCE / "scripts/maintain/make-tables", "--check"], check=True)
+
+    def test_the_reports_are_those_of_the_measured_numbers(self):
+        results = SOURCE / "scripts/measure/results"
+        with tempfile.TemporaryDirectory() as folder:
+            for table in results.glob("*.csv"):
+                shutil.copy(table, folder)
+            for script in ("algorithms", "bench", "tradeoff"):
+                subprocess.run([sys.executable, SOURCE / "scripts/measure" / script, "--redraw", "--out", folder], check=True)
+            made = [path for path in pathlib.Path(folder).iterdir() if path.suffix in (".md", ".svg")]
+            self.assertEqual(len(made), 7)
+            for path in made:
+                self.assertEqual(path.read_text(), (results / path.name).read_text(), path.name)
+
+
+class WhatThePagesName(unittest.TestCase):
+    def test_the_scene_in_fifteen_lines_is_one(self):
+        section = README.read_text().split("## The scene in fifteen lines\n\n")[1]
+        scene = "".join(line[4:] for line in section.split("\n\n")[0].splitlines(keepends=True)) + "\n"
+        self.assertEqual(scene.count("\n"), 15)
+        done = subprocess.run([BIN_DIR / "model", "--bare"], input=scene, capture_output=True, text=True)
+        self.assertEqual((done.returncode, done.stderr, len(done.stdout.splitlines())), (0, "", 4))
+
+    def test_the_version_is_that_of_cmake(self):
+        version = re.search(r"project\(pipeline VERSION (\S+)", (SOURCE / "CMakeLists.txt").read_text())[1]
+        self.assertIn(f"This is {version}.", README.read_text())
+
+    def test_the_tests_that_hold_a_promise_are_there(self):
+        tests = re.findall(r"`(\w+/\w+_test\.(?:py|cpp))`", (SOURCE / "docs/guarantees.md").read_text())
+        self.assertGreater(len(tests), 15)
+        self.assertEqual([test for test in tests if not (SOURCE / "tests" / test).is_file()], [])
+
+    def test_every_command_of_pipeline_is_there(self):
+        for page in PAGES:
+            for word in sorted(set(re.findall(r"(?:^|[^\w/-])pipeline ([a-z][a-z-]+)", "\n".join(
+                    re.findall(r"`[^`\n]*`|^    .*|^\$ .*", page.read_text(), re.MULTILINE)), re.MULTILINE))):
+                with self.subTest(page=name_of(page), command=word):
+                    known = word in ("help", "env") or (BIN_DIR.parent / "libexec/pipeline" / word).exists()
+                    self.assertTrue(known, f"pipeline {word}")
+
+    def test_every_option_of_a_filter_is_there(self):
+        """Options behind the name of a filter in the same piece of code. The pages of errors have wrong ones on purpose."""
+        texts = {tool: subprocess.run([BIN_DIR / tool, "--help"], capture_output=True, text=True).stdout for tool in ("model", "view", "project", "zbuf")}
+        count = 0
+        for page in (page for page in PAGES if not page.name.startswith("errors-in-")):
+            for code in re.findall(r"`[^`\n]*`|^    .*|^\$ .*", page.read_text(), re.MULTILINE):
+                for tool, words in re.findall(r"(?<![\w./-])(model|view|project|zbuf)((?: +(?![|<>&;])[^\s|;&`)]+)*)", code):
+                    for option in re.findall(r"(?<=\s)--[a-z][a-z-]*", words):
+                        self.assertIsNotNone(re.search(rf"(?<![\w-]){option}(?![\w-])", texts[tool]), f"{name_of(page)}: {tool} {option}")
+                        count += 1
+        self.assertGreater(count, 40)
+
+
+class TheTestItself(unittest.TestCase):
+    def test_it_sees_dead_links(self):
+        text = "# One two\n[a](README.md) [b](no.md) [c](#one-two) [d](#two) `[e](f.md)`\n```console\n# x\n[g](h.md)\n```\n"
+        self.assertEqual(dead_links(README, text), ["no.md", "#two"])
+
+    def test_it_finds_commands_and_tables(self):
+        text = "```console\n$ a\nb\nc\n$ d\n```\n<!-- e: begin -->\n<!-- e: end -->\n"
+        self.assertEqual(list(examples(text)), [("a", "b\nc\n"), ("d", "")])
+        self.assertEqual(marked_tables(text), ["e"])
+
+
+unittest.main()
