@@ -3,6 +3,7 @@
 
 usage: pipeline_test.py BIN_DIR [UNITTEST ARGUMENT...]
 """
+import contextlib
 import os
 import pathlib
 import re
@@ -84,6 +85,39 @@ class Prefix(ToolTest):
     def test_help_of_a_command_is_its_own(self):
         self.assertEqual(run(self.pipeline, "help", "show"), (0, "show <--help>\n", ""))
         self.assertTrue(run(self.pipeline, "help", "env")[1].startswith("usage: pipeline COMMAND"))
+
+    def test_help_on_a_terminal_is_the_man_page(self):
+        page = self.prefix / "share/man/man1/pipeline-show.1.gz"
+        page.parent.mkdir(parents=True)
+        page.touch()
+        folder = pathlib.Path("programs").resolve()
+        folder.mkdir()
+        (folder / "man").write_text(ECHO)
+        (folder / "man").chmod(0o755)
+        path = {"PATH": f"{folder}:/usr/bin:/bin"}
+        man = f"man <-M> <{self.prefix}/share/man> <1> <pipeline-show>\n"
+        self.assertEqual(self.on_terminal("show", env=path), man)
+        self.assertEqual(run(self.pipeline, "help", "show", env=path), (0, "show <--help>\n", ""))
+        page.unlink()
+        self.assertEqual(self.on_terminal("show", env=path), "show <--help>\n")
+
+    def on_terminal(self, command, **settings):
+        """What `help` shows on a terminal."""
+        try:
+            master, terminal = os.openpty()
+        except OSError as error:
+            self.skipTest(f"no terminal: {error}")
+        subprocess.run([self.pipeline, "help", command], stdin=subprocess.DEVNULL, stdout=terminal, timeout=60, check=True, **settings)
+        os.close(terminal)
+        shown = b""
+        with open(master, "rb", buffering=0) as screen, contextlib.suppress(OSError):  # the terminal is gone
+            while piece := screen.read(1000):
+                shown += piece
+        return shown.decode().replace("\r", "")
+
+    def test_help_about_a_format_is_a_man_page(self):
+        message = f"expected the man page pipeline-scene(5) in {self.prefix}/share/man, and the program man".replace("\n", "?")
+        self.refuses(["help", "scene"], message)
 
     def test_version_is_that_of_the_tools(self):
         self.add("model", '#!/bin/sh\necho "model (pipeline) 1.2.3"\n')
