@@ -1,0 +1,251 @@
+#!/usr/bin/env python3
+"""cmake --install: every command runs from a read-only prefix with blanks in its path, as another user, while the source tree cannot be
+seen; so do the examples of its page. The library is found by CMake and pkg-config.
+
+usage: install_test.py BUILD_DIR SOURCE_DIR [UNITTEST ARGUMENT...]
+"""
+import os
+import pathlib
+import re
+import shlex
+import shutil
+import signal
+import stat
+import subprocess
+import sys
+import tempfile
+import unittest
+
+sys.dont_write_bytecode = True
+BUILD, SOURCE = (pathlib.Path(sys.argv.pop(1)).resolve() for _ in range(2))
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+from display import MISSING, Display  # noqa: E402
+
+NOBODY = 65534
+TOOLS = ["model", "view", "project", "zbuf"]
+# Runs the words after the user's number as that user, in a world without the folders before '--'.
+HIDE = """
+while [ "$1" != -- ]; do mount -t tmpfs -o mode=755 none "$1" || exit 99; shift; done
+shift; user=$1; shift
+[ "$user" = same ] || exec setpriv --reuid "$user" --regid "$user" --clear-groups "$@"
+exec "$@"
+"""
+
+
+def namespace():
+    """The words that give a process mounts of its own, or none if the system gives none to this user."""
+    for words in (["unshare", "--mount"], ["unshare", "--map-root-user", "--mount"]):
+        try:
+            if subprocess.run([*words, "sh", "-c", "mount -t tmpfs none /mnt"], capture_output=True).returncode == 0:
+                return words
+        except FileNotFoundError:
+            break
+    return []
+
+
+def setUpModule():  # noqa: N802
+    """Installs once, to a prefix that only its owner may write to; nobody, if he is root."""
+    global FOLDER, PREFIX
+    FOLDER = tempfile.TemporaryDirectory(prefix="pipeline install ")
+    os.chmod(FOLDER.name, 0o755)
+    PREFIX = pathlib.Path(FOLDER.name, "the prefix")
+    install(PREFIX)
+    for path in [PREFIX, *PREFIX.rglob("*")]:
+        if not path.is_symlink():
+            path.chmod(stat.S_IMODE(path.stat().st_mode) & 0o555)
+
+
+def tearDownModule():  # noqa: N802
+    for path in [PREFIX, *PREFIX.rglob("*")]:
+        if path.is_dir():
+            path.chmod(0o755)
+    FOLDER.cleanup()
+
+
+def install(prefix, **settings):
+    done = subprocess.run(["cmake", "--install", BUILD, "--prefix", prefix], capture_output=True, text=True, **settings)
+    if done.returncode != 0:
+        raise AssertionError(done.stdout + done.stderr)
+
+
+def commands():
+    return [path.name for path in sorted((PREFIX / "libexec/pipeline").iterdir()) if path.is_file() and os.access(path, os.X_OK)]
+
+
+def examples(page):
+    """The command lines of a man page."""
+    section = (re.findall(r"^\.SH EXAMPLES\n(.*?)(?=^\.SH )", page, re.M | re.S) or [""])[0]
+    for block in re.findall(r"^\.EX\n(.*?)^\.EE$", section, re.M | re.S):
+        yield re.sub(r"\\\((aq|ha|ti|ga)", lambda name: {"aq": "'", "ha": "^", "ti": "~", "ga": "`"}[name[1]],
+                     block.replace("\\&", "")).replace("\\-", "-").replace("\\e", "\\")
+
+
+class Installed(unittest.TestCase):
+    def setUp(self):
+        self.work = pathlib.Path(tempfile.mkdtemp(prefix="pipeline work "))
+        self.addCleanup(shutil.rmtree, self.work)
+        self.is_root = os.geteuid() == 0
+        self.environment = {"PATH": f"{PREFIX}/bin:/usr/bin:/bin", "HOME": str(self.work), "LANG": "C.UTF-8"}
+        # The build folder may lie in the source folder.
+        hidden = [str(SOURCE)] + [str(BUILD)] * (SOURCE not in BUILD.parents)
+        self.words = namespace() and [*namespace(), "sh", "-c", HIDE, "sh", *hidden, "--", str(NOBODY) if self.is_root else "same"]
+
+    def give(self):
+        """Hands the work folder to the user who runs the commands."""
+        if self.is_root:
+            for path in [self.work, *self.work.rglob("*")]:
+                os.chown(path, NOBODY, NOBODY)
+
+    def run_line(self, line, **settings):
+        if not self.words:
+            self.skipTest("the system gives no process mounts of its own: the source tree cannot be hidden")
+        return subprocess.run([*self.words, "bash", "-c", line], cwd=self.work, env=self.environment, stdin=subprocess.DEVNULL,
+                              capture_output=True, text=True, timeout=60, **settings)
+
+    def prepare(self):
+        """The files of which examples speak, for the sample of the worked example."""
+        sample = SOURCE / "samples/worked-example"
+        for name in ("scene.txt", "config.txt", "stage1.txt", "stage2.txt", "stage3.txt", "z_buffer.txt", "out.bmp"):
+            shutil.copy(sample / name, self.work)
+        for name in ("mine", "torus"):
+            shutil.copytree(sample, self.work / name)
+        self.give()
+
+    def test_nothing_can_write_to_the_prefix_and_the_source_tree_is_gone(self):
+        self.give()
+        done = self.run_line(f"touch {shlex.quote(str(PREFIX))}/x; ls {shlex.quote(str(SOURCE))}; id -u; touch here && echo written")
+        self.assertEqual(done.stdout, f"{NOBODY if self.is_root else 0}\nwritten\n")
+        if self.is_root:
+            self.assertIn("Permission denied", done.stderr)
+
+    def test_every_command_answers_help(self):
+        self.assertLessEqual({*TOOLS, "stages", "compare", "explain", "inspect", "fly"}, set(commands()))
+        self.give()
+        for command in commands():
+            with self.subTest(command):
+                done = self.run_line(f"pipeline {command} --help")
+                self.assertEqual((done.returncode, done.stderr), (0, ""))
+                self.assertRegex(done.stdout, rf"(?im)^usage: {command}\b")
+
+    def test_the_examples_of_every_page_run(self):
+        for page in sorted((PREFIX / "share/man/man1").iterdir()):
+            lines = list(examples(page.read_text()))
+            self.assertTrue(lines, page.name)
+            for line in lines:
+                if "pipeline fly" in line or "conform" in line:
+                    continue  # below; and a program to judge is the user's own
+                with self.subTest(line):
+                    self.prepare()
+                    done = self.run_line("set -o pipefail; " + line)
+                    self.assertEqual(done.returncode, 0, done.stderr)
+                    self.assertNotIn("Traceback", done.stderr)
+                    for file in re.findall(r"(?:> |--image |-o )(\S+\.\w+)", line):
+                        self.assertGreater((self.work / file).stat().st_size, 0 if file != "differences.png" else -1, file)
+                    shutil.rmtree(self.work / "mine")
+                    shutil.rmtree(self.work / "torus")
+
+    @unittest.skipIf(MISSING, f"missing: {' '.join(MISSING)}")
+    def test_fly_opens_its_window(self):
+        self.prepare()
+        with Display():
+            self.environment["DISPLAY"] = os.environ["DISPLAY"]
+            done = self.run_line("timeout 3 pipeline fly scene.txt config.txt; echo $?")
+        self.assertEqual((done.stdout, done.stderr), ("124\n", ""))
+
+    def test_the_pipe_makes_the_sample(self):
+        self.prepare()
+        done = self.run_line('eval "$(pipeline env)" && model scene.txt | view | project | zbuf config.txt')
+        self.assertEqual((done.stdout, done.stderr), ((SOURCE / "samples/worked-example/z_buffer.txt").read_text(), ""))
+
+    def test_no_file_names_the_source_tree(self):
+        for path in PREFIX.rglob("*"):
+            if path.is_file() and path.suffix != ".a":
+                for folder in (SOURCE, BUILD):
+                    self.assertNotIn(bytes(folder) + b"/", path.read_bytes(), path)
+
+    def test_only_bin_pipeline_is_on_the_path(self):
+        self.assertEqual(os.listdir(PREFIX / "bin"), ["pipeline"])
+
+    def test_documents_have_their_pictures(self):
+        folder = PREFIX / "share/doc/pipeline"
+        self.assertEqual((folder / "README.md").read_text(), (SOURCE / "README.md").read_text())
+        for page in (folder / "README.md", *folder.glob("docs/*.md")):
+            for picture in re.findall(r"!\[[^]]*\]\(([^)#:]+)\)", page.read_text()):
+                self.assertTrue((page.parent / picture).exists(), f"{page.name}: {picture}")
+
+    def test_completion_and_pages_are_those_of_the_build(self):
+        for path in (BUILD / "share").rglob("*"):
+            if path.is_file():
+                self.assertEqual((PREFIX / "share" / path.relative_to(BUILD / "share")).read_bytes(), path.read_bytes())
+
+
+class ShortNames(unittest.TestCase):
+    """The script that -DPIPELINE_SHORT_NAMES=ON configures, run as cmake --install runs it."""
+
+    def test_links_lead_to_commands_and_pages(self):
+        with tempfile.TemporaryDirectory() as folder:
+            destination, prefix = pathlib.Path(folder, "dest dir"), pathlib.Path("/the prefix")
+            install(prefix, env={**os.environ, "DESTDIR": str(destination)})
+            placed = destination / prefix.relative_to("/")
+            names = sorted(os.listdir(BUILD / "libexec/pipeline"))
+            script = pathlib.Path(folder, "links.cmake")
+            template = (SOURCE / "scripts/package/install_links.cmake.in").read_text()
+            script.write_text(f'set(CMAKE_INSTALL_PREFIX "{prefix}")\n' +
+                              template.replace("@names@", " ".join(names)).replace("@PIPELINE_SHORT_NAMES@", "ON"))
+            subprocess.run(["cmake", "-P", script], env={**os.environ, "DESTDIR": str(destination)}, check=True, capture_output=True)
+            self.assertEqual(sorted(os.listdir(placed / "bin")), sorted([*names, "pipeline"]))
+            for name in names:
+                self.assertTrue((placed / f"share/man/man1/{name}.1").samefile(placed / f"share/man/man1/pipeline-{name}.1"))
+                self.assertEqual(os.readlink(placed / f"bin/{name}"), f"../libexec/pipeline/{name}")
+            sample = SOURCE / "samples/worked-example"
+            line = f"stages {sample}/scene.txt {sample}/config.txt five && compare --five five {sample}/scene.txt {sample}/config.txt"
+            done = subprocess.run(["bash", "-c", line], cwd=folder, env={"PATH": f"{placed}/bin:/usr/bin:/bin"}, capture_output=True, text=True)
+            self.assertEqual((done.returncode, done.stderr), (0, ""))
+
+
+class Library(unittest.TestCase):
+    """A project of someone else's."""
+
+    def setUp(self):
+        self.build = tempfile.TemporaryDirectory(prefix="pipeline build ")
+        self.addCleanup(self.build.cleanup)
+
+    def headers(self):
+        text = (SOURCE / "libpipeline/CMakeLists.txt").read_text()
+        return re.search(r"set\(PIPELINE_PUBLIC_HEADERS\s+([^)]+)\)", text)[1].split()
+
+    def call(self, *words, **settings):
+        done = subprocess.run(words, capture_output=True, timeout=120, **settings)
+        self.assertEqual(done.returncode, 0, (done.stdout + done.stderr).decode(errors="replace"))
+        return done.stdout
+
+    def assert_draws(self, folder):
+        self.assertEqual(self.call(pathlib.Path(folder, "draw")).decode(), "#.......\n###.....\n#####...\n#######.\n")
+
+    def test_cmake_finds_it_and_each_public_header_compiles(self):
+        self.assertGreater(len(self.headers()), 10)
+        self.call("cmake", "-S", SOURCE / "tests/consumer/installed", "-B", self.build.name, "-G", "Ninja", f"-DCMAKE_PREFIX_PATH={PREFIX}",
+                  "-DHEADERS=" + ";".join(self.headers()), "-DCMAKE_BUILD_TYPE=Debug")
+        self.call("cmake", "--build", self.build.name)
+        self.assert_draws(self.build.name)
+        self.assertIn(self.call(pathlib.Path(self.build.name, "picture"))[:2], (b"\x89P", b"P6"))
+
+    def test_cmake_refuses_another_version(self):
+        pathlib.Path(self.build.name, "CMakeLists.txt").write_text(
+            "cmake_minimum_required(VERSION 3.22)\nproject(x LANGUAGES NONE)\nfind_package(pipeline 99)\nmessage(STATUS found=${pipeline_FOUND})\n")
+        text = self.call("cmake", "-S", self.build.name, "-B", self.build.name + "/b", f"-DCMAKE_PREFIX_PATH={PREFIX}")
+        self.assertIn("found=0", text.decode())
+
+    def test_pkg_config_finds_it(self):
+        if not shutil.which("pkg-config"):
+            self.skipTest("pkg-config is missing (Debian: pkgconf)")
+        pc, = PREFIX.rglob("pipeline.pc")
+        flags = self.call("pkg-config", "--cflags", "--libs", "pipeline", env={**os.environ, "PKG_CONFIG_PATH": str(pc.parent)})
+        compiler = os.environ.get("CXX", "c++")
+        self.call(compiler, SOURCE / "tests/consumer/draw.cpp", "-o", self.build.name + "/draw", *shlex.split(flags.decode()))
+        self.assert_draws(self.build.name)
+
+
+if __name__ == "__main__":
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(1))  # a time limit: clean up
+    unittest.main()
