@@ -6,6 +6,10 @@ import signal
 import sys
 import traceback
 
+MINIMUM_PYTHON = (3, 9)
+if sys.version_info < MINIMUM_PYTHON:
+    sys.exit("{}: Python {}.{} or newer is needed, found {}.{}".format(os.path.basename(sys.argv[0]), *MINIMUM_PYTHON, *sys.version_info[:2]))
+
 
 class CommandFailure(Exception):
     """The command cannot do its job; the text is a sentence for the user, without the command's name."""

@@ -3,6 +3,7 @@
 
 usage: scripts_test.py BIN_DIR [UNITTEST ARGUMENT...]
 """
+import ast
 import os
 import pathlib
 import re
@@ -29,6 +30,34 @@ class Help(ToolTest):
                 done = subprocess.run([command, "--help"], capture_output=True, text=True, timeout=60)
                 self.assertEqual((done.returncode, done.stderr), (0, ""))
                 self.assertRegex(done.stdout, rf"\Ausage: {command.name}\b")
+
+
+class OldPython(ToolTest):
+    """The oldest Python is 3.9 for the commands, as lib/command.py says, and 3.10 for the tests."""
+
+    def test_no_command_uses_newer_syntax(self):
+        modules = [path for path in (SOURCE / "scripts").rglob("*.py")]
+        scripts = [path for path in commands() if path.read_bytes().startswith(b"#!/usr/bin/env python3")]
+        self.assertGreater(len(scripts), 10)
+        for path in modules + scripts:
+            ast.parse(path.read_text(), str(path), feature_version=(3, 9))
+        for path in (SOURCE / "tests").rglob("*.py"):
+            ast.parse(path.read_text(), str(path), feature_version=(3, 10))
+
+    def test_an_older_python_is_refused(self):
+        for version, status, message in (((3, 8, 18), 1, "explain: Python 3.9 or newer is needed, found 3.8\n"), ((3, 9, 0), 0, "")):
+            line = f"import sys; sys.version_info = {version}; sys.argv = ['some/explain']; sys.path.insert(0, {str(SOURCE / 'scripts')!r}); import lib.command"
+            done = subprocess.run([sys.executable, "-B", "-c", line], capture_output=True, text=True)
+            self.assertEqual((done.returncode, done.stderr), (status, message))
+
+    def test_the_oldest_python_there_is_runs_a_command(self):
+        python = shutil.which("python3.9")
+        if not python or subprocess.run([python, "--version"], capture_output=True).returncode != 0:
+            self.skipTest("there is no Python 3.9")
+        sample = SOURCE / "samples/worked-example"
+        done = subprocess.run([python, "-B", SOURCE / "scripts/compare", "--five", sample, sample / "scene.txt", sample / "config.txt"],
+                              capture_output=True, text=True, env={**os.environ, "BIN": str(BIN)})
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
 
 
 class Readme(ToolTest):
