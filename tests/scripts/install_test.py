@@ -246,6 +246,59 @@ class Library(unittest.TestCase):
         self.assert_draws(self.build.name)
 
 
+@unittest.skipUnless(shutil.which("dpkg-deb") and shutil.which("dpkg-shlibdeps"), "this is no Debian system with dpkg-dev")
+class Packages(unittest.TestCase):
+    """What cpack makes."""
+
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory(prefix="pipeline-packages-")
+        cls.addClassCleanup(folder.cleanup)
+        cls.folder = pathlib.Path(folder.name)
+        for config in ("CPackConfig.cmake", "CPackSourceConfig.cmake"):
+            done = subprocess.run(["cpack", "--config", config, "-B", folder.name], cwd=BUILD, capture_output=True, text=True)
+            if done.returncode != 0:
+                raise AssertionError(done.stdout + done.stderr)
+        cls.package, = cls.folder.glob("*.deb")
+        cls.archive, = cls.folder.glob("*.tar.gz")
+        subprocess.run(["dpkg-deb", "-x", cls.package, cls.folder / "root"], check=True)
+
+    def files(self):
+        root = self.folder / "root"
+        return [path.relative_to(root) for path in root.rglob("*") if not path.is_dir() or path.is_symlink()]
+
+    def test_it_has_what_was_installed_and_what_debian_asks_for(self):
+        installed = {str("usr" / path.relative_to(PREFIX)) for path in PREFIX.rglob("*") if not path.is_dir() or path.is_symlink()}
+        packed = {re.sub(r"(/man/.*)\.gz$", r"\1", str(path)) for path in self.files()}
+        documents = "usr/share/doc/pipeline/"
+        self.assertEqual(packed - installed, {documents + "copyright", documents + "changelog.gz"})
+        self.assertEqual(installed - packed, {documents + "LICENSE"})
+
+    def test_it_runs_where_it_is_unpacked(self):
+        done = subprocess.run([self.folder / "root/usr/bin/pipeline", "--version"], capture_output=True, text=True)
+        self.assertRegex(done.stdout + done.stderr, r"\Apipeline \d+\.\d+\.\d+\n\Z")
+
+    def test_no_file_is_in_another_packages_way(self):
+        bins = [path.name for path in self.files() if path.parent == pathlib.Path("usr/bin")]
+        self.assertEqual(bins, ["pipeline"])
+        names = [f"/{path}" for path in self.files()]
+        owners = subprocess.run(["dpkg-query", "-S", *names], capture_output=True, text=True).stdout.splitlines()
+        self.assertEqual([line for line in owners if not line.startswith("pipeline: ")], [])
+
+    @unittest.skipUnless(shutil.which("lintian"), "lintian is missing (Debian: lintian)")
+    def test_lintian_finds_no_error(self):
+        done = subprocess.run(["lintian", "--fail-on", "error", self.package], capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stdout)
+
+    def test_the_archive_has_the_files_of_the_repository(self):
+        listed = subprocess.run(["git", "-C", SOURCE, "ls-files", "--cached", "--others", "--exclude-standard"], capture_output=True, text=True)
+        if listed.returncode != 0:
+            self.skipTest("there is no repository")
+        packed = subprocess.run(["tar", "-tzf", self.archive], capture_output=True, text=True, check=True).stdout.splitlines()
+        names = {line.partition("/")[2] for line in packed if not line.endswith("/")}
+        self.assertEqual(names, {name for name in listed.stdout.splitlines() if (SOURCE / name).exists()})
+
+
 if __name__ == "__main__":
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(1))  # a time limit: clean up
     unittest.main()
