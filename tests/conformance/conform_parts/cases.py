@@ -1,0 +1,103 @@
+"""The cases of the pack: a folder each, cases/STAGE/NAME, of plain files."""
+import dataclasses
+import fnmatch
+import pathlib
+import re
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+STAGES = ("model", "view", "project", "zbuf")
+RULES = ("nearest", "center")
+# What a case may need that the assignment does not ask for.
+NEEDS = {
+    "syntax": "comments, carriage returns, arguments on the line of their command",
+    "options": "words of the command line, at {options}",
+    "clipping": "triangles that reach behind the eye",
+    "projections": "frustum, ortho, and the rule `ratio`",
+    "numbering": "lines `triangle N`",
+    "frames": "texts with `framed` and `end`",
+    "colors": "colors and normals in scenes and texts",
+    "lights": "lights",
+    "exactness": "more digits than plain doubles give",
+    "refusals": "wrong input is refused, with its line",
+}
+CAMERA = {"eye": "0 0 0", "look": "0 0 -1", "up": "0 1 0"}  # of a text whose camera has been used up
+
+
+@dataclasses.dataclass
+class Case:
+    """A case; `fields` are the lines KEY: VALUE of its case.txt."""
+    folder: pathlib.Path
+    fields: dict
+
+    @property
+    def name(self):
+        return f"{self.stage}/{self.folder.name}"
+
+    @property
+    def stage(self):
+        return self.folder.parent.name
+
+    @property
+    def why(self):
+        return self.fields["why"]
+
+    @property
+    def tier(self):
+        return self.fields["tier"]
+
+    @property
+    def refused_line(self):
+        """The line at which the input must be refused; None if it is right."""
+        return int(self.fields["refused"]) if "refused" in self.fields else None
+
+    def words(self, key):
+        return self.fields.get(key, "").split()
+
+    def open_under(self, rule):
+        """Why the assignment leaves the answer open; None if it does not."""
+        return self.fields.get("open") or (self.fields.get(f"open-{rule}") if self.stage == "zbuf" else None)
+
+    def has(self, name):
+        return (self.folder / name).exists()
+
+    def read(self, name):
+        return (self.folder / name).read_bytes()
+
+    def is_chosen(self, patterns):
+        """True if the name or a mistake that the case catches fits one of the patterns, or if there is none."""
+        names = [self.name, self.folder.name, *self.words("catches")]
+        return not patterns or any(fnmatch.fnmatchcase(name, pattern) for pattern in patterns for name in names)
+
+
+def read_fields(text):
+    return dict(line.split(": ", 1) for line in text.splitlines() if line)
+
+
+def read_cases(stage, folder=ROOT / "cases"):
+    """The cases of a stage, in the order of their names."""
+    return [Case(path.parent, read_fields(path.read_text())) for path in sorted((folder / stage).glob("*/case.txt"))]
+
+
+def read_mistakes(stage):
+    """The sentences of mistakes.txt about a stage, and of habits.txt, by name."""
+    found = re.findall(r"^([a-z]+/[^:\s]+): (.+)$", (ROOT / "mistakes.txt").read_text() + (ROOT / "habits.txt").read_text(), re.M)
+    return {name: sentence for name, sentence in found if name.startswith(stage + "/")}
+
+
+def without_header(text):
+    """A stage text in the manner of the assignment: vertices and blank lines alone."""
+    return b"".join(line for line in text.splitlines(keepends=True) if not line[:1].isalpha())
+
+
+def scene_of(case):
+    """A scene.txt as the programs of the assignment read it beside their stage text: the case's camera."""
+    text = case.read("input.txt")
+    if case.stage == "model":
+        return text
+    camera = {**CAMERA, "perspective": "90 1 1 100", **camera_of(text.decode("latin-1"))}
+    return "".join(camera[name] + "\n" for name in (*CAMERA, "perspective")).encode() + b"end\n"
+
+
+def camera_of(text):
+    """The words behind eye, look, up and perspective in a header, by these."""
+    return dict(re.findall(r"^(eye|look|up|perspective) (.*)$", text, re.M))

@@ -1,0 +1,101 @@
+"""What a run has shown: TAP and a table on stdout, JSON in a file."""
+import json
+from collections import namedtuple
+
+# state: right, wrong, open (not counted; `difference` tells whether it is right), left out (`reason` tells why)
+Result = namedtuple("Result", "case state difference reason", defaults=(None, None))
+Heading = namedtuple("Heading", "names results")  # what failing cases have in common: mistakes that cannot be told apart, or none
+
+
+def tap_lines(number, result):
+    case, difference = result.case, result.difference
+    if result.state == "left out":
+        return [f"ok {number} - {case.name} # SKIP {result.reason}"]
+    directive = f" # TODO open: {result.reason}" if result.state == "open" else ""
+    lines = [f"{'not ok' if difference else 'ok'} {number} - {case.name}{directive}"]
+    if difference:
+        lines += [f"#   why: {case.why}", *difference_lines(difference)]
+    return lines
+
+
+def difference_lines(difference):
+    lines = [f"#   {difference.message}"]
+    for name, text in (("expected", difference.expected), ("found", difference.found)):
+        rows = text.split("\n")
+        lines += [f"#   {name + ':':9} {rows[0]}", *("#             " + row for row in rows[1:])] if text else []
+    return lines
+
+
+def headings(results):
+    """The failing cases by the mistake that explains them: the cases that catch it fail, but for one in twenty, no output is another
+    than it gives, and it explains the most of the cases that are left. Where several do so alike, all are named. The last heading has
+    no name: what no mistake explains, and everything if every case fails."""
+    judged = [result for result in results if result.state in ("right", "wrong")]
+    failing = {result.case.name: result for result in judged if result.state == "wrong"}
+    caught_by = {}
+    for result in judged:
+        for mistake in result.case.words("catches"):
+            caught_by.setdefault(mistake, set()).add(result.case.name)
+    excused = {mistake for result in failing.values() for mistake in result.difference.excuses}
+    suspects = {mistake: cases for mistake, cases in caught_by.items()
+                if mistake not in excused and len(cases - failing.keys()) <= len(cases) // 20}
+    left, found = set(failing), []
+    while len(failing) < len(judged) or len(judged) == 1:
+        most = max((len(cases & left) for cases in suspects.values()), default=0)
+        names = [mistake for mistake, cases in suspects.items() if most and len(cases & left) == most]
+        fewest = min((len(suspects[name]) for name in names), default=0)
+        names = [name for name in names if len(suspects[name]) == fewest]
+        if not names:
+            break
+        explained = suspects[names[0]] & left
+        names = [name for name in names if suspects[name] & left == explained]
+        found.append(Heading(sorted(names), [result for name, result in failing.items() if name in explained]))
+        left -= explained
+    if left:
+        found.append(Heading([], [result for name, result in failing.items() if name in left]))
+    return found
+
+
+def table(results, mistakes):
+    """The failing cases by mistake, each with the first one, its reason, and what it expected and found."""
+    lines = []
+    wrong = [result.difference.other_rule for result in results if result.state == "wrong"]
+    if wrong and wrong[0] and wrong.count(wrong[0]) == len(wrong):
+        lines += ["#", f"# By --rule {wrong[0]} all of these are right."]
+    for heading in headings(results):
+        first = heading.results[0]
+        count = f"{len(heading.results)} case{'s' * (len(heading.results) > 1)}"
+        lines += ["#", "# " + " or ".join(heading.names or ["no mistake of the list"]) + ": " + count]
+        lines += ["#   " + mistakes[name] for name in heading.names]
+        lines += [f"#   first: {first.case.name}", f"#   why: {first.case.why}", *difference_lines(first.difference)]
+    return lines
+
+
+def count(results, state):
+    return sum(result.state == state for result in results)
+
+
+def summary(results):
+    """One line."""
+    opened = [result for result in results if result.state == "open"]
+    words = [f"{count(results, 'right')} right", f"{count(results, 'wrong')} wrong"]
+    if opened:
+        words.append(f"{len(opened)} open ({sum(not result.difference for result in opened)} right)")
+    if count(results, "left out"):
+        words.append(f"{count(results, 'left out')} left out")
+    return "# " + ", ".join(words)
+
+
+def as_json(results, terms, mistakes):
+    def entry(result):
+        case, difference = result.case, result.difference
+        return {"name": case.name, "state": result.state, "why": case.why, "paragraphs": case.words("paragraphs"),
+                "catches": case.words("catches"), **({"reason": result.reason} if result.reason else {}),
+                **({"difference": {key: getattr(difference, key) for key in ("message", "expected", "found")}} if difference else {})}
+
+    return json.dumps({
+        "command": terms.command, "rule": terms.rule,
+        "counts": {state: count(results, state) for state in ("right", "wrong", "open", "left out")},
+        "mistakes": [{"names": heading.names, "sentences": [mistakes[name] for name in heading.names],
+                      "cases": [result.case.name for result in heading.results]} for heading in headings(results)],
+        "cases": [entry(result) for result in results]}, indent=1) + "\n"

@@ -1,0 +1,299 @@
+#!/usr/bin/env python3
+"""The conformance pack is what it claims to be, our stages pass it, and its runner tells what a program does.
+
+usage: conform_test.py BIN_DIR SOURCE_DIR
+"""
+import json
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+SOURCE = pathlib.Path(sys.argv.pop()).resolve()
+BIN = pathlib.Path(sys.argv.pop()).resolve()
+PACK = SOURCE / "tests/conformance"
+sys.path.insert(0, str(PACK))
+from conform_parts.cases import NEEDS, STAGES, read_cases, read_mistakes  # noqa: E402
+from conform_parts.judge import same_digits, same_picture  # noqa: E402
+
+CASES = {stage: read_cases(stage) for stage in STAGES}
+TOOLS = {stage: [BIN / stage, *(["{config}"] if stage == "zbuf" else []), "{options}"] for stage in STAGES}
+
+
+def conform(*words, pack=PACK, **others):
+    return subprocess.run([sys.executable, pack / "conform", *map(str, words)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+        timeout=600, **others)
+
+
+def sh(script):
+    return ["sh", "-c", script, "sh"]
+
+
+class Pack(unittest.TestCase):
+    def test_has_enough_cases_that_must_be_right(self):
+        least = {"model": 120, "view": 60, "project": 150, "zbuf": 270}
+        for stage, cases in CASES.items():
+            for rule in ("nearest", "center"):
+                counted = [case for case in cases if case.refused_line is None and not case.open_under(rule)]
+                self.assertGreaterEqual(len(counted), least[stage], stage)
+
+    def test_has_enough_cases_that_must_be_refused(self):
+        self.assertGreaterEqual(sum(case.refused_line is not None for cases in CASES.values() for case in cases), 150)
+
+    def test_has_cases_in_the_manner_of_the_assignment_for_each_stage(self):
+        for stage, cases in CASES.items():
+            self.assertGreater(sum(not case.words("needs") for case in cases), 80, stage)
+
+    def test_every_case_gives_a_reason_and_names_what_exists(self):
+        paragraphs = set(re.findall(r"^\*\*([A-Z]\d+)\*\*", "".join((SOURCE / "docs" / f"{page}.md").read_text() for page in ("scene",
+            "stage-text", "stages")), re.M))
+        for stage, cases in CASES.items():
+            for case in cases:
+                with self.subTest(case=case.name):
+                    self.assertRegex(case.why, r"^[A-Za-z-].*\.$")
+                    self.assertTrue(case.words("paragraphs"))
+                    self.assertLessEqual(set(case.words("paragraphs")), paragraphs)
+                    self.assertLessEqual(set(case.words("catches")), read_mistakes(stage).keys())
+                    self.assertLessEqual(set(case.words("needs")), NEEDS.keys())
+                    self.assertIn(case.tier, ("bytes", "digits"))
+
+    def test_every_mistake_is_caught_by_several_cases_and_has_its_output_in_one(self):
+        for stage, cases in CASES.items():
+            for mistake in re.findall(rf"^({stage}/[^:]+):", (PACK / "mistakes.txt").read_text(), re.M):
+                with self.subTest(mistake=mistake):
+                    self.assertGreaterEqual(sum(mistake in case.words("catches") for case in cases), 3)
+                    self.assertTrue(any(path for case in cases for path in case.folder.glob(f"with-{mistake.partition('/')[2]}.*")))
+
+    def test_is_small(self):
+        files = [path for path in PACK.glob("cases/*/*/*")]
+        self.assertLess(sum(path.stat().st_size for path in files), 2 << 20)
+        self.assertLess(max(path.stat().st_size for path in files), 16 << 10)
+
+
+class Tools(unittest.TestCase):
+    def assert_all_right(self, stage, *words):
+        done = conform("--stage", stage, *words)
+        self.assertEqual((done.returncode, done.stderr), (0, ""), done.stdout[-4000:])
+        return done
+
+    def test_pass_every_case_to_the_byte(self):
+        for stage, tool in TOOLS.items():
+            with self.subTest(stage=stage):
+                done = self.assert_all_right(stage, "--count-open", "--tier", "bytes", "--", *tool)
+                self.assertTrue(done.stdout.endswith(f"# {len(CASES[stage])} right, 0 wrong\n"))
+
+    def test_pass_every_case_by_its_own_tier(self):
+        for stage, chosen in (("view", "*"), ("zbuf", "[l-z]*")):
+            self.assert_all_right(stage, "--only", chosen, "--", *TOOLS[stage])
+
+    def test_pass_by_the_other_rule_and_the_other_algorithm(self):
+        self.assert_all_right("zbuf", "--count-open", "--rule", "center", "--", *TOOLS["zbuf"], "--coverage", "center")
+        self.assert_all_right("zbuf", "--count-open", "--", *TOOLS["zbuf"], "--algorithm", "scanline")
+
+    def test_pass_in_the_manner_of_the_assignment(self):
+        for stage, words in (("model", ["--bare"]), ("view", ["--bare", "--scene", "{scene}"]), ("project", ["--scene", "{scene}"])):
+            with self.subTest(stage=stage):
+                self.assert_all_right(stage, "--assignment", "--tier", "bytes", "--", BIN / stage, *words)
+
+    def test_four_lines_of_awk_pass_where_the_camera_looks_straight_ahead(self):
+        done = self.assert_all_right("view", "--only", "straight-*", "--", "awk", "-v", "eye={eye}", "-f", SOURCE / "scripts/view.awk")
+        self.assertIn("\n# 8 right, 0 wrong\n", done.stdout)
+
+    def test_the_pack_runs_alone(self):
+        with tempfile.TemporaryDirectory() as folder:
+            copy = pathlib.Path(folder, "a copy")
+            shutil.copytree(PACK, copy, ignore=shutil.ignore_patterns("__pycache__"))
+            done = subprocess.run([sys.executable, "-I", copy / "conform", "--stage", "model", "--only", "stack-*", "--", BIN / "model"],
+                cwd=folder, env={"PATH": os.environ["PATH"]},
+                                  stdout=subprocess.PIPE, text=True)
+            self.assertEqual(done.returncode, 0, done.stdout)
+            self.assertEqual([path.name for path in pathlib.Path(folder).iterdir()], ["a copy"])
+
+
+class Runner(unittest.TestCase):
+    """Small programs, on a case or two."""
+
+    def run_one(self, case, *words, options=()):
+        stage, name = case.split("/")
+        return conform("--stage", stage, "--only", name, *options, "--", *words)
+
+    def assert_wrong(self, done, *messages):
+        self.assertEqual(done.returncode, 1, done.stdout + done.stderr)
+        for message in messages:
+            self.assertIn(message, done.stdout)
+
+    def test_prints_tap(self):
+        done = conform("--stage", "project", "--", *TOOLS["view"])
+        version, plan, *lines = done.stdout.splitlines()
+        self.assertEqual((version, plan), ("TAP version 13", f"1..{len(CASES['project'])}"))
+        tests = [line for line in lines if not line.startswith("#")]
+        self.assertEqual([re.match(r"(not )?ok (\d+) - project/[a-z0-9-]+( # (SKIP|TODO) .+)?$", line)[2] for line in tests],
+            [str(i + 1) for i in range(len(CASES["project"]))])
+
+    def test_writes_json(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder, "results.json")
+            self.run_one("model/translate-x", "true", options=["--json", path])
+            results = json.loads(path.read_text())
+        self.assertEqual(results["counts"], {"right": 0, "wrong": 1, "open": 0, "left out": 0})
+        self.assertEqual([(case["name"], case["state"], case["paragraphs"]) for case in results["cases"]], [("model/translate-x", "wrong", ["M3"])])
+        self.assertEqual(results["cases"][0]["difference"]["message"], "the number of lines differs")
+
+    def test_shows_the_reason_and_what_was_expected_and_found(self):
+        done = self.run_one("model/translate-x", *sh("echo 9 2.0 3; cat >&2"), options=["--assignment"])
+        self.assert_wrong(done, "not ok 1 - model/translate-x\n#   why: Each number of translate moves its own coordinate.\n",
+                          "#   line 1, blank ones not counted, differs\n#   expected: 3.5000000 2.0000000 3.0000000\n#   found:    9 2.0 3\n")
+
+    def test_a_program_that_does_not_end_is_stopped_with_all_it_has_started(self):
+        with tempfile.TemporaryDirectory() as folder:
+            witness = pathlib.Path(folder, "witness")
+            done = self.run_one("model/translate-x", *sh(f"(sleep 3; touch {witness}) & sleep 60"), options=["--seconds", "0.3"])
+            self.assert_wrong(done, "no end after 0.3 seconds")
+            subprocess.run(["sleep", "4"])
+            self.assertFalse(witness.exists())
+
+    def test_a_program_that_writes_without_end_is_stopped(self):
+        self.assert_wrong(self.run_one("model/translate-x", "yes"), "ended by SIGXFSZ")
+
+    def test_a_program_that_crashes_has_not_refused(self):
+        for case in ("model/translate-x", "model/refused-no-end"):
+            self.assert_wrong(self.run_one(case, *sh("kill -SEGV $$")), "ended by SIGSEGV")
+
+    def test_a_program_that_cannot_be_run(self):
+        self.assert_wrong(self.run_one("model/translate-x", "./no-such-program"), "./no-such-program cannot be run: No such file or directory")
+
+    def test_a_failure_shows_the_programs_message(self):
+        self.assert_wrong(self.run_one("model/translate-x", *sh("echo 'mine: no camera' >&2; exit 3")), "exit status 3", "found:    mine: no camera")
+
+    def test_a_refusal_needs_a_status_and_the_line(self):
+        case = "model/refused-pop-without-push"  # line 5
+        self.assert_wrong(self.run_one(case, "true"), "wrong input was accepted")
+        self.assert_wrong(self.run_one(case, *sh("echo 'mine: line 6: pop' >&2; exit 1")), "does not name the line", "expected: refused at line 5")
+        self.assert_wrong(self.run_one(case, *sh("exit 1")), "does not name the line")
+        for message in ("mine: line 5: pop", "scene.txt:5:1: pop"):
+            self.assertEqual(self.run_one(case, *sh(f"echo '{message}' >&2; exit 1")).returncode, 0)
+        self.assertEqual(self.run_one(case, *sh("exit 1"), options=["--any-line"]).returncode, 0)
+        self.assert_wrong(self.run_one("model/refused-bytes-error-line", *sh("echo 'mine: line 5: pop' >&2; exit 1")), "does not end with the error")
+
+    def test_files_in_place_of_stdin_and_stdout(self):
+        self.assertEqual(self.run_one("model/translate-x", BIN / "model", "{input}").returncode, 0)
+        done = self.run_one("zbuf/two-*", BIN / "zbuf", "{config}", "--image", "{image}", "--z-buffer", "{depths}")
+        self.assertEqual((done.returncode, done.stdout.count("\nok ")), (0, 4))
+
+    def test_a_program_may_read_and_write_the_assignments_file_names(self):
+        self.assertEqual(self.run_one("model/translate-x", *sh(f"{BIN}/model --bare scene.txt"), options=["--assignment"]).returncode, 0)
+        self.assertEqual(self.run_one("zbuf/two-back-to-front", *sh(f"{BIN}/zbuf config.txt")).returncode, 0)
+
+    def test_names_of_files_are_those_of_the_caller(self):
+        with tempfile.TemporaryDirectory() as folder:
+            pathlib.Path(folder, "mine.sh").write_text(f"exec {BIN}/model\n")
+            done = conform("--stage", "model", "--only", "translate-x", "--", "sh", "mine.sh", cwd=folder)
+            self.assertEqual(done.returncode, 0, done.stdout)
+
+    def test_depths_and_picture_can_be_judged_alone(self):
+        only_depths, only_picture = sh(f"{BIN}/zbuf $1 --image /dev/null"), sh(f"{BIN}/zbuf $1 >&2")
+        for program, option in ((only_depths, "--no-picture"), (only_picture, "--no-depths")):
+            self.assertEqual(self.run_one("zbuf/two-*", *program, "{config}").returncode, 1)
+            self.assertEqual(self.run_one("zbuf/two-*", *program, "{config}", options=[option]).returncode, 0)
+
+    def test_cases_are_left_out_with_their_reason(self):
+        self.assertIn("ok 1 - model/bare # SKIP needs options\n", self.run_one("model/bare", BIN / "model").stdout)
+        done = self.run_one("model/lines-*", BIN / "model", options=["--without", "syntax"])
+        self.assertEqual((done.returncode, done.stderr), (1, "conform: no case was run and counted\n"))
+        self.assertNotIn("\nok 1 - model/lines-comments\n", done.stdout)
+
+    def test_lists_cases(self):
+        done = conform("--stage", "model", "--list", "--only", "translate-twice", "--only", "model/second-push-lost")
+        self.assertIn("model/translate-twice: Two translations add up.\n", done.stdout)
+        self.assertIn("model/stack-push-push-pop-pop: ", done.stdout)
+        self.assertEqual(len(conform("--list").stdout.splitlines()), sum(map(len, CASES.values())))
+
+    def test_a_wrong_call_is_misuse(self):
+        for words in ([], ["--stage", "model"], ["--stage", "trace", "--", "true"], ["--stage", "model", "--without", "colour", "--", "true"],
+            ["--stage", "model", "--seconds", "0", "--", "true"]):
+            self.assertEqual(conform(*words).returncode, 2, words)
+
+    def test_names_no_mistake_of_a_program_that_gets_nothing_right(self):
+        for program in ("true", "cat"):
+            for stage in STAGES:
+                with self.subTest(program=program, stage=stage):
+                    done = conform("--stage", stage, "--assignment", "--only", "*o*", "--", program)
+                    self.assertRegex(done.stdout, r"\n# no mistake of the list: \d+ cases\n")
+                    self.assertNotRegex(done.stdout, rf"\n# {stage}/")
+
+
+class Digits(unittest.TestCase):
+    def is_same(self, expected, found, **others):
+        return same_digits(expected.encode(), found.encode(), **others) is None
+
+    def test_any_formatting_of_right_digits_is_right(self):
+        expected = "0.0000100 -1.5000000 12.3456789\n\n"
+        for found in ("1e-5 -1.5 12.3457", "0.00001 -1.50 12.345679\r\n", "+1.00000000e-05\t-1.500000001 12.34567890001\n",
+            "  1E-05 -1.5 12.3456788  "):
+            self.assertTrue(self.is_same(expected, found), found)
+        self.assertTrue(self.is_same("0.0000000 0.0000000 0.0000000\n", "-0 -0.0000000 -6.1e-17\n"))
+
+    def test_digits_that_are_shown_must_be_right(self):
+        expected = "0.0000100 -1.5000000 12.3456789\n"
+        for found in ("2e-5 -1.5 12.3457", "0.00001 -1.50 12.345671", "0.00001 1.5 12.345679", "0.00001 -1.5 12.346", "0.00001 -1.5",
+            "0.00001 -1.5 12.345679 1", "nan -1.5 12.345679",
+                      "0.00001 -1.5 12,345679", ""):
+            self.assertFalse(self.is_same(expected, found), found)
+
+    def test_few_decimals_are_right_if_all_numbers_have_as_many(self):
+        self.assertTrue(self.is_same("0.1234567 1.0000000 2.0000000\n", "0.123 1.000 2.000\n"))
+        self.assertFalse(self.is_same("0.1234567 1.0000000 2.0000000\n", "0.124 1.000 2.000\n"))
+        self.assertFalse(self.is_same("0.1234567 1.0000000 2.0000000\n", "0.123 1 2\n"))
+        self.assertFalse(self.is_same("0.4000000 1.0000000 2.0000000\n", "0.0 1.0 2.0\n"))
+
+    def test_header_lines_count_all_their_digits(self):
+        self.assertTrue(self.is_same("perspective 60 1.5 1 100\n1.0000000 2.0000000 3.0000000\n", "perspective 60.0 1.50 1 1e2\n1 2 3\n"))
+        self.assertFalse(self.is_same("perspective 60 1.5 1 100\n", "perspective 60 1.51 1 100\n"))
+        self.assertFalse(self.is_same("perspective 60 1.5 1 100\n", "frustum 60 1.5 1 100\n"))
+
+    def test_rows_of_depths_are_rows(self):
+        self.assertTrue(self.is_same("\n0.500000\t0.250000\t\n\n", "0.5 0.25\n", is_stage_text=False))
+        self.assertFalse(self.is_same("0.500000\t0.250000\t\n", "0.5\n0.25\n", is_stage_text=False))
+
+
+def bmp(rows, depth=24, is_top_down=False):
+    """An image of rows of letters, '.' black, each letter a color of its own."""
+    pixels = b"".join(b"".join(bytes([0 if c == "." else 7 * ord(c) % 256, 0 if c == "." else ord(c),
+        0]) + b"\xff" * (depth == 32) for c in row).ljust((len(row) * depth // 8 + 3) // 4 * 4, b"\0")
+                      for row in (rows if is_top_down else rows[::-1]))
+    numbers = [(54 + len(pixels), 4), (0, 4), (54, 4), (40, 4), (len(rows[0]), 4), (-len(rows) if is_top_down else len(rows), 4), (1, 2),
+        (depth, 2), (0, 4), (len(pixels), 4)]
+    return b"BM" + b"".join(number.to_bytes(size, "little", signed=number < 0) for number, size in numbers) + bytes(16) + pixels
+
+
+class Pictures(unittest.TestCase):
+    EXPECTED = bmp([".aab.", "..ab."])
+
+    def test_colors_may_be_free_but_each_triangle_has_one(self):
+        for rows, is_right in ((["..xy.", "....."], False), ([".xxy.", "..xy."], True), ([".xxx.", "..xx."], False), ([".xzy.", "..xy."], False),
+            ([".xx..", "..x.."], False)):
+            self.assertEqual(same_picture(self.EXPECTED, bmp(rows), has_free_colors=True) is None, is_right, rows)
+        self.assertIsNotNone(same_picture(self.EXPECTED, bmp([".xxy.", "..xy."]), has_free_colors=False))
+        self.assertIsNone(same_picture(self.EXPECTED, self.EXPECTED, has_free_colors=False))
+
+    def test_shows_both_pictures(self):
+        difference = same_picture(self.EXPECTED, bmp([".aab.", "..bb."]), has_free_colors=True)
+        self.assertEqual((difference.expected, difference.found), (".aab.\n..ab.", ".aab.\n..bb."))
+
+    def test_other_forms_of_bmp_are_read(self):
+        for depth in (24, 32):
+            for is_top_down in (False, True):
+                self.assertIsNone(same_picture(self.EXPECTED, bmp([".aab.", "..ab."], depth, is_top_down), has_free_colors=False))
+
+    def test_what_is_no_picture_is_told(self):
+        for data in (b"", b"P6 1 1 255 abc", self.EXPECTED[:-1]):
+            self.assertIn("the picture is not a BMP file", same_picture(self.EXPECTED, data, has_free_colors=True).message)
+        self.assertEqual(same_picture(self.EXPECTED, bmp(["..."]), has_free_colors=True).found, "3 x 1 pixels")
+
+
+if __name__ == "__main__":
+    unittest.main()
