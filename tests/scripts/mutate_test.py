@@ -5,7 +5,6 @@ usage: mutate_test.py PROJECT_SOURCE_DIR [UNITTEST ARGUMENT...]
 """
 import os
 import pathlib
-import random
 import shutil
 import subprocess
 import sys
@@ -57,9 +56,17 @@ class Mutants(unittest.TestCase):
     def test_a_sample_takes_every_line_before_a_second_mutant_of_any(self):
         mutants = mutants_of("a.cpp", "a + b + c + d + e;\na * b;\n++a;\n")
         for seed in range(20):
-            order = sample(mutants, random.Random(seed))
+            order = sample(mutants, seed)
             self.assertEqual(sorted(order), mutants)
             self.assertEqual({mutant.line for mutant in order[:3]}, {0, 1, 2})
+
+    def test_a_changed_line_leaves_the_order_of_the_others(self):
+        lines = [f"a{i} + b;" for i in range(20)]
+        before = [mutant.name for mutant in sample(mutants_of("a.cpp", "\n".join(lines) + "\n"), 1)]
+        lines[7] = "c * d;"
+        after = [mutant.name for mutant in sample(mutants_of("a.cpp", "\n".join(lines) + "\n"), 1)]
+        self.assertNotEqual(before, sorted(before))
+        self.assertEqual([name for name in before if "a7" not in name], [name for name in after if "c [" not in name])
 
 
 class Limits(unittest.TestCase):

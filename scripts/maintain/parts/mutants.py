@@ -3,6 +3,7 @@
 It relies on the format of this project's sources: blanks stand around binary operators, and around nothing that only looks like one.
 """
 import collections
+import hashlib
 import re
 
 OPERATORS = {"<": "<=", "<=": "<", ">": ">=", ">=": ">", "==": "!=", "!=": "==", "&&": "||", "||": "&&", "+": "-", "-": "+", "*": "/",
@@ -102,10 +103,10 @@ def mutants_of(file, text):
     return mutants
 
 
-def sample(mutants, rng):
-    """The mutants in random order, one of each line before a second of any."""
+def sample(mutants, seed):
+    """The mutants in random order, one of each line before a second of any. A changed line leaves the order of the others as it is."""
     by_line = collections.defaultdict(list)
-    for mutant in rng.sample(mutants, len(mutants)):
+    for mutant in sorted(mutants, key=lambda mutant: hashlib.sha256(f"{seed} {mutant.name}".encode()).digest()):
         by_line[mutant.file, mutant.line].append(mutant)
     groups = list(by_line.values())
     return [group[i] for i in range(max(map(len, groups), default=0)) for group in groups if i < len(group)]
