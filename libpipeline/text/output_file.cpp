@@ -28,7 +28,7 @@ int own_descriptor_of(const std::string& path) {
   for (const std::string_view folder : {"/dev/fd/", "/proc/self/fd/"}) {
     std::size_t number = 0;
     if (path.starts_with(folder) && parse_count(std::string_view(path).substr(folder.size()), number) &&
-        number < 1u << 20)
+        std::in_range<int>(number))
       return static_cast<int>(number);
   }
   return kNone;
@@ -39,7 +39,7 @@ std::string target_of(const std::string& path) {
   constexpr int kMaxLinks = 40;  // the kernel's limit
   std::filesystem::path target = path;
   std::error_code error;
-  for (int i = 0; i < kMaxLinks; ++i) {
+  for (int i = 0; i <= kMaxLinks; ++i) {
     if (own_descriptor_of(target) != kNone || !std::filesystem::is_symlink(target, error)) return target;
     target = target.parent_path() / std::filesystem::read_symlink(target, error);
     if (error) throw IoError("open", path, error.value());

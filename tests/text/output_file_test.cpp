@@ -2,11 +2,16 @@
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sched.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
+#include <exception>
 #include <filesystem>
+#include <functional>
+#include <iostream>
 #include <memory>
 #include <string>
 
@@ -66,6 +71,31 @@ class Unprivileged {
   static constexpr uid_t kNobody = 65534;
   bool was_root_, is_;
 };
+
+/// Calls `check` in a process that sees nothing but the folder: no /proc, no /dev. False if the system does
+/// not let this user start one.
+bool in_a_bare_root(const TemporaryFolder& folder, const std::function<void()>& check) {
+  constexpr int kNotPermitted = 77;
+  std::cout.flush();
+  const pid_t child = ::fork();
+  if (child == 0) {
+    const auto enter = [&] { return ::chroot(folder.path("").c_str()) == 0 && ::chdir("/") == 0; };
+    if (!enter() && !(::unshare(CLONE_NEWUSER) == 0 && enter())) ::_exit(kNotPermitted);
+    try {
+      check();
+    } catch (const std::exception& error) {
+      ADD_FAILURE() << error.what();
+    }
+    std::cout.flush();
+    ::_exit(testing::Test::HasFailure() ? 1 : 0);
+  }
+  int status = -1;
+  EXPECT_EQ(::waitpid(child, &status, 0), child);
+  EXPECT_TRUE(WIFEXITED(status));
+  if (WEXITSTATUS(status) == kNotPermitted) return false;
+  EXPECT_EQ(WEXITSTATUS(status), 0);
+  return true;
+}
 
 TEST(OutputFile, AppearsWithItsCommit) {
   const TemporaryFolder folder;
@@ -192,6 +222,20 @@ TEST(OutputFile, WithoutASecondDescriptorItHasATemporaryNameBeforeItsCommit) {
   EXPECT_EQ(folder.file_count(), 1u);
 }
 
+TEST(OutputFile, WithoutProcItHasATemporaryNameBeforeItsCommit) {
+  const TemporaryFolder folder;
+  const bool is_permitted = in_a_bare_root(folder, [] {
+    OutputFile file("/out");
+    write_text(file, "new");
+    EXPECT_TRUE(fs::exists("/" + first_temporary_name()));
+    EXPECT_FALSE(fs::exists("/out"));
+    file.commit();
+  });
+  if (!is_permitted) GTEST_SKIP() << "this user may not change the root folder";
+  EXPECT_EQ(folder.read("out"), "new");
+  EXPECT_EQ(folder.file_count(), 1u);
+}
+
 TEST(OutputFile, AFileThatAppearedMeanwhileIsReplaced) {
   const TemporaryFolder folder;
   OutputFile file(folder.path("out"));
@@ -237,9 +281,11 @@ TEST(OutputFile, AReplacedFileKeepsItsPermissions) {
   const TemporaryFolder folder;
   folder.write("out", "old");
   const Umask mask(077);
-  ::chmod(folder.path("out").c_str(), 0664);
-  write_and_commit(folder.path("out"), "new");
-  EXPECT_EQ(mode_of(folder.path("out")), 0664u);
+  for (const mode_t mode : {0664u, 0600u, 0777u}) {
+    ::chmod(folder.path("out").c_str(), mode);
+    write_and_commit(folder.path("out"), "new");
+    EXPECT_EQ(mode_of(folder.path("out")), mode);
+  }
 }
 
 TEST(OutputFile, AWriteProtectedFileIsNotReplaced) {
@@ -279,6 +325,28 @@ TEST(OutputFile, ALinkToItselfIsAnError) {
             "cannot open " + folder.path("link") + ": Too many levels of symbolic links");
 }
 
+/// Links named link-1, link-2 ... that lead, one to the next, to the file "out".
+void make_chain(const TemporaryFolder& folder, int length) {
+  for (int i = 1; i <= length; ++i)
+    fs::create_symlink(i < length ? "link-" + std::to_string(i + 1) : "out",
+                       folder.path("link-" + std::to_string(i)));
+}
+
+TEST(OutputFile, FollowsAsManyLinksAsTheSystem) {
+  constexpr int kMaxLinks = 40;  // path_resolution(7)
+  const TemporaryFolder longest, too_long;
+  make_chain(longest, kMaxLinks);
+  make_chain(too_long, kMaxLinks + 1);
+  longest.write("out", "old");
+  too_long.write("out", "old");
+  ASSERT_EQ(longest.read("link-1"), "old");
+  ASSERT_EQ(too_long.read("link-1"), "");
+  write_and_commit(longest.path("link-1"), "new");
+  EXPECT_EQ(longest.read("out"), "new");
+  EXPECT_EQ(message_of([&] { OutputFile file(too_long.path("link-1")); }),
+            "cannot open " + too_long.path("link-1") + ": Too many levels of symbolic links");
+}
+
 TEST(OutputFile, ADeviceIsWrittenDirectly) {
   write_and_commit("/dev/null", "text");
   EXPECT_TRUE(fs::is_character_file("/dev/null"));
@@ -304,6 +372,31 @@ TEST(OutputFile, AnOpenFileOfTheProcessIsWrittenFromWhereItStands) {
   ASSERT_EQ(::write(descriptor, "third", 5), 5);
   ::close(descriptor);
   EXPECT_EQ(folder.read("out"), "first, second, third");
+}
+
+TEST(OutputFile, ANumberTooLargeForADescriptorIsAName) {
+  for (const std::string number : {"2147483648", "4294967297"})  // 2^31, 2^32 + 1
+    EXPECT_EQ(message_of([&] { OutputFile file("/dev/fd/" + number); }),
+              "cannot open /dev/fd/" + number + ": No such file or directory");
+}
+
+TEST(OutputFile, StandardOutputAndErrorNeedNoFilesInDev) {
+  const TemporaryFolder folder;
+  folder.write("out", "");
+  const bool is_permitted = in_a_bare_root(folder, [] {
+    const int file = ::open("/out", O_WRONLY | O_APPEND);
+    const int output = ::dup(STDOUT_FILENO), error = ::dup(STDERR_FILENO);
+    ::dup2(file, STDOUT_FILENO);
+    write_and_commit("/dev/stdout", "first, ");
+    EXPECT_TRUE(place_of_output("/dev/stdout") == place_of_output("/out"));
+    ::dup2(output, STDOUT_FILENO);
+    ::dup2(file, STDERR_FILENO);
+    write_and_commit("/dev/stderr", "second");
+    EXPECT_TRUE(place_of_output("/dev/stderr") == place_of_output("/out"));
+    ::dup2(error, STDERR_FILENO);
+  });
+  if (!is_permitted) GTEST_SKIP() << "this user may not change the root folder";
+  EXPECT_EQ(folder.read("out"), "first, second");
 }
 
 /// Closes standard input during a test, so that the next file gets descriptor 0.
@@ -379,6 +472,54 @@ TEST(OutputFile, APlaceTakenMeanwhileIsAnErrorAndNothingIsLeft) {
               "cannot replace " + folder.path("out") + ": Is a directory");
   }
   EXPECT_EQ(folder.file_count(), 1u);
+}
+
+/// The device and inode of a file or folder.
+OutputPlace place_in(const std::string& path, const std::string& name) {
+  struct stat status = {};
+  EXPECT_EQ(::stat(path.c_str(), &status), 0);
+  return {status.st_dev, status.st_ino, name};
+}
+
+TEST(PlaceOfOutput, OfAFileIsTheFileUnderAllItsNames) {
+  const TemporaryFolder folder;
+  folder.write("out", "old");
+  fs::create_symlink("out", folder.path("link"));
+  fs::create_hard_link(folder.path("out"), folder.path("second"));
+  for (const std::string name : {"out", "link", "second", "./out"})
+    EXPECT_TRUE(place_of_output(folder.path(name)) == place_in(folder.path("out"), "")) << name;
+}
+
+TEST(PlaceOfOutput, OfAFileYetToBeMadeIsItsFolderAndName) {
+  const TemporaryFolder folder;
+  fs::create_symlink(folder.path("out"), folder.path("link"));
+  for (const std::string name : {"out", "link", "./out"})
+    EXPECT_TRUE(place_of_output(folder.path(name)) == place_in(folder.path(""), "out")) << name;
+  EXPECT_TRUE(place_of_output("missing-file") == place_in(".", "missing-file"));
+  EXPECT_TRUE(place_of_output("/missing-file") == place_in("/", "missing-file"));
+}
+
+TEST(PlaceOfOutput, IsNoneWhereOpeningWillFail) {
+  const TemporaryFolder folder;
+  EXPECT_FALSE(place_of_output(folder.path("missing/out")));
+  const int closed = ::dup(STDIN_FILENO);
+  fs::create_symlink("/dev/fd/" + std::to_string(closed), folder.path("link"));
+  ::close(closed);
+  EXPECT_FALSE(place_of_output(folder.path("link")));
+}
+
+TEST(PlaceOfOutput, OfADeviceIsNoneAndThatOfAPipeIsThePipe) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(::mkfifo(folder.path("fifo").c_str(), 0600), 0);
+  EXPECT_TRUE(place_of_output(folder.path("fifo")) == place_in(folder.path("fifo"), ""));
+  EXPECT_FALSE(place_of_output("/dev/null"));
+}
+
+TEST(PlaceOfOutput, ALinkToItselfIsAnError) {
+  const TemporaryFolder folder;
+  fs::create_symlink("link", folder.path("link"));
+  EXPECT_EQ(message_of([&] { place_of_output(folder.path("link")); }),
+            "cannot open " + folder.path("link") + ": Too many levels of symbolic links");
 }
 
 }  // namespace
