@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "tests/numbers/random_numbers.h"
 #include "tests/vertex/clip_reference.h"
@@ -295,6 +296,63 @@ TEST(ClipPolygon, NeighborsGetTheSamePointWhereOnlyWDiffers) {
     ASSERT_EQ(first.size(), 3u);
     ASSERT_EQ(second.size(), 3u);
     EXPECT_TRUE(is_same(first[1], second[0]));
+  }
+}
+
+/// A vertex as far inside `plane` as `v` is inside the near plane.
+ClipVertex turned_from_near(ClipPlane plane, ClipVertex v) {
+  switch (plane) {
+    case ClipPlane::near:
+      return v;
+    case ClipPlane::far:
+      return {v.x, v.y, -v.z, v.w};
+    case ClipPlane::left:
+      return {v.z, v.x, v.y, v.w};
+    case ClipPlane::right:
+      return {-v.z, v.x, v.y, v.w};
+    case ClipPlane::bottom:
+      return {v.x, v.z, v.y, v.w};
+    case ClipPlane::top:
+      break;
+  }
+  return {v.x, -v.z, v.y, v.w};
+}
+
+/// Two vertices as far from the near plane, one inside and one outside, with errors of their own. They differ
+/// in z, in w or in both, perhaps also in x and y.
+std::pair<ClipVertex, ClipVertex> equally_far_pair(RandomNumbers& random) {
+  const auto inexact = [&](double number) {
+    return Ball::with_error({number, 0}, std::fabs(random.with_exponent(-100, -60)));
+  };
+  const Ball x = inexact(random.whole(-1, 1)), y = inexact(random.whole(-1, 1));
+  const Ball other_x = random.whole(0, 1) == 0 ? x : inexact(random.whole(2, 3));
+  const Ball other_y = random.whole(0, 1) == 0 ? y : inexact(random.whole(2, 3));
+  const Ball z = inexact(2), w = inexact(2);
+  switch (random.whole(0, 3)) {
+    case 0:
+      return {{x, y, z, w}, {other_x, other_y, inexact(-6), w}};
+    case 1:
+      return {{x, y, z, w}, {other_x, other_y, z, inexact(-6)}};
+    case 2:
+      return {{x, y, z, w}, {other_x, other_y, inexact(-7), inexact(3)}};
+    default:
+      return {{x, y, z, w}, {other_x, other_y, inexact(3), inexact(-7)}};
+  }
+}
+
+TEST(ClipPolygon, NeighborsGetTheSamePointHalfwayBetweenTheirCorners) {
+  RandomNumbers random(6);
+  for (int i = 0; i < 500; ++i) {
+    const auto [near_a, near_b] = equally_far_pair(random);
+    for (const ClipPlane plane : kAllClipPlanes) {
+      const ClipVertex a = turned_from_near(plane, near_a), b = turned_from_near(plane, near_b);
+      const ClipVertex c = turned_from_near(plane, {1, 2, -9, 1});
+      const Polygon first = clipped_at(plane, {a, b, c});
+      const Polygon second = clipped_at(plane, {b, a, c});
+      ASSERT_EQ(first.size(), 3u);
+      ASSERT_EQ(second.size(), 3u);
+      ASSERT_TRUE(is_same(first[1], second[0])) << to_text({a, b});
+    }
   }
 }
 
