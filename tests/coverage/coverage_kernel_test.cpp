@@ -166,6 +166,33 @@ TEST_P(CoverageKernelTest, CenterSpansAreThoseOfTheRule) {
   expect_the_spans_of_the_rule<CenterCoverage>(GetParam());
 }
 
+TEST_P(CoverageKernelTest, TheSmallestTrianglesOwnACenterAtTheirTopLeftCornerAlone) {
+  const Viewport screen = screen_of(10, 10, -1, -1, true);
+  CenterCoverage rule(screen);
+  rule.kernel = GetParam();
+  // From the center of column 5 and row 4, two sides one unit of the last decimal long.
+  constexpr double kLess = 0.0999999, kCenter = 0.1, kMore = 0.1000001;
+  const Vec3 corner = {kCenter, kCenter, 0}, left = {kLess, kCenter, 0}, right = {kMore, kCenter, 0},
+             below = {kCenter, kLess, 0}, above = {kCenter, kMore, 0};
+  const std::array<Triangle, 8> triangles = {Triangle{corner, right, below}, Triangle{corner, below, left},
+                                             Triangle{corner, left, above},  Triangle{corner, above, right},
+                                             Triangle{below, right, corner}, Triangle{left, below, corner},
+                                             Triangle{above, left, corner},  Triangle{right, above, corner}};
+  std::vector<TaggedTriangle> tagged;
+  for (const Triangle& p_ndc : triangles)
+    tagged.push_back({{p_ndc, nullptr, 0777}, static_cast<PixelTag>(tagged.size())});
+  std::vector<TaggedSpan> spans(triangles.size() * 10);
+  spans.resize(static_cast<std::size_t>(rule.spans(tagged, {0, 10}, spans.data()) - spans.data()));
+  ASSERT_EQ(spans.size(), 2u);
+  for (const auto& [span, tag] : spans) {
+    EXPECT_EQ(span.row, 4);
+    EXPECT_EQ(span.first_column, 5);
+    EXPECT_EQ(span.last_column, 5);
+  }
+  EXPECT_EQ(spans[0].tag, 0u);
+  EXPECT_EQ(spans[1].tag, 4u);
+}
+
 INSTANTIATE_TEST_SUITE_P(Kernels, CoverageKernelTest,
                          testing::ValuesIn(coverage_kernels().begin(), coverage_kernels().end()),
                          [](const auto& kernel) { return std::string(kernel.param.name); });
