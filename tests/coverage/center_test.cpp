@@ -407,6 +407,20 @@ TEST(CoverageCenter, TheLargestNumbersGiveTheRightPicture) {
             }));
 }
 
+TEST(CoverageCenter, ATriangleFarSmallerThanAPixelOwnsTheCenterInIt) {
+  // The center of the middle pixel of an odd number is at 0. The window's limits have many more digits than
+  // the triangle.
+  const ExactGrid grid({65535, 65535, -1.0 / 3, -1.0 / 3, -1, 1});
+  TextTriangle t = triangle_of("-3 -3 0 5 -3 0 -1 7 0");
+  t.decimal_marks = 0;
+  for (Vec3& p : t.p) p = {p.x * 0x1p-70, p.y * 0x1p-70, p.z};
+  const std::vector<Span> spans = spans_of(CenterRows(grid, t.exact()));
+  ASSERT_EQ(spans.size(), 1u);
+  EXPECT_EQ(spans[0].row, 32767);
+  EXPECT_EQ(spans[0].first_column, 32767);
+  EXPECT_EQ(spans[0].last_column, 32767);
+}
+
 TEST(CoverageCenter, ATinyWorldLooksLikeALargeOne) {
   TextTriangle t = triangle_of("-3.25 -3 0.1 3 -2.125 0.2 0.375 3 0.7");
   const std::vector<Span> expected = spans_of(CenterRows(ExactGrid(kEightByEight), t.exact()));

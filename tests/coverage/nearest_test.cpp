@@ -361,6 +361,17 @@ TEST(CoverageNearest, CornersWhoseDifferencesADoubleCannotHoldGiveAPicture) {
   EXPECT_EQ(picture_of({{{0.5, -kMax, 0}, {0.5, kMax, 0}, {-kMax, 0, 0}}}), Picture(8, "#####..."));
 }
 
+TEST(CoverageNearest, EdgesLongerThanADoubleCanHoldAreCutAtTheRightHeight) {
+  // Rows at y = 6, 2, -2 and -6 times 10^307; there the edge from -10^308 to 10^308 is at x = y / 10^308.
+  const Viewport screen = {4, 4, -1, -8e307, -1, 1};
+  EXPECT_EQ(picture_of({{{-1, -1e308, 0}, {1, 1e308, 0}, {-1, 1e308, 0}}}, screen), (Picture{
+                                                                                        "####",
+                                                                                        "###.",
+                                                                                        "##..",
+                                                                                        "#...",
+                                                                                    }));
+}
+
 TEST(CoverageNearest, DepthsWhoseDifferenceADoubleCannotHoldAreInterpolated) {
   // Along the left edge, x = -3.5, depth goes from -1.5e308 at y = -3.5 to 1.5e308 at y = 3.5.
   const std::vector<Span> spans =

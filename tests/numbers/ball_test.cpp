@@ -72,7 +72,10 @@ void expect_sound(const Ball& ball) {
   ASSERT_TRUE(std::isfinite(hi) && std::isfinite(lo) && std::isfinite(ball.error()));
   ASSERT_GE(ball.error(), 0);
   ASSERT_EQ(hi, hi + lo);
-  if (leading == 0) return;
+  if (leading == 0) {
+    ASSERT_EQ(ball.exponent(), 0);
+    return;
+  }
   ASSERT_GE(leading, 0x1p-300);
   ASSERT_LT(leading, 0x1p301);
   if (ball.exponent() == 0) return;
@@ -183,6 +186,9 @@ TEST(Ball, DifferenceOfANumberAndItselfIsExactlyZero) {
   EXPECT_TRUE((Ball(1e300) - Ball(1e300)).is_exact_zero());
   EXPECT_TRUE((Ball(kSmallest) - Ball(kSmallest)).is_exact_zero());
   EXPECT_TRUE((Ball(0.1) - Ball(0.1)).is_exact_zero());
+  EXPECT_EQ(Ball(1e300) - Ball(1e300), Ball());
+  EXPECT_EQ(Ball() * Ball(1e300) * Ball(1e300), Ball());
+  EXPECT_EQ(Ball() / Ball(0x1p-1000), Ball());
 }
 
 TEST(Ball, ProductOfTwoDoublesIsExact) {

@@ -94,6 +94,14 @@ TEST(ParseNumber, WhatIsTooLargeOverflows) {
   expect_overflow(std::string(100'000, '9'));
 }
 
+TEST(ParseNumber, DigitsBeforeAndBehindThePointCountAgainstTheExponent) {
+  const std::string zeros(400, '0');
+  expect_overflow("1" + zeros + "e-50");
+  expect_overflow("-1" + zeros + ".5e-50");
+  expect_number("0." + zeros + "1e50", 0);
+  expect_number("-." + zeros + "1e+50", -0.0);
+}
+
 TEST(ParseNumber, TakesTheLargestDouble) {
   expect_number("1.7976931348623157e308", kLargest);
 }

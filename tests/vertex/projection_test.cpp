@@ -136,6 +136,25 @@ TEST(Projection, PrintsTheCorrectlyRoundedNumbersOfANarrowWindowFarFromTheAxis) 
   expect_images<448>(window, vertices, {7}, 1);
 }
 
+TEST(Projection, AScaleKnownToFewDigitsLeavesADigitUncertain) {
+  // The image is 0.12345675 + 10^-10, above the tie of seven decimals, +- 2 * 10^-10.
+  constexpr double kScale = 0x1p-31, kNumber = 0.2469135002 * 0x1p30;
+  for (const bool is_x : {true, false}) {
+    const auto uncertain_count = [&](const Ball& scale) {
+      ProjectionTransform projection = {true, 1, 0, 1, 0, 1, 100};
+      (is_x ? projection.x_scale : projection.y_scale) = scale;
+      const Vec3 corner = is_x ? Vec3{kNumber, 0, -1} : Vec3{0, kNumber, -1};
+      CoordinateRounder rounder(Precision::extended, {7}, "stage2.txt");
+      TriangleBatch p_ndc;
+      ProjectionStage(projection, ClipMode::automatic, CullMode::nothing, rounder)
+          .project(batch_of({{Vec3{0, 0, -1}, corner, Vec3{0, 0, -2}}}), p_ndc);
+      return rounder.uncertain().count;
+    };
+    EXPECT_EQ(uncertain_count(kScale), 0u);
+    EXPECT_EQ(uncertain_count(Ball::with_error({kScale, 0}, 0x1p-60)), 1u);
+  }
+}
+
 TEST(Projection, TheNearAndFarPlanesAreExactlyMinusOneAndOne) {
   const TriangleBatch batch = batch_of({{Vec3{0, 0, -0.1}, Vec3{0, 0, -7}, Vec3{1, 1, -0.1}}});
   const Result result = projected(batch, transform_of(Perspective{33, 1, 0.1, 7}), ClipMode::automatic,
