@@ -159,7 +159,7 @@ class Run(unittest.TestCase):
             reasons.write(f"    {SURVIVORS[1]}\n")
         status, output = self.mutate("--survivors")
         self.assertEqual((status, [line.split(" s  ")[-1] for line in output.splitlines()][2:]),
-                         (0, ["text: 0 of 2 killed, 0.0 %", "all: 0 of 2 killed, 0.0 %", "2 survived, 2 of them with a reason"]))
+                         (0, ["text: 6 of 8 killed, 75.0 %", "all: 6 of 8 killed, 75.0 %", "2 survived, 2 of them with a reason"]))
 
     def test_a_test_that_fails_without_a_mutant_ends_the_run(self):
         (self.tree / "tests/text/half_test.cpp").write_text("int main() { return 1; }\n")
