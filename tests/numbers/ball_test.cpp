@@ -191,6 +191,16 @@ TEST(Ball, DifferenceOfANumberAndItselfIsExactlyZero) {
   EXPECT_EQ(Ball() / Ball(0x1p-1000), Ball());
 }
 
+TEST(Ball, ZeroChangesNothing) {
+  const Ball exact = Ball(0.1) * Ball(0.1), wide = Ball(1) / Ball(3), huge = Ball(1e300) * Ball(1e300);
+  for (const Ball& ball : {exact, wide, huge}) {
+    EXPECT_EQ(ball + Ball(), ball);
+    EXPECT_EQ(Ball() + ball, ball);
+    EXPECT_EQ(ball * Ball(), Ball());
+    EXPECT_EQ(Ball() * ball, Ball());
+  }
+}
+
 TEST(Ball, ProductOfTwoDoublesIsExact) {
   RandomNumbers random(8);
   for (int i = 0; i < 100'000; ++i) {
