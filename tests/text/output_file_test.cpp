@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <functional>
 #include <iostream>
+#include <iterator>
 #include <memory>
 #include <string>
 
@@ -440,6 +441,20 @@ TEST(OutputFile, ZeroIsADescriptorLikeAnyOther) {
   OutputFile device("/dev/null");
   EXPECT_EQ(device.descriptor(), 0);
   EXPECT_EQ(folder.file_count(), 1u);
+}
+
+TEST(OutputFile, LeavesNoDescriptorOpen) {
+  const TemporaryFolder folder;
+  const auto open_count = [] { return std::distance(fs::directory_iterator("/dev/fd"), {}); };
+  const auto before = open_count();
+  for (const std::string& path : {folder.path("out"), std::string("/dev/null"), std::string("/dev/stdout")}) {
+    { const OutputFile without_commit(path); }
+    EXPECT_EQ(open_count(), before) << path;
+    for (int i = 0; i < 2; ++i) write_and_commit(path, "");
+    EXPECT_EQ(open_count(), before) << path;
+  }
+  named_from_the_beginning(folder.path("out"));
+  EXPECT_EQ(open_count(), before);
 }
 
 TEST(OutputFile, AFolderThatIsMissingIsAnError) {
