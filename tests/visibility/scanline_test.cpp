@@ -63,6 +63,18 @@ TEST(Scanline, TheTextbooksTwoPolygons) {
       }));
 }
 
+TEST(Scanline, DepthsThatAFloatCannotTellApartAreEqualAlsoOnPlanesThatBeginFarAway) {
+  // The depth at x is 1 + x / 2000; a float next to 1 has steps of 6 * 10^-8.
+  const auto plane = [](double nearer) {
+    return Triangle{Vec3{-1000, -10, 0.5 - nearer}, Vec3{-1000, 10, 0.5 - nearer},
+                    Vec3{1000, 0, 1.5 - nearer}};
+  };
+  const Picture first(4, "aaaaaaaa"), second(4, "bbbbbbbb");
+  EXPECT_EQ((picture_of<NearestCoverage, DepthF32>({plane(0), plane(1e-9)})), first);
+  EXPECT_EQ((picture_of<NearestCoverage, DepthF32>({plane(0), plane(1e-6)})), second);
+  EXPECT_EQ((picture_of<NearestCoverage, DepthF64>({plane(0), plane(1e-9)})), second);
+}
+
 TEST(Scanline, TheNearerTriangleIsSeenWhateverTheOrder) {
   // A center on the diagonal belongs to the triangle on its right.
   const Scene near_scene = rectangle(-2, 2, -1, 1, 0.5), far_scene = rectangle(-4, 4, -2, 2, 1);
