@@ -289,6 +289,14 @@ TEST(TextReader, KeepsAsMuchBufferedAsIsAskedFor) {
   EXPECT_EQ(reader.bytes_read(), text.size());
 }
 
+TEST(TextReader, BuffersNoMoreAtTheEnd) {
+  const TextFile file("a\nb\n");
+  TextReader reader(file.descriptor(), "in.txt");
+  EXPECT_TRUE(reader.buffer_more());
+  EXPECT_FALSE(reader.buffer_more());
+  EXPECT_EQ(reader.buffered(), "a\nb\n");
+}
+
 TEST(TextReader, DoesNotWaitToBufferMore) {
   const TextInPieces input({"a\nb\n"}, TextInPieces::Then::silence);
   TextReader reader(input.descriptor(), "in.txt");
@@ -306,8 +314,8 @@ TEST(TextReader, AFailureToBufferMoreComesBehindTheTextBeforeIt) {
   ASSERT_EQ(::send(ends[0], "never read", 10, 0), 10);
   ::close(ends[1]);  // with unread data: the connection is reset
   TextReader reader(ends[0], "in.txt");
-  while (reader.buffer_more()) {
-  }
+  EXPECT_TRUE(reader.buffer_more());
+  EXPECT_FALSE(reader.buffer_more());
   EXPECT_EQ(reader.buffered(), "a\n\nb\n");
   LineScanner line;
   int line_count = 0;
