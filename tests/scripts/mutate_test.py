@@ -161,6 +161,13 @@ class Run(unittest.TestCase):
         self.assertEqual((status, [line.split(" s  ")[-1] for line in output.splitlines()][2:]),
                          (0, ["text: 6 of 8 killed, 75.0 %", "all: 6 of 8 killed, 75.0 %", "2 survived, 2 of them with a reason"]))
 
+        # A reason for what is no mutant, or no longer, is reported; one for a file that is not asked for is not.
+        with (self.tree / "tests/survivors.txt").open("a") as reasons:
+            reasons.write("    libpipeline/text/half.cpp: if (x < 0) return [0 -> 7];\n    libpipeline/other.cpp: x = [0 -> 1];\n")
+        status, output = self.mutate()
+        self.assertEqual((status, output.splitlines()[-2:]),
+                         (1, ["These have a reason, but are no mutants:", "    libpipeline/text/half.cpp: if (x < 0) return [0 -> 7];"]))
+
     def test_a_test_that_fails_without_a_mutant_ends_the_run(self):
         (self.tree / "tests/text/half_test.cpp").write_text("int main() { return 1; }\n")
         done = subprocess.run([self.tree / "scripts/maintain/mutate", self.tree / "libpipeline/text"], capture_output=True, text=True, timeout=240)
