@@ -45,17 +45,17 @@ void SceneReader::next_argument_line(std::string_view expected) {
     throw InputError(text_.end_location(), expected_but_found(std::string(expected), "the end of the input"));
 }
 
-std::size_t SceneReader::read_buffered(std::span<Triangle> room, std::size_t& first_line) {
+std::size_t SceneReader::read_buffered(std::size_t limit, std::vector<Triangle>& p_model,
+                                       AttributeArrays& attributes, std::size_t& first_line) {
   static_assert(TextReader::kSlack >= kFixedTextSlack);
-  // With attributes there are more columns, or at least a current color.
-  if (appearance_.attributes || !line_.at_end()) return 0;
+  if (!line_.at_end()) return 0;
   // A blank line between triangles.
   if (text_.buffered().starts_with('\n')) text_.skip(1, 1);
-  constexpr std::string_view kLine = "triangle\n";
-  const std::string_view text = text_.buffered();
-  if (!text.starts_with(kLine)) return 0;
-  const int decimals = decimals_of_number(text.data() + kLine.size());
-  const FixedTextPart part = fixed_text_kernel().read_scene(text, decimals, room);
+  const FixedTextPart part =
+      vertex_line_.read_fixed(text_.buffered(), TriangleFrame::scene, limit, p_model, attributes);
+  const bool has_current_color = appearance_.columns().color && !vertex_line_.attributes().color;
+  if (has_current_color)
+    attributes.colors.resize(p_model.size(), {current_color_, current_color_, current_color_});
   first_line = text_.line_number() + 1;
   text_.skip(part.length, 4 * part.triangle_count);
   if (part.triangle_count > 0) has_triangle_ = true;

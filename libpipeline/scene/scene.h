@@ -71,10 +71,11 @@ class SceneReader {
   [[nodiscard]] const std::array<VertexLine, 3>& vertices() const { return vertices_; }
   /// Reads the next command. After EndCommand nothing may be read.
   Command next();
-  /// The fast path: reads the triangles that come next, are completely buffered and have the fixed form
-  /// (fixed_text.h) into `room`, and returns their count; each has four lines, the first begins at
-  /// `first_line`. 0 if another command comes next, or a triangle in another form or with attributes.
-  std::size_t read_buffered(std::span<Triangle> room, std::size_t& first_line);
+  /// The fast path: adds the triangles that come next, are completely buffered and have the fixed form
+  /// (fixed_text.h) to the arrays, at most `limit`, and returns their count; each has four lines, the first
+  /// begins at `first_line`. 0 if another command comes next, or a triangle in another form.
+  std::size_t read_buffered(std::size_t limit, std::vector<Triangle>& p_model, AttributeArrays& attributes,
+                            std::size_t& first_line);
   /// The location of the command that `next` returned last, unless that is a triangle.
   [[nodiscard]] const SourceLocation& location() const { return location_; }
   /// True if the next command is buffered, whatever it is: none has more than four lines.

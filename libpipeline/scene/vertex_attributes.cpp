@@ -92,31 +92,65 @@ bool VertexLineReader::are_in_range(std::span<const DecimalNumber> columns) cons
                      [](const DecimalNumber& channel) { return channel.value >= 0 && channel.value <= 255; });
 }
 
-/// Reads a line in fixed form (fixed_text.h), but for w. Three numbers each have the same decimals, and those
-/// that `numbers` had before: usually the ones of the last triangle.
-const char* VertexLineReader::read_fixed_line(const char* p, std::span<DecimalNumber> numbers) const {
-  std::size_t column = 0;
-  const auto separator = [&] { return column == column_count_ ? '\n' : ' '; };
-  while (column < column_count_) {
-    const auto next = numbers.subspan(column);
-    if (attributes_.w && column == 3) {
-      ++column;
-      p = read_decimal_number(p, next[0]);
-      if (p == nullptr || *p++ != separator()) return nullptr;
-    } else {
-      column += 3;
-      Vec3 values;
-      const int decimals = next[0].decimals;
-      const bool may_be_fixed = decimals == next[1].decimals && decimals == next[2].decimals;
-      if (!may_be_fixed || decimals > kMaxFixedDecimals) return nullptr;
-      p = fixed_text_kernel().read_three(p, decimals, separator(), values);
-      if (p == nullptr) return nullptr;
-      next[0] = {values.x, decimals};
-      next[1] = {values.y, decimals};
-      next[2] = {values.z, decimals};
+/// The same for the triangles from `begin` on. In a scene, a normal may not be 0.
+bool VertexLineReader::are_in_range(const AttributeArrays& attributes, std::size_t begin,
+                                    TriangleFrame frame) const {
+  const auto all = [&](const auto& triangles, const auto& is_fine) {
+    bool all_are = true;  // without a jump per number
+    for (std::size_t i = begin; i < triangles.size(); ++i)
+      for (const auto& vertex : triangles[i]) all_are &= is_fine(vertex);
+    return all_are;
+  };
+  const auto is_channel = [](double value) { return (value >= 0) & (value <= 255); };
+  const auto is_color = [&](const Vec3& c) { return is_channel(c.x) & is_channel(c.y) & is_channel(c.z); };
+  return all(attributes.w, [](double w) { return w > 0; }) && all(attributes.colors, is_color) &&
+         (frame != TriangleFrame::scene ||
+          all(attributes.normals, [](const Vec3& n) { return n != Vec3{}; }));
+}
+
+/// The counts of decimals of the groups of columns on a vertex line; false if it has fewer words.
+bool VertexLineReader::find_decimals(std::string_view line, GroupDecimals& decimals) const {
+  const auto skip_words = [&](int count) {
+    for (; count > 0; --count) line.remove_prefix(std::min(line.find(' '), line.size() - 1) + 1);
+    return !line.empty();
+  };
+  decimals = {decimals_of_number(line.data())};
+  std::size_t group = 1;
+  for (const bool is_there : {attributes_.color, attributes_.normal}) {
+    if (!is_there) continue;
+    if (!skip_words(3 + (group == 1 && attributes_.w ? 1 : 0))) return false;
+    decimals[group++] = decimals_of_number(line.data());
+  }
+  return true;
+}
+
+FixedTextPart VertexLineReader::read_fixed(std::string_view text, TriangleFrame frame, std::size_t limit,
+                                           std::vector<Triangle>& positions,
+                                           AttributeArrays& attributes) const {
+  constexpr std::string_view kKeyword = "triangle\n";
+  const bool is_scene = frame == TriangleFrame::scene;
+  if (is_scene && !text.starts_with(kKeyword)) return {};
+  const std::string_view lines = text.substr(is_scene ? kKeyword.size() : 0);
+  const FixedTextKernel& kernel = fixed_text_kernel();
+  const std::size_t old_size = positions.size();
+  positions.resize(old_size + limit);
+  FixedTextPart part;
+  if (!attributes_.any()) {
+    const auto read = is_scene ? kernel.read_scene : kernel.read;
+    part = read(text, decimals_of_number(lines.data()), std::span(positions).subspan(old_size));
+  } else if (GroupDecimals decimals; find_decimals(lines, decimals)) {
+    attributes.resize(positions.size(), attributes_);
+    const FixedColumns columns = fixed_columns(positions, attributes, attributes_, old_size, limit);
+    part = kernel.read_columns(text, frame, decimals, columns);
+    const std::size_t new_size = old_size + part.triangle_count;
+    attributes.resize(new_size, attributes_);
+    if (!are_in_range(attributes, old_size, frame)) {
+      part = {};
+      attributes.truncate(old_size);
     }
   }
-  return p;
+  positions.resize(old_size + part.triangle_count);
+  return part;
 }
 
 const char* VertexLineReader::read_decimals(const char* p, const char* end,
@@ -125,8 +159,7 @@ const char* VertexLineReader::read_decimals(const char* p, const char* end,
     const auto taken = std::span(line.numbers).first(column_count_);
     assert(p != nullptr);
     const char* const begin = p;
-    p = read_fixed_line(p, taken);
-    if (p == nullptr || p > end) p = read_decimal_line(begin, end, taken);
+    p = read_decimal_line(p, end, taken);
     if (p == nullptr || !are_in_range(taken)) return nullptr;
     line.indent = blanks_at(begin);
   }
@@ -141,6 +174,12 @@ void AttributeArrays::truncate(std::size_t count) {
   if (!w.empty()) w.resize(count);
   if (!colors.empty()) colors.resize(count);
   if (!normals.empty()) normals.resize(count);
+}
+
+void AttributeArrays::resize(std::size_t count, const AttributeSet& attributes) {
+  if (attributes.w) w.resize(count);
+  if (attributes.color) colors.resize(count);
+  if (attributes.normal) normals.resize(count);
 }
 
 void AttributeArrays::add(const std::array<VertexLine, 3>& vertices, const AttributeSet& attributes) {

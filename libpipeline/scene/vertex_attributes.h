@@ -5,10 +5,12 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 #include "libpipeline/numbers/vec.h"
 #include "libpipeline/text/decimal_number.h"
+#include "libpipeline/text/fixed_text.h"
 #include "libpipeline/text/source_location.h"
 #include "libpipeline/text/text_reader.h"
 
@@ -53,6 +55,36 @@ VertexLine to_vertex_line(const DecimalVertexLine& line, const AttributeSet& att
 /// A triangle in clip space, before the divide: w may be any number.
 using ClipTriangle = std::array<VertexLine, 3>;
 
+/// The attributes of a batch's triangles: each array is empty where the text has no such columns, otherwise
+/// as long as the batch.
+struct AttributeArrays {
+  std::vector<std::array<double, 3>> w;      // by vertex
+  std::vector<std::array<Vec3, 3>> colors;   // by vertex: red, green, blue from 0 to 255
+  std::vector<std::array<Vec3, 3>> normals;  // by vertex, in the space of the positions
+
+  void clear();
+  /// Keeps the first `count` triangles.
+  void truncate(std::size_t count);
+  /// Makes the arrays that `attributes` names `count` triangles long.
+  void resize(std::size_t count, const AttributeSet& attributes);
+  /// Adds those values of a triangle's vertex lines that `attributes` names.
+  void add(const std::array<VertexLine, 3>& vertices, const AttributeSet& attributes);
+};
+
+/// The columns of `count` triangles from `begin` on, for the kernels of fixed_text.h; `names` are those after
+/// the position.
+template <typename Positions, typename Attributes>
+auto fixed_columns(Positions& positions, Attributes& attributes, const AttributeSet& names, std::size_t begin,
+                   std::size_t count) {
+  std::conditional_t<std::is_const_v<Positions>, ConstFixedColumns, FixedColumns> columns;
+  const auto part = [&](auto& array) { return std::span(array).subspan(begin, count); };
+  columns.groups[0] = part(positions);
+  if (names.w) columns.w = part(attributes.w);
+  if (names.color) columns.groups[1] = part(attributes.colors);
+  if (names.normal) columns.groups[names.color ? 2 : 1] = part(attributes.normals);
+  return columns;
+}
+
 /// The names of all columns: "x y z", then those of the attributes.
 std::string column_names(const AttributeSet& attributes);
 
@@ -68,14 +100,21 @@ class VertexLineReader {
   /// Reads the line of vertex `vertex` (0 to 2) to its end. An InputError if a column is missing or left
   /// over, w is out of its range, or a color channel is not from 0 to 255.
   VertexLine read(LineScanner& line, std::size_t vertex) const;
+  /// The fastest path: reads triangles in fixed form (fixed_text.h) from the beginning of `text`, at most
+  /// `limit`, and adds their values to the arrays. None if a value is out of range; the general path then
+  /// reports it.
+  FixedTextPart read_fixed(std::string_view text, TriangleFrame frame, std::size_t limit,
+                           std::vector<Triangle>& positions, AttributeArrays& attributes) const;
   /// The fast path: reads the three lines of a triangle at `p` and returns the beginning of the next line.
   /// Null if they hold anything but decimal numbers (decimal_number.h), do not end before `end`, or hold a
   /// value out of range; the general path then reads them or reports the error.
   const char* read_decimals(const char* p, const char* end, DecimalVertexLines& vertices) const;
 
  private:
-  const char* read_fixed_line(const char* p, std::span<DecimalNumber> numbers) const;
+  [[nodiscard]] bool find_decimals(std::string_view line, GroupDecimals& decimals) const;
   [[nodiscard]] bool are_in_range(std::span<const DecimalNumber> columns) const;
+  [[nodiscard]] bool are_in_range(const AttributeArrays& attributes, std::size_t begin,
+                                  TriangleFrame frame) const;
 
   AttributeSet attributes_;
   RangeOfW range_of_w_;
@@ -85,19 +124,5 @@ class VertexLineReader {
 
 /// Takes three numbers, each from 0 to 255 (else an InputError); `of` names the colored thing in messages.
 Vec3 read_color(LineScanner& line, std::string_view of);
-
-/// The attributes of a batch's triangles: each array is empty where the text has no such columns, otherwise
-/// as long as the batch.
-struct AttributeArrays {
-  std::vector<std::array<double, 3>> w;      // by vertex
-  std::vector<std::array<Vec3, 3>> colors;   // by vertex: red, green, blue from 0 to 255
-  std::vector<std::array<Vec3, 3>> normals;  // by vertex, in the space of the positions
-
-  void clear();
-  /// Keeps the first `count` triangles.
-  void truncate(std::size_t count);
-  /// Adds those values of a triangle's vertex lines that `attributes` names.
-  void add(const std::array<VertexLine, 3>& vertices, const AttributeSet& attributes);
-};
 
 }  // namespace pipeline

@@ -101,15 +101,19 @@ void StageWriter::write_header(const StageHeader& header) {
 void StageWriter::write(const TriangleBatch& batch) {
   assert(batch.low_parts.empty() || batch.low_parts.size() == batch.size());
   if (!keeps_four_digits_) note_sizes(batch);
-  const bool may_be_fixed = format_.decimals <= kMaxFixedDecimals && !format_.shortest &&
-                            batch.low_parts.empty() && batch.unclipped.empty() && !columns_.any();
+  const bool has_runs = may_be_fixed() && batch.low_parts.empty() && batch.unclipped.empty();
   std::size_t index = 0;
   std::size_t end_of_run = 0;
   while (index < batch.size()) {
-    if (may_be_fixed && index >= end_of_run) end_of_run = end_of_numbered_run(batch, index);
+    if (has_runs && index >= end_of_run) end_of_run = end_of_numbered_run(batch, index);
     if (index < end_of_run) index += write_fixed_form(batch, index, end_of_run);
     if (index < batch.size()) write_triangle(batch, index++);
   }
+}
+
+/// Whether fixed_text.h may have triangles with these digits.
+bool StageWriter::may_be_fixed() const {
+  return format_.decimals <= kMaxFixedDecimals && !format_.shortest;
 }
 
 /// The end of the triangles from `begin` on that need no `triangle N`, or of a part of them.
@@ -139,9 +143,13 @@ void StageWriter::note_sizes(const TriangleBatch& batch) {
 /// Prints the triangles [begin, end), which need no `triangle N`, as long as they have the fixed form;
 /// returns how many.
 std::size_t StageWriter::write_fixed_form(const TriangleBatch& batch, std::size_t begin, std::size_t end) {
-  char* const out = text_.reserve((end - begin) * kMaxFixedTriangleLength + kFixedTextSlack);
-  const auto triangles = std::span(batch.triangles).subspan(begin, end - begin);
-  const FixedTextPart part = fixed_text_kernel().write(triangles, format_.decimals, out);
+  const FixedTextKernel& kernel = fixed_text_kernel();
+  const std::size_t max_length = columns_.any() ? kMaxFixedColumnsLength : kMaxFixedTriangleLength;
+  char* const out = text_.reserve((end - begin) * max_length + kFixedTextSlack);
+  const ConstFixedColumns columns =
+      fixed_columns(batch.triangles, batch.attributes, columns_, begin, end - begin);
+  const FixedTextPart part = columns_.any() ? kernel.write_columns(columns, format_.decimals, out)
+                                            : kernel.write(columns.groups[0], format_.decimals, out);
   text_.commit(out + part.length);
   if (part.triangle_count > 0) next_number_ = batch.numbers[begin + part.triangle_count - 1] + 1;
   return part.triangle_count;
@@ -156,6 +164,7 @@ void StageWriter::write_triangle(const TriangleBatch& batch, std::size_t index) 
     last_unclipped_ = batch.unclipped[index];
   }
   const Triangle low_part = batch.low_parts.empty() ? Triangle{} : batch.low_parts[index];
+  if (may_be_fixed() && low_part == Triangle{} && write_fixed_form(batch, index, index + 1) == 1) return;
   char* out = text_.reserve(kMaxTriangleLength);
   for (std::size_t v = 0; v < 3; ++v) {
     out = print_vertex(out, batch.triangles[index][v], low_part[v]);
@@ -188,8 +197,6 @@ void StageWriter::write_clipped(const ClipTriangle& unclipped) {
 
 /// Prints three numbers separated by blanks.
 char* StageWriter::print_vertex(char* out, const Vec3& vertex, const Vec3& low_part) {
-  if (!format_.shortest && format_.decimals <= kMaxFixedDecimals && low_part == Vec3{})
-    if (char* const end = fixed_text_kernel().write_three(vertex, format_.decimals, out)) return end;
   out = print_number(out, vertex.x, low_part.x, format_);
   *out++ = ' ';
   out = print_number(out, vertex.y, low_part.y, format_);

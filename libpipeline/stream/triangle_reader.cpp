@@ -62,17 +62,14 @@ bool TriangleReader::read_buffered(TriangleBatch& batch) {
 /// not completely buffered.
 bool TriangleReader::read_fixed_form(TriangleBatch& batch) {
   static_assert(TextReader::kSlack >= kFixedTextSlack);
-  constexpr std::size_t kMaxAtOnce = 64;
-  if (vertex_line_.attributes().any()) return false;
+  constexpr std::size_t kMaxAtOnce = 24;
+  if (batch.size() >= kBatchSize) return false;
   // The blank line after a triangle that the general path has read.
   if (text_.buffered().starts_with('\n')) text_.skip(1, 1);
-  const std::size_t old_size = batch.size();
-  batch.triangles.resize(std::max(old_size, std::min(kBatchSize, old_size + kMaxAtOnce)));
-  const int decimals = decimals_of_number(text_.buffered().data());
-  const FixedTextPart part =
-      fixed_text_kernel().read(text_.buffered(), decimals, std::span(batch.triangles).subspan(old_size));
-  batch.triangles.resize(old_size + part.triangle_count);
-  consume_fixed_form(part.length, decimals, batch);
+  const std::size_t limit = std::min(kBatchSize - batch.size(), kMaxAtOnce);
+  const FixedTextPart part = vertex_line_.read_fixed(text_.buffered(), TriangleFrame::stage_text, limit,
+                                                     batch.triangles, batch.attributes);
+  consume_fixed_form(part.length, decimals_of_number(text_.buffered().data()), batch);
   return part.triangle_count > 0;
 }
 

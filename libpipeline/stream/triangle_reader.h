@@ -26,7 +26,7 @@ class TriangleReader {
   /// the batch has fewer than kBatchSize; false if there is no such triangle.
   bool read_buffered(TriangleBatch& batch);
   /// Consumes the next `length` characters, which are triangles in fixed form with that many decimals that
-  /// were added to the batch's `triangles` alone, and completes the batch.
+  /// were added to the batch's `triangles` and attributes alone, and completes the batch.
   void consume_fixed_form(std::size_t length, int decimals, TriangleBatch& batch);
   /// Takes the line `triangle N` before a triangle. An InputError at the word that is wrong.
   void read_number(LineScanner& line);

@@ -20,8 +20,8 @@ struct KernelList {
 #ifdef PIPELINE_HAS_X86_KERNELS
     if (processor_has_sse4()) add(kSse4Kernel);
     if (processor_has_sse4() && processor_has_avx2())
-      add({"avx2", kSse4Kernel.read, kSse4Kernel.read_scene, kWriteFixedTextAvx2, kSse4Kernel.read_three,
-           kWriteThreeFixedAvx2});
+      add({"avx2", kSse4Kernel.read, kSse4Kernel.read_scene, kSse4Kernel.read_columns, kWriteFixedTextAvx2,
+           kWriteFixedColumnsAvx2});
 #endif
   }
 };

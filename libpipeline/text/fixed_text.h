@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <span>
 #include <string_view>
@@ -10,9 +11,10 @@ namespace pipeline {
 
 // The fast paths for stage text. Nearly all of it has one form: three lines of numbers and a blank line per
 // triangle, all numbers with the same count of decimals (no point if that is 0), and single blanks between
-// numbers. That form is read and written here, many digits at a time; everything else is left to the general
-// reader and printer. The bytes are the same either way. There is one kernel for each kind of processor,
-// chosen once, when the program starts.
+// numbers. Where vertex lines have more columns, each group of three has its own count. That form is read and
+// written here, many digits at a time; everything else is left to the general reader and printer. The bytes
+// are the same either way. There is one kernel for each kind of processor, chosen once, when the program
+// starts.
 
 /// The largest count of decimals in fixed form. A number has at most 15 digits there: it is a whole number of
 /// units of its last decimal that a double holds.
@@ -25,7 +27,7 @@ struct FixedTextPart {
 };
 
 /// Readers may read this many characters past the end of the text, whatever they are.
-constexpr std::size_t kFixedTextSlack = 320;
+constexpr std::size_t kFixedTextSlack = 448;
 
 /// The maximum length of a triangle in fixed form: nine numbers of a sign, 16 digits and a point, with a
 /// separator each, and a line end.
@@ -54,23 +56,52 @@ using ReadFixedScene = FixedTextPart (*)(std::string_view text, int decimals, st
 /// triangle, and kFixedTextSlack more.
 using WriteFixedText = FixedTextPart (*)(std::span<const Triangle> triangles, int decimals, char* out);
 
-/// Reads three numbers in fixed form with single blanks between them and `separator` after them, for lines
-/// with more columns. Returns the position after the separator; null if the form differs. May read as far
-/// past the end as the others.
-using ReadThreeFixed = const char* (*)(const char* p, int decimals, char separator, Vec3& numbers);
+/// The line that belongs to a triangle besides its three vertex lines.
+enum class TriangleFrame {
+  stage_text,  // a blank line after them
+  scene        // the line `triangle` before them
+};
 
-/// Prints three numbers in fixed form with single blanks between them. Returns their end; null if one of them
-/// would stop WriteFixedText.
-using WriteThreeFixed = char* (*)(const Vec3& numbers, int decimals, char* out);
+/// The numbers on vertex lines, by column: groups of three numbers in fixed form (the position, and up to two
+/// more) and w, a number in any form, which comes after the position. All arrays have an entry per triangle;
+/// those of columns that are not there are empty.
+template <typename Numbers, typename OneNumber>
+struct FixedColumnsOf {
+  std::array<std::span<Numbers>, 3> groups;
+  std::span<OneNumber> w;
+
+  [[nodiscard]] std::size_t triangle_count() const { return groups[0].size(); }
+  [[nodiscard]] std::size_t group_count() const {
+    return groups[1].empty() ? 1 : std::size_t{groups[2].empty() ? 2u : 3u};
+  }
+};
+using FixedColumns = FixedColumnsOf<Triangle, std::array<double, 3>>;
+using ConstFixedColumns = FixedColumnsOf<const Triangle, const std::array<double, 3>>;
+
+/// The counts of decimals of the groups.
+using GroupDecimals = std::array<int, 3>;
+
+/// Like ReadFixedText, for lines with these columns: fills as many entries as there are such triangles. Of w
+/// it reads the numbers that read_decimal_number reads.
+using ReadFixedColumns = FixedTextPart (*)(std::string_view text, TriangleFrame frame,
+                                           const GroupDecimals& decimals, const FixedColumns& columns);
+
+/// Like WriteFixedText, with the same decimals in all groups, and w in its shortest form, as print_number
+/// prints it. `out` must have room for kMaxFixedColumnsLength characters per triangle, and kFixedTextSlack
+/// more.
+using WriteFixedColumns = FixedTextPart (*)(const ConstFixedColumns& columns, int decimals, char* out);
+
+/// Three groups of numbers; three times w and a separator.
+constexpr std::size_t kMaxFixedColumnsLength = 3 * kMaxFixedTriangleLength + 3 * 26;
 
 /// One implementation of all five.
 struct FixedTextKernel {
   const char* name;
   ReadFixedText read;
   ReadFixedScene read_scene;
+  ReadFixedColumns read_columns;
   WriteFixedText write;
-  ReadThreeFixed read_three;
-  WriteThreeFixed write_three;
+  WriteFixedColumns write_columns;
 };
 
 /// The kernels this processor can run, the fastest last; the first, "portable", runs everywhere.

@@ -142,28 +142,89 @@ FixedTextPart write_fixed_text(std::span<const Triangle> triangles, int decimals
   return {part.triangle_count + rest.triangle_count, part.length + rest.length};
 }
 
-template <bool exactly>
-PIPELINE_AVX2 inline char* write_three(__m256d numbers, const PrintedForm& form, __m256d scale, char* out) {
-  __m256d good = _mm256_castsi256_pd(_mm256_set1_epi32(-1));
-  const SplitUnits units = split<exactly>(numbers, scale, good);
-  if (_mm256_movemask_pd(good) != 0xf) return nullptr;
-  out = write_two(out, form, _mm_unpacklo_epi32(units.first, units.last), units.negative, ' ', ' ');
-  out = write_two(out, form, _mm_unpackhi_epi32(units.first, units.last), units.negative >> 2, ' ', ' ');
-  return out - form.length_of_zero - 2;  // the empty lane and both separators
-}
+/// The nine numbers that a triangle has in a group of columns: sixteen digits each, as write_number takes
+/// them. There is room for one more.
+struct GroupTexts {
+  alignas(32) std::array<std::array<char, 16>, 10> texts;
+  std::array<unsigned, 5> filled;  // of two numbers each
+  unsigned negative;               // bit i: number i is negative and does not round to 0
 
-PIPELINE_AVX2 char* write_three_fixed(const Vec3& numbers, int decimals, char* out) {
+  PIPELINE_AVX2 void set_two(std::size_t index, __m128i first_and_last) {
+    const __m256i characters =
+        _mm256_broadcastsi128_si256(_mm_load_si128(reinterpret_cast<const __m128i*>(kPointAndZeros.data())));
+    const __m256i digits = sixteen_digits(first_and_last);
+    _mm256_store_si256(reinterpret_cast<__m256i*>(texts[2 * index].data()),
+                       _mm256_add_epi8(digits, characters));
+    filled[index] =
+        static_cast<unsigned>(_mm256_movemask_epi8(_mm256_cmpgt_epi8(digits, _mm256_setzero_si256())));
+  }
+
+  /// Clears lanes of `good` as `split` does.
+  template <bool exactly>
+  PIPELINE_AVX2 void set(const Triangle& numbers, __m256d scale, __m256d& good) {
+    const double* const p = &numbers[0].x;
+    const SplitUnits a = split<exactly>(_mm256_loadu_pd(p), scale, good);
+    const SplitUnits b = split<exactly>(_mm256_loadu_pd(p + 4), scale, good);
+    const SplitUnits c = split<exactly>(_mm256_zextpd128_pd256(_mm_load_sd(p + 8)), scale, good);
+    set_two(0, _mm_unpacklo_epi32(a.first, a.last));
+    set_two(1, _mm_unpackhi_epi32(a.first, a.last));
+    set_two(2, _mm_unpacklo_epi32(b.first, b.last));
+    set_two(3, _mm_unpackhi_epi32(b.first, b.last));
+    set_two(4, _mm_unpacklo_epi32(c.first, c.last));
+    negative = a.negative | b.negative << 4 | c.negative << 8;
+  }
+
+  /// Prints number `index` and a blank.
+  PIPELINE_AVX2 char* write(char* out, const PrintedForm& form, std::size_t index) const {
+    const __m128i text = _mm_load_si128(reinterpret_cast<const __m128i*>(texts[index].data()));
+    const unsigned digits_above_0 = filled[index / 2] >> (index % 2 == 0 ? 0 : 16) & 0xffff;
+    out = write_number(out, form, negative >> index, text, digits_above_0);
+    *out = ' ';
+    return out + 1;
+  }
+};
+
+/// Stops before a triangle with a number that `split` refuses.
+template <bool exactly>
+PIPELINE_AVX2 FixedTextPart write_columns_from(std::size_t begin, const ConstFixedColumns& columns,
+                                               int decimals, char* out) {
   const PrintedForm& form = kPrintedForms[static_cast<std::size_t>(decimals)];
   const __m256d scale = _mm256_set1_pd(kPowersOfTen[static_cast<std::size_t>(decimals)]);
-  const __m256d in_lanes = _mm256_setr_pd(numbers.x, numbers.y, numbers.z, 0);
-  char* const end = write_three<false>(in_lanes, form, scale, out);
-  return end != nullptr ? end : write_three<true>(in_lanes, form, scale, out);
+  const std::size_t group_count = columns.group_count();
+  FixedTextPart part;
+  const char* const text = out;
+  for (std::size_t i = begin; i < columns.triangle_count(); ++i) {
+    std::array<GroupTexts, 3> groups;
+    __m256d good = _mm256_castsi256_pd(_mm256_set1_epi32(-1));
+    for (std::size_t group = 0; group < group_count; ++group)
+      groups[group].template set<exactly>(columns.groups[group][i], scale, good);
+    if (_mm256_movemask_pd(good) != 0xf) break;
+    for (std::size_t vertex = 0; vertex < 3; ++vertex) {
+      for (std::size_t group = 0; group < group_count; ++group) {
+        for (std::size_t axis = 0; axis < 3; ++axis) out = groups[group].write(out, form, 3 * vertex + axis);
+        if (group == 0 && !columns.w.empty()) out = write_w(out, columns.w[i][vertex]);
+      }
+      out[-1] = '\n';
+    }
+    *out++ = '\n';
+    ++part.triangle_count;
+  }
+  part.length = static_cast<std::size_t>(out - text);
+  return part;
+}
+
+FixedTextPart write_columns(const ConstFixedColumns& columns, int decimals, char* out) {
+  const FixedTextPart part = write_columns_from<false>(0, columns, decimals, out);
+  if (part.triangle_count == columns.triangle_count()) return part;
+  const FixedTextPart rest =
+      write_columns_from<true>(part.triangle_count, columns, decimals, out + part.length);
+  return {part.triangle_count + rest.triangle_count, part.length + rest.length};
 }
 
 }  // namespace
 
 constinit const WriteFixedText kWriteFixedTextAvx2 = write_fixed_text;
-constinit const WriteThreeFixed kWriteThreeFixedAvx2 = write_three_fixed;
+constinit const WriteFixedColumns kWriteFixedColumnsAvx2 = write_columns;
 
 bool processor_has_avx2() {
   return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi") && __builtin_cpu_supports("fma");

@@ -4,7 +4,9 @@
 #include <cstdint>
 #include <string_view>
 
+#include "libpipeline/text/decimal_number.h"
 #include "libpipeline/text/fixed_text.h"
+#include "libpipeline/text/number_printer.h"
 
 #if defined(__x86_64__) && defined(__GNUC__)
 #define PIPELINE_HAS_X86_KERNELS
@@ -14,12 +16,6 @@ namespace pipeline {
 
 // The kernels of fixed_text.h, each in a file of its own.
 
-/// The line that belongs to a triangle besides its three vertex lines.
-enum class TriangleFrame {
-  stage_text,  // a blank line after them
-  scene        // the line `triangle` before them
-};
-
 /// The beginning of the vertex lines; null if the line before them is missing.
 template <TriangleFrame frame>
 const char* vertex_lines(const char* p) {
@@ -28,12 +24,36 @@ const char* vertex_lines(const char* p) {
   return std::string_view(p, kLine.size()) == kLine ? p + kLine.size() : nullptr;
 }
 
+/// The same for a frame that is known only here.
+inline const char* vertex_lines(const char* p, TriangleFrame frame) {
+  return frame == TriangleFrame::scene ? vertex_lines<TriangleFrame::scene>(p) : p;
+}
+/// The end of a triangle whose vertex lines end at `p`; null if the line after them is missing.
+inline const char* triangle_end(const char* p, TriangleFrame frame) {
+  if (frame == TriangleFrame::scene) return p;
+  return *p == '\n' ? p + 1 : nullptr;
+}
+
+/// Reads w and the separator after it; null if the form differs.
+inline const char* read_w(const char* p, char separator, double& w) {
+  DecimalNumber number;
+  p = read_decimal_number(p, number);
+  w = number.value;
+  return p != nullptr && *p == separator ? p + 1 : nullptr;
+}
+
+/// Prints w and a blank.
+inline char* write_w(char* out, double w) {
+  out = print_number(out, w, 0, kShortest);
+  *out = ' ';
+  return out + 1;
+}
+
 /// Numbers are read and printed as whole numbers of units of their last decimal; those printed are below
 /// this.
 constexpr double kUnitsLimit = 1e15;
 
 extern const FixedTextKernel kPortableKernel;
-char* write_three_portable(const Vec3& numbers, int decimals, char* out);
 
 #ifdef PIPELINE_HAS_X86_KERNELS
 /// How to print the sixteen digits of a whole number of units, the first of which is 0 and replaced by a
@@ -70,7 +90,7 @@ extern const FixedTextKernel kSse4Kernel;
 bool processor_has_sse4();
 // Reading gains nothing from wider registers: where a number begins depends on the one before it.
 extern const WriteFixedText kWriteFixedTextAvx2;
-extern const WriteThreeFixed kWriteThreeFixedAvx2;
+extern const WriteFixedColumns kWriteFixedColumnsAvx2;
 bool processor_has_avx2();
 #endif
 

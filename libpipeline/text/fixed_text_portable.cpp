@@ -94,11 +94,39 @@ FixedTextPart read_fixed_text(std::string_view text, int decimals, std::span<Tri
   return read_triangles<frame>(text, ReadForm(static_cast<std::size_t>(decimals)), triangles);
 }
 
-const char* read_three(const char* p, int decimals, char separator, Vec3& numbers) {
-  const ReadForm form(static_cast<std::size_t>(decimals));
-  if ((p = read_number(p, form, ' ', numbers.x)) == nullptr) return nullptr;
-  if ((p = read_number(p, form, ' ', numbers.y)) == nullptr) return nullptr;
-  return read_number(p, form, separator, numbers.z);
+using ReadForms = std::array<ReadForm, 3>;
+
+/// Reads a vertex line; null if the form differs.
+const char* read_line(const char* p, const ReadForms& forms, const FixedColumns& columns,
+                      std::size_t triangle, std::size_t vertex) {
+  const std::size_t group_count = columns.group_count();
+  for (std::size_t group = 0; group < group_count; ++group) {
+    const char end = group + 1 == group_count ? '\n' : ' ';
+    const bool w_follows = group == 0 && !columns.w.empty();
+    auto& [x, y, z] = columns.groups[group][triangle][vertex];
+    if ((p = read_number(p, forms[group], ' ', x)) == nullptr) return nullptr;
+    if ((p = read_number(p, forms[group], ' ', y)) == nullptr) return nullptr;
+    if ((p = read_number(p, forms[group], w_follows ? ' ' : end, z)) == nullptr) return nullptr;
+    if (w_follows && (p = read_w(p, end, columns.w[triangle][vertex])) == nullptr) return nullptr;
+  }
+  return p;
+}
+
+FixedTextPart read_columns(std::string_view text, TriangleFrame frame, const GroupDecimals& decimals,
+                           const FixedColumns& columns) {
+  const auto form = [&](std::size_t group) { return ReadForm(static_cast<std::size_t>(decimals[group])); };
+  const ReadForms forms = {form(0), form(1), form(2)};
+  const char* const end = text.data() + text.size();
+  FixedTextPart part;
+  for (std::size_t i = 0; i < columns.triangle_count() && part.length < text.size(); ++i) {
+    const char* p = vertex_lines(text.data() + part.length, frame);
+    for (std::size_t vertex = 0; vertex < 3 && p != nullptr; ++vertex)
+      p = p < end ? read_line(p, forms, columns, i, vertex) : nullptr;
+    if (p == nullptr || (p = triangle_end(p, frame)) == nullptr || p > end) break;
+    ++part.triangle_count;
+    part.length = static_cast<std::size_t>(p - text.data());
+  }
+  return part;
 }
 
 // ---- printing ----
@@ -138,17 +166,40 @@ FixedTextPart write_fixed_text(std::span<const Triangle> triangles, int decimals
   return part;
 }
 
-}  // namespace
-
-char* write_three_portable(const Vec3& numbers, int decimals, char* out) {
-  return write_three(numbers, decimals, out);
+/// Prints a vertex line; null if `write_three` refuses a number.
+char* write_line(char* out, const ConstFixedColumns& columns, std::size_t triangle, std::size_t vertex,
+                 int decimals) {
+  const std::size_t group_count = columns.group_count();
+  for (std::size_t group = 0; group < group_count; ++group) {
+    if ((out = write_three(columns.groups[group][triangle][vertex], decimals, out)) == nullptr)
+      return nullptr;
+    *out++ = ' ';
+    if (group == 0 && !columns.w.empty()) out = write_w(out, columns.w[triangle][vertex]);
+  }
+  out[-1] = '\n';
+  return out;
 }
+
+FixedTextPart write_columns(const ConstFixedColumns& columns, int decimals, char* out) {
+  FixedTextPart part;
+  char* const begin = out;
+  for (std::size_t i = 0; i < columns.triangle_count(); ++i) {
+    for (std::size_t vertex = 0; vertex < 3; ++vertex)
+      if ((out = write_line(out, columns, i, vertex, decimals)) == nullptr) return part;
+    *out++ = '\n';
+    ++part.triangle_count;
+    part.length = static_cast<std::size_t>(out - begin);
+  }
+  return part;
+}
+
+}  // namespace
 
 constinit const FixedTextKernel kPortableKernel = {"portable",
                                                    read_fixed_text<TriangleFrame::stage_text>,
                                                    read_fixed_text<TriangleFrame::scene>,
+                                                   read_columns,
                                                    write_fixed_text,
-                                                   read_three,
-                                                   write_three_portable};
+                                                   write_columns};
 
 }  // namespace pipeline

@@ -116,15 +116,43 @@ PIPELINE_SSE4 FixedTextPart read_fixed_text(std::string_view text, int decimals,
   return part;
 }
 
-PIPELINE_SSE4 const char* read_three(const char* p, int decimals, char separator, Vec3& numbers) {
-  const ReadForm form(static_cast<std::size_t>(decimals));
-  std::array<std::uint64_t, 3> bits;
+using ReadForms = std::array<ReadForm, 3>;
+
+/// Reads a vertex line; null if the form differs.
+PIPELINE_SSE4 inline const char* read_line(const char* p, const ReadForms& forms, std::size_t group_count,
+                                           const FixedColumns& columns, std::size_t triangle,
+                                           std::size_t vertex) {
   int good = 0xffff;
-  p = read_number(p, form, ' ', bits[0], good);
-  p = read_number(p, form, ' ', bits[1], good);
-  p = read_number(p, form, separator, bits[2], good);
-  numbers = std::bit_cast<Vec3>(bits);
-  return good == 0xffff ? p : nullptr;
+  for (std::size_t group = 0; group < group_count; ++group) {
+    const char end = group + 1 == group_count ? '\n' : ' ';
+    const bool w_follows = group == 0 && !columns.w.empty();
+    std::array<std::uint64_t, 3> bits;
+    p = read_number(p, forms[group], ' ', bits[0], good);
+    p = read_number(p, forms[group], ' ', bits[1], good);
+    p = read_number(p, forms[group], w_follows ? ' ' : end, bits[2], good);
+    if (good != 0xffff) return nullptr;
+    columns.groups[group][triangle][vertex] = std::bit_cast<Vec3>(bits);
+    if (w_follows && (p = read_w(p, end, columns.w[triangle][vertex])) == nullptr) return nullptr;
+  }
+  return p;
+}
+
+PIPELINE_SSE4 FixedTextPart read_columns(std::string_view text, TriangleFrame frame,
+                                         const GroupDecimals& decimals, const FixedColumns& columns) {
+  const auto form = [&](std::size_t group) { return ReadForm(static_cast<std::size_t>(decimals[group])); };
+  const ReadForms forms = {form(0), form(1), form(2)};
+  const std::size_t group_count = columns.group_count();
+  const char* const end = text.data() + text.size();
+  FixedTextPart part;
+  for (std::size_t i = 0; i < columns.triangle_count() && part.length < text.size(); ++i) {
+    const char* p = vertex_lines(text.data() + part.length, frame);
+    for (std::size_t vertex = 0; vertex < 3 && p != nullptr; ++vertex)
+      p = p < end ? read_line(p, forms, group_count, columns, i, vertex) : nullptr;
+    if (p == nullptr || (p = triangle_end(p, frame)) == nullptr || p > end) break;
+    ++part.triangle_count;
+    part.length = static_cast<std::size_t>(p - text.data());
+  }
+  return part;
 }
 
 // ---- printing ----
@@ -208,14 +236,43 @@ PIPELINE_SSE4 FixedTextPart write_fixed_text(std::span<const Triangle> triangles
   return part;
 }
 
+PIPELINE_SSE4 FixedTextPart write_columns(const ConstFixedColumns& columns, int decimals, char* out) {
+  const PrintedForm form = kPrintedForms[static_cast<std::size_t>(decimals)];
+  const double scale = kPowersOfTen[static_cast<std::size_t>(decimals)];
+  const std::size_t group_count = columns.group_count();
+  FixedTextPart part;
+  char* const begin = out;
+  for (std::size_t i = 0; i < columns.triangle_count(); ++i) {
+    std::array<SplitUnits, 3> units;
+    for (std::size_t group = 0; group < group_count; ++group)
+      if (!split(&columns.groups[group][i][0].x, scale, units[group])) return part;
+    for (std::size_t vertex = 0; vertex < 3; ++vertex) {
+      for (std::size_t group = 0; group < group_count; ++group) {
+        for (std::size_t k = 3 * vertex; k < 3 * vertex + 3; ++k) {
+          out = write_number(out, form, ((units[group].negative >> k) & 1u) != 0,
+                             static_cast<std::uint32_t>(units[group].first[k]),
+                             static_cast<std::uint32_t>(units[group].last[k]));
+          *out++ = ' ';
+        }
+        if (group == 0 && !columns.w.empty()) out = write_w(out, columns.w[i][vertex]);
+      }
+      out[-1] = '\n';
+    }
+    *out++ = '\n';
+    ++part.triangle_count;
+    part.length = static_cast<std::size_t>(out - begin);
+  }
+  return part;
+}
+
 }  // namespace
 
 constinit const FixedTextKernel kSse4Kernel = {"sse4",
                                                read_fixed_text<TriangleFrame::stage_text>,
                                                read_fixed_text<TriangleFrame::scene>,
+                                               read_columns,
                                                write_fixed_text,
-                                               read_three,
-                                               write_three_portable};
+                                               write_columns};
 
 bool processor_has_sse4() {
   return __builtin_cpu_supports("sse4.2") && __builtin_cpu_supports("bmi");

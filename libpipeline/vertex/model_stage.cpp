@@ -76,13 +76,12 @@ void ModelStage::fill(TriangleBatch& batch) {
 
 /// Adds triangles by the fast path; false if it finds none, or the batch is full.
 bool ModelStage::add_buffered(TriangleBatch& batch) {
-  if (scene_.appearance().attributes) return false;  // there is no fast path for them
-  constexpr std::size_t kMaxAtOnce = 64;
+  constexpr std::size_t kMaxAtOnce = 24;
   const std::size_t old_size = batch.size();
-  batch.triangles.resize(std::max(old_size, std::min(kBatchSize, old_size + kMaxAtOnce)));
+  if (old_size >= kBatchSize) return false;
   std::size_t line = 0;
-  const std::size_t count = scene_.read_buffered(std::span(batch.triangles).subspan(old_size), line);
-  batch.triangles.resize(old_size + count);
+  const std::size_t limit = std::min(kBatchSize - old_size, kMaxAtOnce);
+  const std::size_t count = scene_.read_buffered(limit, batch.triangles, batch.attributes, line);
   if (count == 0) return false;
   batch.complete(next_number_, line + 1);
   next_number_ += count;

@@ -78,6 +78,58 @@ TEST(StageReader, TrianglesAreTheSameByEveryPath) {
   }
 }
 
+// A comment or another count of decimals keeps a line from the fastest path.
+TEST(StageReader, ColumnsAreTheSameByEveryPathInOneText) {
+  std::string text = "attributes w color normal\n";
+  constexpr int kCount = 5000;
+  for (int i = 0; i < kCount; ++i) {
+    const std::string end = i % 700 == 5 ? "0\n" : i % 900 == 7 ? " #\n" : "\n";
+    const std::string line = std::to_string(i / 10) + "." + std::to_string(i % 10) + " -0.5 2.0 1.75 255 0 " +
+                             std::to_string(i % 256) + " 0.125 -0.500 1.00" + std::to_string(i % 10) + end;
+    text += line + line + line + "\n";
+  }
+  const TextFile file(text);
+  TextReader reader(file.descriptor(), "in.txt");
+  StageReader stage(reader, true);
+  std::size_t count = 0;
+  for (TriangleBatch batch; stage.read(batch);) {
+    for (std::size_t i = 0; i < batch.size(); ++i, ++count) {
+      const Vec3 position = {static_cast<double>(count) / 10, -0.5, 2};
+      const Vec3 color = {255, 0, static_cast<double>(count % 256)};
+      const Vec3 normal = {0.125, -0.5, static_cast<double>(1000 + count % 10) / 1000};
+      ASSERT_EQ(batch.triangles[i], (Triangle{position, position, position})) << count;
+      ASSERT_EQ(batch.attributes.w.at(i), (std::array<double, 3>{1.75, 1.75, 1.75})) << count;
+      ASSERT_EQ(batch.attributes.colors.at(i), (Triangle{color, color, color})) << count;
+      ASSERT_EQ(batch.attributes.normals.at(i), (Triangle{normal, normal, normal})) << count;
+      const std::size_t line = 4 * count + 2;
+      ASSERT_EQ(batch.locations[i], (VertexLocations{line, line + 1, line + 2})) << count;
+      ASSERT_EQ(batch.numbers[i], count);
+      ASSERT_EQ(batch.decimal_marks[i], 0x1ff) << count;
+    }
+    ASSERT_EQ(batch.attributes.w.size(), batch.size());
+    ASSERT_EQ(batch.attributes.colors.size(), batch.size());
+    ASSERT_EQ(batch.attributes.normals.size(), batch.size());
+  }
+  EXPECT_EQ(count, static_cast<std::size_t>(kCount));
+}
+
+// Behind so many triangles of the fast path that the wrong one is not the first of its block.
+TEST(StageReader, AValueOutOfRangeIsAnErrorAfterFastTriangles) {
+  for (const std::string wrong : {"256.0 0.0 0.0", "0.0 -1.0 0.0"}) {
+    std::string text = "attributes w color\n";
+    const std::string fine = "0.5 0.5 0.5 1.5 1.0 2.0 3.0\n";
+    for (int i = 0; i < 100; ++i) text += fine + fine + fine + "\n";
+    const std::string channel = wrong[0] == '2' ? "red" : "green";
+    const std::string value = wrong[0] == '2' ? "256.0" : "-1.0";
+    const std::string column = wrong[0] == '2' ? "17" : "21";
+    EXPECT_EQ(error_of(text + fine + "0.5 0.5 0.5 1.5 " + wrong + "\n" + fine + "\n" + fine + fine + fine),
+              "in.txt:403:" + column + ": expected the " + channel +
+                  " of vertex 2 of 3 (x y z w r g b) from 0 to 255, found '" + value + "'");
+    EXPECT_EQ(error_of(text + fine + "0.5 0.5 0.5 0.0 1.0 2.0 3.0\n" + fine),
+              "in.txt:403:13: expected the w of vertex 2 of 3 (x y z w r g b) above 0, found '0.0'");
+  }
+}
+
 TEST(StageReader, KeepsTheDigitsADoubleHasNoRoomForOfAnyTriangle) {
   // 2^53 + 0.5 and 2^53 - 1; between triangles whose numbers have fewer digits.
   const std::string plain = "0 0 0\n1 0 0\n0 1 0 # slow\n\n";

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <charconv>
@@ -431,60 +432,215 @@ TEST_P(FixedText, LongPrintsWhatTheGeneralPrinterPrintsOnAHundredMillionNumbers)
     print_random(GetParam().write, decimals, (decimals == 7 ? 100'000'000 : 10'000'000) / 9, 3);
 }
 
-TEST_P(FixedText, ReadsThreeNumbersAsTheGeneralReaderDoes) {
+/// The columns of a text, and room for the numbers of so many triangles.
+struct ColumnArrays {
+  std::array<std::vector<Triangle>, 3> groups;
+  std::vector<std::array<double, 3>> w;
+
+  ColumnArrays(std::size_t group_count, bool has_w, std::size_t triangle_count) {
+    for (std::size_t group = 0; group < group_count; ++group) groups[group].resize(triangle_count);
+    if (has_w) w.resize(triangle_count);
+  }
+  [[nodiscard]] FixedColumns columns() { return {{groups[0], groups[1], groups[2]}, w}; }
+  [[nodiscard]] ConstFixedColumns columns() const { return {{groups[0], groups[1], groups[2]}, w}; }
+};
+
+std::string scene_frame(const std::string& lines) {
+  return "triangle\n" + lines;
+}
+
+/// Reads from a copy that is followed by digits.
+FixedTextPart read_columns(const FixedTextKernel& kernel, const std::string& text, TriangleFrame frame,
+                           const GroupDecimals& decimals, ColumnArrays& arrays) {
+  const std::string with_slack = text + std::string(kFixedTextSlack, '7');
+  return kernel.read_columns({with_slack.data(), text.size()}, frame, decimals, arrays.columns());
+}
+
+std::vector<std::uint64_t> bits_of(const ColumnArrays& arrays) {
+  std::vector<std::uint64_t> bits;
+  for (const auto& group : arrays.groups)
+    for (const Triangle& triangle : group)
+      for (const auto& number : std::bit_cast<std::array<std::uint64_t, 9>>(triangle)) bits.push_back(number);
+  for (const auto& three : arrays.w)
+    for (const double number : three) bits.push_back(std::bit_cast<std::uint64_t>(number));
+  return bits;
+}
+
+/// w in the forms that programs print.
+std::string random_w(std::mt19937_64& random) {
+  const double w = std::ldexp(static_cast<double>(random() >> 11), static_cast<int>(random() % 20) - 60);
+  std::array<char, 40> text;
+  const auto end = random() % 2 == 0
+                       ? std::to_chars(text.data(), text.data() + text.size(), w, std::chars_format::fixed,
+                                       static_cast<int>(random() % 15))
+                       : std::to_chars(text.data(), text.data() + text.size(), w, std::chars_format::fixed);
+  return {text.data(), end.ptr};
+}
+
+TEST_P(FixedText, ReadsColumnsAsTheGeneralReaderDoes) {
   std::mt19937_64 random(8);
-  for (const int decimals : all_decimals())
-    for (int i = 0; i < 1000; ++i) {
-      const std::array<std::string, 3> words = {random_word(random, decimals), random_word(random, decimals),
-                                                random_word(random, decimals)};
-      const char separator = i % 2 == 0 ? ' ' : '\n';
-      const std::string numbers = words[0] + " " + words[1] + " " + words[2];
-      const std::string text = numbers + separator + std::string(kFixedTextSlack, '7');
-      Vec3 values;
-      ASSERT_EQ(GetParam().read_three(text.data(), decimals, separator, values),
-                text.data() + numbers.size() + 1)
-          << numbers;
-      const Vec3 expected = {general_number(words[0]), general_number(words[1]), general_number(words[2])};
-      ASSERT_EQ((std::bit_cast<std::array<std::uint64_t, 3>>(values)),
-                (std::bit_cast<std::array<std::uint64_t, 3>>(expected)))
-          << numbers;
-      const char other = i % 2 == 0 ? '\n' : ' ';
-      ASSERT_EQ(GetParam().read_three(text.data(), decimals, other, values), nullptr) << numbers;
+  for (int i = 0; i < 6000; ++i) {
+    const std::size_t group_count = 1 + random() % 3;
+    const bool has_w = random() % 2 == 0;
+    const auto frame = random() % 2 == 0 ? TriangleFrame::scene : TriangleFrame::stage_text;
+    GroupDecimals decimals;
+    for (int& count : decimals) count = static_cast<int>(random() % (kMaxFixedDecimals + 1));
+    ColumnArrays expected(group_count, has_w, 1);
+    std::string lines;
+    for (std::size_t vertex = 0; vertex < 3; ++vertex) {
+      for (std::size_t group = 0; group < group_count; ++group) {
+        Vec3& numbers = expected.groups[group][0][vertex];
+        for (double* const number : {&numbers.x, &numbers.y, &numbers.z}) {
+          const std::string word = random_word(random, decimals[group]);
+          *number = general_number(word);
+          lines += word + " ";
+        }
+        if (group > 0 || !has_w) continue;
+        const std::string word = random_w(random);
+        expected.w[0][vertex] = general_number(word);
+        lines += word + " ";
+      }
+      lines.back() = '\n';
     }
-}
-
-TEST_P(FixedText, LeavesThreeNumbersOfAnyOtherForm) {
-  for (const std::string numbers :
-       {"1.5 2.25 3.5 ", "1.5 2.5 3 ", "1.5  2.5 3.5 ", "1.5 2.5\n3.5 ", "1.5 2.5 3.5\r", "1.5 2.5 3e5 ",
-        ".5 2.5 3.5 ", "+1.5 2.5 3.5 ", "1.5 2.5 x.5 ", "1.5 2.5 # 3 "}) {
-    Vec3 values;
-    const std::string text = numbers + std::string(kFixedTextSlack, '7');
-    EXPECT_EQ(GetParam().read_three(text.data(), 1, ' ', values), nullptr) << numbers;
+    const std::string text = frame == TriangleFrame::scene ? scene_frame(lines) : lines + "\n";
+    ColumnArrays arrays(group_count, has_w, 1);
+    const FixedTextPart part = read_columns(GetParam(), text, frame, decimals, arrays);
+    // Few w lie too close to the midpoint of two doubles for the fast reader.
+    if (has_w && part.triangle_count == 0) continue;
+    ASSERT_EQ(part.length, text.size()) << text;
+    ASSERT_EQ(bits_of(arrays), bits_of(expected)) << text;
   }
 }
 
-TEST_P(FixedText, PrintsThreeNumbersAsTheGeneralPrinterDoesOrLeavesThem) {
+const std::string kColoredLine = "1.5 2.5 3.5 4 5 6 0.25 0.50 1.00\n";
+
+TEST_P(FixedText, EveryByteOfColumnsMatters) {
+  const std::string triangle = kColoredLine + kColoredLine + kColoredLine + "\n";
+  for (std::size_t i = 0; i < triangle.size(); ++i) {
+    for (int byte = 0; byte < 256; ++byte) {
+      std::string text = triangle;
+      text[i] = static_cast<char>(byte);
+      const bool was_digit = triangle[i] >= '0' && triangle[i] <= '9';
+      const bool is_digit_for_digit = byte >= '0' && byte <= '9' && was_digit;
+      ColumnArrays arrays(3, false, 1);
+      const FixedTextPart part = read_columns(GetParam(), text, TriangleFrame::stage_text, {1, 0, 2}, arrays);
+      ASSERT_EQ(part.triangle_count, is_digit_for_digit || text == triangle ? 1u : 0u) << i << " " << byte;
+    }
+  }
+}
+
+TEST_P(FixedText, ReadsTheColumnsOfWholeTrianglesAlone) {
+  const std::string lines = kColoredLine + kColoredLine + kColoredLine;
+  for (const auto frame : {TriangleFrame::scene, TriangleFrame::stage_text}) {
+    const std::string triangle = frame == TriangleFrame::scene ? scene_frame(lines) : lines + "\n";
+    for (std::size_t length = 0; length < triangle.size(); ++length) {
+      ColumnArrays arrays(3, false, 3);
+      const std::string text = triangle + triangle.substr(0, length);
+      const FixedTextPart part = read_columns(GetParam(), text, frame, {1, 0, 2}, arrays);
+      ASSERT_EQ(part.length, triangle.size()) << length;
+      ASSERT_EQ(part.triangle_count, 1u) << length;
+    }
+    ColumnArrays arrays(3, false, 2);
+    EXPECT_EQ(read_columns(GetParam(), triangle + triangle + triangle, frame, {1, 0, 2}, arrays).length,
+              2 * triangle.size());
+  }
+}
+
+TEST_P(FixedText, LeavesColumnsOfAnyOtherForm) {
+  const std::string fine = "1.5 2.5 3.5 2.25 7 8 9\n";
+  for (const std::string& line :
+       {fine, std::string("1.5 2.5 3.5 2 7 8 9\n"), std::string("1.5 2.5 3.5 1e3 7 8 9\n"),
+        std::string("1.5 2.5 3.5 7 8 9\n"), std::string("1.5 2.5 3.5 2.25 7 8\n"),
+        std::string("1.5 2.5 3.5 2.25 7 8 9 1\n"), std::string("1.5 2.5 3.5  2.25 7 8 9\n"),
+        std::string("1.5 2.5 3.5 2.25\n7 8 9\n"), std::string("1.5 2.5 3.5 2.25 7 8 9 \n"),
+        std::string("1.5 2.5 3.5 2.25 7 8 9\r\n"), std::string("1.5 2.5 3.5 +2.25 7 8 9\n"),
+        std::string("1.5 2.5 3.5 - 7 8 9\n"), std::string("1.5 2.5 3.5 2.25 7 8 9 # so\n")}) {
+    ColumnArrays arrays(2, true, 1);
+    const FixedTextPart part =
+        read_columns(GetParam(), fine + line + fine + "\n", TriangleFrame::stage_text, {1, 0, 0}, arrays);
+    const bool is_fine = line == fine || line == "1.5 2.5 3.5 2 7 8 9\n";
+    EXPECT_EQ(part.triangle_count, is_fine ? 1u : 0u) << line;
+  }
+}
+
+std::string general_columns(const ColumnArrays& arrays, std::size_t triangle, int decimals) {
+  std::string text;
+  for (std::size_t vertex = 0; vertex < 3; ++vertex) {
+    for (const auto& group : arrays.groups) {
+      if (group.empty()) continue;
+      const Vec3& v = group[triangle][vertex];
+      for (const double number : {v.x, v.y, v.z}) text += general_text(number, decimals) + " ";
+      if (&group != &arrays.groups[0] || arrays.w.empty()) continue;
+      std::array<char, 40> w;
+      text.append(w.data(), std::to_chars(w.data(), w.data() + w.size(), arrays.w[triangle][vertex]).ptr);
+      text += ' ';
+    }
+    text.back() = '\n';
+  }
+  return text + "\n";
+}
+
+/// Prints all triangles that the kernel does not leave.
+std::string write_columns(const FixedTextKernel& kernel, const ColumnArrays& arrays, int decimals,
+                          std::size_t& count) {
+  std::string out(arrays.groups[0].size() * kMaxFixedColumnsLength + kFixedTextSlack, '\0');
+  const FixedTextPart part = kernel.write_columns(arrays.columns(), decimals, out.data());
+  count = part.triangle_count;
+  out.resize(part.length);
+  return out;
+}
+
+TEST_P(FixedText, PrintsColumnsAsTheGeneralPrinterDoesOrLeavesThem) {
   std::mt19937_64 random(9);
-  std::uniform_real_distribution<double> number(-300, 300);
   for (const int decimals : all_decimals()) {
-    int printed_count = 0;
-    for (int i = 0; i < 1000; ++i) {
-      // A number, a whole one, and a tie.
-      const Vec3 numbers = {number(random) / (1 + i), std::round(number(random)),
-                            i % 4 == 0 ? std::ldexp(std::round(number(random)), -decimals - 1) : -0.0};
-      std::string out(kMaxFixedTriangleLength + kFixedTextSlack, '\0');
-      const char* const end = GetParam().write_three(numbers, decimals, out.data());
-      if (end == nullptr) continue;
-      ++printed_count;
-      ASSERT_EQ(out.substr(0, static_cast<std::size_t>(end - out.data())),
-                general_text(numbers.x, decimals) + " " + general_text(numbers.y, decimals) + " " +
-                    general_text(numbers.z, decimals));
+    const double largest = std::min(300.0, std::pow(10.0, 14 - decimals));
+    std::uniform_real_distribution<double> number(-largest, largest);
+    std::size_t printed_count = 0;
+    for (int i = 0; i < 500; ++i) {
+      const std::size_t group_count = 1 + random() % 3;
+      ColumnArrays arrays(group_count, random() % 2 == 0, 3);
+      for (std::size_t group = 0; group < group_count; ++group)
+        for (Triangle& triangle : arrays.groups[group])
+          for (Vec3& v : triangle) {  // a number, a whole one, and a tie
+            const double tie = std::ldexp(std::round(number(random)), -decimals - 1);
+            v = {number(random) / (1 + i), std::round(number(random)), random() % 16 == 0 ? tie : -0.0};
+          }
+      for (auto& three : arrays.w)
+        for (double& w : three) w = std::ldexp(number(random), static_cast<int>(random() % 80) - 60);
+      std::size_t count = 0;
+      const std::string text = write_columns(GetParam(), arrays, decimals, count);
+      std::string expected;
+      for (std::size_t k = 0; k < count; ++k) expected += general_columns(arrays, k, decimals);
+      ASSERT_EQ(text, expected) << decimals;
+      printed_count += count;
     }
-    EXPECT_GT(printed_count, decimals < 12 ? 500 : 10) << decimals;
-    std::string out(kMaxFixedTriangleLength + kFixedTextSlack, '\0');
-    EXPECT_EQ(GetParam().write_three({0, 0, 1e17}, decimals, out.data()), nullptr);
-    EXPECT_EQ(GetParam().write_three({std::nan(""), 0, 0}, decimals, out.data()), nullptr);
+    EXPECT_GT(printed_count, 300u) << decimals;
   }
+}
+
+TEST_P(FixedText, StopsBeforeTheFirstColumnsItCannotPrint) {
+  for (const double value : {1e17, HUGE_VAL, std::nan("")})
+    for (std::size_t group = 0; group < 3; ++group) {
+      ColumnArrays arrays(3, true, 4);
+      arrays.groups[group][2][1].y = value;
+      std::size_t count = 0;
+      EXPECT_EQ(write_columns(GetParam(), arrays, 7, count),
+                general_columns(arrays, 0, 7) + general_columns(arrays, 1, 7));
+      EXPECT_EQ(count, 2u);
+    }
+}
+
+TEST_P(FixedText, HasRoomForTheLongestColumns) {
+  ColumnArrays arrays(3, true, 1);
+  constexpr double kLongest = -99999999.9999999;
+  constexpr Vec3 kThree = {kLongest, kLongest, kLongest};
+  for (auto& group : arrays.groups) group[0] = {kThree, kThree, kThree};
+  const double longest_w = -std::nextafter(0x1p-1022, 1);
+  arrays.w[0] = {longest_w, longest_w, longest_w};
+  std::size_t count = 0;
+  const std::string text = write_columns(GetParam(), arrays, 7, count);
+  EXPECT_EQ(text, general_columns(arrays, 0, 7));
+  EXPECT_LE(text.size(), kMaxFixedColumnsLength);
 }
 
 TEST(FixedTextDecimals, AreThoseOfTheFirstNumber) {

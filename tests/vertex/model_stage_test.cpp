@@ -53,6 +53,56 @@ TEST(ModelStage, WithoutTransformsModelSpaceIsWorldSpace) {
   EXPECT_EQ(first_vertices_of(kTriangle), (std::vector<Vec3>{{1, 2, 3}}));
 }
 
+// A blank at the end of a line keeps a triangle from the fastest path.
+TEST(ModelStage, AttributesAreTheSameByEveryPath) {
+  for (const bool has_columns : {false, true}) {
+    std::string commands = has_columns ? "attributes color normal\n" : "attributes normal\n";
+    constexpr std::size_t kCount = 3000;
+    const auto blue_of = [&](std::size_t i) { return has_columns ? i % 256 : i / 100; };
+    for (std::size_t i = 0; i < kCount; ++i) {
+      if (!has_columns && i % 100 == 0) commands += "color 1 2 " + std::to_string(i / 100) + "\n";
+      const std::string color = has_columns ? " 1 2 " + std::to_string(i % 256) : "";
+      const std::string line =
+          std::to_string(i) + ".5 0.0 0.0" + color + " 0.00 -2.00 0.00" + (i % 90 == 7 ? " \n" : "\n");
+      commands += "triangle\n" + line + line + line;
+    }
+    const TextFile file(kCamera + commands + "end\n");
+    TextReader text(file.descriptor(), "scene.txt");
+    SceneReader scene(text);
+    CoordinateRounder rounder(Precision::extended, {}, "scene.txt");
+    ModelStage stage(scene);
+    std::size_t count = 0;
+    for (TriangleBatch batch; stage.read(batch);) {
+      stage.transform(batch, rounder);
+      for (std::size_t i = 0; i < batch.size(); ++i, ++count) {
+        const Vec3 color = {1, 2, static_cast<double>(blue_of(count))};
+        ASSERT_EQ(batch.triangles[i][1], (Vec3{static_cast<double>(count) + 0.5, 0, 0})) << count;
+        ASSERT_EQ(batch.attributes.colors.at(i), (Triangle{color, color, color})) << count;
+        ASSERT_EQ(batch.attributes.normals.at(i)[2], (Vec3{0, -1, 0})) << count;
+        ASSERT_EQ(batch.numbers[i], count);
+      }
+      ASSERT_EQ(batch.attributes.colors.size(), batch.size());
+      ASSERT_EQ(batch.attributes.normals.size(), batch.size());
+    }
+    EXPECT_EQ(count, kCount);
+  }
+}
+
+TEST(ModelStage, AWrongAttributeAfterFastTrianglesIsAnError) {
+  const auto triangles = [](int count, const std::string& columns) {
+    std::string text;
+    for (int i = 0; i < count; ++i)
+      text += "triangle\n0 0 0" + columns + "0 0 0" + columns + "0 0 0" + columns;
+    return text;
+  };
+  EXPECT_EQ(error_of("attributes normal\n" + triangles(101, " 0 1 0\n") +
+                     "triangle\n1 0 0 0 1 0\n1 0 0 0 0 0\n1 0 0 0 1 0\n"),
+            "scene.txt:412:7: expected a normal of vertex 2 of 3 other than 0 0 0, found 0 0 0");
+  EXPECT_EQ(error_of("attributes color\n" + triangles(101, " 0 1 0\n") +
+                     "triangle\n1 0 0 0 1 0\n1 0 0 0 0 900\n1 0 0 0 1 0\n"),
+            "scene.txt:412:11: expected the blue of vertex 2 of 3 (x y z r g b) from 0 to 255, found '900'");
+}
+
 TEST(ModelStage, Translates) {
   EXPECT_EQ(first_vertices_of("translate 10 20 30\n" + kTriangle), (std::vector<Vec3>{{11, 22, 33}}));
 }
