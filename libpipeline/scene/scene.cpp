@@ -51,8 +51,13 @@ std::size_t SceneReader::read_buffered(std::size_t limit, std::vector<Triangle>&
   if (!line_.at_end()) return 0;
   // A blank line between triangles.
   if (text_.buffered().starts_with('\n')) text_.skip(1, 1);
-  const FixedTextPart part =
-      vertex_line_.read_fixed(text_.buffered(), TriangleFrame::scene, limit, p_model, attributes);
+  const std::string_view text = text_.buffered();
+  FixedTextPart part = vertex_line_.read_fixed(text, TriangleFrame::scene, limit, p_model, attributes);
+  if (part.triangle_count == 0) {
+    std::array<DecimalMarks, 8> marks;
+    const auto room = std::span(marks).first(std::min(limit, marks.size()));
+    part = vertex_line_.read_decimals(text, TriangleFrame::scene, room, p_model, attributes);
+  }
   const bool has_current_color = appearance_.columns().color && !vertex_line_.attributes().color;
   if (has_current_color)
     attributes.colors.resize(p_model.size(), {current_color_, current_color_, current_color_});

@@ -124,6 +124,27 @@ bool VertexLineReader::find_decimals(std::string_view line, GroupDecimals& decim
   return true;
 }
 
+/// Adds at most `limit` triangles to the arrays: as many as `read(columns)` reads, none if one of their
+/// values is out of range.
+template <typename Read>
+FixedTextPart VertexLineReader::read_block(std::size_t limit, TriangleFrame frame,
+                                           std::vector<Triangle>& positions, AttributeArrays& attributes,
+                                           const Read& read) const {
+  const std::size_t old_size = positions.size();
+  const auto resize = [&](std::size_t size) {
+    positions.resize(size);
+    attributes.resize(size, attributes_);
+  };
+  resize(old_size + limit);
+  FixedTextPart part = read(fixed_columns(positions, attributes, attributes_, old_size, limit));
+  resize(old_size + part.triangle_count);
+  if (attributes_.any() && !are_in_range(attributes, old_size, frame)) {
+    part = {};
+    resize(old_size);
+  }
+  return part;
+}
+
 FixedTextPart VertexLineReader::read_fixed(std::string_view text, TriangleFrame frame, std::size_t limit,
                                            std::vector<Triangle>& positions,
                                            AttributeArrays& attributes) const {
@@ -132,25 +153,21 @@ FixedTextPart VertexLineReader::read_fixed(std::string_view text, TriangleFrame 
   if (is_scene && !text.starts_with(kKeyword)) return {};
   const std::string_view lines = text.substr(is_scene ? kKeyword.size() : 0);
   const FixedTextKernel& kernel = fixed_text_kernel();
-  const std::size_t old_size = positions.size();
-  positions.resize(old_size + limit);
-  FixedTextPart part;
-  if (!attributes_.any()) {
+  return read_block(limit, frame, positions, attributes, [&](const FixedColumns& columns) -> FixedTextPart {
+    if (GroupDecimals decimals; attributes_.any())
+      return find_decimals(lines, decimals) ? kernel.read_columns(text, frame, decimals, columns)
+                                            : FixedTextPart{};
     const auto read = is_scene ? kernel.read_scene : kernel.read;
-    part = read(text, decimals_of_number(lines.data()), std::span(positions).subspan(old_size));
-  } else if (GroupDecimals decimals; find_decimals(lines, decimals)) {
-    attributes.resize(positions.size(), attributes_);
-    const FixedColumns columns = fixed_columns(positions, attributes, attributes_, old_size, limit);
-    part = kernel.read_columns(text, frame, decimals, columns);
-    const std::size_t new_size = old_size + part.triangle_count;
-    attributes.resize(new_size, attributes_);
-    if (!are_in_range(attributes, old_size, frame)) {
-      part = {};
-      attributes.truncate(old_size);
-    }
-  }
-  positions.resize(old_size + part.triangle_count);
-  return part;
+    return read(text, decimals_of_number(lines.data()), columns.groups[0]);
+  });
+}
+
+FixedTextPart VertexLineReader::read_decimals(std::string_view text, TriangleFrame frame,
+                                              std::span<DecimalMarks> marks, std::vector<Triangle>& positions,
+                                              AttributeArrays& attributes) const {
+  return read_block(marks.size(), frame, positions, attributes, [&](const FixedColumns& columns) {
+    return read_decimal_columns(text, frame, columns, marks);
+  });
 }
 
 const char* VertexLineReader::read_decimals(const char* p, const char* end,

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "libpipeline/numbers/vec.h"
+#include "libpipeline/text/decimal_columns.h"
 #include "libpipeline/text/decimal_number.h"
 #include "libpipeline/text/fixed_text.h"
 #include "libpipeline/text/source_location.h"
@@ -105,12 +106,18 @@ class VertexLineReader {
   /// reports it.
   FixedTextPart read_fixed(std::string_view text, TriangleFrame frame, std::size_t limit,
                            std::vector<Triangle>& positions, AttributeArrays& attributes) const;
+  /// The same for lines of decimal_columns.h, as many as there are `marks`.
+  FixedTextPart read_decimals(std::string_view text, TriangleFrame frame, std::span<DecimalMarks> marks,
+                              std::vector<Triangle>& positions, AttributeArrays& attributes) const;
   /// The fast path: reads the three lines of a triangle at `p` and returns the beginning of the next line.
   /// Null if they hold anything but decimal numbers (decimal_number.h), do not end before `end`, or hold a
   /// value out of range; the general path then reads them or reports the error.
   const char* read_decimals(const char* p, const char* end, DecimalVertexLines& vertices) const;
 
  private:
+  template <typename Read>
+  FixedTextPart read_block(std::size_t limit, TriangleFrame frame, std::vector<Triangle>& positions,
+                           AttributeArrays& attributes, const Read& read) const;
   [[nodiscard]] bool find_decimals(std::string_view line, GroupDecimals& decimals) const;
   [[nodiscard]] bool are_in_range(std::span<const DecimalNumber> columns) const;
   [[nodiscard]] bool are_in_range(const AttributeArrays& attributes, std::size_t begin,

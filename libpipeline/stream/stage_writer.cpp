@@ -6,6 +6,7 @@
 #include <span>
 #include <string_view>
 
+#include "libpipeline/text/decimal_columns.h"
 #include "libpipeline/text/fixed_text.h"
 #include "libpipeline/text/number_printer.h"
 
@@ -101,19 +102,19 @@ void StageWriter::write_header(const StageHeader& header) {
 void StageWriter::write(const TriangleBatch& batch) {
   assert(batch.low_parts.empty() || batch.low_parts.size() == batch.size());
   if (!keeps_four_digits_) note_sizes(batch);
-  const bool has_runs = may_be_fixed() && batch.low_parts.empty() && batch.unclipped.empty();
+  const bool has_runs = has_fast_path() && batch.low_parts.empty() && batch.unclipped.empty();
   std::size_t index = 0;
   std::size_t end_of_run = 0;
   while (index < batch.size()) {
     if (has_runs && index >= end_of_run) end_of_run = end_of_numbered_run(batch, index);
-    if (index < end_of_run) index += write_fixed_form(batch, index, end_of_run);
+    if (index < end_of_run) index += write_block(batch, index, end_of_run);
     if (index < batch.size()) write_triangle(batch, index++);
   }
 }
 
-/// Whether fixed_text.h may have triangles with these digits.
-bool StageWriter::may_be_fixed() const {
-  return format_.decimals <= kMaxFixedDecimals && !format_.shortest;
+/// Whether write_block may print triangles with these digits.
+bool StageWriter::has_fast_path() const {
+  return format_.decimals <= kMaxFixedDecimals || format_.shortest;
 }
 
 /// The end of the triangles from `begin` on that need no `triangle N`, or of a part of them.
@@ -140,19 +141,27 @@ void StageWriter::note_sizes(const TriangleBatch& batch) {
   }
 }
 
-/// Prints the triangles [begin, end), which need no `triangle N`, as long as they have the fixed form;
-/// returns how many.
-std::size_t StageWriter::write_fixed_form(const TriangleBatch& batch, std::size_t begin, std::size_t end) {
-  const FixedTextKernel& kernel = fixed_text_kernel();
-  const std::size_t max_length = columns_.any() ? kMaxFixedColumnsLength : kMaxFixedTriangleLength;
+/// Prints the triangles [begin, end), which need no `triangle N`, as long as a fast path has them; returns
+/// how many.
+std::size_t StageWriter::write_block(const TriangleBatch& batch, std::size_t begin, std::size_t end) {
+  const std::size_t max_length = format_.shortest ? kMaxShortestColumnsLength
+                                 : columns_.any() ? kMaxFixedColumnsLength
+                                                  : kMaxFixedTriangleLength;
   char* const out = text_.reserve((end - begin) * max_length + kFixedTextSlack);
   const ConstFixedColumns columns =
       fixed_columns(batch.triangles, batch.attributes, columns_, begin, end - begin);
-  const FixedTextPart part = columns_.any() ? kernel.write_columns(columns, format_.decimals, out)
-                                            : kernel.write(columns.groups[0], format_.decimals, out);
-  text_.commit(out + part.length);
-  if (part.triangle_count > 0) next_number_ = batch.numbers[begin + part.triangle_count - 1] + 1;
-  return part.triangle_count;
+  std::size_t count = end - begin;
+  if (format_.shortest) {
+    text_.commit(write_shortest_columns(columns, out));
+  } else {
+    const FixedTextKernel& kernel = fixed_text_kernel();
+    const FixedTextPart part = columns_.any() ? kernel.write_columns(columns, format_.decimals, out)
+                                              : kernel.write(columns.groups[0], format_.decimals, out);
+    text_.commit(out + part.length);
+    count = part.triangle_count;
+  }
+  if (count > 0) next_number_ = batch.numbers[begin + count - 1] + 1;
+  return count;
 }
 
 void StageWriter::write_triangle(const TriangleBatch& batch, std::size_t index) {
@@ -164,7 +173,7 @@ void StageWriter::write_triangle(const TriangleBatch& batch, std::size_t index) 
     last_unclipped_ = batch.unclipped[index];
   }
   const Triangle low_part = batch.low_parts.empty() ? Triangle{} : batch.low_parts[index];
-  if (may_be_fixed() && low_part == Triangle{} && write_fixed_form(batch, index, index + 1) == 1) return;
+  if (has_fast_path() && low_part == Triangle{} && write_block(batch, index, index + 1) == 1) return;
   char* out = text_.reserve(kMaxTriangleLength);
   for (std::size_t v = 0; v < 3; ++v) {
     out = print_vertex(out, batch.triangles[index][v], low_part[v]);

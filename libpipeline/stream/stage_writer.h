@@ -28,8 +28,8 @@ class StageWriter {
   void write_number(std::uint64_t number);
   void note_sizes(const TriangleBatch& batch);
   [[nodiscard]] std::size_t end_of_numbered_run(const TriangleBatch& batch, std::size_t begin) const;
-  [[nodiscard]] bool may_be_fixed() const;
-  std::size_t write_fixed_form(const TriangleBatch& batch, std::size_t begin, std::size_t end);
+  [[nodiscard]] bool has_fast_path() const;
+  std::size_t write_block(const TriangleBatch& batch, std::size_t begin, std::size_t end);
   void write_triangle(const TriangleBatch& batch, std::size_t index);
   void write_clipped(const ClipTriangle& unclipped);
   char* print_vertex(char* out, const Vec3& vertex, const Vec3& low_part);

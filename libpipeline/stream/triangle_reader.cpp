@@ -55,7 +55,7 @@ TriangleReader::TriangleReader(TextReader& text, const AttributeSet& attributes,
     : text_(text), vertex_line_(attributes), marks_decimals_(marks_decimals) {}
 
 bool TriangleReader::read_buffered(TriangleBatch& batch) {
-  return read_fixed_form(batch) || read_decimal_form(batch);
+  return read_fixed_form(batch) || read_decimal_form(batch) || read_decimal_lines(batch);
 }
 
 /// Takes buffered triangles as long as they have the fixed form; false if the next has another form, or is
@@ -88,9 +88,23 @@ void TriangleReader::consume_fixed_form(std::size_t length, int decimals, Triang
   }
 }
 
-/// Takes some of the buffered triangles, as long as their lines hold numbers without exponent and nothing
-/// else; false if the next does not. After a few, the faster form is worth another try.
+/// Takes some of the buffered triangles, as long as they have the form of decimal_columns.h; false if the
+/// next does not. After a few, the faster form is worth another try.
 bool TriangleReader::read_decimal_form(TriangleBatch& batch) {
+  std::array<DecimalMarks, 24> marks;
+  const std::size_t old_size = batch.size();
+  const std::size_t limit = std::min(kBatchSize - std::min(kBatchSize, old_size), marks.size());
+  const FixedTextPart part =
+      vertex_line_.read_decimals(text_.buffered(), TriangleFrame::stage_text, std::span(marks).first(limit),
+                                 batch.triangles, batch.attributes);
+  consume_fixed_form(part.length, 0, batch);
+  if (marks_decimals_)
+    std::copy_n(marks.begin(), part.triangle_count, batch.decimal_marks.begin() + old_size);
+  return part.triangle_count > 0;
+}
+
+/// The same for lines that hold such numbers and any blanks.
+bool TriangleReader::read_decimal_lines(TriangleBatch& batch) {
   constexpr std::size_t kMaxAtOnce = 32;
   const std::size_t limit = std::min(kBatchSize, batch.size() + kMaxAtOnce);
   const std::size_t old_size = batch.size();

@@ -9,7 +9,7 @@
 
 namespace pipeline {
 
-/// Reads the triangles of a stage text's body and counts them. Two fast paths read nearly all text, as long
+/// Reads the triangles of a stage text's body and counts them. Three fast paths read nearly all text, as long
 /// as a triangle is completely buffered; the general path reads any triangle, line by line.
 class TriangleReader {
  public:
@@ -25,7 +25,7 @@ class TriangleReader {
   /// Adds some of the buffered triangles, as long as they hold numbers without exponent and nothing else and
   /// the batch has fewer than kBatchSize; false if there is no such triangle.
   bool read_buffered(TriangleBatch& batch);
-  /// Consumes the next `length` characters, which are triangles in fixed form with that many decimals that
+  /// Consumes the next `length` characters, which are triangles of four lines with that many decimals that
   /// were added to the batch's `triangles` and attributes alone, and completes the batch.
   void consume_fixed_form(std::size_t length, int decimals, TriangleBatch& batch);
   /// Takes the line `triangle N` before a triangle. An InputError at the word that is wrong.
@@ -36,6 +36,7 @@ class TriangleReader {
  private:
   bool read_fixed_form(TriangleBatch& batch);
   bool read_decimal_form(TriangleBatch& batch);
+  bool read_decimal_lines(TriangleBatch& batch);
   bool read_decimal_triangle(TriangleBatch& batch);
 
   TextReader& text_;

@@ -91,8 +91,20 @@ bool is_digit(char c) {
   return c >= '0' && c <= '9';
 }
 
-/// Continues after eight decimals; null if there are too many digits.
-const char* read_more_decimals(const char* p, std::uint64_t& digits, int& decimals) {
+/// Continues after eight decimals; null if there are too many digits. `digit_count` is that of `digits`.
+const char* read_more_decimals(const char* p, std::uint64_t& digits, int digit_count, int& decimals) {
+  // Nearly all have at most nine more, and at most 19 digits, which fit in 64 bits.
+  std::uint64_t next = 0;
+  const int next_count = read_digits(p, next);
+  // Without a jump: whether there is a ninth is unpredictable.
+  const auto ninth = static_cast<unsigned>(p[next_count]) - '0';
+  const bool has_ninth = ninth <= 9;
+  if (digit_count + next_count < 19 && !(has_ninth && is_digit(p[9]))) {
+    digits = digits * kWholePowersOfTen[static_cast<std::size_t>(next_count)] + next;
+    digits = digits * (has_ninth ? 10 : 1) + (has_ninth ? ninth : 0);
+    decimals += next_count + (has_ninth ? 1 : 0);
+    return p + next_count + (has_ninth ? 1 : 0);
+  }
   for (int count = 8; count == 8 && decimals < kMaxDecimals;) {
     std::uint64_t behind = 0;
     count = read_digits(p, behind);
@@ -127,7 +139,7 @@ const char* read_decimal_number(const char* p, DecimalNumber& number) {
     magnitude = static_cast<double>(static_cast<std::int64_t>(digits)) /
                 kPowersOfTen[static_cast<std::size_t>(decimals)];
   } else {
-    p = read_more_decimals(p, digits, decimals);
+    p = read_more_decimals(p, digits, whole_count + decimals, decimals);
     if (p == nullptr || !divide_by_power_of_ten(digits, decimals, magnitude)) return nullptr;
   }
   number = {std::bit_cast<double>(std::bit_cast<std::uint64_t>(magnitude) | sign), decimals};

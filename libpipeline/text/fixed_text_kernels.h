@@ -42,9 +42,27 @@ inline const char* read_w(const char* p, char separator, double& w) {
   return p != nullptr && *p == separator ? p + 1 : nullptr;
 }
 
+/// Reads up to `limit` triangles, as long as `read_line(p, triangle, vertex)` reads their lines: it returns
+/// the beginning of the next line, or null if the form differs.
+template <typename ReadLine>
+FixedTextPart read_by_lines(std::string_view text, TriangleFrame frame, std::size_t limit,
+                            const ReadLine& read_line) {
+  const char* const end = text.data() + text.size();
+  FixedTextPart part;
+  for (std::size_t i = 0; i < limit && part.length < text.size(); ++i) {
+    const char* p = vertex_lines(text.data() + part.length, frame);
+    for (std::size_t vertex = 0; vertex < 3 && p != nullptr; ++vertex)
+      p = p < end ? read_line(p, i, vertex) : nullptr;
+    if (p == nullptr || (p = triangle_end(p, frame)) == nullptr || p > end) break;
+    ++part.triangle_count;
+    part.length = static_cast<std::size_t>(p - text.data());
+  }
+  return part;
+}
+
 /// Prints w and a blank.
 inline char* write_w(char* out, double w) {
-  out = print_number(out, w, 0, kShortest);
+  out = print_shortest(out, w);
   *out = ' ';
   return out + 1;
 }

@@ -116,17 +116,10 @@ FixedTextPart read_columns(std::string_view text, TriangleFrame frame, const Gro
                            const FixedColumns& columns) {
   const auto form = [&](std::size_t group) { return ReadForm(static_cast<std::size_t>(decimals[group])); };
   const ReadForms forms = {form(0), form(1), form(2)};
-  const char* const end = text.data() + text.size();
-  FixedTextPart part;
-  for (std::size_t i = 0; i < columns.triangle_count() && part.length < text.size(); ++i) {
-    const char* p = vertex_lines(text.data() + part.length, frame);
-    for (std::size_t vertex = 0; vertex < 3 && p != nullptr; ++vertex)
-      p = p < end ? read_line(p, forms, columns, i, vertex) : nullptr;
-    if (p == nullptr || (p = triangle_end(p, frame)) == nullptr || p > end) break;
-    ++part.triangle_count;
-    part.length = static_cast<std::size_t>(p - text.data());
-  }
-  return part;
+  return read_by_lines(text, frame, columns.triangle_count(),
+                       [&](const char* p, std::size_t triangle, std::size_t vertex) {
+                         return read_line(p, forms, columns, triangle, vertex);
+                       });
 }
 
 // ---- printing ----

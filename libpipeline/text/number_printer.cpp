@@ -37,13 +37,18 @@ char* print_whole(char* out, std::uint64_t number) {
 
 /// Prints a number below 10^16 with exactly `count` digits, at most 16 and at least as many as it has; 16
 /// characters may be written.
-char* print_digits(char* out, std::uint64_t number, int count) {
-  const auto [first, last] = split_sixteen(number);
-  UInt128 text = (static_cast<UInt128>(last + kEightZeros) << 64) | (first + kEightZeros);
+char* print_digits(char* out, SixteenDigits digits, int count) {
+  UInt128 text = (static_cast<UInt128>(digits.last + kEightZeros) << 64) | (digits.first + kEightZeros);
   text >>= 8 * (16 - count);
   store_eight(out, static_cast<std::uint64_t>(text));
   store_eight(out + 8, static_cast<std::uint64_t>(text >> 64));
   return out + count;
+}
+
+/// The count of zeros at the end; 16 if all are.
+int trailing_zero_count(SixteenDigits digits) {
+  const int count = std::countl_zero(digits.last) / 8;
+  return count < 8 ? count : 8 + std::countl_zero(digits.first) / 8;
 }
 
 /// Prints the digits before the point; most numbers have one.
@@ -82,17 +87,32 @@ char* print_decimals(char* out, double value, const Decimal& decimal) {
   const std::uint64_t high = behind / kSixteenDigits;
   const int high_count = std::max(-decimal.exponent - 16, 0);
   store_eight(out, kEightZeros + (high << (8 * high_count) >> 8));
-  return print_digits(out + high_count, behind - high * kSixteenDigits, std::min(-decimal.exponent, 16));
+  const SixteenDigits digits = split_sixteen(behind - high * kSixteenDigits);
+  const char* const end = print_digits(out + high_count, digits, std::min(-decimal.exponent, 16));
+  return out + (end - out) - trailing_zero_count(digits);
 }
 
-/// Prints the shortest form that reads back to the number; null if that has an exponent, or the number's
-/// magnitude is unusual for a coordinate.
-char* print_shortest(char* out, double value) {
-  Decimal decimal;
-  if (!shortest_decimal(std::fabs(value), decimal)) return nullptr;
+/// Prints a number from 0.001 to 10^5 that has at most seven decimals; null for any other. Its decimal has at
+/// most twelve digits. No other decimal of at most 15 reads back to the same double, so this is the shortest.
+char* print_few_decimals(char* out, double value) {
+  constexpr std::uint64_t kScale = 10'000'000;
+  const DecimalUnits units(value, kScale);
+  if (units.whole / kScale != std::fabs(value)) return nullptr;
+  const auto all = static_cast<std::uint64_t>(units.whole);
+  const std::uint64_t whole = all / kScale;
+  out = print_before_point(print_sign(out, value < 0), whole);
+  *out = '.';
+  const std::uint64_t digits = split_digits(static_cast<std::uint32_t>(all - whole * kScale)) >> 8;
+  store_eight(out + 1, digits + kEightZeros);
+  const int count = 8 - std::countl_zero(digits) / 8;
+  return out + (count > 0 ? 1 + count : 0);
+}
+
+/// Prints the shortest form of a number from 2^-40 to 2^53 that may be shorter with an exponent; null if it
+/// is.
+char* print_with_decimals(char* out, double value, Decimal decimal) {
+  drop_trailing_zeros(decimal);
   const auto& [digits, exponent] = decimal;
-  // From 0.001 on, zeros after the point are shorter than an exponent.
-  if (exponent < 0 && std::fabs(value) >= 0.001) return print_decimals(out, value, decimal);
   // Written out, it must not be longer than in scientific notation, "d.ddde+10".
   const int length = digit_count(digits);
   const int point_length = length > 1 ? 1 : 0;
@@ -128,15 +148,25 @@ char* print_scaled(char* out, double value, int decimals) {
   out = print_before_point(out, whole);
   if (decimals == 0) return out;
   *out++ = '.';
-  return print_digits(out, behind, decimals);
+  return print_digits(out, split_sixteen(behind), decimals);
+}
+
+char* print_shortest(char* out, double value) {
+  Decimal decimal;
+  const double size = std::fabs(value);
+  // In this range an exponent never saves a character.
+  if (size >= 0.001 && size < 1e5) {
+    if (char* const end = print_few_decimals(out, value)) return end;
+    if (shortest_decimal(size, decimal)) return print_decimals(out, value, decimal);
+  }
+  if (shortest_decimal(size, decimal))
+    if (char* const end = print_with_decimals(out, value, decimal)) return end;
+  return std::to_chars(out, out + kMaxNumberLength, value == 0 ? 0.0 : value).ptr;
 }
 
 char* print_number(char* out, double hi, double lo, NumberFormat format) {
   assert(std::isfinite(hi) && std::isfinite(lo));
-  if (format.shortest) {
-    char* const end = print_shortest(out, hi);
-    return end != nullptr ? end : std::to_chars(out, out + kMaxNumberLength, hi == 0 ? 0.0 : hi).ptr;
-  }
+  if (format.shortest) return print_shortest(out, hi);
   if (lo == 0 && format.decimals <= kMaxScaledDecimals)
     if (char* const end = print_scaled(out, hi, format.decimals)) return end;
   char* const end =

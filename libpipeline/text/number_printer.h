@@ -24,6 +24,9 @@ constexpr std::size_t kMaxNumberLength = 1 + 309 + 1 + kMaxDecimals;
 /// the shortest form uses hi alone. `out` must have room for kMaxNumberLength characters.
 char* print_number(char* out, double hi, double lo, NumberFormat format);
 
+/// The same in the shortest form.
+char* print_shortest(char* out, double value);
+
 constexpr int kMaxScaledDecimals = 15;
 
 /// The fast path of print_number for a fixed count of decimals, at most kMaxScaledDecimals: prints the scaled

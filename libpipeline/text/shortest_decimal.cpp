@@ -52,34 +52,52 @@ std::uint64_t rounded_to_odd(const PowerOfTen& power, std::uint64_t factor) {
   return static_cast<std::uint64_t>(high >> 64) | (is_inexact ? 1 : 0);
 }
 
-void drop_trailing_zeros(Decimal& decimal) {
-  constexpr std::uint64_t kEightZeros = 100'000'000;
-  if (decimal.digits % 10 != 0) return;
-  if (decimal.digits % kEightZeros == 0) {
-    decimal.digits /= kEightZeros;
-    decimal.exponent += 8;
-  }
-  while (decimal.digits % 10 == 0) {
-    decimal.digits /= 10;
-    ++decimal.exponent;
-  }
+/// A double taken apart: significand * 2^exponent = significand * 2^shift * power, in multiples of 10^k.
+struct ScaledDouble {
+  std::uint64_t significand;
+  const PowerOfTen& power;
+  int k;
+  int shift;
+
+  ScaledDouble(std::uint64_t whole_significand, int exponent, bool of_three_quarters)
+      : significand(whole_significand),
+        power(kPowersOfTen[static_cast<std::size_t>(-floor_log10(exponent, of_three_quarters))]),
+        k(floor_log10(exponent, of_three_quarters)),
+        shift(exponent + power.log2 + 1) {}
+};
+
+/// Decides by one product whose fraction has 64 bits, instead of three. False where that is too close to one
+/// of the borders.
+bool decide_by_fraction(const ScaledDouble& value, Decimal& decimal) {
+  const std::uint64_t factor = value.significand << value.shift;
+  const UInt128 low = static_cast<UInt128>(value.power.low) * factor;
+  const UInt128 product = static_cast<UInt128>(value.power.high) * factor + (low >> 64);
+  const auto units = static_cast<std::uint64_t>(product >> 64);
+  const auto fraction = static_cast<std::uint64_t>(product);
+  // In parts of 2^-60: the distances from the multiple of ten below and the one above, and half the gap
+  // between two doubles, which is from 1/2 to 5.
+  const std::uint64_t last_digit = units % 10;
+  const std::uint64_t from_below = (last_digit << 60) + (fraction >> 4);
+  const std::uint64_t from_above = (std::uint64_t{10} << 60) - from_below;
+  const std::uint64_t half_gap = value.power.high >> (5 - value.shift);
+  // Each of them is off by less than four parts.
+  constexpr std::uint64_t kMargin = 16;
+  constexpr std::uint64_t kHalf = std::uint64_t{1} << 63;
+  const auto is_near = [](std::uint64_t a, std::uint64_t b) { return a - b + kMargin <= 2 * kMargin; };
+  if (is_near(from_below, half_gap) | is_near(from_above, half_gap) | is_near(fraction, kHalf)) return false;
+  // Branch-free: whether a digit can be saved is unpredictable.
+  const bool is_ten_below = from_below < half_gap;
+  const bool is_ten_above = from_above < half_gap;
+  const std::uint64_t shorter = units - last_digit + (is_ten_above ? 10 : 0);
+  const std::uint64_t nearest = units + (fraction >> 63);
+  decimal = {is_ten_below | is_ten_above ? shorter : nearest, value.k};
+  return true;
 }
 
-}  // namespace
-
-bool shortest_decimal(double value, Decimal& decimal) {
-  if (!(value >= 0x1p-40 && value < 0x1p53)) return false;
-  const auto bits = std::bit_cast<std::uint64_t>(value);
-  constexpr std::uint64_t kHiddenBit = std::uint64_t{1} << 52;
-  const std::uint64_t fraction = bits & (kHiddenBit - 1);
-  const std::uint64_t significand = fraction | kHiddenBit;
-  const int exponent = static_cast<int>(bits >> 52) - 1075;
-  static_assert(floor_log10(kMinExponent, true) == -kMaxPower && floor_log10(kMaxExponent, false) == 0);
-  // Below a power of two, the next smaller double is only half as far away.
-  const bool is_lower_gap_halved = fraction == 0;
-  const int k = floor_log10(exponent, is_lower_gap_halved);
-  const PowerOfTen& power = kPowersOfTen[static_cast<std::size_t>(-k)];
-  const int shift = exponent + power.log2 + 1;
+/// Decides by the ends of the interval of numbers that round to this double.
+[[gnu::noinline]] void decide_by_interval(const ScaledDouble& value, bool is_lower_gap_halved,
+                                          Decimal& decimal) {
+  const auto& [significand, power, k, shift] = value;
   // Four times the value and four times the ends of its rounding interval, in multiples of 10^k.
   const std::uint64_t center = rounded_to_odd(power, 4 * significand << shift);
   const std::uint64_t left =
@@ -105,7 +123,36 @@ bool shortest_decimal(double value, Decimal& decimal) {
   const bool is_shorter = tens_below != tens_above;
   decimal.digits = longer + (shorter - longer) * (is_shorter ? 1 : 0);
   decimal.exponent = k + (is_shorter ? 1 : 0);
-  drop_trailing_zeros(decimal);
+}
+
+}  // namespace
+
+void drop_trailing_zeros(Decimal& decimal) {
+  constexpr std::uint64_t kEightZeros = 100'000'000;
+  if (decimal.digits % 10 != 0) return;
+  if (decimal.digits % kEightZeros == 0) {
+    decimal.digits /= kEightZeros;
+    decimal.exponent += 8;
+  }
+  while (decimal.digits % 10 == 0) {
+    decimal.digits /= 10;
+    ++decimal.exponent;
+  }
+}
+
+bool shortest_decimal(double value, Decimal& decimal) {
+  if (!(value >= 0x1p-40 && value < 0x1p53)) return false;
+  const auto bits = std::bit_cast<std::uint64_t>(value);
+  constexpr std::uint64_t kHiddenBit = std::uint64_t{1} << 52;
+  const std::uint64_t fraction = bits & (kHiddenBit - 1);
+  const std::uint64_t significand = fraction | kHiddenBit;
+  const int exponent = static_cast<int>(bits >> 52) - 1075;
+  static_assert(floor_log10(kMinExponent, true) == -kMaxPower && floor_log10(kMaxExponent, false) == 0);
+  // Below a power of two, the next smaller double is only half as far away.
+  const bool is_lower_gap_halved = fraction == 0;
+  const ScaledDouble scaled(significand, exponent, is_lower_gap_halved);
+  if (!is_lower_gap_halved && decide_by_fraction(scaled, decimal)) return true;
+  decide_by_interval(scaled, is_lower_gap_halved, decimal);
   return true;
 }
 

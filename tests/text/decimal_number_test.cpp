@@ -101,6 +101,29 @@ TEST(DecimalNumber, TiesAreRoundedLikeAnyOther) {
   }
 }
 
+TEST(DecimalNumber, HasAnyCountOfDigits) {
+  RandomNumbers random(5);
+  for (int whole = 1; whole <= 9; ++whole)
+    for (int decimals = 0; decimals <= 25; ++decimals) {
+      int read_count = 0;
+      for (int i = 0; i < 300; ++i) {
+        std::string text;
+        // Zeros at the beginning, or none.
+        const int zero_count = i % 3 == 0 ? random.whole(0, whole + decimals) : 0;
+        for (int n = 0; n < whole + decimals; ++n) {
+          if (n == whole) text += '.';
+          text += static_cast<char>('0' + (n < zero_count ? 0 : random.whole(0, 9)));
+        }
+        bool was_read = false;
+        ASSERT_TRUE(is_right(text, was_read)) << text;
+        read_count += was_read ? 1 : 0;
+      }
+      if (whole <= 8 && whole + decimals <= 19) {
+        EXPECT_GT(read_count, 290) << whole << " " << decimals;
+      }
+    }
+}
+
 // Long: every count of digits before and after the point, 10^8 numbers.
 TEST(DecimalNumberLong, ReadsWhatFromCharsReads) {
   RandomNumbers random(3);

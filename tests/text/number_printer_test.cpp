@@ -142,6 +142,34 @@ TEST(PrintNumber, ShortestNumbersAreThoseOfToCharsNearPowersOfTen) {
     }
 }
 
+// Of 1 to 17 digits, the doubles beside them, and numbers whose decimal ends in a 5 or at the border of those
+// that read back, where one product does not decide.
+TEST(PrintNumber, ShortestNumbersAreThoseOfToCharsForAnyCountOfDigits) {
+  RandomNumbers random(7);
+  for (int i = 0; i < 300'000; ++i) {
+    const double digits = std::nearbyint(random.with_exponent(0, 52));
+    const double decimal = digits / std::pow(10.0, random.whole(0, 18));
+    for (const double value : {decimal, std::nextafter(decimal, HUGE_VAL), std::nextafter(decimal, -HUGE_VAL),
+                               std::ldexp(std::nearbyint(random.with_exponent(0, 54)), -random.whole(0, 60))})
+      ASSERT_TRUE(is_shortest(value) || value == 0) << std::hexfloat << value;
+  }
+}
+
+TEST(PrintNumber, ShortestNumbersAreThoseOfToCharsWhereTheFormChanges) {
+  for (const double border :
+       {0.001, 0.01, 1e4, 1e5, 1e6, 0.0001, 1e15, 1e16, 0x1p53, 0x1p-40, 9999999.5, 0.1234567}) {
+    double below = border;
+    double above = border;
+    for (int i = 0; i < 1000; ++i) {
+      for (const double value : {below, -below, above, -above}) ASSERT_TRUE(is_shortest(value)) << value;
+      below = std::nextafter(below, 0);
+      above = std::nextafter(above, HUGE_VAL);
+    }
+  }
+  for (int i = 1; i <= 200'000; ++i)
+    ASSERT_TRUE(is_shortest(i) && is_shortest(i * 1e-7) && is_shortest(i / 128.0)) << i;
+}
+
 // Numbers with many digits and with few, of every magnitude of coordinates.
 TEST(PrintNumberLong, ShortestNumbersAreThoseOfToChars) {
   RandomNumbers random(6);

@@ -1,0 +1,172 @@
+#include "libpipeline/text/decimal_columns.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <bit>
+#include <charconv>
+#include <string>
+#include <vector>
+
+#include "tests/numbers/random_numbers.h"
+
+namespace pipeline {
+namespace {
+
+/// Room for the numbers of triangles with so many groups of columns.
+struct Columns {
+  std::array<std::vector<Triangle>, 3> groups;
+  std::vector<std::array<double, 3>> w;
+  std::vector<DecimalMarks> marks;
+
+  Columns(std::size_t group_count, bool has_w, std::size_t triangle_count) : marks(triangle_count) {
+    for (std::size_t group = 0; group < group_count; ++group) groups[group].resize(triangle_count);
+    if (has_w) w.resize(triangle_count);
+  }
+  /// Calls `visit(number)` for every number of a triangle, in the order of the text; then `end_line()`.
+  template <typename Visit, typename EndLine>
+  void for_each_number(std::size_t triangle, const Visit& visit, const EndLine& end_line) {
+    for (std::size_t vertex = 0; vertex < 3; ++vertex) {
+      for (auto& group : groups) {
+        if (group.empty()) continue;
+        for (double Vec3::*const axis : {&Vec3::x, &Vec3::y, &Vec3::z}) visit(group[triangle][vertex].*axis);
+        if (&group == &groups[0] && !w.empty()) visit(w[triangle][vertex]);
+      }
+      end_line();
+    }
+  }
+};
+
+FixedTextPart read(const std::string& text, Columns& columns,
+                   TriangleFrame frame = TriangleFrame::stage_text) {
+  const std::string with_slack = text + std::string(kFixedTextSlack, '7');
+  return read_decimal_columns({with_slack.data(), text.size()}, frame,
+                              {{columns.groups[0], columns.groups[1], columns.groups[2]}, columns.w},
+                              columns.marks);
+}
+
+std::string written(Columns& columns) {
+  const std::size_t count = columns.groups[0].size();
+  std::string out(count * kMaxShortestColumnsLength + kFixedTextSlack, '\0');
+  const ConstFixedColumns numbers = {{columns.groups[0], columns.groups[1], columns.groups[2]}, columns.w};
+  out.resize(static_cast<std::size_t>(write_shortest_columns(numbers, out.data()) - out.data()));
+  return out;
+}
+
+std::string shortest(double value) {
+  std::array<char, 40> text;
+  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value == 0 ? 0.0 : value).ptr};
+}
+
+/// A decimal of up to 17 digits without an exponent, as programs print them.
+std::string random_word(RandomNumbers& random) {
+  std::array<char, 60> text;
+  const double value = random.with_exponent(-8, 20);
+  char* const end = text.data() + text.size();
+  const int kind = random.whole(0, 3);
+  const auto printed =
+      kind == 0 ? std::to_chars(text.data(), end, value, std::chars_format::fixed, random.whole(0, 12))
+                : std::to_chars(text.data(), end, value, std::chars_format::fixed);
+  return {text.data(), printed.ptr};
+}
+
+TEST(DecimalColumns, AreReadAsTheGeneralReaderDoes) {
+  RandomNumbers random(1);
+  int read_count = 0;
+  for (int i = 0; i < 20'000; ++i) {
+    const auto frame = i % 2 == 0 ? TriangleFrame::stage_text : TriangleFrame::scene;
+    Columns expected(1 + static_cast<std::size_t>(random.whole(0, 2)), random.whole(0, 1) == 0, 1);
+    std::string lines;
+    std::vector<int> decimals;
+    expected.for_each_number(
+        0,
+        [&](double& number) {
+          const std::string word = random_word(random);
+          std::from_chars(word.data(), word.data() + word.size(), number);
+          const std::size_t point = word.find('.');
+          decimals.push_back(point == std::string::npos ? 0 : static_cast<int>(word.size() - point - 1));
+          lines += word + " ";
+        },
+        [&] { lines.back() = '\n'; });
+    const std::string text = frame == TriangleFrame::scene ? "triangle\n" + lines : lines + "\n";
+    Columns columns(1, !expected.w.empty(), 1);
+    for (std::size_t group = 1; group < 3; ++group)
+      columns.groups[group].resize(expected.groups[group].size());
+    const FixedTextPart part = read(text, columns, frame);
+    // Few numbers lie so close to the midpoint of two doubles that only the general reader has them.
+    if (part.triangle_count == 0) continue;
+    ++read_count;
+    ASSERT_EQ(part.length, text.size()) << text;
+    for (std::size_t group = 0; group < 3; ++group)
+      ASSERT_EQ(columns.groups[group], expected.groups[group]) << text;
+    ASSERT_EQ(columns.w, expected.w) << text;
+    const std::size_t line_length = decimals.size() / 3;
+    for (std::size_t k = 0; k < 9; ++k)
+      ASSERT_EQ((columns.marks[0] >> k & 1) == 1, decimals[k / 3 * line_length + k % 3] <= 7) << text << k;
+  }
+  EXPECT_GT(read_count, 19'900);
+}
+
+const std::string kLine = "1.5 -2 0.123456789 0.25 255 0 9.5\n";
+
+TEST(DecimalColumns, AreReadAsWholeTrianglesAlone) {
+  for (const auto frame : {TriangleFrame::stage_text, TriangleFrame::scene}) {
+    const std::string lines = kLine + kLine + kLine;
+    const std::string triangle = frame == TriangleFrame::scene ? "triangle\n" + lines : lines + "\n";
+    for (std::size_t length = 0; length < triangle.size(); ++length) {
+      Columns columns(2, true, 3);
+      const FixedTextPart part = read(triangle + triangle.substr(0, length), columns, frame);
+      ASSERT_EQ(part.triangle_count, 1u) << length;
+      ASSERT_EQ(part.length, triangle.size()) << length;
+    }
+    Columns columns(2, true, 2);
+    EXPECT_EQ(read(triangle + triangle + triangle, columns, frame).triangle_count, 2u);
+  }
+}
+
+TEST(DecimalColumns, OfAnyOtherFormAreLeft) {
+  for (const std::string line :
+       {"1.5 -2 0.1 0.25 255 0\n", "1.5 -2 0.1 0.25 255 0 9.5 1\n", "1.5  -2 0.1 0.25 255 0 9.5\n",
+        " 1.5 -2 0.1 0.25 255 0 9.5\n", "1.5 -2 0.1 0.25 255 0 9.5 \n", "1.5 -2 0.1 0.25 255 0 9.5\r\n",
+        "1.5 -2 0.1 0.25 255 0 9.5 # so\n", "1.5 -2 0.1 1e3 255 0 9.5\n", "1.5 -2 0.1 0.25 255 0 1e3\n",
+        "1.5 -2 0.1 0.25 255 0 nan\n", "1.5 -2 0.1\t0.25 255 0 9.5\n", "1.5 -2 0.1 0.25 255 0 -\n", "\n"}) {
+    Columns columns(2, true, 1);
+    EXPECT_EQ(read(kLine + line + kLine + "\n", columns).triangle_count, 0u) << line;
+  }
+}
+
+TEST(DecimalColumns, ArePrintedInTheShortestFormOfToChars) {
+  RandomNumbers random(2);
+  for (int i = 0; i < 5'000; ++i) {
+    Columns columns(1 + static_cast<std::size_t>(random.whole(0, 2)), random.whole(0, 1) == 0, 2);
+    std::string expected;
+    for (std::size_t triangle = 0; triangle < 2; ++triangle) {
+      columns.for_each_number(
+          triangle,
+          [&](double& number) {
+            number = random.whole(0, 9) == 0 ? random.any_double() : random.with_exponent(-20, 20);
+            expected += shortest(number) + " ";
+          },
+          [&] { expected.back() = '\n'; });
+      expected += '\n';
+    }
+    ASSERT_EQ(written(columns), expected);
+  }
+}
+
+TEST(DecimalColumns, HaveRoomForTheLongestNumbers) {
+  Columns columns(3, true, 1);
+  std::string expected;
+  columns.for_each_number(
+      0,
+      [&](double& number) {
+        number = -2.2250738585072014e-308;
+        expected += "-2.2250738585072014e-308 ";
+      },
+      [&] { expected.back() = '\n'; });
+  EXPECT_EQ(written(columns), expected + "\n");
+  EXPECT_LE(expected.size() + 1, kMaxShortestColumnsLength);
+}
+
+}  // namespace
+}  // namespace pipeline
