@@ -227,38 +227,43 @@ PIPELINE_LOOP void project_in_doubles(const ProjectionCoefficients& m, double sc
   }
 }
 
-/// (scale p + offset q) / w: the numerator as in image_in_pairs, the quotient with one correction.
+/// (scale p + offset q) / w along one axis: the numerator as in image_in_pairs, the quotient with one
+/// correction. With a shift, q is z, else 1: a choice within the loop would keep it from being vectorized.
+template <RoundingTestKind kind, typename ProductError, bool is_perspective, bool has_shift>
+PIPELINE_LOOP void project_axis_in_pairs(const ProjectionCoefficients& m, std::size_t axis, double scale,
+                                         const VertexBlock& p, ImageBlock& p_ndc) {
+  const std::size_t count = p.count;
+  const Coefficient a = m.scales[axis];
+  const Coefficient b = m.offsets[axis];
+  for (std::size_t i = 0; i < count; ++i) {
+    const double z = p.p[2][i];
+    const double w = is_perspective ? -z : 1;
+    const double q = has_shift ? z : 1;
+    const double v = p.p[axis][i];
+    const DoubleDouble scaled = product<ProductError>(a.pair, {v, 0});
+    const DoubleDouble shift = product<ProductError>(b.pair, {q, 0});
+    const DoubleDouble sum = two_sum(scaled.hi, shift.hi);
+    const DoubleDouble numerator = two_sum(sum.hi, sum.lo + (scaled.lo + shift.lo));
+    const double quotient = numerator.hi / w;
+    const double back = quotient * w;
+    const double remainder = ((numerator.hi - back) - ProductError::of(quotient, w, back)) + numerator.lo;
+    const DoubleDouble result = two_sum(quotient, remainder / w);
+    const double v_size = std::fabs(v);
+    const double q_size = std::fabs(q);
+    const double error = (a.pair_error * v_size + b.pair_error * q_size) / w;
+    const bool is_zero = a.is_nonzero * v_size + b.is_nonzero * q_size == 0;
+    const PairEstimate e = {result.hi, result.lo, error, is_zero};
+    p_ndc.passes_rounding_test[i] &=
+        mask(passes_rounding_test<kind, ProductError>(e, scale, p_ndc.p[axis][i])) & mask(is_safe_divisor(w));
+  }
+}
+
 template <RoundingTestKind kind, typename ProductError, bool is_perspective>
 PIPELINE_LOOP void project_in_pairs(const ProjectionCoefficients& m, double scale, const VertexBlock& p,
                                     ImageBlock& p_ndc) {
-  const std::size_t count = p.count;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const Coefficient a = m.scales[axis];
-    const Coefficient b = m.offsets[axis];
-    const bool has_shift = is_perspective && axis < 2;
-    for (std::size_t i = 0; i < count; ++i) {
-      const double z = p.p[2][i];
-      const double w = is_perspective ? -z : 1;
-      const double q = has_shift ? z : 1;
-      const double v = p.p[axis][i];
-      const DoubleDouble scaled = product<ProductError>(a.pair, {v, 0});
-      const DoubleDouble shift = product<ProductError>(b.pair, {q, 0});
-      const DoubleDouble sum = two_sum(scaled.hi, shift.hi);
-      const DoubleDouble numerator = two_sum(sum.hi, sum.lo + (scaled.lo + shift.lo));
-      const double quotient = numerator.hi / w;
-      const double back = quotient * w;
-      const double remainder = ((numerator.hi - back) - ProductError::of(quotient, w, back)) + numerator.lo;
-      const DoubleDouble result = two_sum(quotient, remainder / w);
-      const double v_size = std::fabs(v);
-      const double q_size = std::fabs(q);
-      const double error = (a.pair_error * v_size + b.pair_error * q_size) / w;
-      const bool is_zero = a.is_nonzero * v_size + b.is_nonzero * q_size == 0;
-      const PairEstimate e = {result.hi, result.lo, error, is_zero};
-      p_ndc.passes_rounding_test[i] &=
-          mask(passes_rounding_test<kind, ProductError>(e, scale, p_ndc.p[axis][i])) &
-          mask(is_safe_divisor(w));
-    }
-  }
+  for (std::size_t axis = 0; axis < 2; ++axis)
+    project_axis_in_pairs<kind, ProductError, is_perspective, is_perspective>(m, axis, scale, p, p_ndc);
+  project_axis_in_pairs<kind, ProductError, is_perspective, false>(m, 2, scale, p, p_ndc);
 }
 
 template <typename ProductError, bool is_perspective>
