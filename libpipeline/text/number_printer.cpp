@@ -10,8 +10,8 @@
 #include "libpipeline/numbers/decimal_units.h"
 #include "libpipeline/numbers/int128.h"
 #include "libpipeline/numbers/powers_of_ten.h"
+#include "libpipeline/numbers/shortest_decimal.h"
 #include "libpipeline/text/eight_digits.h"
-#include "libpipeline/text/shortest_decimal.h"
 #include "libpipeline/text/wide_decimal.h"
 
 namespace pipeline {

@@ -1,4 +1,4 @@
-#include "libpipeline/text/shortest_decimal.h"
+#include "libpipeline/numbers/shortest_decimal.h"
 
 #include <array>
 #include <bit>
