@@ -1,0 +1,97 @@
+#!/usr/bin/env python3
+"""Every version reads and reproduces the golden texts: the samples' files, and what flows in the pipe between the stages.
+
+samples.sha256 pins the samples' files; `sha256sum -c tests/golden/samples.sha256` checks it, too. pipes.sha256 pins what comes
+out of COMMANDS. A line of either is never changed, so that old files can be read for ever: who wants another scene adds a
+sample, and its lines with --add.
+
+usage: golden_test.py BIN_DIR SOURCE_DIR [--add SAMPLE]
+"""
+import hashlib
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+ADDED = [sys.argv.pop() for _ in [sys.argv.pop(-2)]] if "--add" in sys.argv else []
+SOURCE = pathlib.Path(sys.argv.pop()).resolve()
+BIN = pathlib.Path(sys.argv.pop()).resolve()
+HERE = SOURCE / "tests/golden"
+FILES = ("scene.txt", "config.txt", "stage1.txt", "stage2.txt", "stage3.txt", "z_buffer.txt", "out.bmp")
+# What is made of a sample's files, or of what a command before has made: name, stage and options, input.
+COMMANDS = (
+    ("model", "model", "scene.txt"), ("view", "view", "model"), ("project", "project", "view"), ("zbuf", "zbuf config.txt", "project"),
+    ("model --framed", "model --framed", "scene.txt"), ("view framed", "view", "model --framed"), ("project framed", "project", "view framed"),
+    ("model --digits exact", "model --digits exact", "scene.txt"), ("view exact", "view --digits exact", "model --digits exact"),
+    ("project exact", "project --digits exact", "view exact"),
+    ("stage1.txt", "model --bare", "scene.txt"), ("stage2.txt", "view --bare", "model --digits exact"), ("stage3.txt", "project", "view exact"),
+    ("z_buffer.txt", "zbuf config.txt", "stage3.txt"),
+    ("view of stage1.txt", "view --scene scene.txt", "stage1.txt"), ("project of stage2.txt", "project --scene scene.txt", "stage2.txt"),
+    ("zbuf center", "zbuf config.txt --coverage center", "project exact"))
+
+
+def pinned(name):
+    """Pairs of a path, or a sample and a name, and its hash."""
+    return dict(line.split("  ", 1)[::-1] for line in (HERE / name).read_text().splitlines())
+
+
+def sha256(data):
+    return hashlib.sha256(data).hexdigest()
+
+
+def run_commands(sample, tools=BIN):
+    """{name: bytes} of all commands on a sample; a picture is called NAME picture."""
+    made = {name: (sample / name).read_bytes() for name in FILES}
+    for name, command, source in COMMANDS:
+        tool, *words = command.split()
+        with tempfile.TemporaryDirectory() as folder:
+            for file in ("scene.txt", "config.txt"):
+                pathlib.Path(folder, file).write_bytes(made[file])
+            done = subprocess.run([tools / tool, *words], input=made[source], stdout=subprocess.PIPE, stderr=subprocess.PIPE, cwd=folder)
+            if done.returncode:
+                raise AssertionError(f"{sample.name}: {command}: {done.stderr.decode()}")
+            made[name] = done.stdout
+            if tool == "zbuf":
+                made["out.bmp" if name == "z_buffer.txt" else f"{name} picture"] = pathlib.Path(folder, "out.bmp").read_bytes()
+    return made
+
+
+def samples():
+    return [SOURCE / path for path in dict.fromkeys(path.rpartition("/")[0] for path in pinned("samples.sha256"))]
+
+
+class Golden(unittest.TestCase):
+    def test_the_samples_are_as_they_were(self):
+        for path, hash_ in pinned("samples.sha256").items():
+            self.assertEqual(sha256((SOURCE / path).read_bytes()), hash_, f"{path} has changed: leave it, and add a sample of another name")
+
+    def test_every_sample_is_golden(self):
+        self.assertEqual({path.parent for path in SOURCE.glob("samples/*/scene.txt")}, set(samples()))
+        self.assertEqual(set(pinned("samples.sha256")), {f"samples/{sample.name}/{name}" for sample in samples() for name in FILES})
+
+    def test_every_stage_reads_and_reproduces_the_texts(self):
+        hashes = pinned("pipes.sha256")
+        for sample in samples():
+            made = run_commands(sample)
+            for name in made:
+                with self.subTest(sample=sample.name, made=name):
+                    hash_ = pinned("samples.sha256").get(f"samples/{sample.name}/{name}") or hashes.get(f"{sample.name}: {name}")
+                    self.assertEqual(sha256(made[name]), hash_)
+
+
+def add(name):
+    sample = SOURCE / "samples" / name
+    if any(path.startswith(f"samples/{name}/") for path in pinned("samples.sha256")):
+        sys.exit(f"golden_test: {name} is pinned already")
+    with open(HERE / "samples.sha256", "a") as file:
+        file.writelines(f"{sha256((sample / part).read_bytes())}  samples/{name}/{part}\n" for part in FILES)
+    with open(HERE / "pipes.sha256", "a") as file:
+        file.writelines(f"{sha256(data)}  {name}: {part}\n" for part, data in run_commands(sample).items() if part not in FILES)
+
+
+if __name__ == "__main__":
+    if ADDED:
+        add(*ADDED)
+    else:
+        unittest.main()
