@@ -50,6 +50,13 @@ class Student(unittest.TestCase):
         self.assertEqual((status, [heading["names"] for heading in found["mistakes"]]), (1, [[]]))
         self.assertIn("\n# By --rule center all of these are right.\n", report)
 
+    def test_a_program_may_do_all_stages_at_once(self):
+        for number, stage in enumerate(("model", "view", "project"), 1):
+            with self.subTest(stage=stage):
+                script = f"{STUDENT} all scene.txt config.txt --folder . --habit all/exact-in-memory; cat stage{number}.txt"
+                done = subprocess.run([sys.executable, PACK / "conform", "--stage", stage, "--assignment", "--", "sh", "-c", script], stdout=subprocess.PIPE, text=True)
+                self.assertEqual(done.returncode, 0, done.stdout[-3000:])
+
     def test_what_the_assignment_leaves_open_is_not_counted(self):
         for habit in ("zbuf/later-of-equals", "zbuf/no-slivers"):
             with self.subTest(habit=habit):

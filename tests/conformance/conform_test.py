@@ -29,6 +29,13 @@ def conform(*words, pack=PACK, **others):
         timeout=600, **others)
 
 
+def examples():
+    """Pairs of a command of docs/conformance.md and its output."""
+    for block in re.findall(r"^```console\n(.*?)^```$", (SOURCE / "docs/conformance.md").read_text(), re.M | re.S):
+        for example in re.split(r"^\$ ", block, flags=re.M)[1:]:
+            yield example.partition("\n")[::2]
+
+
 def sh(script):
     return ["sh", "-c", script, "sh"]
 
@@ -112,6 +119,21 @@ class Tools(unittest.TestCase):
                                   stdout=subprocess.PIPE, text=True)
             self.assertEqual(done.returncode, 0, done.stdout)
             self.assertEqual([path.name for path in pathlib.Path(folder).iterdir()], ["a copy"])
+
+
+class Page(unittest.TestCase):
+    def test_its_commands_print_what_it_shows(self):
+        self.assertGreaterEqual(len(list(examples())), 3)
+        for command, output in examples():
+            with self.subTest(command=command):
+                done = subprocess.run(["sh", "-c", command], cwd=SOURCE, env={**os.environ, "PATH": f"{BIN}:{os.environ['PATH']}"}, stdout=subprocess.PIPE, text=True)
+                self.assertEqual(done.stdout, output)
+
+    def test_is_short_and_explains_every_need(self):
+        self.assertLessEqual((SOURCE / "docs/conformance.md").stat().st_size, 12000)
+        text = conform("--help").stdout
+        self.assertLessEqual({*re.findall(r"\{\w+\}", (SOURCE / "docs/conformance.md").read_text())}, {*re.findall(r"\{\w+\}", text)})
+        self.assertLessEqual({*re.findall(r"--[a-z-]+\b", (SOURCE / "docs/conformance.md").read_text())} - {"--bare"}, {*re.findall(r"--[a-z-]+\b", text)})
 
 
 class Runner(unittest.TestCase):

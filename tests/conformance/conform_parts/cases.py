@@ -20,6 +20,8 @@ NEEDS = {
     "exactness": "more digits than plain doubles give",
     "refusals": "wrong input is refused, with its line",
 }
+FED = {"model": "scene.txt", "view": "stage1.txt", "project": "stage2.txt", "zbuf": "stage3.txt"}  # a stage's input, in the assignment
+CONFIG = b"8 8\n-1\n-1\n-1 1\n"  # for programs that ask for one in every stage
 CAMERA = {"eye": "0 0 0", "look": "0 0 -1", "up": "0 1 0"}  # of a text whose camera has been used up
 
 
@@ -90,12 +92,14 @@ def without_header(text):
 
 
 def scene_of(case):
-    """A scene.txt as the programs of the assignment read it beside their stage text: the case's camera."""
+    """A scene.txt that gives the case's input: for programs that read the camera there, or that do all stages at once."""
     text = case.read("input.txt")
     if case.stage == "model":
         return text
     camera = {**CAMERA, "perspective": "90 1 1 100", **camera_of(text.decode("latin-1"))}
-    return "".join(camera[name] + "\n" for name in (*CAMERA, "perspective")).encode() + b"end\n"
+    lines = [line for line in without_header(text).splitlines() if line.strip()]
+    triangles = [b"\n".join([b"triangle", *lines[i:i + 3]]) for i in range(0, len(lines) - 2, 3)]
+    return b"\n".join([*(camera[name].encode() for name in (*CAMERA, "perspective")), *triangles, b"end\n"])
 
 
 def camera_of(text):

@@ -57,17 +57,17 @@ def headings(results):
 
 
 def table(results, mistakes):
-    """The failing cases by mistake, each with the first one, its reason, and what it expected and found."""
+    """The failing cases by mistake, each with the one of the shortest input, its reason, and what it expected and found."""
     lines = []
     wrong = [result.difference.other_rule for result in results if result.state == "wrong"]
     if wrong and wrong[0] and wrong.count(wrong[0]) == len(wrong):
         lines += ["#", f"# By --rule {wrong[0]} all of these are right."]
     for heading in headings(results):
-        first = heading.results[0]
+        first = min(heading.results, key=lambda result: len(result.case.read("input.txt")))
         count = f"{len(heading.results)} case{'s' * (len(heading.results) > 1)}"
         lines += ["#", "# " + " or ".join(heading.names or ["no mistake of the list"]) + ": " + count]
         lines += ["#   " + mistakes[name] for name in heading.names]
-        lines += [f"#   first: {first.case.name}", f"#   why: {first.case.why}", *difference_lines(first.difference)]
+        lines += [f"#   first, by length: {first.case.name}", f"#   why: {first.case.why}", *difference_lines(first.difference)]
     return lines
 
 

@@ -10,11 +10,11 @@ import subprocess
 import tempfile
 from collections import namedtuple
 
-from .cases import CAMERA, RULES, camera_of, scene_of, without_header
+from .cases import CAMERA, CONFIG, FED, RULES, camera_of, scene_of, without_header
 from .judge import Difference, same_bytes, same_digits, same_picture
 
 Terms = namedtuple("Terms", "command rule tier is_bare judges_depths judges_picture judges_lines seconds")
-CASE_FILES = ("input.txt", "config.txt", "scene.txt")
+CASE_FILES = ("input.txt", "config.txt", *FED.values())
 LARGEST_OUTPUT = 64 << 20  # bytes; a program that writes without end is stopped here
 PLACEHOLDERS = {"{config}": "config.txt", "{scene}": "scene.txt", "{input}": "input.txt", "{image}": "out.bmp", "{depths}": "depths.txt"}
 
@@ -59,10 +59,11 @@ def try_case(case, terms):
     with tempfile.TemporaryDirectory(prefix="conform.") as name:
         folder = pathlib.Path(name)
         text = case.read("input.txt")
+        given = without_header(text) if terms.is_bare and case.stage != "model" else text
+        (folder / "config.txt").write_bytes(case.read("config.txt") if case.has("config.txt") else CONFIG)
         (folder / "scene.txt").write_bytes(scene_of(case))
-        (folder / "input.txt").write_bytes(without_header(text) if terms.is_bare and case.stage != "model" else text)
-        if case.has("config.txt"):
-            (folder / "config.txt").write_bytes(case.read("config.txt"))
+        for file in ("input.txt", FED[case.stage]):
+            (folder / file).write_bytes(given)
         words = words_for(case, terms.command, text.decode("latin-1"))
         status = run(words, folder, terms.seconds)
         complaint = (folder / "stderr").read_bytes()[:1 << 16].decode("utf-8", "replace")
