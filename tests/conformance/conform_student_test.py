@@ -54,7 +54,8 @@ class Student(unittest.TestCase):
         for number, stage in enumerate(("model", "view", "project"), 1):
             with self.subTest(stage=stage):
                 script = f"{STUDENT} all scene.txt config.txt --folder . --habit all/exact-in-memory; cat stage{number}.txt"
-                done = subprocess.run([sys.executable, PACK / "conform", "--stage", stage, "--assignment", "--", "sh", "-c", script], stdout=subprocess.PIPE, text=True)
+                done = subprocess.run([sys.executable, PACK / "conform", "--stage", stage, "--assignment", "--", "sh", "-c", script],
+                    stdout=subprocess.PIPE, text=True)
                 self.assertEqual(done.returncode, 0, done.stdout[-3000:])
 
     def test_what_the_assignment_leaves_open_is_not_counted(self):

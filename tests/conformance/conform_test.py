@@ -126,14 +126,16 @@ class Page(unittest.TestCase):
         self.assertGreaterEqual(len(list(examples())), 3)
         for command, output in examples():
             with self.subTest(command=command):
-                done = subprocess.run(["sh", "-c", command], cwd=SOURCE, env={**os.environ, "PATH": f"{BIN}:{os.environ['PATH']}"}, stdout=subprocess.PIPE, text=True)
+                done = subprocess.run(["sh", "-c", command], cwd=SOURCE, env={**os.environ, "PATH": f"{BIN}:{os.environ['PATH']}"},
+                    stdout=subprocess.PIPE, text=True)
                 self.assertEqual(done.stdout, output)
 
     def test_is_short_and_explains_every_need(self):
         self.assertLessEqual((SOURCE / "docs/conformance.md").stat().st_size, 12000)
         text = conform("--help").stdout
         self.assertLessEqual({*re.findall(r"\{\w+\}", (SOURCE / "docs/conformance.md").read_text())}, {*re.findall(r"\{\w+\}", text)})
-        self.assertLessEqual({*re.findall(r"--[a-z-]+\b", (SOURCE / "docs/conformance.md").read_text())} - {"--bare"}, {*re.findall(r"--[a-z-]+\b", text)})
+        self.assertLessEqual({*re.findall(r"--[a-z-]+\b", (SOURCE / "docs/conformance.md").read_text())} - {"--bare"},
+            {*re.findall(r"--[a-z-]+\b", text)})
 
 
 class Runner(unittest.TestCase):
@@ -180,6 +182,19 @@ class Runner(unittest.TestCase):
 
     def test_a_program_that_writes_without_end_is_stopped(self):
         self.assert_wrong(self.run_one("model/translate-x", "yes"), "ended by SIGXFSZ")
+
+    def test_shows_an_output_in_printable_characters_and_not_whole(self):
+        done = self.run_one("model/translate-x", *sh("printf '1 \\033[2J 3 '; head -c 500 /dev/zero | tr '\\0' x"), options=["--assignment"])
+        self.assert_wrong(done, "found:    1 ?[2J 3 xxx", "xxx...\n")
+        self.assertLess(max(map(len, done.stdout.splitlines())), 300)
+
+    def test_a_file_that_cannot_be_written_is_told(self):
+        done = self.run_one("model/translate-x", BIN / "model", options=["--json", "/no such folder/results.json"])
+        self.assertEqual((done.returncode, done.stderr), (1, "conform: /no such folder/results.json: No such file or directory\n"))
+
+    def test_a_reader_of_the_report_may_leave(self):
+        done = subprocess.run(["sh", "-c", f"'{PACK}/conform' --list | head -n 1"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        self.assertEqual((done.stdout.count("\n"), done.stderr), (1, ""))
 
     def test_a_program_that_crashes_has_not_refused(self):
         for case in ("model/translate-x", "model/refused-no-end"):

@@ -84,7 +84,7 @@ class Case:
     def drawn(self, rule):
         with tempfile.TemporaryDirectory() as name:
             config, image = pathlib.Path(name, "config.txt"), pathlib.Path(name, "out.bmp")
-            config.write_text(self.config, newline="")
+            config.write_bytes(self.config.encode())
             depths = answer("zbuf", self.text, [str(config), "--image", str(image), "--coverage", rule, *self.options.split()])
             return depths, image.read_bytes()
 

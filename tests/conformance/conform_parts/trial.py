@@ -16,6 +16,7 @@ from .judge import Difference, same_bytes, same_digits, same_picture
 Terms = namedtuple("Terms", "command rule tier is_bare judges_depths judges_picture judges_lines seconds")
 CASE_FILES = ("input.txt", "config.txt", *FED.values())
 LARGEST_OUTPUT = 64 << 20  # bytes; a program that writes without end is stopped here
+LONGEST_ROW = 200  # of what is shown of an output
 PLACEHOLDERS = {"{config}": "config.txt", "{scene}": "scene.txt", "{input}": "input.txt", "{image}": "out.bmp", "{depths}": "depths.txt"}
 
 
@@ -54,8 +55,19 @@ def missing_need(case, command):
     return "options" if case.has("options.txt") and "{options}" not in command else None
 
 
+def fit_for_print(text):
+    """A part of a program's output, in printable characters, and not too long."""
+    rows = ["".join(c if c.isprintable() else "?" for c in row[:LONGEST_ROW]) + "..." * (len(row) > LONGEST_ROW) for row in text.split("\n")]
+    return "\n".join(rows)
+
+
 def try_case(case, terms):
-    """The Difference between what the program does and what the case expects; None if there is none."""
+    """The Difference between what the program does and what the case expects, fit for print; None if there is none."""
+    difference = run_and_judge(case, terms)
+    return difference and difference._replace(expected=fit_for_print(difference.expected), found=fit_for_print(difference.found))
+
+
+def run_and_judge(case, terms):
     with tempfile.TemporaryDirectory(prefix="conform.") as name:
         folder = pathlib.Path(name)
         text = case.read("input.txt")
