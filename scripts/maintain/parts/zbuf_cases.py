@@ -1,5 +1,7 @@
 """The cases of zbuf: coverage and depth."""
 import itertools
+import math
+import random
 
 from parts.conformance_pack import Case
 
@@ -227,6 +229,34 @@ def meshes():
             config(size, size))
 
 
+def tilings():
+    """Grids, a fan and a strip of slivers, with a depth for each triangle; no two triangles overlap."""
+    why = "Where triangles do not overlap, each pixel has one owner under `center`; under `nearest` neighbors share pixels."
+    rng = random.Random(2026)
+    grids = {
+        "with-corners-on-centers": (16, lambda i, j: (i * 4 - 0.5, j * 4 - 0.5)), "with-corners-between-centers": (16, lambda i, j: (i * 4, j * 4)),
+        "with-corners-anywhere": (24, lambda i, j: (i * 4 + rng.uniform(-1.3, 1.3), j * 4 + rng.uniform(-1.3, 1.3))),
+        "that-leans": (24, lambda i, j: (i * 4 + 0.37 * j - 0.61, j * 4 - 0.23 * i + 0.83)),
+    }
+    for name, (size, corner) in grids.items():
+        count = size // 4
+        at = {(i, j): corner(i, j) for i in range(count + 1) for j in range(count + 1)}
+        triangles = []
+        for i, j in itertools.product(range(count), repeat=2):
+            a, b, c, d = at[i, j], at[i + 1, j], at[i + 1, j + 1], at[i, j + 1]
+            triangles += [(a, b, d), (b, c, d)] if (i + j) % 2 else [(a, b, c), (a, c, d)]
+        yield tiling(name, why, triangles, size, open_nearest=TIE if "between" in name else "")
+    rim = [(12.5 + 14 * math.cos(i * math.pi / 16 + 0.05), 12.5 + 14 * math.sin(i * math.pi / 16 + 0.05)) for i in range(32)]
+    yield tiling("around-a-center", why, [((12.5, 12.5), rim[i - 1], rim[i]) for i in range(32)], 24)
+    left, right = ([(x, y + 0.23 * i) for i in range(41)] for x, y in ((0.31, 0.43), (23.63, 11.71)))
+    yield tiling("of-slivers", why, [corners for i in range(40) for corners in ((left[i], right[i], right[i + 1]), (left[i], right[i + 1], left[i + 1]))], 24)
+
+
+def tiling(name, why, triangles, size, **others):
+    text = "".join(pixels(corners, size, z=0.8 - 1.6 * (7 * i % len(triangles)) / len(triangles)) for i, corners in enumerate(triangles))
+    return case(f"tiling-{name}", why, "Z5 Z8", text, config(size, size), **others)
+
+
 def cases():
-    for grid in (assignment, positions, shapes, sizes, borders, shared_edges, on_centers, slivers, depths, order, limits, meshes):
+    for grid in (assignment, positions, shapes, sizes, borders, shared_edges, on_centers, slivers, depths, order, limits, meshes, tilings):
         yield from grid()
