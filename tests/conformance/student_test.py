@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """The student's program is right without a switch, and with one it makes exactly that mistake.
 
-usage: student_test.py STUDENT BIN_DIR SOURCE_DIR
+usage: student_test.py STUDENT BIN_DIR SOURCE_DIR [UNITTEST ARGUMENT...]
 """
 import math
 import pathlib
@@ -10,9 +10,7 @@ import sys
 import tempfile
 import unittest
 
-source = pathlib.Path(sys.argv.pop()).resolve()
-bin_dir = pathlib.Path(sys.argv.pop()).resolve()
-student = pathlib.Path(sys.argv.pop()).resolve()
+student, bin_dir, source = (pathlib.Path(sys.argv.pop(1)).resolve() for _ in range(3))
 sys.path.insert(0, str(source / "scripts"))
 from lib.pictures import read_picture  # noqa: E402
 
