@@ -24,10 +24,9 @@ class Pair:
 
 @dataclasses.dataclass
 class Differences:
-    """Compares `things`; with `is_relative`, the tolerance of a number beyond 1 grows with the number."""
+    """Compares `things`."""
     things: str
     tolerance: float
-    is_relative: bool = False
     compared: int = 0
     differing: int = 0
     first: Pair = None
@@ -37,7 +36,7 @@ class Differences:
     def add(self, place, a, b):
         """Compares a and b; `place` returns their position as text."""
         self.compared += 1
-        if a == b or not exceeds(a, b, self.tolerance * (max(1, abs(b)) if self.is_relative else 1)):
+        if a == b or not exceeds(a, b, self.tolerance):
             return False
         self.differing += 1
         pair = Pair(place(), a, b)
@@ -61,9 +60,9 @@ class Differences:
             yield "not alike", words
 
 
-def compare_stage_texts(a, b, tolerance, is_relative=False):
+def compare_stage_texts(a, b, tolerance):
     """The Differences of two StageTexts."""
-    result = Differences("numbers", tolerance, is_relative)
+    result = Differences("numbers", tolerance)
     for keyword in [*a.header, *(keyword for keyword in b.header if keyword not in a.header)]:
         if keyword in a.header and keyword in b.header and a.header[keyword] != b.header[keyword]:
             result.unlike.append(f"header line {keyword}: {' '.join(a.header[keyword])} and {' '.join(b.header[keyword])}")
@@ -78,9 +77,9 @@ def compare_stage_texts(a, b, tolerance, is_relative=False):
     return result
 
 
-def compare_z_buffers(a, b, tolerance, is_relative=False):
+def compare_z_buffers(a, b, tolerance):
     """The Differences of two z-buffer texts, each a list of rows of numbers."""
-    result = Differences("depths", tolerance, is_relative)
+    result = Differences("depths", tolerance)
     if len(a) != len(b):
         result.unlike.append(f"{len(a)} and {len(b)} rows")
     uneven = [(row, len(line_a), len(line_b)) for row, (line_a, line_b) in enumerate(zip(a, b)) if len(line_a) != len(line_b)]
@@ -113,17 +112,6 @@ def compare_pictures(a, b, tolerance):
             if result.add(lambda: f"column {column}, row {row}, {name}", pixel_a[channel], pixel_b[channel]):
                 mask.add((column, row))
     return result, mask
-
-
-def same_in_other_colors(a, b):
-    """Whether one picture becomes the other if its colors are replaced one by one."""
-    there, back = {}, {}
-    for line_a, line_b in zip(a[2], b[2]):
-        for i in range(0, len(line_a), 3):
-            x, y = line_a[i:i + 3], line_b[i:i + 3]
-            if there.setdefault(x, y) != y or back.setdefault(y, x) != x:
-                return False
-    return True
 
 
 def difference_picture(b, mask):

@@ -12,6 +12,7 @@ from lib.projection import tangents
 from lib.stage_text import parse_stage_text
 from lib.vectors import axes
 
+UNIT = 1e-7  # in the last of 7 decimals
 CLOSE = 2e-6  # for numbers calculated from numbers that were printed with 7 decimals
 
 SWAPPED = "rows and columns of the rotation are swapped (the matrix is the transpose of the right one)"
@@ -48,9 +49,9 @@ def fitted(targets, *columns):
     return (d * c - e * b) / determinant, (a * e - b * d) / determinant
 
 
-def hint_of_rounding(theirs, ours, unit=1e-7):
+def hint_of_rounding(theirs, ours):
     pairs = [(a, b) for p, q in zip(theirs, ours) for a, b in zip(p, q)]
-    return ROUNDING if not any(exceeds(a, b, unit) for a, b in pairs) else None
+    return ROUNDING if not any(exceeds(a, b, UNIT) for a, b in pairs) else None
 
 
 def hint_of_handedness(theirs, ours):
@@ -112,11 +113,6 @@ def hints_from_numbers(theirs, ours):
         if hint:
             return [hint]
     return []
-
-
-def hints_but_for_the_eye(hints):
-    """Hints of a stage in which no eye is added or subtracted."""
-    return [FLIPPED.format("z") if hint == FLIPPED_OR_ADDED else hint for hint in hints]
 
 
 def with_angles(scene, changed):

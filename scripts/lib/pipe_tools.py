@@ -1,9 +1,11 @@
 """The four tools, for scripts that run them: their location, and a single run."""
+import contextlib
 import os
 import pathlib
 import re
 import subprocess
 import sys
+import tempfile
 
 from lib.command import CommandFailure
 
@@ -42,6 +44,15 @@ class Tools:
 
     def output(self, tool, *words, stdin=b""):
         return self.run(tool, *words, stdin=stdin).stdout
+
+    @staticmethod
+    @contextlib.contextmanager
+    def file(data):
+        """The path of a file with these bytes, for an option that takes no pipe."""
+        with tempfile.NamedTemporaryFile() as file:
+            file.write(data)
+            file.flush()
+            yield file.name
 
     def has_option(self, tool, option):
         """Whether the tool's --help lists the option."""

@@ -167,10 +167,10 @@ class Five(ToolTest):
 
     def test_one_mistake_is_counted_once_and_named(self):
         for mistake, stage, words in (
-                ("swapped 1", "model", "rows and columns of the rotation are swapped"), ("radians 1", "model", "degrees are taken for radians by the rotations"),
-                ("swapped 2", "view", "rows and columns of the rotation are swapped"), ("up", "view", "up is used as it is given"),
-                ("handedness", "view", "handedness is flipped: z"), ("divide", "project", "the divide by w is missing"),
-                ("radians 3", "project", "degrees are taken for radians in the field of view")):
+                ("swapped 1", "model", "The matrix of a rotation is transposed"), ("radians 1", "model", "The angle of a rotation is taken as radians"),
+                ("swapped 2", "view", "The rows of the rotation are its columns"), ("up", "view", "The second row of the rotation is up as given"),
+                ("handedness", "view", "The third row of the rotation is l in place of -l"), ("divide", "project", "The coordinates are not divided by w"),
+                ("radians 3", "project", "The angle of view is taken as radians")):
             for in_memory in (True, False):
                 with self.subTest(mistake, in_memory=in_memory):
                     # Some errors move the scene behind the eye, where our project clips and theirs does not.
@@ -187,8 +187,8 @@ class Five(ToolTest):
         self.assertEqual(self.verdict(status=0, scene="ratio.txt")[1], ["right"] * 5)
         self.hand_in(Student(SCENE.replace("\n41 1 2 25 ", "\n41 1.25 2 25 ")))
         self.assertIn("the first stage that went wrong is project", self.verdict(scene="ratio.txt")[0])
-        for mistake, stage, words in (("radians 3", "project", "degrees are taken for radians in the field of view"),
-                                      ("handedness", "view", "handedness is flipped: z")):
+        for mistake, stage, words in (("radians 3", "project", "The angle of view is taken as radians"),
+                                      ("handedness", "view", "The third row of the rotation is l in place of -l")):
             with self.subTest(mistake):
                 self.hand_in(Student(scene, mistake))
                 sentence, verdicts = self.verdict(scene="ratio.txt")
@@ -204,7 +204,7 @@ class Five(ToolTest):
         pathlib.Path("theirs/z_buffer.txt").write_text("\n".join(text))
         sentence, verdicts = self.verdict()
         self.assertIn("the first stage that went wrong is model", sentence)
-        self.assertIn("by themselves wrong are also z_buffer.txt", sentence)
+        self.assertIn("also wrong, by themselves: z_buffer.txt", sentence)
         self.assertEqual(verdicts, ["wrong", "right", "right", "wrong", "right"])
 
     def test_colors_are_the_students_own(self):
@@ -217,14 +217,14 @@ class Five(ToolTest):
         self.hand_in(Student(SCENE))
         width, height, rows = read_picture("theirs/out.bmp")
         pathlib.Path("theirs/out.bmp").write_bytes(bmp(width, height, lambda c, r: rows[height - 1 - r][3 * c:3 * c + 3]))
-        self.assertIn("the first stage that went wrong is zbuf (out.bmp is wrong): the picture is upside down", self.verdict()[0])
+        self.assertIn("the first stage that went wrong is zbuf (out.bmp is wrong): The rows are in reverse order", self.verdict()[0])
 
     def test_missing_files_are_told_and_the_rest_is_judged(self):
         self.hand_in(Student(SCENE))
         pathlib.Path("theirs/stage2.txt").unlink()
         sentence, verdicts = self.verdict()
-        self.assertIn("view (stage2.txt is missing)", sentence)
-        self.assertEqual(verdicts, ["right", "missing", "right", "right", "right"])
+        self.assertIn("stage2.txt is not handed in", sentence)
+        self.assertEqual(verdicts, ["right", "not handed in", "right", "right", "right"])
 
     def test_a_text_that_cannot_be_read_is_told_with_its_place(self):
         self.hand_in(Student(SCENE))

@@ -86,7 +86,7 @@ class Commands(unittest.TestCase):
         environment.pop("BIN", None)
         for page in PAGES:
             with tempfile.TemporaryDirectory() as folder:
-                for name in ("samples", "scripts"):
+                for name in ("samples", "scripts", "tests/conformance"):
                     shutil.copytree(SOURCE / name, pathlib.Path(folder) / name)
                 for command, output in examples(page.read_text()):
                     with self.subTest(page=name_of(page), command=command):

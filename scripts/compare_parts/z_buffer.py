@@ -1,0 +1,17 @@
+"""A z-buffer text as rows of numbers."""
+from lib.command import shown
+from lib.input_file import name_of
+from lib.stage_text import StageTextError, real
+
+
+def parse_z_buffer(text, path):
+    """Rows of depths, one a line."""
+    rows = []
+    for number, line in enumerate(text.split("\n"), 1):
+        try:
+            rows.append([real(word) for word in line.split()])
+        except ValueError:
+            raise StageTextError(f"{name_of(path)}:{number}: expected depths, found '{shown(line.strip()[:40])}'") from None
+    while rows and not rows[-1]:  # rows at the end may be empty
+        rows.pop()
+    return rows

@@ -1,0 +1,1 @@
+"""The judge of hand-ins. It starts in judge.py."""

@@ -1,0 +1,168 @@
+"""The 4 x 4 matrix that takes one list of points to another, fitted by least squares, and how it compares with ours.
+
+A matrix is shown only if the points determine it: what their rounding leaves uncertain is found by fitting again with the numbers
+moved within their last digit."""
+import dataclasses
+import math
+import random
+
+from judge_parts.matrices import dot, product
+
+MOST_POINTS = 60
+TRIALS = 3
+WORST_SPREAD = 0.01       # of an element, against the largest one
+LEAST_DIFFERENCE = 1e-4   # of an element, against 1 and its own size
+DECIMALS = 5
+
+
+@dataclasses.dataclass
+class Comparison:
+    theirs: tuple
+    ours: tuple
+    differing: set  # (row, column), from 0
+
+    def lines(self):
+        """Both matrices side by side; a * marks what differs."""
+        rows = []
+        for i, (a, b) in enumerate(zip(self.theirs, self.ours)):
+            left = " ".join(f"{shown(x):>12}{'*' if (i, j) in self.differing else ' '}" for j, x in enumerate(a))
+            rows.append(f"  {left}   | " + " ".join(f"{shown(x):>12}" for x in b))
+        width = rows[0].index("|")
+        return [f"  {'their matrix (* differs)':<{width - 2}}| ours", *rows]
+
+    def __str__(self):
+        return "\n".join(self.lines())
+
+
+def shown(x):
+    text = f"{x:.{DECIMALS}f}"
+    return text.lstrip("-") if not text.strip("-0.") else text
+
+
+def triangular(rows):
+    """The triangle R of the QR decomposition of a matrix, by Householder reflections (1958)."""
+    a = [list(row) for row in rows]
+    count = len(a[0])
+    for k in range(count):
+        size = math.hypot(*(row[k] for row in a[k:]))
+        if not size:
+            continue
+        v = [row[k] for row in a[k:]]
+        v[0] += math.copysign(size, v[0])
+        square = dot(v, v)
+        for j in range(k, count):
+            part = 2 * sum(x * row[j] for x, row in zip(v, a[k:])) / square
+            for x, row in zip(v, a[k:]):
+                row[j] -= part * x
+    return [row[:] for row in a[:count]]
+
+
+def null_vector(rows):
+    """The unit vector that a matrix makes shortest, by inverse iteration."""
+    r = triangular(rows)
+    count = len(r)
+    least = 1e-14 * max(abs(r[k][k]) for k in range(count))
+    for k in range(count):
+        if abs(r[k][k]) < least:
+            r[k][k] = least
+    x = [1.0 + 0.1 * k for k in range(count)]
+    for _ in range(6):
+        for k in range(count):  # R' y = x
+            x[k] = (x[k] - sum(r[i][k] * x[i] for i in range(k))) / r[k][k]
+        for k in reversed(range(count)):  # R z = y
+            x[k] = (x[k] - sum(r[k][j] * x[j] for j in range(k + 1, count))) / r[k][k]
+        size = math.hypot(*x)
+        x = [value / size for value in x]
+    return x
+
+
+def normalizing(points):
+    """The matrix that moves the points to the origin and scales them to a size of about 1, and its inverse."""
+    center = [sum(values) / len(points) for values in zip(*points)]
+    size = max(max(abs(x - c) for x, c in zip(p, center)) for p in points) or 1.0
+    there = tuple(tuple((1 / size if i == j else 0.0) for j in range(3)) + (-center[i] / size,) for i in range(3))
+    back = tuple(tuple((size if i == j else 0.0) for j in range(3)) + (center[i],) for i in range(3))
+    return (*there, (0.0, 0.0, 0.0, 1.0)), (*back, (0.0, 0.0, 0.0, 1.0))
+
+
+def moved(m, points):
+    return [tuple(dot(row, (*p, 1.0)) for row in m[:3]) for p in points]
+
+
+def projective(before, after):
+    """The matrix, up to a factor, that takes points to their images after the divide by w."""
+    there, _ = normalizing(before)
+    images, back = normalizing(after)
+    rows = []
+    for p, q in zip(moved(there, before), moved(images, after)):
+        column = (*p, 1.0)
+        for axis in range(3):
+            row = [0.0] * 16
+            row[4 * axis:4 * axis + 4] = column
+            row[12:] = [-q[axis] * x for x in column]
+            rows.append(row)
+    if len(rows) < 16:
+        return None
+    m = null_vector(rows)
+    return product(product(back, [tuple(m[4 * i:4 * i + 4]) for i in range(4)]), there)
+
+
+def affine_of(before, after):
+    """The matrix without a divide."""
+    there, _ = normalizing(before)
+    images, back = normalizing(after)
+    m = []
+    for axis in range(3):
+        rows = [(*p, 1.0, q[axis]) for p, q in zip(moved(there, before), moved(images, after))]
+        if len(rows) < 5:
+            return None
+        r = triangular(rows)
+        x = [0.0] * 4
+        for k in reversed(range(4)):
+            if abs(r[k][k]) < 1e-9 * len(rows):
+                return None
+            x[k] = (r[k][4] - sum(r[k][j] * x[j] for j in range(k + 1, 4))) / r[k][k]
+        m.append(tuple(x))
+    return product(product(back, [*m, (0.0, 0.0, 0.0, 1.0)]), there)
+
+
+def scaled_like(m, ours):
+    """A matrix known up to a factor, with the factor that makes most elements those of ours."""
+    ratios = [b / a for row, other in zip(m, ours) for a, b in zip(row, other) if abs(b) > 1e-9 and abs(a) > 1e-12]
+
+    def agreeing(factor):
+        return sum(abs(factor * a - b) <= 1e-3 * max(1.0, abs(b)) for row, other in zip(m, ours) for a, b in zip(row, other))
+
+    factor = max(ratios, key=agreeing, default=1.0)
+    return tuple(tuple(factor * x for x in row) for row in m)
+
+
+def compare(before, after, units, ours, is_divided):
+    """The Comparison of the matrix from `before` to `after` with ours; None if the points do not determine it. `units` are those
+    of `after`."""
+    step = max(1, len(before) // MOST_POINTS)
+    chosen = [i for i in range(0, len(before), step) if all(map(math.isfinite, after[i]))]
+    before, after, units = ([values[i] for i in chosen] for values in (before, after, units))
+    fit = projective if is_divided else affine_of
+    if len(before) < 5:
+        return None
+    rng = random.Random(1)
+    fits = []
+    for trial in range(TRIALS + 1):
+        images = [tuple(x + (trial > 0) * rng.uniform(-0.5, 0.5) * u for x, u in zip(q, unit)) for q, unit in zip(after, units)]
+        try:
+            m = fit(before, images)
+        except (ZeroDivisionError, OverflowError):
+            return None
+        if m is None:
+            return None
+        fits.append(scaled_like(m, ours) if is_divided else m)
+    theirs, *others = fits
+    spread = [[2 * max(abs(m[i][j] - theirs[i][j]) for m in others) for j in range(4)] for i in range(4)]
+    for i in range(4):
+        largest = max(1e-3, *map(abs, theirs[i]))
+        if not max(spread[i]) <= WORST_SPREAD * largest:
+            return None
+    differing = {(i, j) for i in range(4) for j in range(4)
+                 if abs(theirs[i][j] - ours[i][j]) > 4 * spread[i][j] + LEAST_DIFFERENCE * max(1.0, abs(ours[i][j]))}
+    return Comparison(theirs, ours, differing)

@@ -1,0 +1,74 @@
+"""The files of a hand-in, under the names that the assignments and their readers have given them."""
+import dataclasses
+import os
+import re
+
+from lib.command import shown
+from lib.input_file import InputError, read_input
+
+# The kinds of files, their first name in the assignment, and what other names look like, in lower case without - _ and blanks.
+KINDS = {
+    "stage1": ("stage1.txt", re.compile(r"stage1\.txt")),
+    "stage2": ("stage2.txt", re.compile(r"stage2\.txt")),
+    "stage3": ("stage3.txt", re.compile(r"stage3\.txt")),
+    "depths": ("z_buffer.txt", re.compile(r"z(buffer|buf|out)(out|output)?\d*\.txt")),
+    "picture": ("out.bmp", re.compile(r"(out|output|image)?\d*\.(bmp|png|ppm)")),
+}
+STAGE_OF = {"stage1": "model", "stage2": "view", "stage3": "project", "depths": "zbuf", "picture": "zbuf"}
+TOO_LARGE = "it is longer than {} bytes, more than the scene can need"
+
+
+@dataclasses.dataclass
+class File:
+    """A file of the hand-in: its bytes, or the InputError of reading it."""
+    name: str
+    data: bytes = None
+    error: InputError = None
+    others: tuple = ()  # further names that might have been meant
+
+    @property
+    def is_missing(self):
+        return self.data is None and self.error is None
+
+    def within(self, limit):
+        """The bytes; raises an InputError if there are none, or more than `limit`."""
+        if self.is_missing:
+            raise InputError(self.name, "No such file", is_missing=True)
+        if self.error:
+            raise self.error
+        if len(self.data) > limit:
+            raise InputError(self.name, TOO_LARGE.format(limit))
+        return self.data
+
+
+def plain(name):
+    return re.sub(r"[-_ ]", "", name.lower())
+
+
+def rank(name, kind):
+    """The assignment's own name first, then short names, then by their numbers."""
+    numbers = [int(digits[:18]) for digits in re.findall(r"\d+", name)]
+    return name != KINDS[kind][0], len(numbers), numbers, name
+
+
+def find_files(folder):
+    """{kind: File} of a folder; each file is read at once, and no pipe or device is waited for."""
+    try:
+        names = os.listdir(folder)
+    except OSError as error:
+        raise InputError(folder, error.strerror) from None
+    found = {}
+    for kind, (usual, pattern) in KINDS.items():
+        fitting = sorted((name for name in names if pattern.fullmatch(plain(name))), key=lambda name: rank(name, kind))
+        if fitting:
+            found[kind] = read_file(folder, fitting[0], tuple(map(shown, fitting[1:])))
+        else:
+            found[kind] = File(usual)
+    return found
+
+
+def read_file(folder, name, others=()):
+    try:
+        return File(shown(name), read_input(os.path.join(folder, name), only_regular=True), None, others)
+    except InputError as error:
+        return File(shown(name), None, error, others)

@@ -1,0 +1,192 @@
+"""The judge: what is true of a hand-in, stage by stage.
+
+Each stage is judged by the numbers that it may have read, those of the stage's file before it or the exact ones in memory, so that a
+mistake counts once. A stage is right if it reproduces the numbers under any combination of what the assignment leaves open; else wrong
+by the mistake that reproduces them; else, in stage 4, by another rule at the borders; else wrong without a cause.
+"""
+from judge_parts.hand_in import STAGE_OF, File
+from judge_parts.pixels import PixelJudge
+from judge_parts.points import read_points
+from judge_parts.digits import of_one_program
+from judge_parts.matrices import image
+from judge_parts.reference import kinds_of, reference
+from judge_parts.shown import Shown, read_colors, read_depths
+from judge_parts.stage_judge import Outcome, Reading, StageJudge
+from judge_parts.verdict import ANOTHER_RULE, MISSING, RIGHT, TOO_FEW_DIGITS, UNDECIDED, UNREADABLE, WRONG, FileVerdict, Verdict
+from lib.input_file import InputError
+from lib.pictures import PictureError
+from lib.stage_text import StageTextError
+
+KINDS_IN_WORDS = {"extra": "a pixel that no triangle covers", "missing": "a pixel that a triangle covers is empty", "depth": "another depth",
+                  "other": "another triangle"}
+FAR = 1e15
+PRINTED = "pixels without a triangle are printed"
+
+
+def judge(files, scene, config=None):
+    """The Verdict on a hand-in: `files` are its Files by kind (hand_in.find_files), `scene` and `config` the bytes of those files.
+    Without a config the first three stages are judged. Raises a JudgeError if there is nothing to judge by; whatever a file of the
+    hand-in holds only costs that file its verdict."""
+    return HandIn(files, reference(scene, config), kinds_of(config)).judge()
+
+
+class HandIn:
+    def __init__(self, files, ours, kinds):
+        self.ours = ours
+        self.files = {kind: files.get(kind) or File(kind) for kind in kinds}
+        self.kinds = kinds
+        self.failed = {}  # the verdicts of files that cannot be read
+
+    def judge(self):
+        points = self.read_stages()
+        judge = StageJudge(self.ours.scene, self.ours.world)
+        memory, before, verdicts = self.ours.world, None, []
+        for kind, stage in (("stage1", "model"), ("stage2", "view"), ("stage3", "project")):
+            theirs = points[kind]
+            outcome = None
+            readings = [Reading(before.points, before.units)] if before and is_of_this_world(before.points) else []
+            if memory is not None:
+                readings.append(Reading.exact(memory))
+            if theirs and stage == "model":
+                outcome = judge.model(self.files[kind].name, theirs)
+            elif theirs and stage == "view":
+                outcome = judge.view(self.files[kind].name, theirs, readings)
+            elif theirs:
+                others = [clipped for reading in readings if (clipped := self.ours.clipped(reading.points)) is not None]
+                outcome = judge.project(self.files[kind].name, theirs, readings, others)
+            if outcome is None:
+                outcome = Outcome(self.failed[kind], self.right_memory(stage, readings))
+            self.add_others(kind, outcome.verdict)
+            verdicts.append(outcome.verdict)
+            memory, before = outcome.memory, theirs
+        if "picture" in self.kinds:
+            verdicts += self.pixels(before, memory)
+        verdicts[0].remarks += self.ours.remarks
+        return Verdict(verdicts)
+
+    def right_memory(self, stage, readings):
+        """The points after a stage whose file is missing, if the stage is right."""
+        if stage == "model" or not readings:
+            return self.ours.world if stage == "model" else None
+        m = self.ours.scene.of_view() if stage == "view" else self.ours.scene.of_project()
+        return [image(m, p, stage == "project") for p in readings[-1].points]
+
+    # reading
+    def read(self, kind, parse):
+        """What `parse` makes of a file's bytes and name; None, and a verdict in `failed`, if it cannot be read."""
+        file = self.files[kind]
+        try:
+            return parse(file.within(self.ours.limit(kind)), file.name)
+        except InputError as error:
+            verdict = MISSING if error.is_missing else UNREADABLE
+            self.failed[kind] = FileVerdict(STAGE_OF[kind], file.name, verdict, remarks=[] if error.is_missing else [error.reason])
+        except (StageTextError, PictureError) as error:
+            self.failed[kind] = FileVerdict(STAGE_OF[kind], file.name, UNREADABLE, remarks=[str(error)])
+        return None
+
+    def read_stages(self):
+        kinds = [kind for kind in self.kinds if kind.startswith("stage")]
+        points = {kind: self.read(kind, read_points) for kind in kinds}
+        given = [kind for kind in kinds if points[kind] is not None]
+        for kind, digits in zip(given, of_one_program([points[kind].digits for kind in given])):
+            points[kind].digits = digits
+        for kind in given:
+            if not points[kind].points:  # an empty text
+                self.failed[kind] = FileVerdict(STAGE_OF[kind], self.files[kind].name, WRONG, remarks=["there is no triangle in it"])
+                if self.ours.world:
+                    points[kind] = None
+        return points
+
+    def add_others(self, kind, verdict):
+        others = self.files[kind].others
+        if others:
+            verdict.remarks.append(f"not looked at: {', '.join(others)}")
+
+    # stage 4
+    def pixels(self, stage3, memory):
+        """The FileVerdicts of the depths and of the picture."""
+        window = self.ours.window
+        depths = self.read("depths", read_depths)
+        colors = self.read("picture", lambda data, name: read_colors(data, name, window.width, window.height))
+        verdicts = {kind: self.failed.get(kind) for kind in ("depths", "picture")}
+        if self.ours.has_own_colors and colors is not None:
+            verdicts["picture"], colors = self.verdict_of_colors(colors), None
+        readings = {}
+        if stage3 and stage3.points:
+            readings["file"] = (stage3.points, stage3.units)
+        is_defined = memory is not None and all(x == x for p in memory for x in p)
+        if is_defined:
+            readings["memory" if readings else "file"] = (memory, Reading.exact(memory).units)
+        if depths is not None and depths.rows and depths.digits.are_too_few:
+            verdicts["depths"] = FileVerdict("zbuf", self.files["depths"].name, TOO_FEW_DIGITS, remarks=[f"it shows {depths.digits}"])
+            depths = None
+        if (depths is not None or colors is not None) and readings:
+            shown = Shown(colors, depths, window.width, window.height, float(window.rear))
+            finding = PixelJudge(readings, window, shown).judge()
+            for kind, given in (("depths", depths), ("picture", colors)):
+                if given is not None:
+                    verdicts[kind] = self.verdict_of_pixels(kind, finding, shown)
+        for kind, verdict in verdicts.items():
+            if verdict is None:
+                verdicts[kind] = verdict = FileVerdict("zbuf", self.files[kind].name, UNDECIDED, remarks=["the stages before give no points to judge it by"])
+            self.add_others(kind, verdict)
+        return list(verdicts.values())
+
+    def verdict_of_colors(self, colors):
+        """The FileVerdict of a picture whose triangles have colors of their own, or light: every color counts."""
+        name = self.files["picture"].name
+        ours = self.ours.picture(self.files["stage3"].data or b"")
+        if ours is None:
+            return FileVerdict("zbuf", name, UNDECIDED, remarks=["zbuf refuses their stage3.txt"])
+        differing = sum(row[3 * i:3 * i + 3] != color for row, line in zip(ours, colors) for i, color in enumerate(line))
+        return FileVerdict("zbuf", name, WRONG if differing else RIGHT, differing=differing, compared=len(ours) * len(colors[0]))
+
+    def verdict_of_pixels(self, kind, finding, shown):
+        name = self.files[kind].name
+        mismatch = finding.mismatch
+        if mismatch is None:
+            return FileVerdict("zbuf", name, UNDECIDED, remarks=finding.remarks)
+        places = (mismatch.of_depths if kind == "depths" else mismatch.of_picture)
+        verdict = FileVerdict("zbuf", name, RIGHT, finding.rule, differing=len(places), compared=mismatch.drawn)
+        if finding.verdict in ("mistake", "unknown") and kind in finding.touches:
+            verdict.verdict, verdict.causes, verdict.rule = WRONG, finding.causes, ""
+            verdict.remarks += [f"with {finding.rule}"] if finding.rule and finding.causes else []
+        elif finding.verdict == "unknown":
+            verdict.rule = ""
+        verdict.remarks += finding.remarks
+        if kind == "depths" and shown.prints_everything:
+            is_rear = abs(shown.empty - shown.rear) <= shown.depths.tolerance(shown.rear)
+            printed = f"{PRINTED}, too, with " + ("the rear limit" if is_rear else f"{shown.empty:.7g}")
+            verdict.rule = f"{verdict.rule}; {printed}" if verdict.rule else printed
+        if places and not verdict.is_good:
+            row, column = min(places)
+            verdict.first = f"row {row}, column {column}: " + KINDS_IN_WORDS[mismatch.pixels[row, column]]
+        if verdict.rule and verdict.verdict == RIGHT:
+            verdict.verdict = ANOTHER_RULE
+        if kind == "picture" and self.has_other_colors(mismatch) and verdict.is_good:
+            verdict.remarks.append("in other colors")
+        return verdict
+
+    @staticmethod
+    def has_other_colors(mismatch):
+        return any(tuple(color) != generated_color(t) for t, color in mismatch.colors.items())
+
+
+def is_of_this_world(points):
+    """Whether the points are so near that the numbers of the next stage are finite."""
+    return all(abs(x) < FAR for p in points for x in p)
+
+
+def generated_color(number):
+    """The color that zbuf gives to a triangle (docs/stages.md, Z10)."""
+    state, color = 1, []
+    a, c = 214013, 2531011
+    skip = 3 * number
+    while skip:  # the generator's steps, doubled each time
+        if skip & 1:
+            state = (a * state + c) % 2**32
+        a, c, skip = a * a % 2**32, (a + 1) * c % 2**32, skip >> 1
+    for _ in range(3):
+        state = (214013 * state + 2531011) % 2**32
+        color.append((state >> 16 & 0x7fff) % 256)
+    return tuple(color)

@@ -1,0 +1,123 @@
+"""4 x 4 matrices in doubles, as a student's program has them: those of the three stages, right or with one mistake."""
+import math
+
+from lib.vectors import cross
+
+IDENTITY = tuple(tuple(float(i == j) for j in range(4)) for i in range(4))
+UNDEFINED = (math.nan,) * 3
+ROUNDING = 1e-13  # of sums and products in doubles, with some to spare
+
+
+def dot(a, b):
+    return sum(x * y for x, y in zip(a, b))
+
+
+def product(a, b):
+    columns = tuple(zip(*b))
+    return tuple(tuple(dot(row, column) for column in columns) for row in a)
+
+
+def transposed(m):
+    return tuple(zip(*m))
+
+
+def affine(rows, offset=(0.0, 0.0, 0.0)):
+    return (*((*row, last) for row, last in zip(rows, offset)), (0.0, 0.0, 0.0, 1.0))
+
+
+def negative(v):
+    return tuple(-x for x in v)
+
+
+def unit(v):
+    size = math.hypot(*v)
+    return tuple(x / size for x in v)
+
+
+def image(m, p, is_divided=True):
+    """The image of a point; UNDEFINED where it would be divided by 0."""
+    x, y, z = p
+    x, y, z, w = (row[0] * x + row[1] * y + row[2] * z + row[3] for row in m)
+    if not is_divided:
+        return x, y, z
+    return (x / w, y / w, z / w) if abs(w) > 1e-12 else UNDEFINED
+
+
+def slack(m, p, units, is_divided=True):
+    """How far the image of p moves if p moves by `units`, and by rounding on the way."""
+    moves = (*(u + ROUNDING * abs(x) for u, x in zip(units, p)), ROUNDING)
+    reach = [sum(abs(a) * move for a, move in zip(row, moves)) for row in m]
+    if not is_divided:
+        return reach[:3]
+    w = abs(m[3][0] * p[0] + m[3][1] * p[1] + m[3][2] * p[2] + m[3][3])
+    if w <= 2 * reach[3] or w <= 1e-12:
+        return math.inf, math.inf, math.inf
+    return [(r + abs(a) * reach[3]) / (w - reach[3]) for r, a in zip(reach, image(m, p))]
+
+
+# model
+def translation(offset):
+    return affine([row[:3] for row in IDENTITY[:3]], offset)
+
+
+def scaling(factors):
+    return affine([[factors[i] if i == j else 0.0 for j in range(3)] for i in range(3)])
+
+
+def rotation(radians, axis):
+    """Rodrigues' formula; `axis` should be a unit vector."""
+    c, s = math.cos(radians), math.sin(radians)
+    images = []
+    for x in (row[:3] for row in IDENTITY[:3]):
+        images.append([c * e + (1 - c) * dot(axis, x) * a + s * t for e, a, t in zip(x, axis, cross(axis, x))])
+    return affine(list(zip(*images)))
+
+
+# view
+def view_matrix(eye, look, up, mistake="", spelling=0):
+    """The matrix of view, or what a mistake makes of it. Some mistakes are made in more than one way: `spelling` tells which."""
+    l = tuple(look) if mistake == "look-is-a-direction" else tuple(b - a for a, b in zip(eye, look))
+    if mistake != "l-not-unit":
+        l = unit(l)
+    r = cross(up, l) if mistake == "r-is-up-cross-l" else cross(l, up)
+    if mistake != "r-not-unit":
+        r = unit(r)
+    u = cross(r, l)
+    if mistake == "up-as-given":
+        u = unit(up) if spelling else tuple(up)
+    elif spelling:
+        u = unit(u)
+    back = l if mistake == "l-not-negated" else negative(l)
+    turn = affine([r, u, back])
+    if mistake == "rotation-transposed":
+        turn = transposed(turn)
+    move = {"eye-added": eye, "no-translation": (0.0, 0.0, 0.0)}.get(mistake, negative(eye))
+    return product(translation(move), turn) if mistake == "translation-after-rotation" else product(turn, translation(move))
+
+
+VIEW_SPELLINGS = {"up-as-given": 2, "l-not-unit": 2, "r-not-unit": 2}  # others have one
+
+
+# project
+def perspective_matrix(fov_y, aspect, near, far, is_ratio=False, mistake="", pi=math.pi):
+    """The matrix of project, or what a mistake makes of it."""
+    radian = 1.0 if mistake == "fov-in-radians" else pi / 180
+    part = 1 if mistake == "fov-not-halved" else 2
+    fov_x = {"fovx-equals-fovy": fov_y, "fovx-divided-by-aspect": fov_y / aspect}.get(mistake, fov_y * aspect)
+    top = math.tan(radian * fov_y / part)
+    right = top * aspect if is_ratio or mistake == "r-is-t-times-aspect" else math.tan(radian * fov_x / part)
+    if mistake == "r-and-t-swapped":
+        right, top = top, right
+    return projection_matrix((1 / right, 0.0, 1 / top, 0.0), near, far, mistake)
+
+
+def projection_matrix(window, near, far, mistake=""):
+    """The matrix of a perspective or a frustum. `window` has the scale and the shift of x, and those of y."""
+    if mistake == "near-and-far-swapped":
+        near, far = far, near
+    z_row = (0.0, 0.0, -(far + near) / (far - near), -(1 if mistake == "missing-two" else 2) * far * near / (far - near))
+    if mistake == "z-row-sign":
+        z_row = negative(z_row)
+    w_row = (0.0, 0.0, 1.0 if mistake == "w-is-plus-z" else -1.0, 1.0 if mistake == "last-element-is-one" else 0.0)
+    x_scale, x_shift, y_scale, y_shift = window
+    return (x_scale, 0.0, x_shift, 0.0), (0.0, y_scale, y_shift, 0.0), z_row, w_row

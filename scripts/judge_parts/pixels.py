@@ -1,0 +1,323 @@
+"""Stage 4 of a hand-in: under which rules, or with which mistake, its pixels are exactly what its triangles give."""
+import collections
+import dataclasses
+import math
+
+from judge_parts.borders import Borders, is_shifted
+from judge_parts.pixel_rules import CENTER, MISTAKES, OPEN_DEPTHS, OPEN_ENDS, cause_of_all, in_words
+from judge_parts.raster import Drawing, Grid, Rule, TooMuch, Triangles
+from judge_parts.shown import DEPTH_BASE
+from judge_parts.verdict import cause_of
+
+PIXELS_LOOKED_AT = 30_000  # how many differing pixels are checked for what else they could show
+SAMPLE_ROWS = 8
+LEAST_PIXELS_OF_OTHERS = 3  # that triangles beside the largest must show before one color is a mistake
+# Real programs draw a few pixels astray, for example where a row passes just by a vertex.
+MOST_STRAYS = 0.05  # of the pixels that are drawn, or not, otherwise
+MOST_INSIDE = 0.25  # of the pixels with a triangle, that may differ inside triangles where another rule holds at the borders
+
+
+@dataclasses.dataclass
+class Mismatch:
+    """The pixels that a rule does not explain: {(row, column): kind}, where kind is extra, missing, other or depth."""
+    rule: Rule
+    reading: str
+    pixels: dict = dataclasses.field(default_factory=dict)
+    drawn: int = 0       # pixels with a triangle, by the rule
+    offsets: dict = dataclasses.field(default_factory=dict)  # of depths, at these pixels
+    colors: dict = dataclasses.field(default_factory=dict)  # of each triangle, by the majority of its pixels
+    visible: collections.Counter = dataclasses.field(default_factory=collections.Counter)
+    owners: dict = dataclasses.field(default_factory=dict)  # by the rule, of these pixels
+    triangle_count: int = 0
+    by_color: dict = None
+    unplaced: set = None  # triangles that share their color with a larger one, or show no pixel
+
+    @property
+    def of_shape(self):
+        return [place for place, kind in self.pixels.items() if kind in ("extra", "missing")]
+
+    def of_color(self, color):
+        """The triangles that a color may stand for: those whose color it is, else those that have none to themselves."""
+        if self.by_color is None:
+            self.by_color = collections.defaultdict(set)
+            for t, own in self.colors.items():
+                self.by_color[own].add(t)
+            largest = {max(group, key=lambda t: self.visible[t]) for group in self.by_color.values()}
+            self.unplaced = set(range(self.triangle_count)) - largest
+        return self.by_color.get(color) or self.unplaced
+
+    def shows_another(self, place, pixels):
+        """Whether a pixel with a triangle has the color of another one than by the rule."""
+        row, column = place
+        return pixels.drawn[row][column] and self.owners.get(place, -1) not in self.of_color(pixels.colors[row][column])
+
+    @property
+    def of_picture(self):
+        return [place for place, kind in self.pixels.items() if kind in ("extra", "missing", "other")]
+
+    @property
+    def of_depths(self):
+        return [place for place, kind in self.pixels.items() if kind != "other"]
+
+
+@dataclasses.dataclass
+class Finding:
+    """What has been found about stage 4."""
+    verdict: str                # exact, borders, mistake, unknown
+    mismatch: Mismatch = None
+    rule: str = ""              # in words, if it is another one
+    causes: list = dataclasses.field(default_factory=list)
+    touches: tuple = ("depths", "picture")  # the files that the mistake spoils
+    remarks: list = dataclasses.field(default_factory=list)
+    total: int = 0              # of pixels with a triangle
+
+
+class PixelJudge:
+    """`readings` are {name: (points, units)}: the numbers of the file, and those in memory. `window` has the size and the limits."""
+
+    def __init__(self, readings, window, shown):
+        self.readings, self.window, self.shown = readings, window, shown
+        self.limits = float(window.front), float(window.rear)
+        self.made = {}
+
+    def drawing(self, reading, rule):
+        window = self.window
+        left, bottom = (-1.0, -1.0) if rule.is_window_one else (float(window.left), float(window.bottom))
+        grid = Grid(window.width, window.height, left, bottom, rule.half_x, rule.half_y)
+        if (reading, grid) not in self.made:
+            self.made[reading, grid] = Triangles(*self.readings[reading], grid)
+        return Drawing(self.made[reading, grid], rule, (-1.0, 1.0) if rule.is_depth_one else self.limits)
+
+    # One rule
+    def row_mismatches(self, drawing, pixels, row, budget, drawn_row=None):
+        """(column, kind) of what a row shows that the rule does not explain, colors aside. `drawn_row` is that of the drawing."""
+        owner, depth = drawn_row or drawing.row(row)
+        depths = pixels.depths[row] if pixels.depths else None
+        if pixels.depths and depths is None:
+            yield from self.listed_mismatches(owner, depth, pixels.listed[row])
+        drawn = pixels.drawn[row] if pixels.drawn else [z is not None for z in depths] if depths else None
+        if drawn is None:
+            return
+        tolerance = self.shown.depths.tolerance if depths else None
+        for column, (t, is_drawn) in enumerate(zip(owner, drawn)):
+            z = depths[column] if depths and is_drawn else None
+            if (t >= 0) == is_drawn and (z is None or abs(z - depth[column]) <= DEPTH_BASE or abs(z - depth[column]) <= tolerance(z)):
+                continue
+            budget[0] -= 1
+            if budget[0] > 0 and self.could_show(drawing, row, column, is_drawn, z):
+                continue
+            yield column, "extra" if t < 0 else "missing" if not is_drawn else "depth"
+
+    def could_show(self, drawing, row, column, is_drawn, z, triangles=None):
+        slack = self.shown.depths.tolerance(z) if z is not None else 0.0
+        return any((t >= 0) == is_drawn and (z is None or low <= z <= high) and (triangles is None or t in triangles)
+                   for t, low, high in drawing.could_show(row, column, slack))
+
+    def listed_mismatches(self, owner, depth, listed):
+        """Without a pixel for each depth: the depths of a row in their order, all or those before the rear limit."""
+        drawn = [(column, z) for column, (t, z) in enumerate(zip(owner, depth)) if t >= 0]
+        before = [(column, z) for column, z in drawn if z < self.limits[1]]
+        expected = before if len(listed) == len(before) else drawn
+        if len(expected) != len(listed):
+            yield len(owner), "depth"  # a column beyond the picture: somewhere in the row
+        for (column, z), given in zip(expected, listed):
+            if abs(z - given) > self.shown.depths.tolerance(z) and len(expected) == len(listed):
+                yield column, "depth"
+
+    def explains(self, reading, rule, rows):
+        """Whether the rule explains all that these rows show, colors aside."""
+        drawing, pixels = self.drawing(reading, rule), self.shown.pixels(rule.picture_flip, rule.text_flip)
+        budget = [PIXELS_LOOKED_AT]
+        return not any(True for row in rows for _ in self.row_mismatches(drawing, pixels, row, budget))
+
+    def compare(self, reading, rule, limit=math.inf):
+        """The Mismatch of a rule; None if more than `limit` pixels are not explained."""
+        drawing, pixels = self.drawing(reading, rule), self.shown.pixels(rule.picture_flip, rule.text_flip)
+        result = Mismatch(rule, reading, triangle_count=len(drawing.triangles.corners))
+        budget, pairs = [PIXELS_LOOKED_AT], collections.Counter()
+        for row in range(self.window.height):
+            owner, depth = drawing.row(row)
+            result.drawn += sum(t >= 0 for t in owner)
+            for column, kind in self.row_mismatches(drawing, pixels, row, budget, (owner, depth)):
+                result.pixels[row, column] = kind
+                if kind == "depth" and column < len(owner):
+                    result.owners[row, column] = owner[column]
+                    z = pixels.depths[row][column] if pixels.depths[row] else None
+                    result.offsets[row, column] = abs(z - depth[column]) if z is not None else 0.0
+            if len(result.pixels) > limit:
+                return None
+            if pixels.colors:
+                pairs.update((t, color) for t, color, is_drawn in zip(owner, pixels.colors[row], pixels.drawn[row]) if t >= 0 and is_drawn)
+        if pixels.colors:
+            self.compare_colors(drawing, pixels, pairs, result, budget)
+        return result if len(result.pixels) <= limit else None
+
+    def compare_colors(self, drawing, pixels, pairs, result, budget):
+        """Gives every triangle the color that most of its pixels have, and finds the pixels that show another triangle."""
+        for (t, color), _ in reversed(pairs.most_common()):
+            result.colors[t] = color
+        for (t, _), count in pairs.items():
+            result.visible[t] += count
+        if all(result.colors[t] == color for t, color in pairs):
+            return
+        of_color = {color: result.of_color(color) for color in {color for _, color in pairs}}
+        for row in range(self.window.height):
+            owner, _ = drawing.row(row)
+            colors, drawn, depths = pixels.colors[row], pixels.drawn[row], pixels.depths[row] if pixels.depths else None
+            for column, (t, color) in enumerate(zip(owner, colors)):
+                if t < 0 or not drawn[column]:
+                    continue
+                if result.colors[t] == color or (row, column) in result.pixels:
+                    continue
+                budget[0] -= 1
+                z = depths[column] if depths else None
+                if budget[0] <= 0 or not self.could_show(drawing, row, column, True, z, of_color.get(color, ())):
+                    result.pixels[row, column], result.owners[row, column] = "other", t
+
+    # All rules
+    def judge(self):
+        """The Finding."""
+        try:
+            return self.find()
+        except TooMuch:
+            return Finding("unknown", remarks=["too many triangles and rows to look for the cause"])
+
+    def find(self):
+        plain = self.compare("file", Rule())
+        finding = self.exact(plain)
+        if finding:
+            return finding
+        rows = self.sample_rows(plain)
+        return self.find_open(rows) or self.find_mistake(rows) or self.find_at_borders(plain) or self.unknown(plain)
+
+    def exact(self, mismatch):
+        """A Finding if the rule explains everything: that, or all triangles in one color."""
+        if mismatch is None or mismatch.pixels:
+            return None
+        finding = Finding("exact", mismatch, in_words(mismatch.rule), total=mismatch.drawn)
+        if mismatch.reading == "memory":
+            finding.remarks.append("by the exact numbers, kept in memory")
+        counts = [count for _, count in mismatch.visible.most_common()]
+        if len(set(mismatch.colors.values())) == 1 and sum(counts[1:]) >= LEAST_PIXELS_OF_OTHERS:
+            finding.verdict, finding.causes, finding.touches = "mistake", [cause_of("zbuf/one-color")], ("picture",)
+        return finding
+
+    def sample_rows(self, mismatch):
+        """A few rows that tell rules apart: some with differences, some others."""
+        wrong = sorted({row for row, _ in mismatch.pixels})
+        pixels = self.shown.pixels()
+        filled = [row for row in range(self.window.height) if (any(pixels.drawn[row]) if pixels.drawn else pixels.listed[row])]
+        return [*spread(wrong, SAMPLE_ROWS), *spread(filled, SAMPLE_ROWS // 2)]
+
+    def depth_rules(self):
+        """Rules of depth that can make a difference here."""
+        dx = -2 * float(self.window.left)
+        is_beyond = any(abs(p[0]) > dx / 2 for points, _ in self.readings.values() for p in points)
+        return [rule for rule in OPEN_DEPTHS if is_beyond or rule.get("clamp") is None] if self.shown.depths else OPEN_DEPTHS[:1]
+
+    def open_rules(self):
+        """(rank, changes), the usual rules first."""
+        rules = [((i > 1) + (j > 0), {**ends, **depth}) for i, ends in enumerate(OPEN_ENDS) for j, depth in enumerate(self.depth_rules())]
+        return sorted(rules, key=lambda pair: pair[0])
+
+    def find_open(self, rows):
+        for _, changes in self.open_rules():
+            for reading in self.readings:
+                rule = Rule(**changes)
+                if self.explains(reading, rule, rows):
+                    finding = self.exact(self.compare(reading, rule, limit=0))
+                    if finding:
+                        return finding
+        return None
+
+    def find_mistake(self, rows):
+        found, rank_of_found = {}, None
+        for rank, open_changes in self.open_rules():
+            if found and rank > rank_of_found:
+                break
+            for names, changes in MISTAKES:
+                is_less = changes == {"is_depth_one": True}
+                if names in found or self.is_void(changes) or is_less and found:
+                    continue
+                rule = Rule(**{**open_changes, **changes})
+                for reading in self.readings:
+                    if self.explains(reading, rule, rows) and (mismatch := self.compare(reading, rule, limit=0)):
+                        found[names], rank_of_found = mismatch, rank
+                        break
+        if not found:
+            return None
+        if any(len(names) == 1 for names in found):  # several at once only if no single one will do
+            found = {names: mismatch for names, mismatch in found.items() if len(names) == 1}
+        mismatch = next(iter(found.values()))
+        flips = mismatch.rule.picture_flip, mismatch.rule.text_flip
+        touches = ("picture",) if flips[0] and not flips[1] and self.shown.depths else ("depths",) if flips[1] and not flips[0] else ("depths", "picture")
+        return Finding("mistake", mismatch, in_words(mismatch.rule), list(map(cause_of_all, found)), touches, total=mismatch.drawn)
+
+    def is_void(self, changes):
+        """Whether a change cannot matter here."""
+        window = self.window
+        has_unit_window, has_unit_depths = (float(window.left), float(window.bottom)) == (-1, -1), self.limits == (-1, 1)
+        if changes.get("is_window_one") or changes.get("is_depth_one"):
+            return not (changes.get("is_window_one") and not has_unit_window or changes.get("is_depth_one") and not has_unit_depths)
+        return changes.get("text_flip", "") != changes.get("picture_flip", "") and not (self.shown.colors and self.shown.depths)
+
+    def find_at_borders(self, plain):
+        """Whether all differences from the nearest of our two rules lie within a pixel of an edge, and are no shift."""
+        center = self.compare("file", Rule(**CENTER))
+        best = min((plain, center), key=lambda mismatch: (len(mismatch.of_shape), len(mismatch.pixels)))
+        pixels = self.shown.pixels()
+        drawing = self.drawing("file", Rule())
+        if not pixels.drawn or is_shifted(drawing, pixels.drawn) or any(column >= self.window.width for _, column in best.pixels):
+            return None
+        shapes = len(best.of_shape)
+        most_inside, most_strays = MOST_INSIDE * best.drawn if shapes else 0, MOST_STRAYS * shapes
+        inside = strays = 0
+        for what in self.beyond_borders(Borders(drawing.triangles, self.limits), best, pixels):
+            inside += what == "inside"
+            strays += what == "stray"
+            if inside > most_inside or strays > most_strays:
+                return None
+        return Finding("borders", best, self.at_borders_in_words(best, inside), total=best.drawn)
+
+    def beyond_borders(self, borders, mismatch, pixels):
+        """For each pixel that differs beyond a pixel from the edges: `inside` if it shows a depth or a triangle that is not found within a
+        pixel, `stray` if it is drawn, or not, farther from the edges, or has a depth beyond the limits."""
+        for (row, column), kind in mismatch.pixels.items():
+            is_drawn = pixels.drawn[row][column]
+            z = pixels.depths[row][column] if pixels.depths and pixels.depths[row] else None
+            tolerance = self.shown.depths.tolerance(z) if z is not None else 0.0
+            seen = mismatch.of_color(pixels.colors[row][column]) if is_drawn else None
+            if borders.could_show(row, column, is_drawn, z, tolerance, seen):
+                continue
+            is_kept = z is None or self.limits[0] - tolerance <= z < self.limits[1] + tolerance
+            if not is_kept or kind in ("extra", "missing") and not borders.allows(row, column, is_drawn):
+                yield "stray"
+            elif kind not in ("extra", "missing"):
+                yield "inside"
+
+    def at_borders_in_words(self, mismatch, inside):
+        pixels, kinds = self.shown.pixels(), collections.Counter(mismatch.pixels.values())
+        shapes = kinds["extra"] + kinds["missing"]
+        others = {place for place, kind in mismatch.pixels.items() if kind in ("depth", "other") and mismatch.shows_another(place, pixels)}
+        offsets = [offset for place, offset in mismatch.offsets.items() if place not in others]
+        parts = [f"{kinds[kind]:,} {words}" for kind, words in (("extra", "more"), ("missing", "fewer")) if kinds[kind]]
+        words = [f"another rule at the borders: {counted(shapes, 'pixel')} of {mismatch.drawn:,} ({', '.join(parts)})"] if shapes else []
+        words += [f"{len(others):,} of {mismatch.drawn:,} show another triangle where triangles meet"] if others else []
+        if offsets:
+            least = "" if inside else "less than one pixel makes, "
+            words.append(f"{len(offsets):,} {'depth differs' if len(offsets) == 1 else 'depths differ'} by {least}up to {max(offsets):.2g}")
+        return "; ".join(words)
+
+    def unknown(self, plain):
+        finding = Finding("unknown", plain, total=plain.drawn)
+        finding.touches = tuple(name for name, places in (("depths", plain.of_depths), ("picture", plain.of_picture)) if places)
+        return finding
+
+
+def spread(values, count):
+    """At most `count` of the values, evenly spread."""
+    return values if len(values) <= count else [values[i * (len(values) - 1) // (count - 1)] for i in range(count)]
+
+
+def counted(count, noun):
+    return f"{count:,} {noun}{'' if count == 1 else 's'}"

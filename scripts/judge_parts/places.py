@@ -1,0 +1,15 @@
+"""Where files beside the scripts are: in the source tree, or where it is installed."""
+import pathlib
+
+from lib.command import CommandFailure
+
+HERE = pathlib.Path(__file__).resolve()
+
+
+def place(in_source, installed):
+    """The path of a file or folder, given from the source tree's top and from the prefix."""
+    paths = HERE.parents[2] / in_source, HERE.parents[3] / installed
+    for path in paths:
+        if path.exists():
+            return path
+    raise CommandFailure(f"there is neither {paths[0]} nor {paths[1]}")

@@ -1,0 +1,257 @@
+"""Draws triangles row by row under any combination of the rules that the assignment leaves open, and of mistakes.
+
+Every span of a row knows how uncertain its ends and depths are, since the numbers in a text are rounded: a pixel whose owner
+depends on that may show either."""
+import dataclasses
+import math
+
+ROUNDING = 1e-9       # of columns and rows calculated in doubles
+MOST_SPANS = 2_000_000
+NARROW = 1e-12
+FAR = 1e9             # in NDC: beyond this, all is the same
+
+# Ends of a row of pixels, from where the row of pixel centers meets the triangle, in columns.
+ENDS = {"rounded": lambda t: math.floor(t + 0.5), "truncated": math.trunc, "down": math.floor, "up": math.ceil}
+ENDS_IN_WORDS = {"rounded": "rounded", "truncated": "truncated", "down": "rounded down", "up": "rounded up"}
+
+
+@dataclasses.dataclass(frozen=True)
+class Grid:
+    """Where pixel centers lie in NDC."""
+    width: int
+    height: int
+    left: float
+    bottom: float
+    half_x: bool = True
+    half_y: bool = True
+
+    @property
+    def dx(self):
+        return -2 * self.left / self.width
+
+    @property
+    def dy(self):
+        return -2 * self.bottom / self.height
+
+    @property
+    def left_x(self):
+        return self.left + (self.dx / 2 if self.half_x else 0)
+
+    @property
+    def top_y(self):
+        return -self.bottom - (self.dy / 2 if self.half_y else 0)
+
+
+@dataclasses.dataclass(frozen=True)
+class Rule:
+    """How spans become pixels and which pixel wins; the defaults are those of `zbuf`."""
+    left: str = "rounded"
+    right: str = "rounded"
+    depth: str = "plane"          # plane, between ends, from left
+    clamp: int = None             # between ends: how many columns beyond the picture the ends may lie; None is any
+    half_x: bool = True
+    half_y: bool = True
+    is_window_one: bool = False
+    is_depth_one: bool = False    # front and rear are -1 and 1
+    column_short: bool = False
+    row_short: bool = False
+    shift: tuple = (0, 0)         # columns and rows
+    is_cut_first: bool = False    # whether spans end at the picture's borders before the shift
+    keep: str = "nearest"         # nearest, farthest, last
+    has_front: bool = True
+    has_rear: bool = True
+    flat: str = ""                # one depth for a triangle: mean, or first, second, third, least, most
+    picture_flip: str = ""        # upside down, mirrored
+    text_flip: str = ""
+
+
+@dataclasses.dataclass
+class Span:
+    """What a triangle has on a row: where it begins and ends in columns, its depth at both, and how uncertain all that is."""
+    triangle: int
+    left: float
+    right: float
+    z_left: float
+    z_right: float
+    slack_left: float
+    slack_right: float
+    slack_z: float
+    is_last: bool       # the triangle's last row
+    is_certain: bool    # whether the row meets the triangle for certain, and the triangle has an area
+
+
+FLAT = {"mean": lambda zs: sum(zs) / 3, "first": lambda zs: zs[0], "second": lambda zs: zs[1], "third": lambda zs: zs[2], "least": min, "most": max}
+
+
+class Triangles:
+    """Triangles in NDC over a grid. `units` says how far each coordinate may be off."""
+
+    def __init__(self, points, units, grid):
+        self.grid = grid
+        near = [tuple(max(-FAR, min(x, FAR)) for x in p) for p in points]
+        self.corners = [near[i:i + 3] for i in range(0, len(near), 3)]
+        self.units = [min(FAR, max(max(u) for u in units[i:i + 3])) for i in range(0, len(units), 3)]
+        self.rows, self.spans, count = [[] for _ in range(grid.height)], {}, 0
+        for t, corners in enumerate(self.corners):
+            highest, lowest = max(p[1] for p in corners), min(p[1] for p in corners)
+            slack = self.units[t] / grid.dy + ROUNDING
+            first = max(0, bounded((grid.top_y - highest) / grid.dy - slack, grid.height))
+            last = min(grid.height - 1, bounded((grid.top_y - lowest) / grid.dy + slack, grid.height, math.floor))
+            count += max(0, last - first + 1)
+            if count > MOST_SPANS:
+                raise TooMuch
+            for row in range(first, last + 1):
+                self.rows[row].append(t)
+
+    def row(self, row):
+        """The spans of a row."""
+        if not 0 <= row < self.grid.height:
+            return []
+        if row not in self.spans:
+            made = (self.span(t, row) for t in self.rows[row])
+            self.spans[row] = [span for span in made if span]
+        return self.spans[row]
+
+    def span(self, t, row):
+        grid, corners, unit = self.grid, self.corners[t], self.units[t]
+        y = grid.top_y - row * grid.dy
+        highest, lowest = max(p[1] for p in corners), min(p[1] for p in corners)
+        slack_y = unit + ROUNDING * grid.dy
+        is_certain = lowest + slack_y < y < highest - slack_y
+        y = min(max(y, lowest), highest)
+        met = []
+        for i in range(3):
+            low, high = sorted((corners[i], corners[(i + 1) % 3]), key=lambda p: (p[1], p[0], p[2]))
+            if low[1] == high[1] or not low[1] <= y <= high[1]:
+                continue
+            t_y = (y - low[1]) / (high[1] - low[1])
+            x, z = (high[0], high[2]) if y == high[1] else (low[0] + t_y * (high[0] - low[0]), low[2] + t_y * (high[2] - low[2]))
+            reach = abs(high[0] - low[0])
+            met.append((x, z, unit + min(reach, reach / (high[1] - low[1]) * unit), abs(high[2] - low[2]) / (high[1] - low[1]) * unit))
+        if len(met) < 2:  # a horizontal line
+            ends = sorted(corners)
+            met, is_certain = [(*ends[0][::2], unit, 0.0), (*ends[2][::2], unit, 0.0)], False
+        (x_left, z_left, slack_left, dz_left), (x_right, z_right, slack_right, dz_right) = min(met), max(met)
+        left, right = (x_left - grid.left_x) / grid.dx, (x_right - grid.left_x) / grid.dx
+        slack_left, slack_right = slack_left / grid.dx + ROUNDING, slack_right / grid.dx + ROUNDING
+        width = max(right - left, NARROW)
+        per_column = abs(z_right - z_left) / width
+        reach_z = max(p[2] for p in corners) - min(p[2] for p in corners)
+        slack_z = (unit + min(dz_left + dz_right, reach_z)) * (1 + 2 / width) + per_column * (slack_left + slack_right)
+        is_wide = right - left > slack_left + slack_right
+        if not is_wide and not self.has_area(t):
+            is_certain, slack_z = False, slack_z + abs(z_right - z_left)
+        top_row = (grid.top_y - lowest) / grid.dy
+        return Span(t, left, right, z_left, z_right, slack_left, slack_right, slack_z, row == math.floor(top_row + ROUNDING), is_certain)
+
+    def has_area(self, t):
+        """Whether a triangle has an area, whatever its numbers' last digits."""
+        (ax, ay, _), (bx, by, _), (cx, cy, _) = self.corners[t]
+        area = abs((bx - ax) * (cy - ay) - (cx - ax) * (by - ay))
+        reach = max(abs(bx - ax), abs(by - ay), abs(cx - ax), abs(cy - ay))
+        return area > 4 * reach * (self.units[t] + 1e-15)
+
+
+class TooMuch(Exception):
+    """More spans than can be drawn in Python."""
+
+
+def bounded(x, limit, rounded=math.ceil):
+    """A row or a column as a whole number, from -1 to `limit`."""
+    return rounded(max(-1.0, min(x, float(limit))))
+
+
+def ends_of(span, rule, width, slack=0.0):
+    """The first and the last column under a rule; a positive slack makes the span as wide as its uncertainty allows, a negative
+    one as narrow."""
+    first = ENDS[rule.left](span.left - slack * span.slack_left)
+    last = ENDS[rule.right](span.right + slack * span.slack_right)
+    if rule.is_cut_first:
+        first, last = max(first, 0), min(last, width - 1)
+    return first + rule.shift[0], last - rule.column_short + rule.shift[0]
+
+
+def depth_line(span, rule, width):
+    """The depth as (z at column 0, z per column)."""
+    left, right = span.left, span.right
+    if rule.depth == "between ends":
+        left, right = ENDS[rule.left](left), ENDS[rule.right](right)
+        if rule.clamp is not None:
+            left, right = (max(-rule.clamp, min(end, width - 1 + rule.clamp)) for end in (left, right))
+    if right - left < NARROW:
+        return min(span.z_left, span.z_right), 0.0
+    slope = (span.z_right - span.z_left) / (right - left)
+    if rule.depth == "from left":
+        left = ENDS[rule.left](left)
+        left = max(left, 0) if rule.clamp == 0 else left
+    left += rule.shift[0]
+    return span.z_left - left * slope, slope
+
+
+class Drawing:
+    """The rows of a picture under a rule. `limits` is front and rear."""
+
+    def __init__(self, triangles, rule, limits):
+        self.triangles, self.rule = triangles, rule
+        self.front = limits[0] if rule.has_front else -math.inf
+        self.rear = limits[1] if rule.has_rear else math.inf
+        self.width = triangles.grid.width
+
+    def spans(self, row):
+        spans = self.triangles.row(row - self.rule.shift[1])
+        return [span for span in spans if not span.is_last] if self.rule.row_short else spans
+
+    def line(self, span):
+        if self.rule.flat:
+            return FLAT[self.rule.flat]([p[2] for p in self.triangles.corners[span.triangle]]), 0.0
+        return depth_line(span, self.rule, self.width)
+
+    def row(self, row):
+        """The triangle (or -1) and the depth of each pixel of a row."""
+        owner, depth = [-1] * self.width, [self.rear] * self.width
+        front, rear, keep = self.front, self.rear, self.rule.keep
+        for span in self.spans(row):
+            first, last = ends_of(span, self.rule, self.width)
+            at_0, slope = self.line(span)
+            t = span.triangle
+            for column in range(max(first, 0), min(last, self.width - 1) + 1):
+                z = at_0 + column * slope
+                if keep == "nearest":
+                    if front <= z < depth[column]:
+                        owner[column], depth[column] = t, z
+                elif front <= z < rear and (keep == "last" or owner[column] < 0 or z > depth[column]):
+                    owner[column], depth[column] = t, z
+        return owner, depth
+
+    def could_show(self, row, column, tolerance):
+        """What a pixel may show, given how uncertain the numbers are: pairs of a triangle and a range of depths; the triangle -1
+        stands for none. `tolerance` is that of a depth."""
+        sure, possible = [], []
+        for span in self.spans(row):
+            first, last = ends_of(span, self.rule, self.width, 1.0)
+            if not first <= column <= last:
+                continue
+            at_0, slope = self.line(span)
+            z, slack = at_0 + column * slope, tolerance + span.slack_z
+            if not (z + slack >= self.front and z - slack < self.rear):
+                continue
+            first, last = ends_of(span, self.rule, self.width, -1.0)
+            fragment = (span.triangle, z - slack, z + slack)
+            possible.append(fragment)
+            if span.is_certain and first <= column <= last and z - slack >= self.front and z + slack < self.rear:
+                sure.append(fragment)
+        return kept(sure, possible, self.rule.keep)
+
+
+def kept(sure, possible, keep):
+    """Which of the fragments (triangle, least depth, largest depth) a pixel may show. Those that are sure are there, others may be."""
+    if not sure:
+        return [*possible, (-1, 0.0, 0.0)]
+    if keep == "last":
+        last = sure[-1][0]
+        return [fragment for fragment in possible if fragment[0] >= last]
+    if keep == "farthest":
+        least = max(low for _, low, _ in sure)
+        return [fragment for fragment in possible if fragment[2] >= least]
+    most = min(high for _, _, high in sure)
+    return [fragment for fragment in possible if fragment[1] <= most]

@@ -1,0 +1,104 @@
+"""What our own tools make of a scene and a config, once for all hand-ins that are judged by them."""
+import functools
+import math
+import os
+import re
+
+from explain_parts.window import Window
+from judge_parts.hand_in import KINDS
+from judge_parts.old_format import without_old_lines
+from judge_parts.scene import Scene
+from lib.command import CommandFailure
+from lib.pictures import read_picture
+from lib.pipe_tools import ToolFailure, Tools
+from lib.stage_text import parse_stage_text, text_of
+
+EXACT = ("--digits", "exact")
+OWN_COLORS = ("light", "attributes")  # header lines of scenes whose triangles are not each of one color
+MEBIBYTE = 1 << 20
+BYTES_OF_A_VERTEX, BYTES_OF_A_DEPTH, BYTES_OF_A_PIXEL = 500, 40, 8
+MOST_PIXELS = 1 << 24
+OLD_FORMAT = "the scene has the form of before 2020: size, background and the colors after triangles are passed over"
+
+
+class JudgeError(CommandFailure):
+    """There is nothing to judge by: the scene or the config is not accepted, or too large."""
+
+
+class Reference:
+    def __init__(self, scene, config, tools):
+        self.tools, self.config, self.remarks = tools, config, []
+        text, model = self.accepted(scene)
+        self.scene_data = text.encode("utf-8", errors="surrogateescape")
+        stage1 = parse_stage_text(model.decode(), "model")
+        self.header = stage1.header
+        self.scene = Scene(text, stage1.header)
+        self.world = stage1.points
+        self.window = self.accepted_window(config) if config is not None else None
+        self.has_own_colors = any(keyword in self.header for keyword in OWN_COLORS)
+
+    def accepted(self, data):
+        """The scene's text and what model makes of it."""
+        text = text_of(data, "the scene")
+        try:
+            return text, self.tools.output("model", *EXACT, stdin=data)
+        except ToolFailure as failure:
+            older = without_old_lines(text)
+            try:
+                if older is not None:
+                    model = self.tools.output("model", *EXACT, stdin=older.encode("utf-8", errors="surrogateescape"))
+                    self.remarks.append(OLD_FORMAT)
+                    return older, model
+            except ToolFailure:
+                pass
+            raise JudgeError(f"the scene is refused: {failure}") from None
+
+    def accepted_window(self, config):
+        size = text_of(config, "the config").split()[:2]
+        if all(re.fullmatch("[0-9]{1,9}", word) for word in size) and math.prod(map(int, size)) > MOST_PIXELS:
+            raise JudgeError(f"expected a config of at most {MOST_PIXELS} pixels, found {' x '.join(size)}")
+        try:
+            with self.tools.file(config) as path:
+                self.tools.run("zbuf", "--image", "/dev/null", "--z-buffer", "/dev/null", path)
+        except ToolFailure as failure:
+            raise JudgeError(f"the config is refused: {failure}") from None
+        return Window(text_of(config, "the config"))
+
+    def limit(self, kind):
+        """The bytes that a file of a hand-in may have."""
+        if kind in ("depths", "picture"):
+            pixels = self.window.width * self.window.height
+            return MEBIBYTE + pixels * (BYTES_OF_A_DEPTH if kind == "depths" else BYTES_OF_A_PIXEL)
+        return MEBIBYTE + BYTES_OF_A_VERTEX * len(self.world)
+
+    def picture(self, stage3):
+        """The picture of our zbuf for the bytes of a stage text, as rows of bytes; None if it refuses them."""
+        try:
+            with self.tools.file(self.config) as config, self.tools.file(b"") as image:
+                self.tools.run("zbuf", config, "--z-buffer", "/dev/null", "--image", image + ".ppm", stdin=stage3)
+                try:
+                    return read_picture(image + ".ppm")[2]
+                finally:
+                    os.unlink(image + ".ppm")
+        except ToolFailure:
+            return None
+
+    def clipped(self, points):
+        """The points after our project, which clips; None if it refuses them."""
+        lines = "".join(" ".join(map(repr, p)) + "\n" * (1 + (i % 3 == 2)) for i, p in enumerate(points))
+        try:
+            with self.tools.file(self.scene_data) as path:
+                return parse_stage_text(self.tools.output("project", "--scene", path, *EXACT, stdin=lines.encode()).decode(), "project").points
+        except ToolFailure:
+            return None
+
+
+@functools.lru_cache(maxsize=16)
+def reference(scene, config):
+    """The Reference for the bytes of a scene and of a config, or None for a config."""
+    return Reference(scene, config, Tools())
+
+
+def kinds_of(config):
+    """The kinds of files that a hand-in needs; without a config, those of the first three stages."""
+    return [kind for kind in KINDS if config is not None or kind.startswith("stage")]

@@ -1,0 +1,63 @@
+"""A Verdict in words."""
+from judge_parts.verdict import ANOTHER_RULE, FAILED, MISSING, OPEN, RIGHT
+
+HEADER = ["stage", "file", "verdict", "numbers that differ", "largest difference, theirs and ours", "remarks"]
+
+
+def rows(verdict):
+    """The lines of a table below HEADER."""
+    return [[file.stage, file.file, file.verdict, "" if file.differing is None else str(file.differing), file.largest, "; ".join(remarks_of(file))]
+            for file in verdict.files]
+
+
+def remarks_of(file):
+    return [*([file.cause] if file.cause else []), *([file.rule] if file.rule else []), *file.remarks]
+
+
+def matrices(verdict):
+    """The fitted matrices beside ours, with a line above each."""
+    for file in verdict.files:
+        if file.matrices:
+            yield f"The matrix of {file.stage}, from the points of {file.file}:"
+            yield from file.matrices.lines()
+            yield ""
+
+
+def listed(files):
+    names = [file.file for file in files]
+    return " and ".join([", ".join(names[:-1]), names[-1]] if len(names) > 1 else names)
+
+
+def sentence(verdict):
+    """The first stage that went wrong, why, and the later ones that are wrong by themselves."""
+    failed = [file for file in verdict.files if file.verdict in FAILED]
+    undecided = [file for file in verdict.files if file.verdict in OPEN]
+    others = [file for file in verdict.files if file.verdict == ANOTHER_RULE]
+    if not failed and undecided:
+        return "; ".join(f"{file.file}: {file.verdict}" for file in undecided)
+    if not failed and all(file.verdict == RIGHT for file in verdict.files):
+        return f"all {'five' if len(verdict.files) == 5 else 'three'} files are right"
+    if not failed:
+        rules = {}
+        for file in others:
+            rules.setdefault(file.rule, []).append(file)
+        words = "; ".join(f"{listed(files)} by {'' if rule.startswith('another rule') else 'another rule: '}{rule}" for rule, files in rules.items())
+        return f"all {'five' if len(verdict.files) == 5 else 'three'} files are right, {words}"
+    if all(file.verdict == MISSING for file in failed):
+        words = f"{listed(failed)} {'is' if len(failed) == 1 else 'are'} not handed in; what is there is right"
+        return words if len(failed) < len(verdict.files) else "nothing is handed in"
+    first = [file for file in failed if (file.stage, file.verdict, file.causes) == (failed[0].stage, failed[0].verdict, failed[0].causes)]
+    rest = [file for file in failed if file not in first]
+    words = f"the first stage that went wrong is {first[0].stage} ({listed(first)} {'is' if len(first) == 1 else 'are'} {first[0].verdict})"
+    if first[0].cause:
+        words += f": {first[0].cause}"
+    if rest:
+        return f"{words}; also wrong, by themselves: {listed_with_causes(rest)}"
+    return words + ("; what follows is right, given that" if first[-1] is not verdict.files[-1] else "")
+
+
+def listed_with_causes(files):
+    by_reason = {}
+    for file in files:
+        by_reason.setdefault(file.cause or (file.verdict if file.verdict == MISSING else ""), []).append(file)
+    return ", ".join(listed(group) + (f" ({reason})" if reason else "") for reason, group in by_reason.items())

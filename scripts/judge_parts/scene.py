@@ -1,0 +1,181 @@
+"""A scene that `model` has accepted: its camera, its commands, and what it becomes in world space, right or with one mistake."""
+import dataclasses
+import itertools
+import math
+
+from explain_parts.matrices import Projection
+from explain_parts.scene import commands
+from judge_parts.mistakes import sentences
+from judge_parts.matrices import (IDENTITY, VIEW_SPELLINGS, image, perspective_matrix, product, projection_matrix, rotation, scaling, slack, transposed,
+                                  translation, unit, view_matrix)
+
+NO_UNITS = (0.0, 0.0, 0.0)
+ROUGH_PIS = (3.1416, 3.14159, 3.1415927, 3.141592, 3.141593, 3.1415926, 3.1415, 3.142, 22 / 7, 3.14)
+
+
+@dataclasses.dataclass(frozen=True)
+class Habit:
+    """How a program carries out the commands. The defaults are right."""
+    order: str = "right"            # on which side of the matrix a transform is multiplied
+    stack: str = "nested"           # what push and pop do
+    turn: object = None             # makes a matrix of an angle in degrees and an axis
+
+
+def turned(degrees, axis):
+    return rotation(math.radians(degrees), unit(axis))
+
+
+def turned_with(pi):
+    return lambda degrees, axis: rotation(degrees * pi / 180, unit(axis))
+
+
+def with_wrong_element(m, row):
+    """The matrix of a rotation with an element of its second column in its third."""
+    return tuple((*line[:2], line[1], line[3]) if i == row else line for i, line in enumerate(m))
+
+
+# How each mistake of model is made: the usual way first, then others that programs were seen to have.
+MODEL_MISTAKES = {
+    "multiplied-on-the-left": [Habit(order="left")],
+    "push-and-pop-ignored": [Habit(stack="ignored")],
+    "pop-ignored": [Habit(stack="no pop")],
+    "push-of-the-identity": [Habit(stack="push identity")],
+    "pop-to-the-identity": [Habit(stack="pop identity")],
+    "second-push-lost": [Habit(stack=f"{lost}, {empty}") for lost in ("adjacent lost", "every other lost", "all but first lost", "nested lost")
+                         for empty in ("stay", "identity")] + [Habit(stack="one count")],
+    "push-does-not-nest": [Habit(stack="slot"), Habit(stack="slot kept")],
+    "axis-not-normalized": [Habit(turn=lambda degrees, axis: rotation(math.radians(degrees), axis))],
+    "angle-in-radians": [Habit(turn=lambda degrees, axis: rotation(degrees, unit(axis)))],
+    "rotation-transposed": [Habit(turn=lambda degrees, axis: transposed(turned(degrees, axis)))],
+    "rotation-element-from-the-wrong-column": [Habit(turn=lambda degrees, axis, row=row: with_wrong_element(turned(degrees, axis), row)) for row in range(3)],
+    "angle-negated": [Habit(turn=lambda degrees, axis: turned(-degrees, axis))],
+}
+
+
+class Stack:
+    """The current matrix and the saved ones, under a habit."""
+
+    def __init__(self, habit):
+        self.matrix, self.saved = IDENTITY, []
+        self.last, self.last_of_stack, self.was_lost = "", "", False  # commands: any, and the last push or pop; whether that was lost
+        self.kind, _, self.empty = habit.partition(", ")
+        self.count = 0  # of the transforms since the last push, for the habit that counts them
+
+    def is_lost(self):
+        """Whether a push that comes now saves nothing."""
+        was_push = self.last_of_stack == "push"
+        return {"adjacent lost": self.last == "push", "every other lost": was_push and not self.was_lost, "all but first lost": was_push,
+                "nested lost": bool(self.saved)}.get(self.kind, False)
+
+    def moved_to(self, matrix):
+        self.matrix = matrix
+        if self.kind == "one count":
+            self.saved.append(matrix)
+            self.count += 1
+
+    def count_back(self, keyword):
+        """push and pop of a program that keeps all matrices and counts those since the last push: that push forgets the count of
+        the push before it."""
+        if keyword == "push":
+            self.count = 0
+        elif keyword == "pop" and self.count:
+            del self.saved[-self.count:]
+            self.matrix = self.saved[-1] if self.saved else IDENTITY
+
+    def command(self, keyword):
+        if self.kind == "one count":
+            return self.count_back(keyword)
+        is_lost = keyword == "push" and self.is_lost()
+        if keyword == "push" and self.kind != "ignored" and not is_lost:
+            if self.kind.startswith("slot"):
+                self.saved.clear()
+            self.saved.append(self.matrix)
+            if self.kind == "push identity":
+                self.matrix = IDENTITY
+        elif keyword == "pop" and self.kind not in ("ignored", "no pop"):
+            if self.saved:
+                popped = self.saved[-1] if self.kind == "slot kept" else self.saved.pop()
+                self.matrix = IDENTITY if self.kind == "pop identity" else popped
+            elif self.empty == "identity":
+                self.matrix = IDENTITY
+        if keyword in ("push", "pop"):
+            self.last_of_stack, self.was_lost = keyword, is_lost
+        self.last = keyword
+        return None
+
+
+class Scene:
+    """The text of a scene and the header that `model` made of it."""
+
+    def __init__(self, text, header):
+        self.commands = list(commands(text))
+        self.header = header
+        self.triangle_lines = [command.line for command in self.commands if command.keyword == "triangle"]
+        self.eye, self.look, self.up = (tuple(map(float, header[name])) for name in ("eye", "look", "up"))
+        keyword = next(name for name in ("perspective", "frustum", "ortho") if name in header)
+        self.projection = Projection(keyword, header[keyword])
+
+    def world(self, habit=Habit()):
+        """The points after model with their slacks, one by one."""
+        stack, turn = Stack(habit.stack), habit.turn or turned
+        for command in self.commands:
+            keyword = command.keyword
+            if keyword in ("translate", "scale", "rotate"):
+                numbers = tuple(map(float, command.arguments[0]))
+                made = turn(numbers[0], numbers[1:]) if keyword == "rotate" else (translation if keyword == "translate" else scaling)(numbers)
+                stack.moved_to(product(made, stack.matrix) if habit.order == "left" else product(stack.matrix, made))
+            elif keyword == "triangle":
+                for words in command.arguments:
+                    p = tuple(map(float, words[:3]))
+                    yield image(stack.matrix, p, False), slack(stack.matrix, p, NO_UNITS, False)
+            stack.command(keyword)
+
+    @staticmethod
+    def model_mistakes():
+        """(name, habits) for each mistake of model in the list."""
+        return [(name, MODEL_MISTAKES[name]) for name in names_of("model") if name in MODEL_MISTAKES]
+
+    def command_before(self, triangle):
+        """The last command before a triangle that is none itself: the line after which it comes. None if there is none."""
+        line = self.triangle_lines[triangle]
+        before = itertools.takewhile(lambda command: command.line < line, self.commands)
+        return next((command for command in reversed(list(before)) if command.keyword != "triangle"), None)
+
+    def of_view(self, mistake="", spelling=0):
+        return view_matrix(self.eye, self.look, self.up, mistake, spelling)
+
+    def of_project(self, mistake="", pi=math.pi):
+        """The matrix of project; None if the mistake cannot be made with this projection."""
+        kind = self.projection
+        if kind.kind == "perspective":
+            return perspective_matrix(*map(float, kind.numbers), kind.aspect_rule == "ratio", mistake, pi)
+        exact = tuple(tuple(map(float, row)) for row in kind.matrix())
+        if mistake in ("", "no-divide"):
+            return exact
+        if kind.is_parallel or mistake not in ("near-and-far-swapped", "missing-two", "z-row-sign", "w-is-plus-z", "last-element-is-one"):
+            return None
+        window = (exact[0][0], exact[0][2], exact[1][1], exact[1][2])
+        return projection_matrix(window, float(kind.near), float(kind.far), mistake)
+
+    def view_mistakes(self):
+        """(name, matrix, whether it divides) for each mistake of view."""
+        for name in names_of("view"):
+            for spelling in range(VIEW_SPELLINGS.get(name, 1)):
+                try:
+                    yield name, self.of_view(name, spelling), False
+                except ZeroDivisionError:  # for example a direction of 0 0 0
+                    pass
+
+    def project_mistakes(self):
+        for name in names_of("project"):
+            try:
+                matrix = self.of_project(name)
+            except (ZeroDivisionError, OverflowError):
+                continue
+            if matrix is not None:
+                yield name, matrix, name != "no-divide"
+
+
+def names_of(stage):
+    """The names of the mistakes of a stage, without the stage."""
+    return [name.partition("/")[2] for name in sentences() if name.startswith(stage + "/")]

@@ -1,0 +1,111 @@
+"""The depths and the picture of a hand-in, pixel by pixel."""
+import collections
+import dataclasses
+
+from judge_parts.digits import EXACT, Digits, digits_of
+from lib.command import shown as printable
+from lib.pictures import PictureError, picture_of
+from lib.stage_text import StageTextError, real, text_of
+
+DEPTH_BASE = 2e-6  # for depths of 6 decimals, calculated from numbers of 7; times their size beyond 1
+FLIPS = {"": lambda rows: rows, "upside down": lambda rows: rows[::-1], "mirrored": lambda rows: [row[::-1] for row in rows]}
+
+
+@dataclasses.dataclass
+class Depths:
+    """Rows of depths, as far as a text prints them."""
+    rows: list
+    digits: Digits = EXACT
+
+    def tolerance(self, z):
+        return max(DEPTH_BASE * max(1.0, abs(z)), self.digits.unit(z))
+
+
+def read_depths(data, name):
+    """The Depths of a text; raises a StageTextError."""
+    rows, words_of_all = [], []
+    for number, line in enumerate(text_of(data, name).split("\n"), 1):
+        words = line.split()
+        try:
+            rows.append([real(word) for word in words])
+        except ValueError:
+            raise StageTextError(f"{name}:{number}: expected depths, found '{printable(line.strip()[:40])}'") from None
+        words_of_all += words
+    while rows and not rows[-1]:  # rows at the end may be empty
+        rows.pop()
+    return Depths(rows, digits_of(words_of_all))
+
+
+def read_colors(data, name, width, height):
+    """Rows of colors, three bytes each; raises a PictureError, also if the picture has another size."""
+    found_width, found_height, rows = picture_of(data, name)
+    if (found_width, found_height) != (width, height):
+        raise PictureError(f"{name}: expected {width} x {height} pixels, found {found_width} x {found_height}")
+    return [[row[i:i + 3] for i in range(0, 3 * width, 3)] for row in rows]
+
+
+@dataclasses.dataclass
+class Pixels:
+    """What each pixel shows, row by row. `drawn` and `colors` are None without a picture; a row of `depths` is None if it cannot be
+    told which pixels its numbers belong to: those are in `listed`."""
+    drawn: list
+    colors: list
+    depths: list
+    listed: list
+
+
+class Shown:
+    """A hand-in's picture (rows of colors, or None) and Depths (or None)."""
+
+    def __init__(self, colors, depths, width, height, rear):
+        self.colors, self.depths, self.width, self.height = colors, depths, width, height
+        self.rear, self.made = rear, {}
+        self.is_full = depths is not None and len(depths.rows) == height and all(len(row) == width for row in depths.rows)
+        most = max((z for row in depths.rows for z in row), default=rear) if depths else rear
+        self.empty = most if self.is_full and most >= rear - depths.tolerance(rear) else None
+        self.background = self.find_background() if colors else None
+
+    @property
+    def prints_everything(self):
+        """Whether pixels without a triangle are printed, too; their depth is `empty`."""
+        return self.empty is not None
+
+    def find_background(self):
+        """The color of pixels without a triangle: black, unless another color fits the depths better."""
+        counts = collections.Counter(color for row in self.colors for color in row)
+        black = bytes(3)
+        if not self.depths or self.prints_everything:
+            return black
+        printed = sum(map(len, self.depths.rows))
+        candidates = [black, *(color for color, _ in counts.most_common(3))]
+        return min(candidates, key=lambda color: abs(self.width * self.height - counts[color] - printed))
+
+    def pixels(self, picture_flip="", text_flip=""):
+        """The Pixels, if picture and text are flipped back."""
+        flips = picture_flip, text_flip
+        if flips not in self.made:
+            self.made[flips] = self.make_pixels(*flips)
+        return self.made[flips]
+
+    def make_pixels(self, picture_flip, text_flip):
+        colors = FLIPS[picture_flip](self.colors) if self.colors else None
+        drawn = [[color != self.background for color in row] for row in colors] if colors else None
+        listed = self.listed_rows(text_flip, drawn) if self.depths else None
+        return Pixels(drawn, colors, [self.aligned(drawn[r] if drawn else None, listed[r]) for r in range(self.height)] if listed else None, listed)
+
+    def listed_rows(self, flip, drawn):
+        rows = self.depths.rows
+        if drawn and len(rows) != self.height and sum(map(len, rows)) == sum(map(sum, drawn)):  # empty rows were left out
+            values = iter([z for row in rows for z in row])
+            rows = [[next(values) for is_drawn in row if is_drawn] for row in FLIPS[flip](drawn)]
+        rows = rows[:self.height] + [[]] * (self.height - len(rows))
+        return FLIPS[flip](rows)
+
+    def aligned(self, drawn, listed):
+        """The depth of each pixel of a row, None where none is drawn; or None if the numbers do not tell."""
+        if self.is_full:
+            return [None if self.empty is not None and z >= self.empty else z for z in listed]
+        if drawn is None or sum(drawn) != len(listed):
+            return None
+        values = iter(listed)
+        return [next(values) if is_drawn else None for is_drawn in drawn]

@@ -1,0 +1,69 @@
+"""What the judge says of a hand-in: a FileVerdict for each file, and from those the Verdict."""
+import dataclasses
+
+from judge_parts.mistakes import sentence
+
+RIGHT = "right"
+ANOTHER_RULE = "right by another rule"
+WRONG = "wrong"
+MISSING = "not handed in"
+UNREADABLE = "unreadable"
+TOO_FEW_DIGITS = "too few digits to judge"
+UNDECIDED = "could not be judged"
+GOOD = (RIGHT, ANOTHER_RULE)
+FAILED = (WRONG, MISSING, UNREADABLE)
+OPEN = (TOO_FEW_DIGITS, UNDECIDED)
+
+
+@dataclasses.dataclass
+class Cause:
+    """A mistake that reproduces the numbers. `name` is that of the list of mistakes, or empty for one that is not in it."""
+    name: str
+    text: str
+    detail: str = ""
+
+    def __str__(self):
+        return self.text.rstrip(".") + (f" ({self.detail})" if self.detail else "")
+
+
+def cause_of(name, detail=""):
+    return Cause(name, sentence(name), detail)
+
+
+@dataclasses.dataclass
+class FileVerdict:
+    stage: str                # model, view, project, zbuf
+    file: str                 # as its author named it
+    verdict: str              # one of the words above
+    rule: str = ""            # the other rule, in words
+    causes: list = dataclasses.field(default_factory=list)  # of Cause; more than one if the numbers cannot tell them apart
+    remarks: list = dataclasses.field(default_factory=list)
+    differing: int = None     # how many numbers or pixels
+    compared: int = 0
+    largest: str = ""         # the largest difference, with its location
+    first: str = ""           # the first one
+    matrices: object = None   # a judge_parts.fit.Comparison
+
+    @property
+    def is_good(self):
+        return self.verdict in GOOD
+
+    @property
+    def cause(self):
+        """The causes as one phrase; empty if there is none."""
+        return "; or: ".join(map(str, self.causes))
+
+
+@dataclasses.dataclass
+class Verdict:
+    files: list
+
+    @property
+    def status(self):
+        """0 right or by another rule, 1 wrong or not handed in, 2 could not be judged."""
+        if any(file.verdict in FAILED for file in self.files):
+            return 1
+        return 2 if any(file.verdict in OPEN for file in self.files) else 0
+
+    def of(self, stage):
+        return [file for file in self.files if file.stage == stage]

@@ -1,0 +1,471 @@
+#!/usr/bin/env python3
+"""scripts/compare --five: the verdicts on sets of files that our own tools and a student's stages make.
+
+usage: judge_test.py BIN_DIR [UNITTEST ARGUMENT...]
+"""
+import math
+import os
+import pathlib
+import shutil
+import struct
+import subprocess
+import sys
+import unittest
+
+from student_pipeline import Student
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "tools"))
+from toolbox import BIN, SOURCE, ToolTest  # noqa: E402
+
+sys.path.insert(0, str(SOURCE / "scripts"))
+os.environ["BIN"] = str(BIN)
+from compare_parts.mistakes import with_angles  # noqa: E402
+from judge_parts import fit, mistakes  # noqa: E402
+from judge_parts.hand_in import File, find_files  # noqa: E402
+from judge_parts.judge import judge  # noqa: E402
+from judge_parts.matrices import image, perspective_matrix, view_matrix  # noqa: E402
+from judge_parts.reference import JudgeError  # noqa: E402
+from judge_parts.report import sentence  # noqa: E402
+from lib.pictures import read_picture  # noqa: E402
+
+# Two triangles that meet, one beyond, one without area; nested pushes, and numbers that no rule can mistake for another's.
+SCENE = """3 4 7
+0.3 -0.2 0.1
+0.2 1 0.1
+50 1.3 1 50
+push
+rotate
+35 1 2 3
+triangle
+-1 -1 -1
+1 -1 -0.5
+0 1.2 0.3
+push
+push
+translate
+0.5 0.25 0.75
+scale
+0.5 1.5 0.75
+triangle
+-1 0 0
+1 0 0.5
+0 1 -0.5
+pop
+rotate
+-70 0 1 1
+triangle
+0 0 1
+0.5 0.5 1
+-0.5 0.5 1.2
+pop
+translate
+-1 0 0
+triangle
+-0.5 -0.5 0.5
+0.7 -0.6 0.4
+0.1 0.8 0.2
+pop
+triangle
+-3 -1 -3
+3 -1 -3
+0 -1 2
+end
+"""
+CONFIG = "90 80\n-0.6\n-0.5\n-1 1\n"
+NAMES = ("stage1.txt", "stage2.txt", "stage3.txt", "z_buffer.txt", "out.bmp")
+
+
+def bmp(rows):
+    """A BMP of rows of colors."""
+    width, height = len(rows[0]), len(rows)
+    body = b"".join(b"".join(bytes(reversed(color)) for color in row) + bytes(-3 * width % 4) for row in reversed(rows))
+    return struct.pack("<2sIHHIIiiHHIIiiII", b"BM", 54 + len(body), 0, 0, 54, 40, width, height, 1, 24, 0, len(body), 0, 0, 0, 0) + body
+
+
+def tool(name, *words, stdin=b""):
+    return subprocess.run([BIN / name, *map(str, words)], input=stdin, capture_output=True, check=True).stdout
+
+
+class Pixels:
+    """The depths (None where no triangle is) and the colors that our zbuf writes, to be changed and written again."""
+
+    def __init__(self, folder="."):
+        _, _, rows = read_picture(os.path.join(folder, "out.bmp"))
+        self.colors = [[tuple(row[i:i + 3]) for i in range(0, len(row), 3)] for row in rows]
+        text = pathlib.Path(folder, "z_buffer.txt").read_text().split("\n")
+        self.depths = []
+        for line, colors in zip(text, self.colors):
+            values = iter(map(float, line.split()))
+            self.depths.append([next(values) if any(color) else None for color in colors])
+
+    def write(self, depths="z_buffer.txt", picture="out.bmp", empty=None):
+        def line(row):
+            return "".join(f"{empty if z is None else z:.6f}\t" for z in row if z is not None or empty is not None)
+
+        pathlib.Path(depths).write_text("".join(line(row) + "\n" for row in self.depths))
+        pathlib.Path(picture).write_bytes(bmp(self.colors))
+
+    def ends(self):
+        """The right ends of the picture: (row, column)."""
+        return [(r, max(c for c, z in enumerate(row) if z is not None)) for r, row in enumerate(self.depths) if any(z is not None for z in row)]
+
+    def clear(self, row, column):
+        self.depths[row][column], self.colors[row][column] = None, (0, 0, 0)
+
+
+class HandIn(ToolTest):
+    scene, config = SCENE, CONFIG
+
+    def stages(self, mistake="", in_memory=False):
+        for name, text in zip(NAMES, Student(self.scene, mistake).texts(in_memory)):
+            pathlib.Path(name).write_text(text)
+
+    def draw(self, *options, stage3="stage3.txt"):
+        pathlib.Path("config.txt").write_text(self.config)
+        tool("zbuf", "config.txt", stage3, "--z-buffer", "z_buffer.txt", "--image", "out.bmp", *options)
+
+    def hand_in(self, *options, mistake="", in_memory=False):
+        self.stages(mistake, in_memory)
+        self.draw(*options)
+
+    def verdict(self, config=True):
+        return judge(find_files("."), self.scene.encode(), self.config.encode() if config else None)
+
+    def words(self, config=True):
+        return [file.verdict for file in self.verdict(config).files]
+
+    def assert_verdicts(self, expected, status):
+        verdict = self.verdict()
+        self.assertEqual(([file.verdict for file in verdict.files], verdict.status), (expected, status), [(f.cause, f.rule, f.remarks) for f in verdict.files])
+        return verdict
+
+    RULE = ["right", "right", "right", "right by another rule", "right by another rule"]
+
+
+class Right(HandIn):
+    def test_numbers_in_memory_or_from_the_files(self):
+        for in_memory in (False, True):
+            self.hand_in(in_memory=in_memory)
+            self.assert_verdicts(["right"] * 5, 0)
+
+    def test_pixels_of_exact_numbers_in_memory(self):
+        self.hand_in(in_memory=True)
+        exact = tool("project", "--digits", "exact", stdin=tool("view", "--digits", "exact", stdin=tool("model", "--digits", "exact", stdin=SCENE.encode())))
+        pathlib.Path("exact.txt").write_bytes(exact)
+        self.draw(stage3="exact.txt")
+        self.assert_verdicts(["right"] * 5, 0)
+
+    def test_few_digits_are_judged_as_what_they_show(self):
+        for form in ("{:.6g}", "{:.4f}", "{:.3g}"):
+            with self.subTest(form):
+                self.stages()
+                for name in NAMES[:3]:
+                    text = pathlib.Path(name).read_text()
+                    pathlib.Path(name).write_text("\n".join(" ".join(form.format(float(word)) for word in line.split()) for line in text.split("\n")))
+                self.draw()
+                self.assert_verdicts(["right"] * 5, 0)
+
+    def test_two_digits_are_too_few(self):
+        self.hand_in()
+        text = pathlib.Path("stage3.txt").read_text()
+        pathlib.Path("stage3.txt").write_text("\n".join(" ".join(f"{float(word):.1f}" for word in line.split()) for line in text.split("\n")))
+        verdict = self.verdict(config=False)
+        self.assertEqual([file.verdict for file in verdict.files], ["right", "right", "too few digits to judge"])
+        self.assertEqual(verdict.status, 2)
+        self.assertEqual(sentence(verdict), "stage3.txt: too few digits to judge")
+
+    def test_a_short_number_is_not_a_lack_of_digits(self):
+        self.scene = "0 0 5\n0 0 0\n0 1 0\n60 1 1 10\ntriangle\n0 0 0\n1 0 0\n0 1 0\nend\n"
+        self.stages()
+        pathlib.Path("stage1.txt").write_text("0 0 0\n1 0 0\n0 1 0\n")
+        self.draw()
+        self.assert_verdicts(["right"] * 5, 0)
+
+    def test_other_colors_are_free(self):
+        self.hand_in()
+        pixels = Pixels()
+        pixels.colors = [[tuple(255 - x for x in color) if any(color) else color for color in row] for row in pixels.colors]
+        pixels.write()
+        verdict = self.assert_verdicts(["right"] * 5, 0)
+        self.assertIn("in other colors", verdict.files[4].remarks)
+
+    def test_either_of_two_equal_depths(self):
+        self.scene = "0 0 5\n0 0 0\n0 1 0\n60 1 1 10\n" + "triangle\n-1 -1 0\n1 -1 0\n0 1 0\n" * 2 + "end\n"
+        self.hand_in()
+        pixels = Pixels()
+        first = next(color for row in pixels.colors for color in row if any(color))
+        pixels.colors[40] = [(1, 2, 3) if color == first and column % 3 == 0 else color for column, color in enumerate(pixels.colors[40])]
+        pixels.write()
+        self.assert_verdicts(["right"] * 5, 0)
+
+    def test_triangles_without_area_are_drawn_or_not(self):
+        self.scene = "0 0 5\n0 0 0\n0 1 0\n60 1 1 10\ntriangle\n-1 -1 0\n1 -1 0\n0 1 0\ntriangle\n-1.2 0 1\n-1.2 1.5 1\n-1.2 1 1\nend\n"
+        self.hand_in()
+        self.assert_verdicts(["right"] * 5, 0)
+        self.draw("--coverage", "center")
+        self.assertEqual(self.verdict().status, 0)
+        self.draw()
+        pixels, counts = Pixels(), {}
+        for row, colors in enumerate(pixels.colors):
+            for column, color in enumerate(colors):
+                counts.setdefault(color, []).append((row, column))
+        sliver = min((places for color, places in counts.items() if any(color)), key=len)
+        self.assertGreater(len(sliver), 5)
+        for place in sliver:
+            pixels.clear(*place)
+        pixels.write()
+        self.assert_verdicts(["right"] * 5, 0)
+
+
+class AnotherRule(HandIn):
+    def test_the_center_rule_and_a_file_name_of_the_assignment(self):
+        self.hand_in("--coverage", "center")
+        os.rename("z_buffer.txt", "zBuffer.txt")
+        verdict = self.assert_verdicts(self.RULE, 0)
+        self.assertEqual((verdict.files[3].rule, verdict.files[3].file), ("the center rule", "zBuffer.txt"))
+
+    def test_a_rough_pi_is_named(self):
+        for pi, word in ((3.14, "3.14"), (3.1416, "3.1416"), (22 / 7, "3.1428571")):
+            with self.subTest(word):
+                rough = with_angles(SCENE, lambda angle, pi=pi: angle * pi / math.pi)
+                pathlib.Path("stage1.txt").write_bytes(tool("model", "--bare", stdin=rough.encode()))
+                verdict = self.verdict(config=False).files[0]
+                self.assertEqual((verdict.verdict, verdict.rule), ("right by another rule", f"pi is taken as {word}"))
+
+    def test_what_is_printed_for_untouched_pixels(self):
+        self.hand_in()
+        Pixels().write(empty=1.0)
+        verdict = self.assert_verdicts([*self.RULE[:4], "right"], 0)
+        self.assertIn("with the rear limit", verdict.files[3].rule)
+
+    def test_one_pixel_at_a_border(self):
+        self.hand_in()
+        pixels = Pixels()
+        pixels.clear(*pixels.ends()[30])
+        drawn = sum(z is not None for row in pixels.depths for z in row) + 1
+        pixels.write()
+        verdict = self.assert_verdicts(self.RULE, 0)
+        self.assertEqual(verdict.files[4].rule, f"another rule at the borders: 1 pixel of {drawn:,} (1 fewer)")
+
+    def test_one_pixel_inside_is_wrong(self):
+        self.hand_in()
+        pixels = Pixels()
+        row, last = pixels.ends()[40]
+        pixels.clear(row, last - 6)
+        pixels.write()
+        verdict = self.assert_verdicts(["right"] * 3 + ["wrong"] * 2, 1)
+        self.assertEqual((verdict.files[3].cause, verdict.files[4].differing), ("", 1))
+
+    def test_depths_that_are_off_are_wrong_and_the_picture_is_not(self):
+        self.hand_in()
+        pixels = Pixels()
+        pixels.depths[40] = [None if z is None else z - 0.01 for z in pixels.depths[40]]
+        pixels.write()
+        self.assert_verdicts(["right"] * 3 + ["wrong", "right"], 1)
+
+    def test_empty_rows_may_be_left_out(self):
+        self.hand_in()
+        text = pathlib.Path("z_buffer.txt").read_text()
+        pathlib.Path("z_buffer.txt").write_text("".join(line + "\n" for line in text.split("\n") if line))
+        self.assert_verdicts(["right"] * 5, 0)
+
+
+class Wrong(HandIn):
+    def test_the_stage_and_the_cause(self):
+        for mistake, stage, name in (("swapped 1", 0, "model/rotation-transposed"), ("radians 1", 0, "model/angle-in-radians"), ("swapped 2", 1, "view/rotation-transposed"),
+                                     ("up", 1, "view/up-as-given"), ("handedness", 1, "view/l-not-negated"), ("divide", 2, "project/no-divide"),
+                                     ("radians 3", 2, "project/fov-in-radians")):
+            with self.subTest(mistake):
+                self.hand_in(mistake=mistake)
+                verdict = self.verdict()
+                self.assertEqual([file.is_good for file in verdict.files], [i != stage for i in range(5)])
+                self.assertIn(name, [cause.name for cause in verdict.files[stage].causes])
+                self.assertIn(mistakes.sentence(name).rstrip("."), sentence(verdict))
+
+    def test_model_names_the_line_of_the_scene(self):
+        self.hand_in(mistake="swapped 1")
+        verdict = self.verdict()
+        self.assertIn("the first wrong triangle is number 0, in line 8 of the scene, after rotate in line 6", sentence(verdict))
+        self.assertEqual({cause.name for cause in verdict.files[0].causes}, {"model/rotation-transposed", "model/angle-negated"})
+
+    def test_the_last_element_of_a_matrix(self):
+        self.stages()
+        lines = pathlib.Path("stage2.txt").read_text().split("\n")
+        done = []
+        for line in lines:
+            if line:
+                x, y, z = map(float, line.split())
+                old, new = -z, 1 - z
+                p = image(perspective_matrix(50, 1.3, 1, 50), (x, y, z))
+                line = " ".join(f"{c * old / new:.7f}" for c in p)
+            done.append(line)
+        pathlib.Path("stage3.txt").write_text("\n".join(done))
+        self.draw()
+        verdict = self.assert_verdicts(["right", "right", "wrong", "right", "right"], 1)
+        self.assertEqual([cause.name for cause in verdict.files[2].causes], ["project/last-element-is-one"])
+        self.assertEqual(verdict.files[2].matrices.differing, {(3, 3)})
+        self.assertAlmostEqual(verdict.files[2].matrices.theirs[3][3], 1, delta=1e-3)
+
+    def test_a_cause_outside_the_list_is_an_element(self):
+        self.stages()
+        lines = pathlib.Path("stage1.txt").read_text().split("\n")
+        m = [list(row) for row in view_matrix((3, 4, 7), (0.3, -0.2, 0.1), (0.2, 1, 0.1))]
+        m[0][1] = m[0][2]
+        pathlib.Path("stage2.txt").write_text("\n".join(" ".join(f"{x:.7f}" for x in image(m, tuple(map(float, line.split())))) if line else "" for line in lines))
+        verdict = self.verdict(config=False)
+        self.assertEqual(verdict.files[1].verdict, "wrong")
+        self.assertRegex(verdict.files[1].cause, rf"^Row 1, column 2 of the matrix is {m[0][2]:.6g}, not -0.16246\d$")
+
+    def test_numbers_of_nothing_known_have_no_cause(self):
+        self.hand_in()
+        for name in NAMES[:3]:
+            with self.subTest(name):
+                kept = pathlib.Path(name).read_text()
+                lines = kept.split("\n")
+                lines[4] = "0.1234567 0.2345678 -3.3456789"
+                pathlib.Path(name).write_text("\n".join(lines))
+                file = next(file for file in self.verdict(config=False).files if file.file == name)
+                self.assertEqual((file.verdict, file.causes, file.differing), ("wrong", [], 3))
+                pathlib.Path(name).write_text(kept)
+
+    def test_a_picture_upside_down(self):
+        self.hand_in()
+        pixels = Pixels()
+        pixels.colors.reverse()
+        pixels.write()
+        verdict = self.assert_verdicts(["right"] * 4 + ["wrong"], 1)
+        self.assertEqual(verdict.files[4].causes[0].name, "zbuf/upside-down")
+
+    def test_one_color_for_all(self):
+        self.hand_in()
+        pixels = Pixels()
+        pixels.colors = [[(9, 9, 9) if any(color) else color for color in row] for row in pixels.colors]
+        pixels.write()
+        verdict = self.assert_verdicts(["right"] * 4 + ["wrong"], 1)
+        self.assertEqual(verdict.files[4].causes[0].name, "zbuf/one-color")
+
+    def test_a_shift_by_half_a_pixel_is_no_rule_at_the_borders(self):
+        # zbuf draws the triangles half a pixel farther to the right than stage3.txt says.
+        self.hand_in()
+        text = pathlib.Path("stage3.txt").read_text()
+        dx = 1.2 / 90
+        moved = [(float(x) + dx / 2, y, z) for x, y, z in (line.split() for line in text.split("\n") if line)]
+        pathlib.Path("moved.txt").write_text("".join(f"{x:.7f} {y} {z}\n" for x, y, z in moved))
+        self.draw(stage3="moved.txt")
+        verdict = self.verdict()
+        self.assertEqual(verdict.files[4].verdict, "wrong")
+
+    def test_too_few_triangles(self):
+        self.hand_in()
+        text = pathlib.Path("stage1.txt").read_text()
+        pathlib.Path("stage1.txt").write_text("\n".join(text.split("\n")[4:]))
+        self.assertEqual(self.verdict().files[0].remarks, ["4 triangles in place of 5"])
+
+
+class Files(HandIn):
+    def test_names_of_the_assignments_and_of_their_readers(self):
+        self.hand_in()
+        for depths in ("z_buffer.txt", "zbuffer.txt", "z-buffer.txt", "zBuffer.txt", "z_out.txt", "z_buffer_12.txt"):
+            for picture in ("out.bmp", "output.bmp", "output_3.bmp", "1.bmp"):
+                os.mkdir("set")
+                for name in NAMES[:3]:
+                    shutil.copy(name, "set")
+                shutil.copy("z_buffer.txt", os.path.join("set", depths))
+                shutil.copy("out.bmp", os.path.join("set", picture))
+                files = find_files("set")
+                self.assertEqual((files["depths"].name, files["picture"].name), (depths, picture))
+                shutil.rmtree("set")
+
+    def test_of_two_files_the_assignments_own_name_counts(self):
+        self.hand_in()
+        pathlib.Path("z_buffer_2.txt").write_text("1\n")
+        verdict = self.assert_verdicts(["right"] * 5, 0)
+        self.assertIn("not looked at: z_buffer_2.txt", verdict.files[3].remarks)
+
+    def test_what_is_missing_is_not_handed_in(self):
+        self.hand_in()
+        for name in NAMES:
+            os.rename(name, "kept")
+            verdict = self.verdict()
+            self.assertEqual([file.verdict for file in verdict.files], ["not handed in" if other == name else "right" for other in NAMES])
+            self.assertEqual((verdict.status, sentence(verdict)), (1, f"{name} is not handed in; what is there is right"))
+            os.rename("kept", name)
+
+    def test_three_stages_pass_without_a_config(self):
+        self.stages()
+        verdict = self.verdict(config=False)
+        self.assertEqual((self.words(config=False), verdict.status, sentence(verdict)), (["right"] * 3, 0, "all three files are right"))
+
+    def test_a_scene_of_before_2020(self):
+        self.hand_in()
+        lines = SCENE.split("\n")
+        old = []
+        for i, line in enumerate(lines):
+            old.append(line)
+            if i == 3:
+                old += ["90 80", "0 0 0"]
+            if len(lines[i - 3:i]) and lines[i - 3] == "triangle":
+                old.append("255 0 128")
+        verdict = judge(find_files("."), "\n".join(old).encode(), CONFIG.encode())
+        self.assertEqual(verdict.status, 0)
+        self.assertIn("before 2020", verdict.files[0].remarks[0])
+
+    def test_a_scene_or_a_config_that_is_refused(self):
+        for scene, config, message in ((b"1 2", CONFIG.encode(), "the scene is refused: model: "), (SCENE.encode(), b"0 0\n", "the config is refused: zbuf: "),
+                                       (SCENE.encode(), b"60000 60000\n", "expected a config of at most 16777216 pixels")):
+            with self.assertRaises(JudgeError) as raised:
+                judge({}, scene, config)
+            self.assertIn(message, str(raised.exception))
+
+
+class Hostile(HandIn):
+    def given(self, kind, data):
+        return judge({**find_files("."), kind: File(kind, data)}, SCENE.encode(), CONFIG.encode())
+
+    def test_nothing_that_a_file_holds_ends_the_judge(self):
+        self.hand_in()
+        header = pathlib.Path("out.bmp").read_bytes()[:54]
+        contents = (b"", b"\0" * 100, b"1" * 10**6, b"-" * 10**5, b"1 2 3 " * 10**5, b"1 2 3\n" * 3, b"1e999 0 0\n" * 3, b"1e308 -1e308 1e308\n" * 15,
+                    b"1e-320 0 0\n" * 15, b"nan nan nan\n" * 15, b"9" * 5000 + b" 1 1\n", b"\xff\xfe1\0", b"1 2 3\r" * 15, b"#" * 10**6, b"BM", header,
+                    header[:18] + struct.pack("<ii", 2**31 - 1, 2**31 - 1) + header[26:], b"\x89PNG\r\n\x1a\n", b"P6 90 80 255\n", b"0.5\t" * 90 * 80 + b"\n")
+        for kind in ("stage1", "stage2", "stage3", "depths", "picture"):
+            for content in contents:
+                with self.subTest(kind, content=content[:20]):
+                    verdict = self.given(kind, content)
+                    self.assertIn(verdict.status, (1, 2))
+                    self.assertLess(max(len(" ".join(file.remarks)) for file in verdict.files), 300)
+
+    def test_a_file_that_is_too_large_is_not_read_into_numbers(self):
+        self.hand_in()
+        verdict = self.given("stage1", b"1 2 3\n" * 10**6)
+        self.assertEqual(verdict.files[0].verdict, "unreadable")
+        self.assertIn("more than the scene can need", verdict.files[0].remarks[0])
+
+
+class Fit(unittest.TestCase):
+    POINTS = [(x, y, z) for x in (-1.0, 0.5, 2.0) for y in (-0.7, 1.1) for z in (-9.0, -5.5, -3.0)]
+
+    def compared(self, theirs, ours, divides, points=None):
+        points = points or self.POINTS
+        return fit.compare(points, [image(theirs, p, divides) for p in points], [(1e-7,) * 3] * len(points), ours, divides)
+
+    def test_a_projection_is_found_but_for_its_factor(self):
+        ours = perspective_matrix(50, 1.3, 1, 50)
+        theirs = tuple(tuple(7 * x for x in row) for row in perspective_matrix(50, 1.3, 1, 50, mistake="r-and-t-swapped"))
+        found = self.compared(theirs, ours, True)
+        self.assertEqual(found.differing, {(0, 0), (1, 1)})
+        self.assertAlmostEqual(found.theirs[0][0], ours[1][1], places=5)
+
+    def test_a_view_is_found(self):
+        camera = (3, 4, 7), (0.3, -0.2, 0.1), (0.2, 1, 0.1)
+        found = self.compared(view_matrix(*camera, "eye-added"), view_matrix(*camera), False)
+        self.assertEqual(found.differing, {(0, 3), (1, 3), (2, 3)})
+
+    def test_points_in_a_plane_do_not_determine_it(self):
+        flat = [(x, y, 2.0) for x in (-1.0, 0.5, 2.0) for y in (-0.7, 1.1, 3.0)]
+        self.assertIsNone(self.compared(view_matrix((3, 4, 7), (0, 0, 0), (0, 1, 0)), view_matrix((1, 2, 3), (0, 0, 0), (0, 1, 0)), False, flat))
+        self.assertIsNone(self.compared(perspective_matrix(50, 1, 1, 9), perspective_matrix(60, 1, 1, 9), True, [(x, y, -2.0) for x, y, _ in flat]))
+
+
+if __name__ == "__main__":
+    unittest.main()
