@@ -1,0 +1,109 @@
+#!/usr/bin/env python3
+"""scripts/check-stage: a program of one's own in the place of a stage.
+
+usage: check_stage_test.py BIN_DIR [UNITTEST ARGUMENT...]
+"""
+import os
+import pathlib
+import subprocess
+import sys
+import time
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "tools"))
+from toolbox import BIN, SOURCE, ToolTest  # noqa: E402
+
+SCENE = "3 4 7\n0.3 -0.2 0.1\n0.2 1 0.1\n50 1.3 1 50\ntriangle\n0 0 0\n1 0 0.3\n0 1 0\ntriangle\n0.5 0.2 -1\n1 0.7 0\n0 -1 0\nend\n"
+SAMPLES = ("worked-example", "one-triangle", "two-triangles", "nested-transforms", "tilted-camera", "torus")
+
+
+def check(*words):
+    return subprocess.run([SOURCE / "scripts/check-stage", *map(str, words)], capture_output=True, text=True, timeout=250,
+                          env={"BIN": str(BIN), "PATH": "/usr/bin:/bin", "LANG": "C.UTF-8"})
+
+
+def script(text):
+    """A program ./mine, in sh; `$BIN/view` is our own."""
+    path = pathlib.Path("mine")
+    path.write_text(f"#!/bin/sh\nBIN='{BIN}'\n{text}\n")
+    path.chmod(0o755)
+    return "./mine"
+
+
+class Program(ToolTest):
+    def setUp(self):
+        super().setUp()
+        pathlib.Path("scene").write_text(SCENE)
+        pathlib.Path("config").write_text("60 50\n-0.5\n-0.5\n-1 1\n")
+
+    def told(self, stage, text, *options, status=1):
+        done = check(stage, "--scene", "scene", "--config", "config", *options, "--", script(text))
+        self.assertEqual((done.returncode, done.stderr), (status, ""), done.stdout)
+        return done.stdout
+
+    def test_ours_are_right(self):
+        for stage in ("model", "view", "project", "zbuf"):
+            self.assertEqual(self.told(stage, f'exec "$BIN/{stage}" "$@"', status=0), "scene: right\n")
+
+    def test_ours_are_right_on_the_samples(self):
+        done = check("view", "--", BIN / "view")
+        self.assertEqual((done.stdout, done.returncode), ("".join(f"{name}: right\n" for name in SAMPLES), 0))
+
+    def test_the_first_wrong_number_and_the_cause(self):
+        told = self.told("view", 'exec "$BIN/view" --eye 0 0 0 --look -2.7 -4.2 -6.9')
+        self.assertIn("scene: wrong\n  first at ", told)
+        self.assertIn("line 2, x of vertex 1 of triangle 0: ", told)  # line 1 is the projection
+        self.assertIn("  cause: The eye is not subtracted\n", told)
+
+    def test_the_matrix_is_shown_beside_ours(self):
+        # A y that is twice too large, in six points that determine the matrix.
+        told = self.told("project", """"$BIN/project" | awk 'NF { $2 = sprintf("%.7f", 2 * $2) } 1'""")
+        self.assertIn("their matrix (* differs)", told)
+        rows = told.split("ours\n")[1].splitlines()
+        self.assertEqual([row.count("*") for row in rows], [0, 1, 0, 0])
+
+    def test_a_zbuf_gets_its_config_and_writes_its_picture(self):
+        self.assertIn("the center rule", self.told("zbuf", 'exec "$BIN/zbuf" --coverage center "$1"', status=0))
+        self.assertEqual(self.told("zbuf", '"$BIN/zbuf" "$1" --image output.bmp > zBuffer.txt', status=0), "scene: right\n")
+        self.assertIn("(out.bmp)", self.told("zbuf", 'exec "$BIN/zbuf" "$1" --image none.bmp'))
+
+    def test_the_scene_stands_where_the_command_wants_it(self):
+        done = check("view", "--scene", "scene", "--bare", "--", BIN / "view", "--scene", "{scene}", "--bare")
+        self.assertEqual((done.stdout, done.returncode), ("scene: right\n", 0))
+
+    def test_a_program_that_fails_is_told(self):
+        self.assertEqual(self.told("view", "echo no such matrix >&2; exit 3"), "scene: wrong: its exit status is 3: no such matrix\n")
+        self.assertEqual(self.told("view", "kill -9 $$"), "scene: wrong: it was ended by signal 9\n")
+        self.assertEqual(self.told("view", "exec true"), "scene: wrong: there is no triangle in it\n  cause: none of those known\n")
+
+    def test_time_is_limited_and_what_it_started_ends(self):
+        begin = time.monotonic()
+        told = self.told("view", f"sleep 300 & echo $! > '{os.path.abspath('child')}'; wait", "--time-limit", "1")
+        self.assertEqual(told, "scene: wrong: it is not done after 1 s\n")
+        self.assertLess(time.monotonic() - begin, 60)
+        status = pathlib.Path("/proc", pathlib.Path("child").read_text().strip(), "stat")
+        self.assertIn(status.read_text().split()[2] if status.exists() else "gone", ("Z", "X", "gone"))
+
+    def test_an_endless_output_ends(self):
+        self.assertIn("more than the scene can need", self.told("view", "exec yes 1 2 3", "--time-limit", "100"))
+
+    def test_a_program_that_does_not_read_may_be_right(self):
+        self.told("view", f'"$BIN/model" "{os.path.abspath("scene")}" | "$BIN/view"', status=0)
+
+    def test_what_cannot_be_run_is_a_wrong_command_line(self):
+        for words, message in ((("view", "--", "no-such-program"), "no program no-such-program on the PATH"), (("sight", "--", "cat"), "invalid choice"),
+                               (("zbuf", "--scene", "scene", "--", "cat"), "expected --config beside --scene for zbuf"),
+                               (("view", "--time-limit", "0", "--", "cat"), "expected more than 0 seconds")):
+            done = check(*words)
+            self.assertEqual(done.returncode, 2)
+            self.assertIn(message, done.stderr)
+
+    def test_a_scene_that_is_refused_is_a_message(self):
+        pathlib.Path("scene").write_text("1 2\n")
+        done = check("view", "--scene", "scene", "--", "cat")
+        self.assertEqual((done.returncode, done.stdout), (2, ""))
+        self.assertIn("check-stage: the scene is refused: ", done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
