@@ -174,13 +174,15 @@ struct GroupTexts {
     negative = a.negative | b.negative << 4 | c.negative << 8;
   }
 
-  /// Prints number `index` and a blank.
-  PIPELINE_AVX2 char* write(char* out, const PrintedForm& form, std::size_t index) const {
-    const __m128i text = _mm_load_si128(reinterpret_cast<const __m128i*>(texts[index].data()));
-    const unsigned digits_above_0 = filled[index / 2] >> (index % 2 == 0 ? 0 : 16) & 0xffff;
-    out = write_number(out, form, negative >> index, text, digits_above_0);
-    *out = ' ';
-    return out + 1;
+  /// Prints the three numbers of a vertex and a blank after each.
+  PIPELINE_AVX2 char* write_vertex(char* out, const PrintedForm& form, std::size_t vertex) const {
+    for (std::size_t index = 3 * vertex; index < 3 * vertex + 3; ++index) {
+      const __m128i text = _mm_load_si128(reinterpret_cast<const __m128i*>(texts[index].data()));
+      const unsigned digits_above_0 = filled[index / 2] >> (index % 2 == 0 ? 0 : 16) & 0xffff;
+      out = write_number(out, form, negative >> index, text, digits_above_0);
+      *out++ = ' ';
+    }
+    return out;
   }
 };
 
@@ -191,19 +193,27 @@ PIPELINE_AVX2 FixedTextPart write_columns_from(std::size_t begin, const ConstFix
   const PrintedForm& form = kPrintedForms[static_cast<std::size_t>(decimals)];
   const __m256d scale = _mm256_set1_pd(kPowersOfTen[static_cast<std::size_t>(decimals)]);
   const std::size_t group_count = columns.group_count();
+  LastPrinted last;
   FixedTextPart part;
   const char* const text = out;
   for (std::size_t i = begin; i < columns.triangle_count(); ++i) {
     std::array<GroupTexts, 3> groups;
     __m256d good = _mm256_castsi256_pd(_mm256_set1_epi32(-1));
+    const bool repeats = group_count > kRepeatedGroup && last.is_of(columns.groups[kRepeatedGroup][i]);
     for (std::size_t group = 0; group < group_count; ++group)
-      groups[group].template set<exactly>(columns.groups[group][i], scale, good);
+      if (!(repeats && group == kRepeatedGroup))
+        groups[group].template set<exactly>(columns.groups[group][i], scale, good);
     if (_mm256_movemask_pd(good) != 0xf) break;
     for (std::size_t vertex = 0; vertex < 3; ++vertex) {
-      for (std::size_t group = 0; group < group_count; ++group) {
-        for (std::size_t axis = 0; axis < 3; ++axis) out = groups[group].write(out, form, 3 * vertex + axis);
-        if (group == 0 && !columns.w.empty()) out = write_w(out, columns.w[i][vertex]);
-      }
+      out = groups[0].write_vertex(out, form, vertex);
+      if (!columns.w.empty()) out = write_w(out, columns.w[i][vertex]);
+      const char* const repeated = out;
+      if (group_count > kRepeatedGroup)
+        out = repeats ? last.print(out) : groups[kRepeatedGroup].write_vertex(out, form, vertex);
+      const char* const repeated_end = out;
+      if (group_count > 2) out = groups[2].write_vertex(out, form, vertex);
+      if (group_count > kRepeatedGroup && !repeats && vertex == 2)
+        last.set(columns.groups[kRepeatedGroup][i][vertex], repeated, repeated_end);
       out[-1] = '\n';
     }
     *out++ = '\n';

@@ -1,10 +1,13 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <string_view>
 
 #include "libpipeline/text/decimal_number.h"
+#include "libpipeline/text/eight_digits.h"
 #include "libpipeline/text/fixed_text.h"
 #include "libpipeline/text/number_printer.h"
 
@@ -33,6 +36,46 @@ inline const char* triangle_end(const char* p, TriangleFrame frame) {
   if (frame == TriangleFrame::scene) return p;
   return *p == '\n' ? p + 1 : nullptr;
 }
+
+// Colors mostly repeat from vertex to vertex: three numbers whose text or values are those of the last vertex
+// are copied. This is tried for the first group after the position, where colors stand.
+constexpr std::size_t kRepeatedGroup = 1;
+
+/// Three numbers that were read, and their text up to the separator after them.
+struct LastRead {
+  const char* text = nullptr;
+  std::size_t length = 0;  // 0: none yet
+  Vec3 numbers;
+
+  [[nodiscard]] bool is_at(const char* p) const {
+    // Texts that differ mostly do so in their first eight characters.
+    return length > 0 && load_eight(p) == load_eight(text) && std::memcmp(p, text, length) == 0;
+  }
+};
+
+/// Three numbers that were printed, and their text with a blank after each.
+struct LastPrinted {
+  static constexpr std::size_t kMaxLength = 64;  // more than three numbers of a sign, 16 digits and a point
+
+  std::array<char, kMaxLength> text;
+  std::size_t length = 0;  // 0: none yet
+  Vec3 numbers;
+
+  /// `out` is the end of the text; kMaxLength characters from its beginning are copied, whatever they are.
+  void set(const Vec3& printed, const char* begin, const char* out) {
+    std::memcpy(text.data(), begin, kMaxLength);
+    length = static_cast<std::size_t>(out - begin);
+    numbers = printed;
+  }
+  [[nodiscard]] bool is_of(const Vec3& three) const { return length > 0 && three == numbers; }
+  [[nodiscard]] bool is_of(const Triangle& triangle) const {
+    return is_of(triangle[0]) && triangle[1] == numbers && triangle[2] == numbers;
+  }
+  char* print(char* out) const {
+    std::memcpy(out, text.data(), kMaxLength);
+    return out + length;
+  }
+};
 
 /// Reads w and the separator after it; null if the form differs.
 inline const char* read_w(const char* p, char separator, double& w) {

@@ -98,15 +98,22 @@ using ReadForms = std::array<ReadForm, 3>;
 
 /// Reads a vertex line; null if the form differs.
 const char* read_line(const char* p, const ReadForms& forms, const FixedColumns& columns,
-                      std::size_t triangle, std::size_t vertex) {
+                      std::size_t triangle, std::size_t vertex, LastRead& last) {
   const std::size_t group_count = columns.group_count();
   for (std::size_t group = 0; group < group_count; ++group) {
+    if (group == kRepeatedGroup && last.is_at(p)) {
+      columns.groups[group][triangle][vertex] = last.numbers;
+      p += last.length;
+      continue;
+    }
+    const char* const begin = p;
     const char end = group + 1 == group_count ? '\n' : ' ';
     const bool w_follows = group == 0 && !columns.w.empty();
     auto& [x, y, z] = columns.groups[group][triangle][vertex];
     if ((p = read_number(p, forms[group], ' ', x)) == nullptr) return nullptr;
     if ((p = read_number(p, forms[group], ' ', y)) == nullptr) return nullptr;
     if ((p = read_number(p, forms[group], w_follows ? ' ' : end, z)) == nullptr) return nullptr;
+    if (group == kRepeatedGroup) last = {begin, static_cast<std::size_t>(p - begin), {x, y, z}};
     if (w_follows && (p = read_w(p, end, columns.w[triangle][vertex])) == nullptr) return nullptr;
   }
   return p;
@@ -116,9 +123,10 @@ FixedTextPart read_columns(std::string_view text, TriangleFrame frame, const Gro
                            const FixedColumns& columns) {
   const auto form = [&](std::size_t group) { return ReadForm(static_cast<std::size_t>(decimals[group])); };
   const ReadForms forms = {form(0), form(1), form(2)};
+  LastRead last;
   return read_by_lines(text, frame, columns.triangle_count(),
                        [&](const char* p, std::size_t triangle, std::size_t vertex) {
-                         return read_line(p, forms, columns, triangle, vertex);
+                         return read_line(p, forms, columns, triangle, vertex, last);
                        });
 }
 
@@ -161,12 +169,18 @@ FixedTextPart write_fixed_text(std::span<const Triangle> triangles, int decimals
 
 /// Prints a vertex line; null if `write_three` refuses a number.
 char* write_line(char* out, const ConstFixedColumns& columns, std::size_t triangle, std::size_t vertex,
-                 int decimals) {
+                 int decimals, LastPrinted& last) {
   const std::size_t group_count = columns.group_count();
   for (std::size_t group = 0; group < group_count; ++group) {
-    if ((out = write_three(columns.groups[group][triangle][vertex], decimals, out)) == nullptr)
-      return nullptr;
+    const Vec3& numbers = columns.groups[group][triangle][vertex];
+    if (group == kRepeatedGroup && last.is_of(numbers)) {
+      out = last.print(out);
+      continue;
+    }
+    const char* const begin = out;
+    if ((out = write_three(numbers, decimals, out)) == nullptr) return nullptr;
     *out++ = ' ';
+    if (group == kRepeatedGroup) last.set(numbers, begin, out);
     if (group == 0 && !columns.w.empty()) out = write_w(out, columns.w[triangle][vertex]);
   }
   out[-1] = '\n';
@@ -174,11 +188,12 @@ char* write_line(char* out, const ConstFixedColumns& columns, std::size_t triang
 }
 
 FixedTextPart write_columns(const ConstFixedColumns& columns, int decimals, char* out) {
+  LastPrinted last;
   FixedTextPart part;
   char* const begin = out;
   for (std::size_t i = 0; i < columns.triangle_count(); ++i) {
     for (std::size_t vertex = 0; vertex < 3; ++vertex)
-      if ((out = write_line(out, columns, i, vertex, decimals)) == nullptr) return part;
+      if ((out = write_line(out, columns, i, vertex, decimals, last)) == nullptr) return part;
     *out++ = '\n';
     ++part.triangle_count;
     part.length = static_cast<std::size_t>(out - begin);

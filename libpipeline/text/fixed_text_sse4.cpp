@@ -121,17 +121,25 @@ using ReadForms = std::array<ReadForm, 3>;
 /// Reads a vertex line; null if the form differs.
 PIPELINE_SSE4 inline const char* read_line(const char* p, const ReadForms& forms, std::size_t group_count,
                                            const FixedColumns& columns, std::size_t triangle,
-                                           std::size_t vertex) {
+                                           std::size_t vertex, LastRead& last) {
   int good = 0xffff;
   for (std::size_t group = 0; group < group_count; ++group) {
     const char end = group + 1 == group_count ? '\n' : ' ';
     const bool w_follows = group == 0 && !columns.w.empty();
+    if (group == kRepeatedGroup && last.is_at(p)) {
+      columns.groups[group][triangle][vertex] = last.numbers;
+      p += last.length;
+      continue;
+    }
+    const char* const begin = p;
     std::array<std::uint64_t, 3> bits;
     p = read_number(p, forms[group], ' ', bits[0], good);
     p = read_number(p, forms[group], ' ', bits[1], good);
     p = read_number(p, forms[group], w_follows ? ' ' : end, bits[2], good);
     if (good != 0xffff) return nullptr;
     columns.groups[group][triangle][vertex] = std::bit_cast<Vec3>(bits);
+    if (group == kRepeatedGroup)
+      last = {begin, static_cast<std::size_t>(p - begin), std::bit_cast<Vec3>(bits)};
     if (w_follows && (p = read_w(p, end, columns.w[triangle][vertex])) == nullptr) return nullptr;
   }
   return p;
@@ -143,11 +151,12 @@ PIPELINE_SSE4 FixedTextPart read_columns(std::string_view text, TriangleFrame fr
   const ReadForms forms = {form(0), form(1), form(2)};
   const std::size_t group_count = columns.group_count();
   const char* const end = text.data() + text.size();
+  LastRead last;
   FixedTextPart part;
   for (std::size_t i = 0; i < columns.triangle_count() && part.length < text.size(); ++i) {
     const char* p = vertex_lines(text.data() + part.length, frame);
     for (std::size_t vertex = 0; vertex < 3 && p != nullptr; ++vertex)
-      p = p < end ? read_line(p, forms, group_count, columns, i, vertex) : nullptr;
+      p = p < end ? read_line(p, forms, group_count, columns, i, vertex, last) : nullptr;
     if (p == nullptr || (p = triangle_end(p, frame)) == nullptr || p > end) break;
     ++part.triangle_count;
     part.length = static_cast<std::size_t>(p - text.data());
@@ -240,20 +249,31 @@ PIPELINE_SSE4 FixedTextPart write_columns(const ConstFixedColumns& columns, int 
   const PrintedForm form = kPrintedForms[static_cast<std::size_t>(decimals)];
   const double scale = kPowersOfTen[static_cast<std::size_t>(decimals)];
   const std::size_t group_count = columns.group_count();
+  LastPrinted last;
   FixedTextPart part;
   char* const begin = out;
   for (std::size_t i = 0; i < columns.triangle_count(); ++i) {
     std::array<SplitUnits, 3> units;
+    const bool repeats = group_count > kRepeatedGroup && last.is_of(columns.groups[kRepeatedGroup][i]);
     for (std::size_t group = 0; group < group_count; ++group)
-      if (!split(&columns.groups[group][i][0].x, scale, units[group])) return part;
+      if (!(repeats && group == kRepeatedGroup) &&
+          !split(&columns.groups[group][i][0].x, scale, units[group]))
+        return part;
     for (std::size_t vertex = 0; vertex < 3; ++vertex) {
       for (std::size_t group = 0; group < group_count; ++group) {
+        if (repeats && group == kRepeatedGroup) {
+          out = last.print(out);
+          continue;
+        }
+        const char* const group_begin = out;
         for (std::size_t k = 3 * vertex; k < 3 * vertex + 3; ++k) {
           out = write_number(out, form, ((units[group].negative >> k) & 1u) != 0,
                              static_cast<std::uint32_t>(units[group].first[k]),
                              static_cast<std::uint32_t>(units[group].last[k]));
           *out++ = ' ';
         }
+        if (group == kRepeatedGroup && vertex == 2)
+          last.set(columns.groups[group][i][vertex], group_begin, out);
         if (group == 0 && !columns.w.empty()) out = write_w(out, columns.w[i][vertex]);
       }
       out[-1] = '\n';

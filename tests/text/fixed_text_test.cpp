@@ -618,6 +618,32 @@ TEST_P(FixedText, PrintsColumnsAsTheGeneralPrinterDoesOrLeavesThem) {
   }
 }
 
+// Colors repeat, with breaks in any vertex; the form of a repeated text differs at the end of a line.
+TEST_P(FixedText, ReadsAndPrintsRepeatedColumns) {
+  std::mt19937_64 random(10);
+  constexpr std::size_t kCount = 12;
+  const std::array<Vec3, 3> colors = {Vec3{200, 100, 50}, Vec3{200, 100, 50.5}, Vec3{0, 12, -3}};
+  for (int i = 0; i < 2000; ++i) {
+    ColumnArrays arrays(2 + random() % 2, random() % 2 == 0, kCount);
+    for (std::size_t k = 0; k < kCount; ++k)
+      for (std::size_t vertex = 0; vertex < 3; ++vertex) {
+        arrays.groups[0][k][vertex] = {1, static_cast<double>(random() % 100), 0.5};
+        arrays.groups[1][k][vertex] = colors[random() % 8 == 0 ? random() % 3 : 0];
+        if (!arrays.groups[2].empty()) arrays.groups[2][k][vertex] = arrays.groups[1][k][vertex];
+        if (!arrays.w.empty()) arrays.w[k][vertex] = 1.25;
+      }
+    std::size_t count = 0;
+    const std::string text = write_columns(GetParam(), arrays, 2, count);
+    std::string expected;
+    for (std::size_t k = 0; k < kCount; ++k) expected += general_columns(arrays, k, 2);
+    ASSERT_EQ(text, expected);
+    ColumnArrays read(arrays.groups[2].empty() ? 2 : 3, !arrays.w.empty(), kCount);
+    ASSERT_EQ(read_columns(GetParam(), text, TriangleFrame::stage_text, {2, 2, 2}, read).triangle_count,
+              kCount);
+    ASSERT_EQ(bits_of(read), bits_of(arrays));
+  }
+}
+
 TEST_P(FixedText, StopsBeforeTheFirstColumnsItCannotPrint) {
   for (const double value : {1e17, HUGE_VAL, std::nan("")})
     for (std::size_t group = 0; group < 3; ++group) {
