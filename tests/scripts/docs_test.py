@@ -86,8 +86,10 @@ class Commands(unittest.TestCase):
         environment.pop("BIN", None)
         for page in PAGES:
             with tempfile.TemporaryDirectory() as folder:
-                for name in ("samples", "scripts", "tests/conformance"):
+                for name in ("samples", "scripts"):
                     shutil.copytree(SOURCE / name, pathlib.Path(folder) / name)
+                pathlib.Path(folder, "tests").mkdir()
+                pathlib.Path(folder, "tests/conformance").symlink_to(SOURCE / "tests/conformance")  # thousands of files
                 for command, output in examples(page.read_text()):
                     with self.subTest(page=name_of(page), command=command):
                         run = subprocess.run(["bash", "-c", command], cwd=folder, env=environment, stdin=subprocess.DEVNULL,
