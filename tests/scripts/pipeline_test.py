@@ -191,7 +191,7 @@ class BuildTree(ToolTest):
         self.assertEqual(list(described)[:4], ["model", "view", "project", "zbuf"])
         self.assertEqual(set(described), set(os.listdir(BIN.parent / "libexec/pipeline")))
         for name, words in described.items():
-            self.assertRegex(words, r"\A[A-Z][a-z]+s .{10,110}[^.]\Z", name)
+            self.assertRegex(words, r"\A[A-Z][a-z]+s .{10,130}[^.]\Z", name)
 
 
 if __name__ == "__main__":
