@@ -2,7 +2,7 @@
 are shifted."""
 import math
 
-from judge_parts.raster import kept
+from judge_parts.raster import kept, spend
 
 REACH = 1.0        # pixels
 SHIFT = 0.4        # pixels, on average
@@ -10,10 +10,10 @@ LEAST_ENDS = 3     # before their average says anything
 
 
 class Borders:
-    """Triangles (raster.Triangles) in pixels: what may be seen at a pixel if its center may move by a pixel."""
+    """Triangles (raster.Triangles) in pixels: what may be seen at a pixel if its center may move by a pixel. `work` is that of Drawing."""
 
-    def __init__(self, triangles, limits):
-        self.triangles, (self.front, self.rear) = triangles, limits
+    def __init__(self, triangles, limits, work):
+        self.triangles, (self.front, self.rear), self.work = triangles, limits, work
         self.planes = {}
 
     def plane(self, t):
@@ -57,7 +57,9 @@ class Borders:
         return (t, low, high), inside >= REACH and low >= self.front and high < self.rear
 
     def near(self, row):
-        return sorted({t for r in (row - 1, row, row + 1) if 0 <= r < self.triangles.grid.height for t in self.triangles.rows[r]})
+        near = sorted({t for r in (row - 1, row, row + 1) if 0 <= r < self.triangles.grid.height for t in self.triangles.rows[r]})
+        spend(self.work, len(near))
+        return near
 
     def allows(self, row, column, is_drawn):
         """Whether a pixel may or may not be drawn within a pixel of the edges, whatever it shows."""

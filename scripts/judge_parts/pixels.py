@@ -10,6 +10,7 @@ from judge_parts.shown import DEPTH_BASE
 from judge_parts.verdict import cause_of
 
 PIXELS_LOOKED_AT = 30_000  # how many differing pixels are checked for what else they could show
+MOST_WORK = 40_000_000     # pixels of triangles and spans looked at, in all that is tried
 SAMPLE_ROWS = 8
 LEAST_PIXELS_OF_OTHERS = 3  # that triangles beside the largest must show before one color is a mistake
 # Real programs draw a few pixels astray, for example where a row passes just by a vertex.
@@ -78,7 +79,7 @@ class PixelJudge:
     def __init__(self, readings, window, shown):
         self.readings, self.window, self.shown = readings, window, shown
         self.limits = float(window.front), float(window.rear)
-        self.made = {}
+        self.made, self.work, self.plain = {}, [MOST_WORK], None
 
     def drawing(self, reading, rule):
         window = self.window
@@ -86,7 +87,7 @@ class PixelJudge:
         grid = Grid(window.width, window.height, left, bottom, rule.half_x, rule.half_y)
         if (reading, grid) not in self.made:
             self.made[reading, grid] = Triangles(*self.readings[reading], grid)
-        return Drawing(self.made[reading, grid], rule, (-1.0, 1.0) if rule.is_depth_one else self.limits)
+        return Drawing(self.made[reading, grid], rule, (-1.0, 1.0) if rule.is_depth_one else self.limits, self.work)
 
     # One rule
     def row_mismatches(self, drawing, pixels, row, budget, drawn_row=None):
@@ -180,10 +181,12 @@ class PixelJudge:
         try:
             return self.find()
         except TooMuch:
-            return Finding("unknown", remarks=["too many triangles and rows to look for the cause"])
+            finding = self.unknown(self.plain) if self.plain else Finding("unknown")
+            finding.remarks.append("too many pixels of triangles to look for a cause")
+            return finding
 
     def find(self):
-        plain = self.compare("file", Rule())
+        self.plain = plain = self.compare("file", Rule())
         finding = self.exact(plain)
         if finding:
             return finding
@@ -272,7 +275,7 @@ class PixelJudge:
         shapes = len(best.of_shape)
         most_inside, most_strays = MOST_INSIDE * best.drawn if shapes else 0, MOST_STRAYS * shapes
         inside = strays = 0
-        for what in self.beyond_borders(Borders(drawing.triangles, self.limits), best, pixels):
+        for what in self.beyond_borders(Borders(drawing.triangles, self.limits, self.work), best, pixels):
             inside += what == "inside"
             strays += what == "stray"
             if inside > most_inside or strays > most_strays:

@@ -6,7 +6,7 @@ import dataclasses
 import math
 
 ROUNDING = 1e-9       # of columns and rows calculated in doubles
-MOST_SPANS = 2_000_000
+MOST_SPANS = 500_000
 NARROW = 1e-12
 FAR = 1e9             # in NDC: beyond this, all is the same
 
@@ -153,7 +153,14 @@ class Triangles:
 
 
 class TooMuch(Exception):
-    """More spans than can be drawn in Python."""
+    """More spans or pixels than can be drawn in Python."""
+
+
+def spend(work, count):
+    """Takes `count` from the number in `work`; raises TooMuch when it is used up."""
+    work[0] -= count
+    if work[0] < 0:
+        raise TooMuch
 
 
 def bounded(x, limit, rounded=math.ceil):
@@ -189,10 +196,10 @@ def depth_line(span, rule, width):
 
 
 class Drawing:
-    """The rows of a picture under a rule. `limits` is front and rear."""
+    """The rows of a picture under a rule. `limits` is front and rear, `work` has the number of pixels and spans that may yet be looked at."""
 
-    def __init__(self, triangles, rule, limits):
-        self.triangles, self.rule = triangles, rule
+    def __init__(self, triangles, rule, limits, work):
+        self.triangles, self.rule, self.work = triangles, rule, work
         self.front = limits[0] if rule.has_front else -math.inf
         self.rear = limits[1] if rule.has_rear else math.inf
         self.width = triangles.grid.width
@@ -213,8 +220,9 @@ class Drawing:
         for span in self.spans(row):
             first, last = ends_of(span, self.rule, self.width)
             at_0, slope = self.line(span)
-            t = span.triangle
-            for column in range(max(first, 0), min(last, self.width - 1) + 1):
+            t, columns = span.triangle, range(max(first, 0), min(last, self.width - 1) + 1)
+            spend(self.work, len(columns) + 1)
+            for column in columns:
                 z = at_0 + column * slope
                 if keep == "nearest":
                     if front <= z < depth[column]:
@@ -226,8 +234,9 @@ class Drawing:
     def could_show(self, row, column, tolerance):
         """What a pixel may show, given how uncertain the numbers are: pairs of a triangle and a range of depths; the triangle -1
         stands for none. `tolerance` is that of a depth."""
-        sure, possible = [], []
-        for span in self.spans(row):
+        sure, possible, spans = [], [], self.spans(row)
+        spend(self.work, len(spans))
+        for span in spans:
             first, last = ends_of(span, self.rule, self.width, 1.0)
             if not first <= column <= last:
                 continue
