@@ -195,7 +195,7 @@ class WhatThePagesName(unittest.TestCase):
         count = 0
         for page in (page for page in PAGES if not page.name.startswith("errors-in-")):
             for code in re.findall(r"`[^`\n]*`|^    .*|^\$ .*", page.read_text(), re.MULTILINE):
-                for tool, words in re.findall(r"(?<![\w./-])(model|view|project|zbuf)((?: +(?![|<>&;])[^\s|;&`)]+)*)", code):
+                for tool, words in re.findall(r"(?<![\w./-])(?<!--stage )(model|view|project|zbuf)((?: +(?![|<>&;])[^\s|;&`)]+)*)", code):
                     for option in re.findall(r"(?<=\s)--[a-z][a-z-]*", words):
                         self.assertIsNotNone(re.search(rf"(?<![\w-]){option}(?![\w-])", texts[tool]), f"{name_of(page)}: {tool} {option}")
                         count += 1
