@@ -53,9 +53,11 @@ void NormalTransform::set_rows(const BallVec3& x, const BallVec3& y, const BallV
   const double side = dot(x, cofactors[0]).sign() < 0 ? -1 : 1;
   double largest = 0;
   for (const BallVec3& row : cofactors)
-    largest = std::max({largest, row.x.magnitude(), row.y.magnitude(), row.z.magnitude()});
+    for (const Ball& entry : {row.x, row.y, row.z})
+      if (entry.sign() != 0) largest = std::max(largest, entry.magnitude());
+  if (largest == 0) return;  // M flattens space to a line, in which no normal has a direction: all rows are 0
   // Only directions matter: divided by the largest entry, the cofactors stay within a double's range.
-  if (largest == 0 || !std::isfinite(largest)) largest = 1;
+  if (!std::isfinite(largest)) largest = 1;
   for (std::size_t i = 0; i < 3; ++i) {
     ball_rows_[i] = over_largest(cofactors[i], side * largest);
     rows_[i] = nearest(ball_rows_[i]);

@@ -527,6 +527,10 @@ TEST(Normals, AreZeroWhereAFlatteningScaleLeavesNone) {
     const double size = std::exp2(random.whole(-300, 300));
     EXPECT_EQ(transform({2 * x * size, y * size, -3 * (x + y) * size}), Vec3{}) << i;
     EXPECT_NE(transform({3 * size, 6 * size, 2 * size}), Vec3{}) << i;
+    // Flattened to a line.
+    const AffineMatrix line =
+        scaled(model.computed, {1, 0, 0}) * rotation(random.between(-720, 720), random_axis(random));
+    EXPECT_EQ(NormalTransform(scaled(line, {0.5, 0, 1.5}))({x * size, y * size, size}), Vec3{}) << i;
   }
 }
 
