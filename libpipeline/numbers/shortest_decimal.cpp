@@ -84,13 +84,14 @@ bool decide_by_fraction(const ScaledDouble& value, Decimal& decimal) {
   constexpr std::uint64_t kMargin = 16;
   constexpr std::uint64_t kHalf = std::uint64_t{1} << 63;
   const auto is_near = [](std::uint64_t a, std::uint64_t b) { return a - b + kMargin <= 2 * kMargin; };
-  if (is_near(from_below, half_gap) | is_near(from_above, half_gap) | is_near(fraction, kHalf)) return false;
+  if (is_near(from_below, half_gap) || is_near(from_above, half_gap) || is_near(fraction, kHalf))
+    return false;
   // Branch-free: whether a digit can be saved is unpredictable.
   const bool is_ten_below = from_below < half_gap;
   const bool is_ten_above = from_above < half_gap;
   const std::uint64_t shorter = units - last_digit + (is_ten_above ? 10 : 0);
   const std::uint64_t nearest = units + (fraction >> 63);
-  decimal = {is_ten_below | is_ten_above ? shorter : nearest, value.k};
+  decimal = {(is_ten_below | is_ten_above) ? shorter : nearest, value.k};
   return true;
 }
 
