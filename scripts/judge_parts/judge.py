@@ -60,7 +60,7 @@ class HandIn:
             verdicts.append(outcome.verdict)
             memory, before = outcome.memory, theirs
         if "picture" in self.kinds:
-            verdicts += self.pixels(before, memory)
+            verdicts += self.pixels(before, memory, self.right_ndc() if verdicts[-1].verdict == WRONG else None)
         verdicts[0].remarks += self.ours.remarks
         return Verdict(verdicts)
 
@@ -70,6 +70,11 @@ class HandIn:
             return self.ours.world if stage == "model" else None
         m = self.ours.scene.of_view() if stage == "view" else self.ours.scene.of_project()
         return [image(m, p, stage == "project") for p in readings[-1].points]
+
+    def right_ndc(self):
+        """What a program may have drawn by that writes other numbers into its file."""
+        p_view = [image(self.ours.scene.of_view(), p, False) for p in self.ours.world]
+        return [image(self.ours.scene.of_project(), p, True) for p in p_view]
 
     # reading
     def read(self, kind, parse):
@@ -103,8 +108,8 @@ class HandIn:
             verdict.remarks.append(f"not looked at: {', '.join(others)}")
 
     # stage 4
-    def pixels(self, stage3, memory):
-        """The FileVerdicts of the depths and of the picture."""
+    def pixels(self, stage3, memory, right_ndc):
+        """The FileVerdicts of the depths and of the picture; `right_ndc` if stage3.txt does not have it."""
         window = self.ours.window
         depths = self.read("depths", read_depths)
         colors = self.read("picture", lambda data, name: read_colors(data, name, window.width, window.height))
@@ -117,6 +122,8 @@ class HandIn:
         is_defined = memory is not None and all(x == x for p in memory for x in p)
         if is_defined:
             readings["memory" if readings else "file"] = (memory, Reading.exact(memory).units)
+        if readings and right_ndc and all(x == x for p in right_ndc for x in p):
+            readings["right"] = (right_ndc, Reading.exact(right_ndc).units)
         if depths is not None and depths.rows and depths.digits.are_too_few:
             verdicts["depths"] = FileVerdict("zbuf", self.files["depths"].name, TOO_FEW_DIGITS, remarks=[f"it shows {depths.digits}"])
             depths = None

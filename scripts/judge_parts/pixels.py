@@ -74,7 +74,7 @@ class Finding:
 
 
 class PixelJudge:
-    """`readings` are {name: (points, units)}: the numbers of the file, and those in memory. `window` has the size and the limits."""
+    """`readings` are {name: (points, units)}: the numbers of the file, those in memory, and the right ones. `window` has the size and the limits."""
 
     def __init__(self, readings, window, shown):
         self.readings, self.window, self.shown = readings, window, shown
@@ -200,6 +200,8 @@ class PixelJudge:
         finding = Finding("exact", mismatch, in_words(mismatch.rule), total=mismatch.drawn)
         if mismatch.reading == "memory":
             finding.remarks.append("by the exact numbers, kept in memory")
+        if mismatch.reading == "right":
+            finding.remarks.append("by the right numbers, which are not those of stage3.txt")
         counts = [count for _, count in mismatch.visible.most_common()]
         if len(set(mismatch.colors.values())) == 1 and sum(counts[1:]) >= LEAST_PIXELS_OF_OTHERS:
             finding.verdict, finding.causes, finding.touches = "mistake", [cause_of("zbuf/one-color")], ("picture",)
@@ -273,6 +275,8 @@ class PixelJudge:
         if not pixels.drawn or is_shifted(drawing, pixels.drawn) or any(column >= self.window.width for _, column in best.pixels):
             return None
         shapes = len(best.of_shape)
+        if shapes > best.drawn:
+            return None  # more than all: not the borders of what there is to draw
         most_inside, most_strays = MOST_INSIDE * best.drawn if shapes else 0, MOST_STRAYS * shapes
         inside = strays = 0
         for what in self.beyond_borders(Borders(drawing.triangles, self.limits, self.work), best, pixels):

@@ -51,9 +51,11 @@ def sentence(verdict):
     words = f"the first stage that went wrong is {first[0].stage} ({listed(first)} {'is' if len(first) == 1 else 'are'} {first[0].verdict})"
     if first[0].cause:
         words += f": {first[0].cause}"
+    open_words = "".join(f"; {file.file}: {file.verdict}" for file in undecided)
     if rest:
-        return f"{words}; also wrong, by themselves: {listed_with_causes(rest)}"
-    return words + ("; what follows is right, given that" if first[-1] is not verdict.files[-1] else "")
+        return f"{words}; also wrong, by themselves: {listed_with_causes(rest)}{open_words}"
+    last = [file for file in verdict.files if file.verdict not in OPEN][-1]
+    return words + ("; what follows is right, given that" if first[-1] is not last else "") + open_words
 
 
 def listed_with_causes(files):

@@ -282,6 +282,34 @@ class Wrong(HandIn):
                 self.assertIn(name, [cause.name for cause in verdict.files[stage].causes])
                 self.assertIn(mistakes.sentence(name).rstrip("."), sentence(verdict))
 
+    def test_a_text_that_is_wrong_where_the_pixels_are_right(self):
+        """A program may print other numbers than it draws by."""
+        self.hand_in()
+        right = {name: pathlib.Path(name).read_bytes() for name in NAMES[3:]}
+        self.stages("divide")
+        verdict = self.assert_verdicts(["right", "right", "wrong", "right", "right"], 1)
+        self.assertIn("by the right numbers, which are not those of stage3.txt", verdict.files[3].remarks)
+        self.assertEqual({name: pathlib.Path(name).read_bytes() for name in right}, right)
+
+    def test_a_picture_of_a_text_that_draws_nothing(self):
+        """All its pixels lie at borders, but not at those of what the text draws."""
+        self.hand_in()
+        pixels = Pixels()
+        for row in pixels.depths:
+            row[:] = [None if z is None else 0.5 for z in row]
+        pixels.write()
+        text = pathlib.Path("stage3.txt").read_text()
+        pathlib.Path("stage3.txt").write_text("".join(" ".join([*line.split()[:2], "5"]) + "\n" if line else "\n" for line in text.split("\n")[:-1]))
+        self.assert_verdicts(["right", "right", "wrong", "wrong", "wrong"], 1)
+
+    def test_the_verdict_names_what_could_not_be_judged(self):
+        self.hand_in()
+        self.stages("divide")
+        text = pathlib.Path("z_buffer.txt").read_text()
+        pathlib.Path("z_buffer.txt").write_text("\n".join("\t".join("0.5" for _ in line.split()) for line in text.split("\n")))
+        verdict = self.verdict()
+        self.assertTrue(sentence(verdict).endswith("; z_buffer.txt: too few digits to judge"), sentence(verdict))
+
     def test_model_names_the_line_of_the_scene(self):
         self.hand_in(mistake="swapped 1")
         verdict = self.verdict()
