@@ -206,6 +206,15 @@ class Runner(unittest.TestCase):
     def test_a_failure_shows_the_programs_message(self):
         self.assert_wrong(self.run_one("model/translate-x", *sh("echo 'mine: no camera' >&2; exit 3")), "exit status 3", "found:    mine: no camera")
 
+    def test_of_a_traceback_the_last_line_is_shown(self):
+        self.assert_wrong(self.run_one("model/translate-x", *sh("printf 'Traceback:\\n  line 3\\nKeyError: 7\\n' >&2; exit 1")), "found:    KeyError: 7")
+
+    def test_failures_are_no_evidence_for_a_mistake(self):
+        program = f"text=$(cat; echo x); case $text in *push*) exit 3;; esac; printf %s \"${{text%x}}\" | {BIN}/model --bare"
+        done = conform("--stage", "model", "--assignment", "--", *sh(program))
+        self.assertRegex(done.stdout, r"\n# the program failed: \d+ cases\n#   first, by length")
+        self.assertNotRegex(done.stdout, r"\n# (model/|no mistake of the list)")
+
     def test_a_refusal_needs_a_status_and_the_line(self):
         case = "model/refused-pop-without-push"  # line 5
         self.assert_wrong(self.run_one(case, "true"), "wrong input was accepted")

@@ -5,8 +5,9 @@ from collections import namedtuple
 from decimal import Decimal
 from fractions import Fraction
 
-# excuses: mistakes that would have given something else; other_rule: the rule by which there is no difference
-Difference = namedtuple("Difference", "message expected found excuses other_rule", defaults=("", "", (), None))
+# excuses: mistakes that would have given something else; other_rule: the rule by which there is no difference; is_failure: the program
+# did not come to an end of its own, or failed
+Difference = namedtuple("Difference", "message expected found excuses other_rule is_failure", defaults=("", "", (), None, False))
 NUMBER = re.compile(r"[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]{1,4})?")
 LEAST_DIGITS = 6  # a text whose numbers do not all have the same decimals is taken to have at least these
 COARSEST = Fraction(5, 1000)  # no text is right to fewer digits

@@ -4,7 +4,7 @@ from collections import namedtuple
 
 # state: right, wrong, open (not counted; `difference` tells whether it is right), left out (`reason` tells why)
 Result = namedtuple("Result", "case state difference reason", defaults=(None, None))
-Heading = namedtuple("Heading", "names results")  # what failing cases have in common: mistakes that cannot be told apart, or none
+Heading = namedtuple("Heading", "names results title", defaults=("no mistake of the list",))  # mistakes that cannot be told apart, or none
 
 
 def tap_lines(number, result):
@@ -29,8 +29,10 @@ def difference_lines(difference):
 def headings(results):
     """The failing cases by the mistake that explains them: the cases that catch it fail, but for one in twenty, no output is another
     than it gives, and it explains the most of the cases that are left. Where several do so alike, all are named. The last heading has
-    no name: what no mistake explains, and everything if every case fails."""
-    judged = [result for result in results if result.state in ("right", "wrong")]
+    no name: what no mistake explains, and everything if every case fails. The first one, where there is any, has the cases in which the
+    program failed: they say nothing about its numbers."""
+    failed = [result for result in results if result.state == "wrong" and result.difference.is_failure]
+    judged = [result for result in results if result.state in ("right", "wrong") and result not in failed]
     failing = {result.case.name: result for result in judged if result.state == "wrong"}
     caught_by = {}
     for result in judged:
@@ -39,7 +41,7 @@ def headings(results):
     excused = {mistake for result in failing.values() for mistake in result.difference.excuses}
     suspects = {mistake: cases for mistake, cases in caught_by.items()
                 if mistake not in excused and len(cases - failing.keys()) <= len(cases) // 20}
-    left, found = set(failing), []
+    left, found = set(failing), [Heading([], failed, "the program failed")] if failed else []
     while len(failing) < len(judged) or len(judged) == 1:
         most = max((len(cases & left) for cases in suspects.values()), default=0)
         names = [mistake for mistake, cases in suspects.items() if most and len(cases & left) == most]
@@ -65,7 +67,7 @@ def table(results, mistakes):
     for heading in headings(results):
         first = min(heading.results, key=lambda result: len(result.case.read("input.txt")))
         count = f"{len(heading.results)} case{'s' * (len(heading.results) > 1)}"
-        lines += ["#", "# " + " or ".join(heading.names or ["no mistake of the list"]) + ": " + count]
+        lines += ["#", "# " + " or ".join(heading.names or [heading.title]) + ": " + count]
         lines += ["#   " + mistakes[name] for name in heading.names]
         lines += [f"#   first, by length: {first.case.name}", f"#   why: {first.case.why}", *difference_lines(first.difference)]
     return lines

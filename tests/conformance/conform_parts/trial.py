@@ -84,7 +84,7 @@ def run_and_judge(case, terms):
         if case.refused_line is not None:
             return judge_refusal(case, terms, status, complaint, folder)
         if status:
-            return Difference(f"exit status {status}", "0", complaint.strip().partition("\n")[0])
+            return Difference(f"exit status {status}", "0", complaint.strip().rpartition("\n")[2], is_failure=True)
         difference = judge_outputs(case, terms, folder)
         return difference and difference._replace(excuses=excuses(case, terms, folder), other_rule=other_rule(case, terms, folder))
 
@@ -95,17 +95,17 @@ def run(words, folder, seconds):
         try:
             process = subprocess.Popen(words, stdin=stdin, stdout=stdout, stderr=stderr, cwd=folder, start_new_session=True)
         except OSError as error:
-            return Difference(f"{words[0]} cannot be run: {error.strerror}")
+            return Difference(f"{words[0]} cannot be run: {error.strerror}", is_failure=True)
         try:
             status = process.wait(seconds)
         except subprocess.TimeoutExpired:
-            return Difference(f"no end after {seconds:g} seconds")
+            return Difference(f"no end after {seconds:g} seconds", is_failure=True)
         finally:
             with contextlib.suppress(ProcessLookupError):  # the program, if it still runs, and what it has started
                 os.killpg(process.pid, signal.SIGKILL)
             process.wait()
     if status < 0:
-        return Difference(f"ended by {signal.Signals(-status).name}")
+        return Difference(f"ended by {signal.Signals(-status).name}", is_failure=True)
     return status
 
 
