@@ -142,93 +142,80 @@ FixedTextPart write_fixed_text(std::span<const Triangle> triangles, int decimals
   return {part.triangle_count + rest.triangle_count, part.length + rest.length};
 }
 
-/// The nine numbers that a triangle has in a group of columns: sixteen digits each, as write_number takes
-/// them. There is room for one more.
-struct GroupTexts {
-  alignas(32) std::array<std::array<char, 16>, 10> texts;
-  std::array<unsigned, 5> filled;  // of two numbers each
-  unsigned negative;               // bit i: number i is negative and does not round to 0
+/// Prints three numbers and a blank after each; clears lanes of `good` as `split` does.
+template <bool exactly>
+PIPELINE_AVX2 inline char* write_three(char* out, const PrintedForm& form, const Vec3& numbers, __m256d scale,
+                                       __m256d& good) {
+  const __m256d values = _mm256_maskload_pd(&numbers.x, _mm256_setr_epi64x(-1, -1, -1, 0));
+  const SplitUnits units = split<exactly>(values, scale, good);
+  out = write_two(out, form, _mm_unpacklo_epi32(units.first, units.last), units.negative, ' ', ' ');
+  // The last number has no partner; the text of the empty lane is overwritten.
+  char* const after_empty_lane =
+      write_two(out, form, _mm_unpackhi_epi32(units.first, units.last), units.negative >> 2, ' ', ' ');
+  return after_empty_lane - form.length_of_zero - 1;
+}
 
-  PIPELINE_AVX2 void set_two(std::size_t index, __m128i first_and_last) {
-    const __m256i characters =
-        _mm256_broadcastsi128_si256(_mm_load_si128(reinterpret_cast<const __m128i*>(kPointAndZeros.data())));
-    const __m256i digits = sixteen_digits(first_and_last);
-    _mm256_store_si256(reinterpret_cast<__m256i*>(texts[2 * index].data()),
-                       _mm256_add_epi8(digits, characters));
-    filled[index] =
-        static_cast<unsigned>(_mm256_movemask_epi8(_mm256_cmpgt_epi8(digits, _mm256_setzero_si256())));
-  }
-
-  /// Clears lanes of `good` as `split` does.
-  template <bool exactly>
-  PIPELINE_AVX2 void set(const Triangle& numbers, __m256d scale, __m256d& good) {
-    const double* const p = &numbers[0].x;
-    const SplitUnits a = split<exactly>(_mm256_loadu_pd(p), scale, good);
-    const SplitUnits b = split<exactly>(_mm256_loadu_pd(p + 4), scale, good);
-    const SplitUnits c = split<exactly>(_mm256_zextpd128_pd256(_mm_load_sd(p + 8)), scale, good);
-    set_two(0, _mm_unpacklo_epi32(a.first, a.last));
-    set_two(1, _mm_unpackhi_epi32(a.first, a.last));
-    set_two(2, _mm_unpacklo_epi32(b.first, b.last));
-    set_two(3, _mm_unpackhi_epi32(b.first, b.last));
-    set_two(4, _mm_unpacklo_epi32(c.first, c.last));
-    negative = a.negative | b.negative << 4 | c.negative << 8;
-  }
-
-  /// Prints the three numbers of a vertex and a blank after each.
-  PIPELINE_AVX2 char* write_vertex(char* out, const PrintedForm& form, std::size_t vertex) const {
-    for (std::size_t index = 3 * vertex; index < 3 * vertex + 3; ++index) {
-      const __m128i text = _mm_load_si128(reinterpret_cast<const __m128i*>(texts[index].data()));
-      const unsigned digits_above_0 = filled[index / 2] >> (index % 2 == 0 ? 0 : 16) & 0xffff;
-      out = write_number(out, form, negative >> index, text, digits_above_0);
-      *out++ = ' ';
-    }
-    return out;
-  }
-};
+/// Prints the numbers that a vertex line has in a group, and w after the position.
+template <bool exactly, std::size_t group>
+PIPELINE_AVX2 [[gnu::always_inline]] inline char* write_group(char* out, const PrintedForm& form,
+                                                              const ConstFixedColumns& columns,
+                                                              std::size_t triangle, std::size_t vertex,
+                                                              __m256d scale, __m256d& good,
+                                                              LastPrinted& last) {
+  const Vec3& numbers = columns.groups[group][triangle][vertex];
+  if (group == kRepeatedGroup && last.is_of(numbers)) return last.print(out);
+  const char* const begin = out;
+  out = write_three<exactly>(out, form, numbers, scale, good);
+  if (group == kRepeatedGroup) last.set(numbers, begin, out);
+  return group == 0 && !columns.w.empty() ? write_w(out, columns.w[triangle][vertex]) : out;
+}
 
 /// Stops before a triangle with a number that `split` refuses.
-template <bool exactly>
-PIPELINE_AVX2 FixedTextPart write_columns_from(std::size_t begin, const ConstFixedColumns& columns,
-                                               int decimals, char* out) {
+template <bool exactly, std::size_t group_count>
+PIPELINE_AVX2 FixedTextPart write_groups(std::size_t first, const ConstFixedColumns& columns, int decimals,
+                                         char* out) {
   const PrintedForm& form = kPrintedForms[static_cast<std::size_t>(decimals)];
   const __m256d scale = _mm256_set1_pd(kPowersOfTen[static_cast<std::size_t>(decimals)]);
-  const std::size_t group_count = columns.group_count();
   LastPrinted last;
   FixedTextPart part;
-  const char* const text = out;
-  for (std::size_t i = begin; i < columns.triangle_count(); ++i) {
-    std::array<GroupTexts, 3> groups;
+  const char* const begin = out;
+  for (std::size_t i = first; i < columns.triangle_count(); ++i) {
     __m256d good = _mm256_castsi256_pd(_mm256_set1_epi32(-1));
-    const bool repeats = group_count > kRepeatedGroup && last.is_of(columns.groups[kRepeatedGroup][i]);
-    for (std::size_t group = 0; group < group_count; ++group)
-      if (!(repeats && group == kRepeatedGroup))
-        groups[group].template set<exactly>(columns.groups[group][i], scale, good);
-    if (_mm256_movemask_pd(good) != 0xf) break;
     for (std::size_t vertex = 0; vertex < 3; ++vertex) {
-      out = groups[0].write_vertex(out, form, vertex);
-      if (!columns.w.empty()) out = write_w(out, columns.w[i][vertex]);
-      const char* const repeated = out;
-      if (group_count > kRepeatedGroup)
-        out = repeats ? last.print(out) : groups[kRepeatedGroup].write_vertex(out, form, vertex);
-      const char* const repeated_end = out;
-      if (group_count > 2) out = groups[2].write_vertex(out, form, vertex);
-      if (group_count > kRepeatedGroup && !repeats && vertex == 2)
-        last.set(columns.groups[kRepeatedGroup][i][vertex], repeated, repeated_end);
+      out = write_group<exactly, 0>(out, form, columns, i, vertex, scale, good, last);
+      if constexpr (group_count > 1)
+        out = write_group<exactly, 1>(out, form, columns, i, vertex, scale, good, last);
+      if constexpr (group_count > 2)
+        out = write_group<exactly, 2>(out, form, columns, i, vertex, scale, good, last);
       out[-1] = '\n';
     }
+    if (_mm256_movemask_pd(good) != 0xf) break;
     *out++ = '\n';
     ++part.triangle_count;
+    part.length = static_cast<std::size_t>(out - begin);
   }
-  part.length = static_cast<std::size_t>(out - text);
   return part;
 }
 
-FixedTextPart write_columns(const ConstFixedColumns& columns, int decimals, char* out) {
-  const FixedTextPart part = write_columns_from<false>(0, columns, decimals, out);
+/// Exactly from the first tie on: where there is one, others follow.
+template <std::size_t group_count>
+FixedTextPart write_columns_of(const ConstFixedColumns& columns, int decimals, char* out) {
+  const FixedTextPart part = write_groups<false, group_count>(0, columns, decimals, out);
   if (part.triangle_count == columns.triangle_count()) return part;
   const FixedTextPart rest =
-      write_columns_from<true>(part.triangle_count, columns, decimals, out + part.length);
+      write_groups<true, group_count>(part.triangle_count, columns, decimals, out + part.length);
   return {part.triangle_count + rest.triangle_count, part.length + rest.length};
+}
+
+FixedTextPart write_columns(const ConstFixedColumns& columns, int decimals, char* out) {
+  switch (columns.group_count()) {
+    case 1:
+      return write_columns_of<1>(columns, decimals, out);
+    case 2:
+      return write_columns_of<2>(columns, decimals, out);
+    default:
+      return write_columns_of<3>(columns, decimals, out);
+  }
 }
 
 }  // namespace

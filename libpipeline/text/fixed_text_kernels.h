@@ -38,43 +38,75 @@ inline const char* triangle_end(const char* p, TriangleFrame frame) {
 }
 
 // Colors mostly repeat from vertex to vertex: three numbers whose text or values are those of the last vertex
-// are copied. This is tried for the first group after the position, where colors stand.
+// are copied. This is tried for the first group after the position, where colors stand, and not any more in a
+// block where it failed twice in a row.
 constexpr std::size_t kRepeatedGroup = 1;
+constexpr int kMaxMissesInARow = 2;
 
 /// Three numbers that were read, and their text up to the separator after them.
-struct LastRead {
-  const char* text = nullptr;
-  std::size_t length = 0;  // 0: none yet
-  Vec3 numbers;
-
-  [[nodiscard]] bool is_at(const char* p) const {
+class LastRead {
+ public:
+  /// Whether the same text stands at `p`; false where colors do not repeat.
+  [[nodiscard]] bool is_at(const char* p) {
+    if (miss_count_ == kMaxMissesInARow) return false;
     // Texts that differ mostly do so in their first eight characters.
-    return length > 0 && load_eight(p) == load_eight(text) && std::memcmp(p, text, length) == 0;
+    const bool repeats =
+        length_ > 0 && load_eight(p) == load_eight(text_) && std::memcmp(p, text_, length_) == 0;
+    miss_count_ = repeats ? 0 : miss_count_ + 1;
+    return repeats;
   }
+  void set(const char* begin, const char* end, const Vec3& numbers) {
+    if (miss_count_ == kMaxMissesInARow) return;
+    text_ = begin;
+    length_ = static_cast<std::size_t>(end - begin);
+    numbers_ = numbers;
+  }
+  [[nodiscard]] std::size_t length() const { return length_; }
+  [[nodiscard]] const Vec3& numbers() const { return numbers_; }
+
+ private:
+  const char* text_ = nullptr;
+  std::size_t length_ = 0;  // 0: none yet
+  Vec3 numbers_;
+  int miss_count_ = 0;  // in a row
 };
 
 /// Three numbers that were printed, and their text with a blank after each.
-struct LastPrinted {
-  static constexpr std::size_t kMaxLength = 64;  // more than three numbers of a sign, 16 digits and a point
-
-  std::array<char, kMaxLength> text;
-  std::size_t length = 0;  // 0: none yet
-  Vec3 numbers;
-
+class LastPrinted {
+ public:
+  /// Whether these are the same numbers; false where colors do not repeat.
+  [[nodiscard]] bool is_of(const Vec3& three) {
+    return miss_count_ < kMaxMissesInARow && counted(length_ > 0 && three == numbers_);
+  }
+  /// Whether all vertices of the triangle have them.
+  [[nodiscard]] bool is_of(const Triangle& triangle) {
+    const auto& [a, b, c] = triangle;
+    return miss_count_ < kMaxMissesInARow && counted(length_ > 0 && a == numbers_ && b == a && c == a);
+  }
   /// `out` is the end of the text; kMaxLength characters from its beginning are copied, whatever they are.
   void set(const Vec3& printed, const char* begin, const char* out) {
-    std::memcpy(text.data(), begin, kMaxLength);
-    length = static_cast<std::size_t>(out - begin);
-    numbers = printed;
-  }
-  [[nodiscard]] bool is_of(const Vec3& three) const { return length > 0 && three == numbers; }
-  [[nodiscard]] bool is_of(const Triangle& triangle) const {
-    return is_of(triangle[0]) && triangle[1] == numbers && triangle[2] == numbers;
+    if (miss_count_ == kMaxMissesInARow) return;
+    std::memcpy(text_.data(), begin, kMaxLength);
+    length_ = static_cast<std::size_t>(out - begin);
+    numbers_ = printed;
   }
   char* print(char* out) const {
-    std::memcpy(out, text.data(), kMaxLength);
-    return out + length;
+    std::memcpy(out, text_.data(), kMaxLength);
+    return out + length_;
   }
+
+ private:
+  bool counted(bool repeats) {
+    miss_count_ = repeats ? 0 : miss_count_ + 1;
+    return repeats;
+  }
+
+  static constexpr std::size_t kMaxLength = 64;  // more than three numbers of a sign, 16 digits and a point
+
+  std::array<char, kMaxLength> text_;
+  std::size_t length_ = 0;  // 0: none yet
+  Vec3 numbers_;
+  int miss_count_ = 0;  // in a row
 };
 
 /// Reads w and the separator after it; null if the form differs.

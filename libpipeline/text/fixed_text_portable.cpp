@@ -102,8 +102,8 @@ const char* read_line(const char* p, const ReadForms& forms, const FixedColumns&
   const std::size_t group_count = columns.group_count();
   for (std::size_t group = 0; group < group_count; ++group) {
     if (group == kRepeatedGroup && last.is_at(p)) {
-      columns.groups[group][triangle][vertex] = last.numbers;
-      p += last.length;
+      columns.groups[group][triangle][vertex] = last.numbers();
+      p += last.length();
       continue;
     }
     const char* const begin = p;
@@ -113,7 +113,7 @@ const char* read_line(const char* p, const ReadForms& forms, const FixedColumns&
     if ((p = read_number(p, forms[group], ' ', x)) == nullptr) return nullptr;
     if ((p = read_number(p, forms[group], ' ', y)) == nullptr) return nullptr;
     if ((p = read_number(p, forms[group], w_follows ? ' ' : end, z)) == nullptr) return nullptr;
-    if (group == kRepeatedGroup) last = {begin, static_cast<std::size_t>(p - begin), {x, y, z}};
+    if (group == kRepeatedGroup) last.set(begin, p, {x, y, z});
     if (w_follows && (p = read_w(p, end, columns.w[triangle][vertex])) == nullptr) return nullptr;
   }
   return p;

@@ -118,50 +118,74 @@ PIPELINE_SSE4 FixedTextPart read_fixed_text(std::string_view text, int decimals,
 
 using ReadForms = std::array<ReadForm, 3>;
 
-/// Reads a vertex line; null if the form differs.
-PIPELINE_SSE4 inline const char* read_line(const char* p, const ReadForms& forms, std::size_t group_count,
-                                           const FixedColumns& columns, std::size_t triangle,
-                                           std::size_t vertex, LastRead& last) {
-  int good = 0xffff;
-  for (std::size_t group = 0; group < group_count; ++group) {
-    const char end = group + 1 == group_count ? '\n' : ' ';
-    const bool w_follows = group == 0 && !columns.w.empty();
-    if (group == kRepeatedGroup && last.is_at(p)) {
-      columns.groups[group][triangle][vertex] = last.numbers;
-      p += last.length;
-      continue;
-    }
-    const char* const begin = p;
-    std::array<std::uint64_t, 3> bits;
-    p = read_number(p, forms[group], ' ', bits[0], good);
-    p = read_number(p, forms[group], ' ', bits[1], good);
-    p = read_number(p, forms[group], w_follows ? ' ' : end, bits[2], good);
-    if (good != 0xffff) return nullptr;
-    columns.groups[group][triangle][vertex] = std::bit_cast<Vec3>(bits);
-    if (group == kRepeatedGroup)
-      last = {begin, static_cast<std::size_t>(p - begin), std::bit_cast<Vec3>(bits)};
-    if (w_follows && (p = read_w(p, end, columns.w[triangle][vertex])) == nullptr) return nullptr;
+/// Reads the numbers that a vertex line has in a group, and w after the position; null if the form differs.
+template <std::size_t group, std::size_t group_count>
+PIPELINE_SSE4 [[gnu::always_inline]] inline const char* read_group(const char* p, const ReadForm& form,
+                                                                   const FixedColumns& columns,
+                                                                   std::size_t triangle, std::size_t vertex,
+                                                                   LastRead& last) {
+  Vec3& numbers = columns.groups[group][triangle][vertex];
+  if (group == kRepeatedGroup && last.is_at(p)) {
+    numbers = last.numbers();
+    return p + last.length();
   }
+  constexpr char kEnd = group + 1 == group_count ? '\n' : ' ';
+  const bool w_follows = group == 0 && !columns.w.empty();
+  const char* const begin = p;
+  int good = 0xffff;
+  std::array<std::uint64_t, 3> bits;
+  p = read_number(p, form, ' ', bits[0], good);
+  p = read_number(p, form, ' ', bits[1], good);
+  p = read_number(p, form, w_follows ? ' ' : kEnd, bits[2], good);
+  if (good != 0xffff) return nullptr;
+  numbers = std::bit_cast<Vec3>(bits);
+  if (group == kRepeatedGroup) last.set(begin, p, numbers);
+  return w_follows ? read_w(p, kEnd, columns.w[triangle][vertex]) : p;
+}
+
+/// Reads a vertex line; null if the form differs.
+template <std::size_t group_count>
+PIPELINE_SSE4 [[gnu::always_inline]] inline const char* read_line(const char* p, const ReadForms& forms,
+                                                                  const FixedColumns& columns,
+                                                                  std::size_t triangle, std::size_t vertex,
+                                                                  LastRead& last) {
+  p = read_group<0, group_count>(p, forms[0], columns, triangle, vertex, last);
+  if constexpr (group_count > 1)
+    if (p != nullptr) p = read_group<1, group_count>(p, forms[1], columns, triangle, vertex, last);
+  if constexpr (group_count > 2)
+    if (p != nullptr) p = read_group<2, group_count>(p, forms[2], columns, triangle, vertex, last);
   return p;
 }
 
-PIPELINE_SSE4 FixedTextPart read_columns(std::string_view text, TriangleFrame frame,
-                                         const GroupDecimals& decimals, const FixedColumns& columns) {
+template <std::size_t group_count>
+PIPELINE_SSE4 FixedTextPart read_groups(std::string_view text, TriangleFrame frame,
+                                        const GroupDecimals& decimals, const FixedColumns& columns) {
   const auto form = [&](std::size_t group) { return ReadForm(static_cast<std::size_t>(decimals[group])); };
   const ReadForms forms = {form(0), form(1), form(2)};
-  const std::size_t group_count = columns.group_count();
   const char* const end = text.data() + text.size();
   LastRead last;
   FixedTextPart part;
   for (std::size_t i = 0; i < columns.triangle_count() && part.length < text.size(); ++i) {
     const char* p = vertex_lines(text.data() + part.length, frame);
     for (std::size_t vertex = 0; vertex < 3 && p != nullptr; ++vertex)
-      p = p < end ? read_line(p, forms, group_count, columns, i, vertex, last) : nullptr;
+      p = p < end ? read_line<group_count>(p, forms, columns, i, vertex, last) : nullptr;
     if (p == nullptr || (p = triangle_end(p, frame)) == nullptr || p > end) break;
     ++part.triangle_count;
     part.length = static_cast<std::size_t>(p - text.data());
   }
   return part;
+}
+
+FixedTextPart read_columns(std::string_view text, TriangleFrame frame, const GroupDecimals& decimals,
+                           const FixedColumns& columns) {
+  switch (columns.group_count()) {
+    case 1:
+      return read_groups<1>(text, frame, decimals, columns);
+    case 2:
+      return read_groups<2>(text, frame, decimals, columns);
+    default:
+      return read_groups<3>(text, frame, decimals, columns);
+  }
 }
 
 // ---- printing ----
