@@ -193,10 +193,12 @@ void ProjectionStage::project_unclipped(const TriangleBatch& p_view, std::size_t
                                   size_of(p_view.triangles[index]));
     }
   }
+  if (!has_attributes(p_view)) return;
   const auto& [a, b, c] = p_view.triangles[index];
-  if (has_attributes(p_view))
-    add_attributes(p_view, index, {{{{1, 0, 0}, w_of(a)}, {{0, 1, 0}, w_of(b)}, {{0, 0, 1}, w_of(c)}}},
-                   p_ndc);
+  const AttributeArrays& attributes = p_view.attributes;
+  p_ndc.attributes.w.push_back({w_of(a), w_of(b), w_of(c)});
+  if (!attributes.colors.empty()) p_ndc.attributes.colors.push_back(attributes.colors[index]);
+  if (!attributes.normals.empty()) p_ndc.attributes.normals.push_back(attributes.normals[index]);
 }
 
 /// The corners in clip space, their w multiplied by the clip extent: a smaller w pulls in all planes.
