@@ -170,8 +170,11 @@ void SurfaceShader::shade_columns(std::size_t begin, std::size_t end, double y, 
 }
 
 Color SurfaceShader::color_at(const Surface& surface, double x, double y) const {
-  const SurfacePoint point = mean(surface.corners, weights_at(surface.screen_corners, x, y));
-  return rounded_color(setup_.model == ShadingModel::phong ? lit_color(point, setup_.lighting) : point.color);
+  const auto& [a, b, c] = surface.corners;
+  const Weights weights = weights_at(surface.screen_corners, x, y);
+  if (setup_.model == ShadingModel::phong)
+    return rounded_color(lit_color(mean(surface.corners, weights), setup_.lighting));
+  return rounded_color(mean(Triangle{a.color, b.color, c.color}, weights));
 }
 
 }  // namespace pipeline

@@ -157,7 +157,7 @@ PIPELINE_AVX2 inline char* write_three(char* out, const PrintedForm& form, const
 
 /// Prints the numbers that a vertex line has in a group, and w after the position.
 template <bool exactly, std::size_t group>
-PIPELINE_AVX2 [[gnu::always_inline]] inline char* write_group(char* out, const PrintedForm& form,
+[[gnu::always_inline]] PIPELINE_AVX2 inline char* write_group(char* out, const PrintedForm& form,
                                                               const ConstFixedColumns& columns,
                                                               std::size_t triangle, std::size_t vertex,
                                                               __m256d scale, __m256d& good,

@@ -120,7 +120,7 @@ using ReadForms = std::array<ReadForm, 3>;
 
 /// Reads the numbers that a vertex line has in a group, and w after the position; null if the form differs.
 template <std::size_t group, std::size_t group_count>
-PIPELINE_SSE4 [[gnu::always_inline]] inline const char* read_group(const char* p, const ReadForm& form,
+[[gnu::always_inline]] PIPELINE_SSE4 inline const char* read_group(const char* p, const ReadForm& form,
                                                                    const FixedColumns& columns,
                                                                    std::size_t triangle, std::size_t vertex,
                                                                    LastRead& last) {
@@ -145,7 +145,7 @@ PIPELINE_SSE4 [[gnu::always_inline]] inline const char* read_group(const char* p
 
 /// Reads a vertex line; null if the form differs.
 template <std::size_t group_count>
-PIPELINE_SSE4 [[gnu::always_inline]] inline const char* read_line(const char* p, const ReadForms& forms,
+[[gnu::always_inline]] PIPELINE_SSE4 inline const char* read_line(const char* p, const ReadForms& forms,
                                                                   const FixedColumns& columns,
                                                                   std::size_t triangle, std::size_t vertex,
                                                                   LastRead& last) {
