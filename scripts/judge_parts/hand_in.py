@@ -51,20 +51,21 @@ def rank(name, kind):
     return name != KINDS[kind][0], len(numbers), numbers, name
 
 
+def fitting_names(names):
+    """{kind: the names that look like it, the most likely first}."""
+    plain_names = [(name, plain(name)) for name in names]
+    return {kind: sorted((name for name, short in plain_names if pattern.fullmatch(short)), key=lambda name: rank(name, kind))
+            for kind, (_, pattern) in KINDS.items()}
+
+
 def find_files(folder):
     """{kind: File} of a folder; each file is read at once, and no pipe or device is waited for."""
     try:
         names = os.listdir(folder)
     except OSError as error:
         raise InputError(folder, error.strerror) from None
-    found = {}
-    for kind, (usual, pattern) in KINDS.items():
-        fitting = sorted((name for name in names if pattern.fullmatch(plain(name))), key=lambda name: rank(name, kind))
-        if fitting:
-            found[kind] = read_file(folder, fitting[0], tuple(map(shown, fitting[1:])))
-        else:
-            found[kind] = File(usual)
-    return found
+    fitting = fitting_names(names)
+    return {kind: read_file(folder, found[0], tuple(map(shown, found[1:]))) if found else File(KINDS[kind][0]) for kind, found in fitting.items()}
 
 
 def read_file(folder, name, others=()):

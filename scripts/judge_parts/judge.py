@@ -145,8 +145,8 @@ class HandIn:
         ours = self.ours.picture(self.files["stage3"].data or b"")
         if ours is None:
             return FileVerdict("zbuf", name, UNDECIDED, remarks=["zbuf refuses their stage3.txt"])
-        differing = sum(row[3 * i:3 * i + 3] != color for row, line in zip(ours, colors) for i, color in enumerate(line))
-        return FileVerdict("zbuf", name, WRONG if differing else RIGHT, differing=differing, compared=len(ours) * len(colors[0]))
+        places = [(r, i) for r, (row, line) in enumerate(zip(ours, colors)) for i, color in enumerate(line) if row[3 * i:3 * i + 3] != color]
+        return FileVerdict("zbuf", name, WRONG if places else RIGHT, differing=len(places), compared=len(ours) * len(colors[0]), places=places)
 
     def verdict_of_pixels(self, kind, finding, shown):
         name = self.files[kind].name
@@ -154,7 +154,7 @@ class HandIn:
         if mismatch is None:
             return FileVerdict("zbuf", name, UNDECIDED, remarks=finding.remarks)
         places = (mismatch.of_depths if kind == "depths" else mismatch.of_picture)
-        verdict = FileVerdict("zbuf", name, RIGHT, finding.rule, differing=len(places), compared=mismatch.drawn)
+        verdict = FileVerdict("zbuf", name, RIGHT, finding.rule, differing=len(places), compared=mismatch.drawn, places=places)
         if finding.verdict in ("mistake", "unknown") and kind in finding.touches:
             verdict.verdict, verdict.causes, verdict.rule = WRONG, finding.causes, ""
             verdict.remarks += [f"with {finding.rule}"] if finding.rule and finding.causes else []

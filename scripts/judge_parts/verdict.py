@@ -43,6 +43,7 @@ class FileVerdict:
     largest: str = ""         # the largest difference, with its location
     first: str = ""           # the first one
     matrices: object = None   # a judge_parts.fit.Comparison
+    places: list = dataclasses.field(default_factory=list)  # (row, column) of the pixels that differ
 
     @property
     def is_good(self):
