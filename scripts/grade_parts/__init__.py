@@ -1,0 +1,1 @@
+"""Grading of many hand-ins, used by scripts/grade. It starts in graders.py."""

@@ -1,0 +1,147 @@
+"""Grades hand-ins in parallel, each in a process of its own with limits of time and memory: what a hand-in does to it, it does to itself."""
+import contextlib
+import dataclasses
+import multiprocessing
+import multiprocessing.connection
+import os
+import resource
+import signal
+import tempfile
+import time
+import traceback
+
+from grade_parts.contents import ContentsError, contents_of
+from grade_parts.difference import pictures
+from grade_parts.hand_ins import files_for
+from grade_parts.hints import fixes, gives, in_words
+from judge_parts.judge import HandIn as Judge
+from judge_parts.verdict import OPEN, Verdict
+
+LARGEST_FILE = 1 << 30  # that a tool may write for a hand-in
+MEBIBYTE = 1 << 20
+
+
+@dataclasses.dataclass
+class GradedTest:
+    name: str
+    score: float
+    max_score: float
+    verdict: Verdict
+    words: str       # for the student, with as much as the hints give away
+    fixes: list
+    pictures: list   # of (caption, data: URI)
+
+
+@dataclasses.dataclass
+class Graded:
+    tests: list = dataclasses.field(default_factory=list)  # of GradedTest
+    max_score: float = 0.0
+    remarks: list = dataclasses.field(default_factory=list)
+    failure: str = ""  # why it could not be judged
+
+    @property
+    def score(self):
+        return sum(test.score for test in self.tests)
+
+    @property
+    def is_judged(self):
+        return not self.failure and not any(file.verdict in OPEN for test in self.tests for file in test.verdict.files)
+
+
+@dataclasses.dataclass
+class Limits:
+    seconds: float
+    mebibytes: int
+    jobs: int
+
+
+def grade(path, tests, level):
+    """The Graded of the hand-in at a path."""
+    try:
+        contents = contents_of(path)
+    except ContentsError as error:
+        return failed(tests, f"It could not be read: {error}.")
+    graded = Graded(max_score=sum(test.weight for test in tests), remarks=contents.remarks)
+    for test in tests:
+        files = files_for(contents, test, len(tests) == 1)
+        verdict = Judge(files, test.reference, test.kinds).judge()
+        score = test.weight * sum(file.is_good for file in verdict.files) / len(verdict.files)
+        shown = pictures(test, files, verdict) if gives(level, "stage") else []
+        graded.tests.append(GradedTest(test.name, score, test.weight, verdict, in_words(verdict, level), fixes(verdict, level), shown))
+    return graded
+
+
+def failed(tests, reason):
+    return Graded(max_score=sum(test.weight for test in tests), failure=reason)
+
+
+def work(connection, path, tests, level, limits, scratch):
+    """The process of a hand-in."""
+    os.setpgid(0, 0)
+    tempfile.tempdir = scratch
+    for number in (signal.SIGTERM, signal.SIGHUP):
+        signal.signal(number, signal.SIG_DFL)
+    resource.setrlimit(resource.RLIMIT_AS, (limits.mebibytes * MEBIBYTE,) * 2)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (LARGEST_FILE,) * 2)
+    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+    try:
+        graded = grade(path, tests, level)
+    except MemoryError:
+        graded = failed(tests, f"It could not be judged: that needs more than {limits.mebibytes} MiB of memory.")
+    except Exception as error:  # an error of ours: it costs this hand-in its verdict, and must be seen
+        traceback.print_exc()
+        graded = failed(tests, f"It could not be judged: {type(error).__name__}.")
+    connection.send(graded)
+
+
+class Running:
+    """The process of one hand-in."""
+
+    def __init__(self, path, tests, level, limits, scratch):
+        context = multiprocessing.get_context("fork")  # what is right has been calculated once, for all
+        self.tests, self.limits = tests, limits
+        self.connection, theirs = context.Pipe(duplex=False)
+        self.process = context.Process(target=work, args=(theirs, path, tests, level, limits, scratch))
+        self.process.start()
+        theirs.close()
+        self.end = time.monotonic() + limits.seconds
+
+    def result(self):
+        """Its Graded, now that it is done or out of time."""
+        if not self.connection.poll():
+            return failed(self.tests, f"It could not be judged: that takes longer than {self.limits.seconds:g} s.")
+        try:
+            return self.connection.recv()
+        except EOFError:
+            return failed(self.tests, "It could not be judged: its judge was ended, perhaps for lack of memory.")
+
+    def stop(self):
+        """Ends the process, and the tools that it has started."""
+        with contextlib.suppress(ProcessLookupError, PermissionError):
+            os.killpg(self.process.pid, signal.SIGKILL)
+        self.process.kill()
+        self.process.join()
+        self.connection.close()
+
+
+def grade_all(hand_ins, tests, level, limits):
+    """Draws (HandIn, Graded), in the order in which they are done."""
+    waiting, running = list(reversed(hand_ins)), {}
+    with tempfile.TemporaryDirectory() as scratch:
+        try:
+            while waiting or running:
+                while waiting and len(running) < limits.jobs:
+                    hand_in = waiting.pop()
+                    one = Running(hand_in.path, tests, level, limits, scratch)
+                    running[one.connection] = hand_in, one
+                rest = min(one.end for _, one in running.values()) - time.monotonic()
+                multiprocessing.connection.wait(list(running), max(0.0, rest))
+                for connection, (hand_in, one) in list(running.items()):
+                    if connection.poll() or time.monotonic() >= one.end:
+                        graded = one.result()
+                        one.stop()
+                        del running[connection]
+                        yield hand_in, graded
+        finally:
+            for _, one in running.values():
+                one.stop()

@@ -1,0 +1,29 @@
+"""How many hand-ins made which mistake."""
+import collections
+
+from judge_parts.verdict import FAILED, OPEN, WRONG
+from lib.command import shown
+from lib.table import table
+
+
+def findings(graded):
+    """What a hand-in counts for: pairs of a stage and words, each once for all tests."""
+    if graded.failure:
+        yield "", graded.failure.rstrip(".")
+    for test in graded.tests:
+        for file in test.verdict.files:
+            if file.verdict == WRONG:
+                yield file.stage, "; or: ".join(cause.text.rstrip(".") for cause in file.causes) or "wrong, without a cause"
+            elif file.verdict in FAILED or file.verdict in OPEN:
+                yield file.stage, file.verdict
+            elif file.rule:
+                yield file.stage, "right, by " + file.rule.split(":")[0]
+
+
+def summary(graded):
+    """The lines of a table for [(HandIn, Graded)], the most frequent first, and a line about all."""
+    counts = collections.Counter(finding for _, result in graded for finding in set(findings(result)))
+    order = {stage: i for i, stage in enumerate(("model", "view", "project", "zbuf", ""))}
+    rows = [[str(count), stage, shown(words)] for (stage, words), count in sorted(counts.items(), key=lambda pair: (-pair[1], order[pair[0][0]], pair[0][1]))]
+    full = sum(result.tests != [] and all(file.is_good for test in result.tests for file in test.verdict.files) for _, result in graded)
+    return [*(table(["hand-ins", "stage", "what"], rows) if rows else []), "", f"{len(graded)} hand-in{'' if len(graded) == 1 else 's'}, {full} right in all tests."]
