@@ -1,0 +1,357 @@
+#!/usr/bin/env python3
+"""scripts/grade: points, pages and results of a class, and hand-ins that mean harm.
+
+usage: grade_test.py BIN_DIR [UNITTEST ARGUMENT...]
+"""
+import csv
+import gzip
+import io
+import json
+import os
+import pathlib
+import shutil
+import struct
+import subprocess
+import sys
+import tarfile
+import time
+import unittest
+import zipfile
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "tools"))
+from toolbox import BIN, SOURCE, ToolTest, pseudo_terminal  # noqa: E402
+
+sys.path.insert(0, str(SOURCE / "scripts"))
+from judge_parts.mistakes import sentences  # noqa: E402
+
+SAMPLE = SOURCE / "samples/worked-example"
+FILES = ("stage1.txt", "stage2.txt", "stage3.txt", "z_buffer.txt", "out.bmp")
+SECRET = "77.7777777"  # in a file that no hand-in may reach
+DIVIDE = "The coordinates are not divided by w"
+DIVIDE_FIX = "Divide x, y and z by w after the product."
+
+
+class ClassTest(ToolTest):
+    def setUp(self):
+        super().setUp()
+        self.add_test("square")
+        os.mkdir("hand-ins")
+
+    def add_test(self, name, weight=None):
+        folder = pathlib.Path("tests", name)
+        folder.mkdir(parents=True)
+        for file in ("scene.txt", "config.txt"):
+            shutil.copy(SAMPLE / file, folder)
+        if weight is not None:
+            (folder / "weight.txt").write_text(weight)
+
+    def add(self, name, *inner, mistake=False, files=FILES):
+        """A hand-in, right but for a missing divide if asked."""
+        folder = os.path.join(os.fsencode("hand-ins"), os.fsencode(name), *map(os.fsencode, inner))
+        os.makedirs(folder)
+        for file in files:
+            data = (SAMPLE / file).read_bytes()
+            if mistake and file == "stage3.txt":
+                data = data.replace(b"0.8660254", b"1.7320508").replace(b"0.1111111", b"0.2222222")
+            with open(os.path.join(folder, os.fsencode(file)), "wb") as out:
+                out.write(data)
+        if mistake:
+            where = os.fsdecode(folder)
+            subprocess.run([BIN / "zbuf", "tests/square/config.txt", f"{where}/stage3.txt", "--z-buffer", f"{where}/z_buffer.txt", "-o", f"{where}/out.bmp"], check=True)
+
+    def grade(self, *words, status=0):
+        done = subprocess.run([SOURCE / "scripts/grade", "hand-ins", "tests", *words], capture_output=True, text=True, timeout=120,
+                              env={**os.environ, "BIN": str(BIN)})
+        self.assertEqual(done.returncode, status, done.stderr)
+        self.assertNotIn("Traceback", done.stderr)
+        return done
+
+    def rows(self):
+        with open("graded/grades.csv", newline="") as file:
+            return list(csv.DictReader(file))
+
+    def scores(self):
+        return {row["hand-in"]: float(row["score"]) for row in self.rows()}
+
+    def page(self, number):
+        return next(pathlib.Path("graded").glob(f"{number}*/page.html")).read_text()
+
+    def results(self, number):
+        return json.loads(next(pathlib.Path("graded").glob(f"{number}*/results.json")).read_text())
+
+
+class Results(ClassTest):
+    def test_points_pages_and_table(self):
+        self.add("anna")
+        self.add("ben", mistake=True)
+        self.add("carl", mistake=True, files=FILES[:4])
+        os.unlink("hand-ins/carl/out.bmp")
+        done = self.grade("--hints", "fix")
+        self.assertEqual(self.scores(), {"anna": 1.0, "ben": 0.8, "carl": 0.6})
+        self.assertEqual(done.stdout, "| hand-ins | stage   | what                                 |\n"
+                                      "| -------- | ------- | ------------------------------------ |\n"
+                                      "| 2        | project | The coordinates are not divided by w |\n"
+                                      "| 1        | zbuf    | not handed in                        |\n\n3 hand-ins, 1 right in all tests.\n")
+        self.assertEqual(pathlib.Path("graded/mistakes.md").read_text(), done.stdout)
+        results = self.results(2)
+        self.assertEqual((results["score"], [(test["name"], test["score"], test["max_score"]) for test in results["tests"]]), (0.8, [("square", 0.8, 1.0)]))
+        self.assertIn(DIVIDE, results["tests"][0]["output"])
+        self.assertIn(DIVIDE_FIX, results["tests"][0]["output"])
+        self.assertEqual(self.page(1).count("data:image/png;base64,"), 2)
+        self.assertNotRegex(self.page(2), r'(src|href)="(?!data:)')
+
+    def test_hints(self):
+        self.add("ben", mistake=True)
+        for level, shown in (("none", (False, False, False)), ("stage", (True, False, False)), ("cause", (True, True, False)), ("fix", (True, True, True))):
+            with self.subTest(level):
+                self.grade("--hints", level)
+                for text in (self.page(1), json.dumps(self.results(1))):
+                    self.assertEqual(tuple(words in text for words in ("stage3.txt", DIVIDE, DIVIDE_FIX)), shown)
+                self.assertEqual("0.8660254" in self.page(1), level in ("cause", "fix"))  # the right number
+                self.assertIn(DIVIDE, self.rows()[0]["square verdict"])
+        self.grade("--hints", "none")
+        self.assertIn("4 of 5 files are right.", self.page(1))
+
+    def test_what_is_not_handed_in_is_said_without_hints(self):
+        self.add("ben", files=FILES[:4])
+        self.grade("--hints", "none")
+        self.assertIn("4 of 5 files are right. out.bmp is not handed in.", self.page(1))
+
+    def test_weights_and_folders_by_name(self):
+        self.add_test("b", weight="3\n")
+        self.add("anna", "wrapped", "b")
+        self.add("ben", "square")
+        self.grade()
+        self.assertEqual(self.scores(), {"anna": 3.0, "ben": 1.0})
+        self.assertEqual([row["max_score"] for row in self.rows()], ["4.0", "4.0"])
+        for word in ("x", "-1", "nan", "inf"):
+            pathlib.Path("tests/b/weight.txt").write_text(word)
+            self.assertEqual(self.grade(status=2).stderr, f"grade: tests/b/weight.txt: expected a number of at least 0, found '{word}'\n")
+
+    def test_archives(self):
+        self.add("anna", "wrapped", "square")
+        for kind in ("zip", "tar", "gztar"):
+            shutil.make_archive(f"hand-ins/{kind}", kind, "hand-ins/anna")
+        self.grade()
+        self.assertEqual(self.scores(), {"anna": 1.0, "zip": 1.0, "tar": 1.0, "gztar": 1.0})
+
+    def test_three_stages_without_a_config(self):
+        os.unlink("tests/square/config.txt")
+        self.add("anna", files=FILES[:3])
+        self.grade()
+        self.assertEqual(self.scores(), {"anna": 1.0})
+
+    def test_anonymous(self):
+        self.add("Anna Example", mistake=True)
+        self.add("Ben Example")
+        self.grade("--anonymous")
+        for path in pathlib.Path("graded").rglob("*"):
+            self.assertNotIn("Example", path.name)
+            if path.is_file() and path.name != "numbers.csv":
+                self.assertNotIn("Example", path.read_text(), path)
+        of = {row["hand-in"]: row["number"] for row in csv.DictReader(open("graded/numbers.csv", newline=""))}
+        self.assertEqual({row["number"]: row["score"] for row in self.rows()}, {of["Anna Example"]: "0.8", of["Ben Example"]: "1.0"})
+
+    def test_a_bar_on_a_terminal(self):
+        self.add("anna")
+        ours, theirs = pseudo_terminal()
+        subprocess.run([SOURCE / "scripts/grade", "hand-ins", "tests"], stdout=subprocess.DEVNULL, stderr=theirs, env={**os.environ, "BIN": str(BIN)}, check=True)
+        os.close(theirs)
+        shown = os.read(ours, 10000)
+        os.close(ours)
+        self.assertIn(b"] 0/1", shown)
+        self.assertIn(b"[" + b"#" * 30 + b"] 1/1", shown)
+
+    def test_nothing_to_grade(self):
+        self.assertEqual(self.grade(status=2).stderr, "grade: hand-ins: expected folders or archives, found none\n")
+        self.add("anna")
+        pathlib.Path("tests/square/scene.txt").write_text("1 2\n")
+        self.assertRegex(self.grade(status=2).stderr, r"\Agrade: tests/square: the scene is refused: model: ")
+
+    def test_each_mistake_has_its_fix(self):
+        self.assertEqual(list(sentences("fixes.txt")), list(sentences()))
+
+
+class Hostile(ClassTest):
+    """Each of them beside one that is right, and gets its full points."""
+
+    def setUp(self):
+        super().setUp()
+        self.add("zoe")
+
+    def judge(self, *words, status=1):
+        begin = time.monotonic()
+        self.before = sorted(os.listdir("."))
+        self.grade(*words, status=status)
+        self.assertEqual(self.scores()["zoe"], 1.0)
+        self.assertEqual(sorted(os.listdir(".")), sorted([*self.before, "graded"]))
+        return {row["hand-in"]: row for row in self.rows()}, time.monotonic() - begin
+
+    def test_names(self):
+        long = "n" * 250
+        names = ["a\nb", "-rf", "\x1b[31mred\x07", b"\xff\xfe", "=HYPERLINK(1)", "<script>alert(1)</script>".replace("/", "|"), "\u202etxt", long, "a,b\"c", "%s%n"]
+        for name in names:
+            self.add(name)
+        rows, _ = self.judge(status=0)
+        self.assertEqual(len(rows), len(names) + 1)
+        self.assertEqual({float(row["score"]) for row in rows.values()}, {1.0})
+        self.assertTrue({"a\\nb", "'-rf", "\\x1b[31mred\\x07", "\\xff\\xfe", "'=HYPERLINK(1)", "\\u202etxt"} <= set(rows))
+        for path in pathlib.Path("graded").iterdir():
+            self.assertRegex(path.name, r"\A[A-Za-z0-9._-]{1,66}\Z")
+        for page in pathlib.Path("graded").glob("*/page.html"):
+            self.assertNotIn("<script", page.read_text())
+            self.assertNotRegex(page.read_text(), "[\x00-\x08\x0b-\x1f]")
+
+    def test_names_of_files(self):
+        self.add("a", files=FILES[1:])
+        for name in (b"stage1\xff.txt", b"stage 1.txt\n", b"-stage1.txt", b"stage1.txt "):
+            with open(b"hand-ins/a/" + name, "wb") as file:
+                file.write((SAMPLE / "stage1.txt").read_bytes())
+        rows, _ = self.judge(status=0)
+        self.assertEqual(float(rows["a"]["score"]), 1.0)  # -stage1.txt, with its dash read over, is meant
+
+    def members(self, *extra):
+        """(name, data) of a right hand-in without out.bmp, and more."""
+        return [*((name, (SAMPLE / name).read_bytes()) for name in FILES[:4]), *extra]
+
+    def zip(self, name, members):
+        with zipfile.ZipFile(f"hand-ins/{name}.zip", "w", zipfile.ZIP_DEFLATED) as archive:
+            for member, data in members:
+                archive.writestr(member, data)
+
+    def tar(self, name, entries, members=()):
+        with tarfile.open(f"hand-ins/{name}.tar", "w") as archive:
+            for member, data in members:
+                info = tarfile.TarInfo(member)
+                info.size = len(data)
+                archive.addfile(info, io.BytesIO(data))
+            for member, kind, target in entries:
+                info = tarfile.TarInfo(member)
+                info.type, info.linkname = kind, target
+                archive.addfile(info)
+
+    def test_archives_that_climb_out(self):
+        picture = (SAMPLE / "out.bmp").read_bytes()
+        for i, path in enumerate(("../out.bmp", "/tmp/out.bmp", "a/../../out.bmp", "..\\out.bmp", "C:\\out.bmp")):
+            self.zip(f"zip{i}", self.members((path, picture)))
+            self.tar(f"tar{i}", (), self.members((path, picture)))
+        rows, _ = self.judge(status=0)
+        for name, row in rows.items():
+            if name != "zoe":
+                self.assertEqual((float(row["score"]), row["remarks"]), (0.8, "1 entry not looked at: their paths lead out"), name)
+
+    def test_links_and_devices(self):
+        pathlib.Path("tests/secret").write_text(SECRET + " 0 0\n" * 3)
+        secret = str(pathlib.Path("tests/secret").resolve())
+        self.add("folder", files=FILES[1:4])
+        os.symlink(secret, "hand-ins/folder/stage1.txt")
+        os.mkfifo("hand-ins/folder/out.bmp")
+        self.add("inner", files=())
+        os.symlink(SAMPLE, "hand-ins/inner/square")
+        os.symlink(SAMPLE, "hand-ins/itself")
+        os.symlink(SAMPLE, "hand-ins/itself.zip")
+        os.symlink("/dev/zero", "hand-ins/zero.tar")
+        os.mkfifo("hand-ins/pipe.tar.gz")
+        kinds = (tarfile.SYMTYPE, secret), (tarfile.LNKTYPE, secret), (tarfile.CHRTYPE, ""), (tarfile.FIFOTYPE, ""), (tarfile.LNKTYPE, "stage2.txt")
+        for i, (kind, target) in enumerate(kinds):
+            self.tar(f"tar{i}", [("stage1.txt", kind, target)], self.members()[1:])
+        info = zipfile.ZipInfo("stage1.txt")
+        info.external_attr = 0o120777 << 16
+        self.zip("zip", [(info, secret), *self.members()[1:]])
+        rows, seconds = self.judge()
+        self.assertEqual({name: float(row["score"]) for name, row in rows.items()},
+                         {"zoe": 1.0, "folder": 0.6, "inner": 0.0, "itself": 0.0, "zero": 0.0, "pipe": 0.0, "zip": 0.6, **{f"tar{i}": 0.6 for i in range(5)}})
+        self.assertIn("1 entry not looked at: links", rows["folder"]["remarks"])
+        self.assertIn("1 entry not looked at: devices and pipes", rows["folder"]["remarks"])
+        for path in pathlib.Path("graded").rglob("*.*"):
+            if path.is_file():
+                self.assertNotIn(SECRET, path.read_text())
+
+    def test_archives_that_swell(self):
+        with zipfile.ZipFile("hand-ins/zip.zip", "w", zipfile.ZIP_DEFLATED) as archive:
+            for name in FILES:
+                with archive.open(name, "w", force_zip64=True) as file:
+                    for _ in range(100):
+                        file.write(bytes(1 << 20))
+        with gzip.open("hand-ins/tar.tar.gz", "wb", 1) as file:
+            for _ in range(300):
+                file.write(bytes(1 << 20))
+        info = tarfile.TarInfo("stage1.txt")  # claims more than there is
+        info.size = 1 << 40
+        pathlib.Path("hand-ins/claims.tar").write_bytes(info.tobuf())
+        header = tarfile.TarInfo("x")
+        header.type, header.size = tarfile.XHDTYPE, 1 << 40
+        pathlib.Path("hand-ins/pax.tar").write_bytes(header.tobuf() + bytes(1024))
+        rows, _ = self.judge()
+        self.assertEqual([float(rows[name]["score"]) for name in ("zip", "tar", "claims", "pax")], [0.0] * 4)
+        self.assertIn("swells to more than 256 MiB", rows["tar"]["remarks"])
+        self.assertIn("more than the scene can need", self.page(4) + self.page(5))
+
+    def test_archives_that_are_none(self):
+        zipped = io.BytesIO()
+        with zipfile.ZipFile(zipped, "w") as archive:
+            for name, data in self.members():
+                archive.writestr(name, data)
+        data = zipped.getvalue()
+        for i, content in enumerate((b"", b"PK", b"\x1f\x8b", b"\0" * 5000, b"x" * 5000, data[:-30])):
+            pathlib.Path(f"hand-ins/{i}.zip").write_bytes(content)
+        corrupt = bytearray(data)
+        at = data.index((SAMPLE / "stage1.txt").read_bytes())
+        corrupt[at] ^= 1  # its checksum fails
+        pathlib.Path("hand-ins/checksum.zip").write_bytes(corrupt)
+        encrypted = bytearray(data)
+        for mark, offset in ((b"PK\3\4", 6), (b"PK\1\2", 8)):
+            encrypted[data.index(mark) + offset] |= 1
+        pathlib.Path("hand-ins/encrypted.zip").write_bytes(encrypted)
+        rows, _ = self.judge()
+        self.assertEqual({name: float(row["score"]) for name, row in rows.items()},
+                         {"zoe": 1.0, "checksum": 0.6, "encrypted": 0.6, **{str(i): 0.0 for i in range(6)}})
+
+    def test_many_files_and_deep_folders(self):
+        with tarfile.open("hand-ins/many.tar", "w") as archive:
+            for i in range(100_000):
+                archive.addfile(tarfile.TarInfo(f"{i}/stage1.txt"))
+        self.add("deep", *["d"] * 15)
+        self.add("folders")
+        pathlib.Path("hand-ins/folders/" + "d/" * 900).mkdir(parents=True)
+        self.zip("deeper", [("d/" * 5000 + "stage1.txt", b"1 2 3\n")])
+        rows, _ = self.judge()
+        self.assertEqual({name: float(row["score"]) for name, row in rows.items()}, {"zoe": 1.0, "many": 0.0, "deep": 0.0, "folders": 1.0, "deeper": 0.0})
+        self.assertIn("more than 20000 files", rows["many"]["remarks"])
+
+    def test_pictures_that_lie(self):
+        header = (SAMPLE / "out.bmp").read_bytes()[:54]
+        png_size = b"\x89PNG\r\n\x1a\n" + struct.pack(">I4sIIBBBBBI", 13, b"IHDR", 2**31 - 1, 2**31 - 1, 8, 2, 0, 0, 0, 0)
+        for i, data in enumerate((header, header[:18] + struct.pack("<ii", 2**31 - 1, -2**31) + header[26:], header[:10] + b"\xff" * 4 + header[14:], png_size,
+                                  b"P6 999999999 999999999 255\n")):
+            self.add(f"{i}", files=FILES[:4])
+            pathlib.Path(f"hand-ins/{i}/out.bmp").write_bytes(data)
+        rows, _ = self.judge(status=0)
+        self.assertEqual([float(rows[f"{i}"]["score"]) for i in range(5)], [0.8] * 5)
+
+    def test_endless_files(self):
+        self.add("a", files=())
+        for name in FILES:
+            with open(f"hand-ins/a/{name}", "wb") as file:
+                file.truncate(1 << 40)
+        rows, seconds = self.judge(status=0)
+        self.assertEqual(float(rows["a"]["score"]), 0.0)
+
+    def test_many_triangles_over_the_whole_screen(self):
+        self.add("a")
+        pathlib.Path("hand-ins/a/stage3.txt").write_text("-9 -9 0\n9 -9 0\n0 9 .5\n" * 30_000)
+        _, seconds = self.judge("--time-limit", "60")
+        self.assertLess(seconds, 60)
+        self.assertIn("too many", self.page(1))
+
+    def test_time_and_memory_have_limits(self):
+        self.add("a")
+        pathlib.Path("hand-ins/a/stage3.txt").write_text("-9 -9 0\n9 -9 0\n0 9 .5\n" * 30_000)
+        self.grade("--time-limit", "0.01", status=1)
+        self.assertTrue(all("takes longer than 0.01 s" in row["remarks"] for row in self.rows()))
+        self.grade("--memory-limit", "1", status=1)
+        self.assertIn("needs more than 1 MiB of memory", self.rows()[0]["remarks"])
+
+
+if __name__ == "__main__":
+    unittest.main()
