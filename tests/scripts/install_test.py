@@ -109,7 +109,8 @@ class Installed(unittest.TestCase):
         sample = SOURCE / "samples/worked-example"
         for name in ("scene.txt", "config.txt", "stage1.txt", "stage2.txt", "stage3.txt", "z_buffer.txt", "out.bmp"):
             shutil.copy(sample / name, self.work)
-        for name in ("mine", "torus"):
+        for name in ("mine", "torus", "hand-ins/somebody/plain", "tests/plain"):
+            shutil.rmtree(self.work / name, ignore_errors=True)
             shutil.copytree(sample, self.work / name)
         self.give()
 
@@ -142,8 +143,6 @@ class Installed(unittest.TestCase):
                     self.assertNotIn("Traceback", done.stderr)
                     for file in re.findall(r"(?:> |--image |-o )(\S+\.\w+)", line):
                         self.assertGreater((self.work / file).stat().st_size, 0 if file != "differences.png" else -1, file)
-                    shutil.rmtree(self.work / "mine")
-                    shutil.rmtree(self.work / "torus")
 
     @unittest.skipIf(MISSING, f"missing: {' '.join(MISSING)}")
     def test_fly_opens_its_window(self):
