@@ -92,7 +92,7 @@ using ReadFixedColumns = FixedTextPart (*)(std::string_view text, TriangleFrame 
 using WriteFixedColumns = FixedTextPart (*)(const ConstFixedColumns& columns, int decimals, char* out);
 
 /// Three groups of numbers; three times w and a separator.
-constexpr std::size_t kMaxFixedColumnsLength = std::size_t{3} * kMaxFixedTriangleLength + 3 * 26;
+constexpr std::size_t kMaxFixedColumnsLength = std::size_t{3} * (kMaxFixedTriangleLength + 26);
 
 /// One implementation of all five.
 struct FixedTextKernel {
