@@ -71,7 +71,7 @@ std::string where(UnseenReason reason, const BoundingBox& extent, const Viewport
     case UnseenReason::above:
       return "above the window (" + range('y', low.y, high.y, -bottom) + ", " + window(bottom) + ")";
     case UnseenReason::without_area:
-      return "without area";
+      return "without area on the screen, as when seen edge-on";
     case UnseenReason::between_centers:
       break;
   }
@@ -82,7 +82,9 @@ std::string where(OutsidePart part, const BoundingBox& extent) {
   const auto& [low, high] = extent;
   switch (part) {
     case OutsidePart::behind:
-      return "behind the eye (" + range('z', low.z, high.z, 0) + " in view space; the camera looks down -z)";
+      return "behind the eye (" + range('z', low.z, high.z, 0) +
+             " in view space; the camera looks down -z: turn it around, or move it back by more than " +
+             rounded(high.z) + ")";
     case OutsidePart::near:
       return "nearer than the near plane (" + range('z', low.z, high.z, 0) + ")";
     case OutsidePart::far:
@@ -163,8 +165,8 @@ std::optional<std::string> invisible_colors_note(const SurfaceShader& shader) {
     if (greatest && *greatest <= 1)
       return "the picture is black: every color is within 0 and 1, but channels run from 0 to 255";
     if (is_lit && !setup.wireframe)
-      return "the picture is black: no light reaches the side that is seen (ambient 0.2 0.2 0.2 would show "
-             "it)";
+      return "the picture is black: no light reaches the side that is seen (put a light on the eye's side; "
+             "ambient 0.2 0.2 0.2 would show it from anywhere)";
   }
   if (setup.wireframe && !is_lit)
     return "the picture is empty: --wireframe shows edges alone, and none is in sight";

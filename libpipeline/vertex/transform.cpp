@@ -39,9 +39,10 @@ ProjectionTransform perspective(const Perspective& p, const SourceLocation& loca
   } else {
     const Ball fov_x_degrees = Ball(p.fov_y_degrees) * Ball(p.aspect);
     if (!is_inside_half_turn(fov_x_degrees))
-      throw InputError(location, expected_but_found(
-                                     "fovX = fovY * aspect above 0 and below 180 degrees (or --aspect ratio)",
-                                     shortest_text(p.fov_y_degrees) + " * " + shortest_text(p.aspect)));
+      throw InputError(location,
+                       expected_but_found("fovX = fovY * aspect above 0 and below 180 degrees (or --aspect "
+                                          "ratio; in a scene, the word ratio at the end)",
+                                          shortest_text(p.fov_y_degrees) + " * " + shortest_text(p.aspect)));
     transform.x_scale = cotangent_of_half(fov_x_degrees);
   }
   transform.near = p.near;

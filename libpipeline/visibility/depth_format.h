@@ -53,7 +53,7 @@ struct DepthF32 {
 /// float where the limits are close together, as from 0.999 to 1. Signed, because processors convert doubles
 /// to signed numbers only.
 struct DepthU24 {
-  static constexpr std::string_view kName = "u24", kMeaning = "in 2^24 equal steps between the limits";
+  static constexpr std::string_view kName = "u24", kMeaning = "in 2^24 - 1 equal steps between the limits";
   using Stored = std::int32_t;
   static constexpr double kSteps = (1 << 24) - 1;
   explicit DepthU24(const Viewport& screen)
