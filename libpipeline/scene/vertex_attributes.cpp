@@ -28,7 +28,13 @@ std::string column_names(const AttributeSet& attributes) {
   if (attributes.w) names += " w";
   if (attributes.color) names += " r g b";
   if (attributes.normal) names += " nx ny nz";
-  return names;
+  if (!attributes.any()) return names;
+  // The line that asks for more columns may be far above, in another program's output.
+  names += ", by the line 'attributes";
+  if (attributes.w) names += " w";
+  if (attributes.color) names += " color";
+  if (attributes.normal) names += " normal";
+  return names + "'";
 }
 
 Vec3 read_color(LineScanner& line, std::string_view of) {

@@ -97,15 +97,17 @@ TEST(Appearance, ColorsLieFrom0To255) {
   EXPECT_EQ(error_of("background\n-1 0 0\n"),
             "scene.txt:6:1: expected the red of the background from 0 to 255, found '-1'");
   EXPECT_EQ(error_of("attributes color\ntriangle 0 0 0 0 0 300\n"),
-            "scene.txt:6:20: expected the blue of vertex 1 of 3 (x y z r g b) from 0 to 255, found '300'");
+            "scene.txt:6:20: expected the blue of vertex 1 of 3 (x y z r g b, by the line 'attributes "
+            "color') from 0 to 255, found '300'");
 }
 
 TEST(Appearance, AVertexHasAllColumnsAndNoMore) {
-  EXPECT_EQ(
-      error_of("attributes normal\ntriangle\n0 0 0\n"),
-      "scene.txt:7:6: expected the normal's x of vertex 1 of 3 (x y z nx ny nz), found the end of the line");
+  EXPECT_EQ(error_of("attributes normal\ntriangle\n0 0 0\n"),
+            "scene.txt:7:6: expected the normal's x of vertex 1 of 3 (x y z nx ny nz, by the line "
+            "'attributes normal'), found the end of the line");
   EXPECT_EQ(error_of("attributes color\ntriangle\n0 0 0 1 2 3\n0 0 0 1 2 3 4\n"),
-            "scene.txt:8:13: expected the end of the line after vertex 2 of 3 (x y z r g b), found '4'");
+            "scene.txt:8:13: expected the end of the line after vertex 2 of 3 (x y z r g b, by the line "
+            "'attributes color'), found '4'");
   EXPECT_EQ(error_of("color 1 2 3\ntriangle\n0 0 0 1 2 3\n"),
             "scene.txt:7:7: expected the end of the line after vertex 1 of 3 (x y z), found '1'");
 }

@@ -122,11 +122,14 @@ TEST(StageReader, AValueOutOfRangeIsAnErrorAfterFastTriangles) {
     const std::string channel = wrong[0] == '2' ? "red" : "green";
     const std::string value = wrong[0] == '2' ? "256.0" : "-1.0";
     const std::string column = wrong[0] == '2' ? "17" : "21";
-    EXPECT_EQ(error_of(text + fine + "0.5 0.5 0.5 1.5 " + wrong + "\n" + fine + "\n" + fine + fine + fine),
-              "in.txt:403:" + column + ": expected the " + channel +
-                  " of vertex 2 of 3 (x y z w r g b) from 0 to 255, found '" + value + "'");
+    EXPECT_EQ(
+        error_of(text + fine + "0.5 0.5 0.5 1.5 " + wrong + "\n" + fine + "\n" + fine + fine + fine),
+        "in.txt:403:" + column + ": expected the " + channel +
+            " of vertex 2 of 3 (x y z w r g b, by the line 'attributes w color') from 0 to 255, found '" +
+            value + "'");
     EXPECT_EQ(error_of(text + fine + "0.5 0.5 0.5 0.0 1.0 2.0 3.0\n" + fine),
-              "in.txt:403:13: expected the w of vertex 2 of 3 (x y z w r g b) above 0, found '0.0'");
+              "in.txt:403:13: expected the w of vertex 2 of 3 (x y z w r g b, by the line 'attributes w "
+              "color') above 0, found '0.0'");
   }
 }
 
@@ -524,11 +527,14 @@ TEST(StageReader, DoesNotWaitForTheFirstTriangleToKnowTheHeader) {
 
 TEST(StageReader, AVertexHasTheColumnsOfTheHeader) {
   EXPECT_EQ(error_of("attributes w color\n0 0 0 1 2 3\n"),
-            "in.txt:2:12: expected the blue of vertex 1 of 3 (x y z w r g b), found the end of the line");
+            "in.txt:2:12: expected the blue of vertex 1 of 3 (x y z w r g b, by the line 'attributes w "
+            "color'), found the end of the line");
   EXPECT_EQ(error_of("attributes w\n0 0 0 1 2\n"),
-            "in.txt:2:9: expected the end of the line after vertex 1 of 3 (x y z w), found '2'");
+            "in.txt:2:9: expected the end of the line after vertex 1 of 3 (x y z w, by the line 'attributes "
+            "w'), found '2'");
   EXPECT_EQ(error_of("attributes w\n0 0 0 -1\n"),
-            "in.txt:2:7: expected the w of vertex 1 of 3 (x y z w) above 0, found '-1'");
+            "in.txt:2:7: expected the w of vertex 1 of 3 (x y z w, by the line 'attributes w') above 0, "
+            "found '-1'");
 }
 
 TEST(StageReader, NamesAttributesItDoesNotKnow) {

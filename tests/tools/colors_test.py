@@ -94,7 +94,7 @@ class ThroughTheStages(ToolTest):
     def test_a_clipped_triangle_has_w(self):
         done = run("zbuf", "config.txt", stdin="projected ortho -1 1 -1 1 1 2\nattributes w color\nlight 0 0 0 1 1 1\nclipped\n"
                    "0 0 0 -1 255 0 0\n0 0 0 0 255 0\n")
-        self.assert_fails(done, 1, "zbuf: <stdin>:6:14: expected the blue of vertex 2 of 3 (x y z w r g b), found the end "
+        self.assert_fails(done, 1, "zbuf: <stdin>:6:14: expected the blue of vertex 2 of 3 (x y z w r g b, by the line 'attributes w color'), found the end "
                                    "of the line")
 
     def test_bare_leaves_all_of_it_out(self):
@@ -111,7 +111,7 @@ class ThroughTheStages(ToolTest):
 
     def test_a_short_line_is_told_its_columns(self):
         done = run("view", stdin=HEADER + "attributes color\n0 0 0 1 2\n")
-        self.assert_fails(done, 1, "view: <stdin>:6:10: expected the blue of vertex 1 of 3 (x y z r g b), found the end "
+        self.assert_fails(done, 1, "view: <stdin>:6:10: expected the blue of vertex 1 of 3 (x y z r g b, by the line 'attributes color'), found the end "
                                    "of the line")
 
 

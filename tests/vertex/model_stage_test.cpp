@@ -100,7 +100,8 @@ TEST(ModelStage, AWrongAttributeAfterFastTrianglesIsAnError) {
             "scene.txt:412:7: expected a normal of vertex 2 of 3 other than 0 0 0, found 0 0 0");
   EXPECT_EQ(error_of("attributes color\n" + triangles(101, " 0 1 0\n") +
                      "triangle\n1 0 0 0 1 0\n1 0 0 0 0 900\n1 0 0 0 1 0\n"),
-            "scene.txt:412:11: expected the blue of vertex 2 of 3 (x y z r g b) from 0 to 255, found '900'");
+            "scene.txt:412:11: expected the blue of vertex 2 of 3 (x y z r g b, by the line 'attributes "
+            "color') from 0 to 255, found '900'");
 }
 
 TEST(ModelStage, Translates) {
