@@ -218,7 +218,7 @@ int Tool::fail_without_memory() noexcept {
 void Tool::report_timing() {
   char line[256];
   const double seconds = timing_.read_seconds + timing_.work_seconds + timing_.write_seconds;
-  const double read_mb = static_cast<double>(input().bytes_read()) / 1e6;
+  const double read_mb = input_ ? static_cast<double>(input_->text().bytes_read()) / 1e6 : 0;
   const double written_mb = static_cast<double>(output_.bytes_written()) / 1e6;
   std::snprintf(line, sizeof line,
                 "%s: %s in %.3f s (read %.3f, work %.3f, write %.3f), %.1f MB in, %.1f MB out, %.0f MB/s",

@@ -72,6 +72,8 @@ class Tool {
 
   /// The input: the last operand, else standard input. The first call opens it.
   TextReader& input();
+  /// The name of the input, "-" for standard input: for a tool whose library opens it.
+  [[nodiscard]] const std::string& input_path() const { return input_path_; }
   /// Takes another operand in place of the last one.
   void set_input(const std::string& path) { input_path_ = path; }
   /// Opens a text besides the input. A UsageError that names it `name` if both are standard input.

@@ -109,6 +109,8 @@ class Installed(unittest.TestCase):
         sample = SOURCE / "samples/worked-example"
         for name in ("scene.txt", "config.txt", "stage1.txt", "stage2.txt", "stage3.txt", "z_buffer.txt", "out.bmp"):
             shutil.copy(sample / name, self.work)
+        (self.work / "bunny.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+        shutil.copy(self.work / "bunny.obj", self.work / "part.obj")
         for name in ("mine", "torus", "hand-ins/somebody/plain", "tests/plain"):
             shutil.rmtree(self.work / name, ignore_errors=True)
             shutil.copytree(sample, self.work / name)

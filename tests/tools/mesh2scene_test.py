@@ -1,0 +1,318 @@
+#!/usr/bin/env python3
+"""usage: mesh2scene_test.py BIN [unittest's arguments]: mesh2scene on models of known triangles, in every format of make-model, on models
+written here by hand, and on broken ones."""
+import json
+import math
+import pathlib
+import random
+import struct
+import sys
+import unittest
+
+from toolbox import BIN, SOURCE, ToolTest, pipe, run
+
+sys.path.insert(0, str(SOURCE / "scripts"))
+from model_parts.formats import FORMATS  # noqa: E402
+from model_parts.shapes import SHAPES, Mesh, knot, terrain, vase  # noqa: E402
+
+if not (BIN / "mesh2scene").exists():
+    print("skipped: mesh2scene has not been built, as assimp is missing")
+    sys.exit(77)
+
+BOX = "".join(f"v {x} {y} {z}\n" for z in (0, 1) for y in (0, 1) for x in (0, 1)) + "".join(
+    f"f {face}\n" for face in ("1 3 4 2", "5 6 8 7", "1 2 6 5", "3 7 8 4", "1 5 7 3", "2 4 8 6"))
+
+
+def scene_of(name, *options):
+    done = run("mesh2scene", *options, name)
+    if done.returncode != 0:
+        raise AssertionError(done.stderr.decode())
+    return done.stdout.decode()
+
+
+def world_triangles(scene):
+    """Rows of nine or more numbers for each triangle, a list of three vertices."""
+    text = pipe(["model", "--digits", "exact"], stdin=scene).decode()
+    rows = [line.split() for line in text.splitlines() if line and line[0] in "-0123456789."]
+    vertices = [tuple(map(float, row)) for row in rows]
+    return [vertices[i:i + 3] for i in range(0, len(vertices), 3)]
+
+
+def header(scene):
+    """The lines before the first triangle, by keyword; the camera's four by number."""
+    lines = [line for line in scene.split("triangle\n", 1)[0].splitlines() if not line.startswith("#")]
+    found = {"eye": lines[0], "look": lines[1], "up": lines[2], "projection": lines[3]}
+    for line in lines[4:]:
+        keyword, _, rest = line.partition(" ")
+        found.setdefault(keyword, []).append(rest)
+    return found
+
+
+def float32(x):
+    return struct.unpack("f", struct.pack("f", x))[0]
+
+
+def picture_of(scene, width, height):
+    """Which pixels show a triangle, as rows."""
+    pipe(["model"], ["view"], ["project"], ["zbuf", "--size", f"{width}x{height}", "--coverage", "center", "--image", "picture.ppm"], stdin=scene)
+    data = pathlib.Path("picture.ppm").read_bytes()
+    pixels = data[-3 * width * height:]
+    background = tuple(int(float(word)) for word in header(scene)["background"][0].split())
+    return [[tuple(pixels[3 * (row * width + k):3 * (row * width + k) + 3]) != background for k in range(width)] for row in range(height)]
+
+
+class Formats(ToolTest):
+    def test_every_format_gives_the_triangles_of_the_shape(self):
+        for name, shape in SHAPES.items():
+            mesh = shape(3)
+            for suffix, write in FORMATS.items():
+                with self.subTest(shape=name, format=suffix):
+                    pathlib.Path(f"model.{suffix}").write_bytes(write(mesh))
+                    found = world_triangles(scene_of(f"model.{suffix}"))
+                    self.assertEqual(len(found), len(mesh.triangles))
+                    for got, indices in zip(found, mesh.triangles):
+                        for vertex, i in zip(got, indices):
+                            for x, expected in zip(vertex[:3], mesh.vertices[i]):
+                                # assimp reads a decimal to within a unit of a float's last digit.
+                                self.assertLessEqual(abs(x - expected), 2.0 ** -22 * max(abs(expected), 0.25))
+                            if suffix != "stl":
+                                self.assertGreater(sum(a * b for a, b in zip(vertex[-3:], mesh.normals[i])), 1 - 1e-6)
+
+    def test_floats_keep_their_value(self):
+        """A binary file's numbers come out as the shortest decimals of the same floats."""
+        generator = random.Random(5)
+        points = [tuple(float32(generator.uniform(-1, 1) * 10 ** generator.randint(-6, 6)) for _ in range(3)) for _ in range(60)]
+        pathlib.Path("model.stl").write_bytes(FORMATS["stl"](Mesh(points, [], [(i, i + 1, i + 2) for i in range(0, 60, 3)])))
+        words = [line.split()[:3] for line in scene_of("model.stl").split("attributes", 1)[1].splitlines() if line[:1] in "-0123456789" and line]
+        self.assertEqual([tuple(float32(float(word)) for word in row) for row in words], points)
+        self.assertLessEqual(max(len(word.lstrip("-").replace(".", "").split("e")[0].strip("0")) for row in words for word in row), 9)
+
+    def test_standard_input_is_read_too(self):
+        done = run("mesh2scene", stdin=BOX)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(len(world_triangles(done.stdout.decode())), 12)
+
+
+class Normals(ToolTest):
+    def test_smooth_where_there_are_none(self):
+        """On a vase the normals made are nearly those of the formula."""
+        mesh = vase(12)
+        pathlib.Path("model.stl").write_bytes(FORMATS["stl"](mesh))
+        cosines = [sum(a * b for a, b in zip(vertex[-3:], mesh.normals[i]))
+                   for got, indices in zip(world_triangles(scene_of("model.stl")), mesh.triangles) for vertex, i in zip(got, indices)]
+        self.assertGreater(min(cosines), 0.96)
+        self.assertGreater(sum(cosines) / len(cosines), 0.998)
+
+    def test_an_edge_stays_sharp_beyond_the_crease(self):
+        pathlib.Path("box.obj").write_text(BOX)
+        for options, is_sharp in ((["--crease", "60"], True), (["--crease", "100"], False), ([], True)):
+            for triangle in world_triangles(scene_of("box.obj", *options)):
+                a, b, c = (vertex[:3] for vertex in triangle)
+                u, v = [q - p for p, q in zip(a, b)], [q - p for p, q in zip(a, c)]
+                face = (u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0])
+                for vertex in triangle:
+                    cosine = sum(p * q for p, q in zip(vertex[-3:], face)) / math.hypot(*face)
+                    self.assertEqual(cosine > 0.999, is_sharp, options)
+
+
+class Framing(ToolTest):
+    def check_framed(self, scene, width, height):
+        covered = picture_of(scene, width, height)
+        rows = [i for i, row in enumerate(covered) if any(row)]
+        columns = [k for k in range(width) if any(row[k] for row in covered)]
+        self.assertTrue(rows)
+        self.assertGreater(rows[0], 0)
+        self.assertGreater(columns[0], 0)
+        self.assertLess(rows[-1], height - 1)
+        self.assertLess(columns[-1], width - 1)
+        self.assertGreaterEqual(max((rows[-1] - rows[0] + 1) / height, (columns[-1] - columns[0] + 1) / width), 0.8)
+
+    def test_models_fill_the_picture_and_leave_its_border(self):
+        generator = random.Random(11)
+        meshes = [knot(2), vase(4), terrain(4)]
+        for _ in range(17):  # clouds of triangles, near and far from the origin
+            sizes = [10 ** generator.uniform(-0.5, 0.5) for _ in range(3)]
+            center = [generator.choice((0, 10 ** generator.uniform(-1, 3))) for _ in range(3)]
+            points = [tuple(round(c + s * generator.uniform(-1, 1), 5) for c, s in zip(center, sizes)) for _ in range(600)]
+            meshes.append(Mesh(points, [(0, 0, 1)] * 600, [(i, i + 1, i + 2) for i in range(0, 600, 3)]))
+        for number, mesh in enumerate(meshes):
+            size = generator.choice(((200, 150), (150, 200), (160, 160), (320, 100)))
+            options = ["--size", "%dx%d" % size, "--up", generator.choice("xyz"), "--fov", str(generator.choice((5, 30, 60, 100))),
+                       "--eye-from", str(generator.randint(-180, 180)), str(generator.randint(-90, 90))]
+            with self.subTest(model=number, options=options):
+                pathlib.Path("model.ply").write_bytes(FORMATS["ply"](mesh))
+                self.check_framed(scene_of("model.ply", *options), *size)
+
+    def test_directions(self):
+        """Straight from the front, from the right and from above, the eye is where the axes say."""
+        pathlib.Path("box.obj").write_text(BOX)
+        for up, front, right, above in (("y", (0, 0, 1), (1, 0, 0), (0, 1, 0)), ("z", (0, -1, 0), (1, 0, 0), (0, 0, 1))):
+            for angles, expected in ((("0", "0"), front), (("90", "0"), right), (("0", "90"), above), (("-90", "0"), tuple(-x for x in right))):
+                parts = header(scene_of("box.obj", "--up", up, "--eye-from", *angles))
+                eye, look = (list(map(float, parts[key].split())) for key in ("eye", "look"))
+                toward = [p - q for p, q in zip(eye, look)]
+                length = math.hypot(*toward)
+                for x, y in zip(toward, expected):
+                    self.assertAlmostEqual(x / length, y, 3)
+
+    def test_the_aspect_is_that_of_the_size(self):
+        pathlib.Path("box.obj").write_text(BOX)
+        self.assertRegex(header(scene_of("box.obj"))["projection"], r"^30 1\.3333333333333333 .* ratio$")
+        self.assertRegex(header(scene_of("box.obj", "--size", "100x200", "--fov", "40"))["projection"], r"^40 0\.5 .* ratio$")
+
+
+# A camera at (0 0 5) that looks down -z, a point light, a node that moves and turns its two children, one of them mirrored.
+def gltf_with_nodes():
+    mesh = vase(1)
+    document = json.loads(FORMATS["gltf"](mesh))
+    s = math.sqrt(0.5)
+    document["nodes"] = [
+        {"name": "root", "translation": [1, 2, 3], "rotation": [0, s, 0, s], "children": [1, 2]},  # 90 degrees about y
+        {"name": "first", "mesh": 0, "scale": [2, 1, 0.5]},
+        {"name": "second", "mesh": 0, "scale": [-1, 1, 1], "translation": [0, 0, 4]},
+        {"name": "eye", "camera": 0, "translation": [0, 0, 25]},
+        {"name": "lamp", "translation": [7, 8, 9], "extensions": {"KHR_lights_punctual": {"light": 0}}}]
+    document["scenes"] = [{"nodes": [0, 3, 4]}]
+    document["cameras"] = [{"type": "perspective", "perspective": {"yfov": math.radians(40), "znear": 1, "zfar": 100}}]
+    document["extensionsUsed"] = ["KHR_lights_punctual"]
+    document["extensions"] = {"KHR_lights_punctual": {"lights": [{"type": "point", "color": [1, 0.5, 0.25], "intensity": 1}]}}
+    document["materials"] = [{"pbrMetallicRoughness": {"baseColorFactor": [1, 0.5, 0, 1]}}]
+    document["meshes"][0]["primitives"][0]["material"] = 0
+    return mesh, json.dumps(document)
+
+
+class Nodes(ToolTest):
+    def setUp(self):
+        super().setUp()
+        self.mesh, text = gltf_with_nodes()
+        pathlib.Path("model.gltf").write_text(text)
+
+    def expected(self):
+        def root(p):
+            x, y, z = p
+            return (z + 1, y + 2, -x + 3)  # rotated by 90 degrees about y, then moved
+
+        for place in (lambda p: root((2 * p[0], p[1], 0.5 * p[2])), lambda p: root((-p[0], p[1], p[2] + 4))):
+            yield from ([place(self.mesh.vertices[i]) for i in indices] for indices in self.mesh.triangles)
+
+    def test_transforms_are_applied(self):
+        for options in ([], ["--nodes"]):
+            found = world_triangles(scene_of("model.gltf", *options))
+            expected = list(self.expected())
+            self.assertEqual(len(found), len(expected))
+            for got, triangle in zip(found, expected):
+                for vertex, point in zip(got, triangle):
+                    for x, y in zip(vertex, point):
+                        self.assertAlmostEqual(x, y, 5)
+
+    def test_transforms_become_commands(self):
+        scene = scene_of("model.gltf", "--nodes")
+        self.assertRegex(scene, "push\ntranslate 1 2 3\nrotate 90 0 1 0\npush\nscale 2 1 0.5\n#.*\n")
+        self.assertEqual(scene.count("push\n"), scene.count("pop\n"))
+
+    def test_the_files_camera_and_light_are_taken(self):
+        parts = header(scene_of("model.gltf"))
+        self.assertEqual(parts["eye"], "0 0 25")
+        self.assertTrue(parts["projection"].startswith("40 1.3333333333333333 1 100"), parts["projection"])
+        self.assertEqual([list(map(float, light.split())) for light in parts["light"]], [[7, 8, 9, 1, 0.5, 0.25]])
+        self.assertNotEqual(header(scene_of("model.gltf", "--eye-from", "0", "0"))["eye"], "0 0 25")
+
+    def test_linear_colors_become_those_of_a_screen(self):
+        """Half the light is not half the number: 0.5 is 187.516 of 255 (IEC 61966-2-1)."""
+        self.assertEqual(header(scene_of("model.gltf"))["color"], ["255 187.516 0"])
+
+
+class Colors(ToolTest):
+    def test_of_vertices(self):
+        pathlib.Path("model.ply").write_text(
+            "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nproperty uchar red\nproperty uchar green\n"
+            "property uchar blue\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0 255 0 77\n1 0 0 0 128 1\n0 1 0 9 8 7\n3 0 1 2\n")
+        self.assertEqual([vertex[3:6] for vertex in world_triangles(scene_of("model.ply"))[0]], [(255, 0, 77), (0, 128, 1), (9, 8, 7)])
+
+    def test_of_materials(self):
+        pathlib.Path("model.mtl").write_text("newmtl red\nKd 1 0.2 0\nnewmtl blue\nKd 0 0 0.6\n")
+        pathlib.Path("model.obj").write_text("mtllib model.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl red\nf 1 2 3\nusemtl blue\nf 1 3 2\n")
+        scene = scene_of("model.obj")
+        self.assertEqual([line for line in scene.splitlines() if line.startswith("color")], ["color 255 51 0", "color 0 0 153"])
+
+
+class Refusals(ToolTest):
+    def assert_refused(self, name, expected):
+        done = run("mesh2scene", name)
+        self.assertEqual((done.returncode, done.stdout), (1, b""), name)
+        message = done.stderr.decode()
+        self.assertTrue(message.startswith("mesh2scene: "), message)
+        self.assertEqual(message.count("\n"), 1, message)
+        self.assertRegex(message, expected)
+
+    def test_one_message(self):
+        pathlib.Path("empty.obj").write_text("")
+        pathlib.Path("noise.stl").write_bytes(bytes(range(256)) * 40)
+        pathlib.Path("lines.obj").write_text("v 0 0 0\nv 1 0 0\nl 1 2\n")
+        pathlib.Path("point.obj").write_text("v 1 2 3\nv 1 2 3\nv 1 2 3\nf 1 2 3\n")
+        pathlib.Path("picture.png").write_bytes(b"\x89PNG\r\n\x1a\n")
+        pathlib.Path("infinite.stl").write_bytes(b" " * 80 + struct.pack("<I12fH", 1, 0, 0, 1, 0, 0, 0, math.inf, 0, 0, 0, 1, 0, 0))
+        pathlib.Path("far.obj").write_text("v -3e38 0 0\nv 3e38 0 0\nv 0 3e38 0\nf 1 2 3\n")
+        for name, expected in (("missing.obj", "missing.obj: No such file"), (".", r"Is a directory"), ("empty.obj", "empty.obj: assimp cannot read"),
+                               ("noise.stl", "noise.stl: assimp cannot read"), ("lines.obj", "lines.obj: expected a model with triangles, found none"),
+                               ("point.obj", "point.obj: expected a model with an extent"), ("picture.png", "picture.png: assimp cannot read"),
+                               ("infinite.stl", "infinite.stl: expected finite coordinates")):
+            with self.subTest(name):
+                self.assert_refused(name, expected)
+
+    def test_a_file_cut_anywhere_gives_a_scene_or_one_message(self):
+        for suffix, write in FORMATS.items():
+            data = write(vase(1))
+            for size in range(0, len(data), max(1, len(data) // 8)):
+                pathlib.Path(f"cut.{suffix}").write_bytes(data[:size])
+                done = run("mesh2scene", f"cut.{suffix}")
+                with self.subTest(format=suffix, bytes=size):
+                    if done.returncode == 0:
+                        world_triangles(done.stdout.decode())
+                    else:
+                        self.assert_refused(f"cut.{suffix}", f"cut.{suffix}: ")
+
+    def test_damaged_bytes_give_a_scene_or_one_message(self):
+        generator = random.Random(3)
+        for suffix, write in FORMATS.items():
+            data = bytearray(write(vase(1)))
+            for _ in range(10):
+                broken = bytearray(data)
+                for _ in range(generator.randint(1, 20)):
+                    broken[generator.randrange(len(broken))] = generator.randrange(256)
+                pathlib.Path(f"broken.{suffix}").write_bytes(broken)
+                done = run("mesh2scene", f"broken.{suffix}")
+                with self.subTest(format=suffix):
+                    self.assertIn(done.returncode, (0, 1), done.stderr)
+                    if done.returncode == 0:
+                        world_triangles(done.stdout.decode())
+
+    def test_wrong_options(self):
+        pathlib.Path("box.obj").write_text(BOX)
+        for options, expected in ((["--eye-from", "10", "91"], "--eye-from ELEVATION: expected a number from -90 to 90, found '91'"),
+                                  (["--eye-from", "x", "1"], "--eye-from AZIMUTH: expected a number from -360 to 360, found 'x'"),
+                                  (["--size", "4"], "--size: expected WIDTHxHEIGHT in pixels"), (["--fov", "0"], "--fov: expected"),
+                                  (["--crease", "180"], "--crease: expected")):
+            done = run("mesh2scene", *options, "box.obj")
+            self.assertEqual(done.returncode, 2)
+            self.assertIn(expected, done.stderr.decode())
+
+
+class Notes(ToolTest):
+    def test_what_no_scene_can_hold(self):
+        pathlib.Path("model.mtl").write_text("newmtl wood\nKd 1 1 1\nd 0.5\nmap_Kd wood.png\n")
+        pathlib.Path("model.obj").write_text("mtllib model.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl wood\nf 1 2 3\nl 1 2\n")
+        done = run("mesh2scene", "--up", "y", "model.obj")
+        self.assertEqual(done.stderr.decode(), "mesh2scene: note: model.obj: no scene can hold its textures, transparency or points and lines\n")
+
+    def test_which_way_is_up(self):
+        pathlib.Path("box.obj").write_text(BOX)
+        pathlib.Path("box.stl").write_bytes(FORMATS["stl"](vase(1)))
+        for name, note in (("box.obj", "mesh2scene: note: y is taken for up, as in most OBJ files (--up chooses)\n"),
+                           ("box.stl", "mesh2scene: note: z is taken for up, as in most STL files (--up chooses)\n")):
+            self.assertEqual(run("mesh2scene", name).stderr.decode(), note)
+            self.assertEqual(run("mesh2scene", "--up", "x", name).stderr.decode(), "")
+
+
+if __name__ == "__main__":
+    unittest.main()

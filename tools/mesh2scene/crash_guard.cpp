@@ -1,0 +1,65 @@
+#include "tools/mesh2scene/crash_guard.h"
+
+#include <fcntl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+#ifdef __linux__
+#include <sys/prctl.h>
+#endif
+
+#include <cerrno>
+#include <csignal>
+#include <stdexcept>
+
+namespace pipeline {
+
+void go_on_in_child(const std::string& what) {
+  [[maybe_unused]] const pid_t parent = ::getpid();
+  const pid_t child = ::fork();
+  if (child < 0) return;
+  if (child == 0) {
+#ifdef __linux__
+    // Whoever kills the parent means both.
+    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (::getppid() != parent) ::_exit(1);
+#endif
+    return;
+  }
+  int status = 0;
+  while (::waitpid(child, &status, 0) < 0)
+    if (errno != EINTR) ::_exit(1);
+  if (WIFEXITED(status)) ::_exit(WEXITSTATUS(status));
+  const int number = WTERMSIG(status);
+  // The reader of a pipe has gone: no crash, and no message.
+  if (number == SIGPIPE) ::_exit(1);
+  throw std::runtime_error(what + (number == SIGXCPU
+                                       ? ": assimp does not come to an end with this file"
+                                       : ": assimp crashed (signal " + std::to_string(number) + ")"));
+}
+
+ImportLimits::ImportLimits(double seconds) {
+  // A sanitizer's handlers would end the process without a signal.
+  for (const int number : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) std::signal(number, SIG_DFL);
+  if (::getrlimit(RLIMIT_CPU, &former_) == 0) {
+    struct rusage used = {};
+    ::getrusage(RUSAGE_SELF, &used);
+    struct rlimit limit = former_;
+    const double until = static_cast<double>(used.ru_utime.tv_sec + used.ru_stime.tv_sec) + seconds + 1;
+    if (former_.rlim_cur == RLIM_INFINITY || until < static_cast<double>(former_.rlim_cur))
+      limit.rlim_cur = static_cast<rlim_t>(until);
+    ::setrlimit(RLIMIT_CPU, &limit);
+  }
+  stderr_ = ::fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, 0);
+  const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
+  if (stderr_ >= 0 && nowhere >= 0) ::dup2(nowhere, STDERR_FILENO);
+  if (nowhere >= 0) ::close(nowhere);
+}
+
+ImportLimits::~ImportLimits() {
+  ::setrlimit(RLIMIT_CPU, &former_);
+  if (stderr_ < 0) return;
+  ::dup2(stderr_, STDERR_FILENO);
+  ::close(stderr_);
+}
+
+}  // namespace pipeline

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <sys/resource.h>
+
+#include <string>
+
+namespace pipeline {
+
+/// Goes on in a child process; the parent waits for it and ends with its exit status. A library that reads
+/// any bytes as any of fifty formats may crash, or never end; the user still gets one clear message: if a
+/// signal ends the child, this process throws std::runtime_error that names `what` was read. Where no process
+/// can be made, goes on without one.
+void go_on_in_child(const std::string& what);
+
+/// While it lives, `seconds` of processor time end this process by SIGXCPU, and nothing reaches stderr:
+/// assimp prints its own assertions there before it aborts.
+class ImportLimits {
+ public:
+  explicit ImportLimits(double seconds);
+  ~ImportLimits();
+  ImportLimits(const ImportLimits&) = delete;
+  ImportLimits& operator=(const ImportLimits&) = delete;
+
+ private:
+  struct rlimit former_ = {};
+  int stderr_ = -1;
+};
+
+}  // namespace pipeline

@@ -1,0 +1,111 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "libpipeline/numbers/vec.h"
+
+struct aiMesh;
+struct aiNode;
+struct aiScene;
+
+namespace Assimp {
+class Importer;
+}
+
+namespace pipeline {
+
+/// The upper three rows of a node's matrix, which takes the node's coordinates to its parent's: doubles, as
+/// products of several would lose digits in assimp's floats.
+struct NodeMatrix {
+  std::array<std::array<double, 4>, 3> rows{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
+
+  friend bool operator==(const NodeMatrix&, const NodeMatrix&) = default;
+  [[nodiscard]] bool is_identity() const { return *this == NodeMatrix(); }
+  [[nodiscard]] Vec3 point(const Vec3& p) const;
+  [[nodiscard]] Vec3 direction(const Vec3& v) const;
+  /// The image of a normal, of any length: that of a plane's normal, by the matrix of cofactors.
+  [[nodiscard]] Vec3 normal(const Vec3& n) const;
+};
+
+NodeMatrix product(const NodeMatrix& a, const NodeMatrix& b);
+NodeMatrix matrix_of(const aiNode& node);
+
+/// A mesh of triangles where it stands in the model.
+struct PlacedMesh {
+  const aiMesh* mesh = nullptr;
+  NodeMatrix model_from_mesh;
+};
+
+/// Angles in degrees, points and directions in the model's space.
+struct ModelCamera {
+  Vec3 eye, look, up;
+  double fov_x_degrees = 0;
+  double aspect = 0;  // width / height; 0 if the file does not say
+  double near = 0, far = 0;
+};
+
+/// The intensity is 1 for full.
+struct ModelLight {
+  Vec3 position;  // of a light from afar: the direction in which it shines
+  Vec3 intensity;
+  bool is_far = false;
+};
+
+/// A model file as assimp reads it. All meshes consist of triangles and have normals.
+class ImportedModel {
+ public:
+  /// Reads a file, or standard input if `path` is "-". Where normals are missing they are made; edges whose
+  /// sides meet at more than `crease_degrees` stay sharp. Throws std::runtime_error, whose message names the
+  /// file, if assimp cannot read it, if a coordinate is not finite, or if it has no triangle.
+  ImportedModel(const std::string& path, double crease_degrees);
+  ~ImportedModel();
+  ImportedModel(const ImportedModel&) = delete;
+  ImportedModel& operator=(const ImportedModel&) = delete;
+
+  /// The file's, for messages.
+  [[nodiscard]] std::string name() const;
+  /// Whether a mesh holds triangles.
+  [[nodiscard]] static bool is_drawn(const aiMesh& mesh);
+  [[nodiscard]] const aiScene& scene() const { return *scene_; }
+  /// Every mesh, as often as a node shows it, in the order of the nodes from the root on.
+  [[nodiscard]] const std::vector<PlacedMesh>& meshes() const { return meshes_; }
+  [[nodiscard]] std::uint64_t triangle_count() const;
+  /// Calls `visit` with every vertex of every triangle, in the model's space.
+  void for_each_corner(const std::function<void(const Vec3&)>& visit) const;
+  [[nodiscard]] const std::optional<ModelCamera>& camera() const { return camera_; }
+  [[nodiscard]] const std::vector<ModelLight>& lights() const { return lights_; }
+  [[nodiscard]] Vec3 ambient() const { return ambient_; }
+  [[nodiscard]] bool has_vertex_colors() const;
+  /// What is in the file and in no scene: "textures", "bones".
+  [[nodiscard]] const std::vector<std::string>& ignored() const { return ignored_; }
+  /// The color of a mesh without vertex colors, from 0 to 255; nothing if the file gives none.
+  [[nodiscard]] std::optional<Vec3> color(const aiMesh& mesh) const;
+  /// A channel of the file, from 0 to 1, as a channel of a scene.
+  [[nodiscard]] double channel(double of_file) const;
+
+ private:
+  void place(const aiNode& node, const NodeMatrix& model_from_parent);
+  void check_vertices() const;
+  void read_camera();
+  void read_lights();
+  void list_ignored();
+  [[nodiscard]] NodeMatrix model_from(const aiNode* node) const;
+
+  std::string path_;
+  std::unique_ptr<Assimp::Importer> importer_;
+  const aiScene* scene_ = nullptr;
+  std::vector<PlacedMesh> meshes_;
+  std::optional<ModelCamera> camera_;
+  std::vector<ModelLight> lights_;
+  Vec3 ambient_;
+  std::vector<std::string> ignored_;
+  bool is_gltf_ = false;  // whose colors are linear
+};
+
+}  // namespace pipeline

@@ -1,0 +1,144 @@
+// mesh2scene: a model file (OBJ, STL, PLY, glTF, ...) in, a scene with camera and lights out.
+
+#include <filesystem>
+#include <optional>
+#include <system_error>
+
+#include "libpipeline/scene/config.h"
+#include "libpipeline/text/number_parser.h"
+#include "libpipeline/text/number_printer.h"
+#include "tools/mesh2scene/crash_guard.h"
+#include "tools/mesh2scene/imported_model.h"
+#include "tools/mesh2scene/scene_setting.h"
+#include "tools/mesh2scene/scene_text.h"
+#include "tools/tool.h"
+
+using namespace pipeline;
+
+namespace {
+
+struct Options {
+  std::string size = "800x600";
+  std::vector<std::string> eye_from;
+  double crease_degrees = 60;
+  bool as_nodes = false;
+  ViewChoice view;
+};
+
+void add_options(CommandLine& options, Options& chosen) {
+  options.begin_group("Camera");
+  options.add_word("--size", "WIDTHxHEIGHT", chosen.size, "The size of the picture, for its aspect",
+                   [](const std::string& word) {
+                     return parse_size(word) ? std::string()
+                                             : expected_but_found("WIDTHxHEIGHT in pixels, such as 800x600",
+                                                                  pipeline::quoted(word));
+                   });
+  options.add_words(
+      "--eye-from", 2, "AZIMUTH ELEVATION", chosen.eye_from,
+      "Look at the model from so many degrees to the right of its front, and so many above (default: 30 15)");
+  options.add_number(
+      "--fov", "DEGREES", chosen.view.fov_y_degrees, [](double value) { return value >= 1 && value <= 120; },
+      "1 to 120", "The angle of view from the picture's bottom to its top");
+  options.add_choice<UpAxis>(
+      "--up", chosen.view.up, {{"x", UpAxis::x}, {"y", UpAxis::y}, {"z", UpAxis::z}},
+      "The axis that is up in the picture. Without the option: z for STL, 3DS and 3MF, else y");
+  options.begin_group("Triangles");
+  options.add_number(
+      "--crease", "DEGREES", chosen.crease_degrees, [](double value) { return value >= 0 && value <= 175; },
+      "0 to 175", "Where the file has no normals: an edge stays sharp if its sides meet at more than this");
+  options.add_flag("--nodes", chosen.as_nodes,
+                   "Write the transforms of the model's nodes as push, translate, rotate, scale and pop");
+}
+
+// Ten times what assimp takes for the slowest of the common formats.
+constexpr double kImportSeconds = 5, kImportSecondsPerMegabyte = 2;
+
+/// The size of a file that can be sized; standard input counts as large.
+double megabytes(const std::string& path) {
+  constexpr double kLarge = 1000;
+  std::error_code error;
+  const auto size = std::filesystem::file_size(path, error);
+  return error ? kLarge : static_cast<double>(size) / 1e6;
+}
+
+/// A number of an option that takes several.
+double number_from(const std::string& option, const std::string& word, double least, double most) {
+  const ParsedNumber number = parse_number(word);
+  if (number.error != NumberError::none || !(number.value >= least && number.value <= most))
+    throw UsageError(
+        option + ": " +
+        expected_but_found("a number from " + shortest_text(least) + " to " + shortest_text(most),
+                           pipeline::quoted(word)));
+  return number.value;
+}
+
+std::string extension_of(const std::string& path) {
+  const std::string name = path.substr(path.rfind('/') + 1);
+  const std::size_t dot = name.rfind('.');
+  std::string extension = dot == std::string::npos ? "" : name.substr(dot + 1);
+  for (char& c : extension)
+    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
+  return extension;
+}
+
+/// Most programs that write these formats print or build things, and stand them on x and y.
+UpAxis usual_up(const std::string& extension) {
+  return extension == "STL" || extension == "3DS" || extension == "3MF" ? UpAxis::z : UpAxis::y;
+}
+
+const char* name_of(UpAxis axis) {
+  return axis == UpAxis::x ? "x" : axis == UpAxis::y ? "y" : "z";
+}
+
+/// Formats that define which axis is up, or for which assimp turns the model.
+bool defines_up(const std::string& extension) {
+  return extension == "GLTF" || extension == "GLB" || extension == "DAE" || extension == "FBX";
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Tool tool({"mesh2scene",
+             "Turns a model file into a scene: camera, lights, and triangles with normals. Reads OBJ, STL, "
+             "PLY, glTF and whatever else assimp reads.",
+             "The model file",
+             {"mesh2scene bunny.obj | model | view | project | zbuf --size 800x600 --coverage center "
+              "--samples 3 -o bunny.png",
+              "mesh2scene --up z --eye-from -45 30 part.obj > scene.txt"}},
+            OutputKind::other_text);
+  Options chosen;
+  add_options(tool.options(), chosen);
+
+  return tool.run(argc, argv, [&] {
+    const std::string& path = tool.input_path();
+    const std::string name = path == "-" ? "<stdin>" : path;
+    const std::string extension = extension_of(path);
+    const CommandLine& options = tool.options();
+    const bool chooses_view =
+        options.is_given("--eye-from") || options.is_given("--fov") || options.is_given("--up");
+    if (!options.is_given("--up")) chosen.view.up = usual_up(extension);
+    if (!chosen.eye_from.empty()) {
+      chosen.view.azimuth_degrees = number_from("--eye-from AZIMUTH", chosen.eye_from[0], -360, 360);
+      chosen.view.elevation_degrees = number_from("--eye-from ELEVATION", chosen.eye_from[1], -90, 90);
+    }
+    const Viewport screen = *parse_size(chosen.size);
+    chosen.view.aspect = double(screen.columns) / double(screen.rows);
+
+    go_on_in_child(name);
+    std::optional<ImportLimits> limits(kImportSeconds + kImportSecondsPerMegabyte * megabytes(path));
+    const ImportedModel model(path, chosen.crease_degrees);
+    limits.reset();
+    tool.timing().lap(&Timing::read_seconds);
+    tool.timing().triangle_count = model.triangle_count();
+    const bool has_own_view = model.camera() && !chooses_view;
+    SceneSetting setting =
+        has_own_view ? setting_of_file(model, chosen.view.aspect) : framed_setting(model, chosen.view);
+    if (!model.ignored().empty()) tool.note(name + ": no scene can hold its " + listed(model.ignored()));
+    if (!has_own_view && !options.is_given("--up") && !defines_up(extension))
+      tool.note(std::string(name_of(chosen.view.up)) + " is taken for up, as in most " +
+                (extension.empty() ? "" : extension + " ") + "files (--up chooses)");
+    setting.comments = {name + ", " + counted(model.triangle_count(), "triangle") +
+                        ", by mesh2scene; zbuf --size " + chosen.size};
+    write_scene(model, setting, chosen.as_nodes ? NodeForm::as_commands : NodeForm::applied, tool.output());
+  });
+}

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tools/mesh2scene/framing.h"
+#include "tools/mesh2scene/imported_model.h"
+
+namespace pipeline {
+
+/// What a scene says before its first triangle.
+struct SceneSetting {
+  std::vector<std::string> comments;
+  FramingCamera camera;
+  double fov_y_degrees = 0;
+  double aspect = 0;  // width / height
+  Vec3 background;
+  Vec3 ambient;
+  std::string material;
+  /// At points, in the model's space.
+  std::vector<ModelLight> lights;
+  /// Of meshes without a color, from 0 to 255.
+  Vec3 color;
+};
+
+/// From where a framed model is seen; angles in degrees.
+struct ViewChoice {
+  UpAxis up = UpAxis::y;
+  double azimuth_degrees = 30, elevation_degrees = 15;
+  double fov_y_degrees = 30;
+  double aspect = 0;
+};
+
+/// A camera that frames the model. std::runtime_error if all of its vertices coincide.
+SceneSetting framed_setting(const ImportedModel& model, const ViewChoice& view);
+/// The file's own camera, which must be there; `aspect` is the picture's, width / height. Both settings take
+/// the file's own lights, and have a key, a fill and an ambient light only if there are none.
+SceneSetting setting_of_file(const ImportedModel& model, double aspect);
+
+}  // namespace pipeline

@@ -1,0 +1,281 @@
+#include "tools/mesh2scene/scene_text.h"
+
+#include <assimp/scene.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "libpipeline/numbers/vec_math.h"
+#include "libpipeline/text/error.h"
+#include "libpipeline/text/number_printer.h"
+
+namespace pipeline {
+namespace {
+
+constexpr std::size_t kMaxFloatLength = 16;  // -1.17549435e-38
+
+/// The shortest text that reads back to the same float: the precision of assimp, and of what most files hold.
+char* print_float(char* p, double value) {
+  const float rounded = static_cast<float>(value);
+  return std::to_chars(p, p + kMaxFloatLength, rounded == 0 ? 0.0F : rounded).ptr;
+}
+
+char* print_floats(char* p, const Vec3& v) {
+  p = print_float(p, v.x);
+  *p++ = ' ';
+  p = print_float(p, v.y);
+  *p++ = ' ';
+  return print_float(p, v.z);
+}
+
+std::string float_text(double value) {
+  std::array<char, kMaxFloatLength> text{};
+  return {text.data(), print_float(text.data(), value)};
+}
+
+std::string float_text(const Vec3& v) {
+  return float_text(v.x) + " " + float_text(v.y) + " " + float_text(v.z);
+}
+
+std::string text_of(const Vec3& v) {
+  return shortest_text(v.x) + " " + shortest_text(v.y) + " " + shortest_text(v.z);
+}
+
+/// Rounds values to as many decimals as make five digits of a length.
+class Rounding {
+ public:
+  explicit Rounding(double length) : decimals_(4 - static_cast<int>(std::floor(std::log10(length)))) {}
+
+  [[nodiscard]] double operator()(double value) const {
+    if (decimals_ < 0 || decimals_ > kMaxDecimals) return value;
+    std::array<char, kMaxNumberLength> text{};
+    double rounded = value;
+    std::from_chars(text.data(), print_number(text.data(), value, 0, {.decimals = decimals_}), rounded);
+    return rounded == 0 ? 0 : rounded;
+  }
+  [[nodiscard]] Vec3 operator()(const Vec3& v) const { return {(*this)(v.x), (*this)(v.y), (*this)(v.z)}; }
+
+ private:
+  int decimals_;
+};
+
+/// A matrix as translate, rotate and scale, applied from right to left.
+struct Commands {
+  Vec3 translation;
+  double angle_degrees = 0;
+  Vec3 axis = {0, 0, 1};
+  Vec3 scaling = {1, 1, 1};
+};
+
+/// The value with 1 / units decimals if it is as near to that as the matrix's floats allow, else with nine
+/// decimals.
+double without_noise(double value, double units, double noise) {
+  constexpr double kFine = 1e9;
+  const double coarse = std::round(value * units) / units;
+  return (std::fabs(value - coarse) <= noise ? coarse : std::round(value * kFine) / kFine) + 0.0;
+}
+
+/// The rotation in the columns of an orthogonal matrix of determinant 1, by its quaternion.
+void set_rotation(const std::array<Vec3, 3>& columns, Commands& commands) {
+  const auto& [x, y, z] = columns;
+  // w is the cosine of half the angle; the largest of the four components decides, so that no digits cancel.
+  const double w2 = 1 + x.x + y.y + z.z, x2 = 1 + x.x - y.y - z.z, y2 = 1 - x.x + y.y - z.z,
+               z2 = 1 - x.x - y.y + z.z;
+  const double largest = std::max({w2, x2, y2, z2});
+  double w = y.z - z.y;
+  Vec3 v = {x2, x.y + y.x, z.x + x.z};
+  if (largest == w2) {
+    w = w2;
+    v = {y.z - z.y, z.x - x.z, x.y - y.x};
+  } else if (largest == y2) {
+    w = z.x - x.z;
+    v = {x.y + y.x, y2, y.z + z.y};
+  } else if (largest == z2) {
+    w = x.y - y.x;
+    v = {z.x + x.z, y.z + z.y, z2};
+  }
+  const double sine = std::sqrt(dot(v, v));
+  if (sine == 0) return;
+  commands.angle_degrees = without_noise(2 * std::atan2(sine, w) * 180 / std::numbers::pi, 1e4, 2e-5);
+  for (double Vec3::*component : {&Vec3::x, &Vec3::y, &Vec3::z})
+    commands.axis.*component = without_noise(v.*component / sine, 1e6, 2e-7);
+}
+
+/// Nothing if the matrix has shear or flattens.
+std::optional<Commands> commands_of(const NodeMatrix& m) {
+  const auto column = [&](std::size_t j) { return Vec3{m.rows[0][j], m.rows[1][j], m.rows[2][j]}; };
+  std::array<Vec3, 3> columns = {column(0), column(1), column(2)};
+  Commands commands;
+  commands.translation = column(3);
+  const bool is_mirrored = dot(columns[0], cross(columns[1], columns[2])) < 0;
+  std::array<double, 3> lengths{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    lengths[i] = std::sqrt(dot(columns[i], columns[i])) * (is_mirrored ? -1 : 1);
+    if (!(std::fabs(lengths[i]) > 0) || !std::isfinite(lengths[i])) return std::nullopt;
+    columns[i] = scaled(columns[i], 1 / lengths[i]);
+  }
+  constexpr double kOrthogonal = 1e-6;  // floats leave this much
+  for (std::size_t i = 0; i < 3; ++i)
+    if (!(std::fabs(dot(columns[i], columns[(i + 1) % 3])) < kOrthogonal)) return std::nullopt;
+  const auto scaling = [&](std::size_t i) {
+    return without_noise(lengths[i], 1e6, 2e-7 * std::fabs(lengths[i]));
+  };
+  commands.scaling = {scaling(0), scaling(1), scaling(2)};
+  set_rotation(columns, commands);
+  return commands;
+}
+
+class SceneWriter {
+ public:
+  SceneWriter(const ImportedModel& model, const SceneSetting& setting, TextWriter& out)
+      : model_(model), setting_(setting), out_(out), has_color_columns_(model.has_vertex_colors()) {}
+
+  void write_setting() {
+    for (const std::string& comment : setting_.comments) line("# " + on_one_line(comment));
+    const FramingCamera& camera = setting_.camera;
+    const Rounding rounded(camera.distance);
+    line(text_of(rounded(camera.eye)));
+    line(text_of(rounded(camera.look)));
+    line(text_of(Rounding(1)(camera.up)));
+    line(shortest_text(setting_.fov_y_degrees) + " " + shortest_text(setting_.aspect) + " " +
+         shortest_text(Rounding(camera.near)(camera.near)) + " " +
+         shortest_text(Rounding(camera.far)(camera.far)) + " ratio");
+    line("background " + text_of(setting_.background));
+    line(has_color_columns_ ? "attributes color normal" : "attributes normal");
+    if (!setting_.material.empty()) line("material " + setting_.material);
+    if (setting_.ambient != Vec3{}) line("ambient " + text_of(setting_.ambient));
+    for (const ModelLight& light : setting_.lights)
+      line("light " + text_of(rounded(light.position)) + " " + text_of(Rounding(0.1)(light.intensity)));
+  }
+
+  void write_meshes() {
+    for (const PlacedMesh& placed : model_.meshes()) write(placed);
+  }
+
+  void write_node(const aiNode& node, const NodeMatrix& above) {
+    NodeMatrix pending = product(above, matrix_of(node));
+    const auto commands = commands_of(pending);
+    const bool is_in_commands = commands && !pending.is_identity();
+    if (is_in_commands) {
+      line("push");
+      if (commands->translation != Vec3{}) line("translate " + float_text(commands->translation));
+      if (commands->angle_degrees != 0)
+        line("rotate " + float_text(commands->angle_degrees) + " " + float_text(commands->axis));
+      if (commands->scaling != Vec3{1, 1, 1}) line("scale " + float_text(commands->scaling));
+      pending = {};
+    }
+    for (unsigned i = 0; i < node.mNumMeshes; ++i)
+      if (const aiMesh* mesh = model_.scene().mMeshes[node.mMeshes[i]]; ImportedModel::is_drawn(*mesh))
+        write({mesh, pending});
+    for (unsigned i = 0; i < node.mNumChildren; ++i) write_node(*node.mChildren[i], pending);
+    if (is_in_commands) line("pop");
+  }
+
+  void line(std::string_view text) {
+    out_.append(text);
+    out_.append("\n");
+  }
+
+ private:
+  void write(const PlacedMesh& placed) {
+    const aiMesh& mesh = *placed.mesh;
+    if (mesh.mName.length > 0) line("# " + on_one_line(mesh.mName.C_Str()));
+    const Vec3 color = model_.color(mesh).value_or(setting_.color);
+    if (!has_color_columns_ && color != color_in_force_) line("color " + text_of(color));
+    color_in_force_ = color;
+    prepare(placed, color);
+    for (unsigned i = 0; i < mesh.mNumFaces; ++i) write_triangle(mesh.mFaces[i].mIndices);
+  }
+
+  struct Vertex {
+    Vec3 position;
+    Vec3 normal;
+  };
+
+  /// Transforms the vertices, each once, and prints their lines.
+  void prepare(const PlacedMesh& placed, const Vec3& color) {
+    const aiMesh& mesh = *placed.mesh;
+    const bool is_identity = placed.model_from_mesh.is_identity();
+    vertices_.resize(mesh.mNumVertices);
+    for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
+      const aiVector3D& p = mesh.mVertices[i];
+      const aiVector3D n = mesh.HasNormals() ? mesh.mNormals[i] : aiVector3D();
+      Vertex& vertex = vertices_[i];
+      vertex = {{p.x, p.y, p.z}, {n.x, n.y, n.z}};
+      if (!is_identity) {
+        vertex.position = placed.model_from_mesh.point(vertex.position);
+        vertex.normal = unit_vector(placed.model_from_mesh.normal(vertex.normal));
+      }
+    }
+    mesh_ = &mesh;
+    color_ = color;
+  }
+
+  /// The normal of a triangle whose file gives none of use; any for a triangle without area, which is not
+  /// seen.
+  [[nodiscard]] Vec3 face_normal(const unsigned* indices) const {
+    const Vec3 a = vertices_[indices[0]].position;
+    const Vec3 n = unit_vector(
+        cross(difference(vertices_[indices[1]].position, a), difference(vertices_[indices[2]].position, a)));
+    return is_direction(n) ? n : setting_.camera.up;
+  }
+
+  /// Whether a scene takes it as a normal.
+  static bool is_direction(const Vec3& n) {
+    const auto is_0 = [](double value) { return static_cast<float>(value) == 0; };
+    return std::isfinite(n.x + n.y + n.z) && !(is_0(n.x) && is_0(n.y) && is_0(n.z));
+  }
+
+  void write_triangle(const unsigned* indices) {
+    static constexpr std::string_view kKeyword = "triangle\n";
+    constexpr std::size_t kMaxLine = 9 * (kMaxFloatLength + 1);
+    char* p = out_.reserve(kKeyword.size() + 3 * kMaxLine);
+    p = std::copy(kKeyword.begin(), kKeyword.end(), p);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vertex& vertex = vertices_[indices[i]];
+      p = print_floats(p, vertex.position);
+      if (has_color_columns_) {
+        *p++ = ' ';
+        p = print_floats(p, color_of(indices[i]));
+      }
+      *p++ = ' ';
+      p = print_floats(p, is_direction(vertex.normal) ? vertex.normal : face_normal(indices));
+      *p++ = '\n';
+    }
+    out_.commit(p);
+  }
+
+  [[nodiscard]] Vec3 color_of(unsigned index) const {
+    if (!mesh_->HasVertexColors(0)) return color_;
+    const aiColor4D& c = mesh_->mColors[0][index];
+    return {model_.channel(c.r), model_.channel(c.g), model_.channel(c.b)};
+  }
+
+  const ImportedModel& model_;
+  const SceneSetting& setting_;
+  TextWriter& out_;
+  bool has_color_columns_;
+  std::optional<Vec3> color_in_force_;
+  const aiMesh* mesh_ = nullptr;
+  Vec3 color_;
+  std::vector<Vertex> vertices_;
+};
+
+}  // namespace
+
+void write_scene(const ImportedModel& model, const SceneSetting& setting, NodeForm node_form,
+                 TextWriter& out) {
+  SceneWriter writer(model, setting, out);
+  writer.write_setting();
+  if (node_form == NodeForm::applied)
+    writer.write_meshes();
+  else
+    writer.write_node(*model.scene().mRootNode, {});
+  writer.line("end");
+}
+
+}  // namespace pipeline
