@@ -1,0 +1,67 @@
+#!/usr/bin/env python3
+"""scripts/picture: one command does what the five tools do one after the other.
+
+usage: picture_test.py BIN_DIR [UNITTEST ARGUMENT...]
+"""
+import os
+import pathlib
+import subprocess
+import sys
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "tools"))
+from toolbox import BIN, SOURCE, ToolTest, pipe, run  # noqa: E402
+
+
+def picture(*words):
+    return subprocess.run([SOURCE / "scripts/picture", *words], capture_output=True, text=True, env={**os.environ, "BIN": str(BIN)})
+
+
+class Picture(ToolTest):
+    def setUp(self):
+        super().setUp()
+        model = subprocess.run([SOURCE / "scripts/make-model", "vase", "--detail", "2"], check=True, capture_output=True).stdout
+        pathlib.Path("vase.obj").write_bytes(model)
+
+    def test_the_picture_is_that_of_the_pipe(self):
+        done = picture("vase.obj", "--size", "120x90", "--up", "y", "--eye-from", "10", "-20", "--fov", "40", "-o", "one.png")
+        self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "", ""))
+        scene = run("mesh2scene", "--size", "120x90", "--up", "y", "--eye-from", "10", "-20", "--fov", "40", "vase.obj").stdout
+        pipe(["model"], ["view"], ["project"], ["zbuf", "--size", "120x90", "--coverage", "center", "--samples", "3", "--image", "two.png"], stdin=scene)
+        self.assertEqual(pathlib.Path("one.png").read_bytes(), pathlib.Path("two.png").read_bytes())
+
+    def test_stages_keep_every_text(self):
+        done = picture("vase.obj", "--size", "120x90", "--up", "y", "--stages", "kept/here", "-o", "one.png")
+        self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "", ""))
+        texts = {name: pathlib.Path("kept/here", name).read_bytes() for name in ("scene.txt", "stage1.txt", "stage2.txt", "stage3.txt")}
+        self.assertEqual(sorted(os.listdir("kept/here")), sorted(texts))
+        self.assertEqual(texts["scene.txt"], run("mesh2scene", "--size", "120x90", "--up", "y", "vase.obj").stdout)
+        for tool, source, result in (("model", "scene.txt", "stage1.txt"), ("view", "stage1.txt", "stage2.txt"), ("project", "stage2.txt", "stage3.txt")):
+            self.assertEqual(run(tool, stdin=texts[source]).stdout, texts[result])
+        picture("vase.obj", "--size", "120x90", "--up", "y", "-o", "two.png")
+        self.assertEqual(pathlib.Path("one.png").read_bytes(), pathlib.Path("two.png").read_bytes())
+
+    def test_a_note_is_passed_on(self):
+        self.assertEqual(picture("vase.obj", "-o", "one.png").stderr, "mesh2scene: note: y is taken for up, as in most OBJ files (--up chooses)\n")
+
+    def test_of_failures_the_cause_is_told_alone(self):
+        pathlib.Path("broken.obj").write_text("v 0 0\n")
+        for words, reason in ((["missing.obj"], "picture: mesh2scene: cannot open missing.obj: No such file or directory"),
+                              (["broken.obj"], "picture: mesh2scene: broken.obj: assimp cannot read this model: "),
+                              (["vase.obj", "--fov", "0"], "picture: mesh2scene: --fov: expected "),
+                              (["vase.obj", "--size", "0x1"], "picture: mesh2scene: --size: expected ")):
+            for more in ([], ["--stages", "kept"]):
+                with self.subTest(words + more):
+                    done = picture(*words, *more, "-o", "one.png")
+                    self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (1, "", 1), done.stderr)
+                    self.assertTrue(done.stderr.startswith(reason), done.stderr)
+                    self.assertFalse(pathlib.Path("one.png").exists())
+                    self.assertEqual(os.listdir("kept") if more else [], [])
+        for output, reason in (("one.gif", "picture: zbuf: "), ("nowhere/one.png", "picture: zbuf: cannot open nowhere/one.png: No such file")):
+            done = picture("vase.obj", "-o", output)
+            self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (1, "", 1), done.stderr)
+            self.assertTrue(done.stderr.startswith(reason), done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
