@@ -1,10 +1,9 @@
 """How the cost of drawing grows with triangles and pixels: measured by scripts/measure/bench, as a table and a plot."""
 import math
 import random
-import resource
 import shutil
 
-from parts.measuring import machine, run
+from parts.measuring import machine, run_pipe
 from parts.svg import STYLE, end_labels, line, text
 
 SIZES = (100, 500, 2000, 8192)
@@ -46,9 +45,7 @@ def write_large(path, count):
 
 def measured(zbuf, folder, rounds, quick):
     """Rows {kind, triangles, size, cpu_seconds, mib}: whole runs of zbuf, including reading and writing text, the fastest of
-    each kind: other load on the machine can only add CPU time, never take any away.
-
-    The system charges a started process with its parent's peak memory, too: mib is empty unless zbuf needed more than that."""
+    each kind: other load on the machine can only add CPU time, never take any away."""
     sizes, small, large = ((50, 100), (10, 100), (1, 2)) if quick else (SIZES, SMALL_COUNTS, LARGE_COUNTS)
     triangles, config = folder / "growth.txt", folder / "growth-config.txt"
     for size in sizes:
@@ -60,11 +57,9 @@ def measured(zbuf, folder, rounds, quick):
                 else:
                     write_large(triangles, count)
                 words = [zbuf, config, triangles, "--image", "/dev/null", "--z-buffer", "/dev/null"]
-                costs = [run(words, "bench: zbuf") for _ in range(rounds)]
-                mib = max(cost.mib for cost in costs)
-                own_mib = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
+                costs = [run_pipe([words], folder) for _ in range(rounds)]
                 yield {"kind": kind, "triangles": count, "size": size, "cpu_seconds": min(c.cpu_seconds for c in costs),
-                       "mib": mib if mib > own_mib else "", "machine": machine()}
+                       "mib": max(cost.mib for cost in costs), "machine": machine()}
 
 
 def rows_of(table):

@@ -2,13 +2,43 @@
 import csv
 import dataclasses
 import os
+import pathlib
 import subprocess
+import sys
 
 
 def machine():
     """The processor's name and the number of available cores."""
     models = [line.split(":", 1)[1].strip() for line in open("/proc/cpuinfo") if line.startswith("model name")]
     return f"{models[0] if models else 'unknown processor'}, {len(os.sched_getaffinity(0))} cores"
+
+
+LAUNCHER = pathlib.Path(__file__).with_name("launcher.py")
+
+
+@dataclasses.dataclass(frozen=True)
+class PipeCost:
+    wall_seconds: float
+    cpu_seconds: float     # user and system, of all stages together
+    system_seconds: float
+    stage_mib: tuple       # largest resident sets
+
+    @property
+    def mib(self):
+        return sum(self.stage_mib)
+
+
+def run_pipe(commands, folder, source="/dev/null", sink="/dev/null"):
+    """The cost of commands joined by pipes, run in `folder`; ends the script if one fails, with what they wrote to stderr."""
+    words = [word for command in commands for word in ("|", *map(str, command))][1:]
+    notes = pathlib.Path(folder, "notes.txt")
+    done = subprocess.run([sys.executable, "-I", "-S", str(LAUNCHER), str(source), str(sink), str(notes), *words], cwd=folder,
+                          stdout=subprocess.PIPE, text=True)
+    wall, *costs = (line.split() for line in done.stdout.splitlines())
+    if done.returncode != 0 or any(status != "0" for status, *_ in costs):
+        raise SystemExit(f"{' '.join(words)} failed: {notes.read_text(errors='replace')}")
+    user, system = (sum(float(cost[i]) for cost in costs) for i in (1, 2))
+    return PipeCost(float(wall[0]), user + system, system, tuple(int(kib) / 1024 for *_, kib in costs))
 
 
 @dataclasses.dataclass(frozen=True)
