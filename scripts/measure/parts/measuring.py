@@ -47,20 +47,14 @@ class Cost:
     mib: float          # peak resident memory
 
 
-def cost_of(process, name, messages=None):
-    """Waits for a process; ends the script if it failed, printing the contents of the file `messages`."""
+def run(words, name="a tool", **streams):
+    """The cost of one command; ends the script if it fails."""
+    process = subprocess.Popen(list(map(str, words)), **streams)
     _, status, usage = os.wait4(process.pid, 0)
     process.returncode = os.waitstatus_to_exitcode(status)
     if process.returncode != 0:
-        if messages:
-            messages.seek(0)
-        raise SystemExit(f"{name} failed" + (f": {messages.read().decode()}" if messages else ""))
+        raise SystemExit(f"{name} failed")
     return Cost(usage.ru_utime + usage.ru_stime, usage.ru_maxrss / 1024)
-
-
-def run(words, name="a tool", **streams):
-    """The cost of one command."""
-    return cost_of(subprocess.Popen(list(map(str, words)), **streams), name)
 
 
 def write_csv(path, rows, digits=4):

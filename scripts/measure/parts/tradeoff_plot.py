@@ -1,146 +1,109 @@
-"""The plot of scripts/measure/tradeoff: CPU time against three kinds of error, as SVG."""
+"""The plot of scripts/measure/tradeoff: cost and errors of every setting, a row each, as SVG."""
 import dataclasses
 import math
 
-from parts.svg import STYLE, line, spread_out, text
+from parts.svg import STYLE, line, text
+
+WIDTH, TOP, ROW_HEIGHT, LABEL_WIDTH = 1180, 112, 24, 255
+ZERO_WIDTH = 36  # left of a logarithmic axis, for errors that are 0
+
 
 @dataclasses.dataclass(frozen=True)
 class Panel:
     title: str
     unit: str
-    series: dict        # at most three: {name: {setting: error}}
-    decades: tuple      # powers of ten at the bottom and the top of the axis
-    tick: object        # gives the text of a power of ten
-    band: tuple = None  # (smallest error that matters, text)
+    series: dict      # {name: {setting: value}}, at most three
+    left: float
+    width: float
+    ticks: tuple
+    is_logarithmic: bool = False
+    tick_text: object = "{:g}".format
+
+    def x_of(self, value):
+        low, high = self.ticks[0], self.ticks[-1]
+        if not self.is_logarithmic:
+            return self.left + self.width * (value - low) / (high - low)
+        if value == 0:
+            return self.left
+        share = (math.log10(value) - math.log10(low)) / (math.log10(high) - math.log10(low))
+        return self.left + ZERO_WIDTH + (self.width - ZERO_WIDTH) * min(max(share, 0), 1)
 
 
-WIDTH, HEIGHT = 1160, 520
-PLOT_WIDTH, PLOT_TOP, PLOT_BOTTOM, ZERO_Y = 285, 150, 405, 425
-LEFTS = (75, 455, 835)
+def rounded_up(value):
+    """About five ticks from 0 to at least the value."""
+    step = 10.0 ** math.floor(math.log10(value / 2))
+    step *= max(factor for factor in (1, 2, 5) if factor * step <= value / 2)
+    return tuple(step * i for i in range(math.ceil(value / step) + 1))
 
 
-def front(points):
-    """The Pareto front: the points (x, y) that no other point beats in one and at least equals in the other coordinate."""
-    best, chosen = math.inf, []
-    for point in sorted(points):
-        if point[1] < best:
-            best = point[1]
-            chosen.append(point)
-    return chosen
+def panel_parts(panel, settings, bottom):
+    yield text(panel.left, 30, panel.title, 'class="title"')
+    yield text(panel.left, 48, panel.unit, 'class="soft"')
+    if len(panel.series) > 1:
+        x = panel.left
+        for i, name in enumerate(panel.series):
+            yield f'<g class="s s{i}"><circle class="dot" cx="{x + 5:.1f}" cy="66" r="4"/>' + text(x + 14, 70, name) + "</g>"
+            x += 30 + 7 * len(name)
+    for tick in panel.ticks:
+        x = panel.x_of(tick)
+        yield line("grid", (x, TOP - 6), (x, bottom))
+        yield text(x, TOP - 14, panel.tick_text(tick), 'class="soft" text-anchor="middle"')
+    if panel.is_logarithmic:
+        yield line("grid", (panel.left, TOP - 6), (panel.left, bottom))
+        yield text(panel.left, TOP - 14, "0", 'class="soft" text-anchor="middle"')
+    for i, values in enumerate(panel.series.values()):
+        yield f'<g class="s s{i}">'
+        for row, setting in enumerate(settings):
+            y = TOP + ROW_HEIGHT * (row + 0.5)
+            if not panel.is_logarithmic:
+                yield line("front", (panel.x_of(0), y), (panel.x_of(values[setting]), y))
+            # The smaller dots of later series stay visible on those of earlier ones.
+            yield f'<circle class="dot" cx="{panel.x_of(values[setting]):.1f}" cy="{y:.1f}" r="{5.5 - 1.4 * i:.1f}"/>'
+        yield "</g>"
 
 
-def short(setting):
-    if setting == "default":
-        return "7 (default)"
-    return ", ".join(word for word in setting.split() if not word.startswith("--"))
+def share_text(share):
+    return f"{100 * share:g} %"
 
 
-def ticks(low, high):
-    """About five round numbers from low to high."""
-    step = 10.0 ** math.floor(math.log10((high - low) / 3))
-    step *= max(factor for factor in (1, 2, 5) if factor * step <= (high - low) / 3)
-    return [step * i for i in range(math.ceil(low / step), math.floor(high / step) + 1)]
-
-
-def draw(panel, left, seconds):
-    settings = sorted(next(iter(panel.series.values())), key=lambda setting: seconds[setting])
-    low, high = min(seconds.values()), max(seconds.values())
-    low, high = low - 0.08 * (high - low), high + 0.05 * (high - low)
-    right = left + PLOT_WIDTH
-    bottom_power, top_power = panel.decades
-
-    def x_of(setting_seconds):
-        return left + PLOT_WIDTH * (setting_seconds - low) / (high - low)
-
-    def y_of(error):
-        if error == 0:
-            return ZERO_Y
-        power = min(max(math.log10(error), bottom_power), top_power)
-        return PLOT_BOTTOM - (PLOT_BOTTOM - PLOT_TOP) * (power - bottom_power) / (top_power - bottom_power)
-
-    yield text(left - 55, 34, panel.title, 'class="title"')
-    yield text(left - 55, 52, panel.unit, 'class="soft"')
-    if panel.band:
-        y = y_of(panel.band[0])
-        yield f'<rect class="band" x="{left}" y="{PLOT_TOP}" width="{PLOT_WIDTH}" height="{y - PLOT_TOP:.1f}"/>'
-        yield text(right - 6, PLOT_TOP + 16, panel.band[1], 'class="soft" text-anchor="end"')
-    step = 1 if top_power - bottom_power < 8 else 3
-    for power in range(bottom_power, top_power + 1, step):
-        yield line("grid", (left, y_of(10.0**power)), (right, y_of(10.0**power)))
-        yield text(left - 8, y_of(10.0**power) + 4, panel.tick(power), 'class="soft" text-anchor="end"')
-    yield line("grid", (left, ZERO_Y), (right, ZERO_Y))
-    yield text(left - 8, ZERO_Y + 4, "0", 'class="soft" text-anchor="end"')
-    for tick in ticks(low, high):
-        yield line("axis", (x_of(tick), ZERO_Y + 12), (x_of(tick), ZERO_Y + 17))
-        yield text(x_of(tick), ZERO_Y + 32, f"{tick:g}", 'class="soft" text-anchor="middle"')
-    yield line("axis", (left, PLOT_TOP), (left, PLOT_BOTTOM + 4))
-    yield line("axis", (left, ZERO_Y + 12), (right, ZERO_Y + 12))
-    yield text(left + PLOT_WIDTH / 2, ZERO_Y + 52, "CPU seconds per million triangles",
-               'class="soft" text-anchor="middle"')
-
-    places = spread_out([x_of(seconds[setting]) for setting in settings], 15)
-    for setting, place in zip(settings, places):
-        x = x_of(seconds[setting])
-        yield line("guide", (place, PLOT_TOP - 22), (x, PLOT_TOP - 6), (x, ZERO_Y))
-        turn = f'transform="rotate(-50 {place:.1f} {PLOT_TOP - 26:.1f})"'
-        yield text(place, PLOT_TOP - 26, short(setting), turn)
-
-    legend_top = 18 + (y_of(panel.band[0]) if panel.band else PLOT_TOP)
-    for i, (name, errors) in enumerate(panel.series.items()):
-        points = [(seconds[setting], error) for setting, error in errors.items()]
-        best = front(points)
-        corners = []
-        for x, y in best:
-            if corners:
-                corners.append((x_of(x), corners[-1][1]))
-            corners.append((x_of(x), y_of(y)))
-        yield f'<g class="s s{i}">' + line("front", *corners)
-        for x, y in points:
-            kind = "dot" if (x, y) in best else "behind"
-            yield f'<circle class="{kind}" cx="{x_of(x):.1f}" cy="{y_of(y):.1f}" r="{4 - 0.6 * i:.1f}"/>'
-        yield text(right - 6, legend_top + 17 * i, name, 'text-anchor="end"') + "</g>"
+def power_text(value):
+    return f"1e{math.log10(value):.0f}"
 
 
 def plot(results):
-    seconds = {setting: results.cell("unit", setting, "seconds_per_million_median") for setting in results.settings}
+    beaten = results.beaten()
+    settings = [setting for setting in results.settings("plain") if setting in results.settings("unit")]
+    nanoseconds = {s: 1e9 * results.per_triangle("plain", s, "cpu_seconds") for s in settings}
+    settings.sort(key=nanoseconds.get)
 
-    def errors(scene, wanted, error):
-        return {setting: error(scene, setting) for setting in results.settings if wanted(setting)}
+    def errors(scenes, error):
+        return {name: {s: error(scene, s) for s in settings} for name, scene in scenes.items()}
 
-    def vertex_pixels(scene, setting):
-        return results.cell(scene, setting, "vertex_error_pixels")
-
-    def wrong_percent(scene, setting):
-        return 100 * results.share(scene, setting, "flipped_pixels", "wrong_pixels")
-
-    def off_center_percent(scene, setting):
-        return 100 * results.share(scene, setting, "off_center_pixels")
-
-    def percent_tick(power):
-        return f"{10.0**power:g} %"
-
-    def without(*words):
-        return lambda setting: not any(word in setting for word in words)
-
-    layers = {f"1e{n}": errors(f"layers 1e{n}", without("center"), wrong_percent) for n in (6, 4, 2)}
-    vertices = {name: errors(name, without("center", "depth"), vertex_pixels) for name in ("1e-5", "1e-3", "unit")}
-    edges = {name: errors(name, without("double", "depth"), off_center_percent) for name in ("1e-5", "1e-3", "unit")}
+    layers = errors({f"1e{n}": f"layers 1e{n}" for n in (6, 4, 2)}, lambda scene, s: results.share(scene, s, "flipped_pixels", "wrong_pixels"))
+    vertices = errors({"1e-5": "1e-5", "1e-3": "1e-3", "1": "unit"}, lambda scene, s: results.cell(scene, s, "vertex_error_pixels"))
+    edges = errors({"1e-5": "1e-5", "1e-3": "1e-3", "1": "unit"}, lambda scene, s: results.share(scene, s, "off_center_pixels"))
+    shares = (1e-4, 1e-2, 1)
+    text_bytes = {s: results.cell("plain", s, "bytes") for s in settings}
     panels = [
-        Panel("How far vertices move", "largest error in pixels; an object of size ...",
-              vertices, (-15, 3), lambda power: f"1e{power}", (0.5, "half a pixel and more")),
-        Panel("How much hidden shows", "wrong pixels; two layers 1e-5 apart, far/near ...",
-              layers, (-1, 2), percent_tick),
-        Panel("How true edges are", "pixels not of the triangle at their center; size ...",
-              edges, (-3, 2), percent_tick),
+        Panel("CPU", "ns a triangle", {"": nanoseconds}, LABEL_WIDTH, 150, rounded_up(max(nanoseconds.values()))),
+        Panel("Text", "bytes a triangle", {"": text_bytes}, LABEL_WIDTH + 190, 90, rounded_up(max(text_bytes.values()))),
+        Panel("How far vertices move", "pixels, at most; objects of size", vertices, LABEL_WIDTH + 325, 200, (1e-15, 1e-10, 1e-5, 1, 1e5), True, power_text),
+        Panel("Hidden that shows", "layers 1e-5 apart, far/near", layers, LABEL_WIDTH + 565, 160, shares, True, share_text),
+        Panel("Pixels off center", "objects of size", edges, LABEL_WIDTH + 765, 130, shares, True, share_text),
     ]
-    footnote = ("Along the top: decimals (--digits), and what else differs from the default. Filled and joined by "
-                f"a line: the Pareto front. Medians of {results.rounds} runs, {results.machine}.")
-    size = f'viewBox="0 0 {WIDTH} {HEIGHT}" width="{WIDTH}" height="{HEIGHT}"'
-    parts = [f'<svg xmlns="http://www.w3.org/2000/svg" {size}>',
-             "<title>CPU time against error for the settings of the pipeline, with Pareto fronts</title>",
-             f"<style>{STYLE}</style>",
-             f'<rect class="card" x=".5" y=".5" width="{WIDTH - 1}" height="{HEIGHT - 1}" rx="8"/>',
-             text(20, HEIGHT - 16, footnote, 'class="soft"')]
-    for panel, left in zip(panels, LEFTS):
-        parts += draw(panel, left, seconds)
+    bottom = TOP + ROW_HEIGHT * len(settings)
+    height = bottom + 40
+    footnote = f"Plain triangles, what they cost beyond an empty run. Medians of {results.words('plain', 'rounds')} rounds, {results.machine}."
+    if any(setting in beaten for setting in settings):
+        footnote += " *: beaten by another setting."
+    parts = [f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {height}" width="{WIDTH}" height="{height}">',
+             "<title>Cost and errors of the settings of the pipeline</title>", f"<style>{STYLE}</style>",
+             f'<rect class="card" x=".5" y=".5" width="{WIDTH - 1}" height="{height - 1}" rx="8"/>',
+             text(20, height - 14, footnote, 'class="soft"')]
+    for row, setting in enumerate(settings):
+        y = TOP + ROW_HEIGHT * (row + 0.5)
+        parts.append(line("grid", (20, y + ROW_HEIGHT / 2), (WIDTH - 20, y + ROW_HEIGHT / 2)))
+        parts.append(text(20, y + 4, setting + " *" * (setting in beaten)))
+    for panel in panels:
+        parts += panel_parts(panel, settings, bottom)
     return "\n".join(parts) + "\n</svg>\n"

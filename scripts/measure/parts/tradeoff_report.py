@@ -1,33 +1,29 @@
 """The tables of scripts/measure/tradeoff."""
-import statistics
+from parts.tradeoff_epsilon import DISTANCES
+from parts.tradeoff_epsilon import SETTINGS as EPSILONS
 
-from parts.tradeoff_measure import ratios_of
+# Scenes of which a picture is timed, not a triangle.
+PICTURES = ("fill", "torus", "inside")
 
-
-
-class Results:
-    """The rows of tradeoff.csv: cell(scene, setting, column) is a number, or None if not measured."""
-
-    def __init__(self, rows):
-        self.rows = {(row["scene"], row["setting"]): row for row in rows}
-        self.settings = list(dict.fromkeys(row["setting"] for row in rows))
-        scenes = list(dict.fromkeys(row["scene"] for row in rows))
-        self.cost_scenes = [scene for scene in scenes if self.rows[scene, "default"]["runs_seconds"]]
-        self.error_scenes = [scene for scene in scenes if self.rows[scene, "default"]["covered_pixels"]]
-        self.machine = rows[0]["machine"]
-        self.rounds = len(self.runs(self.cost_scenes[0], "default"))
-
-    def cell(self, scene, setting, column):
-        text = self.rows[scene, setting][column]
-        return float(text) if text else None
-
-    def runs(self, scene, setting):
-        return [float(word) for word in self.rows[scene, setting]["runs_seconds"].split()]
-
-    def share(self, scene, setting, *columns):
-        """The sum of columns as a share of the covered pixels."""
-        count = sum(self.cell(scene, setting, column) for column in columns)
-        return count / self.cell(scene, setting, "covered_pixels")
+# Why a setting stays that another one beats in every column.
+REASONS = {
+    "default": "Assignments ask for `nearest`.",
+    "--digits 5": "Its text is the shortest.",
+    "--digits 6": "It is the text of printf's `%f`.",
+    "--digits 15": "Other programs read it back with the digits that doubles have.",
+    "--precision double": "Where matrices cancel it is faster (`plain pivot`).",
+    "--digits exact --precision double": "Where matrices cancel it is faster (`plain pivot`).",
+    "--depth f32": "A float takes 8 bytes a pixel in place of 12.",
+    "--depth u24": "Between narrow limits of z it is finer than `f32`, and as coarse as the buffer of a graphics card.",
+    "--clip near": "What lies between the eye and the near plane must go.",
+    "--clip frustum": "The text holds nothing that is outside the picture.",
+    "--clip reject": "It drops what is outside and cuts nothing.",
+    "--shading none": "Colors as they are given.",
+    "--shading flat": "Facets show; it is no approximation of `phong`.",
+    "--shading gouraud": "It is what OpenGL does.",
+    "--shading flat --samples 4": "Facets show; it is no approximation of `phong`.",
+    "--shading gouraud --samples 4": "It is what OpenGL does.",
+}
 
 
 def code(setting):
@@ -57,158 +53,236 @@ def table(header, rows):
     return "\n".join(lines) + "\n"
 
 
-def cost_table(results):
+# Cost
+
+def with_quartiles(results, scene, setting, column, factor, form):
+    """The median, and the quartiles in brackets."""
+    median, low, high = (results.cell(scene, setting, name) * factor for name in (column, f"{column}_q1", f"{column}_q3"))
+    return f"{median:{form}} ({low:{form}}-{high:{form}})"
+
+
+def cost_table(results, scene):
+    if scene in PICTURES:
+        unit, factor, form, what = "ms", 1e3, ".1f", "the picture"
+    else:
+        unit, factor, form, what = "ns", 1e9 / results.cell(scene, "default", "triangles"), ".0f", "a triangle"
+    has_counts = results.cell(scene, "default", "instructions") is not None
+
     def cells(setting):
-        def cell(scene, column):
+        def cell(column):
             return results.cell(scene, setting, column)
         yield code(setting)
-        columns = [f"seconds_per_million_{kind}" for kind in ("median", "min", "max")]
-        yield "%.2f (%.2f-%.2f)" % tuple(cell("unit", column) for column in columns)
-        for scene in results.cost_scenes:
-            yield "%.2f (%.2f-%.2f)" % tuple(cell(scene, f"ratio_{kind}") for kind in ("median", "min", "max"))
-        yield number(cell("unit", "bytes_per_triangle"), 3)
+        yield f"{1e3 * cell('empty_cpu_seconds'):.1f}"
+        yield f"{cell('empty_mib'):.0f}"
+        yield with_quartiles(results, scene, setting, "cpu_seconds", factor, form)
+        yield with_quartiles(results, scene, setting, "ratio", 1, ".2f")
+        yield with_quartiles(results, scene, setting, "wall_seconds", factor, form)
+        if has_counts:
+            yield f"{cell('instructions'):,.0f}"
+        yield f"{cell('bytes'):.0f}"
+        yield f"{cell('mib'):.0f}"
 
-    header = ["setting", "CPU s per million triangles, unit", *(f"ratio, {scene}" for scene in results.cost_scenes),
-              "bytes per triangle"]
-    return table(header, [list(cells(setting)) for setting in results.settings])
+    header = ["setting", "empty run: CPU, ms", "MiB", f"{what}: CPU, {unit}", "times the default's", f"wall, {unit}",
+              *["instructions"] * has_counts, "bytes of a triangle", "MiB of the run"]
+    return table(header, [list(cells(setting)) for setting in results.settings(scene)])
 
+
+def cost_section(results, scene):
+    title = results.titles[scene]
+    count, size = int(results.cell(scene, "default", "triangles")), results.words(scene, "size")
+    return f"### {scene}: {title}\n\n{count:,} triangles, {size} pixels.\n\n{cost_table(results, scene)}"
+
+
+# Errors
 
 def error_table(results, text_of_cell):
     return table(["setting", *results.error_scenes],
                  [[code(setting), *(text_of_cell(scene, setting) for scene in results.error_scenes)]
-                  for setting in results.settings])
+                  for setting in results.settings(results.error_scenes[0])])
 
 
-# Settings whose base is not the default but the same setting without its last option.
-BASES = {"--digits exact --precision double": "--digits exact"}
-SPEED = "speed"
+def vertex_cell(results):
+    return lambda scene, setting: number(results.cell(scene, setting, "vertex_error_pixels"))
 
 
-def gains(results, setting):
-    """(the gain, scenes) against its base. Speed: 3 % less CPU time, by the median of the ratios and by the
-    fastest runs. Accuracy: a tenth of an error, and for pixels 10 fewer."""
-    base = BASES.get(setting, "default")
-
-    def is_faster(scene):
-        own, other = results.runs(scene, setting), results.runs(scene, base)
-        return max(statistics.median(ratios_of(own, other)), min(own) / min(other)) <= 0.97
-
-    def is_better(scene, columns, least):
-        values = [[results.cell(scene, name, column) for column in columns] for name in (setting, base)]
-        if None in values[0] + values[1]:
-            return False
-        own, other = map(sum, values)
-        return own <= other / 10 and other - own > least
-
-    yield SPEED, [scene for scene in results.cost_scenes if is_faster(scene)]
-    for what, columns, least in (("vertices", ["vertex_error_pixels"], 0), ("depths", ["depth_error_median"], 0),
-                                 ("pixels", ["flipped_pixels", "wrong_pixels"], 9),
-                                 ("edges", ["off_center_pixels"], 9)):
-        yield what, [scene for scene in results.error_scenes if is_better(scene, columns, least)]
+def off_center_cell(results):
+    return lambda scene, setting: percent(results.share(scene, setting, "off_center_pixels"))
 
 
-def gains_table(results):
-    def named(scenes):
-        return "all" if len(scenes) == len(results.error_scenes) else ", ".join(scenes)
+def pixels_cell(results):
+    def text(scene, setting):
+        counts = [results.cell(scene, setting, f"{kind}_pixels") for kind in ("flipped", "wrong", "neighbor")]
+        return " / ".join("%d" % count for count in counts) if any(counts) else "0"
+    return text
 
+
+def depth_cell(results):
+    def text(scene, setting):
+        errors = [results.cell(scene, setting, f"depth_error_{kind}") for kind in ("median", "max")]
+        return " / ".join(map(number, errors)) if None not in errors else "none"
+    return text
+
+
+def epsilon_table(results):
     def cells(setting):
-        bought = dict(gains(results, setting))
-        yield code(setting) + (f", against `{BASES[setting]}`" if setting in BASES else "")
-        yield ", ".join(bought.pop(SPEED)) or "-"
-        yield "; ".join(f"{what}: {named(scenes)}" for what, scenes in bought.items() if scenes) or "-"
+        rows = [results.epsilon[setting, str(distance)] for distance in DISTANCES]
+        yield code(setting)
+        yield from (percent(float(row["fighting"])) for row in rows)
+        yield from (number(float(row["swallowed"])) for row in rows)
 
-    return table(["setting", "buys speed on", "buys accuracy on"],
-                 [list(cells(setting)) for setting in results.settings[1:]])
+    header = ["setting", *(f"pixels that fight at {distance}" for distance in DISTANCES), *(f"gap hidden at {distance}" for distance in DISTANCES)]
+    return table(header, [list(cells(str(setting))) for setting in EPSILONS])
+
+
+def beaten_table(results):
+    rows = [[code(setting), ", ".join(map(code, winners)), REASONS.get(setting, "")] for setting, winners in results.beaten().items()]
+    return table(["setting", "beaten by", "it stays because"], rows) if rows else "None is.\n"
 
 
 def report(results):
-    def vertex(scene, setting):
-        return number(results.cell(scene, setting, "vertex_error_pixels"))
-
-    def off_center(scene, setting):
-        return percent(results.share(scene, setting, "off_center_pixels"))
-
-    def pixels(scene, setting):
-        counts = [results.cell(scene, setting, f"{kind}_pixels") for kind in ("flipped", "wrong", "neighbor")]
-        return " / ".join("%d" % count for count in counts) if any(counts) else "0"
-
-    def depth(scene, setting):
-        errors = [results.cell(scene, setting, f"depth_error_{kind}") for kind in ("median", "max")]
-        return " / ".join(map(number, errors)) if None not in errors else "none"
-
+    rounds = results.words(results.cost_scenes[0], "rounds")
+    counted = {"callgrind": "Instructions are those that Valgrind counts, on a processor with AVX2 and without AVX-512",
+               "perf": "Instructions are those that the processor counts outside the kernel"}.get(results.counter, f"Instructions: {results.counter}")
+    costs = "\n".join(cost_section(results, scene) for scene in results.cost_scenes)
     return f"""# What accuracy costs
 
-Written by `scripts/measure/tradeoff`; all numbers are in [tradeoff.csv](tradeoff.csv). A setting is named by what differs from
-the default, `--digits 7 --precision extended --coverage nearest --depth f64`.
+Written by `scripts/measure/tradeoff`; all numbers are in [tradeoff.csv](tradeoff.csv) and [epsilon.csv](epsilon.csv). A setting is named
+by what differs from the default, `--digits 7 --precision extended --coverage nearest --depth f64`.
 
-![time against error](tradeoff.svg)
+![cost and errors of every setting](tradeoff.svg)
 
 ## Cost
 
-CPU time of the whole pipe `model | view | project | zbuf` on {results.machine}:
-the median of {results.rounds} runs, in brackets the smallest and the largest. A ratio is to the default's time in the same
-round. Bytes are those in the three pipes together. In `fill`, 40 rectangles as large as a picture of 1400 x 1400, nearly
-all time goes into pixels.
+The whole pipe `model | view | project | zbuf` on {results.machine}. An *empty run* has the same header, options and picture, but no triangle:
+it is what a run costs anyway. What it costs is taken off the run with triangles of the same round; the rest is given for a triangle, or for
+the picture. Medians of {rounds} rounds, quartiles in brackets; a ratio is to the default's time in the same round. Wall time is that on two
+cores. {counted}: those of a picture with as large triangles, but a 25th of them (`ball` and `half`: the same). Memory is the sum of
+the stages' largest resident sets. Bytes are those in the three pipes together.
 
-{cost_table(results)}
+{costs}
 ## What it gives up
 
-Against a lossless run (`--digits exact --precision extended --depth f64`) with the same rule of coverage.
+Against a lossless run (`--digits exact`) with the same rule of coverage.
 
 Largest error of a vertex on the screen, in pixels:
 
-{error_table(results, vertex)}
+{error_table(results, vertex_cell(results))}
 Pixels: flipped (covered here or there, not in both) / wrong (a triangle that should be hidden) / neighbor (one that
 shares a vertex with the right triangle). `nearest` lights pixels on a common edge twice, and which of the two triangles
 is nearer there hangs on the last bits of their depths: hence neighbors, whatever the number of digits.
 
-{error_table(results, pixels)}
+{error_table(results, pixels_cell(results))}
 Depth (NDC z) where the right triangle is seen: median / largest error. The largest are on triangles seen nearly
 edge-on, of which a pixel shows depths from end to end.
 
-{error_table(results, depth)}
+{error_table(results, depth_cell(results))}
 Pixels that show another triangle than the nearest in which their center lies, as a share of those covered:
 
-{error_table(results, off_center)}
-## What each value buys
+{error_table(results, off_center_cell(results))}
+## What --depth-epsilon hides
 
-Speed: 3 % less CPU time, both by the median of the ratios and by the fastest runs. Accuracy: a tenth of an error or
-less (vertices: the largest; depths: the median; pixels: flipped and wrong; edges: the last table above; the last two
-by 10 pixels at least).
+One oblique plane, drawn twice and divided differently, should show the surface drawn first: pixels that show the other *fight*. Strips before
+a wall should all show: the *gap hidden* is the largest between a strip and the wall, in units of the scene, whose strip does not show; 0 if
+all do. At distances of 5, 50 and 500, near 1, far 1000.
 
-{gains_table(results)}"""
+{epsilon_table(results)}
+## Settings that another one beats
+
+Nowhere worse in cost or error, and better somewhere, in every scene in which both were measured. Costs differ if they do so by more than
+3 %, times only if their quartiles do not overlap, either.
+
+{beaten_table(results)}"""
 
 
 # docs/accuracy.md
 
 SHORT_SETTINGS = [
-    "default", "--digits 5", "--digits 9", "--digits 12", "--digits exact", "--precision double",
-    "--digits exact --precision double", "--depth f32", "--coverage center", "--digits 9 --coverage center",
-    "--digits exact --coverage center"]
+    "default", "--digits 5", "--digits 9", "--digits 12", "--digits exact", "--precision double", "--depth f32", "--coverage center",
+    "--digits 9 --coverage center", "--digits exact --coverage center"]
+LIT_SETTINGS = ["default", "--digits 9", "--digits exact", "--coverage center", "--shading none", "--samples 2"]
 
 
 def short_table(results):
     def cells(setting):
         yield code(setting)
-        yield "%.2f" % results.cell("unit", setting, "ratio_median")
-        yield number(results.cell("unit", setting, "bytes_per_triangle"), 3)
-        for scene in ("unit", "1e-3", "1e-5"):
-            yield number(results.cell(scene, setting, "vertex_error_pixels"), 1)
-        for scene in ("layers 1e2", "layers 1e4", "layers 1e6"):
-            yield percent(results.share(scene, setting, "flipped_pixels", "wrong_pixels"))
+        yield f"{results.cell('plain', setting, 'ratio'):.2f}"
+        yield f"{results.cell('plain', setting, 'bytes'):.0f}"
+        yield from (number(results.cell(scene, setting, "vertex_error_pixels"), 1) for scene in ("unit", "1e-3", "1e-5"))
+        yield from (percent(results.share(f"layers {ratio}", setting, "flipped_pixels", "wrong_pixels")) for ratio in ("1e2", "1e4", "1e6"))
         yield percent(results.share("unit", setting, "off_center_pixels"))
 
-    header = ["setting", "CPU time", "bytes per triangle", "vertex error, object of size 1", "1e-3", "1e-5",
-              "wrong pixels, far/near 1e2", "1e4", "1e6", "off-center pixels"]
+    header = ["setting", "CPU time", "bytes", "vertex error, size 1", "1e-3", "1e-5", "wrong pixels, far/near 1e2", "1e4", "1e6", "off-center pixels"]
     return table(header, [list(cells(setting)) for setting in SHORT_SETTINGS])
 
 
-def short_report(results):
-    """The table and the plot for docs/accuracy.md."""
-    cost = results.cell("unit", "default", "seconds_per_million_median")
-    return f"""{short_table(results)}
-CPU time is that of the whole pipe, relative to the default's: {cost:.1f} s per million triangles, the median of
-{results.rounds} rounds on {results.machine}.
+def price_table(results):
+    """What a run and a triangle cost, by kind of scene."""
+    scenes = {"plain": "plain", "color": "a color, one light", "normals": "colors, normals, one light"}
 
-![CPU time against three kinds of error, for every setting](../scripts/measure/results/tradeoff.svg)
+    def cells(scene, title):
+        yield title
+        yield f"{1e3 * results.cell(scene, 'default', 'empty_cpu_seconds'):.0f} ms, {results.cell(scene, 'default', 'empty_mib'):.0f} MiB"
+        yield f"{1e9 * results.per_triangle(scene, 'default', 'cpu_seconds'):.0f} ns"
+        yield f"{1e9 * results.per_triangle(scene, 'default', 'wall_seconds'):.0f} ns"
+        yield f"{results.cell(scene, 'default', 'bytes'):.0f}"
+        yield f"{results.cell(scene, 'default', 'mib'):.0f} MiB"
+        yield from (f"{results.cell(scene, setting, 'ratio'):.2f}" for setting in ("--digits 9", "--digits exact", "--coverage center", "--samples 2"))
+
+    header = ["a million triangles", "an empty run", "a triangle: CPU", "wall, 2 cores", "bytes", "memory of the run", "`--digits 9`",
+              "`--digits exact`", "`--coverage center`", "`--samples 2`"]
+    return table(header, [list(cells(*item)) for item in scenes.items()])
+
+
+def short_report(results):
+    """The tables and the plot for docs/accuracy.md."""
+    return f"""{price_table(results)}
+{short_table(results)}
+Medians of {results.words('plain', 'rounds')} rounds on {results.machine}. The last four columns of the first table, and the CPU time of the second, are
+what a triangle costs with the setting, relative to the default.
+
+![Cost and errors of every setting](../scripts/measure/results/tradeoff.svg)
+"""
+
+
+# docs/lighting.md
+
+def shading_table(results):
+    names = {"torus": "torus", "inside": "room from inside"}
+
+    def cells(setting):
+        yield code(setting)
+        for name in names:
+            if results.cell(name, setting, "ratio") is None:
+                yield from ("", "must cut", "")
+            else:
+                yield f"{results.cell(name, setting, 'ratio'):.2f}"
+                yield f"{results.cell(name, setting, 'difference_mean'):.2f}"
+                yield f"{results.cell(name, setting, 'difference_max'):.0f}"
+
+    header = ["setting", *(words for name in names.values() for words in (f"{name}: CPU time", "mean difference", "largest"))]
+    return table(header, [list(cells(setting)) for setting in results.settings("torus")])
+
+
+def culling_table(results):
+    scenes = ("ball", "half")
+
+    def cells(setting):
+        yield code(setting)
+        for scene in scenes:
+            plain, own = (results.cell(scene, s, "instructions") for s in ("default", setting))
+            yield f"{results.cell(scene, setting, 'ratio'):.2f}"
+            yield f"{100 * own / plain - 100:+.0f} %" if own else "not counted"
+        changed = results.cell("ball", setting, "channels_changed")
+        yield "" if changed is None else f"{changed:,.0f} of {results.cell('ball', setting, 'channels'):,.0f}"
+
+    count = int(results.cell("ball", "default", "triangles"))
+    header = [f"ball of {count:,} triangles", "CPU time", "instructions", "half of it in the picture: CPU time", "instructions", "channels that culling changes"]
+    return table(header, [list(cells(setting)) for setting in results.settings("ball")[1:]])
+
+
+def lighting_report(results):
+    return f"""{shading_table(results)}
+{culling_table(results)}
+CPU time is what the triangles cost the whole pipe at 480 x 360 pixels, relative to the default (phong, one sample, `--coverage nearest`); an empty
+run is taken off. Medians of {results.words('torus', 'rounds')} rounds on {results.machine}; instructions by {results.counter}, relative to the default's.
 """

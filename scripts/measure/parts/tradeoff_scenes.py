@@ -1,4 +1,4 @@
-"""The scenes of scripts/measure/tradeoff: those that stress numbers, and those that run long enough to be timed."""
+"""The scenes of scripts/measure/tradeoff that stress numbers: small ones, to measure errors."""
 import dataclasses
 import math
 import random
@@ -122,24 +122,3 @@ def scenes_of_errors(quick):
     for exponent in (2, 4, 6):
         yield layers("layers 1e%d" % exponent, "two layers 1e-5 apart, far/near 1e%d" % exponent, 10**exponent,
                      detail, size)
-
-
-def fill(name, title, count, size):
-    """Oblique rectangles as large as the picture, not sorted by depth: nearly all time goes into pixels."""
-    dice = random.Random(1)
-    triangles = []
-    for _ in range(count):
-        # At 45 degrees the picture is twice as wide as its distance.
-        corners = [(x * d, y * d, -d) for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1))
-                   for d in [dice.uniform(1, 10)]]
-        triangles += [(corners[0], corners[1], corners[2]), (corners[0], corners[2], corners[3])]
-    return scene(name, title, camera((0, 0, 0), (0, 0, -1), 90, 1, 10), [], triangles, size)
-
-
-def scenes_of_costs(quick):
-    fine, coarse, size, large = (((8, 12), (8, 12), (64, 64), (64, 64)) if quick else
-                                 ((200, 125), (128, 100), (800, 800), (1400, 1400)))
-    yield ball_scene("unit", "an object of size 1", 1, fine, size)
-    yield planet("planet", "an object of size 1, and the eye, 6.4e6 from the origin", coarse, size)
-    yield pivot("pivot", "vertices 1e9 from the origin, moved back to it", coarse, size)
-    yield fill("fill", "40 rectangles as large as the picture", 40, large)

@@ -1,39 +1,9 @@
-"""The cost and the errors of a setting of the pipeline: the measurements of scripts/measure/tradeoff."""
-import dataclasses
+"""The errors of a setting on a scene, against a lossless run."""
 import math
 import pathlib
-import random
-import statistics
 import subprocess
 
-from parts.measuring import cost_of
-
-TOOLS = ("model", "view", "project", "zbuf")
-
-
-@dataclasses.dataclass(frozen=True)
-class Setting:
-    digits: str = "7"
-    precision: str = "extended"
-    coverage: str = "nearest"
-    depth: str = "f64"
-
-    def __str__(self):
-        """The options that differ from the default."""
-        fields = dataclasses.fields(self)
-        changed = [f"--{f.name} {getattr(self, f.name)}" for f in fields if getattr(self, f.name) != f.default]
-        return " ".join(changed) or "default"
-
-    def command(self, bin_dir, tool):
-        if tool == "zbuf":
-            options = ["--coverage", self.coverage, "--depth", self.depth, "--image", "picture.ppm", "config.txt"]
-        else:
-            options = ["--digits", self.digits, "--precision", self.precision]
-        return [str(bin_dir / tool), *options]
-
-
-DEFAULT = Setting()
-MOST_EXACT = Setting(digits="exact", coverage="center")
+from parts.tradeoff_setting import MOST_EXACT, TOOLS, Setting
 
 
 class Bench:
@@ -43,7 +13,6 @@ class Bench:
         self.bin_dir = pathlib.Path(bin_dir).resolve()
         self.folder = pathlib.Path(folder)
         self.scene = scene
-        (self.folder / "scene.txt").write_text(scene.text)
         self.set_depth_limits(1)
 
     def set_depth_limits(self, limit):
@@ -57,84 +26,18 @@ class Bench:
             raise SystemExit(f"tradeoff: {tool}, {setting}: {done.stderr.decode()}")
         return done.stdout
 
-    def stage_texts(self, setting):
-        """The output of model, view and project."""
-        texts = [self.scene.text.encode()]
-        for tool in TOOLS[:3]:
-            texts.append(self.run(tool, setting, texts[-1]))
-        return texts[1:]
-
-    def picture(self, setting):
-        """The channels of the image, from the top left."""
+    def projected(self, setting):
+        """The output of project."""
         text = self.scene.text.encode()
-        for tool in TOOLS:
+        for tool in TOOLS[:3]:
             text = self.run(tool, setting, text)
-        return (self.folder / "picture.ppm").read_bytes()[-3 * self.scene.columns * self.scene.rows:]
+        return text
 
-    def cpu_seconds(self, setting):
-        """The CPU time, user and system, of each stage of a whole pipe."""
-        processes, seconds = [], []
-        source = open(self.folder / "scene.txt", "rb")
-        with open(self.folder / "notes.txt", "w+b") as notes:
-            for tool in TOOLS:
-                sink = subprocess.DEVNULL if tool == "zbuf" else subprocess.PIPE
-                processes.append(subprocess.Popen(setting.command(self.bin_dir, tool), cwd=self.folder,
-                                                  stdin=source, stdout=sink, stderr=notes))
-                source.close()
-                source = processes[-1].stdout
-            for process in processes:
-                seconds.append(cost_of(process, f"tradeoff: {setting}", notes).cpu_seconds)
-        return seconds
+    def pixels(self):
+        """The pixels of the last picture, three bytes each, from the top left."""
+        channels = (self.folder / "picture.ppm").read_bytes()[-3 * self.scene.columns * self.scene.rows:]
+        return [channels[i:i + 3] for i in range(0, len(channels), 3)]
 
-
-# Cost
-
-def costs(bench, settings, rounds, dice):
-    """The cost of the pipe for each setting. A round runs all settings once, in a new order, so that other load on the
-    machine affects all alike."""
-    runs = {setting: [] for setting in settings}
-    for _ in range(rounds):
-        for setting in dice.sample(settings, len(settings)):
-            runs[setting].append(bench.cpu_seconds(setting))
-    totals = {setting: [sum(stages) for stages in runs[setting]] for setting in settings}
-
-    def cost(setting):
-        per_million = 1e6 / bench.scene.triangle_count
-        ratios = ratios_of(totals[setting], totals[DEFAULT])
-        stages = [statistics.median(stage) * per_million for stage in zip(*runs[setting])]
-        return {
-            "seconds_per_million_median": statistics.median(totals[setting]) * per_million,
-            "seconds_per_million_min": min(totals[setting]) * per_million,
-            "seconds_per_million_max": max(totals[setting]) * per_million,
-            "ratio_median": statistics.median(ratios),
-            "ratio_min": min(ratios),
-            "ratio_max": max(ratios),
-            **{f"{tool}_seconds_per_million": seconds for tool, seconds in zip(TOOLS, stages)},
-            "runs_seconds": " ".join(f"{total:.6f}" for total in totals[setting]),
-        }
-
-    return {setting: cost(setting) for setting in settings}
-
-
-def ratios_of(totals, base_totals):
-    """Round by round, since a temporary load on the machine slows both."""
-    return [total / base_total for total, base_total in zip(totals, base_totals)]
-
-
-def median_ratio(totals, base_totals):
-    return statistics.median(ratios_of(totals, base_totals))
-
-
-def cpu_seconds_in_turn(bench, settings, rounds):
-    """The CPU time of the whole pipe, {setting: [of each round]}, in a new order each round."""
-    dice, seconds = random.Random(1), {setting: [] for setting in settings}
-    for _ in range(rounds):
-        for setting in dice.sample(settings, len(settings)):
-            seconds[setting].append(sum(bench.cpu_seconds(setting)))
-    return seconds
-
-
-# Error
 
 # The text of the z-buffer has six decimals. To show smaller errors, depths are multiplied by this before zbuf
 # reads them, and so are its limits: a power of two changes neither roundings nor comparisons.
@@ -172,23 +75,22 @@ class Errors:
         for triangle, (color, number) in enumerate(distinct_colors(self.scene.triangle_count).items()):
             self.owner_of_color[color] = triangle
             self.numbers.append(number)
-        self.projections = {}  # by digits and precision: the vertices as words, and the bytes in the pipes
+        self.projections = {}  # by digits and precision: the vertices as words
         self.pictures = {}     # by setting
-        true_vertices = self.projection(MOST_EXACT)[0]
+        true_vertices = self.projection(MOST_EXACT)
         # The scenes avoid clipping.
         assert len(true_vertices) == 3 * self.scene.triangle_count
         self.corners = [{tuple(vertex) for vertex in true_vertices[3 * i:3 * i + 3]}
                         for i in range(self.scene.triangle_count)]
 
     def of(self, setting):
-        lossless = Setting(digits="exact", coverage=setting.coverage)
+        lossless = MOST_EXACT if setting.value("--coverage") == "center" else Setting("--digits exact")
         picture, true_picture = self.picture(setting), self.picture(lossless)
         differences = self.differences(picture, true_picture)
         against_centers = self.differences(picture, self.picture(MOST_EXACT))
         depth_errors = sorted(abs(depth - true_depth) for (owner, depth), (true_owner, true_depth)
                               in zip(picture, true_picture) if owner == true_owner is not None)
         return {
-            "bytes_per_triangle": self.projection(setting)[1] / self.scene.triangle_count,
             "vertex_error_pixels": self.vertex_error(setting, lossless),
             "covered_pixels": sum(owner is not None for owner, _ in true_picture),
             "flipped_pixels": differences["flip"],
@@ -200,17 +102,16 @@ class Errors:
         }
 
     def projection(self, setting):
-        key = setting.digits, setting.precision
+        key = setting.value("--digits"), setting.value("--precision")
         if key not in self.projections:
-            texts = self.bench.stage_texts(setting)
-            vertices = [line.split() for line in texts[-1].decode().split("\n") if line]
-            self.projections[key] = vertices, sum(map(len, texts))
+            lines = self.bench.projected(setting).decode().split("\n")
+            self.projections[key] = [line.split() for line in lines if line]
         return self.projections[key]
 
     def picture(self, setting):
         """The triangle seen at each pixel, or None, and its depth, from the top left."""
         if setting not in self.pictures:
-            vertices = self.projection(setting)[0]
+            vertices = self.projection(setting)
             lines = []
             for i, number in enumerate(self.numbers):
                 lines.append(f"triangle {number}")
@@ -218,8 +119,7 @@ class Errors:
                 lines.append("")
             self.bench.set_depth_limits(DEPTH_SCALE)
             depths = iter(self.bench.run("zbuf", setting, "\n".join(lines).encode()).split())
-            image = (self.bench.folder / "picture.ppm").read_bytes()[-3 * self.scene.columns * self.scene.rows:]
-            owners = [self.owner_of_color[image[i:i + 3]] for i in range(0, len(image), 3)]
+            owners = [self.owner_of_color[color] for color in self.bench.pixels()]
             self.pictures[setting] = [(None, 1.0) if owner is None else (owner, float(next(depths)) / DEPTH_SCALE)
                                       for owner in owners]
             assert next(depths, None) is None, "the z-buffer's text has more depths than the image has colored pixels"
@@ -243,7 +143,7 @@ class Errors:
     def vertex_error(self, setting, lossless):
         """The largest error, in pixels, of a vertex on the screen."""
         largest = 0.0
-        for words, true_words in zip(self.projection(setting)[0], self.projection(lossless)[0]):
+        for words, true_words in zip(self.projection(setting), self.projection(lossless)):
             if words == true_words:
                 continue
             (x, y, _), (true_x, true_y, true_z) = map(float, words), map(float, true_words)
