@@ -21,20 +21,55 @@ FILTERED = (b"0.0000000 0.0000000 0.0000000\n0.8000000 0.3600000 0.4800000\n-0.6
 
 
 class BenchTest(unittest.TestCase):
+    def bench(self, folder, *options):
+        return subprocess.run([sys.executable, SOURCE_DIR / "scripts/measure/bench", "--quick", "--bin", BIN_DIR, "--baselines", BIN_DIR, "--out", folder, *options],
+                              check=True, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, text=True)
+
     def test_every_group_has_figures(self):
         with tempfile.TemporaryDirectory() as folder:
-            subprocess.run([sys.executable, SOURCE_DIR / "scripts/measure/bench", "--quick", "--bin", BIN_DIR, "--baselines", BIN_DIR,
-                            "--out", folder], check=True, stdin=subprocess.DEVNULL)
+            done = self.bench(folder)
             with open(pathlib.Path(folder, "bench.csv"), newline="") as file:
                 rows = list(csv.DictReader(file))
             self.assertEqual({row["group"] for row in rows}, {"filter", "pipe", "threads", "zbuf", "large triangles", "triangles of 3 pixels"})
             self.assertTrue(all(float(row["median"]) > 0 for row in rows))
+            with open(pathlib.Path(folder, "yardsticks.csv"), newline="") as file:
+                yardsticks = {row["name"]: row for row in csv.DictReader(file)}
+            self.assertLessEqual({"`model`", "`view`", "`project`", "`zbuf`", "`zbuf`, lit", "the pipe", "the pipe, lit", "a plain filter, `from_chars`",
+                                  "a plain filter, iostream", "a student's program, all four stages"}, yardsticks.keys())
+            self.assertTrue(all(float(row[column]) > 0 for row in yardsticks.values() for column in ("wall_seconds", "mib", "copy", "read", "clock")))
+            # f3d is there, or its absence is told.
+            self.assertEqual("f3d, the lit model" in yardsticks, "skipped f3d" not in done.stdout)
             self.assertIn("| filter | iostream |", pathlib.Path(folder, "bench.md").read_text())
             with open(pathlib.Path(folder, "growth.csv"), newline="") as file:
                 growth = list(csv.DictReader(file))
             self.assertEqual(len(growth), 8)  # two sizes, two counts, two kinds
             self.assertTrue(all(float(row["cpu_seconds"]) > 0 for row in growth))
             ElementTree.parse(pathlib.Path(folder, "growth.svg"))
+
+    def test_what_the_memory_cannot_hold_is_not_tried(self):
+        with tempfile.TemporaryDirectory() as folder:
+            self.bench(folder, "--reach")
+            with open(pathlib.Path(folder, "reach.csv"), newline="") as file:
+                rows = list(csv.DictReader(file))
+            self.assertEqual([row["triangles"] for row in rows], ["576", "576", "192", ""])  # 192, three times
+            self.assertEqual([bool(row["needed_gib"]) for row in rows], [False, False, False, True])
+            self.assertTrue(all(float(row["cpu_seconds"]) > 0 and float(row["zbuf_mib"]) > 1 for row in rows[:3]))
+
+    def test_the_shares_of_a_row_are_arithmetic(self):
+        sys.path[:0] = [str(SOURCE_DIR / "scripts/measure")]
+        from parts.yardsticks import shares
+        # At 2 GHz, 2 s for 10 triangles are 4e8 cycles each: 4e8 instructions take a quarter of them, 4e6 mispredictions 15 %.
+        row = {"cpu_seconds": "2", "system_seconds": "0.5", "count": "10", "clock": "2", "instructions": "4e8", "mispredictions": "4e6",
+               "misses": "1e6", "copy": "3.2", "text_bytes": "1"}
+        self.assertEqual({key: round(share, 9) for key, share in shares(row).items()},
+                         {"the system": 0.25, "instructions": 0.25, "mispredicted branches": 0.15, "memory": 0.1})
+
+    def test_the_student_draws_what_the_tools_draw(self):
+        with tempfile.TemporaryDirectory() as name:
+            folder = pathlib.Path(name)
+            sample = SOURCE_DIR / "samples/worked-example"
+            subprocess.run([BIN_DIR / "student_pipeline", "all", sample / "scene.txt", sample / "config.txt", "--folder", folder], check=True)
+            self.assertEqual((folder / "stage3.txt").read_bytes(), (sample / "stage3.txt").read_bytes())
 
     def test_the_plain_filters_turn_and_move_triangles(self):
         for name in ("filter_from_chars", "filter_iostream"):
