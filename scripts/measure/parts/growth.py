@@ -3,8 +3,8 @@ import math
 import random
 import shutil
 
+from lib.svg import STYLE, end_labels, line, text
 from parts.measuring import machine, run_pipe
-from parts.svg import STYLE, end_labels, line, text
 
 SIZES = (100, 500, 2000, 8192)
 SMALL_COUNTS = (10**3, 10**4, 10**5, 10**6, 10**7)

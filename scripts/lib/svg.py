@@ -1,4 +1,4 @@
-"""Drawing for the plots of the measuring scripts: SVG in the reader's theme."""
+"""Drawing for plots: SVG in the reader's theme."""
 import html
 
 LIGHT = {"card": "#ffffff", "edge": "#d0d7de", "grid": "#e4e8ec", "axis": "#8c959f", "guide": "#afb8c1",
