@@ -9,6 +9,7 @@ import tempfile
 from explain_parts.window import Window
 from lib.input_file import read_input
 from lib.stage_text import parse_stage_text, text_of
+from lib.tool_options import words_of_project
 
 FRAGMENT = re.compile(r"zbuf: \d+,\d+: triangle (\d+), depth (\S+): (.*)")
 EXACT = ("--digits", "exact")
@@ -36,8 +37,7 @@ class Settings:
 
     @property
     def of_project(self):
-        given = {"--aspect": self.aspect, "--clip": self.clip, "--cull": self.cull}
-        return [word for option, value in given.items() if value for word in (option, value)]
+        return words_of_project(self)
 
 
 class Stages:

@@ -26,6 +26,13 @@ def default_folder():
     return SOURCE / "build/release/bin"
 
 
+def checked(done, tool):
+    """The finished run of a tool, or its message as a ToolFailure."""
+    if done.returncode != 0:
+        raise ToolFailure(done.stderr.decode(errors="replace").strip() or f"{tool}: exit status {done.returncode}")
+    return done
+
+
 class Tools:
     """The tools in a folder, by default $BIN, else those that belong to the command that runs."""
 
@@ -37,13 +44,16 @@ class Tools:
 
     def run(self, tool, *words, stdin=b""):
         """A finished run with the bytes `stdin` as input, its stdout and stderr as bytes."""
-        done = subprocess.run([self.folder / tool, *map(str, words)], input=stdin, capture_output=True)
-        if done.returncode != 0:
-            raise ToolFailure(done.stderr.decode(errors="replace").strip() or f"{tool}: exit status {done.returncode}")
-        return done
+        return checked(subprocess.run([self.folder / tool, *map(str, words)], input=stdin, capture_output=True), tool)
 
     def output(self, tool, *words, stdin=b""):
         return self.run(tool, *words, stdin=stdin).stdout
+
+    def write(self, path, tool, *words):
+        """Runs a tool with its stdout in a file; its notes."""
+        with open(path, "wb") as file:
+            done = subprocess.run([self.folder / tool, *map(str, words)], stdin=subprocess.DEVNULL, stdout=file, stderr=subprocess.PIPE)
+        return checked(done, tool).stderr.decode(errors="replace").splitlines()
 
     @staticmethod
     @contextlib.contextmanager

@@ -124,6 +124,25 @@ def parsed(text, name):
     return StageText(header, [vertices[i:i + 3] for i in range(0, len(vertices), 3)], names)
 
 
+def triangle_lines(lines):
+    """(number, its three vertex lines) of each triangle, or piece of one, as they come; `lines` are the bytes of a text that a
+    tool has written, however long."""
+    number, corners, passed_over = 0, [], 0
+    for line in lines:
+        if line[:1] in b"-0123456789":
+            if passed_over:
+                passed_over -= 1
+                continue
+            corners.append(line)
+            if len(corners) == 3:
+                yield number, corners
+                number, corners = number + 1, []
+        elif line.startswith(b"triangle "):
+            number = int(line[9:])
+        elif line == b"clipped\n":  # the whole triangle in clip space; its pieces follow
+            passed_over = 3
+
+
 def triangle_number(word, place):
     if not re.fullmatch("[0-9]{1,20}", word):
         raise StageTextError(f"{place}: expected a triangle's number, found '{shown(word[:40])}'")

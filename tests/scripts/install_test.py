@@ -123,7 +123,7 @@ class Installed(unittest.TestCase):
         self.assertIn("Permission denied", done.stderr)
 
     def test_every_command_answers_help(self):
-        self.assertLessEqual({*TOOLS, "stages", "compare", "explain", "inspect", "fly"}, set(commands()))
+        self.assertLessEqual({*TOOLS, "stages", "compare", "explain", "inspect", "fly", "trade"}, set(commands()))
         self.give()
         for command in commands():
             with self.subTest(command):

@@ -1,0 +1,295 @@
+#!/usr/bin/env python3
+"""scripts/trade: what it measures is what arithmetic says, and the command line it names gives the picture it promises. No claim
+depends on time.
+
+usage: trade_test.py BIN_DIR [UNITTEST ARGUMENT...]
+"""
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+import xml.etree.ElementTree
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "tools"))
+from toolbox import BIN, CAMERA, SOURCE, ToolTest, pipe, run  # noqa: E402
+
+sys.path.insert(0, str(SOURCE / "scripts"))
+from lib.owners import NOBODY, owners, write_marked  # noqa: E402
+from lib.pipe_tools import Tools  # noqa: E402
+from trade_parts.choice import Limits, Row, cheapest, least_wrong, nearest  # noqa: E402
+from trade_parts.errors import Screen, digits_left, vertex_pairs  # noqa: E402
+from trade_parts.pipe import DEFAULT, Pipe, Setting, settings  # noqa: E402
+from trade_parts.report import about_times  # noqa: E402
+from trade_parts.timing import EMPTY, Quartiles, Times  # noqa: E402
+
+SETTINGS = 9  # of each coverage rule
+# Two walls 1e-6 apart, the hidden one first, seen from 3 away: in NDC their z differ by 2e-8 or so, less than seven digits tell.
+LAYERS = "0 0 3\n0 0 0\n0 1 0\n60 1 0.1 100\n" + "".join(
+    f"triangle\n-1 -1 {z}\n1 -1 {z}\n0 1 {z}\n" for z in ("0", "0.000001")) + "end\n"
+
+
+def trade(*words, **settings):
+    return subprocess.run([SOURCE / "scripts/trade", *words], capture_output=True, text=True, timeout=120,
+                          env={"BIN": str(BIN), "PATH": f"{BIN}:/usr/bin:/bin", "LANG": "C.UTF-8"}, **settings)
+
+
+def tables(text):
+    """{coverage: {setting: {column: cell}}}"""
+    found, header = {}, None
+    for line in text.split("\n"):
+        cells = [cell.strip() for cell in line.split("|")[1:-1]]
+        if line.startswith("| --coverage"):
+            header = cells
+            rows = found.setdefault(cells[0].split()[1], {})
+        elif line.startswith("| ") and set(cells[0]) != {"-"}:
+            rows[cells[0]] = dict(zip(header, cells))
+    return found
+
+
+def command_line(text):
+    return text.rstrip("\n").split("\n")[-1].strip()
+
+
+def picture(line):
+    subprocess.run(["bash", "-c", line], check=True, env={"PATH": f"{BIN}:/usr/bin:/bin"}, capture_output=True)
+    return pathlib.Path("out.bmp").read_bytes()
+
+
+class Measures(ToolTest):
+    def test_every_setting_of_both_rules_is_measured(self):
+        done = trade("scene.txt", "config.txt", "--rounds", "1")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertEqual({rule: len(rows) for rule, rows in tables(done.stdout).items()}, {"nearest": SETTINGS, "center": SETTINGS})
+        for rows in tables(done.stdout).values():
+            self.assertEqual([rows["--digits exact"][column] for column in ("wrong pixels", "neighbors", "vertex error", "digits lost")], ["0"] * 4)
+
+    def test_bytes_are_those_of_the_three_texts(self):
+        done = trade("scene.txt", "config.txt", "--rounds", "1", "--coverage", "nearest")
+        for digits in ("5", "7"):
+            texts = [pathlib.Path("scene.txt").read_bytes()]
+            for tool in ("model", "view", "project"):
+                texts.append(pipe([tool, "--digits", digits], stdin=texts[-1]))
+            cell = tables(done.stdout)["nearest"]["default" if digits == "7" else "--digits 5"]["bytes"]
+            self.assertEqual(cell, f"{sum(map(len, texts[1:]))} B")
+
+    def test_the_vertex_error_is_half_a_digit_at_most_and_known_here(self):
+        """At z = -3 and fovY 90, x = 1 is 1/3 in NDC; a third of a unit of the fifth decimal is lost, 50 pixels a unit."""
+        pathlib.Path("scene.txt").write_text("0 0 3\n0 0 0\n0 1 0\n90 1 1 10\ntriangle\n1 0 0\n0 1 0\n0 0 0\nend\n")
+        pathlib.Path("config.txt").write_text("100 100\n")
+        rows = tables(trade("scene.txt", "config.txt", "--rounds", "1", "--coverage", "center").stdout)["center"]
+        self.assertEqual(rows["--digits 5"]["vertex error"], "1.7e-4 px")
+        self.assertEqual(rows["default"]["vertex error"], "1.7e-6 px")
+        self.assertEqual(rows["--digits 9"]["vertex error"], "1.7e-8 px")
+        # A third of 1e-5, 1e-7 and 1e-9 in an extent of 1/3 leaves 5, 7 and 9 digits.
+        self.assertEqual([rows[name]["digits lost"] for name in ("--digits 5", "default", "--digits 9")], ["11", "9", "7"])
+
+    def test_layers_that_seven_digits_cannot_tell_apart_take_nine(self):
+        pathlib.Path("scene.txt").write_text(LAYERS)
+        pathlib.Path("config.txt").write_text("40 40\n")
+        done = trade("scene.txt", "config.txt", "--rounds", "1", "--coverage", "center")
+        rows = tables(done.stdout)["center"]
+        covered = re.search(r"covers (\d+) pixels", done.stdout)[1]
+        self.assertEqual(rows["default"]["wrong pixels"], f"{covered} (100 %)")
+        self.assertEqual([rows[name]["wrong pixels"] for name in ("--digits 9", "--digits 12", "--digits exact --precision double")], ["0"] * 3)
+
+    def test_scenes_that_are_clipped_or_lit_are_compared_by_triangle(self):
+        for name in ("wide-clipped", "inside", "colored-lights"):
+            done = trade(SOURCE / f"samples/{name}/scene.txt", SOURCE / f"samples/{name}/config.txt", "--rounds", "1", "--coverage", "center")
+            self.assertEqual((done.returncode, done.stderr), (0, ""), name)
+            rows = tables(done.stdout)["center"]
+            self.assertEqual((rows["--digits 12"]["wrong pixels"], rows["--digits exact"]["vertex error"]), ("0", "0"), name)
+            self.assertNotEqual(rows["--digits 5"]["vertex error"], "0", name)
+
+    def test_options_of_project_are_passed_on(self):
+        backs = trade("scene.txt", "config.txt", "--rounds", "1", "--cull", "front")
+        self.assertEqual(backs.returncode, 2)
+        self.assertIn("trade: the picture of the lossless run is empty", backs.stderr)
+        fronts = trade("scene.txt", "config.txt", "--rounds", "1", "--cull", "back", "--clip", "none")
+        self.assertRegex(fronts.stdout, r"\| pipeline project .*--clip none --cull back \|")
+
+
+class Answers(ToolTest):
+    def setUp(self):
+        super().setUp()
+        pathlib.Path("scene.txt").write_text(LAYERS)
+        pathlib.Path("config.txt").write_text("40 40\n")
+
+    def test_the_command_line_gives_the_lossless_picture(self):
+        for rule in ("nearest", "center"):
+            done = trade("scene.txt", "config.txt", "--rounds", "1", "--coverage", rule)
+            self.assertEqual(done.returncode, 0)
+            self.assertIn("The cheapest with 0 wrong pixels:\n", done.stdout)
+            exact = " | ".join(f"{tool} --digits exact" for tool in ("model scene.txt", "view", "project"))
+            lossless, default = (picture(f"{words} | zbuf --coverage {rule} config.txt > z.txt") for words in
+                                 (exact, "model scene.txt | view | project"))
+            self.assertEqual(picture(command_line(done.stdout)), lossless)
+            self.assertNotEqual(default, lossless)
+
+    def test_files_with_odd_names_and_standard_input_are_named_as_given(self):
+        os.rename("scene.txt", "my scene's.txt")
+        done = trade("my scene's.txt", "config.txt", "--rounds", "1", "--max-wrong", "100%")
+        self.assertTrue(picture(command_line(done.stdout)))
+        done = trade("-", "config.txt", "--rounds", "1", "--max-wrong", "100", input=LAYERS)
+        self.assertTrue(picture(f"cat 'my scene'\"'\"s.txt | ({command_line(done.stdout)})"))
+
+    def test_if_no_setting_will_do_the_nearest_is_named(self):
+        done = trade("scene.txt", "config.txt", "--rounds", "1", "--max-wrong", "0", "--max-cpu", "0.001")
+        self.assertEqual((done.returncode, done.stderr), (1, ""))
+        self.assertIn("No setting has 0 wrong pixels and at most 0.001 times the default's CPU time. The nearest is\n", done.stdout)
+        self.assertTrue(picture(command_line(done.stdout)))
+
+    def test_the_plot_names_every_setting(self):
+        trade("scene.txt", "config.txt", "--rounds", "1", "--max-cpu", "3", "--plot", "plot.svg")
+        texts = [element.text for element in xml.etree.ElementTree.parse("plot.svg").iter("{http://www.w3.org/2000/svg}text")]
+        self.assertLessEqual({str(setting) for setting in settings(("nearest", "center"))}, set(texts))
+
+
+class Mistakes(ToolTest):
+    def check(self, message, *words, status=2):
+        done = trade(*words)
+        self.assertEqual((done.returncode, done.stdout), (status, ""))
+        self.assertEqual(done.stderr.split("\n")[-2], message)
+
+    def test_those_of_a_scene_and_of_a_config_are_the_tools_own(self):
+        pathlib.Path("bad.txt").write_text(CAMERA + "triangle\n0 0 0\n1 0 x\n0 1 0\nend\n")
+        self.check("trade: model: bad.txt:7:5: expected the z of vertex 2 of 3, found 'x'", "bad.txt", "config.txt")
+        pathlib.Path("size.txt").write_text("0 8\n")
+        done = run("zbuf", "size.txt")
+        self.check("trade: " + done.stderr.decode().strip(), "scene.txt", "size.txt")
+        self.check("trade: cannot read none.txt: No such file or directory", "none.txt", "config.txt")
+
+    def test_an_empty_picture_has_nothing_to_compare(self):
+        pathlib.Path("scene.txt").write_text(CAMERA + "triangle\n0 0 9\n1 0 9\n0 1 9\nend\n")
+        self.check("trade: the picture of the lossless run is empty: there is nothing to compare. Run the pipe to see why", "scene.txt", "config.txt")
+
+    def test_limits_are_numbers(self):
+        for option, word, expected in (("--max-wrong", "-1", "a number of at least 0"), ("--max-cpu", "0", "a number greater than 0"),
+                                       ("--max-wrong", "nan", "a number of at least 0"), ("--rounds", "0", "a whole number of at least 1")):
+            self.check(f"trade: error: argument {option}: expected {expected}, found '{word}'", "scene.txt", "config.txt", f"{option}={word}")
+
+    def test_a_plot_that_cannot_be_written_is_named(self):
+        done = trade("scene.txt", "config.txt", "--rounds", "1", "--plot", "none/plot.svg")
+        self.assertEqual((done.returncode, done.stderr), (2, "trade: cannot open none/plot.svg: No such file or directory\n"))
+
+
+class Owners(ToolTest):
+    def test_they_are_the_triangles_whose_colors_zbuf_shows(self):
+        """zbuf gives triangle N draws 3N, 3N + 1 and 3N + 2 of the course's generator."""
+        state, colors = 1, {bytes(3): NOBODY}
+        sample = SOURCE / "samples/torus"
+        for mark in range(1, 1 + (sample / "scene.txt").read_text().count("triangle")):
+            color = []
+            for _ in range(3):
+                state = (214013 * state + 2531011) % 2**32
+                color.append((state >> 16 & 0x7fff) % 256)
+            colors.setdefault(bytes(color), mark)
+        for rule in ("nearest", "center"):
+            pathlib.Path("stage3.txt").write_bytes(text := pipe(["model", sample / "scene.txt"], ["view"], ["project"]))
+            run("zbuf", sample / "config.txt", "--coverage", rule, "-o", "out.ppm", "--z-buffer", "none", stdin=text)
+            shown = pathlib.Path("out.ppm").read_bytes().split(b"255\n", 1)[1]
+            write_marked("stage3.txt", "marked.txt")
+            marks = owners(Tools(BIN), "marked.txt", sample / "config.txt", ["--coverage", rule], "marks.ppm")
+            self.assertGreater(len(set(marks)), 500)
+            self.assertEqual([colors[shown[i:i + 3]] for i in range(0, len(shown), 3)], list(marks))
+
+
+def row(setting=DEFAULT, ratio=(1, 1, 1), size=100, wrong=0, vertex_error=0.0):
+    return Row(setting, Quartiles(*ratio), Quartiles(*ratio), size, wrong, 0, 1000, vertex_error, 0)
+
+
+class Choice(unittest.TestCase):
+    slow = row(Setting("exact"), (2.9, 3, 3.1), 200)
+    fast = row(Setting("5"), (0.8, 0.9, 1.0), 80, wrong=50)
+    rows = [slow, row(wrong=2), fast]
+
+    def test_limits_hold_to_the_last_pixel(self):
+        self.assertTrue(Limits(percent_wrong=0.2).are_met_by(row(wrong=2)))
+        self.assertFalse(Limits(percent_wrong=0.19).are_met_by(row(wrong=2)))
+        self.assertFalse(Limits(percent_wrong=0).are_met_by(row(wrong=1)))
+        self.assertTrue(Limits(ratio=3).are_met_by(self.slow))
+        self.assertFalse(Limits(percent_wrong=0, ratio=2.99).are_met_by(self.slow))
+
+    def test_without_a_limit_of_wrong_pixels_the_fewest_are_asked_for(self):
+        self.assertEqual(least_wrong(self.rows, Limits()).percent_wrong, 0)
+        self.assertEqual(least_wrong(self.rows, Limits(ratio=2)).percent_wrong, 0.2)
+        self.assertIsNone(least_wrong(self.rows, Limits(ratio=0.1)).percent_wrong)
+        self.assertEqual(least_wrong(self.rows, Limits(percent_wrong=7)).percent_wrong, 7)
+
+    def test_the_cheapest_takes_the_least_time_and_of_equals_the_fewest_bytes(self):
+        self.assertIs(cheapest(self.rows, False), self.fast)
+        small = row(Setting("9"), (0.95, 1.02, 1.1), 70)
+        self.assertIs(cheapest([*self.rows, small], False), small)
+        large = row(Setting("9"), (1.04, 1.05, 1.06), 70)
+        self.assertIs(cheapest([*self.rows, large], False), self.fast)
+
+    def test_times_that_tell_nothing_do_not_count(self):
+        self.assertEqual(cheapest([self.slow, row()], True), row())
+        self.assertIs(cheapest([row(size=300), self.slow], True), self.slow)
+
+    def test_of_settings_that_are_alike_the_default_is_taken(self):
+        plain = row()
+        self.assertIs(cheapest([row(Setting(depth="f32")), plain, row(Setting(depth="u24"))], False), plain)
+
+    def test_the_nearest_misses_least(self):
+        self.assertEqual(nearest(self.rows, Limits(0, 2)).setting, Setting("exact"))
+        self.assertEqual(nearest(self.rows, Limits(0, 0.5)).setting, DEFAULT)
+
+
+class Clock(unittest.TestCase):
+    def times(self, default):
+        return Times({EMPTY: [1.0, 1.1, 0.9], DEFAULT: default, Setting("5"): [2.0, 4.0, 3.0]})
+
+    def test_ratios_are_taken_round_by_round(self):
+        self.assertEqual(self.times([2.0, 4.0, 4.0]).ratios[Setting("5")], Quartiles(0.875, 1.0, 1.0))
+
+    def test_a_run_within_the_noise_of_starting_is_too_short(self):
+        for default, is_too_short in (([1.0, 1.1, 1.2], True), ([1.2, 1.3, 1.2], True), ([1.2, 1.9, 4.0], True), ([2.0, 2.1, 2.2], False)):
+            times = self.times(default)
+            self.assertEqual((times.are_too_short, "tell nothing" in about_times(times)), (is_too_short, is_too_short), default)
+
+    def test_the_share_of_starting_is_told(self):
+        self.assertIn("medians of 3 rounds", about_times(self.times([2.0, 2.1, 1.9])))
+        self.assertIn("1.00 s of each run, 50 % of\nthe default's,", about_times(self.times([2.0, 2.1, 1.9])))
+
+
+class Errors(unittest.TestCase):
+    def test_a_vertex_outside_the_window_moves_less(self):
+        class Window:
+            width, height, left, bottom, front, rear = 100, 50, -1, -1, -1, 1
+
+        screen = Screen(Window)
+        self.assertAlmostEqual(screen.pixels_between((0.5, 0.5, 0), (0.53, 0.5, 0)), 1.5)
+        self.assertAlmostEqual(screen.pixels_between((0.5, 0.5, 0), (0.5, 0.54, 0)), 1.0)
+        self.assertAlmostEqual(screen.pixels_between((10, 0.5, 0), (10.3, 0.5, 0)), 1.5)
+
+    def test_digits_are_counted_in_the_extent(self):
+        self.assertEqual([digits_left(error, 2.0) for error in (0, 2e-3, 2.5e-3, 1e-30, 5)], [16, 3, 2, 16, 0])
+
+    def test_vertices_are_paired_by_the_number_of_their_triangle(self):
+        def text(*pieces):
+            return "".join(f"triangle {number}\n" + "".join(f"{number} {name} {i}\n" for i in range(3)) + "\n" for number, name in pieces)
+
+        with tempfile.TemporaryDirectory() as folder:
+            a, b = pathlib.Path(folder, "a"), pathlib.Path(folder, "b")
+            a.write_text(text((0, 1), (2, 1), (3, 1), (3, 1), (5, 1)))
+            b.write_text(text((1, 2), (2, 2), (3, 2), (5, 2), (6, 2)))
+            pairs = [(x.decode(), y.decode()) for x, y in vertex_pairs(a, b)]
+        self.assertEqual(pairs, [(f"{n} 1 {i}\n", f"{n} 2 {i}\n") for n in (2, 5) for i in range(3)])
+
+
+class CommandLines(unittest.TestCase):
+    def test_only_what_differs_from_the_default_is_written(self):
+        pipeline = Pipe(None, "s", "c", ["--cull", "back"], ".")
+        self.assertEqual(pipeline.command_line(Setting("9", "double", "center", "f32"), "-a b", "-c"),
+                         "pipeline model --digits 9 --precision double -- '-a b' | pipeline view --digits 9 --precision double"
+                         " | pipeline project --digits 9 --precision double --cull back"
+                         " | pipeline zbuf --coverage center --depth f32 -- -c > z_buffer.txt")
+        self.assertEqual(pipeline.command_line(DEFAULT, "-", "c"),
+                         "pipeline model | pipeline view | pipeline project --cull back | pipeline zbuf c > z_buffer.txt")
+
+
+if __name__ == "__main__":
+    unittest.main()
