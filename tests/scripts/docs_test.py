@@ -156,10 +156,10 @@ class KeptTrue(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             for table in results.glob("*.csv"):
                 shutil.copy(table, folder)
-            for script in ("algorithms", "bench", "tradeoff"):
+            for script in ("algorithms", "bench", "extremes", "tradeoff"):
                 subprocess.run([sys.executable, SOURCE / "scripts/measure" / script, "--redraw", "--out", folder], check=True)
             made = [path for path in pathlib.Path(folder).iterdir() if path.suffix in (".md", ".svg")]
-            self.assertEqual(len(made), 7)
+            self.assertEqual(len(made), 12)
             for path in made:
                 self.assertEqual(path.read_text(), (results / path.name).read_text(), path.name)
 
