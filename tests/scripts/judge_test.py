@@ -268,6 +268,21 @@ class AnotherRule(HandIn):
         text = pathlib.Path("z_buffer.txt").read_text()
         pathlib.Path("z_buffer.txt").write_text("".join(line + "\n" for line in text.split("\n") if line))
         self.assert_verdicts(["right"] * 5, 0)
+    def test_pixels_inside_are_excused_by_one_in_32_at_the_borders(self):
+        for at_borders, inside, expected in ((20, 1, "wrong"), (40, 1, "right by another rule"), (40, 2, "wrong")):
+            with self.subTest(at_borders=at_borders, inside=inside):
+                self.hand_in()
+                pixels = Pixels()
+                ends = pixels.ends()
+                for place in ends[:at_borders - 1]:
+                    pixels.clear(*place)
+                row, last = ends[at_borders]
+                pixels.clear(row, last)
+                for i in range(inside):
+                    pixels.clear(row, last - 6 - i)
+                pixels.write()
+                self.assertEqual(self.words()[3:], [expected] * 2)
+
 
 
 class Wrong(HandIn):
