@@ -189,6 +189,18 @@ class Right(HandIn):
         verdict = self.assert_verdicts(["right"] * 5, 0)
         self.assertIn("in other colors", verdict.files[4].remarks)
 
+    def test_our_colors_are_ours_where_a_triangle_was_dropped(self):
+        self.scene = SCENE.replace("50 1.3 1 50\n", "50 1.3 1 50\ntriangle\n6 8 14\n7 8 14\n6 9 14\n")  # behind the eye
+        pathlib.Path("scene.txt").write_text(self.scene)
+        text = tool("model", stdin=self.scene.encode())
+        for name, words in zip(NAMES, (("model", "--bare"), ("view", "--bare"), ("project",))):
+            pathlib.Path(name).write_bytes(tool(words[0], *words[1:], *(["--scene", "scene.txt"] if words[0] != "model" else []),
+                                                stdin=self.scene.encode() if words[0] == "model" else text))
+            text = pathlib.Path(name).read_bytes()
+        self.draw()
+        verdict = self.assert_verdicts(["right"] * 5, 0)
+        self.assertEqual(verdict.files[4].remarks, [])
+
     def test_either_of_two_equal_depths(self):
         self.scene = "0 0 5\n0 0 0\n0 1 0\n60 1 1 10\n" + "triangle\n-1 -1 0\n1 -1 0\n0 1 0\n" * 2 + "end\n"
         self.hand_in()
