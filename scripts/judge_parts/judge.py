@@ -13,7 +13,7 @@ from judge_parts.digits import of_one_program
 from judge_parts.matrices import image
 from judge_parts.reference import kinds_of, reference
 from judge_parts.shown import Shown, read_colors, read_depths
-from judge_parts.stage_judge import Outcome, Reading, StageJudge
+from judge_parts.stage_judge import Outcome, Reading, StageJudge, undecided_outcome
 from judge_parts.verdict import ANOTHER_RULE, MISSING, RIGHT, TOO_FEW_DIGITS, UNDECIDED, UNREADABLE, WRONG, FileVerdict, Verdict
 from lib.input_file import InputError
 from lib.pictures import PictureError
@@ -47,16 +47,17 @@ class HandIn:
         for kind, stage in (("stage1", "model"), ("stage2", "view"), ("stage3", "project")):
             theirs = points[kind]
             outcome = None
-            readings = [Reading(before.points, before.units)] if before and is_of_this_world(before.points) else []
+            readings = [Reading(before.points, before.units)] if before is not None and is_of_this_world(before.points) else []
             if memory is not None:
                 readings.append(Reading.exact(memory))
-            if theirs and stage == "model":
+            if theirs is not None and not theirs.points:
+                outcome = self.of_empty_text(stage, self.files[kind].name, readings)
+            elif theirs and stage == "model":
                 outcome = judge.model(self.files[kind].name, theirs)
             elif theirs and stage == "view":
                 outcome = judge.view(self.files[kind].name, theirs, readings)
             elif theirs:
-                others = [clipped for reading in readings if (clipped := self.ours.clipped(reading.points)) is not None]
-                outcome = judge.project(self.files[kind].name, theirs, readings, others)
+                outcome = judge.project(self.files[kind].name, theirs, readings, self.clipped(readings))
             if outcome is None:
                 outcome = Outcome(self.failed[kind], self.right_memory(stage, readings))
             self.add_others(kind, outcome.verdict)
@@ -73,6 +74,19 @@ class HandIn:
             return self.ours.world if stage == "model" else None
         m = self.ours.scene.of_view() if stage == "view" else self.ours.scene.of_project()
         return [image(m, p, stage == "project") for p in readings[-1].points]
+
+    def clipped(self, readings):
+        """What may be left of the points if project clips them, for each reading."""
+        return [points for reading in readings if (points := self.ours.clipped(reading.points)) is not None]
+
+    def of_empty_text(self, stage, name, readings):
+        """The Outcome of a text without triangles: right if nothing may be left of what the stage has read."""
+        given = [self.ours.world] if stage == "model" else [reading.points for reading in readings]
+        if not all(given) or stage == "project" and not all(self.clipped(readings)):
+            return Outcome(FileVerdict(stage, name, RIGHT, differing=0), [])
+        if not given:
+            return undecided_outcome(stage, name)
+        return Outcome(FileVerdict(stage, name, WRONG, remarks=["there is no triangle in it"]))
 
     def right_ndc(self):
         """What a program may have drawn by that writes other numbers into its file."""
@@ -98,11 +112,6 @@ class HandIn:
         given = [kind for kind in kinds if points[kind] is not None]
         for kind, digits in zip(given, of_one_program([points[kind].digits for kind in given])):
             points[kind].digits = digits
-        for kind in given:
-            if not points[kind].points:  # an empty text
-                self.failed[kind] = FileVerdict(STAGE_OF[kind], self.files[kind].name, WRONG, remarks=["there is no triangle in it"])
-                if self.ours.world:
-                    points[kind] = None
         return points
 
     def add_others(self, kind, verdict):
@@ -120,7 +129,7 @@ class HandIn:
         if self.ours.has_own_colors and colors is not None:
             verdicts["picture"], colors = self.verdict_of_colors(colors), None
         readings = {}
-        if stage3 and stage3.points and len(stage3) <= MOST_PARTS * len(self.ours.world):
+        if stage3 is not None and len(stage3) <= MOST_PARTS * len(self.ours.world):
             readings["file"] = (stage3.points, stage3.units)
         is_defined = memory is not None and all(x == x for p in memory for x in p)
         if is_defined:
@@ -138,7 +147,7 @@ class HandIn:
                     verdicts[kind] = self.verdict_of_pixels(kind, finding, shown)
         for kind, verdict in verdicts.items():
             if verdict is None:
-                verdicts[kind] = verdict = FileVerdict("zbuf", self.files[kind].name, UNDECIDED, remarks=["the stages before give no points to judge it by"])
+                verdicts[kind] = verdict = undecided_outcome("zbuf", self.files[kind].name).verdict
             self.add_others(kind, verdict)
         return list(verdicts.values())
 

@@ -268,18 +268,6 @@ class AnotherRule(HandIn):
         verdict = self.assert_verdicts(["right"] * 3 + ["wrong"] * 2, 1)
         self.assertEqual((verdict.files[3].cause, verdict.files[4].differing), ("", 1))
 
-    def test_depths_that_are_off_are_wrong_and_the_picture_is_not(self):
-        self.hand_in()
-        pixels = Pixels()
-        pixels.depths[40] = [None if z is None else z - 0.01 for z in pixels.depths[40]]
-        pixels.write()
-        self.assert_verdicts(["right"] * 3 + ["wrong", "right"], 1)
-
-    def test_empty_rows_may_be_left_out(self):
-        self.hand_in()
-        text = pathlib.Path("z_buffer.txt").read_text()
-        pathlib.Path("z_buffer.txt").write_text("".join(line + "\n" for line in text.split("\n") if line))
-        self.assert_verdicts(["right"] * 5, 0)
     def test_pixels_inside_are_excused_by_one_in_32_at_the_borders(self):
         for at_borders, inside, expected in ((20, 1, "wrong"), (40, 1, "right by another rule"), (40, 2, "wrong")):
             with self.subTest(at_borders=at_borders, inside=inside):
@@ -295,6 +283,18 @@ class AnotherRule(HandIn):
                 pixels.write()
                 self.assertEqual(self.words()[3:], [expected] * 2)
 
+    def test_depths_that_are_off_are_wrong_and_the_picture_is_not(self):
+        self.hand_in()
+        pixels = Pixels()
+        pixels.depths[40] = [None if z is None else z - 0.01 for z in pixels.depths[40]]
+        pixels.write()
+        self.assert_verdicts(["right"] * 3 + ["wrong", "right"], 1)
+
+    def test_empty_rows_may_be_left_out(self):
+        self.hand_in()
+        text = pathlib.Path("z_buffer.txt").read_text()
+        pathlib.Path("z_buffer.txt").write_text("".join(line + "\n" for line in text.split("\n") if line))
+        self.assert_verdicts(["right"] * 5, 0)
 
 
 class Wrong(HandIn):
@@ -410,11 +410,64 @@ class Wrong(HandIn):
         verdict = self.verdict()
         self.assertEqual(verdict.files[4].verdict, "wrong")
 
+    def test_the_triangles_of_a_stage_are_counted_by_its_own_input(self):
+        self.stages()
+        text = pathlib.Path("stage1.txt").read_text()
+        pathlib.Path("stage1.txt").write_text(text + text[:text.index("\n\n") + 2])
+        verdict = self.verdict(config=False)
+        self.assertEqual([file.remarks for file in verdict.files], [["6 triangles in place of 5"], ["5 triangles in place of 6"], []])
+
     def test_too_few_triangles(self):
         self.hand_in()
         text = pathlib.Path("stage1.txt").read_text()
         pathlib.Path("stage1.txt").write_text("\n".join(text.split("\n")[4:]))
         self.assertEqual(self.verdict().files[0].remarks, ["4 triangles in place of 5"])
+
+
+class FollowOn(HandIn):
+    """A stage is judged by what it has read, however wrong that is."""
+
+    def drop_all(self, mistake):
+        """Stages 1 and 2 with a mistake, and a project that drops what lies behind the eye."""
+        self.stages(mistake)
+        pathlib.Path("scene.txt").write_text(self.scene)
+        pathlib.Path("stage3.txt").write_bytes(tool("project", "--scene", "scene.txt", "stage2.txt"))
+
+    def test_nothing_may_be_left_of_a_wrong_view(self):
+        self.drop_all("handedness")  # all lies behind the eye
+        self.assertEqual(pathlib.Path("stage3.txt").read_bytes(), b"")
+        self.draw()
+        verdict = self.assert_verdicts(["right", "wrong", "right", "right", "right"], 1)
+        self.assertEqual([cause.name for cause in verdict.files[1].causes], ["view/l-not-negated"])
+
+    def test_a_picture_of_nothing_has_no_pixels(self):
+        self.hand_in()
+        kept = {name: pathlib.Path(name).read_bytes() for name in NAMES[3:]}
+        self.drop_all("handedness")
+        for name, data in kept.items():
+            pathlib.Path(name).write_bytes(data)
+        self.assert_verdicts(["right", "wrong", "right", "wrong", "wrong"], 1)
+
+    def test_an_empty_text_is_wrong_where_triangles_must_be(self):
+        for kind, name in enumerate(NAMES[:3]):
+            with self.subTest(name):
+                self.stages()
+                for later in NAMES[kind:3]:
+                    pathlib.Path(later).write_bytes(b"")
+                self.draw()
+                verdict = self.assert_verdicts(["wrong" if i == kind else "right" for i in range(5)], 1)
+                self.assertEqual(verdict.files[kind].remarks, ["there is no triangle in it"])
+
+    def test_a_scene_without_triangles_is_drawn_right(self):
+        self.scene = "0 0 5\n0 0 0\n0 1 0\n60 1 1 10\nend\n"
+        self.hand_in()
+        self.assert_verdicts(["right"] * 5, 0)
+
+    def test_a_stage_is_not_accused_for_an_input_that_allows_no_verdict(self):
+        self.stages()
+        lines = pathlib.Path("stage1.txt").read_text().split("\n")
+        pathlib.Path("stage1.txt").write_text("\n".join(["1e17 2e18 -3e19", *lines[1:]]))
+        self.assertEqual(self.words(config=False), ["wrong", "could not be judged", "right"])
 
 
 class Files(HandIn):
