@@ -1,25 +1,24 @@
 #!/usr/bin/env python3
 """scripts/compare --five: the verdicts on sets of files that our own tools and a student's stages make.
 
-usage: judge_test.py BIN_DIR [UNITTEST ARGUMENT...]
+usage: judge_test.py BIN_DIR STUDENT [UNITTEST ARGUMENT...]
 """
 import math
 import os
 import pathlib
+import re
 import shutil
 import struct
 import subprocess
 import sys
 import unittest
 
-from student_pipeline import Student
-
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "tools"))
 from toolbox import BIN, SOURCE, ToolTest  # noqa: E402
+import student  # noqa: E402
 
 sys.path.insert(0, str(SOURCE / "scripts"))
 os.environ["BIN"] = str(BIN)
-from compare_parts.mistakes import with_angles  # noqa: E402
 from judge_parts import fit, mistakes  # noqa: E402
 from judge_parts.hand_in import File, find_files  # noqa: E402
 from judge_parts.judge import judge  # noqa: E402
@@ -82,6 +81,11 @@ def bmp(rows):
     return struct.pack("<2sIHHIIiiHHIIiiII", b"BM", 54 + len(body), 0, 0, 54, 40, width, height, 1, 24, 0, len(body), 0, 0, 0, 0) + body
 
 
+def with_rough_pi(scene, pi):
+    """The scene's text with every angle of a rotation as a program takes it whose pi is rough."""
+    return re.sub(r"(?<=rotate\n)\S+", lambda word: repr(float(word[0]) * pi / math.pi), scene)
+
+
 def tool(name, *words, stdin=b""):
     return subprocess.run([BIN / name, *map(str, words)], input=stdin, capture_output=True, check=True).stdout
 
@@ -117,7 +121,7 @@ class HandIn(ToolTest):
     scene, config = SCENE, CONFIG
 
     def stages(self, mistake="", in_memory=False):
-        for name, text in zip(NAMES, Student(self.scene, mistake).texts(in_memory)):
+        for name, text in zip(NAMES, student.texts(self.scene, mistake, in_memory)):
             pathlib.Path(name).write_text(text)
 
     def draw(self, *options, stage3="stage3.txt"):
@@ -239,8 +243,7 @@ class AnotherRule(HandIn):
     def test_a_rough_pi_is_named(self):
         for pi, word in ((3.14, "3.14"), (3.1416, "3.1416"), (22 / 7, "3.1428571")):
             with self.subTest(word):
-                rough = with_angles(SCENE, lambda angle, pi=pi: angle * pi / math.pi)
-                pathlib.Path("stage1.txt").write_bytes(tool("model", "--bare", stdin=rough.encode()))
+                pathlib.Path("stage1.txt").write_bytes(tool("model", "--bare", stdin=with_rough_pi(SCENE, pi).encode()))
                 verdict = self.verdict(config=False).files[0]
                 self.assertEqual((verdict.verdict, verdict.rule), ("right by another rule", f"pi is taken as {word}"))
 
@@ -299,11 +302,10 @@ class AnotherRule(HandIn):
 
 class Wrong(HandIn):
     def test_the_stage_and_the_cause(self):
-        for mistake, stage, name in (("swapped 1", 0, "model/rotation-transposed"), ("radians 1", 0, "model/angle-in-radians"), ("swapped 2", 1, "view/rotation-transposed"),
-                                     ("up", 1, "view/up-as-given"), ("handedness", 1, "view/l-not-negated"), ("divide", 2, "project/no-divide"),
-                                     ("radians 3", 2, "project/fov-in-radians")):
-            with self.subTest(mistake):
-                self.hand_in(mistake=mistake)
+        for stage, name in ((0, "model/rotation-transposed"), (0, "model/angle-in-radians"), (1, "view/rotation-transposed"), (1, "view/up-as-given"),
+                            (1, "view/l-not-negated"), (2, "project/no-divide"), (2, "project/fov-in-radians")):
+            with self.subTest(name):
+                self.hand_in(mistake=name)
                 verdict = self.verdict()
                 self.assertEqual([file.is_good for file in verdict.files], [i != stage for i in range(5)])
                 self.assertIn(name, [cause.name for cause in verdict.files[stage].causes])
@@ -313,7 +315,7 @@ class Wrong(HandIn):
         """A program may print other numbers than it draws by."""
         self.hand_in()
         right = {name: pathlib.Path(name).read_bytes() for name in NAMES[3:]}
-        self.stages("divide")
+        self.stages("project/no-divide")
         verdict = self.assert_verdicts(["right", "right", "wrong", "right", "right"], 1)
         self.assertIn("by the right numbers, which are not those of stage3.txt", verdict.files[3].remarks)
         self.assertEqual({name: pathlib.Path(name).read_bytes() for name in right}, right)
@@ -331,14 +333,14 @@ class Wrong(HandIn):
 
     def test_the_verdict_names_what_could_not_be_judged(self):
         self.hand_in()
-        self.stages("divide")
+        self.stages("project/no-divide")
         text = pathlib.Path("z_buffer.txt").read_text()
         pathlib.Path("z_buffer.txt").write_text("\n".join("\t".join("0.5" for _ in line.split()) for line in text.split("\n")))
         verdict = self.verdict()
         self.assertTrue(sentence(verdict).endswith("; z_buffer.txt: too few digits to judge"), sentence(verdict))
 
     def test_model_names_the_line_of_the_scene(self):
-        self.hand_in(mistake="swapped 1")
+        self.hand_in(mistake="model/rotation-transposed")
         verdict = self.verdict()
         self.assertIn("the first wrong triangle is number 0, in line 8 of the scene, after rotate in line 6", sentence(verdict))
         self.assertEqual({cause.name for cause in verdict.files[0].causes}, {"model/rotation-transposed", "model/angle-negated"})
@@ -434,7 +436,7 @@ class FollowOn(HandIn):
         pathlib.Path("stage3.txt").write_bytes(tool("project", "--scene", "scene.txt", "stage2.txt"))
 
     def test_nothing_may_be_left_of_a_wrong_view(self):
-        self.drop_all("handedness")  # all lies behind the eye
+        self.drop_all("view/l-not-negated")  # all lies behind the eye
         self.assertEqual(pathlib.Path("stage3.txt").read_bytes(), b"")
         self.draw()
         verdict = self.assert_verdicts(["right", "wrong", "right", "right", "right"], 1)
@@ -443,7 +445,7 @@ class FollowOn(HandIn):
     def test_a_picture_of_nothing_has_no_pixels(self):
         self.hand_in()
         kept = {name: pathlib.Path(name).read_bytes() for name in NAMES[3:]}
-        self.drop_all("handedness")
+        self.drop_all("view/l-not-negated")
         for name, data in kept.items():
             pathlib.Path(name).write_bytes(data)
         self.assert_verdicts(["right", "wrong", "right", "wrong", "wrong"], 1)
