@@ -112,12 +112,12 @@ class StageJudge:
         return self.by_matrix("view", name, theirs, readings, right, list(self.scene.view_mistakes()))
 
     def project(self, name, theirs, readings, others=()):
-        """`others` are lists of points that are right, too: those that were clipped."""
+        """`others` are lists of points that are right, too: those that were clipped, for each reading, the exact one last."""
         right = [("", self.scene.of_project(), True)]
         if self.scene.projection.kind == "perspective":
             right += [(f"pi is taken as {pi:.8g}", self.scene.of_project(pi=pi), True) for pi in ROUGH_PIS]
         digits = EXACT if theirs.digits.are_too_few else theirs.digits
-        for points in others:
+        for points in reversed(others):  # the exact ones are what the program may have in memory
             if len(points) == len(theirs) and not differs(theirs.points, digits, ((p, NO_UNITS) for p in points)):
                 return Outcome(right_verdict("project", name, theirs), points)
         return self.by_matrix("project", name, theirs, readings, right, list(self.scene.project_mistakes()))

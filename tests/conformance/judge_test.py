@@ -122,6 +122,11 @@ class Judged(unittest.TestCase):
             with self.shown(run):
                 self.assertEqual(run.status, 0, described(run))
 
+    def test_right_by_exact_numbers_where_depths_need_them(self):
+        verdict = Scene(5003).run("all/exact-in-memory")[1]  # a triangle is seen so much from its edge that 7 decimals are too few
+        self.assertIn("by the exact numbers, kept in memory", verdict.of("zbuf")[0].remarks)
+        self.assertEqual(verdict.status, 0)
+
     def test_no_stage_is_accused_but_the_mistakes(self):
         for run in self.of(MISTAKES):
             stage = run.switch.partition("/")[0]
