@@ -23,9 +23,10 @@ from judge_parts import fit, mistakes  # noqa: E402
 from judge_parts.hand_in import File, find_files  # noqa: E402
 from judge_parts.judge import judge  # noqa: E402
 from judge_parts.matrices import image, perspective_matrix, view_matrix  # noqa: E402
-from judge_parts.reference import JudgeError  # noqa: E402
+from judge_parts.reference import JudgeError, Reference  # noqa: E402
 from judge_parts.report import sentence  # noqa: E402
 from lib.pictures import read_picture  # noqa: E402
+from lib.pipe_tools import Tools  # noqa: E402
 
 # Two triangles that meet, one beyond, one without area; nested pushes, and numbers that no rule can mistake for another's.
 SCENE = """3 4 7
@@ -550,6 +551,14 @@ class Hostile(HandIn):
         verdict = self.given("stage1", b"1 2 3\n" * 10**6)
         self.assertEqual(verdict.files[0].verdict, "unreadable")
         self.assertIn("more than the scene can need", verdict.files[0].remarks[0])
+
+
+    def test_no_scene_is_so_large_that_a_file_may_be_endless(self):
+        ours = Reference(SCENE.encode(), b"4000 4000\n", Tools())
+        self.assertEqual(ours.limit("depths"), 256 << 20)
+        self.assertLess(ours.limit("stage1"), 2 << 20)
+        ours.world = range(10**8)
+        self.assertEqual(ours.limit("stage1"), 256 << 20)
 
 
 class Fit(unittest.TestCase):
