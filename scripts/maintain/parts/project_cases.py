@@ -183,6 +183,9 @@ def digits():
         tier="bytes")
     yield case("far-close-to-near", why, "N1 P3", "60 1 1 1.000000000001", "0 0 -1.0000000000005\n0 0 -1.00000000000025\n0 0 -1\n\n",
         needs="exactness")
+    yield case("quotients-near-ties", "Quotients that lie nearer to a tie than a double tells are rounded to their side, ties to even.", "N1 T19", "90 1 1 10",
+        "7588564.0898661 0.5 -6\n0.25 4848382.6366245 -6\n1853949.5798625 -7876179.4804585 -10\n\n"
+        "0 4880014.0807515 -10\n3560683.5029823 -1 -6\n-5827894.1837559 7998550.1257625 -6\n\n", needs="exactness", tier="bytes")
     yield case("very-narrow", why, "N1 P2", "1e-7 1 1 10", "1e-9 2e-9 -2\n3e-9 1e-9 -3\n0 0 -4\n\n", needs="exactness")
     yield case("very-wide", why, "N1 P2", "179.99999 1 1 10", "1e7 2e7 -2\n3e7 1e7 -3\n0 0 -4\n\n", needs="exactness")
 
@@ -205,6 +208,9 @@ def extensions():
     yield case("light", "In a text with lights project writes what it projected by.", "P11 T4", "60 1.5 1 10", POINTS, light, needs="lights")
     yield case("light-and-cut", "In a text with lights the whole triangle stands before its pieces.", "P11 T11", "90 1 1 10",
         "0 0 2\n1 0 -3\n0 1 -4\n\n" + POINTS, light, needs="lights clipping numbering")
+    yield case("light-and-cuts-in-a-row", "Each cut triangle has its whole one before its own pieces.", "P11 T10 T11", "90 1 1 10",
+        POINTS + "0 0 2\n1 0 -3\n0 1 -4\n\n" + "0 0 2\n-1 0 -3\n0 -1 2\n\n" + POINTS + "1 0 -3\n0 1 2\n0 -1 -4\n\n", light,
+        needs="lights clipping numbering")
     yield case("light-and-colored-cut", "The whole triangle has its columns, too.", "P11 T11", "90 1 1 10", cut, "attributes color\n" + light,
         needs="lights colors clipping numbering")
     yield Case("project", "light-under-ortho", "The projection is passed on as what it was.", "P11 T4", f"ortho -2 3 -1 2 1 9\n{light}{POINTS}",

@@ -141,6 +141,8 @@ def extensions():
                 normals.replace("0 1 0\n", "0 7 0\n").replace("0.6 0 0.8", "0 0 0"), "attributes normal\n"),
             ("background", "The background is passed on.", POINTS, "background 1 2.5 3\n")):
         yield case(name, why, eye, look, up, points, "V2 T6 T9", PERSPECTIVE + rest, needs="colors")
+    yield case("colors-of-17-digits", "Colors have as many decimals as coordinates.", eye, look, up, colored, "T9 T19",
+        PERSPECTIVE + "attributes color\n", needs="colors", options="--digits 17")
     for name, why, rest in (("light", "A light moves as points do.", "light 1 2 3 1 0.5 0\n"),
                             ("lights", "Lights keep their order; ambient, material and attenuation stay as they are.",
                              "light 5 0 0 1 1 1\nlight 0 5 0 2 2 2\nambient 0.1 0.2 0.3\nmaterial 1 0.5 0.25 16\nattenuation 1 0.5 0.25\n")):
