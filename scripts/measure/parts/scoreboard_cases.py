@@ -14,6 +14,7 @@ sys.path.append(str(pathlib.Path(__file__).resolve().parents[3] / "tests/conform
 from conform_parts import cases  # noqa: E402
 
 PLAIN = re.compile(rb"[-+.eE0-9 \t\r\n]*")
+LARGEST = 1e30  # most interfaces take single precision
 
 
 @dataclasses.dataclass(eq=False)
@@ -114,6 +115,8 @@ def expressed(case):
     if case.refused_line is not None or case.has("options.txt") or not PLAIN.fullmatch(text) or not PLAIN.fullmatch(config):
         return None
     words, limits = text.decode().split(), config.decode().split()
+    if any(x and not 1 / LARGEST < abs(x) < LARGEST for x in map(float, words + limits)):
+        return None
     corners = [words[i:i + 3] for i in range(0, len(words), 3)]
     triangles = [corners[i:i + 3] for i in range(0, len(corners), 3)]
     left, bottom, front, rear = limits[2:] or ("-1", "-1", "-1", "1")
