@@ -152,13 +152,16 @@ class HandIn:
         return list(verdicts.values())
 
     def verdict_of_colors(self, colors):
-        """The FileVerdict of a picture whose triangles have colors of their own, or light: every color counts."""
-        name = self.files["picture"].name
-        ours = self.ours.picture(self.files["stage3"].data or b"")
-        if ours is None:
-            return FileVerdict("zbuf", name, UNDECIDED, remarks=["zbuf refuses their stage3.txt"])
-        places = [(r, i) for r, (row, line) in enumerate(zip(ours, colors)) for i, color in enumerate(line) if row[3 * i:3 * i + 3] != color]
-        return FileVerdict("zbuf", name, WRONG if places else RIGHT, differing=len(places), compared=len(ours) * len(colors[0]), places=places)
+        """The FileVerdict of a picture whose triangles have colors of their own, or light: every color counts, by either rule of coverage."""
+        name, verdicts = self.files["picture"].name, []
+        for coverage, verdict, rule in (("nearest", RIGHT, ""), ("center", ANOTHER_RULE, "the center rule")):
+            ours = self.ours.picture(self.files["stage3"].data or b"", coverage)
+            if ours is None:
+                return FileVerdict("zbuf", name, UNDECIDED, remarks=["zbuf refuses their stage3.txt"])
+            places = [(r, i) for r, (row, line) in enumerate(zip(ours, colors)) for i, color in enumerate(line) if row[3 * i:3 * i + 3] != color]
+            verdicts.append(FileVerdict("zbuf", name, WRONG if places else verdict, "" if places else rule, differing=len(places),
+                                        compared=len(ours) * len(colors[0]), places=places))
+        return min(verdicts, key=lambda verdict: verdict.differing)
 
     def verdict_of_pixels(self, kind, finding, shown):
         name = self.files[kind].name

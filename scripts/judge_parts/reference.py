@@ -73,11 +73,11 @@ class Reference:
             needed = BYTES_OF_A_VERTEX * len(self.world)
         return min(MEBIBYTE + needed, MOST_BYTES)
 
-    def picture(self, stage3):
+    def picture(self, stage3, coverage="nearest"):
         """The picture of our zbuf for the bytes of a stage text, as rows of bytes; None if it refuses them."""
         try:
             with self.tools.file(self.config) as config, self.tools.file(b"") as image:
-                self.tools.run("zbuf", config, "--z-buffer", "/dev/null", "--image", image + ".ppm", stdin=stage3)
+                self.tools.run("zbuf", config, "--coverage", coverage, "--z-buffer", "/dev/null", "--image", image + ".ppm", stdin=stage3)
                 try:
                     return read_picture(image + ".ppm")[2]
                 finally:

@@ -241,6 +241,20 @@ class AnotherRule(HandIn):
         verdict = self.assert_verdicts(self.RULE, 0)
         self.assertEqual((verdict.files[3].rule, verdict.files[3].file), ("the center rule", "zBuffer.txt"))
 
+    def test_colors_of_the_scene_by_the_center_rule(self):
+        self.stages()  # their points
+        self.scene = SCENE.replace("push\n", "color 200 100 50\npush\n", 1)
+        for coverage, verdict in (("nearest", "right"), ("center", "right by another rule")):
+            text = tool("project", stdin=tool("view", stdin=tool("model", stdin=self.scene.encode())))
+            pathlib.Path("stage3.txt").write_bytes(text)
+            self.draw("--coverage", coverage)
+            self.assertEqual(self.words(), ["right"] * 3 + [verdict] * 2)
+        pixels = Pixels()
+        row, last = pixels.ends()[40]
+        pixels.colors[row][last] = (200, 100, 51)
+        pixels.write()
+        self.assertEqual(self.words()[4], "wrong")
+
     def test_a_rough_pi_is_named(self):
         for pi, word in ((3.14, "3.14"), (3.1416, "3.1416"), (22 / 7, "3.1428571")):
             with self.subTest(word):
