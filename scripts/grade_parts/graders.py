@@ -67,6 +67,8 @@ def grade(path, tests, level):
         verdict = Judge(files, test.reference, test.kinds).judge()
         score = test.weight * sum(file.is_good for file in verdict.files) / len(verdict.files)
         shown = pictures(test, files, verdict) if gives(level, "stage") else []
+        for file in verdict.files:
+            file.places = []  # the pictures have them; there may be millions
         graded.tests.append(GradedTest(test.name, score, test.weight, verdict, in_words(verdict, level), fixes(verdict, level), shown))
     return graded
 
@@ -95,13 +97,14 @@ def work(connection, path, tests, level, limits, scratch):
 
 
 class Running:
-    """The process of one hand-in."""
+    """The process of one hand-in, with a folder for what its tools write."""
 
-    def __init__(self, path, tests, level, limits, scratch):
+    def __init__(self, path, tests, level, limits):
         context = multiprocessing.get_context("fork")  # what is right has been calculated once, for all
         self.tests, self.limits = tests, limits
         self.connection, theirs = context.Pipe(duplex=False)
-        self.process = context.Process(target=work, args=(theirs, path, tests, level, limits, scratch))
+        self.scratch = tempfile.TemporaryDirectory()
+        self.process = context.Process(target=work, args=(theirs, path, tests, level, limits, self.scratch.name))
         self.process.start()
         theirs.close()
         self.end = time.monotonic() + limits.seconds
@@ -122,26 +125,26 @@ class Running:
         self.process.kill()
         self.process.join()
         self.connection.close()
+        self.scratch.cleanup()
 
 
 def grade_all(hand_ins, tests, level, limits):
     """Draws (HandIn, Graded), in the order in which they are done."""
     waiting, running = list(reversed(hand_ins)), {}
-    with tempfile.TemporaryDirectory() as scratch:
-        try:
-            while waiting or running:
-                while waiting and len(running) < limits.jobs:
-                    hand_in = waiting.pop()
-                    one = Running(hand_in.path, tests, level, limits, scratch)
-                    running[one.connection] = hand_in, one
-                rest = min(one.end for _, one in running.values()) - time.monotonic()
-                multiprocessing.connection.wait(list(running), max(0.0, rest))
-                for connection, (hand_in, one) in list(running.items()):
-                    if connection.poll() or time.monotonic() >= one.end:
-                        graded = one.result()
-                        one.stop()
-                        del running[connection]
-                        yield hand_in, graded
-        finally:
-            for _, one in running.values():
-                one.stop()
+    try:
+        while waiting or running:
+            while waiting and len(running) < limits.jobs:
+                hand_in = waiting.pop()
+                one = Running(hand_in.path, tests, level, limits)
+                running[one.connection] = hand_in, one
+            rest = min(one.end for _, one in running.values()) - time.monotonic()
+            multiprocessing.connection.wait(list(running), max(0.0, rest))
+            for connection, (hand_in, one) in list(running.items()):
+                if connection.poll() or time.monotonic() >= one.end:
+                    graded = one.result()
+                    one.stop()
+                    del running[connection]
+                    yield hand_in, graded
+    finally:
+        for _, one in running.values():
+            one.stop()

@@ -4,6 +4,8 @@ Each stage is judged by the numbers that it may have read, those of the stage's 
 mistake counts once. A stage is right if it reproduces the numbers under any combination of what the assignment leaves open; else wrong
 by the mistake that reproduces them; else, in stage 4, by another rule at the borders; else wrong without a cause.
 """
+import collections
+
 from judge_parts.hand_in import STAGE_OF, File
 from judge_parts.pixels import PixelJudge
 from judge_parts.points import read_points
@@ -11,7 +13,7 @@ from judge_parts.digits import of_one_program
 from judge_parts.matrices import image
 from judge_parts.reference import kinds_of, reference
 from judge_parts.shown import Shown, read_colors, read_depths
-from judge_parts.stage_judge import Outcome, Reading, StageJudge
+from judge_parts.stage_judge import Outcome, Reading, StageJudge, undecided_outcome
 from judge_parts.verdict import ANOTHER_RULE, MISSING, RIGHT, TOO_FEW_DIGITS, UNDECIDED, UNREADABLE, WRONG, FileVerdict, Verdict
 from lib.input_file import InputError
 from lib.pictures import PictureError
@@ -45,16 +47,17 @@ class HandIn:
         for kind, stage in (("stage1", "model"), ("stage2", "view"), ("stage3", "project")):
             theirs = points[kind]
             outcome = None
-            readings = [Reading(before.points, before.units)] if before and is_of_this_world(before.points) else []
+            readings = [Reading(before.points, before.units)] if before is not None and is_of_this_world(before.points) else []
             if memory is not None:
                 readings.append(Reading.exact(memory))
-            if theirs and stage == "model":
+            if theirs is not None and not theirs.points:
+                outcome = self.of_empty_text(stage, self.files[kind].name, readings)
+            elif theirs and stage == "model":
                 outcome = judge.model(self.files[kind].name, theirs)
             elif theirs and stage == "view":
                 outcome = judge.view(self.files[kind].name, theirs, readings)
             elif theirs:
-                others = [clipped for reading in readings if (clipped := self.ours.clipped(reading.points)) is not None]
-                outcome = judge.project(self.files[kind].name, theirs, readings, others)
+                outcome = judge.project(self.files[kind].name, theirs, readings, self.clipped(readings))
             if outcome is None:
                 outcome = Outcome(self.failed[kind], self.right_memory(stage, readings))
             self.add_others(kind, outcome.verdict)
@@ -71,6 +74,19 @@ class HandIn:
             return self.ours.world if stage == "model" else None
         m = self.ours.scene.of_view() if stage == "view" else self.ours.scene.of_project()
         return [image(m, p, stage == "project") for p in readings[-1].points]
+
+    def clipped(self, readings):
+        """What may be left of the points if project clips them, for each reading."""
+        return [points for reading in readings if (points := self.ours.clipped(reading.points)) is not None]
+
+    def of_empty_text(self, stage, name, readings):
+        """The Outcome of a text without triangles: right if nothing may be left of what the stage has read."""
+        given = [self.ours.world] if stage == "model" else [reading.points for reading in readings]
+        if not all(given) or stage == "project" and not all(self.clipped(readings)):
+            return Outcome(FileVerdict(stage, name, RIGHT, differing=0), [])
+        if not given:
+            return undecided_outcome(stage, name)
+        return Outcome(FileVerdict(stage, name, WRONG, remarks=["there is no triangle in it"]))
 
     def right_ndc(self):
         """What a program may have drawn by that writes other numbers into its file."""
@@ -96,11 +112,6 @@ class HandIn:
         given = [kind for kind in kinds if points[kind] is not None]
         for kind, digits in zip(given, of_one_program([points[kind].digits for kind in given])):
             points[kind].digits = digits
-        for kind in given:
-            if not points[kind].points:  # an empty text
-                self.failed[kind] = FileVerdict(STAGE_OF[kind], self.files[kind].name, WRONG, remarks=["there is no triangle in it"])
-                if self.ours.world:
-                    points[kind] = None
         return points
 
     def add_others(self, kind, verdict):
@@ -118,7 +129,7 @@ class HandIn:
         if self.ours.has_own_colors and colors is not None:
             verdicts["picture"], colors = self.verdict_of_colors(colors), None
         readings = {}
-        if stage3 and stage3.points and len(stage3) <= MOST_PARTS * len(self.ours.world):
+        if stage3 is not None and len(stage3) <= MOST_PARTS * len(self.ours.world):
             readings["file"] = (stage3.points, stage3.units)
         is_defined = memory is not None and all(x == x for p in memory for x in p)
         if is_defined:
@@ -136,18 +147,21 @@ class HandIn:
                     verdicts[kind] = self.verdict_of_pixels(kind, finding, shown)
         for kind, verdict in verdicts.items():
             if verdict is None:
-                verdicts[kind] = verdict = FileVerdict("zbuf", self.files[kind].name, UNDECIDED, remarks=["the stages before give no points to judge it by"])
+                verdicts[kind] = verdict = undecided_outcome("zbuf", self.files[kind].name).verdict
             self.add_others(kind, verdict)
         return list(verdicts.values())
 
     def verdict_of_colors(self, colors):
-        """The FileVerdict of a picture whose triangles have colors of their own, or light: every color counts."""
-        name = self.files["picture"].name
-        ours = self.ours.picture(self.files["stage3"].data or b"")
-        if ours is None:
-            return FileVerdict("zbuf", name, UNDECIDED, remarks=["zbuf refuses their stage3.txt"])
-        places = [(r, i) for r, (row, line) in enumerate(zip(ours, colors)) for i, color in enumerate(line) if row[3 * i:3 * i + 3] != color]
-        return FileVerdict("zbuf", name, WRONG if places else RIGHT, differing=len(places), compared=len(ours) * len(colors[0]), places=places)
+        """The FileVerdict of a picture whose triangles have colors of their own, or light: every color counts, by either rule of coverage."""
+        name, verdicts = self.files["picture"].name, []
+        for coverage, verdict, rule in (("nearest", RIGHT, ""), ("center", ANOTHER_RULE, "the center rule")):
+            ours = self.ours.picture(self.files["stage3"].data or b"", coverage)
+            if ours is None:
+                return FileVerdict("zbuf", name, UNDECIDED, remarks=["zbuf refuses their stage3.txt"])
+            places = [(r, i) for r, (row, line) in enumerate(zip(ours, colors)) for i, color in enumerate(line) if row[3 * i:3 * i + 3] != color]
+            verdicts.append(FileVerdict("zbuf", name, WRONG if places else verdict, "" if places else rule, differing=len(places),
+                                        compared=len(ours) * len(colors[0]), places=places))
+        return min(verdicts, key=lambda verdict: verdict.differing)
 
     def verdict_of_pixels(self, kind, finding, shown):
         name = self.files[kind].name
@@ -171,13 +185,16 @@ class HandIn:
             verdict.first = f"row {row}, column {column}: " + KINDS_IN_WORDS[mismatch.pixels[row, column]]
         if verdict.rule and verdict.verdict == RIGHT:
             verdict.verdict = ANOTHER_RULE
-        if kind == "picture" and self.has_other_colors(mismatch) and verdict.is_good:
+        if kind == "picture" and verdict.is_good and self.has_other_colors(shown):
             verdict.remarks.append("in other colors")
         return verdict
 
-    @staticmethod
-    def has_other_colors(mismatch):
-        return any(tuple(color) != generated_color(t) for t, color in mismatch.colors.items())
+    def has_other_colors(self, shown):
+        """Whether most pixels with a triangle have a color that zbuf gives to none of the scene's. Which triangle a pixel shows is not
+        asked: the text that it was judged by may lack some, and hold others in parts."""
+        ours = set(generated_colors(len(self.ours.world) // 3))
+        counts = collections.Counter(color for row in shown.colors for color in row if color != shown.background)
+        return 2 * sum(count for color, count in counts.items() if color not in ours) > sum(counts.values())
 
 
 def is_of_this_world(points):
@@ -185,16 +202,12 @@ def is_of_this_world(points):
     return all(abs(x) < FAR for p in points for x in p)
 
 
-def generated_color(number):
-    """The color that zbuf gives to a triangle (docs/stages.md, Z10)."""
-    state, color = 1, []
-    a, c = 214013, 2531011
-    skip = 3 * number
-    while skip:  # the generator's steps, doubled each time
-        if skip & 1:
-            state = (a * state + c) % 2**32
-        a, c, skip = a * a % 2**32, (a + 1) * c % 2**32, skip >> 1
-    for _ in range(3):
-        state = (214013 * state + 2531011) % 2**32
-        color.append((state >> 16 & 0x7fff) % 256)
-    return tuple(color)
+def generated_colors(count):
+    """The colors that zbuf gives to the first triangles, as bytes (docs/stages.md, Z10)."""
+    state = 1
+    for _ in range(count):
+        color = []
+        for _ in range(3):
+            state = (214013 * state + 2531011) % 2**32
+            color.append((state >> 16 & 0x7fff) % 256)
+        yield bytes(color)

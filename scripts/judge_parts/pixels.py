@@ -13,9 +13,11 @@ PIXELS_LOOKED_AT = 30_000  # how many differing pixels are checked for what else
 MOST_WORK = 40_000_000     # pixels of triangles and spans looked at, in all that is tried
 SAMPLE_ROWS = 8
 LEAST_PIXELS_OF_OTHERS = 3  # that triangles beside the largest must show before one color is a mistake
-# Real programs draw a few pixels astray, for example where a row passes just by a vertex.
-MOST_STRAYS = 0.05  # of the pixels that are drawn, or not, otherwise
-MOST_INSIDE = 0.25  # of the pixels with a triangle, that may differ inside triangles where another rule holds at the borders
+# All that differs should lie within a pixel of an edge. Honest programs have a few pixels astray, for example where a row passes just by
+# a vertex, and depths that depend on the ends of their row: no more is let through than they need.
+MOST_STRAYS = 1 / 32   # of the pixels that are drawn, or not, otherwise
+MOST_OTHERS = 1 / 64   # of the pixels with a triangle, that may show one which is none within a pixel
+MOST_DEPTHS = 1 / 5    # of the pixels with a triangle, that may have a depth which it has nowhere within a pixel
 
 
 @dataclasses.dataclass
@@ -277,18 +279,18 @@ class PixelJudge:
         shapes = len(best.of_shape)
         if shapes > best.drawn:
             return None  # more than all: not the borders of what there is to draw
-        most_inside, most_strays = MOST_INSIDE * best.drawn if shapes else 0, MOST_STRAYS * shapes
-        inside = strays = 0
+        of_drawn = best.drawn if shapes else 0  # where no border differs, no other rule holds there
+        most = {"stray": MOST_STRAYS * shapes, "other": MOST_OTHERS * of_drawn, "depth": MOST_DEPTHS * of_drawn}
+        beyond = collections.Counter()
         for what in self.beyond_borders(Borders(drawing.triangles, self.limits, self.work), best, pixels):
-            inside += what == "inside"
-            strays += what == "stray"
-            if inside > most_inside or strays > most_strays:
+            beyond[what] += 1
+            if beyond[what] > most[what]:
                 return None
-        return Finding("borders", best, self.at_borders_in_words(best, inside), total=best.drawn)
+        return Finding("borders", best, self.at_borders_in_words(best, beyond["other"] + beyond["depth"]), total=best.drawn)
 
     def beyond_borders(self, borders, mismatch, pixels):
-        """For each pixel that differs beyond a pixel from the edges: `inside` if it shows a depth or a triangle that is not found within a
-        pixel, `stray` if it is drawn, or not, farther from the edges, or has a depth beyond the limits."""
+        """For each pixel that differs beyond a pixel from the edges: `stray` if it is drawn, or not, farther from the edges, or has a depth
+        beyond the limits; `other` if no such triangle is found within a pixel, and `depth` if no such depth of it is."""
         for (row, column), kind in mismatch.pixels.items():
             is_drawn = pixels.drawn[row][column]
             z = pixels.depths[row][column] if pixels.depths and pixels.depths[row] else None
@@ -300,7 +302,7 @@ class PixelJudge:
             if not is_kept or kind in ("extra", "missing") and not borders.allows(row, column, is_drawn):
                 yield "stray"
             elif kind not in ("extra", "missing"):
-                yield "inside"
+                yield "depth" if borders.could_show(row, column, is_drawn, None, tolerance, seen) else "other"
 
     def at_borders_in_words(self, mismatch, inside):
         pixels, kinds = self.shown.pixels(), collections.Counter(mismatch.pixels.values())

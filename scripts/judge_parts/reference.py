@@ -18,6 +18,7 @@ OWN_COLORS = ("light", "attributes")  # header lines of scenes whose triangles a
 MEBIBYTE = 1 << 20
 BYTES_OF_A_VERTEX, BYTES_OF_A_DEPTH, BYTES_OF_A_PIXEL = 500, 40, 8
 MOST_PIXELS = 1 << 24
+MOST_BYTES = 256 * MEBIBYTE  # of a file of a hand-in, however large the scene is
 OLD_FORMAT = "the scene has the form of before 2020: size, background and the colors after triangles are passed over"
 
 
@@ -67,15 +68,16 @@ class Reference:
     def limit(self, kind):
         """The bytes that a file of a hand-in may have."""
         if kind in ("depths", "picture"):
-            pixels = self.window.width * self.window.height
-            return MEBIBYTE + pixels * (BYTES_OF_A_DEPTH if kind == "depths" else BYTES_OF_A_PIXEL)
-        return MEBIBYTE + BYTES_OF_A_VERTEX * len(self.world)
+            needed = self.window.width * self.window.height * (BYTES_OF_A_DEPTH if kind == "depths" else BYTES_OF_A_PIXEL)
+        else:
+            needed = BYTES_OF_A_VERTEX * len(self.world)
+        return min(MEBIBYTE + needed, MOST_BYTES)
 
-    def picture(self, stage3):
+    def picture(self, stage3, coverage="nearest"):
         """The picture of our zbuf for the bytes of a stage text, as rows of bytes; None if it refuses them."""
         try:
             with self.tools.file(self.config) as config, self.tools.file(b"") as image:
-                self.tools.run("zbuf", config, "--z-buffer", "/dev/null", "--image", image + ".ppm", stdin=stage3)
+                self.tools.run("zbuf", config, "--coverage", coverage, "--z-buffer", "/dev/null", "--image", image + ".ppm", stdin=stage3)
                 try:
                     return read_picture(image + ".ppm")[2]
                 finally:

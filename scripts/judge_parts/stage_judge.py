@@ -7,7 +7,7 @@ from judge_parts.digits import EXACT
 from judge_parts.matrices import ROUNDING, image, slack
 from judge_parts.points import described, difference, differs
 from judge_parts.scene import NO_UNITS, ROUGH_PIS, Habit, turned_with
-from judge_parts.verdict import ANOTHER_RULE, RIGHT, TOO_FEW_DIGITS, WRONG, Cause, FileVerdict, cause_of
+from judge_parts.verdict import ANOTHER_RULE, RIGHT, TOO_FEW_DIGITS, UNDECIDED, WRONG, Cause, FileVerdict, cause_of
 from lib.vectors import cross
 
 
@@ -44,6 +44,10 @@ def exact_images(m, is_divided, points):
 def count_verdict(stage, name, theirs, expected):
     count = len(theirs) // 3
     return FileVerdict(stage, name, WRONG, remarks=[f"{count} triangle{'' if count == 1 else 's'} in place of {expected}"])
+
+
+def undecided_outcome(stage, name):
+    return Outcome(FileVerdict(stage, name, UNDECIDED, remarks=["the stages before give no points to judge it by"]))
 
 
 def right_verdict(stage, name, theirs, rule=""):
@@ -108,12 +112,12 @@ class StageJudge:
         return self.by_matrix("view", name, theirs, readings, right, list(self.scene.view_mistakes()))
 
     def project(self, name, theirs, readings, others=()):
-        """`others` are lists of points that are right, too: those that were clipped."""
+        """`others` are lists of points that are right, too: those that were clipped, for each reading, the exact one last."""
         right = [("", self.scene.of_project(), True)]
         if self.scene.projection.kind == "perspective":
             right += [(f"pi is taken as {pi:.8g}", self.scene.of_project(pi=pi), True) for pi in ROUGH_PIS]
         digits = EXACT if theirs.digits.are_too_few else theirs.digits
-        for points in others:
+        for points in reversed(others):  # the exact ones are what the program may have in memory
             if len(points) == len(theirs) and not differs(theirs.points, digits, ((p, NO_UNITS) for p in points)):
                 return Outcome(right_verdict("project", name, theirs), points)
         return self.by_matrix("project", name, theirs, readings, right, list(self.scene.project_mistakes()))
@@ -121,9 +125,10 @@ class StageJudge:
     def by_matrix(self, stage, name, theirs, readings, right, mistakes):
         """The Outcome of a stage that is one matrix for all points. `right` and `mistakes` are (name, matrix, whether it divides); the
         name of what is right is the rule, in words."""
-        readings = [reading for reading in readings if len(reading.points) == len(theirs)]
+        given = readings
+        readings = [reading for reading in given if len(reading.points) == len(theirs)]
         if not readings:
-            return Outcome(count_verdict(stage, name, theirs, len(self.scene.triangle_lines)))
+            return Outcome(count_verdict(stage, name, theirs, len(given[0].points) // 3)) if given else undecided_outcome(stage, name)
         digits = EXACT if theirs.digits.are_too_few else theirs.digits
         reach = math.hypot(*self.scene.eye) if stage == "view" else 0.0
         memory = readings[-1].points

@@ -9,14 +9,13 @@ def line_of(words_of):
     return next([keyword, *words_of(keyword)] for keyword in KEYWORDS if words_of(keyword))
 
 
-def tangents(header, angle_in_radians=math.radians):
-    """Of half the field of view of a perspective: the horizontal tangent and the vertical one. `angle_in_radians` converts fovY
-    and fovX."""
+def tangents(header):
+    """Of half the field of view of a perspective: the horizontal tangent and the vertical one."""
     fov_y, aspect = map(float, header["perspective"][:2])
-    top = math.tan(angle_in_radians(fov_y) / 2)
+    top = math.tan(math.radians(fov_y) / 2)
     if header["perspective"][4:] == ["ratio"]:
         return aspect * top, top
-    return math.tan(angle_in_radians(fov_y * aspect) / 2), top
+    return math.tan(math.radians(fov_y * aspect) / 2), top
 
 
 def window_of(header):

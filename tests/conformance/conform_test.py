@@ -138,6 +138,30 @@ class Page(unittest.TestCase):
             {*re.findall(r"--[a-z-]+\b", text)})
 
 
+class Groups(unittest.TestCase):
+    SIGNED = sh(f"{BIN}/view | sed 's/ 0.0000000/ -0.0000000/g'")
+
+    def test_what_the_assignment_asks_for_is_counted_apart(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder, "results")
+            conform("--stage", "view", "--json", path, "--", *self.SIGNED)
+            found = json.loads(path.read_text())
+        groups = found["groups"]
+        self.assertEqual(groups["what the assignment asks for"]["wrong"], 0)
+        for group in ("text to the byte", "refusals of wrong input"):
+            self.assertGreater(groups[group]["wrong"], 0)
+        for state in ("right", "wrong"):
+            self.assertEqual(sum(counts[state] for counts in groups.values()), found["counts"][state])
+        refused = [case["name"] for case in found["cases"] if case["group"] == "refusals of wrong input"]
+        self.assertEqual(refused, [case.name for case in CASES["view"] if case.refused_line is not None])
+
+    def test_only_that_is_run_with_basic(self):
+        done = conform("--stage", "view", "--basic", "--", *self.SIGNED)
+        count = sum(not case.words("needs") for case in CASES["view"])
+        self.assertEqual((done.returncode, done.stdout.splitlines()[-2:]), (0, ["#", f"# {count} right, 0 wrong, {len(CASES['view']) - count} left out"]))
+        self.assertNotIn("what the assignment asks for", done.stdout)
+
+
 class Runner(unittest.TestCase):
     """Small programs, on a case or two."""
 

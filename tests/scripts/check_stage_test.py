@@ -5,6 +5,7 @@ usage: check_stage_test.py BIN_DIR [UNITTEST ARGUMENT...]
 """
 import os
 import pathlib
+import re
 import subprocess
 import sys
 import time
@@ -47,7 +48,10 @@ class Program(ToolTest):
 
     def test_ours_are_right_on_the_samples(self):
         done = check("view", "--", BIN / "view")
-        self.assertEqual((done.stdout, done.returncode), ("".join(f"{name}: right\n" for name in SAMPLES), 0))
+        *tried, others = done.stdout.splitlines()
+        self.assertEqual((tried, done.returncode), ([f"{name}: right" for name in SAMPLES], 0))
+        self.assertRegex(others, "^not tried: ")
+        self.assertEqual({path.name for path in (SOURCE / "samples").iterdir()}, {*SAMPLES, *re.findall(r"[a-z]+(?:-[a-z]+)?(?=,| \()", others)})
 
     def test_the_first_wrong_number_and_the_cause(self):
         told = self.told("view", 'exec "$BIN/view" --eye 0 0 0 --look -2.7 -4.2 -6.9')

@@ -1,24 +1,66 @@
 #!/usr/bin/env python3
 """scripts/compare: its reports on texts and pictures that differ, and on students' errors.
 
-usage: compare_test.py BIN_DIR [UNITTEST ARGUMENT...]
+usage: compare_test.py BIN_DIR STUDENT [UNITTEST ARGUMENT...]
 """
+import math
 import pathlib
 import struct
 import subprocess
 import sys
 import unittest
 
-from student_pipeline import Student
-
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "tools"))
 from toolbox import BIN, SOURCE, ToolTest, run  # noqa: E402
+import student  # noqa: E402
 
 sys.path.insert(0, str(SOURCE / "scripts"))
+from judge_parts.mistakes import sentences  # noqa: E402
 from lib.pictures import png, read_picture  # noqa: E402
 
 SAMPLE = SOURCE / "samples/tilted-camera"
 SCENE = (SAMPLE / "scene.txt").read_text()
+# No two mistakes do the same to it.
+WIDE = """3 4 7
+0.3 -0.2 0.1
+0.2 1 0.1
+50 1.3 1 50
+push
+rotate
+35 1 2 3
+triangle
+-1 -1 -1
+1 -1 -0.5
+0 1.2 0.3
+push
+push
+translate
+0.5 0.25 0.75
+scale
+0.5 1.5 0.75
+triangle
+-1 0 0
+1 0 0.5
+0 1 -0.5
+pop
+triangle
+0 0 1
+0.5 0.5 1
+-0.5 0.5 1.2
+pop
+translate
+-1 0 0
+triangle
+-0.5 -0.5 0.5
+0.7 -0.6 0.4
+0.1 0.8 0.2
+pop
+triangle
+-3 -1 -3
+3 -1 -3
+0 -1 2
+end
+"""
 TRIANGLE = "0.1000000 0.2000000 0.3000000\n1.0000000 0.0000000 0.5000000\n0.0000000 1.0000000 0.7000000\n\n"
 
 
@@ -43,6 +85,10 @@ def bmp(width, height, pixels):
 
 
 class TwoFiles(ToolTest):
+    def setUp(self):
+        super().setUp()
+        pathlib.Path("wide.txt").write_text(WIDE)
+
     def told(self, a, b, *options, status=1):
         pathlib.Path("a").write_bytes(a if isinstance(a, bytes) else a.encode())
         pathlib.Path("b").write_bytes(b if isinstance(b, bytes) else b.encode())
@@ -75,33 +121,45 @@ class TwoFiles(ToolTest):
         self.assertEqual(cells(self.told("eye 0 0 1\n" + TRIANGLE, "eye 0 0 2\n" + TRIANGLE), "not alike"),
                          ["header line eye: 0 0 1 and 0 0 2"])
 
-    def hint(self, a, b, *options):
-        return " ".join(cells(self.told(a, b, *options), "hint"))
+    def row(self, name, a, b, *options):
+        return " ".join(cells(self.told(a, b, *options), name))
 
     def test_one_unit_is_rounding(self):
-        self.assertIn("rounding", self.hint(TRIANGLE.replace("0.7000000", "0.7000001"), TRIANGLE))
-        self.assertEqual(self.hint(TRIANGLE.replace("0.7000000", "0.7000002"), TRIANGLE), "")
+        self.assertIn("rounding", self.row("hint", TRIANGLE.replace("0.7000000", "0.7000001"), TRIANGLE))
+        self.assertEqual(self.row("hint", TRIANGLE.replace("0.7000000", "0.7000002"), TRIANGLE), "")
 
-    def test_mistakes_that_show_in_the_numbers_need_no_scene(self):
-        right = Student(SCENE).texts()
-        for mistake, stage, words in (("handedness", 2, "handedness is flipped: z"), ("up", 2, "up is used as it is given"),
-                                      ("divide", 3, "the divide by w is missing"), ("radians 3", 3, "the field of view"),
-                                      ("rounding", 1, "rounding")):
+    def test_factors_show_in_the_numbers(self):
+        right = student.texts(SCENE)
+        for mistake, stage, words in (("view/l-not-negated", 1, "x, y and z of A are 1, 1 and -1 times those of B"), ("view/eye-added", 1, ""),
+                                      ("project/fovx-equals-fovy", 2, ""), ("project/no-divide", 2, ""), ("project/last-element-is-one", 2, "")):
             with self.subTest(mistake):
-                self.assertIn(words, self.hint(Student(SCENE, mistake).texts()[stage - 1], right[stage - 1]))
+                table = self.told(student.texts(SCENE, mistake)[stage], right[stage], status=int(student.texts(SCENE, mistake)[stage] != right[stage]))
+                self.assertEqual((" ".join(cells(table, "hint")), cells(table, "cause")), (words, []))
 
-    def test_with_the_scene_the_others_are_known(self):
-        right = Student(SCENE).texts()
-        for mistake, stage, words in (("swapped 1", 1, "rows and columns"), ("radians 1", 1, "degrees are taken for radians by the rotations"),
-                                      ("swapped 2", 2, "rows and columns"), ("radians 3", 3, "degrees are taken for radians in the field of view")):
-            with self.subTest(mistake):
-                self.assertIn(words, self.hint(Student(SCENE, mistake).texts()[stage - 1], right[stage - 1], "--scene", SAMPLE / "scene.txt"))
+    def test_with_the_scene_the_mistake_is_named(self):
+        right = student.texts(WIDE)
+        for name, sentence in sentences().items():
+            stage = ("model", "view", "project", "zbuf").index(name.split("/")[0])
+            if stage == 3:
+                continue
+            with self.subTest(name):
+                wrong = student.texts(WIDE, name)
+                if wrong[stage] != right[stage]:
+                    self.assertIn(sentence.rstrip("."), self.row("cause", wrong[stage], right[stage], "--scene", "wide.txt"))
 
-    def test_a_mistake_nobody_knows_gets_no_hint(self):
-        right = Student(SCENE).texts()[1]
+    def test_the_matrix_stands_beside_the_right_one(self):
+        told = self.told(student.texts(WIDE, "project/r-and-t-swapped")[2], student.texts(WIDE)[2], "--scene", "wide.txt")
+        rows = told.split("ours\n")[1].splitlines()
+        self.assertEqual([row.count("*") for row in rows], [1, 1, 0, 0])
+
+    def test_a_mistake_nobody_knows_gets_no_cause(self):
+        right = student.texts(WIDE)[1]
         lines = right.split("\n")
-        lines[40] = "1.0000000 2.0000000 3.0000000"
-        self.assertEqual(self.hint("\n".join(lines), right, "--scene", SAMPLE / "scene.txt"), "")
+        lines[4] = "1.0000000 2.0000000 3.0000000"
+        self.assertEqual(self.row("cause", "\n".join(lines), right, "--scene", "wide.txt"), "")
+
+    def test_a_text_of_another_scene_is_not_taken_as_right(self):
+        self.assertEqual(self.row("cause", TRIANGLE, TRIANGLE.replace("0.7", "0.8"), "--scene", "wide.txt"), "not looked for: b is no output of this scene's stages")
 
     def test_z_buffers_are_compared_row_by_row(self):
         table = self.told("\n0.5\t0.25\t\n0.1\t\n", "\n0.5\t0.5\t\n0.1\t0.2\t\n")
@@ -140,10 +198,10 @@ class TwoFiles(ToolTest):
 
 
 class Five(ToolTest):
-    def hand_in(self, student, in_memory=True):
+    def hand_in(self, mistake="", in_memory=True, scene=SCENE):
         """Writes the five files of a student whose zbuf is right."""
         pathlib.Path("theirs").mkdir(exist_ok=True)
-        for number, text in enumerate(student.texts(in_memory), 1):
+        for number, text in enumerate(student.texts(scene, mistake, in_memory), 1):
             pathlib.Path(f"theirs/stage{number}.txt").write_text(text)
         self.draw()
 
@@ -158,46 +216,46 @@ class Five(ToolTest):
 
     def test_who_is_right_is_right(self):
         for in_memory in (True, False):
-            self.hand_in(Student(SCENE), in_memory)
+            self.hand_in("", in_memory)
             self.assertEqual(self.verdict(status=0), ("Verdict: all five files are right.", ["right"] * 5))
 
     def test_cut_decimals_are_no_mistake(self):
-        self.hand_in(Student(SCENE, "rounding"))
+        self.hand_in()
+        data = SCENE.encode()
+        for number, words in ((1, ["model"]), (2, ["view"]), (3, ["project"])):
+            data = run(*words, "--digits", "exact", stdin=data).stdout
+            lines = [line for line in data.decode().split("\n") if not line[:1].isalpha()]
+            cut = [" ".join(f"{math.trunc(float(word) * 1e7) / 1e7:.7f}" for word in line.split()) for line in lines]
+            pathlib.Path(f"theirs/stage{number}.txt").write_text("\n".join(cut))
+        self.draw()
         self.assertEqual(self.verdict(status=0)[1], ["right"] * 5)
 
     def test_one_mistake_is_counted_once_and_named(self):
-        for mistake, stage, words in (
-                ("swapped 1", "model", "The matrix of a rotation is transposed"), ("radians 1", "model", "The angle of a rotation is taken as radians"),
-                ("swapped 2", "view", "The rows of the rotation are its columns"), ("up", "view", "The second row of the rotation is up as given"),
-                ("handedness", "view", "The third row of the rotation is l in place of -l"), ("divide", "project", "The coordinates are not divided by w"),
-                ("radians 3", "project", "The angle of view is taken as radians")):
+        for mistake in ("model/rotation-transposed", "model/angle-in-radians", "view/rotation-transposed", "view/up-as-given", "view/l-not-negated",
+                        "project/no-divide", "project/fov-in-radians"):
             for in_memory in (True, False):
                 with self.subTest(mistake, in_memory=in_memory):
                     # Some errors move the scene behind the eye, where our project clips and theirs does not.
-                    self.hand_in(Student(SCENE, mistake), in_memory)
+                    self.hand_in(mistake, in_memory)
                     sentence, verdicts = self.verdict()
-                    self.assertIn(f"the first stage that went wrong is {stage} ", sentence)
-                    self.assertIn(words, sentence)
+                    self.assertIn(f"the first stage that went wrong is {mistake.split('/')[0]} ", sentence)
+                    self.assertIn(sentences()[mistake].rstrip("."), sentence)
                     self.assertEqual(verdicts.count("wrong"), 1, sentence)
 
     def test_the_aspect_rule_of_the_scene_is_ours_too(self):
         scene = SCENE.replace("\n41 1 2 25 ", "\n41 1.25 2 25 ratio ")
         pathlib.Path("ratio.txt").write_text(scene)
-        self.hand_in(Student(scene))
+        self.hand_in(scene=scene)
         self.assertEqual(self.verdict(status=0, scene="ratio.txt")[1], ["right"] * 5)
-        self.hand_in(Student(SCENE.replace("\n41 1 2 25 ", "\n41 1.25 2 25 ")))
+        self.hand_in(scene=scene.replace(" ratio ", " "))
         self.assertIn("the first stage that went wrong is project", self.verdict(scene="ratio.txt")[0])
-        for mistake, stage, words in (("radians 3", "project", "The angle of view is taken as radians"),
-                                      ("handedness", "view", "The third row of the rotation is l in place of -l")):
-            with self.subTest(mistake):
-                self.hand_in(Student(scene, mistake))
-                sentence, verdicts = self.verdict(scene="ratio.txt")
-                self.assertIn(f"the first stage that went wrong is {stage} ", sentence)
-                self.assertIn(words, sentence)
-                self.assertEqual(verdicts.count("wrong"), 1)
+        self.hand_in("view/l-not-negated", scene=scene)
+        sentence, verdicts = self.verdict(scene="ratio.txt")
+        self.assertIn("the first stage that went wrong is view ", sentence)
+        self.assertEqual(verdicts.count("wrong"), 1)
 
     def test_two_mistakes_are_both_found(self):
-        self.hand_in(Student(SCENE, "swapped 1"))
+        self.hand_in("model/rotation-transposed")
         text = pathlib.Path("theirs/z_buffer.txt").read_text().split("\n")
         filled = next(i for i, line in enumerate(text) if line)
         text[filled] = text[filled].replace("0.", "1.")
@@ -208,26 +266,26 @@ class Five(ToolTest):
         self.assertEqual(verdicts, ["wrong", "right", "right", "wrong", "right"])
 
     def test_colors_are_the_students_own(self):
-        self.hand_in(Student(SCENE))
+        self.hand_in()
         width, height, rows = read_picture("theirs/out.bmp")
         pathlib.Path("theirs/out.bmp").write_bytes(bmp(width, height, lambda c, r: [rows[r][3 * c + i] ^ 85 for i in range(3)]))
         self.assertEqual(self.verdict(status=0)[1], ["right"] * 5)
 
     def test_a_picture_upside_down_is_told(self):
-        self.hand_in(Student(SCENE))
+        self.hand_in()
         width, height, rows = read_picture("theirs/out.bmp")
         pathlib.Path("theirs/out.bmp").write_bytes(bmp(width, height, lambda c, r: rows[height - 1 - r][3 * c:3 * c + 3]))
         self.assertIn("the first stage that went wrong is zbuf (out.bmp is wrong): The rows are in reverse order", self.verdict()[0])
 
     def test_missing_files_are_told_and_the_rest_is_judged(self):
-        self.hand_in(Student(SCENE))
+        self.hand_in()
         pathlib.Path("theirs/stage2.txt").unlink()
         sentence, verdicts = self.verdict()
         self.assertIn("stage2.txt is not handed in", sentence)
         self.assertEqual(verdicts, ["right", "not handed in", "right", "right", "right"])
 
     def test_a_text_that_cannot_be_read_is_told_with_its_place(self):
-        self.hand_in(Student(SCENE))
+        self.hand_in()
         pathlib.Path("theirs/stage1.txt").write_text("1 2 3\n4 5 -nan\n")
         done = compare("--five", "theirs", SAMPLE / "scene.txt", SAMPLE / "config.txt")
         self.assertIn("stage1.txt:2: expected numbers, found '4 5 -nan'", done.stdout)

@@ -311,13 +311,17 @@ class Hostile(ClassTest):
         with tarfile.open("hand-ins/many.tar", "w") as archive:
             for i in range(100_000):
                 archive.addfile(tarfile.TarInfo(f"{i}/stage1.txt"))
+        with zipfile.ZipFile("hand-ins/many too.zip", "w") as archive:
+            for i in range(30_000):
+                archive.writestr(f"{i}/stage1.txt", b"")
         self.add("deep", *["d"] * 15)
         self.add("folders")
         pathlib.Path("hand-ins/folders/" + "d/" * 900).mkdir(parents=True)
         self.zip("deeper", [("d/" * 5000 + "stage1.txt", b"1 2 3\n")])
         rows, _ = self.judge()
-        self.assertEqual({name: float(row["score"]) for name, row in rows.items()}, {"zoe": 1.0, "many": 0.0, "deep": 0.0, "folders": 1.0, "deeper": 0.0})
-        self.assertIn("more than 20000 files", rows["many"]["remarks"])
+        self.assertEqual({name: float(row["score"]) for name, row in rows.items()}, {"zoe": 1.0, "many": 0.0, "many too": 0.0, "deep": 0.0, "folders": 1.0, "deeper": 0.0})
+        for name in ("many", "many too"):
+            self.assertIn("more than 20000 files", rows[name]["remarks"])
 
     def test_pictures_that_lie(self):
         header = (SAMPLE / "out.bmp").read_bytes()[:54]
@@ -344,6 +348,15 @@ class Hostile(ClassTest):
         self.assertLess(seconds, 60)
         self.assertIn("30000 triangles in place of 1", self.page(1))
         self.assertIn("could not be judged", self.page(1))
+
+    def test_what_is_given_up_leaves_no_files(self):
+        self.add("a")
+        pathlib.Path("hand-ins/a/stage3.txt").write_text("-9 -9 0\n9 -9 0\n0 9 .5\n" * 30_000)
+        os.mkdir("temporary")
+        os.environ["TMPDIR"] = os.path.abspath("temporary")
+        self.addCleanup(os.environ.pop, "TMPDIR")
+        self.grade("--time-limit", "0.05", status=1)
+        self.assertEqual(os.listdir("temporary"), [])
 
     def test_time_and_memory_have_limits(self):
         self.add("a")

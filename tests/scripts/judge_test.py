@@ -1,32 +1,32 @@
 #!/usr/bin/env python3
 """scripts/compare --five: the verdicts on sets of files that our own tools and a student's stages make.
 
-usage: judge_test.py BIN_DIR [UNITTEST ARGUMENT...]
+usage: judge_test.py BIN_DIR STUDENT [UNITTEST ARGUMENT...]
 """
 import math
 import os
 import pathlib
+import re
 import shutil
 import struct
 import subprocess
 import sys
 import unittest
 
-from student_pipeline import Student
-
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "tools"))
 from toolbox import BIN, SOURCE, ToolTest  # noqa: E402
+import student  # noqa: E402
 
 sys.path.insert(0, str(SOURCE / "scripts"))
 os.environ["BIN"] = str(BIN)
-from compare_parts.mistakes import with_angles  # noqa: E402
 from judge_parts import fit, mistakes  # noqa: E402
 from judge_parts.hand_in import File, find_files  # noqa: E402
 from judge_parts.judge import judge  # noqa: E402
 from judge_parts.matrices import image, perspective_matrix, view_matrix  # noqa: E402
-from judge_parts.reference import JudgeError  # noqa: E402
+from judge_parts.reference import JudgeError, Reference  # noqa: E402
 from judge_parts.report import sentence  # noqa: E402
 from lib.pictures import read_picture  # noqa: E402
+from lib.pipe_tools import Tools  # noqa: E402
 
 # Two triangles that meet, one beyond, one without area; nested pushes, and numbers that no rule can mistake for another's.
 SCENE = """3 4 7
@@ -82,6 +82,11 @@ def bmp(rows):
     return struct.pack("<2sIHHIIiiHHIIiiII", b"BM", 54 + len(body), 0, 0, 54, 40, width, height, 1, 24, 0, len(body), 0, 0, 0, 0) + body
 
 
+def with_rough_pi(scene, pi):
+    """The scene's text with every angle of a rotation as a program takes it whose pi is rough."""
+    return re.sub(r"(?<=rotate\n)\S+", lambda word: repr(float(word[0]) * pi / math.pi), scene)
+
+
 def tool(name, *words, stdin=b""):
     return subprocess.run([BIN / name, *map(str, words)], input=stdin, capture_output=True, check=True).stdout
 
@@ -117,7 +122,7 @@ class HandIn(ToolTest):
     scene, config = SCENE, CONFIG
 
     def stages(self, mistake="", in_memory=False):
-        for name, text in zip(NAMES, Student(self.scene, mistake).texts(in_memory)):
+        for name, text in zip(NAMES, student.texts(self.scene, mistake, in_memory)):
             pathlib.Path(name).write_text(text)
 
     def draw(self, *options, stage3="stage3.txt"):
@@ -189,6 +194,18 @@ class Right(HandIn):
         verdict = self.assert_verdicts(["right"] * 5, 0)
         self.assertIn("in other colors", verdict.files[4].remarks)
 
+    def test_our_colors_are_ours_where_a_triangle_was_dropped(self):
+        self.scene = SCENE.replace("50 1.3 1 50\n", "50 1.3 1 50\ntriangle\n6 8 14\n7 8 14\n6 9 14\n")  # behind the eye
+        pathlib.Path("scene.txt").write_text(self.scene)
+        text = tool("model", stdin=self.scene.encode())
+        for name, words in zip(NAMES, (("model", "--bare"), ("view", "--bare"), ("project",))):
+            pathlib.Path(name).write_bytes(tool(words[0], *words[1:], *(["--scene", "scene.txt"] if words[0] != "model" else []),
+                                                stdin=self.scene.encode() if words[0] == "model" else text))
+            text = pathlib.Path(name).read_bytes()
+        self.draw()
+        verdict = self.assert_verdicts(["right"] * 5, 0)
+        self.assertEqual(verdict.files[4].remarks, [])
+
     def test_either_of_two_equal_depths(self):
         self.scene = "0 0 5\n0 0 0\n0 1 0\n60 1 1 10\n" + "triangle\n-1 -1 0\n1 -1 0\n0 1 0\n" * 2 + "end\n"
         self.hand_in()
@@ -224,11 +241,24 @@ class AnotherRule(HandIn):
         verdict = self.assert_verdicts(self.RULE, 0)
         self.assertEqual((verdict.files[3].rule, verdict.files[3].file), ("the center rule", "zBuffer.txt"))
 
+    def test_colors_of_the_scene_by_the_center_rule(self):
+        self.stages()  # their points
+        self.scene = SCENE.replace("push\n", "color 200 100 50\npush\n", 1)
+        for coverage, verdict in (("nearest", "right"), ("center", "right by another rule")):
+            text = tool("project", stdin=tool("view", stdin=tool("model", stdin=self.scene.encode())))
+            pathlib.Path("stage3.txt").write_bytes(text)
+            self.draw("--coverage", coverage)
+            self.assertEqual(self.words(), ["right"] * 3 + [verdict] * 2)
+        pixels = Pixels()
+        row, last = pixels.ends()[40]
+        pixels.colors[row][last] = (200, 100, 51)
+        pixels.write()
+        self.assertEqual(self.words()[4], "wrong")
+
     def test_a_rough_pi_is_named(self):
         for pi, word in ((3.14, "3.14"), (3.1416, "3.1416"), (22 / 7, "3.1428571")):
             with self.subTest(word):
-                rough = with_angles(SCENE, lambda angle, pi=pi: angle * pi / math.pi)
-                pathlib.Path("stage1.txt").write_bytes(tool("model", "--bare", stdin=rough.encode()))
+                pathlib.Path("stage1.txt").write_bytes(tool("model", "--bare", stdin=with_rough_pi(SCENE, pi).encode()))
                 verdict = self.verdict(config=False).files[0]
                 self.assertEqual((verdict.verdict, verdict.rule), ("right by another rule", f"pi is taken as {word}"))
 
@@ -256,6 +286,21 @@ class AnotherRule(HandIn):
         verdict = self.assert_verdicts(["right"] * 3 + ["wrong"] * 2, 1)
         self.assertEqual((verdict.files[3].cause, verdict.files[4].differing), ("", 1))
 
+    def test_pixels_inside_are_excused_by_one_in_32_at_the_borders(self):
+        for at_borders, inside, expected in ((20, 1, "wrong"), (40, 1, "right by another rule"), (40, 2, "wrong")):
+            with self.subTest(at_borders=at_borders, inside=inside):
+                self.hand_in()
+                pixels = Pixels()
+                ends = pixels.ends()
+                for place in ends[:at_borders - 1]:
+                    pixels.clear(*place)
+                row, last = ends[at_borders]
+                pixels.clear(row, last)
+                for i in range(inside):
+                    pixels.clear(row, last - 6 - i)
+                pixels.write()
+                self.assertEqual(self.words()[3:], [expected] * 2)
+
     def test_depths_that_are_off_are_wrong_and_the_picture_is_not(self):
         self.hand_in()
         pixels = Pixels()
@@ -272,11 +317,10 @@ class AnotherRule(HandIn):
 
 class Wrong(HandIn):
     def test_the_stage_and_the_cause(self):
-        for mistake, stage, name in (("swapped 1", 0, "model/rotation-transposed"), ("radians 1", 0, "model/angle-in-radians"), ("swapped 2", 1, "view/rotation-transposed"),
-                                     ("up", 1, "view/up-as-given"), ("handedness", 1, "view/l-not-negated"), ("divide", 2, "project/no-divide"),
-                                     ("radians 3", 2, "project/fov-in-radians")):
-            with self.subTest(mistake):
-                self.hand_in(mistake=mistake)
+        for stage, name in ((0, "model/rotation-transposed"), (0, "model/angle-in-radians"), (1, "view/rotation-transposed"), (1, "view/up-as-given"),
+                            (1, "view/l-not-negated"), (2, "project/no-divide"), (2, "project/fov-in-radians")):
+            with self.subTest(name):
+                self.hand_in(mistake=name)
                 verdict = self.verdict()
                 self.assertEqual([file.is_good for file in verdict.files], [i != stage for i in range(5)])
                 self.assertIn(name, [cause.name for cause in verdict.files[stage].causes])
@@ -286,7 +330,7 @@ class Wrong(HandIn):
         """A program may print other numbers than it draws by."""
         self.hand_in()
         right = {name: pathlib.Path(name).read_bytes() for name in NAMES[3:]}
-        self.stages("divide")
+        self.stages("project/no-divide")
         verdict = self.assert_verdicts(["right", "right", "wrong", "right", "right"], 1)
         self.assertIn("by the right numbers, which are not those of stage3.txt", verdict.files[3].remarks)
         self.assertEqual({name: pathlib.Path(name).read_bytes() for name in right}, right)
@@ -304,14 +348,14 @@ class Wrong(HandIn):
 
     def test_the_verdict_names_what_could_not_be_judged(self):
         self.hand_in()
-        self.stages("divide")
+        self.stages("project/no-divide")
         text = pathlib.Path("z_buffer.txt").read_text()
         pathlib.Path("z_buffer.txt").write_text("\n".join("\t".join("0.5" for _ in line.split()) for line in text.split("\n")))
         verdict = self.verdict()
         self.assertTrue(sentence(verdict).endswith("; z_buffer.txt: too few digits to judge"), sentence(verdict))
 
     def test_model_names_the_line_of_the_scene(self):
-        self.hand_in(mistake="swapped 1")
+        self.hand_in(mistake="model/rotation-transposed")
         verdict = self.verdict()
         self.assertIn("the first wrong triangle is number 0, in line 8 of the scene, after rotate in line 6", sentence(verdict))
         self.assertEqual({cause.name for cause in verdict.files[0].causes}, {"model/rotation-transposed", "model/angle-negated"})
@@ -383,11 +427,64 @@ class Wrong(HandIn):
         verdict = self.verdict()
         self.assertEqual(verdict.files[4].verdict, "wrong")
 
+    def test_the_triangles_of_a_stage_are_counted_by_its_own_input(self):
+        self.stages()
+        text = pathlib.Path("stage1.txt").read_text()
+        pathlib.Path("stage1.txt").write_text(text + text[:text.index("\n\n") + 2])
+        verdict = self.verdict(config=False)
+        self.assertEqual([file.remarks for file in verdict.files], [["6 triangles in place of 5"], ["5 triangles in place of 6"], []])
+
     def test_too_few_triangles(self):
         self.hand_in()
         text = pathlib.Path("stage1.txt").read_text()
         pathlib.Path("stage1.txt").write_text("\n".join(text.split("\n")[4:]))
         self.assertEqual(self.verdict().files[0].remarks, ["4 triangles in place of 5"])
+
+
+class FollowOn(HandIn):
+    """A stage is judged by what it has read, however wrong that is."""
+
+    def drop_all(self, mistake):
+        """Stages 1 and 2 with a mistake, and a project that drops what lies behind the eye."""
+        self.stages(mistake)
+        pathlib.Path("scene.txt").write_text(self.scene)
+        pathlib.Path("stage3.txt").write_bytes(tool("project", "--scene", "scene.txt", "stage2.txt"))
+
+    def test_nothing_may_be_left_of_a_wrong_view(self):
+        self.drop_all("view/l-not-negated")  # all lies behind the eye
+        self.assertEqual(pathlib.Path("stage3.txt").read_bytes(), b"")
+        self.draw()
+        verdict = self.assert_verdicts(["right", "wrong", "right", "right", "right"], 1)
+        self.assertEqual([cause.name for cause in verdict.files[1].causes], ["view/l-not-negated"])
+
+    def test_a_picture_of_nothing_has_no_pixels(self):
+        self.hand_in()
+        kept = {name: pathlib.Path(name).read_bytes() for name in NAMES[3:]}
+        self.drop_all("view/l-not-negated")
+        for name, data in kept.items():
+            pathlib.Path(name).write_bytes(data)
+        self.assert_verdicts(["right", "wrong", "right", "wrong", "wrong"], 1)
+
+    def test_an_empty_text_is_wrong_where_triangles_must_be(self):
+        for kind, name in enumerate(NAMES[:3]):
+            with self.subTest(name):
+                self.stages()
+                for later in NAMES[kind:3]:
+                    pathlib.Path(later).write_bytes(b"")
+                self.draw()
+                verdict = self.assert_verdicts(["wrong" if i == kind else "right" for i in range(5)], 1)
+                self.assertEqual(verdict.files[kind].remarks, ["there is no triangle in it"])
+
+    def test_a_scene_without_triangles_is_drawn_right(self):
+        self.scene = "0 0 5\n0 0 0\n0 1 0\n60 1 1 10\nend\n"
+        self.hand_in()
+        self.assert_verdicts(["right"] * 5, 0)
+
+    def test_a_stage_is_not_accused_for_an_input_that_allows_no_verdict(self):
+        self.stages()
+        lines = pathlib.Path("stage1.txt").read_text().split("\n")
+        pathlib.Path("stage1.txt").write_text("\n".join(["1e17 2e18 -3e19", *lines[1:]]))
+        self.assertEqual(self.words(config=False), ["wrong", "could not be judged", "right"])
 
 
 class Files(HandIn):
@@ -468,6 +565,14 @@ class Hostile(HandIn):
         verdict = self.given("stage1", b"1 2 3\n" * 10**6)
         self.assertEqual(verdict.files[0].verdict, "unreadable")
         self.assertIn("more than the scene can need", verdict.files[0].remarks[0])
+
+
+    def test_no_scene_is_so_large_that_a_file_may_be_endless(self):
+        ours = Reference(SCENE.encode(), b"4000 4000\n", Tools())
+        self.assertEqual(ours.limit("depths"), 256 << 20)
+        self.assertLess(ours.limit("stage1"), 2 << 20)
+        ours.world = range(10**8)
+        self.assertEqual(ours.limit("stage1"), 256 << 20)
 
 
 class Fit(unittest.TestCase):

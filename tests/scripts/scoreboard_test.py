@@ -18,7 +18,7 @@ sys.path[:0] = [str(MEASURE), str(SOURCE / "scripts")]
 from lib.pictures import picture_of  # noqa: E402
 from parts import scoreboard_geometry as geometry  # noqa: E402
 from parts import scoreboard_pictures  # noqa: E402
-from parts.scoreboard_cases import Case, read_case  # noqa: E402
+from parts.scoreboard_cases import Case, read_cases  # noqa: E402
 from parts.scoreboard_judge import answers, judged  # noqa: E402
 
 HALF = Fraction(1, 2)
@@ -85,11 +85,13 @@ class Geometry(unittest.TestCase):
 
 class Cases(unittest.TestCase):
     def read(self, text, config="8 8\n", about="why: for a reason\n", options=None):
-        with tempfile.TemporaryDirectory() as folder:
-            for name, content in (("input.txt", text), ("config.txt", config), ("case.txt", about), ("options.txt", options)):
+        with tempfile.TemporaryDirectory() as name:
+            folder = pathlib.Path(name, "zbuf/case")
+            folder.mkdir(parents=True)
+            for file, content in (("input.txt", text), ("config.txt", config), ("case.txt", about), ("options.txt", options)):
                 if content is not None:
-                    pathlib.Path(folder, name).write_text(content)
-            return read_case(pathlib.Path(folder))
+                    (folder / file).write_text(content)
+            return next(iter(read_cases(pathlib.Path(name))), None)
 
     def test_a_plain_case_in_pixels(self):
         read = self.read("-1 1 0.5\n1 1 0.5\n0 -1 0.5\n\n", "8 4\n-1\n-1\n0 2\n")
@@ -102,6 +104,7 @@ class Cases(unittest.TestCase):
         self.assertIsNone(self.read(text, about="why: it is wrong\nrefused: 3\n"))
         self.assertIsNone(self.read(text, options="--samples 2\n"))
         self.assertIsNone(self.read(""))
+        self.assertIsNone(self.read(text, about="why: it is far away\nneeds: exactness\n"))
         self.assertIsNotNone(self.read(text))
 
     def test_a_tiling_and_its_pixels(self):

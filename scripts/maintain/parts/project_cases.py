@@ -103,9 +103,9 @@ def clipping():
                    needs="clipping numbering")
     three = "\n".join(inside) + "\n\n" + "\n".join(behind) + "\n\n" + "\n".join((behind[0], *inside[1:])) + "\n\n" + "\n".join(inside) + "\n\n"
     yield case("numbers-behind-dropped-and-cut-triangles", "A triangle keeps its number when others are dropped or cut.", "T10", view, three,
-        needs="clipping numbering", tier="bytes")
+        needs="clipping numbering")
     yield case("numbers-from-the-input", "Numbers of the input go on.", "T10", view, "triangle 5\n" + three + "triangle 20\n" + three,
-        needs="clipping numbering", tier="bytes")
+        needs="clipping numbering")
 
 
 def clip_options():
@@ -175,7 +175,7 @@ def digits():
         "-0.00000001 0 -1.5\n0 -0.00000004 -2\n0.00000001 0 -1.4999999999\n\n", tier="bytes")
     yield case("ties", "A tie is rounded to the even digit.", "T19", "90 1 1 3",
         "0.00390625 0.01171875 -1\n-0.01953125 0.02734375 -1\n0.03515625 -0.04296875 -1\n\n", tier="bytes")
-    yield case("no-header-left", "project leaves vertices and blank lines alone of a plain text.", "T3 T17 T18", tier="bytes")
+    yield case("no-header-left", "project leaves vertices and blank lines alone of a plain text.", "T3 T17 T18")
     for number in ("0", "3", "16", "exact"):
         yield case(f"digits-{number}", "--digits tells how many decimals are written.", "T19 T20", options=f"--digits {number}", tier="bytes")
     why = "Exact arithmetic does not lose the digits that doubles lose."
@@ -183,6 +183,9 @@ def digits():
         tier="bytes")
     yield case("far-close-to-near", why, "N1 P3", "60 1 1 1.000000000001", "0 0 -1.0000000000005\n0 0 -1.00000000000025\n0 0 -1\n\n",
         needs="exactness")
+    yield case("quotients-near-ties", "Quotients that lie nearer to a tie than a double tells are rounded to their side, ties to even.", "N1 T19", "90 1 1 10",
+        "7588564.0898661 0.5 -6\n0.25 4848382.6366245 -6\n1853949.5798625 -7876179.4804585 -10\n\n"
+        "0 4880014.0807515 -10\n3560683.5029823 -1 -6\n-5827894.1837559 7998550.1257625 -6\n\n", needs="exactness", tier="bytes")
     yield case("very-narrow", why, "N1 P2", "1e-7 1 1 10", "1e-9 2e-9 -2\n3e-9 1e-9 -3\n0 0 -4\n\n", needs="exactness")
     yield case("very-wide", why, "N1 P2", "179.99999 1 1 10", "1e7 2e7 -2\n3e7 1e7 -3\n0 0 -4\n\n", needs="exactness")
 
@@ -192,25 +195,27 @@ def extensions():
     for name, points, header in (("colors", colored, "attributes color\n"), ("normals", normals, "attributes normal\n"),
         ("colors-and-background", colored, "attributes color\nbackground 1 2 3\n")):
         yield case(name, "Behind attributes project adds the column w, the distance from the eye.", "T5 T9 P4", "60 1 1 10", points, header,
-            needs="colors", tier="bytes")
+            needs="colors")
     yield Case("project", "colors-under-ortho", "Under ortho w is 1.", "T5 P3", f"ortho -2 2 -2 2 1 9\nattributes color\n{colored}",
-        needs="colors projections", tier="bytes")
+        needs="colors projections")
     cut = colored.replace("0 0 -2", "0 0 2", 1)
     yield case("colors-of-a-cut", "A cut has the weighted mean of the corners' colors, and its own w.", "P9 T5", "60 1 1 10", cut,
-        "attributes color\n", needs="colors clipping numbering", tier="bytes")
+        "attributes color\n", needs="colors clipping numbering")
     yield case("normals-of-a-cut", "A cut has the weighted mean of the corners' normals, not made a unit vector.", "P9", "60 1 1 10",
         normals.replace("0 0 -2", "0 0 2", 1), "attributes normal\n",
-               needs="colors clipping numbering", tier="bytes")
+               needs="colors clipping numbering")
     light = "light 1 2 3 1 0.5 0\n"
-    yield case("light", "In a text with lights project writes what it projected by.", "P11 T4", "60 1.5 1 10", POINTS, light, needs="lights",
-        tier="bytes")
+    yield case("light", "In a text with lights project writes what it projected by.", "P11 T4", "60 1.5 1 10", POINTS, light, needs="lights")
     yield case("light-and-cut", "In a text with lights the whole triangle stands before its pieces.", "P11 T11", "90 1 1 10",
-        "0 0 2\n1 0 -3\n0 1 -4\n\n" + POINTS, light, needs="lights clipping numbering", tier="bytes")
+        "0 0 2\n1 0 -3\n0 1 -4\n\n" + POINTS, light, needs="lights clipping numbering")
+    yield case("light-and-cuts-in-a-row", "Each cut triangle has its whole one before its own pieces.", "P11 T10 T11", "90 1 1 10",
+        POINTS + "0 0 2\n1 0 -3\n0 1 -4\n\n" + "0 0 2\n-1 0 -3\n0 -1 2\n\n" + POINTS + "1 0 -3\n0 1 2\n0 -1 -4\n\n", light,
+        needs="lights clipping numbering")
     yield case("light-and-colored-cut", "The whole triangle has its columns, too.", "P11 T11", "90 1 1 10", cut, "attributes color\n" + light,
-        needs="lights colors clipping numbering", tier="bytes")
+        needs="lights colors clipping numbering")
     yield Case("project", "light-under-ortho", "The projection is passed on as what it was.", "P11 T4", f"ortho -2 3 -1 2 1 9\n{light}{POINTS}",
-        needs="lights projections", tier="bytes")
-    yield case("framed", "framed and end are passed on.", "T13", "60 1 1 10", POINTS + "end\n", "framed\n", needs="frames", tier="bytes")
+        needs="lights projections")
+    yield case("framed", "framed and end are passed on.", "T13", "60 1 1 10", POINTS + "end\n", "framed\n", needs="frames")
 
 
 def cases():

@@ -114,7 +114,7 @@ def looks():
                 "attributes color normal\ntriangle\n0 0 0 1 2 3\n1 0 0\n0 1 0\nend\n"),
             ("normal-of-zero", "A normal has a direction.", "S16", 7,
                 "attributes normal\ntriangle\n0 0 1 0 0 0\n1 0 0 0 0 1\n0 1 0 0 0 1\nend\n"),
-                ("color-above-255", "Colors end at 255.", "S17", 6, "color\n1 256 0\nend\n"),
+            ("color-above-255", "Colors end at 255.", "S17", 6, "color\n1 256 0\nend\n"),
             ("color-below-0", "Colors begin at 0.", "S17", 5, "color 1 2 -1\nend\n"),
             ("color-of-two-numbers", "A color has three numbers.", "S17", 5, "color 1 2\nend\n"),
             ("ambient-below-0", "Light is not negative.", "S18", 5, "ambient -1 0 0\nend\n"),

@@ -92,8 +92,7 @@ def lines():
             ("no-line-feed-at-the-end", "The last line may lack its line feed.", "S1", usual.rstrip("\n")),
             ("header-in-another-order", "The order of header lines is free; that of the written ones is not.", "T1 T17",
              PERSPECTIVE + "up 0 1 0\nlook 0 0 0\n\nbackground 1 2 3\neye 1 2 3\nframed\n" + POINTS + "end\n")):
-        yield Case("view", f"lines-{name}", why, paragraphs, changed, needs="syntax frames colors" if "header" in name else "syntax",
-                   tier="bytes" if "header" in name else "digits")
+        yield Case("view", f"lines-{name}", why, paragraphs, changed, needs="syntax frames colors" if "header" in name else "syntax")
 
 
 def digits():
@@ -102,7 +101,7 @@ def digits():
     yield case("ties", "A tie is rounded to the even digit.", (0, 0, 0), (0, 0, -1), (0, 1, 0),
         "0.00390625 0.01171875 -0.01953125\n1 0 0\n0 1 0\n\n", "T19", tier="bytes")
     yield case("header-of-view", "view removes eye, look and up, and passes the projection on.", (1, 2, 3), (0, 0, 0), (0, 1, 0), POINTS, "T2 T3",
-        "perspective 60 1.5 0.1 1e5\n", tier="bytes")
+        "perspective 60 1.5 0.1 1e5\n")
     yield case("one-blank-between-words", "Words are separated by one blank, triangles followed by a blank line.", (0, 0, 5), (0, 0, 0),
         (0, 1, 0), "1 2  3\n4 5 6\n7 8 9\n", "T18", tier="bytes")
     for number in ("0", "3", "15", "exact"):
@@ -124,15 +123,15 @@ def extensions():
     usual = text(eye, look, up)
     for name, option in {"eye": "--eye 5 5 5", "look": "--look 1 1 1", "up": "--up 1 1 0", "all": "--eye 0 0 9 --look 0 0 0 --up 1 0 0",
                          "perspective": "--perspective 45 1 0.5 50", "ortho": "--ortho -1 1 -2 2 0 9"}.items():
-        yield Case("view", f"option-{name}", "Options go before the header, part by part.", "V1", usual, options=option, tier="bytes")
+        yield Case("view", f"option-{name}", "Options go before the header, part by part.", "V1", usual, options=option)
     yield Case("view", "option-in-place-of-a-header", "Text without a header takes its camera from the options.", "V1 T16", POINTS,
-        options="--eye 1 2 3 --look 0 0 0 --up 0 1 0", tier="bytes")
+        options="--eye 1 2 3 --look 0 0 0 --up 0 1 0")
     for name, line in {"ratio": "perspective 60 1.5 1 100 ratio", "frustum": "frustum -1 2 -0.5 0.75 1 100",
         "ortho": "ortho -1 2 -0.5 0.75 -1 100"}.items():
-        yield case(f"projection-{name}", "Each projection is passed on.", eye, look, up, POINTS, "T3", line + "\n", needs="projections", tier="bytes")
+        yield case(f"projection-{name}", "Each projection is passed on.", eye, look, up, POINTS, "T3", line + "\n", needs="projections")
     yield case("numbers-of-triangles", "The number of a triangle is passed on where counting alone would be wrong.", eye, look, up,
-               "triangle 2\n" + POINTS + "triangle 3\n" + POINTS + "triangle 7\n" + POINTS, "T10", needs="numbering", tier="bytes")
-    yield Case("view", "framed", "framed and end are passed on.", "T13", "framed\n" + usual + "end\n", needs="frames", tier="bytes")
+               "triangle 2\n" + POINTS + "triangle 3\n" + POINTS + "triangle 7\n" + POINTS, "T10", needs="numbering")
+    yield Case("view", "framed", "framed and end are passed on.", "T13", "framed\n" + usual + "end\n", needs="frames")
     colored = "0 0 0 255 0 0\n1 0 0 0 128.5 0\n0 1 0 0 0 0.25\n"
     normals = "0 0 0 0 0 1\n1 0 0 0 1 0\n0 1 0 0.6 0 0.8\n"
     for name, why, points, rest in (
@@ -141,11 +140,13 @@ def extensions():
             ("normals-of-any-length", "Normals become unit vectors, and a normal of 0 stays one.",
                 normals.replace("0 1 0\n", "0 7 0\n").replace("0.6 0 0.8", "0 0 0"), "attributes normal\n"),
             ("background", "The background is passed on.", POINTS, "background 1 2.5 3\n")):
-        yield case(name, why, eye, look, up, points, "V2 T6 T9", PERSPECTIVE + rest, needs="colors", tier="bytes")
+        yield case(name, why, eye, look, up, points, "V2 T6 T9", PERSPECTIVE + rest, needs="colors")
+    yield case("colors-of-17-digits", "Colors have as many decimals as coordinates.", eye, look, up, colored, "T9 T19",
+        PERSPECTIVE + "attributes color\n", needs="colors", options="--digits 17")
     for name, why, rest in (("light", "A light moves as points do.", "light 1 2 3 1 0.5 0\n"),
                             ("lights", "Lights keep their order; ambient, material and attenuation stay as they are.",
                              "light 5 0 0 1 1 1\nlight 0 5 0 2 2 2\nambient 0.1 0.2 0.3\nmaterial 1 0.5 0.25 16\nattenuation 1 0.5 0.25\n")):
-        yield case(name, why, eye, look, up, POINTS, "V2 T6 T17", PERSPECTIVE + rest, needs="lights", tier="bytes")
+        yield case(name, why, eye, look, up, POINTS, "V2 T6 T17", PERSPECTIVE + rest, needs="lights")
 
 
 def cases():

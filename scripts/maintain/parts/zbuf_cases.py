@@ -86,6 +86,19 @@ def borders():
         away = [(x + 2 * far[0] - 0.1, y + 2 * far[1] + 0.1) for x, y in inside]
         yield case(f"outside-{name}", "A triangle beside the window shows nothing, and the rest stays.", "Z3", flat(away) + flat(inside, 0.5))
     yield case("covers-the-window", "A triangle may cover every pixel.", "Z3", flat([(-5, -5), (5, -5), (0, 9)]))
+    whole = [(-1e200, -1e200), (1e200, -1e200), (0, 1e200)]
+    yield case("covers-the-window-from-the-ends-of-doubles", "A triangle may cover every pixel, and stands before others.", "Z3 Z8",
+        "".join(f"{x} {y} 0.5\n" for x, y in whole) + "\n" + "".join(flat([(x - 0.3 * i, y + 0.2 * i) for x, y in inside], 0.6 - 0.2 * i) for i in range(7)),
+        needs="exactness")
+    for exponent in ("e170", "e-170"):
+        yield case(f"window-of-1{exponent}", "A window may be as large, or as small, as doubles go.", "C2 Z1 Z4",
+            "".join(f"{x}{exponent} {y}{exponent} {z}\n" for x, y, z in ((-0.83, -0.77, 0.1), (0.87, -0.31, 0.5), (-0.13, 0.91, -0.9))),
+            config(9, 7, f"-1{exponent}\n-1{exponent}\n-1 1\n"), needs="exactness")
+    yield case("slopes-of-a-millionth-of-a-pixel", "Of triangles so narrow that their depth changes by whole units within a millionth of a pixel, with the depths at the centers.",
+        "Z4 Z6", "0.1249999 -0.9 -0.8\n0.1250002 -0.3 0.9\n0.1250001 0.9 -0.3\n\n-0.3750002 -0.95 0.7\n-0.3750001 0.85 -0.6\n-0.3749997 0.15 0.1\n\n",
+        needs="exactness")
+    yield case("slopes-far-across", "Of a triangle a million times as large as the window, with the depths that it has there.", "Z4 Z6",
+        "-1e6 -1e6 -8e5\n1e6 -1e6 2e5\n0 1e6 3e5\n\n", needs="exactness")
     yield case("covers-the-window-far-away", "A triangle may cover every pixel.", "Z3", flat([(-40000, -30000), (50000, -30000), (700, 90000)]))
     yield case("around-a-corner", "A triangle may pass by a corner of the window without a pixel.", "Z3", flat([(0.9, 3), (3, 3), (3, 0.9)]))
     yield case("no-triangle", "Without triangles the picture is black, and the text has empty lines.", "Z8 T23", "")
@@ -109,6 +122,14 @@ def shared_edges():
     yield case("strip", "A strip of triangles, each at a depth of its own.", "Z5 Z8", "".join(
         pixels([(0.7 + 1.1 * i, (1.2, 6.3)[i % 2]), (1.8 + 1.1 * i, (6.3, 1.2)[i % 2]), (2.9 + 1.1 * i, (1.2, 6.3)[i % 2])],
             z=0.3 - 0.1 * i) for i in range(5)))
+
+
+def edges_in_fours():
+    """Programs that draw four triangles, or four rows, at a time: one of each four has a horizontal edge on a row of centers."""
+    for name, edge, tip in (("top", 1.5, 3.2), ("bottom", 3.5, 0.8)):
+        cells = [(4 * j, 4 * i, edge if i == j else edge - 0.6, edge if i == j else edge - 0.3) for i in range(4) for j in range(4)]
+        yield case(f"edges-on-rows-in-fours-{name}", "A horizontal edge on a row of centers is one wherever its triangle stands among others.", "Z2 Z5",
+            "".join(pixels([(x + 0.6, y + left), (x + 3.3, y + right), (x + 1.2, y + tip)], 16, 0.1) for x, y, left, right in cells), config(16, 16))
 
 
 def on_centers():
@@ -194,6 +215,12 @@ def order():
     for name, gap in near_miss.items():
         for which, zs in (("first", (0.5, 0.5 + gap)), ("last", (0.5 + gap, 0.5))):
             yield case(f"nearer-{name}-{which}", "However little nearer, the nearer is seen.", "Z8", flat(back, zs[0]) + flat(front, zs[1]))
+    rng, spread = random.Random(5), [triangle((-1.9, -1.3, -0.51), (1.9, -1.3, 0.13), (0.1, 3.1, 0.32))]
+    for _ in range(16):
+        x, y, z = rng.uniform(-1, 0.6), rng.uniform(-1, 0.5), rng.uniform(-0.6, 0.5)
+        spread.append(triangle((x, y, z), (x + rng.uniform(0.1, 1.4), y + rng.uniform(-0.2, 0.2), z + rng.uniform(-0.2, 0.2)), (x + 0.3, y + 0.5, z)))
+    for name, chosen in {"from-near-to-far": spread, "from-far-to-near": spread[::-1]}.items():
+        yield case(f"wide-{name}", "In long rows, too, parts of triangles are hidden.", "Z8", "".join(chosen), config(100, 12))
 
 
 def limits():
@@ -258,5 +285,5 @@ def tiling(name, why, triangles, size, **others):
 
 
 def cases():
-    for grid in (assignment, positions, shapes, sizes, borders, shared_edges, on_centers, slivers, depths, order, limits, meshes, tilings):
+    for grid in (assignment, positions, shapes, sizes, borders, shared_edges, edges_in_fours, on_centers, slivers, depths, order, limits, meshes, tilings):
         yield from grid()

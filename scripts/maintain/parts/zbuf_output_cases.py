@@ -58,10 +58,9 @@ def extensions():
     yield case("numbers-choose-colors", "A triangle's number chooses its color.", "T10 Z10", "triangle 3\n" + usual + "triangle 9\n" + two,
         needs="numbering", tier="bytes")
     yield case("pieces-of-one-triangle", "Pieces of a cut triangle have one color.", "T10 Z10",
-        usual + "triangle 0\n" + two + "triangle 4294967295\n" + pixels([(0, 7), (8, 7), (4, 8)]), needs="numbering", tier="bytes")
-    yield case("framed", "A framed text ends with end.", "T13", "framed\n" + usual + "end\n", needs="frames", tier="bytes")
-    yield case("framed-option", "--framed insists on a framed text.", "T15", "framed\n" + usual + "end\n", needs="frames", options="--framed",
-        tier="bytes")
+        usual + "triangle 0\n" + two + "triangle 4294967295\n" + pixels([(0, 7), (8, 7), (4, 8)]), needs="numbering")
+    yield case("framed", "A framed text ends with end.", "T13", "framed\n" + usual + "end\n", needs="frames")
+    yield case("framed-option", "--framed insists on a framed text.", "T15", "framed\n" + usual + "end\n", needs="frames", options="--framed")
     colored = "attributes color\n-0.83 -0.77 0.1 255 0 0\n0.87 -0.31 0.5 0 255 0\n-0.13 0.91 0.9 0 0 255\n"
     for name, why, paragraphs, text in (
             ("one-color", "A triangle has the color of its corners.", "L4", "attributes color\n" + usual.replace("\n", " 200 100 50\n", 3)),
@@ -74,14 +73,14 @@ def extensions():
                 "background 0.5 1.5 2.49\nattributes color\n" + usual.replace("\n", " 200.6 100.49 0.51\n", 3)),
             ("colors-and-depth", "The nearer color is seen.", "Z8 L4",
                 "attributes color\n" + (usual + two.replace("\n", " 9 8 7\n", 3)).replace("\n", " 1 2 3\n", 3))):
-        yield case(f"colored-{name}", why, paragraphs, text, needs="colors", tier="bytes")
+        yield case(f"colored-{name}", why, paragraphs, text, needs="colors")
     lit = ("projected frustum -1 1 -1 1 1 9\n{}light 2 3 1 1 0.9 0.8\nambient 0.12 0.13 0.14\nmaterial 1 0.8 0.5 8\n", "-0.83 -0.77 0.1",
         "0.87 -0.31 0.5", "-0.13 0.91 0.9")
     for shading in ("none", "flat", "gouraud", "phong"):
         text = lit[0].format("attributes w color normal\n") + "".join(f"{p} {rest}\n" for p,
             rest in zip(lit[1:], ("2 250 40 30 0 0 1", "3 40 200 60 0.6 0 0.8", "5 30 60 220 0 0.6 0.8")))
         yield case(f"lit-{shading}", f"--shading {shading} on a triangle of three colors and normals.", "L1 L4 L5", text, needs="lights colors",
-            options=f"--shading {shading}", tier="bytes")
+            options=f"--shading {shading}")
     plain_lit = lit[0].format("") + "\n".join(lit[1:]) + "\n"
     for name, why, text in (
             ("by-its-plane", "Without normals a triangle is lit by its plane.", plain_lit),
@@ -96,7 +95,7 @@ def extensions():
                 plain_lit.split("-0.83")[0] + "clipped\n-3 -3 2 1\n3 -1 2 4\n-0.5 3 1 3\n\n" + "\n".join(lit[1:]) + "\n"),
             ("without-specular", "Diffuse light alone.", plain_lit.replace("0.8 0.5 8", "0.8 0 1")),
             ("by-ambient-alone", "Ambient light alone.", plain_lit.replace("1 0.8 0.5 8", "1 0 0 1"))):
-        yield case(f"lit-{name}", why, "L1 L2 L5", text, needs="lights", tier="bytes")
+        yield case(f"lit-{name}", why, "L1 L2 L5", text, needs="lights")
 
 
 def cases():

@@ -3,10 +3,15 @@ import dataclasses
 import functools
 import itertools
 import math
+import pathlib
 import re
+import sys
 from fractions import Fraction
 
 from . import scoreboard_geometry as geometry
+
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[3] / "tests/conformance"))
+from conform_parts import cases  # noqa: E402
 
 PLAIN = re.compile(rb"[-+.eE0-9 \t\r\n]*")
 
@@ -103,11 +108,11 @@ class Case:
         return depths[0][1] if depths else -1
 
 
-def read_case(folder):
-    """The case in a folder of the pack; None if an adapter cannot express it."""
-    text, config = (folder / "input.txt").read_bytes(), (folder / "config.txt").read_bytes()
-    about = dict(line.split(": ", 1) for line in (folder / "case.txt").read_text().splitlines() if line)
-    if "refused" in about or (folder / "options.txt").exists() or not PLAIN.fullmatch(text) or not PLAIN.fullmatch(config):
+def expressed(case):
+    """A case of the pack as a Case; None if an adapter cannot express it, or if it needs more digits than doubles have: most interfaces
+    take single precision."""
+    text, config = case.read("input.txt"), case.read("config.txt")
+    if "exactness" in case.words("needs") or case.refused_line is not None or case.has("options.txt") or not PLAIN.fullmatch(text) or not PLAIN.fullmatch(config):
         return None
     words, limits = text.decode().split(), config.decode().split()
     corners = [words[i:i + 3] for i in range(0, len(words), 3)]
@@ -115,8 +120,9 @@ def read_case(folder):
     left, bottom, front, rear = limits[2:] or ("-1", "-1", "-1", "1")
     fields = {"width": int(limits[0]), "height": int(limits[1]), "left": left, "bottom": bottom, "front": front, "rear": rear,
               "triangles": triangles}
-    return Case(folder.name, fields, about["why"]) if triangles else None
+    return Case(case.folder.name, fields, case.why) if triangles else None
 
 
 def read_cases(folder):
-    return [case for case in (read_case(path.parent) for path in sorted(folder.glob("*/case.txt"))) if case]
+    """The cases of a pack's folder for zbuf, as far as an adapter can express them."""
+    return [case for case in map(expressed, cases.read_cases("zbuf", folder)) if case]

@@ -20,6 +20,9 @@ NEEDS = {
     "exactness": "more digits than plain doubles give",
     "refusals": "wrong input is refused, with its line",
 }
+# What cases ask for, in the order of reports: the first is the assignment, the others go beyond it.
+ASSIGNMENT, BYTES, REFUSALS, LOOKS, EXTENSIONS = (
+    "what the assignment asks for", "text to the byte", "refusals of wrong input", "colors and lights", "other extensions")
 FED = {"model": "scene.txt", "view": "stage1.txt", "project": "stage2.txt", "zbuf": "stage3.txt"}  # a stage's input, in the assignment
 CONFIG = b"8 8\n-1\n-1\n-1 1\n"  # for programs that ask for one in every stage
 CAMERA = {"eye": "0 0 0", "look": "0 0 -1", "up": "0 1 0"}  # of a text whose camera has been used up
@@ -54,6 +57,15 @@ class Case:
 
     def words(self, key):
         return self.fields.get(key, "").split()
+
+    def group(self, tier):
+        """Which of the above the case asks for, judged by a tier."""
+        needs = set(self.words("needs"))
+        if "refusals" in needs:
+            return REFUSALS
+        if needs:
+            return LOOKS if needs & {"colors", "lights"} else EXTENSIONS
+        return BYTES if tier == "bytes" else ASSIGNMENT
 
     def open_under(self, rule):
         """Why the assignment leaves the answer open; None if it does not."""

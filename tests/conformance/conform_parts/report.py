@@ -2,8 +2,11 @@
 import json
 from collections import namedtuple
 
-# state: right, wrong, open (not counted; `difference` tells whether it is right), left out (`reason` tells why)
-Result = namedtuple("Result", "case state difference reason", defaults=(None, None))
+from .cases import ASSIGNMENT, BYTES, EXTENSIONS, LOOKS, REFUSALS
+
+GROUPS = (ASSIGNMENT, BYTES, REFUSALS, LOOKS, EXTENSIONS)
+# state: right, wrong, open (not counted; `difference` tells whether it is right), left out (`reason` tells why); group: one of GROUPS
+Result = namedtuple("Result", "case state difference reason group", defaults=(None, None, ASSIGNMENT))
 Heading = namedtuple("Heading", "names results title", defaults=("no mistake of the list",))  # mistakes that cannot be told apart, or none
 
 
@@ -28,8 +31,8 @@ def difference_lines(difference):
 
 def headings(results):
     """The failing cases by the mistake that explains them: the cases that catch it fail, but for one in twenty, no output is another
-    than it gives, and it explains the most of the cases that are left. Where several do so alike, all are named. The last heading has
-    no name: what no mistake explains, and everything if every case fails. The first one, where there is any, has the cases in which the
+    than it gives, and it explains the most of the cases that are left. Where several do so alike, all are named. The last headings
+    have no name: what no mistake explains, by group, and everything if every case fails. The first one, where there is any, has the cases in which the
     program failed: they say nothing about its numbers."""
     failed = [result for result in results if result.state == "wrong" and result.difference.is_failure]
     judged = [result for result in results if result.state in ("right", "wrong") and result not in failed]
@@ -53,8 +56,10 @@ def headings(results):
         names = [name for name in names if suspects[name] & left == explained]
         found.append(Heading(sorted(names), [result for name, result in failing.items() if name in explained]))
         left -= explained
-    if left:
-        found.append(Heading([], [result for name, result in failing.items() if name in left]))
+    for group in GROUPS:
+        others = [result for name, result in failing.items() if name in left and result.group == group]
+        if others:
+            found.append(Heading([], others, *([] if group == ASSIGNMENT else [group])))
     return found
 
 
@@ -71,6 +76,15 @@ def table(results, mistakes):
         lines += ["#   " + mistakes[name] for name in heading.names]
         lines += [f"#   first, by length: {first.case.name}", f"#   why: {first.case.why}", *difference_lines(first.difference)]
     return lines
+
+
+def group_lines(results):
+    """How many are right and wrong of what the cases ask for, if that is more than the assignment."""
+    rows = [(group, [result for result in results if result.group == group and result.state in ("right", "wrong")]) for group in GROUPS]
+    rows = [(group, count(members, "right"), count(members, "wrong")) for group, members in rows if members]
+    if [group for group, _, _ in rows] in ([], [ASSIGNMENT]):
+        return []
+    return ["#", f"# {'':30} right  wrong", *(f"# {group:30} {right:5}  {wrong:5}" for group, right, wrong in rows)]
 
 
 def count(results, state):
@@ -91,13 +105,15 @@ def summary(results):
 def as_json(results, terms, mistakes):
     def entry(result):
         case, difference = result.case, result.difference
-        return {"name": case.name, "state": result.state, "why": case.why, "paragraphs": case.words("paragraphs"),
+        return {"name": case.name, "state": result.state, "group": result.group, "why": case.why, "paragraphs": case.words("paragraphs"),
                 "catches": case.words("catches"), **({"reason": result.reason} if result.reason else {}),
                 **({"difference": {key: getattr(difference, key) for key in ("message", "expected", "found")}} if difference else {})}
 
     return json.dumps({
         "command": terms.command, "rule": terms.rule,
         "counts": {state: count(results, state) for state in ("right", "wrong", "open", "left out")},
+        "groups": {group: {state: sum(result.state == state for result in results if result.group == group) for state in ("right", "wrong")}
+                   for group in GROUPS},
         "mistakes": [{"names": heading.names, "sentences": [mistakes[name] for name in heading.names],
                       "cases": [result.case.name for result in heading.results]} for heading in headings(results)],
         "cases": [entry(result) for result in results]}, indent=1) + "\n"

@@ -1,0 +1,62 @@
+"""Why two stage texts differ: what the numbers show by themselves, and with the scene the mistake that the judge of hand-ins names."""
+import math
+
+from compare_parts.differences import exceeds
+from judge_parts.points import read_points
+from judge_parts.reference import Reference
+from judge_parts.stage_judge import Reading, StageJudge, exact_images
+from lib.pipe_tools import Tools
+
+UNIT = 1e-7   # in the last of 7 decimals
+CLOSE = 2e-6  # for numbers calculated from numbers that were printed with 7 decimals
+LEAST_FACTOR = 1e-4  # off 1, that is no rounding
+ROUNDING = "all differences are of one unit in the last decimal: rounding"
+
+
+def hint_of_numbers(theirs, ours):
+    """What two lists of points have to do with each other, in words; None if nothing simple."""
+    if len(theirs) != len(ours) or not ours:
+        return None
+    if not any(exceeds(a, b, UNIT) for p, q in zip(theirs, ours) for a, b in zip(p, q)):
+        return ROUNDING
+    return hint_of_factors(theirs, ours)
+
+
+def hint_of_factors(theirs, ours):
+    factors = [factor_of([p[axis] for p in theirs], [q[axis] for q in ours]) for axis in range(3)]
+    is_scaled = all(abs(a - k * b) <= CLOSE * max(1.0, abs(a)) for p, q in zip(theirs, ours) for a, b, k in zip(p, q, factors))
+    if not is_scaled or all(abs(k - 1) < LEAST_FACTOR for k in factors):
+        return None
+    x, y, z = (f"{k:.6g}" for k in factors)
+    return f"x, y and z of A are {x}, {y} and {z} times those of B"
+
+
+def factor_of(values, others):
+    """The factor that makes the values of the others, by least squares; 1 if all of those are 0."""
+    square = math.fsum(b * b for b in others)
+    return math.fsum(a * b for a, b in zip(values, others)) / square if 1e-12 < square < math.inf else 1.0
+
+
+def judged(scene, theirs, ours):
+    """The FileVerdict on one text, if another is the output of a stage of the scene; None if it is of none. A text is given as its bytes
+    and its name. Where the other may be that of several stages, the first counts whose mistakes reproduce the text."""
+    reference = Reference(scene, None, Tools())
+    judge = StageJudge(reference.scene, reference.world)
+    ours, theirs = read_points(*ours), read_points(*theirs)
+    verdicts = [verdict_of("theirs", theirs) for verdict_of in stages(reference, judge) if verdict_of("ours", ours).is_good]
+    return next((verdict for verdict in verdicts if verdict.causes), verdicts[0] if verdicts else None)
+
+
+def stages(reference, judge):
+    """For each stage what judges points as its output, given right ones as its input."""
+    yield lambda name, points: judge.model(name, points).verdict
+    world = read_as_printed(reference.world)
+    yield lambda name, points: judge.view(name, points, [world]).verdict
+    p_view = exact_images(reference.scene.of_view(), False, reference.world)
+    view = read_as_printed(p_view)
+    clipped = reference.clipped(p_view)
+    yield lambda name, points: judge.project(name, points, [view], [clipped] if clipped is not None else []).verdict
+
+
+def read_as_printed(points):
+    return Reading(points, [(UNIT,) * 3] * len(points))
