@@ -7,6 +7,10 @@ namespace {
 
 // A few MiB.
 constexpr std::size_t kMinCapacity = std::size_t{1} << 14;
+// Corners are many bytes, and new memory costs more than two passes over the pixels; texts are fewer bytes,
+// as few triangles win a pixel when they are drawn, and they have to be moved.
+constexpr std::size_t kPixelsPerSurface = 4;
+constexpr std::size_t kPixelsPerText = 1;
 // Triangles that win no pixel have ids, but their texts are not kept. Looking for those that are seen takes
 // four bytes for each id.
 constexpr std::size_t kIdsPerTriangle = 4;
@@ -17,7 +21,8 @@ TriangleStore::TriangleStore(const Setup& setup, std::optional<SurfaceShader>& s
     : setup_(setup),
       shader_(shader),
       report_(report),
-      min_capacity_(std::max(setup.pixel_count, kMinCapacity)),
+      min_capacity_(std::max(setup.pixel_count / (setup.keeps_text ? kPixelsPerText : kPixelsPerSurface),
+                             kMinCapacity)),
       capacity_(min_capacity_),
       max_id_count_(kIdsPerTriangle * min_capacity_) {
   if (setup.keeps_text) texts_.emplace();

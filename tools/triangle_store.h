@@ -21,7 +21,8 @@ namespace pipeline {
 ///
 /// Of the triangles kept only those that are seen need to stay. They are found whenever twice as many are
 /// kept as were seen the last time; so memory is bounded by the picture. That takes two passes over its
-/// pixels, so it is done only when at least one triangle per pixel has been kept.
+/// pixels, so it is done only when at least one triangle has been kept for every four pixels; where texts are
+/// kept, for every pixel.
 class TriangleStore {
  public:
   struct Setup {

@@ -14,7 +14,7 @@ namespace pipeline {
 void check_bmp_size(const std::string& path, int columns, int rows);
 
 /// Takes an image row by row, from the top, and writes it as a Windows bitmap: 24 bits per pixel, rows from
-/// the bottom. Blocks of 4 MiB are written at their positions in the file, so that few rows are in memory;
+/// the bottom. Blocks of 64 KiB are written at their positions in the file, so that few rows are in memory;
 /// where the file cannot seek (a pipe), the whole image is kept in memory. Failures to write are IoErrors.
 class BmpWriter final : public ImageWriter {
  public:

@@ -1,6 +1,7 @@
 #include "libpipeline/picture/surface_shader.h"
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
 #include <cmath>
 
@@ -10,6 +11,9 @@ namespace pipeline {
 namespace {
 
 using Weights = std::array<double, 3>;
+
+// Of the surfaces ready to be shaded, 150 KiB.
+constexpr std::size_t kMaxCached = 512;
 
 SurfacePoint mean(const std::array<SurfacePoint, 3>& p, const Weights& w) {
   return {mean(Triangle{p[0].position, p[1].position, p[2].position}, w),
@@ -52,6 +56,17 @@ Weights weights_at(const Triangle& screen_corners, double x, double y) {
   return {weights[0] / sum, weights[1] / sum, weights[2] / sum};
 }
 
+/// x and y of clip space, and w for z. Only the ratios of weights count: scaled like this, nothing leaves a
+/// double's range.
+Triangle screen_corners_of(const ClipTriangle& corners) {
+  const auto& [a, b, c] = corners;
+  const double scale = 1 / std::max({std::fabs(a.w), std::fabs(b.w), std::fabs(c.w)});
+  const auto screen_corner = [&](const VertexLine& corner) {
+    return scaled({corner.position.x, corner.position.y, corner.w}, scale);
+  };
+  return {screen_corner(a), screen_corner(b), screen_corner(c)};
+}
+
 /// The index of the first pixel that shows a surface; the number of pixels if none does.
 std::size_t first_surface(std::span<const SurfaceShader::SurfaceId> ids) {
   const auto is_surface = [](SurfaceShader::SurfaceId id) { return id != SurfaceShader::kNoSurface; };
@@ -91,28 +106,35 @@ SurfaceShader::SurfaceId SurfaceShader::add(const TriangleBatch& p_ndc, std::siz
   if (!p_ndc.attributes.colors.empty() && greatest_channel_.value_or(0) <= 1)
     note_colors(p_ndc.attributes.colors[index]);
   const ClipTriangle corners = unclipped_in_clip_space(p_ndc, index, own_color);
-  // Only the ratios of weights count: scaled like this, nothing leaves a double's range.
-  const double scale =
-      1 / std::max({std::fabs(corners[0].w), std::fabs(corners[1].w), std::fabs(corners[2].w)});
-  Surface surface;
+  has_normals_ = !p_ndc.attributes.normals.empty();
+  if (setup_.wireframe) add_edges(p_ndc, index, screen_corners_of(corners));
+  triangles_.push_back(corners);
+  assert(triangles_.size() < kNoSurface);
+  return static_cast<SurfaceId>(triangles_.size() - 1);
+}
+
+const SurfaceShader::Surface& SurfaceShader::surface(SurfaceId id) {
+  CachedSurface& cached = cache_[id % cache_.size()];
+  if (cached.id != id) cached = {id, made_surface(triangles_[id])};
+  return cached.surface;
+}
+
+SurfaceShader::Surface SurfaceShader::made_surface(const ClipTriangle& corners) const {
+  Surface surface = {screen_corners_of(corners), {}};
   for (std::size_t v = 0; v < 3; ++v) {
     const auto& [p, w, color, normal] = corners[v];
-    surface.screen_corners[v] = scaled({p.x, p.y, w}, scale);
     const Vec3 p_view = setup_.view_from_clip ? (*setup_.view_from_clip)(p, w) : Vec3();
     surface.corners[v] = {p_view, normal, color};
   }
-  if (p_ndc.attributes.normals.empty() || setup_.model == ShadingModel::flat)
-    use_face_normal(surface.corners);
+  if (!has_normals_ || setup_.model == ShadingModel::flat) use_face_normal(surface.corners);
   light_corners(surface);
-  if (setup_.wireframe) add_edges(p_ndc, index, surface.screen_corners);
-  surfaces_.push_back(surface);
-  assert(surfaces_.size() < kNoSurface);
-  return static_cast<SurfaceId>(surfaces_.size() - 1);
+  return surface;
 }
 
 void SurfaceShader::keep(const KeptIds& kept) {
-  assert(kept.size() == surfaces_.size());
-  surfaces_.keep(kept);
+  assert(kept.size() == triangles_.size());
+  triangles_.keep(kept);
+  cache_.clear();
   if (setup_.wireframe) setup_.wireframe->keep(kept);
 }
 
@@ -139,6 +161,7 @@ void SurfaceShader::light_corners(Surface& surface) const {
 
 std::span<const Color> SurfaceShader::shade(int row, std::span<const SurfaceId> ids) {
   row_.resize(ids.size());
+  if (cache_.empty()) cache_.resize(std::min(std::bit_ceil(ids.size()), kMaxCached));
   const double y = grid_.y_of(row);
   const std::size_t first = first_surface(ids);
   std::fill_n(row_.begin(), first, setup_.background);
@@ -161,11 +184,11 @@ void SurfaceShader::shade_columns(std::size_t begin, std::size_t end, double y, 
   const std::span<Color> colors = std::span(row_).subspan(begin, end - begin);
   std::ranges::fill(colors, setup_.background);
   if (id == kNoSurface) return;
-  const Surface& surface = surfaces_[id];
+  const Surface& shown = surface(id);
   const Wireframe::Edges* const edges = setup_.wireframe ? &setup_.wireframe->edges(id) : nullptr;
   for (std::size_t i = 0; i < colors.size(); ++i) {
     const double x = grid_.x_of(static_cast<int>(begin + i));
-    if (edges == nullptr || Wireframe::is_on_edge(*edges, x, y)) colors[i] = color_at(surface, x, y);
+    if (edges == nullptr || Wireframe::is_on_edge(*edges, x, y)) colors[i] = color_at(shown, x, y);
   }
 }
 

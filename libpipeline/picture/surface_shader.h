@@ -23,10 +23,10 @@ enum class ShadingModel { none, flat, gouraud, phong };
 
 /// Gives pixels their colors once the triangle that each one shows is known: keeps the triangles of a scene
 /// with colors or lights, each under an id by which the visibility algorithm refers to it. So hidden surfaces
-/// are never shaded. Attributes are interpolated between vertices perspective-correctly. Flat and gouraud
-/// shading light each triangle as it arrives, a clipped one as it was before the cut; phong shading lights
-/// visible pixels. Gouraud shading clamps the vertices' colors before it interpolates them, as OpenGL does.
-/// Without vertex normals, all models use the triangle's.
+/// are never lit or shaded. Attributes are interpolated between vertices perspective-correctly. Flat and
+/// gouraud shading light each triangle that is seen, a clipped one as it was before the cut; phong shading
+/// lights visible pixels. Gouraud shading clamps the vertices' colors before it interpolates them, as OpenGL
+/// does. Without vertex normals, all models use the triangle's.
 class SurfaceShader {
  public:
   using SurfaceId = KeptIds::Id;
@@ -48,7 +48,7 @@ class SurfaceShader {
   /// Keeps a triangle of a batch in NDC and returns its id; `own_color` is its color if it carries none.
   SurfaceId add(const TriangleBatch& p_ndc, std::size_t index, Color own_color);
   /// The count of triangles kept; their ids are less.
-  [[nodiscard]] std::size_t size() const { return surfaces_.size(); }
+  [[nodiscard]] std::size_t size() const { return triangles_.size(); }
   /// Lets go of the triangles that are not kept; the others have new ids from now on. The one added last has
   /// to be kept.
   void keep(const KeptIds& kept);
@@ -63,14 +63,21 @@ class SurfaceShader {
   [[nodiscard]] const Setup& setup() const { return setup_; }
 
  private:
+  /// A triangle ready to be shaded.
   struct Surface {
     Triangle screen_corners;  // x and y of clip space, and w for z
     std::array<SurfacePoint, 3>
         corners;  // in view space; the colors are lit already except for phong shading
   };
+  struct CachedSurface {
+    SurfaceId id = kNoSurface;
+    Surface surface;
+  };
 
   [[nodiscard]] ClipTriangle unclipped_in_clip_space(const TriangleBatch& p_ndc, std::size_t index,
                                                      Color own_color) const;
+  [[nodiscard]] const Surface& surface(SurfaceId id);
+  [[nodiscard]] Surface made_surface(const ClipTriangle& corners) const;
   void light_corners(Surface& surface) const;
   void look_for_something(std::span<const Color> colors);
   void note_colors(const std::array<Vec3, 3>& colors);
@@ -80,7 +87,10 @@ class SurfaceShader {
 
   PixelGrid grid_;
   Setup setup_;
-  ChunkedArray<Surface> surfaces_;
+  ChunkedArray<ClipTriangle> triangles_;
+  bool has_normals_ = false;
+  std::vector<CachedSurface>
+      cache_;  // each id has one entry; those of a row are mostly seen in the next, too
   std::vector<Color> row_;
   bool shows_something_ = false;
   std::optional<double> greatest_channel_;

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <new>
+#include <type_traits>
 
 namespace pipeline {
 
@@ -14,7 +15,8 @@ constexpr std::size_t kLargePage = std::size_t{1} << 21;
 /// TLB misses. No result depends on whether the system complies.
 void prefer_large_pages(void* begin, std::size_t size);
 
-/// The allocator of arrays that may be large: from two large pages on, they are on large pages.
+/// The allocator of arrays that may be large: from two large pages on, they are on large pages. Entries that
+/// are given no value have none.
 template <typename T>
 struct LargePageAllocator {
   using value_type = T;
@@ -37,6 +39,8 @@ struct LargePageAllocator {
     else
       ::operator delete(begin);
   }
+  void construct(T*) { static_assert(std::is_trivially_copyable_v<T>); }
+
   friend bool operator==(const LargePageAllocator&, const LargePageAllocator&) { return true; }
 
  private:

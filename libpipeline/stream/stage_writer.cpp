@@ -107,8 +107,10 @@ void StageWriter::write(const TriangleBatch& batch) {
   std::size_t end_of_run = 0;
   while (index < batch.size()) {
     if (has_runs && index >= end_of_run) end_of_run = end_of_numbered_run(batch, index);
-    if (index < end_of_run) index += write_block(batch, index, end_of_run);
-    if (index < batch.size()) write_triangle(batch, index++);
+    const bool is_run = index < end_of_run;
+    if (is_run) index += write_block(batch, index, end_of_run);
+    const bool is_refused = is_run && index < end_of_run;
+    if (index < batch.size()) write_triangle(batch, index++, has_fast_path() && !is_refused);
   }
 }
 
@@ -164,7 +166,7 @@ std::size_t StageWriter::write_block(const TriangleBatch& batch, std::size_t beg
   return count;
 }
 
-void StageWriter::write_triangle(const TriangleBatch& batch, std::size_t index) {
+void StageWriter::write_triangle(const TriangleBatch& batch, std::size_t index, bool tries_fast_path) {
   write_number(batch.numbers[index]);
   next_number_ = batch.numbers[index] + 1;
   if (const ClipTriangle* const unclipped = batch.unclipped_of(index);
@@ -173,7 +175,7 @@ void StageWriter::write_triangle(const TriangleBatch& batch, std::size_t index) 
     last_unclipped_ = batch.unclipped[index];
   }
   const Triangle low_part = batch.low_parts.empty() ? Triangle{} : batch.low_parts[index];
-  if (has_fast_path() && low_part == Triangle{} && write_block(batch, index, index + 1) == 1) return;
+  if (tries_fast_path && low_part == Triangle{} && write_block(batch, index, index + 1) == 1) return;
   char* out = text_.reserve(kMaxTriangleLength);
   for (std::size_t v = 0; v < 3; ++v) {
     out = print_vertex(out, batch.triangles[index][v], low_part[v]);

@@ -30,7 +30,7 @@ class StageWriter {
   [[nodiscard]] std::size_t end_of_numbered_run(const TriangleBatch& batch, std::size_t begin) const;
   [[nodiscard]] bool has_fast_path() const;
   std::size_t write_block(const TriangleBatch& batch, std::size_t begin, std::size_t end);
-  void write_triangle(const TriangleBatch& batch, std::size_t index);
+  void write_triangle(const TriangleBatch& batch, std::size_t index, bool tries_fast_path);
   void write_clipped(const ClipTriangle& unclipped);
   char* print_vertex(char* out, const Vec3& vertex, const Vec3& low_part);
   char* print_attributes(char* out, const AttributeArrays& attributes, std::size_t index, std::size_t vertex);

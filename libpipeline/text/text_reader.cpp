@@ -121,14 +121,17 @@ void LineScanner::fail(const std::string& expected, const std::string& hint) con
 }
 
 TextReader::TextReader(int descriptor, std::string file)
-    : descriptor_(descriptor), file_(std::move(file)), buffer_(kBlockSize + kSlack) {}
+    : descriptor_(descriptor),
+      file_(std::move(file)),
+      buffer_(std::make_unique_for_overwrite<char[]>(kBlockSize + kSlack)),
+      buffer_size_(kBlockSize + kSlack) {}
 
 bool TextReader::next_line(LineScanner& line) {
   for (;;) {
-    const char* const from = buffer_.data() + scanned_;
+    const char* const from = buffer_.get() + scanned_;
     const auto* const newline = static_cast<const char*>(std::memchr(from, '\n', end_ - scanned_));
     const bool is_ended = newline != nullptr;
-    scanned_ = is_ended ? static_cast<std::size_t>(newline - buffer_.data()) : end_;
+    scanned_ = is_ended ? static_cast<std::size_t>(newline - buffer_.get()) : end_;
     const std::size_t length = scanned_ - begin_;
     if (length > kMaxLineLength)
       throw InputError({file_, line_number_ + 1, kMaxLineLength + 1},
@@ -150,7 +153,7 @@ std::string_view TextReader::beginning() {
 }
 
 LineScanner TextReader::take_line(std::size_t length, bool is_ended) {
-  std::string_view line(buffer_.data() + begin_, length);
+  std::string_view line(buffer_.get() + begin_, length);
   begin_ += length + (is_ended ? 1 : 0);
   scanned_ = begin_;
   last_line_was_ended_ = is_ended;
@@ -206,17 +209,17 @@ bool TextReader::fill() {
 }
 
 void TextReader::read_block() {
-  const bool has_room = buffer_.size() - end_ >= kBlockSize + kSlack;
-  if (!has_room && begin_ >= end_ - begin_) {  // so that each character is moved once on average
-    std::memmove(buffer_.data(), buffer_.data() + begin_, end_ - begin_);
+  const auto has_room = [this] { return buffer_size_ - end_ >= kBlockSize + kSlack; };
+  if (!has_room() && begin_ >= end_ - begin_) {  // so that each character is moved once on average
+    std::memmove(buffer_.get(), buffer_.get() + begin_, end_ - begin_);
     end_ -= begin_;
     scanned_ -= begin_;
     begin_ = 0;
   }
-  if (buffer_.size() - end_ < kBlockSize + kSlack) buffer_.resize(buffer_.size() + kBlockSize + kSlack);
+  if (!has_room()) enlarge_buffer();
   ssize_t count = 0;
   do {
-    count = ::read(descriptor_, buffer_.data() + end_, kBlockSize);
+    count = ::read(descriptor_, buffer_.get() + end_, kBlockSize);
   } while (count < 0 && errno == EINTR);
   if (count < 0) {
     read_error_ = errno;
@@ -225,6 +228,13 @@ void TextReader::read_block() {
   at_end_of_file_ = count == 0;
   end_ += static_cast<std::size_t>(count);
   bytes_read_ += static_cast<std::size_t>(count);
+}
+
+void TextReader::enlarge_buffer() {
+  std::unique_ptr<char[]> larger = std::make_unique_for_overwrite<char[]>(2 * buffer_size_);
+  std::memcpy(larger.get(), buffer_.get(), end_);
+  buffer_ = std::move(larger);
+  buffer_size_ *= 2;
 }
 
 }  // namespace pipeline

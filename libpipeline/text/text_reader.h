@@ -1,10 +1,10 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <utility>
-#include <vector>
 
 #include "libpipeline/numbers/vec.h"
 #include "libpipeline/text/error.h"
@@ -92,7 +92,7 @@ class TextReader {
 
   /// The text in memory that has not been read yet, from the beginning of a line. It is followed by kSlack
   /// readable characters without meaning. For callers that parse several lines at a time, then `skip` them.
-  [[nodiscard]] std::string_view buffered() const { return {buffer_.data() + begin_, end_ - begin_}; }
+  [[nodiscard]] std::string_view buffered() const { return {buffer_.get() + begin_, end_ - begin_}; }
   static constexpr std::size_t kSlack = 512;
   /// Consumes `length` buffered characters, `line_count` whole lines.
   void skip(std::size_t length, std::size_t line_count);
@@ -110,12 +110,14 @@ class TextReader {
  private:
   bool fill();
   void read_block();
+  void enlarge_buffer();
   [[nodiscard]] bool input_is_ready() const;
   LineScanner take_line(std::size_t length, bool is_ended);
 
   int descriptor_ = -1;
   std::string file_;
-  std::vector<char> buffer_;
+  std::unique_ptr<char[]> buffer_;  // without values: where no text comes, no memory is touched
+  std::size_t buffer_size_;
   std::size_t begin_ = 0;  // the unread part of the buffer is [begin_, end_)
   std::size_t end_ = 0;
   std::size_t scanned_ = 0;  // no line end lies in [begin_, scanned_)

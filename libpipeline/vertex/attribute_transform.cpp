@@ -39,7 +39,7 @@ Located<Light> moved_to(const Located<Light>& light, const BallVec3& position, U
 
 }  // namespace
 
-NormalTransform::NormalTransform(const AffineMatrix& world_from_model) : has_scaling_(true) {
+NormalTransform::NormalTransform(const AffineMatrix& world_from_model) {
   const auto& rows = world_from_model.rows;
   set_rows(linear_row(rows[0]), linear_row(rows[1]), linear_row(rows[2]));
 }
@@ -69,7 +69,7 @@ Vec3 NormalTransform::operator()(const Vec3& normal) const {
   const Vec3 image = {dot(rows_[0], n), dot(rows_[1], n), dot(rows_[2], n)};
   // What is left of a unit vector may be nothing but the rounding errors of doubles.
   constexpr double kNearlyLost = 0x1p-40;
-  if (has_scaling_ && std::max({std::fabs(image.x), std::fabs(image.y), std::fabs(image.z)}) < kNearlyLost)
+  if (std::max({std::fabs(image.x), std::fabs(image.y), std::fabs(image.z)}) < kNearlyLost)
     return image_in_balls(normal);
   return unit_vector(image);
 }

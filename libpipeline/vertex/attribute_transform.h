@@ -33,8 +33,7 @@ class NormalTransform {
   [[nodiscard]] Vec3 image_in_balls(const Vec3& normal) const;
 
   std::array<Vec3, 3> rows_;
-  std::array<BallVec3, 3> ball_rows_;  // of the model's transforms; those of a view have no scaling
-  bool has_scaling_ = false;
+  std::array<BallVec3, 3> ball_rows_;  // of the model's transforms; a view loses nothing of a normal
 };
 
 /// The light with its position transformed and rounded to doubles, like a vertex's (round_to_text); added to

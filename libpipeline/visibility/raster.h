@@ -18,6 +18,12 @@ class Raster {
       : rows_(rows),
         columns_(columns),
         entries_(static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns), value) {}
+  /// Entries without values: reading one before it is written is undefined. Where nothing is written, the
+  /// system provides no memory.
+  Raster(int rows, int columns)
+      : rows_(rows),
+        columns_(columns),
+        entries_(static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns)) {}
 
   [[nodiscard]] int rows() const { return rows_; }
   [[nodiscard]] int columns() const { return columns_; }

@@ -1,5 +1,6 @@
 #include "libpipeline/visibility/zbuffer.h"
 
+#include <algorithm>
 #include <cassert>
 #include <functional>
 
@@ -42,15 +43,30 @@ ZBuffer<Depth>::ZBuffer(const Viewport& screen, PixelTag background)
       front_(screen.front),
       rear_limit_(screen.rear),
       rear_(format_.store(screen.rear)),
-      depths_(screen.rows, screen.columns, rear_),
-      tags_(screen.rows, screen.columns, background) {}
+      background_(background),
+      depths_(screen.rows, screen.columns),
+      tags_(screen.rows, screen.columns),
+      is_filled_(static_cast<std::size_t>(screen.rows)) {}
+
+template <typename Depth>
+void ZBuffer<Depth>::fill_row(int row) {
+  std::ranges::fill(depths_.row(row), rear_);
+  std::ranges::fill(tags_.row(row), background_);
+  is_filled_[static_cast<std::size_t>(row)] = 1;
+}
 
 template <typename Depth>
 void ZBuffer<Depth>::draw(const Span& span, PixelTag tag, HierarchicalDepth<Depth>* farthest) {
+  fill_if_new(span.row);
+  draw_in_filled_row(span, tag, farthest);
+}
+
+template <typename Depth>
+void ZBuffer<Depth>::draw_in_filled_row(const Span& span, PixelTag tag, HierarchicalDepth<Depth>* farthest) {
   assert(span.first_column >= 0 && span.last_column < depths_.columns());
   if (!(span.depth(span.first_column) >= front_ && span.depth(span.last_column) >= front_)) {
     const Span part = part_behind_front(span);
-    if (part.first_column <= part.last_column) draw(part, tag, farthest);
+    if (part.first_column <= part.last_column) draw_in_filled_row(part, tag, farthest);
     return;
   }
   if (depth_epsilon_ > 0) return draw_what_is_nearer_by_epsilon(span, tag);
@@ -82,18 +98,21 @@ void ZBuffer<Depth>::draw_spans(std::span<const TaggedSpan> spans, HierarchicalD
   const PixelTag first_marked = first_marked_;
   Stored* const first_depth = depths_.row(0).data();
   PixelTag* const first_tag = tags_.row(0).data();
+  const std::uint8_t* const is_filled = is_filled_.data();
   for (const auto& [span, tag] : spans) {
     assert(span.row >= 0 && span.row < depths_.rows());
     assert(span.first_column >= 0 && span.last_column < depths_.columns());
     const bool is_short = span.last_column - span.first_column < kShort;
-    const std::size_t row_begin = static_cast<std::size_t>(span.row) * columns;
+    const auto row = static_cast<std::size_t>(span.row);
+    const std::size_t row_begin = row * columns;
+    if (is_filled[row] == 0) fill_row(span.row);
     if (is_short && !has_epsilon) {
       const bool is_any_won =
           draw_pixel_by_pixel(span, tag, format, front, first_depth + row_begin, first_tag + row_begin);
       if constexpr (kMarks) marks[tag - first_marked] |= static_cast<std::uint8_t>(is_any_won);
     } else {
       if constexpr (kMarks) marks[tag - first_marked] = 1;
-      draw(span, tag, farthest);
+      draw_in_filled_row(span, tag, farthest);
     }
   }
 }

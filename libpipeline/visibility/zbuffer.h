@@ -17,7 +17,8 @@
 namespace pipeline {
 
 /// The visibility algorithm `zbuffer`: every pixel keeps the nearest depth drawn so far and its tag, 12 bytes
-/// per pixel if depths are doubles. `Depth` is a depth format. Source: E. Catmull, "A subdivision algorithm
+/// per pixel if depths are doubles. A row is filled with the background when something is first drawn there:
+/// small scenes touch little memory. `Depth` is a depth format. Source: E. Catmull, "A subdivision algorithm
 /// for computer display of curved surfaces", 1974.
 template <typename Depth = DepthF64>
 class ZBuffer {
@@ -63,14 +64,23 @@ class ZBuffer {
   /// Calls `visit(tag)`, which may change it, for every pixel.
   template <typename Visitor>
   void for_each_tag(Visitor&& visit) {
-    for (int row = 0; row < tags_.rows(); ++row)
+    for (int row = 0; row < tags_.rows(); ++row) {
+      fill_if_new(row);
       for (PixelTag& tag : tags_.row(row)) visit(tag);
+    }
   }
   /// Calls `visit(VisibleRow)` for every row of the screen, from the top.
   template <typename Visitor>
   void for_each_row(Visitor&& visit) const {
-    std::vector<double> depths(static_cast<std::size_t>(depths_.columns()));
+    const auto columns = static_cast<std::size_t>(depths_.columns());
+    const std::vector<double> no_depths(columns, rear_limit_);
+    const std::vector<PixelTag> no_tags(columns, background_);
+    std::vector<double> depths(columns);
     for (int row = 0; row < depths_.rows(); ++row) {
+      if (!is_filled_[static_cast<std::size_t>(row)]) {
+        visit(VisibleRow{no_depths, no_tags});
+        continue;
+      }
       const auto is_seen = [&](Stored stored) { return stored < rear_; };
       const auto depth = [&](Stored stored) { return is_seen(stored) ? format_.depth(stored) : rear_limit_; };
       std::transform(depths_.row(row).begin(), depths_.row(row).end(), depths.begin(), depth);
@@ -81,6 +91,12 @@ class ZBuffer {
  private:
   using Stored = typename Depth::Stored;
 
+  /// Has to precede what is drawn into a row.
+  void fill_if_new(int row) {
+    if (!is_filled_[static_cast<std::size_t>(row)]) fill_row(row);
+  }
+  void fill_row(int row);
+  void draw_in_filled_row(const Span& span, PixelTag tag, HierarchicalDepth<Depth>* farthest);
   [[nodiscard]] Span part_behind_front(const Span& span) const;
   void draw_what_is_nearer_by_epsilon(const Span& span, PixelTag tag);
   template <bool kMarks>
@@ -94,8 +110,11 @@ class ZBuffer {
   double depth_epsilon_ = 0;
   PixelTag first_marked_ = 0;
   std::uint8_t* marks_ = nullptr;
+  PixelTag background_;
   Raster<Stored> depths_;
   Raster<PixelTag> tags_;
+  // By row; bytes, as threads draw into different rows at the same time.
+  std::vector<std::uint8_t> is_filled_;
 };
 
 }  // namespace pipeline

@@ -13,6 +13,11 @@ file(WRITE "${documents}/changelog" "pipeline (${CPACK_PACKAGE_VERSION}) unstabl
 
  -- ${CPACK_PACKAGE_CONTACT}  ${date}
 ")
+# Tools that are linked statically hold the libraries of the system that built the package.
+file(WRITE "${prefix}/share/lintian/overrides/pipeline" "pipeline: embedded-library libpng *
+pipeline: embedded-library zlib *
+pipeline: shared-library-lacks-prerequisites *
+")
 file(GLOB compressed "${prefix}/share/man/man*/*" "${documents}/changelog")
 foreach(file IN LISTS compressed)
   execute_process(COMMAND gzip -9n ${file} COMMAND_ERROR_IS_FATAL ANY)

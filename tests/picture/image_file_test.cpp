@@ -60,7 +60,7 @@ Raster<Color> small_image() {
   return image;
 }
 
-/// Larger than the blocks of 4 MiB in which a BMP file is written.
+/// Larger than the blocks of 64 KiB in which a BMP file is written.
 Raster<Color> large_image() {
   Raster<Color> image(1501, 999, Color());
   for (int row = 0; row < image.rows(); ++row)

@@ -61,6 +61,21 @@ TEST(SurfaceShader, TrianglesKeptHaveTheirColorsUnderTheirNewIds) {
 }
 
 // The edge from the first corner to the last of one piece, through the middle, is that of the next one.
+TEST(SurfaceShader, AnIdShownBeforeHasTheColorOfItsNewTriangle) {
+  const TriangleBatch batch = batch_of({{1, 1, 1}, {2, 2, 2}});
+  SurfaceShader shader(kOnePixel, {});
+  for (std::size_t i = 0; i < batch.size(); ++i) shader.add(batch, i, Color());
+  const std::array<SurfaceShader::SurfaceId, 1> first = {0}, second = {1};
+  EXPECT_EQ(shader.shade(0, first)[0], Color(1, 1, 1));
+  EXPECT_EQ(shader.shade(0, second)[0], Color(2, 2, 2));
+  EXPECT_EQ(shader.shade(0, first)[0], Color(1, 1, 1));
+  KeptIds kept(2);
+  kept.keep(1);
+  kept.renumber();
+  shader.keep(kept);
+  EXPECT_EQ(shader.shade(0, first)[0], Color(2, 2, 2));
+}
+
 TEST(SurfaceShader, AWireframeHasNoEdgeBetweenPiecesOneOfWhichWasKept) {
   const Vec3 red{255, 0, 0};
   TriangleBatch pieces;

@@ -644,6 +644,32 @@ TEST_P(FixedText, ReadsAndPrintsRepeatedColumns) {
   }
 }
 
+// Four triangles whose corners have the color of the corner before or another one: two others in a row end
+// the search for repeated colors, in any triangle and at any corner. Zeros of either sign are the same color.
+TEST_P(FixedText, ReadsAndPrintsColumnsInEveryPatternOfRepetition) {
+  constexpr std::size_t kCount = 4, kCorners = 3 * kCount;
+  for (unsigned pattern = 0; pattern < 1u << (kCorners - 1); ++pattern) {
+    ColumnArrays arrays(2, false, kCount), with_signs(2, false, kCount);
+    double color = 1;
+    for (std::size_t i = 0; i < kCorners; ++i) {
+      if (i > 0 && (pattern >> (i - 1) & 1) == 0) ++color;
+      const auto x = static_cast<double>(i);
+      arrays.groups[0][i / 3][i % 3] = with_signs.groups[0][i / 3][i % 3] = {x, 0.25, -0.5};
+      arrays.groups[1][i / 3][i % 3] = {0, 100, color};
+      with_signs.groups[1][i / 3][i % 3] = {i % 2 == 0 ? 0.0 : -0.0, 100, color};
+    }
+    std::string expected;
+    for (std::size_t k = 0; k < kCount; ++k) expected += general_columns(arrays, k, 2);
+    std::size_t count = 0;
+    ASSERT_EQ(write_columns(GetParam(), with_signs, 2, count), expected) << pattern;
+    ASSERT_EQ(count, kCount);
+    ColumnArrays read(2, false, kCount);
+    ASSERT_EQ(read_columns(GetParam(), expected, TriangleFrame::stage_text, {2, 2, 2}, read).triangle_count,
+              kCount);
+    ASSERT_EQ(bits_of(read), bits_of(arrays)) << pattern;
+  }
+}
+
 TEST_P(FixedText, StopsBeforeTheFirstColumnsItCannotPrint) {
   for (const double value : {1e17, HUGE_VAL, std::nan("")})
     for (std::size_t group = 0; group < 3; ++group) {

@@ -52,6 +52,18 @@ class ThroughTheStages(ToolTest):
         self.assertIn("light 0 2 -4 1 0.5 0\n", text.decode())
         self.assertEqual([v[6:] for v in vertices(text)], 3 * [[-1, 0, 0]] + 3 * [[0, 0, 1]])
 
+    def test_project_copies_columns_and_drops_the_sign_of_zero(self):
+        lines = ["0 0 -2 -0.0 255 0.5 -0.0 0 -1\n", "1 0 -2 0 -0 7 0 -0.0 1\n", "0 1 -2 -0e5 1 2.25 1 -0 -0.0\n"]
+        text = HEADERS["project"] + "attributes color normal\n" + "".join(lines) + "\n"
+        copied = [[0, 255, 0.5, 0, 0, -1], [0, 0, 7, 0, 0, 1], [0, 1, 2.25, 1, 0, 0]]
+        for decimals in (7, 3, 16):
+            done = run("project", "--digits", decimals, stdin=text)
+            columns = [" ".join(line.split()[4:]) for line in done.stdout.decode().splitlines()[1:4]]
+            self.assertEqual(columns, [" ".join(f"{number:.{decimals}f}" for number in three) for three in copied])
+        done = run("project", "--digits", "exact", stdin=text)
+        columns = [" ".join(line.split()[4:]) for line in done.stdout.decode().splitlines()[1:4]]
+        self.assertEqual(columns, [" ".join(map(str, three)) for three in copied])
+
     def test_project_adds_w_and_says_what_it_projected_by(self):
         text = pipe(["model"], ["view"], ["project"], stdin=LIT)
         header = text.decode().splitlines()[:8]

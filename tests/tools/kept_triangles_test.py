@@ -15,7 +15,7 @@ from toolbox import ToolTest, run
 COLORED = "attributes w color\n"
 LIT = "attributes w color normal\nmaterial 0.5 1 0.5 8\nlight 1 2 3 1 1 1\nprojected frustum -0.5 0.5 -0.5 0.5 1 100\n"
 MEBIBYTE = 1024  # in the units of /proc, which are KiB
-# zbuf looks for unseen triangles when it keeps this many; in a larger picture, one per pixel.
+# zbuf looks for unseen triangles when it keeps this many; in a larger picture, one for each pixel or four of them.
 LEAST = 16384
 
 

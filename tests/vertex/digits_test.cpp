@@ -564,6 +564,7 @@ TEST(Normals, AreWithinTheirBoundInViewSpace) {
     const Vec3 normal = random_point(random, 10);
     const ReferencePoint truth = reference_normal(reference_view<kBits>(eye, look, {0, 1, 0}), normal);
     worst = std::max(worst, largest_difference(transform(normal), truth));
+    EXPECT_EQ(transform({}), Vec3{});
   }
   std::printf("%g\n", worst);
   EXPECT_LE(worst, 1e-15);

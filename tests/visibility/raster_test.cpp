@@ -21,6 +21,13 @@ TEST(Raster, IsFilledWithOneValue) {
   }
 }
 
+TEST(Raster, OneWithoutValuesTakesThem) {
+  Raster<int> raster(2, 3);
+  for (int row = 0; row < 2; ++row) std::ranges::fill(raster.row(row), 7 + row);
+  EXPECT_EQ(std::ranges::count(raster.row(0), 7), 3);
+  EXPECT_EQ(std::ranges::count(raster.row(1), 8), 3);
+}
+
 TEST(Raster, RowsAreApart) {
   Raster<int> raster(3, 2, 0);
   raster.row(1)[0] = 1;

@@ -39,6 +39,25 @@ TEST(ZBuffer, TheBackgroundsTagIs0UnlessAnotherIsGiven) {
   EXPECT_EQ(tags_of(ZBuffer<>(kSixByTwo), 0), std::vector<PixelTag>(6, PixelTag{0}));
 }
 
+TEST(ZBuffer, ARowWithoutTrianglesIsBackgroundBesideOneWithATriangle) {
+  for (const int drawn : {0, 1}) {
+    ZBuffer<> buffer(kSixByTwo, kGreen);
+    buffer.draw(span_at(drawn, 0, 5, 0.5), kRed);
+    EXPECT_EQ(depths_of(buffer, drawn), std::vector<double>(6, 0.5));
+    EXPECT_EQ(depths_of(buffer, 1 - drawn), std::vector<double>(6, 2));
+    EXPECT_EQ(tags_of(buffer, 1 - drawn), std::vector<PixelTag>(6, kGreen));
+  }
+}
+
+TEST(ZBuffer, TagsChangeInEveryRowDrawnIntoOrNot) {
+  ZBuffer<> buffer(kSixByTwo, kGreen);
+  buffer.draw(span_at(1, 0, 2, 0.5), kRed);
+  buffer.for_each_tag([](PixelTag& tag) { tag += 1; });
+  EXPECT_EQ(tags_of(buffer, 0), std::vector<PixelTag>(6, kGreen + 1));
+  EXPECT_EQ(tags_of(buffer, 1),
+            (std::vector<PixelTag>{kRed + 1, kRed + 1, kRed + 1, kGreen + 1, kGreen + 1, kGreen + 1}));
+}
+
 TEST(ZBuffer, DrawsFromTheFirstToTheLastColumn) {
   ZBuffer<> buffer(kSixByTwo);
   buffer.draw(span_at(1, 2, 4, 0.5, 0.25), kRed);
