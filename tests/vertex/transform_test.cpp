@@ -396,7 +396,8 @@ TEST(ClipFromView, RefusesAnAngleFromASideToASide) {
   } catch (const InputError& error) {
     EXPECT_STREQ(
         error.what(),
-        "scene.txt:4:1: expected fovX = fovY * aspect above 0 and below 180 degrees (or --aspect ratio), "
+        "scene.txt:4:1: expected fovX = fovY * aspect above 0 and below 180 degrees (or --aspect ratio; in a scene, "
+        "the word ratio at the end), "
         "found 90 * 2");
   }
 }

@@ -99,8 +99,8 @@ ImportedModel::ImportedModel(const std::string& path, double crease_degrees)
     : path_(path), importer_(std::make_unique<Assimp::Importer>()) {
   importer_->SetPropertyFloat(AI_CONFIG_PP_GSN_MAX_SMOOTHING_ANGLE, static_cast<float>(crease_degrees));
   // The normals in STL are those of flat triangles, also where the surface is round.
-  const unsigned steps = aiProcess_Triangulate | aiProcess_SortByPType | aiProcess_GenSmoothNormals |
-                         (ends_with(path, ".stl") ? aiProcess_DropNormals : 0);
+  unsigned steps = aiProcess_Triangulate | aiProcess_SortByPType | aiProcess_GenSmoothNormals;
+  if (ends_with(path, ".stl")) steps |= aiProcess_DropNormals;
   if (path == "-") {
     const std::string bytes = read_standard_input();
     scene_ = importer_->ReadFileFromMemory(bytes.data(), bytes.size(), steps, "");
