@@ -394,11 +394,11 @@ TEST(ClipFromView, RefusesAnAngleFromASideToASide) {
     clip_from_view(wide);
     FAIL() << "no error";
   } catch (const InputError& error) {
-    EXPECT_STREQ(
-        error.what(),
-        "scene.txt:4:1: expected fovX = fovY * aspect above 0 and below 180 degrees (or --aspect ratio; in a scene, "
-        "the word ratio at the end), "
-        "found 90 * 2");
+    EXPECT_STREQ(error.what(),
+                 "scene.txt:4:1: expected fovX = fovY * aspect above 0 and below 180 degrees (or --aspect "
+                 "ratio; in a scene, "
+                 "the word ratio at the end), "
+                 "found 90 * 2");
   }
 }
 
