@@ -56,7 +56,7 @@ def legend(y):
     keys = (("right", "no wrong pixel"), ("some", "fewer than 1 %"), ("many", "1 % and more"))
     for i, (name, words) in enumerate(keys):
         yield f'<rect class="{name}" x="{20 + 140 * i}" y="{y - 10}" width="14" height="11"/>' + text(40 + 140 * i, y, words, 'class="soft"')
-    yield f'<circle class="note" cx="{450}" cy="{y - 4.5}" r="3.5"/>' + text(450, y, "a tool notes it", 'class="soft"')
+    yield f'<circle class="note" cx="427" cy="{y - 4.5}" r="3.5"/>' + text(440, y, "a tool notes it", 'class="soft"')
     yield text(550, y, "thick: against the truth; thin: the lossless run", 'class="soft"')
 
 
