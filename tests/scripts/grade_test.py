@@ -362,7 +362,8 @@ class Hostile(ClassTest):
         self.add("a")
         pathlib.Path("hand-ins/a/stage3.txt").write_text("-9 -9 0\n9 -9 0\n0 9 .5\n" * 30_000)
         self.grade("--time-limit", "0.01", status=1)
-        self.assertTrue(all("takes longer than 0.01 s" in row["remarks"] for row in self.rows()))
+        # The other one may be done before anybody looks.
+        self.assertIn("takes longer than 0.01 s", {row["hand-in"]: row["remarks"] for row in self.rows()}["a"])
         self.grade("--memory-limit", "1", status=1)
         self.assertIn("needs more than 1 MiB of memory", self.rows()[0]["remarks"])
 
