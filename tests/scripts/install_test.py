@@ -111,6 +111,7 @@ class Installed(unittest.TestCase):
             shutil.copy(sample / name, self.work)
         (self.work / "bunny.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
         shutil.copy(self.work / "bunny.obj", self.work / "part.obj")
+        (self.work / "path.txt").write_text("0 3 4 5 0 0 0 0 1 0\n1 5 4 3 0 0 0 0 1 0\n")
         for name in ("mine", "torus", "hand-ins/somebody/plain", "tests/plain"):
             shutil.rmtree(self.work / name, ignore_errors=True)
             shutil.copytree(sample, self.work / name)

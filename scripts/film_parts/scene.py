@@ -1,0 +1,67 @@
+"""The scene of a film, as model writes it."""
+import math
+import pathlib
+import re
+import tempfile
+
+from film_parts.path import Camera, Key
+from lib.command import CommandFailure
+from lib.vectors import moved, normalized
+
+
+class Scene:
+    """`world` is the text of model, in world space; `config` the screen's."""
+
+    def __init__(self, tools, path, config):
+        with tempfile.TemporaryDirectory() as folder:
+            stats = pathlib.Path(folder, "stats.txt")
+            self.world = tools.output("model", "--stats", stats, path)
+            self.stats = dict(line.split() for line in stats.read_text().splitlines())
+        self.config = config
+        header = {}
+        for line in self.world.split(b"\n\n", 1)[0].decode(errors="replace").splitlines():
+            keyword, _, rest = line.partition(" ")
+            header.setdefault(keyword, rest.split())
+        if self.stats.get("triangles") == "0" or not {"eye", "look", "up"} <= set(header):
+            raise CommandFailure(f"expected a scene with triangles, found none in {path}")
+        eye, look, up = (tuple(map(float, header[name])) for name in ("eye", "look", "up"))
+        self.camera = Camera(eye, look, up)
+        self.perspective = header.get("perspective")
+
+    def projection_words(self, camera):
+        """The options of project for a camera with its own angle."""
+        if camera.fov_y is None:
+            return []
+        if self.perspective is None:
+            raise CommandFailure("a fovY changes a perspective, and the scene has none")
+        _, aspect, near, far, *rule = self.perspective
+        return ["--perspective", number(camera.fov_y), aspect, near, far, *(["--aspect", rule[0]] if rule else [])]
+
+    def middle(self):
+        return tuple((float(self.stats[axis + "_min"]) + float(self.stats[axis + "_max"])) / 2 for axis in "xyz")
+
+
+def number(x):
+    """Ten digits: the last bits of sin and cos differ between systems."""
+    text = f"{x:.10g}"
+    return "0" if re.fullmatch("-0(\\.0*)?", text) else text
+
+
+def turned(p, middle, axis, angle):
+    """A point turned about an axis of length 1 through the middle (Rodrigues)."""
+    v = tuple(a - b for a, b in zip(p, middle))
+    along = sum(a * b for a, b in zip(axis, v))
+    across = (axis[1] * v[2] - axis[2] * v[1], axis[2] * v[0] - axis[0] * v[2], axis[0] * v[1] - axis[1] * v[0])
+    return moved(middle, (math.cos(angle), v), (math.sin(angle), across), (along * (1 - math.cos(angle)), axis))
+
+
+def turn(scene, seconds, fps):
+    """A key for each frame of one turn of the scene's camera about the up direction through the scene's middle. The first frame is not
+    repeated at the end, so that the film can be played in a loop."""
+    count = max(2, round(seconds * fps))
+    middle, axis = scene.middle(), normalized(scene.camera.up)
+    keys = []
+    for frame in range(count):
+        angle = math.tau * frame / count
+        keys.append(Key(frame / fps, Camera(turned(scene.camera.eye, middle, axis, angle), turned(scene.camera.look, middle, axis, angle), axis)))
+    return keys

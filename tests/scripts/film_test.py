@@ -1,0 +1,234 @@
+#!/usr/bin/env python3
+"""scripts/film: frames are those of the pipe, whatever the order and number of jobs; what is interrupted goes on.
+
+usage: film_test.py BIN_DIR [UNITTEST ARGUMENT...]
+"""
+import math
+import os
+import pathlib
+import shutil
+import signal
+import subprocess
+import sys
+import time
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "tools"))
+from toolbox import BIN, SOURCE, ToolTest, pipe  # noqa: E402
+
+FILM = SOURCE / "scripts/film"
+ENVIRONMENT = {**os.environ, "BIN": str(BIN)}
+SCENE = """3 1 6
+0 0 0
+0 1 0
+40 1.25 1 30 ratio
+triangle
+-1 -1 0
+1 -1 0
+0 1 0
+triangle
+-1 0 -1
+1 0 1
+0 0.5 -2
+end
+"""
+CONFIG = "50 40\n"
+KEYS = [(0, (3, 1, 6), (0, 0, 0), (0, 1, 0), 40), (1, (5, 2, 3), (0, 0.5, 0), (0, 1, 0.2), 30), (3, (4, 4, 1), (0, 0, 0), (0, 0, 1), 60)]
+PATH = "# time eye look up fovY\n" + "".join(f"{t} {' '.join(map(str, (*eye, *look, *up)))} {fov}\n" for t, eye, look, up, fov in KEYS)
+
+
+def setUpModule():  # noqa: N802
+    if not shutil.which("parallel"):
+        raise unittest.SkipTest("GNU parallel is missing")
+
+
+def film(*words, **settings):
+    return subprocess.run([FILM, *map(str, words)], capture_output=True, text=True, env=ENVIRONMENT, timeout=240, **settings)
+
+
+def frame(eye, look, up, fov_y=40):
+    """The PNG that the pipe draws for a camera."""
+    words = [" ".join(map(str, v)).split() for v in (eye, look, up)]
+    pipe(["model"], ["view", "--eye", *words[0], "--look", *words[1], "--up", *words[2]],
+         ["project", "--perspective", str(fov_y), "1.25", "1", "30", "--aspect", "ratio"], ["zbuf", "config.txt", "--image", "one.png"], stdin=SCENE)
+    return pathlib.Path("one.png").read_bytes()
+
+
+def frames(folder):
+    return {path.name: path.read_bytes() for path in sorted(pathlib.Path(folder).glob("*.png"))}
+
+
+def cameras(folder):
+    """Eye, look and up of each frame, from the list that film keeps."""
+    found = []
+    for line in pathlib.Path(folder, "frames.txt").read_text().splitlines()[1:]:
+        words = line.split()
+        found.append([tuple(map(float, words[words.index(name) + 1:words.index(name) + 4])) for name in ("--eye", "--look", "--up")])
+    return found
+
+
+class FilmTest(ToolTest):
+    def setUp(self):
+        super().setUp()
+        for name, text in (("scene.txt", SCENE), ("config.txt", CONFIG), ("path.txt", PATH)):
+            pathlib.Path(name).write_text(text)
+
+    def make(self, *words):
+        done = film("scene.txt", "config.txt", *words)
+        self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "", ""))
+
+
+class Pictures(FilmTest):
+    def test_at_a_key_the_frame_is_the_keys(self):
+        for mode in ([], ["--linear"]):
+            self.make("path.txt", "--fps", "4", "-o", "out" + "".join(mode), *mode)
+            drawn = frames("out" + "".join(mode))
+            self.assertEqual(len(drawn), 13)
+            for t, eye, look, up, fov_y in KEYS:
+                length = math.hypot(*up)
+                self.assertEqual(drawn[f"{4 * t:05d}.png"], frame(eye, look, ["%.10g" % (x / length) for x in up], fov_y))
+
+    def test_half_way_on_a_straight_line(self):
+        self.make("path.txt", "--fps", "2", "--linear", "-o", "out")
+        eye, look, _ = cameras("out")[1]
+        self.assertEqual((eye, look), ((4, 1.5, 4.5), (0, 0.25, 0)))
+
+    def test_half_way_on_the_curve(self):
+        """Half-way in an interval of length h the cubic is the mean of its ends, plus h/8 times the difference of their slopes; the slopes here are
+        (5 - 3)/1 at the first key and (4 - 3)/3 at the second, so x is 4 + 5/24."""
+        self.make("path.txt", "--fps", "2", "-o", "out")
+        self.assertAlmostEqual(cameras("out")[1][0][0], 4 + 5 / 24, 8)
+
+    def test_a_turn_begins_at_the_camera_and_goes_around_the_middle(self):
+        self.make("--turn", "2", "--fps", "4", "-o", "out")
+        seen = cameras("out")
+        self.assertEqual(len(seen), 8)
+        self.assertEqual(seen[0][:2], [(3, 1, 6), (0, 0, 0)])
+        # The middle is (0, 0, -0.5); a quarter of a turn about y takes (3, 1, 6.5) from there to (6.5, 1, -3).
+        for x, y in zip(seen[2][0], (6.5, 1, -3.5)):
+            self.assertAlmostEqual(x, y, 8)
+        self.assertEqual(frames("out")["00000.png"], frame((3, 1, 6), (0, 0, 0), (0, 1, 0)))
+
+    def test_the_bytes_do_not_depend_on_the_jobs(self):
+        self.make("path.txt", "--fps", "9", "-o", "one", "--", "--jobs", "1")
+        self.make("path.txt", "--fps", "9", "-o", "four", "--", "--jobs", "4")
+        self.assertEqual(len(frames("one")), 28)
+        self.assertEqual(frames("one"), frames("four"))
+
+
+class Interruptions(FilmTest):
+    def test_what_is_killed_goes_on(self):
+        process = subprocess.Popen([FILM, "scene.txt", "config.txt", "--turn", "12", "-o", "out", "--", "--jobs", "2"], env=ENVIRONMENT,
+                                   start_new_session=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        end = time.monotonic() + 120
+        while len(list(pathlib.Path("out").glob("*.png"))) < 20 and time.monotonic() < end:
+            time.sleep(0.01)
+        os.killpg(process.pid, signal.SIGKILL)
+        process.wait()
+        # The jobs have groups of their own; they end at their next write to parallel, or with their frames.
+        time.sleep(1)
+        before = {path.name: path.stat().st_mtime_ns for path in pathlib.Path("out").glob("*.png")}
+        self.assertTrue(20 <= len(before) < 300, "the run was not in its midst")
+        self.make("--turn", "12", "-o", "out")
+        after = {path.name: path.stat().st_mtime_ns for path in pathlib.Path("out").glob("*.png")}
+        self.assertEqual(len(after), 300)
+        self.assertEqual({name: after[name] for name in before}, before)
+        self.make("--turn", "12", "-o", "whole")
+        self.assertEqual(frames("out"), frames("whole"))
+
+    def test_frames_of_another_scene_or_way_are_drawn_anew(self):
+        self.make("--turn", "1", "--fps", "4", "-o", "out")
+        first = frames("out")
+        pathlib.Path("scene.txt").write_text(SCENE.replace("0 0.5 -2", "0 0.9 -2"))
+        self.make("--turn", "1", "--fps", "4", "-o", "out")
+        second = frames("out")
+        self.assertNotEqual(first, second)
+        self.make("--turn", "1", "--fps", "2", "-o", "out")
+        self.assertEqual(list(frames("out").values()), [second["00000.png"], second["00002.png"]])
+
+    def test_a_frame_that_fails_names_its_camera(self):
+        done = film("scene.txt", "config.txt", "--turn", "1", "--fps", "2", "-o", "out")
+        self.assertEqual(done.returncode, 0)
+        os.unlink("out/00001.png")
+        os.symlink("/nowhere/at/all.png", "out/00001.png")
+        done = film("scene.txt", "config.txt", "--turn", "1", "--fps", "2", "-o", "out")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("00001 (--eye -3 1 -7 --look 0 0 -1 --up 0 1 0): zbuf: cannot open 00001.png: No such file or directory\n", done.stderr)
+        self.assertIn("film: 1 of 2 frames have not been drawn, the first is 00001.png (--eye -3 1 -7 ", done.stderr)
+
+
+class Outputs(FilmTest):
+    def test_a_film(self):
+        if not shutil.which("ffmpeg"):
+            self.skipTest("ffmpeg is missing")
+        self.make("--turn", "1", "--fps", "10", "-o", "turn.mp4")
+        words = ["ffprobe", "-v", "error", "-count_frames", "-show_entries", "stream=nb_read_frames,width,height,r_frame_rate", "-of", "csv=p=0", "turn.mp4"]
+        self.assertEqual(subprocess.run(words, capture_output=True, text=True, check=True).stdout.strip(), "50,40,10/1,10")
+        self.assertFalse(pathlib.Path("turn.mp4.frames").exists())
+
+    def test_other_machines(self):
+        """Over a real sshd on this machine, under two names; bytes as without."""
+        for program in ("/usr/sbin/sshd", "rsync", "ssh-keygen"):
+            if not shutil.which(program):
+                self.skipTest(f"{program} is missing")
+        here = pathlib.Path.cwd()
+        for name in ("host", "user"):
+            subprocess.run(["ssh-keygen", "-q", "-t", "ed25519", "-N", "", "-f", name], check=True)
+        shutil.copy("user.pub", "authorized")
+        if os.geteuid() == 0:
+            pathlib.Path("/run/sshd").mkdir(exist_ok=True)
+        port = 20000 + os.getpid() % 20000
+        server = subprocess.Popen(["/usr/sbin/sshd", "-D", "-f", "/dev/null", "-h", here / "host", "-p", str(port), "-o", "ListenAddress=127.0.0.1",
+                                   "-o", f"AuthorizedKeysFile={here}/authorized", "-o", "StrictModes=no", "-o", "UsePAM=no", "-o", "PidFile=none"],
+                                  stderr=subprocess.DEVNULL)
+        self.addCleanup(server.wait)
+        self.addCleanup(server.terminate)
+        pathlib.Path("ssh.txt").write_text(f"Host worker*\n  HostName 127.0.0.1\n  Port {port}\n  IdentityFile {here}/user\n  IdentitiesOnly yes\n"
+                                           f"  StrictHostKeyChecking no\n  UserKnownHostsFile {here}/known\n  LogLevel ERROR\n")
+        for _ in range(50):
+            done = subprocess.run(["ssh", "-F", "ssh.txt", "worker1", "true"], capture_output=True, text=True)
+            if done.returncode == 0:
+                break
+            time.sleep(0.1)
+        else:
+            self.skipTest("no login through a sshd of this user: " + done.stderr.strip())
+        self.make("path.txt", "--fps", "3", "-o", "near")
+        self.make("path.txt", "--fps", "3", "-o", "far", "--", "--ssh", f"ssh -F {here}/ssh.txt", "--sshlogin", "1/worker1,1/worker2")
+        self.assertEqual(len(frames("far")), 10)
+        self.assertEqual(frames("far"), frames("near"))
+
+
+class Refusals(FilmTest):
+    def test_paths(self):
+        for text, reason in (("0 1 2 3\n", "path.txt:1: expected the time, eye, look and up"), ("", "path.txt: expected two cameras or more, found 0"),
+                             ("# one\n0 0 0 5 0 0 0 0 1 0\n", "found 1"), ("0 0 0 5 0 0 5 0 1 0\n", "path.txt:1: expected an eye apart from the look point"),
+                             ("0 0 0 5 0 0 0 0 0 1\n", "path.txt:1: expected an eye apart"), ("0 0 0 5 0 0 0 0 1 0 180\n", "path.txt:1: expected a fovY above 0"),
+                             ("1 0 0 5 0 0 0 0 1 0\n\n1 0 0 6 0 0 0 0 1 0\n", "path.txt:3: expected a time after 1, found 1"),
+                             ("0 0 0 5 0 0 0 0 1 0 30\n1 0 0 6 0 0 0 0 1 0\n", "path.txt:2: expected a fovY on every line or on none"),
+                             ("0 0 0 5 0 0 0 nan 1 0\n", "path.txt:1: expected the time")):
+            pathlib.Path("path.txt").write_text(text)
+            for mode in ([], ["--linear"]):
+                done = film("scene.txt", "config.txt", "path.txt", *mode, "-o", "out", "--fps", "25")
+                self.assertEqual((done.returncode, done.stdout), (1, ""), text)
+                self.assertIn(reason, done.stderr)
+                self.assertEqual(done.stderr.count("\n"), 1)
+
+    def test_a_way_through_a_camera_that_shows_nothing(self):
+        pathlib.Path("path.txt").write_text("0 0 0 5 0 0 0 0 1 0\n1 0 0 -5 0 0 0 0 1 0\n")
+        done = film("scene.txt", "config.txt", "path.txt", "--linear", "-o", "out", "--fps", "2")
+        self.assertEqual((done.returncode, done.stdout), (1, ""))
+        self.assertIn("film: at 0.5 s the way between the cameras leads through one that shows nothing", done.stderr)
+
+    def test_command_lines(self):
+        for words in (["path.txt", "--turn", "3", "-o", "out"], ["-o", "out"], ["path.txt"], ["--turn", "0", "-o", "out"], ["--turn", "2", "--fps", "x", "-o", "out"]):
+            self.assertEqual(film("scene.txt", "config.txt", *words).returncode, 2, words)
+
+    def test_scenes(self):
+        pathlib.Path("scene.txt").write_text("0 0 5\n")
+        done = film("scene.txt", "config.txt", "--turn", "1", "-o", "out")
+        self.assertEqual((done.returncode, done.stdout), (1, ""))
+        self.assertIn("film: model: scene.txt:2:1: expected", done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
