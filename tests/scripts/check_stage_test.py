@@ -53,6 +53,10 @@ class Program(ToolTest):
         self.assertRegex(others, "^not tried: ")
         self.assertEqual({path.name for path in (SOURCE / "samples").iterdir()}, {*SAMPLES, *re.findall(r"[a-z]+(?:-[a-z]+)?(?=,| \()", others)})
 
+    def test_triangles_that_are_right_may_come_in_a_text_that_the_next_stage_refuses(self):
+        told = self.told("view", 'cat > text; sed -n 1p text; exec "$BIN/view" text', status=0)
+        self.assertRegex(told, r"^scene: right\n  but in the pipe project: <stdin>:1:1: .* must drop the lines eye, look and up .*\n$")
+
     def test_the_first_wrong_number_and_the_cause(self):
         told = self.told("view", 'exec "$BIN/view" --eye 0 0 0 --look -2.7 -4.2 -6.9')
         self.assertIn("scene: wrong\n  first at ", told)
