@@ -143,8 +143,8 @@ void draw_all(Tool& tool, const ZbufOptions& chosen, StageReader& reader, Triang
     if (!store.is_full()) return;
     finish();
     store.keep_seen([&](const auto& visit) {
-      if (!visible.samples || store.keeps_text()) visible.centers.for_each_tag(visit);
-      if (visible.samples) visible.samples->for_each_tag(visit);
+      if (!visible.samples || store.keeps_text()) visible.centers.for_each_drawn_tag(visit);
+      if (visible.samples) visible.samples->for_each_drawn_tag(visit);
     });
   };
   ReadAhead ahead(reader, pool);
