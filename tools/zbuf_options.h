@@ -17,6 +17,8 @@
 #include "libpipeline/scene/config.h"
 #include "libpipeline/visibility/depth_format.h"
 #include "tools/command_line.h"
+#include "tools/separate_outputs.h"
+#include "tools/statistics.h"
 
 namespace pipeline {
 
@@ -60,6 +62,9 @@ struct ZbufOptions {
   /// Whether an image is written, once the options are complete.
   [[nodiscard]] bool has_image() const { return !image_path.empty(); }
 };
+
+/// The files and pipes of a run that makes a picture.
+std::vector<NamedOutput> outputs_of(const ZbufOptions& chosen, const Statistics& statistics);
 
 /// Calls visit<Rule, Depth>() for the coverage rule and the depth format chosen.
 template <typename Visitor>
