@@ -178,8 +178,8 @@ struct Bvh::Builder {
     for (std::size_t child = 0; child < 2; ++child) {
       const FloatBox half = box_of(halves[child]);
       for (std::size_t axis = 0; axis < 3; ++axis) {
-        nodes[index].low[axis][child] = half.low[axis];
-        nodes[index].high[axis][child] = half.high[axis];
+        nodes[index].sides[axis][0][child] = half.low[axis];
+        nodes[index].sides[axis][1][child] = half.high[axis];
       }
       if (halves[child].size() <= part_size) {
         parts.push_back({halves[child], index, child, depth + 1, {}, 0});

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -10,6 +11,7 @@
 
 #include "libpipeline/numbers/bounding_box.h"
 #include "libpipeline/raytracing/pixel_rays.h"
+#include "libpipeline/raytracing/two_doubles.h"
 #include "libpipeline/stream/thread_pool.h"
 
 namespace pipeline {
@@ -66,21 +68,11 @@ class Bvh {
   static constexpr std::size_t kMaxDepth = 120;  // 64 for the cuts by area, and those in the middle
 
   struct Node {
-    // By axis, then child: both are tested at a time.
-    std::array<std::array<float, 2>, 3> low;
-    std::array<std::array<float, 2>, 3> high;
+    // By axis, then low and high, then child: both children are tested at a time.
+    std::array<std::array<std::array<float, 2>, 2>, 3> sides;
     std::array<std::uint32_t, 2> children;  // nodes or leaves
   };
   struct Builder;
-
-  /// A ray's distances from the sides of a node's two boxes.
-  struct Slopes {
-    explicit Slopes(const Ray& ray)
-        : origin{ray.origin.x, ray.origin.y, ray.origin.z},
-          inverse{1 / ray.direction.x, 1 / ray.direction.y, 1 / ray.direction.z} {}
-    std::array<double, 3> origin;
-    std::array<double, 3> inverse;
-  };
 
   std::vector<Node> nodes_;
   std::vector<std::uint32_t> ids_;
@@ -90,7 +82,14 @@ class Bvh {
 template <typename Test>
 void Bvh::for_each_candidate(const Ray& ray, double first, const double& limit, Test&& test) const {
   if (ids_.empty()) return;
-  const Slopes slopes(ray);
+  const std::array<double, 3> origins = {ray.origin.x, ray.origin.y, ray.origin.z};
+  const std::array<double, 3> directions = {ray.direction.x, ray.direction.y, ray.direction.z};
+  const auto by_axis = [](const auto& value) { return std::array{value(0), value(1), value(2)}; };
+  const auto origin = by_axis([&](std::size_t axis) { return TwoDoubles(origins[axis]); });
+  const auto inverse = by_axis([&](std::size_t axis) { return TwoDoubles(1 / directions[axis]); });
+  // The side where the ray enters a box.
+  const auto entrance =
+      by_axis([&](std::size_t axis) { return std::size_t{std::signbit(directions[axis])}; });
   struct Waiting {
     std::uint32_t child;
     double entry;
@@ -105,26 +104,24 @@ void Bvh::for_each_candidate(const Ray& ray, double first, const double& limit, 
       for (std::uint32_t i = begin; i < end; ++i) test(ids_[i]);
     } else {
       const Node& node = nodes_[current];
-      std::array<double, 2> entry = {first, first};
-      std::array<double, 2> exit = {limit, limit};
+      TwoDoubles entry(first), exit(limit);
       for (std::size_t axis = 0; axis < 3; ++axis) {
-        for (std::size_t child = 0; child < 2; ++child) {
-          const double low = (node.low[axis][child] - slopes.origin[axis]) * slopes.inverse[axis];
-          const double high = (node.high[axis][child] - slopes.origin[axis]) * slopes.inverse[axis];
-          const double nearer = low < high ? low : high, farther = low < high ? high : low;
-          entry[child] = nearer > entry[child] ? nearer : entry[child];
-          exit[child] = farther < exit[child] ? farther : exit[child];
-        }
+        const auto distance = [&](std::size_t side) {
+          return (TwoDoubles::from_floats(node.sides[axis][side].data()) - origin[axis]) * inverse[axis];
+        };
+        // 0 times infinity, on a side of a box, leaves them as they are.
+        entry = greater(distance(entrance[axis]), entry);
+        exit = less(distance(1 - entrance[axis]), exit);
       }
-      const bool enters_first = entry[0] <= exit[0], enters_second = entry[1] <= exit[1];
-      if (enters_first && enters_second) {
-        const std::size_t nearer = entry[1] < entry[0] ? 1 : 0;
-        stack[waiting_count++] = {node.children[1 - nearer], entry[1 - nearer]};
+      const int entered = at_most(entry, exit);
+      if (entered == 3) {
+        const std::size_t nearer = entry.second() < entry.first() ? 1 : 0;
+        stack[waiting_count++] = {node.children[1 - nearer], nearer == 0 ? entry.second() : entry.first()};
         current = node.children[nearer];
         continue;
       }
-      if (enters_first || enters_second) {
-        current = node.children[enters_first ? 0 : 1];
+      if (entered != 0) {
+        current = node.children[entered == 1 ? 0 : 1];
         continue;
       }
     }
