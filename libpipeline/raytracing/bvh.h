@@ -104,16 +104,16 @@ void Bvh::for_each_candidate(const Ray& ray, double first, const double& limit, 
       for (std::uint32_t i = begin; i < end; ++i) test(ids_[i]);
     } else {
       const Node& node = nodes_[current];
-      TwoDoubles entry(first), exit(limit);
+      TwoDoubles entry(first), leave(limit);
       for (std::size_t axis = 0; axis < 3; ++axis) {
         const auto distance = [&](std::size_t side) {
           return (TwoDoubles::from_floats(node.sides[axis][side].data()) - origin[axis]) * inverse[axis];
         };
         // 0 times infinity, on a side of a box, leaves them as they are.
         entry = greater(distance(entrance[axis]), entry);
-        exit = less(distance(1 - entrance[axis]), exit);
+        leave = less(distance(1 - entrance[axis]), leave);
       }
-      const int entered = at_most(entry, exit);
+      const int entered = at_most(entry, leave);
       if (entered == 3) {
         const std::size_t nearer = entry.second() < entry.first() ? 1 : 0;
         stack[waiting_count++] = {node.children[1 - nearer], nearer == 0 ? entry.second() : entry.first()};
