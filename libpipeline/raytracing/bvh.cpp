@@ -1,6 +1,7 @@
 #include "libpipeline/raytracing/bvh.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cassert>
 #include <cmath>
 #include <optional>
@@ -57,17 +58,15 @@ struct Bvh::Builder {
   /// A run that a task cuts further, and the place of its root.
   struct Part {
     Range range;
-    std::size_t node;  // in the nodes above all parts
-    std::size_t child;
+    FloatBox box;
     std::size_t depth;
-    std::vector<Node> nodes;
-    std::uint32_t root;
+    std::uint32_t* root;
   };
   static constexpr std::size_t kBins = 16;
   // Cuts by area may be as lopsided as the boxes are; below this depth runs are cut in the middle.
   static constexpr std::size_t kMaxDepthByArea = 64;
 
-  explicit Builder(std::vector<Primitive>& list) : primitives(list) {}
+  Builder(std::vector<Primitive>& list, Node* room) : primitives(list), nodes(room) {}
 
   [[nodiscard]] FloatBox box_of(const Range& range) const {
     FloatBox box;
@@ -167,59 +166,53 @@ struct Bvh::Builder {
     return static_cast<std::size_t>(std::partition(first, last, is_left) - primitives.begin());
   }
 
-  /// Adds the nodes of a run and returns its root. Runs of at most `part_size` become parts, to be cut later.
-  std::uint32_t build(const Range& range, const FloatBox& box, std::size_t depth, std::vector<Node>& nodes,
-                      std::size_t part_size) {
-    const std::size_t middle = cut(range, box, depth);
-    if (middle == range.begin) return leaf(range);
-    const auto index = nodes.size();
-    nodes.emplace_back();
+  /// Adds the nodes of a run and stores its root. Runs of at most `part_size` become parts, to be built
+  /// later.
+  void build(const Part& run, std::size_t part_size) {
+    const Range& range = run.range;
+    const std::size_t middle = cut(range, run.box, run.depth);
+    if (middle == range.begin) {
+      *run.root = leaf(range);
+      return;
+    }
+    *run.root = node_count++;
+    Node& node = nodes[*run.root];
     const std::array<Range, 2> halves = {{{range.begin, middle}, {middle, range.end}}};
     for (std::size_t child = 0; child < 2; ++child) {
-      const FloatBox half = box_of(halves[child]);
+      const Part half = {halves[child], box_of(halves[child]), run.depth + 1, &node.children[child]};
       for (std::size_t axis = 0; axis < 3; ++axis) {
-        nodes[index].sides[axis][0][child] = half.low[axis];
-        nodes[index].sides[axis][1][child] = half.high[axis];
+        node.sides[axis][0][child] = half.box.low[axis];
+        node.sides[axis][1][child] = half.box.high[axis];
       }
-      if (halves[child].size() <= part_size) {
-        parts.push_back({halves[child], index, child, depth + 1, {}, 0});
-      } else {
-        const std::uint32_t root = build(halves[child], half, depth + 1, nodes, part_size);
-        nodes[index].children[child] = root;
-      }
+      if (half.range.size() <= part_size)
+        parts.push_back(half);
+      else
+        build(half, part_size);
     }
-    return static_cast<std::uint32_t>(index);
   }
 
   std::vector<Primitive>& primitives;
+  Node* nodes;
+  std::atomic<std::uint32_t> node_count = 0;
   std::vector<Part> parts;
 };
 
 Bvh::Bvh(std::vector<Primitive> primitives, ThreadPool& pool) {
   assert(primitives.size() <= kMaxPrimitives);
   if (primitives.empty()) return;
-  Builder builder(primitives);
+  // Every node cuts a run in two.
+  nodes_ = std::make_unique_for_overwrite<Node[]>(primitives.size());
+  Builder builder(primitives, nodes_.get());
   const Builder::Range all = {0, primitives.size()};
   // Small enough that threads share the work, large enough that a part is worth a task.
   constexpr std::size_t kMinPart = 1024;
   const auto threads = static_cast<std::size_t>(pool.size());
   const std::size_t part_size = threads == 1 ? 0 : std::max(kMinPart, all.size() / (8 * threads));
-  root_ = builder.build(all, builder.box_of(all), 0, nodes_, part_size);
-  pool.start(static_cast<int>(builder.parts.size()), [&](int number, int) {
-    Builder::Part& part = builder.parts[static_cast<std::size_t>(number)];
-    part.root = builder.build(part.range, builder.box_of(part.range), part.depth, part.nodes, 0);
-  });
+  builder.build({all, builder.box_of(all), 0, &root_}, part_size);
+  pool.start(static_cast<int>(builder.parts.size()),
+             [&](int number, int) { builder.build(builder.parts[static_cast<std::size_t>(number)], 0); });
   pool.finish();
-  for (Builder::Part& part : builder.parts) {
-    const auto offset = static_cast<std::uint32_t>(nodes_.size());
-    const auto moved = [&](std::uint32_t child) { return (child & kLeaf) != 0 ? child : child + offset; };
-    for (Node& node : part.nodes) {
-      for (std::uint32_t& child : node.children) child = moved(child);
-      nodes_.push_back(node);
-    }
-    nodes_[part.node].children[part.child] = moved(part.root);
-    part.nodes = {};
-  }
+  node_count_ = builder.node_count;
   ids_.reserve(primitives.size());
   for (const Primitive& primitive : primitives) ids_.push_back(primitive.id);
 }

@@ -182,20 +182,21 @@ class Speed(ToolTest):
 
 class Memory(ToolTest):
     def test_is_at_most_200_bytes_a_plain_triangle(self):
-        def peak(count):
+        def peak(count, threads):
             rng = random.Random(4)
             with open("view.txt", "w") as view:
                 view.write("perspective 60 1 1 100\n")
                 for _ in range(count):
                     x, y, z = rng.uniform(-3, 3), rng.uniform(-3, 3), rng.uniform(-9, -2)
                     view.write("%.7f %.7f %.7f\n%.7f %.7f %.7f\n%.7f %.7f %.7f\n\n" % (x, y, z, x + 0.01, y, z, x, y + 0.01, z))
-            pid = os.posix_spawn(str(run.__globals__["BIN"] / "trace"), ["trace", "--size", "64x64", "--threads", "1", "-o", "out.ppm",
+            pid = os.posix_spawn(str(run.__globals__["BIN"] / "trace"), ["trace", "--size", "64x64", "--threads", threads, "-o", "out.ppm",
                                                                         "--z-buffer", "none", "view.txt"], os.environ)
             _, status, usage = os.wait4(pid, 0)
             self.assertEqual(status, 0)
             return usage.ru_maxrss * 1024
         few, many = 20_000, 150_000
-        self.assertLess((peak(many) - peak(few)) / (many - few), 200)
+        for threads in ("1", "2"):
+            self.assertLess((peak(many, threads) - peak(few, threads)) / (many - few), 200, threads)
 
 
 class Options(ToolTest):
