@@ -5,8 +5,8 @@ const GAIN = 1.9;         // a single line covers 1 - exp(-GAIN) of its color
 const LEAST_WEIGHT = 0.2; // of a line shorter than a pixel
 
 class Ink {
-  constructor(width, height) {
-    Object.assign(this, {width, height, layers: [new Float32Array(width * height), new Float32Array(width * height)]});
+  constructor(width, height, count) {
+    Object.assign(this, {width, height, layers: Array.from({length: count}, () => new Float32Array(width * height))});
   }
 
   clear() { for (const layer of this.layers) layer.fill(0); }

@@ -1,13 +1,13 @@
 """The data of the inspector's page: a scene sent through the real pipe, and the output of every stage."""
-import array
 import base64
-import dataclasses
 import math
 import pathlib
 import re
 import tempfile
 
 from inspect_parts.explanations import explanations
+from inspect_parts.packing import packed
+from inspect_parts.stage_lines import StageLines
 from lib.input_file import read_input
 from lib.pictures import read_picture
 from lib.projection import line_of, window_of
@@ -19,13 +19,7 @@ from lib.vectors import axes, moved
 MAX_DRAWN_TRIANGLES = 200000
 MAX_FRAGMENTS = 3000000
 TITLES = {"model": "world space", "view": "view space", "project": "normalized device coordinates"}
-NUMBER_BEGINS = tuple("-0123456789")
 FATES = ("kept", "behind", "equal", "before", "beyond")
-
-
-def packed(kind, numbers):
-    """Numbers as the bytes of a typed array, in base64. Little-endian, as in JavaScript on every machine this runs on."""
-    return base64.b64encode(array.array(kind, numbers).tobytes()).decode()
 
 
 def time_told(stderr):
@@ -40,36 +34,6 @@ def notes_told(stderr):
 def statistics(path):
     """The lines of --stats, as pairs of a key and a word."""
     return [line.split() for line in path.read_text().splitlines()]
-
-
-@dataclasses.dataclass
-class StageLines:
-    """A text of our own tools: its header, {keyword: words}, and of each triangle or piece of one the number and the first line."""
-    lines: list
-    header: dict
-    names: list
-    first_lines: list
-
-    @staticmethod
-    def of(text):
-        """Faster than parse_stage_text, which has to expect any text."""
-        lines = text.split("\n")
-        found = StageLines(lines, {}, [], [])
-        number, corners = 0, 0  # of the next triangle, and how many lines of the one before are still to come
-        for at, line in enumerate(lines, 1):
-            if line[:1] in NUMBER_BEGINS:
-                if corners == 0:
-                    found.names.append(number)
-                    found.first_lines.append(at)
-                    number, corners = number + 1, 3
-                corners -= 1
-            elif line.startswith("triangle "):
-                number = int(line[9:])
-            elif line == "clipped":  # the whole triangle in clip space; its pieces follow
-                corners = 3
-            elif line and not found.names:
-                found.header[line.split()[0]] = line.split()[1:]
-        return found
 
 
 def frustum_corners(header, reach):
@@ -101,7 +65,8 @@ def label(text, at):
 
 
 class Inspection:
-    """A run of the pipe that keeps every stage's output; `names` are those of scene and config, as their user wrote them."""
+    """A run of the pipe that keeps every stage's output. As in scripts/stages, the stages pass lossless text on, and zbuf reads what
+    project printed; `names` are those of scene and config, as their user wrote them."""
 
     def __init__(self, tools, scene, config, names):
         self.tools, self.scene, self.config = tools, scene, config
@@ -113,14 +78,12 @@ class Inspection:
             self.run(pathlib.Path(folder))
 
     def run(self, folder):
-        texts, data = {}, self.scene_data
+        texts, self.lossless, data = {}, {}, self.scene_data
         for tool in TITLES:
             # Timed without counting.
-            done = self.tools.run(tool, "--timing", stdin=data)
-            self.tools.run(tool, "--stats", folder / tool, stdin=data)
+            done = texts[tool] = self.tools.run(tool, "--timing", stdin=data)
+            self.lossless[tool] = data = self.tools.output(tool, "--digits", "exact", "--stats", folder / tool, stdin=data)
             self.statistics[tool] = statistics(folder / tool)
-            data = done.stdout
-            texts[tool] = done
         self.lines = {tool: StageLines.of(done.stdout.decode()) for tool, done in texts.items()}
         self.header = self.lines["model"].header
         self.count = len(self.lines["model"].names)
@@ -128,7 +91,7 @@ class Inspection:
         self.stages = [self.stage(tool, TITLES[tool], texts[tool]) for tool in texts]
         note = note_on_squares(line_of(self.header.get), text_of(self.config_data, self.config))
         self.square_notes = [f"note: {note}"] if note else []
-        self.draw(data, folder)
+        self.draw(texts["project"].stdout, folder)
 
     def stage(self, tool, title, done):
         read, stderr = self.lines[tool], done.stderr.decode(errors="replace")

@@ -7,13 +7,6 @@ const STARTS = {
 };
 const NOTHING = {triangle: -1, pixel: -1};
 
-function element(name, attributes, ...children) {
-  const made = document.createElement(name);
-  for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, value);
-  made.append(...children);
-  return made;
-}
-
 class Inspector {
   constructor(document, data) {
     this.document = document;
@@ -28,7 +21,7 @@ class Inspector {
     this.competitors = new FragmentPanel(this.one("#pixel-place"), this.one("#competitors"), this.fragments);
     this.depthText = this.depthPanel();
     this.explanation = new ExplanationPanel(this.one("#explanation"), data, new PixelReport(data, this.fragments, this.panels[2].stage));
-    this.theirs = null;
+    this.theirs = data.theirs ? this.theirsPanel(data.theirs) : null;
     this.tabs = new Tabs(this.one('[role="tablist"]'), () => this.explanation.refresh());
     this.listen();
     this.tabs.show(0);
@@ -73,6 +66,14 @@ class Inspector {
     const box = element("div", {class: "text", id: "text-zbuf", tabindex: 0, role: "group", "aria-label": "depths, row by row"});
     this.one("#texts").append(element("section", {}, element("h2", {}, "zbuf ", element("span", {}, "z_buffer.txt; rows from 0")), box));
     return new TextPanel(box, this.depths, {numberOf: index => index, indexOf: number => number});
+  }
+
+  theirsPanel(theirs) {
+    const [model, view, project, image, depth] = this.all("figcaption");
+    this.one("#tab-theirs").hidden = false;
+    this.one("#legend").append(element("li", {class: "theirs"}, "theirs, where it differs"));
+    return new TheirsPanel({box: this.one("#theirs"), theirs, panels: this.panels, pictures: this.pixels, captions: [model, view, project, depth, image],
+                            button: this.one("#whose"), select: name => this.select({triangle: name, pixel: -1})});
   }
 
   listen() {

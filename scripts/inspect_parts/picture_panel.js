@@ -10,8 +10,7 @@ class PicturePanel {
     this.canvases = panes.map(pane => pane.querySelector("canvas"));
     this.marks = panes.map(pane => pane.querySelector("canvas + canvas"));
     for (const canvas of this.canvases) Object.assign(canvas, {width: this.columns, height: this.rows});
-    const {rgb} = fragments;
-    this.paint(this.canvases[0], p => [rgb[3 * p], rgb[3 * p + 1], rgb[3 * p + 2]]);
+    this.showImage(fragments.rgb);
     this.paintDepths();
     const observer = new ResizeObserver(() => this.resize());
     panes.forEach(pane => observer.observe(pane));
@@ -35,6 +34,15 @@ class PicturePanel {
       picture.data[4 * p + 3] = 255;
     }
     canvas.getContext("2d").putImageData(picture, 0, 0);
+  }
+
+  showImage(rgb) { this.paint(this.canvases[0], p => [rgb[3 * p], rgb[3 * p + 1], rgb[3 * p + 2]]); }
+
+  // The pixels that differ in another image in one color, the others in dark gray tones.
+  showDifferences(other) {
+    const {rgb} = this.fragments, color = this.palette.numbers("--theirs");
+    const differs = at => rgb[at] !== other[at] || rgb[at + 1] !== other[at + 1] || rgb[at + 2] !== other[at + 2];
+    this.paint(this.canvases[0], p => differs(3 * p) ? color : new Array(3).fill((rgb[3 * p] + rgb[3 * p + 1] + rgb[3 * p + 2]) / 9));
   }
 
   paintDepths() {

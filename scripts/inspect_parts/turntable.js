@@ -69,9 +69,9 @@ class Turntable {
     return [this.width / 2 + this.shift[0] + right * scale, this.height / 2 + this.shift[1] - up * scale, near];
   }
 
-  // The same for all points at once.
-  placeAll(x, y, near) {
-    const [[a, b, c], [d, e, f], [g, h, i]] = this.axes(), {points} = this, [mx, my, mz] = this.middle, scale = this.zoom * this.height / this.size;
+  // The same for many points at once.
+  placeAll(points, x, y, near) {
+    const [[a, b, c], [d, e, f], [g, h, i]] = this.axes(), [mx, my, mz] = this.middle, scale = this.zoom * this.height / this.size;
     const left = this.width / 2 + this.shift[0], top = this.height / 2 + this.shift[1];
     for (let k = 0, at = 0; at < points.length; ++k, at += 3) {
       const u = points[at] - mx, v = points[at + 1] - my, w = points[at + 2] - mz;

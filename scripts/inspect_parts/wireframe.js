@@ -2,26 +2,39 @@
 
 const WHEEL_STEP = 0.001, TURN_STEP = 0.01, KEY_TURN = 0.1, KEY_ZOOM = 1.15;
 const CLICK_REACH = 3;     // pixels that the pointer may move during a click
+const MOST_MARKED = 3000;  // vertices that differ
+const THEIR_LAYER = 2;     // of the ink; those below are for triangles that the picture does not show, and for those it does
 const GIZMO = 22;          // length of the axes in the corner
 const AXES = [["x", [1, 0, 0]], ["y", [0, 1, 0]], ["z", [0, 0, 1]]];
 
 class Wireframe {
   // `pane` has a canvas and another one above it, for marks. `isShown(name)` tells which triangles the picture shows.
   constructor(pane, stage, start, isShown, palette) {
-    Object.assign(this, {pane, stage, palette, names: stage.names, guide: stage.guide, highlighted: -1, index: null, isDirty: false});
+    Object.assign(this, {pane, stage, palette, names: stage.names, guide: stage.guide, highlighted: -1, theirs: null, index: null, isDirty: false});
     [this.canvas, this.mark] = pane.querySelectorAll("canvas");
     this.view = new Turntable(start, stage.guide, stage.points);
     this.layers = Uint8Array.from(stage.names, name => isShown(name) ? 1 : 0);
-    [this.x, this.y, this.near] = [0, 1, 2].map(() => new Float32Array(3 * stage.names.length));
+    [this.x, this.y, this.near] = this.places(3 * stage.names.length);
     new ResizeObserver(() => this.resize()).observe(pane);
     this.resize();
+  }
+
+  // Room for the pixels and the nearness of so many points.
+  places(count) { return [0, 1, 2].map(() => new Float32Array(count)); }
+
+  // Draws other triangles over these. If there are as many, in the same order (`isAlike`), only those that have one of the `vertices`
+  // that differ, which are marked.
+  layOver(points, isAlike, vertices) {
+    const all = Int32Array.from({length: points.length / 9}, (_, i) => i), differing = new Set(vertices.map(vertex => Math.floor(vertex / 3)));
+    this.theirs = {points, isAlike, vertices: vertices.subarray(0, MOST_MARKED), triangles: isAlike ? [...differing] : all, places: this.places(points.length / 3)};
+    this.draw();
   }
 
   resize() {
     const scale = window.devicePixelRatio || 1, width = Math.max(2, Math.round(this.pane.clientWidth * scale)), height = Math.max(2, Math.round(this.pane.clientHeight * scale));
     if (this.ink && width === this.ink.width && height === this.ink.height) return;
     this.scale = scale;
-    this.ink = new Ink(width, height);
+    this.ink = new Ink(width, height, 3);
     for (const canvas of [this.canvas, this.mark]) Object.assign(canvas, {width, height});
     this.view.resize(width, height);
     this.draw();
@@ -43,17 +56,45 @@ class Wireframe {
     const {ink, x, y, layers, palette} = this, context = this.canvas.getContext("2d");
     this.isDirty = false;
     this.index = null;
-    this.view.placeAll(x, y, this.near);
+    this.view.placeAll(this.stage.points, x, y, this.near);
     ink.clear();
-    for (let i = 0, a = 0; i < layers.length; ++i, a += 3) {
-      const layer = layers[i];
-      ink.line(layer, x[a], y[a], x[a + 1], y[a + 1]);
-      ink.line(layer, x[a + 1], y[a + 1], x[a + 2], y[a + 2]);
-      ink.line(layer, x[a + 2], y[a + 2], x[a], y[a]);
+    for (let i = 0; i < layers.length; ++i) this.inkTriangle(layers[i], x, y, 3 * i);
+    if (this.theirs) {
+      const {points, places, triangles} = this.theirs;
+      this.view.placeAll(points, ...places);
+      for (const i of triangles) this.inkTriangle(THEIR_LAYER, places[0], places[1], 3 * i);
     }
-    ink.paint(context, palette.numbers("--card"), [palette.numbers("--unshown"), palette.numbers("--shown")]);
+    ink.paint(context, palette.numbers("--card"), ["--unshown", "--shown", "--theirs"].map(name => palette.numbers(name)));
     this.drawGuide(context);
+    if (this.theirs) this.drawDifferences(context);
     this.highlight(this.highlighted);
+  }
+
+  // The triangle whose first corner has index `a`.
+  inkTriangle(layer, x, y, a) {
+    this.ink.line(layer, x[a], y[a], x[a + 1], y[a + 1]);
+    this.ink.line(layer, x[a + 1], y[a + 1], x[a + 2], y[a + 2]);
+    this.ink.line(layer, x[a + 2], y[a + 2], x[a], y[a]);
+  }
+
+  // From each of our vertices that differs a dotted line to theirs, and a dot there.
+  drawDifferences(context) {
+    const {vertices, places: [x, y]} = this.theirs, color = this.palette.word("--theirs"), radius = 2.5 * this.scale;
+    Object.assign(context, {strokeStyle: color, fillStyle: color, lineWidth: this.scale});
+    context.setLineDash([2 * this.scale, 3 * this.scale]);
+    context.beginPath();
+    for (const vertex of vertices) {
+      context.moveTo(this.x[vertex], this.y[vertex]);
+      context.lineTo(x[vertex], y[vertex]);
+    }
+    context.stroke();
+    context.setLineDash([]);
+    context.beginPath();
+    for (const vertex of vertices) {
+      context.moveTo(x[vertex] + radius, y[vertex]);
+      context.arc(x[vertex], y[vertex], radius, 0, 2 * Math.PI);
+    }
+    context.fill();
   }
 
   // The camera or the cube with its labels, and the directions of the axes.
@@ -90,21 +131,31 @@ class Wireframe {
   // Marks triangle `name`, all pieces of it, in two tones, one of which stands out from any color.
   highlight(name) {
     this.highlighted = name;
-    const context = this.mark.getContext("2d"), {x, y, scale, palette} = this;
+    const context = this.mark.getContext("2d"), {palette} = this, pieces = this.stage.piecesOf(name);
     context.clearRect(0, 0, this.mark.width, this.mark.height);
-    context.beginPath();
-    for (const piece of this.stage.piecesOf(name)) {
-      const a = 3 * piece;
-      context.moveTo(x[a], y[a]);
-      context.lineTo(x[a + 1], y[a + 1]);
-      context.lineTo(x[a + 2], y[a + 2]);
-      context.closePath();
-    }
+    const path = this.outline(pieces, this.x, this.y);
     context.fillStyle = palette.word("--hot-fill");
-    context.fill();
-    for (const [width, color] of [[4.5, "--halo"], [2, "--hot"]]) {
-      Object.assign(context, {lineWidth: width * scale, strokeStyle: palette.word(color), lineJoin: "round"});
-      context.stroke();
+    context.fill(path);
+    this.stroke(context, path, "--hot");
+    if (this.theirs && this.theirs.isAlike) this.stroke(context, this.outline(pieces, ...this.theirs.places), "--theirs");
+  }
+
+  outline(pieces, x, y) {
+    const path = new Path2D();
+    for (const piece of pieces) {
+      const a = 3 * piece;
+      path.moveTo(x[a], y[a]);
+      path.lineTo(x[a + 1], y[a + 1]);
+      path.lineTo(x[a + 2], y[a + 2]);
+      path.closePath();
+    }
+    return path;
+  }
+
+  stroke(context, path, tone) {
+    for (const [width, color] of [[4.5, "--halo"], [2, tone]]) {
+      Object.assign(context, {lineWidth: width * this.scale, strokeStyle: this.palette.word(color), lineJoin: "round"});
+      context.stroke(path);
     }
   }
 
