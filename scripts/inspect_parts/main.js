@@ -48,8 +48,8 @@ class Inspector {
     const stage = new StageData(given, this.data.triangles), {tool, title, remark} = given;
     const canvas = element("canvas", {id: "wire-" + tool, tabindex: 0, role: "application", "aria-label": `${title}, wireframe after ${tool}; arrow keys go from triangle to triangle, with Shift they turn it`});
     const pane = element("div", {class: "pane"}, canvas, element("canvas", {"aria-hidden": true}));
-    const fit = element("button", {"aria-label": `fit ${title} into its view`}, "Fit");
-    this.one("#stages").append(element("figure", {}, element("figcaption", {}, tool, element("span", {}, title), element("span", {}, remark && `(${remark})`), fit), pane));
+    const fit = element("button", {"aria-label": `fit ${title} into its view`, title: "All of it; once more: the smaller of the camera or cube and the triangles"}, "Fit");
+    this.one("#stages").append(element("figure", {}, element("figcaption", {}, tool, element("span", {title}, title), element("span", {title: remark}, remark && `(${remark})`), fit), pane));
     const box = element("div", {class: "text", id: "text-" + tool, tabindex: 0, role: "group", "aria-label": `text after ${tool}`});
     this.one("#texts").append(element("section", {}, element("h2", {}, tool, " ", element("span", {}, "lines from 1")), box));
     const wire = new Wireframe(pane, stage, STARTS[tool], name => this.fragments.shownPixels[name] > 0, this.palette);

@@ -3,45 +3,58 @@
 const FARTHEST = 20;  // so many times the size of the frustum or the cube, triangles around it may shrink it
 const LEFT_AROUND = 1.14;  // for labels
 
+// The box around points, triples of numbers, and the length of its diagonal.
+function boxOf(points) {
+  const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
+  for (let at = 0; at < points.length; ++at) {
+    low[at % 3] = Math.min(low[at % 3], points[at]);
+    high[at % 3] = Math.max(high[at % 3], points[at]);
+  }
+  return {low, high, size: Math.hypot(...[0, 1, 2].map(i => high[i] - low[i]))};
+}
+
 class Turntable {
   // `start` has yaw and pitch in radians; `guide` has line segments, `points` triples of numbers.
   constructor(start, guide, points) {
-    Object.assign(this, {start, guide, points});
+    Object.assign(this, {start, guide, points, isClose: false, zoom: 1, shift: [0, 0], ...start});
     this.resize(1, 1);
   }
 
   // To a picture of so many pixels.
   resize(width, height) {
     Object.assign(this, {width, height});
-    if (this.zoom === undefined) this.fit(); else this.measure();
+    this.measure();
   }
 
-  // Back to the first view, with all in sight.
+  // Back to the first view, with all in sight; from there, with only the smaller of guide and triangles.
   fit() {
+    const isThere = this.zoom === 1 && !this.shift[0] && !this.shift[1] && this.yaw === this.start.yaw && this.pitch === this.start.pitch;
+    this.isClose = isThere && !this.isClose;
     Object.assign(this, this.start, {zoom: 1, shift: [0, 0]});
     this.measure();
   }
 
-  // `size` is the height of the pane in units of the space. Chooses it and the center so that the frustum or the cube is in sight, and the triangles as far as that leaves it to be seen.
+  // What is to be in sight: guide and points, triples of numbers; the points no farther out than a multiple of the guide's box.
+  inSight() {
+    const guide = this.guide.flat(2), box = boxOf(guide), reach = [0, 1, 2].map(i => FARTHEST * (box.high[i] - box.low[i]));
+    const near = this.points.map((x, at) => Math.max(box.low[at % 3] - reach[at % 3], Math.min(box.high[at % 3] + reach[at % 3], x)));
+    if (!near.length) return [guide];
+    return this.isClose ? [boxOf(near).size < box.size ? near : guide] : [guide, near];
+  }
+
+  // `size` is the height of the pane in units of the space. Chooses it and the center for what is to be in sight.
   measure() {
-    const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
-    const include = (x, y, z) => {
-      low[0] = Math.min(low[0], x); low[1] = Math.min(low[1], y); low[2] = Math.min(low[2], z);
-      high[0] = Math.max(high[0], x); high[1] = Math.max(high[1], y); high[2] = Math.max(high[2], z);
-    };
-    this.guide.flat().forEach(p => include(...p));
-    const first = low.map((x, i) => x - FARTHEST * (high[i] - x)), last = high.map((x, i) => x + FARTHEST * (x - low[i]));
-    const inReach = (x, i) => Math.max(first[i], Math.min(last[i], x)), {points} = this;
-    for (let at = 0; at < points.length; at += 3) include(inReach(points[at], 0), inReach(points[at + 1], 1), inReach(points[at + 2], 2));
-    this.middle = low.map((x, i) => (x + high[i]) / 2);
+    const shown = this.inSight(), boxes = shown.map(boxOf);
+    this.middle = [0, 1, 2].map(i => (Math.min(...boxes.map(box => box.low[i])) + Math.max(...boxes.map(box => box.high[i]))) / 2);
     const [[a, b, c], [d, e, f]] = this.axes(), [mx, my, mz] = this.middle;
     let widest = 0, highest = 0;
-    const widen = (x, y, z) => {
-      widest = Math.max(widest, Math.abs(a * (x - mx) + b * (y - my) + c * (z - mz)));
-      highest = Math.max(highest, Math.abs(d * (x - mx) + e * (y - my) + f * (z - mz)));
-    };
-    this.guide.flat().forEach(p => widen(...p));
-    for (let at = 0; at < points.length; at += 3) widen(inReach(points[at], 0), inReach(points[at + 1], 1), inReach(points[at + 2], 2));
+    for (const points of shown) {
+      for (let at = 0; at < points.length; at += 3) {
+        const [x, y, z] = [points[at] - mx, points[at + 1] - my, points[at + 2] - mz];
+        widest = Math.max(widest, Math.abs(a * x + b * y + c * z));
+        highest = Math.max(highest, Math.abs(d * x + e * y + f * z));
+      }
+    }
     this.size = 2 * LEFT_AROUND * Math.max(highest, widest * this.height / this.width) || 1;
   }
 

@@ -426,11 +426,11 @@ class InABrowser(ToolTest):
             for axis, cell in zip("xyz", row[6:]):
                 self.assertEqual([float(word) for word in cell.split(" to ")], [float("%.4g" % float(told[tool][f"{axis}_{end}"])) for end in ("min", "max")])
 
-    def points_out_of_sight(self, tool):
+    def points_out_of_sight(self, tool, guide="wire.guide.flat()"):
         """Corners of the guide and of the triangles that no pixel of the pane shows at first."""
         return self.browser.run(
             "const wire = document.body.inspector.panels[['model', 'view', 'project'].indexOf(arguments[0])].wire, lost = [];"
-            "const points = wire.guide.flat(); for (let i = 0; i < wire.stage.points.length; i += 3) points.push([...wire.stage.points.slice(i, i + 3)]);"
+            f"const points = {guide}; for (let i = 0; i < wire.stage.points.length; i += 3) points.push([...wire.stage.points.slice(i, i + 3)]);"
             "for (const p of points) { const [x, y] = wire.view.place(...p); if (x < 0 || y < 0 || x > wire.canvas.width || y > wire.canvas.height) lost.push(p); }"
             "return lost", tool)
 
@@ -458,6 +458,17 @@ class InABrowser(ToolTest):
         self.load("scene.txt", "config.txt")
         width = self.browser.run("const wire = document.body.inspector.panels[2].wire; Object.assign(wire.view, {yaw: 0, pitch: 0}); return wire.view.place(1, 0, 0)[0] - wire.view.place(-1, 0, 0)[0]")
         self.assertGreater(width, 5)
+
+    def test_fit_brings_all_back_and_then_comes_close(self):
+        self.load_own_scene()
+        fit = "document.querySelectorAll('figcaption button')[1].click(); const {view} = document.body.inspector.panels[1].wire; return [view.size, view.zoom, view.yaw]"
+        size, _, yaw = self.browser.run("const {view} = document.body.inspector.panels[1].wire; return [view.size, view.zoom, view.yaw]")
+        self.browser.run("const {view} = document.body.inspector.panels[1].wire; view.turn(1, 0); view.approach(3, 0, 0)")
+        self.assertEqual(self.browser.run(fit), [size, 1, yaw])
+        close = self.browser.run(fit)[0]
+        self.assertLess(close, size / 2)  # the triangles are 9 deep, and the frustum more than twice that
+        self.assertEqual(self.points_out_of_sight("view", "[]"), [])
+        self.assertEqual(self.browser.run(fit)[0], size)
 
     def test_dragging_turns_without_choosing(self):
         self.load_own_scene()
