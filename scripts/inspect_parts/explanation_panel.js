@@ -1,11 +1,12 @@
-// What explain reports on a triangle and a pixel; of a large scene, the command that prints it.
+// What explain reports on a triangle and a pixel; of a large scene, on the pixel, and the command that prints the rest.
 
 // A word of a shell's command line.
 const quoted = word => /^[\w.,\/+-]+$/.test(word) ? word : `'${word.replaceAll("'", "'\\''")}'`;
 
 class ExplanationPanel {
-  constructor(box, {scene, config, explanations}, report) {
-    Object.assign(this, {box, scene, config, explanations, report});
+  constructor(box, {scene, config, explanations, stages}, report) {
+    const [, cut] = stages[2].statistics.find(([key]) => key === "cut");
+    Object.assign(this, {box, scene, config, explanations, report, isUncut: cut === "0"});
   }
 
   tell(name, pixel) {
@@ -26,7 +27,10 @@ class ExplanationPanel {
   texts(name, pixel) {
     if (name < 0) return [pixel < 0 ? "Point at a triangle or a pixel." : this.report.background(pixel)];
     const explanation = this.explanations[name];
-    if (!explanation) return [`Of ${this.explanations.length ? "this triangle" : "so many triangles"} the page has no explanation. This command prints it:\n\n  ${this.command(name, pixel)}`];
+    if (!explanation) {
+      const command = `Of so many triangles the page has no explanation. This command prints it:\n\n  ${this.command(name, pixel)}`;
+      return [command, ...(pixel >= 0 && this.isUncut ? [this.report.lines(name, [["0", "1", "2"]], pixel).join("\n")] : [])];
+    }
     return [explanation.text, ...(pixel < 0 ? [] : [this.report.lines(name, explanation.corners, pixel).join("\n")])];
   }
 

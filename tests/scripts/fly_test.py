@@ -328,6 +328,33 @@ class Flying(ToolTest):
         self.assertEqual(self.status(), "the scene has no light")
 
 
+class Framing(unittest.TestCase):
+    def distance(self, projection, radius=1.0):
+        from fly_parts.framing import Ball, framing_distance
+        keyword, *words = projection.split()
+        return framing_distance(Ball((0, 0, 0), radius), {keyword: words})
+
+    def test_the_ball_touches_no_side_of_the_window(self):
+        # The narrower half of the field is 30 degrees, whose sine is 1/2; 26.565 degrees, whose tangent is 1/2; 45 degrees.
+        for projection, sine in (("perspective 60 1 0.1 100", 1 / 2), ("perspective 60 2 0.1 100 ratio", 1 / 2), ("perspective 90 0.5 0.1 100 ratio", 1 / math.sqrt(5)), ("frustum -0.3 0.3 -0.1 0.1 0.1 100", 1 / math.sqrt(2))):
+            self.assertAlmostEqual(self.distance(projection), 1.05 / sine, msg=projection)
+
+    def test_near_and_far_are_kept_where_that_can_be(self):
+        self.assertAlmostEqual(self.distance("perspective 10 1 0.1 6"), 6 - 1.05)  # cut by the window rather than by far
+        self.assertAlmostEqual(self.distance("perspective 10 1 3 4"), 3 + 1.05)    # by far rather than by near
+        self.assertAlmostEqual(self.distance("ortho -1 1 -1 1 2 9"), 2 + 1.05)
+        self.assertAlmostEqual(self.distance("ortho -1 1 -1 1 -5 9"), 1.05)
+        self.assertGreater(self.distance("perspective 60 1 0.1 100", 0.0), 0)
+
+    def test_directions_are_told_from_the_camera(self):
+        from fly_parts.camera import Camera
+        from fly_parts.framing import Ball, direction
+        camera = Camera.of("0 0 5".split(), "0 0 0".split(), "0 1 0".split())
+        for center, words in (((0, 0, 0), "straight ahead, 5 away"), ((0, 0, 8), "behind you, 3 away"), ((9, 0, 5), "to the right, 9 away"), ((-9, 0, 9), "behind you, to the left, 9.85 away"),
+                              ((0, 9, 0), "above, 10.3 away"), ((-3, -4, 5), "to the left, below, 5 away")):
+            self.assertEqual(direction(camera, Ball(center, 0.1)), words)
+
+
 @unittest.skipIf(MISSING, f"needs {' and '.join(MISSING)}")
 class Ending(ToolTest):
     @classmethod

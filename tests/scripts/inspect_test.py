@@ -102,6 +102,10 @@ class InABrowser(ToolTest):
                               "const p = wire.view.place(...arguments[1]); return [p[0] / wire.scale, p[1] / wire.scale]", tool, middle)
         self.browser.click(f"#wire-{tool}", *at)
 
+    def competitors(self):
+        """The cells of the pixel's fragments."""
+        return self.browser.run("return [...document.querySelectorAll('#competitors tbody tr')].map(r => [...r.cells].map(c => c.textContent))")
+
     def marked_pixels(self):
         return {tuple(place) for place in self.browser.run(
             "const {columns, fragments, name} = document.body.inspector.pixels;"
@@ -158,7 +162,7 @@ class InABrowser(ToolTest):
                 told = run("zbuf", "config.txt", "--image", "out.ppm", "--probe", f"{column},{row}", stdin=stage3).stderr.decode().splitlines()
                 place = self.browser.run("return document.getElementById('pixel-place').textContent")
                 self.assertTrue(place.startswith(f"row {row}, column {column}: "), place)
-                rows = self.browser.run("return [...document.querySelectorAll('#competitors tbody tr')].map(r => [...r.cells].map(c => c.textContent))")
+                rows = self.competitors()
                 lines = [f"zbuf: {column},{row}: triangle {name}, depth {float(depth)!r}: {fate}" for name, depth, fate in rows]
                 self.assertEqual(lines or [f"zbuf: {column},{row}: no fragment"], told)
                 kept = [name for name, _, fate in rows if fate == "kept"]
@@ -488,9 +492,16 @@ class InABrowser(ToolTest):
         scale = self.browser.run("return document.body.inspector.pixels.scale")
         self.browser.click("#image", 20.5 * scale, 20.5 * scale)
         told = run("zbuf", "config.txt", "--image", "out.ppm", "--probe", "20,20", stdin=stage_texts(scene)[2]).stderr.decode().splitlines()
-        self.assertEqual(self.browser.run("return document.querySelectorAll('#competitors tbody tr').length"), len(told))
+        self.assertEqual(len(self.competitors()), len(told))
         self.browser.run("document.querySelector('#tab-explanation').click()")
         self.assertIn("pipeline explain large.txt config.txt --triangle", self.browser.run("return document.querySelector('#explanation').textContent"))
+        name, _ = self.held()
+        told = subprocess.run([SOURCE / "scripts/explain", "large.txt", "config.txt", "--triangle", str(name), "--pixel", "20,20"], capture_output=True, text=True, check=True,
+                              env={"BIN": str(BIN), "PATH": "/usr/bin:/bin"}).stdout
+        shown = self.browser.run("return document.querySelector('#explanation pre + pre').textContent") + "\n"
+        begin, end = told.index("PIXEL"), told.index("  at this pixel")  # explain leaves out fragments beyond its 60 lines
+        self.assertEqual(shown[:end - begin], told[begin:end])
+        self.assertEqual((shown.splitlines()[-1], shown.count(" depth ")), (told.splitlines()[-1], len(self.competitors()) + told[begin:end].count(" depth ")))
         # The index finds what a look at every triangle finds.
         lost = self.browser.run(
             "const {wire} = document.body.inspector.panels[1], lost = []; let x = 17;"
