@@ -2,6 +2,8 @@
 import math
 from dataclasses import dataclass
 
+from lib.vectors import cross, normalized
+
 
 @dataclass
 class Mesh:
@@ -15,15 +17,6 @@ def rounded(vector):
     return tuple(round(x, 6) + 0.0 for x in vector)
 
 
-def unit(vector):
-    length = math.hypot(*vector)
-    return tuple(x / length for x in vector)
-
-
-def cross(a, b):
-    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
-
-
 def grid(rows, columns, wraps_rows, wraps_columns, vertex):
     """The mesh of a grid of quadrangles; `vertex(i, k)` gives a point and its normal."""
     height, width = rows + (not wraps_rows), columns + (not wraps_columns)
@@ -34,7 +27,7 @@ def grid(rows, columns, wraps_rows, wraps_columns, vertex):
             a, b = i * width + k, i * width + (k + 1) % width
             d, c = (i + 1) % height * width + k, (i + 1) % height * width + (k + 1) % width
             triangles += [(a, b, c), (a, c, d)]
-    return Mesh([rounded(p) for p, _ in pairs], [rounded(unit(n)) for _, n in pairs], triangles)
+    return Mesh([rounded(p) for p, _ in pairs], [rounded(normalized(n)) for _, n in pairs], triangles)
 
 
 def knot(detail):
@@ -48,13 +41,13 @@ def knot(detail):
     def tangent(t):
         """The derivative of the curve."""
         distance, change = 2 + math.cos(3 * t), -3 * math.sin(3 * t)
-        return unit((change * math.cos(2 * t) - 2 * distance * math.sin(2 * t),
+        return normalized((change * math.cos(2 * t) - 2 * distance * math.sin(2 * t),
                      change * math.sin(2 * t) + 2 * distance * math.cos(2 * t), 3 * math.cos(3 * t)))
 
     def vertex(i, k):
         t, turn = math.tau * i / around, math.tau * k / tube
         forward = tangent(t)
-        side = unit(cross(forward, (0, 0, 1)))  # the curve never runs along z
+        side = normalized(cross(forward, (0, 0, 1)))  # the curve never runs along z
         up = cross(side, forward)
         normal = tuple(math.cos(turn) * s - math.sin(turn) * u for s, u in zip(side, up))
         return tuple(p + radius * n for p, n in zip(curve(t), normal)), normal
