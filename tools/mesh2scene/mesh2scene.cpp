@@ -22,6 +22,7 @@ struct Options {
   std::vector<std::string> eye_from;
   double crease_degrees = 60;
   bool as_nodes = false;
+  std::optional<UpAxis> up;
   ViewChoice view;
 };
 
@@ -39,8 +40,8 @@ void add_options(CommandLine& options, Options& chosen) {
   options.add_number(
       "--fov", "DEGREES", chosen.view.fov_y_degrees, [](double value) { return value >= 1 && value <= 120; },
       "1 to 120", "The angle of view from the picture's bottom to its top");
-  options.add_choice<UpAxis>(
-      "--up", chosen.view.up, {{"x", UpAxis::x}, {"y", UpAxis::y}, {"z", UpAxis::z}},
+  options.add_choice<std::optional<UpAxis>>(
+      "--up", chosen.up, {{"x", UpAxis::x}, {"y", UpAxis::y}, {"z", UpAxis::z}},
       "The axis that is up in the picture. Without the option: z for STL, 3DS and 3MF, else y");
   options.begin_group("Triangles");
   options.add_number(
@@ -114,9 +115,8 @@ int main(int argc, char** argv) {
     const std::string name = path == "-" ? "<stdin>" : path;
     const std::string extension = extension_of(path);
     const CommandLine& options = tool.options();
-    const bool chooses_view =
-        options.is_given("--eye-from") || options.is_given("--fov") || options.is_given("--up");
-    if (!options.is_given("--up")) chosen.view.up = usual_up(extension);
+    const bool chooses_view = options.is_given("--eye-from") || options.is_given("--fov") || chosen.up;
+    chosen.view.up = chosen.up.value_or(usual_up(extension));
     if (!chosen.eye_from.empty()) {
       chosen.view.azimuth_degrees = number_from("--eye-from AZIMUTH", chosen.eye_from[0], -360, 360);
       chosen.view.elevation_degrees = number_from("--eye-from ELEVATION", chosen.eye_from[1], -90, 90);
@@ -134,7 +134,7 @@ int main(int argc, char** argv) {
     SceneSetting setting =
         has_own_view ? setting_of_file(model, chosen.view.aspect) : framed_setting(model, chosen.view);
     if (!model.ignored().empty()) tool.note(name + ": no scene can hold its " + listed(model.ignored()));
-    if (!has_own_view && !options.is_given("--up") && !defines_up(extension))
+    if (!has_own_view && !chosen.up && !defines_up(extension))
       tool.note(std::string(name_of(chosen.view.up)) + " is taken for up, as in most " +
                 (extension.empty() ? "" : extension + " ") + "files (--up chooses)");
     setting.comments = {name + ", " + counted(model.triangle_count(), "triangle") +
