@@ -103,6 +103,39 @@ class Normals(ToolTest):
         self.assertGreater(min(cosines), 0.96)
         self.assertGreater(sum(cosines) / len(cosines), 0.998)
 
+    def test_exact_on_a_sphere(self):
+        """Whatever the triangles are like: that is what their weights are for (Max, 1999)."""
+        rows, columns = 9, 14
+        angles = [(math.pi * (i / rows) ** 1.3, math.tau * (k / columns) ** 1.2) for i in range(rows + 1) for k in range(columns)]
+        points = [tuple(round(x, 6) for x in (math.sin(u) * math.cos(v), math.cos(u), math.sin(u) * math.sin(v))) for u, v in angles]
+        triangles = []
+        for i in range(rows):
+            for k in range(columns):
+                a, b = i * columns + k, i * columns + (k + 1) % columns
+                triangles += [(a, b, b + columns), (a, b + columns, a + columns)]
+        pathlib.Path("sphere.stl").write_bytes(FORMATS["stl"](Mesh(points, [], triangles)))
+        seen = 0
+        for triangle in world_triangles(scene_of("sphere.stl", "--crease", "175")):
+            if len({vertex[:3] for vertex in triangle}) == 3:
+                seen += 1
+                for vertex in triangle:
+                    self.assertGreater(abs(sum(p * n for p, n in zip(vertex[:3], vertex[-3:]))), 1 - 1e-6)
+        self.assertEqual(seen, 2 * columns * (rows - 1))
+
+    def test_many_triangles_at_a_point(self):
+        """Two fans of 200 triangles in planes at right angles: from a crease of 90 degrees on, one surface."""
+        def fan(place):
+            turns = [math.pi * i / 200 for i in range(201)]
+            return [[(0, 0, 0), place(a), place(b)] for a, b in zip(turns, turns[1:])]
+
+        corners = fan(lambda t: (math.cos(t), math.sin(t), 0)) + fan(lambda t: (math.cos(t), 0, -math.sin(t)))
+        points = [p for triangle in corners for p in triangle]
+        pathlib.Path("fans.stl").write_bytes(FORMATS["stl"](Mesh(points, [], [(i, i + 1, i + 2) for i in range(0, len(points), 3)])))
+        for crease, expected in (("60", {(0, 0, 1), (0, 1, 0)}), ("100", {(0, round(math.sqrt(0.5), 3), round(math.sqrt(0.5), 3))})):
+            normals = {tuple(round(x, 3) + 0.0 for x in vertex[-3:]) for triangle in world_triangles(scene_of("fans.stl", "--crease", crease))
+                       for vertex in triangle if vertex[:3] == (0, 0, 0)}
+            self.assertEqual(normals, expected, crease)
+
     def test_an_edge_stays_sharp_beyond_the_crease(self):
         pathlib.Path("box.obj").write_text(BOX)
         for options, is_sharp in ((["--crease", "60"], True), (["--crease", "100"], False), ([], True)):
