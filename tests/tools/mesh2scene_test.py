@@ -75,6 +75,9 @@ class Formats(ToolTest):
                             for x, expected in zip(vertex[:3], mesh.vertices[i]):
                                 # assimp reads a decimal to within a unit of a float's last digit.
                                 self.assertLessEqual(abs(x - expected), 2.0 ** -22 * max(abs(expected), 0.25))
+                            if mesh.colors and suffix != "stl":
+                                for x, expected in zip(vertex[3:6], mesh.colors[i]):
+                                    self.assertAlmostEqual(x, expected, 2)
                             if suffix != "stl":
                                 self.assertGreater(sum(a * b for a, b in zip(vertex[-3:], mesh.normals[i])), 1 - 1e-6)
 
@@ -261,6 +264,13 @@ class Colors(ToolTest):
             "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nproperty uchar red\nproperty uchar green\n"
             "property uchar blue\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0 255 0 77\n1 0 0 0 128 1\n0 1 0 9 8 7\n3 0 1 2\n")
         self.assertEqual([vertex[3:6] for vertex in world_triangles(scene_of("model.ply"))[0]], [(255, 0, 77), (0, 128, 1), (9, 8, 7)])
+
+    def test_a_file_without_colors_looks_the_same_in_every_format(self):
+        colors = set()
+        for suffix, write in FORMATS.items():
+            pathlib.Path(f"model.{suffix}").write_bytes(write(vase(1)))
+            colors.add(header(scene_of(f"model.{suffix}"))["color"][0])
+        self.assertEqual(len(colors), 1, colors)
 
     def test_of_materials(self):
         pathlib.Path("model.mtl").write_text("newmtl red\nKd 1 0.2 0\nnewmtl blue\nKd 0 0 0.6\n")

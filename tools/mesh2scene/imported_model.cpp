@@ -273,8 +273,11 @@ std::optional<Vec3> ImportedModel::color(const aiMesh& mesh) const {
   const aiMaterial& material = *scene_->mMaterials[mesh.mMaterialIndex];
   aiColor3D color;
   aiString name;
-  const bool is_default =
-      material.Get(AI_MATKEY_NAME, name) == aiReturn_SUCCESS && name == aiString(AI_DEFAULT_MATERIAL_NAME);
+  const bool has_name = material.Get(AI_MATKEY_NAME, name) == aiReturn_SUCCESS;
+  // assimp's material for meshes without one: white and without a name for PLY, the last for glTF.
+  const bool is_default = (has_name && name == aiString(AI_DEFAULT_MATERIAL_NAME)) ||
+                          (!has_name && ends_with(path_, ".ply")) ||
+                          (is_gltf_ && mesh.mMaterialIndex + 1 == scene_->mNumMaterials);
   if (is_default || material.Get(AI_MATKEY_COLOR_DIFFUSE, color) != aiReturn_SUCCESS) return std::nullopt;
   return Vec3{channel(color.r), channel(color.g), channel(color.b)};
 }
