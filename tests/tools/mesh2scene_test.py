@@ -5,6 +5,7 @@ import json
 import math
 import pathlib
 import random
+import resource
 import struct
 import sys
 import unittest
@@ -329,6 +330,13 @@ class Refusals(ToolTest):
                     self.assertIn(done.returncode, (0, 1), done.stderr)
                     if done.returncode == 0:
                         world_triangles(done.stdout.decode())
+
+    def test_a_line_that_asks_for_gigabytes_gets_none(self):
+        pathlib.Path("many.ply").write_text("ply\nformat ascii 1.0\nelement vertex 900000000\nproperty float x\nproperty float y\nproperty float z\n"
+                                            "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")
+        before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss
+        self.assert_refused("many.ply", "many.ply: assimp cannot read this model: ")
+        self.assertLessEqual(resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss, max(before, 2_000_000))  # KiB
 
     def test_wrong_options(self):
         pathlib.Path("box.obj").write_text(BOX)

@@ -53,6 +53,8 @@ void add_options(CommandLine& options, Options& chosen) {
 
 // Ten times what assimp takes for the slowest of the common formats.
 constexpr double kImportSeconds = 5, kImportSecondsPerMegabyte = 2;
+// A text takes about four times its size, a compressed file more.
+constexpr double kImportMegabytes = 1000, kImportMegabytesPerMegabyte = 100;
 
 /// The size of a file that can be sized; standard input counts as large.
 double megabytes(const std::string& path) {
@@ -125,7 +127,9 @@ int main(int argc, char** argv) {
     chosen.view.aspect = double(screen.columns) / double(screen.rows);
 
     go_on_in_child(name);
-    std::optional<ImportLimits> limits(kImportSeconds + kImportSecondsPerMegabyte * megabytes(path));
+    const double size = megabytes(path);
+    std::optional<ImportLimits> limits(std::in_place, kImportSeconds + kImportSecondsPerMegabyte * size,
+                                       kImportMegabytes + kImportMegabytesPerMegabyte * size);
     const ImportedModel model(path, chosen.crease_degrees);
     limits.reset();
     tool.timing().lap(&Timing::read_seconds);
