@@ -52,7 +52,7 @@ void add_options(CommandLine& options, Options& chosen) {
 }
 
 // Ten times what assimp takes for the slowest of the common formats.
-constexpr double kImportSeconds = 5, kImportSecondsPerMegabyte = 2;
+constexpr double kImportSeconds = 2, kImportSecondsPerMegabyte = 2;
 // A text takes about four times its size, a compressed file more.
 constexpr double kImportMegabytes = 1000, kImportMegabytesPerMegabyte = 100;
 
