@@ -164,6 +164,16 @@ char* print_shortest(char* out, double value) {
   return std::to_chars(out, out + kMaxNumberLength, value == 0 ? 0.0 : value).ptr;
 }
 
+char* print_shortest(char* out, float value) {
+  const double size = std::fabs(value);
+  // From 0.001 to 10^5 an exponent never saves a character.
+  if (size < 1e5 && size == std::trunc(size))
+    return print_before_point(print_sign(out, value < 0), static_cast<std::uint64_t>(size));
+  Decimal decimal;
+  if (shortest_decimal_of_float(size, decimal)) return print_decimals(out, value, decimal);
+  return std::to_chars(out, out + kMaxFloatLength, value == 0 ? 0.0F : value).ptr;
+}
+
 char* print_number(char* out, double hi, double lo, NumberFormat format) {
   assert(std::isfinite(hi) && std::isfinite(lo));
   if (format.shortest) return print_shortest(out, hi);

@@ -27,6 +27,13 @@ char* print_number(char* out, double hi, double lo, NumberFormat format);
 /// The same in the shortest form.
 char* print_shortest(char* out, double value);
 
+/// What a float needs at most: -1.17549435e-38 and what may be overwritten behind it.
+constexpr std::size_t kMaxFloatLength = 32;
+
+/// Prints the shortest text that reads back to the same float, as to_chars does; 0 has no sign. `out` must
+/// have room for kMaxFloatLength characters.
+char* print_shortest(char* out, float value);
+
 constexpr int kMaxScaledDecimals = 15;
 
 /// The fast path of print_number for a fixed count of decimals, at most kMaxScaledDecimals: prints the scaled

@@ -4,9 +4,9 @@ import pathlib
 import re
 import tempfile
 
-from film_parts.path import Camera, Key
+from film_parts.path import Camera
 from lib.command import CommandFailure
-from lib.vectors import moved, normalized
+from lib.vectors import cross, moved, normalized
 
 
 class Scene:
@@ -51,17 +51,13 @@ def turned(p, middle, axis, angle):
     """A point turned about an axis of length 1 through the middle (Rodrigues)."""
     v = tuple(a - b for a, b in zip(p, middle))
     along = sum(a * b for a, b in zip(axis, v))
-    across = (axis[1] * v[2] - axis[2] * v[1], axis[2] * v[0] - axis[0] * v[2], axis[0] * v[1] - axis[1] * v[0])
-    return moved(middle, (math.cos(angle), v), (math.sin(angle), across), (along * (1 - math.cos(angle)), axis))
+    return moved(middle, (math.cos(angle), v), (math.sin(angle), cross(axis, v)), (along * (1 - math.cos(angle)), axis))
 
 
 def turn(scene, seconds, fps):
-    """A key for each frame of one turn of the scene's camera about the up direction through the scene's middle. The first frame is not
+    """A camera for each frame of one turn of the scene's camera about the up direction through the scene's middle. The first frame is not
     repeated at the end, so that the film can be played in a loop."""
     count = max(2, round(seconds * fps))
     middle, axis = scene.middle(), normalized(scene.camera.up)
-    keys = []
-    for frame in range(count):
-        angle = math.tau * frame / count
-        keys.append(Key(frame / fps, Camera(turned(scene.camera.eye, middle, axis, angle), turned(scene.camera.look, middle, axis, angle), axis)))
-    return keys
+    angles = (math.tau * frame / count for frame in range(count))
+    return [Camera(turned(scene.camera.eye, middle, axis, angle), turned(scene.camera.look, middle, axis, angle), axis) for angle in angles]

@@ -55,6 +55,18 @@ class BenchTest(unittest.TestCase):
             self.assertEqual([bool(row["needed_gib"]) for row in rows], [False, False, False, True])
             self.assertTrue(all(float(row["cpu_seconds"]) > 0 and float(row["zbuf_mib"]) > 1 for row in rows[:3]))
 
+    def test_model_files(self):
+        if not (BIN_DIR / "mesh2scene").exists():
+            self.skipTest("mesh2scene is missing: no assimp")
+        with tempfile.TemporaryDirectory() as folder:
+            done = self.bench(folder, "--models")
+            with open(pathlib.Path(folder, "models.csv"), newline="") as file:
+                rows = list(csv.DictReader(file))
+            self.assertEqual([(row["format"], row["triangles"]) for row in rows], [(name, count) for count in ("392", "882") for name in ("obj", "ply", "stl")])
+            for program in ("picture", "import", *(() if "skipped f3d" in done.stdout else ("f3d",))):
+                for row in rows:
+                    self.assertTrue(float(row[program + "_wall_seconds"]) > 0 < float(row[program + "_cpu_seconds"]), row)
+
     def test_the_shares_of_a_row_are_arithmetic(self):
         sys.path[:0] = [str(SOURCE_DIR / "scripts/measure")]
         from parts.yardsticks import shares

@@ -5,6 +5,7 @@ import json
 import math
 import pathlib
 import random
+import resource
 import struct
 import sys
 import unittest
@@ -75,6 +76,9 @@ class Formats(ToolTest):
                             for x, expected in zip(vertex[:3], mesh.vertices[i]):
                                 # assimp reads a decimal to within a unit of a float's last digit.
                                 self.assertLessEqual(abs(x - expected), 2.0 ** -22 * max(abs(expected), 0.25))
+                            if mesh.colors and suffix != "stl":
+                                for x, expected in zip(vertex[3:6], mesh.colors[i]):
+                                    self.assertAlmostEqual(x, expected, 2)
                             if suffix != "stl":
                                 self.assertGreater(sum(a * b for a, b in zip(vertex[-3:], mesh.normals[i])), 1 - 1e-6)
 
@@ -102,6 +106,39 @@ class Normals(ToolTest):
                    for got, indices in zip(world_triangles(scene_of("model.stl")), mesh.triangles) for vertex, i in zip(got, indices)]
         self.assertGreater(min(cosines), 0.96)
         self.assertGreater(sum(cosines) / len(cosines), 0.998)
+
+    def test_exact_on_a_sphere(self):
+        """Whatever the triangles are like: that is what their weights are for (Max, 1999)."""
+        rows, columns = 9, 14
+        angles = [(math.pi * (i / rows) ** 1.3, math.tau * (k / columns) ** 1.2) for i in range(rows + 1) for k in range(columns)]
+        points = [tuple(round(x, 6) for x in (math.sin(u) * math.cos(v), math.cos(u), math.sin(u) * math.sin(v))) for u, v in angles]
+        triangles = []
+        for i in range(rows):
+            for k in range(columns):
+                a, b = i * columns + k, i * columns + (k + 1) % columns
+                triangles += [(a, b, b + columns), (a, b + columns, a + columns)]
+        pathlib.Path("sphere.stl").write_bytes(FORMATS["stl"](Mesh(points, [], triangles)))
+        seen = 0
+        for triangle in world_triangles(scene_of("sphere.stl", "--crease", "175")):
+            if len({vertex[:3] for vertex in triangle}) == 3:
+                seen += 1
+                for vertex in triangle:
+                    self.assertGreater(abs(sum(p * n for p, n in zip(vertex[:3], vertex[-3:]))), 1 - 1e-6)
+        self.assertEqual(seen, 2 * columns * (rows - 1))
+
+    def test_many_triangles_at_a_point(self):
+        """Two fans of 200 triangles in planes at right angles: from a crease of 90 degrees on, one surface."""
+        def fan(place):
+            turns = [math.pi * i / 200 for i in range(201)]
+            return [[(0, 0, 0), place(a), place(b)] for a, b in zip(turns, turns[1:])]
+
+        corners = fan(lambda t: (math.cos(t), math.sin(t), 0)) + fan(lambda t: (math.cos(t), 0, -math.sin(t)))
+        points = [p for triangle in corners for p in triangle]
+        pathlib.Path("fans.stl").write_bytes(FORMATS["stl"](Mesh(points, [], [(i, i + 1, i + 2) for i in range(0, len(points), 3)])))
+        for crease, expected in (("60", {(0, 0, 1), (0, 1, 0)}), ("100", {(0, round(math.sqrt(0.5), 3), round(math.sqrt(0.5), 3))})):
+            normals = {tuple(round(x, 3) + 0.0 for x in vertex[-3:]) for triangle in world_triangles(scene_of("fans.stl", "--crease", crease))
+                       for vertex in triangle if vertex[:3] == (0, 0, 0)}
+            self.assertEqual(normals, expected, crease)
 
     def test_an_edge_stays_sharp_beyond_the_crease(self):
         pathlib.Path("box.obj").write_text(BOX)
@@ -229,6 +266,13 @@ class Colors(ToolTest):
             "property uchar blue\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0 255 0 77\n1 0 0 0 128 1\n0 1 0 9 8 7\n3 0 1 2\n")
         self.assertEqual([vertex[3:6] for vertex in world_triangles(scene_of("model.ply"))[0]], [(255, 0, 77), (0, 128, 1), (9, 8, 7)])
 
+    def test_a_file_without_colors_looks_the_same_in_every_format(self):
+        colors = set()
+        for suffix, write in FORMATS.items():
+            pathlib.Path(f"model.{suffix}").write_bytes(write(vase(1)))
+            colors.add(header(scene_of(f"model.{suffix}"))["color"][0])
+        self.assertEqual(len(colors), 1, colors)
+
     def test_of_materials(self):
         pathlib.Path("model.mtl").write_text("newmtl red\nKd 1 0.2 0\nnewmtl blue\nKd 0 0 0.6\n")
         pathlib.Path("model.obj").write_text("mtllib model.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl red\nf 1 2 3\nusemtl blue\nf 1 3 2\n")
@@ -286,6 +330,13 @@ class Refusals(ToolTest):
                     self.assertIn(done.returncode, (0, 1), done.stderr)
                     if done.returncode == 0:
                         world_triangles(done.stdout.decode())
+
+    def test_a_line_that_asks_for_gigabytes_gets_none(self):
+        pathlib.Path("many.ply").write_text("ply\nformat ascii 1.0\nelement vertex 900000000\nproperty float x\nproperty float y\nproperty float z\n"
+                                            "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")
+        before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss
+        self.assert_refused("many.ply", "many.ply: assimp cannot read this model: ")
+        self.assertLessEqual(resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss, max(before, 2_000_000))  # KiB
 
     def test_wrong_options(self):
         pathlib.Path("box.obj").write_text(BOX)

@@ -9,6 +9,7 @@
 
 #include <cerrno>
 #include <csignal>
+#include <fstream>
 #include <stdexcept>
 
 namespace pipeline {
@@ -37,26 +38,42 @@ void go_on_in_child(const std::string& what) {
                                        : ": assimp crashed (signal " + std::to_string(number) + ")"));
 }
 
-ImportLimits::ImportLimits(double seconds) {
+ImportLimits::ImportLimits(double seconds, double megabytes) {
   // A sanitizer's handlers would end the process without a signal.
   for (const int number : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) std::signal(number, SIG_DFL);
-  if (::getrlimit(RLIMIT_CPU, &former_) == 0) {
+  if (::getrlimit(RLIMIT_CPU, &former_time_) == 0) {
     struct rusage used = {};
     ::getrusage(RUSAGE_SELF, &used);
-    struct rlimit limit = former_;
+    struct rlimit limit = former_time_;
     const double until = static_cast<double>(used.ru_utime.tv_sec + used.ru_stime.tv_sec) + seconds + 1;
-    if (former_.rlim_cur == RLIM_INFINITY || until < static_cast<double>(former_.rlim_cur))
+    if (former_time_.rlim_cur == RLIM_INFINITY || until < static_cast<double>(former_time_.rlim_cur))
       limit.rlim_cur = static_cast<rlim_t>(until);
     ::setrlimit(RLIMIT_CPU, &limit);
   }
+  limit_memory(megabytes);
   stderr_ = ::fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, 0);
   const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
   if (stderr_ >= 0 && nowhere >= 0) ::dup2(nowhere, STDERR_FILENO);
   if (nowhere >= 0) ::close(nowhere);
 }
 
+void ImportLimits::limit_memory(double megabytes) {
+  if (::getrlimit(RLIMIT_DATA, &former_memory_) != 0) return;
+  // Beyond what the process has now, in pages: the sixth number of the line. A sanitizer's is huge.
+  std::ifstream statm("/proc/self/statm");
+  double pages = 0;
+  for (int i = 0; i < 6; ++i) statm >> pages;
+  if (!statm) return;
+  const double most = pages * static_cast<double>(::sysconf(_SC_PAGESIZE)) + megabytes * 1e6;
+  struct rlimit limit = former_memory_;
+  if (limit.rlim_cur != RLIM_INFINITY && static_cast<double>(limit.rlim_cur) < most) return;
+  limit.rlim_cur = static_cast<rlim_t>(most);
+  ::setrlimit(RLIMIT_DATA, &limit);
+}
+
 ImportLimits::~ImportLimits() {
-  ::setrlimit(RLIMIT_CPU, &former_);
+  ::setrlimit(RLIMIT_CPU, &former_time_);
+  ::setrlimit(RLIMIT_DATA, &former_memory_);
   if (stderr_ < 0) return;
   ::dup2(stderr_, STDERR_FILENO);
   ::close(stderr_);

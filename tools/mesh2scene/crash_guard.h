@@ -12,17 +12,21 @@ namespace pipeline {
 /// can be made, goes on without one.
 void go_on_in_child(const std::string& what);
 
-/// While it lives, `seconds` of processor time end this process by SIGXCPU, and nothing reaches stderr:
-/// assimp prints its own assertions there before it aborts.
+/// While it lives, `seconds` of processor time end this process by SIGXCPU, `megabytes` are all the memory it
+/// can get (a file of a line may ask for gigabytes), and nothing reaches stderr: assimp prints its own
+/// assertions there before it aborts.
 class ImportLimits {
  public:
-  explicit ImportLimits(double seconds);
+  ImportLimits(double seconds, double megabytes);
   ~ImportLimits();
   ImportLimits(const ImportLimits&) = delete;
   ImportLimits& operator=(const ImportLimits&) = delete;
 
  private:
-  struct rlimit former_ = {};
+  void limit_memory(double megabytes);
+
+  struct rlimit former_time_ = {};
+  struct rlimit former_memory_ = {};
   int stderr_ = -1;
 };
 

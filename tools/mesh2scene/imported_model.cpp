@@ -97,13 +97,10 @@ NodeMatrix matrix_of(const aiNode& node) {
 
 ImportedModel::ImportedModel(const std::string& path, double crease_degrees)
     : path_(path), importer_(std::make_unique<Assimp::Importer>()) {
-  importer_->SetPropertyFloat(AI_CONFIG_PP_GSN_MAX_SMOOTHING_ANGLE, static_cast<float>(crease_degrees));
-  // The normals in STL are those of flat triangles, also where the surface is round.
-  unsigned steps = aiProcess_Triangulate | aiProcess_SortByPType | aiProcess_GenSmoothNormals;
-  if (ends_with(path, ".stl")) steps |= aiProcess_DropNormals;
+  constexpr unsigned kSteps = aiProcess_Triangulate | aiProcess_SortByPType;
   if (path == "-") {
     const std::string bytes = read_standard_input();
-    scene_ = importer_->ReadFileFromMemory(bytes.data(), bytes.size(), steps, "");
+    scene_ = importer_->ReadFileFromMemory(bytes.data(), bytes.size(), kSteps, "");
   } else {
     // assimp does not say why it cannot open a file.
     const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
@@ -112,7 +109,7 @@ ImportedModel::ImportedModel(const std::string& path, double crease_degrees)
     const bool is_folder = ::fstat(descriptor, &status) == 0 && S_ISDIR(status.st_mode);
     ::close(descriptor);
     if (is_folder) throw IoError("read", path, EISDIR);
-    scene_ = importer_->ReadFile(path, steps);
+    scene_ = importer_->ReadFile(path, kSteps);
   }
   if (scene_ == nullptr || scene_->mRootNode == nullptr)
     throw std::runtime_error(name() + ": assimp cannot read this model: " + importer_->GetErrorString());
@@ -120,6 +117,7 @@ ImportedModel::ImportedModel(const std::string& path, double crease_degrees)
   place(*scene_->mRootNode, {});
   if (meshes_.empty()) throw std::runtime_error(name() + ": expected a model with triangles, found none");
   check_vertices();
+  make_normals(crease_degrees);
   read_camera();
   read_lights();
   list_ignored();
@@ -163,6 +161,19 @@ void ImportedModel::check_vertices() const {
       throw std::runtime_error(name() + ": expected finite coordinates, found others in mesh " +
                                quoted(mesh->mName.C_Str()));
   }
+}
+
+void ImportedModel::make_normals(double crease_degrees) {
+  // The normals in STL are those of flat triangles, also where the surface is round.
+  const bool drops_normals = ends_with(path_, ".stl");
+  for (const PlacedMesh& placed : meshes_)
+    if ((drops_normals || !placed.mesh->HasNormals()) && !made_normals_.contains(placed.mesh))
+      made_normals_[placed.mesh] = smooth_normals(*placed.mesh, crease_degrees);
+}
+
+const CornerNormals* ImportedModel::made_normals(const aiMesh& mesh) const {
+  const auto found = made_normals_.find(&mesh);
+  return found == made_normals_.end() ? nullptr : &found->second;
 }
 
 NodeMatrix ImportedModel::model_from(const aiNode* node) const {
@@ -262,8 +273,11 @@ std::optional<Vec3> ImportedModel::color(const aiMesh& mesh) const {
   const aiMaterial& material = *scene_->mMaterials[mesh.mMaterialIndex];
   aiColor3D color;
   aiString name;
-  const bool is_default =
-      material.Get(AI_MATKEY_NAME, name) == aiReturn_SUCCESS && name == aiString(AI_DEFAULT_MATERIAL_NAME);
+  const bool has_name = material.Get(AI_MATKEY_NAME, name) == aiReturn_SUCCESS;
+  // assimp's material for meshes without one: white and without a name for PLY, the last for glTF.
+  const bool is_default = (has_name && name == aiString(AI_DEFAULT_MATERIAL_NAME)) ||
+                          (!has_name && ends_with(path_, ".ply")) ||
+                          (is_gltf_ && mesh.mMaterialIndex + 1 == scene_->mNumMaterials);
   if (is_default || material.Get(AI_MATKEY_COLOR_DIFFUSE, color) != aiReturn_SUCCESS) return std::nullopt;
   return Vec3{channel(color.r), channel(color.g), channel(color.b)};
 }

@@ -3,12 +3,14 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "libpipeline/numbers/vec.h"
+#include "tools/mesh2scene/smooth_normals.h"
 
 struct aiMesh;
 struct aiNode;
@@ -57,7 +59,7 @@ struct ModelLight {
   bool is_far = false;
 };
 
-/// A model file as assimp reads it. All meshes consist of triangles and have normals.
+/// A model file as assimp reads it. All meshes consist of triangles.
 class ImportedModel {
  public:
   /// Reads a file, or standard input if `path` is "-". Where normals are missing they are made; edges whose
@@ -76,6 +78,8 @@ class ImportedModel {
   /// Every mesh, as often as a node shows it, in the order of the nodes from the root on.
   [[nodiscard]] const std::vector<PlacedMesh>& meshes() const { return meshes_; }
   [[nodiscard]] std::uint64_t triangle_count() const;
+  /// Those that were made for a mesh; null if it has its own.
+  [[nodiscard]] const CornerNormals* made_normals(const aiMesh& mesh) const;
   /// Calls `visit` with every vertex of every triangle, in the model's space.
   void for_each_corner(const std::function<void(const Vec3&)>& visit) const;
   [[nodiscard]] const std::optional<ModelCamera>& camera() const { return camera_; }
@@ -92,6 +96,7 @@ class ImportedModel {
  private:
   void place(const aiNode& node, const NodeMatrix& model_from_parent);
   void check_vertices() const;
+  void make_normals(double crease_degrees);
   void read_camera();
   void read_lights();
   void list_ignored();
@@ -101,6 +106,7 @@ class ImportedModel {
   std::unique_ptr<Assimp::Importer> importer_;
   const aiScene* scene_ = nullptr;
   std::vector<PlacedMesh> meshes_;
+  std::map<const aiMesh*, CornerNormals> made_normals_;
   std::optional<ModelCamera> camera_;
   std::vector<ModelLight> lights_;
   Vec3 ambient_;

@@ -22,6 +22,7 @@ struct Options {
   std::vector<std::string> eye_from;
   double crease_degrees = 60;
   bool as_nodes = false;
+  std::optional<UpAxis> up;
   ViewChoice view;
 };
 
@@ -39,8 +40,8 @@ void add_options(CommandLine& options, Options& chosen) {
   options.add_number(
       "--fov", "DEGREES", chosen.view.fov_y_degrees, [](double value) { return value >= 1 && value <= 120; },
       "1 to 120", "The angle of view from the picture's bottom to its top");
-  options.add_choice<UpAxis>(
-      "--up", chosen.view.up, {{"x", UpAxis::x}, {"y", UpAxis::y}, {"z", UpAxis::z}},
+  options.add_choice<std::optional<UpAxis>>(
+      "--up", chosen.up, {{"x", UpAxis::x}, {"y", UpAxis::y}, {"z", UpAxis::z}},
       "The axis that is up in the picture. Without the option: z for STL, 3DS and 3MF, else y");
   options.begin_group("Triangles");
   options.add_number(
@@ -51,7 +52,9 @@ void add_options(CommandLine& options, Options& chosen) {
 }
 
 // Ten times what assimp takes for the slowest of the common formats.
-constexpr double kImportSeconds = 5, kImportSecondsPerMegabyte = 2;
+constexpr double kImportSeconds = 2, kImportSecondsPerMegabyte = 2;
+// A text takes about four times its size, a compressed file more.
+constexpr double kImportMegabytes = 1000, kImportMegabytesPerMegabyte = 100;
 
 /// The size of a file that can be sized; standard input counts as large.
 double megabytes(const std::string& path) {
@@ -114,9 +117,8 @@ int main(int argc, char** argv) {
     const std::string name = path == "-" ? "<stdin>" : path;
     const std::string extension = extension_of(path);
     const CommandLine& options = tool.options();
-    const bool chooses_view =
-        options.is_given("--eye-from") || options.is_given("--fov") || options.is_given("--up");
-    if (!options.is_given("--up")) chosen.view.up = usual_up(extension);
+    const bool chooses_view = options.is_given("--eye-from") || options.is_given("--fov") || chosen.up;
+    chosen.view.up = chosen.up.value_or(usual_up(extension));
     if (!chosen.eye_from.empty()) {
       chosen.view.azimuth_degrees = number_from("--eye-from AZIMUTH", chosen.eye_from[0], -360, 360);
       chosen.view.elevation_degrees = number_from("--eye-from ELEVATION", chosen.eye_from[1], -90, 90);
@@ -125,7 +127,9 @@ int main(int argc, char** argv) {
     chosen.view.aspect = double(screen.columns) / double(screen.rows);
 
     go_on_in_child(name);
-    std::optional<ImportLimits> limits(kImportSeconds + kImportSecondsPerMegabyte * megabytes(path));
+    const double size = megabytes(path);
+    std::optional<ImportLimits> limits(std::in_place, kImportSeconds + kImportSecondsPerMegabyte * size,
+                                       kImportMegabytes + kImportMegabytesPerMegabyte * size);
     const ImportedModel model(path, chosen.crease_degrees);
     limits.reset();
     tool.timing().lap(&Timing::read_seconds);
@@ -134,7 +138,7 @@ int main(int argc, char** argv) {
     SceneSetting setting =
         has_own_view ? setting_of_file(model, chosen.view.aspect) : framed_setting(model, chosen.view);
     if (!model.ignored().empty()) tool.note(name + ": no scene can hold its " + listed(model.ignored()));
-    if (!has_own_view && !options.is_given("--up") && !defines_up(extension))
+    if (!has_own_view && !chosen.up && !defines_up(extension))
       tool.note(std::string(name_of(chosen.view.up)) + " is taken for up, as in most " +
                 (extension.empty() ? "" : extension + " ") + "files (--up chooses)");
     setting.comments = {name + ", " + counted(model.triangle_count(), "triangle") +

@@ -4,10 +4,13 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 #include <optional>
+#include <vector>
 
 #include "libpipeline/numbers/vec_math.h"
 #include "libpipeline/text/error.h"
@@ -16,25 +19,10 @@
 namespace pipeline {
 namespace {
 
-constexpr std::size_t kMaxFloatLength = 16;  // -1.17549435e-38
-
 /// The shortest text that reads back to the same float: the precision of assimp, and of what most files hold.
-char* print_float(char* p, double value) {
-  const float rounded = static_cast<float>(value);
-  return std::to_chars(p, p + kMaxFloatLength, rounded == 0 ? 0.0F : rounded).ptr;
-}
-
-char* print_floats(char* p, const Vec3& v) {
-  p = print_float(p, v.x);
-  *p++ = ' ';
-  p = print_float(p, v.y);
-  *p++ = ' ';
-  return print_float(p, v.z);
-}
-
 std::string float_text(double value) {
   std::array<char, kMaxFloatLength> text{};
-  return {text.data(), print_float(text.data(), value)};
+  return {text.data(), print_shortest(text.data(), static_cast<float>(value))};
 }
 
 std::string float_text(const Vec3& v) {
@@ -44,6 +32,56 @@ std::string float_text(const Vec3& v) {
 std::string text_of(const Vec3& v) {
   return shortest_text(v.x) + " " + shortest_text(v.y) + " " + shortest_text(v.z);
 }
+
+/// What the line of a vertex shows.
+struct VertexNumbers {
+  std::array<float, 9> numbers{};  // position, perhaps a color, normal
+  std::size_t count = 0;
+
+  void add(const Vec3& v) {
+    for (const double x : {v.x, v.y, v.z}) numbers[count++] = static_cast<float>(x);
+  }
+  friend bool operator==(const VertexNumbers&, const VertexNumbers&) = default;
+};
+
+/// The lines of vertices, kept for the triangles that share them: of those with the same hash, the last.
+class VertexLines {
+ public:
+  [[nodiscard]] std::string_view line_of(const VertexNumbers& vertex) {
+    Line& line = lines_[hash(vertex) % kPlaces];
+    if (line.vertex != vertex) print(vertex, line);
+    return {line.text.data(), line.length};
+  }
+
+ private:
+  struct Line {
+    VertexNumbers vertex;
+    std::size_t length = 0;
+    std::array<char, 9 * kMaxFloatLength> text;
+  };
+
+  static std::size_t hash(const VertexNumbers& vertex) {
+    std::uint64_t mixed = 0;
+    for (std::size_t i = 0; i < vertex.count; ++i)
+      mixed = (mixed ^ std::bit_cast<std::uint32_t>(vertex.numbers[i])) * 0x9e3779b97f4a7c15;
+    return static_cast<std::size_t>(mixed >> 40);
+  }
+
+  static void print(const VertexNumbers& vertex, Line& line) {
+    char* p = line.text.data();
+    for (std::size_t i = 0; i < vertex.count; ++i) {
+      p = print_shortest(p, vertex.numbers[i]);
+      *p++ = ' ';
+    }
+    p[-1] = '\n';
+    line.length = static_cast<std::size_t>(p - line.text.data());
+    line.vertex = vertex;
+  }
+
+  static constexpr std::size_t kPlaces = 8192;
+
+  std::vector<Line> lines_ = std::vector<Line>(kPlaces);
+};
 
 /// Rounds values to as many decimals as make five digits of a length.
 class Rounding {
@@ -187,40 +225,39 @@ class SceneWriter {
     const Vec3 color = model_.color(mesh).value_or(setting_.color);
     if (!has_color_columns_ && color != color_in_force_) line("color " + text_of(color));
     color_in_force_ = color;
-    prepare(placed, color);
-    for (unsigned i = 0; i < mesh.mNumFaces; ++i) write_triangle(mesh.mFaces[i].mIndices);
-  }
-
-  struct Vertex {
-    Vec3 position;
-    Vec3 normal;
-  };
-
-  /// Transforms the vertices, each once, and prints their lines.
-  void prepare(const PlacedMesh& placed, const Vec3& color) {
-    const aiMesh& mesh = *placed.mesh;
-    const bool is_identity = placed.model_from_mesh.is_identity();
-    vertices_.resize(mesh.mNumVertices);
-    for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
-      const aiVector3D& p = mesh.mVertices[i];
-      const aiVector3D n = mesh.HasNormals() ? mesh.mNormals[i] : aiVector3D();
-      Vertex& vertex = vertices_[i];
-      vertex = {{p.x, p.y, p.z}, {n.x, n.y, n.z}};
-      if (!is_identity) {
-        vertex.position = placed.model_from_mesh.point(vertex.position);
-        vertex.normal = unit_vector(placed.model_from_mesh.normal(vertex.normal));
-      }
-    }
-    mesh_ = &mesh;
+    placed_ = &placed;
+    is_identity_ = placed.model_from_mesh.is_identity();
+    made_normals_ = model_.made_normals(mesh);
     color_ = color;
+    for (unsigned i = 0; i < mesh.mNumFaces; ++i) write_triangle(i);
   }
 
-  /// The normal of a triangle whose file gives none of use; any for a triangle without area, which is not
-  /// seen.
+  [[nodiscard]] Vec3 position(unsigned index) const {
+    const aiVector3D& p = placed_->mesh->mVertices[index];
+    return placed_->model_from_mesh.point({p.x, p.y, p.z});
+  }
+
+  /// Of a corner of a triangle, from the file or made; that of the triangle if there is none of use.
+  [[nodiscard]] Vec3 normal(unsigned face, std::size_t corner) const {
+    const aiMesh& mesh = *placed_->mesh;
+    const unsigned* const indices = mesh.mFaces[face].mIndices;
+    Vec3 in_mesh;
+    if (made_normals_ != nullptr) {
+      const auto& [x, y, z] = (*made_normals_)[3 * std::size_t{face} + corner];
+      in_mesh = {x, y, z};
+    } else {
+      const aiVector3D& n = mesh.mNormals[indices[corner]];
+      in_mesh = {n.x, n.y, n.z};
+    }
+    const Vec3 in_model = is_identity_ ? in_mesh : unit_vector(placed_->model_from_mesh.normal(in_mesh));
+    return is_direction(in_model) ? in_model : face_normal(indices);
+  }
+
+  /// Any for a triangle without area, which is not seen.
   [[nodiscard]] Vec3 face_normal(const unsigned* indices) const {
-    const Vec3 a = vertices_[indices[0]].position;
-    const Vec3 n = unit_vector(
-        cross(difference(vertices_[indices[1]].position, a), difference(vertices_[indices[2]].position, a)));
+    const Vec3 a = position(indices[0]);
+    const Vec3 n =
+        unit_vector(cross(difference(position(indices[1]), a), difference(position(indices[2]), a)));
     return is_direction(n) ? n : setting_.camera.up;
   }
 
@@ -230,28 +267,25 @@ class SceneWriter {
     return std::isfinite(n.x + n.y + n.z) && !(is_0(n.x) && is_0(n.y) && is_0(n.z));
   }
 
-  void write_triangle(const unsigned* indices) {
+  void write_triangle(unsigned face) {
     static constexpr std::string_view kKeyword = "triangle\n";
-    constexpr std::size_t kMaxLine = 9 * (kMaxFloatLength + 1);
-    char* p = out_.reserve(kKeyword.size() + 3 * kMaxLine);
+    char* p = out_.reserve(kKeyword.size() + 3 * 9 * kMaxFloatLength);
     p = std::copy(kKeyword.begin(), kKeyword.end(), p);
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Vertex& vertex = vertices_[indices[i]];
-      p = print_floats(p, vertex.position);
-      if (has_color_columns_) {
-        *p++ = ' ';
-        p = print_floats(p, color_of(indices[i]));
-      }
-      *p++ = ' ';
-      p = print_floats(p, is_direction(vertex.normal) ? vertex.normal : face_normal(indices));
-      *p++ = '\n';
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      const unsigned index = placed_->mesh->mFaces[face].mIndices[corner];
+      VertexNumbers vertex;
+      vertex.add(position(index));
+      if (has_color_columns_) vertex.add(color_of(index));
+      vertex.add(normal(face, corner));
+      const std::string_view line = lines_.line_of(vertex);
+      p = std::copy(line.begin(), line.end(), p);
     }
     out_.commit(p);
   }
 
   [[nodiscard]] Vec3 color_of(unsigned index) const {
-    if (!mesh_->HasVertexColors(0)) return color_;
-    const aiColor4D& c = mesh_->mColors[0][index];
+    if (!placed_->mesh->HasVertexColors(0)) return color_;
+    const aiColor4D& c = placed_->mesh->mColors[0][index];
     return {model_.channel(c.r), model_.channel(c.g), model_.channel(c.b)};
   }
 
@@ -260,9 +294,12 @@ class SceneWriter {
   TextWriter& out_;
   bool has_color_columns_;
   std::optional<Vec3> color_in_force_;
-  const aiMesh* mesh_ = nullptr;
+  // Of the mesh that is being written:
+  const PlacedMesh* placed_ = nullptr;
+  bool is_identity_ = true;
+  const CornerNormals* made_normals_ = nullptr;
   Vec3 color_;
-  std::vector<Vertex> vertices_;
+  VertexLines lines_;
 };
 
 }  // namespace
