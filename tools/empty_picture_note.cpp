@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <numbers>
@@ -117,6 +118,17 @@ std::string list_of(const std::vector<Group>& groups, const std::string& none_of
   return "none of " + counted(count, "triangle") + " " + none_of + list;
 }
 
+double greatest_of(Vec3 channels) {
+  return std::max({channels.x, channels.y, channels.z});
+}
+
+/// True for whole channels up to 255, one of them so large that no intensity of light would be.
+bool is_like_color(Vec3 channels) {
+  const auto is_whole = [](double channel) { return channel == std::floor(channel); };
+  return greatest_of(channels) >= 32 && greatest_of(channels) <= 255 && is_whole(channels.x) &&
+         is_whole(channels.y) && is_whole(channels.z);
+}
+
 bool is_black(Color color) {
   return std::max({color.red(), color.green(), color.blue()}) <= 1;
 }
@@ -139,10 +151,25 @@ std::string dropped_note(const OutsideCounts& outside, std::uint64_t culled_coun
   return "the picture will be empty: " + list_of(groups, "is left");
 }
 
-std::string radians_note(double fov_y_degrees, std::uint64_t hidden_count) {
-  return "nothing is in view, but with a fovY of " + rounded(fov_y_degrees * 180 / std::numbers::pi) +
-         " degrees in place of " + rounded(fov_y_degrees) + ", " + counted(hidden_count, "triangle") +
+std::string radians_note(double fov_y_degrees, std::uint64_t hidden_count, bool is_filled) {
+  return std::string(is_filled ? "no vertex" : "nothing") + " is in view, but with a fovY of " +
+         rounded(fov_y_degrees * 180 / std::numbers::pi) + " degrees in place of " + rounded(fov_y_degrees) +
+         ", " + (is_filled ? "those of " : "") + counted(hidden_count, "triangle") +
          " would be: angles are in degrees; was this one in radians?";
+}
+
+std::optional<std::string> bright_light_note(const Appearance& appearance) {
+  const auto note = [](const SourceLocation& location, const char* name, double intensity) {
+    return to_string(location) + ": " + name + " of " + rounded(intensity) + " is " + rounded(intensity) +
+           " times full light: 1 is full, so divide by 255 if this is a color";
+  };
+  if (appearance.ambient && is_like_color(appearance.ambient->value))
+    return note(appearance.ambient->location, "ambient light", greatest_of(appearance.ambient->value));
+  if (appearance.attenuation) return std::nullopt;
+  for (const Located<Light>& light : appearance.lights)
+    if (is_like_color(light.value.intensity))
+      return note(light.location, "a light", greatest_of(light.value.intensity));
+  return std::nullopt;
 }
 
 std::string unseen_note(const UnseenTriangles& unseen, const Viewport& screen) {

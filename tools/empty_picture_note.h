@@ -5,6 +5,7 @@
 #include <string>
 
 #include "libpipeline/picture/surface_shader.h"
+#include "libpipeline/scene/appearance.h"
 #include "libpipeline/scene/viewport.h"
 #include "libpipeline/text/source_location.h"
 #include "libpipeline/vertex/view_volume.h"
@@ -12,8 +13,7 @@
 
 namespace pipeline {
 
-// The words with which a stage notes why the picture is empty. All functions but the last are called only
-// where it is.
+// The words with which a stage notes why the picture is empty, or far from what was meant.
 
 /// For `model`: the scene has no triangle, or a scale by 0 left none of them an area.
 std::string empty_scene_note(std::uint64_t triangle_count, const std::optional<SourceLocation>& scale_by_0);
@@ -22,7 +22,12 @@ std::string empty_scene_note(std::uint64_t triangle_count, const std::optional<S
 std::string dropped_note(const OutsideCounts& outside, std::uint64_t culled_count);
 
 /// For `project`: `hidden_count` triangles would be in view if the field of view were 57.3 times as wide.
-std::string radians_note(double fov_y_degrees, std::uint64_t hidden_count);
+/// `is_filled`: something is in view, but no vertex, so that one triangle may fill the picture.
+std::string radians_note(double fov_y_degrees, std::uint64_t hidden_count, bool is_filled);
+
+/// For `model`: a light whose intensity looks like a color from 0 to 255; none if no light does. With an
+/// attenuation, a light may have any intensity.
+std::optional<std::string> bright_light_note(const Appearance& appearance);
 
 /// For `zbuf`: no triangle shows at a pixel.
 std::string unseen_note(const UnseenTriangles& unseen, const Viewport& screen);

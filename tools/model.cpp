@@ -40,6 +40,7 @@ int main(int argc, char** argv) {
     const auto transform = [&](TriangleBatch& batch) { stage.transform(batch, rounder); };
     StageLoop loop(tool, writer, rounder, statistics);
     loop.run(stage, transform, stage.uncertain_lights());
+    if (const auto note = bright_light_note(stage.appearance())) tool.note(*note);
     const std::uint64_t count = tool.timing().triangle_count;
     if (count == 0 || stage.flattening_scale()) tool.note(empty_scene_note(count, stage.flattening_scale()));
     loop.write_statistics(numbers.format());

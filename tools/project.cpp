@@ -45,8 +45,8 @@ void add_options(CommandLine& options, ProjectOptions& chosen) {
       "between -0.9 and 0.9 in NDC");
   options.add_choice<CullMode>(
       "--cull", chosen.cull, {{"back", CullMode::back}, {"front", CullMode::front}},
-      "Drop triangles that show this side to the eye; counterclockwise is front. Without its backs,\n"
-      "a closed surface looks the same under zbuf --coverage center, not at its silhouette under nearest");
+      "Drop triangles that show this side to the eye; counterclockwise is front. A closed surface looks the "
+      "same without its backs, but for its silhouette under zbuf --coverage nearest");
 }
 
 void check_inset(const ProjectOptions& chosen) {
@@ -75,6 +75,7 @@ int main(int argc, char** argv) {
   ProjectionOptions projections(tool.options());
   ProjectOptions chosen;
   add_options(tool.options(), chosen);
+  tool.options().begin_group("Output");
   Statistics statistics(tool.options());
 
   return tool.run(argc, argv, [&] {

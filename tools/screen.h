@@ -6,8 +6,9 @@
 
 namespace pipeline {
 
-/// The screen of --size, with which INPUT is the only operand, or else of CONFIG. A UsageError if there is
-/// neither, or an operand too many; an InputError or IoError of the config.
+/// The screen of CONFIG, of --size, or, with both, the limits of CONFIG at the size of --size, with a note if
+/// that stretches the picture. With --size, a single operand is CONFIG if it is a file that holds a config,
+/// else INPUT. A UsageError if there is neither; an InputError or IoError of the config.
 Viewport read_screen(Tool& tool, const ZbufOptions& chosen);
 
 }  // namespace pipeline

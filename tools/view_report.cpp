@@ -1,5 +1,6 @@
 #include "tools/view_report.h"
 
+#include <algorithm>
 #include <numbers>
 #include <variant>
 
@@ -7,6 +8,15 @@
 #include "tools/empty_picture_note.h"
 
 namespace pipeline {
+namespace {
+
+bool has_vertex_in(const ViewVolume& volume, const Triangle& p_view) {
+  return std::ranges::any_of(p_view, [&](const Vec3& vertex) {
+    return !volume.outside({vertex, vertex, vertex});
+  });
+}
+
+}  // namespace
 
 void ViewReport::suspect_radians(const Located<Projection>& projection) {
   const auto* perspective = std::get_if<Perspective>(&projection.value);
@@ -36,17 +46,17 @@ void ViewReport::add(const TriangleBatch& p_view, const TriangleBatch& p_ndc) {
   }
 }
 
-void ViewReport::look_for_radians(const Triangle& p_view, bool is_in_view) {
-  if (is_in_view)
-    volume_if_radians_.reset();
-  else if (!volume_if_radians_->outside(p_view))
+void ViewReport::look_for_radians(const Triangle& p_view, bool may_be_in_view) {
+  if (may_be_in_view && has_vertex_in(volume_, p_view)) return volume_if_radians_.reset();
+  is_filled_ |= may_be_in_view;
+  if (may_be_in_view ? has_vertex_in(*volume_if_radians_, p_view) : !volume_if_radians_->outside(p_view))
     ++in_view_if_radians_count_;
 }
 
 std::optional<std::string> ViewReport::note() const {
   if (triangle_count_ == 0) return std::nullopt;
   if (volume_if_radians_ && in_view_if_radians_count_ > 0)
-    return radians_note(fov_y_degrees_, in_view_if_radians_count_);
+    return radians_note(fov_y_degrees_, in_view_if_radians_count_, is_filled_);
   if (is_all_dropped_) return dropped_note(outside_, culled_count_);
   return std::nullopt;
 }

@@ -14,8 +14,8 @@
 namespace pipeline {
 
 /// Where the triangles of `project` lie: for a note while none is passed on, and for --stats. Without
-/// --stats, it looks at batches only until a triangle is passed on (and, where fovY is below pi, until one is
-/// in view).
+/// --stats, it looks at batches only until a triangle is passed on (and, where fovY is below pi, until a
+/// vertex is in view).
 class ViewReport {
  public:
   /// `volume` is the stage's view volume.
@@ -32,7 +32,7 @@ class ViewReport {
   void add_to(Statistics& statistics) const;
 
  private:
-  void look_for_radians(const Triangle& p_view, bool is_in_view);
+  void look_for_radians(const Triangle& p_view, bool may_be_in_view);
 
   const ProjectionStage& stage_;
   ViewVolume volume_;
@@ -45,6 +45,7 @@ class ViewReport {
   double fov_y_degrees_ = 0;
   std::optional<ViewVolume> volume_if_radians_;  // none where there is no such suspicion, or no longer
   std::uint64_t in_view_if_radians_count_ = 0;
+  bool is_filled_ = false;  // by triangles without a vertex in view
 };
 
 }  // namespace pipeline

@@ -92,7 +92,7 @@ void add_type_choice(CommandLine& options, const std::string& name, TypeList<Typ
 inline void ZbufOptions::add_to(CommandLine& options) {
   options.set_usage(
       "Usage: zbuf [OPTIONS] CONFIG [INPUT]\n"
-      "       zbuf [OPTIONS] --size WIDTHxHEIGHT [INPUT]");
+      "       zbuf [OPTIONS] --size WIDTHxHEIGHT [CONFIG] [INPUT]");
   add_screen_and_outputs(options, true);
   options.add_word(
       "--seen", "FILE", seen_path,
@@ -132,13 +132,14 @@ inline void ZbufOptions::add_screen_and_outputs(CommandLine& options, bool has_s
       "The screen (config.txt): WIDTH HEIGHT in pixels, alone or before three lines: the left "
       "limit of x, the bottom limit of y, the front and rear limits of z");
   options.begin_group("Output");
-  options.add_word(
-      "--size", "WIDTHxHEIGHT", size,
-      "The screen's size in place of CONFIG; x, y and z are shown from -1 to 1", [](const std::string& word) {
-        return parse_size(word)
-                   ? std::string()
-                   : expected_but_found("WIDTHxHEIGHT in pixels, such as 400x300", pipeline::quoted(word));
-      });
+  options.add_word("--size", "WIDTHxHEIGHT", size,
+                   "The screen's size in place of that in CONFIG, whose limits stay; without CONFIG, x, y "
+                   "and z are shown from -1 to 1",
+                   [](const std::string& word) {
+                     return parse_size(word) ? std::string()
+                                             : expected_but_found("WIDTHxHEIGHT in pixels, such as 400x300",
+                                                                  pipeline::quoted(word));
+                   });
   const std::vector<std::string_view> extensions = image_extensions();
   options.add_word("-o,--image", "FILE", image_path,
                    "Where the image goes, a " + listed({extensions.begin(), extensions.end()}) +

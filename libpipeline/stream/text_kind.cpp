@@ -86,7 +86,7 @@ TextKind kind_by_header(const std::vector<Words>& lines) {
   return kind;
 }
 
-TextKind kind_of(const std::vector<Words>& lines) {
+TextKind kind_by_lines(const std::vector<Words>& lines) {
   if (lines.empty()) return TextKind::unknown;
   if (lines.front().front().find('\x1b') != std::string_view::npos) return TextKind::editor_screen;
   if (is_config(lines)) return TextKind::config;
@@ -147,9 +147,12 @@ std::string duty_of_project(const StageHeader& header) {
                                           : "write 'projected frustum L R B T N F' (or ortho) in its place";
 }
 
-}  // namespace
+struct Beginning {
+  TextKind kind = TextKind::unknown;
+  LineScanner first_line;
+};
 
-void expect_kind(TextReader& text, TextKind expected) {
+Beginning beginning_of(TextReader& text) {
   std::string_view rest = text.beginning();
   std::vector<Words> lines;
   lines.reserve(kLinesLookedAt);
@@ -163,9 +166,19 @@ void expect_kind(TextReader& text, TextKind expected) {
     lines.emplace_back().reserve(4);
     while (!line.at_end()) lines.back().push_back(line.word());
   }
-  const TextKind found = kind_of(lines);
+  return {kind_by_lines(lines), first};
+}
+
+}  // namespace
+
+TextKind kind_of(TextReader& text) {
+  return beginning_of(text).kind;
+}
+
+void expect_kind(TextReader& text, TextKind expected) {
+  const auto [found, first_line] = beginning_of(text);
   if (excludes(found, expected))
-    throw InputError(first.location(),
+    throw InputError(first_line.location(),
                      "expected " + named(expected) + ", but this looks like " + described(found));
 }
 

@@ -22,6 +22,9 @@ enum class TextKind {
   unknown
 };
 
+/// The kind of `text` by its first lines, of which nothing is consumed.
+TextKind kind_of(TextReader& text);
+
 /// An InputError if the first lines of `text`, of which nothing is consumed, are plainly those of another
 /// kind than `expected`. Waits for the first line of the text alone.
 void expect_kind(TextReader& text, TextKind expected);

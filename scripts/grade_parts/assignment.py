@@ -29,6 +29,15 @@ def read_tests(folder):
     return [read_test(os.path.join(folder, name), name) for name in names]
 
 
+def holds_tests(folder):
+    """Whether there are folders in this folder, and each has a scene, which no hand-in needs."""
+    try:
+        have_scenes = [os.path.isfile(os.path.join(entry.path, "scene.txt")) for entry in os.scandir(folder) if entry.is_dir()]
+    except OSError:
+        return False  # what is wrong with it shows when it is read
+    return bool(have_scenes) and all(have_scenes)
+
+
 def read_test(folder, name):
     scene = read_input(os.path.join(folder, "scene.txt"))
     config, weight = (optional(os.path.join(folder, file)) for file in ("config.txt", "weight.txt"))

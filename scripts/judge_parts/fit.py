@@ -6,12 +6,13 @@ import dataclasses
 import math
 import random
 
-from judge_parts.matrices import dot, product
+from judge_parts.matrices import dot, image, product
 
 MOST_POINTS = 60
 TRIALS = 3
 WORST_SPREAD = 0.01       # of an element, against the largest one
 LEAST_DIFFERENCE = 1e-4   # of an element, against 1 and its own size
+MISFIT, MISFIT_IN_UNITS = 1e-3, 20  # of a number that a matrix gives: against 1 and its own size, and of its last digit
 DECIMALS = 5
 
 
@@ -29,6 +30,17 @@ class Comparison:
             rows.append(f"  {left}   | " + " ".join(f"{shown(x):>12}" for x in b))
         width = rows[0].index("|")
         return [f"  {'their matrix (* differs)':<{width - 2}}| ours", *rows]
+
+    def __str__(self):
+        return "\n".join(self.lines())
+
+
+class NoMatrix:
+    """In place of a Comparison, where no matrix comes near the points."""
+
+    @staticmethod
+    def lines():
+        return ["  no 4 x 4 matrix gives these numbers"]
 
     def __str__(self):
         return "\n".join(self.lines())
@@ -137,9 +149,15 @@ def scaled_like(m, ours):
     return tuple(tuple(factor * x for x in row) for row in m)
 
 
+def misses(m, before, after, units, is_divided):
+    """Whether a matrix takes a point to another place than it went, by more than rounding explains."""
+    return any(not abs(x - y) <= MISFIT_IN_UNITS * unit + MISFIT * max(1.0, abs(y)) for p, q, limits in zip(before, after, units)
+               for x, y, unit in zip(image(m, p, is_divided), q, limits))
+
+
 def compare(before, after, units, ours, is_divided):
-    """The Comparison of the matrix from `before` to `after` with ours; None if the points do not determine it. `units` are those
-    of `after`."""
+    """The Comparison of the matrix from `before` to `after` with ours; a NoMatrix if none comes near the points, and None if they do
+    not determine it. `units` are those of `after`."""
     step = max(1, len(before) // MOST_POINTS)
     chosen = [i for i in range(0, len(before), step) if all(map(math.isfinite, after[i]))]
     before, after, units = ([values[i] for i in chosen] for values in (before, after, units))
@@ -158,6 +176,8 @@ def compare(before, after, units, ours, is_divided):
             return None
         fits.append(scaled_like(m, ours) if is_divided else m)
     theirs, *others = fits
+    if misses(theirs, before, after, units, is_divided):
+        return NoMatrix()
     spread = [[2 * max(abs(m[i][j] - theirs[i][j]) for m in others) for j in range(4)] for i in range(4)]
     for i in range(4):
         largest = max(1e-3, *map(abs, theirs[i]))

@@ -51,7 +51,7 @@ class HandIn:
             if memory is not None:
                 readings.append(Reading.exact(memory))
             if theirs is not None and not theirs.points:
-                outcome = self.of_empty_text(stage, self.files[kind].name, readings)
+                outcome = self.of_empty_text(stage, kind, readings)
             elif theirs and stage == "model":
                 outcome = judge.model(self.files[kind].name, theirs)
             elif theirs and stage == "view":
@@ -79,14 +79,15 @@ class HandIn:
         """What may be left of the points if project clips them, for each reading."""
         return [points for reading in readings if (points := self.ours.clipped(reading.points)) is not None]
 
-    def of_empty_text(self, stage, name, readings):
+    def of_empty_text(self, stage, kind, readings):
         """The Outcome of a text without triangles: right if nothing may be left of what the stage has read."""
+        name = self.files[kind].name
         given = [self.ours.world] if stage == "model" else [reading.points for reading in readings]
         if not all(given) or stage == "project" and not all(self.clipped(readings)):
             return Outcome(FileVerdict(stage, name, RIGHT, differing=0), [])
         if not given:
             return undecided_outcome(stage, name)
-        return Outcome(FileVerdict(stage, name, WRONG, remarks=["there is no triangle in it"]))
+        return Outcome(FileVerdict(stage, name, WRONG, remarks=["there is no triangle in it" if self.files[kind].data.strip() else "it is empty"]))
 
     def right_ndc(self):
         """What a program may have drawn by that writes other numbers into its file."""

@@ -5,6 +5,7 @@ from lib.vectors import cross
 
 IDENTITY = tuple(tuple(float(i == j) for j in range(4)) for i in range(4))
 UNDEFINED = (math.nan,) * 3
+DIVIDES_X_AND_Y = "x and y"  # in place of True: z is not divided by w
 ROUNDING = 1e-13  # of sums and products in doubles, with some to spare
 
 
@@ -40,7 +41,9 @@ def image(m, p, is_divided=True):
     x, y, z, w = (row[0] * x + row[1] * y + row[2] * z + row[3] for row in m)
     if not is_divided:
         return x, y, z
-    return (x / w, y / w, z / w) if abs(w) > 1e-12 else UNDEFINED
+    if abs(w) <= 1e-12:
+        return UNDEFINED
+    return x / w, y / w, z if is_divided == DIVIDES_X_AND_Y else z / w
 
 
 def slack(m, p, units, is_divided=True):
@@ -52,7 +55,8 @@ def slack(m, p, units, is_divided=True):
     w = abs(m[3][0] * p[0] + m[3][1] * p[1] + m[3][2] * p[2] + m[3][3])
     if w <= 2 * reach[3] or w <= 1e-12:
         return math.inf, math.inf, math.inf
-    return [(r + abs(a) * reach[3]) / (w - reach[3]) for r, a in zip(reach, image(m, p))]
+    divided = [(r + abs(a) * reach[3]) / (w - reach[3]) for r, a in zip(reach, image(m, p))]
+    return [*divided[:2], reach[2]] if is_divided == DIVIDES_X_AND_Y else divided
 
 
 # model
@@ -118,6 +122,8 @@ def projection_matrix(window, near, far, mistake=""):
     z_row = (0.0, 0.0, -(far + near) / (far - near), -(1 if mistake == "missing-two" else 2) * far * near / (far - near))
     if mistake == "z-row-sign":
         z_row = negative(z_row)
+    if mistake == "depth-is-linear":  # and z is not divided
+        z_row = (0.0, 0.0, -2 / (far - near), -(far + near) / (far - near))
     w_row = (0.0, 0.0, 1.0 if mistake == "w-is-plus-z" else -1.0, 1.0 if mistake == "last-element-is-one" else 0.0)
     x_scale, x_shift, y_scale, y_shift = window
     return (x_scale, 0.0, x_shift, 0.0), (0.0, y_scale, y_shift, 0.0), z_row, w_row

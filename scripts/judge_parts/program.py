@@ -1,5 +1,6 @@
 """A program of somebody else, run with limits: of time, and of what it may write."""
 import contextlib
+import errno
 import os
 import selectors
 import signal
@@ -7,24 +8,40 @@ import subprocess
 import time
 
 BLOCK = 1 << 16
+MOST_ERRORS = 1 << 20  # bytes of stderr that are kept, the last ones
 
 
 class ProgramError(Exception):
-    """The program did not do its job; the text says why."""
+    """The program did not do its job; the text says why. `errors` is what it wrote to stderr."""
+
+    def __init__(self, reason, errors=b""):
+        super().__init__(reason)
+        self.errors = bytes(errors)
+
+
+class CannotRun(Exception):
+    """The program could not be started; the text says why."""
+
+
+HINTS = {
+    errno.EACCES: "; chmod +x makes a file a program",
+    errno.ENOEXEC: "; a script begins with a line like #!/usr/bin/env python3",
+}
 
 
 def run_program(words, data, folder, seconds, limit):
-    """The stdout of a program that reads `data` and works in `folder`, in bytes. Raises a ProgramError if it cannot be started, takes
-    longer than `seconds`, writes more than `limit` bytes, or fails. What it has started ends with it."""
+    """The stdout and stderr of a program that reads `data` and works in `folder`, in bytes. Raises a CannotRun if it cannot be started,
+    and a ProgramError if it takes longer than `seconds`, writes more than `limit` bytes, or fails. What it has started ends with it."""
+    outputs = [bytearray(), bytearray()]
     try:
         process = subprocess.Popen(words, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE, cwd=folder, start_new_session=True)
     except OSError as error:
-        raise ProgramError(f"cannot run {words[0]}: {error.strerror}") from None
+        raise CannotRun(f"cannot run {words[0]}: {error.strerror}{HINTS.get(error.errno, '')}") from None
     try:
-        outputs = exchange(process, data, time.monotonic() + seconds, limit)
+        exchange(process, data, time.monotonic() + seconds, limit, outputs)
         status = process.wait(timeout=seconds)
     except (TimeoutError, subprocess.TimeoutExpired):
-        raise ProgramError(f"it is not done after {seconds:g} s") from None
+        raise ProgramError(f"it is not done after {seconds:g} s", outputs[1]) from None
     finally:
         with contextlib.suppress(ProcessLookupError):
             os.killpg(process.pid, signal.SIGKILL)
@@ -33,15 +50,13 @@ def run_program(words, data, folder, seconds, limit):
             with contextlib.suppress(OSError):
                 stream.close()
     if status != 0:
-        last = outputs[1].decode(errors="replace").strip().split("\n")[-1][:200]
-        how = f"it was ended by signal {-status}" if status < 0 else f"its exit status is {status}"
-        raise ProgramError(how + (f": {last}" if last else ""))
-    return bytes(outputs[0])
+        raise ProgramError(f"it was ended by signal {-status}" if status < 0 else f"its exit status is {status}", outputs[1])
+    return bytes(outputs[0]), bytes(outputs[1])
 
 
-def exchange(process, data, end, limit):
-    """Writes and reads as far as the program does: its stdout and its stderr, of which only so much is kept."""
-    outputs, rest = [bytearray(), bytearray()], memoryview(data)
+def exchange(process, data, end, limit, outputs):
+    """Writes and reads as far as the program does: into `outputs` its stdout and its stderr, of which only so much is kept."""
+    rest = memoryview(data)
     with selectors.DefaultSelector() as selector:
         for stream, event in ((process.stdin, selectors.EVENT_WRITE), (process.stdout, selectors.EVENT_READ), (process.stderr, selectors.EVENT_READ)):
             os.set_blocking(stream.fileno(), False)
@@ -60,12 +75,11 @@ def exchange(process, data, end, limit):
                     is_done = not block
                     outputs[which] += block
                     if which == 0 and len(outputs[0]) > limit:
-                        raise ProgramError(f"it writes more than {limit} bytes, more than the scene can need")
-                    del outputs[1][:-BLOCK]
+                        raise ProgramError(f"it writes more than {limit} bytes, more than the scene can need", outputs[1])
+                    del outputs[1][:-MOST_ERRORS]
                 if is_done:
                     selector.unregister(key.fileobj)
                     key.fileobj.close()
-    return outputs
 
 
 def written(stream, rest):

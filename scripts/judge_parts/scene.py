@@ -6,10 +6,11 @@ import math
 from explain_parts.matrices import Projection
 from explain_parts.scene import commands
 from judge_parts.mistakes import sentences
-from judge_parts.matrices import (IDENTITY, VIEW_SPELLINGS, image, perspective_matrix, product, projection_matrix, rotation, scaling, slack, transposed,
+from judge_parts.matrices import (DIVIDES_X_AND_Y, IDENTITY, VIEW_SPELLINGS, image, perspective_matrix, product, projection_matrix, rotation, scaling, slack, transposed,
                                   translation, unit, view_matrix)
 
 NO_UNITS = (0.0, 0.0, 0.0)
+DIVISIONS = {"no-divide": False, "depth-is-linear": DIVIDES_X_AND_Y}  # by w; other mistakes of project divide all three
 ROUGH_PIS = (3.1416, 3.14159, 3.1415927, 3.141592, 3.141593, 3.1415926, 3.1415, 3.142, 22 / 7, 3.14)
 
 
@@ -130,6 +131,10 @@ class Scene:
                     yield image(stack.matrix, p, False), slack(stack.matrix, p, NO_UNITS, False)
             stack.command(keyword)
 
+    def untouched(self):
+        """The points as the scene gives them, before any transformation."""
+        return [tuple(map(float, words[:3])) for command in self.commands if command.keyword == "triangle" for words in command.arguments]
+
     @staticmethod
     def model_mistakes():
         """(name, habits) for each mistake of model in the list."""
@@ -152,7 +157,7 @@ class Scene:
         exact = tuple(tuple(map(float, row)) for row in kind.matrix())
         if mistake in ("", "no-divide"):
             return exact
-        if kind.is_parallel or mistake not in ("near-and-far-swapped", "missing-two", "z-row-sign", "w-is-plus-z", "last-element-is-one"):
+        if kind.is_parallel or mistake not in ("near-and-far-swapped", "missing-two", "z-row-sign", "w-is-plus-z", "last-element-is-one", "depth-is-linear"):
             return None
         window = (exact[0][0], exact[0][2], exact[1][1], exact[1][2])
         return projection_matrix(window, float(kind.near), float(kind.far), mistake)
@@ -173,7 +178,7 @@ class Scene:
             except (ZeroDivisionError, OverflowError):
                 continue
             if matrix is not None:
-                yield name, matrix, name != "no-divide"
+                yield name, matrix, DIVISIONS.get(name, True)
 
 
 def names_of(stage):

@@ -4,11 +4,13 @@ import math
 
 from judge_parts import fit
 from judge_parts.digits import EXACT
-from judge_parts.matrices import ROUNDING, image, slack
+from judge_parts.matrices import IDENTITY, ROUNDING, image, slack
 from judge_parts.points import described, difference, differs
 from judge_parts.scene import NO_UNITS, ROUGH_PIS, Habit, turned_with
 from judge_parts.verdict import ANOTHER_RULE, RIGHT, TOO_FEW_DIGITS, UNDECIDED, WRONG, Cause, FileVerdict, cause_of
 from lib.vectors import cross
+
+UNCHANGED = "The points are those of the stage before, unchanged"
 
 
 @dataclasses.dataclass
@@ -78,6 +80,11 @@ class StageJudge:
             if not differs(theirs.points, digits, scene.world(habit)):
                 return Outcome(right_verdict("model", name, theirs, f"pi is taken as {pi:.8g}"), [p for p, _ in scene.world(habit)])
         found = self.model_mistakes(theirs.points, digits)
+        untouched = self.scene.untouched()
+        if not found and not differs(theirs.points, digits, ((p, NO_UNITS) for p in untouched)):
+            verdict = self.wrong("model", name, theirs, difference(theirs.points, digits, zip(self.exact_world, slacks)))
+            verdict.causes = [Cause("", "The points are those of the scene: no transformation is carried out")]
+            return Outcome(verdict, untouched)
         if not found and theirs.digits.are_too_few:
             return Outcome(self.undecided("model", name, theirs))
         result = difference(theirs.points, digits, zip(self.exact_world, slacks))
@@ -147,7 +154,9 @@ class StageJudge:
         causes = [cause_of(f"{stage}/{mistake}", self.detail(mistake)) for mistake in found]
         if not found and theirs.digits.are_too_few:
             return Outcome(self.undecided(stage, name, theirs))
-        if not found:
+        if not found and is_by(IDENTITY, False):
+            causes, found = [Cause("", UNCHANGED)], {UNCHANGED: (IDENTITY, False)}
+        elif not found:
             causes, found = self.changed_elements(stage, ours, divides, is_by)
         verdict = self.wrong(stage, name, theirs, min((difference(theirs.points, digits, matrix_images(ours, divides, reading, reach))
                                                        for reading in readings), key=lambda result: result.differing))

@@ -26,6 +26,12 @@ def default_folder():
     return SOURCE / "build/release/bin"
 
 
+def without_inner_location(note, folder):
+    """A note of a tool without the line of a text in `folder`, which the user never sees."""
+    found = re.search(rf"{re.escape(str(folder))}/[^:]*:\d+:\d+: ", note)
+    return note[:found.start()] + re.sub(r"\bof this (vertex|light)\b", r"of a \1", note[found.end():]) if found else note
+
+
 def checked(done, tool):
     """The finished run of a tool, or its message as a ToolFailure."""
     if done.returncode != 0:

@@ -47,11 +47,11 @@ def least_wrong(rows, limits):
 
 
 def cheapest(rows, are_times_too_short):
-    """The row with the least CPU time. Of those that take as long by the quartiles, within 3 %, the one with the fewest bytes; then
-    the most exact, and the nearest to the default."""
+    """The row with the least CPU time, and those that take as long by the quartiles, within 3 %: of these it has the fewest bytes; then
+    it is the most exact, and the nearest to the default."""
     least = min(rows, key=lambda row: row.ratio.median)
     alike = [row for row in rows if are_times_too_short or row.ratio.first <= ALIKE * least.ratio.third]
-    return min(alike, key=lambda row: (row.size, row.wrong, row.vertex_error, row.setting != DEFAULT, len(str(row.setting))))
+    return min(alike, key=lambda row: (row.size, row.wrong, row.vertex_error, row.setting != DEFAULT, len(str(row.setting)))), alike
 
 
 def nearest(rows, limits):

@@ -1,20 +1,11 @@
 """The table and the sentences of trade."""
+from lib.figures import number
 from lib.table import table
 
 HEADER = ("CPU time", "over default", "bytes", "wrong pixels", "neighbors", "vertex error", "digits lost")
 
 TOO_SHORT = """The default's run takes hardly longer: these times tell nothing about the settings, and the one with the fewest bytes
 counts as the cheapest. Try a larger scene."""
-
-
-def number(value):
-    """Two digits, with a power of ten only if that is shorter."""
-    if value == 0:
-        return "0"
-    if 1e-3 <= abs(value) < 1e5:
-        return f"{value:.{max(0, 1 - int(f'{value:e}'.split('e')[1]))}f}"
-    mantissa, exponent = f"{value:.1e}".split("e")
-    return f"{mantissa}e{int(exponent)}"
 
 
 def seconds(value):
@@ -61,9 +52,26 @@ def summary(row):
     return f"{row.setting}: {row.ratio.median:.2f} times the default's CPU time, {pixels(row)} wrong pixel{'s' * (row.wrong != 1)}"
 
 
-def answer(chosen, is_met, limits, command_line):
+def decided_by(chosen, alike):
+    """Why this one among those that cost the same; empty if it is alone."""
+    others = [row for row in alike if row is not chosen]
+    if not others:
+        return ""
+    told = f"\n{len(others)} other setting{'s' * (len(others) > 1)} cost{'s' * (len(others) == 1)} the same, as far as these times tell: "
+    least = [row for row in others if row.size == chosen.size]
+    if not least:
+        return told + "this one has the fewest bytes."
+    if not (least := [row for row in least if row.wrong == chosen.wrong]):
+        return told + "of those with as few bytes, this one has the fewest wrong pixels."
+    if all(row.vertex_error > chosen.vertex_error for row in least):
+        return told + "of those with as few bytes and wrong pixels, this one has the smallest vertex error."
+    return told + "of those with as few bytes and as exact, this one is nearest to the default."
+
+
+def answer(chosen, is_met, alike, limits, command_line):
+    """`alike` are the rows that cost the same as the chosen one, by what was measured."""
     first = f"The cheapest with {asked(limits)}:" if is_met else f"No setting has {asked(limits)}. The nearest is"
-    return f"{first}\n{summary(chosen)}\n\n    {command_line}"
+    return f"{first}\n{summary(chosen)}{decided_by(chosen, alike)}\n\n    {command_line}"
 
 
 def report(rows, times, covered):

@@ -1,29 +1,14 @@
 """The CPU time of the pipe with each setting."""
-import dataclasses
 import random
 import statistics
 import time
 
+from lib.figures import quartiles
 from trade_parts.pipe import DEFAULT
 
 SECONDS = 30  # for all rounds together, if their number is not given
 LEAST_ROUNDS, MOST_ROUNDS = 3, 25
 EMPTY = "empty"
-
-
-@dataclasses.dataclass(frozen=True)
-class Quartiles:
-    first: float
-    median: float
-    third: float
-
-    @property
-    def spread(self):
-        return self.third - self.first
-
-
-def quartiles(values):
-    return Quartiles(*statistics.quantiles(values, n=4, method="inclusive")) if len(values) > 1 else Quartiles(*3 * values)
 
 
 class Times:

@@ -3,6 +3,7 @@
 
 usage: conform_test.py BIN_DIR SOURCE_DIR
 """
+import contextlib
 import json
 import os
 import pathlib
@@ -181,6 +182,38 @@ class Runner(unittest.TestCase):
         tests = [line for line in lines if not line.startswith("#")]
         self.assertEqual([re.match(r"(not )?ok (\d+) - project/[a-z0-9-]+( # (SKIP|TODO) .+)?$", line)[2] for line in tests],
             [str(i + 1) for i in range(len(CASES["project"]))])
+
+    def on_terminal(self, *words):
+        """What conform shows where stdout is a terminal."""
+        try:
+            master, terminal = os.openpty()
+        except OSError as error:
+            self.skipTest(f"no pseudo-terminal: {error.strerror}")
+        with open(master, "rb", buffering=0) as screen:
+            process = subprocess.Popen([sys.executable, PACK / "conform", *map(str, words)], stdout=terminal)
+            os.close(terminal)
+            shown = b""
+            with contextlib.suppress(OSError):  # the terminal is gone
+                while piece := screen.read(1000):
+                    shown += piece
+            return process.wait(), shown.decode().replace("\r", "")
+
+    def test_shows_people_a_verdict_first_and_last(self):
+        words = "--stage", "model", "--only", "stack-*", "--assignment"
+        count = sum(not case.words("needs") for case in CASES["model"] if case.name.startswith("model/stack-"))
+        others = sum(case.name.startswith("model/stack-") for case in CASES["model"]) - count
+        self.assertEqual(others, 0)
+        self.assertEqual(self.on_terminal(*words, "--", BIN / "model", "--bare"), (0, f"RIGHT: all of {count} cases\n"))
+        status, shown = self.on_terminal(*words, "--", *sh(f"grep -v -e push -e pop | {BIN}/model --bare"))
+        verdict, *why, last = shown.splitlines()
+        self.assertRegex(verdict, rf"^WRONG: \d+ of {count} cases$")
+        self.assertEqual((status, last), (1, verdict))
+        self.assertIn("  pop is ignored.", why)
+        self.assertEqual([line for line in why if line.startswith(("#", "ok", "not ok", "TAP"))], [])
+
+    def test_shows_tap_on_a_terminal_if_asked_for(self):
+        status, shown = self.on_terminal("--tap", "--stage", "model", "--only", "translate-x", "--", BIN / "model")
+        self.assertEqual((status, shown), (0, "TAP version 13\n1..1\nok 1 - model/translate-x\n#\n# 1 right, 0 wrong\n"))
 
     def test_writes_json(self):
         with tempfile.TemporaryDirectory() as folder:

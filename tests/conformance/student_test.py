@@ -120,6 +120,7 @@ PROJECT = {
     "z-row-sign": (X, Y, -1.25),
     "w-is-plus-z": (-X, -Y, -Z),
     "last-element-is-one": (0.8 * X, 0.8 * Y, 0.8 * Z),
+    "depth-is-linear": (X, Y, 2),  # 2 (4 - 1) / (3 - 1) - 1
     "no-divide": (4 * X, 4 * Y, 4 * Z),
 }
 

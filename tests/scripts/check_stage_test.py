@@ -80,9 +80,33 @@ class Program(ToolTest):
         self.assertEqual((done.stdout, done.returncode), ("scene: right\n", 0))
 
     def test_a_program_that_fails_is_told(self):
-        self.assertEqual(self.told("view", "echo no such matrix >&2; exit 3"), "scene: wrong: its exit status is 3: no such matrix\n")
+        self.assertEqual(self.told("view", "echo no such matrix >&2; exit 3"),
+                         "scene: wrong: its exit status is 3\n  its stderr:\n    no such matrix\n")
         self.assertEqual(self.told("view", "kill -9 $$"), "scene: wrong: it was ended by signal 9\n")
-        self.assertEqual(self.told("view", "exec true"), "scene: wrong: there is no triangle in it\n  cause: none of those known\n")
+
+    def test_a_traceback_is_shown(self):
+        told = self.told("view", "exec python3 -c 'def half(x): return x / 0\nhalf(1)'")
+        self.assertRegex(told, r"^scene: wrong: its exit status is 1\n  its stderr:\n    Traceback .*\n(    .*\n)+    ZeroDivisionError: .*\n$")
+
+    def test_a_long_stderr_is_kept_in_a_file(self):
+        told = self.told("view", "seq 1000 >&2; exit 1")
+        self.assertIn("  its stderr, the last 10 of 1000 lines:\n    991\n", told)
+        path = pathlib.Path(re.search("  all of it: (.*)\n$", told)[1])
+        self.addCleanup(path.unlink)
+        self.assertEqual(path.read_text(), "".join(f"{i}\n" for i in range(1, 1001)))
+
+    def test_what_a_wrong_program_noted_is_shown(self):
+        told = self.told("view", 'echo "no up vector" >&2; exec "$BIN/view" --eye 0 0 0 --look -2.7 -4.2 -6.9')
+        self.assertIn("  its stderr:\n    no up vector\n", told)
+        self.assertEqual(self.told("view", 'echo busy >&2; exec "$BIN/view"', status=0), "scene: right\n")
+
+    def test_an_empty_output_has_a_cause(self):
+        self.assertEqual(self.told("view", "exec true"), "scene: wrong: it is empty\n  cause: It wrote nothing\n")
+        self.assertIn("  cause: It wrote nothing\n", self.told("zbuf", "exec true"))
+
+    def test_an_unchanged_input_has_a_cause(self):
+        for stage in ("model", "view", "project", "zbuf"):
+            self.assertIn("  cause: It wrote its input unchanged\n", self.told(stage, "exec cat"))
 
     def test_time_is_limited_and_what_it_started_ends(self):
         begin = time.monotonic()
@@ -105,6 +129,15 @@ class Program(ToolTest):
             done = check(*words)
             self.assertEqual(done.returncode, 2)
             self.assertIn(message, done.stderr)
+
+    def test_what_cannot_be_started_is_no_verdict(self):
+        pathlib.Path("plain").write_text("no program\n")
+        pathlib.Path("empty").write_text("print(1)\n")
+        pathlib.Path("empty").chmod(0o755)
+        for word, reason in (("./none", "No such file or directory"), ("./plain", "Permission denied; chmod +x makes a file a program"),
+                             ("./empty", "Exec format error; a script begins with a line like #!/usr/bin/env python3")):
+            done = check("view", "--scene", "scene", "--", word)
+            self.assertEqual((done.returncode, done.stdout, done.stderr), (2, "", f"check-stage: cannot run {os.path.abspath(word)}: {reason}\n"))
 
     def test_a_scene_that_is_refused_is_a_message(self):
         pathlib.Path("scene").write_text("1 2\n")

@@ -430,7 +430,7 @@ class FiveFiles(InputTest):
 class Causes(InputTest):
     """Adding the eye instead of subtracting it moves every point by the same vector."""
     SCENE = "{}\n{}\n0 1 0\n60 1 1 100\ntriangle\n{}\nend\n"
-    FLIPPED = "The third row of the rotation is l in place of -l"
+    FLIPPED = "The third row of the rotation is l, the direction of the look, in place of -l"
     ADDED = "The eye is added in place of subtracted"
 
     def causes(self, points, eye="0 0 2", look="0 0 0", added=True):

@@ -20,47 +20,7 @@ from lib.pictures import png, read_picture  # noqa: E402
 
 SAMPLE = SOURCE / "samples/tilted-camera"
 SCENE = (SAMPLE / "scene.txt").read_text()
-# No two mistakes do the same to it.
-WIDE = """3 4 7
-0.3 -0.2 0.1
-0.2 1 0.1
-50 1.3 1 50
-push
-rotate
-35 1 2 3
-triangle
--1 -1 -1
-1 -1 -0.5
-0 1.2 0.3
-push
-push
-translate
-0.5 0.25 0.75
-scale
-0.5 1.5 0.75
-triangle
--1 0 0
-1 0 0.5
-0 1 -0.5
-pop
-triangle
-0 0 1
-0.5 0.5 1
--0.5 0.5 1.2
-pop
-translate
--1 0 0
-triangle
--0.5 -0.5 0.5
-0.7 -0.6 0.4
-0.1 0.8 0.2
-pop
-triangle
--3 -1 -3
-3 -1 -3
-0 -1 2
-end
-"""
+WIDE = student.SCENE
 TRIANGLE = "0.1000000 0.2000000 0.3000000\n1.0000000 0.0000000 0.5000000\n0.0000000 1.0000000 0.7000000\n\n"
 
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """README.md and the pages of docs/ are true: every command of a console block prints what it shows, links lead somewhere, tables
-are the measured ones, and each page and table is listed in docs/README.md with what keeps it true.
+are the measured ones, and each page and table is listed in docs/upkeep.md with what keeps it true.
 
 usage: docs_test.py BIN_DIR SOURCE_DIR [UNITTEST ARGUMENT...]
 
@@ -21,6 +21,7 @@ del sys.argv[1:3]
 
 README = SOURCE / "README.md"
 INDEX = SOURCE / "docs/README.md"
+UPKEEP = SOURCE / "docs/upkeep.md"
 PAGES = [README, SOURCE / "CONTRIBUTING.md", *sorted((SOURCE / "docs").glob("*.md"))]
 OTHER_PAGES = [SOURCE / "CHANGELOG.md", *(SOURCE / room / "README.md" for room in ("libpipeline", "scripts", "tests/proofs"))]
 BLOCK = re.compile(r"^```.*?^```$", re.MULTILINE | re.DOTALL)
@@ -71,8 +72,8 @@ def marked_tables(text):
 
 
 def listed(heading):
-    """{first cell: the rest of the row} of the index's table under a heading."""
-    section = re.search(rf"^## {re.escape(heading)}\n(.*?)(?=^## |\Z)", INDEX.read_text(), re.MULTILINE | re.DOTALL)[1]
+    """{first cell: the rest of the row} of the table under a heading of the list."""
+    section = re.search(rf"^## {re.escape(heading)}\n(.*?)(?=^## |\Z)", UPKEEP.read_text(), re.MULTILINE | re.DOTALL)[1]
     rows = re.findall(r"^\| (.+?) \|(.*)\|$", section, re.MULTILINE)
     return {cell: rest for cell, rest in rows if not set(cell) <= set("-: ")}
 
@@ -119,7 +120,7 @@ class Pages(unittest.TestCase):
 
 
 class KeptTrue(unittest.TestCase):
-    """The lists of docs/README.md."""
+    """The lists of docs/upkeep.md."""
 
     def assert_keepers(self, item, words):
         """The words name at least one test or script, and all of them are there."""

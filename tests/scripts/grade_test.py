@@ -81,6 +81,15 @@ class ClassTest(ToolTest):
 
 
 class Results(ClassTest):
+    def test_swapped_folders_are_told(self):
+        self.add("anna", files=("scene.txt", *FILES))  # one that has its scene, too
+        self.add("ben")
+        done = subprocess.run([SOURCE / "scripts/grade", "tests", "hand-ins"], capture_output=True, text=True, timeout=120,
+                              env={**os.environ, "BIN": str(BIN)})
+        self.assertEqual((done.returncode, done.stderr), (2, "grade: tests holds tests, folders with a scene.txt: expected the hand-ins first, "
+                                                             "grade HANDINS TESTS\n"))
+        self.assertFalse(pathlib.Path("graded").exists())
+
     def test_points_pages_and_table(self):
         self.add("anna")
         self.add("ben", mistake=True)
@@ -91,8 +100,11 @@ class Results(ClassTest):
         self.assertEqual(done.stdout, "| hand-ins | stage   | what                                 |\n"
                                       "| -------- | ------- | ------------------------------------ |\n"
                                       "| 2        | project | The coordinates are not divided by w |\n"
-                                      "| 1        | zbuf    | not handed in                        |\n\n3 hand-ins, 1 right in all tests.\n")
-        self.assertEqual(pathlib.Path("graded/mistakes.md").read_text(), done.stdout)
+                                      "| 1        | zbuf    | not handed in                        |\n\n3 hand-ins, 1 right in all tests.\n\n"
+                                      "Written to graded: grades.csv, mistakes.md and, for each hand-in, page.html and results.json, "
+                                      "such as graded/1-anna/page.html.\n")
+        self.assertTrue(pathlib.Path("graded/1-anna/page.html").is_file())
+        self.assertEqual(pathlib.Path("graded/mistakes.md").read_text(), done.stdout.partition("\nWritten")[0])
         results = self.results(2)
         self.assertEqual((results["score"], [(test["name"], test["score"], test["max_score"]) for test in results["tests"]]), (0.8, [("square", 0.8, 1.0)]))
         self.assertIn(DIVIDE, results["tests"][0]["output"])

@@ -28,49 +28,7 @@ from judge_parts.report import sentence  # noqa: E402
 from lib.pictures import read_picture  # noqa: E402
 from lib.pipe_tools import Tools  # noqa: E402
 
-# Two triangles that meet, one beyond, one without area; nested pushes, and numbers that no rule can mistake for another's.
-SCENE = """3 4 7
-0.3 -0.2 0.1
-0.2 1 0.1
-50 1.3 1 50
-push
-rotate
-35 1 2 3
-triangle
--1 -1 -1
-1 -1 -0.5
-0 1.2 0.3
-push
-push
-translate
-0.5 0.25 0.75
-scale
-0.5 1.5 0.75
-triangle
--1 0 0
-1 0 0.5
-0 1 -0.5
-pop
-rotate
--70 0 1 1
-triangle
-0 0 1
-0.5 0.5 1
--0.5 0.5 1.2
-pop
-translate
--1 0 0
-triangle
--0.5 -0.5 0.5
-0.7 -0.6 0.4
-0.1 0.8 0.2
-pop
-triangle
--3 -1 -3
-3 -1 -3
-0 -1 2
-end
-"""
+SCENE = student.SCENE
 CONFIG = "90 80\n-0.6\n-0.5\n-1 1\n"
 NAMES = ("stage1.txt", "stage2.txt", "stage3.txt", "z_buffer.txt", "out.bmp")
 
@@ -388,6 +346,24 @@ class Wrong(HandIn):
         self.assertEqual(verdict.files[1].verdict, "wrong")
         self.assertRegex(verdict.files[1].cause, rf"^Row 1, column 2 of the matrix is {m[0][2]:.6g}, not -0.16246\d$")
 
+    def test_points_that_are_passed_on_unchanged_have_a_cause(self):
+        self.stages()
+        stage1, stage2 = (pathlib.Path(name).read_text() for name in NAMES[:2])
+        points = re.findall(r"(?<=triangle\n)(.+\n.+\n.+\n)", SCENE)
+        for file, text, cause in ((0, "\n".join(points), "The points are those of the scene: no transformation is carried out"),
+                                  (1, stage1, "The points are those of the stage before, unchanged"),
+                                  (2, stage2, "The points are those of the stage before, unchanged")):
+            with self.subTest(NAMES[file]):
+                self.stages()
+                pathlib.Path(NAMES[file]).write_text(text)
+                self.assertEqual(self.verdict(config=False).files[file].cause, cause)
+
+    def test_a_depth_in_even_steps_fits_no_matrix(self):
+        self.hand_in(mistake="project/depth-is-linear")
+        verdict = self.assert_verdicts(["right", "right", "wrong", "right", "right"], 1)
+        self.assertEqual([cause.name for cause in verdict.files[2].causes], ["project/depth-is-linear"])
+        self.assertEqual(str(verdict.files[2].matrices), "  no 4 x 4 matrix gives these numbers")
+
     def test_numbers_of_nothing_known_have_no_cause(self):
         self.hand_in()
         for name in NAMES[:3]:
@@ -473,7 +449,7 @@ class FollowOn(HandIn):
                     pathlib.Path(later).write_bytes(b"")
                 self.draw()
                 verdict = self.assert_verdicts(["wrong" if i == kind else "right" for i in range(5)], 1)
-                self.assertEqual(verdict.files[kind].remarks, ["there is no triangle in it"])
+                self.assertEqual(verdict.files[kind].remarks, ["it is empty"])
 
     def test_a_scene_without_triangles_is_drawn_right(self):
         self.scene = "0 0 5\n0 0 0\n0 1 0\n60 1 1 10\nend\n"
@@ -593,6 +569,14 @@ class Fit(unittest.TestCase):
         camera = (3, 4, 7), (0.3, -0.2, 0.1), (0.2, 1, 0.1)
         found = self.compared(view_matrix(*camera, "eye-added"), view_matrix(*camera), False)
         self.assertEqual(found.differing, {(0, 3), (1, 3), (2, 3)})
+
+    def test_what_no_matrix_gives_is_not_taken_for_one(self):
+        view = view_matrix((3, 4, 7), (0.3, -0.2, 0.1), (0.2, 1, 0.1))
+        for divides, ours in ((True, perspective_matrix(50, 1.3, 1, 50)), (False, view)):
+            images = [image(ours, p, divides) for p in self.POINTS]
+            bent = [(x, y, z + 0.1 * p[0] * p[2]) for p, (x, y, z) in zip(self.POINTS, images)]
+            found = fit.compare(self.POINTS, bent, [(1e-7,) * 3] * len(bent), ours, divides)
+            self.assertIsInstance(found, fit.NoMatrix)
 
     def test_points_in_a_plane_do_not_determine_it(self):
         flat = [(x, y, 2.0) for x in (-1.0, 0.5, 2.0) for y in (-0.7, 1.1, 3.0)]

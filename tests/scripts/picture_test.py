@@ -10,7 +10,11 @@ import sys
 import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "tools"))
-from toolbox import BIN, SOURCE, ToolTest, pipe, run  # noqa: E402
+from toolbox import BIN, SOURCE, ToolTest, expect_mesh2scene, pipe, run  # noqa: E402
+
+
+def setUpModule():  # noqa: N802
+    expect_mesh2scene()
 
 
 def picture(*words):

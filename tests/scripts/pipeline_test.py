@@ -126,7 +126,11 @@ class Prefix(ToolTest):
     def test_an_unknown_command_is_refused_with_the_nearest_word(self):
         for word, hint in (("shwo", "show"), ("sow", "show"), ("shows", "show"), ("hlep", "help"), ("modle", "model")):
             self.refuses([word], f"expected a command, found '{word}' (did you mean {hint}?) (try pipeline help)")
-        for word in ("", "x", "-v", "--", "lib", "README", "helper.py", "../bin/pipeline", "x" * 5000, "sho\\w", "sho\nw"):
+        for name in ("check-stage", "make-chess", "make-torus"):
+            self.add(name, ECHO)
+        for word, hint in (("check", "check-stage"), ("make", "make-chess or make-torus"), ("mak", "make-chess or make-torus")):
+            self.refuses([word], f"expected a command, found '{word}' (did you mean {hint}?) (try pipeline help)")
+        for word in ("", "x", "ma", "-v", "--", "lib", "README", "helper.py", "../bin/pipeline", "x" * 5000, "sho\\w", "sho\nw"):
             self.refuses([word, "1"], f"expected a command, found '{word}' (try pipeline help)".replace("\n", "?"))
         self.refuses(["help", "shoe"], "expected a command, found 'shoe' (did you mean show?) (try pipeline help)")
 

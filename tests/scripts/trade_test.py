@@ -17,13 +17,14 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "tools")
 from toolbox import BIN, CAMERA, SOURCE, ToolTest, pipe, run  # noqa: E402
 
 sys.path.insert(0, str(SOURCE / "scripts"))
+from lib.figures import Quartiles  # noqa: E402
 from lib.owners import NOBODY, owners, write_marked  # noqa: E402
-from lib.pipe_tools import Tools  # noqa: E402
+from lib.pipe_tools import Tools, without_inner_location  # noqa: E402
 from trade_parts.choice import Limits, Row, cheapest, least_wrong, nearest  # noqa: E402
 from trade_parts.errors import Screen, digits_left, vertex_pairs  # noqa: E402
 from trade_parts.pipe import DEFAULT, Pipe, Setting, settings  # noqa: E402
-from trade_parts.report import about_times  # noqa: E402
-from trade_parts.timing import EMPTY, Quartiles, Times  # noqa: E402
+from trade_parts.report import about_times, decided_by  # noqa: E402
+from trade_parts.timing import EMPTY, Times  # noqa: E402
 
 SETTINGS = 9  # of each coverage rule
 # Two walls 1e-6 apart, the hidden one first, seen from 3 away: in NDC their z differ by 2e-8 or so, less than seven digits tell.
@@ -219,23 +220,37 @@ class Choice(unittest.TestCase):
         self.assertEqual(least_wrong(self.rows, Limits(percent_wrong=7)).percent_wrong, 7)
 
     def test_the_cheapest_takes_the_least_time_and_of_equals_the_fewest_bytes(self):
-        self.assertIs(cheapest(self.rows, False), self.fast)
+        self.assertIs(cheapest_of(self.rows, False), self.fast)
         small = row(Setting("9"), (0.95, 1.02, 1.1), 70)
-        self.assertIs(cheapest([*self.rows, small], False), small)
+        self.assertIs(cheapest_of([*self.rows, small], False), small)
         large = row(Setting("9"), (1.04, 1.05, 1.06), 70)
-        self.assertIs(cheapest([*self.rows, large], False), self.fast)
+        self.assertIs(cheapest_of([*self.rows, large], False), self.fast)
+
+    def test_the_answer_tells_what_decided_among_equals(self):
+        plain = row()
+        self.assertEqual(decided_by(plain, [plain]), "")
+        for other, told in ((row(size=101), "1 other setting costs the same, as far as these times tell: this one has the fewest bytes."),
+                            (row(wrong=2), "1 other setting costs the same, as far as these times tell: of those with as few bytes, this one has the fewest wrong pixels."),
+                            (row(Setting(depth="f32")), "1 other setting costs the same, as far as these times tell: of those with as few bytes and as exact, this one is nearest to the default.")):
+            chosen, alike = cheapest([other, plain], True)
+            self.assertIs(chosen, plain)
+            self.assertEqual(decided_by(chosen, alike), "\n" + told)
 
     def test_times_that_tell_nothing_do_not_count(self):
-        self.assertEqual(cheapest([self.slow, row()], True), row())
-        self.assertIs(cheapest([row(size=300), self.slow], True), self.slow)
+        self.assertEqual(cheapest_of([self.slow, row()], True), row())
+        self.assertIs(cheapest_of([row(size=300), self.slow], True), self.slow)
 
     def test_of_settings_that_are_alike_the_default_is_taken(self):
         plain = row()
-        self.assertIs(cheapest([row(Setting(depth="f32")), plain, row(Setting(depth="u24"))], False), plain)
+        self.assertIs(cheapest_of([row(Setting(depth="f32")), plain, row(Setting(depth="u24"))], False), plain)
 
     def test_the_nearest_misses_least(self):
         self.assertEqual(nearest(self.rows, Limits(0, 2)).setting, Setting("exact"))
         self.assertEqual(nearest(self.rows, Limits(0, 0.5)).setting, DEFAULT)
+
+
+def cheapest_of(rows, are_times_too_short):
+    return cheapest(rows, are_times_too_short)[0]
 
 
 class Clock(unittest.TestCase):
@@ -278,6 +293,15 @@ class Errors(unittest.TestCase):
             b.write_text(text((1, 2), (2, 2), (3, 2), (5, 2), (6, 2)))
             pairs = [(x.decode(), y.decode()) for x, y in vertex_pairs(a, b)]
         self.assertEqual(pairs, [(f"{n} 1 {i}\n", f"{n} 2 {i}\n") for n in (2, 5) for i in range(3)])
+
+
+class Notes(unittest.TestCase):
+    def test_the_line_of_a_text_that_the_user_never_sees_is_left_out(self):
+        uncertain = "and of 2 more are not certain: numbers cancel here beyond 31 digits"
+        self.assertEqual(without_inner_location(f"view: note: /tmp/x/model --digits exact.txt:4:1: the digits of this vertex {uncertain}", "/tmp/x"),
+                         f"view: note: the digits of a vertex {uncertain}")
+        for note in (f"model: note: scene.txt:4:1: the digits of this vertex {uncertain}", "zbuf: note: the picture is empty: no triangle came"):
+            self.assertEqual(without_inner_location(note, "/tmp/x"), note)
 
 
 class CommandLines(unittest.TestCase):

@@ -10,18 +10,18 @@ import struct
 import sys
 import unittest
 
-from toolbox import BIN, SOURCE, ToolTest, pipe, run
+from toolbox import SOURCE, ToolTest, expect_mesh2scene, pipe, run
 
 sys.path.insert(0, str(SOURCE / "scripts"))
 from model_parts.formats import FORMATS  # noqa: E402
 from model_parts.shapes import SHAPES, Mesh, knot, terrain, vase  # noqa: E402
 
-if not (BIN / "mesh2scene").exists():
-    print("skipped: mesh2scene has not been built, as assimp is missing")
-    sys.exit(77)
-
 BOX = "".join(f"v {x} {y} {z}\n" for z in (0, 1) for y in (0, 1) for x in (0, 1)) + "".join(
     f"f {face}\n" for face in ("1 3 4 2", "5 6 8 7", "1 2 6 5", "3 7 8 4", "1 5 7 3", "2 4 8 6"))
+
+
+def setUpModule():  # noqa: N802
+    expect_mesh2scene()
 
 
 def scene_of(name, *options):

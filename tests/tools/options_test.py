@@ -153,7 +153,7 @@ class Answers(ToolTest):
             self.assertEqual([line for line in run(tool, "--help").stdout.decode().split("\n") if len(line) > 100 or line != line.rstrip()], [])
 
     def test_help_has_its_options_in_groups(self):
-        groups = {"model": ["Numbers", "Output"], "view": ["Numbers", "Camera", "Output"], "project": ["Numbers", "Projection", "Clipping"],
+        groups = {"model": ["Numbers", "Output"], "view": ["Numbers", "Camera", "Output"], "project": ["Numbers", "Projection", "Clipping", "Output"],
                   "zbuf": ["Output", "Pixels", "Color and light", "Debugging"]}
         for tool in TOOLS:
             found = re.findall(r"^(\w[\w ]*):$", run(tool, "--help").stdout.decode(), re.M)

@@ -62,6 +62,12 @@ def stage_texts(scene=SCENE, *model_options):
     return stage1, stage2, pipe(["project"], stdin=stage2)
 
 
+def expect_mesh2scene():
+    """Skips the tests of a module where the command has not been built."""
+    if not (BIN / "mesh2scene").exists():
+        raise unittest.SkipTest("mesh2scene has not been built, as assimp is missing")
+
+
 def pseudo_terminal():
     """The two ends of a new pseudo-terminal; skips the test if the system has none, as in a container without /dev/pts."""
     try:

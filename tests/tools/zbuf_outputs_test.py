@@ -36,6 +36,30 @@ class Size(OutputTest):
         for operands in ([], ["-"]):
             self.assertEqual(self.assert_zbuf("--size=17x9", *operands, stdin=pathlib.Path("stage3.txt").read_text()), expected[0])
 
+    def test_keeps_the_limits_of_a_config(self):
+        pathlib.Path("config.txt").write_text("34 18\n-0.5\n-0.7\n-0.9 0.9\n")
+        pathlib.Path("smaller.txt").write_text("17 9\n-0.5\n-0.7\n-0.9 0.9\n")
+        expected = self.assert_zbuf("smaller.txt", "stage3.txt")
+        text = pathlib.Path("stage3.txt").read_text()
+        self.assertEqual(self.assert_zbuf("--size", "17x9", "config.txt", "stage3.txt"), expected)
+        self.assertEqual(self.assert_zbuf("--size", "17x9", "config.txt", "-", stdin=text), expected)
+        self.assertEqual(self.assert_zbuf("config.txt", "--size", "17x9", stdin=text), expected)
+
+    def test_notes_a_picture_of_another_shape_than_the_configs(self):
+        pathlib.Path("config.txt").write_text("400 300\n-1\n-0.75\n-1 1\n")
+        done = run("zbuf", "config.txt", "--size", "100x100", "stage3.txt")
+        self.assertEqual((done.returncode, done.stderr.decode()), (0, "zbuf: note: a square of the config's 400 x 300 picture is drawn 0.75 times as wide as high: "
+                                                                      "--size 100x75 keeps its shape\n"))
+        self.assert_zbuf("config.txt", "--size", "101x75", "stage3.txt")  # a fraction of a pixel is no stretch
+        self.assert_zbuf("--size", "100x100", "stage3.txt")
+
+    def test_a_single_operand_that_is_no_config_is_the_input(self):
+        with open("stage3.txt") as text:
+            done = subprocess.run(["bash", "-c", '"$0" --size 17x9 -o - <(cat)', *command("zbuf")], stdin=text, capture_output=True)
+        self.assertEqual((done.returncode, done.stderr, done.stdout), (0, b"", self.assert_zbuf("--size", "17x9", "-o", "-", "stage3.txt")))
+        done = run("zbuf", "--size", "17x9", "missing.txt")
+        self.assertEqual((done.returncode, done.stderr.decode()), (1, "zbuf: cannot open missing.txt: No such file or directory\n"))
+
     def test_has_the_largest_pictures_of_a_config(self):
         done = run("zbuf", "--size", "65535x1", "-o", "-")
         self.assertEqual((done.stdout[:14], done.stderr.decode(), done.returncode), (b"P6\n65535 1\n255", NO_TRIANGLE, 0))

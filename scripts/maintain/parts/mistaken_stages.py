@@ -133,6 +133,8 @@ def project(text, mistake=None):
     m = [[x_scale, 0, 0, 0], [0, y_scale, 0, 0], [0, 0, -sign * (far + near) / (far - near), -sign * two * far * near / (far - near)],
          [0, 0, 1 if mistake == "project/w-is-plus-z" else -1, 1 if mistake == "project/last-element-is-one" else 0]]
     points = [moved(m, p) for p in vertices(text)]
+    if mistake == "project/depth-is-linear":
+        points = [(x, y, w * (2 * (-p[2] - near) / (far - near) - 1), w) for p, (x, y, _, w) in zip(vertices(text), points)]
     return stage_text([(x, y, z) if mistake == "project/no-divide" else (x / w, y / w, z / w) for x, y, z, w in points])
 
 

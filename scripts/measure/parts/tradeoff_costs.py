@@ -8,6 +8,7 @@ import statistics
 import subprocess
 import tempfile
 
+from lib.figures import quartiles
 from parts.instructions import callgrind_count, no_count_at_all
 from parts.measuring import run_pipe
 from parts.tradeoff_setting import DEFAULT, FINEST, TOOLS, Setting
@@ -16,9 +17,9 @@ from parts.tradeoff_setting import DEFAULT, FINEST, TOOLS, Setting
 CLOCK = 1e-6  # seconds, the resolution of CPU times: what a few triangles add may be less
 
 
-def quartiles(name, values):
-    low, median, high = statistics.quantiles(values, n=4, method="inclusive")
-    return {f"{name}_q1": low, name: median, f"{name}_q3": high}
+def quartile_columns(name, values):
+    found = quartiles(values)
+    return {f"{name}_q1": found.first, name: found.median, f"{name}_q3": found.third}
 
 
 class Pipes:
@@ -53,8 +54,8 @@ def times(pipes, settings, rounds):
         # The smallest memory: which pages of a file are mapped at the end of a run varies.
         ratios = [own / base for own, base in zip(added[setting]["cpu_seconds"], added[DEFAULT]["cpu_seconds"])]
         return {"empty_cpu_seconds": statistics.median(run.cpu_seconds for run in empty_runs[setting]),
-                **quartiles("cpu_seconds", added[setting]["cpu_seconds"]), **quartiles("wall_seconds", added[setting]["wall_seconds"]),
-                **quartiles("ratio", ratios),
+                **quartile_columns("cpu_seconds", added[setting]["cpu_seconds"]), **quartile_columns("wall_seconds", added[setting]["wall_seconds"]),
+                **quartile_columns("ratio", ratios),
                 "empty_mib": min(run.mib for run in empty_runs[setting]), "mib": min(run.mib for run in runs[setting])}
 
     return {setting: columns(setting) for setting in settings}

@@ -1,4 +1,5 @@
 """The tables of scripts/measure/tradeoff."""
+from lib import figures
 from parts.tradeoff_epsilon import DISTANCES
 from parts.tradeoff_epsilon import SETTINGS as EPSILONS
 
@@ -31,16 +32,8 @@ def code(setting):
 
 
 def number(value, digits=2):
-    """A few digits, with a power of ten only if that is shorter."""
-    if value is None:
-        return ""
-    if value == 0:
-        return "0"
-    if 1e-3 <= abs(value) < 1e5:
-        decimals = max(0, digits - 1 - int(f"{value:e}".split("e")[1]))
-        return f"{value:.{decimals}f}"
-    mantissa, exponent = f"{value:.{digits - 1}e}".split("e")
-    return f"{mantissa}e{int(exponent)}"
+    """As figures.number; an empty cell for what was not measured."""
+    return "" if value is None else figures.number(value, digits)
 
 
 def percent(share):

@@ -19,7 +19,7 @@ import time
 from parts.instructions import no_count_at_all
 from parts.measuring import run_pipe
 from parts.tradeoff_cost_scenes import cost_scenes
-from parts.tradeoff_costs import quartiles
+from parts.tradeoff_costs import quartile_columns
 from parts.tradeoff_setting import TOOLS
 
 INSTRUCTIONS_A_CYCLE, CYCLES_A_MISPREDICTION, BYTES_A_MISS = 4, 15, 64
@@ -216,7 +216,7 @@ def measured(tools, baselines, rounds, quick):
             small = {row.name: counted(row, folder / "small") for row in rows_of(tools, baselines, folder / "small", scenes, 1 if quick else 25) if row.sources}
         speed = {key: statistics.median(each[key] for each in speeds) for key in speeds[0]}
         table = [{"name": row.name, "unit": row.unit, "count": row.count, "text_bytes": row.text_bytes, "rounds": rounds,
-                  **quartiles("cpu_seconds", [run.cpu_seconds for run in runs[row.name]]), **quartiles("wall_seconds", [run.wall_seconds for run in runs[row.name]]),
+                  **quartile_columns("cpu_seconds", [run.cpu_seconds for run in runs[row.name]]), **quartile_columns("wall_seconds", [run.wall_seconds for run in runs[row.name]]),
                   "system_seconds": statistics.median(run.system_seconds for run in runs[row.name]), "mib": min(run.mib for run in runs[row.name]),
                   **small.get(row.name, {}), **speed} for row in rows]
     return table, missing

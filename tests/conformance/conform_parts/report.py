@@ -102,6 +102,22 @@ def summary(results):
     return "# " + ", ".join(words)
 
 
+def verdict(results):
+    """One sentence."""
+    right, wrong = count(results, "right"), count(results, "wrong")
+    others = len(results) - right - wrong
+    if not right + wrong:
+        return "no case was run and counted"
+    counted = f"{right + wrong} case{'s' * (right + wrong > 1)}" + (f"; {others} did not count" if others else "")
+    return f"WRONG: {wrong} of {counted}" if wrong else f"RIGHT: all of {counted}"
+
+
+def for_people(results, mistakes):
+    """The verdict, what explains it, and the verdict again, since the beginning of a long text is soon out of sight."""
+    why = [line[2:] for line in [*table(results, mistakes), *group_lines(results)]]
+    return [verdict(results), *why, "", verdict(results)] if why else [verdict(results)]
+
+
 def as_json(results, terms, mistakes):
     def entry(result):
         case, difference = result.case, result.difference

@@ -37,6 +37,12 @@ Matrix perspective(const Camera& camera) {
   return {{near / r, 0, 0, 0}, {0, near / t, 0, 0}, {0, 0, a, b}, {0, 0, w, last}};
 }
 
+/// From -1 at near to 1 at far, in even steps.
+double linear_depth(double distance, const Camera& camera) {
+  const double near = camera.numbers[camera.numbers.size() - 2], far = camera.numbers.back();
+  return 2 * (distance - near) / (far - near) - 1;
+}
+
 Matrix ortho(const Camera& camera) {
   const double l = camera.numbers[0], r = camera.numbers[1], b = camera.numbers[2], t = camera.numbers[3];
   const double near = camera.numbers[4], far = camera.numbers[5];
@@ -53,7 +59,9 @@ std::vector<Triangle> project(const std::vector<Triangle>& triangles, const Came
   std::vector<Triangle> result = triangles;
   for (Triangle& triangle : result)
     for (Vector& point : triangle.points) {
+      const double distance = -point[2];
       point = homogeneous(p, point);
+      if (mistake("project/depth-is-linear")) point[2] = point[3] * linear_depth(distance, camera);
       if (mistake("project/no-divide")) point[3] = 1;
       point = {point[0] / point[3], point[1] / point[3], point[2] / point[3]};
     }

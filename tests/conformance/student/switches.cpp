@@ -43,6 +43,7 @@ constexpr std::string_view kNames[] = {
     "project/z-row-sign",
     "project/w-is-plus-z",
     "project/last-element-is-one",
+    "project/depth-is-linear",
     "project/no-divide",
     "zbuf/no-half-pixel-in-x",
     "zbuf/no-half-pixel-in-y",
