@@ -1,0 +1,20 @@
+// No include guard: a kernel's source includes this once for each target, after
+//   #undef HWY_TARGET_INCLUDE
+//   #define HWY_TARGET_INCLUDE "path/of/this/source.cpp"
+// A source between HWY_BEFORE_NAMESPACE and HWY_AFTER_NAMESPACE is compiled for every target, the rest, in
+// `#if HWY_ONCE`, once.
+
+#ifndef PIPELINE_VECTOR_TARGETS
+#define PIPELINE_VECTOR_TARGETS
+// The targets of kernel_choice.h, each of them always compiled, because the tests compare them.
+#define HWY_DISABLED_TARGETS (~(HWY_SCALAR | HWY_NEON | HWY_SSE4 | HWY_AVX2 | HWY_AVX3))
+#define HWY_COMPILE_ALL_ATTAINABLE
+// Scalar code, not vectors of 128 bits emulated, with every compiler.
+#define HWY_BROKEN_EMU128 1
+// No kernel uses these, so no processor needs them.
+#define HWY_DISABLE_PCLMUL_AES
+#define HWY_DISABLE_F16C
+#endif
+
+#include <hwy/foreach_target.h>  // first
+#include <hwy/highway.h>
