@@ -5,7 +5,7 @@
 
 #include "libpipeline/numbers/kernel_choice.h"
 #include "libpipeline/text/eight_digits.h"
-#include "libpipeline/text/fixed_text_kernels.h"
+#include "libpipeline/text/vertex_lines.h"
 
 namespace pipeline {
 namespace {

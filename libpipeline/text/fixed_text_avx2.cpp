@@ -1,4 +1,4 @@
-#include "libpipeline/text/fixed_text_kernels.h"
+#include "libpipeline/text/vertex_lines.h"
 
 #ifdef PIPELINE_HAS_X86_KERNELS
 

@@ -4,7 +4,7 @@
 #include "libpipeline/numbers/powers_of_ten.h"
 #include "libpipeline/text/eight_digits.h"
 #include "libpipeline/text/fixed_number.h"
-#include "libpipeline/text/fixed_text_kernels.h"
+#include "libpipeline/text/vertex_lines.h"
 #include "libpipeline/text/number_printer.h"
 
 namespace pipeline {
