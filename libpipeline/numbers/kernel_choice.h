@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
-#include <span>
 #include <string_view>
 
 namespace pipeline {
 
 /// The kinds of processors that kernels are compiled for, each able to run what is compiled for those before
 /// it of its family.
-inline constexpr std::array<std::string_view, 5> kTargets = {"portable", "neon", "sse4", "avx2", "avx512"};
+inline constexpr std::array<std::string_view, 5> kTargets = {"scalar", "neon", "sse4", "avx2", "avx512"};
 
 /// A function compiled for each of kTargets; null for those of other families.
 template <typename Function>
@@ -46,19 +45,6 @@ Function chosen_kernel(const KernelTable<Function>& kernels) {
   std::size_t target = std::min<std::size_t>(limit - kTargets.begin(), kTargets.size() - 1);
   while (target > 0 && (kernels[target] == nullptr || !can_run(target))) --target;
   return kernels[target];
-}
-
-/// Chooses the kernel to use from a list that runs from "portable" to the fastest: the last, or the fastest
-/// one up to the level that the environment variable PIPELINE_KERNEL names (for tests). An unknown name has
-/// no effect.
-template <typename Kernel>
-const Kernel& chosen_kernel(std::span<const Kernel> kernels) {
-  constexpr std::array<std::string_view, 3> kNames = {"portable", "sse4", "avx2"};
-  const char* const variable = std::getenv("PIPELINE_KERNEL");
-  const auto limit = std::find(kNames.begin(), kNames.end(), variable == nullptr ? "" : variable);
-  std::size_t chosen = kernels.size() - 1;
-  while (chosen > 0 && std::find(kNames.begin(), kNames.end(), kernels[chosen].name) > limit) --chosen;
-  return kernels[chosen];
 }
 
 }  // namespace pipeline

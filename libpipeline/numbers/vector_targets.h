@@ -14,6 +14,8 @@
 // No kernel uses these, so no processor needs them.
 #define HWY_DISABLE_PCLMUL_AES
 #define HWY_DISABLE_F16C
+// On Arm, nothing is chosen at run time: every processor of 64 bits has NEON.
+#define TOOLCHAIN_MISS_SYS_AUXV_H
 #endif
 
 #include <hwy/foreach_target.h>  // first
