@@ -33,15 +33,18 @@ static_assert(kBlockColumns % kLanes == 0 &&
 
 using DoubleVector = hn::Vec<Doubles>;
 
-// The functions `store` of the depth formats.
+// The functions `store` of the depth formats; scalar code has no use for them.
 
-HWY_INLINE DoubleVector store(const DepthF64&, DoubleVector z) {
+template <typename Vector>
+HWY_INLINE Vector store(const DepthF64&, Vector z) {
   return z;
 }
-HWY_INLINE auto store(const DepthF32&, DoubleVector z) {
+template <typename Vector>
+HWY_INLINE auto store(const DepthF32&, Vector z) {
   return hn::DemoteTo(StoredDepths<DepthF32>(), z);
 }
-HWY_INLINE auto store(const DepthU24& format, DoubleVector z) {
+template <typename Vector>
+HWY_INLINE auto store(const DepthU24& format, Vector z) {
   const auto steps = (z - hn::Set(kDoubles, format.front)) * hn::Set(kDoubles, format.steps_per_depth) +
                      hn::Set(kDoubles, 0.5);
   const auto in_range = hn::Min(hn::Max(steps, hn::Zero(kDoubles)), hn::Set(kDoubles, DepthU24::kSteps));
