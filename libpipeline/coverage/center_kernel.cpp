@@ -28,17 +28,13 @@ TaggedSpan* center_spans(const ExactGrid& grid, std::span<const TaggedTriangle> 
 // be larger are left to CenterRows.
 static_assert(kMaxExactDouble <= DepthInDoubles::kMaxWeight);
 
-HWY_INLINE Doubles nearest_whole(Doubles value) {
-  return hn::Round(value);
-}
-
 /// The smallest whole c in [0, most] with c * divisor >= dividend, or `most` if there is none. The estimate
 /// for a dividend up to 2^50 is off by at most 1/4, so c is the whole number nearest to it or the one after
 /// that.
 HWY_INLINE Doubles quotient_rounded_up(Doubles dividend, Doubles divisor, Doubles inverse, Doubles most) {
-  const Doubles near = nearest_whole(dividend * inverse);
-  const Doubles quotient = near + both(is_less(near * divisor, dividend), all(1));
-  return smaller(larger(quotient, all(0)), most);
+  const Doubles near = hn::Round(dividend * inverse);
+  const Doubles quotient = near + hn::And(is_less(near * divisor, dividend), all(1));
+  return hn::Min(most, hn::Max(all(0), quotient));
 }
 
 struct Sums {
@@ -65,11 +61,11 @@ struct AxisLanes {
 
   /// How far a coordinate is from the middle, on the grid.
   HWY_INLINE Doubles scaled(Doubles coordinate) const {
-    return nearest_whole(coordinate * all(kGridUnitsPerOne)) * factor;
+    return hn::Round(coordinate * all(kGridUnitsPerOne)) * factor;
   }
   /// Whether the calculated distances from pixel 0, of which these are the extremes, are exact.
   HWY_INLINE Doubles fit(Doubles least, Doubles most) const {
-    return is_at_most(larger(size_of(least), size_of(most)), largest);
+    return is_at_most(hn::Max(hn::Abs(most), hn::Abs(least)), largest);
   }
   /// The first pixel at or after that.
   HWY_INLINE Doubles pixel(Doubles distance) const {
@@ -152,34 +148,35 @@ struct TriangleLanes {
     const GridPoints q = on_grid(columns, rows, b);
     const GridPoints r = on_grid(columns, rows, c);
 
-    const Doubles u_left = smaller(smaller(p.u, q.u), r.u), u_right = larger(larger(p.u, q.u), r.u);
-    const Doubles v_top = smaller(smaller(p.v, q.v), r.v), v_bottom = larger(larger(p.v, q.v), r.v);
-    const Doubles fits = both(columns.fit(u_left, u_right), rows.fit(v_top, v_bottom));
+    const Doubles u_left = hn::Min(r.u, hn::Min(q.u, p.u)), u_right = hn::Max(r.u, hn::Max(q.u, p.u));
+    const Doubles v_top = hn::Min(r.v, hn::Min(q.v, p.v)), v_bottom = hn::Max(r.v, hn::Max(q.v, p.v));
+    const Doubles fits = hn::And(columns.fit(u_left, u_right), rows.fit(v_top, v_bottom));
     // A column at or before the first that may be covered.
-    const Doubles left = larger(nearest_whole(u_left * columns.inverse) - all(1), all(0));
+    const Doubles left = hn::Max(all(0), hn::Round(u_left * columns.inverse) - all(1));
     // The bound of largest_product, from that column. Triangles without a row may have larger products, which
     // are never used.
     const Doubles first = left * columns.step;
-    const Doubles x = larger(size_of(u_left - first), size_of(u_right - first)) + all(2) * columns.step;
+    const Doubles x = hn::Max(hn::Abs(u_right - first), hn::Abs(u_left - first)) + all(2) * columns.step;
     const Doubles y = v_bottom - v_top + rows.step;
-    ordinary.bits = marks(triangles) & bits_of(both(fits, is_at_most(all(4) * x * y, all(kMaxExactDouble))));
+    ordinary.bits =
+        marks(triangles) & bits_of(hn::And(fits, is_at_most(all(4) * x * y, all(kMaxExactDouble))));
 
-    const Doubles is_beside = either(is_less(u_right, all(0)), is_at_most(columns.count, left));
+    const Doubles is_beside = hn::Or(is_less(u_right, all(0)), is_at_most(columns.count, left));
     sources.first_column = left;
     sources.column_count = columns.count - left;
     // Sorted from the top by the first row at or below a vertex, then by the vertex number.
     const Doubles p_row = rows.pixel(p.v), q_row = rows.pixel(q.v), r_row = rows.pixel(r.v);
-    const Doubles high_row = smaller(p_row, q_row), low_row = larger(p_row, q_row);
-    sources.first_row = smaller(high_row, r_row);
-    sources.middle_row = larger(high_row, smaller(low_row, r_row));
+    const Doubles high_row = hn::Min(q_row, p_row), low_row = hn::Max(q_row, p_row);
+    sources.first_row = hn::Min(r_row, high_row);
+    sources.middle_row = hn::Max(hn::Min(r_row, low_row), high_row);
     const Doubles q_first = is_less(q_row, p_row);
     const Doubles r_before_high = is_less(r_row, high_row), r_before_low = is_less(r_row, low_row);
     const GridPoints high = pick_points(q_first, q, p), low = pick_points(q_first, p, q);
     set_corners(columns, rows, left, pick_points(r_before_high, r, high),
                 pick_points(r_before_high, high, pick_points(r_before_low, r, low)),
-                pick_points(r_before_low, low, r), smaller(larger(low_row, r_row), all(range.end)),
+                pick_points(r_before_low, low, r), hn::Min(all(range.end), hn::Max(r_row, low_row)),
                 is_beside);
-    begin_row = larger(sources.first_row, all(range.first));
+    begin_row = hn::Max(all(range.first), sources.first_row);
   }
 
   HWY_INLINE Doubles end_row() const { return sources.end_row; }
@@ -211,7 +208,7 @@ struct TriangleLanes {
     // All weights and their sum have the same sign, whichever it is.
     set_depth(a.z, b.z, c.z, weight + weight, columns.step * (c.v - a.v), columns.step * (a.v - b.v));
 
-    const Doubles is_empty = either(is_equal(weight, all(0)), is_beside);
+    const Doubles is_empty = hn::Or(is_equal(weight, all(0)), is_beside);
     sources.end_row = pick(is_empty, sources.first_row, end_row);
 
     const Doubles first_u = left * columns.step, first_v = sources.first_row * rows.step;
@@ -227,17 +224,17 @@ struct TriangleLanes {
   /// See DepthInDoubles.
   HWY_INLINE void set_depth(Doubles a, Doubles b, Doubles c, Doubles twice_weights, Doubles b_step,
                             Doubles c_step) {
-    const Doubles flat = both(is_equal(a, b), is_equal(a, c));
-    const Doubles size = larger(larger(size_of(a), size_of(b)), size_of(c));
-    const Doubles is_in_range = both(is_at_most(all(DepthInDoubles::kMinDepth), size),
-                                     is_at_most(size, all(DepthInDoubles::kMaxDepth)));
-    ordinary.bits &= bits_of(either(flat, is_in_range));
+    const Doubles flat = hn::And(is_equal(a, b), is_equal(a, c));
+    const Doubles size = hn::Max(hn::Abs(c), hn::Max(hn::Abs(b), hn::Abs(a)));
+    const Doubles is_in_range = hn::And(is_at_most(all(DepthInDoubles::kMinDepth), size),
+                                        is_at_most(size, all(DepthInDoubles::kMaxDepth)));
+    ordinary.bits &= bits_of(hn::Or(flat, is_in_range));
 
     const Sums of_two = two_sum(b_step * b, c_step * c);
     const Sums of_three = two_sum(of_two.sum, (all(0) - b_step - c_step) * a);
     const Doubles slope =
         (of_three.sum + (of_two.lost + of_three.lost)) / twice_weights + all(DepthInDoubles::kNoMinus);
-    half_slope = numbers_of(but_not(slope, flat));
+    half_slope = numbers_of(hn::AndNot(flat, slope));
     sources.is_flat = flat;
     sources.twice_total = twice_weights;
     sources.a_z = a;
@@ -263,8 +260,8 @@ struct RowLanes {
     const Doubles first = pick(of.longest_is_left, longest_pixel, shorter_pixel);
     const Doubles end = pick(of.longest_is_left, shorter_pixel, longest_pixel);
     const Doubles is_there = is_less(rows, of.end_row);
-    spans.set_columns(rows, both(is_there, of.first_column + first),
-                      both(is_there, of.first_column + end) - all(1));
+    spans.set_columns(rows, hn::And(is_there, of.first_column + first),
+                      hn::And(is_there, of.first_column + end) - all(1));
 
     // The weights of the vertices opposite to the edges, at the first and at the last pixel added up.
     const Doubles sum = longest_pixel + shorter_pixel - all(1);

@@ -9,7 +9,7 @@
 #include "libpipeline/coverage/kernel.h"
 // Masks are vectors here. With AVX-512 they would be converted all the time, which takes up to a tenth
 // longer.
-#define PIPELINE_WITHOUT_AVX512
+#define PIPELINE_TARGETS (HWY_SCALAR | HWY_NEON | HWY_SSE4 | HWY_AVX2)
 #include "libpipeline/numbers/vector_targets.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -41,15 +41,6 @@ HWY_INLINE Doubles is_at_most(Doubles a, Doubles b) {
 HWY_INLINE Doubles is_equal(Doubles a, Doubles b) {
   return hn::VecFromMask(kDoubles, hn::Eq(a, b));
 }
-HWY_INLINE Doubles both(Doubles a, Doubles b) {
-  return hn::And(a, b);
-}
-HWY_INLINE Doubles either(Doubles a, Doubles b) {
-  return hn::Or(a, b);
-}
-HWY_INLINE Doubles but_not(Doubles a, Doubles b) {
-  return hn::AndNot(b, a);
-}
 HWY_INLINE Doubles pick(Doubles mask, Doubles yes, Doubles no) {
   return hn::IfVecThenElse(mask, yes, no);
 }
@@ -60,18 +51,8 @@ HWY_INLINE unsigned bits_of(Doubles mask) {
   return bytes[0];
 }
 
-HWY_INLINE Doubles size_of(Doubles value) {
-  return hn::Abs(value);
-}
-/// Of numbers; of zeros with different signs, either.
-HWY_INLINE Doubles smaller(Doubles a, Doubles b) {
-  return hn::Min(b, a);
-}
-HWY_INLINE Doubles larger(Doubles a, Doubles b) {
-  return hn::Max(b, a);
-}
 HWY_INLINE Doubles clamped(Doubles value, double low, double high) {
-  return smaller(larger(value, all(low)), all(high));
+  return hn::Min(all(high), hn::Max(all(low), value));
 }
 
 // Access to single lanes.

@@ -35,8 +35,8 @@ HWY_INLINE Points operator-(const Points& a, const Points& b) {
 
 /// By y, then x, then z.
 HWY_INLINE Doubles is_lower(const Points& a, const Points& b) {
-  const Doubles by_x = either(is_less(a.x, b.x), both(is_equal(a.x, b.x), is_less(a.z, b.z)));
-  return either(is_less(a.y, b.y), both(is_equal(a.y, b.y), by_x));
+  const Doubles by_x = hn::Or(is_less(a.x, b.x), hn::And(is_equal(a.x, b.x), is_less(a.z, b.z)));
+  return hn::Or(is_less(a.y, b.y), hn::And(is_equal(a.y, b.y), by_x));
 }
 
 /// The numbers from which the rows of some triangles are calculated, or those of one, in all lanes.
@@ -65,8 +65,8 @@ struct TriangleLanes {
     set_corners(grid, pick_points(c_before_low, c, low),
                 pick_points(c_before_low, low, pick_points(c_before_high, c, high)),
                 pick_points(c_before_high, high, c));
-    begin_row = larger(begin_row, all(rows.first));
-    sources.last_row = smaller(sources.last_row, all(rows.end) - all(1));
+    begin_row = hn::Max(all(rows.first), begin_row);
+    sources.last_row = hn::Min(all(rows.end) - all(1), sources.last_row);
   }
 
   HWY_INLINE Doubles end_row() const { return sources.last_row + all(1); }
@@ -84,30 +84,30 @@ struct TriangleLanes {
     const Doubles bottom = (all(grid.top_y) - p.y) / all(grid.dy);
     begin_row = hn::Ceil(clamped(top, 0, grid.rows));
     sources.last_row = hn::Floor(clamped(bottom, -1, grid.rows - 1));
-    set_slope(grid, q - p, r - p, size_of(p.z) + size_of(q.z) + size_of(r.z));
+    set_slope(grid, q - p, r - p, hn::Abs(p.z) + hn::Abs(q.z) + hn::Abs(r.z));
   }
   /// From the edges that leave the lowest corner.
   HWY_INLINE void set_slope(const PixelGrid& grid, const Points& b, const Points& c, Doubles size) {
     const Doubles forward = b.x * c.y, backward = c.x * b.y;
     const Doubles rise = b.z * c.y - c.z * b.y;
-    const Doubles area = forward - backward, terms = size_of(forward) + size_of(backward);
-    const Doubles has_no_slope = is_at_most(size_of(area), all(NearestRows::kAreaError) * terms);
-    const Doubles slopes = but_not(rise / area, has_no_slope);
+    const Doubles area = forward - backward, terms = hn::Abs(forward) + hn::Abs(backward);
+    const Doubles has_no_slope = is_at_most(hn::Abs(area), all(NearestRows::kAreaError) * terms);
+    const Doubles slopes = hn::AndNot(has_no_slope, rise / area);
     sources.slope = slopes;
     sources.is_edge_on = has_no_slope;
-    const Doubles reach = size_of(b.x) + size_of(c.x);
+    const Doubles reach = hn::Abs(b.x) + hn::Abs(c.x);
     const Doubles rise_in_y = b.x * c.z - c.x * b.z;
     const Doubles change =
-        size_of(rise) * (all(grid.half_width) + reach) + size_of(rise_in_y) * (all(grid.half_height) + c.y);
-    const Doubles net_area = size_of(area) - all(NearestRows::kNarrowest) * terms -
+        hn::Abs(rise) * (all(grid.half_width) + reach) + hn::Abs(rise_in_y) * (all(grid.half_height) + c.y);
+    const Doubles net_area = hn::Abs(area) - all(NearestRows::kNarrowest) * terms -
                              all(NearestRows::kNarrowestRow * grid.dx) * c.y;
     const Doubles huge = all(NearestRows::kHuge);
-    const Doubles limit = smaller(all(NearestRows::kSteepest) * size * net_area, huge);
+    const Doubles limit = hn::Min(huge, all(NearestRows::kSteepest) * size * net_area);
     const Doubles is_good = is_at_most(change, pick(has_no_slope, huge, limit));
-    const Doubles is_in_range = both(is_less(all(0x1p-900), terms), is_less(terms, all(0x1p900)));
-    const Doubles largest = larger(reach + (size_of(b.z) + size_of(c.z)), size_of(slopes));
+    const Doubles is_in_range = hn::And(is_less(all(0x1p-900), terms), is_less(terms, all(0x1p900)));
+    const Doubles largest = hn::Max(hn::Abs(slopes), reach + (hn::Abs(b.z) + hn::Abs(c.z)));
     const Doubles is_finite = is_less(largest, huge);
-    ordinary.bits = bits_of(both(both(is_good, is_in_range), is_finite));
+    ordinary.bits = bits_of(hn::And(hn::And(is_good, is_in_range), is_finite));
   }
 };
 
@@ -121,20 +121,20 @@ struct RowLanes {
     const Points first = intersection(pick_points(is_upper, of.middle, of.lowest),
                                       pick_points(is_upper, of.highest, of.middle), y);
     const Points second = intersection(of.lowest, of.highest, y);
-    const Doubles is_lower_z = both(is_equal(second.x, first.x), is_less(second.z, first.z));
-    const Points left = pick_points(either(is_less(second.x, first.x), is_lower_z), second, first);
-    const Points right = pick_points(either(is_less(first.x, second.x), is_lower_z), second, first);
+    const Doubles is_lower_z = hn::And(is_equal(second.x, first.x), is_less(second.z, first.z));
+    const Points left = pick_points(hn::Or(is_less(second.x, first.x), is_lower_z), second, first);
+    const Points right = pick_points(hn::Or(is_less(first.x, second.x), is_lower_z), second, first);
     const Doubles left_column = (left.x - all(grid.left_x)) / all(grid.dx) + all(0.5);
     const Doubles right_column = (right.x - all(grid.left_x)) / all(grid.dx) + all(0.5);
     const Doubles is_there = is_at_most(rows, of.last_row);
-    spans.set_columns(rows, both(is_there, hn::Floor(clamped(left_column, 0, grid.columns))),
+    spans.set_columns(rows, hn::And(is_there, hn::Floor(clamped(left_column, 0, grid.columns))),
                       pick(is_there, hn::Floor(clamped(right_column, -1, grid.columns - 1)), all(-1)));
 
-    const Doubles is_slanted = but_not(is_less(left.x, right.x), of.is_edge_on);
+    const Doubles is_slanted = hn::AndNot(of.is_edge_on, is_less(left.x, right.x));
     spans.set_points(left.x, pick(is_slanted, left.z, pick(is_less(right.z, left.z), right.z, left.z)));
-    slope = numbers_of(both(is_slanted, of.slope));
-    const Doubles is_between = both(is_less(of.lowest.y, y), is_less(y, of.highest.y));
-    const Doubles is_at_corner = but_not(is_there, but_not(is_between, is_equal(y, of.middle.y)));
+    slope = numbers_of(hn::And(is_slanted, of.slope));
+    const Doubles is_between = hn::And(is_less(of.lowest.y, y), is_less(y, of.highest.y));
+    const Doubles is_at_corner = hn::AndNot(hn::AndNot(is_equal(y, of.middle.y), is_between), is_there);
     ordinary_.bits = LaneSet::kAll & ~bits_of(is_at_corner);
   }
   /// Depths are set with the columns.

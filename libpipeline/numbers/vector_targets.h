@@ -7,12 +7,11 @@
 #ifndef PIPELINE_VECTOR_TARGETS
 #define PIPELINE_VECTOR_TARGETS
 // The targets of kernel_choice.h, each of them always compiled, because the tests compare them. A source may
-// define PIPELINE_WITHOUT_AVX512.
-#ifdef PIPELINE_WITHOUT_AVX512
-#define HWY_DISABLED_TARGETS (~(HWY_SCALAR | HWY_NEON | HWY_SSE4 | HWY_AVX2))
-#else
-#define HWY_DISABLED_TARGETS (~(HWY_SCALAR | HWY_NEON | HWY_SSE4 | HWY_AVX2 | HWY_AVX3))
+// define fewer.
+#ifndef PIPELINE_TARGETS
+#define PIPELINE_TARGETS (HWY_SCALAR | HWY_NEON | HWY_SSE4 | HWY_AVX2 | HWY_AVX3)
 #endif
+#define HWY_DISABLED_TARGETS (~PIPELINE_TARGETS)
 #define HWY_COMPILE_ALL_ATTAINABLE
 // Scalar code, not vectors of 128 bits emulated, with every compiler.
 #define HWY_BROKEN_EMU128 1
