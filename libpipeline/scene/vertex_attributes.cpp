@@ -159,11 +159,9 @@ FixedTextPart VertexLineReader::read_fixed(std::string_view text, TriangleFrame 
   if (is_scene && !text.starts_with(kKeyword)) return {};
   const std::string_view lines = text.substr(is_scene ? kKeyword.size() : 0);
   return read_block(limit, frame, positions, attributes, [&](const FixedColumns& columns) -> FixedTextPart {
-    if (GroupDecimals decimals; attributes_.any())
-      return find_decimals(lines, decimals) ? read_fixed_columns(text, frame, decimals, columns)
-                                            : FixedTextPart{};
-    const auto read = is_scene ? read_fixed_scene : read_fixed_text;
-    return read(text, decimals_of_number(lines.data()), columns.groups[0]);
+    GroupDecimals decimals;
+    return find_decimals(lines, decimals) ? read_fixed_columns(text, frame, decimals, columns)
+                                          : FixedTextPart{};
   });
 }
 

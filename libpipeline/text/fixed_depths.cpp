@@ -1,6 +1,7 @@
 #include "libpipeline/text/fixed_depths.h"
 
 #include <array>
+#include <charconv>
 #include <cstdint>
 #include <cstring>
 
@@ -31,15 +32,6 @@ char* write_triple(char* out, std::uint32_t triple) {
   return out + 3;
 }
 
-char* write_whole(char* out, std::uint32_t whole) {
-  std::array<char, 9> digits;
-  std::size_t first = digits.size();
-  for (; whole >= 10; whole /= 10) digits[--first] = static_cast<char>('0' + whole % 10);
-  digits[--first] = static_cast<char>('0' + whole);
-  std::memcpy(out, &digits[first], digits.size() - first);
-  return out + (digits.size() - first);
-}
-
 /// Prints a number with six decimals, ties excluded, and returns the end of its text; the character after it
 /// is overwritten, too. Null where the number has 10^15 units of the last decimal or more, is not finite, or
 /// lies so close to a tie that only exact arithmetic can round it. A number that rounds to zero carries no
@@ -51,13 +43,13 @@ char* write_number(char* out, double value) {
   const auto units = static_cast<std::uint64_t>(rounded.whole);
   *out = '-';
   out += static_cast<int>(value < 0) & static_cast<int>(units != 0);
-  std::uint32_t behind_point = static_cast<std::uint32_t>(units);
+  auto behind_point = static_cast<std::uint32_t>(units);
   if (units < std::uint64_t{10} * kScale) {
     const std::uint32_t whole = behind_point / kScale;
     *out++ = static_cast<char>('0' + whole);
     behind_point -= whole * kScale;
   } else {
-    out = write_whole(out, static_cast<std::uint32_t>(units / kScale));
+    out = std::to_chars(out, out + 9, units / kScale).ptr;
     behind_point = static_cast<std::uint32_t>(units % kScale);
   }
   *out++ = '.';

@@ -111,7 +111,7 @@ class NineTexts {
   }
 
   HWY_INLINE char* write(char* out, const PrintedForm& form, std::size_t number) const {
-    const std::size_t slot = kSlots[number];
+    const std::size_t slot = slot_of(number);
     const auto leading_zero_count = std::countr_zero(filled_[slot] | form.last_whole_digit);
     const auto shuffle = hn::LoadU(kSixteen, form.shuffle.data() + leading_zero_count);
     *out = '-';
@@ -163,62 +163,66 @@ class NineTexts {
   HWY_INLINE void store(std::size_t part, hn::Vec<decltype(kBytes)> digits) {
     const auto point_and_zeros = hn::LoadDup128(kBytes, kPointAndZeros.data());
     hn::Store(hn::Add(digits, point_and_zeros), kBytes, texts_.data() + 16 * kBlocks * part);
-    hn::StoreMaskBits(kBytes, hn::Gt(digits, hn::Zero(kBytes)),
+    constexpr hn::RebindToSigned<decltype(kBytes)> kWithSign;
+    hn::StoreMaskBits(kWithSign, hn::Gt(hn::BitCast(kWithSign, digits), hn::Zero(kWithSign)),
                       reinterpret_cast<std::uint8_t*>(filled_.data() + kBlocks * part));
   }
 
-  /// Where the text of a number is: the even lanes of a step, then the odd ones.
-  static constexpr auto kSlots = [] {
-    std::array<std::uint8_t, kNumbers> slots{};
-    for (std::size_t i = 0; i < kNumbers; ++i)
-      slots[i] = static_cast<std::uint8_t>(i / kLanes * kLanes + i % 2 * kBlocks + i % kLanes / 2);
-    return slots;
-  }();
+  /// Where the text of number i is: the even lanes of a step, then the odd ones.
+  static constexpr std::size_t slot_of(std::size_t i) {
+    return i / kLanes * kLanes + i % 2 * kBlocks + i % kLanes / 2;
+  }
 
   alignas(32) std::array<std::uint8_t, 16 * kLanes * kSteps> texts_;
-  std::array<std::uint16_t, kLanes * kSteps + 4> filled_;  // a bit for each digit above 0
-  unsigned negative_;  // bit i: number i is negative and does not round to 0
+  std::array<std::uint16_t, kLanes * kSteps + 4> filled_{};  // a bit for each digit above 0
+  unsigned negative_ = 0;  // bit i: number i is negative and does not round to 0
 };
 
 /// Prints a vertex line.
+template <std::size_t group_count, bool may_have_w>
 HWY_INLINE char* write_line(char* out, const PrintedForm& form, const ConstFixedColumns& columns,
-                            std::size_t group_count, std::size_t triangle, std::size_t vertex,
-                            const std::array<NineTexts, 3>& texts, bool repeats, LastPrinted& last) {
+                            std::size_t triangle, std::size_t vertex,
+                            const std::array<NineTexts, group_count>& texts, bool repeats,
+                            LastPrinted& last) {
+#pragma GCC unroll 3
   for (std::size_t group = 0; group < group_count; ++group) {
     if (repeats && group == kRepeatedGroup) {
       out = last.print(out);
       continue;
     }
     const char* const begin = out;
+#pragma GCC unroll 3
     for (std::size_t k = 3 * vertex; k < 3 * vertex + 3; ++k) {
       out = texts[group].write(out, form, k);
       *out++ = ' ';
     }
     if (group == kRepeatedGroup && vertex == 2) last.set(columns.groups[group][triangle][vertex], begin, out);
-    if (group == 0 && !columns.w.empty()) out = write_w(out, columns.w[triangle][vertex]);
+    if (may_have_w && group == 0 && !columns.w.empty()) out = write_w(out, columns.w[triangle][vertex]);
   }
   out[-1] = '\n';
   return out;
 }
 
 /// Stops before a triangle with a number that NineTexts refuses.
-template <bool exactly>
+template <bool exactly, std::size_t group_count, bool may_have_w>
 FixedTextPart write_lines(std::size_t first, const ConstFixedColumns& columns, int decimals, char* out) {
-  const PrintedForm& form = kPrintedForms[static_cast<std::size_t>(decimals)];
+  // A copy: characters may be printed anywhere.
+  const PrintedForm form = kPrintedForms[static_cast<std::size_t>(decimals)];
   const double scale = kPowersOfTen[static_cast<std::size_t>(decimals)];
-  const std::size_t group_count = columns.group_count();
   LastPrinted last;
   FixedTextPart part;
   const char* const begin = out;
   for (std::size_t i = first; i < columns.triangle_count(); ++i) {
-    std::array<NineTexts, 3> texts;
+    std::array<NineTexts, group_count> texts;
     const bool repeats = group_count > kRepeatedGroup && last.is_of(columns.groups[kRepeatedGroup][i]);
+#pragma GCC unroll 3
     for (std::size_t group = 0; group < group_count; ++group)
       if (!(repeats && group == kRepeatedGroup) &&
-          !texts[group].set<exactly>(columns.groups[group][i], scale))
+          !texts[group].template set<exactly>(columns.groups[group][i], scale))
         return part;
+#pragma GCC unroll 3
     for (std::size_t vertex = 0; vertex < 3; ++vertex)
-      out = write_line(out, form, columns, group_count, i, vertex, texts, repeats, last);
+      out = write_line<group_count, may_have_w>(out, form, columns, i, vertex, texts, repeats, last);
     *out++ = '\n';
     ++part.triangle_count;
     part.length = static_cast<std::size_t>(out - begin);
@@ -226,33 +230,13 @@ FixedTextPart write_lines(std::size_t first, const ConstFixedColumns& columns, i
   return part;
 }
 
-/// Stops before a triangle with a number that NineTexts refuses.
-template <bool exactly>
-FixedTextPart write_triangles(std::span<const Triangle> triangles, int decimals, char* out) {
-  const PrintedForm form = kPrintedForms[static_cast<std::size_t>(decimals)];
-  const double scale = kPowersOfTen[static_cast<std::size_t>(decimals)];
-  FixedTextPart part;
-  const char* const begin = out;
-  for (const Triangle& triangle : triangles) {
-    NineTexts texts;
-    if (!texts.set<exactly>(triangle, scale)) break;
-#pragma GCC unroll 9
-    for (std::size_t i = 0; i < 9; ++i) {
-      out = texts.write(out, form, i);
-      *out++ = i % 3 == 2 ? '\n' : ' ';
-    }
-    *out++ = '\n';
-    ++part.triangle_count;
-  }
-  part.length = static_cast<std::size_t>(out - begin);
-  return part;
-}
-
 template <bool exactly>
 FixedTextPart write_from(std::size_t first, const ConstFixedColumns& columns, int decimals, char* out) {
-  const bool is_plain = columns.group_count() == 1 && columns.w.empty();
-  return is_plain ? write_triangles<exactly>(columns.groups[0].subspan(first), decimals, out)
-                  : write_lines<exactly>(first, columns, decimals, out);
+  const std::size_t group_count = columns.group_count();
+  if (group_count == 3) return write_lines<exactly, 3, true>(first, columns, decimals, out);
+  if (group_count == 2) return write_lines<exactly, 2, true>(first, columns, decimals, out);
+  return columns.w.empty() ? write_lines<exactly, 1, false>(first, columns, decimals, out)
+                           : write_lines<exactly, 1, true>(first, columns, decimals, out);
 }
 
 /// Exactly from the first tie on, where a product's rounding error takes one instruction: where there is one,

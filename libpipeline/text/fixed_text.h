@@ -67,16 +67,10 @@ using ConstFixedColumns = FixedColumnsOf<const Triangle, const std::array<double
 /// The counts of decimals of the groups.
 using GroupDecimals = std::array<int, 3>;
 
-/// Reads triangles from the beginning of `text` until one is not in fixed form, with `decimals` decimals and
-/// at most eight digits before the point, `triangles` is full, or the text ends. Every number becomes the
-/// nearest double, as from_chars returns it.
-FixedTextPart read_fixed_text(std::string_view text, int decimals, std::span<Triangle> triangles);
-
-/// The same for the triangles of a scene: a line `triangle`, then three vertex lines.
-FixedTextPart read_fixed_scene(std::string_view text, int decimals, std::span<Triangle> triangles);
-
-/// Like read_fixed_text(), for lines with these columns: fills as many entries as there are such triangles.
-/// Of w it reads the numbers that read_decimal_number reads.
+/// Reads triangles with these columns from the beginning of `text` until one is not in fixed form, with these
+/// decimals and at most eight digits before the point, the columns are full, or the text ends. Every number
+/// becomes the nearest double, as from_chars returns it. Of w it reads the numbers that read_decimal_number
+/// reads. Without vectors, it reads nothing.
 FixedTextPart read_fixed_columns(std::string_view text, TriangleFrame frame, const GroupDecimals& decimals,
                                  const FixedColumns& columns);
 

@@ -13,19 +13,13 @@
 
 namespace pipeline {
 
-// What the fast paths for vertex lines share (fixed_text.cpp, decimal_columns.cpp).
+// What the fast paths for vertex lines share (fixed_reading.cpp, fixed_printing.cpp, decimal_columns.cpp).
 
 /// The beginning of the vertex lines; null if the line before them is missing.
-template <TriangleFrame frame>
-const char* vertex_lines(const char* p) {
-  if constexpr (frame == TriangleFrame::stage_text) return p;
-  constexpr std::string_view kLine = "triangle\n";
-  return std::string_view(p, kLine.size()) == kLine ? p + kLine.size() : nullptr;
-}
-
-/// The same for a frame that is known only here.
 inline const char* vertex_lines(const char* p, TriangleFrame frame) {
-  return frame == TriangleFrame::scene ? vertex_lines<TriangleFrame::scene>(p) : p;
+  constexpr std::string_view kLine = "triangle\n";
+  if (frame == TriangleFrame::stage_text) return p;
+  return std::string_view(p, kLine.size()) == kLine ? p + kLine.size() : nullptr;
 }
 /// The end of a triangle whose vertex lines end at `p`; null if the line after them is missing.
 inline const char* triangle_end(const char* p, TriangleFrame frame) {

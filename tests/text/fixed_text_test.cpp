@@ -17,22 +17,26 @@
 namespace pipeline {
 namespace {
 
-/// Every claim is tested with every kernel that this processor can run, but for the scalar one, which prints
-/// nothing.
+/// Reads from a copy that is followed by digits, which must not become part of the last number.
+FixedTextPart read_columns(const std::string& text, TriangleFrame frame, const GroupDecimals& decimals,
+                           const FixedColumns& columns) {
+  const std::string with_slack = text + std::string(kFixedTextSlack, '7');
+  return read_fixed_columns({with_slack.data(), text.size()}, frame, decimals, columns);
+}
+
+/// Every claim is tested with every kernel that this processor can run, but for the scalar one, which reads
+/// and prints nothing. There is one for reading: the last with vectors of sixteen characters.
 class FixedText : public testing::TestWithParam<std::size_t> {
  protected:
   static WriteFixedColumns kernel() { return fixed_printing_kernels()[GetParam()]; }
 
-  /// Reads from a copy that is followed by digits, which must not become part of the last number.
   static FixedTextPart read(const std::string& text, std::vector<Triangle>& triangles, int decimals = 7) {
-    const std::string with_slack = text + std::string(kFixedTextSlack, '7');
-    return read_fixed_text({with_slack.data(), text.size()}, decimals, triangles);
+    return read_columns(text, TriangleFrame::stage_text, {decimals}, {{triangles}, {}});
   }
 
   static FixedTextPart read_scene(const std::string& text, std::vector<Triangle>& triangles,
                                   int decimals = 7) {
-    const std::string with_slack = text + std::string(kFixedTextSlack, '7');
-    return read_fixed_scene({with_slack.data(), text.size()}, decimals, triangles);
+    return read_columns(text, TriangleFrame::scene, {decimals}, {{triangles}, {}});
   }
 
   static std::size_t count_read(const std::string& text, int decimals = 7) {
@@ -254,10 +258,9 @@ void read_random(int decimals, int triangle_count, std::uint64_t seed) {
       text += word + (k % 3 == 2 ? "\n" : " ");
     }
     text += "\n";
-    const std::size_t length = text.size();
-    text.append(kFixedTextSlack, '7');
     std::array<Triangle, 1> triangle;
-    ASSERT_EQ(read_fixed_text({text.data(), length}, decimals, triangle).triangle_count, 1u) << text;
+    ASSERT_EQ(read_columns(text, TriangleFrame::stage_text, {decimals}, {{triangle}, {}}).triangle_count, 1u)
+        << text;
     const auto bits = std::bit_cast<std::array<std::uint64_t, 9>>(triangle);
     ASSERT_EQ(bits, (std::bit_cast<std::array<std::uint64_t, 9>>(expected))) << text;
   }
@@ -266,6 +269,34 @@ void read_random(int decimals, int triangle_count, std::uint64_t seed) {
 TEST_P(FixedText, ReadsWhatTheGeneralReaderReads) {
   read_random(7, 30000, 1);
   for (const int decimals : all_decimals()) read_random(decimals, 3000, 1);
+}
+
+// Numbers with one digit before the point are expected after a triangle that has no others.
+TEST_P(FixedText, ReadsNumbersOfOneDigitAndOthersInTurn) {
+  std::mt19937_64 random(2);
+  for (const int decimals : all_decimals()) {
+    for (int i = 0; i < 300; ++i) {
+      std::array<Triangle, 10> triangles, expected;
+      std::string text;
+      for (Triangle& triangle : expected) {
+        const bool has_others = random() % 2 == 0;
+        for (Vec3& vertex : triangle)
+          for (double* const number : {&vertex.x, &vertex.y, &vertex.z}) {
+            std::string word = random_word(random, decimals);
+            if (!has_others || random() % 2 == 0)
+              word =
+                  word.substr(0, word[0] == '-' ? 2 : 1) + word.substr(std::min(word.find('.'), word.size()));
+            *number = general_number(word);
+            text += word + (number == &vertex.z ? "\n" : " ");
+          }
+        text += "\n";
+      }
+      const FixedTextPart part = read_columns(text, TriangleFrame::stage_text, {decimals}, {{triangles}, {}});
+      ASSERT_EQ(part.length, text.size()) << text;
+      using Bits = std::array<std::uint64_t, 90>;
+      ASSERT_EQ(std::bit_cast<Bits>(triangles), std::bit_cast<Bits>(expected)) << text;
+    }
+  }
 }
 
 TEST_P(FixedText, LongReadsWhatTheGeneralReaderReadsOnAHundredMillionNumbers) {
@@ -454,13 +485,6 @@ std::string scene_frame(const std::string& lines) {
   return "triangle\n" + lines;
 }
 
-/// Reads from a copy that is followed by digits.
-FixedTextPart read_columns(const std::string& text, TriangleFrame frame, const GroupDecimals& decimals,
-                           ColumnArrays& arrays) {
-  const std::string with_slack = text + std::string(kFixedTextSlack, '7');
-  return read_fixed_columns({with_slack.data(), text.size()}, frame, decimals, arrays.columns());
-}
-
 std::vector<std::uint64_t> bits_of(const ColumnArrays& arrays) {
   std::vector<std::uint64_t> bits;
   for (const auto& group : arrays.groups)
@@ -509,7 +533,7 @@ TEST_P(FixedText, ReadsColumnsAsTheGeneralReaderDoes) {
     }
     const std::string text = frame == TriangleFrame::scene ? scene_frame(lines) : lines + "\n";
     ColumnArrays arrays(group_count, has_w, 1);
-    const FixedTextPart part = read_columns(text, frame, decimals, arrays);
+    const FixedTextPart part = read_columns(text, frame, decimals, arrays.columns());
     // Few w lie too close to the midpoint of two doubles for the fast reader.
     if (has_w && part.triangle_count == 0) continue;
     ASSERT_EQ(part.length, text.size()) << text;
@@ -528,7 +552,7 @@ TEST_P(FixedText, EveryByteOfColumnsMatters) {
       const bool was_digit = triangle[i] >= '0' && triangle[i] <= '9';
       const bool is_digit_for_digit = byte >= '0' && byte <= '9' && was_digit;
       ColumnArrays arrays(3, false, 1);
-      const FixedTextPart part = read_columns(text, TriangleFrame::stage_text, {1, 0, 2}, arrays);
+      const FixedTextPart part = read_columns(text, TriangleFrame::stage_text, {1, 0, 2}, arrays.columns());
       ASSERT_EQ(part.triangle_count, is_digit_for_digit || text == triangle ? 1u : 0u) << i << " " << byte;
     }
   }
@@ -541,12 +565,12 @@ TEST_P(FixedText, ReadsTheColumnsOfWholeTrianglesAlone) {
     for (std::size_t length = 0; length < triangle.size(); ++length) {
       ColumnArrays arrays(3, false, 3);
       const std::string text = triangle + triangle.substr(0, length);
-      const FixedTextPart part = read_columns(text, frame, {1, 0, 2}, arrays);
+      const FixedTextPart part = read_columns(text, frame, {1, 0, 2}, arrays.columns());
       ASSERT_EQ(part.length, triangle.size()) << length;
       ASSERT_EQ(part.triangle_count, 1u) << length;
     }
     ColumnArrays arrays(3, false, 2);
-    EXPECT_EQ(read_columns(triangle + triangle + triangle, frame, {1, 0, 2}, arrays).length,
+    EXPECT_EQ(read_columns(triangle + triangle + triangle, frame, {1, 0, 2}, arrays.columns()).length,
               2 * triangle.size());
   }
 }
@@ -562,7 +586,7 @@ TEST_P(FixedText, LeavesColumnsOfAnyOtherForm) {
         std::string("1.5 2.5 3.5 - 7 8 9\n"), std::string("1.5 2.5 3.5 2.25 7 8 9 # so\n")}) {
     ColumnArrays arrays(2, true, 1);
     const FixedTextPart part =
-        read_columns(fine + line + fine + "\n", TriangleFrame::stage_text, {1, 0, 0}, arrays);
+        read_columns(fine + line + fine + "\n", TriangleFrame::stage_text, {1, 0, 0}, arrays.columns());
     const bool is_fine = line == fine || line == "1.5 2.5 3.5 2 7 8 9\n";
     EXPECT_EQ(part.triangle_count, is_fine ? 1u : 0u) << line;
   }
@@ -643,7 +667,8 @@ TEST_P(FixedText, ReadsAndPrintsRepeatedColumns) {
     for (std::size_t k = 0; k < kCount; ++k) expected += general_columns(arrays, k, 2);
     ASSERT_EQ(text, expected);
     ColumnArrays read(arrays.groups[2].empty() ? 2 : 3, !arrays.w.empty(), kCount);
-    ASSERT_EQ(read_columns(text, TriangleFrame::stage_text, {2, 2, 2}, read).triangle_count, kCount);
+    ASSERT_EQ(read_columns(text, TriangleFrame::stage_text, {2, 2, 2}, read.columns()).triangle_count,
+              kCount);
     ASSERT_EQ(bits_of(read), bits_of(arrays));
   }
 }
@@ -665,10 +690,10 @@ TEST_P(FixedText, ReadsAndPrintsColumnsInEveryPatternOfRepetition) {
     std::string expected;
     for (std::size_t k = 0; k < kCount; ++k) expected += general_columns(arrays, k, 2);
     std::size_t count = 0;
-    ASSERT_EQ(write_columns(GetParam(), with_signs, 2, count), expected) << pattern;
+    ASSERT_EQ(write_columns(kernel(), with_signs, 2, count), expected) << pattern;
     ASSERT_EQ(count, kCount);
     ColumnArrays read(2, false, kCount);
-    ASSERT_EQ(read_columns(GetParam(), expected, TriangleFrame::stage_text, {2, 2, 2}, read).triangle_count,
+    ASSERT_EQ(read_columns(expected, TriangleFrame::stage_text, {2, 2, 2}, read.columns()).triangle_count,
               kCount);
     ASSERT_EQ(bits_of(read), bits_of(arrays)) << pattern;
   }
