@@ -21,7 +21,7 @@ namespace pipeline {
 //                     std::optional<Span>. Only a row whose line of pixel centers meets the triangle has any:
 //                     bands and buffers are chosen by the triangle's height;
 //   spans(triangles, rows, begin)   if it has a kernel for many triangles: the same spans, written as a
-//                     CoverageKernel does.
+//                     kernel does.
 
 /// From the pixel nearest to the left end of a row to the one nearest to its right end.
 struct NearestCoverage {
@@ -30,15 +30,15 @@ struct NearestCoverage {
       kMeaning = "on each row from the pixel nearest to its left end to that nearest to its right end";
   static constexpr bool kUsesDecimals = false;
   using Rows = NearestRows;
-  explicit NearestCoverage(const Viewport& screen) : grid(screen), kernel(coverage_kernel()) {}
+  explicit NearestCoverage(const Viewport& screen) : grid(screen), kernel(chosen_kernel(nearest_kernels())) {}
   [[nodiscard]] Rows rows(const ExactTriangle& triangle) const { return {grid, triangle.p_ndc}; }
   TaggedSpan* spans(std::span<const TaggedTriangle> triangles, const RowRange& rows,
                     TaggedSpan* begin) const {
-    return kernel.nearest_spans(grid, triangles, rows, begin);
+    return kernel(grid, triangles, rows, begin);
   }
 
   PixelGrid grid;
-  CoverageKernel kernel;
+  NearestSpans kernel;
 };
 
 /// The pixels whose centers lie in the triangle.
@@ -47,21 +47,21 @@ struct CenterCoverage {
                                     kMeaning = "those whose centers lie inside, decided exactly";
   static constexpr bool kUsesDecimals = true;
   using Rows = CenterRows;
-  explicit CenterCoverage(const Viewport& screen) : grid(screen), kernel(coverage_kernel()) {}
+  explicit CenterCoverage(const Viewport& screen) : grid(screen), kernel(chosen_kernel(center_kernels())) {}
   [[nodiscard]] Rows rows(const ExactTriangle& triangle) const { return {grid, triangle}; }
   TaggedSpan* spans(std::span<const TaggedTriangle> triangles, const RowRange& rows,
                     TaggedSpan* begin) const {
-    return kernel.center_spans(grid, triangles, rows, begin);
+    return kernel(grid, triangles, rows, begin);
   }
 
   ExactGrid grid;
-  CoverageKernel kernel;
+  CenterSpans kernel;
 };
 
 /// Every coverage rule, in the order of --help; the first is the default.
 using CoverageRules = TypeList<NearestCoverage, CenterCoverage>;
 
-/// Writes the spans of many triangles by any rule, as a CoverageKernel does.
+/// Writes the spans of many triangles by any rule, as a kernel does (kernel.h).
 template <typename Coverage>
 TaggedSpan* spans_by(const Coverage& rule, std::span<const TaggedTriangle> triangles, const RowRange& rows,
                      TaggedSpan* spans) {

@@ -8,7 +8,7 @@ namespace pipeline {
 // and rounded to a whole number. The scaled number is rounded to a double; the result is accepted only if
 // that rounding cannot change it, otherwise the caller computes it exactly (A. Ziv, "Fast evaluation of
 // elementary mathematical functions with correctly rounded last bit", ACM TOMS 17(3), 1991). Kernels written
-// in intrinsics repeat these formulas lane by lane, with these constants.
+// on vectors repeat these formulas lane by lane, with these constants.
 
 /// Doubles from 2^52 to 2^53 are whole numbers: adding this number and subtracting it again rounds to a whole
 /// number.

@@ -17,7 +17,7 @@ struct DoubleDouble {
   friend bool operator==(const DoubleDouble&, const DoubleDouble&) = default;
 };
 
-/// a + b exactly (Knuth's 2Sum). Forced inline: left to GCC 12, the portable vertex loops spill registers and
+/// a + b exactly (Knuth's 2Sum). Forced inline: left to GCC 12, the scalar vertex loops spill registers and
 /// take 1.5 % more instructions in all.
 inline __attribute__((always_inline)) DoubleDouble two_sum(double a, double b) {
   const double sum = a + b;

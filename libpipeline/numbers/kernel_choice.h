@@ -3,22 +3,48 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
-#include <span>
 #include <string_view>
 
 namespace pipeline {
 
-/// Chooses the kernel to use from a list that runs from "portable" to the fastest: the last, or the fastest
-/// one up to the level that the environment variable PIPELINE_KERNEL names (for tests). An unknown name has
-/// no effect.
-template <typename Kernel>
-const Kernel& chosen_kernel(std::span<const Kernel> kernels) {
-  constexpr std::array<std::string_view, 3> kNames = {"portable", "sse4", "avx2"};
+/// The kinds of processors that kernels are compiled for, each able to run what is compiled for those before
+/// it of its family.
+inline constexpr std::array<std::string_view, 5> kTargets = {"scalar", "neon", "sse4", "avx2", "avx512"};
+
+/// A function compiled for each of kTargets; null for those of other families.
+template <typename Function>
+using KernelTable = std::array<Function, kTargets.size()>;
+
+/// The table of a function of HWY_NAMESPACE (vector_targets.h).
+#define PIPELINE_KERNEL_TABLE(function)                                                  \
+  {                                                                                      \
+    HWY_CHOOSE_FALLBACK(function), HWY_CHOOSE_NEON(function), HWY_CHOOSE_SSE4(function), \
+        HWY_CHOOSE_AVX2(function), HWY_CHOOSE_AVX3(function)                             \
+  }
+
+/// Whether this processor, of the family compiled for, can run what is compiled for a target.
+inline bool can_run(std::size_t target) {
+#if defined(__x86_64__) && defined(__GNUC__)
+  if (target > 1 && !__builtin_cpu_supports("sse4.2")) return false;
+  if (target > 2 && !(__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
+                      __builtin_cpu_supports("bmi") && __builtin_cpu_supports("bmi2")))
+    return false;
+  if (target > 3 && !(__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
+                      __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw")))
+    return false;
+#endif
+  return target < kTargets.size();
+}
+
+/// The kernel to use: the last that this processor can run, up to the target that the environment variable
+/// PIPELINE_KERNEL names (for tests). An unknown name has no effect.
+template <typename Function>
+Function chosen_kernel(const KernelTable<Function>& kernels) {
   const char* const variable = std::getenv("PIPELINE_KERNEL");
-  const auto limit = std::find(kNames.begin(), kNames.end(), variable == nullptr ? "" : variable);
-  std::size_t chosen = kernels.size() - 1;
-  while (chosen > 0 && std::find(kNames.begin(), kNames.end(), kernels[chosen].name) > limit) --chosen;
-  return kernels[chosen];
+  const auto limit = std::find(kTargets.begin(), kTargets.end(), variable == nullptr ? "" : variable);
+  std::size_t target = std::min<std::size_t>(limit - kTargets.begin(), kTargets.size() - 1);
+  while (target > 0 && (kernels[target] == nullptr || !can_run(target))) --target;
+  return kernels[target];
 }
 
 }  // namespace pipeline

@@ -158,13 +158,10 @@ FixedTextPart VertexLineReader::read_fixed(std::string_view text, TriangleFrame 
   const bool is_scene = frame == TriangleFrame::scene;
   if (is_scene && !text.starts_with(kKeyword)) return {};
   const std::string_view lines = text.substr(is_scene ? kKeyword.size() : 0);
-  const FixedTextKernel& kernel = fixed_text_kernel();
   return read_block(limit, frame, positions, attributes, [&](const FixedColumns& columns) -> FixedTextPart {
-    if (GroupDecimals decimals; attributes_.any())
-      return find_decimals(lines, decimals) ? kernel.read_columns(text, frame, decimals, columns)
-                                            : FixedTextPart{};
-    const auto read = is_scene ? kernel.read_scene : kernel.read;
-    return read(text, decimals_of_number(lines.data()), columns.groups[0]);
+    GroupDecimals decimals;
+    return find_decimals(lines, decimals) ? read_fixed_columns(text, frame, decimals, columns)
+                                          : FixedTextPart{};
   });
 }
 

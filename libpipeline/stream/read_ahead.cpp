@@ -46,7 +46,8 @@ void ReadAhead::Slot::parse() {
   batch.clear();
   batch.triangles.resize(std::min(kBatchSize, length / min_length));
   const FixedTextPart parsed =
-      fixed_text_kernel().read(std::string_view(text).substr(0, length), decimals, batch.triangles);
+      read_fixed_columns(std::string_view(text).substr(0, length), TriangleFrame::stage_text, {decimals},
+                         {{batch.triangles}, {}});
   batch.triangles.resize(parsed.triangle_count);
   is_in_fixed_form = parsed.length == length;
   is_done = true;

@@ -156,9 +156,7 @@ std::size_t StageWriter::write_block(const TriangleBatch& batch, std::size_t beg
   if (format_.shortest) {
     text_.commit(write_shortest_columns(columns, out));
   } else {
-    const FixedTextKernel& kernel = fixed_text_kernel();
-    const FixedTextPart part = columns_.any() ? kernel.write_columns(columns, format_.decimals, out)
-                                              : kernel.write(columns.groups[0], format_.decimals, out);
+    const FixedTextPart part = write_fixed_columns(columns, format_.decimals, out);
     text_.commit(out + part.length);
     count = part.triangle_count;
   }

@@ -1,9 +1,9 @@
 #include "libpipeline/text/decimal_columns.h"
 
 #include "libpipeline/text/decimal_number.h"
-#include "libpipeline/text/fixed_text_kernels.h"
 #include "libpipeline/text/number_parser.h"
 #include "libpipeline/text/number_printer.h"
+#include "libpipeline/text/vertex_lines.h"
 
 namespace pipeline {
 namespace {

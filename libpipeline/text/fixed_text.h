@@ -5,6 +5,7 @@
 #include <span>
 #include <string_view>
 
+#include "libpipeline/numbers/kernel_choice.h"
 #include "libpipeline/numbers/vec.h"
 
 namespace pipeline {
@@ -13,8 +14,7 @@ namespace pipeline {
 // triangle, all numbers with the same count of decimals (no point if that is 0), and single blanks between
 // numbers. Where vertex lines have more columns, each group of three has its own count. That form is read and
 // written here, many digits at a time; everything else is left to the general reader and printer. The bytes
-// are the same either way. There is one kernel for each kind of processor, chosen once, when the program
-// starts.
+// are the same either way.
 
 /// The largest count of decimals in fixed form. A number has at most 15 digits there: it is a whole number of
 /// units of its last decimal that a double holds.
@@ -42,20 +42,6 @@ constexpr std::size_t min_fixed_triangle_length(int decimals) {
 /// May read 25 characters, whatever they are.
 int decimals_of_number(const char* p);
 
-/// Reads triangles from the beginning of `text` until one is not in fixed form, with `decimals` decimals and
-/// at most eight digits before the point, `triangles` is full, or the text ends. Every number becomes the
-/// nearest double, as from_chars returns it.
-using ReadFixedText = FixedTextPart (*)(std::string_view text, int decimals, std::span<Triangle> triangles);
-
-/// The same for the triangles of a scene: a line `triangle`, then three vertex lines.
-using ReadFixedScene = FixedTextPart (*)(std::string_view text, int decimals, std::span<Triangle> triangles);
-
-/// Prints triangles in fixed form and returns how many it printed. Stops before a triangle with a coordinate
-/// that has more than 15 digits (kernels differ in 16), or is so close to a tie that only exact arithmetic
-/// can round it (one kernel has it). `out` must have room for kMaxFixedTriangleLength characters per
-/// triangle, and kFixedTextSlack more.
-using WriteFixedText = FixedTextPart (*)(std::span<const Triangle> triangles, int decimals, char* out);
-
 /// The line that belongs to a triangle besides its three vertex lines.
 enum class TriangleFrame {
   stage_text,  // a blank line after them
@@ -81,34 +67,25 @@ using ConstFixedColumns = FixedColumnsOf<const Triangle, const std::array<double
 /// The counts of decimals of the groups.
 using GroupDecimals = std::array<int, 3>;
 
-/// Like ReadFixedText, for lines with these columns: fills as many entries as there are such triangles. Of w
-/// it reads the numbers that read_decimal_number reads.
-using ReadFixedColumns = FixedTextPart (*)(std::string_view text, TriangleFrame frame,
-                                           const GroupDecimals& decimals, const FixedColumns& columns);
+/// Reads triangles with these columns from the beginning of `text` until one is not in fixed form, with these
+/// decimals and at most eight digits before the point, the columns are full, or the text ends. Every number
+/// becomes the nearest double, as from_chars returns it. Of w it reads the numbers that read_decimal_number
+/// reads. Without vectors, it reads nothing.
+FixedTextPart read_fixed_columns(std::string_view text, TriangleFrame frame, const GroupDecimals& decimals,
+                                 const FixedColumns& columns);
 
-/// Like WriteFixedText, with the same decimals in all groups, and w in its shortest form, as print_number
-/// prints it. `out` must have room for kMaxFixedColumnsLength characters per triangle, and kFixedTextSlack
-/// more.
-using WriteFixedColumns = FixedTextPart (*)(const ConstFixedColumns& columns, int decimals, char* out);
+/// Prints triangles in fixed form, with the same decimals in all groups, and w in its shortest form, as
+/// print_number prints it. Stops before a triangle with a number that has more than 15 digits, or is so close
+/// to a tie that only exact arithmetic can round it (some kernels have it). `out` must have room for
+/// kMaxFixedTriangleLength or, with more columns, kMaxFixedColumnsLength characters per triangle, and
+/// kFixedTextSlack more.
+FixedTextPart write_fixed_columns(const ConstFixedColumns& columns, int decimals, char* out);
 
 /// Three groups of numbers; three times w and a separator.
 constexpr std::size_t kMaxFixedColumnsLength = std::size_t{3} * (kMaxFixedTriangleLength + 26);
 
-/// One implementation of all five.
-struct FixedTextKernel {
-  const char* name;
-  ReadFixedText read;
-  ReadFixedScene read_scene;
-  ReadFixedColumns read_columns;
-  WriteFixedText write;
-  WriteFixedColumns write_columns;
-};
-
-/// The kernels this processor can run, the fastest last; the first, "portable", runs everywhere.
-std::span<const FixedTextKernel> fixed_text_kernels();
-
-/// The kernel in use: the fastest, or the one that the environment variable PIPELINE_KERNEL names
-/// (kernel_choice.h).
-const FixedTextKernel& fixed_text_kernel();
+/// The kernels of write_fixed_columns. The scalar one prints nothing.
+using WriteFixedColumns = FixedTextPart (*)(const ConstFixedColumns& columns, int decimals, char* out);
+const KernelTable<WriteFixedColumns>& fixed_printing_kernels();
 
 }  // namespace pipeline

@@ -154,11 +154,33 @@ bool ProjectionStage::is_culled(const Triangle& p_view) const {
 
 bool ProjectionStage::needs_clipping(const Triangle& p_view) const {
   if (clip_ == ClipMode::none) return false;
-  if (clip_ != ClipMode::automatic) return true;
+  if (clip_ != ClipMode::automatic) return !is_well_inside(p_view);
   // Multiplication by a power of two is exact; an infinite product compares as it should.
   return projection_.is_perspective && std::any_of(p_view.begin(), p_view.end(), [&](const Vec3& p) {
            return -p.z * 1024 < projection_.near;
          });
+}
+
+/// Whether a triangle is so far inside the planes of the clip mode that doubles are enough to see it: the
+/// margin is far above what their rounding errors, and those of balls, add up to. A coefficient that is NaN
+/// fails every test.
+bool ProjectionStage::is_well_inside(const Triangle& p_view) const {
+  if (clip_extent_ != 1) return false;
+  const auto is_well_below = [](double a, double b, double size) { return b - a > 0x1p-30 * size; };
+  return std::all_of(p_view.begin(), p_view.end(), [&](const Vec3& p) {
+    const double distance = -p.z, w = w_of(p);
+    const auto is_between_sides = [&](std::size_t axis, double coordinate) {
+      const double scaled = coefficients_.scales[axis].value * coordinate;
+      const double shift = coefficients_.offsets[axis].value * (projection_.is_perspective ? p.z : 1);
+      return is_well_below(std::fabs(scaled + shift), w, std::fabs(scaled) + std::fabs(shift) + w);
+    };
+    const auto is_well_before = [&](double a, double b) {
+      return is_well_below(a, b, std::fabs(a) + std::fabs(b));
+    };
+    if (!is_well_before(projection_.near, distance) || !(w > 0x1p-400)) return false;
+    return clip_ == ClipMode::near || (is_well_before(distance, projection_.far) &&
+                                       is_between_sides(0, p.x) && is_between_sides(1, p.y));
+  });
 }
 
 void ProjectionStage::add_attributes(const TriangleBatch& p_view, std::size_t index,

@@ -72,6 +72,7 @@ class ProjectionStage {
   [[nodiscard]] double w_of(const Vec3& p_view) const { return projection_.is_perspective ? -p_view.z : 1; }
   [[nodiscard]] bool is_culled(const Triangle& p_view) const;
   [[nodiscard]] bool needs_clipping(const Triangle& p_view) const;
+  [[nodiscard]] bool is_well_inside(const Triangle& p_view) const;
   void add_attributes(const TriangleBatch& p_view, std::size_t index, const std::array<CornerMix, 3>& mixes,
                       TriangleBatch& p_ndc);
   void project_triangle(const TriangleBatch& p_view, std::size_t index, TriangleBatch& p_ndc);

@@ -4,53 +4,45 @@
 #include <cstddef>
 #include <limits>
 
-#include "libpipeline/numbers/kernel_choice.h"
 #include "libpipeline/vertex/vertex_loops.h"
 
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "libpipeline/vertex/vertex_kernel.cpp"
+#include "libpipeline/numbers/vector_targets.h"
+
+HWY_BEFORE_NAMESPACE();
 namespace pipeline {
+namespace HWY_NAMESPACE {
 namespace {
 
-void transform_portable(const AffineCoefficients& m, const RoundingTest& test, const VertexBlock& p,
-                        ImageBlock& image) {
-  transform_block<DekkerError>(m, test, p, image);
-}
+// Plain loops, which the compiler makes vectors of.
 
-void project_portable(const ProjectionCoefficients& m, const RoundingTest& test, const VertexBlock& p,
-                      ImageBlock& p_ndc) {
-  project_block<DekkerError>(m, test, p, p_ndc);
-}
-
-#if defined(__x86_64__) && defined(__GNUC__)
-
-// Four vertices at a time, with fused multiply-adds.
-
-__attribute__((target("avx2,fma"))) void transform_avx2(const AffineCoefficients& m, const RoundingTest& test,
-                                                        const VertexBlock& p, ImageBlock& image) {
-  transform_block<FmaError>(m, test, p, image);
-}
-
-__attribute__((target("avx2,fma"))) void project_avx2(const ProjectionCoefficients& m,
-                                                      const RoundingTest& test, const VertexBlock& p,
-                                                      ImageBlock& p_ndc) {
-  project_block<FmaError>(m, test, p, p_ndc);
-}
-
+#if HWY_NATIVE_FMA
+using ProductError = FmaError;
+#else
+using ProductError = DekkerError;
 #endif
 
-struct KernelList {
-  std::array<VertexKernel, 2> kernels{};
-  std::size_t count = 0;
+void transform(const AffineCoefficients& m, const RoundingTest& test, const VertexBlock& p,
+               ImageBlock& image) {
+  transform_block<ProductError>(m, test, p, image);
+}
 
-  KernelList() {
-    kernels[count++] = {"portable", transform_portable, project_portable};
-#if defined(__x86_64__) && defined(__GNUC__)
-    if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
-      kernels[count++] = {"avx2", transform_avx2, project_avx2};
-#endif
-  }
-};
+void project(const ProjectionCoefficients& m, const RoundingTest& test, const VertexBlock& p,
+             ImageBlock& p_ndc) {
+  project_block<ProductError>(m, test, p, p_ndc);
+}
+
+constexpr VertexKernel kKernel = {transform, project};
 
 }  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace pipeline
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+
+namespace pipeline {
 
 Coefficient::Coefficient(const Ball& number) {
   if (number.is_exact_zero()) return;
@@ -66,14 +58,16 @@ Coefficient::Coefficient(const Ball& number) {
                                       : std::numeric_limits<double>::quiet_NaN();
 }
 
-std::span<const VertexKernel> vertex_kernels() {
-  static const KernelList list;
-  return {list.kernels.data(), list.count};
+const KernelTable<const VertexKernel*>& vertex_kernels() {
+  static constexpr KernelTable<const VertexKernel*> kKernels = PIPELINE_KERNEL_TABLE(kKernel);
+  return kKernels;
 }
 
 const VertexKernel& vertex_kernel() {
-  static const VertexKernel& chosen = chosen_kernel(vertex_kernels());
+  static const VertexKernel& chosen = *chosen_kernel(vertex_kernels());
   return chosen;
 }
 
 }  // namespace pipeline
+
+#endif

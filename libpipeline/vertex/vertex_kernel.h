@@ -6,6 +6,7 @@
 #include <span>
 
 #include "libpipeline/numbers/ball.h"
+#include "libpipeline/numbers/kernel_choice.h"
 #include "libpipeline/numbers/vec.h"
 
 namespace pipeline {
@@ -96,17 +97,14 @@ struct ProjectionCoefficients {
 
 /// One implementation of the loops over a block's vertices.
 struct VertexKernel {
-  const char* name;
   void (*transform)(const AffineCoefficients&, const RoundingTest&, const VertexBlock& p, ImageBlock& image);
   void (*project)(const ProjectionCoefficients&, const RoundingTest&, const VertexBlock& p_view,
                   ImageBlock& p_ndc);
 };
 
-/// The kernels this processor can run, the fastest last; the first, "portable", runs everywhere.
-std::span<const VertexKernel> vertex_kernels();
+const KernelTable<const VertexKernel*>& vertex_kernels();
 
-/// The kernel in use: the fastest, or the one that the environment variable PIPELINE_KERNEL names
-/// (kernel_choice.h).
+/// The kernel in use.
 const VertexKernel& vertex_kernel();
 
 }  // namespace pipeline

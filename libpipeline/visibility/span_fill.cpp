@@ -2,82 +2,218 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
+#include <cstdint>
 
 #include "libpipeline/numbers/kernel_choice.h"
 
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "libpipeline/visibility/span_fill.cpp"
+#include "libpipeline/numbers/vector_targets.h"
+
+HWY_BEFORE_NAMESPACE();
 namespace pipeline {
+namespace HWY_NAMESPACE {
 namespace {
 
-/// Draws the span's pixels from the column `first` to before `end`; returns whether any is visible.
+namespace hn = hwy::HWY_NAMESPACE;
+
+// As many pixels at a time as a vector has doubles.
+using Doubles = hn::ScalableTag<double>;
+using Tags = hn::Rebind<PixelTag, Doubles>;
 template <typename Depth>
-bool fill_columns_in_a_loop(const SpanFill<Depth>& pixels, int first, int end) {
-  const SpanDepth depth = pixels.span.depth;
-  bool is_any_seen = false;
-  for (int column = first; column < end; ++column) {
-    const typename Depth::Stored stored = pixels.format.store(depth(column));
-    if (!(stored < pixels.depths[column])) continue;
-    pixels.depths[column] = stored;
-    pixels.tags[column] = pixels.tag;
-    is_any_seen = true;
-  }
-  return is_any_seen;
+using StoredDepths = hn::Rebind<typename Depth::Stored, Doubles>;
+
+constexpr Doubles kDoubles;
+constexpr Tags kTags;
+constexpr int kLanes = static_cast<int>(hn::MaxLanes(kDoubles));
+static_assert(kBlockColumns % kLanes == 0 &&
+              kLanes <= static_cast<int>(HierarchicalDepth<DepthF64>::kPadding) + 1);
+
+using DoubleVector = hn::Vec<Doubles>;
+
+// The functions `store` of the depth formats; scalar code has no use for them.
+
+template <typename Vector>
+HWY_INLINE Vector store(const DepthF64&, Vector z) {
+  return z;
+}
+template <typename Vector>
+HWY_INLINE auto store(const DepthF32&, Vector z) {
+  return hn::DemoteTo(StoredDepths<DepthF32>(), z);
+}
+template <typename Vector>
+HWY_INLINE auto store(const DepthU24& format, Vector z) {
+  const auto steps = (z - hn::Set(kDoubles, format.front)) * hn::Set(kDoubles, format.steps_per_depth) +
+                     hn::Set(kDoubles, 0.5);
+  const auto in_range = hn::Min(hn::Max(steps, hn::Zero(kDoubles)), hn::Set(kDoubles, DepthU24::kSteps));
+  return hn::DemoteTo(StoredDepths<DepthU24>(), in_range);
 }
 
-/// The kernel that runs everywhere: pixel by pixel.
-template <typename Depth>
-void fill_span_in_a_loop(const SpanFill<Depth>& pixels) {
-  const Span& span = pixels.span;
-  if (pixels.farthest == nullptr) {
-    fill_columns_in_a_loop(pixels, span.first_column, span.last_column + 1);
-    return;
-  }
-  const SpanBlocks blocks(pixels);
-  const auto stored = [&](int column) { return pixels.format.store(span.depth(column)); };
-  for (int block = blocks.first; block <= blocks.last; ++block) {
-    const int begin = block * kBlockColumns, end = std::min(begin + kBlockColumns, pixels.columns);
-    const int first = std::max(begin, span.first_column), last = std::min(end - 1, span.last_column);
-    const auto [nearest, farthest] = std::minmax({stored(first), stored(last)});
-    auto& farthest_there = pixels.farthest[block];
-    if (!(nearest < farthest_there)) continue;
-    if (!fill_columns_in_a_loop(pixels, first, last + 1))
-      farthest_there = *std::max_element(pixels.depths + begin, pixels.depths + end);
-    else if (block >= blocks.first_whole && block <= blocks.last_whole)
-      farthest_there = std::min(farthest_there, farthest);
+/// The mask of some depths as one of their tags.
+template <typename StoredTag, typename Mask>
+HWY_INLINE hn::Mask<Tags> mask_of_tags(StoredTag depths, Mask mask) {
+  if constexpr (sizeof(hn::TFromD<StoredTag>) == sizeof(PixelTag)) {
+    return hn::RebindMask(kTags, mask);
+  } else {
+    const hn::Rebind<std::uint64_t, StoredTag> wide;
+    return hn::MaskFromVec(hn::TruncateTo(kTags, hn::BitCast(wide, hn::VecFromMask(depths, mask))));
   }
 }
 
+/// A span being drawn.
 template <typename Depth>
-struct KernelList {
-  std::array<SpanFillKernel<Depth>, 2> kernels{};
-  std::size_t count = 0;
+class SpanLanes {
+ public:
+  HWY_INLINE explicit SpanLanes(const SpanFill<Depth>& pixels)
+      : pixels_(pixels),
+        format_(pixels.format),
+        depth_(pixels.span.depth),
+        is_rising_(depth_(pixels.span.first_column) <= depth_(pixels.span.last_column)) {}
 
-  KernelList() {
-    kernels[count++] = {"portable", fill_span_in_a_loop};
-    if (const auto* const avx2 = span_fill_avx2<Depth>()) kernels[count++] = *avx2;
+  /// Draws the pixels from the column `first` to before `end`; returns whether any is visible.
+  HWY_INLINE bool fill_columns(int first, int end) const {
+    auto* depths = pixels_.depths + first;
+    auto* tags = pixels_.tags + first;
+    auto columns = hn::Iota(kDoubles, first);
+    const auto tag = hn::Set(kTags, pixels_.tag);
+    bool is_any_seen = false;
+    for (; end - first >= kLanes; first += kLanes, depths += kLanes, tags += kLanes) {
+      const auto stored = stored_at(columns), there = hn::LoadU(kStored, depths);
+      columns = columns + hn::Set(kDoubles, kLanes);
+      const auto is_seen = hn::Lt(stored, there);
+      if (hn::AllFalse(kStored, is_seen)) continue;
+      hn::StoreU(hn::IfThenElse(is_seen, stored, there), kStored, depths);
+      hn::StoreU(hn::IfThenElse(mask_of_tags(kStored, is_seen), tag, hn::LoadU(kTags, tags)), kTags, tags);
+      is_any_seen = true;
+    }
+    if (HWY_MEM_OPS_MIGHT_FAULT) {
+      for (; first < end; ++first, ++depths, ++tags) is_any_seen |= draw_pixel(first, depths, tags);
+    } else if (first < end) {
+      const auto is_in_span = hn::FirstN(kStored, static_cast<std::size_t>(end - first));
+      const auto stored = stored_at(columns), there = hn::MaskedLoad(is_in_span, kStored, depths);
+      const auto is_seen = hn::And(is_in_span, hn::Lt(stored, there));
+      hn::BlendedStore(stored, is_seen, kStored, depths);
+      hn::BlendedStore(tag, mask_of_tags(kStored, is_seen), kTags, tags);
+      is_any_seen |= !hn::AllFalse(kStored, is_seen);
+    }
+    return is_any_seen;
   }
+
+  /// Draws the span without its hidden blocks.
+  HWY_INLINE void fill_blocks() const {
+    const SpanBlocks blocks(pixels_);
+    const auto first_column = hn::Set(kDoubles, pixels_.span.first_column);
+    const auto last_column = hn::Set(kDoubles, pixels_.span.last_column);
+    for (int block = blocks.first; block <= blocks.last; block += kLanes) {
+      // The columns where the span is nearest in each of some blocks.
+      const auto columns = hn::Iota(kDoubles, block) * hn::Set(kDoubles, kBlockColumns) +
+                           hn::Set(kDoubles, is_rising_ ? 0 : kBlockColumns - 1);
+      const auto nearest = stored_at(hn::Min(hn::Max(columns, first_column), last_column));
+      const auto is_near = hn::Lt(nearest, hn::LoadU(kStored, pixels_.farthest + block));
+      const int count = std::min(blocks.last - block + 1, kLanes);
+      unsigned open = bits_of(is_near) & ((1u << count) - 1);
+      while (open != 0) {
+        const int begin = std::countr_zero(open), end = begin + std::countr_one(open >> begin);
+        fill_run(blocks, block + begin, block + end);
+        open &= ~0u << end;
+      }
+    }
+  }
+
+ private:
+  using Stored = typename Depth::Stored;
+  static constexpr StoredDepths<Depth> kStored{};
+
+  /// The depths at some columns, as stored: SpanDepth's roundings in the same order.
+  HWY_INLINE auto stored_at(DoubleVector columns) const {
+    const auto x = (hn::Set(kDoubles, depth_.left_x) + columns * hn::Set(kDoubles, depth_.dx)) -
+                   hn::Set(kDoubles, depth_.x0);
+    const auto z = hn::Set(kDoubles, depth_.z0) + x * hn::Set(kDoubles, depth_.slope);
+    // Highway's scalar conversion has no infinite floats.
+    if constexpr (kLanes == 1)
+      return hn::Set(kStored, format_.store(hn::GetLane(z)));
+    else
+      return store(format_, z);
+  }
+
+  HWY_INLINE bool draw_pixel(int column, Stored* depth, PixelTag* tag) const {
+    const Stored stored = format_.store(depth_(column));
+    if (!(stored < *depth)) return false;
+    *depth = stored;
+    *tag = pixels_.tag;
+    return true;
+  }
+
+  /// A bit for each lane.
+  template <typename Mask>
+  HWY_INLINE static unsigned bits_of(Mask mask) {
+    std::array<std::uint8_t, 8> bytes{};
+    hn::StoreMaskBits(kStored, mask, bytes.data());
+    return bytes[0];
+  }
+
+  /// Draws into the blocks from `begin` to before `end`.
+  HWY_INLINE void fill_run(const SpanBlocks& blocks, int begin, int end) const {
+    const bool is_any_seen = fill_columns(std::max(begin * kBlockColumns, pixels_.span.first_column),
+                                          std::min(end * kBlockColumns, pixels_.span.last_column + 1));
+    if (!is_any_seen) {
+      for (int block = begin; block < end; ++block) pixels_.farthest[block] = farthest_of(block);
+      return;
+    }
+    const int end_whole = std::min(end, blocks.last_whole + 1);
+    for (int block = std::max(begin, blocks.first_whole); block < end_whole; ++block) {
+      const int column = block * kBlockColumns + (is_rising_ ? kBlockColumns - 1 : 0);
+      const double z = depth_(std::min(column, pixels_.span.last_column));
+      pixels_.farthest[block] = std::min(pixels_.farthest[block], format_.store(z));
+    }
+  }
+
+  HWY_INLINE Stored farthest_of(int block) const {
+    const int begin = block * kBlockColumns, count = std::min(kBlockColumns, pixels_.columns - begin);
+    const Stored* const depths = pixels_.depths + begin;
+    if (count < kBlockColumns) return *std::max_element(depths, depths + count);
+    auto farthest = hn::LoadU(kStored, depths);
+    for (int i = kLanes; i < kBlockColumns; i += kLanes)
+      farthest = hn::Max(farthest, hn::LoadU(kStored, depths + i));
+    return hn::GetLane(hn::MaxOfLanes(kStored, farthest));
+  }
+
+  const SpanFill<Depth>& pixels_;
+  const Depth format_;
+  const SpanDepth depth_;
+  const bool is_rising_;
 };
 
+template <typename Depth>
+void fill_span(const SpanFill<Depth>& pixels) {
+  const SpanLanes<Depth> lanes(pixels);
+  if (pixels.farthest == nullptr)
+    lanes.fill_columns(pixels.span.first_column, pixels.span.last_column + 1);
+  else
+    lanes.fill_blocks();
+}
+
 }  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace pipeline
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+
+namespace pipeline {
 
 template <typename Depth>
-std::span<const SpanFillKernel<Depth>> span_fill_kernels() {
-  static const KernelList<Depth> list;
-  return {list.kernels.data(), list.count};
+const KernelTable<FillSpan<Depth>>& span_fill_kernels() {
+  static constexpr KernelTable<FillSpan<Depth>> kKernels = PIPELINE_KERNEL_TABLE(fill_span<Depth>);
+  return kKernels;
 }
 
-template <typename Depth>
-const SpanFillKernel<Depth>& span_fill_kernel() {
-  static const SpanFillKernel<Depth>& chosen = chosen_kernel(span_fill_kernels<Depth>());
-  return chosen;
-}
-
-// NOLINTBEGIN(bugprone-macro-parentheses): a template's argument
-#define PIPELINE_INSTANTIATE(Depth)                                           \
-  template std::span<const SpanFillKernel<Depth>> span_fill_kernels<Depth>(); \
-  template const SpanFillKernel<Depth>& span_fill_kernel<Depth>();
+#define PIPELINE_INSTANTIATE(Depth) template const KernelTable<FillSpan<Depth>>& span_fill_kernels<Depth>();
 PIPELINE_FOR_EACH_DEPTH_FORMAT(PIPELINE_INSTANTIATE)
 #undef PIPELINE_INSTANTIATE
-// NOLINTEND(bugprone-macro-parentheses)
 
 }  // namespace pipeline
+
+#endif

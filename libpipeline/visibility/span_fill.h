@@ -4,6 +4,7 @@
 #include <span>
 
 #include "libpipeline/coverage/span.h"
+#include "libpipeline/numbers/kernel_choice.h"
 #include "libpipeline/visibility/depth_format.h"
 #include "libpipeline/visibility/hierarchical_depth.h"
 
@@ -48,25 +49,11 @@ struct SpanBlocks {
 // the row: the nearest in a block is at one of its ends. If that is not nearer than the farthest depth there,
 // the block is skipped.
 
-/// One implementation, for one depth format.
 template <typename Depth>
-struct SpanFillKernel {
-  const char* name;
-  void (*fill)(const SpanFill<Depth>&);
-};
+using FillSpan = void (*)(const SpanFill<Depth>&);
 
-/// The kernels this processor can run, the fastest last; the first, "portable", runs everywhere. Vector
-/// kernels exist for the formats that have lanes (span_fill_avx2.cpp).
+/// The kernels of a depth format.
 template <typename Depth>
-std::span<const SpanFillKernel<Depth>> span_fill_kernels();
-
-/// The kernel "avx2"; null where the processor cannot run it or the format has no lanes.
-template <typename Depth>
-const SpanFillKernel<Depth>* span_fill_avx2();
-
-/// The kernel in use: the fastest, or the one that the environment variable PIPELINE_KERNEL names, for tests.
-/// "sse4", which names kernels elsewhere in the library, means "portable" here; an unknown name is ignored.
-template <typename Depth>
-const SpanFillKernel<Depth>& span_fill_kernel();
+const KernelTable<FillSpan<Depth>>& span_fill_kernels();
 
 }  // namespace pipeline

@@ -38,7 +38,7 @@ bool draw_pixel_by_pixel(const Span& span, PixelTag tag, const Depth& format, do
 
 template <typename Depth>
 ZBuffer<Depth>::ZBuffer(const Viewport& screen, PixelTag background)
-    : fill_(span_fill_kernel<Depth>().fill),
+    : fill_(chosen_kernel(span_fill_kernels<Depth>())),
       format_(screen),
       front_(screen.front),
       rear_limit_(screen.rear),

@@ -13,13 +13,14 @@
 
 #include "libpipeline/coverage/rules.h"
 #include "tests/numbers/random_numbers.h"
+#include "tests/numbers/testable_targets.h"
 #include "tests/sanitizer_rounds.h"
 
 namespace pipeline {
 namespace {
 
 /// Every claim is tested with every kernel that this processor can run.
-class CoverageKernelTest : public testing::TestWithParam<CoverageKernel> {};
+class CoverageKernelTest : public testing::TestWithParam<std::size_t> {};
 
 Viewport screen_of(int columns, int rows, double left, double bottom, bool is_decimal) {
   Viewport screen{columns, rows, left, bottom};
@@ -117,8 +118,8 @@ std::array<std::uint64_t, 9> bits_of(const TaggedSpan& span) {
           span.tag};
 }
 
-template <typename Coverage>
-void expect_the_spans_of_the_rule(const CoverageKernel& kernel) {
+template <typename Coverage, typename Kernel>
+void expect_the_spans_of_the_rule(Kernel kernel) {
   RandomNumbers random(11);
   for (const Viewport& screen :
        {screen_of(500, 500, -1, -1, true), screen_of(1920, 1080, -1.6, -0.9, true),
@@ -159,17 +160,17 @@ void expect_the_spans_of_the_rule(const CoverageKernel& kernel) {
 }
 
 TEST_P(CoverageKernelTest, NearestSpansAreThoseOfTheRule) {
-  expect_the_spans_of_the_rule<NearestCoverage>(GetParam());
+  expect_the_spans_of_the_rule<NearestCoverage>(nearest_kernels()[GetParam()]);
 }
 
 TEST_P(CoverageKernelTest, CenterSpansAreThoseOfTheRule) {
-  expect_the_spans_of_the_rule<CenterCoverage>(GetParam());
+  expect_the_spans_of_the_rule<CenterCoverage>(center_kernels()[GetParam()]);
 }
 
 TEST_P(CoverageKernelTest, TheSmallestTrianglesOwnACenterAtTheirTopLeftCornerAlone) {
   const Viewport screen = screen_of(10, 10, -1, -1, true);
   CenterCoverage rule(screen);
-  rule.kernel = GetParam();
+  rule.kernel = center_kernels()[GetParam()];
   // From the center of column 5 and row 4, two sides one unit of the last decimal long.
   constexpr double kLess = 0.0999999, kCenter = 0.1, kMore = 0.1000001;
   const Vec3 corner = {kCenter, kCenter, 0}, left = {kLess, kCenter, 0}, right = {kMore, kCenter, 0},
@@ -193,9 +194,8 @@ TEST_P(CoverageKernelTest, TheSmallestTrianglesOwnACenterAtTheirTopLeftCornerAlo
   EXPECT_EQ(spans[1].tag, 4u);
 }
 
-INSTANTIATE_TEST_SUITE_P(Kernels, CoverageKernelTest,
-                         testing::ValuesIn(coverage_kernels().begin(), coverage_kernels().end()),
-                         [](const auto& kernel) { return std::string(kernel.param.name); });
+INSTANTIATE_TEST_SUITE_P(Kernels, CoverageKernelTest, testing::ValuesIn(testable_targets(nearest_kernels())),
+                         name_of_target);
 
 }  // namespace
 }  // namespace pipeline

@@ -1,4 +1,4 @@
-# Depths under `nearest` in doubles: NearestRows (libpipeline/coverage/nearest.h, libpipeline/coverage/nearest.cpp) and its twin for AVX2.
+# Depths under `nearest` in doubles: NearestRows (libpipeline/coverage/nearest.h, libpipeline/coverage/nearest.cpp) and its twin on vectors.
 #
 # The depth of the plane through the vertices a (lowest), b, c at a pixel is z0 + (x - x0) slope, from the row's left intersection
 # (x0, z0). In units of u = 2^-53 and of Z, the largest |z| of a vertex, or the |z| of the plane at the pixel if that is larger; L

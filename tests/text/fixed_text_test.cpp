@@ -12,22 +12,31 @@
 #include <string>
 #include <vector>
 
+#include "tests/numbers/testable_targets.h"
+
 namespace pipeline {
 namespace {
 
-/// Every claim is tested with every kernel that this processor can run.
-class FixedText : public testing::TestWithParam<FixedTextKernel> {
+/// Reads from a copy that is followed by digits, which must not become part of the last number.
+FixedTextPart read_columns(const std::string& text, TriangleFrame frame, const GroupDecimals& decimals,
+                           const FixedColumns& columns) {
+  const std::string with_slack = text + std::string(kFixedTextSlack, '7');
+  return read_fixed_columns({with_slack.data(), text.size()}, frame, decimals, columns);
+}
+
+/// Every claim is tested with every kernel that this processor can run, but for the scalar one, which reads
+/// and prints nothing. There is one for reading: the last with vectors of sixteen characters.
+class FixedText : public testing::TestWithParam<std::size_t> {
  protected:
-  /// Reads from a copy that is followed by digits, which must not become part of the last number.
+  static WriteFixedColumns kernel() { return fixed_printing_kernels()[GetParam()]; }
+
   static FixedTextPart read(const std::string& text, std::vector<Triangle>& triangles, int decimals = 7) {
-    const std::string with_slack = text + std::string(kFixedTextSlack, '7');
-    return GetParam().read({with_slack.data(), text.size()}, decimals, triangles);
+    return read_columns(text, TriangleFrame::stage_text, {decimals}, {{triangles}, {}});
   }
 
   static FixedTextPart read_scene(const std::string& text, std::vector<Triangle>& triangles,
                                   int decimals = 7) {
-    const std::string with_slack = text + std::string(kFixedTextSlack, '7');
-    return GetParam().read_scene({with_slack.data(), text.size()}, decimals, triangles);
+    return read_columns(text, TriangleFrame::scene, {decimals}, {{triangles}, {}});
   }
 
   static std::size_t count_read(const std::string& text, int decimals = 7) {
@@ -37,7 +46,7 @@ class FixedText : public testing::TestWithParam<FixedTextKernel> {
 
   static std::string write(const std::vector<Triangle>& triangles, std::size_t& count, int decimals = 7) {
     std::string out(triangles.size() * kMaxFixedTriangleLength + kFixedTextSlack, '\0');
-    const FixedTextPart part = GetParam().write(triangles, decimals, out.data());
+    const FixedTextPart part = kernel()({{triangles}, {}}, decimals, out.data());
     count = part.triangle_count;
     out.resize(part.length);
     return out;
@@ -238,7 +247,7 @@ std::string random_word(std::mt19937_64& random, int decimals) {
 }
 
 /// Reads random triangles and compares with from_chars.
-void read_random(const ReadFixedText read_kernel, int decimals, int triangle_count, std::uint64_t seed) {
+void read_random(int decimals, int triangle_count, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   for (int i = 0; i < triangle_count; ++i) {
     std::array<double, 9> expected;
@@ -249,23 +258,50 @@ void read_random(const ReadFixedText read_kernel, int decimals, int triangle_cou
       text += word + (k % 3 == 2 ? "\n" : " ");
     }
     text += "\n";
-    const std::size_t length = text.size();
-    text.append(kFixedTextSlack, '7');
     std::array<Triangle, 1> triangle;
-    ASSERT_EQ(read_kernel({text.data(), length}, decimals, triangle).triangle_count, 1u) << text;
+    ASSERT_EQ(read_columns(text, TriangleFrame::stage_text, {decimals}, {{triangle}, {}}).triangle_count, 1u)
+        << text;
     const auto bits = std::bit_cast<std::array<std::uint64_t, 9>>(triangle);
     ASSERT_EQ(bits, (std::bit_cast<std::array<std::uint64_t, 9>>(expected))) << text;
   }
 }
 
 TEST_P(FixedText, ReadsWhatTheGeneralReaderReads) {
-  read_random(GetParam().read, 7, 30000, 1);
-  for (const int decimals : all_decimals()) read_random(GetParam().read, decimals, 3000, 1);
+  read_random(7, 30000, 1);
+  for (const int decimals : all_decimals()) read_random(decimals, 3000, 1);
+}
+
+// Numbers with one digit before the point are expected after a triangle that has no others.
+TEST_P(FixedText, ReadsNumbersOfOneDigitAndOthersInTurn) {
+  std::mt19937_64 random(2);
+  for (const int decimals : all_decimals()) {
+    for (int i = 0; i < 300; ++i) {
+      std::array<Triangle, 10> triangles, expected;
+      std::string text;
+      for (Triangle& triangle : expected) {
+        const bool has_others = random() % 2 == 0;
+        for (Vec3& vertex : triangle)
+          for (double* const number : {&vertex.x, &vertex.y, &vertex.z}) {
+            std::string word = random_word(random, decimals);
+            if (!has_others || random() % 2 == 0)
+              word =
+                  word.substr(0, word[0] == '-' ? 2 : 1) + word.substr(std::min(word.find('.'), word.size()));
+            *number = general_number(word);
+            text += word + (number == &vertex.z ? "\n" : " ");
+          }
+        text += "\n";
+      }
+      const FixedTextPart part = read_columns(text, TriangleFrame::stage_text, {decimals}, {{triangles}, {}});
+      ASSERT_EQ(part.length, text.size()) << text;
+      using Bits = std::array<std::uint64_t, 90>;
+      ASSERT_EQ(std::bit_cast<Bits>(triangles), std::bit_cast<Bits>(expected)) << text;
+    }
+  }
 }
 
 TEST_P(FixedText, LongReadsWhatTheGeneralReaderReadsOnAHundredMillionNumbers) {
   for (const int decimals : all_decimals())
-    read_random(GetParam().read, decimals, (decimals == 7 ? 100'000'000 : 10'000'000) / 9, 4);
+    read_random(decimals, (decimals == 7 ? 100'000'000 : 10'000'000) / 9, 4);
 }
 
 TEST_P(FixedText, PrintsZeroWithoutASign) {
@@ -398,7 +434,7 @@ TEST_P(FixedText, StopsBeforeTheFirstTriangleItCannotPrint) {
 }
 
 /// Prints random coordinates, many of them next to ties, and compares with the general printer.
-void print_random(const WriteFixedText write_kernel, int decimals, int triangle_count, std::uint64_t seed) {
+void print_random(WriteFixedColumns write, int decimals, int triangle_count, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   std::uniform_real_distribution<double> mantissa(-1, 1);
   std::string out(kMaxFixedTriangleLength + kFixedTextSlack, '\0');
@@ -414,7 +450,7 @@ void print_random(const WriteFixedText write_kernel, int decimals, int triangle_
         value = std::nextafter(value, random() % 2 == 0 ? 1e9 : -1e9);
     }
     const auto triangle = std::bit_cast<Triangle>(values);
-    const FixedTextPart part = write_kernel({&triangle, 1}, decimals, out.data());
+    const FixedTextPart part = write({{{{&triangle, 1}}}, {}}, decimals, out.data());
     if (part.triangle_count == 0) continue;
     ++printed_count;
     ASSERT_EQ(out.substr(0, part.length), general_text(triangle, decimals));
@@ -423,13 +459,13 @@ void print_random(const WriteFixedText write_kernel, int decimals, int triangle_
 }
 
 TEST_P(FixedText, PrintsWhatTheGeneralPrinterPrints) {
-  print_random(GetParam().write, 7, 30000, 2);
-  for (const int decimals : all_decimals()) print_random(GetParam().write, decimals, 3000, 2);
+  print_random(kernel(), 7, 30000, 2);
+  for (const int decimals : all_decimals()) print_random(kernel(), decimals, 3000, 2);
 }
 
 TEST_P(FixedText, LongPrintsWhatTheGeneralPrinterPrintsOnAHundredMillionNumbers) {
   for (const int decimals : all_decimals())
-    print_random(GetParam().write, decimals, (decimals == 7 ? 100'000'000 : 10'000'000) / 9, 3);
+    print_random(kernel(), decimals, (decimals == 7 ? 100'000'000 : 10'000'000) / 9, 3);
 }
 
 /// The columns of a text, and room for the numbers of so many triangles.
@@ -447,13 +483,6 @@ struct ColumnArrays {
 
 std::string scene_frame(const std::string& lines) {
   return "triangle\n" + lines;
-}
-
-/// Reads from a copy that is followed by digits.
-FixedTextPart read_columns(const FixedTextKernel& kernel, const std::string& text, TriangleFrame frame,
-                           const GroupDecimals& decimals, ColumnArrays& arrays) {
-  const std::string with_slack = text + std::string(kFixedTextSlack, '7');
-  return kernel.read_columns({with_slack.data(), text.size()}, frame, decimals, arrays.columns());
 }
 
 std::vector<std::uint64_t> bits_of(const ColumnArrays& arrays) {
@@ -504,7 +533,7 @@ TEST_P(FixedText, ReadsColumnsAsTheGeneralReaderDoes) {
     }
     const std::string text = frame == TriangleFrame::scene ? scene_frame(lines) : lines + "\n";
     ColumnArrays arrays(group_count, has_w, 1);
-    const FixedTextPart part = read_columns(GetParam(), text, frame, decimals, arrays);
+    const FixedTextPart part = read_columns(text, frame, decimals, arrays.columns());
     // Few w lie too close to the midpoint of two doubles for the fast reader.
     if (has_w && part.triangle_count == 0) continue;
     ASSERT_EQ(part.length, text.size()) << text;
@@ -523,7 +552,7 @@ TEST_P(FixedText, EveryByteOfColumnsMatters) {
       const bool was_digit = triangle[i] >= '0' && triangle[i] <= '9';
       const bool is_digit_for_digit = byte >= '0' && byte <= '9' && was_digit;
       ColumnArrays arrays(3, false, 1);
-      const FixedTextPart part = read_columns(GetParam(), text, TriangleFrame::stage_text, {1, 0, 2}, arrays);
+      const FixedTextPart part = read_columns(text, TriangleFrame::stage_text, {1, 0, 2}, arrays.columns());
       ASSERT_EQ(part.triangle_count, is_digit_for_digit || text == triangle ? 1u : 0u) << i << " " << byte;
     }
   }
@@ -536,12 +565,12 @@ TEST_P(FixedText, ReadsTheColumnsOfWholeTrianglesAlone) {
     for (std::size_t length = 0; length < triangle.size(); ++length) {
       ColumnArrays arrays(3, false, 3);
       const std::string text = triangle + triangle.substr(0, length);
-      const FixedTextPart part = read_columns(GetParam(), text, frame, {1, 0, 2}, arrays);
+      const FixedTextPart part = read_columns(text, frame, {1, 0, 2}, arrays.columns());
       ASSERT_EQ(part.length, triangle.size()) << length;
       ASSERT_EQ(part.triangle_count, 1u) << length;
     }
     ColumnArrays arrays(3, false, 2);
-    EXPECT_EQ(read_columns(GetParam(), triangle + triangle + triangle, frame, {1, 0, 2}, arrays).length,
+    EXPECT_EQ(read_columns(triangle + triangle + triangle, frame, {1, 0, 2}, arrays.columns()).length,
               2 * triangle.size());
   }
 }
@@ -557,7 +586,7 @@ TEST_P(FixedText, LeavesColumnsOfAnyOtherForm) {
         std::string("1.5 2.5 3.5 - 7 8 9\n"), std::string("1.5 2.5 3.5 2.25 7 8 9 # so\n")}) {
     ColumnArrays arrays(2, true, 1);
     const FixedTextPart part =
-        read_columns(GetParam(), fine + line + fine + "\n", TriangleFrame::stage_text, {1, 0, 0}, arrays);
+        read_columns(fine + line + fine + "\n", TriangleFrame::stage_text, {1, 0, 0}, arrays.columns());
     const bool is_fine = line == fine || line == "1.5 2.5 3.5 2 7 8 9\n";
     EXPECT_EQ(part.triangle_count, is_fine ? 1u : 0u) << line;
   }
@@ -581,10 +610,10 @@ std::string general_columns(const ColumnArrays& arrays, std::size_t triangle, in
 }
 
 /// Prints all triangles that the kernel does not leave.
-std::string write_columns(const FixedTextKernel& kernel, const ColumnArrays& arrays, int decimals,
+std::string write_columns(WriteFixedColumns write, const ColumnArrays& arrays, int decimals,
                           std::size_t& count) {
   std::string out(arrays.groups[0].size() * kMaxFixedColumnsLength + kFixedTextSlack, '\0');
-  const FixedTextPart part = kernel.write_columns(arrays.columns(), decimals, out.data());
+  const FixedTextPart part = write(arrays.columns(), decimals, out.data());
   count = part.triangle_count;
   out.resize(part.length);
   return out;
@@ -608,7 +637,7 @@ TEST_P(FixedText, PrintsColumnsAsTheGeneralPrinterDoesOrLeavesThem) {
       for (auto& three : arrays.w)
         for (double& w : three) w = std::ldexp(number(random), static_cast<int>(random() % 80) - 60);
       std::size_t count = 0;
-      const std::string text = write_columns(GetParam(), arrays, decimals, count);
+      const std::string text = write_columns(kernel(), arrays, decimals, count);
       std::string expected;
       for (std::size_t k = 0; k < count; ++k) expected += general_columns(arrays, k, decimals);
       ASSERT_EQ(text, expected) << decimals;
@@ -633,12 +662,12 @@ TEST_P(FixedText, ReadsAndPrintsRepeatedColumns) {
         if (!arrays.w.empty()) arrays.w[k][vertex] = 1.25;
       }
     std::size_t count = 0;
-    const std::string text = write_columns(GetParam(), arrays, 2, count);
+    const std::string text = write_columns(kernel(), arrays, 2, count);
     std::string expected;
     for (std::size_t k = 0; k < kCount; ++k) expected += general_columns(arrays, k, 2);
     ASSERT_EQ(text, expected);
     ColumnArrays read(arrays.groups[2].empty() ? 2 : 3, !arrays.w.empty(), kCount);
-    ASSERT_EQ(read_columns(GetParam(), text, TriangleFrame::stage_text, {2, 2, 2}, read).triangle_count,
+    ASSERT_EQ(read_columns(text, TriangleFrame::stage_text, {2, 2, 2}, read.columns()).triangle_count,
               kCount);
     ASSERT_EQ(bits_of(read), bits_of(arrays));
   }
@@ -661,10 +690,10 @@ TEST_P(FixedText, ReadsAndPrintsColumnsInEveryPatternOfRepetition) {
     std::string expected;
     for (std::size_t k = 0; k < kCount; ++k) expected += general_columns(arrays, k, 2);
     std::size_t count = 0;
-    ASSERT_EQ(write_columns(GetParam(), with_signs, 2, count), expected) << pattern;
+    ASSERT_EQ(write_columns(kernel(), with_signs, 2, count), expected) << pattern;
     ASSERT_EQ(count, kCount);
     ColumnArrays read(2, false, kCount);
-    ASSERT_EQ(read_columns(GetParam(), expected, TriangleFrame::stage_text, {2, 2, 2}, read).triangle_count,
+    ASSERT_EQ(read_columns(expected, TriangleFrame::stage_text, {2, 2, 2}, read.columns()).triangle_count,
               kCount);
     ASSERT_EQ(bits_of(read), bits_of(arrays)) << pattern;
   }
@@ -676,7 +705,7 @@ TEST_P(FixedText, StopsBeforeTheFirstColumnsItCannotPrint) {
       ColumnArrays arrays(3, true, 4);
       arrays.groups[group][2][1].y = value;
       std::size_t count = 0;
-      EXPECT_EQ(write_columns(GetParam(), arrays, 7, count),
+      EXPECT_EQ(write_columns(kernel(), arrays, 7, count),
                 general_columns(arrays, 0, 7) + general_columns(arrays, 1, 7));
       EXPECT_EQ(count, 2u);
     }
@@ -690,7 +719,7 @@ TEST_P(FixedText, HasRoomForTheLongestColumns) {
   const double longest_w = -std::nextafter(0x1p-1022, 1);
   arrays.w[0] = {longest_w, longest_w, longest_w};
   std::size_t count = 0;
-  const std::string text = write_columns(GetParam(), arrays, 7, count);
+  const std::string text = write_columns(kernel(), arrays, 7, count);
   EXPECT_EQ(text, general_columns(arrays, 0, 7));
   EXPECT_LE(text.size(), kMaxFixedColumnsLength);
 }
@@ -711,9 +740,13 @@ TEST(FixedTextDecimals, AreThoseOfTheFirstNumber) {
   EXPECT_EQ(decimals_of("# 1.5\n"), 0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Kernels, FixedText,
-                         testing::ValuesIn(fixed_text_kernels().begin(), fixed_text_kernels().end()),
-                         [](const auto& test) { return std::string(test.param.name); });
+std::vector<std::size_t> printing_targets() {
+  std::vector<std::size_t> targets = testable_targets(fixed_printing_kernels());
+  targets.erase(targets.begin());
+  return targets;
+}
+
+INSTANTIATE_TEST_SUITE_P(Kernels, FixedText, testing::ValuesIn(printing_targets()), name_of_target);
 
 }  // namespace
 }  // namespace pipeline

@@ -320,7 +320,7 @@ class VertexPlaces(ToolTest):
                 bad = frame(self.GOOD, form.format(vertex), self.GOOD)
                 text = header + good + bad + good
                 line = (header + good + bad).split(vertex)[0].count("\n") + 1
-                for kernel in ("portable", "sse4", "avx2"):
+                for kernel in ("scalar", "sse4", "avx2", "avx512"):
                     with self.subTest(tool=tool, form=form, kernel=kernel):
                         done = run(tool, *options, stdin=text, env=os.environ | {"PIPELINE_KERNEL": kernel})
                         self.assert_fails(done, 1, f"{tool}: <stdin>:{line}:{column}: {reason}")

@@ -191,7 +191,7 @@ class RandomScenes(Seen):
                 expected = self.seen(ndc, *options)
                 self.assertEqual(self.seen(ndc, *options, "--threads", "3"), expected)
                 self.assertEqual(self.seen(ndc, *options, "--algorithm", "scanline"), expected)
-                for kernel in ("portable", "sse4", "avx2"):
+                for kernel in ("scalar", "sse4", "avx2", "avx512"):
                     done = run("zbuf", "config.txt", "--seen", "-", *options, stdin=ndc, env={**os.environ, "PIPELINE_KERNEL": kernel})
                     self.assertEqual(done.stdout, expected)
 

@@ -302,7 +302,7 @@ class Pixels(ToolTest):
             _, expected = self.told(text, "--coverage", rule)
             for options in (["--algorithm", "scanline"], ["--threads", "4"], ["--samples", "2"], ["--wireframe"]):
                 self.assertEqual(self.told(text, "--coverage", rule, *options)[1], expected, (rule, options))
-            self.assertEqual(self.told(text, "--coverage", rule, kernel="portable")[1], expected, rule)
+            self.assertEqual(self.told(text, "--coverage", rule, kernel="scalar")[1], expected, rule)
 
     def test_they_change_nothing_else(self):
         for sample in sorted(path.parent for path in SOURCE.glob("samples/*/scene.txt")):

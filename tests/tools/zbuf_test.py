@@ -95,8 +95,8 @@ class Kernels(ToolTest):
         for stage3 in sorted(SOURCE.glob("samples/*/stage3.txt")):
             config = stage3.parent / "config.txt"
             for depth in ("f64", "f32", "u24"):
-                expected = zbuf(config, stage3, "--depth", depth, kernel="portable")
-                for kernel in ("sse4", "avx2", None):
+                expected = zbuf(config, stage3, "--depth", depth, kernel="scalar")
+                for kernel in ("sse4", "avx2", "avx512", None):
                     with self.subTest(stage3=str(stage3), depth=depth, kernel=kernel):
                         self.assertTrue(zbuf(config, stage3, "--depth", depth, kernel=kernel) == expected, "differs")
 

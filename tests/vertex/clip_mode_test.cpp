@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "libpipeline/text/error.h"
@@ -134,6 +135,51 @@ TEST(ClipModeNone, AVertexOnOrBehindTheEyePlaneIsAnError) {
 TEST(ClipModeNone, AParallelProjectionHasNoEyePlane) {
   const ProjectionTransform parallel = {false, 1, 0, 1, 0, 1, 100};
   EXPECT_EQ(projected(batch_of({triangle_at(5, 0, -2)}), parallel, ClipMode::none).p_ndc.size(), 1u);
+}
+
+// The corner lies beside a plane, by 2^-52 of its distance to 2^-20, or within all of them.
+TEST(ProjectionStage, CutsWhatIsOutsideHoweverLittle) {
+  RandomNumbers random(5);
+  const auto beside = [&](double plane) {
+    const double sign = random.bits() % 2 == 0 ? 1 : -1;
+    return random.bits() % 2 == 0 ? plane * (1 + sign * std::exp2(random.whole(-52, -20))) : plane;
+  };
+  int cut_count = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const bool is_perspective = i % 2 == 0;
+    const double near = std::exp2(random.between(-10, 10)),
+                 far = near * (1 + std::exp2(random.between(-3, 20)));
+    const ProjectionTransform projection = {is_perspective,
+                                            random.between(0.5, 3),
+                                            random.between(-1, 1),
+                                            random.between(0.5, 3),
+                                            random.between(-1, 1),
+                                            near,
+                                            far};
+    const auto point = [&](double x_ndc, double y_ndc, double distance) {
+      const double w = is_perspective ? distance : 1, shift = is_perspective ? -distance : 1;
+      const auto coordinate = [&](double ndc, const Ball& scale, const Ball& offset) {
+        return (ndc * w - offset.nearest_double() * shift) / scale.nearest_double();
+      };
+      return Vec3{coordinate(x_ndc, projection.x_scale, projection.x_offset),
+                  coordinate(y_ndc, projection.y_scale, projection.y_offset), -distance};
+    };
+    const std::array<double, 3> distances = {near, (near + far) / 2, far};
+    const double middle = distances[1];
+    const Vec3 corner = point(beside(random.whole(-1, 1)), beside(random.whole(-1, 1)),
+                              beside(distances[static_cast<std::size_t>(random.whole(0, 2))]));
+    const TriangleBatch p_view = batch_of({{corner, point(0.5, 0, middle), point(0, 0.5, middle)}});
+    const unsigned outside = outcode(to_clip_space(projection, corner));
+    const auto is_cut = [&](ClipMode clip) {
+      return projected(p_view, projection, clip, CullMode::nothing, {7}, Precision::in_doubles)
+                 .counts.clipped == 1;
+    };
+    ASSERT_EQ(is_cut(ClipMode::frustum), outside != 0) << i;
+    ASSERT_EQ(is_cut(ClipMode::near), (outside & 1) != 0) << i;
+    cut_count += outside != 0 ? 1 : 0;
+  }
+  EXPECT_GT(cut_count, 5000);
+  EXPECT_LT(cut_count, 15000);
 }
 
 TEST(ProjectionStage, EveryPieceHasItsTrianglesNumber) {

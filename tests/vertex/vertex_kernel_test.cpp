@@ -8,6 +8,7 @@
 #include "libpipeline/text/number_printer.h"
 #include "tests/numbers/random_numbers.h"
 #include "tests/numbers/real.h"
+#include "tests/numbers/testable_targets.h"
 
 namespace pipeline {
 namespace {
@@ -41,12 +42,13 @@ VertexBlock block_of(const Vec3& p) {
   return block;
 }
 
-class VertexKernels : public testing::TestWithParam<VertexKernel> {
+class VertexKernels : public testing::TestWithParam<std::size_t> {
  protected:
+  static const VertexKernel& kernel() { return *vertex_kernels()[GetParam()]; }
   static ImageBlock image_of(const AffineCoefficients& coefficients, const Vec3& p,
                              const RoundingTest& test = kNearest) {
     ImageBlock image;
-    GetParam().transform(coefficients, test, block_of(p), image);
+    kernel().transform(coefficients, test, block_of(p), image);
     return image;
   }
   static bool accepts(const std::array<Ball, 4>& row, const Vec3& p, const RoundingTest& test = kNearest) {
@@ -152,7 +154,7 @@ TEST_P(VertexKernels, TestEveryVertexOfABlockByItself) {
   VertexBlock block;
   block.fill(triangles);
   ImageBlock image;
-  GetParam().transform(coefficients_of({1, 0x1p-53, 0, 1}), kNearest, block, image);
+  kernel().transform(coefficients_of({1, 0x1p-53, 0, 1}), kNearest, block, image);
   ASSERT_EQ(image.count, 3 * triangles.size());
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     EXPECT_EQ(image.p[0][3 * i], static_cast<double>(i + 1));
@@ -188,8 +190,8 @@ TEST_P(VertexKernels, AcceptOnlyTheNearestQuotient) {
     const int decimals = random.whole(11, 17);
     const bool is_nearest = i % 2 == 0;
     ImageBlock p_ndc;
-    GetParam().project(coefficients, is_nearest ? kNearest : test_of_decimals(decimals, true), block_of(p),
-                       p_ndc);
+    kernel().project(coefficients, is_nearest ? kNearest : test_of_decimals(decimals, true), block_of(p),
+                     p_ndc);
     if (p_ndc.passes_rounding_test[0] == 0) continue;
     ++passed_count;
     const Exact w = coefficients.is_perspective ? -p.z : 1;
@@ -213,14 +215,13 @@ TEST_P(VertexKernels, AcceptNoQuotientBehindTheEyeOrOnItsPlane) {
   for (Coefficient& coefficient : coefficients.scales) coefficient = Coefficient(Ball(1));
   for (const double z : {0.0, -0.0, 1.0, -0x1p-500, -0x1p500}) {
     ImageBlock p_ndc;
-    GetParam().project(coefficients, kNearest, block_of({1, 1, z}), p_ndc);
+    kernel().project(coefficients, kNearest, block_of({1, 1, z}), p_ndc);
     EXPECT_EQ(p_ndc.passes_rounding_test[0], 0u) << z;
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Kernels, VertexKernels,
-                         testing::ValuesIn(vertex_kernels().begin(), vertex_kernels().end()),
-                         [](const auto& test) { return std::string(test.param.name); });
+INSTANTIATE_TEST_SUITE_P(Kernels, VertexKernels, testing::ValuesIn(testable_targets(vertex_kernels())),
+                         name_of_target);
 
 }  // namespace
 }  // namespace pipeline

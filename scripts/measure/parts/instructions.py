@@ -17,7 +17,7 @@ from parts.instruction_rows import ROWS, TEXTS
 from parts.measuring import write_csv
 
 TOLERATED_PERCENT = 1.0
-FLAGS = {"portable": set(), "sse4": {"sse4_2", "bmi1"}, "avx2": {"sse4_2", "bmi1", "avx2", "fma"}}  # in /proc/cpuinfo
+FLAGS = {"scalar": set(), "sse4": {"sse4_2"}, "avx2": {"sse4_2", "bmi1", "bmi2", "avx2", "fma"}}  # in /proc/cpuinfo
 
 
 class RunFailed(Exception):

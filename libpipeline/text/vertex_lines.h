@@ -11,25 +11,15 @@
 #include "libpipeline/text/fixed_text.h"
 #include "libpipeline/text/number_printer.h"
 
-#if defined(__x86_64__) && defined(__GNUC__)
-#define PIPELINE_HAS_X86_KERNELS
-#endif
-
 namespace pipeline {
 
-// The kernels of fixed_text.h, each in a file of its own.
+// What the fast paths for vertex lines share (fixed_reading.cpp, fixed_printing.cpp, decimal_columns.cpp).
 
 /// The beginning of the vertex lines; null if the line before them is missing.
-template <TriangleFrame frame>
-const char* vertex_lines(const char* p) {
-  if constexpr (frame == TriangleFrame::stage_text) return p;
-  constexpr std::string_view kLine = "triangle\n";
-  return std::string_view(p, kLine.size()) == kLine ? p + kLine.size() : nullptr;
-}
-
-/// The same for a frame that is known only here.
 inline const char* vertex_lines(const char* p, TriangleFrame frame) {
-  return frame == TriangleFrame::scene ? vertex_lines<TriangleFrame::scene>(p) : p;
+  constexpr std::string_view kLine = "triangle\n";
+  if (frame == TriangleFrame::stage_text) return p;
+  return std::string_view(p, kLine.size()) == kLine ? p + kLine.size() : nullptr;
 }
 /// The end of a triangle whose vertex lines end at `p`; null if the line after them is missing.
 inline const char* triangle_end(const char* p, TriangleFrame frame) {
@@ -103,7 +93,7 @@ class LastPrinted {
 
   static constexpr std::size_t kMaxLength = 64;  // more than three numbers of a sign, 16 digits and a point
 
-  std::array<char, kMaxLength> text_;
+  std::array<char, kMaxLength> text_{};
   std::size_t length_ = 0;  // 0: none yet
   Vec3 numbers_;
   int miss_count_ = 0;  // in a row
@@ -145,46 +135,5 @@ inline char* write_w(char* out, double w) {
 /// Numbers are read and printed as whole numbers of units of their last decimal; those printed are below
 /// this.
 constexpr double kUnitsLimit = 1e15;
-
-extern const FixedTextKernel kPortableKernel;
-
-#ifdef PIPELINE_HAS_X86_KERNELS
-/// How to print the sixteen digits of a whole number of units, the first of which is 0 and replaced by a
-/// point.
-struct PrintedForm {
-  /// Sixteen bytes starting at byte n form a shuffle mask that drops the first n digits and moves the point
-  /// to its position.
-  alignas(16) std::array<std::uint8_t, 32> shuffle{};
-  unsigned last_whole_digit = 0;  // a bit
-  unsigned length = 0;            // of sixteen digits and, if there are decimals, the point
-  unsigned length_of_zero = 0;    // without a sign
-
-  constexpr explicit PrintedForm(unsigned decimals = 0)
-      : last_whole_digit(1u << (15 - decimals)),
-        length(decimals > 0 ? 17 : 16),
-        length_of_zero(length + decimals - 15) {
-    const unsigned point = 16 - decimals;
-    for (unsigned i = 0; i < 32; ++i)
-      shuffle[i] = static_cast<std::uint8_t>(i < point ? i : i == point ? 0 : i - 1);
-  }
-};
-
-inline constexpr auto kPrintedForms = [] {
-  std::array<PrintedForm, kMaxFixedDecimals + 1> forms;
-  for (unsigned decimals = 0; decimals < forms.size(); ++decimals) forms[decimals] = PrintedForm(decimals);
-  return forms;
-}();
-
-/// The digits to print: '0' is added to all but the first, which is 0 and becomes the point.
-alignas(16) inline constexpr std::array<char, 16> kPointAndZeros = {'.', '0', '0', '0', '0', '0', '0', '0',
-                                                                    '0', '0', '0', '0', '0', '0', '0', '0'};
-
-extern const FixedTextKernel kSse4Kernel;
-bool processor_has_sse4();
-// Reading gains nothing from wider registers: where a number begins depends on the one before it.
-extern const WriteFixedText kWriteFixedTextAvx2;
-extern const WriteFixedColumns kWriteFixedColumnsAvx2;
-bool processor_has_avx2();
-#endif
 
 }  // namespace pipeline

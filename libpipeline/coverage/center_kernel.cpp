@@ -1,0 +1,344 @@
+#include <array>
+
+#include "libpipeline/coverage/center.h"
+#include "libpipeline/coverage/depth_in_doubles.h"
+#include "libpipeline/coverage/kernel.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "libpipeline/coverage/center_kernel.cpp"
+#include "libpipeline/coverage/lanes.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace pipeline {
+namespace HWY_NAMESPACE {
+namespace {
+
+#if HWY_TARGET == HWY_SCALAR
+
+TaggedSpan* center_spans(const ExactGrid& grid, std::span<const TaggedTriangle> triangles,
+                         const RowRange& rows, TaggedSpan* spans) {
+  for (const auto& [triangle, tag] : triangles)
+    spans = append_spans(CenterRows(grid, triangle), tag, rows, spans);
+  return spans;
+}
+
+#else
+
+// CenterRows in doubles instead of 64 bits: they hold whole numbers up to 2^53. Triangles whose numbers could
+// be larger are left to CenterRows.
+static_assert(kMaxExactDouble <= DepthInDoubles::kMaxWeight);
+
+/// The smallest whole c in [0, most] with c * divisor >= dividend, or `most` if there is none. The estimate
+/// for a dividend up to 2^50 is off by at most 1/4, so c is the whole number nearest to it or the one after
+/// that.
+HWY_INLINE Doubles quotient_rounded_up(Doubles dividend, Doubles divisor, Doubles inverse, Doubles most) {
+  const Doubles near = hn::Round(dividend * inverse);
+  const Doubles quotient = near + hn::And(is_less(near * divisor, dividend), all(1));
+  return hn::Min(most, hn::Max(all(0), quotient));
+}
+
+struct Sums {
+  Doubles sum;
+  Doubles lost;  // in it
+};
+
+/// As two_sum() of two doubles.
+HWY_INLINE Sums two_sum(Doubles a, Doubles b) {
+  const Doubles sum = a + b;
+  const Doubles b_part = sum - a;
+  return {sum, (a - (sum - b_part)) + (b - b_part)};
+}
+
+/// An AxisInDoubles, in all lanes.
+struct AxisLanes {
+  HWY_INLINE explicit AxisLanes(const AxisInDoubles& axis)
+      : count(all(axis.count)),
+        step(all(axis.step)),
+        inverse(all(axis.inverse_step)),
+        factor(all(axis.vertex_factor)),
+        origin(all(axis.origin)),
+        largest(all(axis.largest)) {}
+
+  /// How far a coordinate is from the middle, on the grid.
+  HWY_INLINE Doubles scaled(Doubles coordinate) const {
+    return hn::Round(coordinate * all(kGridUnitsPerOne)) * factor;
+  }
+  /// Whether the calculated distances from pixel 0, of which these are the extremes, are exact.
+  HWY_INLINE Doubles fit(Doubles least, Doubles most) const {
+    return is_at_most(hn::Max(hn::Abs(most), hn::Abs(least)), largest);
+  }
+  /// The first pixel at or after that.
+  HWY_INLINE Doubles pixel(Doubles distance) const {
+    return quotient_rounded_up(distance, step, inverse, count);
+  }
+
+  Doubles count;
+  Doubles step;
+  Doubles inverse;
+  Doubles factor;
+  Doubles origin;
+  Doubles largest;
+};
+
+/// A vertex of each of some triangles on the grid.
+struct GridPoints {
+  Doubles u;
+  Doubles v;
+  Doubles z;
+};
+
+HWY_INLINE GridPoints pick_points(Doubles mask, const GridPoints& yes, const GridPoints& no) {
+  return {pick(mask, yes.u, no.u), pick(mask, yes.v, no.v), pick(mask, yes.z, no.z)};
+}
+
+struct Edges {
+  HWY_INLINE Edges of(std::size_t lane) const {
+    return {all_of(crossing, lane), all_of(row_step, lane), all_of(column_step, lane), all_of(inverse, lane)};
+  }
+
+  Doubles crossing;
+  Doubles row_step;
+  Doubles column_step;
+  Doubles inverse;
+};
+
+/// The numbers from which the rows of some triangles are calculated (see ExactRows), or those of one, in all
+/// lanes.
+struct RowSources {
+  HWY_INLINE RowSources of(std::size_t lane) const {
+    return {all_of(first_row, lane),
+            all_of(middle_row, lane),
+            all_of(end_row, lane),
+            all_of(first_column, lane),
+            all_of(column_count, lane),
+            all_of(longest_is_left, lane),
+            all_of(twice_total, lane),
+            all_of(is_flat, lane),
+            all_of(a_z, lane),
+            all_of(b_z, lane),
+            all_of(c_z, lane),
+            longest.of(lane),
+            upper.of(lane),
+            lower.of(lane)};
+  }
+
+  Doubles first_row;
+  Doubles middle_row;
+  Doubles end_row;
+  Doubles first_column;
+  Doubles column_count;
+  // The corners a, b, c are sorted from the top.
+  Doubles longest_is_left;  // a mask
+  Doubles twice_total;      // of the weights
+  Doubles is_flat;          // a mask: all of one depth
+  Doubles a_z;
+  Doubles b_z;
+  Doubles c_z;
+  Edges longest;  // a to c
+  Edges upper;    // a to b
+  Edges lower;    // b to c
+};
+
+/// Some triangles prepared for their rows.
+struct TriangleLanes {
+  HWY_INLINE TriangleLanes(const AxisLanes& columns, const AxisLanes& rows, const TaggedTriangle* triangles,
+                           const RowRange& range) {
+    const auto [a, b, c] = vertices_of(triangles);
+    const GridPoints p = on_grid(columns, rows, a);
+    const GridPoints q = on_grid(columns, rows, b);
+    const GridPoints r = on_grid(columns, rows, c);
+
+    const Doubles u_left = hn::Min(r.u, hn::Min(q.u, p.u)), u_right = hn::Max(r.u, hn::Max(q.u, p.u));
+    const Doubles v_top = hn::Min(r.v, hn::Min(q.v, p.v)), v_bottom = hn::Max(r.v, hn::Max(q.v, p.v));
+    const Doubles fits = hn::And(columns.fit(u_left, u_right), rows.fit(v_top, v_bottom));
+    // A column at or before the first that may be covered.
+    const Doubles left = hn::Max(all(0), hn::Round(u_left * columns.inverse) - all(1));
+    // The bound of largest_product, from that column. Triangles without a row may have larger products, which
+    // are never used.
+    const Doubles first = left * columns.step;
+    const Doubles x = hn::Max(hn::Abs(u_right - first), hn::Abs(u_left - first)) + all(2) * columns.step;
+    const Doubles y = v_bottom - v_top + rows.step;
+    ordinary.bits =
+        marks(triangles) & bits_of(hn::And(fits, is_at_most(all(4) * x * y, all(kMaxExactDouble))));
+
+    const Doubles is_beside = hn::Or(is_less(u_right, all(0)), is_at_most(columns.count, left));
+    sources.first_column = left;
+    sources.column_count = columns.count - left;
+    // Sorted from the top by the first row at or below a vertex, then by the vertex number.
+    const Doubles p_row = rows.pixel(p.v), q_row = rows.pixel(q.v), r_row = rows.pixel(r.v);
+    const Doubles high_row = hn::Min(q_row, p_row), low_row = hn::Max(q_row, p_row);
+    sources.first_row = hn::Min(r_row, high_row);
+    sources.middle_row = hn::Max(hn::Min(r_row, low_row), high_row);
+    const Doubles q_first = is_less(q_row, p_row);
+    const Doubles r_before_high = is_less(r_row, high_row), r_before_low = is_less(r_row, low_row);
+    const GridPoints high = pick_points(q_first, q, p), low = pick_points(q_first, p, q);
+    set_corners(columns, rows, left, pick_points(r_before_high, r, high),
+                pick_points(r_before_high, high, pick_points(r_before_low, r, low)),
+                pick_points(r_before_low, low, r), hn::Min(all(range.end), hn::Max(r_row, low_row)),
+                is_beside);
+    begin_row = hn::Max(all(range.first), sources.first_row);
+  }
+
+  HWY_INLINE Doubles end_row() const { return sources.end_row; }
+
+  RowSources sources;
+  Doubles begin_row;  // the first in the range
+  LaneSet ordinary;   // triangles whose numbers doubles hold exactly
+  Numbers half_slope;
+
+ private:
+  HWY_INLINE static GridPoints on_grid(const AxisLanes& columns, const AxisLanes& rows, const Points& p) {
+    return {columns.origin + columns.scaled(p.x), rows.origin - rows.scaled(p.y), p.z};
+  }
+  /// A bit for each triangle whose x and y are decimals. Usually all are.
+  static unsigned marks(const TaggedTriangle* triangles) {
+    ExactTriangle all_of_them = triangles[0].triangle;
+    for (std::size_t i = 1; i < kLanes; ++i) all_of_them.decimal_marks &= triangles[i].triangle.decimal_marks;
+    if (all_of_them.is_decimal()) return LaneSet::kAll;
+    unsigned result = 0;
+    for (std::size_t i = 0; i < kLanes; ++i)
+      result |= static_cast<unsigned>(triangles[i].triangle.is_decimal()) << i;
+    return result;
+  }
+  HWY_INLINE void set_corners(const AxisLanes& columns, const AxisLanes& rows, Doubles left,
+                              const GridPoints& a, const GridPoints& b, const GridPoints& c, Doubles end_row,
+                              Doubles is_beside) {
+    const Doubles weight = (b.u - a.u) * (c.v - a.v) - (b.v - a.v) * (c.u - a.u);
+    sources.longest_is_left = is_less(all(0), weight);
+    // All weights and their sum have the same sign, whichever it is.
+    set_depth(a.z, b.z, c.z, weight + weight, columns.step * (c.v - a.v), columns.step * (a.v - b.v));
+
+    const Doubles is_empty = hn::Or(is_equal(weight, all(0)), is_beside);
+    sources.end_row = pick(is_empty, sources.first_row, end_row);
+
+    const Doubles first_u = left * columns.step, first_v = sources.first_row * rows.step;
+    const auto edge = [&](const GridPoints& from, const GridPoints& to) HWY_ATTR {
+      const Doubles du = to.u - from.u, dv = to.v - from.v, column_step = columns.step * dv;
+      return Edges{(from.u - first_u) * dv + (first_v - from.v) * du, rows.step * du, column_step,
+                   all(1) / column_step};
+    };
+    sources.longest = edge(a, c);
+    sources.upper = edge(a, b);
+    sources.lower = edge(b, c);
+  }
+  /// See DepthInDoubles.
+  HWY_INLINE void set_depth(Doubles a, Doubles b, Doubles c, Doubles twice_weights, Doubles b_step,
+                            Doubles c_step) {
+    const Doubles flat = hn::And(is_equal(a, b), is_equal(a, c));
+    const Doubles size = hn::Max(hn::Abs(c), hn::Max(hn::Abs(b), hn::Abs(a)));
+    const Doubles is_in_range = hn::And(is_at_most(all(DepthInDoubles::kMinDepth), size),
+                                        is_at_most(size, all(DepthInDoubles::kMaxDepth)));
+    ordinary.bits &= bits_of(hn::Or(flat, is_in_range));
+
+    const Sums of_two = two_sum(b_step * b, c_step * c);
+    const Sums of_three = two_sum(of_two.sum, (all(0) - b_step - c_step) * a);
+    const Doubles slope =
+        (of_three.sum + (of_two.lost + of_three.lost)) / twice_weights + all(DepthInDoubles::kNoMinus);
+    half_slope = numbers_of(hn::AndNot(flat, slope));
+    sources.is_flat = flat;
+    sources.twice_total = twice_weights;
+    sources.a_z = a;
+    sources.b_z = b;
+    sources.c_z = c;
+  }
+};
+
+/// A row of each of some triangles, or some rows of one. All are ordinary where the triangles are.
+struct RowLanes {
+  RowLanes() = default;
+  /// Which pixels are covered.
+  HWY_INLINE RowLanes(const RowSources& of, Doubles rows) {
+    const Doubles is_upper = is_less(rows, of.middle_row);
+    const Doubles row_count = rows - of.first_row;
+    const Edges shorter = pick_edges(is_upper, of.upper, of.lower);
+    const Doubles longest_crossing = of.longest.crossing + row_count * of.longest.row_step;
+    const Doubles shorter_crossing = shorter.crossing + row_count * shorter.row_step;
+    const Doubles longest_pixel =
+        quotient_rounded_up(longest_crossing, of.longest.column_step, of.longest.inverse, of.column_count);
+    const Doubles shorter_pixel =
+        quotient_rounded_up(shorter_crossing, shorter.column_step, shorter.inverse, of.column_count);
+    const Doubles first = pick(of.longest_is_left, longest_pixel, shorter_pixel);
+    const Doubles end = pick(of.longest_is_left, shorter_pixel, longest_pixel);
+    const Doubles is_there = is_less(rows, of.end_row);
+    spans.set_columns(rows, hn::And(is_there, of.first_column + first),
+                      hn::And(is_there, of.first_column + end) - all(1));
+
+    // The weights of the vertices opposite to the edges, at the first and at the last pixel added up.
+    const Doubles sum = longest_pixel + shorter_pixel - all(1);
+    opposite_longest_ = sum * of.longest.column_step - (longest_crossing + longest_crossing);
+    opposite_shorter_ = (shorter_crossing + shorter_crossing) - sum * shorter.column_step;
+    is_upper_ = is_upper;
+    columns_added_up_ = of.first_column + of.first_column + sum;
+  }
+  /// Sets their depths.
+  HWY_INLINE void set_depths(const RowSources& of) {
+    const Doubles rest = of.twice_total - opposite_longest_ - opposite_shorter_;
+    const Doubles twice_c = pick(is_upper_, opposite_shorter_, rest);
+    const Doubles twice_a = pick(is_upper_, rest, opposite_shorter_);
+    const Doubles mean =
+        ((opposite_longest_ * of.b_z + twice_c * of.c_z) + twice_a * of.a_z) / of.twice_total +
+        all(DepthInDoubles::kNoMinus);
+    spans.set_points(columns_added_up_, pick(of.is_flat, of.a_z, mean));
+  }
+
+  LaneSpans spans;
+
+ private:
+  Doubles columns_added_up_;  // the first and the last
+  Doubles is_upper_;          // a mask
+  // Weights of vertices.
+  Doubles opposite_longest_;
+  Doubles opposite_shorter_;
+
+  HWY_INLINE static Edges pick_edges(Doubles mask, const Edges& yes, const Edges& no) {
+    return {pick(mask, yes.crossing, no.crossing), pick(mask, yes.row_step, no.row_step),
+            pick(mask, yes.column_step, no.column_step), pick(mask, yes.inverse, no.inverse)};
+  }
+};
+
+/// The rule `center` for lanes.h.
+struct Rule {
+  using RowLanes = HWY_NAMESPACE::RowLanes;
+  HWY_INLINE explicit Rule(const ExactGrid& exact_grid)
+      : grid(exact_grid), column_axis(exact_grid.columns.in_doubles), row_axis(exact_grid.rows.in_doubles) {}
+
+  [[nodiscard]] CenterRows rows(const TaggedTriangle& triangle) const { return {grid, triangle.triangle}; }
+  HWY_INLINE TriangleLanes prepared(const TaggedTriangle* triangles, const RowRange& range) const {
+    return {column_axis, row_axis, triangles, range};
+  }
+  HWY_INLINE static RowLanes some_rows(const RowSources& sources, Doubles rows) { return {sources, rows}; }
+  static double slope(const TriangleLanes& four, std::size_t lane, const RowLanes&, std::size_t) {
+    return four.half_slope[lane];
+  }
+  /// Columns are counted in halves.
+  static Axis axis() { return {0, 2}; }
+
+  const ExactGrid& grid;
+  AxisLanes column_axis;
+  AxisLanes row_axis;
+};
+
+TaggedSpan* center_spans(const ExactGrid& grid, std::span<const TaggedTriangle> triangles,
+                         const RowRange& rows, TaggedSpan* spans) {
+  return append_all(Rule(grid), triangles, rows, spans);
+}
+
+#endif
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace pipeline
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+
+namespace pipeline {
+
+const KernelTable<CenterSpans>& center_kernels() {
+  static constexpr KernelTable<CenterSpans> kKernels = PIPELINE_KERNEL_TABLE(center_spans);
+  return kKernels;
+}
+
+}  // namespace pipeline
+
+#endif

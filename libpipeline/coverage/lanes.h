@@ -1,0 +1,253 @@
+// No include guard: included once for each target, see numbers/vector_targets.h.
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+
+#include "libpipeline/coverage/kernel.h"
+// Masks are vectors here. With AVX-512 they would be converted all the time, which takes up to a tenth
+// longer.
+#define PIPELINE_TARGETS (HWY_SCALAR | HWY_NEON | HWY_SSE4 | HWY_AVX2)
+#include "libpipeline/numbers/vector_targets.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace pipeline {
+namespace HWY_NAMESPACE {
+namespace {
+
+#if HWY_TARGET != HWY_SCALAR
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+// Operations for kernels that work on two or four doubles at a time: + - * / are the processor's, lane by
+// lane. A mask is a vector that has all bits set in a lane for "yes".
+
+constexpr hn::CappedTag<double, 4> kDoubles;
+constexpr hn::Rebind<int, decltype(kDoubles)> kInts;
+constexpr std::size_t kLanes = hn::MaxLanes(kDoubles);
+using Doubles = hn::Vec<decltype(kDoubles)>;
+
+HWY_INLINE Doubles all(double value) {
+  return hn::Set(kDoubles, value);
+}
+HWY_INLINE Doubles is_less(Doubles a, Doubles b) {
+  return hn::VecFromMask(kDoubles, hn::Lt(a, b));
+}
+HWY_INLINE Doubles is_at_most(Doubles a, Doubles b) {
+  return hn::VecFromMask(kDoubles, hn::Le(a, b));
+}
+HWY_INLINE Doubles is_equal(Doubles a, Doubles b) {
+  return hn::VecFromMask(kDoubles, hn::Eq(a, b));
+}
+HWY_INLINE Doubles pick(Doubles mask, Doubles yes, Doubles no) {
+  return hn::IfVecThenElse(mask, yes, no);
+}
+/// One bit per lane.
+HWY_INLINE unsigned bits_of(Doubles mask) {
+  std::array<std::uint8_t, 8> bytes;
+  hn::StoreMaskBits(kDoubles, hn::MaskFromVec(mask), bytes.data());
+  return bytes[0];
+}
+
+HWY_INLINE Doubles clamped(Doubles value, double low, double high) {
+  return hn::Min(all(high), hn::Max(all(low), value));
+}
+
+// Access to single lanes.
+
+using Numbers = std::array<double, kLanes>;
+
+HWY_INLINE Numbers numbers_of(Doubles value) {
+  Numbers numbers;
+  hn::StoreU(value, kDoubles, numbers.data());
+  return numbers;
+}
+HWY_INLINE double number_in(Doubles value, std::size_t lane) {
+  return numbers_of(value)[lane];
+}
+/// The number in a lane, in all of them.
+HWY_INLINE Doubles all_of(Doubles value, std::size_t lane) {
+  return all(number_in(value, lane));
+}
+HWY_INLINE double largest_of(Doubles value) {
+  return hn::GetLane(hn::MaxOfLanes(kDoubles, value));
+}
+
+/// A point of each of some triangles.
+struct Points {
+  /// One of them, in all lanes.
+  HWY_INLINE Points of(std::size_t lane) const { return {all_of(x, lane), all_of(y, lane), all_of(z, lane)}; }
+
+  Doubles x;
+  Doubles y;
+  Doubles z;
+};
+
+/// Two neighboring numbers of each of some triangles, `i` numbers after the first.
+HWY_INLINE void load_two(const TaggedTriangle* triangles, std::size_t i, Doubles& first, Doubles& second) {
+  static_assert(sizeof(Triangle) == 9 * sizeof(double));
+  constexpr hn::FixedTag<double, 2> kTwo;
+  const auto two = [&](std::size_t lane)
+                       HWY_ATTR { return hn::LoadU(kTwo, &triangles[lane].triangle.p_ndc[0].x + i); };
+#if HWY_TARGET == HWY_AVX2
+  const Doubles even = hn::Combine(kDoubles, two(2), two(0)), odd = hn::Combine(kDoubles, two(3), two(1));
+#else
+  const Doubles even = two(0), odd = two(1);
+#endif
+  first = hn::InterleaveLower(kDoubles, even, odd);
+  second = hn::InterleaveUpper(kDoubles, even, odd);
+}
+
+/// The vertices of some triangles.
+HWY_INLINE std::array<Points, 3> vertices_of(const TaggedTriangle* triangles) {
+  std::array<Points, 3> result;
+  load_two(triangles, 0, result[0].x, result[0].y);
+  load_two(triangles, 2, result[0].z, result[1].x);
+  load_two(triangles, 4, result[1].y, result[1].z);
+  load_two(triangles, 6, result[2].x, result[2].y);
+  load_two(triangles, 7, result[2].y, result[2].z);
+  return result;
+}
+
+/// left_x and dx of a depth.
+using Axis = std::array<double, 2>;
+
+/// Spans that kernels find in their lanes, each kept in few pieces laid out as they will be in memory.
+class LaneSpans {
+ public:
+  /// There is a span where the last column is not before the first.
+  HWY_INLINE void set_columns(Doubles row, Doubles first, Doubles last) {
+    const auto rows = hn::DemoteTo(kInts, row), firsts = hn::DemoteTo(kInts, first);
+    const auto lasts = hn::DemoteTo(kInts, last);
+    const auto steps = hn::IfThenZeroElse(hn::Gt(firsts, lasts), hn::Set(kInts, sizeof(TaggedSpan)));
+    hn::StoreInterleaved4(rows, firsts, lasts, steps, kInts, columns_[0].data());
+  }
+  /// The points where depths are known.
+  HWY_INLINE void set_points(Doubles x0, Doubles z0) {
+    hn::StoreInterleaved2(x0, z0, kDoubles, points_[0].data());
+  }
+
+  /// Writes one of them to `spans`; returns where the next one goes, which is `spans` again if this one has
+  /// no pixel. `axis` is left_x and dx of its depth. Branch-free: whether it has one is unpredictable.
+  HWY_INLINE TaggedSpan* append(std::size_t lane, const Axis& axis, double slope, PixelTag tag,
+                                TaggedSpan* spans) const {
+    static_assert(offsetof(Span, row) == 0 && offsetof(Span, first_column) == 4);
+    static_assert(offsetof(Span, last_column) == 8 && offsetof(Span, depth) == 16);
+    static_assert(offsetof(SpanDepth, left_x) == 0 && offsetof(SpanDepth, dx) == 8);
+    static_assert(offsetof(SpanDepth, x0) == 16 && offsetof(SpanDepth, z0) == 24);
+    Span& span = spans->span;
+    // The fourth number falls between the columns and the depth.
+    std::memcpy(static_cast<void*>(&span), &columns_[lane], sizeof(Columns));
+    std::memcpy(&span.depth.left_x, &axis, sizeof axis);
+    std::memcpy(&span.depth.x0, &points_[lane], sizeof points_[lane]);
+    span.depth.slope = slope;
+    spans->tag = tag;
+    return reinterpret_cast<TaggedSpan*>(reinterpret_cast<char*>(spans) + columns_[lane][3]);
+  }
+
+ private:
+  // Row, first and last column, and the size of a span if there is one, else 0.
+  using Columns = std::array<int, 4>;
+  alignas(16) std::array<Columns, kLanes> columns_;
+  alignas(16) std::array<std::array<double, 2>, kLanes> points_;
+};
+
+// The loops of every kernel that prepares some triangles at a time, and then works on a row of each or, where
+// one of them is tall or not ordinary, on one triangle after the other, as many rows at a time.
+//
+// `Rule` is the part in which kernels differ:
+//   rows(triangle)                 the rows of one triangle, by its coverage rule;
+//   prepared(triangles, range)     some triangles prepared for their rows in `range`: `sources`, begin_row,
+//                                  end_row(), and the lanes that are `ordinary`;
+//   some_rows(sources, rows)       a row of each of some triangles, or some rows of one: `spans`,
+//                                  set_depths(), and the lanes that are ordinary(), unless all are;
+//   slope(some, lane, rows, row)   the slope of the depth in lane `row` of `rows`, for the triangle in `lane`
+//                                  of `some`;
+//   axis()                         left_x and dx of all depths.
+// Lanes that are not ordinary are left to rows().
+
+/// One bit for each lane.
+struct LaneSet {
+  [[nodiscard]] bool has(std::size_t lane) const { return (bits >> lane & 1) != 0; }
+  [[nodiscard]] bool has_all() const { return bits == kAll; }
+
+  static constexpr unsigned kAll = (1u << kLanes) - 1;
+  unsigned bits = kAll;
+};
+
+/// Appends the spans of one of some triangles: as many rows at a time.
+template <typename Rule, typename TriangleLanes>
+TaggedSpan* append_triangle(const Rule& rule, const TriangleLanes& some, std::size_t lane,
+                            const TaggedTriangle& triangle, const RowRange& range, TaggedSpan* spans) {
+  if (!some.ordinary.has(lane)) return append_spans(rule.rows(triangle), triangle.tag, range, spans);
+  const auto sources = some.sources.of(lane);
+  const Axis axis = rule.axis();
+  const int end = static_cast<int>(number_in(some.end_row(), lane));
+  for (int row = static_cast<int>(number_in(some.begin_row, lane)); row < end;) {
+    auto rows = rule.some_rows(sources, hn::Iota(kDoubles, row));
+    rows.set_depths(sources);
+    for (std::size_t i = 0; i < kLanes && row < end; ++i, ++row) {
+      if constexpr (requires { rows.ordinary(); })
+        if (!rows.ordinary().has(i)) {
+          spans = append_spans(rule.rows(triangle), triangle.tag, {row, row + 1}, spans);
+          continue;
+        }
+      spans = rows.spans.append(i, axis, rule.slope(some, lane, rows, i), triangle.tag, spans);
+    }
+  }
+  return spans;
+}
+
+/// Appends the spans of some triangles: a row of each at a time, because short ones have too few rows to fill
+/// the lanes.
+template <typename Rule, typename TriangleLanes>
+TaggedSpan* append_triangles(const Rule& rule, const TriangleLanes& some, const TaggedTriangle* triangles,
+                             const RowRange& range, TaggedSpan* spans) {
+  constexpr int kMaxLowRows = 8;
+  const double most = largest_of(some.end_row() - some.begin_row);
+  bool are_ordinary = some.ordinary.has_all() && most <= kMaxLowRows;
+  const int count = are_ordinary ? static_cast<int>(most) : 0;
+  std::array<typename Rule::RowLanes, kMaxLowRows> low;
+  // Separate loops: a processor can look ahead beyond the current iteration if iterations are short.
+  for (int i = 0; i < count; ++i) {
+    auto& rows = low[static_cast<std::size_t>(i)];
+    rows = rule.some_rows(some.sources, some.begin_row + all(i));
+    if constexpr (requires { rows.ordinary(); }) are_ordinary &= rows.ordinary().has_all();
+  }
+  if (!are_ordinary) {
+    for (std::size_t lane = 0; lane < kLanes; ++lane)
+      spans = append_triangle(rule, some, lane, triangles[lane], range, spans);
+    return spans;
+  }
+  for (int i = 0; i < count; ++i) low[static_cast<std::size_t>(i)].set_depths(some.sources);
+  // The same number of rows of each, covered or not: how many are covered is unpredictable.
+  const Axis axis = rule.axis();
+  for (std::size_t lane = 0; lane < kLanes; ++lane) {
+    const PixelTag tag = triangles[lane].tag;
+    for (int i = 0; i < count; ++i) {
+      const auto& rows = low[static_cast<std::size_t>(i)];
+      spans = rows.spans.append(lane, axis, rule.slope(some, lane, rows, lane), tag, spans);
+    }
+  }
+  return spans;
+}
+
+/// A function of a CoverageKernel: appends the spans of all triangles.
+template <typename Rule>
+TaggedSpan* append_all(const Rule& rule, std::span<const TaggedTriangle> triangles, const RowRange& range,
+                       TaggedSpan* spans) {
+  for (; triangles.size() >= kLanes; triangles = triangles.subspan(kLanes))
+    spans = append_triangles(rule, rule.prepared(triangles.data(), range), triangles.data(), range, spans);
+  for (const TaggedTriangle& triangle : triangles)
+    spans = append_spans(rule.rows(triangle), triangle.tag, range, spans);
+  return spans;
+}
+
+#endif
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace pipeline
+HWY_AFTER_NAMESPACE();

@@ -1,0 +1,26 @@
+// No include guard: a kernel's source includes this once for each target, after
+//   #undef HWY_TARGET_INCLUDE
+//   #define HWY_TARGET_INCLUDE "path/of/this/source.cpp"
+// A source between HWY_BEFORE_NAMESPACE and HWY_AFTER_NAMESPACE is compiled for every target, the rest, in
+// `#if HWY_ONCE`, once.
+
+#ifndef PIPELINE_VECTOR_TARGETS
+#define PIPELINE_VECTOR_TARGETS
+// The targets of kernel_choice.h, each of them always compiled, because the tests compare them. A source may
+// define fewer.
+#ifndef PIPELINE_TARGETS
+#define PIPELINE_TARGETS (HWY_SCALAR | HWY_NEON | HWY_SSE4 | HWY_AVX2 | HWY_AVX3)
+#endif
+#define HWY_DISABLED_TARGETS (~PIPELINE_TARGETS)
+#define HWY_COMPILE_ALL_ATTAINABLE
+// Scalar code, not vectors of 128 bits emulated, with every compiler.
+#define HWY_BROKEN_EMU128 1
+// No kernel uses these, so no processor needs them.
+#define HWY_DISABLE_PCLMUL_AES
+#define HWY_DISABLE_F16C
+// On Arm, nothing is chosen at run time: every processor of 64 bits has NEON.
+#define TOOLCHAIN_MISS_SYS_AUXV_H
+#endif
+
+#include <hwy/foreach_target.h>  // first
+#include <hwy/highway.h>

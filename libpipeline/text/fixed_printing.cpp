@@ -1,0 +1,274 @@
+#include "libpipeline/text/fixed_text.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
+
+#include "libpipeline/numbers/decimal_units.h"
+#include "libpipeline/numbers/powers_of_ten.h"
+#include "libpipeline/text/eight_digits.h"
+#include "libpipeline/text/vertex_lines.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "libpipeline/text/fixed_printing.cpp"
+#include "libpipeline/numbers/vector_targets.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace pipeline {
+namespace HWY_NAMESPACE {
+namespace {
+
+#if HWY_TARGET == HWY_SCALAR
+
+// Without vectors, the general printer prints.
+
+FixedTextPart write_columns(const ConstFixedColumns&, int, char*) {
+  return {};
+}
+
+#else
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+// The sixteen digits of a number.
+constexpr hn::FixedTag<std::uint8_t, 16> kSixteen;
+
+/// How to print the sixteen digits of a whole number of units, the first of which is 0 and replaced by a
+/// point.
+struct PrintedForm {
+  /// Sixteen bytes starting at byte n form a shuffle mask that drops the first n digits and moves the point
+  /// to its position.
+  alignas(16) std::array<std::uint8_t, 32> shuffle{};
+  unsigned last_whole_digit = 0;  // a bit
+  unsigned length = 0;            // of sixteen digits and, if there are decimals, the point
+  unsigned length_of_zero = 0;    // without a sign
+
+  constexpr explicit PrintedForm(unsigned decimals = 0)
+      : last_whole_digit(1u << (15 - decimals)),
+        length(decimals > 0 ? 17 : 16),
+        length_of_zero(length + decimals - 15) {
+    const unsigned point = 16 - decimals;
+    for (unsigned i = 0; i < 32; ++i)
+      shuffle[i] = static_cast<std::uint8_t>(i < point ? i : i == point ? 0 : i - 1);
+  }
+};
+
+constexpr auto kPrintedForms = [] {
+  std::array<PrintedForm, kMaxFixedDecimals + 1> forms;
+  for (unsigned decimals = 0; decimals < forms.size(); ++decimals) forms[decimals] = PrintedForm(decimals);
+  return forms;
+}();
+
+/// The digits to print: '0' is added to all but the first, which is 0 and becomes the point.
+alignas(16) constexpr std::array<std::uint8_t, 16> kPointAndZeros = {'.', '0', '0', '0', '0', '0', '0', '0',
+                                                                     '0', '0', '0', '0', '0', '0', '0', '0'};
+
+// Two or four numbers at a time.
+constexpr hn::CappedTag<double, 4> kDoubles;
+constexpr hn::RebindToUnsigned<decltype(kDoubles)> kWords;
+constexpr hn::Repartition<std::uint32_t, decltype(kDoubles)> kFours;
+constexpr hn::Repartition<std::uint16_t, decltype(kDoubles)> kPairs;
+constexpr hn::Repartition<std::uint8_t, decltype(kDoubles)> kBytes;
+using Doubles = hn::Vec<decltype(kDoubles)>;
+using Words = hn::Vec<decltype(kWords)>;
+constexpr std::size_t kLanes = hn::MaxLanes(kDoubles), kBlocks = kLanes / 2, kNumbers = 9;
+constexpr std::size_t kSteps = (kNumbers + kLanes - 1) / kLanes;
+
+/// Like sixteen_digits in eight_digits.h, for numbers below 10^8, two in each block of sixteen bytes.
+HWY_INLINE auto digits_of(Words eights) {
+  const auto as_fours = [](auto v) HWY_ATTR { return hn::BitCast(kFours, v); };
+  const auto as_pairs = [](auto v) HWY_ATTR { return hn::BitCast(kPairs, v); };
+  // x / 10000 for x < 10^8, in 64 bits.
+  const auto high = hn::ShiftRight<45>(hn::MulEven(as_fours(eights), hn::Set(kFours, 0xd1b71759)));
+  const auto low = hn::Sub(eights, hn::MulEven(as_fours(high), hn::Set(kFours, 10000)));
+  const auto fours = as_pairs(hn::Or(high, hn::ShiftLeft<32>(low)));
+  // x / 100 for x < 10^4, then x / 10 for x < 100, in 16 bits.
+  const auto hundreds = hn::ShiftRight<3>(hn::MulHigh(fours, hn::Set(kPairs, 5243)));
+  const auto rest = hn::Sub(fours, hn::Mul(hundreds, hn::Set(kPairs, 100)));
+  const auto pairs = hn::Or(hundreds, as_pairs(hn::ShiftLeft<16>(as_fours(rest))));
+  const auto tens = hn::MulHigh(pairs, hn::Set(kPairs, 6554));
+  const auto ones = hn::Sub(pairs, hn::Mul(tens, hn::Set(kPairs, 10)));
+  return hn::BitCast(kBytes, hn::Or(tens, hn::ShiftLeft<8>(ones)));
+}
+
+/// The sixteen digits of nine numbers.
+class NineTexts {
+ public:
+  /// False if a number is too large, not finite or, unless `exactly`, too close to a tie.
+  template <bool exactly>
+  HWY_INLINE bool set(const Triangle& numbers, double scale) {
+    const double* const p = &numbers[0].x;
+    auto good = hn::Eq(hn::Zero(kDoubles), hn::Zero(kDoubles));
+    negative_ = 0;
+#pragma GCC unroll 5
+    for (std::size_t step = 0; step < kSteps; ++step) {
+      const std::size_t i = step * kLanes;
+      add<exactly>(step, i + kLanes <= kNumbers ? hn::LoadU(kDoubles, p + i) : hn::Set(kDoubles, p[i]),
+                   hn::Set(kDoubles, scale), good);
+    }
+    return hn::AllTrue(kDoubles, good);
+  }
+
+  HWY_INLINE char* write(char* out, const PrintedForm& form, std::size_t number) const {
+    const std::size_t slot = slot_of(number);
+    const auto leading_zero_count = std::countr_zero(filled_[slot] | form.last_whole_digit);
+    const auto shuffle = hn::LoadU(kSixteen, form.shuffle.data() + leading_zero_count);
+    *out = '-';
+    out += negative_ >> number & 1;
+    const auto text = hn::TableLookupBytes(hn::Load(kSixteen, texts_.data() + 16 * slot), shuffle);
+    hn::StoreU(text, kSixteen, reinterpret_cast<std::uint8_t*>(out));
+    return out + form.length - leading_zero_count;
+  }
+
+ private:
+  template <bool exactly>
+  HWY_INLINE void add(std::size_t step, Doubles values, Doubles scale, hn::Mask<decltype(kDoubles)>& good) {
+    const auto zero = hn::Zero(kDoubles), eight_digits = hn::Set(kDoubles, 1e8);
+    const auto rounder = hn::Set(kDoubles, kWholeRounder), one = hn::Set(kDoubles, 1);
+    const auto sizes = hn::Abs(values);
+    const auto scaled = sizes * scale;
+    auto units = (scaled + rounder) - rounder;
+    const auto offset = scaled - units;
+    if constexpr (exactly) {
+      // A product that is a tie was rounded to it, or is it. What the rounding lost tells on which side it
+      // was.
+      const auto lost = hn::MulSub(sizes, scale, scaled);
+      const auto is_tie = hn::Eq(hn::Abs(offset), hn::Set(kDoubles, 0.5));
+      units = units + hn::IfThenElseZero(hn::And(is_tie, hn::Gt(lost * offset, zero)), offset + offset);
+    } else {
+      // The same test as DecimalUnits::is_certain.
+      const auto reach = hn::Abs(offset) + scaled * hn::Set(kDoubles, kProductError);
+      good = hn::And(good, hn::Lt(reach, hn::Set(kDoubles, kBelowHalf)));
+    }
+    good = hn::And(good, hn::Lt(units, hn::Set(kDoubles, kUnitsLimit)));
+    // units / 10^8, off by at most one; the exact remainder corrects it.
+    const auto quotient = hn::Floor(units * hn::Set(kDoubles, 1e-8));
+    const auto rest = units - quotient * eight_digits;
+    const auto correction =
+        hn::IfThenElseZero(hn::Ge(rest, eight_digits), one) - hn::IfThenElseZero(hn::Lt(rest, zero), one);
+    const auto first = word_of(quotient + correction), last = word_of(rest - correction * eight_digits);
+    std::array<std::uint8_t, 8> below_zero;
+    hn::StoreMaskBits(kDoubles, hn::And(hn::Lt(values, zero), hn::Gt(units, zero)), below_zero.data());
+    negative_ |= static_cast<unsigned>(below_zero[0]) << (step * kLanes);
+    store(2 * step, digits_of(hn::InterleaveLower(kWords, first, last)));
+    store(2 * step + 1, digits_of(hn::InterleaveUpper(kWords, first, last)));
+  }
+  /// Of whole numbers from 0 to 2^52.
+  HWY_INLINE static Words word_of(Doubles whole) {
+    const auto shift = hn::Set(kDoubles, 0x1p52);
+    return hn::Xor(hn::BitCast(kWords, whole + shift), hn::BitCast(kWords, shift));
+  }
+  /// '0' is added to all digits but the first, which is 0 and becomes the point.
+  HWY_INLINE void store(std::size_t part, hn::Vec<decltype(kBytes)> digits) {
+    const auto point_and_zeros = hn::LoadDup128(kBytes, kPointAndZeros.data());
+    hn::Store(hn::Add(digits, point_and_zeros), kBytes, texts_.data() + 16 * kBlocks * part);
+    constexpr hn::RebindToSigned<decltype(kBytes)> kWithSign;
+    hn::StoreMaskBits(kWithSign, hn::Gt(hn::BitCast(kWithSign, digits), hn::Zero(kWithSign)),
+                      reinterpret_cast<std::uint8_t*>(filled_.data() + kBlocks * part));
+  }
+
+  /// Where the text of number i is: the even lanes of a step, then the odd ones.
+  static constexpr std::size_t slot_of(std::size_t i) {
+    return i / kLanes * kLanes + i % 2 * kBlocks + i % kLanes / 2;
+  }
+
+  alignas(32) std::array<std::uint8_t, 16 * kLanes * kSteps> texts_;
+  std::array<std::uint16_t, kLanes * kSteps + 4> filled_{};  // a bit for each digit above 0
+  unsigned negative_ = 0;  // bit i: number i is negative and does not round to 0
+};
+
+/// Prints a vertex line.
+template <std::size_t group_count, bool may_have_w>
+HWY_INLINE char* write_line(char* out, const PrintedForm& form, const ConstFixedColumns& columns,
+                            std::size_t triangle, std::size_t vertex,
+                            const std::array<NineTexts, group_count>& texts, bool repeats,
+                            LastPrinted& last) {
+#pragma GCC unroll 3
+  for (std::size_t group = 0; group < group_count; ++group) {
+    if (repeats && group == kRepeatedGroup) {
+      out = last.print(out);
+      continue;
+    }
+    const char* const begin = out;
+#pragma GCC unroll 3
+    for (std::size_t k = 3 * vertex; k < 3 * vertex + 3; ++k) {
+      out = texts[group].write(out, form, k);
+      *out++ = ' ';
+    }
+    if (group == kRepeatedGroup && vertex == 2) last.set(columns.groups[group][triangle][vertex], begin, out);
+    if (may_have_w && group == 0 && !columns.w.empty()) out = write_w(out, columns.w[triangle][vertex]);
+  }
+  out[-1] = '\n';
+  return out;
+}
+
+/// Stops before a triangle with a number that NineTexts refuses.
+template <bool exactly, std::size_t group_count, bool may_have_w>
+FixedTextPart write_lines(std::size_t first, const ConstFixedColumns& columns, int decimals, char* out) {
+  // A copy: characters may be printed anywhere.
+  const PrintedForm form = kPrintedForms[static_cast<std::size_t>(decimals)];
+  const double scale = kPowersOfTen[static_cast<std::size_t>(decimals)];
+  LastPrinted last;
+  FixedTextPart part;
+  const char* const begin = out;
+  for (std::size_t i = first; i < columns.triangle_count(); ++i) {
+    std::array<NineTexts, group_count> texts;
+    const bool repeats = group_count > kRepeatedGroup && last.is_of(columns.groups[kRepeatedGroup][i]);
+#pragma GCC unroll 3
+    for (std::size_t group = 0; group < group_count; ++group)
+      if (!(repeats && group == kRepeatedGroup) &&
+          !texts[group].template set<exactly>(columns.groups[group][i], scale))
+        return part;
+#pragma GCC unroll 3
+    for (std::size_t vertex = 0; vertex < 3; ++vertex)
+      out = write_line<group_count, may_have_w>(out, form, columns, i, vertex, texts, repeats, last);
+    *out++ = '\n';
+    ++part.triangle_count;
+    part.length = static_cast<std::size_t>(out - begin);
+  }
+  return part;
+}
+
+template <bool exactly>
+FixedTextPart write_from(std::size_t first, const ConstFixedColumns& columns, int decimals, char* out) {
+  const std::size_t group_count = columns.group_count();
+  if (group_count == 3) return write_lines<exactly, 3, true>(first, columns, decimals, out);
+  if (group_count == 2) return write_lines<exactly, 2, true>(first, columns, decimals, out);
+  return columns.w.empty() ? write_lines<exactly, 1, false>(first, columns, decimals, out)
+                           : write_lines<exactly, 1, true>(first, columns, decimals, out);
+}
+
+/// Exactly from the first tie on, where a product's rounding error takes one instruction: where there is one,
+/// others follow.
+FixedTextPart write_columns(const ConstFixedColumns& columns, int decimals, char* out) {
+  const FixedTextPart part = write_from<false>(0, columns, decimals, out);
+  if (!HWY_NATIVE_FMA || part.triangle_count == columns.triangle_count()) return part;
+  const FixedTextPart rest = write_from<true>(part.triangle_count, columns, decimals, out + part.length);
+  return {part.triangle_count + rest.triangle_count, part.length + rest.length};
+}
+
+#endif
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace pipeline
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+
+namespace pipeline {
+
+const KernelTable<WriteFixedColumns>& fixed_printing_kernels() {
+  static constexpr KernelTable<WriteFixedColumns> kKernels = PIPELINE_KERNEL_TABLE(write_columns);
+  return kKernels;
+}
+
+FixedTextPart write_fixed_columns(const ConstFixedColumns& columns, int decimals, char* out) {
+  static const WriteFixedColumns write = chosen_kernel(fixed_printing_kernels());
+  return write(columns, decimals, out);
+}
+
+}  // namespace pipeline
+
+#endif

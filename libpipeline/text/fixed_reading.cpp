@@ -1,0 +1,244 @@
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <cstring>
+
+#include "libpipeline/numbers/powers_of_ten.h"
+#include "libpipeline/text/eight_digits.h"
+#include "libpipeline/text/fixed_text.h"
+#include "libpipeline/text/vertex_lines.h"
+
+// Reading gains nothing from wider vectors: where a number begins depends on the one before it.
+#define PIPELINE_TARGETS (HWY_SCALAR | HWY_NEON | HWY_SSE4)
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "libpipeline/text/fixed_reading.cpp"
+#include "libpipeline/numbers/vector_targets.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace pipeline {
+namespace HWY_NAMESPACE {
+namespace {
+
+#if HWY_TARGET == HWY_SCALAR
+
+// Without vectors, the general reader reads.
+
+FixedTextPart read_columns(std::string_view, TriangleFrame, const GroupDecimals&, const FixedColumns&) {
+  return {};
+}
+
+#else
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+constexpr hn::FixedTag<std::uint8_t, 16> kSixteen;
+constexpr hn::FixedTag<std::uint16_t, 8> kPairs;
+constexpr hn::FixedTag<std::int32_t, 4> kFours;
+constexpr hn::FixedTag<std::int32_t, 2> kEights;
+
+/// For each count of digits before the point, the source bytes of the last sixteen digits: those before the
+/// point, and `decimals` after it. The row of an impossible count selects the point, which is not a digit and
+/// fails the test; without a point (16) the count alone fails it.
+struct DigitShuffles {
+  alignas(16) std::array<std::array<std::uint8_t, 16>, 17> rows{};
+
+  constexpr explicit DigitShuffles(unsigned decimals = 0) {
+    for (unsigned count = 0; count <= 16; ++count) {
+      const bool is_possible = count >= 1 && count <= 8 && count + 1 + decimals <= 16;
+      const unsigned first = 16 - decimals - count;
+      for (unsigned i = 0; i < 16; ++i) {
+        std::uint8_t from = is_possible ? 0x80 : static_cast<std::uint8_t>(count & 15);
+        if (is_possible && i >= first)
+          from = static_cast<std::uint8_t>(i - first + (i >= 16 - decimals ? 1 : 0));
+        rows[count][i] = from;
+      }
+    }
+  }
+};
+
+constexpr auto kDigitShuffles = [] {
+  std::array<DigitShuffles, kMaxFixedDecimals + 1> shuffles;
+  for (unsigned decimals = 0; decimals < shuffles.size(); ++decimals)
+    shuffles[decimals] = DigitShuffles(decimals);
+  return shuffles;
+}();
+
+/// How to read numbers with a count of decimals.
+struct ReadForm {
+  const DigitShuffles& shuffles;
+  std::size_t
+      end;  // the separator's position after that of the point, which it takes if there are no decimals
+  double units_per_one;
+
+  explicit ReadForm(int decimals)
+      : shuffles(kDigitShuffles[static_cast<std::size_t>(decimals)]),
+        end(decimals > 0 ? static_cast<std::size_t>(decimals) + 1 : 0),
+        units_per_one(kPowersOfTen[static_cast<std::size_t>(decimals)]) {}
+};
+
+/// Joins neighbors: the first times `factor` plus the second.
+template <typename Joined, typename Numbers>
+HWY_INLINE hn::Vec<Joined> join(Joined joined, Numbers numbers, std::int32_t factor) {
+  const hn::Repartition<std::int16_t, Joined> parts;
+  const auto factors = hn::BitCast(parts, hn::Set(joined, factor | 1 << 16));
+  auto odd = hn::Zero(joined);
+  const auto even =
+      hn::ReorderWidenMulAccumulate(joined, hn::BitCast(parts, numbers), factors, hn::Zero(joined), odd);
+  return hn::RearrangeToOddPlusEven(even, odd);
+}
+
+HWY_INLINE hn::Vec<decltype(kPairs)> join_digits(hn::Vec<decltype(kSixteen)> digits) {
+#if HWY_ARCH_X86
+  return hn::Vec<decltype(kPairs)>{_mm_maddubs_epi16(digits.raw, _mm_set1_epi16(1 << 8 | 10))};
+#else
+  // Ten times the first digit plus the second, in the upper byte.
+  return hn::ShiftRight<8>(hn::Mul(hn::BitCast(kPairs, digits), hn::Set(kPairs, 10 << 8 | 1)));
+#endif
+}
+
+template <std::size_t group_count, bool may_have_w>
+class ColumnReader {
+ public:
+  HWY_INLINE ColumnReader(const GroupDecimals& decimals, const FixedColumns& columns)
+      : forms_{ReadForm(decimals[0]), ReadForm(decimals[1]), ReadForm(decimals[2])}, columns_(columns) {}
+
+  /// Reads the vertex lines of a triangle; null if the form differs.
+  HWY_INLINE const char* read(const char* p, const char* text_end, std::size_t triangle) {
+    no_digits_ = hn::Zero(kSixteen);
+    is_in_place_ = true;
+    counts_ = {1, 1, 1};
+    for (std::size_t vertex = 0; vertex < 3; ++vertex) {
+      if (p >= text_end) return nullptr;
+#pragma GCC unroll 3
+      for (std::size_t group = 0; group < group_count; ++group)
+        if ((p = read_group(p, group, triangle, vertex)) == nullptr) return nullptr;
+    }
+    for (std::size_t group = 0; group < group_count; ++group) have_one_digit_[group] = counts_[group] == 1;
+    const bool have_points = (counts_[0] | counts_[1] | counts_[2]) < 16;
+    const bool are_digits = hn::AllTrue(kSixteen, hn::Eq(no_digits_, hn::Zero(kSixteen)));
+    return is_in_place_ && have_points && are_digits ? p : nullptr;
+  }
+
+ private:
+  /// Reads the numbers that a vertex line has in a group, and w after the position; null if w has another
+  /// form.
+  HWY_INLINE const char* read_group(const char* p, std::size_t group, std::size_t triangle,
+                                    std::size_t vertex) {
+    Vec3& numbers = columns_.groups[group][triangle][vertex];
+    if (group == kRepeatedGroup && last_.is_at(p)) {
+      numbers = last_.numbers();
+      return p + last_.length();
+    }
+    const char* const begin = p;
+    const char end = group + 1 == group_count ? '\n' : ' ';
+    const bool w_follows = may_have_w && group == 0 && !columns_.w.empty();
+    p = read_number(p, group, ' ', numbers.x);
+    p = read_number(p, group, ' ', numbers.y);
+    p = read_number(p, group, w_follows ? ' ' : end, numbers.z);
+    if (group == kRepeatedGroup) last_.set(begin, p, numbers);
+    return w_follows ? read_w(p, end, columns_.w[triangle][vertex]) : p;
+  }
+
+  /// Reads one number and the separator after it.
+  HWY_INLINE const char* read_number(const char* p, std::size_t group, char separator, double& value) {
+    const ReadForm& form = forms_[group];
+    const bool is_negative = *p == '-';
+    p += is_negative ? 1 : 0;
+    const char point = form.end > 0 ? '.' : separator;
+    const auto text = hn::LoadU(kSixteen, reinterpret_cast<const std::uint8_t*>(p));
+    std::size_t count = 1;
+    if (!have_one_digit_[group] || p[1] != point) {
+      std::array<std::uint8_t, 8> bytes;
+      hn::StoreMaskBits(kSixteen, hn::Eq(text, hn::Set(kSixteen, static_cast<std::uint8_t>(point))),
+                        bytes.data());
+      std::uint16_t points = 0;
+      std::memcpy(&points, bytes.data(), sizeof points);
+      count = static_cast<std::size_t>(std::countr_zero(points | 0x10000u));
+      counts_[group] |= count;
+    }
+    const auto shuffle = hn::Load(kSixteen, form.shuffles.rows[count].data());
+    const auto digits = hn::TableLookupBytesOr0(hn::Sub(text, hn::Set(kSixteen, '0')), shuffle);
+    no_digits_ = hn::Or(no_digits_, hn::SaturatedSub(digits, hn::Set(kSixteen, 9)));
+    is_in_place_ &= p[count + form.end] == separator;
+    const auto fours = hn::DemoteTo(hn::FixedTag<std::uint16_t, 4>(), join(kFours, join_digits(digits), 100));
+    const auto eights = hn::BitCast(hn::FixedTag<std::uint64_t, 1>(), join(kEights, fours, 10000));
+    const std::uint64_t both = hn::GetLane(eights);
+    const std::uint64_t units = (both & 0xffffffff) * 100'000'000 + (both >> 32);
+    // Below 2^53 the conversion is exact, so the quotient is the nearest double to the decimal.
+    const double magnitude = static_cast<double>(static_cast<std::int64_t>(units)) / form.units_per_one;
+    const std::uint64_t sign = std::uint64_t{is_negative} << 63;
+    value = std::bit_cast<double>(std::bit_cast<std::uint64_t>(magnitude) | sign);
+    return p + count + form.end + 1;
+  }
+
+  const std::array<ReadForm, 3> forms_;  // of the groups
+  const FixedColumns& columns_;
+  LastRead last_;
+  /// Whether the numbers of each group have one digit before the point. Where the last ones had, a branch
+  /// lets the processor go ahead to the next number, whose beginning would otherwise depend on this one;
+  /// where they had not, it would often go astray.
+  std::array<bool, 3> have_one_digit_ = {true, true, true};
+  // In the triangle being read:
+  hn::Vec<decltype(kSixteen)> no_digits_;  // above 0 where a digit should be
+  bool is_in_place_;                       // every separator
+  std::array<std::size_t, 3> counts_;      // of digits before the point, in each group: the bits of all
+};
+
+template <std::size_t group_count, bool may_have_w>
+FixedTextPart read_groups(std::string_view text, TriangleFrame frame, const GroupDecimals& decimals,
+                          const FixedColumns& columns) {
+  ColumnReader<group_count, may_have_w> reader(decimals, columns);
+  const char* const end = text.data() + text.size();
+  FixedTextPart part;
+  for (std::size_t i = 0; i < columns.triangle_count() && part.length < text.size(); ++i) {
+    const char* p = vertex_lines(text.data() + part.length, frame);
+    if (p == nullptr || (p = reader.read(p, end, i)) == nullptr) break;
+    if ((p = triangle_end(p, frame)) == nullptr || p > end) break;
+    ++part.triangle_count;
+    part.length = static_cast<std::size_t>(p - text.data());
+  }
+  return part;
+}
+
+FixedTextPart read_columns(std::string_view text, TriangleFrame frame, const GroupDecimals& decimals,
+                           const FixedColumns& columns) {
+  const std::size_t group_count = columns.group_count();
+  if (group_count == 3) return read_groups<3, true>(text, frame, decimals, columns);
+  if (group_count == 2) return read_groups<2, true>(text, frame, decimals, columns);
+  return columns.w.empty() ? read_groups<1, false>(text, frame, decimals, columns)
+                           : read_groups<1, true>(text, frame, decimals, columns);
+}
+
+#endif
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace pipeline
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+
+namespace pipeline {
+
+int decimals_of_number(const char* p) {
+  const auto digit_count = [](const char* from) {
+    return leading_digit_count(load_eight(from) - kEightZeros);
+  };
+  if (*p == '-') ++p;
+  p += digit_count(p);
+  if (*p != '.') return 0;
+  const std::size_t count = digit_count(p + 1);
+  return std::min(static_cast<int>(count == 8 ? count + digit_count(p + 9) : count), kMaxFixedDecimals);
+}
+
+FixedTextPart read_fixed_columns(std::string_view text, TriangleFrame frame, const GroupDecimals& decimals,
+                                 const FixedColumns& columns) {
+  static constexpr KernelTable<decltype(&read_fixed_columns)> kKernels = PIPELINE_KERNEL_TABLE(read_columns);
+  static const auto read = chosen_kernel(kKernels);
+  return read(text, frame, decimals, columns);
+}
+
+}  // namespace pipeline
+
+#endif
