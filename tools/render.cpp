@@ -171,10 +171,10 @@ void draw_all(Tool& tool, const ZbufOptions&, StageReader& reader, TriangleStore
 
 /// "out.bmp: 400 x 300, 61 % covered". Only an empty picture has 0 %, only a full one 100 %.
 std::string summary(const std::string& image_path, const Viewport& screen, std::uint64_t covered_count) {
-  const std::uint64_t pixel_count = std::uint64_t(screen.columns) * std::uint64_t(screen.rows);
+  const std::uint64_t pixel_count = std::uint64_t(screen.columns) * std::uint64_t(screen.drawn_row_count());
   std::uint64_t percent = (200 * covered_count / pixel_count + 1) / 2;  // rounded half up
   if (covered_count > 0 && covered_count < pixel_count) percent = std::clamp<std::uint64_t>(percent, 1, 99);
-  return image_path + ": " + std::to_string(screen.columns) + " x " + std::to_string(screen.rows) + ", " +
+  return image_path + ": " + std::to_string(screen.columns) + " x " + std::to_string(screen.drawn_row_count()) + ", " +
          std::to_string(percent) + " % covered";
 }
 
@@ -183,10 +183,10 @@ class ImageRows {
  public:
   ImageRows(const ZbufOptions& chosen, const Viewport& screen, TriangleStore& store,
             std::optional<SurfaceShader>& shader)
-      : store_(store), shader_(shader) {
+      : store_(store), shader_(shader), row_number_(chosen.sample_count * screen.drawn_rows().first) {
     if (!chosen.has_image()) return;
     file_.emplace(chosen.image_path);
-    pixels_ = image_writer(file_->descriptor(), chosen.image_path, screen.columns, screen.rows);
+    pixels_ = image_writer(file_->descriptor(), chosen.image_path, screen.columns, screen.drawn_row_count());
     if (chosen.sample_count > 1) means_.emplace(screen.columns, chosen.sample_count);
   }
 
@@ -219,7 +219,7 @@ class ImageRows {
   std::unique_ptr<ImageWriter> pixels_;
   std::optional<Downsampler> means_;
   std::vector<Color> colors_;
-  int row_number_ = 0;
+  int row_number_;  // of the samples
 };
 
 template <VisibilityAlgorithm Visible>
@@ -261,15 +261,17 @@ void write_all(Tool& tool, const ZbufOptions& chosen, const SampledVisible<Visib
   tool.timing().lap(&Timing::write_seconds);
 }
 
-void note_empty_picture(const Tool& tool, const DrawingReport& report,
+/// The note is about the whole picture; a band of it may well show nothing.
+void note_empty_picture(const Tool& tool, const DrawingReport& report, const Viewport& screen,
                         const std::optional<SurfaceShader>& shader) {
   std::optional<std::string> note = report.empty_picture_note();
-  if (!note && shader) note = invisible_colors_note(*shader);
+  const bool is_whole = screen.drawn_row_count() == screen.rows;
+  if (!note && shader && is_whole) note = invisible_colors_note(*shader);
   if (note) tool.note(*note);
 }
 
 std::size_t pixel_count(const Viewport& screen) {
-  return static_cast<std::size_t>(screen.columns) * static_cast<std::size_t>(screen.rows);
+  return static_cast<std::size_t>(screen.columns) * static_cast<std::size_t>(screen.drawn_row_count());
 }
 
 template <VisibilityAlgorithm Visible>
@@ -306,7 +308,7 @@ void render_with(Tool& tool, const ZbufOptions& chosen, const Viewport& screen, 
   write_all(tool, chosen, visible, reader, store, shader);
   if (fragments) fragments->commit();
   statistics.commit();
-  if (chosen.has_image()) note_empty_picture(tool, *report, shader);
+  if (chosen.has_image()) note_empty_picture(tool, *report, screen, shader);
 }
 
 }  // namespace
