@@ -97,15 +97,15 @@ void ZBuffer<Depth>::draw_spans(std::span<const TaggedSpan> spans, HierarchicalD
   const auto columns = static_cast<std::size_t>(depths_.columns());
   std::uint8_t* const marks = marks_;
   const PixelTag first_marked = first_marked_;
-  const int first_row = rows_.first;
-  Stored* const first_depth = depths_.row(first_row).data();
-  PixelTag* const first_tag = tags_.row(first_row).data();
+  const auto first_row = static_cast<std::size_t>(rows_.first);
+  Stored* const first_depth = depths_.row(rows_.first).data();
+  PixelTag* const first_tag = tags_.row(rows_.first).data();
   const std::uint8_t* const is_filled = is_filled_.data();
   for (const auto& [span, tag] : spans) {
     assert(span.row >= rows_.first && span.row < rows_.end);
     assert(span.first_column >= 0 && span.last_column < depths_.columns());
     const bool is_short = span.last_column - span.first_column < kShort;
-    const auto row = static_cast<std::size_t>(span.row - first_row);
+    const std::size_t row = static_cast<std::size_t>(span.row) - first_row;
     const std::size_t row_begin = row * columns;
     if (is_filled[row] == 0) fill_row(span.row);
     if (is_short && !has_epsilon) {
