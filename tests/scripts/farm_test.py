@@ -50,29 +50,35 @@ def logged(folder, output):
     return found[-1]
 
 
-def process_with(*words):
-    """The id of a running process whose command line has these words."""
+def stat_of(process):
+    """(name, parent) of a process."""
+    stat = pathlib.Path(f"/proc/{process}/stat").read_text()
+    return stat[stat.index("(") + 1:stat.rindex(")")], int(stat[stat.rindex(")") + 2:].split()[1])
+
+
+def ancestors(process):
+    """The process and those above it, as (id, name)."""
+    found = []
+    while process > 1:
+        name, parent = stat_of(process)
+        found.append((process, name))
+        process = parent
+    return found
+
+
+def chain_to_zbuf(word, above):
+    """The ancestors of the zbuf that has the word in its command line and runs below the process `above`, as soon as there is one."""
     end = time.monotonic() + 60
     while time.monotonic() < end:
         for path in pathlib.Path("/proc").glob("[0-9]*"):
             try:
                 command = (path / "cmdline").read_bytes().decode(errors="replace").split("\0")
+                if command[0].endswith("/zbuf") and word in command and above in [process for process, _ in (chain := ancestors(int(path.name)))]:
+                    return chain
             except OSError:
-                continue
-            if command[0].endswith("/zbuf") and set(words) <= set(command):
-                return int(path.name)
+                continue  # it has ended meanwhile
         time.sleep(0.01)
-    raise AssertionError(f"no process of {words} has run")
-
-
-def ancestor(process, name):
-    """The nearest ancestor of that name."""
-    while process > 1:
-        stat = pathlib.Path(f"/proc/{process}/stat").read_text()
-        if stat[stat.index("(") + 1:stat.rindex(")")].startswith(name):
-            return process
-        process = int(stat[stat.rindex(")") + 2:].split()[1])
-    raise AssertionError(f"no {name} above it")
+    raise AssertionError(f"no zbuf of {word} has run")
 
 
 class FarmTest(ToolTest):
@@ -149,7 +155,7 @@ class Local(FarmTest):
             self.use_slow_tools()
             process = subprocess.Popen(self.words([], "--parts", "4", "--keep", "--", "--jobs", "2"), env={**os.environ, "BIN": str(self.bin)},
                                        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-            victim = process_with("seen-0-0-2.txt")
+            victim, _ = chain_to_zbuf("seen-0-0-2.txt", process.pid)[0]
             time.sleep(0.3)
             os.kill(victim, signal.SIGKILL)
             killed = time.time()
@@ -195,7 +201,7 @@ class OtherMachines(FarmTest):
                     self.use_slow_tools("sleep 0.5")
                     process = subprocess.Popen(self.words(settings, "--parts", "4", "--keep", *hosts), env={**os.environ, "BIN": str(self.bin)},
                                                stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-                    victim = ancestor(process_with("seen-0-0-1.txt"), "sshd")
+                    victim = next(i for i, name in chain_to_zbuf("seen-0-0-1.txt", server.process.pid) if name.startswith("sshd"))
                     self.assertNotEqual(victim, server.process.pid)
                     os.kill(victim, signal.SIGKILL)
                     killed = time.time()
