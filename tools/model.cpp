@@ -28,9 +28,10 @@ int main(int argc, char** argv) {
   tool.options().add_flag("--framed", framed,
                           "Write 'framed' and 'end' around the text, so that a truncated text is noticed");
   std::string first = "0";
-  tool.options().add_word("--first", "N", first,
-                          "Number the triangles from N on: of a part of a scene (split), so that joined texts of "
-                          "parts are that of the whole");
+  tool.options().add_word(
+      "--first", "N", first,
+      "Number the triangles from N on: of a part of a scene (split), so that joined texts of "
+      "parts are that of the whole");
   Statistics statistics(tool.options());
 
   return tool.run(argc, argv, [&] {

@@ -174,8 +174,8 @@ std::string summary(const std::string& image_path, const Viewport& screen, std::
   const std::uint64_t pixel_count = std::uint64_t(screen.columns) * std::uint64_t(screen.drawn_row_count());
   std::uint64_t percent = (200 * covered_count / pixel_count + 1) / 2;  // rounded half up
   if (covered_count > 0 && covered_count < pixel_count) percent = std::clamp<std::uint64_t>(percent, 1, 99);
-  return image_path + ": " + std::to_string(screen.columns) + " x " + std::to_string(screen.drawn_row_count()) + ", " +
-         std::to_string(percent) + " % covered";
+  return image_path + ": " + std::to_string(screen.columns) + " x " +
+         std::to_string(screen.drawn_row_count()) + ", " + std::to_string(percent) + " % covered";
 }
 
 /// The image, if one is requested: takes rows of pixels, or of samples, by their tags.

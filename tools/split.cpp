@@ -23,7 +23,8 @@ constexpr int kMaxParts = 99999;
 std::size_t size_of(const InputFile& scene) {
   struct stat status = {};
   if (::fstat(scene.descriptor(), &status) != 0 || !S_ISREG(status.st_mode))
-    throw UsageError("SCENE: " + expected_but_found("a file, whose size tells where to cut", "a pipe or a device"));
+    throw UsageError("SCENE: " +
+                     expected_but_found("a file, whose size tells where to cut", "a pipe or a device"));
   return static_cast<std::size_t>(status.st_size);
 }
 
@@ -32,7 +33,8 @@ void make_empty_folder(const std::string& path) {
   std::filesystem::create_directories(path, error);
   const bool is_empty = !error && std::filesystem::is_empty(path, error);
   if (error) throw IoError("open", path, error.value());
-  if (!is_empty) throw InputError({path}, expected_but_found("a new folder, or an empty one", "one with files in it"));
+  if (!is_empty)
+    throw InputError({path}, expected_but_found("a new folder, or an empty one", "one with files in it"));
 }
 
 /// All names have the same length, so that a shell lists them in order.
@@ -44,24 +46,28 @@ std::string name_of_part(std::size_t part, std::size_t part_count) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  Tool tool({"split",
-             "Cuts a scene into parts that are scenes themselves, of about the same size, for model on several "
-             "processors or machines. Writes a line for each: its file and the number of its first triangle, for "
-             "model --first.",
-             "The scene",
-             {"split scene.txt 2 -o parts && model --first 0 parts/1.txt > part1.txt",
-              "split scene.txt 8 -o parts > list.txt"}},
-            OutputKind::other_text);
+  Tool tool(
+      {"split",
+       "Cuts a scene into parts that are scenes themselves, of about the same size, for model on several "
+       "processors or machines. Writes a line for each: its file and the number of its first triangle, for "
+       "model --first.",
+       "The scene",
+       {"split scene.txt 2 -o parts && model --first 0 parts/1.txt > part1.txt",
+        "split scene.txt 8 -o parts > list.txt"}},
+      OutputKind::other_text);
   std::string scene_path, part_count_word, folder = "parts";
   tool.take_own_operands();
   tool.options().set_usage("Usage: split [OPTIONS] SCENE PARTS");
   tool.options().add_operand("SCENE", scene_path, "The scene, a file");
-  tool.options().add_operand("PARTS", part_count_word, "How many parts at most; none is without a triangle, unless the scene is");
+  tool.options().add_operand("PARTS", part_count_word,
+                             "How many parts at most; none is without a triangle, unless the scene is");
   tool.options().begin_group("Output");
-  tool.options().add_word("-o,--output", "FOLDER", folder, "Where the parts go, a new folder or an empty one");
+  tool.options().add_word("-o,--output", "FOLDER", folder,
+                          "Where the parts go, a new folder or an empty one");
 
   return tool.run(argc, argv, [&] {
-    if (!tool.options().is_given("PARTS")) throw UsageError(expected_but_found("operands SCENE and PARTS", "fewer"));
+    if (!tool.options().is_given("PARTS"))
+      throw UsageError(expected_but_found("operands SCENE and PARTS", "fewer"));
     std::size_t part_count = 0;
     if (!parse_count(part_count_word, part_count) || part_count < 1 || part_count > kMaxParts)
       throw UsageError("PARTS: " + expected_but_found("a whole number from 1 to " + std::to_string(kMaxParts),
@@ -73,8 +79,11 @@ int main(int argc, char** argv) {
     make_empty_folder(folder);
     for (std::size_t k = 1, part = 1; part == 1 || cutter.has_triangle(); ++k) {
       // A part may have passed the end of the next one.
-      const auto end = static_cast<std::size_t>(size * static_cast<double>(k) / static_cast<double>(part_count));
-      if (k < part_count && scene.text().bytes_read() - scene.text().buffered().size() >= end && cutter.has_triangle()) continue;
+      const auto end =
+          static_cast<std::size_t>(size * static_cast<double>(k) / static_cast<double>(part_count));
+      if (k < part_count && scene.text().bytes_read() - scene.text().buffered().size() >= end &&
+          cutter.has_triangle())
+        continue;
       const std::string path = folder + "/" + name_of_part(part, part_count);
       OutputFile file(path);
       TextWriter text(file.descriptor(), path);

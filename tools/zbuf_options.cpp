@@ -44,10 +44,10 @@ Viewport ZbufOptions::drawn_part(Viewport screen) const {
   const bool has_numbers = colon != std::string::npos && parse_count(word.substr(0, colon), first) &&
                            parse_count(word.substr(colon + 1), end);
   if (!has_numbers || first >= end || end > static_cast<std::size_t>(screen.rows))
-    throw UsageError("--rows: " + expected_but_found("A:B, the first row and the one after the last, from 0:1 to " +
-                                                         std::to_string(screen.rows - 1) + ":" +
-                                                         std::to_string(screen.rows),
-                                                     pipeline::quoted(rows)));
+    throw UsageError("--rows: " + expected_but_found(
+                                      "A:B, the first row and the one after the last, from 0:1 to " +
+                                          std::to_string(screen.rows - 1) + ":" + std::to_string(screen.rows),
+                                      pipeline::quoted(rows)));
   screen.drawn = {static_cast<int>(first), static_cast<int>(end)};
   return screen;
 }

@@ -97,9 +97,10 @@ inline void ZbufOptions::add_to(CommandLine& options) {
                    ? std::string()
                    : expected_but_found("WIDTHxHEIGHT in pixels, such as 400x300", pipeline::quoted(word));
       });
-  options.add_word("--rows", "A:B", rows,
-                   "Draw only the rows from A to before B of the picture, counted from 0 at the top, in memory "
-                   "for these alone: cat joins the depths of such bands, join-images the images");
+  options.add_word(
+      "--rows", "A:B", rows,
+      "Draw only the rows from A to before B of the picture, counted from 0 at the top, in memory "
+      "for these alone: cat joins the depths of such bands, join-images the images");
   const std::vector<std::string_view> extensions = image_extensions();
   options.add_word("-o,--image", "FILE", image_path,
                    "Where the image goes, a " + listed({extensions.begin(), extensions.end()}) +

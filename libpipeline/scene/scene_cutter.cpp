@@ -14,8 +14,8 @@ bool may_begin_number(char c) {
   return (c >= '0' && c <= '9') || c == '-' || c == '+' || c == '.';
 }
 
-/// The length of a triangle at the beginning of `text` whose keyword and vertices stand on lines of their own;
-/// 0 if there is none.
+/// The length of a triangle at the beginning of `text` whose keyword and vertices stand on lines of their
+/// own; 0 if there is none.
 std::size_t length_of_triangle(std::string_view text) {
   if (!text.starts_with(kTriangle)) return 0;
   std::size_t end = kTriangle.size();
@@ -43,7 +43,8 @@ void next_argument_line(TextReader& text, LineScanner& line, std::string_view ke
 SceneCutter::SceneCutter(TextReader& text) : text_(text) {
   for (int camera_line = 0; camera_line < 4; ++camera_line) {
     if (!text_.next_filled_line(line_))
-      throw InputError(text_.end_location(), expected_but_found("the four lines of the camera", "the end of the input"));
+      throw InputError(text_.end_location(),
+                       expected_but_found("the four lines of the camera", "the end of the input"));
     (preamble_ += line_.rest()) += '\n';
   }
   find_triangle(preamble_);
@@ -115,14 +116,16 @@ void SceneCutter::carry_out(std::string& copied) {
       levels_.back().transforms += command;
     else if (keyword == "color" && !is_in_preamble_)
       color_ = command;
-    has_color_ |= keyword == "color" || (keyword == "attributes" && line_.rest().find("color") != std::string_view::npos);
+    has_color_ |= keyword == "color" ||
+                  (keyword == "attributes" && line_.rest().find("color") != std::string_view::npos);
   }
   copied += command;
 }
 
 void SceneCutter::pop(const LineScanner& at_pop) {
   if (levels_.size() == 1)
-    throw InputError(at_pop.location(), expected_but_found("a matrix that 'push' has saved", "'pop' without one"));
+    throw InputError(at_pop.location(),
+                     expected_but_found("a matrix that 'push' has saved", "'pop' without one"));
   levels_.pop_back();
   levels_kept_ = std::min(levels_kept_, levels_.size());
 }
@@ -134,8 +137,8 @@ void SceneCutter::expect_allowed(const LineScanner& at_keyword) const {
   const bool is_setting = keyword == "color" || is_appearance_keyword(keyword);
   if (!is_setting) at_keyword.fail("a command of a scene");
   if (is_in_preamble_ || (keyword == "color" && has_color_)) return;
-  throw InputError(at_keyword.location(),
-                   expected_but_found(quoted(keyword) + " before the first triangle", quoted(keyword) + " after it"));
+  throw InputError(at_keyword.location(), expected_but_found(quoted(keyword) + " before the first triangle",
+                                                             quoted(keyword) + " after it"));
 }
 
 /// Copies the triangle whose first line is `line_`.

@@ -28,8 +28,8 @@ class SceneCutter {
   [[nodiscard]] std::uint64_t next_number() const { return next_number_; }
   /// What a part begins with whose first triangle is the next one.
   [[nodiscard]] std::string beginning() const;
-  /// Copies the commands from the next triangle on, up to the first triangle at or behind `end`, in bytes from
-  /// the scene's beginning.
+  /// Copies the commands from the next triangle on, up to the first triangle at or behind `end`, in bytes
+  /// from the scene's beginning.
   void copy(TextWriter& part, std::size_t end);
 
  private:

@@ -38,7 +38,7 @@ struct Viewport {
   double bottom_low_part = 0;
   /// The rows that are drawn, as far as they are on the screen: all, or a band of the picture. What the other
   /// members say is about the whole picture.
-  RowRange drawn;
+  RowRange drawn = {};
 
   [[nodiscard]] RowRange drawn_rows() const { return {drawn.first, std::min(drawn.end, rows)}; }
   [[nodiscard]] int drawn_row_count() const { return drawn_rows().end - drawn.first; }

@@ -47,8 +47,8 @@ class ZBufferAlgorithm {
   void draw(const ExactTriangle& triangle, PixelTag tag) {
     for_each_span(coverage_.rows(triangle), rows_, [&](const Span& span) { buffer_.draw(span, tag); });
   }
-  /// Draws into some of the rows that are drawn, or all of them, triangle by triangle; nothing else may draw there while it is in
-  /// use.
+  /// Draws into some of the rows that are drawn, or all of them, triangle by triangle; nothing else may draw
+  /// there while it is in use.
   class Drawer {
    public:
     Drawer(ZBufferAlgorithm& algorithm, const RowRange& rows)

@@ -58,7 +58,9 @@ template <typename Coverage, typename Depth>
 class FragmentLog {
  public:
   explicit FragmentLog(const Viewport& screen, double epsilon = 0)
-      : coverage_(screen), test_(screen, epsilon), seen_(screen.drawn_rows(), screen.columns, test_.nothing()) {}
+      : coverage_(screen),
+        test_(screen, epsilon),
+        seen_(screen.drawn_rows(), screen.columns, test_.nothing()) {}
 
   /// Calls `visit(fragment)` for every pixel the next triangle covers in the rows that are drawn.
   template <typename Visitor>

@@ -10,8 +10,8 @@
 
 namespace pipeline {
 
-/// A two-dimensional array, row after row; row 0 is at the top, column 0 on the left. It may hold a few rows of
-/// a picture alone, under their numbers in the picture.
+/// A two-dimensional array, row after row; row 0 is at the top, column 0 on the left. It may hold a few rows
+/// of a picture alone, under their numbers in the picture.
 template <typename T>
 class Raster {
  public:

@@ -23,7 +23,8 @@ namespace pipeline {
 template <typename Depth = DepthF64>
 class ZBuffer {
  public:
-  /// A buffer of the screen's rows that are drawn, every pixel at the rear limit and with the tag `background`.
+  /// A buffer of the screen's rows that are drawn, every pixel at the rear limit and with the tag
+  /// `background`.
   explicit ZBuffer(const Viewport& screen, PixelTag background = {});
 
   /// Draws a span of the triangle that `tag` stands for. A pixel is written if its depth, as it is stored, is

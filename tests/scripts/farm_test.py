@@ -73,7 +73,10 @@ def chain_to_zbuf(word, above):
         for path in pathlib.Path("/proc").glob("[0-9]*"):
             try:
                 command = (path / "cmdline").read_bytes().decode(errors="replace").split("\0")
-                if command[0].endswith("/zbuf") and word in command and above in [process for process, _ in (chain := ancestors(int(path.name)))]:
+                if not command[0].endswith("/zbuf") or word not in command:
+                    continue
+                chain = ancestors(int(path.name))
+                if above in dict(chain):
                     return chain
             except OSError:
                 continue  # it has ended meanwhile
