@@ -6,24 +6,25 @@
 
 namespace pipeline {
 
-/// A line on stderr that shows the progress of a long run: triangles, and triangles a second. It appears only
-/// on a terminal, and not in the first second.
+/// A line on stderr that shows the progress of a long run: triangles, or rays, and how many a second. It
+/// appears only on a terminal, and not in the first second.
 class Progress {
  public:
-  /// The line begins with `tool`.
-  explicit Progress(std::string tool);
+  /// The line begins with `tool` and counts in `unit`.
+  explicit Progress(std::string tool, std::string unit = "triangle");
   /// Ends the line.
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// Shows the number of triangles so far, at most five times a second.
-  void show(std::uint64_t triangle_count);
+  /// Shows the number of them so far, at most five times a second.
+  void show(std::uint64_t count);
 
  private:
   using Clock = std::chrono::steady_clock;
 
   std::string tool_;
+  std::string unit_;
   bool is_wanted_;
   bool is_shown_ = false;
   Clock::time_point start_ = Clock::now();

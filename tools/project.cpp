@@ -1,12 +1,11 @@
 // project: clips triangles behind the eye and divides by w. View space in, normalized device coordinates out.
 
-#include <optional>
 #include <utility>
-#include <variant>
 
 #include "libpipeline/stream/stage_reader.h"
 #include "libpipeline/stream/stage_writer.h"
 #include "libpipeline/stream/text_kind.h"
+#include "libpipeline/vertex/projected_header.h"
 #include "libpipeline/vertex/projection.h"
 #include "tools/command_line.h"
 #include "tools/stage_loop.h"
@@ -20,19 +19,12 @@ using namespace pipeline;
 namespace {
 
 struct ProjectOptions {
-  std::optional<AspectRule> aspect;  // none: the perspective's own
   ClipMode clip = ClipMode::automatic;
   CullMode cull = CullMode::nothing;
   double clip_inset = 0;
 };
 
 void add_options(CommandLine& options, ProjectOptions& chosen) {
-  options.add_choice<std::optional<AspectRule>>(
-      "--aspect", chosen.aspect, {{"angle", AspectRule::angle}, {"ratio", AspectRule::ratio}},
-      "How a perspective's aspect is meant.\n"
-      "angle: fovX = fovY * aspect\n"
-      "ratio: tan(fovX/2) = tan(fovY/2) * aspect, as in gluPerspective\n"
-      "Without the option: as the perspective says, angle if it ends in neither word");
   options.begin_group("Clipping");
   options.add_choice<ClipMode>("--clip", chosen.clip,
                                {{"auto", ClipMode::automatic},
@@ -64,29 +56,9 @@ void check_inset(const ProjectOptions& chosen) {
                      expected_but_found("--clip near, frustum or reject with it", "none of these"));
 }
 
-/// The camera's projection, with the aspect rule of the option if there is one.
-Located<Projection> projection_of(const CameraParameters& camera, std::optional<AspectRule> aspect,
-                                  const StageReader& reader) {
-  if (!camera.projection)
-    throw InputError(reader.header_end(),
-                     expected_but_found("a projection (a header line perspective, frustum or ortho; or "
-                                        "--scene; or --perspective, --frustum or --ortho)",
-                                        "none" + reason_without_camera(reader)));
-  Located<Projection> projection = *camera.projection;
-  if (auto* perspective = std::get_if<Perspective>(&projection.value); perspective != nullptr && aspect)
-    perspective->aspect_rule = *aspect;
-  return projection;
-}
-
 std::string to_text(const ProjectionCounts& counts) {
   return std::to_string(counts.culled) + " culled, " + std::to_string(counts.outside) + " outside, " +
          std::to_string(counts.clipped) + " cut into " + std::to_string(counts.pieces);
-}
-
-/// The appearance in a projected text: if there are other columns, w is added to them.
-Appearance in_clip_space(Appearance appearance) {
-  if (appearance.attributes) appearance.attributes->value.w = true;
-  return appearance;
 }
 
 }  // namespace
@@ -100,7 +72,7 @@ int main(int argc, char** argv) {
         "model scene.txt | view | project --cull back --clip frustum | zbuf config.txt > z_buffer.txt"}},
       OutputKind::stage_text);
   NumberOptions numbers(tool.options());
-  CameraOptions cameras(tool.options(), CameraOptions::Parts::projection);
+  ProjectionOptions projections(tool.options());
   ProjectOptions chosen;
   add_options(tool.options(), chosen);
   Statistics statistics(tool.options());
@@ -110,19 +82,15 @@ int main(int argc, char** argv) {
     expect_kind(tool.input(), TextKind::view);
     StageReader reader(tool.input());
     expect_header(reader, TextKind::view);
-    const CameraParameters camera = cameras.camera(reader.header().camera, tool);
-    const Located<Projection> given = projection_of(camera, chosen.aspect, reader);
+    const Located<Projection> given = projections.projection(reader, tool);
     const ProjectionTransform projection = clip_from_view(given);
     StageWriter writer(tool.output(), numbers.format(), false);
-    const Appearance appearance = in_clip_space(reader.header().appearance);
-    StageHeader header = {.framed = reader.header().framed, .camera = {}, .appearance = appearance};
-    const bool is_lit = !appearance.lights.empty();
-    if (is_lit) header.projected = {volume_of(given, projection), given.location};
+    const StageHeader header = projected_header(reader.header(), given, projection);
     writer.write_header(header);
 
     CoordinateRounder rounder = numbers.rounder(tool.input().file());
     ProjectionStage stage(projection, chosen.clip, chosen.cull, rounder, chosen.clip_inset);
-    if (is_lit) stage.keep_unclipped_triangles();
+    if (header.projected) stage.keep_unclipped_triangles();
     ViewReport report(stage, ViewVolume(projection, chosen.clip_inset), statistics.is_wanted());
     report.suspect_radians(given);
     TriangleBatch p_view;

@@ -7,7 +7,6 @@
 #include <string>
 
 #include "libpipeline/coverage/rules.h"
-#include "libpipeline/picture/image_file.h"
 #include "libpipeline/picture/supersampling.h"
 #include "libpipeline/picture/surface_shader.h"
 #include "libpipeline/scene/color.h"
@@ -15,7 +14,6 @@
 #include "libpipeline/stream/stage_reader.h"
 #include "libpipeline/stream/text_kind.h"
 #include "libpipeline/stream/thread_pool.h"
-#include "libpipeline/text/output_file.h"
 #include "libpipeline/visibility/algorithms.h"
 #include "libpipeline/visibility/fragment_log.h"
 #include "libpipeline/visibility/triangle_drawing.h"
@@ -23,6 +21,7 @@
 #include "tools/drawing_report.h"
 #include "tools/empty_picture_note.h"
 #include "tools/fragment_report.h"
+#include "tools/image_rows.h"
 #include "tools/progress.h"
 #include "tools/seen_file.h"
 #include "tools/surface_shading.h"
@@ -143,8 +142,8 @@ void draw_all(Tool& tool, const ZbufOptions& chosen, StageReader& reader, Triang
     if (!store.is_full()) return;
     finish();
     store.keep_seen([&](const auto& visit) {
-      if (!visible.samples || store.keeps_text()) visible.centers.for_each_tag(visit);
-      if (visible.samples) visible.samples->for_each_tag(visit);
+      if (!visible.samples || store.keeps_text()) visible.centers.for_each_drawn_tag(visit);
+      if (visible.samples) visible.samples->for_each_drawn_tag(visit);
     });
   };
   ReadAhead ahead(reader, pool);
@@ -169,55 +168,23 @@ void draw_all(Tool& tool, const ZbufOptions&, StageReader& reader, TriangleStore
       tool, reader, report, [&]() -> TriangleBatch& { return p_ndc; }, draw);
 }
 
-/// "out.bmp: 400 x 300, 61 % covered". Only an empty picture has 0 %, only a full one 100 %.
-std::string summary(const std::string& image_path, const Viewport& screen, std::uint64_t covered_count) {
-  const std::uint64_t pixel_count = std::uint64_t(screen.columns) * std::uint64_t(screen.drawn_row_count());
-  std::uint64_t percent = (200 * covered_count / pixel_count + 1) / 2;  // rounded half up
-  if (covered_count > 0 && covered_count < pixel_count) percent = std::clamp<std::uint64_t>(percent, 1, 99);
-  return image_path + ": " + std::to_string(screen.columns) + " x " +
-         std::to_string(screen.drawn_row_count()) + ", " + std::to_string(percent) + " % covered";
-}
-
-/// The image, if one is requested: takes rows of pixels, or of samples, by their tags.
-class ImageRows {
+/// The colors of rows of pixels, or of samples, from their tags.
+class RowColors {
  public:
-  ImageRows(const ZbufOptions& chosen, const Viewport& screen, TriangleStore& store,
-            std::optional<SurfaceShader>& shader)
-      : store_(store), shader_(shader), row_number_(chosen.sample_count * screen.drawn_rows().first) {
-    if (!chosen.has_image()) return;
-    file_.emplace(chosen.image_path);
-    pixels_ = image_writer(file_->descriptor(), chosen.image_path, screen.columns, screen.drawn_row_count());
-    if (chosen.sample_count > 1) means_.emplace(screen.columns, chosen.sample_count);
-  }
+  RowColors(TriangleStore& store, std::optional<SurfaceShader>& shader, int first_row)
+      : store_(store), shader_(shader), row_number_(first_row) {}
 
-  void write_row(std::span<const PixelTag> tags) {
-    if (!pixels_) return;
-    const std::span<const Color> colors = shaded(tags);
-    if (!means_) return pixels_->write_row(colors);
-    if (const auto complete = means_->add(colors)) pixels_->write_row(*complete);
-  }
-  void close() {
-    if (!pixels_) return;
-    pixels_->finish();
-    file_->close();
-  }
-  void commit() {
-    if (file_) file_->commit();
-  }
-
- private:
-  std::span<const Color> shaded(std::span<const PixelTag> tags) {
+  /// Those of the next row, valid until the next call.
+  std::span<const Color> next(std::span<const PixelTag> tags) {
     if (shader_) return shader_->shade(row_number_++, tags);
     colors_.resize(tags.size());
     store_.color(tags, colors_);
     return colors_;
   }
 
+ private:
   TriangleStore& store_;
   std::optional<SurfaceShader>& shader_;
-  std::optional<OutputFile> file_;
-  std::unique_ptr<ImageWriter> pixels_;
-  std::optional<Downsampler> means_;
   std::vector<Color> colors_;
   int row_number_;  // of the samples
 };
@@ -226,7 +193,8 @@ template <VisibilityAlgorithm Visible>
 void write_all(Tool& tool, const ZbufOptions& chosen, const SampledVisible<Visible>& visible,
                const StageReader& reader, TriangleStore& store, std::optional<SurfaceShader>& shader) {
   const Viewport& screen = visible.center_screen;
-  ImageRows image(chosen, screen, store, shader);
+  ImageRows image(chosen.image_path, screen, chosen.sample_count);
+  RowColors colors(store, shader, chosen.sample_count * screen.drawn_rows().first);
   DepthFiles depths(tool.output(), chosen.z_buffer_path, chosen.depth_image_path, screen);
   std::optional<SeenFile> seen_file;
   if (store.keeps_text()) seen_file.emplace(tool.output(), chosen.seen_path);
@@ -241,12 +209,12 @@ void write_all(Tool& tool, const ZbufOptions& chosen, const SampledVisible<Visib
     if (chosen.summarizes)
       covered_count += static_cast<std::uint64_t>(
           std::ranges::count_if(row.depths, [&](double depth) { return depth < screen.rear; }));
-    if (!visible.samples) image.write_row(row.tags);
+    if (!visible.samples && image.is_wanted()) image.write_row(colors.next(row.tags));
   });
   if (visible.samples) {
     visible.samples->for_each_row([&](const VisibleRow& row) {
       mark(row.tags);
-      image.write_row(row.tags);
+      if (image.is_wanted()) image.write_row(colors.next(row.tags));
     });
   }
   if (seen_file) seen_file->write(reader, store, seen);
@@ -289,7 +257,8 @@ void render_with(Tool& tool, const ZbufOptions& chosen, const Viewport& screen, 
   surfaces.background = parse_color(chosen.background);
   if (chosen.wireframe) surfaces.wireframe = {screen.dx(), screen.dy()};
   std::optional<SurfaceShader> shader;
-  if (chosen.has_image()) shader = surface_shader(reader, shaded_screen, surfaces);
+  if (chosen.has_image())
+    shader = surface_shader(reader.header(), reader.header_end(), shaded_screen, surfaces);
   tool.timing().lap(&Timing::read_seconds);
   const std::unique_ptr<FragmentReport> fragments = fragment_report(chosen, screen);
   const std::unique_ptr<DrawingReport> report = drawing_report(chosen, screen, statistics.is_wanted());

@@ -1,5 +1,7 @@
 #include "tools/stage_options.h"
 
+#include <variant>
+
 #include "libpipeline/scene/scene.h"
 #include "libpipeline/stream/text_kind.h"
 #include "libpipeline/text/number_parser.h"
@@ -81,6 +83,29 @@ CameraParameters CameraOptions::camera(const CameraParameters& header, const Too
   camera = merged(camera, header);
   check_camera(camera);
   return camera;
+}
+
+ProjectionOptions::ProjectionOptions(CommandLine& options)
+    : camera_(options, CameraOptions::Parts::projection) {
+  options.add_choice<std::optional<AspectRule>>(
+      "--aspect", aspect_, {{"angle", AspectRule::angle}, {"ratio", AspectRule::ratio}},
+      "How a perspective's aspect is meant.\n"
+      "angle: fovX = fovY * aspect\n"
+      "ratio: tan(fovX/2) = tan(fovY/2) * aspect, as in gluPerspective\n"
+      "Without the option: as the perspective says, angle if it ends in neither word");
+}
+
+Located<Projection> ProjectionOptions::projection(const StageReader& reader, const Tool& tool) const {
+  const CameraParameters camera = camera_.camera(reader.header().camera, tool);
+  if (!camera.projection)
+    throw InputError(reader.header_end(),
+                     expected_but_found("a projection (a header line perspective, frustum or ortho; or "
+                                        "--scene; or --perspective, --frustum or --ortho)",
+                                        "none" + reason_without_camera(reader)));
+  Located<Projection> projection = *camera.projection;
+  if (auto* perspective = std::get_if<Perspective>(&projection.value); perspective != nullptr && aspect_)
+    perspective->aspect_rule = *aspect_;
+  return projection;
 }
 
 }  // namespace pipeline

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "libpipeline/scene/camera.h"
+#include "libpipeline/stream/stage_reader.h"
 #include "libpipeline/vertex/coordinate_rounder.h"
 #include "tools/command_line.h"
 #include "tools/tool.h"
@@ -43,6 +45,20 @@ class CameraOptions {
   std::map<std::string, std::vector<std::string>>
       words_;  // by option name, as they stand on the command line
   std::string scene_path_;
+};
+
+/// The projection as options, `--scene`, and `--aspect`, which says how a perspective's aspect is meant.
+class ProjectionOptions {
+ public:
+  explicit ProjectionOptions(CommandLine& options);
+
+  /// The projection from the options, else from the scene, else from the text's header. An InputError if
+  /// there is none.
+  [[nodiscard]] Located<Projection> projection(const StageReader& reader, const Tool& tool) const;
+
+ private:
+  CameraOptions camera_;
+  std::optional<AspectRule> aspect_;  // none: the perspective's own
 };
 
 }  // namespace pipeline

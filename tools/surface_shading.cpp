@@ -30,9 +30,8 @@ Color background_color(const Appearance& appearance, std::optional<Color> chosen
   return appearance.background ? rounded_color(appearance.background->value) : Color();
 }
 
-std::optional<SurfaceShader> surface_shader(const StageReader& reader, const Viewport& screen,
-                                            const SurfaceOptions& chosen) {
-  const StageHeader& header = reader.header();
+std::optional<SurfaceShader> surface_shader(const StageHeader& header, const SourceLocation& header_end,
+                                            const Viewport& screen, const SurfaceOptions& chosen) {
   const Appearance& appearance = header.appearance;
   SurfaceShader::Setup setup;
   setup.model = chosen.model.value_or(default_model(appearance));
@@ -44,8 +43,7 @@ std::optional<SurfaceShader> surface_shader(const StageReader& reader, const Vie
     return SurfaceShader(screen, std::move(setup));
   }
   if (appearance.lights.empty())
-    throw InputError(reader.header_end(),
-                     expected_but_found("a light for --shading (a header line light)", "none"));
+    throw InputError(header_end, expected_but_found("a light for --shading (a header line light)", "none"));
   const ProjectionTransform projection = clip_from_view(*header.projected);
   setup.view_from_clip.emplace(projection);
   setup.lighting = lighting_of(appearance, projection.is_perspective);

@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "libpipeline/picture/surface_shader.h"
-#include "libpipeline/stream/stage_reader.h"
+#include "libpipeline/stream/stage_text.h"
 
 namespace pipeline {
 
@@ -17,11 +17,12 @@ struct SurfaceOptions {
 /// The color of pixels that show no triangle: black unless one is chosen or the header sets one.
 Color background_color(const Appearance& appearance, std::optional<Color> chosen);
 
-/// The shader of a text's triangles; none for a text without colors and lights, unless a wireframe is
-/// requested (with pixels of that size). The default model: none without lights, phong with lights and
-/// normals, flat with lights alone. The header of a text with lights must say how it was projected. An
-/// InputError if a model needs lights and there are none.
-std::optional<SurfaceShader> surface_shader(const StageReader& reader, const Viewport& screen,
-                                            const SurfaceOptions& chosen);
+/// The shader of the triangles of a projected text; none for a text without colors and lights, unless a
+/// wireframe is requested (with pixels of that size). The default model: none without lights, phong with
+/// lights and normals, flat with lights alone. The header of a text with lights must say how it was
+/// projected. An InputError if a model needs lights and there are none. InputErrors name `header_end`, the
+/// place after the header.
+std::optional<SurfaceShader> surface_shader(const StageHeader& header, const SourceLocation& header_end,
+                                            const Viewport& screen, const SurfaceOptions& chosen);
 
 }  // namespace pipeline

@@ -66,14 +66,14 @@ class TriangleStore {
     return shader_ ? next_id_ >= capacity_
                    : texts_ && (texts_->size() >= capacity_ || next_id_ >= max_id_count_);
   }
-  /// Lets go of the triangles that no pixel shows. `for_each_tag(visit)` calls visit(tag), which changes it,
-  /// for every pixel; all triangles so far are drawn.
-  template <typename ForEachTag>
-  void keep_seen(const ForEachTag& for_each_tag) {
+  /// Lets go of the triangles that no pixel shows. `for_each_drawn_tag(visit)` calls visit(tag), which
+  /// changes it, for every pixel of the rows drawn into; all triangles so far are drawn.
+  template <typename ForEachDrawnTag>
+  void keep_seen(const ForEachDrawnTag& for_each_drawn_tag) {
     KeptIds kept(id_count());
-    for_each_tag([&](PixelTag& tag) { kept.keep(tag); });
+    for_each_drawn_tag([&](PixelTag& tag) { kept.keep(tag); });
     let_go(kept);
-    for_each_tag([&](PixelTag& tag) { tag = kept.new_id(tag); });
+    for_each_drawn_tag([&](PixelTag& tag) { tag = kept.new_id(tag); });
   }
 
  private:

@@ -3,8 +3,6 @@
 #include <unistd.h>
 
 #include <csignal>
-#include <string>
-#include <vector>
 
 #include "libpipeline/picture/image_file.h"
 #include "tools/render.h"
@@ -15,24 +13,6 @@
 #include "tools/zbuf_options.h"
 
 using namespace pipeline;
-
-namespace {
-
-NamedOutput text_output(const std::string& option, const std::string& path) {
-  if (path == "-") return standard_output();
-  return {option, path};
-}
-
-std::vector<NamedOutput> outputs_of(const ZbufOptions& chosen, const Statistics& statistics) {
-  return {{"--image", chosen.image_path},
-          text_output("--z-buffer", chosen.z_buffer_path == "none" ? "" : chosen.z_buffer_path),
-          {"--depth-image", chosen.depth_image_path},
-          {"--fragments", chosen.fragments_path},
-          text_output("--seen", chosen.seen_path),
-          statistics.output()};
-}
-
-}  // namespace
 
 // NOLINTNEXTLINE(bugprone-exception-escape): thrown only if memory is out before anything is done
 int main(int argc, char** argv) {

@@ -7,6 +7,14 @@
 #include "libpipeline/text/number_printer.h"
 
 namespace pipeline {
+namespace {
+
+NamedOutput text_output(const std::string& option, const std::string& path) {
+  if (path == "-") return standard_output();
+  return {option, path};
+}
+
+}  // namespace
 
 void ZbufOptions::complete(bool is_terminal) {
   const bool image_is_output = image_path == "-", seen_is_output = seen_path == "-";
@@ -60,6 +68,15 @@ void ZbufOptions::check_limits(const Viewport& screen) const {
                      expected_but_found("limits of Z " + std::string(needed),
                                         shortest_text(screen.front) + " and " + shortest_text(screen.rear)));
   });
+}
+
+std::vector<NamedOutput> outputs_of(const ZbufOptions& chosen, const Statistics& statistics) {
+  return {{"--image", chosen.image_path},
+          text_output("--z-buffer", chosen.z_buffer_path == "none" ? "" : chosen.z_buffer_path),
+          {"--depth-image", chosen.depth_image_path},
+          {"--fragments", chosen.fragments_path},
+          text_output("--seen", chosen.seen_path),
+          statistics.output()};
 }
 
 }  // namespace pipeline

@@ -17,6 +17,8 @@
 #include "libpipeline/scene/config.h"
 #include "libpipeline/visibility/depth_format.h"
 #include "tools/command_line.h"
+#include "tools/separate_outputs.h"
+#include "tools/statistics.h"
 
 namespace pipeline {
 
@@ -47,6 +49,12 @@ struct ZbufOptions {
   bool summarizes = false;          // on stderr, as the depths are not shown on the terminal
 
   void add_to(CommandLine& options);
+  // Some of them, for other tools that make pictures; without `has_seen`, the help names no --seen.
+  void add_screen_and_outputs(CommandLine& options, bool has_seen);
+  void add_samples(CommandLine& options);
+  void add_shading(CommandLine& options);
+  void add_background(CommandLine& options);
+  void add_framed(CommandLine& options);
   /// Chooses the options that depend on others, and on whether standard output is a terminal. A UsageError if
   /// options exclude each other.
   void complete(bool is_terminal);
@@ -57,6 +65,9 @@ struct ZbufOptions {
   /// Whether an image is written, once the options are complete.
   [[nodiscard]] bool has_image() const { return !image_path.empty(); }
 };
+
+/// The files and pipes of a run that makes a picture.
+std::vector<NamedOutput> outputs_of(const ZbufOptions& chosen, const Statistics& statistics);
 
 /// Calls visit<Rule, Depth>() for the coverage rule and the depth format chosen.
 template <typename Visitor>
@@ -85,37 +96,11 @@ inline void ZbufOptions::add_to(CommandLine& options) {
   options.set_usage(
       "Usage: zbuf [OPTIONS] CONFIG [INPUT]\n"
       "       zbuf [OPTIONS] --size WIDTHxHEIGHT [INPUT]");
-  options.add_operand(
-      "CONFIG", config_path,
-      "The screen (config.txt): WIDTH HEIGHT in pixels, alone or before three lines: the left "
-      "limit of x, the bottom limit of y, the front and rear limits of z");
-  options.begin_group("Output");
-  options.add_word(
-      "--size", "WIDTHxHEIGHT", size,
-      "The screen's size in place of CONFIG; x, y and z are shown from -1 to 1", [](const std::string& word) {
-        return parse_size(word)
-                   ? std::string()
-                   : expected_but_found("WIDTHxHEIGHT in pixels, such as 400x300", pipeline::quoted(word));
-      });
+  add_screen_and_outputs(options, true);
   options.add_word(
       "--rows", "A:B", rows,
       "Draw only the rows from A to before B of the picture, counted from 0 at the top, in memory "
       "for these alone: cat joins the depths of such bands, join-images the images");
-  const std::vector<std::string_view> extensions = image_extensions();
-  options.add_word("-o,--image", "FILE", image_path,
-                   "Where the image goes, a " + listed({extensions.begin(), extensions.end()}) +
-                       " file; - is standard output, as PPM and without the depths (default: out.bmp, but "
-                       "none with --seen)",
-                   [](const std::string& name) {
-                     return name == "-" ? std::string() : wrong_with_name(check_image_name)(name);
-                   });
-  options.add_word("--z-buffer", "FILE", z_buffer_path,
-                   "Where the depths go; - is standard output, none is nowhere (default: -, but none with "
-                   "-o -, with --seen and at a terminal)");
-  options.add_word("--depth-image", "FILE", depth_image_path,
-                   "Also write the depths as a 16-bit image, a .pgm or .png file: white at the front limit, "
-                   "black at the rear limit",
-                   wrong_with_name(check_depth_image_name));
   options.add_word(
       "--seen", "FILE", seen_path,
       "Write the triangles that a pixel or sample shows, as text that zbuf reads and that gives "
@@ -133,11 +118,59 @@ inline void ZbufOptions::add_to(CommandLine& options) {
       "a number of at least 0",
       "Draw a triangle only where it is nearer than the visible one by more than E; the result then depends "
       "on the order of the triangles");
+  add_samples(options);
+  options.add_threads(thread_count, "How many threads draw with the z-buffer");
+  options.begin_group("Color and light");
+  add_shading(options);
+  options.add_flag("--wireframe", wireframe,
+                   "Show only the edges of the visible surfaces: the pixels within half a pixel of an edge");
+  add_background(options);
+  options.begin_group("Debugging");
+  options.add_repeatable("--probe", "COLUMN,ROW", probes,
+                         "Report on stderr, for every triangle at this pixel, its depth there and whether it "
+                         "was kept or why it was lost; may be repeated");
+  options.add_word("--fragments", "FILE", fragments_path, "Write the same for the whole picture to a file");
+  add_framed(options);
+}
+
+inline void ZbufOptions::add_screen_and_outputs(CommandLine& options, bool has_seen) {
+  options.add_operand(
+      "CONFIG", config_path,
+      "The screen (config.txt): WIDTH HEIGHT in pixels, alone or before three lines: the left "
+      "limit of x, the bottom limit of y, the front and rear limits of z");
+  options.begin_group("Output");
+  options.add_word(
+      "--size", "WIDTHxHEIGHT", size,
+      "The screen's size in place of CONFIG; x, y and z are shown from -1 to 1", [](const std::string& word) {
+        return parse_size(word)
+                   ? std::string()
+                   : expected_but_found("WIDTHxHEIGHT in pixels, such as 400x300", pipeline::quoted(word));
+      });
+  const std::vector<std::string_view> extensions = image_extensions();
+  options.add_word("-o,--image", "FILE", image_path,
+                   "Where the image goes, a " + listed({extensions.begin(), extensions.end()}) +
+                       " file; - is standard output, as PPM and without the depths (default: out.bmp" +
+                       (has_seen ? ", but none with --seen)" : ")"),
+                   [](const std::string& name) {
+                     return name == "-" ? std::string() : wrong_with_name(check_image_name)(name);
+                   });
+  options.add_word("--z-buffer", "FILE", z_buffer_path,
+                   std::string("Where the depths go; - is standard output, none is nowhere (default: -, but "
+                               "none with -o -") +
+                       (has_seen ? ", with --seen and at a terminal)" : " and at a terminal)"));
+  options.add_word("--depth-image", "FILE", depth_image_path,
+                   "Also write the depths as a 16-bit image, a .pgm or .png file: white at the front limit, "
+                   "black at the rear limit",
+                   wrong_with_name(check_depth_image_name));
+}
+
+inline void ZbufOptions::add_samples(CommandLine& options) {
   options.add_whole("--samples", sample_count, 1, kMaxSamples,
                     "Smooth edges: a pixel of the image is the mean of N x N samples, its depth stays that "
                     "of its center; N");
-  options.add_threads(thread_count, "How many threads draw with the z-buffer");
-  options.begin_group("Color and light");
+}
+
+inline void ZbufOptions::add_shading(CommandLine& options) {
   options.add_choice<std::optional<ShadingModel>>(
       "--shading", shading,
       {{"none", ShadingModel::none},
@@ -146,8 +179,9 @@ inline void ZbufOptions::add_to(CommandLine& options) {
        {"phong", ShadingModel::phong}},
       "Where surfaces are lit. none: nowhere; flat: once per triangle; gouraud: at its vertices; phong: at "
       "every pixel. Without the option: phong with lights and normals, flat with lights alone, else none");
-  options.add_flag("--wireframe", wireframe,
-                   "Show only the edges of the visible surfaces: the pixels within half a pixel of an edge");
+}
+
+inline void ZbufOptions::add_background(CommandLine& options) {
   options.add_word("--background", "RRGGBB", background,
                    "The color of pixels that show no triangle, six hexadecimal digits, in place of the "
                    "scene's; black if neither gives one",
@@ -156,11 +190,9 @@ inline void ZbufOptions::add_to(CommandLine& options) {
                                               : expected_but_found("RRGGBB, six hexadecimal digits",
                                                                    pipeline::quoted(word));
                    });
-  options.begin_group("Debugging");
-  options.add_repeatable("--probe", "COLUMN,ROW", probes,
-                         "Report on stderr, for every triangle at this pixel, its depth there and whether it "
-                         "was kept or why it was lost; may be repeated");
-  options.add_word("--fragments", "FILE", fragments_path, "Write the same for the whole picture to a file");
+}
+
+inline void ZbufOptions::add_framed(CommandLine& options) {
   options.add_flag("--framed", framed,
                    "Refuse a text without the frame that model --framed gives it: an empty one may come from "
                    "a stage that was killed");

@@ -114,10 +114,11 @@ class ZBufferAlgorithm {
   /// From now on drawers set marks[tag - first_tag] to 1 for the triangles that win a pixel, and maybe for
   /// others; no longer if `marks` is null.
   void mark_winners(PixelTag first_tag, std::uint8_t* marks) { buffer_.mark_winners(first_tag, marks); }
-  /// Calls `visit(tag)`, which may change it, for every pixel. No drawer may be in use.
+  /// Calls `visit(tag)`, which may change it, for every pixel of the rows in which something has been drawn.
+  /// No drawer may be in use.
   template <typename Visitor>
-  void for_each_tag(Visitor&& visit) {
-    buffer_.for_each_tag(visit);
+  void for_each_drawn_tag(Visitor&& visit) {
+    buffer_.for_each_drawn_tag(visit);
   }
   template <typename Visitor>
   void for_each_row(Visitor&& visit) const {

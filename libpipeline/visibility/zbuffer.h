@@ -62,11 +62,11 @@ class ZBuffer {
   void mark(PixelTag tag) {
     if (marks_ != nullptr) marks_[tag - first_marked_] = 1;
   }
-  /// Calls `visit(tag)`, which may change it, for every pixel.
+  /// Calls `visit(tag)`, which may change it, for every pixel of the rows in which something has been drawn.
   template <typename Visitor>
-  void for_each_tag(Visitor&& visit) {
+  void for_each_drawn_tag(Visitor&& visit) {
     for (int row = rows_.first; row < rows_.end; ++row) {
-      fill_if_new(row);
+      if (is_filled_[index_of(row)] == 0) continue;
       for (PixelTag& tag : tags_.row(row)) visit(tag);
     }
   }

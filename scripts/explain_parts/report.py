@@ -8,9 +8,19 @@ MAX_LINES = 60
 
 
 def report(stages, triangle, window, name, options):
+    lines, pieces = triangle_report(stages, triangle, window, name, options.triangle)
+    if not options.pixel:
+        return lines + suggestion(window, pieces)
+    coverage, fragments = pixel_section(stages, window, pieces, options.triangle, options.pixel)
+    lines += ["", *coverage]
+    return lines + winner_lines(fragments, options.triangle, MAX_LINES - len(lines))
+
+
+def triangle_report(stages, triangle, window, name, number):
+    """The lines about triangle `number`, and its pieces in NDC: pairs of names and points."""
     calculation = Calculation(stages, triangle)
     columns = [f"color and light take {triangle.columns} more numbers per vertex, which the geometry does not need"] * (triangle.columns > 0)
-    lines = [f"triangle {options.triangle} of {stages.count}, numbered from 0: {name}, line {triangle.line}", *columns, "",
+    lines = [f"triangle {number} of {stages.count}, numbered from 0: {name}, line {triangle.line}", *columns, "",
              *model_section(stages, triangle, calculation), "", *view_section(stages, calculation), "", *project_section(calculation)]
     pieces = [([vertex.name for vertex in piece], [tuple(map(decimal_or_double, vertex)) for vertex in words])
               for piece, words in zip(calculation.clipped.pieces, stages.ndc)]
@@ -18,11 +28,7 @@ def report(stages, triangle, window, name, options):
         lines += ["", *window_section(stages, calculation, window)]
     if len(stages.ndc) != len(calculation.clipped.pieces):
         lines.append(f"  project itself has written {len(stages.ndc)} triangles")
-    if not options.pixel:
-        return lines + suggestion(window, pieces)
-    coverage, fragments = pixel_section(stages, window, pieces, options.triangle, options.pixel)
-    lines += ["", *coverage]
-    return lines + winner_lines(fragments, options.triangle, MAX_LINES - len(lines))
+    return lines, pieces
 
 
 def suggestion(window, pieces):

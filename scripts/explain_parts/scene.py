@@ -1,6 +1,7 @@
 """One triangle of a scene: its line, its numbers, and the transforms in force. `model` has accepted the scene before."""
 import dataclasses
 import functools
+import itertools
 
 from explain_parts.exact import double
 from explain_parts.matrices import IDENTITY, TRANSFORMS, product
@@ -44,9 +45,9 @@ def commands(text):
         yield Command(number, keyword, arguments)
 
 
-def find_triangle(text, number):
-    """The SceneTriangle of a number counted from 0."""
-    in_force, saved, count = None, [], 0  # in_force is the last transform and those before it: (command, (command, ...))
+def find_triangles(text):
+    """Every SceneTriangle, in order."""
+    in_force, saved = None, []  # in_force is the last transform and those before it: (command, (command, ...))
     for command in commands(text):
         if command.keyword in TRANSFORMS:
             in_force = (command, in_force)
@@ -55,11 +56,13 @@ def find_triangle(text, number):
         elif command.keyword == "pop":
             in_force = saved.pop()
         elif command.keyword == "triangle":
-            if count == number:
-                lines = command.arguments
-                return SceneTriangle(command.line, [words[:3] for words in lines], len(lines[0]) - 3, listed(in_force))
-            count += 1
-    raise IndexError(number)
+            lines = command.arguments
+            yield SceneTriangle(command.line, [words[:3] for words in lines], len(lines[0]) - 3, listed(in_force))
+
+
+def find_triangle(text, number):
+    """The SceneTriangle of a number counted from 0."""
+    return next(itertools.islice(find_triangles(text), number, None))
 
 
 def listed(in_force):

@@ -2,10 +2,12 @@
 import dataclasses
 import math
 
-from lib.vectors import axes, moved, normalized
+from lib.vectors import axes, dot, moved, normalized, turned_about
 
 STEP = 0.05  # of the distance between eye and look
 TURN = math.radians(3)
+CLOSER = 0.9  # what a step of the wheel leaves of that distance
+STEEPEST = math.radians(89)  # that an orbit climbs above the horizon, or below it
 
 
 def plain(vector):
@@ -21,23 +23,45 @@ class Camera:
     up: tuple
     forward: tuple
     distance: float
+    vertical: tuple = None  # the scene's up, as a unit vector
     words: tuple = None
 
     @staticmethod
     def of(eye, look, up):
         """From the words of a header."""
         eye_at, look_at, up_to = (tuple(map(float, words)) for words in (eye, look, up))
-        return Camera(eye_at, *axes(eye_at, look_at, up_to), math.dist(eye_at, look_at), (list(eye), list(look), list(up)))
+        return Camera(eye_at, *axes(eye_at, look_at, up_to), math.dist(eye_at, look_at), normalized(up_to), (list(eye), list(look), list(up)))
 
     def lines(self):
         """Eye, look and up, three words each."""
-        return self.words or (plain(self.eye), plain(moved(self.eye, (self.distance, self.forward))), plain(self.up))
+        return self.words or (plain(self.eye), plain(self.look), plain(self.up))
 
     def stepped(self, right, up, forward):
         """Moved by the given number of steps along each axis."""
         step = STEP * self.distance
         eye = moved(self.eye, (right * step, self.right), (up * step, self.up), (forward * step, self.forward))
         return dataclasses.replace(self, eye=eye, words=None)
+
+    @property
+    def look(self):
+        return moved(self.eye, (self.distance, self.forward))
+
+    def orbited(self, right, up):
+        """Moved around the point looked at, by angles in radians: to the right about the vertical, and up, but never past it."""
+        height = math.asin(max(-1.0, min(1.0, -dot(self.forward, self.vertical))))
+        up = max(min(-STEEPEST, height), min(max(STEEPEST, height), height + up)) - height
+        ways = [turned_about(turned_about(way, self.right, -up), self.vertical, right) for way in (self.right, self.up, self.forward)]
+        side, top, forward = map(normalized, ways)
+        return dataclasses.replace(self, eye=moved(self.look, (-self.distance, forward)), right=side, up=top, forward=forward, words=None)
+
+    def neared(self, steps):
+        """Moved towards the point looked at; away from it for negative steps."""
+        distance = self.distance * CLOSER**steps
+        return dataclasses.replace(self, eye=moved(self.look, (-distance, self.forward)), distance=distance, words=None)
+
+    def framing(self, center, distance):
+        """Looking at a point, in the same direction, from a distance."""
+        return dataclasses.replace(self, eye=moved(center, (-distance, self.forward)), distance=distance, words=None)
 
     def turned(self, right, up):
         """Turned on the spot, by the given numbers of turns."""

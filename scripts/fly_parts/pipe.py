@@ -7,7 +7,9 @@ import subprocess
 import tempfile
 import threading
 
+from fly_parts.framing import Ball
 from lib.pipe_tools import ToolFailure
+from lib.projection import line_of
 
 STAGES = ("model", "view", "project", "zbuf")
 
@@ -44,6 +46,7 @@ class Stage:
     source: object = None   # the MemoryFile it read
     output: object = None
     seconds: float = None   # of processor time; None if the last frame reused its output
+    notes: tuple = ()       # on stderr
 
 
 class Run:
@@ -70,7 +73,7 @@ class Run:
             os.close(sink)
 
     def wait(self):
-        """Waits for its end. Returns its error message, None if it succeeded."""
+        """Waits for its end, and keeps its notes. Returns its error message, None if it succeeded."""
         message = self.process.stderr.read().decode(errors="replace").strip()
         self.copier.join()
         _, status, usage = os.wait4(self.process.pid, 0)
@@ -78,6 +81,7 @@ class Run:
         self.seconds = usage.ru_utime + usage.ru_stime
         self.process.stdout.close()
         self.process.stderr.close()
+        self.notes = tuple(line for line in message.splitlines() if ": note: " in line)
         return (message or f"{self.name}: exit status {self.process.returncode}") if self.process.returncode else None
 
 
@@ -87,12 +91,14 @@ class FramePipe:
         self.folder = tempfile.TemporaryDirectory(dir="/dev/shm" if os.access("/dev/shm", os.W_OK) else None)
         self.image = pathlib.Path(self.folder.name, "frame.ppm")
         self.config = pathlib.Path(self.folder.name, "config.txt")
-        self.config_text = self.frame_image = None
+        self.config_text = self.frame_image = self.found_ball = None
         self.stages = {name: Stage() for name in STAGES}
         # The output does not depend on threads.
         self.threads = {"zbuf": ["--threads", "2"]} if tools.has_option("zbuf", "--threads") else {}
         self.run([("model", [str(scene)])], None)
         self.light = self.first_light()
+        keyword, *words = line_of(self.header)
+        self.projection = {keyword: words}
 
     def close(self):
         self.folder.cleanup()
@@ -115,7 +121,7 @@ class FramePipe:
         if failures:
             raise ToolFailure(failures[0])
         for (name, words), run in zip(calls, runs):
-            self.stages[name] = Stage(words, source, run.output, run.seconds)
+            self.stages[name] = Stage(words, source, run.output, run.seconds, run.notes)
             source = run.output
 
     def files(self, name):
@@ -132,6 +138,12 @@ class FramePipe:
             if not words or not words[0].isalpha():
                 return None
         return None
+
+    def ball(self):
+        """The Ball around the scene; None if it has no triangles."""
+        if self.found_ball is None:
+            self.found_ball = (Ball.around(self.stages["model"].output.read()),)
+        return self.found_ball[0]
 
     def first_light(self):
         return self.header("light")
@@ -163,6 +175,10 @@ class FramePipe:
             self.run(calls, source)
             self.frame_image = self.image.read_bytes()
         return self.frame_image
+
+    def is_empty(self):
+        """Whether no triangle is seen in the last frame, as zbuf notes."""
+        return any("the picture is empty" in note for note in self.stages["zbuf"].notes)
 
     def seconds(self):
         """A pair for each stage: its name and its processor time in the last frame, or None."""

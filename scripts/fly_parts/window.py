@@ -1,11 +1,14 @@
 """The window of scripts/fly: keys in, frames of the real pipe out."""
 import dataclasses
+import math
 import pathlib
 import time
 import tkinter
+import tkinter.font
 import traceback
 
 from fly_parts.camera import STEP, Camera
+from fly_parts.framing import direction, framing_distance
 from fly_parts.pipe import FramePipe
 from fly_parts.scene import rewritten
 from lib.command import CommandFailure, shown
@@ -13,15 +16,31 @@ from lib.input_file import read_input
 from lib.output_file import write_file
 from lib.pictures import png, read_picture
 from lib.pipe_tools import ToolFailure
+from lib.projection import window_of
 
-KEYS = ("w/s forward, back   a/d left, right   q/e up, down   arrows turn   r reset\n"
-        "i/k j/l u/o move the first light   1-4 shading none, flat, gouraud, phong\n"
-        "c clip at the frustum   z/x open, close a gap   b cull backs   f wireframe\n"
-        "p write the scene   P the picture")
+KEYS = """drag           orbit around the point looked at
+wheel          nearer, farther
+w/s a/d q/e    forward and back, left and right, up and down
+arrows         turn on the spot
+Home           bring the whole scene into sight
+r              back to the start
+c v            clip at the frustum, or do not
+z/x            open, close a gap at the planes of clipping
+b              cull backs
+f              wireframe
+1 2 3 4        shading none, flat, gouraud, phong
+i/k j/l u/o    move the first light
+p P            write the scene, the picture
+h              show or hide these keys
+Escape         leave"""
 MOVES = {"w": (0, 0, 1), "s": (0, 0, -1), "a": (-1, 0, 0), "d": (1, 0, 0), "q": (0, 1, 0), "e": (0, -1, 0)}
 TURNS = {"Left": (-1, 0), "Right": (1, 0), "Up": (0, 1), "Down": (0, -1)}
+NAMED_KEYS = (*TURNS, "Home", "Escape")
 LIGHT_MOVES = {"i": (0, 0, -1), "k": (0, 0, 1), "j": (-1, 0, 0), "l": (1, 0, 0), "u": (0, 1, 0), "o": (0, -1, 0)}
 SHADINGS = {"1": "none", "2": "flat", "3": "gouraud", "4": "phong"}
+ORBIT = math.radians(0.4)    # for each pixel of a drag
+WHEEL_BUTTONS = {4: 1, 5: -1}  # of X11; other systems have an event of their own
+COLORS = {"foreground": "#e8e8e8", "background": "#202020"}
 SLOW_SECONDS = 0.05  # a frame that takes longer is drawn small first
 SMALL = 4            # how many times smaller
 SIGNAL_MS = 200      # between two checks for a signal
@@ -45,13 +64,24 @@ class Settings:
         return (["--shading", self.shading] if self.shading else []) + (["--wireframe"] if self.wireframe else [])
 
 
+def size_of_scene(projection, width):
+    """A config of so many columns and of the projection's aspect: the width of its window over the height."""
+    left, right, bottom, top, *_ = window_of(projection)
+    return f"{width} {max(1, round(width * abs((top - bottom) / (right - left))))}\n"
+
+
 class FlyWindow:
-    def __init__(self, tools, scene, config="500 500\n", scene_out="fly.txt", picture_out="fly.png"):
+    """`config` is the text of a config, by default of least_width pixels with the scene's aspect. The window begins at least
+    `least_width` pixels wide, and no larger than the screen."""
+
+    def __init__(self, tools, scene, config=None, scene_out="fly.txt", picture_out="fly.png", least_width=1):
         self.tools, self.scene = tools, pathlib.Path(scene)
+        self.pipe = FramePipe(tools, scene)
+        config = config or size_of_scene(self.pipe.projection, least_width)
         self.outputs = scene_out, picture_out
         size, *self.limits = [line.split("#")[0].split() for line in config.split("\n") if line.split("#")[0].strip()]
-        self.size = self.whole = tuple(map(int, size))
-        self.pipe = FramePipe(tools, scene)
+        self.whole = tuple(map(int, size))
+        self.least_width = least_width
         self.has_wireframe = tools.has_option("zbuf", "--wireframe")
         self.settings = self.start = Settings(Camera.of(*(self.pipe.header(name) for name in ("eye", "look", "up"))))
         self.start_light = self.pipe.light
@@ -59,6 +89,7 @@ class FlyWindow:
         self.before = self.settings  # restored if a tool refuses the new ones
         self.whole_seconds = 0
         self.pending = self.resting = None
+        self.drag = None  # the pointer's place while a button is down
         self.end = None  # the KeyboardInterrupt or Ended raised while a key or a frame was handled
         self.build()
         self.draw(self.size)
@@ -66,28 +97,76 @@ class FlyWindow:
     def build(self):
         self.root = tkinter.Tk()
         self.root.title(f"fly {shown(self.scene.name)}")
+        self.size = self.first_size()
+        self.font = tkinter.font.nametofont("TkFixedFont", self.root).copy()
+        self.font.configure(size=9)
         self.photo = tkinter.PhotoImage(master=self.root)
-        self.keys = tkinter.Label(self.root, text=KEYS, justify="left", anchor="w", font=("TkFixedFont", 8))
-        # A fixed size: the text of the status line must not resize the window.
-        self.status = tkinter.Label(self.root, anchor="w", justify="left", font=("TkFixedFont", 8), width=1, height=2,
-                                    wraplength=max(480, self.size[0]))
-        self.keys.pack(side="bottom", fill="x")
+        # Of a fixed size: texts must not resize the window.
+        self.status, self.readout = (tkinter.Label(self.root, anchor="nw", justify="left", font=self.font, width=1, height=height, padx=6, **COLORS)
+                                     for height in (2, 1))
         self.status.pack(side="bottom", fill="x")
+        self.status.bind("<Configure>", lambda event: self.status.configure(wraplength=event.width - 12))
+        self.readout.pack(side="bottom", fill="x")
         self.picture = tkinter.Label(self.root, image=self.photo, borderwidth=0, background="#202020",
                                      width=self.size[0], height=self.size[1])
         self.picture.pack(fill="both", expand=True)
         self.picture.bind("<Configure>", lambda event: self.resize(event.width, event.height))
+        self.keys = self.note_over_picture(KEYS, justify="left")
+        self.lost = self.note_over_picture("")
         self.root.bind("<Key>", self.key)
+        self.bind_pointer()
+
+    def first_size(self):
+        """The config's, enlarged to the least width, and made smaller where the screen is."""
+        width, height = self.whole
+        scale = max(1, self.least_width / width)
+        scale = min(scale, 0.9 * self.root.winfo_screenwidth() / width, 0.85 * self.root.winfo_screenheight() / height)
+        return tuple(max(1, round(scale * x)) for x in self.whole)
+
+    def note_over_picture(self, text, **options):
+        """A text that can be laid over the picture."""
+        return tkinter.Label(self.root, text=text, font=self.font, padx=10, pady=6, **COLORS, **options)
+
+    def bind_pointer(self):
+        self.picture.bind("<ButtonPress-1>", lambda event: self.drag_from(event.x, event.y))
+        self.picture.bind("<B1-Motion>", lambda event: self.drag_to(event.x, event.y))
+        self.picture.bind("<ButtonRelease-1>", lambda event: self.drag_from(None, None))
+        for button, step in WHEEL_BUTTONS.items():
+            self.picture.bind(f"<Button-{button}>", lambda event, step=step: self.move(self.settings.camera.neared(step)))
+        self.picture.bind("<MouseWheel>", lambda event: self.move(self.settings.camera.neared(1 if event.delta > 0 else -1)))
+
+    # The pointer
+
+    def drag_from(self, x, y):
+        self.drag = None if x is None else (x, y)
+
+    def drag_to(self, x, y):
+        """The scene follows the pointer: the camera goes the other way."""
+        if self.drag:
+            right, down = x - self.drag[0], y - self.drag[1]
+            self.drag = x, y
+            self.move(self.settings.camera.orbited(-right * ORBIT, down * ORBIT))
+
+    def move(self, camera):
+        self.change(dataclasses.replace(self.settings, camera=camera))
+
+    def change(self, settings):
+        if settings != self.settings:
+            self.before, self.settings = self.settings, settings
+            self.draw_soon()
 
     # Keys
 
     def key(self, event):
-        name = event.keysym if event.keysym in TURNS else event.char or event.keysym
-        old = self.settings
+        name = event.keysym if event.keysym in NAMED_KEYS else event.char or event.keysym
         changed = self.changed(name)
         if changed is not None:
-            self.settings = changed
-        if name in LIGHT_MOVES and self.pipe.light is None:
+            self.change(changed)
+        if name == "Escape":
+            self.root.quit()
+        elif name == "h":
+            self.show_keys(not self.keys.winfo_manager())
+        elif name in LIGHT_MOVES and self.pipe.light is None:
             self.say("the scene has no light")
         elif name in LIGHT_MOVES:
             self.move_light(LIGHT_MOVES[name])
@@ -95,9 +174,12 @@ class FlyWindow:
             self.write_scene()
         elif name == "P":
             self.write_picture()
-        if self.settings != old:
-            self.before = old
-            self.draw_soon()
+
+    def show_keys(self, is_shown):
+        if is_shown:
+            self.keys.place(in_=self.picture, x=8, y=8)
+        else:
+            self.keys.place_forget()
 
     def changed(self, name):
         """The settings after a key, None if it does not change any."""
@@ -110,8 +192,11 @@ class FlyWindow:
             if self.is_light_moved:
                 self.put_light(self.start_light)
             return self.start
-        if name == "c":
-            return dataclasses.replace(now, is_clipped=not now.is_clipped)
+        if name == "Home":
+            ball = self.pipe.ball()
+            return ball and dataclasses.replace(now, camera=camera.framing(ball.center, framing_distance(ball, self.pipe.projection)))
+        if name in ("c", "v"):
+            return dataclasses.replace(now, is_clipped=name == "c", inset=now.inset if name == "c" else 0)
         if name in ("z", "x"):
             inset = round(now.inset + (0.05 if name == "z" else -0.05), 2)
             return dataclasses.replace(now, inset=min(0.95, max(0, inset)))
@@ -189,6 +274,26 @@ class FlyWindow:
         times = "   ".join(f"{name} {'reused' if spent is None else f'{1000 * spent:.0f} ms'}" for name, spent in self.pipe.seconds())
         words = " ".join(self.settings.project_words() + self.settings.zbuf_words())
         self.say(f"{times}   all {1000 * seconds:.0f} ms   {size[0]} x {size[1]}   {words}")
+        self.readout.configure(text=self.read_out())
+        if self.pipe.is_empty():
+            self.lost.configure(text=self.way_back())
+            self.lost.place(in_=self.picture, relx=0.5, rely=0.5, anchor="center")
+        else:
+            self.lost.place_forget()
+
+    def read_out(self):
+        camera = self.settings.camera
+        places = 5 - math.floor(math.log10(camera.distance))  # six digits of the distance: what is smaller is rounding
+        eye, look, _ = camera.lines()
+        [(kind, words)] = self.pipe.projection.items()
+        field = f"fovY {words[0]}" if kind == "perspective" else kind
+        return "   ".join([*(f"{name} {' '.join(f'{round(float(x), places) + 0.0:.6g}' for x in place)}" for name, place in (("eye", eye), ("look", look))), field, "h: keys"])
+
+    def way_back(self):
+        ball = self.pipe.ball()
+        if ball is None:
+            return "the scene has no triangles"
+        return f"nothing is in sight: the scene is {direction(self.settings.camera, ball)}\nHome brings it back"
 
     def say(self, words):
         self.status.configure(text=words)
@@ -219,16 +324,14 @@ class FlyWindow:
 
     def run(self):
         """Runs until the window is closed or a signal ends it."""
-        self.root.protocol("WM_DELETE_WINDOW", self.close)
+        self.root.protocol("WM_DELETE_WINDOW", self.root.quit)
         self.root.report_callback_exception = self.failed
         self.look_up()
         try:
             self.root.mainloop()
-        except BaseException:
+        finally:
             self.close()
-            raise
         if self.end:
-            self.close()
             raise self.end
 
     def look_up(self):

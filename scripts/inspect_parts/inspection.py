@@ -1,27 +1,25 @@
 """The data of the inspector's page: a scene sent through the real pipe, and the output of every stage."""
-import array
 import base64
 import math
 import pathlib
 import re
 import tempfile
 
+from inspect_parts.explanations import explanations
+from inspect_parts.packing import packed
+from inspect_parts.stage_lines import StageLines
 from lib.input_file import read_input
 from lib.pictures import read_picture
 from lib.projection import line_of, window_of
 from lib.square import note_on_squares
-from lib.stage_text import parse_stage_text, text_of
+from lib.stage_text import text_of
 from lib.vectors import axes, moved
 
-# A page stays fast up to this number; beyond it only every n-th triangle is drawn.
-MAX_DRAWN_TRIANGLES = 12000
+# A page opens in a few seconds up to this number; beyond it only every n-th triangle is drawn.
+MAX_DRAWN_TRIANGLES = 200000
 MAX_FRAGMENTS = 3000000
+TITLES = {"model": "world space", "view": "view space", "project": "normalized device coordinates"}
 FATES = ("kept", "behind", "equal", "before", "beyond")
-
-
-def packed(kind, numbers):
-    """Numbers as the bytes of a typed array, in base64. Little-endian, as in JavaScript on every machine this runs on."""
-    return base64.b64encode(array.array(kind, numbers).tobytes()).decode()
 
 
 def time_told(stderr):
@@ -62,66 +60,70 @@ def camera_lines(corners, eye):
     return box_lines(corners) + [[eye, corner] for corner in corners[:4]]
 
 
-class Inspection:
-    """A run of the pipe that keeps every stage's output."""
+def label(text, at):
+    return {"text": text, "at": at}
 
-    def __init__(self, tools, scene, config):
+
+class Inspection:
+    """A run of the pipe that keeps every stage's output. As in scripts/stages, the stages pass lossless text on, and zbuf reads what
+    project printed; `names` are those of scene and config, as their user wrote them."""
+
+    def __init__(self, tools, scene, config, names):
         self.tools, self.scene, self.config = tools, scene, config
+        self.scene_data, self.config_data = read_input(scene), read_input(config)
+        self.name, self.config_name = names
         self.notes = []
         self.statistics = {}
         with tempfile.TemporaryDirectory() as folder:
             self.run(pathlib.Path(folder))
 
     def run(self, folder):
-        texts, data = {}, read_input(self.scene)
-        for tool in ("model", "view", "project"):
+        texts, self.lossless, data = {}, {}, self.scene_data
+        for tool in TITLES:
             # Timed without counting.
-            done = self.tools.run(tool, "--timing", stdin=data)
-            self.tools.run(tool, "--stats", folder / tool, stdin=data)
+            done = texts[tool] = self.tools.run(tool, "--timing", stdin=data)
+            self.lossless[tool] = data = self.tools.output(tool, "--digits", "exact", "--stats", folder / tool, stdin=data)
             self.statistics[tool] = statistics(folder / tool)
-            data = done.stdout
-            texts[tool] = done
-        self.parsed = {tool: parse_stage_text(done.stdout.decode(), tool) for tool, done in texts.items()}
-        self.count = max([0, *(name + 1 for name in self.parsed["model"].names)])
+        self.lines = {tool: StageLines.of(done.stdout.decode()) for tool, done in texts.items()}
+        self.header = self.lines["model"].header
+        self.count = len(self.lines["model"].names)
         self.step = max(1, math.ceil(self.count / MAX_DRAWN_TRIANGLES))
-        titles = {"model": "world space", "view": "view space", "project": "normalized device coordinates"}
-        self.stages = [self.stage(tool, titles[tool], texts[tool]) for tool in texts]
-        note = note_on_squares(line_of(self.parsed["model"].header.get), text_of(read_input(self.config), self.config))
+        self.stages = [self.stage(tool, TITLES[tool], texts[tool]) for tool in texts]
+        note = note_on_squares(line_of(self.header.get), text_of(self.config_data, self.config))
         self.square_notes = [f"note: {note}"] if note else []
-        self.draw(data, folder)
+        self.draw(texts["project"].stdout, folder)
 
     def stage(self, tool, title, done):
-        parsed, stderr = self.parsed[tool], done.stderr.decode(errors="replace")
+        read, stderr = self.lines[tool], done.stderr.decode(errors="replace")
         self.notes += notes_told(stderr)
-        kept = [(name, triangle) for name, triangle in zip(parsed.names, parsed.triangles) if name % self.step == 0]
-        return {"tool": tool, "title": title, "seconds": time_told(stderr), "triangles": len(parsed.triangles), "bytes": len(done.stdout), "statistics": self.statistics[tool],
-                "names": packed("i", [name for name, _ in kept]),
-                "points": packed("d", [x for _, triangle in kept for vertex in triangle for x in vertex.numbers[:3]]),
-                "firstLines": packed("i", [triangle[0].line for _, triangle in kept]),
-                "text": self.text_shown(done.stdout.decode().split("\n"), parsed, kept), **self.guide(tool)}
+        kept = [(name, line) for name, line in zip(read.names, read.first_lines) if name % self.step == 0]
+        numbers = self.numbers_shown(read, kept)
+        return {"tool": tool, "title": title, "seconds": time_told(stderr), "triangles": len(read.names), "bytes": len(done.stdout), "statistics": self.statistics[tool],
+                "names": packed("i", [name for name, _ in kept]), "firstLines": packed("i", [line for _, line in kept]),
+                "numbers": packed("i", numbers) if numbers else None,
+                "text": "\n".join(read.lines[number - 1] for number in numbers) if numbers else "\n".join(read.lines), **self.guide(tool)}
 
-    def text_shown(self, lines, parsed, kept):
-        """The lines of the text with their numbers; of a long text only the header and the drawn triangles."""
+    def numbers_shown(self, read, kept):
+        """Of a long text the numbers of the lines that the page has, those of the header and of the drawn triangles; None for all."""
         if self.step == 1:
-            return {"numbers": None, "lines": lines}
-        header_end = parsed.triangles[0][0].line if parsed.triangles else len(lines)
-        numbers = list(range(1, header_end))
-        for _, triangle in kept:
-            numbers += [vertex.line for vertex in triangle]
-        return {"numbers": numbers, "lines": [lines[number - 1] for number in numbers]}
+            return None
+        header_end = read.first_lines[0] if read.first_lines else len(read.lines)
+        return [*range(1, header_end), *(line + i for _, line in kept for i in range(3))]
 
     def guide(self, tool):
-        """The line segments that show the camera, or the NDC cube; and a remark if they do not go all the way."""
-        header = self.parsed["model"].header
+        """The line segments that show the camera, or the NDC cube, with labels; and a remark if they do not go all the way."""
+        header = self.header
         if tool == "project":
-            return {"guide": box_lines([(x, y, z) for z in (-1, 1) for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1))]), "remark": ""}
+            corners = [(x, y, z) for z in (-1, 1) for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
+            return {"guide": box_lines(corners), "labels": [label("near", corners[3]), label("far", corners[7])], "remark": ""}
         corners, is_shortened = frustum_corners(header, -float(dict(self.statistics["view"]).get("z_min", 0)))
         remark = f"the far plane is at distance {(header.get('perspective') or header.get('frustum') or header['ortho'])[-1]}, drawn nearer" if is_shortened else ""
-        if tool == "view":
-            return {"guide": camera_lines(corners, (0, 0, 0)), "remark": remark}
-        eye = tuple(map(float, header["eye"]))
-        right, up, forward = axes(eye, *(tuple(map(float, header[name])) for name in ("look", "up")))
-        return {"guide": camera_lines([moved(eye, (x, right), (y, up), (-z, forward)) for x, y, z in corners], eye), "remark": remark}
+        eye = (0.0, 0.0, 0.0)
+        if tool == "model":
+            eye = tuple(map(float, header["eye"]))
+            right, up, forward = axes(eye, *(tuple(map(float, header[name])) for name in ("look", "up")))
+            corners = [moved(eye, (x, right), (y, up), (-z, forward)) for x, y, z in corners]
+        return {"guide": camera_lines(corners, eye), "labels": [label("eye", eye), label("near", corners[3]), label("far", corners[7])], "remark": remark}
 
     def draw(self, stage3, folder):
         z_buffer, image, log = (folder / name for name in ("z_buffer.txt", "out.ppm", "fragments.txt"))
@@ -131,8 +133,8 @@ class Inspection:
         self.notes += notes_told(timed)
         self.columns, self.rows, pixels = read_picture(image)
         text = z_buffer.read_text()
-        self.stages.append({"tool": "zbuf", "title": "pixels", "seconds": time_told(timed), "triangles": len(self.parsed["project"].triangles),
-                            "bytes": len(text), "statistics": statistics(folder / "zbuf"), "text": {"numbers": None, "lines": text.split("\n")}})
+        self.stages.append({"tool": "zbuf", "title": "pixels", "seconds": time_told(timed), "triangles": len(self.lines["project"].names),
+                            "bytes": len(text), "statistics": statistics(folder / "zbuf"), "text": text})
         self.pixels = base64.b64encode(b"".join(pixels)).decode()
         self.fragments = self.fragments_of(log)
 
@@ -159,7 +161,13 @@ class Inspection:
         return {"begins": packed("i", begins), "triangles": packed("i", [f[1] for f in found]),
                 "depths": packed("d", [f[2] for f in found]), "fates": packed("B", [f[3] for f in found])}
 
+    def limits(self):
+        """The words of the config's limits in x and y."""
+        words = [word for line in text_of(self.config_data, self.config).split("\n") for word in line.split("#")[0].split()]
+        return words[2:4] or ["-1", "-1"]
+
     def as_json(self):
-        return {"scene": pathlib.Path(self.scene).name, "config": pathlib.Path(self.config).name, "triangles": self.count, "step": self.step,
+        return {"scene": self.name, "config": self.config_name, "triangles": self.count, "step": self.step,
                 "columns": self.columns, "rows": self.rows, "stages": self.stages, "pixels": self.pixels, "fragments": self.fragments,
-                "fragmentCount": self.fragment_count, "leftOut": self.left_out_count, "notes": self.notes + self.square_notes}
+                "fragmentCount": self.fragment_count, "leftOut": self.left_out_count, "notes": self.notes + self.square_notes,
+                "limits": self.limits(), "explanations": explanations(self, text_of(self.scene_data, self.scene), text_of(self.config_data, self.config))}

@@ -1,114 +1,169 @@
-// Assembles the page: pointing at something in one panel highlights it in all.
+// Assembles the page: what is pointed at in one view shows in all.
 
 const STARTS = {
   model: {yaw: -0.6, pitch: 0.45},
   view: {yaw: -0.6, pitch: 0.35},
   project: {yaw: -0.45, pitch: 0.3},
 };
-
-function stageSection(stage) {
-  const section = document.createElement("section");
-  section.innerHTML = `<h2>${stage.tool} <span>${stage.title}</span> <span>${stage.remark && "(" + stage.remark + ")"}</span></h2><div><div class="stack"><canvas id="wire-${stage.tool}"></canvas><canvas></canvas></div><div class="text" id="text-${stage.tool}"></div></div>`;
-  document.getElementById("stages").append(section);
-  return section.querySelectorAll("canvas");
-}
-
-// What --stats counts, without zeros: "19 seen, 3 hidden".
-function countsOf(statistics) {
-  return statistics.filter(([key, word]) => !/^triangles$|_(min|max)$/.test(key) && word !== "0").map(([key, word]) => `${word} ${key.replaceAll("_", " ")}`).join(", ");
-}
-
-// "-1.5 to 2", with four digits.
-function rangeOf(statistics, axis) {
-  const words = new Map(statistics), short = end => String(Number(Number(words.get(`${axis}_${end}`)).toPrecision(4)));
-  return words.has(axis + "_min") ? `${short("min")} to ${short("max")}` : "";
-}
-
-function tellCounts(data) {
-  document.getElementById("title").textContent = `${data.scene} through the pipe (${data.config}: ${data.columns} x ${data.rows} pixels)`;
-  const size = bytes => bytes < 1e6 ? `${(bytes / 1e3).toFixed(1)} kB` : `${(bytes / 1e6).toFixed(1)} MB`;
-  const notes = [...data.notes];
-  if (data.step > 1) notes.unshift(`Of ${data.triangles} triangles every ${data.step}th is drawn and printed here; pixels know all of them.`);
-  document.getElementById("notes").textContent = notes.join(" ");
-  for (const stage of data.stages) {
-    const row = document.querySelector("#counts tbody").insertRow();
-    for (const words of [stage.tool, stage.title, stage.triangles, size(stage.bytes), stage.seconds > 0 ? `${Math.round(1000 * stage.seconds)} ms` : "< 1 ms",
-      countsOf(stage.statistics), ...["x", "y", "z"].map(axis => rangeOf(stage.statistics, axis))]) row.insertCell().textContent = words;
-  }
-}
+const NOTHING = {triangle: -1, pixel: -1};
 
 class Inspector {
-  constructor(data) {
-    tellCounts(data);
-    this.held = -1;         // the triangle that was clicked
-    this.isPixelHeld = false;
-    this.panels = [];
-    for (const stage of data.stages.slice(0, 3)) this.addStage(stage);
-    this.pixels = new PixelPanel(data);
-    const z = data.stages[3];
-    this.depthText = new TextPanel(document.getElementById("text-zbuf"), z.text, () => -1);
-    this.pixels.listen(p => this.pointAtPixel(p), p => this.clickPixel(p));
+  constructor(document, data) {
+    this.document = document;
+    this.data = data;
+    this.held = NOTHING;
+    this.shown = NOTHING;
+    this.palette = new Palette(document.documentElement);
+    this.fragments = new FragmentData(data);
+    this.fillHeader();
+    this.panels = data.stages.slice(0, 3).map(stage => this.stagePanel(stage));
+    this.pixels = new PicturePanel([...this.all("#pixels .pane")], this.fragments, this.palette);
+    this.competitors = new FragmentPanel(this.one("#pixel-place"), this.one("#competitors"), this.fragments);
+    this.depthText = this.depthPanel();
+    this.explanation = new ExplanationPanel(this.one("#explanation"), data, new PixelReport(data, this.fragments, this.panels[2].stage));
+    this.theirs = data.theirs ? this.theirsPanel(data.theirs) : null;
+    this.tabs = new Tabs(this.one('[role="tablist"]'), () => this.explanation.refresh());
+    this.listen();
+    this.tabs.show(0);
+    this.show(NOTHING);
     this.follow(location.hash);
-    document.body.dataset.ready = "yes";
   }
 
-  addStage(stage) {
-    const wire = new Wireframe(...stageSection(stage), stage, STARTS[stage.tool]);
-    const names = intsOf(stage.names), firstLines = intsOf(stage.firstLines), linesOf = new Map(), nameOfLine = new Map();
-    names.forEach((name, i) => {
-      const lines = [firstLines[i], firstLines[i] + 1, firstLines[i] + 2];
-      linesOf.set(name, [...(linesOf.get(name) || []), ...lines]);
-      lines.forEach(line => nameOfLine.set(line, name));
+  one(selector) { return this.document.querySelector(selector); }
+
+  all(selector) { return this.document.querySelectorAll(selector); }
+
+  fillHeader() {
+    const {data} = this, notes = [...data.notes];
+    if (data.step > 1) notes.unshift(`Of ${data.triangles} triangles one in ${data.step} is drawn and printed here; pixels know all of them.`);
+    this.one("#title").textContent = `${data.scene}: ${data.triangles} triangle${data.triangles === 1 ? "" : "s"}, ${data.columns} × ${data.rows} pixels`;
+    this.one("#notes").textContent = notes.join(" ");
+    new Legend(this.one("#legend"), data.stages);
+    fillCounts(this.one("#counts tbody"), data.stages);
+    for (const id of ["image", "depth"])
+      this.one("#" + id).setAttribute("aria-label", `${id}, ${data.columns} columns and ${data.rows} rows of pixels; arrow keys go from pixel to pixel`);
+  }
+
+  stagePanel(given) {
+    const stage = new StageData(given, this.data.triangles), {tool, title, remark} = given;
+    const canvas = element("canvas", {id: "wire-" + tool, tabindex: 0, role: "application", "aria-label": `${title}, wireframe after ${tool}; arrow keys go from triangle to triangle, with Shift they turn it`});
+    const pane = element("div", {class: "pane"}, canvas, element("canvas", {"aria-hidden": true}));
+    const fit = element("button", {"aria-label": `fit ${title} into its view`, title: "All of it; once more: the smaller of the camera or cube and the triangles"}, "Fit");
+    this.one("#stages").append(element("figure", {}, element("figcaption", {}, tool, element("span", {title}, title), element("span", {title: remark}, remark && `(${remark})`), fit), pane));
+    const box = element("div", {class: "text", id: "text-" + tool, tabindex: 0, role: "group", "aria-label": `text after ${tool}`});
+    this.one("#texts").append(element("section", {}, element("h2", {}, tool, " ", element("span", {}, "lines from 1")), box));
+    const wire = new Wireframe(pane, stage, STARTS[tool], name => this.fragments.shownPixels[name] > 0, this.palette);
+    fit.onclick = canvas.ondblclick = () => wire.fit();
+    const {numbers} = stage, text = new TextPanel(box, stage.lines, {
+      numberOf: index => numbers ? numbers[index] : index + 1,
+      indexOf: number => numbers ? numbers.indexOf(number) : number - 1,
     });
-    const text = new TextPanel(document.getElementById("text-" + stage.tool), stage.text, line => nameOfLine.has(line) ? nameOfLine.get(line) : -1);
-    wire.listen(name => this.point(name), name => this.select(name));
-    text.listen(name => this.point(name), name => this.select(name));
-    this.panels.push({wire, text, linesOf});
+    return {stage, wire, text};
   }
 
-  // Shows a triangle everywhere; -1 shows none.
-  show(name, isToBeSeen) {
-    if (document.body.dataset.triangle === String(name)) return;
-    document.body.dataset.triangle = name;
-    for (const {wire, text, linesOf} of this.panels) {
-      wire.highlight(name);
-      text.highlight(linesOf.get(name) || [], isToBeSeen);
+  depthPanel() {
+    this.depths = new DepthLines(this.data.stages[3].text, this.fragments);
+    const box = element("div", {class: "text", id: "text-zbuf", tabindex: 0, role: "group", "aria-label": "depths, row by row"});
+    this.one("#texts").append(element("section", {}, element("h2", {}, "zbuf ", element("span", {}, "z_buffer.txt; rows from 0")), box));
+    return new TextPanel(box, this.depths, {numberOf: index => index, indexOf: number => number});
+  }
+
+  theirsPanel(theirs) {
+    const [model, view, project, image, depth] = this.all("figcaption");
+    this.one("#tab-theirs").hidden = false;
+    this.one("#legend").append(element("li", {class: "theirs"}, "theirs, where it differs"));
+    return new TheirsPanel({box: this.one("#theirs"), theirs, panels: this.panels, pictures: this.pixels, captions: [model, view, project, depth, image],
+                            button: this.one("#whose"), select: name => this.select({triangle: name, pixel: -1})});
+  }
+
+  listen() {
+    for (const {stage, wire, text} of this.panels) {
+      wire.listen({point: name => this.point({triangle: name, pixel: -1}), click: name => this.select({triangle: name, pixel: -1}), walk: step => this.walk(stage, step)});
+      const nameOf = number => number === null ? -1 : stage.nameOfLine(number);
+      text.listen(number => this.point({triangle: nameOf(number), pixel: -1}, text), number => this.select({triangle: nameOf(number), pixel: -1}));
     }
-    this.pixels.highlight(name);
+    this.pixels.listen({point: p => this.point(this.atPixel(p)), click: p => this.select(this.atPixel(p))});
+    const help = this.one("#keys");
+    this.one("#help").onclick = () => help.showModal();
+    this.document.addEventListener("keydown", event => {
+      if (help.open) return;
+      if (event.key === "Escape") this.select(NOTHING);
+      if (event.key === "?") help.showModal();
+    });
+    this.document.addEventListener("click", event => { if (!event.target.closest("canvas, button, table, .text, pre, dialog")) this.select(NOTHING); });
+    window.addEventListener("hashchange", () => this.follow(location.hash));
+    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.redraw());
   }
 
-  point(name) { this.show(name >= 0 ? name : this.held, false); }
+  redraw() {
+    for (const {wire} of this.panels) wire.draw();
+    this.pixels.highlight(this.shown.triangle, this.shown.pixel);
+  }
 
-  select(name) {
-    this.held = name;
-    if (name < 0) this.isPixelHeld = false;
-    document.body.dataset.triangle = "";
-    this.show(name, true);
+  atPixel(p) { return p < 0 ? NOTHING : {triangle: this.fragments.owners[p], pixel: p}; }
+
+  // Shows what is pointed at until the pointer leaves it; `source` is a panel that stays where it is.
+  point(what, source) { this.show(what.triangle < 0 && what.pixel < 0 ? this.held : what, source); }
+
+  // Holds a triangle or a pixel, and puts it into the address. The background holds nothing but its pixel.
+  select(what) {
+    this.held = what;
+    const {row, column} = this.fragments.place(what.pixel);
+    const hash = what.pixel >= 0 ? `#pixel=${column},${row}` : what.triangle >= 0 ? `#triangle=${what.triangle}` : "";
+    if (location.hash !== hash) history.replaceState(null, "", hash || location.pathname + location.search);
+    this.show(what);
+  }
+
+  // To the next triangle that a stage has, or the one before.
+  walk(stage, step) {
+    const count = this.data.triangles;
+    for (let tried = 0, name = this.held.triangle; tried < count; ++tried) {
+      name = name < 0 ? (step > 0 ? 0 : count - 1) : (name + step + count) % count;
+      if (stage.piecesOf(name).length) return this.select({triangle: name, pixel: -1});
+    }
+  }
+
+  show(what, source) {
+    const {triangle, pixel} = this.shown = what;
+    for (const {stage, wire, text} of this.panels) {
+      wire.highlight(triangle);
+      text.highlight(stage.linesOf(triangle), text !== source);
+    }
+    this.pixels.highlight(triangle, pixel);
+    this.competitors.tell(pixel, name => this.select({triangle: name, pixel}));
+    this.competitors.highlight(triangle);
+    this.depths.pixel = pixel;
+    this.depthText.highlight(pixel < 0 ? [] : [this.fragments.place(pixel).row], true);
+    this.explanation.tell(triangle, pixel);
+    if (this.theirs) this.theirs.highlight(triangle);
+    this.one("#status").textContent = this.told(what);
+    this.document.body.dataset.triangle = triangle;
+  }
+
+  told({triangle, pixel}) {
+    const parts = pixel >= 0 ? [this.fragments.told(pixel)] : [];
+    if (triangle >= 0 && pixel < 0) parts.push(`triangle ${triangle}`);
+    if (triangle >= 0) parts.push(this.fateOf(triangle));
+    return parts.join(": ");
+  }
+
+  fateOf(name) {
+    const count = this.fragments.shownPixels[name];
+    if (count) return `shown in ${count} pixel${count === 1 ? "" : "s"}`;
+    if (this.fragments.hasFragment[name]) return "hidden in all its pixels";
+    return this.data.step === 1 && !this.panels[2].stage.piecesOf(name).length ? "dropped by project: outside or culled" : "without a pixel: outside, or too thin";
   }
 
   // "#pixel=COLUMN,ROW" or "#triangle=N" in the address selects one.
   follow(hash) {
     const pixel = hash.match(/^#pixel=(\d+),(\d+)$/), triangle = hash.match(/^#triangle=(\d+)$/);
-    if (pixel && Number(pixel[1]) < this.pixels.columns && Number(pixel[2]) < this.pixels.rows)
-      this.clickPixel(Number(pixel[2]) * this.pixels.columns + Number(pixel[1]));
-    if (triangle) this.select(Number(triangle[1]));
-  }
-
-  pointAtPixel(p) {
-    if (this.isPixelHeld) return;
-    this.pixels.tell(p, name => this.select(name));
-    this.point(this.pixels.owner(p));
-  }
-
-  clickPixel(p) {
-    this.isPixelHeld = true;
-    this.pixels.tell(p, name => this.select(name));
-    this.held = this.pixels.owner(p);
-    document.body.dataset.triangle = "";
-    this.show(this.held, true);
-    if (this.held < 0) this.isPixelHeld = false;
-    this.depthText.highlight([Math.floor(p / this.pixels.columns) + 1], true);
+    if (pixel && Number(pixel[1]) < this.fragments.columns && Number(pixel[2]) < this.fragments.rows)
+      this.select(this.atPixel(Number(pixel[2]) * this.fragments.columns + Number(pixel[1])));
+    if (triangle && Number(triangle[1]) < this.data.triangles) this.select({triangle: Number(triangle[1]), pixel: -1});
   }
 }
 
-inflated(document.getElementById("data").textContent.trim()).then(data => { window.inspector = new Inspector(data); });
+inflated(document.getElementById("data").textContent.trim()).then(data => {
+  document.body.inspector = new Inspector(document, data);
+  document.body.dataset.ready = "yes";
+});

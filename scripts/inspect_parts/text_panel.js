@@ -1,24 +1,21 @@
-// A text with line numbers. Only the visible lines are in the document.
+// A text whose lines are numbered. Only the visible lines are in the document.
 
 const LINE_HEIGHT = 16;
+const LONGEST = 4000;  // characters of a line
 
 class TextPanel {
-  // `nameOf(number)` returns the triangle a line belongs to, -1 for none.
-  constructor(box, text, nameOf) {
-    Object.assign(this, {box, lines: text.lines, numbers: text.numbers, nameOf});
-    this.hot = new Set();
+  // `numberOf(index)` is the number that a line shows, `indexOf(number)` the way back.
+  constructor(box, lines, {numberOf, indexOf}) {
+    Object.assign(this, {box, lines, numberOf, indexOf, hot: new Set()});
     const spacer = document.createElement("div");
-    spacer.style.height = this.lines.length * LINE_HEIGHT + "px";
+    spacer.style.height = lines.length * LINE_HEIGHT + "px";
     this.part = document.createElement("div");
     this.part.className = "lines";
     box.replaceChildren(spacer, this.part);
     box.onscroll = () => this.draw();
+    new ResizeObserver(() => this.draw()).observe(box);
     this.draw();
   }
-
-  number(index) { return this.numbers ? this.numbers[index] : index + 1; }
-
-  index(number) { return this.numbers ? this.numbers.indexOf(number) : number - 1; }
 
   draw() {
     const first = Math.max(0, Math.floor(this.box.scrollTop / LINE_HEIGHT) - 5);
@@ -28,33 +25,34 @@ class TextPanel {
     for (let i = first; i < end; ++i) {
       const row = document.createElement("div"), number = document.createElement("span");
       number.className = "number";
-      number.textContent = this.number(i);
-      row.append(number, this.lines[i].slice(0, 4000));
-      row.dataset.number = this.number(i);
-      if (this.hot.has(this.number(i))) row.className = "hot";
+      number.textContent = row.dataset.number = this.numberOf(i);
+      row.append(number, this.lines.line(i).slice(0, LONGEST));
+      if (this.hot.has(this.numberOf(i))) row.className = "hot";
       rows.push(row);
     }
     this.part.replaceChildren(...rows);
   }
 
-  // Marks lines; scrolls to the first of them if it is out of view.
+  // Marks lines by their numbers; scrolls to the first of them if it is out of view.
   highlight(numbers, isToBeSeen) {
     this.hot = new Set(numbers);
-    if (numbers.length && isToBeSeen) {
-      const top = this.index(numbers[0]) * LINE_HEIGHT;
-      if (top < this.box.scrollTop || top > this.box.scrollTop + this.box.clientHeight - 4 * LINE_HEIGHT)
+    const index = numbers.length ? this.indexOf(numbers[0]) : -1;
+    if (index >= 0 && isToBeSeen) {
+      const top = index * LINE_HEIGHT;
+      if (top < this.box.scrollTop || top > this.box.scrollTop + this.box.clientHeight - 3 * LINE_HEIGHT)
         this.box.scrollTop = Math.max(0, top - this.box.clientHeight / 3);
     }
     this.draw();
   }
 
+  // Calls `point` and `click` with the number of a line, null for none.
   listen(point, click) {
     const at = event => {
       const row = event.target.closest("[data-number]");
-      return row ? this.nameOf(Number(row.dataset.number)) : -1;
+      return row ? Number(row.dataset.number) : null;
     };
-    this.box.onmousemove = event => point(at(event));
-    this.box.onmouseleave = () => point(-1);
+    this.box.onpointermove = event => point(at(event));
+    this.box.onpointerleave = () => point(null);
     this.box.onclick = event => click(at(event));
   }
 }

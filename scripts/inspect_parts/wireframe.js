@@ -1,138 +1,216 @@
-// A rotatable wireframe of a stage's triangles. It shows their positions; hidden surfaces are zbuf's business.
+// A wireframe of a stage's triangles that turns. It shows their positions; hidden surfaces are zbuf's business.
 
-const styleOf = name => getComputedStyle(document.documentElement).getPropertyValue(name);
-
-// So many times its own size, triangles around the frustum or the cube may shrink it.
-const FARTHEST = 20;
+const WHEEL_STEP = 0.001, TURN_STEP = 0.01, KEY_TURN = 0.1, KEY_ZOOM = 1.15;
+const CLICK_REACH = 3;     // pixels that the pointer may move during a click
+const MOST_MARKED = 3000;  // vertices that differ
+const THEIR_LAYER = 2;     // of the ink; those below are for triangles that the picture does not show, and for those it does
+const GIZMO = 22;          // length of the axes in the corner
+const AXES = [["x", [1, 0, 0]], ["y", [0, 1, 0]], ["z", [0, 0, 1]]];
 
 class Wireframe {
-  constructor(canvas, mark, stage, start) {
-    Object.assign(this, {canvas, mark, names: intsOf(stage.names), points: realsOf(stage.points), guide: stage.guide});
-    this.yaw = start.yaw;
-    this.pitch = start.pitch;
-    this.zoom = 1;
-    this.highlighted = -1;
-    const scale = window.devicePixelRatio || 1;
-    for (const c of [canvas, mark]) {
-      c.width = 480 * scale;
-      c.height = 340 * scale;
-      c.className = "wire";
-    }
-    this.fit();
+  // `pane` has a canvas and another one above it, for marks. `isShown(name)` tells which triangles the picture shows.
+  constructor(pane, stage, start, isShown, palette) {
+    Object.assign(this, {pane, stage, palette, names: stage.names, guide: stage.guide, highlighted: -1, theirs: null, index: null, isDirty: false});
+    [this.canvas, this.mark] = pane.querySelectorAll("canvas");
+    this.view = new Turntable(start, stage.guide, stage.points);
+    this.layers = Uint8Array.from(stage.names, name => isShown(name) ? 1 : 0);
+    [this.x, this.y, this.near] = this.places(3 * stage.names.length);
+    new ResizeObserver(() => this.resize()).observe(pane);
+    this.resize();
+  }
+
+  // Room for the pixels and the nearness of so many points.
+  places(count) { return [0, 1, 2].map(() => new Float32Array(count)); }
+
+  // Draws other triangles over these. If there are as many, in the same order (`isAlike`), only those that have one of the `vertices`
+  // that differ, which are marked.
+  layOver(points, isAlike, vertices) {
+    const all = Int32Array.from({length: points.length / 9}, (_, i) => i), differing = new Set(vertices.map(vertex => Math.floor(vertex / 3)));
+    this.theirs = {points, isAlike, vertices: vertices.subarray(0, MOST_MARKED), triangles: isAlike ? [...differing] : all, places: this.places(points.length / 3)};
     this.draw();
   }
 
-  // Chooses center and size so that the frustum or the cube is in sight, and the triangles as far as that leaves it to be seen.
+  resize() {
+    const scale = window.devicePixelRatio || 1, width = Math.max(2, Math.round(this.pane.clientWidth * scale)), height = Math.max(2, Math.round(this.pane.clientHeight * scale));
+    if (this.ink && width === this.ink.width && height === this.ink.height) return;
+    this.scale = scale;
+    this.ink = new Ink(width, height, 3);
+    for (const canvas of [this.canvas, this.mark]) Object.assign(canvas, {width, height});
+    this.view.resize(width, height);
+    this.draw();
+  }
+
   fit() {
-    const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity], shown = [];
-    const include = p => { shown.push(p); p.forEach((x, i) => { low[i] = Math.min(low[i], x); high[i] = Math.max(high[i], x); }); };
-    this.guide.flat().forEach(include);
-    const first = low.map((x, i) => x - FARTHEST * (high[i] - x)), last = high.map((x, i) => x + FARTHEST * (x - low[i]));
-    for (let at = 0; at < this.points.length; at += 3)
-      include([0, 1, 2].map(i => Math.max(first[i], Math.min(last[i], this.points[at + i]))));
-    this.middle = low.map((x, i) => (x + high[i]) / 2);
-    const {width, height} = this.canvas;
-    this.size = height;  // one canvas pixel per unit
-    const placed = shown.map(p => this.place(...p));
-    this.size = 2.1 * placed.reduce((most, [x, y]) => Math.max(most, Math.abs(x - width / 2) * height / width, Math.abs(y - height / 2)), 0);
+    this.view.fit();
+    this.draw();
   }
 
-  // A point's position on the canvas, in its pixels, and its nearness: larger is nearer.
-  place(x, y, z) {
-    const [u, v, w] = [x - this.middle[0], y - this.middle[1], z - this.middle[2]];
-    const [cy, sy, cp, sp] = [Math.cos(this.yaw), Math.sin(this.yaw), Math.cos(this.pitch), Math.sin(this.pitch)];
-    const right = cy * u - sy * w, back = sy * u + cy * w;
-    const up = cp * v - sp * back, near = sp * v + cp * back;
-    const scale = this.zoom * this.canvas.height / this.size;
-    return [this.canvas.width / 2 + right * scale, this.canvas.height / 2 - up * scale, near];
-  }
-
-  corner(i, v) {
-    const at = 9 * i + 3 * v;
-    return this.place(this.points[at], this.points[at + 1], this.points[at + 2]);
-  }
-
-  trace(context, i) {
-    for (let v = 0; v < 3; ++v) {
-      const [x, y] = this.corner(i, v);
-      v ? context.lineTo(x, y) : context.moveTo(x, y);
-    }
-    context.closePath();
+  // Draws before the browser's next frame, once, however often it is called.
+  drawSoon() {
+    if (this.isDirty) return;
+    this.isDirty = true;
+    requestAnimationFrame(() => this.draw());
   }
 
   draw() {
-    const context = this.canvas.getContext("2d");
-    context.clearRect(0, 0, this.canvas.width, this.canvas.height);
-    context.lineWidth = 1;
-    context.strokeStyle = styleOf("--wire");
-    context.globalAlpha = this.names.length > 2000 ? 0.35 : 0.8;
-    context.beginPath();
-    for (let i = 0; i < this.names.length; ++i) this.trace(context, i);
-    context.stroke();
-    context.globalAlpha = 1;
-    context.strokeStyle = styleOf("--guide");
-    context.lineWidth = 1.5;
-    context.beginPath();
-    for (const [p, q] of this.guide) {
-      context.moveTo(...this.place(...p).slice(0, 2));
-      context.lineTo(...this.place(...q).slice(0, 2));
+    const {ink, x, y, layers, palette} = this, context = this.canvas.getContext("2d");
+    this.isDirty = false;
+    this.index = null;
+    this.view.placeAll(this.stage.points, x, y, this.near);
+    ink.clear();
+    for (let i = 0; i < layers.length; ++i) this.inkTriangle(layers[i], x, y, 3 * i);
+    if (this.theirs) {
+      const {points, places, triangles} = this.theirs;
+      this.view.placeAll(points, ...places);
+      for (const i of triangles) this.inkTriangle(THEIR_LAYER, places[0], places[1], 3 * i);
     }
-    context.stroke();
+    ink.paint(context, palette.numbers("--card"), ["--unshown", "--shown", "--theirs"].map(name => palette.numbers(name)));
+    this.drawGuide(context);
+    if (this.theirs) this.drawDifferences(context);
     this.highlight(this.highlighted);
   }
 
-  // Highlights triangle `name`, all pieces of it.
+  // The triangle whose first corner has index `a`.
+  inkTriangle(layer, x, y, a) {
+    this.ink.line(layer, x[a], y[a], x[a + 1], y[a + 1]);
+    this.ink.line(layer, x[a + 1], y[a + 1], x[a + 2], y[a + 2]);
+    this.ink.line(layer, x[a + 2], y[a + 2], x[a], y[a]);
+  }
+
+  // From each of our vertices that differs a dotted line to theirs, and a dot there.
+  drawDifferences(context) {
+    const {vertices, places: [x, y]} = this.theirs, color = this.palette.word("--theirs"), radius = 2.5 * this.scale;
+    Object.assign(context, {strokeStyle: color, fillStyle: color, lineWidth: this.scale});
+    context.setLineDash([2 * this.scale, 3 * this.scale]);
+    context.beginPath();
+    for (const vertex of vertices) {
+      context.moveTo(this.x[vertex], this.y[vertex]);
+      context.lineTo(x[vertex], y[vertex]);
+    }
+    context.stroke();
+    context.setLineDash([]);
+    context.beginPath();
+    for (const vertex of vertices) {
+      context.moveTo(x[vertex] + radius, y[vertex]);
+      context.arc(x[vertex], y[vertex], radius, 0, 2 * Math.PI);
+    }
+    context.fill();
+  }
+
+  // The camera or the cube with its labels, and the directions of the axes.
+  drawGuide(context) {
+    const {scale, palette} = this;
+    Object.assign(context, {strokeStyle: palette.word("--guide"), lineWidth: 1.25 * scale, font: `${11 * scale}px system-ui, "DejaVu Sans", sans-serif`, textBaseline: "middle"});
+    context.beginPath();
+    for (const [p, q] of this.guide) {
+      context.moveTo(...this.view.place(...p).slice(0, 2));
+      context.lineTo(...this.view.place(...q).slice(0, 2));
+    }
+    context.stroke();
+    const write = (text, x, y, color) => {
+      Object.assign(context, {strokeStyle: palette.word("--card"), fillStyle: color, lineWidth: 3 * scale});
+      context.strokeText(text, x, y);
+      context.fillText(text, x, y);
+    };
+    for (const {at, text} of this.stage.labels) {
+      const [x, y] = this.view.place(...at);
+      write(text, Math.max(2, Math.min(x + 4 * scale, this.canvas.width - context.measureText(text).width - 2)), y + (text === "eye" ? 9 : -7) * scale, palette.word("--guide"));
+    }
+    const [x, y] = [34 * scale, this.canvas.height - 34 * scale], directions = this.view.axes();
+    for (const [text, axis] of AXES) {
+      const [right, up] = directions.map(row => row.reduce((sum, value, i) => sum + value * axis[i], 0)), color = palette.word("--axis-" + text);
+      Object.assign(context, {strokeStyle: color, lineWidth: 1.5 * scale});
+      context.beginPath();
+      context.moveTo(x, y);
+      context.lineTo(x + GIZMO * scale * right, y - GIZMO * scale * up);
+      context.stroke();
+      write(text, x + (GIZMO + 7) * scale * right - 3 * scale, y - (GIZMO + 7) * scale * up, color);
+    }
+  }
+
+  // Marks triangle `name`, all pieces of it, in two tones, one of which stands out from any color.
   highlight(name) {
     this.highlighted = name;
-    const context = this.mark.getContext("2d");
+    const context = this.mark.getContext("2d"), {palette} = this, pieces = this.stage.piecesOf(name);
     context.clearRect(0, 0, this.mark.width, this.mark.height);
-    context.fillStyle = context.strokeStyle = styleOf("--hot");
-    context.lineWidth = 2;
-    for (let i = 0; i < this.names.length; ++i) {
-      if (this.names[i] !== name) continue;
-      context.beginPath();
-      this.trace(context, i);
-      context.globalAlpha = 0.45;
-      context.fill();
-      context.globalAlpha = 1;
-      context.stroke();
+    const path = this.outline(pieces, this.x, this.y);
+    context.fillStyle = palette.word("--hot-fill");
+    context.fill(path);
+    this.stroke(context, path, "--hot");
+    if (this.theirs && this.theirs.isAlike) this.stroke(context, this.outline(pieces, ...this.theirs.places), "--theirs");
+  }
+
+  outline(pieces, x, y) {
+    const path = new Path2D();
+    for (const piece of pieces) {
+      const a = 3 * piece;
+      path.moveTo(x[a], y[a]);
+      path.lineTo(x[a + 1], y[a + 1]);
+      path.lineTo(x[a + 2], y[a + 2]);
+      path.closePath();
+    }
+    return path;
+  }
+
+  stroke(context, path, tone) {
+    for (const [width, color] of [[4.5, "--halo"], [2, tone]]) {
+      Object.assign(context, {lineWidth: width * this.scale, strokeStyle: this.palette.word(color), lineJoin: "round"});
+      context.stroke(path);
     }
   }
 
   // Of the triangles under a point of the canvas, the one whose center is nearest to the viewer; -1 if there is none.
   triangleAt(x, y) {
+    this.index = this.index || new GridIndex(this.x, this.y, this.names.length, this.canvas.width, this.canvas.height);
     let found = -1, nearest = -Infinity;
-    for (let i = 0; i < this.names.length; ++i) {
-      const [a, b, c] = [this.corner(i, 0), this.corner(i, 1), this.corner(i, 2)];
-      const side = (p, q) => (q[0] - p[0]) * (y - p[1]) - (q[1] - p[1]) * (x - p[0]);
-      const [s, t, u] = [side(a, b), side(b, c), side(c, a)];
-      const near = a[2] + b[2] + c[2];
-      if (((s >= 0 && t >= 0 && u >= 0) || (s <= 0 && t <= 0 && u <= 0)) && near > nearest) [found, nearest] = [this.names[i], near];
+    for (const i of this.index.candidates(x, y)) {
+      const near = this.near[3 * i] + this.near[3 * i + 1] + this.near[3 * i + 2];
+      if (near > nearest && this.index.contains(i, x, y)) [found, nearest] = [this.names[i], near];
     }
     return found;
   }
 
-  // Calls point(name) for the triangle pointed at and click(name) for the one clicked.
-  listen(point, click) {
+  // Calls `point` with the triangle pointed at, `click` with the one clicked, `walk` with 1 or -1 for the next one or the one before.
+  listen({point, click, walk}) {
+    const {canvas, view} = this;
     let from = null, hasTurned = false;
-    const at = event => this.triangleAt(event.offsetX * this.canvas.width / 480, event.offsetY * this.canvas.height / 340);
-    this.canvas.onpointerdown = event => { from = [event.clientX, event.clientY]; hasTurned = false; this.canvas.setPointerCapture(event.pointerId); };
-    this.canvas.onpointermove = event => {
+    const place = event => [event.offsetX * this.scale, event.offsetY * this.scale], at = event => this.triangleAt(...place(event));
+    canvas.onpointerdown = event => {
+      from = [event.clientX, event.clientY];
+      hasTurned = false;
+      if (event.isTrusted) canvas.setPointerCapture(event.pointerId);
+    };
+    canvas.onpointermove = event => {
       if (!from) return point(at(event));
       const [dx, dy] = [event.clientX - from[0], event.clientY - from[1]];
-      if (!hasTurned && Math.hypot(dx, dy) < 3) return;
+      if (!hasTurned && Math.hypot(dx, dy) < CLICK_REACH) return;
       hasTurned = true;
       from = [event.clientX, event.clientY];
-      this.yaw -= dx * 0.01;
-      this.pitch = Math.max(-1.57, Math.min(1.57, this.pitch + dy * 0.01));
-      this.draw();
+      view.turn(-dx * TURN_STEP, dy * TURN_STEP);
+      this.drawSoon();
     };
-    this.canvas.onpointerup = event => { if (!hasTurned) click(at(event)); from = null; };
-    this.canvas.onpointerleave = () => point(-1);
-    this.canvas.addEventListener("wheel", event => {
+    canvas.onpointerup = event => {
+      if (from && !hasTurned) click(at(event));
+      from = null;
+    };
+    canvas.onpointercancel = () => { from = null; };
+    canvas.onpointerleave = () => point(-1);
+    canvas.addEventListener("wheel", event => {
       event.preventDefault();
-      this.zoom *= Math.exp(-event.deltaY * 0.001);
-      this.draw();
+      view.approach(Math.exp(-event.deltaY * WHEEL_STEP), ...place(event));
+      this.drawSoon();
     }, {passive: false});
+    const steps = {ArrowLeft: -1, ArrowUp: -1, ArrowRight: 1, ArrowDown: 1};
+    const turns = {ArrowLeft: [KEY_TURN, 0], ArrowRight: [-KEY_TURN, 0], ArrowUp: [0, -KEY_TURN], ArrowDown: [0, KEY_TURN]};
+    canvas.onkeydown = event => {
+      if (event.ctrlKey || event.altKey || event.metaKey) return;
+      if (event.shiftKey && event.key in turns) view.turn(...turns[event.key]);
+      else if (event.key in steps) walk(steps[event.key]);
+      else if (event.key === "+" || event.key === "-") view.approach(event.key === "+" ? KEY_ZOOM : 1 / KEY_ZOOM);
+      else if (event.key === "Home") view.fit();
+      else return;
+      event.preventDefault();
+      this.drawSoon();
+    };
   }
 }

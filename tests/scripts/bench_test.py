@@ -30,7 +30,7 @@ class BenchTest(unittest.TestCase):
             done = self.bench(folder)
             with open(pathlib.Path(folder, "bench.csv"), newline="") as file:
                 rows = list(csv.DictReader(file))
-            self.assertEqual({row["group"] for row in rows}, {"filter", "pipe", "threads", "zbuf", "large triangles", "triangles of 3 pixels"})
+            self.assertEqual({row["group"] for row in rows}, {"filter", "pipe", "threads", "zbuf", "large triangles", "triangles of 3 pixels", "primary rays"})
             self.assertTrue(all(float(row["median"]) > 0 for row in rows))
             with open(pathlib.Path(folder, "yardsticks.csv"), newline="") as file:
                 yardsticks = {row["name"]: row for row in csv.DictReader(file)}

@@ -90,6 +90,27 @@ class Browser:
     def click(self, selector, x, y):
         self.point(selector, x, y, is_click=True)
 
+    def press(self, selector, keys):
+        """Sends keys to an element, which takes the focus."""
+        self.call("POST", f"/element/{self.element(selector)}/value", {"text": keys})
+
+    def devtools(self, command, **words):
+        """Calls a command of Chromium's DevTools protocol."""
+        return self.call("POST", "/goog/cdp/execute", {"cmd": command, "params": words})
+
+    def resize(self, width, height):
+        """Gives the page so many pixels."""
+        self.devtools("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=False)
+
+    def prefer(self, scheme):
+        """Sets the reader's color scheme, light or dark."""
+        self.devtools("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": scheme}])
+
+    def accessibility(self):
+        """(role, name) of what a screen reader finds, in order."""
+        nodes = self.devtools("Accessibility.getFullAXTree")["nodes"]
+        return [(node["role"]["value"], node.get("name", {}).get("value", "")) for node in nodes if not node["ignored"]]
+
     def screenshot(self):
         return base64.b64decode(self.call("GET", "/screenshot"))
 

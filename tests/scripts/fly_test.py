@@ -141,6 +141,94 @@ class Flying(ToolTest):
         self.press("r", "Up", "Up")
         self.assertGreater(middle(self.shown())[1], y + 2)
 
+    def drag(self, right, down):
+        picture = self.window.picture
+        picture.event_generate("<ButtonPress-1>", x=10, y=10)
+        picture.event_generate("<B1-Motion>", x=10 + right, y=10 + down)
+        picture.event_generate("<ButtonRelease-1>", x=10 + right, y=10 + down)
+        self.settle()
+
+    def eye(self):
+        return tuple(map(float, self.window.settings.camera.lines()[0]))
+
+    def test_a_drag_orbits_around_the_point_looked_at(self):
+        self.drag(100, 0)  # 0.4 degrees for each pixel: the scene turns to the right, the camera to the left
+        angle = math.radians(-40)
+        eye = (math.cos(angle) + 5 * math.sin(angle), 2, 5 * math.cos(angle) - math.sin(angle))
+        for got, want in zip(self.eye(), eye, strict=True):
+            self.assertAlmostEqual(got, want, places=12)
+        self.assertEqual(self.shown(), frame_of(SCENE, view=["--eye", *map(repr, self.eye()), "--look", "0", "0", "0"]))
+        self.press("r")
+        self.drag(0, 20)  # 8 degrees higher
+        height = math.asin(2 / math.sqrt(30)) + math.radians(8)
+        self.assertAlmostEqual(self.eye()[1], math.sqrt(30) * math.sin(height), places=12)
+        self.assertAlmostEqual(math.hypot(*self.eye()), math.sqrt(30), places=12)
+
+    def test_a_drag_does_not_go_over_the_top(self):
+        self.drag(0, 1000)
+        self.assertAlmostEqual(self.eye()[1], math.sqrt(30) * math.sin(math.radians(89)), places=12)
+        self.drag(0, -2000)
+        self.assertAlmostEqual(self.eye()[1], -math.sqrt(30) * math.sin(math.radians(89)), places=12)
+        self.drag(0, 5)
+        self.assertAlmostEqual(self.eye()[1], -math.sqrt(30) * math.sin(math.radians(87)), places=12)
+
+    def test_the_wheel_goes_nearer_and_back(self):
+        first = self.shown()
+        self.window.picture.event_generate("<Button-4>")
+        self.settle()
+        for got, want in zip(self.eye(), (0.9, 1.8, 4.5), strict=True):
+            self.assertAlmostEqual(got, want, places=12)
+        self.assertEqual(self.shown(), frame_of(SCENE, view=["--eye", *map(repr, self.eye()), "--look", "0", "0", "0"]))
+        self.window.picture.event_generate("<Button-5>")
+        self.settle()
+        self.assertEqual(self.shown(), first)
+
+    def test_it_says_where_the_scene_is_and_home_brings_it_back(self):
+        lost = self.window.lost
+        self.assertFalse(lost.winfo_ismapped())
+        self.press(*["Right"] * 60)  # 180 degrees
+        self.assertTrue(lost.winfo_ismapped())
+        self.assertRegex(lost.cget("text"), r"^nothing is in sight: the scene is behind you, [\d.]+ away\nHome brings it back$")
+        self.press(*["Left"] * 30)
+        self.assertIn("the scene is to the left, ", lost.cget("text"))
+        self.press("Home")
+        self.assertFalse(lost.winfo_ismapped())
+        # All of it is in sight, and fills most of the window.
+        eye, look, up = self.window.settings.camera.lines()
+        printed = pipe(["model"], ["view", "--eye", *eye, "--look", *look, "--up", *up], ["project"], stdin=SCENE).decode().split("\n")
+        reach = [max(abs(float(line.split()[axis])) for line in printed if line and not line[0].isalpha()) for axis in (0, 1)]
+        self.assertTrue(0.5 < max(reach) <= 1, reach)
+
+    def test_h_shows_the_keys_and_hides_them(self):
+        self.assertFalse(self.window.keys.winfo_ismapped())
+        self.press("h")
+        self.assertTrue(self.window.keys.winfo_ismapped())
+        for key in ("Home", "Escape", "drag", "wheel", "c v"):
+            self.assertIn(key, self.window.keys.cget("text"))
+        self.press("h")
+        self.assertFalse(self.window.keys.winfo_ismapped())
+
+    def test_the_camera_can_be_read(self):
+        self.assertEqual(self.window.readout.cget("text"), "eye 1 2 5   look 0 0 0   fovY 60   h: keys")
+        self.window.picture.event_generate("<Button-4>")
+        self.settle()
+        self.assertEqual(self.window.readout.cget("text"), "eye 0.9 1.8 4.5   look 0 0 0   fovY 60   h: keys")
+
+    def test_it_opens_wide_enough_with_the_scenes_aspect(self):
+        from lib.pipe_tools import Tools
+        from fly_parts.window import FlyWindow
+        # 1280 x 1024 is the screen: of a large config, what is left beside the window's other parts.
+        for config, line, size in ((CONFIG, "60 1 1 100", (640, 427)), (None, "60 1.6 1 100 ratio", (640, 400)), (None, "frustum -2 2 -1 1 1 9", (640, 320)), ("4000 1000\n", "60 1 1 100", (1152, 288))):
+            with self.subTest(line):
+                pathlib.Path("wide.txt").write_text(SCENE.replace("60 1 1 100", line))
+                window = FlyWindow(Tools(BIN), "wide.txt", config, least_width=640)
+                try:
+                    window.root.update()
+                    self.assertEqual((window.picture.winfo_width(), window.picture.winfo_height()), size)
+                    self.assertEqual(window.photo.width(), size[0])
+                finally:
+                    window.close()
+
     def test_r_takes_everything_back(self):
         first = self.shown()
         self.press("w", "Left", "c", "z", "2", "b", "i", "j")
@@ -159,7 +247,7 @@ class Flying(ToolTest):
         for key, model in (("1", "none"), ("2", "flat"), ("3", "gouraud"), ("4", "phong")):
             self.press(key)
             self.assertEqual(self.shown(), frame_of(SCENE, project=[*clipped, "--cull", "back"], zbuf=["--shading", model]))
-        self.press("x", "x", "c", "b", "4")
+        self.press("v", "b", "4")
         self.assertEqual(self.shown(), frame_of(SCENE, zbuf=["--shading", "phong"]))
 
     def test_the_wireframe_is_zbufs_or_not_there(self):
@@ -234,10 +322,37 @@ class Flying(ToolTest):
         first = self.shown()
         self.press("4")
         self.assertIn("expected a light for --shading", self.status())
-        self.press("c", "c")
+        self.press("c", "v")
         self.assertEqual(self.shown(), first)
         self.press("i")
         self.assertEqual(self.status(), "the scene has no light")
+
+
+class Framing(unittest.TestCase):
+    def distance(self, projection, radius=1.0):
+        from fly_parts.framing import Ball, framing_distance
+        keyword, *words = projection.split()
+        return framing_distance(Ball((0, 0, 0), radius), {keyword: words})
+
+    def test_the_ball_touches_no_side_of_the_window(self):
+        # The narrower half of the field is 30 degrees, whose sine is 1/2; 26.565 degrees, whose tangent is 1/2; 45 degrees.
+        for projection, sine in (("perspective 60 1 0.1 100", 1 / 2), ("perspective 60 2 0.1 100 ratio", 1 / 2), ("perspective 90 0.5 0.1 100 ratio", 1 / math.sqrt(5)), ("frustum -0.3 0.3 -0.1 0.1 0.1 100", 1 / math.sqrt(2))):
+            self.assertAlmostEqual(self.distance(projection), 1.05 / sine, msg=projection)
+
+    def test_near_and_far_are_kept_where_that_can_be(self):
+        self.assertAlmostEqual(self.distance("perspective 10 1 0.1 6"), 6 - 1.05)  # cut by the window rather than by far
+        self.assertAlmostEqual(self.distance("perspective 10 1 3 4"), 3 + 1.05)    # by far rather than by near
+        self.assertAlmostEqual(self.distance("ortho -1 1 -1 1 2 9"), 2 + 1.05)
+        self.assertAlmostEqual(self.distance("ortho -1 1 -1 1 -5 9"), 1.05)
+        self.assertGreater(self.distance("perspective 60 1 0.1 100", 0.0), 0)
+
+    def test_directions_are_told_from_the_camera(self):
+        from fly_parts.camera import Camera
+        from fly_parts.framing import Ball, direction
+        camera = Camera.of("0 0 5".split(), "0 0 0".split(), "0 1 0".split())
+        for center, words in (((0, 0, 0), "straight ahead, 5 away"), ((0, 0, 8), "behind you, 3 away"), ((9, 0, 5), "to the right, 9 away"), ((-9, 0, 9), "behind you, to the left, 9.85 away"),
+                              ((0, 9, 0), "above, 10.3 away"), ((-3, -4, 5), "to the left, below, 5 away")):
+            self.assertEqual(direction(camera, Ball(center, 0.1)), words)
 
 
 @unittest.skipIf(MISSING, f"needs {' and '.join(MISSING)}")
@@ -260,6 +375,18 @@ class Ending(ToolTest):
             self.assertEqual((end_by_signal(process, number)[1], process.returncode), (b"", -number))
 
 
+    def test_escape_leaves(self):
+        pathlib.Path("scene.txt").write_text(SCENE)
+        program = ("import sys; sys.path.insert(0, sys.argv[1]); sys.dont_write_bytecode = True; sys.argv[1:] = ['scene.txt']\n"
+                   "from importlib.machinery import SourceFileLoader as Loader; from fly_parts.window import FlyWindow\n"
+                   "run = FlyWindow.run\n"
+                   "def pressed(window): window.root.after(100, lambda: (window.root.focus_force(), window.root.event_generate('<KeyPress>', keysym='Escape'))); run(window)\n"
+                   "FlyWindow.run = pressed\n"
+                   "Loader('__main__', sys.path[0] + '/fly').load_module()")
+        done = subprocess.run([sys.executable, "-c", program, SOURCE / "scripts"], capture_output=True, text=True, timeout=60, env={**os.environ, "BIN": str(BIN)})
+        self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "", ""))
+
+
 class Messages(ToolTest):
     def fly(self, *words, **settings):
         return subprocess.run([SOURCE / "scripts/fly", *words], capture_output=True, text=True, timeout=60,
@@ -270,6 +397,15 @@ class Messages(ToolTest):
         pathlib.Path("scene.txt").write_text("1 2 x\n")
         done = self.fly("scene.txt")
         self.assertEqual((done.returncode, done.stderr), (1, "fly: model: scene.txt:1:5: expected the z of the eye, found 'x'\n"))
+
+    @unittest.skipIf(MISSING, f"needs {' and '.join(MISSING)}")
+    def test_the_config_is_the_one_beside_the_scene(self):
+        pathlib.Path("folder").mkdir()
+        pathlib.Path("folder/scene.txt").write_text(SCENE)
+        pathlib.Path("folder/config.txt").write_text("0 0\n")
+        done = self.fly("folder/scene.txt")
+        self.assertEqual(done.returncode, 1)
+        self.assertRegex(done.stderr, r"\Afly: zbuf: folder/config\.txt:1:1: expected the width in pixels")
 
     @unittest.skipIf(MISSING, f"needs {' and '.join(MISSING)}")
     def test_without_a_display_it_says_so(self):

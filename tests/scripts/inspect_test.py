@@ -6,6 +6,7 @@ usage: inspect_test.py BIN_DIR [UNITTEST ARGUMENT...]
 import base64
 import pathlib
 import re
+import shutil
 import subprocess
 import sys
 import unittest
@@ -14,6 +15,10 @@ from browser import MISSING, Browser
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "tools"))
 from toolbox import BIN, SOURCE, ToolTest, pipe, run, stage_texts  # noqa: E402
+
+TAB, ESCAPE, LEFT, UP, RIGHT, DOWN, HOME, SHIFT = "\ue004", "\ue00c", "\ue012", "\ue013", "\ue014", "\ue015", "\ue011", "\ue008"
+sys.path.insert(0, str(SOURCE / "scripts"))
+from lib.pictures import read_picture  # noqa: E402
 
 SAMPLE = SOURCE / "samples/tilted-camera"
 # Triangle 1 reaches behind the eye and is cut into two pieces; the others are separate.
@@ -63,11 +68,16 @@ class Frustum(ToolTest):
 class InABrowser(ToolTest):
     @classmethod
     def setUpClass(cls):
+        cls.pages = {}  # by scene and config
         cls.browser = cls.enterClassContext(Browser())
 
-    def load(self, scene, config):
-        done = inspect(scene, config, "-o", "page.html")
-        self.assertEqual((done.stderr, done.returncode), ("", 0))
+    def load(self, scene, config, *words):
+        key = (pathlib.Path(scene).read_bytes(), pathlib.Path(config).read_bytes(), words)
+        if words or key not in self.pages:
+            done = inspect(scene, config, "-o", "page.html", *words)
+            self.assertEqual((done.stderr, done.returncode), ("", 0))
+            self.pages[key] = pathlib.Path("page.html").read_bytes()
+        pathlib.Path("page.html").write_bytes(self.pages[key])
         self.browser.open(pathlib.Path("page.html").resolve())
         self.browser.wait_for(lambda: self.browser.run("return document.body.dataset.ready") == "yes")
 
@@ -88,15 +98,26 @@ class InABrowser(ToolTest):
     def click_triangle(self, tool, points):
         """Clicks where the wireframe shows the center of a triangle."""
         middle = [sum(axis) / 3 for axis in zip(*points)]
-        at = self.browser.run("const wire = inspector.panels[['model', 'view', 'project'].indexOf(arguments[0])].wire;"
-                              "const p = wire.place(...arguments[1]); return [p[0] * 480 / wire.canvas.width, p[1] * 340 / wire.canvas.height]", tool, middle)
+        at = self.browser.run("const wire = document.body.inspector.panels[['model', 'view', 'project'].indexOf(arguments[0])].wire;"
+                              "const p = wire.view.place(...arguments[1]); return [p[0] / wire.scale, p[1] / wire.scale]", tool, middle)
         self.browser.click(f"#wire-{tool}", *at)
+
+    def competitors(self):
+        """The cells of the pixel's fragments."""
+        return self.browser.run("return [...document.querySelectorAll('#competitors tbody tr')].map(r => [...r.cells].map(c => c.textContent))")
 
     def marked_pixels(self):
         return {tuple(place) for place in self.browser.run(
-            "const c = document.getElementById('image-mark'), d = c.getContext('2d').getImageData(0, 0, c.width, c.height).data, found = [];"
-            "for (let p = 0; p < c.width * c.height; ++p) if (d[4 * p + 3]) found.push([p % c.width, Math.floor(p / c.width)]);"
-            "return found")}
+            "const {columns, fragments, name} = document.body.inspector.pixels;"
+            "return [...fragments.pixelsOf(name)].map(p => [p % columns, Math.floor(p / columns)])")}
+
+    def outlined(self):
+        """The box of the marks over the image, in pixels of the picture: left, top, right, bottom."""
+        return self.browser.run(
+            "const c = document.getElementById('image-mark'), d = c.getContext('2d').getImageData(0, 0, c.width, c.height).data;"
+            "const scale = c.width / document.getElementById('image').width, xs = [], ys = [];"
+            "for (let p = 0; p < c.width * c.height; ++p) if (d[4 * p + 3] > 128) { xs.push(p % c.width / scale); ys.push(Math.floor(p / c.width) / scale); }"
+            "return [Math.min(...xs), Math.min(...ys), Math.max(...xs), Math.max(...ys)]")
 
     def test_a_triangle_that_is_clicked_shows_in_every_stage(self):
         model, view, project = self.load_own_scene()
@@ -108,37 +129,40 @@ class InABrowser(ToolTest):
             self.assertEqual(self.browser.run("return document.body.dataset.triangle"), "2")
             self.assertEqual(self.hot_lines("model"), [[n, model[n - 1]] for n in (13, 14, 15)])
             self.assertEqual(self.hot_lines("view"), [[n, view[n - 1]] for n in (10, 11, 12)])
-            self.browser.run("inspector.select(-1)")
+            self.browser.run("document.body.inspector.select({triangle: -1, pixel: -1})")
 
     def test_all_pieces_of_a_cut_triangle_are_marked(self):
         project = self.load_own_scene()[2]
         self.assertEqual(project.count("triangle 1"), 1)  # before the second piece
-        self.browser.run("inspector.select(1)")
+        self.browser.run("document.body.inspector.select({triangle: 1, pixel: -1})")
         self.assertEqual([text for _, text in self.hot_lines("project")], project[4:7] + project[9:12])
 
     def test_the_pixels_of_the_triangle_are_marked(self):
         project = self.load_own_scene()[2]
-        self.browser.run("inspector.select(2)")
+        self.browser.run("document.body.inspector.select({triangle: 2, pixel: -1})")
         alone = "\n".join(["triangle 2", *[line for line in project if line][-3:], ""])
         run("zbuf", "config.txt", "--image", "alone.ppm", stdin=alone)
         pixels = pathlib.Path("alone.ppm").read_bytes()[-4800:]
         drawn = {(p % 40, p // 40) for p in range(1600) if any(pixels[3 * p:3 * p + 3])}
         self.assertTrue(drawn)
         self.assertEqual(self.marked_pixels(), drawn)
+        columns, rows = zip(*drawn)
+        for found, wanted in zip(self.outlined(), (min(columns), min(rows), max(columns) + 1, max(rows) + 1), strict=True):
+            self.assertAlmostEqual(found, wanted, delta=0.5)
 
     def test_a_pixel_tells_what_the_probe_tells(self):
         pathlib.Path("config.txt").write_text("42 42\n")
         self.load(SAMPLE / "scene.txt", "config.txt")
-        stage3 = stage_texts((SAMPLE / "scene.txt").read_text())[2]
-        scale = self.browser.run("return inspector.pixels.scale")
+        stage3 = (SAMPLE / "stage3.txt").read_bytes()
+        scale = self.browser.run("return document.body.inspector.pixels.scale")
         for canvas, column, row in (("image", 15, 15), ("depth", 20, 20), ("image", 30, 10), ("image", 0, 0)):
             with self.subTest(column=column, row=row):
-                self.browser.run("inspector.select(-1)")
+                self.browser.run("document.body.inspector.select({triangle: -1, pixel: -1})")
                 self.browser.click("#" + canvas, (column + 0.5) * scale, (row + 0.5) * scale)
                 told = run("zbuf", "config.txt", "--image", "out.ppm", "--probe", f"{column},{row}", stdin=stage3).stderr.decode().splitlines()
                 place = self.browser.run("return document.getElementById('pixel-place').textContent")
                 self.assertTrue(place.startswith(f"row {row}, column {column}: "), place)
-                rows = self.browser.run("return [...document.querySelectorAll('#competitors tbody tr')].map(r => [...r.cells].map(c => c.textContent))")
+                rows = self.competitors()
                 lines = [f"zbuf: {column},{row}: triangle {name}, depth {float(depth)!r}: {fate}" for name, depth, fate in rows]
                 self.assertEqual(lines or [f"zbuf: {column},{row}: no fragment"], told)
                 kept = [name for name, _, fate in rows if fate == "kept"]
@@ -148,7 +172,7 @@ class InABrowser(ToolTest):
 
     def test_the_picture_is_zbufs(self):
         self.load(SAMPLE / "scene.txt", SAMPLE / "config.txt")
-        run("zbuf", SAMPLE / "config.txt", "--image", "out.ppm", stdin=stage_texts((SAMPLE / "scene.txt").read_text())[2])
+        run("zbuf", SAMPLE / "config.txt", "--image", "out.ppm", stdin=(SAMPLE / "stage3.txt").read_bytes())
         shown = self.browser.run("const c = document.getElementById('image'), d = c.getContext('2d').getImageData(0, 0, c.width, c.height).data;"
                                  "let s = ''; for (let i = 0; i < d.length; ++i) if (i % 4 < 3) s += String.fromCharCode(d[i]); return btoa(s)")
         self.assertTrue(pathlib.Path("out.ppm").read_bytes().endswith(base64.b64decode(shown)), "differs")
@@ -159,6 +183,232 @@ class InABrowser(ToolTest):
         self.browser.call("POST", "/refresh", {})
         self.browser.wait_for(lambda: self.browser.run("return document.body.dataset.ready") == "yes")
         self.assertIn("row 2, column 3:", self.browser.run("return document.getElementById('pixel-place').textContent"))
+
+    def hash(self):
+        return self.browser.run("return location.hash")
+
+    def held(self):
+        return self.browser.run("const {triangle, pixel} = document.body.inspector.held; return [triangle, pixel]")
+
+    def test_a_click_sets_the_address_and_one_beside_clears_it(self):
+        self.load_own_scene()
+        scale = self.browser.run("return document.body.inspector.pixels.scale")
+        self.browser.click("#image", 3.5 * scale, 2.5 * scale)
+        self.assertEqual(self.hash(), "#pixel=3,2")
+        self.browser.run("document.body.inspector.select({triangle: 2, pixel: -1})")
+        self.assertEqual(self.hash(), "#triangle=2")
+        self.browser.click("header", 2, 2)
+        self.assertEqual((self.hash(), self.held()), ("", [-1, -1]))
+
+    def test_arrows_walk_pixels_and_escape_lets_go(self):
+        self.load_own_scene()
+        self.browser.press("#image", RIGHT)  # the pixel in the middle
+        self.assertEqual(self.hash(), "#pixel=20,20")
+        for keys, place in ((RIGHT, "21,20"), (DOWN, "21,21"), (LEFT + LEFT, "19,21"), (UP, "19,20"), (SHIFT + UP + SHIFT, "19,10"), (3 * (SHIFT + LEFT + SHIFT), "0,10")):
+            self.browser.press("#image", keys)
+            self.assertEqual(self.hash(), "#pixel=" + place)
+        self.browser.press("#image", ESCAPE)
+        self.assertEqual((self.hash(), self.held()), ("", [-1, -1]))
+
+    def test_arrows_walk_triangles_and_turn(self):
+        self.load_own_scene()
+        for keys, name in ((RIGHT, 0), (RIGHT, 1), (DOWN, 2), (RIGHT, 0), (LEFT, 2), (UP, 1)):
+            self.browser.press("#wire-view", keys)
+            self.assertEqual(self.held(), [name, -1])
+        before = self.browser.run("return document.body.inspector.panels[1].wire.view.yaw")
+        self.browser.press("#wire-view", SHIFT + LEFT + SHIFT)
+        self.assertEqual(self.held(), [1, -1])
+        self.assertGreater(self.browser.run("return document.body.inspector.panels[1].wire.view.yaw"), before)
+        self.browser.press("#wire-view", "++")
+        self.assertAlmostEqual(self.browser.run("return document.body.inspector.panels[1].wire.view.zoom"), 1.15 ** 2)
+        self.browser.press("#wire-view", HOME)
+        self.assertEqual(self.browser.run("const {view} = document.body.inspector.panels[1].wire; return [view.yaw, view.zoom]"), [before, 1])
+
+    def test_tab_reaches_every_view_and_the_keys_are_told(self):
+        self.load_own_scene()
+        reached = []
+        for _ in range(30):
+            self.browser.call("POST", "/actions", {"actions": [{"type": "key", "id": "keys", "actions": [{"type": "keyDown", "value": TAB}, {"type": "keyUp", "value": TAB}]}]})
+            reached.append(self.browser.run("return document.activeElement.id"))
+        self.assertLessEqual({"help", "wire-model", "wire-view", "wire-project", "image", "depth", "tab-texts", "text-model", "text-view", "text-project", "text-zbuf"}, set(reached))
+        self.browser.press("#wire-model", "?")
+        self.assertTrue(self.browser.run("return document.getElementById('keys').open"))
+        self.browser.press("#keys button", ESCAPE)
+        self.assertFalse(self.browser.run("return document.getElementById('keys').open"))
+
+    def test_a_screen_reader_finds_names_and_roles(self):
+        self.load_own_scene()
+        self.browser.run("document.body.inspector.select({triangle: 2, pixel: -1})")
+        found = self.browser.accessibility()
+        for role, name in (("application", "world space, wireframe after model"), ("application", "view space, wireframe after view"),
+                           ("application", "normalized device coordinates, wireframe after project"), ("application", "image, 40 columns and 40 rows of pixels"),
+                           ("application", "depth, 40 columns and 40 rows of pixels"), ("button", "fit world space into its view"), ("button", "Keys"), ("tab", "Texts"),
+                           ("tab", "Arithmetic"), ("tab", "Counts"), ("group", "text after project"), ("list", "what became of the triangles"), ("region", "Fragments of a pixel"),
+                           ("region", "texts and explanations"), ("columnheader", "triangle"), ("heading", "scene.txt: 3 triangles, 40 × 40 pixels")):
+            self.assertTrue(any(role == r and n.startswith(name) for r, n in found), f"no {role} named {name}")
+        self.assertIn("status", [role for role, _ in found])
+        self.assertRegex(self.browser.run("return document.querySelector('[role=status]').textContent"), r"^triangle 2: shown in \d+ pixels$")
+        # Whatever takes the focus has a name.
+        interactive = ("application", "button", "tab", "group", "tabpanel", "link", "textbox")
+        self.assertEqual([role for role, name in found if role in interactive and not name], [])
+
+    def test_all_is_in_sight_on_one_screen_and_nothing_overflows(self):
+        self.load(SAMPLE / "scene.txt", SAMPLE / "config.txt")
+        self.addCleanup(self.browser.devtools, "Emulation.clearDeviceMetricsOverride")
+        for width in (420, 800, 1024, 1440, 2560):
+            self.browser.resize(width, 900)
+            with self.subTest(width=width):
+                for tab in ("texts", "explanation", "statistics"):
+                    self.browser.run("document.getElementById('tab-' + arguments[0]).click(); document.body.inspector.select(document.body.inspector.atPixel(150 * 400 + 151))", tab)
+                    self.assertLessEqual(self.browser.run("return document.documentElement.scrollWidth - document.documentElement.clientWidth"), 0)
+                self.browser.run("document.getElementById('tab-texts').click()")
+                if width >= 1024:
+                    self.assertLessEqual(self.browser.run("return document.documentElement.scrollHeight"), 900)
+                    boxes = self.browser.run("return [...document.querySelectorAll('.pane, .pane canvas, #pixel, .text')].map(e => e.getBoundingClientRect()).map(b => [b.left, b.top, b.right, b.bottom])")
+                    self.assertEqual(len(boxes), 5 + 10 + 1 + 4)
+                    for left, top, right, bottom in boxes:
+                        self.assertGreater(right - left, 100)
+                        self.assertGreater(bottom - top, 80)
+                        self.assertTrue(left >= 0 and top >= 0 and right <= width and bottom <= 900, (left, top, right, bottom))
+
+    def test_marks_stand_out_from_any_color_in_light_and_dark(self):
+        self.load_own_scene()
+        self.addCleanup(self.browser.prefer, "light")
+
+        def luminance(color):  # WCAG 2
+            parts = [int(color[i:i + 2], 16) / 255 for i in (1, 3, 5)]
+            return sum(share * (x / 12.92 if x <= 0.04045 else ((x + 0.055) / 1.055) ** 2.4) for share, x in zip((0.2126, 0.7152, 0.0722), parts))
+
+        papers = []
+        for scheme in ("light", "dark"):
+            self.browser.prefer(scheme)
+            colors = {name: self.browser.run("return getComputedStyle(document.documentElement).getPropertyValue(arguments[0]).trim()", "--" + name)
+                      for name in ("hot", "halo", "pixel", "card", "ink", "soft", "guide", "shown", "unshown")}
+
+            def contrast(a, b):
+                low, high = sorted(luminance(colors[name]) for name in (a, b))
+                return (high + 0.05) / (low + 0.05)
+            # One of two tones that differ by a factor of 4.5 differs from any color by more than 2.
+            for a, b, least in (("hot", "halo", 4.5), ("pixel", "halo", 4.5), ("ink", "card", 7), ("soft", "card", 4.5), ("guide", "card", 3), ("shown", "card", 3), ("unshown", "card", 2.5)):
+                self.assertGreaterEqual(contrast(a, b), least, (scheme, a, b))
+            self.browser.wait_for(lambda: papers != [paper := self.paper()])
+            papers.append(self.paper())
+        self.assertEqual(len(set(map(tuple, papers))), 2)
+
+    def paper(self):
+        """The color of a wireframe's background."""
+        return self.browser.run("const c = document.getElementById('wire-model'); return [...c.getContext('2d').getImageData(c.width - 1, 0, 1, 1).data]")
+
+    def test_arithmetic_is_that_of_explain(self):
+        self.load_own_scene()
+        self.browser.run("document.querySelector('#tab-explanation').click()")
+        shown = [self.browser.run("return [...document.body.inspector.fragments.pixelsOf(arguments[0])]", name) for name in range(3)]
+        pixels = [p for found in shown for p in (found[0], found[len(found) // 2])] + [0]
+        for i, p in enumerate(pixels):
+            for name in {i // 2 % 3, (i + 1) % 3}:
+                row, column = divmod(p, 40)
+                told = subprocess.run([SOURCE / "scripts/explain", "scene.txt", "config.txt", "--triangle", str(name), "--pixel", f"{column},{row}"], capture_output=True, text=True, check=True,
+                                      env={"BIN": str(BIN), "PATH": "/usr/bin:/bin"}).stdout
+                self.browser.run("document.body.inspector.select({triangle: arguments[0], pixel: arguments[1]})", name, p)
+                shown = self.browser.run("return [...document.querySelectorAll('#explanation pre')].map(part => part.textContent)")
+                self.assertEqual("\n\n".join(shown) + "\n", told, (name, column, row))
+
+    def load_a_hand_in(self, change):
+        """The page of the sample with a folder of files that are ours but for `change`, called in it."""
+        pathlib.Path("theirs").mkdir()
+        for name in ("stage1.txt", "stage2.txt", "stage3.txt", "z_buffer.txt", "out.bmp"):
+            shutil.copy(SAMPLE / name, "theirs")
+        change()
+        self.load(SAMPLE / "scene.txt", SAMPLE / "config.txt", "--theirs", "theirs")
+        return self.browser.run("return document.getElementById('theirs').innerText")
+
+    @staticmethod
+    def write_right_negated():
+        """Their x and y have the opposite sign: r is up x l, and all that follows from it is right."""
+        rows = [line.split() for line in (SAMPLE / "stage2.txt").read_text().splitlines()]
+        pathlib.Path("theirs/stage2.txt").write_text("".join(f"{-float(row[0]):.7f} {-float(row[1]):.7f} {row[2]}\n" if row else "\n" for row in rows))
+        pathlib.Path("theirs/stage3.txt").write_bytes(run("project", "--scene", SAMPLE / "scene.txt", "theirs/stage2.txt").stdout)
+        run("zbuf", SAMPLE / "config.txt", "theirs/stage3.txt", "--z-buffer", "theirs/z_buffer.txt", "-o", "theirs/out.bmp")
+
+    def test_theirs_has_the_verdict_and_the_matrix(self):
+        told = self.load_a_hand_in(self.write_right_negated)
+        judged = subprocess.run([SOURCE / "scripts/compare", "--five", "theirs", SAMPLE / "scene.txt", SAMPLE / "config.txt"], capture_output=True, text=True,
+                                env={"BIN": str(BIN), "PATH": "/usr/bin:/bin"}).stdout
+        self.assertIn("theirs: " + judged.split("Verdict: ")[1].strip(), told)
+        matrix = [line for line in judged.splitlines() if " | " in line and not line.startswith("|")]
+        self.assertEqual(len(matrix), 5)
+        self.assertIn("\n".join(matrix), self.browser.run("return document.querySelector('#theirs pre').textContent"))
+        self.assertEqual(self.browser.run("return [...document.querySelectorAll('figcaption .good, figcaption .bad')].map(e => [e.className, e.textContent])"),
+                         [["good", "stage1.txt: right"], ["bad", "stage2.txt: wrong"], ["good", "stage3.txt: right"], ["good", "out.bmp: right"], ["good", "z_buffer.txt: right"]])
+
+    def test_theirs_lists_and_marks_what_differs(self):
+        def change():
+            lines = pathlib.Path("theirs/stage1.txt").read_text().split("\n")
+            for at, line in ((1, "9 8 7"), (6, lines[6] + "4")):  # another point, and a digit more
+                lines[at] = line
+            pathlib.Path("theirs/stage1.txt").write_text("\n".join(lines))
+        told = self.load_a_hand_in(change)
+        self.assertIn("1 of 66 vertices differ from ours:", told)
+        ours = (SAMPLE / "stage1.txt").read_text().split("\n")[1]
+        self.assertEqual(self.browser.run("return [...document.querySelectorAll('#theirs [data-name]')].map(row => [...row.cells].map(cell => cell.textContent))"),
+                         [["0", "2", "2", "9 8 7", " ".join(f"{float(word):g}" for word in ours.split()[:3])]])
+        self.assertEqual(told.count("every vertex is ours"), 2)
+        self.browser.run("document.querySelector('#theirs [data-name] button').click()")
+        self.assertEqual(self.held(), [0, -1])
+        # In the wireframe there is a dot where their vertex is, in a color that only theirs have.
+        self.browser.run("document.body.inspector.select({triangle: -1, pixel: -1}); document.body.inspector.panels[0].wire.view.approach(0.6); document.body.inspector.panels[0].wire.draw()")
+        self.assertEqual(self.browser.run(
+            "const {wire} = document.body.inspector.panels[0], [x, y] = wire.view.place(9, 8, 7);"
+            "return [...wire.canvas.getContext('2d').getImageData(Math.floor(x), Math.floor(y), 1, 1).data].slice(0, 3)"),
+            self.browser.run("return document.body.inspector.palette.numbers('--theirs')"))
+
+    def test_theirs_of_another_length_is_not_compared(self):
+        told = self.load_a_hand_in(lambda: pathlib.Path("theirs/stage1.txt").write_text("0 0 0\n1 0 0\n0 1 0\n"))
+        self.assertIn("1 triangles in place of 22: vertices are not compared", told)
+        self.assertEqual(self.browser.run("return document.body.inspector.panels[0].wire.theirs.triangles.length"), 1)
+
+    def test_theirs_may_be_missing_or_unreadable(self):
+        def change():
+            pathlib.Path("theirs/stage2.txt").unlink()
+            pathlib.Path("theirs/stage3.txt").write_text("<b>no numbers</b>\n")
+            pathlib.Path("theirs/out.bmp").write_text("BM")
+        told = self.load_a_hand_in(change)
+        self.assertIn("not handed in", told)
+        self.assertIn("unreadable", told)
+        self.assertTrue(self.browser.run("return document.getElementById('whose').hidden"))
+
+    def test_their_image_can_be_seen(self):
+        self.load_a_hand_in(self.write_right_negated)
+        theirs, ours = ([bytes(row[i:i + 3]) for row in read_picture(path)[2] for i in range(0, len(row), 3)] for path in ("theirs/out.bmp", SAMPLE / "out.bmp"))
+        read = ("const d = document.getElementById('image').getContext('2d').getImageData(0, 0, 400, 400).data; let s = '';"
+                "for (let i = 0; i < d.length; ++i) if (i % 4 < 3) s += String.fromCharCode(d[i]); return btoa(s)")
+        faces = []
+        for _ in range(3):
+            self.browser.run("document.getElementById('whose').click()")
+            faces.append(base64.b64decode(self.browser.run(read)))
+        self.assertEqual(faces[0], b"".join(theirs))
+        self.assertEqual(faces[2], b"".join(ours))
+        color = bytes(self.browser.run("return document.body.inspector.palette.numbers('--theirs')"))
+        self.assertEqual({i for i in range(160000) if faces[1][3 * i:3 * i + 3] == color}, {i for i in range(160000) if theirs[i] != ours[i]})
+
+    def test_an_empty_picture_has_its_note(self):
+        pathlib.Path("scene.txt").write_text(SCENE.replace("triangle", "translate\n0 0 30\ntriangle", 1))
+        pathlib.Path("config.txt").write_text("40 40\n")
+        self.load("scene.txt", "config.txt")
+        self.assertIn("the picture is empty", self.browser.run("return document.getElementById('notes').textContent"))
+        self.assertEqual(self.browser.run("return [...document.querySelectorAll('#legend li')].map(item => item.textContent)"), ["0 shown", "0 hidden", "3 outside", "0 culled"])
+
+    def test_rows_and_lines_are_counted_as_they_say(self):
+        self.load(SAMPLE / "scene.txt", SAMPLE / "config.txt")
+        self.browser.run("document.body.inspector.select(document.body.inspector.atPixel(150 * 400 + 151))")
+        [(number, text)] = self.hot_lines("zbuf")
+        self.assertEqual(number, 150)
+        run("zbuf", SAMPLE / "config.txt", "--image", "out.ppm", "--z-buffer", "z_buffer.txt", stdin=(SAMPLE / "stage3.txt").read_bytes())
+        values = pathlib.Path("z_buffer.txt").read_text().split("\n")[150].split()
+        shown = re.search(r"\[(.*)\]", text)[1]
+        depth = self.browser.run("return document.getElementById('pixel-place').textContent").split("depth ")[1]
+        self.assertIn(shown, values)
+        self.assertAlmostEqual(float(shown), float(depth), places=6)
 
     def rows(self):
         return self.browser.run("return [...document.querySelectorAll('#counts tbody tr')].map(row => [...row.cells].map(cell => cell.textContent))")
@@ -180,12 +430,12 @@ class InABrowser(ToolTest):
             for axis, cell in zip("xyz", row[6:]):
                 self.assertEqual([float(word) for word in cell.split(" to ")], [float("%.4g" % float(told[tool][f"{axis}_{end}"])) for end in ("min", "max")])
 
-    def points_out_of_sight(self, tool):
+    def points_out_of_sight(self, tool, guide="wire.guide.flat()"):
         """Corners of the guide and of the triangles that no pixel of the pane shows at first."""
         return self.browser.run(
-            "const wire = inspector.panels[['model', 'view', 'project'].indexOf(arguments[0])].wire, lost = [];"
-            "const points = wire.guide.flat(); for (let i = 0; i < wire.points.length; i += 3) points.push([...wire.points.slice(i, i + 3)]);"
-            "for (const p of points) { const [x, y] = wire.place(...p); if (x < 0 || y < 0 || x > wire.canvas.width || y > wire.canvas.height) lost.push(p); }"
+            "const wire = document.body.inspector.panels[['model', 'view', 'project'].indexOf(arguments[0])].wire, lost = [];"
+            f"const points = {guide}; for (let i = 0; i < wire.stage.points.length; i += 3) points.push([...wire.stage.points.slice(i, i + 3)]);"
+            "for (const p of points) { const [x, y] = wire.view.place(...p); if (x < 0 || y < 0 || x > wire.canvas.width || y > wire.canvas.height) lost.push(p); }"
             "return lost", tool)
 
     def test_all_that_is_there_is_in_sight(self):
@@ -203,36 +453,98 @@ class InABrowser(ToolTest):
         pathlib.Path("config.txt").write_text("40 40\n")
         pathlib.Path("scene.txt").write_text(SCENE.replace("60 1 1 100", "60 1 1 1e6"))
         self.load("scene.txt", "config.txt")
-        self.assertLess(self.browser.run("return inspector.panels[1].wire.size"), 40)
+        self.assertLess(self.browser.run("return document.body.inspector.panels[1].wire.view.size"), 40)
         self.assertIn("(the far plane is at distance 1e+06, drawn nearer)", self.browser.run("return document.querySelector('#stages').textContent"))
 
     def test_a_triangle_in_the_distance_does_not_hide_the_cube(self):
         pathlib.Path("config.txt").write_text("40 40\n")
         pathlib.Path("scene.txt").write_text(SCENE.replace("triangle", "push\ntranslate\n1e6 0 0\ntriangle\n0 0 0\n1 0 0\n0 1 0\npop\ntriangle", 1))
         self.load("scene.txt", "config.txt")
-        width = self.browser.run("const wire = inspector.panels[2].wire; Object.assign(wire, {yaw: 0, pitch: 0}); return wire.place(1, 0, 0)[0] - wire.place(-1, 0, 0)[0]")
+        width = self.browser.run("const wire = document.body.inspector.panels[2].wire; Object.assign(wire.view, {yaw: 0, pitch: 0}); return wire.view.place(1, 0, 0)[0] - wire.view.place(-1, 0, 0)[0]")
         self.assertGreater(width, 5)
+
+    def test_fit_brings_all_back_and_then_comes_close(self):
+        self.load_own_scene()
+        fit = "document.querySelectorAll('figcaption button')[1].click(); const {view} = document.body.inspector.panels[1].wire; return [view.size, view.zoom, view.yaw]"
+        size, _, yaw = self.browser.run("const {view} = document.body.inspector.panels[1].wire; return [view.size, view.zoom, view.yaw]")
+        self.browser.run("const {view} = document.body.inspector.panels[1].wire; view.turn(1, 0); view.approach(3, 0, 0)")
+        self.assertEqual(self.browser.run(fit), [size, 1, yaw])
+        close = self.browser.run(fit)[0]
+        self.assertLess(close, size / 2)  # the triangles are 9 deep, and the frustum more than twice that
+        self.assertEqual(self.points_out_of_sight("view", "[]"), [])
+        self.assertEqual(self.browser.run(fit)[0], size)
 
     def test_dragging_turns_without_choosing(self):
         self.load_own_scene()
-        before = self.browser.run("return inspector.panels[0].wire.yaw")
+        before = self.browser.run("return document.body.inspector.panels[0].wire.view.yaw")
         self.browser.call("POST", "/actions", {"actions": [{"type": "pointer", "id": "mouse", "actions": [
             {"type": "pointerMove", "duration": 0, "origin": {"element-6066-11e4-a52e-4f735466cecf": self.browser.element("#wire-model")}, "x": 0, "y": 0},
             {"type": "pointerDown", "button": 0}, {"type": "pointerMove", "duration": 0, "origin": "pointer", "x": 50, "y": 0},
             {"type": "pointerUp", "button": 0}]}]})
-        self.assertNotEqual(self.browser.run("return inspector.panels[0].wire.yaw"), before)
+        self.assertNotEqual(self.browser.run("return document.body.inspector.panels[0].wire.view.yaw"), before)
 
-    def test_a_large_scene_is_thinned_and_says_so(self):
+    def test_a_hundred_thousand_triangles_are_all_there(self):
         scene = subprocess.run([SOURCE / "scripts/make-torus", "--around", "250", "--tube", "100"], capture_output=True, check=True).stdout
         pathlib.Path("large.txt").write_bytes(scene)
         pathlib.Path("config.txt").write_text("42 42\n")
         self.load("large.txt", "config.txt")
-        self.assertIn("Of 100000 triangles every 9th is drawn", self.browser.run("return document.getElementById('notes').textContent"))
-        self.assertEqual(self.browser.run("return inspector.panels.map(panel => panel.wire.names.length)"), [11112] * 3)
-        scale = self.browser.run("return inspector.pixels.scale")
+        self.assertEqual(self.browser.run("return document.body.inspector.panels.map(panel => panel.wire.names.length)"), [100000] * 3)
+        scale = self.browser.run("return document.body.inspector.pixels.scale")
         self.browser.click("#image", 20.5 * scale, 20.5 * scale)
         told = run("zbuf", "config.txt", "--image", "out.ppm", "--probe", "20,20", stdin=stage_texts(scene)[2]).stderr.decode().splitlines()
-        self.assertEqual(self.browser.run("return document.querySelectorAll('#competitors tbody tr').length"), len(told))
+        self.assertEqual(len(self.competitors()), len(told))
+        # The index finds what a look at every triangle finds.
+        lost = self.browser.run(
+            "const {wire} = document.body.inspector.panels[1], lost = []; let x = 17;"
+            "for (let k = 0; k < 25; ++k) { x = x * 48271 % 2147483647; const px = x % wire.canvas.width; x = x * 48271 % 2147483647; const py = x % wire.canvas.height;"
+            "  const found = wire.triangleAt(px, py); let best = -1, nearest = -Infinity;"
+            "  wire.names.forEach((name, i) => { const near = wire.near[3 * i] + wire.near[3 * i + 1] + wire.near[3 * i + 2];"
+            "    if (near > nearest && wire.index.contains(i, px, py)) [best, nearest] = [name, near]; });"
+            "  lost.push([found, best]); } return lost")
+        self.assertTrue(any(best >= 0 for _, best in lost))
+        self.assertEqual([found for found, _ in lost], [best for _, best in lost])
+
+    def test_in_a_large_scene_the_pixel_is_explained_beside_the_command_for_the_rest(self):
+        scene = subprocess.run([SOURCE / "scripts/make-torus", "--around", "25", "--tube", "11"], capture_output=True, check=True).stdout
+        pathlib.Path("large.txt").write_bytes(scene)  # 1,100 triangles
+        pathlib.Path("config.txt").write_text("42 42\n")
+        self.load("large.txt", "config.txt")
+        self.browser.run("document.querySelector('#tab-explanation').click(); document.body.inspector.select(document.body.inspector.atPixel(20 * 42 + 20))")
+        name, _ = self.held()
+        self.assertIn(f"pipeline explain large.txt config.txt --triangle {name} --pixel 20,20", self.browser.run("return document.querySelector('#explanation').textContent"))
+        name, _ = self.held()
+        told = subprocess.run([SOURCE / "scripts/explain", "large.txt", "config.txt", "--triangle", str(name), "--pixel", "20,20"], capture_output=True, text=True, check=True,
+                              env={"BIN": str(BIN), "PATH": "/usr/bin:/bin"}).stdout
+        shown = self.browser.run("return document.querySelector('#explanation pre + pre').textContent") + "\n"
+        begin, end = told.index("PIXEL"), told.index("  at this pixel")  # explain leaves out fragments beyond its 60 lines
+        self.assertEqual(shown[:end - begin], told[begin:end])
+        self.assertEqual((shown.splitlines()[-1], shown.count(" depth ")), (told.splitlines()[-1], len(self.competitors()) + told[begin:end].count(" depth ")))
+
+    def test_the_bench_measures_every_way_to_point(self):
+        done = subprocess.run([SOURCE / "scripts/measure/inspect", "--triangles", "200", "--times", "3"], capture_output=True, text=True,
+                              env={"BIN": str(BIN), "PATH": "/usr/bin:/bin", "HOME": "."})
+        self.assertEqual(done.stderr, "")
+        rows = [[cell.strip() for cell in line.split("|")[1:-1]] for line in done.stdout.splitlines()]
+        self.assertRegex(rows[0][0], "^[12][0-9][0-9] triangles$")
+        self.assertEqual([row[0] for row in rows[2:]], ["hover", "pixel hover", "drag"])
+        for row in rows[2:]:
+            self.assertGreaterEqual(float(row[2]), float(row[1]))
+            self.assertGreater(float(row[1]), 0)
+
+    def test_a_scene_too_large_is_thinned_and_says_so(self):
+        sys.path.insert(0, str(SOURCE / "scripts"))
+        from inspect_parts import inspection
+        program = ("import sys; sys.path.insert(0, sys.argv[1]); sys.dont_write_bytecode = True; sys.argv[1:] = ['scene.txt', 'config.txt', '-o', 'page.html']\n"
+                   "from importlib.machinery import SourceFileLoader as Loader; from inspect_parts import inspection; inspection.MAX_DRAWN_TRIANGLES = 1\n"
+                   "Loader('__main__', sys.path[0] + '/inspect').load_module()")
+        self.assertGreaterEqual(inspection.MAX_DRAWN_TRIANGLES, 100000)
+        pathlib.Path("scene.txt").write_text(SCENE)
+        pathlib.Path("config.txt").write_text("40 40\n")
+        subprocess.run([sys.executable, "-c", program, SOURCE / "scripts"], check=True, env={"BIN": str(BIN), "PATH": "/usr/bin:/bin"})
+        self.browser.open(pathlib.Path("page.html").resolve())
+        self.browser.wait_for(lambda: self.browser.run("return document.body.dataset.ready") == "yes")
+        self.assertIn("Of 3 triangles one in 3 is drawn", self.browser.run("return document.getElementById('notes').textContent"))
+        self.assertEqual(self.browser.run("return [...document.body.inspector.panels[0].stage.points]"), [-2, 0, 0, -1, 0, 0, -2, 1, 0])
 
 
 if __name__ == "__main__":

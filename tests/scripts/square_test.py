@@ -142,10 +142,12 @@ class Fly(SquareTest):
         self.assertEqual(process.stdout.readline(), b".\n")
         return end_by_signal(process, signal.SIGTERM)[1].decode()
 
-    def test_notes_it_where_it_has_a_config(self):
+    def test_notes_it_where_it_has_a_config_or_finds_one(self):
         pathlib.Path("scene.txt").write_text(SCENE.format("60 1.3333333 1 50"))
         pathlib.Path("config.txt").write_text("40 30\n")
         self.assertEqual(self.first_words("scene.txt", "config.txt"), f"fly: note: a square is drawn 0.917 times as wide as high: {RATIO}\n")
+        self.assertEqual(self.first_words("scene.txt"), f"fly: note: a square is drawn 0.917 times as wide as high: {RATIO}\n")
+        pathlib.Path("config.txt").unlink()
         self.assertEqual(self.first_words("scene.txt"), "")
 
 

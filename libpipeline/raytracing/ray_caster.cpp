@@ -1,0 +1,94 @@
+#include "libpipeline/raytracing/ray_caster.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "libpipeline/numbers/bounding_box.h"
+
+namespace pipeline {
+namespace {
+
+/// The nearest point a primary ray may have: parallel rays begin behind the eye plane, too.
+double first_distance(const PixelRays& rays) {
+  return rays.is_perspective() ? 0 : -std::numeric_limits<double>::infinity();
+}
+
+double largest_in(double low, double high) {
+  return std::max(std::fabs(low), std::fabs(high));
+}
+
+}  // namespace
+
+Bvh hierarchy_of(const TracedTriangles& triangles, const PixelRays& rays, ThreadPool& pool) {
+  std::vector<Bvh::Primitive> primitives;
+  primitives.reserve(triangles.size());
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    const auto id = static_cast<TracedTriangles::Id>(i);
+    const BoundingBox box(triangles.p_view(id));
+    const double distance = largest_in(box.low.z, box.high.z);
+    const double most = largest_in(box.low.x, box.high.x) + largest_in(box.low.y, box.high.y) + distance +
+                        rays.reach() * (rays.is_perspective() ? distance : 1);
+    constexpr double kPadding = 0x1p-46;
+    primitives.push_back({FloatBox(box, kPadding * most), id});
+  }
+  return {std::move(primitives), pool};
+}
+
+std::optional<RayCaster::Seen> RayCaster::Thread::cast(int row, int column, bool wants_depth) {
+  row_ = row;
+  column_ = column;
+  nearest_.reset();
+  const Ray ray = caster_.rays_.ray(row, column);
+  const double largest_depth = caster_.triangles_.largest_depth();
+  double limit = caster_.depth_.distance_up_to(caster_.screen_.rear, largest_depth);
+  caster_.bvh_.for_each_candidate(ray, first_distance(caster_.rays_), limit, [&](TracedTriangles::Id id) {
+    const std::optional<Candidate> next = candidate(id, ray);
+    if (!next) return;
+    take_nearer(*next);
+    if (nearest_) limit = std::min(limit, caster_.depth_.distance_up_to(nearest_->depth.high, largest_depth));
+  });
+  if (nearest_ && wants_depth) nearest_ = made_exact(*nearest_);
+  if (!nearest_) return std::nullopt;
+  return Seen{nearest_->id, nearest_->depth.low};
+}
+
+/// The triangle, if it may be seen here: its fragment is within the limits.
+std::optional<RayCaster::Thread::Candidate> RayCaster::Thread::candidate(TracedTriangles::Id id,
+                                                                         const Ray& ray) {
+  if (caster_.triangles_.piece(id)) return exact_candidate(id);
+  const Hit hit = caster_.test_(ray, caster_.triangles_.p_view(id));
+  if (hit.result == HitResult::miss) return std::nullopt;
+  if (hit.result == HitResult::uncertain) return exact_candidate(id);
+  const Viewport& screen = caster_.screen_;
+  if (hit.depth.high < screen.front || hit.depth.low >= screen.rear) return std::nullopt;
+  const bool is_surely_within = hit.depth.low >= screen.front && hit.depth.high < screen.rear;
+  if (!is_surely_within) return exact_candidate(id);
+  return Candidate{id, hit.depth, false};
+}
+
+std::optional<RayCaster::Thread::Candidate> RayCaster::Thread::exact_candidate(TracedTriangles::Id id) {
+  const std::optional<double> depth = exact_.depth(id, row_, column_);
+  if (!depth || !(*depth >= caster_.screen_.front && *depth < caster_.screen_.rear)) return std::nullopt;
+  return Candidate{id, {*depth, *depth}, true};
+}
+
+std::optional<RayCaster::Thread::Candidate> RayCaster::Thread::made_exact(const Candidate& candidate) {
+  return candidate.is_exact ? candidate : exact_candidate(candidate.id);
+}
+
+/// Where the depths may be equal, or in either order, they are calculated as `zbuf` does; of equal ones the
+/// earlier triangle stays.
+void RayCaster::Thread::take_nearer(const Candidate& next) {
+  if (!nearest_ || next.depth.high < nearest_->depth.low) {
+    nearest_ = next;
+    return;
+  }
+  if (next.depth.low > nearest_->depth.high) return;
+  nearest_ = made_exact(*nearest_);
+  const std::optional<Candidate> rival = made_exact(next);
+  if (!rival) return;
+  const auto order = [](const Candidate& c) { return std::pair(c.depth.low, c.id); };
+  if (!nearest_ || order(*rival) < order(*nearest_)) nearest_ = rival;
+}
+
+}  // namespace pipeline

@@ -1,0 +1,77 @@
+#include "libpipeline/raytracing/traced_triangles.h"
+
+#include "libpipeline/stream/text_round_trip.h"
+
+namespace pipeline {
+namespace {
+
+/// Adds triangle `index` of one batch to another, without its place in the text.
+void copy_triangle(const TriangleBatch& from, std::size_t index, TriangleBatch& to) {
+  to.add(from.triangles[index], from.numbers[index], from.locations[index]);
+  if (!from.attributes.colors.empty()) to.attributes.colors.push_back(from.attributes.colors[index]);
+  if (!from.attributes.normals.empty()) to.attributes.normals.push_back(from.attributes.normals[index]);
+}
+
+}  // namespace
+
+ExactProjection::ExactProjection(const ProjectionTransform& projection, const std::string& file, bool is_lit)
+    : rounder_(Precision::extended, kShortest, file),
+      stage_(projection, ClipMode::automatic, CullMode::nothing, rounder_) {
+  if (is_lit) stage_.keep_unclipped_triangles();
+}
+
+const TriangleBatch& ExactProjection::project(const TriangleBatch& p_view) {
+  stage_.project(p_view, p_ndc_);
+  pass_through_text(p_ndc_);
+  return p_ndc_;
+}
+
+void TracedTriangles::add_whole(const TriangleBatch& p_view, std::size_t index) {
+  p_view_.push_back(p_view.triangles[index]);
+  numbers_.push_back(p_view.numbers[index]);
+  if (!pieces_.empty()) pieces_.push_back(kWhole);
+  if (!p_view.attributes.colors.empty()) attributes_.colors.push_back(p_view.attributes.colors[index]);
+  if (!p_view.attributes.normals.empty()) attributes_.normals.push_back(p_view.attributes.normals[index]);
+}
+
+void TracedTriangles::add(
+    const TriangleBatch& p_view, ExactProjection& projection,
+    const std::function<void(const TriangleBatch& p_view, const TriangleBatch& p_ndc)>& look_at) {
+  const auto take = [&](const TriangleBatch& part) -> const TriangleBatch& {
+    const TriangleBatch& p_ndc = projection.project(part);
+    for (const Triangle& triangle : p_ndc.triangles)
+      for (const Vec3& p : triangle) largest_depth_ = std::max(largest_depth_, std::fabs(p.z));
+    look_at(part, p_ndc);
+    return p_ndc;
+  };
+  const auto is_clipped = [&](const Triangle& p) { return projection.stage().clips(p); };
+  if (std::ranges::none_of(p_view.triangles, is_clipped)) {
+    take(p_view);
+    for (std::size_t i = 0; i < p_view.size(); ++i) add_whole(p_view, i);
+    return;
+  }
+  TriangleBatch single;
+  for (std::size_t i = 0; i < p_view.size(); ++i) {
+    single.clear();
+    copy_triangle(p_view, i, single);
+    const std::size_t count = take(single).size();
+    if (!is_clipped(p_view.triangles[i])) {
+      add_whole(p_view, i);
+      continue;
+    }
+    pieces_.resize(p_view_.size(), kWhole);
+    for (std::size_t piece = 0; piece < count; ++piece) {
+      add_whole(p_view, i);
+      pieces_.resize(p_view_.size());
+      pieces_.back() = static_cast<std::uint8_t>(piece);
+    }
+  }
+}
+
+void TracedTriangles::copy(Id id, TriangleBatch& p_view) const {
+  p_view.add(p_view_[id], numbers_[id], {});
+  if (!attributes_.colors.empty()) p_view.attributes.colors.push_back(attributes_.colors[id]);
+  if (!attributes_.normals.empty()) p_view.attributes.normals.push_back(attributes_.normals[id]);
+}
+
+}  // namespace pipeline

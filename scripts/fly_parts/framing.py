@@ -1,0 +1,48 @@
+"""Where a scene is, and from where a camera has it in sight."""
+import dataclasses
+import math
+
+from lib.projection import window_of
+from lib.stage_text import triangle_lines
+from lib.vectors import dot
+
+ROOM = 1.05  # left around the scene
+
+
+@dataclasses.dataclass(frozen=True)
+class Ball:
+    """A ball around all vertices; its center is that of their box."""
+    center: tuple
+    radius: float
+
+    @staticmethod
+    def around(model_text):
+        """From the bytes of model's output; None of a scene without triangles."""
+        points = [tuple(map(float, line.split()[:3])) for _, lines in triangle_lines(model_text.splitlines(keepends=True)) for line in lines]
+        if not points:
+            return None
+        center = tuple((min(axis) + max(axis)) / 2 for axis in zip(*points))
+        return Ball(center, max(math.dist(center, p) for p in points))
+
+
+def framing_distance(ball, header):
+    """From the ball's center to an eye that has all of it in its window, between near and far as well as that can be. `header` has the
+    projection's words by its keyword. A parallel projection shows the same from everywhere between its planes."""
+    left, right, bottom, top, near, far = window_of(header)
+    reach = ROOM * ball.radius or 1.0
+    if "ortho" in header:
+        return max(near + reach, reach)
+    tangent = min(map(abs, (left, right, bottom, top))) / near
+    distance = reach / math.sin(math.atan(tangent))
+    return max(min(distance, far - reach), near + reach)
+
+
+def direction(camera, ball):
+    """Where the ball is, in words: "behind you, to the left, 12 away"."""
+    way = tuple(b - a for a, b in zip(camera.eye, ball.center))
+    right, up, ahead = (dot(way, axis) for axis in (camera.right, camera.up, camera.forward))
+    words = ["behind you"] if ahead < 0 else []
+    aside = max(abs(ahead) * math.tan(math.radians(5)), ball.radius / 2)
+    words += ["to the right" if right > 0 else "to the left"] * (abs(right) > aside)
+    words += ["above" if up > 0 else "below"] * (abs(up) > aside)
+    return ", ".join([*(words or ["straight ahead"]), f"{math.hypot(*way):.3g} away"])

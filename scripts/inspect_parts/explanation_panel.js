@@ -1,0 +1,41 @@
+// What explain reports on a triangle and a pixel; of a large scene, on the pixel, and the command that prints the rest.
+
+// A word of a shell's command line.
+const quoted = word => /^[\w.,\/+-]+$/.test(word) ? word : `'${word.replaceAll("'", "'\\''")}'`;
+
+class ExplanationPanel {
+  constructor(box, {scene, config, explanations, stages}, report) {
+    const [, cut] = stages[2].statistics.find(([key]) => key === "cut");
+    Object.assign(this, {box, scene, config, explanations, report, isUncut: cut === "0"});
+  }
+
+  tell(name, pixel) {
+    this.wanted = [name, pixel];
+    if (this.box.hidden || String(this.wanted) === this.told) return;
+    this.told = String(this.wanted);
+    this.box.replaceChildren(...this.texts(name, pixel).map(text => {
+      const part = document.createElement("pre");
+      part.textContent = text;
+      return part;
+    }));
+    this.box.scrollTop = 0;
+  }
+
+  // After the panel has come into sight.
+  refresh() { if (this.wanted) this.tell(...this.wanted); }
+
+  texts(name, pixel) {
+    if (name < 0) return [pixel < 0 ? "Point at a triangle or a pixel." : this.report.background(pixel)];
+    const explanation = this.explanations[name];
+    if (!explanation) {
+      const command = `Of so many triangles the page has no explanation. This command prints it:\n\n  ${this.command(name, pixel)}`;
+      return [command, ...(pixel >= 0 && this.isUncut ? [this.report.lines(name, [["0", "1", "2"]], pixel).join("\n")] : [])];
+    }
+    return [explanation.text, ...(pixel < 0 ? [] : [this.report.lines(name, explanation.corners, pixel).join("\n")])];
+  }
+
+  command(name, pixel) {
+    const {row, column} = pixel < 0 ? {} : this.report.fragments.place(pixel);
+    return ["pipeline explain", quoted(this.scene), quoted(this.config), `--triangle ${name}`, ...(pixel < 0 ? [] : [`--pixel ${column},${row}`])].join(" ");
+  }
+}

@@ -1,0 +1,40 @@
+"""A text of our own tools, line by line."""
+import dataclasses
+
+NUMBER_BEGINS = tuple("-0123456789")
+
+
+@dataclasses.dataclass
+class StageLines:
+    """A text of our own tools: its header, {keyword: words}, and of each triangle or piece of one the number and the first line."""
+    lines: list
+    header: dict
+    names: list
+    first_lines: list
+
+    @staticmethod
+    def of(text):
+        """Faster than parse_stage_text, which has to expect any text."""
+        lines = text.split("\n")
+        found = StageLines(lines, {}, [], [])
+        number, corners = 0, 0  # of the next triangle, and how many lines of the one before are still to come
+        for at, line in enumerate(lines, 1):
+            if line[:1] in NUMBER_BEGINS:
+                if corners == 0:
+                    found.names.append(number)
+                    found.first_lines.append(at)
+                    number, corners = number + 1, 3
+                corners -= 1
+            elif line.startswith("triangle "):
+                number = int(line[9:])
+            elif line == "clipped":  # the whole triangle in clip space; its pieces follow
+                corners = 3
+            elif line and not found.names:
+                found.header[line.split()[0]] = line.split()[1:]
+        return found
+
+    def points(self):
+        """The vertices of all triangles, one by one."""
+        for line in self.first_lines:
+            for text in self.lines[line - 1:line + 2]:
+                yield tuple(map(float, text.split(" ", 3)[:3]))

@@ -1,0 +1,58 @@
+"""A student's files laid over ours: the judge's verdict, their points, and which vertices and pixels differ."""
+import base64
+
+from inspect_parts.packing import packed
+from judge_parts.digits import EXACT
+from judge_parts.hand_in import find_files
+from judge_parts.judge import judge
+from judge_parts.points import is_off, printed_tolerance, read_points
+from judge_parts.reference import reference
+from judge_parts.report import remarks_of, sentence
+from judge_parts.shown import read_colors
+from lib.command import CommandFailure, shown
+
+KINDS = {"model": "stage1", "view": "stage2", "project": "stage3"}
+
+
+class Theirs:
+    """The hand-in in a folder, beside an Inspection."""
+
+    def __init__(self, folder, inspection):
+        self.folder, self.inspection = folder, inspection
+        self.files = find_files(folder)
+        self.ours = reference(inspection.scene_data, inspection.config_data)
+        self.verdict = judge(self.files, inspection.scene_data, inspection.config_data)
+
+    def read(self, kind, parse):
+        """What `parse` makes of a file's bytes and name; None if it cannot be read, for a reason that the verdict has."""
+        try:
+            return parse(self.files[kind].within(self.ours.limit(kind)), self.files[kind].name)
+        except CommandFailure:
+            return None
+
+    def stage(self, tool):
+        """Their points, and the indices of the vertices that are not ours within the digits they show. None are compared if there are
+        more or fewer triangles, or if the page has not all of ours."""
+        theirs, text = self.read(KINDS[tool], read_points), self.inspection.lines[tool]
+        if theirs is None or self.inspection.step > 1:
+            return None
+        is_compared = len(theirs) == 3 * len(text.names)
+        differing = []
+        if is_compared:
+            digits = EXACT if theirs.digits.are_too_few else theirs.digits
+            for index, (p, q) in enumerate(zip(theirs.points, text.points())):
+                tolerance = printed_tolerance(q, digits)
+                if any(is_off(a, b, tolerance) for a, b in zip(p, q)):
+                    differing.append(index)
+        return {"points": packed("d", [x for p in theirs.points for x in p]), "lines": packed("i", theirs.lines), "isCompared": is_compared, "differing": packed("i", differing)}
+
+    def picture(self):
+        """The pixels of their picture, in base64."""
+        columns, rows = self.inspection.columns, self.inspection.rows
+        colors = self.read("picture", lambda data, name: read_colors(data, name, columns, rows))
+        return None if colors is None else base64.b64encode(b"".join(b"".join(row) for row in colors)).decode()
+
+    def as_json(self):
+        files = [{"stage": file.stage, "file": file.file, "verdict": file.verdict, "isGood": file.is_good, "differing": file.differing, "largest": file.largest, "remarks": "; ".join(remarks_of(file)),
+                  "matrices": file.matrices.lines() if file.matrices else []} for file in self.verdict.files]
+        return {"folder": shown(self.folder), "sentence": sentence(self.verdict), "files": files, "stages": {tool: self.stage(tool) for tool in KINDS}, "picture": self.picture()}

@@ -1,0 +1,42 @@
+// trace: finds what is seen at each pixel by rays. View space in, depths and image out, in place of project
+// and zbuf.
+
+#include <unistd.h>
+
+#include <csignal>
+
+#include "libpipeline/picture/image_file.h"
+#include "tools/screen.h"
+#include "tools/separate_outputs.h"
+#include "tools/stage_options.h"
+#include "tools/statistics.h"
+#include "tools/tool.h"
+#include "tools/trace/rendering.h"
+#include "tools/trace/trace_options.h"
+
+using namespace pipeline;
+
+// NOLINTNEXTLINE(bugprone-exception-escape): thrown only if memory is out before anything is done
+int main(int argc, char** argv) {
+  Tool tool(
+      {"trace",
+       "Traces rays to the triangles in view space and writes the depth of every pixel that shows one, and "
+       "the image: those of project --digits exact and zbuf --coverage center.",
+       "The output of view (or stage2.txt)",
+       {"trace --size 400x300 --scene scene.txt stage2.txt",
+        "model scene.txt | view | trace config.txt -o picture.ppm > z_buffer.txt"}},
+      OutputKind::other_text);
+  TraceOptions chosen(tool.options());
+  Statistics statistics(tool.options());
+  // A closed pipe is a failure to write like any other: the image that was begun has to be removed.
+  std::signal(SIGPIPE, SIG_IGN);
+
+  return tool.run(argc, argv, [&] {
+    ZbufOptions& picture = chosen.picture;
+    picture.complete(::isatty(STDOUT_FILENO) == 1);
+    expect_separate(outputs_of(picture, statistics));
+    const Viewport screen = read_screen(tool, picture);
+    if (picture.has_image()) check_image_size(picture.image_path, screen.columns, screen.rows);
+    trace(tool, chosen, screen, statistics);
+  });
+}
