@@ -243,6 +243,11 @@ void CommandLine::add_operand(const std::string& name, std::string& word, const 
   app_->add_option(name, word, help)->capture_default_str();
 }
 
+void CommandLine::add_operands(const std::string& name, std::vector<std::string>& words,
+                               const std::string& help) {
+  app_->add_option(name, words, help);
+}
+
 void CommandLine::add_choice_of_words(const std::string& name, const std::vector<std::string>& words,
                                       const std::string& default_word, const std::string& help,
                                       const std::function<void(std::size_t)>& take) {

@@ -91,6 +91,8 @@ class CommandLine {
   void add_threads(int& thread_count, const std::string& help);
   /// An operand, which may be left out.
   void add_operand(const std::string& name, std::string& word, const std::string& help);
+  /// All operands, any number of them.
+  void add_operands(const std::string& name, std::vector<std::string>& words, const std::string& help);
 
   /// Parses the arguments of `main`. Returns the text requested by --help or --version, else nothing. A
   /// UsageError ("option: expected ..., found ...") if the command line is wrong.

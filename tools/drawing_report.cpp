@@ -47,6 +47,7 @@ class ReportOf final : public DrawingReport {
     unseen("outside_far", UnseenReason::beyond_rear);
     unseen("without_area", UnseenReason::without_area);
     unseen("between_centers", UnseenReason::between_centers);
+    if (screen_.drawn_row_count() < screen_.rows) statistics.add("outside_rows", counts.outside_rows);
     statistics.add("hidden", counts.hidden);
     statistics.add("seen", counts.seen);
     statistics.add("pixels_written", counts.pixels_written);

@@ -21,14 +21,16 @@ Pixel parsed_pixel(const std::string& word, const Viewport& screen) {
   const std::string_view columns = std::string_view(word).substr(0, comma);
   const std::string_view rows =
       comma == std::string::npos ? std::string_view() : std::string_view(word).substr(comma + 1);
+  const auto first_row = static_cast<std::size_t>(screen.drawn_rows().first);
+  const auto last_row = static_cast<std::size_t>(screen.drawn_rows().end - 1);
   std::size_t column = 0;
   std::size_t row = 0;
   if (parse_count(columns, column) && parse_count(rows, row) &&
-      column < static_cast<std::size_t>(screen.columns) && row < static_cast<std::size_t>(screen.rows))
+      column < static_cast<std::size_t>(screen.columns) && row >= first_row && row <= last_row)
     return {static_cast<int>(column), static_cast<int>(row)};
   throw UsageError("--probe: " +
-                   expected_but_found("COLUMN,ROW, from 0,0 to " + std::to_string(screen.columns - 1) + "," +
-                                          std::to_string(screen.rows - 1),
+                   expected_but_found("COLUMN,ROW, from 0," + std::to_string(first_row) + " to " +
+                                          std::to_string(screen.columns - 1) + "," + std::to_string(last_row),
                                       pipeline::quoted(word)));
 }
 

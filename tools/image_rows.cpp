@@ -7,7 +7,7 @@ namespace pipeline {
 ImageRows::ImageRows(const std::string& path, const Viewport& screen, int sample_count) {
   if (path.empty()) return;
   file_.emplace(path);
-  pixels_ = image_writer(file_->descriptor(), path, screen.columns, screen.rows);
+  pixels_ = image_writer(file_->descriptor(), path, screen.columns, screen.drawn_row_count());
   if (sample_count > 1) means_.emplace(screen.columns, sample_count);
 }
 
@@ -27,11 +27,11 @@ void ImageRows::commit() {
 }
 
 std::string summary(const std::string& image_path, const Viewport& screen, std::uint64_t covered_count) {
-  const std::uint64_t pixel_count = std::uint64_t(screen.columns) * std::uint64_t(screen.rows);
+  const std::uint64_t pixel_count = std::uint64_t(screen.columns) * std::uint64_t(screen.drawn_row_count());
   std::uint64_t percent = (200 * covered_count / pixel_count + 1) / 2;  // rounded half up
   if (covered_count > 0 && covered_count < pixel_count) percent = std::clamp<std::uint64_t>(percent, 1, 99);
-  return image_path + ": " + std::to_string(screen.columns) + " x " + std::to_string(screen.rows) + ", " +
-         std::to_string(percent) + " % covered";
+  return image_path + ": " + std::to_string(screen.columns) + " x " +
+         std::to_string(screen.drawn_row_count()) + ", " + std::to_string(percent) + " % covered";
 }
 
 }  // namespace pipeline

@@ -3,6 +3,7 @@
 #include "libpipeline/scene/scene.h"
 #include "libpipeline/stream/stage_writer.h"
 #include "libpipeline/stream/text_kind.h"
+#include "libpipeline/text/number_parser.h"
 #include "libpipeline/vertex/model_stage.h"
 #include "tools/empty_picture_note.h"
 #include "tools/stage_loop.h"
@@ -26,13 +27,23 @@ int main(int argc, char** argv) {
   tool.options().add_flag("--bare", bare, "Write the triangles alone (stage1.txt)");
   tool.options().add_flag("--framed", framed,
                           "Write 'framed' and 'end' around the text, so that a truncated text is noticed");
+  std::string first = "0";
+  tool.options().add_word(
+      "--first", "N", first,
+      "Number the triangles from N on: of a part of a scene (split), so that joined texts of "
+      "parts are that of the whole");
   Statistics statistics(tool.options());
 
   return tool.run(argc, argv, [&] {
     if (bare && framed) throw UsageError(expected_but_found("--bare or --framed", "both"));
+    std::size_t first_number = 0;
+    if (!parse_count(first, first_number))
+      throw UsageError("--first: " + expected_but_found("a whole number", pipeline::quoted(first)));
+    if (bare && first_number > 0)
+      throw UsageError("--first: " + expected_but_found("no --bare, which writes no numbers", "both"));
     expect_kind(tool.input(), TextKind::scene);
     SceneReader scene(tool.input());
-    ModelStage stage(scene);
+    ModelStage stage(scene, first_number);
     StageWriter writer(tool.output(), numbers.format(), bare);
     writer.write_header({framed, scene.camera(), stage.appearance()});
 

@@ -171,7 +171,8 @@ void draw_all(Tool& tool, const ZbufOptions&, StageReader& reader, TriangleStore
 /// The colors of rows of pixels, or of samples, from their tags.
 class RowColors {
  public:
-  RowColors(TriangleStore& store, std::optional<SurfaceShader>& shader) : store_(store), shader_(shader) {}
+  RowColors(TriangleStore& store, std::optional<SurfaceShader>& shader, int first_row)
+      : store_(store), shader_(shader), row_number_(first_row) {}
 
   /// Those of the next row, valid until the next call.
   std::span<const Color> next(std::span<const PixelTag> tags) {
@@ -185,7 +186,7 @@ class RowColors {
   TriangleStore& store_;
   std::optional<SurfaceShader>& shader_;
   std::vector<Color> colors_;
-  int row_number_ = 0;
+  int row_number_;  // of the samples
 };
 
 template <VisibilityAlgorithm Visible>
@@ -193,7 +194,7 @@ void write_all(Tool& tool, const ZbufOptions& chosen, const SampledVisible<Visib
                const StageReader& reader, TriangleStore& store, std::optional<SurfaceShader>& shader) {
   const Viewport& screen = visible.center_screen;
   ImageRows image(chosen.image_path, screen, chosen.sample_count);
-  RowColors colors(store, shader);
+  RowColors colors(store, shader, chosen.sample_count * screen.drawn_rows().first);
   DepthFiles depths(tool.output(), chosen.z_buffer_path, chosen.depth_image_path, screen);
   std::optional<SeenFile> seen_file;
   if (store.keeps_text()) seen_file.emplace(tool.output(), chosen.seen_path);
@@ -228,15 +229,17 @@ void write_all(Tool& tool, const ZbufOptions& chosen, const SampledVisible<Visib
   tool.timing().lap(&Timing::write_seconds);
 }
 
-void note_empty_picture(const Tool& tool, const DrawingReport& report,
+/// The note is about the whole picture; a band of it may well show nothing.
+void note_empty_picture(const Tool& tool, const DrawingReport& report, const Viewport& screen,
                         const std::optional<SurfaceShader>& shader) {
   std::optional<std::string> note = report.empty_picture_note();
-  if (!note && shader) note = invisible_colors_note(*shader);
+  const bool is_whole = screen.drawn_row_count() == screen.rows;
+  if (!note && shader && is_whole) note = invisible_colors_note(*shader);
   if (note) tool.note(*note);
 }
 
 std::size_t pixel_count(const Viewport& screen) {
-  return static_cast<std::size_t>(screen.columns) * static_cast<std::size_t>(screen.rows);
+  return static_cast<std::size_t>(screen.columns) * static_cast<std::size_t>(screen.drawn_row_count());
 }
 
 template <VisibilityAlgorithm Visible>
@@ -274,7 +277,7 @@ void render_with(Tool& tool, const ZbufOptions& chosen, const Viewport& screen, 
   write_all(tool, chosen, visible, reader, store, shader);
   if (fragments) fragments->commit();
   statistics.commit();
-  if (chosen.has_image()) note_empty_picture(tool, *report, shader);
+  if (chosen.has_image()) note_empty_picture(tool, *report, screen, shader);
 }
 
 }  // namespace

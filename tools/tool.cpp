@@ -101,7 +101,7 @@ InputFile Tool::second_input(const std::string& path, const std::string& name) c
 }
 
 int Tool::run(int argc, char** argv, const std::function<void()>& work) {
-  options_.add_operand("INPUT", input_path_, input_help_);
+  if (!has_own_operands_) options_.add_operand("INPUT", input_path_, input_help_);
   try {
     if (const auto asked_for = options_.parse(argc, argv)) return answer(*asked_for);
   } catch (const UsageError& error) {
@@ -184,7 +184,7 @@ int Tool::fail(const std::string& message, int status) {
 /// only the last stage adds that nothing came of it.
 int Tool::fail_after(const EarlierFailure& failure) {
   const bool makes_picture = output_kind_ == OutputKind::other_text;
-  if (!is_pipe(input_->descriptor()))
+  if (!input_ || !is_pipe(input_->descriptor()))
     print_on_stderr(name_ + ": " + failure.what());
   else if (makes_picture || is_last_stage())
     print_on_stderr(name_ + (makes_picture ? ": no picture: " : ": no output: ") + failure.in_short());

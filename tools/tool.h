@@ -74,6 +74,8 @@ class Tool {
   TextReader& input();
   /// The name of the input, "-" for standard input: for a tool whose library opens it.
   [[nodiscard]] const std::string& input_path() const { return input_path_; }
+  /// The tool adds all its operands itself, and opens what they name.
+  void take_own_operands() { has_own_operands_ = true; }
   /// Takes another operand in place of the last one.
   void set_input(const std::string& path) { input_path_ = path; }
   /// Opens a text besides the input. A UsageError that names it `name` if both are standard input.
@@ -109,6 +111,7 @@ class Tool {
   CommandLine options_;
   std::string input_help_;
   std::string input_path_ = "-";
+  bool has_own_operands_ = false;
   bool wants_timing_ = false;
   std::optional<InputFile> input_;
   TextWriter output_;

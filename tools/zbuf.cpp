@@ -34,9 +34,10 @@ int main(int argc, char** argv) {
     chosen.complete(::isatty(STDOUT_FILENO) == 1);
     if (chosen.seen_path == "-") tool.write_stage_text();
     expect_separate(outputs_of(chosen, statistics));
-    const Viewport screen = read_screen(tool, chosen);
+    const Viewport whole = read_screen(tool, chosen);
+    const Viewport screen = tool.options().is_given("--rows") ? chosen.drawn_part(whole) : whole;
     chosen.check_limits(screen);
-    if (chosen.has_image()) check_image_size(chosen.image_path, screen.columns, screen.rows);
+    if (chosen.has_image()) check_image_size(chosen.image_path, screen.columns, screen.drawn_row_count());
     render(tool, chosen, screen, statistics);
   });
 }

@@ -3,6 +3,7 @@
 #include <string_view>
 
 #include "libpipeline/text/error.h"
+#include "libpipeline/text/number_parser.h"
 #include "libpipeline/text/number_printer.h"
 
 namespace pipeline {
@@ -42,6 +43,21 @@ void ZbufOptions::complete(bool is_terminal) {
     throw UsageError("--depth-epsilon: " +
                      expected_but_found("0 with --algorithm scanline, which keeps no order of drawing",
                                         "'" + shortest_text(depth_epsilon) + "'"));
+}
+
+Viewport ZbufOptions::drawn_part(Viewport screen) const {
+  const std::size_t colon = rows.find(':');
+  const std::string_view word = rows;
+  std::size_t first = 0, end = 0;
+  const bool has_numbers = colon != std::string::npos && parse_count(word.substr(0, colon), first) &&
+                           parse_count(word.substr(colon + 1), end);
+  if (!has_numbers || first >= end || end > static_cast<std::size_t>(screen.rows))
+    throw UsageError("--rows: " + expected_but_found(
+                                      "A:B, the first row and the one after the last, from 0:1 to " +
+                                          std::to_string(screen.rows - 1) + ":" + std::to_string(screen.rows),
+                                      pipeline::quoted(rows)));
+  screen.drawn = {static_cast<int>(first), static_cast<int>(end)};
+  return screen;
 }
 
 void ZbufOptions::check_limits(const Viewport& screen) const {

@@ -38,6 +38,7 @@ struct ZbufOptions {
   std::string depth_image_path;  // empty: none
   std::string seen_path;         // "-": standard output; empty: no file
   double depth_epsilon = 0;
+  std::string rows;                     // "A:B", if the option is given
   int sample_count = 1;                 // along each side of a pixel, for the image alone
   std::optional<ShadingModel> shading;  // none: as the text's header implies
   bool wireframe = false;
@@ -57,6 +58,8 @@ struct ZbufOptions {
   /// Chooses the options that depend on others, and on whether standard output is a terminal. A UsageError if
   /// options exclude each other.
   void complete(bool is_terminal);
+  /// The screen with the rows that are to be drawn. A UsageError if it does not have them.
+  [[nodiscard]] Viewport drawn_part(Viewport screen) const;
   /// A UsageError if the depth format cannot store the depths between the limits of Z.
   void check_limits(const Viewport& screen) const;
   /// Whether an image is written, once the options are complete.
@@ -94,6 +97,10 @@ inline void ZbufOptions::add_to(CommandLine& options) {
       "Usage: zbuf [OPTIONS] CONFIG [INPUT]\n"
       "       zbuf [OPTIONS] --size WIDTHxHEIGHT [CONFIG] [INPUT]");
   add_screen_and_outputs(options, true);
+  options.add_word(
+      "--rows", "A:B", rows,
+      "Draw only the rows from A to before B of the picture, counted from 0 at the top, in memory "
+      "for these alone: cat joins the depths of such bands, join-images the images");
   options.add_word(
       "--seen", "FILE", seen_path,
       "Write the triangles that a pixel or sample shows, as text that zbuf reads and that gives "

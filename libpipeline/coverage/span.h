@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <limits>
+
+#include "libpipeline/scene/viewport.h"
 
 namespace pipeline {
 
@@ -37,12 +38,6 @@ using PixelTag = std::uint32_t;
 struct TaggedSpan {
   Span span;
   PixelTag tag;
-};
-
-/// Rows, or bands of rows, from `first` to before `end`.
-struct RowRange {
-  int first = 0;
-  int end = std::numeric_limits<int>::max();
 };
 
 /// Calls `visit(span)` for every row of `range` a triangle covers, from the top. `rows` are the triangle's by

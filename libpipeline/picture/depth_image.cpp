@@ -20,7 +20,7 @@ bool is_png(const std::string& path) {
 
 Gray16Writer writer_for(int descriptor, const std::string& path, const Viewport& screen) {
   const auto make = [&]<typename Writer>(std::in_place_type_t<Writer> type) {
-    return Gray16Writer(type, descriptor, path, PixelBytes::gray16, screen.columns, screen.rows);
+    return Gray16Writer(type, descriptor, path, PixelBytes::gray16, screen.columns, screen.drawn_row_count());
   };
   return is_png(path) ? make(std::in_place_type<PngWriter>) : make(std::in_place_type<NetpbmWriter>);
 }

@@ -9,6 +9,7 @@ Viewport sample_screen(const Viewport& screen, int count) {
   Viewport samples = screen;
   samples.columns *= count;
   samples.rows *= count;
+  samples.drawn = {count * screen.drawn_rows().first, count * screen.drawn_rows().end};
   return samples;
 }
 

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <algorithm>
+#include <limits>
+
 namespace pipeline {
 
 /// The largest width and height, in pixels.
@@ -9,6 +12,14 @@ constexpr int kMaxViewportSize = 65535;
 /// pixel to any finite vertex leaves the range of a double.
 constexpr double kMinLimit = 1e-200;
 constexpr double kMaxLimit = 1e200;
+
+/// Rows, or bands of rows, from `first` to before `end`.
+struct RowRange {
+  int first = 0;
+  int end = std::numeric_limits<int>::max();
+
+  friend bool operator==(const RowRange&, const RowRange&) = default;
+};
 
 /// The viewport transform's parameters: the window [left, -left] x [bottom, -bottom] of NDC becomes
 /// columns x rows pixels, row 0 at the top, column 0 on the left. Depths are visible where front <= z < rear.
@@ -25,7 +36,12 @@ struct Viewport {
   bool bottom_is_decimal = false;
   double left_low_part = 0;
   double bottom_low_part = 0;
+  /// The rows that are drawn, as far as they are on the screen: all, or a band of the picture. What the other
+  /// members say is about the whole picture.
+  RowRange drawn = {};
 
+  [[nodiscard]] RowRange drawn_rows() const { return {drawn.first, std::min(drawn.end, rows)}; }
+  [[nodiscard]] int drawn_row_count() const { return drawn_rows().end - drawn.first; }
   /// The width and height of a pixel in NDC.
   [[nodiscard]] double dx() const { return -2 * left / columns; }
   [[nodiscard]] double dy() const { return -2 * bottom / rows; }

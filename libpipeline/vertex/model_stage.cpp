@@ -7,7 +7,8 @@
 
 namespace pipeline {
 
-ModelStage::ModelStage(SceneReader& scene) : scene_(scene) {
+ModelStage::ModelStage(SceneReader& scene, std::uint64_t first_number)
+    : scene_(scene), next_number_(first_number) {
   try {
     read_until_triangle();
   } catch (...) {

@@ -19,7 +19,8 @@ namespace pipeline {
 class ModelStage {
  public:
   /// Carries out the commands before the first triangle; an error there is thrown by the first `read`.
-  explicit ModelStage(SceneReader& scene);
+  /// Triangles are numbered from `first_number` on.
+  explicit ModelStage(SceneReader& scene, std::uint64_t first_number = 0);
 
   /// The scene's color and light, the lights in world space.
   [[nodiscard]] Appearance appearance() const;
@@ -65,7 +66,7 @@ class ModelStage {
   std::optional<SourceLocation> scale_by_0_;       // the first
   bool has_area_ = false;                          // some triangle has, in world space
   std::optional<TriangleCommand> first_triangle_;  // read, but not yet in a batch
-  std::uint64_t next_number_ = 0;
+  std::uint64_t next_number_;
   bool done_ = false;
   DeferredError deferred_error_;
 };

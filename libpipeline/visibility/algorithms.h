@@ -37,15 +37,18 @@ class ZBufferAlgorithm {
   using CoverageRule = Coverage;
 
   explicit ZBufferAlgorithm(const Viewport& screen, PixelTag background = {})
-      : coverage_(screen), buffer_(screen, background), most_height_((kMaxRows - 1) * screen.dy()) {}
+      : coverage_(screen),
+        rows_(screen.drawn_rows()),
+        buffer_(screen, background),
+        most_height_((kMaxRows - 1) * screen.dy()) {}
 
   /// From now on a fragment wins only if it is nearer than the visible one by more than `epsilon`.
   void set_depth_epsilon(double epsilon) { buffer_.set_depth_epsilon(epsilon); }
   void draw(const ExactTriangle& triangle, PixelTag tag) {
-    for_each_span(coverage_.rows(triangle), [&](const Span& span) { buffer_.draw(span, tag); });
+    for_each_span(coverage_.rows(triangle), rows_, [&](const Span& span) { buffer_.draw(span, tag); });
   }
-  /// Draws into some rows, or all of them, triangle by triangle; nothing else may draw there while it is in
-  /// use.
+  /// Draws into some of the rows that are drawn, or all of them, triangle by triangle; nothing else may draw
+  /// there while it is in use.
   class Drawer {
    public:
     Drawer(ZBufferAlgorithm& algorithm, const RowRange& rows)
@@ -128,6 +131,7 @@ class ZBufferAlgorithm {
   static constexpr int kMaxRows = 128;
 
   Coverage coverage_;
+  RowRange rows_;  // those that are drawn
   ZBuffer<Depth> buffer_;
   double most_height_;  // of a triangle with less than kMaxRows rows
 };

@@ -22,6 +22,7 @@ struct DrawingCounts {
   std::uint64_t triangles = 0;
   std::uint64_t seen = 0;              // triangles that own a pixel of the complete picture
   std::uint64_t hidden = 0;            // that own none, but would if they were alone
+  std::uint64_t outside_rows = 0;      // that cover pixels, but none in the rows that are drawn
   std::uint64_t pixels_written = 0;    // pixels that show a triangle
   std::uint64_t fragments_tested = 0;  // pixels that each triangle covers, added up
   BoundingBox extent;                  // in NDC
@@ -37,7 +38,7 @@ class DrawingCounter {
       : screen_(screen),
         coverage_(screen),
         test_(screen, epsilon),
-        visible_(screen.rows, screen.columns, test_.nothing()) {}
+        visible_(screen.drawn_rows(), screen.columns, test_.nothing()) {}
 
   void add(const TriangleBatch& p_ndc) {
     for (std::size_t i = 0; i < p_ndc.size(); ++i) add(exact_triangle(p_ndc, i));
@@ -47,7 +48,7 @@ class DrawingCounter {
   [[nodiscard]] DrawingCounts counts() const {
     DrawingCounts counts = counts_;
     std::vector<bool> is_seen(counts.triangles);
-    for (int row = 0; row < visible_.rows(); ++row) {
+    for (int row = visible_.row_range().first; row < visible_.row_range().end; ++row) {
       for (const auto& pixel : visible_.row(row)) {
         if (!(pixel.depth < test_.nothing().depth)) continue;
         ++counts.pixels_written;
@@ -62,12 +63,21 @@ class DrawingCounter {
  private:
   void add(const ExactTriangle& triangle) {
     FragmentDepths found;
-    for_each_span(coverage_.rows(triangle), [&](const Span& span) { add(span, found); });
+    bool is_in_other_rows = false;
+    for_each_span(coverage_.rows(triangle), [&](const Span& span) {
+      const RowRange& drawn = visible_.row_range();
+      if (drawn.first <= span.row && span.row < drawn.end)
+        add(span, found);
+      else
+        is_in_other_rows = true;
+    });
     const BoundingBox extent(triangle.p_ndc);
     counts_.extent.add(extent);
     ++counts_.triangles;
     if (found.visible)
       ++counts_.hidden;  // or seen, which only the complete picture shows
+    else if (is_in_other_rows && !found.before_front && !found.beyond_rear)
+      ++counts_.outside_rows;
     else
       ++counts_.unseen[static_cast<std::size_t>(unseen_reason(triangle.p_ndc, extent, found, screen_))];
   }

@@ -21,7 +21,8 @@ class EdgeTable {
  public:
   explicit EdgeTable(int rows) : first_in_bucket_(static_cast<std::size_t>(rows), kNone) {}
 
-  /// Adds the next polygon, whose edges begin on `first_row`; its number is the count so far.
+  /// Adds the next polygon, whose edges begin on `first_row`, counted from the first row that is drawn; its
+  /// number is the count so far.
   void add(int first_row) {
     PolygonId& first = first_in_bucket_[static_cast<std::size_t>(first_row)];
     const auto id = static_cast<PolygonId>(next_in_bucket_.size());

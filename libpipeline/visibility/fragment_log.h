@@ -58,12 +58,14 @@ template <typename Coverage, typename Depth>
 class FragmentLog {
  public:
   explicit FragmentLog(const Viewport& screen, double epsilon = 0)
-      : coverage_(screen), test_(screen, epsilon), seen_(screen.rows, screen.columns, test_.nothing()) {}
+      : coverage_(screen),
+        test_(screen, epsilon),
+        seen_(screen.drawn_rows(), screen.columns, test_.nothing()) {}
 
-  /// Calls `visit(fragment)` for every pixel the next triangle covers.
+  /// Calls `visit(fragment)` for every pixel the next triangle covers in the rows that are drawn.
   template <typename Visitor>
   void add(const ExactTriangle& p_ndc, std::uint64_t triangle, Visitor&& visit) {
-    for_each_span(coverage_.rows(p_ndc), [&](const Span& span) {
+    for_each_span(coverage_.rows(p_ndc), seen_.row_range(), [&](const Span& span) {
       for (int column = span.first_column; column <= span.last_column; ++column)
         visit(test_.judge(seen_.row(span.row)[static_cast<std::size_t>(column)], {column, span.row}, triangle,
                           span.depth(column)));

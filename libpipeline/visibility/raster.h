@@ -5,40 +5,46 @@
 #include <span>
 #include <vector>
 
+#include "libpipeline/scene/viewport.h"
 #include "libpipeline/stream/large_pages.h"
 
 namespace pipeline {
 
-/// A two-dimensional array, row after row; row 0 is at the top, column 0 on the left.
+/// A two-dimensional array, row after row; row 0 is at the top, column 0 on the left. It may hold a few rows
+/// of a picture alone, under their numbers in the picture.
 template <typename T>
 class Raster {
  public:
   /// `rows` x `columns` entries of `value`; both sizes are at least 0.
-  Raster(int rows, int columns, const T& value)
-      : rows_(rows),
-        columns_(columns),
-        entries_(static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns), value) {}
+  Raster(int rows, int columns, const T& value) : Raster(RowRange{0, rows}, columns, value) {}
+  Raster(const RowRange& rows, int columns, const T& value)
+      : rows_(rows), columns_(columns), entries_(count(rows, columns), value) {}
   /// Entries without values: reading one before it is written is undefined. Where nothing is written, the
   /// system provides no memory.
-  Raster(int rows, int columns)
-      : rows_(rows),
-        columns_(columns),
-        entries_(static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns)) {}
+  Raster(int rows, int columns) : Raster(RowRange{0, rows}, columns) {}
+  Raster(const RowRange& rows, int columns)
+      : rows_(rows), columns_(columns), entries_(count(rows, columns)) {}
 
-  [[nodiscard]] int rows() const { return rows_; }
+  /// How many there are.
+  [[nodiscard]] int rows() const { return rows_.end - rows_.first; }
+  /// Which of a picture they are.
+  [[nodiscard]] const RowRange& row_range() const { return rows_; }
   [[nodiscard]] int columns() const { return columns_; }
 
   [[nodiscard]] std::span<T> row(int row) { return {&entries_[begin(row)], width()}; }
   [[nodiscard]] std::span<const T> row(int row) const { return {&entries_[begin(row)], width()}; }
 
  private:
+  static std::size_t count(const RowRange& rows, int columns) {
+    return static_cast<std::size_t>(rows.end - rows.first) * static_cast<std::size_t>(columns);
+  }
   [[nodiscard]] std::size_t width() const { return static_cast<std::size_t>(columns_); }
   [[nodiscard]] std::size_t begin(int row) const {
-    assert(row >= 0 && row < rows_);
-    return static_cast<std::size_t>(row) * width();
+    assert(row >= rows_.first && row < rows_.end);
+    return static_cast<std::size_t>(row - rows_.first) * width();
   }
 
-  int rows_;
+  RowRange rows_;
   int columns_;
   std::vector<T, LargePageAllocator<T>> entries_;
 };

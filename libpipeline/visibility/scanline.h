@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
 #include "libpipeline/scene/viewport.h"
@@ -28,24 +29,29 @@ class Scanline {
 
   /// Every pixel is at the rear limit and has the tag `background`.
   explicit Scanline(const Viewport& screen, PixelTag background = {})
-      : screen_(screen), background_(background), coverage_(screen), edge_table_(screen.rows) {}
+      : screen_(screen),
+        rows_(screen.drawn_rows()),
+        background_(background),
+        coverage_(screen),
+        edge_table_(screen.drawn_row_count()) {}
 
   /// Adds the next triangle.
   void draw(const ExactTriangle& triangle, PixelTag tag) {
     const auto rows = coverage_.rows(triangle);
-    if (rows.first_row() > rows.last_row()) return;
-    edge_table_.add(rows.first_row());
+    const int first_row = std::max(rows.first_row(), rows_.first);
+    if (first_row > std::min(rows.last_row(), rows_.end - 1)) return;
+    edge_table_.add(first_row - rows_.first);
     polygon_table_.add(triangle, tag);
   }
 
-  /// Calls `visit(VisibleRow)` for every row of the screen, from the top.
+  /// Calls `visit(VisibleRow)` for every row that is drawn, from the top.
   template <typename Visitor>
   void for_each_row(Visitor&& visit) const {
     ActiveEdgeList edges;
     ActivePolygons<typename Coverage::Rows, Depth> active;
     RowSweep<Depth> sweep(screen_, background_);
-    for (int row = 0; row < screen_.rows; ++row) {
-      edge_table_.for_each_from(row, [&](PolygonId id) {
+    for (int row = rows_.first; row < rows_.end; ++row) {
+      edge_table_.for_each_from(row - rows_.first, [&](PolygonId id) {
         edges.add(active.add(id, polygon_table_.tag(id), coverage_.rows(polygon_table_.triangle(id))));
       });
       edges.for_each_polygon([&](std::uint32_t slot) { active.update(slot, row, sweep); });
@@ -58,6 +64,7 @@ class Scanline {
 
  private:
   Viewport screen_;
+  RowRange rows_;  // those that are drawn
   PixelTag background_;
   Coverage coverage_;
   EdgeTable edge_table_;

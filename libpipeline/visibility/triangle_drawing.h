@@ -26,7 +26,7 @@ class TriangleDrawing {
   /// The pool may do other work, too.
   TriangleDrawing(Visible& visible, const Viewport& screen, ThreadPool& pool)
       : grid_(screen), bands_(visible, screen, pool) {
-    if (pool.size() == 1) picture_.emplace(visible, RowRange{0, screen.rows});
+    if (pool.size() == 1) picture_.emplace(visible, screen.drawn_rows());
   }
 
   /// Where to put the next batch.

@@ -44,15 +44,16 @@ ZBuffer<Depth>::ZBuffer(const Viewport& screen, PixelTag background)
       rear_limit_(screen.rear),
       rear_(format_.store(screen.rear)),
       background_(background),
-      depths_(screen.rows, screen.columns),
-      tags_(screen.rows, screen.columns),
-      is_filled_(static_cast<std::size_t>(screen.rows)) {}
+      rows_(screen.drawn_rows()),
+      depths_(rows_, screen.columns),
+      tags_(rows_, screen.columns),
+      is_filled_(static_cast<std::size_t>(screen.drawn_row_count())) {}
 
 template <typename Depth>
 void ZBuffer<Depth>::fill_row(int row) {
   std::ranges::fill(depths_.row(row), rear_);
   std::ranges::fill(tags_.row(row), background_);
-  is_filled_[static_cast<std::size_t>(row)] = 1;
+  is_filled_[index_of(row)] = 1;
 }
 
 template <typename Depth>
@@ -96,14 +97,15 @@ void ZBuffer<Depth>::draw_spans(std::span<const TaggedSpan> spans, HierarchicalD
   const auto columns = static_cast<std::size_t>(depths_.columns());
   std::uint8_t* const marks = marks_;
   const PixelTag first_marked = first_marked_;
-  Stored* const first_depth = depths_.row(0).data();
-  PixelTag* const first_tag = tags_.row(0).data();
+  const auto first_row = static_cast<std::size_t>(rows_.first);
+  Stored* const first_depth = depths_.row(rows_.first).data();
+  PixelTag* const first_tag = tags_.row(rows_.first).data();
   const std::uint8_t* const is_filled = is_filled_.data();
   for (const auto& [span, tag] : spans) {
-    assert(span.row >= 0 && span.row < depths_.rows());
+    assert(span.row >= rows_.first && span.row < rows_.end);
     assert(span.first_column >= 0 && span.last_column < depths_.columns());
     const bool is_short = span.last_column - span.first_column < kShort;
-    const auto row = static_cast<std::size_t>(span.row);
+    const std::size_t row = static_cast<std::size_t>(span.row) - first_row;
     const std::size_t row_begin = row * columns;
     if (is_filled[row] == 0) fill_row(span.row);
     if (is_short && !has_epsilon) {

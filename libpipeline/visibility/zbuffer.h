@@ -23,7 +23,8 @@ namespace pipeline {
 template <typename Depth = DepthF64>
 class ZBuffer {
  public:
-  /// A buffer of the screen's size, every pixel at the rear limit and with the tag `background`.
+  /// A buffer of the screen's rows that are drawn, every pixel at the rear limit and with the tag
+  /// `background`.
   explicit ZBuffer(const Viewport& screen, PixelTag background = {});
 
   /// Draws a span of the triangle that `tag` stands for. A pixel is written if its depth, as it is stored, is
@@ -64,20 +65,20 @@ class ZBuffer {
   /// Calls `visit(tag)`, which may change it, for every pixel of the rows in which something has been drawn.
   template <typename Visitor>
   void for_each_drawn_tag(Visitor&& visit) {
-    for (int row = 0; row < tags_.rows(); ++row) {
-      if (is_filled_[static_cast<std::size_t>(row)] == 0) continue;
+    for (int row = rows_.first; row < rows_.end; ++row) {
+      if (is_filled_[index_of(row)] == 0) continue;
       for (PixelTag& tag : tags_.row(row)) visit(tag);
     }
   }
-  /// Calls `visit(VisibleRow)` for every row of the screen, from the top.
+  /// Calls `visit(VisibleRow)` for every row that is drawn, from the top.
   template <typename Visitor>
   void for_each_row(Visitor&& visit) const {
     const auto columns = static_cast<std::size_t>(depths_.columns());
     const std::vector<double> no_depths(columns, rear_limit_);
     const std::vector<PixelTag> no_tags(columns, background_);
     std::vector<double> depths(columns);
-    for (int row = 0; row < depths_.rows(); ++row) {
-      if (!is_filled_[static_cast<std::size_t>(row)]) {
+    for (int row = rows_.first; row < rows_.end; ++row) {
+      if (!is_filled_[index_of(row)]) {
         visit(VisibleRow{no_depths, no_tags});
         continue;
       }
@@ -91,9 +92,10 @@ class ZBuffer {
  private:
   using Stored = typename Depth::Stored;
 
+  [[nodiscard]] std::size_t index_of(int row) const { return static_cast<std::size_t>(row - rows_.first); }
   /// Has to precede what is drawn into a row.
   void fill_if_new(int row) {
-    if (!is_filled_[static_cast<std::size_t>(row)]) fill_row(row);
+    if (!is_filled_[index_of(row)]) fill_row(row);
   }
   void fill_row(int row);
   void draw_in_filled_row(const Span& span, PixelTag tag, HierarchicalDepth<Depth>* farthest);
@@ -111,6 +113,7 @@ class ZBuffer {
   PixelTag first_marked_ = 0;
   std::uint8_t* marks_ = nullptr;
   PixelTag background_;
+  RowRange rows_;  // those that are drawn
   Raster<Stored> depths_;
   Raster<PixelTag> tags_;
   // By row; bytes, as threads draw into different rows at the same time.

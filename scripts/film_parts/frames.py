@@ -5,11 +5,11 @@ import pathlib
 import shlex
 import shutil
 import subprocess
-import sys
 
 from film_parts.scene import number
 from lib.command import CommandFailure
 from lib.output_file import write_file
+from lib.parallel import Job, run_parallel
 
 FRAMES_PER_JOB = 8
 MOST_FRAMES = 99999
@@ -74,25 +74,15 @@ class Frames:
         if not missing:
             return
         write_file(self.folder / "draw.sh", f"bin={shlex.quote(str(self.tools.folder))} failed=\n{DRAW}\n".encode())
-        jobs = [self.job(missing[i:i + FRAMES_PER_JOB]) for i in range(0, len(missing), FRAMES_PER_JOB)]
-        words = ["parallel", "--will-cite", *(["--bar"] if sys.stderr.isatty() else [])]
-        if any(word.startswith(("--sshlogin", "-S")) for word in options_of_parallel):
-            # Another machine draws in a folder of its own, and gives back the pictures of its job: the words of its line that name them.
-            words += ["--workdir", f"pipeline-film-{os.getpid()}", "--cleanup", "--basefile", "world.txt", "--basefile", "config.txt", "--basefile", "draw.sh", "--colsep", "\t"]
-            names = [" ".join(self.names[i] for i in missing[k:k + FRAMES_PER_JOB]) for k in range(0, len(missing), FRAMES_PER_JOB)]
-            jobs = [f"{job}\t" + "\t".join(name.split()) for job, name in zip(jobs, names)]
-            for column in range(2, FRAMES_PER_JOB + 2):
-                words += ["--return", f"{{{column}}}"]
-            words += [*options_of_parallel, "eval", "{1}"]
-        else:
-            words += options_of_parallel
-        done = subprocess.run(words, cwd=self.folder, input="".join(job + "\n" for job in jobs), text=True, env={**os.environ, "PARALLEL_SHELL": "/bin/sh"})
+        groups = [missing[i:i + FRAMES_PER_JOB] for i in range(0, len(missing), FRAMES_PER_JOB)]
+        jobs = [Job(self.job(group), gives=[self.names[i] for i in group]) for group in groups]
+        status = run_parallel(self.folder, jobs, "film", ["world.txt", "config.txt", "draw.sh"], options_of_parallel)
         missing = self.missing()
         if missing:
             raise CommandFailure(f"{len(missing)} of {len(self.names)} frames have not been drawn, the first is {self.names[missing[0]]} ({self.views[missing[0]]}); "
                                  "the same command draws those that are missing")
-        if done.returncode != 0:
-            raise CommandFailure(f"parallel ended with status {done.returncode}, though all frames are there")
+        if status != 0:
+            raise CommandFailure(f"parallel ended with status {status}, though all frames are there")
 
     def make_film(self, path, fps):
         """Frames of an odd size get a column or a row more, which the pixel format asks for."""

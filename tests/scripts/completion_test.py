@@ -44,7 +44,7 @@ class Words(unittest.TestCase):
         self.assertEqual(completed("pipeline", "x"), [])
 
     def test_help_is_about_commands_and_formats(self):
-        self.assertEqual(completed("pipeline", "help", "s"), ["stages", "scene", "stage"])
+        self.assertEqual(completed("pipeline", "help", "s"), ["split", "stages", "scene", "stage"])
         self.assertEqual(completed("pipeline", "help", "model", ""), [])
 
     def test_options_are_those_of_help(self):

@@ -14,6 +14,7 @@ import time
 import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "tools"))
+from ssh_server import SshServer  # noqa: E402
 from toolbox import BIN, SOURCE, ToolTest, pipe  # noqa: E402
 
 FILM = SOURCE / "scripts/film"
@@ -188,32 +189,9 @@ class Outputs(FilmTest):
 
     def test_other_machines(self):
         """Over a real sshd on this machine, under two names; bytes as without."""
-        for program in ("/usr/sbin/sshd", "rsync", "ssh-keygen"):
-            if not shutil.which(program):
-                self.skipTest(f"{program} is missing")
-        here = pathlib.Path.cwd()
-        for name in ("host", "user"):
-            subprocess.run(["ssh-keygen", "-q", "-t", "ed25519", "-N", "", "-f", name], check=True)
-        shutil.copy("user.pub", "authorized")
-        if os.geteuid() == 0:
-            pathlib.Path("/run/sshd").mkdir(exist_ok=True)
-        port = 20000 + os.getpid() % 20000
-        server = subprocess.Popen(["/usr/sbin/sshd", "-D", "-f", "/dev/null", "-h", here / "host", "-p", str(port), "-o", "ListenAddress=127.0.0.1",
-                                   "-o", f"AuthorizedKeysFile={here}/authorized", "-o", "StrictModes=no", "-o", "UsePAM=no", "-o", "PidFile=none"],
-                                  stderr=subprocess.DEVNULL)
-        self.addCleanup(server.wait)
-        self.addCleanup(server.terminate)
-        pathlib.Path("ssh.txt").write_text(f"Host worker*\n  HostName 127.0.0.1\n  Port {port}\n  IdentityFile {here}/user\n  IdentitiesOnly yes\n"
-                                           f"  StrictHostKeyChecking no\n  UserKnownHostsFile {here}/known\n  LogLevel ERROR\n")
-        for _ in range(50):
-            done = subprocess.run(["ssh", "-F", "ssh.txt", "worker1", "true"], capture_output=True, text=True)
-            if done.returncode == 0:
-                break
-            time.sleep(0.1)
-        else:
-            self.skipTest("no login through a sshd of this user: " + done.stderr.strip())
+        server = SshServer(self, ["worker1", "worker2"])
         self.make("path.txt", "--fps", "3", "-o", "near")
-        self.make("path.txt", "--fps", "3", "-o", "far", "--", "--ssh", f"ssh -F {here}/ssh.txt", "--sshlogin", "1/worker1,1/worker2")
+        self.make("path.txt", "--fps", "3", "-o", "far", "--", *server.words, "--sshlogin", "1/worker1,1/worker2")
         self.assertEqual(len(frames("far")), 10)
         self.assertEqual(frames("far"), frames("near"))
 

@@ -112,6 +112,11 @@ class Installed(unittest.TestCase):
         (self.work / "bunny.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
         shutil.copy(self.work / "bunny.obj", self.work / "part.obj")
         (self.work / "path.txt").write_text("0 3 4 5 0 0 0 0 1 0\n1 5 4 3 0 0 0 0 1 0\n")
+        for name in ("seen1.txt", "seen2.txt"):
+            (self.work / name).write_text("framed\n0 0 0\n1 0 0\n0 1 0\n\nend\n")
+        for name in ("1", "2"):
+            (self.work / f"band{name}.ppm").write_text("P6\n1 1\n255\nabc")
+        shutil.rmtree(self.work / "parts", ignore_errors=True)
         for name in ("mine", "torus", "hand-ins/somebody/plain", "tests/plain"):
             shutil.rmtree(self.work / name, ignore_errors=True)
             shutil.copytree(sample, self.work / name)

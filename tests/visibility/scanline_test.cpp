@@ -202,7 +202,7 @@ TEST(Scanline, DepthsThatAreStoredAsEqualAreEqual) {
   const Scene farther_first = {half_plane(1 + 0x1p-18, 0.01), half_plane(1, 0.01)};
   EXPECT_EQ((picture_of<CenterCoverage, DepthF64>(farther_first)), Picture(4, "bbbbbbbb"));
   EXPECT_EQ((picture_of<CenterCoverage, DepthU24>(farther_first)), Picture(4, "bbbbbbbb"));
-  for (const Viewport screen : {Viewport{1000, 2, -4, -2, 0, 2}, Viewport{999, 2, -4, -2, 0, 3}}) {
+  for (const Viewport& screen : {Viewport{1000, 2, -4, -2, 0, 2}, Viewport{999, 2, -4, -2, 0, 3}}) {
     const Scene scene = {half_plane(1 + 0x1p-27, 0.01), half_plane(1, 0.01)};
     EXPECT_TRUE((scanline_frame<CenterCoverage, DepthU24>(scene, screen) ==
                  zbuffer_frame<CenterCoverage, DepthU24>(scene, screen)));

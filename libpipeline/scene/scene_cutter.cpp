@@ -1,0 +1,175 @@
+#include "libpipeline/scene/scene_cutter.h"
+
+#include <algorithm>
+
+#include "libpipeline/scene/appearance.h"
+#include "libpipeline/text/error.h"
+
+namespace pipeline {
+namespace {
+
+constexpr std::string_view kTriangle = "triangle\n";
+
+bool may_begin_number(char c) {
+  return (c >= '0' && c <= '9') || c == '-' || c == '+' || c == '.';
+}
+
+/// The length of a triangle at the beginning of `text` whose keyword and vertices stand on lines of their
+/// own; 0 if there is none.
+std::size_t length_of_triangle(std::string_view text) {
+  if (!text.starts_with(kTriangle)) return 0;
+  std::size_t end = kTriangle.size();
+  for (int vertex = 0; vertex < 3; ++vertex) {
+    if (end >= text.size() || !may_begin_number(text[end])) return 0;
+    end = text.find('\n', end) + 1;
+    if (end == 0) return 0;
+  }
+  return end;
+}
+
+bool is_transform(std::string_view keyword) {
+  return keyword == "translate" || keyword == "scale" || keyword == "rotate";
+}
+
+/// Moves on to the next line that is not blank, unless a word is left on this one.
+void next_argument_line(TextReader& text, LineScanner& line, std::string_view keyword) {
+  if (line.at_end() && !text.next_filled_line(line))
+    throw InputError(text.end_location(),
+                     expected_but_found("the arguments of " + quoted(keyword), "the end of the input"));
+}
+
+}  // namespace
+
+SceneCutter::SceneCutter(TextReader& text) : text_(text) {
+  for (int camera_line = 0; camera_line < 4; ++camera_line) {
+    if (!text_.next_filled_line(line_))
+      throw InputError(text_.end_location(),
+                       expected_but_found("the four lines of the camera", "the end of the input"));
+    (preamble_ += line_.rest()) += '\n';
+  }
+  find_triangle(preamble_);
+  is_in_preamble_ = false;
+  levels_in_preamble_ = levels_kept_ = levels_.size();
+  for (Level& level : levels_) level.in_preamble = level.transforms.size();
+}
+
+std::string SceneCutter::beginning() const {
+  std::string text = preamble_;
+  for (std::size_t i = levels_kept_; i < levels_in_preamble_; ++i) text += "pop\n";
+  const Level& last_kept = levels_[levels_kept_ - 1];
+  text += std::string_view(last_kept.transforms).substr(last_kept.in_preamble);
+  for (std::size_t i = levels_kept_; i < levels_.size(); ++i) (text += "push\n") += levels_[i].transforms;
+  return text + color_;
+}
+
+void SceneCutter::copy(TextWriter& part, std::size_t end) {
+  std::string commands;
+  do {
+    if (line_is_pending_)
+      copy_triangle(part);
+    else
+      copy_buffered(part, end);
+    commands.clear();
+    find_triangle(commands);
+    part.append(commands);
+  } while (has_triangle_ && position() < end);
+}
+
+/// Copies what comes before the next triangle, or before the scene's end.
+void SceneCutter::find_triangle(std::string& copied) {
+  has_triangle_ = true;
+  while (true) {
+    while (text_.buffered().starts_with('\n')) text_.skip(1, 1);
+    if (length_of_triangle(text_.buffered()) > 0) return;
+    if (!text_.next_filled_line(line_))
+      throw InputError(text_.end_location(),
+                       expected_but_found("'end', which closes a scene", "the end of the input"));
+    line_is_pending_ = line_.peek() == "triangle";
+    if (line_is_pending_) return;
+    if (line_.peek() == "end") {
+      line_.word();
+      line_.expect_end("'end'");
+      if (text_.next_filled_line(line_)) line_.fail("nothing after 'end'");
+      has_triangle_ = false;
+      return;
+    }
+    carry_out(copied);
+  }
+}
+
+/// Copies the command that begins on this line, which is no triangle.
+void SceneCutter::carry_out(std::string& copied) {
+  const LineScanner at_keyword = line_;
+  expect_allowed(at_keyword);
+  const std::string keyword(line_.word());
+  std::string command = keyword + "\n";
+  if (keyword == "push") {
+    line_.expect_end("'push'");
+    levels_.emplace_back();
+  } else if (keyword == "pop") {
+    line_.expect_end("'pop'");
+    pop(at_keyword);
+  } else {
+    next_argument_line(text_, line_, keyword);
+    (command += line_.rest()) += '\n';
+    if (is_transform(keyword))
+      levels_.back().transforms += command;
+    else if (keyword == "color" && !is_in_preamble_)
+      color_ = command;
+    has_color_ |= keyword == "color" ||
+                  (keyword == "attributes" && line_.rest().find("color") != std::string_view::npos);
+  }
+  copied += command;
+}
+
+void SceneCutter::pop(const LineScanner& at_pop) {
+  if (levels_.size() == 1)
+    throw InputError(at_pop.location(),
+                     expected_but_found("a matrix that 'push' has saved", "'pop' without one"));
+  levels_.pop_back();
+  levels_kept_ = std::min(levels_kept_, levels_.size());
+}
+
+/// Settings stand before the first triangle, or they would hold for some parts alone.
+void SceneCutter::expect_allowed(const LineScanner& at_keyword) const {
+  const std::string_view keyword = at_keyword.peek();
+  if (is_transform(keyword) || keyword == "push" || keyword == "pop") return;
+  const bool is_setting = keyword == "color" || is_appearance_keyword(keyword);
+  if (!is_setting) at_keyword.fail("a command of a scene");
+  if (is_in_preamble_ || (keyword == "color" && has_color_)) return;
+  throw InputError(at_keyword.location(), expected_but_found(quoted(keyword) + " before the first triangle",
+                                                             quoted(keyword) + " after it"));
+}
+
+/// Copies the triangle whose first line is `line_`.
+void SceneCutter::copy_triangle(TextWriter& part) {
+  line_is_pending_ = false;
+  line_.word();
+  part.append(kTriangle);
+  for (int vertex = 0; vertex < 3; ++vertex) {
+    next_argument_line(text_, line_, "triangle");
+    part.append(line_.rest());
+    part.append("\n");
+    line_ = LineScanner();
+  }
+  ++next_number_;
+}
+
+/// Copies triangles that are buffered and come next, at least one.
+void SceneCutter::copy_buffered(TextWriter& part, std::size_t end) {
+  const std::string_view text = text_.buffered();
+  const std::size_t room = end > position() ? end - position() : 1;
+  std::size_t length = 0, line_count = 0;
+  while (length < room) {
+    const std::size_t blank = text.substr(length).starts_with('\n') ? 1 : 0;
+    const std::size_t of_triangle = length_of_triangle(text.substr(length + blank));
+    if (of_triangle == 0) break;
+    length += blank + of_triangle;
+    line_count += blank + 4;
+    ++next_number_;
+  }
+  part.append(text.substr(0, length));
+  text_.skip(length, line_count);
+}
+
+}  // namespace pipeline

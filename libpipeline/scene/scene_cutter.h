@@ -1,0 +1,65 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "libpipeline/text/text_reader.h"
+#include "libpipeline/text/text_writer.h"
+
+namespace pipeline {
+
+/// Cuts a scene into parts that are scenes themselves and hold its triangles one after the other: a part
+/// begins with camera and settings, goes on with the transforms and the color in force, and then has commands
+/// of the scene as they stand there, without comments. Composed are the same transforms in the same order, so
+/// `model` of all parts is `model` of the scene to the last bit.
+///
+/// Reads keywords and lines but no numbers, which model does. Errors are InputErrors.
+class SceneCutter {
+ public:
+  /// Reads as far as the first triangle.
+  explicit SceneCutter(TextReader& text);
+
+  /// Whether a triangle comes next; otherwise the scene is read to its end.
+  [[nodiscard]] bool has_triangle() const { return has_triangle_; }
+  /// The number of the next triangle.
+  [[nodiscard]] std::uint64_t next_number() const { return next_number_; }
+  /// What a part begins with whose first triangle is the next one.
+  [[nodiscard]] std::string beginning() const;
+  /// Copies the commands from the next triangle on, up to the first triangle at or behind `end`, in bytes
+  /// from the scene's beginning.
+  void copy(TextWriter& part, std::size_t end);
+
+ private:
+  /// Transforms between one push and the next.
+  struct Level {
+    std::string transforms;
+    std::size_t in_preamble = 0;  // so many characters of `transforms`
+  };
+
+  void find_triangle(std::string& copied);
+  void carry_out(std::string& copied);
+  void take_arguments(std::string_view keyword, std::string& copied);
+  void pop(const LineScanner& at_pop);
+  void expect_allowed(const LineScanner& at_keyword) const;
+  void copy_triangle(TextWriter& part);
+  void copy_buffered(TextWriter& part, std::size_t end);
+  [[nodiscard]] std::size_t position() const { return text_.bytes_read() - text_.buffered().size(); }
+
+  TextReader& text_;
+  LineScanner line_;
+  bool line_is_pending_ = false;  // line_ is that of a triangle which is not copied yet
+  bool has_triangle_ = false;
+  bool is_in_preamble_ = true;
+  bool has_color_ = false;
+  std::uint64_t next_number_ = 0;
+  std::string preamble_;  // the scene up to its first triangle
+  std::vector<Level> levels_ = std::vector<Level>(1);
+  std::size_t levels_in_preamble_ = 0;  // at its end
+  std::size_t levels_kept_ = 0;         // the fewest since
+  std::string color_;                   // the last one behind the preamble
+};
+
+}  // namespace pipeline

@@ -1,0 +1,155 @@
+"""The work of farm: a folder with the scene's parts, what is seen of each, and what is left to do."""
+import hashlib
+import pathlib
+import re
+import shlex
+import shutil
+import subprocess
+import sys
+from dataclasses import dataclass
+
+from lib.command import CommandFailure
+from lib.input_file import input_errors, read_input
+from lib.output_file import OutputFile, write_file
+from lib.parallel import Job, run_parallel
+from lib.pipe_tools import checked
+
+RETRIES = 3
+PER_JOIN = 8  # texts, or fewer
+# Where a machine does not answer, another one has to be tried soon. A user's own --ssh is given later, and holds.
+SSH = "ssh -o BatchMode=yes -o ConnectTimeout=10 -o ServerAliveInterval=5"
+# What jobs call, in the folder. What the tools say is told with the job's output if it fails. The output appears complete or not at all,
+# and zbuf makes it only of a framed text, which nobody has cut short.
+WORK = r'''
+seen() {
+  if { "$@"; } 2> "$output.log"; then rm -f "$output.log"; return 0; fi
+  sed "s|^|$output: |" "$output.log" >&2
+  rm -f "$output.log"
+  return 1
+}
+draw() { "$bin/model" --framed --first "$2" "$1" | "$bin/view" | "$bin/project" $project | keep; }
+merge() { "$bin/join" --framed "$@" | keep; }
+keep() { "$bin/zbuf" config.txt --framed $zbuf $rows --seen "$output"; }
+'''
+
+
+@dataclass(frozen=True)
+class Settings:
+    parts: int
+    bands: int
+    project: list
+    zbuf: list
+    for_parallel: list
+
+
+def digest(path):
+    state = hashlib.sha256()
+    with input_errors(path), open(path, "rb") as file:
+        while block := file.read(1 << 20):
+            state.update(block)
+    return state.hexdigest()
+
+
+class Work:
+    def __init__(self, tools, folder, settings):
+        self.tools, self.folder, self.settings = tools, pathlib.Path(folder), settings
+
+    def prepare(self, scene, config):
+        """Cuts the scene, unless the folder has parts of this scene for these settings."""
+        settings, config = self.settings, read_input(config)
+        source = " ".join([digest(scene), hashlib.sha256(config).hexdigest(), str(settings.parts), str(settings.bands), *settings.project, "/", *settings.zbuf]) + "\n"
+        parts, marker = self.folder / "parts.txt", self.folder / "source.txt"
+        if not marker.exists() or marker.read_text() != source:
+            self.remove()
+            self.folder.mkdir(parents=True)
+            write_file(self.folder / "config.txt", config)
+            self.check_settings()
+            with open(parts, "wb") as listed:
+                checked(subprocess.run([self.tools.folder / "split", pathlib.Path(scene).absolute(), str(settings.parts), "-o", "parts"], cwd=self.folder,
+                                       stdout=listed, stderr=subprocess.PIPE), "split")
+            write_file(marker, source.encode())
+        self.parts = [line.split() for line in parts.read_text().splitlines()]
+        rows = int(re.sub(rb"#.*", b"", config).split()[1])
+        cuts = [rows * i // settings.bands for i in range(settings.bands + 1)]
+        self.bands = [(first, end) for first, end in zip(cuts, cuts[1:]) if first < end]
+        words = {"bin": str(self.tools.folder), "project": " ".join(settings.project), "zbuf": " ".join(settings.zbuf)}
+        write_file(self.folder / "work.sh", ("".join(f"{name}={shlex.quote(word)}\n" for name, word in words.items()) + WORK).encode())
+
+    def check_settings(self):
+        """An empty text through the tools: what they refuse, every job would. Only --shading depends on the scene."""
+        words = self.settings.zbuf
+        at = words.index("--shading") if "--shading" in words else len(words)
+        ndc = self.tools.output("project", *self.settings.project, stdin=b"framed\nperspective 60 1 1 2\nend\n")
+        self.tools.run("zbuf", self.folder / "config.txt", *words[:at], *words[at + 2:], "--seen", "/dev/null", stdin=ndc)
+
+    def words_of_rows(self, band):
+        return f"--rows {band[0]}:{band[1]}" if len(self.bands) > 1 else ""
+
+    def run(self, jobs, options, what):
+        """Runs the jobs whose output is missing; each is (output, call, inputs, band)."""
+        left = [job for job in jobs if not (self.folder / job[0]).exists()]
+        if left:
+            lines = [Job(f'. ./work.sh; output={output}; rows="{self.words_of_rows(band)}"; seen {call}', inputs, [output]) for output, call, inputs, band in left]
+            words = ["--retries", str(RETRIES), "--joblog", f"{'+' * (self.folder / 'jobs.log').exists()}jobs.log"]
+            ssh = ["--ssh", SSH] if any(word.startswith(("--sshlogin", "-S")) for word in options) else []
+            run_parallel(self.folder, lines, "farm", ["config.txt", "work.sh"], [*words, *ssh, *options])
+        missing = [job for job in jobs if not (self.folder / job[0]).exists()]
+        if missing:
+            raise CommandFailure(f"no picture: {len(missing)} of {len(jobs)} {what} missing, the first is {missing[0][0]} (of {' '.join(missing[0][2])}); "
+                                 f"{self.folder / 'jobs.log'} tells where they ran, and the same command does what is left")
+
+    def draw_parts(self):
+        jobs = []
+        for b, band in enumerate(self.bands):
+            for part, first in self.parts:
+                jobs.append((f"seen-{b}-0-{pathlib.Path(part).stem}.txt", f"draw {part} {first}", [part], band))
+        self.run(jobs, self.settings.for_parallel, "parts are")
+
+    def join_parts(self):
+        """Joins the texts of a band as a tree, on this machine: there is little left of them."""
+        self.seen = [[f"seen-{b}-0-{pathlib.Path(part).stem}.txt" for part, _ in self.parts] for b in range(len(self.bands))]
+        level = 0
+        while len(self.seen[0]) > PER_JOIN:
+            level += 1
+            jobs, joined = [], []
+            for b, band in enumerate(self.bands):
+                groups = [self.seen[b][i:i + PER_JOIN] for i in range(0, len(self.seen[b]), PER_JOIN)]
+                joined.append([f"seen-{b}-{level}-{k}.txt" for k in range(len(groups))])
+                jobs += [(output, "merge " + " ".join(group), group, band) for output, group in zip(joined[-1], groups)]
+            self.run(jobs, [], "joined texts are")
+            self.seen = joined
+
+    def make_picture(self, output, z_buffer):
+        images, depths = [], []
+        extension = pathlib.Path(output).suffix
+        for b, band in enumerate(self.bands):
+            image, depth = f"band{b}{extension}", f"band{b}.txt"
+            if len(self.bands) == 1:
+                image, depth = pathlib.Path(output).absolute(), pathlib.Path(z_buffer).absolute() if z_buffer else "none"
+            self.draw(self.seen[b], self.words_of_rows(band), image, depth if z_buffer else "none")
+            images.append(image)
+            depths.append(depth)
+        if len(self.bands) == 1:
+            return
+        command = pathlib.Path(__file__).resolve().parents[1] / "join-images"
+        checked(subprocess.run([command, *images, "-o", pathlib.Path(output).absolute()], cwd=self.folder, capture_output=True), "join-images")
+        if z_buffer:
+            with OutputFile(z_buffer) as text:
+                for depth in depths:
+                    with open(self.folder / depth, "rb") as file:
+                        while block := file.read(1 << 20):
+                            text.write(block)
+                text.commit()
+
+    def draw(self, texts, rows, image, depth):
+        joining = subprocess.Popen([self.tools.folder / "join", "--framed", *texts], cwd=self.folder, stdout=subprocess.PIPE)
+        words = [self.tools.folder / "zbuf", "config.txt", "--framed", *self.settings.zbuf, *rows.split(), "--image", image, "--z-buffer", depth]
+        drawing = subprocess.run(words, cwd=self.folder, stdin=joining.stdout, stderr=subprocess.PIPE)
+        joining.stdout.close()
+        joining.wait()
+        checked(drawing, "zbuf")
+        for line in dict.fromkeys(drawing.stderr.decode(errors="replace").splitlines()):
+            print(line, file=sys.stderr)
+
+    def remove(self):
+        shutil.rmtree(self.folder, ignore_errors=True)

@@ -1,0 +1,49 @@
+"""Jobs side by side: GNU parallel runs lines of shell in a folder, here or on other machines over ssh."""
+import os
+import shutil
+import subprocess
+import sys
+from dataclasses import dataclass, field
+
+from lib.command import CommandFailure
+
+
+@dataclass(frozen=True)
+class Job:
+    line: str  # of sh
+    takes: list = field(default_factory=list)  # the files it reads, besides those that all jobs read
+    gives: list = field(default_factory=list)  # the files it writes
+
+
+def expect_parallel():
+    if not shutil.which("parallel"):
+        raise CommandFailure("parallel is missing (Debian package parallel)")
+
+
+def columns(jobs, files_of, first):
+    """The columns from `first` on that hold the files of jobs."""
+    return range(first, first + max(len(files_of(job)) for job in jobs))
+
+
+def run_parallel(folder, jobs, name, common=(), options=()):
+    """Runs the jobs in the folder; the status of parallel. `common` are files that all jobs read, `name` that of the command.
+
+    Another machine works in a folder of its own, which is removed afterwards: files are sent there, and those of a job come back."""
+    words = ["parallel", "--will-cite", *(["--bar"] if sys.stderr.isatty() else [])]
+    if any(word.startswith(("--sshlogin", "-S")) for word in options):
+        takes = columns(jobs, lambda job: job.takes, 2)
+        gives = columns(jobs, lambda job: job.gives, takes.stop)
+        words += ["--workdir", f"pipeline-{name}-{os.getpid()}", "--cleanup", "--colsep", "\t"]
+        for file in common:
+            words += ["--basefile", file]
+        for column in takes:
+            words += ["--transferfile", f"{{{column}}}"]
+        for column in gives:
+            words += ["--return", f"{{{column}}}"]
+        lines = ["\t".join([job.line, *job.takes, *[""] * (len(takes) - len(job.takes)), *job.gives]) for job in jobs]
+        words += [*options, "eval", "{1}"]
+    else:
+        lines = [job.line for job in jobs]
+        words += options
+    done = subprocess.run(words, cwd=folder, input="".join(line + "\n" for line in lines), text=True, env={**os.environ, "PARALLEL_SHELL": "/bin/sh"})
+    return done.returncode

@@ -1,0 +1,258 @@
+#!/usr/bin/env python3
+"""split, model --first and join, end to end: the parts' stage 1, joined, is that of the whole, to the last byte.
+
+usage: split_test.py BIN_DIR [UNITTEST ARGUMENT...]
+"""
+import os
+import pathlib
+import random
+import shutil
+import subprocess
+import unittest
+
+from toolbox import BIN, SOURCE, ToolTest, run
+
+SCENE_COUNT = int(os.environ.get("TOOLS_SCENES", 12)) * 2  # fewer with sanitizers, see CMakeLists.txt
+CAMERA = "1 0.5 4\n0 0 0\n0 1 0\n50 1.25 1 30 ratio\n"
+TRIANGLE = "triangle\n0 0 0\n1 0 0\n0 1 0\n"
+
+
+def random_scene(rng, count):
+    """Commands in any nesting, with comments, blank lines, arguments on the command's line; lights inside push and pop."""
+    number = lambda: rng.choice((f"{rng.uniform(-3, 3):.7f}", f"{rng.uniform(-3, 3):.3g}", str(rng.randrange(-3, 4)), f"+{rng.random():.12g}", f"{rng.randrange(1, 9)}e-1"))
+    end = lambda: rng.choice(("\n", "\n", "\n", "  # a comment\n", "\r\n", "\n\n", "\n# triangle\n\t\n", "\t \n"))
+    depth = 0
+    columns = rng.choice(("", "color", "normal", "color normal"))
+    has_state = rng.random() < 0.5
+
+    def arguments(*words):
+        return rng.choice((end(), " ", " ")) + " ".join(words) + end()
+
+    def command():
+        nonlocal depth
+        kind = rng.choice(("translate", "scale", "rotate", "push", "push", "pop", "color"))
+        if kind == "color":
+            return "color" + arguments(*(str(rng.randrange(256)) for _ in range(3))) if has_state else ""
+        if kind == "push":
+            depth += 1
+            return "push" + end()
+        if kind == "pop":
+            if not depth:
+                return ""
+            depth -= 1
+            return "pop" + end()
+        if kind == "rotate":
+            return "rotate" + arguments(str(rng.choice((30, 45, 90, 17.3, -1e3))), number(), number(), "1")
+        return kind + arguments(*(number() for _ in range(3)))
+
+    def vertex():
+        words = [number() for _ in range(3)]
+        if "color" in columns:
+            words += [str(rng.randrange(256)) for _ in range(3)]
+        if "normal" in columns:
+            words += [number(), number(), "1"]
+        return " ".join(words) + end()
+
+    text = CAMERA + (f"attributes {columns}\n" if columns else "") + ("color 9 8 7\n" if has_state else "")
+    is_lit = rng.random() < 0.6
+    for _ in range(rng.randrange(8)):
+        text += command()
+        if is_lit:
+            text += f"light{arguments(number(), number(), number(), '1', '0.5', '1')}"
+    if is_lit:
+        text += "material 0.5 1 0.5 8\nambient 0.1 0.1 0.1\nbackground 3 4 5\n"
+    plain = rng.random() < 0.3
+    for _ in range(count):
+        for _ in range(rng.choice((0, 0, 0, 1, 3))):
+            text += command()
+        if plain:
+            text += "triangle\n" + "".join(vertex().split("\n")[0].split("#")[0].strip() + "\n" for _ in range(3))
+        else:
+            text += "triangle" + rng.choice((end(), end(), " ")) + "".join(vertex() for _ in range(3))
+    return text + command() + "end" + rng.choice(("", "\n", " # the end\n\n"))
+
+
+class Split(ToolTest):
+    def split(self, scene, count, folder="parts"):
+        """(file, first number) of each part."""
+        pathlib.Path("scene.txt").write_bytes(scene.encode())
+        shutil.rmtree(folder, ignore_errors=True)
+        done = run("split", "scene.txt", count, "-o", folder)
+        self.assert_quiet_success(done)
+        parts = [(line.split()[0], int(line.split()[1])) for line in done.stdout.decode().splitlines()]
+        self.assertEqual([path for path, _ in parts], [f"{folder}/{name}" for name in sorted(os.listdir(folder))])
+        return parts
+
+    def stage1(self, parts, *options):
+        """The files of the parts' stage 1."""
+        for i, (path, first) in enumerate(parts):
+            done = run("model", "--first", first, *options, path)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            pathlib.Path(f"stage1.{i}").write_bytes(done.stdout)
+        return [f"stage1.{i}" for i in range(len(parts))]
+
+    def check(self, scene, count, *options):
+        parts = self.split(scene, count)
+        done = run("join", *self.stage1(parts, *options))
+        self.assert_quiet_success(done)
+        whole = run("model", "scene.txt", *options)
+        self.assertEqual(whole.returncode, 0, whole.stderr)
+        self.assertEqual(done.stdout, whole.stdout)
+        return parts
+
+
+class Scenes(Split):
+    def test_random_scenes(self):
+        most = 0
+        for seed in range(SCENE_COUNT):
+            rng = random.Random(seed)
+            scene = random_scene(rng, rng.randrange(60))
+            options = rng.choice(([], ["--framed"], ["--digits", "exact"], ["--digits", "3", "--framed"]))
+            for count in (1, 2, 7, 300):
+                with self.subTest(seed=seed, count=count, options=options):
+                    most = max(most, len(self.check(scene, count, *options)))
+        self.assertGreater(most, 50)  # then most parts are one triangle
+
+    def test_samples(self):
+        for sample in sorted(SOURCE.glob("samples/*/scene.txt")):
+            with self.subTest(sample=sample.parent.name):
+                self.check(sample.read_text(), 5, "--framed")
+
+    def test_a_part_of_a_part(self):
+        for seed in range(SCENE_COUNT):
+            rng = random.Random(500 + seed)
+            scene = random_scene(rng, 20)
+            parts = self.split(scene, 3)
+            whole = run("model", "scene.txt").stdout
+            texts = []
+            for path, first in parts:
+                for name, number in self.split(pathlib.Path(path).read_text(), 3, folder=path + ".d"):
+                    texts.append(f"{name}.1")
+                    pathlib.Path(texts[-1]).write_bytes(run("model", "--first", first + number, name).stdout)
+            self.assertEqual(run("join", *texts).stdout, whole)
+
+    def test_parts_are_of_about_the_same_size(self):
+        parts = self.split(CAMERA + TRIANGLE * 1000 + "end\n", 4)
+        for (_, first), expected in zip(parts, (0, 250, 500, 750)):
+            self.assertLessEqual(abs(first - expected), 1)
+        parts = self.split(CAMERA + TRIANGLE * 3 + "end\n", 10)
+        self.assertEqual([first for _, first in parts], [0, 1, 2])
+
+    def test_large_blocks(self):
+        """More than is read at once, and transforms in force that grow."""
+        rng = random.Random(3)
+        body = "".join(f"translate\n{rng.uniform(-0.01, 0.01):.7f} 0 0\n" * (i % 50 == 0) + TRIANGLE for i in range(30000))
+        self.check(CAMERA + body + "end\n", 6)
+
+    def test_a_scene_without_triangles_is_one_part(self):
+        parts = self.split(CAMERA + "translate 1 2 3\nend\n", 3)
+        self.assertEqual(len(parts), 1)
+
+    def test_it_takes_at_most_half_of_the_time_of_model(self):
+        pathlib.Path("large.txt").write_text(CAMERA + "triangle\n-1.2345678 0.1234567 0.3456789\n1.2345678 0.1111111 0.2222222\n0.1231231 0.4564564 0.7897897\n" * 300000 + "end\n")
+        def seconds(*words):
+            begin = os.times()
+            subprocess.run(words, stdout=subprocess.DEVNULL, check=True)
+            end = os.times()
+            return end.children_user - begin.children_user
+        ratios = []
+        for i in range(5):
+            ratios.append(seconds(BIN / "split", "large.txt", "4", "-o", f"out{i}") / max(seconds(BIN / "model", "large.txt"), 0.01))
+        self.assertLess(sorted(ratios)[2], 0.5)
+
+
+class Joins(Split):
+    def refuse(self, message, *words):
+        done = run("join", *words)
+        self.assertEqual((done.returncode, done.stderr.decode()), (1, f"join: {message}\n"))
+        self.assertTrue(done.stdout.endswith(f"error join: {message}\n".encode()))
+
+    def test_seen_parts_in_any_grouping(self):
+        pathlib.Path("config.txt").write_text("50 40\n")
+        for seed in range(SCENE_COUNT // 2):
+            rng = random.Random(seed)
+            scene = random_scene(rng, 40)
+            parts = self.stage1(self.split(scene, 5), "--framed")
+            def after_project(name):
+                text = pathlib.Path(name).read_bytes() if isinstance(name, str) else name
+                for tool in ("view", "project"):
+                    text = run(tool, *(["--clip", "near"] if tool == "project" else []), stdin=text).stdout
+                return text
+            def picture(text):
+                done = run("zbuf", "config.txt", "-o", "out.ppm", "--framed", stdin=text)
+                self.assertEqual(done.returncode, 0, done.stderr)
+                return done.stdout, pathlib.Path("out.ppm").read_bytes()
+            expected = picture(after_project(run("model", "--framed", "scene.txt").stdout))
+            for i, name in enumerate(parts):
+                done = run("zbuf", "config.txt", "--framed", "--seen", f"seen.{i}", stdin=after_project(name))
+                self.assertEqual(done.returncode, 0, done.stderr)
+            names = [f"seen.{i}" for i in range(len(parts))]
+            while len(names) > 2:
+                at = rng.randrange(len(names) - 1)
+                done = run("zbuf", "config.txt", "--framed", "--seen", names[at] + "+", stdin=run("join", "--framed", *names[at:at + 2]).stdout)
+                self.assert_quiet_success(done)
+                names[at:at + 2] = [names[at] + "+"]
+            self.assertEqual(picture(run("join", *names).stdout), expected)
+
+    def test_one_frame_is_written(self):
+        for name in "ab":
+            pathlib.Path(name).write_text("framed\n0 0 0\n1 0 0\n0 1 0\n\nend\n")
+        self.assertEqual(run("join", "a", "b").stdout, b"framed\n0 0 0\n1 0 0\n0 1 0\n\ntriangle 0\n0 0 0\n1 0 0\n0 1 0\n\nend\n")
+
+    def test_what_is_wrong(self):
+        whole = "framed\neye 1 2 3\n0 0 0\n1 0 0\n0 1 0\n\nend\n"
+        pathlib.Path("a").write_text(whole)
+        pathlib.Path("cut").write_text(whole[:-4])
+        pathlib.Path("other").write_text(whole.replace("3\n", "4\n", 1))
+        pathlib.Path("plain").write_text(whole.replace("framed\n", "").replace("end\n", ""))
+        pathlib.Path("failed").write_text("framed\neye 1 2 3\nerror model: no memory\n")
+        pathlib.Path("empty").write_text("")
+        self.refuse("cut:7:1: expected 'end', which closes a framed text, found the end of the input", "a", "cut")
+        self.refuse("other:3:1: expected the header of the first text, found another one before here", "a", "other")
+        self.refuse("plain:2:1: expected the header of the first text, found another one before here", "a", "plain")
+        self.refuse("plain:2:1: expected a framed text (model --framed), found one without 'framed'", "--framed", "plain")
+        self.refuse("empty:1:1: expected a framed text (model --framed), found an empty one", "--framed", "empty", "a")
+        self.refuse("cannot open gone: No such file or directory", "a", "gone")
+        done = run("join", "a", "failed")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn(b"model: no memory", done.stderr)
+        self.assertIn(b"error model: no memory\n", done.stdout)
+        self.assertEqual(run("join").returncode, 2)
+
+
+class Refusals(Split):
+    def test_scenes(self):
+        for scene, message in ((CAMERA + TRIANGLE + "pop\nend\n", "scene.txt:9:1: expected a matrix that 'push' has saved, found 'pop' without one"),
+                               (CAMERA + TRIANGLE, "scene.txt:9:1: expected 'end', which closes a scene, found the end of the input"),
+                               (CAMERA + TRIANGLE + "light\n1 2 3 1 1 1\n" + TRIANGLE + "end\n", "scene.txt:9:1: expected 'light' before the first triangle, found 'light' after it"),
+                               (CAMERA + TRIANGLE + "color\n1 2 3\n" + TRIANGLE + "end\n", "scene.txt:9:1: expected 'color' before the first triangle, found 'color' after it"),
+                               (CAMERA + TRIANGLE + "end\nend\n", "scene.txt:10:1: expected nothing after 'end', found 'end'"),
+                               (CAMERA + "turn 1 2 3\nend\n", "scene.txt:5:1: expected a command of a scene, found 'turn'"),
+                               (CAMERA + "push 1\nend\n", "scene.txt:5:6: expected the end of the line after 'push', found '1'"),
+                               ("0 0 5\n", "scene.txt:2:1: expected the four lines of the camera, found the end of the input")):
+            pathlib.Path("scene.txt").write_text(scene)
+            shutil.rmtree("parts", ignore_errors=True)
+            done = run("split", "scene.txt", "2")
+            self.assertEqual((done.returncode, done.stderr.decode()), (1, f"split: {message}\n"), scene)
+            self.assertNotEqual(run("model", "scene.txt").returncode, 0)
+
+    def test_a_number_that_is_wrong_is_models(self):
+        self.assertEqual(len(self.split(CAMERA + TRIANGLE * 3 + TRIANGLE.replace("1 0 0", "1 x 0") + "end\n", 2)), 2)
+        self.assertEqual(run("model", "parts/1.txt").returncode, 0)
+        self.assertIn(b"model: parts/2.txt:11:3: expected", run("model", "--first", 2, "parts/2.txt").stderr)
+
+    def test_command_lines(self):
+        pathlib.Path("scene.txt").write_text(CAMERA + TRIANGLE + "end\n")
+        for words in (["scene.txt"], [], ["scene.txt", "0"], ["scene.txt", "x"], ["scene.txt", "100000"], ["/dev/null", "2"]):
+            self.assertEqual(run("split", *words).returncode, 2, words)
+        os.mkdir("full")
+        pathlib.Path("full/x").write_text("")
+        done = run("split", "scene.txt", "2", "-o", "full")
+        self.assertEqual((done.returncode, done.stderr), (1, b"split: full: expected a new folder, or an empty one, found one with files in it\n"))
+        for words in (["--first", "-1"], ["--first", "x"], ["--first", "3", "--bare"]):
+            self.assertEqual(run("model", *words, "scene.txt").returncode, 2, words)
+        self.assertIn(b"\ntriangle 8796093022207\n", run("model", "--first", 2**43 - 1, "scene.txt").stdout)
+
+
+if __name__ == "__main__":
+    unittest.main()
