@@ -1,6 +1,8 @@
 #include "tools/surface_shading.h"
 
+#include <algorithm>
 #include <utility>
+#include <vector>
 
 #include "libpipeline/text/error.h"
 #include "libpipeline/vertex/transform.h"
@@ -8,14 +10,17 @@
 namespace pipeline {
 namespace {
 
-Lighting lighting_of(const Appearance& appearance, bool is_perspective) {
+/// How surfaces are lit, by the number of their material; without a line, the one material is the default.
+std::vector<Lighting> lightings_of(const Appearance& appearance, bool is_perspective) {
   Lighting lighting;
   if (appearance.ambient) lighting.ambient = appearance.ambient->value;
-  if (appearance.material) lighting.material = appearance.material->value;
   if (appearance.attenuation) lighting.attenuation = appearance.attenuation->value;
   for (const auto& light : appearance.lights) lighting.lights.push_back(light.value);
   lighting.is_perspective = is_perspective;
-  return lighting;
+  std::vector<Lighting> lightings(std::max<std::size_t>(appearance.materials.size(), 1), lighting);
+  for (std::size_t i = 0; i < appearance.materials.size(); ++i)
+    lightings[i].material = appearance.materials[i].value;
+  return lightings;
 }
 
 ShadingModel default_model(const Appearance& appearance) {
@@ -46,7 +51,7 @@ std::optional<SurfaceShader> surface_shader(const StageHeader& header, const Sou
     throw InputError(header_end, expected_but_found("a light for --shading (a header line light)", "none"));
   const ProjectionTransform projection = clip_from_view(*header.projected);
   setup.view_from_clip.emplace(projection);
-  setup.lighting = lighting_of(appearance, projection.is_perspective);
+  setup.lightings = lightings_of(appearance, projection.is_perspective);
   return SurfaceShader(screen, std::move(setup));
 }
 

@@ -98,6 +98,7 @@ ClipTriangle SurfaceShader::unclipped_in_clip_space(const TriangleBatch& p_ndc, 
     corner.position = scaled(p, corner.w);
     if (!attributes.colors.empty()) corner.color = attributes.colors[index][v];
     if (!attributes.normals.empty()) corner.normal = attributes.normals[index][v];
+    if (!attributes.materials.empty()) corner.material = attributes.materials[index];
   }
   return corners;
 }
@@ -120,9 +121,9 @@ const SurfaceShader::Surface& SurfaceShader::surface(SurfaceId id) {
 }
 
 SurfaceShader::Surface SurfaceShader::made_surface(const ClipTriangle& corners) const {
-  Surface surface = {screen_corners_of(corners), {}};
+  Surface surface = {screen_corners_of(corners), {}, corners[0].material};
   for (std::size_t v = 0; v < 3; ++v) {
-    const auto& [p, w, color, normal] = corners[v];
+    const auto& [p, w, color, normal, material] = corners[v];
     const Vec3 p_view = setup_.view_from_clip ? (*setup_.view_from_clip)(p, w) : Vec3();
     surface.corners[v] = {p_view, normal, color};
   }
@@ -151,11 +152,11 @@ void SurfaceShader::add_edges(const TriangleBatch& p_ndc, std::size_t index, con
 
 void SurfaceShader::light_corners(Surface& surface) const {
   if (setup_.model == ShadingModel::flat) {
-    const Vec3 color = lit_color(mean(surface.corners, {1.0 / 3, 1.0 / 3, 1.0 / 3}), setup_.lighting);
+    const Vec3 color = lit_color(mean(surface.corners, {1.0 / 3, 1.0 / 3, 1.0 / 3}), lighting_of(surface));
     for (SurfacePoint& corner : surface.corners) corner.color = color;
   } else if (setup_.model == ShadingModel::gouraud) {
     for (SurfacePoint& corner : surface.corners)
-      corner.color = clamped_color(lit_color(corner, setup_.lighting));
+      corner.color = clamped_color(lit_color(corner, lighting_of(surface)));
   }
 }
 
@@ -196,7 +197,7 @@ Color SurfaceShader::color_at(const Surface& surface, double x, double y) const 
   const auto& [a, b, c] = surface.corners;
   const Weights weights = weights_at(surface.screen_corners, x, y);
   if (setup_.model == ShadingModel::phong)
-    return rounded_color(lit_color(mean(surface.corners, weights), setup_.lighting));
+    return rounded_color(lit_color(mean(surface.corners, weights), lighting_of(surface)));
   return rounded_color(mean(Triangle{a.color, b.color, c.color}, weights));
 }
 

@@ -33,10 +33,11 @@ class SurfaceShader {
   /// The id of a pixel without a triangle.
   static constexpr SurfaceId kNoSurface = KeptIds::kNoTriangle;
 
-  /// How a scene is lit. `view_from_clip` is needed by every model but `none`.
+  /// How a scene is lit, by the number of the material. Every model but `none` needs a lighting for each and
+  /// `view_from_clip`.
   struct Setup {
     ShadingModel model = ShadingModel::none;
-    Lighting lighting;
+    std::vector<Lighting> lightings;
     std::optional<ViewFromClip> view_from_clip;
     Color background;
     std::optional<Wireframe> wireframe;  // then pixels off the edges show the background
@@ -68,6 +69,7 @@ class SurfaceShader {
     Triangle screen_corners;  // x and y of clip space, and w for z
     std::array<SurfacePoint, 3>
         corners;  // in view space; the colors are lit already except for phong shading
+    std::uint32_t material = 0;
   };
   struct CachedSurface {
     SurfaceId id = kNoSurface;
@@ -78,6 +80,9 @@ class SurfaceShader {
                                                      Color own_color) const;
   [[nodiscard]] const Surface& surface(SurfaceId id);
   [[nodiscard]] Surface made_surface(const ClipTriangle& corners) const;
+  [[nodiscard]] const Lighting& lighting_of(const Surface& surface) const {
+    return setup_.lightings[surface.material];
+  }
   void light_corners(Surface& surface) const;
   void look_for_something(std::span<const Color> colors);
   void note_colors(const std::array<Vec3, 3>& colors);

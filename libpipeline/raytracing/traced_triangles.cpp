@@ -10,6 +10,7 @@ void copy_triangle(const TriangleBatch& from, std::size_t index, TriangleBatch& 
   to.add(from.triangles[index], from.numbers[index], from.locations[index]);
   if (!from.attributes.colors.empty()) to.attributes.colors.push_back(from.attributes.colors[index]);
   if (!from.attributes.normals.empty()) to.attributes.normals.push_back(from.attributes.normals[index]);
+  if (!from.attributes.materials.empty()) to.attributes.materials.push_back(from.attributes.materials[index]);
 }
 
 }  // namespace
@@ -32,6 +33,8 @@ void TracedTriangles::add_whole(const TriangleBatch& p_view, std::size_t index) 
   if (!pieces_.empty()) pieces_.push_back(kWhole);
   if (!p_view.attributes.colors.empty()) attributes_.colors.push_back(p_view.attributes.colors[index]);
   if (!p_view.attributes.normals.empty()) attributes_.normals.push_back(p_view.attributes.normals[index]);
+  if (!p_view.attributes.materials.empty())
+    attributes_.materials.push_back(p_view.attributes.materials[index]);
 }
 
 void TracedTriangles::add(
@@ -72,6 +75,7 @@ void TracedTriangles::copy(Id id, TriangleBatch& p_view) const {
   p_view.add(p_view_[id], numbers_[id], {});
   if (!attributes_.colors.empty()) p_view.attributes.colors.push_back(attributes_.colors[id]);
   if (!attributes_.normals.empty()) p_view.attributes.normals.push_back(attributes_.normals[id]);
+  if (!attributes_.materials.empty()) p_view.attributes.materials.push_back(attributes_.materials[id]);
 }
 
 }  // namespace pipeline

@@ -42,11 +42,12 @@ AttributeSet read_attributes(LineScanner& line, AttributeSource source) {
   set.w = may_be_w && take("w");
   set.color = take("color");
   set.normal = take("normal");
+  set.material = may_be_w && take("material");
   if (!set.any() || !line.at_end()) {
-    constexpr std::array<std::string_view, 3> kNames = {"w", "color", "normal"};
-    line.fail(may_be_w ? "attributes of [w] [color] [normal], in this order"
+    constexpr std::array<std::string_view, 4> kNames = {"w", "color", "normal", "material"};
+    line.fail(may_be_w ? "attributes of [w] [color] [normal] [material], in this order"
                        : "attributes of [color] [normal], in this order",
-              spelling_hint(line.peek(), kNames));
+              spelling_hint(line.peek(), std::span(kNames).first(may_be_w ? 4 : 3)));
   }
   return set;
 }
@@ -112,7 +113,8 @@ void read_appearance_part(std::string_view keyword, const SourceLocation& keywor
   } else if (keyword == "ambient") {
     set(appearance.ambient, [&] { return read_intensity(line, "the ambient light"); });
   } else if (keyword == "material") {
-    set(appearance.material, [&] { return read_material(line); });
+    const SourceLocation location = line.location();
+    appearance.materials.push_back({read_material(line), location});
   } else if (keyword == "attenuation") {
     set(appearance.attenuation, [&] { return read_attenuation(line); });
   } else {

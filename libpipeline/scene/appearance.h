@@ -41,9 +41,9 @@ struct Attenuation {
 /// its arguments, and nullopt for the others. A plain scene sets none.
 struct Appearance {
   std::optional<Located<AttributeSet>> attributes;
-  std::optional<Located<Vec3>> background;  // red, green, blue from 0 to 255
-  std::optional<Located<Vec3>> ambient;     // intensities, each at least 0
-  std::optional<Located<Material>> material;
+  std::optional<Located<Vec3>> background;   // red, green, blue from 0 to 255
+  std::optional<Located<Vec3>> ambient;      // intensities, each at least 0
+  std::vector<Located<Material>> materials;  // numbered from 0
   std::optional<Located<Attenuation>> attenuation;
   std::vector<Located<Light>> lights;
 
@@ -60,7 +60,7 @@ bool is_appearance_keyword(std::string_view keyword);
 
 /// Reads the arguments of such a keyword, to the end of the line, and adds them to `appearance`. An
 /// InputError if a number is missing or out of range, and, at `keyword_location`, if the part was given
-/// before; only lights may be given more than once.
+/// before; only lights and materials may be given more than once.
 void read_appearance_part(std::string_view keyword, const SourceLocation& keyword_location, LineScanner& line,
                           AttributeSource source, Appearance& appearance);
 

@@ -10,9 +10,9 @@
 namespace pipeline {
 namespace {
 
-constexpr std::array<std::string_view, 14> kCommands = {
-    "triangle", "translate",  "scale",      "rotate", "push",    "pop",      "end",
-    "color",    "attributes", "background", "light",  "ambient", "material", "attenuation"};
+constexpr std::array<std::string_view, 15> kCommands = {
+    "triangle",   "translate",  "scale", "rotate",  "push",     "pop",         "end", "color",
+    "attributes", "background", "light", "ambient", "material", "attenuation", "use"};
 
 }  // namespace
 
@@ -61,6 +61,7 @@ std::size_t SceneReader::read_buffered(std::size_t limit, std::vector<Triangle>&
   const bool has_current_color = appearance_.columns().color && !vertex_line_.attributes().color;
   if (has_current_color)
     attributes.colors.resize(p_model.size(), {current_color_, current_color_, current_color_});
+  if (appearance_.columns().material) attributes.materials.resize(p_model.size(), current_material_);
   first_line = text_.line_number() + 1;
   text_.skip(part.length, 4 * part.triangle_count);
   if (part.triangle_count > 0) has_triangle_ = true;
@@ -87,6 +88,7 @@ Command SceneReader::next() {
     return TranslateCommand{line_.vec3("the translation")};
   }
   if (keyword == "rotate") return read_rotation();
+  if (keyword == "use") return read_use();
   if (keyword == "push") return takes_no_arguments(), PushCommand{};
   if (keyword == "pop") return takes_no_arguments(), PopCommand{};
   if (keyword == "end") {
@@ -107,6 +109,7 @@ std::string SceneReader::expected_commands() const {
         "attenuation";
   else if (appearance_.columns().color)
     commands += "; also color";
+  if (appearance_.materials.size() > 1) commands += "; also use";
   return commands + ")";
 }
 
@@ -121,7 +124,7 @@ Command SceneReader::read_appearance(std::string_view keyword) {
   const std::string name(line_.word());
   next_argument_line("the arguments of " + quoted(name));
   if (is_color) return read_current_color(), AppearanceCommand{};
-  const bool has_color = appearance_.columns().color;
+  const AttributeSet had = appearance_.columns();
   if (name == "attributes" && !vertex_line_.attributes().any()) appearance_.attributes.reset();
   read_appearance_part(name, location_, line_, AttributeSource::scene, appearance_);
   if (name == "light") {
@@ -131,7 +134,12 @@ Command SceneReader::read_appearance(std::string_view keyword) {
   }
   if (name == "attributes") {
     vertex_line_ = VertexLineReader(appearance_.columns());
-    appearance_.attributes->value.color |= has_color;
+    appearance_.attributes->value.color |= had.color;
+    appearance_.attributes->value.material = had.material;
+  }
+  if (appearance_.materials.size() > 1) {
+    if (!appearance_.attributes) appearance_.attributes = {{}, location_};
+    appearance_.attributes->value.material = true;
   }
   return AppearanceCommand{};
 }
@@ -143,11 +151,27 @@ void SceneReader::read_current_color() {
   appearance_.attributes->value.color = true;
 }
 
+/// Reads `use K`; material 0 is there without a line, too.
+Command SceneReader::read_use() {
+  line_.word();
+  next_argument_line("the arguments of 'use'");
+  const std::size_t count = std::max<std::size_t>(appearance_.materials.size(), 1);
+  const LineScanner at_number = line_;
+  const std::string expected =
+      "the number of a material above, a whole number below " + std::to_string(count);
+  const std::size_t material = line_.count(expected);
+  if (material >= count) at_number.fail(expected);
+  line_.expect_end("the number of a material");
+  current_material_ = static_cast<std::uint32_t>(material);
+  return AppearanceCommand{};
+}
+
 /// Takes a vertex line of a scene with attributes; a color without columns is the current one.
 VertexLine SceneReader::read_vertex(std::size_t index) {
   LineScanner at_normal = line_;
   VertexLine vertex = vertex_line_.read(line_, index);
   if (!vertex_line_.attributes().color) vertex.color = current_color_;
+  vertex.material = current_material_;
   if (vertex_line_.attributes().normal && vertex.normal == Vec3{}) {
     for (int i = vertex_line_.attributes().color ? 6 : 3; i > 0; --i) at_normal.word();
     throw InputError(
@@ -201,6 +225,7 @@ bool SceneReader::take_decimal_vertices() {
   for (std::size_t i = 0; i < 3; ++i) {
     vertices_[i] = to_vertex_line(decimal_vertices_[i], columns);
     if (!columns.color) vertices_[i].color = current_color_;
+    vertices_[i].material = current_material_;
     if (columns.normal && vertices_[i].normal == Vec3{}) return false;
   }
   return true;

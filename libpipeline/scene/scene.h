@@ -33,7 +33,7 @@ struct RotateCommand {
 struct PushCommand {};
 struct PopCommand {};
 struct EndCommand {};
-/// The appearance or the current color has changed; the reader keeps both.
+/// The appearance, the current color or the current material has changed; the reader keeps them.
 struct AppearanceCommand {};
 struct LightCommand {
   Located<Light> light;  // in model space
@@ -57,6 +57,9 @@ using Command = std::variant<TriangleCommand, TranslateCommand, ScaleCommand, Ro
 ///     color r g b                  of the triangles that follow; may change later if it stands here
 ///     background r g b | ambient r g b | light x y z r g b
 ///     material ambient diffuse specular shininess | attenuation constant linear quadratic
+///
+/// Materials may repeat and are numbered from 0; `use K`, anywhere, gives the triangles that follow material
+/// K.
 class SceneReader {
  public:
   explicit SceneReader(TextReader& text);
@@ -92,6 +95,7 @@ class SceneReader {
   [[nodiscard]] std::string expected_commands() const;
   Command read_appearance(std::string_view keyword);
   void read_current_color();
+  Command read_use();
   RotateCommand read_rotation();
 
   TextReader& text_;
@@ -99,6 +103,7 @@ class SceneReader {
   Appearance appearance_;
   VertexLineReader vertex_line_;
   Vec3 current_color_;
+  std::uint32_t current_material_ = 0;
   std::array<VertexLine, 3> vertices_;
   bool has_triangle_ = false;
   DecimalVertexLines decimal_vertices_;  // of the triangle that is being read

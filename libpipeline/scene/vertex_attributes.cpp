@@ -28,12 +28,14 @@ std::string column_names(const AttributeSet& attributes) {
   if (attributes.w) names += " w";
   if (attributes.color) names += " r g b";
   if (attributes.normal) names += " nx ny nz";
+  if (attributes.material) names += " material";
   if (!attributes.any()) return names;
   // The line that asks for more columns may be far above, in another program's output.
   names += ", by the line 'attributes";
   if (attributes.w) names += " w";
   if (attributes.color) names += " color";
   if (attributes.normal) names += " normal";
+  if (attributes.material) names += " material";
   return names + "'";
 }
 
@@ -60,9 +62,11 @@ VertexLine to_vertex_line(const DecimalVertexLine& line, const AttributeSet& att
   return vertex;
 }
 
-VertexLineReader::VertexLineReader(const AttributeSet& attributes, RangeOfW range_of_w)
+VertexLineReader::VertexLineReader(const AttributeSet& attributes, RangeOfW range_of_w,
+                                   std::size_t material_count)
     : attributes_(attributes),
       range_of_w_(range_of_w),
+      material_count_(material_count),
       column_count_(std::size_t{3} + (attributes.w ? 1 : 0) + (attributes.color ? 3 : 0) +
                     (attributes.normal ? 3 : 0)) {
   for (std::size_t i = 0; i < names_.size(); ++i)
@@ -85,8 +89,25 @@ VertexLine VertexLineReader::read(LineScanner& line, std::size_t vertex) const {
     values.normal.y = line.number("the normal's y of ", name);
     values.normal.z = line.number("the normal's z of ", name);
   }
+  if (attributes_.material) {
+    const LineScanner at_material = line;
+    const std::string expected =
+        "the material of " + name + ", a whole number below " + std::to_string(material_count_);
+    const std::size_t material = line.count(expected);
+    if (material >= material_count_) at_material.fail(expected);
+    values.material = static_cast<std::uint32_t>(material);
+  }
   line.expect_end(name);
   return values;
+}
+
+void VertexLineReader::read(LineScanner& line, std::size_t vertex,
+                            std::array<VertexLine, 3>& vertices) const {
+  LineScanner at_material = line;
+  vertices[vertex] = read(line, vertex);
+  if (vertices[vertex].material == vertices[0].material) return;
+  for (std::size_t i = 0; i < column_count_; ++i) at_material.word();
+  at_material.fail("the material of the triangle's first vertex, " + std::to_string(vertices[0].material));
 }
 
 bool VertexLineReader::are_in_range(std::span<const DecimalNumber> columns) const {
@@ -156,7 +177,7 @@ FixedTextPart VertexLineReader::read_fixed(std::string_view text, TriangleFrame 
                                            AttributeArrays& attributes) const {
   constexpr std::string_view kKeyword = "triangle\n";
   const bool is_scene = frame == TriangleFrame::scene;
-  if (is_scene && !text.starts_with(kKeyword)) return {};
+  if (attributes_.material || (is_scene && !text.starts_with(kKeyword))) return {};
   const std::string_view lines = text.substr(is_scene ? kKeyword.size() : 0);
   return read_block(limit, frame, positions, attributes, [&](const FixedColumns& columns) -> FixedTextPart {
     GroupDecimals decimals;
@@ -168,6 +189,7 @@ FixedTextPart VertexLineReader::read_fixed(std::string_view text, TriangleFrame 
 FixedTextPart VertexLineReader::read_decimals(std::string_view text, TriangleFrame frame,
                                               std::span<DecimalMarks> marks, std::vector<Triangle>& positions,
                                               AttributeArrays& attributes) const {
+  if (attributes_.material) return {};
   return read_block(marks.size(), frame, positions, attributes, [&](const FixedColumns& columns) {
     return read_decimal_columns(text, frame, columns, marks);
   });
@@ -175,6 +197,7 @@ FixedTextPart VertexLineReader::read_decimals(std::string_view text, TriangleFra
 
 const char* VertexLineReader::read_decimals(const char* p, const char* end,
                                             DecimalVertexLines& vertices) const {
+  if (attributes_.material) return nullptr;
   for (DecimalVertexLine& line : vertices) {
     const auto taken = std::span(line.numbers).first(column_count_);
     assert(p != nullptr);
@@ -194,12 +217,14 @@ void AttributeArrays::truncate(std::size_t count) {
   if (!w.empty()) w.resize(count);
   if (!colors.empty()) colors.resize(count);
   if (!normals.empty()) normals.resize(count);
+  if (!materials.empty()) materials.resize(count);
 }
 
 void AttributeArrays::resize(std::size_t count, const AttributeSet& attributes) {
   if (attributes.w) w.resize(count);
   if (attributes.color) colors.resize(count);
   if (attributes.normal) normals.resize(count);
+  if (attributes.material) materials.resize(count);
 }
 
 void AttributeArrays::add(const std::array<VertexLine, 3>& vertices, const AttributeSet& attributes) {
@@ -207,6 +232,7 @@ void AttributeArrays::add(const std::array<VertexLine, 3>& vertices, const Attri
   if (attributes.w) w.push_back({a.w, b.w, c.w});
   if (attributes.color) colors.push_back({a.color, b.color, c.color});
   if (attributes.normal) normals.push_back({a.normal, b.normal, c.normal});
+  if (attributes.material) materials.push_back(a.material);
 }
 
 }  // namespace pipeline

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <string>
 #include <string_view>
@@ -17,17 +18,18 @@
 
 namespace pipeline {
 
-/// The columns of a vertex line after x y z, in this order: w, color (3), normal (3).
+/// The columns of a vertex line after x y z, in this order: w, color (3), normal (3), material.
 struct AttributeSet {
   bool w = false;
   bool color = false;
   bool normal = false;
+  bool material = false;
 
-  [[nodiscard]] bool any() const { return w || color || normal; }
+  [[nodiscard]] bool any() const { return w || color || normal || material; }
   friend bool operator==(const AttributeSet&, const AttributeSet&) = default;
 };
 
-constexpr std::size_t kMaxColumns = 10;  // position, w, color and normal
+constexpr std::size_t kMaxColumns = 10;  // position, w, color and normal; material is a whole number
 
 /// The values of a vertex line; those its text has no columns for are 0.
 struct VertexLine {
@@ -35,6 +37,7 @@ struct VertexLine {
   double w = 0;  // of clip space; see RangeOfW
   Vec3 color;    // red, green, blue from 0 to 255
   Vec3 normal;   // in the space of the position
+  std::uint32_t material = 0;
 };
 
 /// A vertex line of decimal numbers (decimal_number.h); the first three are the position.
@@ -62,6 +65,7 @@ struct AttributeArrays {
   std::vector<std::array<double, 3>> w;      // by vertex
   std::vector<std::array<Vec3, 3>> colors;   // by vertex: red, green, blue from 0 to 255
   std::vector<std::array<Vec3, 3>> normals;  // by vertex, in the space of the positions
+  std::vector<std::uint32_t> materials;      // by triangle, as numbers from 0
 
   void clear();
   /// Keeps the first `count` triangles.
@@ -95,15 +99,21 @@ enum class RangeOfW { above_zero, any };
 /// Reads vertex lines with certain attributes. Errors name the expected columns.
 class VertexLineReader {
  public:
-  explicit VertexLineReader(const AttributeSet& attributes = {}, RangeOfW range_of_w = RangeOfW::above_zero);
+  /// Numbers of materials have to be less than `material_count`.
+  explicit VertexLineReader(const AttributeSet& attributes = {}, RangeOfW range_of_w = RangeOfW::above_zero,
+                            std::size_t material_count = 1);
 
   [[nodiscard]] const AttributeSet& attributes() const { return attributes_; }
   /// Reads the line of vertex `vertex` (0 to 2) to its end. An InputError if a column is missing or left
-  /// over, w is out of its range, or a color channel is not from 0 to 255.
+  /// over, w is out of its range, a color channel is not from 0 to 255, or the material is not a whole number
+  /// of a material.
   VertexLine read(LineScanner& line, std::size_t vertex) const;
+  /// Reads it into `vertices[vertex]`; the line of vertex 0 comes first. The material must be that of vertex
+  /// 0, too.
+  void read(LineScanner& line, std::size_t vertex, std::array<VertexLine, 3>& vertices) const;
   /// The fastest path: reads triangles in fixed form (fixed_text.h) from the beginning of `text`, at most
-  /// `limit`, and adds their values to the arrays. None if a value is out of range; the general path then
-  /// reports it.
+  /// `limit`, and adds their values to the arrays. None if a value is out of range, which the general path
+  /// then reports, or if there is a column of materials; nor do the other fast paths read those.
   FixedTextPart read_fixed(std::string_view text, TriangleFrame frame, std::size_t limit,
                            std::vector<Triangle>& positions, AttributeArrays& attributes) const;
   /// The same for lines of decimal_columns.h, as many as there are `marks`.
@@ -125,6 +135,7 @@ class VertexLineReader {
 
   AttributeSet attributes_;
   RangeOfW range_of_w_;
+  std::size_t material_count_;
   std::size_t column_count_;
   std::array<std::string, 3> names_;
 };

@@ -42,10 +42,13 @@ StageReader::StageReader(TextReader& text, bool marks_decimals) : text_(text) {
   }
   has_body_ = line_is_pending_;
   check_camera(header_.camera);
-  triangles_.emplace(text_, header_.appearance.columns(), marks_decimals);
+  const std::size_t material_count = std::max<std::size_t>(header_.appearance.materials.size(), 1);
+  triangles_.emplace(text_,
+                     VertexLineReader(header_.appearance.columns(), RangeOfW::above_zero, material_count),
+                     marks_decimals);
   AttributeSet columns_in_clip_space = header_.appearance.columns();
   columns_in_clip_space.w = true;
-  clip_vertex_line_ = VertexLineReader(columns_in_clip_space, RangeOfW::any);
+  clip_vertex_line_ = VertexLineReader(columns_in_clip_space, RangeOfW::any, material_count);
   // An error here may hide a header line, so it is reported before any caller misses that line.
   header_end_ = line_is_pending_ ? line_.location() : text_.end_location();
   if (!line_is_pending_) expect_unframed_end();
@@ -160,7 +163,7 @@ void StageReader::read_clipped(LineScanner& line) {
   for (std::size_t i = 0; i < 3; ++i) {
     next_vertex_line(text_, line, i);
     if (keeps_text_) (clipped_text_ += line.rest()) += '\n';
-    unclipped[i] = clip_vertex_line_.read(line, i);
+    clip_vertex_line_.read(line, i, unclipped);
   }
   if (keeps_text_) clipped_text_ += '\n';
   unclipped_ = std::make_shared<const ClipTriangle>(unclipped);

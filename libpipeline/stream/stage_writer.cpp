@@ -13,8 +13,8 @@
 namespace pipeline {
 namespace {
 
-// Position, w, color and normal.
-constexpr std::size_t kMaxVertexLength = 10 * (kMaxNumberLength + 1);
+// Position, w, color, normal and material.
+constexpr std::size_t kMaxVertexLength = 11 * (kMaxNumberLength + 1);
 // "triangle N", three vertex lines and the blank line.
 constexpr std::size_t kMaxTriangleLength = 40 + 3 * kMaxVertexLength + 1;
 
@@ -49,6 +49,7 @@ void print_attribute_names(TextWriter& text, const AttributeSet& attributes) {
   if (attributes.w) text.append(" w");
   if (attributes.color) text.append(" color");
   if (attributes.normal) text.append(" normal");
+  if (attributes.material) text.append(" material");
   text.append("\n");
 }
 
@@ -59,8 +60,7 @@ void print_appearance(TextWriter& text, const Appearance& appearance) {
   if (appearance.attributes) print_attribute_names(text, appearance.attributes->value);
   print_vec3("background", appearance.background);
   print_vec3("ambient", appearance.ambient);
-  if (appearance.material) {
-    const Material& m = appearance.material->value;
+  for (const auto& [m, location] : appearance.materials) {
     print_numbers(text, "material", {m.ambient, m.diffuse, m.specular});
     text.append(" " + std::to_string(m.shininess) + "\n");
   }
@@ -116,7 +116,7 @@ void StageWriter::write(const TriangleBatch& batch) {
 
 /// Whether write_block may print triangles with these digits.
 bool StageWriter::has_fast_path() const {
-  return format_.decimals <= kMaxFixedDecimals || format_.shortest;
+  return !columns_.material && (format_.decimals <= kMaxFixedDecimals || format_.shortest);
 }
 
 /// The end of the triangles from `begin` on that need no `triangle N`, or of a part of them.
@@ -187,7 +187,7 @@ void StageWriter::write_triangle(const TriangleBatch& batch, std::size_t index, 
 /// Prints an unclipped triangle before its first piece. Its corners are lit, so they are not rounded.
 void StageWriter::write_clipped(const ClipTriangle& unclipped) {
   text_.append("clipped\n");
-  for (const auto& [p, w, color, normal] : unclipped) {
+  for (const auto& [p, w, color, normal, material] : unclipped) {
     char* out = text_.reserve(kMaxVertexLength);
     const auto print = [&](std::initializer_list<double> numbers) {
       for (const double number : numbers) {
@@ -198,6 +198,7 @@ void StageWriter::write_clipped(const ClipTriangle& unclipped) {
     print({p.x, p.y, p.z, w});
     if (columns_.color) print({color.x, color.y, color.z});
     if (columns_.normal) print({normal.x, normal.y, normal.z});
+    if (columns_.material) print({static_cast<double>(material)});
     out[-1] = '\n';
     text_.commit(out);
   }
@@ -225,6 +226,10 @@ char* StageWriter::print_attributes(char* out, const AttributeArrays& attributes
   }
   if (columns_.color) print_vec3(attributes.colors[index][vertex]);
   if (columns_.normal) print_vec3(attributes.normals[index][vertex]);
+  if (columns_.material) {
+    *out++ = ' ';
+    out = print_number(out, attributes.materials[index], 0, {.shortest = true});
+  }
   return out;
 }
 

@@ -51,8 +51,8 @@ struct ExactParts {
 
 }  // namespace
 
-TriangleReader::TriangleReader(TextReader& text, const AttributeSet& attributes, bool marks_decimals)
-    : text_(text), vertex_line_(attributes), marks_decimals_(marks_decimals) {}
+TriangleReader::TriangleReader(TextReader& text, const VertexLineReader& vertex_line, bool marks_decimals)
+    : text_(text), vertex_line_(vertex_line), marks_decimals_(marks_decimals) {}
 
 bool TriangleReader::read_buffered(TriangleBatch& batch) {
   return read_fixed_form(batch) || read_decimal_form(batch) || read_decimal_lines(batch);
@@ -157,7 +157,7 @@ void TriangleReader::read(LineScanner& line, TriangleBatch& batch) {
     if (marks_decimals_) exact.add_vertex(line, i);
     if (keeps_text_) batch.texts.add_line(line.rest());
     if (attributes.any()) {
-      vertices[i] = vertex_line_.read(line, i);
+      vertex_line_.read(line, i, vertices);
       triangle[i] = vertices[i].position;
     } else {
       triangle[i] = line.vec3(kVertexNames[i]);

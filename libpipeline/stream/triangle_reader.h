@@ -13,9 +13,9 @@ namespace pipeline {
 /// as a triangle is completely buffered; the general path reads any triangle, line by line.
 class TriangleReader {
  public:
-  /// `attributes` are the columns of the vertex lines. With `marks_decimals`, batches mark the coordinates
+  /// `vertex_line` reads the vertex lines. With `marks_decimals`, batches mark the coordinates
   /// that are exact decimals.
-  TriangleReader(TextReader& text, const AttributeSet& attributes, bool marks_decimals);
+  TriangleReader(TextReader& text, const VertexLineReader& vertex_line, bool marks_decimals);
 
   /// The number of the next triangle.
   [[nodiscard]] std::uint64_t next_number() const { return next_number_; }

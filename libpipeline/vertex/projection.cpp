@@ -68,7 +68,8 @@ ProjectionCoefficients coefficients_of(const ProjectionTransform& projection) {
 }
 
 bool has_attributes(const TriangleBatch& batch) {
-  return !batch.attributes.colors.empty() || !batch.attributes.normals.empty();
+  const AttributeArrays& attributes = batch.attributes;
+  return !attributes.colors.empty() || !attributes.normals.empty() || !attributes.materials.empty();
 }
 
 /// Rounded weights may push a color at a limit beyond it.
@@ -192,8 +193,10 @@ void ProjectionStage::add_attributes(const TriangleBatch& p_view, std::size_t in
     if (!corners.colors.empty())
       vertices[v].color = clamped_color(mean(corners.colors[index], mixes[v].weights));
     if (!corners.normals.empty()) vertices[v].normal = mean(corners.normals[index], mixes[v].weights);
+    if (!corners.materials.empty()) vertices[v].material = corners.materials[index];
   }
-  p_ndc.attributes.add(vertices, {true, !corners.colors.empty(), !corners.normals.empty()});
+  p_ndc.attributes.add(vertices,
+                       {true, !corners.colors.empty(), !corners.normals.empty(), !corners.materials.empty()});
 }
 
 void ProjectionStage::project_unclipped(const TriangleBatch& p_view, std::size_t index,
@@ -221,6 +224,7 @@ void ProjectionStage::project_unclipped(const TriangleBatch& p_view, std::size_t
   p_ndc.attributes.w.push_back({w_of(a), w_of(b), w_of(c)});
   if (!attributes.colors.empty()) p_ndc.attributes.colors.push_back(attributes.colors[index]);
   if (!attributes.normals.empty()) p_ndc.attributes.normals.push_back(attributes.normals[index]);
+  if (!attributes.materials.empty()) p_ndc.attributes.materials.push_back(attributes.materials[index]);
 }
 
 /// The corners in clip space, their w multiplied by the clip extent: a smaller w pulls in all planes.
@@ -286,6 +290,7 @@ std::shared_ptr<const ClipTriangle> ProjectionStage::unclipped_in_clip_space(
     is_certain[v] = x.is_certain && y.is_certain && z.is_certain;
     if (!attributes.colors.empty()) triangle[v].color = attributes.colors[index][v];
     if (!attributes.normals.empty()) triangle[v].normal = attributes.normals[index][v];
+    if (!attributes.materials.empty()) triangle[v].material = attributes.materials[index];
   }
   for (std::size_t v = 0; v < 3; ++v)
     if (!is_certain[v]) rounder_.add_uncertain(p_view.locations[index][v]);

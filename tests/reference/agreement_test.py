@@ -23,7 +23,8 @@ BIN = pathlib.Path(sys.argv.pop()).resolve()
 STAGES = ("model", "view", "project", "zbuf")
 WORDS = (b"0", b"-1", b"nan", b"1e309", b"1e300", b"x", b"0x1", b"1,5", b"256", b"1e-400", b"+", b".", b"1.5.2", b"#", b"ratio")
 LINES = (b"pop", b"push", b"end", b"triangle", b"", b"# c", b"framed", b"1 2 3", b"triangle 7", b"light 1 1 1 1 1 1", b"color 1 2 3",
-         b"attributes normal", b"background 1 2 3", b"error model: x", b"Triangle", b"clipped", b"material 1 1 1 1", b"attenuation 0 0 0")
+         b"attributes normal", b"background 1 2 3", b"error model: x", b"Triangle", b"clipped", b"material 1 1 1 1", b"attenuation 0 0 0",
+         b"use 1", b"use 0", b"attributes material")
 
 
 def damaged(rng, text):

@@ -62,6 +62,8 @@ def looks(rng, has_light):
         lines += ["material %s %s" % (positive(rng, 3, 1.2), shininess)] * rng.randint(0, 1)
         lines += ["attenuation 1 " + positive(rng, 2, 0.2)] * rng.randint(0, 1)
         lines += ["light %s %s" % (numbers(rng, 3, 9), positive(rng, 3, 1)) for _ in range(rng.randint(1, 3))]
+        if rng.random() < 0.4:
+            lines += ["material %s %s" % (positive(rng, 3, 1.2), shininess) for _ in range(rng.randint(1, 3))]
     rng.shuffle(lines)
     return lines, columns, has_color
 
@@ -96,9 +98,9 @@ def scene(rng):
     lines += [transform(rng)] * rng.randint(0, 1)
     more, columns, has_color = looks(rng, rng.random() < 0.4) if rng.random() < 0.6 else ([], (), False)
     lines += more
-    depth = 0
+    depth, materials = 0, sum(line.startswith("material") for line in lines)
     for _ in range(rng.randint(3, 24)):
-        command = rng.choice(("triangle",) * 5 + ("transform", "transform", "push", "pop", "color", "again"))
+        command = rng.choice(("triangle",) * 5 + ("transform", "transform", "push", "pop", "color", "again", "use"))
         if command == "triangle":
             corners = [vertex(rng, columns) for _ in range(3)]
             lines.append("triangle\n" + "\n".join(corners))
@@ -111,6 +113,8 @@ def scene(rng):
             lines.append(command)
         elif command == "color" and has_color:
             lines.append("color " + positive(rng, 3, 255))
+        elif command == "use" and materials:
+            lines.append("use %d" % rng.randrange(materials))
     text = "\n".join(lines + ["end", ""])
     return untidy(rng, text) if rng.random() < 0.3 else text
 

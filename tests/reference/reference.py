@@ -17,7 +17,7 @@ SHADING = decimal.Context(prec=50, Emax=10**9, Emin=-10**9)
 LARGEST = 2**1024 - 2**970  # from here on the nearest double is infinite
 
 Part = namedtuple("Part", "line kind numbers rule", defaults=(None,))  # a line of a camera or of a header
-Vertex = namedtuple("Vertex", "line position w color normal written", defaults=(None,) * 4)  # written: the words of x, y, z
+Vertex = namedtuple("Vertex", "line position w color normal written material", defaults=(None,) * 5)  # written: the words of x, y, z
 Triangle = namedtuple("Triangle", "number corners whole", defaults=(None,))  # whole: the corners in clip space, if it is a piece
 
 # scene.md: lines, words and numbers
@@ -95,9 +95,9 @@ ARGUMENTS = {
     "color": [CHANNEL] * 3, "background": [CHANNEL] * 3, "ambient": [NOT_NEGATIVE] * 3, "light": [ANY] * 3 + [NOT_NEGATIVE] * 3,
     "material": [NOT_NEGATIVE] * 3,  # and the shininess, in read_part
     "attenuation": [NOT_NEGATIVE] * 2 + [lambda x, *before: x >= 0 and any((x, *before))]}
-COLUMNS = {"w": [POSITIVE], "color": [CHANNEL] * 3, "normal": [ANY] * 3}
+COLUMNS = {"w": [POSITIVE], "color": [CHANNEL] * 3, "normal": [ANY] * 3}  # and the material, in read_vertex
 POSITION, PROJECTIONS = ("eye", "look", "up"), ("perspective", "frustum", "ortho")
-ONCE = ("background", "ambient", "material", "attenuation")
+ONCE, REPEATED = ("background", "ambient", "attenuation"), ("material", "light")
 
 def read_part(line, keyword):  # S6 to S8, S12, S17 to S21, T2 to T6: the rest of a line, behind the keyword if it is there
     numbers = line.reals(*ARGUMENTS[keyword])
@@ -124,12 +124,12 @@ def read_camera(text):  # S6, S9
     return camera
 
 def read_commands(text, header):  # S10 to S17: yields keyword, line and arguments; puts into `header` what is the same for all triangles
-    columns, color, has_triangle, keyword = (), None, False, None
+    columns, color, material, has_triangle, keyword = (), None, 0, False, None
     while keyword != "end":
         line = text.filled_line("end")
-        at, keyword, arguments = line.number, line.take("triangle", "push", "pop", "end", "attributes", *ARGUMENTS), None
+        at, keyword, arguments = line.number, line.take("triangle", "push", "pop", "end", "attributes", "use", *ARGUMENTS), None
         may_be_late = keyword == "color" and "color" in header.get("attributes", ())
-        is_late = has_triangle and keyword in ("color", "light", "attributes", *ONCE) and not may_be_late
+        is_late = has_triangle and keyword in ("color", "attributes", *ONCE, *REPEATED) and not may_be_late
         is_second = keyword in ONCE and keyword in header or keyword == "attributes" and columns
         if keyword in (None, *POSITION, *PROJECTIONS) or is_late or is_second:
             raise Refused(at, f"{keyword}: not a command that may stand here")
@@ -138,14 +138,18 @@ def read_commands(text, header):  # S10 to S17: yields keyword, line and argumen
         elif not line.words:
             line = text.filled_line("arguments")
         if keyword == "triangle":
-            arguments, has_triangle = read_triangle(text, line, columns, color), True
+            arguments, has_triangle = [corner._replace(material=material) for corner in read_triangle(text, line, columns, color)], True
+        elif keyword == "use":
+            material = read_material_number(line, header)
+            line.end()
         elif keyword == "attributes":
             columns = read_columns(line, ("color", "normal"))
         elif keyword in ARGUMENTS:
             arguments = read_part(line, keyword)
             at, color = line.number, arguments.numbers if keyword == "color" else color
-            header.update({keyword: arguments} if keyword in ONCE else {})
+            header.update({keyword: arguments} if keyword in ONCE else {keyword: header.get(keyword, []) + [arguments]} if keyword == "material" else {})
         header["attributes"] = [name for name in ("color", "normal") if name in columns or name == "color" and color]
+        header["attributes"] += ["material"] * (len(header.get("material", ())) > 1)
         yield keyword, at, arguments
     text.expect_end()
 
@@ -158,17 +162,25 @@ def read_triangle(text, line, columns, color):  # S11, S16, S17: the corners
             raise Refused(line.number, "a normal of 0 0 0")
     return corners if "color" in columns else [corner._replace(color=color) for corner in corners]
 
+def read_material_number(line, header):  # S23, T9
+    at = line.number
+    number = line.whole()
+    if number >= max(1, len(header.get("material", ()))):
+        raise Refused(at, "a material that is not there")
+    return number
+
 def read_columns(line, names):  # S16, T5
     columns = [name for name in names if line.take(name)]
     if not columns or line.words:
         line.refuse("attributes in their order")
     return columns
 
-def read_vertex(line, columns):  # S11, S16, T9
+def read_vertex(line, columns, header=None):  # S11, S16, T9
     written, position = line.words[:3], line.reals(ANY, ANY, ANY)
     values = {name: line.reals(*columns[name]) for name in COLUMNS if name in columns}
+    material = read_material_number(line, header) if "material" in columns else None
     line.end()
-    return Vertex(line.number, position, values.get("w", (None,))[0], values.get("color"), values.get("normal"), written)
+    return Vertex(line.number, position, values.get("w", (None,))[0], values.get("color"), values.get("normal"), written, material)
 
 # scene.md: the config
 Config = namedtuple("Config", "width height left bottom front rear written")  # written: the words of left and bottom
@@ -199,24 +211,24 @@ class Stage:  # T1 to T16: a stage text as `reader` reads it; `header` has its p
         check_camera(self.header)
 
     def read_header(self, line):  # T1 to T7, T14: whether the line belongs to the header
-        keyword = line.take("framed", "projected", "attributes", "light", *POSITION, *PROJECTIONS, *ONCE)
+        keyword = line.take("framed", "projected", "attributes", *POSITION, *PROJECTIONS, *ONCE, *REPEATED)
         name = "projection" if keyword in ("projected", *PROJECTIONS) else keyword
-        if keyword in USED_UP[self.reader] or name in self.header and name != "light":
+        if keyword in USED_UP[self.reader] or name in self.header and name not in REPEATED:
             raise Refused(line.number, f"{keyword}: a second one, or a text that is not for {self.reader}")
         if keyword == "framed":
             self.header[name] = line.end() or True
         elif keyword == "attributes":
-            self.header[name] = read_columns(line, ("w", "color", "normal"))
+            self.header[name] = read_columns(line, ("w", "color", "normal", "material"))
             if "w" in self.header[name] and self.reader != "zbuf":
                 raise Refused(line.number, "a text that has been projected")
         elif keyword:
             kind = line.take("frustum", "ortho") or line.refuse("frustum or ortho") if keyword == "projected" else keyword
             part = read_part(line, kind)
-            self.header[name] = self.header.get(name, []) + [part] if name == "light" else part
+            self.header[name] = self.header.get(name, []) + [part] if name in REPEATED else part
         return bool(keyword)
 
     def triangles(self):  # T8, T10 to T13: one after the other
-        columns = {name: COLUMNS[name] for name in self.header.get("attributes", ())}
+        columns = {name: COLUMNS.get(name) for name in self.header.get("attributes", ())}
         number, whole, number_of_whole, end = 0, None, None, "end" if "framed" in self.header else None
         line = self.first or self.text.filled_line(end)
         while line:
@@ -243,7 +255,9 @@ class Stage:  # T1 to T16: a stage text as `reader` reads it; `header` has its p
         corners = []
         while len(corners) < 3:
             if line.words:
-                corners.append(read_vertex(line, columns))
+                corners.append(read_vertex(line, columns, self.header))
+                if corners[-1].material != corners[0].material:
+                    raise Refused(line.number, "another material than the first vertex")
             elif not line.comment:
                 raise Refused(line.number, "a blank line inside a triangle")
             line = self.text.line("a vertex") if len(corners) < 3 else None
@@ -267,6 +281,7 @@ def shortest(x):  # T20: Python's repr has the digits
     plain = str(int(abs(double))) if exponent >= 0 else padded[:exponent] + "." + padded[exponent:]
     return "-" * (double < 0) + min(plain, scientific, key=len)
 
+WRITTEN = ("background", "ambient", "material", "attenuation", "light")  # T17, in this order
 class Writer:  # T17 to T20: the lines of a stage text
     def __init__(self, header, options):
         self.is_bare, self.next = "--bare" in options, 0
@@ -282,7 +297,7 @@ class Writer:  # T17 to T20: the lines of a stage text
             yield " ".join(["projected"] * (name == "projected") + [kind, *map(shortest, numbers)] + ["ratio"] * (rule == "ratio"))
         if self.columns:
             yield " ".join(["attributes", *self.columns])
-        for part in [header[name] for name in ONCE if name in header] + header.get("light", []):
+        for part in sum((header.get(name, []) if name in REPEATED else [header[name]] for name in WRITTEN if name in header), []):
             words = [*map(shortest, part.numbers[:3]), *map(str if part.kind == "material" else shortest, part.numbers[3:])]
             yield " ".join([part.kind, *words])
 
@@ -296,7 +311,8 @@ class Writer:  # T17 to T20: the lines of a stage text
 
     def vertex(self, corner, text_of, columns):  # T9, T19, T20
         words = [*map(text_of, corner.position), *(shortest(corner.w) for _ in "w" if "w" in columns)]
-        return " ".join([*words, *(text_of(x) for name in ("color", "normal") if name in columns for x in getattr(corner, name))])
+        words += [text_of(x) for name in ("color", "normal") if name in columns for x in getattr(corner, name)]
+        return " ".join([*words, *(str(corner.material) for _ in "m" if "material" in columns)])
 
     def text(self): return "".join(line + "\n" for line in self.lines + self.end).encode()  # T13, T18
 
@@ -480,7 +496,7 @@ def divided(p, corners, has_columns):  # P4, P9, N4: the vertex in NDC of a poin
     if p.w <= 0:
         raise Refused(line, "a vertex that is not in front of the eye")
     color, normal = (values[0] and mean(p.weights, values) for values in ([c.color for c in corners], [c.normal for c in corners]))
-    return Vertex(line, expect_finite(times(1 / p.w, p[:3]), line), p.w if has_columns else None, color, normal)
+    return Vertex(line, expect_finite(times(1 / p.w, p[:3]), line), p.w if has_columns else None, color, normal, material=corners[0].material)
 
 def project(data, options):  # P1 to P11, T4, T5, T11: the text of stage 3
     stage = Stage(data, "project")
@@ -575,8 +591,8 @@ def generated_color(number):  # Z10: after n draws s is m^n + 2531011 (m^n - 1) 
     return [(power + 2531011 * ((power - 1) // (m - 1))) % 2**32 // 2**16 % 2**15 % 256 for power in powers]
 
 # stages.md: zbuf, color and light
-Surface = namedtuple("Surface", "clip positions normals colors")  # of the corners: x, y and w in clip space; in view space
-Lighting = namedtuple("Lighting", "ambient material attenuation lights is_ortho")
+Surface = namedtuple("Surface", "clip positions normals colors material")  # of the corners: x, y and w in clip space; in view space
+Lighting = namedtuple("Lighting", "ambient attenuation lights is_ortho material")
 def in_decimals(vector): return tuple(Decimal(x.numerator) / x.denominator for x in vector)  # L7: with 50 digits
 
 def shading_model(stage, chosen):  # L1, T15
@@ -596,7 +612,7 @@ def surface_of(triangle, volume, model_name):  # L2, L4
         positions.append(to_view_space((x, y, z), w, volume))
     face, own = cross(minus(positions[1], positions[0]), minus(positions[2], positions[0])), generated_color(triangle.number)
     return Surface(clip, positions, [in_decimals(c.normal) if c.normal and model_name != "flat" else face for c in corners],
-                   [in_decimals(c.color or own) for c in corners])
+                   [in_decimals(c.color or own) for c in corners], triangle.corners[0].material or 0)
 
 def to_view_space(p, w, volume):  # L2: P3, solved for the point
     if not volume:
@@ -629,8 +645,8 @@ def lit(p, normal, color, lighting):  # L5
 def shaded(surface, model_name, lighting, weights):  # L4: the color at a point of a surface
     weights = [Decimal(1) / 3] * 3 if model_name == "flat" else weights
     if model_name == "gouraud":
-        return mean(weights, [tuple(map(clamped, lit(*corner, lighting))) for corner in zip(*surface[1:])])
-    point = [mean(weights, values) for values in surface[1:]]
+        return mean(weights, [tuple(map(clamped, lit(*corner, lighting))) for corner in zip(*surface[1:4])])
+    point = [mean(weights, values) for values in surface[1:4]]
     return point[2] if model_name == "none" else lit(*point, lighting)
 
 def clamped(channel): return max(Decimal(0), min(Decimal(255), channel))  # L4, L6
@@ -638,16 +654,18 @@ def rounded(color): return tuple(math.floor(clamped(channel) + Decimal("0.5")) f
 
 def shade(seen, header, config, model_name):  # L1 to L5, Z10: the picture, in colors that are not yet rounded; `seen` is that of draw
     volume = volume_of(header["projection"]) if "projection" in header else None
-    defaults = {"background": (0, 0, 0), "ambient": (0, 0, 0), "material": (1, 1, 0, 1), "attenuation": (1, 0, 0)}
+    defaults = {"background": (0, 0, 0), "ambient": (0, 0, 0), "attenuation": (1, 0, 0)}
     background, *looks = (in_decimals(header[name].numbers if name in header else default) for name, default in defaults.items())
-    lighting = Lighting(*looks, [in_decimals(light.numbers) for light in header.get("light", ())], volume and volume.is_ortho)
+    materials = [in_decimals(part.numbers) for part in header.get("material", ())] or [in_decimals((1, 1, 0, 1))]
+    lights = [in_decimals(light.numbers) for light in header.get("light", ())]
+    lightings = [Lighting(*looks, lights, volume and volume.is_ortho, material) for material in materials]
     left, bottom = in_decimals((config.left, config.bottom))
     surfaces, picture = {}, [[background] * config.width for _ in seen]
     for row, column in [(row, column) for row, line in enumerate(seen) for column, triangle in enumerate(line) if triangle]:
         triangle = seen[row][column]
         surface = surfaces.get(id(triangle)) or surfaces.setdefault(id(triangle), surface_of(triangle, volume, model_name))
         x, y = left - left * (2 * column + 1) / config.width, bottom * (2 * row + 1) / config.height - bottom
-        picture[row][column] = shaded(surface, model_name, lighting, weights_at(surface.clip, x, y))
+        picture[row][column] = shaded(surface, model_name, lightings[surface.material], weights_at(surface.clip, x, y))
     return picture
 
 def zbuf(data, options):  # Z1 to Z10, L1 to L6, T15, T23, T24: the z-buffer text; writes the image

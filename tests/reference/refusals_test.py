@@ -39,6 +39,7 @@ SCENES = [  # paragraphs, line, text
     ("S16", 5, CAMERA + "attributes hue\n"), ("S16", 5, CAMERA + "attributes normal color\n"), ("S16", 5, CAMERA + "attributes w color\n"),
     ("S16", 7, CAMERA + "attributes color normal\ntriangle\n0 0 0 1 2 3\n"), ("S16", 7, CAMERA + "attributes normal\ntriangle\n0 0 1 0 0 0\n"),
     ("S17", 5, CAMERA + "color 1 2\n"), ("S17", 6, CAMERA + "color\n1 256 0\n"), ("S18", 5, CAMERA + "background 1 2 -1\n"),
+    ("S23", 6, CAMERA + "material 1 1 0 1\nuse 1\nmaterial 1 1 0 1\n"), ("S23", 5, CAMERA + "use 0.0\n"), ("S23", 5, CAMERA + "use 1\n"),
     ("S18", 5, CAMERA + "ambient -1 0 0\n"), ("S19", 5, CAMERA + "material 1 1 1\n"), ("S19", 5, CAMERA + "material 1 1 1 1.5\n"),
     ("S19", 5, CAMERA + "material 1 1 1 18446744073709551616\n"), ("S19", 5, CAMERA + "material 1 -1 1 1\n"),
     ("S20", 5, CAMERA + "attenuation 0 0 0\n"), ("S20", 5, CAMERA + "attenuation 1 -1 0\n"), ("S21", 5, CAMERA + "light 1 2 3\n"),

@@ -43,8 +43,8 @@ std::string error_of(const std::string& commands) {
 
 TEST(Appearance, APlainSceneGivesNone) {
   const Appearance appearance = scene_of(kTriangle).appearance;
-  EXPECT_FALSE(appearance.attributes || appearance.background || appearance.ambient || appearance.material ||
-               appearance.attenuation || !appearance.lights.empty());
+  EXPECT_FALSE(appearance.attributes || appearance.background || appearance.ambient ||
+               !appearance.materials.empty() || appearance.attenuation || !appearance.lights.empty());
 }
 
 TEST(Appearance, TakesEveryCommandOnItsOwnLineOrTheNext) {
@@ -55,8 +55,8 @@ TEST(Appearance, TakesEveryCommandOnItsOwnLineOrTheNext) {
                  blank + "4 5 6 1 1 1\n");
     EXPECT_EQ(scene.appearance.background->value, (Vec3{0, 127.5, 255}));
     EXPECT_EQ(scene.appearance.ambient->value, (Vec3{0.1, 0.2, 0.3}));
-    EXPECT_EQ(scene.appearance.material->value.diffuse, 0.25);
-    EXPECT_EQ(scene.appearance.material->value.shininess, 40u);
+    EXPECT_EQ(scene.appearance.materials.at(0).value.diffuse, 0.25);
+    EXPECT_EQ(scene.appearance.materials.at(0).value.shininess, 40u);
     EXPECT_EQ(scene.appearance.attenuation->value.quadratic, 0.5);
     ASSERT_EQ(scene.lights.size(), 2u);
     EXPECT_EQ(scene.lights[0].position, (Vec3{1, 2, 3}));
@@ -135,7 +135,38 @@ TEST(Appearance, AttributesAreNamedOnceInTheirOrder) {
             "scene.txt:6:1: expected one 'attributes', found a second one after scene.txt:5:12");
 }
 
-TEST(Appearance, OnlyLightsMayBeMany) {
+TEST(Appearance, TheCurrentMaterialIsThatOfEveryVertexUntilItChanges) {
+  const ReadScene scene = scene_of("material 1 1 0 1\nmaterial 0 0 1 9\n" + kTriangle + "push\nuse 1\npop\n" +
+                                   kTriangle + "use\n0\n" + kTriangle);
+  EXPECT_TRUE(scene.appearance.columns() == (AttributeSet{.material = true}));
+  ASSERT_EQ(scene.triangles.size(), 3u);
+  EXPECT_EQ(scene.triangles[0][2].material, 0u);
+  EXPECT_EQ(scene.triangles[1][0].material, 1u);
+  EXPECT_EQ(scene.triangles[1][2].material, 1u);
+  EXPECT_EQ(scene.triangles[2][1].material, 0u);
+}
+
+TEST(Appearance, OneMaterialNeedsNoColumn) {
+  const ReadScene scene = scene_of("material 0 0 1 9\nuse 0\n" + kTriangle);
+  EXPECT_FALSE(scene.appearance.attributes);
+  EXPECT_FALSE(scene_of("use 0\n" + kTriangle).appearance.attributes);
+}
+
+TEST(Appearance, AttributesAndMaterialsMayStandInAnyOrder) {
+  const std::string materials = "material 1 1 0 1\nmaterial 1 1 1 9\n";
+  const AttributeSet both = {.normal = true, .material = true};
+  EXPECT_TRUE(scene_of(materials + "attributes normal\n").appearance.columns() == both);
+  EXPECT_TRUE(scene_of("attributes normal\n" + materials).appearance.columns() == both);
+}
+
+TEST(Appearance, AMaterialIsUsedBelowItsLine) {
+  EXPECT_EQ(error_of("material 1 1 0 1\nuse 1\nmaterial 1 1 0 1\n"),
+            "scene.txt:6:5: expected the number of a material above, a whole number below 1, found '1'");
+  EXPECT_EQ(error_of("use 0\n" + kTriangle + "use\n-1\n"),
+            "scene.txt:11:1: expected the number of a material above, a whole number below 1, found '-1'");
+}
+
+TEST(Appearance, OnlyLightsAndMaterialsMayBeMany) {
   EXPECT_EQ(error_of("ambient 1 1 1\nambient 1 1 1\n"),
             "scene.txt:6:1: expected one 'ambient', found a second one after scene.txt:5:9");
 }
@@ -154,7 +185,7 @@ TEST(Appearance, TheShininessIsWhole) {
 
 TEST(Appearance, AWholeShininessMayBeWrittenWithDecimals) {
   const auto shininess_of = [](const std::string& number) {
-    return scene_of("material 1 1 0 " + number + "\n").appearance.material->value.shininess;
+    return scene_of("material 1 1 0 " + number + "\n").appearance.materials.at(0).value.shininess;
   };
   EXPECT_EQ(shininess_of("16.0"), 16u);
   EXPECT_EQ(shininess_of("+1.6e1"), 16u);

@@ -538,8 +538,9 @@ TEST(StageReader, AVertexHasTheColumnsOfTheHeader) {
 }
 
 TEST(StageReader, NamesAttributesItDoesNotKnow) {
-  EXPECT_EQ(error_of("attributes normal color\n"),
-            "in.txt:1:19: expected attributes of [w] [color] [normal], in this order, found 'color'");
+  EXPECT_EQ(
+      error_of("attributes normal color\n"),
+      "in.txt:1:19: expected attributes of [w] [color] [normal] [material], in this order, found 'color'");
 }
 
 TEST(StageReader, LooksStandBeforeTheFirstTriangle) {

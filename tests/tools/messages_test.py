@@ -13,6 +13,7 @@ COMMANDS = "a command (triangle, translate, scale, rotate, push, pop or end)"
 FIRST_COMMANDS = COMMANDS[:-1] + ("; before the first triangle also color, attributes, background, light, ambient, "
                                   "material or attenuation)")
 VERTICES = "0 0 0\n1 0 0\n0 1 0\n"
+MATERIALS = "attributes material\nmaterial 1 1 0 1\nmaterial 0 0 1 5\n"
 IN_RANGE = "expected a vertex whose image is within a double's range"
 IN_FRONT = "expected a vertex in front of the eye (z below 0; --clip auto cuts the others)"
 
@@ -143,6 +144,12 @@ add_claims(SceneMessages, [
      "7:3: expected a light whose image is within a double's range, found an overflow of its y"),
     ("ambient light takes nothing away", CAMERA + "ambient -1 0 0\n",
      "5:9: expected the red of the ambient light of at least 0, found '-1'"),
+    ("a material that is used stands above", CAMERA + "material 1 1 0 1\nmaterial 1 1 0 1\nuse 2\n",
+     "7:5: expected the number of a material above, a whole number below 2, found '2'"),
+    ("a material that is used is a whole number", CAMERA + "use 0.0\n",
+     "5:5: expected the number of a material above, a whole number below 1, found '0.0'"),
+    ("a material stands before the triangles", CAMERA + TRIANGLE + "material 1 1 0 1\n",
+     "9:1: expected 'material' before the first triangle, found 'material' after it"),
     ("a material has a shininess", CAMERA + "material 1 1 1\n",
      "5:15: expected the shininess, a whole number below 2^64, found the end of the line"),
     ("a shininess is whole", CAMERA + "material 1 1 1 1.5\n",
@@ -169,6 +176,12 @@ add_claims(StageMessages, [
      "9:1: expected header lines before the first triangle, found 'up'"),
     ("keywords are known behind the header", HEADER + VERTICES + "quad\n",
      "8:1: expected 'triangle N' or a vertex, found 'quad'"),
+    ("a material is one of the header's", MATERIALS + HEADER + "0 0 0 2\n",
+     "8:7: expected the material of vertex 1 of 3 (x y z material, by the line 'attributes material'), a whole number below 2, found '2'"),
+    ("a material is a whole number", MATERIALS + HEADER + "0 0 0 1.0\n",
+     "8:7: expected the material of vertex 1 of 3 (x y z material, by the line 'attributes material'), a whole number below 2, found '1.0'"),
+    ("a triangle has one material", MATERIALS + HEADER + "0 0 0 1\n1 0 0 1\n0 1 0 0\n",
+     "10:7: expected the material of the triangle's first vertex, 1, found '0'"),
     ("a vertex has the columns of its attributes", "attributes color\n" + HEADER + "0 0 0 1 1\n",
      "6:10: expected the blue of vertex 1 of 3 (x y z r g b, by the line 'attributes color'), found the end of the line"),
     ("a number of a triangle is below 2 to the 64", HEADER + "triangle 18446744073709551616\n",
@@ -225,7 +238,7 @@ add_claims(HeaderMessages, [
      "5:1: expected a header line, 'triangle N' or a vertex, found 'perpective' (did you mean perspective?)"),
     ("keywords are in lower case", "Eye 0 0 5\n",
      "1:1: expected a header line, 'triangle N' or a vertex, found 'Eye' (keywords are lower case)"),
-    ("attributes have an order", "attributes color w\n", "1:18: expected attributes of [w] [color] [normal], in this order, found 'w'"),
+    ("attributes have an order", "attributes color w\n", "1:18: expected attributes of [w] [color] [normal] [material], in this order, found 'w'"),
     ("an unframed text has no end", HEADER + "end\n",
      "5:1: expected a header line, 'triangle N' or a vertex ('end' needs a line 'framed' in the header), found 'end'"),
     ("an earlier stage may have failed", HEADER + "error model: scene.txt:9:1: no #1 scene\n",

@@ -233,6 +233,14 @@ def looks():
              "light 1 0 0 1 1 1\nlight 2 0 0 1 1 1\nattenuation 1 0.5 0.25\nmaterial 1 0.5 0.25 16\nambient 0.1 0.2 0.3\nbackground 1 2 3\ncolor 4 5 6\n" + TRIANGLE),
             ("shininess-of-a-whole-number", "A shininess may be written 16.0 and is written 16.", "S19 T20", "material 1 1 1 16.0\n" + TRIANGLE)):
         yield case(name, why, paragraphs, words, needs="lights", tier="bytes" if "T20" in paragraphs else "digits")
+    materials = "material 1 1 0 1\nmaterial 0.5 0.25 1 16\n"
+    for name, why, paragraphs, words in (
+            ("materials", "Several materials keep their order, and triangles name them by number.", "S19 S23 T5 T17", materials + TRIANGLE + "use 1\n" + TRIANGLE + "use\n0\n" + TRIANGLE),
+            ("material-not-saved", "push and pop do not save the material.", "S23", materials + "push\nuse 1\npop\n" + TRIANGLE),
+            ("material-behind-colors-and-normals", "The material is the last column.", "T5 S23",
+             "attributes normal\ncolor 1 2 3\n" + materials + "use 1\n" + normals),
+            ("one-material-used", "With one material there is no column.", "S23 T5", "material 1 1 0 1\nuse 0\n" + TRIANGLE)):
+        yield case(name, why, paragraphs, words, needs="materials")
     yield case("framed", "--framed announces the end, and writes it.", "M9 T13", TRIANGLE, options="--framed", needs="frames")
     yield case("framed-empty", "A framed text may be empty.", "M9 T13", "", options="--framed", needs="frames")
 

@@ -213,6 +213,10 @@ def extensions():
         needs="lights clipping numbering")
     yield case("light-and-colored-cut", "The whole triangle has its columns, too.", "P11 T11", "90 1 1 10", cut, "attributes color\n" + light,
         needs="lights colors clipping numbering")
+    materials = "attributes material\nmaterial 1 1 0 1\nmaterial 0.5 0.25 1 16\n"
+    yield case("materials", "Each triangle keeps its material.", "T5 T9", "60 1 1 10", "0 0 -2 1\n1 0 -3 1\n0 1 -4 1\n\n0 0 -2 0\n1 0 -3 0\n0 1 -4 0\n\n", materials, needs="materials")
+    yield case("light-and-cut-with-a-material", "The whole triangle and all its pieces have its material.", "P9 P11 T11", "90 1 1 10",
+        "0 0 2 1\n1 0 -3 1\n0 1 -4 1\n\n", materials + light, needs="lights materials clipping numbering")
     yield Case("project", "light-under-ortho", "The projection is passed on as what it was.", "P11 T4", f"ortho -2 3 -1 2 1 9\n{light}{POINTS}",
         needs="lights projections")
     yield case("framed", "framed and end are passed on.", "T13", "60 1 1 10", POINTS + "end\n", "framed\n", needs="frames")

@@ -121,6 +121,9 @@ def looks():
             ("shininess-not-whole", "A shininess is whole.", "S19", 5, "material 1 1 1 1.5\nend\n"),
             ("shininess-negative", "A shininess is not negative.", "S19", 5, "material 1 1 1 -1\nend\n"),
             ("factor-below-0", "Factors are not negative.", "S19", 5, "material 1 -1 1 1\nend\n"),
+            ("material-that-is-not-there", "use names a material above it.", "S23", 7, "material 1 1 0 1\nmaterial 1 1 1 1\nuse 2\nend\n"),
+            ("material-used-before-its-line", "use names a material above it.", "S23", 6, "material 1 1 0 1\nuse 1\nmaterial 1 1 0 1\nend\n"),
+            ("late-material", "Materials stand before the triangles.", "S15", 9, TRIANGLE + "material 1 1 0 1\nend\n"),
             ("attenuation-of-zeros", "One of the three is above 0.", "S20", 5, "attenuation 0 0 0\nend\n"),
             ("light-of-three-numbers", "A light has a color, too.", "S21", 5, "light 1 2 3\nend\n"),
             ("light-below-0", "Light is not negative.", "S21", 5, "light 1 2 3 1 1 -1\nend\n")):
@@ -145,6 +148,11 @@ def stage_texts():
                 ("something-behind-end", "end is the last line.", "T13", 6, "framed\n" + VERTICES + "end\n0 0 0\n"),
                 ("number-of-a-triangle-not-whole", "A triangle's number is whole.", "T10", 1, "triangle 1.5\n" + VERTICES),
                 ("color-above-255", "Colors end at 255.", "T9", 3, "attributes color\n0 0 -2 1 1 1\n0 0 -2 1 1 256\n0 0 -2 1 1 1\n"),
+                ("material-that-is-not-there", "A material is one of the header's.", "T9", 4,
+                    "attributes material\nmaterial 1 1 0 1\nmaterial 1 1 1 1\n0 0 -2 2\n1 0 -2 2\n0 1 -2 2\n"),
+                ("material-not-whole", "A material is a whole number.", "T9", 2, "attributes material\n0 0 -2 0.0\n1 0 -2 0\n0 1 -2 0\n"),
+                ("two-materials-in-a-triangle", "A triangle has one material.", "T9", 6,
+                    "attributes material\nmaterial 1 1 0 1\nmaterial 1 1 1 1\n0 0 -2 1\n1 0 -2 1\n0 1 -2 0\n"),
                 ("attributes-in-another-order", "Columns have their order.", "T5", 1, "attributes normal color\n" + VERTICES)):
             yield refused(stage, name, why, paragraphs, at + line, header + text)
     for name, why, paragraphs, stage, line, text, options in (

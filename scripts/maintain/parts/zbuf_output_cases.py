@@ -81,6 +81,11 @@ def extensions():
             rest in zip(lit[1:], ("2 250 40 30 0 0 1", "3 40 200 60 0.6 0 0.8", "5 30 60 220 0 0.6 0.8")))
         yield case(f"lit-{shading}", f"--shading {shading} on a triangle of three colors and normals.", "L1 L4 L5", text, needs="lights colors",
             options=f"--shading {shading}")
+        two = lit[0].format("attributes w normal material\n").replace("material 1 0.8", "material 1 1 0 1\nmaterial 1 0.8") + "".join(
+            f"{p} {rest} {k}\n" for k, xs in ((1, lit[1:]), (0, ("-0.9 0.9 0.2", "-0.9 -0.1 0.2", "0.1 0.9 0.2")))
+            for p, rest in zip(xs, ("2 0 0 1", "3 0.6 0 0.8", "5 0 0.6 0.8")))
+        yield case(f"lit-materials-{shading}", f"--shading {shading} on triangles of two materials.", "L4 L5 T9", two, needs="lights materials",
+            options=f"--shading {shading}")
     plain_lit = lit[0].format("") + "\n".join(lit[1:]) + "\n"
     for name, why, text in (
             ("by-its-plane", "Without normals a triangle is lit by its plane.", plain_lit),

@@ -17,6 +17,7 @@ NEEDS = {
     "frames": "texts with `framed` and `end`",
     "colors": "colors and normals in scenes and texts",
     "lights": "lights",
+    "materials": "more than one material: `use`, and the column `material`",
     "exactness": "more digits than plain doubles give",
     "refusals": "wrong input is refused, with its line",
 }
@@ -64,7 +65,7 @@ class Case:
         if "refusals" in needs:
             return REFUSALS
         if needs:
-            return LOOKS if needs & {"colors", "lights"} else EXTENSIONS
+            return LOOKS if needs & {"colors", "lights", "materials"} else EXTENSIONS
         return BYTES if tier == "bytes" else ASSIGNMENT
 
     def open_under(self, rule):
