@@ -59,7 +59,7 @@ std::string SceneCutter::beginning() const {
   const Level& last_kept = levels_[levels_kept_ - 1];
   text += std::string_view(last_kept.transforms).substr(last_kept.in_preamble);
   for (std::size_t i = levels_kept_; i < levels_.size(); ++i) (text += "push\n") += levels_[i].transforms;
-  return text + color_;
+  return text + color_ + material_;
 }
 
 void SceneCutter::copy(TextWriter& part, std::size_t end) {
@@ -116,6 +116,8 @@ void SceneCutter::carry_out(std::string& copied) {
       levels_.back().transforms += command;
     else if (keyword == "color" && !is_in_preamble_)
       color_ = command;
+    else if (keyword == "use" && !is_in_preamble_)
+      material_ = command;
     has_color_ |= keyword == "color" ||
                   (keyword == "attributes" && line_.rest().find("color") != std::string_view::npos);
   }
@@ -133,7 +135,7 @@ void SceneCutter::pop(const LineScanner& at_pop) {
 /// Settings stand before the first triangle, or they would hold for some parts alone.
 void SceneCutter::expect_allowed(const LineScanner& at_keyword) const {
   const std::string_view keyword = at_keyword.peek();
-  if (is_transform(keyword) || keyword == "push" || keyword == "pop") return;
+  if (is_transform(keyword) || keyword == "push" || keyword == "pop" || keyword == "use") return;
   const bool is_setting = keyword == "color" || is_appearance_keyword(keyword);
   if (!is_setting) at_keyword.fail("a command of a scene");
   if (is_in_preamble_ || (keyword == "color" && has_color_)) return;

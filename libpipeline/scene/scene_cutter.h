@@ -12,9 +12,9 @@
 namespace pipeline {
 
 /// Cuts a scene into parts that are scenes themselves and hold its triangles one after the other: a part
-/// begins with camera and settings, goes on with the transforms and the color in force, and then has commands
-/// of the scene as they stand there, without comments. Composed are the same transforms in the same order, so
-/// `model` of all parts is `model` of the scene to the last bit.
+/// begins with camera and settings, goes on with the transforms, the color and the material in force, and
+/// then has commands of the scene as they stand there, without comments. Composed are the same transforms in
+/// the same order, so `model` of all parts is `model` of the scene to the last bit.
 ///
 /// Reads keywords and lines but no numbers, which model does. Errors are InputErrors.
 class SceneCutter {
@@ -60,6 +60,7 @@ class SceneCutter {
   std::size_t levels_in_preamble_ = 0;  // at its end
   std::size_t levels_kept_ = 0;         // the fewest since
   std::string color_;                   // the last one behind the preamble
+  std::string material_;                // the last `use` there
 };
 
 }  // namespace pipeline

@@ -24,13 +24,16 @@ def random_scene(rng, count):
     depth = 0
     columns = rng.choice(("", "color", "normal", "color normal"))
     has_state = rng.random() < 0.5
+    material_count = rng.randrange(4)
 
     def arguments(*words):
         return rng.choice((end(), " ", " ")) + " ".join(words) + end()
 
     def command():
         nonlocal depth
-        kind = rng.choice(("translate", "scale", "rotate", "push", "push", "pop", "color"))
+        kind = rng.choice(("translate", "scale", "rotate", "push", "push", "pop", "color", "use"))
+        if kind == "use":
+            return "use" + arguments(str(rng.randrange(material_count or 1)))
         if kind == "color":
             return "color" + arguments(*(str(rng.randrange(256)) for _ in range(3))) if has_state else ""
         if kind == "push":
@@ -54,13 +57,14 @@ def random_scene(rng, count):
         return " ".join(words) + end()
 
     text = CAMERA + (f"attributes {columns}\n" if columns else "") + ("color 9 8 7\n" if has_state else "")
+    text += "".join(f"material 0.5 1 0.{i} 8\n" for i in range(material_count))
     is_lit = rng.random() < 0.6
     for _ in range(rng.randrange(8)):
         text += command()
         if is_lit:
             text += f"light{arguments(number(), number(), number(), '1', '0.5', '1')}"
     if is_lit:
-        text += "material 0.5 1 0.5 8\nambient 0.1 0.1 0.1\nbackground 3 4 5\n"
+        text += "ambient 0.1 0.1 0.1\nbackground 3 4 5\n"
     plain = rng.random() < 0.3
     for _ in range(count):
         for _ in range(rng.choice((0, 0, 0, 1, 3))):
