@@ -1,6 +1,6 @@
 // Builds Embree's hierarchy (robust mode) of the triangles of a view text, casts a ray through the center of
-// every pixel, all on one thread, and prints the processor's seconds for both: the counterpart of cast_rays. The
-// camera is `perspective 60 1`.
+// every pixel, all on one thread, and prints the processor's seconds for both: the counterpart of cast_rays.
+// The camera is `perspective 60 1`.
 //
 // usage: cast_rays_embree WIDTH HEIGHT TRIANGLES
 
