@@ -52,8 +52,7 @@ int main(int argc, char** argv) {
        "processors or machines. Writes a line for each: its file and the number of its first triangle, for "
        "model --first.",
        "The scene",
-       {"split scene.txt 2 -o parts && model --first 0 parts/1.txt > part1.txt",
-        "split scene.txt 8 -o parts > list.txt"}},
+       {"split scene.txt 2", "split scene.txt 8 -o parts > list.txt"}},
       OutputKind::other_text);
   std::string scene_path, part_count_word, folder = "parts";
   tool.take_own_operands();

@@ -35,7 +35,7 @@ int main(int argc, char** argv) {
     if (chosen.seen_path == "-") tool.write_stage_text();
     expect_separate(outputs_of(chosen, statistics));
     const Viewport whole = read_screen(tool, chosen);
-    const Viewport screen = tool.options().is_given("--rows") ? chosen.drawn_part(whole) : whole;
+    const Viewport screen = chosen.rows.empty() ? whole : chosen.drawn_part(whole);
     chosen.check_limits(screen);
     if (chosen.has_image()) check_image_size(chosen.image_path, screen.columns, screen.drawn_row_count());
     render(tool, chosen, screen, statistics);

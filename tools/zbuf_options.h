@@ -100,7 +100,11 @@ inline void ZbufOptions::add_to(CommandLine& options) {
   options.add_word(
       "--rows", "A:B", rows,
       "Draw only the rows from A to before B of the picture, counted from 0 at the top, in memory "
-      "for these alone: cat joins the depths of such bands, join-images the images");
+      "for these alone: cat joins the depths of such bands, join-images the images",
+      [](const std::string& word) {
+        return word.empty() ? expected_but_found("A:B, such as 0:100", pipeline::quoted(word))
+                            : std::string();
+      });
   options.add_word(
       "--seen", "FILE", seen_path,
       "Write the triangles that a pixel or sample shows, as text that zbuf reads and that gives "

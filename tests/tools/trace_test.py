@@ -52,7 +52,7 @@ class Referee(ToolTest):
         self.check(projection + "\n" + triangles_text(triangles), config, *options)
 
     def test_agrees_on_the_samples(self):
-        for folder in sorted((SOURCE / "samples").glob("*/")):
+        for folder in sorted(path.parent for path in (SOURCE / "samples").glob("*/scene.txt")):
             for digits in ((), ("--digits", "exact")):
                 with self.subTest(folder.name, digits=digits):
                     view = pipe(["model", *digits], ["view", *digits], stdin=(folder / "scene.txt").read_bytes())
