@@ -20,6 +20,8 @@
 #define HWY_DISABLE_F16C
 // On Arm, nothing is chosen at run time: every processor of 64 bits has NEON.
 #define TOOLCHAIN_MISS_SYS_AUXV_H
+// Its assertions, in builds without optimization or with sanitizers, would call a library that is not linked.
+#define HWY_IS_DEBUG_BUILD 0
 #endif
 
 #include <hwy/foreach_target.h>  // first
