@@ -10,7 +10,7 @@ import struct
 import sys
 import unittest
 
-from toolbox import SOURCE, ToolTest, expect_mesh2scene, pipe, run
+from toolbox import SOURCE, ToolTest, command, expect_mesh2scene, pipe, run
 
 sys.path.insert(0, str(SOURCE / "scripts"))
 from model_parts.formats import FORMATS  # noqa: E402
@@ -332,6 +332,8 @@ class Refusals(ToolTest):
                         world_triangles(done.stdout.decode())
 
     def test_a_line_that_asks_for_gigabytes_gets_none(self):
+        if b"__asan_init" in pathlib.Path(command("mesh2scene")[0]).read_bytes():
+            self.skipTest("AddressSanitizer ends a program whose memory is limited")
         pathlib.Path("many.ply").write_text("ply\nformat ascii 1.0\nelement vertex 900000000\nproperty float x\nproperty float y\nproperty float z\n"
                                             "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")
         before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss
