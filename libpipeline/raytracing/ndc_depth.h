@@ -42,6 +42,10 @@ class NdcDepth {
     const double bound = 2 * part_error + kCalculated * most;
     return {depth - bound, depth + bound};
   }
+  /// Of a point at `distance`, within 2^-50 of the sum of the sizes of its two parts.
+  [[nodiscard]] double at(double distance) const {
+    return is_perspective_ ? a_ - b_ / distance : a_ + b_ * distance;
+  }
   /// A distance that no point of a depth up to `depth` exceeds, if the depths of `zbuf` are within
   /// `largest_depth` * 2^-49 of the exact ones.
   [[nodiscard]] double distance_up_to(double depth, double largest_depth) const {

@@ -19,17 +19,26 @@ double largest_in(double low, double high) {
 
 }  // namespace
 
-Bvh hierarchy_of(const TracedTriangles& triangles, const PixelRays& rays, ThreadPool& pool) {
-  std::vector<Bvh::Primitive> primitives;
-  primitives.reserve(triangles.size());
-  for (std::size_t i = 0; i < triangles.size(); ++i) {
-    const auto id = static_cast<TracedTriangles::Id>(i);
-    const BoundingBox box(triangles.p_view(id));
+Bvh hierarchy_of(const TracedTriangles& triangles, const PixelRays& rays, ThreadPool& pool, RaysOfBoxes of) {
+  // Of the numbers that are rounded, a bound on the largest, for one triangle.
+  const auto most = [&](const BoundingBox& box) {
     const double distance = largest_in(box.low.z, box.high.z);
-    const double most = largest_in(box.low.x, box.high.x) + largest_in(box.low.y, box.high.y) + distance +
-                        rays.reach() * (rays.is_perspective() ? distance : 1);
+    return largest_in(box.low.x, box.high.x) + largest_in(box.low.y, box.high.y) + distance +
+           rays.reach() * (rays.is_perspective() ? distance : 1);
+  };
+  const auto box_of = [&](TracedTriangles::Id id) {
+    return id < triangles.size() ? BoundingBox(triangles.p_view(id)) : triangles.sphere(id).surface.box();
+  };
+  const auto count = static_cast<TracedTriangles::Id>(triangles.surface_count());
+  double most_of_all = 0;
+  if (of == RaysOfBoxes::any)
+    for (TracedTriangles::Id id = 0; id < count; ++id) most_of_all = std::max(most_of_all, most(box_of(id)));
+  std::vector<Bvh::Primitive> primitives;
+  primitives.reserve(count);
+  for (TracedTriangles::Id id = 0; id < count; ++id) {
+    const BoundingBox box = box_of(id);
     constexpr double kPadding = 0x1p-46;
-    primitives.push_back({FloatBox(box, kPadding * most), id});
+    primitives.push_back({FloatBox(box, kPadding * (of == RaysOfBoxes::any ? most_of_all : most(box))), id});
   }
   return {std::move(primitives), pool};
 }
@@ -55,7 +64,9 @@ std::optional<RayCaster::Seen> RayCaster::Thread::cast(int row, int column, bool
 /// The triangle, if it may be seen here: its fragment is within the limits.
 std::optional<RayCaster::Thread::Candidate> RayCaster::Thread::candidate(TracedTriangles::Id id,
                                                                          const Ray& ray) {
+  if (id >= caster_.first_sphere_) return sphere_candidate(id, ray);
   if (caster_.triangles_.piece(id)) return exact_candidate(id);
+  if (caster_.triangles_.is_dropped(id)) return std::nullopt;
   const Hit hit = caster_.test_(ray, caster_.triangles_.p_view(id));
   if (hit.result == HitResult::miss) return std::nullopt;
   if (hit.result == HitResult::uncertain) return exact_candidate(id);
@@ -70,6 +81,20 @@ std::optional<RayCaster::Thread::Candidate> RayCaster::Thread::exact_candidate(T
   const std::optional<double> depth = exact_.depth(id, row_, column_);
   if (!depth || !(*depth >= caster_.screen_.front && *depth < caster_.screen_.rear)) return std::nullopt;
   return Candidate{id, {*depth, *depth}, true};
+}
+
+/// The sphere's nearer side, if that is within the limits, else the farther one: the front limit may cut a
+/// sphere open.
+std::optional<RayCaster::Thread::Candidate> RayCaster::Thread::sphere_candidate(TracedTriangles::Id id,
+                                                                                const Ray& ray) const {
+  const double first = first_distance(caster_.rays_);
+  for (const auto& [distance, is_front] : caster_.triangles_.sphere(id).surface.meetings(ray)) {
+    if (!(distance > first)) continue;
+    const double depth = caster_.depth_.at(distance);
+    if (depth >= caster_.screen_.front && depth < caster_.screen_.rear)
+      return Candidate{is_front ? id : id | TracedTriangles::kFromWithin, {depth, depth}, true};
+  }
+  return std::nullopt;
 }
 
 std::optional<RayCaster::Thread::Candidate> RayCaster::Thread::made_exact(const Candidate& candidate) {

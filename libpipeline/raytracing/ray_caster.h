@@ -17,16 +17,27 @@
 
 namespace pipeline {
 
-/// The hierarchy of all triangles, for primary rays through a window: boxes are wide enough for the errors
-/// that TriangleTest allows for, and for the entries and exits of boxes.
-Bvh hierarchy_of(const TracedTriangles& triangles, const PixelRays& rays, ThreadPool& pool);
+/// Which rays the boxes of a hierarchy are wide enough for.
+enum class RaysOfBoxes {
+  primary,
+  any  // that starts between the least and the greatest coordinates of the scene
+};
+
+/// The hierarchy of all triangles and spheres, for rays through a window: boxes are wide enough for the
+/// errors that TriangleTest allows for, and for the entries and exits of boxes. For any ray, too: the entry
+/// into a box is rounded by 2^-51 of the distance from the ray's start to the side, and a corner as
+/// SurfaceTriangleTest sees it by 2^-51 of its distance from there; the scene's largest coordinates bound
+/// both.
+Bvh hierarchy_of(const TracedTriangles& triangles, const PixelRays& rays, ThreadPool& pool,
+                 RaysOfBoxes of = RaysOfBoxes::primary);
 
 /// Casts primary rays: finds the triangle that a pixel shows by the search of a ray tracer, and decides as
 /// the z-buffer with the rule `center` does, wherever the search cannot tell. So it finds the same triangle
 /// and, on request, the same depth.
 class RayCaster {
  public:
-  /// The visible triangle and its depth, which is exact only where it is requested.
+  /// The visible triangle and its depth, which is exact only where it is requested. Or a sphere, whose depth
+  /// is that of the ray's hit, and whose id says which side is seen (TracedTriangles::kFromWithin).
   struct Seen {
     TracedTriangles::Id id;
     double depth;
@@ -41,7 +52,8 @@ class RayCaster {
         grid_(screen),
         rays_(projection, screen),
         depth_(projection),
-        test_(rays_, depth_) {}
+        test_(rays_, depth_),
+        first_sphere_(static_cast<TracedTriangles::Id>(triangles.size())) {}
 
   /// One for each thread.
   class Thread {
@@ -63,6 +75,7 @@ class RayCaster {
 
     [[nodiscard]] std::optional<Candidate> candidate(TracedTriangles::Id id, const Ray& ray);
     [[nodiscard]] std::optional<Candidate> exact_candidate(TracedTriangles::Id id);
+    [[nodiscard]] std::optional<Candidate> sphere_candidate(TracedTriangles::Id id, const Ray& ray) const;
     [[nodiscard]] std::optional<Candidate> made_exact(const Candidate& candidate);
     void take_nearer(const Candidate& next);
 
@@ -81,6 +94,7 @@ class RayCaster {
   PixelRays rays_;
   NdcDepth depth_;
   TriangleTest test_;
+  TracedTriangles::Id first_sphere_;
 };
 
 }  // namespace pipeline

@@ -1,6 +1,7 @@
 #include "libpipeline/raytracing/traced_triangles.h"
 
 #include "libpipeline/stream/text_round_trip.h"
+#include "libpipeline/text/error.h"
 
 namespace pipeline {
 namespace {
@@ -40,6 +41,29 @@ void TracedTriangles::add_whole(const TriangleBatch& p_view, std::size_t index) 
 void TracedTriangles::add(
     const TriangleBatch& p_view, ExactProjection& projection,
     const std::function<void(const TriangleBatch& p_view, const TriangleBatch& p_ndc)>& look_at) {
+  if (p_view.spheres.empty()) {
+    add_triangles(p_view, projection, look_at);
+    return;
+  }
+  TriangleBatch triangles;
+  std::size_t begin = 0;
+  const auto copy_until = [&](std::size_t end) {
+    for (; begin < end; ++begin) copy_triangle(p_view, begin, triangles);
+  };
+  for (const std::size_t entry : p_view.spheres) {
+    copy_until(entry);
+    if (!spheres_.add(p_view, entry))
+      throw InputError(projection.location_of(p_view.locations[entry][0]),
+                       expected_but_found("a sphere with a volume", "four points in a plane"));
+    begin = entry + 2;
+  }
+  copy_until(p_view.size());
+  if (!triangles.empty()) add_triangles(triangles, projection, look_at);
+}
+
+void TracedTriangles::add_triangles(
+    const TriangleBatch& p_view, ExactProjection& projection,
+    const std::function<void(const TriangleBatch& p_view, const TriangleBatch& p_ndc)>& look_at) {
   const auto take = [&](const TriangleBatch& part) -> const TriangleBatch& {
     const TriangleBatch& p_ndc = projection.project(part);
     for (const Triangle& triangle : p_ndc.triangles)
@@ -63,11 +87,13 @@ void TracedTriangles::add(
       continue;
     }
     pieces_.resize(p_view_.size(), kWhole);
-    for (std::size_t piece = 0; piece < count; ++piece) {
+    const auto add = [&](std::uint8_t piece) {
       add_whole(p_view, i);
       pieces_.resize(p_view_.size());
-      pieces_.back() = static_cast<std::uint8_t>(piece);
-    }
+      pieces_.back() = piece;
+    };
+    for (std::size_t piece = 0; piece < count; ++piece) add(static_cast<std::uint8_t>(piece));
+    if (count == 0 && keeps_dropped_) add(kDropped);
   }
 }
 

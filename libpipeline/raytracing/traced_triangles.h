@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "libpipeline/raytracing/traced_spheres.h"
 #include "libpipeline/stream/triangle_batch.h"
 #include "libpipeline/vertex/projection.h"
 
@@ -24,6 +25,8 @@ class ExactProjection {
   /// Fills `p_ndc` as ProjectionStage::project does; valid until the next call.
   const TriangleBatch& project(const TriangleBatch& p_view);
   [[nodiscard]] const ProjectionStage& stage() const { return stage_; }
+  /// A place in the text, for messages.
+  [[nodiscard]] SourceLocation location_of(LineAndColumn place) const { return rounder_.location_of(place); }
 
  private:
   CoordinateRounder rounder_;
@@ -32,24 +35,54 @@ class ExactProjection {
 };
 
 /// All triangles of a text in view space, as the list of those that `project` writes: a triangle that it cuts
-/// stands there once for each of its pieces, one that it drops does not. The place in that list is a
-/// triangle's id. A plain triangle takes 80 bytes, colors and normals another 72 each.
+/// stands there once for each of its pieces, one that it drops does not, unless those are kept for rays from
+/// elsewhere than the eye. The place in that list is a triangle's id. A plain triangle takes 80 bytes, colors
+/// and normals another 72 each. The spheres of the text stand beside the list; their ids come after those of
+/// all triangles.
 class TracedTriangles {
  public:
   using Id = std::uint32_t;
 
-  /// Adds the triangles of a batch, and calls `look_at(p_view, p_ndc)` for them in one or several batches. An
-  /// InputError as ProjectionStage::project throws.
+  /// From now on, adds those that `project` drops, too.
+  void keep_dropped() { keeps_dropped_ = true; }
+  /// Adds the triangles of a batch, and calls `look_at(p_view, p_ndc)` for them in one or several batches;
+  /// adds its spheres. An InputError as ProjectionStage::project throws, or at a sphere whose points lie in a
+  /// plane.
   void add(const TriangleBatch& p_view, ExactProjection& projection,
            const std::function<void(const TriangleBatch& p_view, const TriangleBatch& p_ndc)>& look_at);
 
   [[nodiscard]] std::size_t size() const { return p_view_.size(); }
   [[nodiscard]] const Triangle& p_view(Id id) const { return p_view_[id]; }
-  [[nodiscard]] std::uint64_t number(Id id) const { return numbers_[id]; }
-  /// Which piece of its triangle this one is; none if it is whole.
+  /// The number in the scene of a triangle, or of a sphere.
+  [[nodiscard]] std::uint64_t number(Id id) const { return id < size() ? numbers_[id] : sphere(id).number; }
+  /// Which piece of its triangle this one is; none if it is whole or not projected.
   [[nodiscard]] std::optional<std::size_t> piece(Id id) const {
-    if (pieces_.empty() || pieces_[id] == kWhole) return std::nullopt;
+    if (pieces_.empty() || pieces_[id] >= kDropped) return std::nullopt;
     return pieces_[id];
+  }
+  /// Whether `project` drops it.
+  [[nodiscard]] bool is_dropped(Id id) const { return !pieces_.empty() && pieces_[id] == kDropped; }
+  /// Whether this entry, of those that one triangle has, stands for it where nothing is cut.
+  [[nodiscard]] bool is_first(Id id) const { return piece(id).value_or(0) == 0; }
+  [[nodiscard]] std::uint32_t material(Id id) const {
+    if (id >= size()) return sphere(id).material;
+    return attributes_.materials.empty() ? 0 : attributes_.materials[id];
+  }
+  /// In the id of a sphere that a primary ray sees: the ray sees it from within.
+  static constexpr Id kFromWithin = Id{1} << 31;
+  [[nodiscard]] const TracedSpheres& spheres() const { return spheres_; }
+  /// The sphere with an id of at least size().
+  [[nodiscard]] const TracedSpheres::Sphere& sphere(Id id) const {
+    return spheres_[(id & ~kFromWithin) - size()];
+  }
+  /// The count of triangles and spheres.
+  [[nodiscard]] std::size_t surface_count() const { return size() + spheres_.size(); }
+  /// The corners' colors and normals; null where the text has none.
+  [[nodiscard]] const std::array<Vec3, 3>* colors(Id id) const {
+    return attributes_.colors.empty() ? nullptr : &attributes_.colors[id];
+  }
+  [[nodiscard]] const std::array<Vec3, 3>* normals(Id id) const {
+    return attributes_.normals.empty() ? nullptr : &attributes_.normals[id];
   }
   /// The largest |z| in NDC of all vertices.
   [[nodiscard]] double largest_depth() const { return largest_depth_; }
@@ -58,14 +91,21 @@ class TracedTriangles {
 
  private:
   static constexpr std::uint8_t kWhole = 255;
+  static constexpr std::uint8_t kDropped = 254;
 
   void add_whole(const TriangleBatch& p_view, std::size_t index);
 
+  void add_triangles(
+      const TriangleBatch& p_view, ExactProjection& projection,
+      const std::function<void(const TriangleBatch& p_view, const TriangleBatch& p_ndc)>& look_at);
+
+  TracedSpheres spheres_;
   std::vector<Triangle> p_view_;
   std::vector<std::uint64_t> numbers_;
   std::vector<std::uint8_t> pieces_;  // empty while all are whole
   AttributeArrays attributes_;
   double largest_depth_ = 0;
+  bool keeps_dropped_ = false;
 };
 
 }  // namespace pipeline

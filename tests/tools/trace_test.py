@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
-"""trace writes what project --digits exact | zbuf --coverage center write: the rasterizer and the ray tracer judge each other.
+"""trace --no-shadows writes what project --digits exact | zbuf --coverage center write: the rasterizer and the ray tracer judge each other.
 
 usage: trace_test.py BIN_DIR [UNITTEST ARGUMENT...]
 TRACE_SCENES is the number of random scenes (default 60).
 """
+import math
 import os
 import pathlib
 import random
@@ -32,15 +33,12 @@ def quads(points):
 
 
 class Referee(ToolTest):
-    def pixels(self):
-        return self.pixel_count
-
     def check(self, view_text, config, *options, projection=()):
         """Both ways give the same depths, picture and notes on an empty picture."""
         pathlib.Path("config.txt").write_text(config)
         ndc = run("project", "--digits", "exact", *projection, stdin=view_text)
         raster = run("zbuf", "config.txt", "--coverage", "center", "-o", "raster.ppm", *options, stdin=ndc.stdout)
-        traced = run("trace", "config.txt", *projection, "-o", "traced.ppm", *options, stdin=view_text)
+        traced = run("trace", "config.txt", "--no-shadows", "--no-recursion", *projection, "-o", "traced.ppm", *options, stdin=view_text)
         self.assertEqual((ndc.returncode, raster.returncode), (traced.returncode,) * 2, traced.stderr.decode())
         if traced.returncode != 0:
             return
@@ -144,12 +142,158 @@ class Referee(ToolTest):
 class Threads(ToolTest):
     def test_change_no_byte(self):
         view = pipe(["model"], ["view"], stdin=(SOURCE / "samples/shaded-torus/scene.txt").read_bytes())
-        outputs = set()
-        for count in ("0", "1", "2", "5"):
-            done = run("trace", "--size", "90x70", "--threads", count, "-o", "out.ppm", "--samples", "2", stdin=view)
-            self.assert_quiet_success(done)
-            outputs.add(done.stdout + pathlib.Path("out.ppm").read_bytes())
-        self.assertEqual(len(outputs), 1)
+        for options in (["--samples", "2"], ["--sampling", "jittered"], ["--sampling", "adaptive", "--threshold", "40"]):
+            outputs = set()
+            for count in ("0", "1", "2", "5"):
+                done = run("trace", "--size", "90x70", "--threads", count, "-o", "out.ppm", *options, stdin=view)
+                self.assert_quiet_success(done)
+                outputs.add(done.stdout + pathlib.Path("out.ppm").read_bytes())
+            self.assertEqual(len(outputs), 1, options)
+
+
+def pixels_of(path):
+    """The channels of a .ppm image."""
+    return pathlib.Path(path).read_bytes().split(b"\n", 3)[3]
+
+
+class Samples(ToolTest):
+    """Where the rays of a pixel go."""
+
+    SIZE = 32
+
+    def setUp(self):
+        super().setUp()
+        # A fan of thin triangles: an edge in nearly every pixel.
+        rim = [(1.3 * math.cos(0.16 * i + 0.05), 1.3 * math.sin(0.16 * i + 0.05)) for i in range(40)]
+        corners = [((0.11, 0.07), rim[i], rim[i + 1]) for i in range(0, 39, 2)]
+        self.view = "ortho -1 1 -1 1 1 3\n" + triangles_text([tuple((repr(x), repr(y), "-2") for x, y in t) for t in corners])
+
+    def traced(self, *options, size=SIZE, view=None):
+        """The channels of the picture, and how many rays it took."""
+        done = run("trace", "--size", f"{size}x{size}", "-o", "out.ppm", "--z-buffer", "none", "--stats", "stats.txt", *options,
+                   stdin=self.view if view is None else view)
+        self.assert_quiet_success(done)
+        counts = dict(line.split() for line in pathlib.Path("stats.txt").read_text().splitlines())
+        return pixels_of("out.ppm"), int(counts["primary_rays"])
+
+    def error(self, pixels, exact):
+        """The root of the mean square of the differences."""
+        return math.sqrt(sum((a - b) ** 2 for a, b in zip(pixels, exact)) / len(exact))
+
+    def test_basic_is_one_ray_through_the_center(self):
+        self.assertEqual(self.traced("--sampling", "basic"), self.traced())
+        self.assertEqual(self.traced()[1], self.SIZE ** 2)
+
+    def test_regular_is_what_samples_alone_mean(self):
+        for count in ("1", "3"):
+            self.assertEqual(self.traced("--sampling", "regular", "--samples", count), self.traced("--samples", count))
+        self.assertEqual(self.traced("--sampling", "regular"), self.traced("--samples", "5"))
+
+    def test_adaptive_without_a_threshold_is_jittered(self):
+        for count in ("1", "2", "3", "4", "5", "16"):
+            self.assertEqual(self.traced("--sampling", "adaptive", "--threshold", "0", "--samples", count),
+                             self.traced("--sampling", "jittered", "--samples", count))
+
+    def test_adaptive_takes_all_samples_where_the_first_five_differ_by_the_threshold(self):
+        """A step of 40 levels, by the channel, from the left half of the picture to the right one, in the middle of a pixel."""
+        steps = "".join(f"{x0} -1 -2 {c}\n{x1} -1 -2 {c}\n{x1} 3 -2 {c}\n\n{x0} -1 -2 {c}\n{x1} 3 -2 {c}\n{x0} 3 -2 {c}\n\n"
+                        for x0, x1, c in ((-1, 0, "10 100 30"), (0, 1, "10 140 30")))
+        view = "ortho -1 1 -1 1 1 3\nattributes color\n" + steps
+        size, count = 9, 5
+        for threshold, is_refined in (("40", True), ("41", False)):
+            _, rays = self.traced("--sampling", "adaptive", "--threshold", threshold, size=size, view=view)
+            self.assertEqual(rays, 5 * size ** 2 + is_refined * size * (count ** 2 - 5), threshold)
+
+    def test_adaptive_saves_rays_where_nothing_happens(self):
+        view = "ortho -1 1 -1 1 1 3\n-0.5 -0.5 -2\n0.6 -0.4 -2\n0 0.7 -2\n\n"
+        jittered, rays = self.traced("--sampling", "jittered", size=64, view=view)
+        adaptive, fewer_rays = self.traced("--sampling", "adaptive", size=64, view=view)
+        self.assertEqual(rays, 25 * 64 ** 2)
+        self.assertLess(fewer_rays, 0.3 * rays)
+        self.assertLess(self.error(adaptive, jittered), 1.5)
+
+    def test_no_ray_falls_between_triangles(self):
+        """Cells whose corners are centers of pixels and of samples cover the picture, in one color."""
+        places = ["%.7g" % (i / 20) for i in range(-21, 22)]
+        points = [[(x, y, "-2") for x in places] for y in places]
+        view = "ortho -1 1 -1 1 1 3\nattributes color\n" + "".join(
+            "".join("%s %s %s 200 100 50\n" % vertex for vertex in triangle) + "\n" for triangle in quads(points))
+        for options in (["--sampling", "jittered", "--samples", "1"], ["--sampling", "jittered"], ["--sampling", "adaptive"]):
+            pixels, _ = self.traced(*options, "--background", "00ff00", view=view, size=20)
+            self.assertEqual(set(zip(pixels[::3], pixels[1::3], pixels[2::3])), {(200, 100, 50)})
+
+    def test_the_mean_of_jittered_samples_tends_to_that_of_regular_ones(self):
+        exact, _ = self.traced("--samples", "16")
+        errors = [self.error(self.traced("--sampling", "jittered", "--samples", n)[0], exact) for n in (1, 2, 4, 8, 16)]
+        self.assertEqual(errors, sorted(errors, reverse=True))
+        self.assertLess(errors[-1], 1.5)
+
+    def test_jittered_samples_err_less_than_random_ones_and_ever_less(self):
+        """Random samples are random pixels of a picture 64 times as fine: their error falls with the root of their number, that
+        of one sample in each cell faster where edges cross a pixel."""
+        fine = 64
+        pixels, _ = self.traced(size=self.SIZE * fine)
+        side = self.SIZE * fine
+
+        def sample(row, column):
+            return pixels[3 * (row * side + column):3 * (row * side + column) + 3]
+        exact = []
+        for row in range(self.SIZE):
+            rows = [pixels[3 * side * r:3 * side * (r + 1)] for r in range(row * fine, (row + 1) * fine)]
+            for column in range(self.SIZE):
+                for channel in range(3):
+                    exact.append(sum(sum(r[3 * column * fine + channel:3 * (column + 1) * fine:3]) for r in rows) / fine ** 2)
+        rng = random.Random(1)
+
+        def random_picture(count):
+            for row in range(self.SIZE):
+                for column in range(self.SIZE):
+                    colors = [sample(row * fine + rng.randrange(fine), column * fine + rng.randrange(fine)) for _ in range(count)]
+                    yield from (sum(channel) / count for channel in zip(*colors))
+        counts = (2, 4, 8)
+        jittered = [self.error(self.traced("--sampling", "jittered", "--samples", n)[0], exact) for n in counts]
+        rand = [self.error(list(random_picture(n * n)), exact) for n in counts]
+        for better, worse in zip(jittered, rand):
+            self.assertLess(better, 0.8 * worse)
+        slope = [math.log(errors[-1] / errors[0]) / math.log(counts[-1] ** 2 / counts[0] ** 2) for errors in (jittered, rand)]
+        self.assertAlmostEqual(slope[1], -0.5, delta=0.05)
+        self.assertLess(slope[0], -0.65, slope)
+
+    def test_depths_stay_those_of_the_centers(self):
+        expected = run("trace", "config.txt", stdin=self.view).stdout
+        for sampling in ("jittered", "adaptive"):
+            self.assertEqual(run("trace", "config.txt", "--sampling", sampling, stdin=self.view).stdout, expected)
+
+    def test_colors_that_nobody_can_see_are_noted(self):
+        """What the threads have seen comes together."""
+        view = "ortho -1 1 -1 1 1 3\nattributes color\n-1 -1 -2 %s\n1 -1 -2 0 0 0\n0 1 -2 0 0 0\n\n"
+        for color, why in (("0 0 0", "trace: note: the picture is black: every color is 0\n"), ("9 0 0", "")):
+            for options in ([], ["--sampling", "jittered"]):
+                done = run("trace", "--size", "40x40", "--threads", "3", *options, stdin=view % color)
+                self.assertEqual((done.stderr.decode(), done.returncode), (why, 0))
+
+    def test_a_background_that_lets_through_is_mixed_as_zbuf_mixes_it(self):
+        ndc = run("project", "--digits", "exact", stdin=self.view).stdout
+        for background in ("11223380", "ff000000"):
+            options = ["--size", "20x20", "--samples", "3", "--background", background, "--z-buffer", "none"]
+            drawn = run("zbuf", *options, "--coverage", "center", "-o", "drawn.png", stdin=ndc)
+            if b"without libpng" in drawn.stderr:
+                self.skipTest("built without libpng")
+            self.assert_quiet_success(drawn)
+            self.assert_quiet_success(run("trace", *options, "-o", "traced.png", stdin=self.view))
+            self.assertEqual(pathlib.Path("drawn.png").read_bytes(), pathlib.Path("traced.png").read_bytes())
+            pathlib.Path("drawn.png").unlink()
+
+    def test_options_that_do_not_go_together_are_refused(self):
+        for options, message in (
+                (["--sampling", "basic", "--samples", "3"], "--samples: expected 1 with --sampling basic, which has one ray a pixel, found '3'"),
+                (["--threshold", "3"], "--threshold: expected --sampling adaptive, which alone has one, found no --sampling"),
+                (["--sampling", "jittered", "--threshold", "8"], "--threshold: expected --sampling adaptive, which alone has one, found jittered"),
+                (["--sampling", "adaptive", "--threshold", "256"], "--threshold: expected a whole number from 0 to 255, found '256'"),
+                (["--sampling", "adaptive", "--samples", "17"], "--samples: expected a whole number from 1 to 16, found '17'"),
+                (["--sampling", "random"], "--sampling: expected basic, regular, jittered or adaptive, found 'random'")):
+            self.assert_fails(run("trace", "config.txt", *options, stdin=self.view), 2, f"trace: {message} (try trace --help)")
+        self.assertEqual(self.files(), ["config.txt", "scene.txt"])
 
 
 class Speed(ToolTest):

@@ -1,283 +1,185 @@
 #include "tools/trace/rendering.h"
 
-#include <algorithm>
-#include <atomic>
-#include <chrono>
-#include <cstdio>
+#include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "libpipeline/picture/supersampling.h"
 #include "libpipeline/raytracing/ray_caster.h"
-#include "libpipeline/raytracing/traced_triangles.h"
+#include "libpipeline/raytracing/sampling.h"
 #include "libpipeline/scene/color.h"
-#include "libpipeline/stream/kept_ids.h"
-#include "libpipeline/stream/stage_reader.h"
-#include "libpipeline/stream/text_kind.h"
 #include "libpipeline/stream/thread_pool.h"
-#include "libpipeline/vertex/projected_header.h"
 #include "tools/depth_files.h"
-#include "tools/drawing_report.h"
 #include "tools/empty_picture_note.h"
+#include "tools/fragment_report.h"
 #include "tools/image_rows.h"
-#include "tools/progress.h"
 #include "tools/surface_shading.h"
-#include "tools/view_report.h"
+#include "tools/trace/light_colors.h"
+#include "tools/trace/ray_report.h"
+#include "tools/trace/surface_colors.h"
+#include "tools/trace/trace_work.h"
+#include "tools/trace/traced_picture.h"
+#include "tools/trace/traced_scene.h"
 
 namespace pipeline {
 namespace {
 
-using Id = TracedTriangles::Id;
-
-/// How long the parts of the work took, and how many rays there were.
-struct Work {
-  double build_seconds = 0;
-  double cast_seconds = 0;
-  std::uint64_t primary_rays = 0;
-  std::uint64_t exact_decisions = 0;  // depths that were calculated exactly, or denied
-  std::size_t node_count = 0;
-};
-
-class Stopwatch {
+/// One of `Colors` for each worker of a pool, made by the worker itself.
+template <typename Colors>
+class WorkersColors {
  public:
-  /// The seconds since the last call.
-  double lap() {
-    const auto now = std::chrono::steady_clock::now();
-    return std::chrono::duration<double>(now - std::exchange(last_, now)).count();
+  using Maker = std::function<std::unique_ptr<Colors>()>;
+
+  WorkersColors(const ThreadPool& pool, Maker maker)
+      : maker_(std::move(maker)), workers_(static_cast<std::size_t>(pool.size())) {}
+
+  SampleColors& operator()(int worker) {
+    auto& colors = workers_[static_cast<std::size_t>(worker)];
+    if (!colors) colors = maker_();
+    return *colors;
+  }
+  template <typename Visitor>
+  void for_each(Visitor&& visit) const {
+    for (const auto& colors : workers_)
+      if (colors) visit(*colors);
   }
 
  private:
-  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+  Maker maker_;
+  std::vector<std::unique_ptr<Colors>> workers_;
 };
 
-std::string to_text(const Work& work) {
-  char text[160];
-  std::snprintf(text, sizeof text,
-                "build %.3f s, %.3g million primary rays at %.3g million a second, %.3g million exactly",
-                work.build_seconds, static_cast<double>(work.primary_rays) / 1e6,
-                static_cast<double>(work.primary_rays) / 1e6 / std::max(work.cast_seconds, 1e-9),
-                static_cast<double>(work.exact_decisions) / 1e6);
-  return text;
+PictureRays rays_of(const TraceOptions& chosen) {
+  const ZbufOptions& picture = chosen.picture;
+  return {.sampling = chosen.sampling.value_or(Sampling::regular),
+          .sample_count = picture.sample_count,
+          .threshold = chosen.threshold,
+          .has_colors = picture.has_image(),
+          .has_depths = picture.z_buffer_path != "none" || !picture.depth_image_path.empty(),
+          .counts_covered = picture.summarizes};
 }
 
-/// What the pixels of a screen show, row after row.
-struct SeenPixels {
-  SeenPixels(const Viewport& of_pixels, bool has_depths) : screen(of_pixels) {
-    const std::size_t count =
-        static_cast<std::size_t>(screen.rows) * static_cast<std::size_t>(screen.columns);
-    ids.assign(count, KeptIds::kNoTriangle);
-    if (has_depths) depths.assign(count, screen.rear);
-  }
-  [[nodiscard]] std::size_t begin(int row) const {
-    return static_cast<std::size_t>(row) * static_cast<std::size_t>(screen.columns);
-  }
-  template <typename T>
-  [[nodiscard]] std::span<const T> row_of(const std::vector<T>& entries, int row) const {
-    return std::span(entries).subspan(begin(row), static_cast<std::size_t>(screen.columns));
-  }
-
-  Viewport screen;
-  std::vector<Id> ids;
-  std::vector<double> depths;  // empty if they are not requested
-};
-
-/// Casts a ray through every pixel.
-void cast_all(const TracedTriangles& triangles, const Bvh& bvh, const ProjectionTransform& projection,
-              ThreadPool& pool, SeenPixels& seen, Work& work) {
-  // Rays near each other find the same boxes and triangles in the processor's caches.
-  constexpr int kTile = 16;
-  const Viewport& screen = seen.screen;
-  const RayCaster caster(triangles, bvh, projection, screen);
-  std::vector<std::unique_ptr<RayCaster::Thread>> threads(static_cast<std::size_t>(pool.size()));
-  Progress progress("trace", "ray");
-  std::atomic<std::uint64_t> ray_count = 0;
-  const bool wants_depths = !seen.depths.empty();
-  const auto cast = [&](RayCaster::Thread& thread, int row, int column) {
-    const auto found = thread.cast(row, column, wants_depths);
-    if (!found) return;
-    const std::size_t pixel = seen.begin(row) + static_cast<std::size_t>(column);
-    seen.ids[pixel] = found->id;
-    if (wants_depths) seen.depths[pixel] = found->depth;
-  };
-  const int band_count = (screen.rows + kTile - 1) / kTile;
-  pool.start(band_count, [&](int band, int worker) {
-    auto& thread = threads[static_cast<std::size_t>(worker)];
-    if (!thread) thread = std::make_unique<RayCaster::Thread>(caster);
-    const int end_row = std::min((band + 1) * kTile, screen.rows);
-    for (int left = 0; left < screen.columns; left += kTile)
-      for (int row = band * kTile; row < end_row; ++row)
-        for (int column = left; column < std::min(left + kTile, screen.columns); ++column)
-          cast(*thread, row, column);
-    ray_count +=
-        static_cast<std::uint64_t>(end_row - band * kTile) * static_cast<std::uint64_t>(screen.columns);
-    if (worker == 0) progress.show(ray_count);
-  });
-  pool.finish();
-  for (const auto& thread : threads)
-    if (thread) work.exact_decisions += thread->exact_count();
-  work.primary_rays += ray_count;
-}
-
-/// The colors of rows of pixels, or of samples, by the triangles they show.
-class RowColors {
- public:
-  RowColors(const TracedTriangles& triangles, ExactProjection& projection,
-            std::optional<SurfaceShader>& shader, Color background)
-      : triangles_(triangles), shader_(shader), background_(background), surfaces_(triangles.size()) {
-    projection_ = &projection;
-  }
-
-  /// Prepares the triangles that pixels show; all calls come before the first next().
-  void add(const std::vector<Id>& ids) {
-    if (shader_)
-      for (const Id id : ids) surfaces_.keep(id);
-  }
-  void finish() {
-    if (!shader_) return;
-    surfaces_.renumber();
-    TriangleBatch p_view;
-    for (std::size_t i = 0; i < surfaces_.size(); ++i) {
-      const auto id = static_cast<Id>(i);
-      if (!surfaces_.is_kept(id)) continue;
-      p_view.clear();
-      triangles_.copy(id, p_view);
-      const TriangleBatch& p_ndc = projection_->project(p_view);
-      shader_->add(p_ndc, triangles_.piece(id).value_or(0), colors_.of(triangles_.number(id)));
-    }
-  }
-  /// Those of the next row, valid until the next call.
-  std::span<const Color> next(std::span<const Id> ids) {
-    if (shader_) {
-      shown_.resize(ids.size());
-      std::ranges::transform(ids, shown_.begin(), [&](Id id) { return surfaces_.new_id(id); });
-      return shader_->shade(row_number_++, shown_);
-    }
-    row_.resize(ids.size());
-    std::ranges::transform(ids, row_.begin(), [&](Id id) {
-      return id == KeptIds::kNoTriangle ? background_ : colors_.of(triangles_.number(id));
-    });
-    return row_;
-  }
-
- private:
-  const TracedTriangles& triangles_;
-  ExactProjection* projection_;
-  std::optional<SurfaceShader>& shader_;
-  Color background_;
-  KeptIds surfaces_;  // the shader's ids
-  std::vector<SurfaceShader::SurfaceId> shown_;
-  std::vector<Color> row_;
-  TriangleColors colors_;
-  int row_number_ = 0;
-};
-
-/// Writes image and depths. `samples` are those of the image, if a pixel has several.
-void write_all(Tool& tool, const ZbufOptions& chosen, const SeenPixels& centers,
-               const std::optional<SeenPixels>& samples, RowColors& colors) {
-  const Viewport& screen = centers.screen;
-  ImageRows image(chosen.image_path, screen, chosen.sample_count);
+/// Writes image and depths.
+void write_all(Tool& tool, const ZbufOptions& chosen, const TracedPicture& picture, Color background) {
+  const Viewport& screen = picture.screen;
+  ImageRows image(chosen.image_path, screen, 1, background);
   DepthFiles depths(tool.output(), chosen.z_buffer_path, chosen.depth_image_path, screen);
-  for (int row = 0; row < screen.rows; ++row)
-    if (!centers.depths.empty()) depths.write_row(centers.row_of(centers.depths, row));
-  const SeenPixels& shown = samples ? *samples : centers;
-  for (int row = 0; row < shown.screen.rows && image.is_wanted(); ++row)
-    image.write_row(colors.next(shown.row_of(shown.ids, row)));
+  for (int row = 0; row < screen.rows; ++row) {
+    if (!picture.depths.empty()) depths.write_row(picture.row_of(picture.depths, row));
+    if (image.is_wanted()) image.write_row(picture.row_of(picture.colors, row));
+  }
   depths.close();
   image.close();
   tool.close_output();
   image.commit();
   depths.commit();
-  if (chosen.summarizes) {
-    const auto is_covered = [](Id id) { return id != KeptIds::kNoTriangle; };
-    Tool::report(summary(chosen.image_path, screen,
-                         static_cast<std::uint64_t>(std::ranges::count_if(centers.ids, is_covered))));
-  }
+  if (chosen.summarizes) Tool::report(summary(chosen.image_path, screen, picture.covered_count));
   tool.timing().lap(&Timing::write_seconds);
 }
 
-/// Why the picture shows nothing: the notes of `project` and of `zbuf`.
-std::optional<std::string> empty_picture_note(const ViewReport& view, const DrawingReport& drawing,
-                                              const std::optional<SurfaceShader>& shader) {
-  if (auto note = view.note()) return note;
-  if (auto note = drawing.empty_picture_note()) return note;
-  return shader ? invisible_colors_note(*shader) : std::nullopt;
+/// Why triangles do not show: the notes of `project` and of `zbuf`.
+std::optional<std::string> unseen_triangles_note(const TracedScene& scene) {
+  if (auto note = scene.view().note()) return note;
+  return scene.drawing().empty_picture_note();
 }
 
-void expect_room(const TracedTriangles& triangles) {
-  if (triangles.size() > Bvh::kMaxPrimitives)
-    throw std::runtime_error(
-        expected_but_found("at most " + counted(Bvh::kMaxPrimitives, "triangle"), "more"));
+/// Why a scene with spheres shows nothing: the note on those, and on the triangles, if there are some.
+std::string unmet_note(const TracedScene& scene, std::uint64_t object_count) {
+  const std::string note = unseen_spheres_note(scene.spheres());
+  if (scene.triangles().spheres().size() == object_count) return note;
+  const std::string triangles = unseen_triangles_note(scene).value_or("");
+  const std::size_t reason = triangles.find("empty: ");
+  return reason == std::string::npos ? note : note + "; " + triangles.substr(reason + 7);
 }
 
 }  // namespace
 
 void trace(Tool& tool, const TraceOptions& chosen, const Viewport& screen, Statistics& statistics) {
-  const ZbufOptions& picture = chosen.picture;
+  const ZbufOptions& output = chosen.picture;
+  const PictureRays rays = rays_of(chosen);
+  const SamplePlaces places(screen, rays.sample_count, is_random(rays.sampling));
   statistics.open();
-  expect_kind(tool.input(), TextKind::view);
-  StageReader reader(tool.input());
-  expect_header(reader, TextKind::view);
-  if (picture.framed) reader.expect_framed();
-  const Located<Projection> given = chosen.projection->projection(reader, tool);
-  const ProjectionTransform projection = clip_from_view(given);
-  const StageHeader header = projected_header(reader.header(), given, projection);
-  const SurfaceOptions surfaces = {
-      .model = picture.shading, .wireframe = {}, .background = parse_color(picture.background)};
+  TracedScene scene(tool, chosen, screen, statistics.is_wanted());
+  const SurfaceOptions surfaces = {.model = output.shading,
+                                   .wireframe = {},
+                                   .background = parse_color(output.background),
+                                   .holds_alpha = rays.has_colors && can_hold_alpha(output.image_path)};
+  const Color background = background_color(scene.header().appearance, surfaces.background);
   std::optional<SurfaceShader> shader;
-  if (picture.has_image())
-    shader =
-        surface_shader(header, reader.header_end(), sample_screen(screen, picture.sample_count), surfaces);
-
-  ExactProjection exact(projection, tool.input().file(), header.projected.has_value());
-  ViewReport view(exact.stage(), ViewVolume(projection), statistics.is_wanted());
-  view.suspect_radians(given);
-  const std::unique_ptr<DrawingReport> drawing = drawing_report(picture, screen, false);
-  TracedTriangles triangles;
-  for (TriangleBatch p_view; reader.read(p_view);) {
-    tool.timing().triangle_count += p_view.size();
-    triangles.add(p_view, exact, [&](const TriangleBatch& part, const TriangleBatch& p_ndc) {
-      view.add(part, p_ndc);
-      drawing->add(p_ndc);
-    });
-    expect_room(triangles);
-  }
+  if (rays.has_colors) shader = surface_shader(scene.header(), scene.header_end(), places.screen(), surfaces);
+  const LightTransportSetup setup =
+      light_transport_setup(scene.header().appearance, scene.projection().is_perspective, chosen);
+  const bool sends_rays = rays.has_colors && needs_light_transport(setup);
+  const std::vector<Pixel> probed = probed_pixels(output, screen);
+  const bool casts_any_rays = sends_rays || !probed.empty();
+  scene.read(casts_any_rays);
+  // The shader of zbuf has no spheres.
+  const bool has_spheres = !scene.triangles().spheres().empty();
+  const bool traces_light = sends_rays || (rays.has_colors && has_spheres);
   tool.timing().lap(&Timing::read_seconds);
 
-  Work work;
-  Stopwatch watch;
+  TraceWork work;
+  ShownLight shown_light;
   ThreadPool pool(chosen.thread_count());
-  const bool has_samples = picture.sample_count > 1 && picture.has_image();
-  const bool has_depths = picture.z_buffer_path != "none" || !picture.depth_image_path.empty();
-  SeenPixels centers(screen, has_depths);
-  std::optional<SeenPixels> samples;
-  {
-    const Bvh bvh = hierarchy_of(triangles, PixelRays(projection, screen), pool);
-    work.node_count = bvh.node_count();
+  std::vector<std::string> probe_lines;
+  const TracedPicture picture = [&] {
+    Stopwatch watch;
+    const ProjectionTransform& projection = scene.projection();
+    const TracedTriangles& triangles = scene.triangles();
+    const Bvh bvh = hierarchy_of(triangles, PixelRays(projection, screen), pool,
+                                 casts_any_rays ? RaysOfBoxes::any : RaysOfBoxes::primary);
+    const LightTransport transport(triangles, bvh, setup);
     work.build_seconds = watch.lap();
-    if (has_depths || !has_samples || picture.summarizes)
-      cast_all(triangles, bvh, projection, pool, centers, work);
-    if (has_samples) {
-      samples.emplace(sample_screen(screen, picture.sample_count), false);
-      cast_all(triangles, bvh, projection, pool, *samples, work);
-    }
+
+    WorkersColors<SurfaceColors> surface_colors(
+        pool, [&] { return std::make_unique<SurfaceColors>(scene, shader ? &*shader : nullptr); });
+    WorkersColors<LightColors> light_colors(pool, [&] {
+      return std::make_unique<LightColors>(transport, projection, places.screen(), background);
+    });
+    const ColorsOfWorker colors =
+        traces_light ? ColorsOfWorker(std::ref(light_colors)) : ColorsOfWorker(std::ref(surface_colors));
+    TracedPicture all = traced_picture(scene, bvh, screen, places, rays, background, colors, pool, work);
+    light_colors.for_each([&](const LightColors& light) {
+      light.add_to(work);
+      shown_light.add(light.shown());
+    });
+    if (shader)
+      surface_colors.for_each([&](const SurfaceColors& surface) { shader->add_shown(surface.shown()); });
     work.cast_seconds = watch.lap();
-  }
+    for (const Pixel& pixel : probed)
+      for (const std::string& line :
+           ray_lines(pixel, {triangles, bvh, projection, screen}, transport, PixelRays(projection, screen)))
+        probe_lines.push_back(line);
+    return all;
+  }();
   tool.timing().details = to_text(work);
   statistics.add("triangles", tool.timing().triangle_count);
-  view.add_to(statistics);
+  scene.view().add_to(statistics);
   statistics.add("primary_rays", work.primary_rays);
+  if (traces_light) {
+    statistics.add("shadow_rays", work.rays.shadow);
+    statistics.add("mirrored_rays", work.rays.mirrored);
+    statistics.add("refracted_rays", work.rays.refracted);
+    statistics.add("cut_rays", work.rays.cut);
+  }
   statistics.finish();
   tool.timing().lap(&Timing::work_seconds);
 
-  RowColors colors(triangles, exact, shader, background_color(header.appearance, surfaces.background));
-  const SeenPixels& shown = samples ? *samples : centers;
-  colors.add(shown.ids);
-  colors.finish();
-  write_all(tool, picture, centers, samples, colors);
+  write_all(tool, output, picture, background);
   statistics.commit();
-  if (picture.has_image())
-    if (const auto note = empty_picture_note(view, *drawing, shader)) tool.note(*note);
+  for (const std::string& line : probe_lines) Tool::report(line);
+  if (!rays.has_colors) return;
+  const auto note = [&]() -> std::optional<std::string> {
+    if (has_spheres && !shown_light.has_seen) return unmet_note(scene, tool.timing().triangle_count);
+    if (!has_spheres)
+      if (auto unseen = unseen_triangles_note(scene)) return unseen;
+    if (!traces_light) return shader ? invisible_colors_note(*shader) : std::nullopt;
+    return shown_light.has_seen
+               ? invisible_light_note(shown_light, background, setup.model != ShadingModel::none)
+               : std::nullopt;
+  }();
+  if (note) tool.note(*note);
 }
 
 }  // namespace pipeline

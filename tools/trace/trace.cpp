@@ -33,7 +33,7 @@ int main(int argc, char** argv) {
 
   return tool.run(argc, argv, [&] {
     ZbufOptions& picture = chosen.picture;
-    picture.complete(::isatty(STDOUT_FILENO) == 1);
+    chosen.complete(::isatty(STDOUT_FILENO) == 1);
     expect_separate(outputs_of(picture, statistics));
     const Viewport screen = read_screen(tool, picture);
     if (picture.has_image()) check_image_size(picture.image_path, screen.columns, screen.rows);

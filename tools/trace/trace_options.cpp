@@ -1,12 +1,31 @@
 #include "tools/trace/trace_options.h"
 
 #include <algorithm>
+#include <string>
 #include <thread>
+
+#include "libpipeline/text/error.h"
 
 namespace pipeline {
 namespace {
 
 constexpr int kMaxThreads = 256;
+constexpr int kSamplesOfSampling = 5;
+
+std::string name_of(Sampling sampling) {
+  switch (sampling) {
+    case Sampling::basic:
+      return "basic";
+    case Sampling::regular:
+      return "regular";
+    case Sampling::jittered:
+      return "jittered";
+    case Sampling::adaptive:
+      break;
+  }
+  return "adaptive";
+}
+constexpr int kMaxDepth = 1000;  // what a thread's stack has room for
 
 }  // namespace
 
@@ -19,14 +38,59 @@ TraceOptions::TraceOptions(CommandLine& options) {
   picture.add_screen_and_outputs(options, false);
   projection.emplace(options);
   options.begin_group("Pixels");
-  picture.add_samples(options);
+  options.add_choice<std::optional<Sampling>>(
+      "--sampling", sampling,
+      {{name_of(Sampling::basic), Sampling::basic},
+       {name_of(Sampling::regular), Sampling::regular},
+       {name_of(Sampling::jittered), Sampling::jittered},
+       {name_of(Sampling::adaptive), Sampling::adaptive}},
+      "Where the rays of a pixel go. basic: one through its center; regular: through the centers of N x N "
+      "cells, as in zbuf; jittered: through a random point of each cell, the same in every run; adaptive: as "
+      "jittered, but where the cells in the corners and in the middle look alike, through these alone. "
+      "Without the option: regular");
+  options.add_whole("--samples", picture.sample_count, 1, kMaxSamples,
+                    "Smooth edges: a pixel of the image is the mean of N x N samples, its depth stays that "
+                    "of its center; without the option " +
+                        std::to_string(kSamplesOfSampling) + " with --sampling, else 1; N");
+  options.add_whole(
+      "--threshold", threshold, 0, 255,
+      "With --sampling adaptive: the first samples of a pixel are alike if no channel differs by "
+      "this much; 0 takes all samples; N");
+  picture.sample_count = threshold = kNotGiven;
   options.add_whole("--threads", picture.thread_count, 0, kMaxThreads,
                     "How many threads trace rays, 0 for one on every core");
   options.begin_group("Color and light");
   picture.add_shading(options);
   picture.add_background(options);
+  options.add_flag("--no-shadows", without_shadows, "Light every surface that faces a light, as zbuf does");
+  options.add_flag("--no-recursion", without_recursion,
+                   "Draw what mirrors or is clear as zbuf draws it: opaque and matt");
+  options.add_number(
+      "--min-contribution", "E", min_contribution, [](double part) { return part >= 0 && part <= 1; },
+      "a number from 0 to 1",
+      "Cast no mirrored or refracted ray that can bring less than this part of a pixel's color (default: "
+      "1/510, half a level)");
+  options.add_whole("--max-depth", max_depth, 0, kMaxDepth,
+                    "How often a ray may be mirrored or refracted on its way");
   options.begin_group("Debugging");
+  options.add_repeatable("--probe", "COLUMN,ROW", picture.probes,
+                         "Report on stderr the rays that make the color of this pixel's center: where each "
+                         "goes, its weight and what it brings; may be repeated");
   picture.add_framed(options);
+}
+
+void TraceOptions::complete(bool is_terminal) {
+  picture.complete(is_terminal);
+  if (picture.sample_count == kNotGiven)
+    picture.sample_count = sampling && *sampling != Sampling::basic ? kSamplesOfSampling : 1;
+  if (sampling == Sampling::basic && picture.sample_count > 1)
+    throw UsageError("--samples: " + expected_but_found("1 with --sampling basic, which has one ray a pixel",
+                                                        "'" + std::to_string(picture.sample_count) + "'"));
+  if (threshold == kNotGiven)
+    threshold = default_threshold_;
+  else if (sampling != Sampling::adaptive)
+    throw UsageError("--threshold: " + expected_but_found("--sampling adaptive, which alone has one",
+                                                          sampling ? name_of(*sampling) : "no --sampling"));
 }
 
 int TraceOptions::thread_count() const {

@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "libpipeline/raytracing/sampling.h"
 #include "tools/command_line.h"
 #include "tools/stage_options.h"
 #include "tools/zbuf_options.h"
@@ -14,11 +15,24 @@ struct TraceOptions {
   TraceOptions(const TraceOptions&) = delete;
   TraceOptions& operator=(const TraceOptions&) = delete;
 
+  /// Chooses the options that depend on others, and on whether standard output is a terminal. A UsageError if
+  /// options exclude each other.
+  void complete(bool is_terminal);
   /// At least 1.
   [[nodiscard]] int thread_count() const;
 
-  ZbufOptions picture;  // with the coverage rule `center`; 0 threads: one on every core
+  ZbufOptions picture;               // with the coverage rule `center`; 0 threads: one on every core
+  std::optional<Sampling> sampling;  // none: regular
+  int threshold = 8;                 // of adaptive sampling: the difference of colors, in levels of 255
   std::optional<ProjectionOptions> projection;  // always there
+  bool without_shadows = false;
+  bool without_recursion = false;
+  double min_contribution = 1.0 / 510;
+  int max_depth = 32;
+
+ private:
+  static constexpr int kNotGiven = -1;
+  const int default_threshold_ = threshold;
 };
 
 }  // namespace pipeline

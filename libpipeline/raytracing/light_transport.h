@@ -1,0 +1,111 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "libpipeline/picture/shading.h"
+#include "libpipeline/raytracing/bvh.h"
+#include "libpipeline/raytracing/ray_log.h"
+#include "libpipeline/raytracing/shown_light.h"
+#include "libpipeline/raytracing/surface_caster.h"
+#include "libpipeline/raytracing/surface_hit.h"
+#include "libpipeline/raytracing/traced_triangles.h"
+
+namespace pipeline {
+
+/// How light travels in a scene, and when its rays end.
+struct LightTransportSetup {
+  ShadingModel model = ShadingModel::none;  // `none`: a surface shows its own color
+  Lighting lighting;
+  std::vector<Material> materials;  // by their numbers
+  Vec3 background;                  // channels from 0 to 255
+  bool has_shadows = true;
+  bool recurses = true;  // otherwise nothing is mirrored, and nothing is clear
+  /// A ray that would bring less than this part of a pixel's color is not cast: half a level, unless chosen.
+  double min_contribution = 1.0 / 510;
+  int max_depth = 32;  // how often a ray may be mirrored or refracted
+};
+
+/// The color that rays bring, by T. Whitted's recursion ("An improved illumination model for shaded display",
+/// 1980):
+///   alpha ((1 - R) local + R mirror) + (1 - alpha) (F mirror + (1 - F) refracted)
+/// with the material's reflectance R, and F by Fresnel's equations. `local` is what lit_color makes of the
+/// lights, of each the part that comes through: nothing through an opaque surface, and of what is clear (1 -
+/// alpha) (1 - F) at each surface and exp(-absorption times length) inside, on a straight line. A way that
+/// ends on the back of a surface was inside its material, and is weakened like that. Colors are linear sums
+/// of channels from 0 to 255, not clamped.
+class LightTransport {
+ public:
+  /// A hierarchy for any ray, of triangles that keep what `project` drops.
+  LightTransport(const TracedTriangles& triangles, const Bvh& bvh, LightTransportSetup setup)
+      : triangles_(triangles), bvh_(bvh), setup_(std::move(setup)) {}
+
+  /// How many rays there were, besides the primary ones.
+  struct RayCounts {
+    std::uint64_t shadow = 0;
+    std::uint64_t mirrored = 0;
+    std::uint64_t refracted = 0;
+    std::uint64_t cut = 0;          // not cast, as they would have brought too little or were too deep
+    double largest_cut_weight = 0;  // the sum of the weights of those cut, at the primary ray with most
+
+    void add(const RayCounts& other);
+  };
+
+  /// One for each thread.
+  class Thread {
+   public:
+    explicit Thread(const LightTransport& transport)
+        : setup_(transport.setup_), caster_(transport.triangles_, transport.bvh_) {}
+
+    /// What a primary ray brings from the surface that it is known to see.
+    [[nodiscard]] Vec3 radiance(SurfaceId seen, const Ray& ray) {
+      return radiance(caster_.seen(seen, ray), ray);
+    }
+    /// What it brings from where it meets a surface.
+    [[nodiscard]] Vec3 radiance(const SurfaceHit& hit, const Ray& ray);
+    /// What it brings if it meets nothing.
+    [[nodiscard]] Vec3 background() const { return setup_.background; }
+    [[nodiscard]] const RayCounts& counts() const { return counts_; }
+    /// But for what colors are shown.
+    [[nodiscard]] const ShownLight& shown() const { return shown_; }
+    [[nodiscard]] SurfaceCaster& caster() { return caster_; }
+    /// From now on, adds every ray to a log; null for none.
+    void log_to(RayLog* log) { log_ = log; }
+
+   private:
+    /// A ray that is looked along, and what it can contribute to the pixel.
+    struct Path {
+      double weight;
+      int depth;
+      double length;  // from the eye to the ray's start
+      std::size_t log_entry;
+    };
+
+    [[nodiscard]] Vec3 color_of(const SurfaceHit& hit, const Ray& ray, Path path);
+    [[nodiscard]] Vec3 surface_color(const SurfaceHit& hit, const Ray& ray, const Path& path);
+    [[nodiscard]] Vec3 local_color(const SurfaceHit& hit, const Ray& ray, const Path& path);
+    [[nodiscard]] Vec3 follow(RayKind kind, const SurfaceRay& ray, const Path& path, double share);
+    [[nodiscard]] Vec3 part_of_light(const SurfaceHit& hit, std::size_t light, const Path& path);
+    [[nodiscard]] Vec3 part_through(const SurfaceHit& hit, const Vec3& to_light);
+    [[nodiscard]] const Material& material(const SurfaceHit& hit) const {
+      return setup_.materials[hit.material];
+    }
+
+    const LightTransportSetup& setup_;
+    SurfaceCaster caster_;
+    RayCounts counts_;
+    ShownLight shown_;
+    double cut_weight_ = 0;
+    std::vector<SurfaceCaster::Crossing> crossings_;
+    RayLog* log_ = nullptr;
+  };
+
+ private:
+  const TracedTriangles& triangles_;
+  const Bvh& bvh_;
+  LightTransportSetup setup_;
+};
+
+}  // namespace pipeline

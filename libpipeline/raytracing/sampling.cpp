@@ -1,0 +1,53 @@
+#include "libpipeline/raytracing/sampling.h"
+
+#include <cassert>
+
+namespace pipeline {
+namespace {
+
+/// The numbers of the generator SplitMix64 (G. Steele, D. Lea, C. Flood, "Fast splittable pseudorandom number
+/// generators", 2014), by their place in its sequence.
+std::uint64_t random_bits(std::uint64_t place) {
+  constexpr std::uint64_t kSeed = 1;
+  std::uint64_t bits = kSeed + (place + 1) * 0x9e3779b97f4a7c15u;
+  bits = (bits ^ bits >> 30) * 0xbf58476d1ce4e5b9u;
+  bits = (bits ^ bits >> 27) * 0x94d049bb133111ebu;
+  return bits ^ bits >> 31;
+}
+
+}  // namespace
+
+SamplePlaces::SamplePlaces(const Viewport& pixels, int count, bool are_random)
+    : screen_(pixels), count_(count), places_(are_random ? kJitterPlaces : 1) {
+  // CenterBox packs a row and two more bits into 32.
+  assert(count >= 1 && count <= (1 << 30) / kMaxViewportSize / kJitterPlaces);
+  const int factor = count * places_;
+  screen_.columns *= factor;
+  screen_.rows *= factor;
+  screen_.drawn = {factor * pixels.drawn_rows().first, factor * pixels.drawn_rows().end};
+}
+
+SamplePlaces::Place SamplePlaces::of(int row, int column, int sample) const {
+  const Place cell = {row * count_ + sample / count_, column * count_ + sample % count_};
+  if (places_ == 1) return cell;
+  // A number of its own for each sample: rows and columns have 16 bits, samples 8.
+  const std::uint64_t bits =
+      random_bits(static_cast<std::uint64_t>(row) << 24 | static_cast<std::uint64_t>(column) << 8 |
+                  static_cast<std::uint64_t>(sample));
+  return {cell.row * kJitterPlaces + static_cast<int>(bits % kJitterPlaces),
+          cell.column * kJitterPlaces + static_cast<int>(bits / kJitterPlaces % kJitterPlaces)};
+}
+
+SampleOrder::SampleOrder(int count) {
+  const int last = count * count - 1;
+  samples_ = {0, count - 1, count / 2 * count + count / 2, last - (count - 1), last};
+  std::ranges::sort(samples_);
+  samples_.erase(std::unique(samples_.begin(), samples_.end()), samples_.end());
+  first_count_ = samples_.size();
+  for (int sample = 0; sample <= last; ++sample)
+    if (!std::ranges::binary_search(samples_.begin(),
+                                    samples_.begin() + static_cast<std::ptrdiff_t>(first_count_), sample))
+      samples_.push_back(sample);
+}
+
+}  // namespace pipeline

@@ -1,0 +1,138 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "libpipeline/scene/color.h"
+#include "libpipeline/scene/viewport.h"
+
+namespace pipeline {
+
+/// Where the rays of a pixel go.
+enum class Sampling {
+  basic,     // one through its center
+  regular,   // one through the center of each of N x N cells
+  jittered,  // one through a random point of each cell
+  adaptive   // as jittered, first through five cells; through the others only where those differ
+};
+
+/// Whether samples are at random points of their cells.
+constexpr bool is_random(Sampling sampling) {
+  return sampling == Sampling::jittered || sampling == Sampling::adaptive;
+}
+
+/// The places of samples: pixels of a finer screen, so that the centers of its pixels are decided exactly by
+/// the same rule as those of the picture. A regular sample is the only pixel of its cell, a jittered one any
+/// of 256 x 256.
+///
+/// Which one depends on the pixel and the sample's number alone, by a hash of them: no order and no thread
+/// shows.
+class SamplePlaces {
+ public:
+  /// The places in a cell, along each side, that a jittered sample may have.
+  static constexpr int kJitterPlaces = 256;
+
+  struct Place {
+    int row, column;
+    friend bool operator==(const Place&, const Place&) = default;
+  };
+
+  /// For `count` x `count` samples in each pixel of `pixels`, numbered row by row, at random points of their
+  /// cells or in the middle.
+  SamplePlaces(const Viewport& pixels, int count, bool are_random);
+
+  /// The screen whose pixels are the places.
+  [[nodiscard]] const Viewport& screen() const { return screen_; }
+  [[nodiscard]] Place of(int row, int column, int sample) const;
+
+ private:
+  Viewport screen_;
+  int count_;
+  int places_;  // in a cell, along each side
+};
+
+/// The numbers of a pixel's samples in the order in which adaptive sampling takes them: those of the corner
+/// cells and of the one in the middle, then the others.
+class SampleOrder {
+ public:
+  explicit SampleOrder(int count);
+
+  [[nodiscard]] const std::vector<int>& samples() const { return samples_; }
+  /// How many come first.
+  [[nodiscard]] std::size_t first_count() const { return first_count_; }
+
+ private:
+  std::vector<int> samples_;
+  std::size_t first_count_;
+};
+
+/// The mean of colors, each channel rounded to the nearest integer, halves up. Of those that are not opaque,
+/// all the same one, so is the alpha; a color counts for the other channels as much as its alpha, and where
+/// all are invisible, they are that color's.
+class ColorMean {
+ public:
+  void add(Color color) {
+    if (!color.is_opaque()) {
+      background_ = color;
+      ++background_count_;
+      return;
+    }
+    red_ += color.red();
+    green_ += color.green();
+    blue_ += color.blue();
+    ++opaque_count_;
+  }
+  /// Of at least one color.
+  [[nodiscard]] Color mean() const {
+    if (background_count_ > 0) return translucent_mean();
+    return {quotient(red_, opaque_count_), quotient(green_, opaque_count_), quotient(blue_, opaque_count_)};
+  }
+
+ private:
+  static std::uint8_t quotient(std::uint32_t sum, std::uint32_t divisor) {
+    return static_cast<std::uint8_t>((2 * sum + divisor) / (2 * divisor));
+  }
+  [[nodiscard]] Color translucent_mean() const {
+    const std::uint32_t through = background_.alpha() * background_count_;
+    const std::uint32_t weight = 255 * opaque_count_ + through;
+    if (weight == 0) return background_;
+    const auto mean = [&](std::uint32_t sum, std::uint32_t of_background) {
+      return quotient(255 * sum + through * of_background, weight);
+    };
+    const Color color = {mean(red_, background_.red()), mean(green_, background_.green()),
+                         mean(blue_, background_.blue())};
+    return color.with_alpha(quotient(weight, opaque_count_ + background_count_));
+  }
+
+  std::uint32_t red_ = 0, green_ = 0, blue_ = 0;
+  std::uint32_t opaque_count_ = 0;
+  std::uint32_t background_count_ = 0;
+  Color background_;
+};
+
+/// How far colors differ.
+class ColorRange {
+ public:
+  void add(Color color) {
+    const std::array<int, 4> channels = {color.red(), color.green(), color.blue(), color.alpha()};
+    for (std::size_t i = 0; i < channels.size(); ++i) {
+      least_[i] = std::min(least_[i], channels[i]);
+      greatest_[i] = std::max(greatest_[i], channels[i]);
+    }
+  }
+  /// The largest difference between two of them in a channel, or in alpha; at least one color.
+  [[nodiscard]] int range() const {
+    int range = 0;
+    for (std::size_t i = 0; i < least_.size(); ++i) range = std::max(range, greatest_[i] - least_[i]);
+    return range;
+  }
+
+ private:
+  std::array<int, 4> least_ = {255, 255, 255, 255};
+  std::array<int, 4> greatest_{};
+};
+
+}  // namespace pipeline

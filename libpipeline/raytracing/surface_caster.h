@@ -1,0 +1,103 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "libpipeline/numbers/vec_math.h"
+#include "libpipeline/picture/shading.h"
+#include "libpipeline/raytracing/bvh.h"
+#include "libpipeline/raytracing/surface_hit.h"
+#include "libpipeline/raytracing/surface_triangle.h"
+#include "libpipeline/raytracing/traced_triangles.h"
+#include "libpipeline/scene/color.h"
+
+namespace pipeline {
+
+/// Casts rays from anywhere in the scene: finds what they meet, whether the eye sees it or not. For one
+/// thread.
+class SurfaceCaster {
+ public:
+  /// A hierarchy for any ray (hierarchy_of). Triangles that `project` drops have to be among them.
+  SurfaceCaster(const TracedTriangles& triangles, const Bvh& bvh) : triangles_(triangles), bvh_(bvh) {}
+
+  /// What the ray meets first, of equally near surfaces the one with the lower id; none if it meets nothing.
+  [[nodiscard]] std::optional<SurfaceHit> nearest(const SurfaceRay& ray);
+  /// The hit of a surface that a primary ray is known to see.
+  [[nodiscard]] SurfaceHit seen(SurfaceId id, const Ray& ray);
+
+  /// A surface between a point and a light.
+  struct Crossing {
+    double t;  // from 0, at the point, to 1, at the light
+    SurfaceId id;
+    std::uint32_t material;
+    bool is_front;  // the side that the ray from the point comes from
+    double cosine;  // of the angle between the ray and the normal
+  };
+  /// Fills `crossings` with the surfaces that a ray crosses at t < 1, in their order; false as soon as
+  /// `stops(material)` is true for one of them. Where it passes between two triangles, it crosses one.
+  template <typename Stops>
+  [[nodiscard]] bool cross(const SurfaceRay& ray, std::vector<Crossing>& crossings, Stops&& stops);
+
+  /// A triangle's corners, for light at the corners; none for another shape.
+  [[nodiscard]] std::optional<std::array<SurfacePoint, 3>> corners(SurfaceId id);
+  /// The number of the object in the scene, from 0.
+  [[nodiscard]] std::uint64_t number(SurfaceId id) const { return triangles_.number(id); }
+
+ private:
+  /// Those of a sphere that are surely beyond the ray's start.
+  using SphereMeetings = Ellipsoid::Meetings;
+  [[nodiscard]] SphereMeetings sphere_meetings(SurfaceId id, const SurfaceRay& ray) const;
+  [[nodiscard]] SurfaceHit sphere_hit(SurfaceId id, const Ray& ray, const Ellipsoid::Meeting& meeting);
+  static Vec3 point_at(const Ray& ray, double t) { return sum(ray.origin, scaled(ray.direction, t)); }
+
+  [[nodiscard]] SurfaceHit triangle_hit(SurfaceId id, const Ray& ray, double t,
+                                        const std::array<double, 3>& weights);
+  /// Sorts crossings, and leaves one of those that are on the same side of the same place.
+  static void settle(std::vector<Crossing>& crossings);
+
+  const TracedTriangles& triangles_;
+  const Bvh& bvh_;
+  TriangleColors colors_;
+};
+
+template <typename Stops>
+bool SurfaceCaster::cross(const SurfaceRay& ray, std::vector<Crossing>& crossings, Stops&& stops) {
+  crossings.clear();
+  const SurfaceTriangleTest test(ray);
+  double limit = 1;
+  bool is_stopped = false;
+  bvh_.for_each_candidate(ray.ray, 0, limit, [&](SurfaceId id) {
+    if (is_stopped) return;
+    if (id >= triangles_.size()) {
+      const SphereMeetings meetings = sphere_meetings(id, ray);
+      for (const auto& [t, is_front] : meetings) {
+        if (is_stopped || !(t < 1)) continue;
+        is_stopped = stops(triangles_.material(id));
+        const Vec3 normal = triangles_.sphere(id).surface.normal(point_at(ray.ray, t));
+        const double cosine = std::fabs(dot(unit_vector(ray.ray.direction), normal));
+        crossings.push_back({t, id, triangles_.material(id), is_front, cosine});
+      }
+      if (is_stopped) limit = -1;
+      return;
+    }
+    if (id == ray.start || !triangles_.is_first(id)) return;
+    const Triangle& p_view = triangles_.p_view(id);
+    const auto found = test(p_view);
+    if (!found || !(found->t < 1)) return;
+    is_stopped = stops(triangles_.material(id));
+    if (is_stopped) {
+      limit = -1;  // ends the search
+      return;
+    }
+    const double cosine = dot(unit_vector(ray.ray.direction), face_normal(p_view));
+    crossings.push_back({found->t, id, triangles_.material(id), cosine < 0, std::fabs(cosine)});
+  });
+  if (is_stopped) return false;
+  settle(crossings);
+  return true;
+}
+
+}  // namespace pipeline

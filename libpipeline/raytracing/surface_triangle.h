@@ -1,0 +1,52 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+
+#include "libpipeline/numbers/vec.h"
+#include "libpipeline/raytracing/surface_hit.h"
+
+namespace pipeline {
+
+/// The test of any ray with triangles anywhere. The ray's largest coordinate becomes the z axis, and edge
+/// functions are compared in x and y; two triangles calculate alike at the edge they share, so that no ray
+/// passes between them (S. Woop, C. Benthin, I. Wald, "Watertight ray/triangle intersection", 2013).
+class SurfaceTriangleTest {
+ public:
+  struct Meeting {
+    double t;
+    std::array<double, 3> weights;  // each from 0 to 1, their sum is 1
+  };
+
+  explicit SurfaceTriangleTest(const SurfaceRay& ray);
+
+  /// Where the ray meets the triangle beyond its start; none if it does not. A start that may lie in the
+  /// triangle's plane, as far as errors can tell, does not meet it.
+  [[nodiscard]] std::optional<Meeting> operator()(const Triangle& p_view) const;
+  /// Where it meets a triangle that it is known to meet, in spite of errors.
+  [[nodiscard]] Meeting known(const Triangle& p_view) const;
+
+ private:
+  struct Edges {
+    double a, b, c;
+    std::array<double, 3> z;
+  };
+
+  [[nodiscard]] Edges edges(const Triangle& p_view) const;
+  [[nodiscard]] Meeting meeting(const Edges& edges) const;
+  [[nodiscard]] bool may_start_on(const Triangle& p_view) const;
+
+  SurfaceRay ray_;
+  std::size_t x_, y_, z_;  // the axes
+  double x_shear_, y_shear_, z_scale_;
+};
+
+/// A bound on how far, in each coordinate, a weighted mean of the triangle's corners in doubles is off its
+/// plane. The sum of the weights is off by 3 roundings, and the mean has 3 more.
+double error_of_mean(const Triangle& p_view);
+
+/// Of length 1, on the side from where the triangle is counterclockwise.
+Vec3 face_normal(const Triangle& p_view);
+
+}  // namespace pipeline
