@@ -1,11 +1,15 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
 
 #include "libpipeline/picture/surface_shader.h"
+#include "libpipeline/raytracing/shown_light.h"
 #include "libpipeline/scene/appearance.h"
+#include "libpipeline/scene/color.h"
 #include "libpipeline/scene/viewport.h"
 #include "libpipeline/text/source_location.h"
 #include "libpipeline/vertex/view_volume.h"
@@ -32,7 +36,34 @@ std::optional<std::string> bright_light_note(const Appearance& appearance);
 /// For `zbuf`: no triangle shows at a pixel.
 std::string unseen_note(const UnseenTriangles& unseen, const Viewport& screen);
 
+/// For `zbuf`: a material mirrors or is clear, which only rays show; none if none does.
+std::optional<std::string> opaque_note(const Appearance& appearance);
+
 /// For `zbuf`: why pixels that show triangles all look like the background; none if they do not.
 std::optional<std::string> invisible_colors_note(const SurfaceShader& shader);
+
+/// Where a sphere is that no ray has met; `elsewhere` if none of the others is all that is to be told.
+enum class SpherePlace { behind, before_front, beyond_rear, left, right, below, above, elsewhere };
+constexpr std::size_t kSpherePlaceCount = 8;
+
+/// Spheres by their place, with their extents in z of view space, and the limits there.
+struct UnseenSpheres {
+  struct Group {
+    std::uint64_t count = 0;
+    double low = 0;
+    double high = 0;
+  };
+  std::array<Group, kSpherePlaceCount> groups;
+  double front = 0;
+  double rear = 0;
+  bool front_is_near = true;
+  bool rear_is_far = true;
+};
+
+/// For `trace`: no ray meets a sphere.
+std::string unseen_spheres_note(const UnseenSpheres& spheres);
+
+/// For `trace`: why what is seen by the light of rays all looks like the background; none if it does not.
+std::optional<std::string> invisible_light_note(const ShownLight& shown, Color background, bool is_lit);
 
 }  // namespace pipeline

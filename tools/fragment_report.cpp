@@ -38,8 +38,8 @@ template <typename CoverageRule, typename Depth>
 class ReportOf final : public FragmentReport {
  public:
   ReportOf(const ZbufOptions& chosen, const Viewport& screen) {
-    for (const std::string& word : chosen.probes)
-      probes_.emplace_back(screen, parsed_pixel(word, screen), chosen.depth_epsilon);
+    for (const Pixel& pixel : probed_pixels(chosen, screen))
+      probes_.emplace_back(screen, pixel, chosen.depth_epsilon);
     if (!chosen.fragments_path.empty()) file_.emplace(chosen.fragments_path, screen, chosen.depth_epsilon);
   }
 
@@ -99,6 +99,12 @@ std::unique_ptr<FragmentReport> report_of(const ZbufOptions& chosen, const Viewp
 }
 
 }  // namespace
+
+std::vector<Pixel> probed_pixels(const ZbufOptions& chosen, const Viewport& screen) {
+  std::vector<Pixel> pixels;
+  for (const std::string& word : chosen.probes) pixels.push_back(parsed_pixel(word, screen));
+  return pixels;
+}
 
 std::unique_ptr<FragmentReport> fragment_report(const ZbufOptions& chosen, const Viewport& screen) {
   if (chosen.probes.empty() && chosen.fragments_path.empty()) return nullptr;

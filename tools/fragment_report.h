@@ -2,12 +2,17 @@
 
 #include <cstddef>
 #include <memory>
+#include <vector>
 
 #include "libpipeline/scene/viewport.h"
 #include "libpipeline/stream/triangle_batch.h"
+#include "libpipeline/visibility/fragment.h"
 #include "tools/zbuf_options.h"
 
 namespace pipeline {
+
+/// The pixels of `--probe`. A UsageError if one is not on the screen.
+std::vector<Pixel> probed_pixels(const ZbufOptions& chosen, const Viewport& screen);
 
 /// Reports every triangle's fragments at the requested pixels. Takes triangles in the order of the stream, so
 /// the report does not depend on the threads that draw them.

@@ -17,8 +17,8 @@ namespace pipeline {
 /// The image, if one is requested: takes the colors of its pixels, or of their samples, row by row.
 class ImageRows {
  public:
-  /// An empty path means no image.
-  ImageRows(const std::string& path, const Viewport& screen, int sample_count);
+  /// An empty path means no image. A background that is not opaque needs a file that can_hold_alpha.
+  ImageRows(const std::string& path, const Viewport& screen, int sample_count, Color background = {});
 
   [[nodiscard]] bool is_wanted() const { return pixels_ != nullptr; }
   void write_row(std::span<const Color> colors);

@@ -29,9 +29,11 @@ class JoinedText {
                        expected_but_found("the header of the first text", "another one before here"));
     }
     part.accept_clipped();
+    part.accept_spheres();
     part.keep_text();
-    for (TriangleBatch batch; part.read(batch); timing.triangle_count += batch.size()) {
+    for (TriangleBatch batch; part.read(batch); timing.triangle_count += batch.object_count()) {
       for (std::size_t i = 0; i < batch.size(); ++i) {
+        if (batch.texts[i].empty()) continue;  // the second entry of a sphere
         if (batch.numbers[i] != next_number_)
           text_.append("triangle " + std::to_string(batch.numbers[i]) + "\n");
         text_.append(batch.texts[i]);

@@ -13,6 +13,19 @@
 
 using namespace pipeline;
 
+namespace {
+
+/// The argument of --facets; none if it is not given.
+std::optional<std::size_t> belt_count(const std::string& given) {
+  if (given.empty()) return std::nullopt;
+  std::size_t count = 0;
+  if (!parse_count(given, count) || count < SphereFacets::kMinBelts || count > SphereFacets::kMaxBelts)
+    throw UsageError("--facets: " + expected_but_found("a whole number from 2 to 10000", quoted(given)));
+  return count;
+}
+
+}  // namespace
+
 int main(int argc, char** argv) {
   Tool tool({"model",
              "Reads a scene and writes its triangles in world space, with the camera in the header.",
@@ -32,6 +45,11 @@ int main(int argc, char** argv) {
       "--first", "N", first,
       "Number the triangles from N on: of a part of a scene (split), so that joined texts of "
       "parts are that of the whole");
+  std::string belts;
+  tool.options().add_word(
+      "--facets", "N", belts,
+      "Make triangles with normals of every sphere: N belts of 2 N facets; all other triangles "
+      "get normals, too");
   Statistics statistics(tool.options());
 
   return tool.run(argc, argv, [&] {
@@ -43,7 +61,7 @@ int main(int argc, char** argv) {
       throw UsageError("--first: " + expected_but_found("no --bare, which writes no numbers", "both"));
     expect_kind(tool.input(), TextKind::scene);
     SceneReader scene(tool.input());
-    ModelStage stage(scene, first_number);
+    ModelStage stage(scene, first_number, {.is_refused = bare && belts.empty(), .belts = belt_count(belts)});
     StageWriter writer(tool.output(), numbers.format(), bare);
     writer.write_header({framed, scene.camera(), stage.appearance()});
 

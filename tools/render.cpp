@@ -193,7 +193,7 @@ template <VisibilityAlgorithm Visible>
 void write_all(Tool& tool, const ZbufOptions& chosen, const SampledVisible<Visible>& visible,
                const StageReader& reader, TriangleStore& store, std::optional<SurfaceShader>& shader) {
   const Viewport& screen = visible.center_screen;
-  ImageRows image(chosen.image_path, screen, chosen.sample_count);
+  ImageRows image(chosen.image_path, screen, chosen.sample_count, store.background_color());
   RowColors colors(store, shader, chosen.sample_count * screen.drawn_rows().first);
   DepthFiles depths(tool.output(), chosen.z_buffer_path, chosen.depth_image_path, screen);
   std::optional<SeenFile> seen_file;
@@ -255,6 +255,7 @@ void render_with(Tool& tool, const ZbufOptions& chosen, const Viewport& screen, 
   SurfaceOptions surfaces;
   surfaces.model = chosen.shading;
   surfaces.background = parse_color(chosen.background);
+  surfaces.holds_alpha = chosen.has_image() && can_hold_alpha(chosen.image_path);
   if (chosen.wireframe) surfaces.wireframe = {screen.dx(), screen.dy()};
   std::optional<SurfaceShader> shader;
   if (chosen.has_image())
@@ -277,7 +278,10 @@ void render_with(Tool& tool, const ZbufOptions& chosen, const Viewport& screen, 
   write_all(tool, chosen, visible, reader, store, shader);
   if (fragments) fragments->commit();
   statistics.commit();
-  if (chosen.has_image()) note_empty_picture(tool, *report, screen, shader);
+  if (chosen.has_image()) {
+    if (const auto note = opaque_note(reader.header().appearance)) tool.note(*note);
+    note_empty_picture(tool, *report, screen, shader);
+  }
 }
 
 }  // namespace

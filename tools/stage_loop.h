@@ -29,7 +29,7 @@ class StageLoop {
   void run(Source& source, const Transform& transform, const UncertainDigits& uncertain_lights = {}) {
     Timing& timing = tool_.timing();
     for (TriangleBatch batch; source.read(batch);) {
-      timing.triangle_count += batch.size();
+      timing.triangle_count += batch.object_count();
       timing.lap(&Timing::read_seconds);
       try {
         transform(batch);

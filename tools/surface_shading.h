@@ -1,7 +1,9 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
+#include "libpipeline/picture/shading.h"
 #include "libpipeline/picture/surface_shader.h"
 #include "libpipeline/stream/stage_text.h"
 
@@ -12,15 +14,30 @@ struct SurfaceOptions {
   std::optional<ShadingModel> model;
   std::optional<PixelSize> wireframe;  // of pixels of that size; nullopt: none
   std::optional<Color> background;
+  bool holds_alpha = false;  // the image can
 };
+
+/// Why a background is refused that is not opaque: what is expected in its place.
+std::string expected_opaque_background();
 
 /// The color of pixels that show no triangle: black unless one is chosen or the header sets one.
 Color background_color(const Appearance& appearance, std::optional<Color> chosen);
 
+/// The lights of a scene.
+Lighting lighting_of(const Appearance& appearance, bool is_perspective);
+
+/// By their numbers; without a line, the one material is the default.
+std::vector<Material> materials_of(const Appearance& appearance);
+
+/// Where they are lit, unless a model is chosen: nowhere without lights, at every pixel with lights and
+/// normals, once per triangle with lights alone.
+ShadingModel shading_model(const Appearance& appearance, std::optional<ShadingModel> chosen);
+
 /// The shader of the triangles of a projected text; none for a text without colors and lights, unless a
 /// wireframe is requested (with pixels of that size). The default model: none without lights, phong with
 /// lights and normals, flat with lights alone. The header of a text with lights must say how it was
-/// projected. An InputError if a model needs lights and there are none. InputErrors name `header_end`, the
+/// projected. An InputError if a model needs lights and there are none, or if the header's background is not
+/// opaque and the image cannot hold that. InputErrors name `header_end`, the
 /// place after the header.
 std::optional<SurfaceShader> surface_shader(const StageHeader& header, const SourceLocation& header_end,
                                             const Viewport& screen, const SurfaceOptions& chosen);

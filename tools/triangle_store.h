@@ -37,6 +37,7 @@ class TriangleStore {
   [[nodiscard]] PixelTag background() const {
     return has_ids() ? KeptIds::kNoTriangle : setup_.background.rgb();
   }
+  [[nodiscard]] Color background_color() const { return setup_.background; }
   /// The id of the next triangle, if triangles have ids.
   [[nodiscard]] KeptIds::Id next_id() const { return next_id_; }
   /// Adds the texts of a batch whose first triangle has the id `first_id`: of its `winners`, those marked 1

@@ -57,6 +57,7 @@ int main(int argc, char** argv) {
     expect_kind(tool.input(), TextKind::world);
     StageReader reader(tool.input());
     expect_header(reader, TextKind::world);
+    if (!bare) reader.accept_spheres();
     const CameraParameters camera = cameras.camera(reader.header().camera, tool);
     const ViewTransform view = view_of(camera, reader);
     const VertexTransform to_view(view);

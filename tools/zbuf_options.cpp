@@ -2,9 +2,11 @@
 
 #include <string_view>
 
+#include "libpipeline/picture/image_file.h"
 #include "libpipeline/text/error.h"
 #include "libpipeline/text/number_parser.h"
 #include "libpipeline/text/number_printer.h"
+#include "tools/surface_shading.h"
 
 namespace pipeline {
 namespace {
@@ -34,6 +36,10 @@ void ZbufOptions::complete(bool is_terminal) {
     summarizes = is_terminal && is_wanted;
     z_buffer_path = is_terminal || !is_wanted ? "none" : "-";
   }
+  if (const auto color = parse_color(background);
+      color && !color->is_opaque() && has_image() && !can_hold_alpha(image_path))
+    throw UsageError("--background: " +
+                     expected_but_found(expected_opaque_background(), pipeline::quoted(background)));
   if (algorithm != Algorithm::scanline) return;
   if (thread_count > 1)
     throw UsageError("--threads: " +

@@ -42,7 +42,7 @@ struct ZbufOptions {
   int sample_count = 1;                 // along each side of a pixel, for the image alone
   std::optional<ShadingModel> shading;  // none: as the text's header implies
   bool wireframe = false;
-  std::string background;           // "RRGGBB"; empty: that of the text
+  std::string background;           // "RRGGBB[AA]"; empty: that of the text
   std::vector<std::string> probes;  // "COLUMN,ROW" each
   std::string fragments_path;       // empty: no file
   bool framed = false;              // the input has to be
@@ -187,14 +187,16 @@ inline void ZbufOptions::add_shading(CommandLine& options) {
 }
 
 inline void ZbufOptions::add_background(CommandLine& options) {
-  options.add_word("--background", "RRGGBB", background,
-                   "The color of pixels that show no triangle, six hexadecimal digits, in place of the "
-                   "scene's; black if neither gives one",
-                   [](const std::string& word) {
-                     return parse_color(word) ? std::string()
-                                              : expected_but_found("RRGGBB, six hexadecimal digits",
-                                                                   pipeline::quoted(word));
-                   });
+  options.add_word(
+      "--background", "RRGGBB[AA]", background,
+      "The color of pixels that show no triangle, six hexadecimal digits, in place of the "
+      "scene's; black if neither gives one. Two more digits are its alpha, from 00, invisible, to "
+      "ff, opaque; less than ff only for a .png image",
+      [](const std::string& word) {
+        return parse_color(word)
+                   ? std::string()
+                   : expected_but_found("RRGGBB or RRGGBBAA, hexadecimal digits", pipeline::quoted(word));
+      });
 }
 
 inline void ZbufOptions::add_framed(CommandLine& options) {

@@ -77,8 +77,10 @@ AxisUnits axis_units(const GridAxis& axis, const ExactTriangle& triangle, double
     value_bits = std::max(value_bits, bits_of(result.units[i]));
   }
   // The sum of two terms: a vertex from the middle of the window, and up to 2^17 half steps to either side of
-  // it; and a factor of 2 for the distance between two such points.
-  result.bits = result.twos + std::max(value_bits + axis.vertex_factor_bits, axis.half_step_bits + 18) + 2;
+  // it (more, where pixels are places of samples); and a factor of 2 for the distance between two such
+  // points.
+  const int window_bits = axis.half_step_bits + std::max(18, bit_length(Int128{axis.count}) + 2);
+  result.bits = result.twos + std::max(value_bits + axis.vertex_factor_bits, window_bits) + 2;
   return result;
 }
 
@@ -99,8 +101,9 @@ GridAxis::GridAxis(int pixel_count, double limit, double limit_low_part, bool li
   vertex_factor_bits = bit_length(vertex_factor);
   half_step_bits = bit_length(half_step);
 
-  // 2^44 leaves room for a product with any number of pixels.
-  if (vertex_factor_bits > 44 || half_step_bits > 44) return;
+  // 2^44 leaves room for a product with the pixels of any picture; where these are places of samples, there
+  // are more.
+  if (vertex_factor_bits > 44 || half_step_bits > std::min(44, 60 - bit_length(Int128{count}))) return;
   narrow_vertex_factor = cut(vertex_factor, 0);
   narrow_origin = cut(origin, 0);
   narrow_step = Divisor<std::int64_t>(2 * cut(half_step, 0));

@@ -13,26 +13,29 @@ namespace pipeline {
 namespace {
 
 /// Formats with rows from the top and red first; `Rows` takes them as bytes.
-template <typename Rows>
+template <typename Rows, PixelBytes pixels = PixelBytes::rgb8>
 class RgbWriter final : public ImageWriter {
  public:
   RgbWriter(int descriptor, const std::string& path, int columns, int rows)
-      : rows_(descriptor, path, PixelBytes::rgb8, columns, rows),
-        bytes_(3 * static_cast<std::size_t>(columns)) {}
+      : rows_(descriptor, path, pixels, columns, rows),
+        bytes_(kBytesPerPixel * static_cast<std::size_t>(columns)) {}
 
   void write_row(std::span<const Color> colors) override {
-    assert(3 * colors.size() == bytes_.size());
+    assert(kBytesPerPixel * colors.size() == bytes_.size());
     unsigned char* out = bytes_.data();
     for (const Color color : colors) {
       *out++ = color.red();
       *out++ = color.green();
       *out++ = color.blue();
+      if (kBytesPerPixel == 4) *out++ = color.alpha();
     }
     rows_.write_row(bytes_);
   }
   void finish() override { rows_.finish(); }
 
  private:
+  static constexpr std::size_t kBytesPerPixel = pixels == PixelBytes::rgba8 ? 4 : 3;
+
   Rows rows_;
   std::vector<unsigned char> bytes_;
 };
@@ -85,7 +88,14 @@ void check_image_size(const std::string& path, int columns, int rows) {
   format_of(path).check_size(path, columns, rows);
 }
 
-std::unique_ptr<ImageWriter> image_writer(int descriptor, const std::string& path, int columns, int rows) {
+bool can_hold_alpha(const std::string& path) {
+  return can_write_png() && !is_device_without_extension(path) && extension_of(path) == kPng.extension;
+}
+
+std::unique_ptr<ImageWriter> image_writer(int descriptor, const std::string& path, int columns, int rows,
+                                          bool has_alpha) {
+  assert(!has_alpha || can_hold_alpha(path));
+  if (has_alpha) return make<RgbWriter<PngWriter, PixelBytes::rgba8>>(descriptor, path, columns, rows);
   return format_of(path).writer(descriptor, path, columns, rows);
 }
 

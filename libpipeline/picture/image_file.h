@@ -36,9 +36,14 @@ std::vector<std::string_view> image_extensions();
 void check_image_name(const std::string& path);
 void check_image_size(const std::string& path, int columns, int rows);
 
+/// Whether an image of that name can hold the alpha of its pixels: PNG only.
+bool can_hold_alpha(const std::string& path);
+
 /// Writes an image to a file descriptor, which the caller keeps and closes; `path` chooses the format and
-/// names the file in messages. Throws like the checks.
-std::unique_ptr<ImageWriter> image_writer(int descriptor, const std::string& path, int columns, int rows);
+/// names the file in messages. With alpha only where can_hold_alpha(path); it is straight: colors are not
+/// multiplied by it. Throws like the checks.
+std::unique_ptr<ImageWriter> image_writer(int descriptor, const std::string& path, int columns, int rows,
+                                          bool has_alpha = false);
 
 // For image files of any kind.
 

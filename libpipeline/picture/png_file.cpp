@@ -62,8 +62,10 @@ bool can_write_png() {
 PngWriter::PngWriter(int descriptor, const std::string& path, PixelBytes pixels, int columns, int rows)
     : state_(std::make_unique<State>(descriptor, path)) {
   State& s = *state_;
-  const int bits = pixels == PixelBytes::rgb8 ? 8 : 16;
-  const int type = pixels == PixelBytes::rgb8 ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_GRAY;
+  const int bits = pixels == PixelBytes::gray16 ? 16 : 8;
+  const int type = pixels == PixelBytes::gray16  ? PNG_COLOR_TYPE_GRAY
+                   : pixels == PixelBytes::rgba8 ? PNG_COLOR_TYPE_RGB_ALPHA
+                                                 : PNG_COLOR_TYPE_RGB;
   s.guarded([&] {
     png_set_write_fn(s.png, &s.sink, write_bytes, nullptr);
     png_set_IHDR(s.png, s.info, static_cast<png_uint_32>(columns), static_cast<png_uint_32>(rows), bits, type,

@@ -33,6 +33,27 @@ std::uint8_t rounded_channel(double value) {
   return static_cast<std::uint8_t>(std::floor(clamped_channel(value) + 0.5));
 }
 
+/// `arriving(light)` is what reaches the point of a light's intensity.
+template <typename Arriving>
+Vec3 lit_color_of(const SurfacePoint& point, const Lighting& lighting, const Material& material,
+                  const Vec3& to_eye, const Arriving& arriving) {
+  const Vec3 normal = turned_towards(to_eye, unit_vector(point.normal));
+  Vec3 diffuse = scaled(lighting.ambient, material.ambient);
+  Vec3 specular;
+  for (const Light& light : lighting.lights) {
+    const Vec3 way = difference(light.position, point.position);
+    const Vec3 to_light = unit_vector(way);
+    const double cosine = dot(normal, to_light);
+    if (!(cosine > 0)) continue;
+    const Vec3 intensity = scaled(arriving(light), attenuation_at(dot(way, to_light), lighting.attenuation));
+    diffuse = sum(diffuse, scaled(intensity, material.diffuse * cosine));
+    const Vec3 half = unit_vector(sum(to_light, to_eye));
+    const double highlight = whole_power(std::max(0.0, dot(normal, half)), material.shininess);
+    specular = sum(specular, scaled(intensity, material.specular * highlight));
+  }
+  return sum(product(point.color, diffuse), scaled(specular, 255));
+}
+
 }  // namespace
 
 double whole_power(double base, std::size_t exponent) {
@@ -44,24 +65,16 @@ double whole_power(double base, std::size_t exponent) {
   return power;
 }
 
-Vec3 lit_color(const SurfacePoint& point, const Lighting& lighting) {
-  const Material& material = lighting.material;
+Vec3 lit_color(const SurfacePoint& point, const Lighting& lighting, const Material& material) {
   const Vec3 to_eye = lighting.is_perspective ? unit_vector(scaled(point.position, -1)) : Vec3{0, 0, 1};
-  const Vec3 normal = turned_towards(to_eye, unit_vector(point.normal));
-  Vec3 diffuse = scaled(lighting.ambient, material.ambient);
-  Vec3 specular;
-  for (const Light& light : lighting.lights) {
-    const Vec3 way = difference(light.position, point.position);
-    const Vec3 to_light = unit_vector(way);
-    const double cosine = dot(normal, to_light);
-    if (!(cosine > 0)) continue;
-    const Vec3 intensity = scaled(light.intensity, attenuation_at(dot(way, to_light), lighting.attenuation));
-    diffuse = sum(diffuse, scaled(intensity, material.diffuse * cosine));
-    const Vec3 half = unit_vector(sum(to_light, to_eye));
-    const double highlight = whole_power(std::max(0.0, dot(normal, half)), material.shininess);
-    specular = sum(specular, scaled(intensity, material.specular * highlight));
-  }
-  return sum(product(point.color, diffuse), scaled(specular, 255));
+  return lit_color_of(point, lighting, material, to_eye, [](const Light& light) { return light.intensity; });
+}
+
+Vec3 lit_color(const SurfacePoint& point, const Lighting& lighting, const Material& material,
+               const Vec3& to_eye, const LightPart& part) {
+  return lit_color_of(point, lighting, material, to_eye, [&](const Light& light) {
+    return product(light.intensity, part(static_cast<std::size_t>(&light - lighting.lights.data())));
+  });
 }
 
 Vec3 clamped_color(const Vec3& color) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <vector>
 
 #include "libpipeline/numbers/vec.h"
@@ -9,11 +10,13 @@
 
 namespace pipeline {
 
-/// Lights, and how a surface reflects them. Positions are in view space: the eye is the origin and looks down
+/// Where a surface is lit: nowhere, once per triangle, at its vertices, or at every pixel.
+enum class ShadingModel { none, flat, gouraud, phong };
+
+/// The lights of a scene. Positions are in view space: the eye is the origin and looks down
 /// -z.
 struct Lighting {
   Vec3 ambient;
-  Material material;
   Attenuation attenuation;
   std::vector<Light> lights;
   bool is_perspective = true;  // otherwise the eye is infinitely far away in the direction +z
@@ -27,13 +30,21 @@ struct SurfacePoint {
   Vec3 color;
 };
 
-/// The color the eye sees, with channels not yet rounded or clamped:
+/// The color the eye sees on a surface of this material, with channels not yet rounded or clamped:
 ///   color (ka ambient + sum att L kd n.l) + 255 ks sum att L max(0, n.h)^shininess
 /// with both sums over the lights in front of the surface, n.l > 0, as in OpenGL. n is the normal turned
 /// toward the eye, l the direction of a light, h halfway between l and the eye's direction. A normal of 0
 /// faces no light, and a light at the point itself does not light it. Source: J. Blinn, "Models of light
 /// reflection for computer synthesized pictures", 1977.
-Vec3 lit_color(const SurfacePoint& point, const Lighting& lighting);
+Vec3 lit_color(const SurfacePoint& point, const Lighting& lighting, const Material& material = {});
+
+/// The part of a light, by its number, that reaches a surface: red, green, blue, each from 0 to 1.
+using LightPart = std::function<Vec3(std::size_t light)>;
+
+/// The same as seen from any direction, a vector of length 1, with a part of each light. `part` is called
+/// only for lights in front of the surface.
+Vec3 lit_color(const SurfacePoint& point, const Lighting& lighting, const Material& material,
+               const Vec3& to_eye, const LightPart& part);
 
 /// `base` to a whole power by repeated squaring, so that it does not depend on the system's library; 1 to the
 /// power 0.

@@ -75,10 +75,27 @@ std::size_t first_surface(std::span<const SurfaceShader::SurfaceId> ids) {
 
 bool differ_visibly(Color a, Color b) {
   const auto differ = [](int p, int q) { return std::abs(p - q) > 1; };
-  return differ(a.red(), b.red()) || differ(a.green(), b.green()) || differ(a.blue(), b.blue());
+  return differ(a.red(), b.red()) || differ(a.green(), b.green()) || differ(a.blue(), b.blue()) ||
+         differ(a.alpha(), b.alpha());
 }
 
 }  // namespace
+
+void ShownColors::add_triangle(const std::array<Vec3, 3>& colors) {
+  if (greatest_channel.value_or(0) > 1) return;
+  for (const Vec3& c : colors) greatest_channel = std::max({greatest_channel.value_or(0), c.x, c.y, c.z});
+}
+
+void ShownColors::add_pixel(Color color, Color background) {
+  if (!show_something) show_something = differ_visibly(color, background);
+}
+
+void ShownColors::add(const ShownColors& others) {
+  show_something = show_something || others.show_something;
+  if (others.light_in_front) light_in_front = std::max(light_in_front.value_or(0), *others.light_in_front);
+  if (others.greatest_channel)
+    greatest_channel = std::max(greatest_channel.value_or(0), *others.greatest_channel);
+}
 
 /// The triangle in clip space with its attributes; for a piece, the triangle it was clipped from.
 ClipTriangle SurfaceShader::unclipped_in_clip_space(const TriangleBatch& p_ndc, std::size_t index,
@@ -98,36 +115,38 @@ ClipTriangle SurfaceShader::unclipped_in_clip_space(const TriangleBatch& p_ndc, 
     corner.position = scaled(p, corner.w);
     if (!attributes.colors.empty()) corner.color = attributes.colors[index][v];
     if (!attributes.normals.empty()) corner.normal = attributes.normals[index][v];
-    if (!attributes.materials.empty()) corner.material = attributes.materials[index];
   }
   return corners;
 }
 
 SurfaceShader::SurfaceId SurfaceShader::add(const TriangleBatch& p_ndc, std::size_t index, Color own_color) {
-  if (!p_ndc.attributes.colors.empty() && greatest_channel_.value_or(0) <= 1)
-    note_colors(p_ndc.attributes.colors[index]);
+  if (!p_ndc.attributes.colors.empty()) shown_.add_triangle(p_ndc.attributes.colors[index]);
   const ClipTriangle corners = unclipped_in_clip_space(p_ndc, index, own_color);
   has_normals_ = !p_ndc.attributes.normals.empty();
   if (setup_.wireframe) add_edges(p_ndc, index, screen_corners_of(corners));
   triangles_.push_back(corners);
+  if (setup_.materials.size() > 1 && !p_ndc.attributes.materials.empty())
+    materials_.push_back(p_ndc.attributes.materials[index]);
   assert(triangles_.size() < kNoSurface);
   return static_cast<SurfaceId>(triangles_.size() - 1);
 }
 
 const SurfaceShader::Surface& SurfaceShader::surface(SurfaceId id) {
   CachedSurface& cached = cache_[id % cache_.size()];
-  if (cached.id != id) cached = {id, made_surface(triangles_[id])};
+  if (cached.id != id)
+    cached = {id, made_surface(triangles_[id], has_normals_, materials_.size() == 0 ? 0 : materials_[id])};
   return cached.surface;
 }
 
-SurfaceShader::Surface SurfaceShader::made_surface(const ClipTriangle& corners) const {
-  Surface surface = {screen_corners_of(corners), {}, corners[0].material};
+SurfaceShader::Surface SurfaceShader::made_surface(const ClipTriangle& corners, bool has_normals,
+                                                   std::uint32_t material) const {
+  Surface surface = {screen_corners_of(corners), {}, material};
   for (std::size_t v = 0; v < 3; ++v) {
-    const auto& [p, w, color, normal, material] = corners[v];
+    const auto& [p, w, color, normal] = corners[v];
     const Vec3 p_view = setup_.view_from_clip ? (*setup_.view_from_clip)(p, w) : Vec3();
     surface.corners[v] = {p_view, normal, color};
   }
-  if (!has_normals_ || setup_.model == ShadingModel::flat) use_face_normal(surface.corners);
+  if (!has_normals || setup_.model == ShadingModel::flat) use_face_normal(surface.corners);
   light_corners(surface);
   return surface;
 }
@@ -135,12 +154,9 @@ SurfaceShader::Surface SurfaceShader::made_surface(const ClipTriangle& corners) 
 void SurfaceShader::keep(const KeptIds& kept) {
   assert(kept.size() == triangles_.size());
   triangles_.keep(kept);
+  materials_.keep(kept);
   cache_.clear();
   if (setup_.wireframe) setup_.wireframe->keep(kept);
-}
-
-void SurfaceShader::note_colors(const std::array<Vec3, 3>& colors) {
-  for (const Vec3& c : colors) greatest_channel_ = std::max({greatest_channel_.value_or(0), c.x, c.y, c.z});
 }
 
 void SurfaceShader::add_edges(const TriangleBatch& p_ndc, std::size_t index, const Triangle& screen_corners) {
@@ -152,11 +168,10 @@ void SurfaceShader::add_edges(const TriangleBatch& p_ndc, std::size_t index, con
 
 void SurfaceShader::light_corners(Surface& surface) const {
   if (setup_.model == ShadingModel::flat) {
-    const Vec3 color = lit_color(mean(surface.corners, {1.0 / 3, 1.0 / 3, 1.0 / 3}), lighting_of(surface));
+    const Vec3 color = lit_color_of(mean(surface.corners, {1.0 / 3, 1.0 / 3, 1.0 / 3}), surface);
     for (SurfacePoint& corner : surface.corners) corner.color = color;
   } else if (setup_.model == ShadingModel::gouraud) {
-    for (SurfacePoint& corner : surface.corners)
-      corner.color = clamped_color(lit_color(corner, lighting_of(surface)));
+    for (SurfacePoint& corner : surface.corners) corner.color = clamped_color(lit_color_of(corner, surface));
   }
 }
 
@@ -172,13 +187,34 @@ std::span<const Color> SurfaceShader::shade(int row, std::span<const SurfaceId> 
     while (end < ids.size() && ids[end] == ids[column]) ++end;
     shade_columns(column, end, y, ids[column]);
   }
-  if (!shows_something_ && first < ids.size()) look_for_something(std::span(row_).subspan(first));
+  if (!shown_.show_something && first < ids.size()) look_for_something(first, ids);
   return row_;
 }
 
-void SurfaceShader::look_for_something(std::span<const Color> colors) {
-  shows_something_ =
-      std::ranges::any_of(colors, [&](Color color) { return differ_visibly(color, setup_.background); });
+void SurfaceShader::look_for_something(std::size_t first, std::span<const SurfaceId> ids) {
+  const auto shows = [&](Color color) { return differ_visibly(color, setup_.background); };
+  shown_.show_something = std::any_of(row_.begin() + static_cast<std::ptrdiff_t>(first), row_.end(), shows);
+  if (shown_.show_something || setup_.model == ShadingModel::none) return;
+  for (std::size_t i = first; i < ids.size(); ++i)
+    if (ids[i] != kNoSurface && (i == first || ids[i] != ids[i - 1]))
+      shown_.light_in_front = std::max(shown_.light_in_front.value_or(0), light_in_front_of(ids[i]));
+}
+
+/// The greatest intensity of the lights in front of a surface, where it is lit once, or at a corner: those
+/// that would light it if they were white and no distance weakened them.
+double SurfaceShader::light_in_front_of(SurfaceId id) {
+  std::array<SurfacePoint, 3> points = surface(id).corners;
+  if (setup_.model == ShadingModel::flat) points.fill(mean(points, {1.0 / 3, 1.0 / 3, 1.0 / 3}));
+  for (SurfacePoint& point : points) point.color = {1, 1, 1};
+  Lighting alone;
+  alone.is_perspective = setup_.lighting.is_perspective;
+  double greatest = 0;
+  for (const Light& light : setup_.lighting.lights) {
+    alone.lights = {{light.position, {1, 1, 1}}};
+    if (std::ranges::any_of(points, [&](const SurfacePoint& point) { return lit_color(point, alone).x > 0; }))
+      greatest = std::max({greatest, light.intensity.x, light.intensity.y, light.intensity.z});
+  }
+  return greatest;
 }
 
 void SurfaceShader::shade_columns(std::size_t begin, std::size_t end, double y, SurfaceId id) {
@@ -197,7 +233,7 @@ Color SurfaceShader::color_at(const Surface& surface, double x, double y) const 
   const auto& [a, b, c] = surface.corners;
   const Weights weights = weights_at(surface.screen_corners, x, y);
   if (setup_.model == ShadingModel::phong)
-    return rounded_color(lit_color(mean(surface.corners, weights), lighting_of(surface)));
+    return rounded_color(lit_color_of(mean(surface.corners, weights), surface));
   return rounded_color(mean(Triangle{a.color, b.color, c.color}, weights));
 }
 

@@ -18,8 +18,22 @@
 
 namespace pipeline {
 
-/// Where a surface is lit: nowhere, once per triangle, at its vertices, or at every pixel.
-enum class ShadingModel { none, flat, gouraud, phong };
+/// What the colors of a picture are, as far as it takes to say why nothing can be seen.
+struct ShownColors {
+  /// A triangle's colors; keeps the greatest channel, or some channel above 1.
+  void add_triangle(const std::array<Vec3, 3>& colors);
+  void add_pixel(Color color, Color background);
+  void add(const ShownColors& others);
+
+  /// Whether some pixel differs from the background, by more than one step in a channel.
+  bool show_something = false;
+  /// The largest channel of all colors that triangles carry, or some channel above 1; none if they carry
+  /// none.
+  std::optional<double> greatest_channel;
+  /// While nothing shows: the greatest intensity of the lights in front of a surface that is seen, 0 if none
+  /// is; none if that was not looked at.
+  std::optional<double> light_in_front;
+};
 
 /// Gives pixels their colors once the triangle that each one shows is known: keeps the triangles of a scene
 /// with colors or lights, each under an id by which the visibility algorithm refers to it. So hidden surfaces
@@ -33,15 +47,23 @@ class SurfaceShader {
   /// The id of a pixel without a triangle.
   static constexpr SurfaceId kNoSurface = KeptIds::kNoTriangle;
 
-  /// How a scene is lit, by the number of the material. Every model but `none` needs a lighting for each and
-  /// `view_from_clip`.
+  /// How a scene is lit. Every model but `none` needs at least one material, and `view_from_clip`.
   struct Setup {
     ShadingModel model = ShadingModel::none;
-    std::vector<Lighting> lightings;
+    Lighting lighting;
+    std::vector<Material> materials;  // by their numbers
     std::optional<ViewFromClip> view_from_clip;
     Color background;
     std::optional<Wireframe> wireframe;  // then pixels off the edges show the background
     bool says_what_was_clipped = false;  // as texts with lights do
+  };
+
+  /// A triangle ready to be shaded.
+  struct Surface {
+    Triangle screen_corners;  // x and y of clip space, and w for z
+    std::array<SurfacePoint, 3>
+        corners;  // in view space; the colors are lit already except for phong shading
+    std::uint32_t material = 0;
   };
 
   SurfaceShader(const Viewport& screen, Setup setup) : grid_(screen), setup_(std::move(setup)) {}
@@ -56,21 +78,25 @@ class SurfaceShader {
   /// The colors of a row of the image, by the ids seen in it. Valid until the next call.
   std::span<const Color> shade(int row, std::span<const SurfaceId> ids);
 
-  /// Whether some pixel shaded so far differs from the background, by more than one step in a channel.
-  [[nodiscard]] bool shows_something() const { return shows_something_; }
-  /// The largest channel of all colors that triangles carry, or some channel above 1; none if they carry
-  /// none.
-  [[nodiscard]] std::optional<double> greatest_channel() const { return greatest_channel_; }
+  // Without keeping triangles, on any number of threads at a time:
+  /// A triangle of a batch in NDC; `own_color` is its color if it carries none.
+  [[nodiscard]] Surface surface_of(const TriangleBatch& p_ndc, std::size_t index, Color own_color) const {
+    const AttributeArrays& attributes = p_ndc.attributes;
+    return made_surface(unclipped_in_clip_space(p_ndc, index, own_color), !attributes.normals.empty(),
+                        attributes.materials.empty() ? 0 : attributes.materials[index]);
+  }
+  /// Its color at the center of a pixel; there are no edges of a wireframe.
+  [[nodiscard]] Color color_at(const Surface& surface, int row, int column) const {
+    return color_at(surface, grid_.x_of(column), grid_.y_of(row));
+  }
+  /// Adds what such colors have shown.
+  void add_shown(const ShownColors& shown) { shown_.add(shown); }
+
+  /// The colors of all triangles added and pixels shaded so far.
+  [[nodiscard]] const ShownColors& shown() const { return shown_; }
   [[nodiscard]] const Setup& setup() const { return setup_; }
 
  private:
-  /// A triangle ready to be shaded.
-  struct Surface {
-    Triangle screen_corners;  // x and y of clip space, and w for z
-    std::array<SurfacePoint, 3>
-        corners;  // in view space; the colors are lit already except for phong shading
-    std::uint32_t material = 0;
-  };
   struct CachedSurface {
     SurfaceId id = kNoSurface;
     Surface surface;
@@ -79,13 +105,14 @@ class SurfaceShader {
   [[nodiscard]] ClipTriangle unclipped_in_clip_space(const TriangleBatch& p_ndc, std::size_t index,
                                                      Color own_color) const;
   [[nodiscard]] const Surface& surface(SurfaceId id);
-  [[nodiscard]] Surface made_surface(const ClipTriangle& corners) const;
-  [[nodiscard]] const Lighting& lighting_of(const Surface& surface) const {
-    return setup_.lightings[surface.material];
+  [[nodiscard]] Surface made_surface(const ClipTriangle& corners, bool has_normals,
+                                     std::uint32_t material) const;
+  [[nodiscard]] Vec3 lit_color_of(const SurfacePoint& point, const Surface& surface) const {
+    return lit_color(point, setup_.lighting, setup_.materials[surface.material]);
   }
   void light_corners(Surface& surface) const;
-  void look_for_something(std::span<const Color> colors);
-  void note_colors(const std::array<Vec3, 3>& colors);
+  void look_for_something(std::size_t first, std::span<const SurfaceId> ids);
+  [[nodiscard]] double light_in_front_of(SurfaceId id);
   void add_edges(const TriangleBatch& p_ndc, std::size_t index, const Triangle& screen_corners);
   void shade_columns(std::size_t begin, std::size_t end, double y, SurfaceId id);
   [[nodiscard]] Color color_at(const Surface& surface, double x, double y) const;
@@ -93,12 +120,12 @@ class SurfaceShader {
   PixelGrid grid_;
   Setup setup_;
   ChunkedArray<ClipTriangle> triangles_;
+  ChunkedArray<std::uint32_t> materials_;  // of the triangles; empty if there is one for all
   bool has_normals_ = false;
   std::vector<CachedSurface>
       cache_;  // each id has one entry; those of a row are mostly seen in the next, too
   std::vector<Color> row_;
-  bool shows_something_ = false;
-  std::optional<double> greatest_channel_;
+  ShownColors shown_;
 };
 
 }  // namespace pipeline

@@ -24,10 +24,14 @@ Vec3 read_intensity(LineScanner& line, std::string_view of) {
   return intensity;
 }
 
-Vec3 read_background(LineScanner& line) {
-  const Vec3 color = read_color(line, "the background");
-  line.expect_end("the blue of the background");
-  return color;
+Background read_background(LineScanner& line) {
+  Background background;
+  background.color = read_color(line, "the background");
+  if (!line.at_end())
+    background.alpha = number_where(line, {"the alpha of the background"}, "from 0 to 255",
+                                    [](double value) { return value >= 0 && value <= 255; });
+  line.expect_end("the alpha of the background");
+  return background;
 }
 
 /// Takes the names of attributes to the end of the line: at least one, in the order of their columns.
@@ -58,7 +62,16 @@ Material read_material(LineScanner& line) {
   material.diffuse = number_from_zero(line, "the diffuse factor");
   material.specular = number_from_zero(line, "the specular factor");
   material.shininess = line.whole("the shininess, a whole number below 2^64");
-  line.expect_end("the shininess");
+  if (line.at_end()) {
+    line.expect_end("the shininess");
+    return material;
+  }
+  const auto is_part = [](double value) { return value >= 0 && value <= 1; };
+  const auto is_index = [](double value) { return value >= 0.01 && value <= 100; };
+  material.reflectance = number_where(line, {"the reflectance"}, "from 0 to 1", is_part);
+  material.index = number_where(line, {"the refractive index"}, "from 0.01 to 100", is_index);
+  material.alpha = number_where(line, {"the alpha"}, "from 0 to 1", is_part);
+  line.expect_end("the alpha");
   return material;
 }
 
@@ -94,8 +107,8 @@ void set_once(std::optional<Located<T>>& part, std::string_view keyword,
 }  // namespace
 
 std::span<const std::string_view> appearance_keywords() {
-  static constexpr std::array<std::string_view, 6> kKeywords = {"attributes", "background",  "ambient",
-                                                                "material",   "attenuation", "light"};
+  static constexpr std::array<std::string_view, 7> kKeywords = {
+      "attributes", "background", "ambient", "material", "absorption", "attenuation", "light"};
   return kKeywords;
 }
 
@@ -115,6 +128,14 @@ void read_appearance_part(std::string_view keyword, const SourceLocation& keywor
   } else if (keyword == "material") {
     const SourceLocation location = line.location();
     appearance.materials.push_back({read_material(line), location});
+    appearance.last_absorption.reset();
+  } else if (keyword == "absorption") {
+    if (appearance.materials.empty())
+      throw InputError(keyword_location, expected_but_found("'material' before 'absorption'", "none"));
+    if (appearance.last_absorption)
+      throw given_twice(quoted(keyword), *appearance.last_absorption, keyword_location);
+    appearance.last_absorption = line.location();
+    appearance.materials.back().value.absorption = read_intensity(line, "the absorption");
   } else if (keyword == "attenuation") {
     set(appearance.attenuation, [&] { return read_attenuation(line); });
   } else {

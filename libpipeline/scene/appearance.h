@@ -21,12 +21,19 @@ struct Light {
 };
 
 /// How a surface reflects light: the coefficients of its ambient, diffuse and specular reflection, each at
-/// least 0, and the exponent of the specular highlight.
+/// least 0, and the exponent of the specular highlight. The other values count where rays are traced.
 struct Material {
   double ambient = 1;
   double diffuse = 1;
   double specular = 0;
   std::size_t shininess = 1;
+  double reflectance = 0;  // the part of the light that is mirrored, from 0 to 1
+  double index = 1;        // of refraction, from 0.01 to 100
+  double alpha = 1;        // the opaque part, from 0 (clear) to 1
+  Vec3 absorption = {};    // inside, per unit length of view space: red, green, blue, each at least 0
+
+  /// Whether rays go on from the surface.
+  [[nodiscard]] bool sends_rays() const { return reflectance != 0 || alpha != 1; }
 };
 
 /// Scales a light at distance d, in view space, by 1 / (constant + linear d + quadratic d^2). The three are
@@ -37,13 +44,20 @@ struct Attenuation {
   double quadratic = 0;
 };
 
+/// What a pixel shows that shows no triangle.
+struct Background {
+  Vec3 color;          // red, green, blue from 0 to 255
+  double alpha = 255;  // from 0, invisible, to 255, opaque
+};
+
 /// The color and light of a scene or of a stage text's header: each part that was given, with the location of
 /// its arguments, and nullopt for the others. A plain scene sets none.
 struct Appearance {
   std::optional<Located<AttributeSet>> attributes;
-  std::optional<Located<Vec3>> background;   // red, green, blue from 0 to 255
-  std::optional<Located<Vec3>> ambient;      // intensities, each at least 0
-  std::vector<Located<Material>> materials;  // numbered from 0
+  std::optional<Located<Background>> background;
+  std::optional<Located<Vec3>> ambient;           // intensities, each at least 0
+  std::vector<Located<Material>> materials;       // numbered from 0
+  std::optional<SourceLocation> last_absorption;  // of the last material, if it was given
   std::optional<Located<Attenuation>> attenuation;
   std::vector<Located<Light>> lights;
 
@@ -54,13 +68,13 @@ struct Appearance {
 /// Where a line `attributes` stands: a scene may not name w, which the project stage adds.
 enum class AttributeSource { scene, stage_text };
 
-/// `attributes`, `background`, `ambient`, `material`, `attenuation` and `light`.
+/// `attributes`, `background`, `ambient`, `material`, `absorption`, `attenuation` and `light`.
 std::span<const std::string_view> appearance_keywords();
 bool is_appearance_keyword(std::string_view keyword);
 
 /// Reads the arguments of such a keyword, to the end of the line, and adds them to `appearance`. An
 /// InputError if a number is missing or out of range, and, at `keyword_location`, if the part was given
-/// before; only lights and materials may be given more than once.
+/// before; only lights and materials may be given more than once, and an absorption for each material.
 void read_appearance_part(std::string_view keyword, const SourceLocation& keyword_location, LineScanner& line,
                           AttributeSource source, Appearance& appearance);
 

@@ -33,14 +33,16 @@ std::uint32_t hexadecimal_digit(char c) {
 }  // namespace
 
 std::optional<Color> parse_color(std::string_view word) {
-  if (word.size() != 6) return std::nullopt;
-  std::uint32_t rgb = 0;
+  const bool has_alpha = word.size() == 8;
+  if (word.size() != 6 && !has_alpha) return std::nullopt;
+  std::uint32_t digits = 0;
   for (const char c : word) {
     const std::uint32_t digit = hexadecimal_digit(c);
     if (digit == 16) return std::nullopt;
-    rgb = 16 * rgb + digit;
+    digits = 16 * digits + digit;
   }
-  return Color::from_rgb(rgb);
+  if (!has_alpha) return Color::from_rgb(digits);
+  return Color::from_rgb(digits >> 8).with_alpha(static_cast<std::uint8_t>(digits));
 }
 
 Color TriangleColors::of(std::uint64_t number) {

@@ -6,7 +6,8 @@
 
 namespace pipeline {
 
-/// A color with 8 bits per channel, packed as 0x00RRGGBB.
+/// A color with 8 bits per channel, packed as 0x00RRGGBB. A background may let through what will be behind
+/// the picture: then the upper byte holds 255 less its alpha.
 class Color {
  public:
   constexpr Color() = default;  // black
@@ -19,10 +20,18 @@ class Color {
     return color;
   }
 
+  /// The same color with this alpha: 255 is opaque, 0 invisible.
+  [[nodiscard]] constexpr Color with_alpha(std::uint8_t alpha) const {
+    return from_rgb((rgb_ & 0xffffff) | std::uint32_t{255u - alpha} << 24);
+  }
+
+  /// All bytes, those of the channels alone where the color is opaque.
   [[nodiscard]] constexpr std::uint32_t rgb() const { return rgb_; }
   [[nodiscard]] constexpr std::uint8_t red() const { return static_cast<std::uint8_t>(rgb_ >> 16); }
   [[nodiscard]] constexpr std::uint8_t green() const { return static_cast<std::uint8_t>(rgb_ >> 8); }
   [[nodiscard]] constexpr std::uint8_t blue() const { return static_cast<std::uint8_t>(rgb_); }
+  [[nodiscard]] constexpr std::uint8_t alpha() const { return static_cast<std::uint8_t>(255 - (rgb_ >> 24)); }
+  [[nodiscard]] constexpr bool is_opaque() const { return rgb_ >> 24 == 0; }
 
   friend constexpr bool operator==(const Color&, const Color&) = default;
 
@@ -30,7 +39,8 @@ class Color {
   std::uint32_t rgb_ = 0;
 };
 
-/// The color of six hexadecimal digits, RRGGBB, in upper or lower case; nullopt for any other word.
+/// The color of six hexadecimal digits, RRGGBB, or of eight, RRGGBBAA with an alpha, in upper or lower case;
+/// nullopt for any other word.
 std::optional<Color> parse_color(std::string_view word);
 
 /// The colors of triangles that have none of their own, from the random numbers of the course's handouts

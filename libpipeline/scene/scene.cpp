@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string_view>
 
 #include "libpipeline/scene/spelling.h"
@@ -10,9 +11,10 @@
 namespace pipeline {
 namespace {
 
-constexpr std::array<std::string_view, 15> kCommands = {
-    "triangle",   "translate",  "scale", "rotate",  "push",     "pop",         "end", "color",
-    "attributes", "background", "light", "ambient", "material", "attenuation", "use"};
+constexpr std::array<std::string_view, 17> kCommands = {
+    "triangle", "sphere",   "translate",  "scale",       "rotate",     "push",
+    "pop",      "end",      "color",      "attributes",  "background", "light",
+    "ambient",  "material", "absorption", "attenuation", "use"};
 
 }  // namespace
 
@@ -61,7 +63,7 @@ std::size_t SceneReader::read_buffered(std::size_t limit, std::vector<Triangle>&
   const bool has_current_color = appearance_.columns().color && !vertex_line_.attributes().color;
   if (has_current_color)
     attributes.colors.resize(p_model.size(), {current_color_, current_color_, current_color_});
-  if (appearance_.columns().material) attributes.materials.resize(p_model.size(), current_material_);
+  if (appearance_.columns().material) attributes.materials.resize(p_model.size(), lines_.material);
   first_line = text_.line_number() + 1;
   text_.skip(part.length, 4 * part.triangle_count);
   if (part.triangle_count > 0) has_triangle_ = true;
@@ -88,6 +90,7 @@ Command SceneReader::next() {
     return TranslateCommand{line_.vec3("the translation")};
   }
   if (keyword == "rotate") return read_rotation();
+  if (keyword == "sphere") return read_sphere();
   if (keyword == "use") return read_use();
   if (keyword == "push") return takes_no_arguments(), PushCommand{};
   if (keyword == "pop") return takes_no_arguments(), PopCommand{};
@@ -102,13 +105,14 @@ Command SceneReader::next() {
 
 /// The commands that are allowed here.
 std::string SceneReader::expected_commands() const {
-  std::string commands = "a command (triangle, translate, scale, rotate, push, pop or end";
+  std::string commands = "a command (triangle, sphere, translate, scale, rotate, push, pop or end";
   if (!has_triangle_)
     commands +=
         "; before the first triangle also color, attributes, background, light, ambient, material or "
         "attenuation";
   else if (appearance_.columns().color)
     commands += "; also color";
+  if (!has_triangle_ && !appearance_.materials.empty()) commands += "; also absorption";
   if (appearance_.materials.size() > 1) commands += "; also use";
   return commands + ")";
 }
@@ -146,6 +150,7 @@ Command SceneReader::read_appearance(std::string_view keyword) {
 
 void SceneReader::read_current_color() {
   current_color_ = read_color(line_, "the color");
+  has_current_color_ = true;
   line_.expect_end("the blue of the color");
   if (!appearance_.attributes) appearance_.attributes = {{}, location_};
   appearance_.attributes->value.color = true;
@@ -162,23 +167,22 @@ Command SceneReader::read_use() {
   const std::size_t material = line_.count(expected);
   if (material >= count) at_number.fail(expected);
   line_.expect_end("the number of a material");
-  current_material_ = static_cast<std::uint32_t>(material);
+  lines_.material = static_cast<std::uint32_t>(material);
   return AppearanceCommand{};
 }
 
 /// Takes a vertex line of a scene with attributes; a color without columns is the current one.
-VertexLine SceneReader::read_vertex(std::size_t index) {
+void SceneReader::read_vertex(std::size_t index) {
   LineScanner at_normal = line_;
-  VertexLine vertex = vertex_line_.read(line_, index);
+  vertex_line_.read(line_, index, lines_);
+  VertexLine& vertex = lines_.vertices[index];
   if (!vertex_line_.attributes().color) vertex.color = current_color_;
-  vertex.material = current_material_;
   if (vertex_line_.attributes().normal && vertex.normal == Vec3{}) {
     for (int i = vertex_line_.attributes().color ? 6 : 3; i > 0; --i) at_normal.word();
     throw InputError(
         at_normal.location(),
         expected_but_found("a normal of " + std::string(kVertexNames[index]) + " other than 0 0 0", "0 0 0"));
   }
-  return vertex;
 }
 
 TriangleCommand SceneReader::read_triangle() {
@@ -190,8 +194,8 @@ TriangleCommand SceneReader::read_triangle() {
     next_argument_line(kVertexNames[i]);
     command.locations[i] = {line_.line_number(), line_.column()};
     if (has_attributes) {
-      vertices_[i] = read_vertex(i);
-      command.p_model[i] = vertices_[i].position;
+      read_vertex(i);
+      command.p_model[i] = lines_.vertices[i].position;
     } else {
       command.p_model[i] = line_.vec3(kVertexNames[i]);
     }
@@ -212,7 +216,7 @@ bool SceneReader::read_decimal_triangle(TriangleCommand& triangle) {
   if (p == nullptr || !take_decimal_vertices()) return false;
   const auto blank_lines = std::count(buffered.begin(), buffered.begin() + begin, '\n');
   const std::size_t first_line = text_.line_number() + static_cast<std::size_t>(blank_lines) + 2;
-  triangle.p_model = {vertices_[0].position, vertices_[1].position, vertices_[2].position};
+  for (std::size_t i = 0; i < 3; ++i) triangle.p_model[i] = lines_.vertices[i].position;
   triangle.locations = locations_of(decimal_vertices_, first_line);
   text_.skip(static_cast<std::size_t>(p - buffered.data()), static_cast<std::size_t>(blank_lines) + 4);
   has_triangle_ = true;
@@ -223,12 +227,42 @@ bool SceneReader::read_decimal_triangle(TriangleCommand& triangle) {
 bool SceneReader::take_decimal_vertices() {
   const AttributeSet& columns = vertex_line_.attributes();
   for (std::size_t i = 0; i < 3; ++i) {
-    vertices_[i] = to_vertex_line(decimal_vertices_[i], columns);
-    if (!columns.color) vertices_[i].color = current_color_;
-    vertices_[i].material = current_material_;
-    if (columns.normal && vertices_[i].normal == Vec3{}) return false;
+    VertexLine& vertex = lines_.vertices[i];
+    vertex = to_vertex_line(decimal_vertices_[i], columns);
+    if (!columns.color) vertex.color = current_color_;
+    if (columns.normal && vertex.normal == Vec3{}) return false;
   }
   return true;
+}
+
+/// Reads `sphere` and its center and radius. The points of its surface that stage texts carry have to be
+/// numbers, and not the center.
+SphereCommand SceneReader::read_sphere() {
+  line_.word();
+  next_argument_line("a center and a radius (four numbers)");
+  has_triangle_ = true;
+  const AttributeSet& columns = appearance_.columns();
+  if (columns.color && vertex_line_.attributes().color && !has_current_color_)
+    throw InputError(location_, expected_but_found("'color' before a sphere, which has no columns of its own",
+                                                   "'attributes color' alone"));
+  SphereCommand command;
+  command.center_location = {line_.line_number(), line_.column()};
+  Vec3& center = command.center;
+  center.x = line_.number("the x of the center");
+  center.y = line_.number("the y of the center");
+  center.z = line_.number("the z of the center");
+  const auto is_seen_in = [](double coordinate, double radius) {
+    return std::isfinite(coordinate + radius) && coordinate + radius > coordinate;
+  };
+  command.radius = number_where(
+      line_, {"a radius"}, "above 0 that changes the coordinates of the center", [&](double radius) {
+        return is_seen_in(center.x, radius) && is_seen_in(center.y, radius) && is_seen_in(center.z, radius);
+      });
+  line_.expect_end("the radius of the sphere");
+  VertexLine of_sphere;
+  of_sphere.color = current_color_;
+  lines_.vertices.fill(of_sphere);
+  return command;
 }
 
 RotateCommand SceneReader::read_rotation() {

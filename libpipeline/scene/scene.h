@@ -20,6 +20,12 @@ struct TriangleCommand {
   Triangle p_model;
   VertexLocations locations;
 };
+/// Its color and material are those in force (SceneReader::vertices).
+struct SphereCommand {
+  Vec3 center;  // in model space
+  double radius = 0;
+  LineAndColumn center_location;
+};
 struct TranslateCommand {
   Vec3 offset;
 };
@@ -39,8 +45,8 @@ struct LightCommand {
   Located<Light> light;  // in model space
 };
 
-using Command = std::variant<TriangleCommand, TranslateCommand, ScaleCommand, RotateCommand, PushCommand,
-                             PopCommand, EndCommand, AppearanceCommand, LightCommand>;
+using Command = std::variant<TriangleCommand, SphereCommand, TranslateCommand, ScaleCommand, RotateCommand,
+                             PushCommand, PopCommand, EndCommand, AppearanceCommand, LightCommand>;
 
 /// Reads scene.txt: the camera on construction, then command after command. Errors are InputErrors.
 ///
@@ -48,15 +54,17 @@ using Command = std::variant<TriangleCommand, TranslateCommand, ScaleCommand, Ro
 ///     lookX lookY lookZ
 ///     upX upY upZ
 ///     fovY aspect near far [ratio] or: ortho L R B T N F, or: frustum L R B T N F
-///     triangle | translate | scale | rotate | push | pop, each with its arguments
+///     triangle | sphere | translate | scale | rotate | push | pop, each with its arguments
 ///     end
 ///
 /// Before the first triangle, only where a scene needs them:
 ///
 ///     attributes [color] [normal]  vertex lines carry x y z [r g b] [nx ny nz]
 ///     color r g b                  of the triangles that follow; may change later if it stands here
-///     background r g b | ambient r g b | light x y z r g b
-///     material ambient diffuse specular shininess | attenuation constant linear quadratic
+///     background r g b [a] | ambient r g b | light x y z r g b
+///     material ambient diffuse specular shininess [reflectance index alpha]
+///     absorption r g b             of the last material, inside, per unit length
+///     attenuation constant linear quadratic
 ///
 /// Materials may repeat and are numbered from 0; `use K`, anywhere, gives the triangles that follow material
 /// K.
@@ -69,9 +77,9 @@ class SceneReader {
   /// The color and light read so far, without the lights, which are commands. Complete at the first triangle;
   /// its columns are those of the triangles' attributes.
   [[nodiscard]] const Appearance& appearance() const { return appearance_; }
-  /// The vertices of the triangle that `next` returned last, with the attributes in `appearance()`. Undefined
-  /// if there are none.
-  [[nodiscard]] const std::array<VertexLine, 3>& vertices() const { return vertices_; }
+  /// The vertex lines of the triangle that `next` returned last, with the attributes in `appearance()` and
+  /// the current material; after a sphere, its color three times. Undefined if there are none.
+  [[nodiscard]] const TriangleLines& lines() const { return lines_; }
   /// Reads the next command. After EndCommand nothing may be read.
   Command next();
   /// The fast path: adds the triangles that come next, are completely buffered and have the fixed form
@@ -91,20 +99,21 @@ class SceneReader {
   TriangleCommand read_triangle();
   bool read_decimal_triangle(TriangleCommand& triangle);
   bool take_decimal_vertices();
-  VertexLine read_vertex(std::size_t index);
+  void read_vertex(std::size_t index);
   [[nodiscard]] std::string expected_commands() const;
   Command read_appearance(std::string_view keyword);
   void read_current_color();
   Command read_use();
   RotateCommand read_rotation();
+  SphereCommand read_sphere();
 
   TextReader& text_;
   CameraParameters camera_;
   Appearance appearance_;
   VertexLineReader vertex_line_;
   Vec3 current_color_;
-  std::uint32_t current_material_ = 0;
-  std::array<VertexLine, 3> vertices_;
+  bool has_current_color_ = false;
+  TriangleLines lines_;  // the material is the current one
   bool has_triangle_ = false;
   DecimalVertexLines decimal_vertices_;  // of the triangle that is being read
   LineScanner line_;

@@ -84,7 +84,7 @@ void SceneCutter::find_triangle(std::string& copied) {
     if (!text_.next_filled_line(line_))
       throw InputError(text_.end_location(),
                        expected_but_found("'end', which closes a scene", "the end of the input"));
-    line_is_pending_ = line_.peek() == "triangle";
+    line_is_pending_ = line_.peek() == "triangle" || line_.peek() == "sphere";
     if (line_is_pending_) return;
     if (line_.peek() == "end") {
       line_.word();
@@ -143,13 +143,13 @@ void SceneCutter::expect_allowed(const LineScanner& at_keyword) const {
                                                              quoted(keyword) + " after it"));
 }
 
-/// Copies the triangle whose first line is `line_`.
+/// Copies the triangle or sphere whose first line is `line_`.
 void SceneCutter::copy_triangle(TextWriter& part) {
   line_is_pending_ = false;
-  line_.word();
-  part.append(kTriangle);
-  for (int vertex = 0; vertex < 3; ++vertex) {
-    next_argument_line(text_, line_, "triangle");
+  const std::string keyword(line_.word());
+  part.append(keyword + "\n");
+  for (int count = keyword == "sphere" ? 1 : 3; count > 0; --count) {
+    next_argument_line(text_, line_, keyword);
     part.append(line_.rest());
     part.append("\n");
     line_ = LineScanner();

@@ -11,7 +11,8 @@
 
 namespace pipeline {
 
-/// Cuts a scene into parts that are scenes themselves and hold its triangles one after the other: a part
+/// Cuts a scene into parts that are scenes themselves and hold its triangles (and spheres, which are meant,
+/// too, where triangles are) one after the other: a part
 /// begins with camera and settings, goes on with the transforms, the color and the material in force, and
 /// then has commands of the scene as they stand there, without comments. Composed are the same transforms in
 /// the same order, so `model` of all parts is `model` of the scene to the last bit.

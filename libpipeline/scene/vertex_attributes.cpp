@@ -5,6 +5,7 @@
 
 #include "libpipeline/scene/header_line.h"
 #include "libpipeline/text/fixed_text.h"
+#include "libpipeline/text/last_column.h"
 
 namespace pipeline {
 namespace {
@@ -73,9 +74,9 @@ VertexLineReader::VertexLineReader(const AttributeSet& attributes, RangeOfW rang
     names_[i] = "vertex " + std::to_string(i + 1) + " of 3 (" + column_names(attributes) + ")";
 }
 
-VertexLine VertexLineReader::read(LineScanner& line, std::size_t vertex) const {
-  const std::string& name = names_[vertex];
-  VertexLine values;
+void VertexLineReader::read(LineScanner& line, std::size_t vertex, const std::string& name,
+                            TriangleLines& triangle) const {
+  VertexLine& values = triangle.vertices[vertex];
   values.position.x = line.number("the x of ", name);
   values.position.y = line.number("the y of ", name);
   values.position.z = line.number("the z of ", name);
@@ -89,25 +90,20 @@ VertexLine VertexLineReader::read(LineScanner& line, std::size_t vertex) const {
     values.normal.y = line.number("the normal's y of ", name);
     values.normal.z = line.number("the normal's z of ", name);
   }
-  if (attributes_.material) {
-    const LineScanner at_material = line;
-    const std::string expected =
-        "the material of " + name + ", a whole number below " + std::to_string(material_count_);
-    const std::size_t material = line.count(expected);
-    if (material >= material_count_) at_material.fail(expected);
-    values.material = static_cast<std::uint32_t>(material);
-  }
+  if (attributes_.material) read_material(line, vertex, name, triangle);
   line.expect_end(name);
-  return values;
 }
 
-void VertexLineReader::read(LineScanner& line, std::size_t vertex,
-                            std::array<VertexLine, 3>& vertices) const {
-  LineScanner at_material = line;
-  vertices[vertex] = read(line, vertex);
-  if (vertices[vertex].material == vertices[0].material) return;
-  for (std::size_t i = 0; i < column_count_; ++i) at_material.word();
-  at_material.fail("the material of the triangle's first vertex, " + std::to_string(vertices[0].material));
+void VertexLineReader::read_material(LineScanner& line, std::size_t vertex, const std::string& name,
+                                     TriangleLines& triangle) const {
+  const LineScanner at_material = line;
+  const std::string expected =
+      "the material of " + name + ", a whole number below " + std::to_string(material_count_);
+  const std::size_t material = line.count(expected);
+  if (material >= material_count_) at_material.fail(expected);
+  if (vertex == 0) triangle.material = static_cast<std::uint32_t>(material);
+  if (material != triangle.material)
+    at_material.fail("the material of the triangle's first vertex, " + std::to_string(triangle.material));
 }
 
 bool VertexLineReader::are_in_range(std::span<const DecimalNumber> columns) const {
@@ -172,12 +168,12 @@ FixedTextPart VertexLineReader::read_block(std::size_t limit, TriangleFrame fram
   return part;
 }
 
-FixedTextPart VertexLineReader::read_fixed(std::string_view text, TriangleFrame frame, std::size_t limit,
-                                           std::vector<Triangle>& positions,
-                                           AttributeArrays& attributes) const {
+FixedTextPart VertexLineReader::read_fixed_columns_of(std::string_view text, TriangleFrame frame,
+                                                      std::size_t limit, std::vector<Triangle>& positions,
+                                                      AttributeArrays& attributes) const {
   constexpr std::string_view kKeyword = "triangle\n";
   const bool is_scene = frame == TriangleFrame::scene;
-  if (attributes_.material || (is_scene && !text.starts_with(kKeyword))) return {};
+  if (is_scene && !text.starts_with(kKeyword)) return {};
   const std::string_view lines = text.substr(is_scene ? kKeyword.size() : 0);
   return read_block(limit, frame, positions, attributes, [&](const FixedColumns& columns) -> FixedTextPart {
     GroupDecimals decimals;
@@ -186,12 +182,44 @@ FixedTextPart VertexLineReader::read_fixed(std::string_view text, TriangleFrame 
   });
 }
 
+FixedTextPart VertexLineReader::read_decimal_columns_of(std::string_view text, TriangleFrame frame,
+                                                        std::span<DecimalMarks> marks,
+                                                        std::vector<Triangle>& positions,
+                                                        AttributeArrays& attributes) const {
+  return read_block(marks.size(), frame, positions, attributes, [&](const FixedColumns& columns) {
+    return read_decimal_columns(text, frame, columns, marks);
+  });
+}
+
+/// The same with a last column of materials, which `read(lines, limit)` does not see.
+template <typename Read>
+FixedTextPart VertexLineReader::read_with_materials(std::string_view text, std::size_t limit,
+                                                    AttributeArrays& attributes, const Read& read) const {
+  const TrianglesWithoutLastColumn triangles(text, limit, material_count_);
+  if (triangles.count() == 0) return {};
+  const std::size_t count = read(triangles.lines(), triangles.count()).triangle_count;
+  std::copy_n(triangles.values().begin(), count,
+              attributes.materials.end() - static_cast<std::ptrdiff_t>(count));
+  return {count, triangles.length_with_column(count)};
+}
+
+FixedTextPart VertexLineReader::read_fixed(std::string_view text, TriangleFrame frame, std::size_t limit,
+                                           std::vector<Triangle>& positions,
+                                           AttributeArrays& attributes) const {
+  if (!attributes_.material) return read_fixed_columns_of(text, frame, limit, positions, attributes);
+  assert(frame == TriangleFrame::stage_text);
+  return read_with_materials(text, limit, attributes, [&](std::string_view lines, std::size_t count) {
+    return read_fixed_columns_of(lines, frame, count, positions, attributes);
+  });
+}
+
 FixedTextPart VertexLineReader::read_decimals(std::string_view text, TriangleFrame frame,
                                               std::span<DecimalMarks> marks, std::vector<Triangle>& positions,
                                               AttributeArrays& attributes) const {
-  if (attributes_.material) return {};
-  return read_block(marks.size(), frame, positions, attributes, [&](const FixedColumns& columns) {
-    return read_decimal_columns(text, frame, columns, marks);
+  if (!attributes_.material) return read_decimal_columns_of(text, frame, marks, positions, attributes);
+  assert(frame == TriangleFrame::stage_text);
+  return read_with_materials(text, marks.size(), attributes, [&](std::string_view lines, std::size_t count) {
+    return read_decimal_columns_of(lines, frame, marks.first(count), positions, attributes);
   });
 }
 
@@ -227,12 +255,12 @@ void AttributeArrays::resize(std::size_t count, const AttributeSet& attributes) 
   if (attributes.material) materials.resize(count);
 }
 
-void AttributeArrays::add(const std::array<VertexLine, 3>& vertices, const AttributeSet& attributes) {
-  const auto& [a, b, c] = vertices;
+void AttributeArrays::add(const TriangleLines& lines, const AttributeSet& attributes) {
+  const auto& [a, b, c] = lines.vertices;
   if (attributes.w) w.push_back({a.w, b.w, c.w});
   if (attributes.color) colors.push_back({a.color, b.color, c.color});
   if (attributes.normal) normals.push_back({a.normal, b.normal, c.normal});
-  if (attributes.material) materials.push_back(a.material);
+  if (attributes.material) materials.push_back(lines.material);
 }
 
 }  // namespace pipeline

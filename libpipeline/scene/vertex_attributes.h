@@ -29,7 +29,7 @@ struct AttributeSet {
   friend bool operator==(const AttributeSet&, const AttributeSet&) = default;
 };
 
-constexpr std::size_t kMaxColumns = 10;  // position, w, color and normal; material is a whole number
+constexpr std::size_t kMaxColumns = 10;  // position, w, color and normal; material is none of a vertex
 
 /// The values of a vertex line; those its text has no columns for are 0.
 struct VertexLine {
@@ -37,6 +37,11 @@ struct VertexLine {
   double w = 0;  // of clip space; see RangeOfW
   Vec3 color;    // red, green, blue from 0 to 255
   Vec3 normal;   // in the space of the position
+};
+
+/// The vertex lines of a triangle. The material stands on each, but is the triangle's.
+struct TriangleLines {
+  std::array<VertexLine, 3> vertices;
   std::uint32_t material = 0;
 };
 
@@ -73,7 +78,7 @@ struct AttributeArrays {
   /// Makes the arrays that `attributes` names `count` triangles long.
   void resize(std::size_t count, const AttributeSet& attributes);
   /// Adds those values of a triangle's vertex lines that `attributes` names.
-  void add(const std::array<VertexLine, 3>& vertices, const AttributeSet& attributes);
+  void add(const TriangleLines& lines, const AttributeSet& attributes);
 };
 
 /// The columns of `count` triangles from `begin` on, for the kernels of fixed_text.h; `names` are those after
@@ -104,27 +109,38 @@ class VertexLineReader {
                             std::size_t material_count = 1);
 
   [[nodiscard]] const AttributeSet& attributes() const { return attributes_; }
-  /// Reads the line of vertex `vertex` (0 to 2) to its end. An InputError if a column is missing or left
-  /// over, w is out of its range, a color channel is not from 0 to 255, or the material is not a whole number
-  /// of a material.
-  VertexLine read(LineScanner& line, std::size_t vertex) const;
-  /// Reads it into `vertices[vertex]`; the line of vertex 0 comes first. The material must be that of vertex
-  /// 0, too.
-  void read(LineScanner& line, std::size_t vertex, std::array<VertexLine, 3>& vertices) const;
+  /// Reads the line of vertex `vertex` (0 to 2) to its end; that of vertex 0 comes first. An InputError if a
+  /// column is missing or left over, w is out of its range, a color channel is not from 0 to 255, or the
+  /// material is not the number of one, or not that of vertex 0.
+  void read(LineScanner& line, std::size_t vertex, TriangleLines& triangle) const {
+    read(line, vertex, names_[vertex], triangle);
+  }
+  /// The same, with another name in messages.
+  void read(LineScanner& line, std::size_t vertex, const std::string& name, TriangleLines& triangle) const;
   /// The fastest path: reads triangles in fixed form (fixed_text.h) from the beginning of `text`, at most
   /// `limit`, and adds their values to the arrays. None if a value is out of range, which the general path
-  /// then reports, or if there is a column of materials; nor do the other fast paths read those.
+  /// then reports.
   FixedTextPart read_fixed(std::string_view text, TriangleFrame frame, std::size_t limit,
                            std::vector<Triangle>& positions, AttributeArrays& attributes) const;
   /// The same for lines of decimal_columns.h, as many as there are `marks`.
   FixedTextPart read_decimals(std::string_view text, TriangleFrame frame, std::span<DecimalMarks> marks,
                               std::vector<Triangle>& positions, AttributeArrays& attributes) const;
   /// The fast path: reads the three lines of a triangle at `p` and returns the beginning of the next line.
-  /// Null if they hold anything but decimal numbers (decimal_number.h), do not end before `end`, or hold a
-  /// value out of range; the general path then reads them or reports the error.
+  /// Null if they hold anything but decimal numbers (decimal_number.h), do not end before `end`, hold a value
+  /// out of range, or have a column of materials; the general path then reads them or reports the error.
   const char* read_decimals(const char* p, const char* end, DecimalVertexLines& vertices) const;
 
  private:
+  void read_material(LineScanner& line, std::size_t vertex, const std::string& name,
+                     TriangleLines& triangle) const;
+  FixedTextPart read_fixed_columns_of(std::string_view text, TriangleFrame frame, std::size_t limit,
+                                      std::vector<Triangle>& positions, AttributeArrays& attributes) const;
+  FixedTextPart read_decimal_columns_of(std::string_view text, TriangleFrame frame,
+                                        std::span<DecimalMarks> marks, std::vector<Triangle>& positions,
+                                        AttributeArrays& attributes) const;
+  template <typename Read>
+  FixedTextPart read_with_materials(std::string_view text, std::size_t limit, AttributeArrays& attributes,
+                                    const Read& read) const;
   template <typename Read>
   FixedTextPart read_block(std::size_t limit, TriangleFrame frame, std::vector<Triangle>& positions,
                            AttributeArrays& attributes, const Read& read) const;

@@ -1,16 +1,18 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <utility>
 
+#include "libpipeline/numbers/vec_math.h"
 #include "libpipeline/stream/triangle_batch.h"
 
 namespace pipeline {
 
 /// The smallest and the largest x, y and z of the vertices that a stage writes, with all the digits that
-/// decide how they are printed.
+/// decide how they are printed; of a sphere those of its surface, to a few roundings.
 class CoordinateExtent {
  public:
   /// A double, and the part that it does not hold.
@@ -30,11 +32,26 @@ class CoordinateExtent {
         add(2, {p.z, low_part[v].z});
       }
     }
+    for (const std::size_t sphere : batch.spheres) add(batch.sphere_points(sphere));
   }
   /// Of x, y and z; none where there is no vertex.
   [[nodiscard]] const std::array<std::optional<Range>, 3>& ranges() const { return ranges_; }
 
  private:
+  /// The points c + u a + v b + w d with u^2 + v^2 + w^2 = 1 are up to sqrt(a^2 + b^2 + d^2) from c in each
+  /// coordinate.
+  void add(const SpherePoints& points) {
+    const Vec3 &c = points[0], a = difference(points[1], c), b = difference(points[2], c),
+               d = difference(points[3], c);
+    const auto add_around = [&](std::size_t axis, double center, double x, double y, double z) {
+      const double reach = std::sqrt(x * x + y * y + z * z);
+      add(axis, {center - reach, 0});
+      add(axis, {center + reach, 0});
+    };
+    add_around(0, c.x, a.x, b.x, d.x);
+    add_around(1, c.y, a.y, b.y, d.y);
+    add_around(2, c.z, a.z, b.z, d.z);
+  }
   void add(std::size_t axis, const Coordinate& c) {
     std::optional<Range>& range = ranges_[axis];
     if (!range) range = {c, c};

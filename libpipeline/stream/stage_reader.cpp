@@ -28,7 +28,7 @@ bool is_header_keyword(std::string_view word) {
 std::string keyword_hint(std::string_view word) {
   std::vector<std::string_view> known(kKeywords.begin(), kKeywords.end());
   known.insert(known.end(), appearance_keywords().begin(), appearance_keywords().end());
-  known.insert(known.end(), {"triangle", "clipped"});
+  known.insert(known.end(), {"triangle", "sphere", "clipped"});
   return spelling_hint(word, known);
 }
 
@@ -52,8 +52,8 @@ StageReader::StageReader(TextReader& text, bool marks_decimals) : text_(text) {
   // An error here may hide a header line, so it is reported before any caller misses that line.
   header_end_ = line_is_pending_ ? line_.location() : text_.end_location();
   if (!line_is_pending_) expect_unframed_end();
-  const bool is_body =
-      is_vertex(line_.peek()) || line_.peek() == "triangle" || line_.peek() == "clipped" || is_end(line_);
+  const bool is_body = is_vertex(line_.peek()) || line_.peek() == "triangle" || line_.peek() == "sphere" ||
+                       line_.peek() == "clipped" || is_end(line_);
   if (line_is_pending_ && !is_body) reject(line_, "a header line, ");
 }
 
@@ -93,6 +93,10 @@ bool StageReader::read_camera_line(std::string_view keyword, const SourceLocatio
 void StageReader::keep_text() {
   keeps_text_ = true;
   triangles_->keep_text();
+}
+
+void StageReader::accept_spheres() {
+  accepts_spheres_ = !header_.projected && !header_.appearance.columns().w;
 }
 
 void StageReader::expect_framed() const {
@@ -137,6 +141,14 @@ void StageReader::fill(TriangleBatch& batch) {
       triangles_->read_number(line_);
     } else if (accepts_clipped_ && line_.peek() == "clipped") {
       read_clipped(line_);
+    } else if (accepts_spheres_ && line_.peek() == "sphere") {
+      // Its lines are waited for with an empty batch alone.
+      line_is_pending_ = !batch.empty() && !text_.has_buffered_lines(4);
+      if (line_is_pending_) break;
+      if (!spheres_)
+        spheres_.emplace(text_, header_.appearance.columns(),
+                         std::max<std::size_t>(header_.appearance.materials.size(), 1));
+      spheres_->read(line_, triangles_->take_number(), keeps_text_, batch);
     } else if (is_end(line_)) {
       read_end(line_);
     } else {
@@ -150,15 +162,30 @@ void StageReader::read_triangle(LineScanner& line, TriangleBatch& batch) {
   if (unclipped_ && triangles_->next_number() != unclipped_number_) unclipped_.reset();
   if (unclipped_) batch.texts.add(clipped_text_);
   clipped_text_.clear();
+  const LineScanner at_vertex = line;
   triangles_->read(line, batch);
+  if (unclipped_ && header_.appearance.columns().material) expect_unclipped_material(at_vertex, batch);
   if (unclipped_) batch.set_last_unclipped(unclipped_);
+}
+
+/// An InputError, at the vertex line given, if the triangle read last has not the material of the one it is a
+/// piece of. The batch then ends before it.
+void StageReader::expect_unclipped_material(const LineScanner& line, TriangleBatch& batch) const {
+  const std::uint32_t material = batch.attributes.materials.back();
+  if (material == unclipped_material_) return;
+  batch.truncate(batch.size() - 1);
+  LineScanner at_material = line;
+  const AttributeSet columns = header_.appearance.columns();
+  for (int i = 3 + (columns.w ? 1 : 0) + (columns.color ? 3 : 0) + (columns.normal ? 3 : 0); i > 0; --i)
+    at_material.word();
+  at_material.fail("the material of the triangle that was clipped, " + std::to_string(unclipped_material_));
 }
 
 /// Reads the line `clipped` and the three of a triangle in clip space.
 void StageReader::read_clipped(LineScanner& line) {
   line.word();
   line.expect_end("'clipped'");
-  ClipTriangle unclipped;
+  TriangleLines unclipped;
   clipped_text_ = keeps_text_ ? "clipped\n" : "";
   for (std::size_t i = 0; i < 3; ++i) {
     next_vertex_line(text_, line, i);
@@ -166,7 +193,8 @@ void StageReader::read_clipped(LineScanner& line) {
     clip_vertex_line_.read(line, i, unclipped);
   }
   if (keeps_text_) clipped_text_ += '\n';
-  unclipped_ = std::make_shared<const ClipTriangle>(unclipped);
+  unclipped_ = std::make_shared<const ClipTriangle>(unclipped.vertices);
+  unclipped_material_ = unclipped.material;
   unclipped_number_ = triangles_->next_number();
 }
 
@@ -202,6 +230,7 @@ void StageReader::reject(LineScanner& line, const std::string& also_expected) {
   const LineScanner at_keyword = line;
   if (line.peek() == "error") throw earlier_failure(line);
   const std::string_view keyword = line.word();
+  if (keyword == "sphere") throw refused_sphere(location);
   if (is_header_keyword(keyword))
     throw InputError(location, expected_but_found("header lines before the first triangle", quoted(keyword)));
   const std::string hint = keyword == "end" ? " ('end' needs a line 'framed' in the header)" : "";

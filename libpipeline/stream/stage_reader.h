@@ -6,6 +6,7 @@
 #include <string>
 
 #include "libpipeline/stream/deferred_error.h"
+#include "libpipeline/stream/sphere_reader.h"
 #include "libpipeline/stream/stage_text.h"
 #include "libpipeline/stream/triangle_batch.h"
 #include "libpipeline/stream/triangle_reader.h"
@@ -30,6 +31,8 @@ class StageReader {
   void keep_text();
   /// Accepts `clipped` triangles from now on, which only projected texts have; without this they are errors.
   void accept_clipped() { accepts_clipped_ = true; }
+  /// Accepts spheres from now on, which no projected text has; without this they are errors.
+  void accept_spheres();
   /// An InputError unless the text is framed: only then is an empty text known to be complete.
   void expect_framed() const;
   /// Fills the batch with the next triangles: at least one, and as many as are buffered, up to kBatchSize.
@@ -49,6 +52,7 @@ class StageReader {
   bool read_camera_line(std::string_view keyword, const SourceLocation& location, LineScanner& line);
   void fill(TriangleBatch& batch);
   void read_triangle(LineScanner& line, TriangleBatch& batch);
+  void expect_unclipped_material(const LineScanner& line, TriangleBatch& batch) const;
   void read_clipped(LineScanner& line);
   [[nodiscard]] bool is_end(const LineScanner& line) const;
   void read_end(LineScanner& line);
@@ -66,9 +70,12 @@ class StageReader {
   bool has_body_ = false;
   bool done_ = false;
   bool accepts_clipped_ = false;
+  bool accepts_spheres_ = false;
+  std::optional<SphereReader> spheres_;  // made for the first sphere: most texts have none
   VertexLineReader clip_vertex_line_;
   std::shared_ptr<const ClipTriangle> unclipped_;  // the next triangles with its number are its pieces
   std::uint64_t unclipped_number_ = 0;
+  std::uint32_t unclipped_material_ = 0;
   bool keeps_text_ = false;
   std::string clipped_text_;  // of unclipped_, until its first piece has come
   DeferredError deferred_error_;

@@ -8,6 +8,7 @@
 
 #include "libpipeline/text/decimal_columns.h"
 #include "libpipeline/text/fixed_text.h"
+#include "libpipeline/text/last_column.h"
 #include "libpipeline/text/number_printer.h"
 
 namespace pipeline {
@@ -58,11 +59,21 @@ void print_appearance(TextWriter& text, const Appearance& appearance) {
     if (v) print_header_numbers(text, keyword, {v->value.x, v->value.y, v->value.z});
   };
   if (appearance.attributes) print_attribute_names(text, appearance.attributes->value);
-  print_vec3("background", appearance.background);
+  if (appearance.background) {
+    const auto& [color, alpha] = appearance.background->value;
+    print_numbers(text, "background", {color.x, color.y, color.z});
+    if (alpha < 255) print_numbers(text, "", {alpha});
+    text.append("\n");
+  }
   print_vec3("ambient", appearance.ambient);
   for (const auto& [m, location] : appearance.materials) {
     print_numbers(text, "material", {m.ambient, m.diffuse, m.specular});
-    text.append(" " + std::to_string(m.shininess) + "\n");
+    text.append(" " + std::to_string(m.shininess));
+    if (m.reflectance != 0 || m.index != 1 || m.alpha != 1)
+      print_numbers(text, "", {m.reflectance, m.index, m.alpha});
+    text.append("\n");
+    if (m.absorption != Vec3{})
+      print_header_numbers(text, "absorption", {m.absorption.x, m.absorption.y, m.absorption.z});
   }
   if (appearance.attenuation) {
     const Attenuation& a = appearance.attenuation->value;
@@ -102,30 +113,42 @@ void StageWriter::write_header(const StageHeader& header) {
 void StageWriter::write(const TriangleBatch& batch) {
   assert(batch.low_parts.empty() || batch.low_parts.size() == batch.size());
   if (!keeps_four_digits_) note_sizes(batch);
+  std::size_t begin = 0;
+  for (const std::size_t sphere : batch.spheres) {
+    write_triangles(batch, begin, sphere);
+    write_sphere(batch, sphere);
+    begin = sphere + 2;
+  }
+  write_triangles(batch, begin, batch.size());
+}
+
+/// Writes the triangles [begin, end), none of which is a sphere.
+void StageWriter::write_triangles(const TriangleBatch& batch, std::size_t begin, std::size_t end) {
   const bool has_runs = has_fast_path() && batch.low_parts.empty() && batch.unclipped.empty();
-  std::size_t index = 0;
+  std::size_t index = begin;
   std::size_t end_of_run = 0;
-  while (index < batch.size()) {
-    if (has_runs && index >= end_of_run) end_of_run = end_of_numbered_run(batch, index);
+  while (index < end) {
+    if (has_runs && index >= end_of_run) end_of_run = end_of_numbered_run(batch, index, end);
     const bool is_run = index < end_of_run;
     if (is_run) index += write_block(batch, index, end_of_run);
     const bool is_refused = is_run && index < end_of_run;
-    if (index < batch.size()) write_triangle(batch, index++, has_fast_path() && !is_refused);
+    if (index < end) write_triangle(batch, index++, has_fast_path() && !is_refused);
   }
 }
 
 /// Whether write_block may print triangles with these digits.
 bool StageWriter::has_fast_path() const {
-  return !columns_.material && (format_.decimals <= kMaxFixedDecimals || format_.shortest);
+  return format_.decimals <= kMaxFixedDecimals || format_.shortest;
 }
 
-/// The end of the triangles from `begin` on that need no `triangle N`, or of a part of them.
-std::size_t StageWriter::end_of_numbered_run(const TriangleBatch& batch, std::size_t begin) const {
+/// The end of the triangles of [begin, end) that need no `triangle N`, or of a part of them.
+std::size_t StageWriter::end_of_numbered_run(const TriangleBatch& batch, std::size_t begin,
+                                             std::size_t end) const {
   constexpr std::size_t kMaxAtOnce = 256;
-  const std::size_t limit = std::min(batch.size(), begin + kMaxAtOnce);
-  std::size_t end = begin;
-  while (end < limit && (bare_ || batch.numbers[end] == next_number_ + (end - begin))) ++end;
-  return end;
+  const std::size_t limit = std::min(end, begin + kMaxAtOnce);
+  std::size_t last = begin;
+  while (last < limit && (bare_ || batch.numbers[last] == next_number_ + (last - begin))) ++last;
+  return last;
 }
 
 /// Looks at every coordinate until one keeps four digits in the text, which settles the question.
@@ -149,17 +172,23 @@ std::size_t StageWriter::write_block(const TriangleBatch& batch, std::size_t beg
   const std::size_t max_length = format_.shortest ? kMaxShortestColumnsLength
                                  : columns_.any() ? kMaxFixedColumnsLength
                                                   : kMaxFixedTriangleLength;
-  char* const out = text_.reserve((end - begin) * max_length + kFixedTextSlack);
+  const std::size_t room = (end - begin) * max_length + kFixedTextSlack;
+  if (columns_.material && without_materials_.size() < room) without_materials_.resize(room);
+  char* const out = columns_.material ? without_materials_.data() : text_.reserve(room);
   const ConstFixedColumns columns =
       fixed_columns(batch.triangles, batch.attributes, columns_, begin, end - begin);
-  std::size_t count = end - begin;
-  if (format_.shortest) {
-    text_.commit(write_shortest_columns(columns, out));
-  } else {
-    const FixedTextPart part = write_fixed_columns(columns, format_.decimals, out);
+  FixedTextPart part;
+  if (format_.shortest)
+    part = {end - begin, static_cast<std::size_t>(write_shortest_columns(columns, out) - out)};
+  else
+    part = write_fixed_columns(columns, format_.decimals, out);
+  const std::size_t count = part.triangle_count;
+  if (columns_.material)
+    text_.commit(print_with_last_column({out, part.length},
+                                        std::span(batch.attributes.materials).subspan(begin, count),
+                                        text_.reserve(part.length + count * kMaxLastColumnLength)));
+  else
     text_.commit(out + part.length);
-    count = part.triangle_count;
-  }
   if (count > 0) next_number_ = batch.numbers[begin + count - 1] + 1;
   return count;
 }
@@ -169,7 +198,7 @@ void StageWriter::write_triangle(const TriangleBatch& batch, std::size_t index, 
   next_number_ = batch.numbers[index] + 1;
   if (const ClipTriangle* const unclipped = batch.unclipped_of(index);
       unclipped != nullptr && unclipped != last_unclipped_.get()) {
-    write_clipped(*unclipped);
+    write_clipped(*unclipped, batch.attributes, index);
     last_unclipped_ = batch.unclipped[index];
   }
   const Triangle low_part = batch.low_parts.empty() ? Triangle{} : batch.low_parts[index];
@@ -177,17 +206,40 @@ void StageWriter::write_triangle(const TriangleBatch& batch, std::size_t index, 
   char* out = text_.reserve(kMaxTriangleLength);
   for (std::size_t v = 0; v < 3; ++v) {
     out = print_vertex(out, batch.triangles[index][v], low_part[v]);
-    if (columns_.any()) out = print_attributes(out, batch.attributes, index, v);
+    if (columns_.any()) out = print_attributes(out, batch.attributes, columns_, index, v);
     *out++ = '\n';
   }
   *out++ = '\n';
   text_.commit(out);
 }
 
-/// Prints an unclipped triangle before its first piece. Its corners are lit, so they are not rounded.
-void StageWriter::write_clipped(const ClipTriangle& unclipped) {
+/// Prints the sphere whose first entry is `index`.
+void StageWriter::write_sphere(const TriangleBatch& batch, std::size_t index) {
+  assert(!bare_ && !columns_.w);
+  write_number(batch.numbers[index]);
+  next_number_ = batch.numbers[index] + 1;
+  text_.append("sphere\n");
+  const SpherePoints points = batch.sphere_points(index);
+  const SpherePoints low_parts =
+      batch.low_parts.empty() ? SpherePoints{} : TriangleBatch::points_of(batch.low_parts, index);
+  AttributeSet columns = columns_;
+  columns.normal = false;
+  char* out = text_.reserve(points.size() * kMaxVertexLength + 1);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    out = print_vertex(out, points[i], low_parts[i]);
+    out = print_attributes(out, batch.attributes, columns, index, 0);
+    *out++ = '\n';
+  }
+  *out++ = '\n';
+  text_.commit(out);
+}
+
+/// Prints an unclipped triangle before its first piece, which has its material. Its corners are lit, so they
+/// are not rounded.
+void StageWriter::write_clipped(const ClipTriangle& unclipped, const AttributeArrays& attributes,
+                                std::size_t index) {
   text_.append("clipped\n");
-  for (const auto& [p, w, color, normal, material] : unclipped) {
+  for (const auto& [p, w, color, normal] : unclipped) {
     char* out = text_.reserve(kMaxVertexLength);
     const auto print = [&](std::initializer_list<double> numbers) {
       for (const double number : numbers) {
@@ -198,7 +250,7 @@ void StageWriter::write_clipped(const ClipTriangle& unclipped) {
     print({p.x, p.y, p.z, w});
     if (columns_.color) print({color.x, color.y, color.z});
     if (columns_.normal) print({normal.x, normal.y, normal.z});
-    if (columns_.material) print({static_cast<double>(material)});
+    if (columns_.material) print({static_cast<double>(attributes.materials[index])});
     out[-1] = '\n';
     text_.commit(out);
   }
@@ -214,19 +266,19 @@ char* StageWriter::print_vertex(char* out, const Vec3& vertex, const Vec3& low_p
   return print_number(out, vertex.z, low_part.z, format_);
 }
 
-char* StageWriter::print_attributes(char* out, const AttributeArrays& attributes, std::size_t index,
-                                    std::size_t vertex) {
+char* StageWriter::print_attributes(char* out, const AttributeArrays& attributes, const AttributeSet& columns,
+                                    std::size_t index, std::size_t vertex) {
   const auto print_vec3 = [&](const Vec3& v) {
     *out++ = ' ';
     out = print_vertex(out, v, {});
   };
-  if (columns_.w) {
+  if (columns.w) {
     *out++ = ' ';
     out = print_number(out, attributes.w[index][vertex], 0, {.shortest = true});
   }
-  if (columns_.color) print_vec3(attributes.colors[index][vertex]);
-  if (columns_.normal) print_vec3(attributes.normals[index][vertex]);
-  if (columns_.material) {
+  if (columns.color) print_vec3(attributes.colors[index][vertex]);
+  if (columns.normal) print_vec3(attributes.normals[index][vertex]);
+  if (columns.material) {
     *out++ = ' ';
     out = print_number(out, attributes.materials[index], 0, {.shortest = true});
   }

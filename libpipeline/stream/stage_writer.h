@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 #include "libpipeline/stream/stage_text.h"
 #include "libpipeline/stream/triangle_batch.h"
@@ -25,15 +26,19 @@ class StageWriter {
   [[nodiscard]] bool keeps_four_digits() const { return keeps_four_digits_ || !has_filled_coordinate_; }
 
  private:
+  void write_triangles(const TriangleBatch& batch, std::size_t begin, std::size_t end);
+  void write_sphere(const TriangleBatch& batch, std::size_t index);
   void write_number(std::uint64_t number);
   void note_sizes(const TriangleBatch& batch);
-  [[nodiscard]] std::size_t end_of_numbered_run(const TriangleBatch& batch, std::size_t begin) const;
+  [[nodiscard]] std::size_t end_of_numbered_run(const TriangleBatch& batch, std::size_t begin,
+                                                std::size_t end) const;
   [[nodiscard]] bool has_fast_path() const;
   std::size_t write_block(const TriangleBatch& batch, std::size_t begin, std::size_t end);
   void write_triangle(const TriangleBatch& batch, std::size_t index, bool tries_fast_path);
-  void write_clipped(const ClipTriangle& unclipped);
+  void write_clipped(const ClipTriangle& unclipped, const AttributeArrays& attributes, std::size_t index);
   char* print_vertex(char* out, const Vec3& vertex, const Vec3& low_part);
-  char* print_attributes(char* out, const AttributeArrays& attributes, std::size_t index, std::size_t vertex);
+  char* print_attributes(char* out, const AttributeArrays& attributes, const AttributeSet& columns,
+                         std::size_t index, std::size_t vertex);
 
   TextWriter& text_;
   NumberFormat format_;
@@ -42,6 +47,7 @@ class StageWriter {
   AttributeSet columns_;
   std::uint64_t next_number_ = 0;
   std::shared_ptr<const ClipTriangle> last_unclipped_;
+  std::vector<char> without_materials_;  // a block before their column is added
   bool keeps_four_digits_ = false;
   bool has_filled_coordinate_ = false;
 };

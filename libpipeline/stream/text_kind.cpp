@@ -69,6 +69,12 @@ bool is_config(const std::vector<Words>& lines) {
          (lines.size() == 1 || lines[1].size() == 1);
 }
 
+/// True for a first word of model files: OBJ's keywords (its comments are ours, too), PLY, STL and glTF.
+bool begins_model_file(std::string_view word) {
+  return word.front() == '{' || word.substr(0, 4) == "glTF" ||
+         is_one_of(word, {"v", "vt", "vn", "f", "o", "g", "s", "mtllib", "usemtl", "ply", "solid"});
+}
+
 /// The kind of a text that begins with a header, else unknown. Lines about color and light tell nothing: a
 /// scene has them, too.
 TextKind kind_by_header(const std::vector<Words>& lines) {
@@ -89,6 +95,7 @@ TextKind kind_by_header(const std::vector<Words>& lines) {
 TextKind kind_by_lines(const std::vector<Words>& lines) {
   if (lines.empty()) return TextKind::unknown;
   if (lines.front().front().find('\x1b') != std::string_view::npos) return TextKind::editor_screen;
+  if (begins_model_file(lines.front().front())) return TextKind::model_file;
   if (is_config(lines)) return TextKind::config;
   if (is_scene(lines)) return TextKind::scene;
   if (lines.size() >= 3 && std::all_of(lines.begin(), lines.begin() + 3, is_point))
@@ -125,6 +132,8 @@ std::string described(TextKind found) {
       return "triangles: CONFIG comes before INPUT";
     case TextKind::editor_screen:
       return "an editor's screen: was Vim's view run in place of ours?";
+    case TextKind::model_file:
+      return "a model file: 'pipeline picture' draws it, mesh2scene makes a scene of it";
     default:
       return "a config: zbuf reads those";
   }

@@ -10,7 +10,7 @@ namespace pipeline {
 // A text in the wrong place is refused by its name: a scene given to view, or the output of model given to
 // project. Texts without a header, which any stage may have written, are taken as they read.
 
-/// The texts that tools read, in the order of the pipe, and two that none of them reads.
+/// The texts that tools read, in the order of the pipe, and those that none of them reads.
 enum class TextKind {
   scene,
   world,  // the output of model
@@ -19,6 +19,7 @@ enum class TextKind {
   config,
   triangles,      // without a header, so of any stage
   editor_screen,  // what Vim's `view` writes into a pipe
+  model_file,     // OBJ, PLY, STL or glTF, which mesh2scene reads
   unknown
 };
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -16,6 +17,9 @@ namespace pipeline {
 
 /// A reader passes a batch on when it holds this many triangles.
 constexpr std::size_t kBatchSize = 2048;
+
+/// A sphere, or what an affine map makes of it: its center and the ends of three half axes.
+using SpherePoints = std::array<Vec3, 4>;
 
 /// Triangles on their way through a stage, as arrays with one entry per triangle.
 struct TriangleBatch {
@@ -37,9 +41,15 @@ struct TriangleBatch {
   std::vector<std::shared_ptr<const ClipTriangle>> unclipped;
   /// The triangles' lines; empty if not requested.
   TriangleTexts texts;
+  /// Where spheres stand among the triangles: each takes two entries, so that its points go wherever vertices
+  /// go: center, center + r i and center + r j, then center + r k and the center twice. The index of the
+  /// first entry of each, in their order; both have the sphere's number, color and material.
+  std::vector<std::size_t> spheres;
 
   [[nodiscard]] std::size_t size() const { return triangles.size(); }
   [[nodiscard]] bool empty() const { return triangles.empty(); }
+  /// How many triangles and spheres there are.
+  [[nodiscard]] std::size_t object_count() const { return size() - spheres.size(); }
   void clear() {
     triangles.clear();
     low_parts.clear();
@@ -49,9 +59,14 @@ struct TriangleBatch {
     attributes.clear();
     unclipped.clear();
     texts.clear();
+    spheres.clear();
   }
-  /// Keeps the first `count` triangles.
+  /// Keeps the first `count` triangles, and no half of a sphere.
   void truncate(std::size_t count) {
+    while (!spheres.empty() && spheres.back() + 2 > count) {
+      count = std::min(count, spheres.back());
+      spheres.pop_back();
+    }
     triangles.resize(count);
     numbers.resize(count);
     locations.resize(count);
@@ -68,6 +83,20 @@ struct TriangleBatch {
     if (!low_parts.empty()) low_parts.emplace_back();
     if (!decimal_marks.empty()) decimal_marks.emplace_back();
     if (!unclipped.empty()) unclipped.emplace_back();
+  }
+  /// Adds the two entries of a sphere but for its columns: center, center + r i, + r j, + r k.
+  void add_sphere(const SpherePoints& points, std::uint64_t number,
+                  const std::array<LineAndColumn, 4>& point_locations) {
+    const auto& [center, i, j, k] = points;
+    const auto& [center_location, i_location, j_location, k_location] = point_locations;
+    spheres.push_back(size());
+    add({center, i, j}, number, {center_location, i_location, j_location});
+    add({k, center, center}, number, {k_location, center_location, center_location});
+  }
+  /// The points of the sphere whose first entry is `index`.
+  [[nodiscard]] SpherePoints sphere_points(std::size_t index) const { return points_of(triangles, index); }
+  static SpherePoints points_of(const std::vector<Triangle>& entries, std::size_t index) {
+    return {entries[index][0], entries[index][1], entries[index][2], entries[index + 1][0]};
   }
   /// Completes triangles that were added to `triangles` alone: their text has four lines each, and the first
   /// vertex of all stands on line `first_vertex`.

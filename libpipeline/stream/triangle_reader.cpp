@@ -121,11 +121,13 @@ bool TriangleReader::read_decimal_triangle(TriangleBatch& batch) {
   const char* const end =
       vertex_line_.read_decimals(buffered.data(), buffered.data() + buffered.size(), lines);
   if (end == nullptr) return false;
-  std::array<VertexLine, 3> vertices;
-  for (std::size_t i = 0; i < 3; ++i) vertices[i] = to_vertex_line(lines[i], vertex_line_.attributes());
-  batch.add({vertices[0].position, vertices[1].position, vertices[2].position}, next_number_++,
+  TriangleLines values;
+  for (std::size_t i = 0; i < 3; ++i)
+    values.vertices[i] = to_vertex_line(lines[i], vertex_line_.attributes());
+  const auto& [a, b, c] = values.vertices;
+  batch.add({a.position, b.position, c.position}, next_number_++,
             locations_of(lines, text_.line_number() + 1));
-  batch.attributes.add(vertices, vertex_line_.attributes());
+  batch.attributes.add(values, vertex_line_.attributes());
   if (marks_decimals_) {
     batch.decimal_marks.resize(batch.size());
     batch.decimal_marks.back() = decimal_marks(lines);
@@ -149,7 +151,7 @@ void TriangleReader::read(LineScanner& line, TriangleBatch& batch) {
   Triangle triangle;
   VertexLocations locations;
   ExactParts exact;
-  std::array<VertexLine, 3> vertices;
+  TriangleLines lines;
   const AttributeSet& attributes = vertex_line_.attributes();
   for (std::size_t i = 0; i < 3; ++i) {
     if (i > 0) next_vertex_line(text_, line, i);
@@ -157,26 +159,31 @@ void TriangleReader::read(LineScanner& line, TriangleBatch& batch) {
     if (marks_decimals_) exact.add_vertex(line, i);
     if (keeps_text_) batch.texts.add_line(line.rest());
     if (attributes.any()) {
-      vertex_line_.read(line, i, vertices);
-      triangle[i] = vertices[i].position;
+      vertex_line_.read(line, i, lines);
+      triangle[i] = lines.vertices[i].position;
     } else {
       triangle[i] = line.vec3(kVertexNames[i]);
     }
   }
   batch.add(triangle, next_number_++, locations);
-  batch.attributes.add(vertices, attributes);
+  batch.attributes.add(lines, attributes);
   if (marks_decimals_) exact.set_last(batch);
   if (keeps_text_) batch.texts.end_triangle();
 }
 
 void next_vertex_line(TextReader& text, LineScanner& line, std::size_t index) {
-  const std::string expected(kVertexNames[index]);
+  next_line_within("a triangle", text, line, std::string(kVertexNames[index]));
+}
+
+void next_line_within(std::string_view object, TextReader& text, LineScanner& line,
+                      const std::string& expected) {
   do {
     if (!text.next_line(line))
       throw InputError(text.end_location(),
-                       expected_but_found(expected, "the end of the input inside a triangle"));
+                       expected_but_found(expected, "the end of the input inside " + std::string(object)));
     if (line.at_end() && !line.is_comment())
-      throw InputError(line.location(), expected_but_found(expected, "a blank line inside a triangle"));
+      throw InputError(line.location(),
+                       expected_but_found(expected, "a blank line inside " + std::string(object)));
   } while (line.at_end());
   if (line.peek() == "error") throw earlier_failure(line);
 }

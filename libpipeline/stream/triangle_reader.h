@@ -32,6 +32,8 @@ class TriangleReader {
   void read_number(LineScanner& line);
   /// Adds the triangle whose first line is `line`. An InputError at the word that is wrong.
   void read(LineScanner& line, TriangleBatch& batch);
+  /// Gives the number of the next triangle to another object.
+  std::uint64_t take_number() { return next_number_++; }
 
  private:
   bool read_fixed_form(TriangleBatch& batch);
@@ -50,5 +52,8 @@ class TriangleReader {
 /// Moves on to the line of vertex `index` (from 0) of a triangle; only comments may stand before it. An
 /// InputError if there is none.
 void next_vertex_line(TextReader& text, LineScanner& line, std::size_t index);
+/// The same for a line of an `object` ("a triangle"); `expected` names the line in messages.
+void next_line_within(std::string_view object, TextReader& text, LineScanner& line,
+                      const std::string& expected);
 
 }  // namespace pipeline

@@ -38,6 +38,8 @@ class TriangleTexts {
     lines_ += '\n';
     ends_.push_back(lines_.size());
   }
+  /// Completes the next triangle without any lines.
+  void end_without_lines() { ends_.push_back(lines_.size()); }
   /// Adds triangles in fixed form (fixed_text.h) with that many decimals.
   void add_fixed_form(std::string_view triangles, int decimals);
 

@@ -5,23 +5,27 @@
 #include <string>
 #include <utility>
 
+#include "libpipeline/numbers/vec_math.h"
+#include "libpipeline/stream/sphere_reader.h"
+
 namespace pipeline {
 
-ModelStage::ModelStage(SceneReader& scene, std::uint64_t first_number)
-    : scene_(scene), next_number_(first_number) {
+ModelStage::ModelStage(SceneReader& scene, std::uint64_t first_number, const SphereForm& spheres)
+    : scene_(scene), refuses_spheres_(spheres.is_refused), next_number_(first_number) {
+  if (spheres.belts) facets_.emplace(*spheres.belts);
   try {
-    read_until_triangle();
+    read_until_object();
   } catch (...) {
     deferred_error_.keep();
   }
 }
 
 /// The output's header needs the complete appearance.
-void ModelStage::read_until_triangle() {
-  while (!done_ && !first_triangle_) {
+void ModelStage::read_until_object() {
+  while (!done_ && !first_object_) {
     const Command command = scene_.next();
-    if (const auto* triangle = std::get_if<TriangleCommand>(&command)) {
-      first_triangle_ = *triangle;
+    if (std::holds_alternative<TriangleCommand>(command) || std::holds_alternative<SphereCommand>(command)) {
+      first_object_ = command;
     } else {
       carry_out(command);
     }
@@ -31,7 +35,18 @@ void ModelStage::read_until_triangle() {
 Appearance ModelStage::appearance() const {
   Appearance appearance = scene_.appearance();
   appearance.lights = lights_;
+  if (facets_) {
+    if (!appearance.attributes) appearance.attributes = {{}, {}};
+    appearance.attributes->value.normal = true;
+  }
   return appearance;
+}
+
+/// Of the triangles that come out.
+AttributeSet ModelStage::columns() const {
+  AttributeSet columns = scene_.appearance().columns();
+  columns.normal |= facets_.has_value();
+  return columns;
 }
 
 bool ModelStage::read(TriangleBatch& batch) {
@@ -61,18 +76,31 @@ void ModelStage::look_for_area(const TriangleBatch& p_model) {
 
 void ModelStage::fill(TriangleBatch& batch) {
   keep_last_run();
-  if (first_triangle_) add(*std::exchange(first_triangle_, std::nullopt), batch);
+  if (first_object_) add_object(*std::exchange(first_object_, std::nullopt), batch);
   while (!done_) {
+    if (faceted_) {
+      if (batch.size() >= kBatchSize) break;
+      add_facets(batch);
+      continue;
+    }
     if (add_buffered(batch)) continue;
     // Triangles are passed on before the reader waits for more text.
     if (!batch.empty() && (batch.size() >= kBatchSize || !scene_.has_buffered_command())) break;
     const Command command = scene_.next();
-    if (const auto* triangle = std::get_if<TriangleCommand>(&command)) {
-      add(*triangle, batch);
-    } else {
-      carry_out(command);
-    }
+    if (!add_object(command, batch)) carry_out(command);
   }
+  if (facets_) add_face_normals(batch);
+}
+
+/// Adds a triangle or a sphere; false for another command.
+bool ModelStage::add_object(const Command& command, TriangleBatch& batch) {
+  if (const auto* triangle = std::get_if<TriangleCommand>(&command))
+    add(*triangle, batch);
+  else if (const auto* sphere = std::get_if<SphereCommand>(&command))
+    add(*sphere, batch);
+  else
+    return false;
+  return true;
 }
 
 /// Adds triangles by the fast path; false if it finds none, or the batch is full.
@@ -95,10 +123,61 @@ void ModelStage::add(const TriangleCommand& triangle, TriangleBatch& batch) {
   begin_run(batch.size());
   batch.add(triangle.p_model, next_number_++, triangle.locations);
   const AttributeSet columns = scene_.appearance().columns();
-  if (columns.any()) batch.attributes.add(scene_.vertices(), columns);
+  if (columns.any()) batch.attributes.add(scene_.lines(), columns);
 }
 
-/// Carries out any command but a triangle.
+/// Adds the sphere that the scene reader returned last, or has its facets come next.
+void ModelStage::add(const SphereCommand& sphere, TriangleBatch& batch) {
+  if (refuses_spheres_) throw refused_sphere(scene_.location());
+  begin_run(batch.size());
+  if (runs_.back().world_from_model.orientation() == 0)
+    throw InputError(scene_.location(),
+                     expected_but_found("transforms that leave a sphere its volume", "a scale by 0"));
+  if (facets_) {
+    faceted_ = sphere;
+    next_facet_ = 0;
+    return;
+  }
+  const auto& [c, r, location] = sphere;
+  batch.add_sphere({c, {c.x + r, c.y, c.z}, {c.x, c.y + r, c.z}, {c.x, c.y, c.z + r}}, next_number_++,
+                   {location, location, location, location});
+  const AttributeSet columns = scene_.appearance().columns();
+  for (int entry = 0; entry < 2 && columns.any(); ++entry) batch.attributes.add(scene_.lines(), columns);
+}
+
+/// Adds facets of the sphere as long as there is room; all have its number. The outside of a mirrored sphere
+/// stays the front.
+void ModelStage::add_facets(TriangleBatch& batch) {
+  const bool is_mirrored = runs_.back().world_from_model.orientation() < 0;
+  const LineAndColumn location = faceted_->center_location;
+  const std::uint64_t number = next_number_;
+  add_face_normals(batch);
+  TriangleLines lines = scene_.lines();
+  for (; next_facet_ < facets_->size() && batch.size() < kBatchSize; ++next_facet_) {
+    auto [corners, normals] = (*facets_)(*faceted_, next_facet_);
+    if (is_mirrored) {
+      std::swap(corners[1], corners[2]);
+      std::swap(normals[1], normals[2]);
+    }
+    batch.add(corners, number, {location, location, location});
+    for (std::size_t i = 0; i < 3; ++i) lines.vertices[i].normal = normals[i];
+    batch.attributes.add(lines, columns());
+  }
+  if (next_facet_ < facets_->size()) return;
+  faceted_.reset();
+  ++next_number_;
+}
+
+/// Gives the triangles that have no normals that of their front.
+void ModelStage::add_face_normals(TriangleBatch& batch) const {
+  for (std::size_t i = batch.attributes.normals.size(); i < batch.size(); ++i) {
+    const auto& [a, b, c] = batch.triangles[i];
+    const Vec3 normal = unit_vector(cross(difference(b, a), difference(c, a)));
+    batch.attributes.normals.push_back({normal, normal, normal});
+  }
+}
+
+/// Carries out any command but a triangle or a sphere.
 void ModelStage::carry_out(const Command& command) {
   if (const auto* translate = std::get_if<TranslateCommand>(&command)) {
     stack_.translate(translate->offset);
@@ -134,7 +213,7 @@ void ModelStage::begin_run(std::size_t first) {
   if (!is_matrix_new_) return;
   is_matrix_new_ = false;
   runs_.push_back({first, VertexTransform(stack_.top()), std::nullopt});
-  if (scene_.appearance().columns().normal) runs_.back().world_normal_from_model.emplace(stack_.top());
+  if (columns().normal) runs_.back().world_normal_from_model.emplace(stack_.top());
 }
 
 void ModelStage::push() {

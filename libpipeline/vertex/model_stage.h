@@ -11,16 +11,24 @@
 #include "libpipeline/vertex/attribute_transform.h"
 #include "libpipeline/vertex/coordinate_rounder.h"
 #include "libpipeline/vertex/matrix_stack.h"
+#include "libpipeline/vertex/sphere_facets.h"
 #include "libpipeline/vertex/vertex_transform.h"
 
 namespace pipeline {
+
+/// What becomes of a scene's spheres.
+struct SphereForm {
+  bool is_refused = false;
+  /// If given, a sphere becomes this many belts of facets (SphereFacets), and all triangles get normals.
+  std::optional<std::size_t> belts;
+};
 
 /// The model stage: carries out a scene's commands, model space to world space.
 class ModelStage {
  public:
   /// Carries out the commands before the first triangle; an error there is thrown by the first `read`.
   /// Triangles are numbered from `first_number` on.
-  explicit ModelStage(SceneReader& scene, std::uint64_t first_number = 0);
+  explicit ModelStage(SceneReader& scene, std::uint64_t first_number = 0, const SphereForm& spheres = {});
 
   /// The scene's color and light, the lights in world space.
   [[nodiscard]] Appearance appearance() const;
@@ -46,10 +54,15 @@ class ModelStage {
     std::optional<NormalTransform> world_normal_from_model;
   };
 
-  void read_until_triangle();
+  void read_until_object();
   void fill(TriangleBatch& batch);
   bool add_buffered(TriangleBatch& batch);
+  bool add_object(const Command& command, TriangleBatch& batch);
   void add(const TriangleCommand& triangle, TriangleBatch& batch);
+  void add(const SphereCommand& sphere, TriangleBatch& batch);
+  void add_facets(TriangleBatch& batch);
+  void add_face_normals(TriangleBatch& batch) const;
+  [[nodiscard]] AttributeSet columns() const;
   void carry_out(const Command& command);
   void keep_last_run();
   void begin_run(std::size_t first);
@@ -63,9 +76,13 @@ class ModelStage {
   std::vector<Run> runs_;               // of the batch that was read last
   std::vector<Located<Light>> lights_;  // in world space
   UncertainDigits uncertain_lights_;
-  std::optional<SourceLocation> scale_by_0_;       // the first
-  bool has_area_ = false;                          // some triangle has, in world space
-  std::optional<TriangleCommand> first_triangle_;  // read, but not yet in a batch
+  std::optional<SourceLocation> scale_by_0_;  // the first
+  bool has_area_ = false;                     // some triangle has, in world space
+  std::optional<Command> first_object_;       // read, but not yet in a batch
+  bool refuses_spheres_;
+  std::optional<SphereFacets> facets_;
+  std::optional<SphereCommand> faceted_;  // the sphere whose facets come next
+  std::size_t next_facet_ = 0;
   std::uint64_t next_number_;
   bool done_ = false;
   DeferredError deferred_error_;

@@ -187,15 +187,15 @@ bool ProjectionStage::is_well_inside(const Triangle& p_view) const {
 void ProjectionStage::add_attributes(const TriangleBatch& p_view, std::size_t index,
                                      const std::array<CornerMix, 3>& mixes, TriangleBatch& p_ndc) {
   const AttributeArrays& corners = p_view.attributes;
-  std::array<VertexLine, 3> vertices;
+  TriangleLines lines;
   for (std::size_t v = 0; v < 3; ++v) {
-    vertices[v].w = mixes[v].w;
-    if (!corners.colors.empty())
-      vertices[v].color = clamped_color(mean(corners.colors[index], mixes[v].weights));
-    if (!corners.normals.empty()) vertices[v].normal = mean(corners.normals[index], mixes[v].weights);
-    if (!corners.materials.empty()) vertices[v].material = corners.materials[index];
+    VertexLine& vertex = lines.vertices[v];
+    vertex.w = mixes[v].w;
+    if (!corners.colors.empty()) vertex.color = clamped_color(mean(corners.colors[index], mixes[v].weights));
+    if (!corners.normals.empty()) vertex.normal = mean(corners.normals[index], mixes[v].weights);
   }
-  p_ndc.attributes.add(vertices,
+  if (!corners.materials.empty()) lines.material = corners.materials[index];
+  p_ndc.attributes.add(lines,
                        {true, !corners.colors.empty(), !corners.normals.empty(), !corners.materials.empty()});
 }
 
@@ -290,7 +290,6 @@ std::shared_ptr<const ClipTriangle> ProjectionStage::unclipped_in_clip_space(
     is_certain[v] = x.is_certain && y.is_certain && z.is_certain;
     if (!attributes.colors.empty()) triangle[v].color = attributes.colors[index][v];
     if (!attributes.normals.empty()) triangle[v].normal = attributes.normals[index][v];
-    if (!attributes.materials.empty()) triangle[v].material = attributes.materials[index];
   }
   for (std::size_t v = 0; v < 3; ++v)
     if (!is_certain[v]) rounder_.add_uncertain(p_view.locations[index][v]);

@@ -72,6 +72,12 @@ bool VertexTransform::flattens(const Triangle& triangle) const {
   return normal.x.sign() == 0 && normal.y.sign() == 0 && normal.z.sign() == 0;
 }
 
+int VertexTransform::orientation() const {
+  const auto linear = [](const std::array<Ball, 4>& row) { return BallVec3{row[0], row[1], row[2]}; };
+  const auto& [x, y, z] = matrix_.rows;
+  return dot(linear(x), cross(linear(y), linear(z))).sign();
+}
+
 /// Replaces triangle `index` of a block by its image; vertices that failed the rounding test are calculated
 /// again.
 void VertexTransform::set_image(TriangleBatch& batch, const TransformedBlock& block, std::size_t index,

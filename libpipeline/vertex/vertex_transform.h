@@ -28,6 +28,9 @@ class VertexTransform {
   }
   /// Whether the image of a triangle has no area, as far as 31 digits can tell.
   [[nodiscard]] bool flattens(const Triangle& triangle) const;
+  /// The sign of the determinant: -1 if space is mirrored, 0 if it is flattened, as far as 31 digits can
+  /// tell.
+  [[nodiscard]] int orientation() const;
 
  private:
   /// Some triangles of a batch, from `first_triangle` on, and their images by a kernel.

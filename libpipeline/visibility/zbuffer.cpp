@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "libpipeline/numbers/column_search.h"
+#include "libpipeline/visibility/available_memory.h"
 
 namespace pipeline {
 namespace {
@@ -34,6 +35,9 @@ bool draw_pixel_by_pixel(const Span& span, PixelTag tag, const Depth& format, do
   return is_any_won;
 }
 
+/// In bytes. Filling them takes a hundred times as long as asking whether they are there.
+constexpr std::size_t kCheckedChunk = std::size_t{16} << 20;
+
 }  // namespace
 
 template <typename Depth>
@@ -51,6 +55,11 @@ ZBuffer<Depth>::ZBuffer(const Viewport& screen, PixelTag background)
 
 template <typename Depth>
 void ZBuffer<Depth>::fill_row(int row) {
+  // Its turn comes once for each chunk, on whatever thread; never in pictures of less than a chunk.
+  const std::size_t row_size =
+      static_cast<std::size_t>(depths_.columns()) * (sizeof(Stored) + sizeof(PixelTag));
+  const std::size_t rows_of_chunk = kCheckedChunk / row_size + 1;
+  if (index_of(row) % rows_of_chunk == rows_of_chunk - 1) expect_available_memory(kCheckedChunk);
   std::ranges::fill(depths_.row(row), rear_);
   std::ranges::fill(tags_.row(row), background_);
   is_filled_[index_of(row)] = 1;

@@ -492,5 +492,25 @@ TEST(CoverageCenter, ATriangleOfOneDepthHasJustThatEverywhere) {
   }
 }
 
+TEST(CoverageCenter, OnTheFinestGridTheFirstColumnIsExact) {
+  // That of 256 places in each of 16 samples; the limit has 44 bits and no factor in common with it.
+  constexpr std::int64_t kColumns = 65535 * 16 * 256, kLimit = 10'000'000'000'001;
+  const ExactGrid grid(decimal_screen(kColumns, 1, -static_cast<double>(kLimit) / 1e7));
+  // The center of column i is at (2 i + 1 - kColumns) kLimit / kColumns.
+  const auto first_from = [&](std::int64_t x) {
+    return static_cast<int>((Int128{x} * kColumns + Int128{kColumns - 1} * kLimit + 2 * kLimit - 1) /
+                            (2 * kLimit));
+  };
+  for (const std::int64_t x : {-kLimit, -kLimit + 37'000, std::int64_t{-4'000'000'000}, std::int64_t{-1},
+                               std::int64_t{0}, std::int64_t{1}, std::int64_t{123'456'789'012}}) {
+    const std::int64_t right = std::max(x + 1'000'000'000, std::int64_t{4'000'000'000});
+    const TextTriangle t = triangle_of(UnitTriangle{{{x, -30'000'000}, {x, 30'000'000}, {right, 0}}});
+    const std::optional<Span> span = CenterRows(grid, t.exact()).span(0);
+    ASSERT_TRUE(span);
+    EXPECT_EQ(span->first_column, first_from(x)) << x;
+    EXPECT_EQ(span->last_column, first_from(right) - 1) << x;
+  }
+}
+
 }  // namespace
 }  // namespace pipeline

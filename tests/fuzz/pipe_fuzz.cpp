@@ -1,5 +1,5 @@
 // The whole pipe in one process: the four tools' own main functions, each reading the output of the previous
-// one. The first byte of the input selects options, the rest is the scene.
+// one, and trace's beside the last two. The first byte of the input selects options, the rest is the scene.
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -18,6 +18,7 @@ int model_main(int argc, char** argv);
 int view_main(int argc, char** argv);
 int project_main(int argc, char** argv);
 int zbuf_main(int argc, char** argv);
+int trace_main(int argc, char** argv);
 
 namespace pipeline {
 namespace {
@@ -99,22 +100,50 @@ Run run_stage(int (*tool)(int, char**), const std::vector<std::string>& words, c
   return done;
 }
 
-std::pair<Run, std::string> draw(std::vector<std::string> words, const std::string& input) {
+std::pair<Run, std::string> draw(int (*tool)(int, char**), std::vector<std::string> words,
+                                 const std::string& input) {
   const TextFile config("9 7\n"), image("");
   const auto path_of = [](const TextFile& file) { return "/dev/fd/" + std::to_string(file.descriptor()); };
   words.insert(words.end(), {path_of(config), "--image", path_of(image)});
-  Run done = run(zbuf_main, words, input);
+  Run done = run(tool, words, input);
   check_messages(done);
   return {std::move(done), image.whole_text()};
 }
 
 void check_picture(const Run& projected, const std::string& coverage) {
-  const auto [buffered, picture] = draw({"zbuf", "--coverage", coverage}, projected.output);
+  const auto [buffered, picture] = draw(zbuf_main, {"zbuf", "--coverage", coverage}, projected.output);
   require(buffered.status == projected.status, "what project has written can be drawn");
   require(buffered.status == 0 || (buffered.output.empty() && picture.empty()), "a failed run draws nothing");
   const auto [swept, swept_picture] =
-      draw({"zbuf", "--coverage", coverage, "--algorithm", "scanline"}, projected.output);
+      draw(zbuf_main, {"zbuf", "--coverage", coverage, "--algorithm", "scanline"}, projected.output);
   require(swept.output == buffered.output && swept_picture == picture, "both algorithms draw the same");
+}
+
+/// What rays find is what the z-buffer draws; random samples need no order. Light does what it likes, but
+/// alike on all threads.
+void check_rays(const Run& viewed) {
+  const std::vector<std::string> plain = {"trace", "--threads", "1", "--no-shadows", "--no-recursion"};
+  const auto traced = [&](std::vector<std::string> words, const std::vector<std::string>& more) {
+    words.insert(words.end(), more.begin(), more.end());
+    return draw(trace_main, words, viewed.output);
+  };
+  const auto [rays, picture] = traced(plain, {});
+  require(rays.status == 0 || (rays.output.empty() && picture.empty()), "a failed run draws nothing");
+  // project refuses spheres.
+  if (viewed.output.find("sphere") == std::string::npos) {
+    const Run projected = run(project_main, {"project", "--digits", "exact"}, viewed.output);
+    const auto [buffered, drawn] = draw(zbuf_main, {"zbuf", "--coverage", "center"}, projected.output);
+    require(buffered.status == rays.status, "both draw, or none");
+    require(buffered.output == rays.output && drawn == picture, "rays find what the z-buffer draws");
+  }
+  const std::vector<std::string> jittered = {"--samples", "2", "--sampling", "jittered"};
+  const std::vector<std::string> adaptive = {"--samples", "2", "--sampling", "adaptive", "--threshold", "0"};
+  require(traced(plain, jittered).second == traced(plain, adaptive).second,
+          "a threshold of 0 takes all samples");
+  const auto lit = traced({"trace", "--threads", "1"}, {}),
+             on_threads = traced({"trace", "--threads", "3"}, {});
+  require(lit.first.status == rays.status && lit.first.output == rays.output, "light changes no depth");
+  require(lit.second == on_threads.second, "threads change nothing");
 }
 
 void check(FuzzBytes bytes) {
@@ -133,6 +162,7 @@ void check(FuzzBytes bytes) {
   const std::string& clip = clips[static_cast<std::size_t>(options >> 2 & 3)];
   const Run projected = run_stage(project_main, with_digits({"project", "--clip", clip}), viewed);
   check_picture(projected, (options & 16) != 0 ? "center" : "nearest");
+  if ((options & 32) != 0) check_rays(viewed);
 }
 
 }  // namespace

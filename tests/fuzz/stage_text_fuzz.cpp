@@ -21,6 +21,7 @@ void copy(TextReader& text, TextWriter& output, NumberFormat format, Reading rea
   constexpr std::size_t kPartSize = 200;  // two triangles
   static ThreadPool pool(2);
   StageReader reader(text, true);
+  reader.accept_spheres();
   StageWriter writer(output, format, false);
   writer.write_header(reader.header());
   if (reading == Reading::in_order) return write_all(reader, writer);

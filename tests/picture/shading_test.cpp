@@ -80,48 +80,48 @@ TEST(Shading, LightFromADistanceBeyondADoubleIsWeakenedOnlyAsAsked) {
 TEST(Shading, TheHighlightTakesTheHalfVectorToThePowerAndTheLightsColor) {
   // l = (4 0 3) / 5 and v = (0 0 1): h = (4 0 8) / sqrt 80, n.h = 2 / sqrt 5, to the power 4 it is 16 / 25.
   Lighting lighting = lit_by({4, 0, 1}, {1, 0.5, 0});
-  lighting.material = {1, 0, 0.5, 4};
-  expect_near(lit_color(kFacing, lighting), {255 * 0.5 * 0.64, 255 * 0.25 * 0.64, 0});
+  const Material material = {1, 0, 0.5, 4};
+  expect_near(lit_color(kFacing, lighting, material), {255 * 0.5 * 0.64, 255 * 0.25 * 0.64, 0});
 }
 
 TEST(Shading, ALightBehindTheSurfaceGivesNoHighlight) {
   // l = (4 0 -3) / 5 and v = (0 0 1): h = (4 0 2) / sqrt 20, n.h = 1 / sqrt 5, but n.l = -0.6.
   Lighting lighting = lit_by({4, 0, -5}, {1, 1, 1});
-  lighting.material = {1, 1, 1, 2};
-  EXPECT_EQ(lit_color(kFacing, lighting), (Vec3{}));
+  Material material = {1, 1, 1, 2};
+  EXPECT_EQ(lit_color(kFacing, lighting, material), (Vec3{}));
   // Opposite the eye h is 0, and 0 to the power 0 is 1.
   lighting.lights = {{{0, 0, -5}, {1, 1, 1}}};
-  lighting.material.shininess = 0;
-  EXPECT_EQ(lit_color(kFacing, lighting), (Vec3{}));
+  material.shininess = 0;
+  EXPECT_EQ(lit_color(kFacing, lighting, material), (Vec3{}));
 }
 
 TEST(Shading, ALightInTheSurfacesPlaneGivesNoHighlight) {
   // n.l = 0; h = (1 0 1) / sqrt 2, n.h squared is 1 / 2.
   Lighting lighting = lit_by({1, 0, -2}, {1, 1, 1});
-  lighting.material = {1, 1, 1, 2};
-  EXPECT_EQ(lit_color(kFacing, lighting), (Vec3{}));
+  const Material material = {1, 1, 1, 2};
+  EXPECT_EQ(lit_color(kFacing, lighting, material), (Vec3{}));
   // Just above the plane, the whole highlight is there: n.l = 2^-20, n.h squared is about (1 + 2^-20) / 2.
   lighting.lights = {{{1, 0, -2 + 0x1p-20}, {1, 1, 1}}};
-  EXPECT_NEAR(lit_color(kFacing, lighting).y, 127.5 + (127.5 + 128) * 0x1p-20, 1e-9);
+  EXPECT_NEAR(lit_color(kFacing, lighting, material).y, 127.5 + (127.5 + 128) * 0x1p-20, 1e-9);
 }
 
 TEST(Shading, OneLightBehindTheSurfaceTakesNothingFromTheOthers) {
   Lighting lighting = lit_by({4, 0, -5}, {1, 1, 1});
   lighting.lights.push_back({{4, 0, 1}, {1, 0.5, 0}});
-  lighting.material = {1, 0, 0.5, 4};
-  expect_near(lit_color(kFacing, lighting), {255 * 0.5 * 0.64, 255 * 0.25 * 0.64, 0});
+  const Material material = {1, 0, 0.5, 4};
+  expect_near(lit_color(kFacing, lighting, material), {255 * 0.5 * 0.64, 255 * 0.25 * 0.64, 0});
 }
 
 TEST(Shading, TheEyeOfAnOrthographicViewIsFarAway) {
   // The light stands above the point, so h = (0 0 1); seen from an eye at the origin it would not be.
   const SurfacePoint point = {{3, 0, -4}, {0, 0, 1}, {0, 0, 0}};
   Lighting lighting = lit_by({3, 0, 0}, {1, 1, 1});
-  lighting.material = {1, 1, 1, 2};
+  const Material material = {1, 1, 1, 2};
   lighting.is_perspective = false;
-  EXPECT_EQ(lit_color(point, lighting), (Vec3{255, 255, 255}));
+  EXPECT_EQ(lit_color(point, lighting, material), (Vec3{255, 255, 255}));
   // v = (-3 0 4) / 5, l = (0 0 1): h = (-3 0 9) / sqrt 90, n.h squared is 81 / 90.
   lighting.is_perspective = true;
-  expect_near(lit_color(point, lighting), {229.5, 229.5, 229.5});
+  expect_near(lit_color(point, lighting, material), {229.5, 229.5, 229.5});
 }
 
 TEST(Shading, LightsAddUp) {

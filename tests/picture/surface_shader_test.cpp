@@ -99,5 +99,36 @@ TEST(SurfaceShader, AWireframeHasNoEdgeBetweenPiecesOneOfWhichWasKept) {
   EXPECT_EQ(shader.shade(0, second)[0], Color());
 }
 
+TEST(SurfaceShader, ColorsOfTrianglesThatAreNotKeptAreTheSame) {
+  const Viewport screen = {9, 7};
+  TriangleBatch batch;
+  batch.add({Vec3{-4, -3, 0}, Vec3{4, -3, 0.5}, Vec3{0, 5, 0.25}}, 0, {});
+  batch.attributes.colors = {kColors};
+  batch.attributes.w = {{1, 3, 2}};
+  SurfaceShader shader(screen, {});
+  const SurfaceShader::Surface surface = shader.surface_of(batch, 0, Color());
+  EXPECT_EQ(shader.size(), 0u);
+  const std::vector<SurfaceShader::SurfaceId> ids(9, shader.add(batch, 0, Color()));
+  for (int row = 0; row < screen.rows; ++row) {
+    const auto colors = shader.shade(row, ids);
+    for (int column = 0; column < screen.columns; ++column)
+      EXPECT_EQ(shader.color_at(surface, row, column), colors[static_cast<std::size_t>(column)]);
+  }
+}
+
+TEST(SurfaceShader, WhatThreadsHaveShownCounts) {
+  ShownColors first, second;
+  first.add_triangle(kColors);
+  second.add_pixel({0, 0, 1}, {});
+  SurfaceShader shader(kOnePixel, {});
+  shader.add_shown(first);
+  shader.add_shown(second);
+  EXPECT_FALSE(shader.shown().show_something);
+  EXPECT_GT(shader.shown().greatest_channel, 1);
+  second.add_pixel({0, 2, 0}, {});
+  shader.add_shown(second);
+  EXPECT_TRUE(shader.shown().show_something);
+}
+
 }  // namespace
 }  // namespace pipeline

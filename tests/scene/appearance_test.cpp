@@ -20,7 +20,7 @@ const std::string kTriangle = "triangle\n0 0 0\n1 0 0\n0 1 0\n";
 struct ReadScene {
   Appearance appearance;
   std::vector<Light> lights;
-  std::vector<std::array<VertexLine, 3>> triangles;
+  std::vector<TriangleLines> triangles;
 };
 
 ReadScene scene_of(const std::string& commands) {
@@ -31,7 +31,7 @@ ReadScene scene_of(const std::string& commands) {
   for (Command command = reader.next(); !std::holds_alternative<EndCommand>(command);
        command = reader.next()) {
     if (const auto* light = std::get_if<LightCommand>(&command)) scene.lights.push_back(light->light.value);
-    if (std::holds_alternative<TriangleCommand>(command)) scene.triangles.push_back(reader.vertices());
+    if (std::holds_alternative<TriangleCommand>(command)) scene.triangles.push_back(reader.lines());
   }
   scene.appearance = reader.appearance();
   return scene;
@@ -53,7 +53,7 @@ TEST(Appearance, TakesEveryCommandOnItsOwnLineOrTheNext) {
         scene_of("background" + blank + "0 127.5 255\nambient" + blank + "0.1 0.2 0.3\nmaterial" + blank +
                  "0.5 0.25 2 40\nattenuation" + blank + "1 0 0.5\nlight" + blank + "1 2 3 0.5 1 2\nlight" +
                  blank + "4 5 6 1 1 1\n");
-    EXPECT_EQ(scene.appearance.background->value, (Vec3{0, 127.5, 255}));
+    EXPECT_EQ(scene.appearance.background->value.color, (Vec3{0, 127.5, 255}));
     EXPECT_EQ(scene.appearance.ambient->value, (Vec3{0.1, 0.2, 0.3}));
     EXPECT_EQ(scene.appearance.materials.at(0).value.diffuse, 0.25);
     EXPECT_EQ(scene.appearance.materials.at(0).value.shininess, 40u);
@@ -68,16 +68,16 @@ TEST(Appearance, TakesEveryCommandOnItsOwnLineOrTheNext) {
 TEST(Appearance, TheCurrentColorIsThatOfEveryVertexUntilItChanges) {
   const ReadScene scene = scene_of("color 1 2 3\n" + kTriangle + "color\n4 5 6\n" + kTriangle);
   EXPECT_TRUE(scene.appearance.columns() == (AttributeSet{false, true, false}));
-  EXPECT_EQ(scene.triangles.at(0)[2].color, (Vec3{1, 2, 3}));
-  EXPECT_EQ(scene.triangles.at(1)[0].color, (Vec3{4, 5, 6}));
+  EXPECT_EQ(scene.triangles.at(0).vertices[2].color, (Vec3{1, 2, 3}));
+  EXPECT_EQ(scene.triangles.at(1).vertices[0].color, (Vec3{4, 5, 6}));
 }
 
 TEST(Appearance, VerticesCarryTheAttributesAskedFor) {
   const ReadScene scene = scene_of(
       "attributes color normal\ntriangle\n0 1 2 3 4 5 6 7 8\n0 0 0 0 0 255 0 0 1\n0 0 0 9 9 9 1 0 0\n");
-  EXPECT_EQ(scene.triangles.at(0)[0].position, (Vec3{0, 1, 2}));
-  EXPECT_EQ(scene.triangles.at(0)[0].color, (Vec3{3, 4, 5}));
-  EXPECT_EQ(scene.triangles.at(0)[0].normal, (Vec3{6, 7, 8}));
+  EXPECT_EQ(scene.triangles.at(0).vertices[0].position, (Vec3{0, 1, 2}));
+  EXPECT_EQ(scene.triangles.at(0).vertices[0].color, (Vec3{3, 4, 5}));
+  EXPECT_EQ(scene.triangles.at(0).vertices[0].normal, (Vec3{6, 7, 8}));
 }
 
 TEST(Appearance, TheCurrentColorGoesWithNormalsInEitherOrder) {
@@ -86,8 +86,8 @@ TEST(Appearance, TheCurrentColorGoesWithNormalsInEitherOrder) {
        {"color 1 2 3\nattributes normal\n", "attributes normal\ncolor 1 2 3\n"}) {
     const ReadScene scene = scene_of(commands + triangle);
     EXPECT_TRUE(scene.appearance.columns() == (AttributeSet{false, true, true}));
-    EXPECT_EQ(scene.triangles.at(0)[1].color, (Vec3{1, 2, 3}));
-    EXPECT_EQ(scene.triangles.at(0)[1].normal, (Vec3{0, 0, 1}));
+    EXPECT_EQ(scene.triangles.at(0).vertices[1].color, (Vec3{1, 2, 3}));
+    EXPECT_EQ(scene.triangles.at(0).vertices[1].normal, (Vec3{0, 0, 1}));
   }
 }
 
@@ -117,6 +117,21 @@ TEST(Appearance, ANormalIsNotZero) {
             "scene.txt:7:7: expected a normal of vertex 1 of 3 other than 0 0 0, found 0 0 0");
 }
 
+TEST(Appearance, ABackgroundMayHaveAnAlpha) {
+  const auto alpha_of = [](const std::string& numbers) {
+    return scene_of("background " + numbers + "\n").appearance.background->value.alpha;
+  };
+  EXPECT_EQ(alpha_of("1 2 3"), 255);
+  EXPECT_EQ(alpha_of("1 2 3 0"), 0);
+  EXPECT_EQ(alpha_of("1 2 3 254.5 # a comment"), 254.5);
+  EXPECT_EQ(error_of("background 1 2 3 255.5\n"),
+            "scene.txt:5:18: expected the alpha of the background from 0 to 255, found '255.5'");
+  EXPECT_EQ(error_of("background 1 2 3 -1\n"),
+            "scene.txt:5:18: expected the alpha of the background from 0 to 255, found '-1'");
+  EXPECT_EQ(error_of("background 1 2 3 4 5\n"),
+            "scene.txt:5:20: expected the end of the line after the alpha of the background, found '5'");
+}
+
 TEST(Appearance, NoNormalOfACompleteTriangleIsZero) {
   for (std::size_t zero = 0; zero < 3; ++zero) {
     std::array<std::string, 3> lines = {"0 0 0 0 0 1\n", "1 0 0 0 0 1\n", "0 1 0 0 0 1\n"};
@@ -140,10 +155,9 @@ TEST(Appearance, TheCurrentMaterialIsThatOfEveryVertexUntilItChanges) {
                                    kTriangle + "use\n0\n" + kTriangle);
   EXPECT_TRUE(scene.appearance.columns() == (AttributeSet{.material = true}));
   ASSERT_EQ(scene.triangles.size(), 3u);
-  EXPECT_EQ(scene.triangles[0][2].material, 0u);
-  EXPECT_EQ(scene.triangles[1][0].material, 1u);
-  EXPECT_EQ(scene.triangles[1][2].material, 1u);
-  EXPECT_EQ(scene.triangles[2][1].material, 0u);
+  EXPECT_EQ(scene.triangles[0].material, 0u);
+  EXPECT_EQ(scene.triangles[1].material, 1u);
+  EXPECT_EQ(scene.triangles[2].material, 0u);
 }
 
 TEST(Appearance, OneMaterialNeedsNoColumn) {

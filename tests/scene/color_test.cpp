@@ -72,9 +72,22 @@ TEST(ParseColor, TakesSixHexadecimalDigits) {
   EXPECT_EQ(parse_color("000000"), Color());
 }
 
+TEST(ParseColor, TakesAnAlphaBehindThem) {
+  const Color color = parse_color("0a1B9f7F").value();
+  EXPECT_EQ(color, Color(0x0a, 0x1b, 0x9f).with_alpha(0x7f));
+  EXPECT_EQ(color.red(), 0x0a);
+  EXPECT_EQ(color.green(), 0x1b);
+  EXPECT_EQ(color.blue(), 0x9f);
+  EXPECT_EQ(color.alpha(), 0x7f);
+  EXPECT_FALSE(color.is_opaque());
+  EXPECT_EQ(parse_color("0a1b9fFF"), Color(0x0a, 0x1b, 0x9f));
+  EXPECT_TRUE(Color(1, 2, 3).is_opaque());
+  EXPECT_EQ(Color(1, 2, 3).alpha(), 255);
+}
+
 TEST(ParseColor, TakesNothingElse) {
-  for (const char* const word :
-       {"", "fff", "12345", "1234567", "#12345", "12345g", "12345G", "0x1234", "12 456", "-12345"})
+  for (const char* const word : {"", "fff", "12345", "1234567", "#12345", "12345g", "12345G", "0x1234",
+                                 "12 456", "-12345", "1234567g", "123456789"})
     EXPECT_EQ(parse_color(word), std::nullopt) << word;
 }
 

@@ -114,7 +114,7 @@ TEST(Scene, TrianglesAreTheSameByEitherPath) {
 
 TEST(Scene, CountsTheLinesOfTrianglesInFixedForm) {
   const std::string error =
-      error_of_commands("triangle\n1 2 3\n4 5 6\n7 8 9\n\ntriangle\n1 2 3\n4 5 6\n7 8 9\nsphere\n");
+      error_of_commands("triangle\n1 2 3\n4 5 6\n7 8 9\n\ntriangle\n1 2 3\n4 5 6\n7 8 9\ncube\n");
   EXPECT_EQ(error.substr(0, error.find(' ')), "scene.txt:14:1:");
 }
 
@@ -335,12 +335,12 @@ TEST(Scene, NothingFollowsTheEnd) {
 }
 
 const std::string kFirstCommands =
-    "a command (triangle, translate, scale, rotate, push, pop or end; before the first triangle also color, "
+    "a command (triangle, sphere, translate, scale, rotate, push, pop or end; before the first triangle also "
+    "color, "
     "attributes, background, light, ambient, material or attenuation)";
 
 TEST(Scene, NamesACommandItDoesNotKnow) {
-  EXPECT_EQ(error_of_commands("  sphere 1\n"),
-            "scene.txt:5:3: expected " + kFirstCommands + ", found 'sphere'");
+  EXPECT_EQ(error_of_commands("  cube 1\n"), "scene.txt:5:3: expected " + kFirstCommands + ", found 'cube'");
 }
 
 TEST(Scene, CommandsAreInLowerCase) {
@@ -350,14 +350,15 @@ TEST(Scene, CommandsAreInLowerCase) {
 
 TEST(Scene, NamesColorWhereItMayChange) {
   EXPECT_EQ(error_of_commands("color 1 2 3\ntriangle\n0 0 0\n1 0 0\n0 1 0\ncube\n"),
-            "scene.txt:10:1: expected a command (triangle, translate, scale, rotate, push, pop or end; also "
+            "scene.txt:10:1: expected a command (triangle, sphere, translate, scale, rotate, push, pop or "
+            "end; also "
             "color), found 'cube'");
 }
 
 TEST(Scene, AFourthVertexIsNoCommand) {
-  EXPECT_EQ(
-      error_of_commands("triangle\n0 0 0\n1 0 0\n0 1 0\n1 1 0\nend\n"),
-      "scene.txt:9:1: expected a command (triangle, translate, scale, rotate, push, pop or end), found '1'");
+  EXPECT_EQ(error_of_commands("triangle\n0 0 0\n1 0 0\n0 1 0\n1 1 0\nend\n"),
+            "scene.txt:9:1: expected a command (triangle, sphere, translate, scale, rotate, push, pop or "
+            "end), found '1'");
 }
 
 TEST(Scene, ATriangleLacksAVertex) {

@@ -543,6 +543,42 @@ TEST(StageReader, NamesAttributesItDoesNotKnow) {
       "in.txt:1:19: expected attributes of [w] [color] [normal] [material], in this order, found 'color'");
 }
 
+const std::string kTwoMaterials = "attributes w material\nmaterial 1 1 0 1\nmaterial 1 1 0 2\n";
+
+TEST(StageReader, FindsAWrongMaterialBehindABlockOfTriangles) {
+  const std::string good = "0 0 0 1 1\n1 0 0 1 1\n0 1 0 1 1\n\n";
+  EXPECT_EQ(error_of(kTwoMaterials + good + good + "0 0 0 1 1\n1 0 0 1 0\n0 1 0 1 1\n\n"),
+            "in.txt:13:9: expected the material of the triangle's first vertex, 1, found '0'");
+  EXPECT_EQ(error_of(kTwoMaterials + good + "0 0 0 1 2\n1 0 0 1 2\n0 1 0 1 2\n\n"),
+            "in.txt:8:9: expected the material of vertex 1 of 3 (x y z w material, by the line 'attributes w "
+            "material'), a whole number below 2, found '2'");
+}
+
+TEST(StageReader, APieceHasTheMaterialOfTheTriangleItWasCutFrom) {
+  const auto pieces = [](const std::string& first, const std::string& second) {
+    const auto triangle = [](const std::string& material) {
+      return "0 0 0 1 " + material + "\n1 0 0 1 " + material + "\n0 1 0 1 " + material + "\n\n";
+    };
+    return kTwoMaterials + "clipped\n" + triangle("1") + triangle(first) + "triangle 0\n" + triangle(second) +
+           triangle("0");
+  };
+  const auto error_in = [](const std::string& in) {
+    const TextFile file(in);
+    TextReader text(file.descriptor(), "in.txt");
+    StageReader reader(text);
+    reader.accept_clipped();
+    return message_of([&] {
+      for (TriangleBatch batch; reader.read(batch);) {
+      }
+    });
+  };
+  EXPECT_EQ(error_in(pieces("1", "1")), "no error");
+  EXPECT_EQ(error_in(pieces("0", "1")),
+            "in.txt:9:9: expected the material of the triangle that was clipped, 1, found '0'");
+  EXPECT_EQ(error_in(pieces("1", "0")),
+            "in.txt:14:9: expected the material of the triangle that was clipped, 1, found '0'");
+}
+
 TEST(StageReader, LooksStandBeforeTheFirstTriangle) {
   EXPECT_EQ(error_of(kTriangle + "light 0 0 0 1 1 1\n"),
             "in.txt:5:1: expected header lines before the first triangle, found 'light'");

@@ -67,6 +67,31 @@ TEST(StageText, ColorAndLightComeBackAsTheyWere) {
   EXPECT_EQ(copy_of(text, {.shortest = true}, false), text);
 }
 
+/// Triangle `n` in fixed form, with the columns color, normal and material.
+std::string with_material(int n, int material) {
+  std::string text;
+  for (int vertex = 0; vertex < 3; ++vertex)
+    text += std::to_string(n) + ".25 -0.50 " + std::to_string(vertex) + ".75 10.00 20.50 " +
+            std::to_string(n % 256) + ".00 0.00 1.00 -0.25 " + std::to_string(material) + "\n";
+  return text + "\n";
+}
+
+// More triangles than a block has, runs of a material, and lines that only the general reader takes.
+TEST(StageText, MaterialsComeBackAsTheyWereInBlocksAndLineByLine) {
+  std::string header = "attributes color normal material\n", text, odd;
+  for (int i = 0; i < 120; ++i) header += "material 1 1 0 " + std::to_string(i) + "\n";
+  for (int n = 0; n < 700; ++n) {
+    const std::string triangle = with_material(n, n / 6 % 120);
+    text += triangle;
+    odd += n % 50 == 7 ? "\t" + triangle : triangle;
+  }
+  EXPECT_EQ(copy_of(header + text, {.decimals = 2}, false), header + text);
+  EXPECT_EQ(copy_of(header + odd, {.decimals = 2}, false), header + text);
+  const std::string shortest = copy_of(header + text, {.shortest = true}, false);
+  EXPECT_NE(shortest, header + text);
+  EXPECT_EQ(copy_of(shortest, {.decimals = 2}, false), header + text);
+}
+
 TEST(StageText, BareTextHasNoColumns) {
   EXPECT_EQ(copy_of(kLooks + kFullTriangle, {.decimals = 0}, true), "1 2 3\n4 5 6\n7 8 9\n\n");
 }

@@ -27,9 +27,14 @@ std::string without_sign_of_zero(const std::string& text) {
   return is_zero && text.front() == '-' ? text.substr(1) : text;
 }
 
+/// By either way: print_number takes a shorter one where 62 bits hold the units of the last decimal.
 void expect_exact(DoubleDouble value, int decimals) {
-  ASSERT_EQ(without_sign_of_zero(printed(value, decimals)), Exact(value).text(decimals))
-      << std::hexfloat << value.hi << " + " << value.lo << ", " << decimals << " decimals";
+  const std::string exact = Exact(value).text(decimals);
+  char text[kMaxNumberLength];
+  const std::string number = {text, print_number(text, value.hi, value.lo, {decimals})};
+  ASSERT_TRUE(without_sign_of_zero(printed(value, decimals)) == exact && number == exact)
+      << exact << " is printed " << printed(value, decimals) << " and " << number << ": " << std::hexfloat
+      << value.hi << " + " << value.lo << ", " << decimals << " decimals";
 }
 
 TEST(WideDecimal, PrintsAnySumExactly) {
@@ -43,6 +48,17 @@ TEST(WideDecimal, PrintsSumsOfAnyTwoDoubles) {
   for (int i = 0; i < 5'000; ++i) {
     const DoubleDouble sum = two_sum(random.any_double() / 2, random.any_double() / 2);
     if (std::isfinite(sum.lo)) expect_exact(sum, random.whole(0, kMaxDecimals));
+  }
+}
+
+TEST(WideDecimal, PrintsSumsOfAbout62BitsExactly) {
+  RandomNumbers random(5);
+  for (int i = 0; i < 60'000; ++i) {
+    const int decimals = random.whole(0, kMaxDecimals);
+    const int bits = random.whole(48, 66) - static_cast<int>(decimals * std::log2(10.0));
+    const DoubleDouble value = random.double_double(bits, bits + 1);
+    expect_exact(value, decimals);
+    expect_exact({value.hi, 0}, decimals);
   }
 }
 

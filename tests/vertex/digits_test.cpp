@@ -433,7 +433,7 @@ TEST(Digits, OfTheWOfACutVertexAreNoted) {
   const ProjectionTransform projection = clip_from_view({Perspective{90, 1, 1e-20, 10}, {}});
   for (const bool has_colors : {false, true}) {
     TriangleBatch p_view = batch_of(Triangle{Vec3{0, 0, -1}, Vec3{0, 0, 1}, Vec3{1, 0, 1}});
-    if (has_colors) p_view.attributes.add(std::array<VertexLine, 3>(), {false, true, false});
+    if (has_colors) p_view.attributes.add(TriangleLines(), {false, true, false});
     CoordinateRounder rounder(Precision::extended, {7}, "input");
     TriangleBatch p_ndc;
     ProjectionStage(projection, ClipMode::near, CullMode::nothing, rounder).project(p_view, p_ndc);
@@ -580,15 +580,16 @@ TEST(CutCorners, HaveColorsAndNormalsWithinTheirBounds) {
   double worst_normal = 0;
   std::size_t cuts = 0;
   for (int i = 0; i < 3'000; ++i) {
-    std::array<VertexLine, 3> lines;
-    for (VertexLine& line : lines) {
+    TriangleLines lines;
+    for (VertexLine& line : lines.vertices) {
       const auto coordinate = [&] { return std::nearbyint(random.between(-2048, 2048)) / 1024; };
       line.position = {coordinate(), coordinate(), coordinate()};
       line.color = {63.75 * (line.position.x + 2), 63.75 * (line.position.y + 2),
                     63.75 * (2 - line.position.z)};
       line.normal = {line.position.x / 2, line.position.y / 2, -line.position.z / 2};
     }
-    TriangleBatch p_view = batch_of(Triangle{lines[0].position, lines[1].position, lines[2].position});
+    const auto corner = [&](std::size_t v) { return lines.vertices[v].position; };
+    TriangleBatch p_view = batch_of(Triangle{corner(0), corner(1), corner(2)});
     p_view.attributes.add(lines, {false, true, true});
     CoordinateRounder rounder(Precision::extended, kShortest, "input");
     ProjectionStage stage(projection, ClipMode::frustum, CullMode::nothing, rounder);

@@ -35,9 +35,12 @@ constexpr double kMostDepth = 10000;
 
 }  // namespace
 
+Vec3 unit_vector_of(UpAxis axis) {
+  return {axis == UpAxis::x ? 1.0 : 0.0, axis == UpAxis::y ? 1.0 : 0.0, axis == UpAxis::z ? 1.0 : 0.0};
+}
+
 ViewAxes view_axes(UpAxis up_axis, double azimuth_degrees, double elevation_degrees) {
-  const Vec3 up = {up_axis == UpAxis::x ? 1.0 : 0.0, up_axis == UpAxis::y ? 1.0 : 0.0,
-                   up_axis == UpAxis::z ? 1.0 : 0.0};
+  const Vec3 up = unit_vector_of(up_axis);
   const Vec3 front = up_axis == UpAxis::z ? Vec3{0, -1, 0} : Vec3{0, 0, 1};
   const Vec3 side = cross(up, front);
   const auto [cos_a, sin_a] = direction_of(azimuth_degrees);

@@ -14,6 +14,8 @@ struct ViewAxes {
   Vec3 right, up, back;
 };
 
+Vec3 unit_vector_of(UpAxis axis);
+
 /// Seen from the front, the model's -z direction (with z up: y), turned by `azimuth` degrees about the up
 /// axis to the right and by `elevation` degrees, -90 to 90, upwards.
 ViewAxes view_axes(UpAxis up, double azimuth_degrees, double elevation_degrees);

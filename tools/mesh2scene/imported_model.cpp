@@ -2,6 +2,7 @@
 
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
+#include <assimp/version.h>
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -13,6 +14,7 @@
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
+#include <utility>
 
 #include "libpipeline/numbers/vec_math.h"
 #include "libpipeline/text/error.h"
@@ -34,6 +36,16 @@ bool is_finite(const aiVector3D& v) {
 
 double degrees(double radians) {
   return radians * 180 / std::numbers::pi;
+}
+
+double fov_y_degrees(const aiCamera& camera, bool is_gltf) {
+  const double fov_x = camera.mHorizontalFOV, aspect = camera.mAspect > 0 ? camera.mAspect : 1;
+  // For glTF, assimp before 5.3 multiplies the angle by the aspect, in place of its half's tangent (its pull
+  // request 4886).
+  const bool is_multiple = is_gltf && std::pair(aiGetVersionMajor(), aiGetVersionMinor()) < std::pair(5U, 3U);
+  const double fov_y = is_multiple ? fov_x / aspect : 2 * std::atan(std::tan(fov_x / 2) / aspect);
+  // Four decimals hide that the file's angle is a float in radians.
+  return std::round(degrees(fov_y) * 1e4) / 1e4;
 }
 
 std::string read_standard_input() {
@@ -192,14 +204,12 @@ void ImportedModel::read_camera() {
     camera_ = {.eye = model_from_camera.point(eye),
                .look = model_from_camera.point(sum(eye, vec(camera.mLookAt))),
                .up = model_from_camera.direction(vec(camera.mUp)),
-               .fov_x_degrees = degrees(camera.mHorizontalFOV),
-               .aspect = camera.mAspect,
+               .fov_y_degrees = fov_y_degrees(camera, is_gltf_),
                .near = camera.mClipPlaneNear,
                .far = camera.mClipPlaneFar};
     const auto is_vector = [](const Vec3& v) { return std::isfinite(dot(v, v)) && dot(v, v) > 0; };
-    const bool is_usable = camera_->fov_x_degrees > 0 && camera_->fov_x_degrees < 180 && camera_->near > 0 &&
+    const bool is_usable = camera_->fov_y_degrees > 0 && camera_->fov_y_degrees < 180 && camera_->near > 0 &&
                            camera_->far > camera_->near && std::isfinite(camera_->far) &&
-                           camera_->aspect >= 0 &&
                            is_vector(cross(difference(camera_->look, camera_->eye), camera_->up));
     if (!is_usable) camera_.reset();
   }
@@ -240,6 +250,9 @@ void ImportedModel::list_ignored() {
     float opacity = 1;
     has_clear = has_clear || (material.Get(AI_MATKEY_OPACITY, opacity) == aiReturn_SUCCESS && opacity < 1);
   }
+  bool has_cones = false;
+  for (unsigned i = 0; i < scene_->mNumLights; ++i)
+    has_cones = has_cones || scene_->mLights[i]->mType == aiLightSource_SPOT;
   const auto list = [&](bool is_there, const char* what) {
     if (is_there) ignored_.emplace_back(what);
   };
@@ -247,6 +260,7 @@ void ImportedModel::list_ignored() {
   list(has_clear, "transparency");
   list(has_points, "points and lines");
   list(has_bones, "bones");
+  list(has_cones, "cones of spotlights");
   list(scene_->mNumAnimations > 0, "animations");
 }
 
@@ -268,17 +282,23 @@ bool ImportedModel::has_vertex_colors() const {
                      [](const PlacedMesh& placed) { return placed.mesh->HasVertexColors(0); });
 }
 
-std::optional<Vec3> ImportedModel::color(const aiMesh& mesh) const {
-  if (mesh.mMaterialIndex >= scene_->mNumMaterials) return std::nullopt;
+const aiMaterial* ImportedModel::material(const aiMesh& mesh) const {
+  if (mesh.mMaterialIndex >= scene_->mNumMaterials) return nullptr;
   const aiMaterial& material = *scene_->mMaterials[mesh.mMaterialIndex];
-  aiColor3D color;
   aiString name;
   const bool has_name = material.Get(AI_MATKEY_NAME, name) == aiReturn_SUCCESS;
   // assimp's material for meshes without one: white and without a name for PLY, the last for glTF.
   const bool is_default = (has_name && name == aiString(AI_DEFAULT_MATERIAL_NAME)) ||
                           (!has_name && ends_with(path_, ".ply")) ||
                           (is_gltf_ && mesh.mMaterialIndex + 1 == scene_->mNumMaterials);
-  if (is_default || material.Get(AI_MATKEY_COLOR_DIFFUSE, color) != aiReturn_SUCCESS) return std::nullopt;
+  return is_default ? nullptr : &material;
+}
+
+std::optional<Vec3> ImportedModel::color(const aiMesh& mesh) const {
+  const aiMaterial* const of_mesh = material(mesh);
+  aiColor3D color;
+  if (of_mesh == nullptr || of_mesh->Get(AI_MATKEY_COLOR_DIFFUSE, color) != aiReturn_SUCCESS)
+    return std::nullopt;
   return Vec3{channel(color.r), channel(color.g), channel(color.b)};
 }
 

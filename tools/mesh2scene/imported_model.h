@@ -12,6 +12,7 @@
 #include "libpipeline/numbers/vec.h"
 #include "tools/mesh2scene/smooth_normals.h"
 
+struct aiMaterial;
 struct aiMesh;
 struct aiNode;
 struct aiScene;
@@ -47,8 +48,7 @@ struct PlacedMesh {
 /// Angles in degrees, points and directions in the model's space.
 struct ModelCamera {
   Vec3 eye, look, up;
-  double fov_x_degrees = 0;
-  double aspect = 0;  // width / height; 0 if the file does not say
+  double fov_y_degrees = 0;
   double near = 0, far = 0;
 };
 
@@ -88,6 +88,8 @@ class ImportedModel {
   [[nodiscard]] bool has_vertex_colors() const;
   /// What is in the file and in no scene: "textures", "bones".
   [[nodiscard]] const std::vector<std::string>& ignored() const { return ignored_; }
+  /// The file's own material of a mesh; null if it gives none.
+  [[nodiscard]] const aiMaterial* material(const aiMesh& mesh) const;
   /// The color of a mesh without vertex colors, from 0 to 255; nothing if the file gives none.
   [[nodiscard]] std::optional<Vec3> color(const aiMesh& mesh) const;
   /// A channel of the file, from 0 to 1, as a channel of a scene.

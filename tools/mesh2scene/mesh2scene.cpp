@@ -9,6 +9,7 @@
 #include "libpipeline/text/number_printer.h"
 #include "tools/mesh2scene/crash_guard.h"
 #include "tools/mesh2scene/imported_model.h"
+#include "tools/mesh2scene/scene_materials.h"
 #include "tools/mesh2scene/scene_setting.h"
 #include "tools/mesh2scene/scene_text.h"
 #include "tools/tool.h"
@@ -143,6 +144,11 @@ int main(int argc, char** argv) {
                 (extension.empty() ? "" : extension + " ") + "files (--up chooses)");
     setting.comments = {name + ", " + counted(model.triangle_count(), "triangle") +
                         ", by mesh2scene; zbuf --size " + chosen.size};
-    write_scene(model, setting, chosen.as_nodes ? NodeForm::as_commands : NodeForm::applied, tool.output());
+    const SceneMaterials materials(model);
+    if (materials.are_too_many())
+      tool.note(name + ": it has more than " + counted(SceneMaterials::kMaxCount, "material") +
+                "; from there on meshes have the first");
+    write_scene(model, setting, materials, chosen.as_nodes ? NodeForm::as_commands : NodeForm::applied,
+                tool.output());
   });
 }

@@ -1,7 +1,6 @@
 #include "tools/mesh2scene/scene_setting.h"
 
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 
 #include "libpipeline/numbers/vec_math.h"
@@ -11,6 +10,11 @@ namespace {
 
 /// How much of the picture's width or height a framed model fills.
 constexpr double kShare = 0.9;
+
+/// Up to here above or below the model, the world's axis serves as the camera's `up`: a reader knows it at
+/// sight, and it gives the same view. Nearer to the axis, what rounding does to the eye would turn the
+/// picture.
+constexpr double kSteepestWithWorldUp = 85;
 
 /// A light that shines from afar stands so many times as far away as the eye.
 constexpr double kFar = 1000;
@@ -56,7 +60,6 @@ SceneSetting setting_with(const FramingCamera& camera, double fov_y_degrees, dou
   setting.fov_y_degrees = fov_y_degrees;
   setting.aspect = aspect;
   setting.background = {232, 235, 240};
-  setting.material = "1 1 0.15 20";
   setting.color = {228, 222, 210};
   set_lights(model, setting);
   return setting;
@@ -68,7 +71,8 @@ SceneSetting framed_setting(const ImportedModel& model, const ViewChoice& view) 
   Framing framing(view_axes(view.up, view.azimuth_degrees, view.elevation_degrees), view.fov_y_degrees,
                   view.aspect, kShare);
   model.for_each_corner([&](const Vec3& p) { framing.add(p); });
-  const FramingCamera camera = framing.camera();
+  FramingCamera camera = framing.camera();
+  if (std::fabs(view.elevation_degrees) <= kSteepestWithWorldUp) camera.up = unit_vector_of(view.up);
   if (!(camera.distance > 0) || !std::isfinite(camera.far) || !(camera.near > 0))
     throw std::runtime_error(model.name() +
                              ": expected a model with an extent, found all vertices in one point, or farther "
@@ -95,11 +99,7 @@ SceneSetting setting_of_file(const ImportedModel& model, double aspect) {
   const double ahead = dot(difference(scaled(total, 1 / count), of_file.eye), direction);
   camera.distance = ahead > of_file.near ? ahead : of_file.near;
   camera.look = sum(camera.eye, scaled(direction, camera.distance));
-  const double half =
-      std::tan(of_file.fov_x_degrees / 360 * std::numbers::pi) / (of_file.aspect > 0 ? of_file.aspect : 1);
-  // Four decimals hide that the file's angle is a float in radians.
-  const double fov_y_degrees = std::round(std::atan(half) * 360 / std::numbers::pi * 1e4) / 1e4;
-  return setting_with(camera, fov_y_degrees, aspect, model);
+  return setting_with(camera, of_file.fov_y_degrees, aspect, model);
 }
 
 }  // namespace pipeline

@@ -16,7 +16,6 @@ struct SceneSetting {
   double aspect = 0;  // width / height
   Vec3 background;
   Vec3 ambient;
-  std::string material;
   /// At points, in the model's space.
   std::vector<ModelLight> lights;
   /// Of meshes without a color, from 0 to 255.

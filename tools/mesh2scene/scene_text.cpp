@@ -169,8 +169,13 @@ std::optional<Commands> commands_of(const NodeMatrix& m) {
 
 class SceneWriter {
  public:
-  SceneWriter(const ImportedModel& model, const SceneSetting& setting, TextWriter& out)
-      : model_(model), setting_(setting), out_(out), has_color_columns_(model.has_vertex_colors()) {}
+  SceneWriter(const ImportedModel& model, const SceneSetting& setting, const SceneMaterials& materials,
+              TextWriter& out)
+      : model_(model),
+        setting_(setting),
+        materials_(materials),
+        out_(out),
+        has_color_columns_(model.has_vertex_colors()) {}
 
   void write_setting() {
     for (const std::string& comment : setting_.comments) line("# " + on_one_line(comment));
@@ -184,7 +189,7 @@ class SceneWriter {
          shortest_text(Rounding(camera.far)(camera.far)) + " ratio");
     line("background " + text_of(setting_.background));
     line(has_color_columns_ ? "attributes color normal" : "attributes normal");
-    if (!setting_.material.empty()) line("material " + setting_.material);
+    for (const std::string& material : materials_.lines()) line("material " + material);
     if (setting_.ambient != Vec3{}) line("ambient " + text_of(setting_.ambient));
     for (const ModelLight& light : setting_.lights)
       line("light " + text_of(rounded(light.position)) + " " + text_of(Rounding(0.1)(light.intensity)));
@@ -225,6 +230,9 @@ class SceneWriter {
     const Vec3 color = model_.color(mesh).value_or(setting_.color);
     if (!has_color_columns_ && color != color_in_force_) line("color " + text_of(color));
     color_in_force_ = color;
+    const std::size_t material = materials_.number_of(mesh);
+    if (material != material_in_force_) line("use " + std::to_string(material));
+    material_in_force_ = material;
     placed_ = &placed;
     is_identity_ = placed.model_from_mesh.is_identity();
     made_normals_ = model_.made_normals(mesh);
@@ -269,7 +277,7 @@ class SceneWriter {
 
   void write_triangle(unsigned face) {
     static constexpr std::string_view kKeyword = "triangle\n";
-    char* p = out_.reserve(kKeyword.size() + 3 * 9 * kMaxFloatLength);
+    char* p = out_.reserve(kKeyword.size() + std::size_t{3} * 9 * kMaxFloatLength);
     p = std::copy(kKeyword.begin(), kKeyword.end(), p);
     for (std::size_t corner = 0; corner < 3; ++corner) {
       const unsigned index = placed_->mesh->mFaces[face].mIndices[corner];
@@ -291,9 +299,11 @@ class SceneWriter {
 
   const ImportedModel& model_;
   const SceneSetting& setting_;
+  const SceneMaterials& materials_;
   TextWriter& out_;
   bool has_color_columns_;
   std::optional<Vec3> color_in_force_;
+  std::size_t material_in_force_ = 0;
   // Of the mesh that is being written:
   const PlacedMesh* placed_ = nullptr;
   bool is_identity_ = true;
@@ -304,9 +314,9 @@ class SceneWriter {
 
 }  // namespace
 
-void write_scene(const ImportedModel& model, const SceneSetting& setting, NodeForm node_form,
-                 TextWriter& out) {
-  SceneWriter writer(model, setting, out);
+void write_scene(const ImportedModel& model, const SceneSetting& setting, const SceneMaterials& materials,
+                 NodeForm node_form, TextWriter& out) {
+  SceneWriter writer(model, setting, materials, out);
   writer.write_setting();
   if (node_form == NodeForm::applied)
     writer.write_meshes();

@@ -2,6 +2,7 @@
 
 #include "libpipeline/text/text_writer.h"
 #include "tools/mesh2scene/imported_model.h"
+#include "tools/mesh2scene/scene_materials.h"
 #include "tools/mesh2scene/scene_setting.h"
 
 namespace pipeline {
@@ -13,7 +14,7 @@ enum class NodeForm { applied, as_commands };
 
 /// Writes the model as a scene (docs/scene.md). Numbers of the file have their shortest form; those of a
 /// camera or a light have five digits of the distance between eye and model.
-void write_scene(const ImportedModel& model, const SceneSetting& setting, NodeForm node_form,
-                 TextWriter& out);
+void write_scene(const ImportedModel& model, const SceneSetting& setting, const SceneMaterials& materials,
+                 NodeForm node_form, TextWriter& out);
 
 }  // namespace pipeline

@@ -1,0 +1,104 @@
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "libpipeline/stream/stage_reader.h"
+#include "libpipeline/stream/stage_writer.h"
+#include "tests/stream/stage_text_io.h"
+
+namespace pipeline {
+namespace {
+
+const std::string kTriangle = "0 0 0\n1 0 0\n0 1 0\n\n";
+const std::string kSphere = "sphere\n1 2 3\n3 2 3\n1 4 3\n1 2 5\n\n";
+
+/// What a stage makes of a text that it does not change.
+std::string copied(const std::string& text) {
+  const TextFile file(text), out("");
+  TextReader reader(file.descriptor(), "in.txt");
+  StageReader stage(reader);
+  stage.accept_spheres();
+  TextWriter writer(out.descriptor(), "out.txt");
+  StageWriter copy(writer, kShortest, false);
+  copy.write_header(stage.header());
+  for (TriangleBatch batch; stage.read(batch);) copy.write(batch);
+  copy.finish();
+  return out.whole_text();
+}
+
+std::string error_of(const std::string& text) {
+  return message_of([&] { copied(text); });
+}
+
+TEST(Spheres, AreReadAndWrittenAmongTriangles) {
+  for (const std::string& text :
+       {kSphere, kTriangle + kSphere, kSphere + kTriangle,
+        kSphere + kSphere + kTriangle + kTriangle + kSphere, "triangle 7\n" + kSphere + kTriangle,
+        "framed\n" + kTriangle + kSphere + "end\n"})
+    EXPECT_EQ(copied(text), text);
+}
+
+TEST(Spheres, HaveAllColumnsButTheNormal) {
+  const std::string text =
+      "attributes color normal material\nmaterial 1 1 0 1\nmaterial 0.5 1 0 2\n"
+      "sphere\n0 0 0 1 2 3 1\n1 0 0 1 2 3 1\n0 1 0 1 2 3 1\n0 0 1 1 2 3 1\n\n"
+      "0 0 0 4 5 6 0 0 1 0\n1 0 0 4 5 6 0 0 1 0\n0 1 0 4 5 6 0 0 1 0\n\n";
+  EXPECT_EQ(copied(text), text);
+}
+
+TEST(Spheres, TakeOneNumberAndTwoEntriesOfABatch) {
+  const TextFile file(kTriangle + kSphere + kTriangle);
+  TextReader reader(file.descriptor(), "in.txt");
+  StageReader stage(reader);
+  stage.accept_spheres();
+  TriangleBatch batch;
+  std::vector<std::uint64_t> numbers;
+  SpherePoints points{};
+  while (stage.read(batch)) {
+    EXPECT_EQ(batch.size(), batch.object_count() + batch.spheres.size());
+    for (const std::size_t entry : batch.spheres) points = batch.sphere_points(entry);
+    numbers.insert(numbers.end(), batch.numbers.begin(), batch.numbers.end());
+  }
+  EXPECT_EQ(numbers, (std::vector<std::uint64_t>{0, 1, 1, 2}));
+  EXPECT_EQ(points, (SpherePoints{Vec3{1, 2, 3}, {3, 2, 3}, {1, 4, 3}, {1, 2, 5}}));
+}
+
+TEST(Spheres, AreNotCutInTwo) {
+  for (std::size_t count = 0; count <= 4; ++count) {
+    TriangleBatch batch;
+    batch.add({}, 0, {});
+    batch.add_sphere({}, 1, {});
+    batch.add({}, 2, {});
+    batch.truncate(count);
+    EXPECT_EQ(batch.size(), count == 2 ? 1 : count);
+    EXPECT_EQ(batch.spheres.size(), count >= 3 ? 1u : 0u);
+  }
+}
+
+TEST(Spheres, AreRefusedWhereTrianglesAloneAreRead) {
+  const std::string refused =
+      "expected triangles alone, found a sphere: trace draws it, and model --facets N makes triangles of it";
+  EXPECT_EQ(message_of([] { triangles_of(kSphere); }), "in.txt:1:1: " + refused);
+  EXPECT_EQ(message_of([] { triangles_of(kTriangle + kSphere); }), "in.txt:5:1: " + refused);
+  // Projected texts have none.
+  EXPECT_EQ(error_of("attributes w\n" + kSphere), "in.txt:2:1: " + refused);
+  EXPECT_EQ(error_of("projected ortho -1 1 -1 1 -1 1\n" + kSphere), "in.txt:2:1: " + refused);
+}
+
+TEST(Spheres, NameTheWordThatIsWrong) {
+  EXPECT_EQ(error_of("sphere 1\n"), "in.txt:1:8: expected the end of the line after 'sphere', found '1'");
+  EXPECT_EQ(error_of("sphere\n0 0 0\n\n"),
+            "in.txt:3:1: expected the center + r i of a sphere (x y z), found a blank line inside a sphere");
+  EXPECT_EQ(error_of("sphere\n0 0 0\n1 0 0\n0 1 0\n"),
+            "in.txt:5:1: expected the center + r k of a sphere (x y z), found the end of the input inside a "
+            "sphere");
+  EXPECT_EQ(error_of("sphere\n0 0 0 0\n"),
+            "in.txt:2:7: expected the end of the line after the center of a sphere (x y z), found '0'");
+  EXPECT_EQ(error_of("attributes color\nsphere\n0 0 0 1 2 3\n0 0 1 1 2 4\n"),
+            "in.txt:4:7: expected the color of the sphere's center, found '1'");
+  EXPECT_EQ(error_of("sphere\n0 0 0\nerror model: no\n"), "in.txt:3:1: an earlier stage failed: model: no");
+}
+
+}  // namespace
+}  // namespace pipeline
