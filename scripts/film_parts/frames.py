@@ -13,12 +13,15 @@ from lib.parallel import Job, run_parallel
 
 FRAMES_PER_JOB = 8
 MOST_FRAMES = 99999
-# In a frame's folder: view, project and zbuf on one camera. What they say is told with the frame's name; the picture appears complete or
-# not at all. $1 is the picture, $2 the camera's words, $3 the projection's; the rest are zbuf's.
+# What draws the text of view; $projection is split into words.
+RASTERIZED = '"$bin/project" $projection | "$bin/zbuf" config.txt'
+TRACED = '"$bin/trace" config.txt $projection'
+# In a frame's folder: the stages on one camera. What they say is told with the frame's name; the picture appears complete or
+# not at all. $1 is the picture, $2 the camera's words, $3 the projection's; the rest are the drawing stage's, DRAWING.
 DRAW = r'''draw() {
   picture=$1 camera=$2 projection=$3; shift 3
   [ ! -e "$picture" ] || return 0
-  if { "$bin/view" $camera world.txt | "$bin/project" $projection | "$bin/zbuf" config.txt --z-buffer none "$@" --image "$picture"; } 2> "$picture.log"
+  if { "$bin/view" $camera world.txt | DRAWING --z-buffer none "$@" --image "$picture"; } 2> "$picture.log"
   then done=yes; else done=no failed=yes; fi
   sed "s|^|${picture%.png} ($camera): |" "$picture.log" >&2
   rm -f "$picture.log"
@@ -32,10 +35,10 @@ def words_of(vector):
 
 
 class Frames:
-    def __init__(self, tools, folder, scene, cameras, zbuf_words):
+    def __init__(self, tools, folder, scene, cameras, drawing, drawing_words):
         if len(cameras) > MOST_FRAMES:
             raise CommandFailure(f"expected at most {MOST_FRAMES} frames, found {len(cameras)}")
-        self.tools, self.folder, self.scene, self.zbuf_words = tools, folder, scene, zbuf_words
+        self.tools, self.folder, self.scene, self.drawing, self.drawing_words = tools, folder, scene, drawing, drawing_words
         self.names = [f"{i:05d}.png" for i in range(len(cameras))]
         self.views = [f"--eye {words_of(c.eye)} --look {words_of(c.look)} --up {words_of(c.up)}" for c in cameras]
         self.projections = [" ".join(scene.projection_words(c)) for c in cameras]
@@ -46,7 +49,7 @@ class Frames:
             self.folder.mkdir(parents=True, exist_ok=True)
         except OSError as error:
             raise CommandFailure(f"cannot make the folder {self.folder}: {error.strerror}") from None
-        source = hashlib.sha256(self.scene.world + b"\0" + self.scene.config + b"\0" + " ".join(self.zbuf_words).encode()).hexdigest()
+        source = hashlib.sha256(self.scene.world + b"\0" + self.scene.config + b"\0" + " ".join([self.drawing, *self.drawing_words]).encode()).hexdigest()
         cameras = [f"{name} {view} {projection}".strip() for name, view, projection in zip(self.names, self.views, self.projections)]
         list_file = self.folder / "frames.txt"
         former_source, *former = list_file.read_text().splitlines() if list_file.exists() else [""]
@@ -64,7 +67,7 @@ class Frames:
 
     def job(self, frames):
         """A line of shell that draws some frames."""
-        words = " ".join(map(shlex.quote, self.zbuf_words))
+        words = " ".join(map(shlex.quote, self.drawing_words))
         calls = [f"draw {self.names[i]} {shlex.quote(self.views[i])} {shlex.quote(self.projections[i])} {words}" for i in frames]
         return ". ./draw.sh; " + "; ".join(calls) + '; [ -z "$failed" ]'
 
@@ -73,7 +76,7 @@ class Frames:
         missing = self.missing()
         if not missing:
             return
-        write_file(self.folder / "draw.sh", f"bin={shlex.quote(str(self.tools.folder))} failed=\n{DRAW}\n".encode())
+        write_file(self.folder / "draw.sh", f"bin={shlex.quote(str(self.tools.folder))} failed=\n{DRAW.replace('DRAWING', self.drawing)}\n".encode())
         groups = [missing[i:i + FRAMES_PER_JOB] for i in range(0, len(missing), FRAMES_PER_JOB)]
         jobs = [Job(self.job(group), gives=[self.names[i] for i in group]) for group in groups]
         status = run_parallel(self.folder, jobs, "film", ["world.txt", "config.txt", "draw.sh"], options_of_parallel)

@@ -6,6 +6,7 @@ import tempfile
 
 from film_parts.path import Camera
 from lib.command import CommandFailure
+from lib.input_file import name_of, read_input
 from lib.vectors import cross, moved, normalized
 
 
@@ -15,7 +16,7 @@ class Scene:
     def __init__(self, tools, path, config):
         with tempfile.TemporaryDirectory() as folder:
             stats = pathlib.Path(folder, "stats.txt")
-            self.world = tools.output("model", "--stats", stats, path)
+            self.world = tools.output("model", "--stats", stats, path, stdin=read_input(path) if path == "-" else b"")
             self.stats = dict(line.split() for line in stats.read_text().splitlines())
         self.config = config
         header = {}
@@ -23,7 +24,7 @@ class Scene:
             keyword, _, rest = line.partition(" ")
             header.setdefault(keyword, rest.split())
         if self.stats.get("triangles") == "0" or not {"eye", "look", "up"} <= set(header):
-            raise CommandFailure(f"expected a scene with triangles, found none in {path}")
+            raise CommandFailure(f"expected a scene with triangles, found none in {name_of(path)}")
         eye, look, up = (tuple(map(float, header[name])) for name in ("eye", "look", "up"))
         self.camera = Camera(eye, look, up)
         self.perspective = header.get("perspective")

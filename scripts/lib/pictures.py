@@ -17,11 +17,11 @@ class PictureError(CommandFailure):
     """Not a readable picture."""
 
 
-def checked_size(width, height, row_bytes, pixel_bytes):
+def checked_size(width, height, row_bytes, pixel_bytes, channels=3):
     """Raises a PictureError if the header cannot be true. Rows start `row_bytes` apart; the file has `pixel_bytes`."""
     if width <= 0 or height <= 0:
         raise PictureError(f"expected a width and a height of at least 1, found {width} x {height}")
-    needed = (height - 1) * row_bytes + 3 * width
+    needed = (height - 1) * row_bytes + channels * width
     if needed > pixel_bytes:
         raise PictureError(f"expected {needed} bytes of {width} x {height} pixels, found {max(0, pixel_bytes)}")
 
@@ -55,36 +55,36 @@ def read_ppm(data):
     return width, height, [data[begin:begin + 3 * width] for begin in begins]
 
 
-def paeth(row, above):
+def paeth(row, above, size):
     """A row of which each byte was stored minus its predictor: whichever of left, above and above left is nearest to
     left + above - above left."""
-    out = bytearray(3) + row  # starts with a zero pixel on the left
-    above = bytes(3) + above
-    for i in range(3, len(out)):
-        a, b, c = out[i - 3], above[i], above[i - 3]
+    out = bytearray(size) + row  # starts with a zero pixel on the left
+    above = bytes(size) + above
+    for i in range(size, len(out)):
+        a, b, c = out[i - size], above[i], above[i - size]
         to_a, to_b, to_c = abs(b - c), abs(a - c), abs(a + b - 2 * c)
         out[i] = (out[i] + (a if to_a <= to_b and to_a <= to_c else b if to_b <= to_c else c)) & 255
-    return bytes(out[3:])
+    return bytes(out[size:])
 
 
-def unfiltered(kind, row, above):
-    """A row of a PNG of three bytes a pixel, with its filter undone."""
+def unfiltered(kind, row, above, size=3):
+    """A row of a PNG of `size` bytes a pixel, with its filter undone."""
     if kind == 0:
         return row
     if kind == 2:
         return bytes((x + b) & 255 for x, b in zip(row, above))
     if kind == 4:
-        return paeth(row, above)
+        return paeth(row, above, size)
     if kind not in (1, 3):
         raise PictureError(f"expected a filter from 0 to 4, found {kind}")
     out = bytearray(len(row))
-    for channel in range(3):
+    for channel in range(size):
         if kind == 1:
-            sums = itertools.accumulate(row[channel::3], lambda a, x: (a + x) & 255)
+            sums = itertools.accumulate(row[channel::size], lambda a, x: (a + x) & 255)
         else:
-            sums = itertools.accumulate(zip(row[channel::3], above[channel::3]), lambda a, x: (x[0] + (a + x[1]) // 2) & 255, initial=0)
+            sums = itertools.accumulate(zip(row[channel::size], above[channel::size]), lambda a, x: (x[0] + (a + x[1]) // 2) & 255, initial=0)
             next(sums)
-        out[channel::3] = bytes(sums)
+        out[channel::size] = bytes(sums)
     return bytes(out)
 
 
@@ -97,7 +97,16 @@ def png_chunks(data):
         at += 12 + size
 
 
-def read_png(data):
+def laid_over(row, behind):
+    """A row of red, green, blue and alpha (straight: colors are not multiplied by it) over one color, as RGB."""
+    out = bytearray(len(row) // 4 * 3)
+    for channel in range(3):
+        out[channel::3] = bytes((x * a + behind[channel] * (255 - a) + 127) // 255 for x, a in zip(row[channel::4], row[3::4]))
+    return bytes(out)
+
+
+def read_png(data, behind=None):
+    """A PNG with alpha is laid over the color `behind`; without one it is refused."""
     header, bodies = None, []
     for kind, body in png_chunks(data):
         if kind == b"IHDR":
@@ -107,32 +116,34 @@ def read_png(data):
     if header is None:
         raise PictureError("expected a PNG with a header, found none")
     width, height, bits, colors, _, _, interlaced = header
-    if (bits, colors, interlaced) != (8, 2, 0):
-        raise PictureError("expected a PNG of 8 bits RGB without interlacing")
+    has_alpha = (bits, colors, interlaced) == (8, 6, 0)
+    if (bits, colors, interlaced) != (8, 2, 0) and (not has_alpha or behind is None):
+        raise PictureError("expected a PNG of 8 bits RGB without interlacing" + ", found one with alpha (an opaque background leaves it out)" * has_alpha)
     if width * height > MAX_PNG_PIXELS:
         raise PictureError(f"expected a PNG of at most {MAX_PNG_PIXELS} pixels, found {width} x {height}")
-    stride = 3 * width + 1
+    channels = 4 if has_alpha else 3
+    stride = channels * width + 1
     pixels = zlib.decompressobj().decompress(b"".join(bodies), max(1, stride * height))
-    checked_size(width, height, stride, len(pixels) - 1)
-    rows = [bytes(3 * width)]
+    checked_size(width, height, stride, len(pixels) - 1, channels)
+    rows = [bytes(channels * width)]
     for y in range(height):
-        rows.append(unfiltered(pixels[y * stride], pixels[y * stride + 1:(y + 1) * stride], rows[-1]))
-    return width, height, rows[1:]
+        rows.append(unfiltered(pixels[y * stride], pixels[y * stride + 1:(y + 1) * stride], rows[-1], channels))
+    return width, height, [laid_over(row, behind) for row in rows[1:]] if has_alpha else rows[1:]
 
 
-READERS = {b"BM": read_bmp, b"P6": read_ppm, b"\x89P": read_png}
+READERS = {b"BM": lambda data, _: read_bmp(data), b"P6": lambda data, _: read_ppm(data), b"\x89P": read_png}
 
 
 def is_picture(data):
     return data[:2] in READERS
 
 
-def picture_of(data, path):
-    """The picture in the bytes of a file, whatever its name."""
+def picture_of(data, path, behind=None):
+    """The picture in the bytes of a file, whatever its name; what is transparent shows the color `behind`, three bytes, or is refused."""
     if not is_picture(data):
         raise PictureError(f"{name_of(path)}: expected a BMP, PPM or PNG")
     try:
-        return READERS[data[:2]](data)
+        return READERS[data[:2]](data, behind)
     except (struct.error, zlib.error) as error:
         raise PictureError(f"{name_of(path)}: not a whole picture ({error})") from None
     except PictureError as error:

@@ -1,5 +1,6 @@
 """The four tools, for scripts that run them: their location, and a single run."""
 import contextlib
+import math
 import os
 import pathlib
 import re
@@ -30,6 +31,21 @@ def without_inner_location(note, folder):
     """A note of a tool without the line of a text in `folder`, which the user never sees."""
     found = re.search(rf"{re.escape(str(folder))}/[^:]*:\d+:\d+: ", note)
     return note[:found.start()] + re.sub(r"\bof this (vertex|light)\b", r"of a \1", note[found.end():]) if found else note
+
+
+TRANSPARENT = re.compile(rb"^(background (\S+) (\S+) (\S+)) \S+$", re.M)  # the header line of a background with an alpha
+OPAQUE_NOTE = "the scene's background is drawn opaque: a BMP has no alpha"
+
+
+def opaque_background(text):
+    """Words for zbuf that show the background of a tool's stage text in full, if it has an alpha, which only PNG holds."""
+    found = TRANSPARENT.search(text[:1 << 16].split(b"\n\n")[0])
+    return ["--background", "".join(f"{math.floor(float(channel) + 0.5):02x}" for channel in found.groups()[1:])] if found else []
+
+
+def with_opaque_background(text):
+    """The stage text, its background without an alpha."""
+    return TRANSPARENT.sub(rb"\1", text, count=1) if opaque_background(text) else text
 
 
 def checked(done, tool):

@@ -12,6 +12,7 @@ from lib.input_file import name_of
 SCENE_COMMAND = re.compile(r"^[ \t]*(?:(?:translate|scale|rotate|push|pop)\b|triangle[ \t\r]*(?:#|$)|triangle[ \t]+[^\s#]+[ \t]+[^\s#])", re.M)
 KEYWORD = re.compile("[A-Za-z]")
 NUMBER = re.compile(r"[-+]?\.?[0-9]")
+DECIMAL_COMMA = re.compile("[0-9],[0-9]")
 NO_KEYWORDS = ("nan", "inf", "infinity")
 
 
@@ -30,6 +31,7 @@ class StageText:
     header: dict     # {keyword: words}; for light, those of the last one
     triangles: list  # of three vertices each
     names: list      # the scene's number of each triangle
+    spheres: list = dataclasses.field(default_factory=list)  # of four vertices each
 
     @property
     def vertices(self):
@@ -69,13 +71,13 @@ def begins_with_a_camera(text):
     return last[0] in ("perspective", "ortho", "frustum") or len(last) > 3 and all(NUMBER.match(word) for word in last[:4])
 
 
-def parse_stage_text(text, path):
+def parse_stage_text(text, path, may_have_spheres=False):
     """The StageText of a str; `path` names the file in messages."""
     scene = StageTextError(f"{name_of(path)}: this is a scene, not a stage text: run model on it")
     if is_scene(text):
         raise scene
     try:
-        return parsed(text, name_of(path))
+        return parsed(text, name_of(path), may_have_spheres)
     except StageTextError:
         if begins_with_a_camera(text):
             raise scene from None
@@ -90,8 +92,9 @@ def real(word):
     return value
 
 
-def parsed(text, name):
+def parsed(text, name, may_have_spheres):
     header, vertices, names, next_name, passed_over = {}, [], [], 0, 0
+    spheres, of_sphere = [], 0  # and how many lines of the last one are still to come
     for number, line in enumerate(text.split("\n"), 1):
         words = line.split("#")[0].split()
         if not words or words[0] in ("framed", "end"):
@@ -103,6 +106,11 @@ def parsed(text, name):
                 next_name = triangle_number(" ".join(words[1:]), f"{name}:{number}")
             elif words[0] == "clipped":  # the whole triangle in clip space; its pieces follow
                 passed_over = 3
+            elif words[0] == "sphere" and may_have_spheres:
+                next_name, of_sphere = next_name + 1, 4
+                spheres.append([])
+            elif words[0] == "sphere":
+                raise StageTextError(f"{name}:{number}: expected triangles alone, found a sphere: trace draws it, and model --facets N makes triangles of it")
             else:
                 header[words[0]] = words[1:]
             continue
@@ -112,16 +120,23 @@ def parsed(text, name):
         try:
             numbers = tuple(real(word) for word in words)
         except ValueError:
-            raise StageTextError(f"{name}:{number}: expected numbers, found '{shown(line.strip()[:40])}'") from None
+            comma = ": write a decimal point, not a comma" if DECIMAL_COMMA.search(line) else ""
+            raise StageTextError(f"{name}:{number}: expected numbers, found '{shown(line.strip()[:40])}'{comma}") from None
         if len(numbers) < 3:
             raise StageTextError(f"{name}:{number}: expected x, y and z, found {'1 number' if len(numbers) == 1 else f'{len(numbers)} numbers'}")
+        if of_sphere:
+            of_sphere -= 1
+            spheres[-1].append(Vertex(number, numbers))
+            continue
         if len(vertices) % 3 == 0:
             names.append(next_name)
             next_name += 1
         vertices.append(Vertex(number, numbers))
     if len(vertices) % 3:
         raise StageTextError(f"{name}: expected three vertices a triangle, found {len(vertices)} in all")
-    return StageText(header, [vertices[i:i + 3] for i in range(0, len(vertices), 3)], names)
+    if of_sphere:
+        raise StageTextError(f"{name}: expected four vertices a sphere, found {4 - of_sphere} of the last one")
+    return StageText(header, [vertices[i:i + 3] for i in range(0, len(vertices), 3)], names, spheres)
 
 
 def triangle_lines(lines):
@@ -141,6 +156,8 @@ def triangle_lines(lines):
             number = int(line[9:])
         elif line == b"clipped\n":  # the whole triangle in clip space; its pieces follow
             passed_over = 3
+        elif line == b"sphere\n":  # no triangle, but it has a number
+            number, passed_over = number + 1, 4
 
 
 def triangle_number(word, place):

@@ -15,7 +15,7 @@ import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "tools"))
 from ssh_server import SshServer  # noqa: E402
-from toolbox import BIN, SOURCE, ToolTest, pipe  # noqa: E402
+from toolbox import BIN, SOURCE, ToolTest, pipe, run  # noqa: E402
 
 FILM = SOURCE / "scripts/film"
 ENVIRONMENT = {**os.environ, "BIN": str(BIN)}
@@ -117,6 +117,32 @@ class Pictures(FilmTest):
         self.assertEqual(frames("one"), frames("four"))
 
 
+class Traced(FilmTest):
+    def test_frames_are_those_of_trace(self):
+        self.make("path.txt", "--fps", "1", "--trace", "--no-shadows", "--samples", "5", "-o", "out")
+        for t, eye, look, up, fov_y in KEYS:
+            words = [" ".join(map(str, v)).split() for v in (eye, look, [x / math.hypot(*up) for x in up])]
+            stage2 = pipe(["model"], ["view", "--eye", *words[0], "--look", *words[1], "--up", *["%.10g" % float(x) for x in words[2]]], stdin=SCENE)
+            run("trace", "config.txt", "--perspective", str(fov_y), "1.25", "1", "30", "--aspect", "ratio", "--no-shadows", "--samples", "5", "--image", "one.png", stdin=stage2)
+            self.assertEqual(frames("out")[f"{t:05d}.png"], pathlib.Path("one.png").read_bytes())
+
+    def test_traced_frames_take_the_place_of_those_of_zbuf(self):
+        self.make("--turn", "1", "--fps", "2", "--samples", "2", "-o", "out")
+        rasterized = frames("out")
+        self.make("--turn", "1", "--fps", "2", "--samples", "2", "--trace", "-o", "out")
+        traced = pipe(["model"], ["view"], ["trace", "config.txt", "--samples", "2", "--image", "one.png"], stdin=SCENE)
+        self.assertTrue(traced)
+        self.assertEqual(frames("out")["00000.png"], pathlib.Path("one.png").read_bytes())
+        self.assertNotEqual(frames("out"), rasterized)
+
+    def test_options_without_a_meaning_are_refused(self):
+        for words, reason in ((["--trace", "--coverage", "center"], "--coverage means nothing with --trace"), (["--no-recursion"], "--no-recursion is for trace: it needs --trace"),
+                              (["--samples", "5"], "expected 1 to 4 without --trace, found 5"), (["--trace", "--samples", "17"], "expected a whole number from 1 to 16, found '17'")):
+            done = film("scene.txt", "config.txt", "--turn", "1", *words, "-o", "out")
+            self.assertEqual((done.returncode, done.stdout), (2, ""))
+            self.assertIn(reason, done.stderr)
+
+
 class Interruptions(FilmTest):
     def test_what_is_killed_goes_on(self):
         process = subprocess.Popen([FILM, "scene.txt", "config.txt", "--turn", "12", "-o", "out", "--", "--jobs", "2"], env=ENVIRONMENT,
@@ -196,6 +222,35 @@ class Outputs(FilmTest):
         self.assertEqual(frames("far"), frames("near"))
 
 
+class Sizes(FilmTest):
+    def test_a_size_stands_for_a_config(self):
+        self.make("path.txt", "--fps", "1", "-o", "out")
+        for words in (["scene.txt", "path.txt", "--size", "50x40"], ["--size", "50x40", "scene.txt", "path.txt"], ["scene.txt", "--size", "50x40", "path.txt"]):
+            shutil.rmtree("other", ignore_errors=True)
+            done = film(*words, "--fps", "1", "-o", "other")
+            self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "", ""), words)
+            self.assertEqual(frames("other"), frames("out"))
+
+    def test_the_scene_may_come_through_a_pipe(self):
+        self.make("--turn", "1", "--fps", "2", "-o", "out")
+        done = film("-", "--size", "50x40", "--turn", "1", "--fps", "2", "-o", "other", input=SCENE)
+        self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "", ""))
+        self.assertEqual(frames("other"), frames("out"))
+
+    def test_wrong_ones_are_told(self):
+        for words, reason in ((["scene.txt", "--turn", "1"], "expected CONFIG or --size, found neither"),
+                              (["scene.txt", "config.txt", "path.txt", "--size", "5x4"], "expected either CONFIG or --size, found both"),
+                              (["scene.txt", "--turn", "1", "--size", "5"], "expected WIDTHxHEIGHT in pixels, such as 800x600, found '5'"),
+                              (["scene.txt", "--turn", "1", "--size", "0x4"], "expected WIDTHxHEIGHT in pixels, such as 800x600, found '0x4'"),
+                              (["scene.txt", "--size", "5x4"], "expected either PATH or --turn, found neither")):
+            done = film(*words, "-o", "out")
+            self.assertEqual((done.returncode, done.stdout), (2, ""))
+            self.assertIn(reason, done.stderr)
+        done = film("scene.txt", "--size", "5x4", "--turn", "1", "-o", "out.AVI")
+        self.assertEqual((done.returncode, done.stdout), (2, ""))
+        self.assertIn("-o: expected a folder, or a film that ends in .mp4, .mkv, .webm, .gif, found 'out.AVI'", done.stderr)
+
+
 class Refusals(FilmTest):
     def test_paths(self):
         for text, reason in (("0 1 2 3\n", "path.txt:1: expected the time, eye, look and up"), ("", "path.txt: expected two cameras or more, found 0"),
@@ -226,6 +281,45 @@ class Refusals(FilmTest):
         done = film("scene.txt", "config.txt", "--turn", "1", "-o", "out")
         self.assertEqual((done.returncode, done.stdout), (1, ""))
         self.assertIn("film: model: scene.txt:2:1: expected", done.stderr)
+
+    def test_a_sphere_needs_trace(self):
+        camera, body = SCENE.split("\n", 4)[:4], SCENE.split("\n", 4)[4]
+        pathlib.Path("scene.txt").write_text("\n".join(camera) + "\n" + body.replace("triangle", "sphere 0 0 0 1  # one\ntriangle", 1))
+        line = pathlib.Path("scene.txt").read_text().split("sphere")[0].count("\n") + 1
+        done = film("scene.txt", "config.txt", "--turn", "1", "-o", "out")
+        self.assertEqual((done.returncode, done.stdout, done.stderr),
+                         (1, "", f"film: model: scene.txt:{line}:1: expected triangles alone, found a sphere: --trace draws it\n"))
+        self.assertFalse(pathlib.Path("out").exists())
+        self.make("--turn", "0.1", "--fps", "20", "--trace", "-o", "out")
+        eye, look, up = cameras("out")[0]
+        words = [word for name, vector in (("--eye", eye), ("--look", look), ("--up", up)) for word in (name, *map(repr, vector))]
+        pipe(["model"], ["view", *words], ["trace", "config.txt", "-o", "expected.png"], stdin=pathlib.Path("scene.txt").read_text())
+        self.assertEqual(pathlib.Path("out/00000.png").read_bytes(), pathlib.Path("expected.png").read_bytes())
+
+    def test_a_turn_goes_around_the_middle_of_spheres(self):
+        """Not of the points that describe them."""
+        pathlib.Path("scene.txt").write_text("0 0 5\n0 0 0\n0 1 0\n60 1 1 100\nsphere 0 0 0 1\nend\n")
+        self.make("--turn", "1", "--fps", "2", "--trace", "-o", "out")
+        (eye, _, _), (opposite, _, _) = cameras("out")
+        for a, b in zip(eye, opposite):
+            self.assertAlmostEqual(a, -b, places=6)
+
+
+class TransparentBackground(ToolTest):
+    def setUp(self):
+        super().setUp()
+        pathlib.Path("scene.txt").write_text(SCENE.replace("triangle", "background 200 100 50 0\ntriangle", 1))
+        pathlib.Path("config.txt").write_text(CONFIG)
+
+    def test_frames_of_a_folder_have_an_alpha_and_those_of_a_film_have_none(self):
+        self.assertEqual(film("scene.txt", "config.txt", "--turn", "1", "--fps", "2", "-o", "out").stderr, "")
+        self.assertEqual([data[24:26] for data in frames("out").values()], [b"\x08\x06"] * 2)
+        if not shutil.which("ffmpeg"):
+            self.skipTest("ffmpeg is missing")
+        self.assertEqual(film("scene.txt", "config.txt", "--turn", "1", "--fps", "2", "-o", "out.mkv").stderr, "")
+        subprocess.run(["ffmpeg", "-loglevel", "error", "-i", "out.mkv", "-frames:v", "1", "first.ppm"], check=True, stdin=subprocess.DEVNULL)
+        corner = pathlib.Path("first.ppm").read_bytes()[-3 * 50 * 40:][:3]
+        self.assertTrue(all(abs(found - expected) < 12 for found, expected in zip(corner, (200, 100, 50))), corner)
 
 
 if __name__ == "__main__":

@@ -74,6 +74,54 @@ class MakefileSamples(OnACopy):
     def test_all_samples_come_out_as_committed(self):
         self.assertIn("10 passed, 0 failed", self.make_well("check"))
 
+    def test_a_sample_with_a_traced_picture_is_traced_too(self):
+        shutil.copy2(bin_dir / "trace", self.bin)
+        self.make_well()
+        drawn = subprocess.run([bin_dir / "trace", self.file("wide-clipped", "config.txt"), self.root / "out/wide-clipped/stage2.exact", "--z-buffer", "none", "-o", self.root / "expected.bmp"],
+                               capture_output=True, text=True, check=True)
+        self.assertEqual(drawn.stderr, "")
+        shutil.copy(self.file("nested-transforms", "out.bmp"), self.file("wide-clipped", "traced.bmp"))
+        self.assertIn("FAIL  samples/wide-clipped/traced.bmp differs from out/wide-clipped/traced.bmp", self.make("check").stdout)
+        told = self.make_well("diff", f"COMPARE={source}/scripts/compare")
+        self.assertIn("wide-clipped: trace is the first stage that has changed (traced.bmp)", told)
+        self.assertIn("nested-transforms: nothing has changed", told)
+        self.make_well("accept")
+        self.assertEqual(self.file("wide-clipped", "traced.bmp").read_bytes(), (self.root / "expected.bmp").read_bytes())
+        self.assertIn("11 passed, 0 failed", self.make_well("check"))
+        self.assertIn("wide-clipped: nothing has changed", self.make_well("diff"))
+        self.assertFalse((self.root / "out/nested-transforms/traced.bmp").exists())
+        self.touch(self.bin / "trace")
+        printed = self.make_well()
+        self.assertEqual([printed.count(f"bin/{tool} ") for tool in (*TOOLS, "trace")], [0, 0, 0, 0, 1])
+
+    def test_a_scene_for_trace_alone(self):
+        """Its own files, and those of the others stay as they are."""
+        shutil.copy2(bin_dir / "trace", self.bin)
+        shutil.copytree(source / "samples/spheres", self.root / "samples/spheres")
+        made = ["stage1.txt", "stage2.txt", "traced.bmp", "z_buffer.txt"]
+        self.assertIn("14 passed, 0 failed", self.make_well("-j2", "check"))
+        texts = {"stage1.exact", "stage2.exact"}
+        self.assertEqual(sorted({path.name for path in (self.root / "out/spheres").iterdir()} - texts), made)
+        self.assertEqual((self.root / "out/spheres/stage1.txt").read_text().count("sphere\n"), 5)
+        printed = self.make_well()
+        self.assertEqual([printed.count(f"bin/{tool} ") for tool in (*TOOLS, "trace")], [0] * 5)
+        self.touch(self.file("spheres", "config.txt"))
+        printed = self.make_well()
+        self.assertEqual([printed.count(f"bin/{tool} ") for tool in (*TOOLS, "trace")], [0, 0, 0, 0, 1])
+        scene = self.file("spheres", "traced-scene.txt")
+        scene.write_text(scene.read_text().replace("sphere 2.1 0.71", "sphere 2.1 0.81"))
+        self.touch(scene)
+        for name in ("stage1.txt", "stage2.txt", "z_buffer.txt", "traced.bmp"):
+            self.assertIn(f"FAIL  samples/spheres/{name} differs", self.make("check").stdout)
+        told = self.make_well("diff", f"COMPARE={source}/scripts/compare")
+        self.assertIn("spheres: model is the first stage that has changed (stage1.txt)", told)
+        self.assertIn("of point 1 of sphere 2: 0.81 in A, 0.71 in B", told)
+        shutil.copy(self.root / "out/spheres/stage1.txt", self.file("spheres", "stage1.txt"))
+        shutil.copy(self.root / "out/spheres/stage2.txt", self.file("spheres", "stage2.txt"))
+        self.assertIn("spheres: trace is the first stage that has changed (z_buffer.txt)", self.make_well("diff", f"COMPARE={source}/scripts/compare"))
+        self.make_well("accept")
+        self.assertIn("14 passed, 0 failed", self.make_well("check"))
+
     def test_parallel_jobs_do_the_same(self):
         self.assertEqual(self.runs_of_tools("-j2"), {"model": 4, "view": 4, "project": 2, "zbuf": 2})
         self.assertIn("10 passed, 0 failed", self.make_well("-j2", "check"))

@@ -45,6 +45,24 @@ class Picture(ToolTest):
         picture("vase.obj", "--size", "120x90", "--up", "y", "-o", "two.png")
         self.assertEqual(pathlib.Path("one.png").read_bytes(), pathlib.Path("two.png").read_bytes())
 
+    def test_trace_draws_in_place_of_project_and_zbuf(self):
+        framing = ("--size", "60x45", "--up", "y")
+        scene = run("mesh2scene", *framing, "vase.obj").stdout
+        for words, tracing in ((["--trace"], ["--samples", "3"]), (["--trace", "--sampling", "adaptive", "--no-shadows", "--shading", "flat"], ["--sampling", "adaptive", "--no-shadows", "--shading", "flat"]),
+                               (["--trace", "--samples", "1", "--max-depth", "0"], ["--max-depth", "0"])):
+            with self.subTest(words):
+                done = picture("vase.obj", *framing, *words, "--stages", "kept", "-o", "one.png")
+                self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "", ""))
+                self.assertEqual(sorted(os.listdir("kept")), ["scene.txt", "stage1.txt", "stage2.txt"])
+                pipe(["model"], ["view"], ["trace", "--size", "60x45", *tracing, "--z-buffer", "none", "--image", "two.png"], stdin=scene)
+                self.assertEqual(pathlib.Path("one.png").read_bytes(), pathlib.Path("two.png").read_bytes())
+                picture("vase.obj", *framing, *words, "-o", "three.png")
+                self.assertEqual(pathlib.Path("three.png").read_bytes(), pathlib.Path("two.png").read_bytes())
+
+    def test_options_of_trace_need_trace(self):
+        done = picture("vase.obj", "--no-shadows", "-o", "one.png")
+        self.assertEqual((done.returncode, done.stderr.splitlines()[-1]), (2, "picture: error: --no-shadows is for trace: it needs --trace"))
+
     def test_a_note_is_passed_on(self):
         self.assertEqual(picture("vase.obj", "-o", "one.png").stderr, "mesh2scene: note: y is taken for up, as in most OBJ files (--up chooses)\n")
 
@@ -65,6 +83,19 @@ class Picture(ToolTest):
             done = picture("vase.obj", "-o", output)
             self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (1, "", 1), done.stderr)
             self.assertTrue(done.stderr.startswith(reason), done.stderr)
+
+    def test_for_a_scene_the_message_is_what_draws_it(self):
+        pathlib.Path("my scene.txt").write_text("# mine\n\n0 0 5  # eye\n0 0 0\n0 1 0\n60 1 1 100 ratio\ntriangle\n0 0 0\n1 0 0\n0 1 0\nend\n")
+        for words, drawn in (([], ["project", "zbuf --coverage center --samples 3 --size 60x60"]), (["--trace", "--samples", "2"], ["trace --size 60x60 --samples 2"])):
+            done = picture("my scene.txt", "--size", "60x60", *words, "-o", "one.png")
+            start, _, line = done.stderr.partition(", which takes: ")
+            self.assertEqual((done.returncode, done.stdout, start), (1, "", "picture: expected a model file, found the scene my scene.txt"))
+            self.assertFalse(pathlib.Path("one.png").exists())
+            subprocess.run(["sh", "-c", line], check=True, env={**os.environ, "PATH": f"{BIN}:{os.environ['PATH']}"})
+            scene = pathlib.Path("my scene.txt").read_bytes()
+            pipe(["model"], ["view"], *([*stage.split(), *(["--image", "two.png"] if stage != "project" else [])] for stage in drawn), stdin=scene)
+            self.assertEqual(pathlib.Path("one.png").read_bytes(), pathlib.Path("two.png").read_bytes())
+            pathlib.Path("one.png").unlink()
 
 
 if __name__ == "__main__":

@@ -51,6 +51,19 @@ class Stages(ToolTest):
     def left(self, folder="."):
         return sorted(name for name in os.listdir(folder) if folder != "." or name not in self.before)
 
+    def test_too_few_operands_are_named(self):
+        for words, found in (((), "0 operands"), (("scene.txt",), "1 operand"), (("scene.txt", "config.txt", "a", "b"), "4 operands")):
+            done = run_stages(*words)
+            told = f"stages: expected SCENE, CONFIG and DIR, found {found} (try stages --help)\n"
+            self.assertEqual((done.stderr.decode(), done.returncode), (told, 2))
+
+    def test_a_sphere_names_the_ways_to_draw_it(self):
+        pathlib.Path("scene").write_text((SAMPLE / "scene.txt").read_text().replace("\nend", "\nsphere 0 0 0 1\nend"))
+        line = pathlib.Path("scene").read_text().split("sphere")[0].count("\n") + 1
+        self.assert_refused(self.stages("dir", scene="scene"),
+                            f"model: scene:{line}:1: expected triangles alone, found a sphere: trace draws it, and model --facets N makes triangles of it")
+        self.assertFalse(os.path.exists("dir"))
+
     def test_a_folder_in_a_files_place_is_refused(self):
         for name in FIVE:
             os.makedirs(f"dir/{name}")

@@ -13,6 +13,7 @@ import unittest
 from toolbox import SOURCE, ToolTest, command, expect_mesh2scene, pipe, run
 
 sys.path.insert(0, str(SOURCE / "scripts"))
+from lib.vectors import cross  # noqa: E402
 from model_parts.formats import FORMATS  # noqa: E402
 from model_parts.shapes import SHAPES, Mesh, knot, terrain, vase  # noqa: E402
 
@@ -192,6 +193,40 @@ class Framing(ToolTest):
                 for x, y in zip(toward, expected):
                     self.assertAlmostEqual(x / length, y, 3)
 
+    def test_up_is_the_axis_itself_and_the_view_is_the_same(self):
+        """The view has the axes of azimuth and elevation, by their formula: to the right, upwards in the picture, and towards the eye. From straight
+        above, where the axis shows no direction in the picture, `up` is the second of them."""
+        pathlib.Path("knot.obj").write_bytes(FORMATS["obj"](knot(2)))
+        lines = {"x": "1 0 0", "y": "0 1 0", "z": "0 0 1"}
+        for name, line in lines.items():
+            axis = tuple(map(float, line.split()))
+            front = (0, -1, 0) if name == "z" else (0, 0, 1)
+            side = cross(axis, front)
+            for azimuth, elevation in ((30, 15), (0, 0), (-130, 60), (200, -40), (77, 85), (77, -85), (77, 86), (30, 90), (-45, -90)):
+                with self.subTest(up=name, azimuth=azimuth, elevation=elevation):
+                    scene = scene_of("knot.obj", "--up", name, "--eye-from", str(azimuth), str(elevation))
+                    parts = header(scene)
+                    if abs(elevation) <= 85:
+                        self.assertEqual(parts["up"], line)
+                    a, e = math.radians(azimuth), math.radians(elevation)
+                    toward = [math.cos(a) * f + math.sin(a) * s for f, s in zip(front, side)]
+                    right = [math.cos(a) * s - math.sin(a) * f for f, s in zip(front, side)]
+                    back = [math.cos(e) * t + math.sin(e) * u for t, u in zip(toward, axis)]
+                    up = cross(back, right)
+                    eye = tuple(map(float, parts["eye"].split()))
+                    distance = math.dist(eye, tuple(map(float, parts["look"].split())))
+                    world = pipe(["model", "--bare", "--digits", "exact"], stdin=scene).decode().split()
+                    seen = pipe(["model"], ["view", "--bare", "--digits", "exact"], stdin=scene).decode().split()
+                    worst = 0
+                    for i in range(0, len(world), 3):
+                        p = [float(x) - o for x, o in zip(world[i:i + 3], eye)]
+                        for x, of_axis in zip(seen[i:i + 3], (right, up, back)):
+                            worst = max(worst, abs(float(x) - sum(c * d for c, d in zip(p, of_axis))))
+                    # Each number of the eye and of the look point is rounded by 0.00005 of the distance at most, which turns the picture the
+                    # more the steeper the view; the knot's vertices are within 0.35 distances of the look point.
+                    steepness = math.cos(e) if abs(elevation) <= 85 else 1
+                    self.assertLess(worst / distance, 0.35 * 0.00005 * (math.sqrt(12) + math.sqrt(8) / steepness))
+
     def test_the_aspect_is_that_of_the_size(self):
         pathlib.Path("box.obj").write_text(BOX)
         self.assertRegex(header(scene_of("box.obj"))["projection"], r"^30 1\.3333333333333333 .* ratio$")
@@ -254,6 +289,25 @@ class Nodes(ToolTest):
         self.assertEqual([list(map(float, light.split())) for light in parts["light"]], [[7, 8, 9, 1, 0.5, 0.25]])
         self.assertNotEqual(header(scene_of("model.gltf", "--eye-from", "0", "0"))["eye"], "0 0 25")
 
+    def test_the_files_angle_is_the_one_upwards_whatever_its_aspect(self):
+        """glTF's yfov (glTF 2.0, 3.10.3.2), which assimp gives as an angle across a picture of the file's aspect."""
+        document = json.loads(pathlib.Path("model.gltf").read_text())
+        for aspect in ({}, {"aspectRatio": 1.5}, {"aspectRatio": 16 / 9}, {"aspectRatio": 0.6}):
+            for yfov in (10, 40, 95):
+                document["cameras"] = [{"type": "perspective", "perspective": {"yfov": math.radians(yfov), "znear": 1, "zfar": 100, **aspect}}]
+                pathlib.Path("model.gltf").write_text(json.dumps(document))
+                found = header(scene_of("model.gltf", "--size", "300x200"))["projection"].split()
+                self.assertAlmostEqual(float(found[0]), yfov, 3, aspect)
+                self.assertEqual(found[1:], ["1.5", "1", "100", "ratio"])
+
+    def test_a_spotlight_shines_all_around_and_a_note_tells(self):
+        document = json.loads(pathlib.Path("model.gltf").read_text())
+        document["extensions"]["KHR_lights_punctual"]["lights"] = [{"type": "spot", "intensity": 1, "spot": {"outerConeAngle": 0.5}}]
+        pathlib.Path("model.gltf").write_text(json.dumps(document))
+        done = run("mesh2scene", "model.gltf")
+        self.assertEqual(done.stderr.decode(), "mesh2scene: note: model.gltf: no scene can hold its cones of spotlights\n")
+        self.assertEqual(header(done.stdout.decode())["light"], ["7 8 9 1 1 1"])
+
     def test_linear_colors_become_those_of_a_screen(self):
         """Half the light is not half the number: 0.5 is 187.516 of 255 (IEC 61966-2-1)."""
         self.assertEqual(header(scene_of("model.gltf"))["color"], ["255 187.516 0"])
@@ -278,6 +332,84 @@ class Colors(ToolTest):
         pathlib.Path("model.obj").write_text("mtllib model.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl red\nf 1 2 3\nusemtl blue\nf 1 3 2\n")
         scene = scene_of("model.obj")
         self.assertEqual([line for line in scene.splitlines() if line.startswith("color")], ["color 255 51 0", "color 0 0 153"])
+
+
+STUDIO = "1 1 0.15 20"  # of meshes whose file says nothing of materials
+
+
+def by_roughness(base, metallic, roughness):
+    """Blinn-Phong in place of glTF's metallic and roughness factors, as docs/models.md has it."""
+    shininess = min(10000, max(1, 2 / roughness ** 4 - 2))
+    f0 = 0.04 + metallic * (max(base) - 0.04)
+    return 1, 1 - metallic / 2, min(1, f0 * (shininess + 2) / 8), round(shininess)
+
+
+class Materials(ToolTest):
+    MTL = ("newmtl matt\nKd 0.8 0.8 0.8\nKs 0 0 0\nNs 10\nnewmtl shiny\nKa 0.4 0.2 0.1\nKd 0.8 0.2 0\nKs 0.6 0.5 0.5\nNs 64\nnewmtl other\nKd 0 0 1\n"
+           "newmtl twin\nKa 0 0.15 0\nKd 0 0.3 0\nKs 0.6 0 0\nNs 64\n")
+
+    def write_obj(self, *names):
+        pathlib.Path("model.mtl").write_text(self.MTL)
+        pathlib.Path("model.obj").write_text("mtllib model.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"
+                                             + "".join(f"usemtl {name}\nf 1 2 {3 + i % 2}\n" for i, name in enumerate(names)))
+
+    def lines(self, name, *options):
+        """The lines `material` and the commands of color and material, without the triangles."""
+        scene = scene_of(name, *options)
+        pipe(["model"], ["view"], ["project"], ["zbuf", "--size", "9x9", "--image", "out.ppm"], stdin=scene)
+        return [line for line in scene.splitlines() if line.split()[:1] in (["material"], ["use"], ["color"])]
+
+    def test_of_colors_become_factors(self):
+        self.write_obj("matt", "shiny", "other", "matt")
+        self.assertEqual(self.lines("model.obj"), ["material 1 1 0 10", "material 0.5 1 0.6 64", "material " + STUDIO, "color 204 204 204", "color 204 51 0", "use 1",
+                                                   "color 0 0 255", "use 2", "color 204 204 204", "use 0"])
+
+    def test_one_is_enough_where_all_are_alike(self):
+        self.write_obj("shiny", "twin")
+        self.assertEqual(self.lines("model.obj"), ["material 0.5 1 0.6 64", "color 204 51 0", "color 0 76.5 0"])
+        self.write_obj("other")
+        self.assertEqual(self.lines("model.obj"), ["material " + STUDIO, "color 0 0 255"])
+
+    def test_are_not_those_of_files_without_any(self):
+        for suffix, write in FORMATS.items():
+            pathlib.Path(f"model.{suffix}").write_bytes(write(vase(1)))
+            self.assertEqual(self.lines(f"model.{suffix}")[:1], ["material " + STUDIO], suffix)
+            self.assertNotIn("use", scene_of(f"model.{suffix}"), suffix)
+
+    def test_of_gltf_follow_the_formula(self):
+        document = json.loads(FORMATS["gltf"](vase(1)))
+        kinds = [((1, 1, 1), 0, 0.5), ((1, 0.8, 0.3), 1, 0.4), ((0.1, 0.2, 0.5), 0.5, 0.75), ((1, 1, 1), 0, 1), ((0.5, 0.5, 0.5), 1, 0)]
+        document["materials"] = [{"pbrMetallicRoughness": {"baseColorFactor": [*base, 1], "metallicFactor": metallic, "roughnessFactor": roughness}}
+                                 for base, metallic, roughness in kinds]
+        primitive = document["meshes"][0]["primitives"][0]
+        document["meshes"] = [{"primitives": [{**primitive, "material": i}]} for i in range(len(kinds))]
+        document["nodes"] = [{"mesh": i, "translation": [i, 0, 0]} for i in range(len(kinds))]
+        document["scenes"] = [{"nodes": list(range(len(kinds)))}]
+        pathlib.Path("model.gltf").write_text(json.dumps(document))
+        for options in ([], ["--nodes"]):
+            lines = self.lines("model.gltf", *options)
+            found = [[float(word) for word in line.split()[1:]] for line in lines if line.startswith("material")]
+            self.assertEqual(len(found), len(kinds))
+            for factors, (base, metallic, roughness) in zip(found, kinds):
+                for value, expected in zip(factors, by_roughness(base, metallic, max(roughness, 1e-9))):
+                    self.assertAlmostEqual(value, expected, delta=0.0006)
+            self.assertEqual([line for line in lines if line.startswith("use")], ["use 1", "use 2", "use 3", "use 4"])
+
+    def test_are_not_without_number(self):
+        count = 300
+        pathlib.Path("model.mtl").write_text("".join(f"newmtl m{i}\nKd 1 1 1\nKs 0.5 0.5 0.5\nNs {i + 1}\n" for i in range(count)))
+        pathlib.Path("model.obj").write_text("mtllib model.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\n" + "".join(f"usemtl m{i}\nf 1 2 3\n" for i in range(count)))
+        done = run("mesh2scene", "model.obj")
+        lines = done.stdout.decode().splitlines()
+        self.assertEqual(done.returncode, 0)
+        self.assertIn("mesh2scene: note: model.obj: it has more than 256 materials; from there on meshes have the first\n", done.stderr.decode())
+        self.assertEqual([line for line in lines if line.startswith("material")], [f"material 1 1 0.5 {i + 1}" for i in range(256)])
+        self.assertEqual([line for line in lines if line.startswith("use")], [f"use {i}" for i in [*range(1, 256), 0]])
+
+    def test_of_no_numbers_are_none(self):
+        pathlib.Path("model.mtl").write_text("newmtl odd\nKa -1 nan inf\nKd 1 1 1\nKs 7 7 7\nNs 1e30\n")
+        pathlib.Path("model.obj").write_text("mtllib model.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl odd\nf 1 2 3\n")
+        self.assertEqual(self.lines("model.obj")[0].split()[3:], ["1", "10000"])
 
 
 class Refusals(ToolTest):
