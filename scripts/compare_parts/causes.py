@@ -15,7 +15,7 @@ ROUNDING = "all differences are of one unit in the last decimal: rounding"
 
 def hint_of_numbers(theirs, ours):
     """What two lists of points have to do with each other, in words; None if nothing simple."""
-    if len(theirs) != len(ours) or not ours:
+    if len(theirs) != len(ours) or theirs == ours:
         return None
     if not any(exceeds(a, b, UNIT) for p, q in zip(theirs, ours) for a, b in zip(p, q)):
         return ROUNDING

@@ -2,6 +2,8 @@
 import dataclasses
 import math
 
+from judge_parts.matching import left_over_for_certain, named
+
 
 def exceeds(a, b, tolerance):
     """Whether a and b differ by more than the tolerance and by more than reading decimals as doubles can add."""
@@ -19,7 +21,7 @@ class Pair:
         return abs(self.a - self.b)
 
     def __str__(self):
-        return f"{self.place}: {self.a:.10g} and {self.b:.10g}"
+        return f"{self.place}: {self.a:.10g} in A, {self.b:.10g} in B"
 
 
 @dataclasses.dataclass
@@ -54,7 +56,7 @@ class Differences:
         yield f"{self.things} compared", str(self.compared)
         yield f"{self.things} that differ", str(self.differing)
         if self.largest:
-            yield "largest difference", f"{self.largest.size:.3g}, {self.largest}"
+            yield "largest difference", f"{self.largest}, off by {self.largest.size:.3g}"
             yield "first difference", str(self.first)
         for words in self.unlike:
             yield "not alike", words
@@ -66,15 +68,45 @@ def compare_stage_texts(a, b, tolerance):
     for keyword in [*a.header, *(keyword for keyword in b.header if keyword not in a.header)]:
         if keyword in a.header and keyword in b.header and a.header[keyword] != b.header[keyword]:
             result.unlike.append(f"header line {keyword}: {' '.join(a.header[keyword])} and {' '.join(b.header[keyword])}")
-    if len(a.triangles) != len(b.triangles):
-        result.unlike.append(f"{len(a.triangles)} and {len(b.triangles)} triangles")
-    for t, (triangle_a, triangle_b) in enumerate(zip(a.triangles, b.triangles)):
-        for v, (vertex_a, vertex_b) in enumerate(zip(triangle_a, triangle_b)):
+    triangles, words = paired(a.triangles, b.triangles, tolerance)
+    if words:
+        result.unlike.append(words)
+    compare_vertices(result, "triangle", "vertex", triangles)
+    if len(a.spheres) != len(b.spheres):
+        result.unlike.append(f"{len(a.spheres)} and {len(b.spheres)} spheres")
+    compare_vertices(result, "sphere", "point", zip(range(len(a.spheres)), a.spheres, b.spheres))
+    return result
+
+
+def compare_vertices(result, thing, corner, pairs):
+    """Adds the differences of the vertices of triangles, or of the points of spheres: (number, that of A, that of B)."""
+    for t, vertices_a, vertices_b in pairs:
+        for v, (vertex_a, vertex_b) in enumerate(zip(vertices_a, vertices_b)):
             for i, (x, y) in enumerate(zip(vertex_a.numbers, vertex_b.numbers)):
-                result.add(lambda: f"line {vertex_a.line}, {'xyz'[i] if i < 3 else f'column {i + 1}'} of vertex {v + 1} of triangle {t}", x, y)
+                result.add(lambda: f"line {vertex_a.line}, {'xyz'[i] if i < 3 else f'column {i + 1}'} of {corner} {v + 1} of {thing} {t}", x, y)
             if len(vertex_a.numbers) != len(vertex_b.numbers) and not result.unlike:
                 result.unlike.append(f"line {vertex_a.line}: {len(vertex_a.numbers)} and {len(vertex_b.numbers)} numbers")
-    return result
+
+
+def paired(a, b, tolerance):
+    """(number, triangle of A, triangle of B) of those to compare, and in words how their counts differ; empty if they do not. Of two
+    lists, one of which is the other without some triangles, all others are compared."""
+    if len(a) == len(b):
+        return zip(range(len(a)), a, b), ""
+    words = f"{len(a)} and {len(b)} triangles"
+
+    def is_same(one, other):
+        return all(len(p.numbers) == len(q.numbers) and not any(exceeds(x, y, tolerance) for x, y in zip(p.numbers, q.numbers)) for p, q in zip(one, other))
+
+    few, many = sorted((a, b), key=len)
+    left, is_certain = left_over_for_certain(few, many, is_same)
+    if not few or left is None:
+        return zip(range(len(few)), a, b), words
+    lacking, full = "AB" if few is a else "BA"
+    words += f": {lacking} lacks {named(left)} of {full}" + ("" if is_certain else " (or what is the same)")
+    left_out = set(left)
+    kept = [triangle for t, triangle in enumerate(many) if t not in left_out]
+    return zip(range(len(few)), *((few, kept) if few is a else (kept, few))), words
 
 
 def compare_z_buffers(a, b, tolerance):

@@ -46,7 +46,7 @@ def pictures(test, files, verdict):
     picture = [file for file in verdict.of("zbuf") if file.file == files["picture"].name] if "picture" in files else []
     if picture and picture[0].verdict != UNREADABLE and files["picture"].data:
         try:
-            theirs = picture_of(files["picture"].data, "")[2]
+            theirs = picture_of(files["picture"].data, "", test.reference.background)[2]
         except PictureError:
             pass
     shape = test.picture or theirs

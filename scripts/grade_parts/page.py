@@ -58,4 +58,4 @@ def section(test, level):
 
 
 def counted(file):
-    return "" if file.differing is None else f"{file.differing:,} of {file.compared:,}"
+    return "" if file.count_told is None else f"{file.count_told:,} of {file.compared:,}"

@@ -29,7 +29,7 @@ class Comparison:
             left = " ".join(f"{shown(x):>12}{'*' if (i, j) in self.differing else ' '}" for j, x in enumerate(a))
             rows.append(f"  {left}   | " + " ".join(f"{shown(x):>12}" for x in b))
         width = rows[0].index("|")
-        return [f"  {'their matrix (* differs)':<{width - 2}}| ours", *rows]
+        return [f"  {'found in the points (* differs)':<{width - 2}}| right", *rows]
 
     def __str__(self):
         return "\n".join(self.lines())

@@ -14,7 +14,7 @@ from judge_parts.matrices import image
 from judge_parts.reference import kinds_of, reference
 from judge_parts.shown import Shown, read_colors, read_depths
 from judge_parts.stage_judge import Outcome, Reading, StageJudge, undecided_outcome
-from judge_parts.verdict import ANOTHER_RULE, MISSING, RIGHT, TOO_FEW_DIGITS, UNDECIDED, UNREADABLE, WRONG, FileVerdict, Verdict
+from judge_parts.verdict import ANOTHER_RULE, GOOD, MISSING, RIGHT, TOO_FEW_DIGITS, UNDECIDED, UNREADABLE, WRONG, FileVerdict, Verdict
 from lib.input_file import InputError
 from lib.pictures import PictureError
 from lib.stage_text import StageTextError
@@ -54,12 +54,18 @@ class HandIn:
                 outcome = self.of_empty_text(stage, kind, readings)
             elif theirs and stage == "model":
                 outcome = judge.model(self.files[kind].name, theirs)
-            elif theirs and stage == "view":
-                outcome = judge.view(self.files[kind].name, theirs, readings)
             elif theirs:
-                outcome = judge.project(self.files[kind].name, theirs, readings, self.clipped(readings))
+                outcome = self.after_model(judge, stage, kind, theirs, readings)
+                if outcome.verdict.verdict == WRONG and verdicts[-1].verdict == WRONG:
+                    # A program may write other numbers into a file than it goes on with.
+                    by_right = self.after_model(judge, stage, kind, theirs, [Reading.exact(self.right_before(stage))])
+                    if by_right.verdict.verdict in GOOD:
+                        by_right.verdict.remarks.append(f"by the right numbers, which are not those of {verdicts[-1].file}")
+                        outcome = by_right
             if outcome is None:
                 outcome = Outcome(self.failed[kind], self.right_memory(stage, readings))
+            if theirs is not None and theirs.strays:
+                outcome.verdict.remarks.append(theirs.strays)
             self.add_others(kind, outcome.verdict)
             verdicts.append(outcome.verdict)
             memory, before = outcome.memory, theirs
@@ -67,6 +73,15 @@ class HandIn:
             verdicts += self.pixels(before, memory, self.right_ndc() if verdicts[-1].verdict == WRONG else None)
         verdicts[0].remarks += self.ours.remarks
         return Verdict(verdicts)
+
+    def after_model(self, judge, stage, kind, theirs, readings):
+        if stage == "view":
+            return judge.view(self.files[kind].name, theirs, readings)
+        return judge.project(self.files[kind].name, theirs, readings, self.clipped(readings))
+
+    def right_before(self, stage):
+        """The right points that a stage after model reads."""
+        return self.ours.world if stage == "view" else [image(self.ours.scene.of_view(), p, False) for p in self.ours.world]
 
     def right_memory(self, stage, readings):
         """The points after a stage whose file is missing, if the stage is right."""
@@ -91,8 +106,7 @@ class HandIn:
 
     def right_ndc(self):
         """What a program may have drawn by that writes other numbers into its file."""
-        p_view = [image(self.ours.scene.of_view(), p, False) for p in self.ours.world]
-        return [image(self.ours.scene.of_project(), p, True) for p in p_view]
+        return [image(self.ours.scene.of_project(), p, True) for p in self.right_before("project")]
 
     # reading
     def read(self, kind, parse):
@@ -125,7 +139,7 @@ class HandIn:
         """The FileVerdicts of the depths and of the picture; `right_ndc` if stage3.txt does not have it."""
         window = self.ours.window
         depths = self.read("depths", read_depths)
-        colors = self.read("picture", lambda data, name: read_colors(data, name, window.width, window.height))
+        colors = self.read("picture", lambda data, name: read_colors(data, name, window, self.ours.background))
         verdicts = {kind: self.failed.get(kind) for kind in ("depths", "picture")}
         if self.ours.has_own_colors and colors is not None:
             verdicts["picture"], colors = self.verdict_of_colors(colors), None

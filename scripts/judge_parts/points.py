@@ -3,7 +3,8 @@ import dataclasses
 import math
 
 from judge_parts.digits import EXACT, Digits, digits_of
-from lib.stage_text import parse_stage_text, text_of
+from judge_parts.strays import of_a_text
+from lib.stage_text import StageTextError, begins_with_a_camera, is_scene, parse_stage_text, text_of
 
 BASE = 1e-6     # numbers of 7 decimals that were calculated from numbers of 7 decimals; times their size beyond 1
 MOST_UNDECIDED = 0.1  # of the numbers, for example where a point would be divided by 0
@@ -15,6 +16,7 @@ class Points:
     points: list
     lines: list
     digits: Digits = EXACT
+    strays: str = ""  # lines that do not belong into a stage text, in words
 
     def __len__(self):
         return len(self.points)
@@ -27,10 +29,16 @@ class Points:
 def read_points(data, name):
     """The Points of a stage text; raises a StageTextError."""
     text = text_of(data, name)
-    vertices = parse_stage_text(text, name).vertices
+    strays = of_a_text(text)
+    try:
+        vertices = parse_stage_text(text, name).vertices
+    except StageTextError as error:
+        is_other = is_scene(text) or begins_with_a_camera(text)  # of another kind, of which no line is a stray one
+        is_told = not strays or strays.startswith("1 line is ")  # the one that the error is about
+        raise StageTextError(str(error) if is_told or is_other else f"{error}; {strays}") from None
     lines = text.split("\n")
     words = [word for vertex in vertices for word in lines[vertex.line - 1].split("#")[0].split()[:3]]
-    return Points([vertex.numbers[:3] for vertex in vertices], [vertex.line for vertex in vertices], digits_of(words))
+    return Points([vertex.numbers[:3] for vertex in vertices], [vertex.line for vertex in vertices], digits_of(words), strays)
 
 
 def printed_tolerance(p, digits):
@@ -48,10 +56,16 @@ class Difference:
     compared: int = 0
     first: tuple = None
     largest: tuple = None
+    points: set = dataclasses.field(default_factory=set)  # indices of those that differ
 
     @property
     def first_triangle(self):
         return None if self.first is None else self.first[0] // 3
+
+    @property
+    def triangles(self):
+        """The numbers of the triangles that differ, in order."""
+        return sorted({i // 3 for i in self.points})
 
 
 def is_off(a, b, tolerance):
@@ -81,6 +95,7 @@ def difference(theirs, digits, expected):
             result.compared += 1
             if is_off(a, b, printed + slack):
                 result.differing += 1
+                result.points.add(i)
                 pair = (i, axis, a, b)
                 result.first = result.first or pair
                 if result.largest is None or abs(a - b) > abs(result.largest[2] - result.largest[3]):
@@ -89,6 +104,6 @@ def difference(theirs, digits, expected):
 
 
 def described(pair, lines):
-    """A difference with its location."""
+    """A difference with its location: their number, and ours."""
     i, axis, a, b = pair
-    return f"{abs(a - b):.3g}, line {lines[i]}, {'xyz'[axis]} of vertex {i % 3 + 1} of triangle {i // 3}: {a:.10g} and {b:.10g}"
+    return f"line {lines[i]}, {'xyz'[axis]} of vertex {i % 3 + 1} of triangle {i // 3}: {a:.10g} in place of {b:.10g}, off by {abs(a - b):.3g}"

@@ -10,7 +10,7 @@ from judge_parts.old_format import without_old_lines
 from judge_parts.scene import Scene
 from lib.command import CommandFailure
 from lib.pictures import read_picture
-from lib.pipe_tools import ToolFailure, Tools
+from lib.pipe_tools import ToolFailure, Tools, opaque_background
 from lib.stage_text import parse_stage_text, text_of
 
 EXACT = ("--digits", "exact")
@@ -30,12 +30,14 @@ class Reference:
     def __init__(self, scene, config, tools):
         self.tools, self.config, self.remarks = tools, config, []
         text, model = self.accepted(scene)
+        self.expect_no_spheres(text, model)
         self.scene_data = text.encode("utf-8", errors="surrogateescape")
         stage1 = parse_stage_text(model.decode(), "model")
         self.header = stage1.header
         self.scene = Scene(text, stage1.header)
         self.world = stage1.points
         self.window = self.accepted_window(config) if config is not None else None
+        self.background = bytes(math.floor(float(word) + 0.5) for word in self.header.get("background", ("0", "0", "0"))[:3])
         self.has_own_colors = any(keyword in self.header for keyword in OWN_COLORS)
 
     def accepted(self, data):
@@ -53,6 +55,14 @@ class Reference:
             except ToolFailure:
                 pass
             raise JudgeError(f"the scene is refused: {failure}") from None
+
+    def expect_no_spheres(self, text, model):
+        """Assignments have none. model's message names the place in the scene."""
+        if b"\nsphere\n" in model:
+            try:
+                self.tools.run("model", "--bare", stdin=text.encode("utf-8", errors="surrogateescape"))
+            except ToolFailure as failure:
+                raise JudgeError(f"the scene is refused: {failure}") from None
 
     def accepted_window(self, config):
         size = text_of(config, "the config").split()[:2]
@@ -77,7 +87,7 @@ class Reference:
         """The picture of our zbuf for the bytes of a stage text, as rows of bytes; None if it refuses them."""
         try:
             with self.tools.file(self.config) as config, self.tools.file(b"") as image:
-                self.tools.run("zbuf", config, "--coverage", coverage, "--z-buffer", "/dev/null", "--image", image + ".ppm", stdin=stage3)
+                self.tools.run("zbuf", config, "--coverage", coverage, "--z-buffer", "/dev/null", "--image", image + ".ppm", *opaque_background(stage3), stdin=stage3)
                 try:
                     return read_picture(image + ".ppm")[2]
                 finally:

@@ -1,12 +1,12 @@
 """A Verdict in words."""
 from judge_parts.verdict import ANOTHER_RULE, FAILED, MISSING, OPEN, RIGHT
 
-HEADER = ["stage", "file", "verdict", "numbers that differ", "largest difference, theirs and ours", "remarks"]
+HEADER = ["stage", "file", "verdict", "numbers that differ", "largest difference", "remarks"]
 
 
 def rows(verdict):
     """The lines of a table below HEADER."""
-    return [[file.stage, file.file, file.verdict, "" if file.differing is None else str(file.differing), file.largest, "; ".join(remarks_of(file))]
+    return [[file.stage, file.file, file.verdict, "" if file.count_told is None else str(file.count_told), file.largest, "; ".join(remarks_of(file))]
             for file in verdict.files]
 
 

@@ -36,9 +36,10 @@ def read_depths(data, name):
     return Depths(rows, digits_of(words_of_all))
 
 
-def read_colors(data, name, width, height):
-    """Rows of colors, three bytes each; raises a PictureError, also if the picture has another size."""
-    found_width, found_height, rows = picture_of(data, name)
+def read_colors(data, name, window, background):
+    """Rows of colors, three bytes each; what is transparent shows the background. Raises a PictureError, also if the picture has another size."""
+    width, height = window.width, window.height
+    found_width, found_height, rows = picture_of(data, name, background)
     if (found_width, found_height) != (width, height):
         raise PictureError(f"{name}: expected {width} x {height} pixels, found {found_width} x {found_height}")
     return [[row[i:i + 3] for i in range(0, 3 * width, 3)] for row in rows]

@@ -2,15 +2,15 @@
 import dataclasses
 import math
 
-from judge_parts import fit
+from judge_parts import fit, matching, some_vertices
 from judge_parts.digits import EXACT
-from judge_parts.matrices import IDENTITY, ROUNDING, image, slack
+from judge_parts.matrices import ROUNDING, image, slack
+from judge_parts.matrix_causes import MatrixCauses
 from judge_parts.points import described, difference, differs
 from judge_parts.scene import NO_UNITS, ROUGH_PIS, Habit, turned_with
+from judge_parts.some_vertices import ALL_VERTICES
 from judge_parts.verdict import ANOTHER_RULE, RIGHT, TOO_FEW_DIGITS, UNDECIDED, WRONG, Cause, FileVerdict, cause_of
 from lib.vectors import cross
-
-UNCHANGED = "The points are those of the stage before, unchanged"
 
 
 @dataclasses.dataclass
@@ -22,6 +22,10 @@ class Reading:
     @classmethod
     def exact(cls, points):
         return cls(points, [NO_UNITS] * len(points))
+
+    def at(self, part):
+        """Those of a slice."""
+        return self if part is ALL_VERTICES[0] else Reading(self.points[part], self.units[part])
 
 
 @dataclasses.dataclass
@@ -43,9 +47,35 @@ def exact_images(m, is_divided, points):
     return done if all(math.isfinite(p[0]) for p in done) else None
 
 
-def count_verdict(stage, name, theirs, expected):
+def count_verdict(stage, name, theirs, expected, digits):
+    """The verdict on a text with more or fewer triangles than `expected`, which are lists of points with their slacks, right ones in
+    the right number. The cause is which triangle is missing or too many, if all others are right."""
+    ours = [triangles_of(points) for points in expected]
     count = len(theirs) // 3
-    return FileVerdict(stage, name, WRONG, remarks=[f"{count} triangle{'' if count == 1 else 's'} in place of {expected}"])
+    verdict = FileVerdict(stage, name, WRONG, remarks=[f"{count} triangle{'' if count == 1 else 's'} in place of {len(ours[0])}"])
+    written, lines = triangles_of(theirs.points), theirs.lines[::3]
+
+    def is_same(triangle, right):
+        return not differs(triangle, digits, right)
+
+    texts = [matching.missing(written, triangles, is_same) if count < len(triangles) else matching.added(written, triangles, is_same, lines)
+             for triangles in ours]
+    verdict.causes = [Cause("", text) for text in texts if text][:1]
+    return verdict
+
+
+def causes_of_order(theirs, expected, digits):
+    """The cause if a text has the right triangles in another order; a list of at most one."""
+    def is_same(triangle, right):
+        return not differs(triangle, digits, right)
+
+    texts = (matching.reordered(triangles_of(theirs.points), triangles_of(points), is_same) for points in expected)
+    return [Cause("", text) for text in [next(filter(None, texts), "")] if text]
+
+
+def triangles_of(points):
+    points = list(points)
+    return [points[i:i + 3] for i in range(0, len(points), 3)]
 
 
 def undecided_outcome(stage, name):
@@ -69,10 +99,10 @@ class StageJudge:
     def model(self, name, theirs):
         """The Outcome for Points."""
         scene, count = self.scene, len(self.scene.triangle_lines)
-        if len(theirs) != 3 * count:
-            return Outcome(count_verdict("model", name, theirs, count))
-        slacks = [slacks for _, slacks in scene.world()]
         digits = EXACT if theirs.digits.are_too_few else theirs.digits
+        if len(theirs) != 3 * count:
+            return Outcome(count_verdict("model", name, theirs, [scene.world()], digits))
+        slacks = [slacks for _, slacks in scene.world()]
         if not differs(theirs.points, digits, zip(self.exact_world, slacks)):
             return Outcome(right_verdict("model", name, theirs), self.exact_world)
         for pi in ROUGH_PIS:
@@ -91,16 +121,25 @@ class StageJudge:
         verdict = self.wrong("model", name, theirs, result)
         place = self.place_of(result.first_triangle)
         verdict.causes = [cause_of("model/" + mistake, place if i == len(found) - 1 else "") for i, mistake in enumerate(found)]
-        if not found and place:
-            verdict.remarks.append(place)
+        if not found:
+            right = list(zip(self.exact_world, slacks))
+            verdict.causes = causes_of_order(theirs, [right], digits) or some_vertices.causes(result, count, lambda part: not differs(theirs.points[part], digits, right[part]),
+                lambda parts: [cause_of("model/" + mistake) for mistake in self.model_mistakes(theirs.points, digits, parts)])
+            verdict.remarks += ([place] if place else []) + (some_vertices.few_triangles(result, count) if not verdict.causes else [])
         return Outcome(verdict, [p for p, _ in scene.world(next(iter(found.values())))] if found else None)
 
-    def model_mistakes(self, points, digits):
+    def model_mistakes(self, points, digits, parts=ALL_VERTICES):
         """{name: habit} of the mistakes that reproduce the points. Each is made in its usual way; only if none fits, in others."""
+        def is_by(habit):
+            if parts is ALL_VERTICES:  # without a list of them all
+                return not differs(points, digits, self.scene.world(habit))
+            world = list(self.scene.world(habit))
+            return not any(differs(points[part], digits, world[part]) for part in parts)
+
         for ways in (lambda habits: habits[:1], lambda habits: habits[1:]):
             found = {}
             for name, habits in self.scene.model_mistakes():
-                fitting = (habit for habit in ways(habits) if not differs(points, digits, self.scene.world(habit)))
+                fitting = (habit for habit in ways(habits) if is_by(habit))
                 if habit := next(fitting, None):
                     found[name] = habit
             if found:
@@ -134,62 +173,45 @@ class StageJudge:
         name of what is right is the rule, in words."""
         given = readings
         readings = [reading for reading in given if len(reading.points) == len(theirs)]
-        if not readings:
-            return Outcome(count_verdict(stage, name, theirs, len(given[0].points) // 3)) if given else undecided_outcome(stage, name)
         digits = EXACT if theirs.digits.are_too_few else theirs.digits
         reach = math.hypot(*self.scene.eye) if stage == "view" else 0.0
+        if not readings and given:
+            return Outcome(count_verdict(stage, name, theirs, [matrix_images(m, is_divided, reading, reach) for reading in given for _, m, is_divided in right], digits))
+        if not readings:
+            return undecided_outcome(stage, name)
         memory = readings[-1].points
 
-        def is_by(m, is_divided):
-            return any(not differs(theirs.points, digits, matrix_images(m, is_divided, reading, reach)) for reading in readings)
+        def is_by(m, is_divided, parts=ALL_VERTICES):
+            return any(not any(differs(theirs.points[part], digits, matrix_images(m, is_divided, reading.at(part), reach)) for part in parts) for reading in readings)
 
         for rule, m, is_divided in right:
             if is_by(m, is_divided):
                 return Outcome(right_verdict(stage, name, theirs, rule), exact_images(m, is_divided, memory))
         _, ours, divides = right[0]
-        found = {}
-        for mistake, m, is_divided in mistakes:
-            if mistake not in found and is_by(m, is_divided):
-                found[mistake] = (m, is_divided)
-        causes = [cause_of(f"{stage}/{mistake}", self.detail(mistake)) for mistake in found]
+        causes = MatrixCauses(stage, (ours, divides), mistakes, is_by)
+        found = causes.of_the_list()
         if not found and theirs.digits.are_too_few:
             return Outcome(self.undecided(stage, name, theirs))
-        if not found and is_by(IDENTITY, False):
-            causes, found = [Cause("", UNCHANGED)], {UNCHANGED: (IDENTITY, False)}
-        elif not found:
-            causes, found = self.changed_elements(stage, ours, divides, is_by)
-        verdict = self.wrong(stage, name, theirs, min((difference(theirs.points, digits, matrix_images(ours, divides, reading, reach))
-                                                       for reading in readings), key=lambda result: result.differing))
-        verdict.causes = causes
+        result = min((difference(theirs.points, digits, matrix_images(ours, divides, reading, reach)) for reading in readings), key=lambda result: result.differing)
+        verdict = self.wrong(stage, name, theirs, result)
+        found = found or causes.of_the_form() or causes.of_an_element()
+        verdict.causes = [dataclasses.replace(cause, detail=self.detail(cause.name)) for cause, *_ in found]
+        verdict.causes = verdict.causes or causes_of_order(theirs, [matrix_images(ours, divides, reading, reach) for reading in readings], digits) or some_vertices.causes(
+            result, len(theirs) // 3, lambda part: any(is_by(m, is_divided, [part]) for _, m, is_divided in right),
+            lambda parts: [cause for cause, *_ in causes.of_the_list(parts) or causes.of_the_form(parts)])
+        verdict.remarks += some_vertices.few_triangles(result, len(theirs) // 3) if not verdict.causes else []
         verdict.matrices = fit.compare(readings[0].points, theirs.points, theirs.units, ours, divides)
-        return Outcome(verdict, exact_images(*next(iter(found.values())), memory) if found else None)
+        return Outcome(verdict, exact_images(*found[0][1:], memory) if found else None)
 
-    def detail(self, mistake):
+    def detail(self, name):
         """A number that shows the mistake."""
         scene = self.scene
-        if mistake == "r-not-unit":
+        if name == "view/r-not-unit":
             l = tuple(b - a for a, b in zip(scene.eye, scene.look))
             return f"its length is {math.hypot(*cross(l, scene.up)) / math.hypot(*l):.4f}"
-        if mistake == "l-not-unit":
+        if name == "view/l-not-unit":
             return f"its length is {math.hypot(*(b - a for a, b in zip(scene.eye, scene.look))):.4f}"
         return ""
-
-    @staticmethod
-    def changed_elements(stage, ours, divides, is_by):
-        """A cause outside the list: one row with the opposite sign, or one element that is another number. None if several would do."""
-        found = {}
-        for i in range(4 if stage == "project" else 3):
-            m = tuple(tuple(-x for x in row) if k == i else row for k, row in enumerate(ours))
-            if is_by(m, divides):
-                found[f"Row {i + 1} of the matrix has the opposite sign"] = (m, divides)
-        numbers = {0.0, 1.0, -1.0, *(sign * abs(x) for row in ours for x in row for sign in (1, -1))}
-        for i in range(4 if stage == "project" else 3):
-            for j in range(4):
-                for value in sorted(numbers | {2 * ours[i][j], ours[i][j] / 2}):
-                    m = tuple(tuple(value if (k, n) == (i, j) else x for n, x in enumerate(row)) for k, row in enumerate(ours))
-                    if value != ours[i][j] and is_by(m, divides):
-                        found[f"Row {i + 1}, column {j + 1} of the matrix is {value:.6g}, not {ours[i][j]:.6g}"] = (m, divides)
-        return ([Cause("", text) for text in found], found) if len(found) == 1 else ([], {})
 
     # verdicts
     @staticmethod

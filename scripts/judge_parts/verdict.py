@@ -46,6 +46,11 @@ class FileVerdict:
     places: list = dataclasses.field(default_factory=list)  # (row, column) of the pixels that differ
 
     @property
+    def count_told(self):
+        """How many differ, if that says something: a cause that explains every pixel leaves none."""
+        return None if self.verdict == WRONG and self.differing == 0 else self.differing
+
+    @property
     def is_good(self):
         return self.verdict in GOOD
 

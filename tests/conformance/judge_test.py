@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """The judge on random scenes and a student's program: right without a switch and with every harmless habit; with a mistake wrong, by its
-true cause, wherever its numbers differ. No cause is false, and no stage accused but the mistake's.
+true cause, wherever its numbers differ. No cause is false, and no stage accused but the mistake's. The same for mistakes that no list
+has (changes.py): they are made in the texts of its right run.
 
 usage: judge_test.py STUDENT BIN_DIR SOURCE_DIR [SCENES [SHARE]]
 
@@ -23,6 +24,7 @@ student, bin_dir, source = (pathlib.Path(path).resolve() for path in arguments[:
 scene_count, share = (int(word) for word in (*arguments[3:], *("20", "4")[len(arguments) - 3:]))
 os.environ["BIN"] = str(bin_dir)
 sys.path[:0] = [str(source / "scripts"), str(source / "tests/conformance")]
+import changes  # noqa: E402
 import course_scenes  # noqa: E402
 from judge_parts.hand_in import find_files  # noqa: E402
 from judge_parts.judge import judge  # noqa: E402
@@ -66,9 +68,22 @@ class Scene:
             return files, judge(find_files(folder), self.scene, self.config)
 
 
+    def changed(self, change, rng):
+        """The FileVerdict of a stage whose right text is changed, and the words that its cause has to begin with."""
+        with tempfile.TemporaryDirectory() as top:
+            for name, text in self.right.items():
+                pathlib.Path(top, name).write_bytes(text)
+            number = ("model", "view", "project").index(change.stage) + 1
+            texts = [self.scene.decode(), *(self.right[f"stage{i}.txt"].decode() for i in (1, 2, 3))]
+            text, words = change.make(texts, number, rng)
+            pathlib.Path(top, f"stage{number}.txt").write_text(text)
+            return judge(find_files(top), self.scene).of(change.stage)[0], words
+
+
 # What the judge makes of one run: the scene's number, the switch (or none), the FileVerdicts, the exit status, and the stages whose files
 # differ from those of the right run.
 Run = namedtuple("Run", "scene switch files status differing")
+ChangedRun = namedtuple("ChangedRun", "scene name file words")
 
 
 def stages_that_differ(files, right):
@@ -89,6 +104,10 @@ def runs_of(seed):
             for file in verdict.files:
                 file.places = []  # thousands of pixels that nobody asks for
             runs.append(Run(seed, switch, verdict.files, verdict.status, stages_that_differ(files, scene.right)))
+    rng = random.Random(seed)
+    for place, change in enumerate(changes.CHANGES):
+        if place % share == seed % share:
+            runs.append(ChangedRun(seed, change.name, *scene.changed(change, rng)))
     return runs
 
 
@@ -99,11 +118,12 @@ def described(run):
 class Judged(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.runs, count, seeds = [], 0, itertools.count()
+        cls.runs, cls.changed, count, seeds = [], [], 0, itertools.count()
         with concurrent.futures.ProcessPoolExecutor(os.cpu_count()) as pool:
             while count < scene_count:
                 for runs in pool.map(runs_of, itertools.islice(seeds, scene_count - count)):
-                    cls.runs += runs or []
+                    cls.runs += [run for run in runs or [] if isinstance(run, Run)]
+                    cls.changed += [run for run in runs or [] if isinstance(run, ChangedRun)]
                     count += runs is not None
 
     def of(self, switches):
@@ -149,6 +169,20 @@ class Judged(unittest.TestCase):
             print("  not named:", words, file=sys.stderr)
         self.assertGreater(len(differing), scene_count)
         self.assertGreaterEqual(named, LEAST_NAMED * len(differing))
+
+    def test_a_change_that_no_list_has_is_named_and_no_other(self):
+        nameless = []
+        for run in self.changed:
+            with self.subTest(run.name, scene=run.scene):
+                self.assertEqual(run.file.verdict, "wrong")
+                texts = [cause.text for cause in run.file.causes]
+                is_named = any(text.startswith(run.words) for text in texts)
+                self.assertTrue(is_named or not texts, (texts, run.words))
+                nameless += [] if is_named else [f"{run.name} in scene {run.scene}"]
+        print(f"{len(self.changed)} changed texts, {len(self.changed) - len(nameless)} of those named", file=sys.stderr)
+        for words in nameless:
+            print("  not named:", words, file=sys.stderr)
+        self.assertGreaterEqual(len(self.changed) - len(nameless), LEAST_NAMED * len(self.changed))
 
 
 if __name__ == "__main__":

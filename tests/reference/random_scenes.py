@@ -65,6 +65,11 @@ def looks(rng, has_light):
         if rng.random() < 0.4:
             lines += ["material %s %s" % (positive(rng, 3, 1.2), shininess) for _ in range(rng.randint(1, 3))]
     rng.shuffle(lines)
+    for i in [i for i, line in enumerate(lines) if line.startswith("material")]:
+        if rng.random() < 0.3:
+            lines[i] += " %s %s %s" % (rng.choice(("0", "0.25", "1")), rng.choice(("1", "1.5", "0.75")), rng.choice(("1", "0", "0.5")))
+        if rng.random() < 0.2:
+            lines[i] += "\nabsorption " + positive(rng, 3, 2)
     return lines, columns, has_color
 
 

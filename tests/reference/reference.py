@@ -92,20 +92,32 @@ ARGUMENTS = {
     "rotate": [ANY] * 3 + [lambda z, y, x, angle: any((x, y, z))],
     "perspective": [lambda degrees: 0 < degrees < 180, POSITIVE, POSITIVE] + DEPTHS,
     "frustum": WINDOW + [POSITIVE] + DEPTHS, "ortho": WINDOW + [ANY] + DEPTHS,
-    "color": [CHANNEL] * 3, "background": [CHANNEL] * 3, "ambient": [NOT_NEGATIVE] * 3, "light": [ANY] * 3 + [NOT_NEGATIVE] * 3,
-    "material": [NOT_NEGATIVE] * 3,  # and the shininess, in read_part
+    "color": [CHANNEL] * 3, "background": [CHANNEL] * 3,  # and perhaps an alpha, in read_part
+    "ambient": [NOT_NEGATIVE] * 3, "light": [ANY] * 3 + [NOT_NEGATIVE] * 3,
+    "material": [NOT_NEGATIVE] * 3,  # and the rest, in read_part
+    "absorption": [NOT_NEGATIVE] * 3,
     "attenuation": [NOT_NEGATIVE] * 2 + [lambda x, *before: x >= 0 and any((x, *before))]}
 COLUMNS = {"w": [POSITIVE], "color": [CHANNEL] * 3, "normal": [ANY] * 3}  # and the material, in read_vertex
 POSITION, PROJECTIONS = ("eye", "look", "up"), ("perspective", "frustum", "ortho")
-ONCE, REPEATED = ("background", "ambient", "attenuation"), ("material", "light")
+OPTICS = [lambda x: 0 <= x <= 1, lambda x, *before: Fraction(0.01) <= x <= 100, lambda x, *before: 0 <= x <= 1]
+ONCE, REPEATED = ("background", "ambient", "attenuation"), ("material", "light", "absorption")
 
 def read_part(line, keyword):  # S6 to S8, S12, S17 to S21, T2 to T6: the rest of a line, behind the keyword if it is there
     numbers = line.reals(*ARGUMENTS[keyword])
     if keyword == "material":
         numbers += (line.whole(),) if re.fullmatch("[0-9]+", "".join(line.words[:1])) else line.reals(lambda x: 0 <= x < 2**64 and x.denominator == 1)
+        numbers += line.reals(*OPTICS) if line.words else (0, 1, 1)
+    if keyword == "background" and line.words:  # S18: an alpha of 255 is as good as none
+        numbers += tuple(alpha for alpha in line.reals(CHANNEL) if alpha < 255)
     rule = line.take("angle", "ratio") if keyword == "perspective" else None
     line.end()
     return Part(line.number, keyword, numbers, rule)
+
+def absorb(header, part, at):  # S19: of the material above
+    materials = header.get("material") or [Part(at, "none", (), True)]
+    if materials[-1].rule:
+        raise Refused(at, "an absorption without a material of its own")
+    materials[-1] = materials[-1]._replace(rule=part)
 
 def check_camera(camera):  # S9: of the parts that are there
     eye, look, up = (camera.get(name) for name in POSITION)
@@ -127,7 +139,7 @@ def read_commands(text, header):  # S10 to S17: yields keyword, line and argumen
     columns, color, material, has_triangle, keyword = (), None, 0, False, None
     while keyword != "end":
         line = text.filled_line("end")
-        at, keyword, arguments = line.number, line.take("triangle", "push", "pop", "end", "attributes", "use", *ARGUMENTS), None
+        at, keyword, arguments = line.number, line.take("triangle", "push", "pop", "end", "attributes", "use", "sphere", *ARGUMENTS), None
         may_be_late = keyword == "color" and "color" in header.get("attributes", ())
         is_late = has_triangle and keyword in ("color", "attributes", *ONCE, *REPEATED) and not may_be_late
         is_second = keyword in ONCE and keyword in header or keyword == "attributes" and columns
@@ -139,6 +151,8 @@ def read_commands(text, header):  # S10 to S17: yields keyword, line and argumen
             line = text.filled_line("arguments")
         if keyword == "triangle":
             arguments, has_triangle = [corner._replace(material=material) for corner in read_triangle(text, line, columns, color)], True
+        elif keyword == "sphere":
+            arguments, has_triangle = [point._replace(color=color, material=material) for point in read_sphere(line, columns, color)], True
         elif keyword == "use":
             material = read_material_number(line, header)
             line.end()
@@ -147,6 +161,8 @@ def read_commands(text, header):  # S10 to S17: yields keyword, line and argumen
         elif keyword in ARGUMENTS:
             arguments = read_part(line, keyword)
             at, color = line.number, arguments.numbers if keyword == "color" else color
+            if keyword == "absorption":
+                absorb(header, arguments, at)
             header.update({keyword: arguments} if keyword in ONCE else {keyword: header.get(keyword, []) + [arguments]} if keyword == "material" else {})
         header["attributes"] = [name for name in ("color", "normal") if name in columns or name == "color" and color]
         header["attributes"] += ["material"] * (len(header.get("material", ())) > 1)
@@ -161,6 +177,16 @@ def read_triangle(text, line, columns, color):  # S11, S16, S17: the corners
         if corners[-1].normal and not any(corners[-1].normal):
             raise Refused(line.number, "a normal of 0 0 0")
     return corners if "color" in columns else [corner._replace(color=color) for corner in corners]
+
+def read_sphere(line, columns, color):  # S24, M10: the four points
+    if "color" in columns and not color:
+        raise Refused(line.number, "no color for a sphere")
+    x, y, z, r = (float(number) for number in line.reals(ANY, ANY, ANY, lambda radius, *before: radius > 0))
+    line.end()
+    if not all(c < c + r < math.inf for c in (x, y, z)):
+        raise Refused(line.number, "a radius that is lost")
+    points = ((x, y, z), (x + r, y, z), (x, y + r, z), (x, y, z + r))
+    return [Vertex(line.number, tuple(map(Fraction, point)), None, None, None, None, None) for point in points]
 
 def read_material_number(line, header):  # S23, T9
     at = line.number
@@ -203,8 +229,8 @@ def read_config(text):  # C1 to C3
 # stage-text.md: reading
 USED_UP = {"view": ("projected",), "project": (*POSITION, "projected"), "zbuf": POSITION + PROJECTIONS}
 class Stage:  # T1 to T16: a stage text as `reader` reads it; `header` has its parts by keyword, any projection as `projection`
-    def __init__(self, data, reader):
-        self.text, self.reader, self.header = Text(data), reader, {}
+    def __init__(self, data, reader, is_bare=False):
+        self.text, self.reader, self.header, self.is_bare = Text(data), reader, {}, is_bare
         while (line := self.text.filled_line()) and self.read_header(line):
             pass
         self.first, self.end_of_header = line, line.number if line else self.text.at + 1
@@ -224,21 +250,31 @@ class Stage:  # T1 to T16: a stage text as `reader` reads it; `header` has its p
         elif keyword:
             kind = line.take("frustum", "ortho") or line.refuse("frustum or ortho") if keyword == "projected" else keyword
             part = read_part(line, kind)
-            self.header[name] = self.header.get(name, []) + [part] if name in REPEATED else part
+            if name == "absorption":
+                absorb(self.header, part, line.number)
+            else:
+                self.header[name] = self.header.get(name, []) + [part] if name in REPEATED else part
         return bool(keyword)
 
-    def triangles(self):  # T8, T10 to T13: one after the other
+    def triangles(self):  # T8, T10 to T13, T26, T27: one after the other, with spheres
         columns = {name: COLUMNS.get(name) for name in self.header.get("attributes", ())}
         number, whole, number_of_whole, end = 0, None, None, "end" if "framed" in self.header else None
         line = self.first or self.text.filled_line(end)
         while line:
             if line.words[0][0] in "0123456789+-.":
                 whole = whole if number == number_of_whole else None
-                yield Triangle(number, self.corners(line, columns), whole)
+                triangle = Triangle(number, self.corners(line, columns), whole)
+                if whole and triangle.corners[0].material != whole[0].material:
+                    raise Refused(line.number, "another material than the whole triangle")
+                yield triangle
                 number += 1
             elif line.take("triangle"):
                 number = line.whole()
                 line.end()
+            elif self.reader == "view" and not self.is_bare and line.take("sphere"):
+                line.end()
+                yield Triangle(number, self.points(columns), None)
+                number += 1
             elif self.reader == "zbuf" and line.take("clipped"):
                 line.end()
                 whole, number_of_whole = self.corners(self.text.line("a vertex"), {**columns, "w": [ANY]}), number
@@ -250,6 +286,18 @@ class Stage:  # T1 to T16: a stage text as `reader` reads it; `header` has its p
             else:
                 line.refuse("a vertex, or 'triangle N'")
             line = self.text.filled_line(end)
+
+    def points(self, columns):  # T26: the four vertex lines of a sphere
+        points, columns = [], {name: of for name, of in columns.items() if name != "normal"}
+        while len(points) < 4:
+            line = self.text.line("a point of a sphere")
+            if line.words:
+                points.append(read_vertex(line, columns, self.header))
+                if (points[-1].color, points[-1].material) != (points[0].color, points[0].material):
+                    raise Refused(line.number, "another color or material than the center")
+            elif not line.comment:
+                raise Refused(line.number, "a blank line inside a sphere")
+        return points
 
     def corners(self, line, columns):  # T8, T9: three vertex lines; `line` is the first, or a comment before it
         corners = []
@@ -298,16 +346,20 @@ class Writer:  # T17 to T20: the lines of a stage text
         if self.columns:
             yield " ".join(["attributes", *self.columns])
         for part in sum((header.get(name, []) if name in REPEATED else [header[name]] for name in WRITTEN if name in header), []):
-            words = [*map(shortest, part.numbers[:3]), *map(str if part.kind == "material" else shortest, part.numbers[3:])]
-            yield " ".join([part.kind, *words])
+            words = [*map(shortest, part.numbers[:3]), *map(str if part.kind == "material" else shortest, part.numbers[3:4]), *map(shortest, part.numbers[4:])]
+            yield " ".join([part.kind, *(words[:4] if part.kind == "material" and part.numbers[4:] == (0, 1, 1) else words)])
+            if part.kind == "material" and part.rule and any(part.rule.numbers):
+                yield " ".join(["absorption", *map(shortest, part.rule.numbers)])
 
-    def add(self, triangle):  # T8 to T11, T18
+    def add(self, triangle):  # T8 to T11, T18, T26
         if triangle.number != self.next and not self.is_bare:
             self.lines.append(f"triangle {triangle.number}")
         self.next = triangle.number + 1
         if triangle.whole:
             self.lines += ["clipped", *(self.vertex(corner, shortest, ["w", *self.columns]) for corner in triangle.whole), ""]
-        self.lines += [*(self.vertex(corner, self.digits, self.columns) for corner in triangle.corners), ""]
+        is_sphere = len(triangle.corners) == 4  # T26
+        columns = [name for name in self.columns if not (is_sphere and name == "normal")]
+        self.lines += [*["sphere"] * is_sphere, *(self.vertex(corner, self.digits, columns) for corner in triangle.corners), ""]
 
     def vertex(self, corner, text_of, columns):  # T9, T19, T20
         words = [*map(text_of, corner.position), *(shortest(corner.w) for _ in "w" if "w" in columns)]
@@ -374,6 +426,8 @@ class Matrix(namedtuple("Matrix", "columns offset", defaults=(UNITS, (0, 0, 0)))
     def __matmul__(self, other):  # M2: the matrix that applies `other` first
         return Matrix(tuple(kept(mean(column, self.columns)) for column in other.columns), kept(self.moved(other.offset)))
 
+    def determinant(self): return dot(self.columns[0], cross(self.columns[1], self.columns[2]))  # M10
+
     def normal(self, n):  # M7
         x, y, z = self.columns
         cofactors = (cross(y, z), cross(z, x), cross(x, y))
@@ -389,11 +443,13 @@ def transform(keyword, numbers):  # M3, M4: the T of a command
     (sine, cosine), a = sine_and_cosine(numbers[0]), unit(numbers[1:])
     return Matrix(tuple(plus(times(cosine, x), times((1 - cosine) * dot(a, x), a), times(sine, cross(a, x))) for x in UNITS))
 
-def model(data, options):  # M1 to M9, N4: the text of stage 1
+def model(data, options):  # M1 to M10, N4: the text of stage 1
     text = Text(data)
     header, matrix, saved, triangles = {**read_camera(text), "light": []}, Matrix(), [], []
     for keyword, line, arguments in read_commands(text, header):
-        if keyword == "triangle":
+        if keyword == "sphere" and ("--bare" in options or matrix.determinant() == 0):
+            raise Refused(line, "a sphere without a volume, or in a bare text")
+        if keyword in ("triangle", "sphere"):
             triangles.append(Triangle(len(triangles), [corner._replace(
                 position=expect_finite(matrix.moved(corner.position), corner.line),
                 normal=corner.normal and matrix.normal(corner.normal)) for corner in arguments]))
@@ -423,7 +479,7 @@ def camera_of(stage, options, names):  # V1, P1: from options, scene and header;
     return camera
 
 def view(data, options):  # V1, V2: the text of stage 2
-    stage = Stage(data, "view")
+    stage = Stage(data, "view", "--bare" in options)
     camera = camera_of(stage, options, POSITION + PROJECTIONS)
     if not all(name in camera for name in POSITION):
         raise Refused(stage.end_of_header, "no camera")
@@ -595,10 +651,14 @@ Surface = namedtuple("Surface", "clip positions normals colors material")  # of 
 Lighting = namedtuple("Lighting", "ambient attenuation lights is_ortho material")
 def in_decimals(vector): return tuple(Decimal(x.numerator) / x.denominator for x in vector)  # L7: with 50 digits
 
-def shading_model(stage, chosen):  # L1, T15
+def shading_model(stage, chosen):  # L1, T15, Z11
     is_lit, has_normals = "light" in stage.header, "normal" in stage.header.get("attributes", ())
-    if is_lit and "projection" not in stage.header or not is_lit and chosen not in (None, "none"):
-        raise Refused(stage.end_of_header, "lights without projected, or --shading without a light")
+    if is_lit and "projection" not in stage.header:
+        raise Refused(stage.end_of_header, "lights without projected")
+    if "background" in stage.header and any(alpha + Fraction(1, 2) < 255 for alpha in stage.header["background"].numbers[3:]):  # Z11: this writes BMP
+        raise Refused(stage.header["background"].line, "a background with an alpha, which no BMP holds")
+    if not is_lit and chosen not in (None, "none"):
+        raise Refused(stage.end_of_header, "--shading without a light")
     return chosen or ("phong" if is_lit and has_normals else "flat" if is_lit else "none")
 
 def surface_of(triangle, volume, model_name):  # L2, L4
@@ -655,8 +715,8 @@ def rounded(color): return tuple(math.floor(clamped(channel) + Decimal("0.5")) f
 def shade(seen, header, config, model_name):  # L1 to L5, Z10: the picture, in colors that are not yet rounded; `seen` is that of draw
     volume = volume_of(header["projection"]) if "projection" in header else None
     defaults = {"background": (0, 0, 0), "ambient": (0, 0, 0), "attenuation": (1, 0, 0)}
-    background, *looks = (in_decimals(header[name].numbers if name in header else default) for name, default in defaults.items())
-    materials = [in_decimals(part.numbers) for part in header.get("material", ())] or [in_decimals((1, 1, 0, 1))]
+    background, *looks = (in_decimals(header[name].numbers[:3] if name in header else default) for name, default in defaults.items())
+    materials = [in_decimals(part.numbers[:4]) for part in header.get("material", ())] or [in_decimals((1, 1, 0, 1))]
     lights = [in_decimals(light.numbers) for light in header.get("light", ())]
     lightings = [Lighting(*looks, lights, volume and volume.is_ortho, material) for material in materials]
     left, bottom = in_decimals((config.left, config.bottom))
@@ -668,7 +728,7 @@ def shade(seen, header, config, model_name):  # L1 to L5, Z10: the picture, in c
         picture[row][column] = shaded(surface, model_name, lightings[surface.material], weights_at(surface.clip, x, y))
     return picture
 
-def zbuf(data, options):  # Z1 to Z10, L1 to L6, T15, T23, T24: the z-buffer text; writes the image
+def zbuf(data, options):  # Z1 to Z11, L1 to L6, T15, T23, T24: the z-buffer text; writes the image
     config, stage = read_config(Text(pathlib.Path(options["CONFIG"]).read_bytes())), Stage(data, "zbuf")
     if "--framed" in options and "framed" not in stage.header:
         raise Refused(stage.end_of_header, "a text that is not framed")

@@ -38,7 +38,7 @@ SCENES = [  # paragraphs, line, text
     ("S15", 6, CAMERA + "attributes color\nattributes normal\n"), ("S15", 6, CAMERA + "background 1 2 3\nbackground 1 2 3\n"),
     ("S16", 5, CAMERA + "attributes hue\n"), ("S16", 5, CAMERA + "attributes normal color\n"), ("S16", 5, CAMERA + "attributes w color\n"),
     ("S16", 7, CAMERA + "attributes color normal\ntriangle\n0 0 0 1 2 3\n"), ("S16", 7, CAMERA + "attributes normal\ntriangle\n0 0 1 0 0 0\n"),
-    ("S17", 5, CAMERA + "color 1 2\n"), ("S17", 6, CAMERA + "color\n1 256 0\n"), ("S18", 5, CAMERA + "background 1 2 -1\n"),
+    ("S17", 5, CAMERA + "color 1 2\n"), ("S17", 6, CAMERA + "color\n1 256 0\n"), ("S18", 5, CAMERA + "background 1 2 -1\n"), ("S18", 5, CAMERA + "background 1 2 3 256\n"), ("S18", 5, CAMERA + "background 1 2 3 4 5\n"),
     ("S23", 6, CAMERA + "material 1 1 0 1\nuse 1\nmaterial 1 1 0 1\n"), ("S23", 5, CAMERA + "use 0.0\n"), ("S23", 5, CAMERA + "use 1\n"),
     ("S18", 5, CAMERA + "ambient -1 0 0\n"), ("S19", 5, CAMERA + "material 1 1 1\n"), ("S19", 5, CAMERA + "material 1 1 1 1.5\n"),
     ("S19", 5, CAMERA + "material 1 1 1 18446744073709551616\n"), ("S19", 5, CAMERA + "material 1 -1 1 1\n"),
@@ -62,7 +62,8 @@ OTHERS = [  # paragraphs, line, stage and options, text
     ("P4", 3, "project --clip none", PERSPECTIVE + "0 0 -2\n1 0 0\n0 1 -2\n"), ("P4", 2, "project --clip reject", PERSPECTIVE + "0 0 2\n1 0 -2\n0 1 -2\n"),
     ("N4", 2, "project", "perspective 1e-9 1 1 9\n1e308 0 -1\n0 0 -1\n0 0 -1\n"), ("T9", 2, "zbuf", "attributes w\n0 0 0 0\n"),
     ("L1", 2, "zbuf --shading flat", "background 1 2 3\n" + VERTICES), ("T15", 1, "zbuf --framed", VERTICES), ("T11", 3, "zbuf", "clipped\n0 0 0 1\n\n0 0 0 1\n"),
-    ("T15", 2, "zbuf", "light 0 0 0 1 1 1\n" + VERTICES)]
+    ("T11", 8, "zbuf", "attributes w material\nmaterial 1 1 0 1\nmaterial 1 1 1 1\nclipped\n0 0 -2 1 1\n1 0 -2 1 1\n0 1 -2 1 1\n0 0 0 1 0\n1 0 0 1 0\n0 1 0 1 0\n"),
+    ("Z11", 2, "zbuf", "attributes color\nbackground 1 2 3 254.25\n"), ("T15", 2, "zbuf", "light 0 0 0 1 1 1\n" + VERTICES)]
 FORGOTTEN = [  # the same, which tools of before accept
     ("T14", 1, "project", HEADER + PERSPECTIVE + VERTICES), ("T14", 1, "zbuf", HEADER + PERSPECTIVE + VERTICES), ("T14", 1, "zbuf", PERSPECTIVE + VERTICES),
     ("T14", 1, "view", "projected frustum -1 1 -1 1 1 9\n" + VERTICES), ("T14", 2, "project", "framed\nprojected ortho -1 1 -1 1 1 9\nend\n"),

@@ -51,23 +51,76 @@ class Program(ToolTest):
         *tried, others = done.stdout.splitlines()
         self.assertEqual((tried, done.returncode), ([f"{name}: right" for name in SAMPLES], 0))
         self.assertRegex(others, "^not tried: ")
-        self.assertEqual({path.parent.name for path in (SOURCE / "samples").glob("*/scene.txt")}, {*SAMPLES, *re.findall(r"[a-z]+(?:-[a-z]+)?(?=,| \()", others)})
+        self.assertEqual({path.parent.name for path in (SOURCE / "samples").glob("*/scene.txt")}, {*SAMPLES, *re.findall(r"[a-z]+(?:-[a-z]+)*(?=,| \()", others)})
 
-    def test_triangles_that_are_right_may_come_in_a_text_that_the_next_stage_refuses(self):
-        told = self.told("view", 'cat > text; sed -n 1p text; exec "$BIN/view" text', status=0)
-        self.assertRegex(told, r"^scene: right\n  but in the pipe project: <stdin>:1:1: .* must drop the lines eye, look and up .*\n$")
+    def test_a_sphere_is_refused_with_its_line(self):
+        pathlib.Path("scene").write_text(SCENE.replace("end\n", "sphere 0 0 0 1\nend\n"))
+        line = SCENE.count("\n")
+        for stage in ("model", "view", "project", "zbuf"):
+            done = check(stage, "--scene", "scene", "--config", "config", "--", BIN / stage)
+            self.assertEqual((done.returncode, done.stdout, done.stderr), (2, "", f"check-stage: the scene is refused: model: <stdin>:{line}:1: expected triangles alone, "
+                                                                            "found a sphere: trace draws it, and model --facets N makes triangles of it\n"))
+
+    def test_right_numbers_in_a_text_that_the_next_stage_refuses_are_wrong(self):
+        told = self.told("view", 'cat > text; sed -n 1p text; exec "$BIN/view" text')
+        self.assertRegex(told, r"^scene: wrong: its numbers are right, but project refuses it: line 1, column 1: .* must drop the lines eye, look and up\n$")
+        self.assertIn("zbuf refuses it: line 1, column 1: expected the output of project, found 'perspective'", self.told("project", 'tee text | sed 2,999d; "$BIN/project" text'))
+
+    def test_a_text_without_a_header_may_be_meant(self):
+        bare = f'exec "$BIN/view" --bare --scene "{os.path.abspath("scene")}"'
+        self.assertRegex(self.told("view", bare), r"^scene: wrong: its numbers are right, but project refuses it: .* \(--bare, if your stages go without header lines\)\n$")
+        self.assertEqual(self.told("view", bare, "--bare", status=0), "scene: right\n")
+
+    def test_prints_between_the_vertices_are_wrong_and_counted(self):
+        talk = """"$BIN/project" | awk 'NF { print "vertex", $1 } 1'"""
+        told = self.told("project", talk)
+        self.assertIn("scene: wrong: its numbers are right, but zbuf refuses it: line 1, column 1: ", told)
+        self.assertRegex(told, r"\n  6 lines are neither a vertex nor a header line, 3 for each triangle: first line 1, 'vertex -?[0-9.]+'\n$")
+        scene = os.path.abspath("scene")
+        self.assertIn("scene: wrong: its numbers are right, but project refuses it: ", self.told("view", talk.replace('/project"', f'/view" --bare --scene "{scene}"'), "--bare"))
+
+    def test_a_program_that_knows_perspectives_alone_gets_past_the_parallel_samples(self):
+        path = script("""tee text | grep -q ^ortho && { echo "no such camera" >&2; exit 1; }; exec "$BIN/project" text""")
+        done = check("project", "--", path)
+        *tried, others = done.stdout.splitlines()
+        left_out = "left out: its projection is ortho, on which its exit status is 1 (no such camera)"
+        self.assertEqual((tried, done.returncode), (["worked-example: right", f"one-triangle: {left_out}", f"two-triangles: {left_out}", "nested-transforms: right",
+                                                     "tilted-camera: right", "tilted-camera with aspect 1.25: right", "torus: right"], 0))
+
+    def test_the_aspect_of_opengl_is_right_where_a_scene_says_so(self):
+        program = script("""exec "$BIN/project" --aspect ratio""")
+        done = check("project", "--", program)
+        self.assertRegex(done.stdout, "\ntilted-camera with aspect 1.25: wrong\n(?:  .*\n)*  if your course takes the aspect as width / height, as OpenGL does, this is right: ")
+        pathlib.Path("scene").write_text(SCENE.replace("50 1.3 1 50", "50 1.3 1 50 ratio"))
+        done = check("project", "--scene", "scene", "--", program)
+        self.assertEqual((done.stdout, done.returncode), ("scene: right\n", 0))
+
+    def test_a_parallel_scene_that_was_asked_for_is_not_left_out(self):
+        pathlib.Path("scene").write_text(SCENE.replace("50 1.3 1 50", "ortho -2 2 -2 2 1 50"))
+        told = self.told("project", "echo no such camera >&2; exit 1")
+        self.assertEqual(told, "scene: wrong: its exit status is 1\n  its stderr:\n    no such camera\n"
+                               "  the projection of this scene is no perspective but ortho -2 2 -2 2 1 50\n")
+
+    def test_an_aspect_that_is_ignored_is_found(self):
+        ignoring = """sed 's/^\\(perspective [^ ]*\\) [^ ]*/\\1 1/' | "$BIN/project\""""
+        done = check("project", "--", script(ignoring))
+        self.assertIn("tilted-camera: right\ntilted-camera with aspect 1.25: wrong\n", done.stdout)
+        self.assertIn("  cause: The horizontal angle of view is the vertical one: the aspect is ignored\n", done.stdout)
+        self.assertEqual(done.returncode, 1)
+        pathlib.Path("scene").write_text(SCENE.replace(" 1.3 ", " 1 "))
+        self.assertEqual(self.told("project", ignoring, status=0),
+                         "scene: right\n  not tried: the aspect, which is 1 in this scene, so that a program that ignores it is right, too\n")
 
     def test_the_first_wrong_number_and_the_cause(self):
         told = self.told("view", 'exec "$BIN/view" --eye 0 0 0 --look -2.7 -4.2 -6.9')
-        self.assertIn("scene: wrong\n  first at ", told)
-        self.assertIn("line 2, x of vertex 1 of triangle 0: ", told)  # line 1 is the projection
+        self.assertIn("scene: wrong\n  first difference: line 2, x of vertex 1 of triangle 0: ", told)  # line 1 is the projection
         self.assertIn("  cause: The eye is not subtracted\n", told)
 
     def test_the_matrix_is_shown_beside_ours(self):
         # A y that is twice too large, in six points that determine the matrix.
         told = self.told("project", """"$BIN/project" | awk 'NF { $2 = sprintf("%.7f", 2 * $2) } 1'""")
-        self.assertIn("their matrix (* differs)", told)
-        rows = told.split("ours\n")[1].splitlines()
+        self.assertIn("found in the points (* differs)", told)
+        rows = told.split("| right\n")[1].splitlines()
         self.assertEqual([row.count("*") for row in rows], [0, 1, 0, 0])
 
     def test_a_zbuf_gets_its_config_and_writes_its_picture(self):
@@ -87,6 +140,13 @@ class Program(ToolTest):
     def test_a_traceback_is_shown(self):
         told = self.told("view", "exec python3 -c 'def half(x): return x / 0\nhalf(1)'")
         self.assertRegex(told, r"^scene: wrong: its exit status is 1\n  its stderr:\n    Traceback .*\n(    .*\n)+    ZeroDivisionError: .*\n$")
+
+    def test_a_file_in_this_folder_needs_its_absolute_path(self):
+        pathlib.Path("mine.sh").write_text(f"exec '{BIN}/view'\n")
+        done = check("view", "--scene", "scene", "--", "sh", "mine.sh")
+        self.assertEqual(done.returncode, 1)
+        self.assertTrue(done.stdout.endswith(f"  mine.sh is a file in this folder, but the program runs in one of its own: give the absolute path, {os.path.abspath('mine.sh')}\n"))
+        self.assertEqual(check("view", "--scene", "scene", "--", "sh", os.path.abspath("mine.sh")).stdout, "scene: right\n")
 
     def test_a_long_stderr_is_kept_in_a_file(self):
         told = self.told("view", "seq 1000 >&2; exit 1")

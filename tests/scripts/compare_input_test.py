@@ -65,7 +65,7 @@ class InputTest(ToolTest):
 
 
 class Pipes(InputTest):
-    PLACE = "line 3, z of vertex 3 of triangle 0: 0.25 and 0.7"
+    PLACE = "line 3, z of vertex 3 of triangle 0: 0.25 in A, 0.7 in B"
 
     def setUp(self):
         super().setUp()
@@ -425,6 +425,36 @@ class FiveFiles(InputTest):
     def test_two_standard_inputs_are_one_too_many(self):
         self.assertEqual(compare("--five", "--", "-theirs", "-", "-").returncode, 2)
         self.assertEqual(compare("--five", "a", "b").returncode, 2)
+
+
+class Spheres(InputTest):
+    SPHERE = "sphere\n0 0 -5\n2 0 -5\n0 2 -5\n0 0 -3\n\n"
+
+    def told(self, a, b, *words):
+        write("a", a)
+        write("b", b)
+        done = compare("a", "b", *words)
+        return done.returncode, done.stdout.decode(), done.stderr.decode()
+
+    def test_their_points_are_compared_like_vertices(self):
+        text = TRIANGLE + self.SPHERE + OTHER
+        self.assertEqual(self.told(text, text)[0], 0)
+        self.assertIn("| 30 ", self.told(text, text)[1])
+        status, table, _ = self.told(text, text.replace("0 2 -5", "0 2 -5.5"))
+        self.assertEqual(status, 1)
+        self.assertIn("| line 8, z of point 3 of sphere 0: -5 in A, -5.5 in B, off by 0.5 |", table)
+        self.assertIn("| 1 and 0 spheres", self.told(text, TRIANGLE + OTHER)[1])
+        self.assertEqual(self.told(self.SPHERE, self.SPHERE.replace("0 0 -3\n", ""))[::2],
+                         (2, "compare: b: expected four vertices a sphere, found 3 of the last one\n"))
+
+    def test_the_judge_refuses_them(self):
+        write("scene", SCENE.replace("end\n", "sphere 0 0 0 1\nend\n"))
+        message = ("compare: the scene is refused: model: <stdin>:9:1: expected triangles alone, found a sphere: trace draws it, and "
+                   "model --facets N makes triangles of it\n")
+        self.assertEqual(self.told(TRIANGLE, OTHER, "--scene", "scene"), (2, "", message))
+        os.mkdir("theirs")
+        done = compare("--five", "theirs", "scene")
+        self.assertEqual((done.returncode, done.stderr.decode()), (2, message))
 
 
 class Causes(InputTest):

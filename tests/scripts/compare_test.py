@@ -63,8 +63,8 @@ class TwoFiles(ToolTest):
     def test_the_first_and_the_largest_have_their_places(self):
         table = self.told(TRIANGLE + TRIANGLE.replace("1.0000000 0.0000000 0.5", "1.0000000 0.2500000 4.5"), TRIANGLE * 2)
         self.assertEqual(cells(table, "numbers that differ"), ["2"])
-        self.assertEqual(cells(table, "largest difference"), ["4, line 6, z of vertex 2 of triangle 1: 4.5 and 0.5"])
-        self.assertEqual(cells(table, "first difference"), ["line 6, y of vertex 2 of triangle 1: 0.25 and 0"])
+        self.assertEqual(cells(table, "largest difference"), ["line 6, z of vertex 2 of triangle 1: 4.5 in A, 0.5 in B, off by 4"])
+        self.assertEqual(cells(table, "first difference"), ["line 6, y of vertex 2 of triangle 1: 0.25 in A, 0 in B"])
 
     def test_comments_and_blanks_do_not_count(self):
         self.told("# mine\n\n" + TRIANGLE.replace(" ", "\t ").replace("\t", " "), TRIANGLE, status=0)
@@ -75,7 +75,17 @@ class TwoFiles(ToolTest):
         self.told(other, TRIANGLE, "--tolerance", "0.99e-7")
 
     def test_missing_triangles_are_told(self):
-        self.assertEqual(cells(self.told(TRIANGLE, TRIANGLE * 3), "not alike"), ["1 and 3 triangles"])
+        self.assertEqual(cells(self.told(TRIANGLE, TRIANGLE * 3), "not alike"), ["1 and 3 triangles: A lacks triangles 1 and 2 of B (or what is the same)"])
+
+    def test_what_one_text_lacks_is_left_out_of_the_comparison(self):
+        triangles = [TRIANGLE.replace("0.1000000", f"0.{i}") for i in range(1, 6)]
+        whole, cut = "".join(triangles), "".join(triangles[:1] + triangles[3:])
+        for a, b, words in ((cut, whole, "3 and 5 triangles: A lacks triangles 1 and 2 of B"), (whole, cut, "5 and 3 triangles: B lacks triangles 1 and 2 of A")):
+            table = self.told(a, b)
+            self.assertEqual([cells(table, name) for name in ("numbers compared", "numbers that differ", "not alike")], [["27"], ["0"], [words]])
+        table = self.told(triangles[4] + cut, whole)  # in another order: nothing can be said
+        self.assertEqual(cells(table, "not alike"), ["4 and 5 triangles"])
+        self.assertNotEqual(cells(table, "numbers that differ"), ["0"])
 
     def test_another_camera_is_told(self):
         self.assertEqual(cells(self.told("eye 0 0 1\n" + TRIANGLE, "eye 0 0 2\n" + TRIANGLE), "not alike"),
@@ -109,14 +119,14 @@ class TwoFiles(ToolTest):
 
     def test_the_matrix_stands_beside_the_right_one(self):
         told = self.told(student.texts(WIDE, "project/r-and-t-swapped")[2], student.texts(WIDE)[2], "--scene", "wide.txt")
-        rows = told.split("ours\n")[1].splitlines()
+        rows = told.split("| right\n")[1].splitlines()
         self.assertEqual([row.count("*") for row in rows], [1, 1, 0, 0])
 
-    def test_a_mistake_nobody_knows_gets_no_cause(self):
+    def test_a_mistake_nobody_knows_is_told_to_be_one(self):
         right = student.texts(WIDE)[1]
         lines = right.split("\n")
         lines[4] = "1.0000000 2.0000000 3.0000000"
-        self.assertEqual(self.row("cause", "\n".join(lines), right, "--scene", "wide.txt"), "")
+        self.assertEqual(self.row("cause", "\n".join(lines), right, "--scene", "wide.txt"), "none of those known")
 
     def test_a_text_of_another_scene_is_not_taken_as_right(self):
         self.assertEqual(self.row("cause", TRIANGLE, TRIANGLE.replace("0.7", "0.8"), "--scene", "wide.txt"), "not looked for: b is no output of this scene's stages")
@@ -124,13 +134,13 @@ class TwoFiles(ToolTest):
     def test_z_buffers_are_compared_row_by_row(self):
         table = self.told("\n0.5\t0.25\t\n0.1\t\n", "\n0.5\t0.5\t\n0.1\t0.2\t\n")
         self.assertEqual(cells(table, "not alike"), ["1 row shows another number of pixels, row 2: 1 and 2"])
-        self.assertEqual(cells(table, "first difference"), ["line 2, number 2: 0.25 and 0.5"])
+        self.assertEqual(cells(table, "first difference"), ["line 2, number 2: 0.25 in A, 0.5 in B"])
 
     def test_pixels_differ_by_their_worst_channel(self):
         a = bmp(5, 3, lambda c, r: (c, r, 9 if (c, r) == (3, 1) else 0))
         table = self.told(a, bmp(5, 3, lambda c, r: (c, r, 0)), "--image", "diff.png")
         self.assertEqual(cells(table, "pixels that differ"), ["1"])
-        self.assertEqual(cells(table, "first difference"), ["column 3, row 1, blue: 9 and 0"])
+        self.assertEqual(cells(table, "first difference"), ["column 3, row 1, blue: 9 in A, 0 in B"])
         width, height, rows = read_picture("diff.png")
         red = [(c, r) for r in range(height) for c in range(width) if rows[r][3 * c] != rows[r][3 * c + 1]]
         self.assertEqual(red, [(3, 1)])

@@ -344,7 +344,7 @@ class Wrong(HandIn):
         pathlib.Path("stage2.txt").write_text("\n".join(" ".join(f"{x:.7f}" for x in image(m, tuple(map(float, line.split())))) if line else "" for line in lines))
         verdict = self.verdict(config=False)
         self.assertEqual(verdict.files[1].verdict, "wrong")
-        self.assertRegex(verdict.files[1].cause, rf"^Row 1, column 2 of the matrix is {m[0][2]:.6g}, not -0.16246\d$")
+        self.assertRegex(verdict.files[1].cause, rf"^Row 1, column 2 of the matrix \(counted from 1\) is {m[0][2]:.6g}, not -0.16246\d$")
 
     def test_points_that_are_passed_on_unchanged_have_a_cause(self):
         self.stages()
@@ -405,16 +405,104 @@ class Wrong(HandIn):
 
     def test_the_triangles_of_a_stage_are_counted_by_its_own_input(self):
         self.stages()
-        text = pathlib.Path("stage1.txt").read_text()
-        pathlib.Path("stage1.txt").write_text(text + text[:text.index("\n\n") + 2])
+        for name, more in (("stage1.txt", 1), ("stage2.txt", 2)):
+            text = pathlib.Path(name).read_text()
+            pathlib.Path(name).write_text(text + more * text[:text.index("\n\n") + 2])
         verdict = self.verdict(config=False)
-        self.assertEqual([file.remarks for file in verdict.files], [["6 triangles in place of 5"], ["5 triangles in place of 6"], []])
+        self.assertEqual([file.remarks for file in verdict.files], [["6 triangles in place of 5"], ["7 triangles in place of 6"],
+                                                                    ["by the right numbers, which are not those of stage2.txt"]])
 
     def test_too_few_triangles(self):
         self.hand_in()
         text = pathlib.Path("stage1.txt").read_text()
         pathlib.Path("stage1.txt").write_text("\n".join(text.split("\n")[4:]))
-        self.assertEqual(self.verdict().files[0].remarks, ["4 triangles in place of 5"])
+        file = self.verdict().files[0]
+        self.assertEqual((file.remarks, file.cause), (["4 triangles in place of 5"], "Triangle 0 is missing"))
+
+    def test_the_triangles_that_are_missing_or_too_many_are_named(self):
+        for kind in range(3):
+            self.stages()
+            kept = pathlib.Path(NAMES[kind]).read_text()
+            triangles = kept.split("\n\n")[:5]
+            for order, cause in (((0, 1, 2, 3), "Triangle 4 is missing, the last one"), ((0, 3, 4), "Triangles 1 and 2 are missing"), ((0, 1), "Triangles 2, 3 and 4 are missing, the last 3"),
+                                 ((0, 1, 1, 2, 3, 4), "Triangle 1 is written twice, again in line 9"), ((0, 1, 2, 3, 4, 0), "Triangle 0 is written twice, again in line 21"),
+                                 ((0, 1, 2, 3, 4) * 2, "Every triangle is written twice, the first one again in line 21"), ((0, 2, 1), "")):
+                with self.subTest(NAMES[kind], order=order):
+                    pathlib.Path(NAMES[kind]).write_text("".join(triangles[i] + "\n\n" for i in order))
+                    file = self.verdict(config=False).files[kind]
+                    self.assertEqual((file.verdict, file.cause), ("wrong", cause))
+            stranger = triangles[2].replace("1", "2")
+            pathlib.Path(NAMES[kind]).write_text("\n\n".join([*triangles[:2], stranger, *triangles[2:], ""]))
+            self.assertEqual(self.verdict(config=False).files[kind].cause, "Triangle 2 of the text comes from no triangle of the input, first in line 9")
+            pathlib.Path(NAMES[kind]).write_text(kept)
+
+    def test_of_two_equal_triangles_nobody_knows_which_is_missing(self):
+        self.scene = SCENE.replace("end\n", "triangle\n-3 -1 -3\n3 -1 -3\n0 -1 2\nend\n")
+        self.stages()
+        text = pathlib.Path("stage1.txt").read_text().split("\n\n")
+        pathlib.Path("stage1.txt").write_text("\n\n".join(text[:5]) + "\n")
+        self.assertEqual(self.verdict(config=False).files[0].cause, "Triangle 5 is missing, the last one (or the one that is the same)")
+
+    def test_one_vertex_that_is_treated_otherwise(self):
+        right = [text.split("\n") for text in student.texts(SCENE)]
+        for kind, mistake, cause in ((0, "model/multiplied-on-the-left", ": A new transformation is multiplied on the left of the current matrix, not on its right"),
+                                     (1, "view/eye-added", ": The eye is added in place of subtracted"), (2, "project/no-divide", f": {mistakes.sentence('project/no-divide')[:-1]}")):
+            wrong = student.texts(SCENE, mistake)[kind].split("\n")
+            for vertices, words in (({0}, "Only the first vertex of each triangle is wrong, the second and third are right"),
+                                    ({2}, "Only the third vertex of each triangle is wrong, the first and second are right"),
+                                    ({0, 1}, "The first and second vertex of each triangle are wrong, the third is right")):
+                with self.subTest(mistake, vertices=vertices):
+                    self.stages()
+                    pathlib.Path(NAMES[kind]).write_text("\n".join(b if i % 4 in vertices else a for i, (a, b) in enumerate(zip(right[kind], wrong))))
+                    self.assertEqual(self.verdict(config=False).files[kind].cause, words + cause)
+
+    def test_another_order_is_named(self):
+        self.stages()
+        for kind in range(3):
+            kept = pathlib.Path(NAMES[kind]).read_text()
+            triangles = [text.split("\n") for text in kept.split("\n\n")[:5]]
+            for order, vertices, cause in (((0, 1, 2, 3, 4), (1, 0, 2), "The vertices of each triangle stand in another order: second, first, third"),
+                                           ((0, 1, 2, 3, 4), (1, 2, 0), "The vertices of each triangle stand in another order: second, third, first"),
+                                           ((4, 3, 2, 1, 0), (0, 1, 2), "The triangles stand in reverse order"),
+                                           ((0, 3, 2, 1, 4), (0, 1, 2), "All triangles are there, but in another order: triangle 1 of the text is triangle 3")):
+                with self.subTest(NAMES[kind], order=order, vertices=vertices):
+                    pathlib.Path(NAMES[kind]).write_text("\n\n".join("\n".join(triangles[t][i] for i in vertices) for t in order) + "\n")
+                    self.assertEqual(self.verdict(config=False).files[kind].cause, cause)
+            pathlib.Path(NAMES[kind]).write_text(kept)
+
+    def test_a_decimal_comma_is_named(self):
+        self.stages()
+        pathlib.Path("stage2.txt").write_text(pathlib.Path("stage2.txt").read_text().replace(".", ","))
+        file = self.verdict(config=False).files[1]
+        self.assertEqual(file.verdict, "unreadable")
+        self.assertRegex(file.remarks[0], "^stage2.txt:1: expected numbers, found '[-0-9, ]+': write a decimal point, not a comma")
+
+    def test_a_few_wrong_triangles_are_named(self):
+        self.stages()
+        lines = pathlib.Path("stage2.txt").read_text().split("\n")
+        for line in (5, 13):
+            lines[line] = "0.1234567 0.2345678 -3.3456789"
+        pathlib.Path("stage2.txt").write_text("\n".join(lines))
+        file = self.verdict(config=False).files[1]
+        self.assertEqual((file.cause, file.remarks), ("", ["only triangles 1 and 3 of 5 are wrong"]))
+        self.assertRegex(file.first, r"^line 6, x of vertex 2 of triangle 1: 0\.1234567 in place of \S+, off by \S+$")
+
+    def test_stray_lines_are_counted_and_the_first_is_named(self):
+        self.stages()
+        kept = pathlib.Path("stage2.txt").read_text()
+        for text, verdict, words in (
+                (kept.replace("\n\n", "\ndone\n\n"), "right", "5 lines are neither a vertex nor a header line, 1 for each triangle: first line 4, 'done'"),
+                ("points: 15\n" + kept, "right", "1 line is neither a vertex nor a header line: line 1, 'points: 15'"),
+                (kept.replace("\n\n", "\n0.5\n\n"), "unreadable", "5 lines are neither a vertex nor a header line, 1 for each triangle: first line 4, '0.5'"),
+                (kept.replace("\n\n", " 1\n\n"), "right", "5 vertex lines have more than three numbers, of which the first three count: first line 3, '"),
+                (kept.replace("\n\n", "\n1 2 3\n\n"), "unreadable", "5 of 5 triangles (between blank lines) have another number of vertices than three: first the one in line 1, 4"),
+                (kept.replace("\n\n", "\n"), "right", "")):
+            with self.subTest(words):
+                pathlib.Path("stage2.txt").write_text(text)
+                file = self.verdict(config=False).files[1]
+                self.assertEqual(file.verdict, verdict)
+                self.assertIn(words, "; ".join(file.remarks))
+                self.assertTrue(words or not file.remarks)
 
 
 class FollowOn(HandIn):
@@ -425,6 +513,19 @@ class FollowOn(HandIn):
         self.stages(mistake)
         pathlib.Path("scene.txt").write_text(self.scene)
         pathlib.Path("stage3.txt").write_bytes(tool("project", "--scene", "scene.txt", "stage2.txt"))
+
+    def test_a_right_text_after_a_wrong_one_is_not_accused(self):
+        """A program may print other numbers than it goes on with."""
+        for kind, mistake in ((0, "model/angle-negated"), (1, "view/l-not-negated")):
+            with self.subTest(mistake):
+                self.hand_in()
+                right = {name: pathlib.Path(name).read_bytes() for name in NAMES}
+                self.stages(mistake)
+                wrong = pathlib.Path(NAMES[kind]).read_bytes()
+                for name, data in right.items():
+                    pathlib.Path(name).write_bytes(wrong if name == NAMES[kind] else data)
+                verdict = self.assert_verdicts(["wrong" if i == kind else "right" for i in range(5)], 1)
+                self.assertIn(f"by the right numbers, which are not those of {NAMES[kind]}", verdict.files[kind + 1].remarks)
 
     def test_nothing_may_be_left_of_a_wrong_view(self):
         self.drop_all("view/l-not-negated")  # all lies behind the eye

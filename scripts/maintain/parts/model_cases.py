@@ -223,6 +223,10 @@ def looks():
                 "attributes normal\nscale 1 1 0\n" + normals.replace("1 1 1", "1 0 1")),
             ("background", "The background goes into the header.", "S18 T6", "background\n10 20.5 255\n" + TRIANGLE)):
         yield case(name, why, paragraphs, words, needs="colors")
+    for name, why, words in (("background-with-alpha", "A background may have an alpha.", "background 10 20.5 255 63.5\n"),
+                             ("background-invisible", "Down to 0.", "background\n0 0 0 0\n"),
+                             ("background-opaque", "An alpha of 255 is as good as none, and is not written.", "background 1 2 3 255\n")):
+        yield case(name, why, "S18 T6", words + TRIANGLE, needs="alpha")
     for name, why, paragraphs, words in (
             ("light", "A light goes into the header, at its place in the world.", "S21 M8", "light 1 2 3 1 0.5 0\n" + TRIANGLE),
             ("light-moved", "The matrix in force moves a light.", "M8", "translate 1 2 3\nrotate 90 0 0 1\nlight 1 0 0 1 1 1\n" + TRIANGLE),
@@ -241,6 +245,21 @@ def looks():
              "attributes normal\ncolor 1 2 3\n" + materials + "use 1\n" + normals),
             ("one-material-used", "With one material there is no column.", "S23 T5", "material 1 1 0 1\nuse 0\n" + TRIANGLE)):
         yield case(name, why, paragraphs, words, needs="materials")
+    for name, why, paragraphs, words in (
+            ("sphere", "A sphere is its center and three points of it, moved by M.", "S24 M10 T26", "rotate 30 1 2 3\nscale 1 2 -0.5\nsphere\n0.1 0.2 -0.3 1.25\n"),
+            ("sphere-among-triangles", "A sphere is numbered as triangles are, so no line says so.", "S24 T26", TRIANGLE + "sphere 0 0 0 1\n" + TRIANGLE),
+            ("sphere-with-columns", "Its lines have the color and the material in force, and no normal.", "S24 T26",
+             "attributes normal\ncolor 1 2 3\nmaterial 1 1 0 1\nmaterial 1 1 1 9\nuse 1\nsphere 0 0 0 1\ncolor 4 5 6\n" + normals),
+            ("sphere-of-rounded-sums", "Center plus radius is rounded to a double.", "M10", "scale 100000000 1 1\nsphere 0.1 0.2 0.3 0.2\n")):
+        yield case(name, why, paragraphs, words, needs="spheres")
+    glass = "material 1 0.5 0.25 16 0.125 1.5 0.25\nabsorption 0.5 0 2\n"
+    for name, why, paragraphs, words in (
+            ("glass", "A material goes on with reflectance, index and alpha, and its absorption follows it.", "S19 T17", glass + TRIANGLE),
+            ("material-neither-mirror-nor-glass", "A reflectance of 0, an index of 1, an alpha of 1 and an absorption of 0 0 0 are not written.", "S19 T17",
+             "material 1 0.5 0.25 16 0 1 1\nabsorption 0 0 0\n" + TRIANGLE),
+            ("absorption-of-the-material-above", "Each absorption follows its own material.", "S19 T17", "material 1 1 0 1\n" + glass + "light 1 2 3 1 1 1\n" + "material 0 0 0 1 1 1 1\n"
+             + "background 1 2 3\nabsorption 1e-3 0.25 1\nuse 1\n" + TRIANGLE)):
+        yield case(name, why, paragraphs, words, needs="optics" if "use" not in words else "lights materials optics")
     yield case("framed", "--framed announces the end, and writes it.", "M9 T13", TRIANGLE, options="--framed", needs="frames")
     yield case("framed-empty", "A framed text may be empty.", "M9 T13", "", options="--framed", needs="frames")
 

@@ -196,6 +196,8 @@ def extensions():
         ("colors-and-background", colored, "attributes color\nbackground 1 2 3\n")):
         yield case(name, "Behind attributes project adds the column w, the distance from the eye.", "T5 T9 P4", "60 1 1 10", points, header,
             needs="colors")
+    yield case("background-with-alpha", "The alpha of the background is passed on.", "T6", "60 1 1 10", "0 0 -2\n1 0 -3\n0 1 -4\n\n",
+        "background 1 2 3 0\n", needs="alpha")
     yield Case("project", "colors-under-ortho", "Under ortho w is 1.", "T5 P3", f"ortho -2 2 -2 2 1 9\nattributes color\n{colored}",
         needs="colors projections")
     cut = colored.replace("0 0 -2", "0 0 2", 1)
@@ -215,6 +217,8 @@ def extensions():
         needs="lights colors clipping numbering")
     materials = "attributes material\nmaterial 1 1 0 1\nmaterial 0.5 0.25 1 16\n"
     yield case("materials", "Each triangle keeps its material.", "T5 T9", "60 1 1 10", "0 0 -2 1\n1 0 -3 1\n0 1 -4 1\n\n0 0 -2 0\n1 0 -3 0\n0 1 -4 0\n\n", materials, needs="materials")
+    yield case("glass", "What a material does to rays is passed on.", "T6 T17", "60 1 1 10", "0 0 -2\n1 0 -3\n0 1 -4\n\n",
+        "material 1 0.5 0.25 16 0.125 1.5 0.25\nabsorption 0.5 0 2\n", needs="optics")
     yield case("light-and-cut-with-a-material", "The whole triangle and all its pieces have its material.", "P9 P11 T11", "90 1 1 10",
         "0 0 2 1\n1 0 -3 1\n0 1 -4 1\n\n", materials + light, needs="lights materials clipping numbering")
     yield Case("project", "light-under-ortho", "The projection is passed on as what it was.", "P11 T4", f"ortho -2 3 -1 2 1 9\n{light}{POINTS}",

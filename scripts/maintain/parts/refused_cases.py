@@ -118,11 +118,19 @@ def looks():
             ("color-below-0", "Colors begin at 0.", "S17", 5, "color 1 2 -1\nend\n"),
             ("color-of-two-numbers", "A color has three numbers.", "S17", 5, "color 1 2\nend\n"),
             ("ambient-below-0", "Light is not negative.", "S18", 5, "ambient -1 0 0\nend\n"),
+            ("alpha-above-255", "An alpha ends at 255.", "S18", 5, "background 1 2 3 255.5\nend\n"),
             ("shininess-not-whole", "A shininess is whole.", "S19", 5, "material 1 1 1 1.5\nend\n"),
             ("shininess-negative", "A shininess is not negative.", "S19", 5, "material 1 1 1 -1\nend\n"),
             ("factor-below-0", "Factors are not negative.", "S19", 5, "material 1 -1 1 1\nend\n"),
             ("material-that-is-not-there", "use names a material above it.", "S23", 7, "material 1 1 0 1\nmaterial 1 1 1 1\nuse 2\nend\n"),
             ("material-used-before-its-line", "use names a material above it.", "S23", 6, "material 1 1 0 1\nuse 1\nmaterial 1 1 0 1\nend\n"),
+            ("reflectance-above-1", "A reflectance ends at 1.", "S19", 5, "material 1 1 1 1 1.5 1 1\nend\n"),
+            ("reflectance-alone", "Reflectance, index and alpha stand together.", "S19", 5, "material 1 1 1 1 0.5\nend\n"),
+            ("index-of-0", "An index is not 0.", "S19", 5, "material 1 1 1 1 0 0 1\nend\n"),
+            ("alpha-below-0", "An alpha is not negative.", "S19", 5, "material 1 1 1 1 0 1 -0.5\nend\n"),
+            ("absorption-below-0", "Nothing absorbs less than nothing.", "S19", 6, "material 1 1 1 1\nabsorption 0 -1 0\nend\n"),
+            ("absorption-of-no-material", "An absorption belongs to a material above it.", "S19", 5, "absorption 1 1 1\nmaterial 1 1 1 1\nend\n"),
+            ("second-absorption", "A material has one absorption.", "S19", 7, "material 1 1 1 1\nabsorption 1 1 1\nabsorption 1 1 1\nend\n"),
             ("late-material", "Materials stand before the triangles.", "S15", 9, TRIANGLE + "material 1 1 0 1\nend\n"),
             ("attenuation-of-zeros", "One of the three is above 0.", "S20", 5, "attenuation 0 0 0\nend\n"),
             ("light-of-three-numbers", "A light has a color, too.", "S21", 5, "light 1 2 3\nend\n"),
@@ -153,6 +161,7 @@ def stage_texts():
                 ("material-not-whole", "A material is a whole number.", "T9", 2, "attributes material\n0 0 -2 0.0\n1 0 -2 0\n0 1 -2 0\n"),
                 ("two-materials-in-a-triangle", "A triangle has one material.", "T9", 6,
                     "attributes material\nmaterial 1 1 0 1\nmaterial 1 1 1 1\n0 0 -2 1\n1 0 -2 1\n0 1 -2 0\n"),
+                ("second-absorption", "A material has one absorption.", "T7", 3, "material 1 1 1 1\nabsorption 1 1 1\nabsorption 1 1 1\n" + VERTICES),
                 ("attributes-in-another-order", "Columns have their order.", "T5", 1, "attributes normal color\n" + VERTICES)):
             yield refused(stage, name, why, paragraphs, at + line, header + text)
     for name, why, paragraphs, stage, line, text, options in (
@@ -177,10 +186,38 @@ def stage_texts():
             ("text-of-model", "A text with a camera has not been through view.", "T14", "zbuf", 1, EYE + VERTICES, ""),
             ("text-of-view", "A text with a projection has not been through project.", "T14", "zbuf", 1, PERSPECTIVE + VERTICES, ""),
             ("lights-of-no-projection", "Light needs the projection.", "T15", "zbuf", 2, "light 0 0 0 1 1 1\n" + VERTICES, ""),
+            ("background-with-alpha", "A BMP has no alpha.", "Z11", "zbuf", 1, "background 1 2 3 254\n" + VERTICES, ""),
             ("shading-of-no-light", "Without a light nothing is shaded.", "L1", "zbuf", 1, VERTICES, "--shading flat"),
             ("not-framed", "--framed insists on a framed text.", "T15", "zbuf", 1, VERTICES, "--framed"),
+            ("piece-of-another-material", "A piece has the material of the triangle it was cut from.", "T11", "zbuf", 8,
+                "attributes w material\nmaterial 1 1 0 1\nmaterial 1 1 1 1\nclipped\n0 0 -2 1 1\n1 0 -2 1 1\n0 1 -2 1 1\n0 0 0 1 0\n1 0 0 1 0\n0 1 0 1 0\n", ""),
             ("w-of-0", "The column w is above 0.", "T9", "zbuf", 2, "attributes w\n0 0 0 0\n1 0 0 1\n0 1 0 1\n", "")):
         yield refused(stage, name, why, paragraphs, line, text, options=options)
+
+
+def spheres():
+    for name, why, paragraphs, line, text, options in (
+            ("sphere-of-radius-0", "A radius is above 0.", "S24", 6, "sphere\n1 2 3 0\nend\n", ""),
+            ("sphere-of-radius-below-0", "A radius is above 0.", "S24", 6, "sphere\n1 2 3 -1\nend\n", ""),
+            ("sphere-of-no-radius", "A sphere has four numbers.", "S24", 6, "sphere\n1 2 3\nend\n", ""),
+            ("sphere-of-a-lost-radius", "A radius that is lost beside the center is none.", "S24", 5, "sphere 0 1e20 0 1\nend\n", ""),
+            ("sphere-without-a-color", "Columns of vertices do not color a sphere.", "S24", 6, "attributes color\nsphere 0 0 0 1\nend\n", ""),
+            ("light-behind-a-sphere", "Lights stand before the first sphere.", "S15", 6, "sphere 0 0 0 1\nlight 0 0 0 1 1 1\nend\n", ""),
+            ("sphere-flattened", "A sphere that is scaled flat has no volume.", "M10", 7, "rotate 10 0 0 1\nscale 1 0 1\nsphere 0 0 0 1\nend\n", ""),
+            ("bare-sphere", "A bare text has triangles alone.", "M10", 9, TRIANGLE + "sphere 0 0 0 1\nend\n", "--bare")):
+        yield refused("model", name, why, paragraphs, line, CAMERA + text, options=options, needs="spheres")
+    points = "sphere\n0 0 -3\n1 0 -3\n0 1 -3\n0 0 -2\n\n"
+    for name, why, paragraphs, line, text, options in (
+            ("sphere-cut-in-two", "No blank line parts the points of a sphere.", "T26", 7, points.replace("\n1", "\n\n1"), ""),
+            ("sphere-of-three-points", "A sphere has four points.", "T26", 9, points.replace("0 0 -2\n", ""), ""),
+            ("sphere-with-a-number", "The number stands on a line before it.", "T26", 5, points.replace("sphere", "sphere 3"), ""),
+            ("sphere-of-two-colors", "A sphere has one color.", "T26", 8,
+                "attributes color\n" + points.replace("-3\n", "-3 1 2 3\n", 1).replace("-3\n", "-3 1 2 4\n").replace("-2\n", "-2 1 2 3\n"), ""),
+            ("bare-sphere", "A bare text has triangles alone.", "T27", 5, points, "--bare")):
+        yield refused("view", name, why, paragraphs, line, HEADERS["view"] + text, options=options, needs="spheres")
+    for stage in ("project", "zbuf"):
+        header = HEADERS[stage]
+        yield refused(stage, "sphere", "Spheres are for stages that trace rays.", "T27", header.count("\n") + 4, header + VERTICES + points)
 
 
 def configs():
@@ -204,5 +241,5 @@ def configs():
 
 
 def cases():
-    for grid in (numbers, cameras, commands, looks, stage_texts, configs):
+    for grid in (numbers, cameras, commands, looks, stage_texts, spheres, configs):
         yield from grid()

@@ -131,6 +131,12 @@ def extensions():
         yield case(f"projection-{name}", "Each projection is passed on.", eye, look, up, POINTS, "T3", line + "\n", needs="projections")
     yield case("numbers-of-triangles", "The number of a triangle is passed on where counting alone would be wrong.", eye, look, up,
                "triangle 2\n" + POINTS + "triangle 3\n" + POINTS + "triangle 7\n" + POINTS, "T10", needs="numbering")
+    ball = "sphere\n1 2 3\n2 2 3\n1 3.5 3\n1 2 0\n\n"
+    yield case("sphere", "The four points of a sphere move as all points do.", eye, look, up, ball + POINTS + "triangle 7\n" + ball, "T26 T27 V2",
+        needs="spheres numbering")
+    yield case("sphere-with-columns", "A sphere has all columns but the normal.", eye, look, up,
+        "sphere\n" + "".join(f"{p} 9 8 7\n" for p in ("0 0 0", "1 0 0", "0 1 0", "0 0 1")) + "\n", "T26",
+        "attributes color normal\n", needs="spheres colors")
     yield Case("view", "framed", "framed and end are passed on.", "T13", "framed\n" + usual + "end\n", needs="frames")
     colored = "0 0 0 255 0 0\n1 0 0 0 128.5 0\n0 1 0 0 0 0.25\n"
     normals = "0 0 0 0 0 1\n1 0 0 0 1 0\n0 1 0 0.6 0 0.8\n"
@@ -141,12 +147,15 @@ def extensions():
                 normals.replace("0 1 0\n", "0 7 0\n").replace("0.6 0 0.8", "0 0 0"), "attributes normal\n"),
             ("background", "The background is passed on.", POINTS, "background 1 2.5 3\n")):
         yield case(name, why, eye, look, up, points, "V2 T6 T9", PERSPECTIVE + rest, needs="colors")
+    yield case("background-with-alpha", "Its alpha, too.", eye, look, up, POINTS, "T6", PERSPECTIVE + "background 1 2.5 3 0.25\n", needs="alpha")
     yield case("colors-of-17-digits", "Colors have as many decimals as coordinates.", eye, look, up, colored, "T9 T19",
         PERSPECTIVE + "attributes color\n", needs="colors", options="--digits 17")
     for name, why, rest in (("light", "A light moves as points do.", "light 1 2 3 1 0.5 0\n"),
                             ("lights", "Lights keep their order; ambient, material and attenuation stay as they are.",
                              "light 5 0 0 1 1 1\nlight 0 5 0 2 2 2\nambient 0.1 0.2 0.3\nmaterial 1 0.5 0.25 16\nattenuation 1 0.5 0.25\n")):
         yield case(name, why, eye, look, up, POINTS, "V2 T6 T17", PERSPECTIVE + rest, needs="lights")
+    yield case("glass", "What a material does to rays is passed on.", eye, look, up, POINTS, "T6 T17",
+        PERSPECTIVE + "material 1 0.5 0.25 16 0.125 1.5 0.25\nabsorption 0.5 0 2\n", needs="optics")
 
 
 def cases():

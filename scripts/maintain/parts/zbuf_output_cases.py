@@ -69,11 +69,12 @@ def extensions():
                 colored.replace("attributes", "attributes w").replace("0.1 255", "0.1 1 255").replace("0.5 0", "0.5 4 0").replace("0.9 0",
                     "0.9 9 0")),
             ("background", "Pixels without a triangle have the background's color.", "Z10 T6", "background 10 20 30\n" + usual),
+            ("opaque-background", "An alpha of 255 changes nothing.", "Z11 S18", "background 10 20 30 255\n" + usual),
             ("fractions-of-colors", "Colors are rounded to whole numbers, halves up.", "L6",
                 "background 0.5 1.5 2.49\nattributes color\n" + usual.replace("\n", " 200.6 100.49 0.51\n", 3)),
             ("colors-and-depth", "The nearer color is seen.", "Z8 L4",
                 "attributes color\n" + (usual + two.replace("\n", " 9 8 7\n", 3)).replace("\n", " 1 2 3\n", 3))):
-        yield case(f"colored-{name}", why, paragraphs, text, needs="colors")
+        yield case(f"colored-{name}", why, paragraphs, text, needs="colors alpha" if "opaque" in name else "colors")
     lit = ("projected frustum -1 1 -1 1 1 9\n{}light 2 3 1 1 0.9 0.8\nambient 0.12 0.13 0.14\nmaterial 1 0.8 0.5 8\n", "-0.83 -0.77 0.1",
         "0.87 -0.31 0.5", "-0.13 0.91 0.9")
     for shading in ("none", "flat", "gouraud", "phong"):
@@ -87,6 +88,8 @@ def extensions():
         yield case(f"lit-materials-{shading}", f"--shading {shading} on triangles of two materials.", "L4 L5 T9", two, needs="lights materials",
             options=f"--shading {shading}")
     plain_lit = lit[0].format("") + "\n".join(lit[1:]) + "\n"
+    yield case("lit-glass", "Glass is drawn as if it were none.", "S19 L5",
+        plain_lit.replace("material 1 0.8 0.5 8\n", "material 1 0.8 0.5 8 0.5 1.5 0.25\nabsorption 1 2 3\n"), needs="lights optics")
     for name, why, text in (
             ("by-its-plane", "Without normals a triangle is lit by its plane.", plain_lit),
             ("from-behind", "A light behind the surface gives it none.", plain_lit.replace("light 2 3 1", "light 0 0 -30")),

@@ -18,6 +18,9 @@ NEEDS = {
     "colors": "colors and normals in scenes and texts",
     "lights": "lights",
     "materials": "more than one material: `use`, and the column `material`",
+    "optics": "materials that mirror, are clear or absorb",
+    "spheres": "spheres in scenes and texts",
+    "alpha": "`background R G B A`: an alpha, which only PNG holds",
     "exactness": "more digits than plain doubles give",
     "refusals": "wrong input is refused, with its line",
 }
@@ -65,7 +68,7 @@ class Case:
         if "refusals" in needs:
             return REFUSALS
         if needs:
-            return LOOKS if needs & {"colors", "lights", "materials"} else EXTENSIONS
+            return LOOKS if needs & {"colors", "lights", "materials", "optics", "alpha"} else EXTENSIONS
         return BYTES if tier == "bytes" else ASSIGNMENT
 
     def open_under(self, rule):

@@ -1,0 +1,86 @@
+"""Which triangles a text lacks, and which it has too many of, if all others come in the right order; and whether it has all in another."""
+import itertools
+
+ORDINALS = ("first", "second", "third")
+MOST_NAMED = 5
+MOST_COMPARED = 1_000_000  # pairs of triangles, in search of the one that is written again
+
+
+def left_over(few, many, is_same):
+    """The numbers of those of `many` that are left over if each of `few` is one of them, in order; None if one is none of them."""
+    left, i = [], 0
+    for number, item in enumerate(many):
+        if i < len(few) and is_same(few[i], item):
+            i += 1
+        else:
+            left.append(number)
+    return left if i == len(few) else None
+
+
+def left_over_for_certain(few, many, is_same):
+    """The numbers left over, and whether there is no other choice: of two that are the same, nobody can say which."""
+    left = left_over(few, many, is_same)
+    if left is None:
+        return None, False
+    last = len(many) - 1
+    return left, left == sorted(last - i for i in left_over(few[::-1], many[::-1], is_same))
+
+
+def listed(numbers):
+    """Numbers in words; of many, only the first ones."""
+    words = [str(number) for number in numbers]
+    if len(words) > MOST_NAMED + 1:
+        words[MOST_NAMED:] = [f"{len(words) - MOST_NAMED} more"]
+    return " and ".join([", ".join(words[:-1]), words[-1]] if len(words) > 1 else words)
+
+
+def named(numbers):
+    return f"triangle{'' if len(numbers) == 1 else 's'} {listed(numbers)}"
+
+
+def missing(few, many, is_same):
+    """Which of `many` are missing in `few`, as a sentence; empty if the others do not come in order."""
+    left, is_certain = left_over_for_certain(few, many, is_same)
+    if not left or not few:
+        return ""
+    text = f"{named(left).capitalize()} {'is' if len(left) == 1 else 'are'} missing"
+    if left == list(range(len(few), len(many))):
+        text += ", the last one" if len(left) == 1 else f", the last {len(left)}"
+    return text + ("" if is_certain else " (or what is the same as one of them)" if len(left) > 1 else " (or the one that is the same)")
+
+
+def added(many, few, is_same, lines):
+    """Which triangles of a text (`many`, whose first vertices stand in `lines`) are too many, as a sentence; empty if the others do not
+    come in order."""
+    left, _ = left_over_for_certain(few, many, lambda item, other: is_same(other, item))
+    if not left:
+        return ""
+    if len(left) * len(few) > MOST_COMPARED:
+        return f"{len(left)} triangles of the text are too many, first the one in line {lines[left[0]]}"
+    copies = {i: next((number for number, item in enumerate(few) if is_same(many[i], item)), None) for i in left}
+    if None in copies.values():
+        strange = [i for i in left if copies[i] is None]
+        return f"{named(strange).capitalize()} of the text {'comes' if len(strange) == 1 else 'come'} from no triangle of the input, first in line {lines[strange[0]]}"
+    if sorted(copies.values()) == list(range(len(few))) and len(few) > 1:
+        return f"Every triangle is written twice, the first one again in line {lines[left[0]]}"
+    again = sorted(set(copies.values()))
+    return f"{named(again).capitalize()} {'is' if len(again) == 1 else 'are'} written {'twice' if len(again) == len(left) else 'more than once'}, again in line {lines[left[0]]}"
+
+
+def reordered(written, right, is_same):
+    """How triangles, or the vertices of each, stand in another order than the right one, as a sentence; empty if they do not."""
+    for order in itertools.permutations(range(3)):
+        if order != (0, 1, 2) and all(is_same(a, [b[i] for i in order]) for a, b in zip(written, right)):
+            return f"The vertices of each triangle stand in another order: {', '.join(ORDINALS[i] for i in order)}"
+    if len(written) > 1 and all(map(is_same, written, reversed(right))):
+        return "The triangles stand in reverse order"
+    if len(written) ** 2 > MOST_COMPARED:
+        return ""
+    left, first = list(range(len(right))), None
+    for number, item in enumerate(written):
+        found = next((i for i in left if is_same(item, right[i])), None)
+        if found is None:
+            return ""
+        left.remove(found)
+        first = first or (number, found) if number != found else first
+    return f"All triangles are there, but in another order: triangle {first[0]} of the text is triangle {first[1]}" if first else ""
