@@ -8,6 +8,7 @@ import tempfile
 
 from explain_parts.window import Window
 from lib.input_file import read_input
+from lib.pipe_tools import opaque_background
 from lib.stage_text import parse_stage_text, text_of
 from lib.tool_options import words_of_project
 
@@ -78,7 +79,7 @@ class Stages:
         with tempfile.TemporaryDirectory() as folder:
             image = pathlib.Path(folder, "out.ppm")
             done = self.tools.run("zbuf", "--coverage", self.settings.coverage, "--image", image, "--z-buffer", "/dev/null", *options,
-                                  self.config, stdin=text)
+                                  *opaque_background(text), self.config, stdin=text)
             return done.stderr.decode(errors="replace")
 
     def fragments(self, column, row):

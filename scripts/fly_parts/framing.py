@@ -11,18 +11,30 @@ ROOM = 1.05  # left around the scene
 
 @dataclasses.dataclass(frozen=True)
 class Ball:
-    """A ball around all vertices; its center is that of their box."""
+    """A ball around all vertices and spheres; its center is that of their box."""
     center: tuple
     radius: float
 
     @staticmethod
     def around(model_text):
-        """From the bytes of model's output; None of a scene without triangles."""
-        points = [tuple(map(float, line.split()[:3])) for _, lines in triangle_lines(model_text.splitlines(keepends=True)) for line in lines]
-        if not points:
+        """From the bytes of model's output; None of a scene with neither."""
+        lines = model_text.splitlines(keepends=True)
+        points = [point_of(line) for _, corners in triangle_lines(lines) for line in corners]
+        spheres = [Ball.of_sphere(*map(point_of, lines[at + 1:at + 5])) for at, line in enumerate(lines) if line == b"sphere\n"]
+        reach = points + [tuple(x + sign * sphere.radius for x in sphere.center) for sphere in spheres for sign in (-1, 1)]
+        if not reach:
             return None
-        center = tuple((min(axis) + max(axis)) / 2 for axis in zip(*points))
-        return Ball(center, max(math.dist(center, p) for p in points))
+        center = tuple((min(axis) + max(axis)) / 2 for axis in zip(*reach))
+        return Ball(center, max([math.dist(center, p) for p in points] + [math.dist(center, sphere.center) + sphere.radius for sphere in spheres]))
+
+    @staticmethod
+    def of_sphere(center, *ends):
+        """Around a sphere that the scene may have stretched along its axes."""
+        return Ball(center, max(math.dist(center, end) for end in ends))
+
+
+def point_of(line):
+    return tuple(map(float, line.split()[:3]))
 
 
 def framing_distance(ball, header):

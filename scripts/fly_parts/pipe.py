@@ -8,10 +8,12 @@ import tempfile
 import threading
 
 from fly_parts.framing import Ball
-from lib.pipe_tools import ToolFailure
+from lib.child import cpu_seconds, finished
+from lib.pipe_tools import ToolFailure, opaque_background
 from lib.projection import line_of
 
-STAGES = ("model", "view", "project", "zbuf")
+RASTERIZING = ("model", "view", "project", "zbuf")
+TRACING = ("model", "view", "trace")
 
 
 def write_all(descriptor, data):
@@ -76,9 +78,7 @@ class Run:
         """Waits for its end, and keeps its notes. Returns its error message, None if it succeeded."""
         message = self.process.stderr.read().decode(errors="replace").strip()
         self.copier.join()
-        _, status, usage = os.wait4(self.process.pid, 0)
-        self.process.returncode = os.waitstatus_to_exitcode(status)
-        self.seconds = usage.ru_utime + usage.ru_stime
+        self.seconds = cpu_seconds(finished(self.process))
         self.process.stdout.close()
         self.process.stderr.close()
         self.notes = tuple(line for line in message.splitlines() if ": note: " in line)
@@ -86,17 +86,22 @@ class Run:
 
 
 class FramePipe:
-    def __init__(self, tools, scene):
+    """`is_traced` puts trace in place of project and zbuf."""
+
+    def __init__(self, tools, scene, is_traced=False):
         self.tools = tools
+        self.names = TRACING if is_traced else RASTERIZING
+        self.last = self.names[-1]
         self.folder = tempfile.TemporaryDirectory(dir="/dev/shm" if os.access("/dev/shm", os.W_OK) else None)
         self.image = pathlib.Path(self.folder.name, "frame.ppm")
         self.config = pathlib.Path(self.folder.name, "config.txt")
         self.config_text = self.frame_image = self.found_ball = None
-        self.stages = {name: Stage() for name in STAGES}
+        self.stages = {name: Stage() for name in self.names}
         # The output does not depend on threads.
-        self.threads = {"zbuf": ["--threads", "2"]} if tools.has_option("zbuf", "--threads") else {}
+        self.threads = {"zbuf": ["--threads", "2"]} if not is_traced and tools.has_option("zbuf", "--threads") else {}
         self.run([("model", [str(scene)])], None)
         self.light = self.first_light()
+        self.opaque = opaque_background(self.stages["model"].output.read())  # the window has nothing behind it
         keyword, *words = line_of(self.header)
         self.projection = {keyword: words}
 
@@ -125,7 +130,7 @@ class FramePipe:
             source = run.output
 
     def files(self, name):
-        return [self.config, "--z-buffer", "/dev/null", "--image", self.image] if name == "zbuf" else []
+        return [self.config, "--z-buffer", "/dev/null", "--image", self.image, *self.opaque] if name == self.last else []
 
     # The world, from the output of stage 1
 
@@ -158,14 +163,15 @@ class FramePipe:
 
     # Frames
 
-    def frame(self, camera_lines, project_words, config, zbuf_words):
-        """The PPM of a frame. `config` is the text of config.txt."""
+    def frame(self, camera_lines, project_words, config, drawing_words):
+        """The PPM of a frame. `config` is the text of config.txt; trace has no use for `project_words`."""
         eye, look, up = camera_lines
-        calls = [("view", ["--eye", *eye, "--look", *look, "--up", *up]), ("project", project_words), ("zbuf", zbuf_words)]
+        words = {"view": ["--eye", *eye, "--look", *look, "--up", *up], "project": project_words, self.last: drawing_words}
+        calls = [(name, words[name]) for name in self.names[1:]]
         if self.config_text != config:
             self.config.write_text(config)
             self.config_text = config
-            self.stages["zbuf"].words = None  # not to be reused
+            self.stages[self.last].words = None  # not to be reused
         source = self.stages["model"].output
         for stage in self.stages.values():
             stage.seconds = None
@@ -177,9 +183,9 @@ class FramePipe:
         return self.frame_image
 
     def is_empty(self):
-        """Whether no triangle is seen in the last frame, as zbuf notes."""
-        return any("the picture is empty" in note for note in self.stages["zbuf"].notes)
+        """Whether no triangle is seen in the last frame, as the last stage notes."""
+        return any("the picture is empty" in note for note in self.stages[self.last].notes)
 
     def seconds(self):
         """A pair for each stage: its name and its processor time in the last frame, or None."""
-        return [(name, self.stages[name].seconds) for name in STAGES]
+        return [(name, self.stages[name].seconds) for name in self.names]

@@ -33,6 +33,7 @@ i/k j/l u/o    move the first light
 p P            write the scene, the picture
 h              show or hide these keys
 Escape         leave"""
+NOT_TRACED = "cvzxbf"  # keys for options that trace has not
 MOVES = {"w": (0, 0, 1), "s": (0, 0, -1), "a": (-1, 0, 0), "d": (1, 0, 0), "q": (0, 1, 0), "e": (0, -1, 0)}
 TURNS = {"Left": (-1, 0), "Right": (1, 0), "Up": (0, 1), "Down": (0, -1)}
 NAMED_KEYS = (*TURNS, "Home", "Escape")
@@ -60,8 +61,13 @@ class Settings:
         words = ["--clip", "frustum"] if self.is_clipped or self.inset else []
         return words + (["--clip-inset", f"{self.inset:g}"] if self.inset else []) + (["--cull", "back"] if self.culls else [])
 
-    def zbuf_words(self):
+    def drawing_words(self):
         return (["--shading", self.shading] if self.shading else []) + (["--wireframe"] if self.wireframe else [])
+
+
+def keys_of(is_traced):
+    """The list of keys, for trace without those that mean nothing to it."""
+    return "\n".join(line for line in KEYS.splitlines() if not is_traced or line.split()[0][0] not in NOT_TRACED)
 
 
 def size_of_scene(projection, width):
@@ -72,17 +78,18 @@ def size_of_scene(projection, width):
 
 class FlyWindow:
     """`config` is the text of a config, by default of least_width pixels with the scene's aspect. The window begins at least
-    `least_width` pixels wide, and no larger than the screen."""
+    `least_width` pixels wide, and no larger than the screen. `trace_words`, if not None, are for trace, which draws the frames."""
 
-    def __init__(self, tools, scene, config=None, scene_out="fly.txt", picture_out="fly.png", least_width=1):
+    def __init__(self, tools, scene, config=None, scene_out="fly.txt", picture_out="fly.png", least_width=1, trace_words=None):
         self.tools, self.scene = tools, pathlib.Path(scene)
-        self.pipe = FramePipe(tools, scene)
+        self.is_traced, self.more_words = trace_words is not None, trace_words or []
+        self.pipe = FramePipe(tools, scene, self.is_traced)
         config = config or size_of_scene(self.pipe.projection, least_width)
         self.outputs = scene_out, picture_out
         size, *self.limits = [line.split("#")[0].split() for line in config.split("\n") if line.split("#")[0].strip()]
         self.whole = tuple(map(int, size))
         self.least_width = least_width
-        self.has_wireframe = tools.has_option("zbuf", "--wireframe")
+        self.has_wireframe = not self.is_traced and tools.has_option("zbuf", "--wireframe")
         self.settings = self.start = Settings(Camera.of(*(self.pipe.header(name) for name in ("eye", "look", "up"))))
         self.start_light = self.pipe.light
         self.is_light_moved = False
@@ -111,7 +118,7 @@ class FlyWindow:
                                      width=self.size[0], height=self.size[1])
         self.picture.pack(fill="both", expand=True)
         self.picture.bind("<Configure>", lambda event: self.resize(event.width, event.height))
-        self.keys = self.note_over_picture(KEYS, justify="left")
+        self.keys = self.note_over_picture(keys_of(self.is_traced), justify="left")
         self.lost = self.note_over_picture("")
         self.root.bind("<Key>", self.key)
         self.bind_pointer()
@@ -159,6 +166,8 @@ class FlyWindow:
 
     def key(self, event):
         name = event.keysym if event.keysym in NAMED_KEYS else event.char or event.keysym
+        if self.is_traced and name in tuple(NOT_TRACED):
+            return self.say("trace needs no clipping, and has neither --cull nor --wireframe")
         changed = self.changed(name)
         if changed is not None:
             self.change(changed)
@@ -174,6 +183,7 @@ class FlyWindow:
             self.write_scene()
         elif name == "P":
             self.write_picture()
+        return None
 
     def show_keys(self, is_shown):
         if is_shown:
@@ -250,11 +260,14 @@ class FlyWindow:
         self.resting = None
         self.draw(self.size)
 
+    def drawing_words(self):
+        return self.more_words + self.settings.drawing_words()
+
     def draw(self, size):
         begin = time.perf_counter()
         config = "\n".join([f"{size[0]} {size[1]}", *(" ".join(words) for words in self.limits), ""])
         try:
-            frame = self.pipe.frame(self.settings.camera.lines(), self.settings.project_words(), config, self.settings.zbuf_words())
+            frame = self.pipe.frame(self.settings.camera.lines(), self.settings.project_words(), config, self.drawing_words())
         except ToolFailure as error:
             self.settings = self.before
             return self.say(str(error))
@@ -272,7 +285,7 @@ class FlyWindow:
 
     def tell(self, size, seconds):
         times = "   ".join(f"{name} {'reused' if spent is None else f'{1000 * spent:.0f} ms'}" for name, spent in self.pipe.seconds())
-        words = " ".join(self.settings.project_words() + self.settings.zbuf_words())
+        words = " ".join(self.settings.project_words() + self.drawing_words())
         self.say(f"{times}   all {1000 * seconds:.0f} ms   {size[0]} x {size[1]}   {words}")
         self.readout.configure(text=self.read_out())
         if self.pipe.is_empty():

@@ -4,9 +4,9 @@
 const quoted = word => /^[\w.,\/+-]+$/.test(word) ? word : `'${word.replaceAll("'", "'\\''")}'`;
 
 class ExplanationPanel {
-  constructor(box, {scene, config, explanations, stages}, report) {
+  constructor(box, {scene, config, explanations, stages, spheres}, report) {
     const [, cut] = stages[2].statistics.find(([key]) => key === "cut");
-    Object.assign(this, {box, scene, config, explanations, report, isUncut: cut === "0"});
+    Object.assign(this, {box, scene, config, explanations, spheres, report, isUncut: cut === "0"});
   }
 
   tell(name, pixel) {
@@ -26,6 +26,7 @@ class ExplanationPanel {
 
   texts(name, pixel) {
     if (name < 0) return [pixel < 0 ? "Point at a triangle or a pixel." : this.report.background(pixel)];
+    if (this.spheres) return ["explain shows the arithmetic of project and zbuf, which draw no spheres: of a scene with spheres it has none."];
     const explanation = this.explanations[name];
     if (!explanation) {
       const command = `Of so many triangles the page has no explanation. This command prints it:\n\n  ${this.command(name, pixel)}`;

@@ -29,8 +29,9 @@ def words_in(text, number):
 
 
 def explanations(inspection, scene_text, config_text):
-    """For each triangle its report and, for the report on a pixel, the names of the corners of its pieces; none for a large scene."""
-    if inspection.count > MAX_EXPLAINED_TRIANGLES:
+    """For each triangle its report and, for the report on a pixel, the names of the corners of its pieces; none for a large scene, or one
+    with spheres."""
+    if inspection.count > MAX_EXPLAINED_TRIANGLES or inspection.lines["model"].spheres:
         return []
     window, found = Window(config_text), []
     lossless = {tool: StageLines.of(inspection.lossless[tool].decode()) for tool in ("model", "view")}

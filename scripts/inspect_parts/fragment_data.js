@@ -5,6 +5,7 @@ const FATES = ["kept", "lost, behind", "lost, equal and later than", "lost, befo
 class FragmentData {
   constructor(data) {
     Object.assign(this, {columns: data.columns, rows: data.rows, rgb: bytesOf(data.pixels), leftOut: data.leftOut});
+    this.spheres = new Set(intsOf(data.stages[0].spheres.names));
     this.begins = intsOf(data.fragments.begins);
     this.triangles = intsOf(data.fragments.triangles);
     this.depths = realsOf(data.fragments.depths);
@@ -29,13 +30,16 @@ class FragmentData {
     this.owners.forEach((owner, p) => { if (owner >= 0) this.order[next[owner]++] = p; });
   }
 
+  // "triangle 3" or "sphere 3".
+  called(name) { return `${this.spheres.has(name) ? "sphere" : "triangle"} ${name}`; }
+
   // Every fragment of a pixel as it arrived: its triangle, depth, fate in words, and whether the pixel shows it.
   fragmentsOf(p) {
     const found = [];
     let winner = -1;
     for (let f = this.begins[p]; f < this.begins[p + 1]; ++f) {
       const fate = this.fates[f], triangle = this.triangles[f];
-      found.push({triangle, depth: this.depths[f], isSeen: f === this.seen[p], fate: FATES[fate] + (fate === 1 || fate === 2 ? ` triangle ${winner}` : "")});
+      found.push({triangle, depth: this.depths[f], isSeen: f === this.seen[p], fate: FATES[fate] + (fate === 1 || fate === 2 ? ` ${this.called(winner)}` : "")});
       if (fate === 0) winner = triangle;
     }
     return found;
@@ -48,6 +52,6 @@ class FragmentData {
 
   told(p) {
     const {row, column} = this.place(p), f = this.seen[p];
-    return `row ${row}, column ${column}: ` + (f < 0 ? "background" : `triangle ${this.triangles[f]}, depth ${this.depths[f]}`);
+    return `row ${row}, column ${column}: ` + (f < 0 ? "background" : `${this.called(this.triangles[f])}, depth ${this.depths[f]}`);
   }
 }

@@ -10,6 +10,7 @@ from inspect_parts.packing import packed
 from inspect_parts.stage_lines import StageLines
 from lib.input_file import read_input
 from lib.pictures import read_picture
+from lib.pipe_tools import ToolFailure, opaque_background
 from lib.projection import line_of, window_of
 from lib.square import note_on_squares
 from lib.stage_text import text_of
@@ -18,6 +19,8 @@ from lib.vectors import axes, moved
 # A page opens in a few seconds up to this number; beyond it only every n-th triangle is drawn.
 MAX_DRAWN_TRIANGLES = 200000
 MAX_FRAGMENTS = 3000000
+MAX_FACETS = 20000  # of all spheres
+BELTS = 2, 16       # the fewest and the most of a sphere
 TITLES = {"model": "world space", "view": "view space", "project": "normalized device coordinates"}
 FATES = ("kept", "behind", "equal", "before", "beyond")
 
@@ -48,6 +51,11 @@ def frustum_corners(header, reach):
     return corners, is_shortened
 
 
+def belts_of(spheres):
+    """Into how many belts each of so many spheres is cut, for project and zbuf: a sphere has nearly 4 N^2 facets."""
+    return max(BELTS[0], min(BELTS[1], math.isqrt(MAX_FACETS // (4 * spheres))))
+
+
 def box_lines(corners):
     """The twelve edges of a box with four corners on each of two sides."""
     pairs = [(i, (i + 1) % 4) for i in range(4)]
@@ -66,10 +74,10 @@ def label(text, at):
 
 class Inspection:
     """A run of the pipe that keeps every stage's output. As in scripts/stages, the stages pass lossless text on, and zbuf reads what
-    project printed; `names` are those of scene and config, as their user wrote them."""
+    project printed; `names` are those of scene and config, as their user wrote them. For spheres, project and zbuf get facets."""
 
-    def __init__(self, tools, scene, config, names):
-        self.tools, self.scene, self.config = tools, scene, config
+    def __init__(self, tools, scene, config, names, is_traced=False):
+        self.tools, self.scene, self.config, self.is_traced = tools, scene, config, is_traced
         self.scene_data, self.config_data = read_input(scene), read_input(config)
         self.name, self.config_name = names
         self.notes = []
@@ -78,29 +86,54 @@ class Inspection:
             self.run(pathlib.Path(folder))
 
     def run(self, folder):
-        texts, self.lossless, data = {}, {}, self.scene_data
+        texts, self.lossless, self.lines, data = {}, {}, {}, self.scene_data
         for tool in TITLES:
+            if tool == "project":
+                data = self.faceted(data)
             # Timed without counting.
-            done = texts[tool] = self.tools.run(tool, "--timing", stdin=data)
+            done = texts[tool] = self.first_run(tool, data)
             self.lossless[tool] = data = self.tools.output(tool, "--digits", "exact", "--stats", folder / tool, stdin=data)
             self.statistics[tool] = statistics(folder / tool)
-        self.lines = {tool: StageLines.of(done.stdout.decode()) for tool, done in texts.items()}
+            self.lines[tool] = StageLines.of(done.stdout.decode())
         self.header = self.lines["model"].header
-        self.count = len(self.lines["model"].names)
+        self.count = self.lines["model"].count
         self.step = max(1, math.ceil(self.count / MAX_DRAWN_TRIANGLES))
         self.stages = [self.stage(tool, TITLES[tool], texts[tool]) for tool in texts]
         note = note_on_squares(line_of(self.header.get), text_of(self.config_data, self.config))
         self.square_notes = [f"note: {note}"] if note else []
         self.draw(texts["project"].stdout, folder)
 
+    def first_run(self, tool, data, *words):
+        try:
+            return self.tools.run(tool, "--timing", *words, stdin=data)
+        except ToolFailure as failure:  # model reads the scene, but by a pipe
+            raise ToolFailure(str(failure).replace("model: <stdin>:", f"model: {self.name}:", 1)) from None
+
+    def faceted(self, stage2):
+        """What project reads: the output of view, with facets in place of spheres."""
+        spheres = len(self.lines["model"].spheres)
+        if not spheres:
+            return stage2
+        if not self.is_traced:
+            try:
+                self.first_run("model", self.scene_data, "--bare")
+            except ToolFailure as failure:
+                raise ToolFailure(str(failure).split(": trace draws it")[0] + ": --trace draws it") from None
+        belts = belts_of(spheres)
+        self.notes.append(f"project and zbuf have {4 * belts * (belts - 1)} facets in place of each sphere, and count those")
+        world = self.tools.output("model", "--digits", "exact", "--facets", belts, stdin=self.scene_data)
+        return self.tools.output("view", "--digits", "exact", stdin=world)
+
     def stage(self, tool, title, done):
         read, stderr = self.lines[tool], done.stderr.decode(errors="replace")
         self.notes += notes_told(stderr)
         kept = [(name, line) for name, line in zip(read.names, read.first_lines) if name % self.step == 0]
         numbers = self.numbers_shown(read, kept)
-        return {"tool": tool, "title": title, "seconds": time_told(stderr), "triangles": len(read.names), "bytes": len(done.stdout), "statistics": self.statistics[tool],
+        return {"tool": tool, "title": title, "seconds": time_told(stderr), "triangles": len(read.names), "missing": self.count - len(set(read.names)), "bytes": len(done.stdout), "statistics": self.statistics[tool],
                 "names": packed("i", [name for name, _ in kept]), "firstLines": packed("i", [line for _, line in kept]),
                 "numbers": packed("i", numbers) if numbers else None,
+                "spheres": {"names": packed("i", [name for name, _ in read.spheres]), "firstLines": packed("i", [line for _, line in read.spheres]),
+                            "points": packed("d", read.sphere_points())},
                 "text": "\n".join(read.lines[number - 1] for number in numbers) if numbers else "\n".join(read.lines), **self.guide(tool)}
 
     def numbers_shown(self, read, kept):
@@ -117,7 +150,7 @@ class Inspection:
             corners = [(x, y, z) for z in (-1, 1) for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
             return {"guide": box_lines(corners), "labels": [label("near", corners[3]), label("far", corners[7])], "remark": ""}
         corners, is_shortened = frustum_corners(header, -float(dict(self.statistics["view"]).get("z_min", 0)))
-        remark = f"the far plane is at distance {(header.get('perspective') or header.get('frustum') or header['ortho'])[-1]}, drawn nearer" if is_shortened else ""
+        remark = f"far, at {window_of(header)[-1]:g}, is drawn nearer" if is_shortened else ""
         eye = (0.0, 0.0, 0.0)
         if tool == "model":
             eye = tuple(map(float, header["eye"]))
@@ -127,9 +160,10 @@ class Inspection:
 
     def draw(self, stage3, folder):
         z_buffer, image, log = (folder / name for name in ("z_buffer.txt", "out.ppm", "fragments.txt"))
+        zbuf_words = [self.config, *opaque_background(stage3)]
         # Timed without log and counts, which take longer than the picture.
-        timed = self.tools.run("zbuf", self.config, "--timing", "--z-buffer", z_buffer, "--image", image, stdin=stage3).stderr.decode(errors="replace")
-        self.tools.run("zbuf", self.config, "--z-buffer", "/dev/null", "--image", folder / "again.ppm", "--fragments", log, "--stats", folder / "zbuf", stdin=stage3)
+        timed = self.tools.run("zbuf", *zbuf_words, "--timing", "--z-buffer", z_buffer, "--image", image, stdin=stage3).stderr.decode(errors="replace")
+        self.tools.run("zbuf", *zbuf_words, "--z-buffer", "/dev/null", "--image", folder / "again.ppm", "--fragments", log, "--stats", folder / "zbuf", stdin=stage3)
         self.notes += notes_told(timed)
         self.columns, self.rows, pixels = read_picture(image)
         text = z_buffer.read_text()
@@ -167,7 +201,7 @@ class Inspection:
         return words[2:4] or ["-1", "-1"]
 
     def as_json(self):
-        return {"scene": self.name, "config": self.config_name, "triangles": self.count, "step": self.step,
+        return {"scene": self.name, "config": self.config_name, "triangles": self.count, "spheres": len(self.lines["model"].spheres), "step": self.step,
                 "columns": self.columns, "rows": self.rows, "stages": self.stages, "pixels": self.pixels, "fragments": self.fragments,
                 "fragmentCount": self.fragment_count, "leftOut": self.left_out_count, "notes": self.notes + self.square_notes,
                 "limits": self.limits(), "explanations": explanations(self, text_of(self.scene_data, self.scene), text_of(self.config_data, self.config))}

@@ -2,15 +2,17 @@
 
 const SIDES = ["left", "right", "below", "above", "near", "far"];
 
-// The counts that the legend shows: words, number, and what it is made of.
+// The counts that the legend shows: words, number, and what it is made of. Each triangle, or piece of a cut one, is in one of them: what
+// project finds outside and passes on is left to zbuf to count.
 function legendOf(stages) {
   const counts = new Map(stages.map(stage => [stage.tool, new Map(stage.statistics.map(([key, word]) => [key, Number(word)]))]));
+  counts.get("project").set("dropped", stages[2].missing - counts.get("project").get("culled"));
   const sum = (label, kind, ...terms) => {
     const found = terms.map(([tool, key]) => [tool, key, counts.get(tool).get(key) || 0]).filter(([, , count]) => count > 0);
     return {label, kind, count: found.reduce((total, [, , count]) => total + count, 0), terms: found.map(([tool, key, count]) => `${tool}: ${count} ${key.replaceAll("_", " ")}`)};
   };
-  const outside = ["project", "zbuf"].flatMap(tool => SIDES.map(side => [tool, "outside_" + side]));
-  return [sum("shown", "shown", ["zbuf", "seen"]), sum("hidden", "unshown", ["zbuf", "hidden"]), sum("outside", "unshown", ["project", "behind"], ...outside),
+  const outside = SIDES.map(side => ["zbuf", "outside_" + side]);
+  return [sum("shown", "shown", ["zbuf", "seen"]), sum("hidden", "unshown", ["zbuf", "hidden"]), sum("outside", "unshown", ["project", "dropped"], ...outside),
     sum("culled", "unshown", ["project", "culled"]), sum("too thin for a pixel", "unshown", ["zbuf", "without_area"], ["zbuf", "between_centers"]), sum("cut", "", ["project", "cut"])];
 }
 

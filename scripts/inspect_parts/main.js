@@ -5,6 +5,7 @@ const STARTS = {
   view: {yaw: -0.6, pitch: 0.35},
   project: {yaw: -0.45, pitch: 0.3},
 };
+const counted = (count, word) => `${count} ${word}${count === 1 ? "" : "s"}`;
 const NOTHING = {triangle: -1, pixel: -1};
 
 class Inspector {
@@ -22,6 +23,7 @@ class Inspector {
     this.depthText = this.depthPanel();
     this.explanation = new ExplanationPanel(this.one("#explanation"), data, new PixelReport(data, this.fragments, this.panels[2].stage));
     this.theirs = data.theirs ? this.theirsPanel(data.theirs) : null;
+    this.rays = data.rays ? this.rayPanel(data.rays) : null;
     this.tabs = new Tabs(this.one('[role="tablist"]'), () => this.explanation.refresh());
     this.listen();
     this.tabs.show(0);
@@ -36,8 +38,8 @@ class Inspector {
   fillHeader() {
     const {data} = this, notes = [...data.notes];
     if (data.step > 1) notes.unshift(`Of ${data.triangles} triangles one in ${data.step} is drawn and printed here; pixels know all of them.`);
-    this.one("#title").textContent = `${data.scene}: ${data.triangles} triangle${data.triangles === 1 ? "" : "s"}, ${data.columns} × ${data.rows} pixels`;
-    this.one("#notes").textContent = notes.join(" ");
+    this.one("#title").textContent = `${data.scene}: ${counted(data.triangles - data.spheres, "triangle")}${data.spheres ? ` and ${counted(data.spheres, "sphere")}` : ""}, ${data.columns} × ${data.rows} pixels`;
+    this.one("#notes").textContent = notes.join(" · ");
     new Legend(this.one("#legend"), data.stages);
     fillCounts(this.one("#counts tbody"), data.stages);
     for (const id of ["image", "depth"])
@@ -74,6 +76,20 @@ class Inspector {
     this.one("#legend").append(element("li", {class: "theirs"}, "theirs, where it differs"));
     return new TheirsPanel({box: this.one("#theirs"), theirs, panels: this.panels, pictures: this.pixels, captions: [model, view, project, depth, image],
                             button: this.one("#whose"), select: name => this.select({triangle: name, pixel: -1})});
+  }
+
+  rayPanel(given) {
+    this.one("#tab-rays").hidden = false;
+    this.one("#pixels figcaption span").textContent = "trace";
+    return new RayPanel(this.one("#rays-place"), this.one("#rays table"), new RayTrees(given, this.data.columns, this.data.rows));
+  }
+
+  // The rays of a pixel, in the table and in the wireframes of world and view space.
+  showRays(pixel, triangle) {
+    const {trees} = this.rays, rays = this.rays.tell(pixel < 0 ? null : this.fragments.place(pixel), name => this.select({triangle: name, pixel}));
+    this.rays.highlight(triangle);
+    this.panels[0].wire.rays = trees.drawing(rays, p => trees.inWorld(p));
+    this.panels[1].wire.rays = trees.drawing(rays);
   }
 
   listen() {
@@ -119,12 +135,13 @@ class Inspector {
     const count = this.data.triangles;
     for (let tried = 0, name = this.held.triangle; tried < count; ++tried) {
       name = name < 0 ? (step > 0 ? 0 : count - 1) : (name + step + count) % count;
-      if (stage.piecesOf(name).length) return this.select({triangle: name, pixel: -1});
+      if (stage.has(name)) return this.select({triangle: name, pixel: -1});
     }
   }
 
   show(what, source) {
     const {triangle, pixel} = this.shown = what;
+    if (this.rays) this.showRays(pixel, triangle);
     for (const {stage, wire, text} of this.panels) {
       wire.highlight(triangle);
       text.highlight(stage.linesOf(triangle), text !== source);
@@ -142,7 +159,7 @@ class Inspector {
 
   told({triangle, pixel}) {
     const parts = pixel >= 0 ? [this.fragments.told(pixel)] : [];
-    if (triangle >= 0 && pixel < 0) parts.push(`triangle ${triangle}`);
+    if (triangle >= 0 && pixel < 0) parts.push(this.fragments.called(triangle));
     if (triangle >= 0) parts.push(this.fateOf(triangle));
     return parts.join(": ");
   }

@@ -21,6 +21,7 @@ class StageData {
     this.names = intsOf(stage.names);
     this.firstLines = intsOf(stage.firstLines);
     this.points = this.readPoints();
+    this.spheres = new Spheres(stage.spheres);
     this.starts = new Int32Array(count + 1);  // piece `order[k]` belongs to triangle `name` for starts[name] <= k < starts[name + 1]
     for (const name of this.names) ++this.starts[name + 1];
     for (let name = 0; name < count; ++name) this.starts[name + 1] += this.starts[name];
@@ -43,7 +44,12 @@ class StageData {
 
   piecesOf(name) { return name < 0 ? [] : this.order.subarray(this.starts[name], this.starts[name + 1]); }
 
-  linesOf(name) { return [...this.piecesOf(name)].flatMap(piece => [0, 1, 2].map(v => this.firstLines[piece] + v)); }
+  has(name) { return this.piecesOf(name).length > 0 || this.spheres.placeOf(name) >= 0; }
+
+  linesOf(name) {
+    if (!this.numbers && this.spheres.placeOf(name) >= 0) return this.spheres.linesOf(name);
+    return [...this.piecesOf(name)].flatMap(piece => [0, 1, 2].map(v => this.firstLines[piece] + v));
+  }
 
   // The triangle that a line belongs to, -1 for none.
   nameOfLine(number) {
@@ -52,6 +58,6 @@ class StageData {
       const middle = (low + high) >> 1;
       if (this.firstLines[middle] <= number) low = middle + 1; else high = middle;
     }
-    return low > 0 && number < this.firstLines[low - 1] + 3 ? this.names[low - 1] : -1;
+    return low > 0 && number < this.firstLines[low - 1] + 3 ? this.names[low - 1] : this.spheres.nameOfLine(number);
   }
 }

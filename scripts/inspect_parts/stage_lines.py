@@ -6,17 +6,20 @@ NUMBER_BEGINS = tuple("-0123456789")
 
 @dataclasses.dataclass
 class StageLines:
-    """A text of our own tools: its header, {keyword: words}, and of each triangle or piece of one the number and the first line."""
+    """A text of our own tools: its header, {keyword: words}, of each triangle or piece of one the number and the first line, and of each
+    sphere; and one more than the last number."""
     lines: list
     header: dict
     names: list
     first_lines: list
+    spheres: list
+    count: int = 0
 
     @staticmethod
     def of(text):
         """Faster than parse_stage_text, which has to expect any text."""
         lines = text.split("\n")
-        found = StageLines(lines, {}, [], [])
+        found = StageLines(lines, {}, [], [], [])
         number, corners = 0, 0  # of the next triangle, and how many lines of the one before are still to come
         for at, line in enumerate(lines, 1):
             if line[:1] in NUMBER_BEGINS:
@@ -29,9 +32,17 @@ class StageLines:
                 number = int(line[9:])
             elif line == "clipped":  # the whole triangle in clip space; its pieces follow
                 corners = 3
-            elif line and not found.names:
+            elif line == "sphere":  # no triangle, but it has a number
+                found.spheres.append((number, at + 1))
+                number, corners = number + 1, 4
+            elif line and not found.names and not found.spheres:
                 found.header[line.split()[0]] = line.split()[1:]
+        found.count = number
         return found
+
+    def sphere_points(self):
+        """The numbers of the four points of each sphere: its center, and the ends of three half axes."""
+        return [float(word) for _, line in self.spheres for text in self.lines[line - 1:line + 3] for word in text.split(" ", 3)[:3]]
 
     def points(self):
         """The vertices of all triangles, one by one."""

@@ -48,8 +48,7 @@ class Theirs:
 
     def picture(self):
         """The pixels of their picture, in base64."""
-        columns, rows = self.inspection.columns, self.inspection.rows
-        colors = self.read("picture", lambda data, name: read_colors(data, name, columns, rows))
+        colors = self.read("picture", lambda data, name: read_colors(data, name, self.ours.window, self.ours.background))
         return None if colors is None else base64.b64encode(b"".join(b"".join(row) for row in colors)).decode()
 
     def as_json(self):

@@ -22,7 +22,7 @@ class TheirsPanel {
   fileTable() {
     const body = element("tbody", {}, ...this.theirs.files.map(({stage, file, verdict, isGood, differing, largest, remarks}) => element("tr", {},
       ...[stage, file].map(word => element("td", {}, word)), element("td", {class: isGood ? "good" : "bad"}, verdict), ...[differing ?? "", largest, remarks].map(word => element("td", {}, String(word))))));
-    const heads = ["stage", "file", "verdict", "differ", "largest difference, theirs and ours", "cause and remarks"];
+    const heads = ["stage", "file", "verdict", "differ", "largest difference", "cause and remarks"];
     return element("table", {}, element("thead", {}, element("tr", {}, ...heads.map(head => element("th", {scope: "col"}, head)))), body);
   }
 

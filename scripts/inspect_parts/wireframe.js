@@ -4,16 +4,26 @@ const WHEEL_STEP = 0.001, TURN_STEP = 0.01, KEY_TURN = 0.1, KEY_ZOOM = 1.15;
 const CLICK_REACH = 3;     // pixels that the pointer may move during a click
 const MOST_MARKED = 3000;  // vertices that differ
 const THEIR_LAYER = 2;     // of the ink; those below are for triangles that the picture does not show, and for those it does
+const FADING = 8;          // tones of a ray that leaves the scene
 const GIZMO = 22;          // length of the axes in the corner
 const AXES = [["x", [1, 0, 0]], ["y", [0, 1, 0]], ["z", [0, 0, 1]]];
+
+// Two arrays of numbers, one behind the other.
+function joined(a, b) {
+  const all = new Float64Array(a.length + b.length);
+  all.set(a);
+  all.set(b, a.length);
+  return all;
+}
 
 class Wireframe {
   // `pane` has a canvas and another one above it, for marks. `isShown(name)` tells which triangles the picture shows.
   constructor(pane, stage, start, isShown, palette) {
-    Object.assign(this, {pane, stage, palette, names: stage.names, guide: stage.guide, highlighted: -1, theirs: null, index: null, isDirty: false});
+    Object.assign(this, {pane, stage, palette, names: stage.names, guide: stage.guide, highlighted: -1, rays: [], theirs: null, index: null, isDirty: false});
     [this.canvas, this.mark] = pane.querySelectorAll("canvas");
-    this.view = new Turntable(start, stage.guide, stage.points);
+    this.view = new Turntable(start, stage.guide, joined(stage.points, stage.spheres.outermost()));
     this.layers = Uint8Array.from(stage.names, name => isShown(name) ? 1 : 0);
+    this.sphereLayers = Uint8Array.from(stage.spheres.names, name => isShown(name) ? 1 : 0);
     [this.x, this.y, this.near] = this.places(3 * stage.names.length);
     new ResizeObserver(() => this.resize()).observe(pane);
     this.resize();
@@ -26,7 +36,7 @@ class Wireframe {
   // that differ, which are marked.
   layOver(points, isAlike, vertices) {
     const all = Int32Array.from({length: points.length / 9}, (_, i) => i), differing = new Set(vertices.map(vertex => Math.floor(vertex / 3)));
-    this.theirs = {points, isAlike, vertices: vertices.subarray(0, MOST_MARKED), triangles: isAlike ? [...differing] : all, places: this.places(points.length / 3)};
+    this.theirs = {points, isAlike, vertices: vertices.subarray(0, MOST_MARKED), differing, triangles: isAlike ? [...differing] : all, places: this.places(points.length / 3)};
     this.draw();
   }
 
@@ -59,6 +69,7 @@ class Wireframe {
     this.view.placeAll(this.stage.points, x, y, this.near);
     ink.clear();
     for (let i = 0; i < layers.length; ++i) this.inkTriangle(layers[i], x, y, 3 * i);
+    this.inkSpheres();
     if (this.theirs) {
       const {points, places, triangles} = this.theirs;
       this.view.placeAll(points, ...places);
@@ -75,6 +86,14 @@ class Wireframe {
     this.ink.line(layer, x[a], y[a], x[a + 1], y[a + 1]);
     this.ink.line(layer, x[a + 1], y[a + 1], x[a + 2], y[a + 2]);
     this.ink.line(layer, x[a + 2], y[a + 2], x[a], y[a]);
+  }
+
+  inkSpheres() {
+    const {spheres} = this.stage;
+    spheres.place(this.view);
+    this.sphereLayers.forEach((layer, i) => {
+      for (const circle of spheres.circles(i)) for (let k = 1; k < circle.length; ++k) this.ink.line(layer, ...circle[k - 1], ...circle[k]);
+    });
   }
 
   // From each of our vertices that differs a dotted line to theirs, and a dot there.
@@ -133,11 +152,33 @@ class Wireframe {
     this.highlighted = name;
     const context = this.mark.getContext("2d"), {palette} = this, pieces = this.stage.piecesOf(name);
     context.clearRect(0, 0, this.mark.width, this.mark.height);
-    const path = this.outline(pieces, this.x, this.y);
+    const path = this.outline(pieces, this.x, this.y), sphere = this.stage.spheres.placeOf(name);
+    if (sphere >= 0) for (const [x, y] of this.stage.spheres.outline(sphere)) path.lineTo(x, y);
     context.fillStyle = palette.word("--hot-fill");
     context.fill(path);
     this.stroke(context, path, "--hot");
-    if (this.theirs && this.theirs.isAlike) this.stroke(context, this.outline(pieces, ...this.theirs.places), "--theirs");
+    if (this.theirs && this.theirs.isAlike) this.stroke(context, this.outline(pieces.filter(piece => this.theirs.differing.has(piece)), ...this.theirs.places), "--theirs");
+    for (const ray of this.rays) this.drawRay(context, ray);
+  }
+
+  // A line to what the ray meets, with a dot there; or one that fades, half a pane long, of a ray that leaves the scene.
+  drawRay(context, {kind, from, to, towards}) {
+    const reach = this.view.size / 2 / this.view.zoom, end = to || from.map((at, i) => at + reach * (towards[i] - at));
+    const [x, y] = this.view.place(...from), [x1, y1] = this.view.place(...end), tone = "--ray-" + kind, parts = to ? 1 : FADING;
+    context.setLineDash(kind === "shadow" ? [3 * this.scale, 4 * this.scale] : []);
+    for (let part = 0; part < parts; ++part) {
+      const path = new Path2D(), at = step => [x + (x1 - x) * step / parts, y + (y1 - y) * step / parts];
+      path.moveTo(...at(part));
+      path.lineTo(...at(part + 1));
+      context.globalAlpha = 1 - part / parts;
+      this.stroke(context, path, tone);
+    }
+    context.globalAlpha = 1;
+    context.setLineDash([]);
+    if (!to) return;
+    const dot = new Path2D();
+    dot.arc(x1, y1, this.scale, 0, 2 * Math.PI);
+    this.stroke(context, dot, tone);
   }
 
   outline(pieces, x, y) {
@@ -159,10 +200,10 @@ class Wireframe {
     }
   }
 
-  // Of the triangles under a point of the canvas, the one whose center is nearest to the viewer; -1 if there is none.
+  // Of the triangles and spheres under a point of the canvas, the one whose center is nearest to the viewer; -1 if there is none.
   triangleAt(x, y) {
     this.index = this.index || new GridIndex(this.x, this.y, this.names.length, this.canvas.width, this.canvas.height);
-    let found = -1, nearest = -Infinity;
+    let [found, nearest] = this.stage.spheres.at(x, y);
     for (const i of this.index.candidates(x, y)) {
       const near = this.near[3 * i] + this.near[3 * i + 1] + this.near[3 * i + 2];
       if (near > nearest && this.index.contains(i, x, y)) [found, nearest] = [this.names[i], near];

@@ -31,8 +31,9 @@ class Browser:
         self.wait_for(self.is_up)
         words = ["--headless", "--no-sandbox", "--disable-gpu", "--no-first-run", "--disable-background-networking",
                  "--disable-component-update", "--disable-sync", f"--user-data-dir={self.profile.name}", f"--window-size={width},{height}"]
+        # A large page is busy for long on a busy machine before it answers: as long as a call may take.
         made = self.call("POST", "/session", {"capabilities": {"alwaysMatch": {
-            "goog:chromeOptions": {"args": words}, "goog:loggingPrefs": {"browser": "ALL"}}}})
+            "timeouts": {"script": 120000}, "goog:chromeOptions": {"args": words}, "goog:loggingPrefs": {"browser": "ALL"}}}})
         self.session = "/session/" + made["sessionId"]
 
     def __enter__(self):

@@ -172,6 +172,17 @@ class Words(ToolTest):
         self.assertIn("  not covered: points on a right edge belong to the triangle beyond it\n", report)
         self.assertIn("no triangle covers this pixel: it shows the background\n", report)
 
+    def test_a_background_with_an_alpha_is_no_obstacle(self):
+        pathlib.Path("config.txt").write_text("8 8\n")
+        triangle = "triangle\n-1 -1 0\n1 -1 0\n0 1 0\nend\n"
+        reports = []
+        for alpha in ("", " 0"):
+            pathlib.Path("scene.txt").write_text(CAMERA + f"background 1 2 3{alpha}\n" + triangle)
+            done = explain("scene.txt", "config.txt", "--triangle", "0", "--pixel", "4,4")
+            self.assertEqual((done.returncode, done.stderr), (0, ""))
+            reports.append(done.stdout)
+        self.assertEqual(*reports)
+
     def test_a_center_on_a_left_edge_is_owned(self):
         report = self.on_centers("1,4")
         self.assertIn("  edge 2-0   exactly on a left edge: owned\n", report)
@@ -295,6 +306,10 @@ class Messages(ToolTest):
     def assert_fails_with(self, message):
         done = explain("scene.txt", "config.txt", "--triangle", 0)
         self.assertEqual((done.returncode, done.stderr, done.stdout), (1, message, ""))
+
+    def test_a_sphere_names_the_ways_to_draw_it(self):
+        pathlib.Path("scene.txt").write_text(CAMERA + "triangle\n0 0 0\n1 0 0\n0 1 0\nsphere 0 0 0 1\nend\n")
+        self.assert_fails_with("explain: model: scene.txt:9:1: expected triangles alone, found a sphere: trace draws it, and model --facets N makes triangles of it\n")
 
     def test_a_missing_file_is_named(self):
         done = explain("none.txt", "config.txt", "--triangle", 0)

@@ -11,6 +11,7 @@ import subprocess
 import sys
 import time
 import unittest
+import unittest.mock
 
 from display import MISSING, Display
 
@@ -49,44 +50,46 @@ def frame_of(scene, config=CONFIG, view=(), project=(), zbuf=()):
     return pathlib.Path("expected.ppm").read_bytes()
 
 
-@unittest.skipIf(MISSING, f"needs {' and '.join(MISSING)}")
-class Flying(ToolTest):
-    @classmethod
-    def setUpClass(cls):
-        cls.enterClassContext(Display())
+def setUpModule():
+    if not MISSING:
+        unittest.enterModuleContext(Display())
+
+
+class WindowTest(ToolTest):
+    """Tests in a window. Whether a frame is slow is up to the test, not to the machine."""
 
     def setUp(self):
         super().setUp()
-        from lib.pipe_tools import Tools
+        import fly_parts.window
+        self.enterContext(unittest.mock.patch.object(fly_parts.window, "SLOW_SECONDS", math.inf))
+
+    def open(self, *words, **settings):
         from fly_parts.window import FlyWindow
-        pathlib.Path("scene.txt").write_text(SCENE)
-        # Tools that log their runs.
-        for tool in TOOLS:
-            shim = pathlib.Path("tools", tool)
-            shim.parent.mkdir(exist_ok=True)
-            shim.write_text(f'#!/bin/sh\necho {tool} >> "{os.getcwd()}/ran"\nexec "{BIN}/{tool}" "$@"\n')
-            shim.chmod(0o755)
-        self.window = FlyWindow(Tools("tools"), "scene.txt", CONFIG)
+        self.window = FlyWindow(*words, **settings)
         self.addCleanup(self.window.close)
-        self.window.root.update()
+        # Keys are lost before the window has the focus, which it can have only when it is there.
+        self.wait_until(self.window.root.winfo_viewable)
         self.window.root.focus_force()
-        self.window.whole_seconds = 0  # however slow the machine is
+        self.wait_until(lambda: self.window.root.focus_get() is not None)
         self.settle()
-        pathlib.Path("ran").unlink()
 
     def settle(self):
+        """Handles all that the display has to tell, and draws the frame that is due."""
         self.window.root.update()
+        self.window.root.winfo_pointerxy()  # the answer comes behind all earlier events
         self.window.root.update()
+        while self.window.pending is not None:
+            self.window.root.update()
 
     def wait_until(self, is_true, seconds=20):
         end = time.monotonic() + seconds
         while not is_true():
             self.assertLess(time.monotonic(), end)
             self.window.root.update()
+            time.sleep(0.005)
 
     def press(self, *keys):
         for key in keys:
-            self.window.whole_seconds = 0
             self.window.root.event_generate("<KeyPress>", keysym=key)
             self.settle()
 
@@ -94,6 +97,53 @@ class Flying(ToolTest):
         """The window's picture, as PPM."""
         self.window.photo.write("shown.ppm", format="ppm")
         return pathlib.Path("shown.ppm").read_bytes()
+
+
+@unittest.skipIf(MISSING, f"needs {' and '.join(MISSING)}")
+class Traced(WindowTest):
+    def test_frames_are_those_of_trace(self):
+        from lib.pipe_tools import Tools
+        pathlib.Path("scene.txt").write_text(SCENE)
+        self.open(Tools(BIN), "scene.txt", CONFIG, trace_words=["--no-shadows"])
+
+        def traced(*words, view=()):
+            pathlib.Path("expected.config").write_text(CONFIG)
+            pipe(["model"], ["view", *view], ["trace", "expected.config", "--no-shadows", *words, "--image", "expected.ppm"], stdin=SCENE)
+            return pathlib.Path("expected.ppm").read_bytes()
+
+        def shown_after(key):
+            self.press(key)
+            return self.shown()
+
+        window, first = self.window, shown_after("h")
+        self.assertEqual(first, traced())
+        self.assertTrue(window.keys.winfo_manager())
+        self.assertNotIn("clip", window.keys.cget("text"))
+        self.assertIn("shading", window.keys.cget("text"))
+        self.assertRegex(window.status.cget("text"), r"^model .*   view .*   trace \d+ ms   all ")
+        self.assertEqual(shown_after("2"), traced("--shading", "flat"))
+        for key in ("c", "v", "z", "x", "b", "f"):
+            self.assertEqual(shown_after(key), traced("--shading", "flat"))
+            self.assertEqual(window.status.cget("text"), "trace needs no clipping, and has neither --cull nor --wireframe")
+        self.assertEqual(shown_after("r"), first)
+        self.assertNotEqual(shown_after("w"), first)
+        self.assertEqual(shown_after("s"), first)
+
+
+@unittest.skipIf(MISSING, f"needs {' and '.join(MISSING)}")
+class Flying(WindowTest):
+    def setUp(self):
+        super().setUp()
+        from lib.pipe_tools import Tools
+        pathlib.Path("scene.txt").write_text(SCENE)
+        # Tools that log their runs.
+        for tool in TOOLS:
+            shim = pathlib.Path("tools", tool)
+            shim.parent.mkdir(exist_ok=True)
+            shim.write_text(f'#!/bin/sh\necho {tool} >> "{os.getcwd()}/ran"\nexec "{BIN}/{tool}" "$@"\n')
+            shim.chmod(0o755)
+        self.open(Tools("tools"), "scene.txt", CONFIG)
+        pathlib.Path("ran").unlink()
 
     def status(self):
         return self.window.status.cget("text")
@@ -223,6 +273,7 @@ class Flying(ToolTest):
                 pathlib.Path("wide.txt").write_text(SCENE.replace("60 1 1 100", line))
                 window = FlyWindow(Tools(BIN), "wide.txt", config, least_width=640)
                 try:
+                    self.wait_until(window.root.winfo_viewable)
                     window.root.update()
                     self.assertEqual((window.picture.winfo_width(), window.picture.winfo_height()), size)
                     self.assertEqual(window.photo.width(), size[0])
@@ -284,12 +335,17 @@ class Flying(ToolTest):
         self.assertEqual(self.shown(), frame_of(SCENE, "120 80\n" + CONFIG.split("\n", 1)[1]))
 
     def test_a_slow_frame_is_drawn_small_first(self):
-        self.window.whole_seconds = 1
-        self.window.root.event_generate("<KeyPress>", keysym="w")
-        self.window.root.update()
+        import fly_parts.window
+        patched = unittest.mock.patch.multiple
+        with patched(fly_parts.window, SLOW_SECONDS=0, REST_MS=10**6):
+            self.window.whole_seconds = 1
+            self.press("w")
         self.assertIn("15 x 10", self.status())
         self.assertTrue(self.shown().startswith(b"P6\n15 10\n"))
-        self.wait_until(lambda: "60 x 40" in self.status())
+        self.assertEqual(self.ran(), ["view", "project", "zbuf"])
+        with patched(fly_parts.window, SLOW_SECONDS=0, REST_MS=1):
+            self.press("w")
+            self.wait_until(lambda: "60 x 40" in self.status())
         self.assertEqual(self.ran(), ["view", "project", "zbuf", "zbuf"])
 
     def test_p_writes_a_scene_that_gives_this_frame(self):
@@ -313,12 +369,8 @@ class Flying(ToolTest):
 
     def test_what_a_tool_refuses_is_said_and_taken_back(self):
         from lib.pipe_tools import Tools
-        from fly_parts.window import FlyWindow
         pathlib.Path("dark.txt").write_text("\n".join(line for line in SCENE.split("\n") if not line.startswith("light")))
-        self.window = FlyWindow(Tools(BIN), "dark.txt", CONFIG)
-        self.addCleanup(self.window.close)
-        self.window.root.update()
-        self.window.root.focus_force()
+        self.open(Tools(BIN), "dark.txt", CONFIG)
         first = self.shown()
         self.press("4")
         self.assertIn("expected a light for --shading", self.status())
@@ -339,6 +391,13 @@ class Framing(unittest.TestCase):
         for projection, sine in (("perspective 60 1 0.1 100", 1 / 2), ("perspective 60 2 0.1 100 ratio", 1 / 2), ("perspective 90 0.5 0.1 100 ratio", 1 / math.sqrt(5)), ("frustum -0.3 0.3 -0.1 0.1 0.1 100", 1 / math.sqrt(2))):
             self.assertAlmostEqual(self.distance(projection), 1.05 / sine, msg=projection)
 
+    def test_the_ball_is_around_triangles_and_spheres(self):
+        from fly_parts.framing import Ball
+        sphere = b"sphere\n1 2 3\n5 2 3\n1 6 3\n1 2 7\n\n"
+        self.assertEqual(Ball.around(b"eye 0 0 1\n\n" + sphere), Ball((1, 2, 3), 4))
+        self.assertEqual(Ball.around(b"eye 0 0 1\n\n" + sphere + b"13 2 3\n13 2 3\n13 2 3\n\n"), Ball((5, 2, 3), 8))
+        self.assertIsNone(Ball.around(b"eye 0 0 1\n\n"))
+
     def test_near_and_far_are_kept_where_that_can_be(self):
         self.assertAlmostEqual(self.distance("perspective 10 1 0.1 6"), 6 - 1.05)  # cut by the window rather than by far
         self.assertAlmostEqual(self.distance("perspective 10 1 3 4"), 3 + 1.05)    # by far rather than by near
@@ -357,10 +416,6 @@ class Framing(unittest.TestCase):
 
 @unittest.skipIf(MISSING, f"needs {' and '.join(MISSING)}")
 class Ending(ToolTest):
-    @classmethod
-    def setUpClass(cls):
-        cls.enterClassContext(Display())
-
     def test_a_signal_ends_it_without_a_traceback(self):
         pathlib.Path("scene.txt").write_text(SCENE)
         for number in (signal.SIGINT, signal.SIGTERM):
@@ -374,17 +429,32 @@ class Ending(ToolTest):
             self.assertEqual(process.stdout.readline(), b".\n")
             self.assertEqual((end_by_signal(process, number)[1], process.returncode), (b"", -number))
 
-
     def test_escape_leaves(self):
         pathlib.Path("scene.txt").write_text(SCENE)
         program = ("import sys; sys.path.insert(0, sys.argv[1]); sys.dont_write_bytecode = True; sys.argv[1:] = ['scene.txt']\n"
                    "from importlib.machinery import SourceFileLoader as Loader; from fly_parts.window import FlyWindow\n"
                    "run = FlyWindow.run\n"
-                   "def pressed(window): window.root.after(100, lambda: (window.root.focus_force(), window.root.event_generate('<KeyPress>', keysym='Escape'))); run(window)\n"
+                   "def press(root): (root.focus_force(), root.event_generate('<KeyPress>', keysym='Escape')) if root.winfo_viewable() else root.after(10, press, root)\n"
+                   "def pressed(window): window.root.after(10, press, window.root); run(window)\n"
                    "FlyWindow.run = pressed\n"
                    "Loader('__main__', sys.path[0] + '/fly').load_module()")
         done = subprocess.run([sys.executable, "-c", program, SOURCE / "scripts"], capture_output=True, text=True, timeout=60, env={**os.environ, "BIN": str(BIN)})
         self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "", ""))
+
+
+class TransparentBackground(ToolTest):
+    def test_is_shown_in_full(self):
+        sys.path.insert(0, str(SOURCE / "scripts"))
+        from fly_parts.pipe import FramePipe
+        from lib.pipe_tools import Tools
+        images = []
+        for alpha in ("", " 128"):
+            pathlib.Path("scene.txt").write_text(f"0 0 5\n0 0 0\n0 1 0\n60 1 1 100\nbackground 200 100.5 50{alpha}\ntriangle\n-1 -1 0\n1 -1 0\n0 1 0\nend\n")
+            frames = FramePipe(Tools(BIN), "scene.txt")
+            images.append(frames.frame([["0", "0", "5"], ["0", "0", "0"], ["0", "1", "0"]], [], "20 20\n", []))
+            frames.close()
+        self.assertEqual(images[0][-3:], bytes((200, 101, 50)))
+        self.assertEqual(*images)
 
 
 class Messages(ToolTest):
@@ -406,6 +476,18 @@ class Messages(ToolTest):
         done = self.fly("folder/scene.txt")
         self.assertEqual(done.returncode, 1)
         self.assertRegex(done.stderr, r"\Afly: zbuf: folder/config\.txt:1:1: expected the width in pixels")
+
+    @unittest.skipIf(MISSING, f"needs {' and '.join(MISSING)}")
+    def test_a_sphere_needs_trace(self):
+        pathlib.Path("scene.txt").write_text(SCENE.replace("triangle", "sphere 0 0 0 1\ntriangle", 1))
+        done = self.fly("scene.txt")
+        line = pathlib.Path("scene.txt").read_text().split("sphere")[0].count("\n") + 1
+        self.assertEqual((done.returncode, done.stderr), (1, f"fly: model: scene.txt:{line}:1: expected triangles alone, found a sphere: --trace draws it\n"))
+
+    def test_options_of_trace_need_trace(self):
+        for words, option in ((["--samples", "3"], "--samples"), (["--max-depth", "3"], "--max-depth")):
+            done = self.fly("scene.txt", *words)
+            self.assertEqual((done.returncode, done.stderr.splitlines()[-1]), (2, f"fly: error: {option} is for trace: it needs --trace"))
 
     @unittest.skipIf(MISSING, f"needs {' and '.join(MISSING)}")
     def test_without_a_display_it_says_so(self):

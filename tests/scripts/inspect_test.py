@@ -4,6 +4,7 @@
 usage: inspect_test.py BIN_DIR [UNITTEST ARGUMENT...]
 """
 import base64
+import math
 import pathlib
 import re
 import shutil
@@ -24,6 +25,7 @@ SAMPLE = SOURCE / "samples/tilted-camera"
 # Triangle 1 reaches behind the eye and is cut into two pieces; the others are separate.
 SCENE = ("0 0 5\n0 0 0\n0 1 0\n60 1 1 100\ntriangle\n-2 0 0\n-1 0 0\n-2 1 0\n"
          "triangle\n0.2 -1 0\n0.2 -1 9\n3 -1 0\ntriangle\n1 1 0\n2 1 0\n1 2 0\nend\n")
+RAYS = ("ray-primary", "ray-shadow", "ray-mirrored", "ray-refracted")
 
 
 def inspect(*words):
@@ -36,12 +38,24 @@ class Messages(ToolTest):
         pathlib.Path("scene.txt").write_text(SCENE + "x")
         done = inspect("scene.txt", "config.txt", "-o", "page.html")
         self.assertEqual(done.returncode, 1)
-        self.assertRegex(done.stderr, r"\Ainspect: model: <stdin>:\d+:1: expected .*\n\Z")
+        self.assertRegex(done.stderr, r"\Ainspect: model: scene\.txt:18:1: expected .*\n\Z")
+        self.assertEqual(self.files(), ["config.txt", "scene.txt"])
+
+    def test_a_sphere_needs_trace(self):
+        pathlib.Path("scene.txt").write_text(SCENE.replace("triangle", "sphere 0 0 0 1\ntriangle", 1))
+        done = inspect("scene.txt", "config.txt", "-o", "page.html")
+        self.assertEqual((done.returncode, done.stderr), (1, "inspect: model: scene.txt:5:1: expected triangles alone, found a sphere: --trace draws it\n"))
         self.assertEqual(self.files(), ["config.txt", "scene.txt"])
 
     def test_a_missing_scene_is_named(self):
         done = inspect("none.txt", "config.txt")
         self.assertEqual((done.returncode, done.stderr), (1, "inspect: cannot read none.txt: No such file or directory\n"))
+
+    def test_options_without_a_meaning_are_refused(self):
+        for words, reason in ((["--trace", "--theirs", "."], "--theirs means nothing with --trace: a hand-in is compared with project and zbuf"),
+                              (["--no-shadows"], "--no-shadows is for trace: it needs --trace"), (["--samples", "3"], "--samples is for trace: it needs --trace")):
+            done = inspect("scene.txt", "config.txt", *words)
+            self.assertEqual((done.returncode, done.stderr.splitlines()[-1]), (2, "inspect: error: " + reason))
 
     def test_the_page_stands_alone(self):
         self.assertEqual(inspect("scene.txt", "config.txt", "-o", "page.html").returncode, 0)
@@ -68,12 +82,13 @@ class Frustum(ToolTest):
 class InABrowser(ToolTest):
     @classmethod
     def setUpClass(cls):
-        cls.pages = {}  # by scene and config
+        cls.pages = {}  # by what they are made of
         cls.browser = cls.enterClassContext(Browser())
 
     def load(self, scene, config, *words):
-        key = (pathlib.Path(scene).read_bytes(), pathlib.Path(config).read_bytes(), words)
-        if words or key not in self.pages:
+        folders = [path.read_bytes() for word in words for path in sorted(pathlib.Path(word).glob("*"))]
+        key = (pathlib.Path(scene).read_bytes(), pathlib.Path(config).read_bytes(), *words, *folders)
+        if key not in self.pages:
             done = inspect(scene, config, "-o", "page.html", *words)
             self.assertEqual((done.stderr, done.returncode), ("", 0))
             self.pages[key] = pathlib.Path("page.html").read_bytes()
@@ -283,13 +298,14 @@ class InABrowser(ToolTest):
         for scheme in ("light", "dark"):
             self.browser.prefer(scheme)
             colors = {name: self.browser.run("return getComputedStyle(document.documentElement).getPropertyValue(arguments[0]).trim()", "--" + name)
-                      for name in ("hot", "halo", "pixel", "card", "ink", "soft", "guide", "shown", "unshown")}
+                      for name in ("hot", "halo", "pixel", "card", "ink", "soft", "guide", "shown", "unshown", *RAYS)}
 
             def contrast(a, b):
                 low, high = sorted(luminance(colors[name]) for name in (a, b))
                 return (high + 0.05) / (low + 0.05)
             # One of two tones that differ by a factor of 4.5 differs from any color by more than 2.
-            for a, b, least in (("hot", "halo", 4.5), ("pixel", "halo", 4.5), ("ink", "card", 7), ("soft", "card", 4.5), ("guide", "card", 3), ("shown", "card", 3), ("unshown", "card", 2.5)):
+            for a, b, least in (("hot", "halo", 4.5), ("pixel", "halo", 4.5), ("ink", "card", 7), ("soft", "card", 4.5), ("guide", "card", 3), ("shown", "card", 3), ("unshown", "card", 2.5),
+                                *((ray, "halo", 4.5) for ray in RAYS), *((ray, "card", 4.5) for ray in RAYS)):
                 self.assertGreaterEqual(contrast(a, b), least, (scheme, a, b))
             self.browser.wait_for(lambda: papers != [paper := self.paper()])
             papers.append(self.paper())
@@ -355,6 +371,13 @@ class InABrowser(ToolTest):
         self.assertEqual(told.count("every vertex is ours"), 2)
         self.browser.run("document.querySelector('#theirs [data-name] button').click()")
         self.assertEqual(self.held(), [0, -1])
+        # Theirs is marked where it differs, and only there.
+        color = self.browser.run("return document.body.inspector.palette.numbers('--theirs')")
+        marks = ("const {inspector} = document.body, {wire} = inspector.panels[arguments[0]], {mark} = wire; inspector.select({triangle: 0, pixel: -1});"
+                 "const d = mark.getContext('2d').getImageData(0, 0, mark.width, mark.height).data;"
+                 "let count = 0; for (let i = 0; i < d.length; i += 4) count += d[i] === arguments[1][0] && d[i + 1] === arguments[1][1] && d[i + 2] === arguments[1][2] && d[i + 3] === 255; return count")
+        self.assertGreater(self.browser.run(marks, 0, color), 20)
+        self.assertEqual(self.browser.run(marks, 1, color), 0)
         # In the wireframe there is a dot where their vertex is, in a color that only theirs have.
         self.browser.run("document.body.inspector.select({triangle: -1, pixel: -1}); document.body.inspector.panels[0].wire.view.approach(0.6); document.body.inspector.panels[0].wire.draw()")
         self.assertEqual(self.browser.run(
@@ -397,6 +420,13 @@ class InABrowser(ToolTest):
         self.load("scene.txt", "config.txt")
         self.assertIn("the picture is empty", self.browser.run("return document.getElementById('notes').textContent"))
         self.assertEqual(self.browser.run("return [...document.querySelectorAll('#legend li')].map(item => item.textContent)"), ["0 shown", "0 hidden", "3 outside", "0 culled"])
+
+    def test_a_triangle_is_counted_once(self):
+        # Two are right of the window, which project finds, too, and one is in sight.
+        pathlib.Path("scene.txt").write_text("0 0 5\n0 0 0\n0 1 0\n60 1 1 100\ntriangle\n-1 0 0\n1 0 0\n0 1 0\ntranslate\n100 0 0\n" + "triangle\n-1 0 0\n1 0 0\n0 1 0\n" * 2 + "end\n")
+        pathlib.Path("config.txt").write_text("40 40\n")
+        self.load("scene.txt", "config.txt")
+        self.assertEqual(self.browser.run("return [...document.querySelectorAll('#legend li')].map(item => item.textContent)"), ["1 shown", "0 hidden", "2 outside", "0 culled"])
 
     def test_rows_and_lines_are_counted_as_they_say(self):
         self.load(SAMPLE / "scene.txt", SAMPLE / "config.txt")
@@ -454,7 +484,7 @@ class InABrowser(ToolTest):
         pathlib.Path("scene.txt").write_text(SCENE.replace("60 1 1 100", "60 1 1 1e6"))
         self.load("scene.txt", "config.txt")
         self.assertLess(self.browser.run("return document.body.inspector.panels[1].wire.view.size"), 40)
-        self.assertIn("(the far plane is at distance 1e+06, drawn nearer)", self.browser.run("return document.querySelector('#stages').textContent"))
+        self.assertIn("(far, at 1e+06, is drawn nearer)", self.browser.run("return document.querySelector('#stages').textContent"))
 
     def test_a_triangle_in_the_distance_does_not_hide_the_cube(self):
         pathlib.Path("config.txt").write_text("40 40\n")
@@ -483,12 +513,13 @@ class InABrowser(ToolTest):
             {"type": "pointerUp", "button": 0}]}]})
         self.assertNotEqual(self.browser.run("return document.body.inspector.panels[0].wire.view.yaw"), before)
 
-    def test_a_hundred_thousand_triangles_are_all_there(self):
-        scene = subprocess.run([SOURCE / "scripts/make-torus", "--around", "250", "--tube", "100"], capture_output=True, check=True).stdout
+    def test_every_triangle_of_a_large_scene_is_there(self):
+        """Scenes up to MAX_DRAWN_TRIANGLES differ only in their number from this one."""
+        scene = subprocess.run([SOURCE / "scripts/make-torus", "--around", "60", "--tube", "50"], capture_output=True, check=True).stdout
         pathlib.Path("large.txt").write_bytes(scene)
         pathlib.Path("config.txt").write_text("42 42\n")
         self.load("large.txt", "config.txt")
-        self.assertEqual(self.browser.run("return document.body.inspector.panels.map(panel => panel.wire.names.length)"), [100000] * 3)
+        self.assertEqual(self.browser.run("return document.body.inspector.panels.map(panel => panel.wire.names.length)"), [12000] * 3)
         scale = self.browser.run("return document.body.inspector.pixels.scale")
         self.browser.click("#image", 20.5 * scale, 20.5 * scale)
         told = run("zbuf", "config.txt", "--image", "out.ppm", "--probe", "20,20", stdin=stage_texts(scene)[2]).stderr.decode().splitlines()
@@ -503,6 +534,124 @@ class InABrowser(ToolTest):
             "  lost.push([found, best]); } return lost")
         self.assertTrue(any(best >= 0 for _, best in lost))
         self.assertEqual([found for found, _ in lost], [best for _, best in lost])
+
+    # The eye looks along -x at a mirror in the plane x = 0, in which it sees a triangle behind itself, at x = 8.
+    MIRROR = ("5 0 0\n0 0 0\n0 1 0\n60 1 1 100\ncolor 9 9 9\nmaterial 1 1 0 1 1 1 1\nmaterial 1 1 0 1\nuse 0\ntriangle\n0 -9 9\n0 -9 -9\n0 9 0\n"
+              "use 1\ncolor 10 200 30\ntriangle\n8 -3 -3\n8 -3 3\n8 3 0\nend\n")
+
+    def load_mirror(self, size):
+        pathlib.Path("scene.txt").write_text(self.MIRROR)
+        pathlib.Path("config.txt").write_text(f"{size} {size}\n")
+        self.load("scene.txt", "config.txt", "--trace")
+        self.browser.run("document.querySelector('#tab-rays').click()")
+
+    def ray_rows(self):
+        return self.browser.run("return [...document.querySelectorAll('#rays tbody tr')].map(row => [...row.cells].map(cell => cell.textContent))")
+
+    def test_the_rays_of_a_pixel_are_told_and_drawn(self):
+        self.load_mirror(41)
+        self.browser.run("document.body.inspector.select(document.body.inspector.atPixel(20 * 41 + 20))")
+        self.assertEqual(self.ray_rows(), [["primary", "triangle 0 front", "1", "10 200 30"], ["mirrored", "triangle 1 front", "1", "10 200 30"]])
+        drawn = self.browser.run("return document.body.inspector.panels.map(({wire}) => wire.rays)")
+        self.assertEqual([[ray["kind"] for ray in rays] for rays in drawn], [["primary", "mirrored"]] * 2 + [[]])
+        for rays, places in zip(drawn, ([(5, 0, 0), (0, 0, 0), (0, 0, 0), (8, 0, 0)], [(0, 0, 0), (0, 0, -5), (0, 0, -5), (0, 0, 3)])):
+            for found, expected in zip([place for ray in rays for place in (ray["from"], ray["to"])], places, strict=True):
+                for x, y in zip(found, expected, strict=True):
+                    self.assertAlmostEqual(x, y, 9)
+        # Behind the eye, at x = 6.5 in the world, there is nothing but the mirrored ray; without a pixel it is gone.
+        color = ("const {wire} = document.body.inspector.panels[0], [x, y] = wire.view.place(6.5, 0, 0);"
+                 "return [...wire.mark.getContext('2d').getImageData(Math.floor(x), Math.floor(y), 1, 1).data]")
+        blue = [int(c, 16) for c in re.findall("..", self.browser.run("return document.body.inspector.palette.word('--ray-mirrored')")[1:])]
+        for found, expected in zip(self.browser.run(color), [*blue, 255]):
+            self.assertAlmostEqual(found, expected, delta=40)
+        self.browser.run("document.querySelectorAll('#rays td button')[1].click()")
+        self.assertEqual(self.held(), [1, 20 * 41 + 20])
+        self.assertEqual(self.browser.run("return [...document.querySelectorAll('#rays .hot')].map(row => row.dataset.name)"), ["1"])
+        self.browser.run("document.body.inspector.select({triangle: -1, pixel: -1})")
+        self.assertEqual((self.ray_rows(), self.browser.run(color)[3]), ([], 0))
+
+    def test_a_ray_that_leaves_the_scene_fades_on_its_way(self):
+        self.load_mirror(41)
+        # In the upper left corner the mirror shows no triangle. The eye looks along -x, and -z is to its right.
+        half = 40 / 41 * math.tan(math.radians(30))
+        origin, way = (0, 5 * half, 5 * half), (1, half, half)
+        found = self.browser.run("const {inspector} = document.body; inspector.show({triangle: -1, pixel: 0}); const {wire} = inspector.panels[0], [, ray] = wire.rays;"
+                                 "const reach = wire.view.size / 2, tone = share => { const [x, y] = wire.view.place(...ray.from.map((at, i) => at + share * reach * (ray.towards[i] - at)));"
+                                 "  return wire.mark.getContext('2d').getImageData(Math.floor(x), Math.floor(y), 1, 1).data[3]; };"
+                                 "return [ray.from, ray.towards, ray.to, [0.1, 0.5, 0.9, 1.1].map(tone)]")
+        for x, y in zip(found[0] + found[1], [*origin, *(at + step / math.hypot(*way) for at, step in zip(origin, way))], strict=True):
+            self.assertAlmostEqual(x, y, 9)
+        self.assertIsNone(found[2])
+        self.assertEqual(sorted(found[3], reverse=True), found[3])
+        self.assertGreater(found[3][0], 200)
+        self.assertGreater(found[3][2], 0)
+        self.assertEqual(found[3][3], 0)
+        self.assertEqual(self.ray_rows()[1][:2], ["mirrored", "nothing"])
+
+    def test_a_sphere_is_drawn_and_can_be_chosen(self):
+        # An ellipsoid whose half axes are 2, 1 and 1, at the point looked at, in front of a triangle.
+        scene = "0 0 9\n0 0 0\n0 1 0\n60 1 1 100\ncolor 9 9 9\npush\nscale 2 1 1\nsphere 0 0 0 1\npop\ntriangle\n-8 -8 -9\n8 -8 -9\n0 8 -9\nend\n"
+        pathlib.Path("scene.txt").write_text(scene)
+        pathlib.Path("config.txt").write_text("41 41\n")
+        self.load("scene.txt", "config.txt", "--trace")
+        self.assertEqual(self.browser.run("return document.getElementById('title').textContent"), "scene.txt: 1 triangle and 1 sphere, 41 × 41 pixels")
+        self.assertRegex(self.browser.run("return document.getElementById('notes').textContent"), r"^project and zbuf have \d+ facets in place of each sphere")
+        # Its outline, seen from the front: an ellipse twice as wide as high, inside of which the pointer finds it.
+        front = "const {wire} = document.body.inspector.panels[arguments[0]]; Object.assign(wire.view, {yaw: 0, pitch: 0}); wire.draw(); const at = (x, y) => wire.triangleAt(...wire.view.place(x, y, arguments[1]));"
+        for panel, z in ((0, 0), (1, -9)):
+            found = self.browser.run(front + "return [at(1.95, 0), at(0, 0.95), at(1.4, 0.69), at(2.05, 0), at(0, 1.05), at(1.43, 0.72)]", panel, z)
+            self.assertEqual(found, [0, 0, 0, 1, 1, 1])
+            places = self.browser.run(front + "const {spheres} = wire.stage, scale = wire.view.place(1, 0, 0)[0] - wire.view.place(0, 0, 0)[0];"
+                                      "return spheres.outline(0).map(([x, y]) => [(x - spheres.x[0]) / scale, (y - spheres.y[0]) / scale])", panel, z)
+            for x, y in places:
+                self.assertAlmostEqual(x * x / 4 + y * y, 1, 9)
+        # Its four lines are marked, a line chooses it, and the middle of the picture shows it.
+        self.browser.run("document.body.inspector.select(document.body.inspector.atPixel(20 * 41 + 20)); document.querySelector('#tab-texts').click()")
+        self.assertEqual(self.held()[0], 0)
+        model = pipe(["model"], stdin=scene).decode().split("\n")
+        first = model.index("sphere") + 2
+        self.assertEqual(self.hot_lines("model"), [[n, model[n - 1]] for n in range(first, first + 4)])
+        self.assertEqual(self.browser.run("return [0, 3, 4].map(k => document.body.inspector.panels[0].stage.nameOfLine(arguments[0] + k))", first), [0, 0, -1])
+        self.assertRegex(self.browser.run("return document.querySelector('[role=status]').textContent"), r"^row 20, column 20: sphere 0, depth [\d.]+: shown in \d+ pixels$")
+        self.assertEqual(self.ray_rows()[0][1], "sphere 0 front")
+        self.browser.press("#wire-model", RIGHT)
+        self.assertEqual(self.held(), [1, -1])
+        self.browser.press("#wire-model", LEFT)
+        self.assertEqual(self.held(), [0, -1])
+        self.browser.run("document.querySelector('#tab-explanation').click()")
+        self.assertIn("draw no spheres", self.browser.run("return document.querySelector('#explanation').textContent"))
+
+    def test_many_spheres_and_no_triangle_have_a_page(self):
+        pathlib.Path("scene.txt").write_text("0 0 9\n0 0 0\n0 1 0\n60 1 1 100\n" + "".join(f"sphere {i % 40 - 20} {i // 40 - 15} -30 0.4\n" for i in range(1100)) + "end\n")
+        pathlib.Path("config.txt").write_text("41 41\n")
+        self.load("scene.txt", "config.txt", "--trace")
+        self.assertTrue(self.browser.run("return document.getElementById('title').textContent").startswith("scene.txt: 0 triangles and 1100 spheres"))
+        found = self.browser.run("return document.body.inspector.panels.slice(0, 2).map(({wire}) => [...wire.stage.spheres.names].filter(i => wire.triangleAt(wire.stage.spheres.x[4 * i], wire.stage.spheres.y[4 * i]) >= 0).length)")
+        self.assertEqual(found, [1100, 1100])
+        points = "[...wire.stage.spheres.outermost()].flatMap((x, at, all) => at % 3 ? [] : [[x, all[at + 1], all[at + 2]]])"
+        self.assertEqual(self.points_out_of_sight("view", points), [])
+
+    def test_the_picture_is_traces_and_the_note_of_zbuf_is_left_out(self):
+        self.load_mirror(41)
+        self.assertNotIn("matt", self.browser.run("return document.getElementById('notes').textContent"))
+        pipe(["model"], ["view"], ["trace", "config.txt", "--image", "out.ppm"], stdin=self.MIRROR)
+        shown = self.browser.run("return document.body.inspector.data.pixels")
+        self.assertTrue(pathlib.Path("out.ppm").read_bytes().endswith(base64.b64decode(shown)))
+        found = self.browser.accessibility()
+        for role, name in (("tab", "Rays"), ("columnheader", "meets")):
+            self.assertTrue(any(role == r and n.startswith(name) for r, n in found), f"no {role} named {name}")
+
+    def test_of_a_large_picture_the_page_has_the_rays_of_the_nearest_pixel(self):
+        self.load_mirror(151)
+        count = self.browser.run("return document.body.inspector.rays.trees.trees.size")
+        self.assertTrue(1000 < count <= 4000, count)
+        for place, most in (((0, 0), 3), ((150, 150), 3), ((75, 76), 1), ((3, 140), 2)):
+            self.browser.run("document.body.inspector.select(document.body.inspector.atPixel(151 * arguments[0] + arguments[1]))", place[1], place[0])
+            told = self.browser.run("return document.querySelector('#rays-place').textContent")
+            row, column = map(int, re.match(r"Rays of row (\d+), column (\d+)", told).groups())
+            self.assertLessEqual(max(abs(column - place[0]), abs(row - place[1])), most)
+            self.assertEqual("trace --probe" in told, (column, row) != place)
+            self.assertEqual(self.ray_rows()[0][0], "primary")
 
     def test_in_a_large_scene_the_pixel_is_explained_beside_the_command_for_the_rest(self):
         scene = subprocess.run([SOURCE / "scripts/make-torus", "--around", "25", "--tube", "11"], capture_output=True, check=True).stdout
@@ -530,6 +679,13 @@ class InABrowser(ToolTest):
         for row in rows[2:]:
             self.assertGreaterEqual(float(row[2]), float(row[1]))
             self.assertGreater(float(row[1]), 0)
+
+    def test_a_background_with_an_alpha_is_no_obstacle(self):
+        pathlib.Path("config.txt").write_text("40 40\n")
+        pathlib.Path("scene.txt").write_text(SCENE.replace("triangle", "background 200 100 50 128\ntriangle", 1))
+        done = subprocess.run([SOURCE / "scripts/inspect", "scene.txt", "config.txt", "-o", "page.html"], capture_output=True, text=True,
+                              env={"BIN": str(BIN), "PATH": "/usr/bin:/bin"})
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
 
     def test_a_scene_too_large_is_thinned_and_says_so(self):
         sys.path.insert(0, str(SOURCE / "scripts"))
