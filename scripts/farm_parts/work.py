@@ -15,6 +15,7 @@ from lib.parallel import Job, run_parallel
 from lib.pipe_tools import checked
 
 RETRIES = 3
+RETRIES_OVER_SSH = 6  # one a bad host, and some for the job's own bad luck
 PER_JOIN = 8  # texts, or fewer
 # Where a machine does not answer, another one has to be tried soon. A user's own --ssh is given later, and holds.
 SSH = "ssh -o BatchMode=yes -o ConnectTimeout=10 -o ServerAliveInterval=5"
@@ -90,9 +91,10 @@ class Work:
         left = [job for job in jobs if not (self.folder / job[0]).exists()]
         if left:
             lines = [Job(f'. ./work.sh; output={output}; rows="{self.words_of_rows(band)}"; seen {call}', inputs, [output]) for output, call, inputs, band in left]
-            words = ["--retries", str(RETRIES), "--joblog", f"{'+' * (self.folder / 'jobs.log').exists()}jobs.log"]
-            ssh = ["--ssh", SSH] if any(word.startswith(("--sshlogin", "-S")) for word in options) else []
-            run_parallel(self.folder, lines, "farm", ["config.txt", "work.sh"], [*words, *ssh, *options])
+            words = ["--joblog", f"{'+' * (self.folder / 'jobs.log').exists()}jobs.log"]
+            is_over_ssh = any(word.startswith(("--sshlogin", "-S")) for word in options)
+            words += ["--retries", str(RETRIES_OVER_SSH), "--ssh", SSH] if is_over_ssh else ["--retries", str(RETRIES)]
+            run_parallel(self.folder, lines, "farm", ["config.txt", "work.sh"], [*words, *options])
         missing = [job for job in jobs if not (self.folder / job[0]).exists()]
         if missing:
             raise CommandFailure(f"no picture: {len(missing)} of {len(jobs)} {what} missing, the first is {missing[0][0]} (of {' '.join(missing[0][2])}); "

@@ -1,12 +1,13 @@
 """The settings of the pipe, and the pipe itself on one scene."""
 import dataclasses
-import os
 import pathlib
 import shlex
 import subprocess
 
+from lib.child import cpu_seconds, finished
 from lib.command import CommandFailure
 from lib.owners import owners, write_marked
+from lib.pipe_tools import opaque_background
 
 TOOLS = ("model", "view", "project", "zbuf")
 
@@ -62,11 +63,12 @@ class Pipe:
     def __init__(self, tools, scene, config, of_project, folder):
         self.tools, self.scene, self.config, self.of_project, self.folder = tools, scene, config, of_project, pathlib.Path(folder)
         self.texts = {}  # by Setting.of_texts: (the path of project's text, bytes in the pipes, notes)
+        self.opaque = []  # what zbuf needs to write a BMP in spite of a background with an alpha; of the first text()
 
     def words(self, tool, setting):
         """The options of a tool."""
         if tool == "zbuf":
-            return setting.words("coverage", "depth")
+            return [*setting.words("coverage", "depth"), *self.opaque]
         return [*setting.words("digits", "precision"), *(self.of_project if tool == "project" else [])]
 
     def text(self, setting):
@@ -81,6 +83,8 @@ class Pipe:
                 if source:
                     source.unlink()
                 source = target
+            with open(source, "rb") as projected:
+                self.opaque = opaque_background(projected.read(1 << 16))
             self.texts[key] = source, size, notes
         return self.texts[key]
 
@@ -119,11 +123,10 @@ class Pipe:
             source = processes[-1].stdout
         seconds = 0.0
         for tool, process in zip(TOOLS, processes):
-            _, status, usage = os.wait4(process.pid, 0)
-            process.returncode = os.waitstatus_to_exitcode(status)
+            usage = finished(process)
             if process.returncode:
                 raise CommandFailure(f"{tool} failed while it was timed, with {setting}: exit status {process.returncode}")
-            seconds += usage.ru_utime + usage.ru_stime
+            seconds += cpu_seconds(usage)
         return seconds
 
     def command_line(self, setting, scene, config):

@@ -20,6 +20,24 @@ TRIANGLE = b"1.8000000 1.2000000 2.4000000\n2.8000000 1.2000000 2.4000000\n1.800
 FILTERED = (b"0.0000000 0.0000000 0.0000000\n0.8000000 0.3600000 0.4800000\n-0.6000000 1.2800000 0.0400000\n\n")
 
 
+class Embree(unittest.TestCase):
+    def test_its_rays_hit_as_often_as_ours(self):
+        """Large triangles at random, so that floats lose no pixel."""
+        if not (BIN_DIR / "cast_rays_embree").exists():
+            self.skipTest("libembree-dev is not installed")
+        dice = random.Random(3)
+        with tempfile.NamedTemporaryFile("w", suffix=".txt") as view:
+            view.write("perspective 60 1 1 100\n")
+            for _ in range(40):
+                x, y, z = dice.uniform(-2, 2), dice.uniform(-2, 2), dice.uniform(-9, -3)
+                view.write("".join(f"{x + dice.uniform(-1, 1):.7f} {y + dice.uniform(-1, 1):.7f} {z:.7f}\n" for _ in range(3)) + "\n")
+            view.flush()
+            hits = {name: int(subprocess.run([BIN_DIR / name, "61", "47", view.name], stdout=subprocess.PIPE, check=True).stdout.split()[2])
+                    for name in ("cast_rays", "cast_rays_embree")}
+        self.assertEqual(hits["cast_rays"], hits["cast_rays_embree"])
+        self.assertTrue(200 < hits["cast_rays"] < 61 * 47)
+
+
 class BenchTest(unittest.TestCase):
     def bench(self, folder, *options):
         return subprocess.run([sys.executable, SOURCE_DIR / "scripts/measure/bench", "--quick", "--bin", BIN_DIR, "--baselines", BIN_DIR, "--out", folder, *options],

@@ -18,11 +18,11 @@ class Scale(unittest.TestCase):
     def test_quick(self):
         if not shutil.which("parallel"):
             self.skipTest("GNU parallel is missing")
-        done = subprocess.run([SOURCE / "scripts/measure/scale", "--quick", "--print"], capture_output=True, text=True, env={**os.environ, "BIN": str(BIN)})
+        done = subprocess.run([SOURCE / "scripts/measure/scale", "--quick", "--large", "--print"], capture_output=True, text=True, env={**os.environ, "BIN": str(BIN)})
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         page = (SOURCE / "docs/scale.md").read_text()
         tables = dict(re.findall(r"^(\w+):\n((?:\|.*\n)+)", done.stdout, re.M))
-        self.assertEqual(set(tables), {"costs", "parts", "density", "projected"})
+        self.assertEqual(set(tables), {"costs", "parts", "density", "projected", "compared"})
         cells = lambda line: [cell.strip() for cell in line.strip("|\n").split("|")]
         for name, text in tables.items():
             shown = re.search(rf"<!-- {name}: begin -->\n(.*?)<!-- {name}: end -->", page, re.S)[1].splitlines()

@@ -162,6 +162,15 @@ class Mistakes(ToolTest):
         self.check("trade: " + done.stderr.decode().strip(), "scene.txt", "size.txt")
         self.check("trade: cannot read none.txt: No such file or directory", "none.txt", "config.txt")
 
+    def test_a_sphere_is_the_scenes_and_names_the_ways_to_draw_it(self):
+        scene = LAYERS.replace("end\n", "sphere 0 0 0 1\nend\n")
+        pathlib.Path("scene.txt").write_text(scene)
+        message = ":13:1: expected triangles alone, found a sphere: trace draws it, and model --facets N makes triangles of it\n"
+        done = trade("scene.txt", "config.txt")
+        self.assertEqual((done.returncode, done.stdout, done.stderr), (2, "", "trade: model: scene.txt" + message))
+        done = trade("-", "config.txt", input=scene)
+        self.assertEqual((done.returncode, done.stdout, done.stderr), (2, "", "trade: model: <stdin>" + message))
+
     def test_an_empty_picture_has_nothing_to_compare(self):
         pathlib.Path("scene.txt").write_text(CAMERA + "triangle\n0 0 9\n1 0 9\n0 1 9\nend\n")
         self.check("trade: the picture of the lossless run is empty: there is nothing to compare. Run the pipe to see why", "scene.txt", "config.txt")

@@ -66,6 +66,9 @@ class Tradeoff(unittest.TestCase):
         self.assertEqual({scene for scene, _ in costs}, {"plain", "color", "normals", "plain planet", "plain pivot", "fill", "ball", "half",
                                                          "torus", "inside"})
         self.assertLessEqual(ERROR_SETTINGS, {setting for scene, setting in costs if scene == "plain"})
+        for scene in ("plain", "normals", "fill", "torus", "inside"):
+            self.assertIn((scene, "trace"), costs)
+            self.assertLess(self.value(scene, "trace", "bytes"), self.value(scene, "default", "bytes"))  # of two pipes in place of three
         for column in ("empty_cpu_seconds", "wall_seconds", "mib", "bytes"):
             self.assertEqual(self.values(column).keys(), costs.keys())
 

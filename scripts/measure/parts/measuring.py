@@ -6,6 +6,8 @@ import pathlib
 import subprocess
 import sys
 
+from lib.child import cpu_seconds, finished
+
 
 def machine():
     """The processor's name and the number of available cores."""
@@ -50,11 +52,10 @@ class Cost:
 def run(words, name="a tool", **streams):
     """The cost of one command; ends the script if it fails."""
     process = subprocess.Popen(list(map(str, words)), **streams)
-    _, status, usage = os.wait4(process.pid, 0)
-    process.returncode = os.waitstatus_to_exitcode(status)
+    usage = finished(process)
     if process.returncode != 0:
         raise SystemExit(f"{name} failed")
-    return Cost(usage.ru_utime + usage.ru_stime, usage.ru_maxrss / 1024)
+    return Cost(cpu_seconds(usage), usage.ru_maxrss / 1024)
 
 
 def write_csv(path, rows, digits=4):

@@ -11,7 +11,7 @@ import tempfile
 from lib.figures import quartiles
 from parts.instructions import callgrind_count, no_count_at_all
 from parts.measuring import run_pipe
-from parts.tradeoff_setting import DEFAULT, FINEST, TOOLS, Setting
+from parts.tradeoff_setting import DEFAULT, FINEST, TOOLS, Setting, drawing_words
 
 
 CLOCK = 1e-6  # seconds, the resolution of CPU times: what a few triangles add may be less
@@ -32,7 +32,7 @@ class Pipes:
         (self.folder / "config.txt").write_text("%d %d\n" % scene.size)
 
     def cost(self, setting, name):
-        return run_pipe([setting.command(self.bin_dir, tool) for tool in TOOLS], self.folder, self.folder / name)
+        return run_pipe([setting.command(self.bin_dir, tool) for tool in setting.tools], self.folder, self.folder / name)
 
     def picture(self, setting):
         """The channels of the image, from the top left."""
@@ -82,25 +82,26 @@ def counter():
 
 
 def stage_counts(pipes, name, settings, count):
-    """{options of the stages up to one: (instructions of its run, bytes of its output)}. Settings share the stages they have in common."""
+    """{setting: [(instructions of its run, bytes of its output) of each stage]}. Settings share the stages they have in common."""
     known = {(): (None, None, pipes.folder / name)}
 
     def run(key):
-        tool, words = TOOLS[len(key) - 1], key[-1]
+        tool, *words = key[-1].split()
         source = known[key[:-1]][2]
-        command = [str(pipes.bin_dir / tool), *words.split(), *(["--image", "/dev/null", "config.txt"] if tool == "zbuf" else []), str(source)]
+        draws = drawing_words(tool, "/dev/null")
+        command = [str(pipes.bin_dir / tool), *words, *draws, str(source)]
         output = pipes.folder / (name + "".join(f"-{stage}".replace(" ", "") for stage in key))
-        if tool == "zbuf":
+        if draws:
             return key, (count(command, pipes.folder) if count else None, 0, None)
         with open(output, "wb") as file:
             subprocess.run(command, stdout=file, stderr=subprocess.DEVNULL, check=True)
         return key, (count(command, pipes.folder) if count else None, output.stat().st_size, output)
 
-    keys = {setting: tuple(" ".join(setting.words_for(tool)) for tool in TOOLS) for setting in settings}
+    keys = {setting: tuple(" ".join([tool, *setting.words_for(tool)]) for tool in setting.tools) for setting in settings}
     with concurrent.futures.ThreadPoolExecutor(2) as pool:
         for stages in range(1, len(TOOLS) + 1):
-            known.update(pool.map(run, dict.fromkeys(key[:stages] for key in keys.values())))
-    return {setting: [known[key[:stages]][:2] for stages in range(1, len(TOOLS) + 1)] for setting, key in keys.items()}
+            known.update(pool.map(run, dict.fromkeys(key[:stages] for key in keys.values() if stages <= len(key))))
+    return {setting: [known[key[:stages]][:2] for stages in range(1, len(key) + 1)] for setting, key in keys.items()}
 
 
 def counts(bin_dir, scene, settings, count):
@@ -130,6 +131,8 @@ def differences(pipes, settings):
     if FINEST in settings:
         finest = pipes.picture(FINEST)
         for setting in settings:
+            if setting.is_traced:
+                continue  # shadows make it another picture
             distances = [abs(a - b) for a, b in zip(pipes.picture(setting), finest)]
             yield setting, {"difference_mean": statistics.fmean(distances), "difference_max": max(distances)}
     for setting in settings:

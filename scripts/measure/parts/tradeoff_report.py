@@ -249,8 +249,8 @@ def shading_table(results):
                 yield from ("", "must cut", "")
             else:
                 yield f"{results.cell(name, setting, 'ratio'):.2f}"
-                yield f"{results.cell(name, setting, 'difference_mean'):.2f}"
-                yield f"{results.cell(name, setting, 'difference_max'):.0f}"
+                mean, largest = (results.cell(name, setting, f"difference_{kind}") for kind in ("mean", "max"))
+                yield from ("its own shadows", "") if mean is None else (f"{mean:.2f}", f"{largest:.0f}")
 
     header = ["setting", *(words for name in names.values() for words in (f"{name}: CPU time", "mean difference", "largest"))]
     return table(header, [list(cells(setting)) for setting in results.settings("torus")])

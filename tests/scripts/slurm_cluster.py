@@ -1,0 +1,157 @@
+"""A real Slurm of several nodes on this machine, with a munged of its own, in the current folder."""
+import os
+import pathlib
+import shutil
+import signal
+import socket
+import subprocess
+import time
+
+PROGRAMS = ("munged", "slurmctld", "slurmd", "sbatch", "squeue", "scontrol", "scancel")
+SETTINGS = """ClusterName=test
+SlurmctldHost={host}(127.0.0.1)
+SlurmUser={user}
+SlurmdUser={user}
+AuthType=auth/munge
+CredType=cred/munge
+AuthInfo=socket={here}/munge/socket,cred_expire=5
+SlurmctldPort={port}
+StateSaveLocation={here}/state
+SlurmdSpoolDir={here}/spool-%n
+SlurmctldPidFile={here}/slurmctld.pid
+SlurmdPidFile={here}/slurmd-%n.pid
+SlurmctldLogFile={here}/slurmctld.log
+SlurmdLogFile={here}/slurmd-%n.log
+ProctrackType=proctrack/linuxproc
+TaskPlugin=task/none
+MpiDefault=none
+SwitchType=switch/none
+SelectType=select/cons_tres
+SchedulerType=sched/backfill
+SchedulerParameters=bf_interval=1,sched_interval=2,batch_sched_delay=1
+AccountingStorageType=accounting_storage/none
+JobAcctGatherType=jobacct_gather/none
+SlurmdParameters=config_overrides
+SlurmdTimeout=10
+KillWait=2
+ReturnToService=2
+{nodes}
+PartitionName=all Nodes=ALL Default=YES State=UP MaxTime=INFINITE
+"""
+
+
+def free_ports(count):
+    """Ports that nobody listens on."""
+    sockets = [socket.create_server(("127.0.0.1", 0)) for _ in range(count)]
+    ports = [one.getsockname()[1] for one in sockets]
+    for one in sockets:
+        one.close()
+    return ports
+
+
+def ended(process):
+    """Ends the process and what it has started in its session."""
+    for number in (signal.SIGTERM, signal.SIGKILL):
+        try:
+            os.killpg(process.pid, number)
+            process.wait(timeout=10)
+        except (ProcessLookupError, subprocess.TimeoutExpired):
+            pass
+
+
+class Cluster:
+    """`test` is skipped where no Slurm can be had."""
+
+    def __init__(self, test, names):
+        path = os.environ["PATH"] + ":/usr/sbin:/sbin"
+        for program in PROGRAMS:
+            if not shutil.which(program, path=path):
+                test.skipTest(f"{program} is missing (Debian packages slurm-wlm and munge)")
+        if os.geteuid() != 0:
+            test.skipTest("a Slurm of several nodes on one machine needs root")
+        self.here, self.test = pathlib.Path.cwd(), test
+        self.environment = {**os.environ, "PATH": path, "SLURM_CONF": f"{self.here}/slurm.conf"}
+        for variable in [name for name in self.environment if name.startswith(("SLURM_", "SBATCH_")) and name != "SLURM_CONF"]:
+            del self.environment[variable]
+        host = socket.gethostname().split(".")[0]
+        port, *ports = free_ports(len(names) + 1)
+        nodes = [f"NodeName={name} NodeHostname={host} NodeAddr=127.0.0.1 Port={number} CPUs=2" for name, number in zip(names, ports)]
+        for folder in ("state", *(f"spool-{name}" for name in names)):
+            (self.here / folder).mkdir()
+        pathlib.Path("slurm.conf").write_text(SETTINGS.format(host=host, user="root", here=self.here, port=port, nodes="\n".join(nodes)))
+        self.start_munged()
+        self.start("slurmctld", "-D")
+        self.nodes = {name: self.start("slurmd", "-D", "-N", name) for name in names}
+        self.wait(lambda: self.output("sinfo", "-h", "-o", "%t %D") == f"idle {len(names)}", "the nodes to be idle")
+
+    def start_munged(self):
+        """munged trusts only folders that its own user alone can write to."""
+        folder = self.here / "munge"
+        folder.mkdir()
+        (folder / "key").write_bytes(os.urandom(128))
+        (folder / "key").chmod(0o400)
+        for path in (folder, folder / "key"):
+            shutil.chown(path, "munge", "munge")
+        for path in (self.here, folder):
+            path.chmod(0o755)
+        words = ["runuser", "-u", "munge", "--", "munged", "--foreground", f"--socket={folder}/socket", f"--key-file={folder}/key", f"--pid-file={folder}/pid",
+                 f"--log-file={folder}/log", f"--seed-file={folder}/seed"]
+        self.start(*words)
+        self.wait((folder / "socket").exists, "munged to listen")
+
+    def start(self, *words):
+        with open(self.here / "daemons.log", "ab") as log:
+            process = subprocess.Popen(words, env=self.environment, stdin=subprocess.DEVNULL, stdout=log, stderr=log, start_new_session=True)
+        self.test.addCleanup(ended, process)
+        return process
+
+    def output(self, *words):
+        """What a command prints, in a line."""
+        return " ".join(subprocess.run(words, env=self.environment, capture_output=True, text=True, timeout=120).stdout.split())
+
+    def wait(self, condition, what, seconds=240):
+        """The condition's value, as soon as it is true."""
+        end = time.monotonic() + seconds
+        while time.monotonic() < end:
+            if value := condition():
+                return value
+            time.sleep(0.1)
+        logs = "".join(f"\n{path.name}:\n" + "".join(path.read_text(errors="replace").splitlines(True)[-30:]) for path in sorted(self.here.glob("*.log")))
+        raise AssertionError(f"waited {seconds} s for {what}{logs}")
+
+    def state(self, job):
+        """Words of a job, as scontrol shows them: JobState, Restarts, BatchHost, Reason ...; {} for one that Slurm has forgotten."""
+        return dict(word.split("=", 1) for word in self.output("scontrol", "show", "job", "-o", str(job)).split() if "=" in word)
+
+    def processes(self, node):
+        """{id: name} of a node's processes: slurmd, each job's slurmstepd, which is no child of it, and what these have started."""
+        found = {self.nodes[node].pid: "slurmd"}
+        for path in pathlib.Path("/proc").glob("[0-9]*"):
+            try:
+                environment = (path / "environ").read_bytes().split(b"\0")
+                if f"SLURMD_NODENAME={node}".encode() not in environment or f"SLURM_CONF={self.here}/slurm.conf".encode() not in environment:
+                    continue
+                process = int(path.name)
+                while process > 1 and process not in found:
+                    stat = pathlib.Path(f"/proc/{process}/stat").read_text()
+                    name, parent = stat[stat.index("(") + 1:stat.rindex(")")], int(stat[stat.rindex(")") + 2:].split()[1])
+                    found[process] = name
+                    process = parent if name != "slurmstepd" else 1
+            except OSError:
+                continue  # it has ended meanwhile
+        return found
+
+    def kill_node(self, node):
+        """As if the power were cut: those that could tell of the others' end go first."""
+        order = ("slurmd", "slurmstepd")
+        found = self.processes(node)
+        for process in sorted(found, key=lambda process: order.index(found[process]) if found[process] in order else len(order)):
+            try:
+                os.kill(process, signal.SIGKILL)
+            except ProcessLookupError:
+                pass
+        self.nodes[node].wait()
+
+    def revive_node(self, node):
+        self.nodes[node] = self.start("slurmd", "-D", "-N", node)
+        self.wait(lambda: self.output("sinfo", "-h", "-n", node, "-o", "%t") == "idle", f"{node} to be idle")
