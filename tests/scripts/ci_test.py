@@ -195,11 +195,11 @@ class Ci(Tree):
     def test_failed_and_skipped_tests_of_all_presets_are_named(self):
         self.put("scripts/check", "#!/bin/sh\necho failed: A.B\necho 'skipped: C.D: no moon'\necho 3 passed, 1 failed, 1 skipped\nexit 1\n")
         self.set_tests("asan", ("Overflows.Here", "false"))
-        self.set_tests("clang", ("Ends.Early", "false"), ("A.B", GTEST_SKIP, "SKIP_REGULAR_EXPRESSION", r"\[  SKIPPED \]"))
+        self.set_tests("fuzz", ("Ends.Early", "false"), ("A.B", GTEST_SKIP, "SKIP_REGULAR_EXPRESSION", r"\[  SKIPPED \]"))
         done = self.ci()
         self.assert_ends(done, 1, "failed: gcc, release: all tests: A.B", "skipped: gcc, release: all tests: C.D: no moon",
-                         "failed: gcc, ASan and UBSan: all tests: Overflows.Here", "failed: clang, release: modules: Ends.Early",
-                         "skipped: clang, release: modules: A.B: no moon tonight", done.stdout.splitlines()[-1])
+                         "failed: gcc, ASan and UBSan: all tests: Overflows.Here", "failed: clang, ASan and UBSan: modules: Ends.Early",
+                         "skipped: clang, ASan and UBSan: modules: A.B: no moon tonight", done.stdout.splitlines()[-1])
         self.assertRegex(done.stdout.splitlines()[-1], r"^\d+ passed, 3 failed, 2 skipped$")
 
     def test_counts_without_names_are_named_by_their_step(self):

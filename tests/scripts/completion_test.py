@@ -58,7 +58,7 @@ class Words(unittest.TestCase):
     def test_some_options_are_there(self):
         self.assertEqual(completed("pipeline", "zbuf", "config.txt", "--depth"), ["--depth-image", "--depth", "--depth-epsilon"])
         self.assertEqual(completed("pipeline", "compare", "--f"), ["--five"])
-        self.assertEqual(completed("pipeline", "inspect", "--"), ["--help", "--output", "--theirs"])
+        self.assertEqual(completed("pipeline", "inspect", "--t"), ["--theirs", "--trace", "--threshold"])
 
     def test_the_words_of_an_option(self):
         self.assertEqual(completed("pipeline", "project", "--clip", ""), ["auto", "near", "frustum", "reject", "none"])

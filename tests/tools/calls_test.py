@@ -12,8 +12,8 @@ import sys
 import tempfile
 import unittest
 
-from older_files import OLD_IMAGE, OlderImageTest, small_inputs
-from toolbox import run, stage_texts
+from older_files import OLD_IMAGE, OlderImageTest
+from toolbox import DRAWING, run, tool_inputs
 
 SHIM = str(pathlib.Path(sys.argv.pop(1)).resolve())
 
@@ -39,7 +39,7 @@ class FaultTest(OlderImageTest):
 class Faults(FaultTest):
     def each_failing_call(self, call, error, *options):
         """(failure, run, good output) until a run does not reach the call."""
-        for tool, operands, text in small_inputs():
+        for tool, operands, text in tool_inputs():
             operands = [*operands, *options]
             good, _ = self.good_run(tool, operands, text)
             for number in range(1, 100000):
@@ -71,7 +71,7 @@ class Faults(FaultTest):
         self.check_failures("close", errno.EIO, may_succeed=True)  # not the close of a file that was only read
 
     def test_the_image_waits_for_the_close_of_standard_output(self):
-        for tool, operands, text in small_inputs():
+        for tool, operands, text in tool_inputs():
             done, was_reached = self.run_with_fault("close of stdout", 1, errno.EIO, tool, operands, text)
             self.assertTrue(was_reached)
             self.assert_fails(done, 1, f"{tool}: cannot write <stdout>: Input/output error")
@@ -86,7 +86,7 @@ class Faults(FaultTest):
             else:
                 tool = which.split(",")[0]
                 self.assertEqual((done.returncode, done.stderr), (1, f"{tool}: not enough memory\n".encode()), which)
-                if tool != "zbuf" and done.stdout:
+                if tool not in DRAWING and done.stdout:
                     self.assertTrue(done.stdout.endswith(f"error {tool}: not enough memory\n".encode()), which)
                 without_memory += 1
             self.assert_as_before()
@@ -116,7 +116,7 @@ class Faults(FaultTest):
         self.assertGreater(without_memory, 50)
 
     def test_any_allocation_of_the_png_library_that_fails_is_a_failure(self):
-        tool, operands, text = small_inputs()[3]
+        tool, operands, text = tool_inputs()[3]
         operands = [*operands, "--image", "new.png"]
         if run(tool, *operands, stdin=text).returncode == 2:
             self.skipTest("a build without libpng")
@@ -142,15 +142,15 @@ class Faults(FaultTest):
             resource.setrlimit(resource.RLIMIT_STACK, (1 << 32, resource.getrlimit(resource.RLIMIT_STACK)[1]))
             resource.setrlimit(resource.RLIMIT_AS, (1 << 31, 1 << 31))
 
-        for tool, operands, text in small_inputs():
+        for tool, operands, text in tool_inputs():
             good, image = self.good_run(tool, operands, text)
             done = run(tool, *operands, "--threads", 8, stdin=text, preexec_fn=leave_no_room_for_stacks)
             self.assert_quiet_success(done)
             self.assertEqual(done.stdout, good)
-            self.assertEqual(pathlib.Path("out.bmp").read_bytes(), image if tool == "zbuf" else OLD_IMAGE)
+            self.assertEqual(pathlib.Path("out.bmp").read_bytes(), image if tool in DRAWING else OLD_IMAGE)
 
     def test_a_link_or_rename_that_fails_leaves_the_old_image(self):
-        tool, operands, text = small_inputs()[3]
+        tool, operands, text = tool_inputs()[3]
         self.good_run(tool, operands, text)
         for call in ("link", "rename"):
             done, was_reached = self.run_with_fault(call, 1, errno.EPERM, tool, operands, text)
@@ -161,7 +161,7 @@ class Faults(FaultTest):
 
     def test_a_bmp_is_written_from_its_end_where_the_file_can_seek(self):
         """The first seek is only a probe; if it fails, the picture is kept until it can be written as a whole."""
-        tool, operands, text = small_inputs()[3]
+        tool, operands, text = tool_inputs()[3]
         good, image = self.good_run(tool, operands, text)
         done, was_reached = self.run_with_fault("seek", 1, errno.ESPIPE, tool, operands, text)
         self.assertTrue(was_reached)
@@ -174,22 +174,24 @@ class Faults(FaultTest):
         self.assert_as_before()
 
     def test_reads_and_writes_of_one_byte_change_nothing(self):
-        for tool, operands, text in small_inputs():
+        for tool, operands, text in tool_inputs():
             good, image = self.good_run(tool, operands, text)
             done = run(tool, *operands, stdin=text, env={"LD_PRELOAD": SHIM, "FAULT_SHORT": "1"})
             self.assert_quiet_success(done)
             self.assertEqual(done.stdout, good)
-            self.assertEqual(pathlib.Path("out.bmp").read_bytes(), image if tool == "zbuf" else OLD_IMAGE)
+            self.assertEqual(pathlib.Path("out.bmp").read_bytes(), image if tool in DRAWING else OLD_IMAGE)
 
 
 class ManyFiles(FaultTest):
     """zbuf writes several files, some through libpng: until everything is written, all of them are the old ones."""
 
+    TOOL = "zbuf"
+
     def each_failing_call(self, call, error, options):
         """(failure, run, the files then, the good files) until a run does not reach the call."""
         names = [word for word in options if "." in word]
-        text = stage_texts()[2]
-        done = run("zbuf", "config.txt", *options, stdin=text)
+        tool, operands, text = next(row for row in tool_inputs() if row[0] == self.TOOL)
+        done = run(tool, *operands, *options, stdin=text)
         if b"without libpng" in done.stderr:
             self.skipTest("built without libpng")
         self.assert_quiet_success(done)
@@ -197,13 +199,13 @@ class ManyFiles(FaultTest):
         for number in range(1, 100000):
             for name in names:
                 pathlib.Path(name).write_bytes(OLD_IMAGE)
-            done, was_reached = self.run_with_fault(call, number, error, "zbuf", ["config.txt", *options], text)
+            done, was_reached = self.run_with_fault(call, number, error, tool, [*operands, *options], text)
             if not was_reached:
-                self.assertGreater(number, 1, f"zbuf never comes to {call}: nothing was tested")
+                self.assertGreater(number, 1, f"{tool} never comes to {call}: nothing was tested")
                 for name in names:
                     os.unlink(name)
                 return
-            which = f"{call} {number} of zbuf {options}: {done.stderr}"
+            which = f"{call} {number} of {tool} {options}: {done.stderr}"
             self.assertEqual(self.files(), sorted({"config.txt", "out.bmp", "scene.txt", *names}), which)
             yield which, done, {name: pathlib.Path(name).read_bytes() for name in names}, good
 
@@ -233,7 +235,7 @@ class ManyFiles(FaultTest):
             for which, done, files, _ in self.each_failing_call("close of data", errno.EIO, options):
                 self.assertEqual((done.returncode, set(files.values())), (1, {OLD_IMAGE}), which)
                 messages.add(done.stderr.decode())
-            self.assertEqual(messages, {f"zbuf: cannot write {name}: Input/output error\n" for name in options if "." in name})
+            self.assertEqual(messages, {f"{self.TOOL}: cannot write {name}: Input/output error\n" for name in options if "." in name})
 
     def test_an_interrupted_write_or_close_of_any_file_goes_on(self):
         for options in (self.BMP, self.PLAIN, self.PNGS):
@@ -242,12 +244,12 @@ class ManyFiles(FaultTest):
                     self.assertEqual((done.returncode, done.stderr, files), (0, b"", good), which)
 
     def test_without_proc_files_have_temporary_names(self):
-        """zbuf asks whether it may replace a file, and then whether /proc is there, without which a file needs a name."""
+        """A tool asks whether it may replace a file, and then whether /proc is there, without which a file needs a name."""
         for options in (self.BMP, self.PLAIN, self.PNGS):
             names = sorted(name for name in options if "." in name)
             outcomes = [(done.stderr.decode(), set(files.values())) if done.returncode != 0 else files == good
                         for _, done, files, good in self.each_failing_call("access", errno.EACCES, options)]
-            self.assertEqual(sorted(outcomes[::2]), [(f"zbuf: cannot open {name}: Permission denied\n", {OLD_IMAGE}) for name in names])
+            self.assertEqual(sorted(outcomes[::2]), [(f"{self.TOOL}: cannot open {name}: Permission denied\n", {OLD_IMAGE}) for name in names])
             self.assertEqual(outcomes[1::2], [True] * len(names))
 
     def test_a_failing_rename_leaves_old_files_or_complete_ones(self):
@@ -256,6 +258,13 @@ class ManyFiles(FaultTest):
     def test_a_failing_allocation_leaves_old_files_or_complete_ones(self):
         for options in (self.PLAIN, self.PNGS):
             self.check("malloc", errno.ENOMEM, *options, some_may_be_new=True)
+
+
+class ManyTracedFiles(ManyFiles):
+    """So does trace."""
+
+    TOOL = "trace"
+    PLAIN = ["--image", "out.ppm", "--z-buffer", "depths.txt", "--depth-image", "depths.pgm", "--stats", "stats.txt"]
 
 
 if __name__ == "__main__":

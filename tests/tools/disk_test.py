@@ -12,8 +12,8 @@ import subprocess
 import tempfile
 import unittest
 
-from older_files import OlderImageTest, small_inputs
-from toolbox import command, run, stage_texts
+from older_files import OlderImageTest
+from toolbox import DRAWING, command, run, stage_texts, tool_inputs
 
 NOBODY = 65534
 
@@ -28,9 +28,9 @@ class FilledDisk(OlderImageTest):
             return done, out.read()
 
     def test_at_any_byte_it_is_a_failure_and_nothing_is_left(self):
-        for tool, operands, text in small_inputs():
+        for tool, operands, text in tool_inputs():
             good, image = self.good_run(tool, operands, text)
-            needed = max(len(good), len(image) if tool == "zbuf" else 0)
+            needed = max(len(good), len(image) if tool in DRAWING else 0)
             for size in range(needed):
                 with self.subTest(tool=tool, size=size):
                     done, _ = self.run_limited(size, tool, operands, text)
@@ -44,9 +44,10 @@ class FilledDisk(OlderImageTest):
 
 class Folders(OlderImageTest):
     def check(self, image, reason, **settings):
-        done = run("zbuf", "config.txt", "--image", image, stdin=stage_texts()[2], **settings)
-        self.assert_fails(done, 1, f"zbuf: cannot open {image}: {reason}")
-        self.assert_as_before()
+        for tool, operands, text in tool_inputs()[3:]:
+            done = run(tool, *operands, "--image", image, stdin=text, **settings)
+            self.assert_fails(done, 1, f"{tool}: cannot open {image}: {reason}")
+            self.assert_as_before()
 
     def test_a_missing_one_is_a_failure(self):
         self.check("missing/out.bmp", "No such file or directory")
@@ -90,9 +91,10 @@ class SmallFileSystem(OlderImageTest):
 
     def test_one_that_is_full_is_a_failure_and_nothing_is_left(self):
         pathlib.Path("config.txt").write_text("200 200\n")  # an image of 120 kB
-        done = self.run_there("rw", command("zbuf", "../config.txt", "--z-buffer", "../depths"), stage_texts()[2])
-        self.assertEqual((done.returncode, done.stderr), (1, b"zbuf: cannot write out.bmp: No space left on device\n"))
-        self.assertEqual(done.stdout, b"the older image\nout.bmp\n")
+        for tool, _, text in tool_inputs()[3:]:
+            done = self.run_there("rw", command(tool, "../config.txt", "--z-buffer", "../depths"), text)
+            self.assertEqual((done.returncode, done.stderr), (1, f"{tool}: cannot write out.bmp: No space left on device\n".encode()))
+            self.assertEqual(done.stdout, b"the older image\nout.bmp\n")
 
 
 if __name__ == "__main__":

@@ -9,7 +9,8 @@ import socket
 import subprocess
 import unittest
 
-from toolbox import BIN, CAMERA, HEADER, HEADERS, NO_TRIANGLE, SCENE, TRIANGLE, ToolTest, command, pseudo_terminal, run, run_with, stage_texts
+from toolbox import (BIN, CAMERA, DRAWING, HEADER, HEADERS, NO_TRIANGLE, SCENE, TRIANGLE, ToolTest, command, pseudo_terminal, run,
+                     run_with, stage_texts, tool_inputs)
 
 WHY = "model: <stdin>:9:1: expected 'end', which closes a scene, found the end of the input"
 OLD_IMAGE = b"an older image\x00\xff"
@@ -45,9 +46,10 @@ class ErrorLines(ToolTest):
             self.assertEqual(run(tool, "none.txt").stdout.decode(),
                              f"error {tool}: cannot open none.txt: No such file or directory\n")
 
-    def test_zbuf_writes_none_for_its_output_is_no_stage_text(self):
-        self.assertEqual(run("zbuf", "config.txt", stdin="x").stdout, b"")
-        self.assertEqual(run("zbuf", "--bogus").stdout, b"")
+    def test_a_tool_that_draws_writes_none_for_its_output_is_no_stage_text(self):
+        for tool in DRAWING:
+            self.assertEqual(run(tool, "config.txt", stdin="x").stdout, b"")
+            self.assertEqual(run(tool, "--bogus").stdout, b"")
 
     def test_what_was_done_before_the_mistake_is_written(self):
         for tool in ("view", "project"):
@@ -77,9 +79,10 @@ class ErrorLines(ToolTest):
             terminal.write(b"nothing else\n")
         self.assertEqual(os.read(ours, 100), b"nothing else\r\n")
 
-    def test_zbuf_says_that_there_is_no_picture(self):
-        for settings in ({}, {"stdout": subprocess.DEVNULL}):
-            self.assert_fails(run("zbuf", "config.txt", stdin="error model: a #1 mistake\n", **settings), 1, "zbuf: no picture: model failed")
+    def test_a_tool_that_draws_says_that_there_is_no_picture(self):
+        for tool in DRAWING:
+            for settings in ({}, {"stdout": subprocess.DEVNULL}):
+                self.assert_fails(run(tool, "config.txt", stdin="error model: a #1 mistake\n", **settings), 1, f"{tool}: no picture: model failed")
 
     def test_a_reason_without_a_tool_is_told_as_it_is(self):
         for line, told in (("error my-stage: no", "my-stage failed"), ("error a b: c", "an earlier stage failed: a b: c"),
@@ -90,7 +93,7 @@ class ErrorLines(ToolTest):
     def test_from_a_file_the_whole_message_is_repeated(self):
         pathlib.Path("failed.txt").write_text("error model: a #1 mistake\n")
         message = "an earlier stage failed: model: a #1 mistake"
-        for tool, *operands in (("view",), ("project",), ("zbuf", "config.txt")):
+        for tool, *operands in (("view",), ("project",), ("zbuf", "config.txt"), ("trace", "config.txt")):
             self.assert_fails(run(tool, *operands, "failed.txt"), 1, f"{tool}: failed.txt:1:1: {message}")
             self.assert_fails(run_with("< failed.txt", tool, *operands), 1, f"{tool}: <stdin>:1:1: {message}")
         # Whatever standard input is: it is not read.
@@ -148,6 +151,16 @@ class WholePipe(ToolTest):
         why = "project: --clip: expected auto, near, frustum, reject or none, found 'x' (try project --help)"
         self.check_no_picture("model scene.txt | view | project --clip x | zbuf config.txt", why, "zbuf: no picture: project failed")
 
+    def test_a_mistake_before_trace_leaves_the_old_picture(self):
+        why = "view: expected an option of view, found '--bogus' (try view --help)"
+        self.check_no_picture("model scene.txt | view --bogus | trace config.txt", why, "trace: no picture: view failed")
+        self.check_no_picture("model scene.txt | trace config.txt",
+                              "trace: <stdin>:1:1: expected the output of view, found 'eye': this text has not been through view; a view of "
+                              "your own must drop the lines eye, look and up")
+        why = "trace: --samples: expected a whole number from 1 to 16, found '0' (try trace --help)"
+        done = shell("model scene.txt | view | trace --samples 0 config.txt")
+        self.assertEqual((done.stderr.decode(), done.returncode), (why + "\n", 2))
+
     def test_a_missing_scene_leaves_the_old_picture(self):
         why = "model: cannot open none.txt: No such file or directory"
         self.check_no_picture("model none.txt | view | project | zbuf config.txt", why, "zbuf: no picture: model failed")
@@ -182,22 +195,24 @@ class FramedText(ToolTest):
     def setUp(self):
         super().setUp()
         self.texts = dict(zip(("view", "project", "zbuf"), stage_texts(SCENE, "--framed")))
+        self.texts["trace"] = self.texts["project"]
 
     def options(self, tool):
-        return ["config.txt"] if tool == "zbuf" else []
+        return ["config.txt"] if tool in DRAWING else []
 
     def test_each_stage_passes_the_frame_on(self):
         for text in self.texts.values():
             self.assertTrue(text.startswith(b"framed\n"), text)
             self.assertTrue(text.endswith(b"\n\nend\n"), text)
 
-    def test_zbuf_draws_what_it_draws_of_plain_text(self):
-        framed = run("zbuf", "config.txt", stdin=self.texts["zbuf"])
-        image = pathlib.Path("out.bmp").read_bytes()
-        plain = run("zbuf", "config.txt", stdin=stage_texts()[2])
-        self.assert_quiet_success(framed)
-        self.assertEqual(framed.stdout, plain.stdout)
-        self.assertEqual(image, pathlib.Path("out.bmp").read_bytes())
+    def test_the_picture_is_that_of_plain_text(self):
+        for tool, operands, text in tool_inputs()[3:]:
+            framed = run(tool, *operands, stdin=self.texts[tool])
+            image = pathlib.Path("out.bmp").read_bytes()
+            plain = run(tool, *operands, stdin=text)
+            self.assert_quiet_success(framed)
+            self.assertEqual(framed.stdout, plain.stdout)
+            self.assertEqual(image, pathlib.Path("out.bmp").read_bytes())
 
     def test_every_prefix_is_refused_by_every_stage(self):
         for tool, text in self.texts.items():
@@ -212,12 +227,15 @@ class FramedText(ToolTest):
         self.assert_fails(run("zbuf", "config.txt", stdin=lines), 1,
                           "zbuf: <stdin>:6:1: expected 'end', which closes a framed text, found the end of the input")
 
-    def test_a_stage_that_has_written_nothing_at_all_is_missed_with_zbuf_framed(self):
+    def test_a_stage_that_has_written_nothing_at_all_is_missed_with_framed(self):
         why = "expected a framed text (model --framed), found "
-        self.assert_fails(run("zbuf", "--framed", "config.txt", stdin=b""), 1, f"zbuf: <stdin>:1:1: {why}an empty one")
-        self.assert_fails(run("zbuf", "--framed", "config.txt", stdin=stage_texts()[2]), 1, f"zbuf: <stdin>:1:1: {why}one without 'framed'")
-        self.assertEqual(self.files(), ["config.txt", "scene.txt"])
-        self.assert_quiet_success(run("zbuf", "--framed", "config.txt", stdin=self.texts["zbuf"]))
+        for tool, operands, text in tool_inputs()[3:]:
+            self.assert_fails(run(tool, "--framed", *operands, stdin=b""), 1, f"{tool}: <stdin>:1:1: {why}an empty one")
+            body = 2 if tool == "trace" else 1  # a header is no frame
+            self.assert_fails(run(tool, "--framed", *operands, stdin=text), 1, f"{tool}: <stdin>:{body}:1: {why}one without 'framed'")
+            self.assertEqual(self.files(), ["config.txt", "scene.txt"])
+            self.assert_quiet_success(run(tool, "--framed", *operands, stdin=self.texts[tool]))
+            pathlib.Path("out.bmp").unlink()
 
     def test_bare_text_of_a_framed_one_has_no_frame(self):
         done = run("view", "--bare", stdin=self.texts["view"])
@@ -230,8 +248,9 @@ class FramedText(ToolTest):
 
     def test_a_picture_is_not_begun_before_the_end_of_the_text(self):
         pathlib.Path("out.bmp").write_bytes(OLD_IMAGE)
-        run("zbuf", "config.txt", stdin=self.texts["zbuf"].removesuffix(b"end\n"))
-        self.assertEqual(pathlib.Path("out.bmp").read_bytes(), OLD_IMAGE)
+        for tool in DRAWING:
+            run(tool, "config.txt", stdin=self.texts[tool].removesuffix(b"end\n"))
+            self.assertEqual(pathlib.Path("out.bmp").read_bytes(), OLD_IMAGE)
 
 
 class UnframedText(ToolTest):
@@ -246,7 +265,7 @@ class UnframedText(ToolTest):
         self.assertEqual((done.stderr.decode(), done.returncode), (NO_TRIANGLE, 0))
 
     def test_a_cut_inside_a_triangle_is(self):
-        for tool, options in (("view", []), ("project", []), ("zbuf", ["config.txt"])):
+        for tool, options in (("view", []), ("project", []), ("zbuf", ["config.txt"]), ("trace", ["config.txt"])):
             done = run(tool, *options, stdin=HEADERS[tool] + "0 0 -2\n1 0 -2\n")
             self.assert_fails(done, 1, f"{tool}: <stdin>:7:1: expected vertex 3 of 3, found the end of the input inside a triangle")
 

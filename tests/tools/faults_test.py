@@ -11,11 +11,14 @@ import subprocess
 import time
 import unittest
 
-from toolbox import CAMERA, HEADER, HEADERS, SCENE, TOOLS, TRIANGLE, ToolTest, command, pseudo_terminal, run, run_with, stage_texts
+from toolbox import ALL_TOOLS, CAMERA, DRAWING, HEADER, HEADERS, SCENE, TRIANGLE, ToolTest, command, pseudo_terminal, run, run_with, stage_texts
 
 VERTICES = "0 0 -2\n1 0 -2\n0 1 -2\n\n"
-OPERANDS = {"model": [], "view": [], "project": [], "zbuf": ["config.txt"]}
+OPERANDS = {"model": [], "view": [], "project": [], "zbuf": ["config.txt"], "trace": ["config.txt"]}
+TRACED = "ortho -1 1 -1 1 1 3\n"
+GLASS = "light 1 2 0 1 1 1\nmaterial 1 1 1 9 0.2 1.5 0.3\nabsorption 1 0 2\n"
 OLD_IMAGE = b"an older image"
+LARGE_PICTURES = {"zbuf": "-1 -1 0\n1 -1 0\n-1 1 0\n", "trace": TRACED + "-1 -1 -2\n1 -1 -2\n-1 1 -2\n"}
 
 
 def small_and_large_inputs():
@@ -25,7 +28,10 @@ def small_and_large_inputs():
         yield "view", HEADER + VERTICES * count
         yield "project", HEADERS["project"] + VERTICES * count
     yield "zbuf", "0 0 0\n0.1 0 0\n0 0.1 0\n"
-    yield "zbuf", "-1 -1 0\n1 -1 0\n-1 1 0\n"
+    yield "trace", TRACED + "0 0 -2\n0.1 0 -2\n0 0.1 -2\n"
+    yield "trace", TRACED + GLASS + "sphere\n0 0 -2\n0.1 0 -2\n0 0.1 -2\n0 0 -1.9\n"
+    yield "trace", TRACED + GLASS + "sphere\n0 0 -2\n0.9 0 -2\n0 0.9 -2\n0 0 -1.1\n"
+    yield from LARGE_PICTURES.items()
 
 
 class FaultTest(ToolTest):
@@ -54,7 +60,7 @@ class FullDisk(FaultTest):
         self.assert_fails(done, 1, "model: cannot write <stdout>: No space left on device")
 
     def test_help_and_version_are_data_too(self):
-        for tool in TOOLS:
+        for tool in ALL_TOOLS:
             for option in ("--help", "--version"):
                 with self.subTest(tool=tool, option=option), open("/dev/full", "wb") as full:
                     done = run(tool, option, stdout=full)
@@ -66,13 +72,15 @@ class FullDisk(FaultTest):
         self.assert_fails(done, 1, "view: <stdin>:1:1: expected a header line, 'triangle N' or a vertex, found 'x'")
 
     def test_a_full_file_of_depths_leaves_the_old_image(self):
-        done = run("zbuf", "config.txt", "--z-buffer", "/dev/full", stdin="-1 -1 0\n1 -1 0\n-1 1 0\n")
-        self.assert_fails(done, 1, "zbuf: cannot write /dev/full: No space left on device")
-        self.assert_nothing_happened()
+        for tool, text in LARGE_PICTURES.items():
+            done = run(tool, "config.txt", "--z-buffer", "/dev/full", stdin=text)
+            self.assert_fails(done, 1, f"{tool}: cannot write /dev/full: No space left on device")
+            self.assert_nothing_happened()
 
     def test_a_full_image_is_a_failure(self):
-        done = run("zbuf", "config.txt", "--image", "/dev/full", stdin="-1 -1 0\n1 -1 0\n-1 1 0\n")
-        self.assert_fails(done, 1, "zbuf: cannot write /dev/full: No space left on device")
+        for tool, text in LARGE_PICTURES.items():
+            done = run(tool, "config.txt", "--image", "/dev/full", stdin=text)
+            self.assert_fails(done, 1, f"{tool}: cannot write /dev/full: No space left on device")
 
 
 class FileSizeLimit(FaultTest):
@@ -84,7 +92,7 @@ class FileSizeLimit(FaultTest):
     def test_a_stdout_that_may_not_grow_is_a_failure_that_names_the_reason(self):
         for tool, text in small_and_large_inputs():
             with self.subTest(tool=tool, size=len(text)), open("input.txt", "wb") as limited:
-                if tool == "zbuf":
+                if tool in DRAWING:
                     continue
                 done = self.run_limited(tool, stdin=text, stdout=limited, size=10)
                 self.assert_fails(done, 1, f"{tool}: cannot write <stdout>: File too large")
@@ -92,9 +100,10 @@ class FileSizeLimit(FaultTest):
         self.assert_nothing_happened()
 
     def test_an_image_that_may_not_grow_leaves_the_old_one(self):
-        done = self.run_limited("zbuf", "config.txt", stdin="0 0 0\n0.1 0 0\n0 0.1 0\n", size=1000)
-        self.assert_fails(done, 1, "zbuf: cannot write out.bmp: File too large")
-        self.assert_nothing_happened()
+        for tool, text in LARGE_PICTURES.items():
+            done = self.run_limited(tool, "config.txt", stdin=text, size=1000)
+            self.assert_fails(done, 1, f"{tool}: cannot write out.bmp: File too large")
+            self.assert_nothing_happened()
 
 
 class ClosedReader(FaultTest):
@@ -117,7 +126,7 @@ class ClosedReader(FaultTest):
 
     def test_it_ends_a_filter_quietly(self):
         for tool, text in small_and_large_inputs():
-            if tool == "zbuf":
+            if tool in DRAWING:
                 continue
             with self.subTest(tool=tool, size=len(text)):
                 self.assertEqual(self.run_without_reader(tool, text, ignore=False), -signal.SIGPIPE)
@@ -128,9 +137,9 @@ class ClosedReader(FaultTest):
                 self.assertEqual(self.run_without_reader(tool, text, ignore=True), 1)
         self.assert_nothing_happened()
 
-    def test_zbuf_removes_the_image_it_has_begun(self):
+    def test_a_tool_that_draws_removes_the_image_it_has_begun(self):
         for tool, text in small_and_large_inputs():
-            if tool == "zbuf":
+            if tool in DRAWING:
                 self.assertEqual(self.run_without_reader(tool, text, ignore=False), 1)
         self.assert_nothing_happened()
 
@@ -149,7 +158,7 @@ class ClosedReader(FaultTest):
 
 class MissingChannels(FaultTest):
     def test_a_closed_stdin_is_a_failure(self):
-        for tool in TOOLS:
+        for tool in ALL_TOOLS:
             self.assert_fails(run_with("<&-", tool, *OPERANDS[tool]), 1, f"{tool}: cannot read <stdin>: Bad file descriptor")
         self.assert_nothing_happened()
 
@@ -160,7 +169,7 @@ class MissingChannels(FaultTest):
         self.assertEqual(done.stdout, expected)
 
     def test_a_folder_as_stdin_is_a_failure(self):
-        for tool in TOOLS:
+        for tool in ALL_TOOLS:
             self.assert_fails(run_with("< /", tool, *OPERANDS[tool]), 1, f"{tool}: cannot read <stdin>: Is a directory")
 
     def test_a_closed_stdout_is_a_failure(self):
@@ -171,13 +180,13 @@ class MissingChannels(FaultTest):
         self.assert_nothing_happened()
 
     def test_no_file_takes_the_place_of_a_closed_stdout(self):
-        text = b"-1 -1 0\n1 -1 0\n-1 1 0\n"
-        depths = run("zbuf", "config.txt", stdin=text).stdout
-        image = pathlib.Path("out.bmp").read_bytes()
-        done = run_with(">&-", "zbuf", "config.txt", "--z-buffer", "z.txt", input=text)
-        self.assert_quiet_success(done)
-        self.assertEqual(pathlib.Path("z.txt").read_bytes(), depths)
-        self.assertEqual(pathlib.Path("out.bmp").read_bytes(), image)
+        for tool, text in LARGE_PICTURES.items():
+            depths = run(tool, "config.txt", stdin=text).stdout
+            image = pathlib.Path("out.bmp").read_bytes()
+            done = run_with(">&-", tool, "config.txt", "--z-buffer", "z.txt", input=text.encode())
+            self.assert_quiet_success(done)
+            self.assertEqual(pathlib.Path("z.txt").read_bytes(), depths)
+            self.assertEqual(pathlib.Path("out.bmp").read_bytes(), image)
 
     def test_no_file_takes_the_place_of_a_closed_stderr(self):
         pathlib.Path("config.txt").write_text("8 8\n")
@@ -192,7 +201,7 @@ class MissingChannels(FaultTest):
         self.assertEqual(run_with("2>&-", "model", "--bogus").returncode, 2)
 
     def test_with_all_channels_closed_it_ends(self):
-        for tool in TOOLS:
+        for tool in ALL_TOOLS:
             self.assertEqual(run_with("<&- >&- 2>&-", tool, *OPERANDS[tool]).returncode, 1)
 
 

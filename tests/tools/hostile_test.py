@@ -7,9 +7,10 @@ usage: hostile_test.py BIN_DIR [UNITTEST ARGUMENT...]
 import pathlib
 import re
 import resource
+import subprocess
 import unittest
 
-from toolbox import CAMERA, HEADER, HEADERS, NO_TRIANGLE, SCENE, TRIANGLE, ToolTest, command, run, stage_texts
+from toolbox import CAMERA, DRAWING, HEADER, HEADERS, NO_TRIANGLE, SCENE, TRIANGLE, ToolTest, command, run, tool_inputs
 
 MEMORY = 256 << 20
 VERTICES = "0 0 -2\n1 0 -2\n0 1 -2\n\n"
@@ -17,6 +18,13 @@ VERTICES = "0 0 -2\n1 0 -2\n0 1 -2\n\n"
 
 def limit_memory():
     resource.setrlimit(resource.RLIMIT_DATA, (MEMORY, MEMORY))
+
+
+# A ball of glass that absorbs, in front of a mirror, under a lamp.
+LIT_SPHERE = ("ortho -1 1 -1 1 1 9\nattributes color material\nmaterial 1 1 0 1 0.9 1 1\n"
+              "material 1 1 1 9 0 1.5 0.1\nabsorption 0.3 0 2\nlight 1 2 0 1 1 1\n"
+              "sphere\n0 0 -3 9 9 9 1\n1 0 -3 9 9 9 1\n0 1 -3 9 9 9 1\n0 0 -2 9 9 9 1\n\n"
+              "-9 -9 -5 80 90 200 0\n9 -9 -5 80 90 200 0\n0 9 -5 80 90 200 0\n").encode()
 
 
 class Hostile(ToolTest):
@@ -42,8 +50,7 @@ class Hostile(ToolTest):
         self.assert_quiet_success(run("model", stdin=text[:-1]))
 
     def test_every_prefix_of_a_stage_text_is_read_as_it_reads_or_refused(self):
-        for tool, text in zip(("view", "project", "zbuf"), stage_texts()):
-            options = ["config.txt"] if tool == "zbuf" else []
+        for tool, options, text in tool_inputs()[1:]:
             whole = 0
             for length in range(len(text)):
                 done = run(tool, *options, stdin=text[:length])
@@ -53,9 +60,36 @@ class Hostile(ToolTest):
                     # Three vertices are complete, or none.
                     body = [line for line in text[:length].split(b"\n") if re.match(rb"-?\d", line)]
                     self.assertIn(len(body), (0, 3), text[:length])
-                    self.assertEqual(done.stderr.decode(), NO_TRIANGLE if tool == "zbuf" and not body else "")
+                    notes = {"zbuf": NO_TRIANGLE, "trace": NO_TRIANGLE.replace("zbuf", "trace")}
+                    self.assertEqual(done.stderr.decode(), "" if body else notes.get(tool, ""))
                     whole += 1
             self.assertGreater(whole, 0)
+
+    def test_a_cut_text_of_a_sphere_and_light_is_traced_as_it_reads_or_refused(self):
+        read = []
+        for length in range(len(LIT_SPHERE) + 1):
+            text = LIT_SPHERE[:length]
+            done = run("trace", "--size", "4x3", stdin=text)
+            if done.returncode != 0:
+                self.assert_placed(done, "trace", text)
+                continue
+            self.assertRegex(done.stderr, rb"\A(trace: note: the picture is (black|empty): .*\n)?\Z")
+            read.append(text.count(b"\n0 0 -2") + text.count(b"\n0 9 -5"))
+        self.assertEqual(set(read), {0, 1, 2})  # nothing, the sphere, both
+
+    def test_a_changed_byte_of_a_sphere_and_light_is_too(self):
+        read = 0
+        for position in range(len(LIT_SPHERE)):
+            for byte in (10, ord("-"), ord("7"), 0xff):
+                changed = LIT_SPHERE[:position] + bytes([byte]) + LIT_SPHERE[position + 1:]
+                done = run("trace", "--size", "4x3", stdin=changed)
+                if done.returncode == 0:
+                    self.assertRegex(done.stderr, rb"\A(trace: note: .*\n)?\Z", changed)
+                    self.assertEqual(done.stdout.count(b"\n"), 3, changed)
+                    read += 1
+                else:
+                    self.assert_placed(done, "trace", changed)
+        self.assertGreater(read, 100)
 
     def test_every_prefix_of_a_config_is_refused_or_has_its_lines(self):
         text = b"12 8\n-0.5\n-0.25\n-1 1\n"
@@ -99,9 +133,10 @@ class Hostile(ToolTest):
     def test_a_nul_is_no_blank_and_no_end(self):
         bad_vertex = "0 0\0 -2\n"
         for tool, text, line in (("model", CAMERA + "triangle\n" + bad_vertex, 6), ("view", HEADER + bad_vertex, 5),
-                                 ("project", HEADERS["project"] + bad_vertex, 5), ("zbuf", bad_vertex, 1)):
+                                 ("project", HEADERS["project"] + bad_vertex, 5), ("zbuf", bad_vertex, 1),
+                                 ("trace", HEADERS["trace"] + bad_vertex, 5)):
             pathlib.Path("config.txt").write_text("8 8\n")
-            done = run(tool, *["config.txt"] * (tool == "zbuf"), stdin=text)
+            done = run(tool, *["config.txt"] * (tool in DRAWING), stdin=text)
             self.assert_fails(done, 1, rf"{tool}: <stdin>:{line}:3: expected the y of vertex 1 of 3, found '0\x00'")
         pathlib.Path("config.txt").write_text("8 8\0\n")
         self.assert_fails(run("zbuf", "config.txt"), 1, "zbuf: config.txt:1:3: expected the height in pixels, "
@@ -146,8 +181,28 @@ class Hostile(ToolTest):
 
     def test_a_picture_larger_than_memory_is_refused(self):
         pathlib.Path("config.txt").write_text("65535 65535\n")
-        done = self.run_limited("zbuf", VERTICES, "config.txt", "--image", "out.ppm")
-        self.assert_fails(done, 1, "zbuf: not enough memory")
+        for tool in DRAWING:
+            for options in [], ["--z-buffer", "none"]:
+                done = self.run_limited(tool, HEADERS[tool] + VERTICES, "config.txt", "--image", "out.ppm", *options)
+                self.assert_fails(done, 1, f"{tool}: not enough memory")
+                self.assertEqual(self.files(), ["config.txt", "scene.txt"])
+
+    def test_a_picture_for_which_no_memory_is_left_is_refused(self):
+        # Linux would allocate it, and kill whoever fills it.
+        pathlib.Path("meminfo").write_text("MemTotal: 99999999 kB\nMemAvailable: 16000 kB\nSwapFree: 300 kB\n")
+        pathlib.Path("whole.txt").write_text("-1 -1 0\n3 -1 0\n-1 3 0\n\n")
+        for size, depth, is_refused in (("1000x1000", "f64", False), ("1000x2200", "u24", True), ("2000x2000", "f64", True)):
+            words = command("zbuf", "--size", size, "--depth", depth, "--threads", "2", "--z-buffer", "none", "-o", "out.ppm", "whole.txt")
+            done = subprocess.run(["unshare", "--mount", "--map-root-user", "sh", "-c",
+                                   'mount --bind meminfo /proc/meminfo || exit 77; "$@"', "sh", *words], capture_output=True, timeout=60)
+            if done.returncode == 77 or done.stderr.startswith(b"unshare: "):
+                self.skipTest("mounting is not allowed here: " + done.stderr.decode().strip())
+            message = b"zbuf: not enough memory\n" if is_refused else b""
+            self.assertEqual((done.returncode, done.stderr), (int(is_refused), message), (size, depth))
+            self.assertEqual(pathlib.Path("out.ppm").exists(), not is_refused)
+            pathlib.Path("out.ppm").unlink(missing_ok=True)
+        pathlib.Path("meminfo").unlink()
+        pathlib.Path("whole.txt").unlink()
         self.assertEqual(self.files(), ["config.txt", "scene.txt"])
 
     def test_a_size_beyond_the_limit_is_refused_at_its_place(self):

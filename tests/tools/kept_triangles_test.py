@@ -56,6 +56,16 @@ class KeptTriangles(ToolTest):
             with self.subTest(options=options):
                 self.check(LIT + text, *options)
 
+    def test_nor_do_their_materials(self):
+        """Of three: each has a color of its own where it is lit."""
+        header = LIT.replace("normal\n", "normal material\n").replace("light", "material 0 0.5 0 1\nmaterial 1 0 1 3\nlight")
+        rows = triangles(3 * LEAST, 2, 0.05, has_normals=True).split("\n")
+        text = "".join(f"{row} {i // 4 % 3}\n" if row else "\n" for i, row in enumerate(rows))
+        self.check(header + text, "--shading", "flat")
+        three = pathlib.Path("out.bmp").read_bytes()
+        self.check(header + "".join(f"{row} 0\n" if row else "\n" for row in rows), "--shading", "flat")
+        self.assertNotEqual(pathlib.Path("out.bmp").read_bytes(), three)
+
     def test_nor_if_every_triangle_hides_those_before(self):
         walls = "".join(f"-9 -9 {-i / LEAST / 4:.9f} 1 {i % 256} 0 0\n9 -9 {-i / LEAST / 4:.9f} 1 0 {i % 256} 0\n0 9 {-i / LEAST / 4:.9f} 1 0 0 9\n\n"
                         for i in range(3 * LEAST))

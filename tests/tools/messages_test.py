@@ -9,7 +9,7 @@ import unittest
 
 from toolbox import CAMERA, HEADER, HEADERS, SOURCE, TRIANGLE, ToolTest, add_claims, run
 
-COMMANDS = "a command (triangle, translate, scale, rotate, push, pop or end)"
+COMMANDS = "a command (triangle, sphere, translate, scale, rotate, push, pop or end)"
 FIRST_COMMANDS = COMMANDS[:-1] + ("; before the first triangle also color, attributes, background, light, ambient, "
                                   "material or attenuation)")
 VERTICES = "0 0 0\n1 0 0\n0 1 0\n"
@@ -518,9 +518,9 @@ add_claims(OptionMessages, [
      "--size: expected WIDTHxHEIGHT in pixels, such as 400x300, found '1x65536'"),
     ("image and depths are not both stdout", "zbuf config.txt -o - --z-buffer -",
      "--z-buffer: expected a file or none, as the image is standard output, found '-'"),
-    ("a background has six digits", "zbuf config.txt --background ff800", "--background: expected RRGGBB, six hexadecimal digits, found 'ff800'"),
+    ("a background has six digits", "zbuf config.txt --background ff800", "--background: expected RRGGBB or RRGGBBAA, hexadecimal digits, found 'ff800'"),
     ("the digits of a background are hexadecimal", "zbuf config.txt --background ff80g0",
-     "--background: expected RRGGBB, six hexadecimal digits, found 'ff80g0'"),
+     "--background: expected RRGGBB or RRGGBBAA, hexadecimal digits, found 'ff80g0'"),
     ("digits are a number", "model --digits many", f"{DIGITS}, found 'many'"),
     ("digits are at most 17", "view --digits 18", f"{DIGITS}, found '18'"),
     ("digits are not negative", "project --digits -1", f"{DIGITS}, found '-1'"),

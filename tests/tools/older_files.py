@@ -1,21 +1,15 @@
 """Shared by the failure tests: a run of each tool, and an older image that stays if a run fails."""
 import pathlib
 
-from toolbox import SCENE, ToolTest, run, stage_texts
+from toolbox import ToolTest, run, tool_inputs
 
 OLD_IMAGE = b"an older image"
-
-
-def small_inputs():
-    """(tool, its operands, its input)."""
-    world, view, ndc = stage_texts()
-    return (("model", [], SCENE.encode()), ("view", [], world), ("project", [], view), ("zbuf", ["config.txt"], ndc))
 
 
 class OlderImageTest(ToolTest):
     def setUp(self):
         super().setUp()
-        pathlib.Path("config.txt").write_text("4 3\n")
+        pathlib.Path("config.txt").write_text("6 6\n")  # trace shows the triangle, too: a center is in it
         pathlib.Path("out.bmp").write_bytes(OLD_IMAGE)
 
     def good_run(self, tool, operands, text):

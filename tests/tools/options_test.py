@@ -9,7 +9,7 @@ import re
 import subprocess
 import unittest
 
-from toolbox import BIN, CAMERA, HEADER, HEADERS, SCENE, SOURCE, TOOLS, ToolTest, add_claims, pipe, run, stage_texts
+from toolbox import ALL_TOOLS, BIN, CAMERA, HEADER, HEADERS, SCENE, SOURCE, ToolTest, add_claims, pipe, run, stage_texts, tool_inputs
 
 PLAIN = """1 2 6
 1 0.5 0
@@ -127,7 +127,7 @@ class Operands(ToolTest):
 
 class Answers(ToolTest):
     def test_help_goes_to_stdout(self):
-        for tool in TOOLS:
+        for tool in ALL_TOOLS:
             for option in ("--help", "-h"):
                 done = run(tool, option)
                 self.assert_quiet_success(done)
@@ -142,26 +142,29 @@ class Answers(ToolTest):
                  "project": stage + projection + ["--aspect angle|ratio", "--clip auto|near|frustum|reject|none",
                                                   "--cull back|front"],
                  "zbuf": ["CONFIG", "--size WIDTHxHEIGHT", "-o,--image FILE", "--z-buffer FILE", "--coverage ", "--algorithm ",
-                          "--background RRGGBB"]}
-        for tool in TOOLS:
+                          "--background RRGGBB"],
+                 "trace": projection + ["CONFIG", "--size WIDTHxHEIGHT", "-o,--image FILE", "--z-buffer FILE", "--background RRGGBB",
+                                        "--sampling basic|regular|jittered|adaptive", "--samples N", "--threshold N", "--threads N"]}
+        for tool in ALL_TOOLS:
             text = run(tool, "--help").stdout.decode()
             for word in common + words[tool]:
                 self.assertIn(word, text)
 
     def test_no_line_of_help_is_longer_than_100_characters(self):
-        for tool in TOOLS:
+        for tool in ALL_TOOLS:
             self.assertEqual([line for line in run(tool, "--help").stdout.decode().split("\n") if len(line) > 100 or line != line.rstrip()], [])
 
     def test_help_has_its_options_in_groups(self):
         groups = {"model": ["Numbers", "Output"], "view": ["Numbers", "Camera", "Output"], "project": ["Numbers", "Projection", "Clipping", "Output"],
-                  "zbuf": ["Output", "Pixels", "Color and light", "Debugging"]}
-        for tool in TOOLS:
+                  "zbuf": ["Output", "Pixels", "Color and light", "Debugging"],
+                  "trace": ["Output", "Projection", "Pixels", "Color and light", "Debugging"]}
+        for tool in ALL_TOOLS:
             found = re.findall(r"^(\w[\w ]*):$", run(tool, "--help").stdout.decode(), re.M)
             self.assertEqual(found, ["Operands", *groups[tool], "General", "Examples"])
 
     def test_the_examples_of_help_do_what_they_show(self):
         path = f"{BIN}:{os.environ['PATH']}"
-        for tool in TOOLS:
+        for tool in ALL_TOOLS:
             examples = re.search(r"^Examples:\n((?:  .*\n)+)", run(tool, "--help").stdout.decode(), re.M)[1].splitlines()
             self.assertEqual(len(examples), 2)
             for example in examples:
@@ -176,27 +179,27 @@ class Answers(ToolTest):
                         self.assertGreater(pathlib.Path(result).stat().st_size, 0)
 
     def test_help_and_version_read_no_input(self):
-        for tool in TOOLS:
+        for tool in ALL_TOOLS:
             for option in ("--help", "--version"):
                 self.assert_quiet_success(run(tool, option, "none.txt"))
 
     def test_the_version_is_that_of_the_project(self):
         version = re.search(r"VERSION (\d+\.\d+\.\d+)", (SOURCE / "CMakeLists.txt").read_text()).group(1)
-        for tool in TOOLS:
+        for tool in ALL_TOOLS:
             done = run(tool, "--version")
             self.assert_quiet_success(done)
             self.assertEqual(done.stdout.decode(), f"{tool} (pipeline) {version}\n")
 
     def test_timing_is_one_line_on_stderr_and_changes_no_byte(self):
-        for tool, text in zip(TOOLS, [PLAIN.encode(), *stage_texts(PLAIN)]):
-            plain = run(tool, *OPERANDS[tool], stdin=text)
-            timed = run(tool, *OPERANDS[tool], "--timing", stdin=text)
+        for tool, operands, text in tool_inputs(PLAIN):
+            plain = run(tool, *operands, stdin=text)
+            timed = run(tool, *operands, "--timing", stdin=text)
             self.assertEqual((timed.returncode, timed.stdout), (0, plain.stdout))
             self.assertRegex(timed.stderr.decode(), rf"\A{tool}: 2 triangles in \d+\.\d+ s .*\n\Z")
 
     def test_timing_counts_one_triangle_in_the_singular(self):
-        for tool, text in zip(TOOLS, [SCENE.encode(), *stage_texts()]):
-            self.assertRegex(run(tool, *OPERANDS[tool], "--timing", stdin=text).stderr.decode(), rf"\A{tool}: 1 triangle in \d")
+        for tool, operands, text in tool_inputs():
+            self.assertRegex(run(tool, *operands, "--timing", stdin=text).stderr.decode(), rf"\A{tool}: 1 triangle in \d")
 
     def test_timing_says_nothing_of_a_failed_run(self):
         self.assertNotIn(b"triangles in", run("model", "--timing", stdin="x").stderr)

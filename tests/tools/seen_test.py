@@ -77,9 +77,9 @@ class Seen(ToolTest):
         return done.stdout
 
     def picture(self, text, *options):
-        """(depths, image); where the image is empty, why may be noted in other words."""
+        """(depths, image); what is noted of mirrors and glass, or of an empty image, may be in other words."""
         done = run("zbuf", "config.txt", *options, "--image", "picture.ppm", stdin=text)
-        self.assertRegex(done.stderr.decode(), r"\A(zbuf: note: the picture is (empty|black): .*\n)?\Z")
+        self.assertRegex(done.stderr.decode(), r"\A(zbuf: note: (mirrors and glass are|the picture is (empty|black):) .*\n)*\Z")
         self.assertEqual(done.returncode, 0)
         return done.stdout, pathlib.Path("picture.ppm").read_bytes()
 
@@ -129,7 +129,7 @@ class RandomScenes(Seen):
 
     HEADERS = ("", "background 10 20 30\ncolor 200 100 50\n",
                "attributes color normal\nbackground 9 9 9\nlight 1 2 3 1 1 1\nambient 0.2 0.2 0.2\nmaterial 1 1 0.5 8\n",
-               "attributes normal\nlight 3 1 3 1 0.5 1\n")
+               "attributes normal\nlight 3 1 3 1 0.5 1\n", "attributes normal\nmaterial 1 1 0 1\nmaterial 0.2 0.5 1 9\nlight 3 1 3 1 0.5 1\n")
 
     def scene(self, rng, kind, count):
         coordinate = lambda: rng.choice((rng.uniform(-2, 2), rng.randrange(-4, 5) / 2))
@@ -143,6 +143,8 @@ class RandomScenes(Seen):
         lines = "1 0.5 4\n0 0 0\n0 1 0\n50 1 2.5 8\n" + kind
         for _ in range(count):
             z = rng.choice((None, None, 0, 0.5))
+            if kind.count("material") > 1 and rng.random() < 0.5:
+                lines += f"use {rng.randrange(2)}\n"
             lines += "triangle\n" + "".join(vertex(z) for _ in range(3))
         return lines + "end\n"
 

@@ -14,6 +14,8 @@ import unittest
 BIN = pathlib.Path(sys.argv.pop(1)).resolve() if len(sys.argv) > 1 else sys.exit(__doc__)
 SOURCE = pathlib.Path(__file__).resolve().parent.parent.parent
 TOOLS = ("model", "view", "project", "zbuf")
+DRAWING = ("zbuf", "trace")  # trace stands in for project and zbuf
+ALL_TOOLS = (*TOOLS, "trace")
 
 # Lines 1 to 4 of a scene; its commands start on line 5.
 CAMERA = "0 0 5\n0 0 0\n0 1 0\n60 1 1 100\n"
@@ -22,6 +24,7 @@ SCENE = CAMERA + TRIANGLE + "end\n"
 HEADER = "eye 0 0 5\nlook 0 0 0\nup 0 1 0\nperspective 60 1 1 100\n"
 # The header that each tool reads, always in four lines: earlier stages have used up what is a comment.
 HEADERS = {"view": HEADER, "project": "# eye\n# look\n# up\nperspective 60 1 1 100\n", "zbuf": "# eye\n# look\n# up\n# projection\n"}
+HEADERS["trace"] = HEADERS["project"]
 CONFIG = "8 8\n"
 NO_TRIANGLE = "zbuf: note: the picture is empty: no triangle came\n"  # on stderr
 
@@ -60,6 +63,13 @@ def stage_texts(scene=SCENE, *model_options):
     stage1 = pipe(["model", *model_options], stdin=scene)
     stage2 = pipe(["view"], stdin=stage1)
     return stage1, stage2, pipe(["project"], stdin=stage2)
+
+
+def tool_inputs(scene=SCENE):
+    """(tool, its operands, its input) for each tool."""
+    world, view, ndc = stage_texts(scene)
+    return (("model", [], scene.encode()), ("view", [], world), ("project", [], view), ("zbuf", ["config.txt"], ndc),
+            ("trace", ["config.txt"], view))
 
 
 def expect_mesh2scene():

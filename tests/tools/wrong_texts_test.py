@@ -11,6 +11,8 @@ import unittest
 
 from toolbox import BIN, CAMERA, NO_TRIANGLE, SCENE, SOURCE, TRIANGLE, ToolTest, add_claims, command, pipe, run
 
+A_MODEL = "expected a scene, but this looks like a model file: 'pipeline picture' draws it, mesh2scene makes a scene of it"
+
 LIT = CAMERA + "light 0 0 5 1 1 1\n" + TRIANGLE + "end\n"
 COLORED = CAMERA + "color 1 2 3\n" + TRIANGLE + "end\n"
 NOT_VIEWED = "this text has not been through view; a view of your own must drop the lines eye, look and up"
@@ -64,6 +66,12 @@ add_claims(ForgottenStages, [
     ("a scene goes to view", SCENE, "view", "1:1: expected the output of model, but this looks like a scene: model reads those"),
     ("a scene goes to project", SCENE, "project", "1:1: expected the output of view, but this looks like a scene: model reads those"),
     ("a scene goes to zbuf", SCENE, "zbuf", "1:1: expected the output of project, but this looks like a scene: model reads those"),
+    ("an OBJ file goes to model", "# made by hand\no tent\nv 0 0 0\n", "model", "2:1: " + A_MODEL),
+    ("an OBJ file of vertices goes to model", "v 0 0 0\nv 1 0 0\n", "model", "1:1: " + A_MODEL),
+    ("a PLY file goes to model", "ply\nformat ascii 1.0\n", "model", "1:1: " + A_MODEL),
+    ("an STL file goes to model", "solid cube\n facet normal 0 0 1\n", "model", "1:1: " + A_MODEL),
+    ("a glTF file goes to model", '{"asset": {"version": "2.0"}}', "model", "1:1: " + A_MODEL),
+    ("a binary glTF file goes to model", "glTF\x02\0\0\0", "model", "1:1: " + A_MODEL),
     ("a config goes to model", "8 8\n-1\n-1\n-1 1\n", "model", "1:1: expected a scene, but this looks like a config: zbuf reads those"),
     ("a short config goes to view", "8 8", "view", "1:1: expected the output of model, but this looks like a config: zbuf reads those"),
 ])

@@ -5,10 +5,16 @@ usage: zbuf_outputs_test.py BIN_DIR [UNITTEST ARGUMENT...]
 """
 import os
 import pathlib
+import struct
 import subprocess
+import sys
 import unittest
+import zlib
 
-from toolbox import CAMERA, NO_TRIANGLE, ToolTest, command, pipe, pseudo_terminal, run, stage_texts
+from toolbox import CAMERA, NO_TRIANGLE, SOURCE, ToolTest, command, pipe, pseudo_terminal, run, stage_texts
+
+sys.path.insert(0, str(SOURCE / "scripts"))
+from lib import pictures  # noqa: E402
 
 # The lower left half of the screen, and all of it.
 HALF = "-1.0000000 -1.0000000 0.0000000\n1.0000000 -1.0000000 0.0000000\n-1.0000000 1.0000000 0.0000000\n\n"
@@ -163,6 +169,106 @@ class Background(OutputTest):
         for scene in ("", "background 1 2 3\n", "background 1 2 3\ncolor 9 8 7\n", "background 1 2 3\n" + lit):
             for color in ("ff8000", "FF8000"):
                 self.assertEqual(self.corners(scene, "--background", color), ("ff8000", self.corners(scene)[1]))
+
+
+class TransparentBackground(OutputTest):
+    """PNGs with alpha. The triangle of CORNER covers the lower left of the picture, and the diagonal cuts pixels in halves."""
+    CORNER = "attributes color\n" + "".join(f"{x} {y} 0 250 120 7\n" for x, y in ((-1, -1), (1, -1), (-1, 1))) + "\n"
+
+    def setUp(self):
+        super().setUp()
+        if ".png" not in run("zbuf", "--help").stdout.decode():
+            self.skipTest("built without libpng")
+
+    def picture(self, path):
+        """The rows of an RGBA image, as lists of (red, green, blue, alpha)."""
+        data = pathlib.Path(path).read_bytes()
+        width, height, *kind = struct.unpack_from(">IIBBBBB", data, 16)
+        self.assertEqual(kind, [8, 6, 0, 0, 0])
+        pixels = zlib.decompress(b"".join(body for name, body in pictures.png_chunks(data) if name == b"IDAT"))
+        rows, above = [], bytes(4 * width)
+        for at in range(0, len(pixels), 4 * width + 1):
+            above = pictures.unfiltered(pixels[at], pixels[at + 1:at + 1 + 4 * width], above, 4)
+            rows.append([tuple(above[i:i + 4]) for i in range(0, 4 * width, 4)])
+        self.assertEqual(len(rows), height)
+        return rows
+
+    def test_an_invisible_one_leaves_the_mean_of_the_covered_samples_and_their_share(self):
+        for tool in self.ways(self.CORNER):
+            for samples in ("1", "2", "4"):
+                tool("--background", "01020300", "--samples", samples, "-o", "out.png")
+                rows = self.picture("out.png")
+                for row in range(8):
+                    for column in range(8):
+                        expected = (250, 120, 7, 255) if column < row else (1, 2, 3, 0)
+                        if column == row:  # the top-left rule gives the diagonal, a right edge, to nobody
+                            share = {"1": 0, "2": 1, "4": 6}[samples]
+                            alpha = (2 * 255 * share + int(samples) ** 2) // (2 * int(samples) ** 2)
+                            expected = (250, 120, 7, alpha) if share else (1, 2, 3, 0)
+                        self.assertEqual(rows[row][column], expected, (samples, row, column))
+
+    def ways(self, text):
+        """Calls of zbuf, by both algorithms and on threads, and of trace, that draw the same text."""
+        view = "ortho -1 1 -1 1 1 3\n" + "".join(line.replace(" 0 250", " -2 250") + "\n" for line in text.splitlines())
+        zbuf = ["zbuf", "--size", "8x8", "--coverage", "center", "--z-buffer", "none"]
+        yield lambda *words: self.assert_quiet_success(run(*zbuf, *words, stdin=text))
+        yield lambda *words: self.assert_quiet_success(run(*zbuf, "--algorithm", "scanline", *words, stdin=text))
+        yield lambda *words: self.assert_quiet_success(run(*zbuf, "--threads", "3", *words, stdin=text))
+        yield lambda *words: self.assert_quiet_success(run("trace", "--size", "8x8", "--z-buffer", "none", *words, stdin=view))
+
+    def test_a_translucent_one_weighs_as_much_as_its_alpha(self):
+        for tool in self.ways(self.CORNER):
+            tool("--background", "00ff0055", "--samples", "2", "-o", "out.png")
+            # One of four samples: alpha (255 + 3 * 85) / 4; half of the weight is the triangle's.
+            self.assertEqual(self.picture("out.png")[3][3], (125, 188, 4, 128))
+            self.assertEqual(self.picture("out.png")[0][7], (0, 255, 0, 85))
+
+    def test_of_the_scene_is_as_that_of_the_option(self):
+        for tool in self.ways("background 7 8 9 63.5\n" + self.CORNER):
+            tool("--samples", "3", "-o", "scene.png")
+            tool("--samples", "3", "-o", "option.png", "--background", "07080940")
+            self.assertEqual(pathlib.Path("scene.png").read_bytes(), pathlib.Path("option.png").read_bytes())
+            tool("--background", "070809", "-o", "opaque.png")
+            self.assertEqual(pathlib.Path("opaque.png").read_bytes()[24:26], b"\x08\x02")
+
+    def test_an_opaque_one_changes_no_byte(self):
+        for background in ("background 7 8 9\n", ""):
+            self.assertEqual(pipe(["model"], stdin=CAMERA + background.replace("9\n", "9 255\n") + "end\n"), pipe(["model"], stdin=CAMERA + background + "end\n"))
+            for name in ("out.png", "out.ppm", "out.bmp"):
+                for tool in self.ways(background + self.CORNER):
+                    tool("--background", "0a0b0c", "-o", name)
+                    expected = pathlib.Path(name).read_bytes()
+                    tool("--background", "0a0b0cff", "-o", name)
+                    self.assertEqual(pathlib.Path(name).read_bytes(), expected)
+
+    def test_a_wireframe_lies_over_it(self):
+        self.assert_zbuf("--size", "8x8", "--z-buffer", "none", "--wireframe", "--background", "01020300", "-o", "out.png", stdin=self.CORNER)
+        self.assertEqual({pixel[3] for row in self.picture("out.png") for pixel in row}, {0, 255})
+
+    def test_a_picture_of_the_backgrounds_color_is_not_empty_over_it(self):
+        text = self.CORNER.replace("250 120 7", "0 0 0")
+        self.assert_zbuf("--size", "8x8", "--z-buffer", "none", "--background", "00000000", "-o", "out.png", stdin=text)
+        self.assertEqual(self.picture("out.png")[7][0], (0, 0, 0, 255))
+
+    def test_bands_are_joined(self):
+        words = ["--size", "8x8", "--z-buffer", "none", "--samples", "2", "--background", "01020300"]
+        self.assert_zbuf(*words, "-o", "whole.png", stdin=self.CORNER)
+        for name, rows in (("a.png", "0:3"), ("b.png", "3:4"), ("c.png", "4:8")):
+            self.assert_zbuf(*words, "--rows", rows, "-o", name, stdin=self.CORNER)
+        self.assertEqual(subprocess.run([SOURCE / "scripts/join-images", "a.png", "b.png", "c.png", "-o", "joined.png"], capture_output=True).stderr, b"")
+        self.assertEqual(self.picture("joined.png"), self.picture("whole.png"))
+        self.assert_zbuf(*words[:-1], "010203", "--rows", "3:4", "-o", "opaque.png", stdin=self.CORNER)
+        done = subprocess.run([SOURCE / "scripts/join-images", "a.png", "opaque.png", "-o", "joined.png"], capture_output=True)
+        self.assertEqual((done.returncode, done.stderr.decode()), (1, "join-images: opaque.png: expected a PNG with alpha of 8 columns as a.png, found a PNG of 8\n"))
+
+    def test_only_a_png_holds_it(self):
+        expected = "expected an opaque background, or -o FILE.png: no other image can be transparent, found "
+        for name in ("out.bmp", "out.ppm", "-"):
+            done = run("zbuf", "--size", "8x8", "--background", "01020300", "-o", name, stdin=self.CORNER)
+            self.assertEqual((done.returncode, done.stderr.decode()), (2, f"zbuf: --background: {expected}'01020300' (try zbuf --help)\n"))
+            done = run("zbuf", "--size", "8x8", "-o", name, stdin="background 1 2 3 254\n" + self.CORNER)
+            self.assertEqual((done.returncode, done.stderr.decode()), (1, f"zbuf: <stdin>:1:12: {expected}an alpha of 254\n"))
+        self.assert_zbuf("--size", "8x8", "--seen", "-", stdin="background 1 2 3 254\n" + self.CORNER)  # no image
 
 
 if __name__ == "__main__":
