@@ -52,11 +52,12 @@ std::string window(double limit) {
   return "the window from " + rounded(limit) + " to " + rounded(-limit);
 }
 
-/// "(z is 0.6, the limit of the config is 0.5)"; a limit that is the default is a plane of the camera.
-std::string beside_limit(double low, double high, double limit, double default_limit, const char* plane) {
-  const bool is_plane = limit == default_limit;
-  return "(" + range('z', low, high, limit) + ", the limit " + (is_plane ? "" : "of the config ") + "is " +
-         rounded(limit) + (is_plane ? std::string(", the camera's ") + plane : "") + ")";
+/// "(z is 0.6, the limit of the config is 0.5)"; or, if the limit is a plane of the camera, "(z is 0.6, the
+/// limit is 0.5, the camera's near)".
+std::string beside_limit(double low, double high, double limit, bool is_plane, const char* plane,
+                         const char* space = "") {
+  return "(" + range('z', low, high, limit) + space + ", the limit " + (is_plane ? "" : "of the config ") +
+         "is " + rounded(limit) + (is_plane ? std::string(", the camera's ") + plane : "") + ")";
 }
 
 std::string where(UnseenReason reason, const BoundingBox& extent, const Viewport& screen) {
@@ -64,12 +65,13 @@ std::string where(UnseenReason reason, const BoundingBox& extent, const Viewport
   const double left = screen.left, bottom = screen.bottom;
   switch (reason) {
     case UnseenReason::before_front:
-      return "before the front limit " + beside_limit(low.z, high.z, screen.front, -1, "near");
+      return "before the front limit " +
+             beside_limit(low.z, high.z, screen.front, screen.front == -1, "near");
     case UnseenReason::beyond_rear:
       if (low.z == 1 && high.z == 1 && screen.rear == 1)  // the limit itself, which belongs to no pixel
         return "at the camera's far, which shows nothing (z is 1, perhaps rounded: a near that is too close "
                "to the eye leaves z no digits)";
-      return "beyond the rear limit " + beside_limit(low.z, high.z, screen.rear, 1, "far");
+      return "beyond the rear limit " + beside_limit(low.z, high.z, screen.rear, screen.rear == 1, "far");
     case UnseenReason::left:
       return "left of the window (" + range('x', low.x, high.x, left) + ", " + window(left) + ")";
     case UnseenReason::right:
@@ -113,12 +115,6 @@ std::string where(OutsidePart part, const BoundingBox& extent) {
   return "above the view volume";
 }
 
-std::string beside_limit_in_view(double low, double high, double limit, bool is_plane, const char* plane) {
-  return "(" + range('z', low, high, limit) + " in view space, the limit " +
-         (is_plane ? "" : "of the config ") + "is " + rounded(limit) +
-         (is_plane ? std::string(", the camera's ") + plane : "") + ")";
-}
-
 std::string where(SpherePlace place, const UnseenSpheres& spheres) {
   const auto& [count, low, high] = spheres.groups[static_cast<std::size_t>(place)];
   switch (place) {
@@ -126,10 +122,10 @@ std::string where(SpherePlace place, const UnseenSpheres& spheres) {
       return behind_eye(low, high);
     case SpherePlace::before_front:
       return "before the front limit " +
-             beside_limit_in_view(low, high, spheres.front, spheres.front_is_near, "near");
+             beside_limit(low, high, spheres.front, spheres.front_is_near, "near", " in view space");
     case SpherePlace::beyond_rear:
       return "beyond the rear limit " +
-             beside_limit_in_view(low, high, spheres.rear, spheres.rear_is_far, "far");
+             beside_limit(low, high, spheres.rear, spheres.rear_is_far, "far", " in view space");
     case SpherePlace::left:
       return "left of the window";
     case SpherePlace::right:
@@ -173,9 +169,8 @@ bool is_like_color(Vec3 channels) {
 }
 
 constexpr const char* kReachesTheSeenSide =
-    " reaches the side that is seen (put a light on the eye's side; ambient 0.2 0.2 0.2 would show "
-    "it "
-    "from anywhere)";
+    " reaches the side that is seen (put a light on the eye's side; ambient 0.2 0.2 0.2 would show it from "
+    "anywhere)";
 
 /// Why no light shows on surfaces whose colors are not black.
 std::string reason_of_darkness(const SurfaceShader& shader) {
