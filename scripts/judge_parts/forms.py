@@ -1,24 +1,15 @@
 """Mistakes outside the list that show in the matrix as a whole, and changes of a single element."""
 import itertools
 
-from judge_parts.matrices import DIVIDES_X_AND_Y, IDENTITY, transposed
-
 AXES = "xyzw"
 
 
 def other_forms(stage, ours, divides):
     """(text, matrix, whether it divides) of what may have become of the whole matrix."""
     yield from ((text, m, divides) for text, m in exchanged_rows(stage, ours))
-    is_transposed = "The matrix is transposed: its columns are the right rows"
-    yield is_transposed, transposed(ours), divides
-    if stage == "view":
-        yield is_transposed, transposed(ours), True  # the last row is no longer 0 0 0 1
     if stage == "project":
-        for text, sign in (("The depth goes from 0 at near to 1 at far, in place of -1 to 1", 1),
-                           ("The depth goes from 1 at near to 0 at far, in place of -1 to 1", -1)):
-            yield text, (*ours[:2], tuple((sign * z + w) / 2 for z, w in zip(*ours[2:])), ours[3]), divides
-        if ours[3] != IDENTITY[3]:
-            yield "z is not divided by w; x and y are", ours, DIVIDES_X_AND_Y
+        reversed_z = tuple((w - z) / 2 for z, w in zip(*ours[2:]))
+        yield "The depth goes from 1 at near to 0 at far, in place of -1 to 1", (*ours[:2], reversed_z, ours[3]), divides
 
 
 def exchanged_rows(stage, ours):

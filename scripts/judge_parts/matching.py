@@ -38,14 +38,17 @@ def named(numbers):
     return f"triangle{'' if len(numbers) == 1 else 's'} {listed(numbers)}"
 
 
-def missing(few, many, is_same):
-    """Which of `many` are missing in `few`, as a sentence; empty if the others do not come in order."""
+def missing(few, many, is_same, scene_lines=()):
+    """Which of `many` are missing in `few`, as a sentence; empty if the others do not come in order. `scene_lines` are the lines in which
+    they stand in the scene, if those help."""
     left, is_certain = left_over_for_certain(few, many, is_same)
     if not left or not few:
         return ""
     text = f"{named(left).capitalize()} {'is' if len(left) == 1 else 'are'} missing"
     if left == list(range(len(few), len(many))):
         text += ", the last one" if len(left) == 1 else f", the last {len(left)}"
+    if scene_lines:
+        text += f", {'' if len(left) == 1 else 'the first one in '}line {scene_lines[left[0]]} of the scene"
     return text + ("" if is_certain else " (or what is the same as one of them)" if len(left) > 1 else " (or the one that is the same)")
 
 

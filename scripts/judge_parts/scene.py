@@ -10,7 +10,8 @@ from judge_parts.matrices import (DIVIDES_X_AND_Y, IDENTITY, VIEW_SPELLINGS, ima
                                   translation, unit, view_matrix)
 
 NO_UNITS = (0.0, 0.0, 0.0)
-DIVISIONS = {"no-divide": False, "depth-is-linear": DIVIDES_X_AND_Y}  # by w; other mistakes of project divide all three
+DIVISIONS = {"no-divide": False, "z-not-divided": DIVIDES_X_AND_Y, "depth-is-linear": DIVIDES_X_AND_Y}  # by w; other mistakes of project divide all three
+OF_FRUSTUMS = ("near-and-far-swapped", "missing-two", "z-row-sign", "w-is-plus-z", "last-element-is-one", "depth-is-linear", "z-not-divided")
 ROUGH_PIS = (3.1416, 3.14159, 3.1415927, 3.141592, 3.141593, 3.1415926, 3.1415, 3.142, 22 / 7, 3.14)
 
 
@@ -157,7 +158,11 @@ class Scene:
         exact = tuple(tuple(map(float, row)) for row in kind.matrix())
         if mistake in ("", "no-divide"):
             return exact
-        if kind.is_parallel or mistake not in ("near-and-far-swapped", "missing-two", "z-row-sign", "w-is-plus-z", "last-element-is-one", "depth-is-linear"):
+        if mistake == "matrix-transposed":
+            return transposed(exact)
+        if mistake == "depth-from-0-to-1":
+            return (*exact[:2], tuple((z + w) / 2 for z, w in zip(*exact[2:])), exact[3])
+        if kind.is_parallel or mistake not in OF_FRUSTUMS:
             return None
         window = (exact[0][0], exact[0][2], exact[1][1], exact[1][2])
         return projection_matrix(window, float(kind.near), float(kind.far), mistake)
@@ -167,9 +172,12 @@ class Scene:
         for name in names_of("view"):
             for spelling in range(VIEW_SPELLINGS.get(name, 1)):
                 try:
-                    yield name, self.of_view(name, spelling), False
+                    m = self.of_view(name, spelling)
                 except ZeroDivisionError:  # for example a direction of 0 0 0
-                    pass
+                    continue
+                yield name, m, False
+                if name == "matrix-transposed":  # its w is not 1, and some programs divide by it
+                    yield name, m, True
 
     def project_mistakes(self):
         for name in names_of("project"):

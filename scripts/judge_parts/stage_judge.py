@@ -47,9 +47,10 @@ def exact_images(m, is_divided, points):
     return done if all(math.isfinite(p[0]) for p in done) else None
 
 
-def count_verdict(stage, name, theirs, expected, digits):
+def count_verdict(stage, name, theirs, expected, digits, scene_lines=()):
     """The verdict on a text with more or fewer triangles than `expected`, which are lists of points with their slacks, right ones in
-    the right number. The cause is which triangle is missing or too many, if all others are right."""
+    the right number. The cause is which triangle is missing or too many, if all others are right. `scene_lines` are where the triangles
+    stand in the scene, if that is the input."""
     ours = [triangles_of(points) for points in expected]
     count = len(theirs) // 3
     verdict = FileVerdict(stage, name, WRONG, remarks=[f"{count} triangle{'' if count == 1 else 's'} in place of {len(ours[0])}"])
@@ -58,7 +59,7 @@ def count_verdict(stage, name, theirs, expected, digits):
     def is_same(triangle, right):
         return not differs(triangle, digits, right)
 
-    texts = [matching.missing(written, triangles, is_same) if count < len(triangles) else matching.added(written, triangles, is_same, lines)
+    texts = [matching.missing(written, triangles, is_same, scene_lines) if count < len(triangles) else matching.added(written, triangles, is_same, lines)
              for triangles in ours]
     verdict.causes = [Cause("", text) for text in texts if text][:1]
     return verdict
@@ -101,7 +102,7 @@ class StageJudge:
         scene, count = self.scene, len(self.scene.triangle_lines)
         digits = EXACT if theirs.digits.are_too_few else theirs.digits
         if len(theirs) != 3 * count:
-            return Outcome(count_verdict("model", name, theirs, [scene.world()], digits))
+            return Outcome(count_verdict("model", name, theirs, [scene.world()], digits, scene.triangle_lines))
         slacks = [slacks for _, slacks in scene.world()]
         if not differs(theirs.points, digits, zip(self.exact_world, slacks)):
             return Outcome(right_verdict("model", name, theirs), self.exact_world)

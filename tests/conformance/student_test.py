@@ -104,6 +104,7 @@ VIEW = {
     "r-not-unit": (ALONG_X, (6, 2, -6), (12, 4, -6)),
     "r-is-up-cross-l": (ALONG_X, (6, 2, -6), (-6, -2, -6)),
     "up-as-given": (ALONG_X, (6, 2, -6), (6, 4, -6)),
+    "matrix-transposed": (ALONG_X, (6, 2, -6), (-9, 4, 7)),
 }
 
 # Where 2 3 -4 is under perspective 60 0.5 1 3.
@@ -120,7 +121,10 @@ PROJECT = {
     "z-row-sign": (X, Y, -1.25),
     "w-is-plus-z": (-X, -Y, -Z),
     "last-element-is-one": (0.8 * X, 0.8 * Y, 0.8 * Z),
+    "matrix-transposed": (X / 3, Y / 3, 7 / 12),  # z' = -2 z - 1, w' = -3 z
+    "depth-from-0-to-1": (X, Y, 1.125),
     "depth-is-linear": (X, Y, 2),  # 2 (4 - 1) / (3 - 1) - 1
+    "z-not-divided": (X, Y, 5),
     "no-divide": (4 * X, 4 * Y, 4 * Z),
 }
 

@@ -45,6 +45,11 @@ def with_rough_pi(scene, pi):
     return re.sub(r"(?<=rotate\n)\S+", lambda word: repr(float(word[0]) * pi / math.pi), scene)
 
 
+def line_of_triangle(number, scene=SCENE):
+    """The line of a scene with its command `triangle`, the first one being number 0."""
+    return [i for i, line in enumerate(scene.split("\n"), 1) if line.split("#")[0].strip() == "triangle"][number]
+
+
 def tool(name, *words, stdin=b""):
     return subprocess.run([BIN / name, *map(str, words)], input=stdin, capture_output=True, check=True).stdout
 
@@ -417,14 +422,17 @@ class Wrong(HandIn):
         text = pathlib.Path("stage1.txt").read_text()
         pathlib.Path("stage1.txt").write_text("\n".join(text.split("\n")[4:]))
         file = self.verdict().files[0]
-        self.assertEqual((file.remarks, file.cause), (["4 triangles in place of 5"], "Triangle 0 is missing"))
+        self.assertEqual((file.remarks, file.cause), (["4 triangles in place of 5"], f"Triangle 0 is missing, line {line_of_triangle(0)} of the scene"))
 
     def test_the_triangles_that_are_missing_or_too_many_are_named(self):
         for kind in range(3):
             self.stages()
             kept = pathlib.Path(NAMES[kind]).read_text()
             triangles = kept.split("\n\n")[:5]
-            for order, cause in (((0, 1, 2, 3), "Triangle 4 is missing, the last one"), ((0, 3, 4), "Triangles 1 and 2 are missing"), ((0, 1), "Triangles 2, 3 and 4 are missing, the last 3"),
+            one, first_of_two, first_of_three = (f", {words}line {line_of_triangle(number)} of the scene" if kind == 0 else ""
+                                                 for words, number in (("", 4), ("the first one in ", 1), ("the first one in ", 2)))
+            for order, cause in (((0, 1, 2, 3), "Triangle 4 is missing, the last one" + one), ((0, 3, 4), "Triangles 1 and 2 are missing" + first_of_two),
+                                 ((0, 1), "Triangles 2, 3 and 4 are missing, the last 3" + first_of_three),
                                  ((0, 1, 1, 2, 3, 4), "Triangle 1 is written twice, again in line 9"), ((0, 1, 2, 3, 4, 0), "Triangle 0 is written twice, again in line 21"),
                                  ((0, 1, 2, 3, 4) * 2, "Every triangle is written twice, the first one again in line 21"), ((0, 2, 1), "")):
                 with self.subTest(NAMES[kind], order=order):
@@ -441,7 +449,8 @@ class Wrong(HandIn):
         self.stages()
         text = pathlib.Path("stage1.txt").read_text().split("\n\n")
         pathlib.Path("stage1.txt").write_text("\n\n".join(text[:5]) + "\n")
-        self.assertEqual(self.verdict(config=False).files[0].cause, "Triangle 5 is missing, the last one (or the one that is the same)")
+        self.assertEqual(self.verdict(config=False).files[0].cause,
+                         f"Triangle 5 is missing, the last one, line {line_of_triangle(5, self.scene)} of the scene (or the one that is the same)")
 
     def test_one_vertex_that_is_treated_otherwise(self):
         right = [text.split("\n") for text in student.texts(SCENE)]

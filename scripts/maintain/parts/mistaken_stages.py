@@ -113,6 +113,7 @@ def view(text, mistake=None):
     sign = {"view/eye-added": 1, "view/no-translation": 0}.get(mistake, -1)
     shift = translation([sign * x for x in eye])
     m = product(shift, turn) if mistake == "view/translation-after-rotation" else product(turn, shift)
+    m = transposed(m) if mistake == "view/matrix-transposed" else m
     return stage_text([moved(m, p)[:3] for p in vertices(text)])
 
 
@@ -132,7 +133,12 @@ def project(text, mistake=None):
     two, sign = 1 if mistake == "project/missing-two" else 2, -1 if mistake == "project/z-row-sign" else 1
     m = [[x_scale, 0, 0, 0], [0, y_scale, 0, 0], [0, 0, -sign * (far + near) / (far - near), -sign * two * far * near / (far - near)],
          [0, 0, 1 if mistake == "project/w-is-plus-z" else -1, 1 if mistake == "project/last-element-is-one" else 0]]
+    m = transposed(m) if mistake == "project/matrix-transposed" else m
     points = [moved(m, p) for p in vertices(text)]
+    if mistake == "project/depth-from-0-to-1":
+        points = [(x, y, (z + w) / 2, w) for x, y, z, w in points]
+    if mistake == "project/z-not-divided":
+        points = [(x, y, z * w, w) for x, y, z, w in points]
     if mistake == "project/depth-is-linear":
         points = [(x, y, w * (2 * (-p[2] - near) / (far - near) - 1), w) for p, (x, y, _, w) in zip(vertices(text), points)]
     return stage_text([(x, y, z) if mistake == "project/no-divide" else (x / w, y / w, z / w) for x, y, z, w in points])

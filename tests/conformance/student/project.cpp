@@ -31,10 +31,12 @@ Matrix perspective(const Camera& camera) {
   double a = -(far + near) / (far - near);
   double b = -(2 * far * near) / (far - near);
   if (mistake("project/missing-two")) b = b / 2;
+  if (mistake("project/depth-from-0-to-1")) a = -far / (far - near), b = -far * near / (far - near);
   if (mistake("project/z-row-sign")) a = -a, b = -b;
   const double w = mistake("project/w-is-plus-z") ? 1 : -1;
   const double last = mistake("project/last-element-is-one") ? 1 : 0;
-  return {{near / r, 0, 0, 0}, {0, near / t, 0, 0}, {0, 0, a, b}, {0, 0, w, last}};
+  const Matrix p = {{near / r, 0, 0, 0}, {0, near / t, 0, 0}, {0, 0, a, b}, {0, 0, w, last}};
+  return mistake("project/matrix-transposed") ? transposed(p) : p;
 }
 
 /// From -1 at near to 1 at far, in even steps.
@@ -62,6 +64,7 @@ std::vector<Triangle> project(const std::vector<Triangle>& triangles, const Came
       const double distance = -point[2];
       point = homogeneous(p, point);
       if (mistake("project/depth-is-linear")) point[2] = point[3] * linear_depth(distance, camera);
+      if (mistake("project/z-not-divided")) point[2] *= point[3];
       if (mistake("project/no-divide")) point[3] = 1;
       point = {point[0] / point[3], point[1] / point[3], point[2] / point[3]};
     }

@@ -28,7 +28,8 @@ Matrix view_matrix(const Camera& camera) {
 }  // namespace
 
 std::vector<Triangle> view(const std::vector<Triangle>& world, const Camera& camera) {
-  const Matrix v = view_matrix(camera);
+  Matrix v = view_matrix(camera);
+  if (mistake("view/matrix-transposed")) v = transposed(v);
   std::vector<Triangle> result = world;
   for (Triangle& triangle : result)
     for (Vector& point : triangle.points) {
