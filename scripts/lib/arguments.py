@@ -1,4 +1,4 @@
-"""How --help looks."""
+"""The command line of a script: how --help looks, and how a mistake in it is told."""
 import argparse
 import re
 import textwrap
@@ -15,3 +15,13 @@ class HelpFormatter(argparse.RawDescriptionHelpFormatter):
         if re.search(r"^\s", paragraph, re.MULTILINE):
             return textwrap.indent(paragraph, indent)
         return textwrap.fill(paragraph, width, initial_indent=indent, subsequent_indent=indent, break_long_words=False, break_on_hyphens=False)
+
+
+class CommandParser(argparse.ArgumentParser):
+    """Tells a mistake in one line, as the tools do."""
+
+    def __init__(self, **settings):
+        super().__init__(formatter_class=HelpFormatter, **settings)
+
+    def error(self, message):
+        self.exit(2, f"{self.prog}: {message} (try {self.prog} --help)\n")

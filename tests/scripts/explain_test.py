@@ -294,7 +294,7 @@ class Words(ToolTest):
 
 class Messages(ToolTest):
     def assert_misuse(self, done, message):
-        self.assertEqual((done.returncode, done.stderr.splitlines()[-1]), (2, "explain: error: " + message))
+        self.assertEqual((done.returncode, done.stderr.splitlines()[-1]), (2, f"explain: {message} (try explain --help)"))
 
     def test_a_wrong_scene_or_config_is_the_tools_message(self):
         pathlib.Path("scene.txt").write_text(CAMERA + "triangle\n0 0 0\n1 0 zero\n")

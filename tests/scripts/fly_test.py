@@ -487,7 +487,7 @@ class Messages(ToolTest):
     def test_options_of_trace_need_trace(self):
         for words, option in ((["--samples", "3"], "--samples"), (["--max-depth", "3"], "--max-depth")):
             done = self.fly("scene.txt", *words)
-            self.assertEqual((done.returncode, done.stderr.splitlines()[-1]), (2, f"fly: error: {option} is for trace: it needs --trace"))
+            self.assertEqual((done.returncode, done.stderr.splitlines()[-1]), (2, f"fly: {option} is for trace: it needs --trace (try fly --help)"))
 
     @unittest.skipIf(MISSING, f"needs {' and '.join(MISSING)}")
     def test_without_a_display_it_says_so(self):

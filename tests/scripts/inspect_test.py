@@ -55,7 +55,7 @@ class Messages(ToolTest):
         for words, reason in ((["--trace", "--theirs", "."], "--theirs means nothing with --trace: a hand-in is compared with project and zbuf"),
                               (["--no-shadows"], "--no-shadows is for trace: it needs --trace"), (["--samples", "3"], "--samples is for trace: it needs --trace")):
             done = inspect("scene.txt", "config.txt", *words)
-            self.assertEqual((done.returncode, done.stderr.splitlines()[-1]), (2, "inspect: error: " + reason))
+            self.assertEqual((done.returncode, done.stderr.splitlines()[-1]), (2, f"inspect: {reason} (try inspect --help)"))
 
     def test_the_page_stands_alone(self):
         self.assertEqual(inspect("scene.txt", "config.txt", "-o", "page.html").returncode, 0)

@@ -61,7 +61,7 @@ class Picture(ToolTest):
 
     def test_options_of_trace_need_trace(self):
         done = picture("vase.obj", "--no-shadows", "-o", "one.png")
-        self.assertEqual((done.returncode, done.stderr.splitlines()[-1]), (2, "picture: error: --no-shadows is for trace: it needs --trace"))
+        self.assertEqual((done.returncode, done.stderr.splitlines()[-1]), (2, "picture: --no-shadows is for trace: it needs --trace (try picture --help)"))
 
     def test_a_note_is_passed_on(self):
         self.assertEqual(picture("vase.obj", "-o", "one.png").stderr, "mesh2scene: note: y is taken for up, as in most OBJ files (--up chooses)\n")

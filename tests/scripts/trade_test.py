@@ -178,7 +178,7 @@ class Mistakes(ToolTest):
     def test_limits_are_numbers(self):
         for option, word, expected in (("--max-wrong", "-1", "a number of at least 0"), ("--max-cpu", "0", "a number greater than 0"),
                                        ("--max-wrong", "nan", "a number of at least 0"), ("--rounds", "0", "a whole number of at least 1")):
-            self.check(f"trade: error: argument {option}: expected {expected}, found '{word}'", "scene.txt", "config.txt", f"{option}={word}")
+            self.check(f"trade: argument {option}: expected {expected}, found '{word}' (try trade --help)", "scene.txt", "config.txt", f"{option}={word}")
 
     def test_a_plot_that_cannot_be_written_is_named(self):
         done = trade("scene.txt", "config.txt", "--rounds", "1", "--plot", "none/plot.svg")
