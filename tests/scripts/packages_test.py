@@ -164,7 +164,7 @@ class Demo(ToolTest):
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         self.assertEqual(sorted(path.name for path in tree.iterdir()), ["build", "out", "samples", "scripts"])
         made = sorted(path.name for path in (tree / "out/worked-example").iterdir())
-        self.assertEqual(made, ["out.bmp", "stage1.txt", "stage2.txt", "stage3.txt", "z_buffer.txt"])
+        self.assertEqual(made, ["out.bmp", "picture.png", "stage1.txt", "stage2.txt", "stage3.txt", "z_buffer.txt"])
         end = done.stdout.partition("made:\n")[2]
         for name in made:
             self.assertIn(f" {(tree / 'out/worked-example' / name).stat().st_size} out/worked-example/{name}\n", end)
