@@ -196,7 +196,7 @@ class Ci(Tree):
         self.put("scripts/check", "#!/bin/sh\necho failed: A.B\necho 'skipped: C.D: no moon'\necho 3 passed, 1 failed, 1 skipped\nexit 1\n")
         self.set_tests("asan", ("Overflows.Here", "false"))
         self.set_tests("fuzz", ("Ends.Early", "false"), ("A.B", GTEST_SKIP, "SKIP_REGULAR_EXPRESSION", r"\[  SKIPPED \]"))
-        done = self.ci()
+        done = self.ci("--matrix")
         self.assert_ends(done, 1, "failed: gcc, release: all tests: A.B", "skipped: gcc, release: all tests: C.D: no moon",
                          "failed: gcc, ASan and UBSan: all tests: Overflows.Here", "failed: clang, ASan and UBSan: modules: Ends.Early",
                          "skipped: clang, ASan and UBSan: modules: A.B: no moon tonight", done.stdout.splitlines()[-1])
