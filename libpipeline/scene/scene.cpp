@@ -100,7 +100,10 @@ Command SceneReader::next() {
     return EndCommand{};
   }
   if (keyword == "color" || is_appearance_keyword(keyword)) return read_appearance(keyword);
-  line_.fail(expected_commands(), spelling_hint(keyword, kCommands));
+  const bool is_vertex =
+      has_triangle_ && keyword.find_first_not_of("+-.0123456789") == std::string_view::npos;
+  line_.fail(expected_commands(),
+             is_vertex ? " (a triangle has three vertices)" : spelling_hint(keyword, kCommands));
 }
 
 /// The commands that are allowed here.
@@ -110,11 +113,14 @@ std::string SceneReader::expected_commands() const {
     commands +=
         "; before the first triangle also color, attributes, background, light, ambient, material or "
         "attenuation";
-  else if (appearance_.columns().color)
-    commands += "; also color";
-  if (!has_triangle_ && !appearance_.materials.empty()) commands += "; also absorption";
-  if (appearance_.materials.size() > 1) commands += "; also use";
-  return commands + ")";
+  std::string others;
+  const auto add = [&](const char* command) {
+    others += (others.empty() ? "; also " : " and ") + std::string(command);
+  };
+  if (has_triangle_ && appearance_.columns().color) add("color");
+  if (!has_triangle_ && !appearance_.materials.empty()) add("absorption");
+  if (appearance_.materials.size() > 1) add("use");
+  return commands + others + ")";
 }
 
 /// Reads a color or light command. All but `color` must come before the first triangle.

@@ -358,7 +358,7 @@ TEST(Scene, NamesColorWhereItMayChange) {
 TEST(Scene, AFourthVertexIsNoCommand) {
   EXPECT_EQ(error_of_commands("triangle\n0 0 0\n1 0 0\n0 1 0\n1 1 0\nend\n"),
             "scene.txt:9:1: expected a command (triangle, sphere, translate, scale, rotate, push, pop or "
-            "end), found '1'");
+            "end), found '1' (a triangle has three vertices)");
 }
 
 TEST(Scene, ATriangleLacksAVertex) {
