@@ -118,7 +118,7 @@ std::string named(TextKind expected) {
   }
 }
 
-std::string described(TextKind found) {
+std::string described(TextKind found, TextKind expected) {
   switch (found) {
     case TextKind::scene:
       return "a scene: model reads those";
@@ -127,7 +127,8 @@ std::string described(TextKind found) {
     case TextKind::view:
       return "the output of view: project reads that";
     case TextKind::ndc:
-      return "the output of project: zbuf reads that";
+      return expected == TextKind::config ? "the output of project: is the config before it missing?"
+                                          : "the output of project: zbuf reads that";
     case TextKind::triangles:
       return "triangles: CONFIG comes before INPUT";
     case TextKind::editor_screen:
@@ -188,7 +189,7 @@ void expect_kind(TextReader& text, TextKind expected) {
   const auto [found, first_line] = beginning_of(text);
   if (excludes(found, expected))
     throw InputError(first_line.location(),
-                     "expected " + named(expected) + ", but this looks like " + described(found));
+                     "expected " + named(expected) + ", but this looks like " + described(found, expected));
 }
 
 void expect_header(const StageReader& reader, TextKind expected) {

@@ -35,7 +35,7 @@ class Threads(ToolTest):
     def test_help_says_so(self):
         for tool in FILTERS:
             self.assertRegex(re.sub(r"\s+", " ", run(tool, "--help").stdout.decode()),
-                             r"--threads N Accepted for compatibility; one thread does the work, from 1 to 256")
+                             r"--threads N Of no effect, as one thread does the work \(zbuf and trace have several\), from 1 to 256")
 
     def test_their_number_is_limited_as_it_was(self):
         for count in ("0", "257", "-1", "x"):

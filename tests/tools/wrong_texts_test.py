@@ -150,7 +150,7 @@ add_claims(Configs, [
     ("a scene is no config", SCENE, "a scene: model reads those"),
     ("the output of model is no config", "eye 0 0 5\n", "the output of model: view reads that"),
     ("the output of view is no config", "perspective 60 1 1 9\n", "the output of view: project reads that"),
-    ("the output of project is no config", "projected ortho -1 1 -1 1 1 9\n", "the output of project: zbuf reads that"),
+    ("the output of project is no config", "projected ortho -1 1 -1 1 1 9\n", "the output of project: is the config before it missing?"),
     ("config and input are in their order", "0 0 0.5\n1 0 0.5\n0 1 0.5\n\n0 0 0.5\n", "triangles: CONFIG comes before INPUT"),
 ])
 
