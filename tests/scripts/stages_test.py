@@ -51,6 +51,10 @@ class Stages(ToolTest):
     def left(self, folder="."):
         return sorted(name for name in os.listdir(folder) if folder != "." or name not in self.before)
 
+    def test_an_option_that_is_not_there_is_named(self):
+        done = run_stages("scene.txt", "--size", "640x480", "out")
+        self.assertEqual((done.returncode, done.stderr.decode()), (2, "stages: there is no option --size (try stages --help)\n"))
+
     def test_too_few_operands_are_named(self):
         for words, found in (((), "0 operands"), (("scene.txt",), "1 operand"), (("scene.txt", "config.txt", "a", "b"), "4 operands")):
             done = run_stages(*words)
