@@ -9,6 +9,7 @@ from judge_parts.points import is_off, printed_tolerance, read_points
 from judge_parts.reference import reference
 from judge_parts.report import remarks_of, sentence
 from judge_parts.shown import read_colors
+from judge_parts.verdict import FAILED
 from lib.command import CommandFailure, shown
 
 KINDS = {"model": "stage1", "view": "stage2", "project": "stage3"}
@@ -51,7 +52,12 @@ class Theirs:
         colors = self.read("picture", lambda data, name: read_colors(data, name, self.ours.window, self.ours.background))
         return None if colors is None else base64.b64encode(b"".join(b"".join(row) for row in colors)).decode()
 
+    def words_of(self, file):
+        """A file's verdict; of one that is right after a wrong one, what it was judged by."""
+        before = [other.file for other in self.verdict.files[:self.verdict.files.index(file)] if other.verdict in FAILED]
+        return file.verdict + (f", given their {before[-1]}" if file.is_good and before else "")
+
     def as_json(self):
-        files = [{"stage": file.stage, "file": file.file, "verdict": file.verdict, "isGood": file.is_good, "differing": file.differing, "largest": file.largest, "remarks": "; ".join(remarks_of(file)),
+        files = [{"stage": file.stage, "file": file.file, "verdict": self.words_of(file), "isGood": file.is_good, "differing": file.differing, "largest": file.largest, "remarks": "; ".join(remarks_of(file)),
                   "matrices": file.matrices.lines() if file.matrices else []} for file in self.verdict.files]
         return {"folder": shown(self.folder), "sentence": sentence(self.verdict), "files": files, "stages": {tool: self.stage(tool) for tool in KINDS}, "picture": self.picture()}

@@ -1,7 +1,7 @@
 // A student's stages over ours: the judge's verdict, and what differs.
 
 const MOST_LISTED = 500;  // vertices of a stage
-const FACES = [["image", "show theirs"], ["their image", "show what differs"], ["where theirs differs", "show ours"]];
+const FACES = [["our image", "show theirs"], ["their image", "show what differs"], ["where theirs differs", "show ours"]];
 
 class TheirsPanel {
   // `select(name)` is called for a triangle that is chosen.
@@ -46,7 +46,7 @@ class TheirsPanel {
     const rgb = bytesOf(this.theirs.picture), ours = pictures.fragments.rgb;
     let face = 0;
     button.hidden = false;
-    button.textContent = FACES[0][1];
+    [title.textContent, button.textContent] = FACES[0];
     button.onclick = () => {
       face = (face + 1) % FACES.length;
       [title.textContent, button.textContent] = FACES[face];

@@ -355,7 +355,7 @@ class InABrowser(ToolTest):
         self.assertEqual(len(matrix), 5)
         self.assertIn("\n".join(matrix), self.browser.run("return document.querySelector('#theirs pre').textContent"))
         self.assertEqual(self.browser.run("return [...document.querySelectorAll('figcaption .good, figcaption .bad')].map(e => [e.className, e.textContent])"),
-                         [["good", "stage1.txt: right"], ["bad", "stage2.txt: wrong"], ["good", "stage3.txt: right"], ["good", "out.bmp: right"], ["good", "z_buffer.txt: right"]])
+                         [["good", "stage1.txt: right"], ["bad", "stage2.txt: wrong"], *(["good", f"{name}: right, given their stage2.txt"] for name in ("stage3.txt", "out.bmp", "z_buffer.txt"))])
 
     def test_theirs_lists_and_marks_what_differs(self):
         def change():
@@ -405,10 +405,14 @@ class InABrowser(ToolTest):
         theirs, ours = ([bytes(row[i:i + 3]) for row in read_picture(path)[2] for i in range(0, len(row), 3)] for path in ("theirs/out.bmp", SAMPLE / "out.bmp"))
         read = ("const d = document.getElementById('image').getContext('2d').getImageData(0, 0, 400, 400).data; let s = '';"
                 "for (let i = 0; i < d.length; ++i) if (i % 4 < 3) s += String.fromCharCode(d[i]); return btoa(s)")
-        faces = []
+        title = "return document.getElementById('image').closest('figure').querySelector('figcaption').firstChild.textContent"
+        self.assertEqual(self.browser.run(title), "our image")
+        faces, titles = [], []
         for _ in range(3):
             self.browser.run("document.getElementById('whose').click()")
             faces.append(base64.b64decode(self.browser.run(read)))
+            titles.append(self.browser.run(title))
+        self.assertEqual(titles, ["their image", "where theirs differs", "our image"])
         self.assertEqual(faces[0], b"".join(theirs))
         self.assertEqual(faces[2], b"".join(ours))
         color = bytes(self.browser.run("return document.body.inspector.palette.numbers('--theirs')"))
