@@ -80,13 +80,16 @@ def rotation(radians, axis):
 # view
 def view_matrix(eye, look, up, mistake="", spelling=0):
     """The matrix of view, or what a mistake makes of it. Some mistakes are made in more than one way: `spelling` tells which."""
+    if mistake == "eye-and-look-exchanged":
+        eye, look = look, eye
+    up = {"up-is-a-point": tuple(b - a for a, b in zip(eye, up)), "up-is-0-1-0": (0.0, 1.0, 0.0)}.get(mistake, up)
     l = tuple(look) if mistake == "look-is-a-direction" else tuple(b - a for a, b in zip(eye, look))
     if mistake != "l-not-unit":
         l = unit(l)
     r = cross(up, l) if mistake == "r-is-up-cross-l" else cross(l, up)
     if mistake != "r-not-unit":
         r = unit(r)
-    u = cross(r, l)
+    u = cross(l, r) if mistake == "u-is-l-cross-r" else cross(r, l)
     if mistake == "up-as-given":
         u = unit(up) if spelling else tuple(up)
     elif spelling:

@@ -52,14 +52,17 @@ def sentence(verdict):
     if first[0].cause:
         words += f": {first[0].cause}"
     open_words = "".join(f"; {file.file}: {file.verdict}" for file in undecided)
+    missing = [file for file in rest if file.verdict == MISSING]
+    rest = [file for file in rest if file.verdict != MISSING]
+    open_words = (f"; not handed in: {listed(missing)}" if missing else "") + open_words
     if rest:
         return f"{words}; also wrong, by themselves: {listed_with_causes(rest)}{open_words}"
-    last = [file for file in verdict.files if file.verdict not in OPEN][-1]
+    last = [file for file in verdict.files if file.verdict not in OPEN and file not in missing][-1]
     return words + ("; what follows is right, given that" if first[-1] is not last else "") + open_words
 
 
 def listed_with_causes(files):
     by_reason = {}
     for file in files:
-        by_reason.setdefault(file.cause or (file.verdict if file.verdict == MISSING else ""), []).append(file)
+        by_reason.setdefault(file.cause, []).append(file)
     return ", ".join(listed(group) + (f" ({reason})" if reason else "") for reason, group in by_reason.items())

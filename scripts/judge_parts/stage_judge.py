@@ -117,7 +117,7 @@ class StageJudge:
             verdict.causes = [Cause("", "The points are those of the scene: no transformation is carried out")]
             return Outcome(verdict, untouched)
         if not found and theirs.digits.are_too_few:
-            return Outcome(self.undecided("model", name, theirs))
+            return self.outcome_of_few_digits("model", name, theirs, [zip(self.exact_world, slacks)])
         result = difference(theirs.points, digits, zip(self.exact_world, slacks))
         verdict = self.wrong("model", name, theirs, result)
         place = self.place_of(result.first_triangle)
@@ -192,7 +192,7 @@ class StageJudge:
         causes = MatrixCauses(stage, (ours, divides), mistakes, is_by)
         found = causes.of_the_list()
         if not found and theirs.digits.are_too_few:
-            return Outcome(self.undecided(stage, name, theirs))
+            return self.outcome_of_few_digits(stage, name, theirs, [matrix_images(m, is_divided, reading, reach) for reading in readings for _, m, is_divided in right])
         result = min((difference(theirs.points, digits, matrix_images(ours, divides, reading, reach)) for reading in readings), key=lambda result: result.differing)
         verdict = self.wrong(stage, name, theirs, result)
         found = found or causes.of_the_form() or causes.of_an_element()
@@ -220,6 +220,12 @@ class StageJudge:
         largest, first = (described(pair, theirs.lines) if pair else "" for pair in (result.largest, result.first))
         return FileVerdict(stage, name, WRONG, differing=result.differing, compared=result.compared, largest=largest, first=first)
 
-    @staticmethod
-    def undecided(stage, name, theirs):
-        return FileVerdict(stage, name, TOO_FEW_DIGITS, remarks=[f"it shows {theirs.digits}"])
+    def outcome_of_few_digits(self, stage, name, theirs, expected):
+        """Of a text with too few digits to name a mistake by. It is wrong if it differs from all that is right (lists of points with their
+        slacks) by more than those digits hide."""
+        result = min((difference(theirs.points, theirs.digits, points) for points in expected), key=lambda result: result.differing)
+        if not result.differing:
+            return Outcome(FileVerdict(stage, name, TOO_FEW_DIGITS, remarks=[f"it shows {theirs.digits}"]))
+        verdict = self.wrong(stage, name, theirs, result)
+        verdict.remarks.append(f"it shows {theirs.digits}, too few to name a cause")
+        return Outcome(verdict)

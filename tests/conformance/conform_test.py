@@ -258,7 +258,14 @@ class Runner(unittest.TestCase):
             self.assert_wrong(self.run_one(case, *sh("kill -SEGV $$")), "ended by SIGSEGV")
 
     def test_a_program_that_cannot_be_run(self):
-        self.assert_wrong(self.run_one("model/translate-x", "./no-such-program"), "./no-such-program cannot be run: No such file or directory")
+        for program in ("./no-such-program", "no-such-program", PACK / "mistakes.txt"):
+            done = self.run_one("model/translate-x", program)
+            self.assertEqual((done.returncode, done.stdout, done.stderr), (2, "", f"conform: cannot run {program}: it is not there, or not executable\n"))
+
+    def test_what_is_missing_is_named(self):
+        for words, missing in (((), "--stage and a command are"), (("--stage", "view"), "a command is"), (("--", "true"), "--stage is")):
+            done = conform(*words)
+            self.assertEqual((done.returncode, done.stderr), (2, f"conform: {missing} missing (try conform --help)\n"))
 
     def test_a_failure_shows_the_programs_message(self):
         self.assert_wrong(self.run_one("model/translate-x", *sh("echo 'mine: no camera' >&2; exit 3")), "exit status 3", "found:    mine: no camera")

@@ -98,12 +98,16 @@ VIEW = {
     "eye-added": (ALONG_X, (6, 2, -6), (12, 6, -8)),
     "no-translation": (ALONG_X, (6, 2, -6), (9, 4, -7)),
     "rotation-transposed": (ALONG_X, (6, 2, -6), (-6, 2, 6)),
+    "eye-and-look-exchanged": (ALONG_X, (6, 2, -6), (-6, 2, 2)),
     "look-is-a-direction": ("eye -4 0 -1\nlook 0 0 -1\nup 0 1 0\n", (10, 4, -11), (11, 4, 10)),
     "l-not-unit": (ALONG_X, (6, 2, -6), (6, 8, -24)),
     "l-not-negated": (ALONG_X, (6, 2, -6), (6, 2, 6)),
+    "up-is-a-point": (ALONG_X, (6, 2, -6), (2, -6, -6)),
+    "up-is-0-1-0": ("eye 1 2 3\nlook 5 2 3\nup 0 0 2\n", (-2, 6, -6), (6, 2, -6)),
     "r-not-unit": (ALONG_X, (6, 2, -6), (12, 4, -6)),
     "r-is-up-cross-l": (ALONG_X, (6, 2, -6), (-6, -2, -6)),
     "up-as-given": (ALONG_X, (6, 2, -6), (6, 4, -6)),
+    "u-is-l-cross-r": (ALONG_X, (6, 2, -6), (6, -2, -6)),
     "matrix-transposed": (ALONG_X, (6, 2, -6), (-9, 4, 7)),
 }
 

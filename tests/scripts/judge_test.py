@@ -142,6 +142,14 @@ class Right(HandIn):
         self.assertEqual(verdict.status, 2)
         self.assertEqual(sentence(verdict), "stage3.txt: too few digits to judge")
 
+    def test_two_digits_are_enough_for_points_that_are_far_off(self):
+        self.stages("project/no-divide")
+        text = pathlib.Path("stage3.txt").read_text()
+        pathlib.Path("stage3.txt").write_text("\n".join(" ".join(f"{float(word):.0e}" for word in line.split()) for line in text.split("\n")))
+        file = self.verdict(config=False).files[2]
+        self.assertEqual((file.verdict, file.cause, file.remarks), ("wrong", "", ["it shows 1 significant digits, too few to name a cause"]))
+        self.assertIn("line 1, x of vertex 1 of triangle 0", file.first)
+
     def test_a_short_number_is_not_a_lack_of_digits(self):
         self.scene = "0 0 5\n0 0 0\n0 1 0\n60 1 1 10\ntriangle\n0 0 0\n1 0 0\n0 1 0\nend\n"
         self.stages()
@@ -407,6 +415,13 @@ class Wrong(HandIn):
         self.draw(stage3="moved.txt")
         verdict = self.verdict()
         self.assertEqual(verdict.files[4].verdict, "wrong")
+
+    def test_what_is_missing_behind_a_mistake_is_not_called_wrong(self):
+        self.hand_in(mistake="view/eye-added")
+        for name in NAMES[3:]:
+            pathlib.Path(name).unlink()
+        self.assertEqual(sentence(self.verdict()), "the first stage that went wrong is view (stage2.txt is wrong): The eye is added in place of subtracted; "
+                         "what follows is right, given that; not handed in: z_buffer.txt and out.bmp")
 
     def test_the_triangles_of_a_stage_are_counted_by_its_own_input(self):
         self.stages()

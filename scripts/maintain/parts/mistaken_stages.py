@@ -103,11 +103,13 @@ def camera(header):
 def view(text, mistake=None):
     numbers = camera(text)
     eye, look, up = numbers["eye"], numbers["look"], numbers["up"]
+    eye, look = (look, eye) if mistake == "view/eye-and-look-exchanged" else (eye, look)
+    up = {"view/up-is-a-point": [b - a for a, b in zip(eye, up)], "view/up-is-0-1-0": [0.0, 1.0, 0.0]}.get(mistake, up)
     l = look if mistake == "view/look-is-a-direction" else [b - a for a, b in zip(eye, look)]
     l = l if mistake == "view/l-not-unit" else unit(l)
     r = cross(up, l) if mistake == "view/r-is-up-cross-l" else cross(l, up)
     r = r if mistake == "view/r-not-unit" else unit(r)
-    u = up if mistake == "view/up-as-given" else cross(r, l)
+    u = cross(l, r) if mistake == "view/u-is-l-cross-r" else up if mistake == "view/up-as-given" else cross(r, l)
     turn = with_offset([r, u, l if mistake == "view/l-not-negated" else [-x for x in l]])
     turn = transposed(turn) if mistake == "view/rotation-transposed" else turn
     sign = {"view/eye-added": 1, "view/no-translation": 0}.get(mistake, -1)

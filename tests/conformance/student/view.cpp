@@ -1,17 +1,23 @@
 // Stage 2: world space to view space.
 
+#include <utility>
+
 #include "tests/conformance/student/stages.h"
 #include "tests/conformance/student/switches.h"
 
 namespace {
 
-Matrix view_matrix(const Camera& camera) {
+Matrix view_matrix(Camera camera) {
+  if (mistake("view/eye-and-look-exchanged")) std::swap(camera.eye, camera.look);
+  if (mistake("view/up-is-a-point")) camera.up = minus(camera.up, camera.eye);
+  if (mistake("view/up-is-0-1-0")) camera.up = {0, 1, 0};
   Vector l = minus(camera.look, camera.eye);
   if (mistake("view/look-is-a-direction")) l = camera.look;
   if (!mistake("view/l-not-unit")) l = normalized(l);
   Vector r = mistake("view/r-is-up-cross-l") ? cross(camera.up, l) : cross(l, camera.up);
   if (!mistake("view/r-not-unit")) r = normalized(r);
-  const Vector u = mistake("view/up-as-given") ? camera.up : cross(r, l);
+  Vector u = mistake("view/u-is-l-cross-r") ? cross(l, r) : cross(r, l);
+  if (mistake("view/up-as-given")) u = camera.up;
   const double sign = mistake("view/l-not-negated") ? 1 : -1;
 
   Matrix turn = {
