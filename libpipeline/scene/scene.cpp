@@ -100,8 +100,7 @@ Command SceneReader::next() {
     return EndCommand{};
   }
   if (keyword == "color" || is_appearance_keyword(keyword)) return read_appearance(keyword);
-  const bool is_vertex =
-      has_triangle_ && keyword.find_first_not_of("+-.0123456789") == std::string_view::npos;
+  const bool is_vertex = has_triangle_ && keyword.find_first_of("+-.0123456789") == 0;
   line_.fail(expected_commands(),
              is_vertex ? " (a triangle has three vertices)" : spelling_hint(keyword, kCommands));
 }

@@ -33,7 +33,8 @@ class Digits:
         return self.count < LEAST_DIGITS
 
     def __str__(self):
-        return f"{self.decimals} decimals" if self.decimals is not None else f"{self.significant} significant digits"
+        count, what = (self.significant, "significant digit") if self.decimals is None else (self.decimals, "decimal")
+        return f"{count} {what}{'' if count == 1 else 's'}"
 
 
 EXACT = Digits(None, FINEST)

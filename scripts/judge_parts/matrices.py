@@ -124,13 +124,10 @@ def projection_matrix(window, near, far, mistake=""):
     if mistake == "near-and-far-swapped":
         near, far = far, near
     z_row = (0.0, 0.0, -(far + near) / (far - near), -(1 if mistake == "missing-two" else 2) * far * near / (far - near))
-    if mistake == "depth-from-0-to-1":
-        z_row = (0.0, 0.0, -far / (far - near), -far * near / (far - near))
     if mistake == "z-row-sign":
         z_row = negative(z_row)
     if mistake == "depth-is-linear":  # and z is not divided
         z_row = (0.0, 0.0, -2 / (far - near), -(far + near) / (far - near))
     w_row = (0.0, 0.0, 1.0 if mistake == "w-is-plus-z" else -1.0, 1.0 if mistake == "last-element-is-one" else 0.0)
     x_scale, x_shift, y_scale, y_shift = window
-    m = (x_scale, 0.0, x_shift, 0.0), (0.0, y_scale, y_shift, 0.0), z_row, w_row
-    return transposed(m) if mistake == "matrix-transposed" else m
+    return (x_scale, 0.0, x_shift, 0.0), (0.0, y_scale, y_shift, 0.0), z_row, w_row

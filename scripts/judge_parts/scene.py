@@ -152,16 +152,17 @@ class Scene:
 
     def of_project(self, mistake="", pi=math.pi):
         """The matrix of project; None if the mistake cannot be made with this projection."""
+        if mistake == "matrix-transposed":
+            return transposed(self.of_project())
+        if mistake == "depth-from-0-to-1":
+            x_row, y_row, z_row, w_row = self.of_project()
+            return x_row, y_row, tuple((z + w) / 2 for z, w in zip(z_row, w_row)), w_row
         kind = self.projection
         if kind.kind == "perspective":
             return perspective_matrix(*map(float, kind.numbers), kind.aspect_rule == "ratio", mistake, pi)
         exact = tuple(tuple(map(float, row)) for row in kind.matrix())
         if mistake in ("", "no-divide"):
             return exact
-        if mistake == "matrix-transposed":
-            return transposed(exact)
-        if mistake == "depth-from-0-to-1":
-            return (*exact[:2], tuple((z + w) / 2 for z, w in zip(*exact[2:])), exact[3])
         if kind.is_parallel or mistake not in OF_FRUSTUMS:
             return None
         window = (exact[0][0], exact[0][2], exact[1][1], exact[1][2])

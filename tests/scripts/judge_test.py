@@ -147,7 +147,7 @@ class Right(HandIn):
         text = pathlib.Path("stage3.txt").read_text()
         pathlib.Path("stage3.txt").write_text("\n".join(" ".join(f"{float(word):.0e}" for word in line.split()) for line in text.split("\n")))
         file = self.verdict(config=False).files[2]
-        self.assertEqual((file.verdict, file.cause, file.remarks), ("wrong", "", ["it shows 1 significant digits, too few to name a cause"]))
+        self.assertEqual((file.verdict, file.cause, file.remarks), ("wrong", "", ["it shows 1 significant digit, too few to name a cause"]))
         self.assertIn("line 1, x of vertex 1 of triangle 0", file.first)
 
     def test_a_short_number_is_not_a_lack_of_digits(self):
