@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <memory>
 
 #include "libpipeline/scene/spelling.h"
@@ -52,13 +53,29 @@ const CLI::Option* named_in(const CLI::App& options, const std::string& message)
   return named;
 }
 
+/// An option that is gone, and what to use now.
+struct OldName {
+  std::string_view tool, option, now;
+};
+constexpr std::string_view kOneThread = "one thread does the work";
+constexpr std::string_view kExpectFramed = "now --expect-framed";
+constexpr std::array kOldNames = {
+    OldName{"model", "--threads", kOneThread},      OldName{"view", "--threads", kOneThread},
+    OldName{"project", "--threads", kOneThread},    OldName{"zbuf", "--framed", kExpectFramed},
+    OldName{"trace", "--framed", kExpectFramed},    OldName{"join-seen", "--framed", kExpectFramed},
+    OldName{"mesh2scene", "--up", "now --up-axis"},
+};
+
 /// " (did you mean --image?)" for a word such as --imgae=out.bmp, or nothing.
 std::string option_hint(const CLI::App& options, const std::string& word) {
+  const std::string_view found = std::string_view(word).substr(0, word.find('='));
+  for (const auto& [tool, option, now] : kOldNames)
+    if (tool == options.get_name() && option == found) return " (" + std::string(now) + ")";
   std::vector<std::string> names;
   for (const CLI::Option* option : options.get_options())
     for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
   const std::string_view nearest =
-      nearest_word(word.substr(0, word.find('=')), std::vector<std::string_view>(names.begin(), names.end()));
+      nearest_word(found, std::vector<std::string_view>(names.begin(), names.end()));
   return nearest.empty() ? "" : " (did you mean " + std::string(nearest) + "?)";
 }
 
@@ -233,10 +250,6 @@ void CommandLine::add_number(const std::string& name, const std::string& type_na
   app_->add_option_function<std::string>(name, take, help)
       ->type_name(type_name)
       ->default_str(shortest_text(number));
-}
-
-void CommandLine::add_threads(int& thread_count, const std::string& help) {
-  add_whole("--threads", thread_count, 1, 256, help);
 }
 
 void CommandLine::add_operand(const std::string& name, std::string& word, const std::string& help) {

@@ -52,10 +52,10 @@ class CommandLine {
               const std::string& version);
   ~CommandLine();
 
-  /// The options added from here on stand in this group of --help; those before the first call, with --help,
-  /// in the last one.
+  /// The options added from here on stand in this group of --help; options added earlier go to the last
+  /// group, with --help.
   void begin_group(const std::string& name);
-  /// The first lines of --help, in place of those that follow from the operands.
+  /// The first lines of --help, in place of the lines that follow from the operands.
   void set_usage(const std::string& usage);
   void add_flag(const std::string& name, bool& chosen, const std::string& help);
   /// An option that takes one word of any kind, which --help calls `type_name`.
@@ -87,8 +87,6 @@ class CommandLine {
     const auto take = [&chosen, choices](std::size_t index) { chosen = choices[index].second; };
     add_choice_of_words(name, words, default_word, help, take);
   }
-  /// `--threads`, from 1 to 256.
-  void add_threads(int& thread_count, const std::string& help);
   /// An operand, which may be left out.
   void add_operand(const std::string& name, std::string& word, const std::string& help);
   /// All operands, any number of them.

@@ -11,7 +11,7 @@
 
 namespace pipeline {
 
-/// Watches the triangles of `zbuf` as they are read: whether one shows and, with --stats, what becomes of
+/// Watches the triangles of `zbuf` as they are read: whether one shows and, with --stats, the fate of
 /// each. Takes them in the order of the stream, so the report depends neither on the visibility algorithm nor
 /// on the threads that draw.
 class DrawingReport {

@@ -63,7 +63,7 @@ struct UnseenSpheres {
 /// For `trace`: no ray meets a sphere.
 std::string unseen_spheres_note(const UnseenSpheres& spheres);
 
-/// For `trace`: why what is seen by the light of rays all looks like the background; none if it does not.
+/// For `trace`: why everything that its rays see looks like the background; none if it does not.
 std::optional<std::string> invisible_light_note(const ShownLight& shown, Color background, bool is_lit);
 
 }  // namespace pipeline

@@ -35,9 +35,9 @@ Pixel parsed_pixel(const std::string& word, const Viewport& screen) {
 }
 
 template <typename CoverageRule, typename Depth>
-class ReportOf final : public FragmentReport {
+class FragmentReportOf final : public FragmentReport {
  public:
-  ReportOf(const ZbufOptions& chosen, const Viewport& screen) {
+  FragmentReportOf(const ZbufOptions& chosen, const Viewport& screen) {
     for (const Pixel& pixel : probed_pixels(chosen, screen))
       probes_.emplace_back(screen, pixel, chosen.depth_epsilon);
     if (!chosen.fragments_path.empty()) file_.emplace(chosen.fragments_path, screen, chosen.depth_epsilon);
@@ -95,7 +95,7 @@ class ReportOf final : public FragmentReport {
 
 template <typename CoverageRule, typename Depth>
 std::unique_ptr<FragmentReport> report_of(const ZbufOptions& chosen, const Viewport& screen) {
-  return std::make_unique<ReportOf<CoverageRule, Depth>>(chosen, screen);
+  return std::make_unique<FragmentReportOf<CoverageRule, Depth>>(chosen, screen);
 }
 
 }  // namespace

@@ -43,7 +43,7 @@ int main(int argc, char** argv) {
   std::string first = "0";
   tool.options().add_word(
       "--first", "N", first,
-      "Number the triangles from N on: of a part of a scene (split), so that joined texts of "
+      "Number the triangles from N on: of a part of a scene (cut-scene), so that joined texts of "
       "parts are that of the whole");
   std::string belts;
   tool.options().add_word(
@@ -53,6 +53,7 @@ int main(int argc, char** argv) {
   Statistics statistics(tool.options());
 
   return tool.run(argc, argv, [&] {
+    tool.expect_separate({kStandardOutput, statistics.output()});
     if (bare && framed) throw UsageError(expected_but_found("--bare or --framed", "both"));
     std::size_t first_number = 0;
     if (!parse_count(first, first_number))

@@ -79,6 +79,7 @@ int main(int argc, char** argv) {
   Statistics statistics(tool.options());
 
   return tool.run(argc, argv, [&] {
+    tool.expect_separate({kStandardOutput, statistics.output()}, {projections.scene()});
     check_inset(chosen);
     expect_kind(tool.input(), TextKind::view);
     StageReader reader(tool.input());

@@ -26,7 +26,7 @@ bool is_config(const std::string& path) {
   return kind_of(file.text()) == TextKind::config;
 }
 
-/// Why a picture at another size shows other shapes than at that of the config; none if it does not.
+/// Why a picture at another size shows other shapes than at the config's; none if it does not.
 std::optional<std::string> stretch_note(const Viewport& of_config, const Viewport& screen) {
   const double stretch = static_cast<double>(screen.columns) * of_config.rows /
                          (static_cast<double>(screen.rows) * of_config.columns);
@@ -42,14 +42,20 @@ std::optional<std::string> stretch_note(const Viewport& of_config, const Viewpor
 
 }  // namespace
 
-Viewport read_screen(Tool& tool, const ZbufOptions& chosen) {
-  const bool has_operand = tool.options().is_given("CONFIG");
+NamedFile config_of(Tool& tool, const ZbufOptions& chosen) {
+  const CommandLine& options = tool.options();
+  if (!options.is_given("CONFIG")) return {};
+  if (chosen.size.empty() || options.is_given("INPUT") || is_config(chosen.config_path))
+    return file_or_stream("CONFIG", chosen.config_path, kStandardInput);
+  tool.set_input(chosen.config_path);
+  return {};
+}
+
+Viewport read_screen(Tool& tool, const ZbufOptions& chosen, const NamedFile& config) {
   const std::optional<Viewport> size = parse_size(chosen.size);
-  if (size && !tool.options().is_given("INPUT") && !(has_operand && is_config(chosen.config_path))) {
-    if (has_operand) tool.set_input(chosen.config_path);
-    return *size;
-  }
-  if (!has_operand) throw UsageError(expected_but_found("an operand CONFIG, or --size", "none"));
+  const bool has_config = !config.name.empty();
+  if (size && !has_config) return *size;
+  if (!has_config) throw UsageError(expected_but_found("an operand CONFIG, or --size", "none"));
   try {
     InputFile file = tool.second_input(chosen.config_path, "CONFIG");
     expect_kind(file.text(), TextKind::config);

@@ -5,16 +5,23 @@
 
 namespace pipeline {
 
-/// An output of a run.
-struct NamedOutput {
-  std::string option;  // that gives its path; empty for standard output
-  std::string path;    // empty if there is no such output
+/// A file that a run reads or writes.
+struct NamedFile {
+  std::string name;          // the option or operand that gives its path
+  std::string path;          // empty if there is no such file
+  bool is_in_place = false;  // an output that may replace an input of which the same is true
 };
 
-NamedOutput standard_output();
+inline const NamedFile kStandardInput = {"standard input", "/dev/stdin"};
+inline const NamedFile kStandardOutput = {"standard output", "/dev/stdout"};
+inline const NamedFile kStandardError = {"standard error", "/dev/stderr"};
 
-/// A UsageError if two of a run's outputs end up in one regular file or one pipe, where one would replace the
-/// other or both would mix. Devices may be shared.
-void expect_separate(const std::vector<NamedOutput>& outputs);
+/// The file of an option or operand whose "-" means `stream`.
+NamedFile file_or_stream(const std::string& name, const std::string& path, const NamedFile& stream);
+
+/// A UsageError if an output of a run ends up in one regular file or one pipe with another, where one would
+/// replace the other or both would mix, or with an input. Devices may be shared, and standard output with
+/// standard error.
+void expect_separate(const std::vector<NamedFile>& outputs, const std::vector<NamedFile>& inputs);
 
 }  // namespace pipeline

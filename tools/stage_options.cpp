@@ -34,8 +34,6 @@ NumberOptions::NumberOptions(CommandLine& options) {
   options.add_choice<Precision>(
       "--precision", precision_, {{"double", Precision::in_doubles}, {"extended", Precision::extended}},
       "extended: every coordinate printed is correctly rounded, or noted; double: faster");
-  options.add_threads(ignored_thread_count_,
-                      "Of no effect, as one thread does the work (zbuf and trace have several)");
 }
 
 NumberFormat NumberOptions::format() const {

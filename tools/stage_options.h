@@ -13,8 +13,7 @@
 
 namespace pipeline {
 
-/// `--digits` and `--precision`: how coordinates are calculated and printed. Also takes `--threads`, which
-/// changes nothing.
+/// `--digits` and `--precision`: how coordinates are calculated and printed.
 class NumberOptions {
  public:
   explicit NumberOptions(CommandLine& options);
@@ -26,7 +25,6 @@ class NumberOptions {
  private:
   std::string digits_ = "7";
   Precision precision_ = Precision::extended;
-  int ignored_thread_count_ = 1;
 };
 
 /// The camera as options, and `--scene`, which takes it from a scene file.
@@ -37,6 +35,8 @@ class CameraOptions {
 
   CameraOptions(CommandLine& options, Parts parts);
 
+  /// The argument of --scene.
+  [[nodiscard]] NamedFile scene() const { return file_or_stream("--scene", scene_path_, kStandardInput); }
   /// The camera from the options; parts missing there come from the scene, and parts missing in both from
   /// `header`. An InputError, located at the option or in the scene, if a part is wrong.
   [[nodiscard]] CameraParameters camera(const CameraParameters& header, const Tool& tool) const;
@@ -52,6 +52,7 @@ class ProjectionOptions {
  public:
   explicit ProjectionOptions(CommandLine& options);
 
+  [[nodiscard]] NamedFile scene() const { return camera_.scene(); }
   /// The projection from the options, else from the scene, else from the text's header. An InputError if
   /// there is none.
   [[nodiscard]] Located<Projection> projection(const StageReader& reader, const Tool& tool) const;

@@ -1,7 +1,5 @@
 #include "tools/statistics.h"
 
-#include <unistd.h>
-
 #include <array>
 
 #include "libpipeline/text/text_writer.h"
@@ -19,12 +17,17 @@ std::string printed(const CoordinateExtent::Coordinate& coordinate, NumberFormat
 Statistics::Statistics(CommandLine& options) {
   options.add_word(
       "--stats", "FILE", path_,
-      "Write what became of the triangles, and their extents, as lines 'key value'; - is standard "
-      "error");
+      "Write what became of the triangles, and their extents, as lines 'key value'; /dev/stderr shows them",
+      [](const std::string& path) {
+        return path == "-"
+                   ? expected_but_found(
+                         "a file, as standard output carries the data (/dev/stderr shows them)", "'-'")
+                   : std::string();
+      });
 }
 
 void Statistics::open() {
-  if (is_wanted() && path_ != "-") file_.emplace(path_);
+  if (is_wanted()) file_.emplace(path_);
 }
 
 void Statistics::add(std::string_view key, std::uint64_t count) {
@@ -58,7 +61,6 @@ void Statistics::finish() {
 
 void Statistics::commit() {
   if (file_) file_->commit();
-  if (path_ == "-") write_all(STDERR_FILENO, lines_, "<stderr>");
 }
 
 }  // namespace pipeline

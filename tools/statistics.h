@@ -14,13 +14,15 @@
 
 namespace pipeline {
 
-/// `--stats`: counts and extents of a run, a line "key value" each, in a file or on stderr.
+/// `--stats`: counts and extents of a run, a line "key value" each, in a file.
 class Statistics {
  public:
   explicit Statistics(CommandLine& options);
 
   [[nodiscard]] bool is_wanted() const { return !path_.empty(); }
-  [[nodiscard]] NamedOutput output() const { return {"--stats", path_ == "-" ? "" : path_}; }
+  [[nodiscard]] NamedFile output() const {
+    return path_ == kStandardError.path ? kStandardError : NamedFile{"--stats", path_};
+  }
   /// Opens the file, if one is requested, before the work: a name that cannot be written is an error at once.
   void open();
   void add(std::string_view key, std::uint64_t count);
@@ -30,13 +32,13 @@ class Statistics {
   void add(const BoundingBox& extent);
   /// Writes and closes the file.
   void finish();
-  /// Moves the file to its name, or prints the lines on stderr.
+  /// Moves the file to its name.
   void commit();
 
  private:
   void add_range(std::string_view axis, const CoordinateExtent::Range& range, NumberFormat format);
 
-  std::string path_;  // empty: not requested; "-": stderr
+  std::string path_;  // empty: not requested
   std::string lines_;
   std::optional<OutputFile> file_;
 };

@@ -11,6 +11,7 @@
 
 #include "libpipeline/stream/stage_reader.h"
 #include "libpipeline/text/error.h"
+#include "libpipeline/text/output_file.h"
 #include "tools/version.h"
 
 namespace pipeline {
@@ -27,8 +28,8 @@ void print_on_stderr(const std::string& line) {
   std::fprintf(stderr, "%s\n", on_one_line(line).c_str());
 }
 
-/// Opens those of stdin, stdout and stderr that the caller has closed, for the wrong direction: using them
-/// remains an error, and no file of ours gets their numbers.
+/// Reopens closed standard descriptors on /dev/null in the wrong direction: using them remains an error, and
+/// no file of ours gets their numbers.
 void open_closed_descriptors() {
   for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
     if (::fcntl(descriptor, F_GETFD) < 0)
@@ -45,6 +46,21 @@ bool is_pipe(int descriptor) {
 /// and cleaned up.
 void make_file_size_limit_an_error() {
   std::signal(SIGXFSZ, SIG_IGN);
+}
+
+std::string end_line;  // for the handler
+
+/// Ends the process by the signal, as without this handler, but without files that are not finished.
+void end_cleanly(int number) {
+  if (remove_unfinished()) static_cast<void>(::write(STDERR_FILENO, end_line.data(), end_line.size()) < 0);
+  std::signal(number, SIG_DFL);
+  ::raise(number);  // which comes when this has returned
+}
+
+void end_cleanly_at_signals(const std::string& tool) {
+  end_line = tool + ": ended by a signal; unfinished files are removed\n";
+  for (const int number : {SIGINT, SIGTERM, SIGHUP})
+    if (std::signal(number, end_cleanly) == SIG_IGN) std::signal(number, SIG_IGN);  // by nohup
 }
 
 /// Lets the pipe behind a file descriptor hold 1 MiB, where the system can do that and allows it, so that the
@@ -100,6 +116,19 @@ InputFile Tool::second_input(const std::string& path, const std::string& name) c
   return InputFile(path);
 }
 
+void Tool::expect_separate(const std::vector<NamedFile>& outputs, std::vector<NamedFile> inputs) {
+  if (!has_own_operands_) {
+    inputs.push_back(file_or_stream("INPUT", input_path_, kStandardInput));
+    inputs.back().is_in_place = true;
+  }
+  try {
+    pipeline::expect_separate(outputs, inputs);
+  } catch (const UsageError&) {
+    if (is_last_stage()) output_kind_ = OutputKind::other_text;
+    throw;
+  }
+}
+
 int Tool::run(int argc, char** argv, const std::function<void()>& work) {
   if (!has_own_operands_) options_.add_operand("INPUT", input_path_, input_help_);
   try {
@@ -107,12 +136,15 @@ int Tool::run(int argc, char** argv, const std::function<void()>& work) {
   } catch (const UsageError& error) {
     return fail_misuse(error.what());
   }
-  return status_of([&] {
+  const int status = status_of([&] {
+    end_cleanly_at_signals(name_);
     enlarge_pipe(STDOUT_FILENO);
     work();
     close_output();
     if (wants_timing_) report_timing();
   });
+  if (status != kExitDone) remove_unfinished();
+  return status;
 }
 
 /// Prints the text of --help or --version.

@@ -6,6 +6,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "libpipeline/stream/stage_text.h"
 #include "libpipeline/text/text_reader.h"
@@ -13,6 +14,7 @@
 #include "tools/command_line.h"
 #include "tools/exit_status.h"
 #include "tools/out_of_memory.h"
+#include "tools/separate_outputs.h"
 
 namespace pipeline {
 
@@ -80,6 +82,9 @@ class Tool {
   void set_input(const std::string& path) { input_path_ = path; }
   /// Opens a text besides the input. A UsageError that names it `name` if both are standard input.
   [[nodiscard]] InputFile second_input(const std::string& path, const std::string& name) const;
+  /// A UsageError if an output of the run is another one, or an input: the operand INPUT or one of `inputs`.
+  /// It writes nothing to a file.
+  void expect_separate(const std::vector<NamedFile>& outputs, std::vector<NamedFile> inputs = {});
   /// The output is a stage text from now on, though the tool's is another one.
   void write_stage_text() { output_kind_ = OutputKind::stage_text; }
   /// Standard output.

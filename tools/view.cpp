@@ -54,6 +54,7 @@ int main(int argc, char** argv) {
   Statistics statistics(tool.options());
 
   return tool.run(argc, argv, [&] {
+    tool.expect_separate({kStandardOutput, statistics.output()}, {cameras.scene()});
     expect_kind(tool.input(), TextKind::world);
     StageReader reader(tool.input());
     expect_header(reader, TextKind::world);

@@ -7,7 +7,6 @@
 #include "libpipeline/picture/image_file.h"
 #include "tools/render.h"
 #include "tools/screen.h"
-#include "tools/separate_outputs.h"
 #include "tools/statistics.h"
 #include "tools/tool.h"
 #include "tools/zbuf_options.h"
@@ -33,8 +32,9 @@ int main(int argc, char** argv) {
   return tool.run(argc, argv, [&] {
     chosen.complete(::isatty(STDOUT_FILENO) == 1);
     if (chosen.seen_path == "-") tool.write_stage_text();
-    expect_separate(outputs_of(chosen, statistics));
-    const Viewport whole = read_screen(tool, chosen);
+    const NamedFile config = config_of(tool, chosen);
+    tool.expect_separate(outputs_of(chosen, statistics), {config});
+    const Viewport whole = read_screen(tool, chosen, config);
     const Viewport screen = chosen.rows.empty() ? whole : chosen.drawn_part(whole);
     chosen.check_limits(screen);
     if (chosen.has_image()) check_image_size(chosen.image_path, screen.columns, screen.drawn_row_count());

@@ -9,15 +9,6 @@
 #include "tools/surface_shading.h"
 
 namespace pipeline {
-namespace {
-
-NamedOutput text_output(const std::string& option, const std::string& path) {
-  if (path == "-") return standard_output();
-  return {option, path};
-}
-
-}  // namespace
-
 void ZbufOptions::complete(bool is_terminal) {
   const bool image_is_output = image_path == "-", seen_is_output = seen_path == "-";
   if (image_is_output && seen_is_output)
@@ -76,13 +67,17 @@ void ZbufOptions::check_limits(const Viewport& screen) const {
   });
 }
 
-std::vector<NamedOutput> outputs_of(const ZbufOptions& chosen, const Statistics& statistics) {
+std::vector<NamedFile> outputs_of(const ZbufOptions& chosen, const Statistics& statistics) {
+  const std::string depths = chosen.z_buffer_path == "none" ? "" : chosen.z_buffer_path;
+  NamedFile seen = file_or_stream("--seen", chosen.seen_path, kStandardOutput);
+  seen.is_in_place = true;
   return {{"--image", chosen.image_path},
-          text_output("--z-buffer", chosen.z_buffer_path == "none" ? "" : chosen.z_buffer_path),
+          file_or_stream("--z-buffer", depths, kStandardOutput),
           {"--depth-image", chosen.depth_image_path},
           {"--fragments", chosen.fragments_path},
-          text_output("--seen", chosen.seen_path),
-          statistics.output()};
+          seen,
+          statistics.output(),
+          chosen.probes.empty() ? NamedFile() : kStandardError};
 }
 
 }  // namespace pipeline

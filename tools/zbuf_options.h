@@ -49,7 +49,7 @@ struct ZbufOptions {
   bool summarizes = false;          // on stderr, as the depths are not shown on the terminal
 
   void add_to(CommandLine& options);
-  // Some of them, for other tools that make pictures; without `has_seen`, the help names no --seen.
+  // Some of them, for other tools that make pictures; `has_seen`: whether the help mentions --seen.
   void add_screen_and_outputs(CommandLine& options, bool has_seen);
   void add_samples(CommandLine& options);
   void add_shading(CommandLine& options);
@@ -67,7 +67,7 @@ struct ZbufOptions {
 };
 
 /// The files and pipes of a run that makes a picture.
-std::vector<NamedOutput> outputs_of(const ZbufOptions& chosen, const Statistics& statistics);
+std::vector<NamedFile> outputs_of(const ZbufOptions& chosen, const Statistics& statistics);
 
 /// Calls visit<Rule, Depth>() for the coverage rule and the depth format chosen.
 template <typename Visitor>
@@ -108,7 +108,8 @@ inline void ZbufOptions::add_to(CommandLine& options) {
   options.add_word(
       "--seen", "FILE", seen_path,
       "Write the triangles that a pixel or sample shows, as text that zbuf reads and that gives "
-      "the same picture; - is standard output. With it, no image and no depths unless asked for");
+      "the same picture; - is standard output, and the input may be replaced. With it, no image and no "
+      "depths unless asked for");
   options.begin_group("Pixels");
   add_type_choice(options, "--coverage", CoverageRules(), coverage, "Which pixels a triangle covers.");
   options.add_choice<Algorithm>(
@@ -123,7 +124,7 @@ inline void ZbufOptions::add_to(CommandLine& options) {
       "Draw a triangle only where it is nearer than the visible one by more than E; the result then depends "
       "on the order of the triangles");
   add_samples(options);
-  options.add_threads(thread_count, "How many threads draw with the z-buffer");
+  options.add_whole("--threads", thread_count, 1, 256, "How many threads draw with the z-buffer");
   options.begin_group("Color and light");
   add_shading(options);
   options.add_flag("--wireframe", wireframe,
@@ -145,7 +146,7 @@ inline void ZbufOptions::add_screen_and_outputs(CommandLine& options, bool has_s
   options.begin_group("Output");
   options.add_word("--size", "WIDTHxHEIGHT", size,
                    "The screen's size in place of that in CONFIG, whose limits stay; without CONFIG, x, y "
-                   "and z are shown from -1 to 1",
+                   "and z are shown from -1 to 1. With it, a single operand that holds no config is INPUT",
                    [](const std::string& word) {
                      return parse_size(word) ? std::string()
                                              : expected_but_found("WIDTHxHEIGHT in pixels, such as 400x300",
@@ -160,8 +161,8 @@ inline void ZbufOptions::add_screen_and_outputs(CommandLine& options, bool has_s
                      return name == "-" ? std::string() : wrong_with_name(check_image_name)(name);
                    });
   options.add_word("--z-buffer", "FILE", z_buffer_path,
-                   std::string("Where the depths go; - is standard output, none is nowhere (default: -, but "
-                               "none with -o -") +
+                   std::string("Where the depths go; - is standard output, none is nowhere, ./none a file "
+                               "of that name (default: -, but none with -o -") +
                        (has_seen ? ", with --seen and at a terminal)" : " and at a terminal)"));
   options.add_word("--depth-image", "FILE", depth_image_path,
                    "Also write the depths as a 16-bit image, a .pgm or .png file: white at the front limit, "
@@ -200,7 +201,7 @@ inline void ZbufOptions::add_background(CommandLine& options) {
 }
 
 inline void ZbufOptions::add_framed(CommandLine& options) {
-  options.add_flag("--framed", framed,
+  options.add_flag("--expect-framed", framed,
                    "Refuse a text without the frame that model --framed gives it: an empty one may come from "
                    "a stage that was killed");
 }

@@ -14,8 +14,8 @@
 
 namespace pipeline {
 
-/// Enough bits for products of coordinates of 126 bits each: those of texts with more than 7 decimals
-/// (--digits exact) in pictures as usual.
+/// Enough bits for products of coordinates of 126 bits each, as for --digits exact and ordinary picture
+/// sizes.
 using DoublesInt = FixedInt<4>;
 /// Enough bits for all exact geometry in practice: every text with more than 7 decimals (--digits exact),
 /// vertices 10^30 pixels away, coordinates of 10^-30 beside others of 1. In HugeInt, such triangles take some

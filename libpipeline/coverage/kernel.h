@@ -10,7 +10,7 @@
 namespace pipeline {
 
 // The coverage rules for many triangles at a time. A kernel makes the spans for one kind of processor; all
-// make the same ones, to the last bit: those of NearestRows and CenterRows.
+// make the spans of NearestRows and CenterRows, to the last bit.
 
 /// Writes the spans of the triangles, one triangle after the other and row by row, within `rows`, and returns
 /// the end of the last one. There must be room for as many spans as there are rows, for every triangle; the

@@ -234,7 +234,7 @@ TaggedSpan* append_triangles(const Rule& rule, const TriangleLanes& some, const 
   return spans;
 }
 
-/// A function of a CoverageKernel: appends the spans of all triangles.
+/// The body of a kernel: appends the spans of all triangles.
 template <typename Rule>
 TaggedSpan* append_all(const Rule& rule, std::span<const TaggedTriangle> triangles, const RowRange& range,
                        TaggedSpan* spans) {

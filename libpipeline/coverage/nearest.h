@@ -28,10 +28,10 @@ class NearestRows {
   /// Doubles are enough for the depths of a triangle whose depth changes, with its slopes in x and in y, over
   /// the window and the triangle by at most kSteepest times the sum of its vertices' |z|; if its area is more
   /// than kNarrowest of the sum of its two products, and its widest row wider than kNarrowestRow of a pixel.
-  /// (The comparison adds up the three.) The depths of any other triangle are calculated in pairs. What
-  /// follows for their errors: tests/proofs/nearest_depth.g.
+  /// (The comparison adds up the three.) The depths of any other triangle are calculated as
+  /// DoubleDoubles. Error bounds: tests/proofs/nearest_depth.g.
   static constexpr double kSteepest = 0x1p9, kNarrowest = 0x1p-40, kNarrowestRow = 0x1p-12;
-  /// Larger numbers do not occur in that comparison, lest both sides be infinite.
+  /// Both sides of the comparison are clamped to this, so that they cannot both become infinite.
   static constexpr double kHuge = 0x1p1000;
 
   NearestRows(const PixelGrid& grid, const Triangle& p_ndc);

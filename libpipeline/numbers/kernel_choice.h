@@ -7,11 +7,11 @@
 
 namespace pipeline {
 
-/// The kinds of processors that kernels are compiled for, each able to run what is compiled for those before
-/// it of its family.
+/// The kinds of processors that kernels are compiled for. Each can also run the kernels of earlier kinds of
+/// its family.
 inline constexpr std::array<std::string_view, 5> kTargets = {"scalar", "neon", "sse4", "avx2", "avx512"};
 
-/// A function compiled for each of kTargets; null for those of other families.
+/// A function compiled for each of kTargets; null for targets of other families.
 template <typename Function>
 using KernelTable = std::array<Function, kTargets.size()>;
 
@@ -22,7 +22,7 @@ using KernelTable = std::array<Function, kTargets.size()>;
         HWY_CHOOSE_AVX2(function), HWY_CHOOSE_AVX3(function)                             \
   }
 
-/// Whether this processor, of the family compiled for, can run what is compiled for a target.
+/// Whether this processor, of the family compiled for, can run a target's kernels.
 inline bool can_run(std::size_t target) {
 #if defined(__x86_64__) && defined(__GNUC__)
   if (target > 1 && !__builtin_cpu_supports("sse4.2")) return false;

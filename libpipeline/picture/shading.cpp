@@ -33,7 +33,7 @@ std::uint8_t rounded_channel(double value) {
   return static_cast<std::uint8_t>(std::floor(clamped_channel(value) + 0.5));
 }
 
-/// `arriving(light)` is what reaches the point of a light's intensity.
+/// `arriving(light)` is the part of a light's intensity that reaches the point.
 template <typename Arriving>
 Vec3 lit_color_of(const SurfacePoint& point, const Lighting& lighting, const Material& material,
                   const Vec3& to_eye, const Arriving& arriving) {

@@ -18,7 +18,7 @@
 
 namespace pipeline {
 
-/// What the colors of a picture are, as far as it takes to say why nothing can be seen.
+/// Color statistics for the note on an invisible picture.
 struct ShownColors {
   /// A triangle's colors; keeps the greatest channel, or some channel above 1.
   void add_triangle(const std::array<Vec3, 3>& colors);
@@ -89,7 +89,7 @@ class SurfaceShader {
   [[nodiscard]] Color color_at(const Surface& surface, int row, int column) const {
     return color_at(surface, grid_.x_of(column), grid_.y_of(row));
   }
-  /// Adds what such colors have shown.
+  /// Adds the statistics of such colors.
   void add_shown(const ShownColors& shown) { shown_.add(shown); }
 
   /// The colors of all triangles added and pixels shaded so far.

@@ -12,8 +12,8 @@
 
 namespace pipeline {
 
-/// What an affine map makes of a sphere: the points c + u a + v b + w d with u^2 + v^2 + w^2 = 1, where c is
-/// the center and a, b, d are the half axes, which need not be perpendicular.
+/// The image of a sphere under an affine map: the points c + u a + v b + w d with u^2 + v^2 + w^2 = 1, where
+/// c is the center and a, b, d are the half axes, which need not be perpendicular.
 ///
 /// A ray is mapped to the space of u, v and w, where the surface is the unit sphere, and the quadratic
 /// equation for the distance is solved there in pairs of doubles: in doubles, f.f - 1 cancels for a ray that

@@ -10,7 +10,7 @@
 
 namespace pipeline {
 
-/// Asks the coverage rule `center` and its depth for single pixels: what `zbuf` makes of the text that
+/// Asks the coverage rule `center` and its depth for single pixels, as `zbuf` does for the text that
 /// `project --digits exact` writes. For one thread.
 class ExactFragments {
  public:

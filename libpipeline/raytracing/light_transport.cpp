@@ -18,7 +18,7 @@ double largest(const Vec3& v) {
   return std::max({v.x, v.y, v.z});
 }
 
-/// What is left of light behind `length` of a material.
+/// The fraction of light that passes `length` of a material.
 Vec3 passed(const Material& material, double length) {
   const auto channel = [&](double absorption) { return absorption == 0 ? 1 : decay(absorption * length); };
   return {channel(material.absorption.x), channel(material.absorption.y), channel(material.absorption.z)};
@@ -71,7 +71,7 @@ Vec3 LightTransport::Thread::radiance(const SurfaceHit& hit, const Ray& ray) {
   return color;
 }
 
-/// The color at a hit, and what the way there leaves of it.
+/// The color at a hit, attenuated on the way there.
 Vec3 LightTransport::Thread::color_of(const SurfaceHit& hit, const Ray& ray, Path path) {
   Vec3 left = {1, 1, 1};
   if (!hit.is_front && setup_.recurses)
@@ -111,7 +111,7 @@ Vec3 LightTransport::Thread::surface_color(const SurfaceHit& hit, const Ray& ray
   return color;
 }
 
-/// The `share` of what a ray brings that starts on a surface.
+/// The radiance of a ray that starts on a surface, times `share`.
 Vec3 LightTransport::Thread::follow(RayKind kind, const SurfaceRay& ray, const Path& path, double share) {
   Path next = {path.weight * share, path.depth + 1, path.length, 0};
   const bool is_cut = next.weight < setup_.min_contribution || next.depth > setup_.max_depth;
@@ -199,7 +199,7 @@ Vec3 LightTransport::Thread::part_through(const SurfaceHit& hit, const Vec3& lig
     if (!crossing.is_front) part = product(part, passed(m, (crossing.t - last) * whole_length));
     last = crossing.t;
   }
-  // The light is inside what was entered last.
+  // The light is inside the body entered last.
   if (!crossings_.empty() && crossings_.back().is_front)
     part = product(part, passed(setup_.materials[crossings_.back().material], (1 - last) * whole_length));
   return part;

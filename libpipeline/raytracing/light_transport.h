@@ -59,23 +59,23 @@ class LightTransport {
     explicit Thread(const LightTransport& transport)
         : setup_(transport.setup_), caster_(transport.triangles_, transport.bvh_) {}
 
-    /// What a primary ray brings from the surface that it is known to see.
+    /// The radiance of a primary ray from the surface that it is known to see.
     [[nodiscard]] Vec3 radiance(SurfaceId seen, const Ray& ray) {
       return radiance(caster_.seen(seen, ray), ray);
     }
-    /// What it brings from where it meets a surface.
+    /// The radiance from the point where a ray meets a surface.
     [[nodiscard]] Vec3 radiance(const SurfaceHit& hit, const Ray& ray);
-    /// What it brings if it meets nothing.
+    /// The radiance of a ray that meets nothing.
     [[nodiscard]] Vec3 background() const { return setup_.background; }
     [[nodiscard]] const RayCounts& counts() const { return counts_; }
-    /// But for what colors are shown.
+    /// What was seen, except which colors were shown (the caller adds those).
     [[nodiscard]] const ShownLight& shown() const { return shown_; }
     [[nodiscard]] SurfaceCaster& caster() { return caster_; }
     /// From now on, adds every ray to a log; null for none.
     void log_to(RayLog* log) { log_ = log; }
 
    private:
-    /// A ray that is looked along, and what it can contribute to the pixel.
+    /// A ray that is traced, and how much it can contribute to the pixel.
     struct Path {
       double weight;
       int depth;

@@ -63,7 +63,7 @@ class RayCaster {
 
     /// The triangle seen at a pixel, between the depth limits; none if there is none.
     std::optional<Seen> cast(int row, int column, bool wants_depth);
-    /// How often doubles could not tell, or a depth was requested.
+    /// The number of exact evaluations.
     [[nodiscard]] std::uint64_t exact_count() const { return exact_.count(); }
 
    private:

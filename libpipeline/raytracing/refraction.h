@@ -11,7 +11,7 @@ namespace pipeline {
 
 /// The part of unpolarized light that a smooth surface of clear matter mirrors, by Fresnel's equations: 1 if
 /// all of it is reflected, beyond the critical angle. `ratio` is the refractive index on the side of the
-/// light divided by that on the other side, `cosine` that of the angle between light and normal.
+/// light divided by the index on the other side, `cosine` the cosine of the angle between light and normal.
 inline double fresnel_reflectance(double ratio, double cosine) {
   if (ratio == 1) return 0;
   const double square = 1 - ratio * ratio * (1 - cosine * cosine);  // of the refracted ray's cosine

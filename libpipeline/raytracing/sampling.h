@@ -54,8 +54,8 @@ class SamplePlaces {
   int places_;  // in a cell, along each side
 };
 
-/// The numbers of a pixel's samples in the order in which adaptive sampling takes them: those of the corner
-/// cells and of the one in the middle, then the others.
+/// The numbers of a pixel's samples in the order in which adaptive sampling takes them: the corner cells and
+/// the one in the middle come first.
 class SampleOrder {
  public:
   explicit SampleOrder(int count);

@@ -5,7 +5,7 @@
 
 namespace pipeline {
 
-/// What the rays of a picture have seen: for a note on one that shows nothing.
+/// What rays have seen, for the note on a picture that shows nothing.
 struct ShownLight {
   bool has_seen = false;         // a surface
   bool shows_something = false;  // a color other than the background's, by more than one step in a channel

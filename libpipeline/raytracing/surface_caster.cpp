@@ -16,8 +16,8 @@ double largest_in(const Vec3& v) {
   return std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)});
 }
 
-/// A bound on the error, in each coordinate, of the point of a sphere at t of a ray: those of t, of its
-/// product and of the sum.
+/// A bound on the error, in each coordinate, of the point of a sphere at t of a ray: the errors of t, of
+/// its product and of the sum.
 double error_of_point(const Ray& ray, double t) {
   return 0x1p-50 * (largest_in(ray.origin) + std::fabs(t) * largest_in(ray.direction));
 }

@@ -16,14 +16,14 @@
 
 namespace pipeline {
 
-/// Casts rays from anywhere in the scene: finds what they meet, whether the eye sees it or not. For one
-/// thread.
+/// Casts rays from anywhere in the scene: finds the surface they meet, whether the eye sees it or not. For
+/// one thread.
 class SurfaceCaster {
  public:
   /// A hierarchy for any ray (hierarchy_of). Triangles that `project` drops have to be among them.
   SurfaceCaster(const TracedTriangles& triangles, const Bvh& bvh) : triangles_(triangles), bvh_(bvh) {}
 
-  /// What the ray meets first, of equally near surfaces the one with the lower id; none if it meets nothing.
+  /// The first hit, of equally near surfaces the one with the lower id; none if the ray meets nothing.
   [[nodiscard]] std::optional<SurfaceHit> nearest(const SurfaceRay& ray);
   /// The hit of a surface that a primary ray is known to see.
   [[nodiscard]] SurfaceHit seen(SurfaceId id, const Ray& ray);
@@ -47,7 +47,7 @@ class SurfaceCaster {
   [[nodiscard]] std::uint64_t number(SurfaceId id) const { return triangles_.number(id); }
 
  private:
-  /// Those of a sphere that are surely beyond the ray's start.
+  /// The meetings with a sphere that are surely beyond the ray's start.
   using SphereMeetings = Ellipsoid::Meetings;
   [[nodiscard]] SphereMeetings sphere_meetings(SurfaceId id, const SurfaceRay& ray) const;
   [[nodiscard]] SurfaceHit sphere_hit(SurfaceId id, const Ray& ray, const Ellipsoid::Meeting& meeting);
@@ -55,7 +55,7 @@ class SurfaceCaster {
 
   [[nodiscard]] SurfaceHit triangle_hit(SurfaceId id, const Ray& ray, double t,
                                         const std::array<double, 3>& weights);
-  /// Sorts crossings, and leaves one of those that are on the same side of the same place.
+  /// Sorts crossings, and merges those on the same side of the same place into one.
   static void settle(std::vector<Crossing>& crossings);
 
   const TracedTriangles& triangles_;

@@ -14,7 +14,7 @@
 
 namespace pipeline {
 
-/// Projects triangles of a text as `project --digits exact` does, each to what `zbuf` reads of it.
+/// Projects triangles of a text as `project --digits exact` does, and rounds them as `zbuf` reads them.
 class ExactProjection {
  public:
   /// `file` names the text in messages. With `is_lit`, pieces keep the triangle they were cut from.
@@ -34,16 +34,15 @@ class ExactProjection {
   TriangleBatch p_ndc_;
 };
 
-/// All triangles of a text in view space, as the list of those that `project` writes: a triangle that it cuts
-/// stands there once for each of its pieces, one that it drops does not, unless those are kept for rays from
-/// elsewhere than the eye. The place in that list is a triangle's id. A plain triangle takes 80 bytes, colors
-/// and normals another 72 each. The spheres of the text stand beside the list; their ids come after those of
-/// all triangles.
+/// All triangles of a text in view space, in the order in which `project` writes them. A cut triangle has one
+/// entry per piece; a dropped one has none, unless dropped ones are kept for rays from elsewhere than the
+/// eye. An entry's index is its id. A plain triangle takes 80 bytes, colors and normals another 72 each. The
+/// spheres of the text follow: their ids begin after the last triangle's.
 class TracedTriangles {
  public:
   using Id = std::uint32_t;
 
-  /// From now on, adds those that `project` drops, too.
+  /// From now on, adds triangles that `project` drops, too.
   void keep_dropped() { keeps_dropped_ = true; }
   /// Adds the triangles of a batch, and calls `look_at(p_view, p_ndc)` for them in one or several batches;
   /// adds its spheres. An InputError as ProjectionStage::project throws, or at a sphere whose points lie in a
@@ -62,7 +61,7 @@ class TracedTriangles {
   }
   /// Whether `project` drops it.
   [[nodiscard]] bool is_dropped(Id id) const { return !pieces_.empty() && pieces_[id] == kDropped; }
-  /// Whether this entry, of those that one triangle has, stands for it where nothing is cut.
+  /// Whether this is the entry that represents the uncut triangle.
   [[nodiscard]] bool is_first(Id id) const { return piece(id).value_or(0) == 0; }
   [[nodiscard]] std::uint32_t material(Id id) const {
     if (id >= size()) return sphere(id).material;

@@ -11,7 +11,7 @@
 
 namespace pipeline {
 
-/// What doubles can tell of a primary ray and a triangle.
+/// The outcome of a hit test in doubles.
 enum class HitResult {
   miss,
   hit,

@@ -44,7 +44,7 @@ struct Attenuation {
   double quadratic = 0;
 };
 
-/// What a pixel shows that shows no triangle.
+/// The color of a pixel without a triangle.
 struct Background {
   Vec3 color;          // red, green, blue from 0 to 255
   double alpha = 255;  // from 0, invisible, to 255, opaque

@@ -31,7 +31,7 @@ double far_beyond(double near, LineScanner& line) {
   return number_where(line, {"far"}, "beyond near", [&](double value) { return value > near; });
 }
 
-/// Takes the word behind a perspective's numbers, if there is one, to the end of the line.
+/// Takes the optional word after a perspective's numbers, to the end of the line.
 AspectRule read_aspect_rule(LineScanner& line) {
   if (line.at_end()) return AspectRule::angle;
   constexpr std::array<std::string_view, 2> kRules = {"ratio", "angle"};

@@ -6,8 +6,8 @@
 
 namespace pipeline {
 
-/// A color with 8 bits per channel, packed as 0x00RRGGBB. A background may let through what will be behind
-/// the picture: then the upper byte holds 255 less its alpha.
+/// A color with 8 bits per channel, packed as 0x00RRGGBB. A background may let through whatever will be
+/// behind the picture: then the upper byte holds 255 less its alpha.
 class Color {
  public:
   constexpr Color() = default;  // black
@@ -25,7 +25,7 @@ class Color {
     return from_rgb((rgb_ & 0xffffff) | std::uint32_t{255u - alpha} << 24);
   }
 
-  /// All bytes, those of the channels alone where the color is opaque.
+  /// All bytes; of an opaque color only those of its channels.
   [[nodiscard]] constexpr std::uint32_t rgb() const { return rgb_; }
   [[nodiscard]] constexpr std::uint8_t red() const { return static_cast<std::uint8_t>(rgb_ >> 16); }
   [[nodiscard]] constexpr std::uint8_t green() const { return static_cast<std::uint8_t>(rgb_ >> 8); }

@@ -8,7 +8,7 @@
 namespace pipeline {
 namespace {
 
-constexpr std::string_view kTriangle = "triangle\n";
+constexpr std::string_view kTriangle = "triangle\n", kPush = "push\n", kPop = "pop\n";
 
 bool may_begin_number(char c) {
   return (c >= '0' && c <= '9') || c == '-' || c == '+' || c == '.';
@@ -31,6 +31,10 @@ bool is_transform(std::string_view keyword) {
   return keyword == "translate" || keyword == "scale" || keyword == "rotate";
 }
 
+void write_repeated(TextWriter& part, std::string_view command, std::uint64_t count) {
+  for (; count > 0; --count) part.append(command);
+}
+
 /// Moves on to the next line that is not blank, unless a word is left on this one.
 void next_argument_line(TextReader& text, LineScanner& line, std::string_view keyword) {
   if (line.at_end() && !text.next_filled_line(line))
@@ -45,38 +49,49 @@ SceneCutter::SceneCutter(TextReader& text) : text_(text) {
     if (!text_.next_filled_line(line_))
       throw InputError(text_.end_location(),
                        expected_but_found("the four lines of the camera", "the end of the input"));
-    (preamble_ += line_.rest()) += '\n';
+    (preamble_.back().text += line_.rest()) += '\n';
   }
-  find_triangle(preamble_);
+  find_triangle(nullptr);
   is_in_preamble_ = false;
-  levels_in_preamble_ = levels_kept_ = levels_.size();
-  for (Level& level : levels_) level.in_preamble = level.transforms.size();
+  depth_of_preamble_ = depth_kept_ = depth_;
+  for (Commands& level : levels_) level.in_preamble = level.text.size();
 }
 
-std::string SceneCutter::beginning() const {
-  std::string text = preamble_;
-  for (std::size_t i = levels_kept_; i < levels_in_preamble_; ++i) text += "pop\n";
-  const Level& last_kept = levels_[levels_kept_ - 1];
-  text += std::string_view(last_kept.transforms).substr(last_kept.in_preamble);
-  for (std::size_t i = levels_kept_; i < levels_.size(); ++i) (text += "push\n") += levels_[i].transforms;
-  return text + color_ + material_;
+void SceneCutter::add_push(std::vector<Commands>& commands) {
+  if (!commands.back().text.empty()) commands.emplace_back();
+  ++commands.back().push_count;
+}
+
+void SceneCutter::begin(TextWriter& part) const {
+  for (const Commands& commands : preamble_) {
+    write_repeated(part, kPush, commands.push_count);
+    part.append(commands.text);
+  }
+  write_repeated(part, kPop, depth_of_preamble_ - depth_kept_);
+  std::uint64_t depth = 0;
+  for (const Commands& level : levels_) {
+    const std::uint64_t depth_before = depth;
+    depth += level.push_count;
+    if (depth < depth_kept_) continue;
+    write_repeated(part, kPush, depth - std::max(depth_before, depth_kept_));
+    part.append(std::string_view(level.text).substr(depth == depth_kept_ ? level.in_preamble : 0));
+  }
+  part.append(color_);
+  part.append(material_);
 }
 
 void SceneCutter::copy(TextWriter& part, std::size_t end) {
-  std::string commands;
   do {
     if (line_is_pending_)
       copy_triangle(part);
     else
       copy_buffered(part, end);
-    commands.clear();
-    find_triangle(commands);
-    part.append(commands);
+    find_triangle(&part);
   } while (has_triangle_ && position() < end);
 }
 
-/// Copies what comes before the next triangle, or before the scene's end.
-void SceneCutter::find_triangle(std::string& copied) {
+/// Copies the commands before the next triangle, or before the scene's end.
+void SceneCutter::find_triangle(TextWriter* part) {
   has_triangle_ = true;
   while (true) {
     while (text_.buffered().starts_with('\n')) text_.skip(1, 1);
@@ -93,19 +108,20 @@ void SceneCutter::find_triangle(std::string& copied) {
       has_triangle_ = false;
       return;
     }
-    carry_out(copied);
+    carry_out(part);
   }
 }
 
-/// Copies the command that begins on this line, which is no triangle.
-void SceneCutter::carry_out(std::string& copied) {
+/// Copies the command that begins on this line, which is no triangle, to `part`, or, if null, the preamble.
+void SceneCutter::carry_out(TextWriter* part) {
   const LineScanner at_keyword = line_;
   expect_allowed(at_keyword);
   const std::string keyword(line_.word());
   std::string command = keyword + "\n";
   if (keyword == "push") {
     line_.expect_end("'push'");
-    levels_.emplace_back();
+    add_push(levels_);
+    ++depth_;
   } else if (keyword == "pop") {
     line_.expect_end("'pop'");
     pop(at_keyword);
@@ -113,7 +129,7 @@ void SceneCutter::carry_out(std::string& copied) {
     next_argument_line(text_, line_, keyword);
     (command += line_.rest()) += '\n';
     if (is_transform(keyword))
-      levels_.back().transforms += command;
+      levels_.back().text += command;
     else if (keyword == "color" && !is_in_preamble_)
       color_ = command;
     else if (keyword == "use" && !is_in_preamble_)
@@ -121,18 +137,24 @@ void SceneCutter::carry_out(std::string& copied) {
     has_color_ |= keyword == "color" ||
                   (keyword == "attributes" && line_.rest().find("color") != std::string_view::npos);
   }
-  copied += command;
+  if (part != nullptr)
+    part->append(command);
+  else if (keyword == "push")
+    add_push(preamble_);
+  else
+    preamble_.back().text += command;
 }
 
 void SceneCutter::pop(const LineScanner& at_pop) {
-  if (levels_.size() == 1)
+  if (depth_ == 0)
     throw InputError(at_pop.location(),
                      expected_but_found("a matrix that 'push' has saved", "'pop' without one"));
-  levels_.pop_back();
-  levels_kept_ = std::min(levels_kept_, levels_.size());
+  levels_.back() = {levels_.back().push_count - 1};
+  if (levels_.back().push_count == 0 && levels_.size() > 1) levels_.pop_back();
+  depth_kept_ = std::min(depth_kept_, --depth_);
 }
 
-/// Settings stand before the first triangle, or they would hold for some parts alone.
+/// Settings must precede the first triangle; otherwise they would apply to some parts only.
 void SceneCutter::expect_allowed(const LineScanner& at_keyword) const {
   const std::string_view keyword = at_keyword.peek();
   if (is_transform(keyword) || keyword == "push" || keyword == "pop" || keyword == "use") return;

@@ -11,11 +11,11 @@
 
 namespace pipeline {
 
-/// Cuts a scene into parts that are scenes themselves and hold its triangles (and spheres, which are meant,
-/// too, where triangles are) one after the other: a part
-/// begins with camera and settings, goes on with the transforms, the color and the material in force, and
-/// then has commands of the scene as they stand there, without comments. Composed are the same transforms in
-/// the same order, so `model` of all parts is `model` of the scene to the last bit.
+/// Cuts a scene into parts that are scenes themselves and hold its triangles one after the other. ("Triangle"
+/// includes spheres here.) A part begins with camera and settings, goes on with the transforms, the color and
+/// the material in force, and then has commands of the scene as they stand there, without comments. The parts
+/// apply the same transforms in the same order, so `model` of all parts is `model` of the scene to the last
+/// bit.
 ///
 /// Reads keywords and lines but no numbers, which model does. Errors are InputErrors.
 class SceneCutter {
@@ -27,22 +27,23 @@ class SceneCutter {
   [[nodiscard]] bool has_triangle() const { return has_triangle_; }
   /// The number of the next triangle.
   [[nodiscard]] std::uint64_t next_number() const { return next_number_; }
-  /// What a part begins with whose first triangle is the next one.
-  [[nodiscard]] std::string beginning() const;
+  /// Writes the beginning of a part whose first triangle is the next one.
+  void begin(TextWriter& part) const;
   /// Copies the commands from the next triangle on, up to the first triangle at or behind `end`, in bytes
   /// from the scene's beginning.
   void copy(TextWriter& part, std::size_t end);
 
  private:
-  /// Transforms between one push and the next.
-  struct Level {
-    std::string transforms;
-    std::size_t in_preamble = 0;  // so many characters of `transforms`
+  /// So many pushes, and the commands behind them: a repeated push takes no memory.
+  struct Commands {
+    std::uint64_t push_count = 0;
+    std::string text{};
+    std::size_t in_preamble = 0;  // so many characters of `text`
   };
+  static void add_push(std::vector<Commands>& commands);
 
-  void find_triangle(std::string& copied);
-  void carry_out(std::string& copied);
-  void take_arguments(std::string_view keyword, std::string& copied);
+  void find_triangle(TextWriter* part);
+  void carry_out(TextWriter* part);
   void pop(const LineScanner& at_pop);
   void expect_allowed(const LineScanner& at_keyword) const;
   void copy_triangle(TextWriter& part);
@@ -56,12 +57,13 @@ class SceneCutter {
   bool is_in_preamble_ = true;
   bool has_color_ = false;
   std::uint64_t next_number_ = 0;
-  std::string preamble_;  // the scene up to its first triangle
-  std::vector<Level> levels_ = std::vector<Level>(1);
-  std::size_t levels_in_preamble_ = 0;  // at its end
-  std::size_t levels_kept_ = 0;         // the fewest since
-  std::string color_;                   // the last one behind the preamble
-  std::string material_;                // the last `use` there
+  std::vector<Commands> preamble_ = std::vector<Commands>(1);  // the scene up to its first triangle
+  std::vector<Commands> levels_ = std::vector<Commands>(1);    // the pushes and transforms in force
+  std::uint64_t depth_ = 0;                                    // the sum of the pushes
+  std::uint64_t depth_of_preamble_ = 0;                        // at its end
+  std::uint64_t depth_kept_ = 0;                               // the least since
+  std::string color_;                                          // the last one behind the preamble
+  std::string material_;                                       // the last `use` there
 };
 
 }  // namespace pipeline

@@ -95,7 +95,7 @@ auto fixed_columns(Positions& positions, Attributes& attributes, const Attribute
   return columns;
 }
 
-/// The names of all columns: "x y z", then those of the attributes.
+/// The names of all columns: "x y z", then the attributes'.
 std::string column_names(const AttributeSet& attributes);
 
 /// Whether the column w must be above 0, as after the divide, or may be any number, as in clip space.

@@ -15,7 +15,7 @@ namespace pipeline {
 /// Reads the spheres of a stage text's body.
 class SphereReader {
  public:
-  /// `columns` are those of the header; numbers of materials have to be less than `material_count`.
+  /// `columns` come from the header; numbers of materials have to be less than `material_count`.
   SphereReader(TextReader& text, const AttributeSet& columns, std::size_t material_count);
 
   /// Adds the sphere whose first line, `sphere`, is `line`; with `keeps_text`, its text, too. An InputError

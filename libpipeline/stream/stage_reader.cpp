@@ -16,7 +16,7 @@ bool is_vertex(std::string_view word) {
                            (word.front() >= '0' && word.front() <= '9'));
 }
 
-// Of the header, besides those of the appearance.
+// Header keywords besides the appearance's.
 constexpr std::array<std::string_view, 8> kKeywords = {"framed",      "eye",     "look",  "up",
                                                        "perspective", "frustum", "ortho", "projected"};
 

@@ -151,7 +151,7 @@ bool excludes(TextKind found, TextKind expected) {
   return !is_of_any_stage && !has_header;
 }
 
-/// What a project stage does with the projection in the header that it reads.
+/// How a project stage uses the projection in the header that it reads.
 std::string duty_of_project(const StageHeader& header) {
   return header.appearance.lights.empty() ? "drop this line"
                                           : "write 'projected frustum L R B T N F' (or ortho) in its place";

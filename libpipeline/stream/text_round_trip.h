@@ -4,9 +4,9 @@
 
 namespace pipeline {
 
-/// Makes calculated triangles those that a reader gets from their text in the shortest form (--digits exact):
-/// zeros have no sign, and the coordinates whose text is a decimal in exact arithmetic are marked, x and y
-/// alone. For a stage that takes in one what others pass through a pipe.
+/// Rounds calculated triangles as if they had been written in the shortest form (--digits exact) and read
+/// back: zeros lose their sign, and x and y whose text is a decimal in exact arithmetic are marked. For a
+/// tool that does the work of several stages without the text between them.
 void pass_through_text(TriangleBatch& batch);
 
 }  // namespace pipeline

@@ -31,9 +31,9 @@ class TextStore {
   /// neighbors which of its edges are cuts. Pieces follow one another with one number. With `may_go_on`, more
   /// pieces of the last triangle may follow, so it is kept.
   void complete(KeptIds& kept, bool may_go_on) const;
-  /// Keeps those that are kept, under their new ids.
+  /// Drops all texts but the kept ones, which get new ids.
   void keep(const KeptIds& kept);
-  /// Writes those kept as the body of a stage text.
+  /// Writes the kept texts as the body of a stage text.
   void write(TextWriter& text, const KeptIds& kept) const;
 
  private:
@@ -50,7 +50,7 @@ class TextStore {
 
   ChunkedArray<Entry> entries_;
   std::deque<Block> blocks_;  // the texts, one after the other; none is split
-  std::vector<Block> spare_;  // to be filled again: new memory costs more than what it is for
+  std::vector<Block> spare_;  // to be filled again: new memory costs more than the text in it
   std::size_t block_size_ = std::size_t{1} << 16;  // of the next new block
 };
 

@@ -12,7 +12,7 @@ ThreadPool::ThreadPool(int thread_count) {
   try {
     for (int i = 1; i < thread_count; ++i) threads_.emplace_back([this, i] { work(i); });
   } catch (const std::exception&) {
-    // The system refuses to start more threads; those that run do all the work.
+    // The system refuses to start more threads; the running ones do all the work.
   }
 }
 

@@ -18,7 +18,7 @@ namespace pipeline {
 /// A reader passes a batch on when it holds this many triangles.
 constexpr std::size_t kBatchSize = 2048;
 
-/// A sphere, or what an affine map makes of it: its center and the ends of three half axes.
+/// A sphere, or its image under an affine map: its center and the ends of three half axes.
 using SpherePoints = std::array<Vec3, 4>;
 
 /// Triangles on their way through a stage, as arrays with one entry per triangle.

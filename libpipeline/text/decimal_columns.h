@@ -15,7 +15,7 @@ namespace pipeline {
 /// Which of a triangle's coordinates have at most kExactDecimals (number_parser.h): bit 3 * vertex + axis.
 using DecimalMarks = std::uint16_t;
 
-/// Like ReadFixedColumns, for numbers that read_decimal_number reads. `marks` has an entry per triangle.
+/// Like read_fixed_columns, for numbers that read_decimal_number reads. `marks` has an entry per triangle.
 FixedTextPart read_decimal_columns(std::string_view text, TriangleFrame frame, const FixedColumns& columns,
                                    std::span<DecimalMarks> marks);
 

@@ -131,8 +131,8 @@ class NineTexts {
     auto units = (scaled + rounder) - rounder;
     const auto offset = scaled - units;
     if constexpr (exactly) {
-      // A product that is a tie was rounded to it, or is it. What the rounding lost tells on which side it
-      // was.
+      // If the product is a tie, it may have been rounded to one; the rounding error tells which side it
+      // came from.
       const auto lost = hn::MulSub(sizes, scale, scaled);
       const auto is_tie = hn::Eq(hn::Abs(offset), hn::Set(kDoubles, 0.5));
       units = units + hn::IfThenElseZero(hn::And(is_tie, hn::Gt(lost * offset, zero)), offset + offset);

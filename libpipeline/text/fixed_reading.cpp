@@ -177,7 +177,7 @@ class ColumnReader {
   LastRead last_;
   /// Whether the numbers of each group have one digit before the point. Where the last ones had, a branch
   /// lets the processor go ahead to the next number, whose beginning would otherwise depend on this one;
-  /// where they had not, it would often go astray.
+  /// otherwise the branch is mispredicted often.
   std::array<bool, 3> have_one_digit_ = {true, true, true};
   // In the triangle being read:
   hn::Vec<decltype(kSixteen)> no_digits_;  // above 0 where a digit should be

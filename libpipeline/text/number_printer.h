@@ -27,7 +27,7 @@ char* print_number(char* out, double hi, double lo, NumberFormat format);
 /// The same in the shortest form.
 char* print_shortest(char* out, double value);
 
-/// What a float needs at most: -1.17549435e-38 and what may be overwritten behind it.
+/// The longest float, -1.17549435e-38, plus bytes after it that may be overwritten.
 constexpr std::size_t kMaxFloatLength = 32;
 
 /// Prints the shortest text that reads back to the same float, as to_chars does; 0 has no sign. `out` must

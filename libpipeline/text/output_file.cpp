@@ -5,8 +5,10 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <filesystem>
+#include <forward_list>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -23,6 +25,7 @@ constexpr int kMaxAttempts = 1000;  // to find a temporary name
 /// N for a path that names the open descriptor N of this process, else kNone. Such a file must not be
 /// replaced, even if it is a regular one.
 int own_descriptor_of(const std::string& path) {
+  if (path == "/dev/stdin") return STDIN_FILENO;
   if (path == "/dev/stdout") return STDOUT_FILENO;
   if (path == "/dev/stderr") return STDERR_FILENO;
   for (const std::string_view folder : {"/dev/fd/", "/proc/self/fd/"}) {
@@ -32,6 +35,11 @@ int own_descriptor_of(const std::string& path) {
       return static_cast<int>(number);
   }
   return kNone;
+}
+
+bool has_status(const std::string& path, struct stat& status) {
+  const int own_descriptor = own_descriptor_of(path);
+  return (own_descriptor != kNone ? ::fstat(own_descriptor, &status) : ::stat(path.c_str(), &status)) == 0;
 }
 
 /// The end of the chain of symbolic links that begins at `path`, whether or not a file exists there.
@@ -47,23 +55,68 @@ std::string target_of(const std::string& path) {
   throw IoError("open", path, ELOOP);
 }
 
+/// While it exists, the signals of `remove_unfinished` wait.
+class SignalsWait {
+ public:
+  SignalsWait() {
+    sigset_t waiting;
+    sigemptyset(&waiting);
+    for (const int number : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&waiting, number);
+    pthread_sigmask(SIG_BLOCK, &waiting, &before_);
+  }
+  ~SignalsWait() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+  SignalsWait(const SignalsWait&) = delete;
+  SignalsWait& operator=(const SignalsWait&) = delete;
+
+ private:
+  sigset_t before_;
+};
+
+// Only changed while signals wait, so that a handler finds it whole.
+std::forward_list<std::string> unfinished;
+
+void drop_unfinished(const std::string& path) {
+  const SignalsWait wait;
+  unfinished.remove(path);
+}
+
 }  // namespace
 
-std::optional<OutputPlace> place_of_output(const std::string& path) {
+void add_unfinished(const std::string& path) {
+  const SignalsWait wait;
+  unfinished.push_front(path);
+}
+
+void keep_unfinished() {
+  const SignalsWait wait;
+  unfinished.clear();
+}
+
+bool remove_unfinished() noexcept {
+  for (const std::string& path : unfinished)
+    if (::unlink(path.c_str()) != 0) ::rmdir(path.c_str());
+  return !unfinished.empty();
+}
+
+std::optional<FilePlace> place_of(const std::string& path) {
+  if (path.empty()) return std::nullopt;
   struct stat status = {};
-  if (::stat(path.c_str(), &status) != 0) {
-    const std::string target = ::lstat(path.c_str(), &status) == 0 ? target_of(path) : path;
-    if (const int own_descriptor = own_descriptor_of(target); own_descriptor != kNone) {
-      if (::fstat(own_descriptor, &status) != 0) return std::nullopt;
-    } else {
-      const std::size_t name = target.rfind('/') + 1;  // 0 if there is no slash
-      const std::string folder = name == 0 ? "." : target.substr(0, name);
-      if (::stat(folder.c_str(), &status) != 0) return std::nullopt;
-      return OutputPlace{status.st_dev, status.st_ino, target.substr(name)};
-    }
-  }
-  if (S_ISCHR(status.st_mode) || S_ISBLK(status.st_mode)) return std::nullopt;
-  return OutputPlace{status.st_dev, status.st_ino, ""};
+  std::string target = path;
+  if (has_status(path, status) || has_status(target = target_of(path), status))
+    return S_ISREG(status.st_mode) || S_ISFIFO(status.st_mode)
+               ? std::optional(FilePlace{status.st_dev, status.st_ino, ""})
+               : std::nullopt;
+  if (own_descriptor_of(target) != kNone) throw IoError("open", path, errno);
+  const std::size_t name = target.rfind('/') + 1;  // 0 if there is no slash
+  const std::string folder = name == 0 ? "." : target.substr(0, name);
+  if (::stat(folder.c_str(), &status) != 0) return std::nullopt;
+  return FilePlace{status.st_dev, status.st_ino, target.substr(name)};
+}
+
+bool is_replaced(const std::string& path) {
+  const std::string target = target_of(path);
+  struct stat status = {};
+  return own_descriptor_of(target) == kNone && (!has_status(target, status) || S_ISREG(status.st_mode));
 }
 
 OutputFile::OutputFile(const std::string& path) : path_(path), target_(target_of(path)) {
@@ -81,7 +134,9 @@ OutputFile::OutputFile(const std::string& path) : path_(path), target_(target_of
 OutputFile::~OutputFile() {
   if (descriptor_ != kNone) ::close(descriptor_);
   if (unnamed_ != kNone) ::close(unnamed_);
-  if (!temporary_path_.empty()) ::unlink(temporary_path_.c_str());
+  if (temporary_path_.empty()) return;
+  ::unlink(temporary_path_.c_str());
+  drop_unfinished(temporary_path_);
 }
 
 void OutputFile::open_directly(int own_descriptor) {
@@ -110,16 +165,30 @@ bool OutputFile::open_unnamed(const std::string& folder, unsigned mode) {
   return false;
 }
 
+/// Tries temporary names until `make` makes a file of one. Leaves its errno.
+void OutputFile::make_temporary(const std::function<bool(const std::string&)>& make) {
+  for (int i = 0; i < kMaxAttempts; ++i) {
+    std::string name = temporary_name(i);
+    const SignalsWait wait;
+    add_unfinished(name);
+    if (make(name)) {
+      temporary_path_ = std::move(name);
+      return;
+    }
+    const int error = errno;
+    drop_unfinished(name);
+    errno = error;
+    if (error != EEXIST) return;
+  }
+}
+
 void OutputFile::open_beside(bool exists, unsigned mode) {
   const std::string folder = std::filesystem::path(target_).parent_path();
-  if (!open_unnamed(folder.empty() ? "." : folder, mode)) {
-    for (int i = 0; i < kMaxAttempts; ++i) {
-      std::string name = temporary_name(i);
+  if (!open_unnamed(folder.empty() ? "." : folder, mode))
+    make_temporary([&](const std::string& name) {
       descriptor_ = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
-      if (descriptor_ >= 0) temporary_path_ = std::move(name);
-      if (descriptor_ >= 0 || errno != EEXIST) break;
-    }
-  }
+      return descriptor_ >= 0;
+    });
   if (descriptor_ < 0) throw IoError("open", path_, errno);
   // The umask does not apply to an existing file. If chmod fails, the file has fewer permissions, never more.
   if (exists) static_cast<void>(::fchmod(descriptor_, mode));
@@ -138,6 +207,7 @@ void OutputFile::commit() {
   if (unnamed_ != kNone) link_into_place();
   if (temporary_path_.empty()) return;
   if (::rename(temporary_path_.c_str(), target_.c_str()) != 0) throw IoError("replace", path_, errno);
+  drop_unfinished(temporary_path_);
   temporary_path_.clear();
 }
 
@@ -148,11 +218,8 @@ void OutputFile::link_into_place() {
     return ::linkat(AT_FDCWD, file.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0;
   };
   bool is_linked = link_to(target_);
-  for (int i = 0; !is_linked && errno == EEXIST && i < kMaxAttempts; ++i) {
-    std::string name = temporary_name(i);
-    is_linked = link_to(name);
-    if (is_linked) temporary_path_ = std::move(name);
-  }
+  if (!is_linked && errno == EEXIST)
+    make_temporary([&](const std::string& name) { return is_linked = link_to(name); });
   if (!is_linked) throw IoError("replace", path_, errno);
   ::close(unnamed_);
   unnamed_ = kNone;

@@ -2,24 +2,38 @@
 
 #include <sys/types.h>
 
+#include <functional>
 #include <optional>
 #include <string>
 
 namespace pipeline {
 
-/// Where an output ends up: a regular file or a pipe, or a name in a folder that has no such file yet.
-struct OutputPlace {
+/// Where an output ends up, or an input comes from: a regular file or a pipe, or a name in a folder that has
+/// no such file yet.
+struct FilePlace {
   dev_t device = 0;
   ino_t inode = 0;   // of the file; of the folder if the file does not exist
   std::string name;  // empty if the file exists
 
-  bool operator==(const OutputPlace&) const = default;
+  bool operator==(const FilePlace&) const = default;
 };
 
-/// The place of the OutputFile `path`: links are followed, so all names of a file give the same one. Nothing
-/// for a device, which any number of outputs may share, and where opening will fail. An IoError if symbolic
-/// links form a circle.
-std::optional<OutputPlace> place_of_output(const std::string& path);
+/// The place of the file `path`: links are followed, so all names of a file give the same one. Nothing for a
+/// device or a socket, which any number of files may share, and where opening will fail. An IoError if
+/// symbolic links form a circle, and for a descriptor that is not open: it might be another file's later.
+std::optional<FilePlace> place_of(const std::string& path);
+
+/// Whether an OutputFile `path` is a new file or replaces a regular one, complete or not at all.
+bool is_replaced(const std::string& path);
+
+/// Notes a path that this process is about to make and that must not be left if it fails or is ended by a
+/// signal: a file, or a folder of such files.
+void add_unfinished(const std::string& path);
+/// All are what they should be.
+void keep_unfinished();
+/// Removes what was noted and the temporary files of all OutputFiles, the last one first; whether there was
+/// one. A handler of SIGINT, SIGTERM and SIGHUP may call it.
+bool remove_unfinished() noexcept;
 
 /// A file that appears complete or not at all: it is written without a name, or under a temporary one in the
 /// same folder, and `commit` gives it its name. Without `commit` (an exception, say) the written data are
@@ -55,6 +69,7 @@ class OutputFile {
   void open_beside(bool exists, unsigned mode);
   [[nodiscard]] bool open_unnamed(const std::string& folder, unsigned mode);
   void link_into_place();
+  void make_temporary(const std::function<bool(const std::string&)>& make);
   [[nodiscard]] std::string temporary_name(int attempt) const;
 
   std::string path_;

@@ -67,7 +67,7 @@ void NormalTransform::set_rows(const BallVec3& x, const BallVec3& y, const BallV
 Vec3 NormalTransform::operator()(const Vec3& normal) const {
   const Vec3 n = unit_vector(normal);
   const Vec3 image = {dot(rows_[0], n), dot(rows_[1], n), dot(rows_[2], n)};
-  // What is left of a unit vector may be nothing but the rounding errors of doubles.
+  // The rest of a unit vector may be nothing but the rounding errors of doubles.
   constexpr double kNearlyLost = 0x1p-40;
   if (std::max({std::fabs(image.x), std::fabs(image.y), std::fabs(image.z)}) < kNearlyLost)
     return image_in_balls(normal);

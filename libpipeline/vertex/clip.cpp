@@ -5,7 +5,7 @@
 namespace pipeline {
 namespace {
 
-/// -1, 0 or 1: the midpoint of a is below, at or above that of b.
+/// -1, 0 or 1: a's midpoint is below, at or above b's.
 int compare(const Ball& a, const Ball& b) {
   const double difference = (a - b).value().hi;
   return difference < 0 ? -1 : (difference > 0 ? 1 : 0);

@@ -14,6 +14,8 @@ namespace pipeline {
 struct ClipVertex {
   Ball x, y, z, w;
   std::array<double, 3> weights{};
+
+  bool operator==(const ClipVertex&) const = default;
 };
 
 /// The image of a point, with weights 0.

@@ -42,7 +42,7 @@ Appearance ModelStage::appearance() const {
   return appearance;
 }
 
-/// Of the triangles that come out.
+/// The columns of the output triangles.
 AttributeSet ModelStage::columns() const {
   AttributeSet columns = scene_.appearance().columns();
   columns.normal |= facets_.has_value();
@@ -168,7 +168,7 @@ void ModelStage::add_facets(TriangleBatch& batch) {
   ++next_number_;
 }
 
-/// Gives the triangles that have no normals that of their front.
+/// Gives triangles without normals their face normal.
 void ModelStage::add_face_normals(TriangleBatch& batch) const {
   for (std::size_t i = batch.attributes.normals.size(); i < batch.size(); ++i) {
     const auto& [a, b, c] = batch.triangles[i];

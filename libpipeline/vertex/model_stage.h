@@ -16,7 +16,7 @@
 
 namespace pipeline {
 
-/// What becomes of a scene's spheres.
+/// How a scene's spheres are written.
 struct SphereForm {
   bool is_refused = false;
   /// If given, a sphere becomes this many belts of facets (SphereFacets), and all triangles get normals.

@@ -84,7 +84,7 @@ LineAndColumn location_of(const ClipVertex& vertex, const VertexLocations& corne
 }
 
 /// The corners of a triangle relative to the clip planes, as outcodes: the planes that at least one corner is
-/// outside of, and those that all corners are outside of.
+/// outside of, and the planes that all corners are outside of.
 struct TriangleOutcode {
   unsigned any = 0;
   unsigned all = ~0u;
@@ -112,7 +112,7 @@ ProjectionStage::ProjectionStage(const ProjectionTransform& projection, ClipMode
     : projection_(projection),
       clip_(clip),
       cull_(cull),
-      clip_extent_(1 - clip_inset),
+      clip_inset_(clip_inset),
       rounder_(rounder),
       coefficients_(coefficients_of(projection)),
       mirrored_(projection.x_scale.sign() * projection.y_scale.sign() < 0) {}
@@ -166,7 +166,7 @@ bool ProjectionStage::needs_clipping(const Triangle& p_view) const {
 /// margin is far above what their rounding errors, and those of balls, add up to. A coefficient that is NaN
 /// fails every test.
 bool ProjectionStage::is_well_inside(const Triangle& p_view) const {
-  if (clip_extent_ != 1) return false;
+  if (clip_inset_ != 0) return false;
   const auto is_well_below = [](double a, double b, double size) { return b - a > 0x1p-30 * size; };
   return std::all_of(p_view.begin(), p_view.end(), [&](const Vec3& p) {
     const double distance = -p.z, w = w_of(p);
@@ -227,23 +227,31 @@ void ProjectionStage::project_unclipped(const TriangleBatch& p_view, std::size_t
   if (!attributes.materials.empty()) p_ndc.attributes.materials.push_back(attributes.materials[index]);
 }
 
-/// The corners in clip space, their w multiplied by the clip extent: a smaller w pulls in all planes.
+/// The corners in clip space, their w multiplied by 1 - clip_inset, which is exact as a ball: a smaller w
+/// pulls in all planes.
 std::array<ClipVertex, 3> ProjectionStage::corners_in_clip_space(const Triangle& p_view) const {
   std::array<ClipVertex, 3> corners;
   for (std::size_t v = 0; v < 3; ++v) {
     corners[v] = to_clip_space(projection_, p_view[v]);
     corners[v].weights[v] = 1;
-    if (clip_extent_ != 1) corners[v].w = corners[v].w * clip_extent_;
+    if (clip_inset_ != 0) corners[v].w = corners[v].w * (Ball(1) - clip_inset_);
   }
   return corners;
 }
 
 /// The part of the triangle inside the planes of the clip mode, with the true w of its vertices.
-std::vector<ClipVertex> ProjectionStage::clipped(const std::array<ClipVertex, 3>& corners) const {
+std::vector<ClipVertex> ProjectionStage::clipped(const std::array<ClipVertex, 3>& corners,
+                                                 const Triangle& p_view) const {
   std::vector<ClipVertex> polygon =
       clip_ == ClipMode::frustum ? clip_polygon(corners, kAllClipPlanes) : clip_polygon(corners, kNearPlane);
-  if (clip_extent_ != 1)
-    for (ClipVertex& vertex : polygon) vertex.w = vertex.w / clip_extent_;
+  if (clip_inset_ == 0) return polygon;
+  for (ClipVertex& vertex : polygon) {
+    const auto corner = std::ranges::find(corners, vertex);
+    if (corner == corners.end())
+      vertex.w = vertex.w / (Ball(1) - clip_inset_);
+    else  // to divide again would lose digits
+      vertex.w = w_of(p_view[static_cast<std::size_t>(corner - corners.begin())]);
+  }
   return polygon;
 }
 
@@ -258,7 +266,7 @@ void ProjectionStage::project_clipped(const TriangleBatch& p_view, std::size_t i
   }
   if ((outside.any & planes) == 0 || clip_ == ClipMode::reject)
     return project_unclipped(p_view, index, p_ndc);
-  const std::vector<ClipVertex> polygon = clipped(corners);
+  const std::vector<ClipVertex> polygon = clipped(corners, p_view.triangles[index]);
   if (polygon.empty()) {
     ++counts_.outside;
     return;

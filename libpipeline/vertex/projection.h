@@ -79,7 +79,8 @@ class ProjectionStage {
   void project_unclipped(const TriangleBatch& p_view, std::size_t index, TriangleBatch& p_ndc);
   void project_clipped(const TriangleBatch& p_view, std::size_t index, TriangleBatch& p_ndc);
   [[nodiscard]] std::array<ClipVertex, 3> corners_in_clip_space(const Triangle& p_view) const;
-  [[nodiscard]] std::vector<ClipVertex> clipped(const std::array<ClipVertex, 3>& corners) const;
+  [[nodiscard]] std::vector<ClipVertex> clipped(const std::array<ClipVertex, 3>& corners,
+                                                const Triangle& p_view) const;
   void add_piece(const TriangleBatch& p_view, std::size_t index, const Piece& piece, TriangleBatch& p_ndc);
   [[nodiscard]] std::shared_ptr<const ClipTriangle> unclipped_in_clip_space(
       const std::array<ClipVertex, 3>& corners, const TriangleBatch& p_view, std::size_t index);
@@ -87,7 +88,7 @@ class ProjectionStage {
   ProjectionTransform projection_;
   ClipMode clip_;
   CullMode cull_;
-  double clip_extent_;  // 1 - clip_inset
+  double clip_inset_;
   CoordinateRounder& rounder_;
   ProjectionCoefficients coefficients_;
   ImageBlock block_;  // the images of the block around the current triangle

@@ -14,7 +14,7 @@ BallVec3 apply_in_balls(const AffineMatrix& m, const Vec3& origin, const Vec3& p
   return {coordinate(m.rows[0]), coordinate(m.rows[1]), coordinate(m.rows[2])};
 }
 
-/// True if every entry is exactly that of the identity.
+/// True if every entry is exactly the identity's.
 bool is_identity(const AffineMatrix& m) {
   for (std::size_t i = 0; i < 3; ++i)
     for (std::size_t j = 0; j < 4; ++j)

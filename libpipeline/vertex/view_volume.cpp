@@ -24,7 +24,7 @@ std::optional<OutsidePart> ViewVolume::outside(const Triangle& p_view) const {
   unsigned any = 0, all = ~0u;
   for (const Vec3& p : p_view) {
     ClipVertex& corner = polygon.emplace_back(to_clip_space(projection_, p));
-    if (extent_ != 1) corner.w = corner.w * extent_;
+    if (clip_inset_ != 0) corner.w = corner.w * (Ball(1) - clip_inset_);
     const unsigned code = outcode(corner);
     any |= code;
     all &= code;

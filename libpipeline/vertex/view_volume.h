@@ -21,7 +21,7 @@ class ViewVolume {
  public:
   /// Its planes are pulled in by `clip_inset`, as a ProjectionStage's.
   explicit ViewVolume(const ProjectionTransform& projection, double clip_inset = 0)
-      : projection_(projection), extent_(1 - clip_inset) {}
+      : projection_(projection), clip_inset_(clip_inset) {}
 
   /// None if some part of the triangle is inside or on the border, as far as 31 digits can tell. Behind: no
   /// corner is in front of the eye. Otherwise the first plane, in the order above, that all corners are
@@ -30,7 +30,7 @@ class ViewVolume {
 
  private:
   ProjectionTransform projection_;
-  double extent_;  // of the volume in NDC
+  double clip_inset_;
 };
 
 /// How many triangles lie outside the view volume, by where, and between which coordinates in view space.

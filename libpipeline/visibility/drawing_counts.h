@@ -15,7 +15,7 @@
 
 namespace pipeline {
 
-/// What became of the triangles of a picture. Every triangle is counted once: as seen, as hidden, or by the
+/// The fate of a picture's triangles. Every triangle is counted once: as seen, as hidden, or by the
 /// reason for which it would show nowhere.
 struct DrawingCounts {
   std::array<std::uint64_t, kUnseenReasonCount> unseen{};  // by UnseenReason

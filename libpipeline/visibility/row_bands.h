@@ -11,9 +11,9 @@
 
 namespace pipeline {
 
-/// A picture cut into bands of neighboring rows, of which those that are not drawn stay empty: enough of them
-/// for every thread, and each low enough that its depths and tags stay in a core's cache while many triangles
-/// are drawn into it.
+/// A picture cut into bands of neighboring rows, enough for every thread. Bands that are not drawn stay
+/// empty, and each is low enough that its depths and tags stay in a core's cache while many triangles are
+/// drawn into it.
 class RowBands {
  public:
   /// A double and a PixelTag.

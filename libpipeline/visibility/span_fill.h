@@ -25,7 +25,7 @@ struct SpanFill {
   Stored* farthest = nullptr;  // of its first block (see HierarchicalDepth), updated; may be null
 };
 
-/// The blocks of a row that a span reaches, and those that it covers entirely.
+/// The blocks of a row that a span reaches, and the blocks that it covers entirely.
 struct SpanBlocks {
   template <typename Depth>
   explicit SpanBlocks(const SpanFill<Depth>& pixels)

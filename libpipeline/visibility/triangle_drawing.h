@@ -15,8 +15,9 @@
 
 namespace pipeline {
 
-/// Draws the triangles of a stream on the threads of a pool, batch by batch. The result is that of drawing
-/// the triangles one after the other, whatever the number of threads. `Visible` is as for BandDrawing.
+/// Draws the triangles of a stream on the threads of a pool, batch by batch. The result is the
+/// same as drawing the triangles one after the other, whatever the number of threads. `Visible` is as for
+/// BandDrawing.
 ///
 /// On one thread, batches of small triangles are drawn at once: their pixels are scattered over the picture
 /// anyway, and the triangles themselves are still in the cache. All others are drawn in bands.

@@ -93,7 +93,7 @@ class ZBuffer {
   using Stored = typename Depth::Stored;
 
   [[nodiscard]] std::size_t index_of(int row) const { return static_cast<std::size_t>(row - rows_.first); }
-  /// Has to precede what is drawn into a row.
+  /// Has to precede any drawing into a row.
   void fill_if_new(int row) {
     if (!is_filled_[index_of(row)]) fill_row(row);
   }

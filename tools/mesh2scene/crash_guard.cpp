@@ -20,7 +20,7 @@ void go_on_in_child(const std::string& what) {
   if (child < 0) return;
   if (child == 0) {
 #ifdef __linux__
-    // Whoever kills the parent means both.
+    // Whoever ends the parent means both.
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (::getppid() != parent) ::_exit(1);
 #endif
@@ -31,16 +31,16 @@ void go_on_in_child(const std::string& what) {
     if (errno != EINTR) ::_exit(1);
   if (WIFEXITED(status)) ::_exit(WEXITSTATUS(status));
   const int number = WTERMSIG(status);
-  // The reader of a pipe has gone: no crash, and no message.
-  if (number == SIGPIPE) ::_exit(1);
-  throw std::runtime_error(what + (number == SIGXCPU
-                                       ? ": assimp does not come to an end with this file"
-                                       : ": assimp crashed (signal " + std::to_string(number) + ")"));
+  for (const int ending : {SIGTERM, SIGINT, SIGHUP, SIGPIPE})
+    if (number == ending) ::raise(number);
+  const bool is_endless = number == SIGXCPU || number == SIGALRM;
+  throw std::runtime_error(what + (is_endless ? ": assimp does not come to an end with this file"
+                                              : ": assimp crashed (signal " + std::to_string(number) + ")"));
 }
 
 ImportLimits::ImportLimits(double seconds, double megabytes) {
   // A sanitizer's handlers would end the process without a signal.
-  for (const int number : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) std::signal(number, SIG_DFL);
+  for (const int number : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGALRM}) std::signal(number, SIG_DFL);
   if (::getrlimit(RLIMIT_CPU, &former_time_) == 0) {
     struct rusage used = {};
     ::getrusage(RUSAGE_SELF, &used);
@@ -50,6 +50,8 @@ ImportLimits::ImportLimits(double seconds, double megabytes) {
       limit.rlim_cur = static_cast<rlim_t>(until);
     ::setrlimit(RLIMIT_CPU, &limit);
   }
+  // Of a machine that has much to do besides; and a network's files may never come.
+  ::alarm(static_cast<unsigned>(60 + 20 * seconds));
   limit_memory(megabytes);
   stderr_ = ::fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, 0);
   const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
@@ -72,6 +74,7 @@ void ImportLimits::limit_memory(double megabytes) {
 }
 
 ImportLimits::~ImportLimits() {
+  ::alarm(0);
   ::setrlimit(RLIMIT_CPU, &former_time_);
   ::setrlimit(RLIMIT_DATA, &former_memory_);
   if (stderr_ < 0) return;

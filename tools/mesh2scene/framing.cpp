@@ -27,8 +27,8 @@ double tangent(double degrees) {
   return direction.sine / direction.cosine;
 }
 
-/// Depths behind and before the model that belong to the view, in parts of its distance: for what is added to
-/// the scene.
+/// Depths behind and before the model that belong to the view, as fractions of its distance: room for objects
+/// that are added to the scene.
 constexpr double kDepthMargin = 0.5;
 /// A depth buffer tells little apart if far is more than this many times near.
 constexpr double kMostDepth = 10000;

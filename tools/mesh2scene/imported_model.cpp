@@ -3,21 +3,19 @@
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 #include <assimp/version.h>
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <assimp/Importer.hpp>
-#include <cerrno>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <stdexcept>
 #include <utility>
 
 #include "libpipeline/numbers/vec_math.h"
 #include "libpipeline/text/error.h"
+#include "tools/mesh2scene/lost_digits.h"
 
 namespace pipeline {
 namespace {
@@ -30,8 +28,10 @@ Vec3 vec(const aiColor3D& c) {
   return {c.r, c.g, c.b};
 }
 
-bool is_finite(const aiVector3D& v) {
-  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+/// Whether floats reach so far, as a scene's coordinates are floats.
+bool are_floats(const Vec3& v) {
+  const auto is_float = [](double x) { return std::abs(x) <= std::numeric_limits<float>::max(); };
+  return is_float(v.x) && is_float(v.y) && is_float(v.z);
 }
 
 double degrees(double radians) {
@@ -46,19 +46,6 @@ double fov_y_degrees(const aiCamera& camera, bool is_gltf) {
   const double fov_y = is_multiple ? fov_x / aspect : 2 * std::atan(std::tan(fov_x / 2) / aspect);
   // Four decimals hide that the file's angle is a float in radians.
   return std::round(degrees(fov_y) * 1e4) / 1e4;
-}
-
-std::string read_standard_input() {
-  std::string bytes;
-  std::array<char, 1 << 16> block{};
-  for (;;) {
-    const ssize_t size = ::read(STDIN_FILENO, block.data(), block.size());
-    if (size == 0) return bytes;
-    if (size > 0)
-      bytes.append(block.data(), static_cast<std::size_t>(size));
-    else if (errno != EINTR)
-      throw IoError("read", "<stdin>", errno);
-  }
 }
 
 bool ends_with(std::string text, const std::string& end) {
@@ -107,24 +94,26 @@ NodeMatrix matrix_of(const aiNode& node) {
   return {{{{m.a1, m.a2, m.a3, m.a4}, {m.b1, m.b2, m.b3, m.b4}, {m.c1, m.c2, m.c3, m.c4}}}};
 }
 
-ImportedModel::ImportedModel(const std::string& path, double crease_degrees)
+ImportedModel::ImportedModel(const std::string& path, std::unique_ptr<ModelFiles> files,
+                             double crease_degrees)
     : path_(path), importer_(std::make_unique<Assimp::Importer>()) {
-  constexpr unsigned kSteps = aiProcess_Triangulate | aiProcess_SortByPType;
-  if (path == "-") {
-    const std::string bytes = read_standard_input();
-    scene_ = importer_->ReadFileFromMemory(bytes.data(), bytes.size(), kSteps, "");
-  } else {
-    // assimp does not say why it cannot open a file.
-    const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-    struct stat status = {};
-    if (descriptor < 0) throw IoError("open", path.empty() ? "''" : path, errno);
-    const bool is_folder = ::fstat(descriptor, &status) == 0 && S_ISDIR(status.st_mode);
-    ::close(descriptor);
-    if (is_folder) throw IoError("read", path, EISDIR);
-    scene_ = importer_->ReadFile(path, kSteps);
-  }
+  ModelFiles* const opened = files.release();
+  importer_->SetIOHandler(opened);
+  scene_ = importer_->ReadFile(opened->base_name(), aiProcess_Triangulate | aiProcess_SortByPType);
+  opened->expect_separate_output();
+  const std::string refusal = opened->refusal();
   if (scene_ == nullptr || scene_->mRootNode == nullptr)
-    throw std::runtime_error(name() + ": assimp cannot read this model: " + importer_->GetErrorString());
+    throw std::runtime_error(
+        name() + ": " +
+        (refusal.empty() ? "assimp cannot read this model: " + std::string(importer_->GetErrorString())
+                         : refusal));
+  if (!refusal.empty()) notes_.push_back(name() + ": " + refusal + ": left out");
+  // Six decimals of a smaller number are always those of its float.
+  if (has_coordinate_from(16))
+    if (const std::string lost = lost_digits(opened->model()); !lost.empty())
+      notes_.push_back(name() + ":" + lost);
+  importer_->SetIOHandler(nullptr);  // which does not delete the former one
+  delete opened;
   is_gltf_ = ends_with(path, ".gltf") || ends_with(path, ".glb");
   place(*scene_->mRootNode, {});
   if (meshes_.empty()) throw std::runtime_error(name() + ": expected a model with triangles, found none");
@@ -154,6 +143,15 @@ void ImportedModel::place(const aiNode& node, const NodeMatrix& model_from_paren
   for (unsigned i = 0; i < node.mNumChildren; ++i) place(*node.mChildren[i], model_from_node);
 }
 
+bool ImportedModel::has_coordinate_from(float least) const {
+  const auto is_far = [&](const aiVector3D& v) {
+    return std::abs(v.x) >= least || std::abs(v.y) >= least || std::abs(v.z) >= least;
+  };
+  return std::any_of(scene_->mMeshes, scene_->mMeshes + scene_->mNumMeshes, [&](const aiMesh* mesh) {
+    return std::any_of(mesh->mVertices, mesh->mVertices + mesh->mNumVertices, is_far);
+  });
+}
+
 void ImportedModel::check_vertices() const {
   for (const auto& [mesh, model_from_mesh] : meshes_) {
     // A file that ends within a face may leave one with fewer corners.
@@ -163,13 +161,10 @@ void ImportedModel::check_vertices() const {
           std::max({face.mIndices[0], face.mIndices[1], face.mIndices[2]}) >= mesh->mNumVertices)
         throw std::runtime_error(name() +
                                  ": expected triangles, found a face that is none: the file is broken");
-    const aiVector3D* const begin = mesh->mVertices;
-    const aiVector3D* const end = begin + mesh->mNumVertices;
-    const aiVector3D* const wrong = std::find_if_not(begin, end, is_finite);
-    bool is_fine = wrong == end;
-    for (const auto& row : model_from_mesh.rows)
-      for (const double element : row) is_fine = is_fine && std::isfinite(element);
-    if (!is_fine)
+    const auto is_fine = [&matrix = model_from_mesh](const aiVector3D& v) {
+      return are_floats(matrix.point(vec(v)));
+    };
+    if (!std::all_of(mesh->mVertices, mesh->mVertices + mesh->mNumVertices, is_fine))
       throw std::runtime_error(name() + ": expected finite coordinates, found others in mesh " +
                                quoted(mesh->mName.C_Str()));
   }
@@ -220,12 +215,15 @@ void ImportedModel::read_lights() {
   for (unsigned i = 0; i < scene_->mNumLights; ++i) {
     const aiLight& light = *scene_->mLights[i];
     const NodeMatrix model_from_light = model_from(scene_->mRootNode->FindNode(light.mName));
-    const Vec3 intensity = vec(light.mColorDiffuse);
-    if (!std::isfinite(dot(intensity, intensity))) continue;
+    const Vec3 intensity = vec(light.mColorDiffuse), position = model_from_light.point(vec(light.mPosition));
+    // A scene has no light that takes light away.
+    if (!are_floats(intensity) || std::min({intensity.x, intensity.y, intensity.z}) < 0 ||
+        !are_floats(position))
+      continue;
     if (light.mType == aiLightSource_AMBIENT)
       ambient_ = sum(ambient_, vec(light.mColorAmbient));
     else if (light.mType == aiLightSource_POINT || light.mType == aiLightSource_SPOT)
-      lights_.push_back({model_from_light.point(vec(light.mPosition)), intensity});
+      lights_.push_back({position, intensity});
     else if (light.mType == aiLightSource_DIRECTIONAL)
       lights_.push_back({model_from_light.direction(vec(light.mDirection)), intensity, true});
     else

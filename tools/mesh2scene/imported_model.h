@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "libpipeline/numbers/vec.h"
+#include "tools/mesh2scene/model_files.h"
 #include "tools/mesh2scene/smooth_normals.h"
 
 struct aiMaterial;
@@ -32,7 +33,7 @@ struct NodeMatrix {
   [[nodiscard]] bool is_identity() const { return *this == NodeMatrix(); }
   [[nodiscard]] Vec3 point(const Vec3& p) const;
   [[nodiscard]] Vec3 direction(const Vec3& v) const;
-  /// The image of a normal, of any length: that of a plane's normal, by the matrix of cofactors.
+  /// The image of a normal, of any length, as a plane's: by the matrix of cofactors.
   [[nodiscard]] Vec3 normal(const Vec3& n) const;
 };
 
@@ -62,10 +63,10 @@ struct ModelLight {
 /// A model file as assimp reads it. All meshes consist of triangles.
 class ImportedModel {
  public:
-  /// Reads a file, or standard input if `path` is "-". Where normals are missing they are made; edges whose
-  /// sides meet at more than `crease_degrees` stay sharp. Throws std::runtime_error, whose message names the
-  /// file, if assimp cannot read it, if a coordinate is not finite, or if it has no triangle.
-  ImportedModel(const std::string& path, double crease_degrees);
+  /// `path` names the files' model, "-" for standard input. Where normals are missing they are made; edges
+  /// whose sides meet at more than `crease_degrees` stay sharp. Throws std::runtime_error, whose message
+  /// names the file, if assimp cannot read it, if a coordinate is not finite, or if it has no triangle.
+  ImportedModel(const std::string& path, std::unique_ptr<ModelFiles> files, double crease_degrees);
   ~ImportedModel();
   ImportedModel(const ImportedModel&) = delete;
   ImportedModel& operator=(const ImportedModel&) = delete;
@@ -78,7 +79,7 @@ class ImportedModel {
   /// Every mesh, as often as a node shows it, in the order of the nodes from the root on.
   [[nodiscard]] const std::vector<PlacedMesh>& meshes() const { return meshes_; }
   [[nodiscard]] std::uint64_t triangle_count() const;
-  /// Those that were made for a mesh; null if it has its own.
+  /// The normals made for a mesh; null if it has its own.
   [[nodiscard]] const CornerNormals* made_normals(const aiMesh& mesh) const;
   /// Calls `visit` with every vertex of every triangle, in the model's space.
   void for_each_corner(const std::function<void(const Vec3&)>& visit) const;
@@ -86,7 +87,9 @@ class ImportedModel {
   [[nodiscard]] const std::vector<ModelLight>& lights() const { return lights_; }
   [[nodiscard]] Vec3 ambient() const { return ambient_; }
   [[nodiscard]] bool has_vertex_colors() const;
-  /// What is in the file and in no scene: "textures", "bones".
+  /// Remarks for the user: files that were not opened, digits that are lost.
+  [[nodiscard]] const std::vector<std::string>& notes() const { return notes_; }
+  /// Parts of the file that no scene can hold: "textures", "bones".
   [[nodiscard]] const std::vector<std::string>& ignored() const { return ignored_; }
   /// The file's own material of a mesh; null if it gives none.
   [[nodiscard]] const aiMaterial* material(const aiMesh& mesh) const;
@@ -97,6 +100,7 @@ class ImportedModel {
 
  private:
   void place(const aiNode& node, const NodeMatrix& model_from_parent);
+  [[nodiscard]] bool has_coordinate_from(float least) const;
   void check_vertices() const;
   void make_normals(double crease_degrees);
   void read_camera();
@@ -112,7 +116,7 @@ class ImportedModel {
   std::optional<ModelCamera> camera_;
   std::vector<ModelLight> lights_;
   Vec3 ambient_;
-  std::vector<std::string> ignored_;
+  std::vector<std::string> notes_, ignored_;
   bool is_gltf_ = false;  // whose colors are linear
 };
 

@@ -1,8 +1,7 @@
 // mesh2scene: a model file (OBJ, STL, PLY, glTF, ...) in, a scene with camera and lights out.
 
-#include <filesystem>
+#include <memory>
 #include <optional>
-#include <system_error>
 
 #include "libpipeline/scene/config.h"
 #include "libpipeline/text/number_parser.h"
@@ -23,11 +22,14 @@ struct Options {
   std::vector<std::string> eye_from;
   double crease_degrees = 60;
   bool as_nodes = false;
+  int most_megabytes = 1000;
   std::optional<UpAxis> up;
   ViewChoice view;
 };
 
 void add_options(CommandLine& options, Options& chosen) {
+  options.add_whole("--max-input", chosen.most_megabytes, 1, 1'000'000,
+                    "Read at most so many megabytes, in the model and the files that it names");
   options.begin_group("Camera");
   options.add_word("--size", "WIDTHxHEIGHT", chosen.size, "The size of the picture, for its aspect",
                    [](const std::string& word) {
@@ -42,7 +44,7 @@ void add_options(CommandLine& options, Options& chosen) {
       "--fov", "DEGREES", chosen.view.fov_y_degrees, [](double value) { return value >= 1 && value <= 120; },
       "1 to 120", "The angle of view from the picture's bottom to its top");
   options.add_choice<std::optional<UpAxis>>(
-      "--up", chosen.up, {{"x", UpAxis::x}, {"y", UpAxis::y}, {"z", UpAxis::z}},
+      "--up-axis", chosen.up, {{"x", UpAxis::x}, {"y", UpAxis::y}, {"z", UpAxis::z}},
       "The axis that is up in the picture. Without the option: z for STL, 3DS and 3MF, else y");
   options.begin_group("Triangles");
   options.add_number(
@@ -56,14 +58,6 @@ void add_options(CommandLine& options, Options& chosen) {
 constexpr double kImportSeconds = 2, kImportSecondsPerMegabyte = 2;
 // A text takes about four times its size, a compressed file more.
 constexpr double kImportMegabytes = 1000, kImportMegabytesPerMegabyte = 100;
-
-/// The size of a file that can be sized; standard input counts as large.
-double megabytes(const std::string& path) {
-  constexpr double kLarge = 1000;
-  std::error_code error;
-  const auto size = std::filesystem::file_size(path, error);
-  return error ? kLarge : static_cast<double>(size) / 1e6;
-}
 
 /// A number of an option that takes several.
 double number_from(const std::string& option, const std::string& word, double least, double most) {
@@ -105,15 +99,16 @@ int main(int argc, char** argv) {
   Tool tool({"mesh2scene",
              "Turns a model file into a scene: camera, lights, and triangles with normals. Reads OBJ, STL, "
              "PLY, glTF and whatever else assimp reads.",
-             "The model file",
+             "The model file, which may name regular files in or below its folder",
              {"mesh2scene bunny.obj | model | view | project | zbuf --size 800x600 --coverage center "
               "--samples 3 -o bunny.png",
-              "mesh2scene --up z --eye-from -45 30 part.obj > scene.txt"}},
+              "mesh2scene --up-axis z --eye-from -45 30 part.obj > scene.txt"}},
             OutputKind::other_text);
   Options chosen;
   add_options(tool.options(), chosen);
 
   return tool.run(argc, argv, [&] {
+    tool.expect_separate({kStandardOutput});
     const std::string& path = tool.input_path();
     const std::string name = path == "-" ? "<stdin>" : path;
     const std::string extension = extension_of(path);
@@ -128,20 +123,22 @@ int main(int argc, char** argv) {
     chosen.view.aspect = double(screen.columns) / double(screen.rows);
 
     go_on_in_child(name);
-    const double size = megabytes(path);
+    auto files = std::make_unique<ModelFiles>(path, chosen.most_megabytes);
+    const double size = static_cast<double>(files->model().size()) / 1e6;
     std::optional<ImportLimits> limits(std::in_place, kImportSeconds + kImportSecondsPerMegabyte * size,
                                        kImportMegabytes + kImportMegabytesPerMegabyte * size);
-    const ImportedModel model(path, chosen.crease_degrees);
+    const ImportedModel model(path, std::move(files), chosen.crease_degrees);
     limits.reset();
     tool.timing().lap(&Timing::read_seconds);
     tool.timing().triangle_count = model.triangle_count();
     const bool has_own_view = model.camera() && !chooses_view;
     SceneSetting setting =
         has_own_view ? setting_of_file(model, chosen.view.aspect) : framed_setting(model, chosen.view);
+    for (const std::string& note : model.notes()) tool.note(note);
     if (!model.ignored().empty()) tool.note(name + ": no scene can hold its " + listed(model.ignored()));
     if (!has_own_view && !chosen.up && !defines_up(extension))
       tool.note(std::string(name_of(chosen.view.up)) + " is taken for up, as in most " +
-                (extension.empty() ? "" : extension + " ") + "files (--up chooses)");
+                (extension.empty() ? "" : extension + " ") + "files (--up-axis chooses)");
     setting.comments = {name + ", " + counted(model.triangle_count(), "triangle") +
                         ", by mesh2scene; zbuf --size " + chosen.size};
     const SceneMaterials materials(model);

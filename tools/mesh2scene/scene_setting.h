@@ -8,7 +8,7 @@
 
 namespace pipeline {
 
-/// What a scene says before its first triangle.
+/// The part of a scene before its first triangle.
 struct SceneSetting {
   std::vector<std::string> comments;
   FramingCamera camera;

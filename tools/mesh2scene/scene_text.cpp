@@ -17,13 +17,15 @@
 #include "libpipeline/text/number_printer.h"
 
 namespace pipeline {
-namespace {
 
-/// The shortest text that reads back to the same float: the precision of assimp, and of what most files hold.
 std::string float_text(double value) {
   std::array<char, kMaxFloatLength> text{};
   return {text.data(), print_shortest(text.data(), static_cast<float>(value))};
 }
+
+namespace {
+
+using pipeline::float_text;
 
 std::string float_text(const Vec3& v) {
   return float_text(v.x) + " " + float_text(v.y) + " " + float_text(v.z);
@@ -33,7 +35,7 @@ std::string text_of(const Vec3& v) {
   return shortest_text(v.x) + " " + shortest_text(v.y) + " " + shortest_text(v.z);
 }
 
-/// What the line of a vertex shows.
+/// The content of a vertex's line.
 struct VertexNumbers {
   std::array<float, 9> numbers{};  // position, perhaps a color, normal
   std::size_t count = 0;
@@ -44,7 +46,7 @@ struct VertexNumbers {
   friend bool operator==(const VertexNumbers&, const VertexNumbers&) = default;
 };
 
-/// The lines of vertices, kept for the triangles that share them: of those with the same hash, the last.
+/// The lines of vertices, kept for the triangles that share them: of lines with the same hash, the last.
 class VertexLines {
  public:
   [[nodiscard]] std::string_view line_of(const VertexNumbers& vertex) {
@@ -109,12 +111,10 @@ struct Commands {
   Vec3 scaling = {1, 1, 1};
 };
 
-/// The value with 1 / units decimals if it is as near to that as the matrix's floats allow, else with nine
-/// decimals.
+/// The value with 1 / units decimals if it is as near to that as the matrix's floats allow.
 double without_noise(double value, double units, double noise) {
-  constexpr double kFine = 1e9;
   const double coarse = std::round(value * units) / units;
-  return (std::fabs(value - coarse) <= noise ? coarse : std::round(value * kFine) / kFine) + 0.0;
+  return (std::fabs(value - coarse) <= noise ? coarse : value) + 0.0;
 }
 
 /// The rotation in the columns of an orthogonal matrix of determinant 1, by its quaternion.
@@ -245,7 +245,7 @@ class SceneWriter {
     return placed_->model_from_mesh.point({p.x, p.y, p.z});
   }
 
-  /// Of a corner of a triangle, from the file or made; that of the triangle if there is none of use.
+  /// The normal at a triangle's corner, from the file or made; the triangle's own if there is none of use.
   [[nodiscard]] Vec3 normal(unsigned face, std::size_t corner) const {
     const aiMesh& mesh = *placed_->mesh;
     const unsigned* const indices = mesh.mFaces[face].mIndices;

@@ -16,7 +16,7 @@
 namespace pipeline {
 namespace {
 
-Vec3 vec(const aiVector3D& v) {
+Vec3 position_of(const aiVector3D& v) {
   return {v.x, v.y, v.z};
 }
 
@@ -87,7 +87,7 @@ class CornersByPosition {
   std::vector<std::size_t> corners_;
 };
 
-/// What a triangle adds to the normal at one of its corners.
+/// A triangle's contribution to the normal at one of its corners.
 struct Share {
   Vec3 direction;  // of length 1, or 0 for a triangle without area
   Vec3 weighted;
@@ -95,7 +95,7 @@ struct Share {
 
 Share share_of(const aiMesh& mesh, std::size_t corner) {
   const unsigned* const indices = mesh.mFaces[corner / 3].mIndices;
-  const auto vertex = [&](std::size_t k) { return vec(mesh.mVertices[indices[(corner + k) % 3]]); };
+  const auto vertex = [&](std::size_t k) { return position_of(mesh.mVertices[indices[(corner + k) % 3]]); };
   const Vec3 p = vertex(0);
   const Vec3 a = difference(vertex(1), p), b = difference(vertex(2), p);
   const Vec3 n = cross(a, b);

@@ -12,11 +12,11 @@
 
 namespace pipeline {
 
-/// How light travels in a scene of this appearance, as far as the options leave it.
+/// The setup for a scene of this appearance, restricted by the options.
 LightTransportSetup light_transport_setup(const Appearance& appearance, bool is_perspective,
                                           const TraceOptions& chosen);
 
-/// Whether that is more than `zbuf` draws: a shadow may fall, or a material mirrors or is clear.
+/// Whether the setup needs rays beyond primary ones: a shadow may fall, or a material mirrors or is clear.
 bool needs_light_transport(const LightTransportSetup& setup);
 
 /// The colors of pixels, or of samples, by the light that rays bring from what they see. One for each thread.

@@ -7,7 +7,6 @@
 
 #include "libpipeline/picture/image_file.h"
 #include "tools/screen.h"
-#include "tools/separate_outputs.h"
 #include "tools/stage_options.h"
 #include "tools/statistics.h"
 #include "tools/tool.h"
@@ -34,8 +33,9 @@ int main(int argc, char** argv) {
   return tool.run(argc, argv, [&] {
     ZbufOptions& picture = chosen.picture;
     chosen.complete(::isatty(STDOUT_FILENO) == 1);
-    expect_separate(outputs_of(picture, statistics));
-    const Viewport screen = read_screen(tool, picture);
+    const NamedFile config = config_of(tool, picture);
+    tool.expect_separate(outputs_of(picture, statistics), {config, chosen.projection->scene()});
+    const Viewport screen = read_screen(tool, picture, config);
     if (picture.has_image()) check_image_size(picture.image_path, screen.columns, screen.rows);
     trace(tool, chosen, screen, statistics);
   });

@@ -34,7 +34,7 @@ TraceOptions::TraceOptions(CommandLine& options) {
   picture.thread_count = 0;
   options.set_usage(
       "Usage: trace [OPTIONS] CONFIG [INPUT]\n"
-      "       trace [OPTIONS] --size WIDTHxHEIGHT [INPUT]");
+      "       trace [OPTIONS] --size WIDTHxHEIGHT [CONFIG] [INPUT]");
   picture.add_screen_and_outputs(options, false);
   projection.emplace(options);
   options.begin_group("Pixels");

@@ -1,4 +1,5 @@
-// join: makes one stage text of several. Texts of the parts of a scene in, that of the whole scene out.
+// join-seen: makes one stage text of several. The texts of a scene's parts in, the text of the whole scene
+// out.
 
 #include <cstdint>
 #include <optional>
@@ -57,26 +58,29 @@ class JoinedText {
 
 int main(int argc, char** argv) {
   Tool tool(
-      {"join",
+      {"join-seen",
        "Joins stage texts, of the parts of a scene or what zbuf --seen has left of them, to the text of the "
        "whole: the first header, which all have, and all triangles.",
        "The texts",
-       {"join stage1.txt stage1.txt > twice.txt",
-        "join --framed seen1.txt seen2.txt | zbuf config.txt > z_buffer.txt"}},
+       {"join-seen stage1.txt stage1.txt > twice.txt",
+        "join-seen --expect-framed seen1.txt seen2.txt | zbuf config.txt > z_buffer.txt"}},
       OutputKind::stage_text);
   std::vector<std::string> parts;
   bool expects_frame = false;
   tool.take_own_operands();
-  tool.options().set_usage("Usage: join [OPTIONS] PART...");
+  tool.options().set_usage("Usage: join-seen [OPTIONS] PART...");
   tool.options().add_operands(
       "PART", parts,
       "The texts in the order of their triangles, all after the same stage; - is standard input");
   tool.options().begin_group("Input");
-  tool.options().add_flag("--framed", expects_frame,
+  tool.options().add_flag("--expect-framed", expects_frame,
                           "Refuse a text without the frame that model --framed gives it");
 
   return tool.run(argc, argv, [&] {
     if (parts.empty()) throw UsageError(expected_but_found("an operand PART or more", "none"));
+    std::vector<NamedFile> inputs;
+    for (const std::string& path : parts) inputs.push_back(file_or_stream("PART", path, kStandardInput));
+    tool.expect_separate({kStandardOutput}, inputs);
     JoinedText joined(tool.output());
     for (const std::string& path : parts) {
       InputFile file(path);

@@ -1,10 +1,12 @@
-// split: cuts a scene into parts, for model on several machines. A scene in, scenes out.
+// cut-scene: cuts a scene into parts, for model on several machines. A scene in, scenes out.
 
 #include <sys/stat.h>
 
+#include <csignal>
 #include <filesystem>
 #include <string>
 #include <system_error>
+#include <vector>
 
 #include "libpipeline/scene/scene_cutter.h"
 #include "libpipeline/stream/text_kind.h"
@@ -30,6 +32,11 @@ std::size_t size_of(const InputFile& scene) {
 
 void make_empty_folder(const std::string& path) {
   std::error_code error;
+  std::vector<std::filesystem::path> missing;
+  for (std::filesystem::path folder = path; !folder.empty() && !std::filesystem::exists(folder, error);
+       folder = folder.parent_path())
+    missing.push_back(folder);
+  for (; !missing.empty(); missing.pop_back()) add_unfinished(missing.back());
   std::filesystem::create_directories(path, error);
   const bool is_empty = !error && std::filesystem::is_empty(path, error);
   if (error) throw IoError("open", path, error.value());
@@ -47,22 +54,25 @@ std::string name_of_part(std::size_t part, std::size_t part_count) {
 
 int main(int argc, char** argv) {
   Tool tool(
-      {"split",
+      {"cut-scene",
        "Cuts a scene into parts that are scenes themselves, of about the same size, for model on several "
        "processors or machines. Writes a line for each: its file and the number of its first triangle, for "
        "model --first.",
        "The scene",
-       {"split scene.txt 2", "split scene.txt 8 -o parts > list.txt"}},
+       {"cut-scene scene.txt 2", "cut-scene scene.txt 8 -o parts > list.txt"}},
       OutputKind::other_text);
   std::string scene_path, part_count_word, folder = "parts";
   tool.take_own_operands();
-  tool.options().set_usage("Usage: split [OPTIONS] SCENE PARTS");
+  tool.options().set_usage("Usage: cut-scene [OPTIONS] SCENE PARTS");
   tool.options().add_operand("SCENE", scene_path, "The scene, a file");
   tool.options().add_operand("PARTS", part_count_word,
                              "How many parts at most; none is without a triangle, unless the scene is");
   tool.options().begin_group("Output");
   tool.options().add_word("-o,--output", "FOLDER", folder,
                           "Where the parts go, a new folder or an empty one");
+
+  // A closed pipe is a failure to write like any other: the parts have to be removed.
+  std::signal(SIGPIPE, SIG_IGN);
 
   return tool.run(argc, argv, [&] {
     if (!tool.options().is_given("PARTS"))
@@ -71,6 +81,7 @@ int main(int argc, char** argv) {
     if (!parse_count(part_count_word, part_count) || part_count < 1 || part_count > kMaxParts)
       throw UsageError("PARTS: " + expected_but_found("a whole number from 1 to " + std::to_string(kMaxParts),
                                                       pipeline::quoted(part_count_word)));
+    tool.expect_separate({kStandardOutput}, {file_or_stream("SCENE", scene_path, kStandardInput)});
     InputFile scene(scene_path);
     const double size = static_cast<double>(size_of(scene));
     expect_kind(scene.text(), TextKind::scene);
@@ -84,18 +95,20 @@ int main(int argc, char** argv) {
           cutter.has_triangle())
         continue;
       const std::string path = folder + "/" + name_of_part(part, part_count);
+      add_unfinished(path);
       OutputFile file(path);
       TextWriter text(file.descriptor(), path);
       const std::uint64_t first = cutter.next_number();
-      text.append(cutter.beginning());
+      cutter.begin(text);
       if (cutter.has_triangle()) cutter.copy(text, end);
       text.append("end\n");
       text.flush();
-      file.close();
       file.commit();
       tool.output().append(path + " " + std::to_string(first) + "\n");
       tool.timing().triangle_count = cutter.next_number();
       ++part;
     }
+    tool.close_output();
+    keep_unfinished();
   });
 }

@@ -1,0 +1,168 @@
+#include "tools/mesh2scene/model_files.h"
+
+#include <assimp/MemoryIOWrapper.h>
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#if __has_include(<linux/openat2.h>)
+#include <linux/openat2.h>
+#include <sys/syscall.h>
+#endif
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <filesystem>
+#include <stdexcept>
+#include <utility>
+
+#include "libpipeline/text/error.h"
+#include "tools/command_line.h"
+
+namespace pipeline {
+namespace {
+
+#ifdef O_PATH
+constexpr int kFound = O_PATH | O_CLOEXEC;
+#else
+constexpr int kFound = O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC;
+#endif
+constexpr int kNotThere = -1, kRefused = -2;
+
+/// Finds a file below the current folder on a path without links and `..`, for systems without openat2.
+int find_without_links(const std::filesystem::path& path) {
+  errno = EXDEV;
+  if (path.is_absolute() || std::find(path.begin(), path.end(), "..") != path.end()) return -1;
+  int found = ::open(".", kFound);
+  for (const std::filesystem::path& step : path) {
+    const int folder = std::exchange(found, ::openat(found, step.c_str(), kFound | O_NOFOLLOW));
+    if (folder >= 0) ::close(folder);
+  }
+  return found;
+}
+
+/// Opens a regular file below the current folder. Anything else is only found, not opened: a FIFO or a device
+/// may wait, or do something.
+int open_below(const std::string& path) {
+#if __has_include(<linux/openat2.h>)
+  open_how how = {};
+  how.flags = kFound;
+  how.resolve = RESOLVE_BENEATH | RESOLVE_NO_MAGICLINKS;
+  auto found = static_cast<int>(::syscall(SYS_openat2, AT_FDCWD, path.c_str(), &how, sizeof how));
+  if (found < 0 && (errno == ENOSYS || errno == EPERM)) found = find_without_links(path);
+#else
+  const int found = find_without_links(path);
+#endif
+  if (found < 0) return errno == EXDEV || errno == ELOOP ? kRefused : kNotThere;
+  struct stat status = {};
+  const bool is_regular = ::fstat(found, &status) == 0 && S_ISREG(status.st_mode);
+  const std::string same = "/dev/fd/" + std::to_string(found);
+  const int opened = is_regular ? ::open(same.c_str(), O_RDONLY | O_CLOEXEC) : kRefused;
+  ::close(found);
+  return opened;
+}
+
+bool is_standard_output(int descriptor) {
+  struct stat file = {}, output = {};
+  return ::fstat(descriptor, &file) == 0 && ::fstat(STDOUT_FILENO, &output) == 0 &&
+         file.st_dev == output.st_dev && file.st_ino == output.st_ino;
+}
+
+}  // namespace
+
+ModelFiles::ModelFiles(const std::string& path, std::size_t megabytes)
+    : base_name_(std::filesystem::path(path).filename()),
+      megabytes_(megabytes),
+      room_(megabytes * 1'000'000) {
+  if (path == "-") {
+    base_name_ = AI_MEMORYIO_MAGIC_FILENAME ".";  // the importer of its format is found by its bytes
+    contents_[base_name_] = read_standard_input();
+    return;
+  }
+  struct stat status = {};
+  if (::stat(path.c_str(), &status) != 0) throw IoError("open", path.empty() ? "''" : path, errno);
+  if (S_ISDIR(status.st_mode)) throw IoError("read", path, EISDIR);
+  if (!S_ISREG(status.st_mode))
+    throw std::runtime_error(path + ": expected a regular file, or - for what comes through a pipe");
+  const int model = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
+  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+  if (model < 0 || (!folder.empty() && ::chdir(folder.c_str()) != 0)) throw IoError("open", path, errno);
+  contents_[base_name_] = map(model, path);
+  has_folder_ = true;
+}
+
+void ModelFiles::take_room(std::size_t bytes, const std::string& name) {
+  if (bytes > room_)
+    throw std::runtime_error(name + ": expected at most " + std::to_string(megabytes_) +
+                             " MB in all files of a model (--max-input), found more");
+  room_ -= bytes;
+}
+
+std::string_view ModelFiles::read_standard_input() {
+  std::array<char, 1 << 16> block{};
+  for (ssize_t size = -1; size != 0;) {
+    size = ::read(STDIN_FILENO, block.data(), block.size());
+    if (size < 0 && errno != EINTR) throw IoError("read", "<stdin>", errno);
+    const auto count = static_cast<std::size_t>(std::max<ssize_t>(size, 0));
+    take_room(count, "<stdin>");
+    standard_input_.append(block.data(), count);
+  }
+  return standard_input_;
+}
+
+/// The bytes of a file, which is closed, and stays mapped until the process ends.
+std::string_view ModelFiles::map(int descriptor, const std::string& name) {
+  struct stat status = {};
+  if (::fstat(descriptor, &status) != 0 || !S_ISREG(status.st_mode)) throw IoError("read", name, EINVAL);
+  const auto size = static_cast<std::size_t>(status.st_size);
+  take_room(size, name);
+  void* const bytes = size == 0 ? nullptr : ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, descriptor, 0);
+  ::close(descriptor);
+  if (bytes == MAP_FAILED) throw IoError("read", name, errno);
+  return {static_cast<const char*>(bytes), size};
+}
+
+std::string ModelFiles::refusal() const {
+  if (refused_.empty()) return "";
+  const char* const expected = has_folder_ ? "regular files in or below the model's folder"
+                                           : "no other file, as standard input has no folder";
+  return expected_but_found(expected, pipeline::quoted(refused_));
+}
+
+void ModelFiles::expect_separate_output() const {
+  if (!output_.empty())
+    throw UsageError(expected_but_found("a place of its own for standard output",
+                                        pipeline::quoted(output_) + ", which the model names"));
+}
+
+bool ModelFiles::Exists(const char* file) const {
+  const int opened = has_folder_ ? open_below(file) : kNotThere;
+  if (opened >= 0) ::close(opened);
+  return opened >= 0 || contents_.contains(file);
+}
+
+Assimp::IOStream* ModelFiles::Open(const char* file, const char* mode) {
+  if (*mode != 'r') return nullptr;
+  if (!contents_.contains(file)) {
+    const int opened = has_folder_ ? open_below(file) : kRefused;
+    if (opened == kRefused && refused_.empty()) refused_ = file;
+    if (opened < 0) return nullptr;
+    if (is_standard_output(opened)) {
+      ::close(opened);
+      output_ = file;
+      return nullptr;
+    }
+    contents_[file] = map(opened, file);
+  }
+  // For a path that leads nowhere, assimp tries the file's name in the model's folder.
+  if (std::filesystem::path(refused_).filename() == std::filesystem::path(file).filename()) refused_.clear();
+  const std::string_view bytes = contents_[file];
+  return new Assimp::MemoryIOStream(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
+}
+
+void ModelFiles::Close(Assimp::IOStream* file) {
+  delete file;
+}
+
+}  // namespace pipeline
