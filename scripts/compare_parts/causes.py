@@ -1,4 +1,5 @@
-"""Why two stage texts differ: what the numbers show by themselves, and with the scene the mistake that the judge of hand-ins names."""
+"""Why two stage texts differ: what the numbers show by themselves, and with the scene the mistake that the
+judge of hand-ins names."""
 import math
 
 from compare_parts.differences import exceeds
@@ -24,7 +25,10 @@ def hint_of_numbers(theirs, ours):
 
 def hint_of_factors(theirs, ours):
     factors = [factor_of([p[axis] for p in theirs], [q[axis] for q in ours]) for axis in range(3)]
-    is_scaled = all(abs(a - k * b) <= CLOSE * max(1.0, abs(a)) for p, q in zip(theirs, ours) for a, b, k in zip(p, q, factors))
+    is_scaled = all(
+        abs(a - k * b) <= CLOSE * max(1.0, abs(a))
+        for p, q in zip(theirs, ours)
+        for a, b, k in zip(p, q, factors))
     if not is_scaled or all(abs(k - 1) < LEAST_FACTOR for k in factors):
         return None
     x, y, z = (f"{k:.6g}" for k in factors)
@@ -38,12 +42,16 @@ def factor_of(values, others):
 
 
 def judged(scene, theirs, ours):
-    """The FileVerdict on one text, if another is the output of a stage of the scene; None if it is of none. A text is given as its bytes
-    and its name. Where the other may be that of several stages, the first counts whose mistakes reproduce the text."""
+    """The FileVerdict on one text, if another is the output of a stage of the scene; None if it is of none. A
+    text is given as its bytes and its name. Where the other may be that of several stages, the first counts
+    whose mistakes reproduce the text."""
     reference = Reference(scene, None, Tools())
     judge = StageJudge(reference.scene, reference.world)
     ours, theirs = read_points(*ours), read_points(*theirs)
-    verdicts = [verdict_of("theirs", theirs) for verdict_of in stages(reference, judge) if verdict_of("ours", ours).is_good]
+    verdicts = [
+        verdict_of("theirs", theirs)
+        for verdict_of in stages(reference, judge)
+        if verdict_of("ours", ours).is_good]
     return next((verdict for verdict in verdicts if verdict.causes), verdicts[0] if verdicts else None)
 
 
@@ -55,7 +63,8 @@ def stages(reference, judge):
     p_view = exact_images(reference.scene.of_view(), False, reference.world)
     view = read_as_printed(p_view)
     clipped = reference.clipped(p_view)
-    yield lambda name, points: judge.project(name, points, [view], [clipped] if clipped is not None else []).verdict
+    yield lambda name, points: judge.project(name, points, [view], [clipped]
+                                             if clipped is not None else []).verdict
 
 
 def read_as_printed(points):

@@ -6,7 +6,8 @@ from judge_parts.matching import left_over_for_certain, named
 
 
 def exceeds(a, b, tolerance):
-    """Whether a and b differ by more than the tolerance and by more than reading decimals as doubles can add."""
+    """Whether a and b differ by more than the tolerance and by more than reading decimals as doubles can
+    add."""
     return abs(a - b) > tolerance + 4 * math.ulp(max(abs(a), abs(b)))
 
 
@@ -41,11 +42,14 @@ class Differences:
         if a == b or not exceeds(a, b, self.tolerance):
             return False
         self.differing += 1
-        pair = Pair(place(), a, b)
+        self.keep(Pair(place(), a, b))
+        return True
+
+    def keep(self, pair):
+        """Notes a pair that differs, if it is the first or the largest."""
         self.first = self.first or pair
         if self.largest is None or pair.size > self.largest.size:
             self.largest = pair
-        return True
 
     @property
     def found(self):
@@ -67,7 +71,8 @@ def compare_stage_texts(a, b, tolerance):
     result = Differences("numbers", tolerance)
     for keyword in [*a.header, *(keyword for keyword in b.header if keyword not in a.header)]:
         if keyword in a.header and keyword in b.header and a.header[keyword] != b.header[keyword]:
-            result.unlike.append(f"header line {keyword}: {' '.join(a.header[keyword])} and {' '.join(b.header[keyword])}")
+            result.unlike.append(
+                f"header line {keyword}: {' '.join(a.header[keyword])} and {' '.join(b.header[keyword])}")
     triangles, words = paired(a.triangles, b.triangles, tolerance)
     if words:
         result.unlike.append(words)
@@ -79,24 +84,33 @@ def compare_stage_texts(a, b, tolerance):
 
 
 def compare_vertices(result, thing, corner, pairs):
-    """Adds the differences of the vertices of triangles, or of the points of spheres: (number, that of A, that of B)."""
+    """Adds the differences of the vertices of triangles, or of the points of spheres: (number, that of A,
+    that of B)."""
     for t, vertices_a, vertices_b in pairs:
         for v, (vertex_a, vertex_b) in enumerate(zip(vertices_a, vertices_b)):
             for i, (x, y) in enumerate(zip(vertex_a.numbers, vertex_b.numbers)):
-                result.add(lambda: f"line {vertex_a.line}, {'xyz'[i] if i < 3 else f'column {i + 1}'} of {corner} {v + 1} of {thing} {t}", x, y)
+                result.add(
+                    lambda:
+                    f"line {vertex_a.line}, {'xyz'[i] if i < 3 else f'column {i + 1}'} of {corner} {v + 1} "
+                    f"of {thing} {t}",
+                    x, y)
             if len(vertex_a.numbers) != len(vertex_b.numbers) and not result.unlike:
-                result.unlike.append(f"line {vertex_a.line}: {len(vertex_a.numbers)} and {len(vertex_b.numbers)} numbers")
+                result.unlike.append(
+                    f"line {vertex_a.line}: {len(vertex_a.numbers)} and {len(vertex_b.numbers)} numbers")
 
 
 def paired(a, b, tolerance):
-    """(number, triangle of A, triangle of B) of those to compare, and in words how their counts differ; empty if they do not. Of two
-    lists, one of which is the other without some triangles, all others are compared."""
+    """(number, triangle of A, triangle of B) of those to compare, and in words how their counts differ; empty
+    if they do not. Of two lists, one of which is the other without some triangles, all others are
+    compared."""
     if len(a) == len(b):
         return zip(range(len(a)), a, b), ""
     words = f"{len(a)} and {len(b)} triangles"
 
     def is_same(one, other):
-        return all(len(p.numbers) == len(q.numbers) and not any(exceeds(x, y, tolerance) for x, y in zip(p.numbers, q.numbers)) for p, q in zip(one, other))
+        return all(
+            len(p.numbers) == len(q.numbers) and not any(
+                exceeds(x, y, tolerance) for x, y in zip(p.numbers, q.numbers)) for p, q in zip(one, other))
 
     few, many = sorted((a, b), key=len)
     left, is_certain = left_over_for_certain(few, many, is_same)
@@ -114,10 +128,13 @@ def compare_z_buffers(a, b, tolerance):
     result = Differences("depths", tolerance)
     if len(a) != len(b):
         result.unlike.append(f"{len(a)} and {len(b)} rows")
-    uneven = [(row, len(line_a), len(line_b)) for row, (line_a, line_b) in enumerate(zip(a, b)) if len(line_a) != len(line_b)]
+    uneven = [(row, len(line_a), len(line_b))
+              for row, (line_a, line_b) in enumerate(zip(a, b))
+              if len(line_a) != len(line_b)]
     if uneven:
         row, count_a, count_b = uneven[0]
-        rows = f"1 row shows another number of pixels, row {row}" if len(uneven) == 1 else f"{len(uneven)} rows show another number of pixels, first row {row}"
+        rows = f"1 row shows another number of pixels, row {row}" if len(
+            uneven) == 1 else f"{len(uneven)} rows show another number of pixels, first row {row}"
         result.unlike.append(f"{rows}: {count_a} and {count_b}")
     for row, (line_a, line_b) in enumerate(zip(a, b)):
         if len(line_a) == len(line_b):
@@ -127,22 +144,24 @@ def compare_z_buffers(a, b, tolerance):
 
 
 def compare_pictures(a, b, tolerance):
-    """The Differences of two pictures, by the channel that differs most in each pixel, and the pixels that differ."""
-    result, mask = Differences("pixels", tolerance), set()
+    """The Differences of two pictures, by the channel that differs most, and {row: 1 where pixels differ}."""
+    result, mask = Differences("pixels", tolerance), {}
     (width_a, height_a, rows_a), (width_b, height_b, rows_b) = a, b
     if (width_a, height_a) != (width_b, height_b):
         result.unlike.append(f"{width_a} x {height_a} and {width_b} x {height_b} pixels")
         return result, mask
     for row, (line_a, line_b) in enumerate(zip(rows_a, rows_b)):
+        result.compared += width_a
         if line_a == line_b:
-            result.compared += width_a
             continue
-        for column in range(width_a):
-            pixel_a, pixel_b = line_a[3 * column:3 * column + 3], line_b[3 * column:3 * column + 3]
-            channel = max(range(3), key=lambda i: abs(pixel_a[i] - pixel_b[i]))
-            name = ("red", "green", "blue")[channel]
-            if result.add(lambda: f"column {column}, row {row}, {name}", pixel_a[channel], pixel_b[channel]):
-                mask.add((column, row))
+        sizes = [[abs(x - y) for x, y in zip(line_a[channel::3], line_b[channel::3])] for channel in range(3)]
+        largest = list(map(max, *sizes))
+        mask[row] = bytes(size > tolerance for size in largest)
+        result.differing += sum(mask[row])
+        for column in (mask[row].find(1), largest.index(max(largest))) if any(mask[row]) else ():
+            channel = max(range(3), key=lambda i: sizes[i][column])
+            place = f"column {column}, row {row}, {('red', 'green', 'blue')[channel]}"
+            result.keep(Pair(place, line_a[3 * column + channel], line_b[3 * column + channel]))
     return result, mask
 
 
@@ -151,9 +170,7 @@ def difference_picture(b, mask):
     width, height, rows = b
     painted = []
     for row, line in enumerate(rows):
-        gray = bytearray()
-        for column in range(width):
-            shade = 255 - sum(line[3 * column:3 * column + 3]) // 6
-            gray += bytes((220, 0, 30)) if (column, row) in mask else bytes((shade,) * 3)
-        painted.append(bytes(gray))
+        grays = (bytes((255 - sum(line[i:i + 3]) // 6,) * 3) for i in range(0, 3 * width, 3))
+        pixels = zip(grays, mask.get(row, bytes(width)))
+        painted.append(b"".join(bytes((220, 0, 30)) if is_marked else gray for gray, is_marked in pixels))
     return width, height, painted

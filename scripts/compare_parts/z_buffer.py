@@ -11,7 +11,8 @@ def parse_z_buffer(text, path):
         try:
             rows.append([real(word) for word in line.split()])
         except ValueError:
-            raise StageTextError(f"{name_of(path)}:{number}: expected depths, found '{shown(line.strip()[:40])}'") from None
+            raise StageTextError(
+                f"{name_of(path)}:{number}: expected depths, found '{shown(line.strip()[:40])}'") from None
     while rows and not rows[-1]:  # rows at the end may be empty
         rows.pop()
     return rows

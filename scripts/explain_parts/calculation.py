@@ -1,4 +1,5 @@
-"""The pipeline's arithmetic on one triangle, exactly. Each stage begins, as the tools do, with the lossless text of the one before."""
+"""The pipeline's arithmetic on one triangle, exactly. Each stage begins, as the tools do, with the lossless
+text of the one before."""
 from explain_parts.clipping import clip
 from explain_parts.exact import coordinate, double
 from explain_parts.matrices import Projection, applied, view_matrix
@@ -11,7 +12,8 @@ def points_of(words):
 
 
 class Calculation:
-    """Matrices, and the triangle's points in each space. `clipped` and `ndc` have what is left of it, piece by piece."""
+    """Matrices, and the triangle's points in each space. `clipped` and `ndc` have what is left of it, piece
+    by piece."""
 
     def __init__(self, stages, triangle):
         settings, camera = stages.settings, stages.camera()
@@ -24,7 +26,10 @@ class Calculation:
         self.projection_matrix = self.projection.matrix()
         self.corners = [applied(self.projection_matrix, p) for p in points_of(stages.view_lossless)]
         self.clipped = clip(self.corners, self.projection, settings.clip or "auto", settings.cull)
-        self.ndc = [[tuple(x / vertex.point[3] for x in vertex.point[:3]) for vertex in piece] for piece in self.clipped.pieces]
+        self.ndc = [[tuple(x / vertex.point[3]
+                           for x in vertex.point[:3])
+                     for vertex in piece]
+                    for piece in self.clipped.pieces]
 
 
 def agrees(words, point, digits):

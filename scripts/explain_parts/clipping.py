@@ -41,14 +41,16 @@ def outside_of(p):
 
 
 def winding(points):
-    """1 if the part in front of the eye is counterclockwise in NDC, -1 if clockwise, 0 if it is seen edge-on."""
+    """1 if the part in front of the eye is counterclockwise in NDC, -1 if clockwise, 0 if it is seen
+    edge-on."""
     (ax, ay, _, aw), (bx, by, _, bw), (cx, cy, _, cw) = points
     determinant = aw * (bx * cy - by * cx) + bw * (cx * ay - cy * ax) + cw * (ax * by - ay * bx)
     return (determinant > 0) - (determinant < 0)
 
 
 def cut_at(plane, polygon):
-    """The part of a polygon inside a plane (Sutherland and Hodgman, 1974); nothing if that is an edge or a corner."""
+    """The part of a polygon inside a plane (Sutherland and Hodgman, 1974); nothing if that is an edge or a
+    corner."""
     distance = PLANES[plane]
     kept, has_inside = [], False
     for here, there in zip(polygon, polygon[1:] + polygon[:1]):
@@ -70,11 +72,17 @@ def clip(corners, projection, clip_mode, cull_mode):
     turn = winding(corners)
     if turn and cull_mode == ("front" if turn > 0 else "back"):
         way = "counterclockwise" if turn > 0 else "clockwise"
-        return Clipped("culled", f"its corners run {way} as the eye sees them: it shows its {cull_mode}, which --cull {cull_mode} drops", [])
+        return Clipped(
+            "culled",
+            f"its corners run {way} as the eye sees them: it shows its {cull_mode}, which --cull "
+            f"{cull_mode} drops",
+            [])
     if clip_mode == "none":
         return Clipped("passed", "--clip none cuts nothing", polygon)
-    if clip_mode == "auto" and (projection.is_parallel or all(NEAREST_UNCUT * p[3] >= projection.near for p in corners)):
-        why = "a parallel projection divides by 1" if projection.is_parallel else f"no corner comes near the eye (w < near / {NEAREST_UNCUT})"
+    if clip_mode == "auto" and (projection.is_parallel or all(NEAREST_UNCUT * p[3] >= projection.near
+                                                              for p in corners)):
+        why = ("a parallel projection divides by 1"
+               if projection.is_parallel else f"no corner comes near the eye (w < near / {NEAREST_UNCUT})")
         return Clipped("passed", f"not cut: {why}", polygon)
     planes = list(PLANES) if clip_mode in ("frustum", "reject") else ["near"]
     outside = [set(outside_of(p)) & set(planes) for p in corners]
@@ -82,7 +90,9 @@ def clip(corners, projection, clip_mode, cull_mode):
     if whole:
         return Clipped("outside", f"dropped: all corners are outside the {whole[0]} plane", [])
     if not any(outside) or clip_mode == "reject":
-        why = "no plane has all corners outside" if clip_mode == "reject" else f"no corner is outside {'a' if len(planes) > 1 else 'the near'} plane"
+        why = ("no plane has all corners outside"
+               if clip_mode == "reject"
+               else f"no corner is outside {'a' if len(planes) > 1 else 'the near'} plane")
         return Clipped("passed", f"not cut: {why}", polygon)
     for plane in planes:
         polygon = cut_at(plane, polygon)

@@ -1,4 +1,5 @@
-"""Numbers as exact fractions. Only sines, cosines and square roots are not fractions: they are calculated to DIGITS digits."""
+"""Numbers as exact fractions. Only sines, cosines and square roots are not fractions: they are calculated to
+DIGITS digits."""
 import decimal
 import math
 from decimal import Decimal
@@ -18,7 +19,8 @@ def double(word):
 
 
 def decimal_or_double(word):
-    """The value of a word where coverage is exact: the decimal itself if it has at most 7 decimals, else its nearest double."""
+    """The value of a word where coverage is exact: the decimal itself if it has at most 7 decimals, else its
+    nearest double."""
     is_plain = "e" not in word.lower() and len(word.partition(".")[2]) <= DECIMALS_IN_TEXT
     return Fraction(word) if is_plain and abs(Decimal(word)) < MAX_EXACT_DECIMAL else double(word)
 
@@ -64,7 +66,8 @@ def sine_cosine_below_45(degrees):
 
 
 def sine_cosine(degrees):
-    """Exact for multiples of 90 degrees; the sine of 30 degrees is exactly 1/2, and sine and cosine of 45 are the same."""
+    """Exact for multiples of 90 degrees; the sine of 30 degrees is exactly 1/2, and sine and cosine of 45 are
+    the same."""
     quarters = round(degrees / 90)
     rest = degrees - 90 * quarters
     if abs(rest) == 45:
@@ -82,8 +85,8 @@ def cotangent(degrees):
 
 
 def fixed(x, decimals):
-    """x with a number of decimals, rounded to nearest, ties to even, no sign on zero. A number that DIGITS digits cannot tell
-    from a tie counts as one."""
+    """x with a number of decimals, rounded to nearest, ties to even, no sign on zero. A number that DIGITS
+    digits cannot tell from a tie counts as one."""
     x = Fraction(round(x * 10**60), 10**60)
     units = round(x * 10**decimals)
     digits = str(abs(units)).rjust(decimals + 1, "0")

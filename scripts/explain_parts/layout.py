@@ -11,13 +11,15 @@ INDENT = "  "
 def aligned(rows):
     """Rows of words as lines, each column aligned on the right."""
     widths = [max(map(len, column)) for column in zip(*rows)]
-    return [INDENT + "  ".join(word.rjust(width) for word, width in zip(row, widths)).rstrip() for row in rows]
+    return [
+        INDENT + "  ".join(word.rjust(width) for word, width in zip(row, widths)).rstrip() for row in rows]
 
 
 def aligned_left(rows):
     """Rows of words as lines, each column aligned on the left."""
     widths = [max(map(len, column)) for column in zip(*rows)]
-    return [INDENT + "   ".join(word.ljust(width) for word, width in zip(row, widths)).rstrip() for row in rows]
+    return [
+        INDENT + "   ".join(word.ljust(width) for word, width in zip(row, widths)).rstrip() for row in rows]
 
 
 def on_the_point(column):
@@ -31,7 +33,8 @@ def on_the_point(column):
 def matrix_lines(name, matrix):
     least = NEGLIGIBLE * max(abs(x) for row in matrix for x in row)
     columns = [on_the_point([short(x if abs(x) > least else 0) for x in column]) for column in zip(*matrix)]
-    return [(f"{name} = " if i == 0 else " " * (len(name) + 3)) + "| " + "  ".join(row) + " |" for i, row in enumerate(zip(*columns))]
+    return [(f"{name} = " if i == 0 else " " * (len(name) + 3)) + "| " + "  ".join(row) + " |"
+            for i, row in enumerate(zip(*columns))]
 
 
 def beside(left, right):

@@ -37,14 +37,17 @@ def scaling(numbers):
 
 
 def rotation(numbers):
-    """Rodrigues: x turns into cos t x + (1 - cos t)(a.x) a + sin t (a x x), for the unit vector a of the axis."""
+    """Rodrigues: x turns into cos t x + (1 - cos t)(a.x) a + sin t (a x x), for the unit vector a of the
+    axis."""
     degrees, *axis = numbers
     sine, cosine = sine_cosine(degrees)
     square = dot(axis, axis)
     along, turned = (1 - cosine) / square, sine / root(square)
     images = []
     for unit in (row[:3] for row in IDENTITY[:3]):
-        images.append([cosine * x + along * dot(axis, unit) * a + turned * c for x, a, c in zip(unit, axis, cross(axis, unit))])
+        images.append([
+            cosine * x + along * dot(axis, unit) * a + turned * c
+            for x, a, c in zip(unit, axis, cross(axis, unit))])
     return affine(list(zip(*images)))
 
 
@@ -52,16 +55,21 @@ TRANSFORMS = {"translate": translation, "scale": scaling, "rotate": rotation}
 
 
 def view_matrix(eye, look, up):
-    """From world space to view space: first the eye moves to the origin, then the camera's axes become x, y and -z."""
+    """From world space to view space: first the eye moves to the origin, then the camera's axes become x, y
+    and -z."""
     forward = tuple(b - a for a, b in zip(eye, look))
     right = cross(forward, up)
     camera_up = cross(right, forward)
-    axes = [tuple(x / root(dot(axis, axis)) for x in axis) for axis in (right, camera_up, tuple(-x for x in forward))]
+    axes = [
+        tuple(x / root(dot(axis, axis))
+              for x in axis)
+        for axis in (right, camera_up, tuple(-x for x in forward))]
     return affine(axes, [-dot(axis, eye) for axis in axes])
 
 
 class Projection:
-    """A line `perspective`, `frustum` or `ortho` of the header, which may end in the aspect rule `angle` or `ratio`."""
+    """A line `perspective`, `frustum` or `ortho` of the header, which may end in the aspect rule `angle` or
+    `ratio`."""
 
     def __init__(self, kind, words, aspect_rule=None):
         count = 4 if kind == "perspective" else 6
@@ -79,14 +87,17 @@ class Projection:
             return ((x_scale, ZERO, ZERO, -x_offset), (ZERO, y_scale, ZERO, -y_offset),
                     (ZERO, ZERO, -2 / (far - near), -(far + near) / (far - near)), IDENTITY[3])
         return ((x_scale, ZERO, x_offset, ZERO), (ZERO, y_scale, y_offset, ZERO),
-                (ZERO, ZERO, -(far + near) / (far - near), -2 * far * near / (far - near)), (ZERO, ZERO, -ONE, ZERO))
+                (ZERO, ZERO, -(far + near) / (far - near), -2 * far * near / (far - near)), (ZERO, ZERO, -ONE,
+                                                                                             ZERO))
 
     def window(self):
         """How x and y are scaled and moved so that the window becomes [-1, 1]."""
         if self.kind == "perspective":
             fov_y, aspect = self.numbers[:2]
             y_scale = cotangent(fov_y / 2)
-            return (y_scale / aspect if self.aspect_rule == "ratio" else cotangent(fov_y * aspect / 2)), ZERO, y_scale, ZERO
+            return (y_scale / aspect if self.aspect_rule == "ratio" else cotangent(fov_y * aspect /
+                                                                                   2)), ZERO, y_scale, ZERO
         left, right, bottom, top = self.numbers[:4]
         size = 2 if self.is_parallel else 2 * self.near
-        return size / (right - left), (right + left) / (right - left), size / (top - bottom), (top + bottom) / (top - bottom)
+        return size / (right - left), (right + left) / (right - left), size / (top - bottom), (
+            top + bottom) / (top - bottom)

@@ -5,10 +5,14 @@ from explain_parts.window import OWNING, PixelOfTriangle
 
 
 def pixel_section(stages, window, pieces, number, pixel):
-    """Lines about the pixel and triangle `number`, whose pieces are pairs of names and points in NDC; and the Fragments there."""
+    """Lines about the pixel and triangle `number`, whose pieces are pairs of names and points in NDC; and the
+    Fragments there."""
     fragments = stages.fragments(*pixel)
     x, y = window.grid.x_of(pixel[0]), window.grid.y_of(pixel[1])
-    lines = [f"PIXEL    {pixel[0]},{pixel[1]}: its center is at column {pixel[0]}, row {pixel[1]} of the window, at ({short(x)} {short(y)}) in NDC"]
+    lines = [
+        f"PIXEL    {pixel[0]},{pixel[1]}: its center is at column {pixel[0]}, row {pixel[1]} of the window, "
+        f"at ({short(x)} {short(y)}) in NDC"
+    ]
     if pieces:
         is_drawn = any(fragment.triangle == number for fragment in fragments)
         pixels = [PixelOfTriangle(window, names, points, pixel) for names, points in pieces]
@@ -31,24 +35,34 @@ def coverage_lines(pixels, rule, is_drawn):
 
 def depth_lines(pixel, rule):
     if pixel.single_crossing(rule) is not None:
-        return [f"{INDENT}depth = {fixed(pixel.depth(rule), 10)}, where the row meets the triangle in a single point"]
+        return [
+            f"{INDENT}depth = {fixed(pixel.depth(rule), 10)}, where the row meets the triangle in a "
+            f"single point"
+        ]
     if not pixel.has_area:
         return []
-    terms = " + ".join(f"{measured(weight)} z{name}" for weight, name in zip(pixel.weights, pixel.names)).replace("+ -", "- ")
+    terms = " + ".join(
+        f"{measured(weight)} z{name}" for weight, name in zip(pixel.weights, pixel.names)).replace(
+            "+ -", "- ")
     return [f"{INDENT}depth = {terms} = {fixed(pixel.depth(rule), 10)}"]
 
 
 def edge_lines(edges, rule):
     rows = [edge_words(edge, rule) for edge in edges]
     width = max(len(number) for _, number, _ in rows)
-    return [f"{INDENT}{name}   {words if not number else f'{number.rjust(width)} {words}'}" for name, number, words in rows]
+    return [
+        f"{INDENT}{name}   {words if not number else f'{number.rjust(width)} {words}'}"
+        for name, number, words in rows]
 
 
 def edge_words(edge, rule):
     if edge.value == 0:
         owned = f": {'owned' if edge.side in OWNING else 'not owned'}" * (rule == "center")
         return [f"edge {edge.name}", "", f"exactly on a {edge.side} edge{owned}"]
-    return [f"edge {edge.name}", measured(abs(edge.distance)), f"pixels {'inside' if edge.value > 0 else 'outside'} a {edge.side} edge"]
+    return [
+        f"edge {edge.name}",
+        measured(abs(edge.distance)),
+        f"pixels {'inside' if edge.value > 0 else 'outside'} a {edge.side} edge"]
 
 
 def center_lines(pixel):
@@ -61,7 +75,10 @@ def center_lines(pixel):
     if foreign:
         return [f"{INDENT}not covered: points on a {foreign[0].side} edge belong to the triangle beyond it"]
     on_edge = any(edge.value == 0 for edge in pixel.edges)
-    return [f"{INDENT}covered: {'points on left and top edges belong to the triangle' if on_edge else 'the center is inside'}"]
+    return [
+        f"{INDENT}covered: "
+        f"{'points on left and top edges belong to the triangle' if on_edge else 'the center is inside'}"
+    ]
 
 
 def nearest_lines(pixel):
@@ -69,20 +86,33 @@ def nearest_lines(pixel):
     exact, in_doubles = pixel.span(), pixel.span_in_doubles()
     lines = []
     if exact:
-        lines.append(f"{INDENT}row {row} crosses it from column {measured(exact.left)} to {measured(exact.right)}: pixels {exact.first} to {exact.last} are nearest")
+        lines.append(
+            f"{INDENT}row {row} crosses it from column {measured(exact.left)} to {measured(exact.right)}: "
+            f"pixels {exact.first} to {exact.last} are nearest"
+        )
     if in_doubles and in_doubles.ends != (exact and exact.ends):
-        lines.append(f"{INDENT}in doubles, as zbuf calculates, from {in_doubles.left!r} to {in_doubles.right!r}: pixels {in_doubles.first} to {in_doubles.last}")
+        lines.append(
+            f"{INDENT}in doubles, as zbuf calculates, from {in_doubles.left!r} to {in_doubles.right!r}: "
+            f"pixels {in_doubles.first} to {in_doubles.last}"
+        )
     if not in_doubles:
-        return [*lines, f"{INDENT}not covered: the line through the centers of row {row} does not cross the triangle{' in doubles' if exact else ''}"]
+        return [
+            *lines,
+            f"{INDENT}not covered: the line through the centers of row {row} does not cross the "
+            f"triangle{' in doubles' if exact else ''}"
+        ]
     if not in_doubles.has(column):
-        return [*lines, f"{INDENT}not covered: {column} is {'left' if column < in_doubles.first else 'right'} of these"]
+        return [
+            *lines,
+            f"{INDENT}not covered: {column} is {'left' if column < in_doubles.first else 'right'} of these"]
     is_outside = any(edge.value < 0 for edge in pixel.edges)
-    return [*lines, f"{INDENT}covered: {column} is one of these{', although its center is outside' * is_outside}"]
+    return [
+        *lines, f"{INDENT}covered: {column} is one of these{', although its center is outside' * is_outside}"]
 
 
 def winner_lines(fragments, number, max_lines):
-    """The fragments as the depth test met them, and the last one kept; the triangle's own are marked. If they are too many for
-    `max_lines`, the winner, the triangle's own and the first ones are shown."""
+    """The fragments as the depth test met them, and the last one kept; the triangle's own are marked. If they
+    are too many for `max_lines`, the winner, the triangle's own and the first ones are shown."""
     if not fragments:
         return ["no triangle covers this pixel: it shows the background"]
     rows, seen = [], None
@@ -91,11 +121,16 @@ def winner_lines(fragments, number, max_lines):
         if fragment.is_kept:
             fate = f"kept, nearer than triangle {seen.triangle}" if seen else "kept, the first one"
             seen = fragment
-        rows.append(["->" if fragment.triangle == number else "", f"triangle {fragment.triangle}", f"depth {fragment.depth}", fate])
-    order = sorted(range(len(rows)), key=lambda i: (fragments[i] is not seen, fragments[i].triangle != number, i))
+        rows.append([
+            "->" if fragment.triangle == number else "", f"triangle {fragment.triangle}",
+            f"depth {fragment.depth}", fate])
+    order = sorted(range(len(rows)), key=lambda i:
+                   (fragments[i] is not seen, fragments[i].triangle != number, i))
     shown = sorted(order[:max(1, max_lines - 2)])
     some = f" ({len(shown)} of {len(rows)})" * (len(shown) < len(rows))
-    return [f"{INDENT}at this pixel, in the order they are drawn{some}:", *aligned_left([rows[i] for i in shown]), INDENT + verdict(fragments, seen, number)]
+    return [
+        f"{INDENT}at this pixel, in the order they are drawn{some}:", *aligned_left([rows[i] for i in shown]),
+        INDENT + verdict(fragments, seen, number)]
 
 
 def verdict(fragments, seen, number):

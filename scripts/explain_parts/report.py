@@ -19,9 +19,13 @@ def report(stages, triangle, window, name, options):
 def triangle_report(stages, triangle, window, name, number):
     """The lines about triangle `number`, and its pieces in NDC: pairs of names and points."""
     calculation = Calculation(stages, triangle)
-    columns = [f"color and light take {triangle.columns} more numbers per vertex, which the geometry does not need"] * (triangle.columns > 0)
-    lines = [f"triangle {number} of {stages.count}, numbered from 0: {name}, line {triangle.line}", *columns, "",
-             *model_section(stages, triangle, calculation), "", *view_section(stages, calculation), "", *project_section(calculation)]
+    columns = [
+        f"color and light take {triangle.columns} more numbers per vertex, which the geometry does not need"
+    ] * (triangle.columns > 0)
+    lines = [
+        f"triangle {number} of {stages.count}, numbered from 0: {name}, line {triangle.line}", *columns, "",
+        *model_section(stages, triangle, calculation), "", *view_section(stages, calculation), "",
+        *project_section(calculation)]
     pieces = [([vertex.name for vertex in piece], [tuple(map(decimal_or_double, vertex)) for vertex in words])
               for piece, words in zip(calculation.clipped.pieces, stages.ndc)]
     if pieces:

@@ -1,4 +1,5 @@
-"""One triangle of a scene: its line, its numbers, and the transforms in force. `model` has accepted the scene before."""
+"""One triangle of a scene: its line, its numbers, and the transforms in force. `model` has accepted the scene
+before."""
 import dataclasses
 import functools
 import itertools
@@ -28,13 +29,16 @@ class SceneTriangle:
     transforms: list  # of Command, as they stand in the scene
 
     def matrix(self):
-        """The product of the transforms: each is multiplied from the right, so that the last one is applied first."""
+        """The product of the transforms: each is multiplied from the right, so that the last one is applied
+        first."""
         return functools.reduce(product, (transform.matrix() for transform in self.transforms), IDENTITY)
 
 
 def commands(text):
     """The commands of a scene, in order."""
-    filled = ((number, words) for number, line in enumerate(text.split("\n"), 1) if (words := line.split("#")[0].split()))
+    filled = ((number, words)
+              for number, line in enumerate(text.split("\n"), 1)
+              if (words := line.split("#")[0].split()))
     for _ in range(CAMERA_LINES):
         next(filled)
     for number, (keyword, *rest) in filled:
@@ -47,7 +51,8 @@ def commands(text):
 
 def find_triangles(text):
     """Every SceneTriangle, in order."""
-    in_force, saved = None, []  # in_force is the last transform and those before it: (command, (command, ...))
+    in_force, saved = None, [
+    ]  # in_force is the last transform and those before it: (command, (command, ...))
     for command in commands(text):
         if command.keyword in TRANSFORMS:
             in_force = (command, in_force)
@@ -57,7 +62,8 @@ def find_triangles(text):
             in_force = saved.pop()
         elif command.keyword == "triangle":
             lines = command.arguments
-            yield SceneTriangle(command.line, [words[:3] for words in lines], len(lines[0]) - 3, listed(in_force))
+            yield SceneTriangle(command.line, [words[:3] for words in lines],
+                                len(lines[0]) - 3, listed(in_force))
 
 
 def find_triangle(text, number):

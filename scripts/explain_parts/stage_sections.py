@@ -1,4 +1,5 @@
-"""The report on the stages model, view and project: a list of lines for each. The coordinates shown are the tools'."""
+"""The report on the stages model, view and project: a list of lines for each. The coordinates shown are the
+tools'."""
 from explain_parts.calculation import agrees
 from explain_parts.clipping import outside_of, winding
 from explain_parts.exact import coordinate, decimal_or_double, fixed, measured, short
@@ -10,7 +11,8 @@ CORNERS = "012"
 
 
 def vertex_lines(rows, printed, points, digits):
-    """Rows of words, a vertex each. Where the tool `printed` another number than exact arithmetic, the exact ones follow."""
+    """Rows of words, a vertex each. Where the tool `printed` another number than exact arithmetic, the exact
+    ones follow."""
     lines = []
     for line, words, point in zip(aligned(rows), printed, points):
         lines.append(line)
@@ -20,10 +22,12 @@ def vertex_lines(rows, printed, points, digits):
 
 
 def model_section(stages, triangle, calculation):
-    shown = triangle.transforms if len(triangle.transforms) <= MAX_TRANSFORMS else triangle.transforms[1 - MAX_TRANSFORMS:]
+    shown = triangle.transforms if len(
+        triangle.transforms) <= MAX_TRANSFORMS else triangle.transforms[1 - MAX_TRANSFORMS:]
     left_out = len(triangle.transforms) - len(shown)
     facts = [f"({left_out} transforms before these)"] if left_out else []
-    facts += [f"line {t.line}  {t.keyword} {' '.join(t.arguments[0])}" for t in shown] or ["no transform is in force"]
+    facts += [f"line {t.line}  {t.keyword} {' '.join(t.arguments[0])}"
+              for t in shown] or ["no transform is in force"]
     rows = [[name, *p, "->", *world] for name, p, world in zip(CORNERS, triangle.points, stages.world)]
     return ["MODEL    world = M p      M is the product of the transforms in force; the last one acts first",
             *beside(facts, matrix_lines("M", calculation.model_matrix)),
@@ -43,7 +47,9 @@ def projection_facts(projection):
     words = projection.words
     if projection.kind != "perspective":
         left, right, bottom, top, near, far = words
-        return [projection.kind, f"left {left}, right {right}", f"bottom {bottom}, top {top}", f"near {near}, far {far}"]
+        return [
+            projection.kind, f"left {left}, right {right}", f"bottom {bottom}, top {top}",
+            f"near {near}, far {far}"]
     fov_y, aspect, near, far = words
     if projection.aspect_rule == "ratio":
         rule = "tan(fovX/2) = aspect tan(fovY/2)"
@@ -74,11 +80,13 @@ def project_section(calculation):
     more = [f"{INDENT}({len(cuts) - MAX_CUTS} more)"] * (len(cuts) > MAX_CUTS)
     if clipped.fate == "cut":
         pieces = ", ".join("-".join(vertex.name for vertex in piece) for piece in clipped.pieces)
-        result = f"cut: what is left is the triangle {pieces}" if len(clipped.pieces) == 1 else f"cut: what is left are the triangles {pieces}"
+        result = f"cut: what is left is the triangle {pieces}" if len(
+            clipped.pieces) == 1 else f"cut: what is left are the triangles {pieces}"
     volume = "; w is 1" if calculation.projection.is_parallel else "; w is the distance ahead of the eye"
-    return [f"PROJECT  clip = P view    P makes the view volume -w <= x, y, z <= w{volume}",
-            *beside(projection_facts(calculation.projection), matrix_lines("P", calculation.projection_matrix)),
-            *(f"{line.ljust(width)}   {note}" for line, note in zip(lines, notes)), *more, INDENT + result]
+    return [
+        f"PROJECT  clip = P view    P makes the view volume -w <= x, y, z <= w{volume}",
+        *beside(projection_facts(calculation.projection), matrix_lines("P", calculation.projection_matrix)),
+        *(f"{line.ljust(width)}   {note}" for line, note in zip(lines, notes)), *more, INDENT + result]
 
 
 def window_section(stages, calculation, window):
@@ -88,26 +96,34 @@ def window_section(stages, calculation, window):
         for vertex, words, point in zip(piece, texts, exact):
             printed[vertex.name], points[vertex.name] = words, point
     places = [window.place(tuple(map(decimal_or_double, words))) for words in printed.values()]
-    rows = [[name, *words, "->", measured(column), measured(row)] for (name, words), (column, row) in zip(printed.items(), places)]
-    x_scale, y_scale = (f"* {pixels} / {short(-2 * limit)}" for pixels, limit in ((window.width, window.left), (window.height, window.bottom)))
-    return ["DIVIDE   ndc = (x y z) / w        what is far away gets small; a smaller z is nearer",
-            f"WINDOW   column = (x - {short(window.left)}) {x_scale} - 0.5, row = ({short(-window.bottom)} - y) {y_scale} - 0.5: centers are whole".replace("- -", "+ "),
-            *vertex_lines(rows, printed.values(), points.values(), stages.settings.digits),
-            INDENT + extent(calculation, window, places, [decimal_or_double(words[2]) for words in printed.values()])]
+    rows = [[name, *words, "->", measured(column), measured(row)]
+            for (name, words), (column, row) in zip(printed.items(), places)]
+    x_scale, y_scale = (f"* {pixels} / {short(-2 * limit)}" for pixels, limit in ((window.width, window.left),
+                                                                                  (window.height,
+                                                                                   window.bottom)))
+    return [
+        "DIVIDE   ndc = (x y z) / w        what is far away gets small; a smaller z is nearer",
+        f"WINDOW   column = (x - {short(window.left)}) {x_scale} - 0.5, row = ({short(-window.bottom)} - y) "
+        f"{y_scale} - 0.5: centers are whole"
+        .replace("- -", "+ "), *vertex_lines(rows, printed.values(), points.values(), stages.settings.digits),
+        INDENT +
+        extent(calculation, window, places, [decimal_or_double(words[2]) for words in printed.values()])]
 
 
 def extent(calculation, window, places, depths):
     """Whether the picture can show the triangle, and how large it is there."""
     columns, rows = zip(*places)
-    beyond = {"left of the picture": max(columns) < -0.5, "right of the picture": min(columns) > window.width - 0.5,
-              "above the picture": max(rows) < -0.5, "below the picture": min(rows) > window.height - 0.5,
-              f"before the front limit {short(window.front)}": max(depths) < window.front,
-              f"beyond the rear limit {short(window.rear)}": min(depths) >= window.rear}
+    beyond = {
+        "left of the picture": max(columns) < -0.5, "right of the picture": min(columns) > window.width - 0.5,
+        "above the picture": max(rows) < -0.5, "below the picture": min(rows) > window.height - 0.5,
+        f"before the front limit {short(window.front)}": max(depths) < window.front,
+        f"beyond the rear limit {short(window.rear)}": min(depths) >= window.rear}
     for where, is_beyond in beyond.items():
         if is_beyond:
             return f"wholly {where}: no pixel shows it"
     area = abs(sum(a[0] * b[1] - a[1] * b[0] for a, b in zip(places, places[1:] + places[:1]))) / 2
     if area == 0:
         return "no area: it is seen edge-on"
-    turn = "counterclockwise: this is its front" if winding(calculation.corners) > 0 else "clockwise: this is its back"
+    turn = "counterclockwise: this is its front" if winding(
+        calculation.corners) > 0 else "clockwise: this is its back"
     return f"area {measured(area, 2)} pixels, {turn}"

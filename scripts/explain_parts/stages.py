@@ -1,6 +1,7 @@
 """The tools' own texts of one triangle, and zbuf's report on a pixel.
 
-As in scripts/stages, every stage passes lossless text on and prints its numbers rounded once; zbuf reads what project printed."""
+As in scripts/stages, every stage passes lossless text on and prints its numbers rounded once; zbuf reads what
+project printed."""
 import dataclasses
 import pathlib
 import re
@@ -64,7 +65,8 @@ class Stages:
         vertices = self.body[4 * number:4 * number + 3]
         self.world_lossless = words_of(vertices)
         alone = "\n".join([*self.header, f"triangle {number}", *vertices, "", ""]).encode()
-        self.view = words_of(self.tools.output("view", "--bare", *digits, stdin=alone).decode().split("\n")[:3])
+        self.view = words_of(
+            self.tools.output("view", "--bare", *digits, stdin=alone).decode().split("\n")[:3])
         in_view = self.tools.output("view", *EXACT, stdin=alone)
         self.view_lossless = words_of(vertex_lines(in_view)[0])
         self.projected = self.tools.output("project", *digits, *self.settings.of_project, stdin=in_view)
@@ -78,14 +80,16 @@ class Stages:
     def zbuf(self, text, *options):
         with tempfile.TemporaryDirectory() as folder:
             image = pathlib.Path(folder, "out.ppm")
-            done = self.tools.run("zbuf", "--coverage", self.settings.coverage, "--image", image, "--z-buffer", "/dev/null", *options,
+            done = self.tools.run("zbuf", "--coverage", self.settings.coverage,
+                                  "--image", image, "--z-buffer", "/dev/null", *options,
                                   *opaque_background(text), self.config, stdin=text)
             return done.stderr.decode(errors="replace")
 
     def fragments(self, column, row):
         """Every Fragment of the whole scene at a pixel, in the order they come."""
         in_view = self.tools.output("view", *EXACT, stdin=self.lossless)
-        text = self.tools.output("project", "--digits", self.settings.digits, *self.settings.of_project, stdin=in_view)
+        text = self.tools.output("project", "--digits", self.settings.digits, *self.settings.of_project,
+                                 stdin=in_view)
         report = self.zbuf(text, "--probe", f"{column},{row}")
         return [Fragment(int(n), depth, fate) for n, depth, fate in FRAGMENT.findall(report)]
 
@@ -96,7 +100,10 @@ def words_of(lines):
 
 
 def vertex_lines(data):
-    """The three vertex lines of each triangle of a stage text; the whole triangles of its `clipped` blocks do not count."""
+    """The three vertex lines of each triangle of a stage text; the whole triangles of its `clipped` blocks do
+    not count."""
     text = data.decode()
     lines = text.split("\n")
-    return [[lines[vertex.line - 1] for vertex in triangle] for triangle in parse_stage_text(text, "stage text").triangles]
+    return [[lines[vertex.line - 1]
+             for vertex in triangle]
+            for triangle in parse_stage_text(text, "stage text").triangles]

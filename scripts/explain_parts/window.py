@@ -1,6 +1,7 @@
 """The window transform of a config.txt, and which pixels a triangle covers, exactly.
 
-A point of the window is (column, row), row 0 at the top; the pixel (column, row) has its center at just these numbers."""
+A point of the window is (column, row), row 0 at the top; the pixel (column, row) has its center at just these
+numbers."""
 import dataclasses
 import math
 from fractions import Fraction
@@ -30,7 +31,8 @@ class Window:
 
 
 class Grid:
-    """The pixel centers in NDC, in the number type of the limits: fractions, or doubles with zbuf's roundings."""
+    """The pixel centers in NDC, in the number type of the limits: fractions, or doubles with zbuf's
+    roundings."""
 
     def __init__(self, width, height, left, bottom):
         self.dx, self.dy = -2 * left / width, -2 * bottom / height
@@ -86,7 +88,8 @@ class PixelOfTriangle:
         for i, j in ((0, 1), (1, 2), (2, 0)):
             right, down = (sign * (q - p) for p, q in zip(corners[i], corners[j]))
             value = right * (pixel[1] - corners[i][1]) - down * (pixel[0] - corners[i][0])
-            self.edges.append(Edge(f"{names[i]}-{names[j]}", side_of(-down, right), value, right**2 + down**2))
+            self.edges.append(Edge(f"{names[i]}-{names[j]}", side_of(-down, right), value,
+                                   right**2 + down**2))
 
     @property
     def has_area(self):
@@ -98,8 +101,9 @@ class PixelOfTriangle:
         return min(edge.distance for edge in self.edges) if self.has_area else -math.inf
 
     def is_covered(self, rule):
-        """By the rule `center`, if the center is inside or on top and left edges alone, exactly. By the rule `nearest`, if it is
-        one of the pixels of the row from that nearest to the left end to that nearest to the right, in zbuf's doubles."""
+        """By the rule `center`, if the center is inside or on top and left edges alone, exactly. By the rule
+        `nearest`, if it is one of the pixels of the row from that nearest to the left end to that nearest to
+        the right, in zbuf's doubles."""
         if rule == "center":
             return self.has_area and all(edge.is_owned for edge in self.edges)
         span = self.span_in_doubles()
@@ -107,19 +111,20 @@ class PixelOfTriangle:
 
     @property
     def weights(self):
-        """Of the three vertices at the pixel's center: each the share of the area between the center and the opposite edge."""
+        """Of the three vertices at the pixel's center: each the share of the area between the center and the
+        opposite edge."""
         ab, bc, ca = (edge.value / abs(self.doubled_area) for edge in self.edges)
         return bc, ca, ab
 
     def depth(self, rule):
-        """Of the triangle's plane at the pixel's center, exactly; but by the rule `nearest` that of the point of the row's
-        crossing, if it is a single one."""
+        """Of the triangle's plane at the pixel's center, exactly; but by the rule `nearest` that of the point
+        of the row's crossing, if it is a single one."""
         end = self.single_crossing(rule)
         return end if end is not None else sum(weight * p[2] for weight, p in zip(self.weights, self.points))
 
     def single_crossing(self, rule):
-        """The depth where the rule `nearest`, in zbuf's doubles, finds that the row meets the triangle in a single point: at a
-        corner, or edge-on. Else None."""
+        """The depth where the rule `nearest`, in zbuf's doubles, finds that the row meets the triangle in a
+        single point: at a corner, or edge-on. Else None."""
         span = self.span_in_doubles() if rule == "nearest" else None
         if span is None or span.depth is None:
             return None
@@ -132,13 +137,14 @@ class PixelOfTriangle:
 
     def span_in_doubles(self):
         """The same in doubles, step by step as zbuf calculates it."""
-        return span_on_row(self.window.grid_in_doubles, [tuple(map(float, p)) for p in self.points], self.pixel[1])
+        return span_on_row(self.window.grid_in_doubles, [tuple(map(float, p)) for p in self.points],
+                           self.pixel[1])
 
 
 @dataclasses.dataclass
 class Span:
-    """Where a row enters and leaves a triangle, as columns, and the pixels nearest to that. If both are a single point, its
-    depth, else None."""
+    """Where a row enters and leaves a triangle, as columns, and the pixels nearest to that. If both are a
+    single point, its depth, else None."""
     left: object
     right: object
     first: int
@@ -154,7 +160,8 @@ class Span:
 
 
 def span_on_row(grid, points, row):
-    """The Span of a row, halves going right. None if the line through the row's pixel centers meets fewer than two edges."""
+    """The Span of a row, halves going right. None if the line through the row's pixel centers meets fewer
+    than two edges."""
     highest, lowest = max(p[1] for p in points), min(p[1] for p in points)
     if not grid.row_at(highest) <= row <= grid.row_at(lowest):
         return None
@@ -169,12 +176,14 @@ def span_on_row(grid, points, row):
 
 
 def crossings(points, y):
-    """The x and z at which edges that are not horizontal cross the line at y, from their lower end, by y, x and z."""
+    """The x and z at which edges that are not horizontal cross the line at y, from their lower end, by y, x
+    and z."""
     found = []
     for p, q in zip(points, points[1:] + points[:1]):
         low, high = sorted((p, q), key=lambda v: (v[1], v[0], v[2]))
         if low[1] <= y <= high[1] and low[1] != high[1]:
             t = (y - low[1]) / (high[1] - low[1])
-            x, z = ((p + t * (q - p) if y != high[1] else q) for p, q in ((low[0], high[0]), (low[2], high[2])))
+            x, z = ((p + t * (q - p) if y != high[1] else q)
+                    for p, q in ((low[0], high[0]), (low[2], high[2])))
             found.append((x, z))
     return found

@@ -42,12 +42,18 @@ def read_path(data, path):
         except ValueError:
             numbers = []
         if len(numbers) not in (10, 11) or not all(map(math.isfinite, numbers)):
-            raise CommandFailure(place + f"expected the time, eye, look and up, and perhaps fovY: 10 or 11 numbers, found '{' '.join(words)[:60]}'")
-        camera = Camera(tuple(numbers[1:4]), tuple(numbers[4:7]), tuple(numbers[7:10]), numbers[10] if len(numbers) == 11 else None)
+            raise CommandFailure(
+                place +
+                f"expected the time, eye, look and up, and perhaps fovY: 10 or 11 numbers, found "
+                f"'{' '.join(words)[:60]}'"
+            )
+        camera = Camera(tuple(numbers[1:4]), tuple(numbers[4:7]), tuple(numbers[7:10]),
+                        numbers[10] if len(numbers) == 11 else None)
         if camera.fov_y is not None and not 0 < camera.fov_y < 180:
             raise CommandFailure(place + f"expected a fovY above 0 and below 180, found {words[10]}")
         if not is_usable(camera):
-            raise CommandFailure(place + "expected an eye apart from the look point, and an up that is not along their line")
+            raise CommandFailure(
+                place + "expected an eye apart from the look point, and an up that is not along their line")
         if keys and numbers[0] <= keys[-1].time:
             raise CommandFailure(place + f"expected a time after {keys[-1].time:g}, found {words[0]}")
         if keys and (camera.fov_y is None) != (keys[0].camera.fov_y is None):
@@ -63,14 +69,18 @@ def numbers_of(camera):
 
 
 def slopes(times, values):
-    """Catmull-Rom: at a key, the slope from its neighbor before to that after; at an end, to its only neighbor."""
+    """Catmull-Rom: at a key, the slope from its neighbor before to that after; at an end, to its only
+    neighbor."""
     last = len(times) - 1
-    return [(values[min(i + 1, last)] - values[max(i - 1, 0)]) / (times[min(i + 1, last)] - times[max(i - 1, 0)]) for i in range(last + 1)]
+    return [
+        (values[min(i + 1, last)] - values[max(i - 1, 0)]) / (times[min(i + 1, last)] - times[max(i - 1, 0)])
+        for i in range(last + 1)]
 
 
 def hermite(t, h, a, b, slope_a, slope_b):
     """The cubic from a to b with these slopes, at the part t of an interval of length h."""
-    return (a * (1 + 2 * t) * (1 - t) ** 2 + slope_a * h * t * (1 - t) ** 2 + b * t * t * (3 - 2 * t) + slope_b * h * t * t * (t - 1))
+    return (a * (1 + 2 * t) * (1 - t)**2 + slope_a * h * t * (1 - t)**2 + b * t * t * (3 - 2 * t) +
+            slope_b * h * t * t * (t - 1))
 
 
 def cameras_of(keys, fps, linear):
@@ -86,13 +96,21 @@ def cameras_of(keys, fps, linear):
         while i + 2 < len(times) and time > times[i + 1]:
             i += 1
         h = times[i + 1] - times[i]
-        t = min((time - times[i]) / h, 1.0)
+        t = (time - times[i]) / h
+        if abs(t - round(t)) < 1e-9:  # at a key, but for the rounding of times
+            t = round(t)
         if linear:
             numbers = [values[i] * (1 - t) + values[i + 1] * t for values in curves]
         else:
-            numbers = [hermite(t, h, values[i], values[i + 1], slope[i], slope[i + 1]) for values, slope in zip(curves, slopes_of)]
-        camera = Camera(tuple(numbers[0:3]), tuple(numbers[3:6]), tuple(numbers[6:9]), numbers[9] if len(numbers) == 10 else None)
+            numbers = [
+                hermite(t, h, values[i], values[i + 1], slope[i], slope[i + 1])
+                for values, slope in zip(curves, slopes_of)]
+        camera = Camera(tuple(numbers[0:3]), tuple(numbers[3:6]), tuple(numbers[6:9]),
+                        numbers[9] if len(numbers) == 10 else None)
         if not is_usable(camera) or not (camera.fov_y is None or 0 < camera.fov_y < 180):
-            raise CommandFailure(f"at {time:g} s the way between the cameras leads through one that shows nothing: add a key there, or take --linear")
+            raise CommandFailure(
+                f"at {time:g} s the way between the cameras leads through one that shows nothing: add a key "
+                f"there, or take --linear"
+            )
         cameras.append(Camera(camera.eye, camera.look, normalized(camera.up), camera.fov_y))
     return cameras

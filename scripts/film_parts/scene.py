@@ -1,7 +1,6 @@
 """The scene of a film, as model writes it."""
 import math
 import pathlib
-import re
 import tempfile
 
 from film_parts.path import Camera
@@ -16,7 +15,8 @@ class Scene:
     def __init__(self, tools, path, config):
         with tempfile.TemporaryDirectory() as folder:
             stats = pathlib.Path(folder, "stats.txt")
-            self.world = tools.output("model", "--stats", stats, path, stdin=read_input(path) if path == "-" else b"")
+            self.world = tools.output("model", "--stats", stats, path,
+                                      stdin=read_input(path) if path == "-" else b"")
             self.stats = dict(line.split() for line in stats.read_text().splitlines())
         self.config = config
         header = {}
@@ -36,29 +36,42 @@ class Scene:
         if self.perspective is None:
             raise CommandFailure("a fovY changes a perspective, and the scene has none")
         _, aspect, near, far, *rule = self.perspective
-        return ["--perspective", number(camera.fov_y), aspect, near, far, *(["--aspect", rule[0]] if rule else [])]
+        return [
+            "--perspective",
+            number(camera.fov_y), aspect, near, far, *(["--aspect", rule[0]] if rule else [])]
 
     def middle(self):
-        return tuple((float(self.stats[axis + "_min"]) + float(self.stats[axis + "_max"])) / 2 for axis in "xyz")
+        return tuple(
+            (float(self.stats[axis + "_min"]) + float(self.stats[axis + "_max"])) / 2 for axis in "xyz")
 
 
 def number(x):
-    """Ten digits: the last bits of sin and cos differ between systems."""
-    text = f"{x:.10g}"
-    return "0" if re.fullmatch("-0(\\.0*)?", text) else text
+    """The shortest text that reads back as this number."""
+    return repr(float(x) + 0.0).removesuffix(".0")
 
 
-def turned(p, middle, axis, angle):
+def cosine_and_sine(frame, count):
+    """Of a frame's part of a turn; exact at quarters."""
+    quarters, rest = divmod(4 * frame, count)
+    angle = math.tau / 4 * rest / count
+    cosine, sine = math.cos(angle), math.sin(angle)
+    for _ in range(quarters):
+        cosine, sine = -sine, cosine
+    return cosine, sine
+
+
+def turned(p, middle, axis, cosine, sine):
     """A point turned about an axis of length 1 through the middle (Rodrigues)."""
     v = tuple(a - b for a, b in zip(p, middle))
     along = sum(a * b for a, b in zip(axis, v))
-    return moved(middle, (math.cos(angle), v), (math.sin(angle), cross(axis, v)), (along * (1 - math.cos(angle)), axis))
+    return moved(p, (cosine - 1, v), (sine, cross(axis, v)), (along * (1 - cosine), axis))
 
 
 def turn(scene, seconds, fps):
-    """A camera for each frame of one turn of the scene's camera about the up direction through the scene's middle. The first frame is not
-    repeated at the end, so that the film can be played in a loop."""
+    """A camera for each frame of one turn of the scene's camera about the up direction through the scene's
+    middle. The first frame is not repeated at the end, so that the film can be played in a loop."""
     count = max(2, round(seconds * fps))
     middle, axis = scene.middle(), normalized(scene.camera.up)
-    angles = (math.tau * frame / count for frame in range(count))
-    return [Camera(turned(scene.camera.eye, middle, axis, angle), turned(scene.camera.look, middle, axis, angle), axis) for angle in angles]
+    turns = (cosine_and_sine(frame, count) for frame in range(count))
+    points = (scene.camera.eye, scene.camera.look)
+    return [Camera(*(turned(p, middle, axis, *at) for p in points), axis) for at in turns]

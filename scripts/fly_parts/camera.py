@@ -17,7 +17,8 @@ def plain(vector):
 
 @dataclasses.dataclass(frozen=True)
 class Camera:
-    """The eye, the three axes and the distance to the point looked at. `words` are the scene's, until the camera moves."""
+    """The eye, the three axes and the distance to the point looked at. `words` are the scene's, until the
+    camera moves."""
     eye: tuple
     right: tuple
     up: tuple
@@ -30,7 +31,8 @@ class Camera:
     def of(eye, look, up):
         """From the words of a header."""
         eye_at, look_at, up_to = (tuple(map(float, words)) for words in (eye, look, up))
-        return Camera(eye_at, *axes(eye_at, look_at, up_to), math.dist(eye_at, look_at), normalized(up_to), (list(eye), list(look), list(up)))
+        return Camera(eye_at, *axes(eye_at, look_at, up_to), math.dist(eye_at, look_at), normalized(up_to),
+                      (list(eye), list(look), list(up)))
 
     def lines(self):
         """Eye, look and up, three words each."""
@@ -39,7 +41,8 @@ class Camera:
     def stepped(self, right, up, forward):
         """Moved by the given number of steps along each axis."""
         step = STEP * self.distance
-        eye = moved(self.eye, (right * step, self.right), (up * step, self.up), (forward * step, self.forward))
+        eye = moved(self.eye, (right * step, self.right), (up * step, self.up),
+                    (forward * step, self.forward))
         return dataclasses.replace(self, eye=eye, words=None)
 
     @property
@@ -47,27 +50,34 @@ class Camera:
         return moved(self.eye, (self.distance, self.forward))
 
     def orbited(self, right, up):
-        """Moved around the point looked at, by angles in radians: to the right about the vertical, and up, but never past it."""
+        """Moved around the point looked at, by angles in radians: to the right about the vertical, and up,
+        but never past it."""
         height = math.asin(max(-1.0, min(1.0, -dot(self.forward, self.vertical))))
         up = max(min(-STEEPEST, height), min(max(STEEPEST, height), height + up)) - height
-        ways = [turned_about(turned_about(way, self.right, -up), self.vertical, right) for way in (self.right, self.up, self.forward)]
+        ways = [
+            turned_about(turned_about(way, self.right, -up), self.vertical, right)
+            for way in (self.right, self.up, self.forward)]
         side, top, forward = map(normalized, ways)
-        return dataclasses.replace(self, eye=moved(self.look, (-self.distance, forward)), right=side, up=top, forward=forward, words=None)
+        return dataclasses.replace(self, eye=moved(self.look, (-self.distance, forward)), right=side, up=top,
+                                   forward=forward, words=None)
 
     def neared(self, steps):
         """Moved towards the point looked at; away from it for negative steps."""
         distance = self.distance * CLOSER**steps
-        return dataclasses.replace(self, eye=moved(self.look, (-distance, self.forward)), distance=distance, words=None)
+        return dataclasses.replace(self, eye=moved(self.look, (-distance, self.forward)), distance=distance,
+                                   words=None)
 
     def framing(self, center, distance):
         """Looking at a point, in the same direction, from a distance."""
-        return dataclasses.replace(self, eye=moved(center, (-distance, self.forward)), distance=distance, words=None)
+        return dataclasses.replace(self, eye=moved(center, (-distance, self.forward)), distance=distance,
+                                   words=None)
 
     def turned(self, right, up):
         """Turned on the spot, by the given numbers of turns."""
         def turn(a, b, angle):
             c, s = math.cos(angle), math.sin(angle)
-            return normalized(tuple(c * x + s * y for x, y in zip(a, b))), normalized(tuple(c * y - s * x for x, y in zip(a, b)))
+            return normalized(tuple(c * x + s * y for x, y in zip(a, b))), normalized(
+                tuple(c * y - s * x for x, y in zip(a, b)))
 
         forward, side = turn(self.forward, self.right, right * TURN)
         forward, top = turn(forward, self.up, up * TURN)

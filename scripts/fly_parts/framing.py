@@ -20,12 +20,19 @@ class Ball:
         """From the bytes of model's output; None of a scene with neither."""
         lines = model_text.splitlines(keepends=True)
         points = [point_of(line) for _, corners in triangle_lines(lines) for line in corners]
-        spheres = [Ball.of_sphere(*map(point_of, lines[at + 1:at + 5])) for at, line in enumerate(lines) if line == b"sphere\n"]
-        reach = points + [tuple(x + sign * sphere.radius for x in sphere.center) for sphere in spheres for sign in (-1, 1)]
+        spheres = [
+            Ball.of_sphere(*map(point_of, lines[at + 1:at + 5]))
+            for at, line in enumerate(lines)
+            if line == b"sphere\n"]
+        reach = points + [
+            tuple(x + sign * sphere.radius for x in sphere.center) for sphere in spheres for sign in (-1, 1)]
         if not reach:
             return None
         center = tuple((min(axis) + max(axis)) / 2 for axis in zip(*reach))
-        return Ball(center, max([math.dist(center, p) for p in points] + [math.dist(center, sphere.center) + sphere.radius for sphere in spheres]))
+        return Ball(
+            center,
+            max([math.dist(center, p)
+                 for p in points] + [math.dist(center, sphere.center) + sphere.radius for sphere in spheres]))
 
     @staticmethod
     def of_sphere(center, *ends):
@@ -38,8 +45,9 @@ def point_of(line):
 
 
 def framing_distance(ball, header):
-    """From the ball's center to an eye that has all of it in its window, between near and far as well as that can be. `header` has the
-    projection's words by its keyword. A parallel projection shows the same from everywhere between its planes."""
+    """From the ball's center to an eye that has all of it in its window, between near and far as well as that
+    can be. `header` has the projection's words by its keyword. A parallel projection shows the same from
+    everywhere between its planes."""
     left, right, bottom, top, near, far = window_of(header)
     reach = ROOM * ball.radius or 1.0
     if "ortho" in header:

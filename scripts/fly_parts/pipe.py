@@ -1,5 +1,5 @@
-"""The pipe for one frame after another: every stage's output is kept in memory, and a stage runs only if its input or its
-arguments have changed. Those stages run in parallel, as in a shell's pipe."""
+"""The pipe for one frame after another: every stage's output is kept in memory, and a stage runs only if its
+input or its arguments have changed. Those stages run in parallel, as in a shell's pipe."""
 import dataclasses
 import os
 import pathlib
@@ -82,7 +82,8 @@ class Run:
         self.process.stdout.close()
         self.process.stderr.close()
         self.notes = tuple(line for line in message.splitlines() if ": note: " in line)
-        return (message or f"{self.name}: exit status {self.process.returncode}") if self.process.returncode else None
+        return (message
+                or f"{self.name}: exit status {self.process.returncode}") if self.process.returncode else None
 
 
 class FramePipe:
@@ -98,10 +99,12 @@ class FramePipe:
         self.config_text = self.frame_image = self.found_ball = None
         self.stages = {name: Stage() for name in self.names}
         # The output does not depend on threads.
-        self.threads = {"zbuf": ["--threads", "2"]} if not is_traced and tools.has_option("zbuf", "--threads") else {}
+        self.threads = {"zbuf": ["--threads", "2"]
+                        } if not is_traced and tools.has_option("zbuf", "--threads") else {}
         self.run([("model", [str(scene)])], None)
         self.light = self.first_light()
-        self.opaque = opaque_background(self.stages["model"].output.read())  # the window has nothing behind it
+        self.opaque = opaque_background(
+            self.stages["model"].output.read())  # the window has nothing behind it
         keyword, *words = line_of(self.header)
         self.projection = {keyword: words}
 
@@ -116,7 +119,8 @@ class FramePipe:
         threads = self.threads if len(calls) == 1 else {}
         for name, words in calls:
             is_last = name == calls[-1][0]
-            run = Run(name, [self.tools.folder / name, *self.files(name), *threads.get(name, []), *words], stdin, not is_last)
+            run = Run(name, [self.tools.folder / name, *self.files(name), *threads.get(name, []), *words],
+                      stdin, not is_last)
             if runs:
                 os.close(stdin)
             stdin = run.to_next
@@ -130,7 +134,8 @@ class FramePipe:
             source = run.output
 
     def files(self, name):
-        return [self.config, "--z-buffer", "/dev/null", "--image", self.image, *self.opaque] if name == self.last else []
+        return [self.config, "--z-buffer", "/dev/null", "--image", self.image, *self.opaque
+                ] if name == self.last else []
 
     # The world, from the output of stage 1
 
@@ -157,7 +162,8 @@ class FramePipe:
         """Moves the first light without running stage 1 again."""
         old = self.stages["model"]
         output = MemoryFile()
-        output.append(old.output.read().replace(("light " + " ".join(self.light)).encode(), ("light " + " ".join(words)).encode(), 1))
+        output.append(old.output.read().replace(("light " + " ".join(self.light)).encode(),
+                                                ("light " + " ".join(words)).encode(), 1))
         self.stages["model"] = Stage(old.words, old.source, output)
         self.light = words
 
@@ -166,7 +172,9 @@ class FramePipe:
     def frame(self, camera_lines, project_words, config, drawing_words):
         """The PPM of a frame. `config` is the text of config.txt; trace has no use for `project_words`."""
         eye, look, up = camera_lines
-        words = {"view": ["--eye", *eye, "--look", *look, "--up", *up], "project": project_words, self.last: drawing_words}
+        words = {
+            "view": ["--eye", *eye, "--look", *look, "--up", *up], "project": project_words,
+            self.last: drawing_words}
         calls = [(name, words[name]) for name in self.names[1:]]
         if self.config_text != config:
             self.config.write_text(config)
@@ -175,7 +183,8 @@ class FramePipe:
         source = self.stages["model"].output
         for stage in self.stages.values():
             stage.seconds = None
-        while calls and self.stages[calls[0][0]].words == calls[0][1] and self.stages[calls[0][0]].source is source:
+        while calls and self.stages[calls[0]
+                                    [0]].words == calls[0][1] and self.stages[calls[0][0]].source is source:
             source = self.stages[calls.pop(0)[0]].output
         if calls:
             self.run(calls, source)

@@ -19,8 +19,8 @@ def without_first_light(lines):
 
 
 def rewritten(scene, camera_lines, light=None):
-    """The scene with eye, look and up replaced. `light`, six words, replaces the first light; it goes in front of all
-    transforms, since its position is in world space."""
+    """The scene with eye, look and up replaced. `light`, six words, replaces the first light; it goes in
+    front of all transforms, since its position is in world space."""
     lines, places = scene.split("\n"), []
     for i, line in enumerate(lines):
         if words_of(line):

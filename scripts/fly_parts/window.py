@@ -37,7 +37,8 @@ NOT_TRACED = "cvzxbf"  # keys for options that trace has not
 MOVES = {"w": (0, 0, 1), "s": (0, 0, -1), "a": (-1, 0, 0), "d": (1, 0, 0), "q": (0, 1, 0), "e": (0, -1, 0)}
 TURNS = {"Left": (-1, 0), "Right": (1, 0), "Up": (0, 1), "Down": (0, -1)}
 NAMED_KEYS = (*TURNS, "Home", "Escape")
-LIGHT_MOVES = {"i": (0, 0, -1), "k": (0, 0, 1), "j": (-1, 0, 0), "l": (1, 0, 0), "u": (0, 1, 0), "o": (0, -1, 0)}
+LIGHT_MOVES = {
+    "i": (0, 0, -1), "k": (0, 0, 1), "j": (-1, 0, 0), "l": (1, 0, 0), "u": (0, 1, 0), "o": (0, -1, 0)}
 SHADINGS = {"1": "none", "2": "flat", "3": "gouraud", "4": "phong"}
 ORBIT = math.radians(0.4)    # for each pixel of a drag
 WHEEL_BUTTONS = {4: 1, 5: -1}  # of X11; other systems have an event of their own
@@ -59,15 +60,18 @@ class Settings:
 
     def project_words(self):
         words = ["--clip", "frustum"] if self.is_clipped or self.inset else []
-        return words + (["--clip-inset", f"{self.inset:g}"] if self.inset else []) + (["--cull", "back"] if self.culls else [])
+        return words + (["--clip-inset", f"{self.inset:g}"] if self.inset else []) + (["--cull", "back"]
+                                                                                      if self.culls else [])
 
     def drawing_words(self):
-        return (["--shading", self.shading] if self.shading else []) + (["--wireframe"] if self.wireframe else [])
+        return (["--shading", self.shading] if self.shading else []) + (["--wireframe"]
+                                                                        if self.wireframe else [])
 
 
 def keys_of(is_traced):
     """The list of keys, for trace without those that mean nothing to it."""
-    return "\n".join(line for line in KEYS.splitlines() if not is_traced or line.split()[0][0] not in NOT_TRACED)
+    return "\n".join(line for line in KEYS.splitlines()
+                     if not is_traced or line.split()[0][0] not in NOT_TRACED)
 
 
 def size_of_scene(projection, width):
@@ -77,20 +81,23 @@ def size_of_scene(projection, width):
 
 
 class FlyWindow:
-    """`config` is the text of a config, by default of least_width pixels with the scene's aspect. The window begins at least
-    `least_width` pixels wide, and no larger than the screen. `trace_words`, if not None, are for trace, which draws the frames."""
-
-    def __init__(self, tools, scene, config=None, scene_out="fly.txt", picture_out="fly.png", least_width=1, trace_words=None):
+    """`config` is the text of a config, by default of least_width pixels with the scene's aspect. The window
+    begins at least `least_width` pixels wide, and no larger than the screen. `trace_words`, if not None, are
+    for trace, which draws the frames."""
+    def __init__(self, tools, scene, config=None, scene_out="fly.txt", picture_out="fly.png", least_width=1,
+                 trace_words=None):
         self.tools, self.scene = tools, pathlib.Path(scene)
         self.is_traced, self.more_words = trace_words is not None, trace_words or []
         self.pipe = FramePipe(tools, scene, self.is_traced)
         config = config or size_of_scene(self.pipe.projection, least_width)
         self.outputs = scene_out, picture_out
-        size, *self.limits = [line.split("#")[0].split() for line in config.split("\n") if line.split("#")[0].strip()]
+        size, *self.limits = [
+            line.split("#")[0].split() for line in config.split("\n") if line.split("#")[0].strip()]
         self.whole = tuple(map(int, size))
         self.least_width = least_width
         self.has_wireframe = not self.is_traced and tools.has_option("zbuf", "--wireframe")
-        self.settings = self.start = Settings(Camera.of(*(self.pipe.header(name) for name in ("eye", "look", "up"))))
+        self.settings = self.start = Settings(
+            Camera.of(*(self.pipe.header(name) for name in ("eye", "look", "up"))))
         self.start_light = self.pipe.light
         self.is_light_moved = False
         self.before = self.settings  # restored if a tool refuses the new ones
@@ -109,7 +116,8 @@ class FlyWindow:
         self.font.configure(size=9)
         self.photo = tkinter.PhotoImage(master=self.root)
         # Of a fixed size: texts must not resize the window.
-        self.status, self.readout = (tkinter.Label(self.root, anchor="nw", justify="left", font=self.font, width=1, height=height, padx=6, **COLORS)
+        self.status, self.readout = (tkinter.Label(self.root, anchor="nw", justify="left", font=self.font,
+                                                   width=1, height=height, padx=6, **COLORS)
                                      for height in (2, 1))
         self.status.pack(side="bottom", fill="x")
         self.status.bind("<Configure>", lambda event: self.status.configure(wraplength=event.width - 12))
@@ -127,7 +135,8 @@ class FlyWindow:
         """The config's, enlarged to the least width, and made smaller where the screen is."""
         width, height = self.whole
         scale = max(1, self.least_width / width)
-        scale = min(scale, 0.9 * self.root.winfo_screenwidth() / width, 0.85 * self.root.winfo_screenheight() / height)
+        scale = min(scale, 0.9 * self.root.winfo_screenwidth() / width,
+                    0.85 * self.root.winfo_screenheight() / height)
         return tuple(max(1, round(scale * x)) for x in self.whole)
 
     def note_over_picture(self, text, **options):
@@ -139,8 +148,10 @@ class FlyWindow:
         self.picture.bind("<B1-Motion>", lambda event: self.drag_to(event.x, event.y))
         self.picture.bind("<ButtonRelease-1>", lambda event: self.drag_from(None, None))
         for button, step in WHEEL_BUTTONS.items():
-            self.picture.bind(f"<Button-{button}>", lambda event, step=step: self.move(self.settings.camera.neared(step)))
-        self.picture.bind("<MouseWheel>", lambda event: self.move(self.settings.camera.neared(1 if event.delta > 0 else -1)))
+            self.picture.bind(f"<Button-{button}>",
+                              lambda event, step=step: self.move(self.settings.camera.neared(step)))
+        self.picture.bind("<MouseWheel>",
+                          lambda event: self.move(self.settings.camera.neared(1 if event.delta > 0 else -1)))
 
     # The pointer
 
@@ -204,7 +215,8 @@ class FlyWindow:
             return self.start
         if name == "Home":
             ball = self.pipe.ball()
-            return ball and dataclasses.replace(now, camera=camera.framing(ball.center, framing_distance(ball, self.pipe.projection)))
+            return ball and dataclasses.replace(
+                now, camera=camera.framing(ball.center, framing_distance(ball, self.pipe.projection)))
         if name in ("c", "v"):
             return dataclasses.replace(now, is_clipped=name == "c", inset=now.inset if name == "c" else 0)
         if name in ("z", "x"):
@@ -245,7 +257,8 @@ class FlyWindow:
             self.pending = self.root.after_idle(self.draw_first)
 
     def draw_first(self):
-        """The next frame; a small one if full size takes long, and the full-size one after a pause without keys."""
+        """The next frame; a small one if full size takes long, and the full-size one after a pause without
+        keys."""
         self.pending = None
         if self.resting is not None:
             self.root.after_cancel(self.resting)
@@ -267,7 +280,8 @@ class FlyWindow:
         begin = time.perf_counter()
         config = "\n".join([f"{size[0]} {size[1]}", *(" ".join(words) for words in self.limits), ""])
         try:
-            frame = self.pipe.frame(self.settings.camera.lines(), self.settings.project_words(), config, self.drawing_words())
+            frame = self.pipe.frame(self.settings.camera.lines(), self.settings.project_words(), config,
+                                    self.drawing_words())
         except ToolFailure as error:
             self.settings = self.before
             return self.say(str(error))
@@ -284,7 +298,8 @@ class FlyWindow:
         return None
 
     def tell(self, size, seconds):
-        times = "   ".join(f"{name} {'reused' if spent is None else f'{1000 * spent:.0f} ms'}" for name, spent in self.pipe.seconds())
+        times = "   ".join(f"{name} {'reused' if spent is None else f'{1000 * spent:.0f} ms'}"
+                           for name, spent in self.pipe.seconds())
         words = " ".join(self.settings.project_words() + self.drawing_words())
         self.say(f"{times}   all {1000 * seconds:.0f} ms   {size[0]} x {size[1]}   {words}")
         self.readout.configure(text=self.read_out())
@@ -296,17 +311,21 @@ class FlyWindow:
 
     def read_out(self):
         camera = self.settings.camera
-        places = 5 - math.floor(math.log10(camera.distance))  # six digits of the distance: what is smaller is rounding
+        places = 5 - math.floor(math.log10(
+            camera.distance))  # six digits of the distance: what is smaller is rounding
         eye, look, _ = camera.lines()
         [(kind, words)] = self.pipe.projection.items()
         field = f"fovY {words[0]}" if kind == "perspective" else kind
-        return "   ".join([*(f"{name} {' '.join(f'{round(float(x), places) + 0.0:.6g}' for x in place)}" for name, place in (("eye", eye), ("look", look))), field, "h: keys"])
+        return "   ".join([
+            *(f"{name} {' '.join(f'{round(float(x), places) + 0.0:.6g}' for x in place)}"
+              for name, place in (("eye", eye), ("look", look))), field, "h: keys"])
 
     def way_back(self):
         ball = self.pipe.ball()
         if ball is None:
             return "the scene has no triangles"
-        return f"nothing is in sight: the scene is {direction(self.settings.camera, ball)}\nHome brings it back"
+        return (f"nothing is in sight: the scene is {direction(self.settings.camera, ball)}\nHome "
+                f"brings it back")
 
     def say(self, words):
         self.status.configure(text=words)

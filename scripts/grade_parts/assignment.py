@@ -21,7 +21,9 @@ class Test:
 def read_tests(folder):
     """The Tests in the folders of a folder, sorted by name."""
     try:
-        names = sorted(entry.name for entry in os.scandir(folder) if entry.is_dir() and not entry.name.startswith("."))
+        names = sorted(entry.name
+                       for entry in os.scandir(folder)
+                       if entry.is_dir() and not entry.name.startswith("."))
     except OSError as error:
         raise InputError(folder, error.strerror) from None
     if not names:
@@ -32,7 +34,10 @@ def read_tests(folder):
 def holds_tests(folder):
     """Whether there are folders in this folder, and each has a scene, which no hand-in needs."""
     try:
-        have_scenes = [os.path.isfile(os.path.join(entry.path, "scene.txt")) for entry in os.scandir(folder) if entry.is_dir()]
+        have_scenes = [
+            os.path.isfile(os.path.join(entry.path, "scene.txt"))
+            for entry in os.scandir(folder)
+            if entry.is_dir()]
     except OSError:
         return False  # what is wrong with it shows when it is read
     return bool(have_scenes) and all(have_scenes)
@@ -45,7 +50,8 @@ def read_test(folder, name):
         reference = Reference(scene, config, Tools())
     except JudgeError as error:
         raise CommandFailure(f"{shown(folder)}: {error}") from None
-    return Test(name, weight_of(weight, folder), reference, kinds_of(config), right_picture(reference) if config is not None else None)
+    return Test(name, weight_of(weight, folder), reference, kinds_of(config),
+                right_picture(reference) if config is not None else None)
 
 
 def optional(path):
@@ -66,7 +72,10 @@ def weight_of(data, folder):
     except ValueError:
         weight = math.nan
     if not 0 <= weight < math.inf:
-        raise CommandFailure(f"{shown(folder)}/weight.txt: expected a number of at least 0, found '{shown(data[:40].decode(errors='replace').strip())}'")
+        raise CommandFailure(
+            f"{shown(folder)}/weight.txt: expected a number of at least 0, found "
+            f"'{shown(data[:40].decode(errors='replace').strip())}'"
+        )
     return weight
 
 

@@ -1,5 +1,5 @@
-"""What a hand-in holds: a folder or an archive, whose files are listed and read in memory. Nothing is unpacked to the disk, no link is
-followed, and no more is read than a limit allows."""
+"""What a hand-in holds: a folder or an archive, whose files are listed and read in memory. Nothing is
+unpacked to the disk, no link is followed, and no more is read than a limit allows."""
 import gzip
 import io
 import os
@@ -30,7 +30,9 @@ class Contents:
 
     @property
     def remarks(self):
-        return [f"{count} {'entry' if count == 1 else 'entries'} not looked at: {why}" for why, count in self.skipped.items()]
+        return [
+            f"{count} {'entry' if count == 1 else 'entries'} not looked at: {why}"
+            for why, count in self.skipped.items()]
 
     def add(self, parts, handle, is_regular, kind=""):
         """Notes an entry, unless it is one that is passed over."""
@@ -53,7 +55,8 @@ def check_count(count):
 def parts_of(name):
     """The path of an archive's member; empty if it is absolute."""
     name = name.replace("\\", "/")
-    return () if name.startswith("/") or name[1:3] == ":/" else tuple(part for part in name.split("/") if part not in ("", "."))
+    return () if name.startswith("/") or name[1:3] == ":/" else tuple(part for part in name.split("/")
+                                                                      if part not in ("", "."))
 
 
 class FolderContents(Contents):
@@ -73,7 +76,8 @@ class FolderContents(Contents):
                 if entry.is_dir(follow_symlinks=False):
                     folders.append(here)
                 else:
-                    self.add(here, here, entry.is_file(follow_symlinks=False), "links" if entry.is_symlink() else "devices and pipes")
+                    self.add(here, here, entry.is_file(follow_symlinks=False),
+                             "links" if entry.is_symlink() else "devices and pipes")
         for here in folders:
             if len(here) > MOST_DEPTH:
                 self.add((*here, ""), None, False, "deeper folders")
@@ -93,7 +97,8 @@ class FolderContents(Contents):
         descriptor = os.dup(self.root)
         try:
             for i, name in enumerate(parts):
-                inner = os.open(name, FLAGS | (os.O_DIRECTORY if i < len(parts) - 1 else 0), dir_fd=descriptor)
+                inner = os.open(name, FLAGS | (os.O_DIRECTORY if i < len(parts) - 1 else 0),
+                                dir_fd=descriptor)
                 os.close(descriptor)
                 descriptor = inner
             if not stat.S_ISREG(os.fstat(descriptor).st_mode):
@@ -112,7 +117,8 @@ class ZipContents(Contents):
         for info in self.archive.infolist():
             if not info.filename.endswith("/"):
                 kind = stat.S_IFMT(info.external_attr >> 16)
-                self.add(parts_of(info.filename), info, kind in (0, stat.S_IFREG), "links" if kind == stat.S_IFLNK else "devices and pipes")
+                self.add(parts_of(info.filename), info, kind in (0, stat.S_IFREG),
+                         "links" if kind == stat.S_IFLNK else "devices and pipes")
 
     def read(self, parts, limit):
         with self.archive.open(self.files[parts]) as file:
@@ -126,7 +132,8 @@ class TarContents(Contents):
         for count, member in enumerate(self.archive, 1):
             check_count(count)
             if not member.isdir():
-                self.add(parts_of(member.name), member, member.isreg(), "links" if member.issym() or member.islnk() else "devices and pipes")
+                self.add(parts_of(member.name), member, member.isreg(),
+                         "links" if member.issym() or member.islnk() else "devices and pipes")
 
     def read(self, parts, limit):
         return self.archive.extractfile(self.files[parts]).read(limit + 1)
@@ -161,6 +168,7 @@ def contents_of(path):
     except MemoryError:
         raise
     except OSError as error:
-        raise ContentsError("a link is not followed" if os.path.islink(path) else error.strerror or "it cannot be read as an archive") from None
+        raise ContentsError("a link is not followed" if os.path.
+                            islink(path) else error.strerror or "it cannot be read as an archive") from None
     except Exception as error:  # whatever zipfile, tarfile and zlib raise for an archive that is none
         raise ContentsError(f"it cannot be read as an archive ({type(error).__name__})") from None

@@ -29,7 +29,8 @@ def faded(rows):
 
 
 def marked(rows, marks, step):
-    """Rows, made smaller by `step`, with marks: pairs of places in the large picture and a color, the last color on top."""
+    """Rows, made smaller by `step`, with marks: pairs of places in the large picture and a color, the last
+    color on top."""
     rows = [bytearray(row) for row in faded(rows)]
     columns = len(rows[0]) // 3
     for places, color in marks:
@@ -43,7 +44,8 @@ def marked(rows, marks, step):
 def pictures(test, files, verdict):
     """(caption, data: URI) of the pictures of a test, as far as they can be shown."""
     theirs = None
-    picture = [file for file in verdict.of("zbuf") if file.file == files["picture"].name] if "picture" in files else []
+    picture = [file for file in verdict.of("zbuf")
+               if file.file == files["picture"].name] if "picture" in files else []
     if picture and picture[0].verdict != UNREADABLE and files["picture"].data:
         try:
             theirs = picture_of(files["picture"].data, "", test.reference.background)[2]
@@ -53,9 +55,12 @@ def pictures(test, files, verdict):
     if not shape:
         return []
     step = max(1, -(-len(shape[0]) // 3 // MOST_COLUMNS))
-    found = [(caption, data_uri(smaller(rows, step))) for caption, rows in (("The scene, right", test.picture), ("Yours", theirs)) if rows]
+    found = [(caption, data_uri(smaller(rows, step)))
+             for caption, rows in (("The scene, right", test.picture), ("Yours", theirs))
+             if rows]
     wrong = [file for file in verdict.of("zbuf") if not file.is_good and file.places]
     if wrong:
-        marks = [(file.places, RED if file in picture else ORANGE) for file in sorted(wrong, key=picture.__contains__)]
+        marks = [(file.places, RED if file in picture else ORANGE)
+                 for file in sorted(wrong, key=picture.__contains__)]
         found.append((DIFFERENCES, data_uri(marked(smaller(theirs or shape, step), marks, step))))
     return found

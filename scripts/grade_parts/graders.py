@@ -1,6 +1,8 @@
-"""Grades hand-ins in parallel, each in a process of its own with limits of time and memory: what a hand-in does to it, it does to itself."""
+"""Grades hand-ins in parallel, each in a process of its own with limits of time and memory: what a hand-in
+does to it, it does to itself."""
 import contextlib
 import dataclasses
+import fcntl
 import multiprocessing
 import multiprocessing.connection
 import os
@@ -45,7 +47,9 @@ class Graded:
 
     @property
     def is_judged(self):
-        return not self.failure and not any(file.verdict in OPEN for test in self.tests for file in test.verdict.files)
+        return not self.failure and not any(file.verdict in OPEN
+                                            for test in self.tests
+                                            for file in test.verdict.files)
 
 
 @dataclasses.dataclass
@@ -69,7 +73,9 @@ def grade(path, tests, level):
         shown = pictures(test, files, verdict) if gives(level, "stage") else []
         for file in verdict.files:
             file.places = []  # the pictures have them; there may be millions
-        graded.tests.append(GradedTest(test.name, score, test.weight, verdict, in_words(verdict, level), fixes(verdict, level), shown))
+        graded.tests.append(
+            GradedTest(test.name, score, test.weight, verdict, in_words(verdict, level),
+                       fixes(verdict, level), shown))
     return graded
 
 
@@ -77,19 +83,31 @@ def failed(tests, reason):
     return Graded(max_score=sum(test.weight for test in tests), failure=reason)
 
 
-def work(connection, path, tests, level, limits, scratch):
+def end_with_writers_of(reader, writer):
+    """Has the system kill this process group when grade is gone, the last that may write into the pipe."""
+    os.close(writer)
+    fcntl.fcntl(reader, fcntl.F_SETOWN, -os.getpgid(0))
+    fcntl.fcntl(reader, fcntl.F_SETSIG, signal.SIGKILL)
+    fcntl.fcntl(reader, fcntl.F_SETFL, os.O_ASYNC)
+    if not multiprocessing.parent_process().is_alive():
+        os.killpg(0, signal.SIGKILL)
+
+
+def work(connection, path, tests, level, limits, scratch, pipe):
     """The process of a hand-in."""
-    os.setpgid(0, 0)
-    tempfile.tempdir = scratch
-    for number in (signal.SIGTERM, signal.SIGHUP):
+    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         signal.signal(number, signal.SIG_DFL)
+    os.setpgid(0, 0)
+    end_with_writers_of(*pipe)
+    tempfile.tempdir = scratch
     resource.setrlimit(resource.RLIMIT_AS, (limits.mebibytes * MEBIBYTE,) * 2)
     resource.setrlimit(resource.RLIMIT_FSIZE, (LARGEST_FILE,) * 2)
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
     try:
         graded = grade(path, tests, level)
     except MemoryError:
-        graded = failed(tests, f"It could not be judged: that needs more than {limits.mebibytes} MiB of memory.")
+        graded = failed(tests,
+                        f"It could not be judged: that needs more than {limits.mebibytes} MiB of memory.")
     except Exception as error:  # an error of ours: it costs this hand-in its verdict, and must be seen
         traceback.print_exc()
         graded = failed(tests, f"It could not be judged: {type(error).__name__}.")
@@ -104,19 +122,24 @@ class Running:
         self.tests, self.limits = tests, limits
         self.connection, theirs = context.Pipe(duplex=False)
         self.scratch = tempfile.TemporaryDirectory()
-        self.process = context.Process(target=work, args=(theirs, path, tests, level, limits, self.scratch.name))
+        reader, self.alive = os.pipe()
+        words = theirs, path, tests, level, limits, self.scratch.name, (reader, self.alive)
+        self.process = context.Process(target=work, args=words)
         self.process.start()
         theirs.close()
+        os.close(reader)
         self.end = time.monotonic() + limits.seconds
 
     def result(self):
         """Its Graded, now that it is done or out of time."""
         if not self.connection.poll():
-            return failed(self.tests, f"It could not be judged: that takes longer than {self.limits.seconds:g} s.")
+            return failed(self.tests,
+                          f"It could not be judged: that takes longer than {self.limits.seconds:g} s.")
         try:
             return self.connection.recv()
         except EOFError:
-            return failed(self.tests, "It could not be judged: its judge was ended, perhaps for lack of memory.")
+            return failed(self.tests,
+                          "It could not be judged: its judge was ended, perhaps for lack of memory.")
 
     def stop(self):
         """Ends the process, and the tools that it has started."""
@@ -125,6 +148,7 @@ class Running:
         self.process.kill()
         self.process.join()
         self.connection.close()
+        os.close(self.alive)
         self.scratch.cleanup()
 
 

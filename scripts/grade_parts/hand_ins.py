@@ -21,37 +21,45 @@ class HandIn:
 
 
 def find_hand_ins(folder, is_anonymous):
-    """The HandIns of a folder, sorted by name, and the names of files that are none. Anonymous ones are numbered in an order that does
-    not tell their names' order, the same in every run."""
+    """The HandIns of a folder, sorted by name, and the names of files that are none. Anonymous ones are
+    numbered in an order that does not tell their names' order, the same in every run."""
     try:
-        entries = [(entry.name, entry.is_dir(follow_symlinks=False)) for entry in os.scandir(folder) if not entry.name.startswith(".")]
+        entries = [(entry.name, entry.is_dir(follow_symlinks=False))
+                   for entry in os.scandir(folder)
+                   if not entry.name.startswith(".")]
     except OSError as error:
         raise InputError(folder, error.strerror) from None
     names = [name for name, is_folder in entries if is_folder or name.lower().endswith(SUFFIXES)]
     others = sorted(shown(name) for name, _ in entries if name not in set(names))
     names.sort(key=(lambda name: hashlib.sha256(os.fsencode(name)).digest()) if is_anonymous else os.fsencode)
     width = len(str(len(names)))
-    return [made(folder, name, number, f"{number:0{width}}", is_anonymous) for number, name in enumerate(names, 1)], others
+    return [
+        made(folder, name, number, f"{number:0{width}}", is_anonymous)
+        for number, name in enumerate(names, 1)], others
 
 
 def made(folder, name, number, digits, is_anonymous):
     label = shown(without_suffix(name))
     safe = re.sub(r"[^A-Za-z0-9._-]+", "_", label)[:LONGEST_LABEL]
-    return HandIn(os.path.join(folder, name), f"hand-in {digits}" if is_anonymous else label, number, digits if is_anonymous else f"{digits}-{safe}")
+    return HandIn(os.path.join(folder, name), f"hand-in {digits}" if is_anonymous else label, number,
+                  digits if is_anonymous else f"{digits}-{safe}")
 
 
 def without_suffix(name):
-    return next((name[:-len(suffix)] for suffix in SUFFIXES if name.lower().endswith(suffix) and len(name) > len(suffix)), name)
+    return next((name[:-len(suffix)]
+                 for suffix in SUFFIXES
+                 if name.lower().endswith(suffix) and len(name) > len(suffix)), name)
 
 
 def folder_of(paths, test_name, is_only_test):
-    """The folder of a test's files, as a tuple of names: the one of the test's name, or for the only test any that has such files; the
-    one that lies least deep. None if there is none."""
+    """The folder of a test's files, as a tuple of names: the one of the test's name, or for the only test any
+    that has such files; the one that lies least deep. None if there is none."""
     folders = {}
     for *folder, name in paths:
         folders.setdefault(tuple(folder), []).append(name)
     named = [folder for folder in folders if folder and folder[-1] == test_name]
-    fitting = [folder for folder, names in folders.items() if any(fitting_names(names).values())] if is_only_test and not named else named
+    fitting = [folder for folder, names in folders.items()
+               if any(fitting_names(names).values())] if is_only_test and not named else named
     return min(fitting, key=lambda folder: (len(folder), folder), default=None)
 
 
@@ -59,7 +67,10 @@ def files_for(contents, test, is_only_test):
     """The Files by kind that a hand-in has for a test."""
     folder = folder_of(contents.paths, test.name, is_only_test)
     names = [path[-1] for path in contents.paths if path[:-1] == folder]
-    return {kind: file_of(contents, folder, fitting, kind, test.reference.limit(kind)) for kind, fitting in fitting_names(names).items() if kind in test.kinds}
+    return {
+        kind: file_of(contents, folder, fitting, kind, test.reference.limit(kind))
+        for kind, fitting in fitting_names(names).items()
+        if kind in test.kinds}
 
 
 def file_of(contents, folder, fitting, kind, limit):
@@ -75,6 +86,9 @@ def file_of(contents, folder, fitting, kind, limit):
     except ContentsError as error:
         return File(shown_name, None, InputError(shown_name, str(error)), tuple(others))
     except OSError as error:
-        return File(shown_name, None, InputError(shown_name, error.strerror or "it cannot be read"), tuple(others))
+        return File(shown_name, None, InputError(shown_name, error.strerror or "it cannot be read"),
+                    tuple(others))
     except Exception as error:  # a member whose bytes are not what the archive says
-        return File(shown_name, None, InputError(shown_name, f"it cannot be unpacked ({type(error).__name__})"), tuple(others))
+        return File(shown_name, None, InputError(shown_name,
+                                                 f"it cannot be unpacked ({type(error).__name__})"),
+                    tuple(others))

@@ -14,18 +14,21 @@ def gives(level, what):
 
 
 def told(verdict, level):
-    """The Verdict without what the level keeps to itself; with `none`, only files that are missing or cannot be read are left."""
+    """The Verdict without what the level keeps to itself; with `none`, only files that are missing or cannot
+    be read are left."""
     if gives(level, "cause"):
         return verdict
     if level == "none":
-        return Verdict([without_cause(file) for file in verdict.files if file.verdict in (MISSING, UNREADABLE)])
+        return Verdict([
+            without_cause(file) for file in verdict.files if file.verdict in (MISSING, UNREADABLE)])
     return Verdict([without_cause(file) for file in verdict.files])
 
 
 def without_cause(file):
     keeps_remarks = file.is_good or file.verdict in (MISSING, UNREADABLE)
     first = file.first if file.stage == "zbuf" else file.first.rpartition(": ")[0]  # without the right number
-    return dataclasses.replace(file, causes=[], remarks=file.remarks if keeps_remarks else [], matrices=None, largest="", first=first)
+    return dataclasses.replace(file, causes=[], remarks=file.remarks if keeps_remarks else [], matrices=None,
+                               largest="", first=first)
 
 
 def in_words(verdict, level):
@@ -41,7 +44,8 @@ def fixes(verdict, level):
     """What to do about the mistakes, as sentences."""
     if not gives(level, "fix"):
         return []
-    return list(dict.fromkeys(text for file in verdict.files for cause in file.causes if (text := fix(cause.name))))
+    return list(
+        dict.fromkeys(text for file in verdict.files for cause in file.causes if (text := fix(cause.name))))
 
 
 def upper_first(text):

@@ -1,22 +1,29 @@
-"""The page of a hand-in, to be read or printed. It needs nothing else: no network, no script, and its pictures are in it."""
+"""The page of a hand-in, to be read or printed. It needs nothing else: no network, no script, and its
+pictures are in it."""
 import html
 
 from grade_parts.hints import gives, told
 from judge_parts.report import remarks_of
+from lib.page_policy import policy
 
 STYLE = """
 body { font: 11pt/1.4 sans-serif; max-width: 56rem; margin: 2rem auto; padding: 0 1rem; color: #1a1a1a }
-h1 { font-size: 1.4rem; margin: 0 } h2 { font-size: 1.1rem; margin: 1.6rem 0 .3rem; border-top: 1px solid #999; padding-top: .8rem }
+h1 { font-size: 1.4rem; margin: 0 }
+h2 { font-size: 1.1rem; margin: 1.6rem 0 .3rem; border-top: 1px solid #999; padding-top: .8rem }
 h2 span, h1 span { float: right; font-weight: normal } p { margin: .4rem 0; overflow-wrap: anywhere }
 table { border-collapse: collapse; width: 100%; margin: .6rem 0; font-size: .85rem }
-th, td { text-align: left; vertical-align: top; padding: .15rem .5rem; border-bottom: 1px solid #ccc; overflow-wrap: anywhere }
-th, td:nth-child(1), td:nth-child(3), td:nth-child(4) { white-space: nowrap } td:nth-child(2) { min-width: 6rem }
-.good { color: #146c2e } .bad { color: #a31515 } .open { color: #7a5200 } .fix { border-left: 3px solid #3465a4; padding-left: .6rem }
-pre { font-size: .72rem; overflow-x: auto; margin: .3rem 0 } figure { display: inline-block; vertical-align: top; margin: .4rem .8rem 0 0; max-width: 30% }
+th, td { text-align: left; vertical-align: top; padding: .15rem .5rem; border-bottom: 1px solid #ccc }
+th, td { overflow-wrap: anywhere }
+th, td:nth-child(1), td:nth-child(3), td:nth-child(4) { white-space: nowrap }
+td:nth-child(2) { min-width: 6rem }
+.good { color: #146c2e } .bad { color: #a31515 } .open { color: #7a5200 }
+.fix { border-left: 3px solid #3465a4; padding-left: .6rem }
+pre { font-size: .72rem; overflow-x: auto; margin: .3rem 0 }
+figure { display: inline-block; vertical-align: top; margin: .4rem .8rem 0 0; max-width: 30% }
 img { width: 100%; image-rendering: pixelated; border: 1px solid #999 } figcaption { font-size: .8rem }
-@media print { body { margin: 0; max-width: none } h2 { break-after: avoid } figure, table, pre { break-inside: avoid } }
+@media print { body { margin: 0; max-width: none } h2 { break-after: avoid }
+figure, table, pre { break-inside: avoid } }
 """
-POLICY = "default-src 'none'; img-src data:; style-src 'unsafe-inline'"
 HEADER = ("stage", "file", "verdict", "differ", "first difference", "remarks")
 
 
@@ -26,17 +33,25 @@ def points(score):
 
 def page(name, graded, level):
     """The HTML of a hand-in's page. `graded` is a grade_parts.graders.Graded."""
-    lines = [f"<h1>{html.escape(name)} <span>{points(graded.score)} of {points(graded.max_score)} points</span></h1>"]
-    lines += [f"<p>{html.escape(remark)}</p>" for remark in ([graded.failure] if graded.failure else []) + graded.remarks]
+    lines = [
+        f"<h1>{html.escape(name)} <span>{points(graded.score)} of {points(graded.max_score)} "
+        f"points</span></h1>"
+    ]
+    lines += [
+        f"<p>{html.escape(remark)}</p>" for remark in ([graded.failure] if graded.failure else []) +
+        graded.remarks]
     for test in graded.tests:
         lines += section(test, level)
     title = html.escape(name)
-    return (f'<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8"><meta http-equiv="Content-Security-Policy" content="{POLICY}">'
-            f"<title>{title}</title><style>{STYLE}</style></head><body>\n" + "\n".join(lines) + "\n</body></html>\n")
+    return (f'<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">{policy()}<title>{title}</title>'
+            f"<style>{STYLE}</style></head><body>\n" + "\n".join(lines) + "\n</body></html>\n")
 
 
 def section(test, level):
-    yield f"<h2>{html.escape(test.name)} <span>{points(test.score)} of {points(test.max_score)} points</span></h2>"
+    yield (
+        f"<h2>{html.escape(test.name)} <span>{points(test.score)} of {points(test.max_score)} "
+        f"points</span></h2>"
+    )
     yield f"<p>{html.escape(test.words)}</p>"
     for text in test.fixes:
         yield f'<p class="fix">{html.escape(text)}</p>'
@@ -45,13 +60,17 @@ def section(test, level):
     verdict = told(test.verdict, level)
     yield "<table><tr>" + "".join(f"<th>{word}</th>" for word in HEADER) + "</tr>"
     for file in verdict.files:
-        kind = "good" if file.is_good else "bad" if file.verdict in ("wrong", "unreadable", "not handed in") else "open"
+        kind = "good" if file.is_good else "bad" if file.verdict in ("wrong", "unreadable",
+                                                                     "not handed in") else "open"
         cells = [file.stage, file.file, file.verdict, counted(file), file.first, "; ".join(remarks_of(file))]
         yield f'<tr class="{kind}">' + "".join(f"<td>{html.escape(cell)}</td>" for cell in cells) + "</tr>"
     yield "</table>"
     for file in verdict.files:
         if file.matrices:
-            yield f"<p>The matrix of {file.stage}, from the points of {html.escape(file.file)}, and the right one:</p>"
+            yield (
+                f"<p>The matrix of {file.stage}, from the points of {html.escape(file.file)}, and the right "
+                f"one:</p>"
+            )
             yield "<pre>" + html.escape("\n".join(file.matrices.lines())) + "</pre>"
     for caption, uri in test.pictures:
         yield f'<figure><img src="{uri}" alt="{caption}"><figcaption>{caption}</figcaption></figure>'

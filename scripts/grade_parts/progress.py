@@ -16,7 +16,8 @@ class Progress:
     def show(self):
         if self.is_shown:
             filled = CELLS * self.done // max(1, self.total)
-            print(f"\r[{'#' * filled}{'.' * (CELLS - filled)}] {self.done}/{self.total}", end="", file=sys.stderr, flush=True)
+            print(f"\r[{'#' * filled}{'.' * (CELLS - filled)}] {self.done}/{self.total}", end="",
+                  file=sys.stderr, flush=True)
 
     def __enter__(self):
         self.show()

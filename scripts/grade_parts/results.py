@@ -2,16 +2,17 @@
 import csv
 import io
 import json
+import unicodedata
 
 from judge_parts.report import sentence
 from lib.command import shown
 
-FORMULA = "=+-@\t\r"  # a spreadsheet takes a cell that begins so for a formula
+FORMULA = "=+-@"  # a spreadsheet takes a cell that begins so, in letters of any width, for a formula
 
 
 def cell(text):
-    text = shown(text)
-    return "'" + text if text[:1] and text[0] in FORMULA else text
+    text = shown(text)  # without control characters
+    return "'" + text if unicodedata.normalize("NFKC", text.lstrip()[:1]).startswith(tuple(FORMULA)) else text
 
 
 def number(x):
@@ -22,27 +23,39 @@ def csv_of(graded, tests):
     """The CSV of [(HandIn, Graded)], with all that the judge says, whatever students are told."""
     out = io.StringIO()
     writer = csv.writer(out, lineterminator="\n")
-    writer.writerow(["number", "hand-in", "score", "max_score", *(cell(test.name) for test in tests), "remarks", *(cell(test.name + " verdict") for test in tests)])
+    writer.writerow([
+        "number", "hand-in", "score", "max_score", *(cell(test.name) for test in tests), "remarks",
+        *(cell(test.name + " verdict") for test in tests)])
     for hand_in, result in graded:
         scores = [number(test.score) for test in result.tests] or [0.0] * len(tests)
         words = [cell(sentence(test.verdict)) for test in result.tests] or [""] * len(tests)
         remarks = "; ".join(([result.failure] if result.failure else []) + result.remarks)
-        writer.writerow([hand_in.number, cell(hand_in.name), number(result.score), number(result.max_score), *scores, cell(remarks), *words])
+        writer.writerow([
+            hand_in.number,
+            cell(hand_in.name),
+            number(result.score),
+            number(result.max_score), *scores,
+            cell(remarks), *words])
     return out.getvalue().encode()
 
 
 def numbers_csv(hand_ins, names):
     """Which number is whose."""
     out = io.StringIO()
-    csv.writer(out, lineterminator="\n").writerows([["number", "hand-in"], *([hand_in.number, cell(name)] for hand_in, name in zip(hand_ins, names))])
+    csv.writer(out, lineterminator="\n").writerows([["number", "hand-in"],
+                                                    *([hand_in.number, cell(name)]
+                                                      for hand_in, name in zip(hand_ins, names))])
     return out.getvalue().encode()
 
 
 def gradescope(result, tests):
     """The bytes of results.json (Gradescope, Autograder specifications: output format)."""
-    done = [{"name": shown(test.name), "score": number(test.score), "max_score": number(test.max_score), "output": "\n".join([test.words, *test.fixes])}
-            for test in result.tests]
-    missing = [] if done else [{"name": shown(test.name), "score": 0.0, "max_score": number(test.weight), "output": result.failure} for test in tests]
+    done = [{
+        "name": shown(test.name), "score": number(test.score), "max_score": number(test.max_score),
+        "output": "\n".join([test.words, *test.fixes])} for test in result.tests]
+    missing = [] if done else [{
+        "name": shown(test.name), "score": 0.0, "max_score": number(test.weight), "output": result.failure}
+                               for test in tests]
     output = "\n".join(([result.failure] if result.failure else []) + result.remarks)
     text = {"score": number(result.score), "output": output, "output_format": "text", "tests": done + missing}
     return (json.dumps(text, indent=2, ensure_ascii=True) + "\n").encode()

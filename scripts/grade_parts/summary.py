@@ -13,7 +13,8 @@ def findings(graded):
     for test in graded.tests:
         for file in test.verdict.files:
             if file.verdict == WRONG:
-                yield file.stage, "; or: ".join(cause.text.rstrip(".") for cause in file.causes) or "wrong, without a cause"
+                yield file.stage, "; or: ".join(cause.text.rstrip(".")
+                                                for cause in file.causes) or "wrong, without a cause"
             elif file.verdict in FAILED or file.verdict in OPEN:
                 yield file.stage, file.verdict
             elif file.rule:
@@ -24,6 +25,15 @@ def summary(graded):
     """The lines of a table for [(HandIn, Graded)], the most frequent first, and a line about all."""
     counts = collections.Counter(finding for _, result in graded for finding in set(findings(result)))
     order = {stage: i for i, stage in enumerate(("model", "view", "project", "zbuf", ""))}
-    rows = [[str(count), stage, shown(words)] for (stage, words), count in sorted(counts.items(), key=lambda pair: (-pair[1], order[pair[0][0]], pair[0][1]))]
-    full = sum(result.tests != [] and all(file.is_good for test in result.tests for file in test.verdict.files) for _, result in graded)
-    return [*(table(["hand-ins", "stage", "what"], rows) if rows else []), "", f"{len(graded)} hand-in{'' if len(graded) == 1 else 's'}, {full} right in all tests."]
+    rows = [[
+        str(count), stage, shown(words)
+    ] for (stage,
+           words), count in sorted(counts.items(), key=lambda pair: (-pair[1], order[pair[0][0]], pair[0][1]))
+            ]
+    full = sum(result.tests != [] and all(file.is_good
+                                          for test in result.tests
+                                          for file in test.verdict.files)
+               for _, result in graded)
+    return [
+        *(table(["hand-ins", "stage", "what"], rows) if rows else []), "",
+        f"{len(graded)} hand-in{'' if len(graded) == 1 else 's'}, {full} right in all tests."]

@@ -9,14 +9,16 @@ MAX_EXPLAINED_TRIANGLES = 1000  # some milliseconds each
 
 
 class StagesOfPage:
-    """Takes the place of explain_parts.stages.Stages, for triangle `number` of an Inspection; `lossless` has the StageLines of model
-    and view with all digits."""
+    """Takes the place of explain_parts.stages.Stages, for triangle `number` of an Inspection; `lossless` has
+    the StageLines of model and view with all digits."""
 
     def __init__(self, inspection, lossless, number):
         self.settings, self.count = Settings(), inspection.count
         self.header = inspection.header
-        self.world, self.world_lossless = (words_in(text, number)[0] for text in (inspection.lines["model"], lossless["model"]))
-        self.view, self.view_lossless = (words_in(text, number)[0] for text in (inspection.lines["view"], lossless["view"]))
+        self.world, self.world_lossless = (words_in(text, number)[0]
+                                           for text in (inspection.lines["model"], lossless["model"]))
+        self.view, self.view_lossless = (words_in(text, number)[0]
+                                         for text in (inspection.lines["view"], lossless["view"]))
         self.ndc = words_in(inspection.lines["project"], number)
 
     def camera(self):
@@ -25,17 +27,21 @@ class StagesOfPage:
 
 def words_in(text, number):
     """The words of each piece of a triangle in a text, a StageLines."""
-    return [words_of(text.lines[line - 1:line + 2]) for name, line in zip(text.names, text.first_lines) if name == number]
+    return [
+        words_of(text.lines[line - 1:line + 2])
+        for name, line in zip(text.names, text.first_lines)
+        if name == number]
 
 
 def explanations(inspection, scene_text, config_text):
-    """For each triangle its report and, for the report on a pixel, the names of the corners of its pieces; none for a large scene, or one
-    with spheres."""
+    """For each triangle its report and, for the report on a pixel, the names of the corners of its pieces;
+    none for a large scene, or one with spheres."""
     if inspection.count > MAX_EXPLAINED_TRIANGLES or inspection.lines["model"].spheres:
         return []
     window, found = Window(config_text), []
     lossless = {tool: StageLines.of(inspection.lossless[tool].decode()) for tool in ("model", "view")}
     for number, triangle in enumerate(find_triangles(scene_text)):
-        lines, pieces = triangle_report(StagesOfPage(inspection, lossless, number), triangle, window, inspection.name, number)
+        lines, pieces = triangle_report(StagesOfPage(inspection, lossless, number), triangle, window,
+                                        inspection.name, number)
         found.append({"text": "\n".join(lines), "corners": [names for names, _ in pieces]})
     return found

@@ -40,19 +40,22 @@ def statistics(path):
 
 
 def frustum_corners(header, reach):
-    """The four corners of the near plane and the four of the far plane in view space, in the same winding. A far plane far beyond
-    `reach`, the distance of the farthest vertex, is drawn nearer, so that what there is does not shrink; and whether it is."""
+    """The four corners of the near plane and the four of the far plane in view space, in the same winding. A
+    far plane far beyond `reach`, the distance of the farthest vertex, is drawn nearer, so that what there is
+    does not shrink; and whether it is."""
     left, right, bottom, top, near, far = window_of(header)
     is_shortened = near < reach and far > 2 * reach
     corners = []
     for distance in (near, 1.5 * reach if is_shortened else far):
         scale = 1 if "ortho" in header else distance / near
-        corners += [(x * scale, y * scale, -distance) for x, y in ((left, bottom), (right, bottom), (right, top), (left, top))]
+        corners += [(x * scale, y * scale, -distance)
+                    for x, y in ((left, bottom), (right, bottom), (right, top), (left, top))]
     return corners, is_shortened
 
 
 def belts_of(spheres):
-    """Into how many belts each of so many spheres is cut, for project and zbuf: a sphere has nearly 4 N^2 facets."""
+    """Into how many belts each of so many spheres is cut, for project and zbuf: a sphere has nearly 4 N^2
+    facets."""
     return max(BELTS[0], min(BELTS[1], math.isqrt(MAX_FACETS // (4 * spheres))))
 
 
@@ -73,8 +76,9 @@ def label(text, at):
 
 
 class Inspection:
-    """A run of the pipe that keeps every stage's output. As in scripts/stages, the stages pass lossless text on, and zbuf reads what
-    project printed; `names` are those of scene and config, as their user wrote them. For spheres, project and zbuf get facets."""
+    """A run of the pipe that keeps every stage's output. As in scripts/stages, the stages pass lossless text
+    on, and zbuf reads what project printed; `names` are those of scene and config, as their user wrote them.
+    For spheres, project and zbuf get facets."""
 
     def __init__(self, tools, scene, config, names, is_traced=False):
         self.tools, self.scene, self.config, self.is_traced = tools, scene, config, is_traced
@@ -92,7 +96,8 @@ class Inspection:
                 data = self.faceted(data)
             # Timed without counting.
             done = texts[tool] = self.first_run(tool, data)
-            self.lossless[tool] = data = self.tools.output(tool, "--digits", "exact", "--stats", folder / tool, stdin=data)
+            self.lossless[tool] = data = self.tools.output(tool, "--digits", "exact", "--stats",
+                                                           folder / tool, stdin=data)
             self.statistics[tool] = statistics(folder / tool)
             self.lines[tool] = StageLines.of(done.stdout.decode())
         self.header = self.lines["model"].header
@@ -120,7 +125,9 @@ class Inspection:
             except ToolFailure as failure:
                 raise ToolFailure(str(failure).split(": trace draws it")[0] + ": --trace draws it") from None
         belts = belts_of(spheres)
-        self.notes.append(f"project and zbuf have {4 * belts * (belts - 1)} facets in place of each sphere, and count those")
+        self.notes.append(
+            f"project and zbuf have {4 * belts * (belts - 1)} facets in place of each sphere, and count those"
+        )
         world = self.tools.output("model", "--digits", "exact", "--facets", belts, stdin=self.scene_data)
         return self.tools.output("view", "--digits", "exact", stdin=world)
 
@@ -129,26 +136,42 @@ class Inspection:
         self.notes += notes_told(stderr)
         kept = [(name, line) for name, line in zip(read.names, read.first_lines) if name % self.step == 0]
         numbers = self.numbers_shown(read, kept)
-        return {"tool": tool, "title": title, "seconds": time_told(stderr), "triangles": len(read.names), "missing": self.count - len(set(read.names)), "bytes": len(done.stdout), "statistics": self.statistics[tool],
-                "names": packed("i", [name for name, _ in kept]), "firstLines": packed("i", [line for _, line in kept]),
-                "numbers": packed("i", numbers) if numbers else None,
-                "spheres": {"names": packed("i", [name for name, _ in read.spheres]), "firstLines": packed("i", [line for _, line in read.spheres]),
-                            "points": packed("d", read.sphere_points())},
-                "text": "\n".join(read.lines[number - 1] for number in numbers) if numbers else "\n".join(read.lines), **self.guide(tool)}
+        return {
+            "tool":
+                tool, "title":
+                    title, "seconds":
+                        time_told(stderr), "triangles":
+                            len(read.names), "missing":
+                                self.count - len(set(read.names)), "bytes":
+                                    len(done.stdout), "statistics":
+                                        self.statistics[tool], "names":
+                                            packed("i", [name for name, _ in kept]), "firstLines":
+                                                packed("i", [line for _, line in kept]), "numbers":
+                                                    packed("i", numbers) if numbers else None,
+            "spheres": {
+                "names": packed("i", [name for name, _ in read.spheres]), "firstLines": packed(
+                    "i", [line for _, line in read.spheres]), "points": packed("d", read.sphere_points())},
+            "text":
+                "\n".join(read.lines[number - 1]
+                          for number in numbers) if numbers else "\n".join(read.lines), **self.guide(tool)}
 
     def numbers_shown(self, read, kept):
-        """Of a long text the numbers of the lines that the page has, those of the header and of the drawn triangles; None for all."""
+        """Of a long text the numbers of the lines that the page has, those of the header and of the drawn
+        triangles; None for all."""
         if self.step == 1:
             return None
         header_end = read.first_lines[0] if read.first_lines else len(read.lines)
         return [*range(1, header_end), *(line + i for _, line in kept for i in range(3))]
 
     def guide(self, tool):
-        """The line segments that show the camera, or the NDC cube, with labels; and a remark if they do not go all the way."""
+        """The line segments that show the camera, or the NDC cube, with labels; and a remark if they do not
+        go all the way."""
         header = self.header
         if tool == "project":
             corners = [(x, y, z) for z in (-1, 1) for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
-            return {"guide": box_lines(corners), "labels": [label("near", corners[3]), label("far", corners[7])], "remark": ""}
+            return {
+                "guide": box_lines(corners), "labels": [label("near", corners[3]),
+                                                        label("far", corners[7])], "remark": ""}
         corners, is_shortened = frustum_corners(header, -float(dict(self.statistics["view"]).get("z_min", 0)))
         remark = f"far, at {window_of(header)[-1]:g}, is drawn nearer" if is_shortened else ""
         eye = (0.0, 0.0, 0.0)
@@ -156,32 +179,42 @@ class Inspection:
             eye = tuple(map(float, header["eye"]))
             right, up, forward = axes(eye, *(tuple(map(float, header[name])) for name in ("look", "up")))
             corners = [moved(eye, (x, right), (y, up), (-z, forward)) for x, y, z in corners]
-        return {"guide": camera_lines(corners, eye), "labels": [label("eye", eye), label("near", corners[3]), label("far", corners[7])], "remark": remark}
+        return {
+            "guide": camera_lines(corners, eye),
+            "labels": [label("eye", eye),
+                       label("near", corners[3]),
+                       label("far", corners[7])], "remark": remark}
 
     def draw(self, stage3, folder):
         z_buffer, image, log = (folder / name for name in ("z_buffer.txt", "out.ppm", "fragments.txt"))
         zbuf_words = [self.config, *opaque_background(stage3)]
         # Timed without log and counts, which take longer than the picture.
-        timed = self.tools.run("zbuf", *zbuf_words, "--timing", "--z-buffer", z_buffer, "--image", image, stdin=stage3).stderr.decode(errors="replace")
-        self.tools.run("zbuf", *zbuf_words, "--z-buffer", "/dev/null", "--image", folder / "again.ppm", "--fragments", log, "--stats", folder / "zbuf", stdin=stage3)
+        timed = self.tools.run("zbuf", *zbuf_words, "--timing", "--z-buffer", z_buffer, "--image", image,
+                               stdin=stage3).stderr.decode(errors="replace")
+        self.tools.run("zbuf", *zbuf_words, "--z-buffer", "/dev/null", "--image", folder / "again.ppm",
+                       "--fragments", log, "--stats", folder / "zbuf", stdin=stage3)
         self.notes += notes_told(timed)
         self.columns, self.rows, pixels = read_picture(image)
         text = z_buffer.read_text()
-        self.stages.append({"tool": "zbuf", "title": "pixels", "seconds": time_told(timed), "triangles": len(self.lines["project"].names),
-                            "bytes": len(text), "statistics": statistics(folder / "zbuf"), "text": text})
+        self.stages.append({
+            "tool": "zbuf", "title": "pixels", "seconds": time_told(timed),
+            "triangles": len(self.lines["project"].names), "bytes": len(text),
+            "statistics": statistics(folder / "zbuf"), "text": text})
         self.pixels = base64.b64encode(b"".join(pixels)).decode()
         self.fragments = self.fragments_of(log)
 
     def fragments_of(self, log):
-        """All fragments, pixel by pixel from the top left, in the order they arrived: the start of each pixel's fragments, then
-        triangles, depths and fates. If there are very many, losing fragments are left out."""
+        """All fragments, pixel by pixel from the top left, in the order they arrived: the start of each
+        pixel's fragments, then triangles, depths and fates. If there are very many, losing fragments are left
+        out."""
         found = []
         with open(log, encoding="ascii") as lines:
             for line in lines:
                 words = line.split()
                 column, row = words[0][:-1].split(",")
                 fate = 0 if words[5] == "kept" else FATES.index(words[6])
-                found.append((int(row) * self.columns + int(column), int(words[2][:-1]), float(words[4][:-1]), fate))
+                found.append(
+                    (int(row) * self.columns + int(column), int(words[2][:-1]), float(words[4][:-1]), fate))
         self.fragment_count = len(found)
         if len(found) > MAX_FRAGMENTS:
             found = [fragment for fragment in found if fragment[3] == 0]
@@ -197,11 +230,28 @@ class Inspection:
 
     def limits(self):
         """The words of the config's limits in x and y."""
-        words = [word for line in text_of(self.config_data, self.config).split("\n") for word in line.split("#")[0].split()]
+        words = [
+            word for line in text_of(self.config_data, self.config).split("\n")
+            for word in line.split("#")[0].split()]
         return words[2:4] or ["-1", "-1"]
 
     def as_json(self):
-        return {"scene": self.name, "config": self.config_name, "triangles": self.count, "spheres": len(self.lines["model"].spheres), "step": self.step,
-                "columns": self.columns, "rows": self.rows, "stages": self.stages, "pixels": self.pixels, "fragments": self.fragments,
-                "fragmentCount": self.fragment_count, "leftOut": self.left_out_count, "notes": self.notes + self.square_notes,
-                "limits": self.limits(), "explanations": explanations(self, text_of(self.scene_data, self.scene), text_of(self.config_data, self.config))}
+        return {
+            "scene":
+                self.name, "config":
+                    self.config_name, "triangles":
+                        self.count, "spheres":
+                            len(self.lines["model"].spheres), "step":
+                                self.step, "columns":
+                                    self.columns, "rows":
+                                        self.rows, "stages":
+                                            self.stages, "pixels":
+                                                self.pixels, "fragments":
+                                                    self.fragments, "fragmentCount":
+                                                        self.fragment_count, "leftOut":
+                                                            self.left_out_count, "notes":
+                                                                self.notes + self.square_notes,
+            "limits":
+                self.limits(), "explanations":
+                    explanations(self, text_of(self.scene_data, self.scene),
+                                 text_of(self.config_data, self.config))}

@@ -28,19 +28,28 @@ class RayTrees:
         stage2 = inspection.lossless["view"]
         self.step = step_of(inspection.columns, inspection.rows, MOST_TREES)
         first = self.step // 2
-        places = [f"{column},{row}" for row in range(min(first, inspection.rows - 1), inspection.rows, self.step)
-                  for column in range(min(first, inspection.columns - 1), inspection.columns, self.step)]
+        places = [
+            f"{column},{row}" for row in range(min(first, inspection.rows - 1), inspection.rows, self.step)
+            for column in range(min(first, inspection.columns - 1), inspection.columns, self.step)]
         probes = [word for place in places for word in ("--probe", place)]
         with tempfile.TemporaryDirectory() as folder:
             image = pathlib.Path(folder, "out.ppm")
-            done = inspection.tools.run("trace", inspection.config, *words, *opaque_background(stage2), *probes, "--z-buffer", "none", "--image", image, stdin=stage2)
+            done = inspection.tools.run("trace", inspection.config, *words, *opaque_background(stage2),
+                                        *probes, "--z-buffer", "none", "--image", image, stdin=stage2)
             _, _, pixels = read_picture(image)
         self.pixels = base64.b64encode(b"".join(pixels)).decode()
         self.notes, self.lines = [], []
         for line in done.stderr.decode(errors="replace").splitlines():
-            (self.lines if re.match(r"(trace: )?\d+,\d+: ", line) else self.notes).append(line.removeprefix("trace: ") if ": note: " not in line else line)
-        self.lights = [list(map(float, words[1:4])) for words in map(str.split, stage2.split(b"\n\n", 1)[0].decode().splitlines()) if words[:1] == ["light"]]
+            (self.lines if re.match(r"(trace: )?\d+,\d+: ", line) else
+             self.notes).append(line.removeprefix("trace: ") if ": note: " not in line else line)
+        self.lights = [
+            list(map(float, words[1:4]))
+            for words in map(str.split,
+                             stage2.split(b"\n\n", 1)[0].decode().splitlines())
+            if words[:1] == ["light"]]
 
     def as_json(self):
         eye, look, up = (tuple(map(float, self.header[name])) for name in ("eye", "look", "up"))
-        return {"step": self.step, "lines": "\n".join(self.lines), "lights": self.lights, "camera": [eye, *axes(eye, look, up)]}
+        return {
+            "step": self.step, "lines": "\n".join(self.lines), "lights": self.lights,
+            "camera": [eye, *axes(eye, look, up)]}

@@ -6,8 +6,8 @@ NUMBER_BEGINS = tuple("-0123456789")
 
 @dataclasses.dataclass
 class StageLines:
-    """A text of our own tools: its header, {keyword: words}, of each triangle or piece of one the number and the first line, and of each
-    sphere; and one more than the last number."""
+    """A text of our own tools: its header, {keyword: words}, of each triangle or piece of one the number and
+    the first line, and of each sphere; and one more than the last number."""
     lines: list
     header: dict
     names: list
@@ -42,7 +42,9 @@ class StageLines:
 
     def sphere_points(self):
         """The numbers of the four points of each sphere: its center, and the ends of three half axes."""
-        return [float(word) for _, line in self.spheres for text in self.lines[line - 1:line + 3] for word in text.split(" ", 3)[:3]]
+        return [
+            float(word) for _, line in self.spheres for text in self.lines[line - 1:line + 3]
+            for word in text.split(" ", 3)[:3]]
 
     def points(self):
         """The vertices of all triangles, one by one."""

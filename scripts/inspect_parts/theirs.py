@@ -1,4 +1,5 @@
-"""A student's files laid over ours: the judge's verdict, their points, and which vertices and pixels differ."""
+"""A student's files laid over ours: the judge's verdict, their points, and which vertices and pixels
+differ."""
 import base64
 
 from inspect_parts.packing import packed
@@ -25,15 +26,16 @@ class Theirs:
         self.verdict = judge(self.files, inspection.scene_data, inspection.config_data)
 
     def read(self, kind, parse):
-        """What `parse` makes of a file's bytes and name; None if it cannot be read, for a reason that the verdict has."""
+        """What `parse` makes of a file's bytes and name; None if it cannot be read, for a reason that the
+        verdict has."""
         try:
             return parse(self.files[kind].within(self.ours.limit(kind)), self.files[kind].name)
         except CommandFailure:
             return None
 
     def stage(self, tool):
-        """Their points, and the indices of the vertices that are not ours within the digits they show. None are compared if there are
-        more or fewer triangles, or if the page has not all of ours."""
+        """Their points, and the indices of the vertices that are not ours within the digits they show. None
+        are compared if there are more or fewer triangles, or if the page has not all of ours."""
         theirs, text = self.read(KINDS[tool], read_points), self.inspection.lines[tool]
         if theirs is None or self.inspection.step > 1:
             return None
@@ -45,19 +47,31 @@ class Theirs:
                 tolerance = printed_tolerance(q, digits)
                 if any(is_off(a, b, tolerance) for a, b in zip(p, q)):
                     differing.append(index)
-        return {"points": packed("d", [x for p in theirs.points for x in p]), "lines": packed("i", theirs.lines), "isCompared": is_compared, "differing": packed("i", differing)}
+        return {
+            "points": packed("d", [x for p in theirs.points for x in p]), "lines": packed("i", theirs.lines),
+            "isCompared": is_compared, "differing": packed("i", differing)}
 
     def picture(self):
         """The pixels of their picture, in base64."""
-        colors = self.read("picture", lambda data, name: read_colors(data, name, self.ours.window, self.ours.background))
-        return None if colors is None else base64.b64encode(b"".join(b"".join(row) for row in colors)).decode()
+        colors = self.read("picture",
+                           lambda data, name: read_colors(data, name, self.ours.window, self.ours.background))
+        return None if colors is None else base64.b64encode(b"".join(b"".join(row)
+                                                                     for row in colors)).decode()
 
     def words_of(self, file):
         """A file's verdict; of one that is right after a wrong one, what it was judged by."""
-        before = [other.file for other in self.verdict.files[:self.verdict.files.index(file)] if other.verdict in FAILED]
+        before = [
+            other.file
+            for other in self.verdict.files[:self.verdict.files.index(file)]
+            if other.verdict in FAILED]
         return file.verdict + (f", given their {before[-1]}" if file.is_good and before else "")
 
     def as_json(self):
-        files = [{"stage": file.stage, "file": file.file, "verdict": self.words_of(file), "isGood": file.is_good, "differing": file.differing, "largest": file.largest, "remarks": "; ".join(remarks_of(file)),
-                  "matrices": file.matrices.lines() if file.matrices else []} for file in self.verdict.files]
-        return {"folder": shown(self.folder), "sentence": sentence(self.verdict), "files": files, "stages": {tool: self.stage(tool) for tool in KINDS}, "picture": self.picture()}
+        files = [{
+            "stage": file.stage, "file": file.file, "verdict": self.words_of(file), "isGood": file.is_good,
+            "differing": file.differing, "largest": file.largest, "remarks": "; ".join(remarks_of(file)),
+            "matrices": file.matrices.lines() if file.matrices else []} for file in self.verdict.files]
+        return {
+            "folder": shown(self.folder), "sentence": sentence(self.verdict), "files": files,
+            "stages": {tool: self.stage(tool)
+                       for tool in KINDS}, "picture": self.picture()}

@@ -1,5 +1,5 @@
-"""Whether a pixel that differs lies within a pixel of an edge, or of the line where two triangles meet; and whether all pixels
-are shifted."""
+"""Whether a pixel that differs lies within a pixel of an edge, or of the line where two triangles meet; and
+whether all pixels are shifted."""
 import math
 
 from judge_parts.raster import kept, spend
@@ -10,26 +10,31 @@ LEAST_ENDS = 3     # before their average says anything
 
 
 class Borders:
-    """Triangles (raster.Triangles) in pixels: what may be seen at a pixel if its center may move by a pixel. `work` is that of Drawing."""
+    """Triangles (raster.Triangles) in pixels: what may be seen at a pixel if its center may move by a pixel.
+    `work` is that of Drawing."""
 
     def __init__(self, triangles, limits, work):
         self.triangles, (self.front, self.rear), self.work = triangles, limits, work
         self.planes = {}
 
     def plane(self, t):
-        """Of a triangle in pixels: its edges as (a, b, c) with a column + b row + c the distance from the inside, its depth as
-        (per column, per row, at 0 0), its columns from and to, and its depths from and to."""
+        """Of a triangle in pixels: its edges as (a, b, c) with a column + b row + c the distance from the
+        inside, its depth as (per column, per row, at 0 0), its columns from and to, and its depths from and
+        to."""
         if t not in self.planes:
             self.planes[t] = self.make_plane(t)
         return self.planes[t]
 
     def make_plane(self, t):
         grid = self.triangles.grid
-        corners = [((x - grid.left_x) / grid.dx, (grid.top_y - y) / grid.dy, z) for x, y, z in self.triangles.corners[t]]
+        corners = [((x - grid.left_x) / grid.dx, (grid.top_y - y) / grid.dy, z)
+                   for x, y, z in self.triangles.corners[t]]
         (ax, ay, az), (bx, by, bz), (cx, cy, cz) = corners
         area = (bx - ax) * (cy - ay) - (cx - ax) * (by - ay)
         box = [(min(values), max(values)) for values in zip(*corners)]
-        longest = max(math.hypot(qx - px, qy - py) for (px, py, _), (qx, qy, _) in zip(corners, corners[1:] + corners[:1]))
+        longest = max(
+            math.hypot(qx - px, qy - py)
+            for (px, py, _), (qx, qy, _) in zip(corners, corners[1:] + corners[:1]))
         if not self.triangles.has_area(t) or abs(area) < REACH * longest:
             return None, None, box
         sign, edges = math.copysign(1.0, area), []
@@ -42,22 +47,28 @@ class Borders:
         return edges, (per_column, per_row, az - per_column * ax - per_row * ay), box
 
     def fragment(self, t, row, column, tolerance):
-        """(triangle, least depth, largest depth) and whether it is there for certain; None if it is out of reach."""
+        """(triangle, least depth, largest depth) and whether it is there for certain; None if it is out of
+        reach."""
         edges, depth, ((left, right), (top, bottom), (nearest, farthest)) = self.plane(t)
         if not (left - REACH <= column <= right + REACH and top - REACH <= row <= bottom + REACH):
             return None
         if edges is None:
-            return (t, nearest - tolerance, farthest + tolerance), False  # thinner than a pixel: open where it is drawn
+            return (t, nearest - tolerance,
+                    farthest + tolerance), False  # thinner than a pixel: open where it is drawn
         inside = min(a * column + b * row + c for a, b, c in edges)
         if inside < -REACH:
             return None
         per_column, per_row, at_0 = depth
-        z, slack = per_column * column + per_row * row + at_0, (abs(per_column) + abs(per_row)) * REACH + tolerance
+        z, slack = per_column * column + per_row * row + at_0, (abs(per_column) +
+                                                                abs(per_row)) * REACH + tolerance
         low, high = z - slack, z + slack
         return (t, low, high), inside >= REACH and low >= self.front and high < self.rear
 
     def near(self, row):
-        near = sorted({t for r in (row - 1, row, row + 1) if 0 <= r < self.triangles.grid.height for t in self.triangles.rows[r]})
+        near = sorted({
+            t
+            for r in (row - 1, row, row + 1) if 0 <= r < self.triangles.grid.height
+            for t in self.triangles.rows[r]})
         spend(self.work, len(near))
         return near
 
@@ -67,12 +78,15 @@ class Borders:
         return bool(found) if is_drawn else not any(is_sure for _, is_sure in found)
 
     def could_show(self, row, column, is_drawn, z, tolerance, seen):
-        """Whether the pixel may show what it does: a triangle (one of `seen`, unless that is None) with the depth z (unless that is
-        None), or nothing."""
+        """Whether the pixel may show what it does: a triangle (one of `seen`, unless that is None) with the
+        depth z (unless that is None), or nothing."""
         fragments = [found for t in self.near(row) if (found := self.fragment(t, row, column, tolerance))]
-        possible = [fragment for fragment, _ in fragments if fragment[2] >= self.front and fragment[1] < self.rear]
+        possible = [
+            fragment for fragment, _ in fragments if fragment[2] >= self.front and fragment[1] < self.rear]
         options = kept([fragment for fragment, is_sure in fragments if is_sure], possible, "nearest")
-        return any((t >= 0) == is_drawn and (z is None or t < 0 or low <= z <= high) and (seen is None or t in seen) for t, low, high in options)
+        return any(
+            (t >= 0) == is_drawn and (z is None or t < 0 or low <= z <= high) and (seen is None or t in seen)
+            for t, low, high in options)
 
 
 def runs(row):
@@ -88,7 +102,8 @@ def runs(row):
 
 
 def is_shifted(drawing, drawn):
-    """Whether the left and the right ends of the drawn pixels have moved the same way, each by more than SHIFT on average."""
+    """Whether the left and the right ends of the drawn pixels have moved the same way, each by more than
+    SHIFT on average."""
     left, right = [], []
     width = drawing.width
     for row, theirs in enumerate(drawn):
@@ -96,7 +111,8 @@ def is_shifted(drawing, drawn):
         a, b = runs(theirs), runs(ours)
         if len(a) == len(b):
             left += [p[0] - q[0] for p, q in zip(a, b) if min(p[0], q[0]) > 0 and abs(p[0] - q[0]) <= 2]
-            right += [p[1] - q[1] for p, q in zip(a, b) if max(p[1], q[1]) < width - 1 and abs(p[1] - q[1]) <= 2]
+            right += [
+                p[1] - q[1] for p, q in zip(a, b) if max(p[1], q[1]) < width - 1 and abs(p[1] - q[1]) <= 2]
     if min(len(left), len(right)) < LEAST_ENDS:
         return False
     left, right = sum(left) / len(left), sum(right) / len(right)

@@ -10,7 +10,8 @@ FINEST = 17  # significant digits, of a double
 
 @dataclasses.dataclass(frozen=True)
 class Digits:
-    """`decimals` is their count if every number of the text has the same, else None; `significant` the most digits of a number."""
+    """`decimals` is their count if every number of the text has the same, else None; `significant` the most
+    digits of a number."""
     decimals: int
     significant: int
     largest: float = 1.0
@@ -33,7 +34,8 @@ class Digits:
         return self.count < LEAST_DIGITS
 
     def __str__(self):
-        count, what = (self.significant, "significant digit") if self.decimals is None else (self.decimals, "decimal")
+        count, what = (self.significant, "significant digit") if self.decimals is None else (self.decimals,
+                                                                                             "decimal")
         return f"{count} {what}{'' if count == 1 else 's'}"
 
 
@@ -62,10 +64,12 @@ def decimals_of(word):
 
 
 def of_one_program(texts):
-    """The same Digits, given that one program printed all texts: numbers such as 0.5 show as many digits as they have, in a text
-    whose program does not print trailing zeros."""
+    """The same Digits, given that one program printed all texts: numbers such as 0.5 show as many digits as
+    they have, in a text whose program does not print trailing zeros."""
     loose = [digits.significant for digits in texts if digits.decimals is None]
     if not loose:
         return texts
     most = max(loose)
-    return [Digits(None, most, digits.largest) if digits.decimals is None or digits.significant < most else digits for digits in texts]
+    return [
+        Digits(None, most, digits.largest) if digits.decimals is None or digits.significant < most else digits
+        for digits in texts]

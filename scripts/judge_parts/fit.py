@@ -1,7 +1,8 @@
-"""The 4 x 4 matrix that takes one list of points to another, fitted by least squares, and how it compares with ours.
+"""The 4 x 4 matrix that takes one list of points to another, fitted by least squares, and how it compares
+with ours.
 
-A matrix is shown only if the points determine it: what their rounding leaves uncertain is found by fitting again with the numbers
-moved within their last digit."""
+A matrix is shown only if the points determine it: what their rounding leaves uncertain is found by fitting
+again with the numbers moved within their last digit."""
 import dataclasses
 import math
 import random
@@ -12,7 +13,8 @@ MOST_POINTS = 60
 TRIALS = 3
 WORST_SPREAD = 0.01       # of an element, against the largest one
 LEAST_DIFFERENCE = 1e-4   # of an element, against 1 and its own size
-MISFIT, MISFIT_IN_UNITS = 1e-3, 20  # of a number that a matrix gives: against 1 and its own size, and of its last digit
+# of a number that a matrix gives: against 1 and its own size, and of its last digit
+MISFIT, MISFIT_IN_UNITS = 1e-3, 20
 DECIMALS = 5
 
 
@@ -26,7 +28,8 @@ class Comparison:
         """Both matrices side by side; a * marks what differs."""
         rows = []
         for i, (a, b) in enumerate(zip(self.theirs, self.ours)):
-            left = " ".join(f"{shown(x):>12}{'*' if (i, j) in self.differing else ' '}" for j, x in enumerate(a))
+            left = " ".join(
+                f"{shown(x):>12}{'*' if (i, j) in self.differing else ' '}" for j, x in enumerate(a))
             rows.append(f"  {left}   | " + " ".join(f"{shown(x):>12}" for x in b))
         width = rows[0].index("|")
         return [f"  {'found in the points (* differs)':<{width - 2}}| right", *rows]
@@ -89,10 +92,12 @@ def null_vector(rows):
 
 
 def normalizing(points):
-    """The matrix that moves the points to the origin and scales them to a size of about 1, and its inverse."""
+    """The matrix that moves the points to the origin and scales them to a size of about 1, and its
+    inverse."""
     center = [sum(values) / len(points) for values in zip(*points)]
     size = max(max(abs(x - c) for x, c in zip(p, center)) for p in points) or 1.0
-    there = tuple(tuple((1 / size if i == j else 0.0) for j in range(3)) + (-center[i] / size,) for i in range(3))
+    there = tuple(
+        tuple((1 / size if i == j else 0.0) for j in range(3)) + (-center[i] / size, ) for i in range(3))
     back = tuple(tuple((size if i == j else 0.0) for j in range(3)) + (center[i],) for i in range(3))
     return (*there, (0.0, 0.0, 0.0, 1.0)), (*back, (0.0, 0.0, 0.0, 1.0))
 
@@ -140,10 +145,14 @@ def affine_of(before, after):
 
 def scaled_like(m, ours):
     """A matrix known up to a factor, with the factor that makes most elements those of ours."""
-    ratios = [b / a for row, other in zip(m, ours) for a, b in zip(row, other) if abs(b) > 1e-9 and abs(a) > 1e-12]
+    ratios = [
+        b / a for row, other in zip(m, ours) for a, b in zip(row, other) if abs(b) > 1e-9 and abs(a) > 1e-12]
 
     def agreeing(factor):
-        return sum(abs(factor * a - b) <= 1e-3 * max(1.0, abs(b)) for row, other in zip(m, ours) for a, b in zip(row, other))
+        return sum(
+            abs(factor * a - b) <= 1e-3 * max(1.0, abs(b))
+            for row, other in zip(m, ours)
+            for a, b in zip(row, other))
 
     factor = max(ratios, key=agreeing, default=1.0)
     return tuple(tuple(factor * x for x in row) for row in m)
@@ -151,13 +160,14 @@ def scaled_like(m, ours):
 
 def misses(m, before, after, units, is_divided):
     """Whether a matrix takes a point to another place than it went, by more than rounding explains."""
-    return any(not abs(x - y) <= MISFIT_IN_UNITS * unit + MISFIT * max(1.0, abs(y)) for p, q, limits in zip(before, after, units)
+    return any(not abs(x - y) <= MISFIT_IN_UNITS * unit + MISFIT * max(1.0, abs(y))
+               for p, q, limits in zip(before, after, units)
                for x, y, unit in zip(image(m, p, is_divided), q, limits))
 
 
 def compare(before, after, units, ours, is_divided):
-    """The Comparison of the matrix from `before` to `after` with ours; a NoMatrix if none comes near the points, and None if they do
-    not determine it. `units` are those of `after`."""
+    """The Comparison of the matrix from `before` to `after` with ours; a NoMatrix if none comes near the
+    points, and None if they do not determine it. `units` are those of `after`."""
     step = max(1, len(before) // MOST_POINTS)
     chosen = [i for i in range(0, len(before), step) if all(map(math.isfinite, after[i]))]
     before, after, units = ([values[i] for i in chosen] for values in (before, after, units))
@@ -167,7 +177,10 @@ def compare(before, after, units, ours, is_divided):
     rng = random.Random(1)
     fits = []
     for trial in range(TRIALS + 1):
-        images = [tuple(x + (trial > 0) * rng.uniform(-0.5, 0.5) * u for x, u in zip(q, unit)) for q, unit in zip(after, units)]
+        images = [
+            tuple(x + (trial > 0) * rng.uniform(-0.5, 0.5) * u
+                  for x, u in zip(q, unit))
+            for q, unit in zip(after, units)]
         try:
             m = fit(before, images)
         except (ZeroDivisionError, OverflowError):
@@ -183,6 +196,9 @@ def compare(before, after, units, ours, is_divided):
         largest = max(1e-3, *map(abs, theirs[i]))
         if not max(spread[i]) <= WORST_SPREAD * largest:
             return None
-    differing = {(i, j) for i in range(4) for j in range(4)
-                 if abs(theirs[i][j] - ours[i][j]) > 4 * spread[i][j] + LEAST_DIFFERENCE * max(1.0, abs(ours[i][j]))}
+    differing = {
+        (i, j)
+        for i in range(4)
+        for j in range(4)
+        if abs(theirs[i][j] - ours[i][j]) > 4 * spread[i][j] + LEAST_DIFFERENCE * max(1.0, abs(ours[i][j]))}
     return Comparison(theirs, ours, differing)

@@ -6,7 +6,8 @@ import re
 from lib.command import shown
 from lib.input_file import InputError, read_input
 
-# The kinds of files, their first name in the assignment, and what other names look like, in lower case without - _ and blanks.
+# The kinds of files, their first name in the assignment, and what other names look like, in lower case
+# without - _ and blanks.
 KINDS = {
     "stage1": ("stage1.txt", re.compile(r"stage1\.txt")),
     "stage2": ("stage2.txt", re.compile(r"stage2\.txt")),
@@ -54,8 +55,10 @@ def rank(name, kind):
 def fitting_names(names):
     """{kind: the names that look like it, the most likely first}."""
     plain_names = [(name, plain(name)) for name in names]
-    return {kind: sorted((name for name, short in plain_names if pattern.fullmatch(short)), key=lambda name: rank(name, kind))
-            for kind, (_, pattern) in KINDS.items()}
+    return {
+        kind: sorted((name for name, short in plain_names if pattern.fullmatch(short)),
+                     key=lambda name: rank(name, kind))
+        for kind, (_, pattern) in KINDS.items()}
 
 
 def find_files(folder):
@@ -65,7 +68,9 @@ def find_files(folder):
     except OSError as error:
         raise InputError(folder, error.strerror) from None
     fitting = fitting_names(names)
-    return {kind: read_file(folder, found[0], tuple(map(shown, found[1:]))) if found else File(KINDS[kind][0]) for kind, found in fitting.items()}
+    return {
+        kind: read_file(folder, found[0], tuple(map(shown, found[1:]))) if found else File(KINDS[kind][0])
+        for kind, found in fitting.items()}
 
 
 def read_file(folder, name, others=()):

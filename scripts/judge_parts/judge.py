@@ -1,8 +1,9 @@
 """The judge: what is true of a hand-in, stage by stage.
 
-Each stage is judged by the numbers that it may have read, those of the stage's file before it or the exact ones in memory, so that a
-mistake counts once. A stage is right if it reproduces the numbers under any combination of what the assignment leaves open; else wrong
-by the mistake that reproduces them; else, in stage 4, by another rule at the borders; else wrong without a cause.
+Each stage is judged by the numbers that it may have read, those of the stage's file before it or the exact
+ones in memory, so that a mistake counts once. A stage is right if it reproduces the numbers under any
+combination of what the assignment leaves open; else wrong by the mistake that reproduces them; else, in stage
+4, by another rule at the borders; else wrong without a cause.
 """
 import collections
 
@@ -14,22 +15,26 @@ from judge_parts.matrices import image
 from judge_parts.reference import kinds_of, reference
 from judge_parts.shown import Shown, read_colors, read_depths
 from judge_parts.stage_judge import Outcome, Reading, StageJudge, undecided_outcome
-from judge_parts.verdict import ANOTHER_RULE, GOOD, MISSING, RIGHT, TOO_FEW_DIGITS, UNDECIDED, UNREADABLE, WRONG, FileVerdict, Verdict
+from judge_parts.verdict import (
+    ANOTHER_RULE, GOOD, MISSING, RIGHT, TOO_FEW_DIGITS, UNDECIDED, UNREADABLE, WRONG, FileVerdict, Verdict)
 from lib.input_file import InputError
 from lib.pictures import PictureError
 from lib.stage_text import StageTextError
 
-KINDS_IN_WORDS = {"extra": "a pixel that no triangle covers", "missing": "a pixel that a triangle covers is empty", "depth": "another depth",
-                  "other": "another triangle"}
+KINDS_IN_WORDS = {
+    "extra": "a pixel that no triangle covers", "missing": "a pixel that a triangle covers is empty",
+    "depth": "another depth", "other": "another triangle"}
 FAR = 1e15
-MOST_PARTS = 7  # triangles that clipping at six planes makes of one: more cannot come from the scene, and drawing them has no end
+# triangles that clipping at six planes makes of one: more cannot come from the scene, and drawing them has no
+# end
+MOST_PARTS = 7
 PRINTED = "pixels without a triangle are printed"
 
 
 def judge(files, scene, config=None):
-    """The Verdict on a hand-in: `files` are its Files by kind (hand_in.find_files), `scene` and `config` the bytes of those files.
-    Without a config the first three stages are judged. Raises a JudgeError if there is nothing to judge by; whatever a file of the
-    hand-in holds only costs that file its verdict."""
+    """The Verdict on a hand-in: `files` are its Files by kind (hand_in.find_files), `scene` and `config` the
+    bytes of those files. Without a config the first three stages are judged. Raises a JudgeError if there is
+    nothing to judge by; whatever a file of the hand-in holds only costs that file its verdict."""
     return HandIn(files, reference(scene, config), kinds_of(config)).judge()
 
 
@@ -47,7 +52,8 @@ class HandIn:
         for kind, stage in (("stage1", "model"), ("stage2", "view"), ("stage3", "project")):
             theirs = points[kind]
             outcome = None
-            readings = [Reading(before.points, before.units)] if before is not None and is_of_this_world(before.points) else []
+            readings = [Reading(before.points, before.units)
+                        ] if before is not None and is_of_this_world(before.points) else []
             if memory is not None:
                 readings.append(Reading.exact(memory))
             if theirs is not None and not theirs.points:
@@ -58,9 +64,11 @@ class HandIn:
                 outcome = self.after_model(judge, stage, kind, theirs, readings)
                 if outcome.verdict.verdict == WRONG and verdicts[-1].verdict == WRONG:
                     # A program may write other numbers into a file than it goes on with.
-                    by_right = self.after_model(judge, stage, kind, theirs, [Reading.exact(self.right_before(stage))])
+                    by_right = self.after_model(judge, stage, kind, theirs,
+                                                [Reading.exact(self.right_before(stage))])
                     if by_right.verdict.verdict in GOOD:
-                        by_right.verdict.remarks.append(f"by the right numbers, which are not those of {verdicts[-1].file}")
+                        by_right.verdict.remarks.append(
+                            f"by the right numbers, which are not those of {verdicts[-1].file}")
                         outcome = by_right
             if outcome is None:
                 outcome = Outcome(self.failed[kind], self.right_memory(stage, readings))
@@ -70,7 +78,8 @@ class HandIn:
             verdicts.append(outcome.verdict)
             memory, before = outcome.memory, theirs
         if "picture" in self.kinds:
-            verdicts += self.pixels(before, memory, self.right_ndc() if verdicts[-1].verdict == WRONG else None)
+            verdicts += self.pixels(before, memory,
+                                    self.right_ndc() if verdicts[-1].verdict == WRONG else None)
         verdicts[0].remarks += self.ours.remarks
         return Verdict(verdicts)
 
@@ -81,7 +90,8 @@ class HandIn:
 
     def right_before(self, stage):
         """The right points that a stage after model reads."""
-        return self.ours.world if stage == "view" else [image(self.ours.scene.of_view(), p, False) for p in self.ours.world]
+        return self.ours.world if stage == "view" else [
+            image(self.ours.scene.of_view(), p, False) for p in self.ours.world]
 
     def right_memory(self, stage, readings):
         """The points after a stage whose file is missing, if the stage is right."""
@@ -95,14 +105,18 @@ class HandIn:
         return [points for reading in readings if (points := self.ours.clipped(reading.points)) is not None]
 
     def of_empty_text(self, stage, kind, readings):
-        """The Outcome of a text without triangles: right if nothing may be left of what the stage has read."""
+        """The Outcome of a text without triangles: right if nothing may be left of what the stage has
+        read."""
         name = self.files[kind].name
         given = [self.ours.world] if stage == "model" else [reading.points for reading in readings]
         if not all(given) or stage == "project" and not all(self.clipped(readings)):
             return Outcome(FileVerdict(stage, name, RIGHT, differing=0), [])
         if not given:
             return undecided_outcome(stage, name)
-        return Outcome(FileVerdict(stage, name, WRONG, remarks=["there is no triangle in it" if self.files[kind].data.strip() else "it is empty"]))
+        return Outcome(
+            FileVerdict(
+                stage, name, WRONG,
+                remarks=["there is no triangle in it" if self.files[kind].data.strip() else "it is empty"]))
 
     def right_ndc(self):
         """What a program may have drawn by that writes other numbers into its file."""
@@ -110,13 +124,15 @@ class HandIn:
 
     # reading
     def read(self, kind, parse):
-        """What `parse` makes of a file's bytes and name; None, and a verdict in `failed`, if it cannot be read."""
+        """What `parse` makes of a file's bytes and name; None, and a verdict in `failed`, if it cannot be
+        read."""
         file = self.files[kind]
         try:
             return parse(file.within(self.ours.limit(kind)), file.name)
         except InputError as error:
             verdict = MISSING if error.is_missing else UNREADABLE
-            self.failed[kind] = FileVerdict(STAGE_OF[kind], file.name, verdict, remarks=[] if error.is_missing else [error.reason])
+            self.failed[kind] = FileVerdict(STAGE_OF[kind], file.name, verdict,
+                                            remarks=[] if error.is_missing else [error.reason])
         except (StageTextError, PictureError) as error:
             self.failed[kind] = FileVerdict(STAGE_OF[kind], file.name, UNREADABLE, remarks=[str(error)])
         return None
@@ -139,7 +155,8 @@ class HandIn:
         """The FileVerdicts of the depths and of the picture; `right_ndc` if stage3.txt does not have it."""
         window = self.ours.window
         depths = self.read("depths", read_depths)
-        colors = self.read("picture", lambda data, name: read_colors(data, name, window, self.ours.background))
+        colors = self.read("picture",
+                           lambda data, name: read_colors(data, name, window, self.ours.background))
         verdicts = {kind: self.failed.get(kind) for kind in ("depths", "picture")}
         if self.ours.has_own_colors and colors is not None:
             verdicts["picture"], colors = self.verdict_of_colors(colors), None
@@ -152,7 +169,8 @@ class HandIn:
         if readings and right_ndc and all(x == x for p in right_ndc for x in p):
             readings["right"] = (right_ndc, Reading.exact(right_ndc).units)
         if depths is not None and depths.rows and depths.digits.are_too_few:
-            verdicts["depths"] = FileVerdict("zbuf", self.files["depths"].name, TOO_FEW_DIGITS, remarks=[f"it shows {depths.digits}"])
+            verdicts["depths"] = FileVerdict("zbuf", self.files["depths"].name, TOO_FEW_DIGITS,
+                                             remarks=[f"it shows {depths.digits}"])
             depths = None
         if (depths is not None or colors is not None) and readings:
             shown = Shown(colors, depths, window.width, window.height, float(window.rear))
@@ -167,15 +185,20 @@ class HandIn:
         return list(verdicts.values())
 
     def verdict_of_colors(self, colors):
-        """The FileVerdict of a picture whose triangles have colors of their own, or light: every color counts, by either rule of coverage."""
+        """The FileVerdict of a picture whose triangles have colors of their own, or light: every color
+        counts, by either rule of coverage."""
         name, verdicts = self.files["picture"].name, []
         for coverage, verdict, rule in (("nearest", RIGHT, ""), ("center", ANOTHER_RULE, "the center rule")):
             ours = self.ours.picture(self.files["stage3"].data or b"", coverage)
             if ours is None:
                 return FileVerdict("zbuf", name, UNDECIDED, remarks=["zbuf refuses their stage3.txt"])
-            places = [(r, i) for r, (row, line) in enumerate(zip(ours, colors)) for i, color in enumerate(line) if row[3 * i:3 * i + 3] != color]
-            verdicts.append(FileVerdict("zbuf", name, WRONG if places else verdict, "" if places else rule, differing=len(places),
-                                        compared=len(ours) * len(colors[0]), places=places))
+            places = [(r, i)
+                      for r, (row, line) in enumerate(zip(ours, colors))
+                      for i, color in enumerate(line)
+                      if row[3 * i:3 * i + 3] != color]
+            verdicts.append(
+                FileVerdict("zbuf", name, WRONG if places else verdict, "" if places else rule,
+                            differing=len(places), compared=len(ours) * len(colors[0]), places=places))
         return min(verdicts, key=lambda verdict: verdict.differing)
 
     def verdict_of_pixels(self, kind, finding, shown):
@@ -184,7 +207,8 @@ class HandIn:
         if mismatch is None:
             return FileVerdict("zbuf", name, UNDECIDED, remarks=finding.remarks)
         places = (mismatch.of_depths if kind == "depths" else mismatch.of_picture)
-        verdict = FileVerdict("zbuf", name, RIGHT, finding.rule, differing=len(places), compared=mismatch.drawn, places=places)
+        verdict = FileVerdict("zbuf", name, RIGHT, finding.rule, differing=len(places),
+                              compared=mismatch.drawn, places=places)
         if finding.verdict in ("mistake", "unknown") and kind in finding.touches:
             verdict.verdict, verdict.causes, verdict.rule = WRONG, finding.causes, ""
             verdict.remarks += [f"with {finding.rule}"] if finding.rule and finding.causes else []
@@ -205,10 +229,12 @@ class HandIn:
         return verdict
 
     def has_other_colors(self, shown):
-        """Whether most pixels with a triangle have a color that zbuf gives to none of the scene's. Which triangle a pixel shows is not
-        asked: the text that it was judged by may lack some, and hold others in parts."""
+        """Whether most pixels with a triangle have a color that zbuf gives to none of the scene's. Which
+        triangle a pixel shows is not asked: the text that it was judged by may lack some, and hold others in
+        parts."""
         ours = set(generated_colors(len(self.ours.world) // 3))
-        counts = collections.Counter(color for row in shown.colors for color in row if color != shown.background)
+        counts = collections.Counter(color for row in shown.colors for color in row
+                                     if color != shown.background)
         return 2 * sum(count for color, count in counts.items() if color not in ours) > sum(counts.values())
 
 

@@ -1,4 +1,5 @@
-"""Which triangles a text lacks, and which it has too many of, if all others come in the right order; and whether it has all in another."""
+"""Which triangles a text lacks, and which it has too many of, if all others come in the right order; and
+whether it has all in another."""
 import itertools
 
 ORDINALS = ("first", "second", "third")
@@ -7,7 +8,8 @@ MOST_COMPARED = 1_000_000  # pairs of triangles, in search of the one that is wr
 
 
 def left_over(few, many, is_same):
-    """The numbers of those of `many` that are left over if each of `few` is one of them, in order; None if one is none of them."""
+    """The numbers of those of `many` that are left over if each of `few` is one of them, in order; None if
+    one is none of them."""
     left, i = [], 0
     for number, item in enumerate(many):
         if i < len(few) and is_same(few[i], item):
@@ -18,7 +20,8 @@ def left_over(few, many, is_same):
 
 
 def left_over_for_certain(few, many, is_same):
-    """The numbers left over, and whether there is no other choice: of two that are the same, nobody can say which."""
+    """The numbers left over, and whether there is no other choice: of two that are the same, nobody can say
+    which."""
     left = left_over(few, many, is_same)
     if left is None:
         return None, False
@@ -39,8 +42,8 @@ def named(numbers):
 
 
 def missing(few, many, is_same, scene_lines=()):
-    """Which of `many` are missing in `few`, as a sentence; empty if the others do not come in order. `scene_lines` are the lines in which
-    they stand in the scene, if those help."""
+    """Which of `many` are missing in `few`, as a sentence; empty if the others do not come in order.
+    `scene_lines` are the lines in which they stand in the scene, if those help."""
     left, is_certain = left_over_for_certain(few, many, is_same)
     if not left or not few:
         return ""
@@ -49,32 +52,39 @@ def missing(few, many, is_same, scene_lines=()):
         text += ", the last one" if len(left) == 1 else f", the last {len(left)}"
     if scene_lines:
         text += f", {'' if len(left) == 1 else 'the first one in '}line {scene_lines[left[0]]} of the scene"
-    return text + ("" if is_certain else " (or what is the same as one of them)" if len(left) > 1 else " (or the one that is the same)")
+    return text + ("" if is_certain else " (or what is the same as one of them)"
+                   if len(left) > 1 else " (or the one that is the same)")
 
 
 def added(many, few, is_same, lines):
-    """Which triangles of a text (`many`, whose first vertices stand in `lines`) are too many, as a sentence; empty if the others do not
-    come in order."""
+    """Which triangles of a text (`many`, whose first vertices stand in `lines`) are too many, as a sentence;
+    empty if the others do not come in order."""
     left, _ = left_over_for_certain(few, many, lambda item, other: is_same(other, item))
     if not left:
         return ""
     if len(left) * len(few) > MOST_COMPARED:
         return f"{len(left)} triangles of the text are too many, first the one in line {lines[left[0]]}"
-    copies = {i: next((number for number, item in enumerate(few) if is_same(many[i], item)), None) for i in left}
+    copies = {
+        i: next((number for number, item in enumerate(few) if is_same(many[i], item)), None)
+        for i in left}
     if None in copies.values():
         strange = [i for i in left if copies[i] is None]
-        return f"{named(strange).capitalize()} of the text {'comes' if len(strange) == 1 else 'come'} from no triangle of the input, first in line {lines[strange[0]]}"
+        return (f"{named(strange).capitalize()} of the text {'comes' if len(strange) == 1 else 'come'} from "
+                f"no triangle of the input, first in line {lines[strange[0]]}")
     if sorted(copies.values()) == list(range(len(few))) and len(few) > 1:
         return f"Every triangle is written twice, the first one again in line {lines[left[0]]}"
     again = sorted(set(copies.values()))
-    return f"{named(again).capitalize()} {'is' if len(again) == 1 else 'are'} written {'twice' if len(again) == len(left) else 'more than once'}, again in line {lines[left[0]]}"
+    return (f"{named(again).capitalize()} {'is' if len(again) == 1 else 'are'} written "
+            f"{'twice' if len(again) == len(left) else 'more than once'}, again in line {lines[left[0]]}")
 
 
 def reordered(written, right, is_same):
-    """How triangles, or the vertices of each, stand in another order than the right one, as a sentence; empty if they do not."""
+    """How triangles, or the vertices of each, stand in another order than the right one, as a sentence; empty
+    if they do not."""
     for order in itertools.permutations(range(3)):
         if order != (0, 1, 2) and all(is_same(a, [b[i] for i in order]) for a, b in zip(written, right)):
-            return f"The vertices of each triangle stand in another order: {', '.join(ORDINALS[i] for i in order)}"
+            return (f"The vertices of each triangle stand in another order: "
+                    f"{', '.join(ORDINALS[i] for i in order)}")
     if len(written) > 1 and all(map(is_same, written, reversed(right))):
         return "The triangles stand in reverse order"
     if len(written) ** 2 > MOST_COMPARED:
@@ -86,4 +96,7 @@ def reordered(written, right, is_same):
             return ""
         left.remove(found)
         first = first or (number, found) if number != found else first
-    return f"All triangles are there, but in another order: triangle {first[0]} of the text is triangle {first[1]}" if first else ""
+    return (
+        f"All triangles are there, but in another order: triangle {first[0]} of the text is triangle "
+        f"{first[1]}"
+        if first else "")

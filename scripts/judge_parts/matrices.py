@@ -1,4 +1,5 @@
-"""4 x 4 matrices in doubles, as a student's program has them: those of the three stages, right or with one mistake."""
+"""4 x 4 matrices in doubles, as a student's program has them: those of the three stages, right or with one
+mistake."""
 import math
 
 from lib.vectors import cross
@@ -73,16 +74,19 @@ def rotation(radians, axis):
     c, s = math.cos(radians), math.sin(radians)
     images = []
     for x in (row[:3] for row in IDENTITY[:3]):
-        images.append([c * e + (1 - c) * dot(axis, x) * a + s * t for e, a, t in zip(x, axis, cross(axis, x))])
+        images.append([
+            c * e + (1 - c) * dot(axis, x) * a + s * t for e, a, t in zip(x, axis, cross(axis, x))])
     return affine(list(zip(*images)))
 
 
 # view
 def view_matrix(eye, look, up, mistake="", spelling=0):
-    """The matrix of view, or what a mistake makes of it. Some mistakes are made in more than one way: `spelling` tells which."""
+    """The matrix of view, or what a mistake makes of it. Some mistakes are made in more than one way:
+    `spelling` tells which."""
     if mistake == "eye-and-look-exchanged":
         eye, look = look, eye
-    up = {"up-is-a-point": tuple(b - a for a, b in zip(eye, up)), "up-is-0-1-0": (0.0, 1.0, 0.0)}.get(mistake, up)
+    up = {"up-is-a-point": tuple(b - a for a, b in zip(eye, up)),
+          "up-is-0-1-0": (0.0, 1.0, 0.0)}.get(mistake, up)
     l = tuple(look) if mistake == "look-is-a-direction" else tuple(b - a for a, b in zip(eye, look))
     if mistake != "l-not-unit":
         l = unit(l)
@@ -99,7 +103,8 @@ def view_matrix(eye, look, up, mistake="", spelling=0):
     if mistake == "rotation-transposed":
         turn = transposed(turn)
     move = {"eye-added": eye, "no-translation": (0.0, 0.0, 0.0)}.get(mistake, negative(eye))
-    m = product(translation(move), turn) if mistake == "translation-after-rotation" else product(turn, translation(move))
+    m = product(translation(move), turn) if mistake == "translation-after-rotation" else product(
+        turn, translation(move))
     return transposed(m) if mistake == "matrix-transposed" else m
 
 
@@ -123,11 +128,13 @@ def projection_matrix(window, near, far, mistake=""):
     """The matrix of a perspective or a frustum. `window` has the scale and the shift of x, and those of y."""
     if mistake == "near-and-far-swapped":
         near, far = far, near
-    z_row = (0.0, 0.0, -(far + near) / (far - near), -(1 if mistake == "missing-two" else 2) * far * near / (far - near))
+    z_row = (0.0, 0.0, -(far + near) / (far - near),
+             -(1 if mistake == "missing-two" else 2) * far * near / (far - near))
     if mistake == "z-row-sign":
         z_row = negative(z_row)
     if mistake == "depth-is-linear":  # and z is not divided
         z_row = (0.0, 0.0, -2 / (far - near), -(far + near) / (far - near))
-    w_row = (0.0, 0.0, 1.0 if mistake == "w-is-plus-z" else -1.0, 1.0 if mistake == "last-element-is-one" else 0.0)
+    w_row = (0.0, 0.0, 1.0 if mistake == "w-is-plus-z" else -1.0,
+             1.0 if mistake == "last-element-is-one" else 0.0)
     x_scale, x_shift, y_scale, y_shift = window
     return (x_scale, 0.0, x_shift, 0.0), (0.0, y_scale, y_shift, 0.0), z_row, w_row

@@ -8,9 +8,9 @@ UNCHANGED = "The points are those of the stage before, unchanged"
 
 
 class MatrixCauses:
-    """Each way gives a list of (Cause, matrix, whether it divides), with more than one if the numbers cannot tell them apart.
-    `mistakes` are (name, matrix, whether it divides); is_by(matrix, whether it divides, parts) tells whether those parts of the points
-    (slices) are what the matrix makes of them."""
+    """Each way gives a list of (Cause, matrix, whether it divides), with more than one if the numbers cannot
+    tell them apart. `mistakes` are (name, matrix, whether it divides); is_by(matrix, whether it divides,
+    parts) tells whether those parts of the points (slices) are what the matrix makes of them."""
 
     def __init__(self, stage, right, mistakes, is_by):
         self.stage, (self.ours, self.divides), self.mistakes, self.is_by = stage, right, mistakes, is_by
@@ -35,5 +35,7 @@ class MatrixCauses:
 
     def of_an_element(self):
         """A row with the opposite sign, or one other element; nothing if several would do."""
-        found = [(Cause("", text), m, self.divides) for text, m in changed_elements(self.stage, self.ours) if self.is_by(m, self.divides, ALL_VERTICES)]
+        found = [(Cause("", text), m, self.divides)
+                 for text, m in changed_elements(self.stage, self.ours)
+                 if self.is_by(m, self.divides, ALL_VERTICES)]
         return found if len(found) == 1 else []

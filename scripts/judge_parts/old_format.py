@@ -1,4 +1,5 @@
-"""Scenes in the form of before 2020: the size of the screen and a background beside the camera, a color after each triangle."""
+"""Scenes in the form of before 2020: the size of the screen and a background beside the camera, a color after
+each triangle."""
 
 
 def without_old_lines(text):

@@ -1,4 +1,5 @@
-"""Stage 4 of a hand-in: under which rules, or with which mistake, its pixels are exactly what its triangles give."""
+"""Stage 4 of a hand-in: under which rules, or with which mistake, its pixels are exactly what its triangles
+give."""
 import collections
 import dataclasses
 import math
@@ -13,16 +14,19 @@ PIXELS_LOOKED_AT = 30_000  # how many differing pixels are checked for what else
 MOST_WORK = 40_000_000     # pixels of triangles and spans looked at, in all that is tried
 SAMPLE_ROWS = 8
 LEAST_PIXELS_OF_OTHERS = 3  # that triangles beside the largest must show before one color is a mistake
-# All that differs should lie within a pixel of an edge. Honest programs have a few pixels astray, for example where a row passes just by
-# a vertex, and depths that depend on the ends of their row: no more is let through than they need.
+# All that differs should lie within a pixel of an edge. Honest programs have a few pixels astray, for example
+# where a row passes just by a vertex, and depths that depend on the ends of their row: no more is let through
+# than they need.
 MOST_STRAYS = 1 / 32   # of the pixels that are drawn, or not, otherwise
 MOST_OTHERS = 1 / 64   # of the pixels with a triangle, that may show one which is none within a pixel
-MOST_DEPTHS = 1 / 5    # of the pixels with a triangle, that may have a depth which it has nowhere within a pixel
+# of the pixels with a triangle, that may have a depth which it has nowhere within a pixel
+MOST_DEPTHS = 1 / 5
 
 
 @dataclasses.dataclass
 class Mismatch:
-    """The pixels that a rule does not explain: {(row, column): kind}, where kind is extra, missing, other or depth."""
+    """The pixels that a rule does not explain: {(row, column): kind}, where kind is extra, missing, other or
+    depth."""
     rule: Rule
     reading: str
     pixels: dict = dataclasses.field(default_factory=dict)
@@ -40,7 +44,8 @@ class Mismatch:
         return [place for place, kind in self.pixels.items() if kind in ("extra", "missing")]
 
     def of_color(self, color):
-        """The triangles that a color may stand for: those whose color it is, else those that have none to themselves."""
+        """The triangles that a color may stand for: those whose color it is, else those that have none to
+        themselves."""
         if self.by_color is None:
             self.by_color = collections.defaultdict(set)
             for t, own in self.colors.items():
@@ -52,7 +57,8 @@ class Mismatch:
     def shows_another(self, place, pixels):
         """Whether a pixel with a triangle has the color of another one than by the rule."""
         row, column = place
-        return pixels.drawn[row][column] and self.owners.get(place, -1) not in self.of_color(pixels.colors[row][column])
+        return pixels.drawn[row][column] and self.owners.get(place, -1) not in self.of_color(
+            pixels.colors[row][column])
 
     @property
     def of_picture(self):
@@ -76,7 +82,8 @@ class Finding:
 
 
 class PixelJudge:
-    """`readings` are {name: (points, units)}: the numbers of the file, those in memory, and the right ones. `window` has the size and the limits."""
+    """`readings` are {name: (points, units)}: the numbers of the file, those in memory, and the right ones.
+    `window` has the size and the limits."""
 
     def __init__(self, readings, window, shown):
         self.readings, self.window, self.shown = readings, window, shown
@@ -89,11 +96,13 @@ class PixelJudge:
         grid = Grid(window.width, window.height, left, bottom, rule.half_x, rule.half_y)
         if (reading, grid) not in self.made:
             self.made[reading, grid] = Triangles(*self.readings[reading], grid)
-        return Drawing(self.made[reading, grid], rule, (-1.0, 1.0) if rule.is_depth_one else self.limits, self.work)
+        return Drawing(self.made[reading, grid], rule, (-1.0, 1.0) if rule.is_depth_one else self.limits,
+                       self.work)
 
     # One rule
     def row_mismatches(self, drawing, pixels, row, budget, drawn_row=None):
-        """(column, kind) of what a row shows that the rule does not explain, colors aside. `drawn_row` is that of the drawing."""
+        """(column, kind) of what a row shows that the rule does not explain, colors aside. `drawn_row` is
+        that of the drawing."""
         owner, depth = drawn_row or drawing.row(row)
         depths = pixels.depths[row] if pixels.depths else None
         if pixels.depths and depths is None:
@@ -104,7 +113,8 @@ class PixelJudge:
         tolerance = self.shown.depths.tolerance if depths else None
         for column, (t, is_drawn) in enumerate(zip(owner, drawn)):
             z = depths[column] if depths and is_drawn else None
-            if (t >= 0) == is_drawn and (z is None or abs(z - depth[column]) <= DEPTH_BASE or abs(z - depth[column]) <= tolerance(z)):
+            if (t >= 0) == is_drawn and (z is None or abs(z - depth[column]) <= DEPTH_BASE
+                                         or abs(z - depth[column]) <= tolerance(z)):
                 continue
             budget[0] -= 1
             if budget[0] > 0 and self.could_show(drawing, row, column, is_drawn, z):
@@ -113,11 +123,13 @@ class PixelJudge:
 
     def could_show(self, drawing, row, column, is_drawn, z, triangles=None):
         slack = self.shown.depths.tolerance(z) if z is not None else 0.0
-        return any((t >= 0) == is_drawn and (z is None or low <= z <= high) and (triangles is None or t in triangles)
-                   for t, low, high in drawing.could_show(row, column, slack))
+        return any(
+            (t >= 0) == is_drawn and (z is None or low <= z <= high) and (triangles is None or t in triangles)
+            for t, low, high in drawing.could_show(row, column, slack))
 
     def listed_mismatches(self, owner, depth, listed):
-        """Without a pixel for each depth: the depths of a row in their order, all or those before the rear limit."""
+        """Without a pixel for each depth: the depths of a row in their order, all or those before the rear
+        limit."""
         drawn = [(column, z) for column, (t, z) in enumerate(zip(owner, depth)) if t >= 0]
         before = [(column, z) for column, z in drawn if z < self.limits[1]]
         expected = before if len(listed) == len(before) else drawn
@@ -150,13 +162,16 @@ class PixelJudge:
             if len(result.pixels) > limit:
                 return None
             if pixels.colors:
-                pairs.update((t, color) for t, color, is_drawn in zip(owner, pixels.colors[row], pixels.drawn[row]) if t >= 0 and is_drawn)
+                pairs.update((t, color)
+                             for t, color, is_drawn in zip(owner, pixels.colors[row], pixels.drawn[row])
+                             if t >= 0 and is_drawn)
         if pixels.colors:
             self.compare_colors(drawing, pixels, pairs, result, budget)
         return result if len(result.pixels) <= limit else None
 
     def compare_colors(self, drawing, pixels, pairs, result, budget):
-        """Gives every triangle the color that most of its pixels have, and finds the pixels that show another triangle."""
+        """Gives every triangle the color that most of its pixels have, and finds the pixels that show another
+        triangle."""
         for (t, color), _ in reversed(pairs.most_common()):
             result.colors[t] = color
         for (t, _), count in pairs.items():
@@ -166,7 +181,8 @@ class PixelJudge:
         of_color = {color: result.of_color(color) for color in {color for _, color in pairs}}
         for row in range(self.window.height):
             owner, _ = drawing.row(row)
-            colors, drawn, depths = pixels.colors[row], pixels.drawn[row], pixels.depths[row] if pixels.depths else None
+            colors, drawn, depths = pixels.colors[row], pixels.drawn[
+                row], pixels.depths[row] if pixels.depths else None
             for column, (t, color) in enumerate(zip(owner, colors)):
                 if t < 0 or not drawn[column]:
                     continue
@@ -174,7 +190,8 @@ class PixelJudge:
                     continue
                 budget[0] -= 1
                 z = depths[column] if depths else None
-                if budget[0] <= 0 or not self.could_show(drawing, row, column, True, z, of_color.get(color, ())):
+                if budget[0] <= 0 or not self.could_show(drawing, row, column, True, z, of_color.get(
+                        color, ())):
                     result.pixels[row, column], result.owners[row, column] = "other", t
 
     # All rules
@@ -193,7 +210,8 @@ class PixelJudge:
         if finding:
             return finding
         rows = self.sample_rows(plain)
-        return self.find_open(rows) or self.find_mistake(rows) or self.find_at_borders(plain) or self.unknown(plain)
+        return self.find_open(rows) or self.find_mistake(rows) or self.find_at_borders(plain) or self.unknown(
+            plain)
 
     def exact(self, mismatch):
         """A Finding if the rule explains everything: that, or all triangles in one color."""
@@ -206,25 +224,31 @@ class PixelJudge:
             finding.remarks.append("by the right numbers, which are not those of stage3.txt")
         counts = [count for _, count in mismatch.visible.most_common()]
         if len(set(mismatch.colors.values())) == 1 and sum(counts[1:]) >= LEAST_PIXELS_OF_OTHERS:
-            finding.verdict, finding.causes, finding.touches = "mistake", [cause_of("zbuf/one-color")], ("picture",)
+            finding.verdict, finding.causes, finding.touches = "mistake", [cause_of("zbuf/one-color")
+                                                                           ], ("picture", )
         return finding
 
     def sample_rows(self, mismatch):
         """A few rows that tell rules apart: some with differences, some others."""
         wrong = sorted({row for row, _ in mismatch.pixels})
         pixels = self.shown.pixels()
-        filled = [row for row in range(self.window.height) if (any(pixels.drawn[row]) if pixels.drawn else pixels.listed[row])]
+        filled = [
+            row for row in range(self.window.height)
+            if (any(pixels.drawn[row]) if pixels.drawn else pixels.listed[row])]
         return [*spread(wrong, SAMPLE_ROWS), *spread(filled, SAMPLE_ROWS // 2)]
 
     def depth_rules(self):
         """Rules of depth that can make a difference here."""
         dx = -2 * float(self.window.left)
         is_beyond = any(abs(p[0]) > dx / 2 for points, _ in self.readings.values() for p in points)
-        return [rule for rule in OPEN_DEPTHS if is_beyond or rule.get("clamp") is None] if self.shown.depths else OPEN_DEPTHS[:1]
+        return [rule for rule in OPEN_DEPTHS
+                if is_beyond or rule.get("clamp") is None] if self.shown.depths else OPEN_DEPTHS[:1]
 
     def open_rules(self):
         """(rank, changes), the usual rules first."""
-        rules = [((i > 1) + (j > 0), {**ends, **depth}) for i, ends in enumerate(OPEN_ENDS) for j, depth in enumerate(self.depth_rules())]
+        rules = [((i > 1) + (j > 0), {**ends, **depth})
+                 for i, ends in enumerate(OPEN_ENDS)
+                 for j, depth in enumerate(self.depth_rules())]
         return sorted(rules, key=lambda pair: pair[0])
 
     def find_open(self, rows):
@@ -248,7 +272,8 @@ class PixelJudge:
                     continue
                 rule = Rule(**{**open_changes, **changes})
                 for reading in self.readings:
-                    if self.explains(reading, rule, rows) and (mismatch := self.compare(reading, rule, limit=0)):
+                    if self.explains(reading, rule, rows) and (mismatch := self.compare(
+                            reading, rule, limit=0)):
                         found[names], rank_of_found = mismatch, rank
                         break
         if not found:
@@ -257,40 +282,50 @@ class PixelJudge:
             found = {names: mismatch for names, mismatch in found.items() if len(names) == 1}
         mismatch = next(iter(found.values()))
         flips = mismatch.rule.picture_flip, mismatch.rule.text_flip
-        touches = ("picture",) if flips[0] and not flips[1] and self.shown.depths else ("depths",) if flips[1] and not flips[0] else ("depths", "picture")
-        return Finding("mistake", mismatch, in_words(mismatch.rule), list(map(cause_of_all, found)), touches, total=mismatch.drawn)
+        touches = ("picture", ) if flips[0] and not flips[1] and self.shown.depths else (
+            "depths", ) if flips[1] and not flips[0] else ("depths", "picture")
+        return Finding("mistake", mismatch, in_words(mismatch.rule), list(map(cause_of_all, found)), touches,
+                       total=mismatch.drawn)
 
     def is_void(self, changes):
         """Whether a change cannot matter here."""
         window = self.window
-        has_unit_window, has_unit_depths = (float(window.left), float(window.bottom)) == (-1, -1), self.limits == (-1, 1)
+        has_unit_window, has_unit_depths = (float(window.left), float(
+            window.bottom)) == (-1, -1), self.limits == (-1, 1)
         if changes.get("is_window_one") or changes.get("is_depth_one"):
-            return not (changes.get("is_window_one") and not has_unit_window or changes.get("is_depth_one") and not has_unit_depths)
-        return changes.get("text_flip", "") != changes.get("picture_flip", "") and not (self.shown.colors and self.shown.depths)
+            return not (changes.get("is_window_one") and not has_unit_window
+                        or changes.get("is_depth_one") and not has_unit_depths)
+        return changes.get("text_flip", "") != changes.get("picture_flip", "") and not (self.shown.colors
+                                                                                        and self.shown.depths)
 
     def find_at_borders(self, plain):
-        """Whether all differences from the nearest of our two rules lie within a pixel of an edge, and are no shift."""
+        """Whether all differences from the nearest of our two rules lie within a pixel of an edge, and are no
+        shift."""
         center = self.compare("file", Rule(**CENTER))
         best = min((plain, center), key=lambda mismatch: (len(mismatch.of_shape), len(mismatch.pixels)))
         pixels = self.shown.pixels()
         drawing = self.drawing("file", Rule())
-        if not pixels.drawn or is_shifted(drawing, pixels.drawn) or any(column >= self.window.width for _, column in best.pixels):
+        if not pixels.drawn or is_shifted(drawing, pixels.drawn) or any(column >= self.window.width
+                                                                        for _, column in best.pixels):
             return None
         shapes = len(best.of_shape)
         if shapes > best.drawn:
             return None  # more than all: not the borders of what there is to draw
         of_drawn = best.drawn if shapes else 0  # where no border differs, no other rule holds there
-        most = {"stray": MOST_STRAYS * shapes, "other": MOST_OTHERS * of_drawn, "depth": MOST_DEPTHS * of_drawn}
+        most = {
+            "stray": MOST_STRAYS * shapes, "other": MOST_OTHERS * of_drawn, "depth": MOST_DEPTHS * of_drawn}
         beyond = collections.Counter()
         for what in self.beyond_borders(Borders(drawing.triangles, self.limits, self.work), best, pixels):
             beyond[what] += 1
             if beyond[what] > most[what]:
                 return None
-        return Finding("borders", best, self.at_borders_in_words(best, beyond["other"] + beyond["depth"]), total=best.drawn)
+        return Finding("borders", best, self.at_borders_in_words(best, beyond["other"] + beyond["depth"]),
+                       total=best.drawn)
 
     def beyond_borders(self, borders, mismatch, pixels):
-        """For each pixel that differs beyond a pixel from the edges: `stray` if it is drawn, or not, farther from the edges, or has a depth
-        beyond the limits; `other` if no such triangle is found within a pixel, and `depth` if no such depth of it is."""
+        """For each pixel that differs beyond a pixel from the edges: `stray` if it is drawn, or not, farther
+        from the edges, or has a depth beyond the limits; `other` if no such triangle is found within a pixel,
+        and `depth` if no such depth of it is."""
         for (row, column), kind in mismatch.pixels.items():
             is_drawn = pixels.drawn[row][column]
             z = pixels.depths[row][column] if pixels.depths and pixels.depths[row] else None
@@ -307,25 +342,39 @@ class PixelJudge:
     def at_borders_in_words(self, mismatch, inside):
         pixels, kinds = self.shown.pixels(), collections.Counter(mismatch.pixels.values())
         shapes = kinds["extra"] + kinds["missing"]
-        others = {place for place, kind in mismatch.pixels.items() if kind in ("depth", "other") and mismatch.shows_another(place, pixels)}
+        others = {
+            place
+            for place, kind in mismatch.pixels.items()
+            if kind in ("depth", "other") and mismatch.shows_another(place, pixels)}
         offsets = [offset for place, offset in mismatch.offsets.items() if place not in others]
-        parts = [f"{kinds[kind]:,} {words}" for kind, words in (("extra", "more"), ("missing", "fewer")) if kinds[kind]]
-        words = [f"another rule at the borders: {counted(shapes, 'pixel')} of {mismatch.drawn:,} ({', '.join(parts)})"] if shapes else []
-        words += [f"{len(others):,} of {mismatch.drawn:,} show another triangle where triangles meet"] if others else []
+        parts = [
+            f"{kinds[kind]:,} {words}" for kind, words in (("extra", "more"), ("missing", "fewer"))
+            if kinds[kind]]
+        words = [
+            f"another rule at the borders: {counted(shapes, 'pixel')} of {mismatch.drawn:,} "
+            f"({', '.join(parts)})"
+        ] if shapes else []
+        words += [f"{len(others):,} of {mismatch.drawn:,} show another triangle where triangles meet"
+                  ] if others else []
         if offsets:
             least = "" if inside else "less than one pixel makes, "
-            words.append(f"{len(offsets):,} {'depth differs' if len(offsets) == 1 else 'depths differ'} by {least}up to {max(offsets):.2g}")
+            words.append(
+                f"{len(offsets):,} {'depth differs' if len(offsets) == 1 else 'depths differ'} by {least}up "
+                f"to {max(offsets):.2g}"
+            )
         return "; ".join(words)
 
     def unknown(self, plain):
         finding = Finding("unknown", plain, total=plain.drawn)
-        finding.touches = tuple(name for name, places in (("depths", plain.of_depths), ("picture", plain.of_picture)) if places)
+        finding.touches = tuple(
+            name for name, places in (("depths", plain.of_depths), ("picture", plain.of_picture)) if places)
         return finding
 
 
 def spread(values, count):
     """At most `count` of the values, evenly spread."""
-    return values if len(values) <= count else [values[i * (len(values) - 1) // (count - 1)] for i in range(count)]
+    return values if len(values) <= count else [
+        values[i * (len(values) - 1) // (count - 1)] for i in range(count)]
 
 
 def counted(count, noun):

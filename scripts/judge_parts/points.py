@@ -6,13 +6,15 @@ from judge_parts.digits import EXACT, Digits, digits_of
 from judge_parts.strays import of_a_text
 from lib.stage_text import StageTextError, begins_with_a_camera, is_scene, parse_stage_text, text_of
 
-BASE = 1e-6     # numbers of 7 decimals that were calculated from numbers of 7 decimals; times their size beyond 1
+# numbers of 7 decimals that were calculated from numbers of 7 decimals; times their size beyond 1
+BASE = 1e-6
 MOST_UNDECIDED = 0.1  # of the numbers, for example where a point would be divided by 0
 
 
 @dataclasses.dataclass
 class Points:
-    """The points of a stage text, three for each triangle. `units` is what a unit in the last digit of each coordinate is worth."""
+    """The points of a stage text, three for each triangle. `units` is what a unit in the last digit of each
+    coordinate is worth."""
     points: list
     lines: list
     digits: Digits = EXACT
@@ -33,16 +35,19 @@ def read_points(data, name):
     try:
         vertices = parse_stage_text(text, name).vertices
     except StageTextError as error:
-        is_other = is_scene(text) or begins_with_a_camera(text)  # of another kind, of which no line is a stray one
+        is_other = is_scene(text) or begins_with_a_camera(
+            text)  # of another kind, of which no line is a stray one
         is_told = not strays or strays.startswith("1 line is ")  # the one that the error is about
         raise StageTextError(str(error) if is_told or is_other else f"{error}; {strays}") from None
     lines = text.split("\n")
     words = [word for vertex in vertices for word in lines[vertex.line - 1].split("#")[0].split()[:3]]
-    return Points([vertex.numbers[:3] for vertex in vertices], [vertex.line for vertex in vertices], digits_of(words), strays)
+    return Points([vertex.numbers[:3] for vertex in vertices], [vertex.line for vertex in vertices],
+                  digits_of(words), strays)
 
 
 def printed_tolerance(p, digits):
-    """How far printing may move the coordinates of a point: by a unit in the last digit of its largest coordinate."""
+    """How far printing may move the coordinates of a point: by a unit in the last digit of its largest
+    coordinate."""
     size = max(map(abs, p))
     if not math.isfinite(size):
         return math.inf
@@ -51,7 +56,8 @@ def printed_tolerance(p, digits):
 
 @dataclasses.dataclass
 class Difference:
-    """How points differ from what is expected; `first` and `largest` are (index of the point, axis, theirs, expected)."""
+    """How points differ from what is expected; `first` and `largest` are (index of the point, axis, theirs,
+    expected)."""
     differing: int = 0
     compared: int = 0
     first: tuple = None
@@ -74,8 +80,8 @@ def is_off(a, b, tolerance):
 
 
 def differs(theirs, digits, expected):
-    """Whether any point differs from the expected (point, slacks of its coordinates), which are drawn one by one; also if too many
-    of those decide nothing."""
+    """Whether any point differs from the expected (point, slacks of its coordinates), which are drawn one by
+    one; also if too many of those decide nothing."""
     undecided = 0
     for p, (q, slacks) in zip(theirs, expected):
         printed = printed_tolerance(q, digits)
@@ -106,4 +112,5 @@ def difference(theirs, digits, expected):
 def described(pair, lines):
     """A difference with its location: their number, and ours."""
     i, axis, a, b = pair
-    return f"line {lines[i]}, {'xyz'[axis]} of vertex {i % 3 + 1} of triangle {i // 3}: {a:.10g} in place of {b:.10g}, off by {abs(a - b):.3g}"
+    return (f"line {lines[i]}, {'xyz'[axis]} of vertex {i % 3 + 1} of triangle {i // 3}: {a:.10g} in place "
+            f"of {b:.10g}, off by {abs(a - b):.3g}")

@@ -1,7 +1,8 @@
-"""Draws triangles row by row under any combination of the rules that the assignment leaves open, and of mistakes.
+"""Draws triangles row by row under any combination of the rules that the assignment leaves open, and of
+mistakes.
 
-Every span of a row knows how uncertain its ends and depths are, since the numbers in a text are rounded: a pixel whose owner
-depends on that may show either."""
+Every span of a row knows how uncertain its ends and depths are, since the numbers in a text are rounded: a
+pixel whose owner depends on that may show either."""
 import dataclasses
 import math
 
@@ -11,7 +12,8 @@ NARROW = 1e-12
 FAR = 1e9             # in NDC: beyond this, all is the same
 
 # Ends of a row of pixels, from where the row of pixel centers meets the triangle, in columns.
-ENDS = {"rounded": lambda t: math.floor(t + 0.5), "truncated": math.trunc, "down": math.floor, "up": math.ceil}
+ENDS = {
+    "rounded": lambda t: math.floor(t + 0.5), "truncated": math.trunc, "down": math.floor, "up": math.ceil}
 ENDS_IN_WORDS = {"rounded": "rounded", "truncated": "truncated", "down": "rounded down", "up": "rounded up"}
 
 
@@ -48,7 +50,7 @@ class Rule:
     left: str = "rounded"
     right: str = "rounded"
     depth: str = "plane"          # plane, between ends, from left
-    clamp: int = None             # between ends: how many columns beyond the picture the ends may lie; None is any
+    clamp: int = None  # between ends: how many columns beyond the picture the ends may lie; None is any
     half_x: bool = True
     half_y: bool = True
     is_window_one: bool = False
@@ -67,7 +69,8 @@ class Rule:
 
 @dataclasses.dataclass
 class Span:
-    """What a triangle has on a row: where it begins and ends in columns, its depth at both, and how uncertain all that is."""
+    """What a triangle has on a row: where it begins and ends in columns, its depth at both, and how uncertain
+    all that is."""
     triangle: int
     left: float
     right: float
@@ -80,7 +83,9 @@ class Span:
     is_certain: bool    # whether the row meets the triangle for certain, and the triangle has an area
 
 
-FLAT = {"mean": lambda zs: sum(zs) / 3, "first": lambda zs: zs[0], "second": lambda zs: zs[1], "third": lambda zs: zs[2], "least": min, "most": max}
+FLAT = {
+    "mean": lambda zs: sum(zs) / 3, "first": lambda zs: zs[0], "second": lambda zs: zs[1],
+    "third": lambda zs: zs[2], "least": min, "most": max}
 
 
 class Triangles:
@@ -96,7 +101,8 @@ class Triangles:
             highest, lowest = max(p[1] for p in corners), min(p[1] for p in corners)
             slack = self.units[t] / grid.dy + ROUNDING
             first = max(0, bounded((grid.top_y - highest) / grid.dy - slack, grid.height))
-            last = min(grid.height - 1, bounded((grid.top_y - lowest) / grid.dy + slack, grid.height, math.floor))
+            last = min(grid.height - 1,
+                       bounded((grid.top_y - lowest) / grid.dy + slack, grid.height, math.floor))
             count += max(0, last - first + 1)
             if count > MOST_SPANS:
                 raise TooMuch
@@ -125,9 +131,11 @@ class Triangles:
             if low[1] == high[1] or not low[1] <= y <= high[1]:
                 continue
             t_y = (y - low[1]) / (high[1] - low[1])
-            x, z = (high[0], high[2]) if y == high[1] else (low[0] + t_y * (high[0] - low[0]), low[2] + t_y * (high[2] - low[2]))
+            x, z = (high[0], high[2]) if y == high[1] else (low[0] + t_y * (high[0] - low[0]),
+                                                            low[2] + t_y * (high[2] - low[2]))
             reach = abs(high[0] - low[0])
-            met.append((x, z, unit + min(reach, reach / (high[1] - low[1]) * unit), abs(high[2] - low[2]) / (high[1] - low[1]) * unit))
+            met.append((x, z, unit + min(reach, reach / (high[1] - low[1]) * unit),
+                        abs(high[2] - low[2]) / (high[1] - low[1]) * unit))
         if len(met) < 2:  # a horizontal line
             ends = sorted(corners)
             met, is_certain = [(*ends[0][::2], unit, 0.0), (*ends[2][::2], unit, 0.0)], False
@@ -137,12 +145,14 @@ class Triangles:
         width = max(right - left, NARROW)
         per_column = abs(z_right - z_left) / width
         reach_z = max(p[2] for p in corners) - min(p[2] for p in corners)
-        slack_z = (unit + min(dz_left + dz_right, reach_z)) * (1 + 2 / width) + per_column * (slack_left + slack_right)
+        slack_z = (unit + min(dz_left + dz_right, reach_z)) * (1 + 2 / width) + per_column * (slack_left +
+                                                                                              slack_right)
         is_wide = right - left > slack_left + slack_right
         if not is_wide and not self.has_area(t):
             is_certain, slack_z = False, slack_z + abs(z_right - z_left)
         top_row = (grid.top_y - lowest) / grid.dy
-        return Span(t, left, right, z_left, z_right, slack_left, slack_right, slack_z, row == math.floor(top_row + ROUNDING), is_certain)
+        return Span(t, left, right, z_left, z_right, slack_left, slack_right, slack_z,
+                    row == math.floor(top_row + ROUNDING), is_certain)
 
     def has_area(self, t):
         """Whether a triangle has an area, whatever its numbers' last digits."""
@@ -169,8 +179,8 @@ def bounded(x, limit, rounded=math.ceil):
 
 
 def ends_of(span, rule, width, slack=0.0):
-    """The first and the last column under a rule; a positive slack makes the span as wide as its uncertainty allows, a negative
-    one as narrow."""
+    """The first and the last column under a rule; a positive slack makes the span as wide as its uncertainty
+    allows, a negative one as narrow."""
     first = ENDS[rule.left](span.left - slack * span.slack_left)
     last = ENDS[rule.right](span.right + slack * span.slack_right)
     if rule.is_cut_first:
@@ -196,7 +206,8 @@ def depth_line(span, rule, width):
 
 
 class Drawing:
-    """The rows of a picture under a rule. `limits` is front and rear, `work` has the number of pixels and spans that may yet be looked at."""
+    """The rows of a picture under a rule. `limits` is front and rear, `work` has the number of pixels and
+    spans that may yet be looked at."""
 
     def __init__(self, triangles, rule, limits, work):
         self.triangles, self.rule, self.work = triangles, rule, work
@@ -232,8 +243,8 @@ class Drawing:
         return owner, depth
 
     def could_show(self, row, column, tolerance):
-        """What a pixel may show, given how uncertain the numbers are: pairs of a triangle and a range of depths; the triangle -1
-        stands for none. `tolerance` is that of a depth."""
+        """What a pixel may show, given how uncertain the numbers are: pairs of a triangle and a range of
+        depths; the triangle -1 stands for none. `tolerance` is that of a depth."""
         sure, possible, spans = [], [], self.spans(row)
         spend(self.work, len(spans))
         for span in spans:
@@ -247,13 +258,15 @@ class Drawing:
             first, last = ends_of(span, self.rule, self.width, -1.0)
             fragment = (span.triangle, z - slack, z + slack)
             possible.append(fragment)
-            if span.is_certain and first <= column <= last and z - slack >= self.front and z + slack < self.rear:
+            is_between_limits = z - slack >= self.front and z + slack < self.rear
+            if span.is_certain and first <= column <= last and is_between_limits:
                 sure.append(fragment)
         return kept(sure, possible, self.rule.keep)
 
 
 def kept(sure, possible, keep):
-    """Which of the fragments (triangle, least depth, largest depth) a pixel may show. Those that are sure are there, others may be."""
+    """Which of the fragments (triangle, least depth, largest depth) a pixel may show. Those that are sure are
+    there, others may be."""
     if not sure:
         return [*possible, (-1, 0.0, 0.0)]
     if keep == "last":

@@ -19,7 +19,8 @@ MEBIBYTE = 1 << 20
 BYTES_OF_A_VERTEX, BYTES_OF_A_DEPTH, BYTES_OF_A_PIXEL = 500, 40, 8
 MOST_PIXELS = 1 << 24
 MOST_BYTES = 256 * MEBIBYTE  # of a file of a hand-in, however large the scene is
-OLD_FORMAT = "the scene has the form of before 2020: size, background and the colors after triangles are passed over"
+OLD_FORMAT = ("the scene has the form of before 2020: size, background and the colors after triangles are "
+              "passed over")
 
 
 class JudgeError(CommandFailure):
@@ -37,7 +38,8 @@ class Reference:
         self.scene = Scene(text, stage1.header)
         self.world = stage1.points
         self.window = self.accepted_window(config) if config is not None else None
-        self.background = bytes(math.floor(float(word) + 0.5) for word in self.header.get("background", ("0", "0", "0"))[:3])
+        self.background = bytes(
+            math.floor(float(word) + 0.5) for word in self.header.get("background", ("0", "0", "0"))[:3])
         self.has_own_colors = any(keyword in self.header for keyword in OWN_COLORS)
 
     def accepted(self, data):
@@ -49,7 +51,8 @@ class Reference:
             older = without_old_lines(text)
             try:
                 if older is not None:
-                    model = self.tools.output("model", *EXACT, stdin=older.encode("utf-8", errors="surrogateescape"))
+                    model = self.tools.output("model", *EXACT,
+                                              stdin=older.encode("utf-8", errors="surrogateescape"))
                     self.remarks.append(OLD_FORMAT)
                     return older, model
             except ToolFailure:
@@ -78,16 +81,19 @@ class Reference:
     def limit(self, kind):
         """The bytes that a file of a hand-in may have."""
         if kind in ("depths", "picture"):
-            needed = self.window.width * self.window.height * (BYTES_OF_A_DEPTH if kind == "depths" else BYTES_OF_A_PIXEL)
+            needed = self.window.width * self.window.height * (BYTES_OF_A_DEPTH
+                                                               if kind == "depths" else BYTES_OF_A_PIXEL)
         else:
             needed = BYTES_OF_A_VERTEX * len(self.world)
         return min(MEBIBYTE + needed, MOST_BYTES)
 
     def picture(self, stage3, coverage="nearest"):
-        """The picture of our zbuf for the bytes of a stage text, as rows of bytes; None if it refuses them."""
+        """The picture of our zbuf for the bytes of a stage text, as rows of bytes; None if it refuses
+        them."""
         try:
             with self.tools.file(self.config) as config, self.tools.file(b"") as image:
-                self.tools.run("zbuf", config, "--coverage", coverage, "--z-buffer", "/dev/null", "--image", image + ".ppm", *opaque_background(stage3), stdin=stage3)
+                self.tools.run("zbuf", config, "--coverage", coverage, "--z-buffer", "/dev/null", "--image",
+                               image + ".ppm", *opaque_background(stage3), stdin=stage3)
                 try:
                     return read_picture(image + ".ppm")[2]
                 finally:
@@ -100,7 +106,9 @@ class Reference:
         lines = "".join(" ".join(map(repr, p)) + "\n" * (1 + (i % 3 == 2)) for i, p in enumerate(points))
         try:
             with self.tools.file(self.scene_data) as path:
-                return parse_stage_text(self.tools.output("project", "--scene", path, *EXACT, stdin=lines.encode()).decode(), "project").points
+                return parse_stage_text(
+                    self.tools.output("project", "--scene", path, *EXACT, stdin=lines.encode()).decode(),
+                    "project").points
         except ToolFailure:
             return None
 

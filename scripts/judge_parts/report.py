@@ -6,8 +6,9 @@ HEADER = ["stage", "file", "verdict", "numbers that differ", "largest difference
 
 def rows(verdict):
     """The lines of a table below HEADER."""
-    return [[file.stage, file.file, file.verdict, "" if file.count_told is None else str(file.count_told), file.largest, "; ".join(remarks_of(file))]
-            for file in verdict.files]
+    return [[
+        file.stage, file.file, file.verdict, "" if file.count_told is None else str(file.count_told),
+        file.largest, "; ".join(remarks_of(file))] for file in verdict.files]
 
 
 def remarks_of(file):
@@ -41,14 +42,20 @@ def sentence(verdict):
         rules = {}
         for file in others:
             rules.setdefault(file.rule, []).append(file)
-        words = "; ".join(f"{listed(files)} by {'' if rule.startswith('another rule') else 'another rule: '}{rule}" for rule, files in rules.items())
+        words = "; ".join(
+            f"{listed(files)} by {'' if rule.startswith('another rule') else 'another rule: '}{rule}"
+            for rule, files in rules.items())
         return f"all {'five' if len(verdict.files) == 5 else 'three'} files are right, {words}"
     if all(file.verdict == MISSING for file in failed):
-        words = f"{listed(failed)} {'is' if len(failed) == 1 else 'are'} not handed in; what is there is right"
+        words = (f"{listed(failed)} {'is' if len(failed) == 1 else 'are'} not handed in; what is there "
+                 f"is right")
         return words if len(failed) < len(verdict.files) else "nothing is handed in"
-    first = [file for file in failed if (file.stage, file.verdict, file.causes) == (failed[0].stage, failed[0].verdict, failed[0].causes)]
+    first = [
+        file for file in failed
+        if (file.stage, file.verdict, file.causes) == (failed[0].stage, failed[0].verdict, failed[0].causes)]
     rest = [file for file in failed if file not in first]
-    words = f"the first stage that went wrong is {first[0].stage} ({listed(first)} {'is' if len(first) == 1 else 'are'} {first[0].verdict})"
+    words = (f"the first stage that went wrong is {first[0].stage} ({listed(first)} "
+             f"{'is' if len(first) == 1 else 'are'} {first[0].verdict})")
     if first[0].cause:
         words += f": {first[0].cause}"
     open_words = "".join(f"; {file.file}: {file.verdict}" for file in undecided)
@@ -65,4 +72,5 @@ def listed_with_causes(files):
     by_reason = {}
     for file in files:
         by_reason.setdefault(file.cause, []).append(file)
-    return ", ".join(listed(group) + (f" ({reason})" if reason else "") for reason, group in by_reason.items())
+    return ", ".join(
+        listed(group) + (f" ({reason})" if reason else "") for reason, group in by_reason.items())

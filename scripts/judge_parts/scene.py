@@ -1,4 +1,5 @@
-"""A scene that `model` has accepted: its camera, its commands, and what it becomes in world space, right or with one mistake."""
+"""A scene that `model` has accepted: its camera, its commands, and what it becomes in world space, right or
+with one mistake."""
 import dataclasses
 import itertools
 import math
@@ -6,12 +7,15 @@ import math
 from explain_parts.matrices import Projection
 from explain_parts.scene import commands
 from judge_parts.mistakes import sentences
-from judge_parts.matrices import (DIVIDES_X_AND_Y, IDENTITY, VIEW_SPELLINGS, image, perspective_matrix, product, projection_matrix, rotation, scaling, slack, transposed,
+from judge_parts.matrices import (DIVIDES_X_AND_Y, IDENTITY, VIEW_SPELLINGS, image, perspective_matrix,
+                                  product, projection_matrix, rotation, scaling, slack, transposed,
                                   translation, unit, view_matrix)
 
 NO_UNITS = (0.0, 0.0, 0.0)
-DIVISIONS = {"no-divide": False, "z-not-divided": DIVIDES_X_AND_Y, "depth-is-linear": DIVIDES_X_AND_Y}  # by w; other mistakes of project divide all three
-OF_FRUSTUMS = ("near-and-far-swapped", "missing-two", "z-row-sign", "w-is-plus-z", "last-element-is-one", "depth-is-linear", "z-not-divided")
+DIVISIONS = {"no-divide": False, "z-not-divided": DIVIDES_X_AND_Y,
+             "depth-is-linear": DIVIDES_X_AND_Y}  # by w; other mistakes of project divide all three
+OF_FRUSTUMS = ("near-and-far-swapped", "missing-two", "z-row-sign", "w-is-plus-z", "last-element-is-one",
+               "depth-is-linear", "z-not-divided")
 ROUGH_PIS = (3.1416, 3.14159, 3.1415927, 3.141592, 3.141593, 3.1415926, 3.1415, 3.142, 22 / 7, 3.14)
 
 
@@ -38,20 +42,19 @@ def with_wrong_element(m, row):
 
 # How each mistake of model is made: the usual way first, then others that programs were seen to have.
 MODEL_MISTAKES = {
-    "multiplied-on-the-left": [Habit(order="left")],
-    "push-and-pop-ignored": [Habit(stack="ignored")],
-    "pop-ignored": [Habit(stack="no pop")],
-    "push-of-the-identity": [Habit(stack="push identity")],
-    "pop-to-the-identity": [Habit(stack="pop identity")],
-    "second-push-lost": [Habit(stack=f"{lost}, {empty}") for lost in ("adjacent lost", "every other lost", "all but first lost", "nested lost")
-                         for empty in ("stay", "identity")] + [Habit(stack="one count")],
-    "push-does-not-nest": [Habit(stack="slot"), Habit(stack="slot kept")],
-    "axis-not-normalized": [Habit(turn=lambda degrees, axis: rotation(math.radians(degrees), axis))],
-    "angle-in-radians": [Habit(turn=lambda degrees, axis: rotation(degrees, unit(axis)))],
-    "rotation-transposed": [Habit(turn=lambda degrees, axis: transposed(turned(degrees, axis)))],
-    "rotation-element-from-the-wrong-column": [Habit(turn=lambda degrees, axis, row=row: with_wrong_element(turned(degrees, axis), row)) for row in range(3)],
-    "angle-negated": [Habit(turn=lambda degrees, axis: turned(-degrees, axis))],
-}
+    "multiplied-on-the-left": [Habit(order="left")], "push-and-pop-ignored": [Habit(stack="ignored")],
+    "pop-ignored": [Habit(stack="no pop")], "push-of-the-identity": [Habit(stack="push identity")],
+    "pop-to-the-identity": [Habit(stack="pop identity")], "second-push-lost": [
+        Habit(stack=f"{lost}, {empty}")
+        for lost in ("adjacent lost", "every other lost", "all but first lost", "nested lost")
+        for empty in ("stay", "identity")] + [Habit(stack="one count")],
+    "push-does-not-nest": [Habit(stack="slot"), Habit(stack="slot kept")], "axis-not-normalized": [
+        Habit(turn=lambda degrees, axis: rotation(math.radians(degrees), axis))], "angle-in-radians": [
+            Habit(turn=lambda degrees, axis: rotation(degrees, unit(axis)))], "rotation-transposed": [
+                Habit(turn=lambda degrees, axis: transposed(turned(degrees, axis)))],
+    "rotation-element-from-the-wrong-column": [
+        Habit(turn=lambda degrees, axis, row=row: with_wrong_element(turned(degrees, axis), row))
+        for row in range(3)], "angle-negated": [Habit(turn=lambda degrees, axis: turned(-degrees, axis))], }
 
 
 class Stack:
@@ -59,15 +62,17 @@ class Stack:
 
     def __init__(self, habit):
         self.matrix, self.saved = IDENTITY, []
-        self.last, self.last_of_stack, self.was_lost = "", "", False  # commands: any, and the last push or pop; whether that was lost
+        # commands: any, and the last push or pop; whether that was lost
+        self.last, self.last_of_stack, self.was_lost = "", "", False
         self.kind, _, self.empty = habit.partition(", ")
         self.count = 0  # of the transforms since the last push, for the habit that counts them
 
     def is_lost(self):
         """Whether a push that comes now saves nothing."""
         was_push = self.last_of_stack == "push"
-        return {"adjacent lost": self.last == "push", "every other lost": was_push and not self.was_lost, "all but first lost": was_push,
-                "nested lost": bool(self.saved)}.get(self.kind, False)
+        return {
+            "adjacent lost": self.last == "push", "every other lost": was_push and not self.was_lost,
+            "all but first lost": was_push, "nested lost": bool(self.saved)}.get(self.kind, False)
 
     def moved_to(self, matrix):
         self.matrix = matrix
@@ -76,8 +81,8 @@ class Stack:
             self.count += 1
 
     def count_back(self, keyword):
-        """push and pop of a program that keeps all matrices and counts those since the last push: that push forgets the count of
-        the push before it."""
+        """push and pop of a program that keeps all matrices and counts those since the last push: that push
+        forgets the count of the push before it."""
         if keyword == "push":
             self.count = 0
         elif keyword == "pop" and self.count:
@@ -124,8 +129,10 @@ class Scene:
             keyword = command.keyword
             if keyword in ("translate", "scale", "rotate"):
                 numbers = tuple(map(float, command.arguments[0]))
-                made = turn(numbers[0], numbers[1:]) if keyword == "rotate" else (translation if keyword == "translate" else scaling)(numbers)
-                stack.moved_to(product(made, stack.matrix) if habit.order == "left" else product(stack.matrix, made))
+                made = turn(numbers[0], numbers[1:]) if keyword == "rotate" else (
+                    translation if keyword == "translate" else scaling)(numbers)
+                stack.moved_to(
+                    product(made, stack.matrix) if habit.order == "left" else product(stack.matrix, made))
             elif keyword == "triangle":
                 for words in command.arguments:
                     p = tuple(map(float, words[:3]))
@@ -134,7 +141,9 @@ class Scene:
 
     def untouched(self):
         """The points as the scene gives them, before any transformation."""
-        return [tuple(map(float, words[:3])) for command in self.commands if command.keyword == "triangle" for words in command.arguments]
+        return [
+            tuple(map(float, words[:3])) for command in self.commands if command.keyword == "triangle"
+            for words in command.arguments]
 
     @staticmethod
     def model_mistakes():
@@ -142,7 +151,8 @@ class Scene:
         return [(name, MODEL_MISTAKES[name]) for name in names_of("model") if name in MODEL_MISTAKES]
 
     def command_before(self, triangle):
-        """The last command before a triangle that is none itself: the line after which it comes. None if there is none."""
+        """The last command before a triangle that is none itself: the line after which it comes. None if
+        there is none."""
         line = self.triangle_lines[triangle]
         before = itertools.takewhile(lambda command: command.line < line, self.commands)
         return next((command for command in reversed(list(before)) if command.keyword != "triangle"), None)

@@ -8,7 +8,9 @@ from lib.pictures import PictureError, picture_of
 from lib.stage_text import StageTextError, real, text_of
 
 DEPTH_BASE = 2e-6  # for depths of 6 decimals, calculated from numbers of 7; times their size beyond 1
-FLIPS = {"": lambda rows: rows, "upside down": lambda rows: rows[::-1], "mirrored": lambda rows: [row[::-1] for row in rows]}
+FLIPS = {
+    "": lambda rows: rows, "upside down": lambda rows: rows[::-1],
+    "mirrored": lambda rows: [row[::-1] for row in rows]}
 
 
 @dataclasses.dataclass
@@ -29,7 +31,8 @@ def read_depths(data, name):
         try:
             rows.append([real(word) for word in words])
         except ValueError:
-            raise StageTextError(f"{name}:{number}: expected depths, found '{printable(line.strip()[:40])}'") from None
+            raise StageTextError(
+                f"{name}:{number}: expected depths, found '{printable(line.strip()[:40])}'") from None
         words_of_all += words
     while rows and not rows[-1]:  # rows at the end may be empty
         rows.pop()
@@ -37,18 +40,17 @@ def read_depths(data, name):
 
 
 def read_colors(data, name, window, background):
-    """Rows of colors, three bytes each; what is transparent shows the background. Raises a PictureError, also if the picture has another size."""
+    """Rows of colors, three bytes each; what is transparent shows the background. Raises a PictureError, also
+    if the picture has another size."""
     width, height = window.width, window.height
-    found_width, found_height, rows = picture_of(data, name, background)
-    if (found_width, found_height) != (width, height):
-        raise PictureError(f"{name}: expected {width} x {height} pixels, found {found_width} x {found_height}")
+    rows = picture_of(data, name, background, (width, height))[2]
     return [[row[i:i + 3] for i in range(0, 3 * width, 3)] for row in rows]
 
 
 @dataclasses.dataclass
 class Pixels:
-    """What each pixel shows, row by row. `drawn` and `colors` are None without a picture; a row of `depths` is None if it cannot be
-    told which pixels its numbers belong to: those are in `listed`."""
+    """What each pixel shows, row by row. `drawn` and `colors` are None without a picture; a row of `depths`
+    is None if it cannot be told which pixels its numbers belong to: those are in `listed`."""
     drawn: list
     colors: list
     depths: list
@@ -61,7 +63,8 @@ class Shown:
     def __init__(self, colors, depths, width, height, rear):
         self.colors, self.depths, self.width, self.height = colors, depths, width, height
         self.rear, self.made = rear, {}
-        self.is_full = depths is not None and len(depths.rows) == height and all(len(row) == width for row in depths.rows)
+        self.is_full = depths is not None and len(depths.rows) == height and all(
+            len(row) == width for row in depths.rows)
         most = max((z for row in depths.rows for z in row), default=rear) if depths else rear
         self.empty = most if self.is_full and most >= rear - depths.tolerance(rear) else None
         self.background = self.find_background() if colors else None
@@ -92,11 +95,14 @@ class Shown:
         colors = FLIPS[picture_flip](self.colors) if self.colors else None
         drawn = [[color != self.background for color in row] for row in colors] if colors else None
         listed = self.listed_rows(text_flip, drawn) if self.depths else None
-        return Pixels(drawn, colors, [self.aligned(drawn[r] if drawn else None, listed[r]) for r in range(self.height)] if listed else None, listed)
+        return Pixels(drawn, colors,
+                      [self.aligned(drawn[r] if drawn else None, listed[r])
+                       for r in range(self.height)] if listed else None, listed)
 
     def listed_rows(self, flip, drawn):
         rows = self.depths.rows
-        if drawn and len(rows) != self.height and sum(map(len, rows)) == sum(map(sum, drawn)):  # empty rows were left out
+        if drawn and len(rows) != self.height and sum(map(len, rows)) == sum(map(
+                sum, drawn)):  # empty rows were left out
             values = iter([z for row in rows for z in row])
             rows = [[next(values) for is_drawn in row if is_drawn] for row in FLIPS[flip](drawn)]
         rows = rows[:self.height] + [[]] * (self.height - len(rows))

@@ -1,4 +1,5 @@
-"""What is wrong with some of the points alone: with the same vertex of every triangle, or with a few triangles."""
+"""What is wrong with some of the points alone: with the same vertex of every triangle, or with a few
+triangles."""
 import dataclasses
 
 from judge_parts.matching import listed
@@ -11,13 +12,17 @@ MOST_TRIANGLES = 0.5  # of all that are wrong, to be called a few
 
 
 def causes(result, count, is_right_at, causes_at):
-    """The causes if each triangle is wrong at one or two vertices of its three, and the others are right. `result` is the Difference
-    of `count` triangles; `is_right_at` tells of a slice of the points whether all are right, `causes_at` explains slices."""
+    """The causes if each triangle is wrong at one or two vertices of its three, and the others are right.
+    `result` is the Difference of `count` triangles; `is_right_at` tells of a slice of the points whether all
+    are right, `causes_at` explains slices."""
     wrong = [k for k in range(3) if not is_right_at(VERTICES[k])]
     counts = [sum(i % 3 == k for i in result.points) for k in wrong]
     if not 0 < len(wrong) < 3 or min(counts) < max(2, count / 2):
         return []
-    names, others = (" and ".join(NAMES[k] for k in range(3) if (k in wrong) == is_wrong) for is_wrong in (True, False))
+    names, others = (" and ".join(NAMES[k]
+                                  for k in range(3)
+                                  if (k in wrong) == is_wrong)
+                     for is_wrong in (True, False))
     text = (f"Only the {names} vertex of each triangle is wrong, the {others} are right" if len(wrong) == 1
             else f"The {names} vertex of each triangle are wrong, the {others} is right")
     inner = causes_at([VERTICES[k] for k in wrong])
@@ -29,4 +34,7 @@ def few_triangles(result, count):
     wrong = result.triangles
     if not wrong or len(wrong) > MOST_TRIANGLES * count:
         return []
-    return [f"only triangle{'s'[:len(wrong) > 1]} {listed(wrong)} of {count} {'is' if len(wrong) == 1 else 'are'} wrong"]
+    return [
+        f"only triangle{'s'[:len(wrong) > 1]} {listed(wrong)} of {count} "
+        f"{'is' if len(wrong) == 1 else 'are'} wrong"
+    ]

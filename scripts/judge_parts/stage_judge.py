@@ -9,7 +9,8 @@ from judge_parts.matrix_causes import MatrixCauses
 from judge_parts.points import described, difference, differs
 from judge_parts.scene import NO_UNITS, ROUGH_PIS, Habit, turned_with
 from judge_parts.some_vertices import ALL_VERTICES
-from judge_parts.verdict import ANOTHER_RULE, RIGHT, TOO_FEW_DIGITS, UNDECIDED, WRONG, Cause, FileVerdict, cause_of
+from judge_parts.verdict import (
+    ANOTHER_RULE, RIGHT, TOO_FEW_DIGITS, UNDECIDED, WRONG, Cause, FileVerdict, cause_of)
 from lib.vectors import cross
 
 
@@ -35,7 +36,8 @@ class Outcome:
 
 
 def matrix_images(m, is_divided, reading, reach=0.0):
-    """The expected points of a stage with their slacks, one by one. `reach` is the size of what cancels in the matrix."""
+    """The expected points of a stage with their slacks, one by one. `reach` is the size of what cancels in
+    the matrix."""
     for p, units in zip(reading.points, reading.units):
         slacks = slack(m, p, units, is_divided)
         yield image(m, p, is_divided), [x + ROUNDING * reach for x in slacks]
@@ -48,19 +50,22 @@ def exact_images(m, is_divided, points):
 
 
 def count_verdict(stage, name, theirs, expected, digits, scene_lines=()):
-    """The verdict on a text with more or fewer triangles than `expected`, which are lists of points with their slacks, right ones in
-    the right number. The cause is which triangle is missing or too many, if all others are right. `scene_lines` are where the triangles
-    stand in the scene, if that is the input."""
+    """The verdict on a text with more or fewer triangles than `expected`, which are lists of points with
+    their slacks, right ones in the right number. The cause is which triangle is missing or too many, if all
+    others are right. `scene_lines` are where the triangles stand in the scene, if that is the input."""
     ours = [triangles_of(points) for points in expected]
     count = len(theirs) // 3
-    verdict = FileVerdict(stage, name, WRONG, remarks=[f"{count} triangle{'' if count == 1 else 's'} in place of {len(ours[0])}"])
+    verdict = FileVerdict(stage, name, WRONG,
+                          remarks=[f"{count} triangle{'' if count == 1 else 's'} in place of {len(ours[0])}"])
     written, lines = triangles_of(theirs.points), theirs.lines[::3]
 
     def is_same(triangle, right):
         return not differs(triangle, digits, right)
 
-    texts = [matching.missing(written, triangles, is_same, scene_lines) if count < len(triangles) else matching.added(written, triangles, is_same, lines)
-             for triangles in ours]
+    texts = [
+        matching.missing(written, triangles, is_same, scene_lines)
+        if count < len(triangles) else matching.added(written, triangles, is_same, lines)
+        for triangles in ours]
     verdict.causes = [Cause("", text) for text in texts if text][:1]
     return verdict
 
@@ -70,7 +75,8 @@ def causes_of_order(theirs, expected, digits):
     def is_same(triangle, right):
         return not differs(triangle, digits, right)
 
-    texts = (matching.reordered(triangles_of(theirs.points), triangles_of(points), is_same) for points in expected)
+    texts = (matching.reordered(triangles_of(theirs.points), triangles_of(points), is_same)
+             for points in expected)
     return [Cause("", text) for text in [next(filter(None, texts), "")] if text]
 
 
@@ -80,12 +86,15 @@ def triangles_of(points):
 
 
 def undecided_outcome(stage, name):
-    return Outcome(FileVerdict(stage, name, UNDECIDED, remarks=["the stages before give no points to judge it by"]))
+    return Outcome(
+        FileVerdict(stage, name, UNDECIDED, remarks=["the stages before give no points to judge it by"]))
 
 
 def right_verdict(stage, name, theirs, rule=""):
-    verdict = FileVerdict(stage, name, ANOTHER_RULE if rule else RIGHT, rule, differing=0, compared=3 * len(theirs))
-    if theirs.digits.decimals is not None and theirs.digits.decimals < 7 or theirs.digits.decimals is None and theirs.digits.significant < 7:
+    verdict = FileVerdict(stage, name, ANOTHER_RULE if rule else RIGHT, rule, differing=0,
+                          compared=3 * len(theirs))
+    decimals = theirs.digits.decimals
+    if (theirs.digits.significant if decimals is None else decimals) < 7:
         verdict.remarks.append(f"to the {theirs.digits} it shows")
     return verdict
 
@@ -102,35 +111,46 @@ class StageJudge:
         scene, count = self.scene, len(self.scene.triangle_lines)
         digits = EXACT if theirs.digits.are_too_few else theirs.digits
         if len(theirs) != 3 * count:
-            return Outcome(count_verdict("model", name, theirs, [scene.world()], digits, scene.triangle_lines))
+            return Outcome(count_verdict("model", name, theirs, [scene.world()], digits,
+                                         scene.triangle_lines))
         slacks = [slacks for _, slacks in scene.world()]
         if not differs(theirs.points, digits, zip(self.exact_world, slacks)):
             return Outcome(right_verdict("model", name, theirs), self.exact_world)
         for pi in ROUGH_PIS:
             habit = Habit(turn=turned_with(pi))
             if not differs(theirs.points, digits, scene.world(habit)):
-                return Outcome(right_verdict("model", name, theirs, f"pi is taken as {pi:.8g}"), [p for p, _ in scene.world(habit)])
+                return Outcome(right_verdict("model", name, theirs, f"pi is taken as {pi:.8g}"),
+                               [p for p, _ in scene.world(habit)])
         found = self.model_mistakes(theirs.points, digits)
         untouched = self.scene.untouched()
         if not found and not differs(theirs.points, digits, ((p, NO_UNITS) for p in untouched)):
-            verdict = self.wrong("model", name, theirs, difference(theirs.points, digits, zip(self.exact_world, slacks)))
-            verdict.causes = [Cause("", "The points are those of the scene: no transformation is carried out")]
+            verdict = self.wrong("model", name, theirs,
+                                 difference(theirs.points, digits, zip(self.exact_world, slacks)))
+            verdict.causes = [
+                Cause("", "The points are those of the scene: no transformation is carried out")]
             return Outcome(verdict, untouched)
         if not found and theirs.digits.are_too_few:
             return self.outcome_of_few_digits("model", name, theirs, [zip(self.exact_world, slacks)])
         result = difference(theirs.points, digits, zip(self.exact_world, slacks))
         verdict = self.wrong("model", name, theirs, result)
         place = self.place_of(result.first_triangle)
-        verdict.causes = [cause_of("model/" + mistake, place if i == len(found) - 1 else "") for i, mistake in enumerate(found)]
+        verdict.causes = [
+            cause_of("model/" + mistake, place if i == len(found) - 1 else "")
+            for i, mistake in enumerate(found)]
         if not found:
             right = list(zip(self.exact_world, slacks))
-            verdict.causes = causes_of_order(theirs, [right], digits) or some_vertices.causes(result, count, lambda part: not differs(theirs.points[part], digits, right[part]),
-                lambda parts: [cause_of("model/" + mistake) for mistake in self.model_mistakes(theirs.points, digits, parts)])
-            verdict.remarks += ([place] if place else []) + (some_vertices.few_triangles(result, count) if not verdict.causes else [])
+            verdict.causes = causes_of_order(theirs, [right], digits) or some_vertices.causes(
+                result, count, lambda part: not differs(theirs.points[part], digits, right[part]),
+                lambda parts: [
+                    cause_of("model/" + mistake)
+                    for mistake in self.model_mistakes(theirs.points, digits, parts)])
+            verdict.remarks += ([place] if place else []) + (some_vertices.few_triangles(result, count)
+                                                             if not verdict.causes else [])
         return Outcome(verdict, [p for p, _ in scene.world(next(iter(found.values())))] if found else None)
 
     def model_mistakes(self, points, digits, parts=ALL_VERTICES):
-        """{name: habit} of the mistakes that reproduce the points. Each is made in its usual way; only if none fits, in others."""
+        """{name: habit} of the mistakes that reproduce the points. Each is made in its usual way; only if
+        none fits, in others."""
         def is_by(habit):
             if parts is ALL_VERTICES:  # without a list of them all
                 return not differs(points, digits, self.scene.world(habit))
@@ -159,31 +179,40 @@ class StageJudge:
         return self.by_matrix("view", name, theirs, readings, right, list(self.scene.view_mistakes()))
 
     def project(self, name, theirs, readings, others=()):
-        """`others` are lists of points that are right, too: those that were clipped, for each reading, the exact one last."""
+        """`others` are lists of points that are right, too: those that were clipped, for each reading, the
+        exact one last."""
         right = [("", self.scene.of_project(), True)]
         if self.scene.projection.kind == "perspective":
             right += [(f"pi is taken as {pi:.8g}", self.scene.of_project(pi=pi), True) for pi in ROUGH_PIS]
         digits = EXACT if theirs.digits.are_too_few else theirs.digits
         for points in reversed(others):  # the exact ones are what the program may have in memory
-            if len(points) == len(theirs) and not differs(theirs.points, digits, ((p, NO_UNITS) for p in points)):
+            if len(points) == len(theirs) and not differs(theirs.points, digits,
+                                                          ((p, NO_UNITS) for p in points)):
                 return Outcome(right_verdict("project", name, theirs), points)
         return self.by_matrix("project", name, theirs, readings, right, list(self.scene.project_mistakes()))
 
     def by_matrix(self, stage, name, theirs, readings, right, mistakes):
-        """The Outcome of a stage that is one matrix for all points. `right` and `mistakes` are (name, matrix, whether it divides); the
-        name of what is right is the rule, in words."""
+        """The Outcome of a stage that is one matrix for all points. `right` and `mistakes` are (name, matrix,
+        whether it divides); the name of what is right is the rule, in words."""
         given = readings
         readings = [reading for reading in given if len(reading.points) == len(theirs)]
         digits = EXACT if theirs.digits.are_too_few else theirs.digits
         reach = math.hypot(*self.scene.eye) if stage == "view" else 0.0
         if not readings and given:
-            return Outcome(count_verdict(stage, name, theirs, [matrix_images(m, is_divided, reading, reach) for reading in given for _, m, is_divided in right], digits))
+            return Outcome(
+                count_verdict(stage, name, theirs, [
+                    matrix_images(m, is_divided, reading, reach)
+                    for reading in given
+                    for _, m, is_divided in right], digits))
         if not readings:
             return undecided_outcome(stage, name)
         memory = readings[-1].points
 
         def is_by(m, is_divided, parts=ALL_VERTICES):
-            return any(not any(differs(theirs.points[part], digits, matrix_images(m, is_divided, reading.at(part), reach)) for part in parts) for reading in readings)
+            return any(not any(
+                differs(theirs.points[part], digits, matrix_images(m, is_divided, reading.at(part), reach))
+                for part in parts)
+                       for reading in readings)
 
         for rule, m, is_divided in right:
             if is_by(m, is_divided):
@@ -192,14 +221,22 @@ class StageJudge:
         causes = MatrixCauses(stage, (ours, divides), mistakes, is_by)
         found = causes.of_the_list()
         if not found and theirs.digits.are_too_few:
-            return self.outcome_of_few_digits(stage, name, theirs, [matrix_images(m, is_divided, reading, reach) for reading in readings for _, m, is_divided in right])
-        result = min((difference(theirs.points, digits, matrix_images(ours, divides, reading, reach)) for reading in readings), key=lambda result: result.differing)
+            return self.outcome_of_few_digits(stage, name, theirs, [
+                matrix_images(m, is_divided, reading, reach)
+                for reading in readings
+                for _, m, is_divided in right])
+        result = min((difference(theirs.points, digits, matrix_images(ours, divides, reading, reach))
+                      for reading in readings), key=lambda result: result.differing)
         verdict = self.wrong(stage, name, theirs, result)
         found = found or causes.of_the_form() or causes.of_an_element()
         verdict.causes = [dataclasses.replace(cause, detail=self.detail(cause.name)) for cause, *_ in found]
-        verdict.causes = verdict.causes or causes_of_order(theirs, [matrix_images(ours, divides, reading, reach) for reading in readings], digits) or some_vertices.causes(
-            result, len(theirs) // 3, lambda part: any(is_by(m, is_divided, [part]) for _, m, is_divided in right),
-            lambda parts: [cause for cause, *_ in causes.of_the_list(parts) or causes.of_the_form(parts)])
+        verdict.causes = verdict.causes or causes_of_order(theirs, [
+            matrix_images(ours, divides, reading, reach)
+            for reading in readings], digits) or some_vertices.causes(
+                result,
+                len(theirs) // 3,
+                lambda part: any(is_by(m, is_divided, [part]) for _, m, is_divided in right),
+                lambda parts: [cause for cause, *_ in causes.of_the_list(parts) or causes.of_the_form(parts)])
         verdict.remarks += some_vertices.few_triangles(result, len(theirs) // 3) if not verdict.causes else []
         verdict.matrices = fit.compare(readings[0].points, theirs.points, theirs.units, ours, divides)
         return Outcome(verdict, exact_images(*found[0][1:], memory) if found else None)
@@ -217,13 +254,16 @@ class StageJudge:
     # verdicts
     @staticmethod
     def wrong(stage, name, theirs, result):
-        largest, first = (described(pair, theirs.lines) if pair else "" for pair in (result.largest, result.first))
-        return FileVerdict(stage, name, WRONG, differing=result.differing, compared=result.compared, largest=largest, first=first)
+        largest, first = (described(pair, theirs.lines) if pair else ""
+                          for pair in (result.largest, result.first))
+        return FileVerdict(stage, name, WRONG, differing=result.differing, compared=result.compared,
+                           largest=largest, first=first)
 
     def outcome_of_few_digits(self, stage, name, theirs, expected):
-        """Of a text with too few digits to name a mistake by. It is wrong if it differs from all that is right (lists of points with their
-        slacks) by more than those digits hide."""
-        result = min((difference(theirs.points, theirs.digits, points) for points in expected), key=lambda result: result.differing)
+        """Of a text with too few digits to name a mistake by. It is wrong if it differs from all that is
+        right (lists of points with their slacks) by more than those digits hide."""
+        result = min((difference(theirs.points, theirs.digits, points) for points in expected),
+                     key=lambda result: result.differing)
         if not result.differing:
             return Outcome(FileVerdict(stage, name, TOO_FEW_DIGITS, remarks=[f"it shows {theirs.digits}"]))
         verdict = self.wrong(stage, name, theirs, result)

@@ -1,14 +1,18 @@
-"""Lines of a stage text that do not belong into one: they are counted, by triangle, and the first one is named."""
+"""Lines of a stage text that do not belong into one: they are counted, by triangle, and the first one is
+named."""
 from lib.command import shown
 from lib.stage_text import KEYWORD, NO_KEYWORDS, real
 
-WORDS = {"eye", "look", "up", "perspective", "ortho", "frustum", "projected", "attributes", "background", "light", "ambient", "material", "absorption",
-         "attenuation", "framed", "end", "triangle", "clipped", "error", "sphere"}
+WORDS = {
+    "eye", "look", "up", "perspective", "ortho", "frustum", "projected", "attributes", "background", "light",
+    "ambient", "material", "absorption", "attenuation", "framed", "end", "triangle", "clipped", "error",
+    "sphere"}
 LONGEST = 40  # characters of a line, as shown
 
 
 def kind_of(line, columns):
-    """'vertex', 'word', '' for a blank line or a comment, 'stray', or 'long': a vertex with more numbers than `columns`."""
+    """'vertex', 'word', '' for a blank line or a comment, 'stray', or 'long': a vertex with more numbers than
+    `columns`."""
     words = line.split("#")[0].split()
     if not words:
         return ""
@@ -35,8 +39,11 @@ def of_a_text(text):
         elif not line.strip() and in_block:
             blocks.append(in_block)
             in_block = []
-    return "; ".join(filter(None, [of_lines([n for n, kind in strays if kind == "stray"], lines, blocks), of_columns([n for n, kind in strays if kind == "long"], lines),
-                                   of_blocks(blocks)]))
+    return "; ".join(
+        filter(None, [
+            of_lines([n for n, kind in strays if kind == "stray"], lines, blocks),
+            of_columns([n for n, kind in strays if kind == "long"], lines),
+            of_blocks(blocks)]))
 
 
 def of_lines(strays, lines, blocks):
@@ -44,15 +51,19 @@ def of_lines(strays, lines, blocks):
         return ""
     first = shown(lines[strays[0] - 1].strip()[:LONGEST])
     count = f"{len(strays)} lines are" if len(strays) > 1 else "1 line is"
-    each = f", {len(strays) // len(blocks)} for each triangle" if len(blocks) > 1 and len(strays) % len(blocks) == 0 else ""
-    return f"{count} neither a vertex nor a header line{each}: {'first ' if len(strays) > 1 else ''}line {strays[0]}, '{first}'"
+    each = f", {len(strays) // len(blocks)} for each triangle" if len(
+        blocks) > 1 and len(strays) % len(blocks) == 0 else ""
+    return (f"{count} neither a vertex nor a header line{each}: {'first ' if len(strays) > 1 else ''}line "
+            f"{strays[0]}, '{first}'")
 
 
 def of_columns(long, lines):
     if not long:
         return ""
     count = f"{len(long)} vertex lines have" if len(long) > 1 else "1 vertex line has"
-    return f"{count} more than three numbers, of which the first three count: {'first ' if len(long) > 1 else ''}line {long[0]}, '{shown(lines[long[0] - 1].strip()[:LONGEST])}'"
+    return (f"{count} more than three numbers, of which the first three count: "
+            f"{'first ' if len(long) > 1 else ''}line {long[0]}, "
+            f"'{shown(lines[long[0] - 1].strip()[:LONGEST])}'")
 
 
 def of_blocks(blocks):
@@ -60,5 +71,7 @@ def of_blocks(blocks):
     uneven = [block for block in blocks if len(block) % 3]
     if not uneven:
         return ""
-    count = f"{len(uneven)} of {len(blocks)} triangles (between blank lines) have" if len(uneven) > 1 else "a triangle (between blank lines) has"
-    return f"{count} another number of vertices than three: {'first ' if len(uneven) > 1 else ''}the one in line {uneven[0][0]}, {len(uneven[0])}"
+    count = f"{len(uneven)} of {len(blocks)} triangles (between blank lines) have" if len(
+        uneven) > 1 else "a triangle (between blank lines) has"
+    return (f"{count} another number of vertices than three: {'first ' if len(uneven) > 1 else ''}the one in "
+            f"line {uneven[0][0]}, {len(uneven[0])}")

@@ -17,7 +17,8 @@ OPEN = (TOO_FEW_DIGITS, UNDECIDED)
 
 @dataclasses.dataclass
 class Cause:
-    """A mistake that reproduces the numbers. `name` is that of the list of mistakes, or empty for one that is not in it."""
+    """A mistake that reproduces the numbers. `name` is that of the list of mistakes, or empty for one that is
+    not in it."""
     name: str
     text: str
     detail: str = ""
@@ -36,7 +37,8 @@ class FileVerdict:
     file: str                 # as its author named it
     verdict: str              # one of the words above
     rule: str = ""            # the other rule, in words
-    causes: list = dataclasses.field(default_factory=list)  # of Cause; more than one if the numbers cannot tell them apart
+    causes: list = dataclasses.field(
+        default_factory=list)  # of Cause; more than one if the numbers cannot tell them apart
     remarks: list = dataclasses.field(default_factory=list)
     differing: int = None     # how many numbers or pixels
     compared: int = 0

@@ -1,11 +1,25 @@
-"""The command line of a script: how --help looks, and how a mistake in it is told."""
+"""The command line of a script: how --help looks, and how errors in it are reported."""
 import argparse
+import itertools
 import re
+import sys
 import textwrap
+
+from lib.command import shown
+from lib.output_file import place_of
+
+STANDARD_OUTPUT = ("", "/dev/stdout")
+OPERANDS = ("scene", "config", "path", "model")
+OLD_NAMES = {  # {(command, option that is gone): what to use now}
+    ("picture", "--up"): "--up-axis",
+    ("compare", "--five"): "--hand-in",
+    ("grade", "--out"): "--output",
+}
 
 
 class HelpFormatter(argparse.RawDescriptionHelpFormatter):
-    """Fits the paragraphs of a description to the terminal; those with lines that are indented, such as examples, stay as they are."""
+    """Fits the paragraphs of a description to the terminal; those with lines that are indented, such as
+    examples, stay as they are."""
 
     def _fill_text(self, text, width, indent):
         paragraphs = re.split(r"\n\s*\n", text.strip("\n"))
@@ -14,7 +28,8 @@ class HelpFormatter(argparse.RawDescriptionHelpFormatter):
     def _paragraph(self, paragraph, width, indent):
         if re.search(r"^\s", paragraph, re.MULTILINE):
             return textwrap.indent(paragraph, indent)
-        return textwrap.fill(paragraph, width, initial_indent=indent, subsequent_indent=indent, break_long_words=False, break_on_hyphens=False)
+        return textwrap.fill(paragraph, width, initial_indent=indent, subsequent_indent=indent,
+                             break_long_words=False, break_on_hyphens=False)
 
 
 class CommandParser(argparse.ArgumentParser):
@@ -23,5 +38,26 @@ class CommandParser(argparse.ArgumentParser):
     def __init__(self, **settings):
         super().__init__(formatter_class=HelpFormatter, **settings)
 
+    def parse_args(self, *arguments):
+        for word in itertools.takewhile(lambda word: word != "--", sys.argv[1:]):
+            if now := OLD_NAMES.get((self.prog, word.split("=")[0])):
+                self.error(f"expected an option of {self.prog}, found '{word}' (now {now})")
+        return super().parse_args(*arguments)
+
     def error(self, message):
         self.exit(2, f"{self.prog}: {message} (try {self.prog} --help)\n")
+
+    def expect_separate(self, options, *outputs, inputs=()):
+        """Ends the program where an output is another output or an input, by path, link or inode. Outputs are
+        pairs of a name for messages and a path or None, and so are inputs beside the usual operands."""
+        operands = [(name.upper(), getattr(options, name, None)) for name in OPERANDS]
+        names = {}
+        for is_output, files in ((False, [*operands, *inputs]), (True, outputs)):
+            for name, path in files:
+                if path is None or (place := place_of(path)) is None:
+                    continue
+                told = f"{name} '{shown(path)}'" if name else "standard output"
+                if is_output and place in names:
+                    self.error("expected a place of its own for every output, "
+                               f"found the same one for {names[place]} and {told}")
+                names.setdefault(place, told)

@@ -1,14 +1,24 @@
-"""How a command ends: with a status and one line on stderr, or quietly by the signal that stopped it; never with a traceback
-caused by the user's files or shell."""
+"""How a command ends: with a status and one line on stderr, or quietly by the signal that stopped it; never
+with a traceback caused by the user's files or shell."""
+import contextlib
 import io
 import os
+import secrets
+import shutil
 import signal
 import sys
+import tempfile
 import traceback
 
 MINIMUM_PYTHON = (3, 9)
 if sys.version_info < MINIMUM_PYTHON:
-    sys.exit("{}: Python {}.{} or newer is needed, found {}.{}".format(os.path.basename(sys.argv[0]), *MINIMUM_PYTHON, *sys.version_info[:2]))
+    sys.exit("{}: Python {}.{} or newer is needed, found {}.{}".format(os.path.basename(
+        sys.argv[0]), *MINIMUM_PYTHON, *sys.version_info[:2]))
+
+from lib.child import end_children
+
+SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+leftovers = set()  # temporary files, and the folder of others, which go with the command, whenever it ends
 
 
 class CommandFailure(Exception):
@@ -30,23 +40,32 @@ def shown(name):
         if c.isprintable():
             characters.append(c)
         else:  # a byte that is not UTF-8 has been read as one of 128 surrogates
-            characters.append(f"\\x{ord(c) - 0xdc00:02x}" if "\udc80" <= c <= "\udcff" else c.encode("unicode_escape").decode())
+            characters.append(f"\\x{ord(c) - 0xdc00:02x}" if "\udc80" <= c <= "\udcff" else c.
+                              encode("unicode_escape").decode())
     return "".join(characters)
 
 
 def run_command(main, name, failure_status=1):
-    """Runs `main`, prints any error, and ends the process with the status that `main` returns (None is 0), or with
-    `failure_status`. By then the output of `main` has reached stdout; if it could not, that is the error."""
+    """Runs `main`, prints any error, and ends the process with the status that `main` returns (None is 0), or
+    with `failure_status`. By then the output of `main` has reached stdout; if it could not, that is the
+    error."""
     prepare()
+    status, signal_number = failure_status, None
     try:
         status = status_of(main, name, failure_status)
+        heed_no_signal()
     except Ended as end:
-        end_by(end.signal_number)
-    except KeyboardInterrupt:
-        end_by(signal.SIGINT)
+        signal_number = end.signal_number
+        told(name, f"ended by {signal.Signals(signal_number).name}", status)
     except BrokenPipeError:
-        end_by(signal.SIGPIPE)
+        signal_number = signal.SIGPIPE
+    heed_no_signal()
+    for path in leftovers:
+        with contextlib.suppress(OSError):
+            shutil.rmtree(path) if os.path.isdir(path) else os.unlink(path)
     silence_stdout()
+    if signal_number:
+        end_by(signal_number)
     sys.exit(status)
 
 
@@ -63,16 +82,36 @@ class Stdout(io.FileIO):
 
 
 def prepare():
-    if sys.stdout is None:  # closed: writing must fail, and no opened file may get its descriptor
-        os.open(os.devnull, os.O_RDONLY)
-    sys.stdout = io.TextIOWrapper(io.BufferedWriter(Stdout(1, "w", closefd=False)), errors="backslashreplace", line_buffering=os.isatty(1))
-
-    def end(signal_number, _):
-        raise Ended(signal_number)
-
-    for number in (signal.SIGTERM, signal.SIGHUP):
-        if signal.getsignal(number) == signal.SIG_DFL:  # nohup ignores SIGHUP
+    """Makes sure of the standard streams, and makes the folder of temporary files."""
+    for number, flags in ((0, os.O_WRONLY), (1, os.O_RDONLY), (2, os.O_RDONLY)):
+        try:
+            os.fstat(number)
+        except OSError:  # closed: using it must fail, and no opened file may get its descriptor
+            os.open(os.devnull, flags)
+    sys.stderr = sys.stderr or open(os.devnull, "w")
+    sys.stdout = io.TextIOWrapper(io.BufferedWriter(Stdout(1, "w", closefd=False)), errors="backslashreplace",
+                                  line_buffering=os.isatty(1))
+    for number in SIGNALS:
+        if signal.getsignal(number) == signal.SIG_DFL:  # nohup ignores SIGHUP, and sh SIGINT behind &
             signal.signal(number, end)
+    for place in filter(None, (os.environ.get("TMPDIR"), "/tmp", "/var/tmp")):
+        folder = os.path.join(place, "pipeline-" + secrets.token_hex(8))
+        leftovers.add(folder)
+        with contextlib.suppress(OSError):  # what needs a temporary file will say so
+            os.mkdir(folder, 0o700)
+            tempfile.tempdir = os.path.abspath(folder)
+            break
+
+
+def end(signal_number, _):
+    heed_no_signal()
+    end_children()
+    raise Ended(signal_number)
+
+
+def heed_no_signal():
+    for number in SIGNALS:
+        signal.signal(number, signal.SIG_IGN)
 
 
 def status_of(main, name, failure_status):
@@ -112,7 +151,6 @@ def silence_stdout():
 
 def end_by(signal_number):
     """Ends the process as the signal would have, so that a shell sees the signal."""
-    silence_stdout()
     signal.signal(signal_number, signal.SIG_DFL)
     os.kill(os.getpid(), signal_number)
     sys.exit(128 + signal_number)

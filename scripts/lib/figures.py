@@ -16,7 +16,8 @@ class Quartiles:
 
 def quartiles(values):
     """The Quartiles of one value or more."""
-    return Quartiles(*statistics.quantiles(values, n=4, method="inclusive")) if len(values) > 1 else Quartiles(*3 * values)
+    return Quartiles(
+        *statistics.quantiles(values, n=4, method="inclusive")) if len(values) > 1 else Quartiles(*3 * values)
 
 
 def number(value, digits=2):

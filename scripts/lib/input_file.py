@@ -34,13 +34,14 @@ def input_errors(path):
 
 
 def read_input(path, only_regular=False):
-    """The bytes of a file, or of standard input if the path is `-`. With `only_regular`, a pipe or a device raises an
-    InputError instead of being waited for. Input longer than MAX_BYTES always does."""
+    """The bytes of a file, or of standard input if the path is `-`. With `only_regular`, a pipe or a device
+    raises an InputError instead of being waited for. Input longer than MAX_BYTES always does."""
     with input_errors(path):
         if path == "-" and not only_regular:
             return read_all(0, path)
         # Opening a pipe waits for its writer, unless O_NONBLOCK is set.
-        descriptor = os.open(path, os.O_RDONLY | os.O_CLOEXEC | os.O_NOCTTY | (os.O_NONBLOCK if only_regular else 0))
+        descriptor = os.open(
+            path, os.O_RDONLY | os.O_CLOEXEC | os.O_NOCTTY | (os.O_NONBLOCK if only_regular else 0))
         try:
             mode = os.fstat(descriptor).st_mode
             if only_regular and not (stat.S_ISREG(mode) or stat.S_ISDIR(mode)):
@@ -73,8 +74,8 @@ def is_same_stream(a, b):
 
 @contextlib.contextmanager
 def readable_again(*paths):
-    """Paths to the same inputs that can be opened more than once and that no tool takes for an option. An input that is not
-    a regular file is copied to one, which is removed afterwards."""
+    """Paths to the same inputs that can be opened more than once and that no tool takes for an option. An
+    input that is not a regular file is copied to one, which is removed afterwards."""
     if paths.count("-") > 1:
         raise CommandFailure("expected '-' once, as standard input can be read only once")
     with tempfile.TemporaryDirectory() as folder:

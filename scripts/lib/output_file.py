@@ -6,7 +6,7 @@ import re
 import secrets
 import stat
 
-from lib.command import CommandFailure, shown
+from lib.command import CommandFailure, leftovers, shown
 
 MAX_LINKS = 40  # the kernel's limit
 OWN_FILE = re.compile(r"/dev/(?:(stdout)|(stderr)|fd/(\d+))|/proc/self/fd/(\d+)")
@@ -17,8 +17,8 @@ class OutputError(CommandFailure):
 
 
 def own_descriptor(path):
-    """The N of a path that names this process's open file N, else None. Such a file must not be replaced, even if it is
-    a regular one."""
+    """The N of a path that names this process's open file N, else None. Such a file must not be replaced,
+    even if it is a regular one."""
     found = OWN_FILE.fullmatch(path)
     if not found:
         return None
@@ -34,13 +34,31 @@ def target_of(path):
     raise OSError(errno.ELOOP, os.strerror(errno.ELOOP))
 
 
-class OutputFile:
-    """The file is written beside its target, in the same folder and under an unpredictable name; `commit` moves it to the
-    target. Without `commit`, the end of the `with` removes it, and an older file stays.
+def place_of(path):
+    """What all names of a file have in common, as in libpipeline/text/output_file.h; `-` is standard input.
+    None for a device, which may be named twice, unless it is an open file of this process."""
+    try:
+        target = target_of(path)
+        own = 0 if path == "-" else own_descriptor(target)
+        try:
+            status = os.stat(target) if own is None else os.fstat(own)
+        except FileNotFoundError:
+            status = os.stat(os.path.dirname(target) or os.curdir)
+            return status.st_dev, status.st_ino, os.path.basename(target)
+    except OSError:
+        return None
+    if stat.S_ISCHR(status.st_mode) or stat.S_ISBLK(status.st_mode):
+        return own
+    return status.st_dev, status.st_ino, ""
 
-    A new file gets the permissions that the umask leaves; a replaced one keeps its own, and a read-only one is not
-    replaced. A symbolic link stays, and the file it points at is replaced. An existing file that is not regular (a device,
-    a pipe), /dev/stdout and the like are written directly.
+
+class OutputFile:
+    """The file is written beside its target, in the same folder and under an unpredictable name; `commit`
+    moves it to the target. Without `commit`, the end of the `with` removes it, and an older file stays.
+
+    A new file gets the permissions that the umask leaves; a replaced one keeps its own, and a read-only one
+    is not replaced. A symbolic link stays, and the file it points at is replaced. An existing file that is
+    not regular (a device, a pipe), /dev/stdout and the like are written directly.
     """
 
     def __init__(self, path):
@@ -68,7 +86,9 @@ class OutputFile:
 
     def open_beside(self, status):
         mode = stat.S_IMODE(status.st_mode) & 0o777 if status else 0o666
-        name = os.path.join(os.path.dirname(self.target), ".pipeline-" + secrets.token_hex(8))
+        folder, extension = os.path.dirname(self.target), os.path.splitext(self.target)[1]
+        name = os.path.join(folder, f".pipeline-{secrets.token_hex(8)}{extension}")
+        leftovers.add(name)
         self.descriptor = os.open(name, os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_CLOEXEC, mode)
         self.temporary = name
         if status:  # the umask does not apply to an existing file
@@ -102,6 +122,11 @@ class OutputFile:
             while rest:
                 rest = rest[os.write(self.descriptor, rest):]
 
+    def copy(self, file):
+        """Writes the rest of an open file."""
+        while block := file.read(1 << 20):
+            self.write(block)
+
     def commit(self):
         with self.errors("write"):
             descriptor, self.descriptor = self.descriptor, None
@@ -117,3 +142,33 @@ def write_file(path, data):
     with OutputFile(path) as file:
         file.write(data)
         file.commit()
+
+
+def expect_writable(path):
+    """Raises the OutputError that writing would end in, before there is any work; a pipe is left alone."""
+    if not stat.S_ISFIFO(os.stat(path).st_mode if os.path.exists(path) else 0):
+        OutputFile(path).__exit__()
+
+
+@contextlib.contextmanager
+def output_files(folder, names):
+    """OutputFiles in a folder, which is made if necessary; without a commit, nothing that was made stays."""
+    made, missing = [], os.path.abspath(folder)
+    while not os.path.lexists(missing):
+        made.append(missing)
+        missing = os.path.dirname(missing)
+    try:
+        make_folders(folder)
+        with contextlib.ExitStack() as stack:
+            yield [stack.enter_context(OutputFile(os.path.join(folder, name))) for name in names]
+    finally:
+        with contextlib.suppress(OSError):  # until one is not empty
+            for path in made:
+                os.rmdir(path)
+
+
+def make_folders(path):
+    try:
+        os.makedirs(path, exist_ok=True)
+    except OSError as error:
+        raise OutputError(f"cannot make the folder {shown(path)}: {error.strerror}") from None

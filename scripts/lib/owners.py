@@ -21,8 +21,9 @@ def write_marked(projected, path):
 
 
 def owners(tools, marked, config, words, image):
-    """The mark of the triangle that each pixel shows, or NOBODY; from the top left. `marked` is a file by write_marked, `words` are
-    options of zbuf, and `image` is the path of a .ppm to write."""
+    """The mark of the triangle that each pixel shows, or NOBODY; from the top left. `marked` is a file by
+    write_marked, `words` are options of zbuf, and `image` is the path of a .ppm to write."""
     tools.run("zbuf", *words, "--z-buffer", "none", "--image", image, config, marked)
     _, _, rows = read_picture(image)
-    return array.array("I", (int.from_bytes(row[i:i + 3], "big") for row in rows for i in range(0, len(row), 3)))
+    return array.array("I",
+                       (int.from_bytes(row[i:i + 3], "big") for row in rows for i in range(0, len(row), 3)))

@@ -5,6 +5,7 @@ import subprocess
 import sys
 from dataclasses import dataclass, field
 
+from lib.child import adopt_orphans
 from lib.command import CommandFailure
 
 
@@ -26,9 +27,11 @@ def columns(jobs, files_of, first):
 
 
 def run_parallel(folder, jobs, name, common=(), options=()):
-    """Runs the jobs in the folder; the status of parallel. `common` are files that all jobs read, `name` that of the command.
+    """Runs the jobs in the folder; the status of parallel. `common` are files that all jobs read, `name` that
+    of the command.
 
-    Another machine works in a folder of its own, which is removed afterwards: files are sent there, and those of a job come back."""
+    Another machine works in a folder of its own, which is removed afterwards: files are sent there, and those
+    of a job come back."""
     words = ["parallel", "--will-cite", *(["--bar"] if sys.stderr.isatty() else [])]
     if any(word.startswith(("--sshlogin", "-S")) for word in options):
         takes = columns(jobs, lambda job: job.takes, 2)
@@ -40,10 +43,14 @@ def run_parallel(folder, jobs, name, common=(), options=()):
             words += ["--transferfile", f"{{{column}}}"]
         for column in gives:
             words += ["--return", f"{{{column}}}"]
-        lines = ["\t".join([job.line, *job.takes, *[""] * (len(takes) - len(job.takes)), *job.gives]) for job in jobs]
+        lines = [
+            "\t".join([job.line, *job.takes, *[""] * (len(takes) - len(job.takes)), *job.gives])
+            for job in jobs]
         words += [*options, "eval", "{1}"]
     else:
         lines = [job.line for job in jobs]
         words += options
-    done = subprocess.run(words, cwd=folder, input="".join(line + "\n" for line in lines), text=True, env={**os.environ, "PARALLEL_SHELL": "/bin/sh"})
+    adopt_orphans()
+    done = subprocess.run(words, cwd=folder, input="".join(line + "\n" for line in lines), text=True,
+                          env={**os.environ, "PARALLEL_SHELL": "/bin/sh"})
     return done.returncode

@@ -1,5 +1,5 @@
-"""Picture files: reads BMP, PPM and PNG of 8 bits a channel, writes PNG. A picture is a width, a height and rows of
-RGB bytes, top first."""
+"""Picture files: reads BMP, PPM and PNG of 8 bits a channel, writes PNG. A picture is a width, a height and
+rows of RGB bytes, top first."""
 import itertools
 import re
 import struct
@@ -8,6 +8,7 @@ import zlib
 from lib.command import CommandFailure
 from lib.input_file import name_of, read_input
 
+MAX_SIDE = 65535          # as zbuf draws; a column of millions of rows takes gigabytes in Python
 MAX_PNG_PIXELS = 1 << 25  # a PNG of a few KB may claim millions, and Python is slow to filter bytes
 PPM_HEADER = re.compile(rb"P6" + rb"(?:\s|#[^\n]*\n)+(\d{1,9})" * 3 + rb"\s")
 MAX_PPM_HEADER = 4096
@@ -17,54 +18,76 @@ class PictureError(CommandFailure):
     """Not a readable picture."""
 
 
-def checked_size(width, height, row_bytes, pixel_bytes, channels=3):
-    """Raises a PictureError if the header cannot be true. Rows start `row_bytes` apart; the file has `pixel_bytes`."""
+def expect_size(width, height, size=None):
+    """Raises a PictureError if no picture may have these sides, or this one should have another `size`."""
     if width <= 0 or height <= 0:
         raise PictureError(f"expected a width and a height of at least 1, found {width} x {height}")
+    if size and size != (width, height):
+        raise PictureError(f"expected {size[0]} x {size[1]} pixels, found {width} x {height}")
+    if max(width, height) > MAX_SIDE:
+        raise PictureError(f"expected at most {MAX_SIDE} columns and rows, found {width} x {height}")
+
+
+def expect_bytes(width, height, row_bytes, pixel_bytes, channels=3):
+    """Raises a PictureError if bytes are missing. Rows start `row_bytes` apart; there are `pixel_bytes`."""
     needed = (height - 1) * row_bytes + channels * width
     if needed > pixel_bytes:
-        raise PictureError(f"expected {needed} bytes of {width} x {height} pixels, found {max(0, pixel_bytes)}")
+        raise PictureError(
+            f"expected {needed} bytes of {width} x {height} pixels, found {max(0, pixel_bytes)}")
 
 
-def read_bmp(data):
+def read_bmp(data, size, _):
     offset, header_size = struct.unpack_from("<I", data, 10)[0], struct.unpack_from("<I", data, 14)[0]
     if header_size < 40 or offset < 14 + header_size:
         raise PictureError("expected a BMP with a header of 54 bytes or more, and the pixels behind it")
     width, height, _, bits, compression = struct.unpack_from("<iiHHI", data, 18)
     if bits != 24 or compression != 0:
-        raise PictureError(f"expected a BMP of 24 bits a pixel, not compressed, found {bits}{' and compressed' if compression else ''}")
+        raise PictureError(
+            f"expected a BMP of 24 bits a pixel, not compressed, found "
+            f"{bits}{' and compressed' if compression else ''}"
+        )
+    expect_size(width, abs(height), size)
     stride = (3 * width + 3) // 4 * 4
-    checked_size(width, abs(height), stride, len(data) - offset)
+    expect_bytes(width, abs(height), stride, len(data) - offset)
     rows = []
     for y in range(abs(height)):
         row = bytearray(data[offset + y * stride:offset + y * stride + 3 * width])
         row[0::3], row[2::3] = row[2::3], row[0::3]  # BMP stores blue, green, red
         rows.append(bytes(row))
-    return width, abs(height), rows if height < 0 else rows[::-1]  # the bottom row first, unless the height is negative
+    return width, abs(
+        height), rows if height < 0 else rows[::-1]  # the bottom row first, unless the height is negative
 
 
-def read_ppm(data):
+def read_ppm(data, size, _):
     header = PPM_HEADER.match(data[:MAX_PPM_HEADER])
     if not header:
         raise PictureError("expected width, height and the largest value behind P6")
     width, height, largest = map(int, header.groups())
     if largest != 255:
         raise PictureError(f"expected a PPM of 8 bits a channel, found a largest value of {largest}")
-    checked_size(width, height, 3 * width, len(data) - header.end())
+    expect_size(width, height, size)
+    expect_bytes(width, height, 3 * width, len(data) - header.end())
     begins = range(header.end(), header.end() + 3 * width * height, 3 * width)
     return width, height, [data[begin:begin + 3 * width] for begin in begins]
 
 
 def paeth(row, above, size):
-    """A row of which each byte was stored minus its predictor: whichever of left, above and above left is nearest to
-    left + above - above left."""
-    out = bytearray(size) + row  # starts with a zero pixel on the left
-    above = bytes(size) + above
-    for i in range(size, len(out)):
-        a, b, c = out[i - size], above[i], above[i - size]
-        to_a, to_b, to_c = abs(b - c), abs(a - c), abs(a + b - 2 * c)
-        out[i] = (out[i] + (a if to_a <= to_b and to_a <= to_c else b if to_b <= to_c else c)) & 255
-    return bytes(out[size:])
+    """A row of which each byte was stored minus its predictor: whichever of a (left), b (above) and c (above
+    left) is nearest to a + b - c."""
+    if not any(row):
+        return above  # where the pixels on the left are those above, so is the next
+    out = bytearray(len(row))
+    for channel in range(size):
+        a, c, column = 0, 0, bytearray()
+        for x, b in zip(row[channel::size], above[channel::size]):
+            to_a, to_b, nearest = b - c, a - c, b if b != c else a
+            if to_a and to_b:
+                to_a, to_b, to_c = abs(to_a), abs(to_b), abs(to_a + to_b)
+                nearest = a if to_a <= to_b and to_a <= to_c else b if to_b <= to_c else c
+            a, c = (x + nearest) & 255, b
+            column.append(a)
+        out[channel::size] = column
+    return bytes(out)
 
 
 def unfiltered(kind, row, above, size=3):
@@ -82,7 +105,8 @@ def unfiltered(kind, row, above, size=3):
         if kind == 1:
             sums = itertools.accumulate(row[channel::size], lambda a, x: (a + x) & 255)
         else:
-            sums = itertools.accumulate(zip(row[channel::size], above[channel::size]), lambda a, x: (x[0] + (a + x[1]) // 2) & 255, initial=0)
+            sums = itertools.accumulate(zip(row[channel::size], above[channel::size]), lambda a, x:
+                                        (x[0] + (a + x[1]) // 2) & 255, initial=0)
             next(sums)
         out[channel::size] = bytes(sums)
     return bytes(out)
@@ -98,52 +122,56 @@ def png_chunks(data):
 
 
 def laid_over(row, behind):
-    """A row of red, green, blue and alpha (straight: colors are not multiplied by it) over one color, as RGB."""
+    """A row of red, green, blue and alpha (straight: colors are not multiplied by it) over one color, as
+    RGB."""
     out = bytearray(len(row) // 4 * 3)
     for channel in range(3):
-        out[channel::3] = bytes((x * a + behind[channel] * (255 - a) + 127) // 255 for x, a in zip(row[channel::4], row[3::4]))
+        out[channel::3] = bytes(
+            (x * a + behind[channel] * (255 - a) + 127) // 255 for x, a in zip(row[channel::4], row[3::4]))
     return bytes(out)
 
 
-def read_png(data, behind=None):
+def read_png(data, size, behind):
     """A PNG with alpha is laid over the color `behind`; without one it is refused."""
-    header, bodies = None, []
-    for kind, body in png_chunks(data):
-        if kind == b"IHDR":
-            header = struct.unpack(">IIBBBBB", body)
-        elif kind == b"IDAT":
-            bodies.append(body)
-    if header is None:
+    if data[12:16] != b"IHDR":
         raise PictureError("expected a PNG with a header, found none")
-    width, height, bits, colors, _, _, interlaced = header
-    has_alpha = (bits, colors, interlaced) == (8, 6, 0)
-    if (bits, colors, interlaced) != (8, 2, 0) and (not has_alpha or behind is None):
-        raise PictureError("expected a PNG of 8 bits RGB without interlacing" + ", found one with alpha (an opaque background leaves it out)" * has_alpha)
+    width, height, *form = struct.unpack_from(">IIBBBBB", data, 16)
+    expect_size(width, height, size)
+    has_alpha = form == [8, 6, 0, 0, 0]
+    if form != [8, 2, 0, 0, 0] and (not has_alpha or behind is None):
+        raise PictureError("expected a PNG of 8 bits RGB without interlacing" +
+                           ", found one with alpha (an opaque background leaves it out)" * has_alpha)
     if width * height > MAX_PNG_PIXELS:
         raise PictureError(f"expected a PNG of at most {MAX_PNG_PIXELS} pixels, found {width} x {height}")
     channels = 4 if has_alpha else 3
     stride = channels * width + 1
-    pixels = zlib.decompressobj().decompress(b"".join(bodies), max(1, stride * height))
-    checked_size(width, height, stride, len(pixels) - 1, channels)
-    rows = [bytes(channels * width)]
-    for y in range(height):
-        rows.append(unfiltered(pixels[y * stride], pixels[y * stride + 1:(y + 1) * stride], rows[-1], channels))
-    return width, height, [laid_over(row, behind) for row in rows[1:]] if has_alpha else rows[1:]
+    stream, pixels = zlib.decompressobj(), bytearray()
+    for kind, body in png_chunks(data):
+        if kind == b"IDAT" and len(pixels) < stride * height:  # the stream may hold more than the header says
+            pixels += stream.decompress(body, stride * height - len(pixels))
+    expect_bytes(width, height, stride, len(pixels) - 1, channels)
+    rows, above = [], bytes(channels * width)
+    for begin in range(0, stride * height, stride):
+        above = unfiltered(pixels[begin], bytes(pixels[begin + 1:begin + stride]), above, channels)
+        rows.append(laid_over(above, behind) if has_alpha else above)
+    return width, height, rows
 
 
-READERS = {b"BM": lambda data, _: read_bmp(data), b"P6": lambda data, _: read_ppm(data), b"\x89P": read_png}
+READERS = {b"BM": read_bmp, b"P6": read_ppm, b"\x89P": read_png}
 
 
 def is_picture(data):
     return data[:2] in READERS
 
 
-def picture_of(data, path, behind=None):
-    """The picture in the bytes of a file, whatever its name; what is transparent shows the color `behind`, three bytes, or is refused."""
+def picture_of(data, path, behind=None, size=None):
+    """The picture in the bytes of a file, whatever its name; what is transparent shows the color `behind`,
+    three bytes, or is refused. If the header has another `size`, a width and a height, nothing is
+    unpacked."""
     if not is_picture(data):
         raise PictureError(f"{name_of(path)}: expected a BMP, PPM or PNG")
     try:
-        return READERS[data[:2]](data, behind)
+        return READERS[data[:2]](data, size, behind)
     except (struct.error, zlib.error) as error:
         raise PictureError(f"{name_of(path)}: not a whole picture ({error})") from None
     except PictureError as error:
@@ -163,4 +191,5 @@ def png(width, height, rows):
     """The bytes of a PNG."""
     header = struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)
     pixels = zlib.compress(b"".join(b"\0" + row for row in rows), 9)
-    return b"\x89PNG\r\n\x1a\n" + png_chunk(b"IHDR", header) + png_chunk(b"IDAT", pixels) + png_chunk(b"IEND", b"")
+    return b"\x89PNG\r\n\x1a\n" + png_chunk(b"IHDR", header) + png_chunk(b"IDAT", pixels) + png_chunk(
+        b"IEND", b"")

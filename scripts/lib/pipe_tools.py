@@ -18,8 +18,8 @@ class ToolFailure(CommandFailure):
 
 
 def default_folder():
-    """Where an installed command, or one called through `pipeline`, has the tools beside it; else build/release/bin of this source
-    tree."""
+    """Where an installed command, or one called through `pipeline`, has the tools beside it; else
+    build/release/bin of this source tree."""
     called = pathlib.Path(sys.argv[0])
     for folder in (called.parent, called.resolve().parent):
         if os.access(folder / "zbuf", os.X_OK):
@@ -30,17 +30,22 @@ def default_folder():
 def without_inner_location(note, folder):
     """A note of a tool without the line of a text in `folder`, which the user never sees."""
     found = re.search(rf"{re.escape(str(folder))}/[^:]*:\d+:\d+: ", note)
-    return note[:found.start()] + re.sub(r"\bof this (vertex|light)\b", r"of a \1", note[found.end():]) if found else note
+    return note[:found.start()] + re.sub(r"\bof this (vertex|light)\b", r"of a \1",
+                                         note[found.end():]) if found else note
 
 
-TRANSPARENT = re.compile(rb"^(background (\S+) (\S+) (\S+)) \S+$", re.M)  # the header line of a background with an alpha
+TRANSPARENT = re.compile(rb"^(background (\S+) (\S+) (\S+)) \S+$",
+                         re.M)  # the header line of a background with an alpha
 OPAQUE_NOTE = "the scene's background is drawn opaque: a BMP has no alpha"
 
 
 def opaque_background(text):
-    """Words for zbuf that show the background of a tool's stage text in full, if it has an alpha, which only PNG holds."""
+    """Words for zbuf that show the background of a tool's stage text in full, if it has an alpha, which only
+    PNG holds."""
     found = TRANSPARENT.search(text[:1 << 16].split(b"\n\n")[0])
-    return ["--background", "".join(f"{math.floor(float(channel) + 0.5):02x}" for channel in found.groups()[1:])] if found else []
+    return [
+        "--background", "".join(
+            f"{math.floor(float(channel) + 0.5):02x}" for channel in found.groups()[1:])] if found else []
 
 
 def with_opaque_background(text):
@@ -51,7 +56,8 @@ def with_opaque_background(text):
 def checked(done, tool):
     """The finished run of a tool, or its message as a ToolFailure."""
     if done.returncode != 0:
-        raise ToolFailure(done.stderr.decode(errors="replace").strip() or f"{tool}: exit status {done.returncode}")
+        raise ToolFailure(
+            done.stderr.decode(errors="replace").strip() or f"{tool}: exit status {done.returncode}")
     return done
 
 
@@ -66,7 +72,8 @@ class Tools:
 
     def run(self, tool, *words, stdin=b""):
         """A finished run with the bytes `stdin` as input, its stdout and stderr as bytes."""
-        return checked(subprocess.run([self.folder / tool, *map(str, words)], input=stdin, capture_output=True), tool)
+        return checked(
+            subprocess.run([self.folder / tool, *map(str, words)], input=stdin, capture_output=True), tool)
 
     def output(self, tool, *words, stdin=b""):
         return self.run(tool, *words, stdin=stdin).stdout
@@ -74,7 +81,8 @@ class Tools:
     def write(self, path, tool, *words):
         """Runs a tool with its stdout in a file; its notes."""
         with open(path, "wb") as file:
-            done = subprocess.run([self.folder / tool, *map(str, words)], stdin=subprocess.DEVNULL, stdout=file, stderr=subprocess.PIPE)
+            done = subprocess.run([self.folder / tool, *map(str, words)], stdin=subprocess.DEVNULL,
+                                  stdout=file, stderr=subprocess.PIPE)
         return checked(done, tool).stderr.decode(errors="replace").splitlines()
 
     @staticmethod

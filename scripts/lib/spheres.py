@@ -11,8 +11,9 @@ REFUSED = "expected triangles alone, found a sphere: "
 
 
 def expect_no_spheres(tools, path, name=None, way=None):
-    """Raises a CommandFailure that names the place of a sphere in a scene, by `name` if the file is a copy, and tells a `way` to draw
-    it, if the command knows one that model's message lacks. Whatever else is wrong with the scene is left to others."""
+    """Raises a CommandFailure that names the place of a sphere in a scene, by `name` if the file is a copy,
+    and tells a `way` to draw it, if the command knows one that model's message lacks. Whatever else is wrong
+    with the scene is left to others."""
     if not has_the_word(path, b"sphere"):
         return
     try:
@@ -20,11 +21,13 @@ def expect_no_spheres(tools, path, name=None, way=None):
     except ToolFailure as failure:
         place, found, ways = str(failure).partition(REFUSED)
         if found:
-            raise CommandFailure(place.replace(f"{path}:", f"{name_of(name or path)}:", 1) + found + (way or ways)) from None
+            raise CommandFailure(
+                place.replace(f"{path}:", f"{name_of(name or path)}:", 1) + found + (way or ways)) from None
 
 
 def has_the_word(path, word):
-    """Whether the bytes stand somewhere in a regular file: a matter of milliseconds, where model takes its time."""
+    """Whether the bytes stand somewhere in a regular file: a matter of milliseconds, where model takes its
+    time."""
     try:
         with open(path, "rb", opener=lambda name, flags: os.open(name, flags | os.O_NONBLOCK)) as file:
             status = os.fstat(file.fileno())

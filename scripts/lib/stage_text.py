@@ -9,7 +9,10 @@ from lib.command import CommandFailure, shown
 from lib.input_file import name_of
 
 # Beginnings of lines of a scene, not of a stage text, in which the word triangle is followed by one number.
-SCENE_COMMAND = re.compile(r"^[ \t]*(?:(?:translate|scale|rotate|push|pop)\b|triangle[ \t\r]*(?:#|$)|triangle[ \t]+[^\s#]+[ \t]+[^\s#])", re.M)
+SCENE_COMMAND = re.compile(
+    r"^[ \t]*(?:(?:translate|scale|rotate|push|pop)\b|triangle[ \t\r]*(?:#|$)|triangle[ \t]+[^\s#]+[ "
+    r"\t]+[^\s#])",
+    re.M)
 KEYWORD = re.compile("[A-Za-z]")
 NUMBER = re.compile(r"[-+]?\.?[0-9]")
 DECIMAL_COMMA = re.compile("[0-9],[0-9]")
@@ -43,7 +46,8 @@ class StageText:
 
 
 def text_of(data, path):
-    """The bytes of a file as text. Bytes that are not UTF-8 do no harm in a comment, and are no number elsewhere."""
+    """The bytes of a file as text. Bytes that are not UTF-8 do no harm in a comment, and are no number
+    elsewhere."""
     if data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)) or is_utf16(data):
         raise StageTextError(f"{name_of(path)}: this is UTF-16: save it as UTF-8")
     if b"\0" in data:
@@ -54,7 +58,8 @@ def text_of(data, path):
 def is_utf16(data):
     """Whether every other byte is 0, as in UTF-16 text of ASCII characters without a byte order mark."""
     even, odd = data[:1000:2], data[1:1000:2]
-    return any(b"\0" not in letters and len(zeros) > 0 and not any(zeros) for letters, zeros in ((even, odd), (odd, even)))
+    return any(b"\0" not in letters and len(zeros) > 0 and not any(zeros)
+               for letters, zeros in ((even, odd), (odd, even)))
 
 
 def is_scene(text):
@@ -68,7 +73,8 @@ def begins_with_a_camera(text):
     if [len(words) for words in first[:3]] != [3, 3, 3] or len(first) < 4:
         return False
     last = first[3]
-    return last[0] in ("perspective", "ortho", "frustum") or len(last) > 3 and all(NUMBER.match(word) for word in last[:4])
+    return last[0] in ("perspective", "ortho",
+                       "frustum") or len(last) > 3 and all(NUMBER.match(word) for word in last[:4])
 
 
 def parse_stage_text(text, path, may_have_spheres=False):
@@ -110,7 +116,10 @@ def parsed(text, name, may_have_spheres):
                 next_name, of_sphere = next_name + 1, 4
                 spheres.append([])
             elif words[0] == "sphere":
-                raise StageTextError(f"{name}:{number}: expected triangles alone, found a sphere: trace draws it, and model --facets N makes triangles of it")
+                raise StageTextError(
+                    f"{name}:{number}: expected triangles alone, found a sphere: trace draws it, and model "
+                    f"--facets N makes triangles of it"
+                )
             else:
                 header[words[0]] = words[1:]
             continue
@@ -121,9 +130,13 @@ def parsed(text, name, may_have_spheres):
             numbers = tuple(real(word) for word in words)
         except ValueError:
             comma = ": write a decimal point, not a comma" if DECIMAL_COMMA.search(line) else ""
-            raise StageTextError(f"{name}:{number}: expected numbers, found '{shown(line.strip()[:40])}'{comma}") from None
+            raise StageTextError(
+                f"{name}:{number}: expected numbers, found '{shown(line.strip()[:40])}'{comma}") from None
         if len(numbers) < 3:
-            raise StageTextError(f"{name}:{number}: expected x, y and z, found {'1 number' if len(numbers) == 1 else f'{len(numbers)} numbers'}")
+            raise StageTextError(
+                f"{name}:{number}: expected x, y and z, found "
+                f"{'1 number' if len(numbers) == 1 else f'{len(numbers)} numbers'}"
+            )
         if of_sphere:
             of_sphere -= 1
             spheres[-1].append(Vertex(number, numbers))
@@ -135,13 +148,14 @@ def parsed(text, name, may_have_spheres):
     if len(vertices) % 3:
         raise StageTextError(f"{name}: expected three vertices a triangle, found {len(vertices)} in all")
     if of_sphere:
-        raise StageTextError(f"{name}: expected four vertices a sphere, found {4 - of_sphere} of the last one")
+        raise StageTextError(
+            f"{name}: expected four vertices a sphere, found {4 - of_sphere} of the last one")
     return StageText(header, [vertices[i:i + 3] for i in range(0, len(vertices), 3)], names, spheres)
 
 
 def triangle_lines(lines):
-    """(number, its three vertex lines) of each triangle, or piece of one, as they come; `lines` are the bytes of a text that a
-    tool has written, however long."""
+    """(number, its three vertex lines) of each triangle, or piece of one, as they come; `lines` are the bytes
+    of a text that a tool has written, however long."""
     number, corners, passed_over = 0, [], 0
     for line in lines:
         if line[:1] in b"-0123456789":

@@ -1,18 +1,24 @@
 """Drawing for plots: SVG in the reader's theme."""
 import html
 
-LIGHT = {"card": "#ffffff", "edge": "#d0d7de", "grid": "#e4e8ec", "axis": "#8c959f", "guide": "#afb8c1",
-         "band": "#f8ecdc", "ink": "#1f2328", "soft": "#59636e", "series": ("#bf2045", "#b86e00", "#0a7d78", "#5b53c4")}
-DARK = {"card": "#0d1117", "edge": "#3d444d", "grid": "#262c34", "axis": "#656c76", "guide": "#4d5560",
-        "band": "#2b2214", "ink": "#e6edf3", "soft": "#9198a1", "series": ("#ff7088", "#eda63a", "#45c4bc", "#a79bff")}
+LIGHT = {
+    "card": "#ffffff", "edge": "#d0d7de", "grid": "#e4e8ec", "axis": "#8c959f", "guide": "#afb8c1",
+    "band": "#f8ecdc", "ink": "#1f2328", "soft": "#59636e", "series":
+        ("#bf2045", "#b86e00", "#0a7d78", "#5b53c4")}
+DARK = {
+    "card": "#0d1117", "edge": "#3d444d", "grid": "#262c34", "axis": "#656c76", "guide": "#4d5560",
+    "band": "#2b2214", "ink": "#e6edf3", "soft": "#9198a1", "series":
+        ("#ff7088", "#eda63a", "#45c4bc", "#a79bff")}
 
 
 def colors(theme):
-    rules = """.card { fill: %(card)s; stroke: %(edge)s } .grid { stroke: %(grid)s } .axis { stroke: %(axis)s }
+    rules = """.card { fill: %(card)s; stroke: %(edge)s }
+.grid { stroke: %(grid)s } .axis { stroke: %(axis)s }
 .guide { stroke: %(guide)s } .band { fill: %(band)s } text { fill: %(ink)s } .soft { fill: %(soft)s }
 """ % theme
     for i, color in enumerate(theme["series"]):
-        rules += f".s{i} text, .s{i} .dot {{ fill: {color} }} .s{i} .front, .s{i} circle {{ stroke: {color} }}\n"
+        rules += (f".s{i} text, .s{i} .dot {{ fill: {color} }} .s{i} .front, .s{i} circle {{ stroke: "
+                  f"{color} }}\n")
     return rules
 
 
@@ -31,7 +37,8 @@ def text(x, y, words, attributes=""):
 
 
 def line(kind, *points):
-    return f'<polyline class="{kind}" fill="none" points="' + " ".join(f"{x:.1f},{y:.1f}" for x, y in points) + '"/>'
+    return f'<polyline class="{kind}" fill="none" points="' + " ".join(f"{x:.1f},{y:.1f}"
+                                                                       for x, y in points) + '"/>'
 
 
 def spread_out(wanted, gap):
@@ -39,7 +46,8 @@ def spread_out(wanted, gap):
     groups = []  # [sum of the positions that each would have as the group's first, count]
     for place in wanted:
         groups.append([place, 1])
-        while len(groups) > 1 and groups[-2][0] / groups[-2][1] + groups[-2][1] * gap > groups[-1][0] / groups[-1][1]:
+        while len(groups) > 1 and groups[-2][0] / groups[-2][1] + groups[-2][1] * gap > groups[-1][
+                0] / groups[-1][1]:
             total, count = groups.pop()
             groups[-1][0] += total - count * groups[-1][1] * gap
             groups[-1][1] += count
@@ -47,7 +55,8 @@ def spread_out(wanted, gap):
 
 
 def end_labels(points_of, gap=15):
-    """Where the labels of lines stand that end at these points, {name: (x, y)}: beside the ends, and apart from one another."""
+    """Where the labels of lines stand that end at these points, {name: (x, y)}: beside the ends, and apart
+    from one another."""
     names = sorted(points_of, key=lambda name: points_of[name][1])
     heights = spread_out([points_of[name][1] for name in names], gap)
     return {name: (points_of[name][0] + 9, y + 4) for name, y in zip(names, heights)}

@@ -4,7 +4,9 @@ VALUES = {"--sampling": ("basic|regular|jittered|adaptive", "where the rays of a
           "--threshold": ("N", "with --sampling adaptive, how much samples may differ"),
           "--min-contribution": ("E", "the least part of a pixel's color that a ray is cast for"),
           "--max-depth": ("N", "how often a ray may be mirrored or refracted")}
-FLAGS = {"--no-shadows": "light all that faces a lamp", "--no-recursion": "draw what mirrors or is clear opaque and matt"}
+FLAGS = {
+    "--no-shadows": "light all that faces a lamp",
+    "--no-recursion": "draw what mirrors or is clear opaque and matt"}
 
 
 def attribute(option):
@@ -13,7 +15,8 @@ def attribute(option):
 
 def add_trace_options(parser):
     group = parser.add_argument_group("ray tracing, as for trace")
-    group.add_argument("--trace", action="store_true", help="draw with trace, in place of project and zbuf: shadows, mirrors, glass, spheres")
+    group.add_argument("--trace", action="store_true",
+                       help="draw with trace, in place of project and zbuf: shadows, mirrors, glass, spheres")
     for option, (value, told) in VALUES.items():
         group.add_argument(option, metavar=value, help=told)
     for option, told in FLAGS.items():
@@ -21,9 +24,11 @@ def add_trace_options(parser):
 
 
 def trace_words(parser, options, meaningless=()):
-    """The words for trace. Ends the program if there are some without --trace, or with it one of the options in `meaningless`,
-    pairs of a given option (or None) and why it means nothing to trace."""
-    words = [word for option in VALUES for word in (option, getattr(options, attribute(option))) if getattr(options, attribute(option)) is not None]
+    """The words for trace. Ends the program if there are some without --trace, or with it one of the options
+    in `meaningless`, pairs of a given option (or None) and why it means nothing to trace."""
+    words = [
+        word for option in VALUES for word in (option, getattr(options, attribute(option)))
+        if getattr(options, attribute(option)) is not None]
     words += [option for option in FLAGS if getattr(options, attribute(option))]
     if words and not options.trace:
         parser.error(f"{words[0]} is for trace: it needs --trace")

@@ -1,4 +1,5 @@
-"""Shapes with smooth normals, made by formulas. Coordinates have six decimals, so that the last bits of sin and cos do not show."""
+"""Shapes with smooth normals, made by formulas. Coordinates have six decimals, so that the last bits of sin
+and cos do not show."""
 import math
 from dataclasses import dataclass, field
 
@@ -8,7 +9,8 @@ from model_parts.profiles import BISHOP, curve, joined
 
 @dataclass
 class Mesh:
-    """Vertices with a unit normal each, perhaps a color (0 to 255), and triangles of three indices, counter-clockwise seen from outside."""
+    """Vertices with a unit normal each, perhaps a color (0 to 255), and triangles of three indices,
+    counter-clockwise seen from outside."""
     vertices: list
     normals: list
     triangles: list
@@ -33,7 +35,8 @@ def grid(rows, columns, wraps_rows, wraps_columns, vertex):
 
 
 def knot(detail):
-    """A trefoil knot: a tube around the curve that winds three times one way and twice the other way about a torus."""
+    """A trefoil knot: a tube around the curve that winds three times one way and twice the other way about a
+    torus."""
     around, tube, radius = 16 * detail, 3 * detail, 0.45
 
     def curve(t):
@@ -76,7 +79,8 @@ def vase(detail):
 
 def terrain(detail):
     """Hills: a sum of waves over a square, y up."""
-    waves = [(0.5, 0.9, 0.6, 0.3), (0.28, -1.3, 1.5, 1.1), (0.12, 2.7, 2.2, 2.0), (0.05, -5.1, 4.3, 0.5), (0.012, 8.3, -6.1, 4.0), (0.006, 5.3, 14.1, 1.0)]
+    waves = [(0.5, 0.9, 0.6, 0.3), (0.28, -1.3, 1.5, 1.1), (0.12, 2.7, 2.2, 2.0), (0.05, -5.1, 4.3, 0.5),
+             (0.012, 8.3, -6.1, 4.0), (0.006, 5.3, 14.1, 1.0)]
     cells, size = 7 * detail, 8.0
 
     def vertex(i, k):
@@ -99,7 +103,8 @@ def bishop(detail):
         def vertex(i, k):
             turn = math.tau * k / around
             radius, height, outward, up = line[i]
-            return (radius * math.cos(turn), height, radius * math.sin(turn)), (outward * math.cos(turn), up, outward * math.sin(turn))
+            return (radius * math.cos(turn), height, radius * math.sin(turn)), (outward * math.cos(turn), up,
+                                                                                outward * math.sin(turn))
 
         part = grid(len(line) - 1, around, False, True, vertex)
         # Counter-clockwise from outside: z is to the left of x here.
@@ -108,11 +113,17 @@ def bishop(detail):
 
 
 def add(mesh, part, color=None, size=1, place=(0, 0, 0)):
-    """Adds a part, scaled and then moved. Triangles with two corners at one point, as at a pole, are left out."""
+    """Adds a part, scaled and then moved. Triangles with two corners at one point, as at a pole, are left
+    out."""
     first = len(mesh.vertices)
     mesh.vertices += [rounded(tuple(size * x + move for x, move in zip(p, place))) for p in part.vertices]
     mesh.normals += part.normals
-    mesh.triangles += [tuple(first + i for i in triangle) for triangle in part.triangles if len({part.vertices[i] for i in triangle}) == 3]
+    mesh.triangles += [
+        tuple(first + i
+              for i in triangle)
+        for triangle in part.triangles
+        if len({part.vertices[i]
+                for i in triangle}) == 3]
     if color:
         mesh.colors += [color] * len(part.vertices)
 
@@ -147,20 +158,27 @@ def ball(detail):
     return grid(rows, columns, False, True, vertex)
 
 
-LIGHT_TILE, DARK_TILE, WALL, SIDE_WALL, WOOD, STONE = (214, 200, 176), (120, 96, 84), (214, 222, 222), (226, 204, 176), (134, 88, 52), (180, 178, 172)
+LIGHT_TILE, DARK_TILE, WALL, SIDE_WALL, WOOD, STONE = (214, 200, 176), (120, 96,
+                                                                        84), (214, 222,
+                                                                              222), (226, 204,
+                                                                                     176), (134, 88,
+                                                                                            52), (180, 178,
+                                                                                                  172)
 CLAY, BRASS, IVORY, RED = (62, 112, 140), (214, 164, 62), (236, 222, 190), (176, 44, 40)
 
 
 def room(detail):
-    """A corner of a room, with a vase on a table, a chess piece, a knot on a pedestal and a ball, in colors."""
+    """A corner of a room, with a vase on a table, a chess piece, a knot on a pedestal and a ball, in
+    colors."""
     mesh = Mesh([], [], [])
     for i in range(6):
         for k in range(6):
             add(mesh, box((i - 3, -0.1, k - 3), (i - 2, 0, k - 2)), LIGHT_TILE if (i + k) % 2 else DARK_TILE)
     add(mesh, box((-3.1, -0.1, -3.1), (3, 3.4, -3)), WALL)
     add(mesh, box((-3.1, -0.1, -3), (-3, 3.4, 3)), SIDE_WALL)
-    for low, high in (((-2.3, 1.05, -2.3), (0.5, 1.15, -0.7)), ((-2.2, 0, -2.2), (-2.08, 1.05, -2.08)), ((0.28, 0, -2.2), (0.4, 1.05, -2.08)),
-                      ((-2.2, 0, -0.92), (-2.08, 1.05, -0.8)), ((0.28, 0, -0.92), (0.4, 1.05, -0.8))):
+    for low, high in (((-2.3, 1.05, -2.3), (0.5, 1.15, -0.7)), ((-2.2, 0, -2.2), (-2.08, 1.05, -2.08)),
+                      ((0.28, 0, -2.2), (0.4, 1.05, -2.08)), ((-2.2, 0, -0.92), (-2.08, 1.05, -0.8)),
+                      ((0.28, 0, -0.92), (0.4, 1.05, -0.8))):
         add(mesh, box(low, high), WOOD)
     add(mesh, vase(detail), CLAY, 0.5, (-1.5, 1.15, -1.6))
     add(mesh, bishop(detail), IVORY, 0.7, (-0.2, 1.15, -1.3))

@@ -31,9 +31,11 @@ class Limits:
     ratio: float = None
 
     def over(self, row):
-        """How many times too much a row takes or loses; at most 1 meets the limits. A pixel more keeps this finite for a limit of 0."""
+        """How many times too much a row takes or loses; at most 1 meets the limits. A pixel more keeps this
+        finite for a limit of 0."""
         pixel = 100 / row.covered
-        over_wrong = 0 if self.percent_wrong is None else (row.percent_wrong + pixel) / (self.percent_wrong + pixel)
+        over_wrong = 0 if self.percent_wrong is None else (row.percent_wrong + pixel) / (self.percent_wrong +
+                                                                                         pixel)
         return max(over_wrong, 0 if self.ratio is None else row.ratio.median / self.ratio)
 
     def are_met_by(self, row):
@@ -43,15 +45,18 @@ class Limits:
 def least_wrong(rows, limits):
     """The limits with the fewest wrong pixels to be had, if none were asked for."""
     within = [row.percent_wrong for row in rows if limits.are_met_by(row)]
-    return dataclasses.replace(limits, percent_wrong=min(within)) if within and limits.percent_wrong is None else limits
+    return dataclasses.replace(
+        limits, percent_wrong=min(within)) if within and limits.percent_wrong is None else limits
 
 
 def cheapest(rows, are_times_too_short):
-    """The row with the least CPU time, and those that take as long by the quartiles, within 3 %: of these it has the fewest bytes; then
-    it is the most exact, and the nearest to the default."""
+    """The row with the least CPU time, and those that take as long by the quartiles, within 3 %: of these it
+    has the fewest bytes; then it is the most exact, and the nearest to the default."""
     least = min(rows, key=lambda row: row.ratio.median)
     alike = [row for row in rows if are_times_too_short or row.ratio.first <= ALIKE * least.ratio.third]
-    return min(alike, key=lambda row: (row.size, row.wrong, row.vertex_error, row.setting != DEFAULT, len(str(row.setting)))), alike
+    return min(
+        alike, key=lambda row:
+        (row.size, row.wrong, row.vertex_error, row.setting != DEFAULT, len(str(row.setting)))), alike
 
 
 def nearest(rows, limits):

@@ -29,23 +29,30 @@ class Screen:
     """Where the window of a config shows what is in NDC, in doubles."""
 
     def __init__(self, window):
-        self.limits = [(float(low), float(high)) for low, high in ((window.left, -window.left), (window.bottom, -window.bottom), (window.front, window.rear))]
+        self.limits = [(float(low), float(high))
+                       for low, high in ((window.left, -window.left), (window.bottom, -window.bottom),
+                                         (window.front, window.rear))]
         self.size = window.width, window.height
 
     def clamped(self, p):
         return [clamped(x, *limits) for x, limits in zip(p, self.limits)]
 
     def pixels_between(self, true, p):
-        """How far two positions of a vertex are apart, in pixels; where both are outside the window, as much as reaches it."""
+        """How far two positions of a vertex are apart, in pixels; where both are outside the window, as much
+        as reaches it."""
         reach = max(1, *(abs(x) / high for x, (_, high) in zip(true, self.limits[:2])))
-        dx, dy = ((x - t) / (2 * high) * count / reach for t, x, (_, high), count in zip(true, p, self.limits, self.size))
+        dx, dy = ((x - t) / (2 * high) * count / reach
+                  for t, x, (_, high), count in zip(true, p, self.limits, self.size))
         return math.hypot(dx, dy)
 
 
 def vertex_pairs(true_path, path):
-    """(line of the lossless text, line) of each vertex; not of triangles that were cut into other numbers of pieces."""
+    """(line of the lossless text, line) of each vertex; not of triangles that were cut into other numbers of
+    pieces."""
     with open(true_path, "rb") as true_file, open(path, "rb") as file:
-        groups = [itertools.groupby(triangle_lines(lines), key=lambda triangle: triangle[0]) for lines in (true_file, file)]
+        groups = [
+            itertools.groupby(triangle_lines(lines), key=lambda triangle: triangle[0])
+            for lines in (true_file, file)]
         heads = [next(group, None) for group in groups]
         while all(heads):
             behind = [i for i in (0, 1) if heads[i][0] <= heads[1 - i][0]]
@@ -71,8 +78,8 @@ class Vertices:
         self.extents = [b - a for a, b in zip(low, high)]  # of what is in the window, along each axis
 
     def compared(self, path):
-        """The largest error of a vertex in pixels, and how many of a double's digits are lost, relative to the scene's extent along
-        the axis that loses most."""
+        """The largest error of a vertex in pixels, and how many of a double's digits are lost, relative to
+        the scene's extent along the axis that loses most."""
         largest, errors = 0.0, [0.0] * 3
         pixels = [count / (2 * high) for count, (_, high) in zip(self.screen.size, self.screen.limits)]
         for true_line, line in vertex_pairs(self.path, path):
@@ -81,10 +88,14 @@ class Vertices:
             true, p = numbers_of(true_line), numbers_of(line)
             dx, dy, dz = abs(p[0] - true[0]), abs(p[1] - true[1]), abs(p[2] - true[2])
             # Of millions of vertices few exceed those before them; the window only makes errors smaller.
-            if dx > errors[0] or dy > errors[1] or dz > errors[2] or (dx * pixels[0]) ** 2 + (dy * pixels[1]) ** 2 > largest**2:
+            if dx > errors[0] or dy > errors[1] or dz > errors[2] or (dx * pixels[0])**2 + (
+                    dy * pixels[1])**2 > largest**2:
                 largest = max(largest, self.screen.pixels_between(true, p))
-                errors = [max(error, abs(b - a)) for error, a, b in zip(errors, self.screen.clamped(true), self.screen.clamped(p))]
-        left = min((digits_left(error, extent) for error, extent in zip(errors, self.extents) if extent > 0), default=DIGITS_OF_A_DOUBLE)
+                errors = [
+                    max(error, abs(b - a))
+                    for error, a, b in zip(errors, self.screen.clamped(true), self.screen.clamped(p))]
+        left = min((digits_left(error, extent) for error, extent in zip(errors, self.extents) if extent > 0),
+                   default=DIGITS_OF_A_DOUBLE)
         return largest, DIGITS_OF_A_DOUBLE - left
 
 
@@ -109,7 +120,9 @@ def pixel_differences(pictures, true_pictures, true_path):
     """{setting: Pixels} for {setting: picture}; `true_pictures` has the lossless one of each setting."""
     pairs = {setting: collections.Counter((a, b) for a, b in zip(picture, true_pictures[setting]) if a != b)
              for setting, picture in pictures.items()}
-    corners = corners_of(true_path, {mark for counts in pairs.values() for pair in counts for mark in pair} - {NOBODY})
+    corners = corners_of(true_path, {mark
+                                     for counts in pairs.values() for pair in counts
+                                     for mark in pair} - {NOBODY})
 
     def are_neighbors(a, b):
         return NOBODY not in (a, b) and not corners[a].isdisjoint(corners[b])

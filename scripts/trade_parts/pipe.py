@@ -23,7 +23,9 @@ class Setting:
     def words(self, *names):
         """The words of the options with these names."""
         defaults = {field.name: field.default for field in dataclasses.fields(self)}
-        return [word for name in names if getattr(self, name) != defaults[name] for word in (f"--{name}", getattr(self, name))]
+        return [
+            word for name in names if getattr(self, name) != defaults[name]
+            for word in (f"--{name}", getattr(self, name))]
 
     def __str__(self):
         return " ".join(self.words("digits", "precision", "coverage", "depth")) or "default"
@@ -47,7 +49,8 @@ DEFAULT = Setting()
 
 
 def settings(coverages):
-    """Those worth comparing, for each coverage rule. What a 32-bit or 24-bit depth loses does not depend on the digits."""
+    """Those worth comparing, for each coverage rule. What a 32-bit or 24-bit depth loses does not depend on
+    the digits."""
     for coverage in coverages:
         for digits in ("5", "7", "9", "12", "exact"):
             yield Setting(digits, coverage=coverage)
@@ -61,9 +64,11 @@ class Pipe:
     """A scene and a config on their way through the tools; `folder` holds the files in between."""
 
     def __init__(self, tools, scene, config, of_project, folder):
-        self.tools, self.scene, self.config, self.of_project, self.folder = tools, scene, config, of_project, pathlib.Path(folder)
+        self.tools, self.scene, self.config, self.of_project = tools, scene, config, of_project
+        self.folder = pathlib.Path(folder)
         self.texts = {}  # by Setting.of_texts: (the path of project's text, bytes in the pipes, notes)
-        self.opaque = []  # what zbuf needs to write a BMP in spite of a background with an alpha; of the first text()
+        self.opaque = [
+        ]  # what zbuf needs to write a BMP in spite of a background with an alpha; of the first text()
 
     def words(self, tool, setting):
         """The options of a tool."""
@@ -93,7 +98,8 @@ class Pipe:
         marked = self.marked(setting)
         if not marked.exists():
             write_marked(self.text(setting)[0], marked)
-        return owners(self.tools, marked, self.config, setting.words("coverage", "depth"), self.folder / "marks.ppm")
+        return owners(self.tools, marked, self.config, setting.words("coverage", "depth"),
+                      self.folder / "marks.ppm")
 
     def marked(self, setting):
         return self.folder / f"marked {setting.of_texts}.txt"
@@ -106,18 +112,22 @@ class Pipe:
     def empty_scene(self):
         """The path of the scene without its triangles. What its run takes, every run takes."""
         path = self.folder / "empty.txt"
-        words = (line.split() for line in self.tools.output("model", "--digits", "exact", self.scene).decode(errors="replace").split("\n", 4)[:4])
-        path.write_text("".join(" ".join(line[line[0] in ("eye", "look", "up", "perspective"):]) + "\n" for line in words) + "end\n")
+        words = (line.split() for line in self.tools.output("model", "--digits", "exact", self.scene).decode(
+            errors="replace").split("\n", 4)[:4])
+        path.write_text("".join(" ".join(line[line[0] in ("eye", "look", "up", "perspective"):]) + "\n"
+                                for line in words) + "end\n")
         return path
 
     def cpu_seconds(self, setting, scene=None):
-        """The CPU time, user and system, of a run of the whole pipe, with the image and the depths as zbuf writes them."""
+        """The CPU time, user and system, of a run of the whole pipe, with the image and the depths as zbuf
+        writes them."""
         processes, source = [], None
         files = {"model": [scene or self.scene], "zbuf": ["--image", self.folder / "out.bmp", self.config]}
         for tool in TOOLS:
             words = [self.tools.folder / tool, *self.words(tool, setting), *files.get(tool, [])]
-            processes.append(subprocess.Popen(words, stdin=source or subprocess.DEVNULL, stderr=subprocess.DEVNULL,
-                                              stdout=subprocess.DEVNULL if tool == "zbuf" else subprocess.PIPE))
+            processes.append(
+                subprocess.Popen(words, stdin=source or subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+                                 stdout=subprocess.DEVNULL if tool == "zbuf" else subprocess.PIPE))
             if source:
                 source.close()
             source = processes[-1].stdout
@@ -125,7 +135,8 @@ class Pipe:
         for tool, process in zip(TOOLS, processes):
             usage = finished(process)
             if process.returncode:
-                raise CommandFailure(f"{tool} failed while it was timed, with {setting}: exit status {process.returncode}")
+                raise CommandFailure(
+                    f"{tool} failed while it was timed, with {setting}: exit status {process.returncode}")
             seconds += cpu_seconds(usage)
         return seconds
 

@@ -6,9 +6,11 @@ from lib.svg import STYLE, line, text
 from trade_parts.report import asked
 
 TOP, ROW, BOTTOM = 96, 22, 60
-CPU_LEFT, CPU_WIDTH, WRONG_LEFT, WRONG_WIDTH, VERTEX_LEFT, VERTEX_WIDTH, WIDTH = 350, 250, 650, 170, 870, 240, 1140
+CPU_LEFT, CPU_WIDTH, WRONG_LEFT, WRONG_WIDTH, VERTEX_LEFT, VERTEX_WIDTH, WIDTH = (350, 250, 650, 170, 870,
+                                                                                  240, 1140)
 ZERO_WIDTH = 30  # between 0 and the smallest power of ten
-STYLE_OF_BARS = ".bar { fill: #7d76d4 } .start { fill: #a9b1ba } .chosen { font-weight: 700 } .limit { stroke: #bf2045; stroke-dasharray: 4 3 }"
+STYLE_OF_BARS = (".bar { fill: #7d76d4 } .start { fill: #a9b1ba } .chosen { font-weight: 700 } .limit { "
+                 "stroke: #bf2045; stroke-dasharray: 4 3 }")
 
 
 @dataclasses.dataclass(frozen=True)
@@ -40,12 +42,14 @@ class PowerAxis:
         if value == 0:
             return self.left
         power = min(max(math.log10(value), self.low), self.high)
-        return self.left + ZERO_WIDTH + (self.width - ZERO_WIDTH) * (power - self.low) / (self.high - self.low)
+        return self.left + ZERO_WIDTH + (self.width - ZERO_WIDTH) * (power - self.low) / (self.high -
+                                                                                          self.low)
 
     def ticks(self):
         step = math.ceil(45 * (self.high - self.low) / (self.width - ZERO_WIDTH))
         powers = range(self.high, self.low - 1, -step)
-        return [(0, "0"), *((10.0**power, f"{10.0**power:g}" if -3 < power < 4 else f"1e{power}") for power in powers)]
+        return [(0, "0"),
+                *((10.0**power, f"{10.0**power:g}" if -3 < power < 4 else f"1e{power}") for power in powers)]
 
 
 def power_axis(left, width, values):
@@ -66,16 +70,21 @@ def panel(axis, title, unit, limit, bottom):
 
 
 def bar(axis, y, begin, end, kind):
-    return f'<rect class="{kind}" x="{axis.x(begin):.1f}" y="{y - 6:.1f}" width="{max(0, axis.x(end) - axis.x(begin)):.1f}" height="12"/>'
+    return (f'<rect class="{kind}" x="{axis.x(begin):.1f}" y="{y - 6:.1f}" '
+            f'width="{max(0, axis.x(end) - axis.x(begin)):.1f}" height="12"/>')
 
 
 def row_of(row, y, axes, start_up, is_chosen):
     cpu, wrong, vertex = axes
-    yield text(CPU_LEFT - 12, y + 4, str(row.setting), f'text-anchor="end"{" class=" + chr(34) + "chosen" + chr(34) if is_chosen else ""}')
+    yield text(CPU_LEFT - 12, y + 4, str(row.setting),
+               f'text-anchor="end"{" class=" + chr(34) + "chosen" + chr(34) if is_chosen else ""}')
     yield bar(cpu, y, 0, start_up, "start") + bar(cpu, y, start_up, row.seconds.median, "bar")
     yield line("axis", (cpu.x(row.seconds.first), y), (cpu.x(row.seconds.third), y))
     for axis, value in (wrong, row.percent_wrong), (vertex, row.vertex_error):
-        yield f'<g class="s s{0 if value else 2}"><circle class="dot" cx="{axis.x(value):.1f}" cy="{y:.1f}" r="4"/></g>'
+        yield (
+            f'<g class="s s{0 if value else 2}"><circle class="dot" cx="{axis.x(value):.1f}" cy="{y:.1f}" '
+            f'r="4"/></g>'
+        )
 
 
 def plot(rows, chosen, limits, times):
@@ -87,14 +96,21 @@ def plot(rows, chosen, limits, times):
     most = None if limits.ratio is None or limits.ratio * default > cpu.high else limits.ratio * default
     height = bottom + BOTTOM
     verdict = "the cheapest with" if limits.are_met_by(chosen) else "the nearest to"
-    parts = [f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {height}" width="{WIDTH}" height="{height}">',
-             "<title>What each setting takes and what it loses</title>", f"<style>{STYLE}{STYLE_OF_BARS}</style>",
-             f'<rect class="card" x=".5" y=".5" width="{WIDTH - 1}" height="{height - 1}" rx="8"/>',
-             text(20, 30, f"{chosen.setting}: {verdict} {asked(limits)}", 'class="title"'),
-             *panel(cpu, "CPU time", "seconds; grey: four processes start", most, bottom),
-             *panel(wrong, "wrong pixels", "% of those covered", limits.percent_wrong, bottom),
-             *panel(vertex, "vertex error", "pixels", None, bottom)]
+    parts = [
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {height}" width="{WIDTH}" '
+        f'height="{height}">',
+        "<title>What each setting takes and what it loses</title>", f"<style>{STYLE}{STYLE_OF_BARS}</style>",
+        f'<rect class="card" x=".5" y=".5" width="{WIDTH - 1}" height="{height - 1}" rx="8"/>',
+        text(20, 30, f"{chosen.setting}: {verdict} {asked(limits)}",
+             'class="title"'), *panel(cpu, "CPU time", "seconds; grey: four processes start", most, bottom),
+        *panel(wrong, "wrong pixels", "% of those covered", limits.percent_wrong, bottom),
+        *panel(vertex, "vertex error", "pixels", None, bottom)]
     for i, row in enumerate(rows):
         parts += row_of(row, TOP + ROW * (i + 0.5), (cpu, wrong, vertex), times.start_up, row is chosen)
-    parts.append(text(20, height - 16, f"Medians of {times.rounds} round{'s' * (times.rounds != 1)}, with a line between the quartiles. Dashed: what was asked for.", 'class="soft"'))
+    parts.append(
+        text(
+            20, height - 16,
+            f"Medians of {times.rounds} round{'s' * (times.rounds != 1)}, with a line between the quartiles. "
+            f"Dashed: what was asked for.",
+            'class="soft"'))
     return "\n".join(parts) + "\n</svg>\n"

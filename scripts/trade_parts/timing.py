@@ -20,13 +20,16 @@ class Times:
         self.seconds = {setting: quartiles(values) for setting, values in runs.items() if setting != EMPTY}
         self.seconds_of_default = self.seconds[DEFAULT].median
         # Round by round, since other load on the machine slows all runs of a round.
-        self.ratios = {setting: quartiles([a / b for a, b in zip(runs[setting], runs[DEFAULT])]) for setting in self.seconds}
+        self.ratios = {
+            setting: quartiles([a / b for a, b in zip(runs[setting], runs[DEFAULT])])
+            for setting in self.seconds}
         noise = max(quartiles(runs[EMPTY]).spread, self.seconds[DEFAULT].spread, self.start_up / 4)
         self.are_too_short = self.seconds_of_default - self.start_up <= noise
 
 
 def measured(pipe, settings, rounds, progress):
-    """The Times of all settings. A round runs each once, in a new order, so that other load on the machine affects all alike."""
+    """The Times of all settings. A round runs each once, in a new order, so that other load on the machine
+    affects all alike."""
     dice, empty = random.Random(1), pipe.empty_scene()
     turns = [(DEFAULT, empty), *((setting, None) for setting in dict.fromkeys([DEFAULT, *settings]))]
     runs = {EMPTY if scene else setting: [] for setting, scene in turns}

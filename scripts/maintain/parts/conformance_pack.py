@@ -1,4 +1,5 @@
-"""A case of the conformance pack, and its files: what the specification's program answers, and which mistakes the case catches."""
+"""A case of the conformance pack, and its files: what the specification's program answers, and which mistakes
+the case catches."""
 import dataclasses
 import pathlib
 import sys
@@ -7,24 +8,29 @@ import tempfile
 SOURCE = pathlib.Path(__file__).resolve().parents[3]
 sys.path[:0] = [str(SOURCE / "tests/reference"), str(SOURCE / "tests/conformance")]
 import reference  # noqa: E402
-from conform_parts.cases import RULES, STAGES, read_fields, read_mistakes, without_header  # noqa: E402
+from conform_parts.cases import CONFIG, RULES, STAGES, read_mistakes, without_header  # noqa: E402
 from conform_parts.judge import same_digits, same_picture  # noqa: E402
 from parts import mistaken_stages  # noqa: E402
 
 MISTAKES = {stage: [None, *read_mistakes(stage)] for stage in STAGES}  # and habits
-# Cases that also hold what comes out with each mistake that they catch: a text, or a picture where that alone is wrong. A flat depth
-# is most often a corner's, or the mean of them; FLAT has a triangle where these are one.
+# Cases that also hold what comes out with each mistake that they catch: a text, or a picture where that alone
+# is wrong. A flat depth is most often a corner's, or the mean of them; FLAT has a triangle where these are
+# one.
 FLAT = "depth-slopes-both-ways"
-WITNESSES = {"model": ("arm-of-three-joints", "axis-1-2-3", "order-scale-rotate-translate", "stack-pops-in-a-row", "stack-pushes-in-a-row-twice",
-    "stack-siblings-of-siblings"),
-             "view": ("octant-ppm-past-the-origin", "rolled-by-30-tilted", "up-leans-all"), "project": ("fov-45-aspect-1-25", "fov-60-aspect-0-5"),
-             "zbuf": ("crossing-one-way", "limits-across-both-with-another-behind", "three-middle-far-near", "window-half", FLAT)}
+WITNESSES = {
+    "model": ("arm-of-three-joints", "axis-1-2-3", "order-scale-rotate-translate", "stack-pops-in-a-row",
+              "stack-pushes-in-a-row-twice", "stack-siblings-of-siblings"),
+    "view": ("octant-ppm-past-the-origin", "rolled-by-30-tilted", "up-leans-all"),
+    "project": ("fov-45-aspect-1-25", "fov-60-aspect-0-5"), "zbuf":
+        ("crossing-one-way", "limits-across-both-with-another-behind", "three-middle-far-near", "window-half",
+         FLAT)}
 ARITHMETIC_ERRORS = (ArithmeticError, ValueError)  # of a mistaken stage, which has no answer then
 
 
 @dataclasses.dataclass
 class Case:
-    """What a person says of a case; the rest is calculated. `open_nearest` is of coverage by that rule alone."""
+    """What a person says of a case; the rest is calculated. `open_nearest` is of coverage by that rule
+    alone."""
     stage: str
     name: str
     why: str
@@ -43,13 +49,11 @@ class Case:
         """True if a program of the assignment should have the answer."""
         return not (self.needs or self.options or self.refused or self.open)
 
-    def files(self):
-        """The case's files, by name."""
+    def answered(self):
+        """The fields of the case, and its files by name, as far as a page holds them."""
         files = {"input.txt": self.text.encode("latin-1")}
-        if self.stage == "zbuf":
+        if self.stage == "zbuf" and self.config.encode() != CONFIG:
             files["config.txt"] = self.config.encode()
-        if self.options:
-            files["options.txt"] = (self.options + "\n").encode()
         if self.refused:
             self.expect_refusal()
         else:
@@ -59,18 +63,16 @@ class Case:
             text, *picture = self.mistaken(mistake)
             if mistake != "zbuf/flat-depth" or self.name == FLAT:
                 is_picture = mistake == "zbuf/one-color"
-                files[f"with-{mistake.partition('/')[2]}.{'bmp' if is_picture else 'txt'}"] = picture[0] if is_picture else text
-        files["case.txt"] = self.fields(caught).encode()
-        return files
+                name = f"with-{mistake.partition('/')[2]}.{'bmp' if is_picture else 'txt'}"
+                files[name] = picture[0] if is_picture else text
+        return self.fields(caught), files
 
     def fields(self, caught):
-        needs = " ".join(sorted({*self.needs.split(), *(["options"] if self.options else []), *(["refusals"] if self.refused else [])}))
-        fields = {
-            "why": self.why, "paragraphs": self.paragraphs, "catches": " ".join(caught), "tier": self.tier,
-            "needs": needs, "open": self.open, "open-nearest": self.open_nearest, "refused": str(self.refused or "")}
-        text = "".join(f"{key}: {value}\n" for key, value in fields.items() if value)
-        assert read_fields(text) == {key: value for key, value in fields.items() if value}, self.name
-        return text
+        needs = {*self.needs.split(), *["options"] * bool(self.options), *["refusals"] * bool(self.refused)}
+        fields = {"why": self.why, "paragraphs": self.paragraphs, "tier": self.tier,
+                  "needs": " ".join(sorted(needs)), "open": self.open, "open-nearest": self.open_nearest,
+                  "refused": str(self.refused or ""), "options": self.options, "catches": " ".join(caught)}
+        return {key: value for key, value in fields.items() if value}
 
     def expected(self):
         """The outputs, of the specification's program."""
@@ -85,7 +87,9 @@ class Case:
         with tempfile.TemporaryDirectory() as name:
             config, image = pathlib.Path(name, "config.txt"), pathlib.Path(name, "out.bmp")
             config.write_bytes(self.config.encode())
-            depths = answer("zbuf", self.text, [str(config), "--image", str(image), "--coverage", rule, *self.options.split()])
+            depths = answer("zbuf", self.text,
+                            [str(config), "--image",
+                             str(image), "--coverage", rule, *self.options.split()])
             return depths, image.read_bytes()
 
     def expect_refusal(self):
@@ -94,7 +98,9 @@ class Case:
                 self.drawn(rule) if self.stage == "zbuf" else self.expected()
             except reference.Refused as refusal:
                 if refusal.args[0] != self.refused:
-                    raise SystemExit(f"{self.stage}/{self.name}: refused at line {refusal.args[0]}, not at {self.refused}") from None
+                    raise SystemExit(
+                        f"{self.stage}/{self.name}: refused at line {refusal.args[0]}, not at {self.refused}"
+                    ) from None
             else:
                 raise SystemExit(f"{self.stage}/{self.name}: not refused")
 
@@ -103,7 +109,8 @@ class Case:
         if not self.is_plain:
             return []
         failing = [mistake for mistake in MISTAKES[self.stage] if self.is_failed_with(mistake, files)]
-        is_decided_by_rounding = self.stage == "zbuf" and self.is_failed_with(mistaken_stages.OTHER_FORMULAS, files)
+        is_decided_by_rounding = self.stage == "zbuf" and self.is_failed_with(
+            mistaken_stages.OTHER_FORMULAS, files)
         if (None in failing or is_decided_by_rounding) and not self.open_nearest:
             raise SystemExit(f"{self.stage}/{self.name}: plain doubles do not give the answer")
         return [] if None in failing else failing

@@ -44,7 +44,8 @@ class Help:
 def help_of(program, name):
     """The Help of a program."""
     settings = {**os.environ, "COLUMNS": "120", "LC_ALL": "C.UTF-8", "PYTHONDONTWRITEBYTECODE": "1"}
-    text = subprocess.run([program, "--help"], stdin=subprocess.DEVNULL, capture_output=True, text=True, check=True, env=settings).stdout
+    text = subprocess.run([program, "--help"], stdin=subprocess.DEVNULL, capture_output=True, text=True,
+                          check=True, env=settings).stdout
     return parse(text, name)
 
 
@@ -95,8 +96,10 @@ def options_of(lines, is_tool):
 
 
 def split_tool_line(line):
-    """The text begins at its column, one blank behind the name at least; a name that reaches beyond it stands alone."""
-    if len(line) > TEXT_COLUMN and line[TEXT_COLUMN - 1] == " " and not re.fullmatch("[A-Z ]+", line[TEXT_COLUMN:]):
+    """The text begins at its column, one blank behind the name at least; a name that reaches beyond it stands
+    alone."""
+    if len(line) > TEXT_COLUMN and line[TEXT_COLUMN -
+                                        1] == " " and not re.fullmatch("[A-Z ]+", line[TEXT_COLUMN:]):
         return line[:TEXT_COLUMN].strip(), line[TEXT_COLUMN:]
     return line.strip(), ""
 
@@ -118,12 +121,13 @@ def names_of(head):
 
 
 def add_line(option, line):
-    """A line such as 'near: cut all triangles ...' begins a paragraph if `near` is a choice, and so does a sentence behind such a
-    paragraph."""
+    """A line such as 'near: cut all triangles ...' begins a paragraph if `near` is a choice, and so does a
+    sentence behind such a paragraph."""
     def is_about_choice(text):
         return ":" in text and text.partition(":")[0] in option.choices
 
-    if not option.paragraphs or is_about_choice(line) or (is_about_choice(option.paragraphs[-1]) and line[0].isupper()):
+    if not option.paragraphs or is_about_choice(line) or (is_about_choice(option.paragraphs[-1])
+                                                          and line[0].isupper()):
         option.paragraphs.append(line)
     else:
         option.paragraphs[-1] += " " + line
@@ -132,6 +136,8 @@ def add_line(option, line):
 def commands_in(folder):
     """The commands in libexec/pipeline, the stages first."""
     stages = ["model", "view", "project", "zbuf"]
-    others = sorted(name for name in os.listdir(folder)
-                    if re.fullmatch("[a-z0-9-]+", name) and os.path.isfile(folder / name) and os.access(folder / name, os.X_OK))
+    others = sorted(
+        name for name in os.listdir(folder)
+        if re.fullmatch("[a-z0-9-]+", name) and os.path.isfile(folder /
+                                                               name) and os.access(folder / name, os.X_OK))
     return [name for name in stages if name in others] + [name for name in others if name not in stages]

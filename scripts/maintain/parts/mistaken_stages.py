@@ -1,5 +1,5 @@
-"""The four stages as a student writes them, in plain doubles, with each of the mistakes of tests/conformance/mistakes.txt, and
-those habits of habits.txt that give another output.
+"""The four stages as a student writes them, in plain doubles, with each of the mistakes of
+tests/conformance/mistakes.txt, and those habits of habits.txt that give another output.
 
 They tell which of these a case of the conformance pack catches; no expected value comes from here.
 """
@@ -58,7 +58,10 @@ def stage_text(points):
 
 
 def vertices(text):
-    return [[float(word) for word in line.split()] for line in text.splitlines() if line.strip() and not line[0].isalpha()]
+    return [[float(word)
+             for word in line.split()]
+            for line in text.splitlines()
+            if line.strip() and not line[0].isalpha()]
 
 
 def model(scene, mistake=None):
@@ -104,12 +107,14 @@ def view(text, mistake=None):
     numbers = camera(text)
     eye, look, up = numbers["eye"], numbers["look"], numbers["up"]
     eye, look = (look, eye) if mistake == "view/eye-and-look-exchanged" else (eye, look)
-    up = {"view/up-is-a-point": [b - a for a, b in zip(eye, up)], "view/up-is-0-1-0": [0.0, 1.0, 0.0]}.get(mistake, up)
+    up = {"view/up-is-a-point": [b - a for a, b in zip(eye, up)], "view/up-is-0-1-0": [0.0, 1.0,
+                                                                                       0.0]}.get(mistake, up)
     l = look if mistake == "view/look-is-a-direction" else [b - a for a, b in zip(eye, look)]
     l = l if mistake == "view/l-not-unit" else unit(l)
     r = cross(up, l) if mistake == "view/r-is-up-cross-l" else cross(l, up)
     r = r if mistake == "view/r-not-unit" else unit(r)
-    u = cross(l, r) if mistake == "view/u-is-l-cross-r" else up if mistake == "view/up-as-given" else cross(r, l)
+    u = cross(
+        l, r) if mistake == "view/u-is-l-cross-r" else up if mistake == "view/up-as-given" else cross(r, l)
     turn = with_offset([r, u, l if mistake == "view/l-not-negated" else [-x for x in l]])
     turn = transposed(turn) if mistake == "view/rotation-transposed" else turn
     sign = {"view/eye-added": 1, "view/no-translation": 0}.get(mistake, -1)
@@ -127,14 +132,18 @@ def project(text, mistake=None):
         return near * math.tan(angle if mistake == "project/fov-not-halved" else angle / 2)
 
     t = window(fov)
-    fov_x = {"project/fovx-equals-fovy": fov, "project/fovx-divided-by-aspect": fov / aspect}.get(mistake, fov * aspect)
+    fov_x = {"project/fovx-equals-fovy": fov,
+             "project/fovx-divided-by-aspect": fov / aspect}.get(mistake, fov * aspect)
     r = t * aspect if mistake == "project/r-is-t-times-aspect" else window(fov_x)
     r, t = (t, r) if mistake == "project/r-and-t-swapped" else (r, t)
     x_scale, y_scale = near / r, near / t
     near, far = (far, near) if mistake == "project/near-and-far-swapped" else (near, far)
     two, sign = 1 if mistake == "project/missing-two" else 2, -1 if mistake == "project/z-row-sign" else 1
-    m = [[x_scale, 0, 0, 0], [0, y_scale, 0, 0], [0, 0, -sign * (far + near) / (far - near), -sign * two * far * near / (far - near)],
-         [0, 0, 1 if mistake == "project/w-is-plus-z" else -1, 1 if mistake == "project/last-element-is-one" else 0]]
+    m = [[x_scale, 0, 0, 0], [0, y_scale, 0, 0],
+         [0, 0, -sign * (far + near) / (far - near), -sign * two * far * near / (far - near)],
+         [
+             0, 0, 1 if mistake == "project/w-is-plus-z" else -1,
+             1 if mistake == "project/last-element-is-one" else 0]]
     m = transposed(m) if mistake == "project/matrix-transposed" else m
     points = [moved(m, p) for p in vertices(text)]
     if mistake == "project/depth-from-0-to-1":
@@ -142,8 +151,10 @@ def project(text, mistake=None):
     if mistake == "project/z-not-divided":
         points = [(x, y, z * w, w) for x, y, z, w in points]
     if mistake == "project/depth-is-linear":
-        points = [(x, y, w * (2 * (-p[2] - near) / (far - near) - 1), w) for p, (x, y, _, w) in zip(vertices(text), points)]
-    return stage_text([(x, y, z) if mistake == "project/no-divide" else (x / w, y / w, z / w) for x, y, z, w in points])
+        points = [(x, y, w * (2 * (-p[2] - near) / (far - near) - 1), w)
+                  for p, (x, y, _, w) in zip(vertices(text), points)]
+    return stage_text([
+        (x, y, z) if mistake == "project/no-divide" else (x / w, y / w, z / w) for x, y, z, w in points])
 
 
 def zbuf(text, config, mistake=None):
@@ -162,7 +173,8 @@ def zbuf(text, config, mistake=None):
     def draw(row, column, z, owner):
         row += mistake == "zbuf/shifted-by-a-row"
         column += mistake == "zbuf/shifted-by-a-column"
-        if not (0 <= row < height and 0 <= column < width) or z < front and mistake != "zbuf/front-limit-ignored":
+        if not (0 <= row < height
+                and 0 <= column < width) or z < front and mistake != "zbuf/front-limit-ignored":
             return
         old = depths[row][column]
         is_seen = {"zbuf/farthest-wins": old < z < rear, "zbuf/last-wins": z < rear}.get(mistake, z < old)
@@ -174,7 +186,8 @@ def zbuf(text, config, mistake=None):
         corners = points[3 * number:3 * number + 3]
         owner = 1 if mistake == "zbuf/one-color" else number + 1
         highest, lowest = max(p[1] for p in corners), min(p[1] for p in corners)
-        first, last = math.ceil((top - highest) / dy), math.floor((top - lowest) / dy) - (mistake == "zbuf/row-short")
+        first, last = math.ceil((top - highest) / dy), math.floor(
+            (top - lowest) / dy) - (mistake == "zbuf/row-short")
         for row in range(max(0, first), min(height - 1, last) + 1):
             for column, z in row_of(corners, top - row * dy, x_0, dx, width, mistake):
                 draw(row, column, z, owner)
@@ -202,7 +215,8 @@ def row_of(corners, y, x_0, dx, width, mistake):
         return
     (x_left, z_left), (x_right, z_right) = min(met), max(met)
     to_column = int if mistake == "zbuf/truncated-ends" else lambda x: math.floor(x + 0.5)
-    first, last = to_column((x_left - x_0) / dx), to_column((x_right - x_0) / dx) - (mistake == "zbuf/column-short")
+    first, last = to_column((x_left - x_0) / dx), to_column(
+        (x_right - x_0) / dx) - (mistake == "zbuf/column-short")
     if mistake == "zbuf/rounded-ends-depth":
         x_left, x_right = x_0 + first * dx, x_0 + last * dx
         z_left = min(z_left, z_right) if first == last else z_left
@@ -215,5 +229,8 @@ def row_of(corners, y, x_0, dx, width, mistake):
 
 def bmp(owners):
     """A picture in which each owner has a color of its own, and 0 is black."""
-    pixels = b"".join(b"".join(struct.pack("<I", 40503 * owner)[:3] for owner in row) + bytes(-3 * len(row) % 4) for row in reversed(owners))
-    return struct.pack("<2s6I2H6I", b"BM", 54 + len(pixels), 0, 54, 40, len(owners[0]), len(owners), 1, 24, 0, len(pixels), 0, 0, 0, 0) + pixels
+    pixels = b"".join(b"".join(struct.pack("<I", 40503 * owner)[:3]
+                               for owner in row) + bytes(-3 * len(row) % 4)
+                      for row in reversed(owners))
+    return struct.pack("<2s6I2H6I", b"BM", 54 + len(pixels), 0, 54, 40, len(owners[0]), len(owners), 1, 24, 0,
+                       len(pixels), 0, 0, 0, 0) + pixels

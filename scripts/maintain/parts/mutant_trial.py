@@ -22,7 +22,10 @@ class DoesNotCompile(Exception):
 def copy_tree(source, target):
     """Makes the target a copy without build folders and hidden files; what has not changed keeps its time."""
     def visible(folder):
-        return {path.name for path in folder.iterdir() if path.name != "build" and not path.name.startswith((".", "__pycache__"))}
+        return {
+            path.name
+            for path in folder.iterdir()
+            if path.name != "build" and not path.name.startswith((".", "__pycache__"))}
 
     target.mkdir(parents=True, exist_ok=True)
     for name in visible(target) - visible(source):
@@ -37,10 +40,12 @@ def copy_tree(source, target):
 
 
 def run(words, limit, environment, **settings):
-    """The exit status of a program, None if it does not end within the limit in seconds, and its output. None of its children stays."""
+    """The exit status of a program, None if it does not end within the limit in seconds, and its output. None
+    of its children stays."""
     with tempfile.TemporaryFile("w+", errors="replace") as output:
-        process = subprocess.Popen([str(word) for word in words], env=environment, start_new_session=True, stdin=subprocess.DEVNULL,
-                                   stdout=output, stderr=subprocess.STDOUT, **settings)
+        process = subprocess.Popen([str(word) for word in words], env=environment, start_new_session=True,
+                                   stdin=subprocess.DEVNULL, stdout=output, stderr=subprocess.STDOUT,
+                                   **settings)
         try:
             status = process.wait(limit)
         except subprocess.TimeoutExpired:
@@ -54,11 +59,12 @@ def run(words, limit, environment, **settings):
 
 
 def succeeds(words, limit, folder, environment):
-    """True if a test program ends with status 0 within the limit in seconds. It runs as nobody if root started it, since a mutant of
-    code that writes files may replace any of them, even a device."""
+    """True if a test program ends with status 0 within the limit in seconds. It runs as nobody if root
+    started it, since a mutant of code that writes files may replace any of them, even a device."""
     user = {"user": NOBODY, "group": NOBODY, "extra_groups": []} if os.geteuid() == 0 else {}
     status, _ = run(words, limit, dict(environment, TMPDIR=str(folder)), cwd=folder,
-                    preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (MEMORY_LIMIT, MEMORY_LIMIT)), **user)
+                    preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS,
+                                                          (MEMORY_LIMIT, MEMORY_LIMIT)), **user)
     return status == 0
 
 
@@ -75,10 +81,12 @@ class Trial:
         if shutil.which("ld.lld"):
             options.append("-DCMAKE_EXE_LINKER_FLAGS=-fuse-ld=lld")  # links in half the time
         if os.geteuid() == 0:
-            options.append("-DPython3_EXECUTABLE=" + shutil.which("python3", path="/usr/bin:/bin"))  # one that nobody may run
+            options.append("-DPython3_EXECUTABLE=" +
+                           shutil.which("python3", path="/usr/bin:/bin"))  # one that nobody may run
         # GoogleTest's list of tests is not needed, and a mutant may be unable to write it.
-        self.call("cmake", "-S", self.copy, "-B", self.build, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_CXX_FLAGS_RELEASE=-O1 -DNDEBUG",
-                  "-DPIPELINE_TESTS=ON", "-DCMAKE_GTEST_DISCOVER_TESTS_DISCOVERY_MODE=PRE_TEST", *options)
+        self.call("cmake", "-S", self.copy, "-B", self.build, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
+                  "-DCMAKE_CXX_FLAGS_RELEASE=-O1 -DNDEBUG", "-DPIPELINE_TESTS=ON", "-DCMAKE_UNITY_BUILD=OFF",
+                  "-DCMAKE_GTEST_DISCOVER_TESTS_DISCOVERY_MODE=PRE_TEST", *options)
 
     def call(self, *words):
         # A compiler may never cease to evaluate a constant.
@@ -97,20 +105,23 @@ class Trial:
         return succeeds(self.words_of(test), limit, self.temporary, self.environment)
 
     def programs_of(self, file):
-        """The test programs of a source: first the one of its name, then those that include its header, then the others of its room, the
-        fastest first."""
+        """The test programs of a source: that of its room, then those of rooms whose tests include its
+        header."""
         path = pathlib.PurePath(file)
-        sources = {test.stem: test for test in sorted((self.copy / "tests").glob("*/*_test.cpp"))}
-        including = [name for name, test in sources.items() if f'"{path.with_suffix(".h")}"' in test.read_text()]
-        of_room = [name for name, test in sources.items() if test.parent.name == path.parent.name]
-        by_speed = sorted({*including, *of_room}, key=lambda name: (name not in including, self.seconds.get(name, 0)))
-        return sorted(by_speed, key=lambda name: name != path.stem + "_test")
+        tests = sorted((self.copy / "tests").glob("*/*_test.cpp"))
+        including = [test.parent.name for test in tests if f'"{path.with_suffix(".h")}"' in test.read_text()]
+        rooms = [room for room in (path.parent.name,) if any(test.parent.name == room for test in tests)]
+        return [f"{room}_tests" for room in dict.fromkeys(rooms + including)]
 
     def words_of(self, test):
         """The command of a test program, or of end-to-end tests, which are named by a regular expression."""
         if test.startswith("^"):
-            return ["ctest", "--test-dir", self.build / "tests/tools", "--stop-on-failure", "-j", self.jobs, "-R", test]
-        return [self.build / "tests" / test, "--gtest_brief=1", "--gtest_fail_fast", "--gtest_filter=-*.Long*:*Long.*"]
+            return [
+                "ctest", "--test-dir", self.build / "tests/tools", "--stop-on-failure", "-j", self.jobs, "-R",
+                test]
+        return [
+            self.build / "tests" / test, "--gtest_brief=1", "--gtest_fail_fast",
+            "--gtest_filter=-*.Long*:*Long.*"]
 
     def check_unchanged(self, tests):
         """Measures the tests without a mutant; they have to pass."""

@@ -1,27 +1,35 @@
-"""Mistakes of one token that a C++ source could have: another operator, another constant, a condition that is always the same.
+"""Mistakes of one token that a C++ source could have: another operator, another constant, a condition that is
+always the same.
 
-It relies on the format of this project's sources: blanks stand around binary operators, and around nothing that only looks like one.
+It relies on the format of this project's sources: blanks stand around binary operators, and around nothing
+that only looks like one.
 """
 import collections
 import hashlib
 import re
 
-OPERATORS = {"<": "<=", "<=": "<", ">": ">=", ">=": ">", "==": "!=", "!=": "==", "&&": "||", "||": "&&", "+": "-", "-": "+", "*": "/",
-             "/": "*", "%": "/", "&": "|", "|": "&", "^": "|", "<<": ">>", ">>": "<<", "+=": "-=", "-=": "+=", "*=": "/=", "/=": "*=",
-             "&=": "|=", "|=": "&=", "<<=": ">>=", ">>=": "<<="}
+OPERATORS = {
+    "<": "<=", "<=": "<", ">": ">=", ">=": ">", "==": "!=", "!=": "==", "&&": "||", "||": "&&", "+": "-",
+    "-": "+", "*": "/", "/": "*", "%": "/", "&": "|", "|": "&", "^": "|", "<<": ">>", ">>": "<<", "+=": "-=",
+    "-=": "+=", "*=": "/=", "/=": "*=", "&=": "|=", "|=": "&=", "<<=": ">>=", ">>=": "<<="}
 SWAPPED = {"++": "--", "--": "++", "true": "false", "false": "true"}
 
-NO_CODE = re.compile(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"|(?<!\w)\'(?:\\.|[^\'\\\n])+\'|^[ \t]*#(?:\\\n|[^\n])*', re.M | re.S)
+NO_CODE = re.compile(
+    r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"|(?<!\w)\'(?:\\.|[^\'\\\n])+\'|^[ \t]*#(?:\\\n|[^\n])*',
+    re.M | re.S)
 ASSERTION = re.compile(r"\b(?:static_)?assert\(")
-BINARY = re.compile(r"(?<=\s)(?:%s)(?=\s)" % "|".join(re.escape(word) for word in sorted(OPERATORS, key=len, reverse=True)))
+BINARY = re.compile(
+    r"(?<=\s)(?:%s)(?=\s)" % "|".join(re.escape(word) for word in sorted(OPERATORS, key=len, reverse=True)))
 SWAP = re.compile(r"\+\+(?=\w)|--(?=\w)|\btrue\b|\bfalse\b")
 SIGN = re.compile(r"!(?=[\w(])|(?:(?<=[({\[])|(?<=[,=?:] )|(?<=return ))-(?=[\w(])")
-NUMBER = re.compile(r"(?<![\w.'])(0x[\da-fA-F.']+(?:p[+-]?\d+)?|\d[\d']*(?:\.\d*)?(?:e[+-]?\d+)?)[uUlL]*(?![\w.'])")
+NUMBER = re.compile(
+    r"(?<![\w.'])(0x[\da-fA-F.']+(?:p[+-]?\d+)?|\d[\d']*(?:\.\d*)?(?:e[+-]?\d+)?)[uUlL]*(?![\w.'])")
 CONDITION = re.compile(r"\b(if|while)(?: constexpr)? \(")
 
 
 class Mutant(collections.namedtuple("Mutant", "file line begin end new name")):
-    """What stands at [begin, end) of a file becomes `new`; the name is the source line with [old -> new] in it."""
+    """What stands at [begin, end) of a file becomes `new`; the name is the source line with [old -> new] in
+    it."""
 
     def applied_to(self, text):
         return text[:self.begin] + self.new + text[self.end:]
@@ -43,7 +51,8 @@ def closing(text, begin):
 
 
 def code_of(text):
-    """The text with blanks for comments, strings, the preprocessor's lines and assertions, which a release build leaves out."""
+    """The text with blanks for comments, strings, the preprocessor's lines and assertions, which a release
+    build leaves out."""
     code = NO_CODE.sub(lambda match: re.sub(r"[^\n]", " ", match.group()), text)
     for match in ASSERTION.finditer(code):
         code = blanked(code, match.start(), closing(code, match.end() - 1))
@@ -104,9 +113,11 @@ def mutants_of(file, text):
 
 
 def sample(mutants, seed):
-    """The mutants in random order, one of each line before a second of any. A changed line leaves the order of the others as it is."""
+    """The mutants in random order, one of each line before a second of any. A changed line leaves the order
+    of the others as it is."""
     by_line = collections.defaultdict(list)
-    for mutant in sorted(mutants, key=lambda mutant: hashlib.sha256(f"{seed} {mutant.name}".encode()).digest()):
+    for mutant in sorted(mutants,
+                         key=lambda mutant: hashlib.sha256(f"{seed} {mutant.name}".encode()).digest()):
         by_line[mutant.file, mutant.line].append(mutant)
     groups = list(by_line.values())
     return [group[i] for i in range(max(map(len, groups), default=0)) for group in groups if i < len(group)]

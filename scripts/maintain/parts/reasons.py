@@ -1,4 +1,5 @@
-"""Lists of reasons: a reason, then, indented, one `FILE: TEXT` for each thing it excuses; lines that begin with # do not count."""
+"""Lists of reasons: a reason, then, indented, one `FILE: TEXT` for each thing it excuses; lines that begin
+with # do not count."""
 import collections
 
 Excuse = collections.namedtuple("Excuse", "file text reason line")
@@ -14,6 +15,7 @@ def read_reasons(path):
             continue
         file, colon, text = line.strip().partition(": ")
         if not colon or reason is None:
-            raise SystemExit(f"{path}:{number}: expected a reason, then lines '  FILE: TEXT', found '{line.strip()}'")
+            raise SystemExit(
+                f"{path}:{number}: expected a reason, then lines '  FILE: TEXT', found '{line.strip()}'")
         excuses.append(Excuse(file, text, reason, number))
     return excuses

@@ -28,7 +28,10 @@ class Page:
     """Lines of roff, from the heading on."""
 
     def __init__(self, name, section, date, version):
-        self.lines = [f'.TH {escaped(name).upper()} {section} {date} "pipeline {version}" "The raster graphics pipeline"']
+        self.lines = [
+            f'.TH {escaped(name).upper()} {section} {date} "pipeline {version}" "The raster graphics '
+            f'pipeline"'
+        ]
 
     def section(self, title):
         self.lines.append(f".SH {escaped(title)}")
@@ -74,7 +77,8 @@ def add_markdown(page, text, link):
     for block in re.split(r"\n{2,}", text.strip("\n")):
         lines = block.split("\n")
         if heading := re.fullmatch(r"(#{2,3}) (.*)", lines[0]):
-            (page.section if heading[1] == "##" else page.subsection)(heading[2].upper() if heading[1] == "##" else heading[2])
+            (page.section if heading[1] == "##" else
+             page.subsection)(heading[2].upper() if heading[1] == "##" else heading[2])
             lines = lines[1:]
         if not lines:
             continue
@@ -92,11 +96,16 @@ def add_markdown(page, text, link):
 
 
 def add_table(page, lines, inline):
-    """A row is an item: the first cell, and below it the others, by the names of their columns if there is more than one."""
-    header, _, *rows = [[cell.strip().replace("\\|", "|") for cell in re.split(r"(?<!\\)\|", line.strip().strip("|"))] for line in lines]
+    """A row is an item: the first cell, and below it the others, by the names of their columns if there is
+    more than one."""
+    header, _, *rows = [[
+        cell.strip().replace("\\|", "|") for cell in re.split(r"(?<!\\)\|",
+                                                              line.strip().strip("|"))] for line in lines]
     for row in rows:
         others = [(name, cell) for name, cell in zip(header[1:], row[1:]) if cell]
-        page.item(inline.roff(row[0]) or "\\&", [inline.roff(cell if len(header) == 2 else f"{name}: {cell}") for name, cell in others])
+        page.item(
+            inline.roff(row[0]) or "\\&",
+            [inline.roff(cell if len(header) == 2 else f"{name}: {cell}") for name, cell in others])
 
 
 class Inline:
@@ -112,6 +121,8 @@ class Inline:
         for mark in self.MARKS.finditer(text):
             code, strong, emphasis, words, address = mark.groups()
             parts.append(escaped(text[end:mark.start()]))
-            parts.append(self.link(words.replace("`", ""), address) if words else bold(code or strong) if code or strong else italic(emphasis))
+            parts.append(
+                self.link(words.replace("`", ""), address
+                          ) if words else bold(code or strong) if code or strong else italic(emphasis))
             end = mark.end()
         return "".join(parts) + escaped(text[end:])

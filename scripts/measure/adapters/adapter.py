@@ -1,15 +1,18 @@
-"""An adapter is a program that has one rasterizer draw triangles. It first writes a line of JSON about the rasterizer,
+"""An adapter is a program that has one rasterizer draw triangles. It first writes a line of JSON about the
+rasterizer,
 
     {"name": ..., "version": ..., "promise": what it promises, and how it rounds, "grid": to which part
     of a pixel it rounds corners, "is_antialiased": ..., "has_depth": ...}
 
 then, for each line of JSON on stdin,
 
-    {"width", "height", "left", "bottom", "front", "rear": the config, "triangles": [[[x, y, z] three times], ...], numbers as words}
+    {"width", "height", "left", "bottom", "front", "rear": the config, "triangles": [[[x, y, z] three times],
+    ...], numbers as words}
 
-a line {"coverage": [for each triangle, alone in the picture, the rows from the top in hexadecimal, a byte a pixel, 255 is all of it],
-"seen": [for each pixel the triangle seen there among all, -1 for none]}, without "seen" if the rasterizer has no depth.
-Where the rasterizer is not installed, it writes a line that says so to stderr, and its exit status is 77.
+a line {"coverage": [for each triangle, alone in the picture, the rows from the top in hexadecimal, a byte a
+pixel, 255 is all of it], "seen": [for each pixel the triangle seen there among all, -1 for none]}, without
+"seen" if the rasterizer has no depth. Where the rasterizer is not installed, it writes a line that says so to
+stderr, and its exit status is 77.
 """
 import ctypes
 import ctypes.util
@@ -37,15 +40,18 @@ def library(name, package):
 class Case:
     def __init__(self, fields):
         self.width, self.height = fields["width"], fields["height"]
-        self.left, self.bottom, self.front, self.rear = (Fraction(fields[key]) for key in ("left", "bottom", "front", "rear"))
+        self.left, self.bottom, self.front, self.rear = (Fraction(fields[key])
+                                                         for key in ("left", "bottom", "front", "rear"))
         self.words = fields["triangles"]
         self.config = "{width} {height}\n{left}\n{bottom}\n{front} {rear}\n".format(**fields)
         self.triangles = [[tuple(map(Fraction, point)) for point in triangle] for triangle in self.words]
 
     def pixels(self, point):
-        """x and y in pixels from the top left corner of the picture: the center of the first pixel is at 0.5 0.5."""
+        """x and y in pixels from the top left corner of the picture: the center of the first pixel is at 0.5
+        0.5."""
         x, y, _ = point
-        return (x - self.left) * self.width / (-2 * self.left), (-self.bottom - y) * self.height / (-2 * self.bottom)
+        return (x - self.left) * self.width / (-2 * self.left), (-self.bottom -
+                                                                 y) * self.height / (-2 * self.bottom)
 
     def ndc(self, point):
         """The point with the window, and the limits of z, at -1 and 1."""

@@ -6,11 +6,17 @@ from adapter import library, serve
 
 FORMAT_A8 = 2
 ANTIALIAS = {"default": 0, "none": 1}[sys.argv[1]]
-PROMISE = {"none": "nothing but that a pixel is either filled or not. Corners are rounded to 1/256 of a pixel.",
-           "default": "each pixel is as opaque as the part of it that the triangle covers, about. Where two parts meet in a pixel, the background shines through."}
+PROMISE = {
+    "none":
+        "nothing but that a pixel is either filled or not. Corners are rounded to 1/256 of a pixel.",
+    "default":
+        "each pixel is as opaque as the part of it that the triangle covers, about. Where two parts meet in "
+        "a pixel, the background shines through."
+}
 
 cairo = library("cairo", "libcairo2")
-for name in ("cairo_image_surface_create", "cairo_create", "cairo_image_surface_get_data", "cairo_version_string"):
+for name in ("cairo_image_surface_create", "cairo_create", "cairo_image_surface_get_data",
+             "cairo_version_string"):
     getattr(cairo, name).restype = ctypes.c_void_p
 cairo.cairo_version_string.restype = ctypes.c_char_p
 for name in ("cairo_move_to", "cairo_line_to"):
@@ -35,5 +41,8 @@ def coverage(case, number):
     return b"".join(data[row * stride:row * stride + case.width] for row in range(case.height))
 
 
-serve({"name": "cairo" + (", antialiased" if ANTIALIAS == 0 else ""), "version": cairo.cairo_version_string().decode(),
-       "promise": PROMISE[sys.argv[1]], "grid": 1 / 256, "is_antialiased": ANTIALIAS == 0}, coverage)
+serve(
+    {
+        "name": "cairo" +
+                (", antialiased" if ANTIALIAS == 0 else ""), "version": cairo.cairo_version_string().decode(),
+        "promise": PROMISE[sys.argv[1]], "grid": 1 / 256, "is_antialiased": ANTIALIAS == 0}, coverage)

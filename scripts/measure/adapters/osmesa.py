@@ -6,7 +6,8 @@ import sys
 from adapter import Case, library, serve
 
 GL_COLOR_BUFFER_BIT, GL_DEPTH_BUFFER_BIT, GL_TRIANGLES, GL_FLAT = 0x4000, 0x100, 4, 0x1D00
-GL_DEPTH_TEST, GL_DITHER, GL_UNSIGNED_BYTE, GL_SUBPIXEL_BITS, GL_VERSION = 0x0B71, 0x0BD0, 0x1401, 0x0D50, 0x1F02
+GL_DEPTH_TEST, GL_DITHER, GL_UNSIGNED_BYTE, GL_SUBPIXEL_BITS, GL_VERSION = (0x0B71, 0x0BD0, 0x1401, 0x0D50,
+                                                                            0x1F02)
 OSMESA_RGBA, OSMESA_Y_UP = 0x1908, 0x11
 
 os.environ["GALLIUM_DRIVER"] = sys.argv[1]
@@ -61,6 +62,11 @@ buffer = ctypes.create_string_buffer(4)
 gl.OSMesaMakeCurrent(context, buffer, GL_UNSIGNED_BYTE, 1, 1)
 bits = ctypes.c_int()
 gl.glGetIntegerv(GL_SUBPIXEL_BITS, ctypes.byref(bits))
-serve({"name": f"Mesa {sys.argv[1]}", "version": gl.glGetString(GL_VERSION).decode().split("Mesa ")[-1],
-       "promise": f"a triangle has the pixels whose centers are inside; a center on a shared edge belongs to exactly one of the two triangles. "
-                  f"Corners are rounded to 1/{2 ** bits.value} of a pixel.", "grid": 2 ** -bits.value}, coverage, seen)
+serve(
+    {
+        "name": f"Mesa {sys.argv[1]}", "version": gl.glGetString(GL_VERSION).decode().split("Mesa ")[-1],
+        "promise":
+            f"a triangle has the pixels whose centers are inside; a center on a shared edge belongs to "
+            f"exactly one of the two triangles. "
+            f"Corners are rounded to 1/{2 ** bits.value} of a pixel.", "grid": 2**-bits.value}, coverage,
+    seen)

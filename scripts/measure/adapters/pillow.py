@@ -12,9 +12,18 @@ except ImportError:
 
 def coverage(case, number):
     image = Image.new("L", (case.width, case.height))
-    ImageDraw.Draw(image).polygon([tuple(map(math.floor, case.pixels(point))) for point in case.triangles[number]], fill=255)
+    ImageDraw.Draw(image).polygon(
+        [tuple(map(math.floor, case.pixels(point))) for point in case.triangles[number]], fill=255)
     return image.tobytes()
 
 
-serve({"name": "Pillow", "version": PIL.__version__,
-       "promise": "nothing. It takes fractions, but truncates corners to whole pixels, and draws the pixels of the outline, too.", "grid": 1}, coverage)
+serve(
+    {
+        "name":
+            "Pillow", "version":
+                PIL.__version__,
+        "promise":
+            "nothing. It takes fractions, but truncates corners to whole pixels, and draws the pixels of the "
+            "outline, too.",
+        "grid":
+            1}, coverage)

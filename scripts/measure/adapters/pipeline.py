@@ -9,8 +9,14 @@ import tempfile
 from adapter import leave, serve
 
 rule, zbuf = sys.argv[1], pathlib.Path(sys.argv[2], "zbuf")
-PROMISE = {"center": "the pixels whose centers are in the triangle, exactly; a center on an edge belongs to it if that is a left edge, or a horizontal one at the top.",
-           "nearest": "the assignment's rule: on each row the pixels from the one nearest to the left end to the one nearest to the right end. Neighbors share pixels."}
+PROMISE = {
+    "center":
+        "the pixels whose centers are in the triangle, exactly; a center on an edge belongs to it if that is "
+        "a left edge, or a horizontal one at the top.",
+    "nearest":
+        "the assignment's rule: on each row the pixels from the one nearest to the left end to the one "
+        "nearest to the right end. Neighbors share pixels."
+}
 FRAGMENT = re.compile(r"(\d+),(\d+): triangle (\d+), .*: (kept|lost)")
 if not zbuf.exists():
     leave(f"no zbuf in {sys.argv[2]}")
@@ -23,8 +29,9 @@ def fragments(case):
         config, log = pathlib.Path(folder, "config.txt"), pathlib.Path(folder, "fragments.txt")
         config.write_text(case.config)
         text = "".join("\n".join(map(" ".join, triangle)) + "\n\n" for triangle in case.words)
-        subprocess.run([zbuf, config, "--coverage", rule, "--image", "/dev/null", "--z-buffer", "/dev/null", "--fragments", log],
-                       input=text.encode(), check=True, stderr=subprocess.DEVNULL)
+        subprocess.run([
+            zbuf, config, "--coverage", rule, "--image", "/dev/null", "--z-buffer", "/dev/null",
+            "--fragments", log], input=text.encode(), check=True, stderr=subprocess.DEVNULL)
         return [(int(row) * case.width + int(column), int(triangle), verdict == "kept")
                 for column, row, triangle, verdict in FRAGMENT.findall(log.read_text())]
 

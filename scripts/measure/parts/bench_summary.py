@@ -1,4 +1,5 @@
-"""The short form of bench.csv for docs/performance.md: a table for filters, one for the pipe, one for drawing."""
+"""The short form of bench.csv for docs/performance.md: a table for filters, one for the pipe, one for
+drawing."""
 
 FILTERS = {
     "from_chars and to_chars": "a plain filter, `from_chars` and `to_chars`",
@@ -17,8 +18,10 @@ def table(alignments, header, *rows):
 
 def filters(rows):
     found = {row["case"]: row for row in rows if row["group"] == "filter"}
-    lines = ((words, f"{float(found[case]['median']):.3g}", f"{float(found[case]['ratio']):.2g}") for case, words in FILTERS.items())
-    return table(("---", "--:", "--:"), ("filter", "MB of input per CPU second", "times the first one"), *lines)
+    lines = ((words, f"{float(found[case]['median']):.3g}", f"{float(found[case]['ratio']):.2g}")
+             for case, words in FILTERS.items())
+    return table(("---", "--:", "--:"), ("filter", "MB of input per CPU second", "times the first one"),
+                 *lines)
 
 
 def pipes(rows):
@@ -32,8 +35,8 @@ def pipes(rows):
 
 
 def drawing(rows):
-    """What each renderer draws in a second under the coverage rule that they share. The rows of the others follow zbuf's and
-    begin with their names."""
+    """What each renderer draws in a second under the coverage rule that they share. The rows of the others
+    follow zbuf's and begin with their names."""
     lines, of_center = [], False
     for row in rows:
         if row["group"] not in UNITS:
@@ -46,8 +49,9 @@ def drawing(rows):
                 lines.append({"what": f"{row['group']}, {where}", "zbuf": rate})
         elif of_center:
             lines[-1][row["case"].split(" on those, ")[0]] = rate
-    return table(("---", "--:", "--:", "--:"), ("`--coverage center`", "`zbuf`", "a plain loop", "Mesa"),
-                 *([line.get(column, "") for column in ("what", "zbuf", "a plain loop", "Mesa")] for line in lines))
+    return table(
+        ("---", "--:", "--:", "--:"), ("`--coverage center`", "`zbuf`", "a plain loop", "Mesa"),
+        *([line.get(column, "") for column in ("what", "zbuf", "a plain loop", "Mesa")] for line in lines))
 
 
 def summary(rows):

@@ -17,7 +17,8 @@ from trade_parts.pipe import Pipe, Setting
 sys.path.append(str(pathlib.Path(__file__).resolve().parents[3] / "tests/reference"))
 import leeway  # noqa: E402
 
-ROUNDED = [Setting(digits) for digits in ("5", "7", "9", "12", "exact")]  # digits are promised to be right, or noted
+ROUNDED = [Setting(digits)
+           for digits in ("5", "7", "9", "12", "exact")]  # digits are promised to be right, or noted
 SETTINGS = [*ROUNDED, Setting(precision="double"), Setting("exact", "double")]
 MOST_DIGITS = 17
 STAGES = ("model", "view", "project")
@@ -41,19 +42,28 @@ def measured(job):
         config.write_text(f"{SIZE} {SIZE}\n")
         pipe = Pipe(Tools(bin_dir), scene, config, [], folder)
         lossless = list(pipe.owners(centered(Setting("exact"))))
-        return [{"axis": case.axis, "value": f"{case.value:g}", "setting": str(setting), "covered": sum(mark != NOBODY for mark in marks),
-                 **losses(pipe, centered(setting), truth, marks, lossless),
-                 "wrong_without_note": wrong_without_note(pipe.tools, text, setting.digits) if setting in ROUNDED else ""}
+        return [{
+            "axis":
+                case.axis, "value":
+                    f"{case.value:g}", "setting":
+                        str(setting), "covered":
+                            sum(mark != NOBODY
+                                for mark in marks),
+            **losses(pipe, centered(setting), truth, marks, lossless), "wrong_without_note":
+                wrong_without_note(pipe.tools, text, setting.digits) if setting in ROUNDED else ""}
                 for setting in SETTINGS]
 
 
 def losses(pipe, setting, truth, marks, lossless):
     picture = list(pipe.owners(setting))
     path, _, notes = pipe.text(setting)
-    done = pipe.tools.run("zbuf", *pipe.words("zbuf", setting), "--z-buffer", "none", "--image", pipe.folder / "out.ppm", pipe.config, path)
+    done = pipe.tools.run("zbuf", *pipe.words("zbuf", setting), "--z-buffer", "none", "--image",
+                          pipe.folder / "out.ppm", pipe.config, path)
     notes += done.stderr.decode().splitlines()
-    return {"digits_right": f"{digits_right(path, truth):.2f}", "wrong_pixels": differences(picture, marks),
-            "pixels_unlike_lossless": differences(picture, lossless), "note": shortened(notes[0]) if notes else ""}
+    return {
+        "digits_right": f"{digits_right(path, truth):.2f}", "wrong_pixels": differences(picture, marks),
+        "pixels_unlike_lossless": differences(picture,
+                                              lossless), "note": shortened(notes[0]) if notes else ""}
 
 
 def differences(a, b):
@@ -63,20 +73,30 @@ def differences(a, b):
 def shortened(note):
     """The stage, and what it is about."""
     stage, words = re.fullmatch(r"(\w+): note: (?:\S+:\d+:\d+: )?(.*)", note).groups()
-    kinds = {"fewer than 4 significant digits": "few digits", "not certain": "uncertain digits", "picture": "empty picture"}
+    kinds = {
+        "fewer than 4 significant digits": "few digits", "not certain": "uncertain digits",
+        "picture": "empty picture"}
     return f"{stage}: " + next((name for words_of_it, name in kinds.items() if words_of_it in words), words)
 
 
 def digits_right(path, truth):
-    """How many digits of the vertices in NDC are right, relative to the scene's extent along the axis where the fewest are; none if
-    triangles are missing."""
-    extents = [max(p[i] for triangle in truth for p in triangle) - min(p[i] for triangle in truth for p in triangle) for i in range(3)]
+    """How many digits of the vertices in NDC are right, relative to the scene's extent along the axis where
+    the fewest are; none if triangles are missing."""
+    extents = [
+        max(p[i]
+            for triangle in truth
+            for p in triangle) - min(p[i]
+                                     for triangle in truth
+                                     for p in triangle)
+        for i in range(3)]
     errors, missing = [Fraction(0)] * 3, set(range(len(truth)))
     with open(path, "rb") as file:
         for number, corners in triangle_lines(file):
             missing.discard(number)
             for corner, p in zip(corners, truth[number]):
-                errors = [max(error, abs(Fraction(word.decode()) - x)) for error, word, x in zip(errors, corner.split(), p)]
+                errors = [
+                    max(error, abs(Fraction(word.decode()) - x))
+                    for error, word, x in zip(errors, corner.split(), p)]
     if missing:
         return 0.0
     shares = [2 * error / extent for error, extent in zip(errors, extents)]
@@ -88,11 +108,13 @@ def sparse(text):
     lines = text.split("\n")
     begin = lines.index("triangle")
     triangles = [lines[at:at + 4] for at in range(begin, len(lines) - 2, 4)]
-    return "\n".join([*lines[:begin], *(line for triangle in triangles[::SPARSE] for line in triangle), "end"]) + "\n"
+    return "\n".join([
+        *lines[:begin], *(line for triangle in triangles[::SPARSE] for line in triangle), "end"]) + "\n"
 
 
 def wrong_without_note(tools, text, digits):
-    """How many stages print a digit that is not the specification's, of the numbers that the stage read, and note nothing."""
+    """How many stages print a digit that is not the specification's, of the numbers that the stage read, and
+    note nothing."""
     data, count = sparse(text).encode(), 0
     for stage in STAGES:
         done = tools.run(stage, "--digits", digits, stdin=data)
@@ -101,7 +123,8 @@ def wrong_without_note(tools, text, digits):
             return getattr(reference, stage)(data, reference.read_options(stage, ["--digits", decimals]))
 
         try:
-            leeway.expect_same_text(unittest.TestCase(), done.stdout, reference_text(digits), lambda: reference_text("17"), data, bool(done.stderr))
+            leeway.expect_same_text(unittest.TestCase(), done.stdout, reference_text(digits),
+                                    lambda: reference_text("17"), data, bool(done.stderr))
         except AssertionError:
             count += 1
         data = done.stdout

@@ -1,4 +1,5 @@
-"""The plots of scripts/measure/extremes: for each axis the digits that are right, and where pixels are wrong and what is noted."""
+"""The plots of scripts/measure/extremes: for each axis the digits that are right, and where pixels are wrong
+and what is noted."""
 from lib.svg import STYLE, line, spread_out, text
 from parts.extremes_report import Results, short
 from parts.extremes_scenes import AXES
@@ -6,10 +7,16 @@ from parts.extremes_scenes import AXES
 WIDTH, LEFT, RIGHT, TOP, BOTTOM, ROW = 860, 140, 800, 78, 290, 24
 INSET = 30  # of the first and the last value
 MOST = 16
-SERIES = {"--digits 5": 0, "default": 1, "--digits 9": 2, "--digits 12": 3, "--digits exact": 4, "--precision double": 1, "--digits exact --precision double": 4}
-NAMES = {"default": "7 (default)", "--precision double": "7, doubles", "--digits exact --precision double": "exact, doubles"}
-STYLE_OF_ROWS = """.s4 text, .s4 .dot { fill: #6e7781 } .s4 .front, .s4 circle { stroke: #6e7781 } .dashed { stroke-dasharray: 5 4 }
-.right { fill: #0a7d78; opacity: .22 } .some { fill: #d9922b } .many { fill: #bf2045 } .note { fill: none; stroke: #1f2328; stroke-width: 1.6 }
+SERIES = {
+    "--digits 5": 0, "default": 1, "--digits 9": 2, "--digits 12": 3, "--digits exact": 4,
+    "--precision double": 1, "--digits exact --precision double": 4}
+NAMES = {
+    "default": "7 (default)", "--precision double": "7, doubles",
+    "--digits exact --precision double": "exact, doubles"}
+STYLE_OF_ROWS = """.s4 text, .s4 .dot { fill: #6e7781 } .s4 .front, .s4 circle { stroke: #6e7781 }
+.dashed { stroke-dasharray: 5 4 }
+.right { fill: #0a7d78; opacity: .22 } .some { fill: #d9922b } .many { fill: #bf2045 }
+.note { fill: none; stroke: #1f2328; stroke-width: 1.6 }
 @media (prefers-color-scheme: dark) { .note { stroke: #e6edf3 } }
 """
 
@@ -30,24 +37,32 @@ def curves(results, axis, x_of):
     for digits in range(0, MOST + 1, 4):
         yield line("axis" if digits == 0 else "grid", (LEFT, y_of(digits)), (RIGHT, y_of(digits)))
         yield text(RIGHT + 10, y_of(digits) + 4, str(digits), 'class="soft"')
-    points = {setting: [(x, y_of(float(row["digits_right"]))) for x, row in zip(x_of, results.of(axis, setting))] for setting in results.settings}
+    points = {
+        setting: [(x, y_of(float(row["digits_right"]))) for x, row in zip(x_of, results.of(axis, setting))]
+        for setting in results.settings}
     # Names stand where the lines begin, since at the extreme many meet.
     in_order = sorted(points, key=lambda setting: points[setting][0][1])
     for setting, y in zip(in_order, spread_out([points[setting][0][1] for setting in in_order], 15)):
-        yield f'<g class="s s{SERIES[setting]}">' + line("front" + " dashed" * ("double" in setting), *points[setting])
+        yield f'<g class="s s{SERIES[setting]}">' + line("front" + " dashed" *
+                                                         ("double" in setting), *points[setting])
         yield text(LEFT - 10, y + 4, name_of(setting), 'text-anchor="end"') + "</g>"
 
 
 def rows_of_pixels(results, axis, x_of, top):
-    """For each setting two bars: against the truth, and below, half as high, against the lossless run; and a ring where a tool notes."""
+    """For each setting two bars: against the truth, and below, half as high, against the lossless run; and a
+    ring where a tool notes."""
     half = min(INSET, (x_of[1] - x_of[0]) / 2)
     for i, setting in enumerate(results.settings):
         y = top + ROW * i
-        yield f'<g class="s s{SERIES[setting]}">' + text(LEFT - 10, y + 13, name_of(setting), 'text-anchor="end"') + "</g>"
+        yield f'<g class="s s{SERIES[setting]}">' + text(LEFT - 10, y + 13, name_of(setting),
+                                                         'text-anchor="end"') + "</g>"
         for x, row in zip(x_of, results.of(axis, setting)):
             for column, offset, height in (("wrong_pixels", 0, 11), ("pixels_unlike_lossless", 12, 5)):
                 bar = kind(int(row[column]), int(row["covered"]))
-                yield f'<rect class="{bar}" x="{x - half + 0.5:.1f}" y="{y + offset:.1f}" width="{2 * half - 1:.1f}" height="{height}"/>'
+                yield (
+                    f'<rect class="{bar}" x="{x - half + 0.5:.1f}" y="{y + offset:.1f}" '
+                    f'width="{2 * half - 1:.1f}" height="{height}"/>'
+                )
             if row["note"]:
                 yield f'<circle class="note" cx="{x:.1f}" cy="{y + 5.5:.1f}" r="3.5"/>'
 
@@ -55,8 +70,10 @@ def rows_of_pixels(results, axis, x_of, top):
 def legend(y):
     keys = (("right", "no wrong pixel"), ("some", "fewer than 1 %"), ("many", "1 % and more"))
     for i, (name, words) in enumerate(keys):
-        yield f'<rect class="{name}" x="{20 + 140 * i}" y="{y - 10}" width="14" height="11"/>' + text(40 + 140 * i, y, words, 'class="soft"')
-    yield f'<circle class="note" cx="427" cy="{y - 4.5}" r="3.5"/>' + text(440, y, "a tool notes it", 'class="soft"')
+        yield f'<rect class="{name}" x="{20 + 140 * i}" y="{y - 10}" width="14" height="11"/>' + text(
+            40 + 140 * i, y, words, 'class="soft"')
+    yield f'<circle class="note" cx="427" cy="{y - 4.5}" r="3.5"/>' + text(440, y, "a tool notes it",
+                                                                           'class="soft"')
     yield text(550, y, "thick: against the truth; thin: the lossless run", 'class="soft"')
 
 
@@ -68,11 +85,15 @@ def plot(rows, axis):
     top = BOTTOM + 76
     end = top + ROW * len(results.settings)
     height = end + 44
-    parts = [f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {height}" width="{WIDTH}" height="{height}">',
-             f"<title>{title}: digits and pixels that are right</title>", f"<style>{STYLE}{STYLE_OF_ROWS}</style>",
-             f'<rect class="card" x=".5" y=".5" width="{WIDTH - 1}" height="{height - 1}" rx="8"/>',
-             text(20, 30, title[0].upper() + title[1:], 'class="title"'), text(20, 50, "digits that are right; lines are the values of --digits", 'class="soft"'),
-             text(20, top - 14, "wrong pixels", 'class="soft"'), text((LEFT + RIGHT) / 2, BOTTOM + 42, unit, 'class="soft" text-anchor="middle"')]
+    parts = [
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {height}" width="{WIDTH}" '
+        f'height="{height}">',
+        f"<title>{title}: digits and pixels that are right</title>", f"<style>{STYLE}{STYLE_OF_ROWS}</style>",
+        f'<rect class="card" x=".5" y=".5" width="{WIDTH - 1}" height="{height - 1}" rx="8"/>',
+        text(20, 30, title[0].upper() + title[1:], 'class="title"'),
+        text(20, 50, "digits that are right; lines are the values of --digits", 'class="soft"'),
+        text(20, top - 14, "wrong pixels", 'class="soft"'),
+        text((LEFT + RIGHT) / 2, BOTTOM + 42, unit, 'class="soft" text-anchor="middle"')]
     for i, (x, value) in enumerate(zip(x_of, values)):
         parts.append(line("grid", (x, TOP), (x, BOTTOM)))
         if i % 2 == 0 or len(values) < 14:

@@ -3,8 +3,9 @@ from parts.extremes_scenes import AXES
 
 MODERATE = 45.0  # degrees: from here the angle of view goes to two extremes
 DIRECTIONS = {  # title of the column: axis, and whether a value belongs to it
-    "distance": ("distance", lambda value: True), "far / near": ("depth", lambda value: True), "size": ("size", lambda value: True),
-    "wide angle": ("angle", lambda value: value >= MODERATE), "narrow angle": ("angle", lambda value: value <= MODERATE)}
+    "distance": ("distance", lambda value: True), "far / near": ("depth", lambda value: True),
+    "size": ("size", lambda value: True), "wide angle": ("angle", lambda value: value >= MODERATE),
+    "narrow angle": ("angle", lambda value: value <= MODERATE)}
 
 
 def short(value):
@@ -33,13 +34,15 @@ class Results:
         return rows[::-1] if direction == "wide angle" else rows
 
     def first(self, direction, setting, column):
-        """Where pixels first differ, and whether a tool notes it: at once, from a more extreme value on, or never. Empty if none do."""
+        """Where pixels first differ, and whether a tool notes it: at once, from a more extreme value on, or
+        never. Empty if none do."""
         rows = self.towards(direction, setting)
         wrong = next((row for row in rows if int(row[column])), None)
         if wrong is None:
             return ""
         noted = next((row for row in rows[rows.index(wrong):] if row["note"]), None)
-        when = "no note" if noted is None else "noted" if noted is wrong else f"note from {short(noted['value'])}"
+        when = ("no note"
+                if noted is None else "noted" if noted is wrong else f"note from {short(noted['value'])}")
         return f"{short(wrong['value'])} ({when})"
 
     def first_note(self, direction, setting):
@@ -52,7 +55,10 @@ def code(setting):
 
 def table(results, cell):
     lines = ["| setting | " + " | ".join(DIRECTIONS) + " |", "|---|" + "---|" * len(DIRECTIONS)]
-    lines += [f"| {code(setting)} | " + " | ".join(cell(direction, setting) or "-" for direction in DIRECTIONS) + " |" for setting in results.settings]
+    lines += [
+        f"| {code(setting)} | " + " | ".join(cell(direction, setting) or "-"
+                                             for direction in DIRECTIONS) + " |"
+        for setting in results.settings]
     return "\n".join(lines) + "\n"
 
 
@@ -60,13 +66,15 @@ def promise(results):
     """What the check of single digits has found."""
     counts = [int(row["wrong_without_note"]) for row in results.rows if row["wrong_without_note"]]
     found = f"{sum(counts)} runs" if any(counts) else "none"
-    return f"Of {3 * len(counts)} runs of a stage, {found} printed a digit without a note that is not the specification's for the numbers the stage had read."
+    return (f"Of {3 * len(counts)} runs of a stage, {found} printed a digit without a note that is not the "
+            f"specification's for the numbers the stage had read.")
 
 
 def tables(rows):
     """For docs/extremes.md."""
     results = Results(rows)
-    return f"""The first value at which a pixel shows another triangle than is true, and whether a tool notes it:
+    return f"""The first value at which a pixel shows another triangle than is true, and whether a tool
+notes it:
 
 {table(results, lambda *cell: results.first(*cell, "wrong_pixels"))}
 The same against the lossless run, `--digits exact`:
@@ -86,15 +94,17 @@ def report(rows):
         values = [row["value"] for row in results.of(axis, results.settings[0])]
         lines = ["| setting | " + " | ".join(map(short, values)) + " |", "|---|" + "--:|" * len(values)]
         for setting in results.settings:
-            cells = (f"{float(row['digits_right']):.1f} / {int(row['wrong_pixels'])}" for row in results.of(axis, setting))
+            cells = (f"{float(row['digits_right']):.1f} / {int(row['wrong_pixels'])}"
+                     for row in results.of(axis, setting))
             lines.append(f"| {code(setting)} | " + " | ".join(cells) + " |")
         return f"## By {AXES[axis][1]}\n\n" + "\n".join(lines) + "\n"
 
     axes = "\n".join(numbers(axis) for axis in dict.fromkeys(row["axis"] for row in rows))
     return f"""# What each setting loses at the extremes
 
-Written by `scripts/measure/extremes`; all numbers are in [extremes.csv](extremes.csv). Cells below: digits of the vertices in NDC that are
-right, relative to the scene's extent, along the axis where the fewest are / pixels that show another triangle than is true, of 96 x 96.
+Written by `scripts/measure/extremes`; all numbers are in [extremes.csv](extremes.csv). Cells below: digits
+of the vertices in NDC that are right, relative to the scene's extent, along the axis where the fewest are /
+pixels that show another triangle than is true, of 96 x 96.
 
 {tables(rows)}
 {axes}"""

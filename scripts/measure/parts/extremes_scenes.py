@@ -1,7 +1,7 @@
 """The scenes of scripts/measure/extremes: one object, and a camera that goes to the extreme along one axis.
 
-The object is a bumpy patch of two layers that fills the picture. The hidden layer comes first, so that it also wins where both depths
-are equal. It is turned by a command, and the camera faces it."""
+The object is a bumpy patch of two layers that fills the picture. The hidden layer comes first, so that it
+also wins where both depths are equal. It is turned by a command, and the camera faces it."""
 import dataclasses
 import math
 
@@ -13,13 +13,16 @@ TURN = ("rotate", "31.002719133874 -3 2 0")  # from the z axis to there: by acos
 MARGIN = 1.15      # of the picture around the patch
 
 AXES = {  # title, unit, values
-    "distance": ("the eye and the object, of size 1, far from the origin", "distance from the origin", [10.0**n for n in range(16)]),
+    "distance": ("the eye and the object, of size 1, far from the origin", "distance from the origin",
+                 [10.0**n for n in range(16)]),
     "depth": ("far / near, with the object at a third of far", "far / near", [10.0**n for n in range(1, 13)]),
     "size": ("the size of object and camera", "size", [10.0**-n for n in range(13)]),
     "angle": ("the angle of view, with an object that fills it", "fovY in degrees",
               [179.999, 179.99, 179.9, 179.0, 170.0, 120.0, 45.0, 10.0, *(10.0**-n for n in range(10))]),
 }
-QUICK = {"distance": (1.0, 1e8, 1e15), "depth": (10.0, 1e6, 1e12), "size": (1.0, 1e-4, 1e-12), "angle": (179.999, 45.0, 1e-9)}
+QUICK = {
+    "distance": (1.0, 1e8, 1e15), "depth": (10.0, 1e6, 1e12), "size": (1.0, 1e-4, 1e-12),
+    "angle": (179.999, 45.0, 1e-9)}
 
 
 @dataclasses.dataclass(frozen=True)
@@ -29,7 +32,10 @@ class Case:
 
 
 def cases(is_quick):
-    return [Case(axis, value) for axis, (_, _, values) in AXES.items() for value in (QUICK[axis] if is_quick else values)]
+    return [
+        Case(axis, value)
+        for axis, (_, _, values) in AXES.items()
+        for value in (QUICK[axis] if is_quick else values)]
 
 
 def noise():
@@ -41,14 +47,17 @@ def noise():
 
 
 def patch(width, height):
-    """Triangles of three points: the hidden layer, then the one above it, of half that width and with bumps of that height."""
+    """Triangles of three points: the hidden layer, then the one above it, of half that width and with bumps
+    of that height."""
     dice = noise()
-    corners = [[((2 * (k + 0.4 * next(dice)) / CELLS - 1) * width, (2 * (i + 0.4 * next(dice)) / CELLS - 1) * width, next(dice) * height)
-                for k in range(CELLS + 1)] for i in range(CELLS + 1)]
+    corners = [[
+        ((2 * (k + 0.4 * next(dice)) / CELLS - 1) * width, (2 * (i + 0.4 * next(dice)) / CELLS - 1) * width,
+         next(dice) * height) for k in range(CELLS + 1)] for i in range(CELLS + 1)]
     for lift in (-GAP * height, 0):
         for i in range(CELLS):
             for k in range(CELLS):
-                a, b, c, d = ((x, y, z + lift) for x, y, z in (corners[i][k], corners[i][k + 1], corners[i + 1][k + 1], corners[i + 1][k]))
+                a, b, c, d = ((x, y, z + lift) for x, y, z in (corners[i][k], corners[i][k + 1],
+                                                               corners[i + 1][k + 1], corners[i + 1][k]))
                 yield a, b, c
                 yield a, c, d
 
@@ -73,7 +82,11 @@ def scene_text(case):
         width = float("%.6g" % (distance * tangent / MARGIN))
         near, far = (0.5, 2.0) if distance == 1 else (max(distance / 2, distance - 1), distance + 1)
     eye = [c + distance * part for c, part in zip(center, FACING)]
-    lines = [words(eye), words(center), "0 1 0", words((fov_y, 1, near, far)), "translate", words(center), *TURN]
+    lines = [
+        words(eye),
+        words(center), "0 1 0",
+        words((fov_y, 1, near, far)), "translate",
+        words(center), *TURN]
     for triangle in patch(width, height):
         lines += ["triangle", *(" ".join("%.9g" % x for x in point) for point in triangle)]
     return "\n".join([*lines, "end"]) + "\n"

@@ -1,5 +1,6 @@
-"""What is true of a scene: its vertices in NDC by exact arithmetic, rounded nowhere between the stages, and the triangle at each pixel.
-The arithmetic is that of the specification's program, tests/reference/reference.py."""
+"""What is true of a scene: its vertices in NDC by exact arithmetic, rounded nowhere between the stages, and
+the triangle at each pixel. The arithmetic is that of the specification's program,
+tests/reference/reference.py."""
 import pathlib
 import sys
 from fractions import Fraction
@@ -15,7 +16,8 @@ def settled(x, bits=BITS):
 
 
 def kept(vector):
-    """Numbers with sines and roots, with more bits than coordinates need but fewer than those have: they are multiplied often."""
+    """Numbers with sines and roots, with more bits than coordinates need but fewer than those have: they are
+    multiplied often."""
     return tuple(settled(x, 4 * BITS) for x in vector)
 
 
@@ -34,7 +36,8 @@ def true_vertices(text):
     def to_ndc(p):
         if p not in known:
             seen = reference.minus(matrix.moved(p), eye)
-            clip = reference.to_clip_space(tuple(reference.dot(axis, seen) for axis in axes), volume, (1, 0, 0))
+            clip = reference.to_clip_space(tuple(reference.dot(axis, seen) for axis in axes), volume,
+                                           (1, 0, 0))
             known[p] = tuple(settled(x / clip.w) for x in clip[:3])
         return known[p]
 
@@ -49,12 +52,14 @@ def true_vertices(text):
 
 
 def true_owners(triangles, size):
-    """The mark (lib.owners) of the triangle at each pixel of a picture of `size` columns and rows, by the rule `center`."""
+    """The mark (lib.owners) of the triangle at each pixel of a picture of `size` columns and rows, by the
+    rule `center`."""
     far = (1, 1)
     depths, marks = {}, [0] * size * size  # a depth is a numerator and a denominator, which is above 0
     for mark, triangle in enumerate(triangles, 1):
         # Columns and rows, times a power of two that makes them whole numbers.
-        points = [((x + 1) * size / 2 - Fraction(1, 2), (1 - y) * size / 2 - Fraction(1, 2), z) for x, y, z in triangle]
+        points = [((x + 1) * size / 2 - Fraction(1, 2), (1 - y) * size / 2 - Fraction(1, 2), z)
+                  for x, y, z in triangle]
         a, b, c = ([int(x * 2**(BITS + 1)) for x in p] for p in points)
         unit = 2**(BITS + 1)
         area = reference.side_of_edge(c[0], c[1], a, b)
@@ -62,10 +67,13 @@ def true_owners(triangles, size):
             continue
         b, c = (b, c) if area > 0 else (c, b)  # clockwise as seen
         edges = ((b, c), (c, a), (a, b))
-        for row in reference.inside(Fraction(min(a[1], b[1], c[1]), unit), Fraction(max(a[1], b[1], c[1]), unit), size):
-            for column in reference.inside(Fraction(min(a[0], b[0], c[0]), unit), Fraction(max(a[0], b[0], c[0]), unit), size):
+        for row in reference.inside(Fraction(min(a[1], b[1], c[1]), unit),
+                                    Fraction(max(a[1], b[1], c[1]), unit), size):
+            for column in reference.inside(Fraction(min(a[0], b[0], c[0]), unit),
+                                           Fraction(max(a[0], b[0], c[0]), unit), size):
                 weights = [reference.side_of_edge(column * unit, row * unit, p[:2], q[:2]) for p, q in edges]
-                if all(weight > 0 or weight == 0 and reference.is_left_or_top(p, q) for weight, (p, q) in zip(weights, edges)):
+                if all(weight > 0 or weight == 0 and reference.is_left_or_top(p, q)
+                       for weight, (p, q) in zip(weights, edges)):
                     z, w = sum(weight * p[2] for weight, p in zip(weights, (a, b, c))), abs(area) * unit
                     nearest, below = depths.get((row, column), far)
                     if -w <= z and z * below < nearest * w:

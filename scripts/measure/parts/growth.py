@@ -1,4 +1,5 @@
-"""How the cost of drawing grows with triangles and pixels: measured by scripts/measure/bench, as a table and a plot."""
+"""How the cost of drawing grows with triangles and pixels: measured by scripts/measure/bench, as a table and
+a plot."""
 import math
 import random
 import shutil
@@ -20,7 +21,8 @@ def write_small(path, count, size):
         for _ in range(min(count, DISTINCT)):
             x, y, z = (rng.uniform(-1, 1) for _ in range(3))
             for _ in range(3):
-                file.write("%.7f %.7f %.7f\n" % (x + rng.uniform(-reach, reach), y + rng.uniform(-reach, reach), z))
+                file.write(
+                    "%.7f %.7f %.7f\n" % (x + rng.uniform(-reach, reach), y + rng.uniform(-reach, reach), z))
             file.write("\n")
     if count > DISTINCT:
         once = path.with_suffix(".once")
@@ -44,8 +46,8 @@ def write_large(path, count):
 
 
 def measured(zbuf, folder, rounds, quick):
-    """Rows {kind, triangles, size, cpu_seconds, mib}: whole runs of zbuf, including reading and writing text, the fastest of
-    each kind: other load on the machine can only add CPU time, never take any away."""
+    """Rows {kind, triangles, size, cpu_seconds, mib}: whole runs of zbuf, including reading and writing text,
+    the fastest of each kind: other load on the machine can only add CPU time, never take any away."""
     sizes, small, large = ((50, 100), (10, 100), (1, 2)) if quick else (SIZES, SMALL_COUNTS, LARGE_COUNTS)
     triangles, config = folder / "growth.txt", folder / "growth-config.txt"
     for size in sizes:
@@ -58,14 +60,18 @@ def measured(zbuf, folder, rounds, quick):
                     write_large(triangles, count)
                 words = [zbuf, config, triangles, "--image", "/dev/null", "--z-buffer", "/dev/null"]
                 costs = [run_pipe([words], folder) for _ in range(rounds)]
-                yield {"kind": kind, "triangles": count, "size": size, "cpu_seconds": min(c.cpu_seconds for c in costs),
-                       "mib": max(cost.mib for cost in costs), "machine": machine()}
+                yield {
+                    "kind": kind, "triangles": count, "size": size, "cpu_seconds": min(c.cpu_seconds
+                                                                                       for c in costs),
+                    "mib": max(cost.mib for cost in costs), "machine": machine()}
 
 
 def rows_of(table):
     """The rows of growth.csv, read by csv.DictReader."""
-    return [{**row, "triangles": int(row["triangles"]), "size": int(row["size"]), "cpu_seconds": float(row["cpu_seconds"]),
-             "mib": float(row["mib"]) if row["mib"] else ""} for row in table]
+    return [{
+        **row, "triangles": int(row["triangles"]), "size": int(row["size"]),
+        "cpu_seconds": float(row["cpu_seconds"]), "mib": float(row["mib"]) if row["mib"] else ""}
+            for row in table]
 
 
 def cells(rows):
@@ -86,14 +92,21 @@ def report(rows):
     """The table, in Markdown."""
     table = cells(rows)
     kinds, sizes = axes(rows)
-    lines = ["| triangles | " + " | ".join(f"{size} x {size}" for size in sizes) + " |", "|---|" + "--:|" * len(sizes)]
+    lines = [
+        "| triangles | " + " | ".join(f"{size} x {size}" for size in sizes) + " |",
+        "|---|" + "--:|" * len(sizes)]
     for kind, counts in kinds.items():
         for count in counts:
-            lines.append(f"| {count:,} {kind} | " + " | ".join(f"{table[kind, count, size]:.3g}" for size in sizes) + " |")
+            lines.append(f"| {count:,} {kind} | " +
+                         " | ".join(f"{table[kind, count, size]:.3g}" for size in sizes) + " |")
     largest = max(rows, key=lambda row: (row["size"], row["triangles"]))
-    memory = f"Memory at {largest['size']} x {largest['size']}: {largest['mib']:.0f} MiB. " if largest["mib"] else ""
-    return "\n".join([*lines, "", f"CPU seconds of the fastest of three runs of `zbuf` on one thread, text in and out included; small triangles have about three "
-                      f"pixels. {memory}{rows[0]['machine']}.", ""])
+    memory = f"Memory at {largest['size']} x {largest['size']}: {largest['mib']:.0f} MiB. " if largest[
+        "mib"] else ""
+    return "\n".join([
+        *lines, "",
+        f"CPU seconds of the fastest of three runs of `zbuf` on one thread, text in and out included; small "
+        f"triangles have about three "
+        f"pixels. {memory}{rows[0]['machine']}.", ""])
 
 
 def short(count):
@@ -108,24 +121,31 @@ def plot(rows):
     seconds = [row["cpu_seconds"] for row in rows]
     low, high = math.floor(math.log10(min(seconds))), math.ceil(math.log10(max(seconds)))
     width, height, top, bottom, panel_width = 940, 400, 80, 330, 280
-    parts = [f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" width="{width}" height="{height}">',
-             "<title>How zbuf's cost grows with triangles and pixels</title>", f"<style>{STYLE}</style>",
-             f'<rect class="card" x=".5" y=".5" width="{width - 1}" height="{height - 1}" rx="8"/>']
+    parts = [
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" width="{width}" '
+        f'height="{height}">',
+        "<title>How zbuf's cost grows with triangles and pixels</title>", f"<style>{STYLE}</style>",
+        f'<rect class="card" x=".5" y=".5" width="{width - 1}" height="{height - 1}" rx="8"/>']
 
     def y_of(value):
         return bottom - (bottom - top) * (math.log10(value) - low) / (high - low)
 
     for i, (kind, counts) in enumerate(kinds.items()):
         left = 80 + i * 465
-        x_of = {count: left + 10 + j * (panel_width - 20) / max(len(counts) - 1, 1) for j, count in enumerate(counts)}
+        x_of = {
+            count: left + 10 + j * (panel_width - 20) / max(len(counts) - 1, 1)
+            for j, count in enumerate(counts)}
         parts.append(text(left - 55, 34, f"{kind} triangles", 'class="title"'))
         parts.append(text(left - 55, 52, "CPU seconds of zbuf", 'class="soft"'))
         for power in range(low, high + 1):
             y = y_of(10.0**power)
-            parts += [line("grid", (left, y), (left + panel_width, y)), text(left - 8, y + 4, f"{10.0**power:g}", 'class="soft" text-anchor="end"')]
+            parts += [
+                line("grid", (left, y), (left + panel_width, y)),
+                text(left - 8, y + 4, f"{10.0**power:g}", 'class="soft" text-anchor="end"')]
         for count in counts:
             parts.append(text(x_of[count], bottom + 22, short(count), 'class="soft" text-anchor="middle"'))
-        parts.append(text(left + panel_width / 2, bottom + 46, "triangles", 'class="soft" text-anchor="middle"'))
+        parts.append(
+            text(left + panel_width / 2, bottom + 46, "triangles", 'class="soft" text-anchor="middle"'))
         lines = {size: [(x_of[count], y_of(table[kind, count, size])) for count in counts] for size in sizes}
         labels = end_labels({size: points[-1] for size, points in lines.items()})
         for j, (size, points) in enumerate(lines.items()):

@@ -28,7 +28,8 @@ def decimal(number):
 
 
 def triangles(count, reach, size, middle_z=0, columns=()):
-    """Bare stage text: corners within `size` (x, y, z) of a middle that lies within `reach` of (0 0 middle_z), and more columns."""
+    """Bare stage text: corners within `size` (x, y, z) of a middle that lies within `reach` of (0 0
+    middle_z), and more columns."""
     integers, lines = Integers(), []
     for _ in range(count):
         middle = [offset + integers.within(limit) for offset, limit in zip((0, 0, middle_z), reach)]
@@ -51,7 +52,8 @@ def in_view(count, **columns):
 
 
 def across_the_frustum(count, **columns):
-    """In view space: about half of them cross planes of the frustum, including the near one, and some lie outside."""
+    """In view space: about half of them cross planes of the frustum, including the near one, and some lie
+    outside."""
     return triangles(count, (2 * UNIT, 2 * UNIT, 3 * UNIT), (UNIT,) * 3, middle_z=-4 * UNIT, **columns)
 
 
@@ -67,7 +69,10 @@ def large_on_screen(count, **columns):
 def header(space, columns):
     """The header, before the first triangle."""
     names = f"attributes {' '.join(columns)}\n" if columns else ""
-    return {"scene": "", "world": CAMERA + PROJECTION, "view": PROJECTION, "screen": "projected frustum -0.4 0.4 -0.4 0.4 1 10\n" * bool(columns)}[space] + names + (LIGHTS if columns else "")
+    return {
+        "scene": "", "world": CAMERA + PROJECTION, "view":
+            PROJECTION, "screen": "projected frustum -0.4 0.4 -0.4 0.4 1 10\n" * bool(columns)
+    }[space] + names + (LIGHTS if columns else "")
 
 
 def lit(space, make, count, repeats=1):
@@ -78,42 +83,47 @@ def lit(space, make, count, repeats=1):
 def scene(stage_text, before_each="", after_each="", columns=()):
     """A scene with the triangles of a bare stage text, and commands around each."""
     camera = "".join(line.split(" ", 1)[1] + "\n" for line in (CAMERA + PROJECTION).splitlines())
-    body = "".join(f"{before_each}triangle\n{triangle}\n{after_each}" for triangle in stage_text.split("\n\n") if triangle)
+    body = "".join(f"{before_each}triangle\n{triangle}\n{after_each}" for triangle in stage_text.split("\n\n")
+                   if triangle)
     return camera + header("scene", columns) + body + "end\n"
 
 
 def odd_numbers(stage_text):
     """The same vertices with exponents and up to 16 digits."""
-    return "\n".join(" ".join(f"{number}123456e-1" for number in line.split()) for line in stage_text.split("\n"))
+    return "\n".join(" ".join(f"{number}123456e-1"
+                              for number in line.split())
+                     for line in stage_text.split("\n"))
 
 
 TURNED = "push\ntranslate 0.25 -0.5 0.125\nrotate 30 1 2 3\nscale 0.5 2 1.5\n"
 
 TEXTS = {
-    "one-scene.txt": lambda: scene(in_world(1)),
-    "one-world.txt": lambda: header("world", ()) + in_world(1),
-    "one-view.txt": lambda: header("view", ()) + in_view(1),
-    "one-screen.txt": lambda: small_on_screen(1),
-    "scene.txt": lambda: scene(in_world(2000) * 15),
-    "turned-scene.txt": lambda: scene(in_world(600), TURNED + TURNED, "pop\npop\n"),
-    "odd-scene.txt": lambda: scene(odd_numbers(in_world(2000)) * 3),
-    "lit-scene.txt": lambda: scene(in_world(2000, columns=("color", "normal")) * 4, columns=("color", "normal")),
-    "world.txt": lambda: header("world", ()) + in_world(2000) * 25,
-    "lit-world.txt": lambda: lit("world", in_world, 2000, 6),
-    "short-world.txt": lambda: header("world", ()) + in_world(2000) * 10,
-    "view.txt": lambda: header("view", ()) + in_view(2000) * 25,
-    "short-view.txt": lambda: header("view", ()) + in_view(2000) * 10,
-    "lit-view.txt": lambda: lit("view", in_view, 2000, 6),
-    "crossing.txt": lambda: header("view", ()) + across_the_frustum(2000) * 3,
-    "lit-crossing.txt": lambda: lit("view", across_the_frustum, 2000, 2),
-    "small.txt": lambda: small_on_screen(40_000),
-    "large.txt": lambda: large_on_screen(1500),
-    "few-large.txt": lambda: large_on_screen(100),
-    "lit-screen.txt": lambda: lit("screen", large_on_screen, 100),
-    "config.txt": lambda: "500 500\n",
-    "narrow.txt": lambda: "300 300\n",
-    "tiny.txt": lambda: "4 4\n",
-}
+    "one-scene.txt":
+        lambda: scene(in_world(1)), "one-world.txt":
+            lambda: header("world", ()) + in_world(1), "one-view.txt":
+                lambda: header("view", ()) + in_view(1), "one-screen.txt":
+                    lambda: small_on_screen(1), "scene.txt":
+                        lambda: scene(in_world(2000) * 15), "turned-scene.txt":
+                            lambda: scene(in_world(600), TURNED + TURNED, "pop\npop\n"), "odd-scene.txt":
+                                lambda: scene(odd_numbers(in_world(2000)) * 3),
+    "lit-scene.txt":
+        lambda: scene(in_world(2000, columns=("color", "normal")) * 4, columns=("color", "normal")),
+    "world.txt":
+        lambda: header("world", ()) + in_world(2000) * 25, "lit-world.txt":
+            lambda: lit("world", in_world, 2000, 6), "short-world.txt":
+                lambda: header("world", ()) + in_world(2000) * 10, "view.txt":
+                    lambda: header("view", ()) + in_view(2000) * 25, "short-view.txt":
+                        lambda: header("view", ()) + in_view(2000) * 10, "lit-view.txt":
+                            lambda: lit("view", in_view, 2000, 6), "crossing.txt":
+                                lambda: header("view", ()) + across_the_frustum(2000) * 3, "lit-crossing.txt":
+                                    lambda: lit("view", across_the_frustum, 2000, 2), "small.txt":
+                                        lambda: small_on_screen(40_000), "large.txt":
+                                            lambda: large_on_screen(1500), "few-large.txt":
+                                                lambda: large_on_screen(100), "lit-screen.txt":
+                                                    lambda: lit("screen", large_on_screen, 100), "config.txt":
+                                                        lambda: "500 500\n", "narrow.txt":
+                                                            lambda: "300 300\n", "tiny.txt":
+                                                                lambda: "4 4\n", }
 
 
 @dataclasses.dataclass(frozen=True)

@@ -1,7 +1,9 @@
-"""Guards the speed of the tools: compares the instructions of every row of instruction_rows.py with the committed count.
+"""Guards the speed of the tools: compares the instructions of every row of instruction_rows.py with the
+committed count.
 
-Counts do not depend on other load on the machine. Valgrind emulates the same processor on every host that has AVX2, so
-they do not depend on the host either; they do depend on the compiler and the kernel, which each row therefore names.
+Counts do not depend on other load on the machine. Valgrind emulates the same processor on every host that has
+AVX2, so they do not depend on the host either; they do depend on the compiler and the kernel, which each row
+therefore names.
 """
 import csv
 import dataclasses
@@ -17,7 +19,8 @@ from parts.instruction_rows import ROWS, TEXTS
 from parts.measuring import write_csv
 
 TOLERATED_PERCENT = 1.0
-FLAGS = {"scalar": set(), "sse4": {"sse4_2"}, "avx2": {"sse4_2", "bmi1", "bmi2", "avx2", "fma"}}  # in /proc/cpuinfo
+FLAGS = {"scalar": set(), "sse4": {"sse4_2"}, "avx2": {"sse4_2", "bmi1", "bmi2", "avx2",
+                                                       "fma"}}  # in /proc/cpuinfo
 
 
 class RunFailed(Exception):
@@ -25,7 +28,8 @@ class RunFailed(Exception):
 
 
 def compiler_of(program):
-    """Name and version, from the section .comment. A program linked by clang contains objects of GCC's, too, hence the order."""
+    """Name and version, from the section .comment. A program linked by clang contains objects of GCC's, too,
+    hence the order."""
     content = program.read_bytes()
     for name, mark in (("clang", rb"clang version (\d[\d.]*)"), ("GCC", rb"GCC: \([^)]*\) (\d[\d.]*)")):
         if found := re.search(mark, content):
@@ -46,14 +50,17 @@ def no_count_at_all():
 
 
 def callgrind_count(words, folder, **environment):
-    """The instructions of one command in `folder`, in the same environment, but for what is given, whatever the caller's."""
-    done = subprocess.run([shutil.which("valgrind"), "--tool=callgrind", "--callgrind-out-file=/dev/null", *words], cwd=folder,
-                          env={"PATH": "/usr/bin:/bin", "LC_ALL": "C", **environment}, stdin=subprocess.DEVNULL,
-                          stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, errors="replace")
+    """The instructions of one command in `folder`, in the same environment, but for what is given, whatever
+    the caller's."""
+    done = subprocess.run(
+        [shutil.which("valgrind"), "--tool=callgrind", "--callgrind-out-file=/dev/null", *words], cwd=folder,
+        env={"PATH": "/usr/bin:/bin", "LC_ALL": "C", **environment}, stdin=subprocess.DEVNULL,
+        stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, errors="replace")
     collected = re.search(r"Collected : (\d+)", done.stderr)
     if done.returncode != 0 or not collected:
         own = [line for line in done.stderr.splitlines() if line and not line.startswith("==")]
-        raise RunFailed(f"failed with status {done.returncode}: {' '.join(own) or 'valgrind has counted nothing'}")
+        raise RunFailed(
+            f"failed with status {done.returncode}: {' '.join(own) or 'valgrind has counted nothing'}")
     return int(collected[1])
 
 
@@ -63,7 +70,8 @@ def count(row, folder):
         if word in TEXTS and not (folder / word).exists():
             (folder / word).write_text(TEXTS[word]())
     try:
-        return callgrind_count([f"bin/{row.tool}", *row.words.split()[1:], "--threads", "1"], folder, PIPELINE_KERNEL=row.kernel)
+        return callgrind_count([f"bin/{row.tool}", *row.words.split()[1:]], folder,
+                               PIPELINE_KERNEL=row.kernel)
     except RunFailed as error:
         raise RunFailed(f"{row.words} {error}") from None
 
@@ -79,7 +87,8 @@ def committed_counts(path):
     if not path.exists():
         return {}
     with open(path, newline="") as file:
-        return {(line["row"], line["kernel"]): Committed(line["compiler"], int(line["instructions"])) for line in csv.DictReader(file)}
+        return {(line["row"], line["kernel"]): Committed(line["compiler"], int(line["instructions"]))
+                for line in csv.DictReader(file)}
 
 
 class Comparison:
@@ -112,11 +121,15 @@ class Comparison:
             return self.fail(row, str(error))
         self.counted[key] = Committed(compiler, now)
         change = 100 * (now - before.instructions) / before.instructions if before else 0.0
-        self.tell(row, *((f"{before.instructions:15,}", f"{now:15,}", f"{change:+8.2f} %") if before else (f"{'none':>15}", f"{now:15,}")))
+        self.tell(
+            row,
+            *((f"{before.instructions:15,}", f"{now:15,}", f"{change:+8.2f} %") if before else
+              (f"{'none':>15}", f"{now:15,}")))
         if self.accept or (before and change <= TOLERATED_PERCENT):
             self.passed += 1
         elif before:
-            self.fail(row, f"{before.instructions:,} instructions committed, {now:,} counted, {change:+.2f} %")
+            self.fail(row,
+                      f"{before.instructions:,} instructions committed, {now:,} counted, {change:+.2f} %")
         else:
             self.fail(row, f"no count is committed, {now:,} instructions counted; commit it with --accept")
         if change < -TOLERATED_PERCENT and not self.accept:
@@ -129,17 +142,20 @@ class Comparison:
             print("failed:", line)
         if not self.passed and not self.failures:
             print("NOTHING WAS COUNTED, for the reasons above")
-        print(f"{self.passed} passed, {len(self.failures)} failed" + f", {self.skipped} skipped" * bool(self.skipped))
+        print(f"{self.passed} passed, {len(self.failures)} failed" +
+              f", {self.skipped} skipped" * bool(self.skipped))
 
 
 def write_counts(path, counts, rows):
     """Writes the counts in the order of the rows; a row that could not run here keeps its count."""
     keys = [key for row in rows if (key := (row.name, row.kernel)) in counts]
-    write_csv(path, [{"row": name, "kernel": kernel, **dataclasses.asdict(counts[name, kernel])} for name, kernel in keys])
+    write_csv(path, [{"row": name, "kernel": kernel, **dataclasses.asdict(counts[name, kernel])}
+                     for name, kernel in keys])
 
 
 def hold(tools, path, accept=False, rows=ROWS):
-    """Compares the instructions of a folder's tools with a CSV file, or accepts them as its new counts; gives the exit status."""
+    """Compares the instructions of a folder's tools with a CSV file, or accepts them as its new counts; gives
+    the exit status."""
     if missing := sorted({row.tool for row in rows if not (tools / row.tool).exists()}):
         print(f"bench: {tools} has no {', '.join(missing)}; scripts/build-release builds the tools")
         return 1

@@ -1,10 +1,10 @@
-"""Runs a pipe of commands and prints what it cost. Linux charges a process with the memory of the one that started it, so this
-one imports next to nothing: start it with `python3 -I -S`.
+"""Runs a pipe of commands and prints what it cost. Linux charges a process with the memory of the one that
+started it, so this one imports next to nothing: start it with `python3 -I -S`.
 
 usage: launcher.py STDIN STDOUT NOTES COMMAND [ARGUMENT...] [| COMMAND [ARGUMENT...]]...
 
-STDIN, STDOUT and NOTES (the stderr of all) are files. Prints the wall seconds, then a line `STATUS USER_SECONDS SYSTEM_SECONDS KIBIBYTES`
-for each command; the memory is its largest resident set.
+STDIN, STDOUT and NOTES (the stderr of all) are files. Prints the wall seconds, then a line `STATUS
+USER_SECONDS SYSTEM_SECONDS KIBIBYTES` for each command; the memory is its largest resident set.
 """
 import os
 import sys

@@ -11,7 +11,8 @@ from lib.child import cpu_seconds, finished
 
 def machine():
     """The processor's name and the number of available cores."""
-    models = [line.split(":", 1)[1].strip() for line in open("/proc/cpuinfo") if line.startswith("model name")]
+    models = [
+        line.split(":", 1)[1].strip() for line in open("/proc/cpuinfo") if line.startswith("model name")]
     return f"{models[0] if models else 'unknown processor'}, {len(os.sched_getaffinity(0))} cores"
 
 
@@ -31,11 +32,14 @@ class PipeCost:
 
 
 def run_pipe(commands, folder, source="/dev/null", sink="/dev/null"):
-    """The cost of commands joined by pipes, run in `folder`; ends the script if one fails, with what they wrote to stderr."""
+    """The cost of commands joined by pipes, run in `folder`; ends the script if one fails, with what they
+    wrote to stderr."""
     words = [word for command in commands for word in ("|", *map(str, command))][1:]
     notes = pathlib.Path(folder, "notes.txt")
-    done = subprocess.run([sys.executable, "-I", "-S", str(LAUNCHER), str(source), str(sink), str(notes), *words], cwd=folder,
-                          stdout=subprocess.PIPE, text=True)
+    done = subprocess.run(
+        [sys.executable, "-I", "-S",
+         str(LAUNCHER), str(source),
+         str(sink), str(notes), *words], cwd=folder, stdout=subprocess.PIPE, text=True)
     wall, *costs = (line.split() for line in done.stdout.splitlines())
     if done.returncode != 0 or any(status != "0" for status, *_ in costs):
         raise SystemExit(f"{' '.join(words)} failed: {notes.read_text(errors='replace')}")
@@ -64,4 +68,7 @@ def write_csv(path, rows, digits=4):
     with open(path, "w", newline="") as file:
         table = csv.DictWriter(file, columns, restval="", lineterminator="\n")
         table.writeheader()
-        table.writerows({column: f"{value:.{digits}g}" if isinstance(value, float) else value for column, value in row.items()} for row in rows)
+        table.writerows({
+            column: f"{value:.{digits}g}" if isinstance(value, float) else value
+            for column, value in row.items()}
+                        for row in rows)

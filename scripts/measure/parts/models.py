@@ -1,4 +1,5 @@
-"""From a model file to a PNG: `picture` beside f3d, which draws in software, too; measured by scripts/measure/bench --models."""
+"""From a model file to a PNG: `picture` beside f3d, which draws in software, too; measured by
+scripts/measure/bench --models."""
 import dataclasses
 import os
 import pathlib
@@ -29,12 +30,15 @@ def models(folder, details):
         for name in FORMATS:
             path = folder / f"terrain-{detail}.{name}"
             with open(path, "wb") as file:
-                subprocess.run([sys.executable, SCRIPTS / "make-model", "terrain", "--detail", str(detail), "--format", name], stdout=file, check=True)
+                subprocess.run([
+                    sys.executable, SCRIPTS / "make-model", "terrain", "--detail",
+                    str(detail), "--format", name], stdout=file, check=True)
             yield Model(name, path, 98 * detail**2)
 
 
 def rows(tools, rounds, quick):
-    """Rows for models.csv, in turn in each round; without f3d or a display for it, only ours, and the reason."""
+    """Rows for models.csv, in turn in each round; without f3d or a display for it, only ours, and the
+    reason."""
     has_f3d = shutil.which("f3d") is not None
     found, reason = [], None
     with tempfile.TemporaryDirectory() as name, display() as screen:
@@ -45,11 +49,16 @@ def rows(tools, rounds, quick):
             os.environ["DISPLAY"] = screen
         os.environ["BIN"] = str(tools)
         for model in models(folder, (2, 3) if quick else (32, 101)):
-            commands = {"picture": [SCRIPTS / "picture", "--up", "y", "--size", "%dx%d" % SIZE, model.path, "-o", folder / "ours.png"],
-                        "import": [tools / "mesh2scene", "--up", "y", model.path]}
+            commands = {
+                "picture": [
+                    SCRIPTS / "picture", "--up-axis", "y", "--size",
+                    "%dx%d" % SIZE, model.path, "-o", folder / "ours.png"],
+                "import": [tools / "mesh2scene", "--up-axis", "y", model.path]}
             if not reason:
-                commands["f3d"] = [shutil.which("f3d"), "--dry-run", "--quiet", "--up", "+Y", "--output", folder / "f3d.png", "--resolution",
-                                   "%d,%d" % SIZE, model.path]
+                commands["f3d"] = [
+                    shutil.which("f3d"), "--dry-run", "--quiet", "--up", "+Y", "--output", folder / "f3d.png",
+                    "--resolution",
+                    "%d,%d" % SIZE, model.path]
             costs = {program: [] for program in commands}
             for _ in range(rounds):
                 for program, words in commands.items():
@@ -65,10 +74,15 @@ def rows(tools, rounds, quick):
 def report(rows):
     """The table, in Markdown."""
     def seconds(row, program):
-        return [f"{float(row[program + key]):.2g}" if row.get(program + key) else "" for key in ("_wall_seconds", "_cpu_seconds")]
+        return [
+            f"{float(row[program + key]):.2g}" if row.get(program + key) else ""
+            for key in ("_wall_seconds", "_cpu_seconds")]
 
-    lines = ["| | triangles | `picture`: wall, s | CPU, s | of that, `mesh2scene` | f3d: wall, s | CPU, s |", "|---|--:|--:|--:|--:|--:|--:|"]
+    lines = [
+        "| | triangles | `picture`: wall, s | CPU, s | of that, `mesh2scene` | f3d: wall, s | CPU, s |",
+        "|---|--:|--:|--:|--:|--:|--:|"]
     for row in rows:
-        lines.append("| " + " | ".join([row["format"].upper(), f"{int(row['triangles']):,}", *seconds(row, "picture"), seconds(row, "import")[1],
-                                        *seconds(row, "f3d")]) + " |")
+        lines.append("| " + " | ".join([
+            row["format"].upper(), f"{int(row['triangles']):,}", *seconds(row, "picture"),
+            seconds(row, "import")[1], *seconds(row, "f3d")]) + " |")
     return "\n".join([*lines, "", f"Medians of {rows[0]['rounds']} rounds on {rows[0]['machine']}."]) + "\n"

@@ -1,6 +1,6 @@
-"""How far the tools go: the whole pipe up to 10^8 triangles, plain and lit, and the largest pictures; measured once, by
-scripts/measure/bench --reach. The scenes are never on the disk: a shell repeats a million triangles, each time turned and enlarged,
-so that later ones hide earlier ones.
+"""How far the tools go: the whole pipe up to 10^8 triangles, plain and lit, and the largest pictures;
+measured once, by scripts/measure/bench --reach. The scenes are never on the disk: a shell repeats a million
+triangles, each time turned and enlarged, so that later ones hide earlier ones.
 """
 import dataclasses
 import os
@@ -25,9 +25,16 @@ class Case:
 
 def cases(quick):
     if quick:
-        return [Case("plain", 3, 64), Case("normals", 3, 64), Case("plain", 1, 100, ("--algorithm", "scanline")), Case("plain", 1, 80, (), 1 << 60)]
-    return [*(Case(scene, repeats, 500) for scene in ("plain", "normals") for repeats in (1, 10, 100)),
-            Case("plain", 1, MOST, ("--algorithm", "scanline")), Case("plain", 1, 32768, (), 12), Case("plain", 1, MOST, (), 12)]
+        return [
+            Case("plain", 3, 64),
+            Case("normals", 3, 64),
+            Case("plain", 1, 100, ("--algorithm", "scanline")),
+            Case("plain", 1, 80, (), 1 << 60)]
+    return [
+        *(Case(scene, repeats, 500) for scene in ("plain", "normals") for repeats in (1, 10, 100)),
+        Case("plain", 1, MOST, ("--algorithm", "scanline")),
+        Case("plain", 1, 32768, (), 12),
+        Case("plain", 1, MOST, (), 12)]
 
 
 def available_bytes():
@@ -38,7 +45,8 @@ def available_bytes():
 
 
 def write_parts(scene, folder):
-    """The scene's head, and the text of its triangles behind the transform that each repetition adds to those before it."""
+    """The scene's head, and the text of its triangles behind the transform that each repetition adds to those
+    before it."""
     scene.write_empty(folder / "head.txt")
     head = (folder / "head.txt").read_text().removesuffix("end\n")
     scene.write(folder / "whole.txt")
@@ -52,7 +60,9 @@ def write_parts(scene, folder):
 
 def measured(tools, case, scene):
     needed = case.size**2 * case.pixel_bytes
-    row = {"scene": case.scene, "triangles": "", "size": f"{case.size} x {case.size}", "zbuf": " ".join(case.words), "machine": machine()}
+    row = {
+        "scene": case.scene, "triangles": "", "size": f"{case.size} x {case.size}",
+        "zbuf": " ".join(case.words), "machine": machine()}
     if needed > 0.9 * available_bytes():
         return {**row, "needed_gib": needed / 2**30}
     with tempfile.TemporaryDirectory() as name:
@@ -64,10 +74,12 @@ def measured(tools, case, scene):
         if os.waitpid(child, 0)[1] != 0:
             raise SystemExit("bench: cannot write the scene")
         (folder / "config.txt").write_text(f"{case.size} {case.size}\n")
-        repeat = f"cat head.txt; i=0; while [ $i -lt {case.repeats} ]; do cat block.txt; i=$((i + 1)); done; echo end"
+        repeat = (f"cat head.txt; i=0; while [ $i -lt {case.repeats} ]; do cat block.txt; i=$((i + 1)); "
+                  f"done; echo end")
         # The picture is written, as PPM, to /dev/null; so are the depths of pictures of a usual size.
         outputs = ["-o", "-"] if case.size > 8192 else ["--image", "/dev/null"]
-        costs = run_pipe([["/bin/sh", "-c", repeat], *([tools / tool] for tool in TOOLS[:3]), [tools / "zbuf", "config.txt", *outputs, *case.words]], folder)
+        costs = run_pipe([["/bin/sh", "-c", repeat], *([tools / tool] for tool in TOOLS[:3]),
+                          [tools / "zbuf", "config.txt", *outputs, *case.words]], folder)
         with open(folder / "block.txt") as block:
             count = case.repeats * sum(line == "triangle\n" for line in block)
     return {**row, "triangles": count, "cpu_seconds": costs.cpu_seconds, "wall_seconds": costs.wall_seconds,
@@ -82,14 +94,24 @@ def rows(tools, quick):
 
 def report(table):
     """The table, in Markdown."""
-    lines = ["| triangles | pixels | `zbuf` | CPU, s | wall, s | memory of `model`, `view`, `project` | of `zbuf` |", "|--:|--:|---|--:|--:|--:|--:|"]
+    lines = [
+        "| triangles | pixels | `zbuf` | CPU, s | wall, s | memory of `model`, `view`, `project` | of "
+        "`zbuf` |",
+        "|--:|--:|---|--:|--:|--:|--:|"]
     for row in table:
-        what = [f"{int(row['triangles']):,} {'lit' if row['scene'] == 'normals' else 'plain'}" if row["triangles"] else "any", row["size"],
-                f"`{row['zbuf']}`" if row["zbuf"] else ""]
+        what = [
+            f"{int(row['triangles']):,} {'lit' if row['scene'] == 'normals' else 'plain'}"
+            if row["triangles"] else "any", row["size"], f"`{row['zbuf']}`" if row["zbuf"] else ""]
         if row["needed_gib"]:
             costs = ["", "", "", f"needs {float(row['needed_gib']):.0f} GiB"]
         else:
             others = max(float(row[f"{tool}_mib"]) for tool in TOOLS[:3])
-            costs = [f"{float(row['cpu_seconds']):.3g}", f"{float(row['wall_seconds']):.3g}", f"at most {others:.0f} MiB", f"{float(row['zbuf_mib']):.0f} MiB"]
+            costs = [
+                f"{float(row['cpu_seconds']):.3g}", f"{float(row['wall_seconds']):.3g}",
+                f"at most {others:.0f} MiB", f"{float(row['zbuf_mib']):.0f} MiB"]
         lines.append("| " + " | ".join([*what, *costs]) + " |")
-    return "\n".join([*lines, "", f"One run each on {table[0]['machine']}. CPU and wall time include the `cat` that repeats the scene's text."]) + "\n"
+    return "\n".join([
+        *lines, "",
+        f"One run each on {table[0]['machine']}. CPU and wall time include the `cat` that repeats the "
+        f"scene's text."
+    ]) + "\n"

@@ -1,4 +1,5 @@
-"""What is true of the pixels of a case, in exact fractions. Points are (x, y, z), with x and y in pixels from the top left corner."""
+"""What is true of the pixels of a case, in exact fractions. Points are (x, y, z), with x and y in pixels from
+the top left corner."""
 import math
 from fractions import Fraction
 
@@ -10,7 +11,8 @@ def side(a, b, p):
 
 
 def as_whole_numbers(triangle):
-    """The corners' x and y times a scale, and the scale, an even number: with whole numbers, exact arithmetic is fast."""
+    """The corners' x and y times a scale, and the scale, an even number: with whole numbers, exact arithmetic
+    is fast."""
     scale = 2 * math.lcm(*(x.denominator for corner in triangle for x in corner[:2]))
     return [tuple(int(x * scale) for x in corner[:2]) for corner in triangle], scale
 
@@ -52,7 +54,12 @@ def is_inside_all(triangles, p):
 
 def are_apart(first, second):
     """Whether the boxes around two triangles have no inner points in common."""
-    return any(max(p[axis] for p in a) <= min(p[axis] for p in b) for axis in (0, 1) for a, b in ((first, second), (second, first)))
+    return any(
+        max(p[axis]
+            for p in a) <= min(p[axis]
+                               for p in b)
+        for axis in (0, 1)
+        for a, b in ((first, second), (second, first)))
 
 
 def overlap(first, second):
@@ -62,7 +69,8 @@ def overlap(first, second):
     sides = edges(first), edges(second)
     if not all(sides):
         return False
-    return not any(all(side(a, b, p) <= 0 for p in other) for own, other in zip(sides, (second, first)) for a, b in own)
+    return not any(
+        all(side(a, b, p) <= 0 for p in other) for own, other in zip(sides, (second, first)) for a, b in own)
 
 
 def distance_to_edge(edge, p):
@@ -101,4 +109,5 @@ def area_in_pixel(triangle, column, row):
             if s * t < 0:
                 clipped.append(tuple(u + (v - u) * s / (s - t) for u, v in zip(p, q)))
         polygon = clipped
-    return sum((p[0] * q[1] - p[1] * q[0] for p, q in zip(polygon, polygon[1:] + polygon[:1])), Fraction(0)) / 2
+    return sum(
+        (p[0] * q[1] - p[1] * q[0] for p, q in zip(polygon, polygon[1:] + polygon[:1])), Fraction(0)) / 2

@@ -53,7 +53,8 @@ def judged(command, cases):
     if isinstance(answer, str):
         return answer
     about, lines = answer
-    score = Score(about["name"], about["version"], about["promise"], about.get("is_antialiased", False), about["has_depth"])
+    score = Score(about["name"], about["version"], about["promise"], about.get("is_antialiased", False),
+                  about["has_depth"])
     for case, line in zip(cases, lines):
         failures = score.failures.setdefault(case, {})
         score.masks[case] = line["coverage"]
@@ -67,7 +68,8 @@ def judged(command, cases):
 
 
 def judge_tiling(score, case, masks, grid, failures):
-    """Near the border of a tiling, where the rounding of corners may take a pixel away, no owner is asked for."""
+    """Near the border of a tiling, where the rounding of corners may take a pixel away, no owner is asked
+    for."""
     score.tilings += 1
     nearest = max(reach(triangle, grid) for triangle in case.triangles)
     pixels = case.full_pixels if score.is_antialiased else case.inner_pixels
@@ -108,15 +110,18 @@ def judge_coverage(score, case, masks, grid, failures):
 
 def reach(triangle, grid):
     """How far a corner may move when it becomes floats, and then half the diagonal of a cell of the grid."""
-    return -1 if grid == 0 else 0.71 * grid + 2.0 ** -23 * max(abs(float(x)) for corner in triangle for x in corner[:2])
+    return -1 if grid == 0 else 0.71 * grid + 2.0**-23 * max(
+        abs(float(x)) for corner in triangle for x in corner[:2])
 
 
 def judge_depth(score, case, masks, seen):
-    """Judges the pixels in which coverage is right and depth decides: two triangles are there, or what is there is beyond a limit."""
+    """Judges the pixels in which coverage is right and depth decides: two triangles are there, or what is
+    there is beyond a limit."""
     for pixel, (found, positions) in enumerate(zip(seen, case.positions)):
         if any((mask[pixel] > 0) != (where == geometry.INSIDE) for mask, where in zip(masks, positions)):
             continue
         expected = case.seen(pixel, DEPTH_TOLERANCE)
-        if expected is not None and (positions.count(geometry.INSIDE) > 1 or (expected < 0 and geometry.INSIDE in positions)):
+        if expected is not None and (positions.count(geometry.INSIDE) > 1 or
+                                     (expected < 0 and geometry.INSIDE in positions)):
             score.compared += 1
             score.wrong_depths += found != expected

@@ -3,12 +3,16 @@ from lib.pictures import png
 
 SIZE = 256  # of a picture, about
 WHITE, INK, DOT = (255, 255, 255), (40, 44, 52), (90, 98, 110)
-COLORS = {"gap": (207, 34, 46), "twice": (255, 150, 40), "moved": (190, 130, 220), "missed": (245, 180, 185), "extra": (250, 222, 120)}
-TINTS = ((214, 229, 246), (226, 240, 221), (232, 224, 243), (222, 238, 238))  # of triangles that own a pixel alone
+COLORS = {
+    "gap": (207, 34, 46), "twice": (255, 150, 40), "moved": (190, 130, 220), "missed": (245, 180, 185),
+    "extra": (250, 222, 120)}
+TINTS = (
+    (214, 229, 246), (226, 240, 221), (232, 224, 243), (222, 238, 238))  # of triangles that own a pixel alone
 
 
 def worst_case(failures):
-    """The case that shows best what goes wrong: gaps and pixels owned twice first, and most of them; None if nothing does."""
+    """The case that shows best what goes wrong: gaps and pixels owned twice first, and most of them; None if
+    nothing does."""
     def badness(case):
         kinds = list(failures[case].values())
         owned = [kind for kind in kinds if kind in ("gap", "twice")]

@@ -1,9 +1,10 @@
-"""Sentences of docs/ that rest on measured figures. A comment behind such a sentence, on the same line, names them:
+"""Sentences of docs/ that rest on measured figures. A comment behind such a sentence, on the same line, names
+them:
 
     ... costs 1.7 times as much <!-- rests on: cpu(plain, --digits exact) / cpu(plain, default) about 1.7 -->
 
-A figure is COLUMN(SCENE, SETTING), or the quotient of two. `about N` is within a sixth of N, which the sentence has to contain;
-`in A..B` includes both. Several are separated by `;`.
+A figure is COLUMN(SCENE, SETTING), or the quotient of two. `about N` is within a sixth of N, which the
+sentence has to contain; `in A..B` includes both. Several are separated by `;`.
 """
 import re
 
@@ -12,9 +13,12 @@ FIGURE = r"\w+\([^()]+\)"
 CLAIM = re.compile(rf"({FIGURE})(?: / ({FIGURE}))? (?:about (\S+)|in (\S+)\.\.(\S+))")
 ABOUT = 7 / 6
 COLUMNS = {  # what a column is called in a claim: (column, is it for a triangle)
-    "cpu": ("cpu_seconds", True), "wall": ("wall_seconds", True), "instructions": ("instructions", False), "bytes": ("bytes", False),
-    "memory": ("mib", False), "empty": ("empty_cpu_seconds", False), "vertex_error": ("vertex_error_pixels", False),
-    "difference": ("difference_mean", False), "changed": ("channels_changed", False), "depth_error": ("depth_error_median", False),
+    "cpu": ("cpu_seconds", True), "wall": ("wall_seconds", True), "instructions": ("instructions", False),
+        "bytes": ("bytes", False),
+    "memory": ("mib", False), "empty": ("empty_cpu_seconds", False), "vertex_error": (
+        "vertex_error_pixels", False),
+    "difference": ("difference_mean", False), "changed": ("channels_changed", False),
+        "depth_error": ("depth_error_median", False),
 }
 
 
@@ -26,7 +30,8 @@ def figure(words, results):
         return float(row[name]) if row else None
     if name in ("wrong", "off_center"):
         parts = ["wrong_pixels", "flipped_pixels"] if name == "wrong" else ["off_center_pixels"]
-        return None if results.cell(scene, setting, parts[0]) is None else results.share(scene, setting, *parts)
+        return None if results.cell(scene, setting, parts[0]) is None else results.share(
+            scene, setting, *parts)
     column, is_per_triangle = COLUMNS[name]
     return (results.per_triangle if is_per_triangle else results.cell)(scene, setting, column)
 

@@ -1,5 +1,5 @@
-"""What `--depth-epsilon` removes, and what it hides: the share of pixels in which two surfaces in one plane fight, and the largest gap
-between a surface and one behind it that no longer shows, at three distances."""
+"""What `--depth-epsilon` removes, and what it hides: the share of pixels in which two surfaces in one plane
+fight, and the largest gap between a surface and one behind it that no longer shows, at three distances."""
 import math
 import tempfile
 
@@ -11,8 +11,9 @@ DISTANCES = (5, 50, 500)
 NEAR, FAR = 1, 1000
 FOV_Y = 45
 FIRST, SECOND = b"\xff\0\0", b"\0\xff\0"  # the colors of the surface that is drawn first, and of the other
-SETTINGS = [Setting(words) for words in (
-    "", *(f"--depth-epsilon 1e-{n}" for n in (7, 6, 5, 4)), "--digits exact", *(f"--digits exact --depth-epsilon 1e-{n}" for n in (15, 12, 9)))]
+SETTINGS = [
+    Setting(words) for words in ("", *(f"--depth-epsilon 1e-{n}" for n in (7, 6, 5, 4)), "--digits exact",
+                                 *(f"--digits exact --depth-epsilon 1e-{n}" for n in (15, 12, 9)))]
 STRIPS_A_DECADE = 24
 STRIPS = 11 * STRIPS_A_DECADE
 
@@ -51,11 +52,14 @@ def strips(distance, size):
 
     def rectangle(left, right, z):
         """From `left` to `right` of the picture, from -1 to 1."""
-        corners = [(x * slope * z, y * slope * z, -z) for x, y in ((left, -1), (right, -1), (right, 1), (left, 1))]
+        corners = [
+            (x * slope * z, y * slope * z, -z) for x, y in ((left, -1), (right, -1), (right, 1), (left, 1))]
         return [(corners[0], corners[1], corners[2]), (corners[0], corners[2], corners[3])]
 
     places = [2 * k / STRIPS - 1 for k in range(STRIPS + 1)]
-    nearer = [triangle for k, gap in enumerate(gaps(distance)) for triangle in rectangle(places[k], places[k + 1], distance - gap)]
+    nearer = [
+        triangle for k, gap in enumerate(gaps(distance))
+        for triangle in rectangle(places[k], places[k + 1], distance - gap)]
     return colored(rectangle(-1.1, 1.1, distance), nearer, size, distance)
 
 
@@ -75,5 +79,7 @@ def measured(bin_dir, quick):
             row = picture(bin_dir, strips(distance, (pixels_a_strip * STRIPS, 1)), setting)
             # The last pixel of a strip may be the next one's.
             hidden = [gap for k, gap in enumerate(gaps(distance)) if row[pixels_a_strip * k + 1] != SECOND]
-            yield {"setting": str(setting), "distance": distance, "fighting": sum(color == SECOND for color in plane) / len(plane),
-                   "swallowed": max(hidden, default=0.0)}
+            yield {
+                "setting": str(setting), "distance": distance,
+                "fighting": sum(color == SECOND
+                                for color in plane) / len(plane), "swallowed": max(hidden, default=0.0)}

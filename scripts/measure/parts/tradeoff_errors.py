@@ -21,7 +21,8 @@ class Bench:
 
     def run(self, tool, setting, text):
         """The tool's output for a text."""
-        done = subprocess.run(setting.command(self.bin_dir, tool), cwd=self.folder, input=text, capture_output=True)
+        done = subprocess.run(setting.command(self.bin_dir, tool), cwd=self.folder, input=text,
+                              capture_output=True)
         if done.returncode != 0:
             raise SystemExit(f"tradeoff: {tool}, {setting}: {done.stderr.decode()}")
         return done.stdout
@@ -46,7 +47,8 @@ NOBODY = bytes(3)  # black, the background
 
 
 def colors_by_number(count):
-    """The colors zbuf gives triangles 0, 1, 2 ...: red, green and blue are successive numbers of its generator."""
+    """The colors zbuf gives triangles 0, 1, 2 ...: red, green and blue are successive numbers of its
+    generator."""
     state, drawn = 1, bytearray()
     for _ in range(3 * count):
         state = (214013 * state + 2531011) % 2**32
@@ -55,7 +57,8 @@ def colors_by_number(count):
 
 
 def distinct_colors(count):
-    """{color: number} for `count` triangles that zbuf gives different colors, none of them the background's."""
+    """{color: number} for `count` triangles that zbuf gives different colors, none of them the
+    background's."""
     numbers = {}
     for number, color in enumerate(colors_by_number(count + count // 8 + 8)):
         if color != NOBODY and len(numbers) < count:
@@ -120,14 +123,15 @@ class Errors:
             self.bench.set_depth_limits(DEPTH_SCALE)
             depths = iter(self.bench.run("zbuf", setting, "\n".join(lines).encode()).split())
             owners = [self.owner_of_color[color] for color in self.bench.pixels()]
-            self.pictures[setting] = [(None, 1.0) if owner is None else (owner, float(next(depths)) / DEPTH_SCALE)
-                                      for owner in owners]
-            assert next(depths, None) is None, "the z-buffer's text has more depths than the image has colored pixels"
+            self.pictures[setting] = [(None, 1.0) if owner is None else
+                                      (owner, float(next(depths)) / DEPTH_SCALE) for owner in owners]
+            assert next(depths,
+                        None) is None, "the z-buffer's text has more depths than the image has colored pixels"
         return self.pictures[setting]
 
     def differences(self, picture, true_picture):
-        """How many pixels are covered in only one of two pictures (flip), show a neighbor of the right triangle, with a
-        common vertex (neighbor), or show another triangle that should be hidden (wrong)."""
+        """How many pixels are covered in only one of two pictures (flip), show a neighbor of the right
+        triangle, with a common vertex (neighbor), or show another triangle that should be hidden (wrong)."""
         counts = {"flip": 0, "neighbor": 0, "wrong": 0}
         for (owner, _), (true_owner, _) in zip(picture, true_picture):
             if owner == true_owner:

@@ -42,7 +42,8 @@ def panel_parts(panel, settings, bottom):
     if len(panel.series) > 1:
         x = panel.left
         for i, name in enumerate(panel.series):
-            yield f'<g class="s s{i}"><circle class="dot" cx="{x + 5:.1f}" cy="66" r="4"/>' + text(x + 14, 70, name) + "</g>"
+            yield f'<g class="s s{i}"><circle class="dot" cx="{x + 5:.1f}" cy="66" r="4"/>' + text(
+                x + 14, 70, name) + "</g>"
             x += 30 + 7 * len(name)
     for tick in panel.ticks:
         x = panel.x_of(tick)
@@ -58,7 +59,10 @@ def panel_parts(panel, settings, bottom):
             if not panel.is_logarithmic:
                 yield line("front", (panel.x_of(0), y), (panel.x_of(values[setting]), y))
             # The smaller dots of later series stay visible on those of earlier ones.
-            yield f'<circle class="dot" cx="{panel.x_of(values[setting]):.1f}" cy="{y:.1f}" r="{5.5 - 1.4 * i:.1f}"/>'
+            yield (
+                f'<circle class="dot" cx="{panel.x_of(values[setting]):.1f}" cy="{y:.1f}" '
+                f'r="{5.5 - 1.4 * i:.1f}"/>'
+            )
         yield "</g>"
 
 
@@ -79,27 +83,38 @@ def plot(results):
     def errors(scenes, error):
         return {name: {s: error(scene, s) for s in settings} for name, scene in scenes.items()}
 
-    layers = errors({f"1e{n}": f"layers 1e{n}" for n in (6, 4, 2)}, lambda scene, s: results.share(scene, s, "flipped_pixels", "wrong_pixels"))
-    vertices = errors({"1e-5": "1e-5", "1e-3": "1e-3", "1": "unit"}, lambda scene, s: results.cell(scene, s, "vertex_error_pixels"))
-    edges = errors({"1e-5": "1e-5", "1e-3": "1e-3", "1": "unit"}, lambda scene, s: results.share(scene, s, "off_center_pixels"))
+    layers = errors({f"1e{n}": f"layers 1e{n}"
+                     for n in (6, 4, 2)},
+                    lambda scene, s: results.share(scene, s, "flipped_pixels", "wrong_pixels"))
+    vertices = errors({"1e-5": "1e-5", "1e-3": "1e-3", "1": "unit"},
+                      lambda scene, s: results.cell(scene, s, "vertex_error_pixels"))
+    edges = errors({"1e-5": "1e-5", "1e-3": "1e-3", "1": "unit"},
+                   lambda scene, s: results.share(scene, s, "off_center_pixels"))
     shares = (1e-4, 1e-2, 1)
     text_bytes = {s: results.cell("plain", s, "bytes") for s in settings}
     panels = [
-        Panel("CPU", "ns a triangle", {"": nanoseconds}, LABEL_WIDTH, 150, rounded_up(max(nanoseconds.values()))),
-        Panel("Text", "bytes a triangle", {"": text_bytes}, LABEL_WIDTH + 190, 90, rounded_up(max(text_bytes.values()))),
-        Panel("How far vertices move", "pixels, at most; objects of size", vertices, LABEL_WIDTH + 325, 200, (1e-15, 1e-10, 1e-5, 1, 1e5), True, power_text),
-        Panel("Hidden that shows", "layers 1e-5 apart, far/near", layers, LABEL_WIDTH + 565, 160, shares, True, share_text),
-        Panel("Pixels off center", "objects of size", edges, LABEL_WIDTH + 765, 130, shares, True, share_text),
-    ]
+        Panel("CPU", "ns a triangle", {"": nanoseconds}, LABEL_WIDTH, 150,
+              rounded_up(max(nanoseconds.values()))),
+        Panel("Text", "bytes a triangle", {"": text_bytes}, LABEL_WIDTH + 190, 90,
+              rounded_up(max(text_bytes.values()))),
+        Panel("How far vertices move", "pixels, at most; objects of size", vertices, LABEL_WIDTH + 325, 200,
+              (1e-15, 1e-10, 1e-5, 1, 1e5), True, power_text),
+        Panel("Hidden that shows", "layers 1e-5 apart, far/near", layers, LABEL_WIDTH + 565, 160, shares,
+              True, share_text),
+        Panel("Pixels off center", "objects of size", edges, LABEL_WIDTH + 765, 130, shares, True,
+              share_text), ]
     bottom = TOP + ROW_HEIGHT * len(settings)
     height = bottom + 40
-    footnote = f"Plain triangles, what they cost beyond an empty run. Medians of {results.words('plain', 'rounds')} rounds, {results.machine}."
+    footnote = (f"Plain triangles, what they cost beyond an empty run. Medians of "
+                f"{results.words('plain', 'rounds')} rounds, {results.machine}.")
     if any(setting in beaten for setting in settings):
         footnote += " *: beaten by another setting."
-    parts = [f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {height}" width="{WIDTH}" height="{height}">',
-             "<title>Cost and errors of the settings of the pipeline</title>", f"<style>{STYLE}</style>",
-             f'<rect class="card" x=".5" y=".5" width="{WIDTH - 1}" height="{height - 1}" rx="8"/>',
-             text(20, height - 14, footnote, 'class="soft"')]
+    parts = [
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {height}" width="{WIDTH}" '
+        f'height="{height}">',
+        "<title>Cost and errors of the settings of the pipeline</title>", f"<style>{STYLE}</style>",
+        f'<rect class="card" x=".5" y=".5" width="{WIDTH - 1}" height="{height - 1}" rx="8"/>',
+        text(20, height - 14, footnote, 'class="soft"')]
     for row, setting in enumerate(settings):
         y = TOP + ROW_HEIGHT * (row + 0.5)
         parts.append(line("grid", (20, y + ROW_HEIGHT / 2), (WIDTH - 20, y + ROW_HEIGHT / 2)))

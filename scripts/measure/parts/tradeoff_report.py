@@ -8,23 +8,27 @@ PICTURES = ("fill", "torus", "inside")
 
 # Why a setting stays that another one beats in every column.
 REASONS = {
-    "default": "Assignments ask for `nearest`.",
-    "--digits 5": "Its text is the shortest.",
-    "--digits 6": "It is the text of printf's `%f`.",
-    "--digits 15": "Other programs read it back with the digits that doubles have.",
-    "--precision double": "Where matrices cancel it is faster (`plain pivot`).",
-    "--digits exact --precision double": "Where matrices cancel it is faster (`plain pivot`).",
-    "--depth f32": "A float takes 8 bytes a pixel in place of 12.",
-    "--depth u24": "Between narrow limits of z it is finer than `f32`, and as coarse as the buffer of a graphics card.",
-    "--clip near": "What lies between the eye and the near plane must go.",
-    "--clip frustum": "The text holds nothing that is outside the picture.",
-    "--clip reject": "It drops what is outside and cuts nothing.",
-    "--shading none": "Colors as they are given.",
-    "--shading flat": "Facets show; it is no approximation of `phong`.",
-    "--shading gouraud": "It is what OpenGL does.",
-    "--shading flat --samples 4": "Facets show; it is no approximation of `phong`.",
-    "--shading gouraud --samples 4": "It is what OpenGL does.",
-}
+    "default":
+        "Assignments ask for `nearest`.", "--digits 5":
+            "Its text is the shortest.", "--digits 6":
+                "It is the text of printf's `%f`.", "--digits 15":
+                    "Other programs read it back with the digits that doubles have.", "--precision double":
+                        "Where matrices cancel it is faster (`plain pivot`).",
+    "--digits exact --precision double":
+        "Where matrices cancel it is faster (`plain pivot`).", "--depth f32":
+            "A float takes 8 bytes a pixel in place of 12.",
+    "--depth u24":
+        "Between narrow limits of z it is finer than `f32`, and as coarse as the buffer of a graphics card.",
+    "--clip near":
+        "What lies between the eye and the near plane must go.", "--clip frustum":
+            "The text holds nothing that is outside the picture.", "--clip reject":
+                "It drops what is outside and cuts nothing.", "--shading none":
+                    "Colors as they are given.", "--shading flat":
+                        "Facets show; it is no approximation of `phong`.", "--shading gouraud":
+                            "It is what OpenGL does.", "--shading flat --samples 4":
+                                "Facets show; it is no approximation of `phong`.",
+    "--shading gouraud --samples 4":
+        "It is what OpenGL does.", }
 
 
 def code(setting):
@@ -50,7 +54,8 @@ def table(header, rows):
 
 def with_quartiles(results, scene, setting, column, factor, form):
     """The median, and the quartiles in brackets."""
-    median, low, high = (results.cell(scene, setting, name) * factor for name in (column, f"{column}_q1", f"{column}_q3"))
+    median, low, high = (results.cell(scene, setting, name) * factor
+                         for name in (column, f"{column}_q1", f"{column}_q3"))
     return f"{median:{form}} ({low:{form}}-{high:{form}})"
 
 
@@ -58,7 +63,8 @@ def cost_table(results, scene):
     if scene in PICTURES:
         unit, factor, form, what = "ms", 1e3, ".1f", "the picture"
     else:
-        unit, factor, form, what = "ns", 1e9 / results.cell(scene, "default", "triangles"), ".0f", "a triangle"
+        unit, factor, form, what = "ns", 1e9 / results.cell(scene, "default",
+                                                            "triangles"), ".0f", "a triangle"
     has_counts = results.cell(scene, "default", "instructions") is not None
 
     def cells(setting):
@@ -75,8 +81,9 @@ def cost_table(results, scene):
         yield f"{cell('bytes'):.0f}"
         yield f"{cell('mib'):.0f}"
 
-    header = ["setting", "empty run: CPU, ms", "MiB", f"{what}: CPU, {unit}", "times the default's", f"wall, {unit}",
-              *["instructions"] * has_counts, "bytes of a triangle", "MiB of the run"]
+    header = [
+        "setting", "empty run: CPU, ms", "MiB", f"{what}: CPU, {unit}", "times the default's",
+        f"wall, {unit}", *["instructions"] * has_counts, "bytes of a triangle", "MiB of the run"]
     return table(header, [list(cells(setting)) for setting in results.settings(scene)])
 
 
@@ -123,34 +130,43 @@ def epsilon_table(results):
         yield from (percent(float(row["fighting"])) for row in rows)
         yield from (number(float(row["swallowed"])) for row in rows)
 
-    header = ["setting", *(f"pixels that fight at {distance}" for distance in DISTANCES), *(f"gap hidden at {distance}" for distance in DISTANCES)]
+    header = [
+        "setting", *(f"pixels that fight at {distance}" for distance in DISTANCES),
+        *(f"gap hidden at {distance}" for distance in DISTANCES)]
     return table(header, [list(cells(str(setting))) for setting in EPSILONS])
 
 
 def beaten_table(results):
-    rows = [[code(setting), ", ".join(map(code, winners)), REASONS.get(setting, "")] for setting, winners in results.beaten().items()]
+    rows = [[code(setting), ", ".join(map(code, winners)),
+             REASONS.get(setting, "")] for setting, winners in results.beaten().items()]
     return table(["setting", "beaten by", "it stays because"], rows) if rows else "None is.\n"
 
 
 def report(results):
     rounds = results.words(results.cost_scenes[0], "rounds")
-    counted = {"callgrind": "Instructions are those that Valgrind counts, on a processor with AVX2 and without AVX-512",
-               "perf": "Instructions are those that the processor counts outside the kernel"}.get(results.counter, f"Instructions: {results.counter}")
+    counted = {
+        "callgrind":
+            "Instructions are those that Valgrind counts, on a processor with AVX2 and without AVX-512",
+        "perf":
+            "Instructions are those that the processor counts outside the kernel"}.get(
+                results.counter, f"Instructions: {results.counter}")
     costs = "\n".join(cost_section(results, scene) for scene in results.cost_scenes)
     return f"""# What accuracy costs
 
-Written by `scripts/measure/tradeoff`; all numbers are in [tradeoff.csv](tradeoff.csv) and [epsilon.csv](epsilon.csv). A setting is named
-by what differs from the default, `--digits 7 --precision extended --coverage nearest --depth f64`.
+Written by `scripts/measure/tradeoff`; all numbers are in [tradeoff.csv](tradeoff.csv) and
+[epsilon.csv](epsilon.csv). A setting is named by what differs from the default,
+`--digits 7 --precision extended --coverage nearest --depth f64`.
 
 ![cost and errors of every setting](tradeoff.svg)
 
 ## Cost
 
-The whole pipe `model | view | project | zbuf` on {results.machine}. An *empty run* has the same header, options and picture, but no triangle:
-it is what a run costs anyway. What it costs is taken off the run with triangles of the same round; the rest is given for a triangle, or for
-the picture. Medians of {rounds} rounds, quartiles in brackets; a ratio is to the default's time in the same round. Wall time is that on two
-cores. {counted}: those of a picture with as large triangles, but a 25th of them (`ball` and `half`: the same). Memory is the sum of
-the stages' largest resident sets. Bytes are those in the three pipes together.
+The whole pipe `model | view | project | zbuf` on {results.machine}. An *empty run* has the same header,
+options and picture, but no triangle: it is what a run costs anyway. What it costs is taken off the run with
+triangles of the same round; the rest is given for a triangle, or for the picture. Medians of {rounds}
+rounds, quartiles in brackets; a ratio is to the default's time in the same round. Wall time is that on two
+cores. {counted}: those of a picture with as large triangles, but a 25th of them (`ball` and `half`: the
+same). Memory is the sum of the stages' largest resident sets. Bytes are those in the three pipes together.
 
 {costs}
 ## What it gives up
@@ -160,13 +176,14 @@ Against a lossless run (`--digits exact`) with the same rule of coverage.
 Largest error of a vertex on the screen, in pixels:
 
 {error_table(results, vertex_cell(results))}
-Pixels: flipped (covered here or there, not in both) / wrong (a triangle that should be hidden) / neighbor (one that
-shares a vertex with the right triangle). `nearest` lights pixels on a common edge twice, and which of the two triangles
-is nearer there hangs on the last bits of their depths: hence neighbors, whatever the number of digits.
+Pixels: flipped (covered here or there, not in both) / wrong (a triangle that should be hidden) / neighbor
+(one that shares a vertex with the right triangle). `nearest` lights pixels on a common edge twice, and
+which of the two triangles is nearer there hangs on the last bits of their depths: hence neighbors, whatever
+the number of digits.
 
 {error_table(results, pixels_cell(results))}
-Depth (NDC z) where the right triangle is seen: median / largest error. The largest are on triangles seen nearly
-edge-on, of which a pixel shows depths from end to end.
+Depth (NDC z) where the right triangle is seen: median / largest error. The largest are on triangles seen
+nearly edge-on, of which a pixel shows depths from end to end.
 
 {error_table(results, depth_cell(results))}
 Pixels that show another triangle than the nearest in which their center lies, as a share of those covered:
@@ -174,15 +191,16 @@ Pixels that show another triangle than the nearest in which their center lies, a
 {error_table(results, off_center_cell(results))}
 ## What --depth-epsilon hides
 
-One oblique plane, drawn twice and divided differently, should show the surface drawn first: pixels that show the other *fight*. Strips before
-a wall should all show: the *gap hidden* is the largest between a strip and the wall, in units of the scene, whose strip does not show; 0 if
-all do. At distances of 5, 50 and 500, near 1, far 1000.
+One oblique plane, drawn twice and divided differently, should show the surface drawn first: pixels that
+show the other *fight*. Strips before a wall should all show: the *gap hidden* is the largest between a
+strip and the wall, in units of the scene, whose strip does not show; 0 if all do. At distances of 5, 50 and
+500, near 1, far 1000.
 
 {epsilon_table(results)}
 ## Settings that another one beats
 
-Nowhere worse in cost or error, and better somewhere, in every scene in which both were measured. Costs differ if they do so by more than
-3 %, times only if their quartiles do not overlap, either.
+Nowhere worse in cost or error, and better somewhere, in every scene in which both were measured. Costs
+differ if they do so by more than 3 %, times only if their quartiles do not overlap, either.
 
 {beaten_table(results)}"""
 
@@ -190,9 +208,10 @@ Nowhere worse in cost or error, and better somewhere, in every scene in which bo
 # docs/accuracy.md
 
 SHORT_SETTINGS = [
-    "default", "--digits 5", "--digits 9", "--digits 12", "--digits exact", "--precision double", "--depth f32", "--coverage center",
-    "--digits 9 --coverage center", "--digits exact --coverage center"]
-LIT_SETTINGS = ["default", "--digits 9", "--digits exact", "--coverage center", "--shading none", "--samples 2"]
+    "default", "--digits 5", "--digits 9", "--digits 12", "--digits exact", "--precision double",
+    "--depth f32", "--coverage center", "--digits 9 --coverage center", "--digits exact --coverage center"]
+LIT_SETTINGS = [
+    "default", "--digits 9", "--digits exact", "--coverage center", "--shading none", "--samples 2"]
 
 
 def short_table(results):
@@ -200,11 +219,15 @@ def short_table(results):
         yield code(setting)
         yield f"{results.cell('plain', setting, 'ratio'):.2f}"
         yield f"{results.cell('plain', setting, 'bytes'):.0f}"
-        yield from (number(results.cell(scene, setting, "vertex_error_pixels"), 1) for scene in ("unit", "1e-3", "1e-5"))
-        yield from (percent(results.share(f"layers {ratio}", setting, "flipped_pixels", "wrong_pixels")) for ratio in ("1e2", "1e4", "1e6"))
+        yield from (number(results.cell(scene, setting, "vertex_error_pixels"), 1)
+                    for scene in ("unit", "1e-3", "1e-5"))
+        yield from (percent(results.share(f"layers {ratio}", setting, "flipped_pixels", "wrong_pixels"))
+                    for ratio in ("1e2", "1e4", "1e6"))
         yield percent(results.share("unit", setting, "off_center_pixels"))
 
-    header = ["setting", "CPU time", "bytes", "vertex error, size 1", "1e-3", "1e-5", "wrong pixels, far/near 1e2", "1e4", "1e6", "off-center pixels"]
+    header = [
+        "setting", "CPU time", "bytes", "vertex error, size 1", "1e-3", "1e-5", "wrong pixels, far/near 1e2",
+        "1e4", "1e6", "off-center pixels"]
     return table(header, [list(cells(setting)) for setting in SHORT_SETTINGS])
 
 
@@ -214,15 +237,20 @@ def price_table(results):
 
     def cells(scene, title):
         yield title
-        yield f"{1e3 * results.cell(scene, 'default', 'empty_cpu_seconds'):.0f} ms, {results.cell(scene, 'default', 'empty_mib'):.0f} MiB"
+        yield (
+            f"{1e3 * results.cell(scene, 'default', 'empty_cpu_seconds'):.0f} ms, "
+            f"{results.cell(scene, 'default', 'empty_mib'):.0f} MiB"
+        )
         yield f"{1e9 * results.per_triangle(scene, 'default', 'cpu_seconds'):.0f} ns"
         yield f"{1e9 * results.per_triangle(scene, 'default', 'wall_seconds'):.0f} ns"
         yield f"{results.cell(scene, 'default', 'bytes'):.0f}"
         yield f"{results.cell(scene, 'default', 'mib'):.0f} MiB"
-        yield from (f"{results.cell(scene, setting, 'ratio'):.2f}" for setting in ("--digits 9", "--digits exact", "--coverage center", "--samples 2"))
+        yield from (f"{results.cell(scene, setting, 'ratio'):.2f}"
+                    for setting in ("--digits 9", "--digits exact", "--coverage center", "--samples 2"))
 
-    header = ["a million triangles", "an empty run", "a triangle: CPU", "wall, 2 cores", "bytes", "memory of the run", "`--digits 9`",
-              "`--digits exact`", "`--coverage center`", "`--samples 2`"]
+    header = [
+        "a million triangles", "an empty run", "a triangle: CPU", "wall, 2 cores", "bytes",
+        "memory of the run", "`--digits 9`", "`--digits exact`", "`--coverage center`", "`--samples 2`"]
     return table(header, [list(cells(*item)) for item in scenes.items()])
 
 
@@ -230,8 +258,9 @@ def short_report(results):
     """The tables and the plot for docs/accuracy.md."""
     return f"""{price_table(results)}
 {short_table(results)}
-Medians of {results.words('plain', 'rounds')} rounds on {results.machine}. The last four columns of the first table, and the CPU time of the second, are
-what a triangle costs with the setting, relative to the default.
+Medians of {results.words('plain', 'rounds')} rounds on {results.machine}. The last four columns of the
+first table, and the CPU time of the second, are what a triangle costs with the setting, relative to the
+default.
 
 ![Cost and errors of every setting](../scripts/measure/results/tradeoff.svg)
 """
@@ -249,10 +278,13 @@ def shading_table(results):
                 yield from ("", "must cut", "")
             else:
                 yield f"{results.cell(name, setting, 'ratio'):.2f}"
-                mean, largest = (results.cell(name, setting, f"difference_{kind}") for kind in ("mean", "max"))
+                mean, largest = (results.cell(name, setting, f"difference_{kind}")
+                                 for kind in ("mean", "max"))
                 yield from ("its own shadows", "") if mean is None else (f"{mean:.2f}", f"{largest:.0f}")
 
-    header = ["setting", *(words for name in names.values() for words in (f"{name}: CPU time", "mean difference", "largest"))]
+    header = [
+        "setting",
+        *(words for name in names.values() for words in (f"{name}: CPU time", "mean difference", "largest"))]
     return table(header, [list(cells(setting)) for setting in results.settings("torus")])
 
 
@@ -269,13 +301,16 @@ def culling_table(results):
         yield "" if changed is None else f"{changed:,.0f} of {results.cell('ball', setting, 'channels'):,.0f}"
 
     count = int(results.cell("ball", "default", "triangles"))
-    header = [f"ball of {count:,} triangles", "CPU time", "instructions", "half of it in the picture: CPU time", "instructions", "channels that culling changes"]
+    header = [
+        f"ball of {count:,} triangles", "CPU time", "instructions", "half of it in the picture: CPU time",
+        "instructions", "channels that culling changes"]
     return table(header, [list(cells(setting)) for setting in results.settings("ball")[1:]])
 
 
 def lighting_report(results):
     return f"""{shading_table(results)}
 {culling_table(results)}
-CPU time is what the triangles cost the whole pipe at 480 x 360 pixels, relative to the default (phong, one sample, `--coverage nearest`); an empty
-run is taken off. Medians of {results.words('torus', 'rounds')} rounds on {results.machine}; instructions by {results.counter}, relative to the default's.
+CPU time is what the triangles cost the whole pipe at 480 x 360 pixels, relative to the default (phong, one
+sample, `--coverage nearest`); an empty run is taken off. Medians of {results.words('torus', 'rounds')}
+rounds on {results.machine}; instructions by {results.counter}, relative to the default's.
 """

@@ -15,7 +15,8 @@ class Scene:
 
 
 def ball(radius, rings, sectors):
-    """A ball with bumps, 2 * RINGS * SECTORS triangles: it hides parts of itself, and its edges have all directions."""
+    """A ball with bumps, 2 * RINGS * SECTORS triangles: it hides parts of itself, and its edges have all
+    directions."""
     def point(i, k):
         u, v = math.pi * (i + 0.5) / (rings + 1), math.tau * (k % sectors) / sectors
         r = radius * (0.85 + 0.15 * math.sin(5 * u) * math.cos(7 * v))
@@ -56,7 +57,8 @@ EYE = (1.8, 1.2, 2.4)
 
 def ball_scene(name, title, radius, detail, size):
     eye = [radius * x for x in EYE]
-    return scene(name, title, camera(eye, (0, 0, 0), 40, radius, 10 * radius), TURN, ball(radius, *detail), size)
+    return scene(name, title, camera(eye, (0, 0, 0), 40, radius, 10 * radius), TURN, ball(radius, *detail),
+                 size)
 
 
 def planet(name, title, detail, size):
@@ -77,7 +79,8 @@ def telescope(name, title, detail, size):
     fov_y = 0.001
     distance = 1.15 / math.tan(math.radians(fov_y / 2))
     eye = [round(distance * x / math.hypot(*EYE)) for x in EYE]
-    return scene(name, title, camera(eye, (0, 0, 0), fov_y, distance - 10, distance + 10), TURN, ball(1, *detail), size)
+    return scene(name, title, camera(eye, (0, 0, 0), fov_y, distance - 10, distance + 10), TURN,
+                 ball(1, *detail), size)
 
 
 def room(name, title, detail, size):
@@ -97,7 +100,8 @@ def room(name, title, detail, size):
 
 
 def layers(name, title, ratio, detail, size):
-    """Two oblique planes 1e-5 apart; the rear one comes first, so that it also wins where both depths are equal."""
+    """Two oblique planes 1e-5 apart; the rear one comes first, so that it also wins where both depths are
+    equal."""
     normal = [x / math.hypot(0.6, 0.3, 1) for x in (-0.6, -0.3, 1)]
 
     def plane(cells, lift):
@@ -120,5 +124,5 @@ def scenes_of_errors(quick):
     yield pivot("pivot", "vertices 1e9 from the origin, moved back to it", detail, size)
     yield telescope("telescope", "fovY 0.001, 130,000 away", detail, size)
     for exponent in (2, 4, 6):
-        yield layers("layers 1e%d" % exponent, "two layers 1e-5 apart, far/near 1e%d" % exponent, 10**exponent,
-                     detail, size)
+        yield layers("layers 1e%d" % exponent, "two layers 1e-5 apart, far/near 1e%d" % exponent,
+                     10**exponent, detail, size)

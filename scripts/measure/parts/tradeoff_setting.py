@@ -4,10 +4,9 @@ import dataclasses
 TOOLS = ("model", "view", "project", "zbuf")
 TRACING_TOOLS = ("model", "view", "trace")
 TOOLS_WITH = {
-    "--digits": TOOLS[:3], "--precision": TOOLS[:3],
-    "--clip": ("project",), "--cull": ("project",),
-    "--coverage": ("zbuf",), "--depth": ("zbuf",), "--depth-epsilon": ("zbuf",), "--shading": ("zbuf", "trace"), "--samples": ("zbuf", "trace"),
-}
+    "--digits": TOOLS[:3], "--precision": TOOLS[:3], "--clip": ("project", ), "--cull": ("project", ),
+    "--coverage": ("zbuf", ), "--depth": ("zbuf", ), "--depth-epsilon": ("zbuf", ), "--shading":
+        ("zbuf", "trace"), "--samples": ("zbuf", "trace"), }
 DEFAULTS = {"--digits": "7", "--precision": "extended", "--coverage": "nearest", "--depth": "f64"}
 
 
@@ -33,7 +32,9 @@ class Setting:
 
     def words_for(self, tool):
         """The options that the tool has."""
-        return [word for option, value in self.options.items() if tool in TOOLS_WITH[option] for word in (option, value)]
+        return [
+            word for option, value in self.options.items() if tool in TOOLS_WITH[option]
+            for word in (option, value)]
 
     def command(self, bin_dir, tool):
         return [str(bin_dir / tool), *self.words_for(tool), *drawing_words(tool, "picture.ppm")]
@@ -41,7 +42,9 @@ class Setting:
 
 def drawing_words(tool, image):
     """What the last stage needs besides its setting."""
-    return {"zbuf": ["--image", image, "config.txt"], "trace": ["--threads", "1", "--image", image, "config.txt"]}.get(tool, [])
+    return {
+        "zbuf": ["--image", image, "config.txt"], "trace": ["--threads", "1", "--image", image,
+                                                            "config.txt"]}.get(tool, [])
 
 
 def settings(*words):
@@ -53,17 +56,22 @@ TRACED = Setting(is_traced=True)
 MOST_EXACT = Setting("--digits exact --coverage center")
 
 # What may change numbers, and which pixel shows what: measured for its errors, too.
-ACCURACY = settings(
-    *(f"--digits {digits}" for digits in ("5", "6", "9", "12", "15", "exact")), "--precision double", "--coverage center", "--depth f32",
-    "--depth u24", "--digits exact --precision double", "--digits 9 --coverage center", "--digits exact --coverage center")
+ACCURACY = settings(*(f"--digits {digits}" for digits in ("5", "6", "9", "12", "15", "exact")),
+                    "--precision double", "--coverage center", "--depth f32", "--depth u24",
+                    "--digits exact --precision double", "--digits 9 --coverage center",
+                    "--digits exact --coverage center")
 PLAIN = [*ACCURACY, Setting("--depth-epsilon 1e-6"), Setting("--samples 2"), Setting("--samples 4"), TRACED]
 COLOR = settings("--digits 9", "--digits exact", "--coverage center", "--shading none", "--samples 2")
-NORMALS = settings("--digits 9", "--digits exact", "--coverage center", "--shading none", "--shading flat", "--shading gouraud", "--samples 2") + [TRACED]
-CANCELLATION = settings("--precision double", "--digits 9", "--digits exact", "--digits exact --precision double")
+NORMALS = settings("--digits 9", "--digits exact", "--coverage center", "--shading none", "--shading flat",
+                   "--shading gouraud", "--samples 2") + [TRACED]
+CANCELLATION = settings("--precision double", "--digits 9", "--digits exact",
+                        "--digits exact --precision double")
 FILL = settings("--coverage center", "--depth f32", "--depth u24", "--samples 2") + [TRACED]
 CULLING = settings("--cull back", "--clip near", "--clip frustum", "--clip reject", "--coverage center",
                    "--cull back --coverage center")
-SHADING = settings(*(f"--shading {model}" for model in ("none", "flat", "gouraud")), *(f"--samples {count}" for count in (2, 4, 8)),
-                   *(f"--clip {mode}" for mode in ("near", "frustum", "reject")),
-                   *(f"--shading {model} --samples 4" for model in ("flat", "gouraud"))) + [TRACED, Setting("--samples 4", is_traced=True)]
+SHADING = settings(*(f"--shading {model}" for model in ("none", "flat", "gouraud")),
+                   *(f"--samples {count}"
+                     for count in (2, 4, 8)), *(f"--clip {mode}" for mode in ("near", "frustum", "reject")),
+                   *(f"--shading {model} --samples 4" for model in ("flat", "gouraud"))) + [
+                       TRACED, Setting("--samples 4", is_traced=True)]
 FINEST = Setting("--samples 8")

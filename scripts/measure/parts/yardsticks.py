@@ -1,8 +1,10 @@
-"""The tools beside other programs that do such work, and beside what the machine can do: measured in one run by scripts/measure/bench.
+"""The tools beside other programs that do such work, and beside what the machine can do: measured in one run
+by scripts/measure/bench.
 
-A row's CPU time is compared with what it would take if nothing but one thing counted: the system's calls (measured), the
-instructions at four a cycle, the mispredicted branches at 15 cycles each, and the cache misses at the memory's bandwidth (counted by
-Valgrind's model of a processor, on fewer triangles). The largest share is what limits the row.
+A row's CPU time is compared with what it would take if nothing but one thing counted: the system's calls
+(measured), the instructions at four a cycle, the mispredicted branches at 15 cycles each, and the cache
+misses at the memory's bandwidth (counted by Valgrind's model of a processor, on fewer triangles). The largest
+share is what limits the row.
 """
 import collections
 import contextlib
@@ -62,7 +64,8 @@ class Stages:
 
 def rows_of(tools, baselines, folder, scenes, factor):
     """The rows, with a `factor`-th of the triangles."""
-    plain, lit, fill = (Stages(tools, folder / name, detail_of(scenes[name], factor)) for name in ("plain", "normals", "fill"))
+    plain, lit, fill = (Stages(tools, folder / name, detail_of(scenes[name], factor))
+                        for name in ("plain", "normals", "fill"))
     few = Stages(tools, folder / "few", detail_of(scenes["plain"], factor * FEWER))
     no_image = ["--image", "/dev/null"]
 
@@ -76,33 +79,43 @@ def rows_of(tools, baselines, folder, scenes, factor):
         return Row(name, (command,), source, text_bytes, count, unit, (source,))
 
     for i, tool in enumerate(TOOLS[:3]):
-        yield alone(f"`{tool}`", [tools / tool], plain.paths[i], plain.bytes[i] + plain.bytes[i + 1], plain.count)
+        yield alone(f"`{tool}`", [tools / tool], plain.paths[i], plain.bytes[i] + plain.bytes[i + 1],
+                    plain.count)
     yield alone("`zbuf`", pipe(plain)[3], plain.paths[3], plain.bytes[3], plain.count)
-    yield alone("`zbuf`, pictures of large triangles", pipe(fill)[3], fill.paths[3], fill.bytes[3], fill.count // 2 * fill.size[0] * fill.size[1], "pixel")
+    yield alone("`zbuf`, pictures of large triangles",
+                pipe(fill)[3], fill.paths[3], fill.bytes[3], fill.count // 2 * fill.size[0] * fill.size[1],
+                "pixel")
     yield alone("`zbuf`, lit", pipe(lit)[3], lit.paths[3], lit.bytes[3], lit.count)
-    yield Row("the pipe", pipe(plain), plain.paths[0], through(plain), plain.count, sources=tuple(plain.paths))
+    yield Row("the pipe", pipe(plain), plain.paths[0], through(plain), plain.count,
+              sources=tuple(plain.paths))
     yield Row("the pipe, lit", pipe(lit), lit.paths[0], through(lit), lit.count, sources=tuple(lit.paths))
     if factor == 1:
         yield from drawing_rows(baselines, plain)
-    yield alone("a plain filter, `from_chars`", [baselines / "filter_from_chars"], plain.paths[3], 2 * plain.bytes[3], plain.count)
-    yield alone("a plain filter, iostream", [baselines / "filter_iostream"], few.paths[3], 2 * few.bytes[3], few.count)
-    yield alone("a student's program, all four stages", [baselines / "student_pipeline", "all", few.paths[0], few.config, "--folder", folder], "/dev/null",
+    yield alone("a plain filter, `from_chars`", [baselines / "filter_from_chars"], plain.paths[3],
+                2 * plain.bytes[3], plain.count)
+    yield alone("a plain filter, iostream", [baselines / "filter_iostream"], few.paths[3], 2 * few.bytes[3],
+                few.count)
+    yield alone("a student's program, all four stages",
+                [baselines / "student", "all", few.paths[0], few.config, "--folder", folder], "/dev/null",
                 through(few), few.count)
 
 
 def drawing_rows(baselines, stages):
     """Drawing alone, from memory: ours and, if it is there, Mesa's."""
     size, path = [str(length) for length in stages.size], stages.paths[3]
-    yield Row("drawing alone, `--coverage center`", ([baselines / "draw_triangles", *size, path, "center", "1"],), "/dev/null", 0, stages.count,
+    yield Row("drawing alone, `--coverage center`",
+              ([baselines / "draw_triangles", *size, path, "center", "1"], ), "/dev/null", 0, stages.count,
               is_self_timed=True)
     if (baselines / "draw_osmesa").exists():
         # Mesa counts additional threads.
-        yield Row("drawing alone, Mesa", (["/usr/bin/env", "LP_NUM_THREADS=0", baselines / "draw_osmesa", *size, path],), "/dev/null", 0, stages.count,
-                  is_self_timed=True)
+        yield Row("drawing alone, Mesa",
+                  (["/usr/bin/env", "LP_NUM_THREADS=0", baselines / "draw_osmesa", *size, path], ),
+                  "/dev/null", 0, stages.count, is_self_timed=True)
 
 
 def cost_of(row, folder):
-    cost = run_pipe(row.commands, folder, row.source, folder / "printed.txt" if row.is_self_timed else "/dev/null")
+    cost = run_pipe(row.commands, folder, row.source,
+                    folder / "printed.txt" if row.is_self_timed else "/dev/null")
     if not row.is_self_timed:
         return cost
     seconds = float((folder / "printed.txt").read_text().split()[0])
@@ -118,8 +131,9 @@ def display():
         yield None
         return
     with tempfile.TemporaryFile() as number:
-        server = subprocess.Popen(["Xvfb", "-displayfd", str(number.fileno()), "-nolisten", "tcp"], pass_fds=[number.fileno()],
-                                  stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        server = subprocess.Popen(
+            ["Xvfb", "-displayfd", str(number.fileno()), "-nolisten", "tcp"], pass_fds=[number.fileno()],
+            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         try:
             for _ in range(100):
                 number.seek(0)
@@ -162,7 +176,9 @@ def f3d_row(folder, scene):
     if os.waitpid(child, 0)[1] != 0:
         raise SystemExit("bench: cannot write the model for f3d")
     count = (folder / "normals/0.txt").read_bytes().count(b"triangle\n")
-    command = [shutil.which("f3d"), "--dry-run", "--quiet", "--output", folder / "f3d.png", "--resolution", "%d,%d" % scene.size, path]
+    command = [
+        shutil.which("f3d"), "--dry-run", "--quiet", "--output", folder / "f3d.png", "--resolution",
+        "%d,%d" % scene.size, path]
     return Row("f3d, the lit model", (command,), "/dev/null", path.stat().st_size, count)
 
 
@@ -170,9 +186,12 @@ def f3d_row(folder, scene):
 
 def simulated(command, source, folder):
     """{event: count} of a program, by Valgrind's model of a processor."""
-    words = [shutil.which("valgrind"), "--tool=callgrind", "--callgrind-out-file=/dev/null", "--cache-sim=yes", "--branch-sim=yes", *map(str, command)]
+    words = [
+        shutil.which("valgrind"), "--tool=callgrind", "--callgrind-out-file=/dev/null", "--cache-sim=yes",
+        "--branch-sim=yes", *map(str, command)]
     with open(source, "rb") as stdin:
-        done = subprocess.run(words, cwd=folder, stdin=stdin, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, errors="replace")
+        done = subprocess.run(words, cwd=folder, stdin=stdin, stdout=subprocess.DEVNULL,
+                              stderr=subprocess.PIPE, text=True, errors="replace")
     events, counts = (re.search(rf"{name} *: (.+)", done.stderr) for name in ("Events", "Collected"))
     if done.returncode != 0 or not counts:
         raise SystemExit(f"bench: {command[0]} failed under valgrind: {done.stderr}")
@@ -181,13 +200,15 @@ def simulated(command, source, folder):
 
 def counted(row, folder):
     """What a triangle or pixel takes."""
-    counts = sum((simulated(command, source, folder) for command, source in zip(row.commands, row.sources)), collections.Counter())
+    counts = sum((simulated(command, source, folder) for command, source in zip(row.commands, row.sources)),
+                 collections.Counter())
     events = {"instructions": ("Ir",), "mispredictions": ("Bcm", "Bim"), "misses": ("ILmr", "DLmr", "DLmw")}
     return {name: sum(counts[event] for event in parts) / row.count for name, parts in events.items()}
 
 
 def bandwidth(baselines, quick):
-    words = subprocess.run([baselines / "memory_bandwidth", "4" if quick else "256"], capture_output=True, text=True, check=True).stdout.split()
+    words = subprocess.run([baselines / "memory_bandwidth", "4" if quick else "256"], capture_output=True,
+                           text=True, check=True).stdout.split()
     return dict(zip(("read", "copy", "clock"), map(float, words)))
 
 
@@ -200,7 +221,8 @@ def measured(tools, baselines, rounds, quick):
         if not (baselines / "draw_osmesa").exists():
             missing.append("Mesa: not installed (Debian: libosmesa6-dev)")
         if not shutil.which("f3d") or not screen:
-            missing.append("f3d: " + ("no Xvfb (Debian: xvfb)" if shutil.which("f3d") else "not installed (Debian: f3d)"))
+            missing.append("f3d: " + (
+                "no Xvfb (Debian: xvfb)" if shutil.which("f3d") else "not installed (Debian: f3d)"))
         else:
             os.environ["DISPLAY"] = screen
             rows.append(f3d_row(folder, scenes["normals"]))
@@ -213,12 +235,23 @@ def measured(tools, baselines, rounds, quick):
             missing.append(f"instructions: {reason}")
         else:
             (folder / "small").mkdir()
-            small = {row.name: counted(row, folder / "small") for row in rows_of(tools, baselines, folder / "small", scenes, 1 if quick else 25) if row.sources}
+            small = {
+                row.name: counted(row, folder / "small")
+                for row in rows_of(tools, baselines, folder / "small", scenes, 1 if quick else 25)
+                if row.sources}
         speed = {key: statistics.median(each[key] for each in speeds) for key in speeds[0]}
-        table = [{"name": row.name, "unit": row.unit, "count": row.count, "text_bytes": row.text_bytes, "rounds": rounds,
-                  **quartile_columns("cpu_seconds", [run.cpu_seconds for run in runs[row.name]]), **quartile_columns("wall_seconds", [run.wall_seconds for run in runs[row.name]]),
-                  "system_seconds": statistics.median(run.system_seconds for run in runs[row.name]), "mib": min(run.mib for run in runs[row.name]),
-                  **small.get(row.name, {}), **speed} for row in rows]
+        table = [{
+            "name":
+                row.name, "unit":
+                    row.unit, "count":
+                        row.count, "text_bytes":
+                            row.text_bytes, "rounds":
+                                rounds, **quartile_columns("cpu_seconds", [
+                                    run.cpu_seconds for run in runs[row.name]]), **quartile_columns(
+                "wall_seconds", [run.wall_seconds for run in runs[row.name]]), "system_seconds":
+                statistics.median(run.system_seconds for run in runs[row.name]), "mib":
+                    min(run.mib for run in runs[row.name]), **small.get(row.name, {}),
+            **speed} for row in rows]
     return table, missing
 
 
@@ -232,7 +265,8 @@ def shares(row):
         cycles = seconds / float(row["count"]) * float(row["clock"]) * 1e9
         found["instructions"] = float(row["instructions"]) / INSTRUCTIONS_A_CYCLE / cycles
         found["mispredicted branches"] = float(row["mispredictions"]) * CYCLES_A_MISPREDICTION / cycles
-        found["memory"] = float(row["misses"]) * BYTES_A_MISS * float(row["count"]) / (float(row["copy"]) * 1e9) / seconds
+        found["memory"] = float(row["misses"]) * BYTES_A_MISS * float(
+            row["count"]) / (float(row["copy"]) * 1e9) / seconds
     return found
 
 
@@ -246,17 +280,24 @@ def cells(row):
     yield row["name"]
     yield number(1e9 * each * float(row["cpu_seconds"])) + " a pixel" * (row["unit"] == "pixel")
     yield number(1e9 * each * float(row["wall_seconds"]))
-    yield number(float(row["text_bytes"]) / float(row["cpu_seconds"]) / 1e6) if row["text_bytes"] != "0" else ""
+    yield number(float(row["text_bytes"]) / float(row["cpu_seconds"]) /
+                 1e6) if row["text_bytes"] != "0" else ""
     yield number(float(row["instructions"])) if row["instructions"] else ""
-    yield from (f"{100 * found[what]:.0f} %" if what in found else "" for what in ("instructions", "mispredicted branches", "memory", "the system"))
+    yield from (f"{100 * found[what]:.0f} %" if what in found else ""
+                for what in ("instructions", "mispredicted branches", "memory", "the system"))
     yield max(found, key=found.get) if row["instructions"] else "not counted"
 
 
 def report(rows):
     """The table, in Markdown."""
-    header = ["", "CPU, ns a triangle", "wall, ns", "text, MB/s", "instructions", "of the CPU time: instructions", "branches", "memory", "the system", "limit"]
+    header = [
+        "", "CPU, ns a triangle", "wall, ns", "text, MB/s", "instructions", "of the CPU time: instructions",
+        "branches", "memory", "the system", "limit"]
     lines = ["| " + " | ".join(words) + " |" for words in (header, *(cells(row) for row in rows))]
     lines.insert(1, "|---|" + "--:|" * 8 + "---|")
     first = rows[0]
-    return "\n".join([*lines, "", f"Medians of {first['rounds']} rounds on {first['machine']}, which at {float(first['clock']):.1f} GHz reads {float(first['read']):.0f} "
-                      f"and copies {float(first['copy']):.0f} GB/s (read and written)."]) + "\n"
+    return "\n".join([
+        *lines, "",
+        f"Medians of {first['rounds']} rounds on {first['machine']}, which at {float(first['clock']):.1f} "
+        f"GHz reads {float(first['read']):.0f} "
+        f"and copies {float(first['copy']):.0f} GB/s (read and written)."]) + "\n"

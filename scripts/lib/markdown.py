@@ -1,0 +1,36 @@
+"""Markdown of at most 120 columns. Tables, code and pictures stay as they are, since they cannot be
+broken."""
+import re
+
+COLUMNS = 120
+WHOLE = re.compile(r"[|#<]|!\[|```|    ")  # the beginnings of lines that are kept
+BLOCK = re.compile(r"\s*([-*+]|\d+\.)\s|[|#<>]|!\[|```|\*\*[A-Z]\d+\*\*")  # of lines that begin a block
+
+
+def words_of(text):
+    """Its words; code between backquotes is not broken."""
+    return [
+        word.replace("\0", " ")
+        for word in re.sub(r"`[^`]*`", lambda code: code[0].replace(" ", "\0"), text).split()]
+
+
+def filled(text):
+    """The text, in which a paragraph with a line that is too long is broken anew from there."""
+    lines, result, is_code = text.split("\n"), [], False
+    while lines:
+        line = lines.pop(0)
+        is_code ^= line.startswith("```")
+        result.append(line)
+        if is_code or len(line) <= COLUMNS or WHOLE.match(line):
+            continue
+        first = re.match(r"\s*(?:(?:[-*+]|\d+\.)\s+)?", line)[0]
+        rest = " " * len(first)
+        words, result[-1] = words_of(line[len(first):]), first
+        while lines and re.match(rest + r"\S", lines[0]) and not BLOCK.match(lines[0]):
+            words += words_of(lines.pop(0))
+        for i, word in enumerate(words):
+            if i and len(result[-1]) + len(word) >= COLUMNS:
+                result.append(rest + word)
+            else:
+                result[-1] += " " * (i > 0) + word
+    return "\n".join(result)
