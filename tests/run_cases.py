@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Runs a unittest script, and then prints a line 'N skipped: REASON' for each reason that kept cases from running.
+"""Runs a unittest script, and then prints a line 'N skipped: REASON' for each reason that kept cases from
+running.
 
 usage: run_cases.py SCRIPT [ARGUMENT...]
 
@@ -19,12 +20,15 @@ class Program(unittest.TestProgram):
         self.exit = False
         super().runTests()
         # A case counts once for each reason, however many of its parts (subTest) gave it.
-        skipped = {(getattr(case, "test_case", case), " ".join(reason.split())): None for case, reason in self.result.skipped}
+        skipped = {(getattr(case, "test_case", case), " ".join(reason.split())): None
+                   for case, reason in self.result.skipped}
         for reason, count in collections.Counter(reason for _, reason in skipped).items():
             print(f"{count} skipped: {reason}", file=sys.stderr)
         if not self.result.wasSuccessful():
             sys.exit(1)
-        cases = {case for case, _ in skipped if isinstance(case, unittest.TestCase)}  # a skipped class is not a case
+        cases = {case
+                 for case, _ in skipped
+                 if isinstance(case, unittest.TestCase)}  # a skipped class is not a case
         sys.exit(77 if skipped and len(cases) == self.result.testsRun else 0)
 
 

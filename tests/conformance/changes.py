@@ -1,5 +1,6 @@
-"""Mistakes that no list has, made in the right texts of a student's program: triangles lost or doubled, one vertex of three forgotten,
-and matrices with their rows in another order, transposed, or with other depths. They are calculated here from the scene's camera."""
+"""Mistakes that no list has, made in the right texts of a student's program: triangles lost or doubled, one
+vertex of three forgotten, and matrices with their rows in another order, transposed, or with other depths.
+They are calculated here from the scene's camera."""
 import dataclasses
 import math
 
@@ -10,7 +11,9 @@ ORDINALS = ("first", "second", "third")
 class Change:
     stage: str
     name: str
-    make: object  # (texts of the scene and the stages, the stage's number, random numbers) to the changed text and the words of the cause
+    # (texts of the scene and the stages, the stage's number, random numbers) to the changed text and the
+    # words of the cause
+    make: object
 
 
 def points_of(text):
@@ -44,7 +47,8 @@ def axes(texts):
 
 
 def turned_back(texts):
-    """The points of stage 1 under the transposed view matrix, without its translation: its columns are r, u and -l."""
+    """The points of stage 1 under the transposed view matrix, without its translation: its columns are r, u
+    and -l."""
     columns = axes(texts)
     return [tuple(sum(columns[k][i] * p[k] for k in range(3)) for i in range(3)) for p in points_of(texts[1])]
 
@@ -58,12 +62,15 @@ def transposed_projection(texts):
     """x / r, y / t, A z - 1 and B z of each point in view space, divided: A and B are the third row's."""
     (fov_y, aspect, _, _), (a, b) = camera(texts)[3], depth_terms(texts)
     x_scale, y_scale = (1 / math.tan(math.radians(angle) / 2) for angle in (fov_y * aspect, fov_y))
-    return [(x_scale * x / (b * z), y_scale * y / (b * z), (a * z - 1) / (b * z)) for x, y, z in points_of(texts[2])]
+    return [(x_scale * x / (b * z), y_scale * y / (b * z), (a * z - 1) / (b * z))
+            for x, y, z in points_of(texts[2])]
 
 
 def clip_space(texts):
     """(x, y, z, w) of each point before the divide."""
-    return [(*(-view[2] * c for c in ndc), -view[2]) for view, ndc in zip(points_of(texts[2]), points_of(texts[3]))]
+    return [(*(-view[2] * c
+               for c in ndc), -view[2])
+            for view, ndc in zip(points_of(texts[2]), points_of(texts[3]))]
 
 
 def moved(function, words):
@@ -86,23 +93,27 @@ def w_row_for_z(texts):
 
 
 def at_some_vertices(forgotten, words):
-    """Some vertices of each triangle as `forgotten` gives the points, the others right: the one that `words` names first by {one}, or if
-    they name {others} first, those."""
+    """Some vertices of each triangle as `forgotten` gives the points, the others right: the one that `words`
+    names first by {one}, or if they name {others} first, those."""
     def make(texts, number, rng):
         k = rng.randrange(3)
         others = " and ".join(name for name in ORDINALS if name != ORDINALS[k])
         is_one = words.index("{one}") < words.index("{others}")
-        points = [q if (i % 3 == k) == is_one else p for i, (p, q) in enumerate(zip(points_of(texts[number]), forgotten(texts)))]
+        points = [
+            q if (i % 3 == k) == is_one else p
+            for i, (p, q) in enumerate(zip(points_of(texts[number]), forgotten(texts)))]
         return text_of(points), words.format(one=ORDINALS[k], others=others)
     return make
 
 
 def at_one_vertex(forgotten, cause):
-    return at_some_vertices(forgotten, "Only the {one} vertex of each triangle is wrong, the {others} are right" + cause)
+    return at_some_vertices(forgotten,
+                            "Only the {one} vertex of each triangle is wrong, the {others} are right" + cause)
 
 
 def at_two_vertices(forgotten, cause):
-    return at_some_vertices(forgotten, "The {others} vertex of each triangle are wrong, the {one} is right" + cause)
+    return at_some_vertices(forgotten,
+                            "The {others} vertex of each triangle are wrong, the {one} is right" + cause)
 
 
 def lost(texts, number, rng):
@@ -118,7 +129,8 @@ def doubled(texts, number, rng):
 
 
 def without_eye(texts):
-    """What view makes of the points if it does not subtract the eye: they lie farther off by the eye's place in view space."""
+    """What view makes of the points if it does not subtract the eye: they lie farther off by the eye's place
+    in view space."""
     return [tuple(sum(a * b for a, b in zip(row, p)) for row in axes(texts)) for p in points_of(texts[1])]
 
 
@@ -132,7 +144,8 @@ def in_order(vertices, words):
 
 def backwards(texts, number, rng):
     points = points_of(texts[number])
-    return text_of([p for t in range(len(points) - 3, -1, -3) for p in points[t:t + 3]]), "The triangles stand in reverse order"
+    return text_of([p for t in range(len(points) - 3, -1, -3)
+                    for p in points[t:t + 3]]), "The triangles stand in reverse order"
 
 
 ROWS = "Rows {} and {} of the matrix (counted from 1), those of {} and {}, stand in each other's place"
@@ -140,12 +153,15 @@ NOT_DIVIDED = ": The coordinates are not divided by w"
 CHANGES = [
     *(Change(stage, "lost", lost) for stage in ("model", "view", "project")),
     *(Change(stage, "doubled", doubled) for stage in ("model", "view", "project")),
-    *(Change(stage, "vertices in another order", in_order((0, 2, 1), "The vertices of each triangle stand in another order: first, third, second"))
-      for stage in ("model", "view", "project")),
-    *(Change(stage, "backwards", backwards) for stage in ("model", "view", "project")),
+    *(Change(
+        stage, "vertices in another order",
+        in_order((0, 2, 1), "The vertices of each triangle stand in another order: first, third, second"))
+      for stage in ("model", "view", "project")), *(Change(stage, "backwards", backwards)
+                                                    for stage in ("model", "view", "project")),
     Change("view", "x and y exchanged", moved(lambda x, y, z: (y, x, z), ROWS.format(1, 2, "x", "y"))),
     Change("view", "y and z exchanged", moved(lambda x, y, z: (x, z, y), ROWS.format(2, 3, "y", "z"))),
-    Change("view", "rows in a circle", moved(lambda x, y, z: (y, z, x), "The rows of the matrix stand in the order y, z, x")),
+    Change("view", "rows in a circle",
+           moved(lambda x, y, z: (y, z, x), "The rows of the matrix stand in the order y, z, x")),
     Change("view", "transposed", of_all(turned_back, "The matrix is transposed")),
     Change("view", "eye at one vertex", at_one_vertex(without_eye, ": The eye is not subtracted")),
     Change("view", "eye at two vertices", at_two_vertices(without_eye, ": The eye is not subtracted")),
@@ -153,9 +169,15 @@ CHANGES = [
     Change("project", "x and z exchanged", of_all(x_row_for_z, ROWS.format(1, 3, "x", "z"))),
     Change("project", "z and w exchanged", of_all(w_row_for_z, ROWS.format(3, 4, "z", "w"))),
     Change("project", "transposed", of_all(transposed_projection, "The matrix is transposed")),
-    Change("project", "depth from 0 to 1", moved(lambda x, y, z: (x, y, (z + 1) / 2), "The depth goes from 0 at near to 1 at far")),
-    Change("project", "depth from 1 to 0", moved(lambda x, y, z: (x, y, (1 - z) / 2), "The depth goes from 1 at near to 0 at far")),
-    Change("project", "z not divided", of_all(lambda texts: [(x / w, y / w, z) for x, y, z, w in clip_space(texts)], "z is not divided by w")),
-    Change("project", "one vertex not divided", at_one_vertex(lambda texts: [p[:3] for p in clip_space(texts)], NOT_DIVIDED)),
-    Change("project", "two vertices not divided", at_two_vertices(lambda texts: [p[:3] for p in clip_space(texts)], NOT_DIVIDED)),
-]
+    Change("project", "depth from 0 to 1",
+           moved(lambda x, y, z: (x, y, (z + 1) / 2), "The depth goes from 0 at near to 1 at far")),
+    Change("project", "depth from 1 to 0",
+           moved(lambda x, y, z: (x, y, (1 - z) / 2), "The depth goes from 1 at near to 0 at far")),
+    Change(
+        "project", "z not divided",
+        of_all(lambda texts: [(x / w, y / w, z) for x, y, z, w in clip_space(texts)],
+               "z is not divided by w")),
+    Change("project", "one vertex not divided",
+           at_one_vertex(lambda texts: [p[:3] for p in clip_space(texts)], NOT_DIVIDED)),
+    Change("project", "two vertices not divided",
+           at_two_vertices(lambda texts: [p[:3] for p in clip_space(texts)], NOT_DIVIDED)), ]

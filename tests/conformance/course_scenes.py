@@ -1,4 +1,5 @@
-"""Random scenes of the kind that the course gives out: a camera, nested transforms, triangles in front of the camera."""
+"""Random scenes of the kind that the course gives out: a camera, nested transforms, triangles in front of the
+camera."""
 
 
 def numbers(rng, count, limit, decimals=1):
@@ -10,8 +11,10 @@ def axis(rng):
 
 
 def transform(rng):
-    return rng.choice((lambda: "translate\n" + numbers(rng, 3, 1, 2), lambda: "scale\n" + " ".join(f"{rng.uniform(0.5, 1.6):.2f}" for _ in range(3)),
-                       lambda: f"rotate\n{rng.uniform(-170, 170):.0f} {axis(rng)}", lambda: f"rotate\n{rng.choice((30, 45, -60, 90, 120))} {axis(rng)}"))()
+    return rng.choice((lambda: "translate\n" + numbers(rng, 3, 1, 2),
+                       lambda: "scale\n" + " ".join(f"{rng.uniform(0.5, 1.6):.2f}" for _ in range(3)),
+                       lambda: f"rotate\n{rng.uniform(-170, 170):.0f} {axis(rng)}",
+                       lambda: f"rotate\n{rng.choice((30, 45, -60, 90, 120))} {axis(rng)}"))()
 
 
 def triangle(rng):
@@ -31,8 +34,11 @@ def camera(rng):
     eye = [rng.choice((-1, 1)) * rng.uniform(3, 6) for _ in range(3)]
     near = rng.choice((1, 1.5, 2))
     fov_y, aspect = rng.uniform(35, 70), rng.choice((1, 1.25, 0.8, 1.4))
-    return [" ".join(f"{x:.2f}" for x in eye), numbers(rng, 3, 0.6, 2), rng.choice(("0 1 0", "0.2 1 0.1", "-0.3 1.1 0.4", "0 2 0.5")),
-            f"{fov_y:.1f} {aspect} {near} {rng.choice((30, 50, 100))}"]
+    return [
+        " ".join(f"{x:.2f}" for x in eye),
+        numbers(rng, 3, 0.6, 2),
+        rng.choice(("0 1 0", "0.2 1 0.1", "-0.3 1.1 0.4", "0 2 0.5")),
+        f"{fov_y:.1f} {aspect} {near} {rng.choice((30, 50, 100))}"]
 
 
 def scene(rng):

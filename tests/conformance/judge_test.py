@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
-"""The judge on random scenes and a student's program: right without a switch and with every harmless habit; with a mistake wrong, by its
-true cause, wherever its numbers differ. No cause is false, and no stage accused but the mistake's. The same for mistakes that no list
-has (changes.py): they are made in the texts of its right run.
+"""The judge on random scenes and a student's program: right without a switch and with every harmless habit;
+with a mistake wrong, by its true cause, wherever its numbers differ. No cause is false, and no stage accused
+but the mistake's. The same for mistakes that no list has (changes.py): they are made in the texts of its
+right run.
 
 usage: judge_test.py STUDENT BIN_DIR SOURCE_DIR [SCENES [SHARE]]
 
-Of each scene every SHARE-th switch is tried (by default every fourth), others at the next scene. The scenes are the same in every run;
-the processors share them.
+Of each scene every SHARE-th switch is tried (by default every fourth), others at the next scene. The scenes
+are the same in every run; the processors share them.
 """
 import concurrent.futures
 import itertools
@@ -31,7 +32,9 @@ from judge_parts.judge import judge  # noqa: E402
 from lib.stage_text import parse_stage_text  # noqa: E402
 
 LEAST_NAMED = 0.9  # of the mistakes whose numbers differ
-FILES_OF = {"model": ("stage1.txt",), "view": ("stage2.txt",), "project": ("stage3.txt",), "zbuf": ("z_buffer.txt", "out.bmp")}
+FILES_OF = {
+    "model": ("stage1.txt", ), "view": ("stage2.txt", ), "project": ("stage3.txt", ),
+    "zbuf": ("z_buffer.txt", "out.bmp")}
 
 
 def listed(name):
@@ -59,7 +62,8 @@ class Scene:
         """The files of the student's program, and the Verdict."""
         words = [word for name in switches for word in ("--habit" if name in HABITS else "--mistake", name)]
         with tempfile.TemporaryDirectory() as top:
-            scene, config, folder = (os.path.join(top, name) for name in ("scene.txt", "config.txt", "theirs"))
+            scene, config, folder = (os.path.join(top, name)
+                                     for name in ("scene.txt", "config.txt", "theirs"))
             pathlib.Path(scene).write_bytes(self.scene)
             pathlib.Path(config).write_bytes(self.config)
             os.mkdir(folder)
@@ -69,7 +73,8 @@ class Scene:
 
 
     def changed(self, change, rng):
-        """The FileVerdict of a stage whose right text is changed, and the words that its cause has to begin with."""
+        """The FileVerdict of a stage whose right text is changed, and the words that its cause has to begin
+        with."""
         with tempfile.TemporaryDirectory() as top:
             for name, text in self.right.items():
                 pathlib.Path(top, name).write_bytes(text)
@@ -80,18 +85,20 @@ class Scene:
             return judge(find_files(top), self.scene).of(change.stage)[0], words
 
 
-# What the judge makes of one run: the scene's number, the switch (or none), the FileVerdicts, the exit status, and the stages whose files
-# differ from those of the right run.
+# What the judge makes of one run: the scene's number, the switch (or none), the FileVerdicts, the exit
+# status, and the stages whose files differ from those of the right run.
 Run = namedtuple("Run", "scene switch files status differing")
 ChangedRun = namedtuple("ChangedRun", "scene name file words")
 
 
 def stages_that_differ(files, right):
-    return [stage for stage, names in FILES_OF.items() if any(files.get(name) != right[name] for name in names)]
+    return [
+        stage for stage, names in FILES_OF.items() if any(files.get(name) != right[name] for name in names)]
 
 
 def runs_of(seed):
-    """The Runs of a scene, without a switch and with all that may be tried on it; None if a vertex lies behind the eye."""
+    """The Runs of a scene, without a switch and with all that may be tried on it; None if a vertex lies
+    behind the eye."""
     try:
         scene = Scene(seed)
     except subprocess.CalledProcessError:
@@ -103,7 +110,8 @@ def runs_of(seed):
             files, verdict = scene.run(*([switch] if switch else []))
             for file in verdict.files:
                 file.places = []  # thousands of pixels that nobody asks for
-            runs.append(Run(seed, switch, verdict.files, verdict.status, stages_that_differ(files, scene.right)))
+            runs.append(
+                Run(seed, switch, verdict.files, verdict.status, stages_that_differ(files, scene.right)))
     rng = random.Random(seed)
     for place, change in enumerate(changes.CHANGES):
         if place % share == seed % share:
@@ -112,7 +120,9 @@ def runs_of(seed):
 
 
 def described(run):
-    return [(file.file, file.verdict, file.rule, [cause.name for cause in file.causes], file.remarks) for file in run.files]
+    return [(file.file, file.verdict, file.rule, [cause.name
+                                                  for cause in file.causes], file.remarks)
+            for file in run.files]
 
 
 class Judged(unittest.TestCase):
@@ -143,7 +153,8 @@ class Judged(unittest.TestCase):
                 self.assertEqual(run.status, 0, described(run))
 
     def test_right_by_exact_numbers_where_depths_need_them(self):
-        verdict = Scene(5003).run("all/exact-in-memory")[1]  # a triangle is seen so much from its edge that 7 decimals are too few
+        verdict = Scene(5003).run("all/exact-in-memory")[
+            1]  # a triangle is seen so much from its edge that 7 decimals are too few
         self.assertIn("by the exact numbers, kept in memory", verdict.of("zbuf")[0].remarks)
         self.assertEqual(verdict.status, 0)
 
@@ -151,7 +162,9 @@ class Judged(unittest.TestCase):
         for run in self.of(MISTAKES):
             stage = run.switch.partition("/")[0]
             with self.shown(run):
-                self.assertEqual([file.verdict for file in run.files if file.stage != stage and not file.is_good], [], described(run))
+                self.assertEqual(
+                    [file.verdict for file in run.files if file.stage != stage and not file.is_good], [],
+                    described(run))
                 if stage not in run.differing:
                     self.assertEqual(run.status, 0, described(run))
 
@@ -159,12 +172,15 @@ class Judged(unittest.TestCase):
         differing = [run for run in self.of(MISTAKES) if run.switch.partition("/")[0] in run.differing]
         nameless = []
         for run in differing:
-            causes = {name for file in run.files for cause in file.causes for name in cause.name.split(" and ")}
+            causes = {
+                name
+                for file in run.files for cause in file.causes for name in cause.name.split(" and ")}
             nameless += [] if run.switch in causes else [f"{run.switch} in scene {run.scene}"]
             with self.shown(run):
                 self.assertTrue(run.switch in causes or not causes, described(run))
         named = len(differing) - len(nameless)
-        print(f"{len(self.runs)} runs, {len(differing)} with a mistake that shows, {named} of those named", file=sys.stderr)
+        print(f"{len(self.runs)} runs, {len(differing)} with a mistake that shows, {named} of those named",
+              file=sys.stderr)
         for words in nameless:
             print("  not named:", words, file=sys.stderr)
         self.assertGreater(len(differing), scene_count)
@@ -179,7 +195,8 @@ class Judged(unittest.TestCase):
                 is_named = any(text.startswith(run.words) for text in texts)
                 self.assertTrue(is_named or not texts, (texts, run.words))
                 nameless += [] if is_named else [f"{run.name} in scene {run.scene}"]
-        print(f"{len(self.changed)} changed texts, {len(self.changed) - len(nameless)} of those named", file=sys.stderr)
+        print(f"{len(self.changed)} changed texts, {len(self.changed) - len(nameless)} of those named",
+              file=sys.stderr)
         for words in nameless:
             print("  not named:", words, file=sys.stderr)
         self.assertGreaterEqual(len(self.changed) - len(nameless), LEAST_NAMED * len(self.changed))

@@ -33,7 +33,8 @@ def switches(*names):
 
 def run(program, *words, stdin=b"", folder=None):
     """The program's stdout, in bytes."""
-    done = subprocess.run([program, *words], input=stdin, stdout=subprocess.PIPE, stderr=subprocess.PIPE, cwd=folder)
+    done = subprocess.run([program, *words], input=stdin, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                          cwd=folder)
     if done.returncode != 0:
         raise AssertionError(f"{program} {words}: {done.stderr.decode()}")
     return done.stdout
@@ -78,18 +79,18 @@ COS, SIN = math.cos(90), math.sin(90)  # of 90 radians
 # The commands before a point 1 2 3, its right image, and that with the mistake.
 MODEL = {
     "multiplied-on-the-left": ("translate\n10 0 0\nscale\n2 2 2", (12, 4, 6), (22, 4, 6)),
-    "push-and-pop-ignored": ("push\ntranslate\n10 0 0\npop", (1, 2, 3), (11, 2, 3)),
-    "pop-ignored": ("push\ntranslate\n10 0 0\npop", (1, 2, 3), (11, 2, 3)),
-    "push-of-the-identity": ("translate\n10 0 0\npush", (11, 2, 3), (1, 2, 3)),
-    "pop-to-the-identity": ("translate\n10 0 0\npush\ntranslate\n0 5 0\npop", (11, 2, 3), (1, 2, 3)),
-    "second-push-lost": ("push\npush\ntranslate\n10 0 0\npop\ntranslate\n0 5 0\npop", (1, 2, 3), (1, 7, 3)),
-    "push-does-not-nest": ("push\ntranslate\n10 0 0\npush\ntranslate\n0 5 0\npop\npop", (1, 2, 3), (11, 2, 3)),
-    "axis-not-normalized": ("rotate\n90 0 0 2", (-2, 1, 3), (-4, 2, 12)),
-    "angle-in-radians": ("rotate\n90 0 0 1", (-2, 1, 3), (COS - 2 * SIN, SIN + 2 * COS, 3)),
-    "rotation-transposed": ("rotate\n90 0 0 1", (-2, 1, 3), (2, -1, 3)),
-    "rotation-element-from-the-wrong-column": ("rotate\n90 0 0 1", (-2, 1, 3), (-5, 1, 3)),
-    "angle-negated": ("rotate\n90 0 0 1", (-2, 1, 3), (2, -1, 3)),
-}
+    "push-and-pop-ignored": ("push\ntranslate\n10 0 0\npop", (1, 2, 3), (11, 2, 3)), "pop-ignored":
+        ("push\ntranslate\n10 0 0\npop", (1, 2, 3), (11, 2, 3)), "push-of-the-identity":
+            ("translate\n10 0 0\npush", (11, 2, 3), (1, 2, 3)), "pop-to-the-identity":
+                ("translate\n10 0 0\npush\ntranslate\n0 5 0\npop", (11, 2, 3), (1, 2, 3)), "second-push-lost":
+                    ("push\npush\ntranslate\n10 0 0\npop\ntranslate\n0 5 0\npop", (1, 2, 3), (1, 7, 3)
+                     ), "push-does-not-nest":
+                         ("push\ntranslate\n10 0 0\npush\ntranslate\n0 5 0\npop\npop", (1, 2, 3), (11, 2, 3)),
+    "axis-not-normalized": ("rotate\n90 0 0 2", (-2, 1, 3), (-4, 2, 12)), "angle-in-radians":
+        ("rotate\n90 0 0 1", (-2, 1, 3), (COS - 2 * SIN, SIN + 2 * COS, 3)), "rotation-transposed":
+            ("rotate\n90 0 0 1", (-2, 1, 3), (2, -1, 3)), "rotation-element-from-the-wrong-column":
+                ("rotate\n90 0 0 1", (-2, 1, 3), (-5, 1, 3)), "angle-negated":
+                    ("rotate\n90 0 0 1", (-2, 1, 3), (2, -1, 3)), }
 
 # The camera looks along x, with an up that is not of unit length: where 7 4 9 is.
 ALONG_X = "eye 1 2 3\nlook 5 2 3\nup 0 2 0\n"
@@ -199,32 +200,39 @@ def stairs(letter="a"):
 
 # Triangles, the config, the right picture, and that with the mistake.
 ZBUF = {
-    "no-half-pixel-in-x": ([corner()], WINDOW, stairs(), rows("", *["." + "a" * count for count in range(2, 8)])),
-    "no-half-pixel-in-y": ([corner()], WINDOW, stairs(), rows("", "", *["." + "a" * count for count in range(2, 7)])),
-    "shifted-by-a-column": ([corner()], WINDOW, stairs(), rows("", *[".." + "a" * count for count in range(1, 7)])),
-    "shifted-by-a-row": ([corner()], WINDOW, stairs(), rows("", "", *["." + "a" * count for count in range(1, 7)])),
-    "column-short": ([corner()], WINDOW, stairs(), rows("", *["." + "a" * count for count in range(6)])),
-    "row-short": ([corner()], WINDOW, stairs(), rows("", *["." + "a" * count for count in range(1, 6)])),
-    "window-is-one": ([twice(corner())], "8 8\n-2\n-2\n0 1\n", stairs(), rows(*["a" * count for count in range(1, 9)])),
-    "front-limit-ignored": ([corner(-0.5, -0.5, -0.5)], WINDOW, rows(), stairs()),
-    "rear-limit-ignored": ([corner(1.5, 1.5, 1.5)], WINDOW, rows(), stairs()),
-    "farthest-wins": ([corner(z, z, z) for z in (0.25, 0.75, 0.5)], WINDOW, stairs(), stairs("b")),
-    "last-wins": ([corner(z, z, z) for z in (0.25, 0.75, 0.5)], WINDOW, stairs(), stairs("c")),
-    "one-color": ([corner(z, z, z) for z in (0.5, 0.25)], WINDOW, stairs("b"), stairs("a")),
-    "flat-depth": ([corner(0, 0.3, 0.6)], WINDOW, stairs(), stairs()),
-    "upside-down": ([corner()], WINDOW, stairs(), stairs()[::-1]),
-    "text-upside-down": ([corner()], WINDOW, stairs(), stairs()),
-    "mirrored": ([corner()], WINDOW, stairs(), [row[::-1] for row in stairs()]),
-}
+    "no-half-pixel-in-x": ([corner()], WINDOW, stairs(),
+                           rows("", *["." + "a" * count for count in range(2, 8)])),
+    "no-half-pixel-in-y": ([corner()], WINDOW, stairs(),
+                           rows("", "", *["." + "a" * count for count in range(2, 7)])),
+    "shifted-by-a-column": ([corner()], WINDOW, stairs(),
+                            rows("", *[".." + "a" * count for count in range(1, 7)])), "shifted-by-a-row":
+                                ([corner()], WINDOW, stairs(),
+                                 rows("", "", *["." + "a" * count for count in range(1, 7)])), "column-short":
+                                     ([corner()], WINDOW, stairs(),
+                                      rows("", *["." + "a" * count for count in range(6)])),
+    "row-short": ([corner()], WINDOW, stairs(), rows("", *["." + "a" * count for count in range(1, 6)])
+                  ), "window-is-one": ([twice(corner())], "8 8\n-2\n-2\n0 1\n", stairs(),
+                                       rows(*["a" * count for count in range(1, 9)])),
+    "front-limit-ignored": ([corner(-0.5, -0.5, -0.5)], WINDOW, rows(), stairs()), "rear-limit-ignored": ([
+        corner(1.5, 1.5, 1.5)], WINDOW, rows(), stairs()), "farthest-wins": ([
+            corner(z, z, z) for z in (0.25, 0.75, 0.5)], WINDOW, stairs(), stairs("b")), "last-wins": ([
+                corner(z, z, z) for z in (0.25, 0.75, 0.5)], WINDOW, stairs(), stairs("c")), "one-color": ([
+                    corner(z, z, z) for z in (0.5, 0.25)], WINDOW, stairs("b"), stairs("a")), "flat-depth": ([
+                        corner(0, 0.3, 0.6)], WINDOW, stairs(), stairs()), "upside-down":
+                            ([corner()], WINDOW, stairs(), stairs()[::-1]), "text-upside-down":
+                                ([corner()], WINDOW, stairs(), stairs()), "mirrored":
+                                    ([corner()], WINDOW, stairs(), [row[::-1] for row in stairs()]), }
 
 
 def picture(triangles, config, *names):
-    """The student's depths, a list of numbers for each row, and picture: a letter a triangle, '.' for black, '?' for else."""
+    """The student's depths, a list of numbers for each row, and picture: a letter a triangle, '.' for black,
+    '?' for else."""
     stage3 = "".join("%r %r %r\n" % point for triangle in triangles for point in triangle)
     with tempfile.NamedTemporaryFile("w") as file:
         file.write(config)
         file.flush()
-        depths, (width, _, image) = drawn(student, "zbuf", file.name, *switches(*names), stdin=stage3.encode())
+        depths, (width, _, image) = drawn(student, "zbuf", file.name, *switches(*names),
+                                          stdin=stage3.encode())
     letters = {bytes(3): ".", **dict(zip(colors(5), "abcde"))}
     return ([numbers(line) for line in depths.decode().split("\n")[:-1]],
             ["".join(letters.get(row[3 * i:3 * i + 3], "?") for i in range(width)) for row in image])
@@ -239,7 +247,8 @@ class Lists(unittest.TestCase):
         self.assertEqual([f"{stage}/{name}" for stage, table in tables.items() for name in table], MISTAKES)
 
     def test_an_unknown_name_is_refused(self):
-        done = subprocess.run([student, "model", "--mistake", "model/none"], stdin=subprocess.DEVNULL, stderr=subprocess.PIPE)
+        done = subprocess.run([student, "model", "--mistake", "model/none"], stdin=subprocess.DEVNULL,
+                              stderr=subprocess.PIPE)
         self.assertEqual(done.returncode, 2)
 
 
@@ -271,7 +280,8 @@ class Right(unittest.TestCase):
         for name in (*PLAIN, "wide-clipped"):
             with self.subTest(sample=name):
                 sample = source / "samples" / name
-                stage3 = b"".join(line for line in (sample / "stage3.txt").read_bytes().splitlines(True) if not line[:1].isalpha())
+                stage3 = b"".join(line for line in (sample / "stage3.txt").read_bytes().splitlines(True)
+                                  if not line[:1].isalpha())
                 depths, image = drawn(student, "zbuf", sample / "config.txt", stdin=stage3)
                 self.assertTrue(depths == (sample / "z_buffer.txt").read_bytes(), "the depths differ")
                 if b"triangle" not in (sample / "stage3.txt").read_bytes():
@@ -292,9 +302,12 @@ class Right(unittest.TestCase):
             ours.append(run(bin_dir / tool, "-", stdin=ours[-1]))
         for i, stage in enumerate(("model", "view", "project")):
             with self.subTest(stage=stage):
-                self.assert_same_points(points(run(student, stage, stdin=ours[i])), points(ours[i + 1]), 1.01e-7)
-        self.assert_same_points(points(run(bin_dir / "view", stdin=run(student, "model", stdin=scene))), points(ours[2]), 1.01e-7)
-        self.assert_same_points(points(run(bin_dir / "project", stdin=run(student, "view", stdin=ours[1]))), points(ours[3]), 1.01e-7)
+                self.assert_same_points(points(run(student, stage, stdin=ours[i])), points(ours[i + 1]),
+                                        1.01e-7)
+        self.assert_same_points(points(run(bin_dir / "view", stdin=run(student, "model", stdin=scene))),
+                                points(ours[2]), 1.01e-7)
+        self.assert_same_points(points(run(bin_dir / "project", stdin=run(student, "view", stdin=ours[1]))),
+                                points(ours[3]), 1.01e-7)
 
     def test_the_camera_of_a_scene_for_texts_without_a_header(self):
         scene = source / "samples/tilted-camera/scene.txt"
@@ -344,12 +357,14 @@ class OneMistake(unittest.TestCase):
     def test_of_zbuf(self):
         for name, (triangles, config, right, wrong) in ZBUF.items():
             with self.subTest(mistake=name):
-                (depths, image), (wrong_depths, wrong_image) = (picture(triangles, config, *names) for names in ((), ("zbuf/" + name,)))
+                (depths, image), (wrong_depths, wrong_image) = (picture(triangles, config, *names)
+                                                                for names in ((), ("zbuf/" + name, )))
                 self.assertEqual(image, right)
                 self.assertEqual(wrong_image, wrong)
                 self.assertEqual([len(row) for row in depths], [8 - row.count(".") for row in image])
                 counts = [8 - row.count(".") for row in wrong_image]
-                self.assertEqual([len(row) for row in wrong_depths], counts[::-1] if name == "text-upside-down" else counts)
+                self.assertEqual([len(row) for row in wrong_depths],
+                                 counts[::-1] if name == "text-upside-down" else counts)
                 if name == "flat-depth":
                     self.assertEqual({depth for row in wrong_depths for depth in row}, {0.3})
                 elif name != "text-upside-down":
@@ -367,7 +382,9 @@ class OneMistake(unittest.TestCase):
                     stage = ("model", "view", "project", "zbuf").index(name.split("/")[0])
                     for file in FIVE[:stage]:
                         self.assertTrue(wrong[file] == right[file], f"{file} differs")
-                    self.assertTrue(any(wrong[file] != right[file] for file in FIVE[stage:stage + 1 + (stage == 3)]), "nothing differs")
+                    self.assertTrue(
+                        any(wrong[file] != right[file] for file in FIVE[stage:stage + 1 + (stage == 3)]),
+                        "nothing differs")
 
 
 class Habit(unittest.TestCase):
@@ -376,35 +393,42 @@ class Habit(unittest.TestCase):
         return run(student, "model", "--bare", *switches(*names), stdin=scene.encode())
 
     def test_numbers_and_lines_look_different(self):
-        for name, line in {"six-digits": b"0.123457 12.5 -0.000123456\n", "four-decimals": b"0.1235 12.5000 -0.0001\n",
-                           "blanks-at-line-ends": b"0.1234568 12.5000000 -0.0001235 \n",
-                           "carriage-returns": b"0.1234568 12.5000000 -0.0001235\r\n"}.items():
+        for name, line in {
+                "six-digits": b"0.123457 12.5 -0.000123456\n", "four-decimals": b"0.1235 12.5000 -0.0001\n",
+                "blanks-at-line-ends": b"0.1234568 12.5000000 -0.0001235 \n",
+                "carriage-returns": b"0.1234568 12.5000000 -0.0001235\r\n"}.items():
             with self.subTest(habit=name):
                 self.assertTrue(self.model().startswith(b"0.1234568 12.5000000 -0.0001235\n"))
                 self.assertTrue(self.model("all/" + name).startswith(line), self.model("all/" + name))
 
     def test_numbers_kept_in_memory_are_not_rounded(self):
         sample = source / "samples/tilted-camera"
-        kept, read = (five(sample / "scene.txt", sample / "config.txt", "all/four-decimals", *names)["z_buffer.txt"]
-                      for names in (("all/exact-in-memory",), ()))
+        kept, read = (five(sample / "scene.txt", sample / "config.txt", "all/four-decimals",
+                           *names)["z_buffer.txt"] for names in (("all/exact-in-memory", ), ()))
         right = five(sample / "scene.txt", sample / "config.txt")["z_buffer.txt"]
         self.assertEqual(len(kept.split()), len(right.split()))
-        self.assertLess(max(abs(x - y) for x, y in zip(numbers(kept.decode()), numbers(right.decode()))), 1e-5)
+        self.assertLess(max(abs(x - y) for x, y in zip(numbers(kept.decode()), numbers(right.decode()))),
+                        1e-5)
         self.assertNotEqual(kept, read)
 
     def test_other_pixels(self):
         triangle = corner(low=-0.6, high=0.8)
         nearest = rows("", *["." + "a" * count for count in range(2, 7)])
         self.assertEqual(picture([triangle], WINDOW)[1], nearest)
-        self.assertEqual(picture([triangle], WINDOW, "zbuf/center")[1], rows("", "", *[".." + "a" * count for count in range(1, 5)]))
-        self.assertEqual(picture([triangle], WINDOW, "zbuf/truncated-ends")[1], rows("", *["." + "a" * count for count in range(1, 6)]))
+        self.assertEqual(
+            picture([triangle], WINDOW, "zbuf/center")[1],
+            rows("", "", *[".." + "a" * count for count in range(1, 5)]))
+        self.assertEqual(
+            picture([triangle], WINDOW, "zbuf/truncated-ends")[1],
+            rows("", *["." + "a" * count for count in range(1, 6)]))
 
     def test_the_center_rule_is_ours(self):
         for name in ("torus", "tilted-camera", "nested-transforms"):
             with self.subTest(sample=name):
                 sample = source / "samples" / name
                 stage3 = (sample / "stage3.txt").read_bytes()
-                theirs = drawn(student, "zbuf", sample / "config.txt", *switches("zbuf/center"), stdin=stage3)[1]
+                theirs = drawn(student, "zbuf", sample / "config.txt", *switches("zbuf/center"),
+                               stdin=stage3)[1]
                 ours = drawn(bin_dir / "zbuf", sample / "config.txt", "--coverage", "center", stdin=stage3)[1]
                 self.assertTrue(theirs == ours, "the pictures differ")
 
@@ -429,14 +453,16 @@ class Habit(unittest.TestCase):
         self.assertEqual(depths, [[1.0 if pixel == "." else 0.5 for pixel in row] for row in stairs()])
 
     def test_other_colors(self):
-        self.assertEqual(picture([corner()], WINDOW, "zbuf/other-colors"), (picture([corner()], WINDOW)[0], stairs("?")))
+        self.assertEqual(picture([corner()], WINDOW, "zbuf/other-colors"),
+                         (picture([corner()], WINDOW)[0], stairs("?")))
 
     def test_other_file_names(self):
         sample = source / "samples/worked-example"
         files = five(sample / "scene.txt", sample / "config.txt", "zbuf/other-file-names")
         right = five(sample / "scene.txt", sample / "config.txt")
         self.assertEqual({*files}, {*FIVE[:3], "z-buffer.txt", "output.bmp"})
-        self.assertEqual([files["z-buffer.txt"], files["output.bmp"]], [right["z_buffer.txt"], right["out.bmp"]])
+        self.assertEqual([files["z-buffer.txt"], files["output.bmp"]],
+                         [right["z_buffer.txt"], right["out.bmp"]])
 
 
 if __name__ == "__main__":

@@ -36,7 +36,7 @@ struct Source {
 };
 
 /// A property common to all vertices of a triangle, which makes them ordinary, or unusual in one way.
-enum class Family {
+enum class Coordinates {
   decimals,
   pixel_centers,
   lines,
@@ -48,23 +48,23 @@ enum class Family {
   kCount
 };
 
-Vec3 vertex_of(Family family, const Viewport& screen, const Vec3& middle, double pixels,
+Vec3 vertex_of(Coordinates family, const Viewport& screen, const Vec3& middle, double pixels,
                RandomNumbers& random) {
   const PixelGrid grid(screen);
   const auto near = [&](double center, double pixel) {
     return std::nearbyint((center + random.between(-pixels, pixels) * pixel) * 1e7) / 1e7;
   };
   switch (family) {
-    case Family::pixel_centers:  // or on the lines between them
+    case Coordinates::pixel_centers:  // or on the lines between them
       return {grid.x_of(random.whole(-2, 2 * screen.columns)) / 2,
               grid.top_y - random.whole(0, 2 * screen.rows) * grid.dy / 2, random.between(-1, 1)};
-    case Family::lines:  // along a row, or a column, or in a point
+    case Coordinates::lines:  // along a row, or a column, or in a point
       return {random.whole(0, 1) * 0.25, random.whole(0, 1) * 0.25, random.whole(0, 1) * 0.25};
-    case Family::far_away:
+    case Coordinates::far_away:
       return {random.with_exponent(0, 60), random.with_exponent(0, 60), random.with_exponent(-20, 20)};
-    case Family::any_doubles:
+    case Coordinates::any_doubles:
       return {random.any_double(), random.any_double(), random.any_double()};
-    case Family::huge_differences: {
+    case Coordinates::huge_differences: {
       constexpr double kLargest = std::numeric_limits<double>::max();
       const auto one_of = [&](const std::array<double, 5>& values) {
         return values[static_cast<std::size_t>(random.whole(0, 4))];
@@ -72,15 +72,15 @@ Vec3 vertex_of(Family family, const Viewport& screen, const Vec3& middle, double
       return {one_of({-kLargest, kLargest, 0, -0.0, 0.1}), one_of({-kLargest, kLargest, 0, -0.5, 0.5}),
               one_of({-kLargest, kLargest, 0, -0.0, 5e-324})};
     }
-    case Family::off_the_screen: {  // small ones
+    case Coordinates::off_the_screen: {  // small ones
       const auto zero_or_one = static_cast<double>(random.whole(0, 1));
       return {near(middle.x, grid.dx), near(middle.y, grid.dy),
               random.whole(0, 1) == 0 ? zero_or_one : -zero_or_one};
     }
-    case Family::flat:
+    case Coordinates::flat:
       return {near(middle.x, grid.dx), near(middle.y, grid.dy), middle.z};
-    case Family::decimals:
-    case Family::kCount:
+    case Coordinates::decimals:
+    case Coordinates::kCount:
       break;
   }
   return {near(middle.x, grid.dx), near(middle.y, grid.dy), near(middle.z, 0.01)};
@@ -88,13 +88,14 @@ Vec3 vertex_of(Family family, const Viewport& screen, const Vec3& middle, double
 
 Source random_source(const Viewport& screen, RandomNumbers& random) {
   // Half of them decimals, so that four in a row are frequent.
-  const Family family = random.whole(0, 1) == 0
-                            ? Family::decimals
-                            : static_cast<Family>(random.whole(0, static_cast<int>(Family::kCount) - 1));
+  const Coordinates family =
+      random.whole(0, 1) == 0
+          ? Coordinates::decimals
+          : static_cast<Coordinates>(random.whole(0, static_cast<int>(Coordinates::kCount) - 1));
   const double pixels = std::array{0.7, 3.0, 20.0, 1.5 * screen.columns}[random.bits() % 4];
   Vec3 middle = {random.between(-1.1, 1.1) * -screen.left, random.between(-1.1, 1.1) * -screen.bottom,
                  random.between(-1, 1)};
-  if (family == Family::off_the_screen) middle.x = random.with_exponent(0, 26);
+  if (family == Coordinates::off_the_screen) middle.x = random.with_exponent(0, 26);
   Source source{};
   for (Vec3& vertex : source.p_ndc) vertex = vertex_of(family, screen, middle, pixels, random);
   if (random.whole(0, 9) == 0) source.p_ndc[1].y = source.p_ndc[0].y;

@@ -142,10 +142,10 @@ Triangle odd_triangle(RandomNumbers& random) {
   return t;
 }
 
-const std::array<Viewport, 4> kScreens = {{{40, 40, -1, -1, -1, 1},
-                                           {500, 500, -1, -1, -1, 1},
-                                           {97, 61, -1.1, -0.7, -1, 1},
-                                           {7, 3, -0.3, -2.6, -1, 1}}};
+const std::array<Viewport, 4> kDepthScreens = {{{40, 40, -1, -1, -1, 1},
+                                                {500, 500, -1, -1, -1, 1},
+                                                {97, 61, -1.1, -0.7, -1, 1},
+                                                {7, 3, -0.3, -2.6, -1, 1}}};
 
 TEST(NearestDepth, IsWithinItsBoundForVerticesNearAndFar) {
   RandomNumbers random(1);
@@ -153,7 +153,7 @@ TEST(NearestDepth, IsWithinItsBoundForVerticesNearAndFar) {
     Worst worst;
     for (int i = 0; i < 400; ++i) {
       const Triangle t = random_triangle(random, reach);
-      measure(t, kScreens[static_cast<std::size_t>(i) % 4], worst);
+      measure(t, kDepthScreens[static_cast<std::size_t>(i) % 4], worst);
       ASSERT_FALSE(HasFatalFailure()) << "triangle " << i << " up to " << reach;
     }
     EXPECT_EQ(worst.wrong_text_count, 0);
@@ -166,7 +166,7 @@ TEST(NearestDepth, IsWithinItsBoundForNarrowSmallAndFlatTriangles) {
   Worst worst;
   for (int i = 0; i < 6000; ++i) {
     const Triangle t = odd_triangle(random);
-    measure(t, kScreens[static_cast<std::size_t>(i) % 4], worst);
+    measure(t, kDepthScreens[static_cast<std::size_t>(i) % 4], worst);
     ASSERT_FALSE(HasFatalFailure()) << "triangle " << i;
   }
   EXPECT_EQ(worst.wrong_text_count, 0);

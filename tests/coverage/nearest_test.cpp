@@ -17,7 +17,7 @@ namespace {
 using Picture = std::vector<std::string>;
 
 // Pixels of size 1, centers at -3.5, -2.5 ... 3.5 in x and y: all small halves are exact.
-constexpr Viewport kEightByEight = {8, 8, -4, -4, -1, 1};
+constexpr Viewport kEightPixels = {8, 8, -4, -4, -1, 1};
 // The assignment's example: pixels of size 0.004.
 constexpr Viewport kExample = {500, 500, -1, -1, 0, 2};
 
@@ -27,7 +27,7 @@ std::vector<Span> spans_of(const Triangle& p_ndc, const Viewport& screen) {
   return spans;
 }
 
-Picture picture_of(const Triangle& p_ndc, const Viewport& screen = kEightByEight) {
+Picture picture_of(const Triangle& p_ndc, const Viewport& screen = kEightPixels) {
   Picture picture(static_cast<std::size_t>(screen.rows),
                   std::string(static_cast<std::size_t>(screen.columns), '.'));
   for (const Span& span : spans_of(p_ndc, screen))
@@ -36,7 +36,7 @@ Picture picture_of(const Triangle& p_ndc, const Viewport& screen = kEightByEight
   return picture;
 }
 
-const Picture kNothing(8, "........");
+const Picture kNoPixel(8, "........");
 
 TEST(CoverageNearest, TakesThePixelsNearestToBothEdges) {
   // On the row at y the edges are at x = -3 + (y + 3) / 2 and its mirror image.
@@ -96,7 +96,7 @@ TEST(CoverageNearest, ARowThroughTheMiddleCornerReachesTheEdgeOppositeToIt) {
 }
 
 TEST(CoverageNearest, BetweenTwoRowsThereIsNothing) {
-  EXPECT_EQ(picture_of({{{-3, -0.4, 0}, {3, -0.4, 0}, {0, 0.4, 0}}}), kNothing);
+  EXPECT_EQ(picture_of({{{-3, -0.4, 0}, {3, -0.4, 0}, {0, 0.4, 0}}}), kNoPixel);
 }
 
 TEST(CoverageNearest, BetweenTwoColumnsThereIsTheNearest) {
@@ -127,26 +127,26 @@ TEST(CoverageNearest, IsCutAtTheBordersOfTheScreen) {
 }
 
 TEST(CoverageNearest, OutsideTheScreenThereIsNothing) {
-  EXPECT_EQ(picture_of({{{4.1, -1, 0}, {6, -1, 0}, {5, 1, 0}}}), kNothing);
-  EXPECT_EQ(picture_of({{{-6, -1, 0}, {-4.1, -1, 0}, {-5, 1, 0}}}), kNothing);
-  EXPECT_EQ(picture_of({{{-1, 3.6, 0}, {1, 3.6, 0}, {0, 6, 0}}}), kNothing);
-  EXPECT_EQ(picture_of({{{-1, -3.6, 0}, {1, -3.6, 0}, {0, -6, 0}}}), kNothing);
+  EXPECT_EQ(picture_of({{{4.1, -1, 0}, {6, -1, 0}, {5, 1, 0}}}), kNoPixel);
+  EXPECT_EQ(picture_of({{{-6, -1, 0}, {-4.1, -1, 0}, {-5, 1, 0}}}), kNoPixel);
+  EXPECT_EQ(picture_of({{{-1, 3.6, 0}, {1, 3.6, 0}, {0, 6, 0}}}), kNoPixel);
+  EXPECT_EQ(picture_of({{{-1, -3.6, 0}, {1, -3.6, 0}, {0, -6, 0}}}), kNoPixel);
 }
 
 TEST(CoverageNearest, TheBorderItselfBelongsToTheLeftAndNotToTheRight) {
   // floor((-4 - -3.5) + 0.5) = 0, floor((4 - -3.5) + 0.5) = 8.
   EXPECT_EQ(picture_of({{{-4, -1, 0}, {-4, 1, 0}, {-6, 0, 0}}})[4], "#.......");
-  EXPECT_EQ(picture_of({{{4, -1, 0}, {4, 1, 0}, {6, 0, 0}}}), kNothing);
+  EXPECT_EQ(picture_of({{{4, -1, 0}, {4, 1, 0}, {6, 0, 0}}}), kNoPixel);
 }
 
 TEST(CoverageNearest, HorizontalEdgeIsSkipped) {
   // The other two edges draw its row; alone, as a triangle of no height, it draws nothing.
   EXPECT_EQ(picture_of({{{-2.5, 0.5, 0}, {2.5, 0.5, 0}, {0, 1, 0}}})[3], ".######.");
-  EXPECT_EQ(picture_of({{{-2.5, 0.5, 0}, {2.5, 0.5, 0}, {0, 0.5, 0}}}), kNothing);
+  EXPECT_EQ(picture_of({{{-2.5, 0.5, 0}, {2.5, 0.5, 0}, {0, 0.5, 0}}}), kNoPixel);
 }
 
 TEST(CoverageNearest, APointIsNothing) {
-  EXPECT_EQ(picture_of({{{0.5, 0.5, 0}, {0.5, 0.5, 0}, {0.5, 0.5, 0}}}), kNothing);
+  EXPECT_EQ(picture_of({{{0.5, 0.5, 0}, {0.5, 0.5, 0}, {0.5, 0.5, 0}}}), kNoPixel);
 }
 
 TEST(CoverageNearest, ALineIsDrawnAndItsSmallerDepthHolds) {
@@ -162,7 +162,7 @@ TEST(CoverageNearest, ALineIsDrawnAndItsSmallerDepthHolds) {
                                   "........",
                               }));
   // On the long edge depth goes from 0.25 to 0.75 over three rows, on the other two it is 0.5 at (0.5, 0.5).
-  const std::vector<Span> spans = spans_of(line, kEightByEight);
+  const std::vector<Span> spans = spans_of(line, kEightPixels);
   EXPECT_EQ(spans[0].depth(5), 0.75);
   EXPECT_EQ(spans[1].depth(4), 0.5);
   EXPECT_EQ(spans[2].depth(3), 0.375);
@@ -181,14 +181,14 @@ TEST(CoverageNearest, DepthIsLinearFromEdgeToEdge) {
   // z = 0.5 + x / 8 + y / 16.
   const auto z = [](double x, double y) { return 0.5 + x / 8 + y / 16; };
   const Triangle triangle = {{{-3, -3, z(-3, -3)}, {3, -2, z(3, -2)}, {0, 3, z(0, 3)}}};
-  for (const Span& span : spans_of(triangle, kEightByEight))
+  for (const Span& span : spans_of(triangle, kEightPixels))
     for (int column = span.first_column; column <= span.last_column; ++column)
       EXPECT_NEAR(span.depth(column), z(-3.5 + column, 3.5 - span.row), 1e-15);
 }
 
 TEST(CoverageNearest, OnTheRowOfACornerDepthIsThatOfTheCorner) {
   const std::vector<Span> spans =
-      spans_of({{{-1.5, -1.5, 1}, {1.5, -1.5, 0}, {0.25, 1.5, 0.125}}}, kEightByEight);
+      spans_of({{{-1.5, -1.5, 1}, {1.5, -1.5, 0}, {0.25, 1.5, 0.125}}}, kEightPixels);
   EXPECT_EQ(spans.front().depth(spans.front().first_column), 0.125);
 }
 
@@ -375,7 +375,7 @@ TEST(CoverageNearest, EdgesLongerThanADoubleCanHoldAreCutAtTheRightHeight) {
 TEST(CoverageNearest, DepthsWhoseDifferenceADoubleCannotHoldAreInterpolated) {
   // Along the left edge, x = -3.5, depth goes from -1.5e308 at y = -3.5 to 1.5e308 at y = 3.5.
   const std::vector<Span> spans =
-      spans_of({{{-3.5, -3.5, -1.5e308}, {-3.5, 3.5, 1.5e308}, {3.5, -3.5, -1.5e308}}}, kEightByEight);
+      spans_of({{{-3.5, -3.5, -1.5e308}, {-3.5, 3.5, 1.5e308}, {3.5, -3.5, -1.5e308}}}, kEightPixels);
   ASSERT_EQ(spans.size(), 8u);
   for (const Span& span : spans) EXPECT_NEAR(span.depth(0) / 1.5e308, 1 - span.row / 3.5, 1e-15);
 }
@@ -383,7 +383,7 @@ TEST(CoverageNearest, DepthsWhoseDifferenceADoubleCannotHoldAreInterpolated) {
 TEST(CoverageNearest, ATinyWorldLooksLikeALargeOne) {
   // Multiplying by a power of two is exact; only the range changes.
   const Triangle t = {{{-3, -3, 0.1}, {3, -2, 0.2}, {0.3, 3, 0.7}}};
-  const std::vector<Span> expected = spans_of(t, kEightByEight);
+  const std::vector<Span> expected = spans_of(t, kEightPixels);
   for (const double scale : {0x1p-600, 0x1p600}) {
     Triangle scaled = t;
     for (Vec3& p : scaled) p = {p.x * scale, p.y * scale, p.z};

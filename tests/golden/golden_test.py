@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
-"""Every version reads and reproduces the golden texts: the samples' files, and what flows in the pipe between the stages.
+"""Every version reads and reproduces the golden texts: the samples' files, and what flows in the pipe between
+the stages.
 
-samples.sha256 pins the samples' files; `sha256sum -c tests/golden/samples.sha256` checks it, too. pipes.sha256 pins what comes
-out of COMMANDS. A line of either is never changed, so that old files can be read for ever: who wants another scene adds a
-sample, and its lines with --add. Texts with all digits (--digits exact) are those of tests/reference, which has no choice either:
-the shortest form is defined (stage-text.md, T20). Only colors and normals are free behind the 7th decimal (T22), so they are
-pinned with 7.
+samples.sha256 pins the samples' files; `sha256sum -c tests/golden/samples.sha256` checks it, too.
+pipes.sha256 pins what comes out of COMMANDS. A line of either is never changed, so that old files can be read
+for ever: who wants another scene adds a sample, and its lines with --add. Texts with all digits (--digits
+exact) are those of tests/reference, which has no choice either: the shortest form is defined (stage-text.md,
+T20). Only colors and normals are free behind the 7th decimal (T22), so they are pinned with 7.
 
 usage: golden_test.py BIN_DIR SOURCE_DIR [--add SAMPLE]
 """
@@ -24,18 +25,24 @@ HERE = SOURCE / "tests/golden"
 sys.path.insert(0, str(SOURCE / "tests/reference"))
 import reference  # noqa: E402
 
-SMALL = ("nested-transforms", "one-triangle", "orthographic", "tilted-camera", "two-triangles", "wide-clipped", "worked-example")  # for the reference
+SMALL = ("nested-transforms", "one-triangle", "orthographic", "tilted-camera", "two-triangles",
+         "wide-clipped", "worked-example")  # for the reference
 FILES = ("scene.txt", "config.txt", "stage1.txt", "stage2.txt", "stage3.txt", "z_buffer.txt", "out.bmp")
 # What is made of a sample's files, or of what a command before has made: name, stage and options, input.
-COMMANDS = (
-    ("model", "model", "scene.txt"), ("view", "view", "model"), ("project", "project", "view"), ("zbuf", "zbuf config.txt", "project"),
-    ("model --framed", "model --framed", "scene.txt"), ("view framed", "view", "model --framed"), ("project framed", "project", "view framed"),
-    ("model --digits exact", "model --digits exact", "scene.txt"), ("view exact", "view --digits exact", "model --digits exact"),
-    ("project exact", "project --digits exact", "view exact"),
-    ("stage1.txt", "model --bare", "scene.txt"), ("stage2.txt", "view --bare", "model --digits exact"), ("stage3.txt", "project", "view exact"),
-    ("z_buffer.txt", "zbuf config.txt", "stage3.txt"),
-    ("view of stage1.txt", "view --scene scene.txt", "stage1.txt"), ("project of stage2.txt", "project --scene scene.txt", "stage2.txt"),
-    ("zbuf center", "zbuf config.txt --coverage center", "project exact"))
+COMMANDS = (("model", "model", "scene.txt"), ("view", "view", "model"), ("project", "project", "view"),
+            ("zbuf", "zbuf config.txt", "project"), ("model --framed", "model --framed",
+                                                     "scene.txt"), ("view framed", "view", "model --framed"),
+            ("project framed", "project", "view framed"), ("model --digits exact", "model --digits exact",
+                                                           "scene.txt"), ("view exact", "view --digits exact",
+                                                                          "model --digits exact"),
+            ("project exact", "project --digits exact",
+             "view exact"), ("stage1.txt", "model --bare", "scene.txt"), ("stage2.txt", "view --bare",
+                                                                          "model --digits exact"),
+            ("stage3.txt", "project", "view exact"), ("z_buffer.txt", "zbuf config.txt", "stage3.txt"),
+            ("view of stage1.txt", "view --scene scene.txt",
+             "stage1.txt"), ("project of stage2.txt", "project --scene scene.txt",
+                             "stage2.txt"), ("zbuf center", "zbuf config.txt --coverage center",
+                                             "project exact"))
 
 
 def pinned(name):
@@ -55,7 +62,8 @@ def defined(data):
     for i, line in enumerate(lines):
         words = line.split(" ")
         if columns and words[0][:1] in tuple("-0123456789"):
-            lines[i] = " ".join(words[:first] + [f"{round(Decimal(word), 7) + 0:.7f}" for word in words[first:]])
+            lines[i] = " ".join(words[:first] +
+                                [f"{round(Decimal(word), 7) + 0:.7f}" for word in words[first:]])
     return "\n".join(lines).encode()
 
 
@@ -72,27 +80,34 @@ def run_commands(sample, tools=BIN):
         with tempfile.TemporaryDirectory() as folder:
             for file in ("scene.txt", "config.txt"):
                 pathlib.Path(folder, file).write_bytes(made[file])
-            done = subprocess.run([tools / tool, *words], input=made[source], stdout=subprocess.PIPE, stderr=subprocess.PIPE, cwd=folder)
+            done = subprocess.run([tools / tool, *words], input=made[source], stdout=subprocess.PIPE,
+                                  stderr=subprocess.PIPE, cwd=folder)
             if done.returncode:
                 raise AssertionError(f"{sample.name}: {command}: {done.stderr.decode()}")
             made[name] = done.stdout
             if tool == "zbuf":
-                made["out.bmp" if name == "z_buffer.txt" else f"{name} picture"] = pathlib.Path(folder, "out.bmp").read_bytes()
+                made["out.bmp" if name == "z_buffer.txt" else f"{name} picture"] = pathlib.Path(
+                    folder, "out.bmp").read_bytes()
     return made
 
 
 def samples():
-    return [SOURCE / path for path in dict.fromkeys(path.rpartition("/")[0] for path in pinned("samples.sha256"))]
+    return [
+        SOURCE / path for path in dict.fromkeys(path.rpartition("/")[0] for path in pinned("samples.sha256"))]
 
 
 class Golden(unittest.TestCase):
     def test_the_samples_are_as_they_were(self):
         for path, hash_ in pinned("samples.sha256").items():
-            self.assertEqual(sha256((SOURCE / path).read_bytes()), hash_, f"{path} has changed: leave it, and add a sample of another name")
+            self.assertEqual(sha256((SOURCE / path).read_bytes()), hash_,
+                             f"{path} has changed: leave it, and add a sample of another name")
 
     def test_every_sample_is_golden(self):
         self.assertEqual({path.parent for path in SOURCE.glob("samples/*/scene.txt")}, set(samples()))
-        self.assertEqual(set(pinned("samples.sha256")), {f"samples/{sample.name}/{name}" for sample in samples() for name in FILES})
+        self.assertEqual(set(pinned("samples.sha256")),
+                         {f"samples/{sample.name}/{name}"
+                          for sample in samples()
+                          for name in FILES})
 
     def test_every_stage_reads_and_reproduces_the_texts(self):
         hashes = pinned("pipes.sha256")
@@ -100,13 +115,15 @@ class Golden(unittest.TestCase):
             made = run_commands(sample)
             for name in made:
                 with self.subTest(sample=sample.name, made=name):
-                    hash_ = pinned("samples.sha256").get(f"samples/{sample.name}/{name}") or hashes.get(f"{sample.name}: {name}")
+                    hash_ = pinned("samples.sha256").get(f"samples/{sample.name}/{name}") or hashes.get(
+                        f"{sample.name}: {name}")
                     self.assertEqual(pin(name, made[name]), hash_)
 
     def test_texts_with_all_digits_are_those_of_the_reference(self):
         for sample in SMALL:
             data = (SOURCE / "samples" / sample / "scene.txt").read_bytes()
-            for name, stage in (("model --digits exact", reference.model), ("view exact", reference.view), ("project exact", reference.project)):
+            for name, stage in (("model --digits exact", reference.model), ("view exact", reference.view),
+                                ("project exact", reference.project)):
                 with self.subTest(sample=sample, made=name):
                     data = stage(data, reference.read_options(stage.__name__, ["--digits", "exact"]))
                     self.assertEqual(pin(name, data), pinned("pipes.sha256")[f"{sample}: {name}"])
@@ -119,7 +136,8 @@ def add(name):
     with open(HERE / "samples.sha256", "a") as file:
         file.writelines(f"{sha256((sample / part).read_bytes())}  samples/{name}/{part}\n" for part in FILES)
     with open(HERE / "pipes.sha256", "a") as file:
-        file.writelines(f"{pin(part, data)}  {name}: {part}\n" for part, data in run_commands(sample).items() if part not in FILES)
+        file.writelines(f"{pin(part, data)}  {name}: {part}\n" for part, data in run_commands(sample).items()
+                        if part not in FILES)
 
 
 if __name__ == "__main__":

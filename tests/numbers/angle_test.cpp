@@ -11,21 +11,21 @@
 namespace pipeline {
 namespace {
 
-using Exact = Real<512>;
+using Exact512 = Real<512>;
 // Holds the exact angle, however far apart its two parts are.
 using ExactAngle = Real<2304>;
 
 /// An angle in radians, after whole turns are removed in degrees.
-Exact radians(DoubleDouble degrees) {
+Exact512 radians(DoubleDouble degrees) {
   const ExactAngle reduced = remainder(ExactAngle(degrees), ExactAngle(360));
-  return Exact::nearest(reduced * ExactAngle::pi() / ExactAngle(180));
+  return Exact512::nearest(reduced * ExactAngle::pi() / ExactAngle(180));
 }
 
 void expect_contained(DoubleDouble degrees) {
-  const Exact x = radians(degrees);
-  const Exact half_sine = sin(times_power_of_two(x, -1));
+  const Exact512 x = radians(degrees);
+  const Exact512 half_sine = sin(times_power_of_two(x, -1));
   // The effect of the rounding of x on the functions.
-  const Exact slack = abs(times_power_of_two(x, -500));
+  const Exact512 slack = abs(times_power_of_two(x, -500));
   const SineCosine computed = sine_cosine_of_degrees(degrees);
   ASSERT_TRUE(contains(computed.sine, sin(x), slack));
   ASSERT_TRUE(contains(computed.cosine, cos(x), slack * abs(x)));
@@ -107,13 +107,13 @@ TEST(Angle, SeriesAreWithin2ToMinus99) {
   for (int i = 0; i < 20'000; ++i) {
     const DoubleDouble degrees =
         i % 2 == 0 ? random.double_double(-40, 4) : two_sum(random.between(-45, 45), 0x1p-50);
-    const Exact x = radians(degrees), half_sine = sin(times_power_of_two(x, -1));
-    const Exact versine = times_power_of_two(half_sine * half_sine, 1);
+    const Exact512 x = radians(degrees), half_sine = sin(times_power_of_two(x, -1));
+    const Exact512 versine = times_power_of_two(half_sine * half_sine, 1);
     const SineCosine computed = sine_cosine_of_degrees(degrees);
-    const Exact sine_error = abs(midpoint<512>(computed.sine) - sin(x)) / abs(sin(x));
-    const Exact versine_error = abs(midpoint<512>(computed.versine) - versine) / versine;
-    ASSERT_LE(sine_error, Exact(0x1p-99)) << std::hexfloat << degrees.hi;
-    ASSERT_LE(versine_error, Exact(0x1p-99)) << std::hexfloat << degrees.hi;
+    const Exact512 sine_error = abs(midpoint<512>(computed.sine) - sin(x)) / abs(sin(x));
+    const Exact512 versine_error = abs(midpoint<512>(computed.versine) - versine) / versine;
+    ASSERT_LE(sine_error, Exact512(0x1p-99)) << std::hexfloat << degrees.hi;
+    ASSERT_LE(versine_error, Exact512(0x1p-99)) << std::hexfloat << degrees.hi;
     worst.add(std::max(sine_error.nearest_double(), versine_error.nearest_double()));
   }
 }
@@ -166,12 +166,12 @@ TEST(Angle, RightAnglesOfHugeSizeAreExact) {
 
 TEST(Angle, FortyFiveDegreesAreTheRootOfAHalf) {
   const SineCosine computed = sine_cosine_of_degrees({45, 0});
-  EXPECT_TRUE(contains(computed.sine, sqrt(Exact(0.5))));
-  EXPECT_TRUE(contains(computed.cosine, sqrt(Exact(0.5))));
+  EXPECT_TRUE(contains(computed.sine, sqrt(Exact512(0.5))));
+  EXPECT_TRUE(contains(computed.cosine, sqrt(Exact512(0.5))));
 }
 
 TEST(Angle, SixtyDegreesHaveTheRootOfThreeQuartersAsSine) {
-  EXPECT_TRUE(contains(sine_cosine_of_degrees({60, 0}).sine, sqrt(Exact(0.75))));
+  EXPECT_TRUE(contains(sine_cosine_of_degrees({60, 0}).sine, sqrt(Exact512(0.75))));
 }
 
 TEST(Angle, TenToTheTwentyTwoDegreesAreReducedExactly) {

@@ -21,7 +21,7 @@ void PrintTo(const Ball& ball, std::ostream* out) {
 namespace {
 
 // Holds the sum of any two doubles.
-using Exact = Real<2304>;
+using Exact2304 = Real<2304>;
 
 constexpr double kSmallest = std::numeric_limits<double>::denorm_min();
 constexpr double kLargest = std::numeric_limits<double>::max();
@@ -59,10 +59,10 @@ Ball near_to(const Ball& ball, RandomNumbers& random) {
 }
 
 /// Some members of a ball: the midpoint, both ends, one between.
-std::array<Exact, 4> members(const Ball& ball, RandomNumbers& random) {
-  const Exact middle = midpoint<2304>(ball);
-  const Exact error = radius<2304>(ball);
-  return {middle, middle - error, middle + error, middle + error * Exact(random.between(-1, 1))};
+std::array<Exact2304, 4> members(const Ball& ball, RandomNumbers& random) {
+  const Exact2304 middle = midpoint<2304>(ball);
+  const Exact2304 error = radius<2304>(ball);
+  return {middle, middle - error, middle + error, middle + error * Exact2304(random.between(-1, 1))};
 }
 
 /// The invariants of every ball.
@@ -86,8 +86,8 @@ template <typename Operation>
 void expect_image(const Ball& image, const Ball& a, const Ball& b, RandomNumbers& random, Operation exact) {
   expect_sound(image);
   if (testing::Test::HasFatalFailure()) return;
-  for (const Exact& x : members(a, random))
-    for (const Exact& y : members(b, random))
+  for (const Exact2304& x : members(a, random))
+    for (const Exact2304& y : members(b, random))
       ASSERT_TRUE(contains(image, exact(x, y))) << x << ", " << y << "\nin " << testing::PrintToString(image);
 }
 
@@ -119,7 +119,7 @@ void expect_roots_contained(std::uint64_t seed, int count) {
     if (a.sign() < 0) a = -a;
     const Ball root = sqrt(a);
     expect_sound(root);
-    for (const Exact& x : members(a, random)) {
+    for (const Exact2304& x : members(a, random)) {
       if (x.sign() < 0) continue;
       ASSERT_TRUE(contains(root, sqrt(x))) << testing::PrintToString(a) << "\n"
                                            << testing::PrintToString(root);
@@ -165,7 +165,7 @@ TEST(Ball, IsAnyDoubleExactly) {
     const double value = random.any_double();
     const Ball ball = value;
     ASSERT_TRUE(ball.is_exact());
-    ASSERT_EQ(midpoint<2304>(ball), Exact(value)) << std::hexfloat << value;
+    ASSERT_EQ(midpoint<2304>(ball), Exact2304(value)) << std::hexfloat << value;
     ASSERT_EQ(ball.nearest_double(), value);
   }
 }
@@ -178,7 +178,7 @@ TEST(Ball, SumOfTwoDoublesIsExactWithinSixHundredBinaryPlaces) {
     const double b = random.with_exponent(exponent, exponent);
     const Ball sum = Ball(a) + Ball(b);
     ASSERT_TRUE(sum.is_exact()) << std::hexfloat << a << ", " << b;
-    ASSERT_EQ(midpoint<2304>(sum), Exact(a) + Exact(b)) << std::hexfloat << a << ", " << b;
+    ASSERT_EQ(midpoint<2304>(sum), Exact2304(a) + Exact2304(b)) << std::hexfloat << a << ", " << b;
   }
 }
 
@@ -208,7 +208,7 @@ TEST(Ball, ProductOfTwoDoublesIsExact) {
     const double b = random.any_double();
     const Ball product = Ball(a) * Ball(b);
     ASSERT_TRUE(product.is_exact()) << std::hexfloat << a << ", " << b;
-    ASSERT_EQ(midpoint<2304>(product), Exact(a) * Exact(b)) << std::hexfloat << a << ", " << b;
+    ASSERT_EQ(midpoint<2304>(product), Exact2304(a) * Exact2304(b)) << std::hexfloat << a << ", " << b;
   }
 }
 
@@ -219,7 +219,7 @@ TEST(Ball, QuotientThatIsADoubleIsExact) {
     const double b = std::ldexp(random.whole(1, 1 << 26), random.whole(-90, 90));
     const Ball result = Ball(quotient * b) / Ball(b);
     ASSERT_TRUE(result.is_exact()) << std::hexfloat << quotient << ", " << b;
-    ASSERT_EQ(midpoint<2304>(result), Exact(quotient));
+    ASSERT_EQ(midpoint<2304>(result), Exact2304(quotient));
   }
 }
 
@@ -233,7 +233,7 @@ TEST(Ball, RootOfASquareIsExact) {
     const double root = std::ldexp(random.whole(1, 1 << 26), random.whole(-990, 990));
     const Ball result = sqrt(Ball(root) * Ball(root));
     ASSERT_TRUE(result.is_exact()) << std::hexfloat << root;
-    ASSERT_EQ(midpoint<2304>(result), Exact(root)) << std::hexfloat << root;
+    ASSERT_EQ(midpoint<2304>(result), Exact2304(root)) << std::hexfloat << root;
   }
 }
 
@@ -263,14 +263,15 @@ TEST(Ball, QuotientByABallWhoseEndIsAlmostZeroIsFinite) {
   while (Ball::with_error({value, 0}, error).sign() == 0) value = std::nextafter(value, 2);
   const Ball quotient = Ball(1) / Ball::with_error({value, 0}, error);
   EXPECT_TRUE(std::isfinite(quotient.error()));
-  EXPECT_TRUE(contains(quotient, Exact(1) / (Exact(value) - Exact(error))));
+  EXPECT_TRUE(contains(quotient, Exact2304(1) / (Exact2304(value) - Exact2304(error))));
 }
 
 TEST(Ball, ProductOfALargeAndASmallNumberKeepsItsDigits) {
   const Ball product = Ball(1e300) * Ball(1e300) * Ball(1e-300) * Ball(1e-300) * Ball(3);
   EXPECT_LE(product.error(), 0x1p-99);
   EXPECT_EQ(product.nearest_double(),
-            (Exact(1e300) * Exact(1e300) * Exact(1e-300) * Exact(1e-300) * Exact(3)).nearest_double());
+            (Exact2304(1e300) * Exact2304(1e300) * Exact2304(1e-300) * Exact2304(1e-300) * Exact2304(3))
+                .nearest_double());
 }
 
 TEST(Ball, SignIsNeverThatOfAnotherMember) {
@@ -278,7 +279,7 @@ TEST(Ball, SignIsNeverThatOfAnotherMember) {
   for (int i = 0; i < 100'000; ++i) {
     const Ball ball = any_ball(random);
     if (ball.sign() == 0) continue;
-    for (const Exact& x : members(ball, random))
+    for (const Exact2304& x : members(ball, random))
       ASSERT_EQ(x.sign(), ball.sign()) << testing::PrintToString(ball);
   }
 }
@@ -350,7 +351,7 @@ TEST(Ball, LoweredErrorHoldsTheBoundInEveryRange) {
     const Ball ball = any_ball(random);
     const double bound = std::fabs(random.any_double());
     const Ball lowered = ball.with_error_at_most(bound);
-    const Exact expected = std::min(Exact(bound), radius<2304>(ball));
+    const Exact2304 expected = std::min(Exact2304(bound), radius<2304>(ball));
     ASSERT_GE(radius<2304>(lowered), expected)
         << testing::PrintToString(ball) << ", " << std::hexfloat << bound;
     ASSERT_LE(radius<2304>(lowered), radius<2304>(ball));
@@ -362,19 +363,19 @@ TEST(Ball, MagnitudeAndRadiusAreUpperBounds) {
   RandomNumbers random(15);
   for (int i = 0; i < 100'000; ++i) {
     const Ball ball = any_ball(random);
-    const Exact error = radius<2304>(ball);
+    const Exact2304 error = radius<2304>(ball);
     const double magnitude = ball.magnitude();
     const double ball_radius = ball.radius();
-    ASSERT_GE(Exact(magnitude), abs(midpoint<2304>(ball)) + error) << testing::PrintToString(ball);
-    ASSERT_GE(Exact(ball_radius), error) << testing::PrintToString(ball);
+    ASSERT_GE(Exact2304(magnitude), abs(midpoint<2304>(ball)) + error) << testing::PrintToString(ball);
+    ASSERT_GE(Exact2304(ball_radius), error) << testing::PrintToString(ball);
   }
 }
 
 TEST(Ball, AnErrorThatLosesBitsOnTheWayToAnotherRangeDoesNotShrink) {
   // The midpoint is moved to 1, and 1.25 * 2^-74 to 1.25 * 2^-1074: between the two smallest doubles.
   const Ball ball = Ball::with_error({0x1p1000, 0}, 0x1.4p-74);
-  EXPECT_EQ(midpoint<2304>(ball), Exact(0x1p1000));
-  EXPECT_GE(radius<2304>(ball), Exact(0x1.4p-74));
+  EXPECT_EQ(midpoint<2304>(ball), Exact2304(0x1p1000));
+  EXPECT_GE(radius<2304>(ball), Exact2304(0x1.4p-74));
 }
 
 TEST(Ball, MidpointsFarBelowTheirErrorsAreContained) {

@@ -10,9 +10,9 @@
 namespace pipeline {
 namespace {
 
-using Int = FixedInt<6>;
+using Int6 = FixedInt<6>;
 
-mpz_class exact(const Int& value) {
+mpz_class exact(const Int6& value) {
   mpz_class result = 0;
   for (std::size_t i = 6; i-- > 0;) {
     mpz_class limb;
@@ -24,21 +24,21 @@ mpz_class exact(const Int& value) {
 }
 
 /// A number of at most `most_bits` bits and either sign, often next to a power of two.
-Int any_number(RandomNumbers& random, int most_bits) {
+Int6 any_number(RandomNumbers& random, int most_bits) {
   const int bits = random.whole(0, most_bits);
-  Int value(0);
+  Int6 value(0);
   for (int i = 0; i < bits; i += 32) {
     const int taken = std::min(bits - i, 32);
-    value = (value << taken) + Int(static_cast<std::int64_t>(random.bits() >> (64 - taken)));
+    value = (value << taken) + Int6(static_cast<std::int64_t>(random.bits() >> (64 - taken)));
   }
-  if (random.bits() % 4 == 0) value = (Int(1) << bits) + Int(random.whole(-1, 1));
+  if (random.bits() % 4 == 0) value = (Int6(1) << bits) + Int6(random.whole(-1, 1));
   return random.bits() % 2 == 0 ? value : -value;
 }
 
 TEST(FixedInt, SumsDifferencesProductsAndOrderAreExact) {
   RandomNumbers random(1);
   for (int i = 0; i < sanitizer_rounds(20000); ++i) {
-    const Int a = any_number(random, 180), b = i % 10 == 0 ? a : any_number(random, 180);
+    const Int6 a = any_number(random, 180), b = i % 10 == 0 ? a : any_number(random, 180);
     const int small = random.whole(-100000, 100000);
     ASSERT_TRUE(exact(a + b) == exact(a) + exact(b));
     ASSERT_TRUE(exact(a - b) == exact(a) - exact(b));
@@ -52,46 +52,46 @@ TEST(FixedInt, SumsDifferencesProductsAndOrderAreExact) {
 }
 
 TEST(FixedInt, TakesBuiltInNumbersOfEitherSign) {
-  EXPECT_TRUE(exact(Int(0)) == 0);
-  EXPECT_TRUE(exact(Int(-1)) == -1);
-  EXPECT_TRUE(exact(Int((Int128{-5} << 100))) == mpz_class(-5) * (mpz_class(1) << 100));
-  EXPECT_TRUE(exact(Int(FixedInt<9>(-7) * FixedInt<9>(11))) == -77);
-  EXPECT_TRUE(exact(Int(FixedInt<2>(-7))) == -7);
-  EXPECT_TRUE(exact(Int(FixedInt<2>(7))) == 7);
+  EXPECT_TRUE(exact(Int6(0)) == 0);
+  EXPECT_TRUE(exact(Int6(-1)) == -1);
+  EXPECT_TRUE(exact(Int6((Int128{-5} << 100))) == mpz_class(-5) * (mpz_class(1) << 100));
+  EXPECT_TRUE(exact(Int6(FixedInt<9>(-7) * FixedInt<9>(11))) == -77);
+  EXPECT_TRUE(exact(Int6(FixedInt<2>(-7))) == -7);
+  EXPECT_TRUE(exact(Int6(FixedInt<2>(7))) == 7);
 }
 
 TEST(FixedInt, ShiftsAndCutsAtEveryBit) {
   RandomNumbers random(2);
   for (int bits = 0; bits < 200; ++bits) {
-    const Int a = any_number(random, 180);
+    const Int6 a = any_number(random, 180);
     ASSERT_TRUE(exact(a << bits) == exact(a) * (mpz_class(1) << static_cast<unsigned>(bits)));
-    ASSERT_EQ(cut(Int(Int128{-77}) << bits, bits), -77);
-    ASSERT_EQ(cut((Int(Int128{-77}) << bits) + Int(bits == 0 ? 0 : 1), bits), -77);
-    ASSERT_EQ(bit_length(Int(1) << bits), bits + 1);
-    ASSERT_EQ(bit_length(-(Int(1) << bits)), bits);
+    ASSERT_EQ(cut(Int6(Int128{-77}) << bits, bits), -77);
+    ASSERT_EQ(cut((Int6(Int128{-77}) << bits) + Int6(bits == 0 ? 0 : 1), bits), -77);
+    ASSERT_EQ(bit_length(Int6(1) << bits), bits + 1);
+    ASSERT_EQ(bit_length(-(Int6(1) << bits)), bits);
   }
-  EXPECT_EQ(bit_length(Int(0)), 0);
+  EXPECT_EQ(bit_length(Int6(0)), 0);
 }
 
 TEST(FixedInt, BecomesADoubleNextToIt) {
   RandomNumbers random(3);
   for (int i = 0; i < sanitizer_rounds(20000); ++i) {
-    const Int a = any_number(random, 300);
+    const Int6 a = any_number(random, 300);
     const mpq_class error = abs(mpq_class(to_double(a, 0)) - mpq_class(exact(a)));
     ASSERT_TRUE(error <= abs(mpq_class(exact(a))) * (mpq_class(0x1p-53) + mpq_class(0x1p-61)));
     ASSERT_EQ(to_double(a, 40), std::ldexp(to_double(a, 0), -40));
     const auto narrow = static_cast<Int128>(cut(a, std::max(bit_length(a) - 62, 0))) * 987654321;
     ASSERT_EQ(to_double(narrow, 40), std::ldexp(to_double(narrow), -40));
-    const mpq_class narrow_error = abs(mpq_class(to_double(narrow)) - mpq_class(exact(Int(narrow))));
+    const mpq_class narrow_error = abs(mpq_class(to_double(narrow)) - mpq_class(exact(Int6(narrow))));
     ASSERT_TRUE(narrow_error <=
-                abs(mpq_class(exact(Int(narrow)))) * (mpq_class(0x1p-53) + mpq_class(0x1p-61)));
+                abs(mpq_class(exact(Int6(narrow)))) * (mpq_class(0x1p-53) + mpq_class(0x1p-61)));
   }
 }
 
 TEST(FixedInt, BuiltInNumbersAreScaledLikeIt) {
   EXPECT_EQ(to_double(std::int64_t{-77}, 40), -77 * 0x1p-40);
   EXPECT_EQ(to_double(Int128{-77} << 80, 40), -77 * 0x1p40);
-  EXPECT_EQ(to_double(Int(-77), 40), -77 * 0x1p-40);
+  EXPECT_EQ(to_double(Int6(-77), 40), -77 * 0x1p-40);
 }
 
 /// The definition, digit by digit.
@@ -105,19 +105,19 @@ TEST(Divisor, RoundsUpExactlyAroundEveryMultiple) {
   RandomNumbers random(4);
   for (int i = 0; i < sanitizer_rounds(20000); ++i) {
     const int most = i % 2 == 0 ? 65535 : random.whole(1, 50);
-    const Int any = any_number(random, 180);
-    const Int divisor = any > 0 ? any : Int(1) - any;
+    const Int6 any = any_number(random, 180);
+    const Int6 divisor = any > 0 ? any : Int6(1) - any;
     // At a multiple, next to it, anywhere, and far outside.
-    Int dividend = random.whole(-2, most + 2) * divisor + Int(random.whole(-1, 1));
+    Int6 dividend = random.whole(-2, most + 2) * divisor + Int6(random.whole(-1, 1));
     if (i % 5 == 0) dividend = any_number(random, 300);
     ASSERT_EQ(Divisor(divisor).quotient_rounded_up(dividend, most),
               rounded_up(exact(dividend), exact(divisor), most));
     const auto narrow = std::int64_t{random.whole(1, 2'000'000'000)} * random.whole(1, 1000);
     const std::int64_t near_multiple = narrow * random.whole(-2, most + 2) + random.whole(-1, 1);
     ASSERT_EQ(Divisor(narrow).quotient_rounded_up(near_multiple, most),
-              rounded_up(exact(Int(near_multiple)), exact(Int(narrow)), most));
+              rounded_up(exact(Int6(near_multiple)), exact(Int6(narrow)), most));
     ASSERT_EQ(Divisor(Int128{narrow} << 50).quotient_rounded_up(Int128{near_multiple} << 50, most),
-              rounded_up(exact(Int(near_multiple)), exact(Int(narrow)), most));
+              rounded_up(exact(Int6(near_multiple)), exact(Int6(narrow)), most));
   }
 }
 

@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
-"""The four tools and the reference agree on random scenes: stage by stage, on the text that the tool before has written.
+"""The four tools and the reference agree on random scenes: stage by stage, on the text that the tool before
+has written.
 
-Every other scene is damaged at one stage by a random change; then both refuse it at the same line, or both accept it.
+Every other scene is damaged at one stage by a random change; then both refuse it at the same line, or both
+accept it.
 
 usage: agreement_test.py BIN_DIR [SCENES] [FIRST]
 """
@@ -21,10 +23,12 @@ FIRST = int(sys.argv.pop()) if len(sys.argv) > 3 else 0
 SCENES = int(sys.argv.pop()) if len(sys.argv) > 2 else 40
 BIN = pathlib.Path(sys.argv.pop()).resolve()
 STAGES = ("model", "view", "project", "zbuf")
-WORDS = (b"0", b"-1", b"nan", b"1e309", b"1e300", b"x", b"0x1", b"1,5", b"256", b"1e-400", b"+", b".", b"1.5.2", b"#", b"ratio")
-LINES = (b"pop", b"push", b"end", b"triangle", b"", b"# c", b"framed", b"1 2 3", b"triangle 7", b"light 1 1 1 1 1 1", b"color 1 2 3",
-         b"attributes normal", b"background 1 2 3", b"error model: x", b"Triangle", b"clipped", b"material 1 1 1 1", b"attenuation 0 0 0",
-         b"use 1", b"use 0", b"attributes material")
+WORDS = (b"0", b"-1", b"nan", b"1e309", b"1e300", b"x", b"0x1", b"1,5", b"256", b"1e-400", b"+", b".",
+         b"1.5.2", b"#", b"ratio")
+LINES = (b"pop", b"push", b"end", b"triangle", b"", b"# c", b"framed", b"1 2 3", b"triangle 7",
+         b"light 1 1 1 1 1 1", b"color 1 2 3", b"attributes normal", b"background 1 2 3", b"error model: x",
+         b"Triangle", b"clipped", b"material 1 1 1 1", b"attenuation 0 0 0", b"use 1", b"use 0",
+         b"attributes material")
 
 
 def damaged(rng, text):
@@ -52,7 +56,8 @@ def damaged(rng, text):
 
 
 def refused_line(done):
-    """The line at which a tool refused its standard input, None if it did not; the message if that names no line."""
+    """The line at which a tool refused its standard input, None if it did not; the message if that names no
+    line."""
     found = re.match(rb"\w+: <stdin>:(\d+)", done.stderr)
     return None if done.returncode == 0 else int(found[1]) if found else done.stderr
 
@@ -65,7 +70,8 @@ class Agreement(unittest.TestCase):
             scene, options = random_scenes.scene(rng), random_scenes.options(rng)
             text, config = scene.encode(), random_scenes.config(rng, scene)
             hit = rng.choice(STAGES) if index % 2 else None
-            with self.subTest(scene=index, options=options, damaged=hit), tempfile.TemporaryDirectory() as folder:
+            with self.subTest(scene=index, options=options,
+                              damaged=hit), tempfile.TemporaryDirectory() as folder:
                 self.config, self.image = pathlib.Path(folder, "config.txt"), pathlib.Path(folder, "out.bmp")
                 self.config.write_text(config)
                 for stage in STAGES:
@@ -73,13 +79,17 @@ class Agreement(unittest.TestCase):
                     words = options[stage]
                     if stage == "zbuf":
                         is_lit = b"\nlight " in text or text.startswith(b"light ")
-                        words = [str(self.config), "--image", str(self.image), *words, *(random_scenes.shading(rng) if is_lit else [])]
+                        words = [
+                            str(self.config), "--image",
+                            str(self.image), *words, *(random_scenes.shading(rng) if is_lit else [])]
                     if (text := self.compare(stage, words, text)) is None:
                         break
 
     def compare(self, stage, words, text):
-        """The output of a stage that tool and reference carry out; None after the last, or if both refuse the text."""
-        done = subprocess.run([BIN / stage, *words], input=text, stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=600)
+        """The output of a stage that tool and reference carry out; None after the last, or if both refuse the
+        text."""
+        done = subprocess.run([BIN / stage, *words], input=text, stdout=subprocess.PIPE,
+                              stderr=subprocess.PIPE, timeout=600)
         options = reference.read_options(stage, [*words])
         try:
             if stage == "zbuf":
@@ -87,22 +97,29 @@ class Agreement(unittest.TestCase):
                 return None
             want = getattr(reference, stage)(text, options)
         except reference.Refused as refusal:
-            # The line is not defined of a text in another format (T16), nor told where an earlier stage failed (T12).
-            is_told = b"looks like" not in done.stderr and not text.split(b"\n")[refusal.args[0] - 1:][:1] == [b"error model: x"]
+            # The line is not defined of a text in another format (T16), nor told where an earlier stage
+            # failed (T12).
+            is_told = b"looks like" not in done.stderr and not text.split(b"\n")[refusal.args[0] -
+                                                                                 1:][:1] == [
+                                                                                     b"error model: x"]
             self.assertEqual(done.returncode, 1, (stage, refusal, done.stderr, text))
-            self.assertTrue(refused_line(done) == refusal.args[0] or not is_told, (stage, refusal, done.stderr, text))
+            self.assertTrue(
+                refused_line(done) == refusal.args[0] or not is_told, (stage, refusal, done.stderr, text))
             return None
         self.assertIsNone(refused_line(done), (stage, done.stderr, text))
-        leeway.expect_same_text(self, done.stdout, want, lambda: getattr(reference, stage)(text, {**options, "--digits": "17"}), text,
-                                b": note: <stdin>:" in done.stderr)
+        leeway.expect_same_text(self, done.stdout, want, lambda: getattr(reference, stage)
+                                (text, {**options, "--digits": "17"}), text, b": note: <stdin>:"
+                                in done.stderr)
         return done.stdout
 
     def compare_picture(self, options, text, done):
-        stage, config = reference.Stage(text, "zbuf"), reference.read_config(reference.Text(self.config.read_bytes()))
+        stage, config = reference.Stage(text, "zbuf"), reference.read_config(
+            reference.Text(self.config.read_bytes()))
         model_name = reference.shading_model(stage, options.get("--shading"))
         triangles = list(stage.triangles())
         self.assertIsNone(refused_line(done), (done.stderr, text))
-        leeway.expect_same_picture(self, triangles, stage, config, options, model_name, done.stdout, self.image.read_bytes())
+        leeway.expect_same_picture(self, triangles, stage, config, options, model_name, done.stdout,
+                                   self.image.read_bytes())
 
 
 class CentersOnEdges(unittest.TestCase):
@@ -115,8 +132,11 @@ class CentersOnEdges(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             path = pathlib.Path(folder, "config.txt")
             path.write_text("4 4\n")
-            done = subprocess.run([BIN / "zbuf", path, "--coverage", "center", "--image", path.with_name("out.bmp")], input=text, stdout=subprocess.PIPE)
-            self.assertEqual([line.count(b"\t") for line in done.stdout.splitlines()], [row.count("#") for row in picture])
+            done = subprocess.run(
+                [BIN / "zbuf", path, "--coverage", "center", "--image",
+                 path.with_name("out.bmp")], input=text, stdout=subprocess.PIPE)
+            self.assertEqual([line.count(b"\t") for line in done.stdout.splitlines()],
+                             [row.count("#") for row in picture])
 
     def test_top_and_left_edges_belong_to_the_triangle(self):
         self.check(b"-0.75 0.75 0\n0.75 0.75 0\n-0.75 -0.75 0\n", ["###.", "##..", "#...", "...."])

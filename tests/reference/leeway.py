@@ -1,4 +1,5 @@
-"""What the specification leaves open where the reference calculates exactly: notes Z9 and L7, and T21 and T22."""
+"""What the specification leaves open where the reference calculates exactly: notes Z9 and L7, and T21 and
+T22."""
 import decimal
 import re
 from fractions import Fraction
@@ -10,24 +11,34 @@ HALF = decimal.Decimal("0.500001")
 
 
 def expect_same_text(case, got, want, precise, read, is_noted=False):
-    """Both texts of a stage are equal, but for what is open; `precise()` is `want` with 17 decimals, `read` what the stage read. If
-    the tool has noted that digits are lost, 28 are right."""
+    """Both texts of a stage are equal, but for what is open; `precise()` is `want` with 17 decimals, `read`
+    what the stage read. If the tool has noted that digits are lost, 28 are right."""
     if got == want:
         return
-    vertices = [line.split(b"#")[0].split() for line in read.split(b"\n") if line.strip()[:1] in b"+-.0123456789"]
-    numbers = [abs(float(word)) for words in vertices for word in words if re.fullmatch(rb"[-+]?[0-9.]+(e[-+]?[0-9]+)?", word)]
+    vertices = [
+        line.split(b"#")[0].split() for line in read.split(b"\n") if line.strip()[:1] in b"+-.0123456789"]
+    numbers = [
+        abs(float(word))
+        for words in vertices
+        for word in words
+        if re.fullmatch(rb"[-+]?[0-9.]+(e[-+]?[0-9]+)?", word)]
     smallest = 2.0**-60 * max(numbers, default=1)
-    color_or_normal = 4 if b"attributes w" in want or b"\nclipped" in want else 3  # the first column that T22 is about
+    # the first column that T22 is about
+    color_or_normal = 4 if b"attributes w" in want or b"\nclipped" in want else 3
     case.assertEqual(got.count(b"\n"), want.count(b"\n"))
-    for got_line, want_line, precise_line in zip(*(text.decode().split("\n") for text in (got, want, precise()))):
+    for got_line, want_line, precise_line in zip(*(text.decode().split("\n")
+                                                   for text in (got, want, precise()))):
         words = zip(got_line.split(" "), want_line.split(" "), precise_line.split(" "))
         for column, (a, b, x) in enumerate(words if got_line != want_line else ()):
             if a != b:
                 unit = Fraction(1, 10 ** len(a.partition(".")[2]))
                 is_tie = abs(abs(Fraction(a) - Fraction(x)) - unit / 2) < unit / 2**20
                 is_close = column >= color_or_normal and abs(Fraction(a) - Fraction(x)) < CLOSE + unit / 2
-                is_lost = is_noted and abs(Fraction(a) - Fraction(b)) <= max(abs(Fraction(b)) / 10**28, Fraction(smallest) / 2**30)
-                case.assertTrue(is_tie or is_close or is_lost or a == "0" and abs(float(b)) <= smallest, (got_line, want_line, precise_line))
+                is_lost = is_noted and abs(Fraction(a) - Fraction(b)) <= max(
+                    abs(Fraction(b)) / 10**28,
+                    Fraction(smallest) / 2**30)
+                case.assertTrue(is_tie or is_close or is_lost or a == "0" and abs(float(b)) <= smallest,
+                                (got_line, want_line, precise_line))
 
 
 def expect_same_picture(case, triangles, stage, config, options, model_name, depth_text, image):
@@ -35,25 +46,30 @@ def expect_same_picture(case, triangles, stage, config, options, model_name, dep
     depths, seen = reference.draw(triangles, config, options["--coverage"])
     with decimal.localcontext(reference.SHADING):
         picture = reference.shade(seen, stage.header, config, model_name)
-    if depth_text == reference.depth_text(depths, config.rear) and image == reference.bmp([[*map(reference.rounded, row)] for row in picture]):
+    if depth_text == reference.depth_text(depths, config.rear) and image == reference.bmp(
+        [[*map(reference.rounded, row)] for row in picture]):
         return
     rivals = close_fragments(triangles, config, options["--coverage"], depths, seen)
     expect_same_depths(case, depth_text, depths, config, rivals)
     case.assertEqual(image[:54], reference.bmp([[(0, 0, 0)] * config.width] * config.height)[:54])
     for row, column, rgb in pixels_of(image, config):
         if not is_shown(rgb, picture[row][column]) and not is_edge_on(seen[row][column]):
-            others = [alone(triangle, row, column, stage, config, model_name) for triangle in rivals.get((row, column), ())]
-            case.assertTrue(any(other is None or is_shown(rgb, other) for other in others), (row, column, rgb, picture[row][column]))
+            others = [
+                alone(triangle, row, column, stage, config, model_name)
+                for triangle in rivals.get((row, column), ())]
+            case.assertTrue(any(other is None or is_shown(rgb, other) for other in others),
+                            (row, column, rgb, picture[row][column]))
 
 
 def close_fragments(triangles, config, coverage, depths, seen):
-    """For pixels where doubles may see another triangle (Z9): those triangles, and None for the background. Of one place, or of
-    one depth, doubles have the same depth as well."""
+    """For pixels where doubles may see another triangle (Z9): those triangles, and None for the background.
+    Of one place, or of one depth, doubles have the same depth as well."""
     rivals = {}
     for triangle in triangles:
         for row, column, z in getattr(reference, coverage)(triangle, config):
             winner, is_flat = seen[row][column], len({corner.position[2] for corner in triangle.corners}) == 1
-            is_at_limit = not is_flat and min(abs(z - config.front), abs(z - config.rear)) < CLOSE or coverage == "nearest" and has_no_sure_slope(triangle)
+            is_at_limit = not is_flat and min(abs(z - config.front), abs(
+                z - config.rear)) < CLOSE or coverage == "nearest" and has_no_sure_slope(triangle)
             is_close = config.front <= z < depths[row][column] + CLOSE and triangle is not winner
             if is_at_limit:
                 rivals.setdefault((row, column), []).append(None)
@@ -77,7 +93,9 @@ def expect_same_depths(case, text, depths, config, rivals):
         want, words = [z for z in want if z < config.rear], line.split("\t")[:-1]
         case.assertEqual(len(words), len(want), (row, line))
         for word, z in zip(words, want):
-            case.assertTrue(word == reference.fixed(z, 6) or abs(Fraction(word) - z) < Fraction(1, 2 * 10**6) + CLOSE, (row, word, float(z)))
+            case.assertTrue(
+                word == reference.fixed(z, 6) or abs(Fraction(word) - z) < Fraction(1, 2 * 10**6) + CLOSE,
+                (row, word, float(z)))
 
 
 def pixels_of(image, config):

@@ -34,20 +34,23 @@ def projection(rng):
     if kind == "perspective":
         rule = rng.choice(("", "", " angle", " ratio"))
         fov_y = rng.choice(("90", "60", "45", "%g" % rng.uniform(5, 120)))
-        return "%s %s %s %s" % (fov_y, rng.choice(("1", "1.25", "%g" % rng.uniform(0.3, 1.45))),
-                                rng.choice(("0.01", "0.1", "1", "2.5")), rng.choice(("10", "100", "1e4"))) + rule
+        return "%s %s %s %s" % (fov_y, rng.choice(
+            ("1", "1.25", "%g" % rng.uniform(0.3, 1.45))), rng.choice(
+                ("0.01", "0.1", "1", "2.5")), rng.choice(("10", "100", "1e4"))) + rule
     return kind + rng.choice((" -3 4 -2.5 2 0.5 20", " -1 1 -1 1 1 10", " 2 -1.5 -1 1 0.7 30"))
 
 
 def transform(rng):
-    return rng.choice((lambda: "translate\n" + numbers(rng, 3, 3), lambda: "scale " + numbers(rng, 3, 2),
-                       lambda: "scale\n-1 1 1", lambda: "rotate\n%s %s 1 %s" % (rng.choice((*ROUND_ANGLES, number(rng, 400))),
-                                                                               number(rng, 2), number(rng, 2)),
-                       lambda: "rotate %s %s" % (rng.choice(ROUND_ANGLES), rng.choice(("0 0 1", "1 0 0", "1 1 1", "3 0 -4")))))()
+    return rng.choice(
+        (lambda: "translate\n" + numbers(rng, 3, 3), lambda: "scale " + numbers(rng, 3, 2),
+         lambda: "scale\n-1 1 1", lambda: "rotate\n%s %s 1 %s" % (rng.choice(
+             (*ROUND_ANGLES, number(rng, 400))), number(rng, 2), number(rng, 2)), lambda: "rotate %s %s" %
+         (rng.choice(ROUND_ANGLES), rng.choice(("0 0 1", "1 0 0", "1 1 1", "3 0 -4")))))()
 
 
 def looks(rng, has_light):
-    """The lines of color and light, and whether vertex lines have colors and normals; `color` may come later if any has."""
+    """The lines of color and light, and whether vertex lines have colors and normals; `color` may come later
+    if any has."""
     lines, columns = [], rng.choice(((), (), ("color",), ("normal",), ("color", "normal")))
     if rng.random() < 0.4:
         lines.append("background " + positive(rng, 3, 255))
@@ -67,7 +70,8 @@ def looks(rng, has_light):
     rng.shuffle(lines)
     for i in [i for i, line in enumerate(lines) if line.startswith("material")]:
         if rng.random() < 0.3:
-            lines[i] += " %s %s %s" % (rng.choice(("0", "0.25", "1")), rng.choice(("1", "1.5", "0.75")), rng.choice(("1", "0", "0.5")))
+            lines[i] += " %s %s %s" % (rng.choice(("0", "0.25", "1")), rng.choice(
+                ("1", "1.5", "0.75")), rng.choice(("1", "0", "0.5")))
         if rng.random() < 0.2:
             lines[i] += "\nabsorption " + positive(rng, 3, 2)
     return lines, columns, has_color
@@ -105,7 +109,8 @@ def scene(rng):
     lines += more
     depth, materials = 0, sum(line.startswith("material") for line in lines)
     for _ in range(rng.randint(3, 24)):
-        command = rng.choice(("triangle",) * 5 + ("transform", "transform", "push", "pop", "color", "again", "use"))
+        command = rng.choice(("triangle", ) * 5 +
+                             ("transform", "transform", "push", "pop", "color", "again", "use"))
         if command == "triangle":
             corners = [vertex(rng, columns) for _ in range(3)]
             lines.append("triangle\n" + "\n".join(corners))
@@ -129,7 +134,8 @@ def untidy(rng, text):
     lines = []
     for line in text.split("\n")[:-1]:
         lines += [""] * (rng.random() < 0.1) + ["# a comment"] * (rng.random() < 0.1)
-        lines.append(" " * rng.randint(0, 1) + line.replace(" ", rng.choice((" ", "\t", "  "))) + rng.choice(("", "", " ", " # c", "\t")))
+        lines.append(" " * rng.randint(0, 1) + line.replace(" ", rng.choice((" ", "\t", "  "))) +
+                     rng.choice(("", "", " ", " # c", "\t")))
     return rng.choice(("\n", "\r\n")).join(lines) + rng.choice(("", "\n"))
 
 
@@ -138,17 +144,22 @@ def config(rng, scene_text):
     if SNAPPED_CAMERA in scene_text:
         return rng.choice(("8 8", "24 8", "8 24")) + rng.choice(("\n", "\n-1\n-1\n0 1\n"))
     size = "%d %d" % (rng.randint(6, 24), rng.randint(6, 20))
-    return size + rng.choice(("\n", "\n", "\n-1\n-1\n0 1\n", "\n-1\n-0.75\n-0.9 1\n", "\n-1.5\n-1\n0 1.5\n", "\n-1\n-1\n-1 1", "\n-0.3333333\n-0.7\n-1 0.99\n"))
+    return size + rng.choice(("\n", "\n", "\n-1\n-1\n0 1\n", "\n-1\n-0.75\n-0.9 1\n", "\n-1.5\n-1\n0 1.5\n",
+                              "\n-1\n-1\n-1 1", "\n-0.3333333\n-0.7\n-1 0.99\n"))
 
 
 def options(rng):
     """For the four stages."""
     digits = rng.choice((["--digits", "exact"], [], [], ["--digits", str(rng.randint(2, 12))]))
     of_model = digits + rng.choice(([], ["--framed"]))
-    clip = rng.choice((["auto"], ["auto"], ["near"], ["frustum"], ["reject"], ["frustum", "--clip-inset", "0.25"], ["none"]))
+    clip = rng.choice(
+        (["auto"], ["auto"], ["near"], ["frustum"], ["reject"], ["frustum", "--clip-inset", "0.1"], ["none"]))
     of_project = digits + ["--clip", *clip] + rng.choice(([], [], ["--cull", "back"], ["--cull", "front"]))
     of_project += rng.choice(([], [], ["--aspect", "ratio"]))
-    of_zbuf = ["--coverage", rng.choice(("nearest", "center")), "--algorithm", rng.choice(("zbuffer", "scanline"))]
+    of_zbuf = [
+        "--coverage",
+        rng.choice(("nearest", "center")), "--algorithm",
+        rng.choice(("zbuffer", "scanline"))]
     return {"model": of_model, "view": digits, "project": of_project, "zbuf": of_zbuf}
 
 

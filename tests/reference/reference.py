@@ -730,7 +730,7 @@ def shade(seen, header, config, model_name):  # L1 to L5, Z10: the picture, in c
 
 def zbuf(data, options):  # Z1 to Z11, L1 to L6, T15, T23, T24: the z-buffer text; writes the image
     config, stage = read_config(Text(pathlib.Path(options["CONFIG"]).read_bytes())), Stage(data, "zbuf")
-    if "--framed" in options and "framed" not in stage.header:
+    if "--expect-framed" in options and "framed" not in stage.header:
         raise Refused(stage.end_of_header, "a text that is not framed")
     model_name = shading_model(stage, options.get("--shading"))
     depths, seen = draw(stage.triangles(), config, options["--coverage"])
@@ -746,7 +746,7 @@ OPTIONS = {  # words that follow, or their count
     "view": {"--bare": 0, "--digits": DIGITS, "--scene": 1, **{"--" + name: len(ARGUMENTS[name]) for name in POSITION + PROJECTIONS}},
     "project": {"--digits": DIGITS, "--scene": 1, "--aspect": ["angle", "ratio"], "--cull": ["back", "front"], "--clip-inset": 1,
                 "--clip": ["auto", "near", "frustum", "reject", "none"], **{"--" + name: len(ARGUMENTS[name]) for name in PROJECTIONS}},
-    "zbuf": {"--framed": 0, "--image": 1, "--coverage": ["nearest", "center"], "--algorithm": ["zbuffer", "scanline"],
+    "zbuf": {"--expect-framed": 0, "--image": 1, "--coverage": ["nearest", "center"], "--algorithm": ["zbuffer", "scanline"],
              "--shading": ["none", "flat", "gouraud", "phong"]}}
 
 def read_options(stage, words):  # S5, V1, P1: the options by name, with their defaults

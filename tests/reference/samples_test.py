@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""The files committed in samples/ are those of the reference; scenes that scripts write are what the scripts write.
+"""The files committed in samples/ are those of the reference; scenes that scripts write are what the scripts
+write.
 
 usage: samples_test.py SOURCE_DIR
 """
@@ -32,33 +33,39 @@ class Samples(unittest.TestCase):
                 stage1 = stage("model", files["scene.txt"], "--digits", "exact")
                 stage2 = stage("view", stage1, "--digits", "exact")
                 stage3 = stage("project", stage2)
-                self.assertTrue(stage("model", files["scene.txt"], "--bare") == files["stage1.txt"], "stage1.txt differs")
+                self.assertTrue(
+                    stage("model", files["scene.txt"], "--bare") == files["stage1.txt"], "stage1.txt differs")
                 self.assertTrue(stage("view", stage1, "--bare") == files["stage2.txt"], "stage2.txt differs")
                 given = files["stage3.txt"]
-                leeway.expect_same_text(self, given, stage3, lambda: stage("project", stage2, "--digits", "17"), stage2)
-                text, config = reference.Stage(given, "zbuf"), reference.read_config(reference.Text(files["config.txt"]))
+                leeway.expect_same_text(self, given, stage3,
+                                        lambda: stage("project", stage2, "--digits", "17"), stage2)
+                text, config = reference.Stage(given, "zbuf"), reference.read_config(
+                    reference.Text(files["config.txt"]))
                 leeway.expect_same_picture(
-                    self, list(text.triangles()), text, config, {"--coverage": "nearest"}, reference.shading_model(text, None),
-                    files["z_buffer.txt"], files["out.bmp"])
+                    self, list(text.triangles()), text, config, {"--coverage": "nearest"},
+                    reference.shading_model(text, None), files["z_buffer.txt"], files["out.bmp"])
 
     def test_the_reference_is_a_program_with_the_options_of_the_tools(self):
         sample = source / "samples/worked-example"
 
         def run(*words, stdin):
-            return subprocess.run([sys.executable, source / "tests/reference/reference.py", *words], input=stdin, capture_output=True)
+            return subprocess.run([sys.executable, source / "tests/reference/reference.py", *words],
+                                  input=stdin, capture_output=True)
 
         with tempfile.TemporaryDirectory() as folder:
             image = pathlib.Path(folder, "picture.bmp")
             stage1 = run("model", "--framed", stdin=(sample / "scene.txt").read_bytes()).stdout
             stage2 = run("view", "--eye", "0", "0", "2", "--digits", "exact", stdin=stage1).stdout
             stage3 = run("project", "--perspective", "60", "1", "1", "1e1", stdin=stage2).stdout
-            depths = run("zbuf", sample / "config.txt", "--framed", "--image", image, stdin=stage3)
-            self.assertEqual((depths.returncode, depths.stderr, depths.stdout), (0, b"", (sample / "z_buffer.txt").read_bytes()))
+            depths = run("zbuf", sample / "config.txt", "--expect-framed", "--image", image, stdin=stage3)
+            self.assertEqual((depths.returncode, depths.stderr, depths.stdout),
+                             (0, b"", (sample / "z_buffer.txt").read_bytes()))
             self.assertEqual(image.read_bytes(), (sample / "out.bmp").read_bytes())
         refused = run("project", stdin=b"# c\northo 1 1 -1 1 1 9\n")
         self.assertEqual((refused.returncode, refused.stdout[:21]), (1, b"error project: line 2:"[:21]))
         self.assertIn(b"reference project: line 2:", refused.stderr)
-        for words in (["zbuf"], ["model", "--digits", "18"], ["view", "--eye", "0", "0"], ["project", "--eye", "0", "0", "0"], ["trace"], []):
+        for words in (["zbuf"], ["model", "--digits", "18"], ["view", "--eye", "0", "0"], [
+                "project", "--eye", "0", "0", "0"], ["trace"], []):
             self.assertEqual(run(*words, stdin=b"").returncode, 2, words)
 
     def test_the_lit_scenes_are_written_by_their_script(self):
@@ -66,12 +73,15 @@ class Samples(unittest.TestCase):
             subprocess.run([sys.executable, source / "scripts/maintain/make-lit-samples", folder], check=True)
             for sample in lit_samples:
                 for name in ("scene.txt", "config.txt"):
-                    self.assertEqual((pathlib.Path(folder) / sample.name / name).read_text(), (sample / name).read_text())
+                    self.assertEqual((pathlib.Path(folder) / sample.name / name).read_text(),
+                                     (sample / name).read_text())
             for name in ("traced-scene.txt", "config.txt"):
-                self.assertEqual((pathlib.Path(folder) / "spheres" / name).read_text(), (source / "samples/spheres" / name).read_text())
+                self.assertEqual((pathlib.Path(folder) / "spheres" / name).read_text(),
+                                 (source / "samples/spheres" / name).read_text())
 
     def test_the_torus_is_written_by_its_script(self):
-        scene = subprocess.run([sys.executable, source / "scripts/make-torus"], stdout=subprocess.PIPE, check=True).stdout
+        scene = subprocess.run([sys.executable, source / "scripts/make-torus"], stdout=subprocess.PIPE,
+                               check=True).stdout
         self.assertTrue((source / "samples/torus/scene.txt").read_bytes() == scene, "differs")
 
     def test_the_worked_examples_reach_stage_3_as_the_assignment_gives_them(self):
@@ -80,7 +90,8 @@ class Samples(unittest.TestCase):
         for name, numbers in given.items():
             with self.subTest(sample=name):
                 stage3 = (source / "samples" / name / "stage3.txt").read_text()
-                self.assertEqual([float(word) for word in stage3.split()], [float(word) for word in numbers.split()])
+                self.assertEqual([float(word) for word in stage3.split()],
+                                 [float(word) for word in numbers.split()])
 
 
 if __name__ == "__main__":

@@ -13,8 +13,8 @@ namespace pipeline {
 namespace {
 
 // Lines 1 to 4 of a scene; its commands start on line 5.
-const std::string kCamera = "0 0 5\n0 0 0\n0 1 0\n60 1 1 100\n";
-const std::string kTriangle = "triangle\n0 0 0\n1 0 0\n0 1 0\n";
+const std::string kCameraLines = "0 0 5\n0 0 0\n0 1 0\n60 1 1 100\n";
+const std::string kTriangleLines = "triangle\n0 0 0\n1 0 0\n0 1 0\n";
 
 /// The contents of a scene.
 struct ReadScene {
@@ -24,7 +24,7 @@ struct ReadScene {
 };
 
 ReadScene scene_of(const std::string& commands) {
-  const TextFile file(kCamera + commands + "end\n");
+  const TextFile file(kCameraLines + commands + "end\n");
   TextReader text(file.descriptor(), "scene.txt");
   SceneReader reader(text);
   ReadScene scene;
@@ -37,12 +37,12 @@ ReadScene scene_of(const std::string& commands) {
   return scene;
 }
 
-std::string error_of(const std::string& commands) {
+std::string error_of_appearance(const std::string& commands) {
   return message_of([&] { scene_of(commands); });
 }
 
 TEST(Appearance, APlainSceneGivesNone) {
-  const Appearance appearance = scene_of(kTriangle).appearance;
+  const Appearance appearance = scene_of(kTriangleLines).appearance;
   EXPECT_FALSE(appearance.attributes || appearance.background || appearance.ambient ||
                !appearance.materials.empty() || appearance.attenuation || !appearance.lights.empty());
 }
@@ -66,7 +66,7 @@ TEST(Appearance, TakesEveryCommandOnItsOwnLineOrTheNext) {
 }
 
 TEST(Appearance, TheCurrentColorIsThatOfEveryVertexUntilItChanges) {
-  const ReadScene scene = scene_of("color 1 2 3\n" + kTriangle + "color\n4 5 6\n" + kTriangle);
+  const ReadScene scene = scene_of("color 1 2 3\n" + kTriangleLines + "color\n4 5 6\n" + kTriangleLines);
   EXPECT_TRUE(scene.appearance.columns() == (AttributeSet{false, true, false}));
   EXPECT_EQ(scene.triangles.at(0).vertices[2].color, (Vec3{1, 2, 3}));
   EXPECT_EQ(scene.triangles.at(1).vertices[0].color, (Vec3{4, 5, 6}));
@@ -92,28 +92,28 @@ TEST(Appearance, TheCurrentColorGoesWithNormalsInEitherOrder) {
 }
 
 TEST(Appearance, ColorsLieFrom0To255) {
-  EXPECT_EQ(error_of("color 0 256 0\n"),
+  EXPECT_EQ(error_of_appearance("color 0 256 0\n"),
             "scene.txt:5:9: expected the green of the color from 0 to 255, found '256'");
-  EXPECT_EQ(error_of("background\n-1 0 0\n"),
+  EXPECT_EQ(error_of_appearance("background\n-1 0 0\n"),
             "scene.txt:6:1: expected the red of the background from 0 to 255, found '-1'");
-  EXPECT_EQ(error_of("attributes color\ntriangle 0 0 0 0 0 300\n"),
+  EXPECT_EQ(error_of_appearance("attributes color\ntriangle 0 0 0 0 0 300\n"),
             "scene.txt:6:20: expected the blue of vertex 1 of 3 (x y z r g b, by the line 'attributes "
             "color') from 0 to 255, found '300'");
 }
 
 TEST(Appearance, AVertexHasAllColumnsAndNoMore) {
-  EXPECT_EQ(error_of("attributes normal\ntriangle\n0 0 0\n"),
+  EXPECT_EQ(error_of_appearance("attributes normal\ntriangle\n0 0 0\n"),
             "scene.txt:7:6: expected the normal's x of vertex 1 of 3 (x y z nx ny nz, by the line "
             "'attributes normal'), found the end of the line");
-  EXPECT_EQ(error_of("attributes color\ntriangle\n0 0 0 1 2 3\n0 0 0 1 2 3 4\n"),
+  EXPECT_EQ(error_of_appearance("attributes color\ntriangle\n0 0 0 1 2 3\n0 0 0 1 2 3 4\n"),
             "scene.txt:8:13: expected the end of the line after vertex 2 of 3 (x y z r g b, by the line "
             "'attributes color'), found '4'");
-  EXPECT_EQ(error_of("color 1 2 3\ntriangle\n0 0 0 1 2 3\n"),
+  EXPECT_EQ(error_of_appearance("color 1 2 3\ntriangle\n0 0 0 1 2 3\n"),
             "scene.txt:7:7: expected the end of the line after vertex 1 of 3 (x y z), found '1'");
 }
 
 TEST(Appearance, ANormalIsNotZero) {
-  EXPECT_EQ(error_of("attributes normal\ntriangle\n0 0 0 0 0 0\n"),
+  EXPECT_EQ(error_of_appearance("attributes normal\ntriangle\n0 0 0 0 0 0\n"),
             "scene.txt:7:7: expected a normal of vertex 1 of 3 other than 0 0 0, found 0 0 0");
 }
 
@@ -124,11 +124,11 @@ TEST(Appearance, ABackgroundMayHaveAnAlpha) {
   EXPECT_EQ(alpha_of("1 2 3"), 255);
   EXPECT_EQ(alpha_of("1 2 3 0"), 0);
   EXPECT_EQ(alpha_of("1 2 3 254.5 # a comment"), 254.5);
-  EXPECT_EQ(error_of("background 1 2 3 255.5\n"),
+  EXPECT_EQ(error_of_appearance("background 1 2 3 255.5\n"),
             "scene.txt:5:18: expected the alpha of the background from 0 to 255, found '255.5'");
-  EXPECT_EQ(error_of("background 1 2 3 -1\n"),
+  EXPECT_EQ(error_of_appearance("background 1 2 3 -1\n"),
             "scene.txt:5:18: expected the alpha of the background from 0 to 255, found '-1'");
-  EXPECT_EQ(error_of("background 1 2 3 4 5\n"),
+  EXPECT_EQ(error_of_appearance("background 1 2 3 4 5\n"),
             "scene.txt:5:20: expected the end of the line after the alpha of the background, found '5'");
 }
 
@@ -136,7 +136,7 @@ TEST(Appearance, NoNormalOfACompleteTriangleIsZero) {
   for (std::size_t zero = 0; zero < 3; ++zero) {
     std::array<std::string, 3> lines = {"0 0 0 0 0 1\n", "1 0 0 0 0 1\n", "0 1 0 0 0 1\n"};
     lines[zero] = "2 3 4 0 0 0\n";
-    EXPECT_EQ(error_of("attributes normal\ntriangle\n" + lines[0] + lines[1] + lines[2]),
+    EXPECT_EQ(error_of_appearance("attributes normal\ntriangle\n" + lines[0] + lines[1] + lines[2]),
               "scene.txt:" + std::to_string(7 + zero) + ":7: expected a normal of vertex " +
                   std::to_string(zero + 1) + " of 3 other than 0 0 0, found 0 0 0");
   }
@@ -144,15 +144,15 @@ TEST(Appearance, NoNormalOfACompleteTriangleIsZero) {
 
 TEST(Appearance, AttributesAreNamedOnceInTheirOrder) {
   const std::string expected = "expected attributes of [color] [normal], in this order, found ";
-  EXPECT_EQ(error_of("attributes normal color\n"), "scene.txt:5:19: " + expected + "'color'");
-  EXPECT_EQ(error_of("attributes w color\n"), "scene.txt:5:12: " + expected + "'w'");
-  EXPECT_EQ(error_of("attributes color\nattributes normal\n"),
+  EXPECT_EQ(error_of_appearance("attributes normal color\n"), "scene.txt:5:19: " + expected + "'color'");
+  EXPECT_EQ(error_of_appearance("attributes w color\n"), "scene.txt:5:12: " + expected + "'w'");
+  EXPECT_EQ(error_of_appearance("attributes color\nattributes normal\n"),
             "scene.txt:6:1: expected one 'attributes', found a second one after scene.txt:5:12");
 }
 
 TEST(Appearance, TheCurrentMaterialIsThatOfEveryVertexUntilItChanges) {
-  const ReadScene scene = scene_of("material 1 1 0 1\nmaterial 0 0 1 9\n" + kTriangle + "push\nuse 1\npop\n" +
-                                   kTriangle + "use\n0\n" + kTriangle);
+  const ReadScene scene = scene_of("material 1 1 0 1\nmaterial 0 0 1 9\n" + kTriangleLines +
+                                   "push\nuse 1\npop\n" + kTriangleLines + "use\n0\n" + kTriangleLines);
   EXPECT_TRUE(scene.appearance.columns() == (AttributeSet{.material = true}));
   ASSERT_EQ(scene.triangles.size(), 3u);
   EXPECT_EQ(scene.triangles[0].material, 0u);
@@ -161,9 +161,9 @@ TEST(Appearance, TheCurrentMaterialIsThatOfEveryVertexUntilItChanges) {
 }
 
 TEST(Appearance, OneMaterialNeedsNoColumn) {
-  const ReadScene scene = scene_of("material 0 0 1 9\nuse 0\n" + kTriangle);
+  const ReadScene scene = scene_of("material 0 0 1 9\nuse 0\n" + kTriangleLines);
   EXPECT_FALSE(scene.appearance.attributes);
-  EXPECT_FALSE(scene_of("use 0\n" + kTriangle).appearance.attributes);
+  EXPECT_FALSE(scene_of("use 0\n" + kTriangleLines).appearance.attributes);
 }
 
 TEST(Appearance, AttributesAndMaterialsMayStandInAnyOrder) {
@@ -174,26 +174,26 @@ TEST(Appearance, AttributesAndMaterialsMayStandInAnyOrder) {
 }
 
 TEST(Appearance, AMaterialIsUsedBelowItsLine) {
-  EXPECT_EQ(error_of("material 1 1 0 1\nuse 1\nmaterial 1 1 0 1\n"),
+  EXPECT_EQ(error_of_appearance("material 1 1 0 1\nuse 1\nmaterial 1 1 0 1\n"),
             "scene.txt:6:5: expected the number of a material above, a whole number below 1, found '1'");
-  EXPECT_EQ(error_of("use 0\n" + kTriangle + "use\n-1\n"),
+  EXPECT_EQ(error_of_appearance("use 0\n" + kTriangleLines + "use\n-1\n"),
             "scene.txt:11:1: expected the number of a material above, a whole number below 1, found '-1'");
 }
 
 TEST(Appearance, OnlyLightsAndMaterialsMayBeMany) {
-  EXPECT_EQ(error_of("ambient 1 1 1\nambient 1 1 1\n"),
+  EXPECT_EQ(error_of_appearance("ambient 1 1 1\nambient 1 1 1\n"),
             "scene.txt:6:1: expected one 'ambient', found a second one after scene.txt:5:9");
 }
 
 TEST(Appearance, IntensitiesAndFactorsAreNotNegative) {
-  EXPECT_EQ(error_of("light 0 0 0 1 1 -1\n"),
+  EXPECT_EQ(error_of_appearance("light 0 0 0 1 1 -1\n"),
             "scene.txt:5:17: expected the blue of the light of at least 0, found '-1'");
-  EXPECT_EQ(error_of("material 1 -1 0 1\n"),
+  EXPECT_EQ(error_of_appearance("material 1 -1 0 1\n"),
             "scene.txt:5:12: expected the diffuse factor of at least 0, found '-1'");
 }
 
 TEST(Appearance, TheShininessIsWhole) {
-  EXPECT_EQ(error_of("material 1 1 0 1.5\n"),
+  EXPECT_EQ(error_of_appearance("material 1 1 0 1.5\n"),
             "scene.txt:5:16: expected the shininess, a whole number below 2^64, found '1.5'");
 }
 
@@ -209,19 +209,19 @@ TEST(Appearance, AWholeShininessMayBeWrittenWithDecimals) {
 
 TEST(Appearance, AShininessIsBelowTwoToThe64) {
   for (const std::string number : {"18446744073709551616", "1e20", "1e999", "-1.0", "nan", "16.5"})
-    EXPECT_EQ(error_of("material 1 1 0 " + number + "\n"),
+    EXPECT_EQ(error_of_appearance("material 1 1 0 " + number + "\n"),
               "scene.txt:5:16: expected the shininess, a whole number below 2^64, found '" + number + "'");
 }
 
 TEST(Appearance, AnAttenuationIsNotAllZero) {
-  EXPECT_EQ(error_of("attenuation 0 0 0\n"),
+  EXPECT_EQ(error_of_appearance("attenuation 0 0 0\n"),
             "scene.txt:5:13: expected an attenuation other than 0 0 0, found 0 0 0");
 }
 
 TEST(Appearance, IsFixedByTheFirstTriangle) {
-  EXPECT_EQ(error_of(kTriangle + "light 0 0 0 1 1 1\n"),
+  EXPECT_EQ(error_of_appearance(kTriangleLines + "light 0 0 0 1 1 1\n"),
             "scene.txt:9:1: expected 'light' before the first triangle, found 'light' after it");
-  EXPECT_EQ(error_of(kTriangle + "color 1 2 3\n"),
+  EXPECT_EQ(error_of_appearance(kTriangleLines + "color 1 2 3\n"),
             "scene.txt:9:1: expected 'color' or 'attributes color' before the first triangle, too, found "
             "'color' after it");
 }

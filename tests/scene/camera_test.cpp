@@ -17,7 +17,7 @@ CameraParameters camera(const Vec3& eye, const Vec3& look, const Vec3& up) {
   return camera;
 }
 
-std::string error_of(const CameraParameters& camera) {
+std::string error_of_check(const CameraParameters& camera) {
   return message_of([&] { check_camera(camera); });
 }
 
@@ -29,41 +29,41 @@ std::string error_of_projection(const std::string& keyword, const std::string& n
 }
 
 TEST(Camera, IsFineWhileItHasNoParts) {
-  EXPECT_EQ(error_of({}), "no error");
+  EXPECT_EQ(error_of_check({}), "no error");
 }
 
 TEST(Camera, IsFineWithAllItsParts) {
-  EXPECT_EQ(error_of(camera({0, 0, 5}, {}, {0, 1, 0})), "no error");
+  EXPECT_EQ(error_of_check(camera({0, 0, 5}, {}, {0, 1, 0})), "no error");
 }
 
 TEST(Camera, LooksAtAnotherPointThanTheEye) {
-  EXPECT_EQ(error_of(camera({0.1, -2, 1e30}, {0.1, -2, 1e30}, {0, 1, 0})),
+  EXPECT_EQ(error_of_check(camera({0.1, -2, 1e30}, {0.1, -2, 1e30}, {0, 1, 0})),
             "in.txt:2:6: expected a point other than the eye to look at, found 0.1 -2 1e+30");
 }
 
 TEST(Camera, MayLookAtTheNextDouble) {
-  EXPECT_EQ(error_of(camera({1, 0, 0}, {0x1.0000000000001p0, 0, 0}, {0, 1, 0})), "no error");
+  EXPECT_EQ(error_of_check(camera({1, 0, 0}, {0x1.0000000000001p0, 0, 0}, {0, 1, 0})), "no error");
 }
 
 TEST(Camera, HasAnUpDirectionEvenIfItIsAlone) {
   CameraParameters alone;
   alone.up = {Vec3{}, {"--up"}};
-  EXPECT_EQ(error_of(alone), "--up: expected an up direction, found 0 0 0");
+  EXPECT_EQ(error_of_check(alone), "--up: expected an up direction, found 0 0 0");
 }
 
 TEST(Camera, UpIsNotTheViewDirection) {
-  EXPECT_EQ(error_of(camera({1, 1, 1}, {3, 5, 7}, {1, 2, 3})),
+  EXPECT_EQ(error_of_check(camera({1, 1, 1}, {3, 5, 7}, {1, 2, 3})),
             "in.txt:3:4: expected an up direction that is not parallel to the view direction, found 1 2 3");
 }
 
 TEST(Camera, UpIsNotOppositeToTheViewDirection) {
   EXPECT_EQ(
-      error_of(camera({1, 1, 1}, {3, 5, 7}, {-0.5, -1, -1.5})),
+      error_of_check(camera({1, 1, 1}, {3, 5, 7}, {-0.5, -1, -1.5})),
       "in.txt:3:4: expected an up direction that is not parallel to the view direction, found -0.5 -1 -1.5");
 }
 
 TEST(Camera, UpMayBeAlmostTheViewDirection) {
-  EXPECT_EQ(error_of(camera({1, 1, 1}, {3, 5, 7}, {1, 2, 0x1.8000000000001p1})), "no error");
+  EXPECT_EQ(error_of_check(camera({1, 1, 1}, {3, 5, 7}, {1, 2, 0x1.8000000000001p1})), "no error");
 }
 
 TEST(Camera, NamesAnOptionWithoutALine) {

@@ -14,13 +14,18 @@ import unittest
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "tools"))
 from toolbox import BIN, SOURCE, ToolTest  # noqa: E402
 
-SCENE = "3 4 7\n0.3 -0.2 0.1\n0.2 1 0.1\n50 1.3 1 50\ntriangle\n0 0 0\n1 0 0.3\n0 1 0\ntriangle\n0.5 0.2 -1\n1 0.7 0\n0 -1 0\nend\n"
+SCENE = ("3 4 7\n0.3 -0.2 0.1\n0.2 1 0.1\n50 1.3 1 50\ntriangle\n0 0 0\n1 0 0.3\n0 1 0\ntriangle\n0.5 0.2 "
+         "-1\n1 0.7 0\n0 -1 0\nend\n")
 SAMPLES = ("worked-example", "one-triangle", "two-triangles", "nested-transforms", "tilted-camera", "torus")
 
 
 def check(*words):
-    return subprocess.run([SOURCE / "scripts/check-stage", *map(str, words)], capture_output=True, text=True, timeout=250,
-                          env={"BIN": str(BIN), "PATH": "/usr/bin:/bin", "LANG": "C.UTF-8"})
+    """What check-stage has done; its stdout without the last line, on the sandbox, if there is one."""
+    done = subprocess.run([SOURCE / "scripts/check-stage", "--read", BIN, *map(str, words)],
+                          capture_output=True, text=True, timeout=250, env={
+                              "BIN": str(BIN), "PATH": "/usr/bin:/bin", "LANG": "C.UTF-8"})
+    done.stdout, done.note = re.fullmatch(r"((?s:.*?))((?:no|in a) sandbox.*\n)?", done.stdout).groups()
+    return done
 
 
 def script(text):
@@ -51,46 +56,74 @@ class Program(ToolTest):
         *tried, others = done.stdout.splitlines()
         self.assertEqual((tried, done.returncode), ([f"{name}: right" for name in SAMPLES], 0))
         self.assertRegex(others, "^not tried: ")
-        self.assertEqual({path.parent.name for path in (SOURCE / "samples").glob("*/scene.txt")}, {*SAMPLES, *re.findall(r"[a-z]+(?:-[a-z]+)*(?=,| \()", others)})
+        self.assertEqual({path.parent.name
+                          for path in (SOURCE / "samples").glob("*/scene.txt")},
+                         {*SAMPLES, *re.findall(r"[a-z]+(?:-[a-z]+)*(?=,| \()", others)})
 
     def test_a_sphere_is_refused_with_its_line(self):
         pathlib.Path("scene").write_text(SCENE.replace("end\n", "sphere 0 0 0 1\nend\n"))
         line = SCENE.count("\n")
         for stage in ("model", "view", "project", "zbuf"):
             done = check(stage, "--scene", "scene", "--config", "config", "--", BIN / stage)
-            self.assertEqual((done.returncode, done.stdout, done.stderr), (2, "", f"check-stage: the scene is refused: model: <stdin>:{line}:1: expected triangles alone, "
-                                                                            "found a sphere: trace draws it, and model --facets N makes triangles of it\n"))
+            self.assertEqual(
+                (done.returncode, done.stdout, done.stderr),
+                (2, "",
+                 f"check-stage: the scene is refused: model: <stdin>:{line}:1: expected triangles alone, "
+                 "found a sphere: trace draws it, and model --facets N makes triangles of it\n"))
 
     def test_right_numbers_in_a_text_that_the_next_stage_refuses_are_wrong(self):
         told = self.told("view", 'cat > text; sed -n 1p text; exec "$BIN/view" text')
-        self.assertRegex(told, r"^scene: wrong: its numbers are right, but project refuses it: line 1, column 1: .* must drop the lines eye, look and up\n$")
-        self.assertIn("zbuf refuses it: line 1, column 1: expected the output of project, found 'perspective'", self.told("project", 'tee text | sed 2,999d; "$BIN/project" text'))
+        self.assertRegex(
+            told,
+            r"^scene: wrong: its numbers are right, but project refuses it: line 1, column 1: .* must drop "
+            r"the lines eye, look and up\n$"
+        )
+        self.assertIn(
+            "zbuf refuses it: line 1, column 1: expected the output of project, found 'perspective'",
+            self.told("project", 'tee text | sed 2,999d; "$BIN/project" text'))
 
     def test_a_text_without_a_header_may_be_meant(self):
         bare = f'exec "$BIN/view" --bare --scene "{os.path.abspath("scene")}"'
-        self.assertRegex(self.told("view", bare), r"^scene: wrong: its numbers are right, but project refuses it: .* \(--bare, if your stages go without header lines\)\n$")
+        self.assertRegex(
+            self.told("view", bare),
+            r"^scene: wrong: its numbers are right, but project refuses it: .* \(--bare, if your stages go "
+            r"without header lines\)\n$"
+        )
         self.assertEqual(self.told("view", bare, "--bare", status=0), "scene: right\n")
 
     def test_prints_between_the_vertices_are_wrong_and_counted(self):
         talk = """"$BIN/project" | awk 'NF { print "vertex", $1 } 1'"""
         told = self.told("project", talk)
         self.assertIn("scene: wrong: its numbers are right, but zbuf refuses it: line 1, column 1: ", told)
-        self.assertRegex(told, r"\n  6 lines are neither a vertex nor a header line, 3 for each triangle: first line 1, 'vertex -?[0-9.]+'\n$")
+        self.assertRegex(
+            told,
+            r"\n  6 lines are neither a vertex nor a header line, 3 for each triangle: first line 1, 'vertex "
+            r"-?[0-9.]+'\n$"
+        )
         scene = os.path.abspath("scene")
-        self.assertIn("scene: wrong: its numbers are right, but project refuses it: ", self.told("view", talk.replace('/project"', f'/view" --bare --scene "{scene}"'), "--bare"))
+        self.assertIn(
+            "scene: wrong: its numbers are right, but project refuses it: ",
+            self.told("view", talk.replace('/project"', f'/view" --bare --scene "{scene}"'), "--bare"))
 
     def test_a_program_that_knows_perspectives_alone_gets_past_the_parallel_samples(self):
-        path = script("""tee text | grep -q ^ortho && { echo "no such camera" >&2; exit 1; }; exec "$BIN/project" text""")
+        path = script("""tee text | grep -q ^ortho && { echo "no such camera" >&2; exit 1; }
+            exec "$BIN/project" text""")
         done = check("project", "--", path)
         *tried, others = done.stdout.splitlines()
         left_out = "left out: its projection is ortho, on which its exit status is 1 (no such camera)"
-        self.assertEqual((tried, done.returncode), (["worked-example: right", f"one-triangle: {left_out}", f"two-triangles: {left_out}", "nested-transforms: right",
-                                                     "tilted-camera: right", "tilted-camera with aspect 1.25: right", "torus: right"], 0))
+        self.assertEqual((tried, done.returncode), ([
+            "worked-example: right", f"one-triangle: {left_out}", f"two-triangles: {left_out}",
+            "nested-transforms: right", "tilted-camera: right", "tilted-camera with aspect 1.25: right",
+            "torus: right"], 0))
 
     def test_the_aspect_of_opengl_is_right_where_a_scene_says_so(self):
         program = script("""exec "$BIN/project" --aspect ratio""")
         done = check("project", "--", program)
-        self.assertRegex(done.stdout, "\ntilted-camera with aspect 1.25: wrong\n(?:  .*\n)*  if your course takes the aspect as width / height, as OpenGL does, this is right: ")
+        self.assertRegex(
+            done.stdout,
+            "\ntilted-camera with aspect 1.25: wrong\n(?:  .*\n)*  if your course takes the aspect as width "
+            "/ height, as OpenGL does, this is right: "
+        )
         pathlib.Path("scene").write_text(SCENE.replace("50 1.3 1 50", "50 1.3 1 50 ratio"))
         done = check("project", "--scene", "scene", "--", program)
         self.assertEqual((done.stdout, done.returncode), ("scene: right\n", 0))
@@ -105,15 +138,20 @@ class Program(ToolTest):
         ignoring = """sed 's/^\\(perspective [^ ]*\\) [^ ]*/\\1 1/' | "$BIN/project\""""
         done = check("project", "--", script(ignoring))
         self.assertIn("tilted-camera: right\ntilted-camera with aspect 1.25: wrong\n", done.stdout)
-        self.assertIn("  cause: The horizontal angle of view is the vertical one: the aspect is ignored\n", done.stdout)
+        self.assertIn("  cause: The horizontal angle of view is the vertical one: the aspect is ignored\n",
+                      done.stdout)
         self.assertEqual(done.returncode, 1)
         pathlib.Path("scene").write_text(SCENE.replace(" 1.3 ", " 1 "))
-        self.assertEqual(self.told("project", ignoring, status=0),
-                         "scene: right\n  not tried: the aspect, which is 1 in this scene, so that a program that ignores it is right, too\n")
+        self.assertEqual(
+            self.told("project", ignoring, status=0),
+            "scene: right\n  not tried: the aspect, which is 1 in this scene, so that a program that ignores "
+            "it is right, too\n"
+        )
 
     def test_the_first_wrong_number_and_the_cause(self):
         told = self.told("view", 'exec "$BIN/view" --eye 0 0 0 --look -2.7 -4.2 -6.9')
-        self.assertIn("scene: wrong\n  first difference: line 2, x of vertex 1 of triangle 0: ", told)  # line 1 is the projection
+        self.assertIn("scene: wrong\n  first difference: line 2, x of vertex 1 of triangle 0: ",
+                      told)  # line 1 is the projection
         self.assertIn("  cause: The eye is not subtracted\n", told)
 
     def test_the_matrix_is_shown_beside_ours(self):
@@ -124,8 +162,10 @@ class Program(ToolTest):
         self.assertEqual([row.count("*") for row in rows], [0, 1, 0, 0])
 
     def test_a_zbuf_gets_its_config_and_writes_its_picture(self):
-        self.assertIn("the center rule", self.told("zbuf", 'exec "$BIN/zbuf" --coverage center "$1"', status=0))
-        self.assertEqual(self.told("zbuf", '"$BIN/zbuf" "$1" --image output.bmp > zBuffer.txt', status=0), "scene: right\n")
+        self.assertIn("the center rule", self.told("zbuf", 'exec "$BIN/zbuf" --coverage center "$1"',
+                                                   status=0))
+        self.assertEqual(self.told("zbuf", '"$BIN/zbuf" "$1" --image output.bmp > zBuffer.txt', status=0),
+                         "scene: right\n")
         self.assertIn("(out.bmp)", self.told("zbuf", 'exec "$BIN/zbuf" "$1" --image none.bmp'))
 
     def test_the_scene_stands_where_the_command_wants_it(self):
@@ -135,11 +175,15 @@ class Program(ToolTest):
     def test_a_program_that_fails_is_told(self):
         self.assertEqual(self.told("view", "echo no such matrix >&2; exit 3"),
                          "scene: wrong: its exit status is 3\n  its stderr:\n    no such matrix\n")
-        self.assertEqual(self.told("view", "kill -9 $$"), "scene: wrong: it was ended by signal 9\n")
+        self.assertEqual(self.told("view", "kill -9 $$"), "scene: wrong: it was ended by SIGKILL\n")
 
     def test_a_traceback_is_shown(self):
         told = self.told("view", "exec python3 -c 'def half(x): return x / 0\nhalf(1)'")
-        self.assertRegex(told, r"^scene: wrong: its exit status is 1\n  its stderr:\n    Traceback .*\n(    .*\n)+    ZeroDivisionError: .*\n$")
+        self.assertRegex(
+            told,
+            r"^scene: wrong: its exit status is 1\n  its stderr:\n    Traceback .*\n(    .*\n)+    "
+            r"ZeroDivisionError: .*\n$"
+        )
 
     def test_a_file_in_this_folder_is_found_from_another(self):
         pathlib.Path("mine.sh").write_text(f"exec '{BIN}/view'\n")
@@ -154,35 +198,31 @@ class Program(ToolTest):
         self.assertEqual(path.read_text(), "".join(f"{i}\n" for i in range(1, 1001)))
 
     def test_what_a_wrong_program_noted_is_shown(self):
-        told = self.told("view", 'echo "no up vector" >&2; exec "$BIN/view" --eye 0 0 0 --look -2.7 -4.2 -6.9')
+        told = self.told("view",
+                         'echo "no up vector" >&2; exec "$BIN/view" --eye 0 0 0 --look -2.7 -4.2 -6.9')
         self.assertIn("  its stderr:\n    no up vector\n", told)
         self.assertEqual(self.told("view", 'echo busy >&2; exec "$BIN/view"', status=0), "scene: right\n")
 
     def test_an_empty_output_has_a_cause(self):
-        self.assertEqual(self.told("view", "exec true"), "scene: wrong: it is empty\n  cause: It wrote nothing\n")
+        self.assertEqual(self.told("view", "exec true"),
+                         "scene: wrong: it is empty\n  cause: It wrote nothing\n")
         self.assertIn("  cause: It wrote nothing\n", self.told("zbuf", "exec true"))
 
     def test_an_unchanged_input_has_a_cause(self):
         for stage in ("model", "view", "project", "zbuf"):
             self.assertIn("  cause: It wrote its input unchanged\n", self.told(stage, "exec cat"))
 
-    def test_time_is_limited_and_what_it_started_ends(self):
-        begin = time.monotonic()
-        told = self.told("view", f"sleep 300 & echo $! > '{os.path.abspath('child')}'; wait", "--time-limit", "1")
-        self.assertEqual(told, "scene: wrong: it is not done after 1 s\n")
-        self.assertLess(time.monotonic() - begin, 60)
-        status = pathlib.Path("/proc", pathlib.Path("child").read_text().strip(), "stat")
-        self.assertIn(status.read_text().split()[2] if status.exists() else "gone", ("Z", "X", "gone"))
-
     def test_an_endless_output_ends(self):
-        self.assertIn("more than the scene can need", self.told("view", "exec yes 1 2 3", "--time-limit", "100"))
+        self.assertIn("it writes more than", self.told("view", "exec yes 1 2 3", "--time-limit", "100"))
 
     def test_a_program_that_does_not_read_may_be_right(self):
         self.told("view", f'"$BIN/model" "{os.path.abspath("scene")}" | "$BIN/view"', status=0)
 
     def test_what_cannot_be_run_is_a_wrong_command_line(self):
-        for words, message in ((("view", "--", "no-such-program"), "no program no-such-program on the PATH"), (("sight", "--", "cat"), "invalid choice"),
-                               (("zbuf", "--scene", "scene", "--", "cat"), "expected --config beside --scene for zbuf"),
+        for words, message in ((("view", "--", "no-such-program"), "no program no-such-program on the PATH"),
+                               (("sight", "--", "cat"),
+                                "invalid choice"), (("zbuf", "--scene", "scene", "--", "cat"),
+                                                    "expected --config beside --scene for zbuf"),
                                (("view", "--time-limit", "0", "--", "cat"), "expected more than 0 seconds")):
             done = check(*words)
             self.assertEqual(done.returncode, 2)
@@ -192,10 +232,13 @@ class Program(ToolTest):
         pathlib.Path("plain").write_text("no program\n")
         pathlib.Path("empty").write_text("print(1)\n")
         pathlib.Path("empty").chmod(0o755)
-        for word, reason in (("./none", "No such file or directory"), ("./plain", "Permission denied; chmod +x makes a file a program"),
-                             ("./empty", "Exec format error; a script begins with a line like #!/usr/bin/env python3")):
+        for word, reason in (("./none", "No such file or directory"),
+                             ("./plain", "Permission denied; chmod +x makes a file a program"),
+                             ("./empty",
+                              "Exec format error; a script begins with a line like #!/usr/bin/env python3")):
             done = check("view", "--scene", "scene", "--", word)
-            self.assertEqual((done.returncode, done.stdout, done.stderr), (2, "", f"check-stage: cannot run {os.path.abspath(word)}: {reason}\n"))
+            self.assertEqual((done.returncode, done.stdout, done.stderr),
+                             (2, "", f"check-stage: cannot run {word}: {reason}\n"))
 
     def test_a_scene_that_is_refused_is_a_message(self):
         pathlib.Path("scene").write_text("1 2\n")

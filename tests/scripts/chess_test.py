@@ -13,7 +13,9 @@ from toolbox import SOURCE, ToolTest, pipe, run  # noqa: E402
 
 
 def scene(around):
-    return subprocess.run([SOURCE / "scripts/make-chess", "--around", str(around)], check=True, capture_output=True, text=True).stdout
+    return subprocess.run(
+        [SOURCE / "scripts/make-chess", "--around", str(around)], check=True, capture_output=True,
+        text=True).stdout
 
 
 def minus(a, b):
@@ -45,7 +47,9 @@ class Chess(ToolTest):
         self.assertGreater(count, 5000)
 
     def test_the_pipe_notes_nothing_and_backs_are_hidden(self):
-        ndc = [pipe(["model"], ["view"], ["project", *cull], stdin=scene(6)) for cull in ([], ["--cull", "back"])]
+        ndc = [
+            pipe(["model"], ["view"], ["project", *cull], stdin=scene(6))
+            for cull in ([], ["--cull", "back"])]
         options = ["--size", "160x90", "--coverage", "center", "-o", "-"]
         pictures = [run("zbuf", *options, stdin=text) for text in ndc]
         self.assertEqual([(done.returncode, done.stderr) for done in pictures], [(0, b""), (0, b"")])
@@ -56,7 +60,8 @@ class Chess(ToolTest):
 
     def test_a_fineness_that_is_none_is_refused(self):
         for word in ("2", "1001", "1.5", "-3", "many"):
-            done = subprocess.run([SOURCE / "scripts/make-chess", f"--around={word}"], capture_output=True, text=True)
+            done = subprocess.run([SOURCE / "scripts/make-chess", f"--around={word}"], capture_output=True,
+                                  text=True)
             self.assertEqual((done.returncode, done.stdout), (2, ""))
             self.assertIn(f"expected a whole number from 3 to 1000, found '{word}'", done.stderr)
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-""".ci/run, scripts/check and scripts/maintain/test-report count and name everything that did not pass. The ctest is real, with
-tests of one shell line each; all other programs are stubs.
+""".ci/run, scripts/check and scripts/maintain/test-report count and name everything that did not pass. The
+ctest is real, with tests of one shell line each; all other programs are stubs.
 
 usage: ci_test.py SOURCE_DIR [UNITTEST ARGUMENT...]
 """
@@ -14,8 +14,10 @@ import unittest
 
 SOURCE = pathlib.Path(sys.argv.pop(1)).resolve()
 PRESETS = ("release", "asan", "fuzz", "tsan", "clang")
-STUBS = ("scripts/install-packages", "scripts/build-release", "scripts/check", "scripts/measure/bench", "scripts/maintain/fuzz",
-         "scripts/maintain/tidy", "scripts/maintain/compare-builds", "bin/cmake", "bin/git", "bin/clang-format")
+STUBS = ("scripts/install-packages", "scripts/build-release", "scripts/check", "scripts/measure/bench",
+         "scripts/maintain/fuzz", "scripts/maintain/tidy", "scripts/maintain/compare-builds", "bin/cmake",
+         "bin/git", "bin/clang-format")
+LIB = [str(path.relative_to(SOURCE)) for path in (SOURCE / "scripts/lib").glob("*.py")]
 # The folder of a preset's tests, in this tree.
 CTEST = f"""#!/bin/sh
 [ "$1" = --preset ] || exit 99
@@ -44,14 +46,17 @@ class Tree(unittest.TestCase):
         self.tree = pathlib.Path(folder.name, "tree")
         for stub in STUBS:
             self.put(stub, "#!/bin/sh\n")
-        for sums in ("scripts/check", "scripts/measure/bench", "scripts/maintain/fuzz", "scripts/maintain/compare-builds"):
+        for sums in ("scripts/check", "scripts/measure/bench", "scripts/maintain/fuzz",
+                     "scripts/maintain/compare-builds"):
             self.put(sums, "#!/bin/sh\necho 1 passed, 0 failed\n")
+        self.put("tests/reference/agreement_test.py", "")
         self.put("bin/ctest", CTEST)
         self.put("Makefile.samples", "check:\n\t@echo 2 passed, 0 failed\n")
         for preset in PRESETS:
             self.set_tests(preset, ("ThreadPool.Works", "true"))
-        self.set_tests("release", ("Passes", "true"), ("Takes.Long", "true", "LABELS", "long"))
-        for real in (".ci/run", "scripts/maintain/test-report"):
+        self.set_tests("release", ("Passes", "true"), ("Takes.Longer", "true", "LABELS", "all"),
+                       ("Takes.Minutes", "true", "LABELS", "matrix"))
+        for real in (".ci/run", "scripts/maintain/test-report", *LIB):
             self.put(real, (SOURCE / real).read_text())
 
     def put(self, path, text):
@@ -65,19 +70,24 @@ class Tree(unittest.TestCase):
         for name, command, *properties in tests:
             lines.append(f"add_test([=[{name}]=] sh -c [=[{command}]=])")
             if properties:
-                lines.append(f"set_tests_properties([=[{name}]=] PROPERTIES {properties[0]} [=[{properties[1]}]=])")
+                lines.append(
+                    f"set_tests_properties([=[{name}]=] PROPERTIES {properties[0]} [=[{properties[1]}]=])")
         self.put(f"presets/{preset}/CTestTestfile.cmake", "\n".join(lines) + "\n")
 
     def run_there(self, *words, **variables):
-        environment = {name: value for name, value in os.environ.items() if not name.startswith(("CTEST_", "LIMIT"))}
+        environment = {
+            name: value
+            for name, value in os.environ.items()
+            if not name.startswith(("CTEST_", "LIMIT"))}
         environment |= {"PATH": f"{self.tree}/bin:{os.environ['PATH']}", **variables}
-        return subprocess.run(words, cwd=self.tree, env=environment, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-                              text=True, timeout=100)
+        return subprocess.run(words, cwd=self.tree, env=environment, stdin=subprocess.DEVNULL,
+                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=100)
 
     def assert_ends(self, done, status, *lines):
         """The run ends with this status, these named failures and skips, and the counts."""
         printed = done.stdout.splitlines()
-        begin = max(number for number, line in enumerate(printed) if not line.startswith(("failed: ", "skipped: ")) and number < len(printed) - 1)
+        begin = max(number for number, line in enumerate(printed)
+                    if not line.startswith(("failed: ", "skipped: ")) and number < len(printed) - 1)
         self.assertEqual((done.returncode, printed[begin + 1:]), (status, list(lines)), done.stdout)
 
 
@@ -97,25 +107,34 @@ class Check(Tree):
     def test_tests_and_samples_add_up(self):
         self.assert_ends(self.check(), 0, "3 passed, 0 failed")
 
-    def test_long_tests_are_run_on_demand(self):
-        self.assert_ends(self.check("--long"), 0, "4 passed, 0 failed")
+    def test_what_takes_longer_is_run_on_demand(self):
+        self.assert_ends(self.check("--all"), 0, "4 passed, 0 failed")
+
+    def test_an_old_name_gives_the_new_one(self):
+        done = self.check("--long")
+        self.assertEqual((done.returncode, done.stdout),
+                         (2, "check: --long is now .ci/run --matrix; check --all runs all other tests\n"))
 
     def test_every_failed_test_is_named(self):
-        self.set_tests("release", ("First", "true"), ("Second", "false"), ("Third.Fails", "kill -SEGV $$"), ("Fourth", "sleep 9", "TIMEOUT", "1"))
-        self.assert_ends(self.check(), 1, "failed: Second", "failed: Third.Fails", "failed: Fourth", "3 passed, 3 failed")
+        self.set_tests("release", ("First", "true"), ("Second", "false"), ("Third.Fails", "kill -SEGV $$"),
+                       ("Fourth", "sleep 9", "TIMEOUT", "1"))
+        self.assert_ends(self.check(), 1, "failed: Second", "failed: Third.Fails", "failed: Fourth",
+                         "3 passed, 3 failed")
 
     def test_a_failed_case_is_named_with_its_test(self):
         self.set_tests("release", self.cases("Cases", "self.fail()"))
-        self.assert_ends(self.check(), 1, "failed: Cases: test_with_nothing", "skipped: Cases: no browser (2 cases)",
-                         "2 passed, 1 failed, 2 skipped")
+        self.assert_ends(self.check(), 1, "failed: Cases: test_with_nothing",
+                         "skipped: Cases: no browser (2 cases)", "2 passed, 1 failed, 2 skipped")
 
     def test_a_skipped_test_has_not_passed(self):
-        self.set_tests("release", ("Passes", "true"), ("A.B", GTEST_SKIP, "SKIP_REGULAR_EXPRESSION", r"\[  SKIPPED \]"))
+        self.set_tests("release", ("Passes", "true"),
+                       ("A.B", GTEST_SKIP, "SKIP_REGULAR_EXPRESSION", r"\[  SKIPPED \]"))
         self.assert_ends(self.check(), 0, "skipped: A.B: no moon tonight", "3 passed, 0 failed, 1 skipped")
 
     def test_skipped_cases_are_counted_beside_their_test(self):
         self.set_tests("release", self.cases("Cases", "print('x' * 5000)"))
-        self.assert_ends(self.check(), 0, "skipped: Cases: no browser (2 cases)", "3 passed, 0 failed, 2 skipped")
+        self.assert_ends(self.check(), 0, "skipped: Cases: no browser (2 cases)",
+                         "3 passed, 0 failed, 2 skipped")
 
     def test_a_test_whose_cases_are_all_skipped_has_not_passed(self):
         self.set_tests("release", ("Passes", "true"), self.cases("Cases", "self.skipTest('nor this')"))
@@ -123,7 +142,8 @@ class Check(Tree):
                          "3 passed, 0 failed, 3 skipped")
 
     def test_a_test_without_its_program_is_a_failure(self):
-        self.put("presets/release/CTestTestfile.cmake", "add_test(Missing /no/such/program)\nadd_test(Passes true)\n")
+        self.put("presets/release/CTestTestfile.cmake",
+                 "add_test(Missing /no/such/program)\nadd_test(Passes true)\n")
         self.assert_ends(self.check(), 1, "failed: Missing", "3 passed, 1 failed")
 
     def test_no_test_is_a_failure(self):
@@ -138,7 +158,8 @@ class Check(Tree):
         self.assert_ends(self.check(), 1, "failed: ctest: exit status 7", "3 passed, 1 failed")
 
     def test_a_sample_that_differs_is_named(self):
-        self.put("Makefile.samples", "check:\n\t@echo 'FAIL  samples/a differs'; echo 1 passed, 1 failed; false\n")
+        self.put("Makefile.samples",
+                 "check:\n\t@echo 'FAIL  samples/a differs'; echo 1 passed, 1 failed; false\n")
         self.assert_ends(self.check(), 1, "failed: samples/a differs", "2 passed, 1 failed")
 
     def test_samples_that_are_not_made_are_a_failure(self):
@@ -168,10 +189,12 @@ class Ci(Tree):
         self.assertGreater(len(names), 8)
         for name in names:
             self.assertRegex(name, "^failed: .*: left out, the time was over$")
-        self.assertEqual((done.returncode, done.stdout.splitlines()[-1]), (1, f"0 passed, {len(names)} failed"))
+        self.assertEqual((done.returncode, done.stdout.splitlines()[-1]),
+                         (1, f"0 passed, {len(names)} failed"))
 
     def test_a_step_that_is_stopped_is_a_failure(self):
-        for step, name in (("scripts/install-packages", "packages and preset"), ("scripts/check", "gcc, release: all tests")):
+        for step, name in (("scripts/install-packages", "packages and preset"), ("scripts/check",
+                                                                                 "gcc, release: all tests")):
             with self.subTest(step):
                 before = (self.tree / step).read_text()
                 self.put(step, "#!/bin/sh\necho 1 passed, 0 failed\nsleep 60\n")
@@ -184,22 +207,32 @@ class Ci(Tree):
     def test_a_limit_that_is_no_number_is_a_mistake(self):
         for limit in ("soon", "-1", "1e9", "."):
             done = self.ci(LIMIT=limit)
-            self.assertEqual((done.returncode, done.stdout), (2, "usage: [LIMIT=MINUTES] .ci/run [--matrix]\n"))
+            self.assertEqual((done.returncode, done.stdout),
+                             (2, "usage: [LIMIT=MINUTES] .ci/run [--matrix]\n"))
         self.assertEqual(self.ci("--quick").returncode, 2)
 
     def test_the_matrix_has_steps_of_its_own_and_no_limit(self):
         self.put("scripts/maintain/tidy", "#!/bin/sh\nexit 1\n")
         self.assertEqual(self.ci().returncode, 0)
-        self.assert_ends(self.ci("--matrix", LIMIT="0"), 1, "failed: clang-tidy", self.ci("--matrix").stdout.splitlines()[-1])
+        self.assert_ends(self.ci("--matrix", LIMIT="0"), 1, "failed: clang-tidy",
+                         self.ci("--matrix").stdout.splitlines()[-1])
 
     def test_failed_and_skipped_tests_of_all_presets_are_named(self):
-        self.put("scripts/check", "#!/bin/sh\necho failed: A.B\necho 'skipped: C.D: no moon'\necho 3 passed, 1 failed, 1 skipped\nexit 1\n")
+        self.put(
+            "scripts/check",
+            "#!/bin/sh\necho failed: A.B\necho 'skipped: C.D: no moon'\necho 3 passed, 1 failed, 1 skipped\n"
+            "exit 1\n"
+        )
         self.set_tests("asan", ("Overflows.Here", "false"))
-        self.set_tests("fuzz", ("Ends.Early", "false"), ("A.B", GTEST_SKIP, "SKIP_REGULAR_EXPRESSION", r"\[  SKIPPED \]"))
+        self.set_tests("fuzz", ("Ends.Early", "false"),
+                       ("A.B", GTEST_SKIP, "SKIP_REGULAR_EXPRESSION", r"\[  SKIPPED \]"))
         done = self.ci("--matrix")
-        self.assert_ends(done, 1, "failed: gcc, release: all tests: A.B", "skipped: gcc, release: all tests: C.D: no moon",
-                         "failed: gcc, ASan and UBSan: all tests: Overflows.Here", "failed: clang, ASan and UBSan: modules: Ends.Early",
-                         "skipped: clang, ASan and UBSan: modules: A.B: no moon tonight", done.stdout.splitlines()[-1])
+        self.assert_ends(done, 1, "failed: gcc, release: all tests: A.B",
+                         "skipped: gcc, release: all tests: C.D: no moon",
+                         "failed: gcc, ASan and UBSan: all tests: Overflows.Here",
+                         "failed: clang, ASan and UBSan: modules: Ends.Early",
+                         "skipped: clang, ASan and UBSan: modules: A.B: no moon tonight",
+                         done.stdout.splitlines()[-1])
         self.assertRegex(done.stdout.splitlines()[-1], r"^\d+ passed, 3 failed, 2 skipped$")
 
     def test_counts_without_names_are_named_by_their_step(self):
@@ -207,7 +240,8 @@ class Ci(Tree):
         self.put("scripts/maintain/fuzz", "#!/bin/sh\necho 7 passed, 1 failed\nexit 1\n")
         done = self.ci()
         self.assert_ends(done, 1, "skipped: gcc, release: instructions: 39, see there",
-                         "failed: clang, ASan and UBSan: corpora and new inputs: 1, see there", done.stdout.splitlines()[-1])
+                         "failed: clang, ASan and UBSan: corpora and new inputs: 1, see there",
+                         done.stdout.splitlines()[-1])
 
     def test_a_status_or_counts_that_are_missing_are_a_failure(self):
         self.put("scripts/check", "#!/bin/sh\necho 3 passed, 0 failed\nexit 1\n")

@@ -20,9 +20,12 @@ ACCURACY = (SOURCE / "docs/accuracy.md").read_text()
 
 
 def made_up(**numbers):
-    """Results of one scene: the default at 100, `--digits 5` with other numbers, all without errors unless given."""
-    common = {"scene": "plain", "title": "", "machine": "", "counter": "", "triangles": "10", "wrong_pixels": "0", "flipped_pixels": "0",
-              "covered_pixels": "50", "bytes": "100", "cpu_seconds": "100", "cpu_seconds_q1": "99", "cpu_seconds_q3": "101"}
+    """Results of one scene: the default at 100, `--digits 5` with other numbers, all without errors unless
+    given."""
+    common = {
+        "scene": "plain", "title": "", "machine": "", "counter": "", "triangles": "10", "wrong_pixels": "0",
+        "flipped_pixels": "0", "covered_pixels": "50", "bytes": "100", "cpu_seconds": "100",
+        "cpu_seconds_q1": "99", "cpu_seconds_q3": "101"}
     return Results([{**common, "setting": "default"}, {**common, "setting": "--digits 5", **numbers}],
                    [{"setting": "default", "distance": "5", "fighting": "0.5", "swallowed": "1e-6"}])
 
@@ -56,12 +59,15 @@ class Claims(unittest.TestCase):
         return list(broken_claims(sentence, made_up(**numbers)))
 
     def test_a_number_in_the_sentence_is_within_a_sixth(self):
-        sentence = "It takes 1.5 times as long. <!-- rests on: cpu(plain, --digits 5) / cpu(plain, default) about 1.5 -->"
+        sentence = ("It takes 1.5 times as long. <!-- rests on: cpu(plain, --digits 5) / cpu(plain, default) "
+                    "about 1.5 -->")
         for cpu in ("130", "150", "174"):
             self.assertEqual(self.broken(sentence, cpu_seconds=cpu), [])
         for cpu, ratio in (("128", "1.28"), ("176", "1.76")):
-            self.assertEqual(self.broken(sentence, cpu_seconds=cpu),
-                             [f"'cpu(plain, --digits 5) / cpu(plain, default) about 1.5' is {ratio}: It takes 1.5 times as long."])
+            self.assertEqual(self.broken(sentence, cpu_seconds=cpu), [
+                f"'cpu(plain, --digits 5) / cpu(plain, default) about 1.5' is {ratio}: It takes 1.5 times "
+                f"as long."
+            ])
 
     def test_a_number_has_to_be_in_the_sentence(self):
         note = " <!-- rests on: bytes(plain, --digits 5) / bytes(plain, default) about 1 -->"
@@ -75,12 +81,14 @@ class Claims(unittest.TestCase):
         self.assertEqual(len(self.broken(sentence, wrong_pixels="1", flipped_pixels="1")), 1)
 
     def test_one_sentence_rests_on_several_figures(self):
-        sentence = "Less. <!-- rests on: bytes(plain, --digits 5) in 1..99; cpu(plain, default) in 10..10; fighting(5, default) in 0.5..0.5 -->"
+        sentence = ("Less. <!-- rests on: bytes(plain, --digits 5) in 1..99; cpu(plain, default) in 10..10; "
+                    "fighting(5, default) in 0.5..0.5 -->")
         self.assertEqual(self.broken(sentence, bytes="80"), [])
         self.assertEqual(len(self.broken(sentence, bytes="100")), 1)
 
     def test_what_was_not_measured_holds_nothing(self):
-        for figure in ("cpu(lit, default)", "cpu(plain, --digits 6)", "memory(plain, default)", "swallowed(6, default)", "wrong(lit, default)"):
+        for figure in ("cpu(lit, default)", "cpu(plain, --digits 6)", "memory(plain, default)",
+                       "swallowed(6, default)", "wrong(lit, default)"):
             self.assertIn("was not measured", self.broken(f"x <!-- rests on: {figure} in 0..9 -->")[0])
 
     def test_a_note_that_is_no_claim_is_an_error(self):
@@ -90,21 +98,26 @@ class Claims(unittest.TestCase):
 
 class Beaten(unittest.TestCase):
     def test_worse_in_one_column_and_better_in_none_is_beaten(self):
-        for worse in ({"bytes": "104"}, {"wrong_pixels": "1"}, {"cpu_seconds": "110", "cpu_seconds_q1": "102", "cpu_seconds_q3": "120"}):
+        for worse in ({"bytes": "104"}, {"wrong_pixels": "1"}, {
+                "cpu_seconds": "110", "cpu_seconds_q1": "102", "cpu_seconds_q3": "120"}):
             self.assertEqual(made_up(**worse).beaten(), {"--digits 5": ["default"]}, worse)
 
     def test_better_in_one_column_is_not(self):
-        for better in ({"bytes": "90"}, {"cpu_seconds": "90", "cpu_seconds_q1": "89", "cpu_seconds_q3": "98"}):
+        for better in ({"bytes": "90"}, {"cpu_seconds": "90", "cpu_seconds_q1": "89",
+                                         "cpu_seconds_q3": "98"}):
             self.assertEqual(made_up(wrong_pixels="1", **better).beaten(), {}, better)
 
     def test_costs_within_three_per_cent_are_the_same(self):
-        self.assertEqual(made_up(bytes="102", cpu_seconds="102.5", cpu_seconds_q1="102", cpu_seconds_q3="103").beaten(), {})
+        self.assertEqual(
+            made_up(bytes="102", cpu_seconds="102.5", cpu_seconds_q1="102", cpu_seconds_q3="103").beaten(),
+            {})
 
     def test_times_whose_quartiles_overlap_are_the_same(self):
         self.assertEqual(made_up(cpu_seconds="110", cpu_seconds_q1="100", cpu_seconds_q3="120").beaten(), {})
 
     def test_without_errors_there_is_no_verdict(self):
-        self.assertEqual(made_up(bytes="200", covered_pixels="", wrong_pixels="", flipped_pixels="").beaten(), {})
+        self.assertEqual(
+            made_up(bytes="200", covered_pixels="", wrong_pixels="", flipped_pixels="").beaten(), {})
 
 
 unittest.main()

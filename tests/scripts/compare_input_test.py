@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""scripts/compare on inputs that are pipes, empty, of another kind, endless or false: the status tells whether it compared.
+"""scripts/compare on inputs that are pipes, empty, of another kind, endless or false: the status tells
+whether it compared.
 
 usage: compare_input_test.py BIN_DIR [UNITTEST ARGUMENT...]
 """
@@ -30,11 +31,13 @@ def limit_memory():
 
 
 def compare(*words, **settings):
-    return subprocess.run([COMPARE, *words], capture_output=True, timeout=SECONDS, env=ENVIRONMENT, preexec_fn=limit_memory, **settings)
+    return subprocess.run([COMPARE, *words], capture_output=True, timeout=SECONDS, env=ENVIRONMENT,
+                          preexec_fn=limit_memory, **settings)
 
 
 def shell(line):
-    return subprocess.run(["bash", "-c", line], capture_output=True, timeout=SECONDS, env={**ENVIRONMENT, "COMPARE": str(COMPARE)})
+    return subprocess.run(["bash", "-c", line], capture_output=True, timeout=SECONDS,
+                          env={**ENVIRONMENT, "COMPARE": str(COMPARE)})
 
 
 def write(name, content):
@@ -42,7 +45,8 @@ def write(name, content):
 
 
 def bmp_header(width, height, bits=24, offset=54, header_size=40, compression=0):
-    return struct.pack("<2sIHHIIiiHHIIiiII", b"BM", 54, 0, 0, offset, header_size, width, height, 1, bits, compression, 0, 0, 0, 0, 0)
+    return struct.pack("<2sIHHIIiiHHIIiiII", b"BM", 54, 0, 0, offset, header_size, width, height, 1, bits,
+                       compression, 0, 0, 0, 0, 0)
 
 
 def png_file(width, height, pixels, colors=2):
@@ -61,7 +65,8 @@ class InputTest(ToolTest):
         self.assertEqual((done.stderr.decode(), done.returncode), ("", 0))
 
     def assert_not_compared(self, done, message):
-        self.assertEqual((done.stderr.decode(), done.stdout.decode(), done.returncode), (f"compare: {message}\n", "", 2))
+        self.assertEqual((done.stderr.decode(), done.stdout.decode(), done.returncode),
+                         (f"compare: {message}\n", "", 2))
 
 
 class Pipes(InputTest):
@@ -92,7 +97,8 @@ class Pipes(InputTest):
         self.assertIn("compare: expected - at most once", done.stderr.decode())
 
     def test_one_pipe_is_not_two_files(self):
-        self.assert_not_compared(shell('cat a | "$COMPARE" - /dev/stdin'), "expected two files, found that <stdin> and /dev/stdin are the same pipe")
+        self.assert_not_compared(shell('cat a | "$COMPARE" - /dev/stdin'),
+                                 "expected two files, found that <stdin> and /dev/stdin are the same pipe")
 
     def test_pictures_come_through_pipes(self):
         write("x.ppm", b"P6 1 1 255\n\1\2\3")
@@ -106,17 +112,21 @@ class Pipes(InputTest):
         os.mkdir("theirs")
         for number, text in enumerate(self.bare_stages(), 1):
             write(f"theirs/stage{number}.txt", text)
-        subprocess.run([BIN / "zbuf", "config", "theirs/stage3.txt", "--z-buffer", "theirs/z_buffer.txt", "--image", "theirs/out.bmp"], check=True)
-        done = shell('"$COMPARE" --five theirs <(cat scene) <(cat config)')
+        subprocess.run([
+            BIN / "zbuf", "config", "theirs/stage3.txt", "--z-buffer", "theirs/z_buffer.txt", "--image",
+            "theirs/out.bmp"], check=True)
+        done = shell('"$COMPARE" --hand-in theirs <(cat scene) <(cat config)')
         self.assertEqual((done.stderr.decode(), done.returncode), ("", 0))
         self.assertIn("all five files are right", done.stdout.decode())
-        self.assertEqual(shell('"$COMPARE" --five theirs - config < scene').returncode, 0)
+        self.assertEqual(shell('"$COMPARE" --hand-in theirs - config < scene').returncode, 0)
         self.assert_differs(shell('"$COMPARE" a b --scene <(cat scene)'), self.PLACE)
 
     def bare_stages(self):
         stage1 = subprocess.run([BIN / "model", "--bare", "scene"], check=True, capture_output=True).stdout
-        stage2 = subprocess.run([BIN / "view", "--bare", "--scene", "scene"], input=stage1, check=True, capture_output=True).stdout
-        stage3 = subprocess.run([BIN / "project", "--scene", "scene"], input=stage2, check=True, capture_output=True).stdout
+        stage2 = subprocess.run([BIN / "view", "--bare", "--scene", "scene"], input=stage1, check=True,
+                                capture_output=True).stdout
+        stage3 = subprocess.run([BIN / "project", "--scene", "scene"], input=stage2, check=True,
+                                capture_output=True).stdout
         return stage1, stage2, stage3
 
 
@@ -124,7 +134,8 @@ class Nothing(InputTest):
     NOTHING = "nothing to compare: there is no number in either text"
 
     def test_two_texts_without_numbers_are_not_compared(self):
-        for a, b in (("", ""), ("\n\n", "\n"), ("# a\n", "# b\n"), ("eye 0 0 1\n", "eye 0 0 1\n"), ("", "# b\n"), ("\t\n", "\t\n")):
+        for a, b in (("", ""), ("\n\n", "\n"), ("# a\n", "# b\n"), ("eye 0 0 1\n", "eye 0 0 1\n"),
+                     ("", "# b\n"), ("\t\n", "\t\n")):
             with self.subTest(a=a, b=b):
                 write("a", a)
                 write("b", b)
@@ -142,7 +153,8 @@ class Nothing(InputTest):
 
     def test_an_image_is_not_compared_with_nothing(self):
         write("x", b"P6 1 1 255\n\1\2\3")
-        self.assert_not_compared(compare("x", "/dev/null"), "expected two files of a kind, found an image and an empty text")
+        self.assert_not_compared(compare("x", "/dev/null"),
+                                 "expected two files of a kind, found an image and an empty text")
 
     def test_numbers_that_are_none_are_not_taken_for_the_same(self):
         write("b", "0.5\t\n")
@@ -159,19 +171,24 @@ class Nothing(InputTest):
         for word in ("nan", "inf", "-1", "x"):
             done = compare("a", "b", f"--tolerance={word}")
             self.assertEqual(done.returncode, 2)
-            self.assertIn(f"argument --tolerance: expected a number of at least 0, found '{word}'", done.stderr.decode())
+            self.assertIn(f"argument --tolerance: expected a number of at least 0, found '{word}'",
+                          done.stderr.decode())
 
 
 class OtherTexts(InputTest):
     def test_a_scene_is_called_one(self):
         write("stage", TRIANGLE)
-        scenes = (SCENE, SCENE.replace("\n", "\r\n"), "0 0 5\n0 0 0\n0 1 0\n60 1 1 100\nend\n", "0 0 5\n0 0 0\n0 1 0\n60 1 1 100 ratio\nend\n",
-                  "0 0 5\n0 0 0\n0 1 0\northo -1 1 -1 1 1 9\ntriangle 0 0 0\n1 0 0\n0 1 0\nend\n", SCENE.replace(" ", "\t"), SCENE.replace("end", "rotate 1 0 0 1\nend"))
+        scenes = (SCENE, SCENE.replace("\n", "\r\n"), "0 0 5\n0 0 0\n0 1 0\n60 1 1 100\nend\n",
+                  "0 0 5\n0 0 0\n0 1 0\n60 1 1 100 ratio\nend\n",
+                  "0 0 5\n0 0 0\n0 1 0\northo -1 1 -1 1 1 9\ntriangle 0 0 0\n1 0 0\n0 1 0\nend\n",
+                  SCENE.replace(" ", "\t"), SCENE.replace("end", "rotate 1 0 0 1\nend"))
         for scene in scenes:
             with self.subTest(scene):
                 write("s", scene)
-                self.assert_not_compared(compare("s", "stage"), "s: this is a scene, not a stage text: run model on it")
-                self.assert_not_compared(compare("stage", "s"), "s: this is a scene, not a stage text: run model on it")
+                self.assert_not_compared(compare("s", "stage"),
+                                         "s: this is a scene, not a stage text: run model on it")
+                self.assert_not_compared(compare("stage", "s"),
+                                         "s: this is a scene, not a stage text: run model on it")
 
     def test_an_error_behind_a_triangle_is_not_a_scene(self):
         write("a", TRIANGLE + "error model: something was wrong\n")
@@ -201,7 +218,9 @@ class OtherTexts(InputTest):
         write("a", b"# gr\xfcn\n" + TRIANGLE.encode())
         write("b", b"# gr\xfcn\n" + TRIANGLE.encode())
         for language in ("C.UTF-8", "C"):
-            self.assert_same(subprocess.run([COMPARE, "a", "b"], capture_output=True, env={**ENVIRONMENT, "LANG": language}))
+            self.assert_same(
+                subprocess.run([COMPARE, "a", "b"], capture_output=True,
+                               env={**ENVIRONMENT, "LANG": language}))
 
     def test_latin_1_is_no_number(self):
         write("a", b"1 2 gr\xfcn\n")
@@ -233,22 +252,30 @@ class Files(InputTest):
     def test_what_is_no_file_is_said(self):
         os.mkdir("folder")
         os.symlink("loop", "loop")
-        for name, reason in (("folder", "Is a directory"), ("none", "No such file or directory"), ("loop", "Too many levels of symbolic links")):
+        for name, reason in (("folder", "Is a directory"), ("none", "No such file or directory"),
+                             ("loop", "Too many levels of symbolic links")):
             self.assert_not_compared(compare(name, "b"), f"cannot read {name}: {reason}")
 
     def test_an_endless_file_is_given_up(self):
-        self.assert_not_compared(compare("/dev/zero", "b"), "cannot read /dev/zero: it is longer than 512 MiB")
-        self.assert_not_compared(shell('yes "1 2 3" | "$COMPARE" - b'), "cannot read <stdin>: it is longer than 512 MiB")
+        self.assert_not_compared(compare("/dev/zero", "b"),
+                                 "cannot read /dev/zero: it is longer than 512 MiB")
+        self.assert_not_compared(shell('yes "1 2 3" | "$COMPARE" - b'),
+                                 "cannot read <stdin>: it is longer than 512 MiB")
 
     def test_names_may_hold_anything(self):
-        for name in (b"-a", b"--five", b"a b", b"a\nb", b"a'\"b", b"a|b", b"a\xffb"):
+        for name in (b"-a", b"--hand-in", b"a b", b"a\nb", b"a'\"b", b"a|b", b"a\xffb"):
             with self.subTest(name):
                 write(name, TRIANGLE)
                 self.assert_same(compare("--", name, "b"))
                 for language in ("C.UTF-8", "C"):
-                    done = subprocess.run([COMPARE, "--", b"b", name], capture_output=True, env={**ENVIRONMENT, "LANG": language})
+                    done = subprocess.run([COMPARE, "--", b"b", name], capture_output=True,
+                                          env={**ENVIRONMENT, "LANG": language})
                     self.assert_same(done)
-                    self.assertEqual({line.count(b" | ") for line in done.stdout.splitlines()}, {1}, done.stdout)
+                    self.assertEqual({line.count(b" | ")
+                                      for line in done.stdout.splitlines()}, {1}, done.stdout)
+
+
+SIDES = "expected at most 65535 columns and rows, found "
 
 
 class Pictures(InputTest):
@@ -265,35 +292,57 @@ class Pictures(InputTest):
         self.assertLess(after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime, 10)
 
     def test_a_bmp_that_lies_about_its_size(self):
-        most = 2**31 - 1
-        for width, height in ((most, most), (most, 1), (most, -2**31), (1, most), (1, 1)):
+        most = 65535
+        for width, height in ((most, most), (most, 1), (most, -most), (1, most), (1, 1)):
             with self.subTest(width=width, height=height):
                 needed = (abs(height) - 1) * ((3 * width + 3) // 4 * 4) + 3 * width
-                self.refused(bmp_header(width, height), f"expected {needed} bytes of {width} x {abs(height)} pixels, found 0")
+                self.refused(bmp_header(width, height),
+                             f"expected {needed} bytes of {width} x {abs(height)} pixels, found 0")
         for width, height in ((0, 1), (1, 0), (-1, 1)):
-            self.refused(bmp_header(width, height) + bytes(4), f"expected a width and a height of at least 1, found {width} x {height}")
+            self.refused(
+                bmp_header(width, height) + bytes(4),
+                f"expected a width and a height of at least 1, found {width} x {height}")
+        for width, height in ((2**31 - 1, 1), (1, 65536), (1, -2**31)):
+            self.refused(bmp_header(width, height) + bytes(300000), SIDES + f"{width} x {abs(height)}")
 
     def test_a_bmp_that_lies_about_its_pixels(self):
-        self.refused(bmp_header(1, 1, offset=0) + bytes(4), "expected a BMP with a header of 54 bytes or more, and the pixels behind it")
-        self.refused(bmp_header(1, 1, header_size=12) + bytes(4), "expected a BMP with a header of 54 bytes or more, and the pixels behind it")
-        self.refused(bmp_header(1, 1, offset=2**32 - 1) + bytes(4), "expected 3 bytes of 1 x 1 pixels, found 0")
-        self.refused(bmp_header(1, 1, bits=32) + bytes(4), "expected a BMP of 24 bits a pixel, not compressed, found 32")
+        self.refused(
+            bmp_header(1, 1, offset=0) + bytes(4),
+            "expected a BMP with a header of 54 bytes or more, and the pixels behind it")
+        self.refused(
+            bmp_header(1, 1, header_size=12) + bytes(4),
+            "expected a BMP with a header of 54 bytes or more, and the pixels behind it")
+        self.refused(
+            bmp_header(1, 1, offset=2**32 - 1) + bytes(4), "expected 3 bytes of 1 x 1 pixels, found 0")
+        self.refused(
+            bmp_header(1, 1, bits=32) + bytes(4),
+            "expected a BMP of 24 bits a pixel, not compressed, found 32")
 
     def test_a_ppm_that_lies_about_its_size(self):
-        self.refused(b"P6 999999999 999999999 255\n", "expected 2999999994000000003 bytes of 999999999 x 999999999 pixels, found 0")
+        self.refused(b"P6 65535 65535 255\n", "expected 12884508675 bytes of 65535 x 65535 pixels, found 0")
+        self.refused(b"P6 999999999 999999999 255\n", SIDES + "999999999 x 999999999")
+        self.refused(b"P6 1 65536 255\n" + bytes(3 * 65536), SIDES + "1 x 65536")
         self.refused(b"P6 0 1 255\n", "expected a width and a height of at least 1, found 0 x 1")
-        for header in (b"P6", b"P6 1 1", b"P6 -1 1 255\n", b"P6 1_0 1 255\n", b"P6 " + b"9" * 5000 + b" 1 255\n", b"P6" + b" " * 10**7, b"P6#"):
+        for header in (b"P6", b"P6 1 1", b"P6 -1 1 255\n", b"P6 1_0 1 255\n",
+                       b"P6 " + b"9" * 5000 + b" 1 255\n", b"P6" + b" " * 10**7, b"P6#"):
             self.refused(header, "expected width, height and the largest value behind P6")
 
     def test_a_png_that_lies_about_its_size(self):
-        self.refused(png_file(2**31 - 1, 2**31 - 1, zlib.compress(b"\0\1\2\3")), "expected a PNG of at most 33554432 pixels, found 2147483647 x 2147483647")
-        self.refused(png_file(2**24, 1, zlib.compress(b"\0\1\2\3")), "expected 50331648 bytes of 16777216 x 1 pixels, found 3")
-        self.refused(png_file(0, 1, zlib.compress(b"\0\1\2\3")), "expected a width and a height of at least 1, found 0 x 1")
+        self.refused(png_file(2**31 - 1, 2**31 - 1, zlib.compress(b"\0\1\2\3")),
+                     SIDES + "2147483647 x 2147483647")
+        little = zlib.compress(b"\0\1\2\3")
+        self.refused(png_file(65535, 513, little),
+                     "expected a PNG of at most 33554432 pixels, found 65535 x 513")
+        self.refused(png_file(65535, 512, little), "expected 100662271 bytes of 65535 x 512 pixels, found 3")
+        self.refused(png_file(1, 2**24, zlib.compress(bytes(2**26), 9)), SIDES + "1 x 16777216")
+        self.refused(png_file(0, 1, zlib.compress(b"\0\1\2\3")),
+                     "expected a width and a height of at least 1, found 0 x 1")
 
     def test_a_png_that_unpacks_to_more_than_it_says(self):
         packer = zlib.compressobj(9)
         begin = packer.compress(b"") + packer.flush(zlib.Z_FULL_FLUSH)
-        block = packer.compress(bytes(1 << 20)) + packer.flush(zlib.Z_FULL_FLUSH)  # may be repeated any number of times
+        block = packer.compress(bytes(1 << 20)) + packer.flush(
+            zlib.Z_FULL_FLUSH)  # may be repeated any number of times
         write("a", png_file(1, 1, begin + 4096 * block))
         done = compare("a", "b")
         self.assertEqual((done.stderr, done.returncode), (b"", 1))  # a single pixel, which differs
@@ -312,13 +361,16 @@ class Pictures(InputTest):
         """Rows filtered here by the definitions of the PNG specification, section 9."""
         def paeth(a, b, c):
             return min((a, b, c), key=lambda x: abs(a + b - c - x))
-        guesses = (lambda a, b, c: 0, lambda a, b, c: a, lambda a, b, c: b, lambda a, b, c: (a + b) // 2, paeth)
+
+        guesses = (lambda a, b, c: 0, lambda a, b, c: a, lambda a, b, c: b, lambda a, b, c:
+                   (a + b) // 2, paeth)
         rows = [bytes((37 * i * i + 91 * y + i * y) % 256 for i in range(21)) for y in range(10)]
         data, above = b"", bytes(21)
         for y, row in enumerate(rows):
             kind = y % 5
-            data += bytes([kind]) + bytes((x - guesses[kind](row[i - 3] if i > 2 else 0, above[i], above[i - 3] if i > 2 else 0)) & 255
-                                          for i, x in enumerate(row))
+            data += bytes([kind]) + bytes(
+                (x - guesses[kind](row[i - 3] if i > 2 else 0, above[i], above[i - 3] if i > 2 else 0)) & 255
+                for i, x in enumerate(row))
             above = row
         write("a", png_file(7, 10, zlib.compress(data)))
         write("b", b"P6 7 10 255\n" + b"".join(rows))
@@ -346,13 +398,14 @@ class Endings(InputTest):
         for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
             with self.subTest(number):
                 os.mkfifo("pipe")
-                process = subprocess.Popen([COMPARE, "pipe", "b"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, env=ENVIRONMENT,
-                                           preexec_fn=heed_signals)
+                process = subprocess.Popen([COMPARE, "pipe", "b"], stdout=subprocess.PIPE,
+                                           stderr=subprocess.PIPE, env=ENVIRONMENT, preexec_fn=heed_signals)
                 with open("pipe", "wb") as pipe:  # opens once the script reads
                     pipe.write(b"1")
                     pipe.flush()
                     errors = end_by_signal(process, number)[1]
-                self.assertEqual((errors, process.returncode), (b"", -number))
+                self.assertEqual((errors.decode(), process.returncode),
+                                 (f"compare: ended by {number.name}\n", -number))
                 os.unlink("pipe")
 
 
@@ -365,16 +418,22 @@ class FiveFiles(InputTest):
         write("-config", "8 8\n")
         os.mkdir("-theirs")
         stage1 = subprocess.run([BIN / "model", "--bare", "./-scene"], check=True, capture_output=True).stdout
-        stage2 = subprocess.run([BIN / "view", "--bare", "--scene", "./-scene"], input=stage1, check=True, capture_output=True).stdout
-        stage3 = subprocess.run([BIN / "project", "--scene", "./-scene"], input=stage2, check=True, capture_output=True).stdout
+        stage2 = subprocess.run([BIN / "view", "--bare", "--scene", "./-scene"], input=stage1, check=True,
+                                capture_output=True).stdout
+        stage3 = subprocess.run([BIN / "project", "--scene", "./-scene"], input=stage2, check=True,
+                                capture_output=True).stdout
         for number, text in enumerate((stage1, stage2, stage3), 1):
             write(f"-theirs/stage{number}.txt", text)
-        subprocess.run([BIN / "zbuf", "./-config", "./-theirs/stage3.txt", "--z-buffer", "./-theirs/z_buffer.txt", "--image", "./-theirs/out.bmp"], check=True)
+        subprocess.run([
+            BIN / "zbuf", "./-config", "./-theirs/stage3.txt", "--z-buffer", "./-theirs/z_buffer.txt",
+            "--image", "./-theirs/out.bmp"], check=True)
 
     def judged(self, status=1):
-        done = compare("--five", "--", "-theirs", "-scene", "-config")
+        done = compare("--hand-in", "--", "-theirs", "-scene", "-config")
         self.assertEqual((done.stderr.decode(), done.returncode), ("", status), done.stdout.decode())
-        rows = [[cell.strip() for cell in line.split("|")[2:-1]] for line in done.stdout.decode().splitlines()[2:7]]
+        rows = [[cell.strip()
+                 for cell in line.split("|")[2:-1]]
+                for line in done.stdout.decode().splitlines()[2:7]]
         return {row[0]: (row[1], row[-1]) for row in rows}
 
     def replaced(self, name, content):
@@ -395,10 +454,14 @@ class FiveFiles(InputTest):
         self.assertEqual(self.replaced("out.bmp", b"")[0], "unreadable")
 
     def test_texts_that_are_none(self):
-        self.assertEqual(self.replaced("stage1.txt", TRIANGLE.encode("utf-16")), ("unreadable", "stage1.txt: this is UTF-16: save it as UTF-8"))
-        self.assertEqual(self.replaced("stage2.txt", SCENE.encode()), ("unreadable", "stage2.txt: this is a scene, not a stage text: run model on it"))
-        self.assertEqual(self.replaced("z_buffer.txt", b"nan\t\n"), ("unreadable", "z_buffer.txt:1: expected depths, found 'nan'"))
-        self.assertEqual(self.replaced("stage3.txt", b"1 2 gr\xfcn\n"), ("unreadable", "stage3.txt:1: expected numbers, found '1 2 gr\\xfcn'"))
+        self.assertEqual(self.replaced("stage1.txt", TRIANGLE.encode("utf-16")),
+                         ("unreadable", "stage1.txt: this is UTF-16: save it as UTF-8"))
+        self.assertEqual(self.replaced("stage2.txt", SCENE.encode()),
+                         ("unreadable", "stage2.txt: this is a scene, not a stage text: run model on it"))
+        self.assertEqual(self.replaced("z_buffer.txt", b"nan\t\n"),
+                         ("unreadable", "z_buffer.txt:1: expected depths, found 'nan'"))
+        self.assertEqual(self.replaced("stage3.txt", b"1 2 gr\xfcn\n"),
+                         ("unreadable", "stage3.txt:1: expected numbers, found '1 2 gr\\xfcn'"))
 
     def test_latin_1_comments_are_none_of_its_business(self):
         path = pathlib.Path("-theirs/stage1.txt")
@@ -423,8 +486,8 @@ class FiveFiles(InputTest):
         self.assertEqual(self.judged(status=0)["stage3.txt"][0], "right")
 
     def test_two_standard_inputs_are_one_too_many(self):
-        self.assertEqual(compare("--five", "--", "-theirs", "-", "-").returncode, 2)
-        self.assertEqual(compare("--five", "a", "b").returncode, 2)
+        self.assertEqual(compare("--hand-in", "--", "-theirs", "-", "-").returncode, 2)
+        self.assertEqual(compare("--hand-in", "a", "b").returncode, 2)
 
 
 class Spheres(InputTest):
@@ -449,11 +512,13 @@ class Spheres(InputTest):
 
     def test_the_judge_refuses_them(self):
         write("scene", SCENE.replace("end\n", "sphere 0 0 0 1\nend\n"))
-        message = ("compare: the scene is refused: model: <stdin>:9:1: expected triangles alone, found a sphere: trace draws it, and "
-                   "model --facets N makes triangles of it\n")
+        message = (
+            "compare: the scene is refused: model: <stdin>:9:1: expected triangles alone, found a sphere: "
+            "trace draws it, and "
+            "model --facets N makes triangles of it\n")
         self.assertEqual(self.told(TRIANGLE, OTHER, "--scene", "scene"), (2, "", message))
         os.mkdir("theirs")
-        done = compare("--five", "theirs", "scene")
+        done = compare("--hand-in", "theirs", "scene")
         self.assertEqual((done.returncode, done.stderr.decode()), (2, message))
 
 
@@ -464,17 +529,24 @@ class Causes(InputTest):
     ADDED = "The eye is added in place of subtracted"
 
     def causes(self, points, eye="0 0 2", look="0 0 0", added=True):
-        """For a camera that looks down -z: in its view space p becomes p - eye, and p + eye with the error."""
+        """For a camera that looks down -z: in its view space p becomes p - eye, and p + eye with the
+        error."""
         write("scene", self.SCENE.format(eye, look, points))
         p = [list(map(float, line.split())) for line in points.split("\n")]
         e = list(map(float, eye.split()))
         right = [[x - y for x, y in zip(point, e)] for point in p]
-        wrong = [[x + y for x, y in zip(point, e)] if added else [point[0] - e[0], point[1] - e[1], e[2] - point[2]] for point in p]
+        wrong = [
+            [x + y
+             for x, y in zip(point, e)] if added else [point[0] - e[0], point[1] - e[1], e[2] - point[2]]
+            for point in p]
         for name, numbers in (("a", wrong), ("b", right)):
             write(name, "\n".join(" ".join(f"{x:.7f}" for x in point) for point in numbers) + "\n")
         done = compare("a", "b", "--scene", "scene")
         self.assertEqual((done.stderr.decode(), done.returncode), ("", 1))
-        cause = next(line.split("|")[2].strip() for line in done.stdout.decode().splitlines() if line.startswith("| cause"))
+        cause = next(
+            line.split("|")[2].strip()
+            for line in done.stdout.decode().splitlines()
+            if line.startswith("| cause"))
         return set(cause.split("; or: "))
 
     FLAT = "-1 0 0\n1 0 0\n0 1 0"    # in the plane through the origin that the camera looks at

@@ -25,13 +25,16 @@ TRIANGLE = "0.1000000 0.2000000 0.3000000\n1.0000000 0.0000000 0.5000000\n0.0000
 
 
 def compare(*words):
-    return subprocess.run([SOURCE / "scripts/compare", *map(str, words)], capture_output=True, text=True, timeout=120,
-                          env={"BIN": str(BIN), "PATH": "/usr/bin:/bin", "LANG": "C.UTF-8"})
+    return subprocess.run([SOURCE / "scripts/compare", *map(str, words)], capture_output=True, text=True,
+                          timeout=120, env={"BIN": str(BIN), "PATH": "/usr/bin:/bin", "LANG": "C.UTF-8"})
 
 
 def cells(table, name):
     """The second cell of the rows that begin with `name`."""
-    rows = [[cell.strip() for cell in line.strip("|").split(" | ")] for line in table.splitlines() if line.startswith("|")]
+    rows = [[cell.strip()
+             for cell in line.strip("|").split(" | ")]
+            for line in table.splitlines()
+            if line.startswith("|")]
     return [row[1] for row in rows if row[0] == name]
 
 
@@ -41,7 +44,8 @@ def bmp(width, height, pixels):
     for row in reversed(range(height)):
         line = b"".join(bytes(reversed(pixels(column, row))) for column in range(width))
         body += line + bytes(-len(line) % 4)
-    return struct.pack("<2sIHHIIiiHHIIiiII", b"BM", 54 + len(body), 0, 0, 54, 40, width, height, 1, 24, 0, len(body), 0, 0, 0, 0) + body
+    return struct.pack("<2sIHHIIiiHHIIiiII", b"BM", 54 + len(body), 0, 0, 54, 40, width, height, 1, 24, 0,
+                       len(body), 0, 0, 0, 0) + body
 
 
 class TwoFiles(ToolTest):
@@ -58,13 +62,17 @@ class TwoFiles(ToolTest):
 
     def test_the_same_text_has_no_differences(self):
         table = self.told(TRIANGLE, TRIANGLE, status=0)
-        self.assertEqual((cells(table, "numbers compared"), cells(table, "numbers that differ")), (["9"], ["0"]))
+        self.assertEqual((cells(table, "numbers compared"), cells(table, "numbers that differ")),
+                         (["9"], ["0"]))
 
     def test_the_first_and_the_largest_have_their_places(self):
-        table = self.told(TRIANGLE + TRIANGLE.replace("1.0000000 0.0000000 0.5", "1.0000000 0.2500000 4.5"), TRIANGLE * 2)
+        table = self.told(TRIANGLE + TRIANGLE.replace("1.0000000 0.0000000 0.5", "1.0000000 0.2500000 4.5"),
+                          TRIANGLE * 2)
         self.assertEqual(cells(table, "numbers that differ"), ["2"])
-        self.assertEqual(cells(table, "largest difference"), ["line 6, z of vertex 2 of triangle 1: 4.5 in A, 0.5 in B, off by 4"])
-        self.assertEqual(cells(table, "first difference"), ["line 6, y of vertex 2 of triangle 1: 0.25 in A, 0 in B"])
+        self.assertEqual(cells(table, "largest difference"),
+                         ["line 6, z of vertex 2 of triangle 1: 4.5 in A, 0.5 in B, off by 4"])
+        self.assertEqual(cells(table, "first difference"),
+                         ["line 6, y of vertex 2 of triangle 1: 0.25 in A, 0 in B"])
 
     def test_comments_and_blanks_do_not_count(self):
         self.told("# mine\n\n" + TRIANGLE.replace(" ", "\t ").replace("\t", " "), TRIANGLE, status=0)
@@ -75,14 +83,18 @@ class TwoFiles(ToolTest):
         self.told(other, TRIANGLE, "--tolerance", "0.99e-7")
 
     def test_missing_triangles_are_told(self):
-        self.assertEqual(cells(self.told(TRIANGLE, TRIANGLE * 3), "not alike"), ["1 and 3 triangles: A lacks triangles 1 and 2 of B (or what is the same)"])
+        self.assertEqual(cells(self.told(TRIANGLE, TRIANGLE * 3), "not alike"),
+                         ["1 and 3 triangles: A lacks triangles 1 and 2 of B (or what is the same)"])
 
     def test_what_one_text_lacks_is_left_out_of_the_comparison(self):
         triangles = [TRIANGLE.replace("0.1000000", f"0.{i}") for i in range(1, 6)]
         whole, cut = "".join(triangles), "".join(triangles[:1] + triangles[3:])
-        for a, b, words in ((cut, whole, "3 and 5 triangles: A lacks triangles 1 and 2 of B"), (whole, cut, "5 and 3 triangles: B lacks triangles 1 and 2 of A")):
+        for a, b, words in ((cut, whole, "3 and 5 triangles: A lacks triangles 1 and 2 of B"),
+                            (whole, cut, "5 and 3 triangles: B lacks triangles 1 and 2 of A")):
             table = self.told(a, b)
-            self.assertEqual([cells(table, name) for name in ("numbers compared", "numbers that differ", "not alike")], [["27"], ["0"], [words]])
+            self.assertEqual(
+                [cells(table, name) for name in ("numbers compared", "numbers that differ", "not alike")],
+                [["27"], ["0"], [words]])
         table = self.told(triangles[4] + cut, whole)  # in another order: nothing can be said
         self.assertEqual(cells(table, "not alike"), ["4 and 5 triangles"])
         self.assertNotEqual(cells(table, "numbers that differ"), ["0"])
@@ -100,10 +112,14 @@ class TwoFiles(ToolTest):
 
     def test_factors_show_in_the_numbers(self):
         right = student.texts(SCENE)
-        for mistake, stage, words in (("view/l-not-negated", 1, "x, y and z of A are 1, 1 and -1 times those of B"), ("view/eye-added", 1, ""),
-                                      ("project/fovx-equals-fovy", 2, ""), ("project/no-divide", 2, ""), ("project/last-element-is-one", 2, "")):
+        for mistake, stage, words in (("view/l-not-negated", 1,
+                                       "x, y and z of A are 1, 1 and -1 times those of B"),
+                                      ("view/eye-added", 1, ""), ("project/fovx-equals-fovy", 2, ""),
+                                      ("project/no-divide", 2, ""), ("project/last-element-is-one", 2, "")):
             with self.subTest(mistake):
-                table = self.told(student.texts(SCENE, mistake)[stage], right[stage], status=int(student.texts(SCENE, mistake)[stage] != right[stage]))
+                table = self.told(
+                    student.texts(SCENE, mistake)[stage], right[stage],
+                    status=int(student.texts(SCENE, mistake)[stage] != right[stage]))
                 self.assertEqual((" ".join(cells(table, "hint")), cells(table, "cause")), (words, []))
 
     def test_with_the_scene_the_mistake_is_named(self):
@@ -115,10 +131,13 @@ class TwoFiles(ToolTest):
             with self.subTest(name):
                 wrong = student.texts(WIDE, name)
                 if wrong[stage] != right[stage]:
-                    self.assertIn(sentence.rstrip("."), self.row("cause", wrong[stage], right[stage], "--scene", "wide.txt"))
+                    self.assertIn(sentence.rstrip("."),
+                                  self.row("cause", wrong[stage], right[stage], "--scene", "wide.txt"))
 
     def test_the_matrix_stands_beside_the_right_one(self):
-        told = self.told(student.texts(WIDE, "project/r-and-t-swapped")[2], student.texts(WIDE)[2], "--scene", "wide.txt")
+        told = self.told(
+            student.texts(WIDE, "project/r-and-t-swapped")[2],
+            student.texts(WIDE)[2], "--scene", "wide.txt")
         rows = told.split("| right\n")[1].splitlines()
         self.assertEqual([row.count("*") for row in rows], [1, 1, 0, 0])
 
@@ -126,10 +145,12 @@ class TwoFiles(ToolTest):
         right = student.texts(WIDE)[1]
         lines = right.split("\n")
         lines[4] = "1.0000000 2.0000000 3.0000000"
-        self.assertEqual(self.row("cause", "\n".join(lines), right, "--scene", "wide.txt"), "none of those known")
+        self.assertEqual(self.row("cause", "\n".join(lines), right, "--scene", "wide.txt"),
+                         "none of those known")
 
     def test_a_text_of_another_scene_is_not_taken_as_right(self):
-        self.assertEqual(self.row("cause", TRIANGLE, TRIANGLE.replace("0.7", "0.8"), "--scene", "wide.txt"), "not looked for: b is no output of this scene's stages")
+        self.assertEqual(self.row("cause", TRIANGLE, TRIANGLE.replace("0.7", "0.8"), "--scene", "wide.txt"),
+                         "not looked for: b is no output of this scene's stages")
 
     def test_z_buffers_are_compared_row_by_row(self):
         table = self.told("\n0.5\t0.25\t\n0.1\t\n", "\n0.5\t0.5\t\n0.1\t0.2\t\n")
@@ -155,12 +176,15 @@ class TwoFiles(ToolTest):
         pathlib.Path("a").write_text(TRIANGLE)
         pathlib.Path("b").write_bytes(bmp(1, 1, lambda c, r: (0, 0, 0)))
         done = compare("a", "b")
-        self.assertEqual((done.returncode, done.stderr), (2, "compare: expected two files of a kind, found a stage text and an image\n"))
+        self.assertEqual((done.returncode, done.stderr),
+                         (2, "compare: expected two files of a kind, found a stage text and an image\n"))
 
     def test_what_cannot_be_read_is_said_with_its_place(self):
         pathlib.Path("a").write_text(TRIANGLE)
-        for name, text, message in (("none", None, "cannot read none: No such file or directory"), ("b", TRIANGLE + "1 2 x\n", "b:5: expected numbers, found '1 2 x'"),
-                                    ("b", "1 2 3\n", "b: expected three vertices a triangle, found 1 in all")):
+        for name, text, message in (("none", None, "cannot read none: No such file or directory"),
+                                    ("b", TRIANGLE + "1 2 x\n", "b:5: expected numbers, found '1 2 x'"),
+                                    ("b", "1 2 3\n",
+                                     "b: expected three vertices a triangle, found 1 in all")):
             if text:
                 pathlib.Path(name).write_text(text)
             done = compare("a", name)
@@ -176,13 +200,15 @@ class Five(ToolTest):
         self.draw()
 
     def draw(self):
-        done = run("zbuf", SAMPLE / "config.txt", "theirs/stage3.txt", "--z-buffer", "theirs/z_buffer.txt", "--image", "theirs/out.bmp")
+        done = run("zbuf", SAMPLE / "config.txt", "theirs/stage3.txt", "--z-buffer", "theirs/z_buffer.txt",
+                   "--image", "theirs/out.bmp")
         self.assertEqual(done.returncode, 0, done.stderr)
 
     def verdict(self, status=1, scene=SAMPLE / "scene.txt"):
-        done = compare("--five", "theirs", scene, SAMPLE / "config.txt")
+        done = compare("--hand-in", "theirs", scene, SAMPLE / "config.txt")
         self.assertEqual((done.stderr, done.returncode), ("", status), done.stdout)
-        return done.stdout.splitlines()[-1], [line.split("|")[3].strip() for line in done.stdout.splitlines()[2:7]]
+        return done.stdout.splitlines()[-1], [
+            line.split("|")[3].strip() for line in done.stdout.splitlines()[2:7]]
 
     def test_who_is_right_is_right(self):
         for in_memory in (True, False):
@@ -195,14 +221,18 @@ class Five(ToolTest):
         for number, words in ((1, ["model"]), (2, ["view"]), (3, ["project"])):
             data = run(*words, "--digits", "exact", stdin=data).stdout
             lines = [line for line in data.decode().split("\n") if not line[:1].isalpha()]
-            cut = [" ".join(f"{math.trunc(float(word) * 1e7) / 1e7:.7f}" for word in line.split()) for line in lines]
+            cut = [
+                " ".join(f"{math.trunc(float(word) * 1e7) / 1e7:.7f}"
+                         for word in line.split())
+                for line in lines]
             pathlib.Path(f"theirs/stage{number}.txt").write_text("\n".join(cut))
         self.draw()
         self.assertEqual(self.verdict(status=0)[1], ["right"] * 5)
 
     def test_one_mistake_is_counted_once_and_named(self):
-        for mistake in ("model/rotation-transposed", "model/angle-in-radians", "view/rotation-transposed", "view/up-as-given", "view/l-not-negated",
-                        "project/no-divide", "project/fov-in-radians"):
+        for mistake in ("model/rotation-transposed", "model/angle-in-radians", "view/rotation-transposed",
+                        "view/up-as-given", "view/l-not-negated", "project/no-divide",
+                        "project/fov-in-radians"):
             for in_memory in (True, False):
                 with self.subTest(mistake, in_memory=in_memory):
                     # Some errors move the scene behind the eye, where our project clips and theirs does not.
@@ -238,14 +268,18 @@ class Five(ToolTest):
     def test_colors_are_the_students_own(self):
         self.hand_in()
         width, height, rows = read_picture("theirs/out.bmp")
-        pathlib.Path("theirs/out.bmp").write_bytes(bmp(width, height, lambda c, r: [rows[r][3 * c + i] ^ 85 for i in range(3)]))
+        pathlib.Path("theirs/out.bmp").write_bytes(
+            bmp(width, height, lambda c, r: [rows[r][3 * c + i] ^ 85 for i in range(3)]))
         self.assertEqual(self.verdict(status=0)[1], ["right"] * 5)
 
     def test_a_picture_upside_down_is_told(self):
         self.hand_in()
         width, height, rows = read_picture("theirs/out.bmp")
-        pathlib.Path("theirs/out.bmp").write_bytes(bmp(width, height, lambda c, r: rows[height - 1 - r][3 * c:3 * c + 3]))
-        self.assertIn("the first stage that went wrong is zbuf (out.bmp is wrong): The rows are in reverse order", self.verdict()[0])
+        pathlib.Path("theirs/out.bmp").write_bytes(
+            bmp(width, height, lambda c, r: rows[height - 1 - r][3 * c:3 * c + 3]))
+        self.assertIn(
+            "the first stage that went wrong is zbuf (out.bmp is wrong): The rows are in reverse order",
+            self.verdict()[0])
 
     def test_missing_files_are_told_and_the_rest_is_judged(self):
         self.hand_in()
@@ -257,12 +291,13 @@ class Five(ToolTest):
     def test_a_text_that_cannot_be_read_is_told_with_its_place(self):
         self.hand_in()
         pathlib.Path("theirs/stage1.txt").write_text("1 2 3\n4 5 -nan\n")
-        done = compare("--five", "theirs", SAMPLE / "scene.txt", SAMPLE / "config.txt")
+        done = compare("--hand-in", "theirs", SAMPLE / "scene.txt", SAMPLE / "config.txt")
         self.assertIn("stage1.txt:2: expected numbers, found '4 5 -nan'", done.stdout)
 
     def test_a_wrong_scene_is_a_message(self):
-        done = compare("--five", "theirs", "none.txt", SAMPLE / "config.txt")
-        self.assertEqual((done.returncode, done.stderr), (2, "compare: cannot read none.txt: No such file or directory\n"))
+        done = compare("--hand-in", "theirs", "none.txt", SAMPLE / "config.txt")
+        self.assertEqual((done.returncode, done.stderr),
+                         (2, "compare: cannot read none.txt: No such file or directory\n"))
 
 
 if __name__ == "__main__":

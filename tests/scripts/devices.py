@@ -7,8 +7,8 @@ IS_ROOT = os.geteuid() == 0
 
 
 def device(minor, name):
-    """A path to a memory device: /dev/NAME, which only root could replace. Root gets a node of its own, in the current folder, so
-    that a faulty writer does no harm to the machine."""
+    """A path to a memory device: /dev/NAME, which only root could replace. Root gets a node of its own, in
+    the current folder, so that a faulty writer does no harm to the machine."""
     if not IS_ROOT:
         return f"/dev/{name}"
     try:

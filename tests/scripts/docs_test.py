@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
-"""README.md and the pages of docs/ are true: every command of a console block prints what it shows, links lead somewhere, tables
-are the measured ones, and each page and table is listed in docs/upkeep.md with what keeps it true.
+"""README.md and the pages of docs/ are true: every command of a console block prints what it shows, links
+lead somewhere, tables are the measured ones, and each page and table is listed in CONTRIBUTING.md with what
+keeps it true.
 
 usage: docs_test.py BIN_DIR SOURCE_DIR [UNITTEST ARGUMENT...]
 
-In a block ```console bash runs each line '$ COMMAND' in a copy of the source folder with the tools on the PATH; the lines up to the
-next command are its expected output, stdout and stderr together. A page's commands share a folder, which no other page sees.
+In a block ```console bash runs each line '$ COMMAND' in a copy of the source folder with the tools on the
+PATH; the lines up to the next command are its expected output, stdout and stderr together. A page's commands
+share a folder, which no other page sees.
 """
 import os
 import pathlib
@@ -21,9 +23,11 @@ del sys.argv[1:3]
 
 README = SOURCE / "README.md"
 INDEX = SOURCE / "docs/README.md"
-UPKEEP = SOURCE / "docs/upkeep.md"
+UPKEEP = SOURCE / "CONTRIBUTING.md"
 PAGES = [README, SOURCE / "CONTRIBUTING.md", *sorted((SOURCE / "docs").glob("*.md"))]
-OTHER_PAGES = [SOURCE / "CHANGELOG.md", *(SOURCE / room / "README.md" for room in ("libpipeline", "scripts", "tests/proofs"))]
+OTHER_PAGES = [
+    SOURCE / "CHANGELOG.md",
+    *(SOURCE / room / "README.md" for room in ("libpipeline", "scripts", "tests/proofs"))]
 BLOCK = re.compile(r"^```.*?^```$", re.MULTILINE | re.DOTALL)
 
 
@@ -49,7 +53,8 @@ def links(text):
 
 
 def anchors(text):
-    """What a link may name behind a #: the headings, in lower case, blanks as dashes, without other punctuation."""
+    """What a link may name behind a #: the headings, in lower case, blanks as dashes, without other
+    punctuation."""
     headings = re.findall(r"^#+ (.*)$", BLOCK.sub("", text), re.MULTILINE)
     return {re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-") for heading in headings}
 
@@ -62,7 +67,8 @@ def dead_links(page, text):
             continue
         path, _, anchor = link.partition("#")
         target = (page.parent / path).resolve() if path else page
-        if not target.exists() or anchor and anchor not in anchors(text if target == page else target.read_text()):
+        if not target.exists() or anchor and anchor not in anchors(text if target ==
+                                                                   page else target.read_text()):
             dead.append(link)
     return dead
 
@@ -73,7 +79,8 @@ def marked_tables(text):
 
 def listed(heading):
     """{first cell: the rest of the row} of the table under a heading of the list."""
-    section = re.search(rf"^## {re.escape(heading)}\n(.*?)(?=^## |\Z)", UPKEEP.read_text(), re.MULTILINE | re.DOTALL)[1]
+    section = re.search(rf"^### {re.escape(heading)}\n(.*?)(?=^##|\Z)", UPKEEP.read_text(),
+                        re.MULTILINE | re.DOTALL)[1]
     rows = re.findall(r"^\| (.+?) \|(.*)\|$", section, re.MULTILINE)
     return {cell: rest for cell, rest in rows if not set(cell) <= set("-: ")}
 
@@ -90,11 +97,12 @@ class Commands(unittest.TestCase):
                 for name in ("samples", "scripts"):
                     shutil.copytree(SOURCE / name, pathlib.Path(folder) / name)
                 pathlib.Path(folder, "tests").mkdir()
-                pathlib.Path(folder, "tests/conformance").symlink_to(SOURCE / "tests/conformance")  # thousands of files
+                pathlib.Path(folder, "tests/conformance").symlink_to(SOURCE / "tests/conformance")
                 for command, output in examples(page.read_text()):
                     with self.subTest(page=name_of(page), command=command):
-                        run = subprocess.run(["bash", "-c", command], cwd=folder, env=environment, stdin=subprocess.DEVNULL,
-                                             stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+                        run = subprocess.run(["bash", "-c", command], cwd=folder, env=environment,
+                                             stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                                             stderr=subprocess.STDOUT, text=True)
                         self.assertEqual(run.stdout, output)
                     count += 1
         self.assertGreater(count, 20)
@@ -103,7 +111,17 @@ class Commands(unittest.TestCase):
 class Pages(unittest.TestCase):
     def test_none_is_too_long(self):
         for page in PAGES:
-            self.assertLessEqual(page.stat().st_size, 9000 if page == README else 12000, name_of(page))
+            self.assertLessEqual(page.stat().st_size, 9000 if page == README else 14 * 1024, name_of(page))
+
+    def test_lines_fit_into_120_columns(self):
+        """But for tables, examples and pictures, which cannot be broken; the specification has none that is
+        longer."""
+        specification = [SOURCE / "docs" / name for name in ("scene.md", "stage-text.md", "stages.md")]
+        for page in PAGES + OTHER_PAGES:
+            text = page.read_text()
+            kept = text if page in specification else re.sub(r"^([|#<]|!\[|    ).*", "", BLOCK.sub("", text),
+                                                             flags=re.M)
+            self.assertEqual([line for line in kept.split("\n") if len(line) > 120], [], name_of(page))
 
     def test_every_link_leads_somewhere(self):
         for page in PAGES + OTHER_PAGES:
@@ -120,15 +138,18 @@ class Pages(unittest.TestCase):
 
 
 class KeptTrue(unittest.TestCase):
-    """The lists of docs/upkeep.md."""
+    """The lists of CONTRIBUTING.md."""
 
     def assert_keepers(self, item, words):
         """The words name at least one test or script, and all of them are there."""
-        sources = "\n".join(path.read_text() for path in (SOURCE / "tests").rglob("*") if path.suffix in (".cpp", ".txt"))
+        sources = "\n".join(path.read_text()
+                            for path in (SOURCE / "tests").rglob("*")
+                            if path.suffix in (".cpp", ".txt"))
         tests, scripts = re.findall(r"`(\w+)\.([A-Z]\w+)`", words), re.findall(r"`(scripts/[\w/-]+)`", words)
         self.assertTrue(tests or scripts, f"{item}: nothing keeps it true")
         for suite, name in tests:
-            form = rf"tools_test\({name} |\bTools\.{name} " if suite == "Tools" else rf"TEST(?:_[FP])?\({suite},\s+{name}\)|\b{suite}\.{name}\b"
+            form = (rf"tools_test\({name} |\bTools\.{name} "
+                    if suite == "Tools" else rf"TEST(?:_[FP])?\({suite},\s+{name}\)|\b{suite}\.{name}\b")
             self.assertTrue(re.search(form, sources), f"{item}: no test {suite}.{name}")
         for script in scripts:
             self.assertTrue(os.access(SOURCE / script, os.X_OK), f"{item}: no script {script}")
@@ -158,7 +179,9 @@ class KeptTrue(unittest.TestCase):
             for table in results.glob("*.csv"):
                 shutil.copy(table, folder)
             for script in ("algorithms", "bench", "extremes", "tradeoff"):
-                subprocess.run([sys.executable, SOURCE / "scripts/measure" / script, "--redraw", "--out", folder], check=True)
+                subprocess.run(
+                    [sys.executable, SOURCE / "scripts/measure" / script, "--redraw", "--output", folder],
+                    check=True)
             made = [path for path in pathlib.Path(folder).iterdir() if path.suffix in (".md", ".svg")]
             self.assertEqual(len(made), 12)
             for path in made:
@@ -182,6 +205,30 @@ class WhatThePagesName(unittest.TestCase):
         self.assertGreater(len(tests), 15)
         self.assertEqual([test for test in tests if not (SOURCE / "tests" / test).is_file()], [])
 
+    def test_the_run_that_holds_a_promise_is_named(self):
+        """A script's tests are in the runs of tests/runs.txt; compare-builds and fuzz are steps of
+        .ci/run."""
+        cmake = "\n".join(path.read_text() for path in (SOURCE / "tests").rglob("CMakeLists.txt"))
+        labels = re.findall(r"^(check|all|matrix) +\d+ +(.*)", (SOURCE / "tests/runs.txt").read_text(),
+                            re.MULTILINE)
+
+        def runs_of(keeper):
+            if not keeper.endswith(".py"):
+                return ["ci" if keeper.startswith("scripts/") else "check"]
+            names = re.findall(rf"(tools_|script_)test\(([\w.]+) {keeper[:-3]}\b", cmake)
+            full = ["Tools." * (kind == "tools_") + name for kind, name in names]
+            return [
+                next((run for run, pattern in labels if re.fullmatch(pattern, name)),
+                     "check") for name in full]
+
+        rows = re.findall(r"^\| .* \| (`.*) \| (.*) \|$", (SOURCE / "docs/guarantees.md").read_text(),
+                          re.MULTILINE)
+        self.assertGreater(len(rows), 15)
+        for keepers, named in rows:
+            runs = {run for keeper in re.findall(r"`(.+?)`", keepers) for run in runs_of(keeper)}
+            self.assertEqual(named, ", ".join(run for run in ("check", "all", "ci", "matrix") if run in runs),
+                             keepers)
+
     def test_every_command_of_pipeline_is_there(self):
         for page in PAGES:
             for word in sorted(set(re.findall(r"(?:^|[^\w/-])pipeline ([a-z][a-z-]+)", "\n".join(
@@ -191,21 +238,28 @@ class WhatThePagesName(unittest.TestCase):
                     self.assertTrue(known, f"pipeline {word}")
 
     def test_every_option_of_a_filter_is_there(self):
-        """Options behind the name of a filter in the same piece of code. The pages of errors have wrong ones on purpose."""
-        texts = {tool: subprocess.run([BIN_DIR / tool, "--help"], capture_output=True, text=True).stdout for tool in ("model", "view", "project", "zbuf")}
+        """Options behind the name of a filter in the same piece of code. The page of errors has wrong ones on
+        purpose."""
+        texts = {
+            tool: subprocess.run([BIN_DIR / tool, "--help"], capture_output=True, text=True).stdout
+            for tool in ("model", "view", "project", "zbuf")}
         count = 0
-        for page in (page for page in PAGES if not page.name.startswith("errors-in-")):
+        for page in (page for page in PAGES if page.name != "errors.md"):
             for code in re.findall(r"`[^`\n]*`|^    .*|^\$ .*", page.read_text(), re.MULTILINE):
-                for tool, words in re.findall(r"(?<![\w./-])(?<!--stage )(model|view|project|zbuf)((?: +(?![|<>&;])[^\s|;&`)]+)*)", code):
+                for tool, words in re.findall(
+                        r"(?<![\w./-])(?<!--stage )(model|view|project|zbuf)((?: +(?![|<>&;])[^\s|;&`)]+)*)",
+                        code):
                     for option in re.findall(r"(?<=\s)--[a-z][a-z-]*", words):
-                        self.assertIsNotNone(re.search(rf"(?<![\w-]){option}(?![\w-])", texts[tool]), f"{name_of(page)}: {tool} {option}")
+                        self.assertIsNotNone(re.search(rf"(?<![\w-]){option}(?![\w-])", texts[tool]),
+                                             f"{name_of(page)}: {tool} {option}")
                         count += 1
         self.assertGreater(count, 40)
 
 
 class TheTestItself(unittest.TestCase):
     def test_it_sees_dead_links(self):
-        text = "# One two\n[a](README.md) [b](no.md) [c](#one-two) [d](#two) `[e](f.md)`\n```console\n# x\n[g](h.md)\n```\n"
+        text = ("# One two\n[a](README.md) [b](no.md) [c](#one-two) [d](#two) `[e](f.md)`\n```console\n# x\n"
+                "[g](h.md)\n```\n")
         self.assertEqual(dead_links(README, text), ["no.md", "#two"])
 
     def test_it_finds_commands_and_tables(self):

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""scripts/explain: its numbers match the sample files, the tools and exact references, and its words the case at hand.
+"""scripts/explain: its numbers match the sample files, the tools and exact references, and its words the case
+at hand.
 
 usage: explain_test.py BIN_DIR [UNITTEST ARGUMENT...]
 """
@@ -31,12 +32,14 @@ MAX_LINES = 60
 
 
 def explain(*words, stdin=None):
-    return subprocess.run([SOURCE / "scripts/explain", *map(str, words)], capture_output=True, text=True, timeout=120, input=stdin,
-                          env={"BIN": str(BIN), "PATH": os.environ["PATH"], "LANG": "C.UTF-8"})
+    return subprocess.run([SOURCE / "scripts/explain", *map(str, words)], capture_output=True, text=True,
+                          timeout=120, input=stdin, env={
+                              "BIN": str(BIN), "PATH": os.environ["PATH"], "LANG": "C.UTF-8"})
 
 
 def coordinates(report, section):
-    """The words of the three coordinates that a section of a report ends its vertex lines with, before the window's."""
+    """The words of the three coordinates that a section of a report ends its vertex lines with, before the
+    window's."""
     lines = report[report.index(section):].split("\n\n")[0].split("\n")
     rows = [line.split() for line in lines if line.startswith("  ")]
     rows = [row for row in rows if len(row[0]) == 1 and len(row) > 3 and "=" not in row and "|" not in row]
@@ -90,12 +93,19 @@ class Samples(ToolTest):
             for coverage in ("nearest", "center"):
                 pixel = f"{choice.randrange(window.width)},{choice.randrange(window.height)}"
                 with self.subTest(sample=sample.name, coverage=coverage, pixel=pixel):
-                    probed = run("zbuf", "--coverage", coverage, "--probe", pixel, sample / "config.txt", stdin=stage3).stderr.decode()
-                    kept = [line.split()[3].rstrip(",") for line in probed.splitlines() if line.endswith(": kept")]
-                    done = explain(sample / "scene.txt", sample / "config.txt", "--triangle", kept[-1] if kept else 0, "--pixel", pixel, "--coverage", coverage)
+                    probed = run("zbuf", "--coverage", coverage, "--probe", pixel, sample / "config.txt",
+                                 stdin=stage3).stderr.decode()
+                    kept = [
+                        line.split()[3].rstrip(",")
+                        for line in probed.splitlines()
+                        if line.endswith(": kept")]
+                    done = explain(sample / "scene.txt", sample / "config.txt", "--triangle",
+                                   kept[-1] if kept else 0, "--pixel", pixel, "--coverage", coverage)
                     self.assertEqual((done.stderr, done.returncode), ("", 0))
                     self.assertLessEqual(done.stdout.count("\n"), MAX_LINES)
-                    self.assertIn(f"the pixel shows triangle {kept[-1]}\n" if kept else "shows the background\n", done.stdout)
+                    self.assertIn(
+                        f"the pixel shows triangle {kept[-1]}\n" if kept else "shows the background\n",
+                        done.stdout)
                     self.assertNotIn("zbuf itself", done.stdout)
 
 
@@ -109,12 +119,14 @@ class Arithmetic(ToolTest):
             scene = (sample / "scene.txt").read_text()
             world, view, ndc = (triangles_of(sample / f"stage{n}.txt") for n in (1, 2, 3))
             lossless = pipe(["model", "--digits", "exact"], stdin=scene)
-            in_world, in_view = (vertex_lines(data) for data in (lossless, pipe(["view", "--digits", "exact"], stdin=lossless)))
+            in_world, in_view = (vertex_lines(data)
+                                 for data in (lossless, pipe(["view", "--digits", "exact"], stdin=lossless)))
             stages = Stages(Tools(BIN), sample / "scene.txt", sample / "config.txt", Settings())
             step = max(1, len(world) // self.TRIANGLES)
             for number in range(0, len(world), step):
                 with self.subTest(sample=sample.name, triangle=number):
-                    stages.world_lossless, stages.view_lossless = words_of(in_world[number]), words_of(in_view[number])
+                    stages.world_lossless, stages.view_lossless = words_of(in_world[number]), words_of(
+                        in_view[number])
                     calculation = Calculation(stages, find_triangle(scene, number))
                     self.assert_agree(world[number], [calculation.world])
                     self.assert_agree(view[number], [calculation.view])
@@ -144,13 +156,15 @@ class Words(ToolTest):
         self.assertNotIn("itself", done.stdout)
         return done.stdout
 
-    # In NDC what it is in the scene, but for the sign of z. In 8 x 8 pixels centers are at -0.875, -0.625, ...
+    # In NDC what it is in the scene, but for the sign of z. In 8 x 8 pixels centers are at -0.875, -0.625,
+    # ...
     FLAT = "0 0 0\n0 0 -1\n0 1 0\northo -1 1 -1 1 -1 1\n"
     # Corners at the centers of the pixels (1, 6), (5, 6) and (1, 2).
     ON_CENTERS = "triangle\n-0.625 -0.625 0\n0.375 -0.625 0\n-0.625 0.375 0\n"
 
     def on_centers(self, pixel, rule="center"):
-        return self.report(self.ON_CENTERS, "--triangle", 0, "--pixel", pixel, "--coverage", rule, camera=self.FLAT)
+        return self.report(self.ON_CENTERS, "--triangle", 0, "--pixel", pixel, "--coverage", rule,
+                           camera=self.FLAT)
 
     def test_the_window_has_pixel_centers_at_whole_numbers(self):
         report = self.on_centers("2,5")
@@ -196,19 +210,28 @@ class Words(ToolTest):
     def test_the_rule_nearest_shows_the_ends_of_the_row(self):
         report = self.on_centers("3,4", "nearest")
         self.assertIn("  edge 1-2   exactly on a right edge\n", report)
-        self.assertIn("  row 4 crosses it from column 1.0000 to 3.0000: pixels 1 to 3 are nearest\n  covered: 3 is one of these\n", report)
+        self.assertIn(
+            "  row 4 crosses it from column 1.0000 to 3.0000: pixels 1 to 3 are nearest\n  covered: 3 is one "
+            "of these\n",
+            report)
         self.assertIn("  not covered: 4 is right of these\n", self.on_centers("4,4", "nearest"))
-        self.assertIn("  not covered: the line through the centers of row 1 does not cross the triangle\n", self.on_centers("4,1", "nearest"))
+        self.assertIn("  not covered: the line through the centers of row 1 does not cross the triangle\n",
+                      self.on_centers("4,1", "nearest"))
 
     def test_doubles_that_round_a_tie_the_other_way_are_shown(self):
-        # 0.5 is halfway between 0.45 and 0.55, the centers of columns 14 and 15; in doubles it is nearer to the first.
-        report = self.report("triangle\n0 0 0\n0.5 0 0\n0.5 0.5 0\n", "--triangle", 0, "--pixel", "15,5", config="20 20\n", camera=self.FLAT)
-        self.assertIn("  row 5 crosses it from column 14.0000 to 14.5000: pixels 14 to 15 are nearest\n"
-                      "  in doubles, as zbuf calculates, from 13.999999999999998 to 14.499999999999998: pixels 14 to 14\n"
-                      "  not covered: 15 is right of these\n", report)
+        # 0.5 is halfway between 0.45 and 0.55, the centers of columns 14 and 15; in doubles it is nearer to
+        # the first.
+        report = self.report("triangle\n0 0 0\n0.5 0 0\n0.5 0.5 0\n", "--triangle", 0, "--pixel", "15,5",
+                             config="20 20\n", camera=self.FLAT)
+        self.assertIn(
+            "  row 5 crosses it from column 14.0000 to 14.5000: pixels 14 to 15 are nearest\n"
+            "  in doubles, as zbuf calculates, from 13.999999999999998 to 14.499999999999998: pixels "
+            "14 to 14\n"
+            "  not covered: 15 is right of these\n", report)
 
     def test_who_is_seen_and_why(self):
-        walls = "".join(f"triangle\n-9 -9 {z}\n9 -9 {z}\n0 9 {z}\n" for z in ("-0.5", "-0.25", "-0.75", "-0.25"))
+        walls = "".join(
+            f"triangle\n-9 -9 {z}\n9 -9 {z}\n0 9 {z}\n" for z in ("-0.5", "-0.25", "-0.75", "-0.25"))
         report = self.report(walls, "--triangle", 2, "--pixel", "4,4", camera=self.FLAT)
         self.assertIn("  at this pixel, in the order they are drawn:\n"
                       "       triangle 0   depth 0.5    kept, the first one\n"
@@ -223,17 +246,28 @@ class Words(ToolTest):
         walls = "".join(f"triangle\n-9 -9 {z / 100}\n9 -9 {z / 100}\n0 9 {z / 100}\n" for z in range(-90, 90))
         report = self.report(walls, "--triangle", 100, "--pixel", "4,4", camera=self.FLAT)
         self.assertEqual(report.count("\n"), MAX_LINES)
-        self.assertIn("  ->   triangle 100   depth -0.1    kept, nearer than triangle 99\n       triangle 179   depth -0.89   kept, nearer than triangle 178\n", report)
-        self.assertRegex(report, r"in the order they are drawn \(1\d of 180\):\n       triangle 0 .*\n       triangle 1 ")
-        self.assertRegex(report, r"\n       triangle 179 .*\n  the pixel shows triangle 179: -0.89 is nearer than -0.1\n\Z")
+        self.assertIn(
+            "  ->   triangle 100   depth -0.1    kept, nearer than triangle 99\n       triangle 179   depth "
+            "-0.89   kept, nearer than triangle 178\n",
+            report)
+        self.assertRegex(
+            report, r"in the order they are drawn \(1\d of 180\):\n       triangle 0 .*\n       triangle 1 ")
+        self.assertRegex(
+            report,
+            r"\n       triangle 179 .*\n  the pixel shows triangle 179: -0.89 is nearer than -0.1\n\Z")
 
     def test_limits_of_depth(self):
-        report = self.report("triangle\n-9 -9 -2\n9 -9 -2\n0 9 -2\n", "--triangle", 0, "--pixel", "4,4", camera=self.FLAT)
+        report = self.report("triangle\n-9 -9 -2\n9 -9 -2\n0 9 -2\n", "--triangle", 0, "--pixel", "4,4",
+                             camera=self.FLAT)
         self.assertIn("  wholly beyond the rear limit 1: no pixel shows it\n", report)
-        self.assertIn("lost, beyond the rear limit\n  none of them is between the limits: the pixel shows the background\n", report)
+        self.assertIn(
+            "lost, beyond the rear limit\n  none of them is between the limits: the pixel shows the "
+            "background\n",
+            report)
 
     def test_the_transforms_in_force(self):
-        report = self.report("translate\n1 2 3\npush\nscale\n9 9 9\npop\nrotate 90 0 0 1\n" + self.ON_CENTERS, "--triangle", 0)
+        report = self.report("translate\n1 2 3\npush\nscale\n9 9 9\npop\nrotate 90 0 0 1\n" + self.ON_CENTERS,
+                             "--triangle", 0)
         self.assertIn("triangle 0 of 1, numbered from 0: scene.txt, line 12\n", report)
         self.assertIn("  line 5  translate 1 2 3                   M = | 0  -1  0  1 |\n"
                       "  line 11  rotate 90 0 0 1                      | 1   0  0  2 |\n"
@@ -243,49 +277,69 @@ class Words(ToolTest):
 
     def test_of_many_transforms_the_last_are_shown(self):
         report = self.report("rotate 1 0 0 1\n" * 90 + self.ON_CENTERS, "--triangle", 0)
-        self.assertIn("  (87 transforms before these)              M = | 0  -1  0  0 |\n  line 92  rotate 1 0 0 1                       | 1   0  0  0 |\n", report)
+        self.assertIn(
+            "  (87 transforms before these)              M = | 0  -1  0  0 |\n  line 92  rotate 1 0 0 1      "
+            "                 | 1   0  0  0 |\n",
+            report)
 
     def test_a_triangle_that_is_cut(self):
-        # From z = 0 to behind the eye at z = 5: where z is 4, 1 before the eye, is four ninths of the way to z = 9.
+        # From z = 0 to behind the eye at z = 5: where z is 4, 1 before the eye, is four ninths of the way to
+        # z = 9.
         report = self.report("triangle\n0 -1 0\n0 -1 9\n9 -1 0\n", "--triangle", 0, "--pixel", "6,5")
         self.assertRegex(report, r"  1 +0\.0000000 .* -4\.0000000   behind the eye\n")
-        self.assertRegex(report, r"  a +0\.0000000 +-1\.7320508 +-1\.0000000 +1\.0000000   where the near plane cuts edge 0-1\n")
-        self.assertRegex(report, r"  b +8\.6602540 +-1\.7320508 +-1\.0000000 +1\.0000000   where the near plane cuts edge 1-2\n")
+        self.assertRegex(
+            report,
+            r"  a +0\.0000000 +-1\.7320508 +-1\.0000000 +1\.0000000   where the near plane cuts edge 0-1\n")
+        self.assertRegex(
+            report,
+            r"  b +8\.6602540 +-1\.7320508 +-1\.0000000 +1\.0000000   where the near plane cuts edge 1-2\n")
         self.assertIn("  cut: what is left are the triangles 0-a-b, 0-b-2\n", report)
 
     def test_a_triangle_of_nine_corners(self):
-        # The plane x + y + z = 0 meets the cube in a hexagon, and the triangle cuts off three of its corners. Fragments enough
-        # to fill any page lie behind.
+        # The plane x + y + z = 0 meets the cube in a hexagon, and the triangle cuts off three of its corners.
+        # Fragments enough to fill any page lie behind.
         walls = "triangle\n-90 -90 -0.9\n90 -90 -0.9\n0 90 -0.9\n" * 40
         for rule in ("nearest", "center"):
-            report = self.report("triangle\n0 -1.8 1.8\n1.8 0 -1.8\n-1.8 1.8 0\n" + walls, "--triangle", 0, "--pixel", "4,4", "--clip", "frustum",
-                                 "--coverage", rule, camera=self.FLAT)
-            self.assertIn("  (5 more)\n  cut: what is left are the triangles a-b-c, a-c-d, a-d-e, a-e-f, a-f-g, a-g-h, a-h-i\n", report)
+            report = self.report("triangle\n0 -1.8 1.8\n1.8 0 -1.8\n-1.8 1.8 0\n" + walls, "--triangle", 0,
+                                 "--pixel", "4,4", "--clip", "frustum", "--coverage", rule, camera=self.FLAT)
+            self.assertIn(
+                "  (5 more)\n  cut: what is left are the triangles a-b-c, a-c-d, a-d-e, a-e-f, a-f-g, "
+                "a-g-h, a-h-i\n",
+                report)
             self.assertIn("  the pixel shows triangle 0\n", report)
 
     def test_what_is_dropped_says_why(self):
         behind = self.report("triangle\n0 0 6\n1 0 6\n0 1 7\n", "--triangle", 0, "--pixel", "4,4")
         self.assertIn("  dropped: all corners are outside the near plane\n\nPIXEL ", behind)
         culled = self.report("triangle\n0 0 0\n1 0 0\n0 1 0\n", "--triangle", 0, "--cull", "front")
-        self.assertIn("its corners run counterclockwise as the eye sees them: it shows its front, which --cull front drops\n", culled)
+        self.assertIn(
+            "its corners run counterclockwise as the eye sees them: it shows its front, which --cull "
+            "front drops\n",
+            culled)
         outside = self.report("triangle\n90 0 0\n91 0 0\n90 1 0\n", "--triangle", 0)
         self.assertIn("  wholly right of the picture: no pixel shows it\n", outside)
         outside = self.report("triangle\n90 0 0\n91 0 0\n90 1 0\n", "--triangle", 0, "--clip", "reject")
         self.assertIn("  dropped: all corners are outside the right plane\n", outside)
 
     def test_a_triangle_seen_edge_on(self):
-        report = self.report("triangle\n0 0 0\n0 0 1\n0 0 2\n", "--triangle", 0, "--pixel", "4,4", "--coverage", "center")
+        report = self.report("triangle\n0 0 0\n0 0 1\n0 0 2\n", "--triangle", 0, "--pixel", "4,4",
+                             "--coverage", "center")
         self.assertIn("  no area: it is seen edge-on\n", report)
         self.assertIn("  not covered: a triangle without area covers no center\n", report)
 
     def test_the_aspect_rule_may_stand_in_the_header(self):
         camera = {"eye": "0 0 5".split(), "look": "0 0 0".split(), "up": "0 1 0".split()}
-        for words, rule, scale in (("60 2 1 100", None, 1 / math.tan(math.pi / 3)), ("60 2 1 100 ratio", None, 0.5 / math.tan(math.pi / 6)),
-                                   ("60 2 1 100 ratio", "angle", 1 / math.tan(math.pi / 3)), ("60 2 1 100 angle", "ratio", 0.5 / math.tan(math.pi / 6))):
-            stages = SimpleNamespace(settings=Settings(aspect=rule), camera=lambda words=words: camera | {"perspective": words.split()},
-                                     world_lossless=["0 0 0".split()] * 3, view_lossless=["0 0 -5".split()] * 3)
+        for words, rule, scale in (("60 2 1 100", None, 1 / math.tan(math.pi / 3)),
+                                   ("60 2 1 100 ratio", None, 0.5 / math.tan(math.pi / 6)),
+                                   ("60 2 1 100 ratio", "angle", 1 / math.tan(math.pi / 3)),
+                                   ("60 2 1 100 angle", "ratio", 0.5 / math.tan(math.pi / 6))):
+            stages = SimpleNamespace(settings=Settings(aspect=rule),
+                                     camera=lambda words=words: camera | {"perspective": words.split()},
+                                     world_lossless=["0 0 0".split()] * 3,
+                                     view_lossless=["0 0 -5".split()] * 3)
             triangle = find_triangle(CAMERA + self.ON_CENTERS + "end\n", 0)
-            self.assertAlmostEqual(float(Calculation(stages, triangle).projection_matrix[0][0]), scale, places=14)
+            self.assertAlmostEqual(float(Calculation(stages, triangle).projection_matrix[0][0]), scale,
+                                   places=14)
 
     def test_without_a_pixel_one_is_suggested(self):
         self.assertTrue(self.report(self.ON_CENTERS, "--triangle", 0, camera=self.FLAT).endswith(
@@ -294,14 +348,19 @@ class Words(ToolTest):
 
 class Messages(ToolTest):
     def assert_misuse(self, done, message):
-        self.assertEqual((done.returncode, done.stderr.splitlines()[-1]), (2, f"explain: {message} (try explain --help)"))
+        self.assertEqual((done.returncode, done.stderr.splitlines()[-1]),
+                         (2, f"explain: {message} (try explain --help)"))
 
     def test_a_wrong_scene_or_config_is_the_tools_message(self):
         pathlib.Path("scene.txt").write_text(CAMERA + "triangle\n0 0 0\n1 0 zero\n")
-        self.assert_fails_with("explain: model: scene.txt:7:5: expected the z of vertex 2 of 3, found 'zero'\n")
+        self.assert_fails_with(
+            "explain: model: scene.txt:7:5: expected the z of vertex 2 of 3, found 'zero'\n")
         pathlib.Path("scene.txt").write_text(CAMERA + "triangle\n0 0 0\n1 0 0\n0 1 0\nend\n")
         pathlib.Path("config.txt").write_text("8 0\n")
-        self.assert_fails_with("explain: zbuf: config.txt:1:3: expected the height in pixels, a whole number from 1 to 65535, found '0'\n")
+        self.assert_fails_with(
+            "explain: zbuf: config.txt:1:3: expected the height in pixels, a whole number from 1 to 65535, "
+            "found '0'\n"
+        )
 
     def assert_fails_with(self, message):
         done = explain("scene.txt", "config.txt", "--triangle", 0)
@@ -309,29 +368,38 @@ class Messages(ToolTest):
 
     def test_a_sphere_names_the_ways_to_draw_it(self):
         pathlib.Path("scene.txt").write_text(CAMERA + "triangle\n0 0 0\n1 0 0\n0 1 0\nsphere 0 0 0 1\nend\n")
-        self.assert_fails_with("explain: model: scene.txt:9:1: expected triangles alone, found a sphere: trace draws it, and model --facets N makes triangles of it\n")
+        self.assert_fails_with(
+            "explain: model: scene.txt:9:1: expected triangles alone, found a sphere: trace draws it, and "
+            "model --facets N makes triangles of it\n"
+        )
 
     def test_a_missing_file_is_named(self):
         done = explain("none.txt", "config.txt", "--triangle", 0)
-        self.assertEqual((done.returncode, done.stderr), (1, "explain: cannot read none.txt: No such file or directory\n"))
+        self.assertEqual((done.returncode, done.stderr),
+                         (1, "explain: cannot read none.txt: No such file or directory\n"))
 
     def test_a_triangle_beyond_the_last_says_how_many_there_are(self):
-        self.assert_misuse(explain("scene.txt", "config.txt", "--triangle", 1), "--triangle: expected 0, found 1: scene.txt has 1 triangle")
+        self.assert_misuse(explain("scene.txt", "config.txt", "--triangle", 1),
+                           "--triangle: expected 0, found 1: scene.txt has 1 triangle")
         sample = SOURCE / "samples/two-triangles"
-        self.assert_misuse(explain(sample / "scene.txt", "config.txt", "--triangle", 2),
-                           f"--triangle: expected a number from 0 to 1, found 2: {sample}/scene.txt has 2 triangles")
+        self.assert_misuse(
+            explain(sample / "scene.txt", "config.txt", "--triangle", 2),
+            f"--triangle: expected a number from 0 to 1, found 2: {sample}/scene.txt has 2 triangles")
         pathlib.Path("scene.txt").write_text(CAMERA + "end\n")
-        self.assert_misuse(explain("scene.txt", "config.txt", "--triangle", 0), "--triangle: expected no number, found 0: scene.txt has 0 triangles")
+        self.assert_misuse(explain("scene.txt", "config.txt", "--triangle", 0),
+                           "--triangle: expected no number, found 0: scene.txt has 0 triangles")
 
     def test_a_pixel_outside_says_the_size(self):
         for pixel in ("8,0", "0,8"):
             self.assert_misuse(explain("scene.txt", "config.txt", "--triangle", 0, "--pixel", pixel),
                                "--pixel: expected COLUMN,ROW from 0,0 to 7,7: the picture has 8 x 8 pixels")
         for pixel in ("8", "a,b", "1,2,3"):
-            self.assert_misuse(explain("scene.txt", "config.txt", "--triangle", 0, "--pixel", pixel), f"argument --pixel: expected COLUMN,ROW, found '{pixel}'")
+            self.assert_misuse(explain("scene.txt", "config.txt", "--triangle", 0, "--pixel", pixel),
+                               f"argument --pixel: expected COLUMN,ROW, found '{pixel}'")
 
     def test_scenes_may_be_pipes(self):
-        by_pipe = explain("-", "config.txt", "--triangle", 0, "--pixel", "4,4", stdin=pathlib.Path("scene.txt").read_text())
+        by_pipe = explain("-", "config.txt", "--triangle", 0, "--pixel", "4,4",
+                          stdin=pathlib.Path("scene.txt").read_text())
         self.assertEqual((by_pipe.returncode, by_pipe.stderr), (0, ""))
         by_name = explain("scene.txt", "config.txt", "--triangle", 0, "--pixel", "4,4")
         self.assertEqual(by_pipe.stdout, by_name.stdout.replace("scene.txt", "<stdin>"))
@@ -342,7 +410,8 @@ class Messages(ToolTest):
 
 
 class RandomTriangles(ToolTest):
-    """Exact arithmetic rounds to what the tools print, whatever the camera, the transforms and the options."""
+    """Exact arithmetic rounds to what the tools print, whatever the camera, the transforms and the
+    options."""
 
     def test_stages_agree_with_the_tools(self):
         choice = random.Random(5)
@@ -351,12 +420,17 @@ class RandomTriangles(ToolTest):
             return " ".join(f"{choice.uniform(-size, size):.{choice.choice((0, 2, 7))}f}" for _ in range(3))
 
         for index in range(40):
-            kind = choice.choice(("70 1.3 0.5 30", "70 1.3 0.5 30", "ortho -3 4 -2.5 2 0.5 20", "frustum -1 1.5 -0.5 1 0.7 30"))
-            commands = "".join(choice.choice((f"rotate {choice.choice((90, 45, 30, 17.3))} 1 {point(2)[:2]} 0.5\n", f"translate {point(3)}\n", f"scale {point(2)}\n"))
-                               for _ in range(choice.randrange(5)))
-            text = f"{point(5)}\n{point(1)}\n0 1 0.25\n{kind}\n{commands}" + "".join(f"triangle {point(6)}\n{point(6)}\n{point(6)}\n" for _ in range(4)) + "end\n"
+            kind = choice.choice(("70 1.3 0.5 30", "70 1.3 0.5 30", "ortho -3 4 -2.5 2 0.5 20",
+                                  "frustum -1 1.5 -0.5 1 0.7 30"))
+            commands = "".join(
+                choice.choice((f"rotate {choice.choice((90, 45, 30, 17.3))} 1 {point(2)[:2]} 0.5\n",
+                               f"translate {point(3)}\n", f"scale {point(2)}\n"))
+                for _ in range(choice.randrange(5)))
+            text = f"{point(5)}\n{point(1)}\n0 1 0.25\n{kind}\n{commands}" +"".join(
+                f"triangle {point(6)}\n{point(6)}\n{point(6)}\n" for _ in range(4)) + "end\n"
             pathlib.Path("scene.txt").write_text(text)
-            settings = Settings(choice.choice(("7", "12", "exact")), choice.choice((None, "ratio")), choice.choice((None, "near", "frustum")),
+            settings = Settings(choice.choice(("7", "12", "exact")), choice.choice((None, "ratio")),
+                                choice.choice((None, "near", "frustum")),
                                 choice.choice((None, "back", "front")))
             stages = Stages(Tools(BIN), "scene.txt", "config.txt", settings)
             for number in range(4):
@@ -364,24 +438,29 @@ class RandomTriangles(ToolTest):
                     stages.send(number)
                     calculation = Calculation(stages, find_triangle(text, number))
                     self.assertEqual(len(calculation.ndc), len(stages.ndc))
-                    for printed, points in ((stages.world, calculation.world), (stages.view, calculation.view), *zip(stages.ndc, calculation.ndc)):
+                    for printed, points in ((stages.world, calculation.world), (stages.view,
+                                                                                calculation.view),
+                                            *zip(stages.ndc, calculation.ndc)):
                         for words, exact in zip(printed, points):
-                            self.assertTrue(agrees(words, exact, settings.digits), (words, list(map(float, exact))))
+                            self.assertTrue(agrees(words, exact, settings.digits),
+                                            (words, list(map(float, exact))))
 
 
 class RandomPairs(ToolTest):
-    """Whether a triangle covers a pixel, how far its center is from the edges, and how deep the triangle is there, against
-    references of their own and zbuf."""
+    """Whether a triangle covers a pixel, how far its center is from the edges, and how deep the triangle is
+    there, against references of their own and zbuf."""
 
     COUNT = 2000
-    # Numbers so round that centers lie on edges and ends of rows halfway between pixels, and numbers that are not.
+    # Numbers so round that centers lie on edges and ends of rows halfway between pixels, and numbers that are
+    # not.
     CONFIGS = ("16 12\n-1\n-0.75\n-1 1\n", "20 20\n", "30 7\n-0.9\n-0.35\n0 0.9\n")
     TRIANGLES_AT_ONCE, PIXELS_EACH = 50, 10
 
     def triangle(self, choice):
         step = choice.choice((1, 1250000, 625000, 500000, 333333))
         xy = [[choice.randrange(-12000000, 12000001) // step * step for _ in range(2)] for _ in range(3)]
-        depths = [choice.randrange(-5000000, 9000000)] * 3 if choice.random() < 0.2 else [choice.randrange(-5000000, 9000000) for _ in range(3)]
+        depths = [choice.randrange(-5000000, 9000000)] * 3 if choice.random() < 0.2 else [
+            choice.randrange(-5000000, 9000000) for _ in range(3)]
         return [tuple(Fraction(n, 10**7) for n in (*p, z)) for p, z in zip(xy, depths)]
 
     def test_agree_with_the_references(self):
@@ -395,29 +474,37 @@ class RandomPairs(ToolTest):
             for number, points in enumerate(triangles):
                 in_doubles = [tuple(map(float, p)) for p in points]
                 corners = [reference.Vertex(0, tuple(map(Fraction, p))) for p in in_doubles]
-                by_reference = {(column, row) for row, column, _ in reference.nearest(reference.Triangle(number, corners), reference_config)}
+                by_reference = {(column, row)
+                                for row, column, _ in reference.nearest(reference.Triangle(number, corners),
+                                                                        reference_config)}
                 for _ in range(self.PIXELS_EACH):
                     pixel = self.pixel_near(choice, window, points)
                     found = PixelOfTriangle(window, "012", points, pixel)
                     with self.subTest(config=config, points=in_doubles, pixel=pixel):
-                        self.assertEqual(found.is_covered("center"), is_covered_by_center(window, points, pixel))
+                        self.assertEqual(found.is_covered("center"),
+                                         is_covered_by_center(window, points, pixel))
                         self.assertEqual(found.is_covered("nearest"), pixel in by_reference)
                         self.check_distances(window, points, pixel, found)
                         for rule in covered:
                             covered[rule] += found.is_covered(rule)
                             self.assertEqual(found.is_covered(rule), (number, *pixel) in drawn[rule])
                             if found.is_covered(rule) and found.has_area:
-                                self.check_depth(window, points, pixel, found.depth(rule), drawn[rule][number, *pixel])
+                                self.check_depth(window, points, pixel, found.depth(rule),
+                                                 drawn[rule][(number, *pixel)])
         for rule, count in covered.items():
             self.assertTrue(0.2 * self.COUNT < count < 0.8 * self.COUNT, (rule, count))
 
     def drawn(self, config, triangles):
         """{rule: {(triangle, column, row): depth}} of all fragments that zbuf finds."""
         pathlib.Path("config.txt").write_text(config)
-        text = "".join("".join(" ".join(f"{float(x):.7f}" for x in p) + "\n" for p in points) + "\n" for points in triangles)
+        text = "".join("".join(" ".join(f"{float(x):.7f}"
+                                        for x in p) + "\n"
+                               for p in points) + "\n"
+                       for points in triangles)
         found = {}
         for rule in ("nearest", "center"):
-            done = run("zbuf", "--coverage", rule, "--fragments", "fragments.txt", "--image", "out.ppm", "config.txt", stdin=text)
+            done = run("zbuf", "--coverage", rule, "--fragments", "fragments.txt", "--image", "out.ppm",
+                       "config.txt", stdin=text)
             self.assertEqual(done.returncode, 0, done.stderr)
             found[rule] = {}
             for line in pathlib.Path("fragments.txt").read_text().splitlines():
@@ -428,9 +515,13 @@ class RandomPairs(ToolTest):
     def pixel_near(self, choice, window, points):
         """A pixel that often lies in the triangle, or at its edge."""
         weights = [choice.random() for _ in range(3)]
-        x, y = (sum(w * p[i] for w, p in zip(map(Fraction, weights), points)) / Fraction(sum(map(Fraction, weights))) for i in (0, 1))
-        column = math.floor((x - window.left) * window.width / (-2 * window.left)) + choice.choice((0, 0, 0, -1, 1))
-        row = math.floor((-window.bottom - y) * window.height / (-2 * window.bottom)) + choice.choice((0, 0, 0, -1, 1))
+        x, y = (sum(w * p[i]
+                    for w, p in zip(map(Fraction, weights), points)) / Fraction(sum(map(Fraction, weights)))
+                for i in (0, 1))
+        column = math.floor((x - window.left) * window.width / (-2 * window.left)) + choice.choice(
+            (0, 0, 0, -1, 1))
+        row = math.floor((-window.bottom - y) * window.height / (-2 * window.bottom)) + choice.choice(
+            (0, 0, 0, -1, 1))
         return min(max(column, 0), window.width - 1), min(max(row, 0), window.height - 1)
 
     def check_distances(self, window, points, pixel, found):
@@ -445,8 +536,8 @@ class RandomPairs(ToolTest):
             self.assertLess(abs(edge.distance**2 - square), Fraction(1, 10**20))
 
     def check_depth(self, window, points, pixel, found, drawn):
-        """By the normal of the triangle's plane, and against zbuf's. On the row of the highest or lowest corner, rounding decides
-        whether `nearest` has the depth of that corner instead."""
+        """By the normal of the triangle's plane, and against zbuf's. On the row of the highest or lowest
+        corner, rounding decides whether `nearest` has the depth of that corner instead."""
         (ax, ay, az), u, v = points[0], *([q - p for p, q in zip(points[0], other)] for other in points[1:])
         normal = (u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0])
         x = window.left + (2 * pixel[0] + 1) * -window.left / window.width
@@ -467,12 +558,13 @@ class LongRandomPairs(RandomPairs):
 
 def in_pixels(window, points):
     """(column, row) of points, pixel centers at whole numbers."""
-    return [((x / -window.left + 1) * window.width / 2 - Fraction(1, 2), (1 - y / -window.bottom) * window.height / 2 - Fraction(1, 2)) for x, y, _ in points]
+    return [((x / -window.left + 1) * window.width / 2 - Fraction(1, 2),
+             (1 - y / -window.bottom) * window.height / 2 - Fraction(1, 2)) for x, y, _ in points]
 
 
 def is_covered_by_center(window, points, pixel):
-    """The top-left rule by its reason: the center belongs where it would be if it moved to the right by next to nothing and
-    down by far less."""
+    """The top-left rule by its reason: the center belongs where it would be if it moved to the right by next
+    to nothing and down by far less."""
     hair = Fraction(1, 10**30)
     x, y = pixel[0] + hair, pixel[1] + hair**2
     turns = []

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""scripts/measure/extremes: the committed numbers are those of these tools, the truth is true, and a wrong digit would be seen.
+"""scripts/measure/extremes: the committed numbers are those of these tools, the truth is true, and a wrong
+digit would be seen.
 
 usage: extremes_test.py BIN_DIR SOURCE_DIR [UNITTEST ARGUMENT...]
 """
@@ -18,7 +19,8 @@ BIN, SOURCE = (pathlib.Path(sys.argv.pop(1)).resolve() for _ in range(2))
 MEASURE = SOURCE / "scripts/measure"
 sys.path[:0] = [str(MEASURE), str(SOURCE / "scripts")]
 from lib.pipe_tools import Tools  # noqa: E402
-from parts.extremes_measure import ROUNDED, SETTINGS, digits_right, shortened, wrong_without_note  # noqa: E402
+from parts.extremes_measure import (  # noqa: E402
+    ROUNDED, SETTINGS, digits_right, shortened, wrong_without_note)
 from parts.extremes_plot import name_of  # noqa: E402
 from parts.extremes_report import Results, promise, short  # noqa: E402
 from parts.extremes_scenes import AXES, QUICK, Case, scene_text  # noqa: E402
@@ -50,14 +52,15 @@ class Numbers(unittest.TestCase):
 
     def test_the_committed_ones_are_those_of_these_tools(self):
         with tempfile.TemporaryDirectory() as folder:
-            subprocess.run([MEASURE / "extremes", "--quick", "--bin", BIN, "--out", folder], check=True)
+            subprocess.run([MEASURE / "extremes", "--quick", "--bin", BIN, "--output", folder], check=True)
             rows = rows_of(pathlib.Path(folder, "extremes.csv"))
         self.assertEqual(len(rows), len(SETTINGS) * sum(map(len, QUICK.values())))
         keys = {(row["axis"], row["value"]) for row in rows}
         self.assertEqual(rows, [row for row in COMMITTED if (row["axis"], row["value"]) in keys])
 
     def test_every_value_and_setting_is_committed(self):
-        wanted = [(axis, f"{value:g}", str(setting)) for axis, (_, _, values) in AXES.items() for value in values for setting in SETTINGS]
+        wanted = [(axis, f"{value:g}", str(setting)) for axis, (_, _, values) in AXES.items()
+                  for value in values for setting in SETTINGS]
         self.assertEqual([(row["axis"], row["value"], row["setting"]) for row in COMMITTED], wanted)
 
     def test_no_digit_is_wrong_without_a_note(self):
@@ -68,7 +71,8 @@ class Numbers(unittest.TestCase):
 
 class Truth(unittest.TestCase):
     def test_vertices_are_those_of_the_formulas(self):
-        """fovY 90: x / distance; z is ((d - n) f - (f - d) n) / (d (f - n)). The translation moves the corners to 2, 2 and 1 away."""
+        """fovY 90: x / distance; z is ((d - n) f - (f - d) n) / (d (f - n)). The translation moves the
+        corners to 2, 2 and 1 away."""
         def z(d):
             return Fraction((d - 1) * 10 - (10 - d), 9 * d)
 
@@ -79,9 +83,16 @@ class Truth(unittest.TestCase):
 
     def test_owners_are_those_of_the_specification(self):
         """Of triangles with few digits, which the reference reads as they are."""
-        triangles = [[[Fraction(x, 8) for x in point] for point in triangle] for triangle in (
-            ((-7, -7, 3), (7, -7, 3), (0, 7, -5)), ((-7, 5, 2), (7, 5, -4), (0, -6, 2)), ((-3, -3, -1), (1, 5, 0), (5, 1, 0)), ((0, 0, 0), (1, 1, 1), (2, 2, 2)))]
-        text = "\n\n".join("\n".join(" ".join(str(float(x)) for x in point) for point in triangle) for triangle in triangles) + "\n"
+        triangles = [
+            [[Fraction(x, 8)
+              for x in point]
+             for point in triangle]
+            for triangle in (((-7, -7, 3), (7, -7, 3), (0, 7, -5)), ((-7, 5, 2), (7, 5, -4), (0, -6, 2)),
+                             ((-3, -3, -1), (1, 5, 0), (5, 1, 0)), ((0, 0, 0), (1, 1, 1), (2, 2, 2)))]
+        text = "\n\n".join("\n".join(" ".join(str(float(x))
+                                              for x in point)
+                                     for point in triangle)
+                           for triangle in triangles) + "\n"
         config = reference.Config(16, 16, *map(Fraction, (-1, -1, -1, 1)), ("-1", "-1"))
         _, seen = reference.draw(reference.Stage(text.encode(), "zbuf").triangles(), config, "center")
         owners = [triangle.number + 1 if triangle else 0 for row in seen for triangle in row]
@@ -89,7 +100,8 @@ class Truth(unittest.TestCase):
         self.assertEqual(set(owners), {0, 1, 2, 3})
 
     def test_digits_count_within_the_extent(self):
-        truth = [[(Fraction(0), Fraction(0), Fraction(0)), (Fraction(2), Fraction(1), Fraction(1, 100)), (Fraction(1), Fraction(1), Fraction(0))]]
+        truth = [[(Fraction(0), Fraction(0), Fraction(0)), (Fraction(2), Fraction(1), Fraction(1, 100)),
+                  (Fraction(1), Fraction(1), Fraction(0))]]
         with tempfile.TemporaryDirectory() as folder:
             path = pathlib.Path(folder, "text")
             for z, digits in (("0.01", 17), ("0.0100005", 4), ("0.015", 0)):
@@ -113,14 +125,20 @@ class WrongDigits(unittest.TestCase):
             self.assertEqual(wrong_without_note(Tools(folder), text, "7"), 1)
 
     def test_notes_are_shortened_to_what_they_are_about(self):
-        for note, words in (("view: note: <stdin>:4:1: the digits of this vertex and of 2 more are not certain: numbers cancel here beyond 31 digits", "view: uncertain digits"),
-                            ("model: note: the largest coordinate keeps fewer than 4 significant digits; use --digits exact", "model: few digits"),
-                            ("zbuf: note: the picture is empty: no triangle came", "zbuf: empty picture"), ("zbuf: note: a new one", "zbuf: a new one")):
+        for note, words in (
+            ("view: note: <stdin>:4:1: the digits of this vertex and of 2 more are not certain: numbers "
+             "cancel here beyond 31 digits",
+             "view: uncertain digits"),
+            ("model: note: the largest coordinate keeps fewer than 4 significant digits; use --digits exact",
+             "model: few digits"), ("zbuf: note: the picture is empty: no triangle came",
+                                    "zbuf: empty picture"), ("zbuf: note: a new one", "zbuf: a new one")):
             self.assertEqual(shortened(note), words)
 
 
 def row(value, wrong, note="", setting="default", axis="size"):
-    return {"axis": axis, "value": value, "setting": setting, "wrong_pixels": str(wrong), "note": note, "wrong_without_note": "0"}
+    return {
+        "axis": axis, "value": value, "setting": setting, "wrong_pixels": str(wrong), "note": note,
+        "wrong_without_note": "0"}
 
 
 class Report(unittest.TestCase):
@@ -130,20 +148,25 @@ class Report(unittest.TestCase):
     def test_the_first_wrong_pixel_says_when_it_is_noted(self):
         self.assertEqual(self.first(row("1", 0), row("0.001", 0, "n")), "")
         self.assertEqual(self.first(row("1", 0), row("0.001", 2, "n")), "1e-3 (noted)")
-        self.assertEqual(self.first(row("1", 0), row("0.001", 2), row("1e-04", 9, "n")), "1e-3 (note from 1e-4)")
+        self.assertEqual(self.first(row("1", 0), row("0.001", 2), row("1e-04", 9, "n")),
+                         "1e-3 (note from 1e-4)")
         self.assertEqual(self.first(row("1", 0, "n"), row("0.001", 2), row("1e-04", 9)), "1e-3 (no note)")
 
     def test_the_angle_goes_two_ways(self):
-        rows = [row(value, wrong, axis="angle") for value, wrong in (("179.9", 5), ("170", 3), ("45", 0), ("1", 0), ("0.1", 2))]
+        rows = [
+            row(value, wrong, axis="angle")
+            for value, wrong in (("179.9", 5), ("170", 3), ("45", 0), ("1", 0), ("0.1", 2))]
         self.assertEqual(self.first(*rows, direction="wide angle"), "170 (no note)")
         self.assertEqual(self.first(*rows, direction="narrow angle"), "0.1 (no note)")
 
     def test_a_broken_promise_is_reported(self):
         self.assertIn("Of 6 runs of a stage, none printed", promise(Results([row("1", 0), row("2", 0)])))
-        self.assertIn("Of 6 runs of a stage, 2 runs printed", promise(Results([row("1", 0), {**row("2", 0), "wrong_without_note": "2"}])))
+        self.assertIn("Of 6 runs of a stage, 2 runs printed",
+                      promise(Results([row("1", 0), {**row("2", 0), "wrong_without_note": "2"}])))
 
     def test_values_are_short(self):
-        self.assertEqual([short(word) for word in ("1", "1e+08", "0.001", "179.999", "1000", "1e-12")], ["1", "1e8", "1e-3", "179.999", "1000", "1e-12"])
+        self.assertEqual([short(word) for word in ("1", "1e+08", "0.001", "179.999", "1000", "1e-12")],
+                         ["1", "1e8", "1e-3", "179.999", "1000", "1e-12"])
 
 
 class Page(unittest.TestCase):
@@ -156,7 +179,9 @@ class Page(unittest.TestCase):
     def test_far_from_the_origin_all_settings_have_doubles(self):
         for setting in self.results.settings[1:]:
             for value in (1e12, 1e13, 1e14, 1e15):
-                self.assertAlmostEqual(self.digits("distance", setting)[value], self.digits("distance", "--digits exact")[value], delta=0.05)
+                self.assertAlmostEqual(
+                    self.digits("distance", setting)[value],
+                    self.digits("distance", "--digits exact")[value], delta=0.05)
         self.assertEqual(self.results.first("distance", "--digits exact", "wrong_pixels"), "1e13 (no note)")
 
     def test_depth_costs_a_digit_for_each_power_of_ten(self):
@@ -178,7 +203,8 @@ class Page(unittest.TestCase):
 
     def test_the_default_begins_with_so_many_digits(self):
         digits = self.digits("distance", "default")[1.0]
-        self.assertIn(f"it has {digits:.1f} of seven decimals to begin with", " ".join((SOURCE / "docs/extremes.md").read_text().split()))
+        self.assertIn(f"it has {digits:.1f} of seven decimals to begin with", " ".join(
+            (SOURCE / "docs/extremes.md").read_text().split()))
 
 
 class Plots(unittest.TestCase):
@@ -193,7 +219,9 @@ class Plots(unittest.TestCase):
                 self.assertTrue(0 <= begin and begin + width <= 860 and 10 <= y <= height - 5, element.text)
             for (a, b, y, one), (c, d, v, other) in itertools.combinations(places, 2):
                 self.assertFalse(a < d and c < b and abs(y - v) < 11, (axis, one, other))
-            self.assertLessEqual({name_of(str(setting)) for setting in SETTINGS}, {name for *_, name in places})
+            self.assertLessEqual({name_of(str(setting))
+                                  for setting in SETTINGS}, {name
+                                                             for *_, name in places})
 
 
 if __name__ == "__main__":

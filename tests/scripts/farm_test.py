@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""scripts/farm: the picture and the depths are those of one pipe, whatever the parts, the machines, and who is killed.
+"""scripts/farm: the picture and the depths are those of one pipe, whatever the parts, the machines, and who
+is killed.
 
 usage: farm_test.py BIN_DIR [UNITTEST ARGUMENT...]
 """
@@ -10,28 +11,33 @@ import random
 import shutil
 import signal
 import socket
+import struct
 import subprocess
 import sys
 import time
 import unittest
+import zlib
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "tools"))
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent.parent / "scripts"))
-from lib.pictures import read_picture  # noqa: E402
+from lib.pictures import png_chunks, read_picture, unfiltered  # noqa: E402
 from random_scene import CAMERA, scene_of_parts as scene  # noqa: E402
 from ssh_server import SshServer  # noqa: E402
-from split_test import random_scene  # noqa: E402
+from cut_scene_test import random_scene  # noqa: E402
 from toolbox import BIN, SOURCE, ToolTest, pipe, run  # noqa: E402
 
 FARM = SOURCE / "scripts/farm"
-SETTINGS = ([], ["--coverage", "center", "--samples", "2"], ["--wireframe", "--clip", "frustum", "--depth", "f32"])
+SETTINGS = ([], ["--coverage", "center", "--samples",
+                 "2"], ["--wireframe", "--clip", "frustum", "--depth", "f32"])
 OF_PROJECT = ("--clip", "--cull", "--aspect")
 
 
 SCENE_COUNT = int(os.environ.get("TOOLS_SCENES", 12)) * 2  # fewer with sanitizers, see CMakeLists.txt
 PATIENCE = 240  # seconds, far more than anything here takes
-# A model that waits, so that a job can be killed in its midst, however fast or slow the machine is. Without its part it leaves word where.
-HOLD = 'for file; do :; done; [ -e "$file" ] || pwd >> {0}/without-part; while [ -e "$file" ] && [ ! -e {0}/go ]; do sleep 0.05; done'
+# A model that waits, so that a job can be killed in its midst, however fast or slow the machine is. Without
+# its part it leaves word where.
+HOLD = ('for file; do :; done; [ -e "$file" ] || pwd >> {0}/without-part; while [ -e "$file" ] && [ ! -e '
+        '{0}/go ]; do sleep 0.05; done')
 
 
 def setUpModule():  # noqa: N802
@@ -63,8 +69,8 @@ def ancestors(process):
 
 
 def chains_to_zbuf(farm, above, count, hosts=()):
-    """{output: the ancestors of the zbuf that makes it}, of those that run below the process `above`, as soon as there are so many; of those
-    in the hosts' folders, if any are given."""
+    """{output: the ancestors of the zbuf that makes it}, of those that run below the process `above`, as soon
+    as there are so many; of those in the hosts' folders, if any are given."""
     end = time.monotonic() + PATIENCE
     while time.monotonic() < end and farm.poll() is None:
         chains = {}
@@ -97,7 +103,7 @@ class FarmTest(ToolTest):
         self.bin = pathlib.Path("slow").absolute()
         shutil.rmtree(self.bin, ignore_errors=True)
         self.bin.mkdir()
-        for name in {"model", "view", "project", "zbuf", "split", "join"} - {slow}:
+        for name in {"model", "view", "project", "zbuf", "cut-scene", "join-seen"} - {slow}:
             (self.bin / name).symlink_to(BIN / name)
         (self.bin / slow).write_text(f'#!/bin/sh\n{script}\nexec {BIN}/{slow} "$@"\n')
         (self.bin / slow).chmod(0o755)
@@ -106,12 +112,14 @@ class FarmTest(ToolTest):
         return [FARM, "scene.txt", "config.txt", *settings, "-o", "farm.ppm", "--z-buffer", "farm.txt", *more]
 
     def farm(self, settings, *more):
-        return subprocess.run(self.words(settings, *more), capture_output=True, text=True, timeout=PATIENCE, env={**os.environ, "BIN": str(self.bin)})
+        return subprocess.run(self.words(settings, *more), capture_output=True, text=True, timeout=PATIENCE,
+                              env={**os.environ, "BIN": str(self.bin)})
 
     def start(self, settings, *more):
         pathlib.Path("go").unlink(missing_ok=True)
         shutil.rmtree("farm.ppm.farm", ignore_errors=True)
-        return subprocess.Popen(self.words(settings, *more), env={**os.environ, "BIN": str(self.bin)}, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        return subprocess.Popen(self.words(settings, *more), env={**os.environ, "BIN": str(self.bin)},
+                                stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
 
     def end(self, process, killed):
         """Ends the wait of the slow tools after some jobs were killed."""
@@ -121,13 +129,16 @@ class FarmTest(ToolTest):
         self.assertEqual(process.returncode, 0, said)
         self.assert_as_expected()
         for output in killed:
-            self.assertGreater(logged("farm.ppm.farm", output)[1], time_of_death, "the job was not in its midst, or was not started again")
+            self.assertGreater(
+                logged("farm.ppm.farm", output)[1], time_of_death,
+                "the job was not in its midst, or was not started again")
 
     def expect(self, settings, is_lit):
         """The files of one pipe, with which those of farm are compared."""
         pathlib.Path("scene.txt").write_text(scene(is_lit))
         at = next((i for i, word in enumerate(settings) if word in OF_PROJECT), len(settings))
-        depths = pipe(["model"], ["view"], ["project", *settings[at:at + 2]], ["zbuf", "config.txt", *settings[:at], *settings[at + 2:], "-o", "one.ppm"],
+        depths = pipe(["model"], ["view"], ["project", *settings[at:at + 2]],
+                      ["zbuf", "config.txt", *settings[:at], *settings[at + 2:], "-o", "one.ppm"],
                       stdin=pathlib.Path("scene.txt").read_text())
         self.expected = depths, pathlib.Path("one.ppm").read_bytes()
 
@@ -149,7 +160,8 @@ class Local(FarmTest):
         for is_lit in (False, True):
             for settings in SETTINGS:
                 self.expect(settings, is_lit)
-                for cut in (["--parts", "20"], ["--parts", "3", "--bands", "3"], ["--parts", "1", "--bands", "4"]):
+                for cut in (["--parts", "20"], ["--parts", "3", "--bands",
+                                                "3"], ["--parts", "1", "--bands", "4"]):
                     with self.subTest(is_lit=is_lit, settings=settings, cut=cut):
                         self.assertEqual(self.check(settings, *cut), "")
                         self.assertFalse(pathlib.Path("farm.ppm.farm").exists())
@@ -160,16 +172,20 @@ class Local(FarmTest):
             pipe(["model"], ["view"], ["project"], ["zbuf", "config.txt", "-o", name], stdin=scene(True))
         for name in ("farm.bmp", "farm.png"):
             for cut in (["--parts", "4"], ["--bands", "3"]):
-                done = subprocess.run([FARM, "scene.txt", "config.txt", "-o", name, *cut], capture_output=True, env={**os.environ, "BIN": str(BIN)})
+                done = subprocess.run([FARM, "scene.txt", "config.txt", "-o", name, *cut],
+                                      capture_output=True, env={**os.environ, "BIN": str(BIN)})
                 self.assertEqual((done.returncode, done.stderr), (0, b""))
                 self.assertEqual(read_picture(name), read_picture("one.bmp"))
                 if name == "farm.bmp" or "--parts" in cut:
-                    self.assertEqual(pathlib.Path(name).read_bytes(), pathlib.Path(name.replace("farm", "one")).read_bytes())
+                    self.assertEqual(
+                        pathlib.Path(name).read_bytes(),
+                        pathlib.Path(name.replace("farm", "one")).read_bytes())
 
     def test_an_empty_picture_is_noted_once(self):
         pathlib.Path("scene.txt").write_text(CAMERA + "triangle\n0 0 9\n1 0 9\n0 1 9\n" * 9 + "end\n")
         done = self.farm([])
-        self.assertEqual((done.returncode, done.stderr), (0, "zbuf: note: the picture is empty: no triangle came\n"))
+        self.assertEqual((done.returncode, done.stderr),
+                         (0, "zbuf: note: the picture is empty: no triangle came\n"))
 
     def test_a_killed_worker(self):
         for is_lit in (False, True):
@@ -182,10 +198,14 @@ class Local(FarmTest):
 
     def test_a_second_run_does_what_is_left(self):
         self.expect([], True)
-        self.use_slow_tools(f'case "$*" in *parts/3.txt) [ -e {pathlib.Path.cwd()}/mended ] || exit 3 ;; esac', "model")
+        self.use_slow_tools(
+            f'case "$*" in *parts/3.txt) [ -e {pathlib.Path.cwd()}/mended ] || exit 3 ;; esac', "model")
         done = self.farm([], "--parts", "5", "--", "--jobs", "1")
         self.assertEqual(done.returncode, 1)
-        self.assertIn("farm: no picture: 1 of 5 parts are missing, the first is seen-0-0-3.txt (of parts/3.txt); farm.ppm.farm/jobs.log tells where they ran, ", done.stderr)
+        self.assertIn(
+            "farm: no picture: 1 of 5 parts are missing, the first is seen-0-0-3.txt (of parts/3.txt); "
+            "farm.ppm.farm/jobs.log tells where they ran, ",
+            done.stderr)
         self.assertIn("seen-0-0-3.txt: zbuf: ", done.stderr)
         self.assertFalse(pathlib.Path("farm.ppm").exists() or pathlib.Path("farm.txt").exists())
         before = {path.name: path.stat().st_mtime_ns for path in pathlib.Path("farm.ppm.farm").glob("seen*")}
@@ -201,12 +221,19 @@ class Local(FarmTest):
 
 
 class AnyCut(ToolTest):
-    """What farm's jobs do, in any cut, order of work and grouping of joins; random scenes, and options of all kinds."""
+    """What farm's jobs do, in any cut, order of work and grouping of joins; random scenes, and options of all
+    kinds."""
 
     def options(self, rng, text):
-        project = ["--clip", rng.choice(("auto", "near", "frustum")), "--aspect", rng.choice(("angle", "ratio")),
-                   *rng.choice(([], ["--cull", "back"], ["--cull", "front"]))]
-        zbuf = ["--coverage", rng.choice(("nearest", "center")), "--depth", rng.choice(("f64", "f32", "u24")), "--samples", rng.choice("1123")]
+        project = [
+            "--clip",
+            rng.choice(("auto", "near", "frustum")), "--aspect",
+            rng.choice(("angle", "ratio")), *rng.choice(([], ["--cull", "back"], ["--cull", "front"]))]
+        zbuf = [
+            "--coverage",
+            rng.choice(("nearest", "center")), "--depth",
+            rng.choice(("f64", "f32", "u24")), "--samples",
+            rng.choice("1123")]
         if rng.random() < 0.3:
             zbuf.append("--wireframe")
         if rng.random() < 0.3:
@@ -219,13 +246,14 @@ class AnyCut(ToolTest):
 
     def seen_of_parts(self, rng, project, zbuf):
         """The texts of the parts, which are drawn in any order."""
-        done = run("split", "scene.txt", str(rng.choice((2, 3, 7, 40))), "-o", "parts")
+        done = run("cut-scene", "scene.txt", str(rng.choice((2, 3, 7, 40))), "-o", "parts")
         self.assertEqual(done.returncode, 0, done.stderr)
         parts = [line.split() for line in done.stdout.decode().splitlines()]
         texts = [f"seen{i}.txt" for i in range(len(parts))]
         for i in rng.sample(range(len(parts)), len(parts)):
             part, first = parts[i]
-            pipe(["model", "--framed", "--first", first, part], ["view"], ["project", *project], ["zbuf", "config.txt", *zbuf, "--seen", texts[i]], stdin=b"")
+            pipe(["model", "--framed", "--first", first, part], ["view"], ["project", *project],
+                 ["zbuf", "config.txt", *zbuf, "--seen", texts[i]], stdin=b"")
         return texts
 
     def test_gives_the_whole(self):
@@ -245,25 +273,29 @@ class AnyCut(ToolTest):
                 while len(texts) > 1 and rng.random() < 0.8:
                     at = rng.randrange(len(texts) - 1)
                     end = rng.randrange(at + 2, len(texts) + 1)
-                    joined = run("join", "--framed", *texts[at:end])
+                    joined = run("join-seen", "--expect-framed", *texts[at:end])
                     self.assertEqual(joined.returncode, 0, joined.stderr)
                     pipe(["zbuf", "config.txt", *zbuf, "--seen", texts[at]], stdin=joined.stdout)
                     texts[at + 1:end] = []
-                joined = run("join", "--framed", *texts)
+                joined = run("join-seen", "--expect-framed", *texts)
                 self.assertEqual(joined.returncode, 0, joined.stderr)
                 fewer += joined.stdout.count(b"\n\n") < whole.count(b"\n\n")
-                self.assertEqual(pipe(["zbuf", "config.txt", *zbuf, "-o", "many.ppm"], stdin=joined.stdout), depths)
+                self.assertEqual(pipe(["zbuf", "config.txt", *zbuf, "-o", "many.ppm"], stdin=joined.stdout),
+                                 depths)
                 self.assertEqual(pathlib.Path("many.ppm").read_bytes(), pathlib.Path("one.ppm").read_bytes())
-        # Else there would be nothing to prove: pictures of several parts with something in them, and triangles that were left out.
+        # Else there would be nothing to prove: pictures of several parts with something in them, and
+        # triangles that were left out.
         self.assertGreater(min(several, fewer), SCENE_COUNT // 2)
 
 
 class OtherMachines(FarmTest):
     def test_hosts_of_which_some_fail(self):
-        """Four hosts: to one the connection is killed, on one the worker, the disk of one is full, one does not answer."""
+        """Four hosts: to one the connection is killed, on one the worker, the disk of one is full, one does
+        not answer."""
         listener = socket.create_server(("127.0.0.1", 0), backlog=100)
         self.addCleanup(listener.close)
-        server = SshServer(self, ["w1", "w2", "w3", "w4"], full="w3", silent={"w4": listener.getsockname()[1]})
+        server = SshServer(self, ["w1", "w2", "w3", "w4"], full="w3",
+                           silent={"w4": listener.getsockname()[1]})
         hosts = ["--", *server.words, "--sshlogin", "1/w1,1/w2,1/w3,1/w4"]
         for is_lit in (False, True):
             for settings in SETTINGS:
@@ -279,9 +311,13 @@ class OtherMachines(FarmTest):
                     os.kill(chains[two][0][0], signal.SIGKILL)
                     self.end(process, [one, two])
                     jobs = [logged("farm.ppm.farm", f"seen-0-0-{i}.txt") for i in range(1, 5)]
-                    self.assertEqual({(host, status) for host, _, status in jobs} - {("w1", 0), ("w2", 0)}, set())
+                    self.assertEqual({(host, status)
+                                      for host, _, status in jobs} - {("w1", 0), ("w2", 0)}, set())
                     without_part = pathlib.Path("without-part").read_text().splitlines()
-                    self.assertEqual({pathlib.Path(folder).relative_to(pathlib.Path.cwd()).parts[0] for folder in without_part}, {"w3"})
+                    self.assertEqual(
+                        {
+                            pathlib.Path(folder).relative_to(pathlib.Path.cwd()).parts[0]
+                            for folder in without_part}, {"w3"})
                     pathlib.Path("without-part").unlink()
                     listener.settimeout(0)
                     asked = 0
@@ -295,11 +331,19 @@ class OtherMachines(FarmTest):
 class Refusals(FarmTest):
     def test_what_cannot_be_distributed(self):
         self.expect([], False)
-        for words, reason in ((["--probe", "1,2"], "expected no --probe: it tells of triangles that are hidden, and a part does not know what hides them"),
-                              (["--fragments=f.txt"], "expected no --fragments: it lists triangles that are hidden, and a part does not know what hides them"),
-                              (["--stats", "-"], "expected no --stats: it counts triangles that are hidden"),
-                              (["--parts", "0"], "expected a whole number from 1 to 9999, found '0'"),
-                              (["--background", "01020300"], "--background: expected an opaque background, or -o FILE.png, found '01020300'"), (["--seen", "x"], "unrecognized arguments: --seen x")):
+        for words, reason in (
+            (["--probe", "1,2"],
+             "expected no --probe: it tells of triangles that are hidden, and a part does not know what "
+             "hides them"
+             ),
+            (["--fragments=f.txt"],
+             "expected no --fragments: it lists triangles that are hidden, and a part does not know what "
+             "hides them"
+             ), (["--stats", "s"], "expected no --stats: it counts triangles that are hidden"), ([
+                 "--parts", "0"], "expected a whole number from 1 to 9999, found '0'"), ([
+                     "--background", "01020300"
+                 ], "--background: expected an opaque background, or -o FILE.png, found '01020300'"), ([
+                     "--seen", "x"], "unrecognized arguments: --seen x")):
             done = self.farm(words)
             self.assertEqual((done.returncode, done.stdout), (2, ""), words)
             self.assertIn(reason, done.stderr)
@@ -307,21 +351,33 @@ class Refusals(FarmTest):
     def test_what_the_tools_refuse(self):
         self.expect([], False)
         done = self.farm(["--samples", "99"])
-        self.assertEqual((done.returncode, done.stderr), (1, "farm: zbuf: --samples: expected a whole number from 1 to 16, found '99' (try zbuf --help)\n"))
+        self.assertEqual(
+            (done.returncode, done.stderr),
+            (1,
+             "farm: zbuf: --samples: expected a whole number from 1 to 16, found '99' (try zbuf --help)\n"))
         pathlib.Path("scene.txt").write_text("0 0 5\n")
         done = self.farm([])
         self.assertEqual(done.returncode, 1)
-        self.assertRegex(done.stderr, r"\Afarm: split: \S*scene.txt:2:1: expected the four lines of the camera, found the end of the input\n\Z")
+        self.assertRegex(
+            done.stderr,
+            r"\Afarm: cut-scene: \S*scene.txt:2:1: expected the four lines of the camera, found the end of "
+            r"the input\n\Z"
+        )
         pathlib.Path("scene.txt").write_text(scene(False).replace("end\n", "sphere 0 0 0 1\nend\n"))
         line = scene(False).count("\n")
         done = self.farm([], "--parts", "3")
-        self.assertEqual((done.returncode, done.stderr), (1, f"farm: model: scene.txt:{line}:1: expected triangles alone, found a sphere: trace draws it, and "
-                                                          "model --facets N makes triangles of it\n"))
-        pathlib.Path("scene.txt").write_text(scene(False).replace("end\n", "triangle\n0 0 0\n1 0 0\n0 x 0\nend\n"))
+        self.assertEqual((done.returncode, done.stderr), (
+            1,
+            f"farm: model: scene.txt:{line}:1: expected triangles alone, found a sphere: trace draws it, and "
+            "model --facets N makes triangles of it\n"))
+        pathlib.Path("scene.txt").write_text(
+            scene(False).replace("end\n", "triangle\n0 0 0\n1 0 0\n0 x 0\nend\n"))
         done = self.farm([], "--parts", "3")
         self.assertEqual(done.returncode, 1)
         self.assertIn("seen-0-0-3.txt: model: parts/3.txt:", done.stderr)
-        self.assertIn("farm: no picture: 1 of 3 parts are missing, the first is seen-0-0-3.txt (of parts/3.txt)", done.stderr)
+        self.assertIn(
+            "farm: no picture: 1 of 3 parts are missing, the first is seen-0-0-3.txt (of parts/3.txt)",
+            done.stderr)
         self.assertFalse(pathlib.Path("farm.ppm").exists())
 
 
@@ -335,11 +391,33 @@ class JoinImages(FarmTest):
             names = [f"{first}.{extension}" for first in [0, *cuts]]
             for name, first, end in zip(names, [0, *cuts], [*cuts, 40]):
                 pipe(["zbuf", "--size", f"{columns}x40", "--rows", f"{first}:{end}", "-o", name], stdin=text)
-            done = subprocess.run([SOURCE / "scripts/join-images", *names, "-o", f"joined.{extension}"], capture_output=True)
+            done = subprocess.run([SOURCE / "scripts/join-images", *names, "-o", f"joined.{extension}"],
+                                  capture_output=True)
             self.assertEqual((done.returncode, done.stderr), (0, b""))
             self.assertEqual(read_picture(f"joined.{extension}"), read_picture(f"whole.{extension}"))
             if extension != "png":
-                self.assertEqual(pathlib.Path(f"joined.{extension}").read_bytes(), pathlib.Path(f"whole.{extension}").read_bytes())
+                self.assertEqual(
+                    pathlib.Path(f"joined.{extension}").read_bytes(),
+                    pathlib.Path(f"whole.{extension}").read_bytes())
+
+    def test_bands_of_depth_images(self):
+        text = pipe(["model"], ["view"], ["project"], stdin=scene(True))
+        for extension in ("pgm", "png"):
+            for rows in ("0:40", "0:13", "13:40"):
+                words = ["--rows", rows, "-o", "x.ppm", "--depth-image", f"{rows}.{extension}"]
+                pipe(["zbuf", "config.txt", *words], stdin=text)
+            words = [f"0:13.{extension}", f"13:40.{extension}", "-o", f"joined.{extension}"]
+            done = subprocess.run([SOURCE / "scripts/join-images", *words], capture_output=True)
+            self.assertEqual((done.returncode, done.stderr), (0, b""))
+        joined, whole = (pathlib.Path(name).read_bytes() for name in ("joined.png", "0:40.png"))
+        self.assertEqual(joined[:33], whole[:33])  # width, height, 16 bits gray
+        gray = pathlib.Path("0:40.pgm").read_bytes()
+        self.assertEqual(pathlib.Path("joined.pgm").read_bytes(), gray)
+        rows = zlib.decompress(b"".join(body for kind, body in png_chunks(joined) if kind == b"IDAT"))
+        above = bytes(100)
+        for i in range(40):
+            above = unfiltered(rows[101 * i], rows[101 * i + 1:101 * i + 101], above, 2)
+            self.assertEqual(above, gray[len(gray) - 4000 + 100 * i:][:100])
 
     def test_what_is_wrong(self):
         triangle = "0 0 0\n1 0 0\n0 1 0\n"
@@ -348,10 +426,23 @@ class JoinImages(FarmTest):
         for name in ("a.ppm", "c.bmp", "d.png"):
             pathlib.Path("cut." + name[-3:]).write_bytes(pathlib.Path(name).read_bytes()[:-20])
         pathlib.Path("text").write_text("0 0 0\n")
-        for words, message in ((["a.ppm", "b.ppm"], "b.ppm: expected a PPM of 5 columns as a.ppm, found a PPM of 6"), (["a.ppm", "c.bmp"], "c.bmp: expected a PPM of 5 columns as a.ppm, found a BMP of 5"),
-                               (["cut.ppm"], "cut.ppm: expected 71 bytes, found 51"), (["cut.bmp"], "cut.bmp: expected 118 bytes, found 98"), (["text"], "text: expected a BMP, PPM or PNG"),
-                               (["gone"], "cannot read gone: No such file or directory"), (["d.png", "cut.png"], "cut.png: ")):
-            done = subprocess.run([SOURCE / "scripts/join-images", *words, "-o", "out.ppm"], capture_output=True, text=True)
+        png = pathlib.Path("d.png").read_bytes()
+        pathlib.Path("wide.png").write_bytes(png[:16] + b"\x7f\xff\xff\xff" + png[20:])
+        packed = zlib.compress(bytes(1 << 28), 9)  # where the header asks for 64 bytes
+        chunk = struct.pack(">I", len(packed)) + b"IDAT" + packed + bytes(4)
+        pathlib.Path("bomb.png").write_bytes(png[:33] + chunk)
+        for words, message in (([
+                "a.ppm", "b.ppm"], "b.ppm: expected a PPM of 5 columns as a.ppm, found a PPM of 6"), ([
+                    "a.ppm", "c.bmp"], "c.bmp: expected a PPM of 5 columns as a.ppm, found a BMP of 5"), ([
+                        "cut.ppm"], "cut.ppm: expected 71 bytes, found 51"), ([
+                            "cut.bmp"], "cut.bmp: expected 118 bytes, found 98"), ([
+                                "text"], "text: expected a BMP, PPM, PGM or PNG"), ([
+                                    "gone"], "cannot read gone: No such file or directory"), ([
+                                        "d.png", "cut.png"], "cut.png: "),
+                               (["wide.png"], "wide.png: expected at most 65535 columns, found 2147483647"),
+                               (["bomb.png"], "bomb.png: expected 64 bytes of pixels, found more")):
+            done = subprocess.run([SOURCE / "scripts/join-images", *words, "-o", "out.ppm"],
+                                  capture_output=True, text=True)
             self.assertEqual((done.returncode, done.stdout), (1, ""))
             self.assertEqual(done.stderr[:len(message) + 13], f"join-images: {message}")
             self.assertFalse(pathlib.Path("out.ppm").exists())

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""scripts/film: frames are those of the pipe, whatever the order and number of jobs; what is interrupted goes on.
+"""scripts/film: frames are those of the pipe, whatever the order and number of jobs; what is interrupted goes
+on.
 
 usage: film_test.py BIN_DIR [UNITTEST ARGUMENT...]
 """
@@ -34,8 +35,10 @@ triangle
 end
 """
 CONFIG = "50 40\n"
-KEYS = [(0, (3, 1, 6), (0, 0, 0), (0, 1, 0), 40), (1, (5, 2, 3), (0, 0.5, 0), (0, 1, 0.2), 30), (3, (4, 4, 1), (0, 0, 0), (0, 0, 1), 60)]
-PATH = "# time eye look up fovY\n" + "".join(f"{t} {' '.join(map(str, (*eye, *look, *up)))} {fov}\n" for t, eye, look, up, fov in KEYS)
+KEYS = [(0, (3, 1, 6), (0, 0, 0), (0, 1, 0), 40), (1, (5, 2, 3), (0, 0.5, 0), (0, 1, 0.2), 30),
+        (3, (4, 4, 1), (0, 0, 0), (0, 0, 1), 60)]
+PATH = "# time eye look up fovY\n" +"".join(f"{t} {' '.join(map(str, (*eye, *look, *up)))} {fov}\n"
+                                            for t, eye, look, up, fov in KEYS)
 
 
 def setUpModule():  # noqa: N802
@@ -44,14 +47,17 @@ def setUpModule():  # noqa: N802
 
 
 def film(*words, **settings):
-    return subprocess.run([FILM, *map(str, words)], capture_output=True, text=True, env=ENVIRONMENT, timeout=240, **settings)
+    return subprocess.run([FILM, *map(str, words)], capture_output=True, text=True, env=ENVIRONMENT,
+                          timeout=240, **settings)
 
 
 def frame(eye, look, up, fov_y=40):
     """The PNG that the pipe draws for a camera."""
     words = [" ".join(map(str, v)).split() for v in (eye, look, up)]
     pipe(["model"], ["view", "--eye", *words[0], "--look", *words[1], "--up", *words[2]],
-         ["project", "--perspective", str(fov_y), "1.25", "1", "30", "--aspect", "ratio"], ["zbuf", "config.txt", "--image", "one.png"], stdin=SCENE)
+         ["project", "--perspective",
+          str(fov_y), "1.25", "1", "30", "--aspect", "ratio"], ["zbuf", "config.txt", "--image", "one.png"],
+         stdin=SCENE)
     return pathlib.Path("one.png").read_bytes()
 
 
@@ -64,7 +70,9 @@ def cameras(folder):
     found = []
     for line in pathlib.Path(folder, "frames.txt").read_text().splitlines()[1:]:
         words = line.split()
-        found.append([tuple(map(float, words[words.index(name) + 1:words.index(name) + 4])) for name in ("--eye", "--look", "--up")])
+        found.append([
+            tuple(map(float, words[words.index(name) + 1:words.index(name) + 4]))
+            for name in ("--eye", "--look", "--up")])
     return found
 
 
@@ -87,7 +95,18 @@ class Pictures(FilmTest):
             self.assertEqual(len(drawn), 13)
             for t, eye, look, up, fov_y in KEYS:
                 length = math.hypot(*up)
-                self.assertEqual(drawn[f"{4 * t:05d}.png"], frame(eye, look, ["%.10g" % (x / length) for x in up], fov_y))
+                self.assertEqual(drawn[f"{4 * t:05d}.png"], frame(eye, look, [x / length for x in up], fov_y))
+
+    def test_cameras_keep_all_their_digits(self):
+        eyes = [(100000003.1234567, 1e-7, 6.0), (100000004.7654321, -3e-20, 5.0)]
+        keys = [f"{t} {' '.join(map(repr, eye))} 0 0 0 0 1 0\n" for t, eye in zip((0.2, 0.5), eyes)]
+        pathlib.Path("path.txt").write_text("".join(keys))
+        for mode in ([], ["--linear"]):
+            words = ["path.txt", "--fps", "10", *mode, "-o", "out"]
+            self.assertEqual(film("scene.txt", "config.txt", *words).returncode, 0)
+            found = [eye for eye, _, _ in cameras("out")]
+            self.assertEqual((len(found), found[0], found[-1]), (4, *eyes))
+            self.assertNotEqual(*[f"{eye[0]:.10g}" for eye in found[1:3]])
 
     def test_half_way_on_a_straight_line(self):
         self.make("path.txt", "--fps", "2", "--linear", "-o", "out")
@@ -95,8 +114,9 @@ class Pictures(FilmTest):
         self.assertEqual((eye, look), ((4, 1.5, 4.5), (0, 0.25, 0)))
 
     def test_half_way_on_the_curve(self):
-        """Half-way in an interval of length h the cubic is the mean of its ends, plus h/8 times the difference of their slopes; the slopes here are
-        (5 - 3)/1 at the first key and (4 - 3)/3 at the second, so x is 4 + 5/24."""
+        """Half-way in an interval of length h the cubic is the mean of its ends, plus h/8 times the
+        difference of their slopes; the slopes here are (5 - 3)/1 at the first key and (4 - 3)/3 at the
+        second, so x is 4 + 5/24."""
         self.make("path.txt", "--fps", "2", "-o", "out")
         self.assertAlmostEqual(cameras("out")[1][0][0], 4 + 5 / 24, 8)
 
@@ -105,9 +125,12 @@ class Pictures(FilmTest):
         seen = cameras("out")
         self.assertEqual(len(seen), 8)
         self.assertEqual(seen[0][:2], [(3, 1, 6), (0, 0, 0)])
-        # The middle is (0, 0, -0.5); a quarter of a turn about y takes (3, 1, 6.5) from there to (6.5, 1, -3).
+        # The middle is (0, 0, -0.5); a quarter of a turn about y takes (3, 1, 6.5) from there to (6.5, 1,
+        # -3).
         for x, y in zip(seen[2][0], (6.5, 1, -3.5)):
             self.assertAlmostEqual(x, y, 8)
+        # Without the last bits of sin and cos.
+        self.assertEqual((seen[4][0], seen[6][0]), ((-3, 1, -7), (-6.5, 1, 2.5)))
         self.assertEqual(frames("out")["00000.png"], frame((3, 1, 6), (0, 0, 0), (0, 1, 0)))
 
     def test_the_bytes_do_not_depend_on_the_jobs(self):
@@ -122,22 +145,29 @@ class Traced(FilmTest):
         self.make("path.txt", "--fps", "1", "--trace", "--no-shadows", "--samples", "5", "-o", "out")
         for t, eye, look, up, fov_y in KEYS:
             words = [" ".join(map(str, v)).split() for v in (eye, look, [x / math.hypot(*up) for x in up])]
-            stage2 = pipe(["model"], ["view", "--eye", *words[0], "--look", *words[1], "--up", *["%.10g" % float(x) for x in words[2]]], stdin=SCENE)
-            run("trace", "config.txt", "--perspective", str(fov_y), "1.25", "1", "30", "--aspect", "ratio", "--no-shadows", "--samples", "5", "--image", "one.png", stdin=stage2)
+            stage2 = pipe(["model"], ["view", "--eye", *words[0], "--look", *words[1], "--up", *words[2]],
+                          stdin=SCENE)
+            run("trace", "config.txt", "--perspective", str(fov_y), "1.25", "1", "30", "--aspect", "ratio",
+                "--no-shadows", "--samples", "5", "--image", "one.png", stdin=stage2)
             self.assertEqual(frames("out")[f"{t:05d}.png"], pathlib.Path("one.png").read_bytes())
 
     def test_traced_frames_take_the_place_of_those_of_zbuf(self):
         self.make("--turn", "1", "--fps", "2", "--samples", "2", "-o", "out")
         rasterized = frames("out")
         self.make("--turn", "1", "--fps", "2", "--samples", "2", "--trace", "-o", "out")
-        traced = pipe(["model"], ["view"], ["trace", "config.txt", "--samples", "2", "--image", "one.png"], stdin=SCENE)
+        traced = pipe(["model"], ["view"], ["trace", "config.txt", "--samples", "2", "--image", "one.png"],
+                      stdin=SCENE)
         self.assertTrue(traced)
         self.assertEqual(frames("out")["00000.png"], pathlib.Path("one.png").read_bytes())
         self.assertNotEqual(frames("out"), rasterized)
 
     def test_options_without_a_meaning_are_refused(self):
-        for words, reason in ((["--trace", "--coverage", "center"], "--coverage means nothing with --trace"), (["--no-recursion"], "--no-recursion is for trace: it needs --trace"),
-                              (["--samples", "5"], "expected 1 to 4 without --trace, found 5"), (["--trace", "--samples", "17"], "expected a whole number from 1 to 16, found '17'")):
+        for words, reason in ((["--trace",
+                                "--coverage", "center"], "--coverage means nothing with --trace"), ([
+                                    "--no-recursion"], "--no-recursion is for trace: it needs --trace"), ([
+                                        "--samples", "5"], "expected 1 to 4 without --trace, found 5"), ([
+                                            "--trace", "--samples",
+                                            "17"], "expected a whole number from 1 to 16, found '17'")):
             done = film("scene.txt", "config.txt", "--turn", "1", *words, "-o", "out")
             self.assertEqual((done.returncode, done.stdout), (2, ""))
             self.assertIn(reason, done.stderr)
@@ -145,8 +175,9 @@ class Traced(FilmTest):
 
 class Interruptions(FilmTest):
     def test_what_is_killed_goes_on(self):
-        process = subprocess.Popen([FILM, "scene.txt", "config.txt", "--turn", "12", "-o", "out", "--", "--jobs", "2"], env=ENVIRONMENT,
-                                   start_new_session=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        process = subprocess.Popen(
+            [FILM, "scene.txt", "config.txt", "--turn", "12", "-o", "out", "--", "--jobs", "2"],
+            env=ENVIRONMENT, start_new_session=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         end = time.monotonic() + 120
         while len(list(pathlib.Path("out").glob("*.png"))) < 20 and time.monotonic() < end:
             time.sleep(0.01)
@@ -169,13 +200,17 @@ class Interruptions(FilmTest):
         real.mkdir()
         for tool in ("model", "view", "project"):
             os.symlink(BIN / tool, real / tool)
-        (real / "zbuf").write_text(f"#!/bin/sh\nif [ -e started ] && [ ! -e killed ]; then touch killed; kill -9 $PPID; exit 1; fi\n"
-                                   f"touch started\nexec {BIN}/zbuf \"$@\"\n")
+        (real / "zbuf").write_text(
+            f"#!/bin/sh\nif [ -e started ] && [ ! -e killed ]; then touch killed; kill -9 $PPID; exit 1; fi\n"
+            f"touch started\nexec {BIN}/zbuf \"$@\"\n")
         (real / "zbuf").chmod(0o755)
-        words = [FILM, "scene.txt", "config.txt", "--turn", "1", "--fps", "20", "-o", "out", "--", "--jobs", "1"]
-        done = subprocess.run(words, env={**ENVIRONMENT, "BIN": str(real)}, capture_output=True, text=True, timeout=240)
+        words = [
+            FILM, "scene.txt", "config.txt", "--turn", "1", "--fps", "20", "-o", "out", "--", "--jobs", "1"]
+        done = subprocess.run(words, env={**ENVIRONMENT, "BIN": str(real)}, capture_output=True, text=True,
+                              timeout=240)
         self.assertEqual(done.returncode, 1, done.stderr)
-        self.assertRegex(done.stderr, r"film: \d+ of 20 frames have not been drawn, the first is 00001.png \(--eye ")
+        self.assertRegex(done.stderr,
+                         r"film: \d+ of 20 frames have not been drawn, the first is 00001.png \(--eye ")
         before = frames("out")
         self.assertTrue(0 < len(before) < 20)
         self.make("--turn", "1", "--fps", "20", "-o", "out")
@@ -197,11 +232,18 @@ class Interruptions(FilmTest):
         done = film("scene.txt", "config.txt", "--turn", "1", "--fps", "2", "-o", "out")
         self.assertEqual(done.returncode, 0)
         os.unlink("out/00001.png")
-        os.symlink("/nowhere/at/all.png", "out/00001.png")
-        done = film("scene.txt", "config.txt", "--turn", "1", "--fps", "2", "-o", "out")
+        os.mkdir("bin")
+        for tool in ("model", "view", "project"):
+            os.symlink(BIN / tool, f"bin/{tool}")
+        pathlib.Path("bin/zbuf").write_text("#!/bin/sh\necho zbuf: so it is >&2\nexit 1\n")
+        os.chmod("bin/zbuf", 0o755)
+        words = [FILM, "scene.txt", "config.txt", "--turn", "1", "--fps", "2", "-o", "out"]
+        environment = {**ENVIRONMENT, "BIN": os.path.abspath("bin")}
+        done = subprocess.run(words, capture_output=True, text=True, env=environment, timeout=240)
         self.assertEqual(done.returncode, 1)
-        self.assertIn("00001 (--eye -3 1 -7 --look 0 0 -1 --up 0 1 0): zbuf: cannot open 00001.png: No such file or directory\n", done.stderr)
-        self.assertIn("film: 1 of 2 frames have not been drawn, the first is 00001.png (--eye -3 1 -7 ", done.stderr)
+        self.assertIn("00001 (--eye -3 1 -7 --look 0 0 -1 --up 0 1 0): zbuf: so it is\n", done.stderr)
+        self.assertIn("film: 1 of 2 frames have not been drawn, the first is 00001.png (--eye -3 1 -7 ",
+                      done.stderr)
 
 
 class Outputs(FilmTest):
@@ -209,15 +251,19 @@ class Outputs(FilmTest):
         if not shutil.which("ffmpeg"):
             self.skipTest("ffmpeg is missing")
         self.make("--turn", "1", "--fps", "10", "-o", "turn.mp4")
-        words = ["ffprobe", "-v", "error", "-count_frames", "-show_entries", "stream=nb_read_frames,width,height,r_frame_rate", "-of", "csv=p=0", "turn.mp4"]
-        self.assertEqual(subprocess.run(words, capture_output=True, text=True, check=True).stdout.strip(), "50,40,10/1,10")
+        words = [
+            "ffprobe", "-v", "error", "-count_frames", "-show_entries",
+            "stream=nb_read_frames,width,height,r_frame_rate", "-of", "csv=p=0", "turn.mp4"]
+        self.assertEqual(
+            subprocess.run(words, capture_output=True, text=True, check=True).stdout.strip(), "50,40,10/1,10")
         self.assertFalse(pathlib.Path("turn.mp4.frames").exists())
 
     def test_other_machines(self):
         """Over a real sshd on this machine, under two names; bytes as without."""
         server = SshServer(self, ["worker1", "worker2"])
         self.make("path.txt", "--fps", "3", "-o", "near")
-        self.make("path.txt", "--fps", "3", "-o", "far", "--", *server.words, "--sshlogin", "1/worker1,1/worker2")
+        self.make("path.txt", "--fps", "3", "-o", "far", "--", *server.words, "--sshlogin",
+                  "1/worker1,1/worker2")
         self.assertEqual(len(frames("far")), 10)
         self.assertEqual(frames("far"), frames("near"))
 
@@ -225,7 +271,8 @@ class Outputs(FilmTest):
 class Sizes(FilmTest):
     def test_a_size_stands_for_a_config(self):
         self.make("path.txt", "--fps", "1", "-o", "out")
-        for words in (["scene.txt", "path.txt", "--size", "50x40"], ["--size", "50x40", "scene.txt", "path.txt"], ["scene.txt", "--size", "50x40", "path.txt"]):
+        for words in (["scene.txt", "path.txt", "--size", "50x40"], [
+                "--size", "50x40", "scene.txt", "path.txt"], ["scene.txt", "--size", "50x40", "path.txt"]):
             shutil.rmtree("other", ignore_errors=True)
             done = film(*words, "--fps", "1", "-o", "other")
             self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "", ""), words)
@@ -238,26 +285,38 @@ class Sizes(FilmTest):
         self.assertEqual(frames("other"), frames("out"))
 
     def test_wrong_ones_are_told(self):
-        for words, reason in ((["scene.txt", "--turn", "1"], "expected CONFIG or --size, found neither"),
-                              (["scene.txt", "config.txt", "path.txt", "--size", "5x4"], "expected either CONFIG or --size, found both"),
-                              (["scene.txt", "--turn", "1", "--size", "5"], "expected WIDTHxHEIGHT in pixels, such as 800x600, found '5'"),
-                              (["scene.txt", "--turn", "1", "--size", "0x4"], "expected WIDTHxHEIGHT in pixels, such as 800x600, found '0x4'"),
-                              (["scene.txt", "--size", "5x4"], "expected either PATH or --turn, found neither")):
+        for words, reason in ((["scene.txt", "--turn", "1"], "expected CONFIG or --size, found neither"), ([
+                "scene.txt", "config.txt", "path.txt", "--size",
+                "5x4"], "expected either CONFIG or --size, found both"), ([
+                    "scene.txt", "--turn", "1", "--size",
+                    "5"], "expected WIDTHxHEIGHT in pixels, such as 800x600, found '5'"), ([
+                        "scene.txt", "--turn", "1", "--size",
+                        "0x4"], "expected WIDTHxHEIGHT in pixels, such as 800x600, found '0x4'"), ([
+                            "scene.txt", "--size", "5x4"], "expected either PATH or --turn, found neither")):
             done = film(*words, "-o", "out")
             self.assertEqual((done.returncode, done.stdout), (2, ""))
             self.assertIn(reason, done.stderr)
         done = film("scene.txt", "--size", "5x4", "--turn", "1", "-o", "out.AVI")
         self.assertEqual((done.returncode, done.stdout), (2, ""))
-        self.assertIn("-o: expected a folder, or a film that ends in .mp4, .mkv, .webm, .gif, found 'out.AVI'", done.stderr)
+        self.assertIn(
+            "-o: expected a folder, or a film that ends in .mp4, .mkv, .webm, .gif, found 'out.AVI'",
+            done.stderr)
 
 
 class Refusals(FilmTest):
     def test_paths(self):
-        for text, reason in (("0 1 2 3\n", "path.txt:1: expected the time, eye, look and up"), ("", "path.txt: expected two cameras or more, found 0"),
-                             ("# one\n0 0 0 5 0 0 0 0 1 0\n", "found 1"), ("0 0 0 5 0 0 5 0 1 0\n", "path.txt:1: expected an eye apart from the look point"),
-                             ("0 0 0 5 0 0 0 0 0 1\n", "path.txt:1: expected an eye apart"), ("0 0 0 5 0 0 0 0 1 0 180\n", "path.txt:1: expected a fovY above 0"),
-                             ("1 0 0 5 0 0 0 0 1 0\n\n1 0 0 6 0 0 0 0 1 0\n", "path.txt:3: expected a time after 1, found 1"),
-                             ("0 0 0 5 0 0 0 0 1 0 30\n1 0 0 6 0 0 0 0 1 0\n", "path.txt:2: expected a fovY on every line or on none"),
+        for text, reason in (("0 1 2 3\n", "path.txt:1: expected the time, eye, look and up"),
+                             ("", "path.txt: expected two cameras or more, found 0"),
+                             ("# one\n0 0 0 5 0 0 0 0 1 0\n",
+                              "found 1"), ("0 0 0 5 0 0 5 0 1 0\n",
+                                           "path.txt:1: expected an eye apart from the look point"),
+                             ("0 0 0 5 0 0 0 0 0 1\n",
+                              "path.txt:1: expected an eye apart"), ("0 0 0 5 0 0 0 0 1 0 180\n",
+                                                                     "path.txt:1: expected a fovY above 0"),
+                             ("1 0 0 5 0 0 0 0 1 0\n\n1 0 0 6 0 0 0 0 1 0\n",
+                              "path.txt:3: expected a time after 1, found 1"),
+                             ("0 0 0 5 0 0 0 0 1 0 30\n1 0 0 6 0 0 0 0 1 0\n",
+                              "path.txt:2: expected a fovY on every line or on none"),
                              ("0 0 0 5 0 0 0 nan 1 0\n", "path.txt:1: expected the time")):
             pathlib.Path("path.txt").write_text(text)
             for mode in ([], ["--linear"]):
@@ -270,10 +329,12 @@ class Refusals(FilmTest):
         pathlib.Path("path.txt").write_text("0 0 0 5 0 0 0 0 1 0\n1 0 0 -5 0 0 0 0 1 0\n")
         done = film("scene.txt", "config.txt", "path.txt", "--linear", "-o", "out", "--fps", "2")
         self.assertEqual((done.returncode, done.stdout), (1, ""))
-        self.assertIn("film: at 0.5 s the way between the cameras leads through one that shows nothing", done.stderr)
+        self.assertIn("film: at 0.5 s the way between the cameras leads through one that shows nothing",
+                      done.stderr)
 
     def test_command_lines(self):
-        for words in (["path.txt", "--turn", "3", "-o", "out"], ["-o", "out"], ["path.txt"], ["--turn", "0", "-o", "out"], ["--turn", "2", "--fps", "x", "-o", "out"]):
+        for words in (["path.txt", "--turn", "3", "-o", "out"], ["-o", "out"], ["path.txt"], [
+                "--turn", "0", "-o", "out"], ["--turn", "2", "--fps", "x", "-o", "out"]):
             self.assertEqual(film("scene.txt", "config.txt", *words).returncode, 2, words)
 
     def test_scenes(self):
@@ -284,17 +345,24 @@ class Refusals(FilmTest):
 
     def test_a_sphere_needs_trace(self):
         camera, body = SCENE.split("\n", 4)[:4], SCENE.split("\n", 4)[4]
-        pathlib.Path("scene.txt").write_text("\n".join(camera) + "\n" + body.replace("triangle", "sphere 0 0 0 1  # one\ntriangle", 1))
+        pathlib.Path("scene.txt").write_text("\n".join(camera) + "\n" +
+                                             body.replace("triangle", "sphere 0 0 0 1  # one\ntriangle", 1))
         line = pathlib.Path("scene.txt").read_text().split("sphere")[0].count("\n") + 1
         done = film("scene.txt", "config.txt", "--turn", "1", "-o", "out")
-        self.assertEqual((done.returncode, done.stdout, done.stderr),
-                         (1, "", f"film: model: scene.txt:{line}:1: expected triangles alone, found a sphere: --trace draws it\n"))
+        self.assertEqual((done.returncode, done.stdout, done.stderr), (
+            1, "",
+            f"film: model: scene.txt:{line}:1: expected triangles alone, found a sphere: --trace draws it\n"))
         self.assertFalse(pathlib.Path("out").exists())
         self.make("--turn", "0.1", "--fps", "20", "--trace", "-o", "out")
         eye, look, up = cameras("out")[0]
-        words = [word for name, vector in (("--eye", eye), ("--look", look), ("--up", up)) for word in (name, *map(repr, vector))]
-        pipe(["model"], ["view", *words], ["trace", "config.txt", "-o", "expected.png"], stdin=pathlib.Path("scene.txt").read_text())
-        self.assertEqual(pathlib.Path("out/00000.png").read_bytes(), pathlib.Path("expected.png").read_bytes())
+        words = [
+            word for name, vector in (("--eye", eye), ("--look", look), ("--up", up))
+            for word in (name, *map(repr, vector))]
+        pipe(["model"], ["view", *words], ["trace", "config.txt", "-o", "expected.png"],
+             stdin=pathlib.Path("scene.txt").read_text())
+        self.assertEqual(
+            pathlib.Path("out/00000.png").read_bytes(),
+            pathlib.Path("expected.png").read_bytes())
 
     def test_a_turn_goes_around_the_middle_of_spheres(self):
         """Not of the points that describe them."""
@@ -308,7 +376,8 @@ class Refusals(FilmTest):
 class TransparentBackground(ToolTest):
     def setUp(self):
         super().setUp()
-        pathlib.Path("scene.txt").write_text(SCENE.replace("triangle", "background 200 100 50 0\ntriangle", 1))
+        pathlib.Path("scene.txt").write_text(SCENE.replace("triangle", "background 200 100 50 0\ntriangle",
+                                                           1))
         pathlib.Path("config.txt").write_text(CONFIG)
 
     def test_frames_of_a_folder_have_an_alpha_and_those_of_a_film_have_none(self):
@@ -316,10 +385,13 @@ class TransparentBackground(ToolTest):
         self.assertEqual([data[24:26] for data in frames("out").values()], [b"\x08\x06"] * 2)
         if not shutil.which("ffmpeg"):
             self.skipTest("ffmpeg is missing")
-        self.assertEqual(film("scene.txt", "config.txt", "--turn", "1", "--fps", "2", "-o", "out.mkv").stderr, "")
-        subprocess.run(["ffmpeg", "-loglevel", "error", "-i", "out.mkv", "-frames:v", "1", "first.ppm"], check=True, stdin=subprocess.DEVNULL)
+        self.assertEqual(
+            film("scene.txt", "config.txt", "--turn", "1", "--fps", "2", "-o", "out.mkv").stderr, "")
+        subprocess.run(["ffmpeg", "-loglevel", "error", "-i", "out.mkv", "-frames:v", "1", "first.ppm"],
+                       check=True, stdin=subprocess.DEVNULL)
         corner = pathlib.Path("first.ppm").read_bytes()[-3 * 50 * 40:][:3]
-        self.assertTrue(all(abs(found - expected) < 12 for found, expected in zip(corner, (200, 100, 50))), corner)
+        self.assertTrue(all(abs(found - expected) < 12 for found, expected in zip(corner, (200, 100, 50))),
+                        corner)
 
 
 if __name__ == "__main__":

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""scripts/fly in an invisible window: the tests send keys and compare its picture with the output of the pipe.
+"""scripts/fly in an invisible window: the tests send keys and compare its picture with the output of the
+pipe.
 
 usage: fly_test.py BIN_DIR [UNITTEST ARGUMENT...]
 """
@@ -108,7 +109,8 @@ class Traced(WindowTest):
 
         def traced(*words, view=()):
             pathlib.Path("expected.config").write_text(CONFIG)
-            pipe(["model"], ["view", *view], ["trace", "expected.config", "--no-shadows", *words, "--image", "expected.ppm"], stdin=SCENE)
+            pipe(["model"], ["view", *view],
+                 ["trace", "expected.config", "--no-shadows", *words, "--image", "expected.ppm"], stdin=SCENE)
             return pathlib.Path("expected.ppm").read_bytes()
 
         def shown_after(key):
@@ -124,7 +126,8 @@ class Traced(WindowTest):
         self.assertEqual(shown_after("2"), traced("--shading", "flat"))
         for key in ("c", "v", "z", "x", "b", "f"):
             self.assertEqual(shown_after(key), traced("--shading", "flat"))
-            self.assertEqual(window.status.cget("text"), "trace needs no clipping, and has neither --cull nor --wireframe")
+            self.assertEqual(window.status.cget("text"),
+                             "trace needs no clipping, and has neither --cull nor --wireframe")
         self.assertEqual(shown_after("r"), first)
         self.assertNotEqual(shown_after("w"), first)
         self.assertEqual(shown_after("s"), first)
@@ -149,7 +152,8 @@ class Flying(WindowTest):
         return self.window.status.cget("text")
 
     def ran(self):
-        """The stages that have run, in the order of the pipe: they run in parallel, so any may start first."""
+        """The stages that have run, in the order of the pipe: they run in parallel, so any may start
+        first."""
         path = pathlib.Path("ran")
         words = path.read_text().split() if path.exists() else []
         path.unlink(missing_ok=True)
@@ -169,7 +173,8 @@ class Flying(WindowTest):
                 self.press("r", key)
                 eye = [x + distance / 20 * step for x, step in zip((1, 2, 5), way)]
                 look = [distance / 20 * step for step in way]
-                self.assertEqual(self.shown(), frame_of(SCENE, view=["--eye", *map(repr, eye), "--look", *map(repr, look)]))
+                self.assertEqual(self.shown(),
+                                 frame_of(SCENE, view=["--eye", *map(repr, eye), "--look", *map(repr, look)]))
 
     def test_there_and_back_is_where_it_was(self):
         first = self.shown()
@@ -207,7 +212,8 @@ class Flying(WindowTest):
         eye = (math.cos(angle) + 5 * math.sin(angle), 2, 5 * math.cos(angle) - math.sin(angle))
         for got, want in zip(self.eye(), eye, strict=True):
             self.assertAlmostEqual(got, want, places=12)
-        self.assertEqual(self.shown(), frame_of(SCENE, view=["--eye", *map(repr, self.eye()), "--look", "0", "0", "0"]))
+        self.assertEqual(self.shown(),
+                         frame_of(SCENE, view=["--eye", *map(repr, self.eye()), "--look", "0", "0", "0"]))
         self.press("r")
         self.drag(0, 20)  # 8 degrees higher
         height = math.asin(2 / math.sqrt(30)) + math.radians(8)
@@ -228,7 +234,8 @@ class Flying(WindowTest):
         self.settle()
         for got, want in zip(self.eye(), (0.9, 1.8, 4.5), strict=True):
             self.assertAlmostEqual(got, want, places=12)
-        self.assertEqual(self.shown(), frame_of(SCENE, view=["--eye", *map(repr, self.eye()), "--look", "0", "0", "0"]))
+        self.assertEqual(self.shown(),
+                         frame_of(SCENE, view=["--eye", *map(repr, self.eye()), "--look", "0", "0", "0"]))
         self.window.picture.event_generate("<Button-5>")
         self.settle()
         self.assertEqual(self.shown(), first)
@@ -238,15 +245,21 @@ class Flying(WindowTest):
         self.assertFalse(lost.winfo_ismapped())
         self.press(*["Right"] * 60)  # 180 degrees
         self.assertTrue(lost.winfo_ismapped())
-        self.assertRegex(lost.cget("text"), r"^nothing is in sight: the scene is behind you, [\d.]+ away\nHome brings it back$")
+        self.assertRegex(lost.cget("text"),
+                         r"^nothing is in sight: the scene is behind you, [\d.]+ away\nHome brings it back$")
         self.press(*["Left"] * 30)
         self.assertIn("the scene is to the left, ", lost.cget("text"))
         self.press("Home")
         self.assertFalse(lost.winfo_ismapped())
         # All of it is in sight, and fills most of the window.
         eye, look, up = self.window.settings.camera.lines()
-        printed = pipe(["model"], ["view", "--eye", *eye, "--look", *look, "--up", *up], ["project"], stdin=SCENE).decode().split("\n")
-        reach = [max(abs(float(line.split()[axis])) for line in printed if line and not line[0].isalpha()) for axis in (0, 1)]
+        printed = pipe(["model"], ["view", "--eye", *eye, "--look", *look, "--up", *up], ["project"],
+                       stdin=SCENE).decode().split("\n")
+        reach = [
+            max(abs(float(line.split()[axis]))
+                for line in printed
+                if line and not line[0].isalpha())
+            for axis in (0, 1)]
         self.assertTrue(0.5 < max(reach) <= 1, reach)
 
     def test_h_shows_the_keys_and_hides_them(self):
@@ -268,7 +281,10 @@ class Flying(WindowTest):
         from lib.pipe_tools import Tools
         from fly_parts.window import FlyWindow
         # 1280 x 1024 is the screen: of a large config, what is left beside the window's other parts.
-        for config, line, size in ((CONFIG, "60 1 1 100", (640, 427)), (None, "60 1.6 1 100 ratio", (640, 400)), (None, "frustum -2 2 -1 1 1 9", (640, 320)), ("4000 1000\n", "60 1 1 100", (1152, 288))):
+        for config, line, size in ((CONFIG, "60 1 1 100", (640, 427)), (None, "60 1.6 1 100 ratio", (640,
+                                                                                                     400)),
+                                   (None, "frustum -2 2 -1 1 1 9", (640, 320)), ("4000 1000\n", "60 1 1 100",
+                                                                                 (1152, 288))):
             with self.subTest(line):
                 pathlib.Path("wide.txt").write_text(SCENE.replace("60 1 1 100", line))
                 window = FlyWindow(Tools(BIN), "wide.txt", config, least_width=640)
@@ -297,7 +313,8 @@ class Flying(WindowTest):
         self.assertEqual(self.shown(), frame_of(SCENE, project=[*clipped, "--cull", "back"]))
         for key, model in (("1", "none"), ("2", "flat"), ("3", "gouraud"), ("4", "phong")):
             self.press(key)
-            self.assertEqual(self.shown(), frame_of(SCENE, project=[*clipped, "--cull", "back"], zbuf=["--shading", model]))
+            self.assertEqual(self.shown(),
+                             frame_of(SCENE, project=[*clipped, "--cull", "back"], zbuf=["--shading", model]))
         self.press("v", "b", "4")
         self.assertEqual(self.shown(), frame_of(SCENE, zbuf=["--shading", "phong"]))
 
@@ -313,17 +330,23 @@ class Flying(WindowTest):
         step = math.sqrt(30) / 20
         self.assertEqual(self.shown(), frame_of(SCENE.replace("light 2 3 4", f"light {2 + step!r} 3 4")))
         self.press("u", "i")
-        self.assertEqual(self.shown(), frame_of(SCENE.replace("light 2 3 4", f"light {2 + step!r} {3 + step!r} {4 - step!r}")))
+        self.assertEqual(
+            self.shown(),
+            frame_of(SCENE.replace("light 2 3 4", f"light {2 + step!r} {3 + step!r} {4 - step!r}")))
 
     def test_a_frame_runs_the_stages_behind_what_changed(self):
-        for keys, stages in ((["w"], ["view", "project", "zbuf"]), (["Left"], ["view", "project", "zbuf"]), (["i"], ["view", "project", "zbuf"]),
-                             (["c"], ["project", "zbuf"]), (["b"], ["project", "zbuf"]), (["2"], ["zbuf"]), (["2"], []), (["p"], [])):
+        for keys, stages in ((["w"], ["view", "project", "zbuf"]), (["Left"], ["view", "project", "zbuf"]), ([
+                "i"], ["view", "project", "zbuf"]), (["c"], ["project",
+                                                             "zbuf"]), (["b"], ["project", "zbuf"]), (["2"], [
+                                                                 "zbuf"]), (["2"], []), (["p"], [])):
             self.press(*keys)
             self.assertEqual(self.ran(), stages, keys)
 
     def test_the_status_line_tells_what_was_reused(self):
         self.press("c")
-        self.assertRegex(self.status(), r"^model reused +view reused +project \d+ ms +zbuf \d+ ms +all \d+ ms +60 x 40 +--clip frustum$")
+        self.assertRegex(
+            self.status(),
+            r"^model reused +view reused +project \d+ ms +zbuf \d+ ms +all \d+ ms +60 x 40 +--clip frustum$")
 
     def test_another_size_runs_zbuf_alone_and_keeps_the_shape(self):
         root, picture = self.window.root, self.window.picture
@@ -359,7 +382,8 @@ class Flying(WindowTest):
 
     def test_p_without_a_move_changes_no_number(self):
         self.press("p")
-        self.assertEqual(pipe(["model"], stdin=pathlib.Path("fly.txt").read_text()), pipe(["model"], stdin=SCENE))
+        self.assertEqual(pipe(["model"], stdin=pathlib.Path("fly.txt").read_text()),
+                         pipe(["model"], stdin=SCENE))
 
     def test_P_writes_the_picture(self):
         from lib.pictures import read_picture
@@ -369,7 +393,8 @@ class Flying(WindowTest):
 
     def test_what_a_tool_refuses_is_said_and_taken_back(self):
         from lib.pipe_tools import Tools
-        pathlib.Path("dark.txt").write_text("\n".join(line for line in SCENE.split("\n") if not line.startswith("light")))
+        pathlib.Path("dark.txt").write_text("\n".join(line for line in SCENE.split("\n")
+                                                      if not line.startswith("light")))
         self.open(Tools(BIN), "dark.txt", CONFIG)
         first = self.shown()
         self.press("4")
@@ -387,20 +412,26 @@ class Framing(unittest.TestCase):
         return framing_distance(Ball((0, 0, 0), radius), {keyword: words})
 
     def test_the_ball_touches_no_side_of_the_window(self):
-        # The narrower half of the field is 30 degrees, whose sine is 1/2; 26.565 degrees, whose tangent is 1/2; 45 degrees.
-        for projection, sine in (("perspective 60 1 0.1 100", 1 / 2), ("perspective 60 2 0.1 100 ratio", 1 / 2), ("perspective 90 0.5 0.1 100 ratio", 1 / math.sqrt(5)), ("frustum -0.3 0.3 -0.1 0.1 0.1 100", 1 / math.sqrt(2))):
+        # The narrower half of the field is 30 degrees, whose sine is 1/2; 26.565 degrees, whose tangent is
+        # 1/2; 45 degrees.
+        for projection, sine in (("perspective 60 1 0.1 100",
+                                  1 / 2), ("perspective 60 2 0.1 100 ratio",
+                                           1 / 2), ("perspective 90 0.5 0.1 100 ratio", 1 / math.sqrt(5)),
+                                 ("frustum -0.3 0.3 -0.1 0.1 0.1 100", 1 / math.sqrt(2))):
             self.assertAlmostEqual(self.distance(projection), 1.05 / sine, msg=projection)
 
     def test_the_ball_is_around_triangles_and_spheres(self):
         from fly_parts.framing import Ball
         sphere = b"sphere\n1 2 3\n5 2 3\n1 6 3\n1 2 7\n\n"
         self.assertEqual(Ball.around(b"eye 0 0 1\n\n" + sphere), Ball((1, 2, 3), 4))
-        self.assertEqual(Ball.around(b"eye 0 0 1\n\n" + sphere + b"13 2 3\n13 2 3\n13 2 3\n\n"), Ball((5, 2, 3), 8))
+        self.assertEqual(Ball.around(b"eye 0 0 1\n\n" + sphere + b"13 2 3\n13 2 3\n13 2 3\n\n"),
+                         Ball((5, 2, 3), 8))
         self.assertIsNone(Ball.around(b"eye 0 0 1\n\n"))
 
     def test_near_and_far_are_kept_where_that_can_be(self):
-        self.assertAlmostEqual(self.distance("perspective 10 1 0.1 6"), 6 - 1.05)  # cut by the window rather than by far
-        self.assertAlmostEqual(self.distance("perspective 10 1 3 4"), 3 + 1.05)    # by far rather than by near
+        self.assertAlmostEqual(self.distance("perspective 10 1 0.1 6"),
+                               6 - 1.05)  # cut by the window rather than by far
+        self.assertAlmostEqual(self.distance("perspective 10 1 3 4"), 3 + 1.05)  # by far rather than by near
         self.assertAlmostEqual(self.distance("ortho -1 1 -1 1 2 9"), 2 + 1.05)
         self.assertAlmostEqual(self.distance("ortho -1 1 -1 1 -5 9"), 1.05)
         self.assertGreater(self.distance("perspective 60 1 0.1 100", 0.0), 0)
@@ -409,7 +440,9 @@ class Framing(unittest.TestCase):
         from fly_parts.camera import Camera
         from fly_parts.framing import Ball, direction
         camera = Camera.of("0 0 5".split(), "0 0 0".split(), "0 1 0".split())
-        for center, words in (((0, 0, 0), "straight ahead, 5 away"), ((0, 0, 8), "behind you, 3 away"), ((9, 0, 5), "to the right, 9 away"), ((-9, 0, 9), "behind you, to the left, 9.85 away"),
+        for center, words in (((0, 0, 0), "straight ahead, 5 away"), ((0, 0, 8), "behind you, 3 away"),
+                              ((9, 0, 5), "to the right, 9 away"), ((-9, 0, 9),
+                                                                    "behind you, to the left, 9.85 away"),
                               ((0, 9, 0), "above, 10.3 away"), ((-3, -4, 5), "to the left, below, 5 away")):
             self.assertEqual(direction(camera, Ball(center, 0.1)), words)
 
@@ -420,25 +453,36 @@ class Ending(ToolTest):
         pathlib.Path("scene.txt").write_text(SCENE)
         for number in (signal.SIGINT, signal.SIGTERM):
             # It prints a line when its window waits.
-            program = ("import sys; sys.path.insert(0, sys.argv[1]); sys.dont_write_bytecode = True; sys.argv[1:] = ['scene.txt']\n"
-                       "from importlib.machinery import SourceFileLoader as Loader; from fly_parts.window import FlyWindow\n"
-                       "draw = FlyWindow.tell; FlyWindow.tell = lambda *words: (draw(*words), print('.', flush=True), sys.stdout.flush())\n"
-                       "Loader('__main__', sys.path[0] + '/fly').load_module()")
-            process = subprocess.Popen([sys.executable, "-c", program, SOURCE / "scripts"], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+            program = (
+                "import sys; sys.path.insert(0, sys.argv[1]); sys.dont_write_bytecode = True; sys.argv[1:] = "
+                "['scene.txt']\n"
+                "from importlib.machinery import SourceFileLoader as Loader; from fly_parts.window import "
+                "FlyWindow\n"
+                "draw = FlyWindow.tell; FlyWindow.tell = lambda *words: (draw(*words), print('.', "
+                "flush=True), sys.stdout.flush())\n"
+                "Loader('__main__', sys.path[0] + '/fly').load_module()")
+            process = subprocess.Popen([sys.executable, "-c", program, SOURCE / "scripts"],
+                                       stdout=subprocess.PIPE, stderr=subprocess.PIPE,
                                        env={**os.environ, "BIN": str(BIN)}, preexec_fn=heed_signals)
             self.assertEqual(process.stdout.readline(), b".\n")
-            self.assertEqual((end_by_signal(process, number)[1], process.returncode), (b"", -number))
+            self.assertEqual((end_by_signal(process, number)[1].decode(), process.returncode),
+                             (f"fly: ended by {number.name}\n", -number))
 
     def test_escape_leaves(self):
         pathlib.Path("scene.txt").write_text(SCENE)
-        program = ("import sys; sys.path.insert(0, sys.argv[1]); sys.dont_write_bytecode = True; sys.argv[1:] = ['scene.txt']\n"
-                   "from importlib.machinery import SourceFileLoader as Loader; from fly_parts.window import FlyWindow\n"
-                   "run = FlyWindow.run\n"
-                   "def press(root): (root.focus_force(), root.event_generate('<KeyPress>', keysym='Escape')) if root.winfo_viewable() else root.after(10, press, root)\n"
-                   "def pressed(window): window.root.after(10, press, window.root); run(window)\n"
-                   "FlyWindow.run = pressed\n"
-                   "Loader('__main__', sys.path[0] + '/fly').load_module()")
-        done = subprocess.run([sys.executable, "-c", program, SOURCE / "scripts"], capture_output=True, text=True, timeout=60, env={**os.environ, "BIN": str(BIN)})
+        program = (
+            "import sys; sys.path.insert(0, sys.argv[1]); sys.dont_write_bytecode = True; sys.argv[1:] = "
+            "['scene.txt']\n"
+            "from importlib.machinery import SourceFileLoader as Loader; from fly_parts.window import "
+            "FlyWindow\n"
+            "run = FlyWindow.run\n"
+            "def press(root): (root.focus_force(), root.event_generate('<KeyPress>', keysym='Escape')) if "
+            "root.winfo_viewable() else root.after(10, press, root)\n"
+            "def pressed(window): window.root.after(10, press, window.root); run(window)\n"
+            "FlyWindow.run = pressed\n"
+            "Loader('__main__', sys.path[0] + '/fly').load_module()")
+        done = subprocess.run([sys.executable, "-c", program, SOURCE / "scripts"], capture_output=True,
+                              text=True, timeout=60, env={**os.environ, "BIN": str(BIN)})
         self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "", ""))
 
 
@@ -449,9 +493,13 @@ class TransparentBackground(ToolTest):
         from lib.pipe_tools import Tools
         images = []
         for alpha in ("", " 128"):
-            pathlib.Path("scene.txt").write_text(f"0 0 5\n0 0 0\n0 1 0\n60 1 1 100\nbackground 200 100.5 50{alpha}\ntriangle\n-1 -1 0\n1 -1 0\n0 1 0\nend\n")
+            pathlib.Path("scene.txt").write_text(
+                f"0 0 5\n0 0 0\n0 1 0\n60 1 1 100\nbackground 200 100.5 50{alpha}\ntriangle\n-1 -1 0\n1 -1 "
+                f"0\n0 1 0\nend\n"
+            )
             frames = FramePipe(Tools(BIN), "scene.txt")
-            images.append(frames.frame([["0", "0", "5"], ["0", "0", "0"], ["0", "1", "0"]], [], "20 20\n", []))
+            images.append(frames.frame([["0", "0", "5"], ["0", "0", "0"], ["0", "1", "0"]], [], "20 20\n",
+                                       []))
             frames.close()
         self.assertEqual(images[0][-3:], bytes((200, 101, 50)))
         self.assertEqual(*images)
@@ -466,7 +514,8 @@ class Messages(ToolTest):
     def test_what_is_wrong_with_the_scene_is_the_tools_message(self):
         pathlib.Path("scene.txt").write_text("1 2 x\n")
         done = self.fly("scene.txt")
-        self.assertEqual((done.returncode, done.stderr), (1, "fly: model: scene.txt:1:5: expected the z of the eye, found 'x'\n"))
+        self.assertEqual((done.returncode, done.stderr),
+                         (1, "fly: model: scene.txt:1:5: expected the z of the eye, found 'x'\n"))
 
     @unittest.skipIf(MISSING, f"needs {' and '.join(MISSING)}")
     def test_the_config_is_the_one_beside_the_scene(self):
@@ -482,17 +531,22 @@ class Messages(ToolTest):
         pathlib.Path("scene.txt").write_text(SCENE.replace("triangle", "sphere 0 0 0 1\ntriangle", 1))
         done = self.fly("scene.txt")
         line = pathlib.Path("scene.txt").read_text().split("sphere")[0].count("\n") + 1
-        self.assertEqual((done.returncode, done.stderr), (1, f"fly: model: scene.txt:{line}:1: expected triangles alone, found a sphere: --trace draws it\n"))
+        self.assertEqual(
+            (done.returncode, done.stderr),
+            (1,
+             f"fly: model: scene.txt:{line}:1: expected triangles alone, found a sphere: --trace draws it\n"))
 
     def test_options_of_trace_need_trace(self):
         for words, option in ((["--samples", "3"], "--samples"), (["--max-depth", "3"], "--max-depth")):
             done = self.fly("scene.txt", *words)
-            self.assertEqual((done.returncode, done.stderr.splitlines()[-1]), (2, f"fly: {option} is for trace: it needs --trace (try fly --help)"))
+            self.assertEqual((done.returncode, done.stderr.splitlines()[-1]),
+                             (2, f"fly: {option} is for trace: it needs --trace (try fly --help)"))
 
     @unittest.skipIf(MISSING, f"needs {' and '.join(MISSING)}")
     def test_without_a_display_it_says_so(self):
         done = self.fly("scene.txt")
-        self.assertEqual((done.returncode, done.stderr), (1, "fly: no display name and no $DISPLAY environment variable\n"))
+        self.assertEqual((done.returncode, done.stderr),
+                         (1, "fly: no display name and no $DISPLAY environment variable\n"))
 
 
 if __name__ == "__main__":

@@ -9,19 +9,26 @@ import io
 import json
 import os
 import pathlib
+import select
 import shutil
+import signal
 import struct
 import subprocess
 import sys
 import tarfile
+import tempfile
 import time
 import unittest
 import zipfile
+from unittest import mock
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "tools"))
-from toolbox import BIN, SOURCE, ToolTest, pseudo_terminal  # noqa: E402
+from toolbox import BIN, SOURCE, TOOLS, ToolTest, end_by_signal, heed_signals, pseudo_terminal  # noqa: E402
 
 sys.path.insert(0, str(SOURCE / "scripts"))
+from grade_parts import graders  # noqa: E402
+from grade_parts.contents import contents_of  # noqa: E402
+from grade_parts.hand_ins import find_hand_ins  # noqa: E402
 from judge_parts.mistakes import sentences  # noqa: E402
 
 SAMPLE = SOURCE / "samples/worked-example"
@@ -57,11 +64,13 @@ class ClassTest(ToolTest):
                 out.write(data)
         if mistake:
             where = os.fsdecode(folder)
-            subprocess.run([BIN / "zbuf", "tests/square/config.txt", f"{where}/stage3.txt", "--z-buffer", f"{where}/z_buffer.txt", "-o", f"{where}/out.bmp"], check=True)
+            subprocess.run([
+                BIN / "zbuf", "tests/square/config.txt", f"{where}/stage3.txt", "--z-buffer",
+                f"{where}/z_buffer.txt", "-o", f"{where}/out.bmp"], check=True)
 
     def grade(self, *words, status=0):
-        done = subprocess.run([SOURCE / "scripts/grade", "hand-ins", "tests", *words], capture_output=True, text=True, timeout=120,
-                              env={**os.environ, "BIN": str(BIN)})
+        done = subprocess.run([SOURCE / "scripts/grade", "hand-ins", "tests", *words], capture_output=True,
+                              text=True, timeout=120, env={**os.environ, "BIN": str(BIN)})
         self.assertEqual(done.returncode, status, done.stderr)
         self.assertNotIn("Traceback", done.stderr)
         return done
@@ -84,10 +93,12 @@ class Results(ClassTest):
     def test_swapped_folders_are_told(self):
         self.add("anna", files=("scene.txt", *FILES))  # one that has its scene, too
         self.add("ben")
-        done = subprocess.run([SOURCE / "scripts/grade", "tests", "hand-ins"], capture_output=True, text=True, timeout=120,
-                              env={**os.environ, "BIN": str(BIN)})
-        self.assertEqual((done.returncode, done.stderr), (2, "grade: tests holds tests, folders with a scene.txt: expected the hand-ins first, "
-                                                             "grade HANDINS TESTS\n"))
+        done = subprocess.run([SOURCE / "scripts/grade", "tests", "hand-ins"], capture_output=True, text=True,
+                              timeout=120, env={**os.environ, "BIN": str(BIN)})
+        self.assertEqual(
+            (done.returncode, done.stderr),
+            (2, "grade: tests holds tests, folders with a scene.txt: expected the hand-ins first, "
+             "grade HANDINS TESTS\n"))
         self.assertFalse(pathlib.Path("graded").exists())
 
     def test_points_pages_and_table(self):
@@ -97,16 +108,21 @@ class Results(ClassTest):
         os.unlink("hand-ins/carl/out.bmp")
         done = self.grade("--hints", "fix")
         self.assertEqual(self.scores(), {"anna": 1.0, "ben": 0.8, "carl": 0.6})
-        self.assertEqual(done.stdout, "| hand-ins | stage   | what                                 |\n"
-                                      "| -------- | ------- | ------------------------------------ |\n"
-                                      "| 2        | project | The coordinates are not divided by w |\n"
-                                      "| 1        | zbuf    | not handed in                        |\n\n3 hand-ins, 1 right in all tests.\n\n"
-                                      "Written to graded: grades.csv, mistakes.md and, for each hand-in, page.html and results.json, "
-                                      "such as graded/1-anna/page.html.\n")
+        self.assertEqual(
+            done.stdout, "| hand-ins | stage   | what                                 |\n"
+            "| -------- | ------- | ------------------------------------ |\n"
+            "| 2        | project | The coordinates are not divided by w |\n"
+            "| 1        | zbuf    | not handed in                        |\n\n3 hand-ins, 1 right in all "
+            "tests.\n\n"
+            "Written to graded: grades.csv, mistakes.md and, for each hand-in, page.html and results.json, "
+            "such as graded/1-anna/page.html.\n")
         self.assertTrue(pathlib.Path("graded/1-anna/page.html").is_file())
-        self.assertEqual(pathlib.Path("graded/mistakes.md").read_text(), done.stdout.partition("\nWritten")[0])
+        self.assertEqual(
+            pathlib.Path("graded/mistakes.md").read_text(),
+            done.stdout.partition("\nWritten")[0])
         results = self.results(2)
-        self.assertEqual((results["score"], [(test["name"], test["score"], test["max_score"]) for test in results["tests"]]), (0.8, [("square", 0.8, 1.0)]))
+        self.assertEqual((results["score"], [(test["name"], test["score"], test["max_score"])
+                                             for test in results["tests"]]), (0.8, [("square", 0.8, 1.0)]))
         self.assertIn(DIVIDE, results["tests"][0]["output"])
         self.assertIn(DIVIDE_FIX, results["tests"][0]["output"])
         self.assertEqual(self.page(1).count("data:image/png;base64,"), 2)
@@ -114,11 +130,13 @@ class Results(ClassTest):
 
     def test_hints(self):
         self.add("ben", mistake=True)
-        for level, shown in (("none", (False, False, False)), ("stage", (True, False, False)), ("cause", (True, True, False)), ("fix", (True, True, True))):
+        for level, shown in (("none", (False, False, False)), ("stage", (True, False, False)),
+                             ("cause", (True, True, False)), ("fix", (True, True, True))):
             with self.subTest(level):
                 self.grade("--hints", level)
                 for text in (self.page(1), json.dumps(self.results(1))):
-                    self.assertEqual(tuple(words in text for words in ("stage3.txt", DIVIDE, DIVIDE_FIX)), shown)
+                    self.assertEqual(tuple(words in text for words in ("stage3.txt", DIVIDE, DIVIDE_FIX)),
+                                     shown)
                 self.assertEqual("0.8660254" in self.page(1), level in ("cause", "fix"))  # the right number
                 self.assertIn(DIVIDE, self.rows()[0]["square verdict"])
         self.grade("--hints", "none")
@@ -138,7 +156,9 @@ class Results(ClassTest):
         self.assertEqual([row["max_score"] for row in self.rows()], ["4.0", "4.0"])
         for word in ("x", "-1", "nan", "inf"):
             pathlib.Path("tests/b/weight.txt").write_text(word)
-            self.assertEqual(self.grade(status=2).stderr, f"grade: tests/b/weight.txt: expected a number of at least 0, found '{word}'\n")
+            self.assertEqual(
+                self.grade(status=2).stderr,
+                f"grade: tests/b/weight.txt: expected a number of at least 0, found '{word}'\n")
 
     def test_archives(self):
         self.add("anna", "wrapped", "square")
@@ -153,6 +173,38 @@ class Results(ClassTest):
         self.grade()
         self.assertEqual(self.scores(), {"anna": 1.0})
 
+    def test_results_of_an_earlier_run_go(self):
+        """Else the pages with names would stay beside those without."""
+        self.add("ada")
+        self.grade()
+        for path in ("graded/1-ada/comment.txt", "graded/1-mine", "graded/mine.csv"):
+            pathlib.Path(path).write_text("mine")
+        self.grade("--anonymous")
+        files = [path for path in pathlib.Path("graded").rglob("*") if path.is_file()]
+        self.assertEqual({str(path.relative_to("graded")) for path in files},
+                         {".pipeline-grade", "1-ada/comment.txt", "1-mine", "mine.csv", "grades.csv",
+                          "mistakes.md", "numbers.csv", "1/page.html", "1/results.json"})
+
+    def test_links_in_out_are_not_followed(self):
+        self.add("ada")
+        self.grade()
+        os.mkdir("elsewhere")
+        pathlib.Path("precious").write_text("mine")
+        shutil.rmtree("graded/1-ada")
+        os.symlink("../elsewhere", "graded/1-ada")
+        os.unlink("graded/grades.csv")
+        os.symlink("../precious", "graded/grades.csv")
+        self.grade()
+        self.assertEqual((os.listdir("elsewhere"), pathlib.Path("precious").read_text()), ([], "mine"))
+
+    def test_out_among_the_hand_ins_is_refused(self):
+        """The next run would judge it as a hand-in."""
+        self.add("ada")
+        for place, name in (("hand-ins/graded", "HANDINS 'hand-ins'"), ("tests/graded", "TESTS 'tests'")):
+            done = self.grade("-o", place, status=2)
+            message = f"grade: -o: expected a folder outside of {name}, found '{place}' (try grade --help)\n"
+            self.assertEqual((done.stderr, os.path.exists(place)), (message, False))
+
     def test_anonymous(self):
         self.add("Anna Example", mistake=True)
         self.add("Ben Example")
@@ -162,20 +214,32 @@ class Results(ClassTest):
             if path.is_file() and path.name != "numbers.csv":
                 self.assertNotIn("Example", path.read_text(), path)
         of = {row["hand-in"]: row["number"] for row in csv.DictReader(open("graded/numbers.csv", newline=""))}
-        self.assertEqual({row["number"]: row["score"] for row in self.rows()}, {of["Anna Example"]: "0.8", of["Ben Example"]: "1.0"})
+        self.assertEqual({row["number"]: row["score"]
+                          for row in self.rows()}, {of["Anna Example"]: "0.8", of["Ben Example"]: "1.0"})
 
     def test_a_bar_on_a_terminal(self):
         self.add("anna")
         ours, theirs = pseudo_terminal()
-        subprocess.run([SOURCE / "scripts/grade", "hand-ins", "tests"], stdout=subprocess.DEVNULL, stderr=theirs, env={**os.environ, "BIN": str(BIN)}, check=True)
+        subprocess.run([SOURCE / "scripts/grade", "hand-ins", "tests"], stdout=subprocess.DEVNULL,
+                       stderr=theirs, env={**os.environ, "BIN": str(BIN)}, check=True)
         os.close(theirs)
         shown = os.read(ours, 10000)
         os.close(ours)
         self.assertIn(b"] 0/1", shown)
         self.assertIn(b"[" + b"#" * 30 + b"] 1/1", shown)
 
+    def test_a_table_that_cannot_be_printed_is_said(self):
+        self.add("anna")
+        for channel, reason in ((">&-", "Bad file descriptor"), ("> /dev/full", "No space left on device")):
+            line = ["sh", "-c", f'"$0" hand-ins tests {channel}', SOURCE / "scripts/grade"]
+            done = subprocess.run(line, stderr=subprocess.PIPE, text=True, timeout=120,
+                                  env={**os.environ, "BIN": str(BIN)})
+            self.assertEqual((done.returncode, done.stderr), (1, f"grade: cannot write <stdout>: {reason}\n"))
+            self.assertEqual(self.scores(), {"anna": 1.0})
+
     def test_nothing_to_grade(self):
-        self.assertEqual(self.grade(status=2).stderr, "grade: hand-ins: expected folders or archives, found none\n")
+        self.assertEqual(
+            self.grade(status=2).stderr, "grade: hand-ins: expected folders or archives, found none\n")
         self.add("anna")
         pathlib.Path("tests/square/scene.txt").write_text("1 2\n")
         self.assertRegex(self.grade(status=2).stderr, r"\Agrade: tests/square: the scene is refused: model: ")
@@ -201,17 +265,23 @@ class Hostile(ClassTest):
 
     def test_names(self):
         long = "n" * 250
-        names = ["a\nb", "-rf", "\x1b[31mred\x07", b"\xff\xfe", "=HYPERLINK(1)", "<script>alert(1)</script>".replace("/", "|"), "\u202etxt", long, "a,b\"c", "%s%n"]
+        formulas = ["=HYPERLINK(1)", "@SUM(1)", "+1", "-rf", " =1+1",
+                    "\uff1d1+1", " \uff0b1", "\uff0d1", "\uff20SUM(1)", "\ufe661"]
+        names = [
+            *formulas, "a\nb", "\x1b[31mred\x07", b"\xff\xfe", "<script>alert(1)</script>".replace("/", "|"),
+            "\u202etxt", long, "a,b\"c", "%s%n"]
         for name in names:
             self.add(name)
         rows, _ = self.judge(status=0)
         self.assertEqual(len(rows), len(names) + 1)
         self.assertEqual({float(row["score"]) for row in rows.values()}, {1.0})
-        self.assertTrue({"a\\nb", "'-rf", "\\x1b[31mred\\x07", "\\xff\\xfe", "'=HYPERLINK(1)", "\\u202etxt"} <= set(rows))
+        self.assertTrue({*("'" + name for name in formulas)} <= set(rows))
+        self.assertTrue({"a\\nb", "\\x1b[31mred\\x07", "\\xff\\xfe", "\\u202etxt"} <= set(rows))
         for path in pathlib.Path("graded").iterdir():
             self.assertRegex(path.name, r"\A[A-Za-z0-9._-]{1,66}\Z")
         for page in pathlib.Path("graded").glob("*/page.html"):
             self.assertNotIn("<script", page.read_text())
+            self.assertIn("Content-Security-Policy\" content=\"default-src 'none';", page.read_text())
             self.assertNotRegex(page.read_text(), "[\x00-\x08\x0b-\x1f]")
 
     def test_names_of_files(self):
@@ -242,15 +312,23 @@ class Hostile(ClassTest):
                 info.type, info.linkname = kind, target
                 archive.addfile(info)
 
+    def test_what_a_system_adds_to_an_archive_is_no_file_of_the_hand_in(self):
+        added = [("__MACOSX/stage1.txt", b"\0\5\26\7"), ("__MACOSX/._stage1.txt", b"")]
+        self.zip("zip", added + [("in/" + name, data) for name, data in self.members()])
+        rows, _ = self.judge(status=0)
+        self.assertEqual((float(rows["zip"]["score"]), rows["zip"]["remarks"]), (0.8, ""))
+
     def test_archives_that_climb_out(self):
         picture = (SAMPLE / "out.bmp").read_bytes()
-        for i, path in enumerate(("../out.bmp", "/tmp/out.bmp", "a/../../out.bmp", "..\\out.bmp", "C:\\out.bmp")):
+        for i, path in enumerate(
+            ("../out.bmp", "/tmp/out.bmp", "a/../../out.bmp", "..\\out.bmp", "C:\\out.bmp")):
             self.zip(f"zip{i}", self.members((path, picture)))
             self.tar(f"tar{i}", (), self.members((path, picture)))
         rows, _ = self.judge(status=0)
         for name, row in rows.items():
             if name != "zoe":
-                self.assertEqual((float(row["score"]), row["remarks"]), (0.8, "1 entry not looked at: their paths lead out"), name)
+                self.assertEqual((float(row["score"]), row["remarks"]),
+                                 (0.8, "1 entry not looked at: their paths lead out"), name)
 
     def test_links_and_devices(self):
         pathlib.Path("tests/secret").write_text(SECRET + " 0 0\n" * 3)
@@ -262,22 +340,85 @@ class Hostile(ClassTest):
         os.symlink(SAMPLE, "hand-ins/inner/square")
         os.symlink(SAMPLE, "hand-ins/itself")
         os.symlink(SAMPLE, "hand-ins/itself.zip")
+        shutil.make_archive("elsewhere", "zip", SAMPLE)
+        os.symlink("../elsewhere.zip", "hand-ins/link.zip")
         os.symlink("/dev/zero", "hand-ins/zero.tar")
         os.mkfifo("hand-ins/pipe.tar.gz")
-        kinds = (tarfile.SYMTYPE, secret), (tarfile.LNKTYPE, secret), (tarfile.CHRTYPE, ""), (tarfile.FIFOTYPE, ""), (tarfile.LNKTYPE, "stage2.txt")
+        kinds = (tarfile.SYMTYPE, secret), (tarfile.LNKTYPE, secret), (tarfile.CHRTYPE,
+                                                                       ""), (tarfile.FIFOTYPE,
+                                                                             ""), (tarfile.LNKTYPE,
+                                                                                   "stage2.txt")
         for i, (kind, target) in enumerate(kinds):
             self.tar(f"tar{i}", [("stage1.txt", kind, target)], self.members()[1:])
         info = zipfile.ZipInfo("stage1.txt")
         info.external_attr = 0o120777 << 16
         self.zip("zip", [(info, secret), *self.members()[1:]])
         rows, seconds = self.judge()
-        self.assertEqual({name: float(row["score"]) for name, row in rows.items()},
-                         {"zoe": 1.0, "folder": 0.6, "inner": 0.0, "itself": 0.0, "zero": 0.0, "pipe": 0.0, "zip": 0.6, **{f"tar{i}": 0.6 for i in range(5)}})
+        self.assertEqual({name: float(row["score"])
+                          for name, row in rows.items()}, {
+                              "zoe": 1.0, "folder": 0.6, "inner": 0.0, "itself": 0.0, "link": 0.0,
+                              "zero": 0.0, "pipe": 0.0, "zip": 0.6, **{f"tar{i}": 0.6
+                                                                       for i in range(5)}})
         self.assertIn("1 entry not looked at: links", rows["folder"]["remarks"])
         self.assertIn("1 entry not looked at: devices and pipes", rows["folder"]["remarks"])
         for path in pathlib.Path("graded").rglob("*.*"):
             if path.is_file():
                 self.assertNotIn(SECRET, path.read_text())
+
+    def test_links_that_replace_what_was_listed(self):
+        self.add("a", "in")
+        contents = contents_of("hand-ins/a")
+        os.rename("hand-ins/a/in/stage1.txt", "stage1.txt")
+        os.symlink("../../../stage1.txt", "hand-ins/a/in/stage1.txt")
+        self.assertTrue(contents.read(("in", "stage2.txt"), 10**6))
+        with self.assertRaises(OSError):
+            contents.read(("in", "stage1.txt"), 10**6)
+        os.rename("hand-ins/a/in", "in")
+        os.symlink("../../in", "hand-ins/a/in")
+        with self.assertRaises(OSError):
+            contents.read(("in", "stage2.txt"), 10**6)
+
+    def test_what_a_judge_writes_has_a_limit(self):
+        def greedy(*_):
+            with open("large", "wb") as file:
+                file.truncate(1 << 30)
+                file.truncate((1 << 30) + 1)
+
+        with mock.patch.object(graders, "grade", greedy), mock.patch.object(graders.traceback, "print_exc"):
+            hand_in = find_hand_ins("hand-ins", False)[0][0]
+            (_, graded), = graders.grade_all([hand_in], [], "none", graders.Limits(60, 2048, 1))
+        self.assertEqual(graded.failure, "It could not be judged: OSError.")
+        self.assertEqual(os.path.getsize("large"), 1 << 30)
+
+    def test_no_judge_and_none_of_its_tools_outlives_grade(self):
+        os.mkdir("tools")
+        os.mkfifo("held")
+        for tool in TOOLS:
+            os.symlink(BIN / tool, f"tools/{tool}")
+        os.unlink("tools/project")
+        pathlib.Path("tools/project").write_text('#!/bin/sh\n[ "$1" != --scene ] || exec sleep 100 > held\n'
+                                                 f'exec {BIN}/project "$@"\n')
+        os.chmod("tools/project", 0o755)
+        for number in (signal.SIGKILL, signal.SIGTERM, signal.SIGHUP, signal.SIGINT):
+            with self.subTest(number), tempfile.TemporaryDirectory() as temporary:
+                reader, writer = os.pipe()  # which the judge inherits
+                self.addCleanup(os.close, reader)
+                with open("told", "w") as told:
+                    grade = subprocess.Popen([SOURCE / "scripts/grade", "hand-ins", "tests"], stderr=told,
+                                             stdout=subprocess.DEVNULL, pass_fds=[writer
+                                                                                  ], preexec_fn=heed_signals,
+                                             env={**os.environ, "BIN": "tools", "TMPDIR": temporary})
+                os.close(writer)
+                with open("held", "rb") as tool:  # once a judge's tool has opened it
+                    end_by_signal(grade, number)
+                    for end in (tool.fileno(), reader):
+                        self.assertTrue(select.select([end], [], [], 60)[0])
+                        self.assertEqual(os.read(end, 1), b"")
+                self.assertEqual(grade.returncode, -number)
+                name = signal.Signals(number).name
+                self.assertRegex(pathlib.Path("told").read_text(), rf"\A(grade: ended by {name}\n)?\Z")
+                if number != signal.SIGKILL:
+                    self.assertEqual(os.listdir(temporary), [])
 
     def test_archives_that_swell(self):
         with zipfile.ZipFile("hand-ins/zip.zip", "w", zipfile.ZIP_DEFLATED) as archive:
@@ -331,19 +472,27 @@ class Hostile(ClassTest):
         pathlib.Path("hand-ins/folders/" + "d/" * 900).mkdir(parents=True)
         self.zip("deeper", [("d/" * 5000 + "stage1.txt", b"1 2 3\n")])
         rows, _ = self.judge()
-        self.assertEqual({name: float(row["score"]) for name, row in rows.items()}, {"zoe": 1.0, "many": 0.0, "many too": 0.0, "deep": 0.0, "folders": 1.0, "deeper": 0.0})
+        self.assertEqual(
+            {name: float(row["score"])
+             for name, row in rows.items()},
+            {"zoe": 1.0, "many": 0.0, "many too": 0.0, "deep": 0.0, "folders": 1.0, "deeper": 0.0})
         for name in ("many", "many too"):
             self.assertIn("more than 20000 files", rows[name]["remarks"])
 
     def test_pictures_that_lie(self):
         header = (SAMPLE / "out.bmp").read_bytes()[:54]
-        png_size = b"\x89PNG\r\n\x1a\n" + struct.pack(">I4sIIBBBBBI", 13, b"IHDR", 2**31 - 1, 2**31 - 1, 8, 2, 0, 0, 0, 0)
-        for i, data in enumerate((header, header[:18] + struct.pack("<ii", 2**31 - 1, -2**31) + header[26:], header[:10] + b"\xff" * 4 + header[14:], png_size,
-                                  b"P6 999999999 999999999 255\n")):
+        png_size = b"\x89PNG\r\n\x1a\n" + struct.pack(">I4sIIBBBBBI", 13, b"IHDR", 2**31 - 1, 2**31 - 1, 8, 2,
+                                                      0, 0, 0, 0)
+        for i, data in enumerate(
+            (header, header[:18] + struct.pack("<ii", 2**31 - 1, -2**31) + header[26:],
+             header[:10] + b"\xff" * 4 + header[14:], png_size, b"P6 999999999 999999999 255\n",
+             png_size[:16] + struct.pack(">II", 5790, 5790) + png_size[24:])):
             self.add(f"{i}", files=FILES[:4])
             pathlib.Path(f"hand-ins/{i}/out.bmp").write_bytes(data)
         rows, _ = self.judge(status=0)
-        self.assertEqual([float(rows[f"{i}"]["score"]) for i in range(5)], [0.8] * 5)
+        self.assertEqual([float(rows[f"{i}"]["score"]) for i in range(6)], [0.8] * 6)
+        # By its header alone: there is nothing to unpack.
+        self.assertIn("expected 10 x 10 pixels, found 5790 x 5790", self.page(6))
 
     def test_endless_files(self):
         self.add("a", files=())
@@ -375,7 +524,8 @@ class Hostile(ClassTest):
         pathlib.Path("hand-ins/a/stage3.txt").write_text("-9 -9 0\n9 -9 0\n0 9 .5\n" * 30_000)
         self.grade("--time-limit", "0.01", status=1)
         # The other one may be done before anybody looks.
-        self.assertIn("takes longer than 0.01 s", {row["hand-in"]: row["remarks"] for row in self.rows()}["a"])
+        self.assertIn("takes longer than 0.01 s", {row["hand-in"]: row["remarks"]
+                                                   for row in self.rows()}["a"])
         self.grade("--memory-limit", "1", status=1)
         self.assertIn("needs more than 1 MiB of memory", self.rows()[0]["remarks"])
 

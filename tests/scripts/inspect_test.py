@@ -5,19 +5,22 @@ usage: inspect_test.py BIN_DIR [UNITTEST ARGUMENT...]
 """
 import base64
 import math
+import os
 import pathlib
 import re
 import shutil
 import subprocess
 import sys
 import unittest
+from unittest import mock
 
 from browser import MISSING, Browser
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "tools"))
 from toolbox import BIN, SOURCE, ToolTest, pipe, run, stage_texts  # noqa: E402
 
-TAB, ESCAPE, LEFT, UP, RIGHT, DOWN, HOME, SHIFT = "\ue004", "\ue00c", "\ue012", "\ue013", "\ue014", "\ue015", "\ue011", "\ue008"
+TAB, ESCAPE, LEFT, UP, RIGHT, DOWN, HOME, SHIFT = ("\ue004", "\ue00c", "\ue012", "\ue013", "\ue014", "\ue015",
+                                                   "\ue011", "\ue008")
 sys.path.insert(0, str(SOURCE / "scripts"))
 from lib.pictures import read_picture  # noqa: E402
 
@@ -29,8 +32,8 @@ RAYS = ("ray-primary", "ray-shadow", "ray-mirrored", "ray-refracted")
 
 
 def inspect(*words):
-    return subprocess.run([SOURCE / "scripts/inspect", *map(str, words)], capture_output=True, text=True, timeout=300,
-                          env={"BIN": str(BIN), "PATH": "/usr/bin:/bin", "LANG": "C.UTF-8"})
+    return subprocess.run([SOURCE / "scripts/inspect", *map(str, words)], capture_output=True, text=True,
+                          timeout=300, env={"BIN": str(BIN), "PATH": "/usr/bin:/bin", "LANG": "C.UTF-8"})
 
 
 class Messages(ToolTest):
@@ -44,18 +47,26 @@ class Messages(ToolTest):
     def test_a_sphere_needs_trace(self):
         pathlib.Path("scene.txt").write_text(SCENE.replace("triangle", "sphere 0 0 0 1\ntriangle", 1))
         done = inspect("scene.txt", "config.txt", "-o", "page.html")
-        self.assertEqual((done.returncode, done.stderr), (1, "inspect: model: scene.txt:5:1: expected triangles alone, found a sphere: --trace draws it\n"))
+        self.assertEqual(
+            (done.returncode, done.stderr),
+            (1,
+             "inspect: model: scene.txt:5:1: expected triangles alone, found a sphere: --trace draws it\n"))
         self.assertEqual(self.files(), ["config.txt", "scene.txt"])
 
     def test_a_missing_scene_is_named(self):
         done = inspect("none.txt", "config.txt")
-        self.assertEqual((done.returncode, done.stderr), (1, "inspect: cannot read none.txt: No such file or directory\n"))
+        self.assertEqual((done.returncode, done.stderr),
+                         (1, "inspect: cannot read none.txt: No such file or directory\n"))
 
     def test_options_without_a_meaning_are_refused(self):
-        for words, reason in ((["--trace", "--theirs", "."], "--theirs means nothing with --trace: a hand-in is compared with project and zbuf"),
-                              (["--no-shadows"], "--no-shadows is for trace: it needs --trace"), (["--samples", "3"], "--samples is for trace: it needs --trace")):
+        for words, reason in (([
+                "--trace", "--theirs",
+                "."], "--theirs means nothing with --trace: a hand-in is compared with project and zbuf"), ([
+                    "--no-shadows"], "--no-shadows is for trace: it needs --trace"), ([
+                        "--samples", "3"], "--samples is for trace: it needs --trace")):
             done = inspect("scene.txt", "config.txt", *words)
-            self.assertEqual((done.returncode, done.stderr.splitlines()[-1]), (2, f"inspect: {reason} (try inspect --help)"))
+            self.assertEqual((done.returncode, done.stderr.splitlines()[-1]),
+                             (2, f"inspect: {reason} (try inspect --help)"))
 
     def test_the_page_stands_alone(self):
         self.assertEqual(inspect("scene.txt", "config.txt", "-o", "page.html").returncode, 0)
@@ -64,11 +75,21 @@ class Messages(ToolTest):
             self.assertNotIn(word, page)
 
 
+class WithoutABrowser(ToolTest):
+    def test_one_that_cannot_start_is_a_skip_with_its_reason(self):
+        pathlib.Path("chromedriver").write_text("#!/bin/sh\nexit 3\n")
+        os.chmod("chromedriver", 0o755)
+        with mock.patch.dict(os.environ, PATH=os.getcwd()), self.assertRaises(unittest.SkipTest) as raised:
+            Browser()
+        self.assertEqual(str(raised.exception), "chromium cannot start: chromedriver ended with status 3")
+
+
 class Frustum(ToolTest):
     def test_is_the_one_that_project_uses(self):
         sys.path.insert(0, str(SOURCE / "scripts"))
         from lib.projection import window_of
-        for projection in ("60 1.5 0.5 100", "60 1.5 0.5 100 ratio", "frustum -1 2 -3 4 5 6", "ortho -1 2 -3 4 -5 6"):
+        for projection in ("60 1.5 0.5 100", "60 1.5 0.5 100 ratio", "frustum -1 2 -3 4 5 6",
+                           "ortho -1 2 -3 4 -5 6"):
             with self.subTest(projection):
                 line = projection if projection[0].isalpha() else "perspective " + projection
                 keyword, *words = line.split()
@@ -107,19 +128,26 @@ class InABrowser(ToolTest):
 
     def hot_lines(self, tool):
         """Numbers and texts of the marked lines."""
-        return self.browser.run("return [...document.querySelectorAll('#text-' + arguments[0] + ' .hot')].map("
-                                "row => [Number(row.dataset.number), row.lastChild.textContent])", tool)
+        return self.browser.run(
+            "return [...document.querySelectorAll('#text-' + arguments[0] + ' .hot')].map("
+            "row => [Number(row.dataset.number), row.lastChild.textContent])", tool)
 
     def click_triangle(self, tool, points):
         """Clicks where the wireframe shows the center of a triangle."""
         middle = [sum(axis) / 3 for axis in zip(*points)]
-        at = self.browser.run("const wire = document.body.inspector.panels[['model', 'view', 'project'].indexOf(arguments[0])].wire;"
-                              "const p = wire.view.place(...arguments[1]); return [p[0] / wire.scale, p[1] / wire.scale]", tool, middle)
+        at = self.browser.run(
+            "const wire = document.body.inspector.panels[['model', 'view', "
+            "'project'].indexOf(arguments[0])].wire;"
+            "const p = wire.view.place(...arguments[1]); return [p[0] / wire.scale, p[1] / wire.scale]", tool,
+            middle)
         self.browser.click(f"#wire-{tool}", *at)
 
     def competitors(self):
         """The cells of the pixel's fragments."""
-        return self.browser.run("return [...document.querySelectorAll('#competitors tbody tr')].map(r => [...r.cells].map(c => c.textContent))")
+        return self.browser.run(
+            "return [...document.querySelectorAll('#competitors tbody tr')].map(r => [...r.cells].map(c => "
+            "c.textContent))"
+        )
 
     def marked_pixels(self):
         return {tuple(place) for place in self.browser.run(
@@ -129,16 +157,19 @@ class InABrowser(ToolTest):
     def outlined(self):
         """The box of the marks over the image, in pixels of the picture: left, top, right, bottom."""
         return self.browser.run(
-            "const c = document.getElementById('image-mark'), d = c.getContext('2d').getImageData(0, 0, c.width, c.height).data;"
+            "const c = document.getElementById('image-mark'), d = c.getContext('2d').getImageData(0, 0, "
+            "c.width, c.height).data;"
             "const scale = c.width / document.getElementById('image').width, xs = [], ys = [];"
-            "for (let p = 0; p < c.width * c.height; ++p) if (d[4 * p + 3] > 128) { xs.push(p % c.width / scale); ys.push(Math.floor(p / c.width) / scale); }"
+            "for (let p = 0; p < c.width * c.height; ++p) if (d[4 * p + 3] > 128) { xs.push(p % c.width / "
+            "scale); ys.push(Math.floor(p / c.width) / scale); }"
             "return [Math.min(...xs), Math.min(...ys), Math.max(...xs), Math.max(...ys)]")
 
     def test_a_triangle_that_is_clicked_shows_in_every_stage(self):
         model, view, project = self.load_own_scene()
         for tool in ("model", "view"):
             text = {"model": model, "view": view}[tool]
-            first = {"model": 13, "view": 10}[tool]  # after a header of one line or four, and two triangles of four lines
+            first = {"model": 13,
+                     "view": 10}[tool]  # after a header of one line or four, and two triangles of four lines
             lines = text[first - 1:first + 2]
             self.click_triangle(tool, [tuple(map(float, line.split())) for line in lines])
             self.assertEqual(self.browser.run("return document.body.dataset.triangle"), "2")
@@ -162,7 +193,8 @@ class InABrowser(ToolTest):
         self.assertTrue(drawn)
         self.assertEqual(self.marked_pixels(), drawn)
         columns, rows = zip(*drawn)
-        for found, wanted in zip(self.outlined(), (min(columns), min(rows), max(columns) + 1, max(rows) + 1), strict=True):
+        for found, wanted in zip(self.outlined(), (min(columns), min(rows), max(columns) + 1, max(rows) + 1),
+                                 strict=True):
             self.assertAlmostEqual(found, wanted, delta=0.5)
 
     def test_a_pixel_tells_what_the_probe_tells(self):
@@ -174,11 +206,14 @@ class InABrowser(ToolTest):
             with self.subTest(column=column, row=row):
                 self.browser.run("document.body.inspector.select({triangle: -1, pixel: -1})")
                 self.browser.click("#" + canvas, (column + 0.5) * scale, (row + 0.5) * scale)
-                told = run("zbuf", "config.txt", "--image", "out.ppm", "--probe", f"{column},{row}", stdin=stage3).stderr.decode().splitlines()
+                told = run("zbuf", "config.txt", "--image", "out.ppm", "--probe", f"{column},{row}",
+                           stdin=stage3).stderr.decode().splitlines()
                 place = self.browser.run("return document.getElementById('pixel-place').textContent")
                 self.assertTrue(place.startswith(f"row {row}, column {column}: "), place)
                 rows = self.competitors()
-                lines = [f"zbuf: {column},{row}: triangle {name}, depth {float(depth)!r}: {fate}" for name, depth, fate in rows]
+                lines = [
+                    f"zbuf: {column},{row}: triangle {name}, depth {float(depth)!r}: {fate}"
+                    for name, depth, fate in rows]
                 self.assertEqual(lines or [f"zbuf: {column},{row}: no fragment"], told)
                 kept = [name for name, _, fate in rows if fate == "kept"]
                 self.assertIn(f"triangle {kept[-1]}," if kept else "background", place)
@@ -188,22 +223,43 @@ class InABrowser(ToolTest):
     def test_the_picture_is_zbufs(self):
         self.load(SAMPLE / "scene.txt", SAMPLE / "config.txt")
         run("zbuf", SAMPLE / "config.txt", "--image", "out.ppm", stdin=(SAMPLE / "stage3.txt").read_bytes())
-        shown = self.browser.run("const c = document.getElementById('image'), d = c.getContext('2d').getImageData(0, 0, c.width, c.height).data;"
-                                 "let s = ''; for (let i = 0; i < d.length; ++i) if (i % 4 < 3) s += String.fromCharCode(d[i]); return btoa(s)")
+        shown = self.browser.run(
+            "const c = document.getElementById('image'), d = c.getContext('2d').getImageData(0, 0, c.width, "
+            "c.height).data;"
+            "let s = ''; for (let i = 0; i < d.length; ++i) if (i % 4 < 3) s += String.fromCharCode(d[i]); "
+            "return btoa(s)"
+        )
         self.assertTrue(pathlib.Path("out.ppm").read_bytes().endswith(base64.b64decode(shown)), "differs")
+
+    def test_no_script_runs_but_the_pages_own(self):
+        self.load_own_scene()
+        self.browser.run(
+            "const made = document.createElement('script'); made.textContent = 'window.foreign = 1';"
+            "document.body.append(made); document.body.insertAdjacentHTML('beforeend', '<img "
+            "src=\"http://127.0.0.1:1/\">')"
+        )
+        self.assertIsNone(self.browser.run("return window.foreign"))
+        told = []
+
+        def is_told():
+            told.extend(self.browser.complaints())
+            return all(any(rule in line for line in told) for rule in ("script-src", "img-src"))
+        self.browser.wait_for(is_told)
 
     def test_an_address_may_name_a_pixel(self):
         self.load_own_scene()
         self.browser.call("POST", "/url", {"url": f"file://{pathlib.Path('page.html').resolve()}#pixel=3,2"})
         self.browser.call("POST", "/refresh", {})
         self.browser.wait_for(lambda: self.browser.run("return document.body.dataset.ready") == "yes")
-        self.assertIn("row 2, column 3:", self.browser.run("return document.getElementById('pixel-place').textContent"))
+        self.assertIn("row 2, column 3:",
+                      self.browser.run("return document.getElementById('pixel-place').textContent"))
 
     def hash(self):
         return self.browser.run("return location.hash")
 
     def held(self):
-        return self.browser.run("const {triangle, pixel} = document.body.inspector.held; return [triangle, pixel]")
+        return self.browser.run(
+            "const {triangle, pixel} = document.body.inspector.held; return [triangle, pixel]")
 
     def test_a_click_sets_the_address_and_one_beside_clears_it(self):
         self.load_own_scene()
@@ -219,7 +275,8 @@ class InABrowser(ToolTest):
         self.load_own_scene()
         self.browser.press("#image", RIGHT)  # the pixel in the middle
         self.assertEqual(self.hash(), "#pixel=20,20")
-        for keys, place in ((RIGHT, "21,20"), (DOWN, "21,21"), (LEFT + LEFT, "19,21"), (UP, "19,20"), (SHIFT + UP + SHIFT, "19,10"), (3 * (SHIFT + LEFT + SHIFT), "0,10")):
+        for keys, place in ((RIGHT, "21,20"), (DOWN, "21,21"), (LEFT + LEFT, "19,21"), (UP, "19,20"),
+                            (SHIFT + UP + SHIFT, "19,10"), (3 * (SHIFT + LEFT + SHIFT), "0,10")):
             self.browser.press("#image", keys)
             self.assertEqual(self.hash(), "#pixel=" + place)
         self.browser.press("#image", ESCAPE)
@@ -235,17 +292,28 @@ class InABrowser(ToolTest):
         self.assertEqual(self.held(), [1, -1])
         self.assertGreater(self.browser.run("return document.body.inspector.panels[1].wire.view.yaw"), before)
         self.browser.press("#wire-view", "++")
-        self.assertAlmostEqual(self.browser.run("return document.body.inspector.panels[1].wire.view.zoom"), 1.15 ** 2)
+        self.assertAlmostEqual(self.browser.run("return document.body.inspector.panels[1].wire.view.zoom"),
+                               1.15**2)
         self.browser.press("#wire-view", HOME)
-        self.assertEqual(self.browser.run("const {view} = document.body.inspector.panels[1].wire; return [view.yaw, view.zoom]"), [before, 1])
+        self.assertEqual(
+            self.browser.run(
+                "const {view} = document.body.inspector.panels[1].wire; return [view.yaw, view.zoom]"),
+            [before, 1])
 
     def test_tab_reaches_every_view_and_the_keys_are_told(self):
         self.load_own_scene()
         reached = []
         for _ in range(30):
-            self.browser.call("POST", "/actions", {"actions": [{"type": "key", "id": "keys", "actions": [{"type": "keyDown", "value": TAB}, {"type": "keyUp", "value": TAB}]}]})
+            self.browser.call(
+                "POST", "/actions", {
+                    "actions": [{
+                        "type": "key", "id": "keys", "actions": [{"type": "keyDown", "value": TAB}, {
+                            "type": "keyUp", "value": TAB}]}]})
             reached.append(self.browser.run("return document.activeElement.id"))
-        self.assertLessEqual({"help", "wire-model", "wire-view", "wire-project", "image", "depth", "tab-texts", "text-model", "text-view", "text-project", "text-zbuf"}, set(reached))
+        self.assertLessEqual(
+            {
+                "help", "wire-model", "wire-view", "wire-project", "image", "depth", "tab-texts",
+                "text-model", "text-view", "text-project", "text-zbuf"}, set(reached))
         self.browser.press("#wire-model", "?")
         self.assertTrue(self.browser.run("return document.getElementById('keys').open"))
         self.browser.press("#keys button", ESCAPE)
@@ -255,14 +323,24 @@ class InABrowser(ToolTest):
         self.load_own_scene()
         self.browser.run("document.body.inspector.select({triangle: 2, pixel: -1})")
         found = self.browser.accessibility()
-        for role, name in (("application", "world space, wireframe after model"), ("application", "view space, wireframe after view"),
-                           ("application", "normalized device coordinates, wireframe after project"), ("application", "image, 40 columns and 40 rows of pixels"),
-                           ("application", "depth, 40 columns and 40 rows of pixels"), ("button", "fit world space into its view"), ("button", "Keys"), ("tab", "Texts"),
-                           ("tab", "Arithmetic"), ("tab", "Counts"), ("group", "text after project"), ("list", "what became of the triangles"), ("region", "Fragments of a pixel"),
-                           ("region", "texts and explanations"), ("columnheader", "triangle"), ("heading", "scene.txt: 3 triangles, 40 × 40 pixels")):
-            self.assertTrue(any(role == r and n.startswith(name) for r, n in found), f"no {role} named {name}")
+        for role, name in (("application",
+                            "world space, wireframe after model"), ("application",
+                                                                    "view space, wireframe after view"),
+                           ("application", "normalized device coordinates, wireframe after project"),
+                           ("application", "image, 40 columns and 40 rows of pixels"),
+                           ("application",
+                            "depth, 40 columns and 40 rows of pixels"), ("button",
+                                                                         "fit world space into its view"),
+                           ("button", "Keys"), ("tab", "Texts"), ("tab", "Arithmetic"), ("tab", "Counts"),
+                           ("group", "text after project"), ("list", "what became of the triangles"),
+                           ("region", "Fragments of a pixel"), ("region", "texts and explanations"),
+                           ("columnheader", "triangle"), ("heading",
+                                                          "scene.txt: 3 triangles, 40 × 40 pixels")):
+            self.assertTrue(any(role == r and n.startswith(name) for r, n in found),
+                            f"no {role} named {name}")
         self.assertIn("status", [role for role, _ in found])
-        self.assertRegex(self.browser.run("return document.querySelector('[role=status]').textContent"), r"^triangle 2: shown in \d+ pixels$")
+        self.assertRegex(self.browser.run("return document.querySelector('[role=status]').textContent"),
+                         r"^triangle 2: shown in \d+ pixels$")
         # Whatever takes the focus has a name.
         interactive = ("application", "button", "tab", "group", "tabpanel", "link", "textbox")
         self.assertEqual([role for role, name in found if role in interactive and not name], [])
@@ -274,17 +352,29 @@ class InABrowser(ToolTest):
             self.browser.resize(width, 900)
             with self.subTest(width=width):
                 for tab in ("texts", "explanation", "statistics"):
-                    self.browser.run("document.getElementById('tab-' + arguments[0]).click(); document.body.inspector.select(document.body.inspector.atPixel(150 * 400 + 151))", tab)
-                    self.assertLessEqual(self.browser.run("return document.documentElement.scrollWidth - document.documentElement.clientWidth"), 0)
+                    self.browser.run(
+                        "document.getElementById('tab-' + arguments[0]).click(); "
+                        "document.body.inspector.select(document.body.inspector.atPixel(37 * 100 + 37))",
+                        tab)
+                    self.assertLessEqual(
+                        self.browser.run(
+                            "return document.documentElement.scrollWidth - "
+                            "document.documentElement.clientWidth"
+                        ), 0)
                 self.browser.run("document.getElementById('tab-texts').click()")
                 if width >= 1024:
-                    self.assertLessEqual(self.browser.run("return document.documentElement.scrollHeight"), 900)
-                    boxes = self.browser.run("return [...document.querySelectorAll('.pane, .pane canvas, #pixel, .text')].map(e => e.getBoundingClientRect()).map(b => [b.left, b.top, b.right, b.bottom])")
+                    self.assertLessEqual(self.browser.run("return document.documentElement.scrollHeight"),
+                                         900)
+                    boxes = self.browser.run(
+                        "return [...document.querySelectorAll('.pane, .pane canvas, #pixel, .text')].map(e "
+                        "=> e.getBoundingClientRect()).map(b => [b.left, b.top, b.right, b.bottom])"
+                    )
                     self.assertEqual(len(boxes), 5 + 10 + 1 + 4)
                     for left, top, right, bottom in boxes:
                         self.assertGreater(right - left, 100)
                         self.assertGreater(bottom - top, 80)
-                        self.assertTrue(left >= 0 and top >= 0 and right <= width and bottom <= 900, (left, top, right, bottom))
+                        self.assertTrue(left >= 0 and top >= 0 and right <= width and bottom <= 900,
+                                        (left, top, right, bottom))
 
     def test_marks_stand_out_from_any_color_in_light_and_dark(self):
         self.load_own_scene()
@@ -292,19 +382,26 @@ class InABrowser(ToolTest):
 
         def luminance(color):  # WCAG 2
             parts = [int(color[i:i + 2], 16) / 255 for i in (1, 3, 5)]
-            return sum(share * (x / 12.92 if x <= 0.04045 else ((x + 0.055) / 1.055) ** 2.4) for share, x in zip((0.2126, 0.7152, 0.0722), parts))
+            return sum(share * (x / 12.92 if x <= 0.04045 else ((x + 0.055) / 1.055)**2.4)
+                       for share, x in zip((0.2126, 0.7152, 0.0722), parts))
 
         papers = []
         for scheme in ("light", "dark"):
             self.browser.prefer(scheme)
-            colors = {name: self.browser.run("return getComputedStyle(document.documentElement).getPropertyValue(arguments[0]).trim()", "--" + name)
-                      for name in ("hot", "halo", "pixel", "card", "ink", "soft", "guide", "shown", "unshown", *RAYS)}
+            colors = {
+                name: self.browser.run(
+                    "return getComputedStyle(document.documentElement).getPropertyValue(arguments[0]).trim()",
+                    "--" + name)
+                for name in ("hot", "halo", "pixel", "card", "ink", "soft", "guide", "shown", "unshown",
+                             *RAYS)}
 
             def contrast(a, b):
                 low, high = sorted(luminance(colors[name]) for name in (a, b))
                 return (high + 0.05) / (low + 0.05)
             # One of two tones that differ by a factor of 4.5 differs from any color by more than 2.
-            for a, b, least in (("hot", "halo", 4.5), ("pixel", "halo", 4.5), ("ink", "card", 7), ("soft", "card", 4.5), ("guide", "card", 3), ("shown", "card", 3), ("unshown", "card", 2.5),
+            for a, b, least in (("hot", "halo", 4.5), ("pixel", "halo", 4.5), ("ink", "card", 7),
+                                ("soft", "card", 4.5), ("guide", "card", 3), ("shown", "card",
+                                                                              3), ("unshown", "card", 2.5),
                                 *((ray, "halo", 4.5) for ray in RAYS), *((ray, "card", 4.5) for ray in RAYS)):
                 self.assertGreaterEqual(contrast(a, b), least, (scheme, a, b))
             self.browser.wait_for(lambda: papers != [paper := self.paper()])
@@ -313,20 +410,29 @@ class InABrowser(ToolTest):
 
     def paper(self):
         """The color of a wireframe's background."""
-        return self.browser.run("const c = document.getElementById('wire-model'); return [...c.getContext('2d').getImageData(c.width - 1, 0, 1, 1).data]")
+        return self.browser.run(
+            "const c = document.getElementById('wire-model'); return "
+            "[...c.getContext('2d').getImageData(c.width - 1, 0, 1, 1).data]"
+        )
 
     def test_arithmetic_is_that_of_explain(self):
         self.load_own_scene()
         self.browser.run("document.querySelector('#tab-explanation').click()")
-        shown = [self.browser.run("return [...document.body.inspector.fragments.pixelsOf(arguments[0])]", name) for name in range(3)]
+        shown = [
+            self.browser.run("return [...document.body.inspector.fragments.pixelsOf(arguments[0])]", name)
+            for name in range(3)]
         pixels = [p for found in shown for p in (found[0], found[len(found) // 2])] + [0]
         for i, p in enumerate(pixels):
             for name in {i // 2 % 3, (i + 1) % 3}:
                 row, column = divmod(p, 40)
-                told = subprocess.run([SOURCE / "scripts/explain", "scene.txt", "config.txt", "--triangle", str(name), "--pixel", f"{column},{row}"], capture_output=True, text=True, check=True,
+                told = subprocess.run([
+                    SOURCE / "scripts/explain", "scene.txt", "config.txt", "--triangle",
+                    str(name), "--pixel", f"{column},{row}"], capture_output=True, text=True, check=True,
                                       env={"BIN": str(BIN), "PATH": "/usr/bin:/bin"}).stdout
-                self.browser.run("document.body.inspector.select({triangle: arguments[0], pixel: arguments[1]})", name, p)
-                shown = self.browser.run("return [...document.querySelectorAll('#explanation pre')].map(part => part.textContent)")
+                self.browser.run(
+                    "document.body.inspector.select({triangle: arguments[0], pixel: arguments[1]})", name, p)
+                shown = self.browser.run(
+                    "return [...document.querySelectorAll('#explanation pre')].map(part => part.textContent)")
                 self.assertEqual("\n\n".join(shown) + "\n", told, (name, column, row))
 
     def load_a_hand_in(self, change):
@@ -342,20 +448,30 @@ class InABrowser(ToolTest):
     def write_right_negated():
         """Their x and y have the opposite sign: r is up x l, and all that follows from it is right."""
         rows = [line.split() for line in (SAMPLE / "stage2.txt").read_text().splitlines()]
-        pathlib.Path("theirs/stage2.txt").write_text("".join(f"{-float(row[0]):.7f} {-float(row[1]):.7f} {row[2]}\n" if row else "\n" for row in rows))
-        pathlib.Path("theirs/stage3.txt").write_bytes(run("project", "--scene", SAMPLE / "scene.txt", "theirs/stage2.txt").stdout)
-        run("zbuf", SAMPLE / "config.txt", "theirs/stage3.txt", "--z-buffer", "theirs/z_buffer.txt", "-o", "theirs/out.bmp")
+        pathlib.Path("theirs/stage2.txt").write_text("".join(
+            f"{-float(row[0]):.7f} {-float(row[1]):.7f} {row[2]}\n" if row else "\n" for row in rows))
+        pathlib.Path("theirs/stage3.txt").write_bytes(
+            run("project", "--scene", SAMPLE / "scene.txt", "theirs/stage2.txt").stdout)
+        run("zbuf", SAMPLE / "config.txt", "theirs/stage3.txt", "--z-buffer", "theirs/z_buffer.txt", "-o",
+            "theirs/out.bmp")
 
     def test_theirs_has_the_verdict_and_the_matrix(self):
         told = self.load_a_hand_in(self.write_right_negated)
-        judged = subprocess.run([SOURCE / "scripts/compare", "--five", "theirs", SAMPLE / "scene.txt", SAMPLE / "config.txt"], capture_output=True, text=True,
-                                env={"BIN": str(BIN), "PATH": "/usr/bin:/bin"}).stdout
+        judged = subprocess.run(
+            [SOURCE / "scripts/compare", "--hand-in", "theirs", SAMPLE / "scene.txt", SAMPLE / "config.txt"],
+            capture_output=True, text=True, env={"BIN": str(BIN), "PATH": "/usr/bin:/bin"}).stdout
         self.assertIn("theirs: " + judged.split("Verdict: ")[1].strip(), told)
         matrix = [line for line in judged.splitlines() if " | " in line and not line.startswith("|")]
         self.assertEqual(len(matrix), 5)
-        self.assertIn("\n".join(matrix), self.browser.run("return document.querySelector('#theirs pre').textContent"))
-        self.assertEqual(self.browser.run("return [...document.querySelectorAll('figcaption .good, figcaption .bad')].map(e => [e.className, e.textContent])"),
-                         [["good", "stage1.txt: right"], ["bad", "stage2.txt: wrong"], *(["good", f"{name}: right, given their stage2.txt"] for name in ("stage3.txt", "out.bmp", "z_buffer.txt"))])
+        self.assertIn("\n".join(matrix),
+                      self.browser.run("return document.querySelector('#theirs pre').textContent"))
+        self.assertEqual(
+            self.browser.run(
+                "return [...document.querySelectorAll('figcaption .good, figcaption .bad')].map(e => "
+                "[e.className, e.textContent])"
+            ), [["good", "stage1.txt: right"], ["bad", "stage2.txt: wrong"],
+                *(["good", f"{name}: right, given their stage2.txt"]
+                  for name in ("stage3.txt", "out.bmp", "z_buffer.txt"))])
 
     def test_theirs_lists_and_marks_what_differs(self):
         def change():
@@ -366,29 +482,44 @@ class InABrowser(ToolTest):
         told = self.load_a_hand_in(change)
         self.assertIn("1 of 66 vertices differ from ours:", told)
         ours = (SAMPLE / "stage1.txt").read_text().split("\n")[1]
-        self.assertEqual(self.browser.run("return [...document.querySelectorAll('#theirs [data-name]')].map(row => [...row.cells].map(cell => cell.textContent))"),
-                         [["0", "2", "2", "9 8 7", " ".join(f"{float(word):g}" for word in ours.split()[:3])]])
+        self.assertEqual(
+            self.browser.run(
+                "return [...document.querySelectorAll('#theirs [data-name]')].map(row => "
+                "[...row.cells].map(cell => cell.textContent))"
+            ), [["0", "2", "2", "9 8 7", " ".join(f"{float(word):g}" for word in ours.split()[:3])]])
         self.assertEqual(told.count("every vertex is ours"), 2)
         self.browser.run("document.querySelector('#theirs [data-name] button').click()")
         self.assertEqual(self.held(), [0, -1])
         # Theirs is marked where it differs, and only there.
         color = self.browser.run("return document.body.inspector.palette.numbers('--theirs')")
-        marks = ("const {inspector} = document.body, {wire} = inspector.panels[arguments[0]], {mark} = wire; inspector.select({triangle: 0, pixel: -1});"
-                 "const d = mark.getContext('2d').getImageData(0, 0, mark.width, mark.height).data;"
-                 "let count = 0; for (let i = 0; i < d.length; i += 4) count += d[i] === arguments[1][0] && d[i + 1] === arguments[1][1] && d[i + 2] === arguments[1][2] && d[i + 3] === 255; return count")
+        marks = (
+            "const {inspector} = document.body, {wire} = inspector.panels[arguments[0]], {mark} = wire; "
+            "inspector.select({triangle: 0, pixel: -1});"
+            "const d = mark.getContext('2d').getImageData(0, 0, mark.width, mark.height).data;"
+            "let count = 0; for (let i = 0; i < d.length; i += 4) count += d[i] === arguments[1][0] && d[i + "
+            "1] === arguments[1][1] && d[i + 2] === arguments[1][2] && d[i + 3] === 255; return count"
+        )
         self.assertGreater(self.browser.run(marks, 0, color), 20)
         self.assertEqual(self.browser.run(marks, 1, color), 0)
         # In the wireframe there is a dot where their vertex is, in a color that only theirs have.
-        self.browser.run("document.body.inspector.select({triangle: -1, pixel: -1}); document.body.inspector.panels[0].wire.view.approach(0.6); document.body.inspector.panels[0].wire.draw()")
-        self.assertEqual(self.browser.run(
-            "const {wire} = document.body.inspector.panels[0], [x, y] = wire.view.place(9, 8, 7);"
-            "return [...wire.canvas.getContext('2d').getImageData(Math.floor(x), Math.floor(y), 1, 1).data].slice(0, 3)"),
-            self.browser.run("return document.body.inspector.palette.numbers('--theirs')"))
+        self.browser.run(
+            "document.body.inspector.select({triangle: -1, pixel: -1}); "
+            "document.body.inspector.panels[0].wire.view.approach(0.6); "
+            "document.body.inspector.panels[0].wire.draw()"
+        )
+        self.assertEqual(
+            self.browser.run(
+                "const {wire} = document.body.inspector.panels[0], [x, y] = wire.view.place(9, 8, 7);"
+                "return [...wire.canvas.getContext('2d').getImageData(Math.floor(x), Math.floor(y), 1, "
+                "1).data].slice(0, 3)"
+            ), self.browser.run("return document.body.inspector.palette.numbers('--theirs')"))
 
     def test_theirs_of_another_length_is_not_compared(self):
-        told = self.load_a_hand_in(lambda: pathlib.Path("theirs/stage1.txt").write_text("0 0 0\n1 0 0\n0 1 0\n"))
+        told = self.load_a_hand_in(lambda: pathlib.Path("theirs/stage1.txt").write_text(
+            "0 0 0\n1 0 0\n0 1 0\n"))
         self.assertIn("1 triangles in place of 22: vertices are not compared", told)
-        self.assertEqual(self.browser.run("return document.body.inspector.panels[0].wire.theirs.triangles.length"), 1)
+        self.assertEqual(
+            self.browser.run("return document.body.inspector.panels[0].wire.theirs.triangles.length"), 1)
 
     def test_theirs_may_be_missing_or_unreadable(self):
         def change():
@@ -402,10 +533,17 @@ class InABrowser(ToolTest):
 
     def test_their_image_can_be_seen(self):
         self.load_a_hand_in(self.write_right_negated)
-        theirs, ours = ([bytes(row[i:i + 3]) for row in read_picture(path)[2] for i in range(0, len(row), 3)] for path in ("theirs/out.bmp", SAMPLE / "out.bmp"))
-        read = ("const d = document.getElementById('image').getContext('2d').getImageData(0, 0, 400, 400).data; let s = '';"
-                "for (let i = 0; i < d.length; ++i) if (i % 4 < 3) s += String.fromCharCode(d[i]); return btoa(s)")
-        title = "return document.getElementById('image').closest('figure').querySelector('figcaption').firstChild.textContent"
+        theirs, ours = ([bytes(row[i:i + 3])
+                         for row in read_picture(path)[2]
+                         for i in range(0, len(row), 3)]
+                        for path in ("theirs/out.bmp", SAMPLE / "out.bmp"))
+        read = (
+            "const d = document.getElementById('image').getContext('2d').getImageData(0, 0, 100, 100).data; "
+            "let s = '';"
+            "for (let i = 0; i < d.length; ++i) if (i % 4 < 3) s += String.fromCharCode(d[i]); return btoa(s)"
+        )
+        title = ("const figure = document.getElementById('image').closest('figure');"
+                 "return figure.querySelector('figcaption').firstChild.textContent")
         self.assertEqual(self.browser.run(title), "our image")
         faces, titles = [], []
         for _ in range(3):
@@ -416,36 +554,55 @@ class InABrowser(ToolTest):
         self.assertEqual(faces[0], b"".join(theirs))
         self.assertEqual(faces[2], b"".join(ours))
         color = bytes(self.browser.run("return document.body.inspector.palette.numbers('--theirs')"))
-        self.assertEqual({i for i in range(160000) if faces[1][3 * i:3 * i + 3] == color}, {i for i in range(160000) if theirs[i] != ours[i]})
+        self.assertEqual({i
+                          for i in range(10000)
+                          if faces[1][3 * i:3 * i + 3] == color},
+                         {i
+                          for i in range(10000)
+                          if theirs[i] != ours[i]})
 
     def test_an_empty_picture_has_its_note(self):
         pathlib.Path("scene.txt").write_text(SCENE.replace("triangle", "translate\n0 0 30\ntriangle", 1))
         pathlib.Path("config.txt").write_text("40 40\n")
         self.load("scene.txt", "config.txt")
-        self.assertIn("the picture is empty", self.browser.run("return document.getElementById('notes').textContent"))
-        self.assertEqual(self.browser.run("return [...document.querySelectorAll('#legend li')].map(item => item.textContent)"), ["0 shown", "0 hidden", "3 outside", "0 culled"])
+        self.assertIn("the picture is empty",
+                      self.browser.run("return document.getElementById('notes').textContent"))
+        self.assertEqual(
+            self.browser.run(
+                "return [...document.querySelectorAll('#legend li')].map(item => item.textContent)"),
+            ["0 shown", "0 hidden", "3 outside", "0 culled"])
 
     def test_a_triangle_is_counted_once(self):
         # Two are right of the window, which project finds, too, and one is in sight.
-        pathlib.Path("scene.txt").write_text("0 0 5\n0 0 0\n0 1 0\n60 1 1 100\ntriangle\n-1 0 0\n1 0 0\n0 1 0\ntranslate\n100 0 0\n" + "triangle\n-1 0 0\n1 0 0\n0 1 0\n" * 2 + "end\n")
+        pathlib.Path("scene.txt").write_text(
+            "0 0 5\n0 0 0\n0 1 0\n60 1 1 100\ntriangle\n-1 0 0\n1 0 0\n0 1 0\ntranslate\n100 0 0\n" +
+            "triangle\n-1 0 0\n1 0 0\n0 1 0\n" * 2 + "end\n")
         pathlib.Path("config.txt").write_text("40 40\n")
         self.load("scene.txt", "config.txt")
-        self.assertEqual(self.browser.run("return [...document.querySelectorAll('#legend li')].map(item => item.textContent)"), ["1 shown", "0 hidden", "2 outside", "0 culled"])
+        self.assertEqual(
+            self.browser.run(
+                "return [...document.querySelectorAll('#legend li')].map(item => item.textContent)"),
+            ["1 shown", "0 hidden", "2 outside", "0 culled"])
 
     def test_rows_and_lines_are_counted_as_they_say(self):
         self.load(SAMPLE / "scene.txt", SAMPLE / "config.txt")
-        self.browser.run("document.body.inspector.select(document.body.inspector.atPixel(150 * 400 + 151))")
+        self.browser.run("document.body.inspector.select(document.body.inspector.atPixel(37 * 100 + 37))")
         [(number, text)] = self.hot_lines("zbuf")
-        self.assertEqual(number, 150)
-        run("zbuf", SAMPLE / "config.txt", "--image", "out.ppm", "--z-buffer", "z_buffer.txt", stdin=(SAMPLE / "stage3.txt").read_bytes())
-        values = pathlib.Path("z_buffer.txt").read_text().split("\n")[150].split()
+        self.assertEqual(number, 37)
+        run("zbuf", SAMPLE / "config.txt", "--image", "out.ppm", "--z-buffer", "z_buffer.txt",
+            stdin=(SAMPLE / "stage3.txt").read_bytes())
+        values = pathlib.Path("z_buffer.txt").read_text().split("\n")[37].split()
         shown = re.search(r"\[(.*)\]", text)[1]
-        depth = self.browser.run("return document.getElementById('pixel-place').textContent").split("depth ")[1]
+        depth = self.browser.run("return document.getElementById('pixel-place').textContent").split(
+            "depth ")[1]
         self.assertIn(shown, values)
         self.assertAlmostEqual(float(shown), float(depth), places=6)
 
     def rows(self):
-        return self.browser.run("return [...document.querySelectorAll('#counts tbody tr')].map(row => [...row.cells].map(cell => cell.textContent))")
+        return self.browser.run(
+            "return [...document.querySelectorAll('#counts tbody tr')].map(row => [...row.cells].map(cell => "
+            "cell.textContent))"
+        )
 
     def test_the_table_has_the_statistics(self):
         model, view, project = ("\n".join(text).encode() for text in self.load_own_scene())
@@ -457,25 +614,37 @@ class InABrowser(ToolTest):
         rows = {row[0]: row for row in self.rows()}
         self.assertEqual(rows["model"][5:], ["", "-2 to 3", "-1 to 2", "0 to 9"])
         self.assertEqual(rows["project"][5], "1 cut")
-        zbuf = {key: word for key, word in told["zbuf"].items() if word != "0" and key != "triangles" and key[:2] not in ("x_", "y_", "z_")}
-        self.assertEqual(rows["zbuf"][5], ", ".join(f"{word} {key.replace('_', ' ')}" for key, word in zbuf.items()))
+        zbuf = {
+            key: word
+            for key, word in told["zbuf"].items()
+            if word != "0" and key != "triangles" and key[:2] not in ("x_", "y_", "z_")}
+        self.assertEqual(rows["zbuf"][5],
+                         ", ".join(f"{word} {key.replace('_', ' ')}" for key, word in zbuf.items()))
         self.assertIn("seen", rows["zbuf"][5])
         for tool, row in rows.items():
             for axis, cell in zip("xyz", row[6:]):
-                self.assertEqual([float(word) for word in cell.split(" to ")], [float("%.4g" % float(told[tool][f"{axis}_{end}"])) for end in ("min", "max")])
+                self.assertEqual(
+                    [float(word) for word in cell.split(" to ")],
+                    [float("%.4g" % float(told[tool][f"{axis}_{end}"])) for end in ("min", "max")])
 
     def points_out_of_sight(self, tool, guide="wire.guide.flat()"):
         """Corners of the guide and of the triangles that no pixel of the pane shows at first."""
         return self.browser.run(
-            "const wire = document.body.inspector.panels[['model', 'view', 'project'].indexOf(arguments[0])].wire, lost = [];"
-            f"const points = {guide}; for (let i = 0; i < wire.stage.points.length; i += 3) points.push([...wire.stage.points.slice(i, i + 3)]);"
-            "for (const p of points) { const [x, y] = wire.view.place(...p); if (x < 0 || y < 0 || x > wire.canvas.width || y > wire.canvas.height) lost.push(p); }"
+            "const wire = document.body.inspector.panels[['model', 'view', "
+            "'project'].indexOf(arguments[0])].wire, lost = [];"
+            f"const points = {guide}; for (let i = 0; i < wire.stage.points.length; i += 3) "
+            f"points.push([...wire.stage.points.slice(i, i + 3)]);"
+            "for (const p of points) { const [x, y] = wire.view.place(...p); if (x < 0 || y < 0 || x > "
+            "wire.canvas.width || y > wire.canvas.height) lost.push(p); }"
             "return lost", tool)
 
     def test_all_that_is_there_is_in_sight(self):
         pathlib.Path("config.txt").write_text("40 40\n")
-        scenes = {"own": SCENE, "beside": SCENE.replace("triangle", "translate\n4 3 0\ntriangle", 1), "empty": SCENE[:SCENE.index("triangle")] + "end\n",
-                  "behind": SCENE.replace("triangle", "translate\n0 0 30\ntriangle", 1), "ortho": SCENE.replace("60 1 1 100", "ortho -1 1 -1 1 -5 5")}
+        scenes = {
+            "own": SCENE, "beside": SCENE.replace("triangle", "translate\n4 3 0\ntriangle",
+                                                  1), "empty": SCENE[:SCENE.index("triangle")] + "end\n",
+            "behind": SCENE.replace("triangle", "translate\n0 0 30\ntriangle",
+                                    1), "ortho": SCENE.replace("60 1 1 100", "ortho -1 1 -1 1 -5 5")}
         for name, scene in scenes.items():
             pathlib.Path("scene.txt").write_text(scene)
             self.load("scene.txt", "config.txt")
@@ -488,20 +657,29 @@ class InABrowser(ToolTest):
         pathlib.Path("scene.txt").write_text(SCENE.replace("60 1 1 100", "60 1 1 1e6"))
         self.load("scene.txt", "config.txt")
         self.assertLess(self.browser.run("return document.body.inspector.panels[1].wire.view.size"), 40)
-        self.assertIn("(far, at 1e+06, is drawn nearer)", self.browser.run("return document.querySelector('#stages').textContent"))
+        self.assertIn("(far, at 1e+06, is drawn nearer)",
+                      self.browser.run("return document.querySelector('#stages').textContent"))
 
     def test_a_triangle_in_the_distance_does_not_hide_the_cube(self):
         pathlib.Path("config.txt").write_text("40 40\n")
-        pathlib.Path("scene.txt").write_text(SCENE.replace("triangle", "push\ntranslate\n1e6 0 0\ntriangle\n0 0 0\n1 0 0\n0 1 0\npop\ntriangle", 1))
+        pathlib.Path("scene.txt").write_text(
+            SCENE.replace("triangle",
+                          "push\ntranslate\n1e6 0 0\ntriangle\n0 0 0\n1 0 0\n0 1 0\npop\ntriangle", 1))
         self.load("scene.txt", "config.txt")
-        width = self.browser.run("const wire = document.body.inspector.panels[2].wire; Object.assign(wire.view, {yaw: 0, pitch: 0}); return wire.view.place(1, 0, 0)[0] - wire.view.place(-1, 0, 0)[0]")
+        width = self.browser.run(
+            "const wire = document.body.inspector.panels[2].wire; Object.assign(wire.view, {yaw: 0, pitch: "
+            "0}); return wire.view.place(1, 0, 0)[0] - wire.view.place(-1, 0, 0)[0]"
+        )
         self.assertGreater(width, 5)
 
     def test_fit_brings_all_back_and_then_comes_close(self):
         self.load_own_scene()
-        fit = "document.querySelectorAll('figcaption button')[1].click(); const {view} = document.body.inspector.panels[1].wire; return [view.size, view.zoom, view.yaw]"
-        size, _, yaw = self.browser.run("const {view} = document.body.inspector.panels[1].wire; return [view.size, view.zoom, view.yaw]")
-        self.browser.run("const {view} = document.body.inspector.panels[1].wire; view.turn(1, 0); view.approach(3, 0, 0)")
+        fit = ("document.querySelectorAll('figcaption button')[1].click(); const {view} = "
+               "document.body.inspector.panels[1].wire; return [view.size, view.zoom, view.yaw]")
+        size, _, yaw = self.browser.run(
+            "const {view} = document.body.inspector.panels[1].wire; return [view.size, view.zoom, view.yaw]")
+        self.browser.run(
+            "const {view} = document.body.inspector.panels[1].wire; view.turn(1, 0); view.approach(3, 0, 0)")
         self.assertEqual(self.browser.run(fit), [size, 1, yaw])
         close = self.browser.run(fit)[0]
         self.assertLess(close, size / 2)  # the triangles are 9 deep, and the frustum more than twice that
@@ -511,37 +689,54 @@ class InABrowser(ToolTest):
     def test_dragging_turns_without_choosing(self):
         self.load_own_scene()
         before = self.browser.run("return document.body.inspector.panels[0].wire.view.yaw")
-        self.browser.call("POST", "/actions", {"actions": [{"type": "pointer", "id": "mouse", "actions": [
-            {"type": "pointerMove", "duration": 0, "origin": {"element-6066-11e4-a52e-4f735466cecf": self.browser.element("#wire-model")}, "x": 0, "y": 0},
-            {"type": "pointerDown", "button": 0}, {"type": "pointerMove", "duration": 0, "origin": "pointer", "x": 50, "y": 0},
-            {"type": "pointerUp", "button": 0}]}]})
-        self.assertNotEqual(self.browser.run("return document.body.inspector.panels[0].wire.view.yaw"), before)
+        self.browser.call(
+            "POST", "/actions", {
+                "actions": [{
+                    "type":
+                        "pointer", "id":
+                            "mouse", "actions": [{
+                                "type": "pointerMove", "duration": 0, "origin": {
+                                    "element-6066-11e4-a52e-4f735466cecf": self.browser.element("#wire-model")
+                                }, "x": 0, "y": 0}, {"type": "pointerDown", "button": 0}, {
+                                    "type": "pointerMove", "duration": 0, "origin": "pointer", "x": 50, "y": 0
+                                }, {"type": "pointerUp", "button": 0}]}]})
+        self.assertNotEqual(self.browser.run("return document.body.inspector.panels[0].wire.view.yaw"),
+                            before)
 
     def test_every_triangle_of_a_large_scene_is_there(self):
         """Scenes up to MAX_DRAWN_TRIANGLES differ only in their number from this one."""
-        scene = subprocess.run([SOURCE / "scripts/make-torus", "--around", "60", "--tube", "50"], capture_output=True, check=True).stdout
+        scene = subprocess.run([SOURCE / "scripts/make-torus", "--around", "60", "--tube", "50"],
+                               capture_output=True, check=True).stdout
         pathlib.Path("large.txt").write_bytes(scene)
         pathlib.Path("config.txt").write_text("42 42\n")
         self.load("large.txt", "config.txt")
-        self.assertEqual(self.browser.run("return document.body.inspector.panels.map(panel => panel.wire.names.length)"), [12000] * 3)
+        self.assertEqual(
+            self.browser.run("return document.body.inspector.panels.map(panel => panel.wire.names.length)"),
+            [12000] * 3)
         scale = self.browser.run("return document.body.inspector.pixels.scale")
         self.browser.click("#image", 20.5 * scale, 20.5 * scale)
-        told = run("zbuf", "config.txt", "--image", "out.ppm", "--probe", "20,20", stdin=stage_texts(scene)[2]).stderr.decode().splitlines()
+        told = run("zbuf", "config.txt", "--image", "out.ppm", "--probe", "20,20",
+                   stdin=stage_texts(scene)[2]).stderr.decode().splitlines()
         self.assertEqual(len(self.competitors()), len(told))
         # The index finds what a look at every triangle finds.
         lost = self.browser.run(
             "const {wire} = document.body.inspector.panels[1], lost = []; let x = 17;"
-            "for (let k = 0; k < 25; ++k) { x = x * 48271 % 2147483647; const px = x % wire.canvas.width; x = x * 48271 % 2147483647; const py = x % wire.canvas.height;"
+            "for (let k = 0; k < 25; ++k) { x = x * 48271 % 2147483647; const px = x % wire.canvas.width; x "
+            "= x * 48271 % 2147483647; const py = x % wire.canvas.height;"
             "  const found = wire.triangleAt(px, py); let best = -1, nearest = -Infinity;"
-            "  wire.names.forEach((name, i) => { const near = wire.near[3 * i] + wire.near[3 * i + 1] + wire.near[3 * i + 2];"
+            "  wire.names.forEach((name, i) => { const near = wire.near[3 * i] + wire.near[3 * i + 1] + "
+            "wire.near[3 * i + 2];"
             "    if (near > nearest && wire.index.contains(i, px, py)) [best, nearest] = [name, near]; });"
             "  lost.push([found, best]); } return lost")
         self.assertTrue(any(best >= 0 for _, best in lost))
         self.assertEqual([found for found, _ in lost], [best for _, best in lost])
 
-    # The eye looks along -x at a mirror in the plane x = 0, in which it sees a triangle behind itself, at x = 8.
-    MIRROR = ("5 0 0\n0 0 0\n0 1 0\n60 1 1 100\ncolor 9 9 9\nmaterial 1 1 0 1 1 1 1\nmaterial 1 1 0 1\nuse 0\ntriangle\n0 -9 9\n0 -9 -9\n0 9 0\n"
-              "use 1\ncolor 10 200 30\ntriangle\n8 -3 -3\n8 -3 3\n8 3 0\nend\n")
+    # The eye looks along -x at a mirror in the plane x = 0, in which it sees a triangle behind itself, at x =
+    # 8.
+    MIRROR = (
+        "5 0 0\n0 0 0\n0 1 0\n60 1 1 100\ncolor 9 9 9\nmaterial 1 1 0 1 1 1 1\nmaterial 1 1 0 1\nuse 0\n"
+        "triangle\n0 -9 9\n0 -9 -9\n0 9 0\n"
+        "use 1\ncolor 10 200 30\ntriangle\n8 -3 -3\n8 -3 3\n8 3 0\nend\n")
 
     def load_mirror(self, size):
         pathlib.Path("scene.txt").write_text(self.MIRROR)
@@ -550,40 +745,61 @@ class InABrowser(ToolTest):
         self.browser.run("document.querySelector('#tab-rays').click()")
 
     def ray_rows(self):
-        return self.browser.run("return [...document.querySelectorAll('#rays tbody tr')].map(row => [...row.cells].map(cell => cell.textContent))")
+        return self.browser.run(
+            "return [...document.querySelectorAll('#rays tbody tr')].map(row => [...row.cells].map(cell => "
+            "cell.textContent))"
+        )
 
     def test_the_rays_of_a_pixel_are_told_and_drawn(self):
         self.load_mirror(41)
         self.browser.run("document.body.inspector.select(document.body.inspector.atPixel(20 * 41 + 20))")
-        self.assertEqual(self.ray_rows(), [["primary", "triangle 0 front", "1", "10 200 30"], ["mirrored", "triangle 1 front", "1", "10 200 30"]])
+        self.assertEqual(self.ray_rows(), [["primary", "triangle 0 front", "1", "10 200 30"],
+                                           ["mirrored", "triangle 1 front", "1", "10 200 30"]])
         drawn = self.browser.run("return document.body.inspector.panels.map(({wire}) => wire.rays)")
-        self.assertEqual([[ray["kind"] for ray in rays] for rays in drawn], [["primary", "mirrored"]] * 2 + [[]])
-        for rays, places in zip(drawn, ([(5, 0, 0), (0, 0, 0), (0, 0, 0), (8, 0, 0)], [(0, 0, 0), (0, 0, -5), (0, 0, -5), (0, 0, 3)])):
-            for found, expected in zip([place for ray in rays for place in (ray["from"], ray["to"])], places, strict=True):
+        self.assertEqual([[ray["kind"] for ray in rays] for rays in drawn],
+                         [["primary", "mirrored"]] * 2 + [[]])
+        for rays, places in zip(drawn, ([(5, 0, 0), (0, 0, 0), (0, 0, 0), (8, 0, 0)], [(0, 0, 0), (0, 0, -5),
+                                                                                       (0, 0, -5),
+                                                                                       (0, 0, 3)])):
+            for found, expected in zip([place for ray in rays for place in (ray["from"], ray["to"])], places,
+                                       strict=True):
                 for x, y in zip(found, expected, strict=True):
                     self.assertAlmostEqual(x, y, 9)
-        # Behind the eye, at x = 6.5 in the world, there is nothing but the mirrored ray; without a pixel it is gone.
-        color = ("const {wire} = document.body.inspector.panels[0], [x, y] = wire.view.place(6.5, 0, 0);"
-                 "return [...wire.mark.getContext('2d').getImageData(Math.floor(x), Math.floor(y), 1, 1).data]")
-        blue = [int(c, 16) for c in re.findall("..", self.browser.run("return document.body.inspector.palette.word('--ray-mirrored')")[1:])]
+        # Behind the eye, at x = 6.5 in the world, there is nothing but the mirrored ray; without a pixel it
+        # is gone.
+        color = (
+            "const {wire} = document.body.inspector.panels[0], [x, y] = wire.view.place(6.5, 0, 0);"
+            "return [...wire.mark.getContext('2d').getImageData(Math.floor(x), Math.floor(y), 1, 1).data]")
+        blue = [
+            int(c, 16) for c in re.findall(
+                "..",
+                self.browser.run("return document.body.inspector.palette.word('--ray-mirrored')")[1:])]
         for found, expected in zip(self.browser.run(color), [*blue, 255]):
             self.assertAlmostEqual(found, expected, delta=40)
         self.browser.run("document.querySelectorAll('#rays td button')[1].click()")
         self.assertEqual(self.held(), [1, 20 * 41 + 20])
-        self.assertEqual(self.browser.run("return [...document.querySelectorAll('#rays .hot')].map(row => row.dataset.name)"), ["1"])
+        self.assertEqual(
+            self.browser.run(
+                "return [...document.querySelectorAll('#rays .hot')].map(row => row.dataset.name)"), ["1"])
         self.browser.run("document.body.inspector.select({triangle: -1, pixel: -1})")
         self.assertEqual((self.ray_rows(), self.browser.run(color)[3]), ([], 0))
 
     def test_a_ray_that_leaves_the_scene_fades_on_its_way(self):
         self.load_mirror(41)
-        # In the upper left corner the mirror shows no triangle. The eye looks along -x, and -z is to its right.
+        # In the upper left corner the mirror shows no triangle. The eye looks along -x, and -z is to its
+        # right.
         half = 40 / 41 * math.tan(math.radians(30))
         origin, way = (0, 5 * half, 5 * half), (1, half, half)
-        found = self.browser.run("const {inspector} = document.body; inspector.show({triangle: -1, pixel: 0}); const {wire} = inspector.panels[0], [, ray] = wire.rays;"
-                                 "const reach = wire.view.size / 2, tone = share => { const [x, y] = wire.view.place(...ray.from.map((at, i) => at + share * reach * (ray.towards[i] - at)));"
-                                 "  return wire.mark.getContext('2d').getImageData(Math.floor(x), Math.floor(y), 1, 1).data[3]; };"
-                                 "return [ray.from, ray.towards, ray.to, [0.1, 0.5, 0.9, 1.1].map(tone)]")
-        for x, y in zip(found[0] + found[1], [*origin, *(at + step / math.hypot(*way) for at, step in zip(origin, way))], strict=True):
+        found = self.browser.run(
+            "const {inspector} = document.body; inspector.show({triangle: -1, pixel: 0}); const {wire} = "
+            "inspector.panels[0], [, ray] = wire.rays;"
+            "const reach = wire.view.size / 2, tone = share => { const [x, y] = "
+            "wire.view.place(...ray.from.map((at, i) => at + share * reach * (ray.towards[i] - at)));"
+            "  return wire.mark.getContext('2d').getImageData(Math.floor(x), Math.floor(y), 1, 1).data[3]; };"
+            "return [ray.from, ray.towards, ray.to, [0.1, 0.5, 0.9, 1.1].map(tone)]")
+        for x, y in zip(found[0] + found[1],
+                        [*origin, *(at + step / math.hypot(*way)
+                                    for at, step in zip(origin, way))], strict=True):
             self.assertAlmostEqual(x, y, 9)
         self.assertIsNone(found[2])
         self.assertEqual(sorted(found[3], reverse=True), found[3])
@@ -594,45 +810,77 @@ class InABrowser(ToolTest):
 
     def test_a_sphere_is_drawn_and_can_be_chosen(self):
         # An ellipsoid whose half axes are 2, 1 and 1, at the point looked at, in front of a triangle.
-        scene = "0 0 9\n0 0 0\n0 1 0\n60 1 1 100\ncolor 9 9 9\npush\nscale 2 1 1\nsphere 0 0 0 1\npop\ntriangle\n-8 -8 -9\n8 -8 -9\n0 8 -9\nend\n"
+        scene = ("0 0 9\n0 0 0\n0 1 0\n60 1 1 100\ncolor 9 9 9\npush\nscale 2 1 1\nsphere 0 0 0 1\npop\n"
+                 "triangle\n-8 -8 -9\n8 -8 -9\n0 8 -9\nend\n")
         pathlib.Path("scene.txt").write_text(scene)
         pathlib.Path("config.txt").write_text("41 41\n")
         self.load("scene.txt", "config.txt", "--trace")
-        self.assertEqual(self.browser.run("return document.getElementById('title').textContent"), "scene.txt: 1 triangle and 1 sphere, 41 × 41 pixels")
-        self.assertRegex(self.browser.run("return document.getElementById('notes').textContent"), r"^project and zbuf have \d+ facets in place of each sphere")
-        # Its outline, seen from the front: an ellipse twice as wide as high, inside of which the pointer finds it.
-        front = "const {wire} = document.body.inspector.panels[arguments[0]]; Object.assign(wire.view, {yaw: 0, pitch: 0}); wire.draw(); const at = (x, y) => wire.triangleAt(...wire.view.place(x, y, arguments[1]));"
+        self.assertEqual(self.browser.run("return document.getElementById('title').textContent"),
+                         "scene.txt: 1 triangle and 1 sphere, 41 × 41 pixels")
+        self.assertRegex(self.browser.run("return document.getElementById('notes').textContent"),
+                         r"^project and zbuf have \d+ facets in place of each sphere")
+        # Its outline, seen from the front: an ellipse twice as wide as high, inside of which the pointer
+        # finds it.
+        front = ("const {wire} = document.body.inspector.panels[arguments[0]]; Object.assign(wire.view, "
+                 "{yaw: 0, pitch: 0}); wire.draw(); const at = (x, y) => "
+                 "wire.triangleAt(...wire.view.place(x, y, arguments[1]));")
         for panel, z in ((0, 0), (1, -9)):
-            found = self.browser.run(front + "return [at(1.95, 0), at(0, 0.95), at(1.4, 0.69), at(2.05, 0), at(0, 1.05), at(1.43, 0.72)]", panel, z)
+            found = self.browser.run(
+                front +
+                "return [at(1.95, 0), at(0, 0.95), at(1.4, 0.69), at(2.05, 0), at(0, 1.05), at(1.43, 0.72)]",
+                panel, z)
             self.assertEqual(found, [0, 0, 0, 1, 1, 1])
-            places = self.browser.run(front + "const {spheres} = wire.stage, scale = wire.view.place(1, 0, 0)[0] - wire.view.place(0, 0, 0)[0];"
-                                      "return spheres.outline(0).map(([x, y]) => [(x - spheres.x[0]) / scale, (y - spheres.y[0]) / scale])", panel, z)
+            places = self.browser.run(
+                front +
+                "const {spheres} = wire.stage, scale = wire.view.place(1, 0, 0)[0] - wire.view.place(0, "
+                "0, 0)[0];"
+                "return spheres.outline(0).map(([x, y]) => [(x - spheres.x[0]) / scale, (y - spheres.y[0]) "
+                "/ scale])",
+                panel, z)
             for x, y in places:
                 self.assertAlmostEqual(x * x / 4 + y * y, 1, 9)
         # Its four lines are marked, a line chooses it, and the middle of the picture shows it.
-        self.browser.run("document.body.inspector.select(document.body.inspector.atPixel(20 * 41 + 20)); document.querySelector('#tab-texts').click()")
+        self.browser.run(
+            "document.body.inspector.select(document.body.inspector.atPixel(20 * 41 + 20)); "
+            "document.querySelector('#tab-texts').click()"
+        )
         self.assertEqual(self.held()[0], 0)
         model = pipe(["model"], stdin=scene).decode().split("\n")
         first = model.index("sphere") + 2
         self.assertEqual(self.hot_lines("model"), [[n, model[n - 1]] for n in range(first, first + 4)])
-        self.assertEqual(self.browser.run("return [0, 3, 4].map(k => document.body.inspector.panels[0].stage.nameOfLine(arguments[0] + k))", first), [0, 0, -1])
-        self.assertRegex(self.browser.run("return document.querySelector('[role=status]').textContent"), r"^row 20, column 20: sphere 0, depth [\d.]+: shown in \d+ pixels$")
+        self.assertEqual(
+            self.browser.run(
+                "return [0, 3, 4].map(k => "
+                "document.body.inspector.panels[0].stage.nameOfLine(arguments[0] + k))",
+                first), [0, 0, -1])
+        self.assertRegex(self.browser.run("return document.querySelector('[role=status]').textContent"),
+                         r"^row 20, column 20: sphere 0, depth [\d.]+: shown in \d+ pixels$")
         self.assertEqual(self.ray_rows()[0][1], "sphere 0 front")
         self.browser.press("#wire-model", RIGHT)
         self.assertEqual(self.held(), [1, -1])
         self.browser.press("#wire-model", LEFT)
         self.assertEqual(self.held(), [0, -1])
         self.browser.run("document.querySelector('#tab-explanation').click()")
-        self.assertIn("draw no spheres", self.browser.run("return document.querySelector('#explanation').textContent"))
+        self.assertIn("draw no spheres",
+                      self.browser.run("return document.querySelector('#explanation').textContent"))
 
     def test_many_spheres_and_no_triangle_have_a_page(self):
-        pathlib.Path("scene.txt").write_text("0 0 9\n0 0 0\n0 1 0\n60 1 1 100\n" + "".join(f"sphere {i % 40 - 20} {i // 40 - 15} -30 0.4\n" for i in range(1100)) + "end\n")
+        pathlib.Path("scene.txt").write_text("0 0 9\n0 0 0\n0 1 0\n60 1 1 100\n" +
+                                             "".join(f"sphere {i % 40 - 20} {i // 40 - 15} -30 0.4\n"
+                                                     for i in range(1100)) + "end\n")
         pathlib.Path("config.txt").write_text("41 41\n")
         self.load("scene.txt", "config.txt", "--trace")
-        self.assertTrue(self.browser.run("return document.getElementById('title').textContent").startswith("scene.txt: 0 triangles and 1100 spheres"))
-        found = self.browser.run("return document.body.inspector.panels.slice(0, 2).map(({wire}) => [...wire.stage.spheres.names].filter(i => wire.triangleAt(wire.stage.spheres.x[4 * i], wire.stage.spheres.y[4 * i]) >= 0).length)")
+        self.assertTrue(
+            self.browser.run("return document.getElementById('title').textContent").startswith(
+                "scene.txt: 0 triangles and 1100 spheres"))
+        found = self.browser.run(
+            "return document.body.inspector.panels.slice(0, 2).map(({wire}) => "
+            "[...wire.stage.spheres.names].filter(i => wire.triangleAt(wire.stage.spheres.x[4 * i], "
+            "wire.stage.spheres.y[4 * i]) >= 0).length)"
+        )
         self.assertEqual(found, [1100, 1100])
-        points = "[...wire.stage.spheres.outermost()].flatMap((x, at, all) => at % 3 ? [] : [[x, all[at + 1], all[at + 2]]])"
+        points = ("[...wire.stage.spheres.outermost()].flatMap((x, at, all) => at % 3 ? [] : [[x, all[at + "
+                  "1], all[at + 2]]])")
         self.assertEqual(self.points_out_of_sight("view", points), [])
 
     def test_the_picture_is_traces_and_the_note_of_zbuf_is_left_out(self):
@@ -643,14 +891,18 @@ class InABrowser(ToolTest):
         self.assertTrue(pathlib.Path("out.ppm").read_bytes().endswith(base64.b64decode(shown)))
         found = self.browser.accessibility()
         for role, name in (("tab", "Rays"), ("columnheader", "meets")):
-            self.assertTrue(any(role == r and n.startswith(name) for r, n in found), f"no {role} named {name}")
+            self.assertTrue(any(role == r and n.startswith(name) for r, n in found),
+                            f"no {role} named {name}")
 
     def test_of_a_large_picture_the_page_has_the_rays_of_the_nearest_pixel(self):
         self.load_mirror(151)
         count = self.browser.run("return document.body.inspector.rays.trees.trees.size")
         self.assertTrue(1000 < count <= 4000, count)
         for place, most in (((0, 0), 3), ((150, 150), 3), ((75, 76), 1), ((3, 140), 2)):
-            self.browser.run("document.body.inspector.select(document.body.inspector.atPixel(151 * arguments[0] + arguments[1]))", place[1], place[0])
+            self.browser.run(
+                "document.body.inspector.select(document.body.inspector.atPixel(151 * arguments[0] + "
+                "arguments[1]))",
+                place[1], place[0])
             told = self.browser.run("return document.querySelector('#rays-place').textContent")
             row, column = map(int, re.match(r"Rays of row (\d+), column (\d+)", told).groups())
             self.assertLessEqual(max(abs(column - place[0]), abs(row - place[1])), most)
@@ -658,24 +910,34 @@ class InABrowser(ToolTest):
             self.assertEqual(self.ray_rows()[0][0], "primary")
 
     def test_in_a_large_scene_the_pixel_is_explained_beside_the_command_for_the_rest(self):
-        scene = subprocess.run([SOURCE / "scripts/make-torus", "--around", "25", "--tube", "11"], capture_output=True, check=True).stdout
+        scene = subprocess.run([SOURCE / "scripts/make-torus", "--around", "25", "--tube", "11"],
+                               capture_output=True, check=True).stdout
         pathlib.Path("large.txt").write_bytes(scene)  # 1,100 triangles
         pathlib.Path("config.txt").write_text("42 42\n")
         self.load("large.txt", "config.txt")
-        self.browser.run("document.querySelector('#tab-explanation').click(); document.body.inspector.select(document.body.inspector.atPixel(20 * 42 + 20))")
+        self.browser.run(
+            "document.querySelector('#tab-explanation').click(); "
+            "document.body.inspector.select(document.body.inspector.atPixel(20 * 42 + 20))"
+        )
         name, _ = self.held()
-        self.assertIn(f"pipeline explain large.txt config.txt --triangle {name} --pixel 20,20", self.browser.run("return document.querySelector('#explanation').textContent"))
+        self.assertIn(f"pipeline explain large.txt config.txt --triangle {name} --pixel 20,20",
+                      self.browser.run("return document.querySelector('#explanation').textContent"))
         name, _ = self.held()
-        told = subprocess.run([SOURCE / "scripts/explain", "large.txt", "config.txt", "--triangle", str(name), "--pixel", "20,20"], capture_output=True, text=True, check=True,
+        told = subprocess.run([
+            SOURCE / "scripts/explain", "large.txt", "config.txt", "--triangle",
+            str(name), "--pixel", "20,20"], capture_output=True, text=True, check=True,
                               env={"BIN": str(BIN), "PATH": "/usr/bin:/bin"}).stdout
         shown = self.browser.run("return document.querySelector('#explanation pre + pre').textContent") + "\n"
-        begin, end = told.index("PIXEL"), told.index("  at this pixel")  # explain leaves out fragments beyond its 60 lines
+        begin, end = told.index("PIXEL"), told.index(
+            "  at this pixel")  # explain leaves out fragments beyond its 60 lines
         self.assertEqual(shown[:end - begin], told[begin:end])
-        self.assertEqual((shown.splitlines()[-1], shown.count(" depth ")), (told.splitlines()[-1], len(self.competitors()) + told[begin:end].count(" depth ")))
+        self.assertEqual((shown.splitlines()[-1], shown.count(" depth ")),
+                         (told.splitlines()[-1], len(self.competitors()) + told[begin:end].count(" depth ")))
 
     def test_the_bench_measures_every_way_to_point(self):
-        done = subprocess.run([SOURCE / "scripts/measure/inspect", "--triangles", "200", "--times", "3"], capture_output=True, text=True,
-                              env={"BIN": str(BIN), "PATH": "/usr/bin:/bin", "HOME": "."})
+        done = subprocess.run([SOURCE / "scripts/measure/inspect", "--triangles", "200", "--times", "3"],
+                              capture_output=True, text=True, env={
+                                  "BIN": str(BIN), "PATH": "/usr/bin:/bin", "HOME": "."})
         self.assertEqual(done.stderr, "")
         rows = [[cell.strip() for cell in line.split("|")[1:-1]] for line in done.stdout.splitlines()]
         self.assertRegex(rows[0][0], "^[12][0-9][0-9] triangles$")
@@ -686,25 +948,32 @@ class InABrowser(ToolTest):
 
     def test_a_background_with_an_alpha_is_no_obstacle(self):
         pathlib.Path("config.txt").write_text("40 40\n")
-        pathlib.Path("scene.txt").write_text(SCENE.replace("triangle", "background 200 100 50 128\ntriangle", 1))
-        done = subprocess.run([SOURCE / "scripts/inspect", "scene.txt", "config.txt", "-o", "page.html"], capture_output=True, text=True,
-                              env={"BIN": str(BIN), "PATH": "/usr/bin:/bin"})
+        pathlib.Path("scene.txt").write_text(
+            SCENE.replace("triangle", "background 200 100 50 128\ntriangle", 1))
+        done = subprocess.run([SOURCE / "scripts/inspect", "scene.txt", "config.txt", "-o", "page.html"],
+                              capture_output=True, text=True, env={"BIN": str(BIN), "PATH": "/usr/bin:/bin"})
         self.assertEqual((done.returncode, done.stderr), (0, ""))
 
     def test_a_scene_too_large_is_thinned_and_says_so(self):
         sys.path.insert(0, str(SOURCE / "scripts"))
         from inspect_parts import inspection
-        program = ("import sys; sys.path.insert(0, sys.argv[1]); sys.dont_write_bytecode = True; sys.argv[1:] = ['scene.txt', 'config.txt', '-o', 'page.html']\n"
-                   "from importlib.machinery import SourceFileLoader as Loader; from inspect_parts import inspection; inspection.MAX_DRAWN_TRIANGLES = 1\n"
-                   "Loader('__main__', sys.path[0] + '/inspect').load_module()")
+        program = (
+            "import sys; sys.path.insert(0, sys.argv[1]); sys.dont_write_bytecode = True; sys.argv[1:] = "
+            "['scene.txt', 'config.txt', '-o', 'page.html']\n"
+            "from importlib.machinery import SourceFileLoader as Loader; from inspect_parts import "
+            "inspection; inspection.MAX_DRAWN_TRIANGLES = 1\n"
+            "Loader('__main__', sys.path[0] + '/inspect').load_module()")
         self.assertGreaterEqual(inspection.MAX_DRAWN_TRIANGLES, 100000)
         pathlib.Path("scene.txt").write_text(SCENE)
         pathlib.Path("config.txt").write_text("40 40\n")
-        subprocess.run([sys.executable, "-c", program, SOURCE / "scripts"], check=True, env={"BIN": str(BIN), "PATH": "/usr/bin:/bin"})
+        subprocess.run([sys.executable, "-c", program, SOURCE / "scripts"], check=True,
+                       env={"BIN": str(BIN), "PATH": "/usr/bin:/bin"})
         self.browser.open(pathlib.Path("page.html").resolve())
         self.browser.wait_for(lambda: self.browser.run("return document.body.dataset.ready") == "yes")
-        self.assertIn("Of 3 triangles one in 3 is drawn", self.browser.run("return document.getElementById('notes').textContent"))
-        self.assertEqual(self.browser.run("return [...document.body.inspector.panels[0].stage.points]"), [-2, 0, 0, -1, 0, 0, -2, 1, 0])
+        self.assertIn("Of 3 triangles one in 3 is drawn",
+                      self.browser.run("return document.getElementById('notes').textContent"))
+        self.assertEqual(self.browser.run("return [...document.body.inspector.panels[0].stage.points]"),
+                         [-2, 0, 0, -1, 0, 0, -2, 1, 0])
 
 
 if __name__ == "__main__":

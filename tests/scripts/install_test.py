@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""cmake --install: every command runs from a read-only prefix with blanks in its path, as another user, while the source tree cannot be
-seen; so do the examples of its page. The library is found by CMake and pkg-config.
+"""cmake --install: every command runs from a read-only prefix with blanks in its path, as another user, while
+the source tree cannot be seen; so do the examples of its page. The library is found by CMake and pkg-config.
 
 usage: install_test.py BUILD_DIR SOURCE_DIR [UNITTEST ARGUMENT...]
 """
@@ -23,8 +23,8 @@ from display import MISSING, Display  # noqa: E402
 
 NOBODY = 65534
 TOOLS = ["model", "view", "project", "zbuf"]
-# Runs the words after '--' without the folders before it, as nobody if root does, else as the same user ($1), who was root only to
-# hide the folders.
+# Runs the words after '--' without the folders before it, as nobody if root does, else as the same user ($1),
+# who was root only to hide the folders.
 HIDE = """
 user=$1; shift
 while [ "$1" != -- ]; do mount -t tmpfs -o mode=755 none "$1" || exit 99; shift; done
@@ -38,7 +38,8 @@ def namespace():
     """The words that give a process mounts of its own, or none if the system gives none to this user."""
     for words in (["unshare", "--mount"], ["unshare", "--map-root-user", "--mount"]):
         try:
-            if subprocess.run([*words, "sh", "-c", "mount -t tmpfs none /mnt"], capture_output=True).returncode == 0:
+            if subprocess.run([*words, "sh", "-c", "mount -t tmpfs none /mnt"],
+                              capture_output=True).returncode == 0:
                 return words
         except FileNotFoundError:
             break
@@ -65,13 +66,17 @@ def tearDownModule():  # noqa: N802
 
 
 def install(prefix, **settings):
-    done = subprocess.run(["cmake", "--install", BUILD, "--prefix", prefix], capture_output=True, text=True, **settings)
+    done = subprocess.run(["cmake", "--install", BUILD, "--prefix", prefix], capture_output=True, text=True,
+                          **settings)
     if done.returncode != 0:
         raise AssertionError(done.stdout + done.stderr)
 
 
 def commands():
-    return [path.name for path in sorted((PREFIX / "libexec/pipeline").iterdir()) if path.is_file() and os.access(path, os.X_OK)]
+    return [
+        path.name
+        for path in sorted((PREFIX / "libexec/pipeline").iterdir())
+        if path.is_file() and os.access(path, os.X_OK)]
 
 
 def examples(page):
@@ -101,13 +106,15 @@ class Installed(unittest.TestCase):
     def run_line(self, line, **settings):
         if not self.words:
             self.skipTest("the system gives no process mounts of its own: the source tree cannot be hidden")
-        return subprocess.run([*self.words, "bash", "-c", line], cwd=self.work, env=self.environment, stdin=subprocess.DEVNULL,
-                              capture_output=True, text=True, timeout=60, **settings)
+        return subprocess.run([*self.words, "bash", "-c", line], cwd=self.work, env=self.environment,
+                              stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=60,
+                              **settings)
 
     def prepare(self):
         """The files of which examples speak, for the sample of the worked example."""
         sample = SOURCE / "samples/worked-example"
-        for name in ("scene.txt", "config.txt", "stage1.txt", "stage2.txt", "stage3.txt", "z_buffer.txt", "out.bmp"):
+        for name in ("scene.txt", "config.txt", "stage1.txt", "stage2.txt", "stage3.txt", "z_buffer.txt",
+                     "out.bmp"):
             shutil.copy(sample / name, self.work)
         (self.work / "bunny.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
         shutil.copy(self.work / "bunny.obj", self.work / "part.obj")
@@ -124,12 +131,16 @@ class Installed(unittest.TestCase):
 
     def test_nothing_can_write_to_the_prefix_and_the_source_tree_is_gone(self):
         self.give()
-        done = self.run_line(f"touch {shlex.quote(str(PREFIX))}/x; ls {shlex.quote(str(SOURCE))}; id -u; touch here && echo written")
+        done = self.run_line(
+            f"touch {shlex.quote(str(PREFIX))}/x; ls {shlex.quote(str(SOURCE))}; id -u; touch here && "
+            f"echo written"
+        )
         self.assertEqual(done.stdout, f"{NOBODY if self.is_root else os.geteuid()}\nwritten\n")
         self.assertIn("Permission denied", done.stderr)
 
     def test_every_command_answers_help(self):
-        self.assertLessEqual({*TOOLS, "stages", "compare", "explain", "inspect", "fly", "trade"}, set(commands()))
+        self.assertLessEqual({*TOOLS, "stages", "compare", "explain", "inspect", "fly", "trade"},
+                             set(commands()))
         self.give()
         for command in commands():
             with self.subTest(command):
@@ -150,7 +161,8 @@ class Installed(unittest.TestCase):
                     self.assertEqual(done.returncode, 0, done.stderr)
                     self.assertNotIn("Traceback", done.stderr)
                     for file in re.findall(r"(?:> |--image |-o )(\S+\.\w+)", line):
-                        self.assertGreater((self.work / file).stat().st_size, 0 if file != "differences.png" else -1, file)
+                        self.assertGreater((self.work / file).stat().st_size,
+                                           0 if file != "differences.png" else -1, file)
 
     @unittest.skipIf(MISSING, f"missing: {' '.join(MISSING)}")
     def test_fly_opens_its_window(self):
@@ -158,12 +170,13 @@ class Installed(unittest.TestCase):
         with Display():
             self.environment["DISPLAY"] = os.environ["DISPLAY"]
             done = self.run_line("timeout 3 pipeline fly scene.txt config.txt; echo $?")
-        self.assertEqual((done.stdout, done.stderr), ("124\n", ""))
+        self.assertEqual((done.stdout, done.stderr), ("124\n", "fly: ended by SIGTERM\n"))
 
     def test_the_pipe_makes_the_sample(self):
         self.prepare()
         done = self.run_line('eval "$(pipeline env)" && model scene.txt | view | project | zbuf config.txt')
-        self.assertEqual((done.stdout, done.stderr), ((SOURCE / "samples/worked-example/z_buffer.txt").read_text(), ""))
+        self.assertEqual((done.stdout, done.stderr),
+                         ((SOURCE / "samples/worked-example/z_buffer.txt").read_text(), ""))
 
     def test_no_file_names_the_source_tree(self):
         for path in PREFIX.rglob("*"):
@@ -184,7 +197,8 @@ class Installed(unittest.TestCase):
     def test_completion_and_pages_are_those_of_the_build(self):
         for path in (BUILD / "share").rglob("*"):
             if path.is_file():
-                self.assertEqual((PREFIX / "share" / path.relative_to(BUILD / "share")).read_bytes(), path.read_bytes())
+                self.assertEqual((PREFIX / "share" / path.relative_to(BUILD / "share")).read_bytes(),
+                                 path.read_bytes())
 
 
 class ShortNames(unittest.TestCase):
@@ -198,16 +212,21 @@ class ShortNames(unittest.TestCase):
             names = sorted(os.listdir(BUILD / "libexec/pipeline"))
             script = pathlib.Path(folder, "links.cmake")
             template = (SOURCE / "scripts/package/install_links.cmake.in").read_text()
-            script.write_text(f'set(CMAKE_INSTALL_PREFIX "{prefix}")\n' +
-                              template.replace("@names@", " ".join(names)).replace("@PIPELINE_SHORT_NAMES@", "ON"))
-            subprocess.run(["cmake", "-P", script], env={**os.environ, "DESTDIR": str(destination)}, check=True, capture_output=True)
+            script.write_text(
+                f'set(CMAKE_INSTALL_PREFIX "{prefix}")\n' +
+                template.replace("@names@", " ".join(names)).replace("@PIPELINE_SHORT_NAMES@", "ON"))
+            subprocess.run(["cmake", "-P", script], env={**os.environ, "DESTDIR": str(destination)},
+                           check=True, capture_output=True)
             self.assertEqual(sorted(os.listdir(placed / "bin")), sorted([*names, "pipeline"]))
             for name in names:
-                self.assertTrue((placed / f"share/man/man1/{name}.1").samefile(placed / f"share/man/man1/pipeline-{name}.1"))
+                self.assertTrue((placed / f"share/man/man1/{name}.1").samefile(
+                    placed / f"share/man/man1/pipeline-{name}.1"))
                 self.assertEqual(os.readlink(placed / f"bin/{name}"), f"../libexec/pipeline/{name}")
             sample = SOURCE / "samples/worked-example"
-            line = f"stages {sample}/scene.txt {sample}/config.txt five && compare --five five {sample}/scene.txt {sample}/config.txt"
-            done = subprocess.run(["bash", "-c", line], cwd=folder, env={"PATH": f"{placed}/bin:/usr/bin:/bin"}, capture_output=True, text=True)
+            line = (f"stages {sample}/scene.txt {sample}/config.txt five && compare --hand-in five "
+                    f"{sample}/scene.txt {sample}/config.txt")
+            done = subprocess.run(["bash", "-c", line], cwd=folder,
+                                  env={"PATH": f"{placed}/bin:/usr/bin:/bin"}, capture_output=True, text=True)
             self.assertEqual((done.returncode, done.stderr), (0, ""))
 
 
@@ -228,33 +247,41 @@ class Library(unittest.TestCase):
         return done.stdout
 
     def assert_draws(self, folder):
-        self.assertEqual(self.call(pathlib.Path(folder, "draw")).decode(), "#.......\n###.....\n#####...\n#######.\n")
+        self.assertEqual(
+            self.call(pathlib.Path(folder, "draw")).decode(), "#.......\n###.....\n#####...\n#######.\n")
 
     def test_cmake_finds_it_and_each_public_header_compiles(self):
         self.assertGreater(len(self.headers()), 10)
-        self.call("cmake", "-S", SOURCE / "tests/consumer/installed", "-B", self.build.name, "-G", "Ninja", f"-DCMAKE_PREFIX_PATH={PREFIX}",
-                  "-DHEADERS=" + ";".join(self.headers()), "-DCMAKE_BUILD_TYPE=Debug")
+        self.call("cmake", "-S", SOURCE / "tests/consumer/installed", "-B", self.build.name, "-G", "Ninja",
+                  f"-DCMAKE_PREFIX_PATH={PREFIX}", "-DHEADERS=" + ";".join(self.headers()),
+                  "-DCMAKE_BUILD_TYPE=Debug")
         self.call("cmake", "--build", self.build.name)
         self.assert_draws(self.build.name)
         self.assertIn(self.call(pathlib.Path(self.build.name, "picture"))[:2], (b"\x89P", b"P6"))
 
     def test_cmake_refuses_another_version(self):
         pathlib.Path(self.build.name, "CMakeLists.txt").write_text(
-            "cmake_minimum_required(VERSION 3.22)\nproject(x LANGUAGES NONE)\nfind_package(pipeline 99)\nmessage(STATUS found=${pipeline_FOUND})\n")
-        text = self.call("cmake", "-S", self.build.name, "-B", self.build.name + "/b", f"-DCMAKE_PREFIX_PATH={PREFIX}")
+            "cmake_minimum_required(VERSION 3.22)\nproject(x LANGUAGES NONE)\nfind_package(pipeline 99)\n"
+            "message(STATUS found=${pipeline_FOUND})\n"
+        )
+        text = self.call("cmake", "-S", self.build.name, "-B", self.build.name + "/b",
+                         f"-DCMAKE_PREFIX_PATH={PREFIX}")
         self.assertIn("found=0", text.decode())
 
     def test_pkg_config_finds_it(self):
         if not shutil.which("pkg-config"):
             self.skipTest("pkg-config is missing (Debian: pkgconf)")
         pc, = PREFIX.rglob("pipeline.pc")
-        flags = self.call("pkg-config", "--cflags", "--libs", "pipeline", env={**os.environ, "PKG_CONFIG_PATH": str(pc.parent)})
+        flags = self.call("pkg-config", "--cflags", "--libs", "pipeline",
+                          env={**os.environ, "PKG_CONFIG_PATH": str(pc.parent)})
         compiler = os.environ.get("CXX", "c++")
-        self.call(compiler, SOURCE / "tests/consumer/draw.cpp", "-o", self.build.name + "/draw", *shlex.split(flags.decode()))
+        self.call(compiler, SOURCE / "tests/consumer/draw.cpp", "-o", self.build.name + "/draw",
+                  *shlex.split(flags.decode()))
         self.assert_draws(self.build.name)
 
 
-@unittest.skipUnless(shutil.which("dpkg-deb") and shutil.which("dpkg-shlibdeps"), "this is no Debian system with dpkg-dev")
+@unittest.skipUnless(
+    shutil.which("dpkg-deb") and shutil.which("dpkg-shlibdeps"), "this is no Debian system with dpkg-dev")
 class Packages(unittest.TestCase):
     """What cpack makes."""
 
@@ -264,7 +291,8 @@ class Packages(unittest.TestCase):
         cls.addClassCleanup(folder.cleanup)
         cls.folder = pathlib.Path(folder.name)
         for config in ("CPackConfig.cmake", "CPackSourceConfig.cmake"):
-            done = subprocess.run(["cpack", "--config", config, "-B", folder.name], cwd=BUILD, capture_output=True, text=True)
+            done = subprocess.run(["cpack", "--config", config, "-B", folder.name], cwd=BUILD,
+                                  capture_output=True, text=True)
             if done.returncode != 0:
                 raise AssertionError(done.stdout + done.stderr)
         cls.package, = cls.folder.glob("*.deb")
@@ -276,21 +304,28 @@ class Packages(unittest.TestCase):
         return [path.relative_to(root) for path in root.rglob("*") if not path.is_dir() or path.is_symlink()]
 
     def test_it_has_what_was_installed_and_what_debian_asks_for(self):
-        installed = {str("usr" / path.relative_to(PREFIX)) for path in PREFIX.rglob("*") if not path.is_dir() or path.is_symlink()}
+        installed = {
+            str("usr" / path.relative_to(PREFIX))
+            for path in PREFIX.rglob("*")
+            if not path.is_dir() or path.is_symlink()}
         packed = {re.sub(r"(/man/.*)\.gz$", r"\1", str(path)) for path in self.files()}
         documents = "usr/share/doc/pipeline/"
-        self.assertEqual(packed - installed, {documents + "copyright", documents + "changelog.gz", "usr/share/lintian/overrides/pipeline"})
+        self.assertEqual(
+            packed - installed,
+            {documents + "copyright", documents + "changelog.gz", "usr/share/lintian/overrides/pipeline"})
         self.assertEqual(installed - packed, {documents + "LICENSE"})
 
     def test_it_runs_where_it_is_unpacked(self):
-        done = subprocess.run([self.folder / "root/usr/bin/pipeline", "--version"], capture_output=True, text=True)
+        done = subprocess.run([self.folder / "root/usr/bin/pipeline", "--version"], capture_output=True,
+                              text=True)
         self.assertRegex(done.stdout + done.stderr, r"\Apipeline \d+\.\d+\.\d+\n\Z")
 
     def test_no_file_is_in_another_packages_way(self):
         bins = [path.name for path in self.files() if path.parent == pathlib.Path("usr/bin")]
         self.assertEqual(bins, ["pipeline"])
         names = [f"/{path}" for path in self.files()]
-        owners = subprocess.run(["dpkg-query", "-S", *names], capture_output=True, text=True).stdout.splitlines()
+        owners = subprocess.run(["dpkg-query", "-S", *names], capture_output=True,
+                                text=True).stdout.splitlines()
         self.assertEqual([line for line in owners if not line.startswith("pipeline: ")], [])
 
     @unittest.skipUnless(shutil.which("lintian"), "lintian is missing (Debian: lintian)")
@@ -299,10 +334,13 @@ class Packages(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stdout)
 
     def test_the_archive_has_the_files_of_the_repository(self):
-        listed = subprocess.run(["git", "-C", SOURCE, "ls-files", "--cached", "--others", "--exclude-standard"], capture_output=True, text=True)
+        listed = subprocess.run(
+            ["git", "-C", SOURCE, "ls-files", "--cached", "--others", "--exclude-standard"],
+            capture_output=True, text=True)
         if listed.returncode != 0:
             self.skipTest("there is no repository")
-        packed = subprocess.run(["tar", "-tzf", self.archive], capture_output=True, text=True, check=True).stdout.splitlines()
+        packed = subprocess.run(["tar", "-tzf", self.archive], capture_output=True, text=True,
+                                check=True).stdout.splitlines()
         names = {line.partition("/")[2] for line in packed if not line.endswith("/")}
         self.assertEqual(names, {name for name in listed.stdout.splitlines() if (SOURCE / name).exists()})
 

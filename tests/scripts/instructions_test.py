@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""scripts/measure/bench --instructions compares every row with its committed count. The tools and valgrind are scripts here:
-no instruction is counted.
+"""scripts/measure/bench --instructions compares every row with its committed count. The tools and valgrind
+are scripts here: no instruction is counted.
 
 usage: instructions_test.py SOURCE_DIR
 """
@@ -22,7 +22,8 @@ from parts import instructions  # noqa: E402
 from parts.instruction_rows import ROWS, Row
 
 HEADER = "row,kernel,compiler,instructions\n"
-VIEW, ZBUF = Row("one view", "view one-world.txt", "scalar"), Row("one zbuf", "zbuf tiny.txt one-screen.txt", "scalar")
+VIEW, ZBUF = Row("one view", "view one-world.txt", "scalar"), Row("one zbuf", "zbuf tiny.txt one-screen.txt",
+                                                                  "scalar")
 # Reports the count from the tool's file beside this script, and records its own environment and arguments.
 VALGRIND = """#!/bin/sh
 tool=${3#bin/}
@@ -38,7 +39,8 @@ class Instructions(unittest.TestCase):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         self.folder = pathlib.Path(folder.name)
-        self.tools, self.valgrind, self.counts = self.folder / "tools", self.folder / "path/valgrind", self.folder / "instructions.csv"
+        self.tools, self.valgrind, self.counts = (self.folder / "tools", self.folder / "path/valgrind",
+                                                  self.folder / "instructions.csv")
         for name in ("tools", "path"):
             (self.folder / name).mkdir()
         for tool in ("model", "view", "project", "zbuf"):
@@ -77,50 +79,63 @@ class Instructions(unittest.TestCase):
         self.commit("one view,scalar,GCC 12.2.0,1000000", "one zbuf,scalar,GCC 12.2.0,1000000")
         self.take("zbuf", 1_010_100)
         status, lines = self.hold(VIEW, ZBUF)
-        self.assertEqual((status, lines[-2:]), (1, ["failed: one zbuf: 1,000,000 instructions committed, 1,010,100 counted, +1.01 %",
-                                                    "1 passed, 1 failed"]))
+        self.assertEqual((status, lines[-2:]), (1, [
+            "failed: one zbuf: 1,000,000 instructions committed, 1,010,100 counted, +1.01 %",
+            "1 passed, 1 failed"]))
 
     def test_a_row_that_shrank_passes_and_is_named(self):
         self.commit("one view,scalar,GCC 12.2.0,1000000")
         self.take("view", 980_000)
         status, lines = self.hold(VIEW)
-        self.assertEqual((status, lines[-2:]), (0, ["faster: one view: -2.00 %, commit the new count with --accept", "1 passed, 0 failed"]))
+        self.assertEqual(
+            (status, lines[-2:]),
+            (0, ["faster: one view: -2.00 %, commit the new count with --accept", "1 passed, 0 failed"]))
 
     def test_a_row_without_a_count_fails(self):
         self.commit("one view,avx2,GCC 12.2.0,1000000")
         status, lines = self.hold(VIEW)
-        self.assertEqual((status, lines[-2:]), (1, ["failed: one view: no count is committed, 1,000,000 instructions counted; commit it with --accept",
-                                                    "0 passed, 1 failed"]))
+        self.assertEqual((status, lines[-2:]), (1, [
+            "failed: one view: no count is committed, 1,000,000 instructions counted; commit it with "
+            "--accept",
+            "0 passed, 1 failed"]))
 
     def test_a_tool_that_fails_fails_its_row_alone(self):
         self.commit("one view,scalar,GCC 12.2.0,1000000", "one zbuf,scalar,GCC 12.2.0,1000000")
-        pathlib.Path(f"{self.valgrind}.view.message").write_text("==1== Callgrind\nview: one-world.txt:1:1: wrong\n")
+        pathlib.Path(f"{self.valgrind}.view.message").write_text(
+            "==1== Callgrind\nview: one-world.txt:1:1: wrong\n")
         status, lines = self.hold(VIEW, ZBUF)
-        self.assertEqual((status, lines[-2:]), (1, ["failed: one view: view one-world.txt failed with status 1: view: one-world.txt:1:1: wrong",
-                                                    "1 passed, 1 failed"]))
+        self.assertEqual((status, lines[-2:]), (1, [
+            "failed: one view: view one-world.txt failed with status 1: view: one-world.txt:1:1: wrong",
+            "1 passed, 1 failed"]))
 
     def test_another_compiler_skips_the_row_and_is_named(self):
         self.commit("one view,scalar,GCC 12.2.0,1", "one zbuf,scalar,GCC 12.2.0,1000000")
         # Programs linked by clang contain GCC's startup objects.
-        (self.tools / "view").write_text("GCC: (Debian 12.2.0-14+deb12u1) 12.2.0\0Debian clang version 14.0.6\0")
+        (self.tools /
+         "view").write_text("GCC: (Debian 12.2.0-14+deb12u1) 12.2.0\0Debian clang version 14.0.6\0")
         status, lines = self.hold(VIEW, ZBUF)
         self.assertEqual((status, lines[-1]), (0, "1 passed, 0 failed, 1 skipped"))
-        self.assertRegex(lines[1], r"^one view +scalar +skipped: built by clang 14\.0\.6, the committed count is for GCC 12\.2\.0$")
+        self.assertRegex(
+            lines[1],
+            r"^one view +scalar +skipped: built by clang 14\.0\.6, the committed count is for GCC 12\.2\.0$")
 
     def test_a_processor_without_the_kernel_skips_the_row(self):
         self.commit("one view,scalar,GCC 12.2.0,1000000")
-        with mock.patch("parts.instructions.processor_flags", return_value={"sse4_2", "bmi1", "bmi2", "avx2"}):
+        with mock.patch("parts.instructions.processor_flags", return_value={"sse4_2", "bmi1", "bmi2",
+                                                                            "avx2"}):
             status, lines = self.hold(VIEW, Row("a view", "view one-world.txt", "avx2"))
         self.assertEqual((status, lines[-1]), (0, "1 passed, 0 failed, 1 skipped"))
         self.assertRegex(lines[2], r"^a view +avx2 +skipped: this processor has no fma$")
 
     def test_accept_writes_what_was_counted_and_keeps_the_rest(self):
-        self.commit("gone,scalar,GCC 12.2.0,5", "a view,avx2,GCC 12.2.0,7", "one view,scalar,GCC 11.1.0,900000")
+        self.commit("gone,scalar,GCC 12.2.0,5", "a view,avx2,GCC 12.2.0,7",
+                    "one view,scalar,GCC 11.1.0,900000")
         with mock.patch("parts.instructions.processor_flags", return_value=set()):
             status, lines = self.hold(VIEW, Row("a view", "view one-world.txt", "avx2"), ZBUF, accept=True)
         self.assertEqual((status, lines[-1]), (0, "2 passed, 0 failed, 1 skipped"))
-        self.assertEqual(self.counts.read_text(), HEADER + "one view,scalar,GCC 12.2.0,1000000\na view,avx2,GCC 12.2.0,7\n"
-                         "one zbuf,scalar,GCC 12.2.0,1000000\n")
+        self.assertEqual(
+            self.counts.read_text(), HEADER + "one view,scalar,GCC 12.2.0,1000000\na view,avx2,GCC 12.2.0,7\n"
+            "one zbuf,scalar,GCC 12.2.0,1000000\n")
 
     def test_nothing_but_accept_writes(self):
         self.commit("one view,scalar,GCC 12.2.0,2000000")
@@ -131,15 +146,22 @@ class Instructions(unittest.TestCase):
     def test_the_tools_run_in_an_environment_of_their_own(self):
         with mock.patch.dict(os.environ, LC_ALL="de_DE.UTF-8", PIPELINE_KERNEL="avx2", SOMETHING="else"):
             self.hold(VIEW, accept=True)
-        environment = dict(line.split("=", 1) for line in pathlib.Path(f"{self.valgrind}.environment").read_text().splitlines())
-        given = {name: value for name, value in environment.items() if name not in ("PWD", "OLDPWD", "SHLVL", "_")}  # the shell's own
+        environment = dict(
+            line.split("=", 1)
+            for line in pathlib.Path(f"{self.valgrind}.environment").read_text().splitlines())
+        given = {
+            name: value
+            for name, value in environment.items()
+            if name not in ("PWD", "OLDPWD", "SHLVL", "_")}  # the shell's own
         self.assertEqual(given, {"PATH": "/usr/bin:/bin", "LC_ALL": "C", "PIPELINE_KERNEL": "scalar"})
         self.assertEqual(pathlib.Path(f"{self.valgrind}.words").read_text(),
-                         "--tool=callgrind --callgrind-out-file=/dev/null bin/view one-world.txt --threads 1\n")
+                         "--tool=callgrind --callgrind-out-file=/dev/null bin/view one-world.txt\n")
 
     def bench(self, *options, **environment):
-        return subprocess.run([sys.executable, SOURCE_DIR / "scripts/measure/bench", "--instructions", "--bin", self.tools, "--out", self.folder, *options],
-                              capture_output=True, text=True, stdin=subprocess.DEVNULL, env={**os.environ, **environment})
+        return subprocess.run([
+            sys.executable, SOURCE_DIR / "scripts/measure/bench", "--instructions", "--bin", self.tools,
+            "--output", self.folder, *options], capture_output=True, text=True, stdin=subprocess.DEVNULL,
+                              env={**os.environ, **environment})
 
     @unittest.skipUnless(os.uname().machine == "x86_64", "the counts are those of x86-64")
     def test_the_command_accepts_and_then_holds(self):
@@ -148,19 +170,24 @@ class Instructions(unittest.TestCase):
         self.take("view", 1_020_000)
         done = self.bench()
         self.assertEqual(done.returncode, 1)
-        self.assertIn("failed: view: plain, scalar: 1,000,000 instructions committed, 1,020,000 counted, +2.00 %\n", done.stdout)
+        self.assertIn(
+            "failed: view: plain, scalar: 1,000,000 instructions committed, 1,020,000 counted, +2.00 %\n",
+            done.stdout)
 
     def test_without_valgrind_every_row_is_skipped(self):
         done = self.bench(PATH=str(self.tools))
         self.assertEqual(done.returncode, 0)
-        self.assertEqual(done.stdout.splitlines()[-2:], ["NOTHING WAS COUNTED, for the reasons above", f"0 passed, 0 failed, {len(ROWS)} skipped"])
+        self.assertEqual(
+            done.stdout.splitlines()[-2:],
+            ["NOTHING WAS COUNTED, for the reasons above", f"0 passed, 0 failed, {len(ROWS)} skipped"])
         self.assertFalse(self.counts.exists())
         self.assertEqual(self.bench("--accept", PATH=str(self.tools)).returncode, 1)
 
     def test_without_a_tool_it_fails(self):
         (self.tools / "zbuf").unlink()
         done = self.bench()
-        self.assertEqual((done.returncode, done.stdout), (1, f"bench: {self.tools} has no zbuf; scripts/build-release builds the tools\n"))
+        self.assertEqual((done.returncode, done.stdout),
+                         (1, f"bench: {self.tools} has no zbuf; scripts/build-release builds the tools\n"))
 
     def test_every_row_has_its_count_committed(self):
         with open(SOURCE_DIR / "scripts/measure/results/instructions.csv", newline="") as file:

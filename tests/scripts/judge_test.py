@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""scripts/compare --five: the verdicts on sets of files that our own tools and a student's stages make.
+"""scripts/compare --hand-in: the verdicts on sets of files that our own tools and a student's stages make.
 
 usage: judge_test.py BIN_DIR STUDENT [UNITTEST ARGUMENT...]
 """
@@ -36,8 +36,11 @@ NAMES = ("stage1.txt", "stage2.txt", "stage3.txt", "z_buffer.txt", "out.bmp")
 def bmp(rows):
     """A BMP of rows of colors."""
     width, height = len(rows[0]), len(rows)
-    body = b"".join(b"".join(bytes(reversed(color)) for color in row) + bytes(-3 * width % 4) for row in reversed(rows))
-    return struct.pack("<2sIHHIIiiHHIIiiII", b"BM", 54 + len(body), 0, 0, 54, 40, width, height, 1, 24, 0, len(body), 0, 0, 0, 0) + body
+    body = b"".join(b"".join(bytes(reversed(color))
+                             for color in row) + bytes(-3 * width % 4)
+                    for row in reversed(rows))
+    return struct.pack("<2sIHHIIiiHHIIiiII", b"BM", 54 + len(body), 0, 0, 54, 40, width, height, 1, 24, 0,
+                       len(body), 0, 0, 0, 0) + body
 
 
 def with_rough_pi(scene, pi):
@@ -47,7 +50,8 @@ def with_rough_pi(scene, pi):
 
 def line_of_triangle(number, scene=SCENE):
     """The line of a scene with its command `triangle`, the first one being number 0."""
-    return [i for i, line in enumerate(scene.split("\n"), 1) if line.split("#")[0].strip() == "triangle"][number]
+    return [i for i, line in enumerate(scene.split("\n"), 1)
+            if line.split("#")[0].strip() == "triangle"][number]
 
 
 def tool(name, *words, stdin=b""):
@@ -55,7 +59,8 @@ def tool(name, *words, stdin=b""):
 
 
 class Pixels:
-    """The depths (None where no triangle is) and the colors that our zbuf writes, to be changed and written again."""
+    """The depths (None where no triangle is) and the colors that our zbuf writes, to be changed and written
+    again."""
 
     def __init__(self, folder="."):
         _, _, rows = read_picture(os.path.join(folder, "out.bmp"))
@@ -68,14 +73,19 @@ class Pixels:
 
     def write(self, depths="z_buffer.txt", picture="out.bmp", empty=None):
         def line(row):
-            return "".join(f"{empty if z is None else z:.6f}\t" for z in row if z is not None or empty is not None)
+            return "".join(f"{empty if z is None else z:.6f}\t" for z in row
+                           if z is not None or empty is not None)
 
         pathlib.Path(depths).write_text("".join(line(row) + "\n" for row in self.depths))
         pathlib.Path(picture).write_bytes(bmp(self.colors))
 
     def ends(self):
         """The right ends of the picture: (row, column)."""
-        return [(r, max(c for c, z in enumerate(row) if z is not None)) for r, row in enumerate(self.depths) if any(z is not None for z in row)]
+        return [(r, max(c
+                        for c, z in enumerate(row)
+                        if z is not None))
+                for r, row in enumerate(self.depths)
+                if any(z is not None for z in row)]
 
     def clear(self, row, column):
         self.depths[row][column], self.colors[row][column] = None, (0, 0, 0)
@@ -104,7 +114,8 @@ class HandIn(ToolTest):
 
     def assert_verdicts(self, expected, status):
         verdict = self.verdict()
-        self.assertEqual(([file.verdict for file in verdict.files], verdict.status), (expected, status), [(f.cause, f.rule, f.remarks) for f in verdict.files])
+        self.assertEqual(([file.verdict for file in verdict.files], verdict.status), (expected, status),
+                         [(f.cause, f.rule, f.remarks) for f in verdict.files])
         return verdict
 
     RULE = ["right", "right", "right", "right by another rule", "right by another rule"]
@@ -118,7 +129,9 @@ class Right(HandIn):
 
     def test_pixels_of_exact_numbers_in_memory(self):
         self.hand_in(in_memory=True)
-        exact = tool("project", "--digits", "exact", stdin=tool("view", "--digits", "exact", stdin=tool("model", "--digits", "exact", stdin=SCENE.encode())))
+        exact = tool(
+            "project", "--digits", "exact", stdin=tool(
+                "view", "--digits", "exact", stdin=tool("model", "--digits", "exact", stdin=SCENE.encode())))
         pathlib.Path("exact.txt").write_bytes(exact)
         self.draw(stage3="exact.txt")
         self.assert_verdicts(["right"] * 5, 0)
@@ -129,25 +142,32 @@ class Right(HandIn):
                 self.stages()
                 for name in NAMES[:3]:
                     text = pathlib.Path(name).read_text()
-                    pathlib.Path(name).write_text("\n".join(" ".join(form.format(float(word)) for word in line.split()) for line in text.split("\n")))
+                    pathlib.Path(name).write_text("\n".join(" ".join(
+                        form.format(float(word)) for word in line.split()) for line in text.split("\n")))
                 self.draw()
                 self.assert_verdicts(["right"] * 5, 0)
 
     def test_two_digits_are_too_few(self):
         self.hand_in()
         text = pathlib.Path("stage3.txt").read_text()
-        pathlib.Path("stage3.txt").write_text("\n".join(" ".join(f"{float(word):.1f}" for word in line.split()) for line in text.split("\n")))
+        pathlib.Path("stage3.txt").write_text("\n".join(" ".join(f"{float(word):.1f}"
+                                                                 for word in line.split())
+                                                        for line in text.split("\n")))
         verdict = self.verdict(config=False)
-        self.assertEqual([file.verdict for file in verdict.files], ["right", "right", "too few digits to judge"])
+        self.assertEqual([file.verdict for file in verdict.files],
+                         ["right", "right", "too few digits to judge"])
         self.assertEqual(verdict.status, 2)
         self.assertEqual(sentence(verdict), "stage3.txt: too few digits to judge")
 
     def test_two_digits_are_enough_for_points_that_are_far_off(self):
         self.stages("project/no-divide")
         text = pathlib.Path("stage3.txt").read_text()
-        pathlib.Path("stage3.txt").write_text("\n".join(" ".join(f"{float(word):.0e}" for word in line.split()) for line in text.split("\n")))
+        pathlib.Path("stage3.txt").write_text("\n".join(" ".join(f"{float(word):.0e}"
+                                                                 for word in line.split())
+                                                        for line in text.split("\n")))
         file = self.verdict(config=False).files[2]
-        self.assertEqual((file.verdict, file.cause, file.remarks), ("wrong", "", ["it shows 1 significant digit, too few to name a cause"]))
+        self.assertEqual((file.verdict, file.cause, file.remarks),
+                         ("wrong", "", ["it shows 1 significant digit, too few to name a cause"]))
         self.assertIn("line 1, x of vertex 1 of triangle 0", file.first)
 
     def test_a_short_number_is_not_a_lack_of_digits(self):
@@ -160,18 +180,23 @@ class Right(HandIn):
     def test_other_colors_are_free(self):
         self.hand_in()
         pixels = Pixels()
-        pixels.colors = [[tuple(255 - x for x in color) if any(color) else color for color in row] for row in pixels.colors]
+        pixels.colors = [[tuple(255 - x
+                                for x in color) if any(color) else color
+                          for color in row]
+                         for row in pixels.colors]
         pixels.write()
         verdict = self.assert_verdicts(["right"] * 5, 0)
         self.assertIn("in other colors", verdict.files[4].remarks)
 
     def test_our_colors_are_ours_where_a_triangle_was_dropped(self):
-        self.scene = SCENE.replace("50 1.3 1 50\n", "50 1.3 1 50\ntriangle\n6 8 14\n7 8 14\n6 9 14\n")  # behind the eye
+        self.scene = SCENE.replace("50 1.3 1 50\n",
+                                   "50 1.3 1 50\ntriangle\n6 8 14\n7 8 14\n6 9 14\n")  # behind the eye
         pathlib.Path("scene.txt").write_text(self.scene)
         text = tool("model", stdin=self.scene.encode())
         for name, words in zip(NAMES, (("model", "--bare"), ("view", "--bare"), ("project",))):
-            pathlib.Path(name).write_bytes(tool(words[0], *words[1:], *(["--scene", "scene.txt"] if words[0] != "model" else []),
-                                                stdin=self.scene.encode() if words[0] == "model" else text))
+            pathlib.Path(name).write_bytes(
+                tool(words[0], *words[1:], *(["--scene", "scene.txt"] if words[0] != "model" else []),
+                     stdin=self.scene.encode() if words[0] == "model" else text))
             text = pathlib.Path(name).read_bytes()
         self.draw()
         verdict = self.assert_verdicts(["right"] * 5, 0)
@@ -182,12 +207,14 @@ class Right(HandIn):
         self.hand_in()
         pixels = Pixels()
         first = next(color for row in pixels.colors for color in row if any(color))
-        pixels.colors[40] = [(1, 2, 3) if color == first and column % 3 == 0 else color for column, color in enumerate(pixels.colors[40])]
+        pixels.colors[40] = [(1, 2, 3) if color == first and column % 3 == 0 else color
+                             for column, color in enumerate(pixels.colors[40])]
         pixels.write()
         self.assert_verdicts(["right"] * 5, 0)
 
     def test_triangles_without_area_are_drawn_or_not(self):
-        self.scene = "0 0 5\n0 0 0\n0 1 0\n60 1 1 10\ntriangle\n-1 -1 0\n1 -1 0\n0 1 0\ntriangle\n-1.2 0 1\n-1.2 1.5 1\n-1.2 1 1\nend\n"
+        self.scene = ("0 0 5\n0 0 0\n0 1 0\n60 1 1 10\ntriangle\n-1 -1 0\n1 -1 0\n0 1 0\ntriangle\n-1.2 0 1\n"
+                      "-1.2 1.5 1\n-1.2 1 1\nend\n")
         self.hand_in()
         self.assert_verdicts(["right"] * 5, 0)
         self.draw("--coverage", "center")
@@ -229,9 +256,11 @@ class AnotherRule(HandIn):
     def test_a_rough_pi_is_named(self):
         for pi, word in ((3.14, "3.14"), (3.1416, "3.1416"), (22 / 7, "3.1428571")):
             with self.subTest(word):
-                pathlib.Path("stage1.txt").write_bytes(tool("model", "--bare", stdin=with_rough_pi(SCENE, pi).encode()))
+                pathlib.Path("stage1.txt").write_bytes(
+                    tool("model", "--bare", stdin=with_rough_pi(SCENE, pi).encode()))
                 verdict = self.verdict(config=False).files[0]
-                self.assertEqual((verdict.verdict, verdict.rule), ("right by another rule", f"pi is taken as {word}"))
+                self.assertEqual((verdict.verdict, verdict.rule),
+                                 ("right by another rule", f"pi is taken as {word}"))
 
     def test_what_is_printed_for_untouched_pixels(self):
         self.hand_in()
@@ -246,7 +275,8 @@ class AnotherRule(HandIn):
         drawn = sum(z is not None for row in pixels.depths for z in row) + 1
         pixels.write()
         verdict = self.assert_verdicts(self.RULE, 0)
-        self.assertEqual(verdict.files[4].rule, f"another rule at the borders: 1 pixel of {drawn:,} (1 fewer)")
+        self.assertEqual(verdict.files[4].rule,
+                         f"another rule at the borders: 1 pixel of {drawn:,} (1 fewer)")
 
     def test_one_pixel_inside_is_wrong(self):
         self.hand_in()
@@ -258,7 +288,8 @@ class AnotherRule(HandIn):
         self.assertEqual((verdict.files[3].cause, verdict.files[4].differing), ("", 1))
 
     def test_pixels_inside_are_excused_by_one_in_32_at_the_borders(self):
-        for at_borders, inside, expected in ((20, 1, "wrong"), (40, 1, "right by another rule"), (40, 2, "wrong")):
+        for at_borders, inside, expected in ((20, 1, "wrong"), (40, 1, "right by another rule"), (40, 2,
+                                                                                                  "wrong")):
             with self.subTest(at_borders=at_borders, inside=inside):
                 self.hand_in()
                 pixels = Pixels()
@@ -288,8 +319,10 @@ class AnotherRule(HandIn):
 
 class Wrong(HandIn):
     def test_the_stage_and_the_cause(self):
-        for stage, name in ((0, "model/rotation-transposed"), (0, "model/angle-in-radians"), (1, "view/rotation-transposed"), (1, "view/up-as-given"),
-                            (1, "view/l-not-negated"), (2, "project/no-divide"), (2, "project/fov-in-radians")):
+        for stage, name in ((0, "model/rotation-transposed"), (0, "model/angle-in-radians"),
+                            (1, "view/rotation-transposed"), (1, "view/up-as-given"),
+                            (1, "view/l-not-negated"), (2, "project/no-divide"), (2,
+                                                                                  "project/fov-in-radians")):
             with self.subTest(name):
                 self.hand_in(mistake=name)
                 verdict = self.verdict()
@@ -314,22 +347,29 @@ class Wrong(HandIn):
             row[:] = [None if z is None else 0.5 for z in row]
         pixels.write()
         text = pathlib.Path("stage3.txt").read_text()
-        pathlib.Path("stage3.txt").write_text("".join(" ".join([*line.split()[:2], "5"]) + "\n" if line else "\n" for line in text.split("\n")[:-1]))
+        pathlib.Path("stage3.txt").write_text("".join(
+            " ".join([*line.split()[:2], "5"]) + "\n" if line else "\n" for line in text.split("\n")[:-1]))
         self.assert_verdicts(["right", "right", "wrong", "wrong", "wrong"], 1)
 
     def test_the_verdict_names_what_could_not_be_judged(self):
         self.hand_in()
         self.stages("project/no-divide")
         text = pathlib.Path("z_buffer.txt").read_text()
-        pathlib.Path("z_buffer.txt").write_text("\n".join("\t".join("0.5" for _ in line.split()) for line in text.split("\n")))
+        pathlib.Path("z_buffer.txt").write_text("\n".join("\t".join("0.5"
+                                                                    for _ in line.split())
+                                                          for line in text.split("\n")))
         verdict = self.verdict()
-        self.assertTrue(sentence(verdict).endswith("; z_buffer.txt: too few digits to judge"), sentence(verdict))
+        self.assertTrue(
+            sentence(verdict).endswith("; z_buffer.txt: too few digits to judge"), sentence(verdict))
 
     def test_model_names_the_line_of_the_scene(self):
         self.hand_in(mistake="model/rotation-transposed")
         verdict = self.verdict()
-        self.assertIn("the first wrong triangle is number 0, in line 8 of the scene, after rotate in line 6", sentence(verdict))
-        self.assertEqual({cause.name for cause in verdict.files[0].causes}, {"model/rotation-transposed", "model/angle-negated"})
+        self.assertIn("the first wrong triangle is number 0, in line 8 of the scene, after rotate in line 6",
+                      sentence(verdict))
+        self.assertEqual({cause.name
+                          for cause in verdict.files[0].causes},
+                         {"model/rotation-transposed", "model/angle-negated"})
 
     def test_the_last_element_of_a_matrix(self):
         self.stages()
@@ -354,16 +394,20 @@ class Wrong(HandIn):
         lines = pathlib.Path("stage1.txt").read_text().split("\n")
         m = [list(row) for row in view_matrix((3, 4, 7), (0.3, -0.2, 0.1), (0.2, 1, 0.1))]
         m[0][1] = m[0][2]
-        pathlib.Path("stage2.txt").write_text("\n".join(" ".join(f"{x:.7f}" for x in image(m, tuple(map(float, line.split())))) if line else "" for line in lines))
+        pathlib.Path("stage2.txt").write_text("\n".join(" ".join(
+            f"{x:.7f}" for x in image(m, tuple(map(float, line.split())))) if line else "" for line in lines))
         verdict = self.verdict(config=False)
         self.assertEqual(verdict.files[1].verdict, "wrong")
-        self.assertRegex(verdict.files[1].cause, rf"^Row 1, column 2 of the matrix \(counted from 1\) is {m[0][2]:.6g}, not -0.16246\d$")
+        self.assertRegex(
+            verdict.files[1].cause,
+            rf"^Row 1, column 2 of the matrix \(counted from 1\) is {m[0][2]:.6g}, not -0.16246\d$")
 
     def test_points_that_are_passed_on_unchanged_have_a_cause(self):
         self.stages()
         stage1, stage2 = (pathlib.Path(name).read_text() for name in NAMES[:2])
         points = re.findall(r"(?<=triangle\n)(.+\n.+\n.+\n)", SCENE)
-        for file, text, cause in ((0, "\n".join(points), "The points are those of the scene: no transformation is carried out"),
+        for file, text, cause in ((0, "\n".join(points),
+                                   "The points are those of the scene: no transformation is carried out"),
                                   (1, stage1, "The points are those of the stage before, unchanged"),
                                   (2, stage2, "The points are those of the stage before, unchanged")):
             with self.subTest(NAMES[file]):
@@ -420,8 +464,11 @@ class Wrong(HandIn):
         self.hand_in(mistake="view/eye-added")
         for name in NAMES[3:]:
             pathlib.Path(name).unlink()
-        self.assertEqual(sentence(self.verdict()), "the first stage that went wrong is view (stage2.txt is wrong): The eye is added in place of subtracted; "
-                         "what follows is right, given that; not handed in: z_buffer.txt and out.bmp")
+        self.assertEqual(
+            sentence(self.verdict()),
+            "the first stage that went wrong is view (stage2.txt is wrong): The eye is added in place of "
+            "subtracted; "
+            "what follows is right, given that; not handed in: z_buffer.txt and out.bmp")
 
     def test_the_triangles_of_a_stage_are_counted_by_its_own_input(self):
         self.stages()
@@ -429,34 +476,45 @@ class Wrong(HandIn):
             text = pathlib.Path(name).read_text()
             pathlib.Path(name).write_text(text + more * text[:text.index("\n\n") + 2])
         verdict = self.verdict(config=False)
-        self.assertEqual([file.remarks for file in verdict.files], [["6 triangles in place of 5"], ["7 triangles in place of 6"],
-                                                                    ["by the right numbers, which are not those of stage2.txt"]])
+        self.assertEqual([file.remarks for file in verdict.files],
+                         [["6 triangles in place of 5"], ["7 triangles in place of 6"],
+                          ["by the right numbers, which are not those of stage2.txt"]])
 
     def test_too_few_triangles(self):
         self.hand_in()
         text = pathlib.Path("stage1.txt").read_text()
         pathlib.Path("stage1.txt").write_text("\n".join(text.split("\n")[4:]))
         file = self.verdict().files[0]
-        self.assertEqual((file.remarks, file.cause), (["4 triangles in place of 5"], f"Triangle 0 is missing, line {line_of_triangle(0)} of the scene"))
+        self.assertEqual((file.remarks, file.cause), ([
+            "4 triangles in place of 5"], f"Triangle 0 is missing, line {line_of_triangle(0)} of the scene"))
 
     def test_the_triangles_that_are_missing_or_too_many_are_named(self):
         for kind in range(3):
             self.stages()
             kept = pathlib.Path(NAMES[kind]).read_text()
             triangles = kept.split("\n\n")[:5]
-            one, first_of_two, first_of_three = (f", {words}line {line_of_triangle(number)} of the scene" if kind == 0 else ""
-                                                 for words, number in (("", 4), ("the first one in ", 1), ("the first one in ", 2)))
-            for order, cause in (((0, 1, 2, 3), "Triangle 4 is missing, the last one" + one), ((0, 3, 4), "Triangles 1 and 2 are missing" + first_of_two),
+            one, first_of_two, first_of_three = (f", {words}line {line_of_triangle(number)} of the scene"
+                                                 if kind == 0 else ""
+                                                 for words, number in (("", 4), ("the first one in ", 1),
+                                                                       ("the first one in ", 2)))
+            for order, cause in (((0, 1, 2, 3), "Triangle 4 is missing, the last one" +
+                                  one), ((0, 3, 4), "Triangles 1 and 2 are missing" + first_of_two),
                                  ((0, 1), "Triangles 2, 3 and 4 are missing, the last 3" + first_of_three),
-                                 ((0, 1, 1, 2, 3, 4), "Triangle 1 is written twice, again in line 9"), ((0, 1, 2, 3, 4, 0), "Triangle 0 is written twice, again in line 21"),
-                                 ((0, 1, 2, 3, 4) * 2, "Every triangle is written twice, the first one again in line 21"), ((0, 2, 1), "")):
+                                 ((0, 1, 1, 2, 3, 4), "Triangle 1 is written twice, again in line 9"),
+                                 ((0, 1, 2, 3, 4, 0), "Triangle 0 is written twice, again in line 21"),
+                                 ((0, 1, 2, 3, 4) * 2,
+                                  "Every triangle is written twice, the first one again in line 21"), ((0, 2,
+                                                                                                        1),
+                                                                                                       "")):
                 with self.subTest(NAMES[kind], order=order):
                     pathlib.Path(NAMES[kind]).write_text("".join(triangles[i] + "\n\n" for i in order))
                     file = self.verdict(config=False).files[kind]
                     self.assertEqual((file.verdict, file.cause), ("wrong", cause))
             stranger = triangles[2].replace("1", "2")
             pathlib.Path(NAMES[kind]).write_text("\n\n".join([*triangles[:2], stranger, *triangles[2:], ""]))
-            self.assertEqual(self.verdict(config=False).files[kind].cause, "Triangle 2 of the text comes from no triangle of the input, first in line 9")
+            self.assertEqual(
+                self.verdict(config=False).files[kind].cause,
+                "Triangle 2 of the text comes from no triangle of the input, first in line 9")
             pathlib.Path(NAMES[kind]).write_text(kept)
 
     def test_of_two_equal_triangles_nobody_knows_which_is_missing(self):
@@ -464,20 +522,29 @@ class Wrong(HandIn):
         self.stages()
         text = pathlib.Path("stage1.txt").read_text().split("\n\n")
         pathlib.Path("stage1.txt").write_text("\n\n".join(text[:5]) + "\n")
-        self.assertEqual(self.verdict(config=False).files[0].cause,
-                         f"Triangle 5 is missing, the last one, line {line_of_triangle(5, self.scene)} of the scene (or the one that is the same)")
+        self.assertEqual(
+            self.verdict(config=False).files[0].cause,
+            f"Triangle 5 is missing, the last one, line {line_of_triangle(5, self.scene)} of the scene (or "
+            f"the one that is the same)"
+        )
 
     def test_one_vertex_that_is_treated_otherwise(self):
         right = [text.split("\n") for text in student.texts(SCENE)]
-        for kind, mistake, cause in ((0, "model/multiplied-on-the-left", ": A new transformation is multiplied on the left of the current matrix, not on its right"),
-                                     (1, "view/eye-added", ": The eye is added in place of subtracted"), (2, "project/no-divide", f": {mistakes.sentence('project/no-divide')[:-1]}")):
+        for kind, mistake, cause in (
+            (0, "model/multiplied-on-the-left",
+             ": A new transformation is multiplied on the left of the current matrix, not on its right"),
+            (1, "view/eye-added", ": The eye is added in place of subtracted"),
+            (2, "project/no-divide", f": {mistakes.sentence('project/no-divide')[:-1]}")):
             wrong = student.texts(SCENE, mistake)[kind].split("\n")
-            for vertices, words in (({0}, "Only the first vertex of each triangle is wrong, the second and third are right"),
-                                    ({2}, "Only the third vertex of each triangle is wrong, the first and second are right"),
-                                    ({0, 1}, "The first and second vertex of each triangle are wrong, the third is right")):
+            for vertices, words in (({
+                    0}, "Only the first vertex of each triangle is wrong, the second and third are right"), ({
+                        2
+                    }, "Only the third vertex of each triangle is wrong, the first and second are right"), ({
+                        0, 1}, "The first and second vertex of each triangle are wrong, the third is right")):
                 with self.subTest(mistake, vertices=vertices):
                     self.stages()
-                    pathlib.Path(NAMES[kind]).write_text("\n".join(b if i % 4 in vertices else a for i, (a, b) in enumerate(zip(right[kind], wrong))))
+                    pathlib.Path(NAMES[kind]).write_text("\n".join(
+                        b if i % 4 in vertices else a for i, (a, b) in enumerate(zip(right[kind], wrong))))
                     self.assertEqual(self.verdict(config=False).files[kind].cause, words + cause)
 
     def test_another_order_is_named(self):
@@ -485,12 +552,18 @@ class Wrong(HandIn):
         for kind in range(3):
             kept = pathlib.Path(NAMES[kind]).read_text()
             triangles = [text.split("\n") for text in kept.split("\n\n")[:5]]
-            for order, vertices, cause in (((0, 1, 2, 3, 4), (1, 0, 2), "The vertices of each triangle stand in another order: second, first, third"),
-                                           ((0, 1, 2, 3, 4), (1, 2, 0), "The vertices of each triangle stand in another order: second, third, first"),
-                                           ((4, 3, 2, 1, 0), (0, 1, 2), "The triangles stand in reverse order"),
-                                           ((0, 3, 2, 1, 4), (0, 1, 2), "All triangles are there, but in another order: triangle 1 of the text is triangle 3")):
+            for order, vertices, cause in (
+                ((0, 1, 2, 3, 4), (1, 0, 2),
+                 "The vertices of each triangle stand in another order: second, first, third"),
+                ((0, 1, 2, 3, 4), (1, 2, 0),
+                 "The vertices of each triangle stand in another order: second, third, first"),
+                ((4, 3, 2, 1, 0), (0, 1, 2), "The triangles stand in reverse order"),
+                ((0, 3, 2, 1, 4), (0, 1, 2),
+                 "All triangles are there, but in another order: triangle 1 of the text is triangle 3")):
                 with self.subTest(NAMES[kind], order=order, vertices=vertices):
-                    pathlib.Path(NAMES[kind]).write_text("\n\n".join("\n".join(triangles[t][i] for i in vertices) for t in order) + "\n")
+                    pathlib.Path(NAMES[kind]).write_text("\n\n".join("\n".join(triangles[t][i]
+                                                                               for i in vertices)
+                                                                     for t in order) + "\n")
                     self.assertEqual(self.verdict(config=False).files[kind].cause, cause)
             pathlib.Path(NAMES[kind]).write_text(kept)
 
@@ -499,7 +572,9 @@ class Wrong(HandIn):
         pathlib.Path("stage2.txt").write_text(pathlib.Path("stage2.txt").read_text().replace(".", ","))
         file = self.verdict(config=False).files[1]
         self.assertEqual(file.verdict, "unreadable")
-        self.assertRegex(file.remarks[0], "^stage2.txt:1: expected numbers, found '[-0-9, ]+': write a decimal point, not a comma")
+        self.assertRegex(
+            file.remarks[0],
+            "^stage2.txt:1: expected numbers, found '[-0-9, ]+': write a decimal point, not a comma")
 
     def test_a_few_wrong_triangles_are_named(self):
         self.stages()
@@ -509,18 +584,25 @@ class Wrong(HandIn):
         pathlib.Path("stage2.txt").write_text("\n".join(lines))
         file = self.verdict(config=False).files[1]
         self.assertEqual((file.cause, file.remarks), ("", ["only triangles 1 and 3 of 5 are wrong"]))
-        self.assertRegex(file.first, r"^line 6, x of vertex 2 of triangle 1: 0\.1234567 in place of \S+, off by \S+$")
+        self.assertRegex(file.first,
+                         r"^line 6, x of vertex 2 of triangle 1: 0\.1234567 in place of \S+, off by \S+$")
 
     def test_stray_lines_are_counted_and_the_first_is_named(self):
         self.stages()
         kept = pathlib.Path("stage2.txt").read_text()
         for text, verdict, words in (
-                (kept.replace("\n\n", "\ndone\n\n"), "right", "5 lines are neither a vertex nor a header line, 1 for each triangle: first line 4, 'done'"),
-                ("points: 15\n" + kept, "right", "1 line is neither a vertex nor a header line: line 1, 'points: 15'"),
-                (kept.replace("\n\n", "\n0.5\n\n"), "unreadable", "5 lines are neither a vertex nor a header line, 1 for each triangle: first line 4, '0.5'"),
-                (kept.replace("\n\n", " 1\n\n"), "right", "5 vertex lines have more than three numbers, of which the first three count: first line 3, '"),
-                (kept.replace("\n\n", "\n1 2 3\n\n"), "unreadable", "5 of 5 triangles (between blank lines) have another number of vertices than three: first the one in line 1, 4"),
-                (kept.replace("\n\n", "\n"), "right", "")):
+            (kept.replace("\n\n", "\ndone\n\n"), "right",
+             "5 lines are neither a vertex nor a header line, 1 for each triangle: first line 4, 'done'"),
+            ("points: 15\n" + kept, "right",
+             "1 line is neither a vertex nor a header line: line 1, 'points: 15'"),
+            (kept.replace("\n\n", "\n0.5\n\n"), "unreadable",
+             "5 lines are neither a vertex nor a header line, 1 for each triangle: first line 4, '0.5'"),
+            (kept.replace("\n\n", " 1\n\n"), "right",
+             "5 vertex lines have more than three numbers, of which the first three count: first line 3, '"),
+            (kept.replace("\n\n", "\n1 2 3\n\n"), "unreadable",
+             "5 of 5 triangles (between blank lines) have another number of vertices than three: first the "
+             "one in line 1, 4"
+             ), (kept.replace("\n\n", "\n"), "right", "")):
             with self.subTest(words):
                 pathlib.Path("stage2.txt").write_text(text)
                 file = self.verdict(config=False).files[1]
@@ -549,7 +631,8 @@ class FollowOn(HandIn):
                 for name, data in right.items():
                     pathlib.Path(name).write_bytes(wrong if name == NAMES[kind] else data)
                 verdict = self.assert_verdicts(["wrong" if i == kind else "right" for i in range(5)], 1)
-                self.assertIn(f"by the right numbers, which are not those of {NAMES[kind]}", verdict.files[kind + 1].remarks)
+                self.assertIn(f"by the right numbers, which are not those of {NAMES[kind]}",
+                              verdict.files[kind + 1].remarks)
 
     def test_nothing_may_be_left_of_a_wrong_view(self):
         self.drop_all("view/l-not-negated")  # all lies behind the eye
@@ -591,7 +674,8 @@ class FollowOn(HandIn):
 class Files(HandIn):
     def test_names_of_the_assignments_and_of_their_readers(self):
         self.hand_in()
-        for depths in ("z_buffer.txt", "zbuffer.txt", "z-buffer.txt", "zBuffer.txt", "z_out.txt", "z_buffer_12.txt"):
+        for depths in ("z_buffer.txt", "zbuffer.txt", "z-buffer.txt", "zBuffer.txt", "z_out.txt",
+                       "z_buffer_12.txt"):
             for picture in ("out.bmp", "output.bmp", "output_3.bmp", "1.bmp"):
                 os.mkdir("set")
                 for name in NAMES[:3]:
@@ -613,14 +697,17 @@ class Files(HandIn):
         for name in NAMES:
             os.rename(name, "kept")
             verdict = self.verdict()
-            self.assertEqual([file.verdict for file in verdict.files], ["not handed in" if other == name else "right" for other in NAMES])
-            self.assertEqual((verdict.status, sentence(verdict)), (1, f"{name} is not handed in; what is there is right"))
+            self.assertEqual([file.verdict for file in verdict.files],
+                             ["not handed in" if other == name else "right" for other in NAMES])
+            self.assertEqual((verdict.status, sentence(verdict)),
+                             (1, f"{name} is not handed in; what is there is right"))
             os.rename("kept", name)
 
     def test_three_stages_pass_without_a_config(self):
         self.stages()
         verdict = self.verdict(config=False)
-        self.assertEqual((self.words(config=False), verdict.status, sentence(verdict)), (["right"] * 3, 0, "all three files are right"))
+        self.assertEqual((self.words(config=False), verdict.status, sentence(verdict)),
+                         (["right"] * 3, 0, "all three files are right"))
 
     def test_a_scene_of_before_2020(self):
         self.hand_in()
@@ -637,8 +724,10 @@ class Files(HandIn):
         self.assertIn("before 2020", verdict.files[0].remarks[0])
 
     def test_a_scene_or_a_config_that_is_refused(self):
-        for scene, config, message in ((b"1 2", CONFIG.encode(), "the scene is refused: model: "), (SCENE.encode(), b"0 0\n", "the config is refused: zbuf: "),
-                                       (SCENE.encode(), b"60000 60000\n", "expected a config of at most 16777216 pixels")):
+        for scene, config, message in ((b"1 2", CONFIG.encode(), "the scene is refused: model: "),
+                                       (SCENE.encode(), b"0 0\n", "the config is refused: zbuf: "),
+                                       (SCENE.encode(), b"60000 60000\n",
+                                        "expected a config of at most 16777216 pixels")):
             with self.assertRaises(JudgeError) as raised:
                 judge({}, scene, config)
             self.assertIn(message, str(raised.exception))
@@ -651,9 +740,11 @@ class Hostile(HandIn):
     def test_nothing_that_a_file_holds_ends_the_judge(self):
         self.hand_in()
         header = pathlib.Path("out.bmp").read_bytes()[:54]
-        contents = (b"", b"\0" * 100, b"1" * 10**6, b"-" * 10**5, b"1 2 3 " * 10**5, b"1 2 3\n" * 3, b"1e999 0 0\n" * 3, b"1e308 -1e308 1e308\n" * 15,
-                    b"1e-320 0 0\n" * 15, b"nan nan nan\n" * 15, b"9" * 5000 + b" 1 1\n", b"\xff\xfe1\0", b"1 2 3\r" * 15, b"#" * 10**6, b"BM", header,
-                    header[:18] + struct.pack("<ii", 2**31 - 1, 2**31 - 1) + header[26:], b"\x89PNG\r\n\x1a\n", b"P6 90 80 255\n", b"0.5\t" * 90 * 80 + b"\n")
+        contents = (b"", b"\0" * 100, b"1" * 10**6, b"-" * 10**5, b"1 2 3 " * 10**5, b"1 2 3\n" * 3,
+                    b"1e999 0 0\n" * 3, b"1e308 -1e308 1e308\n" * 15, b"1e-320 0 0\n" * 15, b"nan nan nan\n" *
+                    15, b"9" * 5000 + b" 1 1\n", b"\xff\xfe1\0", b"1 2 3\r" * 15, b"#" * 10**6, b"BM", header,
+                    header[:18] + struct.pack("<ii", 2**31 - 1, 2**31 - 1) + header[26:],
+                    b"\x89PNG\r\n\x1a\n", b"P6 90 80 255\n", b"0.5\t" * 90 * 80 + b"\n")
         for kind in ("stage1", "stage2", "stage3", "depths", "picture"):
             for content in contents:
                 with self.subTest(kind, content=content[:20]):
@@ -681,11 +772,15 @@ class Fit(unittest.TestCase):
 
     def compared(self, theirs, ours, divides, points=None):
         points = points or self.POINTS
-        return fit.compare(points, [image(theirs, p, divides) for p in points], [(1e-7,) * 3] * len(points), ours, divides)
+        return fit.compare(points, [image(theirs, p, divides) for p in points], [(1e-7, ) * 3] * len(points),
+                           ours, divides)
 
     def test_a_projection_is_found_but_for_its_factor(self):
         ours = perspective_matrix(50, 1.3, 1, 50)
-        theirs = tuple(tuple(7 * x for x in row) for row in perspective_matrix(50, 1.3, 1, 50, mistake="r-and-t-swapped"))
+        theirs = tuple(
+            tuple(7 * x
+                  for x in row)
+            for row in perspective_matrix(50, 1.3, 1, 50, mistake="r-and-t-swapped"))
         found = self.compared(theirs, ours, True)
         self.assertEqual(found.differing, {(0, 0), (1, 1)})
         self.assertAlmostEqual(found.theirs[0][0], ours[1][1], places=5)
@@ -705,8 +800,12 @@ class Fit(unittest.TestCase):
 
     def test_points_in_a_plane_do_not_determine_it(self):
         flat = [(x, y, 2.0) for x in (-1.0, 0.5, 2.0) for y in (-0.7, 1.1, 3.0)]
-        self.assertIsNone(self.compared(view_matrix((3, 4, 7), (0, 0, 0), (0, 1, 0)), view_matrix((1, 2, 3), (0, 0, 0), (0, 1, 0)), False, flat))
-        self.assertIsNone(self.compared(perspective_matrix(50, 1, 1, 9), perspective_matrix(60, 1, 1, 9), True, [(x, y, -2.0) for x, y, _ in flat]))
+        self.assertIsNone(
+            self.compared(view_matrix((3, 4, 7), (0, 0, 0), (0, 1, 0)),
+                          view_matrix((1, 2, 3), (0, 0, 0), (0, 1, 0)), False, flat))
+        self.assertIsNone(
+            self.compared(perspective_matrix(50, 1, 1, 9), perspective_matrix(60, 1, 1, 9), True,
+                          [(x, y, -2.0) for x, y, _ in flat]))
 
 
 if __name__ == "__main__":

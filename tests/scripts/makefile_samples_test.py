@@ -53,9 +53,12 @@ class MakefileSamples(OnACopy):
         return self.call_make("-f", "Makefile.samples", "BIN=bin", "OUT=out", *words)
 
     def call_make(self, *words, folder="."):
-        environment = {name: value for name, value in os.environ.items() if name not in ("MAKEFLAGS", "MFLAGS")}
-        return subprocess.run(["make", *words], cwd=self.root / folder, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-                              text=True, check=False)
+        environment = {
+            name: value
+            for name, value in os.environ.items()
+            if name not in ("MAKEFLAGS", "MFLAGS")}
+        return subprocess.run(["make", *words], cwd=self.root / folder, env=environment,
+                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
 
     def make_well(self, *words):
         done = self.make(*words)
@@ -77,16 +80,21 @@ class MakefileSamples(OnACopy):
     def test_a_sample_with_a_traced_picture_is_traced_too(self):
         shutil.copy2(bin_dir / "trace", self.bin)
         self.make_well()
-        drawn = subprocess.run([bin_dir / "trace", self.file("wide-clipped", "config.txt"), self.root / "out/wide-clipped/stage2.exact", "--z-buffer", "none", "-o", self.root / "expected.bmp"],
-                               capture_output=True, text=True, check=True)
+        drawn = subprocess.run([
+            bin_dir / "trace",
+            self.file("wide-clipped", "config.txt"), self.root / "out/wide-clipped/stage2.exact",
+            "--z-buffer", "none", "-o", self.root / "expected.bmp"], capture_output=True, text=True,
+                               check=True)
         self.assertEqual(drawn.stderr, "")
         shutil.copy(self.file("nested-transforms", "out.bmp"), self.file("wide-clipped", "traced.bmp"))
-        self.assertIn("FAIL  samples/wide-clipped/traced.bmp differs from out/wide-clipped/traced.bmp", self.make("check").stdout)
+        self.assertIn("FAIL  samples/wide-clipped/traced.bmp differs from out/wide-clipped/traced.bmp",
+                      self.make("check").stdout)
         told = self.make_well("diff", f"COMPARE={source}/scripts/compare")
         self.assertIn("wide-clipped: trace is the first stage that has changed (traced.bmp)", told)
         self.assertIn("nested-transforms: nothing has changed", told)
         self.make_well("accept")
-        self.assertEqual(self.file("wide-clipped", "traced.bmp").read_bytes(), (self.root / "expected.bmp").read_bytes())
+        self.assertEqual(
+            self.file("wide-clipped", "traced.bmp").read_bytes(), (self.root / "expected.bmp").read_bytes())
         self.assertIn("11 passed, 0 failed", self.make_well("check"))
         self.assertIn("wide-clipped: nothing has changed", self.make_well("diff"))
         self.assertFalse((self.root / "out/nested-transforms/traced.bmp").exists())
@@ -118,7 +126,8 @@ class MakefileSamples(OnACopy):
         self.assertIn("of point 1 of sphere 2: 0.81 in A, 0.71 in B", told)
         shutil.copy(self.root / "out/spheres/stage1.txt", self.file("spheres", "stage1.txt"))
         shutil.copy(self.root / "out/spheres/stage2.txt", self.file("spheres", "stage2.txt"))
-        self.assertIn("spheres: trace is the first stage that has changed (z_buffer.txt)", self.make_well("diff", f"COMPARE={source}/scripts/compare"))
+        self.assertIn("spheres: trace is the first stage that has changed (z_buffer.txt)",
+                      self.make_well("diff", f"COMPARE={source}/scripts/compare"))
         self.make_well("accept")
         self.assertIn("14 passed, 0 failed", self.make_well("check"))
 
@@ -149,7 +158,8 @@ class MakefileSamples(OnACopy):
         self.file("wide-clipped", "stage2.txt").write_text("0 0 0\n")
         done = self.make("check")
         self.assertNotEqual(done.returncode, 0)
-        self.assertIn("FAIL  samples/wide-clipped/stage2.txt differs from out/wide-clipped/stage2.txt\n", done.stdout)
+        self.assertIn("FAIL  samples/wide-clipped/stage2.txt differs from out/wide-clipped/stage2.txt\n",
+                      done.stdout)
         self.assertIn("9 passed, 1 failed\n", done.stdout)
 
     def test_check_misses_a_file_that_is_not_there(self):
@@ -165,28 +175,36 @@ class MakefileSamples(OnACopy):
 
     def test_diff_says_that_nothing_has_changed(self):
         self.make_well()
-        self.assertEqual(self.make_well("diff"), "nested-transforms: nothing has changed\nwide-clipped: nothing has changed\n")
+        self.assertEqual(self.make_well("diff"),
+                         "nested-transforms: nothing has changed\nwide-clipped: nothing has changed\n")
 
     def test_diff_shows_the_first_stage_that_has_changed(self):
-        stages = (("stage1.txt", "model"), ("stage2.txt", "view"), ("stage3.txt", "project"), ("z_buffer.txt", "zbuf"), ("out.bmp", "zbuf"))
+        stages = (("stage1.txt", "model"), ("stage2.txt", "view"), ("stage3.txt", "project"),
+                  ("z_buffer.txt", "zbuf"), ("out.bmp", "zbuf"))
         self.make_well()
         for name, stage in reversed(stages):  # those behind it differ, too
             data = self.file("wide-clipped", name).read_bytes()
             if name == "out.bmp":
-                self.file("wide-clipped", name).write_bytes(data[:-4] + bytes(255 - byte for byte in data[-4:-3]) + data[-3:])
+                self.file("wide-clipped",
+                          name).write_bytes(data[:-4] + bytes(255 - byte for byte in data[-4:-3]) + data[-3:])
             else:
                 text, digit = data.decode(), re.search("[1-8]", data.decode())
-                self.file("wide-clipped", name).write_text(text[:digit.start()] + str(int(digit[0]) + 1) + text[digit.end():])
+                self.file("wide-clipped",
+                          name).write_text(text[:digit.start()] + str(int(digit[0]) + 1) + text[digit.end():])
             printed = self.make_well("diff", f"COMPARE={source}/scripts/compare").split("\n")
-            self.assertEqual(printed[:2], ["nested-transforms: nothing has changed",
-                                           f"wide-clipped: {stage} is the first stage that has changed ({name})"])
+            self.assertEqual(printed[:2], [
+                "nested-transforms: nothing has changed",
+                f"wide-clipped: {stage} is the first stage that has changed ({name})"])
             self.assertIn(f"out/wide-clipped/{name} and samples/wide-clipped/{name}", printed[2])
-            self.assertEqual([line.split()[-2] for line in printed if " that differ " in line or " differing " in line], ["1"], printed)
+            self.assertEqual(
+                [line.split()[-2] for line in printed if " that differ " in line or " differing " in line],
+                ["1"], printed)
 
     def test_diff_misses_a_file_that_was_not_accepted(self):
         self.make_well()
         self.file("wide-clipped", "stage3.txt").unlink()
-        self.assertIn("wide-clipped: stage3.txt of project has not been accepted yet\n", self.make_well("diff"))
+        self.assertIn("wide-clipped: stage3.txt of project has not been accepted yet\n",
+                      self.make_well("diff"))
 
     def test_diff_fails_if_files_cannot_be_compared(self):
         self.file("wide-clipped", "stage2.txt").write_text("0 0 0\n", "utf-16")
@@ -199,18 +217,24 @@ class MakefileSamples(OnACopy):
         self.assertEqual(self.runs_of_tools("DIGITS=exact"), {"model": 2, "view": 2, "project": 2, "zbuf": 2})
         self.assertEqual(self.runs_of_tools("DIGITS=exact"), {"model": 0, "view": 0, "project": 0, "zbuf": 0})
         scene = self.file("wide-clipped", "scene.txt")
-        for name, stages in (("stage1.txt", "bin/model --bare --digits exact"),
-                             ("stage3.txt", "bin/model --digits exact | bin/view --digits exact | bin/project --digits exact")):
+        for name, stages in (("stage1.txt", "bin/model --bare --digits exact"), (
+                "stage3.txt",
+                "bin/model --digits exact | bin/view --digits exact | bin/project --digits exact")):
             with open(scene, "rb") as stdin:
-                expected = subprocess.run(stages, shell=True, cwd=self.root, stdin=stdin, stdout=subprocess.PIPE, check=True).stdout
+                expected = subprocess.run(stages, shell=True, cwd=self.root, stdin=stdin,
+                                          stdout=subprocess.PIPE, check=True).stdout
             self.assertEqual((self.root / "out/wide-clipped" / name).read_bytes(), expected)
 
     def test_coverage_concerns_zbuf_alone(self):
         self.make_well()
-        self.assertEqual(self.runs_of_tools("COVERAGE=center"), {"model": 0, "view": 0, "project": 0, "zbuf": 2})
-        self.assertEqual(self.runs_of_tools("COVERAGE=center"), {"model": 0, "view": 0, "project": 0, "zbuf": 0})
-        depths = subprocess.run([self.bin / "zbuf", "--coverage", "center", self.file("wide-clipped", "config.txt"),
-                                 self.root / "out/wide-clipped/stage3.txt"], cwd=self.root, stdout=subprocess.PIPE, check=True).stdout
+        self.assertEqual(self.runs_of_tools("COVERAGE=center"),
+                         {"model": 0, "view": 0, "project": 0, "zbuf": 2})
+        self.assertEqual(self.runs_of_tools("COVERAGE=center"),
+                         {"model": 0, "view": 0, "project": 0, "zbuf": 0})
+        depths = subprocess.run([
+            self.bin / "zbuf", "--coverage", "center",
+            self.file("wide-clipped", "config.txt"), self.root / "out/wide-clipped/stage3.txt"],
+                                cwd=self.root, stdout=subprocess.PIPE, check=True).stdout
         self.assertEqual((self.root / "out/wide-clipped/z_buffer.txt").read_bytes(), depths)
         self.assertIn("6 passed, 4 failed\n", self.make("check", "COVERAGE=center").stdout)
 
@@ -223,9 +247,11 @@ class MakefileSamples(OnACopy):
             self.assertEqual((done.stdout.split("\n")[-2], done.returncode), ("5 passed, 0 failed", 0))
             (self.root / folder / "a/stage1.txt").unlink()
             self.assertEqual(self.call_make(*words, "accept").returncode, 0)
-            self.assertEqual((self.root / folder / "a/stage1.txt").read_bytes(), (source / "samples/worked-example/stage1.txt").read_bytes())
+            self.assertEqual((self.root / folder / "a/stage1.txt").read_bytes(),
+                             (source / "samples/worked-example/stage1.txt").read_bytes())
         self.assertEqual(sorted(os.listdir(self.root / "build")), ["elsewhere", "mine", "there"])
-        self.assertEqual({path: path.stat().st_mtime_ns for path in (self.root / "samples").rglob("*")}, before)
+        self.assertEqual({path: path.stat().st_mtime_ns
+                          for path in (self.root / "samples").rglob("*")}, before)
 
     def test_it_may_be_called_from_another_folder(self):
         shutil.copytree(source / "samples/worked-example", self.root / "user/mine/a")
@@ -238,8 +264,8 @@ class MakefileSamples(OnACopy):
         self.assertIn("no folder in bin has a scene.txt", done.stdout)
 
     def test_a_failing_tool_leaves_no_half_target(self):
-        for tool, targets in (("model", ("stage1.exact", "stage1.txt")), ("view", ("stage2.exact", "stage2.txt")),
-                              ("project", ("stage3.txt",))):
+        for tool, targets in (("model", ("stage1.exact", "stage1.txt")),
+                              ("view", ("stage2.exact", "stage2.txt")), ("project", ("stage3.txt", ))):
             with self.subTest(tool=tool):
                 shutil.rmtree(self.root / "out", ignore_errors=True)
                 kept = (self.bin / tool).read_bytes()
@@ -258,8 +284,8 @@ class MakefileSamples(OnACopy):
 
 class Stages(OnACopy):
     def stages(self, *words):
-        return subprocess.run([source / "scripts/stages", *words], cwd=self.root, env=dict(os.environ, BIN="bin"),
-                              stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False)
+        return subprocess.run([source / "scripts/stages", *words], cwd=self.root, env=dict(
+            os.environ, BIN="bin"), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False)
 
     def sample_to(self, folder, sample="wide-clipped"):
         return self.stages(self.file(sample, "scene.txt"), self.file(sample, "config.txt"), folder)
@@ -274,7 +300,10 @@ class Stages(OnACopy):
         done = self.sample_to("new folder/results")
         # The sample shows 80 degrees by 40 in a window of 2 to 1.
         self.assertEqual((done.returncode, done.stdout, done.stderr), (
-            0, "", "stages: note: a square is drawn 0.868 times as wide as high: end the scene's fourth line in ratio\n"))
+            0, "",
+            "stages: note: a square is drawn 0.868 times as wide as high: end the scene's fourth line "
+            "in ratio\n"
+        ))
         self.assert_holds_the_sample("new folder/results")
 
     def test_a_failing_stage_stops_it_and_older_results_stay(self):
@@ -284,7 +313,7 @@ class Stages(OnACopy):
                 kept = (self.bin / tool).read_bytes()
                 self.replace(tool, FAILING_TOOL)
                 done = self.sample_to("results", "nested-transforms")
-                self.assertEqual((done.returncode, done.stderr), (1, "a failure\n"))
+                self.assertEqual((done.returncode, done.stderr), (1, "stages: a failure\n"))
                 self.assert_holds_the_sample("results")
                 (self.bin / tool).write_bytes(kept)
 
@@ -293,7 +322,7 @@ class Stages(OnACopy):
         scene.write_text("0 0 0\n0 0 -1\n0 1 0\n60 1 1 10\ntriangel\nend\n")
         done = self.stages("bad.txt", self.file("wide-clipped", "config.txt"), "results")
         self.assertEqual(done.returncode, 1)
-        self.assertRegex(done.stderr, r"\Amodel: bad\.txt:5:1: .*\n\Z")
+        self.assertRegex(done.stderr, r"\Astages: model: bad\.txt:5:1: .*\n\Z")
         self.assertFalse((self.root / "results").exists())
 
     def test_wrong_usage_is_status_2(self):

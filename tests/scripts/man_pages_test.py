@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Man pages: every command has one, with the options of its --help; the formats' pages say what docs/ says. Their examples are run by
-install_test.py, where they are installed.
+"""Man pages: every command has one, with the options of its --help; the formats' pages say what docs/ says.
+Their examples are run by install_test.py, where they are installed.
 
 usage: man_pages_test.py BIN_DIR [UNITTEST ARGUMENT...]
 """
@@ -27,7 +27,8 @@ with_mandoc = unittest.skipUnless(shutil.which("mandoc"), "mandoc is missing (De
 
 def rendered(text):
     """The text that mandoc shows, without header and footer, in very long lines."""
-    done = subprocess.run(["mandoc", "-T", "utf8", "-O", "width=900"], input=text, capture_output=True, text=True, check=True)
+    done = subprocess.run(["mandoc", "-T", "utf8", "-O", "width=900"], input=text, capture_output=True,
+                          text=True, check=True)
     return re.sub(".\b", "", done.stdout).split("\n", 1)[1].rsplit("\n", 2)[0]
 
 
@@ -37,23 +38,28 @@ def page_of(command):
 
 class Pages(ToolTest):
     def test_every_command_has_a_page_and_every_page_a_command(self):
-        self.assertEqual(sorted(os.listdir(MAN / "man1")), sorted(["pipeline.1", *(f"pipeline-{name}.1" for name in COMMANDS)]))
+        self.assertEqual(sorted(os.listdir(MAN / "man1")),
+                         sorted(["pipeline.1", *(f"pipeline-{name}.1" for name in COMMANDS)]))
         self.assertEqual(sorted(os.listdir(MAN / "man5")), ["pipeline-scene.5", "pipeline-stage.5"])
 
     def test_pages_and_help_have_the_same_options(self):
         for command in COMMANDS:
             with self.subTest(command):
-                text = subprocess.run([PREFIX / "libexec/pipeline" / command, "--help"], capture_output=True, text=True, check=True).stdout
+                text = subprocess.run([PREFIX / "libexec/pipeline" / command, "--help"], capture_output=True,
+                                      text=True, check=True).stdout
                 lines = re.findall(r"^ {1,4}(-.*?)(?:  .*)?$", text, re.M)
                 tags = re.findall(r"^\.TP\n(\\fB\\-.*)$", page_of(command), re.M)
                 plain = [re.sub(r"\\f.", "", tag).replace("\\-", "-") for tag in tags]
                 names = re.compile(r"--?[a-z][a-z-]*(?=[ ,=]|$)")
-                self.assertEqual([names.findall(tag) for tag in plain], [names.findall(line) for line in lines])
+                self.assertEqual([names.findall(tag) for tag in plain],
+                                 [names.findall(line) for line in lines])
                 self.assertGreaterEqual(len(lines), 1)
 
     def test_every_page_has_an_example(self):
         for command in COMMANDS:
-            self.assertRegex(page_of(command), r"\n\.SH EXAMPLES\n\.RS 4\n\.EX\n.*pipeline " + re.escape(escaped(command)), command)
+            self.assertRegex(page_of(command),
+                             r"\n\.SH EXAMPLES\n\.RS 4\n\.EX\n.*pipeline " + re.escape(escaped(command)),
+                             command)
 
     def test_the_page_of_pipeline_names_every_command(self):
         page = (MAN / "man1/pipeline.1").read_text()
@@ -78,14 +84,17 @@ class Pages(ToolTest):
         for name, file in FORMATS.items():
             text = (SOURCE / "docs" / file).read_text()
             paragraphs = re.split(r"\n{2,}", text)[1:]  # without the title
-            shown = re.sub(r"(?m)^\S.*\n", "", rendered((MAN / f"man5/pipeline-{name}.5").read_text()))  # without headings
+            shown = re.sub(r"(?m)^\S.*\n", "", rendered(
+                (MAN / f"man5/pipeline-{name}.5").read_text()))  # without headings
             blocks = [" ".join(block.split()).replace("*", "") for block in re.split(r"\n\s*\n", shown)]
             count = 0
             for paragraph in paragraphs:
                 if paragraph.startswith(("#", "|", "    ", "- ")):
                     continue
-                plain = re.sub(r"\[((?:[^\]`]|`[^`]*`)+)\]\([^)]*\)", r"\1", paragraph).replace("`", "").replace("*", "")
-                plain = re.sub(r"scene\.md", "pipeline-scene(5)", re.sub(r"stage-text\.md", "pipeline-stage(5)", plain))
+                plain = re.sub(r"\[((?:[^\]`]|`[^`]*`)+)\]\([^)]*\)", r"\1",
+                               paragraph).replace("`", "").replace("*", "")
+                plain = re.sub(r"scene\.md", "pipeline-scene(5)",
+                               re.sub(r"stage-text\.md", "pipeline-stage(5)", plain))
                 self.assertIn(" ".join(plain.split()), blocks)
                 count += 1
             self.assertGreater(count, 10)
@@ -117,10 +126,16 @@ class Roff(unittest.TestCase):
     @with_mandoc
     def test_markdown_becomes_what_it_means(self):
         page = self.page()
-        add_markdown(page, "A `code_1 *` and **bold**, *light*\nwith [a `link`](x.md#y).\n\n- one\n- two\n\n### Sub\n\n```console\n$ ls | wc\n```\n\n"
-                     "| key | what |\n|---|---|\n| `a\\|b` | the *key* |\n", lambda words, address: escaped(f"<{words}|{address}>"))
-        self.assertEqual(self.shown(page)[3:], ["A code_1 * and bold, light with <a link|x.md#y>.", "• one", "• two", "Sub", "$ ls | wc",
-                                                "a|b    the key"])
+        add_markdown(
+            page,
+            "A `code_1 *` and **bold**, *light*\nwith [a `link`](x.md#y).\n\n- one\n- two\n\n### Sub\n\n"
+            "```console\n$ ls | wc\n```\n\n"
+            "| key | what |\n|---|---|\n| `a\\|b` | the *key* |\n",
+            lambda words, address: escaped(f"<{words}|{address}>"))
+        self.assertEqual(
+            self.shown(page)[3:], [
+                "A code_1 * and bold, light with <a link|x.md#y>.", "• one", "• two", "Sub", "$ ls | wc",
+                "a|b    the key"])
 
 
 class HelpText(unittest.TestCase):
@@ -131,15 +146,24 @@ class HelpText(unittest.TestCase):
         self.assertEqual(found["--coverage"].choices, ["nearest", "center"])
         self.assertEqual(len(found["--coverage"].paragraphs), 3)
         self.assertEqual((found["--wireframe"].argument, found["--probe"].argument), ("", "COLUMN,ROW"))
-        perspective = {option.names[0]: option for option in parse(run("view", "--help").stdout.decode(), "view").options}["--perspective"]
-        self.assertEqual((perspective.argument, perspective.paragraphs), ("FOVY ASPECT NEAR FAR", ["The projection, as in a scene; angles in degrees"]))
+        perspective = {
+            option.names[0]: option
+            for option in parse(run("view", "--help").stdout.decode(), "view").options}["--perspective"]
+        self.assertEqual((perspective.argument, perspective.paragraphs),
+                         ("FOVY ASPECT NEAR FAR", ["The projection, as in a scene; angles in degrees"]))
 
     def test_options_of_a_script(self):
-        text = parse("usage: x [-h]\n\nDoes it: at once. Well.\n\noptions:\n  -h, --help       show\n                   this\n  --mode {a,b}\n"
-                     "  -o FILE, --out FILE\n                   where\n\nExample:\n  x y | z\n\nExit status: 0 done; 1 not.\n", "x")
+        text = parse(
+            "usage: x [-h]\n\nDoes it: at once. Well.\n\noptions:\n  -h, --help       show\n                 "
+            "  this\n  --mode {a,b}\n"
+            "  -o FILE, --out FILE\n                   where\n\nExample:\n  x y | z\n\nExit status: 0 done; "
+            "1 not.\n",
+            "x")
         self.assertEqual([(option.names, option.argument, option.paragraphs) for option in text.options],
-                         [(["-h", "--help"], "", ["show this"]), (["--mode"], "{a,b}", []), (["-o", "--out"], "FILE", ["where"])])
-        self.assertEqual((text.summary, text.usage, text.examples, text.exit_status), ("Does it", ["x [-h]"], ["x y | z"], "0 done; 1 not"))
+                         [(["-h", "--help"], "", ["show this"]), (["--mode"], "{a,b}", []),
+                          (["-o", "--out"], "FILE", ["where"])])
+        self.assertEqual((text.summary, text.usage, text.examples, text.exit_status),
+                         ("Does it", ["x [-h]"], ["x y | z"], "0 done; 1 not"))
 
 
 if __name__ == "__main__":

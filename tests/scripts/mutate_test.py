@@ -25,33 +25,44 @@ def changes_in(line):
 
 class Mutants(unittest.TestCase):
     def test_operators_and_constants(self):
-        self.assertEqual(changes_in("x = a < b + 7;"), ["x = a < b + [7 -> 6];", "x = a < b + [7 -> 8];", "x = a < b [+ -> -] 7;", "x = a [< -> <=] b + 7;"])
-        self.assertEqual(changes_in("x += !a && b >> 0x1p-53;"),
-                         ["x += !a && b >> [0x1p-53 -> 0x1p-52];", "x += !a && b [>> -> <<] 0x1p-53;", "x += !a [&& -> ||] b >> 0x1p-53;",
-                          "x += [! -> nothing]a && b >> 0x1p-53;", "x [+= -> -=] !a && b >> 0x1p-53;"])
-        self.assertEqual(changes_in("return f(-a, true, 10'000u);"),
-                         ["return f(-a, [true -> false], 10'000u);", "return f(-a, true, [10'000 -> 10001]u);", "return f(-a, true, [10'000 -> 9999]u);",
-                          "return f([- -> nothing]a, true, 10'000u);"])
-        self.assertEqual(changes_in("x = 0677 ^ 0xff;"), ["x = 0677 [^ -> |] 0xff;", "x = 0677 ^ [0xff -> 0x100];", "x = [0677 -> 0676] ^ 0xff;", "x = [0677 -> 0700] ^ 0xff;"])
-        self.assertEqual(changes_in("x = 0.5; y = 1e200;"), ["x = 0.5; y = [1e200 -> 1e201];", "x = [0.5 -> 1.5]; y = 1e200;"])
+        self.assertEqual(changes_in("x = a < b + 7;"), [
+            "x = a < b + [7 -> 6];", "x = a < b + [7 -> 8];", "x = a < b [+ -> -] 7;",
+            "x = a [< -> <=] b + 7;"])
+        self.assertEqual(changes_in("x += !a && b >> 0x1p-53;"), [
+            "x += !a && b >> [0x1p-53 -> 0x1p-52];", "x += !a && b [>> -> <<] 0x1p-53;",
+            "x += !a [&& -> ||] b >> 0x1p-53;", "x += [! -> nothing]a && b >> 0x1p-53;",
+            "x [+= -> -=] !a && b >> 0x1p-53;"])
+        self.assertEqual(changes_in("return f(-a, true, 10'000u);"), [
+            "return f(-a, [true -> false], 10'000u);", "return f(-a, true, [10'000 -> 10001]u);",
+            "return f(-a, true, [10'000 -> 9999]u);", "return f([- -> nothing]a, true, 10'000u);"])
+        self.assertEqual(changes_in("x = 0677 ^ 0xff;"), [
+            "x = 0677 [^ -> |] 0xff;", "x = 0677 ^ [0xff -> 0x100];", "x = [0677 -> 0676] ^ 0xff;",
+            "x = [0677 -> 0700] ^ 0xff;"])
+        self.assertEqual(changes_in("x = 0.5; y = 1e200;"),
+                         ["x = 0.5; y = [1e200 -> 1e201];", "x = [0.5 -> 1.5]; y = 1e200;"])
 
     def test_conditions(self):
-        self.assertEqual(changes_in("if (is_fine(a)) return b;"), ["if ([is_fine(a) -> false]) return b;", "if ([is_fine(a) -> true]) return b;"])
-        self.assertEqual(changes_in("if (auto a = f(); a.is_fine()) return;"),
-                         ["if (auto a = f();[ a.is_fine() -> false]) return;", "if (auto a = f();[ a.is_fine() -> true]) return;"])
+        self.assertEqual(changes_in("if (is_fine(a)) return b;"),
+                         ["if ([is_fine(a) -> false]) return b;", "if ([is_fine(a) -> true]) return b;"])
+        self.assertEqual(changes_in("if (auto a = f(); a.is_fine()) return;"), [
+            "if (auto a = f();[ a.is_fine() -> false]) return;",
+            "if (auto a = f();[ a.is_fine() -> true]) return;"])
         self.assertEqual(changes_in("while (is_fine()) go();"), ["while ([is_fine() -> false]) go();"])
         self.assertEqual(changes_in("if (auto* a = f()) return;"), [])
 
     def test_what_is_no_code_or_does_not_run_is_left_alone(self):
-        for line in ("// a < b", "/* a < b */", 'f("a < 1", \'1\');', "#if A > 1", "#define A \\\n  1", "assert(a < (b + 1));", "static_assert(a < 1);",
-                     "std::array<int, 3> a1;", "void f(Type&& a, const Type& b, Type* c);", "template <typename T>"):
+        for line in ("// a < b", "/* a < b */", 'f("a < 1", \'1\');', "#if A > 1", "#define A \\\n  1",
+                     "assert(a < (b + 1));", "static_assert(a < 1);", "std::array<int, 3> a1;",
+                     "void f(Type&& a, const Type& b, Type* c);", "template <typename T>"):
             self.assertEqual(changes_in(line), [])
 
     def test_equal_lines_have_different_names(self):
-        self.assertEqual([mutant.name for mutant in mutants_of("a.cpp", "  ++a;\n++a;  \n")], ["a.cpp: [++ -> --]a;", "a.cpp: [++ -> --]a; #2"])
+        self.assertEqual([mutant.name for mutant in mutants_of("a.cpp", "  ++a;\n++a;  \n")],
+                         ["a.cpp: [++ -> --]a;", "a.cpp: [++ -> --]a; #2"])
 
     def test_a_mutant_is_the_source_with_one_change(self):
-        self.assertEqual([mutant.applied_to("a - b;\n") for mutant in mutants_of("a.cpp", "a - b;\n")], ["a + b;\n"])
+        self.assertEqual([mutant.applied_to("a - b;\n") for mutant in mutants_of("a.cpp", "a - b;\n")],
+                         ["a + b;\n"])
 
     def test_a_sample_takes_every_line_before_a_second_mutant_of_any(self):
         mutants = mutants_of("a.cpp", "a + b + c + d + e;\na * b;\n++a;\n")
@@ -66,7 +77,8 @@ class Mutants(unittest.TestCase):
         lines[7] = "c * d;"
         after = [mutant.name for mutant in sample(mutants_of("a.cpp", "\n".join(lines) + "\n"), 1)]
         self.assertNotEqual(before, sorted(before))
-        self.assertEqual([name for name in before if "a7" not in name], [name for name in after if "c [" not in name])
+        self.assertEqual([name for name in before if "a7" not in name],
+                         [name for name in after if "c [" not in name])
 
 
 class Limits(unittest.TestCase):
@@ -79,12 +91,14 @@ class Limits(unittest.TestCase):
             self.assertEqual(os.listdir(folder), [])
 
     def test_memory_is_limited(self):
-        self.assertTrue(succeeds(["sh", "-c", 'test "$(ulimit -v)" -le 4194304'], 30, "/tmp", os.environ))  # in KiB
+        self.assertTrue(succeeds(["sh", "-c", 'test "$(ulimit -v)" -le 4194304'], 30, "/tmp",
+                                 os.environ))  # in KiB
 
     def test_root_becomes_nobody(self):
         if os.geteuid() != 0:
             self.skipTest("the user is not root")
-        self.assertTrue(succeeds(["sh", "-c", 'test "$(id -u)" = 65534 && ! test -w /dev'], 30, "/tmp", os.environ))
+        self.assertTrue(
+            succeeds(["sh", "-c", 'test "$(id -u)" = 65534 && ! test -w /dev'], 30, "/tmp", os.environ))
 
 
 HALF = """alignas(4) const int two = 2;
@@ -93,7 +107,9 @@ int half(int x) {
   return x / two;
 }
 """
-SURVIVORS = ["libpipeline/text/half.cpp: if (x < [0 -> 1]) return 0;", "libpipeline/text/half.cpp: if (x [< -> <=] 0) return 0;"]
+SURVIVORS = [
+    "libpipeline/text/half.cpp: if (x < [0 -> 1]) return 0;",
+    "libpipeline/text/half.cpp: if (x [< -> <=] 0) return 0;"]
 TREE = {
     "libpipeline/text/half.cpp": HALF,
     "tests/text/half_test.cpp": "int half(int x);\nint main() { return half(7) == 3 ? 0 : 1; }\n",
@@ -104,9 +120,9 @@ TREE = {
 project(tiny LANGUAGES CXX)
 enable_testing()
 add_library(pipeline libpipeline/text/half.cpp)
-add_executable(half_test tests/text/half_test.cpp)
-set_target_properties(half_test PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
-target_link_libraries(half_test pipeline)
+add_executable(text_tests tests/text/half_test.cpp)
+set_target_properties(text_tests PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
+target_link_libraries(text_tests pipeline)
 add_executable(zbuf tests/tools/negative.cpp)
 target_link_libraries(zbuf pipeline)
 foreach(tool model view project)
@@ -128,11 +144,13 @@ class Run(unittest.TestCase):
         for name, text in TREE.items():
             (self.tree / name).parent.mkdir(parents=True, exist_ok=True)
             (self.tree / name).write_text(text)
-        shutil.copytree(SOURCE / "scripts/maintain", self.tree / "scripts/maintain")
+        for room in ("lib", "maintain"):
+            shutil.copytree(SOURCE / "scripts" / room, self.tree / "scripts" / room)
 
     def mutate(self, *options):
-        done = subprocess.run([self.tree / "scripts/maintain/mutate", *options, self.tree / "libpipeline/text"], capture_output=True, text=True,
-                              timeout=240)
+        done = subprocess.run(
+            [self.tree / "scripts/maintain/mutate", *options, self.tree / "libpipeline/text"],
+            capture_output=True, text=True, timeout=240)
         self.assertEqual(done.stderr, "")
         return done.returncode, done.stdout
 
@@ -145,12 +163,12 @@ class Run(unittest.TestCase):
         self.assertEqual(lines, sorted([
             "does not compile | libpipeline/text/half.cpp: alignas([4 -> 3]) const int two = 2;",
             "does not compile | libpipeline/text/half.cpp: alignas([4 -> 5]) const int two = 2;",
-            "killed by half_test | libpipeline/text/half.cpp: alignas(4) const int two = [2 -> 1];",
-            "killed by half_test | libpipeline/text/half.cpp: alignas(4) const int two = [2 -> 3];",
+            "killed by text_tests | libpipeline/text/half.cpp: alignas(4) const int two = [2 -> 1];",
+            "killed by text_tests | libpipeline/text/half.cpp: alignas(4) const int two = [2 -> 3];",
             "killed by end-to-end tests | libpipeline/text/half.cpp: if ([x < 0 -> false]) return 0;",
-            "killed by half_test | libpipeline/text/half.cpp: if ([x < 0 -> true]) return 0;",
+            "killed by text_tests | libpipeline/text/half.cpp: if ([x < 0 -> true]) return 0;",
             "killed by end-to-end tests | libpipeline/text/half.cpp: if (x < 0) return [0 -> 1];",
-            "killed by half_test | libpipeline/text/half.cpp: return x [/ -> *] two;",
+            "killed by text_tests | libpipeline/text/half.cpp: return x [/ -> *] two;",
             *(f"survived | {name}" for name in SURVIVORS)]))
         self.assertEqual((self.tree / "libpipeline/text/half.cpp").read_text(), HALF)
         self.assertEqual(self.mutate(), (1, summary))  # nothing is left to do
@@ -158,20 +176,28 @@ class Run(unittest.TestCase):
         with (self.tree / "tests/survivors.txt").open("a") as reasons:
             reasons.write(f"    {SURVIVORS[1]}\n")
         status, output = self.mutate("--survivors")
-        self.assertEqual((status, [line.split(" s  ")[-1] for line in output.splitlines()][2:]),
-                         (0, ["text: 6 of 8 killed, 75.0 %", "all: 6 of 8 killed, 75.0 %", "2 survived, 2 of them with a reason"]))
+        self.assertEqual((status, [line.split(" s  ")[-1] for line in output.splitlines()][2:]), (0, [
+            "text: 6 of 8 killed, 75.0 %", "all: 6 of 8 killed, 75.0 %", "2 survived, 2 of them with a reason"
+        ]))
 
-        # A reason for what is no mutant, or no longer, is reported; one for a file that is not asked for is not.
+        # A reason for what is no mutant, or no longer, is reported; one for a file that is not asked for is
+        # not.
         with (self.tree / "tests/survivors.txt").open("a") as reasons:
-            reasons.write("    libpipeline/text/half.cpp: if (x < 0) return [0 -> 7];\n    libpipeline/other.cpp: x = [0 -> 1];\n")
+            reasons.write(
+                "    libpipeline/text/half.cpp: if (x < 0) return [0 -> 7];\n    libpipeline/other.cpp: x = "
+                "[0 -> 1];\n"
+            )
         status, output = self.mutate()
-        self.assertEqual((status, output.splitlines()[-2:]),
-                         (1, ["These have a reason, but are no mutants:", "    libpipeline/text/half.cpp: if (x < 0) return [0 -> 7];"]))
+        self.assertEqual((status, output.splitlines()[-2:]), (1, [
+            "These have a reason, but are no mutants:",
+            "    libpipeline/text/half.cpp: if (x < 0) return [0 -> 7];"]))
 
     def test_a_test_that_fails_without_a_mutant_ends_the_run(self):
         (self.tree / "tests/text/half_test.cpp").write_text("int main() { return 1; }\n")
-        done = subprocess.run([self.tree / "scripts/maintain/mutate", self.tree / "libpipeline/text"], capture_output=True, text=True, timeout=240)
-        self.assertEqual((done.returncode, done.stdout, done.stderr), (1, "", "mutate: half_test fails without a mutant\n"))
+        done = subprocess.run([self.tree / "scripts/maintain/mutate", self.tree / "libpipeline/text"],
+                              capture_output=True, text=True, timeout=240)
+        self.assertEqual((done.returncode, done.stdout, done.stderr),
+                         (1, "", "mutate: text_tests fails without a mutant\n"))
 
 
 if __name__ == "__main__":

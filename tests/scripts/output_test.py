@@ -3,20 +3,24 @@
 
 usage: output_test.py BIN_DIR [UNITTEST ARGUMENT...]
 """
+import fcntl
+import itertools
 import os
 import pathlib
 import resource
+import shutil
 import signal
 import stat
 import subprocess
 import sys
 import threading
+import time
 import unittest
 
 from devices import IS_ROOT, full_device, null_device
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "tools"))
-from toolbox import BIN, SOURCE, ToolTest, end_by_signal, heed_signals  # noqa: E402
+from toolbox import BIN, SCENE, SOURCE, ToolTest, end_by_signal, heed_signals  # noqa: E402
 
 SCRIPTS = SOURCE / "scripts"
 
@@ -26,8 +30,8 @@ def limit_files():
 
 
 def script(name, *words, **settings):
-    return subprocess.run([SCRIPTS / name, *words], capture_output=True, timeout=120,
-                          env={"BIN": str(BIN), "PATH": "/usr/bin:/bin", "LANG": "C.UTF-8"}, **settings)
+    return subprocess.run([SCRIPTS / name, *words], capture_output=True, timeout=120, env={
+        "BIN": str(BIN), "PATH": "/usr/bin:/bin", "LANG": "C.UTF-8", "HOME": os.getcwd()}, **settings)
 
 
 def in_fly(python, **settings):
@@ -35,7 +39,8 @@ def in_fly(python, **settings):
     program = ("import sys; sys.path.insert(0, sys.argv[1]); sys.dont_write_bytecode = True\n"
                "from fly_parts.window import FlyWindow\n"
                "window = FlyWindow.__new__(FlyWindow); window.say = print\n" + python)
-    return subprocess.run([sys.executable, "-c", program, SCRIPTS], capture_output=True, timeout=60, **settings)
+    return subprocess.run([sys.executable, "-c", program, SCRIPTS], capture_output=True, timeout=60,
+                          **settings)
 
 
 def mode_of(path):
@@ -43,7 +48,8 @@ def mode_of(path):
 
 
 class Writers:
-    """Claims about every command that writes a file; `write(path)` runs one, `is_whole(bytes)` checks its output."""
+    """Claims about every command that writes a file; `write(path)` runs one, `is_whole(bytes)` checks its
+    output."""
     status = 1
 
     def assert_written(self, done):
@@ -99,7 +105,8 @@ class Writers:
         os.symlink("precious", "y.new")
         for name in ("x", "y"):
             self.assert_written(self.write(name))
-        self.assertEqual([pathlib.Path(name).read_text() for name in ("precious", "x.new", "y.new")], ["mine"] * 3)
+        self.assertEqual([pathlib.Path(name).read_text() for name in ("precious", "x.new", "y.new")],
+                         ["mine"] * 3)
         self.assertFalse(os.path.islink("x") or os.path.islink("y"))
 
     def test_a_pipe_is_written_to_and_stays(self):
@@ -125,7 +132,8 @@ class Writers:
         with open("log", "wb") as log:
             inode = os.fstat(log.fileno()).st_ino
             words = self.words("out")
-            done = subprocess.run(words, stdout=log, stderr=subprocess.PIPE, timeout=120, env={"BIN": str(BIN), "PATH": "/usr/bin:/bin"})
+            done = subprocess.run(words, stdout=log, stderr=subprocess.PIPE, timeout=120,
+                                  env={"BIN": str(BIN), "PATH": "/usr/bin:/bin"})
         self.assert_written(done)
         self.assertEqual((os.stat("log").st_ino, os.readlink("out")), (inode, "/proc/self/fd/1"))
         self.assertTrue(self.is_whole(pathlib.Path("log").read_bytes()))
@@ -133,7 +141,8 @@ class Writers:
     def test_what_cannot_be_written_is_named(self):
         os.mkdir("folder")
         os.symlink("loop", "loop")
-        for path, message in (("folder", "open folder: Is a directory"), ("none/x", "open none/x: No such file or directory"),
+        for path, message in (("folder", "open folder: Is a directory"),
+                              ("none/x", "open none/x: No such file or directory"),
                               ("loop", "open loop: Too many levels of symbolic links")):
             self.assert_refused(self.write(path), f"cannot {message}")
 
@@ -146,7 +155,8 @@ class Writers:
     def test_where_there_is_no_room_the_old_file_stays(self):
         pathlib.Path("x").write_text("old")
         for name in ("x", "new"):
-            self.assert_refused(self.write(name, preexec_fn=limit_files), f"cannot write {name}: File too large")
+            self.assert_refused(self.write(name, preexec_fn=limit_files),
+                                f"cannot write {name}: File too large")
         self.assertEqual(pathlib.Path("x").read_text(), "old")
         self.assertEqual(self.left(), ["x"])
 
@@ -174,6 +184,13 @@ class Compare(Writers, ToolTest):
     def is_whole(self, data):
         return data.startswith(b"\x89PNG") and b"IEND" in data
 
+    def test_standard_output_is_written_to_and_stays(self):
+        """There is the table already."""
+        os.symlink("/proc/self/fd/1", "out")
+        self.assert_refused(
+            self.write("out"), "expected a place of its own for every output, found the same one "
+            "for standard output and --image 'out' (try compare --help)")
+
 
 class Inspect(Writers, ToolTest):
     name, good_status = "inspect", 0
@@ -200,22 +217,16 @@ class Inspect(Writers, ToolTest):
     def test_scene_and_config_may_be_named_anything_and_be_pipes(self):
         for name in (b"-x", b"--", b"a\nb", b"a'\"b", b"a\xffb"):
             for kind in ("scene", "config"):
-                pathlib.Path(os.fsdecode(name + kind.encode())).write_bytes(pathlib.Path(f"{kind}.txt").read_bytes())
+                pathlib.Path(os.fsdecode(name + kind.encode())).write_bytes(
+                    pathlib.Path(f"{kind}.txt").read_bytes())
             self.assert_written(script("inspect", "-o", "page", "--", name + b"scene", name + b"config"))
         pathlib.Path("page").unlink()
-        line = f'"{SCRIPTS}/inspect" -o page <(cat scene.txt) <(cat config.txt) && "{SCRIPTS}/inspect" -o page - config.txt < scene.txt'
-        self.assert_written(subprocess.run(["bash", "-c", line], capture_output=True, env={"BIN": str(BIN), "PATH": "/usr/bin:/bin"}))
+        line = (f'"{SCRIPTS}/inspect" -o page <(cat scene.txt) <(cat config.txt) && "{SCRIPTS}/inspect" -o '
+                f'page - config.txt < scene.txt')
+        self.assert_written(
+            subprocess.run(["bash", "-c", line], capture_output=True,
+                           env={"BIN": str(BIN), "PATH": "/usr/bin:/bin"}))
         self.assertTrue(self.is_whole(pathlib.Path("page").read_bytes()))
-
-    def test_a_signal_leaves_nothing(self):
-        os.mkfifo("pipe")
-        for number in (signal.SIGINT, signal.SIGTERM):
-            process = subprocess.Popen([SCRIPTS / "inspect", "pipe", "config.txt", "-o", "page"], stderr=subprocess.PIPE, env={"BIN": str(BIN), "PATH": "/usr/bin:/bin"},
-                                       preexec_fn=heed_signals)
-            with open("pipe", "wb"):
-                self.assertEqual(end_by_signal(process, number)[1], b"")
-            self.assertEqual(process.returncode, -number)
-        self.assertEqual(self.left(), ["pipe"])
 
 
 class Fly(ToolTest):
@@ -226,20 +237,30 @@ class Fly(ToolTest):
         pathlib.Path("old").write_text("old")
         os.symlink("old", "link")
         full = full_device()
-        done = in_fly(f"window.write('link', lambda: b'new'); window.write('folder', lambda: b'new'); window.write('{full}', lambda: b'new')")
+        done = in_fly(
+            f"window.write('link', lambda: b'new'); window.write('folder', lambda: b'new'); "
+            f"window.write('{full}', lambda: b'new')"
+        )
         self.assertEqual(done.stderr.decode(), "")
-        self.assertEqual(done.stdout.decode(), f"wrote link\ncannot open folder: Is a directory\ncannot write {full}: No space left on device\n")
+        self.assertEqual(
+            done.stdout.decode(),
+            f"wrote link\ncannot open folder: Is a directory\ncannot write {full}: No space left on device\n")
         self.assertEqual((os.readlink("link"), pathlib.Path("old").read_text()), ("old", "new"))
 
     def test_comments_stay_as_they_are(self):
-        pathlib.Path("-scene").write_bytes(b"\xef\xbb\xbf# gr\xfcn\r\n0 0 5\r\n0 0 0\r\n0 1 0\r\n60 1 1 100 # gr\xfcn\r\nend\r\n")
-        done = in_fly("from types import SimpleNamespace as Any\n"
-                      "window.scene, window.is_light_moved, window.settings = './-scene', False, Any(camera=Any(lines=lambda: [['1', '2', '3'], ['0', '0', '0'], ['0', '1', '0']]))\n"
-                      "sys.stdout.buffer.write(window.scene_text())")
-        self.assertEqual((done.stderr, done.stdout), (b"", b"# gr\xfcn\r\n1 2 3\n0 0 0\n0 1 0\n60 1 1 100 # gr\xfcn\r\nend\r\n"))
+        pathlib.Path("-scene").write_bytes(
+            b"\xef\xbb\xbf# gr\xfcn\r\n0 0 5\r\n0 0 0\r\n0 1 0\r\n60 1 1 100 # gr\xfcn\r\nend\r\n")
+        done = in_fly(
+            "from types import SimpleNamespace as Any\n"
+            "window.scene, window.is_light_moved, window.settings = './-scene', False, "
+            "Any(camera=Any(lines=lambda: [['1', '2', '3'], ['0', '0', '0'], ['0', '1', '0']]))\n"
+            "sys.stdout.buffer.write(window.scene_text())")
+        self.assertEqual((done.stderr, done.stdout),
+                         (b"", b"# gr\xfcn\r\n1 2 3\n0 0 0\n0 1 0\n60 1 1 100 # gr\xfcn\r\nend\r\n"))
 
     def test_a_config_that_is_none_is_zbufs_message(self):
-        for name, text, message in (("-c", "x y\n", r"zbuf: \./-c:1:1: expected .*"), ("c", "", r"zbuf: c:1:1: expected .*")):
+        for name, text, message in (("-c", "x y\n", r"zbuf: \./-c:1:1: expected .*"),
+                                    ("c", "", r"zbuf: c:1:1: expected .*")):
             pathlib.Path(name).write_text(text)
             done = script("fly", "--", "scene.txt", name)
             self.assertEqual(done.returncode, 1)
@@ -248,19 +269,372 @@ class Fly(ToolTest):
 
 class MakeTorus(ToolTest):
     def run_in_shell(self, channels):
-        return subprocess.run(["bash", "-c", f'"{SCRIPTS}/make-torus" --around 200 {channels}; echo ${{PIPESTATUS[0]}} >&2'], capture_output=True)
+        return subprocess.run(
+            ["bash", "-c", f'"{SCRIPTS}/make-torus" --around 200 {channels}; echo ${{PIPESTATUS[0]}} >&2'],
+            capture_output=True)
 
     def test_its_output_is_checked(self):
-        self.assertEqual(self.run_in_shell("> /dev/full").stderr, b"make-torus: cannot write <stdout>: No space left on device\n1\n")
-        self.assertEqual(self.run_in_shell(">&-").stderr, b"make-torus: cannot write <stdout>: Bad file descriptor\n1\n")
+        self.assertEqual(
+            self.run_in_shell("> /dev/full").stderr,
+            b"make-torus: cannot write <stdout>: No space left on device\n1\n")
+        self.assertEqual(
+            self.run_in_shell(">&-").stderr, b"make-torus: cannot write <stdout>: Bad file descriptor\n1\n")
         self.assertEqual(self.run_in_shell("| head -n 1").stderr, b"141\n")
 
     def test_what_makes_no_torus_is_refused(self):
-        for option, value, expected in (("around", "2", "a whole number of at least 3"), ("tube", "x", "a whole number of at least 3"),
-                                        ("major", "0", "a number greater than 0"), ("minor", "nan", "a number greater than 0")):
+        for option, value, expected in (("around", "2", "a whole number of at least 3"),
+                                        ("tube", "x", "a whole number of at least 3"),
+                                        ("major", "0", "a number greater than 0"),
+                                        ("minor", "nan", "a number greater than 0")):
             done = script("make-torus", f"--{option}={value}")
             self.assertEqual(done.returncode, 2)
             self.assertIn(f"argument --{option}: expected {expected}, found '{value}'", done.stderr.decode())
+
+
+class Separate(ToolTest):
+    """An output that is an input or another output is a misuse: nothing runs, and both are named."""
+
+    # A command, its words, with {} for an output, and the file that this must not be, with its name.
+    CASES = (
+        ("inspect", "scene.txt config.txt -o {}", "SCENE 'scene.txt'"),
+        ("inspect", "scene.txt config.txt --theirs theirs -o {}", "--theirs 'theirs/stage1.txt'"),
+        ("trade", "scene.txt config.txt --plot {}", "CONFIG 'config.txt'"),
+        ("fly", "scene.txt config.txt --scene-out {}", "SCENE 'scene.txt'"),
+        ("fly", "scene.txt --picture-out {}", "CONFIG 'config.txt'"),
+        ("picture", "model.png -o {}", "MODEL 'model.png'"),
+        ("stages", "five/stage1.txt config.txt five", "SCENE 'five/stage1.txt'"),
+        ("farm", "scene.txt config.png -o {}", "CONFIG 'config.png'"),
+        ("farm", "scene.txt config.txt -o x.png --z-buffer {}", "SCENE 'scene.txt'"),
+        ("film", "scene.gif config.txt --turn 1 -o {}", "SCENE 'scene.gif'"),
+        ("film", "five/world.txt config.txt --turn 1 -o five", "SCENE 'five/world.txt'"),
+        ("join-images", "a.png b.png -o {}", "BAND 'b.png'"),
+        ("compare", "a.png b.png --image {}", "A B 'a.png'"),
+        ("compare", "a.png b.png --image {} --scene scene.txt", "SCENE 'scene.txt'"),
+        ("grade", "hand-ins tests -o {}", "TESTS 'tests'"),
+        ("fly", "scene.txt --scene-out one --picture-out {}", "--scene-out 'one'"),
+        ("farm", "scene.txt config.txt -o one.png --z-buffer {}", "-o 'one.png'"),
+        ("picture", "model.png --stages five -o {}", "--stages 'five/stage2.txt'"),
+    )
+
+    def assert_refused(self, command, words, name, **settings):
+        before = self.files()
+        done = subprocess.run(
+            [SCRIPTS / command, *words],
+            capture_output=True,
+            text=True,
+            timeout=60,
+            env={"BIN": str(BIN), "PATH": "/usr/bin:/bin"},
+            **settings,
+        )
+        self.assertEqual((done.returncode, done.stdout, self.files()), (2, "", before), done.stderr)
+        self.assertRegex(
+            done.stderr,
+            rf"\A{command}: expected a place of its own for every output, "
+            rf"found the same one for .* \(try {command} --help\)\n\Z",
+        )
+        self.assertIn(name, done.stderr)
+
+    def test_it_is_refused_by_every_name(self):
+        for folder in ("theirs", "five", "tests", "hand-ins"):
+            os.mkdir(folder)
+        for i, (command, words, name) in enumerate(self.CASES):
+            path = name.split("'")[1]
+            if not os.path.exists(path) and "'one" not in name and "stage2" not in name:
+                pathlib.Path(path).write_text("mine")
+            os.symlink(path, "link.png")
+            aliases = ["./" + path, "link.png"]
+            if os.path.isfile(path):
+                os.link(path, "same.png")
+                aliases.append("same.png")
+            alias = aliases[i % len(aliases)]
+            if command in ("farm", "film") and alias[-4:] not in (".png", ".gif") and "z-buffer" not in words:
+                alias = "./" + path
+            with self.subTest(command, words=words, alias=alias):
+                self.assert_refused(command, words.format(alias).split(), name)
+            for left in ("link.png", "same.png"):
+                pathlib.Path(left).unlink(missing_ok=True)
+
+    def test_standard_input_is_an_input(self):
+        with open("scene.txt") as scene:
+            self.assert_refused("inspect", ["-", "config.txt", "-o", "scene.txt"], "SCENE '-'", stdin=scene)
+
+    def test_devices_may_be_named_twice(self):
+        done = script("farm", "scene.txt", "config.txt", "-o", "x.png", "--z-buffer", "/dev/null", "--help")
+        self.assertEqual((done.returncode, done.stderr), (0, b""))
+        os.symlink(null_device(), "null.png")
+        pathlib.Path("a.ppm").write_bytes(b"P6 1 1 255\nabc")
+        done = script("compare", "a.ppm", "a.ppm", "--image", "null.png", stdin=subprocess.DEVNULL)
+        self.assertEqual((done.returncode, done.stderr), (0, b""))
+
+
+class Folders(ToolTest):
+    """A folder that a command works in is new or empty, or it has made it: no other is written to."""
+
+    SETTINGS = {
+        "farm": ("scene.txt config.txt --parts 2 -o x.png", "x.png.farm", 1),
+        "film": ("scene.txt config.txt --turn 0.1 -o x.gif", "x.gif.frames", 1),
+        "grade": ("hand-ins tests -o out", "out", 2),
+    }
+
+    def setUp(self):
+        super().setUp()
+        for program in ("parallel", "ffmpeg"):
+            if not shutil.which(program):
+                self.skipTest(f"{program} is missing")
+        for folder in ("tests/one", "hand-ins/ada", "elsewhere"):
+            os.makedirs(folder)
+        shutil.copy("scene.txt", "tests/one")
+        pathlib.Path("elsewhere/precious").write_text("mine")
+
+    def all_files(self):
+        return sorted(
+            (str(path), path.read_bytes() if path.is_file() else None) for path in pathlib.Path().rglob("*")
+        )
+
+    def assert_refused(self, command, words, status, message):
+        before = self.all_files()
+        done = script(command, *words.split())
+        self.assertEqual(
+            (done.returncode, done.stdout, done.stderr.decode()), (status, b"", f"{command}: {message}\n")
+        )
+        self.assertEqual(self.all_files(), before)
+
+    def test_another_is_refused(self):
+        film_in_a_folder = ("film", ("scene.txt config.txt --turn 0.1 -o frames", "frames", 1))
+        for command, (words, folder, status) in (*self.SETTINGS.items(), film_in_a_folder):
+            with self.subTest(command, folder=folder):
+                os.mkdir(folder)
+                for name in ("00000.png", "config.txt"):
+                    pathlib.Path(folder, name).write_text("mine")
+                shown = os.path.realpath(folder) if folder in ("frames", "out") else folder
+                self.assert_refused(
+                    command,
+                    words,
+                    status,
+                    "expected a new or empty folder, or one that "
+                    f"{command} has made, found {shown}, which holds 00000.png",
+                )
+                shutil.rmtree(folder)
+
+    def test_no_link_and_no_file_stands_for_one(self):
+        for command in ("farm", "film"):
+            words, folder, status = self.SETTINGS[command]
+            os.symlink("elsewhere", folder)
+            self.assert_refused(
+                command, words, status, f"expected a folder, or nothing, found the link {folder}"
+            )
+            os.unlink(folder)
+            pathlib.Path(folder).write_text("mine")
+            self.assert_refused(
+                command, words, status, f"expected a folder, or nothing, found the file {folder}"
+            )
+
+    @unittest.skipUnless(IS_ROOT, "only root makes folders of other users")
+    def test_another_users_folder_is_refused(self):
+        """Whoever owns the folder could change what is run there."""
+        words, folder, status = self.SETTINGS["farm"]
+        os.mkdir(folder)
+        pathlib.Path(folder, ".pipeline-farm").touch()
+        os.chown(folder, 12345, 12345)
+        self.assert_refused(
+            "farm",
+            words,
+            status,
+            f"expected a folder of one's own, found {folder} of another user",
+        )
+
+    def test_two_runs_do_not_share_one(self):
+        words, folder, status = self.SETTINGS["farm"]
+        os.mkdir(folder)
+        with open(f"{folder}/.pipeline-farm", "w") as mark:
+            fcntl.flock(mark, fcntl.LOCK_EX)
+            self.assert_refused("farm", words, status, f"another farm works in {folder}")
+
+    def test_what_is_not_ours_stays_in_one(self):
+        """The files of the user in a folder that bears the mark, and what their links point at."""
+        for command in ("farm", "film"):
+            words, folder, _ = self.SETTINGS[command]
+            os.mkdir(folder)
+            pathlib.Path(folder, f".pipeline-{command}").touch()
+            pathlib.Path(folder, "20241.png").write_text("mine")
+            os.symlink("../elsewhere/precious", pathlib.Path(folder, "config.txt"))
+            for name in (".pipeline-x.gif", ".pipeline-x.png"):  # what one might guess
+                os.path.lexists(name) or os.symlink("elsewhere/precious", name)
+            self.assertEqual(script(command, *words.split()).returncode, 0)
+            self.assertEqual(sorted(os.listdir(folder)), [f".pipeline-{command}", "20241.png"])
+            self.assertEqual(pathlib.Path("elsewhere/precious").read_text(), "mine")
+
+    def test_links_in_one_are_not_followed(self):
+        """Where jobs, parallel or ffmpeg would write, without a look at what is there."""
+        planted = {"farm": ("jobs.log", "seen-0-0-1.txt", "seen-0-0-1.txt.log", "parts"),
+                   "film": ("00000.png.log", "film.gif")}
+        for command, links in planted.items():
+            words, folder, _ = self.SETTINGS[command]
+            os.mkdir(folder)
+            pathlib.Path(folder, f".pipeline-{command}").touch()
+            for link in links:
+                os.symlink("../elsewhere" if link == "parts" else "../elsewhere/precious", f"{folder}/{link}")
+            done = script(command, *words.split())
+            self.assertEqual((done.returncode, os.path.exists(folder)), (0, False), done.stderr)
+            self.assertEqual(os.listdir("elsewhere"), ["precious"])
+            self.assertEqual(pathlib.Path("elsewhere/precious").read_text(), "mine")
+
+    def test_a_link_that_film_has_not_drawn_is_in_the_way(self):
+        os.mkdir("frames")
+        pathlib.Path("frames/.pipeline-film").touch()
+        os.symlink("../elsewhere/new", "frames/00001.png")
+        self.assert_refused(
+            "film",
+            "scene.txt config.txt --turn 0.1 -o frames",
+            1,
+            f"expected no 00001.png in {os.path.realpath('frames')} that film has not drawn",
+        )
+
+    def test_empty_folders_of_the_user_stay_in_one(self):
+        words = "scene.txt config.txt --turn 0.1 -o frames"
+        self.assertEqual(script("film", *words.split()).returncode, 0)
+        os.makedirs("frames/mine/too")
+        self.assertEqual(script("film", *words.split()).returncode, 0)
+        self.assertTrue(os.path.isdir("frames/mine/too"))
+
+    def test_an_empty_one_is_taken_and_goes(self):
+        words, folder, _ = self.SETTINGS["farm"]
+        os.mkdir(folder)
+        self.assertEqual(script("farm", *words.split()).returncode, 0)
+        self.assertFalse(os.path.exists(folder))
+
+    def test_an_output_that_cannot_be_is_told_before_any_work(self):
+        for command in ("farm", "film"):
+            words = self.SETTINGS[command][0]
+            os.makedirs(words.split()[-1], exist_ok=True)
+            self.assert_refused(command, words, 1, f"cannot open {words.split()[-1]}: Is a directory")
+
+    def test_a_frame_that_film_has_not_drawn_is_in_the_way(self):
+        os.mkdir("frames")
+        pathlib.Path("frames/.pipeline-film").touch()
+        pathlib.Path("frames/00001.png").write_text("mine")
+        self.assert_refused(
+            "film",
+            "scene.txt config.txt --turn 0.1 -o frames",
+            1,
+            f"expected no 00001.png in {os.path.realpath('frames')} that film has not drawn",
+        )
+
+    def test_names_may_hold_anything(self):
+        for name in ("a%05d '\"$(x)b", "a\nb", "-x"):
+            os.mkdir(name)
+            for command, words, output in (
+                ("film", "--turn 0.1", "x.gif"),
+                ("film", "--turn 0.1", "frames"),
+                ("farm", "--bands 2", "x.png"),
+            ):
+                words = ["scene.txt", "config.txt", *words.split(), f"--output={name}/{output}"]
+                self.assertEqual(script(command, *words).returncode, 0)
+            self.assertEqual(sorted(os.listdir(name)), ["frames", "x.gif", "x.png"])
+
+
+class Endings(ToolTest):
+    """A signal ends a command with all that it has started, is told in a line, and leaves no temporary
+    file."""
+
+    # A command, its words, the tool that does not come to an end, what stays.
+    CASES = (
+        ("farm", "scene.txt config.txt --parts 2 -o x.png -- --jobs 2", "model", ["x.png.farm"]),
+        ("film", "scene.txt config.txt --turn 1 -o x.gif -- --jobs 2", "zbuf", ["x.gif.frames"]),
+        ("film", "scene.txt config.txt --turn 1 -o frames", "model", []),
+        ("stages", "scene.txt config.txt new/five", "project", []),
+        ("inspect", "scene.txt config.txt", "view", []),
+        ("trade", "scene.txt config.txt", "model", []),
+        ("explain", "scene.txt config.txt --triangle 0", "view", []),
+        ("compare", "--hand-in five scene.txt config.txt", "model", []),
+    )
+
+    def test_all_ends(self):
+        pathlib.Path("scene.txt").write_text(SCENE.replace("end\n", "triangle\n1 0 0\n0 1 0\n0 1 1\nend\n"))
+        for folder in ("five", "tmp"):
+            os.mkdir(folder)
+        numbers = itertools.cycle((signal.SIGTERM, signal.SIGINT, signal.SIGHUP))
+        for (command, words, tool, stays), number in zip(self.CASES, numbers):
+            if (
+                command in ("farm", "film")
+                and not shutil.which("parallel")
+                or "gif" in words
+                and not shutil.which("ffmpeg")
+            ):
+                continue
+            with self.subTest(command, words=words, number=number.name):
+                self.end_one(command, words.split(), tool, stays, number)
+
+    def test_a_pipe_of_tools_ends(self):
+        if not (BIN / "mesh2scene").exists():
+            self.skipTest("mesh2scene has not been built, as assimp is missing")
+        pathlib.Path("a.stl").write_bytes(
+            subprocess.run(
+                [SCRIPTS / "make-model", "vase", "--format", "stl", "--detail", "1"], capture_output=True
+            ).stdout
+        )
+        os.mkdir("tmp")
+        for words, number in (
+            (["a.stl", "-o", "x.png"], signal.SIGTERM),
+            (["a.stl", "-o", "x.png", "--stages", "kept"], signal.SIGHUP),
+        ):
+            self.end_one("picture", words, "project", [], number)
+
+    def end_one(self, command, words, tool, stays, number):
+        slow = pathlib.Path("slow").absolute()
+        slow.mkdir()
+        for path in BIN.iterdir():
+            (slow / path.name).symlink_to(path)
+        (slow / tool).unlink()
+        (slow / tool).write_text(
+            f'#!/bin/sh\ncase "$*" in *--help* | *--seen*/dev/null*) exec {BIN}/{tool} "$@" ;; esac\n'
+            f"echo $$ >> {slow}/started\nexec sleep 1000\n"
+        )
+        (slow / tool).chmod(0o755)
+        before = self.files()
+        process = subprocess.Popen(
+            [SCRIPTS / command, *words],
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.PIPE,
+            preexec_fn=heed_signals,
+            env={
+                "BIN": str(slow),
+                "PATH": os.environ["PATH"],
+                "HOME": str(slow),
+                "TMPDIR": os.path.abspath("tmp"),
+            },
+        )
+        while not (slow / "started").exists() and process.poll() is None:
+            time.sleep(0.02)
+        told = end_by_signal(process, number)[1].decode()
+        self.assertEqual((process.returncode, told), (-number, f"{command}: ended by {number.name}\n"))
+        self.assertEqual(
+            [line for line in (slow / "started").read_text().split() if os.path.exists(f"/proc/{line}/exe")],
+            [],
+        )
+        shutil.rmtree(slow)
+        self.assertEqual(sorted(set(self.files()) - set(before)), stays)
+        self.assertEqual(os.listdir("tmp"), [])
+        for name in stays:
+            shutil.rmtree(name)
+
+
+class Channels(ToolTest):
+    def test_a_closed_channel_is_no_file_of_ours(self):
+        """What is opened first must not get the descriptor of standard input, output or error."""
+        for closed in ("<&-", "2>&-", "<&- 2>&-"):
+            done = subprocess.run(
+                ["sh", "-c", f'"{SCRIPTS}/inspect" - config.txt -o page {closed}'],
+                input=b"",
+                capture_output=True,
+                env={"BIN": str(BIN), "PATH": "/usr/bin:/bin"},
+            )
+            self.assertEqual(
+                (done.returncode, done.stdout, self.files()), (1, b"", ["config.txt", "scene.txt"]), closed
+            )
+            self.assertEqual(
+                done.stderr, b"" if "2>" in closed else b"inspect: cannot read <stdin>: Bad file descriptor\n"
+            )
 
 
 class OwnFiles(ToolTest):
@@ -269,8 +643,9 @@ class OwnFiles(ToolTest):
     def test_names_of_the_process_own_files(self):
         sys.path.insert(0, str(SCRIPTS))
         from lib.output_file import own_descriptor, target_of
-        for path, number in (("/dev/stdout", 1), ("/dev/stderr", 2), ("/dev/fd/12", 12), ("/proc/self/fd/3", 3),
-                             ("/dev/stdin", None), ("/dev/null", None), ("/dev/fd/x", None), ("dev/stdout", None), ("/dev/stdout/", None)):
+        for path, number in (("/dev/stdout", 1), ("/dev/stderr", 2), ("/dev/fd/12", 12),
+                             ("/proc/self/fd/3", 3), ("/dev/stdin", None), ("/dev/null", None),
+                             ("/dev/fd/x", None), ("dev/stdout", None), ("/dev/stdout/", None)):
             self.assertEqual(own_descriptor(path), number, path)
         os.symlink("/dev/stdout", "first")
         os.symlink("first", "second")
@@ -282,7 +657,8 @@ class Tools(ToolTest):
         """Not the programs of the same names on the PATH."""
         for tool in ("model", "view", "project", "zbuf"):
             os.symlink(BIN / tool, tool)
-        done = subprocess.run([SCRIPTS / "inspect", "scene.txt", "config.txt"], capture_output=True, env={"BIN": ".", "PATH": "/usr/bin:/bin"})
+        done = subprocess.run([SCRIPTS / "inspect", "scene.txt", "config.txt"], capture_output=True,
+                              env={"BIN": ".", "PATH": "/usr/bin:/bin"})
         self.assertEqual((done.stderr.decode(), done.returncode), ("", 0))
 
 

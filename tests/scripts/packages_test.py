@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""install-packages and demo: as root, with sudo, and as a user who may not install anything. dpkg, apt and sudo are stubs.
+"""install-packages and demo: as root, with sudo, and as a user who may not install anything. dpkg, apt and
+sudo are stubs.
 
 usage: packages_test.py BIN_DIR [UNITTEST ARGUMENT...]
 """
@@ -15,8 +16,11 @@ from toolbox import BIN, SOURCE, ToolTest  # noqa: E402
 
 # A package is installed if a file of its name is in installed/, and can be if none is in unknown/.
 STUBS = {
-    "dpkg-query": '#!/bin/sh\nfor package; do :; done\n[ -e "$STATE/installed/$package" ] && echo "install ok installed"\n',
-    "apt-get": """#!/bin/sh
+    "dpkg-query":
+        '#!/bin/sh\nfor package; do :; done\n[ -e "$STATE/installed/$package" ] && echo "install ok '
+        'installed"\n',
+    "apt-get":
+        """#!/bin/sh
 echo "chatter of apt-get $*"
 echo "$*" >> "$STATE/calls"
 [ "$2" = install ] || exit 0
@@ -27,16 +31,21 @@ for package; do
 done
 [ $status -eq 0 ] || exit $status
 for package; do : > "$STATE/installed/$package"; done
-""",
-    "id": '#!/bin/sh\necho "$USER_NUMBER"\n',
-}
-SUDO = '#!/bin/sh\n[ "$SUDO_WORKS" = yes ] || { echo "sudo: a password is required" >&2; exit 1; }\necho "sudo $*" >> "$STATE/calls"\n' \
-       '[ "$1" = -n ] || exec "$@"\n'
+""", "id":
+            '#!/bin/sh\necho "$USER_NUMBER"\n', }
+SUDO = """#!/bin/sh
+[ "$SUDO_WORKS" = yes ] || { echo "sudo: a password is required" >&2; exit 1; }
+echo "sudo $*" >> "$STATE/calls"
+[ "$1" = -n ] || exec "$@"
+"""
 
 
 def lists():
     """The package lists of the script, by their names."""
-    return {name: words.split() for name, words in re.findall(r"^(to_\w+)='([^']*)'", (SOURCE / "scripts/install-packages").read_text(), re.M)}
+    return {
+        name: words.split()
+        for name, words in re.findall(r"^(to_\w+)='([^']*)'", (SOURCE /
+                                                               "scripts/install-packages").read_text(), re.M)}
 
 
 class Packages(ToolTest):
@@ -47,7 +56,9 @@ class Packages(ToolTest):
         shutil.copy(SOURCE / "scripts/install-packages", self.tree / "scripts")
         for folder in ("installed", "unknown", "bin"):
             (self.state / folder).mkdir(parents=True)
-        self.environment = {"PATH": f"{self.state}/bin:/usr/bin:/bin", "STATE": str(self.state), "USER_NUMBER": "0", "LANG": "C.UTF-8"}
+        self.environment = {
+            "PATH": f"{self.state}/bin:/usr/bin:/bin", "STATE": str(self.state), "USER_NUMBER": "0",
+            "LANG": "C.UTF-8"}
         for name, text in STUBS.items():
             self.put(name, text)
         self.needed = lists()["to_build"] + lists()["to_test"]
@@ -67,8 +78,8 @@ class Packages(ToolTest):
             (self.state / "installed" / package).unlink()
 
     def install(self, *words):
-        done = subprocess.run([self.tree / "scripts/install-packages", *words], env=self.environment, capture_output=True, text=True, timeout=60,
-                              stdin=subprocess.DEVNULL)
+        done = subprocess.run([self.tree / "scripts/install-packages", *words], env=self.environment,
+                              capture_output=True, text=True, timeout=60, stdin=subprocess.DEVNULL)
         return done.returncode, done.stdout, done.stderr
 
     def calls(self):
@@ -104,24 +115,31 @@ class Packages(ToolTest):
     def test_a_package_of_another_name_does_not_keep_the_others_out(self):
         self.lack("cmake", "chromium-driver", "xvfb")
         (self.state / "unknown/chromium-driver").touch()
-        self.assertEqual(self.install("--tests"), (0, "installing: cmake xvfb chromium-driver\n",
-                         "install-packages: cannot install chromium-driver; tests that need these packages will be skipped\n"))
+        self.assertEqual(self.install("--tests"), (
+            0, "installing: cmake xvfb chromium-driver\n",
+            "install-packages: cannot install chromium-driver; tests that need these packages will be "
+            "skipped\n"
+        ))
         self.assertTrue((self.state / "installed/xvfb").exists())
 
     def test_a_needed_package_that_cannot_be_installed_is_an_error(self):
         self.lack("cmake")
         (self.state / "unknown/cmake").touch()
         status, _, messages = self.install()
-        self.assertEqual((status, messages.splitlines()[-1]), (1, "install-packages: cannot install cmake; see build/apt.log"))
+        self.assertEqual((status, messages.splitlines()[-1]),
+                         (1, "install-packages: cannot install cmake; see build/apt.log"))
 
     def test_a_user_with_sudo_installs_through_it(self):
         self.as_user(sudo="yes")
         self.lack("g++")
         self.assertEqual(self.install(), (0, "installing: g++\n", ""))
-        self.assertIn("sudo env DEBIAN_FRONTEND=noninteractive apt-get -q install -y --no-install-recommends g++", self.calls())
+        self.assertIn(
+            "sudo env DEBIAN_FRONTEND=noninteractive apt-get -q install -y --no-install-recommends g++",
+            self.calls())
 
     def test_a_user_without_root_is_told_what_to_ask_for(self):
-        for sudo, why in ((None, "neither root nor sudo"), ("no", "sudo does not let this user install packages")):
+        for sudo, why in ((None, "neither root nor sudo"), ("no",
+                                                            "sudo does not let this user install packages")):
             with self.subTest(sudo):
                 self.as_user(sudo)
                 self.lack("g++", "ninja-build")
@@ -140,15 +158,19 @@ class Packages(ToolTest):
         self.lack("chromium", "mandoc")
         status, output, messages = self.install("--tests")
         self.assertEqual((status, output), (0, ""))
-        self.assertTrue(messages.endswith("  apt-get install --no-install-recommends chromium mandoc\n"
-                                          "install-packages: going on; tests that need these packages will be skipped\n"))
+        self.assertTrue(
+            messages.endswith("  apt-get install --no-install-recommends chromium mandoc\n"
+                              "install-packages: going on; tests that need these packages will be skipped\n"))
 
     def test_another_system_is_left_alone(self):
         self.as_user()
         (self.state / "bin/dpkg-query").unlink()
         status, output, messages = self.install()
         self.assertEqual((status, messages), (0, ""))
-        self.assertTrue(output.startswith("install-packages: this is no Debian system; see to it that the like of these is there: g++ "))
+        self.assertTrue(
+            output.startswith(
+                "install-packages: this is no Debian system; see to it that the like of these is there: g++ ")
+        )
 
 
 class Demo(ToolTest):
@@ -160,14 +182,17 @@ class Demo(ToolTest):
         (tree / "build/release/bin").symlink_to(BIN)
         for stub in ("install-packages", "build-release"):
             (tree / "scripts" / stub).write_text("#!/bin/sh\n")
-        done = subprocess.run([tree / "scripts/demo", "worked-example"], capture_output=True, text=True, env={"PATH": "/usr/bin:/bin"}, timeout=60)
+        done = subprocess.run([tree / "scripts/demo", "worked-example"], capture_output=True, text=True,
+                              env={"PATH": "/usr/bin:/bin"}, timeout=60)
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         self.assertEqual(sorted(path.name for path in tree.iterdir()), ["build", "out", "samples", "scripts"])
         made = sorted(path.name for path in (tree / "out/worked-example").iterdir())
-        self.assertEqual(made, ["out.bmp", "picture.png", "stage1.txt", "stage2.txt", "stage3.txt", "z_buffer.txt"])
+        self.assertEqual(made,
+                         ["out.bmp", "picture.png", "stage1.txt", "stage2.txt", "stage3.txt", "z_buffer.txt"])
         end = done.stdout.partition("made:\n")[2]
         for name in made:
-            self.assertIn(f" {(tree / 'out/worked-example' / name).stat().st_size} out/worked-example/{name}\n", end)
+            self.assertIn(
+                f" {(tree / 'out/worked-example' / name).stat().st_size} out/worked-example/{name}\n", end)
         # Its last commands work, but for a viewer.
         for command in re.findall(r"^(?:  |all commands: )(build\S+ .*)$", end, re.M):
             subprocess.run(["sh", "-c", command], cwd=tree, check=True, capture_output=True, timeout=60)

@@ -18,82 +18,114 @@ def setUpModule():  # noqa: N802
 
 
 def picture(*words):
-    return subprocess.run([SOURCE / "scripts/picture", *words], capture_output=True, text=True, env={**os.environ, "BIN": str(BIN)})
+    return subprocess.run([SOURCE / "scripts/picture", *words], capture_output=True, text=True,
+                          env={**os.environ, "BIN": str(BIN)})
 
 
 class Picture(ToolTest):
     def setUp(self):
         super().setUp()
-        model = subprocess.run([SOURCE / "scripts/make-model", "vase", "--detail", "2"], check=True, capture_output=True).stdout
+        model = subprocess.run([SOURCE / "scripts/make-model", "vase", "--detail", "2"], check=True,
+                               capture_output=True).stdout
         pathlib.Path("vase.obj").write_bytes(model)
 
     def test_the_picture_is_that_of_the_pipe(self):
-        done = picture("vase.obj", "--size", "120x90", "--up", "y", "--eye-from", "10", "-20", "--fov", "40", "-o", "one.png")
+        done = picture("vase.obj", "--size", "120x90", "--up-axis", "y", "--eye-from", "10", "-20", "--fov",
+                       "40", "-o", "one.png")
         self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "", ""))
-        scene = run("mesh2scene", "--size", "120x90", "--up", "y", "--eye-from", "10", "-20", "--fov", "40", "vase.obj").stdout
-        pipe(["model"], ["view"], ["project"], ["zbuf", "--size", "120x90", "--coverage", "center", "--samples", "3", "--image", "two.png"], stdin=scene)
+        scene = run("mesh2scene", "--size", "120x90", "--up-axis", "y", "--eye-from", "10", "-20", "--fov",
+                    "40", "vase.obj").stdout
+        pipe(["model"], ["view"], ["project"],
+             ["zbuf", "--size", "120x90", "--coverage", "center", "--samples", "3", "--image", "two.png"],
+             stdin=scene)
         self.assertEqual(pathlib.Path("one.png").read_bytes(), pathlib.Path("two.png").read_bytes())
 
     def test_stages_keep_every_text(self):
-        done = picture("vase.obj", "--size", "120x90", "--up", "y", "--stages", "kept/here", "-o", "one.png")
+        done = picture("vase.obj", "--size", "120x90", "--up-axis", "y", "--stages", "kept/here", "-o",
+                       "one.png")
         self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "", ""))
-        texts = {name: pathlib.Path("kept/here", name).read_bytes() for name in ("scene.txt", "stage1.txt", "stage2.txt", "stage3.txt")}
+        texts = {
+            name: pathlib.Path("kept/here", name).read_bytes()
+            for name in ("scene.txt", "stage1.txt", "stage2.txt", "stage3.txt")}
         self.assertEqual(sorted(os.listdir("kept/here")), sorted(texts))
-        self.assertEqual(texts["scene.txt"], run("mesh2scene", "--size", "120x90", "--up", "y", "vase.obj").stdout)
-        for tool, source, result in (("model", "scene.txt", "stage1.txt"), ("view", "stage1.txt", "stage2.txt"), ("project", "stage2.txt", "stage3.txt")):
+        self.assertEqual(texts["scene.txt"],
+                         run("mesh2scene", "--size", "120x90", "--up-axis", "y", "vase.obj").stdout)
+        for tool, source, result in (("model", "scene.txt", "stage1.txt"),
+                                     ("view", "stage1.txt", "stage2.txt"), ("project", "stage2.txt",
+                                                                            "stage3.txt")):
             self.assertEqual(run(tool, stdin=texts[source]).stdout, texts[result])
-        picture("vase.obj", "--size", "120x90", "--up", "y", "-o", "two.png")
+        picture("vase.obj", "--size", "120x90", "--up-axis", "y", "-o", "two.png")
         self.assertEqual(pathlib.Path("one.png").read_bytes(), pathlib.Path("two.png").read_bytes())
 
     def test_trace_draws_in_place_of_project_and_zbuf(self):
-        framing = ("--size", "60x45", "--up", "y")
+        framing = ("--size", "60x45", "--up-axis", "y")
         scene = run("mesh2scene", *framing, "vase.obj").stdout
-        for words, tracing in ((["--trace"], ["--samples", "3"]), (["--trace", "--sampling", "adaptive", "--no-shadows", "--shading", "flat"], ["--sampling", "adaptive", "--no-shadows", "--shading", "flat"]),
-                               (["--trace", "--samples", "1", "--max-depth", "0"], ["--max-depth", "0"])):
+        for words, tracing in ((["--trace"], ["--samples", "3"]), ([
+                "--trace", "--sampling", "adaptive", "--no-shadows", "--shading",
+                "flat"], ["--sampling", "adaptive", "--no-shadows", "--shading", "flat"]), ([
+                    "--trace", "--samples", "1", "--max-depth", "0"], ["--max-depth", "0"])):
             with self.subTest(words):
                 done = picture("vase.obj", *framing, *words, "--stages", "kept", "-o", "one.png")
                 self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "", ""))
                 self.assertEqual(sorted(os.listdir("kept")), ["scene.txt", "stage1.txt", "stage2.txt"])
-                pipe(["model"], ["view"], ["trace", "--size", "60x45", *tracing, "--z-buffer", "none", "--image", "two.png"], stdin=scene)
+                pipe(["model"], ["view"],
+                     ["trace", "--size", "60x45", *tracing, "--z-buffer", "none", "--image", "two.png"],
+                     stdin=scene)
                 self.assertEqual(pathlib.Path("one.png").read_bytes(), pathlib.Path("two.png").read_bytes())
                 picture("vase.obj", *framing, *words, "-o", "three.png")
                 self.assertEqual(pathlib.Path("three.png").read_bytes(), pathlib.Path("two.png").read_bytes())
 
     def test_options_of_trace_need_trace(self):
         done = picture("vase.obj", "--no-shadows", "-o", "one.png")
-        self.assertEqual((done.returncode, done.stderr.splitlines()[-1]), (2, "picture: --no-shadows is for trace: it needs --trace (try picture --help)"))
+        self.assertEqual((done.returncode, done.stderr.splitlines()[-1]),
+                         (2, "picture: --no-shadows is for trace: it needs --trace (try picture --help)"))
 
     def test_a_note_is_passed_on(self):
-        self.assertEqual(picture("vase.obj", "-o", "one.png").stderr, "mesh2scene: note: y is taken for up, as in most OBJ files (--up chooses)\n")
+        self.assertEqual(
+            picture("vase.obj", "-o", "one.png").stderr,
+            "mesh2scene: note: y is taken for up, as in most OBJ files (--up-axis chooses)\n")
 
     def test_of_failures_the_cause_is_told_alone(self):
         pathlib.Path("broken.obj").write_text("v 0 0\n")
-        for words, reason in ((["missing.obj"], "picture: mesh2scene: cannot open missing.obj: No such file or directory"),
-                              (["broken.obj"], "picture: mesh2scene: broken.obj: assimp cannot read this model: "),
-                              (["vase.obj", "--fov", "0"], "picture: mesh2scene: --fov: expected "),
-                              (["vase.obj", "--size", "0x1"], "picture: mesh2scene: --size: expected ")):
+        pathlib.Path("large.obj").write_text("#" * 1_000_001)
+        for words, reason in (([
+                "missing.obj"], "picture: mesh2scene: cannot open missing.obj: No such file or directory"), ([
+                    "broken.obj"], "picture: mesh2scene: broken.obj: assimp cannot read this model: "), ([
+                        "large.obj", "--max-input",
+                        "1"], "picture: mesh2scene: large.obj: expected at most 1 MB "), ([
+                            "vase.obj", "--fov", "0"], "picture: mesh2scene: --fov: expected "), ([
+                                "vase.obj", "--size", "0x1"], "picture: mesh2scene: --size: expected ")):
             for more in ([], ["--stages", "kept"]):
                 with self.subTest(words + more):
                     done = picture(*words, *more, "-o", "one.png")
-                    self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (1, "", 1), done.stderr)
+                    self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (1, "", 1),
+                                     done.stderr)
                     self.assertTrue(done.stderr.startswith(reason), done.stderr)
                     self.assertFalse(pathlib.Path("one.png").exists())
-                    self.assertEqual(os.listdir("kept") if more else [], [])
-        for output, reason in (("one.gif", "picture: zbuf: "), ("nowhere/one.png", "picture: zbuf: cannot open nowhere/one.png: No such file")):
+                    self.assertFalse(pathlib.Path("kept").exists())
+        for output, reason in (("one.gif", "picture: zbuf: "),
+                               ("nowhere/one.png",
+                                "picture: zbuf: cannot open nowhere/one.png: No such file")):
             done = picture("vase.obj", "-o", output)
             self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (1, "", 1), done.stderr)
             self.assertTrue(done.stderr.startswith(reason), done.stderr)
 
     def test_for_a_scene_the_message_is_what_draws_it(self):
-        pathlib.Path("my scene.txt").write_text("# mine\n\n0 0 5  # eye\n0 0 0\n0 1 0\n60 1 1 100 ratio\ntriangle\n0 0 0\n1 0 0\n0 1 0\nend\n")
-        for words, drawn in (([], ["project", "zbuf --coverage center --samples 3 --size 60x60"]), (["--trace", "--samples", "2"], ["trace --size 60x60 --samples 2"])):
+        pathlib.Path("my scene.txt").write_text(
+            "# mine\n\n0 0 5  # eye\n0 0 0\n0 1 0\n60 1 1 100 ratio\ntriangle\n0 0 0\n1 0 0\n0 1 0\nend\n")
+        for words, drawn in (([], ["project", "zbuf --coverage center --samples 3 --size 60x60"]), ([
+                "--trace", "--samples", "2"], ["trace --size 60x60 --samples 2"])):
             done = picture("my scene.txt", "--size", "60x60", *words, "-o", "one.png")
             start, _, line = done.stderr.partition(", which takes: ")
-            self.assertEqual((done.returncode, done.stdout, start), (1, "", "picture: expected a model file, found the scene my scene.txt"))
+            self.assertEqual((done.returncode, done.stdout, start),
+                             (1, "", "picture: expected a model file, found the scene my scene.txt"))
             self.assertFalse(pathlib.Path("one.png").exists())
-            subprocess.run(["sh", "-c", line], check=True, env={**os.environ, "PATH": f"{BIN}:{os.environ['PATH']}"})
+            subprocess.run(["sh", "-c", line], check=True,
+                           env={**os.environ, "PATH": f"{BIN}:{os.environ['PATH']}"})
             scene = pathlib.Path("my scene.txt").read_bytes()
-            pipe(["model"], ["view"], *([*stage.split(), *(["--image", "two.png"] if stage != "project" else [])] for stage in drawn), stdin=scene)
+            pipe(["model"], ["view"],
+                 *([*stage.split(), *(["--image", "two.png"] if stage != "project" else [])]
+                   for stage in drawn), stdin=scene)
             self.assertEqual(pathlib.Path("one.png").read_bytes(), pathlib.Path("two.png").read_bytes())
             pathlib.Path("one.png").unlink()
 

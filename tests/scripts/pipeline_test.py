@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""The command `pipeline` runs what lies in libexec/pipeline beside its folder, wherever that is and however it is called.
+"""The command `pipeline` runs what lies in libexec/pipeline beside its folder, wherever that is and however
+it is called.
 
 usage: pipeline_test.py BIN_DIR [UNITTEST ARGUMENT...]
 """
@@ -32,7 +33,8 @@ def run(program, *words, **settings):
 
 
 class Prefix(ToolTest):
-    """A prefix with a blank, a quote and a dollar in its name, and commands that only show how they were called."""
+    """A prefix with a blank, a quote and a dollar in its name, and commands that only show how they were
+    called."""
 
     def setUp(self):
         super().setUp()
@@ -56,7 +58,8 @@ class Prefix(ToolTest):
         self.assertEqual(run(self.pipeline, *words), (2, "", f"pipeline: {message}\n"))
 
     def test_a_command_gets_its_arguments_and_gives_its_status(self):
-        self.assertEqual(run(self.pipeline, "show", "a b", "", "*", "--help"), (0, "show <a b> <> <*> <--help>\n", ""))
+        self.assertEqual(run(self.pipeline, "show", "a b", "", "*", "--help"),
+                         (0, "show <a b> <> <*> <--help>\n", ""))
         self.add("fails", "#!/bin/sh\nexit 41\n")
         self.assertEqual(run(self.pipeline, "fails"), (41, "", ""))
 
@@ -78,7 +81,8 @@ class Prefix(ToolTest):
     def test_help_lists_commands_and_nothing_else(self):
         status, text, messages = run(self.pipeline, "--help")
         self.assertEqual((status, messages), (0, ""))
-        self.assertEqual(re.findall(r"^  ([a-z0-9-]+) {2,}(.*)$", text, re.M), [("model", "Runs the commands"), ("show", "Shows its words")])
+        self.assertEqual(re.findall(r"^  ([a-z0-9-]+) {2,}(.*)$", text, re.M),
+                         [("model", "Runs the commands"), ("show", "Shows its words")])
         self.assertEqual(run(self.pipeline, "help"), (0, text, ""))
         self.assertEqual(run(self.pipeline), (2, "", text))
 
@@ -107,7 +111,8 @@ class Prefix(ToolTest):
             master, terminal = os.openpty()
         except OSError as error:
             self.skipTest(f"no terminal: {error}")
-        subprocess.run([self.pipeline, "help", command], stdin=subprocess.DEVNULL, stdout=terminal, timeout=60, check=True, **settings)
+        subprocess.run([self.pipeline, "help", command], stdin=subprocess.DEVNULL, stdout=terminal,
+                       timeout=60, check=True, **settings)
         os.close(terminal)
         shown = b""
         with open(master, "rb", buffering=0) as screen, contextlib.suppress(OSError):  # the terminal is gone
@@ -116,23 +121,35 @@ class Prefix(ToolTest):
         return shown.decode().replace("\r", "")
 
     def test_help_about_a_format_is_a_man_page(self):
-        message = f"expected the man page pipeline-scene(5) in {self.prefix}/share/man, and the program man".replace("\n", "?")
-        self.refuses(["help", "scene"], message)
+        message = f"expected the man page pipeline-scene(5) in {self.prefix}/share/man, and the program man"
+        self.refuses(["help", "scene"], message.replace("\n", "?"))
 
     def test_version_is_that_of_the_tools(self):
         self.add("model", '#!/bin/sh\necho "model (pipeline) 1.2.3"\n')
         self.assertEqual(run(self.pipeline, "--version"), (0, "pipeline 1.2.3\n", ""))
 
     def test_an_unknown_command_is_refused_with_the_nearest_word(self):
-        for word, hint in (("shwo", "show"), ("sow", "show"), ("shows", "show"), ("hlep", "help"), ("modle", "model")):
-            self.refuses([word], f"expected a command, found '{word}' (did you mean {hint}?) (try pipeline help)")
+        for word, hint in (("shwo", "show"), ("sow", "show"), ("shows", "show"), ("hlep", "help"), ("modle",
+                                                                                                    "model")):
+            self.refuses([word],
+                         f"expected a command, found '{word}' (did you mean {hint}?) (try pipeline help)")
         for name in ("check-stage", "make-chess", "make-torus"):
             self.add(name, ECHO)
-        for word, hint in (("check", "check-stage"), ("make", "make-chess or make-torus"), ("mak", "make-chess or make-torus")):
-            self.refuses([word], f"expected a command, found '{word}' (did you mean {hint}?) (try pipeline help)")
-        for word in ("", "x", "ma", "-v", "--", "lib", "README", "helper.py", "../bin/pipeline", "x" * 5000, "sho\\w", "sho\nw"):
-            self.refuses([word, "1"], f"expected a command, found '{word}' (try pipeline help)".replace("\n", "?"))
-        self.refuses(["help", "shoe"], "expected a command, found 'shoe' (did you mean show?) (try pipeline help)")
+        for word, hint in (("check", "check-stage"), ("make", "make-chess or make-torus"),
+                           ("mak", "make-chess or make-torus")):
+            self.refuses([word],
+                         f"expected a command, found '{word}' (did you mean {hint}?) (try pipeline help)")
+        for word in ("", "x", "ma", "-v", "--", "lib", "README", "helper.py", "../bin/pipeline", "x" * 5000,
+                     "sho\\w", "sho\nw"):
+            self.refuses([word, "1"],
+                         f"expected a command, found '{word}' (try pipeline help)".replace("\n", "?"))
+        self.refuses(["help", "shoe"],
+                     "expected a command, found 'shoe' (did you mean show?) (try pipeline help)")
+
+    def test_an_old_name_is_refused_with_the_new_one(self):
+        for word, now in (("split", "cut-scene"), ("join", "join-seen")):
+            self.refuses([word, "1"], f"expected a command, found '{word}' (now {now})")
+            self.refuses(["help", word], f"expected a command, found '{word}' (now {now})")
 
     def test_a_stage_that_was_not_built_is_named(self):
         self.refuses(["view"], f"view has not been built in {self.commands}".replace("\n", "?"))
@@ -151,7 +168,8 @@ class Prefix(ToolTest):
     def test_env_puts_the_short_names_first(self):
         for path, then in (("/usr/bin:/bin", ":/usr/bin:/bin"), ("", "")):
             line = 'PATH=/usr/bin:/bin; text=$("$0" env); PATH=$1; eval "$text"; show "$PATH"'
-            self.assertEqual(run("/bin/sh", "-c", line, self.pipeline, path), (0, f"show <{self.commands}{then}>\n", ""))
+            self.assertEqual(run("/bin/sh", "-c", line, self.pipeline, path),
+                             (0, f"show <{self.commands}{then}>\n", ""))
 
     def test_env_refuses_a_folder_that_no_path_can_name(self):
         moved = pathlib.Path("a:b").resolve()
@@ -166,13 +184,16 @@ class BuildTree(ToolTest):
     def test_the_stages_make_the_sample(self):
         scene, config = SAMPLE / "scene.txt", SAMPLE / "config.txt"
         line = f'"$0" model "{scene}" | "$0" view | "$0" project | "$0" zbuf "{config}"'
-        self.assertEqual(run("sh", "-c", line, BIN / "pipeline"), (0, (SAMPLE / "z_buffer.txt").read_text(), ""))
+        self.assertEqual(run("sh", "-c", line, BIN / "pipeline"),
+                         (0, (SAMPLE / "z_buffer.txt").read_text(), ""))
 
     def test_scripts_use_the_tools_of_this_build(self):
         # Through a link and by the short name, without $BIN.
-        self.assertEqual(run(BIN / "pipeline", "stages", SAMPLE / "scene.txt", SAMPLE / "config.txt", "five"), (0, "", ""))
+        self.assertEqual(run(BIN / "pipeline", "stages", SAMPLE / "scene.txt", SAMPLE / "config.txt", "five"),
+                         (0, "", ""))
         self.assertEqual(pathlib.Path("five/stage3.txt").read_bytes(), (SAMPLE / "stage3.txt").read_bytes())
-        line = 'eval "$("$0" env)" && compare --five five "$1/scene.txt" "$1/config.txt" && command -v compare && command -v view'
+        line = ('eval "$("$0" env)" && compare --hand-in five "$1/scene.txt" "$1/config.txt" && command -v '
+                'compare && command -v view')
         status, text, messages = run("sh", "-c", line, BIN / "pipeline", SAMPLE)
         self.assertEqual((status, messages), (0, ""))
         folder = BIN.parent / "libexec/pipeline"
@@ -186,8 +207,10 @@ class BuildTree(ToolTest):
         for tool in ("model", "zbuf"):
             (folder / tool).write_text("#!/bin/sh\necho 'the tool beside' >&2\nexit 3\n")
             (folder / tool).chmod(0o755)
-        self.assertEqual(run(folder / "stages", SAMPLE / "scene.txt", SAMPLE / "config.txt", "five"), (1, "", "the tool beside\n"))
-        self.assertEqual(run(folder / "inspect", SAMPLE / "scene.txt", SAMPLE / "config.txt"), (1, "", "inspect: the tool beside\n"))
+        self.assertEqual(run(folder / "stages", SAMPLE / "scene.txt", SAMPLE / "config.txt", "five"),
+                         (1, "", "stages: the tool beside\n"))
+        self.assertEqual(run(folder / "inspect", SAMPLE / "scene.txt", SAMPLE / "config.txt"),
+                         (1, "", "inspect: the tool beside\n"))
 
     def test_every_command_has_a_short_description(self):
         text = run(BIN / "pipeline", "help")[1]

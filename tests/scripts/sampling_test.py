@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Runs scripts/measure/sampling on tiny pictures, and holds the committed figures to what the page says of them.
+"""Runs scripts/measure/sampling on tiny pictures, and holds the committed figures to what the page says of
+them.
 
 usage: sampling_test.py BIN_DIR SOURCE_DIR
 """
@@ -23,9 +24,12 @@ def rows_in(folder):
 class Quick(unittest.TestCase):
     def test_every_way_to_sample_has_its_rays_and_its_error(self):
         with tempfile.TemporaryDirectory() as folder:
-            subprocess.run([SOURCE / "scripts/measure/sampling", "--quick", "--rounds", "2", "--bin", BIN_DIR, "--out", folder], check=True)
+            subprocess.run([
+                SOURCE / "scripts/measure/sampling", "--quick", "--rounds", "2", "--bin", BIN_DIR, "--output",
+                folder], check=True)
             rows = rows_in(folder)
-        offered = subprocess.run([BIN_DIR / "trace", "--help"], stdout=subprocess.PIPE, text=True, check=True).stdout
+        offered = subprocess.run([BIN_DIR / "trace", "--help"], stdout=subprocess.PIPE, text=True,
+                                 check=True).stdout
         ways = offered.split("--sampling ", 1)[1].split()[0].split("|")
         self.assertEqual({name.split(",")[0] for name, _ in rows}, {*ways, "random"})
         for (name, n), row in rows.items():

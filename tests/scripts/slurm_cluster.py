@@ -71,18 +71,24 @@ class Cluster:
             test.skipTest("a Slurm of several nodes on one machine needs root")
         self.here, self.test = pathlib.Path.cwd(), test
         self.environment = {**os.environ, "PATH": path, "SLURM_CONF": f"{self.here}/slurm.conf"}
-        for variable in [name for name in self.environment if name.startswith(("SLURM_", "SBATCH_")) and name != "SLURM_CONF"]:
+        for variable in [
+                name for name in self.environment
+                if name.startswith(("SLURM_", "SBATCH_")) and name != "SLURM_CONF"]:
             del self.environment[variable]
         host = socket.gethostname().split(".")[0]
         port, *ports = free_ports(len(names) + 1)
-        nodes = [f"NodeName={name} NodeHostname={host} NodeAddr=127.0.0.1 Port={number} CPUs=2" for name, number in zip(names, ports)]
+        nodes = [
+            f"NodeName={name} NodeHostname={host} NodeAddr=127.0.0.1 Port={number} CPUs=2"
+            for name, number in zip(names, ports)]
         for folder in ("state", *(f"spool-{name}" for name in names)):
             (self.here / folder).mkdir()
-        pathlib.Path("slurm.conf").write_text(SETTINGS.format(host=host, user="root", here=self.here, port=port, nodes="\n".join(nodes)))
+        pathlib.Path("slurm.conf").write_text(
+            SETTINGS.format(host=host, user="root", here=self.here, port=port, nodes="\n".join(nodes)))
         self.start_munged()
         self.start("slurmctld", "-D")
         self.nodes = {name: self.start("slurmd", "-D", "-N", name) for name in names}
-        self.wait(lambda: self.output("sinfo", "-h", "-o", "%t %D") == f"idle {len(names)}", "the nodes to be idle")
+        self.wait(lambda: self.output("sinfo", "-h", "-o", "%t %D") == f"idle {len(names)}",
+                  "the nodes to be idle")
 
     def start_munged(self):
         """munged trusts only folders that its own user alone can write to."""
@@ -94,20 +100,25 @@ class Cluster:
             shutil.chown(path, "munge", "munge")
         for path in (self.here, folder):
             path.chmod(0o755)
-        words = ["runuser", "-u", "munge", "--", "munged", "--foreground", f"--socket={folder}/socket", f"--key-file={folder}/key", f"--pid-file={folder}/pid",
-                 f"--log-file={folder}/log", f"--seed-file={folder}/seed"]
+        words = [
+            "runuser", "-u", "munge", "--", "munged", "--foreground", f"--socket={folder}/socket",
+            f"--key-file={folder}/key", f"--pid-file={folder}/pid", f"--log-file={folder}/log",
+            f"--seed-file={folder}/seed"]
         self.start(*words)
         self.wait((folder / "socket").exists, "munged to listen")
 
     def start(self, *words):
         with open(self.here / "daemons.log", "ab") as log:
-            process = subprocess.Popen(words, env=self.environment, stdin=subprocess.DEVNULL, stdout=log, stderr=log, start_new_session=True)
+            process = subprocess.Popen(words, env=self.environment, stdin=subprocess.DEVNULL, stdout=log,
+                                       stderr=log, start_new_session=True)
         self.test.addCleanup(ended, process)
         return process
 
     def output(self, *words):
         """What a command prints, in a line."""
-        return " ".join(subprocess.run(words, env=self.environment, capture_output=True, text=True, timeout=120).stdout.split())
+        return " ".join(
+            subprocess.run(words, env=self.environment, capture_output=True, text=True,
+                           timeout=120).stdout.split())
 
     def wait(self, condition, what, seconds=240):
         """The condition's value, as soon as it is true."""
@@ -116,25 +127,33 @@ class Cluster:
             if value := condition():
                 return value
             time.sleep(0.1)
-        logs = "".join(f"\n{path.name}:\n" + "".join(path.read_text(errors="replace").splitlines(True)[-30:]) for path in sorted(self.here.glob("*.log")))
+        logs = "".join(f"\n{path.name}:\n" +"".join(path.read_text(errors="replace").splitlines(True)[-30:])
+                       for path in sorted(self.here.glob("*.log")))
         raise AssertionError(f"waited {seconds} s for {what}{logs}")
 
     def state(self, job):
-        """Words of a job, as scontrol shows them: JobState, Restarts, BatchHost, Reason ...; {} for one that Slurm has forgotten."""
-        return dict(word.split("=", 1) for word in self.output("scontrol", "show", "job", "-o", str(job)).split() if "=" in word)
+        """Words of a job, as scontrol shows them: JobState, Restarts, BatchHost, Reason ...; {} for one that
+        Slurm has forgotten."""
+        return dict(
+            word.split("=", 1)
+            for word in self.output("scontrol", "show", "job", "-o", str(job)).split()
+            if "=" in word)
 
     def processes(self, node):
-        """{id: name} of a node's processes: slurmd, each job's slurmstepd, which is no child of it, and what these have started."""
+        """{id: name} of a node's processes: slurmd, each job's slurmstepd, which is no child of it, and what
+        these have started."""
         found = {self.nodes[node].pid: "slurmd"}
         for path in pathlib.Path("/proc").glob("[0-9]*"):
             try:
                 environment = (path / "environ").read_bytes().split(b"\0")
-                if f"SLURMD_NODENAME={node}".encode() not in environment or f"SLURM_CONF={self.here}/slurm.conf".encode() not in environment:
+                if f"SLURMD_NODENAME={node}".encode(
+                ) not in environment or f"SLURM_CONF={self.here}/slurm.conf".encode() not in environment:
                     continue
                 process = int(path.name)
                 while process > 1 and process not in found:
                     stat = pathlib.Path(f"/proc/{process}/stat").read_text()
-                    name, parent = stat[stat.index("(") + 1:stat.rindex(")")], int(stat[stat.rindex(")") + 2:].split()[1])
+                    name, parent = stat[stat.index("(") + 1:stat.rindex(")")], int(
+                        stat[stat.rindex(")") + 2:].split()[1])
                     found[process] = name
                     process = parent if name != "slurmstepd" else 1
             except OSError:
@@ -145,7 +164,9 @@ class Cluster:
         """As if the power were cut: those that could tell of the others' end go first."""
         order = ("slurmd", "slurmstepd")
         found = self.processes(node)
-        for process in sorted(found, key=lambda process: order.index(found[process]) if found[process] in order else len(order)):
+        for process in sorted(
+                found, key=lambda process: order.index(found[process])
+                if found[process] in order else len(order)):
             try:
                 os.kill(process, signal.SIGKILL)
             except ProcessLookupError:

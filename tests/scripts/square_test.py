@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""stages, inspect and fly note a square that is drawn more than 1 % off square, and what they propose mends it.
+"""stages, inspect and fly note a square that is drawn more than 1 % off square, and what they propose mends
+it.
 
 usage: square_test.py BIN_DIR [UNITTEST ARGUMENT...]
 """
@@ -65,14 +66,18 @@ class SquareTest(ToolTest):
     def call(self, script, projection, config, *words):
         pathlib.Path("scene.txt").write_text(SCENE.format(projection))
         pathlib.Path("config.txt").write_text(config)
-        return subprocess.run([SOURCE / "scripts" / script, "scene.txt", "config.txt", *words], capture_output=True, text=True, timeout=120,
-                              env={"BIN": str(BIN), "PATH": "/usr/bin:/bin", "LANG": "C.UTF-8"})
+        return subprocess.run([SOURCE / "scripts" / script, "scene.txt", "config.txt", *words],
+                              capture_output=True, text=True, timeout=120, env={
+                                  "BIN": str(BIN), "PATH": "/usr/bin:/bin", "LANG": "C.UTF-8"})
 
     def drawn(self, config):
         """The width of the square over its height, in pixels."""
         numbers = [float(word) for word in re.sub("#.*", "", config).split()]
         columns, rows, left, bottom = (numbers + [-1, -1])[:4]
-        points = [tuple(map(float, line.split())) for line in pathlib.Path("five/stage3.txt").read_text().split("\n") if line]
+        points = [
+            tuple(map(float, line.split()))
+            for line in pathlib.Path("five/stage3.txt").read_text().split("\n")
+            if line]
         width, height = (max(p[axis] for p in points) - min(p[axis] for p in points) for axis in (0, 1))
         return (width * columns / -left) / (height * rows / -bottom)
 
@@ -87,7 +92,11 @@ class Stages(SquareTest):
         for projection, config, mend, mended in NOTED:
             with self.subTest(projection=projection, config=config):
                 note = self.note(projection, config)
-                self.assertEqual(note, f"stages: note: a square is drawn {self.drawn(config):.3g} times as wide as high: {mend}\n")
+                self.assertEqual(
+                    note,
+                    f"stages: note: a square is drawn {self.drawn(config):.3g} times as wide as high: "
+                    f"{mend}\n"
+                )
                 self.assertGreater(abs(self.drawn(config) - 1), 0.01)
                 self.assertEqual(self.note(mended, config), "")
                 self.assertAlmostEqual(self.drawn(config), 1, delta=0.001)
@@ -101,21 +110,30 @@ class Stages(SquareTest):
     def test_a_config_that_is_a_pipe_is_noted(self):
         pathlib.Path("scene.txt").write_text(SCENE.format("60 1 1 50"))
         line = f'"{SOURCE}/scripts/stages" scene.txt <(echo 400 300) five'
-        done = subprocess.run(["bash", "-c", line], capture_output=True, text=True, env={"BIN": str(BIN), "PATH": "/usr/bin:/bin"})
-        self.assertEqual((done.returncode, done.stderr), (0, f"stages: note: a square is drawn 1.33 times as wide as high: {aspect_and_ratio('1.33333')}\n"))
+        done = subprocess.run(["bash", "-c", line], capture_output=True, text=True,
+                              env={"BIN": str(BIN), "PATH": "/usr/bin:/bin"})
+        self.assertEqual(
+            (done.returncode, done.stderr),
+            (0,
+             f"stages: note: a square is drawn 1.33 times as wide as high: {aspect_and_ratio('1.33333')}\n"))
 
     def test_a_config_that_is_a_bad_pipe_is_refused(self):
         line = f'"{SOURCE}/scripts/stages" scene.txt <(echo 400) five'
-        done = subprocess.run(["bash", "-c", line], capture_output=True, text=True, env={"BIN": str(BIN), "PATH": "/usr/bin:/bin"})
+        done = subprocess.run(["bash", "-c", line], capture_output=True, text=True,
+                              env={"BIN": str(BIN), "PATH": "/usr/bin:/bin"})
         self.assertEqual((done.returncode, done.stderr, os.path.exists("five")), (
-            1, "zbuf: <stdin>:1:4: expected the height in pixels, a whole number from 1 to 65535, found the end of the line\n", False))
+            1,
+            "stages: zbuf: /dev/fd/63:1:4: expected the height in pixels, a whole number from 1 to 65535, "
+            "found the end of the line\n",
+            False))
 
 
 class Inspect(SquareTest):
     def test_notes_it_on_stderr_and_on_the_page(self):
         projection, config, mend, _ = NOTED[0]
         done = self.call("inspect", projection, config)
-        self.assertEqual((done.returncode, done.stderr), (0, f"inspect: note: a square is drawn 0.917 times as wide as high: {mend}\n"))
+        self.assertEqual((done.returncode, done.stderr),
+                         (0, f"inspect: note: a square is drawn 0.917 times as wide as high: {mend}\n"))
         # The page's data, as inspect packs them.
         packed = max(re.findall(r"[A-Za-z0-9+/=]{200,}", pathlib.Path("report.html").read_text()), key=len)
         notes = json.loads(zlib.decompress(base64.b64decode(packed)))["notes"]
@@ -133,20 +151,25 @@ class Fly(SquareTest):
 
     def first_words(self, *words):
         """What fly has written on stderr when its window waits."""
-        program = ("import sys; sys.path.insert(0, sys.argv[1]); sys.dont_write_bytecode = True; del sys.argv[1]\n"
-                   "from importlib.machinery import SourceFileLoader as Loader; from fly_parts.window import FlyWindow\n"
-                   "run = FlyWindow.run; FlyWindow.run = lambda window: (print('.', flush=True), run(window))\n"
-                   "Loader('__main__', sys.path[0] + '/fly').load_module()")
-        process = subprocess.Popen([sys.executable, "-c", program, SOURCE / "scripts", *words], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+        program = (
+            "import sys; sys.path.insert(0, sys.argv[1]); sys.dont_write_bytecode = True; del sys.argv[1]\n"
+            "from importlib.machinery import SourceFileLoader as Loader; from fly_parts.window import "
+            "FlyWindow\n"
+            "run = FlyWindow.run; FlyWindow.run = lambda window: (print('.', flush=True), run(window))\n"
+            "Loader('__main__', sys.path[0] + '/fly').load_module()")
+        process = subprocess.Popen([sys.executable, "-c", program, SOURCE / "scripts", *words],
+                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE,
                                    env={**os.environ, "BIN": str(BIN)}, preexec_fn=heed_signals)
         self.assertEqual(process.stdout.readline(), b".\n")
-        return end_by_signal(process, signal.SIGTERM)[1].decode()
+        return end_by_signal(process, signal.SIGTERM)[1].decode().removesuffix("fly: ended by SIGTERM\n")
 
     def test_notes_it_where_it_has_a_config_or_finds_one(self):
         pathlib.Path("scene.txt").write_text(SCENE.format("60 1.3333333 1 50"))
         pathlib.Path("config.txt").write_text("40 30\n")
-        self.assertEqual(self.first_words("scene.txt", "config.txt"), f"fly: note: a square is drawn 0.917 times as wide as high: {RATIO}\n")
-        self.assertEqual(self.first_words("scene.txt"), f"fly: note: a square is drawn 0.917 times as wide as high: {RATIO}\n")
+        self.assertEqual(self.first_words("scene.txt", "config.txt"),
+                         f"fly: note: a square is drawn 0.917 times as wide as high: {RATIO}\n")
+        self.assertEqual(self.first_words("scene.txt"),
+                         f"fly: note: a square is drawn 0.917 times as wide as high: {RATIO}\n")
         pathlib.Path("config.txt").unlink()
         self.assertEqual(self.first_words("scene.txt"), "")
 

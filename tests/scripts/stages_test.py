@@ -46,42 +46,49 @@ class Stages(ToolTest):
             self.assertEqual(pathlib.Path(folder, name).read_bytes(), (SAMPLE / name).read_bytes(), name)
 
     def assert_refused(self, done, message):
-        self.assertEqual((done.stderr.decode(), done.returncode), (message + "\n", 1))
+        self.assertEqual((done.stderr.decode(), done.returncode), (f"stages: {message}\n", 1))
 
     def left(self, folder="."):
         return sorted(name for name in os.listdir(folder) if folder != "." or name not in self.before)
 
     def test_an_option_that_is_not_there_is_named(self):
         done = run_stages("scene.txt", "--size", "640x480", "out")
-        self.assertEqual((done.returncode, done.stderr.decode()), (2, "stages: there is no option --size (try stages --help)\n"))
+        self.assertEqual((done.returncode, done.stderr.decode()),
+                         (2, "stages: unrecognized arguments: --size (try stages --help)\n"))
 
     def test_too_few_operands_are_named(self):
-        for words, found in (((), "0 operands"), (("scene.txt",), "1 operand"), (("scene.txt", "config.txt", "a", "b"), "4 operands")):
+        for words, reason in (((), "the following arguments are required: SCENE, CONFIG, DIR"),
+                              (("scene.txt", ), "the following arguments are required: CONFIG, DIR"),
+                              (("scene.txt", "config.txt", "a", "b"), "unrecognized arguments: b")):
             done = run_stages(*words)
-            told = f"stages: expected SCENE, CONFIG and DIR, found {found} (try stages --help)\n"
+            told = f"stages: {reason} (try stages --help)\n"
             self.assertEqual((done.stderr.decode(), done.returncode), (told, 2))
 
     def test_a_sphere_names_the_ways_to_draw_it(self):
-        pathlib.Path("scene").write_text((SAMPLE / "scene.txt").read_text().replace("\nend", "\nsphere 0 0 0 1\nend"))
+        pathlib.Path("scene").write_text(
+            (SAMPLE / "scene.txt").read_text().replace("\nend", "\nsphere 0 0 0 1\nend"))
         line = pathlib.Path("scene").read_text().split("sphere")[0].count("\n") + 1
-        self.assert_refused(self.stages("dir", scene="scene"),
-                            f"model: scene:{line}:1: expected triangles alone, found a sphere: trace draws it, and model --facets N makes triangles of it")
+        self.assert_refused(
+            self.stages("dir", scene="scene"),
+            f"model: scene:{line}:1: expected triangles alone, found a sphere: trace draws it, and model "
+            f"--facets N makes triangles of it"
+        )
         self.assertFalse(os.path.exists("dir"))
 
     def test_a_folder_in_a_files_place_is_refused(self):
         for name in FIVE:
             os.makedirs(f"dir/{name}")
-            self.assert_refused(self.stages("dir"), f"stages: expected a file, found the folder dir/{name}")
+            self.assert_refused(self.stages("dir"), f"cannot open dir/{name}: Is a directory")
             self.assertEqual((self.left("dir"), os.listdir(f"dir/{name}")), ([name], []))
             os.rmdir(f"dir/{name}")
         os.mkdir("elsewhere")
         os.symlink("../elsewhere", "dir/out.bmp")
-        self.assert_refused(self.stages("dir"), "stages: expected a file, found the folder dir/out.bmp")
+        self.assert_refused(self.stages("dir"), "cannot open dir/out.bmp: Is a directory")
         self.assertEqual(os.listdir("elsewhere"), [])
 
     def test_a_file_in_the_folders_place_is_refused(self):
         pathlib.Path("dir").write_text("old")
-        self.assert_refused(self.stages("dir"), "stages: expected a folder, found the file dir")
+        self.assert_refused(self.stages("dir"), "cannot make the folder dir: File exists")
         self.assertEqual(pathlib.Path("dir").read_text(), "old")
 
     def test_a_run_that_fails_leaves_no_folder(self):
@@ -89,7 +96,8 @@ class Stages(ToolTest):
         os.mkdir("old")
         for folder in ("dir", "old/a/b//c/", "./dir/dir", "old/../dir", "dir/../dir"):
             with self.subTest(folder):
-                self.assert_refused(self.stages(folder, scene="bad"), "model: bad:1:1: expected the x of the eye, found 'x'")
+                self.assert_refused(self.stages(folder, scene="bad"),
+                                    "model: bad:1:1: expected the x of the eye, found 'x'")
                 self.assertEqual((self.left(), os.listdir("old")), (["bad", "old"], []))
         self.assertEqual(self.stages("dir", config="none").returncode, 1)
         self.assertEqual(self.left(), ["bad", "old"])
@@ -121,8 +129,10 @@ class Stages(ToolTest):
         reader.join(60)
         self.assertEqual((done.stderr.decode(), done.returncode), ("", 0))
         self.assertEqual(got, [(SAMPLE / "out.bmp").read_bytes()])
-        self.assertEqual((mode_of("dir/stage1.txt"), mode_of("there/two"), mode_of("there/new")), (0o640, 0o600, 0o640))
-        for link, target, name in (("dir/stage2.txt", "../there/two", "stage2.txt"), ("dir/z_buffer.txt", "../there/new", "z_buffer.txt")):
+        self.assertEqual((mode_of("dir/stage1.txt"), mode_of("there/two"), mode_of("there/new")),
+                         (0o640, 0o600, 0o640))
+        for link, target, name in (("dir/stage2.txt", "../there/two", "stage2.txt"),
+                                   ("dir/z_buffer.txt", "../there/new", "z_buffer.txt")):
             self.assertEqual(os.readlink(link), target)
             self.assertEqual(pathlib.Path(link).read_bytes(), (SAMPLE / name).read_bytes())
         self.assertTrue(stat.S_ISCHR(os.stat("dir/stage3.txt").st_mode))
@@ -134,28 +144,42 @@ class Stages(ToolTest):
         os.mkdir("dir")
         pathlib.Path("dir/stage1.txt").write_text("old")
         for folder, kept in (("dir", ["dir"]), ("new", ["dir"])):
-            self.assert_refused(self.stages(folder, preexec_fn=limit), f"model: cannot write {folder}/stage1.txt: File too large")
-            self.assertEqual((self.left(), self.left("dir"), pathlib.Path("dir/stage1.txt").read_text()), (kept, ["stage1.txt"], "old"))
+            self.assert_refused(self.stages(folder, preexec_fn=limit),
+                                f"model: cannot write {folder}/stage1.txt: File too large")
+            self.assertEqual((self.left(), self.left("dir"), pathlib.Path("dir/stage1.txt").read_text()),
+                             (kept, ["stage1.txt"], "old"))
 
     def test_names_may_hold_anything(self):
         for name in (b"-x", b"--help", b"a b", b"a\nb\n", b"a'\"$(x)b", b"a\xffb"):
             with self.subTest(name):
                 for kind in (b"scene", b"config"):
-                    pathlib.Path(os.fsdecode(name + kind)).write_bytes((SAMPLE / f"{kind.decode()}.txt").read_bytes())
+                    pathlib.Path(os.fsdecode(name + kind)).write_bytes(
+                        (SAMPLE / f"{kind.decode()}.txt").read_bytes())
                 self.assert_made(run_stages("--", name + b"scene", name + b"config", name), os.fsdecode(name))
 
     def test_notes_name_no_text_that_does_not_stay(self):
-        pathlib.Path("far.txt").write_text("-1e34 0.5 1e32\n0 5 9\n0 1 0\n60 1 1 10\ntriangle\n1 2 3\n4 5 6\n7 8 9\nend\n")
+        pathlib.Path("far.txt").write_text(
+            "-1e34 0.5 1e32\n0 5 9\n0 1 0\n60 1 1 10\ntriangle\n1 2 3\n4 5 6\n7 8 9\nend\n")
         notes = self.stages("out", scene="far.txt").stderr.decode().splitlines()
-        self.assertIn("view: note: the digits of a vertex and of 2 more are not certain: numbers cancel here beyond 31 digits", notes)
+        self.assertIn(
+            "view: note: the digits of a vertex and of 2 more are not certain: numbers cancel here beyond "
+            "31 digits",
+            notes)
         self.assertEqual([note for note in notes if "exact" in note or notes.count(note) > 1], [])
-        pathlib.Path("near.txt").write_text("0 0 5\n0 0 0\n0 1 0\n60 1 1 10\ntranslate 1e30 0 0\nrotate 33 1 2 3\ntranslate -1e30 0 0\n"
-                                            "triangle\n1 2 3\n4 5 6\n7 8 9\nend\n")
-        notes = [note for note in self.stages("out", scene="near.txt").stderr.decode().splitlines() if note.startswith("model")]
-        self.assertEqual(notes, ["model: note: near.txt:9:1: the digits of this vertex and of 2 more are not certain: numbers cancel here beyond 31 digits"])
+        pathlib.Path("near.txt").write_text(
+            "0 0 5\n0 0 0\n0 1 0\n60 1 1 10\ntranslate 1e30 0 0\nrotate 33 1 2 3\ntranslate -1e30 0 0\n"
+            "triangle\n1 2 3\n4 5 6\n7 8 9\nend\n")
+        notes = [
+            note for note in self.stages("out", scene="near.txt").stderr.decode().splitlines()
+            if note.startswith("model")]
+        self.assertEqual(notes, [
+            "model: note: near.txt:9:1: the digits of this vertex and of 2 more are not certain: numbers "
+            "cancel here beyond 31 digits"
+        ])
 
     def test_pipes_are_read_once(self):
-        line = f'"{STAGES}" <(cat "{SAMPLE}/scene.txt") <(cat "{SAMPLE}/config.txt") one && "{STAGES}" - "{SAMPLE}/config.txt" two < "{SAMPLE}/scene.txt"'
+        line = (f'"{STAGES}" <(cat "{SAMPLE}/scene.txt") <(cat "{SAMPLE}/config.txt") one && "{STAGES}" - '
+                f'"{SAMPLE}/config.txt" two < "{SAMPLE}/scene.txt"')
         done = subprocess.run(["bash", "-c", line], capture_output=True, env=ENVIRONMENT)
         self.assert_made(done, "one")
         self.assert_made(done, "two")

@@ -43,7 +43,8 @@ class SwappedStage(unittest.TestCase):
                 stage1 = run("model", *model, self.scene)
                 stage2 = run("awk", "-v", "eye=0 0 12", "-f", source / "scripts/view.awk", stdin=stage1)
                 stage3 = run("project", *project, stdin=stage2)
-                self.assertTrue(picture(stage3, self.sample / "config.txt") == self.expected, "the picture differs")
+                self.assertTrue(
+                    picture(stage3, self.sample / "config.txt") == self.expected, "the picture differs")
 
     def test_the_awk_script_passes_other_columns_on(self):
         text = b"perspective 60 1 1 30\nattributes color normal\n1 2 3 255 0 0.5 0 0 1\n"
@@ -65,8 +66,8 @@ class SwappedStage(unittest.TestCase):
         self.assert_close(stage3, (self.sample / "stage3.txt").read_bytes())
 
     def test_view_and_project_read_the_camera_from_their_options(self):
-        stage2 = run("view", "--bare", "--eye", "0", "0", "12", "--look", "0", "0", "0", "--up", "0", "1", "0",
-                     self.sample / "stage1.txt")
+        stage2 = run("view", "--bare", "--eye", "0", "0", "12", "--look", "0", "0", "0", "--up", "0", "1",
+                     "0", self.sample / "stage1.txt")
         stage3 = run("project", "--perspective", "60", "1", "1", "30", stdin=stage2)
         self.assert_close(stage3, (self.sample / "stage3.txt").read_bytes())
 

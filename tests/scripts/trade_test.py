@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""scripts/trade: what it measures is what arithmetic says, and the command line it names gives the picture it promises. No claim
-depends on time.
+"""scripts/trade: what it measures is what arithmetic says, and the command line it names gives the picture it
+promises. No claim depends on time.
 
 usage: trade_test.py BIN_DIR [UNITTEST ARGUMENT...]
 """
@@ -27,14 +27,16 @@ from trade_parts.report import about_times, decided_by  # noqa: E402
 from trade_parts.timing import EMPTY, Times  # noqa: E402
 
 SETTINGS = 9  # of each coverage rule
-# Two walls 1e-6 apart, the hidden one first, seen from 3 away: in NDC their z differ by 2e-8 or so, less than seven digits tell.
+# Two walls 1e-6 apart, the hidden one first, seen from 3 away: in NDC their z differ by 2e-8 or so, less than
+# seven digits tell.
 LAYERS = "0 0 3\n0 0 0\n0 1 0\n60 1 0.1 100\n" + "".join(
     f"triangle\n-1 -1 {z}\n1 -1 {z}\n0 1 {z}\n" for z in ("0", "0.000001")) + "end\n"
 
 
 def trade(*words, **settings):
     return subprocess.run([SOURCE / "scripts/trade", *words], capture_output=True, text=True, timeout=120,
-                          env={"BIN": str(BIN), "PATH": f"{BIN}:/usr/bin:/bin", "LANG": "C.UTF-8"}, **settings)
+                          env={"BIN": str(BIN), "PATH": f"{BIN}:/usr/bin:/bin",
+                               "LANG": "C.UTF-8"}, **settings)
 
 
 def tables(text):
@@ -55,7 +57,8 @@ def command_line(text):
 
 
 def picture(line):
-    subprocess.run(["bash", "-c", line], check=True, env={"PATH": f"{BIN}:/usr/bin:/bin"}, capture_output=True)
+    subprocess.run(["bash", "-c", line], check=True, env={"PATH": f"{BIN}:/usr/bin:/bin"},
+                   capture_output=True)
     return pathlib.Path("out.bmp").read_bytes()
 
 
@@ -63,9 +66,13 @@ class Measures(ToolTest):
     def test_every_setting_of_both_rules_is_measured(self):
         done = trade("scene.txt", "config.txt", "--rounds", "1")
         self.assertEqual((done.returncode, done.stderr), (0, ""))
-        self.assertEqual({rule: len(rows) for rule, rows in tables(done.stdout).items()}, {"nearest": SETTINGS, "center": SETTINGS})
+        self.assertEqual({rule: len(rows)
+                          for rule, rows in tables(done.stdout).items()},
+                         {"nearest": SETTINGS, "center": SETTINGS})
         for rows in tables(done.stdout).values():
-            self.assertEqual([rows["--digits exact"][column] for column in ("wrong pixels", "neighbors", "vertex error", "digits lost")], ["0"] * 4)
+            self.assertEqual([
+                rows["--digits exact"][column]
+                for column in ("wrong pixels", "neighbors", "vertex error", "digits lost")], ["0"] * 4)
 
     def test_bytes_are_those_of_the_three_texts(self):
         done = trade("scene.txt", "config.txt", "--rounds", "1", "--coverage", "nearest")
@@ -77,15 +84,19 @@ class Measures(ToolTest):
             self.assertEqual(cell, f"{sum(map(len, texts[1:]))} B")
 
     def test_the_vertex_error_is_half_a_digit_at_most_and_known_here(self):
-        """At z = -3 and fovY 90, x = 1 is 1/3 in NDC; a third of a unit of the fifth decimal is lost, 50 pixels a unit."""
-        pathlib.Path("scene.txt").write_text("0 0 3\n0 0 0\n0 1 0\n90 1 1 10\ntriangle\n1 0 0\n0 1 0\n0 0 0\nend\n")
+        """At z = -3 and fovY 90, x = 1 is 1/3 in NDC; a third of a unit of the fifth decimal is lost, 50
+        pixels a unit."""
+        pathlib.Path("scene.txt").write_text(
+            "0 0 3\n0 0 0\n0 1 0\n90 1 1 10\ntriangle\n1 0 0\n0 1 0\n0 0 0\nend\n")
         pathlib.Path("config.txt").write_text("100 100\n")
-        rows = tables(trade("scene.txt", "config.txt", "--rounds", "1", "--coverage", "center").stdout)["center"]
+        rows = tables(trade("scene.txt", "config.txt", "--rounds", "1", "--coverage",
+                            "center").stdout)["center"]
         self.assertEqual(rows["--digits 5"]["vertex error"], "1.7e-4 px")
         self.assertEqual(rows["default"]["vertex error"], "1.7e-6 px")
         self.assertEqual(rows["--digits 9"]["vertex error"], "1.7e-8 px")
         # A third of 1e-5, 1e-7 and 1e-9 in an extent of 1/3 leaves 5, 7 and 9 digits.
-        self.assertEqual([rows[name]["digits lost"] for name in ("--digits 5", "default", "--digits 9")], ["11", "9", "7"])
+        self.assertEqual([rows[name]["digits lost"] for name in ("--digits 5", "default", "--digits 9")],
+                         ["11", "9", "7"])
 
     def test_layers_that_seven_digits_cannot_tell_apart_take_nine(self):
         pathlib.Path("scene.txt").write_text(LAYERS)
@@ -94,14 +105,18 @@ class Measures(ToolTest):
         rows = tables(done.stdout)["center"]
         covered = re.search(r"covers (\d+) pixels", done.stdout)[1]
         self.assertEqual(rows["default"]["wrong pixels"], f"{covered} (100 %)")
-        self.assertEqual([rows[name]["wrong pixels"] for name in ("--digits 9", "--digits 12", "--digits exact --precision double")], ["0"] * 3)
+        self.assertEqual([
+            rows[name]["wrong pixels"]
+            for name in ("--digits 9", "--digits 12", "--digits exact --precision double")], ["0"] * 3)
 
     def test_scenes_that_are_clipped_or_lit_are_compared_by_triangle(self):
         for name in ("wide-clipped", "inside", "colored-lights"):
-            done = trade(SOURCE / f"samples/{name}/scene.txt", SOURCE / f"samples/{name}/config.txt", "--rounds", "1", "--coverage", "center")
+            done = trade(SOURCE / f"samples/{name}/scene.txt", SOURCE / f"samples/{name}/config.txt",
+                         "--rounds", "1", "--coverage", "center")
             self.assertEqual((done.returncode, done.stderr), (0, ""), name)
             rows = tables(done.stdout)["center"]
-            self.assertEqual((rows["--digits 12"]["wrong pixels"], rows["--digits exact"]["vertex error"]), ("0", "0"), name)
+            self.assertEqual((rows["--digits 12"]["wrong pixels"], rows["--digits exact"]["vertex error"]),
+                             ("0", "0"), name)
             self.assertNotEqual(rows["--digits 5"]["vertex error"], "0", name)
 
     def test_options_of_project_are_passed_on(self):
@@ -139,12 +154,16 @@ class Answers(ToolTest):
     def test_if_no_setting_will_do_the_nearest_is_named(self):
         done = trade("scene.txt", "config.txt", "--rounds", "1", "--max-wrong", "0", "--max-cpu", "0.001")
         self.assertEqual((done.returncode, done.stderr), (1, ""))
-        self.assertIn("No setting has 0 wrong pixels and at most 0.001 times the default's CPU time. The nearest is\n", done.stdout)
+        self.assertIn(
+            "No setting has 0 wrong pixels and at most 0.001 times the default's CPU time. The nearest is\n",
+            done.stdout)
         self.assertTrue(picture(command_line(done.stdout)))
 
     def test_the_plot_names_every_setting(self):
         trade("scene.txt", "config.txt", "--rounds", "1", "--max-cpu", "3", "--plot", "plot.svg")
-        texts = [element.text for element in xml.etree.ElementTree.parse("plot.svg").iter("{http://www.w3.org/2000/svg}text")]
+        texts = [
+            element.text
+            for element in xml.etree.ElementTree.parse("plot.svg").iter("{http://www.w3.org/2000/svg}text")]
         self.assertLessEqual({str(setting) for setting in settings(("nearest", "center"))}, set(texts))
 
 
@@ -156,7 +175,8 @@ class Mistakes(ToolTest):
 
     def test_those_of_a_scene_and_of_a_config_are_the_tools_own(self):
         pathlib.Path("bad.txt").write_text(CAMERA + "triangle\n0 0 0\n1 0 x\n0 1 0\nend\n")
-        self.check("trade: model: bad.txt:7:5: expected the z of vertex 2 of 3, found 'x'", "bad.txt", "config.txt")
+        self.check("trade: model: bad.txt:7:5: expected the z of vertex 2 of 3, found 'x'", "bad.txt",
+                   "config.txt")
         pathlib.Path("size.txt").write_text("0 8\n")
         done = run("zbuf", "size.txt")
         self.check("trade: " + done.stderr.decode().strip(), "scene.txt", "size.txt")
@@ -165,24 +185,34 @@ class Mistakes(ToolTest):
     def test_a_sphere_is_the_scenes_and_names_the_ways_to_draw_it(self):
         scene = LAYERS.replace("end\n", "sphere 0 0 0 1\nend\n")
         pathlib.Path("scene.txt").write_text(scene)
-        message = ":13:1: expected triangles alone, found a sphere: trace draws it, and model --facets N makes triangles of it\n"
+        message = (":13:1: expected triangles alone, found a sphere: trace draws it, and model --facets N "
+                   "makes triangles of it\n")
         done = trade("scene.txt", "config.txt")
-        self.assertEqual((done.returncode, done.stdout, done.stderr), (2, "", "trade: model: scene.txt" + message))
+        self.assertEqual((done.returncode, done.stdout, done.stderr),
+                         (2, "", "trade: model: scene.txt" + message))
         done = trade("-", "config.txt", input=scene)
-        self.assertEqual((done.returncode, done.stdout, done.stderr), (2, "", "trade: model: <stdin>" + message))
+        self.assertEqual((done.returncode, done.stdout, done.stderr),
+                         (2, "", "trade: model: <stdin>" + message))
 
     def test_an_empty_picture_has_nothing_to_compare(self):
         pathlib.Path("scene.txt").write_text(CAMERA + "triangle\n0 0 9\n1 0 9\n0 1 9\nend\n")
-        self.check("trade: the picture of the lossless run is empty: there is nothing to compare. Run the pipe to see why", "scene.txt", "config.txt")
+        self.check(
+            "trade: the picture of the lossless run is empty: there is nothing to compare. Run the pipe "
+            "to see why",
+            "scene.txt", "config.txt")
 
     def test_limits_are_numbers(self):
-        for option, word, expected in (("--max-wrong", "-1", "a number of at least 0"), ("--max-cpu", "0", "a number greater than 0"),
-                                       ("--max-wrong", "nan", "a number of at least 0"), ("--rounds", "0", "a whole number of at least 1")):
-            self.check(f"trade: argument {option}: expected {expected}, found '{word}' (try trade --help)", "scene.txt", "config.txt", f"{option}={word}")
+        for option, word, expected in (("--max-wrong", "-1", "a number of at least 0"),
+                                       ("--max-cpu", "0", "a number greater than 0"),
+                                       ("--max-wrong", "nan", "a number of at least 0"),
+                                       ("--rounds", "0", "a whole number of at least 1")):
+            self.check(f"trade: argument {option}: expected {expected}, found '{word}' (try trade --help)",
+                       "scene.txt", "config.txt", f"{option}={word}")
 
     def test_a_plot_that_cannot_be_written_is_named(self):
         done = trade("scene.txt", "config.txt", "--rounds", "1", "--plot", "none/plot.svg")
-        self.assertEqual((done.returncode, done.stderr), (2, "trade: cannot open none/plot.svg: No such file or directory\n"))
+        self.assertEqual((done.returncode, done.stderr),
+                         (2, "trade: cannot open none/plot.svg: No such file or directory\n"))
 
 
 class Owners(ToolTest):
@@ -197,8 +227,10 @@ class Owners(ToolTest):
                 color.append((state >> 16 & 0x7fff) % 256)
             colors.setdefault(bytes(color), mark)
         for rule in ("nearest", "center"):
-            pathlib.Path("stage3.txt").write_bytes(text := pipe(["model", sample / "scene.txt"], ["view"], ["project"]))
-            run("zbuf", sample / "config.txt", "--coverage", rule, "-o", "out.ppm", "--z-buffer", "none", stdin=text)
+            pathlib.Path("stage3.txt").write_bytes(
+                text := pipe(["model", sample / "scene.txt"], ["view"], ["project"]))
+            run("zbuf", sample / "config.txt", "--coverage", rule, "-o", "out.ppm", "--z-buffer", "none",
+                stdin=text)
             shown = pathlib.Path("out.ppm").read_bytes().split(b"255\n", 1)[1]
             write_marked("stage3.txt", "marked.txt")
             marks = owners(Tools(BIN), "marked.txt", sample / "config.txt", ["--coverage", rule], "marks.ppm")
@@ -238,9 +270,17 @@ class Choice(unittest.TestCase):
     def test_the_answer_tells_what_decided_among_equals(self):
         plain = row()
         self.assertEqual(decided_by(plain, [plain]), "")
-        for other, told in ((row(size=101), "1 other setting costs the same, as far as these times tell: this one has the fewest bytes."),
-                            (row(wrong=2), "1 other setting costs the same, as far as these times tell: of those with as few bytes, this one has the fewest wrong pixels."),
-                            (row(Setting(depth="f32")), "1 other setting costs the same, as far as these times tell: of those with as few bytes and as exact, this one is nearest to the default.")):
+        for other, told in (
+            (row(size=101),
+             "1 other setting costs the same, as far as these times tell: this one has the fewest bytes."),
+            (row(wrong=2),
+             "1 other setting costs the same, as far as these times tell: of those with as few bytes, this "
+             "one has the fewest wrong pixels."
+             ),
+            (row(Setting(depth="f32")),
+             "1 other setting costs the same, as far as these times tell: of those with as few bytes and as "
+             "exact, this one is nearest to the default."
+             )):
             chosen, alike = cheapest([other, plain], True)
             self.assertIs(chosen, plain)
             self.assertEqual(decided_by(chosen, alike), "\n" + told)
@@ -251,7 +291,8 @@ class Choice(unittest.TestCase):
 
     def test_of_settings_that_are_alike_the_default_is_taken(self):
         plain = row()
-        self.assertIs(cheapest_of([row(Setting(depth="f32")), plain, row(Setting(depth="u24"))], False), plain)
+        self.assertIs(cheapest_of(
+            [row(Setting(depth="f32")), plain, row(Setting(depth="u24"))], False), plain)
 
     def test_the_nearest_misses_least(self):
         self.assertEqual(nearest(self.rows, Limits(0, 2)).setting, Setting("exact"))
@@ -270,9 +311,12 @@ class Clock(unittest.TestCase):
         self.assertEqual(self.times([2.0, 4.0, 4.0]).ratios[Setting("5")], Quartiles(0.875, 1.0, 1.0))
 
     def test_a_run_within_the_noise_of_starting_is_too_short(self):
-        for default, is_too_short in (([1.0, 1.1, 1.2], True), ([1.2, 1.3, 1.2], True), ([1.2, 1.9, 4.0], True), ([2.0, 2.1, 2.2], False)):
+        for default, is_too_short in (([1.0, 1.1, 1.2], True), ([1.2, 1.3,
+                                                                 1.2], True), ([1.2, 1.9, 4.0], True), ([
+                                                                     2.0, 2.1, 2.2], False)):
             times = self.times(default)
-            self.assertEqual((times.are_too_short, "tell nothing" in about_times(times)), (is_too_short, is_too_short), default)
+            self.assertEqual((times.are_too_short, "tell nothing" in about_times(times)),
+                             (is_too_short, is_too_short), default)
 
     def test_the_share_of_starting_is_told(self):
         self.assertIn("medians of 3 rounds", about_times(self.times([2.0, 2.1, 1.9])))
@@ -290,11 +334,14 @@ class Errors(unittest.TestCase):
         self.assertAlmostEqual(screen.pixels_between((10, 0.5, 0), (10.3, 0.5, 0)), 1.5)
 
     def test_digits_are_counted_in_the_extent(self):
-        self.assertEqual([digits_left(error, 2.0) for error in (0, 2e-3, 2.5e-3, 1e-30, 5)], [16, 3, 2, 16, 0])
+        self.assertEqual([digits_left(error, 2.0) for error in (0, 2e-3, 2.5e-3, 1e-30, 5)],
+                         [16, 3, 2, 16, 0])
 
     def test_vertices_are_paired_by_the_number_of_their_triangle(self):
         def text(*pieces):
-            return "".join(f"triangle {number}\n" + "".join(f"{number} {name} {i}\n" for i in range(3)) + "\n" for number, name in pieces)
+            return "".join(f"triangle {number}\n" +"".join(f"{number} {name} {i}\n"
+                                                           for i in range(3)) + "\n"
+                           for number, name in pieces)
 
         with tempfile.TemporaryDirectory() as folder:
             a, b = pathlib.Path(folder, "a"), pathlib.Path(folder, "b")
@@ -307,21 +354,27 @@ class Errors(unittest.TestCase):
 class Notes(unittest.TestCase):
     def test_the_line_of_a_text_that_the_user_never_sees_is_left_out(self):
         uncertain = "and of 2 more are not certain: numbers cancel here beyond 31 digits"
-        self.assertEqual(without_inner_location(f"view: note: /tmp/x/model --digits exact.txt:4:1: the digits of this vertex {uncertain}", "/tmp/x"),
-                         f"view: note: the digits of a vertex {uncertain}")
-        for note in (f"model: note: scene.txt:4:1: the digits of this vertex {uncertain}", "zbuf: note: the picture is empty: no triangle came"):
+        self.assertEqual(
+            without_inner_location(
+                f"view: note: /tmp/x/model --digits exact.txt:4:1: the digits of this vertex {uncertain}",
+                "/tmp/x"), f"view: note: the digits of a vertex {uncertain}")
+        for note in (f"model: note: scene.txt:4:1: the digits of this vertex {uncertain}",
+                     "zbuf: note: the picture is empty: no triangle came"):
             self.assertEqual(without_inner_location(note, "/tmp/x"), note)
 
 
 class CommandLines(unittest.TestCase):
     def test_only_what_differs_from_the_default_is_written(self):
         pipeline = Pipe(None, "s", "c", ["--cull", "back"], ".")
-        self.assertEqual(pipeline.command_line(Setting("9", "double", "center", "f32"), "-a b", "-c"),
-                         "pipeline model --digits 9 --precision double -- '-a b' | pipeline view --digits 9 --precision double"
-                         " | pipeline project --digits 9 --precision double --cull back"
-                         " | pipeline zbuf --coverage center --depth f32 -- -c > z_buffer.txt")
-        self.assertEqual(pipeline.command_line(DEFAULT, "-", "c"),
-                         "pipeline model | pipeline view | pipeline project --cull back | pipeline zbuf c > z_buffer.txt")
+        self.assertEqual(
+            pipeline.command_line(Setting("9", "double", "center", "f32"), "-a b", "-c"),
+            "pipeline model --digits 9 --precision double -- '-a b' | pipeline view --digits 9 "
+            "--precision double"
+            " | pipeline project --digits 9 --precision double --cull back"
+            " | pipeline zbuf --coverage center --depth f32 -- -c > z_buffer.txt")
+        self.assertEqual(
+            pipeline.command_line(DEFAULT, "-", "c"),
+            "pipeline model | pipeline view | pipeline project --cull back | pipeline zbuf c > z_buffer.txt")
 
 
 if __name__ == "__main__":

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""A scene whose background has an alpha: the commands that draw a BMP draw it opaque, and note it; a hand-in may be a PNG with alpha.
+"""A scene whose background has an alpha: the commands that draw a BMP draw it opaque, and note it; a hand-in
+may be a PNG with alpha.
 
 usage: transparent_test.py BIN_DIR [UNITTEST ARGUMENT...]
 """
@@ -26,8 +27,8 @@ FIVE = ("stage1.txt", "stage2.txt", "stage3.txt", "z_buffer.txt", "out.bmp")
 
 
 def command(name, *words):
-    return subprocess.run([SOURCE / "scripts" / name, *map(str, words)], capture_output=True, text=True, timeout=240,
-                          env={"BIN": str(BIN), "PATH": "/usr/bin:/bin", "LANG": "C.UTF-8"})
+    return subprocess.run([SOURCE / "scripts" / name, *map(str, words)], capture_output=True, text=True,
+                          timeout=240, env={"BIN": str(BIN), "PATH": "/usr/bin:/bin", "LANG": "C.UTF-8"})
 
 
 class Transparent(ToolTest):
@@ -36,7 +37,8 @@ class Transparent(ToolTest):
         pathlib.Path("config.txt").write_text("50 40\n")
         for name, colors in COLORS.items():
             for alpha in ("", " 0", " 127.5"):
-                pathlib.Path(f"{name}{alpha.strip()}.txt").write_text(f"{CAMERA}background 200 99.5 50{alpha}\n{colors}{TRIANGLES}")
+                pathlib.Path(f"{name}{alpha.strip()}.txt").write_text(
+                    f"{CAMERA}background 200 99.5 50{alpha}\n{colors}{TRIANGLES}")
 
     def stages(self, scene):
         done = command("stages", f"{scene}.txt", "config.txt", scene)
@@ -45,7 +47,8 @@ class Transparent(ToolTest):
 
     def hand_in_with_alpha(self, scene):
         """The folder of the scene's five files, with a PNG that has an alpha as its picture."""
-        done = run("zbuf", "config.txt", f"{scene}/stage3.txt", "--z-buffer", "none", "-o", f"{scene}/out.png")
+        done = run("zbuf", "config.txt", f"{scene}/stage3.txt", "--z-buffer", "none", "-o",
+                   f"{scene}/out.png")
         self.assertEqual(done.returncode, 0, done.stderr)
         data = pathlib.Path(scene, "out.png").read_bytes()
         self.assertEqual(data[24:26], b"\x08\x06")  # 8 bits, RGB and alpha
@@ -58,31 +61,37 @@ class Transparent(ToolTest):
             for alpha in ("0", "127.5"):
                 self.assertEqual(self.stages(name + alpha), f"stages: {NOTE}")
                 for file in ("z_buffer.txt", "out.bmp"):
-                    self.assertEqual(pathlib.Path(name + alpha, file).read_bytes(), pathlib.Path(name, file).read_bytes())
-                self.assertEqual(sorted(path.name for path in pathlib.Path(name + alpha).iterdir()), sorted(FIVE))
+                    self.assertEqual(
+                        pathlib.Path(name + alpha, file).read_bytes(),
+                        pathlib.Path(name, file).read_bytes())
+                self.assertEqual(sorted(path.name for path in pathlib.Path(name + alpha).iterdir()),
+                                 sorted(FIVE))
 
     def test_five_files_are_right(self):
         for name in COLORS:
             self.stages(name + "0")
-            done = command("compare", "--five", name + "0", f"{name}0.txt", "config.txt")
-            self.assertEqual((done.returncode, done.stderr, done.stdout.count("| right ")), (0, "", 5), done.stdout)
+            done = command("compare", "--hand-in", name + "0", f"{name}0.txt", "config.txt")
+            self.assertEqual((done.returncode, done.stderr, done.stdout.count("| right ")), (0, "", 5),
+                             done.stdout)
             self.hand_in_with_alpha(name + "0")
-            done = command("compare", "--five", name + "0", f"{name}0.txt", "config.txt")
-            self.assertEqual((done.returncode, done.stderr, done.stdout.count("| right ")), (0, "", 5), done.stdout)
+            done = command("compare", "--hand-in", name + "0", f"{name}0.txt", "config.txt")
+            self.assertEqual((done.returncode, done.stderr, done.stdout.count("| right ")), (0, "", 5),
+                             done.stdout)
 
     def test_a_wrong_pixel_of_a_picture_with_alpha_is_found(self):
         self.stages("lit0")
         self.hand_in_with_alpha("lit0")
-        done = run("zbuf", "config.txt", "lit0/stage3.txt", "--z-buffer", "none", "--background", "c86433ff", "-o", "lit0/out.png")
+        done = run("zbuf", "config.txt", "lit0/stage3.txt", "--z-buffer", "none", "--background", "c86433ff",
+                   "-o", "lit0/out.png")
         self.assertEqual(done.returncode, 0)
-        done = command("compare", "--five", "lit0", "lit0.txt", "config.txt")
+        done = command("compare", "--hand-in", "lit0", "lit0.txt", "config.txt")
         self.assertEqual((done.returncode, done.stdout.count("| right ")), (1, 4), done.stdout)
 
     def test_a_picture_with_alpha_that_was_cut_is_unreadable(self):
         self.stages("lit0")
         data = self.hand_in_with_alpha("lit0")
         pathlib.Path("lit0/out.png").write_bytes(data[:-60])
-        done = command("compare", "--five", "lit0", "lit0.txt", "config.txt")
+        done = command("compare", "--hand-in", "lit0", "lit0.txt", "config.txt")
         self.assertEqual((done.returncode, done.stderr), (1, ""))
         self.assertRegex(done.stdout, r"out\.png +\| unreadable")
 
@@ -98,21 +107,27 @@ class Transparent(ToolTest):
         done = command("grade", "hand-ins", "tests", "-o", "graded", "--jobs", "1")
         self.assertEqual((done.returncode, done.stderr), (0, ""), done.stdout)
         with open("graded/grades.csv", newline="") as file:
-            self.assertEqual({row["hand-in"]: row["score"] for row in csv.DictReader(file)}, {"bmp": "2.0", "png": "2.0"})
+            self.assertEqual({row["hand-in"]: row["score"]
+                              for row in csv.DictReader(file)}, {"bmp": "2.0", "png": "2.0"})
 
     def test_check_stage_gives_zbuf_an_opaque_one(self):
         for name in COLORS:
-            for stage, note in (("model", ""), ("view", ""), ("project", ""), ("zbuf", "check-stage: " + NOTE)):
+            for stage, note in (("model", ""), ("view", ""), ("project", ""), ("zbuf",
+                                                                               "check-stage: " + NOTE)):
                 with self.subTest(scene=name, stage=stage):
-                    done = command("check-stage", stage, "--scene", f"{name}127.5.txt", "--config", "config.txt", "--", BIN / stage)
-                    self.assertEqual((done.returncode, done.stdout, done.stderr), (0, f"{name}127.5.txt: right\n", note))
+                    done = command("check-stage", stage, "--scene", f"{name}127.5.txt", "--config",
+                                   "config.txt", "--", BIN / stage)
+                    verdict = done.stdout.partition("\n")[0]
+                    self.assertEqual((done.returncode, verdict, done.stderr),
+                                     (0, f"{name}127.5.txt: right", note))
 
     def test_trade_measures_it_opaque_and_names_a_command_that_draws(self):
         done = command("trade", "lit0.txt", "config.txt", "--rounds", "1", "--coverage", "center")
         self.assertEqual((done.returncode, done.stderr), (0, f"trade: {NOTE}"))
         line = done.stdout.rstrip("\n").split("\n")[-1].strip()
         self.assertIn(" --background c86432 ", line)
-        subprocess.run(["bash", "-c", line], check=True, env={"PATH": f"{BIN}:/usr/bin:/bin"}, capture_output=True)
+        subprocess.run(["bash", "-c", line], check=True, env={"PATH": f"{BIN}:/usr/bin:/bin"},
+                       capture_output=True)
         self.assertTrue(pathlib.Path("out.bmp").exists())
 
 
@@ -121,12 +136,17 @@ class Alpha(unittest.TestCase):
 
     def png(self, rows, width, cut=0):
         packed = zlib.compress(b"".join(b"\0" + row for row in rows)[:-cut or None])
-        return b"\x89PNG\r\n\x1a\n" + png_chunk(b"IHDR", struct.pack(">IIBBBBB", width, len(rows), 8, 6, 0, 0, 0)) + png_chunk(b"IDAT", packed) + png_chunk(b"IEND", b"")
+        return b"\x89PNG\r\n\x1a\n" + png_chunk(
+            b"IHDR", struct.pack(">IIBBBBB", width, len(rows), 8, 6, 0, 0, 0)) + png_chunk(
+                b"IDAT", packed) + png_chunk(b"IEND", b"")
 
     def test_what_is_transparent_shows_what_is_behind(self):
-        data = self.png([bytes((10, 20, 30, 255, 1, 2, 3, 0)), bytes((200, 100, 0, 51, 255, 255, 255, 128))], 2)
+        data = self.png([bytes((10, 20, 30, 255, 1, 2, 3, 0)),
+                         bytes((200, 100, 0, 51, 255, 255, 255, 128))], 2)
         # A fifth of 200, 100 and 0 and four fifths of 50, 60 and 70; 128/255 of white.
-        self.assertEqual(picture_of(data, "a.png", bytes((50, 60, 70))), (2, 2, [bytes((10, 20, 30, 50, 60, 70)), bytes((80, 68, 56, 153, 158, 163))]))
+        self.assertEqual(picture_of(data, "a.png", bytes((50, 60, 70))),
+                         (2, 2, [bytes((10, 20, 30, 50, 60, 70)),
+                                 bytes((80, 68, 56, 153, 158, 163))]))
 
     def test_without_anything_behind_it_is_refused(self):
         with self.assertRaisesRegex(PictureError, "found one with alpha"):

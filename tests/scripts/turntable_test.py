@@ -24,9 +24,14 @@ class Turntable(ToolTest):
 
     def make(self, *words):
         """Runs make on a scene whose camera is at (0 0 2) and looks at the origin; gives what it printed."""
-        environment = {name: value for name, value in os.environ.items() if name not in ("MAKEFLAGS", "MFLAGS", "MAKELEVEL")}
-        return subprocess.run(["make", "-f", SOURCE / "samples/turntable/Makefile", f"BIN={BIN}", "SCENE=scene.txt", "CONFIG=config.txt", "OUT=out",
-                               "MIDDLE=0 0 0", "RADIUS=2", "HEIGHT=0", "FRAMES=4", *words], capture_output=True, text=True, env=environment)
+        environment = {
+            name: value
+            for name, value in os.environ.items()
+            if name not in ("MAKEFLAGS", "MFLAGS", "MAKELEVEL")}
+        return subprocess.run([
+            "make", "-f", SOURCE / "samples/turntable/Makefile", f"BIN={BIN}", "SCENE=scene.txt",
+            "CONFIG=config.txt", "OUT=out", "MIDDLE=0 0 0", "RADIUS=2", "HEIGHT=0", "FRAMES=4", *words],
+                              capture_output=True, text=True, env=environment)
 
     def runs(self, tool, done):
         self.assertEqual(done.returncode, 0, done.stderr)
@@ -35,8 +40,10 @@ class Turntable(ToolTest):
     def expected(self, *eye):
         """The picture that the pipe draws from there."""
         scene = pathlib.Path("scene.txt").read_bytes()
-        pipe(["model"], ["view", "--eye", *eye, "--look", "0", "0", "0", "--up", "0", "1", "0"], ["project", "--aspect", "ratio"],
-             ["zbuf", "--coverage", "center", "--samples", "3", "config.txt", "--image", "one.png"], stdin=scene)
+        pipe(["model"], ["view", "--eye", *eye, "--look", "0", "0", "0", "--up", "0", "1", "0"],
+             ["project", "--aspect", "ratio"],
+             ["zbuf", "--coverage", "center", "--samples", "3", "config.txt", "--image", "one.png"],
+             stdin=scene)
         return pathlib.Path("one.png").read_bytes()
 
     def test_the_eye_goes_around(self):

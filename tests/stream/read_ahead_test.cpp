@@ -17,7 +17,7 @@ constexpr int kNoOddText = 1 << 25;
 constexpr std::size_t kMinLength = 91;
 
 /// The triangles that a source delivers, and the message of the error it ends with.
-struct Reading {
+struct Delivery {
   std::vector<Triangle> triangles;
   std::vector<Triangle> low_parts;
   std::vector<std::uint64_t> numbers;
@@ -26,7 +26,7 @@ struct Reading {
   std::vector<std::array<Vec3, 3>> colors;
   std::vector<Vec3> unclipped;  // first corners of the unclipped triangles
   std::string end;
-  friend bool operator==(const Reading&, const Reading&) = default;
+  friend bool operator==(const Delivery&, const Delivery&) = default;
 
   void add(TriangleBatch batch) {
     batch.low_parts.resize(batch.size());
@@ -45,14 +45,14 @@ struct Reading {
   }
 };
 
-struct Counts {
+struct BatchCounts {
   int batches = 0;
   int small_batches = 0;  // batches no larger than a part of the text
 };
 
 template <typename Source>
-Reading read_from(Source& source, Counts& counts, std::size_t part_size) {
-  Reading reading;
+Delivery read_from(Source& source, BatchCounts& counts, std::size_t part_size) {
+  Delivery reading;
   reading.end = message_of([&] {
     for (TriangleBatch batch; source.read(batch);) {
       ++counts.batches;
@@ -63,16 +63,16 @@ Reading read_from(Source& source, Counts& counts, std::size_t part_size) {
   return reading;
 }
 
-Reading read_in_order(const std::string& text) {
+Delivery read_in_order(const std::string& text) {
   const TextFile file(text);
   TextReader reader(file.descriptor(), "in.txt");
   StageReader source(reader, true);
   source.accept_clipped();
-  Counts counts;
+  BatchCounts counts;
   return read_from(source, counts, 0);
 }
 
-Reading read_ahead(int descriptor, int thread_count, std::size_t part_size, Counts& counts) {
+Delivery read_ahead(int descriptor, int thread_count, std::size_t part_size, BatchCounts& counts) {
   TextReader text(descriptor, "in.txt");
   StageReader source(text, true);
   source.accept_clipped();
@@ -82,9 +82,9 @@ Reading read_ahead(int descriptor, int thread_count, std::size_t part_size, Coun
 }
 
 /// Returns the counts of the run with the most threads.
-Counts expect_same_by_parts(const std::string& text, std::size_t part_size) {
-  const Reading expected = read_in_order(text);
-  Counts counts;
+BatchCounts expect_same_by_parts(const std::string& text, std::size_t part_size) {
+  const Delivery expected = read_in_order(text);
+  BatchCounts counts;
   for (const int thread_count : {1, 2, 3, 8}) {
     const TextFile file(text);
     counts = {};
@@ -103,7 +103,7 @@ TEST(ReadAhead, DeliversTheTrianglesOfTheReader) {
 TEST(ReadAhead, ParsesPartsOfTheText) {
   const std::string text = odd_stage_text(5000, kNoOddText, 1);
   for (const std::size_t size : {100u, 1000u, 20000u}) {
-    const Counts counts = expect_same_by_parts(text, size);
+    const BatchCounts counts = expect_same_by_parts(text, size);
     // The reader has already read the first line, so it parses the first block itself.
     EXPECT_EQ(counts.small_batches, counts.batches - 1) << size;
     EXPECT_GE(counts.batches, static_cast<int>((text.size() - (1 << 16)) / size)) << size;
@@ -113,7 +113,7 @@ TEST(ReadAhead, ParsesPartsOfTheText) {
 TEST(ReadAhead, ParsesTextWithAnyDecimals) {
   for (const int decimals : {0, 5, 8, 14}) {
     const std::string text = odd_stage_text(5000, kNoOddText, 1, {decimals, ""});
-    const Counts counts = expect_same_by_parts(text, 1000);
+    const BatchCounts counts = expect_same_by_parts(text, 1000);
     EXPECT_GE(counts.batches, static_cast<int>((text.size() - (1 << 16)) / 1000)) << decimals;
   }
 }
@@ -132,7 +132,7 @@ TEST(ReadAhead, LeavesOtherTextToTheReader) {
 TEST(ReadAhead, GoesOnAfterOtherText) {
   const std::string text =
       odd_stage_text(2000, kNoOddText, 6) + "# a comment\n" + odd_stage_text(40000, kNoOddText, 7);
-  const Counts counts = expect_same_by_parts(text, 20000);
+  const BatchCounts counts = expect_same_by_parts(text, 20000);
   EXPECT_GE(counts.batches - counts.small_batches, 10);
   EXPECT_GE(counts.small_batches, 50);
 }
@@ -189,7 +189,7 @@ TEST(ReadAhead, DeliversTheSameFromASlowPipe) {
   }
   for (const std::size_t part_size : {std::size_t{1000}, ReadAhead::kPartSize}) {
     const TextInPieces pipe(pieces);
-    Counts counts;
+    BatchCounts counts;
     EXPECT_TRUE(read_ahead(pipe.descriptor(), 3, part_size, counts) == read_in_order(text));
   }
 }

@@ -10,7 +10,7 @@
 namespace pipeline {
 namespace {
 
-const std::string kTriangle = "0 0 0\n1 0 0\n0 1 0\n\n";
+const std::string kPlainTriangle = "0 0 0\n1 0 0\n0 1 0\n\n";
 const std::string kSphere = "sphere\n1 2 3\n3 2 3\n1 4 3\n1 2 5\n\n";
 
 /// What a stage makes of a text that it does not change.
@@ -27,15 +27,15 @@ std::string copied(const std::string& text) {
   return out.whole_text();
 }
 
-std::string error_of(const std::string& text) {
+std::string error_of_copy(const std::string& text) {
   return message_of([&] { copied(text); });
 }
 
 TEST(Spheres, AreReadAndWrittenAmongTriangles) {
   for (const std::string& text :
-       {kSphere, kTriangle + kSphere, kSphere + kTriangle,
-        kSphere + kSphere + kTriangle + kTriangle + kSphere, "triangle 7\n" + kSphere + kTriangle,
-        "framed\n" + kTriangle + kSphere + "end\n"})
+       {kSphere, kPlainTriangle + kSphere, kSphere + kPlainTriangle,
+        kSphere + kSphere + kPlainTriangle + kPlainTriangle + kSphere,
+        "triangle 7\n" + kSphere + kPlainTriangle, "framed\n" + kPlainTriangle + kSphere + "end\n"})
     EXPECT_EQ(copied(text), text);
 }
 
@@ -48,7 +48,7 @@ TEST(Spheres, HaveAllColumnsButTheNormal) {
 }
 
 TEST(Spheres, TakeOneNumberAndTwoEntriesOfABatch) {
-  const TextFile file(kTriangle + kSphere + kTriangle);
+  const TextFile file(kPlainTriangle + kSphere + kPlainTriangle);
   TextReader reader(file.descriptor(), "in.txt");
   StageReader stage(reader);
   stage.accept_spheres();
@@ -80,24 +80,26 @@ TEST(Spheres, AreRefusedWhereTrianglesAloneAreRead) {
   const std::string refused =
       "expected triangles alone, found a sphere: trace draws it, and model --facets N makes triangles of it";
   EXPECT_EQ(message_of([] { triangles_of(kSphere); }), "in.txt:1:1: " + refused);
-  EXPECT_EQ(message_of([] { triangles_of(kTriangle + kSphere); }), "in.txt:5:1: " + refused);
+  EXPECT_EQ(message_of([] { triangles_of(kPlainTriangle + kSphere); }), "in.txt:5:1: " + refused);
   // Projected texts have none.
-  EXPECT_EQ(error_of("attributes w\n" + kSphere), "in.txt:2:1: " + refused);
-  EXPECT_EQ(error_of("projected ortho -1 1 -1 1 -1 1\n" + kSphere), "in.txt:2:1: " + refused);
+  EXPECT_EQ(error_of_copy("attributes w\n" + kSphere), "in.txt:2:1: " + refused);
+  EXPECT_EQ(error_of_copy("projected ortho -1 1 -1 1 -1 1\n" + kSphere), "in.txt:2:1: " + refused);
 }
 
 TEST(Spheres, NameTheWordThatIsWrong) {
-  EXPECT_EQ(error_of("sphere 1\n"), "in.txt:1:8: expected the end of the line after 'sphere', found '1'");
-  EXPECT_EQ(error_of("sphere\n0 0 0\n\n"),
+  EXPECT_EQ(error_of_copy("sphere 1\n"),
+            "in.txt:1:8: expected the end of the line after 'sphere', found '1'");
+  EXPECT_EQ(error_of_copy("sphere\n0 0 0\n\n"),
             "in.txt:3:1: expected the center + r i of a sphere (x y z), found a blank line inside a sphere");
-  EXPECT_EQ(error_of("sphere\n0 0 0\n1 0 0\n0 1 0\n"),
+  EXPECT_EQ(error_of_copy("sphere\n0 0 0\n1 0 0\n0 1 0\n"),
             "in.txt:5:1: expected the center + r k of a sphere (x y z), found the end of the input inside a "
             "sphere");
-  EXPECT_EQ(error_of("sphere\n0 0 0 0\n"),
+  EXPECT_EQ(error_of_copy("sphere\n0 0 0 0\n"),
             "in.txt:2:7: expected the end of the line after the center of a sphere (x y z), found '0'");
-  EXPECT_EQ(error_of("attributes color\nsphere\n0 0 0 1 2 3\n0 0 1 1 2 4\n"),
+  EXPECT_EQ(error_of_copy("attributes color\nsphere\n0 0 0 1 2 3\n0 0 1 1 2 4\n"),
             "in.txt:4:7: expected the color of the sphere's center, found '1'");
-  EXPECT_EQ(error_of("sphere\n0 0 0\nerror model: no\n"), "in.txt:3:1: an earlier stage failed: model: no");
+  EXPECT_EQ(error_of_copy("sphere\n0 0 0\nerror model: no\n"),
+            "in.txt:3:1: an earlier stage failed: model: no");
 }
 
 }  // namespace

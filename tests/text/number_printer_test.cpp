@@ -20,7 +20,7 @@
 namespace pipeline {
 namespace {
 
-constexpr double kLargest = std::numeric_limits<double>::max();
+constexpr double kLargestDouble = std::numeric_limits<double>::max();
 
 std::string printed(double hi, double lo, NumberFormat format) {
   char text[kMaxNumberLength];
@@ -93,8 +93,8 @@ TEST(PrintNumber, ZeroHasNoSign) {
 }
 
 TEST(PrintNumber, TheLongestNumbersFit) {
-  EXPECT_EQ(printed(-kLargest, 0, {kMaxDecimals}), printed_by_c(-kLargest, kMaxDecimals));
-  EXPECT_EQ(printed(-kLargest, 0, {kMaxDecimals}).size(), kMaxNumberLength);
+  EXPECT_EQ(printed(-kLargestDouble, 0, {kMaxDecimals}), printed_by_c(-kLargestDouble, kMaxDecimals));
+  EXPECT_EQ(printed(-kLargestDouble, 0, {kMaxDecimals}).size(), kMaxNumberLength);
 }
 
 TEST(PrintNumber, LowPartShowsTheDigitsADoubleHasNoRoomFor) {

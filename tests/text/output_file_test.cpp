@@ -174,6 +174,19 @@ std::string first_temporary_name() {
   return ".pipeline-" + std::to_string(::getpid()) + "-0";
 }
 
+TEST(OutputFile, ASignalsHandlerRemovesTheTemporaryNameAndNothingElse) {
+  const TemporaryFolder folder;
+  const auto file = named_from_the_beginning(folder.path("out"));
+  EXPECT_EQ(folder.file_count(), 1u);
+  EXPECT_TRUE(remove_unfinished());
+  EXPECT_EQ(folder.file_count(), 0u);
+  named_from_the_beginning(folder.path("committed"))->commit();
+  folder.write("gone", "another's, after ours went");
+  { const auto gone = named_from_the_beginning(folder.path("gone")); }
+  remove_unfinished();
+  EXPECT_EQ(folder.file_count(), 2u);
+}
+
 TEST(OutputFile, AFileUnderTheTemporaryNameStaysAsItIs) {
   const TemporaryFolder folder;
   folder.write("precious", "another's");
@@ -389,11 +402,11 @@ TEST(OutputFile, StandardOutputAndErrorNeedNoFilesInDev) {
     const int output = ::dup(STDOUT_FILENO), error = ::dup(STDERR_FILENO);
     ::dup2(file, STDOUT_FILENO);
     write_and_commit("/dev/stdout", "first, ");
-    EXPECT_TRUE(place_of_output("/dev/stdout") == place_of_output("/out"));
+    EXPECT_TRUE(place_of("/dev/stdout") == place_of("/out"));
     ::dup2(output, STDOUT_FILENO);
     ::dup2(file, STDERR_FILENO);
     write_and_commit("/dev/stderr", "second");
-    EXPECT_TRUE(place_of_output("/dev/stderr") == place_of_output("/out"));
+    EXPECT_TRUE(place_of("/dev/stderr") == place_of("/out"));
     ::dup2(error, STDERR_FILENO);
   });
   if (!is_permitted) GTEST_SKIP() << "this user may not change the root folder";
@@ -490,50 +503,55 @@ TEST(OutputFile, APlaceTakenMeanwhileIsAnErrorAndNothingIsLeft) {
 }
 
 /// The device and inode of a file or folder.
-OutputPlace place_in(const std::string& path, const std::string& name) {
+FilePlace place_in(const std::string& path, const std::string& name) {
   struct stat status = {};
   EXPECT_EQ(::stat(path.c_str(), &status), 0);
   return {status.st_dev, status.st_ino, name};
 }
 
-TEST(PlaceOfOutput, OfAFileIsTheFileUnderAllItsNames) {
+TEST(PlaceOf, OfAFileIsTheFileUnderAllItsNames) {
   const TemporaryFolder folder;
   folder.write("out", "old");
   fs::create_symlink("out", folder.path("link"));
   fs::create_hard_link(folder.path("out"), folder.path("second"));
   for (const std::string name : {"out", "link", "second", "./out"})
-    EXPECT_TRUE(place_of_output(folder.path(name)) == place_in(folder.path("out"), "")) << name;
+    EXPECT_TRUE(place_of(folder.path(name)) == place_in(folder.path("out"), "")) << name;
 }
 
-TEST(PlaceOfOutput, OfAFileYetToBeMadeIsItsFolderAndName) {
+TEST(PlaceOf, OfAFileYetToBeMadeIsItsFolderAndName) {
   const TemporaryFolder folder;
   fs::create_symlink(folder.path("out"), folder.path("link"));
   for (const std::string name : {"out", "link", "./out"})
-    EXPECT_TRUE(place_of_output(folder.path(name)) == place_in(folder.path(""), "out")) << name;
-  EXPECT_TRUE(place_of_output("missing-file") == place_in(".", "missing-file"));
-  EXPECT_TRUE(place_of_output("/missing-file") == place_in("/", "missing-file"));
+    EXPECT_TRUE(place_of(folder.path(name)) == place_in(folder.path(""), "out")) << name;
+  EXPECT_TRUE(place_of("missing-file") == place_in(".", "missing-file"));
+  EXPECT_TRUE(place_of("/missing-file") == place_in("/", "missing-file"));
 }
 
-TEST(PlaceOfOutput, IsNoneWhereOpeningWillFail) {
+TEST(PlaceOf, IsNoneWhereOpeningWillFail) {
   const TemporaryFolder folder;
-  EXPECT_FALSE(place_of_output(folder.path("missing/out")));
+  EXPECT_FALSE(place_of(folder.path("missing/out")));
+}
+
+TEST(PlaceOf, OfADescriptorThatIsNotOpenIsAnError) {
+  const TemporaryFolder folder;
   const int closed = ::dup(STDIN_FILENO);
   fs::create_symlink("/dev/fd/" + std::to_string(closed), folder.path("link"));
   ::close(closed);
-  EXPECT_FALSE(place_of_output(folder.path("link")));
+  EXPECT_EQ(message_of([&] { place_of(folder.path("link")); }),
+            "cannot open " + folder.path("link") + ": Bad file descriptor");
 }
 
-TEST(PlaceOfOutput, OfADeviceIsNoneAndThatOfAPipeIsThePipe) {
+TEST(PlaceOf, OfADeviceIsNoneAndThatOfAPipeIsThePipe) {
   const TemporaryFolder folder;
   ASSERT_EQ(::mkfifo(folder.path("fifo").c_str(), 0600), 0);
-  EXPECT_TRUE(place_of_output(folder.path("fifo")) == place_in(folder.path("fifo"), ""));
-  EXPECT_FALSE(place_of_output("/dev/null"));
+  EXPECT_TRUE(place_of(folder.path("fifo")) == place_in(folder.path("fifo"), ""));
+  EXPECT_FALSE(place_of("/dev/null"));
 }
 
-TEST(PlaceOfOutput, ALinkToItselfIsAnError) {
+TEST(PlaceOf, ALinkToItselfIsAnError) {
   const TemporaryFolder folder;
   fs::create_symlink("link", folder.path("link"));
-  EXPECT_EQ(message_of([&] { place_of_output(folder.path("link")); }),
+  EXPECT_EQ(message_of([&] { place_of(folder.path("link")); }),
             "cannot open " + folder.path("link") + ": Too many levels of symbolic links");
 }
 

@@ -230,7 +230,7 @@ TEST(TextWriter, AFullDiskIsAnErrorOfALongText) {
             "cannot write out.txt: No space left on device");
 }
 
-TEST(TextWriter, LongTextsStandBehindWhatWasCollected) {
+TEST(TextWriter, WritesLongTextsBehindWhatWasCollected) {
   const TextFile file("");
   TextWriter writer(file.descriptor(), "out.txt");
   writer.append("a");

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Reads, writes, renames and memory requests fail at any call: the exit status is not 0 or the output is right, an older
-good file stays, and nothing else is left.
+"""Reads, writes, renames and memory requests fail at any call: the exit status is not 0 or the output is
+right, an older good file stays, and nothing else is left.
 
 usage: tools/calls_test.py BIN_DIR FAULT_SHIM [UNITTEST ARGUMENT...]
 """
@@ -25,8 +25,9 @@ class FaultTest(OlderImageTest):
         """The run, and whether it reached the call."""
         mark = pathlib.Path(self.outside, "mark")
         mark.unlink(missing_ok=True)
-        environment = {"LD_PRELOAD": SHIM, "FAULT_CALL": call, "FAULT_AT": str(number), "FAULT_ERRNO": str(error),
-                       "FAULT_MARK": str(mark)}
+        environment = {
+            "LD_PRELOAD": SHIM, "FAULT_CALL": call, "FAULT_AT": str(number), "FAULT_ERRNO": str(error),
+            "FAULT_MARK": str(mark)}
         return run(tool, *operands, stdin=text, env=environment), mark.exists()
 
     def setUp(self):
@@ -37,10 +38,11 @@ class FaultTest(OlderImageTest):
 
 
 class Faults(FaultTest):
-    def each_failing_call(self, call, error, *options):
+    def each_failing_call(self, call, error, thread_count=None):
         """(failure, run, good output) until a run does not reach the call."""
         for tool, operands, text in tool_inputs():
-            operands = [*operands, *options]
+            if thread_count and tool in DRAWING:
+                operands = [*operands, "--threads", thread_count]
             good, _ = self.good_run(tool, operands, text)
             for number in range(1, 100000):
                 done, was_reached = self.run_with_fault(call, number, error, tool, operands, text)
@@ -68,7 +70,8 @@ class Faults(FaultTest):
         self.check_failures("read", errno.EIO, may_succeed=True)  # not the C library's own reads at startup
 
     def test_any_close_that_fails_says_so_where_data_may_be_lost(self):
-        self.check_failures("close", errno.EIO, may_succeed=True)  # not the close of a file that was only read
+        self.check_failures("close", errno.EIO,
+                            may_succeed=True)  # not the close of a file that was only read
 
     def test_the_image_waits_for_the_close_of_standard_output(self):
         for tool, operands, text in tool_inputs():
@@ -77,17 +80,20 @@ class Faults(FaultTest):
             self.assert_fails(done, 1, f"{tool}: cannot write <stdout>: Input/output error")
             self.assert_as_before()
 
-    def check_allocations(self, *options):
+    def check_allocations(self, thread_count=None):
         without_memory = 0
-        for which, done, good in self.each_failing_call("malloc", errno.ENOMEM, *options):
-            if done.returncode == 0:  # some allocations of the C library and of the C++ library's startup are dispensable
+        for which, done, good in self.each_failing_call("malloc", errno.ENOMEM, thread_count):
+            # some allocations of the C library and of the C++ library's startup are dispensable
+            if done.returncode == 0:
                 self.assertEqual(done.stdout, good, which)
                 pathlib.Path("out.bmp").write_bytes(OLD_IMAGE)
             else:
                 tool = which.split(",")[0]
-                self.assertEqual((done.returncode, done.stderr), (1, f"{tool}: not enough memory\n".encode()), which)
+                self.assertEqual((done.returncode, done.stderr), (1, f"{tool}: not enough memory\n".encode()),
+                                 which)
                 if tool not in DRAWING and done.stdout:
-                    self.assertTrue(done.stdout.endswith(f"error {tool}: not enough memory\n".encode()), which)
+                    self.assertTrue(done.stdout.endswith(f"error {tool}: not enough memory\n".encode()),
+                                    which)
                 without_memory += 1
             self.assert_as_before()
         self.assertGreater(without_memory, 1500)
@@ -96,7 +102,7 @@ class Faults(FaultTest):
         self.check_allocations()
 
     def test_on_threads_as_well(self):
-        self.check_allocations("--threads", 2)
+        self.check_allocations(thread_count=2)
 
     def test_while_threads_draw_a_long_text(self):
         # The triangles have several text forms.
@@ -129,7 +135,9 @@ class Faults(FaultTest):
             if not was_reached:
                 break
             messages.add(done.stderr.decode())
-        self.assertLessEqual(messages, {"", "zbuf: not enough memory\n", "zbuf: cannot write new.png: Cannot allocate memory\n"})
+        self.assertLessEqual(
+            messages,
+            {"", "zbuf: not enough memory\n", "zbuf: cannot write new.png: Cannot allocate memory\n"})
         self.assertIn("zbuf: cannot write new.png: Cannot allocate memory\n", messages)
 
     def test_an_interrupted_read_or_write_goes_on(self):
@@ -144,7 +152,8 @@ class Faults(FaultTest):
 
         for tool, operands, text in tool_inputs():
             good, image = self.good_run(tool, operands, text)
-            done = run(tool, *operands, "--threads", 8, stdin=text, preexec_fn=leave_no_room_for_stacks)
+            done = run(tool, *operands, *(["--threads", 8] if tool in DRAWING else []), stdin=text,
+                       preexec_fn=leave_no_room_for_stacks)
             self.assert_quiet_success(done)
             self.assertEqual(done.stdout, good)
             self.assertEqual(pathlib.Path("out.bmp").read_bytes(), image if tool in DRAWING else OLD_IMAGE)
@@ -160,7 +169,8 @@ class Faults(FaultTest):
             self.assert_as_before()
 
     def test_a_bmp_is_written_from_its_end_where_the_file_can_seek(self):
-        """The first seek is only a probe; if it fails, the picture is kept until it can be written as a whole."""
+        """The first seek is only a probe; if it fails, the picture is kept until it can be written as a
+        whole."""
         tool, operands, text = tool_inputs()[3]
         good, image = self.good_run(tool, operands, text)
         done, was_reached = self.run_with_fault("seek", 1, errno.ESPIPE, tool, operands, text)
@@ -183,7 +193,8 @@ class Faults(FaultTest):
 
 
 class ManyFiles(FaultTest):
-    """zbuf writes several files, some through libpng: until everything is written, all of them are the old ones."""
+    """zbuf writes several files, some through libpng: until everything is written, all of them are the old
+    ones."""
 
     TOOL = "zbuf"
 
@@ -218,8 +229,9 @@ class ManyFiles(FaultTest):
             for name, content in files.items():
                 self.assertIn(content, (OLD_IMAGE, good[name]) if some_may_be_new else (OLD_IMAGE,), which)
 
-    PLAIN = ["--image", "out.ppm", "--z-buffer", "depths.txt", "--depth-image", "depths.pgm", "--fragments", "fragments.txt",
-             "--seen", "seen.txt", "--stats", "stats.txt"]
+    PLAIN = [
+        "--image", "out.ppm", "--z-buffer", "depths.txt", "--depth-image", "depths.pgm", "--fragments",
+        "fragments.txt", "--seen", "seen.txt", "--stats", "stats.txt"]
     PNGS = ["--image", "out.png", "--depth-image", "depths.png"]
 
     def test_a_failing_write_or_close_leaves_every_old_file(self):
@@ -235,7 +247,10 @@ class ManyFiles(FaultTest):
             for which, done, files, _ in self.each_failing_call("close of data", errno.EIO, options):
                 self.assertEqual((done.returncode, set(files.values())), (1, {OLD_IMAGE}), which)
                 messages.add(done.stderr.decode())
-            self.assertEqual(messages, {f"{self.TOOL}: cannot write {name}: Input/output error\n" for name in options if "." in name})
+            self.assertEqual(messages, {
+                f"{self.TOOL}: cannot write {name}: Input/output error\n"
+                for name in options
+                if "." in name})
 
     def test_an_interrupted_write_or_close_of_any_file_goes_on(self):
         for options in (self.BMP, self.PLAIN, self.PNGS):
@@ -244,12 +259,14 @@ class ManyFiles(FaultTest):
                     self.assertEqual((done.returncode, done.stderr, files), (0, b"", good), which)
 
     def test_without_proc_files_have_temporary_names(self):
-        """A tool asks whether it may replace a file, and then whether /proc is there, without which a file needs a name."""
+        """A tool asks whether it may replace a file, and then whether /proc is there, without which a file
+        needs a name."""
         for options in (self.BMP, self.PLAIN, self.PNGS):
             names = sorted(name for name in options if "." in name)
             outcomes = [(done.stderr.decode(), set(files.values())) if done.returncode != 0 else files == good
                         for _, done, files, good in self.each_failing_call("access", errno.EACCES, options)]
-            self.assertEqual(sorted(outcomes[::2]), [(f"{self.TOOL}: cannot open {name}: Permission denied\n", {OLD_IMAGE}) for name in names])
+            self.assertEqual(sorted(outcomes[::2]), [
+                (f"{self.TOOL}: cannot open {name}: Permission denied\n", {OLD_IMAGE}) for name in names])
             self.assertEqual(outcomes[1::2], [True] * len(names))
 
     def test_a_failing_rename_leaves_old_files_or_complete_ones(self):
@@ -264,7 +281,9 @@ class ManyTracedFiles(ManyFiles):
     """So does trace."""
 
     TOOL = "trace"
-    PLAIN = ["--image", "out.ppm", "--z-buffer", "depths.txt", "--depth-image", "depths.pgm", "--stats", "stats.txt"]
+    PLAIN = [
+        "--image", "out.ppm", "--z-buffer", "depths.txt", "--depth-image", "depths.pgm", "--stats",
+        "stats.txt"]
 
 
 if __name__ == "__main__":

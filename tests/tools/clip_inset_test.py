@@ -18,7 +18,9 @@ def wall(z, size):
 
 
 def triangles(text):
-    rows = [list(map(float, line.split()[:3])) for line in text.decode().splitlines() if line and not line[0].isalpha()]
+    rows = [
+        list(map(float,
+                 line.split()[:3])) for line in text.decode().splitlines() if line and not line[0].isalpha()]
     return [rows[i:i + 3] for i in range(0, len(rows), 3)]
 
 
@@ -56,7 +58,8 @@ class ClipInset(ToolTest):
 
     def test_colors_are_cut_where_the_planes_stand(self):
         text = "attributes color\n" + ORTHO + "-1 0 -2 0 0 0\n1 0 -2 200 0 0\n1 1 -2 200 0 0\n\n"
-        lines = pipe(["project", "--clip", "frustum", "--clip-inset", "0.5"], stdin=text).decode().splitlines()
+        lines = pipe(["project", "--clip", "frustum", "--clip-inset", "0.5"],
+                     stdin=text).decode().splitlines()
         vertices = [list(map(float, line.split())) for line in lines if line and not line[0].isalpha()]
         self.assertEqual(min(x for x, *_ in vertices), -0.5)
         for x, y, z, w, red, *_ in vertices:
@@ -69,7 +72,8 @@ class ClipInset(ToolTest):
         text = "light 0 0 0 1 1 1\n" + PERSPECTIVE + "".join(f"{x} {y} {z}\n" for x, y, z in corners) + "\n"
         for inset in ("0", "0.25", "0.5"):
             for clip in ("near", "frustum"):
-                lines = pipe(["project", "--clip", clip, "--clip-inset", inset], stdin=text).decode().splitlines()
+                lines = pipe(["project", "--clip", clip, "--clip-inset", inset],
+                             stdin=text).decode().splitlines()
                 if "clipped" not in lines:
                     self.assertEqual((clip, inset), ("near", "0"))  # the near plane cuts nothing there
                     continue
@@ -80,13 +84,19 @@ class ClipInset(ToolTest):
         for words in ([], ["--clip", "none"], ["--clip", "auto"]):
             done = run("project", "--clip-inset", "0.1", *words, stdin=ORTHO)
             self.assertEqual((done.returncode, done.stderr.decode()), (
-                2, "project: --clip-inset: expected --clip near, frustum or reject with it, found none of these (try project --help)\n"))
+                2,
+                "project: --clip-inset: expected --clip near, frustum or reject with it, found none of these "
+                "(try project --help)\n"
+            ))
 
     def test_an_inset_that_leaves_nothing_is_misuse(self):
         for word in ("1", "-0.1", "x", "nan", "1e400"):
             done = run("project", "--clip", "near", f"--clip-inset={word}", stdin=ORTHO)
             self.assertEqual((done.returncode, done.stderr.decode()), (
-                2, f"project: --clip-inset: expected a number from 0 to less than 1, found '{word}' (try project --help)\n"))
+                2,
+                f"project: --clip-inset: expected a number from 0 to less than 1, found '{word}' (try "
+                f"project --help)\n"
+            ))
 
 
 if __name__ == "__main__":

@@ -40,7 +40,8 @@ class ThroughTheStages(ToolTest):
             "light 1 2 0 1 0.5 0\n"
             "1.0000000 0.0000000 0.0000000 255.0000000 0.0000000 127.5000000 0.0000000 0.0000000 1.0000000\n"
             "2.0000000 0.0000000 0.0000000 255.0000000 0.0000000 127.5000000 0.0000000 0.0000000 1.0000000\n"
-            "1.0000000 1.0000000 0.0000000 255.0000000 0.0000000 127.5000000 0.0000000 0.0000000 1.0000000\n\n"
+            "1.0000000 1.0000000 0.0000000 255.0000000 0.0000000 127.5000000 0.0000000 0.0000000 "
+            "1.0000000\n\n"
             "1.0000000 0.0000000 0.0000000 1.0000000 2.0000000 3.0000000 1.0000000 0.0000000 0.0000000\n"
             "2.0000000 0.0000000 0.0000000 1.0000000 2.0000000 3.0000000 1.0000000 0.0000000 0.0000000\n"
             "1.0000000 1.0000000 0.0000000 1.0000000 2.0000000 3.0000000 1.0000000 0.0000000 0.0000000\n\n"))
@@ -53,13 +54,15 @@ class ThroughTheStages(ToolTest):
         self.assertEqual([v[6:] for v in vertices(text)], 3 * [[-1, 0, 0]] + 3 * [[0, 0, 1]])
 
     def test_project_copies_columns_and_drops_the_sign_of_zero(self):
-        lines = ["0 0 -2 -0.0 255 0.5 -0.0 0 -1\n", "1 0 -2 0 -0 7 0 -0.0 1\n", "0 1 -2 -0e5 1 2.25 1 -0 -0.0\n"]
+        lines = [
+            "0 0 -2 -0.0 255 0.5 -0.0 0 -1\n", "1 0 -2 0 -0 7 0 -0.0 1\n", "0 1 -2 -0e5 1 2.25 1 -0 -0.0\n"]
         text = HEADERS["project"] + "attributes color normal\n" + "".join(lines) + "\n"
         copied = [[0, 255, 0.5, 0, 0, -1], [0, 0, 7, 0, 0, 1], [0, 1, 2.25, 1, 0, 0]]
         for decimals in (7, 3, 16):
             done = run("project", "--digits", decimals, stdin=text)
             columns = [" ".join(line.split()[4:]) for line in done.stdout.decode().splitlines()[1:4]]
-            self.assertEqual(columns, [" ".join(f"{number:.{decimals}f}" for number in three) for three in copied])
+            self.assertEqual(columns,
+                             [" ".join(f"{number:.{decimals}f}" for number in three) for three in copied])
         done = run("project", "--digits", "exact", stdin=text)
         columns = [" ".join(line.split()[4:]) for line in done.stdout.decode().splitlines()[1:4]]
         self.assertEqual(columns, [" ".join(map(str, three)) for three in copied])
@@ -76,7 +79,8 @@ class ThroughTheStages(ToolTest):
     def test_an_orthographic_projection_is_passed_on_with_lights_and_w_is_1(self):
         scene = LIT.replace("60 1 1 100", "ortho -2 2 -3 3 0 10")
         text = pipe(["model"], ["view"], ["project"], stdin=scene)
-        self.assertTrue(text.decode().startswith("projected ortho -2 2 -3 3 0 10\nattributes w color normal\n"))
+        self.assertTrue(
+            text.decode().startswith("projected ortho -2 2 -3 3 0 10\nattributes w color normal\n"))
         self.assertTrue(all(v[3] == 1 for v in vertices(text)))
 
     def test_without_lights_the_projection_goes(self):
@@ -86,28 +90,39 @@ class ThroughTheStages(ToolTest):
 
     def test_project_gives_clipped_triangles_their_corners_where_there_is_light(self):
         # fovY 90, near 1, far 3: in clip space x and y stay, z is 2 d - 3 for the distance d, and w is d.
-        lit = CAMERA.replace("60 1 1 100", "90 1 1 3").replace("0 0 5", "0 0 0", 1).replace("0 0 0\n0 1 0", "0 0 -1\n0 1 0")
+        lit = CAMERA.replace("60 1 1 100", "90 1 1 3").replace("0 0 5", "0 0 0",
+                                                               1).replace("0 0 0\n0 1 0", "0 0 -1\n0 1 0")
         lit += "color 9 8 7\nLIGHTtriangle\n-1 0 -3\n1 0 -3\n0 2 0.5\nend\n"
-        text = pipe(["model"], ["view"], ["project", "--digits", "2"], stdin=lit.replace("LIGHT", "light 0 0 0 1 1 1\n"))
+        text = pipe(["model"], ["view"], ["project", "--digits", "2"],
+                    stdin=lit.replace("LIGHT", "light 0 0 0 1 1 1\n"))
         # From d = 3 to d = -0.5 an edge crosses the near plane, d = 1, after 4/7.
         body = text.decode().split("light 0 0 0 1 1 1\n")[1]
         self.assertEqual(body, (
             "clipped\n-1 0 3 3 9 8 7\n1 0 3 3 9 8 7\n0 2 -4 -0.5 9 8 7\n\n"
-            "-0.33 0.00 1.00 3 9.00 8.00 7.00\n0.33 0.00 1.00 3 9.00 8.00 7.00\n0.43 1.14 -1.00 1 9.00 8.00 7.00\n\n"
+            "-0.33 0.00 1.00 3 9.00 8.00 7.00\n0.33 0.00 1.00 3 9.00 8.00 7.00\n0.43 1.14 -1.00 1 9.00 8.00 "
+            "7.00\n\n"
             "triangle 0\n"
-            "-0.33 0.00 1.00 3 9.00 8.00 7.00\n0.43 1.14 -1.00 1 9.00 8.00 7.00\n-0.43 1.14 -1.00 1 9.00 8.00 7.00\n\n"))
+            "-0.33 0.00 1.00 3 9.00 8.00 7.00\n0.43 1.14 -1.00 1 9.00 8.00 7.00\n-0.43 1.14 -1.00 1 9.00 "
+            "8.00 7.00\n\n"
+        ))
         self.assertNotIn(b"clipped", pipe(["model"], ["view"], ["project"], stdin=lit.replace("LIGHT", "")))
 
     def test_only_projected_texts_have_clipped_triangles(self):
         for tool in ("view", "project"):
             done = run(tool, stdin=HEADERS[tool] + "clipped\n")
-            self.assert_fails(done, 1, f"{tool}: <stdin>:5:1: expected 'triangle N' or a vertex, found 'clipped'")
+            self.assert_fails(done, 1,
+                              f"{tool}: <stdin>:5:1: expected 'triangle N' or a vertex, found 'clipped'")
 
     def test_a_clipped_triangle_has_w(self):
-        done = run("zbuf", "config.txt", stdin="projected ortho -1 1 -1 1 1 2\nattributes w color\nlight 0 0 0 1 1 1\nclipped\n"
-                   "0 0 0 -1 255 0 0\n0 0 0 0 255 0\n")
-        self.assert_fails(done, 1, "zbuf: <stdin>:6:14: expected the blue of vertex 2 of 3 (x y z w r g b, by the line 'attributes w color'), found the end "
-                                   "of the line")
+        done = run(
+            "zbuf", "config.txt",
+            stdin="projected ortho -1 1 -1 1 1 2\nattributes w color\nlight 0 0 0 1 1 1\nclipped\n"
+            "0 0 0 -1 255 0 0\n0 0 0 0 255 0\n")
+        self.assert_fails(
+            done, 1,
+            "zbuf: <stdin>:6:14: expected the blue of vertex 2 of 3 (x y z w r g b, by the line 'attributes "
+            "w color'), found the end "
+            "of the line")
 
     def test_bare_leaves_all_of_it_out(self):
         plain = CAMERA + "translate 1 0 0\n" + 2 * "triangle\n0 0 0\n1 0 0\n0 1 0\n" + "end\n"
@@ -123,8 +138,11 @@ class ThroughTheStages(ToolTest):
 
     def test_a_short_line_is_told_its_columns(self):
         done = run("view", stdin=HEADER + "attributes color\n0 0 0 1 2\n")
-        self.assert_fails(done, 1, "view: <stdin>:6:10: expected the blue of vertex 1 of 3 (x y z r g b, by the line 'attributes color'), found the end "
-                                   "of the line")
+        self.assert_fails(
+            done, 1,
+            "view: <stdin>:6:10: expected the blue of vertex 1 of 3 (x y z r g b, by the line 'attributes "
+            "color'), found the end "
+            "of the line")
 
 
 class Normals(ToolTest):
@@ -185,7 +203,8 @@ class Clipping(ToolTest):
     def test_culled_triangles_take_their_attributes_along(self):
         back = "0 0 -2 1 1 1\n0 1 -2 1 1 1\n1 0 -2 1 1 1\n\n"
         front = "0 0 -2 9 9 9\n1 0 -2 9 9 9\n0 1 -2 9 9 9\n\n"
-        text = pipe(["project", "--cull", "back"], stdin="perspective 90 1 1 100\nattributes color\n" + back + front)
+        text = pipe(["project", "--cull", "back"],
+                    stdin="perspective 90 1 1 100\nattributes color\n" + back + front)
         self.assertTrue(text.decode().startswith("attributes w color\ntriangle 1\n"))
         self.assertEqual([v[3:] for v in vertices(text)], 3 * [[2, 9, 9, 9]])
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Disks that fill up at any byte, folders and file systems that are not writable: the exit status is not 0, an older good
-file stays, and nothing else is left.
+"""Disks that fill up at any byte, folders and file systems that are not writable: the exit status is not 0,
+an older good file stays, and nothing else is left.
 
 usage: disk_test.py BIN_DIR [UNITTEST ARGUMENT...]
 """
@@ -35,7 +35,8 @@ class FilledDisk(OlderImageTest):
                 with self.subTest(tool=tool, size=size):
                     done, _ = self.run_limited(size, tool, operands, text)
                     self.assertEqual(done.returncode, 1)
-                    self.assertRegex(done.stderr.decode(), f"^{tool}: cannot write (<stdout>|out.bmp): File too large\n$")
+                    self.assertRegex(done.stderr.decode(),
+                                     f"^{tool}: cannot write (<stdout>|out.bmp): File too large\n$")
                     self.assert_as_before()
             done, out = self.run_limited(needed, tool, operands, text)
             self.assert_quiet_success(done)
@@ -63,8 +64,8 @@ class Folders(OlderImageTest):
         os.chmod(tools, 0o755)
         shutil.copy(command("zbuf")[0], tools)
         for image in ("new.bmp", "out.bmp"):
-            done = subprocess.run([f"{tools}/zbuf", "config.txt", "--image", image], input=stage_texts()[2], capture_output=True,
-                                  user=NOBODY, timeout=60)
+            done = subprocess.run([f"{tools}/zbuf", "config.txt", "--image", image], input=stage_texts()[2],
+                                  capture_output=True, user=NOBODY, timeout=60)
             self.assert_fails(done, 1, f"zbuf: cannot open {image}: Permission denied")
             self.assert_as_before()
 
@@ -73,11 +74,15 @@ class SmallFileSystem(OlderImageTest):
     """Private file systems, in a namespace that ends with the command."""
 
     def run_there(self, mount_options, words, text):
-        """Runs a command in a new file system that holds the older image, then lists that file system on stdout."""
-        script = ('mkdir there && mount -t tmpfs -o size=64k none there && cp out.bmp there || exit 77; cd there; mount -o "remount,$0" . || exit 77; '
-                  '"$@"; status=$?; cmp -s out.bmp ../out.bmp && echo the older image; ls -A; exit $status')
-        done = subprocess.run(["unshare", "--mount", "--map-root-user", "sh", "-c", script, mount_options, *words], input=text,
-                              capture_output=True, timeout=60)
+        """Runs a command in a new file system that holds the older image, then lists that file system on
+        stdout."""
+        script = (
+            'mkdir there && mount -t tmpfs -o size=64k none there && cp out.bmp there || exit 77; cd there; '
+            'mount -o "remount,$0" . || exit 77; '
+            '"$@"; status=$?; cmp -s out.bmp ../out.bmp && echo the older image; ls -A; exit $status')
+        done = subprocess.run(
+            ["unshare", "--mount", "--map-root-user", "sh", "-c", script, mount_options, *words], input=text,
+            capture_output=True, timeout=60)
         shutil.rmtree("there", ignore_errors=True)
         if done.returncode == 77 or done.stderr.startswith(b"unshare: "):
             self.skipTest("mounting is not allowed here: " + done.stderr.decode().strip())
@@ -85,15 +90,19 @@ class SmallFileSystem(OlderImageTest):
 
     def test_one_that_is_read_only_is_a_failure(self):
         for image in ("new.bmp", "out.bmp"):
-            done = self.run_there("ro", command("zbuf", "../config.txt", "--image", image, "--z-buffer", "../depths"), stage_texts()[2])
-            self.assertEqual((done.returncode, done.stderr.decode()), (1, f"zbuf: cannot open {image}: Read-only file system\n"))
+            done = self.run_there(
+                "ro", command("zbuf", "../config.txt", "--image", image, "--z-buffer", "../depths"),
+                stage_texts()[2])
+            self.assertEqual((done.returncode, done.stderr.decode()),
+                             (1, f"zbuf: cannot open {image}: Read-only file system\n"))
             self.assertEqual(done.stdout, b"the older image\nout.bmp\n")
 
     def test_one_that_is_full_is_a_failure_and_nothing_is_left(self):
         pathlib.Path("config.txt").write_text("200 200\n")  # an image of 120 kB
         for tool, _, text in tool_inputs()[3:]:
             done = self.run_there("rw", command(tool, "../config.txt", "--z-buffer", "../depths"), text)
-            self.assertEqual((done.returncode, done.stderr), (1, f"{tool}: cannot write out.bmp: No space left on device\n".encode()))
+            self.assertEqual((done.returncode, done.stderr),
+                             (1, f"{tool}: cannot write out.bmp: No space left on device\n".encode()))
             self.assertEqual(done.stdout, b"the older image\nout.bmp\n")
 
 

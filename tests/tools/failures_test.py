@@ -9,8 +9,8 @@ import socket
 import subprocess
 import unittest
 
-from toolbox import (BIN, CAMERA, DRAWING, HEADER, HEADERS, NO_TRIANGLE, SCENE, TRIANGLE, ToolTest, command, pseudo_terminal, run,
-                     run_with, stage_texts, tool_inputs)
+from toolbox import (BIN, CAMERA, DRAWING, HEADER, HEADERS, NO_TRIANGLE, SCENE, TRIANGLE, ToolTest, command,
+                     pseudo_terminal, run, run_with, stage_texts, tool_inputs)
 
 WHY = "model: <stdin>:9:1: expected 'end', which closes a scene, found the end of the input"
 OLD_IMAGE = b"an older image\x00\xff"
@@ -26,8 +26,9 @@ def shell(text, **settings):
 class ErrorLines(ToolTest):
     def test_model_ends_its_output_with_one(self):
         done = run("model", stdin=CAMERA + TRIANGLE)
-        self.assertEqual(done.stdout.decode(), HEADER + "0.0000000 0.0000000 0.0000000\n1.0000000 0.0000000 0.0000000\n"
-                         f"0.0000000 1.0000000 0.0000000\n\nerror {WHY}\n")
+        self.assertEqual(
+            done.stdout.decode(), HEADER + "0.0000000 0.0000000 0.0000000\n1.0000000 0.0000000 0.0000000\n"
+            f"0.0000000 1.0000000 0.0000000\n\nerror {WHY}\n")
 
     def test_it_is_written_also_when_nothing_else_was(self):
         for tool, text in (("model", ""), ("view", "x"), ("project", "x")):
@@ -69,25 +70,32 @@ class ErrorLines(ToolTest):
                 done = run(tool, stdin="error model: a #1 mistake\n", stdout=output)
             self.assert_fails(done, 1, f"{tool}: no output: model failed")
             self.assertEqual(pathlib.Path("output.txt").read_text(), "error model: a #1 mistake\n")
-            self.assert_fails(run(tool, stdin="error model: a #1 mistake\n", stdout=subprocess.DEVNULL), 1, f"{tool}: no output: model failed")
+            self.assert_fails(run(tool, stdin="error model: a #1 mistake\n", stdout=subprocess.DEVNULL), 1,
+                              f"{tool}: no output: model failed")
 
     def test_at_a_terminal_the_message_is_enough(self):
         ours, theirs = pseudo_terminal()
         self.addCleanup(os.close, ours)
         with open(theirs, "wb") as terminal:
-            self.assert_fails(run("view", stdin="error model: a mistake\n", stdout=terminal), 1, "view: no output: model failed")
+            self.assert_fails(run("view", stdin="error model: a mistake\n", stdout=terminal), 1,
+                              "view: no output: model failed")
             terminal.write(b"nothing else\n")
         self.assertEqual(os.read(ours, 100), b"nothing else\r\n")
 
     def test_a_tool_that_draws_says_that_there_is_no_picture(self):
         for tool in DRAWING:
             for settings in ({}, {"stdout": subprocess.DEVNULL}):
-                self.assert_fails(run(tool, "config.txt", stdin="error model: a #1 mistake\n", **settings), 1, f"{tool}: no picture: model failed")
+                self.assert_fails(run(tool, "config.txt", stdin="error model: a #1 mistake\n", **settings), 1,
+                                  f"{tool}: no picture: model failed")
 
     def test_a_reason_without_a_tool_is_told_as_it_is(self):
-        for line, told in (("error my-stage: no", "my-stage failed"), ("error a b: c", "an earlier stage failed: a b: c"),
-                           ("error no colon", "an earlier stage failed: no colon"), ("error nothing", "an earlier stage failed: nothing"),
-                           ("error : x", "an earlier stage failed: : x"), ("error", "an earlier stage failed, without saying why")):
+        for line, told in (("error my-stage: no", "my-stage failed"), ("error a b: c",
+                                                                       "an earlier stage failed: a b: c"),
+                           ("error no colon", "an earlier stage failed: no colon"),
+                           ("error nothing", "an earlier stage failed: nothing"),
+                           ("error : x",
+                            "an earlier stage failed: : x"), ("error",
+                                                              "an earlier stage failed, without saying why")):
             self.assert_fails(run("zbuf", "config.txt", stdin=line + "\n"), 1, f"zbuf: no picture: {told}")
 
     def test_from_a_file_the_whole_message_is_repeated(self):
@@ -101,12 +109,14 @@ class ErrorLines(ToolTest):
 
     def test_a_named_pipe_and_a_socket_are_pipes(self):
         os.mkfifo("pipe")
-        self.assert_fails(shell("echo 'error model: no' > pipe & exec zbuf config.txt pipe"), 1, "zbuf: no picture: model failed")
+        self.assert_fails(shell("echo 'error model: no' > pipe & exec zbuf config.txt pipe"), 1,
+                          "zbuf: no picture: model failed")
         ours, theirs = socket.socketpair()
         with ours, theirs:
             ours.sendall(b"error model: no\n")
             ours.shutdown(socket.SHUT_WR)
-            done = subprocess.run(command("zbuf", "config.txt"), stdin=theirs, capture_output=True, timeout=60)
+            done = subprocess.run(command("zbuf", "config.txt"), stdin=theirs, capture_output=True,
+                                  timeout=60)
         self.assert_fails(done, 1, "zbuf: no picture: model failed")
 
     def test_bare_and_framed_output_ends_with_one_as_well(self):
@@ -118,7 +128,8 @@ class ErrorLines(ToolTest):
     def test_nobody_misses_a_camera_where_an_error_line_says_more(self):
         for tool in ("view", "project"):
             done = run(tool, stdin="error model: no scene\n")
-            self.assertEqual((done.returncode, done.stdout, done.stderr), (1, b"error model: no scene\n", b""))
+            self.assertEqual((done.returncode, done.stdout, done.stderr),
+                             (1, b"error model: no scene\n", b""))
 
 
 class WholePipe(ToolTest):
@@ -137,33 +148,41 @@ class WholePipe(ToolTest):
     def test_a_mistake_in_the_scene_leaves_the_old_picture(self):
         pathlib.Path("scene.txt").write_text(CAMERA + TRIANGLE)
         why = "model: scene.txt:9:1: expected 'end', which closes a scene, found the end of the input"
-        self.check_no_picture("model scene.txt | view | project | zbuf config.txt", why, "zbuf: no picture: model failed")
+        self.check_no_picture("model scene.txt | view | project | zbuf config.txt", why,
+                              "zbuf: no picture: model failed")
 
     def test_misuse_of_model_leaves_the_old_picture(self):
         why = "model: expected an option of model, found '--bogus' (try model --help)"
-        self.check_no_picture("model --bogus | view | project | zbuf config.txt", why, "zbuf: no picture: model failed")
+        self.check_no_picture("model --bogus | view | project | zbuf config.txt", why,
+                              "zbuf: no picture: model failed")
 
     def test_misuse_of_view_leaves_the_old_picture(self):
         why = "view: expected an option of view, found '--bogus' (try view --help)"
-        self.check_no_picture("model scene.txt | view --bogus | project | zbuf config.txt", why, "zbuf: no picture: view failed")
+        self.check_no_picture("model scene.txt | view --bogus | project | zbuf config.txt", why,
+                              "zbuf: no picture: view failed")
 
     def test_misuse_of_project_leaves_the_old_picture(self):
         why = "project: --clip: expected auto, near, frustum, reject or none, found 'x' (try project --help)"
-        self.check_no_picture("model scene.txt | view | project --clip x | zbuf config.txt", why, "zbuf: no picture: project failed")
+        self.check_no_picture("model scene.txt | view | project --clip x | zbuf config.txt", why,
+                              "zbuf: no picture: project failed")
 
     def test_a_mistake_before_trace_leaves_the_old_picture(self):
         why = "view: expected an option of view, found '--bogus' (try view --help)"
-        self.check_no_picture("model scene.txt | view --bogus | trace config.txt", why, "trace: no picture: view failed")
-        self.check_no_picture("model scene.txt | trace config.txt",
-                              "trace: <stdin>:1:1: expected the output of view, found 'eye': this text has not been through view; a view of "
-                              "your own must drop the lines eye, look and up")
+        self.check_no_picture("model scene.txt | view --bogus | trace config.txt", why,
+                              "trace: no picture: view failed")
+        self.check_no_picture(
+            "model scene.txt | trace config.txt",
+            "trace: <stdin>:1:1: expected the output of view, found 'eye': this text has not been through "
+            "view; a view of "
+            "your own must drop the lines eye, look and up")
         why = "trace: --samples: expected a whole number from 1 to 16, found '0' (try trace --help)"
         done = shell("model scene.txt | view | trace --samples 0 config.txt")
         self.assertEqual((done.stderr.decode(), done.returncode), (why + "\n", 2))
 
     def test_a_missing_scene_leaves_the_old_picture(self):
         why = "model: cannot open none.txt: No such file or directory"
-        self.check_no_picture("model none.txt | view | project | zbuf config.txt", why, "zbuf: no picture: model failed")
+        self.check_no_picture("model none.txt | view | project | zbuf config.txt", why,
+                              "zbuf: no picture: model failed")
 
     def test_a_mistake_is_told_once_and_the_last_stage_adds_a_short_line(self):
         pathlib.Path("scene.txt").write_text(CAMERA + TRIANGLE.replace("triangle", "Triangle"))
@@ -172,17 +191,21 @@ class WholePipe(ToolTest):
         self.assertTrue(first.startswith("model: scene.txt:5:1: expected a command"), first)
         self.assertEqual(last, "project: no output: model failed")
         os.remove("stage3.txt")
-        self.check_no_picture("model scene.txt | view | project | zbuf config.txt > /dev/null", first, "zbuf: no picture: model failed")
+        self.check_no_picture("model scene.txt | view | project | zbuf config.txt > /dev/null", first,
+                              "zbuf: no picture: model failed")
 
     def test_a_forgotten_stage_is_told_once(self):
-        self.check_no_picture("model scene.txt | project | zbuf config.txt",
-                              "project: <stdin>:1:1: expected the output of view, found 'eye': this text has not been through view; a view of "
-                              "your own must drop the lines eye, look and up", "zbuf: no picture: project failed")
+        self.check_no_picture(
+            "model scene.txt | project | zbuf config.txt",
+            "project: <stdin>:1:1: expected the output of view, found 'eye': this text has not been through "
+            "view; a view of "
+            "your own must drop the lines eye, look and up", "zbuf: no picture: project failed")
 
     def test_a_mistake_in_the_config_leaves_the_old_picture(self):
         pathlib.Path("config.txt").write_text("8 x\n")
-        self.check_no_picture("zbuf config.txt < /dev/null", "zbuf: config.txt:1:3: expected the height in pixels, a "
-                              "whole number from 1 to 65535, found 'x'")
+        self.check_no_picture(
+            "zbuf config.txt < /dev/null", "zbuf: config.txt:1:3: expected the height in pixels, a "
+            "whole number from 1 to 65535, found 'x'")
 
     def test_without_a_mistake_the_picture_is_replaced(self):
         done = shell("model scene.txt | view | project | zbuf config.txt")
@@ -224,17 +247,20 @@ class FramedText(ToolTest):
 
     def test_a_cut_between_triangles_is_told(self):
         lines = self.texts["zbuf"].decode().removesuffix("end\n")
-        self.assert_fails(run("zbuf", "config.txt", stdin=lines), 1,
-                          "zbuf: <stdin>:6:1: expected 'end', which closes a framed text, found the end of the input")
+        self.assert_fails(
+            run("zbuf", "config.txt", stdin=lines), 1,
+            "zbuf: <stdin>:6:1: expected 'end', which closes a framed text, found the end of the input")
 
     def test_a_stage_that_has_written_nothing_at_all_is_missed_with_framed(self):
         why = "expected a framed text (model --framed), found "
         for tool, operands, text in tool_inputs()[3:]:
-            self.assert_fails(run(tool, "--framed", *operands, stdin=b""), 1, f"{tool}: <stdin>:1:1: {why}an empty one")
+            self.assert_fails(run(tool, "--expect-framed", *operands, stdin=b""), 1,
+                              f"{tool}: <stdin>:1:1: {why}an empty one")
             body = 2 if tool == "trace" else 1  # a header is no frame
-            self.assert_fails(run(tool, "--framed", *operands, stdin=text), 1, f"{tool}: <stdin>:{body}:1: {why}one without 'framed'")
+            self.assert_fails(run(tool, "--expect-framed", *operands, stdin=text), 1,
+                              f"{tool}: <stdin>:{body}:1: {why}one without 'framed'")
             self.assertEqual(self.files(), ["config.txt", "scene.txt"])
-            self.assert_quiet_success(run(tool, "--framed", *operands, stdin=self.texts[tool]))
+            self.assert_quiet_success(run(tool, "--expect-framed", *operands, stdin=self.texts[tool]))
             pathlib.Path("out.bmp").unlink()
 
     def test_bare_text_of_a_framed_one_has_no_frame(self):
@@ -265,9 +291,12 @@ class UnframedText(ToolTest):
         self.assertEqual((done.stderr.decode(), done.returncode), (NO_TRIANGLE, 0))
 
     def test_a_cut_inside_a_triangle_is(self):
-        for tool, options in (("view", []), ("project", []), ("zbuf", ["config.txt"]), ("trace", ["config.txt"])):
+        for tool, options in (("view", []), ("project", []), ("zbuf", ["config.txt"]), ("trace", [
+                "config.txt"])):
             done = run(tool, *options, stdin=HEADERS[tool] + "0 0 -2\n1 0 -2\n")
-            self.assert_fails(done, 1, f"{tool}: <stdin>:7:1: expected vertex 3 of 3, found the end of the input inside a triangle")
+            self.assert_fails(
+                done, 1,
+                f"{tool}: <stdin>:7:1: expected vertex 3 of 3, found the end of the input inside a triangle")
 
 
 if __name__ == "__main__":

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Full disks, closed pipes, missing channels: nothing is lost silently, nothing waits forever, nothing is left behind.
+"""Full disks, closed pipes, missing channels: nothing is lost silently, nothing waits forever, nothing is
+left behind.
 
 usage: faults_test.py BIN_DIR [UNITTEST ARGUMENT...]
 """
@@ -11,7 +12,9 @@ import subprocess
 import time
 import unittest
 
-from toolbox import ALL_TOOLS, CAMERA, DRAWING, HEADER, HEADERS, SCENE, TRIANGLE, ToolTest, command, pseudo_terminal, run, run_with, stage_texts
+from toolbox import (
+    ALL_TOOLS, CAMERA, DRAWING, HEADER, HEADERS, SCENE, TRIANGLE, ToolTest, command, pseudo_terminal, run,
+    run_with, stage_texts)
 
 VERTICES = "0 0 -2\n1 0 -2\n0 1 -2\n\n"
 OPERANDS = {"model": [], "view": [], "project": [], "zbuf": ["config.txt"], "trace": ["config.txt"]}
@@ -43,7 +46,9 @@ class FaultTest(ToolTest):
     def assert_nothing_happened(self):
         """The older image is unchanged and no temporary file is left."""
         self.assertEqual(pathlib.Path("out.bmp").read_bytes(), OLD_IMAGE)
-        self.assertEqual([name for name in self.files() if name not in ("config.txt", "scene.txt", "input.txt")], ["out.bmp"])
+        self.assertEqual(
+            [name for name in self.files() if name not in ("config.txt", "scene.txt", "input.txt")],
+            ["out.bmp"])
 
 
 class FullDisk(FaultTest):
@@ -69,7 +74,8 @@ class FullDisk(FaultTest):
     def test_a_mistake_is_still_told_when_its_error_line_finds_no_room(self):
         with open("/dev/full", "wb") as full:
             done = run("view", stdin="x\n", stdout=full)
-        self.assert_fails(done, 1, "view: <stdin>:1:1: expected a header line, 'triangle N' or a vertex, found 'x'")
+        self.assert_fails(done, 1,
+                          "view: <stdin>:1:1: expected a header line, 'triangle N' or a vertex, found 'x'")
 
     def test_a_full_file_of_depths_leaves_the_old_image(self):
         for tool, text in LARGE_PICTURES.items():
@@ -87,7 +93,8 @@ class FileSizeLimit(FaultTest):
     """A file may grow no further (ulimit -f)."""
 
     def run_limited(self, tool, *options, size, **settings):
-        return run(tool, *options, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (size, size)), **settings)
+        return run(tool, *options, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (size, size)),
+                   **settings)
 
     def test_a_stdout_that_may_not_grow_is_a_failure_that_names_the_reason(self):
         for tool, text in small_and_large_inputs():
@@ -113,8 +120,9 @@ class ClosedReader(FaultTest):
         pathlib.Path("input.txt").write_text(text)
         end, writing = os.pipe()
         os.close(end)
-        settings = {"preexec_fn": lambda: signal.signal(signal.SIGPIPE, signal.SIG_IGN if ignore else signal.SIG_DFL),
-                    "restore_signals": False}
+        settings = {
+            "preexec_fn": lambda: signal.signal(signal.SIGPIPE, signal.SIG_IGN
+                                                if ignore else signal.SIG_DFL), "restore_signals": False}
         begin = time.monotonic()
         try:
             done = run(tool, *OPERANDS[tool], "input.txt", stdout=writing, **settings)
@@ -144,12 +152,17 @@ class ClosedReader(FaultTest):
         self.assert_nothing_happened()
 
     def test_it_ends_a_filter_whose_input_never_ends(self):
-        endless = {"model": ("triangle 0 0 0\n1 0 0\n0 1 0\n", CAMERA), "view": (VERTICES, HEADER), "project": (VERTICES, HEADERS["project"])}
+        endless = {
+            "model": ("triangle 0 0 0\n1 0 0\n0 1 0\n", CAMERA), "view": (VERTICES, HEADER),
+            "project": (VERTICES, HEADERS["project"])}
         for tool, (repeated, start) in endless.items():
             pathlib.Path("input.txt").write_text(start + repeated)
-            script = '{ cat input.txt; yes "$1"; } 2>/dev/null | { "$2"; echo $? > status; } 2> errors | head -c 1000'
+            script = ('{ cat input.txt; yes "$1"; } 2>/dev/null | { "$2"; echo $? > status; } 2> errors | '
+                      'head -c 1000')
             begin = time.monotonic()
-            subprocess.run(["sh", "-c", script, "sh", repeated.rstrip("\n") + ("" if tool == "model" else "\n"), *command(tool)],
+            subprocess.run([
+                "sh", "-c", script, "sh",
+                repeated.rstrip("\n") + ("" if tool == "model" else "\n"), *command(tool)],
                            stdout=subprocess.DEVNULL, timeout=20)
             self.assertLess(time.monotonic() - begin, 3)
             self.assertEqual(pathlib.Path("errors").read_text(), "")
@@ -159,7 +172,8 @@ class ClosedReader(FaultTest):
 class MissingChannels(FaultTest):
     def test_a_closed_stdin_is_a_failure(self):
         for tool in ALL_TOOLS:
-            self.assert_fails(run_with("<&-", tool, *OPERANDS[tool]), 1, f"{tool}: cannot read <stdin>: Bad file descriptor")
+            self.assert_fails(run_with("<&-", tool, *OPERANDS[tool]), 1,
+                              f"{tool}: cannot read <stdin>: Bad file descriptor")
         self.assert_nothing_happened()
 
     def test_a_closed_stdin_does_no_harm_where_it_is_not_read(self):
@@ -170,7 +184,8 @@ class MissingChannels(FaultTest):
 
     def test_a_folder_as_stdin_is_a_failure(self):
         for tool in ALL_TOOLS:
-            self.assert_fails(run_with("< /", tool, *OPERANDS[tool]), 1, f"{tool}: cannot read <stdin>: Is a directory")
+            self.assert_fails(run_with("< /", tool, *OPERANDS[tool]), 1,
+                              f"{tool}: cannot read <stdin>: Is a directory")
 
     def test_a_closed_stdout_is_a_failure(self):
         for tool, text in small_and_large_inputs():

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Texts that nobody would write: cut at any byte, huge, or no text at all. The result is one message with its location, or
-the output for the text as it now reads, in little memory.
+"""Texts that nobody would write: cut at any byte, huge, or no text at all. The result is one message with its
+location, or the output for the text as it now reads, in little memory.
 
 usage: hostile_test.py BIN_DIR [UNITTEST ARGUMENT...]
 """
@@ -10,7 +10,8 @@ import resource
 import subprocess
 import unittest
 
-from toolbox import CAMERA, DRAWING, HEADER, HEADERS, NO_TRIANGLE, SCENE, TRIANGLE, ToolTest, command, run, tool_inputs
+from toolbox import (
+    CAMERA, DRAWING, HEADER, HEADERS, NO_TRIANGLE, SCENE, TRIANGLE, ToolTest, command, run, tool_inputs)
 
 MEMORY = 256 << 20
 VERTICES = "0 0 -2\n1 0 -2\n0 1 -2\n\n"
@@ -98,7 +99,8 @@ class Hostile(ToolTest):
             done = run("zbuf", "config.txt")
             numbers = text[:length].split()
             complete = len(numbers) == 6 or (len(numbers) == 2 and text[:length].count(b"\n") <= 1)
-            self.assertEqual(done.returncode, 0 if complete and numbers[-1] != b"-" else 1, (text[:length], done.stderr))
+            self.assertEqual(done.returncode, 0 if complete and numbers[-1] != b"-" else 1,
+                             (text[:length], done.stderr))
 
     def test_a_changed_byte_is_refused_with_its_place_or_read_as_it_reads(self):
         text = SCENE.encode()
@@ -122,25 +124,30 @@ class Hostile(ToolTest):
                 if done.returncode == 0:
                     # The output has as many rows as the text gives.
                     rows = int(changed.split()[1])
-                    self.assertEqual((done.stderr, done.stdout.count(b"\n")), (NO_TRIANGLE.encode(), rows), changed)
+                    self.assertEqual((done.stderr, done.stdout.count(b"\n")), (NO_TRIANGLE.encode(), rows),
+                                     changed)
                     read += 1
                 else:
                     self.assertEqual((done.returncode, done.stderr.count(b"\n")), (1, 1), changed)
-                    line, column = map(int, re.match(rb"zbuf: config.txt:(\d+):(\d+): ", done.stderr).groups())
+                    line, column = map(int,
+                                       re.match(rb"zbuf: config.txt:(\d+):(\d+): ", done.stderr).groups())
                     self.assertLessEqual(column, len((changed.split(b"\n") + [b""])[line - 1]) + 1, changed)
         self.assertGreater(read, 20)
 
     def test_a_nul_is_no_blank_and_no_end(self):
         bad_vertex = "0 0\0 -2\n"
-        for tool, text, line in (("model", CAMERA + "triangle\n" + bad_vertex, 6), ("view", HEADER + bad_vertex, 5),
-                                 ("project", HEADERS["project"] + bad_vertex, 5), ("zbuf", bad_vertex, 1),
-                                 ("trace", HEADERS["trace"] + bad_vertex, 5)):
+        for tool, text, line in (("model", CAMERA + "triangle\n" + bad_vertex,
+                                  6), ("view", HEADER + bad_vertex, 5), ("project",
+                                                                         HEADERS["project"] + bad_vertex, 5),
+                                 ("zbuf", bad_vertex, 1), ("trace", HEADERS["trace"] + bad_vertex, 5)):
             pathlib.Path("config.txt").write_text("8 8\n")
             done = run(tool, *["config.txt"] * (tool in DRAWING), stdin=text)
-            self.assert_fails(done, 1, rf"{tool}: <stdin>:{line}:3: expected the y of vertex 1 of 3, found '0\x00'")
+            self.assert_fails(done, 1,
+                              rf"{tool}: <stdin>:{line}:3: expected the y of vertex 1 of 3, found '0\x00'")
         pathlib.Path("config.txt").write_text("8 8\0\n")
-        self.assert_fails(run("zbuf", "config.txt"), 1, "zbuf: config.txt:1:3: expected the height in pixels, "
-                          r"a whole number from 1 to 65535, found '8\x00'")
+        self.assert_fails(
+            run("zbuf", "config.txt"), 1, "zbuf: config.txt:1:3: expected the height in pixels, "
+            r"a whole number from 1 to 65535, found '8\x00'")
 
     def test_a_byte_order_mark_is_skipped_at_the_beginning_alone(self):
         self.assert_quiet_success(run("model", stdin=b"\xef\xbb\xbf" + SCENE.encode()))
@@ -150,10 +157,11 @@ class Hostile(ToolTest):
     def test_a_number_of_a_million_digits_is_a_number(self):
         third = "0." + "3" * 1_000_000
         for tool, text, expected in (
-                ("model", f"{CAMERA}triangle\n{third} 0 0\n1 0 0\n0 1 0\nend\n", "0.3333333 0.0000000 0.0000000"),
-                ("view", f"{HEADER}{third} 0 -2\n1 0 -2\n0 1 -2\n", "0.3333333 0.0000000 -7.0000000"),
+            ("model", f"{CAMERA}triangle\n{third} 0 0\n1 0 0\n0 1 0\nend\n", "0.3333333 0.0000000 0.0000000"),
+            ("view", f"{HEADER}{third} 0 -2\n1 0 -2\n0 1 -2\n", "0.3333333 0.0000000 -7.0000000"),
                 # A third of 1 / tan 30 degrees, over the distance 2; 101 / 99 - 200 / (99 * 2).
-                ("project", f"{HEADERS['project']}{third} 0 -2\n1 0 -2\n0 1 -2\n", "0.2886751 0.0000000 0.0101010")):
+            ("project", f"{HEADERS['project']}{third} 0 -2\n1 0 -2\n0 1 -2\n", "0.2886751 0.0000000 0.0101010"
+             )):
             done = self.run_limited(tool, text)
             self.assert_quiet_success(done)
             self.assertIn(expected.encode(), done.stdout.split(b"\n"), tool)
@@ -163,7 +171,8 @@ class Hostile(ToolTest):
         pictures = []
         for number in (third, "0.33333333333333333333333333333333"):
             pathlib.Path("config.txt").write_text(f"8 8\n-{number}\n-1\n-1 1\n")
-            done = self.run_limited("zbuf", f"{number} 0 0\n-1 -1 0\n0 1 0\n", "config.txt", "--coverage", "center")
+            done = self.run_limited("zbuf", f"{number} 0 0\n-1 -1 0\n0 1 0\n", "config.txt", "--coverage",
+                                    "center")
             self.assert_quiet_success(done)
             pictures.append((done.stdout, pathlib.Path("out.bmp").read_bytes()))
         self.assertEqual(*pictures)
@@ -171,30 +180,40 @@ class Hostile(ToolTest):
 
     def test_a_line_of_a_million_words_is_refused_at_the_first_that_is_too_much(self):
         done = self.run_limited("view", HEADER + "0 0 -2 " + "1 " * 500_000 + "\n")
-        self.assert_fails(done, 1, "view: <stdin>:5:8: expected the end of the line after the z of vertex 1 of 3, found '1'")
+        self.assert_fails(
+            done, 1,
+            "view: <stdin>:5:8: expected the end of the line after the z of vertex 1 of 3, found '1'")
 
     def test_a_line_is_read_up_to_its_limit(self):
         limit = 1 << 20
         self.assert_quiet_success(self.run_limited("model", "#" * limit + "\n" + SCENE))
         done = self.run_limited("model", "#" * (limit + 1) + "\n" + SCENE)
-        self.assert_fails(done, 1, f"model: <stdin>:1:{limit + 1}: expected the end of the line, found more than {limit} characters")
+        self.assert_fails(
+            done, 1,
+            f"model: <stdin>:1:{limit + 1}: expected the end of the line, found more than {limit} characters")
 
     def test_a_picture_larger_than_memory_is_refused(self):
         pathlib.Path("config.txt").write_text("65535 65535\n")
         for tool in DRAWING:
             for options in [], ["--z-buffer", "none"]:
-                done = self.run_limited(tool, HEADERS[tool] + VERTICES, "config.txt", "--image", "out.ppm", *options)
+                done = self.run_limited(tool, HEADERS[tool] + VERTICES, "config.txt", "--image", "out.ppm",
+                                        *options)
                 self.assert_fails(done, 1, f"{tool}: not enough memory")
                 self.assertEqual(self.files(), ["config.txt", "scene.txt"])
 
     def test_a_picture_for_which_no_memory_is_left_is_refused(self):
         # Linux would allocate it, and kill whoever fills it.
-        pathlib.Path("meminfo").write_text("MemTotal: 99999999 kB\nMemAvailable: 16000 kB\nSwapFree: 300 kB\n")
+        pathlib.Path("meminfo").write_text(
+            "MemTotal: 99999999 kB\nMemAvailable: 16000 kB\nSwapFree: 300 kB\n")
         pathlib.Path("whole.txt").write_text("-1 -1 0\n3 -1 0\n-1 3 0\n\n")
-        for size, depth, is_refused in (("1000x1000", "f64", False), ("1000x2200", "u24", True), ("2000x2000", "f64", True)):
-            words = command("zbuf", "--size", size, "--depth", depth, "--threads", "2", "--z-buffer", "none", "-o", "out.ppm", "whole.txt")
-            done = subprocess.run(["unshare", "--mount", "--map-root-user", "sh", "-c",
-                                   'mount --bind meminfo /proc/meminfo || exit 77; "$@"', "sh", *words], capture_output=True, timeout=60)
+        for size, depth, is_refused in (("1000x1000", "f64", False), ("1000x2200", "u24", True),
+                                        ("2000x2000", "f64", True)):
+            words = command("zbuf", "--size", size, "--depth", depth, "--threads", "2", "--z-buffer", "none",
+                            "-o", "out.ppm", "whole.txt")
+            done = subprocess.run([
+                "unshare", "--mount", "--map-root-user", "sh", "-c",
+                'mount --bind meminfo /proc/meminfo || exit 77; "$@"', "sh", *words], capture_output=True,
+                                  timeout=60)
             if done.returncode == 77 or done.stderr.startswith(b"unshare: "):
                 self.skipTest("mounting is not allowed here: " + done.stderr.decode().strip())
             message = b"zbuf: not enough memory\n" if is_refused else b""
@@ -210,16 +229,17 @@ class Hostile(ToolTest):
                                    ("1 99999999999999999999", 3, "height")):
             pathlib.Path("config.txt").write_text(text + "\n")
             found = text.split()[0 if column == 1 else 1]
-            self.assert_fails(run("zbuf", "config.txt"), 1, f"zbuf: config.txt:1:{column}: expected the {what} in pixels, "
-                              f"a whole number from 1 to 65535, found '{found}'")
+            self.assert_fails(
+                run("zbuf", "config.txt"), 1, f"zbuf: config.txt:1:{column}: expected the {what} in pixels, "
+                f"a whole number from 1 to 65535, found '{found}'")
 
     def test_a_triangles_number_may_be_as_large_as_64_bits_hold(self):
         largest = (1 << 64) - 1
         done = run("project", stdin=HEADERS["project"] + f"triangle {largest}\n" + VERTICES)
         self.assert_quiet_success(done)
         self.assertTrue(done.stdout.startswith(f"triangle {largest}\n".encode()), done.stdout)
-        self.assert_placed(run("project", stdin=HEADERS["project"] + f"triangle {largest + 1}\n" + VERTICES), "project",
-                           (HEADERS["project"] + f"triangle {largest + 1}\n" + VERTICES).encode())
+        self.assert_placed(run("project", stdin=HEADERS["project"] + f"triangle {largest + 1}\n" + VERTICES),
+                           "project", (HEADERS["project"] + f"triangle {largest + 1}\n" + VERTICES).encode())
 
 
 if __name__ == "__main__":

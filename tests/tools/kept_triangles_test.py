@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""In scenes with colors or lights, zbuf lets go of triangles that nobody sees: its memory is bounded, the picture stays.
+"""In scenes with colors or lights, zbuf lets go of triangles that nobody sees: its memory is bounded, the
+picture stays.
 
 usage: kept_triangles_test.py BIN_DIR [UNITTEST ARGUMENT...]
 """
@@ -13,9 +14,11 @@ from streaming_test import LiveTool
 from toolbox import ToolTest, run
 
 COLORED = "attributes w color\n"
-LIT = "attributes w color normal\nmaterial 0.5 1 0.5 8\nlight 1 2 3 1 1 1\nprojected frustum -0.5 0.5 -0.5 0.5 1 100\n"
+LIT = ("attributes w color normal\nmaterial 0.5 1 0.5 8\nlight 1 2 3 1 1 1\nprojected frustum -0.5 0.5 -0.5 "
+       "0.5 1 100\n")
 MEBIBYTE = 1024  # in the units of /proc, which are KiB
-# zbuf looks for unseen triangles when it keeps this many; in a larger picture, one for each pixel or four of them.
+# zbuf looks for unseen triangles when it keeps this many; in a larger picture, one for each pixel or four of
+# them.
 LEAST = 16384
 
 
@@ -27,11 +30,12 @@ def triangles(count, seed, size, has_normals):
     for _ in range(count):
         x, y, z = uniform(-1, 1), uniform(-1, 1), uniform(-0.9, 0.9)
         for _ in range(3):
-            line = "%.7f %.7f %.7f %.3f %.2f %.2f %.2f" % (x + uniform(-size, size), y + uniform(-size, size), z, 2 + z,
-                                                       uniform(0, 255), uniform(0, 255), uniform(0, 255))
+            line = "%.7f %.7f %.7f %.3f %.2f %.2f %.2f" % (x + uniform(-size, size), y + uniform(
+                -size, size), z, 2 + z, uniform(0, 255), uniform(0, 255), uniform(0, 255))
             if has_normals:
                 a, b = uniform(-1.5, 1.5), uniform(-1.5, 1.5)
-                line += " %.7f %.7f %.7f" % (math.cos(a) * math.cos(b), math.sin(a) * math.cos(b), math.sin(b))
+                line += " %.7f %.7f %.7f" % (math.cos(a) * math.cos(b), math.sin(a) * math.cos(b),
+                                             math.sin(b))
             lines.append(line + "\n")
         lines.append("\n")
     return "".join(lines)
@@ -52,13 +56,15 @@ class KeptTriangles(ToolTest):
 
     def test_the_picture_does_not_change(self):
         text = triangles(5 * LEAST, 1, 0.05, has_normals=True)
-        for options in ([], ["--shading", "flat"], ["--shading", "gouraud"], ["--wireframe"], ["--samples", "2"], ["--coverage", "center"]):
+        for options in ([], ["--shading", "flat"], ["--shading", "gouraud"], ["--wireframe"], [
+                "--samples", "2"], ["--coverage", "center"]):
             with self.subTest(options=options):
                 self.check(LIT + text, *options)
 
     def test_nor_do_their_materials(self):
         """Of three: each has a color of its own where it is lit."""
-        header = LIT.replace("normal\n", "normal material\n").replace("light", "material 0 0.5 0 1\nmaterial 1 0 1 3\nlight")
+        header = LIT.replace("normal\n", "normal material\n").replace(
+            "light", "material 0 0.5 0 1\nmaterial 1 0 1 3\nlight")
         rows = triangles(3 * LEAST, 2, 0.05, has_normals=True).split("\n")
         text = "".join(f"{row} {i // 4 % 3}\n" if row else "\n" for i, row in enumerate(rows))
         self.check(header + text, "--shading", "flat")
@@ -67,8 +73,10 @@ class KeptTriangles(ToolTest):
         self.assertNotEqual(pathlib.Path("out.bmp").read_bytes(), three)
 
     def test_nor_if_every_triangle_hides_those_before(self):
-        walls = "".join(f"-9 -9 {-i / LEAST / 4:.9f} 1 {i % 256} 0 0\n9 -9 {-i / LEAST / 4:.9f} 1 0 {i % 256} 0\n0 9 {-i / LEAST / 4:.9f} 1 0 0 9\n\n"
-                        for i in range(3 * LEAST))
+        walls = "".join(
+            f"-9 -9 {-i / LEAST / 4:.9f} 1 {i % 256} 0 0\n9 -9 {-i / LEAST / 4:.9f} 1 0 {i % 256} 0\n0 9 "
+            f"{-i / LEAST / 4:.9f} 1 0 0 9\n\n"
+            for i in range(3 * LEAST))
         self.check(COLORED + walls, config="4 4\n")
 
     def test_statistics_and_notes_speak_of_those_let_go_of_too(self):
@@ -78,20 +86,24 @@ class KeptTriangles(ToolTest):
         black = "".join(wall(-i / LEAST / 4, "0 0 0", "70" if i == 5 else "9") for i in range(3 * LEAST))
         is_black = "zbuf: note: the picture is black: every color is 0\n"
         is_background = "zbuf: note: the picture is empty: what is seen has the color of the background\n"
-        for first, z_max, note in ((wall(0.5, "0 0 0"), "0.5", is_black), (wall(0.75, "0 200 0"), "0.75", is_background)):
+        for first, z_max, note in ((wall(0.5, "0 0 0"), "0.5", is_black), (wall(0.75, "0 200 0"), "0.75",
+                                                                           is_background)):
             self.check(COLORED + first + black, "--stats", "stats.txt", config="4 4\n", note=note)
             lines = pathlib.Path("stats.txt").read_text().splitlines()
             last = f"{-(3 * LEAST - 1) / LEAST / 4:.6f}"
-            for line in (f"triangles {3 * LEAST + 1}", f"hidden {3 * LEAST}", "seen 1", "pixels_written 16", "x_max 70", f"z_min {last}", f"z_max {z_max}"):
+            for line in (f"triangles {3 * LEAST + 1}", f"hidden {3 * LEAST}", "seen 1", "pixels_written 16",
+                         "x_max 70", f"z_min {last}", f"z_max {z_max}"):
                 self.assertIn(line, lines)
 
     def test_pieces_of_one_triangle_may_be_kept_and_let_go_apart(self):
-        """Two pieces make a square; with --wireframe the edge between them is not drawn, wherever the store is full."""
+        """Two pieces make a square; with --wireframe the edge between them is not drawn, wherever the store
+        is full."""
         numbers = random.Random(3)
         texts = []
         for i in range(2 * LEAST):
             x, y, z = numbers.uniform(-1, 1), numbers.uniform(-1, 1), numbers.uniform(-0.9, 0.9)
-            a, b, c, d = (f"{x + dx:.7f} {y + dy:.7f} {z:.7f} 1 {i % 251} 100 200\n" for dx, dy in ((0, 0), (0.2, 0), (0.2, 0.2), (0, 0.2)))
+            a, b, c, d = (f"{x + dx:.7f} {y + dy:.7f} {z:.7f} 1 {i % 251} 100 200\n"
+                          for dx, dy in ((0, 0), (0.2, 0), (0.2, 0.2), (0, 0.2)))
             texts.append(f"{a}{b}{c}\ntriangle {i}\n{a}{c}{d}\n")
         # One piece more or less before them: then the store is full between two pieces once.
         single = "5 5 0 1 0 0 0\n6 5 0 1 0 0 0\n5 6 0 1 0 0 0\n\n"

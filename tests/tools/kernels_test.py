@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""The text stages write the same bytes on every kind of processor: PIPELINE_KERNEL selects the fast paths of an older one.
+"""The text stages write the same bytes on every kind of processor: PIPELINE_KERNEL selects the fast paths of
+an older one.
 
 usage: kernels_test.py BIN_DIR [UNITTEST ARGUMENT...]
 """
@@ -15,23 +16,29 @@ DIGITS = ([], *(["--digits", str(decimals)] for decimals in range(18)), ["--digi
 
 
 def random_text(count):
-    """Triangles in front of the eye; numbers of few and of many digits, some of them ties at the eighth decimal."""
+    """Triangles in front of the eye; numbers of few and of many digits, some of them ties at the eighth
+    decimal."""
     rng = random.Random(1)
 
     def number(low, high):
         value = rng.uniform(low, high)
-        return rng.choice(("%.7f" % value, "%.7f" % value, "%.17g" % value, "%d" % value, "%.8f" % ((int(value * 128) + 0.5) / 128)))
+        return rng.choice(("%.7f" % value, "%.7f" % value, "%.17g" % value, "%d" % value,
+                           "%.8f" % ((int(value * 128) + 0.5) / 128)))
 
-    return "".join(f"{number(-3, 3)} {number(-3, 3)} {number(-9, -2)}\n" + "\n" * (i % 3 == 2) for i in range(3 * count))
+    return "".join(f"{number(-3, 3)} {number(-3, 3)} {number(-9, -2)}\n" + "\n" * (i % 3 == 2)
+                   for i in range(3 * count))
 
 
 class Kernels(ToolTest):
     def assert_same(self, tool, *options, stdin):
         """The text that every kernel writes."""
-        texts = {kernel: run(tool, *options, stdin=stdin, env=os.environ | {"PIPELINE_KERNEL": kernel}) for kernel in KERNELS}
+        texts = {
+            kernel: run(tool, *options, stdin=stdin, env=os.environ | {"PIPELINE_KERNEL": kernel})
+            for kernel in KERNELS}
         for kernel, done in texts.items():
             self.assertEqual((done.stderr, done.returncode), (texts["scalar"].stderr, 0))
-            self.assertTrue(done.stdout == texts["scalar"].stdout, f"{tool} {options}: {kernel} prints something else")
+            self.assertTrue(done.stdout == texts["scalar"].stdout,
+                            f"{tool} {options}: {kernel} prints something else")
         return texts["scalar"].stdout
 
     def test_every_sample(self):

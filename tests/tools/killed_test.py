@@ -17,8 +17,8 @@ class KilledStages(OlderImageTest):
     """A stage is killed (SIGKILL) after a random part of the scene has been sent."""
 
     SCENE = CAMERA + TRIANGLE * 3000 + "end\n"
-    STAGES = (["model", "--framed"], ["view"], ["project"], ["zbuf", "--framed", "config.txt"])
-    TRACED = (["model", "--framed"], ["view"], ["trace", "--framed", "config.txt"])
+    STAGES = (["model", "--framed"], ["view"], ["project"], ["zbuf", "--expect-framed", "config.txt"])
+    TRACED = (["model", "--framed"], ["view"], ["trace", "--expect-framed", "config.txt"])
 
     def start_pipe(self, stages):
         """The processes, and the pipe end that takes the scene."""
@@ -71,7 +71,8 @@ class KilledStages(OlderImageTest):
                     self.assertTrue(statuses[victim] == -signal.SIGKILL or statuses == done, statuses)
                     self.assertEqual(self.files(), ["config.txt", "out.bmp", "scene.txt"])
                     refused += statuses[-1] != 0
-        self.assertGreater(refused, 50 * len(stages), "most stages were done before the signal came: nothing was tested")
+        self.assertGreater(refused, 50 * len(stages),
+                           "most stages were done before the signal came: nothing was tested")
 
     def test_no_picture_of_a_part_ever_appears(self):
         self.check(self.STAGES)

@@ -1,16 +1,20 @@
 #!/usr/bin/env python3
-"""usage: mesh2scene_test.py BIN [unittest's arguments]: mesh2scene on models of known triangles, in every format of make-model, on models
-written here by hand, and on broken ones."""
+"""usage: mesh2scene_test.py BIN [unittest's arguments]: mesh2scene on models of known triangles, in every
+format of make-model, on models written here by hand, and on broken ones."""
 import json
 import math
+import os
 import pathlib
 import random
 import resource
+import signal
+import socket
 import struct
+import subprocess
 import sys
 import unittest
 
-from toolbox import SOURCE, ToolTest, command, expect_mesh2scene, pipe, run
+from toolbox import SOURCE, ToolTest, command, expect_mesh2scene, heed_signals, pipe, run
 
 sys.path.insert(0, str(SOURCE / "scripts"))
 from lib.vectors import cross  # noqa: E402
@@ -54,13 +58,23 @@ def float32(x):
     return struct.unpack("f", struct.pack("f", x))[0]
 
 
+def quoted(text):
+    """As messages have it: at most 40 bytes."""
+    return f"'{text}'" if len(text) <= 40 else f"'{text[:40]}...'"
+
+
 def picture_of(scene, width, height):
     """Which pixels show a triangle, as rows."""
-    pipe(["model"], ["view"], ["project"], ["zbuf", "--size", f"{width}x{height}", "--coverage", "center", "--image", "picture.ppm"], stdin=scene)
+    pipe(["model"], ["view"], ["project"],
+         ["zbuf", "--size", f"{width}x{height}", "--coverage", "center", "--image", "picture.ppm"],
+         stdin=scene)
     data = pathlib.Path("picture.ppm").read_bytes()
     pixels = data[-3 * width * height:]
     background = tuple(int(float(word)) for word in header(scene)["background"][0].split())
-    return [[tuple(pixels[3 * (row * width + k):3 * (row * width + k) + 3]) != background for k in range(width)] for row in range(height)]
+    return [[
+        tuple(pixels[3 * (row * width + k):3 * (row * width + k) + 3]) != background
+        for k in range(width)]
+            for row in range(height)]
 
 
 class Formats(ToolTest):
@@ -81,16 +95,28 @@ class Formats(ToolTest):
                                 for x, expected in zip(vertex[3:6], mesh.colors[i]):
                                     self.assertAlmostEqual(x, expected, 2)
                             if suffix != "stl":
-                                self.assertGreater(sum(a * b for a, b in zip(vertex[-3:], mesh.normals[i])), 1 - 1e-6)
+                                self.assertGreater(sum(a * b for a, b in zip(vertex[-3:], mesh.normals[i])),
+                                                   1 - 1e-6)
 
     def test_floats_keep_their_value(self):
         """A binary file's numbers come out as the shortest decimals of the same floats."""
         generator = random.Random(5)
-        points = [tuple(float32(generator.uniform(-1, 1) * 10 ** generator.randint(-6, 6)) for _ in range(3)) for _ in range(60)]
-        pathlib.Path("model.stl").write_bytes(FORMATS["stl"](Mesh(points, [], [(i, i + 1, i + 2) for i in range(0, 60, 3)])))
-        words = [line.split()[:3] for line in scene_of("model.stl").split("attributes", 1)[1].splitlines() if line[:1] in "-0123456789" and line]
+        points = [
+            tuple(float32(generator.uniform(-1, 1) * 10**generator.randint(-6, 6))
+                  for _ in range(3))
+            for _ in range(60)]
+        pathlib.Path("model.stl").write_bytes(FORMATS["stl"](Mesh(points, [], [
+            (i, i + 1, i + 2) for i in range(0, 60, 3)])))
+        words = [
+            line.split()[:3]
+            for line in scene_of("model.stl").split("attributes", 1)[1].splitlines()
+            if line[:1] in "-0123456789" and line]
         self.assertEqual([tuple(float32(float(word)) for word in row) for row in words], points)
-        self.assertLessEqual(max(len(word.lstrip("-").replace(".", "").split("e")[0].strip("0")) for row in words for word in row), 9)
+        self.assertLessEqual(
+            max(
+                len(word.lstrip("-").replace(".", "").split("e")[0].strip("0"))
+                for row in words
+                for word in row), 9)
 
     def test_standard_input_is_read_too(self):
         done = run("mesh2scene", stdin=BOX)
@@ -103,16 +129,24 @@ class Normals(ToolTest):
         """On a vase the normals made are nearly those of the formula."""
         mesh = vase(12)
         pathlib.Path("model.stl").write_bytes(FORMATS["stl"](mesh))
-        cosines = [sum(a * b for a, b in zip(vertex[-3:], mesh.normals[i]))
-                   for got, indices in zip(world_triangles(scene_of("model.stl")), mesh.triangles) for vertex, i in zip(got, indices)]
+        cosines = [
+            sum(a * b
+                for a, b in zip(vertex[-3:], mesh.normals[i]))
+            for got, indices in zip(world_triangles(scene_of("model.stl")), mesh.triangles)
+            for vertex, i in zip(got, indices)]
         self.assertGreater(min(cosines), 0.96)
         self.assertGreater(sum(cosines) / len(cosines), 0.998)
 
     def test_exact_on_a_sphere(self):
         """Whatever the triangles are like: that is what their weights are for (Max, 1999)."""
         rows, columns = 9, 14
-        angles = [(math.pi * (i / rows) ** 1.3, math.tau * (k / columns) ** 1.2) for i in range(rows + 1) for k in range(columns)]
-        points = [tuple(round(x, 6) for x in (math.sin(u) * math.cos(v), math.cos(u), math.sin(u) * math.sin(v))) for u, v in angles]
+        angles = [(math.pi * (i / rows)**1.3, math.tau * (k / columns)**1.2)
+                  for i in range(rows + 1)
+                  for k in range(columns)]
+        points = [
+            tuple(round(x, 6)
+                  for x in (math.sin(u) * math.cos(v), math.cos(u), math.sin(u) * math.sin(v)))
+            for u, v in angles]
         triangles = []
         for i in range(rows):
             for k in range(columns):
@@ -128,17 +162,24 @@ class Normals(ToolTest):
         self.assertEqual(seen, 2 * columns * (rows - 1))
 
     def test_many_triangles_at_a_point(self):
-        """Two fans of 200 triangles in planes at right angles: from a crease of 90 degrees on, one surface."""
+        """Two fans of 200 triangles in planes at right angles: from a crease of 90 degrees on, one
+        surface."""
         def fan(place):
             turns = [math.pi * i / 200 for i in range(201)]
             return [[(0, 0, 0), place(a), place(b)] for a, b in zip(turns, turns[1:])]
 
         corners = fan(lambda t: (math.cos(t), math.sin(t), 0)) + fan(lambda t: (math.cos(t), 0, -math.sin(t)))
         points = [p for triangle in corners for p in triangle]
-        pathlib.Path("fans.stl").write_bytes(FORMATS["stl"](Mesh(points, [], [(i, i + 1, i + 2) for i in range(0, len(points), 3)])))
-        for crease, expected in (("60", {(0, 0, 1), (0, 1, 0)}), ("100", {(0, round(math.sqrt(0.5), 3), round(math.sqrt(0.5), 3))})):
-            normals = {tuple(round(x, 3) + 0.0 for x in vertex[-3:]) for triangle in world_triangles(scene_of("fans.stl", "--crease", crease))
-                       for vertex in triangle if vertex[:3] == (0, 0, 0)}
+        pathlib.Path("fans.stl").write_bytes(FORMATS["stl"](Mesh(points, [], [
+            (i, i + 1, i + 2) for i in range(0, len(points), 3)])))
+        for crease, expected in (("60", {(0, 0, 1), (0, 1, 0)}), ("100", {
+            (0, round(math.sqrt(0.5), 3), round(math.sqrt(0.5), 3))})):
+            normals = {
+                tuple(round(x, 3) + 0.0
+                      for x in vertex[-3:])
+                for triangle in world_triangles(scene_of("fans.stl", "--crease", crease))
+                for vertex in triangle
+                if vertex[:3] == (0, 0, 0)}
             self.assertEqual(normals, expected, crease)
 
     def test_an_edge_stays_sharp_beyond_the_crease(self):
@@ -163,7 +204,8 @@ class Framing(ToolTest):
         self.assertGreater(columns[0], 0)
         self.assertLess(rows[-1], height - 1)
         self.assertLess(columns[-1], width - 1)
-        self.assertGreaterEqual(max((rows[-1] - rows[0] + 1) / height, (columns[-1] - columns[0] + 1) / width), 0.8)
+        self.assertGreaterEqual(
+            max((rows[-1] - rows[0] + 1) / height, (columns[-1] - columns[0] + 1) / width), 0.8)
 
     def test_models_fill_the_picture_and_leave_its_border(self):
         generator = random.Random(11)
@@ -171,12 +213,20 @@ class Framing(ToolTest):
         for _ in range(17):  # clouds of triangles, near and far from the origin
             sizes = [10 ** generator.uniform(-0.5, 0.5) for _ in range(3)]
             center = [generator.choice((0, 10 ** generator.uniform(-1, 3))) for _ in range(3)]
-            points = [tuple(round(c + s * generator.uniform(-1, 1), 5) for c, s in zip(center, sizes)) for _ in range(600)]
+            points = [
+                tuple(round(c + s * generator.uniform(-1, 1), 5)
+                      for c, s in zip(center, sizes))
+                for _ in range(600)]
             meshes.append(Mesh(points, [(0, 0, 1)] * 600, [(i, i + 1, i + 2) for i in range(0, 600, 3)]))
         for number, mesh in enumerate(meshes):
             size = generator.choice(((200, 150), (150, 200), (160, 160), (320, 100)))
-            options = ["--size", "%dx%d" % size, "--up", generator.choice("xyz"), "--fov", str(generator.choice((5, 30, 60, 100))),
-                       "--eye-from", str(generator.randint(-180, 180)), str(generator.randint(-90, 90))]
+            options = [
+                "--size",
+                "%dx%d" % size, "--up-axis",
+                generator.choice("xyz"), "--fov",
+                str(generator.choice((5, 30, 60, 100))), "--eye-from",
+                str(generator.randint(-180, 180)),
+                str(generator.randint(-90, 90))]
             with self.subTest(model=number, options=options):
                 pathlib.Path("model.ply").write_bytes(FORMATS["ply"](mesh))
                 self.check_framed(scene_of("model.ply", *options), *size)
@@ -184,27 +234,41 @@ class Framing(ToolTest):
     def test_directions(self):
         """Straight from the front, from the right and from above, the eye is where the axes say."""
         pathlib.Path("box.obj").write_text(BOX)
-        for up, front, right, above in (("y", (0, 0, 1), (1, 0, 0), (0, 1, 0)), ("z", (0, -1, 0), (1, 0, 0), (0, 0, 1))):
-            for angles, expected in ((("0", "0"), front), (("90", "0"), right), (("0", "90"), above), (("-90", "0"), tuple(-x for x in right))):
-                parts = header(scene_of("box.obj", "--up", up, "--eye-from", *angles))
+        for up, front, right, above in (("y", (0, 0, 1), (1, 0, 0), (0, 1, 0)), ("z", (0, -1, 0), (1, 0, 0),
+                                                                                 (0, 0, 1))):
+            for angles, expected in ((("0", "0"), front), (("90", "0"), right), (("0", "90"), above),
+                                     (("-90", "0"), tuple(-x for x in right))):
+                parts = header(scene_of("box.obj", "--up-axis", up, "--eye-from", *angles))
                 eye, look = (list(map(float, parts[key].split())) for key in ("eye", "look"))
                 toward = [p - q for p, q in zip(eye, look)]
                 length = math.hypot(*toward)
                 for x, y in zip(toward, expected):
                     self.assertAlmostEqual(x / length, y, 3)
 
+    def test_the_view_begins_half_way_to_the_model(self):
+        """So that what is added to the scene in front of the model is drawn; it ends half of the middle's
+        distance behind it."""
+        pathlib.Path("box.obj").write_text(BOX)  # z from 0 to 1
+        parts = header(scene_of("box.obj", "--eye-from", "0", "0"))
+        eye, (near, far) = float(parts["eye"].split()[2]), map(float, parts["projection"].split()[2:4])
+        self.assertAlmostEqual(near, (eye - 1) / 2, 3)
+        self.assertAlmostEqual(far, eye + (eye - 0.5) / 2, 2)
+
     def test_up_is_the_axis_itself_and_the_view_is_the_same(self):
-        """The view has the axes of azimuth and elevation, by their formula: to the right, upwards in the picture, and towards the eye. From straight
-        above, where the axis shows no direction in the picture, `up` is the second of them."""
+        """The view has the axes of azimuth and elevation, by their formula: to the right, upwards in the
+        picture, and towards the eye. From straight above, where the axis shows no direction in the picture,
+        `up` is the second of them."""
         pathlib.Path("knot.obj").write_bytes(FORMATS["obj"](knot(2)))
         lines = {"x": "1 0 0", "y": "0 1 0", "z": "0 0 1"}
         for name, line in lines.items():
             axis = tuple(map(float, line.split()))
             front = (0, -1, 0) if name == "z" else (0, 0, 1)
             side = cross(axis, front)
-            for azimuth, elevation in ((30, 15), (0, 0), (-130, 60), (200, -40), (77, 85), (77, -85), (77, 86), (30, 90), (-45, -90)):
+            for azimuth, elevation in ((30, 15), (0, 0), (-130, 60), (200, -40), (77, 85), (77, -85),
+                                       (77, 86), (30, 90), (-45, -90)):
                 with self.subTest(up=name, azimuth=azimuth, elevation=elevation):
-                    scene = scene_of("knot.obj", "--up", name, "--eye-from", str(azimuth), str(elevation))
+                    scene = scene_of("knot.obj", "--up-axis", name, "--eye-from", str(azimuth),
+                                     str(elevation))
                     parts = header(scene)
                     if abs(elevation) <= 85:
                         self.assertEqual(parts["up"], line)
@@ -216,38 +280,48 @@ class Framing(ToolTest):
                     eye = tuple(map(float, parts["eye"].split()))
                     distance = math.dist(eye, tuple(map(float, parts["look"].split())))
                     world = pipe(["model", "--bare", "--digits", "exact"], stdin=scene).decode().split()
-                    seen = pipe(["model"], ["view", "--bare", "--digits", "exact"], stdin=scene).decode().split()
+                    seen = pipe(["model"], ["view", "--bare", "--digits", "exact"],
+                                stdin=scene).decode().split()
                     worst = 0
                     for i in range(0, len(world), 3):
                         p = [float(x) - o for x, o in zip(world[i:i + 3], eye)]
                         for x, of_axis in zip(seen[i:i + 3], (right, up, back)):
                             worst = max(worst, abs(float(x) - sum(c * d for c, d in zip(p, of_axis))))
-                    # Each number of the eye and of the look point is rounded by 0.00005 of the distance at most, which turns the picture the
-                    # more the steeper the view; the knot's vertices are within 0.35 distances of the look point.
+                    # Each number of the eye and of the look point is rounded by 0.00005 of the distance at
+                    # most, which turns the picture the more the steeper the view; the knot's vertices are
+                    # within 0.35 distances of the look point.
                     steepness = math.cos(e) if abs(elevation) <= 85 else 1
-                    self.assertLess(worst / distance, 0.35 * 0.00005 * (math.sqrt(12) + math.sqrt(8) / steepness))
+                    self.assertLess(worst / distance,
+                                    0.35 * 0.00005 * (math.sqrt(12) + math.sqrt(8) / steepness))
 
     def test_the_aspect_is_that_of_the_size(self):
         pathlib.Path("box.obj").write_text(BOX)
         self.assertRegex(header(scene_of("box.obj"))["projection"], r"^30 1\.3333333333333333 .* ratio$")
-        self.assertRegex(header(scene_of("box.obj", "--size", "100x200", "--fov", "40"))["projection"], r"^40 0\.5 .* ratio$")
+        self.assertRegex(
+            header(scene_of("box.obj", "--size", "100x200", "--fov", "40"))["projection"],
+            r"^40 0\.5 .* ratio$")
 
 
-# A camera at (0 0 5) that looks down -z, a point light, a node that moves and turns its two children, one of them mirrored.
+# A camera at (0 0 5) that looks down -z, a point light, a node that moves and turns its two children, one of
+# them mirrored.
 def gltf_with_nodes():
     mesh = vase(1)
     document = json.loads(FORMATS["gltf"](mesh))
     s = math.sqrt(0.5)
-    document["nodes"] = [
-        {"name": "root", "translation": [1, 2, 3], "rotation": [0, s, 0, s], "children": [1, 2]},  # 90 degrees about y
-        {"name": "first", "mesh": 0, "scale": [2, 1, 0.5]},
-        {"name": "second", "mesh": 0, "scale": [-1, 1, 1], "translation": [0, 0, 4]},
-        {"name": "eye", "camera": 0, "translation": [0, 0, 25]},
-        {"name": "lamp", "translation": [7, 8, 9], "extensions": {"KHR_lights_punctual": {"light": 0}}}]
+    document["nodes"] = [{
+        "name": "root", "translation": [1, 2, 3], "rotation": [0, s, 0, s],
+        "children": [1, 2]},  # 90 degrees about y
+                         {"name": "first", "mesh": 0, "scale": [2, 1, 0.5]},
+                         {"name": "second", "mesh": 0, "scale": [-1, 1, 1], "translation": [0, 0, 4]}, {
+                             "name": "eye", "camera": 0, "translation": [0, 0, 25]}, {
+                                 "name": "lamp", "translation": [7, 8, 9],
+                                 "extensions": {"KHR_lights_punctual": {"light": 0}}}]
     document["scenes"] = [{"nodes": [0, 3, 4]}]
-    document["cameras"] = [{"type": "perspective", "perspective": {"yfov": math.radians(40), "znear": 1, "zfar": 100}}]
+    document["cameras"] = [{
+        "type": "perspective", "perspective": {"yfov": math.radians(40), "znear": 1, "zfar": 100}}]
     document["extensionsUsed"] = ["KHR_lights_punctual"]
-    document["extensions"] = {"KHR_lights_punctual": {"lights": [{"type": "point", "color": [1, 0.5, 0.25], "intensity": 1}]}}
+    document["extensions"] = {
+        "KHR_lights_punctual": {"lights": [{"type": "point", "color": [1, 0.5, 0.25], "intensity": 1}]}}
     document["materials"] = [{"pbrMetallicRoughness": {"baseColorFactor": [1, 0.5, 0, 1]}}]
     document["meshes"][0]["primitives"][0]["material"] = 0
     return mesh, json.dumps(document)
@@ -286,15 +360,19 @@ class Nodes(ToolTest):
         parts = header(scene_of("model.gltf"))
         self.assertEqual(parts["eye"], "0 0 25")
         self.assertTrue(parts["projection"].startswith("40 1.3333333333333333 1 100"), parts["projection"])
-        self.assertEqual([list(map(float, light.split())) for light in parts["light"]], [[7, 8, 9, 1, 0.5, 0.25]])
+        self.assertEqual([list(map(float, light.split())) for light in parts["light"]],
+                         [[7, 8, 9, 1, 0.5, 0.25]])
         self.assertNotEqual(header(scene_of("model.gltf", "--eye-from", "0", "0"))["eye"], "0 0 25")
 
     def test_the_files_angle_is_the_one_upwards_whatever_its_aspect(self):
-        """glTF's yfov (glTF 2.0, 3.10.3.2), which assimp gives as an angle across a picture of the file's aspect."""
+        """glTF's yfov (glTF 2.0, 3.10.3.2), which assimp gives as an angle across a picture of the file's
+        aspect."""
         document = json.loads(pathlib.Path("model.gltf").read_text())
         for aspect in ({}, {"aspectRatio": 1.5}, {"aspectRatio": 16 / 9}, {"aspectRatio": 0.6}):
             for yfov in (10, 40, 95):
-                document["cameras"] = [{"type": "perspective", "perspective": {"yfov": math.radians(yfov), "znear": 1, "zfar": 100, **aspect}}]
+                document["cameras"] = [{
+                    "type": "perspective",
+                    "perspective": {"yfov": math.radians(yfov), "znear": 1, "zfar": 100, **aspect}}]
                 pathlib.Path("model.gltf").write_text(json.dumps(document))
                 found = header(scene_of("model.gltf", "--size", "300x200"))["projection"].split()
                 self.assertAlmostEqual(float(found[0]), yfov, 3, aspect)
@@ -302,11 +380,42 @@ class Nodes(ToolTest):
 
     def test_a_spotlight_shines_all_around_and_a_note_tells(self):
         document = json.loads(pathlib.Path("model.gltf").read_text())
-        document["extensions"]["KHR_lights_punctual"]["lights"] = [{"type": "spot", "intensity": 1, "spot": {"outerConeAngle": 0.5}}]
+        document["extensions"]["KHR_lights_punctual"]["lights"] = [{
+            "type": "spot", "intensity": 1, "spot": {"outerConeAngle": 0.5}}]
         pathlib.Path("model.gltf").write_text(json.dumps(document))
         done = run("mesh2scene", "model.gltf")
-        self.assertEqual(done.stderr.decode(), "mesh2scene: note: model.gltf: no scene can hold its cones of spotlights\n")
+        self.assertEqual(done.stderr.decode(),
+                         "mesh2scene: note: model.gltf: no scene can hold its cones of spotlights\n")
         self.assertEqual(header(done.stdout.decode())["light"], ["7 8 9 1 1 1"])
+
+    def test_a_small_scale_keeps_its_digits(self):
+        document = json.loads(pathlib.Path("model.gltf").read_text())
+        for scale in ("1.2345678e-05", "1.5e-20", "0.3333333"):
+            document["nodes"][1]["scale"] = [float(scale)] * 3
+            pathlib.Path("model.gltf").write_text(json.dumps(document))
+            self.assertIn(f"scale {scale} {scale} {scale}\n", scene_of("model.gltf", "--nodes"))
+
+    def test_a_transform_beyond_floats_is_refused(self):
+        document = json.loads(pathlib.Path("model.gltf").read_text())
+        document["nodes"][0]["scale"] = document["nodes"][1]["scale"] = [1e30] * 3
+        pathlib.Path("model.gltf").write_text(json.dumps(document))
+        for options in ([], ["--nodes"]):
+            done = run("mesh2scene", *options, "model.gltf")
+            self.assertEqual((done.returncode, done.stdout), (1, b""))
+            self.assertIn("expected finite coordinates, found others in mesh", done.stderr.decode())
+
+    def test_lights_that_no_scene_takes_are_left_out(self):
+        document = json.loads(pathlib.Path("model.gltf").read_text())
+        usual = header(scene_of("model.gltf"))["light"]
+        lights = document["extensions"]["KHR_lights_punctual"]["lights"]
+        for light, translation in (({"color": [-1, 0, 0]}, [0, 0, 0]), ({"color": [1, 1, 1]}, [1e39, 0, 0])):
+            lights[1:] = [{"type": "point", **light}]
+            document["nodes"][5:] = [
+                {"translation": translation, "extensions": {"KHR_lights_punctual": {"light": 1}}}
+            ]
+            document["scenes"] = [{"nodes": [0, 3, 4, 5]}]
+            pathlib.Path("model.gltf").write_text(json.dumps(document))
+            self.assertEqual(header(scene_of("model.gltf"))["light"], usual)
 
     def test_linear_colors_become_those_of_a_screen(self):
         """Half the light is not half the number: 0.5 is 187.516 of 255 (IEC 61966-2-1)."""
@@ -316,9 +425,14 @@ class Nodes(ToolTest):
 class Colors(ToolTest):
     def test_of_vertices(self):
         pathlib.Path("model.ply").write_text(
-            "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nproperty uchar red\nproperty uchar green\n"
-            "property uchar blue\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0 255 0 77\n1 0 0 0 128 1\n0 1 0 9 8 7\n3 0 1 2\n")
-        self.assertEqual([vertex[3:6] for vertex in world_triangles(scene_of("model.ply"))[0]], [(255, 0, 77), (0, 128, 1), (9, 8, 7)])
+            "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+            "property uchar red\nproperty uchar green\n"
+            "property uchar blue\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0 "
+            "255 0 77\n1 0 0 0 128 1\n0 1 0 9 8 7\n3 0 1 2\n"
+        )
+        self.assertEqual([vertex[3:6] for vertex in world_triangles(scene_of("model.ply"))[0]], [(255, 0, 77),
+                                                                                                 (0, 128, 1),
+                                                                                                 (9, 8, 7)])
 
     def test_a_file_without_colors_looks_the_same_in_every_format(self):
         colors = set()
@@ -329,9 +443,11 @@ class Colors(ToolTest):
 
     def test_of_materials(self):
         pathlib.Path("model.mtl").write_text("newmtl red\nKd 1 0.2 0\nnewmtl blue\nKd 0 0 0.6\n")
-        pathlib.Path("model.obj").write_text("mtllib model.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl red\nf 1 2 3\nusemtl blue\nf 1 3 2\n")
+        pathlib.Path("model.obj").write_text(
+            "mtllib model.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl red\nf 1 2 3\nusemtl blue\nf 1 3 2\n")
         scene = scene_of("model.obj")
-        self.assertEqual([line for line in scene.splitlines() if line.startswith("color")], ["color 255 51 0", "color 0 0 153"])
+        self.assertEqual([line for line in scene.splitlines() if line.startswith("color")],
+                         ["color 255 51 0", "color 0 0 153"])
 
 
 STUDIO = "1 1 0.15 20"  # of meshes whose file says nothing of materials
@@ -345,13 +461,16 @@ def by_roughness(base, metallic, roughness):
 
 
 class Materials(ToolTest):
-    MTL = ("newmtl matt\nKd 0.8 0.8 0.8\nKs 0 0 0\nNs 10\nnewmtl shiny\nKa 0.4 0.2 0.1\nKd 0.8 0.2 0\nKs 0.6 0.5 0.5\nNs 64\nnewmtl other\nKd 0 0 1\n"
-           "newmtl twin\nKa 0 0.15 0\nKd 0 0.3 0\nKs 0.6 0 0\nNs 64\n")
+    MTL = (
+        "newmtl matt\nKd 0.8 0.8 0.8\nKs 0 0 0\nNs 10\nnewmtl shiny\nKa 0.4 0.2 0.1\nKd 0.8 0.2 0\nKs 0.6 "
+        "0.5 0.5\nNs 64\nnewmtl other\nKd 0 0 1\n"
+        "newmtl twin\nKa 0 0.15 0\nKd 0 0.3 0\nKs 0.6 0 0\nNs 64\n")
 
     def write_obj(self, *names):
         pathlib.Path("model.mtl").write_text(self.MTL)
-        pathlib.Path("model.obj").write_text("mtllib model.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"
-                                             + "".join(f"usemtl {name}\nf 1 2 {3 + i % 2}\n" for i, name in enumerate(names)))
+        pathlib.Path("model.obj").write_text("mtllib model.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n" +
+                                             "".join(f"usemtl {name}\nf 1 2 {3 + i % 2}\n"
+                                                     for i, name in enumerate(names)))
 
     def lines(self, name, *options):
         """The lines `material` and the commands of color and material, without the triangles."""
@@ -361,12 +480,14 @@ class Materials(ToolTest):
 
     def test_of_colors_become_factors(self):
         self.write_obj("matt", "shiny", "other", "matt")
-        self.assertEqual(self.lines("model.obj"), ["material 1 1 0 10", "material 0.5 1 0.6 64", "material " + STUDIO, "color 204 204 204", "color 204 51 0", "use 1",
-                                                   "color 0 0 255", "use 2", "color 204 204 204", "use 0"])
+        self.assertEqual(self.lines("model.obj"), [
+            "material 1 1 0 10", "material 0.5 1 0.6 64", "material " + STUDIO, "color 204 204 204",
+            "color 204 51 0", "use 1", "color 0 0 255", "use 2", "color 204 204 204", "use 0"])
 
     def test_one_is_enough_where_all_are_alike(self):
         self.write_obj("shiny", "twin")
-        self.assertEqual(self.lines("model.obj"), ["material 0.5 1 0.6 64", "color 204 51 0", "color 0 76.5 0"])
+        self.assertEqual(self.lines("model.obj"),
+                         ["material 0.5 1 0.6 64", "color 204 51 0", "color 0 76.5 0"])
         self.write_obj("other")
         self.assertEqual(self.lines("model.obj"), ["material " + STUDIO, "color 0 0 255"])
 
@@ -378,8 +499,11 @@ class Materials(ToolTest):
 
     def test_of_gltf_follow_the_formula(self):
         document = json.loads(FORMATS["gltf"](vase(1)))
-        kinds = [((1, 1, 1), 0, 0.5), ((1, 0.8, 0.3), 1, 0.4), ((0.1, 0.2, 0.5), 0.5, 0.75), ((1, 1, 1), 0, 1), ((0.5, 0.5, 0.5), 1, 0)]
-        document["materials"] = [{"pbrMetallicRoughness": {"baseColorFactor": [*base, 1], "metallicFactor": metallic, "roughnessFactor": roughness}}
+        kinds = [((1, 1, 1), 0, 0.5), ((1, 0.8, 0.3), 1, 0.4), ((0.1, 0.2, 0.5), 0.5, 0.75),
+                 ((1, 1, 1), 0, 1), ((0.5, 0.5, 0.5), 1, 0)]
+        document["materials"] = [{
+            "pbrMetallicRoughness": {
+                "baseColorFactor": [*base, 1], "metallicFactor": metallic, "roughnessFactor": roughness}}
                                  for base, metallic, roughness in kinds]
         primitive = document["meshes"][0]["primitives"][0]
         document["meshes"] = [{"primitives": [{**primitive, "material": i}]} for i in range(len(kinds))]
@@ -388,27 +512,39 @@ class Materials(ToolTest):
         pathlib.Path("model.gltf").write_text(json.dumps(document))
         for options in ([], ["--nodes"]):
             lines = self.lines("model.gltf", *options)
-            found = [[float(word) for word in line.split()[1:]] for line in lines if line.startswith("material")]
+            found = [[float(word)
+                      for word in line.split()[1:]]
+                     for line in lines
+                     if line.startswith("material")]
             self.assertEqual(len(found), len(kinds))
             for factors, (base, metallic, roughness) in zip(found, kinds):
                 for value, expected in zip(factors, by_roughness(base, metallic, max(roughness, 1e-9))):
                     self.assertAlmostEqual(value, expected, delta=0.0006)
-            self.assertEqual([line for line in lines if line.startswith("use")], ["use 1", "use 2", "use 3", "use 4"])
+            self.assertEqual([line for line in lines if line.startswith("use")],
+                             ["use 1", "use 2", "use 3", "use 4"])
 
     def test_are_not_without_number(self):
         count = 300
-        pathlib.Path("model.mtl").write_text("".join(f"newmtl m{i}\nKd 1 1 1\nKs 0.5 0.5 0.5\nNs {i + 1}\n" for i in range(count)))
-        pathlib.Path("model.obj").write_text("mtllib model.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\n" + "".join(f"usemtl m{i}\nf 1 2 3\n" for i in range(count)))
+        pathlib.Path("model.mtl").write_text("".join(
+            f"newmtl m{i}\nKd 1 1 1\nKs 0.5 0.5 0.5\nNs {i + 1}\n" for i in range(count)))
+        pathlib.Path("model.obj").write_text("mtllib model.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\n" +
+                                             "".join(f"usemtl m{i}\nf 1 2 3\n" for i in range(count)))
         done = run("mesh2scene", "model.obj")
         lines = done.stdout.decode().splitlines()
         self.assertEqual(done.returncode, 0)
-        self.assertIn("mesh2scene: note: model.obj: it has more than 256 materials; from there on meshes have the first\n", done.stderr.decode())
-        self.assertEqual([line for line in lines if line.startswith("material")], [f"material 1 1 0.5 {i + 1}" for i in range(256)])
-        self.assertEqual([line for line in lines if line.startswith("use")], [f"use {i}" for i in [*range(1, 256), 0]])
+        self.assertIn(
+            "mesh2scene: note: model.obj: it has more than 256 materials; from there on meshes have "
+            "the first\n",
+            done.stderr.decode())
+        self.assertEqual([line for line in lines if line.startswith("material")],
+                         [f"material 1 1 0.5 {i + 1}" for i in range(256)])
+        self.assertEqual([line for line in lines if line.startswith("use")],
+                         [f"use {i}" for i in [*range(1, 256), 0]])
 
     def test_of_no_numbers_are_none(self):
         pathlib.Path("model.mtl").write_text("newmtl odd\nKa -1 nan inf\nKd 1 1 1\nKs 7 7 7\nNs 1e30\n")
-        pathlib.Path("model.obj").write_text("mtllib model.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl odd\nf 1 2 3\n")
+        pathlib.Path("model.obj").write_text(
+            "mtllib model.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl odd\nf 1 2 3\n")
         self.assertEqual(self.lines("model.obj")[0].split()[3:], ["1", "10000"])
 
 
@@ -427,11 +563,16 @@ class Refusals(ToolTest):
         pathlib.Path("lines.obj").write_text("v 0 0 0\nv 1 0 0\nl 1 2\n")
         pathlib.Path("point.obj").write_text("v 1 2 3\nv 1 2 3\nv 1 2 3\nf 1 2 3\n")
         pathlib.Path("picture.png").write_bytes(b"\x89PNG\r\n\x1a\n")
-        pathlib.Path("infinite.stl").write_bytes(b" " * 80 + struct.pack("<I12fH", 1, 0, 0, 1, 0, 0, 0, math.inf, 0, 0, 0, 1, 0, 0))
+        pathlib.Path("infinite.stl").write_bytes(
+            b" " * 80 + struct.pack("<I12fH", 1, 0, 0, 1, 0, 0, 0, math.inf, 0, 0, 0, 1, 0, 0))
         pathlib.Path("far.obj").write_text("v -3e38 0 0\nv 3e38 0 0\nv 0 3e38 0\nf 1 2 3\n")
-        for name, expected in (("missing.obj", "missing.obj: No such file"), (".", r"Is a directory"), ("empty.obj", "empty.obj: assimp cannot read"),
-                               ("noise.stl", "noise.stl: assimp cannot read"), ("lines.obj", "lines.obj: expected a model with triangles, found none"),
-                               ("point.obj", "point.obj: expected a model with an extent"), ("picture.png", "picture.png: assimp cannot read"),
+        for name, expected in (("missing.obj", "missing.obj: No such file"), (".", r"Is a directory"),
+                               ("empty.obj",
+                                "empty.obj: assimp cannot read"), ("noise.stl",
+                                                                   "noise.stl: assimp cannot read"),
+                               ("lines.obj", "lines.obj: expected a model with triangles, found none"),
+                               ("point.obj", "point.obj: expected a model with an extent"),
+                               ("picture.png", "picture.png: assimp cannot read"),
                                ("infinite.stl", "infinite.stl: expected finite coordinates")):
             with self.subTest(name):
                 self.assert_refused(name, expected)
@@ -466,37 +607,348 @@ class Refusals(ToolTest):
     def test_a_line_that_asks_for_gigabytes_gets_none(self):
         if b"__asan_init" in pathlib.Path(command("mesh2scene")[0]).read_bytes():
             self.skipTest("AddressSanitizer ends a program whose memory is limited")
-        pathlib.Path("many.ply").write_text("ply\nformat ascii 1.0\nelement vertex 900000000\nproperty float x\nproperty float y\nproperty float z\n"
-                                            "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")
+        pathlib.Path("many.ply").write_text(
+            "ply\nformat ascii 1.0\nelement vertex 900000000\nproperty float x\nproperty float y\nproperty "
+            "float z\n"
+            "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n"
+            "3 0 1 2\n"
+        )
         before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss
         self.assert_refused("many.ply", "many.ply: assimp cannot read this model: ")
-        self.assertLessEqual(resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss, max(before, 2_000_000))  # KiB
+        done = run("mesh2scene", stdin=pathlib.Path("many.ply").read_bytes())  # is measured, too
+        self.assertRegex(done.stderr, rb"^mesh2scene: <stdin>: assimp cannot read this model: ")
+        self.assertLessEqual(resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss, max(before,
+                                                                                         2_000_000))  # KiB
 
     def test_wrong_options(self):
         pathlib.Path("box.obj").write_text(BOX)
-        for options, expected in ((["--eye-from", "10", "91"], "--eye-from ELEVATION: expected a number from -90 to 90, found '91'"),
-                                  (["--eye-from", "x", "1"], "--eye-from AZIMUTH: expected a number from -360 to 360, found 'x'"),
-                                  (["--size", "4"], "--size: expected WIDTHxHEIGHT in pixels"), (["--fov", "0"], "--fov: expected"),
-                                  (["--crease", "180"], "--crease: expected")):
+        for options, expected in (([
+                "--eye-from", "10",
+                "91"], "--eye-from ELEVATION: expected a number from -90 to 90, found '91'"), ([
+                    "--eye-from", "x",
+                    "1"], "--eye-from AZIMUTH: expected a number from -360 to 360, found 'x'"), ([
+                        "--size", "4"], "--size: expected WIDTHxHEIGHT in pixels"), ([
+                            "--fov", "0"], "--fov: expected"), (["--crease", "180"], "--crease: expected")):
             done = run("mesh2scene", *options, "box.obj")
             self.assertEqual(done.returncode, 2)
             self.assertIn(expected, done.stderr.decode())
 
 
+TRIANGLE = struct.pack("<9f", 0, 0, 0, 1, 0, 0, 0, 1, 0)
+SECRET = struct.pack("<9f", 7, 7, 7, 8, 7, 7, 7, 8, 7)  # bytes that would come back as coordinates
+
+
+def gltf_of(*uris):
+    """A triangle from each of the files."""
+    count = range(len(uris))
+    return json.dumps(
+        {
+            "asset": {"version": "2.0"},
+            "scenes": [{"nodes": [*count]}],
+            "nodes": [{"mesh": i} for i in count],
+            "meshes": [{"primitives": [{"attributes": {"POSITION": i}}]} for i in count],
+            "accessors": [
+                {
+                    "bufferView": i,
+                    "componentType": 5126,
+                    "count": 3,
+                    "type": "VEC3",
+                    "min": [0, 0, 0],
+                    "max": [9, 9, 9],
+                }
+                for i in count
+            ],
+            "bufferViews": [{"buffer": i, "byteLength": 36} for i in count],
+            "buffers": [{"uri": uri, "byteLength": 36} for uri in uris],
+        }
+    )
+
+
+class OtherFiles(ToolTest):
+    """A model opens regular files in or below its folder."""
+
+    def setUp(self):
+        super().setUp()
+        pathlib.Path("home/model/parts").mkdir(parents=True)
+        for name, data in (
+            ("home/secret", SECRET),
+            ("home/model/data", TRIANGLE),
+            ("home/model/parts/data", TRIANGLE),
+        ):
+            pathlib.Path(name).write_bytes(data)
+        os.mkfifo("home/model/fifo")
+        with socket.socket(socket.AF_UNIX) as one:
+            one.bind("home/model/socket")
+        links = "link=parts/data chain=parts/../link folder=parts parts/up=.. out=../secret home=.. "
+        links += "parts/out=../../secret zero=/dev/zero to_fifo=fifo loop=loop self=/proc/self "
+        links += "gone=../nothing absolute="
+        for link in (links + os.path.abspath("home/model/data")).split():
+            name, target = link.split("=")
+            os.symlink(target, f"home/model/{name}")
+
+    def of_uri(self, *uris):
+        pathlib.Path("home/model/a.gltf").write_text(gltf_of(*uris))
+        return run("mesh2scene", "home/model/a.gltf")
+
+    def test_below_the_folder_are_read(self):
+        names = "data ./data .//parts///data parts/../data link chain folder/data parts/up/data "
+        names += "folder/up/folder/../data"
+        found_by_their_last_step = "/elsewhere/data home/model/data fifo/data data/../data"  # by assimp
+        for uri in names.split() + found_by_their_last_step.split():
+            with self.subTest(uri):
+                done = self.of_uri(uri)
+                self.assert_quiet_success(done)
+                self.assertEqual(
+                    [vertex[:3] for vertex in world_triangles(done.stdout.decode())[0]],
+                    [(0, 0, 0), (1, 0, 0), (0, 1, 0)],
+                )
+
+    def test_elsewhere_or_of_another_kind_are_refused(self):
+        secret = os.path.abspath("home/secret")
+        refused = (
+            "../secret parts/../../secret .. . parts parts/up/../secret /etc/passwd /dev/stdin /dev/zero out "
+            "parts/out home/secret absolute zero self/environ /proc/self/environ fifo to_fifo socket "
+            "loop gone"
+        )
+        of_no_file = "nothing file/../../secret nothing/../../secret %2e%2e/secret ..\\secret"
+        for uri in ["", secret, "file://" + secret, *refused.split(), *of_no_file.split()]:
+            with self.subTest(uri):
+                done = self.of_uri(uri)
+                self.assertEqual((done.returncode, done.stdout), (1, b""))
+                if uri == secret or uri in refused.split():
+                    expected = f"regular files in or below the model's folder, found {quoted(uri)}"
+                    self.assertEqual(
+                        done.stderr.decode(), f"mesh2scene: home/model/a.gltf: expected {expected}\n"
+                    )
+
+    def test_that_a_model_can_do_without_are_noted(self):
+        for name in ("../secret", "fifo", "/dev/zero", "out"):
+            pathlib.Path("home/model/a.obj").write_text(f"mtllib {name}\n" + BOX)
+            done = run("mesh2scene", "--up-axis", "y", "home/model/a.obj")
+            self.assertEqual(
+                (done.returncode, done.stderr.decode()),
+                (
+                    0,
+                    "mesh2scene: note: home/model/a.obj: expected regular files in or below the "
+                    f"model's folder, found '{name}': left out\n",
+                ),
+            )
+            self.assertEqual(len(world_triangles(done.stdout.decode())), 12)
+
+    def test_of_a_linked_model_are_where_the_link_is(self):
+        os.symlink("home/model/b.gltf", "a.gltf")
+        pathlib.Path("home/model/b.gltf").write_text(gltf_of("data"))
+        self.assertEqual(run("mesh2scene", "a.gltf").returncode, 1)
+        pathlib.Path("data").write_bytes(TRIANGLE)
+        self.assert_quiet_success(run("mesh2scene", "a.gltf"))
+
+    def test_of_standard_input_are_none(self):
+        pathlib.Path("a.mtl").write_text("newmtl red\nKd 1 0 0\n")
+        done = run("mesh2scene", "--up-axis", "y", stdin="mtllib a.mtl\nusemtl red\n" + BOX)
+        self.assertEqual(
+            (done.returncode, done.stderr.decode()),
+            (
+                0,
+                "mesh2scene: note: <stdin>: expected no other file, as standard input has no folder, "
+                "found 'a.mtl': left out\n",
+            ),
+        )
+        self.assertNotIn(b"255 0 0", done.stdout)
+
+    def test_never_are_the_output(self):
+        pathlib.Path("a.obj").write_text("mtllib a.mtl\n" + BOX)
+        data = b"newmtl red\nKd 1 0 0\n"
+        pathlib.Path("a.mtl").write_bytes(data)
+        os.link("a.mtl", "b.mtl")
+        for name, mode in (("a.mtl", "r+b"), ("b.mtl", "ab")):
+            with open(name, mode) as output:
+                done = run("mesh2scene", "a.obj", stdout=output)
+            expected = "a place of its own for standard output, found 'a.mtl', which the model names"
+            self.assertEqual(
+                (done.returncode, done.stderr.decode()),
+                (2, f"mesh2scene: expected {expected} (try mesh2scene --help)\n"),
+            )
+            self.assertEqual(pathlib.Path("a.mtl").read_bytes(), data)
+
+    def test_the_model_itself_is_a_regular_file(self):
+        for name in ("home/model/fifo", "home/model/socket", "/dev/zero", "/dev/null"):
+            done = run("mesh2scene", name)
+            self.assert_fails(
+                done, 1, f"mesh2scene: {name}: expected a regular file, or - for what comes through a pipe"
+            )
+
+    def test_are_limited_together(self):
+        pathlib.Path("big.obj").write_text("mtllib big.mtl\n" + BOX + "#" * 600_000)
+        pathlib.Path("big.mtl").write_text("#" * 600_000)
+        limit = "expected at most 1 MB in all files of a model (--max-input), found more"
+        self.assert_fails(
+            run("mesh2scene", "--max-input", "1", "big.obj"),
+            1,
+            f"mesh2scene: big.obj: assimp cannot read this model: big.mtl: {limit}",
+        )
+        self.assert_quiet_success(run("mesh2scene", "--max-input", "2", "--up-axis", "y", "big.obj"))
+        with open("big.obj", "ab") as file:
+            file.truncate(10**13)  # no bytes on the disk
+        self.assert_fails(
+            run("mesh2scene", "big.obj"), 1, f"mesh2scene: big.obj: {limit.replace('1', '1000')}"
+        )
+        self.assert_fails(
+            run("mesh2scene", "--max-input", "1", stdin=BOX + "#" * 1_000_000),
+            1,
+            f"mesh2scene: <stdin>: {limit}",
+        )
+
+
+class Endings(ToolTest):
+    """assimp runs in a child, which ends with its parent."""
+
+    def test_a_closed_pipe_ends_it_by_sigpipe(self):
+        pathlib.Path("box.obj").write_text(BOX)
+        reader, writer = os.pipe()
+        os.close(reader)
+        done = run("mesh2scene", "--up-axis", "y", "box.obj", stdout=writer)
+        os.close(writer)
+        self.assertEqual((done.returncode, done.stderr), (-signal.SIGPIPE, b""))
+
+    def end(self, number, kill):
+        """The status and stderr of a run that waits for standard input, once it and its child are gone."""
+        process = subprocess.Popen(
+            command("mesh2scene"),
+            stdin=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            start_new_session=True,
+            preexec_fn=heed_signals,
+        )
+        children = pathlib.Path(f"/proc/{process.pid}/task/{process.pid}/children")
+        while not children.read_text():
+            pass
+        child = int(children.read_text())
+        kill(process.pid, child, number)
+        process.wait(60)
+        return process.returncode, process.communicate(
+            timeout=60)[1].decode()  # once none of both holds stderr
+
+    def test_a_signal_ends_both(self):
+        for number in (signal.SIGTERM, signal.SIGINT, signal.SIGHUP):
+            for kill in (
+                lambda parent, child, n: os.kill(parent, n),
+                lambda parent, child, n: os.kill(child, n),
+                lambda parent, child, n: os.killpg(parent, n),
+            ):
+                self.assertEqual(self.end(number, kill), (-number, ""))
+
+    def test_the_end_of_its_time_is_told(self):
+        for number in (signal.SIGXCPU, signal.SIGALRM):
+            status, message = self.end(number, lambda parent, child, n: os.kill(child, n))
+            self.assertEqual(
+                (status, message), (1, "mesh2scene: <stdin>: assimp does not come to an end with this file\n")
+            )
+
+
+class Digits(ToolTest):
+    """A note where a coordinate is not the one that was written."""
+
+    def note_of(self, name, data):
+        pathlib.Path(name).write_text(data)
+        done = run("mesh2scene", "--up-axis", "y", name)
+        self.assertEqual(done.returncode, 0)
+        return done.stderr.decode()
+
+    def test_that_are_lost_are_noted_once(self):
+        for word, held in (
+            ("2000000.3", "2000000.2"),
+            ("-2000000.3", "-2000000.2"),
+            ("2.0000003e6", "2000000.2"),
+            ("16777217", "16777216"),
+            ("123.4567891234", "123.45679"),
+            ("500000.123", "500000.12"),
+        ):
+            note = f"'{word}' becomes {held}, as floats have seven digits: move the model to the origin\n"
+            vertices = f"{word} 0 0", f"{word} 1 0", "0 0 1"
+            self.assertEqual(
+                self.note_of("a.obj", "# 2000000.3\nv " + "\nv ".join(vertices) + "\nf 1 2 3\n"),
+                f"mesh2scene: note: a.obj:2:3: {note}",
+            )
+            self.assertEqual(
+                self.note_of(
+                    "a.stl",
+                    "solid a\nfacet normal 0 0 1\nouter loop\n  vertex "
+                    + "\n  vertex ".join(vertices)
+                    + "\nendloop\nendfacet\nendsolid\n",
+                ),
+                f"mesh2scene: note: a.stl:4:10: {note}",
+            )
+            self.assertEqual(
+                self.note_of(
+                    "a.ply",
+                    "ply\nformat ascii 1.0\nelement vertex 3\nproperty double x\nproperty double y\n"
+                    "property double z\nelement face 1\n"
+                    "property list uchar int vertex_indices\nend_header\n"
+                    + "\n".join(vertices)
+                    + "\n3 0 1 2\n",
+                ),
+                f"mesh2scene: note: a.ply:10:1: {note}",
+            )
+
+    def test_after_tabs_are_lost_too(self):
+        note = "'2000000.3' becomes 2000000.2, as floats have seven digits: move the model to the origin\n"
+        self.assertEqual(
+            self.note_of("a.obj", "v\t2000000.3\t0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\n"),
+            f"mesh2scene: note: a.obj:1:3: {note}",
+        )
+        facet = "facet normal 0 0 1\nouter loop\nvertex\t2000000.3 0 0\nvertex 0 1 0\nvertex 0 0 1\n"
+        self.assertEqual(
+            self.note_of("a.stl", f"solid a\n{facet}endloop\nendfacet\nendsolid\n"),
+            f"mesh2scene: note: a.stl:4:8: {note}",
+        )
+
+    def test_of_other_numbers_in_a_ply_do_not_count(self):
+        """A time, the index of a vertex, a face's own number."""
+        head = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty double time\n"
+        head += "property float y\nproperty float z\nelement face 1\n"
+        head += "property list uchar int vertex_indices\nproperty int id\nend_header\n100 134217728.123 0 0\n"
+        rows = "0 1  1 {}\n{}\t0 0 1\n3 0 1 2 16777217\n"
+        self.assertEqual(self.note_of("a.ply", head + rows.format(0, 0)), "")
+        note = "'2000000.3' becomes 2000000.2, as floats have seven digits: move the model to the origin\n"
+        for numbers, place in (((2000000.3, 0), "13:8"), ((0, 2000000.3), "14:1")):
+            self.assertEqual(
+                self.note_of("a.ply", head + rows.format(*numbers)),
+                f"mesh2scene: note: a.ply:{place}: {note}",
+            )
+
+    def test_of_floats_and_of_six_decimals_are_kept(self):
+        """However a program prints its floats; and what a float of a few units has."""
+        generator = random.Random(7)
+        for form in ("%.6f", "%.1f", "%.9g", "%.17g", "%e", "%.3f", "%.7g"):
+            values = [float32(generator.uniform(-1, 1) * 10 ** generator.randint(0, 7)) for _ in range(300)]
+            text = "".join(
+                "v " + " ".join(form % value for value in values[i : i + 3]) + "\n" for i in range(0, 300, 3)
+            )
+            self.assertEqual(self.note_of("a.obj", text + "f 1 2 3\n"), "", form)
+        doubles = "".join(
+            f"v {generator.uniform(-9, 9)!r} {generator.uniform(-9, 9):.6f} 16.000000\n" for _ in range(100)
+        )
+        self.assertEqual(self.note_of("a.obj", doubles + "f 1 2 3\n"), "")
+
+
 class Notes(ToolTest):
     def test_what_no_scene_can_hold(self):
         pathlib.Path("model.mtl").write_text("newmtl wood\nKd 1 1 1\nd 0.5\nmap_Kd wood.png\n")
-        pathlib.Path("model.obj").write_text("mtllib model.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl wood\nf 1 2 3\nl 1 2\n")
-        done = run("mesh2scene", "--up", "y", "model.obj")
-        self.assertEqual(done.stderr.decode(), "mesh2scene: note: model.obj: no scene can hold its textures, transparency or points and lines\n")
+        pathlib.Path("model.obj").write_text(
+            "mtllib model.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl wood\nf 1 2 3\nl 1 2\n")
+        done = run("mesh2scene", "--up-axis", "y", "model.obj")
+        self.assertEqual(
+            done.stderr.decode(),
+            "mesh2scene: note: model.obj: no scene can hold its textures, transparency or points and lines\n")
 
     def test_which_way_is_up(self):
         pathlib.Path("box.obj").write_text(BOX)
         pathlib.Path("box.stl").write_bytes(FORMATS["stl"](vase(1)))
-        for name, note in (("box.obj", "mesh2scene: note: y is taken for up, as in most OBJ files (--up chooses)\n"),
-                           ("box.stl", "mesh2scene: note: z is taken for up, as in most STL files (--up chooses)\n")):
+        for name, note in (
+            ("box.obj", "mesh2scene: note: y is taken for up, as in most OBJ files (--up-axis chooses)\n"),
+            ("box.stl", "mesh2scene: note: z is taken for up, as in most STL files (--up-axis chooses)\n")):
             self.assertEqual(run("mesh2scene", name).stderr.decode(), note)
-            self.assertEqual(run("mesh2scene", "--up", "x", name).stderr.decode(), "")
+            self.assertEqual(run("mesh2scene", "--up-axis", "x", name).stderr.decode(), "")
 
 
 if __name__ == "__main__":

@@ -7,11 +7,12 @@ import os
 import pathlib
 import unittest
 
-from toolbox import CAMERA, HEADER, HEADERS, SOURCE, TRIANGLE, ToolTest, add_claims, run
+from toolbox import BIN, CAMERA, HEADER, HEADERS, SOURCE, TRIANGLE, ToolTest, add_claims, run
 
 COMMANDS = "a command (triangle, sphere, translate, scale, rotate, push, pop or end)"
-FIRST_COMMANDS = COMMANDS[:-1] + ("; before the first triangle also color, attributes, background, light, ambient, "
-                                  "material or attenuation)")
+FIRST_COMMANDS = COMMANDS[:-1] + (
+    "; before the first triangle also color, attributes, background, light, ambient, "
+    "material or attenuation)")
 VERTICES = "0 0 0\n1 0 0\n0 1 0\n"
 MATERIALS = "attributes material\nmaterial 1 1 0 1\nmaterial 0 0 1 5\n"
 IN_RANGE = "expected a vertex whose image is within a double's range"
@@ -32,28 +33,36 @@ add_claims(SceneMessages, [
     ("a scene may end before up", "0 0 5\n0 0 0\n",
      "3:1: expected the up direction (three numbers), found the end of the input"),
     ("a scene may end before the projection", "0 0 5\n0 0 0\n0 1 0\n",
-     "4:1: expected fovY aspect near far (or: ortho L R B T N F, or: frustum L R B T N F), found the end of the input"),
+     "4:1: expected fovY aspect near far (or: ortho L R B T N F, or: frustum L R B T N F), found the end of "
+     "the input"
+     ),
     ("commands do not come before the camera", TRIANGLE, "1:1: expected the x of the eye, found 'triangle'"),
     ("the eye has a z", "0 0\n", "1:4: expected the z of the eye, found the end of the line"),
-    ("the eye has three numbers", "0 0 5 1\n", "1:7: expected the end of the line after the z of the eye, found '1'"),
+    ("the eye has three numbers", "0 0 5 1\n",
+     "1:7: expected the end of the line after the z of the eye, found '1'"),
     ("nan is no number", "0 nan 5\n", "1:3: expected the y of the eye, found 'nan'"),
     ("inf is no number", "0 0 -inf\n", "1:5: expected the z of the eye, found '-inf'"),
     ("hexadecimal is no number", "0x10 0 5\n", "1:1: expected the x of the eye, found '0x10'"),
     ("a comma is no decimal point", "1,5 0 5\n", "1:1: expected the x of the eye, found '1,5'"),
-    ("letters behind a number are a mistake", "1.5abc 0 5\n", "1:1: expected the x of the eye, found '1.5abc'"),
+    ("letters behind a number are a mistake", "1.5abc 0 5\n",
+     "1:1: expected the x of the eye, found '1.5abc'"),
     ("a number may be too large", "0 0 1e309\n",
      "1:5: expected the z of the eye within a double's range, found '1e309'"),
     ("a NUL byte is no blank", "0\x000 5\n", "1:1: expected the x of the eye, found '0\\x000'"),
-    ("bytes beyond ASCII are shown in hexadecimal", "\xa05 0 5\n", "1:1: expected the x of the eye, found '\\xa05'"),
+    ("bytes beyond ASCII are shown in hexadecimal", "\xa05 0 5\n",
+     "1:1: expected the x of the eye, found '\\xa05'"),
     ("long words are cut", "x" * 100 + "\n", "1:1: expected the x of the eye, found '" + "x" * 40 + "...'"),
-    ("a line has an end", "0" * 2000000, "1:1048577: expected the end of the line, found more than 1048576 characters"),
-    ("fovY is above 0", "0 0 5\n0 0 0\n0 1 0\n0 1 1 100\n", "4:1: expected fovY above 0 and below 180 degrees, found '0'"),
+    ("a line has an end", "0" * 2000000,
+     "1:1048577: expected the end of the line, found more than 1048576 characters"),
+    ("fovY is above 0", "0 0 5\n0 0 0\n0 1 0\n0 1 1 100\n",
+     "4:1: expected fovY above 0 and below 180 degrees, found '0'"),
     ("fovY is below 180", "0 0 5\n0 0 0\n0 1 0\n180 1 1 100\n",
      "4:1: expected fovY above 0 and below 180 degrees, found '180'"),
     ("aspect is above 0", "0 0 5\n0 0 0\n0 1 0\n60 0 1 100\n", "4:4: expected aspect above 0, found '0'"),
     ("near is above 0", "0 0 5\n0 0 0\n0 1 0\n60 1 0 100\n", "4:6: expected near above 0, found '0'"),
     ("far is beyond near", "0 0 5\n0 0 0\n0 1 0\n60 1 2 2\n", "4:8: expected far beyond near, found '2'"),
-    ("a perspective has a far", "0 0 5\n0 0 0\n0 1 0\n60 1 2\n", "4:7: expected far, found the end of the line"),
+    ("a perspective has a far", "0 0 5\n0 0 0\n0 1 0\n60 1 2\n",
+     "4:7: expected far, found the end of the line"),
     ("a frustum has a near above 0", "0 0 5\n0 0 0\n0 1 0\nfrustum -1 1 -1 1 -1 9\n",
      "4:19: expected near above 0, found '-1'"),
     ("an ortho has a width", "0 0 5\n0 0 0\n0 1 0\northo 1 1 -1 1 -1 9\n",
@@ -68,11 +77,14 @@ add_claims(SceneMessages, [
     ("the eye is not looked at", "1 2 3\n1 2 3\n0 1 0\n60 1 1 100\n",
      "2:1: expected a point other than the eye to look at, found 1 2 3"),
     # The commands.
-    ("a scene ends with end", CAMERA + "push\n", "6:1: expected 'end', which closes a scene, found the end of the input"),
-    ("nothing follows end", CAMERA + "end\n\n# c\n push\n", "8:2: expected nothing after 'end', found 'push'"),
+    ("a scene ends with end", CAMERA + "push\n",
+     "6:1: expected 'end', which closes a scene, found the end of the input"),
+    ("nothing follows end", CAMERA + "end\n\n# c\n push\n",
+     "8:2: expected nothing after 'end', found 'push'"),
     ("end has no arguments", CAMERA + "end 1\n", "5:5: expected the end of the line after 'end', found '1'"),
     ("commands are known", CAMERA + "\tcube 1\n", f"5:2: expected {FIRST_COMMANDS}, found 'cube'"),
-    ("commands are in lower case", CAMERA + "PUSH\n", f"5:1: expected {FIRST_COMMANDS}, found 'PUSH' (keywords are lower case)"),
+    ("commands are in lower case", CAMERA + "PUSH\n",
+     f"5:1: expected {FIRST_COMMANDS}, found 'PUSH' (keywords are lower case)"),
     ("commands with a capital are too", CAMERA + "Triangle\n",
      f"5:1: expected {FIRST_COMMANDS}, found 'Triangle' (keywords are lower case)"),
     ("misspelled commands are guessed", CAMERA + TRIANGLE + "trianlge\n",
@@ -85,13 +97,16 @@ add_claims(SceneMessages, [
      "4:12: expected ratio, angle or the end of the line after far, found 'Ratio' (keywords are lower case)"),
     ("misspelled attributes are guessed", CAMERA + "attributes colour\n",
      "5:12: expected attributes of [color] [normal], in this order, found 'colour' (did you mean color?)"),
-    ("push has no arguments", CAMERA + "push 1\n", "5:6: expected the end of the line after 'push', found '1'"),
-    ("pop has no arguments", CAMERA + "push\npop pop\n", "6:5: expected the end of the line after 'pop', found 'pop'"),
+    ("push has no arguments", CAMERA + "push 1\n",
+     "5:6: expected the end of the line after 'push', found '1'"),
+    ("pop has no arguments", CAMERA + "push\npop pop\n",
+     "6:5: expected the end of the line after 'pop', found 'pop'"),
     ("pop comes after push", CAMERA + "push\npop\npop\nend\n",
      "7:1: expected a matrix that 'push' has saved, found 'pop' without one"),
     ("a triangle has three vertices", CAMERA + "triangle\n0 0 0\n1 0 0\nend\n",
      "8:1: expected the x of vertex 3 of 3, found 'end'"),
-    ("a triangle has no fourth vertex", CAMERA + TRIANGLE + "1 1 0\nend\n", f"9:1: expected {COMMANDS}, found '1' (a triangle has three vertices)"),
+    ("a triangle has no fourth vertex", CAMERA + TRIANGLE + "1 1 0\nend\n",
+     f"9:1: expected {COMMANDS}, found '1' (a triangle has three vertices)"),
     ("a scene may end inside a triangle", CAMERA + "triangle\n0 0 0\n",
      "7:1: expected vertex 2 of 3, found the end of the input"),
     ("a vertex has three numbers", CAMERA + "triangle\n0 0 0\n1 0\n0 1 0\n",
@@ -102,30 +117,38 @@ add_claims(SceneMessages, [
      "5:16: expected the end of the line after the z of vertex 1 of 3, found '1'"),
     ("translate has three numbers", CAMERA + "translate\n1 2\n",
      "6:4: expected the z of the translation, found the end of the line"),
-    ("translate has arguments", CAMERA + "translate\npush\n", "6:1: expected the x of the translation, found 'push'"),
-    ("scale has three numbers", CAMERA + "scale 2\n", "5:8: expected the y of the scale, found the end of the line"),
+    ("translate has arguments", CAMERA + "translate\npush\n",
+     "6:1: expected the x of the translation, found 'push'"),
+    ("scale has three numbers", CAMERA + "scale 2\n",
+     "5:8: expected the y of the scale, found the end of the line"),
     ("a scene may end before an argument", CAMERA + "scale\n",
      "6:1: expected three factors, found the end of the input"),
-    ("rotate has an axis", CAMERA + "rotate\n90\n0 0 1\n", "6:3: expected the x of the axis, found the end of the line"),
+    ("rotate has an axis", CAMERA + "rotate\n90\n0 0 1\n",
+     "6:3: expected the x of the axis, found the end of the line"),
     ("rotate has an angle", CAMERA + "rotate\nx 0 0 1\n", "6:1: expected an angle in degrees, found 'x'"),
-    ("a rotation axis is not zero", CAMERA + "rotate\n90 0 0.0 -0\n", "6:4: expected a rotation axis, found 0 0 0"),
-    ("a vertex may leave a doubles range", CAMERA + "scale 1e200 1 1\nscale 1e200 1 1\ntriangle\n0 0 0\n1 0 0\n0 1 0\nend\n",
+    ("a rotation axis is not zero", CAMERA + "rotate\n90 0 0.0 -0\n",
+     "6:4: expected a rotation axis, found 0 0 0"),
+    ("a vertex may leave a doubles range",
+     CAMERA + "scale 1e200 1 1\nscale 1e200 1 1\ntriangle\n0 0 0\n1 0 0\n0 1 0\nend\n",
      f"9:1: {IN_RANGE}, found an overflow of its x"),
     # Appearance.
-    ("a color has three channels", CAMERA + "color 1 2\n", "5:10: expected the blue of the color, found the end of the line"),
-    ("a channel is at most 255", CAMERA + "color\n\t1 256 0\n", "6:4: expected the green of the color from 0 to 255, found '256'"),
+    ("a color has three channels", CAMERA + "color 1 2\n",
+     "5:10: expected the blue of the color, found the end of the line"),
+    ("a channel is at most 255", CAMERA + "color\n\t1 256 0\n",
+     "6:4: expected the green of the color from 0 to 255, found '256'"),
     ("a channel is not negative", CAMERA + "background 1 2 -1\n",
      "5:16: expected the blue of the background from 0 to 255, found '-1'"),
     ("a color needs numbers", CAMERA + "color red\n", "5:7: expected the red of the color, found 'red'"),
-    ("a scene may end before a color", CAMERA + "color\n", "6:1: expected the arguments of 'color', found the end of the input"),
+    ("a scene may end before a color", CAMERA + "color\n",
+     "6:1: expected the arguments of 'color', found the end of the input"),
     ("a color may not begin behind triangles", CAMERA + TRIANGLE + "color 1 2 3\nend\n",
      "9:1: expected 'color' or 'attributes color' before the first triangle, too, found 'color' after it"),
     ("a light may not come behind triangles", CAMERA + TRIANGLE + " light 1 2 3 1 1 1\nend\n",
      "9:2: expected 'light' before the first triangle, found 'light' after it"),
     ("colors may change behind triangles", CAMERA + "color 1 2 3\n" + TRIANGLE + "cube\n",
      f"10:1: expected {COMMANDS[:-1]}; also color), found 'cube'"),
-    ("so may materials", CAMERA + "material 1 1 0 1\nmaterial 1 1 0 2\nabsorption 1 1 1\ncolor 1 2 3\n" + TRIANGLE + "cube\n",
-     f"13:1: expected {COMMANDS[:-1]}; also color and use), found 'cube'"),
+    ("so may materials", CAMERA + "material 1 1 0 1\nmaterial 1 1 0 2\nabsorption 1 1 1\ncolor 1 2 3\n" +
+     TRIANGLE + "cube\n", f"13:1: expected {COMMANDS[:-1]}; also color and use), found 'cube'"),
     ("attributes are known", CAMERA + "attributes hue\n",
      "5:12: expected attributes of [color] [normal], in this order, found 'hue'"),
     ("attributes have an order", CAMERA + "attributes normal color\n",
@@ -135,7 +158,9 @@ add_claims(SceneMessages, [
     ("the background stands once", CAMERA + "background 1 2 3\n  background 1 2 3\n",
      "6:3: expected one 'background', found a second one after scene.txt:5:12"),
     ("columns that are announced are there", CAMERA + "attributes color normal\ntriangle\n0 0 0 1 2 3\n",
-     "7:12: expected the normal's x of vertex 1 of 3 (x y z r g b nx ny nz, by the line 'attributes color normal'), found the end of the line"),
+     "7:12: expected the normal's x of vertex 1 of 3 (x y z r g b nx ny nz, by the line 'attributes color "
+     "normal'), found the end of the line"
+     ),
     ("a normal has a direction", CAMERA + "attributes color normal\ntriangle\n0 0 1 1 2 3  0 0 0\n",
      "7:14: expected a normal of vertex 1 of 3 other than 0 0 0, found 0 0 0"),
     ("a light has a position and a color", CAMERA + "light 1 2 3\n",
@@ -159,8 +184,7 @@ add_claims(SceneMessages, [
     ("attenuation is not zero", CAMERA + "attenuation 0 0 0\n",
      "5:13: expected an attenuation other than 0 0 0, found 0 0 0"),
     ("attenuation is not negative", CAMERA + "attenuation 1 -1 0\n",
-     "5:15: expected the linear attenuation of at least 0, found '-1'"),
-])
+     "5:15: expected the linear attenuation of at least 0, found '-1'"), ])
 
 
 class StageMessages(ToolTest):
@@ -179,13 +203,19 @@ add_claims(StageMessages, [
     ("keywords are known behind the header", HEADER + VERTICES + "quad\n",
      "8:1: expected 'triangle N' or a vertex, found 'quad'"),
     ("a material is one of the header's", MATERIALS + HEADER + "0 0 0 2\n",
-     "8:7: expected the material of vertex 1 of 3 (x y z material, by the line 'attributes material'), a whole number below 2, found '2'"),
+     "8:7: expected the material of vertex 1 of 3 (x y z material, by the line 'attributes material'), a "
+     "whole number below 2, found '2'"
+     ),
     ("a material is a whole number", MATERIALS + HEADER + "0 0 0 1.0\n",
-     "8:7: expected the material of vertex 1 of 3 (x y z material, by the line 'attributes material'), a whole number below 2, found '1.0'"),
+     "8:7: expected the material of vertex 1 of 3 (x y z material, by the line 'attributes material'), a "
+     "whole number below 2, found '1.0'"
+     ),
     ("a triangle has one material", MATERIALS + HEADER + "0 0 0 1\n1 0 0 1\n0 1 0 0\n",
      "10:7: expected the material of the triangle's first vertex, 1, found '0'"),
     ("a vertex has the columns of its attributes", "attributes color\n" + HEADER + "0 0 0 1 1\n",
-     "6:10: expected the blue of vertex 1 of 3 (x y z r g b, by the line 'attributes color'), found the end of the line"),
+     "6:10: expected the blue of vertex 1 of 3 (x y z r g b, by the line 'attributes color'), found the end "
+     "of the line"
+     ),
     ("a number of a triangle is below 2 to the 64", HEADER + "triangle 18446744073709551616\n",
      "5:10: expected the number of a triangle, a whole number below 2^64, found '18446744073709551616'"),
     ("an earlier stage may have failed without a word", HEADER + VERTICES + "error\n",
@@ -202,7 +232,8 @@ add_claims(StageMessages, [
      "6:4: expected the z of vertex 2 of 3, found the end of the line"),
     ("a vertex has no fourth number", HEADER + "0 0 0 1\n",
      "5:7: expected the end of the line after the z of vertex 1 of 3, found '1'"),
-    ("nan is no coordinate", HEADER + "0 0 0\n1 -nan 0\n", "6:3: expected the y of vertex 2 of 3, found '-nan'"),
+    ("nan is no coordinate", HEADER + "0 0 0\n1 -nan 0\n",
+     "6:3: expected the y of vertex 2 of 3, found '-nan'"),
     ("a coordinate may be too large", HEADER + "0 0 0\n1 0 0\n0 1e999 0\n",
      "7:3: expected the y of vertex 3 of 3 within a double's range, found '1e999'"),
     ("a framed text has an end", "framed\n" + HEADER + VERTICES,
@@ -210,8 +241,7 @@ add_claims(StageMessages, [
     ("the end of a framed text is a line", "framed\n" + HEADER + "end",
      "6:4: expected the end of the line after 'end', which closes a framed text, found the end of the input"),
     ("nothing follows the end of a framed text", "framed\n" + HEADER + "end\n0 0 0\n",
-     "7:1: expected nothing after 'end', found '0'"),
-])
+     "7:1: expected nothing after 'end', found '0'"), ])
 
 
 class HeaderMessages(ToolTest):
@@ -225,27 +255,32 @@ class HeaderMessages(ToolTest):
 
 
 add_claims(HeaderMessages, [
-    ("header lines stand once", HEADER + "eye 0 0 5\n", "5:1: expected one eye, found a second one after stage.txt:1:5"),
+    ("header lines stand once", HEADER + "eye 0 0 5\n",
+     "5:1: expected one eye, found a second one after stage.txt:1:5"),
     ("there is one projection", HEADER + "ortho -1 1 -1 1 1 9\n",
      "5:1: expected one projection, found a second one after stage.txt:4:13"),
-    ("framed stands once", HEADER + "framed\nframed\n", "6:1: expected one 'framed', found a second one after stage.txt:5:1"),
+    ("framed stands once", HEADER + "framed\nframed\n",
+     "6:1: expected one 'framed', found a second one after stage.txt:5:1"),
     ("framed stands alone", "framed yes\n", "1:8: expected the end of the line after 'framed', found 'yes'"),
     ("header lines are complete", "look 0 0\n" + HEADER,
      "1:9: expected the z of the point looked at, found the end of the line"),
     ("header lines hold numbers", "perspective 60 1 one 100\n", "1:18: expected near, found 'one'"),
     ("a camera in the header makes sense", "eye 0 0 5\nlook 0 0 5\n",
      "2:6: expected a point other than the eye to look at, found 0 0 5"),
-    ("keywords are known", HEADER + "camera 1\n", "5:1: expected a header line, 'triangle N' or a vertex, found 'camera'"),
+    ("keywords are known", HEADER + "camera 1\n",
+     "5:1: expected a header line, 'triangle N' or a vertex, found 'camera'"),
     ("misspelled keywords are guessed", HEADER + "perpective 60 1 1 9\n",
      "5:1: expected a header line, 'triangle N' or a vertex, found 'perpective' (did you mean perspective?)"),
     ("keywords are in lower case", "Eye 0 0 5\n",
      "1:1: expected a header line, 'triangle N' or a vertex, found 'Eye' (keywords are lower case)"),
-    ("attributes have an order", "attributes color w\n", "1:18: expected attributes of [w] [color] [normal] [material], in this order, found 'w'"),
+    ("attributes have an order", "attributes color w\n",
+     "1:18: expected attributes of [w] [color] [normal] [material], in this order, found 'w'"),
     ("an unframed text has no end", HEADER + "end\n",
-     "5:1: expected a header line, 'triangle N' or a vertex ('end' needs a line 'framed' in the header), found 'end'"),
+     "5:1: expected a header line, 'triangle N' or a vertex ('end' needs a line 'framed' in the header), "
+     "found 'end'"
+     ),
     ("an earlier stage may have failed", HEADER + "error model: scene.txt:9:1: no #1 scene\n",
-     "5:1: an earlier stage failed: model: scene.txt:9:1: no #1 scene"),
-])
+     "5:1: an earlier stage failed: model: scene.txt:9:1: no #1 scene"), ])
 
 
 class CameraMessages(ToolTest):
@@ -255,69 +290,85 @@ class CameraMessages(ToolTest):
 
 
 CAMERA_FORM = "a camera (header lines eye, look and up; or --scene; or --eye, --look and --up)"
-PROJECTION_FORM = ("a projection (a header line perspective, frustum or ortho; or --scene; or --perspective, --frustum or "
-                   "--ortho)")
+PROJECTION_FORM = (
+    "a projection (a header line perspective, frustum or ortho; or --scene; or --perspective, --frustum or "
+    "--ortho)")
 OF_NO_STAGE = ": this text is bare, or has been through project already"
 add_claims(CameraMessages, [
-    ("view needs a camera", "view", VERTICES, 1, f"<stdin>:1:1: expected {CAMERA_FORM}, found no eye, look or up" + OF_NO_STAGE),
+    ("view needs a camera", "view", VERTICES, 1,
+     f"<stdin>:1:1: expected {CAMERA_FORM}, found no eye, look or up" + OF_NO_STAGE),
     ("view needs a whole camera", "view", "eye 0 0 5\n# c\n\n 0 0 0\n", 1,
      f"<stdin>:4:2: expected {CAMERA_FORM}, found no look or up"),
     ("view says which option is missing", "view --eye 0 0 5 --look 0 0 0", VERTICES, 1,
      f"<stdin>:1:1: expected {CAMERA_FORM}, found no up"),
-    ("project needs a projection", "project", VERTICES, 1, f"<stdin>:1:1: expected {PROJECTION_FORM}, found none" + OF_NO_STAGE),
-    ("project needs it also without triangles", "project", "", 1, f"<stdin>:1:1: expected {PROJECTION_FORM}, found none"),
+    ("project needs a projection", "project", VERTICES, 1,
+     f"<stdin>:1:1: expected {PROJECTION_FORM}, found none" + OF_NO_STAGE),
+    ("project needs it also without triangles", "project", "", 1,
+     f"<stdin>:1:1: expected {PROJECTION_FORM}, found none"),
     ("fovX has to make sense in project", "project", "# c\nperspective 90 2 1 9\n", 1,
-     "<stdin>:2:13: expected fovX = fovY * aspect above 0 and below 180 degrees (or --aspect ratio; in a scene, the word ratio at the end), found 90 * 2"),
+     "<stdin>:2:13: expected fovX = fovY * aspect above 0 and below 180 degrees (or --aspect ratio; in a "
+     "scene, the word ratio at the end), found 90 * 2"
+     ),
     ("fovX may be far too large", "project", "perspective 100 1e308 1 9\n", 1,
-     "<stdin>:1:13: expected fovX = fovY * aspect above 0 and below 180 degrees (or --aspect ratio; in a scene, the word ratio at the end), found 100 * 1e+308"),
-    ("a vertex on the eye plane cannot be divided", "project --clip none", "perspective 60 1 1 9\n0 0 -2\n1 0 0\n0 1 -2\n", 1,
-     f"<stdin>:3:1: {IN_FRONT}, found z = 0"),
-    ("a vertex behind the eye cannot be divided", "project --clip none", "perspective 60 1 1 9\n0 0 2\n1 0 -2\n0 1 -2\n", 1,
-     f"<stdin>:2:1: {IN_FRONT}, found z = 2"),
-    ("a cut may be too near to the eye", "project",
-     "perspective 120 1 1e-200 1e200\n1.8 -0.4 0.4\n-0.3 -1.1 1.0\n0.9 -0.6 -2.0\n", 1,
-     # The first cut is on the edge from vertex 2 to vertex 3, a third of the way along.
-     "<stdin>:3:1: expected a cut that 31 digits can tell from the eye plane (a larger near helps), found one nearer to it"),
+     "<stdin>:1:13: expected fovX = fovY * aspect above 0 and below 180 degrees (or --aspect ratio; in a "
+     "scene, the word ratio at the end), found 100 * 1e+308"
+     ),
+    ("a vertex on the eye plane cannot be divided", "project --clip none",
+     "perspective 60 1 1 9\n0 0 -2\n1 0 0\n0 1 -2\n", 1, f"<stdin>:3:1: {IN_FRONT}, found z = 0"),
+    ("a vertex behind the eye cannot be divided", "project --clip none",
+     "perspective 60 1 1 9\n0 0 2\n1 0 -2\n0 1 -2\n", 1, f"<stdin>:2:1: {IN_FRONT}, found z = 2"),
+    (
+        "a cut may be too near to the eye", "project",
+        "perspective 120 1 1e-200 1e200\n1.8 -0.4 0.4\n-0.3 -1.1 1.0\n0.9 -0.6 -2.0\n", 1,
+        # The first cut is on the edge from vertex 2 to vertex 3, a third of the way along.
+        "<stdin>:3:1: expected a cut that 31 digits can tell from the eye plane (a larger near helps), found "
+        "one nearer to it"
+    ),
     ("a vertex may leave a doubles range in view", "view --eye 1e308 0 0 --look 0 1e308 0 --up 0 0 1",
-     "0 0 0\n-1e308 -1e308 0\n0 0 0\n", 1,
-     f"<stdin>:2:1: {IN_RANGE}, found an overflow of its x"),
+     "0 0 0\n-1e308 -1e308 0\n0 0 0\n", 1, f"<stdin>:2:1: {IN_RANGE}, found an overflow of its x"),
     ("a vertex may leave a doubles range in project", "project --perspective 1e-9 1 1 9",
-     "1e308 0 -1\n0 0 -1\n0 0 -1\n", 1,
-     f"<stdin>:1:1: {IN_RANGE}, found an overflow of its x"),
+     "1e308 0 -1\n0 0 -1\n0 0 -1\n", 1, f"<stdin>:1:1: {IN_RANGE}, found an overflow of its x"),
     ("a light may leave a doubles range in view", "view",
      "eye -1e308 0 0\nlook 0 0 0\nup 0 1 0\nlight  1.7e308 0 0 1 1 1\n", 1,
      "<stdin>:4:8: expected a light whose image is within a double's range, found an overflow of its z"),
     ("what is projected is not put before the camera", "view", "attributes w color\n" + HEADER, 1,
-     "<stdin>:1:12: expected a text that is not projected yet, found one with the column 'w', which project adds"),
+     "<stdin>:1:12: expected a text that is not projected yet, found one with the column 'w', which "
+     "project adds"
+     ),
     ("what is projected is not projected again", "project", "perspective 60 1 1 9\nattributes w\n", 1,
-     "<stdin>:2:12: expected a text that is not projected yet, found one with the column 'w', which project adds"),
+     "<stdin>:2:12: expected a text that is not projected yet, found one with the column 'w', which "
+     "project adds"
+     ),
     ("a w is above 0", "zbuf config.txt", "attributes w\n0 0 0 0\n", 1,
      "<stdin>:2:7: expected the w of vertex 1 of 3 (x y z w, by the line 'attributes w') above 0, found '0'"),
     ("shading needs a light", "zbuf config.txt --shading flat", "background 1 2 3\n" + VERTICES, 1,
      "<stdin>:2:1: expected a light for --shading (a header line light), found none"),
     ("light needs a projection", "zbuf config.txt", "light 1 1 1 1 1 1\n" + VERTICES, 1,
-     "<stdin>:2:1: expected a header line 'projected frustum L R B T N F' (or ortho) in a text with lights, found none: "
+     "<stdin>:2:1: expected a header line 'projected frustum L R B T N F' (or ortho) in a text with lights, "
+     "found none: "
      "this text has not been through project"),
     ("a whole of a clipped triangle is in clip space", "zbuf config.txt", "clipped\n0 0 0\n", 1,
-     "<stdin>:2:6: expected the w of vertex 1 of 3 (x y z w, by the line 'attributes w'), found the end of the line"),
+     "<stdin>:2:6: expected the w of vertex 1 of 3 (x y z w, by the line 'attributes w'), found the end of "
+     "the line"
+     ),
     ("clipped stands alone", "zbuf config.txt", "clipped 1\n", 1,
      "<stdin>:1:9: expected the end of the line after 'clipped', found '1'"),
     ("only zbuf knows clipped", "project --perspective 60 1 1 9", "clipped\n", 1,
      "<stdin>:1:1: expected 'triangle N' or a vertex, found 'clipped'"),
-    ("a frame may be asked for", "zbuf config.txt --framed", VERTICES, 1,
+    ("a frame may be asked for", "zbuf config.txt --expect-framed", VERTICES, 1,
      "<stdin>:1:1: expected a framed text (model --framed), found one without 'framed'"),
-    ("a frame of nothing may be asked for", "zbuf config.txt --framed", "", 1,
+    ("a frame of nothing may be asked for", "zbuf config.txt --expect-framed", "", 1,
      "<stdin>:1:1: expected a framed text (model --framed), found an empty one"),
     ("a scene besides the input is a file", "view --scene -", "", 2,
      "--scene: expected a file, as INPUT is standard input, found '-' (try view --help)"),
-    ("a scene besides the input exists", "view --scene none.txt", "", 1, "cannot open none.txt: No such file or directory"),
+    ("a scene besides the input exists", "view --scene none.txt", "", 1,
+     "cannot open none.txt: No such file or directory"),
     ("a scene besides the input is one", "project --scene config.txt", "", 1,
      "config.txt:1:1: expected a scene, but this looks like a config: zbuf reads those"),
     ("a camera of option and header makes sense", "view --look 0 0 5", HEADER, 2,
      "--look: expected a point other than the eye to look at, found 0 0 5 (try view --help)"),
     ("an eye of the header is looked at by no option", "view --eye 0 0 0", HEADER, 1,
-     "<stdin>:2:6: expected a point other than the eye to look at, found 0 0 0"),
-])
+     "<stdin>:2:6: expected a point other than the eye to look at, found 0 0 0"), ])
 
 
 class VertexPlaces(ToolTest):
@@ -354,17 +405,19 @@ class VertexPlaces(ToolTest):
 
     def test_view(self):
         # Turned by 180 degrees about y, then the eye is subtracted: 1.7e308 + 1.7e308.
-        self.assert_placed("view", header="eye 1.7e308 0 0\nlook 1.7e308 0 1\nup 0 1 0\n", frame=self.of_stage_text,
-                           x="-1.7e308", reason=f"{IN_RANGE}, found an overflow of its x")
+        self.assert_placed("view", header="eye 1.7e308 0 0\nlook 1.7e308 0 1\nup 0 1 0\n",
+                           frame=self.of_stage_text, x="-1.7e308",
+                           reason=f"{IN_RANGE}, found an overflow of its x")
 
     def test_project(self):
         # 1 / tan(1e-305 degrees / 2) is 1.1e307.
-        self.assert_placed("project", header="perspective 1e-305 1 1 9\n", frame=self.of_stage_text, x="99999.5",
-                           reason=f"{IN_RANGE}, found an overflow of its x")
+        self.assert_placed("project", header="perspective 1e-305 1 1 9\n", frame=self.of_stage_text,
+                           x="99999.5", reason=f"{IN_RANGE}, found an overflow of its x")
 
     def test_project_without_clipping(self):
         for form, column in self.LINES:
-            text = self.of_stage_text(*3 * (self.GOOD,)) * 1000 + self.of_stage_text(self.GOOD, self.GOOD, form.format("1 1 2.50"))
+            text = self.of_stage_text(*3 * (self.GOOD, )) * 1000 + self.of_stage_text(
+                self.GOOD, self.GOOD, form.format("1 1 2.50"))
             with self.subTest(form=form):
                 done = run("project", "--clip", "none", "--perspective", 60, 1, 1, 9, stdin=text)
                 self.assert_fails(done, 1, f"project: <stdin>:4003:{column}: {IN_FRONT}, found z = 2.5")
@@ -377,16 +430,19 @@ class VertexPlaces(ToolTest):
 
     def test_a_vertex_on_the_line_of_its_triangle(self):
         scene = CAMERA + "scale 1 1 1e305\n  triangle\t 0 0 99999.5\n0 0 0\n0 0 0\nend\n"
-        self.assert_fails(run("model", stdin=scene), 1, f"model: <stdin>:6:13: {IN_RANGE}, found an overflow of its z")
+        self.assert_fails(run("model", stdin=scene), 1,
+                          f"model: <stdin>:6:13: {IN_RANGE}, found an overflow of its z")
 
     def test_digits_that_are_not_certain(self):
         # 1e30 is added before a rotation and subtracted after it: none of 31 digits is left.
-        scene = CAMERA + "translate 1e30 0 0\nrotate 33 1 2 3\ntranslate -1e30 0 0\ntriangle\n  1 2 3\n4 5 6\n7 8 9\nend\n"
-        for threads in (1, 3):
-            done = run("model", "--threads", threads, stdin=scene)
-            self.assertEqual((done.stderr.decode(), done.returncode), (
-                "model: note: <stdin>:9:3: the digits of this vertex and of 2 more are not certain: "
-                "numbers cancel here beyond 31 digits\n", 0))
+        scene = (
+            CAMERA +
+            "translate 1e30 0 0\nrotate 33 1 2 3\ntranslate -1e30 0 0\ntriangle\n  1 2 3\n4 5 6\n7 8 9\nend\n"
+        )
+        done = run("model", stdin=scene)
+        self.assertEqual((done.stderr.decode(), done.returncode), (
+            "model: note: <stdin>:9:3: the digits of this vertex and of 2 more are not certain: "
+            "numbers cancel here beyond 31 digits\n", 0))
 
     def test_digits_that_are_not_certain_are_counted(self):
         lost = "push\ntranslate 1e31 0 0\nrotate 120 1 1 1\nrotate 240 1 1 1\ntranslate -1e31 0 0\n"
@@ -394,29 +450,36 @@ class VertexPlaces(ToolTest):
         triangles = "triangle\n1 2 3\n4 5 6\n7 8 10\n"
         beyond = "are not certain: numbers cancel here beyond 31 digits\n"
         for text, notes in (
-                (lost + lights + "pop\n" + triangles, [f"10:7: the digits of this light {beyond}"]),
-                (lost + 3 * lights + "pop\n" + triangles, [f"10:7: the digits of this light and of 2 more {beyond}"]),
-                (triangles + lost + "scale 0 0 1\ntriangle\n0 0 0\n0 0 0\n0 0 0\n", [f"16:1: the digits of this vertex and of 2 more {beyond}"]),
+            (lost + lights + "pop\n" + triangles, [
+                f"10:7: the digits of this light {beyond}"]), (lost + 3 * lights + "pop\n" + triangles, [
+                    f"10:7: the digits of this light and of 2 more {beyond}"
+                ]), (triangles + lost + "scale 0 0 1\ntriangle\n0 0 0\n0 0 0\n0 0 0\n", [
+                    f"16:1: the digits of this vertex and of 2 more {beyond}"]),
                 # Enough for more than one part of a text; what stands behind it takes the parts back.
-                (lost + lights + 3000 * triangles + "pop\n" + triangles, [
-                    f"10:7: the digits of this light {beyond}", f"12:1: the digits of this vertex and of 8999 more {beyond}"])):
-            for threads in (1, 2, 5):
-                with self.subTest(notes=notes, threads=threads):
-                    done = run("model", "--digits", "exact", "--threads", threads, stdin=CAMERA + text + "end\n")
-                    self.assertEqual((done.stderr.decode(), done.returncode), (
-                        "".join("model: note: <stdin>:" + note for note in notes), 0))
+            (lost + lights + 3000 * triangles + "pop\n" + triangles, [
+                f"10:7: the digits of this light {beyond}",
+                f"12:1: the digits of this vertex and of 8999 more {beyond}"])):
+            with self.subTest(notes=notes):
+                done = run("model", "--digits", "exact", stdin=CAMERA + text + "end\n")
+                self.assertEqual((done.stderr.decode(), done.returncode), (
+                    "".join("model: note: <stdin>:" + note for note in notes), 0))
 
     def test_the_digits_of_one_vertex(self):
         # Cut at w = 1e-20: one cut lies on the axis, of the other's x no digit is right.
-        done = run("project", "--clip", "near", "--perspective", 90, 1, "1e-20", 10, stdin="0 0 -2\n0 0 2\n 1 0 1\n")
+        done = run("project", "--clip", "near", "--perspective", 90, 1, "1e-20", 10,
+                   stdin="0 0 -2\n0 0 2\n 1 0 1\n")
         self.assertEqual((done.stderr.decode(), done.returncode), (
-            "project: note: <stdin>:3:2: the digits of this vertex are not certain: numbers cancel here beyond 31 digits\n", 0))
+            "project: note: <stdin>:3:2: the digits of this vertex are not certain: numbers cancel here "
+            "beyond 31 digits\n",
+            0))
 
     def test_digits_of_a_light_in_view_space(self):
         text = "eye -1e34 0.5 1e32\nlook 0 5 9\nup 0 1 0\n  light 1 2 3 1 1 1\n"
         done = run("view", stdin=text)
         self.assertEqual((done.stderr.decode(), done.returncode), (
-            "view: note: <stdin>:4:9: the digits of this light are not certain: numbers cancel here beyond 31 digits\n", 0))
+            "view: note: <stdin>:4:9: the digits of this light are not certain: numbers cancel here beyond "
+            "31 digits\n",
+            0))
 
     def test_no_sample_has_digits_that_are_not_certain(self):
         scenes = sorted(SOURCE.glob("samples/*/scene.txt"))
@@ -432,8 +495,11 @@ class VertexPlaces(ToolTest):
 
     def test_a_window_of_a_lit_perspective_has_to_fit_a_double(self):
         text = "perspective 179.9999999999 1 1e305 1e306\nlight 0 0 0 1 1 1\n"
-        self.assert_fails(run("project", stdin=text), 1,
-                          "project: <stdin>:1:13: expected a perspective whose window is within a double's range, found an overflow of its width")
+        self.assert_fails(
+            run("project", stdin=text), 1,
+            "project: <stdin>:1:13: expected a perspective whose window is within a double's range, found an "
+            "overflow of its width"
+        )
 
 
 class ConfigMessages(ToolTest):
@@ -446,26 +512,33 @@ class ConfigMessages(ToolTest):
 SIZE = "in pixels, a whole number from 1 to 65535"
 REAR = "the rear limit of Z, a number greater than the front limit"
 add_claims(ConfigMessages, [
-    ("a config is not empty", "# c\n", "2:1: expected the width and height in pixels, found the end of the input"),
+    ("a config is not empty", "# c\n",
+     "2:1: expected the width and height in pixels, found the end of the input"),
     ("a config has a width", "x 8\n", f"1:1: expected the width {SIZE}, found 'x'"),
     ("a config has a height", "8\n", f"1:2: expected the height {SIZE}, found the end of the line"),
     ("a size is above 0", "0 8\n", f"1:1: expected the width {SIZE}, found '0'"),
     ("a size is below 65536", "8 65536\n", f"1:3: expected the height {SIZE}, found '65536'"),
     ("a size is whole", "8.0 8\n", f"1:1: expected the width {SIZE}, found '8.0'"),
-    ("no x joins the two sizes", "400x300\n", f"1:1: expected the width {SIZE}, found '400x300' (write 400 300)"),
-    ("no x joins two sizes that are too large", "400x70000\n", f"1:1: expected the width {SIZE}, found '400x70000'"),
+    ("no x joins the two sizes", "400x300\n",
+     f"1:1: expected the width {SIZE}, found '400x300' (write 400 300)"),
+    ("no x joins two sizes that are too large", "400x70000\n",
+     f"1:1: expected the width {SIZE}, found '400x70000'"),
     ("a size is two numbers", "8 8 8\n", "1:5: expected the end of the line after the height, found '8'"),
-    ("left is negative", "8 8\n1\n-1\n0 1\n", "2:1: expected the left limit of X, a negative number, found '1'"),
-    ("left stands alone", "8 8\n-1 -1\n0 1\n", "2:4: expected the end of the line after the left limit of X, found '-1'"),
-    ("bottom is negative", "8 8\n-1\n0\n0 1\n", "3:1: expected the bottom limit of Y, a negative number, found '0'"),
-    ("a config may end before bottom", "8 8\n-1\n", "3:1: expected the bottom limit of Y, found the end of the input"),
+    ("left is negative", "8 8\n1\n-1\n0 1\n",
+     "2:1: expected the left limit of X, a negative number, found '1'"),
+    ("left stands alone", "8 8\n-1 -1\n0 1\n",
+     "2:4: expected the end of the line after the left limit of X, found '-1'"),
+    ("bottom is negative", "8 8\n-1\n0\n0 1\n",
+     "3:1: expected the bottom limit of Y, a negative number, found '0'"),
+    ("a config may end before bottom", "8 8\n-1\n",
+     "3:1: expected the bottom limit of Y, found the end of the input"),
     ("a config may end before front and rear", "8 8\n-1\n-1\n",
      "4:1: expected the front and rear limits of Z, found the end of the input"),
     ("there is a rear", "8 8\n-1\n-1\n0\n", f"4:2: expected {REAR}, found the end of the line"),
     ("rear is beyond front", "8 8\n-1\n-1\n1 1\n", f"4:3: expected {REAR}, found '1'"),
     ("front is a number", "8 8\n-1\n-1\nnan 1\n", "4:1: expected the front limit of Z, found 'nan'"),
-    ("nothing follows the limits", "8 8\n-1\n-1\n0 1\n5\n", "5:1: expected nothing after the limits of Z, found '5'"),
-])
+    ("nothing follows the limits", "8 8\n-1\n-1\n0 1\n5\n",
+     "5:1: expected nothing after the limits of Z, found '5'"), ])
 
 
 class DepthFormatMessages(ToolTest):
@@ -474,7 +547,8 @@ class DepthFormatMessages(ToolTest):
         pathlib.Path("config.txt").write_text(f"8 8\n-1\n-1\n{front} {rear}\n")
         for options in ([], ["--algorithm", "scanline"], ["--probe", "1,1"]):
             done = run("zbuf", "config.txt", "--depth", depth, *options)
-            self.assert_fails(done, 2, f"zbuf: --depth {depth}: expected limits of Z {message} (try zbuf --help)")
+            self.assert_fails(done, 2,
+                              f"zbuf: --depth {depth}: expected limits of Z {message} (try zbuf --help)")
             self.assertEqual(self.files(), ["config.txt", "scene.txt"])
 
 
@@ -483,11 +557,12 @@ APART = "1e-300 to 1.7976931e+308 apart"
 add_claims(DepthFormatMessages, [
     ("the front limit is a float", "f32 -1e308 1", f"{FLOAT}, found -1e+308 and 1"),
     ("the rear limit is a float", "f32 -1 3.4028236e38", f"{FLOAT}, found -1 and 3.4028236e+38"),
-    ("the limits are two floats", "f32 1 1.00000001", "that are two different floats, found 1 and 1.00000001"),
-    ("a float may underflow to the other limit", "f32 0 1e-46", "that are two different floats, found 0 and 1e-46"),
+    ("the limits are two floats", "f32 1 1.00000001",
+     "that are two different floats, found 1 and 1.00000001"),
+    ("a float may underflow to the other limit", "f32 0 1e-46",
+     "that are two different floats, found 0 and 1e-46"),
     ("24 bits need a distance of the limits", "u24 -1e308 1e308", f"{APART}, found -1e+308 and 1e+308"),
-    ("24 bits need a distance that can be divided", "u24 0 9.9e-301", f"{APART}, found 0 and 9.9e-301"),
-])
+    ("24 bits need a distance that can be divided", "u24 0 9.9e-301", f"{APART}, found 0 and 9.9e-301"), ])
 
 
 class OptionMessages(ToolTest):
@@ -496,84 +571,127 @@ class OptionMessages(ToolTest):
         self.assert_fails(run(tool, *options), 2, f"{tool}: {message} (try {tool} --help)")
 
 
+OLD_NAMES = (
+    *((tool, "--threads", "one thread does the work") for tool in ("model", "view", "project")),
+    *((tool, "--framed", "now --expect-framed") for tool in ("zbuf", "trace", "join-seen")),
+    ("mesh2scene", "--up", "now --up-axis"),
+)
 DIGITS = "--digits: expected a number of decimals from 0 to 17, or exact"
 add_claims(OptionMessages, [
     ("model knows its options", "model --bogus", "expected an option of model, found '--bogus'"),
     ("view knows its options", "view --framed", "expected an option of view, found '--framed'"),
     ("project knows its options", "project --bare", "expected an option of project, found '--bare'"),
     ("zbuf knows its options", "zbuf config.txt --digits 7", "expected an option of zbuf, found '--digits'"),
-    ("misspelled options are guessed", "zbuf --imgae out.bmp config.txt", "expected an option of zbuf, found '--imgae' (did you mean --image?)"),
-    ("misspelled options with a value are guessed", "model --digit=exact", "expected an option of model, found '--digit=exact' (did you mean --digits?)"),
-    ("options are in lower case", "view --Eye 1 2 3", "expected an option of view, found '--Eye' (did you mean --eye?)"),
+    ("misspelled options are guessed", "zbuf --imgae out.bmp config.txt",
+     "expected an option of zbuf, found '--imgae' (did you mean --image?)"),
+    ("misspelled options with a value are guessed", "model --digit=exact",
+     "expected an option of model, found '--digit=exact' (did you mean --digits?)"),
+    ("options are in lower case", "view --Eye 1 2 3",
+     "expected an option of view, found '--Eye' (did you mean --eye?)"),
     ("misspelled words of options are guessed", "zbuf config.txt --coverage centre",
      "--coverage: expected nearest or center, found 'centre' (did you mean center?)"),
+    *((f"{tool} names what {option} is now", f"{tool} {option} 1 scene.txt",
+       f"expected an option of {tool}, found '{option}' ({now})")
+      for tool, option, now in OLD_NAMES
+      if (BIN / tool).exists()),
     ("short options are no options either", "model -x", "expected an option of model, found '-x'"),
     ("options are not abbreviated", "model --dig 3", "expected an option of model, found '--dig'"),
     ("there is one input", "model scene.txt other.txt", "expected no further operand, found 'other.txt'"),
     ("zbuf takes two operands", "zbuf config.txt a b", "expected no further operand, found 'b'"),
     ("zbuf needs a config or a size", "zbuf", "expected an operand CONFIG, or --size, found none"),
-    ("a size is one word", "zbuf --size 400 300", "--size: expected WIDTHxHEIGHT in pixels, such as 400x300, found '400'"),
-    ("a size has two numbers", "zbuf --size 400x", "--size: expected WIDTHxHEIGHT in pixels, such as 400x300, found '400x'"),
-    ("a size has whole numbers", "zbuf --size 4.0x3", "--size: expected WIDTHxHEIGHT in pixels, such as 400x300, found '4.0x3'"),
-    ("a size of an option is above 0", "zbuf --size 0x3", "--size: expected WIDTHxHEIGHT in pixels, such as 400x300, found '0x3'"),
+    ("a size is one word", "zbuf --size 400 300",
+     "--size: expected WIDTHxHEIGHT in pixels, such as 400x300, found '400'"),
+    ("a size has two numbers", "zbuf --size 400x",
+     "--size: expected WIDTHxHEIGHT in pixels, such as 400x300, found '400x'"),
+    ("a size has whole numbers", "zbuf --size 4.0x3",
+     "--size: expected WIDTHxHEIGHT in pixels, such as 400x300, found '4.0x3'"),
+    ("a size of an option is above 0", "zbuf --size 0x3",
+     "--size: expected WIDTHxHEIGHT in pixels, such as 400x300, found '0x3'"),
     ("a size of an option is below 65536", "zbuf --size 1x65536",
      "--size: expected WIDTHxHEIGHT in pixels, such as 400x300, found '1x65536'"),
     ("image and depths are not both stdout", "zbuf config.txt -o - --z-buffer -",
      "--z-buffer: expected a file or none, as the image is standard output, found '-'"),
-    ("a background has six digits", "zbuf config.txt --background ff800", "--background: expected RRGGBB or RRGGBBAA, hexadecimal digits, found 'ff800'"),
+    *((f"counts of {tool} are not written among its data", f"{tool} --stats -",
+       "--stats: expected a file, as standard output carries the data (/dev/stderr shows them), found '-'")
+      for tool in ("model", "view", "project", "zbuf", "trace")
+      if (BIN / tool).exists()),
+    ("a background has six digits", "zbuf config.txt --background ff800",
+     "--background: expected RRGGBB or RRGGBBAA, hexadecimal digits, found 'ff800'"),
     ("the digits of a background are hexadecimal", "zbuf config.txt --background ff80g0",
      "--background: expected RRGGBB or RRGGBBAA, hexadecimal digits, found 'ff80g0'"),
     ("digits are a number", "model --digits many", f"{DIGITS}, found 'many'"),
     ("digits are at most 17", "view --digits 18", f"{DIGITS}, found '18'"),
     ("digits are not negative", "project --digits -1", f"{DIGITS}, found '-1'"),
     ("digits have a value", "model --digits", "--digits: expected one value (N|exact), found none"),
-    ("digits are said once", "model --digits 1 --digits 2", "--digits: expected one value (N|exact), found 2"),
-    ("precision is a known word", "view --precision best", "--precision: expected double or extended, found 'best'"),
+    ("digits are said once", "model --digits 1 --digits 2",
+     "--digits: expected one value (N|exact), found 2"),
+    ("precision is a known word", "view --precision best",
+     "--precision: expected double or extended, found 'best'"),
     ("bare has no value", "view --bare=no-thanks", "--bare: expected no value, found 'no-thanks'"),
     ("bare text has no frame", "model --bare --framed", "expected --bare or --framed, found both"),
     ("aspect is a known word", "project --aspect wide", "--aspect: expected angle or ratio, found 'wide'"),
-    ("clip is a known word", "project --clip all", "--clip: expected auto, near, frustum, reject or none, found 'all'"),
+    ("clip is a known word", "project --clip all",
+     "--clip: expected auto, near, frustum, reject or none, found 'all'"),
     ("cull is a known word", "project --cull both", "--cull: expected back or front, found 'both'"),
     ("cull has a value", "project --cull", "--cull: expected one value (back|front), found none"),
-    ("coverage is a known word", "zbuf config.txt --coverage best", "--coverage: expected nearest or center, found 'best'"),
-    ("algorithm is a known word", "zbuf config.txt --algorithm best", "--algorithm: expected zbuffer or scanline, found 'best'"),
-    ("depth is a known word", "zbuf config.txt --depth best", "--depth: expected f64, f32 or u24, found 'best'"),
+    ("coverage is a known word", "zbuf config.txt --coverage best",
+     "--coverage: expected nearest or center, found 'best'"),
+    ("algorithm is a known word", "zbuf config.txt --algorithm best",
+     "--algorithm: expected zbuffer or scanline, found 'best'"),
+    ("depth is a known word", "zbuf config.txt --depth best",
+     "--depth: expected f64, f32 or u24, found 'best'"),
     ("an image has a known format", "zbuf config.txt --image out.jpg",
      "--image: out.jpg: expected an image file that ends in .bmp, .ppm or .png, found '.jpg'"),
     ("an image has an extension", "zbuf config.txt --image out",
      "--image: out: expected an image file that ends in .bmp, .ppm or .png, found a name without extension"),
     ("an image of depths has a known format", "zbuf config.txt --depth-image d.bmp",
      "--depth-image: d.bmp: expected a depth image file that ends in .pgm or .png, found '.bmp'"),
-    ("there is a thread", "view --threads 0", "--threads: expected a whole number from 1 to 256, found '0'"),
-    ("there are at most 256 threads", "zbuf config.txt --threads 257", "--threads: expected a whole number from 1 to 256, found '257'"),
-    ("threads are a number", "model --threads two", "--threads: expected a whole number from 1 to 256, found 'two'"),
-    ("threads are whole", "project --threads 2.0", "--threads: expected a whole number from 1 to 256, found '2.0'"),
-    ("threads have a value", "model --threads", "--threads: expected one value (N), found none"),
-    ("samples are counted", "zbuf config.txt --samples 17", "--samples: expected a whole number from 1 to 16, found '17'"),
+    ("there is a thread", "zbuf --threads 0", "--threads: expected a whole number from 1 to 256, found '0'"),
+    ("there are at most 256 threads", "zbuf config.txt --threads 257",
+     "--threads: expected a whole number from 1 to 256, found '257'"),
+    ("threads are a number", "zbuf --threads two",
+     "--threads: expected a whole number from 1 to 256, found 'two'"),
+    ("threads are whole", "zbuf --threads 2.0",
+     "--threads: expected a whole number from 1 to 256, found '2.0'"),
+    ("threads have a value", "zbuf --threads", "--threads: expected one value (N), found none"),
+    ("samples are counted", "zbuf config.txt --samples 17",
+     "--samples: expected a whole number from 1 to 16, found '17'"),
     ("rows in turn take one thread", "zbuf config.txt --algorithm scanline --threads 2",
      "--threads: expected 1 with --algorithm scanline, which goes through the rows in turn, found '2'"),
-    ("an epsilon is not negative", "zbuf config.txt --depth-epsilon -1", "--depth-epsilon: expected a number of at least 0, found '-1'"),
-    ("a probe lies in the picture", "zbuf config.txt --probe 8,7", "--probe: expected COLUMN,ROW, from 0,0 to 7,7, found '8,7'"),
-    ("a probe has a row", "zbuf config.txt --probe 1", "--probe: expected COLUMN,ROW, from 0,0 to 7,7, found '1'"),
-    ("an inset is below 1", "project --clip near --clip-inset 1", "--clip-inset: expected a number from 0 to less than 1, found '1'"),
-    ("an inset needs planes", "project --clip-inset 0.1", "--clip-inset: expected --clip near, frustum or reject with it, found none of these"),
-    ("config and input are not both stdin", "zbuf -", "CONFIG: expected a file, as INPUT is standard input, found '-'"),
+    ("an epsilon is not negative", "zbuf config.txt --depth-epsilon -1",
+     "--depth-epsilon: expected a number of at least 0, found '-1'"),
+    ("a probe lies in the picture", "zbuf config.txt --probe 8,7",
+     "--probe: expected COLUMN,ROW, from 0,0 to 7,7, found '8,7'"),
+    ("a probe has a row", "zbuf config.txt --probe 1",
+     "--probe: expected COLUMN,ROW, from 0,0 to 7,7, found '1'"),
+    ("an inset is below 1", "project --clip near --clip-inset 1",
+     "--clip-inset: expected a number from 0 to less than 1, found '1'"),
+    ("an inset needs planes", "project --clip-inset 0.1",
+     "--clip-inset: expected --clip near, frustum or reject with it, found none of these"),
+    ("config and input are not both stdin", "zbuf -",
+     "CONFIG: expected a file, as INPUT is standard input, found '-'"),
     ("an eye has three numbers", "view --eye 1 2 --up 0 1 0", "--eye: expected 3 values (X Y Z), found 2"),
-    ("an eye has only three numbers", "view --eye 1 2 3 --eye 1 2 3", "--eye: expected 3 values (X Y Z), found 6"),
+    ("an eye has only three numbers", "view --eye 1 2 3 --eye 1 2 3",
+     "--eye: expected 3 values (X Y Z), found 6"),
     ("an eye has numbers", "view --eye 1 2 3x", "--eye: expected the z of the eye, found '3x'"),
     ("look has numbers", "view --look nan 2 3", "--look: expected the x of the point looked at, found 'nan'"),
     ("up is not zero", "view --up 0 0 0", "--up: expected an up direction, found 0 0 0"),
-    ("options make a camera", "view --eye 1 2 3 --look 1 2 3", "--look: expected a point other than the eye to look at, found 1 2 3"),
+    ("options make a camera", "view --eye 1 2 3 --look 1 2 3",
+     "--look: expected a point other than the eye to look at, found 1 2 3"),
     ("a perspective has four numbers", "project --perspective 60 1 1",
      "--perspective: expected 4 values (FOVY ASPECT NEAR FAR), found 3"),
-    ("a perspective makes sense", "project --perspective 60 1 9 1", "--perspective: expected far beyond near, found '1'"),
+    ("a perspective makes sense", "project --perspective 60 1 9 1",
+     "--perspective: expected far beyond near, found '1'"),
     ("a perspective of an option has a fovX", "project --perspective 90 2 1 9",
-     "--perspective: expected fovX = fovY * aspect above 0 and below 180 degrees (or --aspect ratio; in a scene, the word ratio at the end), found 90 * 2"),
-    ("a frustum has a near above 0", "view --frustum -1 1 -1 1 0 9", "--frustum: expected near above 0, found '0'"),
-    ("an ortho has six numbers", "view --ortho -1 1 -1 1 0", "--ortho: expected 6 values (L R B T N F), found 5"),
+     "--perspective: expected fovX = fovY * aspect above 0 and below 180 degrees (or --aspect ratio; in a "
+     "scene, the word ratio at the end), found 90 * 2"
+     ),
+    ("a frustum has a near above 0", "view --frustum -1 1 -1 1 0 9",
+     "--frustum: expected near above 0, found '0'"),
+    ("an ortho has six numbers", "view --ortho -1 1 -1 1 0",
+     "--ortho: expected 6 values (L R B T N F), found 5"),
     ("there is one projection among the options", "project --perspective 60 1 1 9 --ortho -1 1 -1 1 1 9",
-     "--perspective: expected one projection, found a second one after --ortho"),
-])
+     "--perspective: expected one projection, found a second one after --ortho"), ])
 
 
 class FileMessages(ToolTest):
@@ -583,30 +701,35 @@ class FileMessages(ToolTest):
 
 
 add_claims(FileMessages, [
-    ("an input that is missing is named by model", "model none.txt", "cannot open none.txt: No such file or directory"),
-    ("an input that is missing is named by view", "view none.txt", "cannot open none.txt: No such file or directory"),
-    ("an input that is missing is named by project", "project none.txt", "cannot open none.txt: No such file or directory"),
+    ("an input that is missing is named by model", "model none.txt",
+     "cannot open none.txt: No such file or directory"),
+    ("an input that is missing is named by view", "view none.txt",
+     "cannot open none.txt: No such file or directory"),
+    ("an input that is missing is named by project", "project none.txt",
+     "cannot open none.txt: No such file or directory"),
     ("an input that is missing is named by zbuf", "zbuf config.txt none.txt",
      "cannot open none.txt: No such file or directory"),
     ("a config that is missing is named", "zbuf none.txt", "cannot open none.txt: No such file or directory"),
-    ("a size is no config", "zbuf 400x300", "cannot open 400x300: No such file or directory (did you mean --size 400x300?)"),
+    ("a size is no config", "zbuf 400x300",
+     "cannot open 400x300: No such file or directory (did you mean --size 400x300?)"),
     ("an input may be a folder", "model .", "cannot read .: Is a directory"),
     ("a folder of the image may be missing", "zbuf config.txt --image no/out.bmp",
      "cannot open no/out.bmp: No such file or directory"),
     ("a folder of the depths may be missing", "zbuf config.txt --z-buffer no/z.txt",
-     "cannot open no/z.txt: No such file or directory"),
-])
+     "cannot open no/z.txt: No such file or directory"), ])
 
 
 class SizeMessages(ToolTest):
     def test_a_bmp_is_below_4_gib(self):
         # Rows of 3 * 40000 bytes: 54 + 120000 * 40000.
         pathlib.Path("config.txt").write_text("40000 40000\n")
-        expected = "expected an image that fits into the 4 GiB of a .bmp file (--image FILE.ppm has no such limit), "
+        expected = ("expected an image that fits into the 4 GiB of a .bmp file (--image FILE.ppm has no such "
+                    "limit), ")
         for options, name in ([], "out.bmp"), (["--image", "wide.BMP"], "wide.BMP"):
             for algorithm in "zbuffer", "scanline":
                 done = run("zbuf", "config.txt", *options, "--algorithm", algorithm)
-                self.assert_fails(done, 1, f"zbuf: {name}: {expected}found 40000 x 40000 pixels, 4800000054 bytes")
+                self.assert_fails(done, 1,
+                                  f"zbuf: {name}: {expected}found 40000 x 40000 pixels, 4800000054 bytes")
                 self.assertEqual(self.files(), ["config.txt", "scene.txt"])
 
 
@@ -619,7 +742,8 @@ class OneLine(ToolTest):
 
     def test_a_mistake_behind_the_first_block_is_found_on_its_line(self):
         text = CAMERA + TRIANGLE * 20000 + "triangle 0 0 0\n0 0 x\n"
-        self.assert_fails(run("model", stdin=text), 1, "model: <stdin>:80006:5: expected the z of vertex 2 of 3, found 'x'")
+        self.assert_fails(run("model", stdin=text), 1,
+                          "model: <stdin>:80006:5: expected the z of vertex 2 of 3, found 'x'")
 
 
 if __name__ == "__main__":

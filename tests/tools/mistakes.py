@@ -1,4 +1,5 @@
-"""Reads mistakes.txt: beginners' mistakes, each an edit of three small files, a command, and the tools' answer."""
+"""Reads mistakes.txt: beginners' mistakes, each an edit of three small files, a command, and the tools'
+answer."""
 import dataclasses
 import os
 import pathlib
@@ -15,7 +16,7 @@ class Mistake:
     title: str
     line: int
     files: dict                                         # name to text, with the mistake in it
-    edits: dict                                         # name to the lines that show it, each with its -, + or |
+    edits: dict  # name to the lines that show it, each with its -, + or |
     command: str = ""
     stderr: str = ""
     status: int = 0
@@ -46,7 +47,9 @@ def load(path=DATA):
         else:
             name = take_answer(mistakes[-1], line)
     for mistake in mistakes:
-        mistake.files = {file: edited(text, mistake.edits.get(file, []), mistake) for file, text in base.items()}
+        mistake.files = {
+            file: edited(text, mistake.edits.get(file, []), mistake)
+            for file, text in base.items()}
     return base, mistakes
 
 
@@ -67,7 +70,8 @@ def take_answer(mistake, line):
 
 
 def edited(text, edits, mistake):
-    """The text with each block of - lines replaced by the + lines behind it; | lines replace the whole text."""
+    """The text with each block of - lines replaced by the + lines behind it; | lines replace the whole
+    text."""
     if edits and edits[0].startswith("|"):
         return "".join(edit[2:] + "\n" for edit in edits)
     blocks = []                                         # pairs of old and new lines
@@ -77,19 +81,21 @@ def edited(text, edits, mistake):
         blocks[-1][edit.startswith("+")].append(edit[2:] + "\n")
     for old, new in blocks:
         if text.count("\n" + "".join(old)) + text.startswith("".join(old)) != 1:
-            raise ValueError("mistakes.txt:%d: the lines of '%s' do not occur once" % (mistake.line, mistake.name))
+            raise ValueError(
+                "mistakes.txt:%d: the lines of '%s' do not occur once" % (mistake.line, mistake.name))
         text = ("\n" + text).replace("\n" + "".join(old), "\n" + "".join(new), 1)[1:]
     return text
 
 
 def run(mistake, bin_dir, scripts):
-    """Makes the mistake in a folder of its own, with the tools and scripts of two folders. Returns the exit status of the last
-    command and stderr. The stages of a pipe share it: a later one writes only after an earlier one has ended its text, so the
-    order of the lines is certain."""
+    """Makes the mistake in a folder of its own, with the tools and scripts of two folders. Returns the exit
+    status of the last command and stderr. The stages of a pipe share it: a later one writes only after an
+    earlier one has ended its text, so the order of the lines is certain."""
     with tempfile.TemporaryDirectory() as folder:
         for name, text in mistake.files.items():
             pathlib.Path(folder, name).write_text(text, encoding="utf-8")
         path = os.pathsep.join([str(bin_dir), str(scripts), os.environ["PATH"]])
-        done = subprocess.run(["sh", "-c", mistake.command], cwd=folder, env=dict(os.environ, PATH=path, BIN=str(bin_dir), LC_ALL="C"),
-                              stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=60)
+        done = subprocess.run(["sh", "-c", mistake.command], cwd=folder, env=dict(
+            os.environ, PATH=path, BIN=str(bin_dir), LC_ALL="C"), stdin=subprocess.DEVNULL,
+                              stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=60)
         return done.returncode, done.stderr.decode("utf-8", "backslashreplace")

@@ -37,12 +37,14 @@ class Mistakes(unittest.TestCase):
     def test_an_edit_has_to_match(self):
         with tempfile.TemporaryDirectory() as folder:
             data = pathlib.Path(folder, "mistakes.txt")
-            data.write_text("--- scene.txt\n0 0 5\n=== no-such-line: A title\nscene.txt:\n- 0 0 6\n+ 0 0 7\n$ true\n")
+            data.write_text(
+                "--- scene.txt\n0 0 5\n=== no-such-line: A title\nscene.txt:\n- 0 0 6\n+ 0 0 7\n$ true\n")
             with self.assertRaisesRegex(ValueError, "3: the lines of 'no-such-line' do not occur once"):
                 mistakes.load(data)
 
     def test_the_pages_are_up_to_date(self):
-        subprocess.run([sys.executable, SOURCE / "scripts/maintain/make-mistakes-page", "--check"], check=True)
+        subprocess.run([sys.executable, SOURCE / "scripts/maintain/make-mistakes-page", "--check"],
+                       check=True)
 
 
 def add(mistake):

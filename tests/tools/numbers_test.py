@@ -10,8 +10,11 @@ import unittest
 
 from toolbox import ToolTest, run
 
-TAME = ["0", "-0", "1", "-1", "0.5", "-0.5", "2", "3", "-0.00000005", "0.00000005", "1e-8", "-1e-9", "0.1", "-0.3", "1e3", "-7"]
-WILD = TAME + ["1e-320", "-5e-324", "1e-200", "-1e-100", "1e15", "-1e16", "123456789.123456789", "1e100", "-1e150"]
+TAME = [
+    "0", "-0", "1", "-1", "0.5", "-0.5", "2", "3", "-0.00000005", "0.00000005", "1e-8", "-1e-9", "0.1",
+    "-0.3", "1e3", "-7"]
+WILD = TAME + [
+    "1e-320", "-5e-324", "1e-200", "-1e-100", "1e15", "-1e16", "123456789.123456789", "1e100", "-1e150"]
 EXTREME = WILD + ["1e308", "-1.7976931348623157e308", "1e-308", "1e200", "-1e290"]
 ANGLES = ["0", "-0", "30", "45", "90", "-90", "180", "270", "360", "-360", "1e9", "1e-9", "33.3", "1e300"]
 
@@ -27,11 +30,13 @@ class Scenes:
         return " ".join(self.random.choice(numbers) for _ in range(3))
 
     def command(self, numbers):
-        kind = self.random.choice(["translate", "scale", "rotate", "push", "pop", "triangle", "triangle", "triangle"])
+        kind = self.random.choice([
+            "translate", "scale", "rotate", "push", "pop", "triangle", "triangle", "triangle"])
         if kind == "triangle":
             return "triangle\n" + "".join(self.vec3(numbers) + "\n" for _ in range(3))
         if kind == "rotate":
-            return f"rotate {self.random.choice(ANGLES)} {self.vec3(['0', '1', '-2', '1e-200', '-0'])[:-1]}3\n"
+            return (f"rotate {self.random.choice(ANGLES)} "
+                    f"{self.vec3(['0', '1', '-2', '1e-200', '-0'])[:-1]}3\n")
         return kind + (" " + self.vec3(numbers) if kind in ("translate", "scale") else "") + "\n"
 
     def small_scene(self, numbers):
@@ -46,8 +51,9 @@ class Scenes:
         return "push\n" + "".join(lines) + "pop\n" * (depth + 1)
 
     def camera(self, numbers):
-        projection = self.random.choice(["60 1 1 100", "90 1.5 0.001 1e9", "1e-3 1 1e-9 1e-8", "120 1 1e-200 1e200",
-                                         "ortho -1 1 -2 2 -10 1e10", "frustum -1 2 -0.5 0.5 0.1 1000"])
+        projection = self.random.choice([
+            "60 1 1 100", "90 1.5 0.001 1e9", "1e-3 1 1e-9 1e-8", "120 1 1e-200 1e200",
+            "ortho -1 1 -2 2 -10 1e10", "frustum -1 2 -0.5 0.5 0.1 1000"])
         return f"{self.vec3(numbers)}\n{self.vec3(numbers)}\n{self.vec3(numbers)}\n{projection}\n"
 
 
@@ -65,7 +71,8 @@ class PrintedNumbers(ToolTest):
         """The output, good or bad; a failure prints one line on stderr."""
         done = run(tool, *options, stdin=text)
         self.assertIn(done.returncode, (0, 1), done.stderr)
-        messages = [line for line in done.stderr.decode().splitlines() if not line.startswith(f"{tool}: note: ")]
+        messages = [
+            line for line in done.stderr.decode().splitlines() if not line.startswith(f"{tool}: note: ")]
         self.assertEqual(len(messages), done.returncode, done.stderr)
         self.check_text(tool, done.stdout)
         return done
@@ -91,14 +98,17 @@ class PrintedNumbers(ToolTest):
         for i in range(run_count):
             body = "".join(scenes.small_scene(numbers) for _ in range(scenes_per_run))
             with self.subTest(run=i):
-                depths.append(self.check_scene(scenes.camera(camera_numbers) + body + "end\n", scenes.random.choice))
+                depths.append(
+                    self.check_scene(scenes.camera(camera_numbers) + body + "end\n", scenes.random.choice))
         return sum(depth == 4 for depth in depths) / run_count
 
     def test_tame_numbers(self):
-        self.assertGreater(self.check_scenes(1, 40, 60, TAME, TAME), 0.3, "most scenes fail: they test nothing")
+        self.assertGreater(self.check_scenes(1, 40, 60, TAME, TAME), 0.3,
+                           "most scenes fail: they test nothing")
 
     def test_wild_numbers(self):
-        self.assertGreater(self.check_scenes(2, 40, 30, WILD, WILD), 0.1, "most scenes fail: they test nothing")
+        self.assertGreater(self.check_scenes(2, 40, 30, WILD, WILD), 0.1,
+                           "most scenes fail: they test nothing")
 
     def test_extreme_numbers(self):
         self.check_scenes(3, 150, 1, EXTREME, EXTREME)

@@ -9,7 +9,9 @@ import re
 import subprocess
 import unittest
 
-from toolbox import ALL_TOOLS, BIN, CAMERA, HEADER, HEADERS, SCENE, SOURCE, ToolTest, add_claims, pipe, run, stage_texts, tool_inputs
+from toolbox import (
+    ALL_TOOLS, BIN, CAMERA, HEADER, HEADERS, SCENE, SOURCE, ToolTest, add_claims, pipe, run, stage_texts,
+    tool_inputs)
 
 PLAIN = """1 2 6
 1 0.5 0
@@ -52,13 +54,14 @@ add_claims(FormsOfAScene, [
     ("comments may stand anywhere", "# c\n" + PLAIN.replace("\n", " # triangle 1 2 3\n#c\n")),
     ("the last line needs no newline", PLAIN.removesuffix("\n")),
     ("comments may follow the end", PLAIN + "\n# done"),
-    ("arguments may stand on the commands line", re.sub(r"(translate|rotate|scale|triangle)\n", r"\1 ", PLAIN)),
+    ("arguments may stand on the commands line", re.sub(r"(translate|rotate|scale|triangle)\n", r"\1 ",
+                                                        PLAIN)),
     ("numbers may have a plus sign", re.sub(r"(^| )(\d)", r"\1+\2", PLAIN, flags=re.MULTILINE)),
     ("numbers may have exponents", re.sub(r"(\d+(\.\d+)?)", r"\1e0", PLAIN)),
-    ("numbers may have many zeros", re.sub(r"\d+(\.\d+)?", lambda n: "00" + n[0] + ("000" if n[1] else ".000"), PLAIN)),
+    ("numbers may have many zeros",
+     re.sub(r"\d+(\.\d+)?", lambda n: "00" + n[0] + ("000" if n[1] else ".000"), PLAIN)),
     ("numbers may lack a zero before the point", PLAIN.replace("0.", ".")),
-    ("a byte order mark may stand at the start", "\ufeff" + PLAIN),
-])
+    ("a byte order mark may stand at the start", "\ufeff" + PLAIN), ])
 
 
 def with_reversed_header(text):
@@ -90,12 +93,14 @@ add_claims(FormsOfStageText, [
 class Locale(ToolTest):
     def test_a_decimal_comma_of_the_locale_changes_nothing(self):
         environment = dict(os.environ, LC_ALL="de_DE.UTF-8")
-        if subprocess.run(["locale", "decimal_point"], capture_output=True, text=True, env=environment).stdout != ",\n":
+        if subprocess.run(["locale", "decimal_point"], capture_output=True, text=True,
+                          env=environment).stdout != ",\n":
             self.skipTest("the locale de_DE.UTF-8 is not installed")
         texts = []
         for name in ("C", "de_DE.UTF-8"):
             environment = dict(os.environ, LC_ALL=name)
-            texts.append(pipe(["model"], ["view"], ["project"], ["zbuf", "config.txt"], stdin=PLAIN, env=environment))
+            texts.append(
+                pipe(["model"], ["view"], ["project"], ["zbuf", "config.txt"], stdin=PLAIN, env=environment))
         self.assertEqual(*texts)
 
 
@@ -108,10 +113,12 @@ class Operands(ToolTest):
 
     def test_a_dash_is_standard_input(self):
         for tool, text in INPUTS.items():
-            self.assertEqual(pipe([tool, *OPERANDS[tool], "-"], stdin=text), pipe([tool, *OPERANDS[tool]], stdin=text))
+            self.assertEqual(pipe([tool, *OPERANDS[tool], "-"], stdin=text),
+                             pipe([tool, *OPERANDS[tool]], stdin=text))
 
     def test_options_may_stand_behind_operands(self):
-        self.assertEqual(pipe(["model", "scene.txt", "--digits", "2"]), pipe(["model", "--digits", "2", "scene.txt"]))
+        self.assertEqual(pipe(["model", "scene.txt", "--digits", "2"]),
+                         pipe(["model", "--digits", "2", "scene.txt"]))
 
     def test_options_may_be_joined_to_their_value(self):
         self.assertEqual(pipe(["model", "--digits=exact"]), pipe(["model", "--digits", "exact"]))
@@ -122,7 +129,8 @@ class Operands(ToolTest):
 
     def test_the_config_may_be_standard_input(self):
         pathlib.Path("stage3.txt").write_bytes(stage_texts()[2])
-        self.assertEqual(pipe(["zbuf", "-", "stage3.txt"], stdin="8 8\n"), pipe(["zbuf", "config.txt", "stage3.txt"]))
+        self.assertEqual(pipe(["zbuf", "-", "stage3.txt"], stdin="8 8\n"),
+                         pipe(["zbuf", "config.txt", "stage3.txt"]))
 
 
 class Answers(ToolTest):
@@ -136,15 +144,22 @@ class Answers(ToolTest):
     def test_help_names_every_option_of_the_tool(self):
         common = ["--help", "--version", "--timing"]
         stage = ["--digits N|exact", "--precision double|extended"]
-        projection = ["--perspective FOVY ASPECT NEAR FAR", "--frustum L R B T N F", "--ortho L R B T N F", "--scene FILE"]
-        words = {"model": stage + ["--bare", "--framed"],
-                 "view": stage + projection + ["--bare", "--eye X Y Z", "--look X Y Z", "--up X Y Z"],
-                 "project": stage + projection + ["--aspect angle|ratio", "--clip auto|near|frustum|reject|none",
-                                                  "--cull back|front"],
-                 "zbuf": ["CONFIG", "--size WIDTHxHEIGHT", "-o,--image FILE", "--z-buffer FILE", "--coverage ", "--algorithm ",
-                          "--background RRGGBB"],
-                 "trace": projection + ["CONFIG", "--size WIDTHxHEIGHT", "-o,--image FILE", "--z-buffer FILE", "--background RRGGBB",
-                                        "--sampling basic|regular|jittered|adaptive", "--samples N", "--threshold N", "--threads N"]}
+        projection = [
+            "--perspective FOVY ASPECT NEAR FAR", "--frustum L R B T N F", "--ortho L R B T N F",
+            "--scene FILE"]
+        words = {
+            "model":
+                stage + ["--bare", "--framed"], "view":
+                    stage + projection + ["--bare", "--eye X Y Z", "--look X Y Z", "--up X Y Z"], "project":
+                        stage + projection +
+                        ["--aspect angle|ratio", "--clip auto|near|frustum|reject|none", "--cull back|front"],
+            "zbuf": [
+                "CONFIG", "--size WIDTHxHEIGHT", "-o,--image FILE", "--z-buffer FILE", "--coverage ",
+                "--algorithm ", "--background RRGGBB"], "trace":
+                    projection + [
+                        "CONFIG", "--size WIDTHxHEIGHT", "-o,--image FILE", "--z-buffer FILE",
+                        "--background RRGGBB", "--sampling basic|regular|jittered|adaptive", "--samples N",
+                        "--threshold N", "--threads N"]}
         for tool in ALL_TOOLS:
             text = run(tool, "--help").stdout.decode()
             for word in common + words[tool]:
@@ -152,12 +167,16 @@ class Answers(ToolTest):
 
     def test_no_line_of_help_is_longer_than_100_characters(self):
         for tool in ALL_TOOLS:
-            self.assertEqual([line for line in run(tool, "--help").stdout.decode().split("\n") if len(line) > 100 or line != line.rstrip()], [])
+            self.assertEqual([
+                line for line in run(tool, "--help").stdout.decode().split("\n")
+                if len(line) > 100 or line != line.rstrip()], [])
 
     def test_help_has_its_options_in_groups(self):
-        groups = {"model": ["Numbers", "Output"], "view": ["Numbers", "Camera", "Output"], "project": ["Numbers", "Projection", "Clipping", "Output"],
-                  "zbuf": ["Output", "Pixels", "Color and light", "Debugging"],
-                  "trace": ["Output", "Projection", "Pixels", "Color and light", "Debugging"]}
+        groups = {
+            "model": ["Numbers", "Output"], "view": ["Numbers", "Camera", "Output"],
+            "project": ["Numbers", "Projection", "Clipping",
+                        "Output"], "zbuf": ["Output", "Pixels", "Color and light", "Debugging"], "trace": [
+                            "Output", "Projection", "Pixels", "Color and light", "Debugging"]}
         for tool in ALL_TOOLS:
             found = re.findall(r"^(\w[\w ]*):$", run(tool, "--help").stdout.decode(), re.M)
             self.assertEqual(found, ["Operands", *groups[tool], "General", "Examples"])
@@ -165,7 +184,8 @@ class Answers(ToolTest):
     def test_the_examples_of_help_do_what_they_show(self):
         path = f"{BIN}:{os.environ['PATH']}"
         for tool in ALL_TOOLS:
-            examples = re.search(r"^Examples:\n((?:  .*\n)+)", run(tool, "--help").stdout.decode(), re.M)[1].splitlines()
+            examples = re.search(r"^Examples:\n((?:  .*\n)+)",
+                                 run(tool, "--help").stdout.decode(), re.M)[1].splitlines()
             self.assertEqual(len(examples), 2)
             for example in examples:
                 with self.subTest(example):
@@ -173,7 +193,8 @@ class Answers(ToolTest):
                         pathlib.Path(name).write_bytes(text)
                     pathlib.Path("scene.txt").write_text(PLAIN)
                     self.assertIn(tool, example)
-                    done = subprocess.run(["bash", "-eo", "pipefail", "-c", example], capture_output=True, env={**os.environ, "PATH": path})
+                    done = subprocess.run(["bash", "-eo", "pipefail", "-c", example], capture_output=True,
+                                          env={**os.environ, "PATH": path})
                     self.assert_quiet_success(done)
                     for result in re.findall(r"(?:>|-o) (\S+)", example):
                         self.assertGreater(pathlib.Path(result).stat().st_size, 0)
@@ -199,22 +220,26 @@ class Answers(ToolTest):
 
     def test_timing_counts_one_triangle_in_the_singular(self):
         for tool, operands, text in tool_inputs():
-            self.assertRegex(run(tool, *operands, "--timing", stdin=text).stderr.decode(), rf"\A{tool}: 1 triangle in \d")
+            self.assertRegex(
+                run(tool, *operands, "--timing", stdin=text).stderr.decode(), rf"\A{tool}: 1 triangle in \d")
 
     def test_timing_says_nothing_of_a_failed_run(self):
         self.assertNotIn(b"triangles in", run("model", "--timing", stdin="x").stderr)
 
 
 class DigitsAndHeaders(ToolTest):
-    SCENE = "0.1 0 5e-3\n0 0 0\n0 1 0\n60 1.25 1e-3 1e20\ntriangle\n0.1 -0 1e-9\n-1e-9 1 2.5\n123456789 0 -3\nend\n"
+    SCENE = ("0.1 0 5e-3\n0 0 0\n0 1 0\n60 1.25 1e-3 1e20\ntriangle\n0.1 -0 1e-9\n-1e-9 1 2.5\n123456789 0 "
+             "-3\nend\n")
     HEADER = "eye 0.1 0 0.005\nlook 0 0 0\nup 0 1 0\nperspective 60 1.25 0.001 1e+20\n"
 
     def test_headers_are_exact_whatever_the_digits(self):
         for digits in ("0", "7", "17", "exact"):
-            self.assertTrue(pipe(["model", "--digits", digits], stdin=self.SCENE).decode().startswith(self.HEADER))
+            self.assertTrue(
+                pipe(["model", "--digits", digits], stdin=self.SCENE).decode().startswith(self.HEADER))
 
     def test_seven_decimals_are_the_rule(self):
-        self.assertEqual(pipe(["model"], stdin=self.SCENE), pipe(["model", "--digits", "7"], stdin=self.SCENE))
+        self.assertEqual(pipe(["model"], stdin=self.SCENE), pipe(["model", "--digits", "7"],
+                                                                 stdin=self.SCENE))
         self.assertEqual(pipe(["model", "--bare"], stdin=self.SCENE).decode(),
                          "0.1000000 0.0000000 0.0000000\n0.0000000 1.0000000 2.5000000\n"
                          "123456789.0000000 0.0000000 -3.0000000\n\n")
@@ -232,7 +257,8 @@ class DigitsAndHeaders(ToolTest):
     def test_an_ortho_travels_as_it_was_written(self):
         scene = SCENE.replace("60 1 1 100", "ortho -1 2.5 -3 4 -5 6")
         self.assertIn("\northo -1 2.5 -3 4 -5 6\n", pipe(["model"], stdin=scene).decode())
-        self.assertTrue(pipe(["model"], ["view"], stdin=scene).decode().startswith("ortho -1 2.5 -3 4 -5 6\n"))
+        self.assertTrue(
+            pipe(["model"], ["view"], stdin=scene).decode().startswith("ortho -1 2.5 -3 4 -5 6\n"))
 
     def test_bare_text_is_triangles_alone(self):
         for tool, text in (("model", SCENE), ("view", pipe(["model"]))):
@@ -277,13 +303,15 @@ class CameraPrecedence(ToolTest):
     """Options override --scene, and --scene overrides the header, part by part."""
 
     def view(self, *options, header=""):
-        return pipe(["view", "--bare", *options], stdin=header + "1 2 3\n0 0 0\n0 0 0\n\n").decode().splitlines()[0]
+        return pipe(["view", "--bare", *options],
+                    stdin=header + "1 2 3\n0 0 0\n0 0 0\n\n").decode().splitlines()[0]
 
     def write_scene(self, first_lines):
         pathlib.Path("camera.txt").write_text(first_lines + "nonsense that nobody reads\n")
 
     def test_the_header_gives_the_camera(self):
-        self.assertEqual(self.view(header="eye 1 2 5\nlook 1 2 0\nup 0 1 0\n"), "0.0000000 0.0000000 -2.0000000")
+        self.assertEqual(self.view(header="eye 1 2 5\nlook 1 2 0\nup 0 1 0\n"),
+                         "0.0000000 0.0000000 -2.0000000")
 
     def test_the_scene_comes_before_the_header(self):
         self.write_scene("1 2 6\n1 2 0\n0 1 0\n60 1 1 100\n")
@@ -305,13 +333,15 @@ class CameraPrecedence(ToolTest):
 
     def test_the_projection_of_a_scene_replaces_that_of_the_header(self):
         self.write_scene(CAMERA.replace("60 1 1 100", "frustum -1 1 -1 1 1 9"))
-        self.assertEqual(pipe(["view", "--scene", "camera.txt"], stdin=HEADER).decode(), "frustum -1 1 -1 1 1 9\n")
+        self.assertEqual(
+            pipe(["view", "--scene", "camera.txt"], stdin=HEADER).decode(), "frustum -1 1 -1 1 1 9\n")
 
     def test_project_takes_its_projection_the_same_way(self):
         self.write_scene(CAMERA.replace("60 1 1 100", "ortho -1 1 -1 1 1 5"))
         by_header = pipe(["project"], stdin="ortho -1 1 -1 1 1 3\n" + VIEW_SPACE)
         by_scene = pipe(["project", "--scene", "camera.txt"], stdin="ortho -1 1 -1 1 1 3\n" + VIEW_SPACE)
-        by_option = pipe(["project", "--scene", "camera.txt", "--ortho", "-1", "1", "-1", "1", "1", "3"], stdin=VIEW_SPACE)
+        by_option = pipe(["project", "--scene", "camera.txt", "--ortho", "-1", "1", "-1", "1", "1", "3"],
+                         stdin=VIEW_SPACE)
         self.assertEqual(by_header, by_option)
         self.assertTrue(by_header.startswith(b"0.0000000 0.0000000 0.0000000\n"))
         self.assertTrue(by_scene.startswith(b"0.0000000 0.0000000 -0.5000000\n"))
@@ -338,9 +368,11 @@ class CameraPrecedence(ToolTest):
         stage2 = pipe(["view", "--perspective", "60", "1.5", "1", "100"], stdin=stage1)
         self.assertTrue(stage2.startswith(b"perspective 60 1.5 1 100\n"))
         by_angle = pipe(["project"], stdin=stage2)
-        self.assertEqual(pipe(["view"], ["project", "--perspective", "60", "1.5", "1", "100"], stdin=stage1), by_angle)
-        self.assertEqual(pipe(["view"], ["project", "--perspective", "60", "1.5", "1", "100", "--aspect", "ratio"], stdin=stage1),
-                         pipe(["view"], ["project"], stdin=stage1))
+        self.assertEqual(pipe(["view"], ["project", "--perspective", "60", "1.5", "1", "100"], stdin=stage1),
+                         by_angle)
+        self.assertEqual(
+            pipe(["view"], ["project", "--perspective", "60", "1.5", "1", "100", "--aspect", "ratio"],
+                 stdin=stage1), pipe(["view"], ["project"], stdin=stage1))
 
     def test_the_aspect_rule_of_a_scene_replaces_that_of_the_header(self):
         pathlib.Path("camera.txt").write_text(self.RATIO_SCENE)
@@ -362,8 +394,9 @@ class CameraPrecedence(ToolTest):
 
     def test_negative_numbers_are_values_and_no_options(self):
         expected = self.view(header="eye -1 -2 -5\nlook -0.5 -2 -0.001\nup -0.5 -1 -0\n")
-        self.assertEqual(self.view("--eye", "-1", "-2", "-5", "--look", "-.5", "-2", "-1e-3", "--up", "-.5", "-1", "-0"),
-                         expected)
+        self.assertEqual(
+            self.view("--eye", "-1", "-2", "-5", "--look", "-.5", "-2", "-1e-3", "--up", "-.5", "-1", "-0"),
+            expected)
 
     def test_an_option_may_replace_a_header_that_is_missing(self):
         self.assertEqual(self.view("--eye", "0", "0", "5", "--look", "0", "0", "0", "--up", "0", "1", "0"),

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""The pictures that zbuf makes besides the default one: PNG, depth images, several samples a pixel, a depth epsilon, a
-wireframe; and depths between extreme limits.
+"""The pictures that zbuf makes besides the default one: PNG, depth images, several samples a pixel, a depth
+epsilon, a wireframe; and depths between extreme limits.
 
 usage: pictures_test.py BIN_DIR [UNITTEST ARGUMENT...]
 """
@@ -18,13 +18,16 @@ NEEDS_PNG = b"without libpng" in run("zbuf", "config.txt", "--image", "x.png").s
 
 
 def triangles(*corners_of):
-    return "".join("".join(f"{x:.7f} {y:.7f} {z:.7f}\n" for x, y, z in corners) + "\n" for corners in corners_of)
+    return "".join("".join(f"{x:.7f} {y:.7f} {z:.7f}\n"
+                           for x, y, z in corners) + "\n"
+                   for corners in corners_of)
 
 
 def random_triangles(seed, count):
     rng = random.Random(seed)
-    return triangles(*([[rng.uniform(-1.3, 1.3), rng.uniform(-1.3, 1.3), rng.uniform(-1, 1)] for _ in range(3)]
-                       for _ in range(count)))
+    return triangles(
+        *([[rng.uniform(-1.3, 1.3), rng.uniform(-1.3, 1.3),
+            rng.uniform(-1, 1)] for _ in range(3)] for _ in range(count)))
 
 
 def wall_at(word):
@@ -51,9 +54,11 @@ def read_png(path):
     step = {2: 3, 0: 1}[color_type] * bits // 8
     raw, before, rows = zlib.decompress(chunks[b"IDAT"]), bytes(step * width), b""
     for row in range(height):
-        kind, line = raw[row * (step * width + 1)], bytearray(raw[row * (step * width + 1) + 1:][:step * width])
+        kind, line = raw[row * (step * width + 1)], bytearray(
+            raw[row * (step * width + 1) + 1:][:step * width])
         for i in range(step * width):
-            left, up, corner = (line[i - step], before[i], before[i - step]) if i >= step else (0, before[i], 0)
+            left, up, corner = (line[i - step], before[i], before[i - step]) if i >= step else (0, before[i],
+                                                                                                0)
             guess = left + up - corner
             paeth = min((left, up, corner), key=lambda p: abs(guess - p))
             line[i] = (line[i] + (0, left, up, (left + up) // 2, paeth)[kind]) % 256
@@ -129,8 +134,9 @@ class DepthImages(Pictures):
 
     def test_it_goes_from_limit_to_limit_however_far_they_are_apart(self):
         # The smallest double, limits whose difference is none, and a third of the way between such limits.
-        for front, rear, z, expected in (("0", "5e-324", "0", 65535), ("-1.5e308", "1.5e308", "-1.5e308", 65535),
-                                         ("-1.5e308", "1.5e308", "-0.5e308", 43690)):
+        for front, rear, z, expected in (("0", "5e-324", "0", 65535), ("-1.5e308", "1.5e308", "-1.5e308",
+                                                                       65535), ("-1.5e308", "1.5e308",
+                                                                                "-0.5e308", 43690)):
             pathlib.Path("config.txt").write_text(f"{COLUMNS} {ROWS}\n-1\n-1\n{front} {rear}\n")
             self.assertEqual(set(self.brightness(wall_at(z))), {expected}, (front, rear, z))
 
@@ -146,7 +152,8 @@ class DepthImages(Pictures):
 
 class Samples(Pictures):
     def means(self, data, count):
-        """The means of count x count pixels, of an image that is so many times as large; halves rounded up."""
+        """The means of count x count pixels, of an image that is so many times as large; halves rounded
+        up."""
         wide = COLUMNS * count
         result = bytearray()
         for row in range(ROWS):
@@ -162,7 +169,8 @@ class Samples(Pictures):
         for coverage in ("nearest", "center"):
             for count in (2, 3):
                 pathlib.Path("config.txt").write_text(f"{COLUMNS * count} {ROWS * count}\n")
-                large = self.pixels(stage3, "--coverage", coverage, columns=COLUMNS * count, rows=ROWS * count)
+                large = self.pixels(stage3, "--coverage", coverage, columns=COLUMNS * count,
+                                    rows=ROWS * count)
                 pathlib.Path("config.txt").write_text(f"{COLUMNS} {ROWS}\n")
                 self.assertEqual(self.pixels(stage3, "--coverage", coverage, "--samples", count),
                                  self.means(large, count))
@@ -186,8 +194,9 @@ class DepthEpsilon(Pictures):
 
     def test_what_is_not_nearer_by_more_is_not_drawn(self):
         stage3 = wall(0.5) + wall(0.25) + wall(0.125)
-        for epsilon, seen in (("0", "0.125000"), ("0.1", "0.125000"), ("0.125", "0.250000"), ("0.2", "0.250000"),
-                              ("0.25", "0.125000"), ("0.375", "0.500000"), ("1e9", "0.500000")):
+        for epsilon, seen in (("0", "0.125000"), ("0.1", "0.125000"), ("0.125", "0.250000"),
+                              ("0.2", "0.250000"), ("0.25", "0.125000"), ("0.375", "0.500000"), ("1e9",
+                                                                                                 "0.500000")):
             self.assertEqual(self.depths_seen(stage3, "--depth-epsilon", epsilon), {seen}, epsilon)
 
     def test_an_empty_pixel_takes_the_first(self):
@@ -198,8 +207,9 @@ class DepthEpsilon(Pictures):
 
     def test_every_depth_format_takes_it(self):
         for depth in ("f64", "f32", "u24"):
-            self.assertEqual(self.depths_seen(wall(0.5) + wall(0.25), "--depth", depth, "--depth-epsilon", "0.3"),
-                             {"0.500000"})
+            self.assertEqual(
+                self.depths_seen(wall(0.5) + wall(0.25), "--depth", depth, "--depth-epsilon", "0.3"),
+                {"0.500000"})
 
     def test_threads_keep_the_order_of_the_stream(self):
         stage3 = random_triangles(7, 3000)
@@ -213,16 +223,19 @@ class DepthEpsilon(Pictures):
 
     def test_the_scanline_algorithm_has_none(self):
         done = run("zbuf", "config.txt", "--depth-epsilon", "0.1", "--algorithm", "scanline")
-        self.assert_fails(done, 2, "zbuf: --depth-epsilon: expected 0 with --algorithm scanline, which keeps no order of "
-                                   "drawing, found '0.1' (try zbuf --help)")
+        self.assert_fails(
+            done, 2, "zbuf: --depth-epsilon: expected 0 with --algorithm scanline, which keeps no order of "
+            "drawing, found '0.1' (try zbuf --help)")
 
 
 class DepthLimits(Pictures):
-    """The limits of Z may be as far apart as the depth format allows; messages_test.py has those that are refused."""
+    """The limits of Z may be as far apart as the depth format allows; messages_test.py has those that are
+    refused."""
 
     def expect_depth(self, format_name, front, rear, z, expected):
         pathlib.Path("config.txt").write_text(f"{COLUMNS} {ROWS}\n-1\n-1\n{front} {rear}\n")
-        for options in ([], ["--algorithm", "scanline"], ["--coverage", "center"], ["--depth-epsilon", "1e300"]):
+        for options in ([], ["--algorithm", "scanline"], ["--coverage",
+                                                          "center"], ["--depth-epsilon", "1e300"]):
             with self.subTest(depth=format_name, front=front, rear=rear, z=z, options=options):
                 words = self.zbuf(wall_at(z), "--depth", format_name, *options).decode().split()
                 self.assertEqual({float(word) for word in words}, {expected})
@@ -234,7 +247,8 @@ class DepthLimits(Pictures):
 
     def test_a_float_holds_floats(self):
         for z in ("-3.4e38", "3.3e38", "0.5"):
-            self.expect_depth("f32", "-3.4028235e38", "3.4028235e38", z, struct.unpack("f", struct.pack("f", float(z)))[0])
+            self.expect_depth("f32", "-3.4028235e38", "3.4028235e38", z,
+                              struct.unpack("f", struct.pack("f", float(z)))[0])
 
     def test_24_bits_hold_what_is_a_double_apart(self):
         # The front limit is exact. A step is 1.7e308 / (2^24 - 1), so 1.23e307 is 1213880.85 steps.
@@ -244,14 +258,17 @@ class DepthLimits(Pictures):
     def test_what_lies_outside_the_limits_of_a_float_is_not_drawn(self):
         pathlib.Path("config.txt").write_text(f"{COLUMNS} {ROWS}\n-1\n-1\n-3e38 3e38\n")
         for z in ("-1e39", "1e39", "-1e308", "1e308"):
-            side, limit = ("before the front", "-3e+38") if z.startswith("-") else ("beyond the rear", "3e+38")
-            note = f"zbuf: note: the picture is empty: the triangle is {side} limit (z is {float(z):.4g}, the limit of the config is {limit})\n"
+            side, limit = ("before the front", "-3e+38") if z.startswith("-") else ("beyond the rear",
+                                                                                    "3e+38")
+            note = (f"zbuf: note: the picture is empty: the triangle is {side} limit (z is {float(z):.4g}, "
+                    f"the limit of the config is {limit})\n")
             self.assertEqual(self.zbuf(wall_at(z), "--depth", "f32", note=note).split(), [])
 
     def test_a_depth_epsilon_sees_differences_beyond_a_double(self):
         pathlib.Path("config.txt").write_text(f"{COLUMNS} {ROWS}\n-1\n-1\n-1.7e308 1.7e308\n")
         stage3 = wall_at("1e308") + "\n" + wall_at("-1e308")
-        self.assertEqual({float(word) for word in self.zbuf(stage3, "--depth-epsilon", "1.7e308").split()}, {-1e308})
+        self.assertEqual({float(word)
+                          for word in self.zbuf(stage3, "--depth-epsilon", "1.7e308").split()}, {-1e308})
 
 
 def distance_to_segment(p, a, b):
@@ -263,9 +280,10 @@ def distance_to_segment(p, a, b):
 
 class Wireframes(Pictures):
     SCENE = "0 0 0\n0 0 -1\n0 1 0\n90 1 1 10\nLIGHTcolor 255 255 255\ntriangle\n"
-    # At the sides, all corners are in front of the eye: one is in the picture, or two, or none and one beyond the far plane.
-    # At the eye, one corner is far behind it, or two.
-    CUT_AT_SIDES = ("-1 1.5 -5\n9 -3 -4\n-4 -9 -6\n", "-1 -1 -4\n1.3 -2 -5\n3 40 -6\n", "-9 -3 -5\n9 -4 -6\n1 90 -40\n")
+    # At the sides, all corners are in front of the eye: one is in the picture, or two, or none and one beyond
+    # the far plane. At the eye, one corner is far behind it, or two.
+    CUT_AT_SIDES = ("-1 1.5 -5\n9 -3 -4\n-4 -9 -6\n", "-1 -1 -4\n1.3 -2 -5\n3 40 -6\n",
+                    "-9 -3 -5\n9 -4 -6\n1 90 -40\n")
     CUT_AT_THE_EYE = ("-1 -1 -2.9\n2 -1.3 -3\n3 4 7\n", "0.5 0.6 -5\n3 -9 4\n-4 -7 9\n")
 
     def wireframe(self, scene, clip):
@@ -281,7 +299,8 @@ class Wireframes(Pictures):
         shown_count = 0
         for i in range(0, len(image), 3):
             p = (i // 3 % COLUMNS, i // 3 // COLUMNS)
-            is_near = min(distance_to_segment(p, a, b), distance_to_segment(p, b, c), distance_to_segment(p, c, a)) <= 0.5
+            is_near = min(distance_to_segment(p, a, b), distance_to_segment(p, b, c),
+                          distance_to_segment(p, c, a)) <= 0.5
             shown_count += is_near and any(surface[i:i + 3])
             self.assertEqual(image[i:i + 3], surface[i:i + 3] if is_near else bytes(3), p)
         self.assertGreater(shown_count, 30)
@@ -302,15 +321,17 @@ class Wireframes(Pictures):
             self.assertEqual(plain, lit)
 
     def test_an_edge_between_two_triangles_is_drawn(self):
-        quad = triangles([(-0.8, -0.8, 0), (0.8, -0.8, 0), (0.8, 0.8, 0)], [(-0.8, -0.8, 0), (0.8, 0.8, 0), (-0.8, 0.8, 0)])
+        quad = triangles([(-0.8, -0.8, 0), (0.8, -0.8, 0), (0.8, 0.8, 0)], [(-0.8, -0.8, 0), (0.8, 0.8, 0),
+                                                                            (-0.8, 0.8, 0)])
         image = self.pixels(quad, "--wireframe")
         middle = 3 * (ROWS // 2 * COLUMNS + COLUMNS // 2)
         self.assertNotEqual(image[middle:middle + 3], bytes(3))
         self.assertEqual(image[middle + 9:middle + 12], bytes(3))
 
     def test_the_background_shows_between_the_edges(self):
-        image = self.pixels("background 1 2 3\n" + wall(0), "--wireframe",
-                            note="zbuf: note: the picture is empty: --wireframe shows edges alone, and none is in sight\n")
+        image = self.pixels(
+            "background 1 2 3\n" + wall(0), "--wireframe",
+            note="zbuf: note: the picture is empty: --wireframe shows edges alone, and none is in sight\n")
         self.assertEqual(image, bytes((1, 2, 3)) * (COLUMNS * ROWS))
 
     def test_algorithms_and_threads_agree(self):
@@ -321,7 +342,8 @@ class Wireframes(Pictures):
 
     def test_samples_keep_the_width_of_lines(self):
         corners = triangles([(-9, -9, 0), (9, -9, 0), (0.013, 0.5, 0)])
-        one, many = (sum(self.pixels(corners, "--wireframe", "--samples", n, "--coverage", "center")) for n in (1, 8))
+        one, many = (sum(self.pixels(corners, "--wireframe", "--samples", n, "--coverage", "center"))
+                     for n in (1, 8))
         self.assertLess(abs(one / many - 1), 0.25)
 
 

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Changes to a scene that must change nothing, or only one stated thing, over random scenes through the real tools.
+"""Changes to a scene that must change nothing, or only one stated thing, over random scenes through the real
+tools.
 
 usage: properties_test.py BIN_DIR [UNITTEST ARGUMENT...]
 """
@@ -14,7 +15,8 @@ SCENE_COUNT = int(os.environ.get("TOOLS_SCENES", 12))  # fewer with sanitizers, 
 
 
 class Scene:
-    """A random scene as pieces of text: a camera that looks at the surroundings of the origin, and triangles there."""
+    """A random scene as pieces of text: a camera that looks at the surroundings of the origin, and triangles
+    there."""
 
     def __init__(self, seed):
         self.random = random.Random(seed)
@@ -30,7 +32,8 @@ class Scene:
     def text(self, before="", triangles=None, scale=1):
         row = lambda numbers: " ".join(repr(scale * number) for number in numbers) + "\n"
         camera = row(self.eye) + row(self.look) + row(self.up) + f"50 1.25 {scale * 0.5!r} {scale * 40!r}\n"
-        body = "".join("triangle\n" + "".join(map(row, t)) for t in (self.triangles if triangles is None else triangles))
+        body = "".join("triangle\n" +"".join(map(row, t))
+                       for t in (self.triangles if triangles is None else triangles))
         return camera + before + body + "end\n"
 
 
@@ -62,8 +65,11 @@ class Properties(ToolTest):
     def test_push_anything_pop_changes_nothing_behind_it(self):
         for scene in self.scenes():
             row = lambda: " ".join(map(repr, scene.numbers(3, 3)))
-            anything = f"push\ntranslate {row()}\nrotate {scene.random.uniform(-400, 400)!r} 1 2 3\npush\nscale {row()}\npop\nscale {row()}\npop\n"
-            self.assertEqual(run("model", stdin=scene.text(anything)).stdout, run("model", stdin=scene.text()).stdout)
+            anything = (f"push\ntranslate {row()}\nrotate {scene.random.uniform(-400, 400)!r} 1 2 3\npush\n"
+                        f"scale {row()}\npop\nscale {row()}\npop\n")
+            self.assertEqual(
+                run("model", stdin=scene.text(anything)).stdout,
+                run("model", stdin=scene.text()).stdout)
 
     def test_scaling_the_world_and_its_camera_by_a_power_of_two_changes_nothing(self):
         for scene in self.scenes():
@@ -118,7 +124,8 @@ class Properties(ToolTest):
                 # The pieces share a corner on the edge from b to c; all coordinates are decimals.
                 a, b, c = ([2 * scene.random.randrange(-600, 600) for _ in range(2)] for _ in range(3))
                 d = [(b[i] + c[i]) // 2 for i in range(2)]
-                text = lambda *points: "".join("triangle 0\n" + "".join(f"{x / 1000:.3f} {y / 1000:.3f} 0.25\n" for x, y in t) + "\n"
+                text = lambda *points: "".join("triangle 0\n" +"".join(f"{x / 1000:.3f} {y / 1000:.3f} 0.25\n"
+                                                                       for x, y in t) + "\n"
                                                for t in points)
                 whole = self.picture(text((a, b, c)), "--coverage", "center")
                 self.assertEqual(self.picture(text((a, b, d), (a, d, c)), "--coverage", "center"), whole)

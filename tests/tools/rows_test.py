@@ -33,7 +33,8 @@ def bands_of(rng, rows):
 class Bands(seen_test.RandomScenes):
     """With the scenes of seen_test.py, and options of all kinds."""
 
-    test_so_it_does_under_a_depth_epsilon = test_threads_algorithms_and_kernels_write_the_same = None  # as there
+    # as there
+    test_so_it_does_under_a_depth_epsilon = test_threads_algorithms_and_kernels_write_the_same = None
 
     def test_any_cut_into_parts_in_any_grouping_gives_the_whole(self):
         """Of the parts' triangles that are seen in a band, the picture of the band."""
@@ -53,14 +54,16 @@ class Bands(seen_test.RandomScenes):
             ndc, options = self.ndc(rng, kind, 60), self.options(rng, kind)
             if rng.random() < 0.2:
                 options += ["--depth-epsilon", "0.01"]
-            depths, image = self.picture(ndc, *options, "--depth-image", "depths.pgm", "--fragments", "fragments.txt")
+            depths, image = self.picture(ndc, *options, "--depth-image", "depths.pgm", "--fragments",
+                                         "fragments.txt")
             fragments = pathlib.Path("fragments.txt").read_text().splitlines()
             gray = pathlib.Path("depths.pgm").read_bytes().split(b"\n", 3)[3]
             found, rows, grays, kept = b"", [], b"", []
             with self.subTest(seed=seed, kind=kind, options=options):
                 for first, end in bands_of(rng, 30):
                     way = rng.choice(ways[2 * ("--depth-epsilon" in options):])
-                    band = self.picture(ndc, *options, *way, "--rows", f"{first}:{end}", "--depth-image", "depths.pgm", "--fragments", "fragments.txt")
+                    band = self.picture(ndc, *options, *way, "--rows", f"{first}:{end}", "--depth-image",
+                                        "depths.pgm", "--fragments", "fragments.txt")
                     found += band[0]
                     rows += rows_of(band[1])
                     grays += pathlib.Path("depths.pgm").read_bytes().split(b"\n", 3)[3]
@@ -80,20 +83,24 @@ class Bands(seen_test.RandomScenes):
             for way in ([], ["--threads", "2"], ["--algorithm", "scanline"], ["--samples", "2"]):
                 if way[:1] == ["--samples"]:
                     depths, image = self.picture(ndc, *way)
-                bands = [self.picture(ndc, *way, "--rows", f"{first}:{end}") for first, end in bands_of(rng, 3000)]
+                bands = [
+                    self.picture(ndc, *way, "--rows", f"{first}:{end}") for first, end in bands_of(rng, 3000)]
                 self.assertEqual(b"".join(band[0] for band in bands), depths, way)
                 self.assertEqual(sum((rows_of(band[1]) for band in bands), []), rows_of(image), way)
 
 
 class Words(seen_test.Seen):
-    TRIANGLES = "-0.9 0.1 0\n0.9 0.1 0\n0 0.9 0\n\n-0.9 -0.9 0\n0.9 -0.9 0\n0 -0.1 0\n\n-3 -3 0\n-2 -3 0\n-2 -2 0\n\n"
+    TRIANGLES = ("-0.9 0.1 0\n0.9 0.1 0\n0 0.9 0\n\n-0.9 -0.9 0\n0.9 -0.9 0\n0 -0.1 0\n\n-3 -3 0\n-2 -3 0\n"
+                 "-2 -2 0\n\n")
 
     def test_statistics_count_what_is_in_the_rows(self):
         pathlib.Path("config.txt").write_text("20 20\n")
         self.zbuf("--stats", "stats.txt", "--rows", "0:10", stdin=self.TRIANGLES)
         stats = dict(line.split() for line in pathlib.Path("stats.txt").read_text().splitlines())
-        self.assertEqual({key: stats[key] for key in ("triangles", "seen", "hidden", "outside_left", "outside_rows")},
-                         {"triangles": "3", "seen": "1", "hidden": "0", "outside_left": "1", "outside_rows": "1"})
+        self.assertEqual(
+            {key: stats[key]
+             for key in ("triangles", "seen", "hidden", "outside_left", "outside_rows")},
+            {"triangles": "3", "seen": "1", "hidden": "0", "outside_left": "1", "outside_rows": "1"})
         self.zbuf("--stats", "whole.txt", stdin=self.TRIANGLES)
         whole = dict(line.split() for line in pathlib.Path("whole.txt").read_text().splitlines())
         self.assertNotIn("outside_rows", whole)
@@ -101,7 +108,9 @@ class Words(seen_test.Seen):
 
     def test_only_a_whole_picture_is_noted_as_empty(self):
         pathlib.Path("config.txt").write_text("20 20\n")
-        for text, note in ((self.TRIANGLES, b""), ("attributes color\n2 2 0 9 9 9\n3 2 0 9 9 9\n2 3 0 9 9 9\n\n", b"zbuf: note: the picture is empty: the triangle is right")):
+        for text, note in ((self.TRIANGLES, b""),
+                           ("attributes color\n2 2 0 9 9 9\n3 2 0 9 9 9\n2 3 0 9 9 9\n\n",
+                            b"zbuf: note: the picture is empty: the triangle is right")):
             for options in ([], ["--wireframe"]):
                 done = run("zbuf", "config.txt", "--rows", "9:10", *options, stdin=text)
                 self.assertEqual(done.returncode, 0)
@@ -112,15 +121,22 @@ class Words(seen_test.Seen):
         done = run("zbuf", "config.txt", "--rows", "5:9", "--probe", "10,5", stdin=self.TRIANGLES)
         self.assertIn(b"zbuf: 10,5: triangle 0, depth 0: kept\n", done.stderr)
         done = run("zbuf", "config.txt", "--rows", "5:9", "--probe", "10,9", stdin=self.TRIANGLES)
-        self.assertEqual((done.returncode, done.stderr), (2, b"zbuf: --probe: expected COLUMN,ROW, from 0,5 to 19,8, found '10,9' (try zbuf --help)\n"))
+        self.assertEqual(
+            (done.returncode, done.stderr),
+            (2, b"zbuf: --probe: expected COLUMN,ROW, from 0,5 to 19,8, found '10,9' (try zbuf --help)\n"))
 
     def test_rows_that_are_not_there_are_refused(self):
         pathlib.Path("config.txt").write_text("20 20\n")
         which = "A:B, the first row and the one after the last, from 0:1 to 19:20"
-        for rows in ("", "3", "3:3", "4:3", "0:21", "-1:3", "a:b", "1:2:3", ":", "0:99999999999999999999", "1.0:2"):
+        for rows in ("", "3", "3:3", "4:3", "0:21", "-1:3", "a:b", "1:2:3", ":", "0:99999999999999999999",
+                     "1.0:2"):
             done = run("zbuf", "config.txt", "--rows", rows, stdin=self.TRIANGLES)
             self.assertEqual((done.returncode, done.stdout), (2, b""), rows)
-            self.assertEqual(done.stderr.decode(), f"zbuf: --rows: expected {which if rows else 'A:B, such as 0:100'}, found '{rows}' (try zbuf --help)\n")
+            self.assertEqual(
+                done.stderr.decode(),
+                f"zbuf: --rows: expected {which if rows else 'A:B, such as 0:100'}, found '{rows}' (try zbuf "
+                f"--help)\n"
+            )
             self.assertFalse(pathlib.Path("out.bmp").exists())
 
     def test_a_band_needs_memory_for_itself_alone(self):
@@ -130,9 +146,11 @@ class Words(seen_test.Seen):
         limit = lambda: resource.setrlimit(resource.RLIMIT_AS, (1 << 28, 1 << 28))
         words = [BIN / "zbuf", "--size", "20000x20000", "--z-buffer", "none", "-o", "band.ppm"]
         wall = b"-9 -9 0\n9 -9 0\n0 9 0\n\n"
-        done = subprocess.run([*words, "--rows", "700:800"], input=wall, capture_output=True, preexec_fn=limit)
+        done = subprocess.run([*words, "--rows", "700:800"], input=wall, capture_output=True,
+                              preexec_fn=limit)
         self.assertEqual((done.returncode, done.stderr), (0, b""))
-        self.assertEqual(pathlib.Path("band.ppm").stat().st_size, 3 * 20000 * 100 + len("P6\n20000 100\n255\n"))
+        self.assertEqual(
+            pathlib.Path("band.ppm").stat().st_size, 3 * 20000 * 100 + len("P6\n20000 100\n255\n"))
         done = subprocess.run(words, input=wall, capture_output=True, preexec_fn=limit)
         self.assertEqual(done.returncode, 1)
 

@@ -17,7 +17,8 @@ RULES = [[coverage, depth] for coverage in ("nearest", "center") for depth in ("
 
 def zbuf(config, stage3, *options):
     """The depth text and the image."""
-    done = subprocess.run(command("zbuf", config, stage3, "--image", "out.ppm", *options), stdout=subprocess.PIPE, check=True)
+    done = subprocess.run(command("zbuf", config, stage3, "--image", "out.ppm", *options),
+                          stdout=subprocess.PIPE, check=True)
     return done.stdout, pathlib.Path("out.ppm").read_bytes()
 
 
@@ -25,7 +26,8 @@ def triangle(rng, size):
     """A triangle around a random point, as text, with the digits of a stage text or all those of a double."""
     x, y = rng.uniform(-1.2, 1.2), rng.uniform(-1.2, 1.2)
     form = rng.choice(("%.7f", "%.7f", "%.2f", "%.17g", "%.25f"))
-    points = [[x + rng.uniform(-size, size), y + rng.uniform(-size, size), rng.uniform(-1.2, 1.2)] for _ in range(3)]
+    points = [[x + rng.uniform(-size, size), y + rng.uniform(-size, size),
+               rng.uniform(-1.2, 1.2)] for _ in range(3)]
     return "".join(" ".join(form % c for c in point) + "\n" for point in points) + "\n"
 
 
@@ -35,7 +37,8 @@ class SameBytes(ToolTest):
             options = ["--coverage", coverage, "--depth", depth]
             expected = zbuf(config, stage3, *options, "--algorithm", "zbuffer")
             with self.subTest(stage3=str(stage3), coverage=coverage, depth=depth):
-                self.assertTrue(zbuf(config, stage3, *options, "--algorithm", "scanline") == expected, "differs")
+                self.assertTrue(
+                    zbuf(config, stage3, *options, "--algorithm", "scanline") == expected, "differs")
 
     def test_every_sample(self):
         samples = sorted(SOURCE.glob("samples/*/stage3.txt"))
@@ -55,7 +58,8 @@ class SameBytes(ToolTest):
         self.check_all_rules("config.txt", "stage3.txt")
 
     def test_the_z_buffer_is_the_default(self):
-        self.assertIn(b"(default: zbuffer)", subprocess.run(command("zbuf", "--help"), stdout=subprocess.PIPE, check=True).stdout)
+        self.assertIn(b"(default: zbuffer)",
+                      subprocess.run(command("zbuf", "--help"), stdout=subprocess.PIPE, check=True).stdout)
 
 
 class MemoryTest(ToolTest):
@@ -66,7 +70,8 @@ class MemoryTest(ToolTest):
     def check(self, config):
         pathlib.Path("config.txt").write_text(config)
         pathlib.Path("few.txt").write_text(self.FEW)
-        words = command("zbuf", "config.txt", "few.txt", "--algorithm", "scanline", "--z-buffer", "/dev/null", "--image", "/dev/null")
+        words = command("zbuf", "config.txt", "few.txt", "--algorithm", "scanline", "--z-buffer", "/dev/null",
+                        "--image", "/dev/null")
         process = subprocess.Popen(words)
         _, status, usage = os.wait4(process.pid, 0)
         process.returncode = os.waitstatus_to_exitcode(status)
@@ -87,8 +92,9 @@ class LongMemory(MemoryTest):
 
 class Measurement(ToolTest):
     def test_the_quick_measurement_runs(self):
-        subprocess.run([sys.executable, SOURCE / "scripts/measure/algorithms", "--quick", "--bin", BIN, "--out", "results"], check=True,
-                       stdout=subprocess.DEVNULL)
+        subprocess.run([
+            sys.executable, SOURCE / "scripts/measure/algorithms", "--quick", "--bin", BIN, "--output",
+            "results"], check=True, stdout=subprocess.DEVNULL)
         self.assertEqual(self.files_in("results"), ["algorithms.csv", "algorithms.md", "algorithms.svg"])
 
     def files_in(self, folder):

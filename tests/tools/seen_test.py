@@ -14,9 +14,11 @@ from streaming_test import LiveTool
 from toolbox import NO_TRIANGLE, SOURCE, ToolTest, pipe, run
 
 FULL_SCENE_COUNT = 12
-SCENE_COUNT = int(os.environ.get("TOOLS_SCENES", FULL_SCENE_COUNT))  # fewer with sanitizers, see CMakeLists.txt
+SCENE_COUNT = int(os.environ.get("TOOLS_SCENES",
+                                 FULL_SCENE_COUNT))  # fewer with sanitizers, see CMakeLists.txt
 SAMPLES = sorted(path.parent for path in SOURCE.glob("samples/*/scene.txt"))
-SETTINGS = ("", "--coverage center", "--wireframe", "--shading flat", "--shading gouraud", "--samples 3", "--depth u24", "--depth f32 --wireframe")
+SETTINGS = ("", "--coverage center", "--wireframe", "--shading flat", "--shading gouraud", "--samples 3",
+            "--depth u24", "--depth f32 --wireframe")
 STEP = FULL_SCENE_COUNT // SCENE_COUNT  # of these settings, every STEP-th
 CLIPS = ("auto", "near", "frustum", "frustum --clip-inset 0.2")
 WALL = "-9 -9 {0}\n9 -9 {0}\n0 9 {0}\n\n"
@@ -63,7 +65,9 @@ class StageText:
     def parts(self, rng, count):
         """The text in parts: each has the header, and numbers its triangles."""
         cuts = sorted(rng.randrange(len(self.triangles) + 1) for _ in range(count - 1))
-        return [self.text(self.triangles[begin:end]) for begin, end in zip([0, *cuts], [*cuts, len(self.triangles)])]
+        return [
+            self.text(self.triangles[begin:end])
+            for begin, end in zip([0, *cuts], [*cuts, len(self.triangles)])]
 
 
 def joined(parts):
@@ -79,9 +83,11 @@ class Seen(ToolTest):
         return done.stdout
 
     def picture(self, text, *options):
-        """(depths, image); what is noted of mirrors and glass, or of an empty image, may be in other words."""
+        """(depths, image); what is noted of mirrors and glass, or of an empty image, may be in other
+        words."""
         done = run("zbuf", "config.txt", *options, "--image", "picture.ppm", stdin=text)
-        self.assertRegex(done.stderr.decode(), r"\A(zbuf: note: (mirrors and glass are|the picture is (empty|black):) .*\n)*\Z")
+        self.assertRegex(done.stderr.decode(),
+                         r"\A(zbuf: note: (mirrors and glass are|the picture is (empty|black):) .*\n)*\Z")
         self.assertEqual(done.returncode, 0)
         return done.stdout, pathlib.Path("picture.ppm").read_bytes()
 
@@ -129,9 +135,12 @@ class Pictures(Seen):
 class RandomScenes(Seen):
     """Also with equal depths, several colors, lights and cuts."""
 
-    HEADERS = ("", "background 10 20 30\ncolor 200 100 50\n",
-               "attributes color normal\nbackground 9 9 9\nlight 1 2 3 1 1 1\nambient 0.2 0.2 0.2\nmaterial 1 1 0.5 8\n",
-               "attributes normal\nlight 3 1 3 1 0.5 1\n", "attributes normal\nmaterial 1 1 0 1\nmaterial 0.2 0.5 1 9\nlight 3 1 3 1 0.5 1\n")
+    HEADERS = (
+        "", "background 10 20 30\ncolor 200 100 50\n",
+        "attributes color normal\nbackground 9 9 9\nlight 1 2 3 1 1 1\nambient 0.2 0.2 0.2\nmaterial 1 "
+        "1 0.5 8\n",
+        "attributes normal\nlight 3 1 3 1 0.5 1\n",
+        "attributes normal\nmaterial 1 1 0 1\nmaterial 0.2 0.5 1 9\nlight 3 1 3 1 0.5 1\n")
 
     def scene(self, rng, kind, count):
         coordinate = lambda: rng.choice((rng.uniform(-2, 2), rng.randrange(-4, 5) / 2))
@@ -151,7 +160,10 @@ class RandomScenes(Seen):
         return lines + "end\n"
 
     def options(self, rng, kind):
-        options = ["--coverage", rng.choice(("nearest", "center")), "--depth", rng.choice(("f64", "f32", "u24"))]
+        options = [
+            "--coverage",
+            rng.choice(("nearest", "center")), "--depth",
+            rng.choice(("f64", "f32", "u24"))]
         if rng.random() < 0.4:
             options += ["--samples", str(rng.choice((2, 3)))]
         if rng.random() < 0.3:
@@ -163,7 +175,8 @@ class RandomScenes(Seen):
     def ndc(self, rng, kind, count):
         clip = rng.choice(("near", "frustum", "reject", "auto"))
         digits = rng.choice(("3", "7", "exact"))
-        return pipe(["model", "--digits", digits, *rng.choice(([], ["--framed"]))], ["view", "--digits", digits],
+        return pipe(["model", "--digits", digits, *rng.choice(
+            ([], ["--framed"]))], ["view", "--digits", digits],
                     ["project", "--clip", clip, "--digits", digits], stdin=self.scene(rng, kind, count))
 
     def test_any_cut_into_parts_in_any_grouping_gives_the_whole(self):
@@ -183,7 +196,8 @@ class RandomScenes(Seen):
             options = [*self.options(rng, kind), "--depth-epsilon", str(rng.choice((0.001, 0.01, 0.1)))]
             with self.subTest(seed=seed, kind=kind, options=options):
                 seen = self.check(ndc, *options, rng=rng)
-                differences += len(StageText(seen).triangles) != len(StageText(self.seen(ndc, *options[:-2])).triangles)
+                differences += len(StageText(seen).triangles) != len(
+                    StageText(self.seen(ndc, *options[:-2])).triangles)
         self.assertGreater(differences, 0)  # the winners alone would not do
 
     def test_threads_algorithms_and_kernels_write_the_same(self):
@@ -196,7 +210,8 @@ class RandomScenes(Seen):
                 self.assertEqual(self.seen(ndc, *options, "--threads", "3"), expected)
                 self.assertEqual(self.seen(ndc, *options, "--algorithm", "scanline"), expected)
                 for kernel in ("scalar", "sse4", "avx2", "avx512"):
-                    done = run("zbuf", "config.txt", "--seen", "-", *options, stdin=ndc, env={**os.environ, "PIPELINE_KERNEL": kernel})
+                    done = run("zbuf", "config.txt", "--seen", "-", *options, stdin=ndc,
+                               env={**os.environ, "PIPELINE_KERNEL": kernel})
                     self.assertEqual(done.stdout, expected)
 
 
@@ -215,7 +230,8 @@ class Owners(Seen):
 
     def text(self, seed, count=300):
         rng = random.Random(seed)
-        vertex = lambda: f"{rng.uniform(-1.5, 1.5):.7f} {rng.uniform(-1.5, 1.5):.7f} {rng.uniform(-1.2, 1.2):.7f}\n"
+        vertex = (lambda:
+                  f"{rng.uniform(-1.5, 1.5):.7f} {rng.uniform(-1.5, 1.5):.7f} {rng.uniform(-1.2, 1.2):.7f}\n")
         return "".join("".join(vertex() for _ in range(3)) + "\n" for _ in range(count))
 
     def test_they_are_those_of_the_last_fragments_kept(self):
@@ -226,7 +242,8 @@ class Owners(Seen):
                 owners = dict(self.fragments(text, *options))
                 seen = self.numbers(self.seen(text, *options, "--stats", "stats.txt"))
                 self.assertEqual(seen, sorted(set(owners.values())))
-                self.assertIn(f"seen {len(seen)}\npixels_written {len(owners)}\n", pathlib.Path("stats.txt").read_text())
+                self.assertIn(f"seen {len(seen)}\npixels_written {len(owners)}\n",
+                              pathlib.Path("stats.txt").read_text())
 
     def test_under_a_depth_epsilon_they_are_those_kept_at_any_time_without_it(self):
         pathlib.Path("config.txt").write_text("25 20\n")
@@ -256,7 +273,8 @@ class Owners(Seen):
         lines = []
         for i in range(60_000):
             x, y, z = rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(-1, 1)
-            a, b, c, d = (f"{x + dx:.7f} {y + dy:.7f} {z:.7f}\n" for dx, dy in ((0, 0), (0.1, 0), (0.1, 0.1), (0, 0.1)))
+            a, b, c, d = (f"{x + dx:.7f} {y + dy:.7f} {z:.7f}\n" for dx, dy in ((0, 0), (0.1, 0), (0.1, 0.1),
+                                                                                (0, 0.1)))
             lines.append(f"{a}{b}{c}\n" + (f"triangle {i}\n{a}{c}{d}\n" if i % 3 == 0 else ""))
         text = "".join(lines).encode()
         seen = self.seen(text)
@@ -283,7 +301,8 @@ class Text(Seen):
         self.check_text(wall, wall)
 
     def test_so_do_header_lines_and_columns(self):
-        text = ("attributes w color\nbackground 1.50 2 3e0\n" + "-9 -9 0.5 1.0 255 0.0 7\n9 -9 0.5 1 1 1 1\n0 9 0.5 2e0 3 3 3.25\n\n")
+        text = ("attributes w color\nbackground 1.50 2 3e0\n" +
+                "-9 -9 0.5 1.0 255 0.0 7\n9 -9 0.5 1 1 1 1\n0 9 0.5 2e0 3 3 3.25\n\n")
         self.check_text(text, text)
 
     def test_comments_and_blanks_around_lines_go(self):
@@ -291,7 +310,8 @@ class Text(Seen):
         self.check_text(text, "background 1 2 3\n-9 -9\t0.5\n9  -9 0.5\n0 9 0.5\n\n")
 
     def test_the_sizes_in_which_text_arrives_change_nothing(self):
-        text = " -9 -9 0.5\t\r\n9  -9 0.5\n0 9 0.5 \n\n" + WALL.format("0.2500000") + "-9 -9 0.1\r\n9 -9 0.1\r\n0\t9 0.1\r\n"
+        text = " -9 -9 0.5\t\r\n9  -9 0.5\n0 9 0.5 \n\n" + WALL.format(
+            "0.2500000") + "-9 -9 0.1\r\n9 -9 0.1\r\n0\t9 0.1\r\n"
         expected = "triangle 2\n-9 -9 0.1\n9 -9 0.1\n0\t9 0.1\n\n"
         self.check_text(text, expected)
         with LiveTool("zbuf", "config.txt", "--seen", "-") as live:
@@ -304,16 +324,20 @@ class Text(Seen):
         walls = [WALL.format(z) for z in (0.9, 0.8, 0.7)]
         self.check_text("".join(walls), "triangle 2\n" + walls[2])
         left, right = "-9 -9 0\n-0.1 -9 0\n-0.1 9 0\n\n", "0.1 -9 0\n9 -9 0\n0.1 9 0\n\n"
-        self.check_text("triangle 5\n" + left + right + "triangle 20000000000\n" + walls[0], "triangle 5\n" + left + right)
-        self.check_text("triangle 20000000000\n" + left + walls[0] + right, "triangle 20000000000\n" + left + "triangle 20000000002\n" + right)
+        self.check_text("triangle 5\n" + left + right + "triangle 20000000000\n" + walls[0],
+                        "triangle 5\n" + left + right)
+        self.check_text("triangle 20000000000\n" + left + walls[0] + right,
+                        "triangle 20000000000\n" + left + "triangle 20000000002\n" + right)
         self.check_text(left + right, left + right)
 
     def test_pieces_stay_together_with_the_uncut_triangle(self):
-        header = "attributes w\nlight 0 0 9 1 1 1\nprojection\n".replace("projection", "projected frustum -1 1 -1 1 1 9")
+        header = "attributes w\nlight 0 0 9 1 1 1\nprojection\n".replace("projection",
+                                                                         "projected frustum -1 1 -1 1 1 9")
         piece = lambda x: f"{x} 0 0.5 1\n{x}.9 0 0.5 1\n{x} 9 0.5 1\n\n"
         clipped = "clipped\n0 0 0 1\n1 0 0 1.50\n0 1 0 -1\n\n"
         seen, unseen = piece("0"), piece("20")
-        text = header + "triangle 3\n" + clipped + unseen + "triangle 3\n" + seen + unseen + "triangle 9\n" + clipped + unseen
+        text = (header + "triangle 3\n" + clipped + unseen + "triangle 3\n" + seen + unseen + "triangle 9\n" +
+                clipped + unseen)
         self.check_text(text, header + "triangle 3\n" + clipped + unseen + "triangle 3\n" + seen)
 
     def test_an_uncut_triangle_without_pieces_goes(self):
@@ -332,7 +356,8 @@ class Text(Seen):
     def test_a_failure_ends_the_text_with_an_error_line(self):
         done = run("zbuf", "config.txt", "--seen", "-", stdin="1 2 three\n")
         self.assertEqual(done.returncode, 1)
-        self.assertEqual(done.stdout.decode(), "error zbuf: <stdin>:1:5: expected the z of vertex 1 of 3, found 'three'\n")
+        self.assertEqual(done.stdout.decode(),
+                         "error zbuf: <stdin>:1:5: expected the z of vertex 1 of 3, found 'three'\n")
         done = run("zbuf", "config.txt", "--seen", "seen.txt", stdin="1 2 three\n")
         self.assertEqual((done.returncode, done.stdout, os.path.exists("seen.txt")), (1, b"", False))
 
@@ -341,21 +366,28 @@ class Outputs(Seen):
     def test_with_it_there_is_no_image_and_no_depth_unless_asked_for(self):
         self.assertEqual(self.zbuf("--seen", "seen.txt", stdin=WALL.format(0.5)), b"")
         self.assertEqual(self.files(), ["config.txt", "scene.txt", "seen.txt"])
-        self.assertEqual(self.zbuf("--seen", "seen.txt", "--z-buffer", "-", stdin=WALL.format(0.5)).count(b"\n"), 8)
+        self.assertEqual(
+            self.zbuf("--seen", "seen.txt", "--z-buffer", "-", stdin=WALL.format(0.5)).count(b"\n"), 8)
         self.assertFalse(os.path.exists("out.bmp"))
-        self.zbuf("--seen", "-", "--image", "a.png", "--z-buffer", "z.txt", "--depth-image", "d.pgm", stdin=WALL.format(0.5))
+        self.zbuf("--seen", "-", "--image", "a.png", "--z-buffer", "z.txt", "--depth-image", "d.pgm",
+                  stdin=WALL.format(0.5))
         self.assertEqual(self.files(), ["a.png", "config.txt", "d.pgm", "scene.txt", "seen.txt", "z.txt"])
 
     def test_depths_and_triangles_cannot_both_be_standard_output(self):
-        self.assert_fails(run("zbuf", "config.txt", "--seen", "-", "--z-buffer", "-"), 2,
-                          "zbuf: --z-buffer: expected a file or none, as --seen is standard output, found '-' (try zbuf --help)")
+        self.assert_fails(
+            run("zbuf", "config.txt", "--seen", "-", "--z-buffer", "-"), 2,
+            "zbuf: --z-buffer: expected a file or none, as --seen is standard output, found '-' (try "
+            "zbuf --help)"
+        )
 
     def test_nor_can_the_image(self):
-        self.assert_fails(run("zbuf", "config.txt", "--seen", "-", "-o", "-"), 2,
-                          "zbuf: --image: expected a file, as --seen is standard output, found '-' (try zbuf --help)")
+        self.assert_fails(
+            run("zbuf", "config.txt", "--seen", "-", "-o", "-"), 2,
+            "zbuf: --image: expected a file, as --seen is standard output, found '-' (try zbuf --help)")
         wall = WALL.format(0.5)
         self.zbuf("-o", "a.ppm", stdin=wall)
-        self.assertEqual(self.zbuf("--seen", "seen.txt", "-o", "-", stdin=wall), pathlib.Path("a.ppm").read_bytes())
+        self.assertEqual(self.zbuf("--seen", "seen.txt", "-o", "-", stdin=wall),
+                         pathlib.Path("a.ppm").read_bytes())
         self.assertEqual(pathlib.Path("seen.txt").read_text(), wall)
 
     def test_why_a_picture_is_empty_is_noted_where_there_is_one(self):
@@ -365,7 +397,8 @@ class Outputs(Seen):
 
     def test_no_file_is_replaced_by_a_run_that_fails(self):
         pathlib.Path("seen.txt").write_text("older")
-        self.assertEqual(run("zbuf", "config.txt", "--seen", "seen.txt", stdin=WALL.format(0.5) + "oops\n").returncode, 1)
+        self.assertEqual(
+            run("zbuf", "config.txt", "--seen", "seen.txt", stdin=WALL.format(0.5) + "oops\n").returncode, 1)
         self.assertEqual(pathlib.Path("seen.txt").read_text(), "older")
 
     def test_a_text_may_be_replaced_by_what_is_seen_of_it(self):

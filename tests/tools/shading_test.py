@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 """zbuf's colors and lights, against rays cast through the pixels.
 
-A ray intersects the triangle in view space; color, normal and position there are weighted means of the corners', and the
-lighting formula is evaluated there. So nothing is projected, and nothing is interpolated on the screen.
+A ray intersects the triangle in view space; color, normal and position there are weighted means of the
+corners', and the lighting formula is evaluated there. So nothing is projected, and nothing is interpolated on
+the screen.
 
 usage: shading_test.py BIN_DIR [UNITTEST ARGUMENT...]
 """
@@ -46,7 +47,9 @@ def words(*numbers):
 def scene_of(corners, projection, lit=True):
     lines = [EYE_AT_5 + projection, "attributes color normal", "background 10 20 30"]
     if lit:
-        lines += ["ambient " + words(*AMBIENT), "material " + words(*MATERIAL), "attenuation " + words(*ATTENUATION)]
+        lines += [
+            "ambient " + words(*AMBIENT), "material " + words(*MATERIAL),
+            "attenuation " + words(*ATTENUATION)]
         lines += ["light " + words(*position, *intensity) for position, intensity in LIGHTS]
     lines += ["triangle"] + [words(*p, *c, *n) for p, c, n in corners] + ["end\n"]
     return "\n".join(lines)
@@ -92,7 +95,8 @@ def lit(p, color, normal, eye_direction):
         if dot(n, light) <= 0:
             continue
         for i in range(3):
-            result[i] += att * intensity[i] * (color[i] * kd * dot(n, light) + 255 * ks * max(0, dot(n, half)) ** shininess)
+            result[i] += att * intensity[i] * (color[i] * kd * dot(n, light) +
+                                               255 * ks * max(0, dot(n, half))**shininess)
     return tuple(result)
 
 
@@ -137,7 +141,8 @@ class Shading(ToolTest):
         return [[tuple(data[3 * (SIZE * r + c):][:3]) for c in range(SIZE)] for r in range(SIZE)]
 
     def assert_image(self, corners, projection, model, *options, lit=True, clip="auto"):
-        stage3 = pipe(["model"], ["view"], ["project", "--clip", clip], stdin=scene_of(corners, projection, lit))
+        stage3 = pipe(["model"], ["view"], ["project", "--clip", clip],
+                      stdin=scene_of(corners, projection, lit))
         self.assertEqual(b"clipped" in stage3, lit and (corners in (CUT, CUT_TWICE) or clip == "frustum"))
         image = self.image_of(stage3, *options)
         hit_count = 0
@@ -150,7 +155,8 @@ class Shading(ToolTest):
                     self.assertEqual(got, (10, 20, 30), (row, column))
                 else:
                     wanted = [min(255, max(0, c)) for c in expected]
-                    self.assertLessEqual(max(abs(a - b) for a, b in zip(got, wanted)), 0.51, (row, column, wanted))
+                    self.assertLessEqual(max(abs(a - b) for a, b in zip(got, wanted)), 0.51,
+                                         (row, column, wanted))
         self.assertGreater(hit_count, 40)
 
     def test_phong_lights_every_pixel(self):
@@ -209,21 +215,29 @@ class Shading(ToolTest):
         self.assertEqual(set(sum(self.image_of(stage3), [])), {(21, 18, 95)})
 
     def test_a_light_behind_a_surface_gives_it_no_highlight(self):
-        # As fixed-function OpenGL draws it. Without the condition n.l > 0, the triangle shines at 11 to 14 of 255.
-        scene = ("0 0 3\n0 0 0\n0 1 0\n60 1 1 10\nambient 0 0 0\nmaterial 0 1 1 2\nlight 1 0 -2 1 1 1\ncolor 0 0 0\nbackground 9 9 9\n"
-                 "triangle\n-1 -1 0\n1 -1 0\n0 1 0\nend\n")
+        # As fixed-function OpenGL draws it. Without the condition n.l > 0, the triangle shines at 11 to 14 of
+        # 255.
+        scene = (
+            "0 0 3\n0 0 0\n0 1 0\n60 1 1 10\nambient 0 0 0\nmaterial 0 1 1 2\nlight 1 0 -2 1 1 1\ncolor 0 0 "
+            "0\nbackground 9 9 9\n"
+            "triangle\n-1 -1 0\n1 -1 0\n0 1 0\nend\n")
         stage3 = pipe(["model"], ["view"], ["project"], stdin=scene)
         for model in ("flat", "gouraud", "phong"):
-            self.assertEqual(set(sum(self.image_of(stage3, "--shading", model), [])), {(0, 0, 0), (9, 9, 9)}, model)
+            self.assertEqual(set(sum(self.image_of(stage3, "--shading", model), [])), {(0, 0, 0), (9, 9, 9)},
+                             model)
 
     def test_gouraud_clamps_the_colors_of_vertices_before_it_interpolates_them(self):
-        # Ambient light of 2 makes 510 of the red 255 at the upper edge, and leaves the 0 at the lower one. A ramp of 24 rows
-        # begins with 255 * 47/48; under phong every row is clamped by itself.
-        scene = ("0 0 5\n0 0 0\n0 1 0\northo -1 1 -1 1 1 9\nattributes color\nambient 2 2 2\nlight 0 0 5 0 0 0\n"
-                 "triangle\n-1 1 0 255 0 0\n-1 -1 0 0 0 0\n3 1 0 255 0 0\ntriangle\n-1 -1 0 0 0 0\n3 -1 0 0 0 0\n3 1 0 255 0 0\nend\n")
+        # Ambient light of 2 makes 510 of the red 255 at the upper edge, and leaves the 0 at the lower one. A
+        # ramp of 24 rows begins with 255 * 47/48; under phong every row is clamped by itself.
+        scene = (
+            "0 0 5\n0 0 0\n0 1 0\northo -1 1 -1 1 1 9\nattributes color\nambient 2 2 2\nlight 0 0 5 0 0 0\n"
+            "triangle\n-1 1 0 255 0 0\n-1 -1 0 0 0 0\n3 1 0 255 0 0\ntriangle\n-1 -1 0 0 0 0\n3 -1 0 0 0 0\n"
+            "3 1 0 255 0 0\nend\n"
+        )
         stage3 = pipe(["model"], ["view"], ["project"], stdin=scene)
         weights = [(2 * (SIZE - row) - 1) / (2 * SIZE) for row in range(SIZE)]
-        for model, reds in (("gouraud", [255 * w for w in weights]), ("phong", [min(255, 510 * w) for w in weights])):
+        for model, reds in (("gouraud", [255 * w
+                                         for w in weights]), ("phong", [min(255, 510 * w) for w in weights])):
             expected = [[(math.floor(red + 0.5), 0, 0)] * SIZE for red in reds]
             self.assertEqual(self.image_of(stage3, "--shading", model), expected, model)
 
@@ -234,12 +248,15 @@ class Shading(ToolTest):
 
     def test_shading_needs_a_light(self):
         done = run("zbuf", "config.txt", "--shading", "flat", stdin="background 0 0 0\n")
-        self.assert_fails(done, 1, "zbuf: <stdin>:2:1: expected a light for --shading (a header line light), found none")
+        self.assert_fails(
+            done, 1, "zbuf: <stdin>:2:1: expected a light for --shading (a header line light), found none")
 
     def test_lights_need_the_projection(self):
         done = run("zbuf", "config.txt", stdin="light 0 0 0 1 1 1\n")
-        self.assert_fails(done, 1, "zbuf: <stdin>:2:1: expected a header line 'projected frustum L R B T N F' (or ortho) in a "
-                                   "text with lights, found none: this text has not been through project")
+        self.assert_fails(
+            done, 1,
+            "zbuf: <stdin>:2:1: expected a header line 'projected frustum L R B T N F' (or ortho) in a "
+            "text with lights, found none: this text has not been through project")
 
 
 def without_looks(stage3):
@@ -273,9 +290,12 @@ class WholeScenes(ToolTest):
         config = reference.read_config(reference.Text(pathlib.Path("config.txt").read_bytes()))
         for name in ("inside", "orthographic", "colored-lights"):
             scene = (SOURCE / "samples" / name / "scene.txt").read_text()
-            stage3 = pipe(["model", "--digits", "exact"], ["view", "--digits", "exact"], ["project"], stdin=scene)
+            stage3 = pipe(["model", "--digits", "exact"], ["view", "--digits", "exact"], ["project"],
+                          stdin=scene)
             text = reference.Stage(stage3, "zbuf")
-            by_color = {tuple(reference.generated_color(triangle.number)): triangle for triangle in text.triangles()}
+            by_color = {
+                tuple(reference.generated_color(triangle.number)): triangle
+                for triangle in text.triangles()}
             for coverage in ("nearest", "center"):
                 unlit = self.pixels(without_looks(stage3), "--coverage", coverage)
                 seen = [[by_color.get(pixel) for pixel in row] for row in unlit]
@@ -314,7 +334,8 @@ class WholePictures(ToolTest):
         return [pixels[i:i + self.SIZE] for i in range(0, len(pixels), self.SIZE)]
 
     def largest_bend(self, image):
-        """The largest second difference of brightness along rows and columns in the ball, of radius 45 pixels, away from its rim."""
+        """The largest second difference of brightness along rows and columns in the ball, of radius 45
+        pixels, away from its rim."""
         bends = []
         for i in range(70, 130):
             for k in range(70, 130):
@@ -328,10 +349,11 @@ class WholePictures(ToolTest):
     def test_a_ball_under_phong_shows_no_edge(self):
         scene = (EYE_AT_5.replace("0 0 5", "0 0 4") + PERSPECTIVE + "\ncolor 255 255 255\nattributes normal\n"
                  "light 300 400 900 1 1 1\n" + "".join(ball(12, 24)) + "end\n")
-        # The brightness of a true ball has a second difference of about 255 / 45^2 = 0.13; rounding three values adds less than 2.
+        # The brightness of a true ball has a second difference of about 255 / 45^2 = 0.13; rounding three
+        # values adds less than 2.
         self.assertLessEqual(self.largest_bend(self.image_of(scene, "--coverage", "center")), 2)
-        # Pixels whose centers lie up to half a pixel beyond an edge show the color on the edge: they lack half of a pixel's
-        # rise of 255 / 45, which a second difference counts twice.
+        # Pixels whose centers lie up to half a pixel beyond an edge show the color on the edge: they lack
+        # half of a pixel's rise of 255 / 45, which a second difference counts twice.
         self.assertLessEqual(self.largest_bend(self.image_of(scene, "--coverage", "nearest")), 2 + 255 / 45)
         # Flat shading shows the edges.
         self.assertGreater(self.largest_bend(self.image_of(scene, "--shading", "flat")), 10)
@@ -350,12 +372,14 @@ class WholePictures(ToolTest):
         self.assertGreater(len([pixel for pixel in images[0] if pixel != (0, 0, 0)]), 2000)
 
     def test_a_mirrored_scene_gives_the_mirrored_image(self):
-        scene = (EYE_AT_5.replace("0 0 5", "0 0 4") + PERSPECTIVE + "\nattributes color normal\nmaterial 1 0.7 0.4 20\n"
+        scene = (EYE_AT_5.replace("0 0 5", "0 0 4") + PERSPECTIVE +
+                 "\nattributes color normal\nmaterial 1 0.7 0.4 20\n"
                  "MIRROR\nlight 2 3 4 1 0.8 0.6\nlight -4 -1 1 0.3 0.3 0.5\nrotate 33 1 2 3\n" +
-                 "".join(line + "\n" if len(line.split()) < 6 else words(*line.split()[:3], *color, *line.split()[3:]) + "\n"
+                 "".join(line + "\n" if len(line.split()) < 6 else words(*line.split()[:3], *color,
+                                                                         *line.split()[3:]) + "\n"
                          for triangle in ball(5, 7)
-                         for line, color in zip(triangle.splitlines(), ("", (255, 0, 9), (20, 255, 3), (90, 40, 255)))) +
-                 "end\n")
+                         for line, color in zip(triangle.splitlines(), ("", (255, 0, 9), (20, 255, 3),
+                                                                        (90, 40, 255)))) + "end\n")
         for model in MODELS:
             options = ("--shading", model, "--coverage", "center")
             image = self.image_of(scene.replace("MIRROR\n", ""), *options)

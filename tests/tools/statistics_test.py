@@ -17,8 +17,9 @@ import reference  # noqa: E402
 
 SIDES = ("left", "right", "below", "above", "near", "far")
 PROJECT_KEYS = ["triangles", "behind", *("outside_" + side for side in SIDES), "cut", "culled"]
-ZBUF_KEYS = ["triangles", *("outside_" + side for side in SIDES), "without_area", "between_centers", "hidden", "seen", "pixels_written",
-             "fragments_tested"]
+ZBUF_KEYS = [
+    "triangles", *("outside_" + side for side in SIDES), "without_area", "between_centers", "hidden", "seen",
+    "pixels_written", "fragments_tested"]
 EXTENTS = [f"{axis}_{end}" for axis in "xyz" for end in ("min", "max")]
 
 
@@ -36,7 +37,9 @@ def vertices_of(text):
 def extents(text):
     """Smallest and largest coordinates, as they are written."""
     columns = list(zip(*vertices_of(text)))
-    return {f"{axis}_{end}": choose(column, key=Fraction) for axis, column in zip("xyz", columns) for end, choose in (("min", min), ("max", max))}
+    return {
+        f"{axis}_{end}": choose(column, key=Fraction)
+        for axis, column in zip("xyz", columns) for end, choose in (("min", min), ("max", max))}
 
 
 def triangles_of(text):
@@ -51,21 +54,25 @@ def random_scene(rng, projection):
     body = ""
     for _ in range(40):
         reach = rng.choice((1, 4, 15))
-        body += "push\ntranslate\n" + point(reach) + "triangle\n" + "".join(point(rng.choice((0.1, 1, 9))) for _ in range(3)) + "pop\n"
+        body += "push\ntranslate\n" + point(reach) + "triangle\n" +"".join(
+            point(rng.choice((0.1, 1, 9))) for _ in range(3)) + "pop\n"
     return f"0 0 3\n0 0 0\n0 1 0\n{projection}\n" + body + "end\n"
 
 
 class Projected:
-    """What project should count, from the text it reads: the planes of a frustum in view space, by Sutherland and Hodgman."""
+    """What project should count, from the text it reads: the planes of a frustum in view space, by Sutherland
+    and Hodgman."""
 
     def __init__(self, window, near, far, is_parallel):
         left, right, bottom, top = window
         def side(axis, limit, sign):
-            # Inside where sign * (limit * scale - p[axis]) >= 0; the scale grows with the distance, unless rays are parallel.
+            # Inside where sign * (limit * scale - p[axis]) >= 0; the scale grows with the distance, unless
+            # rays are parallel.
             return lambda p: sign * (limit * (1 if is_parallel else -p[2] / near) - p[axis])
         self.is_parallel = is_parallel
-        self.planes = {"near": lambda p: -p[2] - near, "far": lambda p: far + p[2], "left": side(0, left, -1), "right": side(0, right, 1),
-                       "below": side(1, bottom, -1), "above": side(1, top, 1)}
+        self.planes = {
+            "near": lambda p: -p[2] - near, "far": lambda p: far + p[2], "left": side(0, left, -1),
+            "right": side(0, right, 1), "below": side(1, bottom, -1), "above": side(1, top, 1)}
 
     def clipped(self, polygon, plane):
         inside, strictly = [], 0
@@ -96,13 +103,14 @@ class Projected:
 class Files(ToolTest):
     def test_every_tool_writes_its_keys_in_order(self):
         data = pathlib.Path("scene.txt").read_bytes()
-        for tool, keys in (("model", ["triangles"]), ("view", ["triangles"]), ("project", PROJECT_KEYS), ("zbuf", ZBUF_KEYS)):
+        for tool, keys in (("model", ["triangles"]), ("view", ["triangles"]), ("project", PROJECT_KEYS),
+                           ("zbuf", ZBUF_KEYS)):
             config = ["config.txt"] if tool == "zbuf" else []
             plain = run(tool, *config, stdin=data)
-            for path in ("stats.txt", "-"):
+            for path in ("stats.txt", "/dev/stderr"):
                 done = run(tool, *config, "--stats", path, stdin=data)
                 self.assertEqual((done.returncode, done.stdout), (0, plain.stdout))
-                told = done.stderr.decode() if path == "-" else pathlib.Path(path).read_text()
+                told = done.stderr.decode() if path == "/dev/stderr" else pathlib.Path(path).read_text()
                 self.assertEqual(list(statistics(told)), keys + EXTENTS, tool)
             data = plain.stdout
 
@@ -130,7 +138,8 @@ class Files(ToolTest):
             config = ["config.txt"] if tool == "zbuf" else []
             data = pathlib.Path("scene.txt").read_bytes() if tool == "model" else b""
             done = run(tool, *config, "--stats", "/dev/full", stdin=data)
-            self.assertEqual((done.returncode, done.stderr.decode()), (1, f"{tool}: cannot write /dev/full: No space left on device\n"))
+            self.assertEqual((done.returncode, done.stderr.decode()),
+                             (1, f"{tool}: cannot write /dev/full: No space left on device\n"))
         self.assertEqual(self.files(), ["config.txt", "scene.txt"])
 
 
@@ -145,7 +154,10 @@ class Extents(ToolTest):
                 self.assertEqual({key: told[key] for key in EXTENTS}, extents(data.decode()), (tool, digits))
             run("zbuf", "config.txt", "--stats", "stats.txt", stdin=data)
             told = statistics(pathlib.Path("stats.txt").read_text())
-            self.assertEqual({key: float(told[key]) for key in EXTENTS}, {key: float(word) for key, word in extents(data.decode()).items()}, digits)
+            self.assertEqual({key: float(told[key])
+                              for key in EXTENTS},
+                             {key: float(word)
+                              for key, word in extents(data.decode()).items()}, digits)
 
 
 class Places(ToolTest):
@@ -164,10 +176,12 @@ class Places(ToolTest):
     def test_a_frustum(self):
         rng, found = random.Random(2), set()
         for _ in range(5):
-            places, numbers, told = self.check(random_scene(rng, "frustum -1 1.5 -1 0.75 1 8"),
-                                               Projected((-1, Fraction(3, 2), -1, Fraction(3, 4)), 1, 8, False), "--clip", "frustum")
+            places, numbers, told = self.check(
+                random_scene(rng, "frustum -1 1.5 -1 0.75 1 8"),
+                Projected((-1, Fraction(3, 2), -1, Fraction(3, 4)), 1, 8, False), "--clip", "frustum")
             found |= set(places)
-            # Those in view are those that are left, and those of several pieces or with a corner outside are cut.
+            # Those in view are those that are left, and those of several pieces or with a corner outside are
+            # cut.
             self.assertEqual(sorted(set(numbers)), [i for i, place in enumerate(places) if place is None])
             self.assertGreaterEqual(int(told["cut"]), sum(numbers.count(i) > 1 for i in set(numbers)))
         self.assertEqual(found, {None, *PROJECT_KEYS[1:-2]})
@@ -175,7 +189,9 @@ class Places(ToolTest):
     def test_a_parallel_projection(self):
         rng, found = random.Random(3), set()
         for _ in range(5):
-            found |= set(self.check(random_scene(rng, "ortho -2 2 -1 3 -1 6"), Projected((-2, 2, -1, 3), -1, 6, True))[0])
+            found |= set(
+                self.check(random_scene(rng, "ortho -2 2 -1 3 -1 6"), Projected((-2, 2, -1, 3), -1, 6,
+                                                                                True))[0])
         self.assertEqual(found, {None, *PROJECT_KEYS[2:-2]})
 
     def test_clipping_changes_no_place(self):
@@ -185,7 +201,8 @@ class Places(ToolTest):
             self.check(scene, volume, "--clip", clip)
 
     def test_what_is_culled_counts_as_that_alone(self):
-        stage2 = run("view", stdin=run("model", stdin=random_scene(random.Random(6), "frustum -1 1 -1 1 1 8")).stdout).stdout
+        stage2 = run("view", stdin=run("model", stdin=random_scene(random.Random(6),
+                                                                   "frustum -1 1 -1 1 1 8")).stdout).stdout
         counts = {}
         for cull in ("back", "front"):
             run("project", "--cull", cull, "--stats", "stats.txt", stdin=stage2)
@@ -222,7 +239,9 @@ def center_pixels(triangle, config):
 
 
 def nearest_pixels(triangle, config):
-    return reference.nearest(reference.Triangle(0, [reference.Vertex(0, tuple(Fraction(float(x)) for x in p)) for p in triangle]), config)
+    return reference.nearest(
+        reference.Triangle(0, [reference.Vertex(0, tuple(Fraction(float(x)) for x in p)) for p in triangle]),
+        config)
 
 
 def drawn(triangles, config, pixels_of):
@@ -249,11 +268,14 @@ def reason(triangle, fragments, config):
     x, y, z = zip(*triangle)
     left, bottom = Fraction(config.left), Fraction(config.bottom)
     (ax, ay, _), (bx, by, _), (cx, cy, _) = triangle
-    for key, holds in (("outside_near", max(z) < Fraction(config.front)), ("outside_far", min(z) >= Fraction(config.rear)),
-                       ("outside_left", max(x) < left), ("outside_right", min(x) > -left),
-                       ("outside_below", max(y) < bottom), ("outside_above", min(y) > -bottom),
-                       ("without_area", (bx - ax) * (cy - ay) == (cx - ax) * (by - ay)),
-                       ("outside_near", any(depth < config.front for _, _, depth in fragments)), ("outside_far", bool(fragments))):
+    for key, holds in (("outside_near", max(z) < Fraction(config.front)), ("outside_far",
+                                                                           min(z) >= Fraction(config.rear)),
+                       ("outside_left", max(x) < left), ("outside_right", min(x) > -left), ("outside_below",
+                                                                                            max(y) < bottom),
+                       ("outside_above", min(y) > -bottom), ("without_area",
+                                                             (bx - ax) * (cy - ay) == (cx - ax) * (by - ay)),
+                       ("outside_near", any(depth < config.front
+                                            for _, _, depth in fragments)), ("outside_far", bool(fragments))):
         if holds:
             return key
     return "between_centers"
@@ -270,7 +292,9 @@ class Pixels(ToolTest):
         lines = []
         for _ in range(count):
             size, x, y = rng.choice((0.02, 0.3, 3)), rng.uniform(-1.2, 1.2), rng.uniform(-1.6, 1.6)
-            points = [[x + rng.uniform(-size, size), y + rng.uniform(-size, size), rng.choice((-0.6, -0.25, 0, 0.25, 0.6))] for _ in range(3)]
+            points = [[
+                x + rng.uniform(-size, size), y + rng.uniform(-size, size),
+                rng.choice((-0.6, -0.25, 0, 0.25, 0.6))] for _ in range(3)]
             if rng.random() < 0.5:
                 points[1][2] = points[2][2] = points[0][2]
             if rng.random() < 0.1:
@@ -300,24 +324,28 @@ class Pixels(ToolTest):
         text = self.text(random.Random(8), 3000)
         for rule in ("nearest", "center"):
             _, expected = self.told(text, "--coverage", rule)
-            for options in (["--algorithm", "scanline"], ["--threads", "4"], ["--samples", "2"], ["--wireframe"]):
+            for options in (["--algorithm", "scanline"], ["--threads", "4"], ["--samples",
+                                                                              "2"], ["--wireframe"]):
                 self.assertEqual(self.told(text, "--coverage", rule, *options)[1], expected, (rule, options))
             self.assertEqual(self.told(text, "--coverage", rule, kernel="scalar")[1], expected, rule)
 
     def test_they_change_nothing_else(self):
         for sample in sorted(path.parent for path in SOURCE.glob("samples/*/scene.txt")):
             plain = run("zbuf", sample / "config.txt", sample / "stage3.txt", "--image", "plain.ppm")
-            done = run("zbuf", sample / "config.txt", sample / "stage3.txt", "--image", "counted.ppm", "--stats", "stats.txt")
+            done = run("zbuf", sample / "config.txt", sample / "stage3.txt", "--image", "counted.ppm",
+                       "--stats", "stats.txt")
             self.assertEqual((done.stdout, done.stderr), (plain.stdout, plain.stderr))
             self.assertEqual(pathlib.Path("counted.ppm").read_bytes(), pathlib.Path("plain.ppm").read_bytes())
             told = statistics(pathlib.Path("stats.txt").read_text())
             self.assertEqual(int(told["pixels_written"]), len(done.stdout.split()), sample.name)
-            self.assertEqual(int(told["triangles"]), sum(int(told[key]) for key in ZBUF_KEYS[1:-2]), sample.name)
+            self.assertEqual(int(told["triangles"]), sum(int(told[key]) for key in ZBUF_KEYS[1:-2]),
+                             sample.name)
 
     def test_fragments_are_those_of_the_report(self):
         text = self.text(random.Random(9), 50)
         _, told = self.told(text, "--fragments", "fragments.txt")
-        self.assertEqual(int(told["fragments_tested"]), len(pathlib.Path("fragments.txt").read_text().splitlines()))
+        self.assertEqual(int(told["fragments_tested"]),
+                         len(pathlib.Path("fragments.txt").read_text().splitlines()))
 
 
 if __name__ == "__main__":

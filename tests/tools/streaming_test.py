@@ -5,9 +5,11 @@ usage: streaming_test.py BIN_DIR [UNITTEST ARGUMENT...]
 """
 import contextlib
 import fcntl
+import filecmp
 import os
 import pathlib
 import re
+import resource
 import select
 import subprocess
 import time
@@ -16,14 +18,16 @@ import unittest
 from toolbox import CAMERA, HEADER, HEADERS, SCENE, TRIANGLE, ToolTest, command, run, stage_texts
 
 MEBIBYTE = 1024  # in the units of /proc, which are KiB
-VERTICES = "0.1234567 -1.2345678 -12.3456789\n1.1234567 -1.2345678 -12.3456789\n0.1234567 -0.2345678 -12.3456789\n"
+VERTICES = ("0.1234567 -1.2345678 -12.3456789\n1.1234567 -1.2345678 -12.3456789\n0.1234567 -0.2345678 "
+            "-12.3456789\n")
 
 
 class LiveTool:
     """A tool whose input is written piece by piece."""
 
     def __init__(self, tool, *options, stdout=subprocess.PIPE):
-        self.process = subprocess.Popen(command(tool, *options), stdin=subprocess.PIPE, stdout=stdout, stderr=subprocess.PIPE)
+        self.process = subprocess.Popen(command(tool, *options), stdin=subprocess.PIPE, stdout=stdout,
+                                        stderr=subprocess.PIPE)
         self.received = b""
 
     def __enter__(self):
@@ -41,7 +45,8 @@ class LiveTool:
         self.process.stdin.flush()
 
     def receive(self, triangle_count, seconds=10):
-        """Reads output until it has so many complete triangles, or until the time is over; returns their number."""
+        """Reads output until it has so many complete triangles, or until the time is over; returns their
+        number."""
         end = time.monotonic() + seconds
         while self.received.count(b"\n\n") < triangle_count:
             ready, _, _ = select.select([self.process.stdout], [], [], max(0, end - time.monotonic()))
@@ -58,7 +63,8 @@ class LiveTool:
         return self.process.wait(timeout=60)
 
     def peak_memory(self):
-        """The largest resident set so far in KiB: of this program alone, not of the process that started it."""
+        """The largest resident set so far in KiB: of this program alone, not of the process that started
+        it."""
         with open(f"/proc/{self.process.pid}/status") as status:
             return int(re.search(r"VmHWM:\s+(\d+) kB", status.read()).group(1))
 
@@ -99,8 +105,9 @@ class Streaming(ToolTest):
 
     def test_they_pass_them_on_whatever_stands_behind(self):
         texts = {"view": HEADER + 2048 * "0 0 0\n1 0 0\n0 1 0\n\n", "model": CAMERA + 2048 * TRIANGLE}
-        for tool, behind in (("view", "triangle 1\n" * 8), ("view", "# " + 150000 * "c"), ("view", "# c\n" * 20000),
-                             ("model", "push\npop\n" * 3), ("model", "# " + 150000 * "c")):
+        for tool, behind in (("view", "triangle 1\n" * 8), ("view", "# " + 150000 * "c"),
+                             ("view", "# c\n" * 20000), ("model", "push\npop\n" * 3), ("model",
+                                                                                       "# " + 150000 * "c")):
             with LiveTool(tool) as live:
                 live.send(texts[tool] + behind)
                 self.assertEqual(live.receive(2048), 2048, (tool, behind[:10]))
@@ -134,8 +141,9 @@ class Errors(ToolTest):
 
     def test_in_the_text(self):
         text = self.GOOD * self.COUNT
-        for mistake, message in (("1 2 3\n4 5 six\n", ":12006:5: "), ("eye 1 2 3\n", ":12005:1: "), ("1 2 3\n\n", ":12006:1: "),
-                                 ("error model: it broke\n", "it broke"), ("1 2 3 ", ":12005:7: ")):
+        for mistake, message in (("1 2 3\n4 5 six\n", ":12006:5: "), ("eye 1 2 3\n", ":12005:1: "),
+                                 ("1 2 3\n\n", ":12006:1: "), ("error model: it broke\n",
+                                                               "it broke"), ("1 2 3 ", ":12005:7: ")):
             self.assert_error_behind(self.COUNT, message, "view", stdin=HEADER + text + mistake + text)
 
     def test_in_a_scene(self):
@@ -145,11 +153,14 @@ class Errors(ToolTest):
 
     def test_of_a_vertex_that_has_no_image(self):
         beyond = "triangle\n1e300 0 0\n0 0 0\n0 0 0\n"
-        self.assert_error_behind(self.COUNT + 1, ":12011:1: ", "model",
-                                 stdin=CAMERA + TRIANGLE * self.COUNT + "scale 1e300 1 1\n" + TRIANGLE + beyond + "pop\n")
-        self.assert_error_behind(self.COUNT, "overflow", "view", "--eye", "-1e308", "0", "0", "--look", "0", "0", "0", "--up", "0", "1", "0",
+        self.assert_error_behind(
+            self.COUNT + 1, ":12011:1: ", "model",
+            stdin=CAMERA + TRIANGLE * self.COUNT + "scale 1e300 1 1\n" + TRIANGLE + beyond + "pop\n")
+        self.assert_error_behind(self.COUNT, "overflow", "view", "--eye", "-1e308", "0", "0", "--look", "0",
+                                 "0", "0", "--up", "0", "1", "0",
                                  stdin=self.GOOD * self.COUNT + "1.7e308 0 0\n0 0 0\n0 0 0\n\nnonsense\n")
-        self.assert_error_behind(self.COUNT, "a vertex in front of the eye", "project", "--clip", "none", "--perspective", "60", "1", "1", "100",
+        self.assert_error_behind(self.COUNT, "a vertex in front of the eye", "project", "--clip", "none",
+                                 "--perspective", "60", "1", "1", "100",
                                  stdin=self.GOOD * self.COUNT + "0 0 1\n0 0 1\n0 0 1\n\nnonsense\n")
 
 
@@ -193,7 +204,8 @@ class PipeSize(ToolTest):
         with source, feed, drain, sink:
             feed.write(SCENE.encode())
             feed.close()
-            done = subprocess.run(command("model"), stdin=source, stdout=sink, stderr=subprocess.PIPE, timeout=60)
+            done = subprocess.run(command("model"), stdin=source, stdout=sink, stderr=subprocess.PIPE,
+                                  timeout=60)
             self.assert_quiet_success(done)
             return fcntl.fcntl(source, F_GETPIPE_SZ), fcntl.fcntl(drain, F_GETPIPE_SZ)
 
@@ -229,7 +241,8 @@ class Memory(ToolTest):
         for tool, (start, triangle, end) in INPUTS.items():
             few = peak_memory(tool, start, triangle, 20_000, end)
             many = peak_memory(tool, start, triangle, 200_000, end)
-            self.assertLess(many, few + MEBIBYTE, f"{tool}: {few} KiB for 20,000 triangles, {many} KiB for 200,000")
+            self.assertLess(many, few + MEBIBYTE,
+                            f"{tool}: {few} KiB for 20,000 triangles, {many} KiB for 200,000")
             self.assertLess(many, 16 * MEBIBYTE, tool)
 
     def test_long_digits_stay_below_16_mebibytes(self):
@@ -239,6 +252,14 @@ class Memory(ToolTest):
 
     def test_ten_million_pushes_stay_below_64_mebibytes(self):
         self.assertLess(peak_memory("model", CAMERA, "push\n", 10_000_000, "end\n"), 64 * MEBIBYTE)
+
+    def test_nor_does_split_take_more_for_them(self):
+        pathlib.Path("scene.txt").write_text(CAMERA + "push\n" * 5_000_000 + TRIANGLE + "push\n" * 5_000_000 +
+                                             "end\n")
+        done = run("cut-scene", "scene.txt", "1",
+                   preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, 2 * (64 * 2**20, )))
+        self.assert_quiet_success(done)
+        self.assertTrue(filecmp.cmp("scene.txt", "parts/1.txt", shallow=False))
 
     def test_it_does_not_grow_with_the_number_of_transforms(self):
         transform = "push\nrotate 1 0 0 1\npop\n"
@@ -251,7 +272,8 @@ class BufferMemory(ToolTest):
     """zbuf needs its buffers, 12 bytes a pixel in doubles with color, and less than 32 MiB more."""
 
     SIZE = 2048
-    LARGE = "-1.0000000 -1.0000000 0.5000000\n0.2000000 -1.0000000 0.5000000\n-1.0000000 1.0000000 0.5000000\n\n"
+    LARGE = ("-1.0000000 -1.0000000 0.5000000\n0.2000000 -1.0000000 0.5000000\n-1.0000000 1.0000000 "
+             "0.5000000\n\n")
     SMALL = "0.0100000 0.0100000 0.1000000\n0.0110000 0.0100000 0.1000000\n0.0100000 0.0110000 0.1000000\n\n"
 
     def memory_beside_buffers(self, *options):
@@ -270,7 +292,8 @@ class BufferMemory(ToolTest):
 
     def test_on_any_number_of_threads(self):
         for threads in (1, 2, 8):
-            self.assertLess(self.memory_beside_buffers("--threads", str(threads)), 32 * MEBIBYTE, f"{threads} threads")
+            self.assertLess(self.memory_beside_buffers("--threads", str(threads)), 32 * MEBIBYTE,
+                            f"{threads} threads")
 
     def test_under_the_exact_rule(self):
         self.assertLess(self.memory_beside_buffers("--coverage", "center"), 32 * MEBIBYTE)
@@ -287,8 +310,9 @@ class LongMemory(ToolTest):
         pushes = "push\ntranslate 1 0 0\n"
         limit = 1 << 20
         done = run("model", stdin=CAMERA + pushes * limit + "push\nend\n")
-        self.assert_fails(done, 1, f"model: <stdin>:{5 + 2 * limit}:1: expected at most 1048576 saved matrices, found "
-                          "another 'push' after a change")
+        self.assert_fails(
+            done, 1, f"model: <stdin>:{5 + 2 * limit}:1: expected at most 1048576 saved matrices, found "
+            "another 'push' after a change")
 
 
 if __name__ == "__main__":

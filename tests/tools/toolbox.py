@@ -23,7 +23,9 @@ TRIANGLE = "triangle\n0 0 0\n1 0 0\n0 1 0\n"
 SCENE = CAMERA + TRIANGLE + "end\n"
 HEADER = "eye 0 0 5\nlook 0 0 0\nup 0 1 0\nperspective 60 1 1 100\n"
 # The header that each tool reads, always in four lines: earlier stages have used up what is a comment.
-HEADERS = {"view": HEADER, "project": "# eye\n# look\n# up\nperspective 60 1 1 100\n", "zbuf": "# eye\n# look\n# up\n# projection\n"}
+HEADERS = {
+    "view": HEADER, "project": "# eye\n# look\n# up\nperspective 60 1 1 100\n",
+    "zbuf": "# eye\n# look\n# up\n# projection\n"}
 HEADERS["trace"] = HEADERS["project"]
 CONFIG = "8 8\n"
 NO_TRIANGLE = "zbuf: note: the picture is empty: no triangle came\n"  # on stderr
@@ -68,8 +70,8 @@ def stage_texts(scene=SCENE, *model_options):
 def tool_inputs(scene=SCENE):
     """(tool, its operands, its input) for each tool."""
     world, view, ndc = stage_texts(scene)
-    return (("model", [], scene.encode()), ("view", [], world), ("project", [], view), ("zbuf", ["config.txt"], ndc),
-            ("trace", ["config.txt"], view))
+    return (("model", [], scene.encode()), ("view", [], world), ("project", [], view), ("zbuf", [
+        "config.txt"], ndc), ("trace", ["config.txt"], view))
 
 
 def expect_mesh2scene():
@@ -79,7 +81,8 @@ def expect_mesh2scene():
 
 
 def pseudo_terminal():
-    """The two ends of a new pseudo-terminal; skips the test if the system has none, as in a container without /dev/pts."""
+    """The two ends of a new pseudo-terminal; skips the test if the system has none, as in a container without
+    /dev/pts."""
     try:
         return os.openpty()
     except OSError as error:
@@ -87,8 +90,9 @@ def pseudo_terminal():
 
 
 def end_by_signal(process, number):
-    """What a process that is waiting has written to stdout and stderr when the signal has ended it. Python may be about to wait
-    when a signal arrives and would then notice it only after the next one, so the signal is sent until the process ends."""
+    """What a process that is waiting has written to stdout and stderr when the signal has ended it. Python
+    may be about to wait when a signal arrives and would then notice it only after the next one, so the signal
+    is sent until the process ends."""
     for _ in range(60):
         process.send_signal(number)
         try:
@@ -99,8 +103,8 @@ def end_by_signal(process, number):
 
 
 def heed_signals():
-    """To be called by a process before it becomes a script: a job in the background starts with SIGINT ignored, and nohup
-    ignores SIGHUP."""
+    """To be called by a process before it becomes a script: a job in the background starts with SIGINT
+    ignored, and nohup ignores SIGHUP."""
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         signal.signal(number, signal.SIG_DFL)
 

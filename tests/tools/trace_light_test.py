@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Proofs by physics of what trace makes of light. What is expected comes from formulas of optics, written out here.
+"""Proofs by physics of what trace makes of light. What is expected comes from formulas of optics, written out
+here.
 
 usage: trace_light_test.py BIN_DIR [UNITTEST ARGUMENT...]
 """
@@ -46,15 +47,18 @@ def quad(a, b, c, d):
 
 def square(z, half=20.0, x=0.0, y=0.0):
     """A square that faces the eye."""
-    return quad((x - half, y - half, z), (x + half, y - half, z), (x + half, y + half, z), (x - half, y + half, z))
+    return quad((x - half, y - half, z), (x + half, y - half, z), (x + half, y + half, z),
+                (x - half, y + half, z))
 
 
 def box(low, high):
     """Six sides that face outward."""
     (a, b, c), (d, e, f) = low, high
-    return (quad((a, b, f), (d, b, f), (d, e, f), (a, e, f)) + quad((d, b, c), (a, b, c), (a, e, c), (d, e, c))
-            + quad((a, b, c), (a, b, f), (a, e, f), (a, e, c)) + quad((d, b, f), (d, b, c), (d, e, c), (d, e, f))
-            + quad((a, e, f), (d, e, f), (d, e, c), (a, e, c)) + quad((a, b, c), (d, b, c), (d, b, f), (a, b, f)))
+    return (quad((a, b, f), (d, b, f), (d, e, f), (a, e, f)) + quad(
+        (d, b, c), (a, b, c), (a, e, c), (d, e, c)) + quad((a, b, c), (a, b, f), (a, e, f), (a, e, c)) + quad(
+            (d, b, f), (d, b, c), (d, e, c), (d, e, f)) + quad(
+                (a, e, f), (d, e, f), (d, e, c), (a, e, c)) + quad((a, b, c), (d, b, c), (d, b, f),
+                                                                   (a, b, f)))
 
 
 def turned_all(triangles, angle, center):
@@ -74,8 +78,11 @@ MATT = "material 1 0 0 1\n"
 GLASS = MATT + "material 0 0 0 1 0 1.5 0\n"  # material 1
 WHITE, GRAY, BLACK = "255 255 255", "100 100 100", "0 0 0"
 NUMBER = r"[-+.\de]+"
-RAY = re.compile(rf"\d+,\d+: ( *)(\w+) weight ({NUMBER}) from ((?:{NUMBER} ?){{3}}) ?(cut)?"
-                 rf"(?:to (light \d+|nothing|(?:triangle|sphere) \d+)(?: (front|back) at ((?:{NUMBER} ?){{3}})| along ((?:{NUMBER} ?){{3}}))? ?brings ((?:{NUMBER} ?){{3}}))?$")
+RAY = re.compile(
+    rf"\d+,\d+: ( *)(\w+) weight ({NUMBER}) from ((?:{NUMBER} ?){{3}}) ?(cut)?"
+    rf"(?:to (light \d+|nothing|(?:triangle|sphere) \d+)(?: (front|back) at ((?:{NUMBER} ?){{3}})| along "
+    rf"((?:{NUMBER} ?){{3}}))? ?brings ((?:{NUMBER} ?){{3}}))?$"
+)
 
 
 class Ray:
@@ -84,7 +91,8 @@ class Ray:
         assert match, line
         vector = lambda text: tuple(map(float, text.split())) if text else None  # noqa: E731
         self.depth, self.kind, self.weight = len(match[1]) // 2, match[2], float(match[3])
-        self.origin, self.is_cut, self.target, self.side = vector(match[4]), match[5] is not None, match[6], match[7]
+        self.origin, self.is_cut, self.target, self.side = vector(
+            match[4]), match[5] is not None, match[6], match[7]
         self.point, self.along, self.brought = vector(match[8]), vector(match[9]), vector(match[10])
 
     @property
@@ -105,7 +113,9 @@ class LightTest(ToolTest):
         return [tuple(data[i:i + 3]) for i in range(0, len(data), 3)]
 
     def rays(self, text, *options, pixel="4,4", size="9x9"):
-        lines = [line for line in self.trace(text, "--probe", pixel, *options, size=size).splitlines() if line.startswith(pixel + ":")]
+        lines = [
+            line for line in self.trace(text, "--probe", pixel, *options, size=size).splitlines()
+            if line.startswith(pixel + ":")]
         return [Ray(line) for line in lines]
 
     def only(self, rays, kind, depth):
@@ -127,7 +137,8 @@ def snell(angle, index):
 
 
 def fresnel(outside, inside):
-    """Unpolarized, of the angles on either side, both above 0: s by sines, p by tangents (A. Fresnel, 1823)."""
+    """Unpolarized, of the angles on either side, both above 0: s by sines, p by tangents (A. Fresnel,
+    1823)."""
     s = math.sin(outside - inside) / math.sin(outside + inside)
     p = math.tan(outside - inside) / math.tan(outside + inside)
     return (s * s + p * p) / 2
@@ -138,7 +149,8 @@ class Refraction(LightTest):
         """A tilted slab in front of a wall, in the middle of the picture."""
         center = (0, 0, -10)
         slab = turned_all(box((-9, -9, -10 - thickness / 2), (9, 9, -10 + thickness / 2)), angle, center)
-        return scene(MATT + f"material 0 0 0 1 0 {index!r} 0\n", (square(-40.0, 99), GRAY, 0), (slab, BLACK, 1))
+        return scene(MATT + f"material 0 0 0 1 0 {index!r} 0\n", (square(-40.0, 99), GRAY, 0),
+                     (slab, BLACK, 1))
 
     def test_follows_snell_and_leaves_a_slab_displaced(self):
         thickness = 2.0
@@ -154,14 +166,17 @@ class Refraction(LightTest):
                     self.assert_near(math.acos(-dot(inside.direction, normal)), bent, 1e-9)
                     self.assert_near(dot(inside.direction, normal), -math.cos(bent))
                     along = turned((0, 1, 0), angle)  # the ray stays on its side of the normal
-                    self.assert_near(dot(inside.direction, along) * math.copysign(1, dot((0, 0, -1), along)), math.sin(bent))
+                    self.assert_near(
+                        dot(inside.direction, along) * math.copysign(1, dot((0, 0, -1), along)),
+                        math.sin(bent))
                     self.assert_near(outside.direction, (0.0, 0.0, -1.0))
                     displaced = thickness * math.sin(angle - bent) / math.cos(bent)
                     self.assert_near(math.hypot(outside.point[0], outside.point[1]), displaced, 1e-11)
 
     def test_fresnel_at_0_is_4_percent_of_glass(self):
         # A single pane of the front side: what is mirrored comes from the background, the rest from the wall.
-        text = scene("background 200 200 200\n" + GLASS, (square(-20.0, 99), GRAY, 0), (square(-5.0, 9), BLACK, 1))
+        text = scene("background 200 200 200\n" + GLASS, (square(-20.0, 99), GRAY, 0),
+                     (square(-5.0, 9), BLACK, 1))
         self.assert_near(self.only(self.rays(text), "mirrored", 1).weight, ((1.5 - 1) / (1.5 + 1)) ** 2)
         self.assertEqual(self.picture(text)[40], (round(0.04 * 200 + 0.96 * 100),) * 3)
 
@@ -172,8 +187,10 @@ class Refraction(LightTest):
                 with self.subTest(index=index, angle=angle):
                     rays = self.rays(self.slab(angle, index), "--max-depth", "1", "--min-contribution", "0")
                     mirrored = self.only(rays, "mirrored", 1)
-                    # At Brewster's angle the two directions are perpendicular, and only s is left, which is cos(2 i)^2 / 2.
-                    expected = math.cos(2 * angle) ** 2 / 2 if angle == brewster else fresnel(angle, snell(angle, index))
+                    # At Brewster's angle the two directions are perpendicular, and only s is left, which is
+                    # cos(2 i)^2 / 2.
+                    expected = math.cos(2 * angle)**2 / 2 if angle == brewster else fresnel(
+                        angle, snell(angle, index))
                     self.assert_near(mirrored.weight, expected)
                     self.assert_near(self.only(rays, "refracted", 1).weight, 1 - expected)
 
@@ -187,7 +204,8 @@ class Refraction(LightTest):
             critical = math.asin(1 / index)
             for offset in (-1e-3, -1e-9, 1e-9, 1e-3, 0.3):
                 with self.subTest(index=index, offset=offset):
-                    rays = self.rays(self.pane_from_behind(critical + offset, index), "--min-contribution", "0")
+                    rays = self.rays(self.pane_from_behind(critical + offset, index), "--min-contribution",
+                                     "0")
                     mirrored = self.only(rays, "mirrored", 1).weight
                     if offset > 0:
                         self.assertEqual(mirrored, 1)
@@ -199,18 +217,24 @@ class Refraction(LightTest):
     def test_a_ray_can_be_reversed(self):
         for angle in (0.1, 0.5, 0.9, 1.3):
             into = self.rays(self.slab(angle, 1.5), "--max-depth", "1", "--min-contribution", "0")
-            out = self.rays(self.pane_from_behind(snell(angle, 1.5)), "--max-depth", "1", "--min-contribution", "0")
-            self.assert_near(self.only(into, "mirrored", 1).weight, self.only(out, "mirrored", 1).weight, 1e-11)
+            out = self.rays(self.pane_from_behind(snell(angle, 1.5)), "--max-depth", "1",
+                            "--min-contribution", "0")
+            self.assert_near(
+                self.only(into, "mirrored", 1).weight,
+                self.only(out, "mirrored", 1).weight, 1e-11)
 
     def test_index_1_and_alpha_0_change_nothing(self):
         rng = random.Random(1)
         things = [(square(-12.0, 6), "200 150 90", 0)]
         for _ in range(12):
             x, y, z = rng.uniform(-3, 3), rng.uniform(-3, 3), rng.uniform(-10, -6)
-            things.append((turned_all(box((x, y, z), (x + 1, y + 0.7, z + 1.2)), rng.uniform(0, 3), (x, y, z)), "%d %d 255" % (200 + x * 9, 90 + y * 9), 0))
+            things.append((turned_all(box((x, y, z), (x + 1, y + 0.7, z + 1.2)), rng.uniform(0, 3),
+                                      (x, y, z)), "%d %d 255" % (200 + x * 9, 90 + y * 9), 0))
         air = (turned_all(box((-2.5, -2.5, -8), (2.5, 1.5, -4)), 0.4, (0, 0, -6)), BLACK, 1)
-        header = "light 3 9 -1 0.9 0.9 0.8\nambient 0.1 0.1 0.1\nmaterial 1 1 0.4 20\nmaterial 1 1 1 5 0.7 1 0\n"
-        self.assertEqual(self.picture(scene(header, *things, air), size="60x60"), self.picture(scene(header, *things), size="60x60"))
+        header = ("light 3 9 -1 0.9 0.9 0.8\nambient 0.1 0.1 0.1\nmaterial 1 1 0.4 20\nmaterial 1 1 1 5 "
+                  "0.7 1 0\n")
+        self.assertEqual(self.picture(scene(header, *things, air), size="60x60"),
+                         self.picture(scene(header, *things), size="60x60"))
 
     def test_two_slabs_of_index_1_are_one_of_both_thicknesses(self):
         """Of index 1 they only absorb: exp(-a d), by Beer and Lambert."""
@@ -227,15 +251,27 @@ class Refraction(LightTest):
         self.assertEqual(self.picture(slabs((-5.0, -7.0)))[40], tuple(round(c) for c in expected))
 
     def test_units_are_free(self):
-        """What is twice as large and absorbs half as much looks the same, to the byte, as does any power of 2."""
+        """What is twice as large and absorbs half as much looks the same, to the byte, as does any power of
+        2."""
         pictures = set()
         for scale in (1, 2, 2 ** -10, 2 ** 30):
             glass = turned_all(box((-2, -2, -8), (2, 1.5, -5)), 0.5, (0, 0, -6))
-            header = ("light %r %r %r 1 1 1\nbackground 20 30 60\nmaterial 0.2 1 0.5 9\nmaterial 1 1 1 30 0.1 1.5 0.1\nabsorption %r 0 %r\n"
-                      % (3.0 * scale, 5.0 * scale, 1.0 * scale, 0.4 / scale, 0.1 / scale))
+            header = (
+                "light %r %r %r 1 1 1\nbackground 20 30 60\nmaterial 0.2 1 0.5 9\nmaterial 1 1 1 30 0.1 1.5 "
+                "0.1\nabsorption %r 0 %r\n"
+                % (3.0 * scale, 5.0 * scale, 1.0 * scale, 0.4 / scale, 0.1 / scale))
             objects = [(square(-9.0, 4), "220 200 150", 0), (glass, "90 200 250", 1)]
-            larger = [([tuple(tuple(x * scale for x in p) for p in t) for t in ts], color, m) for ts, color, m in objects]
-            pictures.add(tuple(self.picture(scene(header, *larger, camera="perspective 60 1 %r %r\n" % (0.125 * scale, 64.0 * scale)), size="50x50")))
+            larger = [([tuple(tuple(x * scale
+                                    for x in p)
+                              for p in t)
+                        for t in ts], color, m)
+                      for ts, color, m in objects]
+            pictures.add(
+                tuple(
+                    self.picture(
+                        scene(header, *larger,
+                              camera="perspective 60 1 %r %r\n" % (0.125 * scale, 64.0 * scale)),
+                        size="50x50")))
         self.assertEqual(len(pictures), 1)
 
 
@@ -245,7 +281,8 @@ class Mirrors(LightTest):
         # Index 1: F = 0. The mirror faces the eye, and shows what is behind it.
         header = MATT + f"material 1 0 0 1 {reflectance} 1 {alpha}\n"
         behind = [t[::-1] for t in square(7.0, 50)]
-        text = scene(header, (square(-9.0, 50), "10 20 30", 0), (behind, "100 0 200", 0), (square(-4.0, 3), "40 250 80", 1))
+        text = scene(header, (square(-9.0, 50), "10 20 30", 0), (behind, "100 0 200", 0),
+                     (square(-4.0, 3), "40 250 80", 1))
         expected = tuple(alpha * ((1 - reflectance) * own + reflectance * mirrored) + (1 - alpha) * through
                          for own, mirrored, through in zip((40, 250, 80), (100, 0, 200), (10, 20, 30)))
         rays = self.rays(text)
@@ -254,7 +291,9 @@ class Mirrors(LightTest):
         self.assert_near(self.only(rays, "mirrored", 1).point, (0.0, 0.0, 7.0))
         self.assertEqual(self.picture(text)[40], tuple(round(c) for c in expected))
         self.assertEqual(self.picture(text, "--no-recursion")[40], (40, 250, 80))
-        self.assertEqual(self.picture(text, "--max-depth", "0")[40], tuple(round(alpha * (1 - reflectance) * own) for own in (40, 250, 80)))
+        self.assertEqual(
+            self.picture(text, "--max-depth", "0")[40],
+            tuple(round(alpha * (1 - reflectance) * own) for own in (40, 250, 80)))
 
     def test_two_mirrors_end_by_contribution(self):
         """Between parallel mirrors of reflectance R, ray n weighs R^n: the last is the last of at least E."""
@@ -268,15 +307,19 @@ class Mirrors(LightTest):
         self.assertEqual(len(self.rays(text, "--max-depth", "7")), 9)
 
     def test_show_highlights_as_an_eye_at_the_end_of_the_way_sees_them(self):
-        """Unfolded at mirrors that face the eye, the way is straight; J. Blinn's (n.h)^N is that of the eye's image."""
+        """Unfolded at mirrors that face the eye, the way is straight; J. Blinn's (n.h)^N is that of the eye's
+        image."""
         mirror, shiny, shininess = 1, 2, 5
         lamp, triangle = (1.0, 3.0, 1.5), lambda z: ((-40.0, -50.0, z), (60.0, -50.0, z), (-10.0, 70.0, z))
-        header = "light %r %r %r 1 1 1\nmaterial 0 0 0 1\nmaterial 0 0 0 1 1 1 1\nmaterial 0 0 0.9 %d\n" % (*lamp, shininess)
+        header = "light %r %r %r 1 1 1\nmaterial 0 0 0 1\nmaterial 0 0 0 1 1 1 1\nmaterial 0 0 0.9 %d\n" % (
+            *lamp, shininess)
         one = [(square(-4.0, 2.2), BLACK, mirror), ([triangle(7.0)[::-1]], BLACK, shiny)]
         # Up to the one, down to the other behind the eye, and past the first to the wall.
-        two = [(square(-4.0, 1), BLACK, mirror), ([t[::-1] for t in square(2.0, 9)], BLACK, mirror), ([triangle(-9.0)], BLACK, shiny)]
+        two = [(square(-4.0, 1), BLACK, mirror), ([t[::-1] for t in square(2.0, 9)], BLACK, mirror),
+               ([triangle(-9.0)], BLACK, shiny)]
         slope = 2 / 9 * 0.5  # of pixel (4, 3) of 9 x 9 in a window from -0.5 to 0.5 at distance 1
-        cameras = (("perspective %r 1 0.1 100\n" % (2 * math.degrees(math.atan(0.5))), True), ("ortho -9 9 -9 9 0.1 100\n", False))
+        cameras = (("perspective %r 1 0.1 100\n" % (2 * math.degrees(math.atan(0.5))), True),
+                   ("ortho -9 9 -9 9 0.1 100\n", False))
         for camera, is_perspective in cameras:
             for objects, wall, normal, image in ((one, 7.0, 1, -8.0), (two, -9.0, -1, 12.0)):
                 if not is_perspective and objects is two:
@@ -284,33 +327,40 @@ class Mirrors(LightTest):
                 height = slope * abs(wall - image) if is_perspective else 2.0
                 hit, center = (0.0, height, wall), tuple(sum(c) / 3 for c in zip(*triangle(wall)))
                 for model, point in (("phong", hit), ("flat", center)):
-                    to_eye = unit(minus((0.0, 0.0, image), point)) if is_perspective else (0.0, 0.0, -float(normal))
+                    to_eye = unit(minus(
+                        (0.0, 0.0, image), point)) if is_perspective else (0.0, 0.0, -float(normal))
                     to_light = unit(minus(lamp, point))
                     half = unit(tuple(a + b for a, b in zip(to_light, to_eye)))
                     cosine = dot(half, (0.0, 0.0, -float(normal)))
                     expected = 255 * 0.9 * cosine ** shininess
                     self.assertGreater(expected, 1)
                     with self.subTest(is_perspective=is_perspective, mirrors=len(objects) - 1, model=model):
-                        [primary, *rest] = self.rays(scene(header, *objects, camera=camera), "--shading", model, pixel="4,3")
+                        [primary, *rest] = self.rays(scene(header, *objects, camera=camera), "--shading",
+                                                     model, pixel="4,3")
                         self.assert_near([ray for ray in rest if ray.kind == "mirrored"][-1].point, hit, 1e-9)
                         self.assert_near(primary.brought, (expected,) * 3, 1e-9)
 
     def test_send_a_ray_of_just_the_least_contribution(self):
         """Cut is what brings less. Powers of 1/2 are exact."""
-        text = scene("material 1 0 0 1 0.5 1 1\n", (square(-4.0, 50), BLACK, 0), ([t[::-1] for t in square(4.0, 50)], WHITE, 0))
+        text = scene("material 1 0 0 1 0.5 1 1\n", (square(-4.0, 50), BLACK, 0),
+                     ([t[::-1] for t in square(4.0, 50)], WHITE, 0))
         rays = self.rays(text, "--min-contribution", "0.25")
-        self.assertEqual([(ray.weight, ray.is_cut) for ray in rays], [(1, False), (0.5, False), (0.25, False), (0.125, True)])
+        self.assertEqual([(ray.weight, ray.is_cut) for ray in rays], [(1, False), (0.5, False), (0.25, False),
+                                                                      (0.125, True)])
 
     def test_are_blind_to_the_surface_they_start_on(self):
         """However far from the origin: the next triangle of a flat mirror is not met either."""
         rng = random.Random(3)
         for size in (1e-3, 1, 1e5):
-            places = [[((i + rng.uniform(-0.4, 0.4)) * size, (k + rng.uniform(-0.4, 0.4)) * size, (-30 + 0.3 * i) * size) for i in range(-20, 21)]
-                      for k in range(-20, 21)]
+            places = [[((i + rng.uniform(-0.4, 0.4)) * size, (k + rng.uniform(-0.4, 0.4)) * size,
+                        (-30 + 0.3 * i) * size) for i in range(-20, 21)] for k in range(-20, 21)]
             # In one plane, but for rounding: z is a function of x.
             flat = [[(x, y, -30 * size + 0.3 * x) for x, y, _ in row] for row in places]
-            mesh = [t for low, high in zip(flat, flat[1:]) for a, b, c, d in zip(low, low[1:], high[1:], high) for t in quad(a, b, c, d)]
-            text = scene("background 0 255 0\nmaterial 1 0 0 1 1 1 1\n", (mesh, "255 0 0", 0), camera="perspective 40 1 %r %r\n" % (size, 1e3 * size))
+            mesh = [
+                t for low, high in zip(flat, flat[1:]) for a, b, c, d in zip(low, low[1:], high[1:], high)
+                for t in quad(a, b, c, d)]
+            text = scene("background 0 255 0\nmaterial 1 0 0 1 1 1 1\n", (mesh, "255 0 0", 0),
+                         camera="perspective 40 1 %r %r\n" % (size, 1e3 * size))
             self.assertEqual(set(self.picture(text, size="120x120")), {(0, 255, 0)}, size)
 
 
@@ -318,7 +368,8 @@ class Shadows(LightTest):
     def test_fall_where_lines_to_the_light_are_blocked(self):
         light, half, height = (4.0, 3.0, -2.0), 1.0, -6.0
         header = "light %r %r %r 1 1 1\nmaterial 0 1 0 1\n" % light
-        text = scene(header, (square(-10.0, 50), WHITE, 0), (square(height, half), GRAY, 0), camera="ortho -8 8 -8 8 1 50\n")
+        text = scene(header, (square(-10.0, 50), WHITE, 0), (square(height, half), GRAY, 0),
+                     camera="ortho -8 8 -8 8 1 50\n")
         size = 64
         dark = [color == (0, 0, 0) for color in self.picture(text, size=f"{size}x{size}")]
         checked = 0
@@ -338,50 +389,80 @@ class Shadows(LightTest):
     def test_of_clear_things_are_dimmed(self):
         """On a straight line: (1 - alpha) (1 - F) at each surface, exp(-a s) between them."""
         index, alpha, absorption = 1.5, 0.1, (0.2, 0.9, 0.0)
-        header = ("light 0 0 -1 1 1 1\nmaterial 0 1 0 1\nmaterial 0 1 0 1 0 %r %r\nabsorption %r %r %r\n" % (index, alpha, *absorption))
+        header = ("light 0 0 -1 1 1 1\nmaterial 0 1 0 1\nmaterial 0 1 0 1 0 %r %r\nabsorption %r %r %r\n" %
+                  (index, alpha, *absorption))
         pane = box((-9, -9, -5), (9, 9, -3.5))
         rays = self.rays(scene(header, (square(-10.0, 50), WHITE, 0), (pane, BLACK, 1)))
         shadow = [ray for ray in rays if ray.kind == "shadow" and abs(ray.origin[2] + 10) < 1e-9][0]
         cosine = 9 / distance(shadow.origin, (0, 0, -1))
-        through = 1 - fresnel(math.acos(cosine), snell(math.acos(cosine), index)) if cosine < 1 else 1 - ((index - 1) / (index + 1)) ** 2
+        through = 1 - fresnel(math.acos(cosine), snell(math.acos(cosine), index)) if cosine < 1 else 1 - (
+            (index - 1) / (index + 1))**2
         expected = tuple(((1 - alpha) * through) ** 2 * math.exp(-a * 1.5 / cosine) for a in absorption)
         self.assert_near(shadow.brought, expected)
 
     def test_of_clear_things_are_dimmed_by_the_angle_outside(self):
-        """The same part is lost where light enters and where it leaves, however oblique: no light is caught inside."""
+        """The same part is lost where light enters and where it leaves, however oblique: no light is caught
+        inside."""
         index, alpha, absorption = 1.5, 0.1, (0.2, 0.4, 0.0)
         slab, lamp = box((-99, -99, -5), (99, 99, -3.5)), (9 * math.sqrt(3), 0.0, -1.0)
         text = "light %r %r %r 1 1 1\nmaterial 0 1 0 1\nmaterial 0 1 0 1 0 %r %r\nabsorption %r %r %r\n"
-        # The line from (0, 0, -10) passes a ball's middle at 5 sin(a); 1.5 of its radius of 2 is beyond the critical angle.
+        # The line from (0, 0, -10) passes a ball's middle at 5 sin(a); 1.5 of its radius of 2 is beyond the
+        # critical angle.
         radius, sine = 2.0, 0.3
-        ball = "sphere\n" + "".join(f"{x} {y} {z} 0 0 0 1\n" for x, y, z in ((0, 0, -5), (radius, 0, -5), (0, radius, -5), (0, 0, radius - 5))) + "\n"
+        ball = "sphere\n" +"".join(f"{x} {y} {z} 0 0 0 1\n" for x, y, z in ((0, 0, -5), (radius, 0, -5),
+                                                                            (0, radius, -5),
+                                                                            (0, 0, radius - 5))) + "\n"
         beside = (9 * sine / math.sqrt(1 - sine * sine), 0.0, -1.0)
         angle_of_ball = math.asin(5 * sine / radius)
-        for light, objects, more, angle, length in ((lamp, [(slab, BLACK, 1)], "", math.radians(60), 1.5 / math.cos(math.radians(60))),
-                                                    (beside, [], ball, angle_of_ball, 2 * radius * math.cos(angle_of_ball))):
-            rays = self.rays(scene(text % (*light, index, alpha, *absorption), (square(-10.0, 50), WHITE, 0), *objects) + more)
-            shadow = [ray for ray in rays if ray.kind == "shadow" and abs(ray.origin[2] + 10) < 1e-9 and math.hypot(*ray.origin[:2]) < 1e-9][0]
+        for light, objects, more, angle, length in ((lamp, [
+            (slab, BLACK, 1)], "", math.radians(60), 1.5 / math.cos(math.radians(60))),
+                                                    (beside, [], ball, angle_of_ball,
+                                                     2 * radius * math.cos(angle_of_ball))):
+            rays = self.rays(
+                scene(text % (*light, index, alpha, *absorption), (square(-10.0, 50), WHITE, 0), *objects) +
+                more)
+            shadow = [
+                ray for ray in rays
+                if ray.kind == "shadow" and abs(ray.origin[2] +
+                                                10) < 1e-9 and math.hypot(*ray.origin[:2]) < 1e-9][0]
             through = (1 - alpha) * (1 - fresnel(angle, snell(angle, index)))
-            self.assert_near(shadow.brought, tuple(through ** 2 * math.exp(-a * length) for a in absorption), 1e-9)
+            self.assert_near(shadow.brought, tuple(through**2 * math.exp(-a * length) for a in absorption),
+                             1e-9)
 
     def test_of_clear_things_are_full_without_recursion(self):
-        """ALPHA counts as 1 then. The lamp stands at 45 degrees, behind a pane that the pixel does not show."""
-        text = scene("light 0 9 -1 1 1 1\nmaterial 0 1 0 1\nmaterial 0 1 0 1 0 1.5 0\n", (square(-10.0, 50), WHITE, 0), (square(-5.0, 1, y=5.0), BLACK, 1))
+        """ALPHA counts as 1 then. The lamp stands at 45 degrees, behind a pane that the pixel does not
+        show."""
+        text = scene("light 0 9 -1 1 1 1\nmaterial 0 1 0 1\nmaterial 0 1 0 1 0 1.5 0\n",
+                     (square(-10.0, 50), WHITE, 0), (square(-5.0, 1, y=5.0), BLACK, 1))
         lit, angle = 255 * math.sqrt(0.5), math.radians(45)
-        for options, part in (((), 1 - fresnel(angle, snell(angle, 1.5))), (("--no-recursion",), 0.0), (("--no-recursion", "--no-shadows"), 1.0)):
-            self.assertEqual(self.picture(text, "--shading", "phong", *options)[40], (round(lit * part),) * 3, options)
+        for options, part in (((), 1 - fresnel(angle, snell(angle, 1.5))), (("--no-recursion", ), 0.0),
+                              (("--no-recursion", "--no-shadows"), 1.0)):
+            self.assertEqual(
+                self.picture(text, "--shading", "phong", *options)[40], (round(lit * part), ) * 3, options)
 
     def test_of_a_lamp_inside_of_glass_are_dimmed_on_the_way_out(self):
         """By exp(-a r) in a ball, or from the middle of a slab, and by one surface."""
         absorption, reach = (0.5, 0.2, 0.0), 2.0
-        header = CAMERA + "attributes color material\nlight 0 0 -5 1 1 1\nmaterial 0 1 0 1\nmaterial 0 1 0 1 0 1.5 0\nabsorption %r %r %r\n" % absorption
-        wall = "".join("%r %r %r 255 255 255 0\n" % p + "\n" * (i == 2) for i, p in enumerate(square(-10.0, 50)[0]))
-        ball = "sphere\n" + "".join(f"{x} {y} {z} 0 0 0 1\n" for x, y, z in ((0, 0, -5), (reach, 0, -5), (0, reach, -5), (0, 0, reach - 5))) + "\n"
-        slab = "".join("%r %r %r 0 0 0 1\n" % p + "\n" * (i == 2) for t in box((-9, -9, -5 - reach), (9, 9, -5 + reach)) for i, p in enumerate(t))
+        header = (
+            CAMERA +
+            "attributes color material\nlight 0 0 -5 1 1 1\nmaterial 0 1 0 1\nmaterial 0 1 0 1 0 1.5 0\n"
+            "absorption %r %r %r\n"
+            % absorption)
+        wall = "".join("%r %r %r 255 255 255 0\n" % p + "\n" * (i == 2)
+                       for i, p in enumerate(square(-10.0, 50)[0]))
+        ball = "sphere\n" +"".join(f"{x} {y} {z} 0 0 0 1\n" for x, y, z in ((0, 0, -5), (reach, 0, -5),
+                                                                            (0, reach, -5),
+                                                                            (0, 0, reach - 5))) + "\n"
+        slab = "".join("%r %r %r 0 0 0 1\n" % p + "\n" * (i == 2)
+                       for t in box((-9, -9, -5 - reach), (9, 9, -5 + reach))
+                       for i, p in enumerate(t))
         expected = tuple(0.96 * math.exp(-a * reach) for a in absorption)
         for thing in (ball, slab):
             rays = self.rays(header + wall + thing)
-            shadow = [ray for ray in rays if ray.kind == "shadow" and abs(ray.origin[2] + 10) < 1e-9 and math.hypot(*ray.origin[:2]) < 1e-9][0]
+            shadow = [
+                ray for ray in rays
+                if ray.kind == "shadow" and abs(ray.origin[2] +
+                                                10) < 1e-9 and math.hypot(*ray.origin[:2]) < 1e-9][0]
             self.assert_near(shadow.brought, expected, 1e-9)
 
     def test_are_cast_by_what_the_eye_does_not_see(self):
@@ -393,17 +474,25 @@ class Shadows(LightTest):
         self.assertNotIn((0, 0, 0), self.picture(scene(header, wall, behind), "--no-shadows"))
 
     def test_do_not_fall_on_what_casts_them(self):
-        """No surface shades itself, nor its neighbors in one plane or on a bulge, near the origin or far away."""
+        """No surface shades itself, nor its neighbors in one plane or on a bulge, near the origin or far
+        away."""
         rng = random.Random(2)
         for size in (1e-6, 1, 1e6):
             for bulge in (0.0, 0.02):
-                places = [[(i + rng.uniform(-0.4, 0.4), k + rng.uniform(-0.4, 0.4)) for i in range(-10, 11)] for k in range(-10, 11)]
-                points = [[(x * size, y * size, (-30 + 0.4 * x - bulge * (x * x + y * y)) * size) for x, y in row] for row in places]
-                mesh = [t for low, high in zip(points, points[1:]) for a, b, c, d in zip(low, low[1:], high[1:], high) for t in quad(a, b, c, d)]
+                places = [[(i + rng.uniform(-0.4, 0.4), k + rng.uniform(-0.4, 0.4))
+                           for i in range(-10, 11)]
+                          for k in range(-10, 11)]
+                points = [[(x * size, y * size, (-30 + 0.4 * x - bulge * (x * x + y * y)) * size)
+                           for x, y in row]
+                          for row in places]
+                mesh = [
+                    t for low, high in zip(points, points[1:])
+                    for a, b, c, d in zip(low, low[1:], high[1:], high) for t in quad(a, b, c, d)]
                 header = "light %r %r %r 1 1 1\nmaterial 0.1 1 0.5 7\n" % (4 * size, 5 * size, 3 * size)
                 text = scene(header, (mesh, WHITE, 0), camera="perspective 50 1 %r %r\n" % (size, 100 * size))
                 with self.subTest(size=size, bulge=bulge):
-                    self.assertEqual(self.picture(text, size="80x80"), self.picture(text, "--no-shadows", size="80x80"))
+                    self.assertEqual(self.picture(text, size="80x80"),
+                                     self.picture(text, "--no-shadows", size="80x80"))
 
 
 class Spheres(LightTest):
@@ -415,13 +504,19 @@ class Spheres(LightTest):
         return "sphere\n" + "".join("%r %r %r %s %d\n" % (*p, WHITE, 1) for p in points) + "\n"
 
     def test_do_not_shade_themselves(self):
-        """The side that faces a light is in no shadow, as they are convex; the sphere beside is too far away."""
+        """The side that faces a light is in no shadow, as they are convex; the sphere beside is too far
+        away."""
         axes = ((2.0, 0.5, 0.1), (-0.3, 1.0, 0.2), (0.0, 0.1, 0.4))
         for size in (1e-6, 1, 1e6):
-            for center, shape in (((0.2, 0.1, -6.0), (2.0,)), ((0.2, 0.1, -6.0), axes), ((0.0, -1e5, -3.0), (1e5 - 0.5,))):
-                header = "light %r %r %r 1 1 1\nlight %r %r %r 1 1 1\nmaterial 0 1 0 1\nmaterial 0.1 1 0.5 7\n" % (9 * size, 7 * size, -5 * size, -3 * size, size, size)
-                shape = [tuple(x * size for x in axis) for axis in shape] if len(shape) == 3 else [shape[0] * size]
-                text = scene(header, camera="perspective 50 1 %r %r\n" % (size, 100 * size)) + self.sphere(tuple(c * size for c in center), *shape)
+            for center, shape in (((0.2, 0.1, -6.0), (2.0, )), ((0.2, 0.1, -6.0), axes), ((0.0, -1e5, -3.0),
+                                                                                          (1e5 - 0.5, ))):
+                lights = "light %r %r %r 1 1 1\n" * 2 % tuple(k * size for k in (9, 7, -5, -3, 1, 1))
+                header = lights + "material 0 1 0 1\nmaterial 0.1 1 0.5 7\n"
+                shape = [tuple(x * size
+                               for x in axis)
+                         for axis in shape] if len(shape) == 3 else [shape[0] * size]
+                text = scene(header, camera="perspective 50 1 %r %r\n" %
+                             (size, 100 * size)) + self.sphere(tuple(c * size for c in center), *shape)
                 with self.subTest(size=size, center=center, axes=len(shape)):
                     lit = self.picture(text, "--no-shadows", size="90x90")
                     self.assertGreater(len(set(lit)), 100)
@@ -430,18 +525,24 @@ class Spheres(LightTest):
     def test_a_mirror_does_not_see_itself(self):
         for size in (1e-6, 1, 1e6):
             for center, radius in (((0.2, 0.1, -6.0), 2.0), ((0.0, -1e5, -3.0), 1e5 - 0.5)):
-                text = (scene("background 0 200 0\n" + MATT + "material 1 0 0 1 1 1 1\n", camera="perspective 50 1 %r %r\n" % (size, 100 * size))
-                        + self.sphere(tuple(c * size for c in center), radius * size))
+                text = (scene("background 0 200 0\n" + MATT + "material 1 0 0 1 1 1 1\n",
+                              camera="perspective 50 1 %r %r\n" % (size, 100 * size)) +
+                        self.sphere(tuple(c * size for c in center), radius * size))
                 self.assertEqual(set(self.picture(text, size="90x90")), {(0, 200, 0)})
-                self.assertEqual({ray.target for ray in self.rays(text, pixel="4,7") if ray.kind == "mirrored"}, {"nothing"})
+                self.assertEqual(
+                    {ray.target
+                     for ray in self.rays(text, pixel="4,7")
+                     if ray.kind == "mirrored"}, {"nothing"})
 
     def test_bend_rays_by_snell_and_dim_them_along_the_chord(self):
         """In at an angle i, out at the same one, turned by 2 (i - r); inside is a chord of 2 R cos r."""
         radius, absorption = 2.0, 0.3
         for index in (1.2, 1.5, 2.4, 0.8):
-            header = f"background 255 255 255\n{MATT}material 0 0 0 1 0 {index!r} 0\nabsorption {absorption} 0 0\n"
+            header = (f"background 255 255 255\n{MATT}material 0 0 0 1 0 {index!r} 0\nabsorption "
+                      f"{absorption} 0 0\n")
             for part in (0.0, 0.3, 0.6, 0.75):  # sin i
-                text = scene(header, camera="ortho -1 1 -1 1 1 30\n") + self.sphere((-part * radius, 0.0, -9.0), radius)
+                text = scene(header, camera="ortho -1 1 -1 1 1 30\n") + self.sphere(
+                    (-part * radius, 0.0, -9.0), radius)
                 rays = self.rays(text, "--max-depth", "2", "--min-contribution", "0", pixel="0,0", size="1x1")
                 angle = math.asin(part)
                 bent = snell(angle, index)
@@ -455,9 +556,11 @@ class Spheres(LightTest):
                     self.assertEqual(outside.target, "nothing")
                     reflected = fresnel(angle, bent) if part else ((index - 1) / (index + 1)) ** 2
                     self.assert_near(inside.weight, 1 - reflected, 1e-9)
-                    self.assert_near(outside.weight, (1 - reflected) ** 2, 1e-9)  # that of blue, which nothing absorbs
+                    self.assert_near(outside.weight, (1 - reflected)**2,
+                                     1e-9)  # that of blue, which nothing absorbs
                     mirrored = [ray for ray in rays if ray.kind == "mirrored" and ray.depth == 2]
-                    self.assertTrue(all(ray.side == "back" or ray.is_cut for ray in mirrored))  # it stays inside
+                    self.assertTrue(all(ray.side == "back" or ray.is_cut
+                                        for ray in mirrored))  # it stays inside
                     red, blue = inside.brought[0], inside.brought[2]
                     self.assertLess(red, blue)
                     self.assert_near(red / math.exp(-absorption * chord), 255 * (1 - reflected), 1e-9)
@@ -465,7 +568,8 @@ class Spheres(LightTest):
     def test_are_seen_from_within(self):
         """The eye is 7 before the surface of clear matter and 13 from that behind it."""
         absorption = 0.1
-        text = scene(f"background 255 255 255\n{GLASS}absorption {absorption} 0 0\n") + self.sphere((0.0, 0.0, 3.0), 10.0)
+        text = scene(f"background 255 255 255\n{GLASS}absorption {absorption} 0 0\n") + self.sphere(
+            (0.0, 0.0, 3.0), 10.0)
         [primary, *rest] = self.rays(text, "--max-depth", "1")
         self.assertEqual((primary.target, primary.side), ("sphere 0", "back"))
         self.assert_near(primary.point, (0.0, 0.0, -7.0))
@@ -476,14 +580,16 @@ class Spheres(LightTest):
         self.assertEqual(self.only(rest, "refracted", 1).target, "nothing")
         # A mirror within sends the ray to the other side, over 4 + 13.
         mirror = (square(-4.0, 3), BLACK, 2)
-        text = scene(f"{GLASS}absorption {absorption} 0 0\nmaterial 1 0 0 1 1 1 1\n", mirror) + self.sphere((0.0, 0.0, 3.0), 10.0)
+        text = scene(f"{GLASS}absorption {absorption} 0 0\nmaterial 1 0 0 1 1 1 1\n", mirror) + self.sphere(
+            (0.0, 0.0, 3.0), 10.0)
         mirrored = self.only(self.rays(text, "--max-depth", "2", "--background", "ffffff"), "mirrored", 1)
         self.assertEqual((mirrored.side, mirrored.target), ("back", "sphere 2"))
         self.assert_near(mirrored.point, (0.0, 0.0, 13.0))
         self.assert_near(mirrored.brought, (255 * 0.96 * math.exp(-absorption * 17), 255 * 0.96, 255 * 0.96))
 
     def test_that_are_stretched_mirror_about_their_gradient(self):
-        """Of (x / a)^2 + (y / b)^2 + (z / c)^2 = 1 that is (x / a^2, y / b^2, z / c^2), however the half axes are ordered."""
+        """Of (x / a)^2 + (y / b)^2 + (z / c)^2 = 1 that is (x / a^2, y / b^2, z / c^2), however the half axes
+        are ordered."""
         a, b, c = 2.0, 1.0, 0.5
         axes = [(a, 0.0, 0.0), (0.0, b, 0.0), (0.0, 0.0, c)]
         x, y = 0.6 * a, 0.48 * b
@@ -491,26 +597,32 @@ class Spheres(LightTest):
         normal = unit((x / a ** 2, y / b ** 2, z / c ** 2))
         expected = tuple(d + 2 * normal[2] * n for d, n in zip((0.0, 0.0, -1.0), normal))
         for order in ((0, 1, 2), (1, 2, 0), (2, 0, 1), (1, 0, 2)):
-            text = scene(MATT + "material 1 0 0 1 1 1 1\n", camera="ortho -1 1 -1 1 1 30\n") + self.sphere((-x, -y, -9.0), *(axes[i] for i in order))
+            text = scene(MATT + "material 1 0 0 1 1 1 1\n", camera="ortho -1 1 -1 1 1 30\n") + self.sphere(
+                (-x, -y, -9.0), *(axes[i] for i in order))
             mirrored = self.only(self.rays(text, pixel="0,0", size="1x1"), "mirrored", 1)
             self.assert_near(mirrored.origin, (0.0, 0.0, z - 9))
             self.assert_near(mirrored.along, expected)
 
     def test_in_a_white_furnace_are_white(self):
         header = "background 255 255 255\nmaterial 1 0 0 1 0 1 1\nmaterial 1 0 0 1 0.5 1.5 0.2\n"
-        text = scene(header) + self.sphere((-1.0, 0.0, -6.0), 1.2) + self.sphere((1.4, 0.3, -7.0), (1.0, 0.3, 0.0), (-0.2, 0.6, 0.1), (0.0, 0.2, 1.4))
-        self.assertEqual(set(self.picture(text, "--min-contribution", "1e-7", "--max-depth", "200", size="40x40")), {(255, 255, 255)})
+        text = scene(header) + self.sphere((-1.0, 0.0, -6.0), 1.2) + self.sphere(
+            (1.4, 0.3, -7.0), (1.0, 0.3, 0.0), (-0.2, 0.6, 0.1), (0.0, 0.2, 1.4))
+        self.assertEqual(
+            set(self.picture(text, "--min-contribution", "1e-7", "--max-depth", "200", size="40x40")),
+            {(255, 255, 255)})
 
 
 class Energy(LightTest):
     def furnace(self):
         """Clear and mirroring things in front of nothing but white; the matt parts are as white."""
         rng = random.Random(5)
-        header = "background 255 255 255\nmaterial 1 0 0 1 0 1 1\nmaterial 1 0 0 1 0.5 1.5 0\nmaterial 1 0 0 1 0.8 2.4 0.3\nmaterial 1 0 0 1 1 1 1\n"
+        header = ("background 255 255 255\nmaterial 1 0 0 1 0 1 1\nmaterial 1 0 0 1 0.5 1.5 0\nmaterial 1 0 "
+                  "0 1 0.8 2.4 0.3\nmaterial 1 0 0 1 1 1 1\n")
         things = []
         for i in range(8):
             x, y, z = -3 + 2 * (i % 4), -2 + 2 * (i // 4), -8 - 0.3 * i
-            things.append((turned_all(box((x, y, z), (x + 1.2, y + 1.1, z + 0.9)), rng.uniform(0, 3), (x + 0.6, y + 0.5, z)), WHITE, i % 4))
+            things.append((turned_all(box((x, y, z), (x + 1.2, y + 1.1, z + 0.9)), rng.uniform(0, 3),
+                                      (x + 0.6, y + 0.5, z)), WHITE, i % 4))
         return scene(header, *things)
 
     def test_is_neither_made_nor_lost(self):
@@ -528,19 +640,23 @@ class Energy(LightTest):
             self.assertGreater(255 - darkest, 255 * most * 0.99 - 1, options)
 
     def test_what_is_cut_goes_nowhere_else(self):
-        """Of a pane straight on, the smaller of F and 1 - F is cut: what is left is as before, and the smaller is reported."""
+        """Of a pane straight on, the smaller of F and 1 - F is cut: what is left is as before, and the
+        smaller is reported."""
         for index, expected, missing in ((1.5, 0.96 * 100, 0.04), (9.0, 0.64 * 200, 0.36)):
-            text = scene("background 200 200 200\n" + MATT + f"material 1 0 0 1 0 {index!r} 0\n", (square(-20.0, 99), GRAY, 0), (square(-5.0, 99), BLACK, 1))
+            text = scene("background 200 200 200\n" + MATT + f"material 1 0 0 1 0 {index!r} 0\n",
+                         (square(-20.0, 99), GRAY, 0), (square(-5.0, 99), BLACK, 1))
             options = ("--min-contribution", "0.5")
             self.assert_near(self.rays(text, *options)[0].brought, (expected,) * 3)
             report = self.trace(text, "--timing", *options, size="1x1")
-            self.assert_near(float(re.search(r"rays cut, at most (\S+) of a pixel's color", report)[1]), missing, 1e-2)
+            self.assert_near(float(re.search(r"rays cut, at most (\S+) of a pixel's color", report)[1]),
+                             missing, 1e-2)
         # Neither does a surface show more of its own.
         text = scene("background 200 200 200\nmaterial 1 0 0 1 0.25 1 1\n", (square(-5.0), GRAY, 0))
         self.assert_near(self.rays(text, "--min-contribution", "0.5")[0].brought, (75.0,) * 3)
 
     def test_rays_out_of_colored_glass_weigh_what_its_clearest_color_leaves(self):
-        text = scene("background 255 255 255\n" + GLASS + "absorption 0.5 0.3 0.9\n", (box((-9, -9, -11), (9, 9, -9)), BLACK, 1))
+        text = scene("background 255 255 255\n" + GLASS + "absorption 0.5 0.3 0.9\n", (box(
+            (-9, -9, -11), (9, 9, -9)), BLACK, 1))
         weight = 0.96 ** 2 * math.exp(-0.3 * 2)
         for least, is_cut in ((0.999 * weight, False), (1.001 * weight, True)):
             outside = self.only(self.rays(text, "--min-contribution", repr(least)), "refracted", 2)
@@ -561,45 +677,57 @@ class Energy(LightTest):
 
     def test_rays_of_a_probe_add_up(self):
         """What a ray brings is its own part and, by their shares, that of the rays it sends."""
-        rays = self.rays(self.furnace(), "--min-contribution", "1e-7", "--max-depth", "60", pixel="12,20", size="40x40")
+        rays = self.rays(self.furnace(), "--min-contribution", "1e-7", "--max-depth", "60", pixel="12,20",
+                         size="40x40")
         self.assert_near(rays[0].brought, (255.0, 255.0, 255.0), 1e-4)
         for ray in rays:
             self.assertLessEqual(ray.weight, 1)
 
 
 class Reports(LightTest):
-    TEXT = scene("light 0 0 -1 1 1 1\nmaterial 1 1 0 1\nmaterial 1 1 0 1 0.5 1 1\n", (square(-9.0), WHITE, 0), (square(-5.0, 2), WHITE, 1))
+    TEXT = scene("light 0 0 -1 1 1 1\nmaterial 1 1 0 1\nmaterial 1 1 0 1 0.5 1 1\n", (square(-9.0), WHITE, 0),
+                 (square(-5.0, 2), WHITE, 1))
 
     def test_statistics_count_rays_of_each_kind(self):
-        lines = dict(line.split() for line in self.trace(self.TEXT, "--stats", "-").splitlines())
-        # 5 x 5 of the 9 x 9 pixels show the mirror, as 2 of 5 sin 30 / cos 30 is 0.69; behind the eye there is nothing.
-        seen = sum((2 * (k + 0.5) / 9 - 1) * math.tan(math.radians(30)) * 5 < 2 and (2 * (k + 0.5) / 9 - 1) * math.tan(math.radians(30)) * 5 > -2
-                   for k in range(9)) ** 2
-        self.assertEqual((lines["primary_rays"], lines["shadow_rays"], lines["mirrored_rays"], lines["refracted_rays"], lines["cut_rays"]),
-                         ("81", "81", str(seen), "0", "0"))
-        lines = dict(line.split() for line in self.trace(self.TEXT, "--stats", "-", "--no-recursion", "--no-shadows").splitlines())
+        lines = dict(line.split() for line in self.trace(self.TEXT, "--stats", "/dev/stderr").splitlines())
+        # 5 x 5 of the 9 x 9 pixels show the mirror, as 2 of 5 sin 30 / cos 30 is 0.69; behind the eye there
+        # is nothing.
+        seen = sum((2 * (k + 0.5) / 9 - 1) * math.tan(math.radians(30)) * 5 < 2 and (2 * (k + 0.5) / 9 - 1) *
+                   math.tan(math.radians(30)) * 5 > -2 for k in range(9))**2
+        self.assertEqual((lines["primary_rays"], lines["shadow_rays"], lines["mirrored_rays"],
+                          lines["refracted_rays"], lines["cut_rays"]), ("81", "81", str(seen), "0", "0"))
+        lines = dict(line.split() for line in self.trace(self.TEXT, "--stats", "/dev/stderr",
+                                                         "--no-recursion", "--no-shadows").splitlines())
         self.assertNotIn("shadow_rays", lines)
 
     def test_timing_names_rays_of_each_kind(self):
-        self.assertRegex(self.trace(self.TEXT, "--timing"),
-                         r"8\.1e-05 million primary rays at \S+ million a second, \S+ million exactly, 8\.1e-05 million shadow rays at \S+ "
-                         r"million a second, \S+ million mirrored rays at \S+ million a second\n\Z")
+        self.assertRegex(
+            self.trace(self.TEXT, "--timing"),
+            r"8\.1e-05 million primary rays at \S+ million a second, \S+ million exactly, 8\.1e-05 million "
+            r"shadow rays at \S+ "
+            r"million a second, \S+ million mirrored rays at \S+ million a second\n\Z")
 
     def test_zbuf_notes_what_it_does_not_draw(self):
-        note = "zbuf: note: mirrors and glass are drawn as matt and opaque; trace, in place of project and zbuf, follows the light\n"
+        note = ("zbuf: note: mirrors and glass are drawn as matt and opaque; trace, in place of project and "
+                "zbuf, follows the light\n")
         ndc = run("project", stdin=self.TEXT).stdout
         self.assertEqual(run("zbuf", "--size", "9x9", "-o", "drawn.ppm", stdin=ndc).stderr.decode(), note)
-        self.assertEqual(run("zbuf", "--size", "9x9", "--wireframe", "--depth", "f32", "-o", "drawn.ppm", stdin=ndc).stderr.decode(), note)
+        self.assertEqual(
+            run("zbuf", "--size", "9x9", "--wireframe", "--depth", "f32", "-o", "drawn.ppm",
+                stdin=ndc).stderr.decode(), note)
         matt = ndc.replace(b"1 1 0 1 0.5 1 1", b"1 1 0 1 0 1.5 1")  # an index alone changes nothing
         self.assertEqual(run("zbuf", "--size", "9x9", "-o", "drawn.ppm", stdin=matt).stderr.decode(), "")
 
     def test_a_ray_that_meets_nothing_has_its_direction(self):
-        # The mirror faces the eye: the ray through the center of pixel (2, 4), two rows above the middle, is sent back by it.
+        # The mirror faces the eye: the ray through the center of pixel (2, 4), two rows above the middle, is
+        # sent back by it.
         height = 4 / 9 * math.tan(math.radians(30))
         mirrored = self.only(self.rays(self.TEXT, "--background", "102030", pixel="4,2"), "mirrored", 1)
         self.assertEqual((mirrored.target, mirrored.brought), ("nothing", (16, 32, 48)))
         self.assert_near(mirrored.along, unit((0.0, height, 1.0)))
-        [primary] = self.rays(scene("light 0 0 -1 1 1 1\nmaterial 1 1 0 1\nmaterial 1 1 0 1\n", (square(-9.0, 1), WHITE, 0)), pixel="4,2")
+        [primary] = self.rays(
+            scene("light 0 0 -1 1 1 1\nmaterial 1 1 0 1\nmaterial 1 1 0 1\n", (square(-9.0, 1), WHITE, 0)),
+            pixel="4,2")
         self.assertEqual(primary.target, "nothing")
         self.assert_near(primary.along, unit((0.0, height, -1.0)))
 
@@ -610,11 +738,14 @@ class Reports(LightTest):
 
     def test_a_probe_off_the_screen_is_refused(self):
         done = run("trace", "--size", "9x9", "--probe", "9,0", "-o", "out.ppm", stdin=self.TEXT)
-        self.assert_fails(done, 2, "trace: --probe: expected COLUMN,ROW, from 0,0 to 8,8, found '9,0' (try trace --help)")
+        self.assert_fails(
+            done, 2, "trace: --probe: expected COLUMN,ROW, from 0,0 to 8,8, found '9,0' (try trace --help)")
 
     def test_a_probe_changes_no_byte(self):
         """Not even where light is not traced."""
-        plain = CAMERA + "".join("%r %r %r\n" % p for p in square(-5.0)[0]) + "\n-9 -9 3\n9 -9 3\n0 9 3\n\n-9 -9 3\n9 -9 -3\n0 9 3\n\n"
+        plain = CAMERA +"".join(
+            "%r %r %r\n" % p
+            for p in square(-5.0)[0]) + "\n-9 -9 3\n9 -9 3\n0 9 3\n\n-9 -9 3\n9 -9 -3\n0 9 3\n\n"
         for text in (plain, self.TEXT):
             before = self.picture(text, size="20x20")
             report = self.trace(text, "--probe", "3,3", "--probe", "10,12", size="20x20")
@@ -622,17 +753,22 @@ class Reports(LightTest):
             self.assertEqual({line.split(":")[0] for line in report.splitlines()}, {"3,3", "10,12"})
 
     def test_options_out_of_range_are_refused(self):
-        for words in (("--min-contribution", "-0.1"), ("--min-contribution", "2"), ("--max-depth", "1001"), ("--max-depth", "-1")):
-            self.assertEqual(run("trace", "--size", "9x9", *words, "-o", "out.ppm", stdin=self.TEXT).returncode, 2, words)
+        for words in (("--min-contribution", "-0.1"), ("--min-contribution", "2"), ("--max-depth", "1001"),
+                      ("--max-depth", "-1")):
+            self.assertEqual(
+                run("trace", "--size", "9x9", *words, "-o", "out.ppm", stdin=self.TEXT).returncode, 2, words)
 
 
 class Bytes(LightTest):
     def lit_scene(self):
-        header = ("light 3 5 1 0.8 0.8 0.8\nlight -4 2 0 0.3 0.2 0.5\nbackground 20 30 60\nambient 0.1 0.1 0.1\nmaterial 1 1 0.5 9\n"
-                  "material 1 1 1 30 0.1 1.5 0.1\nabsorption 0.4 0.1 0\nmaterial 1 1 1 30 0.7 1 1\n")
+        header = (
+            "light 3 5 1 0.8 0.8 0.8\nlight -4 2 0 0.3 0.2 0.5\nbackground 20 30 60\nambient 0.1 0.1 0.1\n"
+            "material 1 1 0.5 9\n"
+            "material 1 1 1 30 0.1 1.5 0.1\nabsorption 0.4 0.1 0\nmaterial 1 1 1 30 0.7 1 1\n")
         glass = turned_all(box((-2, -2, -8), (0.5, 0.5, -6)), 0.5, (0, 0, -6))
         mirror = turned_all(box((0.8, -1, -9), (3, 2, -8.5)), 0.2, (0, 0, -6))
-        return scene(header, (square(-10.0, 5), "220 200 150", 0), (glass, "90 200 250", 1), (mirror, GRAY, 2))
+        return scene(header, (square(-10.0, 5), "220 200 150", 0), (glass, "90 200 250", 1),
+                     (mirror, GRAY, 2))
 
     def test_do_not_depend_on_threads(self):
         outputs = set()
@@ -645,20 +781,32 @@ class Bytes(LightTest):
         text = self.lit_scene()
         ndc = run("project", "--digits", "exact", stdin=text).stdout
         for options in ((), ("--samples", "3"), ("--shading", "gouraud"), ("--shading", "none")):
-            self.assertEqual(run("zbuf", "--size", "60x50", "--coverage", "center", "-o", "drawn.ppm", *options, stdin=ndc).returncode, 0)
+            self.assertEqual(
+                run("zbuf", "--size", "60x50", "--coverage", "center", "-o", "drawn.ppm", *options,
+                    stdin=ndc).returncode, 0)
             self.trace(text, "--no-recursion", "--no-shadows", *options, size="60x50")
-            self.assertEqual(pathlib.Path("out.ppm").read_bytes(), pathlib.Path("drawn.ppm").read_bytes(), options)
+            self.assertEqual(
+                pathlib.Path("out.ppm").read_bytes(),
+                pathlib.Path("drawn.ppm").read_bytes(), options)
 
     def test_light_that_nothing_blocks_is_that_of_zbuf(self):
-        """Along the other road, in view space: within a level, whatever the model of shading and the camera."""
+        """Along the other road, in view space: within a level, whatever the model of shading and the
+        camera."""
         rng = random.Random(6)
         for camera in ("perspective 50 1 1 100\n", "ortho -9 9 -9 9 1 100\n"):
-            mesh = [tuple((i + dx, k + dy, -20 - 0.02 * ((i + dx) ** 2 + (k + dy) ** 2)) for dx, dy in corners)
-                    for i in range(-6, 6) for k in range(-6, 6) for corners in (((0, 0), (1, 0), (1, 1)), ((0, 0), (1, 1), (0, 1)))]
-            text = camera + "attributes color normal\nlight 5 9 9 1 0.8 0.6\nambient 0.1 0.2 0.1\nmaterial 1 0.8 0.9 20\n"
+            mesh = [
+                tuple((i + dx, k + dy, -20 - 0.02 * ((i + dx)**2 + (k + dy)**2))
+                      for dx, dy in corners)
+                for i in range(-6, 6) for k in range(-6, 6)
+                for corners in (((0, 0), (1, 0), (1, 1)), ((0, 0), (1, 1), (0, 1)))]
+            text = (
+                camera +
+                "attributes color normal\nlight 5 9 9 1 0.8 0.6\nambient 0.1 0.2 0.1\nmaterial 1 0.8 0.9 20\n"
+            )
             for triangle in mesh:
                 for x, y, z in triangle:
-                    text += "%r %r %r %d %d %d %r %r 1\n" % (x, y, z, rng.randint(0, 255), rng.randint(0, 255), 200, 0.04 * x, 0.04 * y)
+                    text += "%r %r %r %d %d %d %r %r 1\n" % (x, y, z, rng.randint(0, 255), rng.randint(
+                        0, 255), 200, 0.04 * x, 0.04 * y)
                 text += "\n"
             for model in ("flat", "gouraud", "phong"):
                 drawn = self.picture(text, "--no-shadows", "--shading", model, size="70x70")

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""trace --no-shadows writes what project --digits exact | zbuf --coverage center write: the rasterizer and the ray tracer judge each other.
+"""trace --no-shadows writes what project --digits exact | zbuf --coverage center write: the rasterizer and
+the ray tracer judge each other.
 
 usage: trace_test.py BIN_DIR [UNITTEST ARGUMENT...]
 TRACE_SCENES is the number of random scenes (default 60).
@@ -37,12 +38,16 @@ class Referee(ToolTest):
         """Both ways give the same depths, picture and notes on an empty picture."""
         pathlib.Path("config.txt").write_text(config)
         ndc = run("project", "--digits", "exact", *projection, stdin=view_text)
-        raster = run("zbuf", "config.txt", "--coverage", "center", "-o", "raster.ppm", *options, stdin=ndc.stdout)
-        traced = run("trace", "config.txt", "--no-shadows", "--no-recursion", *projection, "-o", "traced.ppm", *options, stdin=view_text)
-        self.assertEqual((ndc.returncode, raster.returncode), (traced.returncode,) * 2, traced.stderr.decode())
+        raster = run("zbuf", "config.txt", "--coverage", "center", "-o", "raster.ppm", *options,
+                     stdin=ndc.stdout)
+        traced = run("trace", "config.txt", "--no-shadows", "--no-recursion", *projection, "-o", "traced.ppm",
+                     *options, stdin=view_text)
+        self.assertEqual((ndc.returncode, raster.returncode), (traced.returncode, ) * 2,
+                         traced.stderr.decode())
         if traced.returncode != 0:
             return
-        if traced.stdout != raster.stdout or pathlib.Path("raster.ppm").read_bytes() != pathlib.Path("traced.ppm").read_bytes():
+        if traced.stdout != raster.stdout or pathlib.Path("raster.ppm").read_bytes() != pathlib.Path(
+                "traced.ppm").read_bytes():
             self.fail(f"trace {config!r} {options} {projection} differs from project | zbuf on\n"
                       + (view_text if isinstance(view_text, str) else view_text.decode())[:4000])
 
@@ -53,7 +58,8 @@ class Referee(ToolTest):
         for folder in sorted(path.parent for path in (SOURCE / "samples").glob("*/scene.txt")):
             for digits in ((), ("--digits", "exact")):
                 with self.subTest(folder.name, digits=digits):
-                    view = pipe(["model", *digits], ["view", *digits], stdin=(folder / "scene.txt").read_bytes())
+                    view = pipe(["model", *digits], ["view", *digits],
+                                stdin=(folder / "scene.txt").read_bytes())
                     config = (folder / "config.txt").read_text()
                     self.check(view, config)
                     self.check(view, config, "--samples", "2")
@@ -74,12 +80,16 @@ class Referee(ToolTest):
                 self.check(view.stdout, config, *options, projection=projection)
 
     def test_agrees_where_every_center_is_on_an_edge(self):
-        """Corners of the cells are centers of 20 x 20 pixels, in front of a parallel and of a pinhole camera."""
+        """Corners of the cells are centers of 20 x 20 pixels, in front of a parallel and of a pinhole
+        camera."""
         places = [(2 * i + 1 - 20) / 20 for i in range(-1, 21)]
-        for scale, projection in ((1, "ortho -1 1 -1 1 1 3"), (2, "frustum -1 1 -1 1 1 8"), (1.3, "frustum -0.5 0.75 -1 1 1 8")):
+        for scale, projection in ((1, "ortho -1 1 -1 1 1 3"), (2, "frustum -1 1 -1 1 1 8"),
+                                  (1.3, "frustum -0.5 0.75 -1 1 1 8")):
             for depth in ("-2", None):
-                points = [[("%.7g" % (scale * x), "%.7g" % (scale * y), depth or "%.7g" % (-2 - 0.01 * (i % 3) - 0.02 * (k % 2)))
-                           for i, x in enumerate(places)] for k, y in enumerate(places)]
+                points = [[("%.7g" % (scale * x), "%.7g" % (scale * y), depth
+                            or "%.7g" % (-2 - 0.01 * (i % 3) - 0.02 * (k % 2)))
+                           for i, x in enumerate(places)]
+                          for k, y in enumerate(places)]
                 with self.subTest(projection=projection, depth=depth):
                     self.check_window(quads(points), "20 20\n", projection)
                     self.check_window(quads(points), "20 20\n", projection, "--samples", "3")
@@ -88,8 +98,10 @@ class Referee(ToolTest):
         rng = random.Random(1)
         for decimals in (1, 2, 3):
             size = 40
-            points = [[("%.*f" % (decimals, (i - size / 2) * 0.25), "%.*f" % (decimals, rng.uniform(-1.5, -0.5)),
-                        "%.*f" % (decimals, -1 - k * 0.25)) for i in range(size)] for k in range(size)]
+            points = [[("%.*f" % (decimals, (i - size / 2) * 0.25),
+                        "%.*f" % (decimals, rng.uniform(-1.5, -0.5)), "%.*f" % (decimals, -1 - k * 0.25))
+                       for i in range(size)]
+                      for k in range(size)]
             with self.subTest(decimals=decimals):
                 self.check_window(quads(points), "100 100\n", "perspective 60 1 1 100")
                 self.check_window(quads(points), "50 40\n", "perspective 90 1.25 0.01 1000", "--samples", "2")
@@ -98,7 +110,8 @@ class Referee(ToolTest):
         """The second layer is behind the first, in front of it, or in the same place."""
         for gap in ("1e-5", "1e-7", "1e-10", "1e-15", "0", "-1e-7", "-1e-15"):
             z = [-5, -5 - float(gap)]
-            layers = [((-2, -2, d), (2, -2, d), (2, 2, d)) for d in z] + [((-2, -2, d), (2, 2, d), (-2, 2, d)) for d in z]
+            layers = [((-2, -2, d), (2, -2, d), (2, 2, d)) for d in z] + [
+                ((-2, -2, d), (2, 2, d), (-2, 2, d)) for d in z]
             tilted = [tuple((repr(x), repr(y), repr(d + 0.3 * x + 0.1 * y)) for x, y, d in t) for t in layers]
             with self.subTest(gap=gap):
                 for config in ("30 30\n", "30 30\n-0.7\n-0.6\n0 1\n"):
@@ -108,11 +121,15 @@ class Referee(ToolTest):
     def test_agrees_on_cut_triangles(self):
         """Triangles that reach behind the eye, lit or not."""
         rng = random.Random(2)
-        for header in ("", "attributes color normal\nlight 1 2 -1 1 1 1\nambient 0.2 0.2 0.2\n", "attributes color\n"):
+        for header in ("", "attributes color normal\nlight 1 2 -1 1 1 1\nambient 0.2 0.2 0.2\n",
+                       "attributes color\n"):
             for _ in range(6):
                 triangles = []
                 for _ in range(12):
-                    corners = [["%.3g" % rng.uniform(-4, 4), "%.3g" % rng.uniform(-4, 4), "%.3g" % rng.uniform(-9, 3)] for _ in range(3)]
+                    corners = [[
+                        "%.3g" % rng.uniform(-4, 4),
+                        "%.3g" % rng.uniform(-4, 4),
+                        "%.3g" % rng.uniform(-9, 3)] for _ in range(3)]
                     for corner in corners:
                         corner += ["%d" % rng.randint(0, 255) for _ in range(3)] * ("color" in header)
                         corner += rng.choice((["0", "0", "1"], ["0.6", "0.8", "0"])) * ("normal" in header)
@@ -124,28 +141,43 @@ class Referee(ToolTest):
 
     def test_agrees_at_the_ends_of_doubles(self):
         for scale in (1e-150, 1e-30, 1e30, 1e150):
-            points = [[(repr(x * scale), repr(y * scale), repr((-2 - 0.1 * x * y) * scale)) for x in range(-3, 4)] for y in range(-3, 4)]
+            points = [[(repr(x * scale), repr(y * scale), repr((-2 - 0.1 * x * y) * scale))
+                       for x in range(-3, 4)]
+                      for y in range(-3, 4)]
             with self.subTest(scale=scale):
-                self.check_window(quads(points), "21 21\n", "frustum %r %r %r %r %r %r" % tuple(scale * n for n in (-1, 1, -1, 1, 1, 9)))
-                self.check_window(quads(points), "21 21\n", "ortho %r %r %r %r %r %r" % tuple(scale * n for n in (-1, 1, -1, 1, 1, 9)))
+                self.check_window(
+                    quads(points), "21 21\n",
+                    "frustum %r %r %r %r %r %r" % tuple(scale * n for n in (-1, 1, -1, 1, 1, 9)))
+                self.check_window(quads(points), "21 21\n",
+                                  "ortho %r %r %r %r %r %r" % tuple(scale * n for n in (-1, 1, -1, 1, 1, 9)))
 
     def test_agrees_in_odd_windows(self):
         rng = random.Random(3)
         for _ in range(20):
-            config = "%d %d\n-%s\n-%s\n%s %s\n" % (rng.randint(1, 60), rng.randint(1, 60), rng.choice(("1", "0.3", "7.25", "1e-3", "0.1234567")),
-                                                 rng.choice(("1", "0.3", "7.25", "0.7654321")), rng.choice(("-1", "0", "0.5", "-3")),
-                                                 rng.choice(("1", "0.75", "0.9999", "2")))
-            triangles = [[tuple("%.2f" % rng.uniform(-3, 3) for _ in "xy") + ("%.2f" % rng.uniform(-9, -0.01),) for _ in range(3)] for _ in range(40)]
-            self.check_window(triangles, config, rng.choice(("perspective 60 1 1 10", "ortho -3 3 -3 3 1 8", "frustum 2 -1 -1 3 1 8")))
+            config = "%d %d\n-%s\n-%s\n%s %s\n" % (rng.randint(1, 60), rng.randint(
+                1, 60), rng.choice(
+                    ("1", "0.3", "7.25", "1e-3", "0.1234567")), rng.choice(
+                        ("1", "0.3", "7.25", "0.7654321")), rng.choice(
+                            ("-1", "0", "0.5", "-3")), rng.choice(("1", "0.75", "0.9999", "2")))
+            triangles = [[
+                tuple("%.2f" % rng.uniform(-3, 3)
+                      for _ in "xy") + ("%.2f" % rng.uniform(-9, -0.01), )
+                for _ in range(3)]
+                         for _ in range(40)]
+            self.check_window(
+                triangles, config,
+                rng.choice(("perspective 60 1 1 10", "ortho -3 3 -3 3 1 8", "frustum 2 -1 -1 3 1 8")))
 
 
 class Threads(ToolTest):
     def test_change_no_byte(self):
         view = pipe(["model"], ["view"], stdin=(SOURCE / "samples/shaded-torus/scene.txt").read_bytes())
-        for options in (["--samples", "2"], ["--sampling", "jittered"], ["--sampling", "adaptive", "--threshold", "40"]):
+        for options in (["--samples", "2"], ["--sampling",
+                                             "jittered"], ["--sampling", "adaptive", "--threshold", "40"]):
             outputs = set()
             for count in ("0", "1", "2", "5"):
-                done = run("trace", "--size", "90x70", "--threads", count, "-o", "out.ppm", *options, stdin=view)
+                done = run("trace", "--size", "90x70", "--threads", count, "-o", "out.ppm", *options,
+                           stdin=view)
                 self.assert_quiet_success(done)
                 outputs.add(done.stdout + pathlib.Path("out.ppm").read_bytes())
             self.assertEqual(len(outputs), 1, options)
@@ -166,12 +198,13 @@ class Samples(ToolTest):
         # A fan of thin triangles: an edge in nearly every pixel.
         rim = [(1.3 * math.cos(0.16 * i + 0.05), 1.3 * math.sin(0.16 * i + 0.05)) for i in range(40)]
         corners = [((0.11, 0.07), rim[i], rim[i + 1]) for i in range(0, 39, 2)]
-        self.view = "ortho -1 1 -1 1 1 3\n" + triangles_text([tuple((repr(x), repr(y), "-2") for x, y in t) for t in corners])
+        self.view = "ortho -1 1 -1 1 1 3\n" + triangles_text([
+            tuple((repr(x), repr(y), "-2") for x, y in t) for t in corners])
 
     def traced(self, *options, size=SIZE, view=None):
         """The channels of the picture, and how many rays it took."""
-        done = run("trace", "--size", f"{size}x{size}", "-o", "out.ppm", "--z-buffer", "none", "--stats", "stats.txt", *options,
-                   stdin=self.view if view is None else view)
+        done = run("trace", "--size", f"{size}x{size}", "-o", "out.ppm", "--z-buffer", "none", "--stats",
+                   "stats.txt", *options, stdin=self.view if view is None else view)
         self.assert_quiet_success(done)
         counts = dict(line.split() for line in pathlib.Path("stats.txt").read_text().splitlines())
         return pixels_of("out.ppm"), int(counts["primary_rays"])
@@ -186,7 +219,8 @@ class Samples(ToolTest):
 
     def test_regular_is_what_samples_alone_mean(self):
         for count in ("1", "3"):
-            self.assertEqual(self.traced("--sampling", "regular", "--samples", count), self.traced("--samples", count))
+            self.assertEqual(self.traced("--sampling", "regular", "--samples", count),
+                             self.traced("--samples", count))
         self.assertEqual(self.traced("--sampling", "regular"), self.traced("--samples", "5"))
 
     def test_adaptive_without_a_threshold_is_jittered(self):
@@ -195,9 +229,12 @@ class Samples(ToolTest):
                              self.traced("--sampling", "jittered", "--samples", count))
 
     def test_adaptive_takes_all_samples_where_the_first_five_differ_by_the_threshold(self):
-        """A step of 40 levels, by the channel, from the left half of the picture to the right one, in the middle of a pixel."""
-        steps = "".join(f"{x0} -1 -2 {c}\n{x1} -1 -2 {c}\n{x1} 3 -2 {c}\n\n{x0} -1 -2 {c}\n{x1} 3 -2 {c}\n{x0} 3 -2 {c}\n\n"
-                        for x0, x1, c in ((-1, 0, "10 100 30"), (0, 1, "10 140 30")))
+        """A step of 40 levels, by the channel, from the left half of the picture to the right one, in the
+        middle of a pixel."""
+        steps = "".join(
+            f"{x0} -1 -2 {c}\n{x1} -1 -2 {c}\n{x1} 3 -2 {c}\n\n{x0} -1 -2 {c}\n{x1} 3 -2 {c}\n{x0} 3 "
+            f"-2 {c}\n\n"
+            for x0, x1, c in ((-1, 0, "10 100 30"), (0, 1, "10 140 30")))
         view = "ortho -1 1 -1 1 1 3\nattributes color\n" + steps
         size, count = 9, 5
         for threshold, is_refined in (("40", True), ("41", False)):
@@ -216,21 +253,25 @@ class Samples(ToolTest):
         """Cells whose corners are centers of pixels and of samples cover the picture, in one color."""
         places = ["%.7g" % (i / 20) for i in range(-21, 22)]
         points = [[(x, y, "-2") for x in places] for y in places]
-        view = "ortho -1 1 -1 1 1 3\nattributes color\n" + "".join(
-            "".join("%s %s %s 200 100 50\n" % vertex for vertex in triangle) + "\n" for triangle in quads(points))
-        for options in (["--sampling", "jittered", "--samples", "1"], ["--sampling", "jittered"], ["--sampling", "adaptive"]):
+        view = "ortho -1 1 -1 1 1 3\nattributes color\n" +"".join("".join("%s %s %s 200 100 50\n" % vertex
+                                                                          for vertex in triangle) + "\n"
+                                                                  for triangle in quads(points))
+        for options in (["--sampling", "jittered", "--samples",
+                         "1"], ["--sampling", "jittered"], ["--sampling", "adaptive"]):
             pixels, _ = self.traced(*options, "--background", "00ff00", view=view, size=20)
             self.assertEqual(set(zip(pixels[::3], pixels[1::3], pixels[2::3])), {(200, 100, 50)})
 
     def test_the_mean_of_jittered_samples_tends_to_that_of_regular_ones(self):
         exact, _ = self.traced("--samples", "16")
-        errors = [self.error(self.traced("--sampling", "jittered", "--samples", n)[0], exact) for n in (1, 2, 4, 8, 16)]
+        errors = [
+            self.error(self.traced("--sampling", "jittered", "--samples", n)[0], exact)
+            for n in (1, 2, 4, 8, 16)]
         self.assertEqual(errors, sorted(errors, reverse=True))
         self.assertLess(errors[-1], 1.5)
 
     def test_jittered_samples_err_less_than_random_ones_and_ever_less(self):
-        """Random samples are random pixels of a picture 64 times as fine: their error falls with the root of their number, that
-        of one sample in each cell faster where edges cross a pixel."""
+        """Random samples are random pixels of a picture 64 times as fine: their error falls with the root of
+        their number, that of one sample in each cell faster where edges cross a pixel."""
         fine = 64
         pixels, _ = self.traced(size=self.SIZE * fine)
         side = self.SIZE * fine
@@ -242,27 +283,35 @@ class Samples(ToolTest):
             rows = [pixels[3 * side * r:3 * side * (r + 1)] for r in range(row * fine, (row + 1) * fine)]
             for column in range(self.SIZE):
                 for channel in range(3):
-                    exact.append(sum(sum(r[3 * column * fine + channel:3 * (column + 1) * fine:3]) for r in rows) / fine ** 2)
+                    exact.append(
+                        sum(sum(r[3 * column * fine + channel:3 * (column + 1) * fine:3])
+                            for r in rows) / fine**2)
         rng = random.Random(1)
 
         def random_picture(count):
             for row in range(self.SIZE):
                 for column in range(self.SIZE):
-                    colors = [sample(row * fine + rng.randrange(fine), column * fine + rng.randrange(fine)) for _ in range(count)]
+                    colors = [
+                        sample(row * fine + rng.randrange(fine), column * fine + rng.randrange(fine))
+                        for _ in range(count)]
                     yield from (sum(channel) / count for channel in zip(*colors))
         counts = (2, 4, 8)
-        jittered = [self.error(self.traced("--sampling", "jittered", "--samples", n)[0], exact) for n in counts]
+        jittered = [
+            self.error(self.traced("--sampling", "jittered", "--samples", n)[0], exact) for n in counts]
         rand = [self.error(list(random_picture(n * n)), exact) for n in counts]
         for better, worse in zip(jittered, rand):
             self.assertLess(better, 0.8 * worse)
-        slope = [math.log(errors[-1] / errors[0]) / math.log(counts[-1] ** 2 / counts[0] ** 2) for errors in (jittered, rand)]
+        slope = [
+            math.log(errors[-1] / errors[0]) / math.log(counts[-1]**2 / counts[0]**2)
+            for errors in (jittered, rand)]
         self.assertAlmostEqual(slope[1], -0.5, delta=0.05)
         self.assertLess(slope[0], -0.65, slope)
 
     def test_depths_stay_those_of_the_centers(self):
         expected = run("trace", "config.txt", stdin=self.view).stdout
         for sampling in ("jittered", "adaptive"):
-            self.assertEqual(run("trace", "config.txt", "--sampling", sampling, stdin=self.view).stdout, expected)
+            self.assertEqual(
+                run("trace", "config.txt", "--sampling", sampling, stdin=self.view).stdout, expected)
 
     def test_colors_that_nobody_can_see_are_noted(self):
         """What the threads have seen comes together."""
@@ -285,14 +334,21 @@ class Samples(ToolTest):
             pathlib.Path("drawn.png").unlink()
 
     def test_options_that_do_not_go_together_are_refused(self):
-        for options, message in (
-                (["--sampling", "basic", "--samples", "3"], "--samples: expected 1 with --sampling basic, which has one ray a pixel, found '3'"),
-                (["--threshold", "3"], "--threshold: expected --sampling adaptive, which alone has one, found no --sampling"),
-                (["--sampling", "jittered", "--threshold", "8"], "--threshold: expected --sampling adaptive, which alone has one, found jittered"),
-                (["--sampling", "adaptive", "--threshold", "256"], "--threshold: expected a whole number from 0 to 255, found '256'"),
-                (["--sampling", "adaptive", "--samples", "17"], "--samples: expected a whole number from 1 to 16, found '17'"),
-                (["--sampling", "random"], "--sampling: expected basic, regular, jittered or adaptive, found 'random'")):
-            self.assert_fails(run("trace", "config.txt", *options, stdin=self.view), 2, f"trace: {message} (try trace --help)")
+        for options, message in (([
+                "--sampling", "basic", "--samples",
+                "3"], "--samples: expected 1 with --sampling basic, which has one ray a pixel, found '3'"), ([
+                    "--threshold", "3"
+                ], "--threshold: expected --sampling adaptive, which alone has one, found no --sampling"), ([
+                    "--sampling", "jittered", "--threshold", "8"
+                ], "--threshold: expected --sampling adaptive, which alone has one, found jittered"), ([
+                    "--sampling", "adaptive", "--threshold",
+                    "256"], "--threshold: expected a whole number from 0 to 255, found '256'"), ([
+                        "--sampling", "adaptive", "--samples",
+                        "17"], "--samples: expected a whole number from 1 to 16, found '17'"), ([
+                            "--sampling", "random"
+                        ], "--sampling: expected basic, regular, jittered or adaptive, found 'random'")):
+            self.assert_fails(run("trace", "config.txt", *options, stdin=self.view), 2,
+                              f"trace: {message} (try trace --help)")
         self.assertEqual(self.files(), ["config.txt", "scene.txt"])
 
 
@@ -301,8 +357,10 @@ class Speed(ToolTest):
 
     def test_is_reported(self):
         done = run("trace", "--size", "40x30", "--timing", "-o", "out.ppm", stdin=self.VIEW)
-        self.assertRegex(done.stderr.decode(), r"trace: 3 triangles in .*; build [\d.]+ s, 0\.0012 million primary rays at "
-                                               r"\S+ million a second, \S+ million exactly\n\Z")
+        self.assertRegex(
+            done.stderr.decode(),
+            r"trace: 3 triangles in .*; build [\d.]+ s, 0\.0012 million primary rays at "
+            r"\S+ million a second, \S+ million exactly\n\Z")
 
     def test_is_shown_on_a_terminal(self):
         mine, theirs = pseudo_terminal()
@@ -311,8 +369,9 @@ class Speed(ToolTest):
                 view.write(b"perspective 60 1 1 100\n" + b"-1 -1 -4\n1 -1 -4\n0 1 -4\n\n" * 20)
             import subprocess
             from toolbox import command
-            process = subprocess.Popen(command("trace", "--size", "3000x2000", "--threads", "1", "-o", "out.ppm", "view.txt"),
-                                       stdout=subprocess.DEVNULL, stderr=theirs)
+            process = subprocess.Popen(
+                command("trace", "--size", "3000x2000", "--threads", "1", "-o", "out.ppm", "view.txt"),
+                stdout=subprocess.DEVNULL, stderr=theirs)
             os.close(theirs)
             shown = b""
             try:
@@ -332,9 +391,11 @@ class Memory(ToolTest):
                 view.write("perspective 60 1 1 100\n")
                 for _ in range(count):
                     x, y, z = rng.uniform(-3, 3), rng.uniform(-3, 3), rng.uniform(-9, -2)
-                    view.write("%.7f %.7f %.7f\n%.7f %.7f %.7f\n%.7f %.7f %.7f\n\n" % (x, y, z, x + 0.01, y, z, x, y + 0.01, z))
-            pid = os.posix_spawn(str(run.__globals__["BIN"] / "trace"), ["trace", "--size", "64x64", "--threads", threads, "-o", "out.ppm",
-                                                                        "--z-buffer", "none", "view.txt"], os.environ)
+                    view.write("%.7f %.7f %.7f\n%.7f %.7f %.7f\n%.7f %.7f %.7f\n\n" %
+                               (x, y, z, x + 0.01, y, z, x, y + 0.01, z))
+            pid = os.posix_spawn(str(run.__globals__["BIN"] / "trace"), [
+                "trace", "--size", "64x64", "--threads", threads, "-o", "out.ppm", "--z-buffer", "none",
+                "view.txt"], os.environ)
             _, status, usage = os.wait4(pid, 0)
             self.assertEqual(status, 0)
             return usage.ru_maxrss * 1024
@@ -351,23 +412,30 @@ class Options(ToolTest):
         pathlib.Path("scene.txt").write_text(CAMERA + "end\n")
         expected = run("trace", "config.txt", stdin=self.VIEW).stdout
         self.assertEqual(run("trace", "config.txt", "--scene", "scene.txt", stdin=bare).stdout, expected)
-        self.assertEqual(run("trace", "config.txt", "--perspective", "60", "1", "1", "100", stdin=bare).stdout, expected)
+        self.assertEqual(
+            run("trace", "config.txt", "--perspective", "60", "1", "1", "100", stdin=bare).stdout, expected)
         self.assertTrue(expected.strip())
 
     def test_a_text_of_another_stage_is_refused(self):
-        self.assert_fails(run("trace", "config.txt", stdin=pipe(["model"], stdin=SCENE)), 1,
-                          "trace: <stdin>:1:1: expected the output of view, found 'eye': this text has not been through view; "
-                          "a view of your own must drop the lines eye, look and up")
+        self.assert_fails(
+            run("trace", "config.txt", stdin=pipe(["model"], stdin=SCENE)), 1,
+            "trace: <stdin>:1:1: expected the output of view, found 'eye': this text has not been "
+            "through view; "
+            "a view of your own must drop the lines eye, look and up")
 
     def test_no_camera_is_an_error(self):
-        self.assert_fails(run("trace", "config.txt", stdin=""), 1,
-                          "trace: <stdin>:1:1: expected a projection (a header line perspective, frustum or ortho; or --scene; or "
-                          "--perspective, --frustum or --ortho), found none")
+        self.assert_fails(
+            run("trace", "config.txt", stdin=""), 1,
+            "trace: <stdin>:1:1: expected a projection (a header line perspective, frustum or ortho; or "
+            "--scene; or "
+            "--perspective, --frustum or --ortho), found none")
 
     def test_an_empty_picture_is_noted(self):
         done = run("trace", "config.txt", stdin="perspective 60 1 1 100\n-1 -1 4\n1 -1 4\n0 1 4\n\n")
-        self.assertEqual(done.stderr.decode(), "trace: note: the picture will be empty: the triangle is behind the eye (z is 4 in "
-                         "view space; the camera looks down -z: turn it around, or move it back by more than 4)\n")
+        self.assertEqual(
+            done.stderr.decode(),
+            "trace: note: the picture will be empty: the triangle is behind the eye (z is 4 in "
+            "view space; the camera looks down -z: turn it around, or move it back by more than 4)\n")
 
     def test_an_earlier_failure_leaves_no_picture(self):
         done = run("trace", "config.txt", stdin=self.VIEW + "error view: nothing\n")
@@ -375,16 +443,19 @@ class Options(ToolTest):
         self.assertFalse(pathlib.Path("out.bmp").exists())
 
     def test_a_frame_is_insisted_on(self):
-        self.assertEqual(run("trace", "config.txt", "--framed", stdin=self.VIEW).returncode, 1)
-        self.assert_quiet_success(run("trace", "config.txt", "--framed", stdin="framed\n" + self.VIEW + "end\n"))
+        self.assertEqual(run("trace", "config.txt", "--expect-framed", stdin=self.VIEW).returncode, 1)
+        self.assert_quiet_success(
+            run("trace", "config.txt", "--expect-framed", stdin="framed\n" + self.VIEW + "end\n"))
 
     def test_statistics_count_rays(self):
-        done = run("trace", "config.txt", "--stats", "-", "--samples", "2", stdin=self.VIEW)
-        self.assertRegex(done.stderr.decode(), r"triangles 1\n(\w+ 0\n)*primary_rays 320\n\Z")  # 64 centers, 256 samples
+        done = run("trace", "config.txt", "--stats", "/dev/stderr", "--samples", "2", stdin=self.VIEW)
+        self.assertRegex(done.stderr.decode(),
+                         r"triangles 1\n(\w+ 0\n)*primary_rays 320\n\Z")  # 64 centers, 256 samples
 
     def test_shading_needs_lights(self):
         done = run("trace", "config.txt", "--shading", "phong", stdin=self.VIEW)
-        self.assert_fails(done, 1, "trace: <stdin>:2:1: expected a light for --shading (a header line light), found none")
+        self.assert_fails(
+            done, 1, "trace: <stdin>:2:1: expected a light for --shading (a header line light), found none")
 
 
 if __name__ == "__main__":

@@ -38,9 +38,13 @@ class Size(OutputTest):
         pathlib.Path("config.txt").write_text("17 9\n")
         expected = self.assert_zbuf("config.txt", "stage3.txt"), pathlib.Path("out.bmp").read_bytes()
         os.unlink("out.bmp")
-        self.assertEqual((self.assert_zbuf("--size", "17x9", "stage3.txt"), pathlib.Path("out.bmp").read_bytes()), expected)
+        self.assertEqual(
+            (self.assert_zbuf("--size", "17x9", "stage3.txt"), pathlib.Path("out.bmp").read_bytes()),
+            expected)
         for operands in ([], ["-"]):
-            self.assertEqual(self.assert_zbuf("--size=17x9", *operands, stdin=pathlib.Path("stage3.txt").read_text()), expected[0])
+            self.assertEqual(
+                self.assert_zbuf("--size=17x9", *operands, stdin=pathlib.Path("stage3.txt").read_text()),
+                expected[0])
 
     def test_keeps_the_limits_of_a_config(self):
         pathlib.Path("config.txt").write_text("34 18\n-0.5\n-0.7\n-0.9 0.9\n")
@@ -54,21 +58,28 @@ class Size(OutputTest):
     def test_notes_a_picture_of_another_shape_than_the_configs(self):
         pathlib.Path("config.txt").write_text("400 300\n-1\n-0.75\n-1 1\n")
         done = run("zbuf", "config.txt", "--size", "100x100", "stage3.txt")
-        self.assertEqual((done.returncode, done.stderr.decode()), (0, "zbuf: note: a square of the config's 400 x 300 picture is drawn 0.75 times as wide as high: "
-                                                                      "--size 100x75 keeps its shape\n"))
-        self.assert_zbuf("config.txt", "--size", "101x75", "stage3.txt")  # a fraction of a pixel is no stretch
+        self.assertEqual(
+            (done.returncode, done.stderr.decode()),
+            (0, "zbuf: note: a square of the config's 400 x 300 picture is drawn 0.75 times as wide as high: "
+             "--size 100x75 keeps its shape\n"))
+        self.assert_zbuf("config.txt", "--size", "101x75",
+                         "stage3.txt")  # a fraction of a pixel is no stretch
         self.assert_zbuf("--size", "100x100", "stage3.txt")
 
     def test_a_single_operand_that_is_no_config_is_the_input(self):
         with open("stage3.txt") as text:
-            done = subprocess.run(["bash", "-c", '"$0" --size 17x9 -o - <(cat)', *command("zbuf")], stdin=text, capture_output=True)
-        self.assertEqual((done.returncode, done.stderr, done.stdout), (0, b"", self.assert_zbuf("--size", "17x9", "-o", "-", "stage3.txt")))
+            done = subprocess.run(["bash", "-c", '"$0" --size 17x9 -o - <(cat)', *command("zbuf")],
+                                  stdin=text, capture_output=True)
+        self.assertEqual((done.returncode, done.stderr, done.stdout),
+                         (0, b"", self.assert_zbuf("--size", "17x9", "-o", "-", "stage3.txt")))
         done = run("zbuf", "--size", "17x9", "missing.txt")
-        self.assertEqual((done.returncode, done.stderr.decode()), (1, "zbuf: cannot open missing.txt: No such file or directory\n"))
+        self.assertEqual((done.returncode, done.stderr.decode()),
+                         (1, "zbuf: cannot open missing.txt: No such file or directory\n"))
 
     def test_has_the_largest_pictures_of_a_config(self):
         done = run("zbuf", "--size", "65535x1", "-o", "-")
-        self.assertEqual((done.stdout[:14], done.stderr.decode(), done.returncode), (b"P6\n65535 1\n255", NO_TRIANGLE, 0))
+        self.assertEqual((done.stdout[:14], done.stderr.decode(), done.returncode),
+                         (b"P6\n65535 1\n255", NO_TRIANGLE, 0))
 
 
 class Image(OutputTest):
@@ -80,13 +91,15 @@ class Image(OutputTest):
     def test_a_dash_is_standard_output_without_depths(self):
         self.assert_zbuf("config.txt", "stage3.txt", "-o", "a.ppm")
         for options in (["-o", "-"], ["--image", "-"], ["-o", "-", "--z-buffer", "none"]):
-            self.assertEqual(self.assert_zbuf("config.txt", "stage3.txt", *options), pathlib.Path("a.ppm").read_bytes())
+            self.assertEqual(self.assert_zbuf("config.txt", "stage3.txt", *options),
+                             pathlib.Path("a.ppm").read_bytes())
         self.assertEqual(self.files(), ["a.ppm", "config.txt", "scene.txt", "stage3.txt"])
 
     def test_the_depths_may_go_to_a_file(self):
         depths = self.assert_zbuf("config.txt", "stage3.txt", "-o", "a.ppm")
         image = self.assert_zbuf("config.txt", "stage3.txt", "-o", "-", "--z-buffer", "z.txt")
-        self.assertEqual((image, pathlib.Path("z.txt").read_bytes()), (pathlib.Path("a.ppm").read_bytes(), depths))
+        self.assertEqual((image, pathlib.Path("z.txt").read_bytes()),
+                         (pathlib.Path("a.ppm").read_bytes(), depths))
 
     def test_a_full_disk_is_a_failure(self):
         with open("/dev/full", "wb") as full:
@@ -94,8 +107,9 @@ class Image(OutputTest):
                               "zbuf: cannot write /dev/stdout: No space left on device")
 
     def test_a_closed_pipe_is_quiet(self):
-        done = subprocess.run(["bash", "-c", '"$0" "$@" | true; echo ${PIPESTATUS[0]}', *command("zbuf", "--size", "2000x2000", "stage3.txt", "-o", "-")],
-                              capture_output=True, text=True)
+        done = subprocess.run([
+            "bash", "-c", '"$0" "$@" | true; echo ${PIPESTATUS[0]}',
+            *command("zbuf", "--size", "2000x2000", "stage3.txt", "-o", "-")], capture_output=True, text=True)
         self.assertEqual((done.stdout, done.stderr), ("1\n", ""))
 
 
@@ -130,15 +144,22 @@ class Terminal(OutputTest):
         return shown[:-1].replace(b"\r\n", b"\n"), done.stderr.decode()
 
     def test_is_not_flooded_by_depths(self):
-        self.assertEqual(self.shown("--size", "400x300", text=ALL), (b"", "out.bmp: 400 x 300, 100 % covered\n"))
-        self.assertEqual(self.shown("--size", "4x3", "-o", "a.ppm", text=""), (b"", "a.ppm: 4 x 3, 0 % covered\n" + NO_TRIANGLE))
+        self.assertEqual(self.shown("--size", "400x300", text=ALL),
+                         (b"", "out.bmp: 400 x 300, 100 % covered\n"))
+        self.assertEqual(self.shown("--size", "4x3", "-o", "a.ppm", text=""),
+                         (b"", "a.ppm: 4 x 3, 0 % covered\n" + NO_TRIANGLE))
         # By the top-left rule, 45 of 100 pixels lie in the half: those on the diagonal are on its right edge.
-        self.assertEqual(self.shown("--size", "10x10", "--coverage", "center", text=HALF), (b"", "out.bmp: 10 x 10, 45 % covered\n"))
+        self.assertEqual(self.shown("--size", "10x10", "--coverage", "center", text=HALF),
+                         (b"", "out.bmp: 10 x 10, 45 % covered\n"))
 
     def test_all_and_nothing_are_exact(self):
         # 1 and 499 of 500 pixels; row 249 lies at y = 0.002, row 0 at 0.998.
-        self.assertEqual(self.shown("--size", "1x500", text="0 0.0019 0\n0.1 0.0019 0\n0 0.0021 0\n")[1], "out.bmp: 1 x 500, 1 % covered\n")
-        self.assertEqual(self.shown("--size", "1x500", text=ALL.replace(" 9.", " 0.997"))[1], "out.bmp: 1 x 500, 99 % covered\n")
+        self.assertEqual(
+            self.shown("--size", "1x500", text="0 0.0019 0\n0.1 0.0019 0\n0 0.0021 0\n")[1],
+            "out.bmp: 1 x 500, 1 % covered\n")
+        self.assertEqual(
+            self.shown("--size", "1x500", text=ALL.replace(" 9.", " 0.997"))[1],
+            "out.bmp: 1 x 500, 99 % covered\n")
 
     def test_shows_what_is_asked_for(self):
         depths = run("zbuf", "config.txt", stdin=HALF).stdout
@@ -156,7 +177,8 @@ class Terminal(OutputTest):
 class Background(OutputTest):
     def corners(self, scene, *options):
         """The top right pixel, outside the triangle, and the one at the bottom left, inside."""
-        stage3 = pipe(["model"], ["view"], ["project"], stdin=CAMERA + scene + "triangle\n-9 -9 0\n9 -9 0\n-9 9 0\nend\n")
+        stage3 = pipe(["model"], ["view"], ["project"],
+                      stdin=CAMERA + scene + "triangle\n-9 -9 0\n9 -9 0\n-9 9 0\nend\n")
         pixels = self.assert_zbuf("--size", "8x8", "-o", "-", *options, stdin=stage3)[-3 * 64:]
         return pixels[21:24].hex(), pixels[-24:-21].hex()
 
@@ -166,14 +188,18 @@ class Background(OutputTest):
 
     def test_of_the_option_replaces_it_and_nothing_else(self):
         lit = "light 0 0 9 1 1 1\n"
-        for scene in ("", "background 1 2 3\n", "background 1 2 3\ncolor 9 8 7\n", "background 1 2 3\n" + lit):
+        for scene in ("", "background 1 2 3\n", "background 1 2 3\ncolor 9 8 7\n",
+                      "background 1 2 3\n" + lit):
             for color in ("ff8000", "FF8000"):
-                self.assertEqual(self.corners(scene, "--background", color), ("ff8000", self.corners(scene)[1]))
+                self.assertEqual(self.corners(scene, "--background", color),
+                                 ("ff8000", self.corners(scene)[1]))
 
 
 class TransparentBackground(OutputTest):
-    """PNGs with alpha. The triangle of CORNER covers the lower left of the picture, and the diagonal cuts pixels in halves."""
-    CORNER = "attributes color\n" + "".join(f"{x} {y} 0 250 120 7\n" for x, y in ((-1, -1), (1, -1), (-1, 1))) + "\n"
+    """PNGs with alpha. The triangle of CORNER covers the lower left of the picture, and the diagonal cuts
+    pixels in halves."""
+    CORNER = "attributes color\n" +"".join(f"{x} {y} 0 250 120 7\n" for x, y in ((-1, -1), (1, -1),
+                                                                                 (-1, 1))) + "\n"
 
     def setUp(self):
         super().setUp()
@@ -185,7 +211,8 @@ class TransparentBackground(OutputTest):
         data = pathlib.Path(path).read_bytes()
         width, height, *kind = struct.unpack_from(">IIBBBBB", data, 16)
         self.assertEqual(kind, [8, 6, 0, 0, 0])
-        pixels = zlib.decompress(b"".join(body for name, body in pictures.png_chunks(data) if name == b"IDAT"))
+        pixels = zlib.decompress(b"".join(body for name, body in pictures.png_chunks(data)
+                                          if name == b"IDAT"))
         rows, above = [], bytes(4 * width)
         for at in range(0, len(pixels), 4 * width + 1):
             above = pictures.unfiltered(pixels[at], pixels[at + 1:at + 1 + 4 * width], above, 4)
@@ -209,12 +236,15 @@ class TransparentBackground(OutputTest):
 
     def ways(self, text):
         """Calls of zbuf, by both algorithms and on threads, and of trace, that draw the same text."""
-        view = "ortho -1 1 -1 1 1 3\n" + "".join(line.replace(" 0 250", " -2 250") + "\n" for line in text.splitlines())
+        view = "ortho -1 1 -1 1 1 3\n" +"".join(
+            line.replace(" 0 250", " -2 250") + "\n" for line in text.splitlines())
         zbuf = ["zbuf", "--size", "8x8", "--coverage", "center", "--z-buffer", "none"]
         yield lambda *words: self.assert_quiet_success(run(*zbuf, *words, stdin=text))
-        yield lambda *words: self.assert_quiet_success(run(*zbuf, "--algorithm", "scanline", *words, stdin=text))
+        yield lambda *words: self.assert_quiet_success(
+            run(*zbuf, "--algorithm", "scanline", *words, stdin=text))
         yield lambda *words: self.assert_quiet_success(run(*zbuf, "--threads", "3", *words, stdin=text))
-        yield lambda *words: self.assert_quiet_success(run("trace", "--size", "8x8", "--z-buffer", "none", *words, stdin=view))
+        yield lambda *words: self.assert_quiet_success(
+            run("trace", "--size", "8x8", "--z-buffer", "none", *words, stdin=view))
 
     def test_a_translucent_one_weighs_as_much_as_its_alpha(self):
         for tool in self.ways(self.CORNER):
@@ -233,7 +263,8 @@ class TransparentBackground(OutputTest):
 
     def test_an_opaque_one_changes_no_byte(self):
         for background in ("background 7 8 9\n", ""):
-            self.assertEqual(pipe(["model"], stdin=CAMERA + background.replace("9\n", "9 255\n") + "end\n"), pipe(["model"], stdin=CAMERA + background + "end\n"))
+            self.assertEqual(pipe(["model"], stdin=CAMERA + background.replace("9\n", "9 255\n") + "end\n"),
+                             pipe(["model"], stdin=CAMERA + background + "end\n"))
             for name in ("out.png", "out.ppm", "out.bmp"):
                 for tool in self.ways(background + self.CORNER):
                     tool("--background", "0a0b0c", "-o", name)
@@ -242,12 +273,14 @@ class TransparentBackground(OutputTest):
                     self.assertEqual(pathlib.Path(name).read_bytes(), expected)
 
     def test_a_wireframe_lies_over_it(self):
-        self.assert_zbuf("--size", "8x8", "--z-buffer", "none", "--wireframe", "--background", "01020300", "-o", "out.png", stdin=self.CORNER)
+        self.assert_zbuf("--size", "8x8", "--z-buffer", "none", "--wireframe", "--background", "01020300",
+                         "-o", "out.png", stdin=self.CORNER)
         self.assertEqual({pixel[3] for row in self.picture("out.png") for pixel in row}, {0, 255})
 
     def test_a_picture_of_the_backgrounds_color_is_not_empty_over_it(self):
         text = self.CORNER.replace("250 120 7", "0 0 0")
-        self.assert_zbuf("--size", "8x8", "--z-buffer", "none", "--background", "00000000", "-o", "out.png", stdin=text)
+        self.assert_zbuf("--size", "8x8", "--z-buffer", "none", "--background", "00000000", "-o", "out.png",
+                         stdin=text)
         self.assertEqual(self.picture("out.png")[7][0], (0, 0, 0, 255))
 
     def test_bands_are_joined(self):
@@ -255,20 +288,29 @@ class TransparentBackground(OutputTest):
         self.assert_zbuf(*words, "-o", "whole.png", stdin=self.CORNER)
         for name, rows in (("a.png", "0:3"), ("b.png", "3:4"), ("c.png", "4:8")):
             self.assert_zbuf(*words, "--rows", rows, "-o", name, stdin=self.CORNER)
-        self.assertEqual(subprocess.run([SOURCE / "scripts/join-images", "a.png", "b.png", "c.png", "-o", "joined.png"], capture_output=True).stderr, b"")
+        self.assertEqual(
+            subprocess.run([SOURCE / "scripts/join-images", "a.png", "b.png", "c.png", "-o", "joined.png"],
+                           capture_output=True).stderr, b"")
         self.assertEqual(self.picture("joined.png"), self.picture("whole.png"))
         self.assert_zbuf(*words[:-1], "010203", "--rows", "3:4", "-o", "opaque.png", stdin=self.CORNER)
-        done = subprocess.run([SOURCE / "scripts/join-images", "a.png", "opaque.png", "-o", "joined.png"], capture_output=True)
-        self.assertEqual((done.returncode, done.stderr.decode()), (1, "join-images: opaque.png: expected a PNG with alpha of 8 columns as a.png, found a PNG of 8\n"))
+        done = subprocess.run([SOURCE / "scripts/join-images", "a.png", "opaque.png", "-o", "joined.png"],
+                              capture_output=True)
+        self.assertEqual(
+            (done.returncode, done.stderr.decode()),
+            (1,
+             "join-images: opaque.png: expected a PNG with alpha of 8 columns as a.png, found a PNG of 8\n"))
 
     def test_only_a_png_holds_it(self):
         expected = "expected an opaque background, or -o FILE.png: no other image can be transparent, found "
         for name in ("out.bmp", "out.ppm", "-"):
             done = run("zbuf", "--size", "8x8", "--background", "01020300", "-o", name, stdin=self.CORNER)
-            self.assertEqual((done.returncode, done.stderr.decode()), (2, f"zbuf: --background: {expected}'01020300' (try zbuf --help)\n"))
+            self.assertEqual((done.returncode, done.stderr.decode()),
+                             (2, f"zbuf: --background: {expected}'01020300' (try zbuf --help)\n"))
             done = run("zbuf", "--size", "8x8", "-o", name, stdin="background 1 2 3 254\n" + self.CORNER)
-            self.assertEqual((done.returncode, done.stderr.decode()), (1, f"zbuf: <stdin>:1:12: {expected}an alpha of 254\n"))
-        self.assert_zbuf("--size", "8x8", "--seen", "-", stdin="background 1 2 3 254\n" + self.CORNER)  # no image
+            self.assertEqual((done.returncode, done.stderr.decode()),
+                             (1, f"zbuf: <stdin>:1:12: {expected}an alpha of 254\n"))
+        self.assert_zbuf("--size", "8x8", "--seen", "-",
+                         stdin="background 1 2 3 254\n" + self.CORNER)  # no image
 
 
 if __name__ == "__main__":

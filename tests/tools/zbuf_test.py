@@ -18,8 +18,8 @@ TRIANGLE = "0 0 0\n1 0 0\n0 1 0\n\n"
 def zbuf(config, stage3, *options, kernel=None):
     """The depth text and the image."""
     settings = os.environ | ({"PIPELINE_KERNEL": kernel} if kernel else {})
-    done = subprocess.run(command("zbuf", config, stage3, "--image", "out.ppm", *options), stdout=subprocess.PIPE, check=True,
-                          env=settings)
+    done = subprocess.run(command("zbuf", config, stage3, "--image", "out.ppm", *options),
+                          stdout=subprocess.PIPE, check=True, env=settings)
     return done.stdout, pathlib.Path("out.ppm").read_bytes()
 
 
@@ -37,7 +37,8 @@ class Threads(ToolTest):
             expected = zbuf(config, stage3, "--coverage", coverage, "--algorithm", "scanline")
             for settings in (["--threads", "1"], ["--threads", "2"], ["--threads", "3"], ["--threads", "8"]):
                 with self.subTest(stage3=str(stage3), coverage=coverage, settings=settings):
-                    self.assertTrue(zbuf(config, stage3, "--coverage", coverage, *settings) == expected, "differs")
+                    self.assertTrue(
+                        zbuf(config, stage3, "--coverage", coverage, *settings) == expected, "differs")
 
     def test_every_sample(self):
         for stage3 in sorted(SOURCE.glob("samples/*/stage3.txt")):
@@ -52,7 +53,8 @@ class Threads(ToolTest):
     def test_many_small_triangles_with_large_ones_between_them(self):
         rng = random.Random(2)
         counts = ((10000, 0.01), (50, 1), (10000, 0.01))
-        pathlib.Path("stage3.txt").write_text("".join(random_triangle(rng, (size,)) for count, size in counts for _ in range(count)))
+        pathlib.Path("stage3.txt").write_text("".join(
+            random_triangle(rng, (size, )) for count, size in counts for _ in range(count)))
         pathlib.Path("config.txt").write_text("151 83\n")
         self.check("config.txt", "stage3.txt")
 
@@ -70,7 +72,9 @@ class Threads(ToolTest):
         rng = random.Random(4)
         other = ("# a comment\n", "triangle 7\n", "0 0 0.1\n1 0 .1\n0 1 1e-1\n\n", "\n\n")
         counts = (20000, 1000, 25000, 1)
-        text = "".join("".join(random_triangle(rng, (0.02,)) for _ in range(count)) + line for count, line in zip(counts, other))
+        text = "".join("".join(random_triangle(rng, (0.02, ))
+                               for _ in range(count)) + line
+                       for count, line in zip(counts, other))
         pathlib.Path("stage3.txt").write_text(text)
         pathlib.Path("config.txt").write_text("91 103\n")
         self.check("config.txt", "stage3.txt")
@@ -85,8 +89,10 @@ class Threads(ToolTest):
     def test_the_scanline_algorithm_has_none(self):
         pathlib.Path("config.txt").write_text(CONFIG)
         done = run("zbuf", "config.txt", "--threads", "2", "--algorithm", "scanline", stdin=TRIANGLE)
-        self.assertEqual(done.stderr.decode(), "zbuf: --threads: expected 1 with --algorithm scanline, which goes through the "
-                                               "rows in turn, found '2' (try zbuf --help)\n")
+        self.assertEqual(
+            done.stderr.decode(),
+            "zbuf: --threads: expected 1 with --algorithm scanline, which goes through the "
+            "rows in turn, found '2' (try zbuf --help)\n")
         self.assertEqual(done.returncode, 2)
 
 
@@ -98,7 +104,8 @@ class Kernels(ToolTest):
                 expected = zbuf(config, stage3, "--depth", depth, kernel="scalar")
                 for kernel in ("sse4", "avx2", "avx512", None):
                     with self.subTest(stage3=str(stage3), depth=depth, kernel=kernel):
-                        self.assertTrue(zbuf(config, stage3, "--depth", depth, kernel=kernel) == expected, "differs")
+                        self.assertTrue(
+                            zbuf(config, stage3, "--depth", depth, kernel=kernel) == expected, "differs")
 
 
 class Progress(ToolTest):
@@ -106,9 +113,11 @@ class Progress(ToolTest):
         """Feeds triangles slowly, for so many seconds."""
         pathlib.Path("config.txt").write_text(CONFIG)
         steps = int(seconds * 10)
-        feed = f"import sys, time\nfor _ in range({steps}): print({TRIANGLE!r}, end='', flush=True); time.sleep(0.1)"
+        feed = (f"import sys, time\nfor _ in range({steps}): print({TRIANGLE!r}, end='', flush=True); "
+                f"time.sleep(0.1)")
         with subprocess.Popen(["python3", "-c", feed], stdout=subprocess.PIPE) as source:
-            done = subprocess.run(command("zbuf", "config.txt"), stdin=source.stdout, stdout=subprocess.DEVNULL, stderr=stderr)
+            done = subprocess.run(command("zbuf", "config.txt"), stdin=source.stdout,
+                                  stdout=subprocess.DEVNULL, stderr=stderr)
         self.assertEqual(done.returncode, 0)
         return done
 
@@ -140,7 +149,8 @@ class Progress(ToolTest):
 class Timing(ToolTest):
     def test_the_phases_add_up_on_many_threads(self):
         pathlib.Path("config.txt").write_text("300 300\n")
-        done = run("zbuf", "config.txt", "--threads", "2", "--timing", "--z-buffer", "/dev/null", stdin=TRIANGLE * 50000)
+        done = run("zbuf", "config.txt", "--threads", "2", "--timing", "--z-buffer", "/dev/null",
+                   stdin=TRIANGLE * 50000)
         self.assertIn(b"zbuf: 50000 triangles in ", done.stderr)
         total, *phases = [float(number) for number in re.findall(r"\d+\.\d{3}", done.stderr.decode())[:4]]
         self.assertAlmostEqual(total, sum(phases), delta=0.003)

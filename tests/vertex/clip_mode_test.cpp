@@ -16,7 +16,7 @@ std::vector<std::uint64_t> numbers_of(const std::vector<Triangle>& triangles, Cl
   return projected(batch, kSimple, clip).p_ndc.numbers;
 }
 
-std::string message_of(const TriangleBatch& p_view, ClipMode clip) {
+std::string message_of_clip(const TriangleBatch& p_view, ClipMode clip) {
   try {
     projected(p_view, kSimple, clip);
   } catch (const InputError& error) {
@@ -84,6 +84,37 @@ TEST(ClipModeNear, LeavesTheFarPlaneAlone) {
   EXPECT_EQ(projected(batch_of({triangle_at(-200, -200, -2)}), kSimple, ClipMode::near).counts.clipped, 0u);
 }
 
+/// Where the edge from `a` to `b` meets the near plane of kSimple, pulled in by `inset`, in NDC.
+ReferenceVec3<448> cut_in_ndc(const Vec3& a, const Vec3& b, double inset) {
+  using Exact = Real<448>;
+  const auto z_clip = [](double z) { return (Exact(-z) * Exact(101) - Exact(200)) / Exact(99); };
+  const auto inside = [&](double z) { return Exact(-z) * (Exact(1) - Exact(inset)) + z_clip(z); };
+  const Exact t = inside(a.z) / (inside(a.z) - inside(b.z));
+  const auto between = [&](const Exact& from, const Exact& to) { return from + t * (to - from); };
+  const Exact w = between(-a.z, -b.z);
+  return {between(a.x, b.x) / w, between(a.y, b.y) / w, between(z_clip(a.z), z_clip(b.z)) / w};
+}
+
+TEST(ClipInset, CutsStandWhereExactArithmeticPutsThem) {
+  RandomNumbers random(36);
+  for (int i = 0; i < 2000; ++i) {
+    const double inset = i < 9 ? (i + 1) / 10.0 : random.between(0, 1) * std::exp2(-random.whole(0, 60));
+    const auto point = [&](double z) { return Vec3{random.between(-9, 9), random.between(-9, 9), z}; };
+    const Triangle p_view = {point(random.between(-0.99, 1)), point(-99), point(random.between(-200, -99))};
+    const auto& [a, b, c] = p_view;
+    const TriangleBatch p_ndc = projected(batch_of({p_view}), kSimple, ClipMode::near, CullMode::nothing,
+                                          {17}, Precision::extended, inset)
+                                    .p_ndc;
+    ASSERT_EQ(p_ndc.size(), 2u);
+    const Real<448> size(200);
+    EXPECT_EQ(printed_vertex(p_ndc, 0, {17}), reference_vertex(cut_in_ndc(a, b, inset), {17}, size)) << inset;
+    EXPECT_EQ(printed_vertex(p_ndc, 5, {17}), reference_vertex(cut_in_ndc(c, a, inset), {17}, size)) << inset;
+    const TriangleBatch whole =
+        projected(batch_of({p_view}), kSimple, ClipMode::automatic, CullMode::nothing, {17}).p_ndc;
+    EXPECT_EQ(printed_vertex(p_ndc, 1, {17}), printed_vertex(whole, 1, {17})) << inset;
+  }
+}
+
 TEST(ClipModeFrustum, CutsAtAllSixPlanes) {
   const Triangle huge = {Vec3{-1000, -1000, -5}, Vec3{1000, -1000, -5}, Vec3{0, 1000, -5}};
   const Result result = projected(batch_of({huge}), kSimple, ClipMode::frustum);
@@ -111,7 +142,7 @@ TEST(ClipModeReject, DropsOnlyWhatIsOutsideOfOnePlane) {
 }
 
 TEST(ClipModeReject, AVertexBehindTheEyeOfWhatIsNotDroppedIsAnError) {
-  EXPECT_EQ(message_of(batch_of({triangle_at(-2, -2, 1)}), ClipMode::reject),
+  EXPECT_EQ(message_of_clip(batch_of({triangle_at(-2, -2, 1)}), ClipMode::reject),
             "stage2.txt:3:1: expected a vertex in front of the eye (z below 0; --clip auto cuts the others), "
             "found z = 1");
 }
@@ -124,11 +155,11 @@ TEST(ClipModeNone, LeavesEverythingWhole) {
 TEST(ClipModeNone, AVertexOnOrBehindTheEyePlaneIsAnError) {
   const std::string expected =
       "expected a vertex in front of the eye (z below 0; --clip auto cuts the others), found z = ";
-  EXPECT_EQ(message_of(batch_of({triangle_at(-2, 0, -2)}), ClipMode::none),
+  EXPECT_EQ(message_of_clip(batch_of({triangle_at(-2, 0, -2)}), ClipMode::none),
             "stage2.txt:2:1: " + expected + "0");
-  EXPECT_EQ(message_of(batch_of({triangle_at(-2, -2, -0.0)}), ClipMode::none),
+  EXPECT_EQ(message_of_clip(batch_of({triangle_at(-2, -2, -0.0)}), ClipMode::none),
             "stage2.txt:3:1: " + expected + "0");
-  EXPECT_EQ(message_of(batch_of({triangle_at(-2, -2, -2), triangle_at(5, -2, -2)}), ClipMode::none),
+  EXPECT_EQ(message_of_clip(batch_of({triangle_at(-2, -2, -2), triangle_at(5, -2, -2)}), ClipMode::none),
             "stage2.txt:5:1: " + expected + "5");
 }
 

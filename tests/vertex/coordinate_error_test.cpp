@@ -13,7 +13,7 @@
 namespace pipeline {
 namespace {
 
-using Exact = Real<2048>;
+using Exact2048 = Real<2048>;
 
 /// A row of a matrix, the origin and a vertex; often most of it cancels.
 struct Source {
@@ -22,16 +22,17 @@ struct Source {
     for (double& x : origin) x = random.with_exponent(-4, 4);
     for (double& x : p) x = random.with_exponent(-4, 4);
     if (random.bits() % 2 == 0) {
-      const Exact rest = image() - midpoint<2048>(row[3]);
+      const Exact2048 rest = image() - midpoint<2048>(row[3]);
       const double high = -rest.nearest_double();
       row[3] = Ball::with_error(fast_two_sum(high, random.with_exponent(-60, -54) * high), 0);
     }
   }
-  [[nodiscard]] Exact term(std::size_t i) const {
-    return i == 3 ? midpoint<2048>(row[3]) : midpoint<2048>(row[i]) * (Exact(p[i]) - Exact(origin[i]));
+  [[nodiscard]] Exact2048 term(std::size_t i) const {
+    return i == 3 ? midpoint<2048>(row[3])
+                  : midpoint<2048>(row[i]) * (Exact2048(p[i]) - Exact2048(origin[i]));
   }
-  [[nodiscard]] Exact image() const { return term(0) + term(1) + term(2) + term(3); }
-  [[nodiscard]] Exact size() const { return abs(term(0)) + abs(term(1)) + abs(term(2)) + abs(term(3)); }
+  [[nodiscard]] Exact2048 image() const { return term(0) + term(1) + term(2) + term(3); }
+  [[nodiscard]] Exact2048 size() const { return abs(term(0)) + abs(term(1)) + abs(term(2)) + abs(term(3)); }
   [[nodiscard]] std::array<Coefficient, 4> coefficients() const {
     return {Coefficient(row[0]), Coefficient(row[1]), Coefficient(row[2]), Coefficient(row[3])};
   }
@@ -49,8 +50,8 @@ TEST(CoordinateError, InDoublesIsWithinTheCalculatedBound) {
     const auto& [x, y, z] = source.p;
     const auto& [ox, oy, oz] = source.origin;
     const Estimate e = image_in_doubles(source.coefficients(), x - ox, y - oy, z - oz);
-    const Exact error = abs(Exact(e.value) - source.image());
-    ASSERT_LE(error, Exact(e.error)) << i;
+    const Exact2048 error = abs(Exact2048(e.value) - source.image());
+    ASSERT_LE(error, Exact2048(e.error)) << i;
     worst.add((error / source.size()).nearest_double());
   }
 }
@@ -64,9 +65,9 @@ TEST(CoordinateError, InPairsIsWithin2ToMinus98OfTheTerms) {
     const auto& [ox, oy, oz] = source.origin;
     const PairEstimate e =
         image_in_pairs<DekkerError>(source.coefficients(), two_sum(x, -ox), two_sum(y, -oy), two_sum(z, -oz));
-    const Exact error = abs(Exact(DoubleDouble{e.high, e.low}) - source.image());
-    ASSERT_LE(error, source.size() * Exact(0x1p-98)) << i;
-    ASSERT_LE(error, Exact(e.error)) << i;
+    const Exact2048 error = abs(Exact2048(DoubleDouble{e.high, e.low}) - source.image());
+    ASSERT_LE(error, source.size() * Exact2048(0x1p-98)) << i;
+    ASSERT_LE(error, Exact2048(e.error)) << i;
     worst.add((error / source.size()).nearest_double());
   }
 }

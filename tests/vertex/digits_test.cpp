@@ -22,23 +22,25 @@ using R = Real<kBits>;
 using ReferencePoint = ReferenceVec3<kBits>;
 
 /// A model transform, as computed and exactly.
-struct Model {
+struct TrackedModel {
   AffineMatrix computed = identity();
   ReferenceMatrix<kBits> exact = reference_scaling<kBits>({1, 1, 1});
   double stretch = 1;  // at least the ratio of the largest to the smallest singular value of the linear part
 
-  Model& translate(const Vec3& v) { return set(translated(computed, v), reference_translation<kBits>(v)); }
-  Model& scale(const Vec3& v) {
+  TrackedModel& translate(const Vec3& v) {
+    return set(translated(computed, v), reference_translation<kBits>(v));
+  }
+  TrackedModel& scale(const Vec3& v) {
     const auto [least, largest] = std::minmax({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)});
     stretch *= largest / least;
     return set(scaled(computed, v), reference_scaling<kBits>(v));
   }
-  Model& rotate(double angle, const Vec3& axis) {
+  TrackedModel& rotate(double angle, const Vec3& axis) {
     return set(computed * rotation(angle, axis), reference_rotation<kBits>(angle, axis));
   }
 
  private:
-  Model& set(const AffineMatrix& product, const ReferenceMatrix<kBits>& exact_t) {
+  TrackedModel& set(const AffineMatrix& product, const ReferenceMatrix<kBits>& exact_t) {
     computed = product;
     exact = exact * exact_t;
     return *this;
@@ -46,8 +48,8 @@ struct Model {
 };
 
 /// Identical but for its rounding errors: numbers of the pivot's size are added and cancel.
-Model around_pivot(double pivot) {
-  return Model()
+TrackedModel around_pivot(double pivot) {
+  return TrackedModel()
       .translate({pivot, 0, 0})
       .rotate(120, {1, 1, 1})
       .rotate(240, {1, 1, 1})
@@ -56,7 +58,7 @@ Model around_pivot(double pivot) {
 
 const Triangle kOneToTen = {Vec3{1, 2, 3}, Vec3{4, 5, 6}, Vec3{7, 8, 10}};
 
-TriangleBatch batch_of(const Triangle& triangle) {
+TriangleBatch batch_of_one(const Triangle& triangle) {
   TriangleBatch batch;
   batch.add(triangle, 0, {1, 2, 3});
   return batch;
@@ -76,7 +78,7 @@ Images images_of(TriangleBatch batch, const Transform& transform, NumberFormat f
 
 TEST(Digits, ThatAreAllLostAreNoted) {
   for (const double pivot : {1e25, 1e30, 1e31, 1e33, 1e60, 1e200}) {
-    const Images images = images_of(batch_of(kOneToTen), around_pivot(pivot).computed, kShortest);
+    const Images images = images_of(batch_of_one(kOneToTen), around_pivot(pivot).computed, kShortest);
     EXPECT_EQ(images.uncertain.count, 3) << pivot;
     EXPECT_EQ(images.uncertain.first, LineAndColumn(1)) << pivot;
   }
@@ -85,19 +87,20 @@ TEST(Digits, ThatAreAllLostAreNoted) {
 TEST(Digits, ThatAreAllLostInOneCoordinateAreNoted) {
   for (const double x : {-1e32, -1e34, -1e40}) {
     const ViewTransform view = view_from_world({x, 0.5, 1e32}, {0, 5, 9}, {0, 1, 0});
-    EXPECT_EQ(images_of(batch_of(kOneToTen), view, kShortest).uncertain.count, 3) << x;
+    EXPECT_EQ(images_of(batch_of_one(kOneToTen), view, kShortest).uncertain.count, 3) << x;
   }
 }
 
 TEST(Digits, OfDecimalsThatAreAllLostAreNoted) {
   for (const int decimals : {0, 7, 9, 17})
     for (const double pivot : {1e33, 1e60, 1e200})
-      EXPECT_EQ(images_of(batch_of(kOneToTen), around_pivot(pivot).computed, {decimals}).uncertain.count, 3);
+      EXPECT_EQ(images_of(batch_of_one(kOneToTen), around_pivot(pivot).computed, {decimals}).uncertain.count,
+                3);
 }
 
 TEST(Digits, OfAnOriginThatAreAllLostAreNoted) {
-  EXPECT_EQ(images_of(batch_of(Triangle{}), around_pivot(1e31).computed, kShortest).uncertain.count, 3);
-  EXPECT_EQ(images_of(batch_of(Triangle{}), around_pivot(1e10).computed, kShortest).uncertain.count, 0);
+  EXPECT_EQ(images_of(batch_of_one(Triangle{}), around_pivot(1e31).computed, kShortest).uncertain.count, 3);
+  EXPECT_EQ(images_of(batch_of_one(Triangle{}), around_pivot(1e10).computed, kShortest).uncertain.count, 0);
 }
 
 TEST(Digits, OfAnyCornerThatIsKeptBeforeTheCutAreNoted) {
@@ -109,7 +112,7 @@ TEST(Digits, OfAnyCornerThatIsKeptBeforeTheCutAreNoted) {
     ProjectionStage stage(narrow, ClipMode::near, CullMode::nothing, rounder);
     if (keeps_unclipped) stage.keep_unclipped_triangles();
     TriangleBatch pieces;
-    stage.project(batch_of(triangle), pieces);
+    stage.project(batch_of_one(triangle), pieces);
     EXPECT_EQ(stage.counts().clipped, 1u);
     return rounder.uncertain().count;
   };
@@ -125,45 +128,46 @@ TEST(Digits, FarBelowTheLargestCoordinateReadAreZero) {
   const Triangle triangle = {
       Vec3{360600465047406421645071818424320.0, 849521458699077910551463540555776.0, 0}, Vec3{1, 2, 3},
       Vec3{2, 3, 5}};
-  const AffineMatrix turned = Model().rotate(23, {0, 0, 1}).computed;
-  const Images images = images_of(batch_of(triangle), turned, kShortest);
+  const AffineMatrix turned = TrackedModel().rotate(23, {0, 0, 1}).computed;
+  const Images images = images_of(batch_of_one(triangle), turned, kShortest);
   EXPECT_EQ(images.batch.triangles[0][0].x, 0);
   EXPECT_EQ(images.uncertain.count, 0);
-  EXPECT_EQ(images_of(batch_of(triangle), turned, {7}).uncertain.count, 1);
+  EXPECT_EQ(images_of(batch_of_one(triangle), turned, {7}).uncertain.count, 1);
 }
 
 TEST(Digits, ThatCancelToZeroInOrdinaryScenesAreZero) {
-  const Model third_turn = Model().rotate(30, {1, 1, 1}).rotate(30, {1, 1, 1}).rotate(60, {1, 1, 1});
+  const TrackedModel third_turn =
+      TrackedModel().rotate(30, {1, 1, 1}).rotate(30, {1, 1, 1}).rotate(60, {1, 1, 1});
   const Triangle axes = {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};
-  const Images images = images_of(batch_of(axes), third_turn.computed, kShortest);
+  const Images images = images_of(batch_of_one(axes), third_turn.computed, kShortest);
   EXPECT_EQ(images.uncertain.count, 0);
   EXPECT_EQ(images.batch.triangles[0], (Triangle{Vec3{0, 1, 0}, Vec3{0, 0, 1}, Vec3{1, 0, 0}}));
-  EXPECT_EQ(images_of(batch_of(axes), around_pivot(1e10).computed, kShortest).batch.triangles[0], axes);
-  EXPECT_EQ(images_of(batch_of(axes), around_pivot(1e10).computed, kShortest).uncertain.count, 0);
+  EXPECT_EQ(images_of(batch_of_one(axes), around_pivot(1e10).computed, kShortest).batch.triangles[0], axes);
+  EXPECT_EQ(images_of(batch_of_one(axes), around_pivot(1e10).computed, kShortest).uncertain.count, 0);
 }
 
 // ---- numbers next to a tie: either neighbor is right, in silence ----
 
 TEST(Digits, NextToATieOfDecimalsAreCertain) {
-  const Model turned = Model().translate({0.00390625, 0, 0}).rotate(45, {0, 0, 1});
-  const Images images = images_of(batch_of(Triangle{Vec3{1e-36, 0, 0}}), turned.computed, {7});
+  const TrackedModel turned = TrackedModel().translate({0.00390625, 0, 0}).rotate(45, {0, 0, 1});
+  const Images images = images_of(batch_of_one(Triangle{Vec3{1e-36, 0, 0}}), turned.computed, {7});
   EXPECT_EQ(printed_vertex(images.batch, 0, {7}), "0.0039062 0.0000000 0.0000000");
   EXPECT_EQ(images.uncertain.count, 0);
 }
 
 TEST(Digits, NextToATieBehindAFarPivotAreCertain) {
-  Model pivot;
+  TrackedModel pivot;
   pivot.translate({1e15, 0, 0});
   for (int i = 0; i < 3; ++i) pivot.rotate(120, {1, 1, 1});
   pivot.translate({-1e15, 0, 0});
-  const Images images = images_of(batch_of(Triangle{Vec3{0.003906250000005, 0, 0}}), pivot.computed, {7});
+  const Images images = images_of(batch_of_one(Triangle{Vec3{0.003906250000005, 0, 0}}), pivot.computed, {7});
   EXPECT_EQ(printed_vertex(images.batch, 0, {7}), "0.0039062 0.0000000 0.0000000");
   EXPECT_EQ(images.uncertain.count, 0);
 }
 
 TEST(Digits, NextToATieOfDoublesAreCertain) {
-  const Model moved = Model().translate({1, 0, 0}).translate({1.1102230246251565e-16, 0, 0});
-  const Images images = images_of(batch_of(Triangle{Vec3{1e-40, 0, 0}}), moved.computed, kShortest);
+  const TrackedModel moved = TrackedModel().translate({1, 0, 0}).translate({1.1102230246251565e-16, 0, 0});
+  const Images images = images_of(batch_of_one(Triangle{Vec3{1e-40, 0, 0}}), moved.computed, kShortest);
   EXPECT_EQ(images.batch.triangles[0][0].x, 1);
   EXPECT_EQ(images.uncertain.count, 0);
 }
@@ -176,7 +180,7 @@ Located<Light> light_at(const Vec3& position) {
 
 TEST(DigitsOfALight, ThatAreLostAreNoted) {
   for (const double pivot : {1e25, 1e31, 1e35}) {
-    Model model;
+    TrackedModel model;
     model.translate({pivot, 0, 0});
     for (int i = 0; i < 3; ++i) model.rotate(120, {1, 1, 1});
     model.translate({-pivot, 0, 0});
@@ -193,7 +197,7 @@ TEST(DigitsOfALight, ThatAreLostAreNoted) {
 
 TEST(DigitsOfALight, ThatCancelToZeroAreZero) {
   UncertainDigits uncertain;
-  const Model model = Model().rotate(30, {1, 1, 1}).rotate(30, {1, 1, 1}).rotate(60, {1, 1, 1});
+  const TrackedModel model = TrackedModel().rotate(30, {1, 1, 1}).rotate(30, {1, 1, 1}).rotate(60, {1, 1, 1});
   EXPECT_EQ(transformed(model.computed, light_at({0, 0, 1}), uncertain).value.position, (Vec3{1, 0, 0}));
   EXPECT_EQ(uncertain.count, 0);
 }
@@ -250,11 +254,11 @@ Vec3 random_axis(RandomNumbers& random) {
 }
 
 /// Far translations around rotations that may well undo each other, under a matrix of ordinary size.
-Model random_far_model(RandomNumbers& random, double far) {
+TrackedModel random_far_model(RandomNumbers& random, double far) {
   const Vec3 axis = random_axis(random);
   const Vec3 pivot = {far, random.bits() % 2 == 0 ? 0 : -far, random.bits() % 2 == 0 ? 0 : far / 3};
   const double angle = random.bits() % 4 == 0 ? random.between(-360, 360) : 30.0 * random.whole(-12, 12);
-  Model model;
+  TrackedModel model;
   if (random.bits() % 4 == 0) model.rotate(15.0 * random.whole(-24, 24), random_axis(random));
   model.translate(pivot).rotate(angle, axis);
   model.rotate(random.bits() % 4 == 0 ? -angle : 360 - angle, axis).translate({-pivot.x, -pivot.y, -pivot.z});
@@ -273,7 +277,7 @@ void add_images(RandomNumbers& random, const Transform& transform, const Referen
     const double size = random_size(random, -2, 3);
     const Triangle triangle = {random_point(random, size), random_point(random, size),
                                random_point(random, size)};
-    const Images images = images_of(batch_of(triangle), transform, kShortest);
+    const Images images = images_of(batch_of_one(triangle), transform, kShortest);
     for (std::size_t v = 0; v < 3; ++v) {
       const Vec3& image = images.batch.triangles[0][v];
       const ReferencePoint truth = reference_of(exact, triangle[v]);
@@ -283,7 +287,7 @@ void add_images(RandomNumbers& random, const Transform& transform, const Referen
       verdict.add(image.z, truth.z, size_of(triangle), R(far), is_certain);
     }
     for (const int decimals : {7, 9}) {
-      const Images in_decimals = images_of(batch_of(triangle), transform, {decimals});
+      const Images in_decimals = images_of(batch_of_one(triangle), transform, {decimals});
       if (in_decimals.uncertain.count != 0) continue;
       for (std::size_t v = 0; v < 3; ++v) {
         const ReferencePoint truth = reference_of(exact, triangle[v]);
@@ -325,7 +329,7 @@ void add_projected(RandomNumbers& random, Verdict& verdict) {
     }
     TriangleBatch image;
     const std::uint64_t old_count = rounder.uncertain().count;
-    stage.project(batch_of(triangle), image);
+    stage.project(batch_of_one(triangle), image);
     const bool is_certain = rounder.uncertain().count == old_count;
     for (std::size_t v = 0; v < 3; ++v) {
       const ReferencePoint truth = exact.ndc(ReferencePoint(triangle[v]));
@@ -342,7 +346,7 @@ void expect_no_silent_wrong_number(std::uint64_t count) {
   while (verdict.numbers < count) {
     const double far = random_size(random, 24, 45);
     for (int i = 0; i < 2; ++i) {
-      const Model model = random_far_model(random, far);
+      const TrackedModel model = random_far_model(random, far);
       add_images(random, model.computed, model.exact, far, verdict);
     }
     const Vec3 eye = {random.bits() % 2 == 0 ? far : -far, random.between(-far, far),
@@ -350,7 +354,7 @@ void expect_no_silent_wrong_number(std::uint64_t count) {
     const Vec3 look = random_point(random, 9);
     add_images(random, view_from_world(eye, look, {0, 0, 1}), reference_view<kBits>(eye, look, {0, 0, 1}),
                far, verdict);
-    const Model ordinary = random_far_model(random, random_size(random, -1, 6));
+    const TrackedModel ordinary = random_far_model(random, random_size(random, -1, 6));
     add_images(random, ordinary.computed, ordinary.exact, 1, verdict);
     add_projected(random, verdict);
   }
@@ -381,8 +385,8 @@ Vec3 random_ordinary_point(RandomNumbers& random, double largest) {
   return {coordinate(), coordinate(), coordinate()};
 }
 
-Model random_ordinary_model(RandomNumbers& random) {
-  Model model;
+TrackedModel random_ordinary_model(RandomNumbers& random) {
+  TrackedModel model;
   for (int i = random.whole(1, 5); i > 0; --i) {
     switch (random.bits() % 3) {
       case 0:
@@ -432,7 +436,7 @@ TEST(Digits, OfTheWOfACutVertexAreNoted) {
   // for the w of a double. The cut of the other edge has no digit of its x right.
   const ProjectionTransform projection = clip_from_view({Perspective{90, 1, 1e-20, 10}, {}});
   for (const bool has_colors : {false, true}) {
-    TriangleBatch p_view = batch_of(Triangle{Vec3{0, 0, -1}, Vec3{0, 0, 1}, Vec3{1, 0, 1}});
+    TriangleBatch p_view = batch_of_one(Triangle{Vec3{0, 0, -1}, Vec3{0, 0, 1}, Vec3{1, 0, 1}});
     if (has_colors) p_view.attributes.add(TriangleLines(), {false, true, false});
     CoordinateRounder rounder(Precision::extended, {7}, "input");
     TriangleBatch p_ndc;
@@ -453,7 +457,7 @@ TEST(Digits, OfClippedTrianglesInClipSpaceAreRightOrNoted) {
     // z is 0 there in clip space, but for the rounding of the distance.
     const double middle = 2 * near * far / (near + far);
     const TriangleBatch p_view =
-        batch_of(Triangle{Vec3{0, 0, -middle}, Vec3{0, 1, 2}, Vec3{0.5, 0, -middle}});
+        batch_of_one(Triangle{Vec3{0, 0, -middle}, Vec3{0, 1, 2}, Vec3{0.5, 0, -middle}});
     CoordinateRounder rounder(Precision::extended, {7}, "input");
     ProjectionStage stage(projection, ClipMode::near, CullMode::nothing, rounder);
     stage.keep_unclipped_triangles();
@@ -502,7 +506,7 @@ TEST(Normals, AreWithinTheirBound) {
   RandomNumbers random(3);
   double worst = 0;
   for (int i = 0; i < 3'000; ++i) {
-    const Model model = random_ordinary_model(random);
+    const TrackedModel model = random_ordinary_model(random);
     const NormalTransform transform(model.computed);
     const Vec3 normal = random_point(random, 10);
     const double error = largest_difference(transform(normal), reference_normal(model.exact, normal));
@@ -518,7 +522,7 @@ TEST(Normals, AreZeroWhereAFlatteningScaleLeavesNone) {
   // direction.
   RandomNumbers random(8);
   for (int i = 0; i < 1'000; ++i) {
-    Model model;
+    TrackedModel model;
     model.rotate(random.between(-720, 720), random_axis(random));
     model.scale({1, 3, random.whole(2, 4) * 0.1});
     model.rotate(random.between(-720, 720), random_axis(random));
@@ -538,7 +542,7 @@ TEST(Normals, KeepTheirDigitsUnderExtremeScalings) {
   RandomNumbers random(9);
   double worst = 0;
   for (int i = 0; i < 3'000; ++i) {
-    Model model;
+    TrackedModel model;
     model.rotate(random.between(-720, 720), random_axis(random));
     model.scale({1, 1, std::exp2(-random.whole(50, 70))});
     model.rotate(random.between(-720, 720), random_axis(random));
@@ -589,7 +593,7 @@ TEST(CutCorners, HaveColorsAndNormalsWithinTheirBounds) {
       line.normal = {line.position.x / 2, line.position.y / 2, -line.position.z / 2};
     }
     const auto corner = [&](std::size_t v) { return lines.vertices[v].position; };
-    TriangleBatch p_view = batch_of(Triangle{corner(0), corner(1), corner(2)});
+    TriangleBatch p_view = batch_of_one(Triangle{corner(0), corner(1), corner(2)});
     p_view.attributes.add(lines, {false, true, true});
     CoordinateRounder rounder(Precision::extended, kShortest, "input");
     ProjectionStage stage(projection, ClipMode::frustum, CullMode::nothing, rounder);

@@ -36,9 +36,9 @@ struct Result {
 /// Projects a batch read from stage2.txt; expects every printed digit to be certain.
 inline Result projected(const TriangleBatch& p_view, const ProjectionTransform& projection, ClipMode clip,
                         CullMode cull = CullMode::nothing, NumberFormat format = {7},
-                        Precision precision = Precision::extended) {
+                        Precision precision = Precision::extended, double clip_inset = 0) {
   CoordinateRounder rounder(precision, format, "stage2.txt");
-  ProjectionStage stage(projection, clip, cull, rounder);
+  ProjectionStage stage(projection, clip, cull, rounder, clip_inset);
   Result result;
   stage.project(p_view, result.p_ndc);
   result.counts = stage.counts();

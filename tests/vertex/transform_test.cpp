@@ -10,21 +10,21 @@
 namespace pipeline {
 namespace {
 
-constexpr int kBits = 640;
-using Exact = Real<kBits>;
-using ExactVec3 = ReferenceVec3<kBits>;
-using ExactMatrix = ReferenceMatrix<kBits>;
+constexpr int kTransformBits = 640;
+using Exact640 = Real<kTransformBits>;
+using ExactVec3 = ReferenceVec3<kTransformBits>;
+using ExactMatrix = ReferenceMatrix<kTransformBits>;
 
 // The reference's own error, relative to the largest term of its sums.
-const Exact kSlack = times_power_of_two(Exact(1), -500);
+const Exact640 kSlack = times_power_of_two(Exact640(1), -500);
 
-void expect_contained(const BallVec3& computed, const ExactVec3& truth, const Exact& size) {
+void expect_contained(const BallVec3& computed, const ExactVec3& truth, const Exact640& size) {
   ASSERT_TRUE(contains(computed.x, truth.x, size * kSlack)) << truth.x;
   ASSERT_TRUE(contains(computed.y, truth.y, size * kSlack)) << truth.y;
   ASSERT_TRUE(contains(computed.z, truth.z, size * kSlack)) << truth.z;
 }
 
-void expect_contained(const AffineMatrix& computed, const ExactMatrix& truth, const Exact& size) {
+void expect_contained(const AffineMatrix& computed, const ExactMatrix& truth, const Exact640& size) {
   for (std::size_t i = 0; i < 3; ++i) {
     const auto& row = computed.rows[i];
     expect_contained({row[0], row[1], row[2]}, truth.rows[i], size);
@@ -71,24 +71,24 @@ RandomTransform random_rotation(RandomNumbers& random) {
   const double angle = random_angle(random);
   const int exponent = random.whole(-900, 900);
   const Vec3 axis = random_vector(random, exponent - 20, exponent);
-  return {rotation(angle, axis), reference_rotation<kBits>(angle, axis)};
+  return {rotation(angle, axis), reference_rotation<kTransformBits>(angle, axis)};
 }
 
 RandomTransform random_transform(RandomNumbers& random, int last_exponent) {
   const Vec3 v = random_vector(random, -last_exponent, last_exponent);
   switch (random.bits() % 4) {
     case 0:
-      return {translation(v), reference_translation<kBits>(v)};
+      return {translation(v), reference_translation<kTransformBits>(v)};
     case 1:
-      return {scaling(v), reference_scaling<kBits>(v)};
+      return {scaling(v), reference_scaling<kTransformBits>(v)};
     default:
       return random_rotation(random);
   }
 }
 
 /// The largest entry, or 1.
-Exact size_of(const ExactMatrix& m) {
-  Exact size = 1;
+Exact640 size_of(const ExactMatrix& m) {
+  Exact640 size = 1;
   for (const ExactVec3& v : {m.rows[0], m.rows[1], m.rows[2], m.offset})
     size = std::max({size, abs(v.x), abs(v.y), abs(v.z)});
   return size;
@@ -142,7 +142,7 @@ TEST(Rotation, AboutADiagonalByAThirdOfATurnPermutesTheAxes) {
 TEST(Rotation, ByATinyAngleKeepsTheVersine) {
   // The entry (1 - cos) x y, which a later scaling can make visible.
   const AffineMatrix m = rotation(1e-200, {1, 1, 0});
-  const Exact half_sine = sin(times_power_of_two(radians(Exact(1e-200)), -1));
+  const Exact640 half_sine = sin(times_power_of_two(radians(Exact640(1e-200)), -1));
   EXPECT_TRUE(contains(m.rows[0][1], half_sine * half_sine));
   EXPECT_EQ(m.rows[0][1].sign(), 1);
 }
@@ -154,8 +154,8 @@ void expect_products_contain_the_truth(std::uint64_t seed, Multiply&& multiply) 
   RandomNumbers random(seed);
   for (int i = 0; i < 1'000; ++i) {
     AffineMatrix computed = identity();
-    ExactMatrix exact = reference_scaling<kBits>({1, 1, 1});
-    Exact size = 1;
+    ExactMatrix exact = reference_scaling<kTransformBits>({1, 1, 1});
+    Exact640 size = 1;
     const int last_exponent = i % 2 == 0 ? 20 : 3;
     for (int depth = 0; depth < 8; ++depth) {
       const ExactMatrix factor = multiply(random, last_exponent, computed);
@@ -182,10 +182,10 @@ TEST(MatrixProduct, ContainsTheTruthWithoutTheProductsByZeroAndOne) {
     switch (random.whole(0, 2)) {
       case 0:
         product = translated(product, v);
-        return reference_translation<kBits>(v);
+        return reference_translation<kTransformBits>(v);
       case 1:
         product = scaled(product, v);
-        return reference_scaling<kBits>(v);
+        return reference_scaling<kTransformBits>(v);
       default:
         product = product * r.computed;
         return r.exact;
@@ -224,8 +224,8 @@ TEST(MatrixProduct, ContainsTheTruthWhereScalesLeaveTheRange) {
     const Vec3 factors = {scale, scale, scale};
     const Vec3 back = {1 / scale, 1 / scale, 1 / scale};
     AffineMatrix computed = scaling(factors) * first.computed * second.computed * scaling(back);
-    const auto exact_scale = reference_scaling<kBits>(factors);
-    const auto exact_back = reference_scaling<kBits>(back);
+    const auto exact_scale = reference_scaling<kTransformBits>(factors);
+    const auto exact_back = reference_scaling<kTransformBits>(back);
     ExactMatrix exact = exact_scale * first.exact * second.exact * exact_back;
     if (i % 2 == 0) {  // twice as far away
       computed = scaling(factors) * computed * second.computed * scaling(back);
@@ -239,7 +239,7 @@ TEST(MatrixProduct, ContainsTheTruthWhereScalesLeaveTheRange) {
 
 TEST(MatrixProduct, ErrorGrowsLinearlyWithTheNumberOfRotations) {
   const AffineMatrix step = rotation(1.1, {1, 2, 3});
-  const ExactMatrix exact_step = reference_rotation<kBits>(1.1, {1, 2, 3});
+  const ExactMatrix exact_step = reference_rotation<kTransformBits>(1.1, {1, 2, 3});
   AffineMatrix m = step;
   ExactMatrix exact = exact_step;
   for (int i = 1; i < 10'000; ++i) {
@@ -258,7 +258,7 @@ TEST(ViewFromWorld, ContainsTheTruth) {
     const Vec3 look = random_vector(random, exponent - 20, exponent + 20);
     const Vec3 up = random_vector(random, -exponent - 4, -exponent);
     const ViewTransform view = view_from_world(eye, look, up);
-    const ExactMatrix exact = reference_view<kBits>(eye, look, up);
+    const ExactMatrix exact = reference_view<kTransformBits>(eye, look, up);
     expect_contained(view.right, exact.rows[0], 1);
     expect_contained(view.up, exact.rows[1], 1);
     expect_contained(view.backward, exact.rows[2], 1);
@@ -273,7 +273,7 @@ TEST(ViewFromWorld, ContainsTheTruthWithUpCloseToTheViewDirection) {
     const double tilt = std::ldexp(1.0, random.whole(-51, -20));
     const Vec3 up = {look.x * (1 + tilt), look.y, look.z};
     const ViewTransform view = view_from_world({}, look, up);
-    const ExactMatrix exact = reference_view<kBits>({}, look, up);
+    const ExactMatrix exact = reference_view<kTransformBits>({}, look, up);
     expect_contained(view.right, exact.rows[0], 1);
     expect_contained(view.up, exact.rows[1], 1);
     ASSERT_FALSE(HasFatalFailure()) << "camera " << i;
@@ -320,11 +320,11 @@ TEST(IsParallelToView, AnUpThatIsNotParallelHasAViewTransform) {
 
 void expect_projection(const Projection& projection) {
   const ProjectionTransform computed = clip_from_view({projection, {}});
-  const auto exact = reference_projection<kBits>(projection);
-  const Exact width = exact.right - exact.left;
-  const Exact height = exact.top - exact.bottom;
-  const Exact two_near = Exact(2) * exact.near;
-  const auto is_close = [](const Ball& ball, const Exact& truth) {
+  const auto exact = reference_projection<kTransformBits>(projection);
+  const Exact640 width = exact.right - exact.left;
+  const Exact640 height = exact.top - exact.bottom;
+  const Exact640 two_near = Exact640(2) * exact.near;
+  const auto is_close = [](const Ball& ball, const Exact640& truth) {
     return contains(ball, truth, abs(truth) * kSlack);
   };
   ASSERT_EQ(computed.is_perspective, exact.is_perspective);
@@ -334,8 +334,8 @@ void expect_projection(const Projection& projection) {
     ASSERT_TRUE(is_close(computed.x_offset, (exact.right + exact.left) / width));
     ASSERT_TRUE(is_close(computed.y_offset, (exact.top + exact.bottom) / height));
   } else {
-    ASSERT_TRUE(is_close(computed.x_scale, Exact(2) / width));
-    ASSERT_TRUE(is_close(computed.y_scale, Exact(2) / height));
+    ASSERT_TRUE(is_close(computed.x_scale, Exact640(2) / width));
+    ASSERT_TRUE(is_close(computed.y_scale, Exact640(2) / height));
     ASSERT_TRUE(is_close(computed.x_offset, -(exact.right + exact.left) / width));
     ASSERT_TRUE(is_close(computed.y_offset, -(exact.top + exact.bottom) / height));
   }
@@ -384,7 +384,7 @@ TEST(ClipFromView, ContainsTheTruthOfAParallelProjection) {
 
 TEST(ClipFromView, NinetyDegreesHaveTheScaleOne) {
   const ProjectionTransform computed = clip_from_view({Perspective{90, 1, 1, 2}, {}});
-  EXPECT_TRUE(contains(computed.x_scale, Exact(1)));
+  EXPECT_TRUE(contains(computed.x_scale, Exact640(1)));
   EXPECT_EQ(computed.x_scale.nearest_double(), 1);
 }
 

@@ -13,7 +13,7 @@
 namespace pipeline {
 namespace {
 
-using Exact = Real<4096>;
+using ExactKernel = Real<4096>;
 
 constexpr RoundingTest kNearest = {RoundingTestKind::nearest};
 
@@ -70,10 +70,10 @@ Vec3 random_vec3(RandomNumbers& random, int largest_exponent) {
   return {coordinate(), coordinate(), coordinate()};
 }
 
-Exact exact_image(const std::array<Ball, 4>& row, const Vec3& origin, const Vec3& p) {
-  return midpoint<4096>(row[0]) * (Exact(p.x) - Exact(origin.x)) +
-         midpoint<4096>(row[1]) * (Exact(p.y) - Exact(origin.y)) +
-         midpoint<4096>(row[2]) * (Exact(p.z) - Exact(origin.z)) + midpoint<4096>(row[3]);
+ExactKernel exact_image(const std::array<Ball, 4>& row, const Vec3& origin, const Vec3& p) {
+  return midpoint<4096>(row[0]) * (ExactKernel(p.x) - ExactKernel(origin.x)) +
+         midpoint<4096>(row[1]) * (ExactKernel(p.y) - ExactKernel(origin.y)) +
+         midpoint<4096>(row[2]) * (ExactKernel(p.z) - ExactKernel(origin.z)) + midpoint<4096>(row[3]);
 }
 
 TEST_P(VertexKernels, AcceptOnlyTheNearestDouble) {
@@ -194,12 +194,12 @@ TEST_P(VertexKernels, AcceptOnlyTheNearestQuotient) {
                      p_ndc);
     if (p_ndc.passes_rounding_test[0] == 0) continue;
     ++passed_count;
-    const Exact w = coefficients.is_perspective ? -p.z : 1;
+    const ExactKernel w = coefficients.is_perspective ? -p.z : 1;
     ASSERT_GT(w.sign(), 0);
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const Exact q = coefficients.is_perspective && axis < 2 ? p.z : 1;
-      const Exact v = axis == 0 ? p.x : (axis == 1 ? p.y : p.z);
-      const Exact truth = (midpoint<4096>(scales[axis]) * v + midpoint<4096>(offsets[axis]) * q) / w;
+      const ExactKernel q = coefficients.is_perspective && axis < 2 ? p.z : 1;
+      const ExactKernel v = axis == 0 ? p.x : (axis == 1 ? p.y : p.z);
+      const ExactKernel truth = (midpoint<4096>(scales[axis]) * v + midpoint<4096>(offsets[axis]) * q) / w;
       if (is_nearest) {
         ASSERT_EQ(p_ndc.p[axis][0], truth.nearest_double()) << i;
       } else {

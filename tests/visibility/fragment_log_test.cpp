@@ -11,7 +11,7 @@
 namespace pipeline {
 namespace {
 
-constexpr Viewport kScreen = {4, 4, -1, -1, 0, 2};
+constexpr Viewport kFewPixels = {4, 4, -1, -1, 0, 2};
 constexpr Pixel kPixel = {1, 2};
 
 /// A triangle of constant depth that covers the whole screen.
@@ -21,7 +21,7 @@ Triangle wall(double z) {
 
 template <typename Depth = DepthF64>
 std::vector<Fragment> judged(const std::vector<double>& depths) {
-  const FragmentTest<Depth> test(kScreen);
+  const FragmentTest<Depth> test(kFewPixels);
   auto seen = test.nothing();
   std::vector<Fragment> fragments;
   for (const double z : depths) fragments.push_back(test.judge(seen, kPixel, 10 + fragments.size(), z));
@@ -60,7 +60,7 @@ TEST(FragmentTest, DepthsAFormatCannotTellApartAreEqual) {
 }
 
 TEST(FragmentTest, WithAnEpsilonAFragmentHasToBeNearerByMore) {
-  const FragmentTest<DepthF64> test(kScreen, 0.25);
+  const FragmentTest<DepthF64> test(kFewPixels, 0.25);
   auto seen = test.nothing();
   EXPECT_EQ(test.judge(seen, kPixel, 0, 1.875).result,
             DepthTestResult::kept);  // the rear limit is not a triangle
@@ -93,7 +93,7 @@ TEST(FragmentLog, PixelsDoNotKnowOfEachOther) {
 }
 
 TEST(PixelProbe, TellsOfItsPixelAlone) {
-  PixelProbe<NearestCoverage, DepthF64> probe(kScreen, kPixel);
+  PixelProbe<NearestCoverage, DepthF64> probe(kFewPixels, kPixel);
   std::vector<Fragment> fragments;
   const auto visit = [&](const Fragment& fragment) { fragments.push_back(fragment); };
   const Triangle above = {{{-1, 1, 0.5}, {1, 1, 0.5}, {0, 0.5, 0.5}}};

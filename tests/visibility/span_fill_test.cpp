@@ -15,7 +15,7 @@ namespace {
 
 // Ten blocks of pixels and a part of one.
 constexpr int kColumns = 10 * kBlockColumns + 13;
-constexpr Viewport kScreen = {kColumns, 1, -1, -1, 0.25, 0.75};
+constexpr Viewport kOneRow = {kColumns, 1, -1, -1, 0.25, 0.75};
 
 /// Every claim is tested with every depth format and every kernel for it that this processor can run.
 template <typename Depth>
@@ -48,7 +48,7 @@ template <typename Depth>
 struct PixelRow {
   // Behind its pixels are those of the next row, as in a z-buffer.
   explicit PixelRow(const Depth& format)
-      : depths(2 * kColumns, format.store(kScreen.rear)), tags(2 * kColumns) {}
+      : depths(2 * kColumns, format.store(kOneRow.rear)), tags(2 * kColumns) {}
 
   std::vector<typename Depth::Stored> depths;
   std::vector<PixelTag> tags;
@@ -77,7 +77,7 @@ void draw_with(FillSpan<Depth> kernel, PixelRow<Depth>& row, const Span& span, P
 /// Spans of every length from every column, with depths that tie, cross the limits, or are not finite.
 template <typename Depth>
 void expect_pixels_of_a_loop(FillSpan<Depth> kernel) {
-  const Depth format(kScreen);
+  const Depth format(kOneRow);
   PixelRow<Depth> expected(format), found(format);
   std::mt19937_64 random(1);
   const auto between = [&](int low, int high) {
@@ -126,7 +126,7 @@ class RandomSpans {
 
 template <typename Depth>
 void expect_blocks_to_change_nothing(FillSpan<Depth> kernel) {
-  const Depth format(kScreen);
+  const Depth format(kOneRow);
   RandomSpans spans(2);
   for (int picture = 0; picture < 400; ++picture) {
     PixelRow<Depth> expected(format), found(format);
@@ -146,7 +146,7 @@ void expect_blocks_to_change_nothing(FillSpan<Depth> kernel) {
 /// A block is skipped as soon as its farthest pixel is nearer: the bound must be not only true but tight.
 template <typename Depth>
 void expect_to_learn_the_farthest_depth(FillSpan<Depth> kernel) {
-  const Depth format(kScreen);
+  const Depth format(kOneRow);
   PixelRow<Depth> row(format);
   HierarchicalDepth<Depth> farthest({0, 1}, kColumns);
   const auto draw = [&](int first, int last, double z) {

@@ -15,7 +15,7 @@ namespace pipeline {
 namespace {
 
 /// The tag of triangle `index`: never 0, the background's, and mostly above 2^24, so that every bit counts.
-PixelTag tag_of(std::size_t index) {
+PixelTag high_tag_of(std::size_t index) {
   return 0xff123456 - static_cast<PixelTag>(index);
 }
 
@@ -23,7 +23,7 @@ PixelTag tag_of(std::size_t index) {
 template <typename Visible>
 Frame drawn_one_by_one(const std::vector<Triangle>& scene, const Viewport& screen) {
   Visible visible(screen);
-  for (std::size_t i = 0; i < scene.size(); ++i) visible.draw({scene[i]}, tag_of(i));
+  for (std::size_t i = 0; i < scene.size(); ++i) visible.draw({scene[i]}, high_tag_of(i));
   return frame_of(visible);
 }
 
@@ -69,7 +69,7 @@ void draw_on_threads(Visible& visible, const std::vector<Triangle>& scene, const
     TriangleBatch& batch = drawing.next_batch();
     batch.clear();
     for (; batch.size() < batch_size && i < scene.size(); ++i) batch.add(scene[i], i, {});
-    drawing.draw_batch([&](const TriangleBatch& of, std::size_t k) { return tag_of(of.numbers[k]); });
+    drawing.draw_batch([&](const TriangleBatch& of, std::size_t k) { return high_tag_of(of.numbers[k]); });
   }
   drawing.finish();
 }
@@ -148,7 +148,7 @@ TEST(TriangleDrawing, KeepsTheOrderWhereAllThatIsSeenDependsOnIt) {
   ZBufferAlgorithm<NearestCoverage, DepthF64> expected(kScreen), visible(kScreen);
   expected.set_depth_epsilon(0.3);  // larger than the difference between two of the scene's depths
   visible.set_depth_epsilon(0.3);
-  for (std::size_t i = 0; i < scene.size(); ++i) expected.draw({scene[i]}, tag_of(i));
+  for (std::size_t i = 0; i < scene.size(); ++i) expected.draw({scene[i]}, high_tag_of(i));
   draw_on_threads(visible, scene, kScreen, 2, 50);
   EXPECT_TRUE(frame_of(visible) == frame_of(expected));
 }

@@ -12,7 +12,7 @@
 namespace pipeline {
 namespace {
 
-constexpr Viewport kScreen = {4, 4, -1, -1, 0, 2};  // a pixel is 0.5 wide; centers are at 0.25 and 0.75
+constexpr Viewport kFourByFour = {4, 4, -1, -1, 0, 2};  // a pixel is 0.5 wide; centers are at 0.25 and 0.75
 
 /// A right triangle whose right angle is at (x, y).
 Triangle corner_at(double x, double y, double z, double size = 1) {
@@ -27,7 +27,7 @@ TriangleBatch batch_of(const std::vector<Triangle>& triangles) {
 
 template <typename Coverage = NearestCoverage, typename Depth = DepthF64>
 EmptyPicture<Coverage, Depth> watched(const std::vector<Triangle>& triangles) {
-  EmptyPicture<Coverage, Depth> picture(kScreen);
+  EmptyPicture<Coverage, Depth> picture(kFourByFour);
   picture.add(batch_of(triangles));
   return picture;
 }
@@ -108,8 +108,8 @@ void expect_what_is_drawn() {
     for (Vec3& p : triangle)
       p = {one_of({-1.25, -1, -0.8, 0.2, 0.25, 0.3, 1, 1.25, 3}),
            one_of({-3, -1, -0.25, 0.25, 0.26, 0.9, 1, 1.25}), one_of({-0.5, 0, 1, 2 - 0x1p-40, 2, 2.5})};
-    const Frame frame = zbuffer_frame<Coverage, Depth>({triangle}, kScreen, 0);
-    const bool is_empty = frame == zbuffer_frame<Coverage, Depth>({}, kScreen, 0);
+    const Frame frame = zbuffer_frame<Coverage, Depth>({triangle}, kFourByFour, 0);
+    const bool is_empty = frame == zbuffer_frame<Coverage, Depth>({}, kFourByFour, 0);
     EXPECT_EQ((watched<Coverage, Depth>({triangle}).is_empty()), is_empty) << "triangle " << i;
     empty_count += is_empty ? 1 : 0;
   }

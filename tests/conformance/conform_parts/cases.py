@@ -1,8 +1,12 @@
-"""The cases of the pack: a folder each, cases/STAGE/NAME, of plain files."""
+"""The cases of the pack, read from its pages."""
 import dataclasses
+import errno
 import fnmatch
+import functools
 import pathlib
 import re
+
+from .pages import CONFIG, files_of, read_fields, read_page
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 STAGES = ("model", "view", "project", "zbuf")
@@ -25,26 +29,29 @@ NEEDS = {
     "refusals": "wrong input is refused, with its line",
 }
 # What cases ask for, in the order of reports: the first is the assignment, the others go beyond it.
-ASSIGNMENT, BYTES, REFUSALS, LOOKS, EXTENSIONS = (
-    "what the assignment asks for", "text to the byte", "refusals of wrong input", "colors and lights", "other extensions")
-FED = {"model": "scene.txt", "view": "stage1.txt", "project": "stage2.txt", "zbuf": "stage3.txt"}  # a stage's input, in the assignment
-CONFIG = b"8 8\n-1\n-1\n-1 1\n"  # for programs that ask for one in every stage
+ASSIGNMENT, BYTES, REFUSALS, LOOKS, EXTENSIONS = ("what the assignment asks for", "text to the byte",
+                                                  "refusals of wrong input", "colors and lights",
+                                                  "other extensions")
+FED = {"model": "scene.txt", "view": "stage1.txt", "project": "stage2.txt",
+       "zbuf": "stage3.txt"}  # a stage's input, in the assignment
 CAMERA = {"eye": "0 0 0", "look": "0 0 -1", "up": "0 1 0"}  # of a text whose camera has been used up
 
 
 @dataclasses.dataclass
 class Case:
-    """A case; `fields` are the lines KEY: VALUE of its case.txt."""
-    folder: pathlib.Path
+    """A case; `fields` and `sections` are those of its page."""
+    stage: str
+    short_name: str
     fields: dict
+    sections: list
 
     @property
     def name(self):
-        return f"{self.stage}/{self.folder.name}"
+        return f"{self.stage}/{self.short_name}"
 
-    @property
-    def stage(self):
-        return self.folder.parent.name
+    @functools.cached_property
+    def files(self):
+        return files_of(self.stage, self.fields, self.sections)
 
     @property
     def why(self):
@@ -76,29 +83,44 @@ class Case:
         return self.fields.get("open") or (self.fields.get(f"open-{rule}") if self.stage == "zbuf" else None)
 
     def has(self, name):
-        return (self.folder / name).exists()
+        return name in self.files
 
     def read(self, name):
-        return (self.folder / name).read_bytes()
+        return self.files[name]
 
     def is_chosen(self, patterns):
-        """True if the name or a mistake that the case catches fits one of the patterns, or if there is none."""
-        names = [self.name, self.folder.name, *self.words("catches")]
-        return not patterns or any(fnmatch.fnmatchcase(name, pattern) for pattern in patterns for name in names)
-
-
-def read_fields(text):
-    return dict(line.split(": ", 1) for line in text.splitlines() if line)
+        """True if the name or a mistake that the case catches fits one of the patterns, or if there is
+        none."""
+        names = [self.name, self.short_name, *self.words("catches")]
+        return not patterns or any(
+            fnmatch.fnmatchcase(name, pattern) for pattern in patterns for name in names)
 
 
 def read_cases(stage, folder=ROOT / "cases"):
     """The cases of a stage, in the order of their names."""
-    return [Case(path.parent, read_fields(path.read_text())) for path in sorted((folder / stage).glob("*/case.txt"))]
+    pages = [path.read_text("ascii") for path in (folder / stage).glob("*.cases")]
+    cases = [Case(stage, name, read_fields(fields, stage), sections)
+             for page in pages for name, fields, sections in read_page(page)]
+    return sorted(cases, key=lambda case: case.short_name)
+
+
+def extract(cases, folder):
+    """Writes each case as a folder of its files, STAGE/NAME, in a folder that is new or empty."""
+    files = {f"{case.name}/{name}": content for case in cases for name, content in case.files.items()}
+    for name in files:
+        if not re.fullmatch(r"[a-z]+/[a-z0-9-]+/[a-z0-9-]+\.(txt|bmp)", name):
+            raise OSError(errno.EINVAL, "expected STAGE/CASE/FILE", name)
+    for place in sorted({place for case in cases for place in (case.stage, case.name)}):
+        (folder / place).mkdir(parents=True)
+    for name, content in files.items():
+        with open(folder / name, "xb") as file:
+            file.write(content)
 
 
 def read_mistakes(stage):
     """The sentences of mistakes.txt about a stage, and of habits.txt, by name."""
-    found = re.findall(r"^([a-z]+/[^:\s]+): (.+)$", (ROOT / "mistakes.txt").read_text() + (ROOT / "habits.txt").read_text(), re.M)
+    found = re.findall(r"^([a-z]+/[^:\s]+): (.+)$",
+                       (ROOT / "mistakes.txt").read_text() + (ROOT / "habits.txt").read_text(), re.M)
     return {name: sentence for name, sentence in found if name.startswith(stage + "/")}
 
 
@@ -108,7 +130,8 @@ def without_header(text):
 
 
 def scene_of(case):
-    """A scene.txt that gives the case's input: for programs that read the camera there, or that do all stages at once."""
+    """A scene.txt that gives the case's input: for programs that read the camera there, or that do all stages
+    at once."""
     text = case.read("input.txt")
     if case.stage == "model":
         return text

@@ -5,10 +5,12 @@ from collections import namedtuple
 from decimal import Decimal
 from fractions import Fraction
 
-# excuses: mistakes that would have given something else; other_rule: the rule by which there is no difference; is_failure: the program
-# did not come to an end of its own, or failed
-Difference = namedtuple("Difference", "message expected found excuses other_rule is_failure", defaults=("", "", (), None, False))
-NUMBER = re.compile(r"[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]{1,4})?")
+# excuses: mistakes that would have given something else; other_rule: the rule by which there is no
+# difference; is_failure: the program did not come to an end of its own, or failed
+Difference = namedtuple("Difference", "message expected found excuses other_rule is_failure",
+                        defaults=("", "", (), None, False))
+# A double has up to 309 digits before the point and 1074 behind it; Python reads no number of more than 4300.
+NUMBER = re.compile(r"[+-]?([0-9]{1,2000}\.?[0-9]{0,2000}|\.[0-9]{1,2000})([eE][+-]?[0-9]{1,4})?")
 LEAST_DIGITS = 6  # a text whose numbers do not all have the same decimals is taken to have at least these
 COARSEST = Fraction(5, 1000)  # no text is right to fewer digits
 DOUBLE = Fraction(1, 2**50)  # doubles give no more digits, whatever a text shows
@@ -28,7 +30,8 @@ def same_bytes(expected, found):
 
 
 class Digits:
-    """How many digits some numbers show: all as many decimals, or all as many significant digits as the longest."""
+    """How many digits some numbers show: all as many decimals, or all as many significant digits as the
+    longest."""
 
     def __init__(self, words, may_be_fixed=True):
         decimals = {len(word.partition(".")[2]) if "e" not in word.lower() else -1 for word in words}
@@ -61,16 +64,22 @@ def digits_by_group(lines, is_stage_text):
 
 
 def same_digits(expected, found, is_stage_text=True):
-    """The first Difference of two texts, right to the digits that both show, in any formatting but the lines; or None."""
-    texts = [[line.split() for line in text.decode("latin-1").splitlines() if line.split()] for text in (expected, found)]
+    """The first Difference of two texts, right to the digits that both show, in any formatting but the lines;
+    or None."""
+    texts = [[line.split()
+              for line in text.decode("latin-1").splitlines()
+              if line.split()]
+             for text in (expected, found)]
     digits = [digits_by_group(lines, is_stage_text) for lines in texts]
     for at, (want, got) in enumerate(zip(*texts)):
         groups = [group_of(want, column, is_stage_text) for column in range(len(want))]
         shown = [[by_group.get(group) for by_group in digits] for group in groups]
         if len(want) != len(got) or not all(map(is_same_word, want, got, shown)):
-            return Difference(f"line {at + 1}, blank ones not counted, differs", " ".join(want), " ".join(got))
+            return Difference(f"line {at + 1}, blank ones not counted, differs", " ".join(want),
+                              " ".join(got))
     if len(texts[0]) != len(texts[1]):
-        return Difference("the number of lines differs", *(f"{len(lines)} line{'s' * (len(lines) != 1)}" for lines in texts))
+        return Difference("the number of lines differs",
+                          *(f"{len(lines)} line{'s' * (len(lines) != 1)}" for lines in texts))
     return None
 
 
@@ -91,7 +100,9 @@ def read_bmp(data):
         raise NoPicture("not a BMP file")
     start, _, width, height, _, depth, compression = struct.unpack_from("<2I2i2HI", data, 10)
     size, stride = depth // 8, (width * depth // 8 + 3) // 4 * 4
-    if depth not in (24, 32) or compression not in (0, 3) or width <= 0 or len(data) < start + stride * abs(height):
+    if depth not in (24,
+                     32) or compression not in (0,
+                                                3) or width <= 0 or len(data) < start + stride * abs(height):
         raise NoPicture("not a BMP file of 24 or 32 bits a pixel, or cut short")
     rows = [[tuple(data[at + size * column:at + size * column + 3][::-1]) for column in range(width)]
             for at in range(start, start + stride * abs(height), stride)]
@@ -99,13 +110,18 @@ def read_bmp(data):
 
 
 def drawn(rows, background):
-    """A picture as text, a line a row: a point for the background, and a letter for each color in the order in which they appear."""
+    """A picture as text, a line a row: a point for the background, and a letter for each color in the order
+    in which they appear."""
     names = {background: "."}
-    return ["".join(names.setdefault(pixel, LETTERS[(len(names) - 1) % len(LETTERS)]) for pixel in row) for row in rows]
+    return [
+        "".join(names.setdefault(pixel, LETTERS[(len(names) - 1) % len(LETTERS)])
+                for pixel in row)
+        for row in rows]
 
 
 def same_owners(expected, found):
-    """As same_picture, but colors are free: pixels have one color where one triangle is seen, and another where another is."""
+    """As same_picture, but colors are free: pixels have one color where one triangle is seen, and another
+    where another is."""
     there, back = {(0, 0, 0): (0, 0, 0)}, {(0, 0, 0): (0, 0, 0)}
     for want, got in zip(expected, found):
         for a, b in zip(want, got):
@@ -128,5 +144,7 @@ def same_picture(expected, found, has_free_colors):
     pictures = [drawn(rows, (0, 0, 0)) for rows in (want, got)]
     if pictures[0] != pictures[1]:
         return Difference("the picture differs", *("\n".join(picture) for picture in pictures))
-    row, column = next((r, c) for r, line in enumerate(want) for c, pixel in enumerate(line) if got[r][c] != pixel)
-    return Difference(f"the color of the pixel in row {row} and column {column} differs", str(want[row][column]), str(got[row][column]))
+    row, column = next(
+        (r, c) for r, line in enumerate(want) for c, pixel in enumerate(line) if got[r][c] != pixel)
+    return Difference(f"the color of the pixel in row {row} and column {column} differs",
+                      str(want[row][column]), str(got[row][column]))

@@ -5,9 +5,11 @@ from collections import namedtuple
 from .cases import ASSIGNMENT, BYTES, EXTENSIONS, LOOKS, REFUSALS
 
 GROUPS = (ASSIGNMENT, BYTES, REFUSALS, LOOKS, EXTENSIONS)
-# state: right, wrong, open (not counted; `difference` tells whether it is right), left out (`reason` tells why); group: one of GROUPS
+# state: right, wrong, open (not counted; `difference` tells whether it is right), left out (`reason` tells
+# why); group: one of GROUPS
 Result = namedtuple("Result", "case state difference reason group", defaults=(None, None, ASSIGNMENT))
-Heading = namedtuple("Heading", "names results title", defaults=("no mistake of the list",))  # mistakes that cannot be told apart, or none
+Heading = namedtuple("Heading", "names results title",
+                     defaults=("no mistake of the list", ))  # mistakes that cannot be told apart, or none
 
 
 def tap_lines(number, result):
@@ -25,15 +27,17 @@ def difference_lines(difference):
     lines = [f"#   {difference.message}"]
     for name, text in (("expected", difference.expected), ("found", difference.found)):
         rows = text.split("\n")
-        lines += [f"#   {name + ':':9} {rows[0]}", *("#             " + row for row in rows[1:])] if text else []
+        lines += [f"#   {name + ':':9} {rows[0]}", *("#             " + row
+                                                     for row in rows[1:])] if text else []
     return lines
 
 
 def headings(results):
-    """The failing cases by the mistake that explains them: the cases that catch it fail, but for one in twenty, no output is another
-    than it gives, and it explains the most of the cases that are left. Where several do so alike, all are named. The last headings
-    have no name: what no mistake explains, by group, and everything if every case fails. The first one, where there is any, has the cases in which the
-    program failed: they say nothing about its numbers."""
+    """The failing cases by the mistake that explains them: the cases that catch it fail, but for one in
+    twenty, no output is another than it gives, and it explains the most of the cases that are left. Where
+    several do so alike, all are named. The last headings have no name: what no mistake explains, by group,
+    and everything if every case fails. The first one, where there is any, has the cases in which the program
+    failed: they say nothing about its numbers."""
     failed = [result for result in results if result.state == "wrong" and result.difference.is_failure]
     judged = [result for result in results if result.state in ("right", "wrong") and result not in failed]
     failing = {result.case.name: result for result in judged if result.state == "wrong"}
@@ -54,7 +58,8 @@ def headings(results):
             break
         explained = suspects[names[0]] & left
         names = [name for name in names if suspects[name] & left == explained]
-        found.append(Heading(sorted(names), [result for name, result in failing.items() if name in explained]))
+        found.append(Heading(sorted(names),
+                             [result for name, result in failing.items() if name in explained]))
         left -= explained
     for group in GROUPS:
         others = [result for name, result in failing.items() if name in left and result.group == group]
@@ -64,7 +69,8 @@ def headings(results):
 
 
 def table(results, mistakes):
-    """The failing cases by mistake, each with the one of the shortest input, its reason, and what it expected and found."""
+    """The failing cases by mistake, each with the one of the shortest input, its reason, and what it expected
+    and found."""
     lines = []
     wrong = [result.difference.other_rule for result in results if result.state == "wrong"]
     if wrong and wrong[0] and wrong.count(wrong[0]) == len(wrong):
@@ -74,17 +80,25 @@ def table(results, mistakes):
         count = f"{len(heading.results)} case{'s' * (len(heading.results) > 1)}"
         lines += ["#", "# " + " or ".join(heading.names or [heading.title]) + ": " + count]
         lines += ["#   " + mistakes[name] for name in heading.names]
-        lines += [f"#   first, by length: {first.case.name}", f"#   why: {first.case.why}", *difference_lines(first.difference)]
+        lines += [
+            f"#   first, by length: {first.case.name}", f"#   why: {first.case.why}",
+            *difference_lines(first.difference)]
     return lines
 
 
 def group_lines(results):
     """How many are right and wrong of what the cases ask for, if that is more than the assignment."""
-    rows = [(group, [result for result in results if result.group == group and result.state in ("right", "wrong")]) for group in GROUPS]
+    rows = [(group, [
+        result
+        for result in results
+        if result.group == group and result.state in ("right", "wrong")])
+            for group in GROUPS]
     rows = [(group, count(members, "right"), count(members, "wrong")) for group, members in rows if members]
     if [group for group, _, _ in rows] in ([], [ASSIGNMENT]):
         return []
-    return ["#", f"# {'':30} right  wrong", *(f"# {group:30} {right:5}  {wrong:5}" for group, right, wrong in rows)]
+    return [
+        "#", f"# {'':30} right  wrong",
+        *(f"# {group:30} {right:5}  {wrong:5}" for group, right, wrong in rows)]
 
 
 def count(results, state):
@@ -108,28 +122,45 @@ def verdict(results):
     others = len(results) - right - wrong
     if not right + wrong:
         return "no case was run and counted"
-    counted = f"{right + wrong} case{'s' * (right + wrong > 1)}" + (f"; {others} did not count" if others else "")
+    counted = f"{right + wrong} case{'s' * (right + wrong > 1)}" + (f"; {others} did not count"
+                                                                    if others else "")
     return f"WRONG: {wrong} of {counted}" if wrong else f"RIGHT: all of {counted}"
 
 
-def for_people(results, mistakes):
-    """The verdict, what explains it, and the verdict again, since the beginning of a long text is soon out of sight."""
+def for_people(results, mistakes, note):
+    """The verdict and a note, what explains it, and the verdict again, since the beginning of a long text is
+    soon out of sight."""
     why = [line[2:] for line in [*table(results, mistakes), *group_lines(results)]]
-    return [verdict(results), *why, "", verdict(results)] if why else [verdict(results)]
+    return [verdict(results), note, *why, "", verdict(results)] if why else [verdict(results), note]
 
 
 def as_json(results, terms, mistakes):
     def entry(result):
         case, difference = result.case, result.difference
-        return {"name": case.name, "state": result.state, "group": result.group, "why": case.why, "paragraphs": case.words("paragraphs"),
-                "catches": case.words("catches"), **({"reason": result.reason} if result.reason else {}),
-                **({"difference": {key: getattr(difference, key) for key in ("message", "expected", "found")}} if difference else {})}
+        return {
+            "name":
+                case.name, "state":
+                    result.state, "group":
+                        result.group, "why":
+                            case.why, "paragraphs":
+                                case.words("paragraphs"), "catches":
+                                    case.words("catches"),
+            **({"reason": result.reason} if result.reason else {}),
+            **({"difference": {key: getattr(difference, key)
+                               for key in ("message", "expected", "found")}} if difference else {})}
 
-    return json.dumps({
-        "command": terms.command, "rule": terms.rule,
-        "counts": {state: count(results, state) for state in ("right", "wrong", "open", "left out")},
-        "groups": {group: {state: sum(result.state == state for result in results if result.group == group) for state in ("right", "wrong")}
-                   for group in GROUPS},
-        "mistakes": [{"names": heading.names, "sentences": [mistakes[name] for name in heading.names],
-                      "cases": [result.case.name for result in heading.results]} for heading in headings(results)],
-        "cases": [entry(result) for result in results]}, indent=1) + "\n"
+    return json.dumps(
+        {
+            "command": terms.command, "rule": terms.rule, "sandbox": not terms.box.reason, "counts": {
+                state: count(results, state)
+                for state in ("right", "wrong", "open", "left out")}, "groups": {
+                    group: {
+                        state: sum(result.state == state for result in results if result.group == group)
+                        for state in ("right", "wrong")}
+                    for group in GROUPS}, "mistakes": [{
+                        "names": heading.names, "sentences": [mistakes[name]
+                                                              for name in heading.names], "cases": [
+                                                                  result.case.name
+                                                                  for result in heading.results]}
+                                                       for heading in headings(results)],
+            "cases": [entry(result) for result in results]}, indent=1) + "\n"

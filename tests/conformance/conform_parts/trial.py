@@ -1,30 +1,22 @@
 """A program on one case: it runs in a folder of its own, and its output is judged."""
-import contextlib
-import os
+import functools
 import pathlib
 import re
-import resource
 import shlex
-import signal
-import subprocess
-import tempfile
 from collections import namedtuple
 
+from . import confined
 from .cases import CAMERA, CONFIG, FED, RULES, camera_of, scene_of, without_header
 from .judge import Difference, same_bytes, same_digits, same_picture
 
-Terms = namedtuple("Terms", "command rule tier is_bare judges_depths judges_picture judges_lines seconds")
+# folder: where those of the cases belong
+Terms = namedtuple("Terms",
+                   "command rule tier is_bare judges_depths judges_picture judges_lines limits box folder")
 CASE_FILES = ("input.txt", "config.txt", *FED.values())
-LARGEST_OUTPUT = 64 << 20  # bytes; a program that writes without end is stopped here
 LONGEST_ROW = 200  # of what is shown of an output
-PLACEHOLDERS = {"{config}": "config.txt", "{scene}": "scene.txt", "{input}": "input.txt", "{image}": "out.bmp", "{depths}": "depths.txt"}
-
-
-def limit_output():
-    """No program started from here writes a larger file."""
-    _, hard = resource.getrlimit(resource.RLIMIT_FSIZE)
-    limit = LARGEST_OUTPUT if hard == resource.RLIM_INFINITY else min(hard, LARGEST_OUTPUT)
-    resource.setrlimit(resource.RLIMIT_FSIZE, (limit, hard))
+PLACEHOLDERS = {
+    "{config}": "config.txt", "{scene}": "scene.txt", "{input}": "input.txt", "{image}": "out.bmp",
+    "{depths}": "depths.txt"}
 
 
 def located(command):
@@ -57,67 +49,90 @@ def missing_need(case, command):
 
 def fit_for_print(text):
     """A part of a program's output, in printable characters, and not too long."""
-    rows = ["".join(c if c.isprintable() else "?" for c in row[:LONGEST_ROW]) + "..." * (len(row) > LONGEST_ROW) for row in text.split("\n")]
+    rows = [
+        "".join(c if c.isprintable() else "?"
+                for c in row[:LONGEST_ROW]) + "..." * (len(row) > LONGEST_ROW)
+        for row in text.split("\n")]
     return "\n".join(rows)
 
 
 def try_case(case, terms):
-    """The Difference between what the program does and what the case expects, fit for print; None if there is none."""
-    difference = run_and_judge(case, terms)
-    return difference and difference._replace(expected=fit_for_print(difference.expected), found=fit_for_print(difference.found))
+    """The Difference between what the program does and what the case expects, fit for print; None if there is
+    none."""
+    try:
+        difference = run_and_judge(case, terms)
+    except (ArithmeticError, MemoryError, OSError, RecursionError, ValueError) as error:
+        difference = Difference(f"its output cannot be judged: {error!r}", is_failure=True)
+    return difference and difference._replace(expected=fit_for_print(difference.expected),
+                                              found=fit_for_print(difference.found))
 
 
 def run_and_judge(case, terms):
-    with tempfile.TemporaryDirectory(prefix="conform.") as name:
-        folder = pathlib.Path(name)
-        text = case.read("input.txt")
+    with confined.temporary_folder("case.",
+                                   terms.folder) as top, confined.opened_folder(top / "work") as opened:
+        folder, text = top / "work", case.read("input.txt")
         given = without_header(text) if terms.is_bare and case.stage != "model" else text
         (folder / "config.txt").write_bytes(case.read("config.txt") if case.has("config.txt") else CONFIG)
         (folder / "scene.txt").write_bytes(scene_of(case))
         for file in ("input.txt", FED[case.stage]):
             (folder / file).write_bytes(given)
         words = words_for(case, terms.command, text.decode("latin-1"))
-        status = run(words, folder, terms.seconds)
-        complaint = (folder / "stderr").read_bytes()[:1 << 16].decode("utf-8", "replace")
-        if isinstance(status, Difference):
-            return status
-        if case.refused_line is not None:
-            return judge_refusal(case, terms, status, complaint, folder)
-        if status:
-            return Difference(f"exit status {status}", "0", complaint.strip().rpartition("\n")[2], is_failure=True)
-        difference = judge_outputs(case, terms, folder)
-        return difference and difference._replace(excuses=excuses(case, terms, folder), other_rule=other_rule(case, terms, folder))
+        with open(folder / "input.txt", "rb") as stdin:
+            ending = confined.run(words, stdin, folder, terms.limits, terms.box)
+        return judge_ending(case, terms, ending, Outputs(ending, opened, terms))
 
 
-def run(words, folder, seconds):
-    """The exit status of a program, or the Difference that it made by not ending by itself."""
-    with open(folder / "input.txt", "rb") as stdin, open(folder / "stdout", "wb") as stdout, open(folder / "stderr", "wb") as stderr:
+class Outputs:
+    """What the program has written: `text`, on stdout or in {depths}, and `image`, each None if it is not
+    there."""
+
+    def __init__(self, ending, descriptor, terms):
+        self.ending, self.descriptor, self.limit = ending, descriptor, terms.limits.output
+        self.is_in_file = any("{depths}" in word for word in terms.command)
+
+    @functools.cached_property
+    def text(self):
+        return self.file("depths.txt") if self.is_in_file else self.ending.stdout
+
+    @functools.cached_property
+    def image(self):
+        return self.file("out.bmp")
+
+    def file(self, name):
         try:
-            process = subprocess.Popen(words, stdin=stdin, stdout=stdout, stderr=stderr, cwd=folder, start_new_session=True)
-        except OSError as error:
-            return Difference(f"{words[0]} cannot be run: {error.strerror}", is_failure=True)
-        try:
-            status = process.wait(seconds)
-        except subprocess.TimeoutExpired:
-            return Difference(f"no end after {seconds:g} seconds", is_failure=True)
-        finally:
-            with contextlib.suppress(ProcessLookupError):  # the program, if it still runs, and what it has started
-                os.killpg(process.pid, signal.SIGKILL)
-            process.wait()
-    if status < 0:
-        return Difference(f"ended by {signal.Signals(-status).name}", is_failure=True)
-    return status
+            return confined.read_output(name, self.descriptor, self.limit)
+        except confined.Refused as error:
+            raise confined.Refused(f"{name} is not read: {error}") from None
 
 
-def judge_refusal(case, terms, status, complaint, folder):
-    """Refused with a status other than 0, and with the line, the first number behind a colon or the word line."""
+def judge_ending(case, terms, ending, outputs):
+    complaint = ending.stderr[:1 << 16].decode("utf-8", "replace")
+    if ending.why:
+        return Difference(ending.why, is_failure=True)
+    if case.refused_line is not None:
+        return judge_refusal(case, terms, ending, complaint)
+    if ending.status:
+        last = complaint.strip().rpartition("\n")[2]
+        return Difference(f"exit status {ending.status}", "0", last, is_failure=True)
+    try:
+        difference = judge_outputs(case, terms, outputs)
+        return difference and difference._replace(excuses=excuses(case, terms, outputs),
+                                                  other_rule=other_rule(case, terms, outputs))
+    except confined.Refused as error:
+        return Difference(str(error), is_failure=True)
+
+
+def judge_refusal(case, terms, ending, complaint):
+    """Refused with a status other than 0, and with the line, the first number behind a colon or the word
+    line."""
     expected = f"refused at line {case.refused_line}"
-    if not status:
+    if not ending.status:
         return Difference("wrong input was accepted", expected, "exit status 0")
-    told = re.search(r"(?:\bline\s+|:)(\d+)", complaint)
-    if terms.judges_lines and (not told or int(told[1]) != case.refused_line):
-        return Difference("the message does not name the line", expected, complaint.strip().partition("\n")[0])
-    last = (folder / "stdout").read_bytes().decode("latin-1").rstrip("\n").split("\n")[-1]
+    told = re.search(r"(?:\bline\s+|:)0*([0-9]+)", complaint)
+    if terms.judges_lines and (not told or told[1] != str(case.refused_line)):
+        return Difference("the message does not name the line", expected,
+                          complaint.strip().partition("\n")[0])
+    last = ending.stdout.decode("latin-1").rstrip("\n").split("\n")[-1]
     if tier_of(case, terms) == "bytes" and case.stage != "zbuf" and not last.startswith("error "):
         return Difference("the output does not end with the error", "error TOOL: ...", last)
     return None
@@ -127,56 +142,58 @@ def tier_of(case, terms):
     return terms.tier or case.tier
 
 
-def text_of(terms, folder):
-    """The stage text or the depths that the program has written; None if it has not."""
-    path = folder / ("depths.txt" if any("{depths}" in word for word in terms.command) else "stdout")
-    return path.read_bytes() if path.exists() else None
-
-
-def excuses(case, terms, folder):
-    """The mistakes that would have given another wrong output than this one, of those whose output the case holds."""
+def excuses(case, terms, outputs):
+    """The mistakes that would have given another wrong output than this one, of those whose output the case
+    holds."""
     if case.stage == "zbuf" and terms.rule != "nearest":
         return ()
-    return tuple(mistake for mistake in case.words("catches") if is_excused(case, terms, folder, f"with-{mistake.partition('/')[2]}"))
+    return tuple(mistake for mistake in case.words("catches")
+                 if is_excused(case, terms, outputs, f"with-{mistake.partition('/')[2]}"))
 
 
-def is_excused(case, terms, folder, name):
-    found, image, is_stage_text = text_of(terms, folder), folder / "out.bmp", case.stage != "zbuf"
+def is_excused(case, terms, outputs, name):
+    found, is_stage_text = outputs.text, case.stage != "zbuf"
     if case.has(name + ".txt") and found is not None and terms.judges_depths:
-        return bool(same_digits(case.read(name + ".txt"), without_header(found) if is_stage_text else found, is_stage_text))
-    if case.has(name + ".bmp") and image.exists() and terms.judges_picture:
-        return bool(same_picture(case.read(name + ".bmp"), image.read_bytes(), has_free_colors=True))
+        return bool(
+            same_digits(case.read(name + ".txt"),
+                        without_header(found) if is_stage_text else found, is_stage_text))
+    if case.has(name + ".bmp") and terms.judges_picture and outputs.image is not None:
+        return bool(same_picture(case.read(name + ".bmp"), outputs.image, has_free_colors=True))
     return False
 
 
-def other_rule(case, terms, folder):
-    """The rule of coverage, other than that of the terms, by which the outputs are right; None if there is none."""
+def other_rule(case, terms, outputs):
+    """The rule of coverage, other than that of the terms, by which the outputs are right; None if there is
+    none."""
     rules = [rule for rule in RULES if rule != terms.rule and case.stage == "zbuf"]
-    return next((rule for rule in rules if not judge_outputs(case, terms._replace(rule=rule), folder)), None)
+    return next((rule for rule in rules if not judge_outputs(case, terms._replace(rule=rule), outputs)), None)
 
 
-def judge_outputs(case, terms, folder):
+def judge_outputs(case, terms, outputs):
     is_strict = tier_of(case, terms) == "bytes"
     if case.stage != "zbuf":
         expected = case.read("expected.txt")
         judge = same_bytes if is_strict else same_digits
-        return judge(without_header(expected) if terms.is_bare else expected, text_of(terms, folder))
+        return judge(without_header(expected) if terms.is_bare else expected, outputs.text)
     if terms.judges_depths:
-        depths = text_of(terms, folder)
+        depths = outputs.text
         if depths is None:
             return Difference("no file {depths} was written")
         expected = case.read(f"depths-{terms.rule}.txt")
-        difference = same_bytes(expected, depths) if is_strict else same_digits(expected, depths, is_stage_text=False)
+        difference = same_bytes(expected, depths) if is_strict else same_digits(
+            expected, depths, is_stage_text=False)
         if difference:
             return difference._replace(message="depths: " + difference.message)
     if terms.judges_picture:
-        if not (folder / "out.bmp").exists():
+        image = outputs.image
+        if image is None:
             return Difference("no picture was written", "out.bmp, or the file that {image} names")
-        image = (folder / "out.bmp").read_bytes()
         expected = case.read(f"picture-{terms.rule}.bmp")
-        has_free_colors = not is_strict and not {"colors", "lights", "materials", "optics"} & set(case.words("needs"))
+        has_free_colors = not is_strict and not {"colors", "lights", "materials", "optics"} & set(
+            case.words("needs"))
         difference = same_picture(expected, image, has_free_colors)
         if difference or not is_strict or expected == image:
             return difference
-        return Difference("the bytes of the picture's file differ", f"{len(expected)} bytes", f"{len(image)} bytes")
+        return Difference("the bytes of the picture's file differ", f"{len(expected)} bytes",
+                          f"{len(image)} bytes")
     return None

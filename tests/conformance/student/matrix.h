@@ -3,6 +3,8 @@
 #include <cmath>
 #include <vector>
 
+constexpr double kPi = 3.14159265358979323846;
+
 using Vector = std::vector<double>;  // x, y, z
 using Matrix = std::vector<std::vector<double>>;
 

@@ -9,8 +9,6 @@
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-
 /// Rodrigues' formula: x turned by `angle` about the unit vector `a`.
 Vector rodrigues(const Vector& x, const Vector& a, double angle) {
   const double c = std::cos(angle), s = std::sin(angle);

@@ -7,8 +7,6 @@
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-
 /// The tangent of half an angle in degrees.
 double tan_of_half(double degrees) {
   const double angle = mistake("project/fov-in-radians") ? degrees : degrees * kPi / 180;

@@ -20,10 +20,12 @@ constexpr const char* kUsage =
        student all SCENE CONFIG --folder DIR [SWITCH...]
        student switches
 
-model, view and project read what the stage before wrote, and write a header with as much of the camera as later stages need;
-with --bare, nothing but triangles. With --scene, the camera is that of a scene, as in the assignment.
-zbuf writes the depths to standard output and out.bmp into the current folder; with --folder, z_buffer.txt and out.bmp into
-that folder. `all` does what the assignment asks for: stage1.txt, stage2.txt, stage3.txt, z_buffer.txt and out.bmp.
+model, view and project read what the stage before wrote, and write a header with as much of the camera as
+later stages need; with --bare, nothing but triangles. With --scene, the camera is that of a scene, as in the
+assignment.
+zbuf writes the depths to standard output and out.bmp into the current folder; with --folder, z_buffer.txt and
+out.bmp into that folder. `all` does what the assignment asks for: stage1.txt, stage2.txt, stage3.txt,
+z_buffer.txt and out.bmp.
 `switches` lists all names for SWITCH, which is
 
   --mistake STAGE/NAME   a mistake of tests/conformance/mistakes.txt to make

@@ -1,0 +1,80 @@
+"""What a program sees in a sandbox of bubblewrap: read-only the system and what belongs to the program,
+and the folder that it may write."""
+import os
+import re
+import stat
+import tempfile
+
+# What a program in a folder `bin` needs of its installation.
+BESIDE_BIN = ("lib", "lib64", "libexec", "conf", "pyvenv.cfg")
+SYSTEM = ("/bin", "/sbin", "/lib", "/lib32", "/lib64", "/libx32", "/usr", "/etc", "/opt", "/nix", "/gnu")
+PATH_IN_TEXT = re.compile(r"""(?<![^\s'"=:,;|&<>(])/[^\s'"=:,;|&<>()]+""")  # of the shell, or of a list
+
+
+def words_for(command, paths, hidden):
+    """Words of bubblewrap for a command that may read further paths, but nothing below `hidden`."""
+    words = ["--unshare-all", "--die-with-parent", "--cap-drop", "ALL"]
+    words += [*system_words(), "--proc", "/proc", "--dev", "/dev"]
+    paths = sorted({*needed(command), *map(os.path.abspath, paths)})
+    for path in paths:
+        words += ["--ro-bind", path, path]
+    hidden = [os.path.realpath(path) for path in hidden if path.is_dir()]
+    names = [(path, os.path.relpath(each, os.path.realpath(path))) for path in paths for each in hidden]
+    below = [os.path.join(path, name)
+             for path, name in names
+             if not name.startswith("..")]  # through links, too
+    for path in {*hidden, *below}:
+        words += ["--tmpfs", path, "--remount-ro", path]
+    return words
+
+
+def words_of_folder(folder, words):
+    """These, with the folder that the program may write, also where libraries share memory."""
+    uses_memory = any(str(word).startswith("/dev/shm/") for word in (folder, *words))
+    shared = [] if uses_memory else ["--bind", folder, "/dev/shm"]
+    return [*words, *shared, "--bind", folder, folder, "--remount-ro", "/dev", "--remount-ro", "/",
+            "--chdir", folder, "--"]
+
+
+def system_words():
+    """Words of bubblewrap that show the system's folders, of /etc what everybody may read."""
+    words = []
+    for path in filter(os.path.exists, SYSTEM):
+        words += ["--symlink", os.readlink(path), path] if os.path.islink(path) else ["--ro-bind", path, path]
+    return words + (hiding_words("/etc") if os.getuid() == 0 else [])
+
+
+def hiding_words(folder):
+    """Words of bubblewrap that hide what not everybody may read in a folder."""
+    words = []
+    for entry in os.scandir(folder):
+        if entry.is_symlink():
+            continue
+        if not entry.stat().st_mode & stat.S_IROTH:
+            empty = ["--tmpfs", entry.path, "--remount-ro"] if entry.is_dir() else ["--ro-bind", os.devnull]
+            words += [*empty, entry.path]
+        elif entry.is_dir():
+            words += hiding_words(entry.path)
+    return words
+
+
+def needed(command):
+    """What a command reads: the folders of its files and those on the PATH, with the installations that they
+    are the `bin` of. Of a folder of many things, such as the home, it is the files alone."""
+    shared = [os.path.expanduser("~"), tempfile.gettempdir(), "/tmp", "/var/tmp", "/home/any"]
+
+    def is_shared(folder):
+        real = os.path.realpath(folder)
+        return any(os.path.commonpath((real, os.path.realpath(path))) == real for path in shared)
+
+    named = [path for word in command for path in (word, *PATH_IN_TEXT.findall(word)) if os.path.isabs(path)]
+    paths = {folder for folder in os.get_exec_path() if os.path.isabs(folder) and os.path.isdir(folder)}
+    for path in {*named, *map(os.path.realpath, named)}:
+        folder = path if os.path.isdir(path) else os.path.dirname(path)
+        if os.path.exists(path):
+            paths.add(path if is_shared(folder) else folder)
+    paths |= {beside for path in paths if os.path.basename(path) == "bin" for name in BESIDE_BIN
+              if os.path.exists(beside := os.path.join(os.path.dirname(path), name))}
+    there = re.compile(rf"({'|'.join(SYSTEM)}|/dev(?!/shm)|/proc)(/|$)")
+    paths = {path for path in paths if not is_shared(path) and not there.match(path)}
+    return {path for path in paths if not any(path.startswith(other + "/") for other in paths)}

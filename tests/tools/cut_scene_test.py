@@ -1,0 +1,392 @@
+#!/usr/bin/env python3
+"""cut-scene, model --first and join-seen, end to end: the parts' stage 1, joined, is that of the whole, to
+the last byte.
+
+usage: cut_scene_test.py BIN_DIR [UNITTEST ARGUMENT...]
+"""
+import contextlib
+import fcntl
+import os
+import pathlib
+import random
+import resource
+import shutil
+import signal
+import subprocess
+import sys
+import unittest
+
+from toolbox import BIN, SOURCE, ToolTest, command, heed_signals, run, run_with
+
+sys.path.insert(0, str(SOURCE / "scripts/measure"))
+from parts.instructions import callgrind_count  # noqa: E402
+
+SCENE_COUNT = int(os.environ.get("TOOLS_SCENES", 12)) * 2  # fewer with sanitizers, see CMakeLists.txt
+CAMERA = "1 0.5 4\n0 0 0\n0 1 0\n50 1.25 1 30 ratio\n"
+TRIANGLE = "triangle\n0 0 0\n1 0 0\n0 1 0\n"
+
+
+def random_scene(rng, count):
+    """Commands in any nesting, with comments, blank lines, arguments on the command's line; lights inside
+    push and pop."""
+    number = lambda: rng.choice(
+        (f"{rng.uniform(-3, 3):.7f}", f"{rng.uniform(-3, 3):.3g}", str(rng.randrange(-3, 4)),
+         f"+{rng.random():.12g}", f"{rng.randrange(1, 9)}e-1"))
+    end = lambda: rng.choice(
+        ("\n", "\n", "\n", "  # a comment\n", "\r\n", "\n\n", "\n# triangle\n\t\n", "\t \n"))
+    depth = 0
+    columns = rng.choice(("", "color", "normal", "color normal"))
+    has_state = rng.random() < 0.5
+    material_count = rng.randrange(4)
+
+    def arguments(*words):
+        return rng.choice((end(), " ", " ")) + " ".join(words) + end()
+
+    def command():
+        nonlocal depth
+        kind = rng.choice(("translate", "scale", "rotate", "push", "push", "pop", "color", "use"))
+        if kind == "use":
+            return "use" + arguments(str(rng.randrange(material_count or 1)))
+        if kind == "color":
+            return "color" + arguments(*(str(rng.randrange(256)) for _ in range(3))) if has_state else ""
+        if kind == "push":
+            depth += 1
+            return "push" + end()
+        if kind == "pop":
+            if not depth:
+                return ""
+            depth -= 1
+            return "pop" + end()
+        if kind == "rotate":
+            return "rotate" + arguments(str(rng.choice((30, 45, 90, 17.3, -1e3))), number(), number(), "1")
+        return kind + arguments(*(number() for _ in range(3)))
+
+    def vertex():
+        words = [number() for _ in range(3)]
+        if "color" in columns:
+            words += [str(rng.randrange(256)) for _ in range(3)]
+        if "normal" in columns:
+            words += [number(), number(), "1"]
+        return " ".join(words) + end()
+
+    text = CAMERA + (f"attributes {columns}\n" if columns else "") + ("color 9 8 7\n" if has_state else "")
+    text += "".join(f"material 0.5 1 0.{i} 8\n" for i in range(material_count))
+    is_lit = rng.random() < 0.6
+    for _ in range(rng.randrange(8)):
+        text += command()
+        if is_lit:
+            text += f"light{arguments(number(), number(), number(), '1', '0.5', '1')}"
+    if is_lit:
+        text += "ambient 0.1 0.1 0.1\nbackground 3 4 5\n"
+    plain = rng.random() < 0.3
+    for _ in range(count):
+        for _ in range(rng.choice((0, 0, 0, 1, 3))):
+            text += command()
+        if plain:
+            text += "triangle\n" +"".join(vertex().split("\n")[0].split("#")[0].strip() + "\n"
+                                          for _ in range(3))
+        else:
+            text += "triangle" + rng.choice((end(), end(), " ")) + "".join(vertex() for _ in range(3))
+    return text + command() + "end" + rng.choice(("", "\n", " # the end\n\n"))
+
+
+class Split(ToolTest):
+    def split(self, scene, count, folder="parts"):
+        """(file, first number) of each part."""
+        pathlib.Path("scene.txt").write_bytes(scene.encode())
+        shutil.rmtree(folder, ignore_errors=True)
+        done = run("cut-scene", "scene.txt", count, "-o", folder)
+        self.assert_quiet_success(done)
+        parts = [(line.split()[0], int(line.split()[1])) for line in done.stdout.decode().splitlines()]
+        self.assertEqual([path for path, _ in parts],
+                         [f"{folder}/{name}" for name in sorted(os.listdir(folder))])
+        return parts
+
+    def stage1(self, parts, *options):
+        """The files of the parts' stage 1."""
+        for i, (path, first) in enumerate(parts):
+            done = run("model", "--first", first, *options, path)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            pathlib.Path(f"stage1.{i}").write_bytes(done.stdout)
+        return [f"stage1.{i}" for i in range(len(parts))]
+
+    def check(self, scene, count, *options):
+        parts = self.split(scene, count)
+        done = run("join-seen", *self.stage1(parts, *options))
+        self.assert_quiet_success(done)
+        whole = run("model", "scene.txt", *options)
+        self.assertEqual(whole.returncode, 0, whole.stderr)
+        self.assertEqual(done.stdout, whole.stdout)
+        return parts
+
+
+class Scenes(Split):
+    def test_random_scenes(self):
+        most = 0
+        for seed in range(SCENE_COUNT):
+            rng = random.Random(seed)
+            scene = random_scene(rng, rng.randrange(60))
+            options = rng.choice(([], ["--framed"], ["--digits", "exact"], ["--digits", "3", "--framed"]))
+            for count in (1, 2, 7, 300):
+                with self.subTest(seed=seed, count=count, options=options):
+                    most = max(most, len(self.check(scene, count, *options)))
+        self.assertGreater(most, 50)  # then most parts are one triangle
+
+    def test_samples(self):
+        for sample in sorted(SOURCE.glob("samples/*/scene.txt")):
+            with self.subTest(sample=sample.parent.name):
+                self.check(sample.read_text(), 5, "--framed")
+
+    def test_a_part_of_a_part(self):
+        for seed in range(SCENE_COUNT):
+            rng = random.Random(500 + seed)
+            scene = random_scene(rng, 20)
+            parts = self.split(scene, 3)
+            whole = run("model", "scene.txt").stdout
+            texts = []
+            for path, first in parts:
+                for name, number in self.split(pathlib.Path(path).read_text(), 3, folder=path + ".d"):
+                    texts.append(f"{name}.1")
+                    pathlib.Path(texts[-1]).write_bytes(run("model", "--first", first + number, name).stdout)
+            self.assertEqual(run("join-seen", *texts).stdout, whole)
+
+    def test_parts_are_of_about_the_same_size(self):
+        parts = self.split(CAMERA + TRIANGLE * 1000 + "end\n", 4)
+        for (_, first), expected in zip(parts, (0, 250, 500, 750)):
+            self.assertLessEqual(abs(first - expected), 1)
+        parts = self.split(CAMERA + TRIANGLE * 3 + "end\n", 10)
+        self.assertEqual([first for _, first in parts], [0, 1, 2])
+
+    def test_large_blocks(self):
+        """More than is read at once, and transforms in force that grow."""
+        rng = random.Random(3)
+        body = "".join(f"translate\n{rng.uniform(-0.01, 0.01):.7f} 0 0\n" * (i % 50 == 0) + TRIANGLE
+                       for i in range(30000))
+        self.check(CAMERA + body + "end\n", 6)
+
+    def test_a_scene_without_triangles_is_one_part(self):
+        parts = self.split(CAMERA + "translate 1 2 3\nend\n", 3)
+        self.assertEqual(len(parts), 1)
+
+    @unittest.skipUnless(shutil.which("valgrind"), "valgrind is not installed (Debian: valgrind)")
+    def test_it_takes_at_most_half_of_the_instructions_of_model(self):
+        if b"__asan_init" in (BIN / "cut-scene").read_bytes():
+            self.skipTest("valgrind runs no program with AddressSanitizer")
+        pathlib.Path("large.txt").write_text(
+            CAMERA +
+            "triangle\n-1.2345678 0.1234567 0.3456789\n1.2345678 0.1111111 0.2222222\n0.1231231 0.4564564 "
+            "0.7897897\n"
+            * 10000 + "end\n")
+        split, model = (callgrind_count([BIN / tool, "large.txt", *words], ".")
+                        for tool, words in (("cut-scene", ["4", "-o", "out"]), ("model", [])))
+        self.assertLess(split, model / 2)
+
+
+class Joins(Split):
+    def refuse(self, message, *words):
+        done = run("join-seen", *words)
+        self.assertEqual((done.returncode, done.stderr.decode()), (1, f"join-seen: {message}\n"))
+        self.assertTrue(done.stdout.endswith(f"error join-seen: {message}\n".encode()))
+
+    def test_seen_parts_in_any_grouping(self):
+        pathlib.Path("config.txt").write_text("50 40\n")
+        for seed in range(SCENE_COUNT // 2):
+            rng = random.Random(seed)
+            scene = random_scene(rng, 40)
+            parts = self.stage1(self.split(scene, 5), "--framed")
+            def after_project(name):
+                text = pathlib.Path(name).read_bytes() if isinstance(name, str) else name
+                for tool in ("view", "project"):
+                    text = run(tool, *(["--clip", "near"] if tool == "project" else []), stdin=text).stdout
+                return text
+            def picture(text):
+                done = run("zbuf", "config.txt", "-o", "out.ppm", "--expect-framed", stdin=text)
+                self.assertEqual(done.returncode, 0, done.stderr)
+                return done.stdout, pathlib.Path("out.ppm").read_bytes()
+            expected = picture(after_project(run("model", "--framed", "scene.txt").stdout))
+            for i, name in enumerate(parts):
+                done = run("zbuf", "config.txt", "--expect-framed", "--seen", f"seen.{i}",
+                           stdin=after_project(name))
+                self.assertEqual(done.returncode, 0, done.stderr)
+            names = [f"seen.{i}" for i in range(len(parts))]
+            while len(names) > 2:
+                at = rng.randrange(len(names) - 1)
+                done = run("zbuf", "config.txt", "--expect-framed", "--seen", names[at] + "+",
+                           stdin=run("join-seen", "--expect-framed", *names[at:at + 2]).stdout)
+                self.assert_quiet_success(done)
+                names[at:at + 2] = [names[at] + "+"]
+            self.assertEqual(picture(run("join-seen", *names).stdout), expected)
+
+    def test_one_frame_is_written(self):
+        for name in "ab":
+            pathlib.Path(name).write_text("framed\n0 0 0\n1 0 0\n0 1 0\n\nend\n")
+        self.assertEqual(
+            run("join-seen", "a", "b").stdout,
+            b"framed\n0 0 0\n1 0 0\n0 1 0\n\ntriangle 0\n0 0 0\n1 0 0\n0 1 0\n\nend\n")
+
+    def test_what_is_wrong(self):
+        whole = "framed\neye 1 2 3\n0 0 0\n1 0 0\n0 1 0\n\nend\n"
+        pathlib.Path("a").write_text(whole)
+        pathlib.Path("cut").write_text(whole[:-4])
+        pathlib.Path("other").write_text(whole.replace("3\n", "4\n", 1))
+        pathlib.Path("plain").write_text(whole.replace("framed\n", "").replace("end\n", ""))
+        pathlib.Path("failed").write_text("framed\neye 1 2 3\nerror model: no memory\n")
+        pathlib.Path("empty").write_text("")
+        self.refuse("cut:7:1: expected 'end', which closes a framed text, found the end of the input", "a",
+                    "cut")
+        self.refuse("other:3:1: expected the header of the first text, found another one before here", "a",
+                    "other")
+        self.refuse("plain:2:1: expected the header of the first text, found another one before here", "a",
+                    "plain")
+        self.refuse("plain:2:1: expected a framed text (model --framed), found one without 'framed'",
+                    "--expect-framed", "plain")
+        self.refuse("empty:1:1: expected a framed text (model --framed), found an empty one",
+                    "--expect-framed", "empty", "a")
+        self.refuse("cannot open gone: No such file or directory", "a", "gone")
+        done = run("join-seen", "a", "failed")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn(b"model: no memory", done.stderr)
+        self.assertIn(b"error model: no memory\n", done.stdout)
+        self.assertEqual(run("join-seen").returncode, 2)
+
+
+class Refusals(Split):
+    def test_scenes(self):
+        for scene, message in (
+            (CAMERA + TRIANGLE + "pop\nend\n",
+             "scene.txt:9:1: expected a matrix that 'push' has saved, found 'pop' without one"),
+            (CAMERA + TRIANGLE,
+             "scene.txt:9:1: expected 'end', which closes a scene, found the end of the input"),
+            (CAMERA + TRIANGLE + "light\n1 2 3 1 1 1\n" + TRIANGLE + "end\n",
+             "scene.txt:9:1: expected 'light' before the first triangle, found 'light' after it"),
+            (CAMERA + TRIANGLE + "color\n1 2 3\n" + TRIANGLE + "end\n",
+             "scene.txt:9:1: expected 'color' before the first triangle, found 'color' after it"),
+            (CAMERA + TRIANGLE + "end\nend\n", "scene.txt:10:1: expected nothing after 'end', found 'end'"),
+            (CAMERA + "turn 1 2 3\nend\n", "scene.txt:5:1: expected a command of a scene, found 'turn'"),
+            (CAMERA + "push 1\nend\n", "scene.txt:5:6: expected the end of the line after 'push', found '1'"),
+            ("0 0 5\n", "scene.txt:2:1: expected the four lines of the camera, found the end of the input")):
+            pathlib.Path("scene.txt").write_text(scene)
+            shutil.rmtree("parts", ignore_errors=True)
+            done = run("cut-scene", "scene.txt", "2")
+            self.assertEqual((done.returncode, done.stderr.decode()), (1, f"cut-scene: {message}\n"), scene)
+            self.assertNotEqual(run("model", "scene.txt").returncode, 0)
+
+    def test_a_number_that_is_wrong_is_models(self):
+        self.assertEqual(
+            len(self.split(CAMERA + TRIANGLE * 3 + TRIANGLE.replace("1 0 0", "1 x 0") + "end\n", 2)), 2)
+        self.assertEqual(run("model", "parts/1.txt").returncode, 0)
+        self.assertIn(b"model: parts/2.txt:11:3: expected", run("model", "--first", 2, "parts/2.txt").stderr)
+
+    def test_command_lines(self):
+        pathlib.Path("scene.txt").write_text(CAMERA + TRIANGLE + "end\n")
+        for words in (["scene.txt"], [], ["scene.txt", "0"], ["scene.txt", "x"], ["scene.txt", "100000"], [
+                "/dev/null", "2"]):
+            self.assertEqual(run("cut-scene", *words).returncode, 2, words)
+        os.mkdir("full")
+        pathlib.Path("full/x").write_text("")
+        done = run("cut-scene", "scene.txt", "2", "-o", "full")
+        self.assertEqual(
+            (done.returncode, done.stderr),
+            (1, b"cut-scene: full: expected a new folder, or an empty one, found one with files in it\n"))
+        for words in (["--first", "-1"], ["--first", "x"], ["--first", "3", "--bare"]):
+            self.assertEqual(run("model", *words, "scene.txt").returncode, 2, words)
+        self.assertIn(b"\ntriangle 8796093022207\n", run("model", "--first", 2**43 - 1, "scene.txt").stdout)
+
+
+class Endings(ToolTest):
+    """A cut-scene that fails leaves what it found, and the same command succeeds once the reason is gone."""
+
+    GOOD = CAMERA + TRIANGLE * 40 + "end\n"
+    FOLDERS = ("parts", "new/and/below/", "empty", "mine/new")
+
+    def setUp(self):
+        super().setUp()
+        pathlib.Path("scene.txt").write_text(self.GOOD)
+        os.mkdir("empty")
+        os.mkdir("mine")
+        pathlib.Path("mine/note").write_text("")
+
+    def everything(self):
+        return sorted(str(path) for path in pathlib.Path(".").rglob("*"))
+
+    def check(self, fail):
+        """`fail(folder)` runs the command and returns its exit status; before and after, all is the same."""
+        before = self.everything()
+        for folder in self.FOLDERS:
+            with self.subTest(folder=folder):
+                self.assertNotEqual(fail(folder), 0)
+                self.assertEqual(self.everything(), before)
+
+    def test_a_scene_that_is_wrong(self):
+        pathlib.Path("scene.txt").write_text(self.GOOD.replace("end", ""))
+        self.check(lambda folder: run("cut-scene", "scene.txt", "4", "-o", folder).returncode)
+        pathlib.Path("scene.txt").write_text(self.GOOD)
+        for folder in self.FOLDERS:
+            self.assertEqual(run("cut-scene", "scene.txt", "4", "-o", folder).returncode, 0)
+            self.assertEqual(sorted(os.listdir(folder)), ["1.txt", "2.txt", "3.txt", "4.txt"])
+
+    def test_a_file_that_cannot_be_written(self):
+        limit = (len(CAMERA + TRIANGLE) * 2,) * 2  # less than a part has
+        self.check(lambda folder: run("cut-scene", "scene.txt", "4", "-o", folder, preexec_fn=lambda: resource
+                                      .setrlimit(resource.RLIMIT_FSIZE, limit)).returncode)
+
+    def test_a_list_that_cannot_be_written(self):
+        def run_with_reason(channels, folder):
+            done = run_with(channels, "cut-scene", "scene.txt", "4", "-o", folder)
+            self.assertRegex(done.stderr.decode(), "^cut-scene: cannot write <stdout>: .*\n$")
+            return done.returncode
+        for channels in (">/dev/full", ">&-"):
+            self.check(lambda folder, channels=channels: run_with_reason(channels, folder))
+
+    def test_a_closed_pipe(self):
+        def run_with_closed_pipe(folder):
+            read, write = os.pipe()
+            os.close(read)
+            with os.fdopen(write, "wb") as output:
+                done = run("cut-scene", "scene.txt", "4", "-o", folder, stdout=output)
+            self.assertEqual(done.stderr, b"")
+            return done.returncode
+        self.check(run_with_closed_pipe)
+
+    def end_by(self, number, folder, send=subprocess.Popen.send_signal):
+        read, write = os.pipe()
+        with contextlib.suppress(PermissionError):
+            fcntl.fcntl(write, 1031, 1 << 20)  # F_SETPIPE_SZ, the size that cut-scene asks for
+        os.set_blocking(write, False)
+        with contextlib.suppress(BlockingIOError):
+            while os.write(write, bytes(4096)):
+                pass
+        os.set_blocking(write, True)
+        with subprocess.Popen(
+            command("cut-scene", "scene.txt", "4", "-o", folder),
+            stdout=write,
+            stderr=subprocess.PIPE,
+            preexec_fn=heed_signals,
+        ) as waiting:  # for room in the pipe, once all parts are written
+            while not os.path.exists(f"{folder}/4.txt"):
+                self.assertIsNone(waiting.poll())
+            send(waiting, number)
+            self.assertEqual(waiting.wait(60), -number)
+            line = b"cut-scene: ended by a signal; unfinished files are removed\n"
+            self.assertEqual(waiting.stderr.read(), line)
+        os.close(read)
+        os.close(write)
+        return -number
+
+    def test_signals(self):
+        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+            self.check(lambda folder, number=number: self.end_by(number, folder))
+
+    def test_a_signal_sent_often(self):
+        """As timeout sends it to a process and to its group: one may come before the first is handled."""
+
+        def send_often(process, number):
+            senders = f"import os\nother = os.fork()\nfor _ in range(300): os.kill({process.pid}, {number})\n"
+            subprocess.run([sys.executable, "-c", senders + "other and os.wait()"], check=True)
+
+        for _ in range(10):
+            self.check(lambda folder: self.end_by(signal.SIGTERM, folder, send_often))
+
+
+if __name__ == "__main__":
+    unittest.main()
