@@ -193,8 +193,8 @@ class Attacks(HostileTest):
     """One program does all attacks, each on a case of its own, and is honest on the other cases."""
 
     def assigned(self, mode, names):
-        """The folder with the program of each attack, by the sum of its case's input; {case name: (attack, what
-        is expected)}; the names of these cases and of honest ones."""
+        """The folder with the program of each attack, by the sum of its case's input; {case name: (attack,
+        what is expected)}; the names of these cases and of honest ones."""
         folder = pathlib.Path(tempfile.mkdtemp(prefix=mode, dir=self.folder))
         program(folder, "program",
                 'attack=$HERE/$(md5sum < input.txt | cut -c 1-32)\n[ -x $attack ] && exec $attack\nzbuf')
