@@ -149,8 +149,10 @@ class Inspection:
                                                 packed("i", [line for _, line in kept]), "numbers":
                                                     packed("i", numbers) if numbers else None,
             "spheres": {
-                "names": packed("i", [name for name, _ in read.spheres]), "firstLines": packed(
-                    "i", [line for _, line in read.spheres]), "points": packed("d", read.sphere_points())},
+                "names": packed("i", [name for name, _ in read.spheres]),
+                "firstLines": packed("i", [line for _, line in read.spheres]),
+                "points": packed("d", read.sphere_points()),
+            },
             "text":
                 "\n".join(read.lines[number - 1]
                           for number in numbers) if numbers else "\n".join(read.lines), **self.guide(tool)}
@@ -170,8 +172,10 @@ class Inspection:
         if tool == "project":
             corners = [(x, y, z) for z in (-1, 1) for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
             return {
-                "guide": box_lines(corners), "labels": [label("near", corners[3]),
-                                                        label("far", corners[7])], "remark": ""}
+                "guide": box_lines(corners),
+                "labels": [label("near", corners[3]), label("far", corners[7])],
+                "remark": "",
+            }
         corners, is_shortened = frustum_corners(header, -float(dict(self.statistics["view"]).get("z_min", 0)))
         remark = f"far, at {window_of(header)[-1]:g}, is drawn nearer" if is_shortened else ""
         eye = (0.0, 0.0, 0.0)
@@ -237,21 +241,20 @@ class Inspection:
 
     def as_json(self):
         return {
-            "scene":
-                self.name, "config":
-                    self.config_name, "triangles":
-                        self.count, "spheres":
-                            len(self.lines["model"].spheres), "step":
-                                self.step, "columns":
-                                    self.columns, "rows":
-                                        self.rows, "stages":
-                                            self.stages, "pixels":
-                                                self.pixels, "fragments":
-                                                    self.fragments, "fragmentCount":
-                                                        self.fragment_count, "leftOut":
-                                                            self.left_out_count, "notes":
-                                                                self.notes + self.square_notes,
-            "limits":
-                self.limits(), "explanations":
-                    explanations(self, text_of(self.scene_data, self.scene),
-                                 text_of(self.config_data, self.config))}
+            "scene": self.name,
+            "config": self.config_name,
+            "triangles": self.count,
+            "spheres": len(self.lines["model"].spheres),
+            "step": self.step,
+            "columns": self.columns,
+            "rows": self.rows,
+            "stages": self.stages,
+            "pixels": self.pixels,
+            "fragments": self.fragments,
+            "fragmentCount": self.fragment_count,
+            "leftOut": self.left_out_count,
+            "notes": self.notes + self.square_notes,
+            "limits": self.limits(),
+            "explanations": explanations(
+                self, text_of(self.scene_data, self.scene), text_of(self.config_data, self.config)),
+        }

@@ -42,19 +42,24 @@ def with_wrong_element(m, row):
 
 # How each mistake of model is made: the usual way first, then others that programs were seen to have.
 MODEL_MISTAKES = {
-    "multiplied-on-the-left": [Habit(order="left")], "push-and-pop-ignored": [Habit(stack="ignored")],
-    "pop-ignored": [Habit(stack="no pop")], "push-of-the-identity": [Habit(stack="push identity")],
-    "pop-to-the-identity": [Habit(stack="pop identity")], "second-push-lost": [
+    "multiplied-on-the-left": [Habit(order="left")],
+    "push-and-pop-ignored": [Habit(stack="ignored")],
+    "pop-ignored": [Habit(stack="no pop")],
+    "push-of-the-identity": [Habit(stack="push identity")],
+    "pop-to-the-identity": [Habit(stack="pop identity")],
+    "second-push-lost": [
         Habit(stack=f"{lost}, {empty}")
         for lost in ("adjacent lost", "every other lost", "all but first lost", "nested lost")
         for empty in ("stay", "identity")] + [Habit(stack="one count")],
-    "push-does-not-nest": [Habit(stack="slot"), Habit(stack="slot kept")], "axis-not-normalized": [
-        Habit(turn=lambda degrees, axis: rotation(math.radians(degrees), axis))], "angle-in-radians": [
-            Habit(turn=lambda degrees, axis: rotation(degrees, unit(axis)))], "rotation-transposed": [
-                Habit(turn=lambda degrees, axis: transposed(turned(degrees, axis)))],
+    "push-does-not-nest": [Habit(stack="slot"), Habit(stack="slot kept")],
+    "axis-not-normalized": [Habit(turn=lambda degrees, axis: rotation(math.radians(degrees), axis))],
+    "angle-in-radians": [Habit(turn=lambda degrees, axis: rotation(degrees, unit(axis)))],
+    "rotation-transposed": [Habit(turn=lambda degrees, axis: transposed(turned(degrees, axis)))],
     "rotation-element-from-the-wrong-column": [
         Habit(turn=lambda degrees, axis, row=row: with_wrong_element(turned(degrees, axis), row))
-        for row in range(3)], "angle-negated": [Habit(turn=lambda degrees, axis: turned(-degrees, axis))], }
+        for row in range(3)],
+    "angle-negated": [Habit(turn=lambda degrees, axis: turned(-degrees, axis))],
+}
 
 
 class Stack:

@@ -79,18 +79,19 @@ COS, SIN = math.cos(90), math.sin(90)  # of 90 radians
 # The commands before a point 1 2 3, its right image, and that with the mistake.
 MODEL = {
     "multiplied-on-the-left": ("translate\n10 0 0\nscale\n2 2 2", (12, 4, 6), (22, 4, 6)),
-    "push-and-pop-ignored": ("push\ntranslate\n10 0 0\npop", (1, 2, 3), (11, 2, 3)), "pop-ignored":
-        ("push\ntranslate\n10 0 0\npop", (1, 2, 3), (11, 2, 3)), "push-of-the-identity":
-            ("translate\n10 0 0\npush", (11, 2, 3), (1, 2, 3)), "pop-to-the-identity":
-                ("translate\n10 0 0\npush\ntranslate\n0 5 0\npop", (11, 2, 3), (1, 2, 3)), "second-push-lost":
-                    ("push\npush\ntranslate\n10 0 0\npop\ntranslate\n0 5 0\npop", (1, 2, 3), (1, 7, 3)
-                     ), "push-does-not-nest":
-                         ("push\ntranslate\n10 0 0\npush\ntranslate\n0 5 0\npop\npop", (1, 2, 3), (11, 2, 3)),
-    "axis-not-normalized": ("rotate\n90 0 0 2", (-2, 1, 3), (-4, 2, 12)), "angle-in-radians":
-        ("rotate\n90 0 0 1", (-2, 1, 3), (COS - 2 * SIN, SIN + 2 * COS, 3)), "rotation-transposed":
-            ("rotate\n90 0 0 1", (-2, 1, 3), (2, -1, 3)), "rotation-element-from-the-wrong-column":
-                ("rotate\n90 0 0 1", (-2, 1, 3), (-5, 1, 3)), "angle-negated":
-                    ("rotate\n90 0 0 1", (-2, 1, 3), (2, -1, 3)), }
+    "push-and-pop-ignored": ("push\ntranslate\n10 0 0\npop", (1, 2, 3), (11, 2, 3)),
+    "pop-ignored": ("push\ntranslate\n10 0 0\npop", (1, 2, 3), (11, 2, 3)),
+    "push-of-the-identity": ("translate\n10 0 0\npush", (11, 2, 3), (1, 2, 3)),
+    "pop-to-the-identity": ("translate\n10 0 0\npush\ntranslate\n0 5 0\npop", (11, 2, 3), (1, 2, 3)),
+    "second-push-lost": ("push\npush\ntranslate\n10 0 0\npop\ntranslate\n0 5 0\npop", (1, 2, 3), (1, 7, 3)),
+    "push-does-not-nest": (
+        "push\ntranslate\n10 0 0\npush\ntranslate\n0 5 0\npop\npop", (1, 2, 3), (11, 2, 3)),
+    "axis-not-normalized": ("rotate\n90 0 0 2", (-2, 1, 3), (-4, 2, 12)),
+    "angle-in-radians": ("rotate\n90 0 0 1", (-2, 1, 3), (COS - 2 * SIN, SIN + 2 * COS, 3)),
+    "rotation-transposed": ("rotate\n90 0 0 1", (-2, 1, 3), (2, -1, 3)),
+    "rotation-element-from-the-wrong-column": ("rotate\n90 0 0 1", (-2, 1, 3), (-5, 1, 3)),
+    "angle-negated": ("rotate\n90 0 0 1", (-2, 1, 3), (2, -1, 3)),
+}
 
 # The camera looks along x, with an up that is not of unit length: where 7 4 9 is.
 ALONG_X = "eye 1 2 3\nlook 5 2 3\nup 0 2 0\n"
@@ -200,28 +201,28 @@ def stairs(letter="a"):
 
 # Triangles, the config, the right picture, and that with the mistake.
 ZBUF = {
-    "no-half-pixel-in-x": ([corner()], WINDOW, stairs(),
-                           rows("", *["." + "a" * count for count in range(2, 8)])),
-    "no-half-pixel-in-y": ([corner()], WINDOW, stairs(),
-                           rows("", "", *["." + "a" * count for count in range(2, 7)])),
-    "shifted-by-a-column": ([corner()], WINDOW, stairs(),
-                            rows("", *[".." + "a" * count for count in range(1, 7)])), "shifted-by-a-row":
-                                ([corner()], WINDOW, stairs(),
-                                 rows("", "", *["." + "a" * count for count in range(1, 7)])), "column-short":
-                                     ([corner()], WINDOW, stairs(),
-                                      rows("", *["." + "a" * count for count in range(6)])),
-    "row-short": ([corner()], WINDOW, stairs(), rows("", *["." + "a" * count for count in range(1, 6)])
-                  ), "window-is-one": ([twice(corner())], "8 8\n-2\n-2\n0 1\n", stairs(),
-                                       rows(*["a" * count for count in range(1, 9)])),
-    "front-limit-ignored": ([corner(-0.5, -0.5, -0.5)], WINDOW, rows(), stairs()), "rear-limit-ignored": ([
-        corner(1.5, 1.5, 1.5)], WINDOW, rows(), stairs()), "farthest-wins": ([
-            corner(z, z, z) for z in (0.25, 0.75, 0.5)], WINDOW, stairs(), stairs("b")), "last-wins": ([
-                corner(z, z, z) for z in (0.25, 0.75, 0.5)], WINDOW, stairs(), stairs("c")), "one-color": ([
-                    corner(z, z, z) for z in (0.5, 0.25)], WINDOW, stairs("b"), stairs("a")), "flat-depth": ([
-                        corner(0, 0.3, 0.6)], WINDOW, stairs(), stairs()), "upside-down":
-                            ([corner()], WINDOW, stairs(), stairs()[::-1]), "text-upside-down":
-                                ([corner()], WINDOW, stairs(), stairs()), "mirrored":
-                                    ([corner()], WINDOW, stairs(), [row[::-1] for row in stairs()]), }
+    "no-half-pixel-in-x": (
+        [corner()], WINDOW, stairs(), rows("", *["." + "a" * count for count in range(2, 8)])),
+    "no-half-pixel-in-y": (
+        [corner()], WINDOW, stairs(), rows("", "", *["." + "a" * count for count in range(2, 7)])),
+    "shifted-by-a-column": (
+        [corner()], WINDOW, stairs(), rows("", *[".." + "a" * count for count in range(1, 7)])),
+    "shifted-by-a-row": (
+        [corner()], WINDOW, stairs(), rows("", "", *["." + "a" * count for count in range(1, 7)])),
+    "column-short": ([corner()], WINDOW, stairs(), rows("", *["." + "a" * count for count in range(6)])),
+    "row-short": ([corner()], WINDOW, stairs(), rows("", *["." + "a" * count for count in range(1, 6)])),
+    "window-is-one": (
+        [twice(corner())], "8 8\n-2\n-2\n0 1\n", stairs(), rows(*["a" * count for count in range(1, 9)])),
+    "front-limit-ignored": ([corner(-0.5, -0.5, -0.5)], WINDOW, rows(), stairs()),
+    "rear-limit-ignored": ([corner(1.5, 1.5, 1.5)], WINDOW, rows(), stairs()),
+    "farthest-wins": ([corner(z, z, z) for z in (0.25, 0.75, 0.5)], WINDOW, stairs(), stairs("b")),
+    "last-wins": ([corner(z, z, z) for z in (0.25, 0.75, 0.5)], WINDOW, stairs(), stairs("c")),
+    "one-color": ([corner(z, z, z) for z in (0.5, 0.25)], WINDOW, stairs("b"), stairs("a")),
+    "flat-depth": ([corner(0, 0.3, 0.6)], WINDOW, stairs(), stairs()),
+    "upside-down": ([corner()], WINDOW, stairs(), stairs()[::-1]),
+    "text-upside-down": ([corner()], WINDOW, stairs(), stairs()),
+    "mirrored": ([corner()], WINDOW, stairs(), [row[::-1] for row in stairs()]),
+}
 
 
 def picture(triangles, config, *names):

@@ -307,8 +307,10 @@ class InABrowser(ToolTest):
             self.browser.call(
                 "POST", "/actions", {
                     "actions": [{
-                        "type": "key", "id": "keys", "actions": [{"type": "keyDown", "value": TAB}, {
-                            "type": "keyUp", "value": TAB}]}]})
+                        "type": "key",
+                        "id": "keys",
+                        "actions": [{"type": "keyDown", "value": TAB}, {"type": "keyUp", "value": TAB}],
+                    }]})
             reached.append(self.browser.run("return document.activeElement.id"))
         self.assertLessEqual(
             {
@@ -641,10 +643,12 @@ class InABrowser(ToolTest):
     def test_all_that_is_there_is_in_sight(self):
         pathlib.Path("config.txt").write_text("40 40\n")
         scenes = {
-            "own": SCENE, "beside": SCENE.replace("triangle", "translate\n4 3 0\ntriangle",
-                                                  1), "empty": SCENE[:SCENE.index("triangle")] + "end\n",
-            "behind": SCENE.replace("triangle", "translate\n0 0 30\ntriangle",
-                                    1), "ortho": SCENE.replace("60 1 1 100", "ortho -1 1 -1 1 -5 5")}
+            "own": SCENE,
+            "beside": SCENE.replace("triangle", "translate\n4 3 0\ntriangle", 1),
+            "empty": SCENE[:SCENE.index("triangle")] + "end\n",
+            "behind": SCENE.replace("triangle", "translate\n0 0 30\ntriangle", 1),
+            "ortho": SCENE.replace("60 1 1 100", "ortho -1 1 -1 1 -5 5"),
+        }
         for name, scene in scenes.items():
             pathlib.Path("scene.txt").write_text(scene)
             self.load("scene.txt", "config.txt")
@@ -692,14 +696,22 @@ class InABrowser(ToolTest):
         self.browser.call(
             "POST", "/actions", {
                 "actions": [{
-                    "type":
-                        "pointer", "id":
-                            "mouse", "actions": [{
-                                "type": "pointerMove", "duration": 0, "origin": {
-                                    "element-6066-11e4-a52e-4f735466cecf": self.browser.element("#wire-model")
-                                }, "x": 0, "y": 0}, {"type": "pointerDown", "button": 0}, {
-                                    "type": "pointerMove", "duration": 0, "origin": "pointer", "x": 50, "y": 0
-                                }, {"type": "pointerUp", "button": 0}]}]})
+                    "type": "pointer",
+                    "id": "mouse",
+                    "actions": [
+                        {
+                            "type": "pointerMove",
+                            "duration": 0,
+                            "origin": {
+                                "element-6066-11e4-a52e-4f735466cecf": self.browser.element("#wire-model"),
+                            },
+                            "x": 0,
+                            "y": 0,
+                        },
+                        {"type": "pointerDown", "button": 0},
+                        {"type": "pointerMove", "duration": 0, "origin": "pointer", "x": 50, "y": 0},
+                        {"type": "pointerUp", "button": 0}],
+                }]})
         self.assertNotEqual(self.browser.run("return document.body.inspector.panels[0].wire.view.yaw"),
                             before)
 

@@ -16,11 +16,11 @@ from toolbox import BIN, SOURCE, ToolTest  # noqa: E402
 
 # A package is installed if a file of its name is in installed/, and can be if none is in unknown/.
 STUBS = {
-    "dpkg-query":
-        '#!/bin/sh\nfor package; do :; done\n[ -e "$STATE/installed/$package" ] && echo "install ok '
-        'installed"\n',
-    "apt-get":
-        """#!/bin/sh
+    "dpkg-query": """#!/bin/sh
+for package; do :; done
+[ -e "$STATE/installed/$package" ] && echo "install ok installed"
+""",
+    "apt-get": """#!/bin/sh
 echo "chatter of apt-get $*"
 echo "$*" >> "$STATE/calls"
 [ "$2" = install ] || exit 0
@@ -31,8 +31,9 @@ for package; do
 done
 [ $status -eq 0 ] || exit $status
 for package; do : > "$STATE/installed/$package"; done
-""", "id":
-            '#!/bin/sh\necho "$USER_NUMBER"\n', }
+""",
+    "id": '#!/bin/sh\necho "$USER_NUMBER"\n',
+}
 SUDO = """#!/bin/sh
 [ "$SUDO_WORKS" = yes ] || { echo "sudo: a password is required" >&2; exit 1; }
 echo "sudo $*" >> "$STATE/calls"

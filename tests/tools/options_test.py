@@ -148,18 +148,18 @@ class Answers(ToolTest):
             "--perspective FOVY ASPECT NEAR FAR", "--frustum L R B T N F", "--ortho L R B T N F",
             "--scene FILE"]
         words = {
-            "model":
-                stage + ["--bare", "--framed"], "view":
-                    stage + projection + ["--bare", "--eye X Y Z", "--look X Y Z", "--up X Y Z"], "project":
-                        stage + projection +
-                        ["--aspect angle|ratio", "--clip auto|near|frustum|reject|none", "--cull back|front"],
+            "model": stage + ["--bare", "--framed"],
+            "view": stage + projection + ["--bare", "--eye X Y Z", "--look X Y Z", "--up X Y Z"],
+            "project": stage + projection +
+                       ["--aspect angle|ratio", "--clip auto|near|frustum|reject|none", "--cull back|front"],
             "zbuf": [
                 "CONFIG", "--size WIDTHxHEIGHT", "-o,--image FILE", "--z-buffer FILE", "--coverage ",
-                "--algorithm ", "--background RRGGBB"], "trace":
-                    projection + [
-                        "CONFIG", "--size WIDTHxHEIGHT", "-o,--image FILE", "--z-buffer FILE",
-                        "--background RRGGBB", "--sampling basic|regular|jittered|adaptive", "--samples N",
-                        "--threshold N", "--threads N"]}
+                "--algorithm ", "--background RRGGBB"],
+            "trace": projection + [
+                         "CONFIG", "--size WIDTHxHEIGHT", "-o,--image FILE", "--z-buffer FILE",
+                         "--background RRGGBB", "--sampling basic|regular|jittered|adaptive", "--samples N",
+                         "--threshold N", "--threads N"],
+        }
         for tool in ALL_TOOLS:
             text = run(tool, "--help").stdout.decode()
             for word in common + words[tool]:
@@ -173,10 +173,12 @@ class Answers(ToolTest):
 
     def test_help_has_its_options_in_groups(self):
         groups = {
-            "model": ["Numbers", "Output"], "view": ["Numbers", "Camera", "Output"],
-            "project": ["Numbers", "Projection", "Clipping",
-                        "Output"], "zbuf": ["Output", "Pixels", "Color and light", "Debugging"], "trace": [
-                            "Output", "Projection", "Pixels", "Color and light", "Debugging"]}
+            "model": ["Numbers", "Output"],
+            "view": ["Numbers", "Camera", "Output"],
+            "project": ["Numbers", "Projection", "Clipping", "Output"],
+            "zbuf": ["Output", "Pixels", "Color and light", "Debugging"],
+            "trace": ["Output", "Projection", "Pixels", "Color and light", "Debugging"],
+        }
         for tool in ALL_TOOLS:
             found = re.findall(r"^(\w[\w ]*):$", run(tool, "--help").stdout.decode(), re.M)
             self.assertEqual(found, ["Operands", *groups[tool], "General", "Examples"])

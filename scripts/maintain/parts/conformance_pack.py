@@ -18,12 +18,15 @@ MISTAKES = {stage: [None, *read_mistakes(stage)] for stage in STAGES}  # and hab
 # one.
 FLAT = "depth-slopes-both-ways"
 WITNESSES = {
-    "model": ("arm-of-three-joints", "axis-1-2-3", "order-scale-rotate-translate", "stack-pops-in-a-row",
-              "stack-pushes-in-a-row-twice", "stack-siblings-of-siblings"),
+    "model": (
+        "arm-of-three-joints", "axis-1-2-3", "order-scale-rotate-translate", "stack-pops-in-a-row",
+        "stack-pushes-in-a-row-twice", "stack-siblings-of-siblings"),
     "view": ("octant-ppm-past-the-origin", "rolled-by-30-tilted", "up-leans-all"),
-    "project": ("fov-45-aspect-1-25", "fov-60-aspect-0-5"), "zbuf":
-        ("crossing-one-way", "limits-across-both-with-another-behind", "three-middle-far-near", "window-half",
-         FLAT)}
+    "project": ("fov-45-aspect-1-25", "fov-60-aspect-0-5"),
+    "zbuf": (
+        "crossing-one-way", "limits-across-both-with-another-behind", "three-middle-far-near", "window-half",
+        FLAT),
+}
 ARITHMETIC_ERRORS = (ArithmeticError, ValueError)  # of a mistaken stage, which has no answer then
 
 

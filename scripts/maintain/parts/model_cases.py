@@ -122,43 +122,40 @@ def orders_of_transforms():
 def push_and_pop():
     why = "pop restores the matrix that the last push has saved."
     grids = {
-        "push-pop":
-            "translate 1 2 3; push; rotate 30 0 0 1; T; pop; T", "push-keeps-the-matrix":
-                "translate 1 2 3; push; T; pop", "push-and-no-pop":
-                    "translate 1 0 0; push; scale 2 2 2; T", "pop-forgets":
-                        "translate 1 0 0; push; scale 2 2 2; pop; push; T; translate 0 5 0; pop; T",
-        "nested-twice":
-            "translate 1 0 0; push; rotate 30 1 0 0; push; scale 2 3 4; T; pop; T; pop; T",
-        "push-push-pop-pop":
-            "translate 1 0 0; push; push; scale 2 3 4; T; pop; translate 0 1 0; T; pop; T", "push-push-pop":
-                "scale 2 1 1; push; push; translate 0 0 9; pop; T", "push-push-transform-pop-transform-pop":
-                    "scale 2 1 1; push; push; rotate 30 0 1 0; T; pop; translate 0 0 9; T; pop; T",
-        "pushes-in-a-row-twice":
+        "push-pop": "translate 1 2 3; push; rotate 30 0 0 1; T; pop; T",
+        "push-keeps-the-matrix": "translate 1 2 3; push; T; pop",
+        "push-and-no-pop": "translate 1 0 0; push; scale 2 2 2; T",
+        "pop-forgets": "translate 1 0 0; push; scale 2 2 2; pop; push; T; translate 0 5 0; pop; T",
+        "nested-twice": "translate 1 0 0; push; rotate 30 1 0 0; push; scale 2 3 4; T; pop; T; pop; T",
+        "push-push-pop-pop": "translate 1 0 0; push; push; scale 2 3 4; T; pop; translate 0 1 0; T; pop; T",
+        "push-push-pop": "scale 2 1 1; push; push; translate 0 0 9; pop; T",
+        "push-push-transform-pop-transform-pop":
+            "scale 2 1 1; push; push; rotate 30 0 1 0; T; pop; translate 0 0 9; T; pop; T",
+        "pushes-in-a-row-twice": (
             "translate 1 0 0; push; push; scale 2 2 2; pop; pop; push; push; rotate 45 1 0 0; T; pop; scale "
-            "1 1 3; T; pop; T",
-        "three-pushes-in-a-row":
+            "1 1 3; T; pop; T"),
+        "three-pushes-in-a-row": (
             "rotate 20 0 1 0; push; push; push; translate 5 0 0; T; pop; scale 3 3 3; T; pop; translate 0 7 "
-            "0; T; pop; T",
-        "siblings":
+            "0; T; pop; T"),
+        "siblings": (
             "translate 1 1 1; push; translate 2 0 0; T; pop; push; translate 0 2 0; T; pop; push; translate "
-            "0 0 2; T; pop",
-        "siblings-of-siblings":
+            "0 0 2; T; pop"),
+        "siblings-of-siblings": (
             "push; translate 2 0 0; push; scale 2 2 2; T; pop; push; rotate 90 0 0 1; T; pop; pop; push; "
-            "translate 0 3 0; T; pop",
-        "transform-after-pop":
-            "translate 1 0 0; push; rotate 90 0 0 1; pop; scale 2 2 2; T", "pop-at-the-end":
-                "push; translate 1 2 3; T; pop", "push-at-the-end":
-                    "translate 1 2 3; T; push", "push-of-nothing":
-                        "push; T; pop; T", "first-command-push":
-                            "push; translate 4 5 6; T; pop; T", "pop-to-the-first-matrix":
-                                "push; scale 3 3 3; push; rotate 10 1 1 0; pop; pop; T", "empty-push-pop":
-                                    "scale 2 2 2; push; pop; T", "push-between-triangles":
-                                        "rotate 60 0 1 0; T; push; T; translate 1 0 0; T; pop; T",
+            "translate 0 3 0; T; pop"),
+        "transform-after-pop": "translate 1 0 0; push; rotate 90 0 0 1; pop; scale 2 2 2; T",
+        "pop-at-the-end": "push; translate 1 2 3; T; pop",
+        "push-at-the-end": "translate 1 2 3; T; push",
+        "push-of-nothing": "push; T; pop; T",
+        "first-command-push": "push; translate 4 5 6; T; pop; T",
+        "pop-to-the-first-matrix": "push; scale 3 3 3; push; rotate 10 1 1 0; pop; pop; T",
+        "empty-push-pop": "scale 2 2 2; push; pop; T",
+        "push-between-triangles": "rotate 60 0 1 0; T; push; T; translate 1 0 0; T; pop; T",
         "push-before-each-transform":
             "push; translate 1 2 3; push; rotate 40 0 1 0; push; scale 1 2 1; T; pop; T; pop; T; pop; T",
-        "pops-in-a-row":
+        "pops-in-a-row": (
             "translate 1 0 0; push; translate 0 1 0; push; translate 0 0 1; push; scale 5 5 5; pop; "
-            "pop; pop; T",
+            "pop; pop; T"),
     }
     for name, words in grids.items():
         yield case(f"stack-{name}", why, "M5 S13", commands(words))

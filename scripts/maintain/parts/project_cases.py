@@ -50,9 +50,13 @@ def view_volume():
                 view,
                 f"{sides[0] * d} {sides[1] * d} {-d}\n{sides[0] * 0.5} 0.25 -2\n0 {sides[1] * 0.75} -3\n\n")
     outside = {
-        "left": ("-3 0 -2", "-5 1 -3", "-4 0 -3.5"), "right": ("3 0 -2", "5 1 -3", "4 0 -3.5"),
-        "bottom": ("0 -3 -2", "1 -5 -3", "0 -4 -3.5"), "top": ("0 3 -2", "1 5 -3", "0 4 -3.5"), "near":
-            ("0.1 0 -0.5", "0 0.2 -0.75", "0.1 0.1 -0.9"), "far": ("1 0 -5", "0 2 -6", "1 1 -9")}
+        "left": ("-3 0 -2", "-5 1 -3", "-4 0 -3.5"),
+        "right": ("3 0 -2", "5 1 -3", "4 0 -3.5"),
+        "bottom": ("0 -3 -2", "1 -5 -3", "0 -4 -3.5"),
+        "top": ("0 3 -2", "1 5 -3", "0 4 -3.5"),
+        "near": ("0.1 0 -0.5", "0 0.2 -0.75", "0.1 0.1 -0.9"),
+        "far": ("1 0 -5", "0 2 -6", "1 1 -9"),
+    }
     inside = ("0.5 0.25 -2", "-0.5 1 -3", "1 -1 -3.5")
     for plane, points in outside.items():
         yield case(f"outside-{plane}",
@@ -113,13 +117,16 @@ def clipping():
                     "A triangle that reaches behind the eye is cut at the near plane, before the divide.",
                     "P7 P8 P9 P10", view, "\n".join(corners) + "\n\n", needs="clipping numbering")
     near = {
-        "in-the-plane-of-the-eye": ("1 0 0", *inside[1:]), "at-the-eye": ("0 0 0", *inside[1:]),
+        "in-the-plane-of-the-eye": ("1 0 0", *inside[1:]),
+        "at-the-eye": ("0 0 0", *inside[1:]),
         "on-the-near-plane": (behind[0], "0.5 0.5 -1", inside[2]),
-        "two-on-the-near-plane": ("0.5 0.5 -1", "-0.5 0.5 -1", behind[0]), "edge-on-the-near-plane":
-            ("0.5 0.5 -1", "-0.5 0.5 -1", "0 0 -0.0005"), "all-behind": behind, "all-before-the-near-plane":
-                ("0 0 -0.0001", "1 0 -0.5", "0 1 -0.5"), "just-too-near":
-                    ("0.0009765624 0 -0.0009765624", *inside[1:]), "all-on-the-near-plane-but-one":
-                        ("0 0 0", "1 0 -1", "0 1 -1")}
+        "two-on-the-near-plane": ("0.5 0.5 -1", "-0.5 0.5 -1", behind[0]),
+        "edge-on-the-near-plane": ("0.5 0.5 -1", "-0.5 0.5 -1", "0 0 -0.0005"),
+        "all-behind": behind,
+        "all-before-the-near-plane": ("0 0 -0.0001", "1 0 -0.5", "0 1 -0.5"),
+        "just-too-near": ("0.0009765624 0 -0.0009765624", *inside[1:]),
+        "all-on-the-near-plane-but-one": ("0 0 0", "1 0 -1", "0 1 -1"),
+    }
     for name, corners in near.items():
         yield case(
             f"cut-{name}",
@@ -157,11 +164,13 @@ def clip_options():
                    view, "\n".join(others) + "\n\n" + "\n".join(inside) + "\n\n", options="--clip reject",
                    needs="numbering")
     for name, corners in {
-            "corner": ("0.5 0.25 -2", "9 1 -3", "1 9 -3"),
-            "around-the-volume": ("-20 -20 -2", "20 -20 -2", "0 40 -2"), "through-all-planes":
-                ("-9 -1 -0.5", "9 -1 -9", "0 9 -4"), "past-an-edge": ("9 0 -2", "0 9 -2", "9 9 -2"),
-            "all-on-a-plane": ("2 0 -2", "3 1 -3", "3 -1 -3"), "edge-on-a-plane":
-                ("2 0 -2", "3 1 -3", "9 0 -3")}.items():
+        "corner": ("0.5 0.25 -2", "9 1 -3", "1 9 -3"),
+        "around-the-volume": ("-20 -20 -2", "20 -20 -2", "0 40 -2"),
+        "through-all-planes": ("-9 -1 -0.5", "9 -1 -9", "0 9 -4"),
+        "past-an-edge": ("9 0 -2", "0 9 -2", "9 9 -2"),
+        "all-on-a-plane": ("2 0 -2", "3 1 -3", "3 -1 -3"),
+        "edge-on-a-plane": ("2 0 -2", "3 1 -3", "9 0 -3"),
+    }.items():
         for mode in ("frustum", "reject"):
             yield case(f"clip-{mode}-{name}", "Several planes at a time, in their order.", "P7 P8 P10", view,
                        "\n".join(corners) + "\n\n", options=f"--clip {mode}", needs="numbering")

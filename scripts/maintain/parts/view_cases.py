@@ -30,9 +30,14 @@ def plus(a, b):
 def straight_ahead():
     why = "A camera that looks down -z with y up only moves: the eye is subtracted."
     for name, eye in {
-            "at-the-origin": (0, 0, 0), "in-front": (0, 0, 12), "aside": (3, 0, 0), "above": (0, -4, 0),
-            "anywhere": (1, 2, 3), "of-fractions": (0.5, -0.25, 7.125), "far-away":
-                (1000, -2000, 3000)}.items():
+        "at-the-origin": (0, 0, 0),
+        "in-front": (0, 0, 12),
+        "aside": (3, 0, 0),
+        "above": (0, -4, 0),
+        "anywhere": (1, 2, 3),
+        "of-fractions": (0.5, -0.25, 7.125),
+        "far-away": (1000, -2000, 3000),
+    }.items():
         yield case(f"straight-{name}", why, eye, plus(eye, (0, 0, -5)), (0, 1, 0))
     yield case(
         "straight-four-triangles", why, (0, 0, 9), (0, 0, 0), (0, 2, 0), "".join(

@@ -60,9 +60,13 @@ def subpixel_positions():
 
 
 def shapes():
-    grid = {"up": [(1.2, 6.3), (6.7, 6.3), (3.9, 1.1)], "down": [(1.2, 1.3), (6.7, 1.3), (3.9, 6.8)],
-        "left": [(6.4, 1.2), (6.4, 6.7), (1.1, 3.9)], "right": [(1.4, 1.2), (1.4, 6.7), (6.9, 3.9)],
-            "slanted": [(0.8, 2.2), (6.7, 0.9), (4.1, 7.2)]}
+    grid = {
+        "up": [(1.2, 6.3), (6.7, 6.3), (3.9, 1.1)],
+        "down": [(1.2, 1.3), (6.7, 1.3), (3.9, 6.8)],
+        "left": [(6.4, 1.2), (6.4, 6.7), (1.1, 3.9)],
+        "right": [(1.4, 1.2), (1.4, 6.7), (6.9, 3.9)],
+        "slanted": [(0.8, 2.2), (6.7, 0.9), (4.1, 7.2)],
+    }
     for (name, corners), order in itertools.product(grid.items(), itertools.permutations(range(3))):
         yield case(f"shape-{name}-{''.join(str(i + 1) for i in order)}",
                    "Neither winding nor the order of the corners changes the pixels.", "Z2 Z5",
@@ -89,9 +93,15 @@ def window_borders():
     why = "What lies outside the window is clipped, and nothing else."
     inside = [(0.21, 0.13), (-0.27, 0.39), (0.11, -0.47)]
     for name, far in {
-            "left": (-2.7, 0.11), "right": (2.7, 0.11), "top": (0.11, 2.7), "bottom": (0.11, -2.7),
-            "top-left": (-2.3, 1.9), "top-right": (2.3, 1.9), "bottom-left": (-2.3, -1.9), "bottom-right":
-                (2.3, -1.9)}.items():
+        "left": (-2.7, 0.11),
+        "right": (2.7, 0.11),
+        "top": (0.11, 2.7),
+        "bottom": (0.11, -2.7),
+        "top-left": (-2.3, 1.9),
+        "top-right": (2.3, 1.9),
+        "bottom-left": (-2.3, -1.9),
+        "bottom-right": (2.3, -1.9),
+    }.items():
         yield case(f"across-{name}", why, "Z3", flat([*inside[:2], far]))
         yield case(f"far-across-{name}", why, "Z3", flat([inside[0],
             *((1000 * x + a, 1000 * y + b) for (x, y), (a, b) in ((far, (0, 300)), (far, (0.7, -300))))]))
@@ -138,10 +148,15 @@ def shared_edges():
     why = ("Two triangles that share an edge: each keeps its side, and under `center` no pixel has both "
            "or none.")
     ends = {
-        "vertical": ((4.2, 0.3), (4.2, 7.8)), "horizontal": ((0.3, 4.2), (7.8, 4.2)),
-        "diagonal": ((0.6, 0.8), (7.3, 7.1)), "other-diagonal": ((7.3, 0.8), (0.6, 7.1)), "steep": (
-            (3.3, 0.4), (5.2, 7.7)), "flat": ((0.4, 3.3), (7.7, 5.2)), "steep-back": (
-                (5.2, 0.4), (3.3, 7.7)), "flat-back": ((0.4, 5.2), (7.7, 3.3))}
+        "vertical": ((4.2, 0.3), (4.2, 7.8)),
+        "horizontal": ((0.3, 4.2), (7.8, 4.2)),
+        "diagonal": ((0.6, 0.8), (7.3, 7.1)),
+        "other-diagonal": ((7.3, 0.8), (0.6, 7.1)),
+        "steep": ((3.3, 0.4), (5.2, 7.7)),
+        "flat": ((0.4, 3.3), (7.7, 5.2)),
+        "steep-back": ((5.2, 0.4), (3.3, 7.7)),
+        "flat-back": ((0.4, 5.2), (7.7, 3.3)),
+    }
     for (name, (p, q)), order in itertools.product(ends.items(), (1, -1)):
         middle, across = ((p[0] + q[0]) / 2, (p[1] + q[1]) / 2), (0.41 * (q[1] - p[1]), 0.43 * (p[0] - q[0]))
         sides = [
@@ -187,19 +202,21 @@ def corners_on_centers():
     why = ("Centers that lie exactly on edges: under `center` left and top edges have them, under `nearest` "
            "both ends of a row.")
     grids = {
-        "right-angle-bottom-left": [(1.5, 1.5), (1.5, 5.5), (5.5, 5.5)], "right-angle-bottom-right": [
-            (5.5, 1.5), (1.5, 5.5), (5.5, 5.5)], "right-angle-top-left": [(1.5, 1.5), (5.5, 1.5), (1.5, 5.5)],
-        "right-angle-top-right": [(1.5, 1.5), (5.5, 1.5), (5.5, 5.5)], "roof": [
-            (0.5, 4.5), (4.5, 0.5), (8.5, 4.5)], "bowl": [(0.5, 2.5), (8.5, 2.5), (4.5, 6.5)], "arrow-left": [
-                (0.5, 4.5), (4.5, 0.5), (4.5, 8.5)], "arrow-right": [
-                    (6.5, 4.5), (2.5, 0.5), (2.5, 8.5)], "half-as-steep": [
-                        (0.5, 0.5), (0.5, 4.5), (8.5, 4.5)], "twice-as-steep": [(0.5, 0.5), (4.5, 0.5),
-                                                                                (0.5, 8.5)],
-        "one-pixel": [(2.5, 2.5), (3.5, 2.5), (2.5, 3.5)], "two-pixels": [
-            (2.5, 2.5), (4.5, 2.5), (2.5, 4.5)], "to-the-border": [(0, 0), (8, 0),
-                                                                   (0, 8)], "whole-window": [(-0.5, -0.5),
-                                                                                             (15.5, -0.5),
-                                                                                             (-0.5, 15.5)], }
+        "right-angle-bottom-left": [(1.5, 1.5), (1.5, 5.5), (5.5, 5.5)],
+        "right-angle-bottom-right": [(5.5, 1.5), (1.5, 5.5), (5.5, 5.5)],
+        "right-angle-top-left": [(1.5, 1.5), (5.5, 1.5), (1.5, 5.5)],
+        "right-angle-top-right": [(1.5, 1.5), (5.5, 1.5), (5.5, 5.5)],
+        "roof": [(0.5, 4.5), (4.5, 0.5), (8.5, 4.5)],
+        "bowl": [(0.5, 2.5), (8.5, 2.5), (4.5, 6.5)],
+        "arrow-left": [(0.5, 4.5), (4.5, 0.5), (4.5, 8.5)],
+        "arrow-right": [(6.5, 4.5), (2.5, 0.5), (2.5, 8.5)],
+        "half-as-steep": [(0.5, 0.5), (0.5, 4.5), (8.5, 4.5)],
+        "twice-as-steep": [(0.5, 0.5), (4.5, 0.5), (0.5, 8.5)],
+        "one-pixel": [(2.5, 2.5), (3.5, 2.5), (2.5, 3.5)],
+        "two-pixels": [(2.5, 2.5), (4.5, 2.5), (2.5, 4.5)],
+        "to-the-border": [(0, 0), (8, 0), (0, 8)],
+        "whole-window": [(-0.5, -0.5), (15.5, -0.5), (-0.5, 15.5)],
+    }
     for name, corners in grids.items():
         for turn, step in (("", 1), ("-turned", -1)):
             yield case(f"on-centers-{name}{turn}", why, "Z2 Z3 Z5", pixels(corners[::step]))
@@ -222,15 +239,18 @@ def corners_on_centers():
 
 def slivers():
     for name, corners in {
-            "row": [(0.7, 3.2), (7.4, 3.6), (0.9, 3.7)], "between-rows": [(0.7, 3.6), (7.4, 3.9), (0.9, 4.3)],
-            "column": [(3.2, 0.7), (3.6, 7.4), (3.7, 0.9)], "between-columns": [(3.6, 0.7), (3.9, 7.4),
-                                                                                (4.3, 0.9)],
-            "diagonal": [(0.7, 0.8), (7.4, 7.3), (7.2, 7.5)], "other-diagonal": [
-                (7.3, 0.8), (0.7, 7.3), (0.6, 7.1)], "steep": [(2.3, 0.3), (3.1, 7.7), (3.2, 7.7)], "flat": [
-                    (0.3, 2.2), (7.7, 3.1), (7.7, 3.4)], "smaller-than-a-pixel": [
-                        (3.1, 3.2), (3.9, 3.4), (3.6, 3.8)], "between-four-centers": [
-                            (3.6, 3.6), (4.3, 3.7), (4.1, 4.4)], "point-at-a-center": [(0.6, 2.9), (0.7, 3.1),
-                                                                                       (7.3, 3.4)]}.items():
+        "row": [(0.7, 3.2), (7.4, 3.6), (0.9, 3.7)],
+        "between-rows": [(0.7, 3.6), (7.4, 3.9), (0.9, 4.3)],
+        "column": [(3.2, 0.7), (3.6, 7.4), (3.7, 0.9)],
+        "between-columns": [(3.6, 0.7), (3.9, 7.4), (4.3, 0.9)],
+        "diagonal": [(0.7, 0.8), (7.4, 7.3), (7.2, 7.5)],
+        "other-diagonal": [(7.3, 0.8), (0.7, 7.3), (0.6, 7.1)],
+        "steep": [(2.3, 0.3), (3.1, 7.7), (3.2, 7.7)],
+        "flat": [(0.3, 2.2), (7.7, 3.1), (7.7, 3.4)],
+        "smaller-than-a-pixel": [(3.1, 3.2), (3.9, 3.4), (3.6, 3.8)],
+        "between-four-centers": [(3.6, 3.6), (4.3, 3.7), (4.1, 4.4)],
+        "point-at-a-center": [(0.6, 2.9), (0.7, 3.1), (7.3, 3.4)],
+    }.items():
         yield case(f"sliver-{name}",
                    "A triangle thinner than a pixel has the pixels of the rule, and no more.", "Z2 Z3 Z5",
                    pixels(corners))
@@ -277,8 +297,10 @@ def hidden_surfaces():
         yield case(f"two-{name}-below-0", "Nearer is smaller, also below 0.", "Z8",
                    flat(first[0], first[1] - 0.9) + flat(second[0], second[1] - 0.9))
     layers = {
-        "near": (back, -0.5), "middle": (front, 0.0), "far": ([(-0.93, 0.41), (0.89, 0.71),
-                                                               (0.31, -0.93)], 0.5)}
+        "near": (back, -0.5),
+        "middle": (front, 0.0),
+        "far": ([(-0.93, 0.41), (0.89, 0.71), (0.31, -0.93)], 0.5),
+    }
     for chosen in itertools.permutations(layers):
         yield case("three-" + "-".join(chosen),
                    "The nearest of three triangles is seen, in whatever order they come.", "Z8", "".join(
@@ -376,9 +398,11 @@ def tilings():
     rng = random.Random(2026)
     grids = {
         "with-corners-on-centers": (16, lambda i, j: (i * 4 - 0.5, j * 4 - 0.5)),
-        "with-corners-between-centers": (16, lambda i, j: (i * 4, j * 4)), "with-corners-anywhere":
-            (24, lambda i, j: (i * 4 + rng.uniform(-1.3, 1.3), j * 4 + rng.uniform(-1.3, 1.3))), "that-leans":
-                (24, lambda i, j: (i * 4 + 0.37 * j - 0.61, j * 4 - 0.23 * i + 0.83)), }
+        "with-corners-between-centers": (16, lambda i, j: (i * 4, j * 4)),
+        "with-corners-anywhere": (
+            24, lambda i, j: (i * 4 + rng.uniform(-1.3, 1.3), j * 4 + rng.uniform(-1.3, 1.3))),
+        "that-leans": (24, lambda i, j: (i * 4 + 0.37 * j - 0.61, j * 4 - 0.23 * i + 0.83)),
+    }
     for name, (size, corner) in grids.items():
         count = size // 4
         at = {(i, j): corner(i, j) for i in range(count + 1) for j in range(count + 1)}

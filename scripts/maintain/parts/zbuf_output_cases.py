@@ -55,21 +55,23 @@ def left_open_by_the_assignment():
                    "A triangle without area may have pixels or none.")
     a, b = [(1.2, 1.3), (6.7, 2.1), (2.3, 6.8)], [(6.9, 1.1), (1.3, 2.4), (5.2, 7.1)]
     for name, text in {
-            "two":
-                pixels(a, z=0.25) + pixels(b, z=0.25), "two-turned":
-                    pixels(b, z=0.25) + pixels(a, z=0.25), "the-same-twice":
-                        pixels(a) * 2, "behind-a-nearer":
-                            pixels(a, z=0.5) + pixels(b, z=0.5) + pixels(a, z=0.25), "sharing-an-edge":
-                                pixels([(1.2, 1.3), (6.7, 2.1), (2.3, 6.8)]) + pixels([(6.7, 2.1), (7.2, 6.3),
-                                                                                       (2.3, 6.8)]),
-            "three":
-                pixels(a) + pixels(b) + pixels([(0.4, 0.3), (7.5, 3.1), (0.6, 7.4)])}.items():
+        "two": pixels(a, z=0.25) + pixels(b, z=0.25),
+        "two-turned": pixels(b, z=0.25) + pixels(a, z=0.25),
+        "the-same-twice": pixels(a) * 2,
+        "behind-a-nearer": pixels(a, z=0.5) + pixels(b, z=0.5) + pixels(a, z=0.25),
+        "sharing-an-edge": pixels([(1.2, 1.3), (6.7, 2.1), (2.3, 6.8)]) + pixels([(6.7, 2.1), (7.2, 6.3),
+                                                                                  (2.3, 6.8)]),
+        "three": pixels(a) + pixels(b) + pixels([(0.4, 0.3), (7.5, 3.1), (0.6, 7.4)]),
+    }.items():
         yield case(f"equal-depths-{name}", "Of equal depths the first stays.", "Z8", text, open=equal)
     for name, corners in {
-            "horizontal": [(1.2, 3.5), (6.7, 3.5), (2.3, 3.5)], "vertical": [(3.3, 1.2), (3.3, 6.7),
-                                                                             (3.3, 2.3)],
-            "diagonal": [(1, 1), (6, 6), (3, 3)], "point": [(3.5, 3.5)] * 3, "two-corners-alike": [
-                (1.2, 1.3), (6.7, 5.1), (6.7, 5.1)], "point-beside-a-center": [(3.2, 3.1)] * 3}.items():
+        "horizontal": [(1.2, 3.5), (6.7, 3.5), (2.3, 3.5)],
+        "vertical": [(3.3, 1.2), (3.3, 6.7), (3.3, 2.3)],
+        "diagonal": [(1, 1), (6, 6), (3, 3)],
+        "point": [(3.5, 3.5)] * 3,
+        "two-corners-alike": [(1.2, 1.3), (6.7, 5.1), (6.7, 5.1)],
+        "point-beside-a-center": [(3.2, 3.1)] * 3,
+    }.items():
         yield case(
             f"without-area-{name}",
             "A triangle without area has no pixel under `center`; under `nearest` each row has those from "
@@ -77,8 +79,10 @@ def left_open_by_the_assignment():
             "Z3 Z5", pixels(corners), open=area)
     tenths = [(1.5, 1.5), (7.5, 1.5), (1.5, 7.5)]
     for name, corners in {
-            "tenths": tenths, "tenths-turned": tenths[::-1], "tenths-slanted": [(0.5, 0.5), (9.5, 3.5),
-                                                                                (3.5, 9.5)]}.items():
+        "tenths": tenths,
+        "tenths-turned": tenths[::-1],
+        "tenths-slanted": [(0.5, 0.5), (9.5, 3.5), (3.5, 9.5)],
+    }.items():
         yield case(
             f"ends-between-{name}",
             "Ends and centers at tenths, which no double is: doubles decide under `nearest`, and `center` "

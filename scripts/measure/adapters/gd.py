@@ -25,6 +25,9 @@ def coverage(case, number):
 
 serve(
     {
-        "name": "GD", "version": gd.gdVersionString().decode(), "promise":
-            "nothing. Corners are whole pixels, and it draws the pixels of the outline, too.", "grid": 1},
+        "name": "GD",
+        "version": gd.gdVersionString().decode(),
+        "promise": "nothing. Corners are whole pixels, and it draws the pixels of the outline, too.",
+        "grid": 1,
+    },
     coverage)

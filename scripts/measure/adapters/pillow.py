@@ -19,11 +19,10 @@ def coverage(case, number):
 
 serve(
     {
-        "name":
-            "Pillow", "version":
-                PIL.__version__,
-        "promise":
+        "name": "Pillow",
+        "version": PIL.__version__,
+        "promise": (
             "nothing. It takes fractions, but truncates corners to whole pixels, and draws the pixels of the "
-            "outline, too.",
-        "grid":
-            1}, coverage)
+            "outline, too."),
+        "grid": 1,
+    }, coverage)

@@ -38,11 +38,10 @@ def coverage(case, number):
 
 serve(
     {
-        "name":
-            "SDL2", "version":
-                ".".join(map(str, version)),
-        "promise":
+        "name": "SDL2",
+        "version": ".".join(map(str, version)),
+        "promise": (
             "nothing. It takes fractions, but its software renderer truncates corners to whole pixels; the "
-            "adapter adds half a pixel, so that they are rounded.",
-        "grid":
-            1}, coverage)
+            "adapter adds half a pixel, so that they are rounded."),
+        "grid": 1,
+    }, coverage)

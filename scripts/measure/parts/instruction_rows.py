@@ -70,8 +70,10 @@ def header(space, columns):
     """The header, before the first triangle."""
     names = f"attributes {' '.join(columns)}\n" if columns else ""
     return {
-        "scene": "", "world": CAMERA + PROJECTION, "view":
-            PROJECTION, "screen": "projected frustum -0.4 0.4 -0.4 0.4 1 10\n" * bool(columns)
+        "scene": "",
+        "world": CAMERA + PROJECTION,
+        "view": PROJECTION,
+        "screen": "projected frustum -0.4 0.4 -0.4 0.4 1 10\n" * bool(columns),
     }[space] + names + (LIGHTS if columns else "")
 
 
@@ -98,32 +100,31 @@ def odd_numbers(stage_text):
 TURNED = "push\ntranslate 0.25 -0.5 0.125\nrotate 30 1 2 3\nscale 0.5 2 1.5\n"
 
 TEXTS = {
-    "one-scene.txt":
-        lambda: scene(in_world(1)), "one-world.txt":
-            lambda: header("world", ()) + in_world(1), "one-view.txt":
-                lambda: header("view", ()) + in_view(1), "one-screen.txt":
-                    lambda: small_on_screen(1), "scene.txt":
-                        lambda: scene(in_world(2000) * 15), "turned-scene.txt":
-                            lambda: scene(in_world(600), TURNED + TURNED, "pop\npop\n"), "odd-scene.txt":
-                                lambda: scene(odd_numbers(in_world(2000)) * 3),
+    "one-scene.txt": lambda: scene(in_world(1)),
+    "one-world.txt": lambda: header("world", ()) + in_world(1),
+    "one-view.txt": lambda: header("view", ()) + in_view(1),
+    "one-screen.txt": lambda: small_on_screen(1),
+    "scene.txt": lambda: scene(in_world(2000) * 15),
+    "turned-scene.txt": lambda: scene(in_world(600), TURNED + TURNED, "pop\npop\n"),
+    "odd-scene.txt": lambda: scene(odd_numbers(in_world(2000)) * 3),
     "lit-scene.txt":
         lambda: scene(in_world(2000, columns=("color", "normal")) * 4, columns=("color", "normal")),
-    "world.txt":
-        lambda: header("world", ()) + in_world(2000) * 25, "lit-world.txt":
-            lambda: lit("world", in_world, 2000, 6), "short-world.txt":
-                lambda: header("world", ()) + in_world(2000) * 10, "view.txt":
-                    lambda: header("view", ()) + in_view(2000) * 25, "short-view.txt":
-                        lambda: header("view", ()) + in_view(2000) * 10, "lit-view.txt":
-                            lambda: lit("view", in_view, 2000, 6), "crossing.txt":
-                                lambda: header("view", ()) + across_the_frustum(2000) * 3, "lit-crossing.txt":
-                                    lambda: lit("view", across_the_frustum, 2000, 2), "small.txt":
-                                        lambda: small_on_screen(40_000), "large.txt":
-                                            lambda: large_on_screen(1500), "few-large.txt":
-                                                lambda: large_on_screen(100), "lit-screen.txt":
-                                                    lambda: lit("screen", large_on_screen, 100), "config.txt":
-                                                        lambda: "500 500\n", "narrow.txt":
-                                                            lambda: "300 300\n", "tiny.txt":
-                                                                lambda: "4 4\n", }
+    "world.txt": lambda: header("world", ()) + in_world(2000) * 25,
+    "lit-world.txt": lambda: lit("world", in_world, 2000, 6),
+    "short-world.txt": lambda: header("world", ()) + in_world(2000) * 10,
+    "view.txt": lambda: header("view", ()) + in_view(2000) * 25,
+    "short-view.txt": lambda: header("view", ()) + in_view(2000) * 10,
+    "lit-view.txt": lambda: lit("view", in_view, 2000, 6),
+    "crossing.txt": lambda: header("view", ()) + across_the_frustum(2000) * 3,
+    "lit-crossing.txt": lambda: lit("view", across_the_frustum, 2000, 2),
+    "small.txt": lambda: small_on_screen(40_000),
+    "large.txt": lambda: large_on_screen(1500),
+    "few-large.txt": lambda: large_on_screen(100),
+    "lit-screen.txt": lambda: lit("screen", large_on_screen, 100),
+    "config.txt": lambda: "500 500\n",
+    "narrow.txt": lambda: "300 300\n",
+    "tiny.txt": lambda: "4 4\n",
+}
 
 
 @dataclasses.dataclass(frozen=True)

@@ -13,12 +13,16 @@ FIGURE = r"\w+\([^()]+\)"
 CLAIM = re.compile(rf"({FIGURE})(?: / ({FIGURE}))? (?:about (\S+)|in (\S+)\.\.(\S+))")
 ABOUT = 7 / 6
 COLUMNS = {  # what a column is called in a claim: (column, is it for a triangle)
-    "cpu": ("cpu_seconds", True), "wall": ("wall_seconds", True), "instructions": ("instructions", False),
-        "bytes": ("bytes", False),
-    "memory": ("mib", False), "empty": ("empty_cpu_seconds", False), "vertex_error": (
-        "vertex_error_pixels", False),
-    "difference": ("difference_mean", False), "changed": ("channels_changed", False),
-        "depth_error": ("depth_error_median", False),
+    "cpu": ("cpu_seconds", True),
+    "wall": ("wall_seconds", True),
+    "instructions": ("instructions", False),
+    "bytes": ("bytes", False),
+    "memory": ("mib", False),
+    "empty": ("empty_cpu_seconds", False),
+    "vertex_error": ("vertex_error_pixels", False),
+    "difference": ("difference_mean", False),
+    "changed": ("channels_changed", False),
+    "depth_error": ("depth_error_median", False),
 }
 
 

@@ -8,27 +8,24 @@ PICTURES = ("fill", "torus", "inside")
 
 # Why a setting stays that another one beats in every column.
 REASONS = {
-    "default":
-        "Assignments ask for `nearest`.", "--digits 5":
-            "Its text is the shortest.", "--digits 6":
-                "It is the text of printf's `%f`.", "--digits 15":
-                    "Other programs read it back with the digits that doubles have.", "--precision double":
-                        "Where matrices cancel it is faster (`plain pivot`).",
-    "--digits exact --precision double":
-        "Where matrices cancel it is faster (`plain pivot`).", "--depth f32":
-            "A float takes 8 bytes a pixel in place of 12.",
+    "default": "Assignments ask for `nearest`.",
+    "--digits 5": "Its text is the shortest.",
+    "--digits 6": "It is the text of printf's `%f`.",
+    "--digits 15": "Other programs read it back with the digits that doubles have.",
+    "--precision double": "Where matrices cancel it is faster (`plain pivot`).",
+    "--digits exact --precision double": "Where matrices cancel it is faster (`plain pivot`).",
+    "--depth f32": "A float takes 8 bytes a pixel in place of 12.",
     "--depth u24":
         "Between narrow limits of z it is finer than `f32`, and as coarse as the buffer of a graphics card.",
-    "--clip near":
-        "What lies between the eye and the near plane must go.", "--clip frustum":
-            "The text holds nothing that is outside the picture.", "--clip reject":
-                "It drops what is outside and cuts nothing.", "--shading none":
-                    "Colors as they are given.", "--shading flat":
-                        "Facets show; it is no approximation of `phong`.", "--shading gouraud":
-                            "It is what OpenGL does.", "--shading flat --samples 4":
-                                "Facets show; it is no approximation of `phong`.",
-    "--shading gouraud --samples 4":
-        "It is what OpenGL does.", }
+    "--clip near": "What lies between the eye and the near plane must go.",
+    "--clip frustum": "The text holds nothing that is outside the picture.",
+    "--clip reject": "It drops what is outside and cuts nothing.",
+    "--shading none": "Colors as they are given.",
+    "--shading flat": "Facets show; it is no approximation of `phong`.",
+    "--shading gouraud": "It is what OpenGL does.",
+    "--shading flat --samples 4": "Facets show; it is no approximation of `phong`.",
+    "--shading gouraud --samples 4": "It is what OpenGL does.",
+}
 
 
 def code(setting):

@@ -43,8 +43,9 @@ class Setting:
 def drawing_words(tool, image):
     """What the last stage needs besides its setting."""
     return {
-        "zbuf": ["--image", image, "config.txt"], "trace": ["--threads", "1", "--image", image,
-                                                            "config.txt"]}.get(tool, [])
+        "zbuf": ["--image", image, "config.txt"],
+        "trace": ["--threads", "1", "--image", image, "config.txt"],
+    }.get(tool, [])
 
 
 def settings(*words):

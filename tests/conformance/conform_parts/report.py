@@ -151,16 +151,20 @@ def as_json(results, terms, mistakes):
 
     return json.dumps(
         {
-            "command": terms.command, "rule": terms.rule, "sandbox": not terms.box.reason, "counts": {
-                state: count(results, state)
-                for state in ("right", "wrong", "open", "left out")}, "groups": {
+            "command": terms.command,
+            "rule": terms.rule,
+            "sandbox": not terms.box.reason,
+            "counts": {state: count(results, state) for state in ("right", "wrong", "open", "left out")},
+            "groups": {
                     group: {
                         state: sum(result.state == state for result in results if result.group == group)
                         for state in ("right", "wrong")}
-                    for group in GROUPS}, "mistakes": [{
-                        "names": heading.names, "sentences": [mistakes[name]
-                                                              for name in heading.names], "cases": [
-                                                                  result.case.name
-                                                                  for result in heading.results]}
-                                                       for heading in headings(results)],
-            "cases": [entry(result) for result in results]}, indent=1) + "\n"
+                    for group in GROUPS},
+            "mistakes": [{
+                        "names": heading.names,
+                        "sentences": [mistakes[name] for name in heading.names],
+                        "cases": [result.case.name for result in heading.results],
+                    }
+                         for heading in headings(results)],
+            "cases": [entry(result) for result in results],
+        }, indent=1) + "\n"
