@@ -117,7 +117,8 @@ std::string_view ModelFiles::map(int descriptor, const std::string& name) {
   if (::fstat(descriptor, &status) != 0 || !S_ISREG(status.st_mode)) throw IoError("read", name, EINVAL);
   const auto size = static_cast<std::size_t>(status.st_size);
   take_room(size, name);
-  void* const bytes = size == 0 ? nullptr : ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, descriptor, 0);
+  // An empty file cannot be mapped, and assimp's stream takes no null pointer.
+  const void* const bytes = size == 0 ? "" : ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, descriptor, 0);
   ::close(descriptor);
   if (bytes == MAP_FAILED) throw IoError("read", name, errno);
   return {static_cast<const char*>(bytes), size};
