@@ -1,10 +1,12 @@
 """Whether a pixel that differs lies within a pixel of an edge, or of the line where two triangles meet; and
 whether all pixels are shifted."""
+import collections
 import math
 
 from judge_parts.raster import kept, spend
 
 REACH = 1.0        # pixels
+DEEP = 1.5         # pixels
 SHIFT = 0.4        # pixels, on average
 LEAST_ENDS = 3     # before their average says anything
 
@@ -64,6 +66,17 @@ class Borders:
         low, high = z - slack, z + slack
         return (t, low, high), inside >= REACH and low >= self.front and high < self.rear
 
+    def has(self, t, row, column, z, tolerance):
+        """Whether a triangle has a depth within a pixel of the center of this one."""
+        found = self.fragment(t, row, column, tolerance)
+        return found is not None and found[0][1] <= z <= found[0][2]
+
+    def inside(self, t, row, column):
+        """How far a pixel's center lies inside the outline of a triangle, in pixels; less than 0 outside, and
+        of a triangle thinner than a pixel."""
+        edges = self.plane(t)[0]
+        return -REACH if edges is None else min(a * column + b * row + c for a, b, c in edges)
+
     def near(self, row):
         near = sorted({
             t
@@ -87,6 +100,22 @@ class Borders:
         return any(
             (t >= 0) == is_drawn and (z is None or t < 0 or low <= z <= high) and (seen is None or t in seen)
             for t, low, high in options)
+
+
+def shows_each(drawing, borders, is_other):
+    """Whether the picture shows half of the visible pixels of each triangle that has one at least DEEP inside
+    its outline, and any of all smaller ones. `is_other(row, column, triangle)` tells whether a pixel shows
+    something else than the triangle that the drawing has there."""
+    visible, agreeing, deep = collections.Counter(), collections.Counter(), set()
+    for row in range(drawing.triangles.grid.height):
+        for column, t in enumerate(drawing.row(row)[0]):
+            if t >= 0:
+                visible[t] += 1
+                agreeing[t] += not is_other(row, column, t)
+                if t not in deep and borders.inside(t, row, column) >= DEEP:
+                    deep.add(t)
+    small = visible.keys() - deep
+    return all(2 * agreeing[t] >= visible[t] for t in deep) and (not small or any(agreeing[t] for t in small))
 
 
 def runs(row):

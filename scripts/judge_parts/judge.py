@@ -5,30 +5,24 @@ ones in memory, so that a mistake counts once. A stage is right if it reproduces
 combination of what the assignment leaves open; else wrong by the mistake that reproduces them; else, in stage
 4, by another rule at the borders; else wrong without a cause.
 """
-import collections
-
 from judge_parts.hand_in import STAGE_OF, File
-from judge_parts.pixels import PixelJudge
-from judge_parts.points import read_points
+from judge_parts.pixel_stage import PixelStage, pixel_readings
+from judge_parts.points import holds_enough, read_points
 from judge_parts.digits import of_one_program
 from judge_parts.matrices import image
 from judge_parts.reference import kinds_of, reference
-from judge_parts.shown import Shown, read_colors, read_depths
+from judge_parts.shown import read_colors, read_depths
 from judge_parts.stage_judge import Outcome, Reading, StageJudge, undecided_outcome
-from judge_parts.verdict import (
-    ANOTHER_RULE, GOOD, MISSING, RIGHT, TOO_FEW_DIGITS, UNDECIDED, UNREADABLE, WRONG, FileVerdict, Verdict)
+from judge_parts.verdict import GOOD, MISSING, RIGHT, UNREADABLE, WRONG, FileVerdict, Verdict
 from lib.input_file import InputError
 from lib.pictures import PictureError
 from lib.stage_text import StageTextError
 
-KINDS_IN_WORDS = {
-    "extra": "a pixel that no triangle covers", "missing": "a pixel that a triangle covers is empty",
-    "depth": "another depth", "other": "another triangle"}
 FAR = 1e15
 # triangles that clipping at six planes makes of one: more cannot come from the scene, and drawing them has no
 # end
 MOST_PARTS = 7
-PRINTED = "pixels without a triangle are printed"
+STAGES = (("stage1", "model"), ("stage2", "view"), ("stage3", "project"))
 
 
 def judge(files, scene, config=None):
@@ -48,40 +42,64 @@ class HandIn:
     def judge(self):
         points = self.read_stages()
         judge = StageJudge(self.ours.scene, self.ours.world)
-        memory, before, verdicts = self.ours.world, None, []
-        for kind, stage in (("stage1", "model"), ("stage2", "view"), ("stage3", "project")):
-            theirs = points[kind]
-            outcome = None
-            readings = [Reading(before.points, before.units)
-                        ] if before is not None and is_of_this_world(before.points) else []
-            if memory is not None:
-                readings.append(Reading.exact(memory))
-            if theirs is not None and not theirs.points:
-                outcome = self.of_empty_text(stage, kind, readings)
-            elif theirs and stage == "model":
-                outcome = judge.model(self.files[kind].name, theirs)
-            elif theirs:
-                outcome = self.after_model(judge, stage, kind, theirs, readings)
-                if outcome.verdict.verdict == WRONG and verdicts[-1].verdict == WRONG:
-                    # A program may write other numbers into a file than it goes on with.
-                    by_right = self.after_model(judge, stage, kind, theirs,
-                                                [Reading.exact(self.right_before(stage))])
-                    if by_right.verdict.verdict in GOOD:
-                        by_right.verdict.remarks.append(
-                            f"by the right numbers, which are not those of {verdicts[-1].file}")
-                        outcome = by_right
-            if outcome is None:
+        memory, before, thin, verdicts = self.ours.world, None, "", []
+        for kind, stage in STAGES:
+            theirs, readings = points[kind], self.readings(before, memory)
+            is_thin = theirs is not None and not self.is_enough(stage, theirs.points)
+            if thin and is_thin:
+                outcome = undecided_outcome(stage, self.files[kind].name, f"there is too little in {thin}")
+            elif theirs is None:
                 outcome = Outcome(self.failed[kind], self.right_memory(stage, readings))
+            else:
+                outcome = self.outcome(judge, stage, kind, theirs, readings, verdicts)
             if theirs is not None and theirs.strays:
                 outcome.verdict.remarks.append(theirs.strays)
             self.add_others(kind, outcome.verdict)
             verdicts.append(outcome.verdict)
-            memory, before = outcome.memory, theirs
+            memory, before, thin = outcome.memory, theirs, ""
+            if is_thin:  # what follows is judged as if it had not been handed in
+                memory, before, thin = self.right_memory(stage, readings), None, self.files[kind].name
         if "picture" in self.kinds:
-            verdicts += self.pixels(before, memory,
-                                    self.right_ndc() if verdicts[-1].verdict == WRONG else None)
+            verdicts += self.pixels(before, memory, thin, all(verdict.is_good for verdict in verdicts))
         verdicts[0].remarks += self.ours.remarks
         return Verdict(verdicts)
+
+    @staticmethod
+    def readings(before, memory):
+        """What a stage may have read: the points of the file before it, and those in memory."""
+        is_near = before is not None and is_of_this_world(before.points)
+        return ([Reading(before.points, before.units)] if is_near else []) + (
+            [Reading.exact(memory)] if memory is not None else [])
+
+    def outcome(self, judge, stage, kind, theirs, readings, verdicts):
+        """The Outcome of a text that can be read, after the verdicts on the stages before."""
+        name = self.files[kind].name
+        if not theirs.points:
+            return self.of_empty_text(stage, kind, readings)
+        if stage == "model":
+            return judge.model(name, theirs)
+        outcome = self.after_model(judge, stage, kind, theirs, readings)
+        failed = [verdict for verdict in verdicts if not verdict.is_good]
+        if outcome.verdict.verdict == WRONG and failed:
+            # A program may write other numbers into a file than it goes on with.
+            by_right = self.after_model(judge, stage, kind, theirs, [Reading.exact(self.right_before(stage))])
+            if by_right.verdict.verdict in GOOD:
+                by_right.verdict.remarks.append(
+                    f"by the right numbers, which are not those of {failed[-1].file}")
+                return by_right
+        return outcome
+
+    def is_enough(self, stage, points):
+        """Whether a text holds enough of what is right for the next stage to be judged by it."""
+        return any(holds_enough(points, right) for right in self.right_after(stage))
+
+    def right_after(self, stage):
+        """The lists of points that are right after a stage; project may clip or not."""
+        if stage == "model":
+            return [self.ours.world]
+        if stage == "view":
+            return [self.right_before("project")]
+        return [self.right_ndc(), *self.clipped([Reading.exact(self.right_before("project"))])]
 
     def after_model(self, judge, stage, kind, theirs, readings):
         if stage == "view":
@@ -105,14 +123,14 @@ class HandIn:
         return [points for reading in readings if (points := self.ours.clipped(reading.points)) is not None]
 
     def of_empty_text(self, stage, kind, readings):
-        """The Outcome of a text without triangles: right if nothing may be left of what the stage has
-        read."""
+        """The Outcome of a text without triangles: right where there may be none."""
         name = self.files[kind].name
-        given = [self.ours.world] if stage == "model" else [reading.points for reading in readings]
-        if not all(given) or stage == "project" and not all(self.clipped(readings)):
+        if not all(self.right_after(stage)):
             return Outcome(FileVerdict(stage, name, RIGHT, differing=0), [])
-        if not given:
+        if not readings and stage != "model":
             return undecided_outcome(stage, name)
+        if stage == "project" and not all(self.clipped(readings)):
+            return undecided_outcome(stage, name, "what it was to project may be out of view")
         return Outcome(
             FileVerdict(
                 stage, name, WRONG,
@@ -151,104 +169,23 @@ class HandIn:
             verdict.remarks.append(f"not looked at: {', '.join(others)}")
 
     # stage 4
-    def pixels(self, stage3, memory, right_ndc):
-        """The FileVerdicts of the depths and of the picture; `right_ndc` if stage3.txt does not have it."""
+    def pixels(self, stage3, memory, thin, is_right):
+        """The FileVerdicts of the depths and of the picture. `thin` names a stage3.txt of too few points,
+        `is_right` tells whether all stages before are right."""
         window = self.ours.window
         depths = self.read("depths", read_depths)
         colors = self.read("picture",
                            lambda data, name: read_colors(data, name, window, self.ours.background))
-        verdicts = {kind: self.failed.get(kind) for kind in ("depths", "picture")}
-        if self.ours.has_own_colors and colors is not None:
-            verdicts["picture"], colors = self.verdict_of_colors(colors), None
-        readings = {}
-        if stage3 is not None and len(stage3) <= MOST_PARTS * len(self.ours.world):
-            readings["file"] = (stage3.points, stage3.units)
-        is_defined = memory is not None and all(x == x for p in memory for x in p)
-        if is_defined:
-            readings["memory" if readings else "file"] = (memory, Reading.exact(memory).units)
-        if readings and right_ndc and all(x == x for p in right_ndc for x in p):
-            readings["right"] = (right_ndc, Reading.exact(right_ndc).units)
-        if depths is not None and depths.rows and depths.digits.are_too_few:
-            verdicts["depths"] = FileVerdict("zbuf", self.files["depths"].name, TOO_FEW_DIGITS,
-                                             remarks=[f"it shows {depths.digits}"])
-            depths = None
-        if (depths is not None or colors is not None) and readings:
-            shown = Shown(colors, depths, window.width, window.height, float(window.rear))
-            finding = PixelJudge(readings, window, shown).judge()
-            for kind, given in (("depths", depths), ("picture", colors)):
-                if given is not None:
-                    verdicts[kind] = self.verdict_of_pixels(kind, finding, shown)
-        for kind, verdict in verdicts.items():
-            if verdict is None:
-                verdicts[kind] = verdict = undecided_outcome("zbuf", self.files[kind].name).verdict
-            self.add_others(kind, verdict)
-        return list(verdicts.values())
-
-    def verdict_of_colors(self, colors):
-        """The FileVerdict of a picture whose triangles have colors of their own, or light: every color
-        counts, by either rule of coverage."""
-        name, verdicts = self.files["picture"].name, []
-        for coverage, verdict, rule in (("nearest", RIGHT, ""), ("center", ANOTHER_RULE, "the center rule")):
-            ours = self.ours.picture(self.files["stage3"].data or b"", coverage)
-            if ours is None:
-                return FileVerdict("zbuf", name, UNDECIDED, remarks=["zbuf refuses their stage3.txt"])
-            places = [(r, i)
-                      for r, (row, line) in enumerate(zip(ours, colors))
-                      for i, color in enumerate(line)
-                      if row[3 * i:3 * i + 3] != color]
-            verdicts.append(
-                FileVerdict("zbuf", name, WRONG if places else verdict, "" if places else rule,
-                            differing=len(places), compared=len(ours) * len(colors[0]), places=places))
-        return min(verdicts, key=lambda verdict: verdict.differing)
-
-    def verdict_of_pixels(self, kind, finding, shown):
-        name = self.files[kind].name
-        mismatch = finding.mismatch
-        if mismatch is None:
-            return FileVerdict("zbuf", name, UNDECIDED, remarks=finding.remarks)
-        places = (mismatch.of_depths if kind == "depths" else mismatch.of_picture)
-        verdict = FileVerdict("zbuf", name, RIGHT, finding.rule, differing=len(places),
-                              compared=mismatch.drawn, places=places)
-        if finding.verdict in ("mistake", "unknown") and kind in finding.touches:
-            verdict.verdict, verdict.causes, verdict.rule = WRONG, finding.causes, ""
-            verdict.remarks += [f"with {finding.rule}"] if finding.rule and finding.causes else []
-        elif finding.verdict == "unknown":
-            verdict.rule = ""
-        verdict.remarks += finding.remarks
-        if kind == "depths" and shown.prints_everything:
-            is_rear = abs(shown.empty - shown.rear) <= shown.depths.tolerance(shown.rear)
-            printed = f"{PRINTED}, too, with " + ("the rear limit" if is_rear else f"{shown.empty:.7g}")
-            verdict.rule = f"{verdict.rule}; {printed}" if verdict.rule else printed
-        if places and not verdict.is_good:
-            row, column = min(places)
-            verdict.first = f"row {row}, column {column}: " + KINDS_IN_WORDS[mismatch.pixels[row, column]]
-        if verdict.rule and verdict.verdict == RIGHT:
-            verdict.verdict = ANOTHER_RULE
-        if kind == "picture" and verdict.is_good and self.has_other_colors(shown):
-            verdict.remarks.append("in other colors")
-        return verdict
-
-    def has_other_colors(self, shown):
-        """Whether most pixels with a triangle have a color that zbuf gives to none of the scene's. Which
-        triangle a pixel shows is not asked: the text that it was judged by may lack some, and hold others in
-        parts."""
-        ours = set(generated_colors(len(self.ours.world) // 3))
-        counts = collections.Counter(color for row in shown.colors for color in row
-                                     if color != shown.background)
-        return 2 * sum(count for color, count in counts.items() if color not in ours) > sum(counts.values())
+        if stage3 is not None and len(stage3) > MOST_PARTS * len(self.ours.world):
+            stage3 = None
+        readings = pixel_readings(stage3, memory, None if is_right else self.right_after("project")[-1])
+        judge = PixelStage(self.ours, self.files, readings, thin)
+        verdicts = self.failed | judge.verdicts(depths, colors)
+        for kind in ("depths", "picture"):
+            self.add_others(kind, verdicts[kind])
+        return [verdicts["depths"], verdicts["picture"]]
 
 
 def is_of_this_world(points):
     """Whether the points are so near that the numbers of the next stage are finite."""
     return all(abs(x) < FAR for p in points for x in p)
-
-
-def generated_colors(count):
-    """The colors that zbuf gives to the first triangles, as bytes (docs/stages.md, Z10)."""
-    state = 1
-    for _ in range(count):
-        color = []
-        for _ in range(3):
-            state = (214013 * state + 2531011) % 2**32
-            color.append((state >> 16 & 0x7fff) % 256)
-        yield bytes(color)

@@ -4,7 +4,7 @@ import collections
 import dataclasses
 import math
 
-from judge_parts.borders import Borders, is_shifted
+from judge_parts.borders import Borders, is_shifted, shows_each
 from judge_parts.pixel_rules import CENTER, MISTAKES, OPEN_DEPTHS, OPEN_ENDS, cause_of_all, in_words
 from judge_parts.raster import Drawing, Grid, Rule, TooMuch, Triangles
 from judge_parts.shown import DEPTH_BASE
@@ -87,6 +87,7 @@ class PixelJudge:
 
     def __init__(self, readings, window, shown):
         self.readings, self.window, self.shown = readings, window, shown
+        self.first = next(iter(readings))
         self.limits = float(window.front), float(window.rear)
         self.made, self.work, self.plain = {}, [MOST_WORK], None
 
@@ -99,6 +100,25 @@ class PixelJudge:
         return Drawing(self.made[reading, grid], rule, (-1.0, 1.0) if rule.is_depth_one else self.limits,
                        self.work)
 
+    def finding_of(self, kind, finding):
+        """The Finding that fits the depths or the picture best, after that of both: a file that is right by
+        itself is right, whatever the other one holds, and one that is not is counted by its own rule."""
+        if finding.verdict == "exact" or len(finding.touches) == 1 and finding.verdict == "mistake":
+            return finding
+        alone = PixelJudge(self.readings, self.window, self.shown.only(kind))
+        try:
+            if finding.verdict == "unknown":
+                found = alone.judge()
+                if kind == "depths" or found.verdict not in ("exact", "borders"):
+                    return found
+                both = self.compare(found.mismatch.reading, found.mismatch.rule)
+                return found if self.shows_each_triangle(both) else finding
+            rules = (Rule(), Rule(**CENTER)) if finding.verdict == "mistake" else self.all_open_rules()
+            return next(filter(None, (alone.exact(alone.compare(reading, rule, limit=0))
+                                      for rule in rules for reading in self.readings)), finding)
+        except TooMuch:
+            return finding
+
     # One rule
     def row_mismatches(self, drawing, pixels, row, budget, drawn_row=None):
         """(column, kind) of what a row shows that the rule does not explain, colors aside. `drawn_row` is
@@ -106,7 +126,7 @@ class PixelJudge:
         owner, depth = drawn_row or drawing.row(row)
         depths = pixels.depths[row] if pixels.depths else None
         if pixels.depths and depths is None:
-            yield from self.listed_mismatches(owner, depth, pixels.listed[row])
+            yield from self.listed_mismatches(drawing, row, (owner, depth), pixels.listed[row])
         drawn = pixels.drawn[row] if pixels.drawn else [z is not None for z in depths] if depths else None
         if drawn is None:
             return
@@ -127,16 +147,18 @@ class PixelJudge:
             (t >= 0) == is_drawn and (z is None or low <= z <= high) and (triangles is None or t in triangles)
             for t, low, high in drawing.could_show(row, column, slack))
 
-    def listed_mismatches(self, owner, depth, listed):
+    def listed_mismatches(self, drawing, row, drawn_row, listed):
         """Without a pixel for each depth: the depths of a row in their order, all or those before the rear
         limit."""
-        drawn = [(column, z) for column, (t, z) in enumerate(zip(owner, depth)) if t >= 0]
+        drawn = [(column, z) for column, (t, z) in enumerate(zip(*drawn_row)) if t >= 0]
         before = [(column, z) for column, z in drawn if z < self.limits[1]]
         expected = before if len(listed) == len(before) else drawn
         if len(expected) != len(listed):
-            yield len(owner), "depth"  # a column beyond the picture: somewhere in the row
+            yield self.window.width, "depth"  # a column beyond the picture: somewhere in the row
+            return
         for (column, z), given in zip(expected, listed):
-            if abs(z - given) > self.shown.depths.tolerance(z) and len(expected) == len(listed):
+            if abs(z - given) > self.shown.depths.tolerance(z) and not self.could_show(
+                    drawing, row, column, True, given):
                 yield column, "depth"
 
     def explains(self, reading, rule, rows):
@@ -205,7 +227,7 @@ class PixelJudge:
             return finding
 
     def find(self):
-        self.plain = plain = self.compare("file", Rule())
+        self.plain = plain = self.compare(self.first, Rule())
         finding = self.exact(plain)
         if finding:
             return finding
@@ -220,7 +242,7 @@ class PixelJudge:
         finding = Finding("exact", mismatch, in_words(mismatch.rule), total=mismatch.drawn)
         if mismatch.reading == "memory":
             finding.remarks.append("by the exact numbers, kept in memory")
-        if mismatch.reading == "right":
+        if mismatch.reading.startswith("right"):
             finding.remarks.append("by the right numbers, which are not those of stage3.txt")
         counts = [count for _, count in mismatch.visible.most_common()]
         if len(set(mismatch.colors.values())) == 1 and sum(counts[1:]) >= LEAST_PIXELS_OF_OTHERS:
@@ -251,10 +273,12 @@ class PixelJudge:
                  for j, depth in enumerate(self.depth_rules())]
         return sorted(rules, key=lambda pair: pair[0])
 
+    def all_open_rules(self):
+        return [Rule(**changes) for _, changes in self.open_rules()]
+
     def find_open(self, rows):
-        for _, changes in self.open_rules():
+        for rule in self.all_open_rules():
             for reading in self.readings:
-                rule = Rule(**changes)
                 if self.explains(reading, rule, rows):
                     finding = self.exact(self.compare(reading, rule, limit=0))
                     if finding:
@@ -301,10 +325,10 @@ class PixelJudge:
     def find_at_borders(self, plain):
         """Whether all differences from the nearest of our two rules lie within a pixel of an edge, and are no
         shift."""
-        center = self.compare("file", Rule(**CENTER))
+        center = self.compare(self.first, Rule(**CENTER))
         best = min((plain, center), key=lambda mismatch: (len(mismatch.of_shape), len(mismatch.pixels)))
         pixels = self.shown.pixels()
-        drawing = self.drawing("file", Rule())
+        drawing = self.drawing(self.first, Rule())
         if not pixels.drawn or is_shifted(drawing, pixels.drawn) or any(column >= self.window.width
                                                                         for _, column in best.pixels):
             return None
@@ -314,6 +338,8 @@ class PixelJudge:
         of_drawn = best.drawn if shapes else 0  # where no border differs, no other rule holds there
         most = {
             "stray": MOST_STRAYS * shapes, "other": MOST_OTHERS * of_drawn, "depth": MOST_DEPTHS * of_drawn}
+        if not self.shows_each_triangle(best):
+            return None
         beyond = collections.Counter()
         for what in self.beyond_borders(Borders(drawing.triangles, self.limits, self.work), best, pixels):
             beyond[what] += 1
@@ -321,6 +347,27 @@ class PixelJudge:
                 return None
         return Finding("borders", best, self.at_borders_in_words(best, beyond["other"] + beyond["depth"]),
                        total=best.drawn)
+
+    def shows_each_triangle(self, mismatch):
+        """See shows_each. A triangle whose pixels have the color and the depths of another is not shown."""
+        drawing, pixels = self.drawing(mismatch.reading, mismatch.rule), self.shown.pixels()
+        borders = Borders(drawing.triangles, self.limits, self.work)
+
+        def is_other(row, column, t):
+            kind = mismatch.pixels.get((row, column))
+            if kind != "depth" or not pixels.colors:
+                return kind is not None
+            if not pixels.depths[row]:  # it cannot be told whose depth differs
+                return False
+            color, z = pixels.colors[row][column], pixels.depths[row][column]
+            same = mismatch.of_color(color)
+            if mismatch.colors.get(t) == color and t not in mismatch.unplaced:
+                return False
+            tolerance = self.shown.depths.tolerance(z)
+            return not borders.has(t, row, column, z, tolerance) and any(
+                borders.has(other, row, column, z, tolerance) for other in same - {t})
+
+        return shows_each(drawing, borders, is_other)
 
     def beyond_borders(self, borders, mismatch, pixels):
         """For each pixel that differs beyond a pixel from the edges: `stray` if it is drawn, or not, farther

@@ -1,6 +1,7 @@
 """The points of a stage text with the digits it shows, and how far they may lie from what is expected."""
 import dataclasses
 import math
+import statistics
 
 from judge_parts.digits import EXACT, Digits, digits_of
 from judge_parts.strays import of_a_text
@@ -43,6 +44,20 @@ def read_points(data, name):
     words = [word for vertex in vertices for word in lines[vertex.line - 1].split("#")[0].split()[:3]]
     return Points([vertex.numbers[:3] for vertex in vertices], [vertex.line for vertex in vertices],
                   digits_of(words), strays)
+
+
+def holds_enough(points, exact):
+    """Whether points are so many, and so far apart, that the next stage shows its mistakes on them: a quarter
+    of the exact ones, and at least three places."""
+    exact, points = ([p for p in some if all(map(math.isfinite, p))] for some in (exact, points))
+    if not exact:
+        return True
+    middle = [statistics.median(axis) for axis in zip(*exact)]
+    step = statistics.median(max(abs(x - m) for x, m in zip(p, middle)) for p in exact) / 500
+    expected, found = (
+        len({tuple(x / step // 1 for x in p) for p in some}) if step else len(set(map(tuple, some)))
+        for some in (exact, points))
+    return found >= max(expected / 4, min(expected, 3))
 
 
 def printed_tolerance(p, digits):

@@ -1,5 +1,6 @@
 """The depths and the picture of a hand-in, pixel by pixel."""
 import collections
+import copy
 import dataclasses
 
 from judge_parts.digits import EXACT, Digits, digits_of
@@ -68,6 +69,22 @@ class Shown:
         most = max((z for row in depths.rows for z in row), default=rear) if depths else rear
         self.empty = most if self.is_full and most >= rear - depths.tolerance(rear) else None
         self.background = self.find_background() if colors else None
+
+    def only(self, kind):
+        """This without the picture, or without the depths."""
+        rest = copy.copy(self)
+        rest.made = {}
+        if kind == "depths":
+            rest.colors = None
+        else:
+            rest.depths, rest.is_full = None, False
+        return rest
+
+    def is_blank(self, kind):
+        """Whether the depths, or the picture, show no triangle."""
+        if kind == "depths":
+            return all(self.empty is not None and z >= self.empty for row in self.depths.rows for z in row)
+        return all(color == self.background for row in self.colors for color in row)
 
     @property
     def prints_everything(self):

@@ -85,9 +85,8 @@ def triangles_of(points):
     return [points[i:i + 3] for i in range(0, len(points), 3)]
 
 
-def undecided_outcome(stage, name):
-    return Outcome(
-        FileVerdict(stage, name, UNDECIDED, remarks=["the stages before give no points to judge it by"]))
+def undecided_outcome(stage, name, why="the stages before give no points to judge it by"):
+    return Outcome(FileVerdict(stage, name, UNDECIDED, remarks=[why]))
 
 
 def right_verdict(stage, name, theirs, rule=""):

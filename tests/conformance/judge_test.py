@@ -27,10 +27,13 @@ os.environ["BIN"] = str(bin_dir)
 sys.path[:0] = [str(source / "scripts"), str(source / "tests/conformance")]
 import changes  # noqa: E402
 import course_scenes  # noqa: E402
+import damages  # noqa: E402
 from judge_parts.hand_in import find_files  # noqa: E402
 from judge_parts.judge import judge  # noqa: E402
 from lib.stage_text import parse_stage_text  # noqa: E402
 
+NOTHING_IN_VIEW = "nothing is in view"  # of what the stages before have made
+DAMAGES = 4  # of each scene, besides a missing triangle
 LEAST_NAMED = 0.9  # of the mistakes whose numbers differ
 FILES_OF = {
     "model": ("stage1.txt", ), "view": ("stage2.txt", ), "project": ("stage3.txt", ),
@@ -71,6 +74,39 @@ class Scene:
             files = {path.name: path.read_bytes() for path in pathlib.Path(folder).iterdir()}
             return files, judge(find_files(folder), self.scene, self.config)
 
+    def verdicts(self, files):
+        """{name: whether the judge gives a file its point}."""
+        with tempfile.TemporaryDirectory() as top:
+            for name, data in files.items():
+                pathlib.Path(top, name).write_bytes(data)
+            return {file.file: file.is_good for file in judge(find_files(top), self.scene, self.config).files}
+
+    def damaged(self, rng, other):
+        """(what was done, what of it, the files judged otherwise than they earn) of damaged hand-ins."""
+        how, names = rng.choice(damages.HOWS), rng.choice(damages.SUBSETS)
+        files = {
+            name: damages.damaged(name, data, how, other[name]) if name in names else data
+            for name, data in self.right.items()}
+        found, wanted = self.verdicts(files), damages.expected(self.right, files, how)
+        return how, names, [name for name, is_good in wanted.items() if found[name] != is_good]
+
+    def without_a_triangle(self, rng):
+        """The same of depths and a picture that lack a triangle which can be seen; None if there is none."""
+        triangles = self.right["stage3.txt"].rstrip().split(b"\n\n")
+        deep = damages.deep_colors(self.right["out.bmp"])
+        seen = [i for i, color in enumerate(damages.generated_colors(len(triangles))) if color in deep]
+        if not seen:
+            return None
+        lost = rng.choice(seen)
+        text = "".join(f"triangle {i}\n{part.decode()}\n\n" for i, part in enumerate(triangles) if i != lost)
+        with tempfile.TemporaryDirectory() as top:
+            pathlib.Path(top, "config.txt").write_bytes(self.config)
+            picture = os.path.join(top, "out.bmp")
+            depths = tool("zbuf", os.path.join(top, "config.txt"), "-o", picture, stdin=text.encode())
+            files = {**self.right, "z_buffer.txt": depths, "out.bmp": pathlib.Path(picture).read_bytes()}
+        found = self.verdicts(files)
+        wanted = {name: name.startswith("stage") for name in damages.NAMES}
+        return "a triangle missing", lost, [name for name in damages.NAMES if found[name] != wanted[name]]
 
     def changed(self, change, rng):
         """The FileVerdict of a stage whose right text is changed, and the words that its cause has to begin
@@ -89,6 +125,7 @@ class Scene:
 # status, and the stages whose files differ from those of the right run.
 Run = namedtuple("Run", "scene switch files status differing")
 ChangedRun = namedtuple("ChangedRun", "scene name file words")
+DamagedRun = namedtuple("DamagedRun", "scene how files misjudged")
 
 
 def stages_that_differ(files, right):
@@ -116,7 +153,18 @@ def runs_of(seed):
     for place, change in enumerate(changes.CHANGES):
         if place % share == seed % share:
             runs.append(ChangedRun(seed, change.name, *scene.changed(change, rng)))
-    return runs
+    other = Scene(next_seed(seed)).right
+    tried = [*(scene.damaged(rng, other) for _ in range(DAMAGES)), scene.without_a_triangle(rng)]
+    return runs + [DamagedRun(seed, *one) for one in tried if one]
+
+
+def next_seed(seed):
+    """Of a scene without a vertex behind the eye."""
+    try:
+        Scene(seed + 1)
+        return seed + 1
+    except subprocess.CalledProcessError:
+        return next_seed(seed + 1)
 
 
 def described(run):
@@ -128,12 +176,13 @@ def described(run):
 class Judged(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.runs, cls.changed, count, seeds = [], [], 0, itertools.count()
+        cls.runs, cls.changed, cls.damaged, count, seeds = [], [], [], 0, itertools.count()
         with concurrent.futures.ProcessPoolExecutor(os.cpu_count()) as pool:
             while count < scene_count:
                 for runs in pool.map(runs_of, itertools.islice(seeds, scene_count - count)):
                     cls.runs += [run for run in runs or [] if isinstance(run, Run)]
                     cls.changed += [run for run in runs or [] if isinstance(run, ChangedRun)]
+                    cls.damaged += [run for run in runs or [] if isinstance(run, DamagedRun)]
                     count += runs is not None
 
     def of(self, switches):
@@ -161,9 +210,11 @@ class Judged(unittest.TestCase):
     def test_no_stage_is_accused_but_the_mistakes(self):
         for run in self.of(MISTAKES):
             stage = run.switch.partition("/")[0]
+            out_of_view = [[NOTHING_IN_VIEW]] if stage in ("view", "project") else []
             with self.shown(run):
-                self.assertEqual(
-                    [file.verdict for file in run.files if file.stage != stage and not file.is_good], [],
+                self.assertEqual([
+                    file.verdict for file in run.files
+                    if file.stage != stage and not file.is_good and [file.remarks] != out_of_view], [],
                     described(run))
                 if stage not in run.differing:
                     self.assertEqual(run.status, 0, described(run))
@@ -183,8 +234,14 @@ class Judged(unittest.TestCase):
               file=sys.stderr)
         for words in nameless:
             print("  not named:", words, file=sys.stderr)
-        self.assertGreater(len(differing), scene_count)
+        self.assertGreater(len(differing), scene_count * 2 // share)
         self.assertGreaterEqual(named, LEAST_NAMED * len(differing))
+
+    def test_what_is_damaged_earns_nothing_and_what_is_whole_keeps_its_points(self):
+        self.assertGreater(len(self.damaged), scene_count * DAMAGES)
+        for run in self.damaged:
+            with self.subTest(run.how, scene=run.scene, files=run.files):
+                self.assertEqual(run.misjudged, [])
 
     def test_a_change_that_no_list_has_is_named_and_no_other(self):
         nameless = []

@@ -60,6 +60,14 @@ class Program(ToolTest):
                           for path in (SOURCE / "samples").glob("*/scene.txt")},
                          {*SAMPLES, *re.findall(r"[a-z]+(?:-[a-z]+)*(?=,| \()", others)})
 
+    def test_comments_are_taken_out_unless_asked_for(self):
+        text = 'tee scene.txt | "$BIN/model"; ! grep -q "#" scene.txt {scene}'
+        done = check("model", "--", "sh", "-c", f"BIN={BIN}; {text}")
+        self.assertEqual((done.returncode, done.stdout.count(": right")), (0, len(SAMPLES)), done.stdout)
+        done = check("model", "--comments", "--", "sh", "-c", f"BIN={BIN}; {text}")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("wrong: its exit status is 1", done.stdout)
+
     def test_a_sphere_is_refused_with_its_line(self):
         pathlib.Path("scene").write_text(SCENE.replace("end\n", "sphere 0 0 0 1\nend\n"))
         line = SCENE.count("\n")

@@ -505,10 +505,9 @@ class Hostile(ClassTest):
     def test_many_triangles_over_the_whole_screen(self):
         self.add("a")
         pathlib.Path("hand-ins/a/stage3.txt").write_text("-9 -9 0\n9 -9 0\n0 9 .5\n" * 30_000)
-        _, seconds = self.judge("--time-limit", "60")
-        self.assertLess(seconds, 60)
+        self.judge("--time-limit", "60", status=0)
         self.assertIn("30000 triangles in place of 1", self.page(1))
-        self.assertIn("could not be judged", self.page(1))
+        self.assertIn("by the right numbers, which are not those of stage3.txt", self.page(1))
 
     def test_what_is_given_up_leaves_no_files(self):
         self.add("a")

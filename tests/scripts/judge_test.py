@@ -30,6 +30,7 @@ from lib.pipe_tools import Tools  # noqa: E402
 
 SCENE = student.SCENE
 CONFIG = "90 80\n-0.6\n-0.5\n-1 1\n"
+OPEN = "could not be judged"
 NAMES = ("stage1.txt", "stage2.txt", "stage3.txt", "z_buffer.txt", "out.bmp")
 
 
@@ -326,7 +327,9 @@ class Wrong(HandIn):
             with self.subTest(name):
                 self.hand_in(mistake=name)
                 verdict = self.verdict()
-                self.assertEqual([file.is_good for file in verdict.files], [i != stage for i in range(5)])
+                out_of_view = not pathlib.Path("z_buffer.txt").read_bytes().strip()
+                good = [i != stage and not (out_of_view and i > 2) for i in range(5)]
+                self.assertEqual([file.is_good for file in verdict.files], good)
                 self.assertIn(name, [cause.name for cause in verdict.files[stage].causes])
                 self.assertIn(mistakes.sentence(name).rstrip("."), sentence(verdict))
 
@@ -349,7 +352,7 @@ class Wrong(HandIn):
         text = pathlib.Path("stage3.txt").read_text()
         pathlib.Path("stage3.txt").write_text("".join(
             " ".join([*line.split()[:2], "5"]) + "\n" if line else "\n" for line in text.split("\n")[:-1]))
-        self.assert_verdicts(["right", "right", "wrong", "wrong", "wrong"], 1)
+        self.assert_verdicts(["right", "right", "wrong", "wrong", "right"], 1)
 
     def test_the_verdict_names_what_could_not_be_judged(self):
         self.hand_in()
@@ -638,7 +641,7 @@ class FollowOn(HandIn):
         self.drop_all("view/l-not-negated")  # all lies behind the eye
         self.assertEqual(pathlib.Path("stage3.txt").read_bytes(), b"")
         self.draw()
-        verdict = self.assert_verdicts(["right", "wrong", "right", "right", "right"], 1)
+        verdict = self.assert_verdicts(["right", "wrong", OPEN, OPEN, OPEN], 1)
         self.assertEqual([cause.name for cause in verdict.files[1].causes], ["view/l-not-negated"])
 
     def test_a_picture_of_nothing_has_no_pixels(self):
@@ -647,7 +650,7 @@ class FollowOn(HandIn):
         self.drop_all("view/l-not-negated")
         for name, data in kept.items():
             pathlib.Path(name).write_bytes(data)
-        self.assert_verdicts(["right", "wrong", "right", "wrong", "wrong"], 1)
+        self.assert_verdicts(["right", "wrong", OPEN, "right", "right"], 1)
 
     def test_an_empty_text_is_wrong_where_triangles_must_be(self):
         for kind, name in enumerate(NAMES[:3]):
@@ -656,8 +659,9 @@ class FollowOn(HandIn):
                 for later in NAMES[kind:3]:
                     pathlib.Path(later).write_bytes(b"")
                 self.draw()
-                verdict = self.assert_verdicts(["wrong" if i == kind else "right" for i in range(5)], 1)
+                verdict = self.assert_verdicts(["right"] * kind + ["wrong"] + [OPEN] * (4 - kind), 1)
                 self.assertEqual(verdict.files[kind].remarks, ["it is empty"])
+                self.assertEqual(verdict.files[kind + 1].remarks, [f"there is too little in {name}"])
 
     def test_a_scene_without_triangles_is_drawn_right(self):
         self.scene = "0 0 5\n0 0 0\n0 1 0\n60 1 1 10\nend\n"

@@ -1,0 +1,135 @@
+"""Stage 4 of a hand-in, from its readings to the verdicts on the depths and on the picture."""
+import collections
+import itertools
+
+from judge_parts.pixels import PixelJudge
+from judge_parts.shown import Shown
+from judge_parts.stage_judge import Reading, undecided_outcome
+from judge_parts.verdict import ANOTHER_RULE, RIGHT, TOO_FEW_DIGITS, UNDECIDED, WRONG, FileVerdict
+
+KINDS_IN_WORDS = {
+    "extra": "a pixel that no triangle covers",
+    "missing": "a pixel that a triangle covers is empty",
+    "depth": "another depth",
+    "other": "another triangle",
+}
+PRINTED = "pixels without a triangle are printed"
+
+
+def pixel_readings(stage3, memory, right_ndc):
+    """{name: (points, units)} of what a program may have drawn: the file, the numbers in memory, and the
+    right ones, also as a text has them after three roundings, if its stages are not."""
+    readings = {}
+    if stage3 is not None:
+        readings["file"] = (stage3.points, stage3.units)
+    for name, points in (("memory" if readings else "file", memory), ("right", right_ndc)):
+        if points is not None and all(x == x for p in points for x in p):
+            readings[name] = (points, Reading.exact(points).units)
+            if name == "right":
+                text = [tuple(round(x, 7) for x in p) for p in points]
+                readings["right text"] = (text, [(3e-7,) * 3] * len(text))
+    return readings
+
+
+class PixelStage:
+    """Judges depths and picture. `thin` names a stage3.txt that holds too little to judge by."""
+
+    def __init__(self, ours, files, readings, thin):
+        self.ours, self.files, self.readings, self.thin = ours, files, readings, thin
+
+    def verdicts(self, depths, colors):
+        """{kind: FileVerdict} of what could be read; each of the two may be None."""
+        verdicts = {}
+        if self.ours.has_own_colors and colors is not None:
+            verdicts["picture"], colors = self.verdict_of_colors(colors), None
+        if depths is not None and depths.rows and depths.digits.are_too_few:
+            verdicts["depths"] = FileVerdict("zbuf", self.files["depths"].name, TOO_FEW_DIGITS,
+                                             remarks=[f"it shows {depths.digits}"])
+            depths = None
+        given = [kind for kind, what in (("depths", depths), ("picture", colors)) if what is not None]
+        if not given:
+            return verdicts
+        if not self.readings:
+            return verdicts | {
+                kind: undecided_outcome("zbuf", self.files[kind].name).verdict for kind in given}
+        window = self.ours.window
+        shown = Shown(colors, depths, window.width, window.height, float(window.rear))
+        judge = PixelJudge(self.readings, window, shown)
+        finding = judge.judge()
+        for kind in given:
+            best = judge.finding_of(kind, finding) if len(given) == 2 else finding
+            verdicts[kind] = self.verdict_of_pixels(kind, best, shown)
+            is_open = self.thin or verdicts[kind].is_good
+            if is_open and shown.is_blank(kind) and not self.ours.draws_nothing():
+                why = f"there is too little in {self.thin}" if self.thin else "nothing is in view"
+                verdicts[kind] = undecided_outcome("zbuf", self.files[kind].name, why).verdict
+        return verdicts
+
+    def verdict_of_colors(self, colors):
+        """The FileVerdict of a picture whose triangles have colors of their own, or light: every color
+        counts, by either rule of coverage."""
+        name, verdicts = self.files["picture"].name, []
+        texts = [self.ours.stage3()] if self.thin or "right" in self.readings else []
+        texts += [] if self.thin else [self.files["stage3"].data or b""]
+        rules = ("nearest", RIGHT, ""), ("center", ANOTHER_RULE, "the center rule")
+        for text, (coverage, verdict, rule) in itertools.product(texts, rules):
+            ours = self.ours.picture(text, coverage)
+            if ours is None:
+                continue
+            places = [(r, i)
+                      for r, (row, line) in enumerate(zip(ours, colors))
+                      for i, color in enumerate(line)
+                      if row[3 * i:3 * i + 3] != color]
+            verdicts.append(
+                FileVerdict("zbuf", name, WRONG if places else verdict, "" if places else rule,
+                            differing=len(places), compared=len(ours) * len(colors[0]), places=places))
+        if not verdicts:
+            return FileVerdict("zbuf", name, UNDECIDED, remarks=["zbuf refuses their stage3.txt"])
+        return min(verdicts, key=lambda verdict: verdict.differing)
+
+    def verdict_of_pixels(self, kind, finding, shown):
+        name = self.files[kind].name
+        mismatch = finding.mismatch
+        if mismatch is None:
+            return FileVerdict("zbuf", name, UNDECIDED, remarks=finding.remarks)
+        places = (mismatch.of_depths if kind == "depths" else mismatch.of_picture)
+        verdict = FileVerdict("zbuf", name, RIGHT, finding.rule, differing=len(places),
+                              compared=mismatch.drawn, places=places)
+        if finding.verdict in ("mistake", "unknown") and kind in finding.touches:
+            verdict.verdict, verdict.causes, verdict.rule = WRONG, finding.causes, ""
+            verdict.remarks += [f"with {finding.rule}"] if finding.rule and finding.causes else []
+        elif finding.verdict == "unknown":
+            verdict.rule = ""
+        verdict.remarks += finding.remarks
+        if kind == "depths" and shown.prints_everything:
+            is_rear = abs(shown.empty - shown.rear) <= shown.depths.tolerance(shown.rear)
+            printed = f"{PRINTED}, too, with " + ("the rear limit" if is_rear else f"{shown.empty:.7g}")
+            verdict.rule = f"{verdict.rule}; {printed}" if verdict.rule else printed
+        if places and not verdict.is_good:
+            row, column = min(places)
+            verdict.first = f"row {row}, column {column}: " + KINDS_IN_WORDS[mismatch.pixels[row, column]]
+        if verdict.rule and verdict.verdict == RIGHT:
+            verdict.verdict = ANOTHER_RULE
+        if kind == "picture" and verdict.is_good and self.has_other_colors(shown):
+            verdict.remarks.append("in other colors")
+        return verdict
+
+    def has_other_colors(self, shown):
+        """Whether most pixels with a triangle have a color that zbuf gives to none of the scene's. Which
+        triangle a pixel shows is not asked: the text that it was judged by may lack some, and hold others in
+        parts."""
+        ours = set(generated_colors(len(self.ours.world) // 3))
+        counts = collections.Counter(color for row in shown.colors for color in row
+                                     if color != shown.background)
+        return 2 * sum(count for color, count in counts.items() if color not in ours) > sum(counts.values())
+
+
+def generated_colors(count):
+    """The colors that zbuf gives to the first triangles, as bytes (docs/stages.md, Z10)."""
+    state = 1
+    for _ in range(count):
+        color = []
+        for _ in range(3):
+            state = (214013 * state + 2531011) % 2**32
+            color.append((state >> 16 & 0x7fff) % 256)
+        yield bytes(color)

@@ -1,0 +1,71 @@
+"""Files of a right hand-in that are emptied, blackened, cut in half, taken from another scene, or drawn with
+a triangle missing: what is left whole keeps its point, and nothing else gets one."""
+import itertools
+import struct
+
+NAMES = ("stage1.txt", "stage2.txt", "stage3.txt", "z_buffer.txt", "out.bmp")
+SUBSETS = [some for count in range(1, 6) for some in itertools.combinations(NAMES, count)]
+HOWS = ("emptied", "blank", "in one place", "cut in half", "of another scene")
+
+
+def rows_of(bmp):
+    """The header of a BMP of 24 bits, and its rows of bytes."""
+    begin, (width, height) = struct.unpack_from("<I", bmp, 10)[0], struct.unpack_from("<ii", bmp, 18)
+    stride = (3 * width + 3) // 4 * 4
+    return bmp[:begin], [bmp[begin + i * stride:begin + (i + 1) * stride] for i in range(abs(height))]
+
+
+def damaged(name, data, how, other):
+    """A file's bytes after the damage; `other` are the file's of another scene."""
+    if how == "of another scene":
+        return other
+    if name == "out.bmp":
+        header, rows = rows_of(data)
+        kept = len(rows) // 2 if how == "cut in half" else 0
+        return header + b"".join(rows[:kept]) + b"".join(bytes(len(row)) for row in rows[kept:])
+    if how == "cut in half":
+        parts = data.rstrip().split(b"\n" if name == "z_buffer.txt" else b"\n\n")
+        end = b"\n" if name == "z_buffer.txt" else b"\n\n"
+        return b"".join(part + end for part in parts[:len(parts) // 2])
+    if how == "in one place" and name.startswith("stage"):
+        return b"0 0 0\n0.0000001 0 0\n0 0.0000001 0\n\n"
+    return b"\n" * 7 if how == "blank" else b""
+
+
+def expected(right, files, how):
+    """{name: whether it earns its point} of the files for which that is beyond doubt: a text whose former is
+    damaged in the same way may be what a right stage has made of that."""
+    certain = {}
+    for name, before in zip(NAMES, (None, "stage1.txt", "stage2.txt", "stage3.txt", "stage3.txt")):
+        is_whole = files[name] == right[name]
+        if name == "out.bmp" and deep_colors(files[name]) >= deep_colors(right[name]) and not is_whole:
+            continue  # no triangle is lost that can be seen well
+        follows = before and files[before] != right[before] and how in ("cut in half", "of another scene")
+        if is_whole or not follows:
+            certain[name] = is_whole
+    return certain
+
+
+def deep_colors(bmp):
+    """The colors, other than black, of pixels all of whose neighbors within two pixels have the same."""
+    _, rows = rows_of(bmp)
+    width, height = struct.unpack_from("<ii", bmp, 18)
+    pixels = [[row[3 * i:3 * i + 3] for i in range(width)] for row in rows]
+    return {
+        pixels[r][c]
+        for r in range(2, height - 2)
+        for c in range(2, width - 2)
+        if any(pixels[r][c]) and all(
+            pixels[r + i][c + j] == pixels[r][c] for i in range(-2, 3) for j in range(-2, 3))}
+
+
+def generated_colors(count):
+    """The colors of triangles that have none (docs/stages.md, Z10), blue first, as a BMP has them."""
+    state, colors = 1, []
+    for _ in range(count):
+        channels = []
+        for _ in range(3):
+            state = (214013 * state + 2531011) % 2**32
+            channels.append((state >> 16 & 0x7fff) % 256)
+        colors.append(bytes(channels[::-1]))
+    return colors
