@@ -2,7 +2,6 @@
 
 #include <array>
 #include <bit>
-#include <cmath>
 
 #include "libpipeline/numbers/int128.h"
 #include "libpipeline/numbers/powers_of_ten.h"
@@ -141,37 +140,6 @@ void drop_trailing_zeros(Decimal& decimal) {
     decimal.digits /= 10;
     ++decimal.exponent;
   }
-}
-
-bool shortest_decimal_of_float(double value, Decimal& decimal) {
-  if (!(value >= 0.001 && value < 1e5)) return false;
-  const auto bits = std::bit_cast<std::uint64_t>(value);
-  constexpr int kFloatBits = 24;
-  const bool is_power_of_two = bits << 12 == 0;  // the next smaller float is only half as far away
-  if (is_power_of_two) return false;
-  // Between two neighbors lies one multiple of 10^k or more, and at most one of 10^(k + 1).
-  const int log2_gap = static_cast<int>(bits >> 52) - 1023 - (kFloatBits - 1);
-  const int k = floor_log10(log2_gap, false);
-  const double scale = kPowersOfTen[static_cast<std::size_t>(-k)];
-  const double units = value * scale;  // below 10 * 2^24
-  const double half_gap = std::bit_cast<double>(static_cast<std::uint64_t>(log2_gap + 1022) << 52) * scale;
-  const auto below = static_cast<std::uint64_t>(units);
-  const double fraction = units - static_cast<double>(below);
-  const std::uint64_t last_digit = below % 10;
-  const double from_below = static_cast<double>(last_digit) + fraction;
-  const double from_above = 10 - from_below;
-  // Products are off by less than this.
-  constexpr double kMargin = 0x1p-24;
-  if (std::fabs(from_below - half_gap) < kMargin || std::fabs(from_above - half_gap) < kMargin ||
-      std::fabs(fraction - 0.5) < kMargin)
-    return false;
-  // Branch-free: whether a digit can be saved is unpredictable.
-  const bool is_ten_below = from_below < half_gap;
-  const bool is_ten_above = from_above < half_gap;
-  const std::uint64_t shorter = below - last_digit + (is_ten_above ? 10 : 0);
-  const std::uint64_t nearest = below + (fraction > 0.5 ? 1 : 0);
-  decimal = {(is_ten_below | is_ten_above) ? shorter : nearest, k};
-  return true;
 }
 
 bool shortest_decimal(double value, Decimal& decimal) {

@@ -15,10 +15,6 @@ struct Decimal {
 /// magnitudes of coordinates: false unless 2^-40 <= value < 2^53.
 bool shortest_decimal(double value, Decimal& decimal);
 
-/// The same for a float, given as the double it equals: false unless 0.001 <= value < 10^5, and for the few
-/// floats for which doubles cannot decide.
-bool shortest_decimal_of_float(double value, Decimal& decimal);
-
 void drop_trailing_zeros(Decimal& decimal);
 
 }  // namespace pipeline

@@ -2,32 +2,25 @@
 
 #include <algorithm>
 
-#include "libpipeline/text/fixed_depths.h"
 #include "libpipeline/text/number_printer.h"
+#include "libpipeline/text/scaled_number.h"
 
 namespace pipeline {
-namespace {
-
-void write_depth(TextWriter& text, double depth) {
-  constexpr NumberFormat kSixDecimals = {6, false};
-  char* end = print_number(text.reserve(kMaxNumberLength + 1), depth, 0, kSixDecimals);
-  *end++ = '\t';
-  text.commit(end);
-}
-
-}  // namespace
 
 void write_depth_row(TextWriter& text, std::span<const double> depths, double rear) {
-  constexpr std::size_t kAtOnce = 1024;
+  constexpr std::size_t kAtOnce = 64;
+  constexpr int kDecimals = 6;
   while (!depths.empty()) {
     const auto next = depths.first(std::min(kAtOnce, depths.size()));
-    const FixedDepths written =
-        write_fixed_depths(next, rear, text.reserve(next.size() * kMaxFixedDepthLength));
-    text.commit(written.end);
-    depths = depths.subspan(written.count);
-    if (written.count == next.size()) continue;
-    write_depth(text, depths.front());
-    depths = depths.subspan(1);
+    char* out = text.reserve(next.size() * (kMaxNumberLength + 1));
+    for (const double depth : next) {
+      if (!(depth < rear)) continue;
+      char* const end = print_scaled(out, depth, kDecimals);
+      out = end != nullptr ? end : print_number(out, depth, 0, {.decimals = kDecimals});
+      *out++ = '\t';
+    }
+    text.commit(out);
+    depths = depths.subspan(next.size());
   }
   text.append("\n");
 }

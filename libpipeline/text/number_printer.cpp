@@ -9,10 +9,10 @@
 #include <cstdlib>
 
 #include "libpipeline/numbers/decimal_units.h"
-#include "libpipeline/numbers/int128.h"
 #include "libpipeline/numbers/powers_of_ten.h"
 #include "libpipeline/numbers/shortest_decimal.h"
 #include "libpipeline/text/eight_digits.h"
+#include "libpipeline/text/scaled_number.h"
 #include "libpipeline/text/wide_decimal.h"
 
 namespace pipeline {
@@ -23,46 +23,10 @@ char* print_eight(char* out, std::uint64_t number) {
   return out + 8;
 }
 
-/// Prints a number below 10^16; 16 characters may be written.
-char* print_whole(char* out, std::uint64_t number) {
-  constexpr std::uint64_t kEightDigits = 100'000'000;
-  if (number < kEightDigits) {
-    const std::uint64_t digits = split_digits(static_cast<std::uint32_t>(number));
-    const int length = 8 - std::countr_zero(digits | std::uint64_t{1} << 56) / 8;
-    store_eight(out, (digits + kEightZeros) >> (8 * (8 - length)));
-    return out + length;
-  }
-  const std::uint64_t high = number / kEightDigits;
-  return print_eight(print_whole(out, high), number - high * kEightDigits);
-}
-
-/// Prints a number below 10^16 with exactly `count` digits, at most 16 and at least as many as it has; 16
-/// characters may be written.
-char* print_digits(char* out, SixteenDigits digits, int count) {
-  UInt128 text = (static_cast<UInt128>(digits.last + kEightZeros) << 64) | (digits.first + kEightZeros);
-  text >>= 8 * (16 - count);
-  store_eight(out, static_cast<std::uint64_t>(text));
-  store_eight(out + 8, static_cast<std::uint64_t>(text >> 64));
-  return out + count;
-}
-
 /// The count of zeros at the end; 16 if all are.
 int trailing_zero_count(SixteenDigits digits) {
   const int count = std::countl_zero(digits.last) / 8;
   return count < 8 ? count : 8 + std::countl_zero(digits.first) / 8;
-}
-
-/// Prints the digits before the point; most numbers have one.
-char* print_before_point(char* out, std::uint64_t whole) {
-  if (whole >= 10) return print_whole(out, whole);
-  *out = static_cast<char>('0' + whole);
-  return out + 1;
-}
-
-/// Branch-free: the sign is unpredictable.
-char* print_sign(char* out, bool is_negative) {
-  *out = '-';
-  return out + (is_negative ? 1 : 0);
 }
 
 /// The count of digits of a number below 10^17.
@@ -157,23 +121,16 @@ char* without_sign_of_zero(char* first, char* last) {
 
 }  // namespace
 
-char* print_scaled(char* out, double value, int decimals) {
-  const auto n = static_cast<std::size_t>(decimals);
-  const DecimalUnits rounded(value, kPowersOfTen[n]);
-  if (!rounded.is_certain()) return nullptr;
-  const auto units = static_cast<std::uint64_t>(rounded.whole);
-  out = print_sign(out, (value < 0) & (units != 0));
-  // Truncation instead of a division: exact unless the decimals were rounded up to the next whole number.
-  auto whole = static_cast<std::uint64_t>(std::fabs(value));
-  std::uint64_t behind = units - whole * kWholePowersOfTen[n];
-  if (behind >= kWholePowersOfTen[n]) {
-    ++whole;
-    behind -= kWholePowersOfTen[n];
+char* print_whole(char* out, std::uint64_t number) {
+  constexpr std::uint64_t kEightDigits = 100'000'000;
+  if (number < kEightDigits) {
+    const std::uint64_t digits = split_digits(static_cast<std::uint32_t>(number));
+    const int length = 8 - std::countr_zero(digits | std::uint64_t{1} << 56) / 8;
+    store_eight(out, (digits + kEightZeros) >> (8 * (8 - length)));
+    return out + length;
   }
-  out = print_before_point(out, whole);
-  if (decimals == 0) return out;
-  *out++ = '.';
-  return print_digits(out, split_sixteen(behind), decimals);
+  const std::uint64_t high = number / kEightDigits;
+  return print_eight(print_whole(out, high), number - high * kEightDigits);
 }
 
 char* print_shortest(char* out, double value) {
@@ -187,16 +144,6 @@ char* print_shortest(char* out, double value) {
   if (shortest_decimal(size, decimal))
     if (char* const end = print_with_decimals(out, value, decimal)) return end;
   return std::to_chars(out, out + kMaxNumberLength, value == 0 ? 0.0 : value).ptr;
-}
-
-char* print_shortest(char* out, float value) {
-  const double size = std::fabs(value);
-  // From 0.001 to 10^5 an exponent never saves a character.
-  if (size < 1e5 && size == std::trunc(size))
-    return print_before_point(print_sign(out, value < 0), static_cast<std::uint64_t>(size));
-  Decimal decimal;
-  if (shortest_decimal_of_float(size, decimal)) return print_decimals(out, value, decimal);
-  return std::to_chars(out, out + kMaxFloatLength, value == 0 ? 0.0F : value).ptr;
 }
 
 char* print_number(char* out, double hi, double lo, NumberFormat format) {

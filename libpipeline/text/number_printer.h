@@ -27,20 +27,6 @@ char* print_number(char* out, double hi, double lo, NumberFormat format);
 /// The same in the shortest form.
 char* print_shortest(char* out, double value);
 
-/// The longest float, -1.17549435e-38, plus bytes after it that may be overwritten.
-constexpr std::size_t kMaxFloatLength = 32;
-
-/// Prints the shortest text that reads back to the same float, as to_chars does; 0 has no sign. `out` must
-/// have room for kMaxFloatLength characters.
-char* print_shortest(char* out, float value);
-
-constexpr int kMaxScaledDecimals = 15;
-
-/// The fast path of print_number for a fixed count of decimals, at most kMaxScaledDecimals: prints the scaled
-/// number as a whole number, of at most 16 digits. Null where that has more than 51 bits, or lies so close to
-/// a tie that the rounding of the product matters. 16 characters after the end may be overwritten.
-char* print_scaled(char* out, double value, int decimals);
-
 /// The shortest text that reads back to `value`, which must be finite.
 std::string shortest_text(double value);
 

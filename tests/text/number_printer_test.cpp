@@ -184,62 +184,6 @@ TEST(PrintNumberLong, ShortestNumbersAreThoseOfToChars) {
   }
 }
 
-/// True if a float is printed as to_chars prints it.
-bool is_shortest_float(float value) {
-  char expected[kMaxFloatLength];
-  char text[kMaxFloatLength];
-  const std::string_view right(expected,
-                               std::to_chars(expected, expected + sizeof expected, value).ptr - expected);
-  return std::string_view(text, print_shortest(text, value) - text) == right;
-}
-
-float float_of_bits(std::uint32_t bits) {
-  return std::bit_cast<float>(bits);
-}
-
-constexpr std::uint32_t kInfinityBits = 0x7f800000;
-
-TEST(PrintFloat, IsThatOfToCharsForFloatsOfAllMagnitudes) {
-  constexpr std::uint32_t kPrimeStep = 9973;
-  for (std::uint32_t bits = 1; bits < kInfinityBits; bits += kPrimeStep)
-    ASSERT_TRUE(is_shortest_float(float_of_bits(bits)) && is_shortest_float(-float_of_bits(bits))) << bits;
-}
-
-TEST(PrintFloat, IsThatOfToCharsNearPowersOfTwoAndTen) {
-  std::vector<float> middles;
-  for (int exponent = -149; exponent < 128; ++exponent) middles.push_back(std::ldexp(1.0F, exponent));
-  for (int exponent = -44; exponent < 39; ++exponent)
-    for (int factor = 1; factor < 100; ++factor)
-      middles.push_back(
-          std::strtof((std::to_string(factor) + "e" + std::to_string(exponent)).c_str(), nullptr));
-  for (const float middle : middles) {
-    const std::uint32_t bits = std::bit_cast<std::uint32_t>(middle);
-    const std::uint32_t first = bits - std::min(bits - 1, 20U), last = std::min(bits + 20, kInfinityBits - 1);
-    for (std::uint32_t near = first; near <= last; ++near)
-      ASSERT_TRUE(is_shortest_float(float_of_bits(near))) << near;
-  }
-}
-
-TEST(PrintFloat, IsThatOfToCharsForFewDecimals) {
-  for (int i = 1; i <= 1'000'000; ++i)
-    ASSERT_TRUE(is_shortest_float(static_cast<float>(i) / 8) &&
-                is_shortest_float(static_cast<float>(i / 1e6)) &&
-                is_shortest_float(static_cast<float>(i / 1e4)))
-        << i;
-}
-
-// All floats that do not go through to_chars.
-TEST(PrintNumberLong, FloatsFromAThousandthToAMillionAreThoseOfToChars) {
-  for (auto bits = std::bit_cast<std::uint32_t>(0.0009F); bits < std::bit_cast<std::uint32_t>(1e6F); ++bits)
-    ASSERT_TRUE(is_shortest_float(float_of_bits(bits))) << bits;
-}
-
-TEST(PrintFloat, ZeroHasNoSign) {
-  char text[kMaxFloatLength];
-  for (const float zero : {0.0F, -0.0F})
-    EXPECT_EQ(std::string_view(text, print_shortest(text, zero) - text), "0");
-}
-
 TEST(PrintNumber, ShortestNumbersAreShort) {
   EXPECT_EQ(printed(0.1, 0, {.shortest = true}), "0.1");
   EXPECT_EQ(printed(3, 0, {.shortest = true}), "3");

@@ -18,9 +18,20 @@
 
 namespace pipeline {
 
+namespace {
+
+constexpr std::size_t kMaxFloatLength = 15;  // -1.17549435e-38
+
+/// Prints the shortest text that reads back to the same float; 0 has no sign.
+char* print_float(char* out, float value) {
+  return std::to_chars(out, out + kMaxFloatLength, value == 0 ? 0.0F : value).ptr;
+}
+
+}  // namespace
+
 std::string float_text(double value) {
   std::array<char, kMaxFloatLength> text{};
-  return {text.data(), print_shortest(text.data(), static_cast<float>(value))};
+  return {text.data(), print_float(text.data(), static_cast<float>(value))};
 }
 
 namespace {
@@ -59,7 +70,7 @@ class VertexLines {
   struct Line {
     VertexNumbers vertex;
     std::size_t length = 0;
-    std::array<char, 9 * kMaxFloatLength> text;
+    std::array<char, 9 * (kMaxFloatLength + 1)> text;
   };
 
   static std::size_t hash(const VertexNumbers& vertex) {
@@ -72,7 +83,7 @@ class VertexLines {
   static void print(const VertexNumbers& vertex, Line& line) {
     char* p = line.text.data();
     for (std::size_t i = 0; i < vertex.count; ++i) {
-      p = print_shortest(p, vertex.numbers[i]);
+      p = print_float(p, vertex.numbers[i]);
       *p++ = ' ';
     }
     p[-1] = '\n';
@@ -277,7 +288,7 @@ class SceneWriter {
 
   void write_triangle(unsigned face) {
     static constexpr std::string_view kKeyword = "triangle\n";
-    char* p = out_.reserve(kKeyword.size() + std::size_t{3} * 9 * kMaxFloatLength);
+    char* p = out_.reserve(kKeyword.size() + std::size_t{3} * 9 * (kMaxFloatLength + 1));
     p = std::copy(kKeyword.begin(), kKeyword.end(), p);
     for (std::size_t corner = 0; corner < 3; ++corner) {
       const unsigned index = placed_->mesh->mFaces[face].mIndices[corner];
