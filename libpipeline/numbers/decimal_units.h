@@ -19,6 +19,9 @@ constexpr double kWholeRounder = 0x1.8p52;
   return (value + kWholeRounder) - kWholeRounder;
 }
 
+/// Half the distance of the doubles from 1 to 2.
+constexpr double kUnitRoundoff = 0x1p-53;
+
 /// More than a product of two doubles can be off by, in parts of itself. (For this and the next constant:
 /// tests/proofs/rounding_test.g.)
 constexpr double kProductError = 0x1p-52;

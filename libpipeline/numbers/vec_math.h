@@ -30,14 +30,24 @@ inline Vec3 cross(const Vec3& a, const Vec3& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
+/// The largest magnitude of a coordinate.
+inline double largest_in(const Vec3& v) {
+  return std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)});
+}
+
 /// The unit vector in v's direction, 0 for 0. v may have any finite length.
 inline Vec3 unit_vector(const Vec3& v) {
-  const double largest = std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)});
+  const double largest = largest_in(v);
   if (largest == 0) return {};
   // Scaled first, so that no square over- or underflows.
   const Vec3 near_1 = {v.x / largest, v.y / largest, v.z / largest};
   const double length = std::sqrt(dot(near_1, near_1));
   return {near_1.x / length, near_1.y / length, near_1.z / length};
+}
+
+/// The normal of a triangle's plane, of any length, on the side from where it is counterclockwise.
+inline Vec3 face_normal(const Triangle& p) {
+  return cross(difference(p[1], p[0]), difference(p[2], p[0]));
 }
 
 /// The weighted mean of a triangle's vertices or of their attributes; the weights add up to 1.

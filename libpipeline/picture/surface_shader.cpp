@@ -21,19 +21,9 @@ SurfacePoint mean(const std::array<SurfacePoint, 3>& p, const Weights& w) {
           mean(Triangle{p[0].color, p[1].color, p[2].color}, w)};
 }
 
-Vec3 to_vec3(Color color) {
-  return {static_cast<double>(color.red()), static_cast<double>(color.green()),
-          static_cast<double>(color.blue())};
-}
-
-/// The normal of a triangle's plane, of any length.
-Vec3 face_normal(const std::array<SurfacePoint, 3>& p) {
-  return cross(difference(p[1].position, p[0].position), difference(p[2].position, p[0].position));
-}
-
 /// Gives every corner the normal of the triangle.
 void use_face_normal(std::array<SurfacePoint, 3>& corners) {
-  const Vec3 normal = face_normal(corners);
+  const Vec3 normal = face_normal({corners[0].position, corners[1].position, corners[2].position});
   for (SurfacePoint& corner : corners) corner.normal = normal;
 }
 

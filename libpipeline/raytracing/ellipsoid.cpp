@@ -22,10 +22,6 @@ Row cross(const Row& a, const Row& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-double largest_in(const Row& row) {
-  return std::max({std::fabs(row[0].hi), std::fabs(row[1].hi), std::fabs(row[2].hi)});
-}
-
 Row scaled(const Row& row, double power_of_two) {
   const auto times = [&](const DoubleDouble& x) {
     return DoubleDouble{x.hi * power_of_two, x.lo * power_of_two};
@@ -42,7 +38,7 @@ std::optional<Ellipsoid> Ellipsoid::from(const SpherePoints& points) {
   std::array<double, 3> to_one;
   for (std::size_t i = 0; i < 3; ++i) {
     const Row axis = difference_of(points[i + 1], points[0]);
-    const double largest = largest_in(axis);
+    const double largest = largest_in(Vec3{axis[0].hi, axis[1].hi, axis[2].hi});
     if (!(largest > 0 && std::isfinite(largest))) return std::nullopt;
     to_one[i] = std::scalbn(1, -std::ilogb(largest));
     axes[i] = scaled(axis, to_one[i]);

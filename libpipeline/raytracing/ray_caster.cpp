@@ -13,17 +13,16 @@ double first_distance(const PixelRays& rays) {
   return rays.is_perspective() ? 0 : -std::numeric_limits<double>::infinity();
 }
 
-double largest_in(double low, double high) {
-  return std::max(std::fabs(low), std::fabs(high));
-}
-
 }  // namespace
 
 Bvh hierarchy_of(const TracedTriangles& triangles, const PixelRays& rays, ThreadPool& pool, RaysOfBoxes of) {
   // Of the numbers that are rounded, a bound on the largest, for one triangle.
   const auto most = [&](const BoundingBox& box) {
-    const double distance = largest_in(box.low.z, box.high.z);
-    return largest_in(box.low.x, box.high.x) + largest_in(box.low.y, box.high.y) + distance +
+    const auto largest = [&](double Vec3::*axis) {
+      return std::max(std::fabs(box.low.*axis), std::fabs(box.high.*axis));
+    };
+    const double distance = largest(&Vec3::z);
+    return largest(&Vec3::x) + largest(&Vec3::y) + distance +
            rays.reach() * (rays.is_perspective() ? distance : 1);
   };
   const auto box_of = [&](TracedTriangles::Id id) {

@@ -7,15 +7,6 @@
 namespace pipeline {
 namespace {
 
-Vec3 to_vec3(Color color) {
-  return {static_cast<double>(color.red()), static_cast<double>(color.green()),
-          static_cast<double>(color.blue())};
-}
-
-double largest_in(const Vec3& v) {
-  return std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)});
-}
-
 /// A bound on the error, in each coordinate, of the point of a sphere at t of a ray: the errors of t, of
 /// its product and of the sum.
 double error_of_point(const Ray& ray, double t) {
@@ -95,7 +86,7 @@ SurfaceHit SurfaceCaster::seen(SurfaceId id, const Ray& ray) {
 SurfaceHit SurfaceCaster::triangle_hit(SurfaceId id, const Ray& ray, double t,
                                        const std::array<double, 3>& weights) {
   const Triangle& p_view = triangles_.p_view(id);
-  const Vec3 normal = face_normal(p_view);
+  const Vec3 normal = unit_vector(face_normal(p_view));
   const auto* const normals = triangles_.normals(id);
   const auto* const colors = triangles_.colors(id);
   return {.id = id,
@@ -123,7 +114,7 @@ void SurfaceCaster::settle(std::vector<Crossing>& crossings) {
 std::optional<std::array<SurfacePoint, 3>> SurfaceCaster::corners(SurfaceId id) {
   if (id >= triangles_.size()) return std::nullopt;
   const Triangle& p_view = triangles_.p_view(id);
-  const Vec3 normal = face_normal(p_view);
+  const Vec3 normal = unit_vector(face_normal(p_view));
   const auto* const normals = triangles_.normals(id);
   const auto* const colors = triangles_.colors(id);
   const Vec3 own = colors != nullptr ? Vec3() : to_vec3(colors_.of(triangles_.number(id)));

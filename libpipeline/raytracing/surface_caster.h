@@ -92,7 +92,7 @@ bool SurfaceCaster::cross(const SurfaceRay& ray, std::vector<Crossing>& crossing
       limit = -1;  // ends the search
       return;
     }
-    const double cosine = dot(unit_vector(ray.ray.direction), face_normal(p_view));
+    const double cosine = dot(unit_vector(ray.ray.direction), unit_vector(face_normal(p_view)));
     crossings.push_back({found->t, id, triangles_.material(id), cosine < 0, std::fabs(cosine)});
   });
   if (is_stopped) return false;

@@ -82,12 +82,8 @@ bool SurfaceTriangleTest::may_start_on(const Triangle& p_view) const {
 
 double error_of_mean(const Triangle& p_view) {
   double largest = 0;
-  for (const Vec3& p : p_view) largest = std::max({largest, std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
+  for (const Vec3& p : p_view) largest = std::max(largest, largest_in(p));
   return 0x1p-49 * largest;
-}
-
-Vec3 face_normal(const Triangle& p_view) {
-  return unit_vector(cross(difference(p_view[1], p_view[0]), difference(p_view[2], p_view[0])));
 }
 
 }  // namespace pipeline

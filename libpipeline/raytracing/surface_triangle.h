@@ -46,7 +46,4 @@ class SurfaceTriangleTest {
 /// plane. The sum of the weights is off by 3 roundings, and the mean has 3 more.
 double error_of_mean(const Triangle& p_view);
 
-/// Of length 1, on the side from where the triangle is counterclockwise.
-Vec3 face_normal(const Triangle& p_view);
-
 }  // namespace pipeline

@@ -4,6 +4,8 @@
 #include <optional>
 #include <string_view>
 
+#include "libpipeline/numbers/vec.h"
+
 namespace pipeline {
 
 /// A color with 8 bits per channel, packed as 0x00RRGGBB. A background may let through whatever will be
@@ -38,6 +40,12 @@ class Color {
  private:
   std::uint32_t rgb_ = 0;
 };
+
+/// The channels, red, green and blue from 0 to 255.
+inline Vec3 to_vec3(Color color) {
+  return {static_cast<double>(color.red()), static_cast<double>(color.green()),
+          static_cast<double>(color.blue())};
+}
 
 /// The color of six hexadecimal digits, RRGGBB, or of eight, RRGGBBAA with an alpha, in upper or lower case;
 /// nullopt for any other word.

@@ -7,6 +7,7 @@
 
 #include "libpipeline/scene/spelling.h"
 #include "libpipeline/text/fixed_text.h"
+#include "libpipeline/text/number_parser.h"
 
 namespace pipeline {
 namespace {
@@ -100,7 +101,7 @@ Command SceneReader::next() {
     return EndCommand{};
   }
   if (keyword == "color" || is_appearance_keyword(keyword)) return read_appearance(keyword);
-  const bool is_vertex = has_triangle_ && keyword.find_first_of("+-.0123456789") == 0;
+  const bool is_vertex = has_triangle_ && begins_like_number(keyword);
   line_.fail(expected_commands(),
              is_vertex ? " (a triangle has three vertices)" : spelling_hint(keyword, kCommands));
 }

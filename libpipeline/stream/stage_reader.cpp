@@ -7,14 +7,10 @@
 
 #include "libpipeline/scene/header_line.h"
 #include "libpipeline/scene/spelling.h"
+#include "libpipeline/text/number_parser.h"
 
 namespace pipeline {
 namespace {
-
-bool is_vertex(std::string_view word) {
-  return !word.empty() && (word.front() == '-' || word.front() == '+' || word.front() == '.' ||
-                           (word.front() >= '0' && word.front() <= '9'));
-}
 
 // Header keywords besides the appearance's.
 constexpr std::array<std::string_view, 8> kKeywords = {"framed",      "eye",     "look",  "up",
@@ -52,8 +48,8 @@ StageReader::StageReader(TextReader& text, bool marks_decimals) : text_(text) {
   // An error here may hide a header line, so it is reported before any caller misses that line.
   header_end_ = line_is_pending_ ? line_.location() : text_.end_location();
   if (!line_is_pending_) expect_unframed_end();
-  const bool is_body = is_vertex(line_.peek()) || line_.peek() == "triangle" || line_.peek() == "sphere" ||
-                       line_.peek() == "clipped" || is_end(line_);
+  const bool is_body = begins_like_number(line_.peek()) || line_.peek() == "triangle" ||
+                       line_.peek() == "sphere" || line_.peek() == "clipped" || is_end(line_);
   if (line_is_pending_ && !is_body) reject(line_, "a header line, ");
 }
 
@@ -135,7 +131,7 @@ void StageReader::fill(TriangleBatch& batch) {
       break;
     }
     line_is_pending_ = false;
-    if (is_vertex(line_.peek())) {
+    if (begins_like_number(line_.peek())) {
       read_triangle(line_, batch);
     } else if (line_.peek() == "triangle") {
       triangles_->read_number(line_);

@@ -25,16 +25,10 @@ bool is_position(std::string_view keyword) {
   return is_one_of(keyword, {"eye", "look", "up"});
 }
 
-/// True for a word that begins like a number; whether it is one shows when it is read.
-bool is_number(std::string_view word) {
-  const char first = word.front();
-  return (first >= '0' && first <= '9') || first == '-' || first == '+' || first == '.';
-}
-
 /// True for a line that begins with `count` numbers.
 bool begins_with_numbers(const Words& line, std::size_t count) {
   return line.size() >= count &&
-         std::all_of(line.begin(), line.begin() + static_cast<std::ptrdiff_t>(count), is_number);
+         std::all_of(line.begin(), line.begin() + static_cast<std::ptrdiff_t>(count), begins_like_number);
 }
 
 bool is_point(const Words& line) {

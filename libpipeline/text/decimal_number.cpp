@@ -87,10 +87,6 @@ int read_digits(const char* p, std::uint64_t& number) {
   return static_cast<int>(count);
 }
 
-bool is_digit(char c) {
-  return c >= '0' && c <= '9';
-}
-
 /// Continues after eight decimals; null if there are too many digits. `digit_count` is that of `digits`.
 const char* read_more_decimals(const char* p, std::uint64_t& digits, int digit_count, int& decimals) {
   // Nearly all have at most nine more, and at most 19 digits, which fit in 64 bits.

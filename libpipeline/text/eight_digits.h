@@ -14,6 +14,10 @@ namespace pipeline {
 // Nobody runs the tests with another byte order.
 static_assert(std::endian::native == std::endian::little, "pipeline needs a little-endian processor");
 
+inline bool is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
+
 // Decimal digits, eight at a time in a 64-bit word.
 
 /// Eight characters, the first in the lowest byte.

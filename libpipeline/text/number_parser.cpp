@@ -5,13 +5,10 @@
 #include <cmath>
 
 #include "libpipeline/numbers/powers_of_ten.h"
+#include "libpipeline/text/eight_digits.h"
 
 namespace pipeline {
 namespace {
-
-bool is_digit(char c) {
-  return c >= '0' && c <= '9';
-}
 
 /// The decimal exponent of the first nonzero digit of a word that from_chars has accepted.
 long long leading_exponent(std::string_view word) {

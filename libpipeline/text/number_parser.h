@@ -14,6 +14,11 @@ struct ParsedNumber {
   NumberError error = NumberError::none;
 };
 
+/// Whether a word begins like a number; whether it is one shows when it is parsed.
+inline bool begins_like_number(std::string_view word) {
+  return word.find_first_of("+-.0123456789") == 0;
+}
+
 /// Parses a whole word of decimal text, [+-] digits [. digits] [e [+-] digits] with at least one digit before
 /// the exponent, as the nearest double. Numbers too small for a double become a zero of the same sign. `nan`,
 /// `inf`, hexadecimal, a comma and trailing characters are errors. The locale has no influence.

@@ -5,16 +5,10 @@
 #include <utility>
 
 #include "libpipeline/numbers/powers_of_ten.h"
+#include "libpipeline/numbers/vec_math.h"
 #include "libpipeline/text/error.h"
 
 namespace pipeline {
-namespace {
-
-double largest_in(const Vec3& p) {
-  return std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
-}
-
-}  // namespace
 
 double size_of(const Vec3& point) {
   const double largest = largest_in(point);

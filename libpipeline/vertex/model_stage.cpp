@@ -171,8 +171,7 @@ void ModelStage::add_facets(TriangleBatch& batch) {
 /// Gives triangles without normals their face normal.
 void ModelStage::add_face_normals(TriangleBatch& batch) const {
   for (std::size_t i = batch.attributes.normals.size(); i < batch.size(); ++i) {
-    const auto& [a, b, c] = batch.triangles[i];
-    const Vec3 normal = unit_vector(cross(difference(b, a), difference(c, a)));
+    const Vec3 normal = unit_vector(face_normal(batch.triangles[i]));
     batch.attributes.normals.push_back({normal, normal, normal});
   }
 }

@@ -5,13 +5,12 @@
 #include <limits>
 #include <span>
 
+#include "libpipeline/numbers/decimal_units.h"
 #include "libpipeline/numbers/vec_math.h"
 #include "libpipeline/text/number_printer.h"
 
 namespace pipeline {
 namespace {
-
-constexpr double kUnit = 0x1p-53;
 
 /// The sign of the determinant with rows (x, y, w) of the three vertices. It is the sign of the area in NDC
 /// of the part in front of the eye, unless the projection mirrors one axis.
@@ -30,7 +29,7 @@ int winding_sign(const Triangle& p_view, bool is_perspective) {
                            size(a.x, b.y, a.y, b.x) * std::fabs(w(c));
   // Minors that underflow lose up to 2^-1073.
   const double lost = 0x1p-1070 * (std::fabs(w(a)) + std::fabs(w(b)) + std::fabs(w(c))) + 0x1p-1000;
-  if (std::fabs(determinant) > 8 * kUnit * magnitude + lost) return determinant > 0 ? 1 : -1;
+  if (std::fabs(determinant) > 8 * kUnitRoundoff * magnitude + lost) return determinant > 0 ? 1 : -1;
   const auto minor = [](const Vec3& p, const Vec3& q) { return Ball(p.x) * q.y - Ball(p.y) * q.x; };
   return (minor(b, c) * w(a) + minor(c, a) * w(b) + minor(a, b) * w(c)).sign();
 }
@@ -41,7 +40,7 @@ double safe_double(const Ball& number) {
   if (number.is_exact_zero()) return 0;
   const double nearest = number.nearest_double();
   const double size = std::fabs(nearest);
-  const bool is_fine = size > 0x1p-500 && size < 0x1p500 && number.radius() <= kUnit * size;
+  const bool is_fine = size > 0x1p-500 && size < 0x1p500 && number.radius() <= kUnitRoundoff * size;
   return is_fine ? nearest : std::numeric_limits<double>::quiet_NaN();
 }
 

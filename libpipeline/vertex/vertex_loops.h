@@ -16,8 +16,6 @@ namespace pipeline {
 // The loops of all kernels (vertex_kernel.h), free of branches. Kernels differ only in `ProductError`, which
 // calculates the exact rounding error of a product.
 
-constexpr double kUnitRoundoff = 0x1p-53;
-
 /// Splits the factors (T. Dekker, "A floating-point technique for extending the available precision", 1971),
 /// for processors without a fused multiply-add: std::fma would be a call there.
 struct DekkerError {

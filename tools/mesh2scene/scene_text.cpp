@@ -274,9 +274,8 @@ class SceneWriter {
 
   /// Any for a triangle without area, which is not seen.
   [[nodiscard]] Vec3 face_normal(const unsigned* indices) const {
-    const Vec3 a = position(indices[0]);
-    const Vec3 n =
-        unit_vector(cross(difference(position(indices[1]), a), difference(position(indices[2]), a)));
+    const Vec3 n = unit_vector(
+        pipeline::face_normal({position(indices[0]), position(indices[1]), position(indices[2])}));
     return is_direction(n) ? n : setting_.camera.up;
   }
 
