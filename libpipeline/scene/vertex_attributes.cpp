@@ -5,7 +5,6 @@
 
 #include "libpipeline/scene/header_line.h"
 #include "libpipeline/text/fixed_text.h"
-#include "libpipeline/text/last_column.h"
 
 namespace pipeline {
 namespace {
@@ -126,7 +125,10 @@ bool VertexLineReader::are_in_range(const AttributeArrays& attributes, std::size
   };
   const auto is_channel = [](double value) { return (value >= 0) & (value <= 255); };
   const auto is_color = [&](const Vec3& c) { return is_channel(c.x) & is_channel(c.y) & is_channel(c.z); };
-  return all(attributes.w, [](double w) { return w > 0; }) && all(attributes.colors, is_color) &&
+  const std::span<const std::uint32_t> materials = attributes.materials;
+  const auto is_material = [&](std::uint32_t number) { return number < material_count_; };
+  return (!attributes_.material || std::ranges::all_of(materials.subspan(begin), is_material)) &&
+         all(attributes.w, [](double w) { return w > 0; }) && all(attributes.colors, is_color) &&
          (frame != TriangleFrame::scene ||
           all(attributes.normals, [](const Vec3& n) { return n != Vec3{}; }));
 }
@@ -168,9 +170,9 @@ FixedTextPart VertexLineReader::read_block(std::size_t limit, TriangleFrame fram
   return part;
 }
 
-FixedTextPart VertexLineReader::read_fixed_columns_of(std::string_view text, TriangleFrame frame,
-                                                      std::size_t limit, std::vector<Triangle>& positions,
-                                                      AttributeArrays& attributes) const {
+FixedTextPart VertexLineReader::read_fixed(std::string_view text, TriangleFrame frame, std::size_t limit,
+                                           std::vector<Triangle>& positions,
+                                           AttributeArrays& attributes) const {
   constexpr std::string_view kKeyword = "triangle\n";
   const bool is_scene = frame == TriangleFrame::scene;
   if (is_scene && !text.starts_with(kKeyword)) return {};
@@ -182,44 +184,11 @@ FixedTextPart VertexLineReader::read_fixed_columns_of(std::string_view text, Tri
   });
 }
 
-FixedTextPart VertexLineReader::read_decimal_columns_of(std::string_view text, TriangleFrame frame,
-                                                        std::span<DecimalMarks> marks,
-                                                        std::vector<Triangle>& positions,
-                                                        AttributeArrays& attributes) const {
-  return read_block(marks.size(), frame, positions, attributes, [&](const FixedColumns& columns) {
-    return read_decimal_columns(text, frame, columns, marks);
-  });
-}
-
-/// The same with a last column of materials, which `read(lines, limit)` does not see.
-template <typename Read>
-FixedTextPart VertexLineReader::read_with_materials(std::string_view text, std::size_t limit,
-                                                    AttributeArrays& attributes, const Read& read) const {
-  const TrianglesWithoutLastColumn triangles(text, limit, material_count_);
-  if (triangles.count() == 0) return {};
-  const std::size_t count = read(triangles.lines(), triangles.count()).triangle_count;
-  std::copy_n(triangles.values().begin(), count,
-              attributes.materials.end() - static_cast<std::ptrdiff_t>(count));
-  return {count, triangles.length_with_column(count)};
-}
-
-FixedTextPart VertexLineReader::read_fixed(std::string_view text, TriangleFrame frame, std::size_t limit,
-                                           std::vector<Triangle>& positions,
-                                           AttributeArrays& attributes) const {
-  if (!attributes_.material) return read_fixed_columns_of(text, frame, limit, positions, attributes);
-  assert(frame == TriangleFrame::stage_text);
-  return read_with_materials(text, limit, attributes, [&](std::string_view lines, std::size_t count) {
-    return read_fixed_columns_of(lines, frame, count, positions, attributes);
-  });
-}
-
 FixedTextPart VertexLineReader::read_decimals(std::string_view text, TriangleFrame frame,
                                               std::span<DecimalMarks> marks, std::vector<Triangle>& positions,
                                               AttributeArrays& attributes) const {
-  if (!attributes_.material) return read_decimal_columns_of(text, frame, marks, positions, attributes);
-  assert(frame == TriangleFrame::stage_text);
-  return read_with_materials(text, marks.size(), attributes, [&](std::string_view lines, std::size_t count) {
-    return read_decimal_columns_of(lines, frame, marks.first(count), positions, attributes);
+  return read_block(marks.size(), frame, positions, attributes, [&](const FixedColumns& columns) {
+    return read_decimal_columns(text, frame, columns, marks);
   });
 }
 

@@ -90,6 +90,7 @@ auto fixed_columns(Positions& positions, Attributes& attributes, const Attribute
   const auto part = [&](auto& array) { return std::span(array).subspan(begin, count); };
   columns.groups[0] = part(positions);
   if (names.w) columns.w = part(attributes.w);
+  if (names.material) columns.materials = part(attributes.materials);
   if (names.color) columns.groups[1] = part(attributes.colors);
   if (names.normal) columns.groups[names.color ? 2 : 1] = part(attributes.normals);
   return columns;
@@ -133,14 +134,6 @@ class VertexLineReader {
  private:
   void read_material(LineScanner& line, std::size_t vertex, const std::string& name,
                      TriangleLines& triangle) const;
-  FixedTextPart read_fixed_columns_of(std::string_view text, TriangleFrame frame, std::size_t limit,
-                                      std::vector<Triangle>& positions, AttributeArrays& attributes) const;
-  FixedTextPart read_decimal_columns_of(std::string_view text, TriangleFrame frame,
-                                        std::span<DecimalMarks> marks, std::vector<Triangle>& positions,
-                                        AttributeArrays& attributes) const;
-  template <typename Read>
-  FixedTextPart read_with_materials(std::string_view text, std::size_t limit, AttributeArrays& attributes,
-                                    const Read& read) const;
   template <typename Read>
   FixedTextPart read_block(std::size_t limit, TriangleFrame frame, std::vector<Triangle>& positions,
                            AttributeArrays& attributes, const Read& read) const;

@@ -8,7 +8,6 @@
 
 #include "libpipeline/text/decimal_columns.h"
 #include "libpipeline/text/fixed_text.h"
-#include "libpipeline/text/last_column.h"
 #include "libpipeline/text/number_printer.h"
 
 namespace pipeline {
@@ -172,9 +171,7 @@ std::size_t StageWriter::write_block(const TriangleBatch& batch, std::size_t beg
   const std::size_t max_length = format_.shortest ? kMaxShortestColumnsLength
                                  : columns_.any() ? kMaxFixedColumnsLength
                                                   : kMaxFixedTriangleLength;
-  const std::size_t room = (end - begin) * max_length + kFixedTextSlack;
-  if (columns_.material && without_materials_.size() < room) without_materials_.resize(room);
-  char* const out = columns_.material ? without_materials_.data() : text_.reserve(room);
+  char* const out = text_.reserve((end - begin) * max_length + kFixedTextSlack);
   const ConstFixedColumns columns =
       fixed_columns(batch.triangles, batch.attributes, columns_, begin, end - begin);
   FixedTextPart part;
@@ -182,13 +179,8 @@ std::size_t StageWriter::write_block(const TriangleBatch& batch, std::size_t beg
     part = {end - begin, static_cast<std::size_t>(write_shortest_columns(columns, out) - out)};
   else
     part = write_fixed_columns(columns, format_.decimals, out);
+  text_.commit(out + part.length);
   const std::size_t count = part.triangle_count;
-  if (columns_.material)
-    text_.commit(print_with_last_column({out, part.length},
-                                        std::span(batch.attributes.materials).subspan(begin, count),
-                                        text_.reserve(part.length + count * kMaxLastColumnLength)));
-  else
-    text_.commit(out + part.length);
   if (count > 0) next_number_ = batch.numbers[begin + count - 1] + 1;
   return count;
 }

@@ -47,7 +47,6 @@ class StageWriter {
   AttributeSet columns_;
   std::uint64_t next_number_ = 0;
   std::shared_ptr<const ClipTriangle> last_unclipped_;
-  std::vector<char> without_materials_;  // a block before their column is added
   bool keeps_four_digits_ = false;
   bool has_filled_coordinate_ = false;
 };

@@ -24,8 +24,9 @@ const char* read_three(const char* p, char separator, Vec3& numbers, unsigned& m
 const char* read_line(const char* p, const FixedColumns& columns, std::size_t triangle, std::size_t vertex,
                       DecimalMarks& marks) {
   const std::size_t group_count = columns.group_count();
+  const bool has_material = !columns.materials.empty();
   for (std::size_t group = 0; group < group_count; ++group) {
-    const char end = group + 1 == group_count ? '\n' : ' ';
+    const char end = group + 1 == group_count && !has_material ? '\n' : ' ';
     const bool w_follows = group == 0 && !columns.w.empty();
     unsigned group_marks = 0;
     p = read_three(p, w_follows ? ' ' : end, columns.groups[group][triangle][vertex], group_marks);
@@ -33,7 +34,7 @@ const char* read_line(const char* p, const FixedColumns& columns, std::size_t tr
     if (group == 0) marks = static_cast<DecimalMarks>(marks | group_marks << (3 * vertex));
     if (w_follows && (p = read_w(p, end, columns.w[triangle][vertex])) == nullptr) return nullptr;
   }
-  return p;
+  return has_material ? read_material(p, vertex, columns.materials[triangle]) : p;
 }
 
 char* write_three(char* out, const Vec3& numbers) {
@@ -63,7 +64,7 @@ char* write_shortest_columns(const ConstFixedColumns& columns, char* out) {
         out = write_three(out, columns.groups[group][i][vertex]);
         if (group == 0 && !columns.w.empty()) out = write_w(out, columns.w[i][vertex]);
       }
-      out[-1] = '\n';
+      out = write_line_end(out, columns.materials, i);
     }
     *out++ = '\n';
   }

@@ -19,8 +19,8 @@ using DecimalMarks = std::uint16_t;
 FixedTextPart read_decimal_columns(std::string_view text, TriangleFrame frame, const FixedColumns& columns,
                                    std::span<DecimalMarks> marks);
 
-/// Ten numbers of at most 24 characters on a line, with a separator each.
-constexpr std::size_t kMaxShortestColumnsLength = 3 * (10 * 26) + 1;
+/// Ten numbers of at most 24 characters and a material on a line, with a separator each.
+constexpr std::size_t kMaxShortestColumnsLength = 3 * (10 * 26 + 11) + 1;
 
 /// Prints triangles with all their numbers in the shortest form (number_printer.h) and returns their end.
 /// `out` must have room for kMaxShortestColumnsLength characters per triangle, and kFixedTextSlack more.

@@ -179,7 +179,7 @@ class NineTexts {
 };
 
 /// Prints a vertex line.
-template <std::size_t group_count, bool may_have_w>
+template <std::size_t group_count, bool may_have_more>
 HWY_INLINE char* write_line(char* out, const PrintedForm& form, const ConstFixedColumns& columns,
                             std::size_t triangle, std::size_t vertex,
                             const std::array<NineTexts, group_count>& texts, bool repeats,
@@ -197,14 +197,13 @@ HWY_INLINE char* write_line(char* out, const PrintedForm& form, const ConstFixed
       *out++ = ' ';
     }
     if (group == kRepeatedGroup && vertex == 2) last.set(columns.groups[group][triangle][vertex], begin, out);
-    if (may_have_w && group == 0 && !columns.w.empty()) out = write_w(out, columns.w[triangle][vertex]);
+    if (may_have_more && group == 0 && !columns.w.empty()) out = write_w(out, columns.w[triangle][vertex]);
   }
-  out[-1] = '\n';
-  return out;
+  return write_line_end(out, may_have_more ? columns.materials : std::span<const std::uint32_t>(), triangle);
 }
 
 /// Stops before a triangle with a number that NineTexts refuses.
-template <bool exactly, std::size_t group_count, bool may_have_w>
+template <bool exactly, std::size_t group_count, bool may_have_more>
 FixedTextPart write_lines(std::size_t first, const ConstFixedColumns& columns, int decimals, char* out) {
   // A copy: characters may be printed anywhere.
   const PrintedForm form = kPrintedForms[static_cast<std::size_t>(decimals)];
@@ -222,7 +221,7 @@ FixedTextPart write_lines(std::size_t first, const ConstFixedColumns& columns, i
         return part;
 #pragma GCC unroll 3
     for (std::size_t vertex = 0; vertex < 3; ++vertex)
-      out = write_line<group_count, may_have_w>(out, form, columns, i, vertex, texts, repeats, last);
+      out = write_line<group_count, may_have_more>(out, form, columns, i, vertex, texts, repeats, last);
     *out++ = '\n';
     ++part.triangle_count;
     part.length = static_cast<std::size_t>(out - begin);
@@ -232,11 +231,10 @@ FixedTextPart write_lines(std::size_t first, const ConstFixedColumns& columns, i
 
 template <bool exactly>
 FixedTextPart write_from(std::size_t first, const ConstFixedColumns& columns, int decimals, char* out) {
-  const std::size_t group_count = columns.group_count();
-  if (group_count == 3) return write_lines<exactly, 3, true>(first, columns, decimals, out);
-  if (group_count == 2) return write_lines<exactly, 2, true>(first, columns, decimals, out);
-  return columns.w.empty() ? write_lines<exactly, 1, false>(first, columns, decimals, out)
-                           : write_lines<exactly, 1, true>(first, columns, decimals, out);
+  constexpr auto kWriters = std::array{write_lines<exactly, 1, false>, write_lines<exactly, 1, true>,
+                                       write_lines<exactly, 2, false>, write_lines<exactly, 2, true>,
+                                       write_lines<exactly, 3, false>, write_lines<exactly, 3, true>};
+  return kWriters[columns.form()](first, columns, decimals, out);
 }
 
 /// Exactly from the first tie on, where a product's rounding error takes one instruction: where there is one,

@@ -97,7 +97,7 @@ HWY_INLINE hn::Vec<decltype(kPairs)> join_digits(hn::Vec<decltype(kSixteen)> dig
 #endif
 }
 
-template <std::size_t group_count, bool may_have_w>
+template <std::size_t group_count, bool may_have_more>
 class ColumnReader {
  public:
   HWY_INLINE ColumnReader(const GroupDecimals& decimals, const FixedColumns& columns)
@@ -113,6 +113,8 @@ class ColumnReader {
 #pragma GCC unroll 3
       for (std::size_t group = 0; group < group_count; ++group)
         if ((p = read_group(p, group, triangle, vertex)) == nullptr) return nullptr;
+      if (has_materials() && (p = read_material(p, vertex, columns_.materials[triangle])) == nullptr)
+        return nullptr;
     }
     for (std::size_t group = 0; group < group_count; ++group) have_one_digit_[group] = counts_[group] == 1;
     const bool have_points = (counts_[0] | counts_[1] | counts_[2]) < 16;
@@ -121,6 +123,10 @@ class ColumnReader {
   }
 
  private:
+  [[nodiscard]] bool has_materials() const {
+    return may_have_more && !columns_.materials.empty();
+  }
+
   /// Reads the numbers that a vertex line has in a group, and w after the position; null if w has another
   /// form.
   HWY_INLINE const char* read_group(const char* p, std::size_t group, std::size_t triangle,
@@ -131,8 +137,8 @@ class ColumnReader {
       return p + last_.length();
     }
     const char* const begin = p;
-    const char end = group + 1 == group_count ? '\n' : ' ';
-    const bool w_follows = may_have_w && group == 0 && !columns_.w.empty();
+    const char end = group + 1 == group_count && !has_materials() ? '\n' : ' ';
+    const bool w_follows = may_have_more && group == 0 && !columns_.w.empty();
     p = read_number(p, group, ' ', numbers.x);
     p = read_number(p, group, ' ', numbers.y);
     p = read_number(p, group, w_follows ? ' ' : end, numbers.z);
@@ -185,10 +191,10 @@ class ColumnReader {
   std::array<std::size_t, 3> counts_;      // of digits before the point, in each group: the bits of all
 };
 
-template <std::size_t group_count, bool may_have_w>
+template <std::size_t group_count, bool may_have_more>
 FixedTextPart read_groups(std::string_view text, TriangleFrame frame, const GroupDecimals& decimals,
                           const FixedColumns& columns) {
-  ColumnReader<group_count, may_have_w> reader(decimals, columns);
+  ColumnReader<group_count, may_have_more> reader(decimals, columns);
   const char* const end = text.data() + text.size();
   FixedTextPart part;
   for (std::size_t i = 0; i < columns.triangle_count() && part.length < text.size(); ++i) {
@@ -203,11 +209,9 @@ FixedTextPart read_groups(std::string_view text, TriangleFrame frame, const Grou
 
 FixedTextPart read_columns(std::string_view text, TriangleFrame frame, const GroupDecimals& decimals,
                            const FixedColumns& columns) {
-  const std::size_t group_count = columns.group_count();
-  if (group_count == 3) return read_groups<3, true>(text, frame, decimals, columns);
-  if (group_count == 2) return read_groups<2, true>(text, frame, decimals, columns);
-  return columns.w.empty() ? read_groups<1, false>(text, frame, decimals, columns)
-                           : read_groups<1, true>(text, frame, decimals, columns);
+  constexpr auto kReaders = std::array{read_groups<1, false>, read_groups<1, true>,  read_groups<2, false>,
+                                       read_groups<2, true>,  read_groups<3, false>, read_groups<3, true>};
+  return kReaders[columns.form()](text, frame, decimals, columns);
 }
 
 #endif

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <string_view>
 
@@ -49,20 +50,26 @@ enum class TriangleFrame {
 };
 
 /// The numbers on vertex lines, by column: groups of three numbers in fixed form (the position, and up to two
-/// more) and w, a number in any form, which comes after the position. All arrays have an entry per triangle;
-/// those of columns that are not there are empty.
-template <typename Numbers, typename OneNumber>
+/// more), w, a number in any form, which comes after the position, and last the material, a whole number that
+/// the lines of a triangle share. All arrays have an entry per triangle; those of columns that are not there
+/// are empty.
+template <typename Numbers, typename OneNumber, typename Whole>
 struct FixedColumnsOf {
   std::array<std::span<Numbers>, 3> groups;
   std::span<OneNumber> w;
+  std::span<Whole> materials = {};
 
   [[nodiscard]] std::size_t triangle_count() const { return groups[0].size(); }
   [[nodiscard]] std::size_t group_count() const {
     return groups[1].empty() ? 1 : std::size_t{groups[2].empty() ? 2u : 3u};
   }
+  /// From 0 to 5: which of the kernels' loops has these columns, by groups and whether there are others.
+  [[nodiscard]] std::size_t form() const {
+    return 2 * (group_count() - 1) + (w.empty() && materials.empty() ? 0 : 1);
+  }
 };
-using FixedColumns = FixedColumnsOf<Triangle, std::array<double, 3>>;
-using ConstFixedColumns = FixedColumnsOf<const Triangle, const std::array<double, 3>>;
+using FixedColumns = FixedColumnsOf<Triangle, std::array<double, 3>, std::uint32_t>;
+using ConstFixedColumns = FixedColumnsOf<const Triangle, const std::array<double, 3>, const std::uint32_t>;
 
 /// The counts of decimals of the groups.
 using GroupDecimals = std::array<int, 3>;
@@ -70,7 +77,7 @@ using GroupDecimals = std::array<int, 3>;
 /// Reads triangles with these columns from the beginning of `text` until one is not in fixed form, with these
 /// decimals and at most eight digits before the point, the columns are full, or the text ends. Every number
 /// becomes the nearest double, as from_chars returns it. Of w it reads the numbers that read_decimal_number
-/// reads. Without vectors, it reads nothing.
+/// reads, of materials those of at most eight digits. Without vectors, it reads nothing.
 FixedTextPart read_fixed_columns(std::string_view text, TriangleFrame frame, const GroupDecimals& decimals,
                                  const FixedColumns& columns);
 
@@ -81,8 +88,8 @@ FixedTextPart read_fixed_columns(std::string_view text, TriangleFrame frame, con
 /// kFixedTextSlack more.
 FixedTextPart write_fixed_columns(const ConstFixedColumns& columns, int decimals, char* out);
 
-/// Three groups of numbers; three times w and a separator.
-constexpr std::size_t kMaxFixedColumnsLength = std::size_t{3} * (kMaxFixedTriangleLength + 26);
+/// Three groups of numbers; three times w and a material with a separator each.
+constexpr std::size_t kMaxFixedColumnsLength = std::size_t{3} * (kMaxFixedTriangleLength + 26 + 11);
 
 /// The kernels of write_fixed_columns. The scalar one prints nothing.
 using WriteFixedColumns = FixedTextPart (*)(const ConstFixedColumns& columns, int decimals, char* out);

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <array>
+#include <charconv>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <span>
 #include <string_view>
 
 #include "libpipeline/text/decimal_number.h"
@@ -107,6 +109,16 @@ inline const char* read_w(const char* p, char separator, double& w) {
   return p != nullptr && *p == separator ? p + 1 : nullptr;
 }
 
+/// Reads the material and the end of a line; null if the form differs, or from the triangle's first vertex.
+inline const char* read_material(const char* p, std::size_t vertex, std::uint32_t& material) {
+  const std::uint64_t less_zeros = load_eight(p) - kEightZeros;
+  const std::size_t count = leading_digit_count(less_zeros);
+  if (count == 0 || p[count] != '\n') return nullptr;
+  const auto number = static_cast<std::uint32_t>(join_leading_digits(less_zeros, count));
+  if (vertex == 0) material = number;
+  return number == material ? p + count + 1 : nullptr;
+}
+
 /// Reads up to `limit` triangles, as long as `read_line(p, triangle, vertex)` reads their lines: it returns
 /// the beginning of the next line, or null if the form differs.
 template <typename ReadLine>
@@ -130,6 +142,13 @@ inline char* write_w(char* out, double w) {
   out = print_shortest(out, w);
   *out = ' ';
   return out + 1;
+}
+
+/// Ends a line of which a blank was printed last: with its triangle's material, if there is such a column.
+inline char* write_line_end(char* out, std::span<const std::uint32_t> materials, std::size_t triangle) {
+  if (!materials.empty()) out = std::to_chars(out, out + 10, materials[triangle]).ptr + 1;
+  out[-1] = '\n';
+  return out;
 }
 
 /// Numbers are read and printed as whole numbers of units of their last decimal; those printed are below

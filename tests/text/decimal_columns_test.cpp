@@ -135,6 +135,26 @@ TEST(DecimalColumns, OfAnyOtherFormAreLeft) {
   }
 }
 
+TEST(DecimalColumns, MayEndWithAMaterial) {
+  const std::string line = "1.5 -2 0.125 3 7\n", text = line + line + line + "\n";
+  Columns columns(1, true, 1);
+  std::array<std::uint32_t, 1> material{};
+  const auto read = [&](const std::string& lines) {
+    const std::string with_slack = lines + std::string(kFixedTextSlack, '7');
+    return read_decimal_columns({with_slack.data(), lines.size()}, TriangleFrame::stage_text,
+                                {{columns.groups[0]}, columns.w, material}, columns.marks);
+  };
+  EXPECT_EQ(read(text).length, text.size());
+  EXPECT_EQ(columns.w[0][2], 3);
+  EXPECT_EQ(material[0], 7u);
+  for (const std::string last : {"1.5 -2 0.125 3 8\n", "1.5 -2 0.125 3 7 \n", "1.5 -2 0.125 3\n"})
+    EXPECT_EQ(read(line + line + last + "\n").triangle_count, 0u) << last;
+  std::string out(kMaxShortestColumnsLength + kFixedTextSlack, '\0');
+  const ConstFixedColumns numbers = {{columns.groups[0]}, columns.w, material};
+  out.resize(static_cast<std::size_t>(write_shortest_columns(numbers, out.data()) - out.data()));
+  EXPECT_EQ(out, text);
+}
+
 TEST(DecimalColumns, ArePrintedInTheShortestFormOfToChars) {
   RandomNumbers random(2);
   for (int i = 0; i < 5'000; ++i) {

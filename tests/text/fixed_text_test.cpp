@@ -699,6 +699,41 @@ TEST_P(FixedText, ReadsAndPrintsColumnsInEveryPatternOfRepetition) {
   }
 }
 
+const std::string kWithMaterials =
+    "0.5 1.0 2.0 7\n-3.0 4.0 5.0 7\n6.0 7.0 8.0 7\n\n"
+    "1.0 1.0 1.0 12345678\n2.0 2.0 2.0 12345678\n3.0 3.0 3.0 12345678\n\n";
+
+TEST_P(FixedText, ReadsAndPrintsMaterials) {
+  std::vector<Triangle> triangles(3);
+  std::vector<std::uint32_t> materials(3);
+  const FixedTextPart read =
+      read_columns(kWithMaterials, TriangleFrame::stage_text, {1}, {{triangles}, {}, materials});
+  EXPECT_EQ(read.length, kWithMaterials.size());
+  ASSERT_EQ(read.triangle_count, 2u);
+  EXPECT_EQ(triangles[0][1], (Vec3{-3, 4, 5}));
+  EXPECT_EQ(materials, (std::vector<std::uint32_t>{7, 12345678, 0}));
+  materials[2] = 4294967295;
+  std::string out(3 * kMaxFixedColumnsLength + kFixedTextSlack, '\0');
+  const FixedTextPart written = kernel()({{triangles}, {}, materials}, 1, out.data());
+  const std::string last = "0.0 0.0 0.0 4294967295\n";
+  EXPECT_EQ(out.substr(0, written.length), kWithMaterials + last + last + last + "\n");
+}
+
+TEST_P(FixedText, LeavesMaterialsInAnyOtherForm) {
+  const std::string good = "1 1 1 2\n2 2 2 2\n3 3 3 2\n\n";
+  for (const char* const line :
+       {"3 3 3 1", "3 3 3 2 ", "3 3 3 2\r", "3 3 3 -2", "3 3 3 2.0", "3 3 3 +2", "3 3 3 2e0", "3 3 3\t2",
+        "3 3 3 1000000002", "3 3 3 4294967298", "3 3 3 ", "3 3 3", "2", "", "2 #2"}) {
+    std::vector<Triangle> triangles(3);
+    std::vector<std::uint32_t> materials(3);
+    const std::string text = good + "1 1 1 2\n2 2 2 2\n" + line + "\n\n" + good;
+    const FixedTextPart part =
+        read_columns(text, TriangleFrame::stage_text, {0}, {{triangles}, {}, materials});
+    EXPECT_EQ(part.triangle_count, 1u) << line;
+    EXPECT_EQ(part.length, good.size()) << line;
+  }
+}
+
 TEST_P(FixedText, StopsBeforeTheFirstColumnsItCannotPrint) {
   for (const double value : {1e17, HUGE_VAL, std::nan("")})
     for (std::size_t group = 0; group < 3; ++group) {
