@@ -38,7 +38,7 @@ def triangles(count, reach, size, middle_z=0, columns=()):
             numbers += [5 * UNIT + integers.within(4 * UNIT)] * ("w" in columns)
             numbers += [(128 + integers.within(127)) * UNIT for _ in range(3 * ("color" in columns))]
             numbers += [integers.within(UNIT) for _ in range(3 * ("normal" in columns))]
-            lines.append(" ".join(map(decimal, numbers)))
+            lines.append(" ".join(map(decimal, numbers)) + " 1" * ("material" in columns))
         lines.append("")
     return "\n".join(lines) + "\n"
 
@@ -97,6 +97,11 @@ def odd_numbers(stage_text):
                      for line in stage_text.split("\n"))
 
 
+def with_materials(count, repeats):
+    columns = "color", "normal", "material"
+    return header("world", columns) + "material 1 1 0 1\n" + in_world(count, columns=columns) * repeats
+
+
 TURNED = "push\ntranslate 0.25 -0.5 0.125\nrotate 30 1 2 3\nscale 0.5 2 1.5\n"
 
 TEXTS = {
@@ -124,6 +129,11 @@ TEXTS = {
     "config.txt": lambda: "500 500\n",
     "narrow.txt": lambda: "300 300\n",
     "tiny.txt": lambda: "4 4\n",
+}
+
+TEXTS |= {
+    "material-world.txt": lambda: with_materials(2000, 6),
+    "crlf-world.txt": lambda: TEXTS["short-world.txt"]().replace("\n", "\r\n"),
 }
 
 
@@ -155,6 +165,8 @@ ROWS = [
     Row("model: lit", "model lit-scene.txt"),
     Row("view: lit", "view lit-world.txt"),
     Row("project: lit", "project lit-view.txt"),
+    Row("view: materials", "view material-world.txt"),
+    Row("view: lines that end with CR LF", "view crlf-world.txt"),
     Row("view: exact digits", "view short-world.txt --digits exact"),
     Row("view: 5 digits", "view short-world.txt --digits 5"),
     Row("view: 9 digits", "view short-world.txt --digits 9"),
