@@ -133,14 +133,18 @@ bool TextReader::next_line(LineScanner& line) {
     const bool is_ended = newline != nullptr;
     scanned_ = is_ended ? static_cast<std::size_t>(newline - buffer_.get()) : end_;
     const std::size_t length = scanned_ - begin_;
-    if (length > kMaxLineLength)
+    if (length > kMaxLineLength && length > kMaxLineLength + mark_length())
       throw InputError({file_, line_number_ + 1, kMaxLineLength + 1},
                        expected_but_found("the end of the line", "more than 1048576 characters"));
     if (!is_ended && fill()) continue;
-    if (!is_ended && length == 0) return false;
+    if (!is_ended && length == mark_length()) return false;
     line = take_line(length, is_ended);
     return true;
   }
+}
+
+std::size_t TextReader::mark_length() const {
+  return line_number_ == 0 && buffered().starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0;
 }
 
 std::string_view TextReader::beginning() {
@@ -153,12 +157,12 @@ std::string_view TextReader::beginning() {
 }
 
 LineScanner TextReader::take_line(std::size_t length, bool is_ended) {
-  std::string_view line(buffer_.get() + begin_, length);
+  const std::size_t mark = mark_length();
+  const std::string_view line(buffer_.get() + begin_ + mark, length - mark);
   begin_ += length + (is_ended ? 1 : 0);
   scanned_ = begin_;
   last_line_was_ended_ = is_ended;
-  if (++line_number_ == 1 && line.starts_with(kByteOrderMark)) line.remove_prefix(kByteOrderMark.size());
-  return {line, file_, line_number_};
+  return {line, file_, ++line_number_};
 }
 
 bool TextReader::next_filled_line(LineScanner& line) {

@@ -108,6 +108,7 @@ class TextReader {
   [[nodiscard]] SourceLocation end_location() const;
 
  private:
+  [[nodiscard]] std::size_t mark_length() const;  // of the byte order mark, if the next line begins with one
   bool fill();
   void read_block();
   void enlarge_buffer();

@@ -108,8 +108,14 @@ TEST(TextReader, CountsColumnsAfterAByteOrderMark) {
   EXPECT_EQ(error_of_number("\xEF\xBB\xBFx"), "in.txt:1:1: expected the x of the eye, found 'x'");
 }
 
-TEST(TextReader, AByteOrderMarkAloneIsABlankLine) {
-  EXPECT_EQ(lines_of("\xEF\xBB\xBF"), Lines{""});
+TEST(TextReader, AByteOrderMarkAloneIsNoLine) {
+  EXPECT_EQ(lines_of("\xEF\xBB\xBF"), Lines{});
+}
+
+TEST(TextReader, AByteOrderMarkDoesNotCountTowardsTheLengthOfALine) {
+  const std::string longest(kMaxLineLength, 'x');
+  EXPECT_EQ(lines_of("\xEF\xBB\xBF" + longest + "\n"), Lines{longest});
+  EXPECT_THROW(lines_of("\xEF\xBB\xBFx" + longest + "\n"), InputError);
 }
 
 TEST(TextReader, AByteOrderMarkElsewhereIsAPartOfAWord) {
