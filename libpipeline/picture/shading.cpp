@@ -29,8 +29,11 @@ double clamped_channel(double value) {
   return std::clamp(value, 0.0, 255.0);
 }
 
+// What doubles miss of a half is far less than this, so that halves go up.
+constexpr double kHalf = 0.5 + 0x1p-20;
+
 std::uint8_t rounded_channel(double value) {
-  return static_cast<std::uint8_t>(std::floor(clamped_channel(value) + 0.5));
+  return static_cast<std::uint8_t>(std::floor(clamped_channel(value) + kHalf));
 }
 
 /// `arriving(light)` is the part of a light's intensity that reaches the point.

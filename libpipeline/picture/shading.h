@@ -53,7 +53,7 @@ double whole_power(double base, std::size_t exponent);
 /// Each channel clamped to 0 to 255.
 Vec3 clamped_color(const Vec3& color);
 
-/// Each channel clamped to 0 to 255 and rounded, halves up.
+/// Each channel clamped to 0 to 255 and rounded, halves up: also what is less than 2^-20 below one.
 Color rounded_color(const Vec3& color);
 
 }  // namespace pipeline

@@ -221,6 +221,7 @@ void SurfaceShader::shade_columns(std::size_t begin, std::size_t end, double y, 
 
 Color SurfaceShader::color_at(const Surface& surface, double x, double y) const {
   const auto& [a, b, c] = surface.corners;
+  if (setup_.model == ShadingModel::flat) return rounded_color(a.color);
   const Weights weights = weights_at(surface.screen_corners, x, y);
   if (setup_.model == ShadingModel::phong)
     return rounded_color(lit_color_of(mean(surface.corners, weights), surface));

@@ -161,5 +161,9 @@ TEST(Shading, ChannelsRoundHalvesUpAndStopAtTheEnds) {
   EXPECT_EQ(rounded_color({254.5, 254.49, 255}), Color(255, 254, 255));
 }
 
+TEST(Shading, WhatDoublesMissOfAHalfCounts) {
+  EXPECT_EQ(rounded_color({3.5 - 0x1p-21, 3.5 - 0x1p-19, 0.5 - 1e-13}), Color(4, 3, 1));
+}
+
 }  // namespace
 }  // namespace pipeline
