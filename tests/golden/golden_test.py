@@ -6,7 +6,7 @@ samples.sha256 pins the samples' files; `sha256sum -c tests/golden/samples.sha25
 pipes.sha256 pins what comes out of COMMANDS. A line of either is never changed, so that old files can be read
 for ever: who wants another scene adds a sample, and its lines with --add. Texts with all digits (--digits
 exact) are those of tests/reference, which has no choice either: the shortest form is defined (stage-text.md,
-T20). Only colors and normals are free behind the 7th decimal (T22), so they are pinned with 7.
+T20). Only colors and normals are free behind the 7th decimal (stages.md, F3), so they are pinned with 7.
 
 usage: golden_test.py BIN_DIR SOURCE_DIR [--add SAMPLE]
 """

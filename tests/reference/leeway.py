@@ -1,5 +1,4 @@
-"""What the specification leaves open where the reference calculates exactly: notes Z9 and L7, and T21 and
-T22."""
+"""What the specification leaves open where the reference calculates exactly: F1 to F7."""
 import decimal
 import re
 from fractions import Fraction
@@ -7,7 +6,7 @@ from fractions import Fraction
 import reference
 
 CLOSE = Fraction(1, 10**12)  # depths nearer to each other than this may be ordered either way
-HALF = decimal.Decimal("0.500001")
+EITHER_SIDE = decimal.Decimal("1e-7")  # of a color
 
 
 def expect_same_text(case, got, want, precise, read, is_noted=False):
@@ -23,7 +22,7 @@ def expect_same_text(case, got, want, precise, read, is_noted=False):
         for word in words
         if re.fullmatch(rb"[-+]?[0-9.]+(e[-+]?[0-9]+)?", word)]
     smallest = 2.0**-60 * max(numbers, default=1)
-    # the first column that T22 is about
+    # the first column that F3 is about
     color_or_normal = 4 if b"attributes w" in want or b"\nclipped" in want else 3
     case.assertEqual(got.count(b"\n"), want.count(b"\n"))
     for got_line, want_line, precise_line in zip(*(text.decode().split("\n")
@@ -62,7 +61,7 @@ def expect_same_picture(case, triangles, stage, config, options, model_name, dep
 
 
 def close_fragments(triangles, config, coverage, depths, seen):
-    """For pixels where doubles may see another triangle (Z9): those triangles, and None for the background.
+    """For pixels where doubles may see another triangle (F5): those triangles, and None for the background.
     Of one place, or of one depth, doubles have the same depth as well."""
     rivals = {}
     for triangle in triangles:
@@ -108,8 +107,9 @@ def pixels_of(image, config):
 
 
 def is_shown(rgb, color):
-    """True if a color may be rounded so (L6, L7)."""
-    return all(abs(reference.clamped(channel) - c) < HALF for channel, c in zip(color, rgb))
+    """True if a color may be rounded so (L6, F6)."""
+    sides = [reference.rounded([channel + side for channel in color]) for side in (-EITHER_SIDE, EITHER_SIDE)]
+    return all(c in pair for c, *pair in zip(rgb, *sides))
 
 
 def alone(triangle, row, column, stage, config, model_name):
@@ -121,7 +121,7 @@ def alone(triangle, row, column, stage, config, model_name):
 
 
 def has_no_sure_slope(triangle):
-    """True if doubles may take a triangle for one that is seen edge-on (Z9)."""
+    """True if doubles may take a triangle for one that is seen edge-on (F5)."""
     a, b, c = (corner.position[:2] for corner in triangle.corners)
     terms = (b[0] - a[0]) * (c[1] - a[1]), (c[0] - a[0]) * (b[1] - a[1])
     return 0 < abs(terms[0] - terms[1]) <= (abs(terms[0]) + abs(terms[1])) / 2**50

@@ -21,7 +21,7 @@ Vertex = namedtuple("Vertex", "line position w color normal written material", d
 Triangle = namedtuple("Triangle", "number corners whole", defaults=(None,))  # whole: the corners in clip space, if it is a piece
 
 # scene.md: lines, words and numbers
-class Refused(Exception): pass  # S5: its arguments are the line (0 is the command line), and what breaks a rule there
+class Refused(Exception): pass  # S5, O3: its arguments are the line (0 is the command line), and what breaks a rule there
 
 class Line:  # S2: the words of a line, which are taken one after the other
     def __init__(self, number, text):
@@ -63,7 +63,7 @@ class Text:  # S1: a text, read line by line
         self.is_ended = self.lines[-1] == ""
         self.lines = self.lines[:-1] if self.is_ended else self.lines
 
-    def line(self, missing):  # S1, S5: the next line, blank or not
+    def line(self, missing):  # S1, S5 to S5b: the next line, blank or not
         if self.at == len(self.lines):
             raise Refused(self.at + 1, f"expected {missing}, found the end of the text")
         self.at += 1
@@ -102,7 +102,7 @@ POSITION, PROJECTIONS = ("eye", "look", "up"), ("perspective", "frustum", "ortho
 OPTICS = [lambda x: 0 <= x <= 1, lambda x, *before: Fraction(0.01) <= x <= 100, lambda x, *before: 0 <= x <= 1]
 ONCE, REPEATED = ("background", "ambient", "attenuation"), ("material", "light", "absorption")
 
-def read_part(line, keyword):  # S6 to S8, S12, S17 to S21, T2 to T6: the rest of a line, behind the keyword if it is there
+def read_part(line, keyword):  # S6 to S8, S12, S17 to S21, T2 to T6a: the rest of a line, behind the keyword if it is there
     numbers = line.reals(*ARGUMENTS[keyword])
     if keyword == "material":
         numbers += (line.whole(),) if re.fullmatch("[0-9]+", "".join(line.words[:1])) else line.reals(lambda x: 0 <= x < 2**64 and x.denominator == 1)
@@ -113,7 +113,7 @@ def read_part(line, keyword):  # S6 to S8, S12, S17 to S21, T2 to T6: the rest o
     line.end()
     return Part(line.number, keyword, numbers, rule)
 
-def absorb(header, part, at):  # S19: of the material above
+def absorb(header, part, at):  # S19c: of the material above
     materials = header.get("material") or [Part(at, "none", (), True)]
     if materials[-1].rule:
         raise Refused(at, "an absorption without a material of its own")
@@ -135,7 +135,7 @@ def read_camera(text):  # S6, S9
     check_camera(camera)
     return camera
 
-def read_commands(text, header):  # S10 to S17: yields keyword, line and arguments; puts into `header` what is the same for all triangles
+def read_commands(text, header):  # S10 to S17, S23: yields keyword, line and arguments; puts into `header` what is the same for all triangles
     columns, color, material, has_triangle, keyword = (), None, 0, False, None
     while keyword != "end":
         line = text.filled_line("end")
@@ -236,7 +236,7 @@ class Stage:  # T1 to T16: a stage text as `reader` reads it; `header` has its p
         self.first, self.end_of_header = line, line.number if line else self.text.at + 1
         check_camera(self.header)
 
-    def read_header(self, line):  # T1 to T7, T14: whether the line belongs to the header
+    def read_header(self, line):  # T1 to T7b, T14: whether the line belongs to the header
         keyword = line.take("framed", "projected", "attributes", *POSITION, *PROJECTIONS, *ONCE, *REPEATED)
         name = "projection" if keyword in ("projected", *PROJECTIONS) else keyword
         if keyword in USED_UP[self.reader] or name in self.header and name not in REPEATED:
@@ -428,7 +428,7 @@ class Matrix(namedtuple("Matrix", "columns offset", defaults=(UNITS, (0, 0, 0)))
 
     def determinant(self): return dot(self.columns[0], cross(self.columns[1], self.columns[2]))  # M10
 
-    def normal(self, n):  # M7
+    def normal(self, n):  # M7, T22
         x, y, z = self.columns
         cofactors = (cross(y, z), cross(z, x), cross(x, y))
         size = max(map(abs, x + y + z)) or 1
@@ -578,13 +578,15 @@ def project(data, options):  # P1 to P11, T4, T5, T11: the text of stage 3
     return writer.text()
 
 # stages.md: zbuf, coverage and depth
-def crossings(corners, y):  # Z2: where edges meet the horizontal line at y: (x, z) from the left. In doubles for `nearest`, or exactly
+def between(p, q, t): return p + t * (q - p) if abs(q - p) < math.inf else (1 - t) * p + t * q  # Z2a
+def crossings(corners, y):  # Z2, Z2a: where edges meet the horizontal line at y: (x, z) from the left. In doubles for `nearest`, or exactly
     found = []
     for p, q in ((0, 1), (1, 2), (2, 0)):
-        low, high = sorted((corners[p], corners[q]), key=lambda corner: (corner[1], corner[0], corner[2]))
+        low, high = sorted((corners[p], corners[q]), key=lambda corner: corner[1])
         if low[1] <= y <= high[1] and low[1] != high[1]:
-            t = (y - low[1]) / (high[1] - low[1])
-            found.append((high[0], high[2]) if y == high[1] else (low[0] + t * (high[0] - low[0]), low[2] + t * (high[2] - low[2])))
+            is_finite = high[1] - low[1] < math.inf
+            t = (y - low[1]) / (high[1] - low[1]) if is_finite else (y / 2 - low[1] / 2) / (high[1] / 2 - low[1] / 2)
+            found.append((high[0], high[2]) if y == high[1] else tuple(between(low[axis], high[axis], t) for axis in (0, 2)))
     return sorted(found)
 
 def inside(first, last, count):  # Z3: the rows or columns of the picture from first, rounded up, to last, rounded down
@@ -631,9 +633,9 @@ def center(triangle, config):  # Z1, Z5 to Z7: the same for `center`
 
 # Z5: above 0 on the inner side of the edge from p to q, 0 on it; clockwise, a left edge goes up, and a top edge to the right.
 def side_of_edge(x, y, p, q): return (q[0] - p[0]) * (y - p[1]) - (q[1] - p[1]) * (x - p[0])  # Z5
-def is_left_or_top(p, q): return q[1] < p[1] or q[1] == p[1] and q[0] > p[0]  # Z5
+def is_left_or_top(p, q): return q[1] < p[1] or q[1] == p[1] and q[0] > p[0]  # Z5, Z5a
 
-def draw(triangles, config, coverage):  # Z8: for each pixel the depth, and the triangle that it shows or None; lists of rows
+def draw(triangles, config, coverage):  # Z8, Z9: for each pixel the depth, and the triangle that it shows or None; lists of rows
     depths, seen = ([[value] * config.width for _ in range(config.height)] for value in (config.rear, None))
     for triangle in triangles:
         for row, column, z in (center if coverage == "center" else nearest)(triangle, config):
@@ -710,7 +712,7 @@ def shaded(surface, model_name, lighting, weights):  # L4: the color at a point 
     return point[2] if model_name == "none" else lit(*point, lighting)
 
 def clamped(channel): return max(Decimal(0), min(Decimal(255), channel))  # L4, L6
-def rounded(color): return tuple(math.floor(clamped(channel) + Decimal("0.5")) for channel in color)  # L6
+def rounded(color): return tuple(math.floor(clamped(channel) + Decimal("0.5") + Decimal(2) ** -20) for channel in color)  # L6
 
 def shade(seen, header, config, model_name):  # L1 to L5, Z10: the picture, in colors that are not yet rounded; `seen` is that of draw
     volume = volume_of(header["projection"]) if "projection" in header else None
@@ -728,16 +730,26 @@ def shade(seen, header, config, model_name):  # L1 to L5, Z10: the picture, in c
         picture[row][column] = shaded(surface, model_name, lightings[surface.material], weights_at(surface.clip, x, y))
     return picture
 
-def zbuf(data, options):  # Z1 to Z11, L1 to L6, T15, T23, T24: the z-buffer text; writes the image
+def mean_of_samples(picture, count):  # Z12: of each count x count pixels
+    blocks = [[sum((line[x:x + count] for line in picture[y:y + count]), []) for x in range(0, len(picture[0]), count)]
+              for y in range(0, len(picture), count)]
+    return [[rounded(times(Decimal(1) / count**2, plus(*block))) for block in line] for line in blocks]
+
+def zbuf(data, options):  # Z1 to Z13, L1 to L7, T15, T23, T24: the z-buffer text; writes the image
     config, stage = read_config(Text(pathlib.Path(options["CONFIG"]).read_bytes())), Stage(data, "zbuf")
     if "--expect-framed" in options and "framed" not in stage.header:
         raise Refused(stage.end_of_header, "a text that is not framed")
     model_name = shading_model(stage, options.get("--shading"))
-    depths, seen = draw(stage.triangles(), config, options["--coverage"])
+    triangles, count = list(stage.triangles()), int(options["--samples"])
+    depths, seen = draw(triangles, config, options["--coverage"])
+    samples = config._replace(width=config.width * count, height=config.height * count)
+    seen = seen if count == 1 else draw(triangles, samples, options["--coverage"])[1]
     with decimal.localcontext(SHADING):
-        image = [[rounded(color) for color in row] for row in shade(seen, stage.header, config, model_name)]
-    pathlib.Path(options["--image"]).write_bytes(bmp(image))
-    return depth_text(depths, config.rear)
+        image = [[rounded(color) for color in row] for row in shade(seen, stage.header, samples, model_name)]
+        image = image if count == 1 else mean_of_samples(image, count)
+    rows = slice(*map(int, options["--rows"].split(":"))) if "--rows" in options else slice(None)  # Z13
+    pathlib.Path(options["--image"]).write_bytes(bmp(image[rows]))
+    return depth_text(depths[rows], config.rear)
 
 # The command line
 DIGITS = [*map(str, range(18)), "exact"]
@@ -747,10 +759,10 @@ OPTIONS = {  # words that follow, or their count
     "project": {"--digits": DIGITS, "--scene": 1, "--aspect": ["angle", "ratio"], "--cull": ["back", "front"], "--clip-inset": 1,
                 "--clip": ["auto", "near", "frustum", "reject", "none"], **{"--" + name: len(ARGUMENTS[name]) for name in PROJECTIONS}},
     "zbuf": {"--expect-framed": 0, "--image": 1, "--coverage": ["nearest", "center"], "--algorithm": ["zbuffer", "scanline"],
-             "--shading": ["none", "flat", "gouraud", "phong"]}}
+             "--samples": [*map(str, range(1, 17))], "--rows": 1, "--shading": ["none", "flat", "gouraud", "phong"]}}
 
-def read_options(stage, words):  # S5, V1, P1: the options by name, with their defaults
-    options = {"--digits": "7", "--clip": "auto", "--clip-inset": "0", "--image": "out.bmp", "--coverage": "nearest"}
+def read_options(stage, words):  # O1 to O3, V1, P1: the options by name, with their defaults
+    options = {"--digits": "7", "--clip": "auto", "--clip-inset": "0", "--image": "out.bmp", "--coverage": "nearest", "--samples": "1"}
     if stage == "zbuf" and words:
         options["CONFIG"] = words.pop(0)
     while words or stage not in OPTIONS or stage == "zbuf" and "CONFIG" not in options:
@@ -772,7 +784,7 @@ def main():  # S5, T12
         message = "line %d: %s" % refusal.args
         sys.stdout.write(f"error {stage}: {message}\n" * (stage != "zbuf"))
         print(f"reference {stage}: {message}", file=sys.stderr)
-        sys.exit(1)
+        sys.exit(1 if refusal.args[0] else 2)
 
 if __name__ == "__main__":
     main()

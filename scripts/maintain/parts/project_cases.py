@@ -136,7 +136,7 @@ def clipping():
     three = "\n".join(inside) + "\n\n" + "\n".join(behind) + "\n\n" + "\n".join(
         (behind[0], *inside[1:])) + "\n\n" + "\n".join(inside) + "\n\n"
     yield case("numbers-behind-dropped-and-cut-triangles",
-               "A triangle keeps its number when others are dropped or cut.", "T10", view, three,
+               "A triangle keeps its number when others are dropped or cut.", "T10 T10a", view, three,
                needs="clipping numbering")
     yield case("numbers-from-the-input", "Numbers of the input go on.", "T10", view,
                "triangle 5\n" + three + "triangle 20\n" + three, needs="clipping numbering")
@@ -182,6 +182,9 @@ def clip_options():
                        "--clip-inset pulls the planes in, so that cuts can be seen.", "P6", view, "\n".join(
                            (outside["right"], *inside[1:])) + "\n\n",
                        options=f"--clip {mode} --clip-inset {inset}", needs="numbering")
+    yield case("clip-inset-0-1-exactly", "The planes are pulled in exactly, by the double.", "P6 N1", view,
+               "\n".join((outside["near"], *inside[1:])) + "\n\n", needs="exactness numbering",
+               options="--clip near --clip-inset 0.1 --digits 17")
     windings = {
         "counterclockwise": ("0 0 -2", "1 0 -2", "0 1 -2"), "clockwise": ("0 0 -2", "0 1 -2", "1 0 -2"),
         "edge-on": ("0 0 -2", "0 0 -4", "1 0 -3"), "behind-the-eye": ("0 0 2", "1 0 2", "0 1 2"),
@@ -258,8 +261,8 @@ def extensions():
                                                                              "attributes normal\n"),
                                  ("colors-and-background", colored, "attributes color\nbackground 1 2 3\n")):
         yield case(name, "Behind attributes project adds the column w, the distance from the eye.",
-                   "T5 T9 P4", "60 1 1 10", points, header, needs="colors")
-    yield case("background-with-alpha", "The alpha of the background is passed on.", "T6", "60 1 1 10",
+                   "T5a T9 P4", "60 1 1 10", points, header, needs="colors")
+    yield case("background-with-alpha", "The alpha of the background is passed on.", "T6a", "60 1 1 10",
                "0 0 -2\n1 0 -3\n0 1 -4\n\n", "background 1 2 3 0\n", needs="alpha")
     yield Case("project", "colors-under-ortho", "Under ortho w is 1.", "T5 P3",
                f"ortho -2 2 -2 2 1 9\nattributes color\n{colored}", needs="colors projections")

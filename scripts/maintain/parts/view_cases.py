@@ -198,7 +198,7 @@ def extensions():
                 normals.replace("0 1 0\n", "0 7 0\n").replace("0.6 0 0.8", "0 0 0"), "attributes normal\n"),
             ("background", "The background is passed on.", POINTS, "background 1 2.5 3\n")):
         yield case(name, why, eye, look, up, points, "V2 T6 T9", PERSPECTIVE + rest, needs="colors")
-    yield case("background-with-alpha", "Its alpha, too.", eye, look, up, POINTS, "T6",
+    yield case("background-with-alpha", "Its alpha, too.", eye, look, up, POINTS, "T6a",
                PERSPECTIVE + "background 1 2.5 3 0.25\n", needs="alpha")
     yield case("colors-of-17-digits", "Colors have as many decimals as coordinates.", eye, look, up, colored,
                "T9 T19", PERSPECTIVE + "attributes color\n", needs="colors", options="--digits 17")

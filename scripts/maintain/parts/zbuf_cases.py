@@ -219,10 +219,11 @@ def corners_on_centers():
     }
     for name, corners in grids.items():
         for turn, step in (("", 1), ("-turned", -1)):
-            yield case(f"on-centers-{name}{turn}", why, "Z2 Z3 Z5", pixels(corners[::step]))
+            yield case(f"on-centers-{name}{turn}", why, "Z2 Z3 Z5 Z5a", pixels(corners[::step]))
     yield case(
         "on-centers-square-of-two",
-        "A square of two triangles whose corners are centers: under `center` each pixel has one owner.", "Z5",
+        "A square of two triangles whose corners are centers: under `center` each pixel has one owner.",
+        "Z5 Z5a",
         pixels([(1.5, 1.5), (5.5, 1.5), (1.5, 5.5)], z=0.25) + pixels([(5.5, 1.5), (5.5, 5.5),
                                                                        (1.5, 5.5)], z=0.5))
     yield case(
@@ -238,6 +239,8 @@ def corners_on_centers():
 
 
 def slivers():
+    yield case("as-large-as-doubles", "Where differences overflow, halves are subtracted.", "Z2 Z2a Z4",
+               "-1.7e308 -1.7e308 0\n1.7e308 1.7e308 0\n-1.7e308 1.7e308 0.5\n", needs="exactness")
     for name, corners in {
         "row": [(0.7, 3.2), (7.4, 3.6), (0.9, 3.7)],
         "between-rows": [(0.7, 3.6), (7.4, 3.9), (0.9, 4.3)],
@@ -330,7 +333,7 @@ def hidden_surfaces():
     near_miss = {"by-a-thousandth": 0.001, "by-a-hundred-thousandth": 0.00001}
     for name, gap in near_miss.items():
         for which, zs in (("first", (0.5, 0.5 + gap)), ("last", (0.5 + gap, 0.5))):
-            yield case(f"nearer-{name}-{which}", "However little nearer, the nearer is seen.", "Z8",
+            yield case(f"nearer-{name}-{which}", "However little nearer, the nearer is seen.", "Z8 Z9",
                        flat(back, zs[0]) + flat(front, zs[1]))
     rng, spread = random.Random(5), [triangle((-1.9, -1.3, -0.51), (1.9, -1.3, 0.13), (0.1, 3.1, 0.32))]
     for _ in range(16):

@@ -99,9 +99,14 @@ def extensions():
     yield case("pieces-of-one-triangle", "Pieces of a cut triangle have one color.", "T10 Z10",
                usual + "triangle 0\n" + two + "triangle 4294967295\n" + pixels([(0, 7), (8, 7),
                                                                                 (4, 8)]), needs="numbering")
-    yield case("framed", "A framed text ends with end.", "T13", "framed\n" + usual + "end\n", needs="frames")
+    yield case("framed", "A framed text ends with end.", "T6b T13", "framed\n" + usual + "end\n",
+               needs="frames")
     yield case("framed-option", "--expect-framed insists on a framed text.", "T15",
                "framed\n" + usual + "end\n", needs="frames", options="--expect-framed")
+    for count in (2, 3):
+        yield case(f"samples-{count}", "A pixel is the mean of its samples, a depth that of its center.",
+                   "Z12", usual + two, options=f"--samples {count}")
+    yield case("rows", "Some rows alone are drawn.", "Z13", usual + two, options="--rows 2:5")
     colored = "attributes color\n-0.83 -0.77 0.1 255 0 0\n0.87 -0.31 0.5 0 255 0\n-0.13 0.91 0.9 0 0 255\n"
     for name, why, paragraphs, text in (
         ("one-color", "A triangle has the color of its corners.", "L4",
@@ -137,9 +142,16 @@ def extensions():
                    "L4 L5 T9", two, needs="lights materials", options=f"--shading {shading}")
     plain_lit = lit[0].format("") + "\n".join(lit[1:]) + "\n"
     yield case(
-        "lit-glass", "Glass is drawn as if it were none.", "S19 L5",
+        "lit-glass", "Glass is drawn as if it were none.", "S19d L5",
         plain_lit.replace("material 1 0.8 0.5 8\n", "material 1 0.8 0.5 8 0.5 1.5 0.25\nabsorption 1 2 3\n"),
         needs="lights optics")
+    odd = lit[0].format("attributes color\n").replace("light 2 3 1 1 0.9 0.8", "light 2 3 1 0 0 0")
+    yield case(
+        "lit-halves", "Halves go up, and a flat triangle has one color.", "L1 L4 L6 L7",
+        odd.replace("0.12 0.13 0.14", "0.5 0.5 0.5") + "".join(
+            f"-0.9 {y} 0 {color}\n0.9 {y} 0 {color}\n0.1 {y + 0.6} 0.25 {color}\n"
+            for y, color in ((-0.9, "101 33 77"), (-0.6, "7 99 251"), (0.5, "1 3 5"), (0.75, "55 155 253"))),
+        needs="lights colors")
     for name, why, text in (("by-its-plane", "Without normals a triangle is lit by its plane.",
                              plain_lit), ("from-behind", "A light behind the surface gives it none.",
                                           plain_lit.replace("light 2 3 1", "light 0 0 -30")),
