@@ -89,7 +89,7 @@ class Pages(ToolTest):
             blocks = [" ".join(block.split()).replace("*", "") for block in re.split(r"\n\s*\n", shown)]
             count = 0
             for paragraph in paragraphs:
-                if paragraph.startswith(("#", "|", "    ", "- ")):
+                if paragraph.startswith(("#", "|", "    ", "- ", "```")):
                     continue
                 plain = re.sub(r"\[((?:[^\]`]|`[^`]*`)+)\]\([^)]*\)", r"\1",
                                paragraph).replace("`", "").replace("*", "")
