@@ -1,23 +1,20 @@
-"""The cheapest setting that meets what was asked."""
+"""The cheapest setting that meets what was asked, as far as the times tell."""
 import dataclasses
 
-from trade_parts.pipe import DEFAULT
-
-ALIKE = 1.03  # nobody notices 3 % of CPU time
+from trade_parts.timing import CHEAPER, TIE, UNTOLD
 
 
 @dataclasses.dataclass(frozen=True)
 class Row:
-    """What a setting takes and loses."""
+    """What a setting takes and loses. Rows are in the order of their settings: the simpler one first."""
     setting: object
     seconds: object      # Quartiles
-    ratio: object        # Quartiles of the CPU time over the default's
+    ratio: float         # the CPU time over the default's
+    net: float           # the same without the start of four programs
     size: int            # bytes in the three pipes
     wrong: int           # pixels
-    neighbors: int
-    covered: int         # pixels of the lossless run
+    covered: int         # pixels of the exact picture
     vertex_error: float  # in pixels
-    digits_lost: int
 
     @property
     def percent_wrong(self):
@@ -36,10 +33,17 @@ class Limits:
         pixel = 100 / row.covered
         over_wrong = 0 if self.percent_wrong is None else (row.percent_wrong + pixel) / (self.percent_wrong +
                                                                                          pixel)
-        return max(over_wrong, 0 if self.ratio is None else row.ratio.median / self.ratio)
+        return max(over_wrong, 0 if self.ratio is None else row.ratio / self.ratio)
 
     def are_met_by(self, row):
         return self.over(row) <= 1
+
+
+@dataclasses.dataclass(frozen=True)
+class Choice:
+    row: object
+    ties: tuple = ()    # rows that cost the same, as far as anybody notices
+    untold: tuple = ()  # rows that may be cheaper: the times do not tell
 
 
 def least_wrong(rows, limits):
@@ -49,14 +53,28 @@ def least_wrong(rows, limits):
         limits, percent_wrong=min(within)) if within and limits.percent_wrong is None else limits
 
 
-def cheapest(rows, are_times_too_short):
-    """The row with the least CPU time, and those that take as long by the quartiles, within 3 %: of these it
-    has the fewest bytes; then it is the most exact, and the nearest to the default."""
-    least = min(rows, key=lambda row: row.ratio.median)
-    alike = [row for row in rows if are_times_too_short or row.ratio.first <= ALIKE * least.ratio.third]
-    return min(
-        alike, key=lambda row:
-        (row.size, row.wrong, row.vertex_error, row.setting != DEFAULT, len(str(row.setting)))), alike
+def simplest_first(rows):
+    """By the number of options to type; of as many, the order of `rows` stays."""
+    return sorted(rows, key=lambda row: len(row.setting.words()))
+
+
+def cheapest(rows, verdict):
+    """The Choice among `rows`. `verdict(a, b)` tells about the CPU time of setting a against that of b. A
+    setting gives way only to one that is cheaper beyond the noise. If one that may be cheaper is left, so
+    that another run could name it, the simplest row is chosen, and `untold` tells why."""
+    rows = simplest_first(rows)
+    best, untold = rows[0], []
+    for row in rows[1:]:
+        told = verdict(row.setting, best.setting)
+        if told == CHEAPER:
+            best = row
+        elif told == UNTOLD:
+            untold.append(row)
+    untold = [row for row in untold if row is not best and verdict(best.setting, row.setting) != CHEAPER]
+    if untold:
+        return Choice(rows[0], untold=tuple(row for row in rows[1:] if row in untold or row is best))
+    return Choice(best, ties=tuple(row for row in rows if row is not best and
+                                   verdict(row.setting, best.setting) == TIE))
 
 
 def nearest(rows, limits):

@@ -1,24 +1,8 @@
-"""What a setting loses against the lossless run: vertices, digits and pixels."""
-import collections
-import dataclasses
+"""How far the vertices of a setting are from those of the exact run."""
 import itertools
 import math
 
-from lib.owners import NOBODY
 from lib.stage_text import triangle_lines
-
-DIGITS_OF_A_DOUBLE = 16
-
-
-@dataclasses.dataclass(frozen=True)
-class Pixels:
-    """How many pixels differ from the lossless picture."""
-    wrong: int      # covered in only one of the two, or with a triangle that should be hidden
-    neighbors: int  # with a triangle that shares a vertex with the right one
-
-
-def clamped(x, low, high):
-    return max(low, min(x, high))
 
 
 def numbers_of(line):
@@ -29,20 +13,15 @@ class Screen:
     """Where the window of a config shows what is in NDC, in doubles."""
 
     def __init__(self, window):
-        self.limits = [(float(low), float(high))
-                       for low, high in ((window.left, -window.left), (window.bottom, -window.bottom),
-                                         (window.front, window.rear))]
+        self.limits = -float(window.left), -float(window.bottom)  # on the right and at the top
         self.size = window.width, window.height
-
-    def clamped(self, p):
-        return [clamped(x, *limits) for x, limits in zip(p, self.limits)]
 
     def pixels_between(self, true, p):
         """How far two positions of a vertex are apart, in pixels; where both are outside the window, as much
         as reaches it."""
-        reach = max(1, *(abs(x) / high for x, (_, high) in zip(true, self.limits[:2])))
+        reach = max(1, *(abs(x) / high for x, high in zip(true, self.limits)))
         dx, dy = ((x - t) / (2 * high) * count / reach
-                  for t, x, (_, high), count in zip(true, p, self.limits, self.size))
+                  for t, x, high, count in zip(true, p, self.limits, self.size))
         return math.hypot(dx, dy)
 
 
@@ -64,71 +43,16 @@ def vertex_pairs(true_path, path):
                 heads[i] = next(groups[i], None)
 
 
-class Vertices:
-    """The vertices of the lossless run, which others are compared with."""
-
-    def __init__(self, path, screen):
-        self.path, self.screen = path, screen
-        low, high = [math.inf] * 3, [-math.inf] * 3
-        with open(path, "rb") as file:
-            for _, corners in triangle_lines(file):
-                for corner in corners:
-                    p = screen.clamped(numbers_of(corner))
-                    low, high = list(map(min, low, p)), list(map(max, high, p))
-        self.extents = [b - a for a, b in zip(low, high)]  # of what is in the window, along each axis
-
-    def compared(self, path):
-        """The largest error of a vertex in pixels, and how many of a double's digits are lost, relative to
-        the scene's extent along the axis that loses most."""
-        largest, errors = 0.0, [0.0] * 3
-        pixels = [count / (2 * high) for count, (_, high) in zip(self.screen.size, self.screen.limits)]
-        for true_line, line in vertex_pairs(self.path, path):
-            if true_line == line:
-                continue
-            true, p = numbers_of(true_line), numbers_of(line)
-            dx, dy, dz = abs(p[0] - true[0]), abs(p[1] - true[1]), abs(p[2] - true[2])
-            # Of millions of vertices few exceed those before them; the window only makes errors smaller.
-            if dx > errors[0] or dy > errors[1] or dz > errors[2] or (dx * pixels[0])**2 + (
-                    dy * pixels[1])**2 > largest**2:
-                largest = max(largest, self.screen.pixels_between(true, p))
-                errors = [
-                    max(error, abs(b - a))
-                    for error, a, b in zip(errors, self.screen.clamped(true), self.screen.clamped(p))]
-        left = min((digits_left(error, extent) for error, extent in zip(errors, self.extents) if extent > 0),
-                   default=DIGITS_OF_A_DOUBLE)
-        return largest, DIGITS_OF_A_DOUBLE - left
-
-
-def digits_left(error, extent):
-    """How many whole digits of an extent an error leaves: 3 if it is a thousandth."""
-    if error == 0:
-        return DIGITS_OF_A_DOUBLE
-    return math.floor(clamped(math.log10(extent / error), 0, DIGITS_OF_A_DOUBLE))
-
-
-def corners_of(path, marks):
-    """{mark: the corners of that triangle and of its pieces} in a text of project."""
-    found = collections.defaultdict(set)
-    with open(path, "rb") as file:
-        for number, corners in triangle_lines(file):
-            if number + 1 in marks:
-                found[number + 1].update(b" ".join(corner.split(None, 3)[:3]) for corner in corners)
-    return found
-
-
-def pixel_differences(pictures, true_pictures, true_path):
-    """{setting: Pixels} for {setting: picture}; `true_pictures` has the lossless one of each setting."""
-    pairs = {setting: collections.Counter((a, b) for a, b in zip(picture, true_pictures[setting]) if a != b)
-             for setting, picture in pictures.items()}
-    corners = corners_of(true_path, {mark
-                                     for counts in pairs.values() for pair in counts
-                                     for mark in pair} - {NOBODY})
-
-    def are_neighbors(a, b):
-        return NOBODY not in (a, b) and not corners[a].isdisjoint(corners[b])
-
-    def counted(counts):
-        neighbors = sum(count for pair, count in counts.items() if are_neighbors(*pair))
-        return Pixels(sum(counts.values()) - neighbors, neighbors)
-
-    return {setting: counted(counts) for setting, counts in pairs.items()}
+def largest_error(true_path, path, screen):
+    """In pixels, of a vertex of the text of project at `path` against the exact one."""
+    largest = 0.0
+    pixels = [count / (2 * high) for count, high in zip(screen.size, screen.limits)]
+    for true_line, line in vertex_pairs(true_path, path):
+        if true_line == line:
+            continue
+        true, p = numbers_of(true_line), numbers_of(line)
+        dx, dy = p[0] - true[0], p[1] - true[1]
+        # Of millions of vertices few exceed those before them; the window only makes errors smaller.
+        if (dx * pixels[0])**2 + (dy * pixels[1])**2 > largest**2:
+            largest = max(largest, screen.pixels_between(true, p))
+    return largest

@@ -21,14 +21,14 @@ class Setting:
     depth: str = "f64"
 
     def words(self, *names):
-        """The words of the options with these names."""
+        """The words of the options with these names, or of all."""
         defaults = {field.name: field.default for field in dataclasses.fields(self)}
         return [
-            word for name in names if getattr(self, name) != defaults[name]
+            word for name in names or defaults if getattr(self, name) != defaults[name]
             for word in (f"--{name}", getattr(self, name))]
 
     def __str__(self):
-        return " ".join(self.words("digits", "precision", "coverage", "depth")) or "default"
+        return " ".join(self.words()) or "default"
 
     @property
     def of_texts(self):
@@ -39,13 +39,13 @@ class Setting:
     def under_default_coverage(self):
         return dataclasses.replace(self, coverage=DEFAULT.coverage)
 
-    @property
-    def lossless(self):
-        """The run with the same coverage rule that loses nothing."""
-        return Setting(digits="exact", coverage=self.coverage)
-
 
 DEFAULT = Setting()
+
+
+def exact(rule):
+    """The run that loses nothing."""
+    return Setting(digits="exact", coverage=rule)
 
 
 def settings(coverages):

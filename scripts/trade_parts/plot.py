@@ -6,8 +6,8 @@ from lib.svg import STYLE, line, text
 from trade_parts.report import asked
 
 TOP, ROW, BOTTOM = 96, 22, 60
-CPU_LEFT, CPU_WIDTH, WRONG_LEFT, WRONG_WIDTH, VERTEX_LEFT, VERTEX_WIDTH, WIDTH = (350, 250, 650, 170, 870,
-                                                                                  240, 1140)
+CPU_LEFT, CPU_WIDTH, WRONG_LEFT, WRONG_WIDTH, VERTEX_LEFT, VERTEX_WIDTH, WIDTH = (330, 190, 560, 150, 750,
+                                                                                  180, 960)
 ZERO_WIDTH = 30  # between 0 and the smallest power of ten
 STYLE_OF_BARS = (".bar { fill: #7d76d4 } .start { fill: #a9b1ba } .chosen { font-weight: 700 } .limit { "
                  "stroke: #bf2045; stroke-dasharray: 4 3 }")

@@ -1,15 +1,17 @@
 """The table and the sentences of trade."""
+import math
+
 from lib.figures import number
 from lib.table import table
 
-HEADER = ("CPU time", "over default", "bytes", "wrong pixels", "neighbors", "vertex error", "digits lost")
+HEADER = ("net", "CPU", "wrong pixels", "px off")
 
-TOO_SHORT = """The default's run takes hardly longer: these times tell nothing about the settings, and the one
-with the fewest bytes counts as the cheapest. Try a larger scene."""
+TOO_SHORT = """The default takes hardly longer: these times tell nothing about the settings.
+Try a larger scene."""
 
 
 def seconds(value):
-    return f"{value:.2f} s" if value >= 1 else f"{1000 * value:.1f} ms"
+    return f"{number(value, 3)} s" if value >= 1 else f"{number(1000 * value, 3)} ms"
 
 
 def size(count):
@@ -28,23 +30,17 @@ def pixels(row):
 
 
 def cells(row):
-    ratio = row.ratio
-    return [
-        str(row.setting.under_default_coverage),
-        seconds(row.seconds.median), f"{ratio.median:.2f} ({ratio.first:.2f}-{ratio.third:.2f})",
-        size(row.size),
-        pixels(row),
-        str(row.neighbors), f"{number(row.vertex_error)} px" if row.vertex_error else "0",
-        str(row.digits_lost)]
+    return [str(row.setting.under_default_coverage), "-" if math.isnan(row.net) else f"{row.net:.2f}",
+            seconds(row.seconds.median), pixels(row), number(row.vertex_error)]
 
 
 def about_times(times):
     """What the times are worth."""
     share = min(1, times.start_up / times.seconds_of_default)
     words = (
-        f"CPU time: medians of {times.rounds} round{'s' * (times.rounds != 1)}, and over the default's with "
-        f"quartiles. {seconds(times.start_up)} of each run, {100 * share:.0f} % of\n"
-        "the default's, starts four processes and writes an empty picture.")
+        f"CPU: medians of {times.rounds} round{'s' * (times.rounds != 1)}. {seconds(times.start_up)} of "
+        f"each, {100 * share:.0f} % of the default's, starts four\nprograms and writes an empty picture: net "
+        f"is the rest, over the default's.")
     return words + ("\n" + TOO_SHORT if times.are_too_short else "")
 
 
@@ -57,40 +53,37 @@ def asked(limits):
 
 
 def summary(row):
-    return (f"{row.setting}: {row.ratio.median:.2f} times the default's CPU time, {pixels(row)} wrong "
-            f"pixel{'s' * (row.wrong != 1)}")
+    return (f"{row.setting}: {row.ratio:.2f} times the default's CPU time, {size(row.size)} in the pipes,\n"
+            f"{pixels(row)} wrong pixel{'s' * (row.wrong != 1)}")
 
 
-def decided_by(chosen, alike):
-    """Why this one among those that cost the same; empty if it is alone."""
-    others = [row for row in alike if row is not chosen]
-    if not others:
-        return ""
-    told = (f"\n{len(others)} other setting{'s' * (len(others) > 1)} cost{'s' * (len(others) == 1)} the "
-            f"same, as far as these times tell: ")
-    least = [row for row in others if row.size == chosen.size]
-    if not least:
-        return told + "this one has the fewest bytes."
-    if not (least := [row for row in least if row.wrong == chosen.wrong]):
-        return told + "of those with as few bytes, this one has the fewest wrong pixels."
-    if all(row.vertex_error > chosen.vertex_error for row in least):
-        return told + "of those with as few bytes and wrong pixels, this one has the smallest vertex error."
-    return told + "of those with as few bytes and as exact, this one is nearest to the default."
+def names(rows):
+    return "".join(f"\n    {row.setting}" for row in rows)
 
 
-def answer(chosen, is_met, alike, limits, command_line):
-    """`alike` are the rows that cost the same as the chosen one, by what was measured."""
-    first = (f"The cheapest with {asked(limits)}:"
-             if is_met else f"No setting has {asked(limits)}. The nearest is")
-    return f"{first}\n{summary(chosen)}{decided_by(chosen, alike)}\n\n    {command_line}"
+def about_ties(choice):
+    """Which settings cost as much, or may cost less; empty if there is none."""
+    if choice.untold:
+        return ("\nToo busy to tell which is cheapest, or too few rounds: this is the simplest.\n"
+                f"These may be cheaper:{names(choice.untold)}\n"
+                "Repeat it when the machine is idle, or with more --rounds.")
+    if choice.ties:
+        return ("\nThese cost the same, as far as anybody notices; this is the simplest:" +
+                names(choice.ties))
+    return ""
 
 
-def report(rows, times, covered):
+def answer(choice, is_met, limits, command_line):
+    first = f"No setting has {asked(limits)}. The nearest is"
+    if is_met:
+        first = f"The {'simplest' if choice.untold else 'cheapest'} with {asked(limits)}:"
+    return f"{first}\n{summary(choice.row)}{about_ties(choice)}\n\n    {command_line}"
+
+
+def report(rows, times):
     """A table for each coverage rule, and what the times are worth."""
     lines = []
-    for coverage, count in covered.items():
+    for coverage in dict.fromkeys(row.setting.coverage for row in rows):
         own = [cells(row) for row in rows if row.setting.coverage == coverage]
-        lines += [
-            *table((f"--coverage {coverage}", *HEADER), own), "", f"The lossless run covers {count} pixels.",
-            ""]
-    return "\n".join([*lines, about_times(times)])
+        lines += [*table((f"--coverage {coverage}", *HEADER), own), ""]
+    return "\n".join([*lines, f"The exact picture covers {rows[0].covered} pixels.", about_times(times)])

@@ -20,11 +20,12 @@ sys.path.insert(0, str(SOURCE / "scripts"))
 from lib.figures import Quartiles  # noqa: E402
 from lib.owners import NOBODY, owners, write_marked  # noqa: E402
 from lib.pipe_tools import Tools, without_inner_location  # noqa: E402
-from trade_parts.choice import Limits, Row, cheapest, least_wrong, nearest  # noqa: E402
-from trade_parts.errors import Screen, digits_left, vertex_pairs  # noqa: E402
+from trade_parts.choice import Choice, Limits, Row, cheapest, least_wrong, nearest  # noqa: E402
+from trade_parts.errors import Screen, vertex_pairs  # noqa: E402
 from trade_parts.pipe import DEFAULT, Pipe, Setting, settings  # noqa: E402
-from trade_parts.report import about_times, decided_by  # noqa: E402
-from trade_parts.timing import EMPTY, Times  # noqa: E402
+from trade_parts.report import about_ties, about_times  # noqa: E402
+from trade_parts.timing import (AGAIN, CHEAPER, DEARER, EMPTY, TIE, UNTOLD, Times,  # noqa: E402
+                                median_interval)
 
 SETTINGS = 9  # of each coverage rule
 # Two walls 1e-6 apart, the hidden one first, seen from 3 away: in NDC their z differ by 2e-8 or so, less than
@@ -69,19 +70,37 @@ class Measures(ToolTest):
         self.assertEqual({rule: len(rows)
                           for rule, rows in tables(done.stdout).items()},
                          {"nearest": SETTINGS, "center": SETTINGS})
-        for rows in tables(done.stdout).values():
-            self.assertEqual([
-                rows["--digits exact"][column]
-                for column in ("wrong pixels", "neighbors", "vertex error", "digits lost")], ["0"] * 4)
+        exact = tables(done.stdout)["center"]["--digits exact"]
+        self.assertEqual((exact["wrong pixels"], exact["px off"]), ("0", "0"))
+        self.assertLessEqual(max(map(len, done.stdout.split("\n\nThe simplest")[0].splitlines())), 80)
+
+    def test_every_pixel_that_differs_from_the_exact_picture_is_wrong(self):
+        """Of two triangles that share an edge, `nearest` shows the other one in some pixels."""
+        pathlib.Path("scene.txt").write_text(CAMERA + "triangle\n-1 -1 0\n1 -0.9 0\n0.9 1 0\n"
+                                             "triangle\n-1 -1 0\n0.9 1 0\n-0.9 0.8 0\nend\n")
+        pathlib.Path("config.txt").write_text("50 40\n")
+        shown = {}
+        for rule in ("nearest", "center"):
+            text = pipe(["model", "--digits", "exact", "scene.txt"], ["view", "--digits", "exact"],
+                        ["project", "--digits", "exact"])
+            run("zbuf", "config.txt", "--coverage", rule, "-o", "out.ppm", "--z-buffer", "none", stdin=text)
+            body = pathlib.Path("out.ppm").read_bytes().split(b"255\n", 1)[1]
+            shown[rule] = [body[i:i + 3] for i in range(0, len(body), 3)]
+        differing = sum(a != b for a, b in zip(shown["nearest"], shown["center"]))
+        self.assertGreater(differing, 20)
+        rows = tables(trade("scene.txt", "config.txt", "--rounds", "1").stdout)
+        self.assertEqual(rows["nearest"]["--digits exact"]["wrong pixels"].split()[0], str(differing))
+        rows = tables(trade("scene.txt", "config.txt", "--rounds", "1", "--rule", "nearest").stdout)
+        self.assertEqual((rows.keys(), rows["nearest"]["--digits exact"]["wrong pixels"]), ({"nearest"}, "0"))
 
     def test_bytes_are_those_of_the_three_texts(self):
-        done = trade("scene.txt", "config.txt", "--rounds", "1", "--coverage", "nearest")
-        for digits in ("5", "7"):
-            texts = [pathlib.Path("scene.txt").read_bytes()]
-            for tool in ("model", "view", "project"):
-                texts.append(pipe([tool, "--digits", digits], stdin=texts[-1]))
-            cell = tables(done.stdout)["nearest"]["default" if digits == "7" else "--digits 5"]["bytes"]
-            self.assertEqual(cell, f"{sum(map(len, texts[1:]))} B")
+        texts = [pathlib.Path("scene.txt").read_bytes()]
+        for tool in ("model", "view", "project"):
+            texts.append(pipe([tool], stdin=texts[-1]))
+        done = trade("scene.txt", "config.txt", "--rounds", "1", "--rule", "nearest")
+        self.assertIn(
+            f"\ndefault: 1.00 times the default's CPU time, {sum(map(len, texts[1:]))} B in the pipes,\n",
+            done.stdout)
 
     def test_the_vertex_error_is_half_a_digit_at_most_and_known_here(self):
         """At z = -3 and fovY 90, x = 1 is 1/3 in NDC; a third of a unit of the fifth decimal is lost, 50
@@ -89,19 +108,14 @@ class Measures(ToolTest):
         pathlib.Path("scene.txt").write_text(
             "0 0 3\n0 0 0\n0 1 0\n90 1 1 10\ntriangle\n1 0 0\n0 1 0\n0 0 0\nend\n")
         pathlib.Path("config.txt").write_text("100 100\n")
-        rows = tables(trade("scene.txt", "config.txt", "--rounds", "1", "--coverage",
-                            "center").stdout)["center"]
-        self.assertEqual(rows["--digits 5"]["vertex error"], "1.7e-4 px")
-        self.assertEqual(rows["default"]["vertex error"], "1.7e-6 px")
-        self.assertEqual(rows["--digits 9"]["vertex error"], "1.7e-8 px")
-        # A third of 1e-5, 1e-7 and 1e-9 in an extent of 1/3 leaves 5, 7 and 9 digits.
-        self.assertEqual([rows[name]["digits lost"] for name in ("--digits 5", "default", "--digits 9")],
-                         ["11", "9", "7"])
+        rows = tables(trade("scene.txt", "config.txt", "--rounds", "1").stdout)["center"]
+        self.assertEqual([rows[name]["px off"] for name in ("--digits 5", "default", "--digits 9")],
+                         ["1.7e-4", "1.7e-6", "1.7e-8"])
 
     def test_layers_that_seven_digits_cannot_tell_apart_take_nine(self):
         pathlib.Path("scene.txt").write_text(LAYERS)
         pathlib.Path("config.txt").write_text("40 40\n")
-        done = trade("scene.txt", "config.txt", "--rounds", "1", "--coverage", "center")
+        done = trade("scene.txt", "config.txt", "--rounds", "1")
         rows = tables(done.stdout)["center"]
         covered = re.search(r"covers (\d+) pixels", done.stdout)[1]
         self.assertEqual(rows["default"]["wrong pixels"], f"{covered} (100 %)")
@@ -112,17 +126,17 @@ class Measures(ToolTest):
     def test_scenes_that_are_clipped_or_lit_are_compared_by_triangle(self):
         for name in ("wide-clipped", "inside", "colored-lights"):
             done = trade(SOURCE / f"samples/{name}/scene.txt", SOURCE / f"samples/{name}/config.txt",
-                         "--rounds", "1", "--coverage", "center")
+                         "--rounds", "1")
             self.assertEqual((done.returncode, done.stderr), (0, ""), name)
             rows = tables(done.stdout)["center"]
-            self.assertEqual((rows["--digits 12"]["wrong pixels"], rows["--digits exact"]["vertex error"]),
+            self.assertEqual((rows["--digits 12"]["wrong pixels"], rows["--digits exact"]["px off"]),
                              ("0", "0"), name)
-            self.assertNotEqual(rows["--digits 5"]["vertex error"], "0", name)
+            self.assertNotEqual(rows["--digits 5"]["px off"], "0", name)
 
     def test_options_of_project_are_passed_on(self):
         backs = trade("scene.txt", "config.txt", "--rounds", "1", "--cull", "front")
         self.assertEqual(backs.returncode, 2)
-        self.assertIn("trade: the picture of the lossless run is empty", backs.stderr)
+        self.assertIn("trade: the picture of the exact run is empty", backs.stderr)
         fronts = trade("scene.txt", "config.txt", "--rounds", "1", "--cull", "back", "--clip", "none")
         self.assertRegex(fronts.stdout, r"\| pipeline project .*--clip none --cull back \|")
 
@@ -135,9 +149,9 @@ class Answers(ToolTest):
 
     def test_the_command_line_gives_the_lossless_picture(self):
         for rule in ("nearest", "center"):
-            done = trade("scene.txt", "config.txt", "--rounds", "1", "--coverage", rule)
+            done = trade("scene.txt", "config.txt", "--rounds", "1", "--rule", rule)
             self.assertEqual(done.returncode, 0)
-            self.assertIn("The cheapest with 0 wrong pixels:\n", done.stdout)
+            self.assertIn("The simplest with 0 wrong pixels:\n", done.stdout)  # one round tells nothing
             exact = " | ".join(f"{tool} --digits exact" for tool in ("model scene.txt", "view", "project"))
             lossless, default = (picture(f"{words} | zbuf --coverage {rule} config.txt > z.txt") for words in
                                  (exact, "model scene.txt | view | project"))
@@ -197,7 +211,7 @@ class Mistakes(ToolTest):
     def test_an_empty_picture_has_nothing_to_compare(self):
         pathlib.Path("scene.txt").write_text(CAMERA + "triangle\n0 0 9\n1 0 9\n0 1 9\nend\n")
         self.check(
-            "trade: the picture of the lossless run is empty: there is nothing to compare. Run the pipe "
+            "trade: the picture of the exact run is empty: there is nothing to compare. Run the pipe "
             "to see why",
             "scene.txt", "config.txt")
 
@@ -238,21 +252,25 @@ class Owners(ToolTest):
             self.assertEqual([colors[shown[i:i + 3]] for i in range(0, len(shown), 3)], list(marks))
 
 
-def row(setting=DEFAULT, ratio=(1, 1, 1), size=100, wrong=0, vertex_error=0.0):
-    return Row(setting, Quartiles(*ratio), Quartiles(*ratio), size, wrong, 0, 1000, vertex_error, 0)
+def row(setting=DEFAULT, ratio=1, wrong=0):
+    return Row(setting, Quartiles(ratio, ratio, ratio), ratio, ratio, 100, wrong, 1000, 0.0)
 
 
-class Choice(unittest.TestCase):
-    slow = row(Setting("exact"), (2.9, 3, 3.1), 200)
-    fast = row(Setting("5"), (0.8, 0.9, 1.0), 80, wrong=50)
-    rows = [slow, row(wrong=2), fast]
+def verdict_of(**told):
+    """For cheapest: by what `told` has for "a_b", where a and b are digits; DEARER for others."""
+    return lambda a, b: told.get(f"of_{a.digits}_{b.digits}", DEARER)
+
+
+class Choices(unittest.TestCase):
+    five, seven, nine = row(Setting("5"), 0.8, 50), row(wrong=2), row(Setting("9"), 3)
+    rows = [five, seven, nine]
 
     def test_limits_hold_to_the_last_pixel(self):
         self.assertTrue(Limits(percent_wrong=0.2).are_met_by(row(wrong=2)))
         self.assertFalse(Limits(percent_wrong=0.19).are_met_by(row(wrong=2)))
         self.assertFalse(Limits(percent_wrong=0).are_met_by(row(wrong=1)))
-        self.assertTrue(Limits(ratio=3).are_met_by(self.slow))
-        self.assertFalse(Limits(percent_wrong=0, ratio=2.99).are_met_by(self.slow))
+        self.assertTrue(Limits(ratio=3).are_met_by(self.nine))
+        self.assertFalse(Limits(percent_wrong=0, ratio=2.99).are_met_by(self.nine))
 
     def test_without_a_limit_of_wrong_pixels_the_fewest_are_asked_for(self):
         self.assertEqual(least_wrong(self.rows, Limits()).percent_wrong, 0)
@@ -260,82 +278,90 @@ class Choice(unittest.TestCase):
         self.assertIsNone(least_wrong(self.rows, Limits(ratio=0.1)).percent_wrong)
         self.assertEqual(least_wrong(self.rows, Limits(percent_wrong=7)).percent_wrong, 7)
 
-    def test_the_cheapest_takes_the_least_time_and_of_equals_the_fewest_bytes(self):
-        self.assertIs(cheapest_of(self.rows, False), self.fast)
-        small = row(Setting("9"), (0.95, 1.02, 1.1), 70)
-        self.assertIs(cheapest_of([*self.rows, small], False), small)
-        large = row(Setting("9"), (1.04, 1.05, 1.06), 70)
-        self.assertIs(cheapest_of([*self.rows, large], False), self.fast)
+    def test_the_default_gives_way_only_to_what_is_cheaper(self):
+        self.assertEqual(cheapest(self.rows, verdict_of(of_5_7=CHEAPER)), Choice(self.five))
+        self.assertEqual(cheapest(self.rows, verdict_of(of_5_7=TIE)), Choice(self.seven, ties=(self.five,)))
+        self.assertEqual(cheapest(self.rows, verdict_of()), Choice(self.seven))
 
-    def test_the_answer_tells_what_decided_among_equals(self):
-        plain = row()
-        self.assertEqual(decided_by(plain, [plain]), "")
-        for other, told in (
-            (row(size=101),
-             "1 other setting costs the same, as far as these times tell: this one has the fewest bytes."),
-            (row(wrong=2),
-             "1 other setting costs the same, as far as these times tell: of those with as few bytes, this "
-             "one has the fewest wrong pixels."
-             ),
-            (row(Setting(depth="f32")),
-             "1 other setting costs the same, as far as these times tell: of those with as few bytes and as "
-             "exact, this one is nearest to the default."
-             )):
-            chosen, alike = cheapest([other, plain], True)
-            self.assertIs(chosen, plain)
-            self.assertEqual(decided_by(chosen, alike), "\n" + told)
+    def test_of_settings_that_cost_the_same_the_one_with_fewer_options_is_taken(self):
+        plain, both = row(Setting(coverage="center")), row(Setting("5", coverage="center"))
+        self.assertEqual(cheapest([both, plain], lambda a, b: TIE), Choice(plain, ties=(both,)))
 
-    def test_times_that_tell_nothing_do_not_count(self):
-        self.assertEqual(cheapest_of([self.slow, row()], True), row())
-        self.assertIs(cheapest_of([row(size=300), self.slow], True), self.slow)
+    def test_if_a_cheaper_one_cannot_be_told_the_simplest_is_named_and_no_other(self):
+        self.assertEqual(cheapest(self.rows, verdict_of(of_5_7=UNTOLD)),
+                         Choice(self.seven, untold=(self.five,)))
+        # Had 5 been told cheaper than 7, it would stand against 9 now: both may be the answer.
+        self.assertEqual(cheapest(self.rows, verdict_of(of_5_7=UNTOLD, of_9_7=CHEAPER)),
+                         Choice(self.seven, untold=(self.five, self.nine)))
+        # Whether 5 is cheaper than 7 does not matter where 9 is cheaper than both.
+        self.assertEqual(cheapest(self.rows, verdict_of(of_5_7=UNTOLD, of_9_7=CHEAPER, of_9_5=CHEAPER)),
+                         Choice(self.nine))
 
-    def test_of_settings_that_are_alike_the_default_is_taken(self):
-        plain = row()
-        self.assertIs(cheapest_of(
-            [row(Setting(depth="f32")), plain, row(Setting(depth="u24"))], False), plain)
+    def test_the_answer_tells_of_ties_and_of_a_busy_machine(self):
+        self.assertEqual(about_ties(Choice(self.seven)), "")
+        self.assertEqual(about_ties(Choice(self.seven, ties=(self.five,))),
+                         "\nThese cost the same, as far as anybody notices; this is the simplest:"
+                         "\n    --digits 5")
+        self.assertIn("\nToo busy to tell which is cheapest, or too few rounds: this is the simplest.\n",
+                      about_ties(Choice(self.seven, untold=(self.five,))))
 
     def test_the_nearest_misses_least(self):
-        self.assertEqual(nearest(self.rows, Limits(0, 2)).setting, Setting("exact"))
+        self.assertEqual(nearest(self.rows, Limits(0, 2)).setting, Setting("9"))
         self.assertEqual(nearest(self.rows, Limits(0, 0.5)).setting, DEFAULT)
 
 
-def cheapest_of(rows, are_times_too_short):
-    return cheapest(rows, are_times_too_short)[0]
-
-
 class Clock(unittest.TestCase):
-    def times(self, default):
-        return Times({EMPTY: [1.0, 1.1, 0.9], DEFAULT: default, Setting("5"): [2.0, 4.0, 3.0]})
+    """On recorded times: eight rounds, the second of which another program slows down."""
+    load = (1.0, 3.0, 1.0, 1.1, 1.0, 0.9, 1.0, 1.05)
 
-    def test_ratios_are_taken_round_by_round(self):
-        self.assertEqual(self.times([2.0, 4.0, 4.0]).ratios[Setting("5")], Quartiles(0.875, 1.0, 1.0))
+    def times(self, five, again=(1.0,) * 8, default=2.0):
+        return Times({
+            EMPTY: [1.0] * 8, DEFAULT: [default * x for x in self.load],
+            AGAIN: [default * x * y for x, y in zip(self.load, again)],
+            Setting("5"): [default * x * y for x, y in zip(self.load, five)]})
 
-    def test_a_run_within_the_noise_of_starting_is_too_short(self):
-        for default, is_too_short in (([1.0, 1.1, 1.2], True), ([1.2, 1.3,
-                                                                 1.2], True), ([1.2, 1.9, 4.0], True), ([
-                                                                     2.0, 2.1, 2.2], False)):
-            times = self.times(default)
+    def verdict(self, five, again=(1.0,) * 8):
+        return self.times(five, again).verdict(Setting("5"), DEFAULT)
+
+    def test_the_median_lies_between_order_statistics_in_99_of_100_samples(self):
+        self.assertEqual(median_interval([3, 1, 2, 4, 5, 6, 7]), (0, float("inf")))  # 2 of 2^7 are outside
+        self.assertEqual(median_interval([3, 1, 2, 4, 5, 6, 7, 8]), (1, 8))          # 2 of 2^8
+        self.assertEqual(median_interval(range(1, 12)), (1, 11))   # (1 + 11) 2 of 2^11 would be 1.2 %
+        self.assertEqual(median_interval(range(1, 13)), (2, 11))   # (1 + 12) 2 of 2^12 are 0.6 %
+
+    def test_load_that_slows_a_round_does_not_count(self):
+        self.assertEqual(self.verdict((0.8,) * 8), CHEAPER)
+        self.assertEqual(self.verdict((1.0,) * 8), TIE)
+        self.assertEqual(self.verdict((0.95,) * 8), TIE)
+        self.assertEqual(self.verdict((1.3,) * 8), DEARER)
+
+    def test_beyond_the_noise_of_the_default_alone_is_a_setting_cheaper(self):
+        noise = (1.0, 1.2, 1.0, 0.9, 1.0, 1.0, 1.0, 1.0)
+        self.assertEqual(self.verdict((0.8,) * 8, noise), UNTOLD)
+        self.assertEqual(self.verdict((0.7,) * 8, noise), CHEAPER)
+
+    def test_times_that_scatter_tell_nothing(self):
+        self.assertEqual(self.verdict((0.8, 1.1, 0.7, 0.8, 0.8, 0.8, 0.8, 0.8)), UNTOLD)
+
+    def test_net_is_without_the_start(self):
+        self.assertAlmostEqual(self.times((1.5,) * 8).net(Setting("5")), 2.0, delta=0.1)
+
+    def test_a_run_that_hardly_takes_longer_than_starting_is_too_short(self):
+        for default, is_too_short in ((1.1, True), (2.0, False)):
+            times = self.times((1.0,) * 8, default=default)
             self.assertEqual((times.are_too_short, "tell nothing" in about_times(times)),
                              (is_too_short, is_too_short), default)
-
-    def test_the_share_of_starting_is_told(self):
-        self.assertIn("medians of 3 rounds", about_times(self.times([2.0, 2.1, 1.9])))
-        self.assertIn("1.00 s of each run, 50 % of\nthe default's,", about_times(self.times([2.0, 2.1, 1.9])))
 
 
 class Errors(unittest.TestCase):
     def test_a_vertex_outside_the_window_moves_less(self):
         class Window:
-            width, height, left, bottom, front, rear = 100, 50, -1, -1, -1, 1
+            width, height, left, bottom = 100, 50, -1, -1
 
         screen = Screen(Window)
         self.assertAlmostEqual(screen.pixels_between((0.5, 0.5, 0), (0.53, 0.5, 0)), 1.5)
         self.assertAlmostEqual(screen.pixels_between((0.5, 0.5, 0), (0.5, 0.54, 0)), 1.0)
         self.assertAlmostEqual(screen.pixels_between((10, 0.5, 0), (10.3, 0.5, 0)), 1.5)
-
-    def test_digits_are_counted_in_the_extent(self):
-        self.assertEqual([digits_left(error, 2.0) for error in (0, 2e-3, 2.5e-3, 1e-30, 5)],
-                         [16, 3, 2, 16, 0])
 
     def test_vertices_are_paired_by_the_number_of_their_triangle(self):
         def text(*pieces):
