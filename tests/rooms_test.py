@@ -100,7 +100,7 @@ class Invariants(unittest.TestCase):
         self.assert_only_in(r"\bgetenv\b", ["libpipeline", "tools"], ["libpipeline/numbers/kernel_choice.h"])
 
     def test_cli11_is_named_in_one_source(self):
-        self.assert_only_in(r"#include <CLI/", ["libpipeline", "tools"], ["tools/command_line.cpp"])
+        self.assert_only_in(r"#include <CLI/", ["libpipeline", "tools"], ["tools/rim/command_line.cpp"])
 
     def test_only_text_knows_digits(self):
         self.assert_only_in(

@@ -11,7 +11,7 @@
 #include "tools/mesh2scene/scene_materials.h"
 #include "tools/mesh2scene/scene_setting.h"
 #include "tools/mesh2scene/scene_text.h"
-#include "tools/tool.h"
+#include "tools/rim/tool.h"
 
 using namespace pipeline;
 

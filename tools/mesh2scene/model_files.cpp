@@ -18,7 +18,7 @@
 #include <utility>
 
 #include "libpipeline/text/error.h"
-#include "tools/command_line.h"
+#include "tools/rim/command_line.h"
 
 namespace pipeline {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "tools/surface_shading.h"
+#include "tools/zbuf/surface_shading.h"
 
 namespace pipeline {
 

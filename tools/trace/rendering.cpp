@@ -10,17 +10,17 @@
 #include "libpipeline/raytracing/sampling.h"
 #include "libpipeline/scene/color.h"
 #include "libpipeline/stream/thread_pool.h"
-#include "tools/depth_files.h"
-#include "tools/empty_picture_note.h"
-#include "tools/fragment_report.h"
-#include "tools/image_rows.h"
-#include "tools/surface_shading.h"
+#include "tools/rim/empty_picture_note.h"
 #include "tools/trace/light_colors.h"
 #include "tools/trace/ray_report.h"
 #include "tools/trace/surface_colors.h"
 #include "tools/trace/trace_work.h"
 #include "tools/trace/traced_picture.h"
 #include "tools/trace/traced_scene.h"
+#include "tools/zbuf/depth_files.h"
+#include "tools/zbuf/fragment_report.h"
+#include "tools/zbuf/image_rows.h"
+#include "tools/zbuf/surface_shading.h"
 
 namespace pipeline {
 namespace {

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "libpipeline/scene/viewport.h"
-#include "tools/statistics.h"
-#include "tools/tool.h"
+#include "tools/rim/statistics.h"
+#include "tools/rim/tool.h"
 #include "tools/trace/trace_options.h"
 
 namespace pipeline {

@@ -5,7 +5,7 @@
 #include "libpipeline/scene/viewport.h"
 #include "libpipeline/stream/triangle_batch.h"
 #include "libpipeline/vertex/transform.h"
-#include "tools/empty_picture_note.h"
+#include "tools/rim/empty_picture_note.h"
 
 namespace pipeline {
 

@@ -6,12 +6,12 @@
 #include <csignal>
 
 #include "libpipeline/picture/image_file.h"
-#include "tools/screen.h"
-#include "tools/stage_options.h"
-#include "tools/statistics.h"
-#include "tools/tool.h"
+#include "tools/rim/statistics.h"
+#include "tools/rim/tool.h"
+#include "tools/stages/stage_options.h"
 #include "tools/trace/rendering.h"
 #include "tools/trace/trace_options.h"
+#include "tools/zbuf/screen.h"
 
 using namespace pipeline;
 

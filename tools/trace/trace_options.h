@@ -3,9 +3,9 @@
 #include <optional>
 
 #include "libpipeline/raytracing/sampling.h"
-#include "tools/command_line.h"
-#include "tools/stage_options.h"
-#include "tools/zbuf_options.h"
+#include "tools/rim/command_line.h"
+#include "tools/stages/stage_options.h"
+#include "tools/zbuf/zbuf_options.h"
 
 namespace pipeline {
 

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "libpipeline/raytracing/ray_caster.h"
-#include "tools/progress.h"
+#include "tools/rim/progress.h"
 
 namespace pipeline {
 namespace {

@@ -7,11 +7,11 @@
 #include "libpipeline/stream/stage_reader.h"
 #include "libpipeline/stream/stage_text.h"
 #include "libpipeline/vertex/transform.h"
-#include "tools/drawing_report.h"
-#include "tools/tool.h"
+#include "tools/rim/tool.h"
+#include "tools/stages/view_report.h"
 #include "tools/trace/sphere_report.h"
 #include "tools/trace/trace_options.h"
-#include "tools/view_report.h"
+#include "tools/zbuf/drawing_report.h"
 
 namespace pipeline {
 

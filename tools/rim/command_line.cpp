@@ -1,0 +1,293 @@
+#include "tools/rim/command_line.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <memory>
+
+#include "libpipeline/scene/spelling.h"
+#include "libpipeline/text/number_parser.h"
+#include "libpipeline/text/number_printer.h"
+
+namespace pipeline {
+namespace {
+
+// Of --help, in characters.
+constexpr std::size_t kLineWidth = 100;
+constexpr std::size_t kNameWidth = 28;
+
+constexpr const char* kLastGroup = "General";
+
+bool is_flag(const CLI::Option& option) {
+  return option.get_expected_max() == 0;
+}
+
+/// The text with line breaks in place of blanks where a line would be longer than `width`.
+std::string wrapped(std::string_view text, std::size_t width) {
+  std::string lines;
+  std::size_t column = 0;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find_first_of(" \n", begin), text.size());
+    const std::string_view word = text.substr(begin, end - begin);
+    const bool is_first = column == 0;
+    const bool has_room = column + 1 + word.size() <= width;
+    if (!is_first) lines += has_room ? ' ' : '\n';
+    column = is_first || !has_room ? word.size() : column + 1 + word.size();
+    lines += word;
+    begin = end + 1;
+    if (end < text.size() && text[end] == '\n') {
+      lines += '\n';
+      column = 0;
+    }
+  }
+  return lines;
+}
+
+/// The option or operand that a message of CLI11 names; of "--depth" and "--depth-image" the longer.
+const CLI::Option* named_in(const CLI::App& options, const std::string& message) {
+  const CLI::Option* named = nullptr;
+  for (const CLI::Option* option : options.get_options()) {
+    const bool is_longer = named == nullptr || option->get_name().size() > named->get_name().size();
+    if (is_longer && message.find(option->get_name()) != std::string::npos) named = option;
+  }
+  return named;
+}
+
+/// An option that is gone, and what to use now.
+struct OldName {
+  std::string_view tool, option, now;
+};
+constexpr std::string_view kOneThread = "one thread does the work";
+constexpr std::string_view kExpectFramed = "now --expect-framed";
+constexpr std::array kOldNames = {
+    OldName{"model", "--threads", kOneThread},      OldName{"view", "--threads", kOneThread},
+    OldName{"project", "--threads", kOneThread},    OldName{"zbuf", "--framed", kExpectFramed},
+    OldName{"trace", "--framed", kExpectFramed},    OldName{"join-seen", "--framed", kExpectFramed},
+    OldName{"mesh2scene", "--up", "now --up-axis"},
+};
+
+/// " (did you mean --image?)" for a word such as --imgae=out.bmp, or nothing.
+std::string option_hint(const CLI::App& options, const std::string& word) {
+  const std::string_view found = std::string_view(word).substr(0, word.find('='));
+  for (const auto& [tool, option, now] : kOldNames)
+    if (tool == options.get_name() && option == found) return " (" + std::string(now) + ")";
+  std::vector<std::string> names;
+  for (const CLI::Option* option : options.get_options())
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  const std::string_view nearest =
+      nearest_word(found, std::vector<std::string_view>(names.begin(), names.end()));
+  return nearest.empty() ? "" : " (did you mean " + std::string(nearest) + "?)";
+}
+
+std::string explained_extra(const CLI::App& options) {
+  const std::string word = options.remaining().front();
+  if (word.size() > 1 && word.front() == '-')
+    return expected_but_found("an option of " + options.get_name(), pipeline::quoted(word)) +
+           option_hint(options, word);
+  return expected_but_found("no further operand", pipeline::quoted(word));
+}
+
+std::string explained_count(const CLI::Option& option) {
+  const int expected = option.get_items_expected_min();
+  const std::size_t found = option.results().size();
+  return expected_but_found(
+      (expected == 1 ? "one value (" : std::to_string(expected) + " values (") + option.get_type_name() + ")",
+      found == 0 ? "none" : std::to_string(found));
+}
+
+/// The words as CLI11 takes them, last word first. A word like "-.5" becomes "-0.5": CLI11 takes it for an
+/// option unless a digit follows the minus.
+std::vector<std::string> words_for_parsing(int argc, char** argv) {
+  std::vector<std::string> words(argv + 1, argv + argc);
+  for (std::string& word : words)
+    if (word.starts_with("-.") && parse_number(word).error == NumberError::none) word.insert(1, "0");
+  std::reverse(words.begin(), words.end());
+  return words;
+}
+
+/// The error in the command line: "option: expected ..., found ...".
+std::string explained(const CLI::App& options, const CLI::ParseError& error) {
+  if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) return explained_extra(options);
+  const CLI::Option* const option = named_in(options, error.what());
+  if (option == nullptr) return error.what();
+  if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr)
+    return option->get_name() + ": " + explained_count(*option);
+  if (is_flag(*option) && !option->results().empty())
+    return option->get_name() + ": " +
+           expected_but_found("no value", pipeline::quoted(option->results().back()));
+  return error.what();
+}
+
+}  // namespace
+
+class HelpForm : public CLI::Formatter {
+ public:
+  HelpForm() {
+    column_width(kNameWidth);
+    label("Positionals", "Operands");
+  }
+
+  void set_usage(const std::string& usage) { usage_ = usage; }
+
+  std::string make_description(const CLI::App* app) const override {
+    return wrapped(app->get_description(), kLineWidth) + "\n";
+  }
+  std::string make_usage(const CLI::App* app, std::string name) const override {
+    return usage_.empty() ? CLI::Formatter::make_usage(app, std::move(name)) : usage_ + "\n";
+  }
+  std::string make_help(const CLI::App* app, std::string name, CLI::AppFormatMode) const override {
+    return make_description(app) + make_usage(app, std::move(name)) + make_positionals(app) + groups_of(app) +
+           "\n" + make_footer(app);
+  }
+  std::string make_option_opts(const CLI::Option* option) const override {
+    const bool is_operand = option->get_lnames().empty();
+    return is_operand || is_flag(*option) ? "" : " " + option->get_type_name();
+  }
+  std::string make_option_desc(const CLI::Option* option) const override {
+    const std::string standard = option->get_default_str();
+    return wrapped(option->get_description() + (standard.empty() ? "" : " (default: " + standard + ")"),
+                   kLineWidth - kNameWidth);
+  }
+
+ private:
+  std::string groups_of(const CLI::App* app) const {
+    std::vector<std::string> groups = app->get_groups();
+    std::stable_partition(groups.begin(), groups.end(),
+                          [](const std::string& group) { return group != kLastGroup; });
+    std::string text;
+    for (const std::string& group : groups) {
+      const auto options = app->get_options(
+          [&](const CLI::Option* option) { return option->get_group() == group && option->nonpositional(); });
+      if (!options.empty()) text += make_group(group, false, options);
+    }
+    return text;
+  }
+
+  std::string usage_;  // empty: CLI11's
+};
+
+std::string listed(const std::vector<std::string>& words) {
+  std::string text;
+  for (std::size_t i = 0; i < words.size(); ++i)
+    text += (i == 0 ? "" : i + 1 < words.size() ? ", " : " or ") + words[i];
+  return text;
+}
+
+CommandLine::CommandLine(const std::string& tool, const std::string& description,
+                         std::span<const char* const> examples, const std::string& version)
+    : app_(std::make_unique<CLI::App>(description, tool)), help_form_(std::make_shared<HelpForm>()) {
+  app_->formatter(help_form_);
+  std::string footer = "Examples:\n";
+  for (const char* example : examples) footer += "  " + std::string(example) + "\n";
+  app_->footer(footer +
+               "\nExit status: 0 done; 1 bad input, or reading or writing failed; 2 a wrong command line");
+  app_->option_defaults()->group(kLastGroup);
+  app_->get_help_ptr()->group(kLastGroup);
+  app_->set_version_flag("--version", version);
+}
+
+CommandLine::~CommandLine() = default;
+
+void CommandLine::begin_group(const std::string& name) {
+  app_->option_defaults()->group(name);
+}
+
+void CommandLine::set_usage(const std::string& usage) {
+  help_form_->set_usage(usage);
+}
+
+bool CommandLine::is_given(const std::string& name) const {
+  return app_->count(name) > 0;
+}
+
+void CommandLine::add_flag(const std::string& name, bool& chosen, const std::string& help) {
+  app_->add_flag(name, chosen, help);
+}
+
+void CommandLine::add_word(const std::string& name, const std::string& type_name, std::string& word,
+                           const std::string& help, const WordCheck& check) {
+  CLI::Option* const option = app_->add_option(name, word, help)->type_name(type_name)->capture_default_str();
+  if (check) option->check(CLI::Validator([check](std::string& found) { return check(found); }, "", ""));
+}
+
+void CommandLine::add_words(const std::string& name, std::size_t count, const std::string& type_name,
+                            std::vector<std::string>& words, const std::string& help) {
+  app_->add_option(name, words, help)
+      ->expected(static_cast<int>(count))
+      ->allow_extra_args(false)
+      ->type_name(type_name);
+}
+
+void CommandLine::add_repeatable(const std::string& name, const std::string& type_name,
+                                 std::vector<std::string>& words, const std::string& help) {
+  app_->add_option(name, words, help)->type_name(type_name)->allow_extra_args(false);
+}
+
+void CommandLine::add_whole(const std::string& name, int& number, int least, int most,
+                            const std::string& help) {
+  const std::string range = "from " + std::to_string(least) + " to " + std::to_string(most);
+  const auto take = [=, &number](const std::string& word) {
+    std::size_t found = 0;
+    if (!parse_count(word, found) || found < static_cast<std::size_t>(least) ||
+        found > static_cast<std::size_t>(most))
+      throw CLI::ValidationError(name, expected_but_found("a whole number " + range, pipeline::quoted(word)));
+    number = static_cast<int>(found);
+  };
+  app_->add_option_function<std::string>(name, take, help + ", " + range)
+      ->type_name("N")
+      ->default_str(std::to_string(number));
+}
+
+void CommandLine::add_number(const std::string& name, const std::string& type_name, double& number,
+                             const std::function<bool(double)>& is_fine, const std::string& expected,
+                             const std::string& help) {
+  const auto take = [=, &number](const std::string& word) {
+    const ParsedNumber found = parse_number(word);
+    if (found.error != NumberError::none || !is_fine(found.value))
+      throw CLI::ValidationError(name, expected_but_found(expected, pipeline::quoted(word)));
+    number = found.value;
+  };
+  app_->add_option_function<std::string>(name, take, help)
+      ->type_name(type_name)
+      ->default_str(shortest_text(number));
+}
+
+void CommandLine::add_operand(const std::string& name, std::string& word, const std::string& help) {
+  app_->add_option(name, word, help)->capture_default_str();
+}
+
+void CommandLine::add_operands(const std::string& name, std::vector<std::string>& words,
+                               const std::string& help) {
+  app_->add_option(name, words, help);
+}
+
+void CommandLine::add_choice_of_words(const std::string& name, const std::vector<std::string>& words,
+                                      const std::string& default_word, const std::string& help,
+                                      const std::function<void(std::size_t)>& take) {
+  std::string type_name;
+  for (const std::string& word : words) type_name += (type_name.empty() ? "" : "|") + word;
+  const auto choose = [name, words, take](const std::string& found) {
+    const auto word = std::find(words.begin(), words.end(), found);
+    if (word == words.end())
+      throw CLI::ValidationError(
+          name, expected_but_found(listed(words), pipeline::quoted(found)) +
+                    spelling_hint(found, std::vector<std::string_view>(words.begin(), words.end())));
+    take(static_cast<std::size_t>(word - words.begin()));
+  };
+  app_->add_option_function<std::string>(name, choose, help)->type_name(type_name)->default_str(default_word);
+}
+
+std::optional<std::string> CommandLine::parse(int argc, char** argv) {
+  try {
+    app_->parse(words_for_parsing(argc, argv));
+  } catch (const CLI::CallForHelp&) {
+    return app_->help();
+  } catch (const CLI::CallForVersion& version) {
+    return std::string(version.what()) + "\n";
+  } catch (const CLI::ParseError& error) {
+    throw UsageError(explained(*app_, error));
+  }
+  return std::nullopt;
+}
+
+}  // namespace pipeline

@@ -1,0 +1,33 @@
+#include "tools/rim/progress.h"
+
+#include <unistd.h>
+
+#include <cstdio>
+#include <utility>
+
+#include "libpipeline/text/error.h"
+
+namespace pipeline {
+
+Progress::Progress(std::string tool, std::string unit)
+    : tool_(std::move(tool)), unit_(std::move(unit)), is_wanted_(::isatty(STDERR_FILENO) == 1) {}
+
+Progress::~Progress() {
+  if (is_shown_) std::fputc('\n', stderr);
+}
+
+void Progress::show(std::uint64_t count) {
+  if (!is_wanted_) return;
+  const Clock::time_point now = Clock::now();
+  if (now < next_time_) return;
+  constexpr std::chrono::milliseconds kBetween(200);
+  next_time_ = now + kBetween;
+  is_shown_ = true;
+  const double rate = static_cast<double>(count) / std::chrono::duration<double>(now - start_).count();
+  // The blanks overwrite the end of a longer line.
+  std::fprintf(stderr, "\r%s: %s, %.3g million a second    ", tool_.c_str(),
+               counted(count, unit_.c_str()).c_str(), rate / 1e6);
+  std::fflush(stderr);
+}
+
+}  // namespace pipeline

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "libpipeline/numbers/bounding_box.h"
+#include "libpipeline/stream/coordinate_extent.h"
+#include "libpipeline/text/number_printer.h"
+#include "libpipeline/text/output_file.h"
+#include "tools/rim/command_line.h"
+#include "tools/rim/separate_outputs.h"
+
+namespace pipeline {
+
+/// `--stats`: counts and extents of a run, a line "key value" each, in a file.
+class Statistics {
+ public:
+  explicit Statistics(CommandLine& options);
+
+  [[nodiscard]] bool is_wanted() const { return !path_.empty(); }
+  [[nodiscard]] NamedFile output() const {
+    return path_ == kStandardError.path ? kStandardError : NamedFile{"--stats", path_};
+  }
+  /// Opens the file, if one is requested, before the work: a name that cannot be written is an error at once.
+  void open();
+  void add(std::string_view key, std::uint64_t count);
+  /// Adds x_min to z_max in the format of the text they stand in; nothing if there is no vertex.
+  void add(const CoordinateExtent& extent, NumberFormat format);
+  /// The same for a box, in the shortest form.
+  void add(const BoundingBox& extent);
+  /// Writes and closes the file.
+  void finish();
+  /// Moves the file to its name.
+  void commit();
+
+ private:
+  void add_range(std::string_view axis, const CoordinateExtent::Range& range, NumberFormat format);
+
+  std::string path_;  // empty: not requested
+  std::string lines_;
+  std::optional<OutputFile> file_;
+};
+
+}  // namespace pipeline

@@ -1,0 +1,112 @@
+// project: clips triangles behind the eye and divides by w. View space in, normalized device coordinates out.
+
+#include <utility>
+
+#include "libpipeline/stream/stage_reader.h"
+#include "libpipeline/stream/stage_writer.h"
+#include "libpipeline/stream/text_kind.h"
+#include "libpipeline/vertex/projected_header.h"
+#include "libpipeline/vertex/projection.h"
+#include "tools/rim/command_line.h"
+#include "tools/rim/statistics.h"
+#include "tools/rim/tool.h"
+#include "tools/stages/stage_loop.h"
+#include "tools/stages/stage_options.h"
+#include "tools/stages/view_report.h"
+
+using namespace pipeline;
+
+namespace {
+
+struct ProjectOptions {
+  ClipMode clip = ClipMode::automatic;
+  CullMode cull = CullMode::nothing;
+  double clip_inset = 0;
+};
+
+void add_options(CommandLine& options, ProjectOptions& chosen) {
+  options.begin_group("Clipping");
+  options.add_choice<ClipMode>("--clip", chosen.clip,
+                               {{"auto", ClipMode::automatic},
+                                {"near", ClipMode::near},
+                                {"frustum", ClipMode::frustum},
+                                {"reject", ClipMode::reject},
+                                {"none", ClipMode::none}},
+                               "auto: cut only triangles that come near the eye, at the near plane\n"
+                               "near: cut all triangles at the near plane\n"
+                               "frustum: cut all triangles at all six planes\n"
+                               "reject: drop triangles wholly outside one plane, cut nothing\n"
+                               "none: a vertex that is not in front of the eye is an error");
+  options.add_number(
+      "--clip-inset", "F", chosen.clip_inset, [](double inset) { return inset >= 0 && inset < 1; },
+      "a number from 0 to less than 1",
+      "Pull in the planes of --clip near, frustum or reject, so that the cuts can be seen: 0.1 keeps "
+      "the triangles "
+      "between -0.9 and 0.9 in NDC");
+  options.add_choice<CullMode>(
+      "--cull", chosen.cull, {{"back", CullMode::back}, {"front", CullMode::front}},
+      "Drop triangles that show this side to the eye; counterclockwise is front. A closed surface looks the "
+      "same without its backs, but for its silhouette under zbuf --coverage nearest");
+}
+
+void check_inset(const ProjectOptions& chosen) {
+  const bool has_planes = chosen.clip != ClipMode::automatic && chosen.clip != ClipMode::none;
+  if (chosen.clip_inset > 0 && !has_planes)
+    throw UsageError("--clip-inset: " +
+                     expected_but_found("--clip near, frustum or reject with it", "none of these"));
+}
+
+std::string to_text(const ProjectionCounts& counts) {
+  return std::to_string(counts.culled) + " culled, " + std::to_string(counts.outside) + " outside, " +
+         std::to_string(counts.clipped) + " cut into " + std::to_string(counts.pieces);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Tool tool(
+      {"project",
+       "Reads triangles in view space and writes them in normalized device coordinates (stage3.txt).",
+       "The output of view (or stage2.txt)",
+       {"project --scene scene.txt stage2.txt > stage3.txt",
+        "model scene.txt | view | project --cull back --clip frustum | zbuf config.txt > z_buffer.txt"}},
+      OutputKind::stage_text);
+  NumberOptions numbers(tool.options());
+  ProjectionOptions projections(tool.options());
+  ProjectOptions chosen;
+  add_options(tool.options(), chosen);
+  tool.options().begin_group("Output");
+  Statistics statistics(tool.options());
+
+  return tool.run(argc, argv, [&] {
+    tool.expect_separate({kStandardOutput, statistics.output()}, {projections.scene()});
+    check_inset(chosen);
+    expect_kind(tool.input(), TextKind::view);
+    StageReader reader(tool.input());
+    expect_header(reader, TextKind::view);
+    const Located<Projection> given = projections.projection(reader, tool);
+    const ProjectionTransform projection = clip_from_view(given);
+    StageWriter writer(tool.output(), numbers.format(), false);
+    const StageHeader header = projected_header(reader.header(), given, projection);
+    writer.write_header(header);
+
+    CoordinateRounder rounder = numbers.rounder(tool.input().file());
+    ProjectionStage stage(projection, chosen.clip, chosen.cull, rounder, chosen.clip_inset);
+    if (header.projected) stage.keep_unclipped_triangles();
+    ViewReport report(stage, ViewVolume(projection, chosen.clip_inset), statistics.is_wanted());
+    report.suspect_radians(given);
+    TriangleBatch p_view;
+    const auto transform = [&](TriangleBatch& batch) {
+      std::swap(batch, p_view);
+      stage.project(p_view, batch);
+      report.add(p_view, batch);
+    };
+    StageLoop loop(tool, writer, rounder, statistics);
+    loop.run(reader, transform);
+    tool.timing().details = to_text(stage.counts());
+    loop.note_if_no_triangle_came();
+    if (const auto note = report.note()) tool.note(*note);
+    report.add_to(statistics);
+    loop.write_statistics(numbers.format());
+  });
+}

@@ -1,0 +1,110 @@
+#include "tools/stages/stage_options.h"
+
+#include <variant>
+
+#include "libpipeline/scene/scene.h"
+#include "libpipeline/stream/text_kind.h"
+#include "libpipeline/text/number_parser.h"
+#include "libpipeline/text/number_printer.h"
+#include "tools/rim/command_line.h"
+
+namespace pipeline {
+namespace {
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : " ") + word;
+  return text;
+}
+
+}  // namespace
+
+NumberOptions::NumberOptions(CommandLine& options) {
+  const auto check = [](const std::string& text) {
+    std::size_t count = 0;
+    const bool is_fine = text == "exact" || (parse_count(text, count) && count <= kMaxDecimals);
+    return is_fine
+               ? std::string()
+               : expected_but_found("a number of decimals from 0 to 17, or exact", pipeline::quoted(text));
+  };
+  options.begin_group("Numbers");
+  options.add_word(
+      "--digits", "N|exact", digits_,
+      "Decimals of a coordinate, 0 to 17, or exact: as many as it takes to read back the same double", check);
+  options.add_choice<Precision>(
+      "--precision", precision_, {{"double", Precision::in_doubles}, {"extended", Precision::extended}},
+      "extended: every coordinate printed is correctly rounded, or noted; double: faster");
+}
+
+NumberFormat NumberOptions::format() const {
+  std::size_t decimals = 7;
+  if (!parse_count(digits_, decimals)) return {.shortest = true};
+  return {.decimals = static_cast<int>(decimals)};
+}
+
+CoordinateRounder NumberOptions::rounder(const std::string& file) const {
+  return {precision_, format(), file};
+}
+
+CameraOptions::CameraOptions(CommandLine& options, Parts parts) {
+  const auto add = [&](const std::string& name, std::size_t count, const std::string& type,
+                       const std::string& help) { options.add_words(name, count, type, words_[name], help); };
+  options.begin_group(parts == Parts::projection ? "Projection" : "Camera");
+  if (parts == Parts::position_and_projection) {
+    add("--eye", 3, "X Y Z", "Where the camera stands, in world space");
+    add("--look", 3, "X Y Z", "The point it looks at");
+    add("--up", 3, "X Y Z", "The direction that is up in the picture");
+  }
+  const std::string planes = "L R B T N F";
+  add("--perspective", 4, "FOVY ASPECT NEAR FAR", "The projection, as in a scene; angles in degrees");
+  add("--frustum", 6, planes,
+      "The same, given by the planes left, right, bottom, top, near, far, as for glFrustum");
+  add("--ortho", 6, planes, "A parallel projection between such planes, as for glOrtho");
+  options.add_word("--scene", "FILE", scene_path_,
+                   "Take the parts of the camera that other options leave out from this scene instead of the "
+                   "header of INPUT");
+}
+
+CameraParameters CameraOptions::camera(const CameraParameters& header, const Tool& tool) const {
+  CameraParameters camera;
+  for (const auto& [name, words] : words_) {
+    if (words.empty()) continue;
+    const std::string text = joined(words);
+    LineScanner line(text, name, 0);
+    read_camera_part(name.substr(2), {name}, line, camera);
+  }
+  if (!scene_path_.empty()) {
+    // The camera precedes the commands, which are not read.
+    InputFile scene = tool.second_input(scene_path_, "--scene");
+    expect_kind(scene.text(), TextKind::scene);
+    camera = merged(camera, SceneReader(scene.text()).camera());
+  }
+  camera = merged(camera, header);
+  check_camera(camera);
+  return camera;
+}
+
+ProjectionOptions::ProjectionOptions(CommandLine& options)
+    : camera_(options, CameraOptions::Parts::projection) {
+  options.add_choice<std::optional<AspectRule>>(
+      "--aspect", aspect_, {{"angle", AspectRule::angle}, {"ratio", AspectRule::ratio}},
+      "How a perspective's aspect is meant.\n"
+      "angle: fovX = fovY * aspect\n"
+      "ratio: tan(fovX/2) = tan(fovY/2) * aspect, as in gluPerspective\n"
+      "Without the option: as the perspective says, angle if it ends in neither word");
+}
+
+Located<Projection> ProjectionOptions::projection(const StageReader& reader, const Tool& tool) const {
+  const CameraParameters camera = camera_.camera(reader.header().camera, tool);
+  if (!camera.projection)
+    throw InputError(reader.header_end(),
+                     expected_but_found("a projection (a header line perspective, frustum or ortho; or "
+                                        "--scene; or --perspective, --frustum or --ortho)",
+                                        "none" + reason_without_camera(reader)));
+  Located<Projection> projection = *camera.projection;
+  if (auto* perspective = std::get_if<Perspective>(&projection.value); perspective != nullptr && aspect_)
+    perspective->aspect_rule = *aspect_;
+  return projection;
+}
+
+}  // namespace pipeline

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "libpipeline/scene/camera.h"
+#include "libpipeline/stream/stage_reader.h"
+#include "libpipeline/vertex/coordinate_rounder.h"
+#include "tools/rim/command_line.h"
+#include "tools/rim/tool.h"
+
+namespace pipeline {
+
+/// `--digits` and `--precision`: how coordinates are calculated and printed.
+class NumberOptions {
+ public:
+  explicit NumberOptions(CommandLine& options);
+
+  [[nodiscard]] NumberFormat format() const;
+  /// A rounder for coordinates whose vertices come from `file`.
+  [[nodiscard]] CoordinateRounder rounder(const std::string& file) const;
+
+ private:
+  std::string digits_ = "7";
+  Precision precision_ = Precision::extended;
+};
+
+/// The camera as options, and `--scene`, which takes it from a scene file.
+class CameraOptions {
+ public:
+  /// The parts of the camera that a tool uses.
+  enum class Parts { position_and_projection, projection };
+
+  CameraOptions(CommandLine& options, Parts parts);
+
+  /// The argument of --scene.
+  [[nodiscard]] NamedFile scene() const { return file_or_stream("--scene", scene_path_, kStandardInput); }
+  /// The camera from the options; parts missing there come from the scene, and parts missing in both from
+  /// `header`. An InputError, located at the option or in the scene, if a part is wrong.
+  [[nodiscard]] CameraParameters camera(const CameraParameters& header, const Tool& tool) const;
+
+ private:
+  std::map<std::string, std::vector<std::string>>
+      words_;  // by option name, as they stand on the command line
+  std::string scene_path_;
+};
+
+/// The projection as options, `--scene`, and `--aspect`, which says how a perspective's aspect is meant.
+class ProjectionOptions {
+ public:
+  explicit ProjectionOptions(CommandLine& options);
+
+  [[nodiscard]] NamedFile scene() const { return camera_.scene(); }
+  /// The projection from the options, else from the scene, else from the text's header. An InputError if
+  /// there is none.
+  [[nodiscard]] Located<Projection> projection(const StageReader& reader, const Tool& tool) const;
+
+ private:
+  CameraOptions camera_;
+  std::optional<AspectRule> aspect_;  // none: the perspective's own
+};
+
+}  // namespace pipeline

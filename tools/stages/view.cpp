@@ -1,0 +1,82 @@
+// view: puts the camera at the origin, looking down -z. World space in, view space out.
+
+#include "libpipeline/stream/stage_reader.h"
+#include "libpipeline/stream/stage_writer.h"
+#include "libpipeline/stream/text_kind.h"
+#include "libpipeline/vertex/attribute_transform.h"
+#include "libpipeline/vertex/transform.h"
+#include "libpipeline/vertex/vertex_transform.h"
+#include "tools/rim/command_line.h"
+#include "tools/rim/statistics.h"
+#include "tools/rim/tool.h"
+#include "tools/stages/stage_loop.h"
+#include "tools/stages/stage_options.h"
+
+using namespace pipeline;
+
+namespace {
+
+/// The view transform of a camera, which needs all three parts.
+ViewTransform view_of(const CameraParameters& camera, const StageReader& reader) {
+  std::vector<std::string> missing;
+  if (!camera.eye) missing.emplace_back("eye");
+  if (!camera.look) missing.emplace_back("look");
+  if (!camera.up) missing.emplace_back("up");
+  if (!missing.empty())
+    throw InputError(reader.header_end(),
+                     expected_but_found("a camera (header lines eye, look and up; or --scene; or --eye, "
+                                        "--look and --up)",
+                                        "no " + listed(missing) +
+                                            (missing.size() == 3 ? reason_without_camera(reader) : "")));
+  return view_from_world(camera.eye->value, camera.look->value, camera.up->value);
+}
+
+Appearance in_view_space(Appearance appearance, const ViewTransform& view,
+                         UncertainDigits& uncertain_lights) {
+  for (auto& light : appearance.lights) light = transformed(view, light, uncertain_lights);
+  return appearance;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Tool tool({"view",
+             "Reads triangles in world space and writes them in view space.",
+             "The output of model (or stage1.txt)",
+             {"model scene.txt | view --eye 4 3 9 | project | zbuf config.txt > z_buffer.txt",
+              "view --bare --scene scene.txt stage1.txt > stage2.txt"}},
+            OutputKind::stage_text);
+  NumberOptions numbers(tool.options());
+  CameraOptions cameras(tool.options(), CameraOptions::Parts::position_and_projection);
+  bool bare = false;
+  tool.options().begin_group("Output");
+  tool.options().add_flag("--bare", bare, "Write the triangles alone (stage2.txt)");
+  Statistics statistics(tool.options());
+
+  return tool.run(argc, argv, [&] {
+    tool.expect_separate({kStandardOutput, statistics.output()}, {cameras.scene()});
+    expect_kind(tool.input(), TextKind::world);
+    StageReader reader(tool.input());
+    expect_header(reader, TextKind::world);
+    if (!bare) reader.accept_spheres();
+    const CameraParameters camera = cameras.camera(reader.header().camera, tool);
+    const ViewTransform view = view_of(camera, reader);
+    const VertexTransform to_view(view);
+    const NormalTransform normal_to_view(view);
+    StageWriter writer(tool.output(), numbers.format(), bare);
+    UncertainDigits uncertain_lights;
+    writer.write_header({reader.header().framed, without_position(camera),
+                         in_view_space(reader.header().appearance, view, uncertain_lights)});
+
+    CoordinateRounder rounder = numbers.rounder(tool.input().file());
+    const auto transform = [&](TriangleBatch& batch) {
+      for (auto& normals : batch.attributes.normals)
+        for (Vec3& normal : normals) normal = normal_to_view(normal);
+      to_view.apply(batch, rounder);
+    };
+    StageLoop loop(tool, writer, rounder, statistics);
+    loop.run(reader, transform, uncertain_lights);
+    loop.note_if_no_triangle_came();
+    loop.write_statistics(numbers.format());
+  });
+}

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "libpipeline/scene/camera.h"
+#include "libpipeline/stream/triangle_batch.h"
+#include "libpipeline/vertex/projection.h"
+#include "libpipeline/vertex/transform.h"
+#include "libpipeline/vertex/view_volume.h"
+#include "tools/rim/statistics.h"
+
+namespace pipeline {
+
+/// Where the triangles of `project` lie: for a note while none is passed on, and for --stats. Without
+/// --stats, it looks at batches only until a triangle is passed on (and, where fovY is below pi, until a
+/// vertex is in view).
+class ViewReport {
+ public:
+  /// `volume` is the stage's view volume.
+  ViewReport(const ProjectionStage& stage, const ViewVolume& volume, bool counts_all)
+      : stage_(stage), volume_(volume), counts_all_(counts_all) {}
+
+  /// From now on, asks whether a perspective's fovY below pi was meant in radians.
+  void suspect_radians(const Located<Projection>& projection);
+  /// Looks at a batch before the stage, and at what it became.
+  void add(const TriangleBatch& p_view, const TriangleBatch& p_ndc);
+
+  /// Why nothing will be seen; none where something may be.
+  [[nodiscard]] std::optional<std::string> note() const;
+  void add_to(Statistics& statistics) const;
+
+ private:
+  void look_for_radians(const Triangle& p_view, bool may_be_in_view);
+
+  const ProjectionStage& stage_;
+  ViewVolume volume_;
+  bool counts_all_;
+  bool is_all_dropped_ = true;
+  std::uint64_t triangle_count_ = 0;
+  std::uint64_t culled_count_ = 0;
+  OutsideCounts outside_;
+
+  double fov_y_degrees_ = 0;
+  std::optional<ViewVolume> volume_if_radians_;  // none where there is no such suspicion, or no longer
+  std::uint64_t in_view_if_radians_count_ = 0;
+  bool is_filled_ = false;  // by triangles without a vertex in view
+};
+
+}  // namespace pipeline

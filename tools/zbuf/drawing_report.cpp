@@ -1,0 +1,79 @@
+#include "tools/zbuf/drawing_report.h"
+
+#include <string_view>
+
+#include "libpipeline/coverage/rules.h"
+#include "libpipeline/picture/supersampling.h"
+#include "libpipeline/visibility/depth_format.h"
+#include "libpipeline/visibility/drawing_counts.h"
+#include "libpipeline/visibility/unseen.h"
+#include "tools/rim/empty_picture_note.h"
+
+namespace pipeline {
+namespace {
+
+template <typename CoverageRule, typename Depth>
+class ReportOf final : public DrawingReport {
+ public:
+  ReportOf(const ZbufOptions& chosen, const Viewport& screen, bool counts)
+      : screen_(screen), at_centers_(screen) {
+    if (chosen.sample_count > 1) at_samples_.emplace(sample_screen(screen, chosen.sample_count));
+    if (counts) counter_.emplace(screen, chosen.depth_epsilon);
+  }
+
+  void add(const TriangleBatch& p_ndc) override {
+    at_centers_.add(p_ndc);
+    if (at_samples_) at_samples_->add(p_ndc);
+    if (counter_) counter_->add(p_ndc);
+  }
+
+  [[nodiscard]] std::optional<std::string> empty_picture_note() const override {
+    const bool is_empty = at_centers_.is_empty() && (!at_samples_ || at_samples_->is_empty());
+    return is_empty ? std::optional(unseen_note(at_centers_.triangles(), screen_)) : std::nullopt;
+  }
+
+  void add_to(Statistics& statistics) const override {
+    if (!counter_) return;
+    const DrawingCounts counts = counter_->counts();
+    const auto unseen = [&](std::string_view key, UnseenReason reason) {
+      statistics.add(key, counts.unseen[static_cast<std::size_t>(reason)]);
+    };
+    statistics.add("triangles", counts.triangles);
+    unseen("outside_left", UnseenReason::left);
+    unseen("outside_right", UnseenReason::right);
+    unseen("outside_below", UnseenReason::below);
+    unseen("outside_above", UnseenReason::above);
+    unseen("outside_near", UnseenReason::before_front);
+    unseen("outside_far", UnseenReason::beyond_rear);
+    unseen("without_area", UnseenReason::without_area);
+    unseen("between_centers", UnseenReason::between_centers);
+    if (screen_.drawn_row_count() < screen_.rows) statistics.add("outside_rows", counts.outside_rows);
+    statistics.add("hidden", counts.hidden);
+    statistics.add("seen", counts.seen);
+    statistics.add("pixels_written", counts.pixels_written);
+    statistics.add("fragments_tested", counts.fragments_tested);
+    statistics.add(counts.extent);
+  }
+
+ private:
+  Viewport screen_;
+  EmptyPicture<CoverageRule, Depth> at_centers_;
+  std::optional<EmptyPicture<CoverageRule, Depth>> at_samples_;
+  std::optional<DrawingCounter<CoverageRule, Depth>> counter_;
+};
+
+template <typename CoverageRule, typename Depth>
+std::unique_ptr<DrawingReport> report_of(const ZbufOptions& chosen, const Viewport& screen, bool counts) {
+  return std::make_unique<ReportOf<CoverageRule, Depth>>(chosen, screen, counts);
+}
+
+}  // namespace
+
+std::unique_ptr<DrawingReport> drawing_report(const ZbufOptions& chosen, const Viewport& screen,
+                                              bool counts) {
+  return dispatch(chosen, [&]<typename Rule, typename Depth>() {
+    return report_of<Rule, Depth>(chosen, screen, counts);
+  });
+}
+
+}  // namespace pipeline

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+#include "libpipeline/scene/viewport.h"
+#include "libpipeline/stream/triangle_batch.h"
+#include "libpipeline/visibility/fragment.h"
+#include "tools/zbuf/zbuf_options.h"
+
+namespace pipeline {
+
+/// The pixels of `--probe`. A UsageError if one is not on the screen.
+std::vector<Pixel> probed_pixels(const ZbufOptions& chosen, const Viewport& screen);
+
+/// Reports every triangle's fragments at the requested pixels. Takes triangles in the order of the stream, so
+/// the report does not depend on the threads that draw them.
+class FragmentReport {
+ public:
+  virtual ~FragmentReport() = default;
+  /// Takes the next triangle.
+  virtual void add(const TriangleBatch& p_ndc, std::size_t index) = 0;
+  /// Prints the fragments of the probes on stderr, and closes the file.
+  virtual void finish() = 0;
+  /// Moves the file to its name.
+  virtual void commit() = 0;
+};
+
+/// The requested report, with the coverage rule and the depth format in use; null if none is requested. A
+/// UsageError if a probe is not on the screen.
+std::unique_ptr<FragmentReport> fragment_report(const ZbufOptions& chosen, const Viewport& screen);
+
+}  // namespace pipeline

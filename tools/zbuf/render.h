@@ -1,0 +1,15 @@
+#pragma once
+
+#include "libpipeline/scene/viewport.h"
+#include "tools/rim/statistics.h"
+#include "tools/rim/tool.h"
+#include "tools/zbuf/zbuf_options.h"
+
+namespace pipeline {
+
+/// Draws the tool's input and writes the image, the depths and the triangles that are seen, as far as each is
+/// wanted. None depends on the algorithm or on the number of threads. No file replaces an older one before
+/// everything is written. Notes why the image is empty, if it is.
+void render(Tool& tool, const ZbufOptions& chosen, const Viewport& screen, Statistics& statistics);
+
+}  // namespace pipeline

@@ -1,0 +1,73 @@
+#include "tools/zbuf/surface_shading.h"
+
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "libpipeline/picture/png_file.h"
+#include "libpipeline/text/error.h"
+#include "libpipeline/vertex/transform.h"
+
+namespace pipeline {
+
+Lighting lighting_of(const Appearance& appearance, bool is_perspective) {
+  Lighting lighting;
+  if (appearance.ambient) lighting.ambient = appearance.ambient->value;
+  if (appearance.attenuation) lighting.attenuation = appearance.attenuation->value;
+  for (const auto& light : appearance.lights) lighting.lights.push_back(light.value);
+  lighting.is_perspective = is_perspective;
+  return lighting;
+}
+
+std::vector<Material> materials_of(const Appearance& appearance) {
+  std::vector<Material> materials;
+  for (const auto& material : appearance.materials) materials.push_back(material.value);
+  if (materials.empty()) materials.emplace_back();
+  return materials;
+}
+
+ShadingModel shading_model(const Appearance& appearance, std::optional<ShadingModel> chosen) {
+  if (chosen) return *chosen;
+  if (appearance.lights.empty()) return ShadingModel::none;
+  return appearance.columns().normal ? ShadingModel::phong : ShadingModel::flat;
+}
+
+Color background_color(const Appearance& appearance, std::optional<Color> chosen) {
+  if (chosen) return *chosen;
+  if (!appearance.background) return {};
+  const auto& [color, alpha] = appearance.background->value;
+  return rounded_color(color).with_alpha(static_cast<std::uint8_t>(std::floor(alpha + 0.5)));
+}
+
+std::string expected_opaque_background() {
+  return std::string("an opaque background, or -o FILE.png: no other image can be transparent") +
+         (can_write_png() ? "" : " (and this build is without libpng, which .png needs)");
+}
+
+std::optional<SurfaceShader> surface_shader(const StageHeader& header, const SourceLocation& header_end,
+                                            const Viewport& screen, const SurfaceOptions& chosen) {
+  const Appearance& appearance = header.appearance;
+  SurfaceShader::Setup setup;
+  setup.model = shading_model(appearance, chosen.model);
+  setup.background = background_color(appearance, chosen.background);
+  if (!setup.background.is_opaque() && !chosen.holds_alpha)
+    throw InputError(appearance.background ? appearance.background->location : header_end,
+                     expected_but_found(expected_opaque_background(),
+                                        "an alpha of " + std::to_string(setup.background.alpha())));
+  setup.says_what_was_clipped = !appearance.lights.empty();
+  if (chosen.wireframe) setup.wireframe.emplace(*chosen.wireframe);
+  if (setup.model == ShadingModel::none) {
+    if (!appearance.columns().color && !chosen.wireframe) return std::nullopt;
+    return SurfaceShader(screen, std::move(setup));
+  }
+  if (appearance.lights.empty())
+    throw InputError(header_end, expected_but_found("a light for --shading (a header line light)", "none"));
+  const ProjectionTransform projection = clip_from_view(*header.projected);
+  setup.view_from_clip.emplace(projection);
+  setup.lighting = lighting_of(appearance, projection.is_perspective);
+  setup.materials = materials_of(appearance);
+  return SurfaceShader(screen, std::move(setup));
+}
+
+}  // namespace pipeline

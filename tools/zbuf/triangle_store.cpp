@@ -1,0 +1,73 @@
+#include "tools/zbuf/triangle_store.h"
+
+#include <algorithm>
+
+namespace pipeline {
+namespace {
+
+// A few MiB.
+constexpr std::size_t kMinCapacity = std::size_t{1} << 14;
+// Corners are many bytes, and new memory costs more than two passes over the pixels; texts are fewer bytes,
+// as few triangles win a pixel when they are drawn, and they have to be moved.
+constexpr std::size_t kPixelsPerSurface = 4;
+constexpr std::size_t kPixelsPerText = 1;
+// Triangles that win no pixel have ids, but their texts are not kept. Looking for those that are seen takes
+// four bytes for each id.
+constexpr std::size_t kIdsPerTriangle = 4;
+
+}  // namespace
+
+TriangleStore::TriangleStore(const Setup& setup, std::optional<SurfaceShader>& shader, FragmentReport* report)
+    : setup_(setup),
+      shader_(shader),
+      report_(report),
+      min_capacity_(std::max(setup.pixel_count / (setup.keeps_text ? kPixelsPerText : kPixelsPerSurface),
+                             kMinCapacity)),
+      capacity_(min_capacity_),
+      max_id_count_(kIdsPerTriangle * min_capacity_) {
+  if (setup.keeps_text) texts_.emplace();
+}
+
+void TriangleStore::color(std::span<const PixelTag> tags, std::span<Color> colors) {
+  const auto color_of = [this](PixelTag id) {
+    return id == KeptIds::kNoTriangle ? setup_.background : colors_.of(texts_->number(id));
+  };
+  if (has_ids())
+    std::ranges::transform(tags, colors.begin(), color_of);
+  else
+    std::ranges::transform(tags, colors.begin(), Color::from_rgb);
+}
+
+/// Pieces of a triangle stay together, and the last triangle may be the first piece of one.
+void TriangleStore::add_texts(const TriangleBatch& p_ndc, KeptIds::Id first_id,
+                              std::span<const std::uint8_t> winners, std::span<const std::uint8_t> needed) {
+  const std::vector<std::uint64_t>& numbers = p_ndc.numbers;
+  const std::size_t last = p_ndc.size() - 1;
+  for (std::size_t i = 0; i <= last; ++i) {
+    const bool is_needed = !needed.empty() && needed[i] != 0;
+    const bool is_piece =
+        i == last || numbers[i + 1] == numbers[i] || numbers[i] == (i == 0 ? last_number_ : numbers[i - 1]);
+    if (winners.empty() || winners[i] != 0 || is_needed || is_piece)
+      texts_->add({numbers[i], first_id + static_cast<KeptIds::Id>(i), is_needed}, p_ndc.texts[i]);
+  }
+  last_number_ = numbers[last];
+}
+
+void TriangleStore::write_texts(TextWriter& text, KeptIds& seen) const {
+  texts_->complete(seen, false);
+  texts_->write(text, seen);
+}
+
+/// Keeps the last triangle, too: the next may be another piece of it.
+void TriangleStore::let_go(KeptIds& kept) {
+  if (texts_) texts_->complete(kept, true);
+  if (shader_) kept.keep(static_cast<KeptIds::Id>(kept.size() - 1));
+  const std::size_t count = kept.renumber();
+  capacity_ = std::max(2 * count, min_capacity_);
+  max_id_count_ = count + kIdsPerTriangle * min_capacity_;
+  next_id_ = static_cast<KeptIds::Id>(count);
+  if (shader_) shader_->keep(kept);
+  if (texts_) texts_->keep(kept);
+}
+
+}  // namespace pipeline

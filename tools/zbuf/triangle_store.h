@@ -1,0 +1,96 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "libpipeline/coverage/span.h"
+#include "libpipeline/picture/surface_shader.h"
+#include "libpipeline/scene/color.h"
+#include "libpipeline/stream/kept_ids.h"
+#include "libpipeline/stream/text_store.h"
+#include "libpipeline/stream/triangle_batch.h"
+#include "tools/zbuf/fragment_report.h"
+
+namespace pipeline {
+
+/// Assigns every triangle of the stream, in order, the tag of its pixels: the id under which it is kept, for
+/// the surface shader or for its text, or, if it is kept for neither, the RGB value of its color. Hands each
+/// to the report, if there is one.
+///
+/// Of the triangles kept only those that are seen need to stay. They are found whenever twice as many are
+/// kept as were seen the last time; so memory is bounded by the picture. That takes two passes over its
+/// pixels, so it is done only when at least one triangle has been kept for every four pixels; where texts are
+/// kept, for every pixel.
+class TriangleStore {
+ public:
+  struct Setup {
+    bool keeps_text = false;
+    Color background;
+    std::size_t pixel_count = 0;  // of the picture, or of its samples
+  };
+
+  TriangleStore(const Setup& setup, std::optional<SurfaceShader>& shader, FragmentReport* report);
+
+  /// The tag of a pixel without a triangle.
+  [[nodiscard]] PixelTag background() const {
+    return has_ids() ? KeptIds::kNoTriangle : setup_.background.rgb();
+  }
+  [[nodiscard]] Color background_color() const { return setup_.background; }
+  /// The id of the next triangle, if triangles have ids.
+  [[nodiscard]] KeptIds::Id next_id() const { return next_id_; }
+  /// Adds the texts of a batch whose first triangle has the id `first_id`: of its `winners`, those marked 1
+  /// that may have won a pixel (all, if it is empty), and of those `needed` for good (none, if it is empty).
+  void add_texts(const TriangleBatch& p_ndc, KeptIds::Id first_id, std::span<const std::uint8_t> winners,
+                 std::span<const std::uint8_t> needed);
+  /// The tag of the next triangle.
+  PixelTag tag_of(const TriangleBatch& p_ndc, std::size_t index) {
+    if (report_ != nullptr) report_->add(p_ndc, index);
+    if (texts_ && !shader_) return next_id_++;
+    const Color color = colors_.of(p_ndc.numbers[index]);
+    if (!shader_) return color.rgb();
+    shader_->add(p_ndc, index, color);
+    return next_id_++;
+  }
+  /// The colors of pixels with these tags, unless there is a shader.
+  void color(std::span<const PixelTag> tags, std::span<Color> colors);
+
+  [[nodiscard]] bool keeps_text() const { return texts_.has_value(); }
+  /// Ids are less.
+  [[nodiscard]] std::size_t id_count() const { return next_id_; }
+  /// Writes the texts of the triangles that are seen, all pieces of each.
+  void write_texts(TextWriter& text, KeptIds& seen) const;
+
+  /// True if it is time to let go of triangles.
+  [[nodiscard]] bool is_full() const {
+    return shader_ ? next_id_ >= capacity_
+                   : texts_ && (texts_->size() >= capacity_ || next_id_ >= max_id_count_);
+  }
+  /// Lets go of the triangles that no pixel shows. `for_each_drawn_tag(visit)` calls visit(tag), which
+  /// changes it, for every pixel of the rows drawn into; all triangles so far are drawn.
+  template <typename ForEachDrawnTag>
+  void keep_seen(const ForEachDrawnTag& for_each_drawn_tag) {
+    KeptIds kept(id_count());
+    for_each_drawn_tag([&](PixelTag& tag) { kept.keep(tag); });
+    let_go(kept);
+    for_each_drawn_tag([&](PixelTag& tag) { tag = kept.new_id(tag); });
+  }
+
+ private:
+  [[nodiscard]] bool has_ids() const { return shader_ || texts_; }
+  void let_go(KeptIds& kept);
+
+  Setup setup_;
+  std::optional<SurfaceShader>& shader_;
+  std::optional<TextStore> texts_;
+  KeptIds::Id next_id_ = 0;
+  std::uint64_t last_number_ = 0;  // of the triangles so far
+  FragmentReport* report_;
+  TriangleColors colors_;
+  std::size_t min_capacity_;
+  std::size_t capacity_;
+  std::size_t max_id_count_;
+};
+
+}  // namespace pipeline

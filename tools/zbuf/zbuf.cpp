@@ -1,0 +1,43 @@
+// zbuf: decides which triangle is seen at each pixel. Normalized device coordinates in, depths and image out.
+
+#include <unistd.h>
+
+#include <csignal>
+
+#include "libpipeline/picture/image_file.h"
+#include "tools/rim/statistics.h"
+#include "tools/rim/tool.h"
+#include "tools/zbuf/render.h"
+#include "tools/zbuf/screen.h"
+#include "tools/zbuf/zbuf_options.h"
+
+using namespace pipeline;
+
+// NOLINTNEXTLINE(bugprone-exception-escape): thrown only if memory is out before anything is done
+int main(int argc, char** argv) {
+  Tool tool({"zbuf",
+             "Reads triangles in normalized device coordinates and writes the depth of every pixel that "
+             "shows one, and the image.",
+             "The output of project (or stage3.txt)",
+             {"zbuf --size 400x300 stage3.txt",
+              "model scene.txt | view | project | zbuf config.txt --coverage center -o picture.ppm > "
+              "z_buffer.txt"}},
+            OutputKind::other_text);
+  ZbufOptions chosen;
+  chosen.add_to(tool.options());
+  Statistics statistics(tool.options());
+  // A closed pipe is a failure to write like any other: the image that was begun has to be removed.
+  std::signal(SIGPIPE, SIG_IGN);
+
+  return tool.run(argc, argv, [&] {
+    chosen.complete(::isatty(STDOUT_FILENO) == 1);
+    if (chosen.seen_path == "-") tool.write_stage_text();
+    const NamedFile config = config_of(tool, chosen);
+    tool.expect_separate(outputs_of(chosen, statistics), {config});
+    const Viewport whole = read_screen(tool, chosen, config);
+    const Viewport screen = chosen.rows.empty() ? whole : chosen.drawn_part(whole);
+    chosen.check_limits(screen);
+    if (chosen.has_image()) check_image_size(chosen.image_path, screen.columns, screen.drawn_row_count());
+    render(tool, chosen, screen, statistics);
+  });
+}
