@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The rooms of libpipeline and the arrows between them match its map, libpipeline/README.md.
+"""The rooms of libpipeline and tools and the arrows between them match their maps, README.md in each.
 
 usage: rooms_test.py SOURCE_DIR [UNITTEST ARGUMENT...]
 """
@@ -12,7 +12,9 @@ import unittest
 SOURCE = pathlib.Path(sys.argv.pop(1)).resolve() if len(sys.argv) > 1 else sys.exit(__doc__)
 LIBRARY = SOURCE / "libpipeline"
 MAP = (LIBRARY / "README.md").read_text()
-INCLUDE = re.compile(r'^\s*#\s*include\s+"libpipeline/(\w+)/([\w.]+)"', re.MULTILINE)
+TOOLS = SOURCE / "tools"
+TOOLS_MAP = (TOOLS / "README.md").read_text()
+INCLUDE = r'^\s*#\s*include\s+"{}/(\w+)/([\w.]+)"'
 
 
 def arrows_of(text):
@@ -26,14 +28,20 @@ def sources(root):
     return sorted(path for path in root.rglob("*") if path.suffix in (".h", ".cpp"))
 
 
-def wrong_includes(library, arrows):
+def wrong_includes(root, arrows, prefix):
     """A line for every include that no arrow allows."""
     return [
-        f"{path.relative_to(library)} includes {room}/{name}, but there is no arrow {path.parent.name} "
+        f"{path.relative_to(root)} includes {room}/{name}, but there is no arrow {path.parent.name} "
         f"-> {room}"
-        for path in sources(library)
-        for room, name in INCLUDE.findall(path.read_text())
+        for path in sources(root)
+        for room, name in re.findall(INCLUDE.format(prefix), path.read_text(), re.MULTILINE)
         if room != path.parent.name and room not in arrows.get(path.parent.name, ())]
+
+
+def named_files(text):
+    """{room: the names in backquotes in its row of a map's table}"""
+    return {room: set(re.findall(r"`([a-z]\w*)`", row))
+            for room, row in re.findall(r"^\| `(\w+)/`[^\n]*? \| (.*) \|$", text, re.MULTILINE)}
 
 
 def circle(arrows):
@@ -68,7 +76,7 @@ class Rooms(unittest.TestCase):
         self.assertNotIn("picture", arrows["visibility"])
 
     def test_every_include_follows_an_arrow(self):
-        self.assertEqual(wrong_includes(LIBRARY, arrows_of(MAP)), [])
+        self.assertEqual(wrong_includes(LIBRARY, arrows_of(MAP), "libpipeline"), [])
 
     def test_every_file_is_in_a_room(self):
         self.assertEqual([path.name for path in LIBRARY.iterdir() if path.suffix in (".h", ".cpp")], [])
@@ -77,8 +85,26 @@ class Rooms(unittest.TestCase):
         for path in sources(LIBRARY):
             self.assertNotRegex(path.read_text(), r'#\s*include\s+["<](?:tools/|CLI/)', str(path))
 
+    def test_the_map_names_every_file_in_its_room(self):
+        for room, names in named_files(MAP).items():
+            self.assertEqual({path.stem for path in sources(LIBRARY / room)} - names, set(), room)
+
     def test_the_map_is_short(self):
         self.assertLessEqual(MAP.count("\n"), 105)
+
+
+class ToolRooms(unittest.TestCase):
+    def test_the_map_names_every_room_and_no_other(self):
+        self.assertEqual(set(arrows_of(TOOLS_MAP)), {path.name for path in TOOLS.iterdir() if path.is_dir()})
+        self.assertIsNone(circle(arrows_of(TOOLS_MAP)))
+
+    def test_every_include_follows_an_arrow(self):
+        self.assertEqual(wrong_includes(TOOLS, arrows_of(TOOLS_MAP), "tools"), [])
+
+    def test_the_map_names_every_file_in_its_room_and_no_other(self):
+        self.assertEqual(named_files(TOOLS_MAP), {
+            room: {path.stem for path in sources(TOOLS / room)} for room in arrows_of(TOOLS_MAP)})
+        self.assertEqual([path.name for path in sources(TOOLS) if path.parent == TOOLS], [])
 
 
 class Invariants(unittest.TestCase):
@@ -142,7 +168,7 @@ class TheTestItself(unittest.TestCase):
                     "high": '#include "libpipeline/low/a.h"\n'}.items():
                 (root / room).mkdir()
                 (root / room / f"{'a' if room == 'low' else 'b'}.h").write_text(text)
-            self.assertEqual(wrong_includes(root, {"low": set(), "high": {"low"}}),
+            self.assertEqual(wrong_includes(root, {"low": set(), "high": {"low"}}, "libpipeline"),
                              ["low/a.h includes high/b.h, but there is no arrow low -> high"])
 
     def test_a_circle_is_found(self):
