@@ -13,6 +13,8 @@ OPEN_ENDS = [{}, CENTER
                                            ("up", "up"))]  # up and up is a shift by half a pixel
 OPEN_DEPTHS = [{}, {"depth": "between ends"}, {"depth": "between ends", "clamp": 1}, {
     "depth": "between ends", "clamp": 0}, {"depth": "from left"}, {"depth": "from left", "clamp": 0}]
+# Of the mistakes this one is not in the list.
+DEPTHS_ARE_ONE = "The depth limits are -1 and 1 in place of those of the config"
 # Mistakes by their names, with what they change, in more than one way where programs differ. A way that does
 # less than the mistake's sentence says comes after all others.
 MISTAKES = [
@@ -34,12 +36,13 @@ MISTAKES = [
     (("text-upside-down", ), {"text_flip": "upside down"}),
     (("mirrored", ), {"picture_flip": "mirrored", "text_flip": "mirrored"}),
     (("mirrored", ), {"picture_flip": "mirrored"}), (("mirrored", ), {"text_flip": "mirrored"}),
-    (("window-is-one", ), {"is_depth_one": True}), ]
+    ((DEPTHS_ARE_ONE, ), {"is_depth_one": True}),
+]
 
 
 def cause_of_all(names):
     """The cause of one mistake, or of several made together."""
-    causes = [cause_of("zbuf/" + name) for name in names]
+    causes = [Cause("", name) if name == DEPTHS_ARE_ONE else cause_of("zbuf/" + name) for name in names]
     if len(causes) == 1:
         return causes[0]
     return Cause(" and ".join(cause.name for cause in causes),

@@ -291,8 +291,7 @@ class PixelJudge:
             if found and rank > rank_of_found:
                 break
             for names, changes in MISTAKES:
-                is_less = changes == {"is_depth_one": True}
-                if names in found or self.is_void(changes) or is_less and found:
+                if names in found or self.is_void(changes):
                     continue
                 rule = Rule(**{**open_changes, **changes})
                 for reading in self.readings:
@@ -314,11 +313,10 @@ class PixelJudge:
     def is_void(self, changes):
         """Whether a change cannot matter here."""
         window = self.window
-        has_unit_window, has_unit_depths = (float(window.left), float(
-            window.bottom)) == (-1, -1), self.limits == (-1, 1)
-        if changes.get("is_window_one") or changes.get("is_depth_one"):
-            return not (changes.get("is_window_one") and not has_unit_window
-                        or changes.get("is_depth_one") and not has_unit_depths)
+        if changes.get("is_window_one"):
+            return (float(window.left), float(window.bottom)) == (-1, -1)
+        if changes.get("is_depth_one"):
+            return self.limits == (-1, 1)
         return changes.get("text_flip", "") != changes.get("picture_flip", "") and not (self.shown.colors
                                                                                         and self.shown.depths)
 

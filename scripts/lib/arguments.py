@@ -14,6 +14,7 @@ OLD_NAMES = {  # {(command, option that is gone): what to use now}
     ("picture", "--up"): "--up-axis",
     ("compare", "--five"): "--hand-in",
     ("grade", "--out"): "--output",
+    ("trade", "--coverage"): "--rule",
 }
 
 

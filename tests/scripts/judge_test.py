@@ -333,6 +333,20 @@ class Wrong(HandIn):
                 self.assertIn(name, [cause.name for cause in verdict.files[stage].causes])
                 self.assertIn(mistakes.sentence(name).rstrip("."), sentence(verdict))
 
+    def test_depth_limits_are_told_apart_from_the_windows(self):
+        self.config = "90 80\n-1\n-1\n0.77 0.81\n"
+        self.hand_in()
+        self.draw_by("90 80\n-1\n-1\n-1 1\n")
+        verdict = self.assert_verdicts(["right"] * 3 + ["wrong"] * 2, 1)
+        self.assertEqual(verdict.files[3].cause,
+                         "The depth limits are -1 and 1 in place of those of the config")
+
+    def draw_by(self, config):
+        """Draws by another config than the hand-in's."""
+        own, self.config = self.config, config
+        self.draw()
+        self.config = own
+
     def test_a_text_that_is_wrong_where_the_pixels_are_right(self):
         """A program may print other numbers than it draws by."""
         self.hand_in()

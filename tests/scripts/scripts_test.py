@@ -130,7 +130,7 @@ class Columns(ToolTest):
 class OldNames(ToolTest):
     def test_an_option_that_is_gone_names_the_new_one(self):
         for command, option, now in (("picture", "--up", "--up-axis"), ("compare", "--five", "--hand-in"),
-                                     ("grade", "--out", "--output")):
+                                     ("grade", "--out", "--output"), ("trade", "--coverage", "--rule")):
             for word in (option, f"{option}=z"):
                 done = subprocess.run([SOURCE / "scripts" / command, word, "a", "b"], capture_output=True,
                                       text=True)
