@@ -122,7 +122,7 @@ class Transparent(ToolTest):
                                      (0, f"{name}127.5.txt: right", note))
 
     def test_trade_measures_it_opaque_and_names_a_command_that_draws(self):
-        done = command("trade", "lit0.txt", "config.txt", "--rounds", "1", "--coverage", "center")
+        done = command("trade", "lit0.txt", "config.txt", "--rounds", "1")
         self.assertEqual((done.returncode, done.stderr), (0, f"trade: {NOTE}"))
         line = done.stdout.rstrip("\n").split("\n")[-1].strip()
         self.assertIn(" --background c86432 ", line)
