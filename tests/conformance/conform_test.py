@@ -336,10 +336,30 @@ class Runner(unittest.TestCase):
         self.assertLess(max(map(len, done.stdout.splitlines())), 300)
 
     def test_a_file_that_cannot_be_written_is_told(self):
-        done = self.run_one("model/translate-x", BIN / "model",
-                            options=["--json", "/no such folder/results.json"])
+        for path, reason in (("/no such folder/results.json", "No such file or directory"),
+                             ("/dev/full", "No space left on device")):
+            done = self.run_one("model/translate-x", BIN / "model", options=["--json", path])
+            self.assertEqual((done.returncode, done.stderr), (1, f"conform: {path}: {reason}\n"))
+        done = subprocess.run(["sh", "-c", f"'{PACK}/conform' --help > /dev/full"], stderr=subprocess.PIPE)
         self.assertEqual((done.returncode, done.stderr),
-                         (1, "conform: /no such folder/results.json: No such file or directory\n"))
+                         (1, b"conform: cannot write <stdout>: No space left on device\n"))
+
+    def test_the_results_replace_no_file_of_the_command(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for name in ("mine", "data"):
+                pathlib.Path(folder, name).write_text(f"#!/bin/sh\nexec {BIN}/model\n")
+                os.chmod(f"{folder}/{name}", 0o755)
+                os.link(f"{folder}/{name}", f"{folder}/{name}.json")
+            with open(f"{folder}/out.json", "w") as out:
+                for name in ("mine", "data", "out"):
+                    words = ["--stage", "model", "--only", "translate-x", "--json", f"{name}.json", "--",
+                             "./mine", "data"]
+                    done = subprocess.run([PACK / "conform", *words], cwd=folder, stdout=out,
+                                          stderr=subprocess.PIPE, text=True)
+                    found = "standard output" if name == "out" else f"{os.path.realpath(folder)}/{name}"
+                    self.assertEqual((done.returncode, done.stderr), (
+                        2, f"conform: --json {name}.json: expected a place of its own, found that of {found}\n"))
+            self.assertEqual(os.path.getsize(f"{folder}/out.json"), 0)
 
     def test_a_reader_of_the_report_may_leave(self):
         done = subprocess.run(["sh", "-c", f"'{PACK}/conform' --list | head -n 1"], stdout=subprocess.PIPE,
