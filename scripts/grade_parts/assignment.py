@@ -44,7 +44,7 @@ def holds_tests(folder):
 
 
 def read_test(folder, name):
-    scene = read_input(os.path.join(folder, "scene.txt"))
+    scene = read_input(os.path.join(folder, "scene.txt"), only_regular=True)
     config, weight = (optional(os.path.join(folder, file)) for file in ("config.txt", "weight.txt"))
     try:
         reference = Reference(scene, config, Tools())
@@ -57,7 +57,7 @@ def read_test(folder, name):
 def optional(path):
     """The bytes of a file; None if there is none."""
     try:
-        return read_input(path)
+        return read_input(path, only_regular=True)
     except InputError as error:
         if error.is_missing:
             return None

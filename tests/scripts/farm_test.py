@@ -355,6 +355,12 @@ class Refusals(FarmTest):
             (done.returncode, done.stderr),
             (1,
              "farm: zbuf: --samples: expected a whole number from 1 to 16, found '99' (try zbuf --help)\n"))
+        pathlib.Path("scene.txt").unlink()
+        os.symlink("/dev/zero", "scene.txt")
+        done = self.farm([])
+        self.assertEqual((done.returncode, done.stderr), (
+            1, "farm: expected a regular file, whose size tells where to cut, found scene.txt\n"))
+        pathlib.Path("scene.txt").unlink()
         pathlib.Path("scene.txt").write_text("0 0 5\n")
         done = self.farm([])
         self.assertEqual(done.returncode, 1)

@@ -243,6 +243,13 @@ class Results(ClassTest):
         self.add("anna")
         pathlib.Path("tests/square/scene.txt").write_text("1 2\n")
         self.assertRegex(self.grade(status=2).stderr, r"\Agrade: tests/square: the scene is refused: model: ")
+        for name in ("scene.txt", "weight.txt"):
+            pathlib.Path(f"tests/square/{name}").unlink(missing_ok=True)
+            os.mkfifo(f"tests/square/{name}")
+            self.assertEqual(self.grade(status=2).stderr,
+                             f"grade: cannot read tests/square/{name}: Not a regular file\n")
+            os.unlink(f"tests/square/{name}")
+            pathlib.Path("tests/square/scene.txt").write_text("mine")
 
     def test_each_mistake_has_its_fix(self):
         self.assertEqual(list(sentences("fixes.txt")), list(sentences()))
