@@ -1,6 +1,7 @@
 """The command line of a script: how --help looks, and how errors in it are reported."""
 import argparse
 import itertools
+import os
 import re
 import sys
 import textwrap
@@ -16,6 +17,12 @@ OLD_NAMES = {  # {(command, option that is gone): what to use now}
     ("grade", "--out"): "--output",
     ("trade", "--coverage"): "--rule",
 }
+
+
+def files_of(name, folder):
+    """Inputs for expect_separate: what is in a folder, if there is one."""
+    names = os.listdir(folder) if os.path.isdir(folder or "") else []
+    return [(name, os.path.join(folder, file)) for file in names]
 
 
 class HelpFormatter(argparse.RawDescriptionHelpFormatter):

@@ -36,7 +36,7 @@ def target_of(path):
 
 def place_of(path):
     """What all names of a file have in common, as in libpipeline/text/output_file.h; `-` is standard input.
-    None for a device, which may be named twice, unless it is an open file of this process."""
+    None for a device or a socket, which may be named twice, unless it is an open file of this process."""
     try:
         target = target_of(path)
         own = 0 if path == "-" else own_descriptor(target)
@@ -47,9 +47,8 @@ def place_of(path):
             return status.st_dev, status.st_ino, os.path.basename(target)
     except OSError:
         return None
-    if stat.S_ISCHR(status.st_mode) or stat.S_ISBLK(status.st_mode):
-        return own
-    return status.st_dev, status.st_ino, ""
+    kind = stat.S_IFMT(status.st_mode)
+    return own if kind in (stat.S_IFCHR, stat.S_IFBLK, stat.S_IFSOCK) else (status.st_dev, status.st_ino, "")
 
 
 class OutputFile:

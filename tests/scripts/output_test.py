@@ -10,6 +10,7 @@ import pathlib
 import resource
 import shutil
 import signal
+import socket
 import stat
 import subprocess
 import sys
@@ -320,13 +321,13 @@ class Separate(ToolTest):
         before = self.files()
         done = subprocess.run(
             [SCRIPTS / command, *words],
-            capture_output=True,
+            stderr=subprocess.PIPE,
             text=True,
             timeout=60,
             env={"BIN": str(BIN), "PATH": "/usr/bin:/bin"},
-            **settings,
+            **{"stdout": subprocess.PIPE, **settings},
         )
-        self.assertEqual((done.returncode, done.stdout, self.files()), (2, "", before), done.stderr)
+        self.assertEqual((done.returncode, done.stdout or "", self.files()), (2, "", before), done.stderr)
         self.assertRegex(
             done.stderr,
             rf"\A{command}: expected a place of its own for every output, "
@@ -357,6 +358,33 @@ class Separate(ToolTest):
     def test_standard_input_is_an_input(self):
         with open("scene.txt") as scene:
             self.assert_refused("inspect", ["-", "config.txt", "-o", "scene.txt"], "SCENE '-'", stdin=scene)
+
+    def test_standard_output_is_an_output(self):
+        os.mkdir("five")
+        for name in ("theirs", "five/stage1.txt"):
+            pathlib.Path(name).write_text("0 0 0\n")
+        for command, words, path, name in (
+            ("explain", "scene.txt config.txt --triangle 0", "config.txt", "CONFIG 'config.txt'"),
+            ("compare", "theirs scene.txt", "theirs", "A B 'theirs'"),
+            ("compare", "--hand-in five scene.txt", "scene.txt", "SCENE 'scene.txt'"),
+            ("compare", "--hand-in five scene.txt", "five/stage1.txt", "THEIR_DIR 'five/stage1.txt'"),
+            ("check-stage", "view --scene scene.txt -- ./theirs", "scene.txt", "SCENE 'scene.txt'"),
+            ("check-stage", "view --scene scene.txt -- ./theirs", "theirs", "PROGRAM './theirs'"),
+        ):
+            text = pathlib.Path(path).read_text()
+            with self.subTest(command, words=words, path=path), open(path, "a") as file:
+                self.assert_refused(command, words.split(), name, stdout=file)
+                self.assertEqual(pathlib.Path(path).read_text(), text)
+
+    def test_a_socket_may_be_standard_input_and_output(self):
+        pathlib.Path("same").write_text("0 0 0\n" * 3)
+        ours, theirs = socket.socketpair()
+        with ours, theirs:
+            ours.sendall(pathlib.Path("same").read_bytes())
+            ours.shutdown(socket.SHUT_WR)
+            done = subprocess.run([SCRIPTS / "compare", "-", "same"], stdin=theirs, stdout=theirs,
+                                  stderr=subprocess.PIPE, timeout=60)
+        self.assertEqual((done.returncode, done.stderr), (0, b""))
 
     def test_devices_may_be_named_twice(self):
         done = script("farm", "scene.txt", "config.txt", "-o", "x.png", "--z-buffer", "/dev/null", "--help")
