@@ -357,8 +357,8 @@ class Runner(unittest.TestCase):
                     done = subprocess.run([PACK / "conform", *words], cwd=folder, stdout=out,
                                           stderr=subprocess.PIPE, text=True)
                     found = "standard output" if name == "out" else f"{os.path.realpath(folder)}/{name}"
-                    self.assertEqual((done.returncode, done.stderr), (
-                        2, f"conform: --json {name}.json: expected a place of its own, found that of {found}\n"))
+                    told = f"--json {name}.json: expected a place of its own, found that of {found}"
+                    self.assertEqual((done.returncode, done.stderr), (2, f"conform: {told}\n"))
             self.assertEqual(os.path.getsize(f"{folder}/out.json"), 0)
 
     def test_a_reader_of_the_report_may_leave(self):
