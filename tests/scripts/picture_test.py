@@ -75,6 +75,15 @@ class Picture(ToolTest):
                 picture("vase.obj", *framing, *words, "-o", "three.png")
                 self.assertEqual(pathlib.Path("three.png").read_bytes(), pathlib.Path("two.png").read_bytes())
 
+    def test_a_file_that_the_model_names_is_not_replaced(self):
+        pathlib.Path("named.obj").write_text("mtllib own.png\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+        pathlib.Path("own.png").write_text("newmtl red\n")
+        done = picture("named.obj", "-o", "./own.png")
+        self.assertEqual((done.returncode, done.stderr), (
+            2, "picture: expected a place of its own for every output, found the same one for file of MODEL "
+            "'./own.png' and -o './own.png' (try picture --help)\n"))
+        self.assertEqual(pathlib.Path("own.png").read_text(), "newmtl red\n")
+
     def test_options_of_trace_need_trace(self):
         done = picture("vase.obj", "--no-shadows", "-o", "one.png")
         self.assertEqual((done.returncode, done.stderr.splitlines()[-1]),
