@@ -60,7 +60,7 @@ class PixelStage:
             best = judge.finding_of(kind, finding) if len(given) == 2 else finding
             verdicts[kind] = self.verdict_of_pixels(kind, best, shown)
             is_open = self.thin or verdicts[kind].is_good
-            if is_open and shown.is_blank(kind) and not self.ours.draws_nothing():
+            if is_open and shown.is_blank(kind) and not self.ours.draws_nothing:
                 why = f"there is too little in {self.thin}" if self.thin else "nothing is in view"
                 verdicts[kind] = undecided_outcome("zbuf", self.files[kind].name, why).verdict
         return verdicts
@@ -69,7 +69,7 @@ class PixelStage:
         """The FileVerdict of a picture whose triangles have colors of their own, or light: every color
         counts, by either rule of coverage."""
         name, verdicts = self.files["picture"].name, []
-        texts = [self.ours.stage3()] if self.thin or "right" in self.readings else []
+        texts = [self.ours.stage3] if self.thin or "right" in self.readings else []
         texts += [] if self.thin else [self.files["stage3"].data or b""]
         rules = ("nearest", RIGHT, ""), ("center", ANOTHER_RULE, "the center rule")
         for text, (coverage, verdict, rule) in itertools.product(texts, rules):

@@ -87,7 +87,7 @@ class Reference:
             needed = BYTES_OF_A_VERTEX * len(self.world)
         return min(MEBIBYTE + needed, MOST_BYTES)
 
-    @functools.cache
+    @functools.cached_property
     def stage3(self):
         """The scene after our project, as bytes."""
         text = self.scene_data
@@ -95,10 +95,10 @@ class Reference:
             text = self.tools.output(tool, stdin=text)
         return text
 
-    @functools.cache
+    @functools.cached_property
     def draws_nothing(self):
         with self.tools.file(self.config) as config:
-            return not self.tools.output("zbuf", config, "--image", "/dev/null", stdin=self.stage3()).strip()
+            return not self.tools.output("zbuf", config, "--image", "/dev/null", stdin=self.stage3).strip()
 
     def picture(self, stage3, coverage="nearest"):
         """The picture of our zbuf for the bytes of a stage text, as rows of bytes; None if it refuses

@@ -234,7 +234,7 @@ class Judged(unittest.TestCase):
               file=sys.stderr)
         for words in nameless:
             print("  not named:", words, file=sys.stderr)
-        self.assertGreater(len(differing), scene_count * 2 // share)
+        self.assertGreater(len(differing), scene_count)
         self.assertGreaterEqual(named, LEAST_NAMED * len(differing))
 
     def test_what_is_damaged_earns_nothing_and_what_is_whole_keeps_its_points(self):
