@@ -24,8 +24,8 @@ Ball::Ball(double value) : value_{value, 0} {
   if (value != 0 && (size > kSafeMax || size < kSafeMin)) *this = normalized(value_, 0, 0);
 }
 
-Ball Ball::with_error(DoubleDouble value, double error) {
-  return normalized(value, error, 0);
+Ball Ball::with_error(DoubleDouble value, double error, std::int64_t exponent) {
+  return normalized(value, error, exponent);
 }
 
 /// The larger of the midpoint and the error sets the exponent.

@@ -19,8 +19,8 @@ class Ball {
   constexpr Ball() = default;
   /// Exactly `value`, which must be finite; subnormal numbers included.
   Ball(double value);  // NOLINT(google-explicit-constructor): a double is a ball of radius 0
-  /// value +- error, both within the normal range of a double.
-  static Ball with_error(DoubleDouble value, double error);
+  /// (value +- error) * 2^exponent, value and error within the normal range of a double.
+  static Ball with_error(DoubleDouble value, double error, std::int64_t exponent = 0);
 
   friend Ball operator+(const Ball& a, const Ball& b) {
     if (a.is_exact_zero()) return b;

@@ -1,6 +1,9 @@
 #include "libpipeline/vertex/clip.h"
 
+#include <optional>
 #include <utility>
+
+#include "libpipeline/numbers/exact_sum.h"
 
 namespace pipeline {
 namespace {
@@ -17,6 +20,67 @@ bool is_lower(const ClipVertex& a, const ClipVertex& b) {
   if (const int x = compare(a.x, b.x); x != 0) return x < 0;
   if (const int z = compare(a.z, b.z); z != 0) return z < 0;
   return compare(a.w, b.w) < 0;
+}
+
+Ball distance_by_coordinates(ClipPlane plane, const ClipVertex& vertex) {
+  switch (plane) {
+    case ClipPlane::near:
+      return vertex.w + vertex.z;
+    case ClipPlane::far:
+      return vertex.w - vertex.z;
+    case ClipPlane::left:
+      return vertex.w + vertex.x;
+    case ClipPlane::right:
+      return vertex.w - vertex.x;
+    case ClipPlane::bottom:
+      return vertex.w + vertex.y;
+    case ClipPlane::top:
+      break;
+  }
+  return vertex.w - vertex.y;
+}
+
+/// The distance from the near plane (`sign` -1) or the far one.
+Ball distance_from_end(int sign, const ClipVertex::Origin& vertex) {
+  const double d = -vertex.p_view.z, inset = vertex.clip_inset;
+  const double near = vertex.projection->near, far = vertex.projection->far;
+  const Ball scaled = vertex.projection->is_perspective ? exact_sum({{-2.0 * sign, d, sign < 0 ? far : near},
+                                                                     {2.0 * sign, near, far},
+                                                                     {-inset, d, far},
+                                                                     {inset, d, near}})
+                                                        : exact_sum({{-2.0 * sign, d, 1},
+                                                                     {2.0 * sign, sign < 0 ? near : far, 1},
+                                                                     {-inset, far, 1},
+                                                                     {inset, near, 1}});
+  return scaled / (Ball(far) - near);
+}
+
+/// The distance from the low side (`sign` -1) or the high one of an axis, at w before the inset.
+Ball distance_from_side(int sign, const VolumeSides& sides, double coordinate, double w, double inset) {
+  const auto& [at, low, high] = sides;
+  return exact_sum({{2.0 * sign, w, sign < 0 ? low : high},
+                    {-2.0 * sign, at, coordinate},
+                    {-inset, w, high},
+                    {inset, w, low}}) /
+         (Ball(high) - low);
+}
+
+/// The distance from products that are not rounded; none if it depends on a tangent that is no double.
+std::optional<Ball> exact_distance(ClipPlane plane, const ClipVertex::Origin& vertex) {
+  const int sign =
+      plane == ClipPlane::near || plane == ClipPlane::left || plane == ClipPlane::bottom ? -1 : 1;
+  if (plane == ClipPlane::near || plane == ClipPlane::far) return distance_from_end(sign, vertex);
+  const bool is_x = plane == ClipPlane::left || plane == ClipPlane::right;
+  const auto& sides = vertex.projection->sides[is_x ? 0 : 1];
+  if (!sides) return std::nullopt;
+  const double w = vertex.projection->is_perspective ? -vertex.p_view.z : 1;
+  return distance_from_side(sign, *sides, is_x ? vertex.p_view.x : vertex.p_view.y, w, vertex.clip_inset);
+}
+
+/// The distance, where its sign is not certain from the coordinates.
+Ball distance_with_sign(ClipPlane plane, const ClipVertex& vertex, const Ball& distance) {
+  if (vertex.origin.projection == nullptr || distance.is_exact()) return distance;
+  return exact_distance(plane, vertex.origin).value_or(distance);
 }
 
 ClipVertex interpolate(const ClipVertex& a, const ClipVertex& b, const Ball& t) {
@@ -44,14 +108,16 @@ ClipVertex cut(ClipPlane plane, const ClipVertex& a, const ClipVertex& b) {
 std::vector<ClipVertex> clip_at(ClipPlane plane, std::span<const ClipVertex> polygon) {
   std::vector<ClipVertex> inside;
   std::size_t strictly_inside_count = 0;
+  const int first_side = side_of(plane, polygon.front());
+  int here_side = first_side;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const ClipVertex& here = polygon[i];
     const ClipVertex& next = polygon[(i + 1) % polygon.size()];
-    const int here_side = distance_inside(plane, here).sign();
-    const int next_side = distance_inside(plane, next).sign();
+    const int next_side = i + 1 < polygon.size() ? side_of(plane, next) : first_side;
     if (here_side >= 0) inside.push_back(here);
     if (here_side > 0) ++strictly_inside_count;
     if (here_side * next_side < 0) inside.push_back(cut(plane, here, next));
+    here_side = next_side;
   }
   // A polygon that touches the plane from outside has no area inside; one that lies in the plane is kept.
   if (strictly_inside_count == 0 && inside.size() < polygon.size()) inside.clear();
@@ -60,42 +126,44 @@ std::vector<ClipVertex> clip_at(ClipPlane plane, std::span<const ClipVertex> pol
 
 }  // namespace
 
-ClipVertex to_clip_space(const ProjectionTransform& projection, const Vec3& p_view) {
+ClipVertex to_clip_space(const ProjectionTransform& projection, const Vec3& p_view, double clip_inset) {
   const Ball distance = -p_view.z;
   const Ball near = projection.near;
   const Ball far = projection.far;
-  const Ball x = projection.x_scale * p_view.x;
-  const Ball y = projection.y_scale * p_view.y;
-  if (!projection.is_perspective) {
-    const Ball z = (distance + distance - (near + far)) / (far - near);
-    return {x + projection.x_offset, y + projection.y_offset, z, 1};
+  ClipVertex vertex;
+  vertex.x = projection.x_scale * p_view.x;
+  vertex.y = projection.y_scale * p_view.y;
+  if (projection.is_perspective) {
+    vertex.x = vertex.x + projection.x_offset * p_view.z;
+    vertex.y = vertex.y + projection.y_offset * p_view.z;
+    vertex.z = ((distance - near) * far - (far - distance) * near) / (far - near);
+    vertex.w = distance;
+  } else {
+    vertex.x = vertex.x + projection.x_offset;
+    vertex.y = vertex.y + projection.y_offset;
+    vertex.z = (distance + distance - (near + far)) / (far - near);
+    vertex.w = 1;
   }
-  const Ball z = ((distance - near) * far - (far - distance) * near) / (far - near);
-  return {x + projection.x_offset * p_view.z, y + projection.y_offset * p_view.z, z, distance};
+  if (clip_inset != 0) vertex.w = vertex.w * (Ball(1) - clip_inset);
+  vertex.origin = {&projection, p_view, clip_inset};
+  return vertex;
 }
 
 Ball distance_inside(ClipPlane plane, const ClipVertex& vertex) {
-  switch (plane) {
-    case ClipPlane::near:
-      return vertex.w + vertex.z;
-    case ClipPlane::far:
-      return vertex.w - vertex.z;
-    case ClipPlane::left:
-      return vertex.w + vertex.x;
-    case ClipPlane::right:
-      return vertex.w - vertex.x;
-    case ClipPlane::bottom:
-      return vertex.w + vertex.y;
-    case ClipPlane::top:
-      break;
-  }
-  return vertex.w - vertex.y;
+  const Ball distance = distance_by_coordinates(plane, vertex);
+  return distance.sign() != 0 ? distance : distance_with_sign(plane, vertex, distance);
+}
+
+int side_of(ClipPlane plane, const ClipVertex& vertex) {
+  const Ball distance = distance_by_coordinates(plane, vertex);
+  const int sign = distance.sign();
+  return sign != 0 ? sign : distance_with_sign(plane, vertex, distance).sign();
 }
 
 unsigned outcode(const ClipVertex& vertex) {
   unsigned code = 0;
   for (std::size_t i = 0; i < kAllClipPlanes.size(); ++i)
-    if (distance_inside(kAllClipPlanes[i], vertex).sign() < 0) code |= 1u << i;
+    if (side_of(kAllClipPlanes[i], vertex) < 0) code |= 1u << i;
   return code;
 }
 

@@ -12,14 +12,25 @@ namespace pipeline {
 /// A point in clip space, before the divide: inside the view volume where -w <= x, y, z <= w. `weights` are
 /// its barycentric coordinates in the triangle it was cut from, for interpolating attributes.
 struct ClipVertex {
+  /// The vertex in view space that the point is the image of.
+  struct Origin {
+    const ProjectionTransform* projection = nullptr;  // null for a cut
+    Vec3 p_view;
+    double clip_inset = 0;
+
+    bool operator==(const Origin&) const = default;
+  };
+
   Ball x, y, z, w;
   std::array<double, 3> weights{};
+  Origin origin = {};
 
   bool operator==(const ClipVertex&) const = default;
 };
 
-/// The image of a point, with weights 0.
-ClipVertex to_clip_space(const ProjectionTransform& projection, const Vec3& p_view);
+/// The image of a point, with weights 0; w is multiplied by 1 - clip_inset, exactly: a smaller w pulls in all
+/// planes. `projection` has to outlive it.
+ClipVertex to_clip_space(const ProjectionTransform& projection, const Vec3& p_view, double clip_inset = 0);
 
 /// The planes of the view volume.
 enum class ClipPlane { near, far, left, right, bottom, top };
@@ -28,11 +39,15 @@ constexpr std::array<ClipPlane, 6> kAllClipPlanes = {ClipPlane::near,  ClipPlane
                                                      ClipPlane::right, ClipPlane::bottom, ClipPlane::top};
 constexpr std::array<ClipPlane, 1> kNearPlane = {ClipPlane::near};
 
-/// The signed distance from a plane in clip space, scaled: w + z for the near plane. Positive inside.
+/// The signed distance from a plane in clip space, scaled: w + z for the near plane. Positive inside. Its
+/// sign is certain for the image of a vertex, but for the sides of a perspective whose tangent is no double.
 Ball distance_inside(ClipPlane plane, const ClipVertex& vertex);
 
+/// Its sign.
+int side_of(ClipPlane plane, const ClipVertex& vertex);
+
 /// The planes (bit i for kAllClipPlanes[i]) a vertex lies strictly outside of: its outcode (D. Cohen and
-/// I. Sutherland, 1967). A vertex on a plane, or so near that 31 digits cannot tell, counts as inside.
+/// I. Sutherland, 1967). A vertex on a plane, or so near that its sign is not certain, counts as inside.
 unsigned outcode(const ClipVertex& vertex);
 
 /// The part of a convex polygon inside all `planes` (I. Sutherland, G. Hodgman, "Reentrant polygon clipping",

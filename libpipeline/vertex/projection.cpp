@@ -6,6 +6,7 @@
 #include <span>
 
 #include "libpipeline/numbers/decimal_units.h"
+#include "libpipeline/numbers/exact_sum.h"
 #include "libpipeline/numbers/vec_math.h"
 #include "libpipeline/text/number_printer.h"
 
@@ -30,8 +31,13 @@ int winding_sign(const Triangle& p_view, bool is_perspective) {
   // Minors that underflow lose up to 2^-1073.
   const double lost = 0x1p-1070 * (std::fabs(w(a)) + std::fabs(w(b)) + std::fabs(w(c))) + 0x1p-1000;
   if (std::fabs(determinant) > 8 * kUnitRoundoff * magnitude + lost) return determinant > 0 ? 1 : -1;
-  const auto minor = [](const Vec3& p, const Vec3& q) { return Ball(p.x) * q.y - Ball(p.y) * q.x; };
-  return (minor(b, c) * w(a) + minor(c, a) * w(b) + minor(a, b) * w(c)).sign();
+  return exact_sum({{b.x, c.y, w(a)},
+                    {-b.y, c.x, w(a)},
+                    {c.x, a.y, w(b)},
+                    {-c.y, a.x, w(b)},
+                    {a.x, b.y, w(c)},
+                    {-a.y, b.x, w(c)}})
+      .sign();
 }
 
 /// The nearest double, if products with it stay in range and within one rounding of those with the number
@@ -226,14 +232,11 @@ void ProjectionStage::project_unclipped(const TriangleBatch& p_view, std::size_t
   if (!attributes.materials.empty()) p_ndc.attributes.materials.push_back(attributes.materials[index]);
 }
 
-/// The corners in clip space, their w multiplied by 1 - clip_inset, which is exact as a ball: a smaller w
-/// pulls in all planes.
 std::array<ClipVertex, 3> ProjectionStage::corners_in_clip_space(const Triangle& p_view) const {
   std::array<ClipVertex, 3> corners;
   for (std::size_t v = 0; v < 3; ++v) {
-    corners[v] = to_clip_space(projection_, p_view[v]);
+    corners[v] = to_clip_space(projection_, p_view[v], clip_inset_);
     corners[v].weights[v] = 1;
-    if (clip_inset_ != 0) corners[v].w = corners[v].w * (Ball(1) - clip_inset_);
   }
   return corners;
 }

@@ -31,11 +31,19 @@ bool is_inside_half_turn(const Ball& degrees) {
   return degrees.sign() > 0 && (degrees - Ball(180)).sign() < 0;
 }
 
+/// The sides of a symmetric perspective.
+std::optional<VolumeSides> sides_by_scale(const Ball& scale, double high = 1) {
+  if (!scale.is_exact() || scale.value().lo != 0) return std::nullopt;
+  return VolumeSides{scale.nearest_double(), -high, high};
+}
+
 ProjectionTransform perspective(const Perspective& p, const SourceLocation& location) {
   ProjectionTransform transform;
   transform.y_scale = cotangent_of_half(p.fov_y_degrees);
+  transform.sides[1] = sides_by_scale(transform.y_scale);
   if (p.aspect_rule == AspectRule::ratio) {
     transform.x_scale = transform.y_scale / Ball(p.aspect);
+    transform.sides[0] = sides_by_scale(transform.y_scale, p.aspect);
   } else {
     const Ball fov_x_degrees = Ball(p.fov_y_degrees) * Ball(p.aspect);
     if (!is_inside_half_turn(fov_x_degrees))
@@ -44,6 +52,7 @@ ProjectionTransform perspective(const Perspective& p, const SourceLocation& loca
                                           "ratio; in a scene, the word ratio at the end)",
                                           shortest_text(p.fov_y_degrees) + " * " + shortest_text(p.aspect)));
     transform.x_scale = cotangent_of_half(fov_x_degrees);
+    transform.sides[0] = sides_by_scale(transform.x_scale);
   }
   transform.near = p.near;
   transform.far = p.far;
@@ -60,6 +69,7 @@ ProjectionTransform frustum(const Frustum& f) {
   transform.y_offset = (Ball(f.top) + Ball(f.bottom)) / height;
   transform.near = f.near;
   transform.far = f.far;
+  transform.sides = {VolumeSides{f.near, f.left, f.right}, VolumeSides{f.near, f.bottom, f.top}};
   return transform;
 }
 
@@ -74,6 +84,7 @@ ProjectionTransform orthographic(const Orthographic& o) {
   transform.y_offset = -(Ball(o.top) + Ball(o.bottom)) / height;
   transform.near = o.near;
   transform.far = o.far;
+  transform.sides = {VolumeSides{1, o.left, o.right}, VolumeSides{1, o.bottom, o.top}};
   return transform;
 }
 

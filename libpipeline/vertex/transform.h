@@ -1,5 +1,8 @@
 #pragma once
 
+#include <array>
+#include <optional>
+
 #include "libpipeline/scene/camera.h"
 #include "libpipeline/vertex/affine_matrix.h"
 
@@ -28,6 +31,14 @@ struct ViewTransform {
 /// direction (check_camera).
 ViewTransform view_from_world(const Vec3& eye, const Vec3& look, const Vec3& up);
 
+/// Where the view volume begins and ends on an axis: at `low` and `high` at the distance `at` in front of the
+/// eye, for an orthographic projection at every distance. Not rounded.
+struct VolumeSides {
+  double at = 1;
+  double low = 0;
+  double high = 0;
+};
+
 /// From view to clip space. With d = -z the distance in front of the eye:
 ///   perspective:   x_clip = x_scale x + x_offset z,  w = d
 ///   orthographic:  x_clip = x_scale x + x_offset,    w = 1
@@ -38,6 +49,8 @@ struct ProjectionTransform {
   Ball y_scale, y_offset;
   double near = 0;
   double far = 0;
+  /// Of x and y; none where a tangent is no double.
+  std::array<std::optional<VolumeSides>, 2> sides = {};
 };
 
 /// The projection as scales and offsets. An InputError at `projection.location` if fovX, by the rule `angle`,

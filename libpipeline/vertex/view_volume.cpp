@@ -23,9 +23,7 @@ std::optional<OutsidePart> ViewVolume::outside(const Triangle& p_view) const {
   std::vector<ClipVertex> polygon;
   unsigned any = 0, all = ~0u;
   for (const Vec3& p : p_view) {
-    ClipVertex& corner = polygon.emplace_back(to_clip_space(projection_, p));
-    if (clip_inset_ != 0) corner.w = corner.w * (Ball(1) - clip_inset_);
-    const unsigned code = outcode(corner);
+    const unsigned code = outcode(polygon.emplace_back(to_clip_space(projection_, p, clip_inset_)));
     any |= code;
     all &= code;
   }

@@ -392,6 +392,29 @@ TEST(ToClipSpace, TellsTheLastBitBesideTheNearPlane) {
   }
 }
 
+TEST(ToClipSpace, TellsTheLastBitBesideEverySideWithOrWithoutInset) {
+  const double low = 0, high = 0x1p100, tiny = 0x1p-100;
+  for (const bool is_perspective : {false, true}) {
+    ProjectionTransform projection = {is_perspective, Ball(2) / high, -1, Ball(2) / high, -1, 1, 9};
+    if (is_perspective) projection.x_offset = projection.y_offset = 1;
+    projection.sides = {VolumeSides{1, low, high}, VolumeSides{1, low, high}};
+    const auto code = [&](double x, double y) { return outcode(to_clip_space(projection, {x, y, -1})); };
+    EXPECT_EQ(code(low, low), 0u);
+    EXPECT_EQ(code(-tiny, high), 1u << static_cast<int>(ClipPlane::left));
+    EXPECT_EQ(code(high, -tiny), 1u << static_cast<int>(ClipPlane::bottom));
+    EXPECT_EQ(code(std::nextafter(high, 2 * high), tiny), 1u << static_cast<int>(ClipPlane::right));
+    EXPECT_EQ(code(tiny, std::nextafter(high, 2 * high)), 1u << static_cast<int>(ClipPlane::top));
+    // Half of the width and half of the height are pulled in: the left side is at a quarter.
+    const auto pulled_in = [&](double x) {
+      return outcode(to_clip_space(projection, {x, high / 2, -5}, 0.5)) &
+             (1u << static_cast<int>(ClipPlane::left));
+    };
+    const double quarter = (is_perspective ? 5 : 1) * high / 4;
+    EXPECT_EQ(pulled_in(quarter), 0u);
+    EXPECT_NE(pulled_in(std::nextafter(quarter, 0)), 0u);
+  }
+}
+
 TEST(ToClipSpace, OfAParallelProjectionHasWOne) {
   const ProjectionTransform projection = {false, 2, 0.5, 3, -0.5, -1, 3};
   const ClipVertex v = to_clip_space(projection, {1, 1, -1});

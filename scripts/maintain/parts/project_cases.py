@@ -185,6 +185,11 @@ def clip_options():
     yield case("clip-inset-0-1-exactly", "The planes are pulled in exactly, by the double.", "P6 N1", view,
                "\n".join((outside["near"], *inside[1:])) + "\n\n", needs="exactness numbering",
                options="--clip near --clip-inset 0.1 --digits 17")
+    for mode in ("reject", "frustum"):
+        yield Case("project", f"{mode}-outside-by-1e-31", "However little, outside is outside.", "P6 P7",
+                   "ortho 0 1 0 1 1 9\n-1e-31 0.25 -2\n-2e-31 0.5 -2\n-1e-31 0.75 -2\n\n"
+                   "0 0.25 -2\n-2e-31 0.5 -2\n-1e-31 0.75 -2\n\n" + POINTS, options=f"--clip {mode}",
+                   needs="clipping numbering projections")
     windings = {
         "counterclockwise": ("0 0 -2", "1 0 -2", "0 1 -2"), "clockwise": ("0 0 -2", "0 1 -2", "1 0 -2"),
         "edge-on": ("0 0 -2", "0 0 -4", "1 0 -3"), "behind-the-eye": ("0 0 2", "1 0 2", "0 1 2"),

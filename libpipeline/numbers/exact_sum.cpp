@@ -1,0 +1,49 @@
+#include "libpipeline/numbers/exact_sum.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <cstdint>
+
+#include "libpipeline/numbers/fixed_int.h"
+
+namespace pipeline {
+namespace {
+
+/// A product of three doubles is significand * 2^exponent; an exponent is from 3 (-1074 - 52) to 3 (1024 -
+/// 53).
+constexpr int kLeastExponent = -3378, kLargestExponent = 2913, kSignificandBits = 159;
+constexpr int kBits = kLargestExponent - kLeastExponent + kSignificandBits + 4;  // of the sum of 16
+using Sum = FixedInt<(kBits + 63) / 64 + 1>;
+
+/// The product in units of 2^kLeastExponent.
+Sum in_units(const std::array<double, 3>& factors) {
+  FixedInt<3> significand(1);
+  int exponent = 0;
+  for (const double factor : factors) {
+    int own = 0;
+    const double fraction = std::frexp(factor, &own);
+    significand = significand * FixedInt<3>(static_cast<std::int64_t>(std::ldexp(fraction, 53)));
+    exponent += own - 53;
+  }
+  return Sum(significand) << (exponent - kLeastExponent);
+}
+
+}  // namespace
+
+Ball exact_sum(std::initializer_list<std::array<double, 3>> products) {
+  assert(products.size() <= 16);
+  Sum sum(0);
+  for (const auto& product : products)
+    if (std::ranges::find(product, 0.0) == product.end()) sum = sum + in_units(product);
+  const int length = bit_length(sum);
+  // Twice 52 bits of it, each of which a double holds.
+  const int high_shift = std::max(length - 52, 0), low_shift = std::max(length - 104, 0);
+  const std::int64_t high = cut(sum, high_shift);
+  const Sum rest = sum - (Sum(high) << high_shift);
+  const double low = std::ldexp(static_cast<double>(cut(rest, low_shift)), low_shift - high_shift);
+  return Ball::with_error(fast_two_sum(static_cast<double>(high), low), low_shift == 0 ? 0 : 0x1p-52,
+                          kLeastExponent + high_shift);
+}
+
+}  // namespace pipeline
