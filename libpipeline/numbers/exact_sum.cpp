@@ -17,13 +17,13 @@ constexpr int kBits = kLargestExponent - kLeastExponent + kSignificandBits + 4; 
 using Sum = FixedInt<(kBits + 63) / 64 + 1>;
 
 /// The product in units of 2^kLeastExponent.
-Sum in_units(const std::array<double, 3>& factors) {
-  FixedInt<3> significand(1);
+Sum in_units(const ExactProduct& product) {
+  FixedInt<4> significand(1);
   int exponent = 0;
-  for (const double factor : factors) {
+  for (const double factor : {product.a, product.b, product.c, product.d}) {
     int own = 0;
     const double fraction = std::frexp(factor, &own);
-    significand = significand * FixedInt<3>(static_cast<std::int64_t>(std::ldexp(fraction, 53)));
+    significand = significand * FixedInt<4>(static_cast<std::int64_t>(std::ldexp(fraction, 53)));
     exponent += own - 53;
   }
   return Sum(significand) << (exponent - kLeastExponent);
@@ -31,11 +31,11 @@ Sum in_units(const std::array<double, 3>& factors) {
 
 }  // namespace
 
-Ball exact_sum(std::initializer_list<std::array<double, 3>> products) {
+Ball exact_sum(std::initializer_list<ExactProduct> products) {
   assert(products.size() <= 16);
   Sum sum(0);
-  for (const auto& product : products)
-    if (std::ranges::find(product, 0.0) == product.end()) sum = sum + in_units(product);
+  for (const ExactProduct& product : products)
+    if (product.a != 0 && product.b != 0 && product.c != 0 && product.d != 0) sum = sum + in_units(product);
   const int length = bit_length(sum);
   // Twice 52 bits of it, each of which a double holds.
   const int high_shift = std::max(length - 52, 0), low_shift = std::max(length - 104, 0);

@@ -33,7 +33,7 @@ double clamped_channel(double value) {
 constexpr double kHalf = 0.5 + 0x1p-20;
 
 std::uint8_t rounded_channel(double value) {
-  return static_cast<std::uint8_t>(std::floor(clamped_channel(value) + kHalf));
+  return static_cast<std::uint8_t>(clamped_channel(value) + kHalf);  // rounds down
 }
 
 /// `arriving(light)` is the part of a light's intensity that reaches the point.

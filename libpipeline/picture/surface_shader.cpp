@@ -10,7 +10,7 @@
 namespace pipeline {
 namespace {
 
-using Weights = std::array<double, 3>;
+using Weights = CornerWeights::Weights;
 
 // Of the surfaces ready to be shaded, 150 KiB.
 constexpr std::size_t kMaxCached = 512;
@@ -25,36 +25,6 @@ SurfacePoint mean(const std::array<SurfacePoint, 3>& p, const Weights& w) {
 void use_face_normal(std::array<SurfacePoint, 3>& corners) {
   const Vec3 normal = face_normal({corners[0].position, corners[1].position, corners[2].position});
   for (SurfacePoint& corner : corners) corner.normal = normal;
-}
-
-/// Twice the signed area that the points p and q of the screen make with (x, y), times their w. A point is x
-/// and y of clip space, and w for z, of any sign.
-double area(const Vec3& p, const Vec3& q, double x, double y) {
-  return (p.x - x * p.z) * (q.y - y * q.z) - (p.y - y * p.z) * (q.x - x * q.z);
-}
-
-/// The weights of the corners, in view space, at a point of the screen (M. Olano, T. Greer, "Triangle scan
-/// conversion using 2D homogeneous coordinates", 1997): their sum has the sign of the winding, wherever the
-/// corners lie. A pixel's center may lie a little outside, so weights are clamped to [0, 1].
-Weights weights_at(const Triangle& screen_corners, double x, double y) {
-  const auto& [a, b, c] = screen_corners;
-  Weights weights = {area(b, c, x, y), area(c, a, x, y), area(a, b, x, y)};
-  const double side = weights[0] + weights[1] + weights[2] < 0 ? -1 : 1;
-  for (double& weight : weights) weight = std::max(side * weight, 0.0);
-  const double sum = weights[0] + weights[1] + weights[2];
-  if (!(sum > 0)) return {1, 0, 0};
-  return {weights[0] / sum, weights[1] / sum, weights[2] / sum};
-}
-
-/// x and y of clip space, and w for z. Only the ratios of weights count: scaled like this, nothing leaves a
-/// double's range.
-Triangle screen_corners_of(const ClipTriangle& corners) {
-  const auto& [a, b, c] = corners;
-  const double scale = 1 / std::max({std::fabs(a.w), std::fabs(b.w), std::fabs(c.w)});
-  const auto screen_corner = [&](const VertexLine& corner) {
-    return scaled({corner.position.x, corner.position.y, corner.w}, scale);
-  };
-  return {screen_corner(a), screen_corner(b), screen_corner(c)};
 }
 
 /// The index of the first pixel that shows a surface; the number of pixels if none does.
@@ -87,34 +57,35 @@ void ShownColors::add(const ShownColors& others) {
     greatest_channel = std::max(greatest_channel.value_or(0), *others.greatest_channel);
 }
 
-/// The triangle in clip space with its attributes; for a piece, the triangle it was clipped from.
-ClipTriangle SurfaceShader::unclipped_in_clip_space(const TriangleBatch& p_ndc, std::size_t index,
-                                                    Color own_color) const {
+/// The triangle with its attributes; for a piece, the triangle it was clipped from.
+SurfaceShader::KeptTriangle SurfaceShader::unclipped(const TriangleBatch& p_ndc, std::size_t index,
+                                                     Color own_color) const {
   const AttributeArrays& attributes = p_ndc.attributes;
   const ClipTriangle* const whole = p_ndc.unclipped_of(index);
-  ClipTriangle corners;
-  if (whole != nullptr) corners = *whole;
+  KeptTriangle kept;
+  kept.is_divided = whole == nullptr;
+  if (whole != nullptr) kept.corners = *whole;
   for (std::size_t v = 0; v < 3; ++v) {
-    VertexLine& corner = corners[v];
+    VertexLine& corner = kept.corners[v];
     if (attributes.colors.empty()) corner.color = to_vec3(own_color);
     if (whole != nullptr) continue;
     const Vec3& p = p_ndc.triangles[index][v];
     corner.w = !attributes.w.empty()   ? attributes.w[index][v]
                : setup_.view_from_clip ? setup_.view_from_clip->w_of(p)
                                        : 1;
-    corner.position = scaled(p, corner.w);
+    corner.position = p;
     if (!attributes.colors.empty()) corner.color = attributes.colors[index][v];
     if (!attributes.normals.empty()) corner.normal = attributes.normals[index][v];
   }
-  return corners;
+  return kept;
 }
 
 SurfaceShader::SurfaceId SurfaceShader::add(const TriangleBatch& p_ndc, std::size_t index, Color own_color) {
   if (!p_ndc.attributes.colors.empty()) shown_.add_triangle(p_ndc.attributes.colors[index]);
-  const ClipTriangle corners = unclipped_in_clip_space(p_ndc, index, own_color);
+  const KeptTriangle kept = unclipped(p_ndc, index, own_color);
   has_normals_ = !p_ndc.attributes.normals.empty();
-  if (setup_.wireframe) add_edges(p_ndc, index, screen_corners_of(corners));
-  triangles_.push_back(corners);
+  if (setup_.wireframe) add_edges(p_ndc, index, screen_corners_of(kept.corners, kept.is_divided));
+  triangles_.push_back(kept);
   if (setup_.materials.size() > 1 && !p_ndc.attributes.materials.empty())
     materials_.push_back(p_ndc.attributes.materials[index]);
   assert(triangles_.size() < kNoSurface);
@@ -128,12 +99,13 @@ const SurfaceShader::Surface& SurfaceShader::surface(SurfaceId id) {
   return cached.surface;
 }
 
-SurfaceShader::Surface SurfaceShader::made_surface(const ClipTriangle& corners, bool has_normals,
+SurfaceShader::Surface SurfaceShader::made_surface(const KeptTriangle& kept, bool has_normals,
                                                    std::uint32_t material) const {
-  Surface surface = {screen_corners_of(corners), {}, material};
+  Surface surface = {CornerWeights(grid_, kept.corners, kept.is_divided), {}, material};
   for (std::size_t v = 0; v < 3; ++v) {
-    const auto& [p, w, color, normal] = corners[v];
-    const Vec3 p_view = setup_.view_from_clip ? (*setup_.view_from_clip)(p, w) : Vec3();
+    const auto& [p, w, color, normal] = kept.corners[v];
+    const Vec3 p_clip = kept.is_divided ? scaled(p, w) : p;
+    const Vec3 p_view = setup_.view_from_clip ? (*setup_.view_from_clip)(p_clip, w) : Vec3();
     surface.corners[v] = {p_view, normal, color};
   }
   if (!has_normals || setup_.model == ShadingModel::flat) use_face_normal(surface.corners);
@@ -168,14 +140,13 @@ void SurfaceShader::light_corners(Surface& surface) const {
 std::span<const Color> SurfaceShader::shade(int row, std::span<const SurfaceId> ids) {
   row_.resize(ids.size());
   if (cache_.empty()) cache_.resize(std::min(std::bit_ceil(ids.size()), kMaxCached));
-  const double y = grid_.y_of(row);
   const std::size_t first = first_surface(ids);
   std::fill_n(row_.begin(), first, setup_.background);
   // Neighbors mostly show the same triangle, which is looked up once.
   for (std::size_t column = first, end; column < ids.size(); column = end) {
     end = column + 1;
     while (end < ids.size() && ids[end] == ids[column]) ++end;
-    shade_columns(column, end, y, ids[column]);
+    shade_columns(row, column, end, ids[column]);
   }
   if (!shown_.show_something && first < ids.size()) look_for_something(first, ids);
   return row_;
@@ -207,22 +178,27 @@ double SurfaceShader::light_in_front_of(SurfaceId id) {
   return greatest;
 }
 
-void SurfaceShader::shade_columns(std::size_t begin, std::size_t end, double y, SurfaceId id) {
+void SurfaceShader::shade_columns(int row, std::size_t begin, std::size_t end, SurfaceId id) {
+  const double y = grid_.y_of(row);
   const std::span<Color> colors = std::span(row_).subspan(begin, end - begin);
   std::ranges::fill(colors, setup_.background);
   if (id == kNoSurface) return;
   const Surface& shown = surface(id);
+  const bool is_flat = setup_.model == ShadingModel::flat;
+  const Color flat_color = is_flat ? rounded_color(shown.corners[0].color) : Color();
   const Wireframe::Edges* const edges = setup_.wireframe ? &setup_.wireframe->edges(id) : nullptr;
   for (std::size_t i = 0; i < colors.size(); ++i) {
-    const double x = grid_.x_of(static_cast<int>(begin + i));
-    if (edges == nullptr || Wireframe::is_on_edge(*edges, x, y)) colors[i] = color_at(shown, x, y);
+    const int column = static_cast<int>(begin + i);
+    const double x = grid_.x_of(column);
+    if (edges == nullptr || Wireframe::is_on_edge(*edges, x, y))
+      colors[i] = is_flat ? flat_color : color_at(shown, {row, column, x, y});
   }
 }
 
-Color SurfaceShader::color_at(const Surface& surface, double x, double y) const {
+Color SurfaceShader::color_at(const Surface& surface, const PixelCenter& pixel) const {
   const auto& [a, b, c] = surface.corners;
   if (setup_.model == ShadingModel::flat) return rounded_color(a.color);
-  const Weights weights = weights_at(surface.screen_corners, x, y);
+  const Weights weights = surface.weights.at(grid_, pixel);
   if (setup_.model == ShadingModel::phong)
     return rounded_color(lit_color_of(mean(surface.corners, weights), surface));
   return rounded_color(mean(Triangle{a.color, b.color, c.color}, weights));

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "libpipeline/picture/corner_weights.h"
 #include "libpipeline/picture/shading.h"
 #include "libpipeline/picture/wireframe.h"
 #include "libpipeline/scene/color.h"
@@ -60,7 +61,7 @@ class SurfaceShader {
 
   /// A triangle ready to be shaded.
   struct Surface {
-    Triangle screen_corners;  // x and y of clip space, and w for z
+    CornerWeights weights;
     std::array<SurfacePoint, 3>
         corners;  // in view space; the colors are lit already except for phong shading
     std::uint32_t material = 0;
@@ -82,30 +83,32 @@ class SurfaceShader {
   /// A triangle of a batch in NDC; `own_color` is its color if it carries none.
   [[nodiscard]] Surface surface_of(const TriangleBatch& p_ndc, std::size_t index, Color own_color) const {
     const AttributeArrays& attributes = p_ndc.attributes;
-    return made_surface(unclipped_in_clip_space(p_ndc, index, own_color), !attributes.normals.empty(),
+    return made_surface(unclipped(p_ndc, index, own_color), !attributes.normals.empty(),
                         attributes.materials.empty() ? 0 : attributes.materials[index]);
   }
   /// Its color at the center of a pixel; there are no edges of a wireframe.
-  [[nodiscard]] Color color_at(const Surface& surface, int row, int column) const {
-    return color_at(surface, grid_.x_of(column), grid_.y_of(row));
-  }
+  [[nodiscard]] Color color_at(const Surface& surface, const PixelCenter& pixel) const;
   /// Adds the statistics of such colors.
   void add_shown(const ShownColors& shown) { shown_.add(shown); }
 
   /// The colors of all triangles added and pixels shaded so far.
   [[nodiscard]] const ShownColors& shown() const { return shown_; }
   [[nodiscard]] const Setup& setup() const { return setup_; }
+  [[nodiscard]] const PixelGrid& grid() const { return grid_; }
 
  private:
+  struct KeptTriangle {
+    ClipTriangle corners;     // positions in NDC if they are divided by w, else in clip space
+    bool is_divided = false;  // all but pieces, whose corners may lie behind the eye
+  };
   struct CachedSurface {
     SurfaceId id = kNoSurface;
     Surface surface;
   };
 
-  [[nodiscard]] ClipTriangle unclipped_in_clip_space(const TriangleBatch& p_ndc, std::size_t index,
-                                                     Color own_color) const;
+  [[nodiscard]] KeptTriangle unclipped(const TriangleBatch& p_ndc, std::size_t index, Color own_color) const;
   [[nodiscard]] const Surface& surface(SurfaceId id);
-  [[nodiscard]] Surface made_surface(const ClipTriangle& corners, bool has_normals,
+  [[nodiscard]] Surface made_surface(const KeptTriangle& kept, bool has_normals,
                                      std::uint32_t material) const;
   [[nodiscard]] Vec3 lit_color_of(const SurfacePoint& point, const Surface& surface) const {
     return lit_color(point, setup_.lighting, setup_.materials[surface.material]);
@@ -114,12 +117,11 @@ class SurfaceShader {
   void look_for_something(std::size_t first, std::span<const SurfaceId> ids);
   [[nodiscard]] double light_in_front_of(SurfaceId id);
   void add_edges(const TriangleBatch& p_ndc, std::size_t index, const Triangle& screen_corners);
-  void shade_columns(std::size_t begin, std::size_t end, double y, SurfaceId id);
-  [[nodiscard]] Color color_at(const Surface& surface, double x, double y) const;
+  void shade_columns(int row, std::size_t begin, std::size_t end, SurfaceId id);
 
   PixelGrid grid_;
   Setup setup_;
-  ChunkedArray<ClipTriangle> triangles_;
+  ChunkedArray<KeptTriangle> triangles_;
   ChunkedArray<std::uint32_t> materials_;  // of the triangles; empty if there is one for all
   bool has_normals_ = false;
   std::vector<CachedSurface>

@@ -52,7 +52,7 @@ def expect_same_picture(case, triangles, stage, config, options, model_name, dep
     expect_same_depths(case, depth_text, depths, config, rivals)
     case.assertEqual(image[:54], reference.bmp([[(0, 0, 0)] * config.width] * config.height)[:54])
     for row, column, rgb in pixels_of(image, config):
-        if not is_shown(rgb, picture[row][column]) and not is_edge_on(seen[row][column]):
+        if not is_shown(rgb, picture[row][column]):
             others = [
                 alone(triangle, row, column, stage, config, model_name)
                 for triangle in rivals.get((row, column), ())]
@@ -125,12 +125,3 @@ def has_no_sure_slope(triangle):
     a, b, c = (corner.position[:2] for corner in triangle.corners)
     terms = (b[0] - a[0]) * (c[1] - a[1]), (c[0] - a[0]) * (b[1] - a[1])
     return 0 < abs(terms[0] - terms[1]) <= (abs(terms[0]) + abs(terms[1])) / 2**50
-
-
-def is_edge_on(triangle):
-    """True if doubles have no digits of a triangle's area, and so of the weights of its corners (L3)."""
-    if triangle is None:
-        return False
-    a, b, c = ([float(x) for x in corner.position[:2]] for corner in (triangle.whole or triangle.corners))
-    terms = [a[0] * b[1], -a[1] * b[0], b[0] * c[1], -b[1] * c[0], c[0] * a[1], -c[1] * a[0]]
-    return abs(sum(terms)) <= 1e-6 * sum(map(abs, terms))

@@ -115,6 +115,9 @@ def extensions():
          colored), ("colors-with-w", "With w the mean is taken in space, not on the screen.", "L2 L3",
                     colored.replace("attributes", "attributes w").replace("0.1 255", "0.1 1 255").replace(
                         "0.5 0", "0.5 4 0").replace("0.9 0", "0.9 9 0")),
+        ("w-of-3e21", "A corner that is much nearer has all the weight, but on the far edge.", "L3 L7",
+         "attributes w color\n-0.0625 -0.5 0.5 1e21 255 0 0\n0.8125 2.25 0.5 3e21 0 255 0\n"
+         "-0.75 -1 0.5 1 0 0 255\n"),
         ("background", "Pixels without a triangle have the background's color.", "Z10 T6",
          "background 10 20 30\n" + usual), ("opaque-background", "An alpha of 255 changes nothing.",
                                             "Z11 S18", "background 10 20 30 255\n" + usual),

@@ -1,0 +1,88 @@
+#include "libpipeline/picture/corner_weights.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "libpipeline/numbers/exact_sum.h"
+#include "libpipeline/numbers/vec_math.h"
+
+namespace pipeline {
+namespace {
+
+/// CornerWeights::area at a pixel's center, which is no double, exactly but for one rounding; times the count
+/// of pixels. `are_divided`: by w, so x and y are in NDC.
+Ball exact_area(const Vec3& p, const Vec3& q, const PixelGrid& grid, const PixelCenter& pixel,
+                bool are_divided) {
+  const double columns = grid.columns, rows = grid.rows;
+  const double right = 2.0 * pixel.column + 1 - columns,
+               up = rows - 2.0 * pixel.row - 1;  // in half pixels, from the middle
+  const double p_w = are_divided ? 1 : p.z, q_w = are_divided ? 1 : q.z;
+  const double x_unit = rows * right, y_unit = columns * up;
+  const Ball area = exact_sum({{columns * rows, p.x, q.y},
+                               {-columns * rows, p.y, q.x},
+                               {-y_unit, grid.half_height, p.x, q_w},
+                               {y_unit, grid.half_height, q.x, p_w},
+                               {-x_unit, grid.half_width, q.y, p_w},
+                               {x_unit, grid.half_width, p.y, q_w}});
+  return are_divided ? area * p.z * q.z : area;
+}
+
+/// A bound on the terms of an area at any pixel, added up.
+double terms(const Vec3& p, const Vec3& q, const PixelGrid& grid) {
+  const auto x = [&](const Vec3& v) { return std::fabs(v.x) + grid.half_width * std::fabs(v.z); };
+  const auto y = [&](const Vec3& v) { return std::fabs(v.y) + grid.half_height * std::fabs(v.z); };
+  return x(p) * y(q) + y(p) * x(q);
+}
+
+}  // namespace
+
+Triangle screen_corners_of(const ClipTriangle& corners, bool are_divided) {
+  const auto& [a, b, c] = corners;
+  const double scale = 1 / std::max({std::fabs(a.w), std::fabs(b.w), std::fabs(c.w)});
+  const auto screen_corner = [&](const VertexLine& corner) {
+    const Vec3 p = are_divided ? scaled(corner.position, corner.w) : corner.position;
+    return scaled({p.x, p.y, corner.w}, scale);
+  };
+  return {screen_corner(a), screen_corner(b), screen_corner(c)};
+}
+
+CornerWeights::CornerWeights(const PixelGrid& grid, const ClipTriangle& corners, bool are_divided)
+    : scaled_(screen_corners_of(corners, are_divided)), are_divided_(are_divided) {
+  for (std::size_t v = 0; v < 3; ++v)
+    corners_[v] = {corners[v].position.x, corners[v].position.y, corners[v].w};
+  are_plain_ = are_divided && are_plain(grid);
+}
+
+/// The error of an area is within 2^-48 of its two w times the largest coordinate times the length of an
+/// edge; the sum is at least the area in NDC times the two smaller w.
+bool CornerWeights::are_plain(const PixelGrid& grid) const {
+  const auto& [a, b, c] = corners_;
+  const auto [least_w, largest_w] = std::minmax({a.z, b.z, c.z});
+  const Vec3 ab = difference(b, a), ac = difference(c, a);
+  const double length = std::max({std::fabs(ab.x), std::fabs(ab.y), std::fabs(ac.x), std::fabs(ac.y)}) +
+                        std::max(grid.dx, grid.dy);
+  const double reach = std::max({grid.half_width, grid.half_height, std::fabs(a.x), std::fabs(a.y)}) + length;
+  return reach * length * largest_w <= 0x1p13 * std::fabs(ab.x * ac.y - ab.y * ac.x) * least_w;
+}
+
+bool CornerWeights::are_certain(const PixelGrid& grid, double sum) const {
+  const auto& [a, b, c] = scaled_;
+  return std::fabs(sum) * 0x1p16 > terms(a, b, grid) + terms(b, c, grid) + terms(c, a, grid);
+}
+
+CornerWeights::Weights CornerWeights::exactly_at(const PixelGrid& grid, const PixelCenter& pixel) const {
+  const auto area = [&](std::size_t p, std::size_t q) {
+    return exact_area(corners_[p], corners_[q], grid, pixel, are_divided_);
+  };
+  std::array<Ball, 3> weights = {area(1, 2), area(2, 0), area(0, 1)};
+  const bool is_negative = (weights[0] + weights[1] + weights[2]).sign() < 0;
+  for (Ball& weight : weights) {
+    if (is_negative) weight = -weight;
+    if (weight.sign() < 0) weight = Ball(0);
+  }
+  if (std::ranges::all_of(weights, &Ball::is_exact_zero)) return {1, 0, 0};
+  const auto shares = normalized(weights);
+  return {shares[0].nearest_double(), shares[1].nearest_double(), shares[2].nearest_double()};
+}
+
+}  // namespace pipeline
