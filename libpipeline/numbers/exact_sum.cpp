@@ -10,9 +10,9 @@
 namespace pipeline {
 namespace {
 
-/// A product of three doubles is significand * 2^exponent; an exponent is from 3 (-1074 - 52) to 3 (1024 -
-/// 53).
-constexpr int kLeastExponent = -3378, kLargestExponent = 2913, kSignificandBits = 159;
+/// A product of four doubles is significand * 2^exponent; an exponent is from 4 (-1073 - 53), where the
+/// least double is 1/2 * 2^-1073, to 4 (1024 - 53).
+constexpr int kLeastExponent = -4504, kLargestExponent = 3884, kSignificandBits = 212;
 constexpr int kBits = kLargestExponent - kLeastExponent + kSignificandBits + 4;  // of the sum of 16
 using Sum = FixedInt<(kBits + 63) / 64 + 1>;
 
