@@ -1,10 +1,16 @@
 // project: clips triangles behind the eye and divides by w. View space in, normalized device coordinates out.
 
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <string>
 #include <utility>
 
 #include "libpipeline/stream/stage_reader.h"
 #include "libpipeline/stream/stage_writer.h"
 #include "libpipeline/stream/text_kind.h"
+#include "libpipeline/vertex/close_layers.h"
 #include "libpipeline/vertex/projected_header.h"
 #include "libpipeline/vertex/projection.h"
 #include "tools/rim/command_line.h"
@@ -56,6 +62,21 @@ void check_inset(const ProjectOptions& chosen) {
                      expected_but_found("--clip near, frustum or reject with it", "none of these"));
 }
 
+/// A number in words for people: two digits of it.
+std::string in_two_digits(double value) {
+  std::array<char, 32> text = {};
+  const auto end =
+      std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general, 2);
+  return {text.data(), end.ptr};
+}
+
+std::string close_layers_note(const CloseLayers::Found& found, int decimals) {
+  const std::string enough = found.enough ? std::to_string(*found.enough) : "exact";
+  return "in " + std::to_string(std::lround(100 * found.share)) + " % of what is drawn, " +
+         std::to_string(decimals) + " digits cannot tell which of two layers is nearer, up to " +
+         in_two_digits(found.gap) + " apart; try --digits " + enough + " for every stage, or a larger near";
+}
+
 std::string to_text(const ProjectionCounts& counts) {
   return std::to_string(counts.culled) + " culled, " + std::to_string(counts.outside) + " outside, " +
          std::to_string(counts.clipped) + " cut into " + std::to_string(counts.pieces);
@@ -95,18 +116,22 @@ int main(int argc, char** argv) {
     if (header.projected) stage.keep_unclipped_triangles();
     ViewReport report(stage, ViewVolume(projection, chosen.clip_inset), statistics.is_wanted());
     report.suspect_radians(given);
+    const NumberFormat format = numbers.format();
+    CloseLayers layers(projection, format.shortest ? std::nullopt : std::optional(format.decimals));
     TriangleBatch p_view;
     const auto transform = [&](TriangleBatch& batch) {
       std::swap(batch, p_view);
       stage.project(p_view, batch);
       report.add(p_view, batch);
+      layers.add(batch);
     };
     StageLoop loop(tool, writer, rounder, statistics);
     loop.run(reader, transform);
     tool.timing().details = to_text(stage.counts());
     loop.note_if_no_triangle_came();
     if (const auto note = report.note()) tool.note(*note);
+    if (const auto found = layers.found()) tool.note(close_layers_note(*found, format.decimals));
     report.add_to(statistics);
-    loop.write_statistics(numbers.format());
+    loop.write_statistics(format);
   });
 }

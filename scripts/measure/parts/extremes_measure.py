@@ -75,7 +75,7 @@ def shortened(note):
     stage, words = re.fullmatch(r"(\w+): note: (?:\S+:\d+:\d+: )?(.*)", note).groups()
     kinds = {
         "fewer than 4 significant digits": "few digits", "not certain": "uncertain digits",
-        "picture": "empty picture"}
+        "two layers": "close layers", "picture": "empty picture"}
     return f"{stage}: " + next((name for words_of_it, name in kinds.items() if words_of_it in words), words)
 
 
