@@ -12,13 +12,12 @@ class Row:
     ratio: float         # the CPU time over the default's
     net: float           # the same without the start of four programs
     size: int            # bytes in the three pipes
-    wrong: int           # pixels
+    loss: object         # losses.Loss
     covered: int         # pixels of the exact picture
-    vertex_error: float  # in pixels
 
     @property
     def percent_wrong(self):
-        return 100 * self.wrong / self.covered
+        return 100 * self.loss.wrong / self.covered
 
 
 @dataclasses.dataclass(frozen=True)

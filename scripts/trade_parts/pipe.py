@@ -7,40 +7,66 @@ import subprocess
 from lib.child import cpu_seconds, finished
 from lib.command import CommandFailure
 from lib.owners import owners, write_marked
+from lib.pictures import read_picture
 from lib.pipe_tools import opaque_background
 
 TOOLS = ("model", "view", "project", "zbuf")
+TRACING_TOOLS = ("model", "view", "trace")
 
 
 @dataclasses.dataclass(frozen=True)
 class Setting:
-    """Options of the tools; a value that is the default's is not written."""
+    """Options of the tools; a value that is the default's is not written. With a sampling, trace draws in
+    place of project and zbuf."""
     digits: str = "7"
     precision: str = "extended"
+    clip: str = "auto"
+    cull: str = "none"
     coverage: str = "nearest"
     depth: str = "f64"
+    depth_epsilon: str = "0"
+    shading: str = "the scene's"
+    samples: str = "1"
+    sampling: str = "none"
 
     def words(self, *names):
         """The words of the options with these names, or of all."""
         defaults = {field.name: field.default for field in dataclasses.fields(self)}
         return [
             word for name in names or defaults if getattr(self, name) != defaults[name]
-            for word in (f"--{name}", getattr(self, name))]
+            for word in (f"--{name.replace('_', '-')}", getattr(self, name))]
 
     def __str__(self):
-        return " ".join(self.words()) or "default"
+        return " ".join(["trace"] * self.is_traced + self.words()) or "default"
 
     @property
     def of_texts(self):
         """The setting of model, view and project alone."""
-        return Setting(self.digits, self.precision)
+        return Setting(self.digits, self.precision, self.clip, self.cull)
 
     @property
     def under_default_coverage(self):
         return dataclasses.replace(self, coverage=DEFAULT.coverage)
 
+    @property
+    def is_traced(self):
+        return self.sampling != DEFAULT.sampling
+
+    @property
+    def is_of_color(self):
+        """Whether it changes colors, not which triangle a pixel shows."""
+        return self.shading != DEFAULT.shading or self.is_dear
+
+    @property
+    def is_dear(self):
+        return self.samples != DEFAULT.samples or self.is_traced
+
 
 DEFAULT = Setting()
+OPTIONS = {
+    "model": ("digits", "precision"), "view": ("digits", "precision"),
+    "project": ("digits", "precision", "clip", "cull"),
+    "zbuf": ("coverage", "depth", "depth_epsilon", "shading", "samples"), "trace": ("sampling",)}
 
 
 def exact(rule):
@@ -48,23 +74,13 @@ def exact(rule):
     return Setting(digits="exact", coverage=rule)
 
 
-def settings(coverages):
-    """Those worth comparing, for each coverage rule. What a 32-bit or 24-bit depth loses does not depend on
-    the digits."""
-    for coverage in coverages:
-        for digits in ("5", "7", "9", "12", "exact"):
-            yield Setting(digits, coverage=coverage)
-        for digits in ("7", "exact"):
-            yield Setting(digits, precision="double", coverage=coverage)
-        for depth in ("f32", "u24"):
-            yield Setting(coverage=coverage, depth=depth)
-
-
 class Pipe:
     """A scene and a config on their way through the tools; `folder` holds the files in between."""
 
-    def __init__(self, tools, scene, config, of_project, folder):
-        self.tools, self.scene, self.config, self.of_project = tools, scene, config, of_project
+    def __init__(self, tools, scene, config, of_project, folder, of_camera=()):
+        """`of_project` and `of_camera` are options of the user's for project, and for trace in its place."""
+        self.tools, self.scene, self.config = tools, scene, config
+        self.of_project, self.of_camera = of_project, of_camera
         self.folder = pathlib.Path(folder)
         self.texts = {}  # by Setting.of_texts: (the path of project's text, bytes in the pipes, notes)
         self.opaque = [
@@ -72,9 +88,9 @@ class Pipe:
 
     def words(self, tool, setting):
         """The options of a tool."""
-        if tool == "zbuf":
-            return [*setting.words("coverage", "depth"), *self.opaque]
-        return [*setting.words("digits", "precision"), *(self.of_project if tool == "project" else [])]
+        return [*setting.words(*OPTIONS[tool]),
+                *{"project": self.of_project, "trace": self.of_camera}.get(tool, []),
+                *(self.opaque if tool in ("zbuf", "trace") else [])]
 
     def text(self, setting):
         """The path of project's text, the bytes in the three pipes, and what the tools noted on the way."""
@@ -98,41 +114,61 @@ class Pipe:
         marked = self.marked(setting)
         if not marked.exists():
             write_marked(self.text(setting)[0], marked)
-        return owners(self.tools, marked, self.config, setting.words("coverage", "depth"),
+        return owners(self.tools, marked, self.config, setting.words("coverage", "depth", "depth_epsilon"),
                       self.folder / "marks.ppm")
+
+    def colors(self, setting):
+        """The picture of a setting, as the bytes of its pixels; of trace, without what zbuf has not."""
+        image = self.folder / "colors.ppm"
+        output = ["--z-buffer", "none", "--image", image, self.config]
+        if setting.is_traced:
+            text = b""
+            for tool, source in (("model", [self.scene]), ("view", [])):
+                text = self.tools.output(tool, *self.words(tool, setting), *source, stdin=text)
+            self.tools.run("trace", *self.words("trace", setting), "--no-shadows", "--no-recursion", *output,
+                           stdin=text)
+        else:
+            self.tools.run("zbuf", *self.words("zbuf", setting), *output, self.text(setting)[0])
+        return b"".join(read_picture(image)[2])
 
     def marked(self, setting):
         return self.folder / f"marked {setting.of_texts}.txt"
 
     def remove_texts(self, setting):
         """Makes room for others; what text() has found stays known."""
-        self.text(setting)[0].unlink()
-        self.marked(setting).unlink()
+        if setting in self.texts:
+            self.texts[setting][0].unlink()
+        self.marked(setting).unlink(missing_ok=True)
+
+    def camera(self):
+        """The words of the scene's camera, line by line."""
+        return [line.split() for line in self.tools.output("model", "--digits", "exact", self.scene).decode(
+            errors="replace").split("\n", 4)[:4]]
 
     def empty_scene(self):
         """The path of the scene without its triangles. What its run takes, every run takes."""
         path = self.folder / "empty.txt"
-        words = (line.split() for line in self.tools.output("model", "--digits", "exact", self.scene).decode(
-            errors="replace").split("\n", 4)[:4])
         path.write_text("".join(" ".join(line[line[0] in ("eye", "look", "up", "perspective"):]) + "\n"
-                                for line in words) + "end\n")
+                                for line in self.camera()) + "end\n")
         return path
 
     def cpu_seconds(self, setting, scene=None):
         """The CPU time, user and system, of a run of the whole pipe, with the image and the depths as zbuf
         writes them."""
         processes, source = [], None
-        files = {"model": [scene or self.scene], "zbuf": ["--image", self.folder / "out.bmp", self.config]}
-        for tool in TOOLS:
+        output = ["--image", self.folder / "out.bmp", self.config]
+        files = {"model": [scene or self.scene], "zbuf": output, "trace": output}
+        tools = TRACING_TOOLS if setting.is_traced else TOOLS
+        for tool in tools:
             words = [self.tools.folder / tool, *self.words(tool, setting), *files.get(tool, [])]
             processes.append(
                 subprocess.Popen(words, stdin=source or subprocess.DEVNULL, stderr=subprocess.DEVNULL,
-                                 stdout=subprocess.DEVNULL if tool == "zbuf" else subprocess.PIPE))
+                                 stdout=subprocess.DEVNULL if tool == tools[-1] else subprocess.PIPE))
             if source:
                 source.close()
             source = processes[-1].stdout
         seconds = 0.0
-        for tool, process in zip(TOOLS, processes):
+        for tool, process in zip(tools, processes):
             usage = finished(process)
             if process.returncode:
                 raise CommandFailure(

@@ -6,8 +6,7 @@ from lib.svg import STYLE, line, text
 from trade_parts.report import asked
 
 TOP, ROW, BOTTOM = 96, 22, 60
-CPU_LEFT, CPU_WIDTH, WRONG_LEFT, WRONG_WIDTH, VERTEX_LEFT, VERTEX_WIDTH, WIDTH = (330, 190, 560, 150, 750,
-                                                                                  180, 960)
+CPU_LEFT, CPU_WIDTH, WRONG_LEFT, WRONG_WIDTH, LAST_LEFT, LAST_WIDTH, WIDTH = 330, 190, 560, 150, 750, 180, 960
 ZERO_WIDTH = 30  # between 0 and the smallest power of ten
 STYLE_OF_BARS = (".bar { fill: #7d76d4 } .start { fill: #a9b1ba } .chosen { font-weight: 700 } .limit { "
                  "stroke: #bf2045; stroke-dasharray: 4 3 }")
@@ -75,24 +74,33 @@ def bar(axis, y, begin, end, kind):
 
 
 def row_of(row, y, axes, start_up, is_chosen):
-    cpu, wrong, vertex = axes
+    cpu, wrong, last = axes
     yield text(CPU_LEFT - 12, y + 4, str(row.setting),
                f'text-anchor="end"{" class=" + chr(34) + "chosen" + chr(34) if is_chosen else ""}')
     yield bar(cpu, y, 0, start_up, "start") + bar(cpu, y, start_up, row.seconds.median, "bar")
     yield line("axis", (cpu.x(row.seconds.first), y), (cpu.x(row.seconds.third), y))
-    for axis, value in (wrong, row.percent_wrong), (vertex, row.vertex_error):
-        yield (
+    percent = None if row.loss.wrong is None else row.percent_wrong
+    for axis, value in (wrong, percent), (last, last_of(row)):
+        yield "" if value is None else (
             f'<g class="s s{0 if value else 2}"><circle class="dot" cx="{axis.x(value):.1f}" cy="{y:.1f}" '
             f'r="4"/></g>'
         )
+
+
+def last_of(row):
+    """What the last panel shows of it: its levels, if colors were compared, else its gap."""
+    return row.loss.gap if row.loss.levels is None else row.loss.levels
 
 
 def plot(rows, chosen, limits, times):
     """The SVG; `chosen` is the row that the answer names."""
     bottom, default = TOP + ROW * len(rows), times.seconds_of_default
     cpu = Axis(CPU_LEFT, CPU_WIDTH, 1.03 * max(row.seconds.third for row in rows))
-    wrong = power_axis(WRONG_LEFT, WRONG_WIDTH, [*(row.percent_wrong for row in rows), limits.percent_wrong])
-    vertex = power_axis(VERTEX_LEFT, VERTEX_WIDTH, [row.vertex_error for row in rows])
+    drawn = [row.percent_wrong for row in rows if row.loss.wrong is not None]
+    wrong = power_axis(WRONG_LEFT, WRONG_WIDTH, [*drawn, limits.percent_wrong])
+    last = power_axis(LAST_LEFT, LAST_WIDTH, [last_of(row) for row in rows])
+    words = ("gap between layers", "the scene's units") if rows[0].loss.levels is None else ("colors",
+                                                                                            "levels of 256")
     most = None if limits.ratio is None or limits.ratio * default > cpu.high else limits.ratio * default
     height = bottom + BOTTOM
     verdict = "the cheapest with" if limits.are_met_by(chosen) else "the nearest to"
@@ -104,9 +112,9 @@ def plot(rows, chosen, limits, times):
         text(20, 30, f"{chosen.setting}: {verdict} {asked(limits)}",
              'class="title"'), *panel(cpu, "CPU time", "seconds; grey: four processes start", most, bottom),
         *panel(wrong, "wrong pixels", "% of those covered", limits.percent_wrong, bottom),
-        *panel(vertex, "vertex error", "pixels", None, bottom)]
+        *panel(last, *words, None, bottom)]
     for i, row in enumerate(rows):
-        parts += row_of(row, TOP + ROW * (i + 0.5), (cpu, wrong, vertex), times.start_up, row is chosen)
+        parts += row_of(row, TOP + ROW * (i + 0.5), (cpu, wrong, last), times.start_up, row is chosen)
     parts.append(
         text(
             20, height - 16,

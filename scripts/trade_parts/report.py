@@ -4,7 +4,7 @@ import math
 from lib.figures import number
 from lib.table import table
 
-HEADER = ("net", "CPU", "wrong pixels", "px off")
+HEADER = ("net", "CPU", "wrong pixels", "gap", "levels")
 
 TOO_SHORT = """The default takes hardly longer: these times tell nothing about the settings.
 Try a larger scene."""
@@ -26,12 +26,17 @@ def percent(value):
 
 
 def pixels(row):
-    return f"{row.wrong} ({percent(row.percent_wrong)})" if row.wrong else "0"
+    if row.loss.wrong is None:
+        return "-"
+    return f"{row.loss.wrong} ({percent(row.percent_wrong)})" if row.loss.wrong else "0"
 
 
 def cells(row):
+    """As in HEADER; the last one only if colors were compared."""
+    gap, levels = row.loss.gap, row.loss.levels
     return [str(row.setting.under_default_coverage), "-" if math.isnan(row.net) else f"{row.net:.2f}",
-            seconds(row.seconds.median), pixels(row), number(row.vertex_error)]
+            seconds(row.seconds.median), pixels(row), "-" if gap is None else number(gap),
+            *([] if levels is None else [f"{levels:.2f}"])]
 
 
 def about_times(times):
@@ -54,7 +59,7 @@ def asked(limits):
 
 def summary(row):
     return (f"{row.setting}: {row.ratio:.2f} times the default's CPU time, {size(row.size)} in the pipes,\n"
-            f"{pixels(row)} wrong pixel{'s' * (row.wrong != 1)}")
+            f"{pixels(row)} wrong pixel{'s' * (row.loss.wrong != 1)}")
 
 
 def names(rows):
@@ -81,9 +86,13 @@ def answer(choice, is_met, limits, command_line):
 
 
 def report(rows, times):
-    """A table for each coverage rule, and what the times are worth."""
-    lines = []
-    for coverage in dict.fromkeys(row.setting.coverage for row in rows):
-        own = [cells(row) for row in rows if row.setting.coverage == coverage]
-        lines += [*table((f"--coverage {coverage}", *HEADER), own), ""]
+    """A table for each coverage rule and for trace, and what the times are worth."""
+    lines, width = [], len(cells(rows[0]))
+    for title in dict.fromkeys(map(title_of, rows)):
+        own = [cells(row) for row in rows if title_of(row) == title]
+        lines += [*table((title, *HEADER)[:width], own), ""]
     return "\n".join([*lines, f"The exact picture covers {rows[0].covered} pixels.", about_times(times)])
+
+
+def title_of(row):
+    return "rays" if row.setting.is_traced else f"--coverage {row.setting.coverage}"

@@ -9,6 +9,7 @@ from trade_parts.pipe import DEFAULT
 
 SECONDS = 30  # for all rounds together, if their number is not given
 LEAST_ROUNDS, MOST_ROUNDS = 8, 25
+ROUNDS_OF_DEAR = 3  # settings that cost several times the default
 EMPTY, AGAIN = "empty", "again"  # the scene without triangles; the default once more, which shows the noise
 CHEAPER, TIE, DEARER, UNTOLD = "cheaper", "tie", "dearer", "untold"
 NOTICED = 0.9   # who saves less than a tenth of the CPU time saves nothing
@@ -43,7 +44,7 @@ class Times:
         return self.seconds_of_default - self.start_up <= self.start_up / 4
 
     def ratios(self, setting, other):
-        """Round by round, since other load on the machine slows all runs of a round."""
+        """Round by round, since other load on the machine slows all runs of a round; as many as both have."""
         return [a / b for a, b in zip(self.runs[setting], self.runs[other])]
 
     def ratio(self, setting):
@@ -73,12 +74,14 @@ def measured(pipe, settings, rounds, progress):
     turns = [(EMPTY, DEFAULT, empty), (AGAIN, DEFAULT, None),
              *((setting, setting, None) for setting in dict.fromkeys([DEFAULT, *settings]))]
     runs = {name: [] for name, _, _ in turns}
+    cheap = [turn for turn in turns if turn[0] in (EMPTY, AGAIN) or not turn[0].is_dear]
     begin = time.monotonic()
-    for _, *turn in turns:  # to warm the caches, and to see how long a round takes
+    for _, *turn in cheap:  # to warm the caches, and to see how long a round takes
         pipe.cpu_seconds(*turn)
     rounds = rounds or max(LEAST_ROUNDS, min(round(SECONDS / (time.monotonic() - begin)), MOST_ROUNDS))
     for i in range(rounds):
         progress(f"round {i + 1} of {rounds}")
-        for name, *turn in dice.sample(turns, len(turns)):
+        now = turns if i < ROUNDS_OF_DEAR else cheap
+        for name, *turn in dice.sample(now, len(now)):
             runs[name].append(pipe.cpu_seconds(*turn))
     return Times(runs)

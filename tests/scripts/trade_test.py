@@ -21,13 +21,15 @@ from lib.figures import Quartiles  # noqa: E402
 from lib.owners import NOBODY, owners, write_marked  # noqa: E402
 from lib.pipe_tools import Tools, without_inner_location  # noqa: E402
 from trade_parts.choice import Choice, Limits, Row, cheapest, least_wrong, nearest  # noqa: E402
-from trade_parts.errors import Screen, vertex_pairs  # noqa: E402
-from trade_parts.pipe import DEFAULT, Pipe, Setting, settings  # noqa: E402
+from trade_parts.levers import settings  # noqa: E402
+from trade_parts.losses import Loss  # noqa: E402
+from trade_parts.pipe import DEFAULT, Pipe, Setting  # noqa: E402
 from trade_parts.report import about_ties, about_times  # noqa: E402
 from trade_parts.timing import (AGAIN, CHEAPER, DEARER, EMPTY, TIE, UNTOLD, Times,  # noqa: E402
                                 median_interval)
 
-SETTINGS = 9  # of each coverage rule
+LEAST = {"--digits 5", "default", "--digits 9", "--digits 12", "--digits exact", "--precision double",
+         "--depth f32", "--depth u24"}  # what every scene feels
 # Two walls 1e-6 apart, the hidden one first, seen from 3 away: in NDC their z differ by 2e-8 or so, less than
 # seven digits tell.
 LAYERS = "0 0 3\n0 0 0\n0 1 0\n60 1 0.1 100\n" + "".join(
@@ -41,13 +43,13 @@ def trade(*words, **settings):
 
 
 def tables(text):
-    """{coverage: {setting: {column: cell}}}"""
+    """{coverage, or rays: {setting: {column: cell}}}"""
     found, header = {}, None
     for line in text.split("\n"):
         cells = [cell.strip() for cell in line.split("|")[1:-1]]
-        if line.startswith("| --coverage"):
+        if cells[1:2] == ["net"]:
             header = cells
-            rows = found.setdefault(cells[0].split()[1], {})
+            rows = found.setdefault(cells[0].split()[-1], {})
         elif line.startswith("| ") and set(cells[0]) != {"-"}:
             rows[cells[0]] = dict(zip(header, cells))
     return found
@@ -64,15 +66,51 @@ def picture(line):
 
 
 class Measures(ToolTest):
-    def test_every_setting_of_both_rules_is_measured(self):
+    def test_a_scene_that_feels_no_other_lever_is_measured_with_the_least(self):
         done = trade("scene.txt", "config.txt", "--rounds", "1")
         self.assertEqual((done.returncode, done.stderr), (0, ""))
-        self.assertEqual({rule: len(rows)
-                          for rule, rows in tables(done.stdout).items()},
-                         {"nearest": SETTINGS, "center": SETTINGS})
-        exact = tables(done.stdout)["center"]["--digits exact"]
-        self.assertEqual((exact["wrong pixels"], exact["px off"]), ("0", "0"))
-        self.assertLessEqual(max(map(len, done.stdout.split("\n\nThe simplest")[0].splitlines())), 80)
+        found = tables(done.stdout)
+        self.assertEqual({rule: set(rows) for rule, rows in found.items()},
+                         {"center": LEAST, "nearest": {"default", "--digits exact"}})
+        self.assertEqual(found["center"]["--digits exact"]["wrong pixels"], "0")
+
+    def test_every_lever_that_is_felt_has_a_row(self):
+        """A lit open tent that the right plane cuts, its back and a wall behind it that an epsilon hides."""
+        triangles = [[(0, -1, 0), (1, -1, -1), (0, 1, 0)], [(0, -1, 0), (0, 1, 0), (-1, -1, -1)],
+                     [(1, 0, 0), (9, 0, 0), (9, 1, 0)], [(9, 0, 0), (9, 1, 0), (9, 0, -1)],
+                     *([(-3, -1, z), (2, -1, z), (0.5, 2, z)] for z in (-2, -1.999995)),
+                     [(0, 0.5, 0.5), (0, 1, 0.5), (0.5, 0.5, 0.5)]]
+        pathlib.Path("scene.txt").write_text(
+            "0 0 3\n0 0 0\n0 1 0\n60 1 1 10\nlight 1 2 3 1 1 1\nattributes normal\n" +
+            "".join("triangle\n" + "".join(f"{x} {y} {z} {x} {y} 1\n" for x, y, z in corners)
+                    for corners in triangles) + "end\n")
+        done = trade("scene.txt", "config.txt", "--rounds", "1", "--all")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        found = tables(done.stdout)
+        self.assertEqual(set(found["center"]), LEAST | {
+            "--clip frustum", "--clip reject", "--cull back", "--depth-epsilon 1e-6", "--shading flat",
+            "--shading gouraud", "--samples 2"})
+        self.assertEqual(set(found["rays"]), {f"trace --sampling {name}" for name in
+                                              ("basic", "jittered", "adaptive")})
+        lines = done.stdout.split("\n\nThe simplest")[0].splitlines()
+        self.assertLessEqual((max(map(len, lines)), sum(map(len, found.values()))), (80, 20))
+
+    def test_levels_are_the_mean_of_what_colors_differ_by(self):
+        sample = SOURCE / "samples/shaded-torus"
+        shown = {}
+        for words in ("", "--shading flat"):
+            exact = ["--digits", "exact"] * (not words)
+            text = pipe(["model", *exact, sample / "scene.txt"], ["view", *exact], ["project", *exact])
+            run("zbuf", sample / "config.txt", "--coverage", "center", *words.split(), "-o", "out.ppm",
+                "--z-buffer", "z.txt", stdin=text)
+            shown[words] = pathlib.Path("out.ppm").read_bytes().split(b"255\n", 1)[1]
+        self.assertEqual(len(set(map(len, shown.values()))), 1)
+        done = trade(sample / "scene.txt", sample / "config.txt", "--rounds", "1")
+        covered = int(re.search(r"covers (\d+) pixels", done.stdout)[1])
+        total = sum(abs(a - b) for a, b in zip(*shown.values()))
+        rows = tables(done.stdout)["center"]
+        self.assertEqual(rows["--shading flat"]["levels"], f"{total / covered / 3:.2f}")
+        self.assertEqual(rows["--digits exact"]["levels"], "0.00")
 
     def test_every_pixel_that_differs_from_the_exact_picture_is_wrong(self):
         """Of two triangles that share an edge, `nearest` shows the other one in some pixels."""
@@ -102,15 +140,17 @@ class Measures(ToolTest):
             f"\ndefault: 1.00 times the default's CPU time, {sum(map(len, texts[1:]))} B in the pipes,\n",
             done.stdout)
 
-    def test_the_vertex_error_is_half_a_digit_at_most_and_known_here(self):
-        """At z = -3 and fovY 90, x = 1 is 1/3 in NDC; a third of a unit of the fifth decimal is lost, 50
-        pixels a unit."""
-        pathlib.Path("scene.txt").write_text(
-            "0 0 3\n0 0 0\n0 1 0\n90 1 1 10\ntriangle\n1 0 0\n0 1 0\n0 0 0\nend\n")
-        pathlib.Path("config.txt").write_text("100 100\n")
-        rows = tables(trade("scene.txt", "config.txt", "--rounds", "1").stdout)["center"]
-        self.assertEqual([rows[name]["px off"] for name in ("--digits 5", "default", "--digits 9")],
-                         ["1.7e-4", "1.7e-6", "1.7e-8"])
+    def test_the_gap_is_what_one_step_of_the_depth_is_worth(self):
+        """Dz at the distance w is a gap of w^2 Dz (far - near) / (2 far near): 9 Dz 9 / 20 here. A parallel
+        projection has (far - near) / 2, and u24 has (rear - front) / 2^24 beside the digits."""
+        walls = "triangle\n-1 -1 0\n1 -1 0\n0 1 0\nend\n"
+        for camera, per_step in (("60 1 1 10", 4.05), ("ortho -2 2 -2 2 1 10", 4.5)):
+            pathlib.Path("scene.txt").write_text(f"0 0 3\n0 0 0\n0 1 0\n{camera}\n{walls}")
+            rows = tables(trade("scene.txt", "config.txt", "--rounds", "1").stdout)["center"]
+            for name, step in (("--digits 5", 1e-5), ("default", 1e-7), ("--digits 9", 1e-9),
+                               ("--depth u24", 1e-7 + 2 / 2**24)):
+                gap = per_step * step
+                self.assertAlmostEqual(float(rows[name]["gap"]), gap, delta=0.015 * gap)
 
     def test_layers_that_seven_digits_cannot_tell_apart_take_nine(self):
         pathlib.Path("scene.txt").write_text(LAYERS)
@@ -119,19 +159,20 @@ class Measures(ToolTest):
         rows = tables(done.stdout)["center"]
         covered = re.search(r"covers (\d+) pixels", done.stdout)[1]
         self.assertEqual(rows["default"]["wrong pixels"], f"{covered} (100 %)")
-        self.assertEqual([
-            rows[name]["wrong pixels"]
-            for name in ("--digits 9", "--digits 12", "--digits exact --precision double")], ["0"] * 3)
+        self.assertEqual([rows[name]["wrong pixels"] for name in ("--digits 9", "--digits 12")], ["0"] * 2)
+        self.assertLess(float(rows["--digits 9"]["gap"]), 1e-6)  # which is between the layers
+        self.assertLess(1e-6, float(rows["default"]["gap"]))
 
     def test_scenes_that_are_clipped_or_lit_are_compared_by_triangle(self):
         for name in ("wide-clipped", "inside", "colored-lights"):
             done = trade(SOURCE / f"samples/{name}/scene.txt", SOURCE / f"samples/{name}/config.txt",
                          "--rounds", "1")
-            self.assertEqual((done.returncode, done.stderr), (0, ""), name)
+            self.assertEqual(done.returncode, 0, name)
             rows = tables(done.stdout)["center"]
-            self.assertEqual((rows["--digits 12"]["wrong pixels"], rows["--digits exact"]["px off"]),
-                             ("0", "0"), name)
-            self.assertNotEqual(rows["--digits 5"]["px off"], "0", name)
+            self.assertEqual(rows["--digits 12"]["wrong pixels"], "0", name)
+            self.assertIn("--clip frustum", rows, name)
+            self.assertEqual("trade: note: --clip reject --coverage center is left out: project: expected a "
+                             "vertex in front" in done.stderr, "--clip reject" not in rows, name)
 
     def test_options_of_project_are_passed_on(self):
         backs = trade("scene.txt", "config.txt", "--rounds", "1", "--cull", "front")
@@ -139,6 +180,7 @@ class Measures(ToolTest):
         self.assertIn("trade: the picture of the exact run is empty", backs.stderr)
         fronts = trade("scene.txt", "config.txt", "--rounds", "1", "--cull", "back", "--clip", "none")
         self.assertRegex(fronts.stdout, r"\| pipeline project .*--clip none --cull back \|")
+        self.assertEqual(set(tables(fronts.stdout)["center"]), LEAST)
 
 
 class Answers(ToolTest):
@@ -178,7 +220,8 @@ class Answers(ToolTest):
         texts = [
             element.text
             for element in xml.etree.ElementTree.parse("plot.svg").iter("{http://www.w3.org/2000/svg}text")]
-        self.assertLessEqual({str(setting) for setting in settings(("nearest", "center"))}, set(texts))
+        self.assertLessEqual({"default", "--digits exact --coverage center", "--coverage center --depth u24"},
+                             set(texts))
 
 
 class Mistakes(ToolTest):
@@ -253,7 +296,7 @@ class Owners(ToolTest):
 
 
 def row(setting=DEFAULT, ratio=1, wrong=0):
-    return Row(setting, Quartiles(ratio, ratio, ratio), ratio, ratio, 100, wrong, 1000, 0.0)
+    return Row(setting, Quartiles(ratio, ratio, ratio), ratio, ratio, 100, Loss(wrong, 1e-7, None), 1000)
 
 
 def verdict_of(**told):
@@ -353,30 +396,6 @@ class Clock(unittest.TestCase):
                              (is_too_short, is_too_short), default)
 
 
-class Errors(unittest.TestCase):
-    def test_a_vertex_outside_the_window_moves_less(self):
-        class Window:
-            width, height, left, bottom = 100, 50, -1, -1
-
-        screen = Screen(Window)
-        self.assertAlmostEqual(screen.pixels_between((0.5, 0.5, 0), (0.53, 0.5, 0)), 1.5)
-        self.assertAlmostEqual(screen.pixels_between((0.5, 0.5, 0), (0.5, 0.54, 0)), 1.0)
-        self.assertAlmostEqual(screen.pixels_between((10, 0.5, 0), (10.3, 0.5, 0)), 1.5)
-
-    def test_vertices_are_paired_by_the_number_of_their_triangle(self):
-        def text(*pieces):
-            return "".join(f"triangle {number}\n" +"".join(f"{number} {name} {i}\n"
-                                                           for i in range(3)) + "\n"
-                           for number, name in pieces)
-
-        with tempfile.TemporaryDirectory() as folder:
-            a, b = pathlib.Path(folder, "a"), pathlib.Path(folder, "b")
-            a.write_text(text((0, 1), (2, 1), (3, 1), (3, 1), (5, 1)))
-            b.write_text(text((1, 2), (2, 2), (3, 2), (5, 2), (6, 2)))
-            pairs = [(x.decode(), y.decode()) for x, y in vertex_pairs(a, b)]
-        self.assertEqual(pairs, [(f"{n} 1 {i}\n", f"{n} 2 {i}\n") for n in (2, 5) for i in range(3)])
-
-
 class Notes(unittest.TestCase):
     def test_the_line_of_a_text_that_the_user_never_sees_is_left_out(self):
         uncertain = "and of 2 more are not certain: numbers cancel here beyond 31 digits"
@@ -393,7 +412,7 @@ class CommandLines(unittest.TestCase):
     def test_only_what_differs_from_the_default_is_written(self):
         pipeline = Pipe(None, "s", "c", ["--cull", "back"], ".")
         self.assertEqual(
-            pipeline.command_line(Setting("9", "double", "center", "f32"), "-a b", "-c"),
+            pipeline.command_line(Setting("9", "double", coverage="center", depth="f32"), "-a b", "-c"),
             "pipeline model --digits 9 --precision double -- '-a b' | pipeline view --digits 9 "
             "--precision double"
             " | pipeline project --digits 9 --precision double --cull back"
@@ -401,6 +420,10 @@ class CommandLines(unittest.TestCase):
         self.assertEqual(
             pipeline.command_line(DEFAULT, "-", "c"),
             "pipeline model | pipeline view | pipeline project --cull back | pipeline zbuf c > z_buffer.txt")
+
+    def test_a_lever_that_the_user_has_set_is_not_tried(self):
+        tried = {str(setting) for setting in settings("nearest", without=["clip", "cull"])}
+        self.assertEqual([name for name in tried if "clip" in name or "cull" in name], [])
 
 
 if __name__ == "__main__":

@@ -1,4 +1,5 @@
 """What the settings lose on a scene of scripts/measure/extremes, and what the tools note about it."""
+import dataclasses
 import math
 import pathlib
 import re
@@ -27,7 +28,7 @@ SPARSE = 32  # for the check of single digits, every 32nd triangle
 
 def centered(setting):
     """The setting, with pixels that belong to one triangle each."""
-    return Setting(setting.digits, setting.precision, "center")
+    return dataclasses.replace(setting, coverage="center")
 
 
 def measured(job):

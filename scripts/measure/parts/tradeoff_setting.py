@@ -6,14 +6,14 @@ TRACING_TOOLS = ("model", "view", "trace")
 TOOLS_WITH = {
     "--digits": TOOLS[:3], "--precision": TOOLS[:3], "--clip": ("project", ), "--cull": ("project", ),
     "--coverage": ("zbuf", ), "--depth": ("zbuf", ), "--depth-epsilon": ("zbuf", ), "--shading":
-        ("zbuf", "trace"), "--samples": ("zbuf", "trace"), }
+        ("zbuf", "trace"), "--samples": ("zbuf", "trace"), "--threads": ("trace", ), }
 DEFAULTS = {"--digits": "7", "--precision": "extended", "--coverage": "nearest", "--depth": "f64"}
 
 
 @dataclasses.dataclass(frozen=True)
 class Setting:
     words: str = ""  # options and their values, as far as they differ from the default
-    is_traced: bool = False  # trace on one thread in place of project and zbuf
+    is_traced: bool = False  # trace in place of project and zbuf, on one thread if words have no other
 
     def __str__(self):
         return " ".join(["trace"] * self.is_traced + [self.words] * bool(self.words)) or "default"
@@ -37,15 +37,13 @@ class Setting:
             for word in (option, value)]
 
     def command(self, bin_dir, tool):
-        return [str(bin_dir / tool), *self.words_for(tool), *drawing_words(tool, "picture.ppm")]
+        threads = ["--threads", "1"] if tool == "trace" and "--threads" not in self.options else []
+        return [str(bin_dir / tool), *threads, *self.words_for(tool), *drawing_words(tool, "picture.ppm")]
 
 
 def drawing_words(tool, image):
     """What the last stage needs besides its setting."""
-    return {
-        "zbuf": ["--image", image, "config.txt"],
-        "trace": ["--threads", "1", "--image", image, "config.txt"],
-    }.get(tool, [])
+    return ["--image", image, "config.txt"] if tool in ("zbuf", "trace") else []
 
 
 def settings(*words):
@@ -74,5 +72,6 @@ SHADING = settings(*(f"--shading {model}" for model in ("none", "flat", "gouraud
                    *(f"--samples {count}"
                      for count in (2, 4, 8)), *(f"--clip {mode}" for mode in ("near", "frustum", "reject")),
                    *(f"--shading {model} --samples 4" for model in ("flat", "gouraud"))) + [
-                       TRACED, Setting("--samples 4", is_traced=True)]
+                       TRACED, Setting("--samples 4", is_traced=True),
+                       Setting("--samples 4 --threads 2", is_traced=True)]
 FINEST = Setting("--samples 8")

@@ -1,0 +1,32 @@
+"""The settings that are worth comparing: one lever at a time."""
+import dataclasses
+
+from trade_parts.pipe import DEFAULT, exact
+
+DIGITS = ("5", "7", "9", "12", "exact")
+LEVERS = (
+    {"precision": "double"},
+    {"clip": "frustum"},
+    {"clip": "reject"},
+    {"cull": "back"},
+    {"depth": "f32"},
+    {"depth": "u24"},
+    {"depth_epsilon": "1e-6"},
+    {"shading": "flat"},
+    {"shading": "gouraud"},
+)
+DEAR_LEVERS = ({"samples": "2"},)
+SAMPLINGS = ("basic", "jittered", "adaptive")  # of trace, which has no coverage rule
+
+
+def settings(rule, with_dear=False, without=()):
+    """Those with the rule `rule`, by their levers, then those of the other one that matter. `without` are
+    levers that the user has set."""
+    base = dataclasses.replace(DEFAULT, coverage=rule)
+    yield from (dataclasses.replace(base, digits=digits) for digits in DIGITS)
+    for lever in LEVERS + DEAR_LEVERS * with_dear:
+        if not set(lever) & set(without):
+            yield dataclasses.replace(base, **lever)
+    yield from (dataclasses.replace(DEFAULT, sampling=sampling) for sampling in SAMPLINGS * with_dear)
+    if rule != DEFAULT.coverage:
+        yield from (DEFAULT, exact(DEFAULT.coverage))

@@ -1,0 +1,122 @@
+"""What each setting gives up against the picture that exact arithmetic shows."""
+import dataclasses
+import filecmp
+import itertools
+import math
+import operator
+import sys
+
+from lib.command import CommandFailure
+from lib.owners import NOBODY
+from lib.pipe_tools import ToolFailure, without_inner_location
+from lib.projection import KEYWORDS, window_of
+from lib.stage_text import triangle_lines
+from trade_parts.pipe import DEFAULT, exact
+
+SAMPLES_OF_TRUTH = "8"
+
+
+@dataclasses.dataclass(frozen=True)
+class Loss:
+    wrong: int     # pixels that show another triangle, or none; None with trace, which draws no marks
+    gap: float     # between layers, in the scene's units; None with trace, which has no text of project
+    levels: float  # of 256, the mean over the channels of the pixels covered; None if none was asked for
+
+
+class Layers:
+    """How far apart two layers must be at the farthest vertex in the picture, so that their depths differ."""
+
+    def __init__(self, camera, window, vertices):
+        """The last line of a camera in words, the Window of a config, and the exact vertex lines."""
+        keyword, words = (camera[0], camera[1:]) if camera[0] in KEYWORDS else ("perspective", camera)
+        self.near, self.far = window_of({keyword: words})[-2:]
+        self.is_parallel, self.window = keyword == "ortho", window
+        self.z = max((z for z in (float(line.split(None, 3)[2]) for line in vertices) if z <= window.rear),
+                     default=1.0)
+
+    def gap(self, setting):
+        depths = {
+            "f64": math.ulp(self.z), "f32": 2**29 * math.ulp(self.z),
+            "u24": (self.window.rear - self.window.front) / (2**24 - 1)}
+        step = depths[setting.depth] + float(setting.depth_epsilon)
+        step += 0 if setting.digits == "exact" else 10.0**-int(setting.digits)
+        if self.is_parallel:
+            return step * (self.far - self.near) / 2
+        # A depth is z = (far + near - 2 far near / distance) / (far - near): the distance is scale / remaining.
+        scale = 2 * self.far * self.near / (self.far - self.near)
+        remaining = 2 * self.near / (self.far - self.near) + 1 - self.z
+        return scale * step / remaining / (remaining + step)
+
+
+def is_of_header(line):
+    return line[:1].isalpha()
+
+
+class Truth:
+    """The exact picture, and what settings lose against it."""
+
+    def __init__(self, pipe, rule, window, is_smooth):
+        self.pipe, self.setting = pipe, exact(rule)
+        self.base = dataclasses.replace(DEFAULT, coverage=rule)
+        path, _, notes = pipe.text(self.setting)
+        for note in notes:
+            print(f"trade: the exact run: {without_inner_location(note, pipe.folder)}", file=sys.stderr)
+        self.marks = pipe.owners(self.setting)
+        self.covered = sum(mark != NOBODY for mark in self.marks)
+        if not self.covered:
+            raise CommandFailure(
+                "the picture of the exact run is empty: there is nothing to compare. Run the pipe to see why")
+        with open(path, "rb") as text:
+            self.is_lit = any(line.startswith(b"light ") for line in itertools.takewhile(is_of_header, text))
+        with open(path, "rb") as text:
+            self.layers = Layers(pipe.camera()[3], window,
+                                 (line for _, corners in triangle_lines(text) for line in corners))
+        self.smooth = {"samples": SAMPLES_OF_TRUTH} if is_smooth else {}
+        self.colors = {}  # by whether trace draws
+
+    def levels(self, setting):
+        if setting.is_traced not in self.colors:
+            self.colors[setting.is_traced] = self.pipe.colors(
+                dataclasses.replace(self.setting, sampling="regular" if setting.is_traced else "none",
+                                    **self.smooth))
+        true = self.colors[setting.is_traced]
+        return sum(map(abs, map(operator.sub, self.pipe.colors(setting), true))) / (3 * self.covered)
+
+    def feels(self, setting):
+        """Whether the picture or the text changes with the lever that is not the default's: of clipping,
+        culling, an epsilon or shading; others it feels."""
+        try:
+            if setting.shading != DEFAULT.shading:
+                return self.is_lit and self.pipe.colors(setting) != self.pipe.colors(self.base)
+            if setting.depth_epsilon != DEFAULT.depth_epsilon:
+                return self.pipe.owners(setting) != self.pipe.owners(self.base)
+            return (setting.clip, setting.cull) == (DEFAULT.clip, DEFAULT.cull) or not filecmp.cmp(
+                self.pipe.text(setting)[0], self.pipe.text(self.base)[0], shallow=False)
+        except ToolFailure as failure:
+            message = without_inner_location(str(failure), self.pipe.folder)
+            print(f"trade: note: {setting} is left out: {message}", file=sys.stderr)
+            return False
+
+    def loss(self, setting, in_color):
+        levels = self.levels(setting) if in_color else None
+        if setting.is_traced:
+            return Loss(None, None, levels)
+        wrong = sum(map(operator.ne, self.pipe.owners(setting), self.marks))
+        return Loss(wrong, self.layers.gap(setting), levels)
+
+
+def losses(truth, settings, progress):
+    """{setting: Loss} of those that the scene feels, in their order. A text is kept only as long as its
+    settings are looked at."""
+    settings, found = list(settings), {}
+    progress("shading")
+    unfelt = {setting for setting in settings if setting.is_of_color and not truth.feels(setting)}
+    in_color = any(setting.is_of_color for setting in settings if setting not in unfelt)
+    for key in dict.fromkeys(setting.of_texts for setting in settings):
+        for setting in (setting for setting in settings if setting.of_texts == key and setting not in unfelt):
+            progress(f"the errors of {setting}")
+            if setting.is_of_color or truth.feels(setting):
+                found[setting] = truth.loss(setting, in_color)
+        if key not in (truth.base.of_texts, truth.setting.of_texts):
+            truth.pipe.remove_texts(key)
+    return {setting: found[setting] for setting in settings if setting in found}
