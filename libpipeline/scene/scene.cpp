@@ -102,8 +102,11 @@ Command SceneReader::next() {
   }
   if (keyword == "color" || is_appearance_keyword(keyword)) return read_appearance(keyword);
   const bool is_vertex = has_triangle_ && begins_like_number(keyword);
-  line_.fail(expected_commands(),
-             is_vertex ? " (a triangle has three vertices)" : spelling_hint(keyword, kCommands));
+  const bool is_normal = keyword == "normal" || keyword == "vn";
+  line_.fail(expected_commands(), is_vertex ? " (a triangle has three vertices)"
+                                  : is_normal
+                                      ? " (normals are columns of vertex lines, after 'attributes normal')"
+                                      : spelling_hint(keyword, kCommands));
 }
 
 /// The commands that are allowed here.

@@ -124,7 +124,8 @@ std::string described(TextKind found, TextKind expected) {
       return expected == TextKind::config ? "the output of project: is the config before it missing?"
                                           : "the output of project: zbuf reads that";
     case TextKind::triangles:
-      return "triangles: CONFIG comes before INPUT";
+      return expected == TextKind::scene ? "triangles without a camera (stage1.txt): view --scene reads those"
+                                         : "triangles: CONFIG comes before INPUT";
     case TextKind::editor_screen:
       return "an editor's screen: was Vim's view run in place of ours?";
     case TextKind::model_file:
@@ -154,6 +155,7 @@ std::string duty_of_project(const StageHeader& header) {
 struct Beginning {
   TextKind kind = TextKind::unknown;
   LineScanner first_line;
+  bool is_one_triangle = false;  // three lines, and none or a blank one behind them
 };
 
 Beginning beginning_of(TextReader& text) {
@@ -161,16 +163,18 @@ Beginning beginning_of(TextReader& text) {
   std::vector<Words> lines;
   lines.reserve(kLinesLookedAt);
   LineScanner first;
+  bool is_blank_after_three = false;
   for (std::size_t number = 1; !rest.empty() && lines.size() < kLinesLookedAt; ++number) {
     const std::size_t length = std::min(rest.find('\n'), rest.size());
     LineScanner line(rest.substr(0, length), text.file(), number);
     rest.remove_prefix(std::min(length + 1, rest.size()));
+    is_blank_after_three |= line.at_end() && lines.size() == 3;
     if (line.at_end()) continue;
     if (lines.empty()) first = line;
     lines.emplace_back().reserve(4);
     while (!line.at_end()) lines.back().push_back(line.word());
   }
-  return {kind_by_lines(lines), first};
+  return {kind_by_lines(lines), first, lines.size() == 3 || is_blank_after_three};
 }
 
 }  // namespace
@@ -180,8 +184,9 @@ TextKind kind_of(TextReader& text) {
 }
 
 void expect_kind(TextReader& text, TextKind expected) {
-  const auto [found, first_line] = beginning_of(text);
-  if (excludes(found, expected))
+  const auto [found, first_line, is_one_triangle] = beginning_of(text);
+  const bool is_bare = found == TextKind::triangles && expected == TextKind::scene && is_one_triangle;
+  if (is_bare || excludes(found, expected))
     throw InputError(first_line.location(),
                      "expected " + named(expected) + ", but this looks like " + described(found, expected));
 }

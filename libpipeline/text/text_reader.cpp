@@ -9,6 +9,7 @@
 #include <cstring>
 #include <utility>
 
+#include "libpipeline/text/eight_digits.h"
 #include "libpipeline/text/number_parser.h"
 
 namespace pipeline {
@@ -24,6 +25,15 @@ bool is_blank(char c) {
 std::string_view without_trailing_blanks(std::string_view line) {
   while (!line.empty() && (is_blank(line.back()) || line.back() == '\r')) line.remove_suffix(1);
   return line;
+}
+
+/// The end of a message about a word that other programs would write so; else empty.
+std::string foreign_format_hint(std::string_view word) {
+  const bool has_mark = word.starts_with("\xFF\xFE") || word.starts_with("\xFE\xFF");
+  if (has_mark || word.find('\0') != std::string_view::npos) return " (is this UTF-16? save it as UTF-8)";
+  const std::size_t comma = word.find(',');
+  const bool follows_digit = comma != std::string_view::npos && comma > 0 && is_digit(word[comma - 1]);
+  return follows_digit ? " (decimals have a point, and blanks stand between numbers)" : "";
 }
 
 /// True if a word stands before the comment.
@@ -117,7 +127,8 @@ SourceLocation LineScanner::location_of(std::string_view word) const {
 
 void LineScanner::fail(const std::string& expected, const std::string& hint) const {
   throw InputError(location(),
-                   expected_but_found(expected, at_end() ? "the end of the line" : quoted(peek())) + hint);
+                   expected_but_found(expected, at_end() ? "the end of the line" : quoted(peek())) +
+                       (hint.empty() ? foreign_format_hint(peek()) : hint));
 }
 
 TextReader::TextReader(int descriptor, std::string file)

@@ -179,14 +179,17 @@ void ModelStage::add_face_normals(TriangleBatch& batch) const {
 /// Carries out any command but a triangle or a sphere.
 void ModelStage::carry_out(const Command& command) {
   if (const auto* translate = std::get_if<TranslateCommand>(&command)) {
+    odd_transforms_.add_transform(scene_.location());
     stack_.translate(translate->offset);
     is_matrix_new_ = true;
   } else if (const auto* scale = std::get_if<ScaleCommand>(&command)) {
     const Vec3& factors = scale->factors;
     if (!scale_by_0_ && (factors.x == 0 || factors.y == 0 || factors.z == 0)) scale_by_0_ = scene_.location();
+    odd_transforms_.add_transform(scene_.location());
     stack_.scale(factors);
     is_matrix_new_ = true;
   } else if (const auto* rotate = std::get_if<RotateCommand>(&command)) {
+    odd_transforms_.add(*rotate, scene_.location());
     stack_.multiply(rotation(rotate->angle_degrees, rotate->axis));
     is_matrix_new_ = true;
   } else if (std::holds_alternative<PushCommand>(command)) {
@@ -211,12 +214,13 @@ void ModelStage::keep_last_run() {
 void ModelStage::begin_run(std::size_t first) {
   if (!is_matrix_new_) return;
   is_matrix_new_ = false;
+  odd_transforms_.add_object();
   runs_.push_back({first, VertexTransform(stack_.top()), std::nullopt});
   if (columns().normal) runs_.back().world_normal_from_model.emplace(stack_.top());
 }
 
 void ModelStage::push() {
-  if (stack_.push()) return;
+  if (stack_.push()) return odd_transforms_.add_push(scene_.location());
   throw InputError(scene_.location(),
                    expected_but_found("at most " + std::to_string(stack_.max_saved()) + " saved matrices",
                                       "another 'push' after a change"));
@@ -226,6 +230,7 @@ void ModelStage::pop() {
   if (!stack_.pop())
     throw InputError(scene_.location(),
                      expected_but_found("a matrix that 'push' has saved", "'pop' without one"));
+  odd_transforms_.add_pop();
   is_matrix_new_ = true;
 }
 

@@ -11,6 +11,7 @@
 #include "libpipeline/vertex/attribute_transform.h"
 #include "libpipeline/vertex/coordinate_rounder.h"
 #include "libpipeline/vertex/matrix_stack.h"
+#include "libpipeline/vertex/odd_transforms.h"
 #include "libpipeline/vertex/sphere_facets.h"
 #include "libpipeline/vertex/vertex_transform.h"
 
@@ -45,6 +46,7 @@ class ModelStage {
   [[nodiscard]] std::optional<SourceLocation> flattening_scale() const {
     return has_area_ ? std::nullopt : scale_by_0_;
   }
+  [[nodiscard]] const OddTransforms& odd_transforms() const { return odd_transforms_; }
 
  private:
   /// The triangles of a batch under one matrix: from `first` up to the next run's.
@@ -77,6 +79,7 @@ class ModelStage {
   std::vector<Located<Light>> lights_;  // in world space
   UncertainDigits uncertain_lights_;
   std::optional<SourceLocation> scale_by_0_;  // the first
+  OddTransforms odd_transforms_;
   bool has_area_ = false;                     // some triangle has, in world space
   std::optional<Command> first_object_;       // read, but not yet in a batch
   bool refuses_spheres_;

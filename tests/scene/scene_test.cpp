@@ -399,7 +399,10 @@ TEST(Scene, ATransformLacksItsArguments) {
 TEST(Scene, NamesTheNumberThatIsWrongInATransform) {
   EXPECT_EQ(error_of_commands("translate\n1 2 inf\n"),
             "scene.txt:6:5: expected the z of the translation, found 'inf'");
-  EXPECT_EQ(error_of_commands("scale 1 2,5 1\n"), "scene.txt:5:9: expected the y of the scale, found '2,5'");
+  EXPECT_EQ(
+      error_of_commands("scale 1 2,5 1\n"),
+      "scene.txt:5:9: expected the y of the scale, found '2,5' (decimals have a point, and blanks stand "
+      "between numbers)");
   EXPECT_EQ(error_of_commands("rotate 0x10 0 0 1\n"),
             "scene.txt:5:8: expected an angle in degrees, found '0x10'");
   EXPECT_EQ(error_of_commands("rotate 90 0 1.5abc 1\n"),

@@ -40,11 +40,11 @@ int main(int argc, char** argv) {
   tool.options().add_flag("--bare", bare, "Write the triangles alone (stage1.txt)");
   tool.options().add_flag("--framed", framed,
                           "Write 'framed' and 'end' around the text, so that a truncated text is noticed");
-  std::string first = "0";
+  std::string first;
   tool.options().add_word(
       "--first", "N", first,
       "Number the triangles from N on: of a part of a scene (cut-scene), so that joined texts of "
-      "parts are that of the whole");
+      "parts are that of the whole (default: 0)");
   std::string belts;
   tool.options().add_word(
       "--facets", "N", belts,
@@ -56,7 +56,7 @@ int main(int argc, char** argv) {
     tool.expect_separate({kStandardOutput, statistics.output()});
     if (bare && framed) throw UsageError(expected_but_found("--bare or --framed", "both"));
     std::size_t first_number = 0;
-    if (!parse_count(first, first_number))
+    if (!first.empty() && !parse_count(first, first_number))
       throw UsageError("--first: " + expected_but_found("a whole number", pipeline::quoted(first)));
     if (bare && first_number > 0)
       throw UsageError("--first: " + expected_but_found("no --bare, which writes no numbers", "both"));
@@ -72,6 +72,9 @@ int main(int argc, char** argv) {
     loop.run(stage, transform, stage.uncertain_lights());
     if (const auto note = bright_light_note(stage.appearance())) tool.note(*note);
     const std::uint64_t count = tool.timing().triangle_count;
+    if (first.empty())  // a part of a scene has its pops, and what its transforms move, in other parts
+      for (const std::string& note : stage.odd_transforms().notes(tool.input().file(), count > 0))
+        tool.note(note);
     if (count == 0 || stage.flattening_scale()) tool.note(empty_scene_note(count, stage.flattening_scale()));
     loop.write_statistics(numbers.format());
   });

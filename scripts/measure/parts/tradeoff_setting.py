@@ -32,13 +32,12 @@ class Setting:
 
     def words_for(self, tool):
         """The options that the tool has."""
-        return [
-            word for option, value in self.options.items() if tool in TOOLS_WITH[option]
-            for word in (option, value)]
+        options = {"--threads": "1", **self.options} if tool == "trace" else self.options
+        return [word for option, value in options.items() if tool in TOOLS_WITH[option]
+                for word in (option, value)]
 
     def command(self, bin_dir, tool):
-        threads = ["--threads", "1"] if tool == "trace" and "--threads" not in self.options else []
-        return [str(bin_dir / tool), *threads, *self.words_for(tool), *drawing_words(tool, "picture.ppm")]
+        return [str(bin_dir / tool), *self.words_for(tool), *drawing_words(tool, "picture.ppm")]
 
 
 def drawing_words(tool, image):

@@ -1,0 +1,73 @@
+#include "libpipeline/vertex/odd_transforms.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <initializer_list>
+#include <numbers>
+
+#include "libpipeline/text/error.h"
+
+namespace pipeline {
+namespace {
+
+/// How many decimals a number was written with, as far as its double tells; 10 for more.
+int decimal_count(double value) {
+  double scaled = std::fabs(value);
+  for (int count = 0; count < 10; ++count, scaled *= 10)
+    if (std::fabs(scaled - std::round(scaled)) < 1e-6) return count;
+  return 10;
+}
+
+/// True for a multiple of 30 or 45 degrees, up to a full turn, if `angle` is taken for radians: written with
+/// at least four decimals, the last of them rounded or cut.
+bool looks_like_radians(double angle) {
+  constexpr double kFullTurn = 2 * std::numbers::pi;
+  if (angle == 0 || std::fabs(angle) > kFullTurn + 1e-4) return false;
+  const int count = decimal_count(angle);
+  if (count < 4) return false;
+  const double last_unit = std::pow(10.0, -count);
+  return std::ranges::any_of(std::array{kFullTurn / 12, kFullTurn / 8}, [&](double step) {
+    return std::fabs(angle - step * std::round(angle / step)) < last_unit;
+  });
+}
+
+std::string in_degrees(double radians) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.0f", radians * 180 / std::numbers::pi);
+  return text.data();
+}
+
+}  // namespace
+
+void OddTransforms::add(const RotateCommand& rotate, const SourceLocation& location) {
+  add_transform(location);
+  const Vec3& axis = rotate.axis;
+  const double angle = rotate.angle_degrees;
+  if (angle == 0 && !without_angle_.is_known() &&
+      std::max({std::fabs(axis.x), std::fabs(axis.y), std::fabs(axis.z)}) > 1)
+    without_angle_ = at(location);
+  if (in_radians_.is_known() || !looks_like_radians(angle)) return;
+  in_radians_ = at(location);
+  angle_ = angle;
+}
+
+std::vector<std::string> OddTransforms::notes(const std::string& file, bool has_objects) const {
+  std::vector<std::string> notes;
+  const auto add = [&](LineAndColumn place, const std::string& note) {
+    if (place.is_known())
+      notes.push_back(to_string(SourceLocation{file, place.line(), place.column()}) + ": " + note);
+  };
+  add(in_radians_, "this angle looks like radians, but angles are in degrees: try " + in_degrees(angle_));
+  add(without_angle_, "this rotate turns by 0 degrees: the angle comes first, then the axis");
+  if (saved_count_ > 0)
+    add(first_saved_, counted(saved_count_, "push command") +
+                          " without a pop, the first of them here: the scene's end undoes "
+                          "no transform");
+  if (has_objects)
+    add(last_transform_, "no triangle comes after this transform: write it before what it is to move");
+  return notes;
+}
+
+}  // namespace pipeline

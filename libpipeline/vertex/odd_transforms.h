@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "libpipeline/scene/scene.h"
+#include "libpipeline/text/source_location.h"
+
+namespace pipeline {
+
+/// Legal transforms of a scene that hardly do what was meant; of each kind the first is noted.
+class OddTransforms {
+ public:
+  void add(const RotateCommand& rotate, const SourceLocation& location);
+  /// A translate, scale or rotate.
+  void add_transform(const SourceLocation& location) { last_transform_ = at(location); }
+  void add_push(const SourceLocation& location) {
+    if (saved_count_++ == 0) first_saved_ = at(location);
+  }
+  /// A pop that has its push.
+  void add_pop() {
+    --saved_count_;
+    last_transform_ = {};
+  }
+  /// What the transforms before it are for.
+  void add_object() { last_transform_ = {}; }
+
+  /// At the scene's end; `has_objects` tells whether it has any.
+  [[nodiscard]] std::vector<std::string> notes(const std::string& file, bool has_objects) const;
+
+ private:
+  static LineAndColumn at(const SourceLocation& location) { return {location.line, location.column}; }
+
+  LineAndColumn in_radians_, without_angle_, last_transform_, first_saved_;  // unknown: none
+  double angle_ = 0;                                                         // that at in_radians_
+  std::uint64_t saved_count_ = 0;
+};
+
+}  // namespace pipeline
