@@ -80,8 +80,8 @@ class ModelStage {
   UncertainDigits uncertain_lights_;
   std::optional<SourceLocation> scale_by_0_;  // the first
   OddTransforms odd_transforms_;
-  bool has_area_ = false;                     // some triangle has, in world space
-  std::optional<Command> first_object_;       // read, but not yet in a batch
+  bool has_area_ = false;                // some triangle has, in world space
+  std::optional<Command> first_object_;  // read, but not yet in a batch
   bool refuses_spheres_;
   std::optional<SphereFacets> facets_;
   std::optional<SphereCommand> faceted_;  // the sphere whose facets come next

@@ -31,7 +31,8 @@ TEST(ExactSum, IsRoundedOnceWhateverCancels) {
 TEST(ExactSum, ReachesFromTheSmallestToTheLargestProduct) {
   const double tiny = 0x1p-1074, huge = std::numeric_limits<double>::max();
   EXPECT_EQ(exact_sum({{huge, huge, huge}, {tiny, tiny, -tiny}, {-huge, huge, huge}}).sign(), -1);
-  EXPECT_EQ(exact_sum({{huge, huge, huge, -huge}, {tiny, tiny, tiny, tiny}, {huge, huge, huge, huge}}).sign(), 1);
+  EXPECT_EQ(exact_sum({{huge, huge, huge, -huge}, {tiny, tiny, tiny, tiny}, {huge, huge, huge, huge}}).sign(),
+            1);
   EXPECT_TRUE(exact_sum({{huge, huge, huge}, {tiny, 0, tiny}, {-huge, huge, huge}}).is_exact_zero());
   EXPECT_TRUE(exact_sum({}).is_exact_zero());
 }
