@@ -155,7 +155,7 @@ std::string duty_of_project(const StageHeader& header) {
 struct Beginning {
   TextKind kind = TextKind::unknown;
   LineScanner first_line;
-  bool is_one_triangle = false;  // three lines, and none or a blank one behind them
+  bool is_one_triangle = false;  // three lines, and a blank one behind them
 };
 
 Beginning beginning_of(TextReader& text) {
@@ -174,7 +174,7 @@ Beginning beginning_of(TextReader& text) {
     lines.emplace_back().reserve(4);
     while (!line.at_end()) lines.back().push_back(line.word());
   }
-  return {kind_by_lines(lines), first, lines.size() == 3 || is_blank_after_three};
+  return {kind_by_lines(lines), first, is_blank_after_three};
 }
 
 }  // namespace

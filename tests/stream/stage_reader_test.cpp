@@ -379,7 +379,10 @@ TEST(StageReader, ATextThatEndsInsideATriangleIsAnError) {
 }
 
 TEST(StageReader, NamesTheNumberThatIsWrongInAVertex) {
-  EXPECT_EQ(error_of("0 0 0\n1 0,5 0\n0 1 0\n"), "in.txt:2:3: expected the y of vertex 2 of 3, found '0,5'");
+  EXPECT_EQ(
+      error_of("0 0 0\n1 0,5 0\n0 1 0\n"),
+      "in.txt:2:3: expected the y of vertex 2 of 3, found '0,5' (decimals have a point, and blanks stand "
+      "between numbers)");
   EXPECT_EQ(error_of("-nan 0 0\n"), "in.txt:1:1: expected the x of vertex 1 of 3, found '-nan'");
   EXPECT_EQ(error_of("0 0 0\n1 0 0\n0 1\n"),
             "in.txt:3:4: expected the z of vertex 3 of 3, found the end of the line");

@@ -134,7 +134,7 @@ TEST(TextReader, HalfAByteOrderMarkIsAPartOfAWord) {
 
 TEST(TextReader, ANulByteIsAPartOfAWord) {
   EXPECT_EQ(error_of_number(std::string("1\0 2", 4)),
-            "in.txt:1:1: expected the x of the eye, found '1\\x00'");
+            "in.txt:1:1: expected the x of the eye, found '1\\x00' (is this UTF-16? save it as UTF-8)");
 }
 
 TEST(TextReader, ANulByteAloneIsNotABlankLine) {
@@ -426,7 +426,9 @@ TEST(LineScanner, ReadsNumbersInEveryDecimalForm) {
 }
 
 TEST(LineScanner, LocatesABadNumber) {
-  EXPECT_EQ(error_of_number("  1,5 2"), "in.txt:1:3: expected the x of the eye, found '1,5'");
+  EXPECT_EQ(error_of_number("  1,5 2"),
+            "in.txt:1:3: expected the x of the eye, found '1,5' (decimals have a point, and blanks stand "
+            "between numbers)");
 }
 
 TEST(LineScanner, WhatOnlyLooksLikeANumberIsAnError) {

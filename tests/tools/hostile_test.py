@@ -143,11 +143,12 @@ class Hostile(ToolTest):
             pathlib.Path("config.txt").write_text("8 8\n")
             done = run(tool, *["config.txt"] * (tool in DRAWING), stdin=text)
             self.assert_fails(done, 1,
-                              rf"{tool}: <stdin>:{line}:3: expected the y of vertex 1 of 3, found '0\x00'")
+                              rf"{tool}: <stdin>:{line}:3: expected the y of vertex 1 of 3, found '0\x00' "
+                              "(is this UTF-16? save it as UTF-8)")
         pathlib.Path("config.txt").write_text("8 8\0\n")
         self.assert_fails(
             run("zbuf", "config.txt"), 1, "zbuf: config.txt:1:3: expected the height in pixels, "
-            r"a whole number from 1 to 65535, found '8\x00'")
+            r"a whole number from 1 to 65535, found '8\x00' (is this UTF-16? save it as UTF-8)")
 
     def test_a_byte_order_mark_is_skipped_at_the_beginning_alone(self):
         self.assert_quiet_success(run("model", stdin=b"\xef\xbb\xbf" + SCENE.encode()))

@@ -43,12 +43,14 @@ add_claims(SceneMessages, [
     ("nan is no number", "0 nan 5\n", "1:3: expected the y of the eye, found 'nan'"),
     ("inf is no number", "0 0 -inf\n", "1:5: expected the z of the eye, found '-inf'"),
     ("hexadecimal is no number", "0x10 0 5\n", "1:1: expected the x of the eye, found '0x10'"),
-    ("a comma is no decimal point", "1,5 0 5\n", "1:1: expected the x of the eye, found '1,5'"),
+    ("a comma is no decimal point", "1,5 0 5\n",
+     "1:1: expected the x of the eye, found '1,5' (decimals have a point, and blanks stand between numbers)"),
     ("letters behind a number are a mistake", "1.5abc 0 5\n",
      "1:1: expected the x of the eye, found '1.5abc'"),
     ("a number may be too large", "0 0 1e309\n",
      "1:5: expected the z of the eye within a double's range, found '1e309'"),
-    ("a NUL byte is no blank", "0\x000 5\n", "1:1: expected the x of the eye, found '0\\x000'"),
+    ("a NUL byte is no blank", "0\x000 5\n",
+     "1:1: expected the x of the eye, found '0\\x000' (is this UTF-16? save it as UTF-8)"),
     ("bytes beyond ASCII are shown in hexadecimal", "\xa05 0 5\n",
      "1:1: expected the x of the eye, found '\\xa05'"),
     ("long words are cut", "x" * 100 + "\n", "1:1: expected the x of the eye, found '" + "x" * 40 + "...'"),
@@ -453,7 +455,7 @@ class VertexPlaces(ToolTest):
             (lost + lights + "pop\n" + triangles, [
                 f"10:7: the digits of this light {beyond}"]), (lost + 3 * lights + "pop\n" + triangles, [
                     f"10:7: the digits of this light and of 2 more {beyond}"
-                ]), (triangles + lost + "scale 0 0 1\ntriangle\n0 0 0\n0 0 0\n0 0 0\n", [
+                ]), (triangles + lost + "scale 0 0 1\ntriangle\n0 0 0\n0 0 0\n0 0 0\npop\n", [
                     f"16:1: the digits of this vertex and of 2 more {beyond}"]),
                 # Enough for more than one part of a text; what stands behind it takes the parts back.
             (lost + lights + 3000 * triangles + "pop\n" + triangles, [
