@@ -42,7 +42,7 @@ class Layers:
         step += 0 if setting.digits == "exact" else 10.0**-int(setting.digits)
         if self.is_parallel:
             return step * (self.far - self.near) / 2
-        # A depth is z = (far + near - 2 far near / distance) / (far - near): the distance is scale / remaining.
+        # The distance, of z = (far + near - 2 far near / distance) / (far - near), is scale / remaining.
         scale = 2 * self.far * self.near / (self.far - self.near)
         remaining = 2 * self.near / (self.far - self.near) + 1 - self.z
         return scale * step / remaining / (remaining + step)
