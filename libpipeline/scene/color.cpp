@@ -33,6 +33,7 @@ std::uint32_t hexadecimal_digit(char c) {
 }  // namespace
 
 std::optional<Color> parse_color(std::string_view word) {
+  if (word.starts_with("0x")) word.remove_prefix(2);
   const bool has_alpha = word.size() == 8;
   if (word.size() != 6 && !has_alpha) return std::nullopt;
   std::uint32_t digits = 0;

@@ -340,7 +340,7 @@ class EmptyPictures(ToolTest):
         parallel camera touches the one at 5 - sqrt((9 + 1) / 2)."""
         camera, words = self.CAMERA.replace(
             "90 1 1 100", "ortho -10 5 -10 10 1 100"), "rotate 45 0 0 1\nscale 3 1 1\nsphere 0 0 0 1\n"
-        window = "150 40\n-1\n-1\n-1 1\n"  # 0.1 a pixel
+        window = "150 200\n-1\n-1\n-1 1\n"  # 0.1 a pixel
         reach = math.sqrt(5)
         self.expect("", f"translate {5 + reach - 0.2} 0 0\n" + words, camera=camera, config=window,
                     options=["--no-shadows"])

@@ -20,6 +20,7 @@
 #include "tools/zbuf/depth_files.h"
 #include "tools/zbuf/fragment_report.h"
 #include "tools/zbuf/image_rows.h"
+#include "tools/zbuf/screen.h"
 #include "tools/zbuf/surface_shading.h"
 
 namespace pipeline {
@@ -179,7 +180,10 @@ void trace(Tool& tool, const TraceOptions& chosen, const Viewport& screen, Stati
                ? invisible_light_note(shown_light, background, setup.model != ShadingModel::none)
                : std::nullopt;
   }();
-  if (note) tool.note(*note);
+  if (note)
+    tool.note(*note);
+  else if (const auto squeezed = squeezed_note(scene.given_projection(), screen))
+    tool.note(*squeezed);
 }
 
 }  // namespace pipeline

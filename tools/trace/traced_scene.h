@@ -30,6 +30,8 @@ class TracedScene {
   [[nodiscard]] const StageHeader& header() const { return header_; }
   [[nodiscard]] const SourceLocation& header_end() const { return reader_.header_end(); }
   [[nodiscard]] const ProjectionTransform& projection() const { return projection_; }
+  /// As the header or the options give it.
+  [[nodiscard]] const Projection& given_projection() const { return given_.value; }
   [[nodiscard]] const TracedTriangles& triangles() const { return triangles_; }
   [[nodiscard]] ExactProjection& exact() { return exact_; }
   [[nodiscard]] const ViewReport& view() const { return view_; }

@@ -23,6 +23,7 @@
 #include "tools/zbuf/drawing_report.h"
 #include "tools/zbuf/fragment_report.h"
 #include "tools/zbuf/image_rows.h"
+#include "tools/zbuf/screen.h"
 #include "tools/zbuf/seen_file.h"
 #include "tools/zbuf/surface_shading.h"
 #include "tools/zbuf/triangle_store.h"
@@ -229,12 +230,15 @@ void write_all(Tool& tool, const ZbufOptions& chosen, const SampledVisible<Visib
   tool.timing().lap(&Timing::write_seconds);
 }
 
-/// The note is about the whole picture; a band of it may well show nothing.
-void note_empty_picture(const Tool& tool, const DrawingReport& report, const Viewport& screen,
-                        const std::optional<SurfaceShader>& shader) {
+/// That the picture is empty, or squeezed. The note is about the whole picture; a band of it may well show
+/// nothing.
+void note_odd_picture(const Tool& tool, const DrawingReport& report, const Viewport& screen,
+                      const std::optional<SurfaceShader>& shader,
+                      const std::optional<Located<Projection>>& projected) {
   std::optional<std::string> note = report.empty_picture_note();
   const bool is_whole = screen.drawn_row_count() == screen.rows;
   if (!note && shader && is_whole) note = invisible_colors_note(*shader);
+  if (!note && projected) note = squeezed_note_of_projected(projected->value, screen);
   if (note) tool.note(*note);
 }
 
@@ -280,7 +284,7 @@ void render_with(Tool& tool, const ZbufOptions& chosen, const Viewport& screen, 
   statistics.commit();
   if (chosen.has_image()) {
     if (const auto note = opaque_note(reader.header().appearance)) tool.note(*note);
-    note_empty_picture(tool, *report, screen, shader);
+    note_odd_picture(tool, *report, screen, shader, reader.header().projected);
   }
 }
 

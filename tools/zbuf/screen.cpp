@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <string>
 #include <system_error>
+#include <variant>
 
 #include "libpipeline/stream/text_kind.h"
 
@@ -26,18 +27,39 @@ bool is_config(const std::string& path) {
   return kind_of(file.text()) == TextKind::config;
 }
 
+std::string times_as_wide(double stretch) {
+  std::array<char, 32> times{};
+  std::snprintf(times.data(), times.size(), "%.3g", stretch);
+  return std::string(times.data()) + " times as wide as high: ";
+}
+
+std::string size_option(double columns, double rows) {
+  const auto count = [](double pixels) {
+    return std::to_string(std::lround(std::clamp(pixels, 1.0, static_cast<double>(kMaxViewportSize))));
+  };
+  return "--size " + count(columns) + "x" + count(rows);
+}
+
 /// Why a picture at another size shows other shapes than at the config's; none if it does not.
 std::optional<std::string> stretch_note(const Viewport& of_config, const Viewport& screen) {
   const double stretch = static_cast<double>(screen.columns) * of_config.rows /
                          (static_cast<double>(screen.rows) * of_config.columns);
   if (std::abs(std::log(stretch)) <= std::log(1 + kLeastStretch)) return std::nullopt;
   const long rows = std::lround(static_cast<double>(screen.columns) * of_config.rows / of_config.columns);
-  std::array<char, 32> times{};
-  std::snprintf(times.data(), times.size(), "%.3g", stretch);
   return "a square of the config's " + std::to_string(of_config.columns) + " x " +
-         std::to_string(of_config.rows) + " picture is drawn " + times.data() +
-         " times as wide as high: --size " + std::to_string(screen.columns) + "x" +
-         std::to_string(std::clamp(rows, 1L, static_cast<long>(kMaxViewportSize))) + " keeps its shape";
+         std::to_string(of_config.rows) + " picture is drawn " + times_as_wide(stretch) +
+         size_option(screen.columns, static_cast<double>(rows)) + " keeps its shape";
+}
+
+/// Width by height of what a projection shows between -1 and 1; none for a perspective by the rule angle.
+std::optional<double> shape_of(const Projection& projection) {
+  if (const auto* perspective = std::get_if<Perspective>(&projection)) {
+    if (perspective->aspect_rule == AspectRule::angle) return std::nullopt;
+    return perspective->aspect;
+  }
+  const auto shape = [](const auto& p) { return std::abs((p.right - p.left) / (p.top - p.bottom)); };
+  if (const auto* frustum = std::get_if<Frustum>(&projection)) return shape(*frustum);
+  return shape(std::get<Orthographic>(projection));
 }
 
 }  // namespace
@@ -70,6 +92,27 @@ Viewport read_screen(Tool& tool, const ZbufOptions& chosen, const NamedFile& con
     throw std::runtime_error(std::string(error.what()) + " (did you mean --size " + chosen.config_path +
                              "?)");
   }
+}
+
+std::optional<std::string> squeezed_note(const Projection& projection, const Viewport& screen) {
+  const std::optional<double> of_camera = shape_of(projection);
+  if (!of_camera) return std::nullopt;
+  const double shape = *of_camera * (screen.left / screen.bottom);
+  // Half a pixel more or less in either direction.
+  if (std::abs(screen.columns - shape * screen.rows) <= (1 + shape) / 2) return std::nullopt;
+  const double columns = shape * screen.rows;
+  const std::string option = columns <= kMaxViewportSize
+                                 ? size_option(columns, screen.rows)
+                                 : size_option(screen.columns, screen.columns / shape);
+  return "a square is drawn " + times_as_wide(screen.columns / columns) + option +
+         " has the shape of the camera's window";
+}
+
+std::optional<std::string> squeezed_note_of_projected(const Projection& projected, const Viewport& screen) {
+  const auto* frustum = std::get_if<Frustum>(&projected);
+  if (frustum != nullptr && frustum->left == -frustum->right && frustum->bottom == -frustum->top)
+    return std::nullopt;
+  return squeezed_note(projected, screen);
 }
 
 }  // namespace pipeline

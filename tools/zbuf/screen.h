@@ -1,5 +1,9 @@
 #pragma once
 
+#include <optional>
+#include <string>
+
+#include "libpipeline/scene/camera.h"
 #include "libpipeline/scene/config.h"
 #include "tools/rim/tool.h"
 #include "tools/zbuf/zbuf_options.h"
@@ -14,5 +18,12 @@ NamedFile config_of(Tool& tool, const ZbufOptions& chosen);
 /// note if that stretches the picture. A UsageError if there is neither; an InputError or IoError of the
 /// config.
 Viewport read_screen(Tool& tool, const ZbufOptions& chosen, const NamedFile& config);
+
+/// The note on a picture whose shape parts from its camera's by more than whole pixels explain, so that no
+/// square is square. None for a perspective whose aspect is one of angles: then squares need not be.
+std::optional<std::string> squeezed_note(const Projection& projection, const Viewport& screen);
+/// The same for what project has done, which does not tell the rule of a perspective's aspect: none for a
+/// window around the middle.
+std::optional<std::string> squeezed_note_of_projected(const Projection& projected, const Viewport& screen);
 
 }  // namespace pipeline
