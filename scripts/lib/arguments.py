@@ -1,5 +1,6 @@
 """The command line of a script: how --help looks, and how errors in it are reported."""
 import argparse
+import difflib
 import itertools
 import os
 import re
@@ -53,6 +54,11 @@ class CommandParser(argparse.ArgumentParser):
         return super().parse_args(*arguments)
 
     def error(self, message):
+        if message.startswith("unrecognized arguments: "):
+            word = message.split()[2].split("=")[0]
+            known = [name for action in self._actions for name in action.option_strings]
+            for name in difflib.get_close_matches(word, known, 1):
+                message += f" (did you mean {name}?)"
         self.exit(2, f"{self.prog}: {message} (try {self.prog} --help)\n")
 
     def expect_separate(self, options, *outputs, inputs=()):

@@ -89,10 +89,15 @@ class Picture(ToolTest):
         self.assertEqual((done.returncode, done.stderr.splitlines()[-1]),
                          (2, "picture: --no-shadows is for trace: it needs --trace (try picture --help)"))
 
-    def test_a_note_is_passed_on(self):
+    def test_a_note_is_passed_on_with_the_models_box(self):
+        corners = [line.split()[1:4] for line in pathlib.Path("vase.obj").read_text().splitlines()
+                   if line.startswith("v ")]
+        columns = [[float(word) for word in column] for column in zip(*corners)]
+        low, high = (" ".join(f"{side(column):.4g}" for column in columns) for side in (min, max))
         self.assertEqual(
             picture("vase.obj", "-o", "one.png").stderr,
-            "mesh2scene: note: y is taken for up, as in most OBJ files (--up-axis chooses)\n")
+            f"mesh2scene: note: y is taken for up, as in most OBJ files (--up-axis chooses); it reaches from "
+            f"{low} to {high} (--at looks elsewhere, --zoom closer)\n")
 
     def test_of_failures_the_cause_is_told_alone(self):
         pathlib.Path("broken.obj").write_text("v 0 0\n")
@@ -119,24 +124,49 @@ class Picture(ToolTest):
             self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (1, "", 1), done.stderr)
             self.assertTrue(done.stderr.startswith(reason), done.stderr)
 
-    def test_for_a_scene_the_message_is_what_draws_it(self):
-        pathlib.Path("my scene.txt").write_text(
-            "# mine\n\n0 0 5  # eye\n0 0 0\n0 1 0\n60 1 1 100 ratio\ntriangle\n0 0 0\n1 0 0\n0 1 0\nend\n")
-        for words, drawn in (([], ["project", "zbuf --coverage center --samples 3 --size 60x60"]), ([
-                "--trace", "--samples", "2"], ["trace --size 60x60 --samples 2"])):
-            done = picture("my scene.txt", "--size", "60x60", *words, "-o", "one.png")
-            start, _, line = done.stderr.partition(", which takes: ")
-            self.assertEqual((done.returncode, done.stdout, start),
-                             (1, "", "picture: expected a model file, found the scene my scene.txt"))
-            self.assertFalse(pathlib.Path("one.png").exists())
-            subprocess.run(["sh", "-c", line], check=True,
-                           env={**os.environ, "PATH": f"{BIN}:{os.environ['PATH']}"})
-            scene = pathlib.Path("my scene.txt").read_bytes()
-            pipe(["model"], ["view"],
-                 *([*stage.split(), *(["--image", "two.png"] if stage != "project" else [])]
-                   for stage in drawn), stdin=scene)
-            self.assertEqual(pathlib.Path("one.png").read_bytes(), pathlib.Path("two.png").read_bytes())
-            pathlib.Path("one.png").unlink()
+    def test_a_scene_is_drawn_with_its_own_camera(self):
+        """At the size that is asked for, else the config's beside it, else in the camera's shape."""
+        os.mkdir("beside")
+        os.mkdir("alone")
+        pathlib.Path("beside/config.txt").write_text("40 30\n-1\n-0.5\n-1 1\n")
+        for folder, camera, words, drawn in (
+                ("alone", "60 2 1 100 ratio", [],
+                 ["project", "zbuf --coverage center --samples 3 --size 1200x600"]),
+                ("alone", "ortho -1 1 -2 2 1 9", ["--trace"], ["trace --samples 3 --size 600x1200"]),
+                (".", "60 1 1 100", ["--size", "60x60", "--background", "ff000080"],
+                 ["project", "zbuf --coverage center --samples 3 --size 60x60 --background ff000080"]),
+                ("beside", "60 1 1 100", ["--shading", "none"],
+                 ["project", "zbuf beside/config.txt --coverage center --samples 3 --shading none"])):
+            scene = f"# mine\n\n0 0 5  # eye\n0 0 0\n0 1 0\n{camera}\ntriangle\n0 0 0\n1 0 0\n0 1 0\nend\n"
+            pathlib.Path(folder, "my scene.txt").write_text(scene)
+            done = picture(f"{folder}/my scene.txt", *words, "-o", "one.png")
+            self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "", ""))
+            image = ["--z-buffer", "none", "--image", "two.png"]
+            pipe(["model"], ["view"], *([*stage.split(), *(image if stage != "project" else [])]
+                                        for stage in drawn), stdin=scene.encode())
+            one, two = (pathlib.Path(name).read_bytes() for name in ("one.png", "two.png"))
+            self.assertEqual(one, two, camera)
+
+    def test_a_scene_keeps_its_camera_and_colors(self):
+        pathlib.Path("scene.txt").write_text("0 0 5\n0 0 0\n0 1 0\n60 1 1 100\nend\n")
+        for words in (["--zoom", "2"], ["--at", "0", "0", "0"], ["--color", "ff0000"]):
+            done = picture("scene.txt", *words, "-o", "one.png")
+            self.assertEqual((done.returncode, done.stderr), (
+                2, f"picture: expected a model for {words[0]}, found the scene scene.txt, which has its own "
+                "camera and colors (try picture --help)\n"))
+
+    def test_what_mesh2scene_takes_is_passed_on(self):
+        words = ["--at", "0", "-1", "0.5", "--zoom", "2", "--color", "ff0000", "--size", "60x45"]
+        picture("vase.obj", *words, "--background", "00000000", "--stages", "kept", "-o", "one.png")
+        self.assertEqual(
+            pathlib.Path("kept/scene.txt").read_bytes(), run("mesh2scene", *words, "vase.obj").stdout)
+        image = pathlib.Path("one.png").read_bytes()
+        self.assertEqual(image[25], 6)  # the color type: with an alpha
+
+    def test_a_misspelt_option_names_the_nearest(self):
+        done = picture("vase.obj", "--bakground", "00000000", "-o", "one.png")
+        self.assertEqual(done.stderr, "picture: unrecognized arguments: --bakground 00000000 (did you mean "
+                         "--background?) (try picture --help)\n")
 
 
 if __name__ == "__main__":

@@ -943,11 +943,13 @@ class Notes(ToolTest):
 
     def test_which_way_is_up(self):
         pathlib.Path("box.obj").write_text(BOX)
-        pathlib.Path("box.stl").write_bytes(FORMATS["stl"](vase(1)))
-        for name, note in (
-            ("box.obj", "mesh2scene: note: y is taken for up, as in most OBJ files (--up-axis chooses)\n"),
-            ("box.stl", "mesh2scene: note: z is taken for up, as in most STL files (--up-axis chooses)\n")):
-            self.assertEqual(run("mesh2scene", name).stderr.decode(), note)
+        pathlib.Path("leaf.stl").write_text("solid\nfacet normal 0 0 1\nouter loop\nvertex -2 0.125 0\n"
+                                            "vertex 1e9 0 3\nvertex 0 1 7\nendloop\nendfacet\nendsolid\n")
+        for name, axis, box in (("box.obj", "y", "0 0 0 to 1 1 1"), ("leaf.stl", "z", "-2 0 0 to 1e+09 1 7")):
+            self.assertEqual(
+                run("mesh2scene", name).stderr.decode(),
+                f"mesh2scene: note: {axis} is taken for up, as in most {name[-3:].upper()} files (--up-axis "
+                f"chooses); it reaches from {box} (--at looks elsewhere, --zoom closer)\n")
             self.assertEqual(run("mesh2scene", "--up-axis", "x", name).stderr.decode(), "")
 
 

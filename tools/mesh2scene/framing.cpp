@@ -75,20 +75,27 @@ void Framing::add(const Vec3& p) {
 // An eye at (x, y, z) sees a point (a, b, c) within the share if |a - x| <= slope_x (z - c) and |b - y| <=
 // slope_y (z - c): a + slope_x c <= x + slope_x z and -a + slope_x c <= -x + slope_x z. Added up, they give
 // the least z.
-FramingCamera Framing::camera() const {
+FramingCamera Framing::camera(const std::optional<Vec3>& at, double zoom) const {
   const double x = (right_ - left_) / 2, y = (top_ - bottom_) / 2;
   const double z = std::max((right_ + left_) / (2 * slope_x_), (top_ + bottom_) / (2 * slope_y_));
   const double middle = nearest_ + (farthest_ - nearest_) / 2;
-  const auto at = [&](double depth) {
+  const auto on_axis = [&](double depth) {
     return sum(sum(scaled(axes_.right, x), scaled(axes_.up, y)), scaled(axes_.back, depth));
   };
   FramingCamera camera;
-  camera.eye = at(z);
-  camera.look = at(middle);
+  camera.eye = on_axis(z);
+  camera.look = on_axis(middle);
   camera.up = axes_.up;
   camera.distance = z - middle;
-  camera.far = (z - farthest_) + kDepthMargin * camera.distance;
-  camera.near = std::max((z - nearest_) * kDepthMargin, camera.far / kMostDepth);
+  double eye_depth = z;
+  if (at || zoom != 1) {
+    if (at) camera.look = *at;
+    camera.distance /= zoom;
+    camera.eye = sum(camera.look, scaled(axes_.back, camera.distance));
+    eye_depth = dot(camera.eye, axes_.back);
+  }
+  camera.far = (eye_depth - farthest_) + kDepthMargin * camera.distance;
+  camera.near = std::max((eye_depth - nearest_) * kDepthMargin, camera.far / kMostDepth);
   return camera;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -36,8 +37,8 @@ class Framing {
   Framing(const ViewAxes& axes, double fov_y_degrees, double aspect, double share);
 
   void add(const Vec3& p);
-  /// For points that do not all coincide.
-  [[nodiscard]] FramingCamera camera() const;
+  /// For points that do not all coincide. With `at`, it looks there instead; `zoom` divides its distance.
+  [[nodiscard]] FramingCamera camera(const std::optional<Vec3>& at = std::nullopt, double zoom = 1) const;
 
  private:
   ViewAxes axes_;

@@ -1,8 +1,13 @@
 // mesh2scene: a model file (OBJ, STL, PLY, glTF, ...) in, a scene with camera and lights out.
 
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <limits>
 #include <memory>
 #include <optional>
 
+#include "libpipeline/scene/color.h"
 #include "libpipeline/scene/config.h"
 #include "libpipeline/text/number_parser.h"
 #include "libpipeline/text/number_printer.h"
@@ -19,7 +24,8 @@ namespace {
 
 struct Options {
   std::string size = "800x600";
-  std::vector<std::string> eye_from;
+  std::vector<std::string> eye_from, at;
+  std::string color;
   double crease_degrees = 60;
   bool as_nodes = false;
   int most_megabytes = 1000;
@@ -46,7 +52,20 @@ void add_options(CommandLine& options, Options& chosen) {
   options.add_choice<std::optional<UpAxis>>(
       "--up-axis", chosen.up, {{"x", UpAxis::x}, {"y", UpAxis::y}, {"z", UpAxis::z}},
       "The axis that is up in the picture. Without the option: z for STL, 3DS and 3MF, else y");
+  options.add_words("--at", 3, "X Y Z", chosen.at,
+                    "Look at this point of the model, in its own numbers, in place of its middle");
+  options.add_number(
+      "--zoom", "F", chosen.view.zoom, [](double value) { return value >= 0.01 && value <= 1000; },
+      "0.01 to 1000", "Bring the eye so many times nearer");
   options.begin_group("Triangles");
+  options.add_word("--color", "RRGGBB", chosen.color,
+                   "The color of everything, six hexadecimal digits, in place of the model's colors",
+                   [](const std::string& word) {
+                     const auto color = parse_color(word);
+                     return color && color->alpha() == 255
+                                ? std::string()
+                                : expected_but_found("RRGGBB, hexadecimal digits", pipeline::quoted(word));
+                   });
   options.add_number(
       "--crease", "DEGREES", chosen.crease_degrees, [](double value) { return value >= 0 && value <= 175; },
       "0 to 175", "Where the file has no normals: an edge stays sharp if its sides meet at more than this");
@@ -88,6 +107,20 @@ const char* name_of(UpAxis axis) {
   return axis == UpAxis::x ? "x" : axis == UpAxis::y ? "y" : "z";
 }
 
+/// "it reaches from X Y Z to X Y Z (--at looks elsewhere, --zoom closer)", with four digits.
+std::string extent_of(const ImportedModel& model) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  Vec3 low = {kInfinity, kInfinity, kInfinity}, high = {-kInfinity, -kInfinity, -kInfinity};
+  model.for_each_corner([&](const Vec3& p) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  });
+  std::array<char, 128> text{};
+  std::snprintf(text.data(), text.size(), "it reaches from %.4g %.4g %.4g to %.4g %.4g %.4g", low.x, low.y,
+                low.z, high.x, high.y, high.z);
+  return std::string(text.data()) + " (--at looks elsewhere, --zoom closer)";
+}
+
 /// Formats that define which axis is up, or for which assimp turns the model.
 bool defines_up(const std::string& extension) {
   return extension == "GLTF" || extension == "GLB" || extension == "DAE" || extension == "FBX";
@@ -113,11 +146,17 @@ int main(int argc, char** argv) {
     const std::string name = path == "-" ? "<stdin>" : path;
     const std::string extension = extension_of(path);
     const CommandLine& options = tool.options();
-    const bool chooses_view = options.is_given("--eye-from") || options.is_given("--fov") || chosen.up;
+    const bool chooses_view = options.is_given("--eye-from") || options.is_given("--fov") || chosen.up ||
+                              options.is_given("--at") || options.is_given("--zoom");
     chosen.view.up = chosen.up.value_or(usual_up(extension));
     if (!chosen.eye_from.empty()) {
       chosen.view.azimuth_degrees = number_from("--eye-from AZIMUTH", chosen.eye_from[0], -360, 360);
       chosen.view.elevation_degrees = number_from("--eye-from ELEVATION", chosen.eye_from[1], -90, 90);
+    }
+    if (!chosen.at.empty()) {
+      constexpr double kMost = std::numeric_limits<float>::max();  // of assimp's coordinates
+      const auto number = [&](std::size_t i) { return number_from("--at", chosen.at[i], -kMost, kMost); };
+      chosen.view.at = {number(0), number(1), number(2)};
     }
     const Viewport screen = *parse_size(chosen.size);
     chosen.view.aspect = double(screen.columns) / double(screen.rows);
@@ -134,11 +173,16 @@ int main(int argc, char** argv) {
     const bool has_own_view = model.camera() && !chooses_view;
     SceneSetting setting =
         has_own_view ? setting_of_file(model, chosen.view.aspect) : framed_setting(model, chosen.view);
-    for (const std::string& note : model.notes()) tool.note(note);
-    if (!model.ignored().empty()) tool.note(name + ": no scene can hold its " + listed(model.ignored()));
     if (!has_own_view && !chosen.up && !defines_up(extension))
       tool.note(std::string(name_of(chosen.view.up)) + " is taken for up, as in most " +
-                (extension.empty() ? "" : extension + " ") + "files (--up-axis chooses)");
+                (extension.empty() ? "" : extension + " ") + "files (--up-axis chooses); " +
+                extent_of(model));
+    for (const std::string& note : model.notes()) tool.note(note);
+    if (!model.ignored().empty()) tool.note(name + ": no scene can hold its " + listed(model.ignored()));
+    if (const auto color = parse_color(chosen.color)) {
+      setting.color = to_vec3(*color);
+      setting.has_one_color = true;
+    }
     setting.comments = {name + ", " + counted(model.triangle_count(), "triangle") +
                         ", by mesh2scene; zbuf --size " + chosen.size};
     const SceneMaterials materials(model);

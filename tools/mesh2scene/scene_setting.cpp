@@ -71,8 +71,10 @@ SceneSetting framed_setting(const ImportedModel& model, const ViewChoice& view) 
   Framing framing(view_axes(view.up, view.azimuth_degrees, view.elevation_degrees), view.fov_y_degrees,
                   view.aspect, kShare);
   model.for_each_corner([&](const Vec3& p) { framing.add(p); });
-  FramingCamera camera = framing.camera();
+  FramingCamera camera = framing.camera(view.at, view.zoom);
   if (std::fabs(view.elevation_degrees) <= kSteepestWithWorldUp) camera.up = unit_vector_of(view.up);
+  if ((view.at || view.zoom != 1) && std::isfinite(camera.far) && !(camera.far > 0))
+    throw std::runtime_error(model.name() + ": expected a point --at that has the model before the eye");
   if (!(camera.distance > 0) || !std::isfinite(camera.far) || !(camera.near > 0))
     throw std::runtime_error(model.name() +
                              ": expected a model with an extent, found all vertices in one point, or farther "

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,8 +19,9 @@ struct SceneSetting {
   Vec3 ambient;
   /// At points, in the model's space.
   std::vector<ModelLight> lights;
-  /// Of meshes without a color, from 0 to 255.
+  /// Of meshes without a color, from 0 to 255; or of all.
   Vec3 color;
+  bool has_one_color = false;
 };
 
 /// From where a framed model is seen; angles in degrees.
@@ -28,9 +30,11 @@ struct ViewChoice {
   double azimuth_degrees = 30, elevation_degrees = 15;
   double fov_y_degrees = 30;
   double aspect = 0;
+  std::optional<Vec3> at;  // the point looked at, in place of the model's middle
+  double zoom = 1;         // how many times nearer the eye is
 };
 
-/// A camera that frames the model. std::runtime_error if all of its vertices coincide.
+/// A camera that frames the model. std::runtime_error if all of its vertices coincide, or lie behind the eye.
 SceneSetting framed_setting(const ImportedModel& model, const ViewChoice& view);
 /// The file's own camera, which must be there; `aspect` is the picture's, width / height. Both settings take
 /// the file's own lights, and have a key, a fill and an ambient light only if there are none.

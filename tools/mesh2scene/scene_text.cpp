@@ -186,7 +186,7 @@ class SceneWriter {
         setting_(setting),
         materials_(materials),
         out_(out),
-        has_color_columns_(model.has_vertex_colors()) {}
+        has_color_columns_(model.has_vertex_colors() && !setting.has_one_color) {}
 
   void write_setting() {
     for (const std::string& comment : setting_.comments) line("# " + on_one_line(comment));
@@ -238,7 +238,7 @@ class SceneWriter {
   void write(const PlacedMesh& placed) {
     const aiMesh& mesh = *placed.mesh;
     if (mesh.mName.length > 0) line("# " + on_one_line(mesh.mName.C_Str()));
-    const Vec3 color = model_.color(mesh).value_or(setting_.color);
+    const Vec3 color = setting_.has_one_color ? setting_.color : model_.color(mesh).value_or(setting_.color);
     if (!has_color_columns_ && color != color_in_force_) line("color " + text_of(color));
     color_in_force_ = color;
     const std::size_t material = materials_.number_of(mesh);
