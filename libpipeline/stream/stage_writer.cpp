@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <charconv>
 #include <cmath>
 #include <span>
 #include <string_view>
@@ -17,6 +18,11 @@ namespace {
 constexpr std::size_t kMaxVertexLength = 11 * (kMaxNumberLength + 1);
 // "triangle N", three vertex lines and the blank line.
 constexpr std::size_t kMaxTriangleLength = 40 + 3 * kMaxVertexLength + 1;
+
+/// Prints all digits: readers take no exponent here.
+char* print_material(char* out, std::uint32_t material) {
+  return std::to_chars(out, out + kMaxNumberLength, material).ptr;
+}
 
 void print_numbers(TextWriter& text, std::string_view keyword, std::initializer_list<double> numbers) {
   text.append(keyword);
@@ -242,7 +248,7 @@ void StageWriter::write_clipped(const ClipTriangle& unclipped, const AttributeAr
     print({p.x, p.y, p.z, w});
     if (columns_.color) print({color.x, color.y, color.z});
     if (columns_.normal) print({normal.x, normal.y, normal.z});
-    if (columns_.material) print({static_cast<double>(attributes.materials[index])});
+    if (columns_.material) out = print_material(out, attributes.materials[index]) + 1;
     out[-1] = '\n';
     text_.commit(out);
   }
@@ -272,7 +278,7 @@ char* StageWriter::print_attributes(char* out, const AttributeArrays& attributes
   if (columns.normal) print_vec3(attributes.normals[index][vertex]);
   if (columns.material) {
     *out++ = ' ';
-    out = print_number(out, attributes.materials[index], 0, {.shortest = true});
+    out = print_material(out, attributes.materials[index]);
   }
   return out;
 }

@@ -92,6 +92,14 @@ TEST(StageText, MaterialsComeBackAsTheyWereInBlocksAndLineByLine) {
   EXPECT_EQ(copy_of(shortest, {.decimals = 2}, false), header + text);
 }
 
+TEST(StageText, AMaterialHasNoExponent) {
+  std::string text = "attributes material\n";
+  for (int i = 0; i <= 100'000; ++i) text += "material 1 1 0 1\n";
+  const std::string digits = "." + std::string(20, '0');  // more than fast paths print
+  for (int vertex = 0; vertex < 3; ++vertex) text += "1" + digits + " 2" + digits + " 3" + digits + " 100000\n";
+  EXPECT_EQ(copy_of(text + "\n", {.decimals = 20}, false), text + "\n");
+}
+
 TEST(StageText, BareTextHasNoColumns) {
   EXPECT_EQ(copy_of(kLooks + kFullTriangle, {.decimals = 0}, true), "1 2 3\n4 5 6\n7 8 9\n\n");
 }
