@@ -96,7 +96,8 @@ TEST(StageText, AMaterialHasNoExponent) {
   std::string text = "attributes material\n";
   for (int i = 0; i <= 100'000; ++i) text += "material 1 1 0 1\n";
   const std::string digits = "." + std::string(20, '0');  // more than fast paths print
-  for (int vertex = 0; vertex < 3; ++vertex) text += "1" + digits + " 2" + digits + " 3" + digits + " 100000\n";
+  for (int vertex = 0; vertex < 3; ++vertex)
+    text += "1" + digits + " 2" + digits + " 3" + digits + " 100000\n";
   EXPECT_EQ(copy_of(text + "\n", {.decimals = 20}, false), text + "\n");
 }
 

@@ -174,7 +174,7 @@ class Answers(ToolTest):
     def test_help_has_its_options_in_groups(self):
         groups = {
             "model": ["Numbers", "Output"],
-            "view": ["Numbers", "Camera", "Output"],
+            "view": ["Numbers", "Camera", "Light", "Output"],
             "project": ["Numbers", "Projection", "Clipping", "Output"],
             "zbuf": ["Output", "Pixels", "Color and light", "Debugging"],
             "trace": ["Output", "Projection", "Pixels", "Color and light", "Debugging"],
@@ -299,6 +299,25 @@ class NumbersOfTriangles(ToolTest):
             pictures.append(pathlib.Path("out.ppm").read_bytes())
         self.assertNotEqual(pictures[0], pictures[1])
         self.assertEqual(pictures[1], pictures[2])
+
+
+class OneLightMore(ToolTest):
+    def test_it_comes_behind_those_of_the_scene(self):
+        triangle = "triangle\n1 2 3\n4 5 6\n7 8 9\nend\n"
+        for own in ("", "light 7 8 9 0.5 0.5 0.5\n"):
+            added = pipe(["model"], ["view", "--light", "1e2", "-2", ".5", "1", "0", "0.25"],
+                         stdin=CAMERA + own + triangle)
+            written = pipe(["model"], ["view"],
+                           stdin=CAMERA + own + "light 100 -2 0.5 1 0 0.25\n" + triangle)
+            self.assertEqual(added, written)
+
+    def test_it_needs_a_header_and_six_numbers(self):
+        light = ["--light", "1", "2", "3", "1", "1"]
+        self.assert_fails(run("view", "--bare", *light, "1"), 2,
+                          "view: expected --bare or --light, found both (try view --help)")
+        self.assert_fails(run("view", *light, "-1", stdin=HEADER), 2,
+                          "view: --light: expected the blue of the light of at least 0, found '-1' "
+                          "(try view --help)")
 
 
 class CameraPrecedence(ToolTest):

@@ -84,6 +84,19 @@ CameraParameters CameraOptions::camera(const CameraParameters& header, const Too
   return camera;
 }
 
+LightOption::LightOption(CommandLine& options) {
+  options.begin_group("Light");
+  options.add_words("--light", 6, "X Y Z R G B", words_,
+                    "Add a light at a point in world space; an intensity of 1 1 1 is full and white");
+}
+
+void LightOption::add_to(Appearance& appearance) const {
+  if (!is_given()) return;
+  const std::string text = joined(words_), name = "--light";
+  LineScanner line(text, name, 0);
+  read_appearance_part("light", {name}, line, AttributeSource::stage_text, appearance);
+}
+
 ProjectionOptions::ProjectionOptions(CommandLine& options)
     : camera_(options, CameraOptions::Parts::projection) {
   options.add_choice<std::optional<AspectRule>>(

@@ -47,6 +47,19 @@ class CameraOptions {
   std::string scene_path_;
 };
 
+/// `--light`, one light more.
+class LightOption {
+ public:
+  explicit LightOption(CommandLine& options);
+
+  [[nodiscard]] bool is_given() const { return !words_.empty(); }
+  /// Adds the light, if it is given; an InputError, located at the option, if a number is wrong.
+  void add_to(Appearance& appearance) const;
+
+ private:
+  std::vector<std::string> words_;
+};
+
 /// The projection as options, `--scene`, and `--aspect`, which says how a perspective's aspect is meant.
 class ProjectionOptions {
  public:

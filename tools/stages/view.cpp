@@ -48,12 +48,14 @@ int main(int argc, char** argv) {
             OutputKind::stage_text);
   NumberOptions numbers(tool.options());
   CameraOptions cameras(tool.options(), CameraOptions::Parts::position_and_projection);
+  const LightOption light(tool.options());
   bool bare = false;
   tool.options().begin_group("Output");
   tool.options().add_flag("--bare", bare, "Write the triangles alone (stage2.txt)");
   Statistics statistics(tool.options());
 
   return tool.run(argc, argv, [&] {
+    if (bare && light.is_given()) throw UsageError(expected_but_found("--bare or --light", "both"));
     tool.expect_separate({kStandardOutput, statistics.output()}, {cameras.scene()});
     expect_kind(tool.input(), TextKind::world);
     StageReader reader(tool.input());
@@ -63,10 +65,12 @@ int main(int argc, char** argv) {
     const ViewTransform view = view_of(camera, reader);
     const VertexTransform to_view(view);
     const NormalTransform normal_to_view(view);
+    Appearance appearance = reader.header().appearance;
+    light.add_to(appearance);
     StageWriter writer(tool.output(), numbers.format(), bare);
     UncertainDigits uncertain_lights;
     writer.write_header({reader.header().framed, without_position(camera),
-                         in_view_space(reader.header().appearance, view, uncertain_lights)});
+                         in_view_space(std::move(appearance), view, uncertain_lights)});
 
     CoordinateRounder rounder = numbers.rounder(tool.input().file());
     const auto transform = [&](TriangleBatch& batch) {
