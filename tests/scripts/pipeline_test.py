@@ -66,7 +66,7 @@ class Prefix(ToolTest):
     def test_a_command_added_later_is_known_and_listed(self):
         self.add("later", ECHO)
         self.assertEqual(run(self.pipeline, "later", "1"), (0, "later <1>\n", ""))
-        self.assertIn("\n  later        Shows its words\n", run(self.pipeline, "help")[1])
+        self.assertIn("\nOther commands:\n  later        Shows its words\n", run(self.pipeline, "help")[1])
 
     def test_it_is_found_through_links_and_the_path(self):
         elsewhere = pathlib.Path("some where").resolve()
@@ -214,6 +214,9 @@ class BuildTree(ToolTest):
 
     def test_every_command_has_a_short_description(self):
         text = run(BIN / "pipeline", "help")[1]
+        self.assertLessEqual(max(map(len, text.splitlines())), 80)
+        self.assertNotIn("Other commands", text)
+        text = re.sub(r"\n {15}", " ", text)
         described = dict(re.findall(r"^  ([a-z0-9-]+) {2,}(.*)$", text, re.M))
         self.assertEqual(list(described)[:4], ["model", "view", "project", "zbuf"])
         self.assertEqual(set(described), set(os.listdir(BIN.parent / "libexec/pipeline")))
