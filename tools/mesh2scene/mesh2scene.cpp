@@ -126,6 +126,45 @@ bool defines_up(const std::string& extension) {
   return extension == "GLTF" || extension == "GLB" || extension == "DAE" || extension == "FBX";
 }
 
+/// The options' view of a model in such a file.
+ViewChoice view_of(const Options& chosen, const std::string& extension) {
+  ViewChoice view = chosen.view;
+  view.up = chosen.up.value_or(usual_up(extension));
+  if (!chosen.eye_from.empty()) {
+    view.azimuth_degrees = number_from("--eye-from AZIMUTH", chosen.eye_from[0], -360, 360);
+    view.elevation_degrees = number_from("--eye-from ELEVATION", chosen.eye_from[1], -90, 90);
+  }
+  if (!chosen.at.empty()) {
+    constexpr double kMost = std::numeric_limits<float>::max();  // of assimp's coordinates
+    const auto number = [&](std::size_t i) { return number_from("--at", chosen.at[i], -kMost, kMost); };
+    view.at = {number(0), number(1), number(2)};
+  }
+  const Viewport screen = *parse_size(chosen.size);
+  view.aspect = double(screen.columns) / double(screen.rows);
+  return view;
+}
+
+/// Whether an option asks for the framing camera, where a file has a camera of its own.
+bool chooses_view(const CommandLine& options) {
+  return std::ranges::any_of(std::array{"--eye-from", "--fov", "--up-axis", "--at", "--zoom"},
+                             [&](const char* name) { return options.is_given(name); });
+}
+
+/// Imports in a child process, within limits that grow with the file. Throws as ImportedModel does.
+ImportedModel imported(const std::string& path, const std::string& name, const Options& chosen) {
+  go_on_in_child(name);
+  auto files = std::make_unique<ModelFiles>(path, chosen.most_megabytes);
+  const double size = static_cast<double>(files->model().size()) / 1e6;
+  const ImportLimits limits(kImportSeconds + kImportSecondsPerMegabyte * size,
+                            kImportMegabytes + kImportMegabytesPerMegabyte * size);
+  return {path, std::move(files), chosen.crease_degrees};
+}
+
+std::string guessed_up_note(UpAxis up, const std::string& extension, const ImportedModel& model) {
+  return std::string(name_of(up)) + " is taken for up, as in most " +
+         (extension.empty() ? "" : extension + " ") + "files (--up-axis chooses); " + extent_of(model);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -145,44 +184,18 @@ int main(int argc, char** argv) {
     const std::string& path = tool.input_path();
     const std::string name = path == "-" ? "<stdin>" : path;
     const std::string extension = extension_of(path);
-    const CommandLine& options = tool.options();
-    const bool chooses_view = options.is_given("--eye-from") || options.is_given("--fov") || chosen.up ||
-                              options.is_given("--at") || options.is_given("--zoom");
-    chosen.view.up = chosen.up.value_or(usual_up(extension));
-    if (!chosen.eye_from.empty()) {
-      chosen.view.azimuth_degrees = number_from("--eye-from AZIMUTH", chosen.eye_from[0], -360, 360);
-      chosen.view.elevation_degrees = number_from("--eye-from ELEVATION", chosen.eye_from[1], -90, 90);
-    }
-    if (!chosen.at.empty()) {
-      constexpr double kMost = std::numeric_limits<float>::max();  // of assimp's coordinates
-      const auto number = [&](std::size_t i) { return number_from("--at", chosen.at[i], -kMost, kMost); };
-      chosen.view.at = {number(0), number(1), number(2)};
-    }
-    const Viewport screen = *parse_size(chosen.size);
-    chosen.view.aspect = double(screen.columns) / double(screen.rows);
-
-    go_on_in_child(name);
-    auto files = std::make_unique<ModelFiles>(path, chosen.most_megabytes);
-    const double size = static_cast<double>(files->model().size()) / 1e6;
-    std::optional<ImportLimits> limits(std::in_place, kImportSeconds + kImportSecondsPerMegabyte * size,
-                                       kImportMegabytes + kImportMegabytesPerMegabyte * size);
-    const ImportedModel model(path, std::move(files), chosen.crease_degrees);
-    limits.reset();
+    const ViewChoice view = view_of(chosen, extension);
+    const ImportedModel model = imported(path, name, chosen);
     tool.timing().lap(&Timing::read_seconds);
     tool.timing().triangle_count = model.triangle_count();
-    const bool has_own_view = model.camera() && !chooses_view;
-    SceneSetting setting =
-        has_own_view ? setting_of_file(model, chosen.view.aspect) : framed_setting(model, chosen.view);
+    const bool has_own_view = model.camera() && !chooses_view(tool.options());
+    SceneSetting setting = has_own_view ? setting_of_file(model, view.aspect) : framed_setting(model, view);
     if (!has_own_view && !chosen.up && !defines_up(extension))
-      tool.note(std::string(name_of(chosen.view.up)) + " is taken for up, as in most " +
-                (extension.empty() ? "" : extension + " ") + "files (--up-axis chooses); " +
-                extent_of(model));
+      tool.note(guessed_up_note(view.up, extension, model));
     for (const std::string& note : model.notes()) tool.note(note);
     if (!model.ignored().empty()) tool.note(name + ": no scene can hold its " + listed(model.ignored()));
-    if (const auto color = parse_color(chosen.color)) {
-      setting.color = to_vec3(*color);
-      setting.has_one_color = true;
-    }
+    setting.has_one_color = !chosen.color.empty();
+    if (setting.has_one_color) setting.color = to_vec3(*parse_color(chosen.color));
     setting.comments = {name + ", " + counted(model.triangle_count(), "triangle") +
                         ", by mesh2scene; zbuf --size " + chosen.size};
     const SceneMaterials materials(model);

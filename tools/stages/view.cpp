@@ -31,8 +31,10 @@ ViewTransform view_of(const CameraParameters& camera, const StageReader& reader)
   return view_from_world(camera.eye->value, camera.look->value, camera.up->value);
 }
 
-Appearance in_view_space(Appearance appearance, const ViewTransform& view,
+/// The text's color and light, and the light of the command line, in view space.
+Appearance in_view_space(Appearance appearance, const LightOption& added, const ViewTransform& view,
                          UncertainDigits& uncertain_lights) {
+  added.add_to(appearance);
   for (auto& light : appearance.lights) light = transformed(view, light, uncertain_lights);
   return appearance;
 }
@@ -65,12 +67,10 @@ int main(int argc, char** argv) {
     const ViewTransform view = view_of(camera, reader);
     const VertexTransform to_view(view);
     const NormalTransform normal_to_view(view);
-    Appearance appearance = reader.header().appearance;
-    light.add_to(appearance);
     StageWriter writer(tool.output(), numbers.format(), bare);
     UncertainDigits uncertain_lights;
     writer.write_header({reader.header().framed, without_position(camera),
-                         in_view_space(std::move(appearance), view, uncertain_lights)});
+                         in_view_space(reader.header().appearance, light, view, uncertain_lights)});
 
     CoordinateRounder rounder = numbers.rounder(tool.input().file());
     const auto transform = [&](TriangleBatch& batch) {
