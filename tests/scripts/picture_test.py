@@ -99,6 +99,12 @@ class Picture(ToolTest):
             f"mesh2scene: note: y is taken for up, as in most OBJ files (--up-axis chooses); it reaches from "
             f"{low} to {high} (--at looks elsewhere, --zoom closer)\n")
 
+    def test_a_pipe_with_a_name_is_refused(self):
+        os.mkfifo("pipe")
+        self.assertEqual(
+            picture("pipe", "-o", "one.png").stderr,
+            "picture: mesh2scene: pipe: expected a regular file, or - for what comes through a pipe\n")
+
     def test_of_failures_the_cause_is_told_alone(self):
         pathlib.Path("broken.obj").write_text("v 0 0\n")
         pathlib.Path("large.obj").write_text("#" * 1_000_001)
