@@ -230,8 +230,8 @@ class ManyFiles(FaultTest):
                 self.assertIn(content, (OLD_IMAGE, good[name]) if some_may_be_new else (OLD_IMAGE,), which)
 
     PLAIN = [
-        "--image", "out.ppm", "--z-buffer", "depths.txt", "--depth-image", "depths.pgm", "--fragments",
-        "fragments.txt", "--seen", "seen.txt", "--stats", "stats.txt"]
+        "--image", "out.ppm", "--z-buffer", "depths.txt", "--depth-image", "depths.pgm", "--depth-array",
+        "depths.npy", "--fragments", "fragments.txt", "--seen", "seen.txt", "--stats", "stats.txt"]
     PNGS = ["--image", "out.png", "--depth-image", "depths.png"]
 
     def test_a_failing_write_or_close_leaves_every_old_file(self):
@@ -282,8 +282,8 @@ class ManyTracedFiles(ManyFiles):
 
     TOOL = "trace"
     PLAIN = [
-        "--image", "out.ppm", "--z-buffer", "depths.txt", "--depth-image", "depths.pgm", "--stats",
-        "stats.txt"]
+        "--image", "out.ppm", "--z-buffer", "depths.txt", "--depth-image", "depths.pgm", "--depth-array",
+        "depths.npy", "--stats", "stats.txt"]
 
 
 if __name__ == "__main__":

@@ -3,8 +3,10 @@
 
 usage: zbuf_outputs_test.py BIN_DIR [UNITTEST ARGUMENT...]
 """
+import ast
 import os
 import pathlib
+import re
 import struct
 import subprocess
 import sys
@@ -127,6 +129,49 @@ class Depths(OutputTest):
         self.assert_zbuf("config.txt", "stage3.txt", "--depth-image", "a.pgm")
         self.assert_zbuf("config.txt", "stage3.txt", "--depth-image", "b.pgm", "--z-buffer", "none")
         self.assertEqual(pathlib.Path("a.pgm").read_bytes(), pathlib.Path("b.pgm").read_bytes())
+
+    def array(self):
+        """The shape and the numbers of depths.npy, by NumPy's page on the format, version 1.0."""
+        data = pathlib.Path("depths.npy").read_bytes()
+        magic, major, minor, length = struct.unpack_from("<6sBBH", data)
+        self.assertEqual((magic, major, minor, (10 + length) % 64, data[9 + length:10 + length]),
+                         (b"\x93NUMPY", 1, 0, 0, b"\n"))
+        header = ast.literal_eval(data[10:10 + length].decode("latin-1"))
+        self.assertEqual((header["descr"], header["fortran_order"]), ("<f8", False))
+        return header["shape"], [number for number, in struct.iter_unpack("<d", data[10 + length:])]
+
+    def test_their_array_has_all_digits(self):
+        """The text is that of the numbers, and they are the ones that --fragments has."""
+        pathlib.Path("config.txt").write_text("40 30\n")
+        text = self.assert_zbuf("config.txt", "stage3.txt", "--depth-array", "depths.npy", "--fragments",
+                                "fragments.txt").decode()
+        (rows, columns), depths = self.array()
+        numbers = [f"{depth:.6f}\t" if depth == depth else "" for depth in depths]
+        lines = ["".join(numbers[columns * row:columns * (row + 1)]) for row in range(rows)]
+        self.assertEqual("\n".join(lines) + "\n", text)
+        fragments = pathlib.Path("fragments.txt").read_text()
+        kept = re.findall(r"^(\d+),(\d+): .* depth (\S+): kept", fragments, re.M)
+        nearest = {int(row) * columns + int(column): float(depth) for column, row, depth in kept}
+        self.assertGreater(len(nearest), 9)
+        self.assertEqual({i: depth for i, depth in enumerate(depths) if depth == depth}, nearest)
+        self.assert_zbuf("config.txt", "stage3.txt", "--rows", "1:3", "--depth-array", "depths.npy")
+        self.assertEqual(self.array()[0], (2, columns))
+
+    def test_their_array_is_that_of_rays(self):
+        view = pipe(["view", "--digits", "exact"], stdin=stage_texts()[0])
+        pathlib.Path("stage3.txt").write_bytes(pipe(["project", "--digits", "exact"], stdin=view))
+        pathlib.Path("config.txt").write_text("40 30\n")
+        self.assert_zbuf("config.txt", "stage3.txt", "--coverage", "center", "--depth-array", "depths.npy")
+        drawn = self.array()
+        self.assert_quiet_success(
+            run("trace", "config.txt", "--depth-array", "depths.npy", "--z-buffer", "none", stdin=view))
+        self.assertEqual(repr(self.array()), repr(drawn))
+
+    def test_their_array_has_one_sample_a_pixel(self):
+        self.assert_fails(
+            run("zbuf", "config.txt", "--depth-array", "depths.npy", "--samples", "2", stdin=b""), 2,
+            "zbuf: --depth-array: expected one sample a pixel, whose numbers it has, found '2' (try zbuf "
+            "--help)")
 
 
 class Terminal(OutputTest):

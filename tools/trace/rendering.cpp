@@ -57,7 +57,8 @@ PictureRays rays_of(const TraceOptions& chosen) {
           .sample_count = picture.sample_count,
           .threshold = chosen.threshold,
           .has_colors = picture.has_image(),
-          .has_depths = picture.z_buffer_path != "none" || !picture.depth_image_path.empty(),
+          .has_depths = picture.z_buffer_path != "none" || !picture.depth_image_path.empty() ||
+                        !picture.depth_array_path.empty(),
           .counts_covered = picture.summarizes};
 }
 
@@ -65,7 +66,8 @@ PictureRays rays_of(const TraceOptions& chosen) {
 void write_all(Tool& tool, const ZbufOptions& chosen, const TracedPicture& picture, Color background) {
   const Viewport& screen = picture.screen;
   ImageRows image(chosen.image_path, screen, 1, background);
-  DepthFiles depths(tool.output(), chosen.z_buffer_path, chosen.depth_image_path, screen);
+  DepthFiles depths(tool.output(), chosen.z_buffer_path, chosen.depth_image_path, chosen.depth_array_path,
+                    screen);
   for (int row = 0; row < screen.rows; ++row) {
     if (!picture.depths.empty()) depths.write_row(picture.row_of(picture.depths, row));
     if (image.is_wanted()) image.write_row(picture.row_of(picture.colors, row));

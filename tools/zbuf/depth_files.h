@@ -4,6 +4,7 @@
 #include <span>
 #include <string>
 
+#include "libpipeline/picture/depth_array.h"
 #include "libpipeline/picture/depth_image.h"
 #include "libpipeline/scene/viewport.h"
 #include "libpipeline/text/output_file.h"
@@ -11,13 +12,13 @@
 
 namespace pipeline {
 
-/// Writes the depths of all pixels: as text to standard output or a file, and as an image if one is
-/// requested. `commit` moves the files to their names.
+/// Writes the depths of all pixels: as text to standard output or a file, and as an image and an
+/// array if they are requested. `commit` moves the files to their names.
 class DepthFiles {
  public:
-  /// `text_path` is "-" for `standard_output`, "none" for no text; an empty `image_path` means no image.
+  /// `text_path` is "-" for `standard_output`, "none" for no text; an empty path of the others means no file.
   DepthFiles(TextWriter& standard_output, const std::string& text_path, const std::string& image_path,
-             const Viewport& screen);
+             const std::string& array_path, const Viewport& screen);
 
   /// Takes the depths of the next row, from the top.
   void write_row(std::span<const double> depths);
@@ -32,6 +33,8 @@ class DepthFiles {
   TextWriter* text_ = nullptr;  // standard output or that of the file; null: none
   std::optional<OutputFile> image_file_;
   std::optional<DepthImageWriter> image_;
+  std::optional<OutputFile> array_file_;
+  std::optional<DepthArrayWriter> array_;
 };
 
 }  // namespace pipeline

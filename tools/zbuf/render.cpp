@@ -196,7 +196,8 @@ void write_all(Tool& tool, const ZbufOptions& chosen, const SampledVisible<Visib
   const Viewport& screen = visible.center_screen;
   ImageRows image(chosen.image_path, screen, chosen.sample_count, store.background_color());
   RowColors colors(store, shader, chosen.sample_count * screen.drawn_rows().first);
-  DepthFiles depths(tool.output(), chosen.z_buffer_path, chosen.depth_image_path, screen);
+  DepthFiles depths(tool.output(), chosen.z_buffer_path, chosen.depth_image_path, chosen.depth_array_path,
+                    screen);
   std::optional<SeenFile> seen_file;
   if (store.keeps_text()) seen_file.emplace(tool.output(), chosen.seen_path);
   KeptIds seen(store.id_count());

@@ -31,6 +31,9 @@ void ZbufOptions::complete(bool is_terminal) {
       color && !color->is_opaque() && has_image() && !can_hold_alpha(image_path))
     throw UsageError("--background: " +
                      expected_but_found(expected_opaque_background(), pipeline::quoted(background)));
+  if (!depth_array_path.empty() && sample_count > 1)
+    throw UsageError("--depth-array: " + expected_but_found("one sample a pixel, whose numbers it has",
+                                                            "'" + std::to_string(sample_count) + "'"));
   if (algorithm != Algorithm::scanline) return;
   if (thread_count > 1)
     throw UsageError("--threads: " +
@@ -74,6 +77,7 @@ std::vector<NamedFile> outputs_of(const ZbufOptions& chosen, const Statistics& s
   return {{"--image", chosen.image_path},
           file_or_stream("--z-buffer", depths, kStandardOutput),
           {"--depth-image", chosen.depth_image_path},
+          {"--depth-array", chosen.depth_array_path},
           {"--fragments", chosen.fragments_path},
           seen,
           statistics.output(),

@@ -9,6 +9,7 @@
 
 #include "libpipeline/coverage/rules.h"
 #include "libpipeline/coverage/type_list.h"
+#include "libpipeline/picture/depth_array.h"
 #include "libpipeline/picture/depth_image.h"
 #include "libpipeline/picture/image_file.h"
 #include "libpipeline/picture/supersampling.h"
@@ -36,6 +37,7 @@ struct ZbufOptions {
   TypeChoice<DepthFormats> depth;
   int thread_count = 1;
   std::string depth_image_path;  // empty: none
+  std::string depth_array_path;  // empty: none
   std::string seen_path;         // "-": standard output; empty: no file
   double depth_epsilon = 0;
   std::string rows;                     // "A:B", if the option is given
@@ -168,6 +170,10 @@ inline void ZbufOptions::add_screen_and_outputs(CommandLine& options, bool has_s
                    "Also write the depths as a 16-bit image, a .pgm or .png file: white at the front limit, "
                    "black at the rear limit",
                    wrong_with_name(check_depth_image_name));
+  options.add_word("--depth-array", "FILE", depth_array_path,
+                   "Also write the depths as an array of doubles, a .npy file for numpy.load: nan where "
+                   "nothing is seen",
+                   wrong_with_name(check_depth_array_name));
 }
 
 inline void ZbufOptions::add_samples(CommandLine& options) {
