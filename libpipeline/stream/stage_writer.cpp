@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <charconv>
 #include <cmath>
 #include <span>
 #include <string_view>
@@ -21,7 +20,7 @@ constexpr std::size_t kMaxTriangleLength = 40 + 3 * kMaxVertexLength + 1;
 
 /// Prints all digits: readers take no exponent here.
 char* print_material(char* out, std::uint32_t material) {
-  return std::to_chars(out, out + kMaxNumberLength, material).ptr;
+  return print_number(out, material, 0, {.decimals = 0});
 }
 
 void print_numbers(TextWriter& text, std::string_view keyword, std::initializer_list<double> numbers) {

@@ -60,7 +60,7 @@ class Words(unittest.TestCase):
 
     def test_some_options_are_there(self):
         self.assertEqual(completed("pipeline", "zbuf", "config.txt", "--depth"),
-                         ["--depth-image", "--depth", "--depth-epsilon"])
+                         ["--depth-image", "--depth-array", "--depth", "--depth-epsilon"])
         self.assertEqual(completed("pipeline", "compare", "--ha"), ["--hand-in"])
         self.assertEqual(completed("pipeline", "inspect", "--t"), ["--theirs", "--trace", "--threshold"])
 
