@@ -153,6 +153,14 @@ class Picture(ToolTest):
             one, two = (pathlib.Path(name).read_bytes() for name in ("one.png", "two.png"))
             self.assertEqual(one, two, camera)
 
+    def test_a_scene_may_stand_among_its_stages(self):
+        text = "0 0 5\n0 0 0\n0 1 0\n60 1 1 100\ntriangle\n0 0 0\n1 0 0\n0 1 0\nend\n"
+        pathlib.Path("scene.txt").write_text(text)
+        done = picture("scene.txt", "--stages", ".", "-o", "one.png")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertEqual(pathlib.Path("scene.txt").read_text(), text)
+        self.assertEqual(pathlib.Path("stage1.txt").read_bytes(), run("model", "scene.txt").stdout)
+
     def test_a_scene_keeps_its_camera_and_colors(self):
         pathlib.Path("scene.txt").write_text("0 0 5\n0 0 0\n0 1 0\n60 1 1 100\nend\n")
         for words in (["--zoom", "2"], ["--at", "0", "0", "0"], ["--color", "ff0000"]):

@@ -227,6 +227,7 @@ class Hostile(ToolTest):
 
     def test_a_size_beyond_the_limit_is_refused_at_its_place(self):
         for text, column, what in (("65536 1", 1, "width"), ("1 65536", 3, "height"), ("0 1", 1, "width"),
+                                   ("200.5 200", 1, "width"),
                                    ("1 99999999999999999999", 3, "height")):
             pathlib.Path("config.txt").write_text(text + "\n")
             found = text.split()[0 if column == 1 else 1]

@@ -45,6 +45,9 @@ add_claims(SceneMessages, [
     ("hexadecimal is no number", "0x10 0 5\n", "1:1: expected the x of the eye, found '0x10'"),
     ("a comma is no decimal point", "1,5 0 5\n",
      "1:1: expected the x of the eye, found '1,5' (decimals have a point, and blanks stand between numbers)"),
+    ("no commas stand between numbers", CAMERA + "triangle\n-1, -1, 0\n",
+     "6:1: expected the x of vertex 1 of 3, found '-1,' (decimals have a point, and blanks stand between "
+     "numbers)"),
     ("letters behind a number are a mistake", "1.5abc 0 5\n",
      "1:1: expected the x of the eye, found '1.5abc'"),
     ("a number may be too large", "0 0 1e309\n",

@@ -170,8 +170,7 @@ class Depths(OutputTest):
     def test_their_array_has_one_sample_a_pixel(self):
         self.assert_fails(
             run("zbuf", "config.txt", "--depth-array", "depths.npy", "--samples", "2", stdin=b""), 2,
-            "zbuf: --depth-array: expected one sample a pixel, whose numbers it has, found '2' (try zbuf "
-            "--help)")
+            "zbuf: --depth-array: expected --samples 1 with it, found '2' (try zbuf --help)")
 
 
 class Terminal(OutputTest):

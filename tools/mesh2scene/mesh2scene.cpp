@@ -62,7 +62,7 @@ void add_options(CommandLine& options, Options& chosen) {
                    "The color of everything, six hexadecimal digits, in place of the model's colors",
                    [](const std::string& word) {
                      const auto color = parse_color(word);
-                     return color && color->alpha() == 255
+                     return color && color->is_opaque()
                                 ? std::string()
                                 : expected_but_found("RRGGBB, hexadecimal digits", pipeline::quoted(word));
                    });

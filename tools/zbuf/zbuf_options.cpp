@@ -32,8 +32,8 @@ void ZbufOptions::complete(bool is_terminal) {
     throw UsageError("--background: " +
                      expected_but_found(expected_opaque_background(), pipeline::quoted(background)));
   if (!depth_array_path.empty() && sample_count > 1)
-    throw UsageError("--depth-array: " + expected_but_found("one sample a pixel, whose numbers it has",
-                                                            "'" + std::to_string(sample_count) + "'"));
+    throw UsageError("--depth-array: " + expected_but_found("--samples 1 with it",
+                                                            pipeline::quoted(std::to_string(sample_count))));
   if (algorithm != Algorithm::scanline) return;
   if (thread_count > 1)
     throw UsageError("--threads: " +
