@@ -9,7 +9,7 @@
 #include "libpipeline/coverage/kernel.h"
 // Masks are vectors here. With AVX-512 they would be converted all the time, which takes up to a tenth
 // longer.
-#define PIPELINE_TARGETS (HWY_SCALAR | HWY_NEON | HWY_SSE4 | HWY_AVX2)
+#define PIPELINE_TARGETS (HWY_SCALAR | HWY_NEON | HWY_WASM | HWY_SSE4 | HWY_AVX2)
 #include "libpipeline/numbers/vector_targets.h"
 
 HWY_BEFORE_NAMESPACE();

@@ -8,8 +8,9 @@
 namespace pipeline {
 
 /// The kinds of processors that kernels are compiled for. Each can also run the kernels of earlier kinds of
-/// its family.
-inline constexpr std::array<std::string_view, 5> kTargets = {"scalar", "neon", "sse4", "avx2", "avx512"};
+/// its family. `simd128` is that of WebAssembly.
+inline constexpr std::array<std::string_view, 6> kTargets = {"scalar", "neon", "simd128",
+                                                             "sse4",   "avx2", "avx512"};
 
 /// A function compiled for each of kTargets; null for targets of other families.
 template <typename Function>
@@ -18,18 +19,18 @@ using KernelTable = std::array<Function, kTargets.size()>;
 /// The table of a function of HWY_NAMESPACE (vector_targets.h).
 #define PIPELINE_KERNEL_TABLE(function)                                                  \
   {                                                                                      \
-    HWY_CHOOSE_FALLBACK(function), HWY_CHOOSE_NEON(function), HWY_CHOOSE_SSE4(function), \
-        HWY_CHOOSE_AVX2(function), HWY_CHOOSE_AVX3(function)                             \
+    HWY_CHOOSE_FALLBACK(function), HWY_CHOOSE_NEON(function), HWY_CHOOSE_WASM(function), \
+        HWY_CHOOSE_SSE4(function), HWY_CHOOSE_AVX2(function), HWY_CHOOSE_AVX3(function)  \
   }
 
 /// Whether this processor, of the family compiled for, can run a target's kernels.
 inline bool can_run(std::size_t target) {
 #if defined(__x86_64__) && defined(__GNUC__)
-  if (target > 1 && !__builtin_cpu_supports("sse4.2")) return false;
-  if (target > 2 && !(__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
+  if (target > 2 && !__builtin_cpu_supports("sse4.2")) return false;
+  if (target > 3 && !(__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
                       __builtin_cpu_supports("bmi") && __builtin_cpu_supports("bmi2")))
     return false;
-  if (target > 3 && !(__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
+  if (target > 4 && !(__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
                       __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw")))
     return false;
 #endif

@@ -9,7 +9,7 @@
 // The targets of kernel_choice.h, each of them always compiled, because the tests compare them. A source may
 // define fewer.
 #ifndef PIPELINE_TARGETS
-#define PIPELINE_TARGETS (HWY_SCALAR | HWY_NEON | HWY_SSE4 | HWY_AVX2 | HWY_AVX3)
+#define PIPELINE_TARGETS (HWY_SCALAR | HWY_NEON | HWY_WASM | HWY_SSE4 | HWY_AVX2 | HWY_AVX3)
 #endif
 #define HWY_DISABLED_TARGETS (~PIPELINE_TARGETS)
 #define HWY_COMPILE_ALL_ATTAINABLE

@@ -59,7 +59,7 @@ Vec3 lit_color_of(const SurfacePoint& point, const Lighting& lighting, const Mat
 
 }  // namespace
 
-double whole_power(double base, std::size_t exponent) {
+double whole_power(double base, std::uint64_t exponent) {
   double power = 1;
   for (; exponent != 0; exponent >>= 1) {
     if ((exponent & 1) != 0) power *= base;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <vector>
 
@@ -48,7 +49,7 @@ Vec3 lit_color(const SurfacePoint& point, const Lighting& lighting, const Materi
 
 /// `base` to a whole power by repeated squaring, so that it does not depend on the system's library; 1 to the
 /// power 0.
-double whole_power(double base, std::size_t exponent);
+double whole_power(double base, std::uint64_t exponent);
 
 /// Each channel clamped to 0 to 255.
 Vec3 clamped_color(const Vec3& color);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -26,7 +27,7 @@ struct Material {
   double ambient = 1;
   double diffuse = 1;
   double specular = 0;
-  std::size_t shininess = 1;
+  std::uint64_t shininess = 1;
   double reflectance = 0;  // the part of the light that is mirrored, from 0 to 1
   double index = 1;        // of refraction, from 0.01 to 100
   double alpha = 1;        // the opaque part, from 0 (clear) to 1

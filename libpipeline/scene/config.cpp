@@ -17,7 +17,7 @@ LineScanner required_line(TextReader& text, const std::string& expected) {
   return line;
 }
 
-bool is_size(std::size_t size) {
+bool is_size(std::uint64_t size) {
   return size >= 1 && size <= kMaxViewportSize;
 }
 
@@ -29,7 +29,7 @@ int read_size(LineScanner& line, const std::string& name) {
   if (const auto both = parse_size(line.peek()))
     line.fail(expected, " (write " + std::to_string(both->columns) + " " + std::to_string(both->rows) + ")");
   LineScanner ahead = line;
-  const std::size_t size = ahead.count(expected);
+  const std::uint64_t size = ahead.count(expected);
   if (!is_size(size)) line.fail(expected);
   line = ahead;
   return static_cast<int>(size);
@@ -67,8 +67,8 @@ void read_depth_limits(LineScanner line, Viewport& viewport) {
 
 std::optional<Viewport> parse_size(std::string_view word) {
   const std::size_t x = word.find('x');
-  std::size_t columns = 0;
-  std::size_t rows = 0;
+  std::uint64_t columns = 0;
+  std::uint64_t rows = 0;
   if (x == std::string_view::npos || !parse_count(word.substr(0, x), columns) ||
       !parse_count(word.substr(x + 1), rows) || !is_size(columns) || !is_size(rows))
     return std::nullopt;

@@ -173,7 +173,7 @@ Command SceneReader::read_use() {
   const LineScanner at_number = line_;
   const std::string expected =
       "the number of a material above, a whole number below " + std::to_string(count);
-  const std::size_t material = line_.count(expected);
+  const std::uint64_t material = line_.count(expected);
   if (material >= count) at_number.fail(expected);
   line_.expect_end("the number of a material");
   lines_.material = static_cast<std::uint32_t>(material);

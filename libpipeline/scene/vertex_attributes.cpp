@@ -98,7 +98,7 @@ void VertexLineReader::read_material(LineScanner& line, std::size_t vertex, cons
   const LineScanner at_material = line;
   const std::string expected =
       "the material of " + name + ", a whole number below " + std::to_string(material_count_);
-  const std::size_t material = line.count(expected);
+  const std::uint64_t material = line.count(expected);
   if (material >= material_count_) at_material.fail(expected);
   if (vertex == 0) triangle.material = static_cast<std::uint32_t>(material);
   if (material != triangle.material)

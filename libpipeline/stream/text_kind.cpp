@@ -36,7 +36,7 @@ bool is_point(const Words& line) {
 }
 
 bool is_size(std::string_view word) {
-  std::size_t size = 0;
+  std::uint64_t size = 0;
   return parse_count(word, size) && size >= 1 && size <= kMaxViewportSize;
 }
 

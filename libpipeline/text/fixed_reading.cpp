@@ -10,7 +10,7 @@
 #include "libpipeline/text/vertex_lines.h"
 
 // Reading gains nothing from wider vectors: where a number begins depends on the one before it.
-#define PIPELINE_TARGETS (HWY_SCALAR | HWY_NEON | HWY_SSE4)
+#define PIPELINE_TARGETS (HWY_SCALAR | HWY_NEON | HWY_WASM | HWY_SSE4)
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "libpipeline/text/fixed_reading.cpp"
 #include "libpipeline/numbers/vector_targets.h"

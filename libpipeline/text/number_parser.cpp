@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "libpipeline/numbers/powers_of_ten.h"
+#include "libpipeline/text/double_from_chars.h"
 #include "libpipeline/text/eight_digits.h"
 
 namespace pipeline {
@@ -43,7 +44,7 @@ ParsedNumber parse_number(std::string_view word) {
     return {0, NumberError::not_a_number};
   ParsedNumber parsed;
   const char* const end = word.data() + word.size();
-  const auto [stop, code] = std::from_chars(word.data(), end, parsed.value);
+  const auto [stop, code] = double_from_chars(word.data(), end, parsed.value);
   if (stop != end || code == std::errc::invalid_argument) return {0, NumberError::not_a_number};
   if (code == std::errc::result_out_of_range) {
     if (leading_exponent(unsigned_word) > 0) return {0, NumberError::overflow};
@@ -73,7 +74,7 @@ bool parse_exact_decimal(std::string_view word, DoubleDouble& value) {
   return true;
 }
 
-bool parse_count(std::string_view word, std::size_t& value) {
+bool parse_count(std::string_view word, std::uint64_t& value) {
   const auto [stop, code] = std::from_chars(word.data(), word.data() + word.size(), value);
   return !word.empty() && code == std::errc() && stop == word.data() + word.size();
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <cstddef>
+#include <cstdint>
 #include <string_view>
 
 #include "libpipeline/numbers/double_double.h"
@@ -34,6 +34,6 @@ constexpr int kExactDecimals = 7;
 bool parse_exact_decimal(std::string_view word, DoubleDouble& value);
 
 /// Parses a whole word of decimal digits; false for anything else or a number that does not fit.
-bool parse_count(std::string_view word, std::size_t& value);
+bool parse_count(std::string_view word, std::uint64_t& value);
 
 }  // namespace pipeline

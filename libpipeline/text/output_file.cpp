@@ -29,7 +29,7 @@ int own_descriptor_of(const std::string& path) {
   if (path == "/dev/stdout") return STDOUT_FILENO;
   if (path == "/dev/stderr") return STDERR_FILENO;
   for (const std::string_view folder : {"/dev/fd/", "/proc/self/fd/"}) {
-    std::size_t number = 0;
+    std::uint64_t number = 0;
     if (path.starts_with(folder) && parse_count(std::string_view(path).substr(folder.size()), number) &&
         std::in_range<int>(number))
       return static_cast<int>(number);

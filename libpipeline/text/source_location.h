@@ -27,11 +27,15 @@ class LineAndColumn {
   /// Unknown.
   constexpr LineAndColumn() = default;
   constexpr LineAndColumn(std::size_t line, std::size_t column = 1)
-      : bits_(line | (column - 1) << kLineBits) {}
+      : bits_(line | std::uint64_t{column - 1} << kLineBits) {}
 
   [[nodiscard]] constexpr bool is_known() const { return line() != 0; }
-  [[nodiscard]] constexpr std::size_t line() const { return bits_ & ((std::uint64_t{1} << kLineBits) - 1); }
-  [[nodiscard]] constexpr std::size_t column() const { return (bits_ >> kLineBits) + 1; }
+  [[nodiscard]] constexpr std::size_t line() const {
+    return static_cast<std::size_t>(bits_ & ((std::uint64_t{1} << kLineBits) - 1));
+  }
+  [[nodiscard]] constexpr std::size_t column() const {
+    return static_cast<std::size_t>(bits_ >> kLineBits) + 1;
+  }
   friend bool operator==(const LineAndColumn&, const LineAndColumn&) = default;
 
  private:

@@ -88,23 +88,22 @@ Vec3 LineScanner::vec3(std::string_view of) {
   return v;
 }
 
-std::size_t LineScanner::count(std::string_view expected) {
-  std::size_t value = 0;
+std::uint64_t LineScanner::count(std::string_view expected) {
+  std::uint64_t value = 0;
   if (!parse_count(peek(), value)) fail(std::string(expected));
   word();
   return value;
 }
 
-std::size_t LineScanner::whole(std::string_view expected) {
+std::uint64_t LineScanner::whole(std::string_view expected) {
   constexpr double kEnd = 0x1p64;
-  static_assert(sizeof(std::size_t) == 8);
-  std::size_t value = 0;
+  std::uint64_t value = 0;
   if (parse_count(peek(), value)) return word(), value;
   const auto [number, error] = parse_number(peek());
   if (error != NumberError::none || !(number >= 0 && number < kEnd) || number != std::floor(number))
     fail(std::string(expected));
   word();
-  return static_cast<std::size_t>(number);
+  return static_cast<std::uint64_t>(number);
 }
 
 void LineScanner::expect_end(std::string_view after, std::string_view of) const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -32,7 +33,7 @@ class LineScanner {
   /// Takes three numbers, which must end the line; `of` names the point or direction in errors.
   Vec3 vec3(std::string_view of);
   /// Takes the next word as a whole number without a sign.
-  std::size_t count(std::string_view expected);
+  std::uint64_t count(std::string_view expected);
   /// An error unless the line is used up; `after` and `of` together name the last thing that belongs on it.
   void expect_end(std::string_view after, std::string_view of = {}) const;
 
@@ -54,7 +55,7 @@ class LineScanner {
   /// True if the line holds nothing but a comment.
   [[nodiscard]] bool is_comment() const { return line_.empty() && has_comment_; }
   /// Takes the next word as a whole number, which may be written with decimals or an exponent: 16.0.
-  std::size_t whole(std::string_view expected);
+  std::uint64_t whole(std::string_view expected);
   /// Throws "expected `expected`, found" the next word, at its location. `hint` ends the message.
   [[noreturn]] void fail(const std::string& expected, const std::string& hint = "") const;
 

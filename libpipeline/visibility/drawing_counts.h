@@ -47,12 +47,12 @@ class DrawingCounter {
   /// The counts for the triangles so far.
   [[nodiscard]] DrawingCounts counts() const {
     DrawingCounts counts = counts_;
-    std::vector<bool> is_seen(counts.triangles);
+    std::vector<bool> is_seen(static_cast<std::size_t>(counts.triangles));
     for (int row = visible_.row_range().first; row < visible_.row_range().end; ++row) {
       for (const auto& pixel : visible_.row(row)) {
         if (!(pixel.depth < test_.nothing().depth)) continue;
         ++counts.pixels_written;
-        is_seen[pixel.triangle] = true;
+        is_seen[static_cast<std::size_t>(pixel.triangle)] = true;
       }
     }
     for (const bool seen : is_seen) counts.seen += seen ? 1 : 0;

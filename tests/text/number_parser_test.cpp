@@ -201,7 +201,7 @@ TEST(ParseExactDecimal, GivesThePartThatADoubleDoesNotHold) {
 }
 
 TEST(ParseCount, TakesDecimalDigitsThatFit) {
-  std::size_t value = 0;
+  std::uint64_t value = 0;
   EXPECT_TRUE(parse_count("0", value));
   EXPECT_EQ(value, 0u);
   EXPECT_TRUE(parse_count("18446744073709551615", value));
@@ -209,7 +209,7 @@ TEST(ParseCount, TakesDecimalDigitsThatFit) {
 }
 
 TEST(ParseCount, RejectsWhatIsNoCount) {
-  std::size_t value = 0;
+  std::uint64_t value = 0;
   for (const std::string_view word : {"", "-1", "+1", "1.0", "1e3", " 1", "1x", "18446744073709551616"})
     EXPECT_FALSE(parse_count(word, value)) << word;
 }

@@ -63,7 +63,7 @@ class PlyVertices {
 
  private:
   bool is_body_ = false, is_vertex_ = false;
-  std::size_t count_ = 0, row_ = 0;
+  std::uint64_t count_ = 0, row_ = 0;
   std::vector<bool> are_coordinates_;
 };
 

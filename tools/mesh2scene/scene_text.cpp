@@ -14,6 +14,7 @@
 
 #include "libpipeline/numbers/vec_math.h"
 #include "libpipeline/text/error.h"
+#include "libpipeline/text/number_parser.h"
 #include "libpipeline/text/number_printer.h"
 
 namespace pipeline {
@@ -104,8 +105,8 @@ class Rounding {
   [[nodiscard]] double operator()(double value) const {
     if (decimals_ < 0 || decimals_ > kMaxDecimals) return value;
     std::array<char, kMaxNumberLength> text{};
-    double rounded = value;
-    std::from_chars(text.data(), print_number(text.data(), value, 0, {.decimals = decimals_}), rounded);
+    const char* const end = print_number(text.data(), value, 0, {.decimals = decimals_});
+    const double rounded = parse_number({text.data(), end}).value;
     return rounded == 0 ? 0 : rounded;
   }
   [[nodiscard]] Vec3 operator()(const Vec3& v) const { return {(*this)(v.x), (*this)(v.y), (*this)(v.z)}; }

@@ -77,7 +77,7 @@ int main(int argc, char** argv) {
   return tool.run(argc, argv, [&] {
     if (!tool.options().is_given("PARTS"))
       throw UsageError(expected_but_found("operands SCENE and PARTS", "fewer"));
-    std::size_t part_count = 0;
+    std::uint64_t part_count = 0;
     if (!parse_count(part_count_word, part_count) || part_count < 1 || part_count > kMaxParts)
       throw UsageError("PARTS: " + expected_but_found("a whole number from 1 to " + std::to_string(kMaxParts),
                                                       pipeline::quoted(part_count_word)));

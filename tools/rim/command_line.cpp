@@ -227,9 +227,9 @@ void CommandLine::add_whole(const std::string& name, int& number, int least, int
                             const std::string& help) {
   const std::string range = "from " + std::to_string(least) + " to " + std::to_string(most);
   const auto take = [=, &number](const std::string& word) {
-    std::size_t found = 0;
-    if (!parse_count(word, found) || found < static_cast<std::size_t>(least) ||
-        found > static_cast<std::size_t>(most))
+    std::uint64_t found = 0;
+    if (!parse_count(word, found) || found < static_cast<std::uint64_t>(least) ||
+        found > static_cast<std::uint64_t>(most))
       throw CLI::ValidationError(name, expected_but_found("a whole number " + range, pipeline::quoted(word)));
     number = static_cast<int>(found);
   };

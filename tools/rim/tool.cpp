@@ -8,6 +8,7 @@
 #include <csignal>
 #include <cstdio>
 #include <new>
+#include <stdexcept>
 
 #include "libpipeline/stream/stage_reader.h"
 #include "libpipeline/text/error.h"
@@ -172,6 +173,8 @@ int Tool::status_of(const std::function<void()>& work) try {
     if (error.error_number() == EPIPE) return kExitFailure;  // the reader has closed the pipe
     return fail(error.what(), kExitFailure);
   } catch (const std::bad_alloc&) {
+    return fail_without_memory();
+  } catch (const std::length_error&) {  // more than an address space of 32 bits can hold
     return fail_without_memory();
   } catch (const std::exception& error) {
     return fail(error.what(), kExitFailure);

@@ -18,10 +18,10 @@ namespace {
 /// The argument of --facets; none if it is not given.
 std::optional<std::size_t> belt_count(const std::string& given) {
   if (given.empty()) return std::nullopt;
-  std::size_t count = 0;
+  std::uint64_t count = 0;
   if (!parse_count(given, count) || count < SphereFacets::kMinBelts || count > SphereFacets::kMaxBelts)
     throw UsageError("--facets: " + expected_but_found("a whole number from 2 to 10000", quoted(given)));
-  return count;
+  return static_cast<std::size_t>(count);
 }
 
 }  // namespace
@@ -55,7 +55,7 @@ int main(int argc, char** argv) {
   return tool.run(argc, argv, [&] {
     tool.expect_separate({kStandardOutput, statistics.output()});
     if (bare && framed) throw UsageError(expected_but_found("--bare or --framed", "both"));
-    std::size_t first_number = 0;
+    std::uint64_t first_number = 0;
     if (!first.empty() && !parse_count(first, first_number))
       throw UsageError("--first: " + expected_but_found("a whole number", pipeline::quoted(first)));
     if (bare && first_number > 0)

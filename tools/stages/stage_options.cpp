@@ -21,7 +21,7 @@ std::string joined(const std::vector<std::string>& words) {
 
 NumberOptions::NumberOptions(CommandLine& options) {
   const auto check = [](const std::string& text) {
-    std::size_t count = 0;
+    std::uint64_t count = 0;
     const bool is_fine = text == "exact" || (parse_count(text, count) && count <= kMaxDecimals);
     return is_fine
                ? std::string()
@@ -37,7 +37,7 @@ NumberOptions::NumberOptions(CommandLine& options) {
 }
 
 NumberFormat NumberOptions::format() const {
-  std::size_t decimals = 7;
+  std::uint64_t decimals = 7;
   if (!parse_count(digits_, decimals)) return {.shortest = true};
   return {.decimals = static_cast<int>(decimals)};
 }

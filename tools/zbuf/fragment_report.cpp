@@ -23,8 +23,8 @@ Pixel parsed_pixel(const std::string& word, const Viewport& screen) {
       comma == std::string::npos ? std::string_view() : std::string_view(word).substr(comma + 1);
   const auto first_row = static_cast<std::size_t>(screen.drawn_rows().first);
   const auto last_row = static_cast<std::size_t>(screen.drawn_rows().end - 1);
-  std::size_t column = 0;
-  std::size_t row = 0;
+  std::uint64_t column = 0;
+  std::uint64_t row = 0;
   if (parse_count(columns, column) && parse_count(rows, row) &&
       column < static_cast<std::size_t>(screen.columns) && row >= first_row && row <= last_row)
     return {static_cast<int>(column), static_cast<int>(row)};

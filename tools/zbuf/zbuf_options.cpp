@@ -48,7 +48,7 @@ void ZbufOptions::complete(bool is_terminal) {
 Viewport ZbufOptions::drawn_part(Viewport screen) const {
   const std::size_t colon = rows.find(':');
   const std::string_view word = rows;
-  std::size_t first = 0, end = 0;
+  std::uint64_t first = 0, end = 0;
   const bool has_numbers = colon != std::string::npos && parse_count(word.substr(0, colon), first) &&
                            parse_count(word.substr(colon + 1), end);
   if (!has_numbers || first >= end || end > static_cast<std::size_t>(screen.rows))
