@@ -1,8 +1,10 @@
 // The rows of z_buffer.txt, which may be long: of each the depths around a column, since every pixel that shows a triangle has one.
 
+import {Lines} from "./stage_data.js";
+
 const DEPTHS_BEFORE = 2, DEPTHS_SHOWN = 24;
 
-class DepthLines {
+export class DepthLines {
   constructor(text, fragments) {
     this.lines = new Lines(text);
     this.length = this.lines.length;

@@ -14,7 +14,7 @@ function wholeRoot(n) {
   }
 }
 
-class Fraction {
+export class Fraction {
   constructor(n, d = 1n) {
     const common = (d < 0n ? -1n : 1n) * (greatest(size(n), size(d)) || 1n);
     this.n = n / common;
@@ -81,7 +81,7 @@ class Fraction {
   }
 }
 
-class Double {
+export class Double {
   constructor(number) { this.number = number; }
 
   static of(whole) { return new Double(whole); }

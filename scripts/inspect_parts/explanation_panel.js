@@ -3,7 +3,7 @@
 // A word of a shell's command line.
 const quoted = word => /^[\w.,\/+-]+$/.test(word) ? word : `'${word.replaceAll("'", "'\\''")}'`;
 
-class ExplanationPanel {
+export class ExplanationPanel {
   constructor(box, {scene, config, explanations, stages, spheres}, report) {
     const [, cut] = stages[2].statistics.find(([key]) => key === "cut");
     Object.assign(this, {box, scene, config, explanations, spheres, report, isUncut: cut === "0"});

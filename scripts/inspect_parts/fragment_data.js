@@ -1,8 +1,10 @@
 // zbuf's image and every fragment of its pixels, counted row by row from the top left.
 
+import {bytesOf, intsOf, realsOf} from "./pack.js";
+
 const FATES = ["kept", "lost, behind", "lost, equal and later than", "lost, before the front limit", "lost, beyond the rear limit"];
 
-class FragmentData {
+export class FragmentData {
   constructor(data) {
     Object.assign(this, {columns: data.columns, rows: data.rows, rgb: bytesOf(data.pixels), leftOut: data.leftOut});
     this.spheres = new Set(intsOf(data.stages[0].spheres.names));

@@ -1,6 +1,6 @@
 // zbuf's report on a pixel.
 
-class FragmentPanel {
+export class FragmentPanel {
   constructor(title, table, fragments) {
     Object.assign(this, {title, body: table.tBodies[0], fragments});
   }

@@ -4,7 +4,7 @@
 const CELL = 16;            // pixels
 const MOST_CELLS = 64;      // of a triangle; a larger one is tried everywhere
 
-class GridIndex {
+export class GridIndex {
   // `x` and `y` have three corners for each of `count` triangles, in pixels.
   constructor(x, y, count, width, height) {
     Object.assign(this, {x, y, columns: Math.ceil(width / CELL), rows: Math.ceil(height / CELL), large: []});

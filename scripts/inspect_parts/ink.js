@@ -4,7 +4,7 @@
 const GAIN = 1.9;         // a single line covers 1 - exp(-GAIN) of its color
 const LEAST_WEIGHT = 0.2; // of a line shorter than a pixel
 
-class Ink {
+export class Ink {
   constructor(width, height, count) {
     Object.assign(this, {width, height, layers: Array.from({length: count}, () => new Float32Array(width * height))});
   }

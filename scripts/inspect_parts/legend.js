@@ -16,7 +16,7 @@ function legendOf(stages) {
     sum("culled", "unshown", ["project", "culled"]), sum("too thin for a pixel", "unshown", ["zbuf", "without_area"], ["zbuf", "between_centers"]), sum("cut", "", ["project", "cut"])];
 }
 
-class Legend {
+export class Legend {
   constructor(list, stages) {
     list.replaceChildren(...legendOf(stages).filter(({label, count}) => count > 0 || /^(shown|hidden|outside|culled)$/.test(label)).map(({label, kind, count, terms}) => {
       const item = document.createElement("li"), number = document.createElement("b");
@@ -40,7 +40,7 @@ function rangeOf(statistics, axis) {
   return words.has(axis + "_min") ? `${short("min")} to ${short("max")}` : "";
 }
 
-function fillCounts(body, stages) {
+export function fillCounts(body, stages) {
   const size = bytes => bytes < 1e6 ? `${(bytes / 1e3).toFixed(1)} kB` : `${(bytes / 1e6).toFixed(1)} MB`;
   for (const stage of stages) {
     const row = body.insertRow();

@@ -1,10 +1,10 @@
 // The page's colors, which follow the reader's choice of dark or light.
 
-class Palette {
-  constructor(element) {
+export class Palette {
+  constructor(element, signal) {
     this.element = element;
     this.words = new Map();
-    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.words.clear());
+    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.words.clear(), {signal});
   }
 
   word(name) {

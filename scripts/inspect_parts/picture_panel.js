@@ -3,7 +3,7 @@
 const STEPS = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1]};
 const SHIFT_STEPS = 10;
 
-class PicturePanel {
+export class PicturePanel {
   // Each of two `panes` has a canvas for the pixels and one above it for marks.
   constructor(panes, fragments, palette) {
     Object.assign(this, {panes, fragments, palette, columns: fragments.columns, rows: fragments.rows, name: -1, pixel: -1, scale: 1});

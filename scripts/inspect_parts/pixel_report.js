@@ -1,5 +1,7 @@
 // What explain reports on a pixel and a triangle, exactly: scripts/explain_parts/window.py and pixel_section.py, by the rule `nearest`.
 
+import {Double, Fraction} from "./exact.js";
+
 const FAR_OFF = 10 ** 9;  // a column beyond any picture, since doubles may be infinite
 
 // The pixel centers in NDC, in fractions or in doubles with zbuf's roundings.
@@ -105,7 +107,7 @@ function alignedLeft(rows) {
   return rows.map(row => ("  " + row.map((word, i) => word.padEnd(widths[i])).join("   ")).trimEnd());
 }
 
-class PixelReport {
+export class PixelReport {
   constructor({columns, rows, limits}, fragments, stage) {
     Object.assign(this, {fragments, stage});
     this.grids = {exact: new PixelGrid(Fraction, columns, rows, ...limits.map(Fraction.ofWord)),

@@ -1,8 +1,10 @@
 // A pixel's tree of rays as a table; a ray that meets a triangle can be followed there.
 
+import {element} from "./element.js";
+
 const short = x => Number(x.toPrecision(4)).toString();
 
-class RayPanel {
+export class RayPanel {
   constructor(title, table, trees) {
     Object.assign(this, {title, body: table.tBodies[0], trees});
   }

@@ -2,7 +2,7 @@
 
 const RAY = /^(\d+),(\d+): ( *)(primary|shadow|mirrored|refracted) weight (\S+) from (\S+) (\S+) (\S+) (.*)$/;
 
-class RayTrees {
+export class RayTrees {
   constructor({step, lines, lights, camera}, columns, rows) {
     Object.assign(this, {step, lights, camera, columns, rows, trees: new Map()});
     for (const line of lines.split("\n")) {

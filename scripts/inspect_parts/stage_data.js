@@ -1,7 +1,10 @@
 // A stage's text as numbers: the corners of its triangles, and the lines that belong to each.
 
+import {intsOf} from "./pack.js";
+import {Spheres} from "./spheres.js";
+
 // The lines of a text, cut out of it only when they are shown.
-class Lines {
+export class Lines {
   constructor(text) {
     const starts = [0];
     for (let at = text.indexOf("\n"); at >= 0; at = text.indexOf("\n", at + 1)) starts.push(at + 1);
@@ -12,7 +15,7 @@ class Lines {
   line(index) { return this.text.slice(this.starts[index], this.starts[index + 1] - 1); }
 }
 
-class StageData {
+export class StageData {
   // `count` triangles have numbers from 0; a stage may have several pieces of one, or none.
   constructor(stage, count) {
     Object.assign(this, {tool: stage.tool, title: stage.title, remark: stage.remark, guide: stage.guide, labels: stage.labels});

@@ -1,6 +1,6 @@
 // A row of tabs, of which one shows its panel (WAI-ARIA Authoring Practices, "Tabs").
 
-class Tabs {
+export class Tabs {
   // `changed` is called after another panel has come into sight.
   constructor(list, changed) {
     this.tabs = [...list.querySelectorAll('[role="tab"]')].filter(tab => !tab.hidden);
@@ -18,6 +18,7 @@ class Tabs {
   }
 
   show(index) {
+    this.shown = index;
     this.tabs.forEach((tab, i) => {
       tab.setAttribute("aria-selected", i === index);
       tab.tabIndex = i === index ? 0 : -1;

@@ -3,7 +3,7 @@
 const LINE_HEIGHT = 16;
 const LONGEST = 4000;  // characters of a line
 
-class TextPanel {
+export class TextPanel {
   // `numberOf(index)` is the number that a line shows, `indexOf(number)` the way back.
   constructor(box, lines, {numberOf, indexOf}) {
     Object.assign(this, {box, lines, numberOf, indexOf, hot: new Set()});

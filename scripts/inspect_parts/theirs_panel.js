@@ -1,9 +1,12 @@
 // A student's stages over ours: the judge's verdict, and what differs.
 
+import {element} from "./element.js";
+import {bytesOf, intsOf, realsOf} from "./pack.js";
+
 const MOST_LISTED = 500;  // vertices of a stage
 const FACES = [["our image", "show theirs"], ["their image", "show what differs"], ["where theirs differs", "show ours"]];
 
-class TheirsPanel {
+export class TheirsPanel {
   // `select(name)` is called for a triangle that is chosen.
   constructor({box, theirs, panels, pictures, captions, button, select}) {
     Object.assign(this, {box, theirs, select});

@@ -13,7 +13,7 @@ function boxOf(points) {
   return {low, high, size: Math.hypot(...[0, 1, 2].map(i => high[i] - low[i]))};
 }
 
-class Turntable {
+export class Turntable {
   // `start` has yaw and pitch in radians; `guide` has line segments, `points` triples of numbers.
   constructor(start, guide, points) {
     Object.assign(this, {start, guide, points, isClose: false, zoom: 1, shift: [0, 0], ...start});
@@ -31,6 +31,14 @@ class Turntable {
     const isThere = this.zoom === 1 && !this.shift[0] && !this.shift[1] && this.yaw === this.start.yaw && this.pitch === this.start.pitch;
     this.isClose = isThere && !this.isClose;
     Object.assign(this, this.start, {zoom: 1, shift: [0, 0]});
+    this.measure();
+  }
+
+  // How it is turned and moved, for another one.
+  get pose() { return {yaw: this.yaw, pitch: this.pitch, zoom: this.zoom, shift: this.shift, isClose: this.isClose}; }
+
+  set pose(pose) {
+    Object.assign(this, pose);
     this.measure();
   }
 

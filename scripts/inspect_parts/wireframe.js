@@ -1,5 +1,9 @@
 // A wireframe of a stage's triangles that turns. It shows their positions; hidden surfaces are zbuf's business.
 
+import {GridIndex} from "./grid_index.js";
+import {Ink} from "./ink.js";
+import {Turntable} from "./turntable.js";
+
 const WHEEL_STEP = 0.001, TURN_STEP = 0.01, KEY_TURN = 0.1, KEY_ZOOM = 1.15;
 const CLICK_REACH = 3;     // pixels that the pointer may move during a click
 const MOST_MARKED = 3000;  // vertices that differ
@@ -16,7 +20,7 @@ function joined(a, b) {
   return all;
 }
 
-class Wireframe {
+export class Wireframe {
   // `pane` has a canvas and another one above it, for marks. `isShown(name)` tells which triangles the picture shows.
   constructor(pane, stage, start, isShown, palette) {
     Object.assign(this, {pane, stage, palette, names: stage.names, guide: stage.guide, highlighted: -1, rays: [], theirs: null, index: null, isDirty: false});
