@@ -231,7 +231,8 @@ class ManyFiles(FaultTest):
 
     PLAIN = [
         "--image", "out.ppm", "--z-buffer", "depths.txt", "--depth-image", "depths.pgm", "--depth-array",
-        "depths.npy", "--fragments", "fragments.txt", "--seen", "seen.txt", "--stats", "stats.txt"]
+        "depths.npy", "--triangle-array", "triangles.npy", "--fragments", "fragments.txt", "--seen",
+        "seen.txt", "--stats", "stats.txt"]
     PNGS = ["--image", "out.png", "--depth-image", "depths.png"]
 
     def test_a_failing_write_or_close_leaves_every_old_file(self):
@@ -283,7 +284,7 @@ class ManyTracedFiles(ManyFiles):
     TOOL = "trace"
     PLAIN = [
         "--image", "out.ppm", "--z-buffer", "depths.txt", "--depth-image", "depths.pgm", "--depth-array",
-        "depths.npy", "--stats", "stats.txt"]
+        "depths.npy", "--triangle-array", "triangles.npy", "--stats", "stats.txt"]
 
 
 if __name__ == "__main__":

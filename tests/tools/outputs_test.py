@@ -47,8 +47,8 @@ class SeparateOutputs(ToolTest):
         self.check_refused("--image x.png --depth-image x.png", "--image 'x.png'", "--depth-image 'x.png'")
         self.check_refused("--z-buffer x.pgm --depth-image x.pgm", "--z-buffer 'x.pgm'",
                            "--depth-image 'x.pgm'")
-        self.check_refused("--depth-array x.npy --fragments x.npy", "--depth-array 'x.npy'",
-                           "--fragments 'x.npy'")
+        self.check_refused("--depth-array x.npy --triangle-array x.npy", "--depth-array 'x.npy'",
+                           "--triangle-array 'x.npy'")
         self.check_refused("--depth-image x.pgm --fragments x.pgm", "--depth-image 'x.pgm'",
                            "--fragments 'x.pgm'")
 

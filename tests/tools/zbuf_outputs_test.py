@@ -6,6 +6,7 @@ usage: zbuf_outputs_test.py BIN_DIR [UNITTEST ARGUMENT...]
 import ast
 import os
 import pathlib
+import random
 import re
 import struct
 import subprocess
@@ -130,15 +131,17 @@ class Depths(OutputTest):
         self.assert_zbuf("config.txt", "stage3.txt", "--depth-image", "b.pgm", "--z-buffer", "none")
         self.assertEqual(pathlib.Path("a.pgm").read_bytes(), pathlib.Path("b.pgm").read_bytes())
 
-    def array(self):
-        """The shape and the numbers of depths.npy, by NumPy's page on the format, version 1.0."""
-        data = pathlib.Path("depths.npy").read_bytes()
+    def array(self, name="depths.npy", kind="<f8"):
+        """The shape and the numbers of a file, by NumPy's page on the format, version 1.0."""
+        data = pathlib.Path(name).read_bytes()
         magic, major, minor, length = struct.unpack_from("<6sBBH", data)
         self.assertEqual((magic, major, minor, (10 + length) % 64, data[9 + length:10 + length]),
                          (b"\x93NUMPY", 1, 0, 0, b"\n"))
         header = ast.literal_eval(data[10:10 + length].decode("latin-1"))
-        self.assertEqual((header["descr"], header["fortran_order"]), ("<f8", False))
-        return header["shape"], [number for number, in struct.iter_unpack("<d", data[10 + length:])]
+        self.assertEqual((header["descr"], header["fortran_order"]), (kind, False))
+        return header["shape"], [
+            number
+            for number, in struct.iter_unpack({"<f8": "<d", "<i8": "<q"}[kind], data[10 + length:])]
 
     def test_their_array_has_all_digits(self):
         """The text is that of the numbers, and they are the ones that --fragments has."""
@@ -157,20 +160,43 @@ class Depths(OutputTest):
         self.assert_zbuf("config.txt", "stage3.txt", "--rows", "1:3", "--depth-array", "depths.npy")
         self.assertEqual(self.array()[0], (2, columns))
 
+    def test_the_triangles_are_those_of_the_fragments(self):
+        """Of many, lit and not, whatever else keeps them; and none is let go of too early."""
+        random_ = random.Random(7)
+        text = "light 1 1 3 1 1 1\n" + "".join(
+            f"triangle {3 * i}\n" + "".join(
+                f"{x + random_.uniform(-size, size):.3f} {y + random_.uniform(-size, size):.3f} {z:.3f}\n"
+                for _ in range(3)) for i in range(20000) for x, y, z, size in
+            [[random_.uniform(-1, 1) for _ in "xyz"] + [random_.choice((.01, .02, .5))]])
+        pathlib.Path("config.txt").write_text("30 20\n")
+        for stage3 in (text.split("\n", 1)[1], "projected ortho -1.5 1.5 -1 1 1 9\n" + text):
+            for words in ((), ("--algorithm", "scanline"), ("--seen", "seen.txt"), ("--threads", "2")):
+                with self.subTest(words=words, is_lit=stage3.startswith("projected")):
+                    self.assert_zbuf("config.txt", "--triangle-array", "triangles.npy", "--fragments",
+                                     "fragments.txt", "-o", "a.ppm", *words, stdin=stage3.encode())
+                    seen = [-1] * 600
+                    for column, row, number in re.findall(r"^(\d+),(\d+): triangle (\d+), .*: kept",
+                                                          pathlib.Path("fragments.txt").read_text(), re.M):
+                        seen[30 * int(row) + int(column)] = int(number)
+                    self.assertEqual(self.array("triangles.npy", "<i8"), ((20, 30), seen))
+
     def test_their_array_is_that_of_rays(self):
         view = pipe(["view", "--digits", "exact"], stdin=stage_texts()[0])
         pathlib.Path("stage3.txt").write_bytes(pipe(["project", "--digits", "exact"], stdin=view))
         pathlib.Path("config.txt").write_text("40 30\n")
-        self.assert_zbuf("config.txt", "stage3.txt", "--coverage", "center", "--depth-array", "depths.npy")
-        drawn = self.array()
+        self.assert_zbuf("config.txt", "stage3.txt", "--coverage", "center", "--depth-array", "depths.npy",
+                         "--triangle-array", "triangles.npy")
+        drawn = self.array(), self.array("triangles.npy", "<i8")
         self.assert_quiet_success(
-            run("trace", "config.txt", "--depth-array", "depths.npy", "--z-buffer", "none", stdin=view))
-        self.assertEqual(repr(self.array()), repr(drawn))
+            run("trace", "config.txt", "--depth-array", "depths.npy", "--triangle-array", "triangles.npy",
+                "--z-buffer", "none", stdin=view))
+        self.assertEqual(repr((self.array(), self.array("triangles.npy", "<i8"))), repr(drawn))
 
     def test_their_array_has_one_sample_a_pixel(self):
-        self.assert_fails(
-            run("zbuf", "config.txt", "--depth-array", "depths.npy", "--samples", "2", stdin=b""), 2,
-            "zbuf: --depth-array: expected --samples 1 with it, found '2' (try zbuf --help)")
+        for option in ("--depth-array", "--triangle-array"):
+            self.assert_fails(
+                run("zbuf", "config.txt", option, "depths.npy", "--samples", "2", stdin=b""), 2,
+                f"zbuf: {option}: expected --samples 1 with it, found '2' (try zbuf --help)")
 
 
 class Terminal(OutputTest):

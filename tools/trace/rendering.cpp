@@ -17,9 +17,9 @@
 #include "tools/trace/trace_work.h"
 #include "tools/trace/traced_picture.h"
 #include "tools/trace/traced_scene.h"
-#include "tools/zbuf/depth_files.h"
 #include "tools/zbuf/fragment_report.h"
 #include "tools/zbuf/image_rows.h"
+#include "tools/zbuf/pixel_files.h"
 #include "tools/zbuf/screen.h"
 #include "tools/zbuf/surface_shading.h"
 
@@ -59,6 +59,7 @@ PictureRays rays_of(const TraceOptions& chosen) {
           .has_colors = picture.has_image(),
           .has_depths = picture.z_buffer_path != "none" || !picture.depth_image_path.empty() ||
                         !picture.depth_array_path.empty(),
+          .has_triangles = !picture.triangle_array_path.empty(),
           .counts_covered = picture.summarizes};
 }
 
@@ -66,17 +67,17 @@ PictureRays rays_of(const TraceOptions& chosen) {
 void write_all(Tool& tool, const ZbufOptions& chosen, const TracedPicture& picture, Color background) {
   const Viewport& screen = picture.screen;
   ImageRows image(chosen.image_path, screen, 1, background);
-  DepthFiles depths(tool.output(), chosen.z_buffer_path, chosen.depth_image_path, chosen.depth_array_path,
-                    screen);
+  PixelFiles pixels(tool.output(), chosen, screen);
   for (int row = 0; row < screen.rows; ++row) {
-    if (!picture.depths.empty()) depths.write_row(picture.row_of(picture.depths, row));
+    if (!picture.depths.empty()) pixels.write_depths(picture.row_of(picture.depths, row));
+    if (pixels.wants_triangles()) pixels.write_triangles(picture.row_of(picture.triangles, row));
     if (image.is_wanted()) image.write_row(picture.row_of(picture.colors, row));
   }
-  depths.close();
+  pixels.close();
   image.close();
   tool.close_output();
   image.commit();
-  depths.commit();
+  pixels.commit();
   if (chosen.summarizes) Tool::report(summary(chosen.image_path, screen, picture.covered_count));
   tool.timing().lap(&Timing::write_seconds);
 }

@@ -36,6 +36,7 @@ struct Tiles {
 
 /// What the threads share.
 struct Shared {
+  const TracedTriangles& triangles;
   const RayCaster& centers;
   const RayCaster& samples;
   const SamplePlaces& places;
@@ -58,6 +59,8 @@ class PixelTracer {
       if (const auto seen = centers_.cast(row, column, shared_.rays.has_depths)) {
         ++covered_count_;
         if (shared_.rays.has_depths) picture.depths[pixel] = seen->depth;
+        if (shared_.rays.has_triangles)
+          picture.triangles[pixel] = static_cast<std::int64_t>(shared_.triangles.number(seen->id));
         if (shared_.shows_centers) picture.colors[pixel] = colors_.color(row, column, *seen);
       }
     }
@@ -112,18 +115,21 @@ TracedPicture traced_picture(const TracedScene& scene, const Bvh& bvh, const Vie
       static_cast<std::size_t>(screen.rows) * static_cast<std::size_t>(screen.columns);
   if (rays.has_colors) picture.colors.assign(pixel_count, background);
   if (rays.has_depths) picture.depths.assign(pixel_count, screen.rear);
+  if (rays.has_triangles) picture.triangles.assign(pixel_count, -1);
   const bool has_one_sample = rays.sample_count == 1 && !is_random(rays.sampling);
   const RayCaster centers(scene.triangles(), bvh, scene.projection(), screen);
   const RayCaster samples(scene.triangles(), bvh, scene.projection(), places.screen());
   const SampleOrder order(rays.sample_count);
-  const Shared shared = {.centers = centers,
-                         .samples = samples,
-                         .places = places,
-                         .order = order,
-                         .rays = rays,
-                         .background = background,
-                         .casts_centers = rays.has_depths || rays.counts_covered || has_one_sample,
-                         .shows_centers = rays.has_colors && has_one_sample};
+  const Shared shared = {
+      .triangles = scene.triangles(),
+      .centers = centers,
+      .samples = samples,
+      .places = places,
+      .order = order,
+      .rays = rays,
+      .background = background,
+      .casts_centers = rays.has_depths || rays.has_triangles || rays.counts_covered || has_one_sample,
+      .shows_centers = rays.has_colors && has_one_sample};
   const Tiles tiles(screen);
   std::vector<std::unique_ptr<PixelTracer>> tracers(static_cast<std::size_t>(pool.size()));
   Progress progress("trace", "ray");

@@ -24,6 +24,7 @@ struct PictureRays {
   int threshold = 0;     // of adaptive sampling: all samples where the first ones differ by so many levels
   bool has_colors = true;
   bool has_depths = true;
+  bool has_triangles = false;
   bool counts_covered = false;
 };
 
@@ -37,8 +38,10 @@ struct TracedPicture {
   }
 
   Viewport screen;
-  std::vector<Color> colors;        // empty if they are not requested
-  std::vector<double> depths;       // of the pixels' centers; empty if they are not requested
+  std::vector<Color> colors;   // empty if they are not requested
+  std::vector<double> depths;  // of the pixels' centers; empty if they are not requested
+  std::vector<std::int64_t>
+      triangles;                    // the numbers of those seen, -1 for none; empty if they are not requested
   std::uint64_t covered_count = 0;  // of pixels whose center shows something; 0 if that is not requested
 };
 

@@ -19,10 +19,10 @@
 #include "libpipeline/visibility/triangle_drawing.h"
 #include "tools/rim/empty_picture_note.h"
 #include "tools/rim/progress.h"
-#include "tools/zbuf/depth_files.h"
 #include "tools/zbuf/drawing_report.h"
 #include "tools/zbuf/fragment_report.h"
 #include "tools/zbuf/image_rows.h"
+#include "tools/zbuf/pixel_files.h"
 #include "tools/zbuf/screen.h"
 #include "tools/zbuf/seen_file.h"
 #include "tools/zbuf/surface_shading.h"
@@ -196,8 +196,8 @@ void write_all(Tool& tool, const ZbufOptions& chosen, const SampledVisible<Visib
   const Viewport& screen = visible.center_screen;
   ImageRows image(chosen.image_path, screen, chosen.sample_count, store.background_color());
   RowColors colors(store, shader, chosen.sample_count * screen.drawn_rows().first);
-  DepthFiles depths(tool.output(), chosen.z_buffer_path, chosen.depth_image_path, chosen.depth_array_path,
-                    screen);
+  PixelFiles pixels(tool.output(), chosen, screen);
+  std::vector<std::int64_t> numbers;
   std::optional<SeenFile> seen_file;
   if (store.keeps_text()) seen_file.emplace(tool.output(), chosen.seen_path);
   KeptIds seen(store.id_count());
@@ -207,7 +207,8 @@ void write_all(Tool& tool, const ZbufOptions& chosen, const SampledVisible<Visib
   std::uint64_t covered_count = 0;
   visible.centers.for_each_row([&](const VisibleRow& row) {
     mark(row.tags);
-    depths.write_row(row.depths);
+    pixels.write_depths(row.depths);
+    if (pixels.wants_triangles()) pixels.write_triangles(store.numbers_of(row.tags, numbers));
     if (chosen.summarizes)
       covered_count += static_cast<std::uint64_t>(
           std::ranges::count_if(row.depths, [&](double depth) { return depth < screen.rear; }));
@@ -220,12 +221,12 @@ void write_all(Tool& tool, const ZbufOptions& chosen, const SampledVisible<Visib
     });
   }
   if (seen_file) seen_file->write(reader, store, seen);
-  depths.close();
+  pixels.close();
   image.close();
   if (seen_file) seen_file->close();
   tool.close_output();
   image.commit();
-  depths.commit();
+  pixels.commit();
   if (seen_file) seen_file->commit();
   if (chosen.summarizes) Tool::report(summary(chosen.image_path, screen, covered_count));
   tool.timing().lap(&Timing::write_seconds);
@@ -270,6 +271,7 @@ void render_with(Tool& tool, const ZbufOptions& chosen, const Viewport& screen, 
   const std::unique_ptr<DrawingReport> report = drawing_report(chosen, screen, statistics.is_wanted());
   TriangleStore::Setup kept;
   kept.keeps_text = !chosen.seen_path.empty();
+  kept.keeps_numbers = !chosen.triangle_array_path.empty();
   kept.background = background_color(reader.header().appearance, surfaces.background);
   kept.pixel_count = pixel_count(shaded_screen);
   TriangleStore store(kept, shader, fragments.get());

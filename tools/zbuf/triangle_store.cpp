@@ -26,16 +26,26 @@ TriangleStore::TriangleStore(const Setup& setup, std::optional<SurfaceShader>& s
       capacity_(min_capacity_),
       max_id_count_(kIdsPerTriangle * min_capacity_) {
   if (setup.keeps_text) texts_.emplace();
+  tags_are_colors_ = report_ == nullptr && !has_ids();
 }
 
 void TriangleStore::color(std::span<const PixelTag> tags, std::span<Color> colors) {
   const auto color_of = [this](PixelTag id) {
-    return id == KeptIds::kNoTriangle ? setup_.background : colors_.of(texts_->number(id));
+    return id == KeptIds::kNoTriangle ? setup_.background : colors_.of(number(id));
   };
   if (has_ids())
     std::ranges::transform(tags, colors.begin(), color_of);
   else
     std::ranges::transform(tags, colors.begin(), Color::from_rgb);
+}
+
+std::span<const std::int64_t> TriangleStore::numbers_of(std::span<const PixelTag> tags,
+                                                        std::vector<std::int64_t>& numbers) const {
+  numbers.resize(tags.size());
+  std::ranges::transform(tags, numbers.begin(), [this](PixelTag id) {
+    return id == KeptIds::kNoTriangle ? std::int64_t{-1} : static_cast<std::int64_t>(number(id));
+  });
+  return numbers;
 }
 
 /// Pieces of a triangle stay together, and the last triangle may be the first piece of one.
@@ -68,6 +78,7 @@ void TriangleStore::let_go(KeptIds& kept) {
   next_id_ = static_cast<KeptIds::Id>(count);
   if (shader_) shader_->keep(kept);
   if (texts_) texts_->keep(kept);
+  if (keeps_numbers()) numbers_.keep(kept);
 }
 
 }  // namespace pipeline

@@ -4,10 +4,12 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "libpipeline/coverage/span.h"
 #include "libpipeline/picture/surface_shader.h"
 #include "libpipeline/scene/color.h"
+#include "libpipeline/stream/chunked_array.h"
 #include "libpipeline/stream/kept_ids.h"
 #include "libpipeline/stream/text_store.h"
 #include "libpipeline/stream/triangle_batch.h"
@@ -27,6 +29,7 @@ class TriangleStore {
  public:
   struct Setup {
     bool keeps_text = false;
+    bool keeps_numbers = false;  // of the triangles, for numbers_of
     Color background;
     std::size_t pixel_count = 0;  // of the picture, or of its samples
   };
@@ -46,8 +49,10 @@ class TriangleStore {
                  std::span<const std::uint8_t> needed);
   /// The tag of the next triangle.
   PixelTag tag_of(const TriangleBatch& p_ndc, std::size_t index) {
+    if (tags_are_colors_) return colors_.of(p_ndc.numbers[index]).rgb();
     if (report_ != nullptr) report_->add(p_ndc, index);
-    if (texts_ && !shader_) return next_id_++;
+    if (keeps_numbers()) numbers_.push_back(p_ndc.numbers[index]);
+    if (has_ids() && !shader_) return next_id_++;
     const Color color = colors_.of(p_ndc.numbers[index]);
     if (!shader_) return color.rgb();
     shader_->add(p_ndc, index, color);
@@ -55,6 +60,10 @@ class TriangleStore {
   }
   /// The colors of pixels with these tags, unless there is a shader.
   void color(std::span<const PixelTag> tags, std::span<Color> colors);
+
+  /// The numbers of the triangles with these tags, if they are kept, -1 for none; `numbers` holds them.
+  std::span<const std::int64_t> numbers_of(std::span<const PixelTag> tags,
+                                           std::vector<std::int64_t>& numbers) const;
 
   [[nodiscard]] bool keeps_text() const { return texts_.has_value(); }
   /// Ids are less.
@@ -64,8 +73,8 @@ class TriangleStore {
 
   /// True if it is time to let go of triangles.
   [[nodiscard]] bool is_full() const {
-    return shader_ ? next_id_ >= capacity_
-                   : texts_ && (texts_->size() >= capacity_ || next_id_ >= max_id_count_);
+    return texts_ && !shader_ ? texts_->size() >= capacity_ || next_id_ >= max_id_count_
+                              : has_ids() && next_id_ >= capacity_;
   }
   /// Lets go of the triangles that no pixel shows. `for_each_drawn_tag(visit)` calls visit(tag), which
   /// changes it, for every pixel of the rows drawn into; all triangles so far are drawn.
@@ -78,15 +87,21 @@ class TriangleStore {
   }
 
  private:
-  [[nodiscard]] bool has_ids() const { return shader_ || texts_; }
+  [[nodiscard]] bool has_ids() const { return shader_ || texts_ || setup_.keeps_numbers; }
+  [[nodiscard]] bool keeps_numbers() const { return setup_.keeps_numbers && !texts_; }  // texts have them
+  [[nodiscard]] std::uint64_t number(KeptIds::Id id) const {
+    return texts_ ? texts_->number(id) : numbers_[id];
+  }
   void let_go(KeptIds& kept);
 
   Setup setup_;
   std::optional<SurfaceShader>& shader_;
   std::optional<TextStore> texts_;
+  ChunkedArray<std::uint64_t> numbers_;
   KeptIds::Id next_id_ = 0;
   std::uint64_t last_number_ = 0;  // of the triangles so far
   FragmentReport* report_;
+  bool tags_are_colors_;  // and nothing else is to be done
   TriangleColors colors_;
   std::size_t min_capacity_;
   std::size_t capacity_;

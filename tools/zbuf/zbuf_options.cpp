@@ -31,9 +31,10 @@ void ZbufOptions::complete(bool is_terminal) {
       color && !color->is_opaque() && has_image() && !can_hold_alpha(image_path))
     throw UsageError("--background: " +
                      expected_but_found(expected_opaque_background(), pipeline::quoted(background)));
-  if (!depth_array_path.empty() && sample_count > 1)
-    throw UsageError("--depth-array: " + expected_but_found("--samples 1 with it",
-                                                            pipeline::quoted(std::to_string(sample_count))));
+  if (sample_count > 1 && !(depth_array_path.empty() && triangle_array_path.empty()))
+    throw UsageError(
+        (depth_array_path.empty() ? "--triangle-array: " : "--depth-array: ") +
+        expected_but_found("--samples 1 with it", pipeline::quoted(std::to_string(sample_count))));
   if (algorithm != Algorithm::scanline) return;
   if (thread_count > 1)
     throw UsageError("--threads: " +
@@ -78,6 +79,7 @@ std::vector<NamedFile> outputs_of(const ZbufOptions& chosen, const Statistics& s
           file_or_stream("--z-buffer", depths, kStandardOutput),
           {"--depth-image", chosen.depth_image_path},
           {"--depth-array", chosen.depth_array_path},
+          {"--triangle-array", chosen.triangle_array_path},
           {"--fragments", chosen.fragments_path},
           seen,
           statistics.output(),

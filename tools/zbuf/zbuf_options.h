@@ -9,9 +9,9 @@
 
 #include "libpipeline/coverage/rules.h"
 #include "libpipeline/coverage/type_list.h"
-#include "libpipeline/picture/depth_array.h"
 #include "libpipeline/picture/depth_image.h"
 #include "libpipeline/picture/image_file.h"
+#include "libpipeline/picture/pixel_array.h"
 #include "libpipeline/picture/supersampling.h"
 #include "libpipeline/picture/surface_shader.h"
 #include "libpipeline/scene/color.h"
@@ -36,9 +36,10 @@ struct ZbufOptions {
   Algorithm algorithm = Algorithm::zbuffer;
   TypeChoice<DepthFormats> depth;
   int thread_count = 1;
-  std::string depth_image_path;  // empty: none
-  std::string depth_array_path;  // empty: none
-  std::string seen_path;         // "-": standard output; empty: no file
+  std::string depth_image_path;     // empty: none
+  std::string depth_array_path;     // empty: none
+  std::string triangle_array_path;  // empty: none
+  std::string seen_path;            // "-": standard output; empty: no file
   double depth_epsilon = 0;
   std::string rows;                     // "A:B", if the option is given
   int sample_count = 1;                 // along each side of a pixel, for the image alone
@@ -173,7 +174,12 @@ inline void ZbufOptions::add_screen_and_outputs(CommandLine& options, bool has_s
   options.add_word("--depth-array", "FILE", depth_array_path,
                    "Also write the depths as an array of doubles, a .npy file for numpy.load: nan where "
                    "nothing is seen",
-                   wrong_with_name(check_depth_array_name));
+                   wrong_with_name(check_array_name));
+  options.add_word(
+      "--triangle-array", "FILE", triangle_array_path,
+      "Also write the numbers of the triangles seen as an array of whole numbers, a .npy file: -1 "
+      "where nothing is seen",
+      wrong_with_name(check_array_name));
 }
 
 inline void ZbufOptions::add_samples(CommandLine& options) {

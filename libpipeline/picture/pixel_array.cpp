@@ -1,0 +1,43 @@
+#include "libpipeline/picture/pixel_array.h"
+
+#include <bit>
+#include <cstring>
+#include <type_traits>
+
+#include "libpipeline/picture/image_file.h"
+
+namespace pipeline {
+
+static_assert(std::endian::native == std::endian::little);
+
+void check_array_name(const std::string& path) {
+  if (extension_of(path) != ".npy" && !is_device_without_extension(path))
+    reject_extension(path, "an array file", {".npy"});
+}
+
+template <typename Number>
+PixelArrayWriter<Number>::PixelArrayWriter(int descriptor, const std::string& path, const Viewport& screen)
+    : file_(descriptor, path) {
+  static_assert(sizeof(Number) == 8);
+  const std::string kind = std::is_floating_point_v<Number> ? "<f8" : "<i8";
+  std::string description = "{'descr': '" + kind + "', 'fortran_order': False, 'shape': (" +
+                            std::to_string(screen.drawn_row_count()) + ", " + std::to_string(screen.columns) +
+                            "), }";
+  // The numbers begin at a multiple of 64, behind a line feed; ten bytes stand before the description.
+  constexpr std::size_t kStart = 128;
+  description.resize(kStart - 11, ' ');
+  const char length = static_cast<char>(kStart - 10);
+  file_.append(std::string("\x93NUMPY\x01\0", 8) + length + std::string(1, '\0') + description + "\n");
+}
+
+template <typename Number>
+void PixelArrayWriter<Number>::write_row(std::span<const Number> numbers) {
+  char* const out = file_.reserve(numbers.size_bytes());
+  std::memcpy(out, numbers.data(), numbers.size_bytes());
+  file_.commit(out + numbers.size_bytes());
+}
+
+template class PixelArrayWriter<double>;
+template class PixelArrayWriter<std::int64_t>;
+
+}  // namespace pipeline
