@@ -2,7 +2,8 @@
 
 import {bytesOf, intsOf, realsOf} from "./pack.js";
 
-const FATES = ["kept", "lost, behind", "lost, equal and later than", "lost, before the front limit", "lost, beyond the rear limit"];
+const FATES = ["kept", "lost, behind", "lost, equal and later than", "lost, before the front limit", "lost, beyond the rear limit", "lost, nearer by too little than"];
+const LOST_TO = new Set([1, 2, 5]);  // the fates that name the triangle that is shown
 
 export class FragmentData {
   constructor(data) {
@@ -41,7 +42,7 @@ export class FragmentData {
     let winner = -1;
     for (let f = this.begins[p]; f < this.begins[p + 1]; ++f) {
       const fate = this.fates[f], triangle = this.triangles[f];
-      found.push({triangle, depth: this.depths[f], isSeen: f === this.seen[p], fate: FATES[fate] + (fate === 1 || fate === 2 ? ` ${this.called(winner)}` : "")});
+      found.push({triangle, depth: this.depths[f], isSeen: f === this.seen[p], fate: FATES[fate] + (LOST_TO.has(fate) ? ` ${this.called(winner)}` : "")});
       if (fate === 0) winner = triangle;
     }
     return found;

@@ -1,6 +1,7 @@
-// The page's data: JSON, deflated, in base64; arrays of numbers in base64 once more.
+// The page's data: JSON, deflated, in base64; arrays of numbers in base64 once more, unless they are arrays already.
 
 export function bytesOf(base64) {
+  if (typeof base64 !== "string") return base64;
   const letters = atob(base64), bytes = new Uint8Array(letters.length);
   for (let i = 0; i < bytes.length; ++i) bytes[i] = letters.charCodeAt(i);  // Uint8Array.from takes seconds for a large page
   return bytes;
@@ -11,5 +12,5 @@ export async function inflated(base64) {
   return JSON.parse(await new Response(stream).text());
 }
 
-export const intsOf = base64 => new Int32Array(bytesOf(base64).buffer);
-export const realsOf = base64 => new Float64Array(bytesOf(base64).buffer);
+export const intsOf = data => typeof data === "string" ? new Int32Array(bytesOf(data).buffer) : data;
+export const realsOf = data => typeof data === "string" ? new Float64Array(bytesOf(data).buffer) : data;

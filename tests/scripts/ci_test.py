@@ -14,9 +14,9 @@ import unittest
 
 SOURCE = pathlib.Path(sys.argv.pop(1)).resolve()
 PRESETS = ("release", "asan", "fuzz", "tsan", "clang")
-STUBS = ("scripts/install-packages", "scripts/build-release", "scripts/check", "scripts/measure/bench",
-         "scripts/maintain/fuzz", "scripts/maintain/tidy", "scripts/maintain/compare-builds", "bin/cmake",
-         "bin/git", "bin/clang-format")
+STUBS = ("scripts/install-packages", "scripts/build-release", "scripts/build-playground", "scripts/check",
+         "scripts/measure/bench", "scripts/maintain/fuzz", "scripts/maintain/tidy",
+         "scripts/maintain/compare-builds", "bin/cmake", "bin/git", "bin/clang-format")
 LIB = [str(path.relative_to(SOURCE)) for path in (SOURCE / "scripts/lib").glob("*.py")]
 # The folder of a preset's tests, in this tree.
 CTEST = f"""#!/bin/sh
@@ -55,7 +55,8 @@ class Tree(unittest.TestCase):
         for preset in PRESETS:
             self.set_tests(preset, ("ThreadPool.Works", "true"))
         self.set_tests("release", ("Passes", "true"), ("Takes.Longer", "true", "LABELS", "all"),
-                       ("Takes.Minutes", "true", "LABELS", "matrix"))
+                       ("Takes.Minutes", "true", "LABELS", "matrix"),
+                       ("Tools.RunInTheBrowser", "true", "LABELS", "matrix"))
         for real in (".ci/run", "scripts/maintain/test-report", *LIB):
             self.put(real, (SOURCE / real).read_text())
 

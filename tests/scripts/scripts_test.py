@@ -74,6 +74,8 @@ class Writing(ToolTest):
         "check": "the folder build of the source tree",
         "build-release": "the folder build of the source tree",
         "install-packages": "the folder build of the source tree",
+        "build-playground": "the folder build of the source tree, and files of its own in another",
+        "playground/make-root": "the folder build of the source tree",
     }
     ROOMS_OF_DEVELOPERS = (
         "measure",

@@ -1,0 +1,54 @@
+// Makes the page's files from its modules: node build.mjs NPM_FOLDER TOOLS_FOLDER VERSION DIR. scripts/build-playground calls it.
+
+import crypto from "node:crypto";
+import fs from "node:fs";
+import {createRequire} from "node:module";
+import path from "node:path";
+import {fileURLToPath} from "node:url";
+import zlib from "node:zlib";
+
+const [npmFolder, toolsFolder, version, target] = process.argv.slice(2);
+const here = path.dirname(fileURLToPath(import.meta.url)), root = path.join(here, "../..");
+const {build} = createRequire(path.resolve(npmFolder, "package.json"))("esbuild");
+const read = (...parts) => fs.readFileSync(path.join(...parts), "utf8");
+const hashOf = script => `'sha256-${crypto.createHash("sha256").update(script).digest("base64")}'`;
+const packed = data => zlib.deflateSync(data, {level: 9}).toString("base64");
+
+async function bundled(entry, resources, format = "esm") {
+  const {outputFiles} = await build({
+    entryPoints: [path.join(here, entry)], bundle: true, minify: true, write: false, format, target: "es2022", legalComments: "none", charset: "utf8",
+    nodePaths: [path.resolve(npmFolder, "node_modules")], define: {PIPELINE_VERSION: JSON.stringify(version)},
+    external: ["module", "node:*"], logOverride: {"empty-import-meta": "silent"},
+    alias: {resources: path.join(here, resources), "all-tools": path.resolve(toolsFolder, "all-tools.js")},
+  });
+  return outputFiles[0].text;
+}
+
+// A script in a page ends at the first "</script", and a page's own comments begin with "<!--".
+const inPage = script => script.replaceAll("</script", "<\\/script").replaceAll("<!--", "<\\!--");
+
+function pageOf(policy, style, script) {
+  const parts = read(here, "../inspect_parts/page.html"), inspector = parts.slice(parts.indexOf("<header>"), parts.indexOf("</dialog>") + "</dialog>".length);
+  const rules = `default-src 'none'; img-src data: blob:; style-src 'unsafe-inline'; base-uri 'none'; form-action 'none'; ${policy}`;
+  const filled = {policy: `<meta http-equiv="Content-Security-Policy" content="${rules}">`, style, inspector, script};
+  return read(here, "page.html").replace(/<!-- (policy|style|inspector|script) -->/g, (_, name) => filled[name]);
+}
+
+const style = `<style>\n${read(here, "../inspect_parts/page.css")}${read(here, "page.css")}</style>`;
+const samples = Object.fromEntries(fs.readdirSync(path.join(root, "samples")).filter(name => fs.existsSync(path.join(root, "samples", name, "scene.txt")))
+  .map(name => [name, {scene: read(root, "samples", name, "scene.txt"), config: read(root, "samples", name, "config.txt")}]));
+const wasm = fs.readFileSync(path.join(toolsFolder, "all-tools.wasm")), worker = await bundled("worker.js", "resources_of_page.js", "iife");
+
+const inner = inPage(await bundled("main.js", "resources_of_page.js"));
+const data = (id, text) => `<script type="application/octet-stream" id="${id}">${text}</script>`;
+const single = pageOf(`script-src ${hashOf(inner)} 'wasm-unsafe-eval'; worker-src blob:`, style,
+  [data("samples-data", packed(JSON.stringify(samples))), data("tools-data", packed(wasm)), data("worker-script", inPage(worker)), `<script type="module">${inner}</script>`].join("\n"));
+const folder = pageOf("script-src 'self' 'wasm-unsafe-eval'; worker-src 'self'; connect-src 'self'", style, '<script type="module" src="main.js"></script>');
+
+fs.mkdirSync(path.join(target, "playground"), {recursive: true});
+const files = {"playground.html": single, "playground/index.html": folder, "playground/main.js": await bundled("main.js", "resources_of_folder.js"),
+  "playground/worker.js": worker, "playground/samples.json": JSON.stringify(samples), "playground/tools.wasm": wasm};
+for (const [name, contents] of Object.entries(files)) {
+  fs.writeFileSync(path.join(target, name), contents);
+  console.log(`${name}: ${contents.length} bytes, ${zlib.gzipSync(contents, {level: 9}).length} compressed`);
+}

@@ -1,0 +1,68 @@
+// A text with line numbers, of which only the visible lines are in the document, and a tool's messages at their lines.
+
+import {autocompletion, completeFromList} from "@codemirror/autocomplete";
+import {defaultKeymap, history, historyKeymap} from "@codemirror/commands";
+import {HighlightStyle, StreamLanguage, syntaxHighlighting} from "@codemirror/language";
+import {lintGutter, setDiagnostics} from "@codemirror/lint";
+import {EditorState} from "@codemirror/state";
+import {EditorView, drawSelection, highlightActiveLine, keymap, lineNumbers} from "@codemirror/view";
+import {tags} from "@lezer/highlight";
+
+const COMMANDS = ["triangle", "sphere", "translate", "scale", "rotate", "push", "pop", "end", "color", "attributes", "background", "light", "ambient", "material",
+  "absorption", "attenuation", "use", "ortho", "frustum", "ratio"];
+
+const scenes = StreamLanguage.define({
+  token(stream) {
+    if (stream.match(/#.*/)) return "comment";
+    if (stream.match(/[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?/)) return "number";
+    if (stream.match(/[A-Za-z]\w*/)) return "keyword";
+    stream.next();
+    return null;
+  },
+});
+const colors = HighlightStyle.define([{tag: tags.comment, color: "var(--soft)"}, {tag: tags.keyword, color: "var(--accent)"}, {tag: tags.number, color: "var(--shown)"}]);
+const theme = EditorView.theme({
+  "&": {height: "100%", color: "var(--ink)", backgroundColor: "var(--card)"},
+  ".cm-scroller": {font: '12px/17px "DejaVu Sans Mono", ui-monospace, monospace'},
+  ".cm-gutters": {backgroundColor: "var(--card)", color: "var(--soft)", border: "0"},
+  ".cm-activeLine, .cm-activeLineGutter": {backgroundColor: "var(--hover)"},
+  ".cm-cursor": {borderLeftColor: "var(--ink)"},
+  "&.cm-focused .cm-selectionBackground, .cm-selectionBackground": {backgroundColor: "var(--chosen)"},
+  ".cm-tooltip": {backgroundColor: "var(--card)", color: "var(--ink)", border: "1px solid var(--edge)"},
+});
+
+export class Editor {
+  // `changed` is called after each edit of the reader's.
+  constructor(box, name, changed) {
+    this.isOwn = false;
+    const language = name === "scene.txt" ? [scenes, syntaxHighlighting(colors), autocompletion({override: [completeFromList(COMMANDS)]})] : [scenes, syntaxHighlighting(colors)];
+    this.extensions = [
+      lineNumbers(), history(), drawSelection(), highlightActiveLine(), lintGutter(), ...language, theme, keymap.of([...defaultKeymap, ...historyKeymap]),
+      EditorView.contentAttributes.of({"aria-label": name, spellcheck: "false"}),
+      EditorView.updateListener.of(update => { if (update.docChanged && !this.isOwn) changed(); }),
+    ];
+    this.view = new EditorView({state: this.stateOf(""), parent: box});
+  }
+
+  stateOf(text) { return EditorState.create({doc: text, extensions: this.extensions}); }
+
+  get text() { return this.view.state.doc.toString(); }
+
+  set text(text) { this.view.setState(this.stateOf(text)); }
+
+  // Marks lines: [{line, column, isError, text}], counted from 1; what lies behind the end is at the end.
+  mark(messages) {
+    const {doc} = this.view.state;
+    const marks = messages.map(({line, column, isError, text}) => {
+      const at = doc.line(Math.max(1, Math.min(line, doc.lines))), from = Math.min(at.to, at.from + Math.max(0, column - 1));
+      return {from, to: Math.max(from, at.to), severity: isError ? "error" : "info", message: text};
+    });
+    this.view.dispatch(setDiagnostics(this.view.state, marks.sort((a, b) => a.from - b.from)));
+  }
+
+  goTo(line) {
+    const {doc} = this.view.state, at = doc.line(Math.max(1, Math.min(line, doc.lines)));
+    this.view.dispatch({selection: {anchor: at.from}, scrollIntoView: true});
+    this.view.focus();
+  }
+}

@@ -1,0 +1,169 @@
+// The playground: a scene, a config and options at the left, what every stage makes of them at the right.
+
+import {Inspector} from "../inspect_parts/inspector.js";
+import {CommandLine} from "./command_line.js";
+import {Editor} from "./editor.js";
+import {LONGEST, checked, hashOf, stateOf} from "./link.js";
+import {PipeClient} from "./pipe_client.js";
+import {STEPS} from "./tour.js";
+import {VERSION, samples, toolModule, workerAddress} from "resources";
+
+const FIRST_SAMPLE = "worked-example";
+const PLACE = /^\w[\w-]*: (?:note: )?(<stdin>|config\.txt):(\d+)(?::(\d+))?: /;
+const one = selector => document.querySelector(selector);
+
+class Playground {
+  constructor(given, module) {
+    this.given = given;
+    this.inspector = null;
+    this.editors = {scene: new Editor(one("#scene"), "scene.txt", () => this.edited()), config: new Editor(one("#config"), "config.txt", () => this.edited())};
+    this.client = new PipeClient(module, workerAddress(), {answered: answer => this.show(answer), busy: isBusy => { one("#stop").hidden = !isBusy; }});
+    this.line = new CommandLine(one("#line"), tool => this.client.helpOf(tool), () => this.edited());
+    one("#samples").append(...Object.keys(given).map(name => new Option(name, name)));
+    one("#version").textContent = VERSION;
+    this.listen();
+  }
+
+  get state() { return {version: VERSION, scene: this.editors.scene.text, config: this.editors.config.text, words: this.line.words}; }
+
+  set state({scene, config, words}) {
+    this.editors.scene.text = scene;
+    this.editors.config.text = config;
+    this.line.words = words;
+    this.run();
+  }
+
+  async start() {
+    const linked = await this.linked();
+    if (linked) this.open(linked);
+    else this.choose(FIRST_SAMPLE);
+  }
+
+  async linked() {
+    try {
+      return await stateOf(location.hash);
+    } catch (error) {
+      this.tell(`The link cannot be read: ${error.message}.`);
+      return null;
+    }
+  }
+
+  // A state that came with a link or a file.
+  open(state) {
+    this.state = state;
+    if (state.version !== VERSION) this.tell(`Made with version ${state.version}; this is ${VERSION}.`);
+  }
+
+  choose(name) {
+    const {scene, config} = this.given[name];
+    one("#samples").value = name;
+    this.state = {scene, config, words: {model: "", view: "", project: "", zbuf: ""}};
+  }
+
+  listen() {
+    one("#samples").onchange = event => { if (event.target.value) this.choose(event.target.value); };
+    one("#link").onclick = () => this.copyLink();
+    one("#save").onclick = () => this.save("playground.json", new Blob([JSON.stringify(this.state, null, 1)], {type: "application/json"}));
+    one("#picture").onclick = () => one("#image").toBlob(blob => this.save("out.png", blob));
+    one("#stop").onclick = () => this.client.stop();
+    this.step = 0;
+    one("#tour").onclick = () => { const {hidden} = one("#steps"); one("#steps").hidden = !hidden; one("#tour").setAttribute("aria-expanded", hidden); if (hidden) this.goToStep(0); };
+    one("#before").onclick = () => this.goToStep(this.step - 1);
+    one("#after").onclick = () => this.goToStep(this.step + 1);
+    window.addEventListener("hashchange", async () => { const linked = await this.linked(); if (linked) this.open(linked); });
+    document.addEventListener("dragover", event => event.preventDefault());
+    document.addEventListener("drop", event => { event.preventDefault(); this.take(event.dataTransfer.files); });
+  }
+
+  // Files dropped on the page: what Save wrote, or a scene and a config by their names.
+  async take(files) {
+    for (const file of files) {
+      const text = await file.text();
+      if (file.name.endsWith(".json")) {
+        try { this.open(checked(JSON.parse(text))); } catch (error) { this.tell(`${file.name}: ${error.message}.`); }
+      } else {
+        this.editors[/config/.test(file.name) ? "config" : "scene"].text = text;
+        this.run();
+      }
+    }
+  }
+
+  goToStep(step) {
+    this.step = Math.max(0, Math.min(STEPS.length - 1, step));
+    const {text, sample, edit} = STEPS[this.step];
+    one("#step").textContent = `${this.step + 1} of ${STEPS.length}. ${text}`;
+    one("#before").disabled = this.step === 0;
+    one("#after").disabled = this.step === STEPS.length - 1;
+    if (sample) this.choose(sample);
+    if (edit) this.state = {...this.state, scene: edit(this.editors.scene.text)};
+  }
+
+  async copyLink() {
+    const hash = await hashOf(this.state);
+    if (hash.length > LONGEST) return this.tell("Too long for an address: use Save, and drop the file on this page.");
+    history.replaceState(null, "", hash);
+    await navigator.clipboard.writeText(location.href).then(() => this.tell("Copied."), () => this.tell("It is in the address now."));
+  }
+
+  save(name, blob) {
+    const link = document.createElement("a");
+    link.href = URL.createObjectURL(blob);
+    link.download = name;
+    link.click();
+    setTimeout(() => URL.revokeObjectURL(link.href), 1000);
+  }
+
+  tell(text) { one("#told").textContent = text; }
+
+  edited() {
+    one("#samples").value = "";
+    this.run();
+  }
+
+  run() {
+    this.tell("");
+    const {scene, config, words} = this.state;
+    this.client.run({scene, config, words});
+  }
+
+  // What the worker answers: the data of an Inspector, or the stage that failed.
+  show({data, failed, messages}) {
+    this.showMessages(messages, failed);
+    one("#glass").classList.toggle("stale", Boolean(failed));
+    if (failed) return;
+    const kept = this.inspector && this.inspector.dispose(), parts = one("#inspector").content.cloneNode(true);
+    one("#glass").replaceChildren(parts);
+    this.inspector = new Inspector(one("#glass"), data, {hasAddress: false, kept});
+    document.body.dataset.runs = Number(document.body.dataset.runs || 0) + 1;
+  }
+
+  showMessages(messages, failed) {
+    const places = {scene: [], config: []};
+    const items = messages.map(({tool, line}) => {
+      const item = document.createElement("li"), found = line.match(PLACE), isError = tool === failed && !/^\w+: note: /.test(line);
+      item.className = isError ? "error" : "";
+      const editor = found && (found[1] === "config.txt" ? "config" : tool === "model" ? "scene" : null);
+      if (!editor) return item.append(line), item;
+      places[editor].push({line: Number(found[2]), column: Number(found[3] || 1), isError, text: line.slice(found[0].length)});
+      const button = document.createElement("button");
+      button.textContent = line;
+      button.onclick = () => this.editors[editor].goTo(Number(found[2]));
+      item.append(button);
+      return item;
+    });
+    if (!items.length) {
+      const item = document.createElement("li");
+      item.className = "quiet";
+      item.textContent = "none";
+      items.push(item);
+    }
+    one("#messages").replaceChildren(...items);
+    for (const name of ["scene", "config"]) this.editors[name].mark(places[name]);
+  }
+}
+
+Promise.all([samples(), toolModule()]).then(async ([given, module]) => {
+  document.body.playground = new Playground(given, module);
+  await document.body.playground.start();
+  document.body.dataset.ready = "yes";
+}).catch(error => { one("#waiting").textContent = `This browser cannot run the tools: ${error.message}`; });

@@ -1,0 +1,129 @@
+// A scene sent through the pipe: what a shell makes of `model < scene.txt | view | project | zbuf config.txt`, and what the inspector shows.
+
+import {guideOf} from "./guide.js";
+import {StageText} from "./stage_text.js";
+import {textOf} from "./tools.js";
+
+export const STAGES = ["model", "view", "project", "zbuf"];
+const TITLES = {model: "world space", view: "view space", project: "normalized device coordinates"};
+const FATES = ["kept", "behind", "equal", "before", "beyond", "nearer"];
+const IMAGE = "out.ppm", COUNTS = "counts.txt", FRAGMENTS = "fragments.txt", TRIANGLES = "triangles.npy", DEPTHS = "depths.npy";
+
+// A stage has failed: `messages` are those of all stages so far.
+export class StageFailure extends Error {
+  constructor(tool, status, messages) { super(`${tool}: exit status ${status}`); Object.assign(this, {tool, status, messages}); }
+}
+
+export const wordsOf = options => options.trim().split(/\s+/).filter(word => word);
+const isEqual = (a, b) => a.length === b.length && a.every((x, i) => x === b[i]);
+const pairsOf = text => text.split("\n").filter(line => line).map(line => line.split(" "));
+
+export class Pipe {
+  constructor(tools) { Object.assign(this, {tools, kept: new Map()}); }
+
+  // Runs a stage, unless it has run with the same words on the same input.
+  async stage(tool, words, input, files) {
+    const key = [...words, ...Object.values(files)], before = this.kept.get(tool);
+    if (before && before.input === input && isEqual(before.key, key)) return before;
+    const started = performance.now();
+    const done = await this.tools.run(tool, words, {input, files, isPiped: [tool !== "model", tool !== "zbuf"]});
+    const result = {...done, tool, key, input, seconds: (performance.now() - started) / 1000, text: textOf(done.messages)};
+    this.kept.set(tool, result);
+    return result;
+  }
+
+  // The data of an Inspector, and the messages of every stage. If it `isQuick`, of the fragments of a pixel there is only the one that is seen:
+  // the others take ten times as long as the picture. Throws a StageFailure.
+  async run({scene, config, words}, isQuick) {
+    const results = [], messages = [], logs = isQuick && !/--samples/.test(words.zbuf) ? ["--triangle-array", TRIANGLES, "--depth-array", DEPTHS] : ["--fragments", FRAGMENTS];
+    let input = scene;
+    for (const tool of STAGES) {
+      const isLast = tool === "zbuf", own = wordsOf(words[tool]);
+      const all = isLast ? ["config.txt", ...own, "-o", IMAGE, ...logs, "--stats", COUNTS] : [...own, "--stats", COUNTS];
+      const done = await this.stage(tool, all, input, isLast ? {"config.txt": config} : {});
+      messages.push(...done.text.split("\n").filter(line => line).map(line => ({tool, line})));
+      if (done.status !== 0) throw new StageFailure(tool, done.status, messages);
+      results.push(done);
+      input = done.output;
+    }
+    return {data: this.inspected(results, config), messages, isQuick: logs[0] !== "--fragments"};
+  }
+
+  inspected(results, config) {
+    const texts = results.slice(0, 3).map(done => new StageText(textOf(done.output))), [model] = texts, zbuf = results[3];
+    const counts = results.map(done => pairsOf(textOf(done.read(COUNTS))));
+    const {columns, rows, pixels} = imageOf(zbuf.read(IMAGE));
+    const reach = -Number(new Map(counts[1]).get("z_min") || 0), depths = textOf(zbuf.output);
+    const stages = texts.map((text, i) => this.stageData(results[i], text, counts[i], model.count, guideOf(results[i].tool, model.header, reach)));
+    stages.push({tool: "zbuf", title: "pixels", seconds: zbuf.seconds, triangles: texts[2].names.length, bytes: zbuf.output.length, statistics: counts[3], text: depths});
+    const log = zbuf.read(FRAGMENTS), fragments = log ? fragmentsOf(textOf(log), columns, columns * rows) : seenOf(zbuf.read(TRIANGLES), zbuf.read(DEPTHS));
+    return {
+      scene: "scene.txt", config: "config.txt", triangles: model.count, spheres: model.spheres.length, step: 1, columns, rows, stages, pixels, notes: [], limits: limitsOf(config),
+      explanations: [], ...fragments,
+    };
+  }
+
+  stageData(done, text, statistics, count, guide) {
+    return {
+      tool: done.tool, title: TITLES[done.tool], seconds: done.seconds, triangles: text.names.length, missing: count - new Set(text.names).size, bytes: done.output.length,
+      statistics, names: Int32Array.from(text.names), firstLines: Int32Array.from(text.firstLines), numbers: null, text: text.text, ...guide,
+      spheres: {names: Int32Array.from(text.spheres, ([name]) => name), firstLines: Int32Array.from(text.spheres, ([, line]) => line), points: Float64Array.from(text.spherePoints())},
+    };
+  }
+}
+
+// The words of a config's limits of x and y.
+function limitsOf(config) {
+  const words = config.replace(/#.*/g, "").split(/\s+/).filter(word => word).slice(2, 4);
+  return words.length === 2 ? words : ["-1", "-1"];
+}
+
+// Columns, rows, and the red, green and blue of every pixel of a PPM.
+function imageOf(bytes) {
+  let at = 0;
+  const words = [];
+  while (words.length < 4) {
+    const start = at;
+    while (bytes[at] > 32) ++at;
+    words.push(textOf(bytes.subarray(start, at++)));
+  }
+  return {columns: Number(words[1]), rows: Number(words[2]), pixels: bytes.subarray(at)};
+}
+
+// The numbers of a .npy file.
+function numbersOf(bytes, Numbers) {
+  const at = 10 + bytes[8] + 256 * bytes[9];
+  return new Numbers(bytes.slice(at).buffer);
+}
+
+// Of each pixel the fragment that is seen.
+function seenOf(triangles, depths) {
+  const names = Int32Array.from(numbersOf(triangles, BigInt64Array), Number), begins = new Int32Array(names.length + 1);
+  names.forEach((name, p) => { begins[p + 1] = begins[p] + (name >= 0); });
+  const shown = names.filter(name => name >= 0);
+  return {fragments: {begins, triangles: shown, depths: numbersOf(depths, Float64Array).filter(depth => !Number.isNaN(depth)), fates: new Uint8Array(shown.length)}, fragmentCount: shown.length, leftOut: 0};
+}
+
+// The fragments of `--fragments`, pixel by pixel from the top left, in the order in which they arrived.
+function fragmentsOf(text, columns, pixelCount) {
+  const lines = text.split("\n");
+  lines.pop();
+  const count = lines.length, pixels = new Int32Array(count), begins = new Int32Array(pixelCount + 1);
+  const found = {triangles: new Int32Array(count), depths: new Float64Array(count), fates: new Uint8Array(count)};
+  const sorted = {triangles: new Int32Array(count), depths: new Float64Array(count), fates: new Uint8Array(count)};
+  lines.forEach((line, i) => {  // COLUMN,ROW: triangle N, depth D: kept | COLUMN,ROW: triangle N, depth D: lost, behind triangle M
+    const [place, , name, , depth, fate, why] = line.split(" "), [column, row] = place.split(",");
+    pixels[i] = parseInt(row, 10) * columns + Number(column);
+    ++begins[pixels[i] + 1];
+    found.triangles[i] = parseInt(name, 10);
+    found.depths[i] = parseFloat(depth);
+    found.fates[i] = fate === "kept" ? 0 : FATES.indexOf(why);
+  });
+  for (let p = 0; p < pixelCount; ++p) begins[p + 1] += begins[p];
+  const next = begins.slice();
+  for (let i = 0; i < count; ++i) {
+    const at = next[pixels[i]]++;
+    for (const key in sorted) sorted[key][at] = found[key][i];
+  }
+  return {fragments: {begins, ...sorted}, fragmentCount: count, leftOut: 0};
+}

@@ -1,0 +1,77 @@
+// The page's end of the worker: one run at a time, of the newest state.
+
+const PAUSE = 250;  // milliseconds without an edit, before the slow part
+
+export class PipeClient {
+  // `module` is the compiled WebAssembly.Module, `workerAddress` where the worker's script is. `answered` is called with each answer to a run,
+  // `busy` with whether one has been under way for a while.
+  constructor(module, workerAddress, {answered, busy}) {
+    Object.assign(this, {module, workerAddress, answered, busy, id: 0, running: null, next: null, waiting: new Map()});
+    this.start();
+  }
+
+  start() {
+    this.worker = new Worker(this.workerAddress);  // no module: a page from the disk may not start one
+    this.worker.onmessage = ({data}) => this.receive(data);
+    this.worker.onerror = event => this.fail(event);
+    this.worker.postMessage({module: this.module});
+  }
+
+  // At first quickly; if nothing else is to be done for a while, with all that belongs to it.
+  run(state) {
+    clearTimeout(this.later);
+    this.next = {state, isQuick: true};
+    if (this.running === null) this.send();
+  }
+
+  send() {
+    if (!this.next) return;
+    this.running = ++this.id;
+    this.worker.postMessage({id: this.running, ...this.next});
+    this.state = this.next.state;
+    this.next = null;
+    this.timer = setTimeout(() => this.busy(true), 400);
+  }
+
+  helpOf(tool) {
+    const id = ++this.id;
+    return new Promise(resolve => {
+      this.waiting.set(id, resolve);
+      this.worker.postMessage({id, help: tool});
+    });
+  }
+
+  receive(answer) {
+    this.hasAnswered = true;
+    if (this.waiting.has(answer.id)) {
+      this.waiting.get(answer.id)(answer.text);
+      return void this.waiting.delete(answer.id);
+    }
+    this.end();
+    this.answered(answer);
+    if (answer.isQuick && !this.next) this.later = setTimeout(() => { this.next = {state: this.state, isQuick: false}; this.send(); }, PAUSE);
+    this.send();
+  }
+
+  end() {
+    clearTimeout(this.timer);
+    this.running = null;
+    this.busy(false);
+  }
+
+  // A worker that ends by itself is started again, if it has ever answered.
+  fail(event) {
+    event.preventDefault();
+    const line = event.message || "the browser does not start a worker here";
+    if (this.hasAnswered) this.stop(line); else this.answered({failed: "page", messages: [{tool: "page", line}]});
+  }
+
+  // Ends what runs, whatever it is doing.
+  stop(why = "stopped") {
+    this.worker.terminate();
+    this.end();
+    this.start();
+    this.answered({failed: "page", messages: [{tool: "page", line: why}]});
+    this.send();
+  }
+}

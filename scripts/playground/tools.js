@@ -1,0 +1,47 @@
+// The tools, compiled to WebAssembly: a fresh instance for each run is what a process is to a shell.
+
+const FIFO = 0o010000, KIND = 0o170000;  // S_IFIFO and S_IFMT
+const IN = "/dev/shm/in", OUT = "/dev/shm/out", MESSAGES = "/dev/shm/messages";
+
+const utf8 = new TextEncoder(), text = new TextDecoder();
+const bytesOf = data => typeof data === "string" ? utf8.encode(data) : data;
+
+export class Tools {
+  // `createTool` is the factory that Emscripten makes, `module` the compiled WebAssembly.Module.
+  constructor(createTool, module) { Object.assign(this, {createTool, module}); }
+
+  // Runs a tool in a folder that has the `files`, {name: text or bytes}, with `input` on its standard input. A pipe is what it has at its
+  // ends if `isPiped` says so. Returns status, output and messages as bytes, and `read(name)`, for the files it wrote (null if there is none).
+  async run(name, words, {input = "", files = {}, isPiped = [false, false]} = {}) {
+    const {module} = this;
+    const tool = await this.createTool({
+      noInitialRun: true,
+      thisProgram: name,
+      instantiateWasm(imports, receive) { WebAssembly.instantiate(module, imports).then(instance => receive(instance, module)); return {}; },
+    });
+    const {FS} = tool;
+    FS.mkdir("/work");
+    FS.chdir("/work");
+    for (const [path, data] of Object.entries(files)) FS.writeFile(path, bytesOf(data));
+    FS.writeFile(IN, bytesOf(input));
+    [[0, IN, "r"], [1, OUT, "w"], [2, MESSAGES, "w"]].forEach(([descriptor, path, mode]) => {
+      FS.close(FS.streams[descriptor]);
+      const stream = FS.open(path, mode);
+      if (stream.fd !== descriptor) throw new Error(`descriptor ${stream.fd} in place of ${descriptor}`);
+      if (isPiped[descriptor]) stream.node.mode = (stream.node.mode & ~KIND) | FIFO;
+    });
+    const out = FS.streams[1].node, messages = FS.streams[2].node;
+    let status;
+    try {
+      status = tool.callMain([...words]);
+    } catch (trap) {  // out of memory or stack: what is left of a process that crashed
+      status = trap.status ?? 70;
+      if (trap.status === undefined) return {status, output: new Uint8Array(), messages: utf8.encode(`${name}: ${trap.message}\n`), read: () => null};
+    }
+    const contents = node => node.contents ? Uint8Array.from(node.contents.subarray(0, node.usedBytes)) : new Uint8Array();
+    const read = path => { try { return FS.readFile(path); } catch { return null; } };
+    return {status, output: contents(out), messages: contents(messages), read};
+  }
+}
+
+export const textOf = bytes => text.decode(bytes);

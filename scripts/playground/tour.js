@@ -1,0 +1,13 @@
+// The worked example in eight steps. A step may edit the scene or the options; Back undoes nothing.
+
+export const STEPS = [
+  {text: "This is a scene: a camera in four lines, then one triangle, turned by 90 degrees and moved by 1. The page runs the real tools, compiled for the browser: nothing leaves your computer.",
+    sample: "worked-example"},
+  {text: "model carries out the transforms and writes world space: see its text below, line by line, and the wireframe at the top left. Point at the triangle; it is marked everywhere."},
+  {text: "view moves the world so that the eye is at the origin and looks down -z. Every z has become smaller by 2: that is where the eye was."},
+  {text: "project divides by the distance. What the camera sees lies between -1 and 1 now, and nearer is a smaller z."},
+  {text: "zbuf makes pixels: for each one the nearest triangle. Click a pixel of the image to see its depth and every fragment that competed for it."},
+  {text: "Let us move the camera: the first line of the scene is now 1 1 3. Only what lies behind the edit has run again.", edit: text => text.replace("0 0 2 ", "1 1 3 ")},
+  {text: "And now it looks the wrong way: look is 1 1 6. The picture is black, and the message says why. Mend it in the second line.", edit: text => text.replace("1 1 3 ", "1 1 3 ").replace("0 0 0 ", "1 1 6 ")},
+  {text: "Copy link puts all of it into an address: scene, config and options. Send it to someone, or choose a larger sample and look into it."},
+];

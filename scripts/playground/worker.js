@@ -1,0 +1,24 @@
+// Runs the pipe beside the page, so that the page stays alive and can end it.
+
+import createTool from "all-tools";
+
+import {Pipe, StageFailure} from "./pipe.js";
+import {Tools, textOf} from "./tools.js";
+
+let pipe = null, tools = null;
+
+// What is asked for: {module} once, then {id, state, isQuick} for a run or {id, help} for the text of a tool's --help.
+self.onmessage = async ({data: {module, id, state, isQuick, help}}) => {
+  if (module) {
+    tools = new Tools(createTool, module);
+    pipe = new Pipe(tools);
+    return;
+  }
+  try {
+    if (help) return self.postMessage({id, text: textOf((await tools.run(help, ["--help"])).output)});
+    self.postMessage({id, ...await pipe.run(state, isQuick)});
+  } catch (error) {
+    const {tool = null, messages = []} = error instanceof StageFailure ? error : {messages: [{tool: "page", line: String(error)}]};
+    self.postMessage({id, failed: tool, messages});
+  }
+};

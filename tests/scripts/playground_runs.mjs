@@ -1,0 +1,18 @@
+// Runs tools of the playground as its worker does: node playground_runs.mjs TOOLS_FOLDER < RUNS, a JSON of [{tool, words, input, files, reads,
+// isPiped}]; all bytes are in base64. Writes a line of JSON for each run.
+
+import fs from "node:fs";
+import path from "node:path";
+import {pathToFileURL} from "node:url";
+
+import {Tools} from "../../scripts/playground/tools.js";
+
+const folder = path.resolve(process.argv[2]), {default: createTool} = await import(pathToFileURL(path.join(folder, "all-tools.js")));
+const tools = new Tools(createTool, await WebAssembly.compile(fs.readFileSync(path.join(folder, "all-tools.wasm"))));
+const bytes = letters => Buffer.from(letters, "base64"), letters = data => data && Buffer.from(data).toString("base64");
+
+for (const {tool, words, input, files, reads, isPiped} of JSON.parse(fs.readFileSync(0, "utf8"))) {
+  const done = await tools.run(tool, words, {input: bytes(input), files: Object.fromEntries(Object.entries(files).map(([name, data]) => [name, bytes(data)])), isPiped});
+  const written = Object.fromEntries(reads.map(name => [name, letters(done.read(name))]));
+  console.log(JSON.stringify({status: done.status, output: letters(done.output), messages: letters(done.messages), written}));
+}

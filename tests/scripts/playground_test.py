@@ -1,0 +1,215 @@
+"""The playground: its tools are the native ones to the byte, and the page shows what they write."""
+import base64
+import json
+import pathlib
+import shlex
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+BIN, ROOT = (pathlib.Path(word).resolve() for word in sys.argv[1:3])
+sys.path[:0] = [str(ROOT / "tests/conformance"), str(ROOT / "tests/scripts")]
+
+from browser import MISSING, Browser
+from conform_parts.cases import read_cases
+from conform_parts.pages import CONFIG
+
+BUILT = ROOT / "build/playground"
+STAGES = ("model", "view", "project", "zbuf")
+WITHOUT_PNG = b" (and this build is without libpng, which .png needs)"
+
+
+def letters(data):
+    return base64.b64encode(data).decode()
+
+
+def run_of(tool, words, data, files=None, reads=()):
+    return {"tool": tool, "words": [*words], "input": data, "files": files or {}, "reads": [*reads],
+            "isPiped": [False, False]}
+
+
+def runs_of_pack():
+    """Every case of the pack, and each of zbuf by both rules."""
+    for stage in STAGES:
+        for case in read_cases(stage):
+            options = case.read("options.txt").decode() if case.has("options.txt") else ""
+            words = shlex.split(options)
+            if stage != "zbuf":
+                yield run_of(stage, words, case.read("input.txt"))
+                continue
+            config = case.read("config.txt") if case.has("config.txt") else CONFIG
+            for rule in ("nearest", "center"):
+                yield run_of(stage, ["config.txt", "--coverage", rule, *words], case.read("input.txt"),
+                             {"config.txt": config}, ["out.bmp"])
+
+
+def runs_of_samples():
+    """Every sample through the pipe by the native tools, each stage with all that it can write."""
+    for folder in sorted(path.parent for path in (ROOT / "samples").glob("*/scene.txt")):
+        data, config = (folder / "scene.txt").read_bytes(), (folder / "config.txt").read_bytes()
+        for tool in STAGES[:3]:
+            yield run_of(tool, ["--stats", "counts.txt"], data, reads=["counts.txt"])
+            yield run_of(tool, ["--digits", "exact"], data)
+            if tool == "view":
+                yield run_of("trace", ["config.txt"],
+                             subprocess.run([BIN / tool], input=data, capture_output=True, check=True).stdout,
+                             {"config.txt": config}, ["out.bmp"])
+            done = subprocess.run([BIN / tool], input=data, capture_output=True, check=False)
+            if done.returncode != 0:
+                break
+            data = done.stdout
+        else:
+            for words in ([], ["--samples", "3", "-o", "out.ppm"], ["--wireframe"],
+                          ["--algorithm", "scanline"],
+                          ["--fragments", "fragments.txt", "--stats", "counts.txt"]):
+                yield run_of("zbuf", ["config.txt", *words], data, {"config.txt": config},
+                             ["out.bmp", "out.ppm", "fragments.txt", "counts.txt"])
+
+
+def native(run):
+    """What a native tool makes of a run."""
+    with tempfile.TemporaryDirectory() as folder:
+        for name, data in run["files"].items():
+            (pathlib.Path(folder) / name).write_bytes(data)
+        with tempfile.TemporaryFile() as given, tempfile.TemporaryFile() as output:
+            given.write(run["input"])
+            given.seek(0)
+            done = subprocess.run([BIN / run["tool"], *run["words"]], stdin=given, stdout=output,
+                                  stderr=subprocess.PIPE, cwd=folder, check=False)
+            output.seek(0)
+            files = {name: pathlib.Path(folder) / name for name in run["reads"]}
+            return {"status": done.returncode, "output": letters(output.read()),
+                    "messages": letters(done.stderr),
+                    "written": {name: letters(path.read_bytes()) if path.exists() else None
+                                for name, path in files.items()}}
+
+
+NOT_BUILT = "scripts/build-playground has not run here"
+
+
+@unittest.skipUnless((BUILT / "wasm/bin/all-tools.wasm").exists(), NOT_BUILT)
+@unittest.skipUnless(shutil.which("node"), "node is missing")
+class ToolsOfThePage(unittest.TestCase):
+    def check(self, runs):
+        given = json.dumps([{**run, "input": letters(run["input"]),
+                             "files": {name: letters(data) for name, data in run["files"].items()}}
+                            for run in runs])
+        done = subprocess.run(["node", ROOT / "tests/scripts/playground_runs.mjs", BUILT / "wasm/bin"],
+                              input=given, capture_output=True, text=True, check=True)
+        answers = [json.loads(line) for line in done.stdout.splitlines()]
+        self.assertEqual(len(answers), len(runs))
+        for run, answer in zip(runs, answers):
+            with self.subTest(tool=run["tool"], words=run["words"], input=run["input"][:80]):
+                told = base64.b64decode(answer["messages"]).replace(WITHOUT_PNG, b"")
+                self.assertEqual({**answer, "messages": letters(told)}, native(run))
+
+    def test_the_pack_is_that_of_the_native_tools(self):
+        self.check([*runs_of_pack()])
+
+    def test_the_samples_are_those_of_the_native_tools(self):
+        self.check([*runs_of_samples()])
+
+
+SET = "const page = document.body.playground; page.state = {...page.state, ...arguments[0]};"
+IMAGE = """const canvas = document.querySelector("#image"), [w, h] = [canvas.width, canvas.height];
+const data = canvas.getContext("2d").getImageData(0, 0, w, h).data;
+return [w, h, [...data].filter((_, i) => i % 4 < 3).map(x => x.toString(16).padStart(2, "0")).join("")];"""
+
+
+@unittest.skipUnless((BUILT / "site/playground.html").exists(), NOT_BUILT)
+@unittest.skipIf(MISSING, f"missing: {' '.join(MISSING)}")
+class ThePage(unittest.TestCase):
+    """The single file, opened from the disk."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.browser = Browser(1400, 900)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.browser.__exit__()
+
+    def setUp(self):
+        self.browser.open("/dev/null")
+        self.open("")
+
+    def open(self, hash_):
+        self.browser.open(f"{BUILT / 'site/playground.html'}{hash_}")
+        self.browser.wait_for(lambda: self.browser.run("return document.body.dataset.runs"))
+
+    def edit(self, **state):
+        runs = self.browser.run("return document.body.dataset.runs")
+        self.browser.run(SET, state)
+        self.browser.wait_for(lambda: self.browser.run("return document.body.dataset.runs") != runs)
+
+    def messages(self):
+        return self.browser.run("return document.querySelector('#messages').innerText")
+
+    def picture_of(self, scene, config, *words):
+        """The picture as the native tools draw it: columns, rows, and the pixels' bytes as words."""
+        stage3 = subprocess.run(f"{BIN}/model | {BIN}/view | {BIN}/project", input=scene, shell=True,
+                                capture_output=True, check=True).stdout
+        with tempfile.NamedTemporaryFile() as file:
+            file.write(config)
+            file.flush()
+            data = subprocess.run([BIN / "zbuf", file.name, "-o", "-", *words], input=stage3,
+                                  capture_output=True, check=True).stdout
+        head, pixels = data.split(b"\n255\n", 1)
+        return [*map(int, head.split()[1:3]), pixels.hex()]
+
+    def sample(self, name):
+        return [(ROOT / "samples" / name / file).read_bytes() for file in ("scene.txt", "config.txt")]
+
+    def test_it_shows_the_native_picture(self):
+        scene, config = self.sample("shaded-torus")
+        self.edit(scene=scene.decode(), config=config.decode())
+        self.assertEqual(self.browser.run(IMAGE), self.picture_of(scene, config))
+        words = {"model": "", "view": "", "project": "", "zbuf": "--shading flat --samples 2"}
+        self.edit(words=words)
+        self.assertEqual(self.browser.run(IMAGE), self.picture_of(scene, config, *words["zbuf"].split()))
+        self.assertIn("| zbuf --shading flat --samples 2 config.txt",
+                      self.browser.run("return document.body.playground.line.text"))
+
+    def test_a_mistake_has_the_tools_own_message_at_its_line(self):
+        scene, _ = self.sample("worked-example")
+        self.browser.run(SET, {"scene": scene.decode().replace("rotate", "rotat")})
+        self.browser.wait_for(lambda: "did you mean rotate?" in self.messages())
+        self.assertIn("<stdin>:9:3:", self.messages())
+        marks = self.browser.run("return document.querySelectorAll('.cm-lint-marker-error').length")
+        self.assertEqual(marks, 1)
+        self.assertTrue(self.browser.run("return document.querySelector('#glass').matches('.stale')"))
+
+    def test_a_black_picture_says_why(self):
+        scene, _ = self.sample("worked-example")
+        self.edit(scene=scene.decode().replace("0 0 0           # look", "0 0 9           # look"))
+        self.assertIn("behind", self.messages())
+
+    def test_a_link_holds_the_whole_state(self):
+        scene, config = self.sample("nested-transforms")
+        words = {"model": "--digits 3", "view": "", "project": "--cull back", "zbuf": "--coverage center"}
+        self.edit(scene=scene.decode() + "# é <script>alert(1)</script>\n", config=config.decode(),
+                  words=words)
+        self.browser.run("document.body.playground.copyLink()")
+        self.browser.wait_for(lambda: self.browser.run("return location.hash"))
+        state, shown, hash_ = (self.browser.run(script) for script in
+                               ("return document.body.playground.state", IMAGE, "return location.hash"))
+        self.browser.open("/dev/null")
+        self.open(hash_)
+        self.assertEqual(self.browser.run("return document.body.playground.state"), state)
+        self.assertEqual(self.browser.run(IMAGE), shown)
+        self.open("#p=AAAA")
+        told = "return document.querySelector('#told').innerText"
+        self.browser.wait_for(lambda: "cannot be read" in self.browser.run(told))
+
+    def test_it_lives_after_hostile_texts(self):
+        self.browser.run(SET, {"config": "30000 30000\n"})
+        self.browser.wait_for(lambda: "not enough memory" in self.messages() or "zbuf" in self.messages())
+        scene, config = self.sample("two-triangles")
+        self.edit(scene=scene.decode(), config=config.decode())
+        self.assertEqual(self.browser.run(IMAGE), self.picture_of(scene, config))
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0], *sys.argv[3:]])
