@@ -5,6 +5,9 @@ import math
 from judge_parts.matching import left_over_for_certain, named
 
 
+NAMES_OF = {"color": ["red", "green", "blue"], "normal": [f"{axis} of the normal" for axis in "xyz"]}
+
+
 def exceeds(a, b, tolerance):
     """Whether a and b differ by more than the tolerance and by more than reading decimals as doubles can
     add."""
@@ -76,27 +79,33 @@ def compare_stage_texts(a, b, tolerance):
     triangles, words = paired(a.triangles, b.triangles, tolerance)
     if words:
         result.unlike.append(words)
-    compare_vertices(result, "triangle", "vertex", triangles)
+    columns = column_names(a.header)
+    compare_vertices(result, ("triangle", "vertex"), columns, triangles)
     if len(a.spheres) != len(b.spheres):
         result.unlike.append(f"{len(a.spheres)} and {len(b.spheres)} spheres")
-    compare_vertices(result, "sphere", "point", zip(range(len(a.spheres)), a.spheres, b.spheres))
+    compare_vertices(result, ("sphere", "point"), columns, zip(range(len(a.spheres)), a.spheres, b.spheres))
     return result
 
 
-def compare_vertices(result, thing, corner, pairs):
+def column_names(header):
+    """What a header calls the numbers of a vertex."""
+    return [*"xyz", *(name for word in header.get("attributes", []) for name in NAMES_OF.get(word, [word]))]
+
+
+def compare_vertices(result, names, columns, pairs):
     """Adds the differences of the vertices of triangles, or of the points of spheres: (number, that of A,
     that of B)."""
+    thing, corner = names
     for t, vertices_a, vertices_b in pairs:
         for v, (vertex_a, vertex_b) in enumerate(zip(vertices_a, vertices_b)):
+            if len(vertex_a.numbers) != len(vertex_b.numbers):  # which of them is missing, nobody knows
+                if not result.unlike:
+                    result.unlike.append(
+                        f"line {vertex_a.line}: {len(vertex_a.numbers)} and {len(vertex_b.numbers)} numbers")
+                continue
             for i, (x, y) in enumerate(zip(vertex_a.numbers, vertex_b.numbers)):
-                result.add(
-                    lambda:
-                    f"line {vertex_a.line}, {'xyz'[i] if i < 3 else f'column {i + 1}'} of {corner} {v + 1} "
-                    f"of {thing} {t}",
-                    x, y)
-            if len(vertex_a.numbers) != len(vertex_b.numbers) and not result.unlike:
-                result.unlike.append(
-                    f"line {vertex_a.line}: {len(vertex_a.numbers)} and {len(vertex_b.numbers)} numbers")
+                name = columns[i] if i < len(columns) else f"column {i + 1}"
+                result.add(lambda: f"line {vertex_a.line}, {name} of {corner} {v + 1} of {thing} {t}", x, y)
 
 
 def paired(a, b, tolerance):

@@ -6,6 +6,9 @@ import tempfile
 from film_parts.path import Camera
 from lib.command import CommandFailure
 from lib.input_file import name_of, read_input
+from lib.projection import line_of
+from lib.square import note_on_squares
+from lib.stage_text import text_of
 from lib.vectors import cross, moved, normalized
 
 
@@ -28,6 +31,7 @@ class Scene:
         eye, look, up = (tuple(map(float, header[name])) for name in ("eye", "look", "up"))
         self.camera = Camera(eye, look, up)
         self.perspective = header.get("perspective")
+        self.square_note = note_on_squares(line_of(header.get), text_of(config, "CONFIG"))
 
     def projection_words(self, camera):
         """The options of project for a camera with its own angle."""

@@ -19,6 +19,7 @@ from lib.pictures import PictureError
 from lib.stage_text import StageTextError
 
 FAR = 1e15
+MORE = "only x, y and z are judged, not the numbers behind them"
 # triangles that clipping at six planes makes of one: more cannot come from the scene, and drawing them has no
 # end
 MOST_PARTS = 7
@@ -54,6 +55,8 @@ class HandIn:
                 outcome = self.outcome(judge, stage, kind, theirs, readings, verdicts)
             if theirs is not None and theirs.strays:
                 outcome.verdict.remarks.append(theirs.strays)
+            if theirs is not None and theirs.has_more:
+                outcome.verdict.remarks.append(MORE)
             self.add_others(kind, outcome.verdict)
             verdicts.append(outcome.verdict)
             memory, before, thin = outcome.memory, theirs, ""

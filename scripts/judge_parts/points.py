@@ -20,6 +20,7 @@ class Points:
     lines: list
     digits: Digits = EXACT
     strays: str = ""  # lines that do not belong into a stage text, in words
+    has_more: bool = False  # numbers behind x, y and z, which nobody judges
 
     def __len__(self):
         return len(self.points)
@@ -43,7 +44,7 @@ def read_points(data, name):
     lines = text.split("\n")
     words = [word for vertex in vertices for word in lines[vertex.line - 1].split("#")[0].split()[:3]]
     return Points([vertex.numbers[:3] for vertex in vertices], [vertex.line for vertex in vertices],
-                  digits_of(words), strays)
+                  digits_of(words), strays, any(len(vertex.numbers) > 3 for vertex in vertices))
 
 
 def holds_enough(points, exact):

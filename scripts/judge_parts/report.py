@@ -1,6 +1,7 @@
 """A Verdict in words."""
 from judge_parts.verdict import ANOTHER_RULE, FAILED, MISSING, OPEN, RIGHT
 
+BY_THE_RIGHT = "by the right numbers, "  # begins the remark of a stage that was judged by those
 HEADER = ["stage", "file", "verdict", "numbers that differ", "largest difference", "remarks"]
 
 
@@ -65,7 +66,10 @@ def sentence(verdict):
     if rest:
         return f"{words}; also wrong, by themselves: {listed_with_causes(rest)}{open_words}"
     last = [file for file in verdict.files if file.verdict not in OPEN and file not in missing][-1]
-    return words + ("; what follows is right, given that" if first[-1] is not last else "") + open_words
+    after = verdict.files[verdict.files.index(first[-1]) + 1:]
+    given = "by the right numbers" if any(BY_THE_RIGHT in remark for file in after
+                                          for remark in file.remarks) else "given that"
+    return words + (f"; what follows is right, {given}" if first[-1] is not last else "") + open_words
 
 
 def listed_with_causes(files):

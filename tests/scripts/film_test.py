@@ -366,7 +366,8 @@ class Refusals(FilmTest):
 
     def test_a_turn_goes_around_the_middle_of_spheres(self):
         """Not of the points that describe them."""
-        pathlib.Path("scene.txt").write_text("0 0 5\n0 0 0\n0 1 0\n60 1 1 100\nsphere 0 0 0 1\nend\n")
+        pathlib.Path("scene.txt").write_text(
+            "0 0 5\n0 0 0\n0 1 0\n60 1.25 1 100 ratio\nsphere 0 0 0 1\nend\n")
         self.make("--turn", "1", "--fps", "2", "--trace", "-o", "out")
         (eye, _, _), (opposite, _, _) = cameras("out")
         for a, b in zip(eye, opposite):
@@ -386,7 +387,8 @@ class TransparentBackground(ToolTest):
         if not shutil.which("ffmpeg"):
             self.skipTest("ffmpeg is missing")
         self.assertEqual(
-            film("scene.txt", "config.txt", "--turn", "1", "--fps", "2", "-o", "out.mkv").stderr, "")
+            film("scene.txt", "config.txt", "--turn", "1", "--fps", "2", "-o", "out.mkv").stderr,
+            "film: note: the scene's background is drawn opaque: a film has no alpha\n")
         subprocess.run(["ffmpeg", "-loglevel", "error", "-i", "out.mkv", "-frames:v", "1", "first.ppm"],
                        check=True, stdin=subprocess.DEVNULL)
         corner = pathlib.Path("first.ppm").read_bytes()[-3 * 50 * 40:][:3]

@@ -57,6 +57,41 @@ class Picture(ToolTest):
         picture("vase.obj", "--size", "120x90", "--up-axis", "y", "-o", "two.png")
         self.assertEqual(pathlib.Path("one.png").read_bytes(), pathlib.Path("two.png").read_bytes())
 
+    def test_a_pipe_is_read_like_a_file(self):
+        """Of a model and of a scene, as standard input and as a pipe of the shell's."""
+        words = ["--size", "60x45", "-o"]
+        for name in ("vase.obj", "scene.txt"):
+            if name == "scene.txt":
+                scene = run("mesh2scene", "--size", "60x45", "--up-axis", "y", "vase.obj").stdout
+                pathlib.Path(name).write_bytes(scene)
+            options = ["--up-axis", "y", *words] if name == "vase.obj" else words
+            self.assertEqual(picture(name, *options, "one.png").stderr, "")
+            for call in ('"$0" - "$@" two.png < ' + name, f'"$0" <(cat {name}) "$@" two.png'):
+                with self.subTest(call=call):
+                    done = subprocess.run(["bash", "-c", call, SOURCE / "scripts/picture", *options],
+                                          capture_output=True, text=True, env={**os.environ, "BIN": str(BIN)})
+                    self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "", ""))
+                    self.assertEqual(pathlib.Path("one.png").read_bytes(),
+                                     pathlib.Path("two.png").read_bytes())
+
+    def test_a_scene_is_never_drawn_out_of_shape_in_silence(self):
+        scene = "0 0 3\n0 0 0\n0 1 0\n60 1 1 9\ntriangle\n0 0 0\n1 0 0\n0 1 0\nend\n"
+        os.mkdir("alone")
+        pathlib.Path("alone/scene.txt").write_text(scene)
+        self.assertEqual(picture("alone/scene.txt", "-o", "a.png").stderr, "")
+        pathlib.Path("scene.txt").write_text(scene)
+        for words in (["--size", "40x30"], []):
+            pathlib.Path("config.txt").write_text("40 30\n")
+            self.assertEqual(
+                picture("scene.txt", *words, "-o", "a.png").stderr,
+                "picture: note: a square is drawn 1.33 times as wide as high: let the aspect be 1.33333 in "
+                "the scene's fourth line, and end that line in ratio, or choose another --size\n")
+
+    def test_a_broken_scene_has_the_message_of_model(self):
+        for text in ("0 0\n", "rotat\n", ""):
+            pathlib.Path("scene.txt").write_text(text)
+            self.assertRegex(picture("scene.txt", "-o", "a.png").stderr, r"^picture: model: scene.txt:\d+:")
+
     def test_trace_draws_in_place_of_project_and_zbuf(self):
         framing = ("--size", "60x45", "--up-axis", "y")
         scene = run("mesh2scene", *framing, "vase.obj").stdout
@@ -134,7 +169,7 @@ class Picture(ToolTest):
         """At the size that is asked for, else the config's beside it, else in the camera's shape."""
         os.mkdir("beside")
         os.mkdir("alone")
-        pathlib.Path("beside/config.txt").write_text("40 30\n-1\n-0.5\n-1 1\n")
+        pathlib.Path("beside/config.txt").write_text("40 20\n-1\n-0.5\n-1 1\n")
         for folder, camera, words, drawn in (
                 ("alone", "60 2 1 100 ratio", [],
                  ["project", "zbuf --coverage center --samples 3 --size 1200x600"]),
@@ -156,7 +191,7 @@ class Picture(ToolTest):
     def test_a_scene_may_stand_among_its_stages(self):
         text = "0 0 5\n0 0 0\n0 1 0\n60 1 1 100\ntriangle\n0 0 0\n1 0 0\n0 1 0\nend\n"
         pathlib.Path("scene.txt").write_text(text)
-        done = picture("scene.txt", "--stages", ".", "-o", "one.png")
+        done = picture("scene.txt", "--size", "60x60", "--stages", ".", "-o", "one.png")
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         self.assertEqual(pathlib.Path("scene.txt").read_text(), text)
         self.assertEqual(pathlib.Path("stage1.txt").read_bytes(), run("model", "scene.txt").stdout)
@@ -167,7 +202,7 @@ class Picture(ToolTest):
             done = picture("scene.txt", *words, "-o", "one.png")
             self.assertEqual((done.returncode, done.stderr), (
                 2, f"picture: expected a model for {words[0]}, found the scene scene.txt, which has its own "
-                "camera and colors (try picture --help)\n"))
+                "camera and colors: change its lines (try picture --help)\n"))
 
     def test_what_mesh2scene_takes_is_passed_on(self):
         words = ["--at", "0", "-1", "0.5", "--zoom", "2", "--color", "ff0000", "--size", "60x45"]
