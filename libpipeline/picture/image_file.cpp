@@ -58,9 +58,25 @@ constexpr ImageFormat kFormats[] = {{".bmp", make<BmpWriter>, check_bmp_size}, k
 // With libpng only.
 constexpr ImageFormat kPng = {".png", make<RgbWriter<PngWriter>>, take_any_size};
 
+/// ".png" of "png:FILE"; empty without a prefix that names a format.
+std::string prefix_of(const std::string& path) {
+  for (const std::string_view extension : {".bmp", ".ppm", ".png"})
+    if (path.starts_with(std::string(extension.substr(1)) + ":")) return std::string(extension);
+  return {};
+}
+
+/// Of the format, as a prefix or at the end.
+std::string format_extension_of(const std::string& path) {
+  const std::string prefix = prefix_of(path);
+  if (!prefix.empty()) return prefix;
+  return is_device_without_extension(path) ? std::string(kPpm.extension) : extension_of(path);
+}
+
 const ImageFormat& format_of(const std::string& path) {
-  if (is_device_without_extension(path)) return kPpm;
-  const std::string extension = extension_of(path);
+  const std::string extension = format_extension_of(path);
+  if (extension == ".bmp" && is_device_without_extension(image_file_of(path)))
+    throw InputError({"bmp:-"}, expected_but_found("ppm:- or png:-, as a BMP is written from its end",
+                                                   pipeline::quoted("bmp:-")));
   for (const ImageFormat& format : kFormats)
     if (format.extension == extension) return format;
   if (can_write_png() && kPng.extension == extension) return kPng;
@@ -80,6 +96,10 @@ std::vector<std::string_view> image_extensions() {
   return extensions;
 }
 
+std::string image_file_of(const std::string& path) {
+  return path.substr(prefix_of(path).size());
+}
+
 void check_image_name(const std::string& path) {
   format_of(path);
 }
@@ -89,7 +109,7 @@ void check_image_size(const std::string& path, int columns, int rows) {
 }
 
 bool can_hold_alpha(const std::string& path) {
-  return can_write_png() && !is_device_without_extension(path) && extension_of(path) == kPng.extension;
+  return can_write_png() && format_extension_of(path) == kPng.extension;
 }
 
 std::unique_ptr<ImageWriter> image_writer(int descriptor, const std::string& path, int columns, int rows,

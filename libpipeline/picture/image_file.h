@@ -27,10 +27,14 @@ class ImageWriter {
 // The extension of a file's name, in upper or lower case, chooses the format: BMP (24 bits per pixel, at most
 // 4 GiB), PPM (Netpbm P6) or, where can_write_png(), PNG (8 bits per channel). A device's name (/dev/null,
 // /dev/stdout) has none: it gets PPM, which can be written sequentially. Any other name is an InputError, and
-// so is an image larger than the format holds.
+// so is an image larger than the format holds. A prefix "png:", "ppm:" or "bmp:" chooses the format whatever
+// the name of the file is, but BMP, which is written from its end, needs a file.
 
 /// The extensions of all formats that can be written: ".bmp", ...
 std::vector<std::string_view> image_extensions();
+
+/// The name of the file, without the prefix.
+std::string image_file_of(const std::string& path);
 
 /// Throws these errors.
 void check_image_name(const std::string& path);

@@ -10,7 +10,7 @@ import sys
 import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "tools"))
-from toolbox import BIN, SOURCE, ToolTest, expect_mesh2scene, pipe, run  # noqa: E402
+from toolbox import BIN, SOURCE, ToolTest, expect_mesh2scene, pipe, pseudo_terminal, run  # noqa: E402
 
 
 def setUpModule():  # noqa: N802
@@ -73,6 +73,22 @@ class Picture(ToolTest):
                     self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "", ""))
                     self.assertEqual(pathlib.Path("one.png").read_bytes(),
                                      pathlib.Path("two.png").read_bytes())
+
+    def test_without_a_name_a_pipe_gets_a_png(self):
+        words = ["vase.obj", "--size", "60x45", "--up-axis", "y"]
+        self.assertEqual(picture(*words, "-o", "one.png").stderr, "")
+        for more in ([], ["-o", "png:-"]):
+            done = subprocess.run([SOURCE / "scripts/picture", *words, *more], capture_output=True,
+                                  env={**os.environ, "BIN": str(BIN)})
+            self.assertEqual((done.stdout, done.stderr), (pathlib.Path("one.png").read_bytes(), b""))
+        reader, terminal = pseudo_terminal()
+        done = subprocess.run([SOURCE / "scripts/picture", *words], stdout=terminal, stderr=subprocess.PIPE,
+                              env={**os.environ, "BIN": str(BIN)})
+        os.close(terminal)
+        os.close(reader)
+        self.assertEqual((done.returncode, done.stderr), (
+            2, b"picture: expected -o FILE, such as -o vase.png, found a terminal for the picture (try "
+            b"picture --help)\n"))
 
     def test_a_scene_is_never_drawn_out_of_shape_in_silence(self):
         scene = "0 0 3\n0 0 0\n0 1 0\n60 1 1 9\ntriangle\n0 0 0\n1 0 0\n0 1 0\nend\n"

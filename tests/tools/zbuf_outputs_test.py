@@ -104,6 +104,25 @@ class Image(OutputTest):
         self.assertEqual((image, pathlib.Path("z.txt").read_bytes()),
                          (pathlib.Path("a.ppm").read_bytes(), depths))
 
+    def test_a_prefix_chooses_the_format(self):
+        formats = [("ppm", b"P6"), ("png", b"\x89PNG"), ("bmp", b"BM")]
+        for name, magic in formats:
+            self.assert_zbuf("config.txt", "stage3.txt", "-o", f"a.{name}")
+            self.assert_zbuf("config.txt", "stage3.txt", "-o", f"{name}:b.ppm")
+            image = pathlib.Path(f"a.{name}").read_bytes()
+            self.assertTrue(image.startswith(magic))
+            self.assertEqual(pathlib.Path("b.ppm").read_bytes(), image)
+            if name != "bmp":
+                self.assertEqual(self.assert_zbuf("config.txt", "stage3.txt", "-o", f"{name}:-"), image)
+        self.assert_fails(
+            run("zbuf", "config.txt", "stage3.txt", "-o", "bmp:-"), 2,
+            "zbuf: --image: bmp:-: expected ppm:- or png:-, as a BMP is written from its end, found 'bmp:-' (try "
+            "zbuf --help)")
+        self.assert_fails(
+            run("zbuf", "config.txt", "stage3.txt", "-o", "png:x.npy", "--depth-array", "x.npy"), 2,
+            "zbuf: expected a place of its own for every output, found the same one for --image 'x.npy' and "
+            "--depth-array 'x.npy' (try zbuf --help)")
+
     def test_a_full_disk_is_a_failure(self):
         with open("/dev/full", "wb") as full:
             self.assert_fails(run("zbuf", "config.txt", "stage3.txt", "-o", "-", stdout=full), 1,

@@ -6,7 +6,7 @@ namespace pipeline {
 
 ImageRows::ImageRows(const std::string& path, const Viewport& screen, int sample_count, Color background) {
   if (path.empty()) return;
-  file_.emplace(path);
+  file_.emplace(image_file_of(path));
   pixels_ = image_writer(file_->descriptor(), path, screen.columns, screen.drawn_row_count(),
                          !background.is_opaque());
   if (sample_count > 1) means_.emplace(screen.columns, sample_count, background);

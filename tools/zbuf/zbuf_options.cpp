@@ -10,7 +10,7 @@
 
 namespace pipeline {
 void ZbufOptions::complete(bool is_terminal) {
-  const bool image_is_output = image_path == "-", seen_is_output = seen_path == "-";
+  const bool image_is_output = image_file_of(image_path) == "-", seen_is_output = seen_path == "-";
   if (image_is_output && seen_is_output)
     throw UsageError("--image: " + expected_but_found("a file, as --seen is standard output", "'-'"));
   if ((image_is_output || seen_is_output) && z_buffer_path == "-") {
@@ -21,7 +21,7 @@ void ZbufOptions::complete(bool is_terminal) {
   const bool writes_seen = !seen_path.empty();
   if (image_path.empty() && !writes_seen) image_path = "out.bmp";
   // OutputFile writes to this name without replacing anything.
-  if (image_is_output) image_path = "/dev/stdout";
+  if (image_is_output) image_path.replace(image_path.size() - 1, 1, "/dev/stdout");
   if (z_buffer_path.empty()) {
     const bool is_wanted = !image_is_output && !writes_seen;
     summarizes = is_terminal && is_wanted;
@@ -75,7 +75,7 @@ std::vector<NamedFile> outputs_of(const ZbufOptions& chosen, const Statistics& s
   const std::string depths = chosen.z_buffer_path == "none" ? "" : chosen.z_buffer_path;
   NamedFile seen = file_or_stream("--seen", chosen.seen_path, kStandardOutput);
   seen.is_in_place = true;
-  return {{"--image", chosen.image_path},
+  return {{"--image", image_file_of(chosen.image_path)},
           file_or_stream("--z-buffer", depths, kStandardOutput),
           {"--depth-image", chosen.depth_image_path},
           {"--depth-array", chosen.depth_array_path},

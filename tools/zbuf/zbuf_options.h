@@ -158,10 +158,13 @@ inline void ZbufOptions::add_screen_and_outputs(CommandLine& options, bool has_s
   const std::vector<std::string_view> extensions = image_extensions();
   options.add_word("-o,--image", "FILE", image_path,
                    "Where the image goes, a " + listed({extensions.begin(), extensions.end()}) +
-                       " file; - is standard output, as PPM and without the depths (default: out.bmp" +
+                       " file, or png:FILE of any name; - is standard output, as PPM, or png:-, both without "
+                       "the depths (default: out.bmp" +
                        (has_seen ? ", but none with --seen)" : ")"),
                    [](const std::string& name) {
-                     return name == "-" ? std::string() : wrong_with_name(check_image_name)(name);
+                     const bool is_output = image_file_of(name) == "-";
+                     return wrong_with_name(check_image_name)(
+                         is_output ? name.substr(0, name.size() - 1) + "/dev/stdout" : name);
                    });
   options.add_word("--z-buffer", "FILE", z_buffer_path,
                    std::string("Where the depths go; - is standard output, none is nowhere, ./none a file "
