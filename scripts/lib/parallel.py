@@ -1,12 +1,13 @@
 """Jobs side by side: GNU parallel runs lines of shell in a folder, here or on other machines over ssh."""
+import contextlib
 import os
 import shutil
 import subprocess
-import sys
 from dataclasses import dataclass, field
 
 from lib.child import adopt_orphans
 from lib.command import CommandFailure
+from lib.progress import Progress
 
 
 @dataclass(frozen=True)
@@ -32,7 +33,7 @@ def run_parallel(folder, jobs, name, common=(), options=()):
 
     Another machine works in a folder of its own, which is removed afterwards: files are sent there, and those
     of a job come back."""
-    words = ["parallel", "--will-cite", *(["--bar"] if sys.stderr.isatty() else [])]
+    words = ["parallel", "--will-cite"]
     if any(word.startswith(("--sshlogin", "-S")) for word in options):
         takes = columns(jobs, lambda job: job.takes, 2)
         gives = columns(jobs, lambda job: job.gives, takes.stop)
@@ -51,6 +52,24 @@ def run_parallel(folder, jobs, name, common=(), options=()):
         lines = [job.line for job in jobs]
         words += options
     adopt_orphans()
-    done = subprocess.run(words, cwd=folder, input="".join(line + "\n" for line in lines), text=True,
-                          env={**os.environ, "PARALLEL_SHELL": "/bin/sh"})
-    return done.returncode
+    with subprocess.Popen(words, cwd=folder, stdin=subprocess.PIPE, text=True,
+                          env={**os.environ, "PARALLEL_SHELL": "/bin/sh"}) as process:
+        try:
+            with contextlib.suppress(BrokenPipeError):
+                process.stdin.write("".join(line + "\n" for line in lines))
+                process.stdin.close()
+            show_files(process, [os.path.join(folder, file) for job in jobs for file in job.gives])
+        except BaseException:
+            process.kill()
+            raise
+    return process.returncode
+
+
+def show_files(process, files):
+    """Shows how many of the files are there, until the process ends."""
+    with Progress(len(files)) as progress:
+        while True:
+            try:
+                return process.wait(0.2 if progress.is_shown else None)
+            except subprocess.TimeoutExpired:
+                progress.reach(sum(map(os.path.exists, files)))

@@ -380,7 +380,7 @@ class Speed(ToolTest):
             except OSError:  # the end of a terminal
                 pass
             self.assertEqual(process.wait(), 0)
-        self.assertRegex(shown.decode(), r"\rtrace: \d+ rays, [\d.e+-]+ million a second")
+        self.assertRegex(shown.decode(), r"\rtrace: \d+ %, \d+ s left, [\d.e+-]+ million rays a second")
 
 
 class Memory(ToolTest):

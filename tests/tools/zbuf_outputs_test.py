@@ -116,8 +116,8 @@ class Image(OutputTest):
                 self.assertEqual(self.assert_zbuf("config.txt", "stage3.txt", "-o", f"{name}:-"), image)
         self.assert_fails(
             run("zbuf", "config.txt", "stage3.txt", "-o", "bmp:-"), 2,
-            "zbuf: --image: bmp:-: expected ppm:- or png:-, as a BMP is written from its end, found 'bmp:-' (try "
-            "zbuf --help)")
+            "zbuf: --image: bmp:-: expected ppm:- or png:-, as a BMP is written from its end, found 'bmp:-' "
+            "(try zbuf --help)")
         self.assert_fails(
             run("zbuf", "config.txt", "stage3.txt", "-o", "png:x.npy", "--depth-array", "x.npy"), 2,
             "zbuf: expected a place of its own for every output, found the same one for --image 'x.npy' and "

@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <cmath>
 #include <cstdio>
 #include <utility>
 
@@ -16,14 +17,19 @@ Progress::~Progress() {
   if (is_shown_) std::fputc('\n', stderr);
 }
 
-void Progress::show(std::uint64_t count) {
+void Progress::show(std::uint64_t count, double part) {
   if (!is_wanted_) return;
   const Clock::time_point now = Clock::now();
   if (now < next_time_) return;
   constexpr std::chrono::milliseconds kBetween(200);
   next_time_ = now + kBetween;
   is_shown_ = true;
-  const double rate = static_cast<double>(count) / std::chrono::duration<double>(now - start_).count();
+  const double seconds = std::chrono::duration<double>(now - start_).count();
+  const double rate = static_cast<double>(count) / seconds;
+  if (part > 0)
+    std::fprintf(stderr, "\r%s: %.0f %%, %.0f s left, %.3g million %ss a second    ", tool_.c_str(),
+                 std::floor(100 * part), std::ceil(seconds / part - seconds), rate / 1e6, unit_.c_str());
+  if (part > 0) return static_cast<void>(std::fflush(stderr));
   // The blanks overwrite the end of a longer line.
   std::fprintf(stderr, "\r%s: %s, %.3g million a second    ", tool_.c_str(),
                counted(count, unit_.c_str()).c_str(), rate / 1e6);

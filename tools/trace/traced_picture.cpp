@@ -134,6 +134,7 @@ TracedPicture traced_picture(const TracedScene& scene, const Bvh& bvh, const Vie
   std::vector<std::unique_ptr<PixelTracer>> tracers(static_cast<std::size_t>(pool.size()));
   Progress progress("trace", "ray");
   std::atomic<std::uint64_t> ray_count = 0;
+  std::atomic<int> tile_count = 0;
   pool.start(tiles.count(), [&](int tile, int worker) {
     auto& tracer = tracers[static_cast<std::size_t>(worker)];
     if (!tracer) tracer = std::make_unique<PixelTracer>(shared, colors(worker));
@@ -141,7 +142,8 @@ TracedPicture traced_picture(const TracedScene& scene, const Bvh& bvh, const Vie
     tiles.for_each_pixel(
         tile, [&](int row, int column, std::size_t pixel) { tracer->trace(row, column, pixel, picture); });
     ray_count += tracer->ray_count() - before;
-    if (worker == 0) progress.show(ray_count);
+    ++tile_count;
+    if (worker == 0) progress.show(ray_count, static_cast<double>(tile_count) / tiles.count());
   });
   pool.finish();
   work.primary_rays = ray_count;

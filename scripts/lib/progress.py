@@ -10,7 +10,10 @@ class Progress:
         self.is_shown = sys.stderr is not None and sys.stderr.isatty()
 
     def step(self):
-        self.done += 1
+        self.reach(self.done + 1)
+
+    def reach(self, done):
+        self.done = done
         self.show()
 
     def show(self):
