@@ -1,7 +1,7 @@
 // What explain reports on a triangle and a pixel; of a large scene, on the pixel, and the command that prints the rest.
 
 // A word of a shell's command line.
-const quoted = word => /^[\w.,\/+-]+$/.test(word) ? word : `'${word.replaceAll("'", "'\\''")}'`;
+export const quoted = word => /^[\w.,\/+-]+$/.test(word) ? word : `'${word.replaceAll("'", "'\\''")}'`;
 
 export class ExplanationPanel {
   constructor(box, {scene, config, explanations, stages, spheres}, report) {
@@ -29,7 +29,7 @@ export class ExplanationPanel {
     if (this.spheres) return ["explain shows the arithmetic of project and zbuf, which draw no spheres: of a scene with spheres it has none."];
     const explanation = this.explanations[name];
     if (!explanation) {
-      const command = `Of so many triangles the page has no explanation. This command prints it:\n\n  ${this.command(name, pixel)}`;
+      const command = `The page has no explanation of this triangle. This command prints it:\n\n  ${this.command(name, pixel)}`;
       return [command, ...(pixel >= 0 && this.isUncut ? [this.report.lines(name, [["0", "1", "2"]], pixel).join("\n")] : [])];
     }
     return [explanation.text, ...(pixel < 0 ? [] : [this.report.lines(name, explanation.corners, pixel).join("\n")])];

@@ -16,7 +16,7 @@ export class FragmentPanel {
       button.setAttribute("aria-label", `select triangle ${triangle}`);
       row.insertCell().append(button);
       row.insertCell().textContent = depth;
-      row.insertCell().textContent = fate;
+      row.insertCell().textContent = fate === "kept" && !isSeen ? "kept, until a nearer one came" : fate;
       row.className = isSeen ? "seen" : "";
       row.dataset.name = triangle;
       row.onclick = () => select(triangle);

@@ -133,7 +133,7 @@ export class Inspector {
       if (event.key === "Escape") this.select(NOTHING);
       if (event.key === "?") help.showModal();
     }, {signal});
-    document.addEventListener("click", event => { if (!event.target.closest("canvas, button, table, .text, pre, dialog")) this.select(NOTHING); }, {signal});
+    document.addEventListener("click", event => { if (this.root.contains(event.target) && !event.target.closest("canvas, button, table, .text, pre, dialog")) this.select(NOTHING); }, {signal});
     if (this.hasAddress) window.addEventListener("hashchange", () => this.follow(location.hash), {signal});
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.redraw(), {signal});
   }

@@ -10,6 +10,7 @@ import zlib from "node:zlib";
 const [npmFolder, toolsFolder, version, target] = process.argv.slice(2);
 const here = path.dirname(fileURLToPath(import.meta.url)), root = path.join(here, "../..");
 const {build} = createRequire(path.resolve(npmFolder, "package.json"))("esbuild");
+const TITLE = "<title>Pipeline playground</title>";
 const read = (...parts) => fs.readFileSync(path.join(...parts), "utf8");
 const hashOf = script => `'sha256-${crypto.createHash("sha256").update(script).digest("base64")}'`;
 const packed = data => zlib.deflateSync(data, {level: 9}).toString("base64");
@@ -28,7 +29,7 @@ async function bundled(entry, resources, format = "esm") {
 const inPage = script => script.replaceAll("</script", "<\\/script").replaceAll("<!--", "<\\!--");
 
 function pageOf(policy, style, script) {
-  const parts = read(here, "../inspect_parts/page.html"), inspector = parts.slice(parts.indexOf("<header>"), parts.indexOf("</dialog>") + "</dialog>".length);
+  const parts = read(here, "../inspect_parts/page.html").replace("holds it, and puts it into the address of the page", "holds it"), inspector = parts.slice(parts.indexOf("<header>"), parts.indexOf("</dialog>") + "</dialog>".length);
   const rules = `default-src 'none'; img-src data: blob:; style-src 'unsafe-inline'; base-uri 'none'; form-action 'none'; ${policy}`;
   const filled = {policy: `<meta http-equiv="Content-Security-Policy" content="${rules}">`, style, inspector, script};
   return read(here, "page.html").replace(/<!-- (policy|style|inspector|script) -->/g, (_, name) => filled[name]);
@@ -43,12 +44,42 @@ const inner = inPage(await bundled("main.js", "resources_of_page.js"));
 const data = (id, text) => `<script type="application/octet-stream" id="${id}">${text}</script>`;
 const single = pageOf(`script-src ${hashOf(inner)} 'wasm-unsafe-eval'; worker-src blob:`, style,
   [data("samples-data", packed(JSON.stringify(samples))), data("tools-data", packed(wasm)), data("worker-script", inPage(worker)), `<script type="module">${inner}</script>`].join("\n"));
-const folder = pageOf("script-src 'self' 'wasm-unsafe-eval'; worker-src 'self'; connect-src 'self'", style, '<script type="module" src="main.js"></script>');
+const folder = pageOf("script-src 'self' 'wasm-unsafe-eval'; worker-src blob:; connect-src 'self'", style, '<script type="module" src="main.js"></script>');
 
-fs.mkdirSync(path.join(target, "playground"), {recursive: true});
-const files = {"playground.html": single, "playground/index.html": folder, "playground/main.js": await bundled("main.js", "resources_of_folder.js"),
-  "playground/worker.js": worker, "playground/samples.json": JSON.stringify(samples), "playground/tools.wasm": wasm};
-for (const [name, contents] of Object.entries(files)) {
-  fs.writeFileSync(path.join(target, name), contents);
-  console.log(`${name}: ${contents.length} bytes, ${zlib.gzipSync(contents, {level: 9}).length} compressed`);
+const files = {"index.html": folder, "main.js": await bundled("main.js", "resources_of_folder.js"), "worker.js": worker,
+  "samples.json": JSON.stringify(samples), "tools.wasm": wasm};
+
+// Ends with a message unless a path is free, or is of a kind, and has, if it is a folder, nothing but our files.
+function expectOurs(place, isFolder) {
+  const status = fs.lstatSync(place, {throwIfNoEntry: false});
+  if (!status) return;
+  const isOurs = isFolder ? status.isDirectory() && fs.readdirSync(place, {withFileTypes: true}).every(entry => entry.isFile() && entry.name in files) : status.isFile() && read(place).includes(TITLE);
+  if (!isOurs) throw new Error(`${place} is in the way, and none of this page's`);
+}
+
+// Writes all beside their places, and then moves them there.
+function install() {
+  const places = {single: path.join(target, "playground.html"), folder: path.join(target, "playground")};
+  expectOurs(places.single, false);
+  expectOurs(places.folder, true);
+  const work = fs.mkdtempSync(path.join(target, ".playground-"));
+  try {
+    const written = [["playground.html", single], ...Object.entries(files).map(([name, contents]) => [path.join("playground", name), contents])];
+    fs.mkdirSync(path.join(work, "playground"));
+    for (const [name, contents] of written) fs.writeFileSync(path.join(work, name), contents);
+    if (fs.existsSync(places.folder)) fs.renameSync(places.folder, path.join(work, "before"));
+    fs.renameSync(path.join(work, "playground"), places.folder);
+    fs.renameSync(path.join(work, "playground.html"), places.single);
+    for (const [name, contents] of written)
+      console.log(`${name}: ${Buffer.byteLength(contents)} bytes, ${zlib.gzipSync(contents, {level: 9}).length} compressed`);
+  } finally {
+    fs.rmSync(work, {recursive: true});
+  }
+}
+
+try {
+  install();
+} catch (error) {
+  console.error(`build-playground: ${error.message}`);
+  process.exitCode = 1;
 }

@@ -1,15 +1,25 @@
 // The command line of the pipe, to read, to edit and to copy. What a tool can be told comes from its own --help.
 
-import {STAGES} from "./pipe.js";
+import {quoted} from "../inspect_parts/explanation_panel.js";
+import {STAGES, wordsOf} from "./pipe.js";
 
 const OWN = /^--(help|version|timing|stats|fragments|image|z-buffer|seen|depth-image|depth-array|framed|expect-framed|bare|first|threads|rows)$/;
 const OPTION = /^ {2}(?:-\w,)?(--[a-z-]+)(?: (\S+(?: [A-Z]\S*)*))?(?: {2,}|$)/;
 const FILES = {model: "< scene.txt", zbuf: "config.txt"};
 
-// The words that a tool takes, of the text of its --help: a choice is one for each of its values.
+// [words, what they do] of the options of a tool, of the text of its --help: a choice has one for each of its values.
 export function optionsIn(help) {
-  return help.split("\n").map(line => line.match(OPTION)).filter(found => found && !OWN.test(found[1])).flatMap(([, name, values]) =>
-    !values ? [name] : values.includes("|") ? values.split("|").map(value => `${name} ${value}`) : [`${name} ${values}`]);
+  const lines = help.split("\n"), found = [];
+  lines.forEach((line, i) => {
+    const [, name, values] = line.match(OPTION) || [];
+    if (!name || OWN.test(name)) return;
+    let end = i + 1;
+    while (/^ {20}/.test(lines[end])) ++end;
+    const told = [line.slice(28), ...lines.slice(i + 1, end)].map(part => part.trim()).join(" ").trim().split(/[.;:] /)[0];
+    const choices = !values ? [name] : values.includes("|") ? values.split("|").map(value => `${name} ${value}`) : [`${name} ${values}`];
+    found.push(...choices.map(words => [words, told]));
+  });
+  return found;
 }
 
 export class CommandLine {
@@ -24,12 +34,14 @@ export class CommandLine {
       input.setAttribute("aria-label", `options of ${tool}`);
       menu.setAttribute("aria-label", `add an option of ${tool}`);
       menu.append(new Option("+", ""));
-      helpOf(tool).then(help => { menu.append(...optionsIn(help).map(word => new Option(word, word))); });
+      helpOf(tool).then(help => { menu.append(...optionsIn(help).map(([words, told]) => new Option(`${words}  ${told}`, words))); });
       menu.onchange = () => {
         input.value = `${input.value} ${menu.value}`.trim();
         menu.value = "";
         input.focus();
-        changed();
+        const [blank] = input.value.match(/ [A-Z][A-Z:,]*$/) || [];  // to be filled in first
+        if (blank) input.setSelectionRange(input.value.length - blank.length + 1, input.value.length);
+        else changed();
       };
       label.append((i > 0 ? "| " : "") + tool, input);
       box.append(label, menu, ...(FILES[tool] ? [document.createTextNode(FILES[tool])] : []));
@@ -46,5 +58,5 @@ export class CommandLine {
   set words(words) { for (const [tool, input] of this.inputs) input.value = words[tool]; }
 
   // As a shell takes it.
-  get text() { return STAGES.map(tool => [tool, this.inputs.get(tool).value.trim(), FILES[tool]].filter(word => word).join(" ")).join(" | "); }
+  get text() { return STAGES.map(tool => [tool, ...wordsOf(this.inputs.get(tool).value).map(quoted), ...(FILES[tool] ? [FILES[tool]] : [])].join(" ")).join(" | "); }
 }

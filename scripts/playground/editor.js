@@ -1,7 +1,7 @@
 // A text with line numbers, of which only the visible lines are in the document, and a tool's messages at their lines.
 
 import {autocompletion, completeFromList} from "@codemirror/autocomplete";
-import {defaultKeymap, history, historyKeymap} from "@codemirror/commands";
+import {defaultKeymap, history, historyKeymap, isolateHistory} from "@codemirror/commands";
 import {HighlightStyle, StreamLanguage, syntaxHighlighting} from "@codemirror/language";
 import {lintGutter, setDiagnostics} from "@codemirror/lint";
 import {EditorState} from "@codemirror/state";
@@ -48,7 +48,13 @@ export class Editor {
 
   get text() { return this.view.state.doc.toString(); }
 
-  set text(text) { this.view.setState(this.stateOf(text)); }
+  // It can be undone.
+  set text(text) {
+    if (text === this.text) return;
+    this.isOwn = true;
+    this.view.dispatch({changes: {from: 0, to: this.view.state.doc.length, insert: text}, selection: {anchor: 0}, scrollIntoView: true, annotations: isolateHistory.of("full")});
+    this.isOwn = false;
+  }
 
   // Marks lines: [{line, column, isError, text}], counted from 1; what lies behind the end is at the end.
   mark(messages) {

@@ -3,7 +3,22 @@
 const PREFIX = "#p=";
 export const LONGEST = 60000;  // characters that browsers and mail programs pass on
 
-const through = async (bytes, stream) => new Uint8Array(await new Response(new Blob([bytes]).stream().pipeThrough(stream)).arrayBuffer());
+const MOST_BYTES = 1 << 24;       // of a state
+const LONGEST_LINE = 100000;      // that an editor can show
+
+// All bytes of a stream, which may be far more than went in: an error beyond MOST_BYTES.
+async function through(bytes, transform) {
+  const parts = [], reader = new Blob([bytes]).stream().pipeThrough(transform).getReader();
+  let size = 0;
+  for (;;) {
+    const {done, value} = await reader.read();
+    if (done) break;
+    parts.push(value);
+    size += value.length;
+    if (size > MOST_BYTES) throw new Error("it is too large");
+  }
+  return new Uint8Array(await new Blob(parts).arrayBuffer());
+}
 
 // Letters for fromCharCode, which takes only so many arguments at once.
 function lettersOf(bytes) {
@@ -20,14 +35,27 @@ export async function hashOf(state) {
 // The state in a hash, or null if it holds none.
 export async function stateOf(hash) {
   if (!hash.startsWith(PREFIX)) return null;
+  if (hash.length > LONGEST) throw new Error("it is too long");
   const letters = atob(hash.slice(PREFIX.length).replaceAll("-", "+").replaceAll("_", "/"));
   const bytes = await through(Uint8Array.from(letters, letter => letter.charCodeAt(0)), new DecompressionStream("deflate-raw"));
   return checked(JSON.parse(new TextDecoder().decode(bytes)));
 }
 
 // A state from elsewhere, with texts where there have to be texts and nothing else.
-export function checked({version, scene, config, words}) {
-  if (![version, scene, config].every(text => typeof text === "string") || typeof words !== "object" || words === null) throw new Error("no state of this page");
+export function checked(state) {
+  const {version, scene, config, words} = state || {};
+  if (![version, scene, config].every(text => typeof text === "string") || typeof words !== "object" || words === null) throw new Error("it is none of this page's");
+  expectLines(scene);
+  expectLines(config);
   const {model = "", view = "", project = "", zbuf = ""} = words;
   return {version, scene, config, words: Object.fromEntries(Object.entries({model, view, project, zbuf}).map(([tool, text]) => [tool, String(text)]))};
+}
+
+// An error if a text has a line that would take the editor minutes.
+export function expectLines(text) {
+  for (let at = 0, end; at <= text.length; at = end + 1) {
+    end = text.indexOf("\n", at);
+    if (end < 0) end = text.length;
+    if (end - at > LONGEST_LINE) throw new Error(`it has a line of more than ${LONGEST_LINE} characters`);
+  }
 }

@@ -3,21 +3,22 @@
 import {Inspector} from "../inspect_parts/inspector.js";
 import {CommandLine} from "./command_line.js";
 import {Editor} from "./editor.js";
-import {LONGEST, checked, hashOf, stateOf} from "./link.js";
+import {LONGEST, checked, expectLines, hashOf, stateOf} from "./link.js";
 import {PipeClient} from "./pipe_client.js";
 import {STEPS} from "./tour.js";
 import {VERSION, samples, toolModule, workerAddress} from "resources";
 
 const FIRST_SAMPLE = "worked-example";
+const STORE = "playground", LARGEST_FILE = 1 << 26;
 const PLACE = /^\w[\w-]*: (?:note: )?(<stdin>|config\.txt):(\d+)(?::(\d+))?: /;
 const one = selector => document.querySelector(selector);
 
 class Playground {
-  constructor(given, module) {
+  constructor(given, module, worker) {
     this.given = given;
     this.inspector = null;
     this.editors = {scene: new Editor(one("#scene"), "scene.txt", () => this.edited()), config: new Editor(one("#config"), "config.txt", () => this.edited())};
-    this.client = new PipeClient(module, workerAddress(), {answered: answer => this.show(answer), busy: isBusy => { one("#stop").hidden = !isBusy; }});
+    this.client = new PipeClient(module, worker, {answered: answer => this.show(answer), busy: isBusy => { one("#stop").hidden = !isBusy; }});
     this.line = new CommandLine(one("#line"), tool => this.client.helpOf(tool), () => this.edited());
     one("#samples").append(...Object.keys(given).map(name => new Option(name, name)));
     one("#version").textContent = VERSION;
@@ -30,22 +31,38 @@ class Playground {
     this.editors.scene.text = scene;
     this.editors.config.text = config;
     this.line.words = words;
+    one("#samples").value = "";
     this.run();
   }
 
   async start() {
-    const linked = await this.linked();
-    if (linked) this.open(linked);
+    const kept = this.kept(), linked = await this.linked();
+    if (kept) this.open(kept);
+    else if (linked.state) this.open(linked.state);
     else this.choose(FIRST_SAMPLE);
+    if (linked.problem) this.tell(linked.problem);
   }
 
   async linked() {
     try {
-      return await stateOf(location.hash);
+      return {state: await stateOf(location.hash)};
     } catch (error) {
-      this.tell(`The link cannot be read: ${error.message}.`);
+      return {problem: `The link cannot be read: ${/^it /.test(error.message) ? error.message : "it is cut off or damaged"}.`};
+    }
+  }
+
+  // What was here before this tab was loaded again.
+  kept() {
+    try {
+      const {hash, state} = JSON.parse(sessionStorage.getItem(STORE));
+      return hash === location.hash ? checked(state) : null;
+    } catch {
       return null;
     }
+  }
+
+  keep() {
+    try { sessionStorage.setItem(STORE, JSON.stringify({hash: location.hash, state: this.state})); } catch { /* no room, or not allowed */ }
   }
 
   // A state that came with a link or a file.
@@ -56,8 +73,8 @@ class Playground {
 
   choose(name) {
     const {scene, config} = this.given[name];
-    one("#samples").value = name;
     this.state = {scene, config, words: {model: "", view: "", project: "", zbuf: ""}};
+    one("#samples").value = name;
   }
 
   listen() {
@@ -67,10 +84,13 @@ class Playground {
     one("#picture").onclick = () => one("#image").toBlob(blob => this.save("out.png", blob));
     one("#stop").onclick = () => this.client.stop();
     this.step = 0;
-    one("#tour").onclick = () => { const {hidden} = one("#steps"); one("#steps").hidden = !hidden; one("#tour").setAttribute("aria-expanded", hidden); if (hidden) this.goToStep(0); };
+    one("#tour").onclick = () => { const {hidden} = one("#steps"); one("#steps").hidden = !hidden; one("#tour").setAttribute("aria-expanded", hidden); if (hidden) { this.goToStep(0); one("#after").focus(); } };
     one("#before").onclick = () => this.goToStep(this.step - 1);
     one("#after").onclick = () => this.goToStep(this.step + 1);
-    window.addEventListener("hashchange", async () => { const linked = await this.linked(); if (linked) this.open(linked); });
+    window.addEventListener("hashchange", async () => { const {state, problem} = await this.linked(); if (state) this.open(state); if (problem) this.tell(problem); });
+    one("#end").onclick = () => one("#tour").click();
+    one("#open").onclick = () => one("#file").click();
+    one("#file").onchange = event => this.take(event.target.files);
     document.addEventListener("dragover", event => event.preventDefault());
     document.addEventListener("drop", event => { event.preventDefault(); this.take(event.dataTransfer.files); });
   }
@@ -78,14 +98,20 @@ class Playground {
   // Files dropped on the page: what Save wrote, or a scene and a config by their names.
   async take(files) {
     for (const file of files) {
-      const text = await file.text();
-      if (file.name.endsWith(".json")) {
-        try { this.open(checked(JSON.parse(text))); } catch (error) { this.tell(`${file.name}: ${error.message}.`); }
-      } else {
-        this.editors[/config/.test(file.name) ? "config" : "scene"].text = text;
-        this.run();
+      try {
+        await this.takeFile(file);
+      } catch (error) {
+        this.tell(`${file.name} cannot be read: ${error.message}.`);
       }
     }
+  }
+
+  async takeFile(file) {
+    if (file.size > LARGEST_FILE) throw new Error(`it is longer than ${LARGEST_FILE} bytes`);
+    const text = await file.text();
+    if (file.name.endsWith(".json")) return this.open(checked(JSON.parse(text)));
+    expectLines(text);
+    this.state = {...this.state, [/config/.test(file.name) ? "config" : "scene"]: text};
   }
 
   goToStep(step) {
@@ -102,6 +128,7 @@ class Playground {
     const hash = await hashOf(this.state);
     if (hash.length > LONGEST) return this.tell("Too long for an address: use Save, and drop the file on this page.");
     history.replaceState(null, "", hash);
+    this.keep();
     await navigator.clipboard.writeText(location.href).then(() => this.tell("Copied."), () => this.tell("It is in the address now."));
   }
 
@@ -111,6 +138,7 @@ class Playground {
     link.download = name;
     link.click();
     setTimeout(() => URL.revokeObjectURL(link.href), 1000);
+    this.tell(`Saved as ${name}.`);
   }
 
   tell(text) { one("#told").textContent = text; }
@@ -124,12 +152,14 @@ class Playground {
     this.tell("");
     const {scene, config, words} = this.state;
     this.client.run({scene, config, words});
+    this.keep();
   }
 
   // What the worker answers: the data of an Inspector, or the stage that failed.
   show({data, failed, messages}) {
     this.showMessages(messages, failed);
     one("#glass").classList.toggle("stale", Boolean(failed));
+    if (failed && !this.inspector) one("#waiting").textContent = "Nothing to show yet: the messages say why.";
     if (failed) return;
     const kept = this.inspector && this.inspector.dispose(), parts = one("#inspector").content.cloneNode(true);
     one("#glass").replaceChildren(parts);
@@ -143,10 +173,11 @@ class Playground {
       const item = document.createElement("li"), found = line.match(PLACE), isError = tool === failed && !/^\w+: note: /.test(line);
       item.className = isError ? "error" : "";
       const editor = found && (found[1] === "config.txt" ? "config" : tool === "model" ? "scene" : null);
-      if (!editor) return item.append(line), item;
+      const shown = tool === "model" ? line.replace("<stdin>", "scene.txt") : line;
+      if (!editor) return item.append(shown), item;
       places[editor].push({line: Number(found[2]), column: Number(found[3] || 1), isError, text: line.slice(found[0].length)});
       const button = document.createElement("button");
-      button.textContent = line;
+      button.textContent = shown;
       button.onclick = () => this.editors[editor].goTo(Number(found[2]));
       item.append(button);
       return item;
@@ -162,8 +193,8 @@ class Playground {
   }
 }
 
-Promise.all([samples(), toolModule()]).then(async ([given, module]) => {
-  document.body.playground = new Playground(given, module);
+Promise.all([samples(), toolModule(), workerAddress()]).then(async parts => {
+  document.body.playground = new Playground(...parts);
   await document.body.playground.start();
   document.body.dataset.ready = "yes";
 }).catch(error => { one("#waiting").textContent = `This browser cannot run the tools: ${error.message}`; });

@@ -6,6 +6,7 @@ import {textOf} from "./tools.js";
 
 export const STAGES = ["model", "view", "project", "zbuf"];
 const TITLES = {model: "world space", view: "view space", project: "normalized device coordinates"};
+const MOST_TRIANGLES = 2000000;       // and numbers of them, which the panels count up to
 const FATES = ["kept", "behind", "equal", "before", "beyond", "nearer"];
 const IMAGE = "out.ppm", COUNTS = "counts.txt", FRAGMENTS = "fragments.txt", TRIANGLES = "triangles.npy", DEPTHS = "depths.npy";
 
@@ -32,9 +33,15 @@ export class Pipe {
     return result;
   }
 
+  // What a picture of the page cannot be.
+  expectWhole(words) {
+    if (/(^| )--rows?\b/.test(words.zbuf)) throw new Error("--rows draws a part of the picture, which this page cannot show");
+  }
+
   // The data of an Inspector, and the messages of every stage. If it `isQuick`, of the fragments of a pixel there is only the one that is seen:
   // the others take ten times as long as the picture. Throws a StageFailure.
   async run({scene, config, words}, isQuick) {
+    this.expectWhole(words);
     const results = [], messages = [], logs = isQuick && !/--samples/.test(words.zbuf) ? ["--triangle-array", TRIANGLES, "--depth-array", DEPTHS] : ["--fragments", FRAGMENTS];
     let input = scene;
     for (const tool of STAGES) {
@@ -43,6 +50,10 @@ export class Pipe {
       const done = await this.stage(tool, all, input, isLast ? {"config.txt": config} : {});
       messages.push(...done.text.split("\n").filter(line => line).map(line => ({tool, line})));
       if (done.status !== 0) throw new StageFailure(tool, done.status, messages);
+      if (!done.read(COUNTS)) {  // --help or --version
+        const text = textOf(done.output).trimEnd();
+        throw new StageFailure("page", 0, [...messages, {tool, line: text}]);
+      }
       results.push(done);
       input = done.output;
     }
@@ -51,6 +62,7 @@ export class Pipe {
 
   inspected(results, config) {
     const texts = results.slice(0, 3).map(done => new StageText(textOf(done.output))), [model] = texts, zbuf = results[3];
+    if (model.count > MOST_TRIANGLES) throw new Error(`triangles are numbered up to ${model.count}, which is more than this page can show`);
     const counts = results.map(done => pairsOf(textOf(done.read(COUNTS))));
     const {columns, rows, pixels} = imageOf(zbuf.read(IMAGE));
     const reach = -Number(new Map(counts[1]).get("z_min") || 0), depths = textOf(zbuf.output);

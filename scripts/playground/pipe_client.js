@@ -20,6 +20,7 @@ export class PipeClient {
   // At first quickly; if nothing else is to be done for a while, with all that belongs to it.
   run(state) {
     clearTimeout(this.later);
+    this.isPending = false;
     this.next = {state, isQuick: true};
     if (this.running === null) this.send();
   }
@@ -48,8 +49,13 @@ export class PipeClient {
       return void this.waiting.delete(answer.id);
     }
     this.end();
-    this.answered(answer);
-    if (answer.isQuick && !this.next) this.later = setTimeout(() => { this.next = {state: this.state, isQuick: false}; this.send(); }, PAUSE);
+    try {
+      this.answered(answer);
+    } catch (error) {
+      this.answered({failed: "page", messages: [{tool: "page", line: `page: this cannot be shown: ${error.message}`}]});
+    }
+    this.isPending = answer.isQuick && !this.next;  // the slow part
+    if (this.isPending) this.later = setTimeout(() => { this.isPending = false; this.next = {state: this.state, isQuick: false}; this.send(); }, PAUSE);
     this.send();
   }
 

@@ -12,4 +12,4 @@ export async function toolModule() {
   return WebAssembly.compile(await new Response(stream).arrayBuffer());
 }
 
-export const workerAddress = () => URL.createObjectURL(new Blob([dataOf("worker-script")], {type: "text/javascript"}));
+export const workerAddress = async () => URL.createObjectURL(new Blob([dataOf("worker-script")], {type: "text/javascript"}));

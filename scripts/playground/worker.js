@@ -18,7 +18,7 @@ self.onmessage = async ({data: {module, id, state, isQuick, help}}) => {
     if (help) return self.postMessage({id, text: textOf((await tools.run(help, ["--help"])).output)});
     self.postMessage({id, ...await pipe.run(state, isQuick)});
   } catch (error) {
-    const {tool = null, messages = []} = error instanceof StageFailure ? error : {messages: [{tool: "page", line: String(error)}]};
+    const {tool, messages} = error instanceof StageFailure ? error : {tool: "page", messages: [{tool: "page", line: `page: ${error.message}`}]};
     self.postMessage({id, failed: tool, messages});
   }
 };

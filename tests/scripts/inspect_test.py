@@ -212,8 +212,8 @@ class InABrowser(ToolTest):
                 self.assertTrue(place.startswith(f"row {row}, column {column}: "), place)
                 rows = self.competitors()
                 lines = [
-                    f"zbuf: {column},{row}: triangle {name}, depth {float(depth)!r}: {fate}"
-                    for name, depth, fate in rows]
+                    f"zbuf: {column},{row}: triangle {name}, depth {float(depth)!r}: "
+                    f"{fate.removesuffix(', until a nearer one came')}" for name, depth, fate in rows]
                 self.assertEqual(lines or [f"zbuf: {column},{row}: no fragment"], told)
                 kept = [name for name, _, fate in rows if fate == "kept"]
                 self.assertIn(f"triangle {kept[-1]}," if kept else "background", place)

@@ -1,6 +1,7 @@
 """The playground: its tools are the native ones to the byte, and the page shows what they write."""
 import base64
 import json
+import os
 import pathlib
 import shlex
 import shutil
@@ -112,7 +113,51 @@ class ToolsOfThePage(unittest.TestCase):
         self.check([*runs_of_samples()])
 
 
+@unittest.skipUnless((BUILT / "wasm/bin/all-tools.wasm").exists(), NOT_BUILT)
+@unittest.skipUnless(shutil.which("node"), "node is missing")
+class TheBuild(unittest.TestCase):
+    """Where the page goes."""
+
+    def build(self, folder):
+        words = [ROOT / "scripts/playground/build.mjs", BUILT / "npm", BUILT / "wasm/bin", "1.0.0", folder]
+        return subprocess.run(["node", *words], capture_output=True, text=True, timeout=60)
+
+    def test_what_is_in_the_way_stays(self):
+        def link(path):
+            path.symlink_to("elsewhere")
+
+        def folder_in_folder(path):
+            (path / "worker.js").mkdir(parents=True)
+
+        def file_in_folder(path):
+            path.mkdir()
+            (path / "mine.txt").write_text("mine")
+
+        for name, make in (("playground.html", link), ("playground.html", os.mkfifo), ("playground", link),
+                           ("playground.html", lambda path: path.write_text("mine")),
+                           ("playground", folder_in_folder), ("playground", file_in_folder)):
+            with tempfile.TemporaryDirectory() as folder:
+                make(pathlib.Path(folder, name))
+                before = sorted(pathlib.Path(folder).rglob("*"))
+                done = self.build(folder)
+                self.assertEqual((done.returncode, done.stdout, done.stderr), (
+                    1, "", f"build-playground: {folder}/{name} is in the way, and none of this page's\n"))
+                self.assertEqual(sorted(pathlib.Path(folder).rglob("*")), before)
+
+    def test_an_earlier_page_is_replaced(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for _ in range(2):
+                self.assertEqual(self.build(folder).returncode, 0)
+            names = sorted(str(path.relative_to(folder)) for path in pathlib.Path(folder).rglob("*"))
+            self.assertEqual(names, [
+                "playground", "playground.html", "playground/index.html", "playground/main.js",
+                "playground/samples.json", "playground/tools.wasm", "playground/worker.js"])
+
+
 SET = "const page = document.body.playground; page.state = {...page.state, ...arguments[0]};"
+IS_DONE = """const {client, inspector} = document.body.playground;
+return client.running === null && !client.next && !client.isPending && inspector &&
+  !document.querySelector(".stale");"""
 IMAGE = """const canvas = document.querySelector("#image"), [w, h] = [canvas.width, canvas.height];
 const data = canvas.getContext("2d").getImageData(0, 0, w, h).data;
 return [w, h, [...data].filter((_, i) => i % 4 < 3).map(x => x.toString(16).padStart(2, "0")).join("")];"""
@@ -132,17 +177,20 @@ class ThePage(unittest.TestCase):
         cls.browser.__exit__()
 
     def setUp(self):
-        self.browser.open("/dev/null")
         self.open("")
+
+    def tearDown(self):
+        self.browser.run("sessionStorage.clear()")
+        self.browser.open("/dev/null")
 
     def open(self, hash_):
         self.browser.open(f"{BUILT / 'site/playground.html'}{hash_}")
         self.browser.wait_for(lambda: self.browser.run("return document.body.dataset.runs"))
 
     def edit(self, **state):
-        runs = self.browser.run("return document.body.dataset.runs")
+        """Sets parts of the state, and waits until what the page shows is of it."""
         self.browser.run(SET, state)
-        self.browser.wait_for(lambda: self.browser.run("return document.body.dataset.runs") != runs)
+        self.browser.wait_for(lambda: self.browser.run(IS_DONE))
 
     def messages(self):
         return self.browser.run("return document.querySelector('#messages').innerText")
@@ -176,7 +224,7 @@ class ThePage(unittest.TestCase):
         scene, _ = self.sample("worked-example")
         self.browser.run(SET, {"scene": scene.decode().replace("rotate", "rotat")})
         self.browser.wait_for(lambda: "did you mean rotate?" in self.messages())
-        self.assertIn("<stdin>:9:3:", self.messages())
+        self.assertIn("scene.txt:9:3:", self.messages())
         marks = self.browser.run("return document.querySelectorAll('.cm-lint-marker-error').length")
         self.assertEqual(marks, 1)
         self.assertTrue(self.browser.run("return document.querySelector('#glass').matches('.stale')"))
@@ -195,17 +243,44 @@ class ThePage(unittest.TestCase):
         self.browser.wait_for(lambda: self.browser.run("return location.hash"))
         state, shown, hash_ = (self.browser.run(script) for script in
                                ("return document.body.playground.state", IMAGE, "return location.hash"))
-        self.browser.open("/dev/null")
+        self.tearDown()
         self.open(hash_)
         self.assertEqual(self.browser.run("return document.body.playground.state"), state)
         self.assertEqual(self.browser.run(IMAGE), shown)
+        self.tearDown()
         self.open("#p=AAAA")
         told = "return document.querySelector('#told').innerText"
         self.browser.wait_for(lambda: "cannot be read" in self.browser.run(told))
 
+    def test_an_edit_outlives_a_reload_and_can_be_undone(self):
+        scene, _ = self.sample("worked-example")
+        self.edit(scene=scene.decode().replace("90 0 0 1", "45 0 0 1"))
+        self.browser.open("/dev/null")
+        self.open("")
+        self.assertIn("45 0 0 1", self.browser.run("return document.body.playground.state.scene"))
+        self.edit(scene="0 0 2\n0 0 0\n0 1 0\n60 1 1 10\ntriangle\n0 0 0\n1 0 0\n0 1 0\nend\n")
+        self.browser.press("#scene .cm-content", "\ue009z")
+        self.browser.wait_for(
+            lambda: "45 0 0 1" in self.browser.run("return document.body.playground.state.scene"))
+
+    def test_a_command_to_copy_is_what_ran(self):
+        """Whatever a link has for words, the shell of whoever copies them does nothing else."""
+        words = {"model": "", "view": "", "project": "", "zbuf": "--z-buffer $(touch${IFS}pwned) `id`.pgm"}
+        self.browser.run(SET, {"words": words})
+        line = self.browser.run("return document.body.playground.line.text")
+        self.assertEqual(shlex.split(line)[-4:],
+                         ["--z-buffer", "$(touch${IFS}pwned)", "`id`.pgm", "config.txt"])
+        self.assertIn("'$(touch${IFS}pwned)' '`id`.pgm'", line)
+
     def test_it_lives_after_hostile_texts(self):
         self.browser.run(SET, {"config": "30000 30000\n"})
-        self.browser.wait_for(lambda: "not enough memory" in self.messages() or "zbuf" in self.messages())
+        self.browser.wait_for(lambda: "not enough memory" in self.messages())
+        for tool, option, told in (("zbuf", "--help", "Usage: zbuf"), ("zbuf", "--rows 1:2", "cannot show"),
+                                   ("model", "--first 5000000000", "more than")):
+            words = {"model": "", "view": "", "project": "", "zbuf": "", tool: option}
+            self.browser.run(SET, {"config": "8 8\n", "words": words})
+            self.browser.wait_for(lambda: told in self.messages())
+        self.browser.run(SET, {"words": dict.fromkeys(STAGES, "")})
         scene, config = self.sample("two-triangles")
         self.edit(scene=scene.decode(), config=config.decode())
         self.assertEqual(self.browser.run(IMAGE), self.picture_of(scene, config))
