@@ -5,7 +5,8 @@ import {STAGES, wordsOf} from "./pipe.js";
 
 const OWN = /^--(help|version|timing|stats|fragments|image|z-buffer|seen|depth-image|depth-array|framed|expect-framed|bare|first|threads|rows)$/;
 const OPTION = /^ {2}(?:-\w,)?(--[a-z-]+)(?: (\S+(?: [A-Z]\S*)*))?(?: {2,}|$)/;
-const FILES = {model: "< scene.txt", zbuf: "config.txt"};
+const FILES = {model: "< scene.txt", zbuf: "config.txt", trace: "config.txt"};
+const TOOLS = [...STAGES, "trace"];
 
 // [words, what they do] of the options of a tool, of the text of its --help: a choice has one for each of its values.
 export function optionsIn(help) {
@@ -25,9 +26,9 @@ export function optionsIn(help) {
 export class CommandLine {
   // `helpOf(tool)` gives a promise of its --help; `changed` is called after each edit.
   constructor(box, helpOf, changed) {
-    Object.assign(this, {box, inputs: new Map()});
-    STAGES.forEach((tool, i) => {
-      const label = document.createElement("label"), input = document.createElement("input"), menu = document.createElement("select");
+    Object.assign(this, {box, inputs: new Map(), parts: new Map()});
+    TOOLS.forEach((tool, i) => {
+      const part = document.createElement("span"), label = document.createElement("label"), input = document.createElement("input"), menu = document.createElement("select");
       input.placeholder = "options";
       input.spellcheck = false;
       input.oninput = changed;
@@ -44,19 +45,41 @@ export class CommandLine {
         else changed();
       };
       label.append((i > 0 ? "| " : "") + tool, input);
-      box.append(label, menu, ...(FILES[tool] ? [document.createTextNode(FILES[tool])] : []));
+      part.append(label, menu, ...(FILES[tool] ? [document.createTextNode(FILES[tool])] : []));
+      box.append(part);
       this.inputs.set(tool, input);
+      this.parts.set(tool, part);
     });
+    this.drawing = document.createElement("select");
+    this.drawing.setAttribute("aria-label", "drawn by");
+    this.drawing.append(new Option("project | zbuf", ""), new Option("trace (rays: shadows, mirrors, glass, spheres)", "trace"));
+    this.drawing.onchange = () => { this.isTraced = this.drawing.value === "trace"; changed(); };
+    this.isTraced = false;
+    box.append(this.drawing);
     const copy = document.createElement("button");
     copy.textContent = "Copy command";
     copy.onclick = () => navigator.clipboard.writeText(this.text).then(() => { copy.textContent = "Copied"; setTimeout(() => { copy.textContent = "Copy command"; }, 1500); });
     box.append(copy);
   }
 
-  get words() { return Object.fromEntries([...this.inputs].map(([tool, input]) => [tool, input.value])); }
+  get isTraced() { return this.drawing.value === "trace"; }
 
-  set words(words) { for (const [tool, input] of this.inputs) input.value = words[tool]; }
+  set isTraced(isTraced) {
+    this.drawing.value = isTraced ? "trace" : "";
+    for (const tool of ["project", "zbuf", "trace"]) this.parts.get(tool).hidden = (tool === "trace") !== isTraced;
+  }
+
+  // `trace` has words only if it draws.
+  get words() {
+    const tools = this.isTraced ? TOOLS : STAGES;
+    return Object.fromEntries(tools.map(tool => [tool, this.inputs.get(tool).value]));
+  }
+
+  set words(words) {
+    for (const [tool, input] of this.inputs) input.value = words[tool] || "";
+    this.isTraced = typeof words.trace === "string";
+  }
 
   // As a shell takes it.
-  get text() { return STAGES.map(tool => [tool, ...wordsOf(this.inputs.get(tool).value).map(quoted), ...(FILES[tool] ? [FILES[tool]] : [])].join(" ")).join(" | "); }
+  get text() { return (this.isTraced ? ["model", "view", "trace"] : STAGES).map(tool => [tool, ...wordsOf(this.inputs.get(tool).value).map(quoted), ...(FILES[tool] ? [FILES[tool]] : [])].join(" ")).join(" | "); }
 }

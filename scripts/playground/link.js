@@ -47,8 +47,8 @@ export function checked(state) {
   if (![version, scene, config].every(text => typeof text === "string") || typeof words !== "object" || words === null) throw new Error("it is none of this page's");
   expectLines(scene);
   expectLines(config);
-  const {model = "", view = "", project = "", zbuf = ""} = words;
-  return {version, scene, config, words: Object.fromEntries(Object.entries({model, view, project, zbuf}).map(([tool, text]) => [tool, String(text)]))};
+  const {model = "", view = "", project = "", zbuf = "", trace} = words, known = {model, view, project, zbuf, ...(trace === undefined ? {} : {trace})};
+  return {version, scene, config, words: Object.fromEntries(Object.entries(known).map(([tool, text]) => [tool, String(text)]))};
 }
 
 // An error if a text has a line that would take the editor minutes.

@@ -163,6 +163,7 @@ class Playground {
     if (failed) return;
     const kept = this.inspector && this.inspector.dispose(), parts = one("#inspector").content.cloneNode(true);
     one("#glass").replaceChildren(parts);
+    if (data.isTraced) one("#glass #pixels figcaption span").textContent = "trace";
     this.inspector = new Inspector(one("#glass"), data, {hasAddress: false, kept});
     document.body.dataset.runs = Number(document.body.dataset.runs || 0) + 1;
   }

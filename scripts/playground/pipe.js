@@ -5,6 +5,7 @@ import {StageText} from "./stage_text.js";
 import {textOf} from "./tools.js";
 
 export const STAGES = ["model", "view", "project", "zbuf"];
+const BELTS = "8";                   // of the facets that project and zbuf get in place of a sphere
 const TITLES = {model: "world space", view: "view space", project: "normalized device coordinates"};
 const MOST_TRIANGLES = 2000000;       // and numbers of them, which the panels count up to
 const FATES = ["kept", "behind", "equal", "before", "beyond", "nearer"];
@@ -17,19 +18,20 @@ export class StageFailure extends Error {
 
 export const wordsOf = options => options.trim().split(/\s+/).filter(word => word);
 const isEqual = (a, b) => a.length === b.length && a.every((x, i) => x === b[i]);
+const linesOf = (text, tool) => text.split("\n").filter(line => line).map(line => ({tool, line}));
 const pairsOf = text => text.split("\n").filter(line => line).map(line => line.split(" "));
 
 export class Pipe {
   constructor(tools) { Object.assign(this, {tools, kept: new Map()}); }
 
-  // Runs a stage, unless it has run with the same words on the same input.
-  async stage(tool, words, input, files) {
-    const key = [...words, ...Object.values(files)], before = this.kept.get(tool);
+  // Runs a stage, unless it has run with the same words on the same input, for the same `place`.
+  async stage(tool, words, input, files, place = tool) {
+    const key = [...words, ...Object.values(files)], before = this.kept.get(place);
     if (before && before.input === input && isEqual(before.key, key)) return before;
     const started = performance.now();
     const done = await this.tools.run(tool, words, {input, files, isPiped: [tool !== "model", tool !== "zbuf"]});
     const result = {...done, tool, key, input, seconds: (performance.now() - started) / 1000, text: textOf(done.messages)};
-    this.kept.set(tool, result);
+    this.kept.set(place, result);
     return result;
   }
 
@@ -41,6 +43,7 @@ export class Pipe {
   // The data of an Inspector, and the messages of every stage. If it `isQuick`, of the fragments of a pixel there is only the one that is seen:
   // the others take ten times as long as the picture. Throws a StageFailure.
   async run({scene, config, words}, isQuick) {
+    const isTraced = typeof words.trace === "string";
     this.expectWhole(words);
     const results = [], messages = [], logs = isQuick && !/--samples/.test(words.zbuf) ? ["--triangle-array", TRIANGLES, "--depth-array", DEPTHS] : ["--fragments", FRAGMENTS];
     let input = scene;
@@ -48,16 +51,31 @@ export class Pipe {
       const isLast = tool === "zbuf", own = wordsOf(words[tool]);
       const all = isLast ? ["config.txt", ...own, "-o", IMAGE, ...logs, "--stats", COUNTS] : [...own, "--stats", COUNTS];
       const done = await this.stage(tool, all, input, isLast ? {"config.txt": config} : {});
-      messages.push(...done.text.split("\n").filter(line => line).map(line => ({tool, line})));
+      // Beside trace, project and zbuf run for the panels alone.
+      if (done.status !== 0 || !isTraced || tool === "model" || tool === "view") messages.push(...linesOf(done.text, tool));
       if (done.status !== 0) throw new StageFailure(tool, done.status, messages);
       if (!done.read(COUNTS)) {  // --help or --version
         const text = textOf(done.output).trimEnd();
         throw new StageFailure("page", 0, [...messages, {tool, line: text}]);
       }
       results.push(done);
-      input = done.output;
+      input = tool === "view" && isTraced ? await this.faceted(results, scene) : done.output;
     }
-    return {data: this.inspected(results, config), messages, isQuick: logs[0] !== "--fragments"};
+    const data = this.inspected(results, config);
+    if (isTraced) {
+      const done = await this.stage("trace", ["config.txt", ...wordsOf(words.trace), "-o", IMAGE, "--z-buffer", "none"], results[1].output, {"config.txt": config});
+      messages.push(...linesOf(done.text, "trace"));
+      if (done.status !== 0) throw new StageFailure("trace", done.status, messages);
+      Object.assign(data, {pixels: imageOf(done.read(IMAGE)).pixels, isTraced});
+    }
+    return {data, messages, isQuick: logs[0] !== "--fragments"};
+  }
+
+  // What project reads: the text of view, with facets in place of spheres.
+  async faceted(results, scene) {
+    if (!/^sphere$/m.test(textOf(results[1].output))) return results[1].output;
+    const world = await this.stage("model", ["--facets", BELTS], scene, {}, "faceted model");
+    return (await this.stage("view", [], world.output, {}, "faceted view")).output;
   }
 
   inspected(results, config) {

@@ -220,6 +220,23 @@ class ThePage(unittest.TestCase):
         self.assertIn("| zbuf --shading flat --samples 2 config.txt",
                       self.browser.run("return document.body.playground.line.text"))
 
+    def test_trace_draws_in_place_of_project_and_zbuf(self):
+        """Spheres, too; they have facets in the panels."""
+        scene = (b"0 1 5\n0 0 0\n0 1 0\n45 1 1 20 ratio\nlight 3 4 5 1 1 1\nsphere 0 0 0 1\ntriangle\n"
+                 b"-3 -1 3\n3 -1 3\n0 -1 -4\nend\n")
+        words = {"model": "", "view": "", "project": "", "zbuf": "", "trace": "--samples 2"}
+        self.edit(scene=scene.decode(), config="30 30\n", words=words)
+        self.assertEqual(self.messages(), "none")
+        self.assertEqual(self.browser.run("return document.body.playground.line.text"),
+                         "model < scene.txt | view | trace --samples 2 config.txt")
+        shown = self.browser.run(IMAGE)
+        view = subprocess.run(f"{BIN}/model | {BIN}/view", input=scene, shell=True, capture_output=True,
+                              check=True).stdout
+        drawn = subprocess.run([BIN / "trace", "--size", "30x30", "-o", "-", "--samples", "2"], input=view,
+                               capture_output=True, check=True).stdout
+        self.assertEqual(shown, [30, 30, drawn.split(b"\n255\n", 1)[1].hex()])
+        self.assertIn("1 sphere", self.browser.run("return document.querySelector('#title').innerText"))
+
     def test_a_mistake_has_the_tools_own_message_at_its_line(self):
         scene, _ = self.sample("worked-example")
         self.browser.run(SET, {"scene": scene.decode().replace("rotate", "rotat")})
