@@ -11,9 +11,9 @@ export class TheirsPanel {
   constructor({box, theirs, panels, pictures, captions, button, select}) {
     Object.assign(this, {box, theirs, select});
     box.append(element("p", {}, `${theirs.folder}: ${theirs.sentence}.`), this.fileTable());
-    theirs.files.forEach((file, i) => captions[i].append(element("span", {class: file.isGood ? "good" : "bad", title: file.remarks}, `${file.file}: ${file.verdict}`)));
+    theirs.files.forEach((file, i) => captions[file.place ?? i].append(element("span", {class: file.isGood ? "good" : "bad", title: file.remarks}, `${file.file}: ${file.verdict}`)));
     for (const {stage, wire} of panels) {
-      const given = theirs.stages[stage.tool], matrices = theirs.files.find(file => file.stage === stage.tool).matrices;
+      const given = theirs.stages[stage.tool], {matrices = []} = theirs.files.find(file => file.stage === stage.tool) || {};
       if (!given && !matrices.length) continue;
       box.append(element("h2", {}, stage.tool));
       if (matrices.length) box.append(element("pre", {}, matrices.join("\n")));

@@ -42,9 +42,10 @@ const wasm = fs.readFileSync(path.join(toolsFolder, "all-tools.wasm")), worker =
 
 const inner = inPage(await bundled("main.js", "resources_of_page.js"));
 const data = (id, text) => `<script type="application/octet-stream" id="${id}">${text}</script>`;
-const single = pageOf(`script-src ${hashOf(inner)} 'wasm-unsafe-eval'; worker-src blob:`, style,
+const frame = hashOf((await import("./sandbox.js")).FRAME);  // of the page's only other script
+const single = pageOf(`script-src ${hashOf(inner)} ${frame} 'wasm-unsafe-eval'; worker-src blob:`, style,
   [data("samples-data", packed(JSON.stringify(samples))), data("tools-data", packed(wasm)), data("worker-script", inPage(worker)), `<script type="module">${inner}</script>`].join("\n"));
-const folder = pageOf("script-src 'self' 'wasm-unsafe-eval'; worker-src blob:; connect-src 'self'", style, '<script type="module" src="main.js"></script>');
+const folder = pageOf(`script-src 'self' ${frame} 'wasm-unsafe-eval'; worker-src blob:; connect-src 'self'`, style, '<script type="module" src="main.js"></script>');
 
 const files = {"index.html": folder, "main.js": await bundled("main.js", "resources_of_folder.js"), "worker.js": worker,
   "samples.json": JSON.stringify(samples), "tools.wasm": wasm};

@@ -1,6 +1,6 @@
 // The state of the page as the end of an address: JSON, deflated, in the letters of base64 that an address may have.
 
-const PREFIX = "#p=";
+const PREFIX = "#p=", STAGES_OF_ONES_OWN = ["model", "view", "project"], KINDS = ["js", "text"];
 export const LONGEST = 60000;  // characters that browsers and mail programs pass on
 
 const MOST_BYTES = 1 << 24;       // of a state
@@ -43,12 +43,14 @@ export async function stateOf(hash) {
 
 // A state from elsewhere, with texts where there have to be texts and nothing else.
 export function checked(state) {
-  const {version, scene, config, words} = state || {};
+  const {version, scene, config, words, mine} = state || {};
   if (![version, scene, config].every(text => typeof text === "string") || typeof words !== "object" || words === null) throw new Error("it is none of this page's");
   expectLines(scene);
   expectLines(config);
   const {model = "", view = "", project = "", zbuf = "", trace} = words, known = {model, view, project, zbuf, ...(trace === undefined ? {} : {trace})};
-  return {version, scene, config, words: Object.fromEntries(Object.entries(known).map(([tool, text]) => [tool, String(text)]))};
+  const stage = mine && STAGES_OF_ONES_OWN.includes(mine.tool) && KINDS.includes(mine.kind) && typeof mine.text === "string" ? {mine: {tool: mine.tool, kind: mine.kind, text: mine.text}} : {};
+  if (stage.mine) expectLines(mine.text);
+  return {...stage, version, scene, config, words: Object.fromEntries(Object.entries(known).map(([tool, text]) => [tool, String(text)]))};
 }
 
 // An error if a text has a line that would take the editor minutes.

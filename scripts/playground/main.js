@@ -5,6 +5,8 @@ import {CommandLine} from "./command_line.js";
 import {Editor} from "./editor.js";
 import {LONGEST, checked, expectLines, hashOf, stateOf} from "./link.js";
 import {PipeClient} from "./pipe_client.js";
+import {runCode} from "./sandbox.js";
+import {TEMPLATES} from "./templates.js";
 import {STEPS} from "./tour.js";
 import {VERSION, samples, toolModule, workerAddress} from "resources";
 
@@ -18,6 +20,9 @@ class Playground {
     this.given = given;
     this.inspector = null;
     this.editors = {scene: new Editor(one("#scene"), "scene.txt", () => this.edited()), config: new Editor(one("#config"), "config.txt", () => this.edited())};
+    this.own = null;  // {tool, text} that runs in place of a stage
+    this.ownEditor = new Editor(one("#own-text"), "my stage", () => { if (this.own && one("#own-kind").value === "text") this.runOwn(); });
+    this.ownEditor.text = TEMPLATES.view;
     this.client = new PipeClient(module, worker, {answered: answer => this.show(answer), busy: isBusy => { one("#stop").hidden = !isBusy; }});
     this.line = new CommandLine(one("#line"), tool => this.client.helpOf(tool), () => this.edited());
     one("#samples").append(...Object.keys(given).map(name => new Option(name, name)));
@@ -25,9 +30,24 @@ class Playground {
     this.listen();
   }
 
-  get state() { return {version: VERSION, scene: this.editors.scene.text, config: this.editors.config.text, words: this.line.words}; }
+  get state() { return {version: VERSION, scene: this.editors.scene.text, config: this.editors.config.text, words: this.line.words, ...this.mine}; }
 
-  set state({scene, config, words}) {
+  // The reader's own stage, if it is more than what was offered.
+  get mine() {
+    const tool = one("#own-tool").value, kind = one("#own-kind").value, {text} = this.ownEditor;
+    return this.own || (kind === "js" && text !== TEMPLATES[tool]) ? {mine: {tool, kind, text}} : {};
+  }
+
+  // A stage of one's own waits for Run: it may be someone else's.
+  set state({scene, config, words, mine}) {
+    if (mine && (!this.own || mine.text !== this.ownEditor.text)) {
+      this.own = null;
+      one("#own-off").disabled = true;
+      one("#own").open = true;
+      one("#own-tool").value = mine.tool;
+      one("#own-kind").value = mine.kind;
+      this.ownEditor.text = mine.text;
+    }
     this.editors.scene.text = scene;
     this.editors.config.text = config;
     this.line.words = words;
@@ -73,6 +93,7 @@ class Playground {
 
   choose(name) {
     const {scene, config} = this.given[name];
+    if (this.own) this.setOwn(null);
     this.state = {scene, config, words: {model: "", view: "", project: "", zbuf: ""}};
     one("#samples").value = name;
   }
@@ -89,6 +110,9 @@ class Playground {
     one("#after").onclick = () => this.goToStep(this.step + 1);
     window.addEventListener("hashchange", async () => { const {state, problem} = await this.linked(); if (state) this.open(state); if (problem) this.tell(problem); });
     one("#end").onclick = () => one("#tour").click();
+    one("#own-run").onclick = () => this.runOwn();
+    one("#own-off").onclick = () => this.setOwn(null);
+    for (const menu of ["#own-tool", "#own-kind"]) one(menu).onchange = () => this.offerOwn();
     one("#open").onclick = () => one("#file").click();
     one("#file").onchange = event => this.take(event.target.files);
     document.addEventListener("dragover", event => event.preventDefault());
@@ -112,6 +136,36 @@ class Playground {
     if (file.name.endsWith(".json")) return this.open(checked(JSON.parse(text)));
     expectLines(text);
     this.state = {...this.state, [/config/.test(file.name) ? "config" : "scene"]: text};
+  }
+
+  // Something to begin with: code, or the stage's own text.
+  offerOwn() {
+    const tool = one("#own-tool").value, isCode = one("#own-kind").value === "js";
+    this.setOwn(null);
+    this.ownEditor.text = isCode ? TEMPLATES[tool] : this.textOf(tool);
+  }
+
+  // What a stage wrote last, or what model reads.
+  textOf(tool) {
+    const stage = this.inspector && this.inspector.data.stages.find(other => other.tool === tool);
+    return tool === "scene" ? this.editors.scene.text : stage ? stage.text : "";
+  }
+
+  async runOwn() {
+    const tool = one("#own-tool").value, {text} = this.ownEditor, before = {model: "scene", view: "model", project: "view"}[tool];
+    if (one("#own-kind").value === "text") return this.setOwn({tool, text});
+    try {
+      this.setOwn({tool, text: await runCode(text, this.textOf(before))});
+    } catch (error) {
+      this.setOwn(null);
+      this.tell(`Your ${tool}: ${error.message}`);
+    }
+  }
+
+  setOwn(own) {
+    this.own = own;
+    one("#own-off").disabled = !own;
+    this.run();
   }
 
   goToStep(step) {
@@ -151,7 +205,7 @@ class Playground {
   run() {
     this.tell("");
     const {scene, config, words} = this.state;
-    this.client.run({scene, config, words});
+    this.client.run({scene, config, words, own: this.own});
     this.keep();
   }
 

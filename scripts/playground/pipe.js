@@ -1,6 +1,7 @@
 // A scene sent through the pipe: what a shell makes of `model < scene.txt | view | project | zbuf config.txt`, and what the inspector shows.
 
 import {guideOf} from "./guide.js";
+import {difference, theirsOf} from "./own_stage.js";
 import {StageText} from "./stage_text.js";
 import {textOf} from "./tools.js";
 
@@ -42,7 +43,7 @@ export class Pipe {
 
   // The data of an Inspector, and the messages of every stage. If it `isQuick`, of the fragments of a pixel there is only the one that is seen:
   // the others take ten times as long as the picture. Throws a StageFailure.
-  async run({scene, config, words}, isQuick) {
+  async run({scene, config, words, own}, isQuick) {
     const isTraced = typeof words.trace === "string";
     this.expectWhole(words);
     const results = [], messages = [], logs = isQuick && !/--samples/.test(words.zbuf) ? ["--triangle-array", TRIANGLES, "--depth-array", DEPTHS] : ["--fragments", FRAGMENTS];
@@ -68,7 +69,22 @@ export class Pipe {
       if (done.status !== 0) throw new StageFailure("trace", done.status, messages);
       Object.assign(data, {pixels: imageOf(done.read(IMAGE)).pixels, isTraced});
     }
+    if (own && !isTraced) data.theirs = await this.withOwn(own, results, config, words, data);
     return {data, messages, isQuick: logs[0] !== "--fragments"};
+  }
+
+  // A text of the reader's in place of a stage's, and what the stages behind it make of it.
+  async withOwn({tool, text}, results, config, words, {pixels}) {
+    const place = STAGES.indexOf(tool);
+    let input = new TextEncoder().encode(text), done = null;
+    for (const next of STAGES.slice(place + 1)) {
+      const isLast = next === "zbuf", own = wordsOf(words[next]);
+      done = await this.stage(next, isLast ? ["config.txt", ...own, "-o", IMAGE] : own, input, isLast ? {"config.txt": config} : {}, `own ${next}`);
+      if (done.status !== 0) break;
+      input = done.output;
+    }
+    const picture = done.status === 0 ? imageOf(done.read(IMAGE)).pixels : null;
+    return theirsOf(tool, place, difference(text, textOf(results[place].output)), picture, pixels, done.text.split("\n")[0]);
   }
 
   // What project reads: the text of view, with facets in place of spheres.

@@ -1,5 +1,6 @@
 """The playground: its tools are the native ones to the byte, and the page shows what they write."""
 import base64
+import http.server
 import json
 import os
 import pathlib
@@ -8,7 +9,9 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import threading
 import unittest
+import urllib.request
 
 BIN, ROOT = (pathlib.Path(word).resolve() for word in sys.argv[1:3])
 sys.path[:0] = [str(ROOT / "tests/conformance"), str(ROOT / "tests/scripts")]
@@ -154,6 +157,31 @@ class TheBuild(unittest.TestCase):
                 "playground/samples.json", "playground/tools.wasm", "playground/worker.js"])
 
 
+class Listener:
+    """A server on this machine that lets anybody in, and counts who asks."""
+
+    def __init__(self):
+        outer, self.requests = self, 0
+
+        class Handler(http.server.BaseHTTPRequestHandler):
+            def do_GET(self):  # noqa: N802
+                outer.requests += 1
+                self.send_response(200)
+                self.send_header("Access-Control-Allow-Origin", "*")
+                self.end_headers()
+
+            def log_message(self, *_):
+                pass
+
+        self.server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), Handler)
+        self.address = f"http://127.0.0.1:{self.server.server_port}/"
+        threading.Thread(target=self.server.serve_forever, daemon=True).start()
+
+    def end(self):
+        self.server.shutdown()
+        self.server.server_close()
+
+
 SET = "const page = document.body.playground; page.state = {...page.state, ...arguments[0]};"
 IS_DONE = """const {client, inspector} = document.body.playground;
 return client.running === null && !client.next && !client.isPending && inspector &&
@@ -288,6 +316,67 @@ class ThePage(unittest.TestCase):
         self.assertEqual(shlex.split(line)[-4:],
                          ["--z-buffer", "$(touch${IFS}pwned)", "`id`.pgm", "config.txt"])
         self.assertIn("'$(touch${IFS}pwned)' '`id`.pgm'", line)
+
+    OWN = """document.querySelector("#own").open = true;
+      for (const [id, word] of Object.entries(arguments[0])) document.querySelector(id).value = word;
+      document.querySelector("#own-tool").onchange();
+      if (arguments[1]) document.body.playground.ownEditor.text = arguments[1];
+      document.querySelector("#own-run").click();"""
+    TOLD = """const told = document.querySelector("#theirs p");
+      return [document.querySelector("#told").innerText, told ? told.innerText : ""];"""
+
+    def own(self, tool, code="", kind="js"):
+        """What the page says of a stage of one's own, when it has run."""
+        self.browser.run(self.OWN, {"#own-tool": tool, "#own-kind": kind}, code)
+        self.browser.wait_for(lambda: any(self.browser.run(self.TOLD)))
+        return self.browser.run(self.TOLD)
+
+    def test_the_stages_to_begin_with_are_right(self):
+        scene, config = self.sample("tilted-camera")
+        self.edit(scene=scene.decode(), config=config.decode())
+        for tool in ("view", "project"):
+            self.assertEqual(self.own(tool), [
+                "", f"your own {tool}: every vertex is right; 0 of 10000 pixels differ."])
+            self.browser.run("document.querySelector('#own-off').click()")
+            self.browser.wait_for(lambda: not any(self.browser.run(self.TOLD)))
+
+    def test_a_wrong_stage_is_laid_over_ours(self):
+        scene, config = self.sample("worked-example")
+        self.edit(scene=scene.decode(), config=config.decode())
+        text = (ROOT / "samples/worked-example/stage2.txt").read_text().replace("-2.0", "2.0", 1)
+        mine = {"tool": "view", "kind": "text", "text": "perspective 60 1 1 10\n" + text}
+        self.browser.run(SET, {"mine": mine})
+        self.assertEqual(self.browser.run(self.TOLD), ["", ""])
+        self.browser.run("document.querySelector('#own-run').click()")
+        self.browser.wait_for(lambda: any(self.browser.run(self.TOLD)))
+        self.assertRegex(self.browser.run(self.TOLD)[1],
+                         r"^your own view: 1 of 3 vertices differ, first line 2, z of vertex 1 of triangle "
+                         r"0: 2 in place of -2; \d+ of 100 pixels differ\.$")
+        listed = self.browser.run("return document.querySelectorAll('#theirs [data-name]').length")
+        self.assertEqual(listed, 1)
+
+    def test_code_that_came_along_does_nothing_until_run_and_then_no_harm(self):
+        scene, config = self.sample("worked-example")
+        self.edit(scene=scene.decode(), config=config.decode(),
+                  mine={"tool": "view", "kind": "js", "text": "return 'ran'"})
+        self.assertEqual(self.browser.run(self.TOLD), ["", ""])
+        self.assertIn("'ran'", self.browser.run("return document.body.playground.state.mine.text"))
+        server = Listener()
+        self.addCleanup(server.end)
+        for code, told in (("for (;;);", "it has not ended after 5 seconds"), ("throw 5", "5"),
+                           ("return x(", "SyntaxError"), ("return 'a'.repeat(1e8)", "it returned too much"),
+                           (f"importScripts('{server.address}')", "NetworkError"),
+                           (f"const r = new XMLHttpRequest(); r.open('GET', '{server.address}', false); "
+                            "r.send()", "NetworkError")):
+            with self.subTest(code=code):
+                self.browser.run("document.querySelector('#told').innerText = ''")
+                self.assertIn(told, self.own("view", code)[0])
+        self.assertIn("found 'undefined,null'",
+                      self.own("view", "return [typeof localStorage, self.origin].join() + '\\n'")[1])
+        self.assertEqual(self.browser.run("return document.querySelectorAll('iframe').length"), 0)
+        self.assertEqual(server.requests, 0)
+        urllib.request.urlopen(server.address).close()
+        self.assertEqual(server.requests, 1)
 
     def test_it_lives_after_hostile_texts(self):
         self.browser.run(SET, {"config": "30000 30000\n"})
