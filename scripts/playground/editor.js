@@ -38,7 +38,7 @@ export class Editor {
     const language = name === "scene.txt" ? [scenes, syntaxHighlighting(colors), autocompletion({override: [completeFromList(COMMANDS)]})] : [scenes, syntaxHighlighting(colors)];
     this.extensions = [
       lineNumbers(), history(), drawSelection(), highlightActiveLine(), lintGutter(), ...language, theme, keymap.of([...defaultKeymap, ...historyKeymap]),
-      EditorView.contentAttributes.of({"aria-label": name, spellcheck: "false"}),
+      EditorView.contentAttributes.of({"aria-label": name, spellcheck: "false", tabindex: "0"}),
       EditorView.updateListener.of(update => { if (update.docChanged && !this.isOwn) changed(); }),
     ];
     this.view = new EditorView({state: this.stateOf(""), parent: box});
