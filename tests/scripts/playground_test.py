@@ -367,7 +367,8 @@ class ThePage(unittest.TestCase):
         server = Listener()
         self.addCleanup(server.end)
         for code, told in (("for (;;);", "it has not ended after 5 seconds"), ("throw 5", "5"),
-                           ("return x(", "SyntaxError|the code cannot be read"), ("return 'a'.repeat(1e8)", "it returned too much"),
+                           ("return x(", "SyntaxError|the code cannot be read"),
+                           ("return 'a'.repeat(1e8)", "it returned too much"),
                            (f"importScripts('{server.address}')", "NetworkError"),
                            (f"const r = new XMLHttpRequest(); r.open('GET', '{server.address}', false); "
                             "r.send()", "NetworkError")):
@@ -402,7 +403,7 @@ class ThePageInFirefox(ThePage):
 
 AXE = BUILT / "npm/node_modules/axe-core/axe.min.js"
 VIOLATIONS = """return axe.run().then(found => found.violations.map(({impact, id, nodes}) =>
-  [impact, id, nodes[0].html.slice(0, 100)]).filter(([impact]) => ["critical", "serious"].includes(impact)));"""
+  [impact, id, nodes[0].html.slice(0, 100)]).filter(found => /critical|serious/.test(found[0])));"""
 
 
 @unittest.skipUnless(AXE.exists() and (BUILT / "site/playground.html").exists(), NOT_BUILT)
