@@ -1,7 +1,8 @@
 """A z-buffer text as rows of numbers."""
 from lib.command import shown
 from lib.input_file import name_of
-from lib.stage_text import StageTextError, real
+from lib.plain_stage_text import real
+from lib.stage_text import StageTextError
 
 
 def parse_z_buffer(text, path):

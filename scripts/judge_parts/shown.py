@@ -6,7 +6,8 @@ import dataclasses
 from judge_parts.digits import EXACT, Digits, digits_of
 from lib.command import shown as printable
 from lib.pictures import PictureError, picture_of
-from lib.stage_text import StageTextError, real, text_of
+from lib.plain_stage_text import real
+from lib.stage_text import StageTextError, text_of
 
 DEPTH_BASE = 2e-6  # for depths of 6 decimals, calculated from numbers of 7; times their size beyond 1
 FLIPS = {

@@ -185,5 +185,22 @@ class Stages(ToolTest):
         self.assert_made(done, "two")
 
 
+class PlainFile(ToolTest):
+    """scripts/lib/plain_stage_text.py, which people copy."""
+
+    def test_it_reads_and_writes_what_the_tools_write(self):
+        pathlib.Path("stage_text.py").write_bytes((SOURCE / "scripts/lib/plain_stage_text.py").read_bytes())
+        code = ("import sys; sys.path.insert(0, '.'); import stage_text; "
+                "sys.stdout.write(stage_text.write(stage_text.read(sys.stdin.read())))")
+        for sample in ("worked-example", "wide-clipped", "colored-lights", "materials"):
+            text = (SOURCE / "samples" / sample / "scene.txt").read_bytes()
+            for tool in ("model", "view", "project"):
+                text = subprocess.run([BIN / tool], input=text, capture_output=True, check=True).stdout
+                if b"\nclipped\n" in text:  # its pieces alone are read
+                    continue
+                done = subprocess.run([sys.executable, "-I", "-c", code], input=text, capture_output=True)
+                self.assertEqual((done.stdout == text, done.stderr), (True, b""), (sample, tool))
+
+
 if __name__ == "__main__":
     unittest.main()

@@ -1,0 +1,141 @@
+"""Stage text in Python: a reader and a writer in one file, which needs no other and may be copied.
+
+    import stage_text
+    text = stage_text.read(open("stage1.txt").read(), "stage1.txt")
+    for triangle in text.triangles:
+        print([vertex.numbers[:3] for vertex in triangle])
+    print(stage_text.write(text), end="")
+
+docs/stage-text.md defines the text. Of a triangle that project has cut, its pieces are read, not the whole.
+"""
+import dataclasses
+import math
+import re
+
+KEYWORD = re.compile("[A-Za-z]")
+NUMBERS_OF = {"color": 3, "normal": 3}
+NO_KEYWORDS = ("nan", "inf", "infinity")
+DECIMAL_COMMA = re.compile("[0-9],[0-9]")
+
+
+class StageTextError(ValueError):
+    """Not a stage text; the message names the location."""
+
+
+@dataclasses.dataclass
+class Vertex:
+    line: int       # from 1
+    numbers: tuple  # x, y, z and the attributes
+
+
+@dataclasses.dataclass
+class StageText:
+    header: dict     # {keyword: words}; for light, those of the last one
+    triangles: list  # of three vertices each
+    names: list      # the scene's number of each triangle
+    spheres: list = dataclasses.field(default_factory=list)       # of four vertices each
+    header_lines: list = dataclasses.field(default_factory=list)  # the words of each, in order
+
+    @property
+    def vertices(self):
+        return [vertex for triangle in self.triangles for vertex in triangle]
+
+    @property
+    def points(self):
+        return [vertex.numbers[:3] for vertex in self.vertices]
+
+
+def write(text, decimals=7):
+    """The text of a StageText without spheres: coordinates, colors and normals with so many decimals, w with
+    as many digits as it takes."""
+    lines, expected = [" ".join(words) for words in text.header_lines], 0
+    is_fixed = [True] * 3
+    for word in text.header.get("attributes", []):
+        is_fixed += [word in NUMBERS_OF] * NUMBERS_OF.get(word, 1)
+    for name, triangle in zip(text.names, text.triangles):
+        if name != expected:
+            lines.append(f"triangle {name}")
+        expected = name + 1
+        for vertex in triangle:
+            lines.append(" ".join(f"{x:.{decimals}f}" if fixed else shortest(x)
+                                  for x, fixed in zip(vertex.numbers, is_fixed)))
+        lines.append("")
+    return "".join(line + "\n" for line in lines)
+
+
+def shortest(x):
+    """The shortest decimal that reads back as this number, without an exponent where it has few digits."""
+    return str(int(x)) if x == int(x) and abs(x) < 1e15 else repr(float(x))
+
+
+def real(word):
+    """The value of a word that the tools accept as a number, too: decimal and finite."""
+    value = float(word)
+    if not (math.isfinite(value) and word.isascii() and "_" not in word):
+        raise ValueError
+    return value
+
+
+def read(text, name="text", may_have_spheres=False):
+    """The StageText of a str; `name` is that of the file in messages. Raises a StageTextError."""
+    header, vertices, names, next_name, passed_over = {}, [], [], 0, 0
+    header_lines = []
+    spheres, of_sphere = [], 0  # and how many lines of the last one are still to come
+    for number, line in enumerate(text.split("\n"), 1):
+        words = line.split("#")[0].split()
+        if not words or words[0] in ("framed", "end"):
+            continue
+        if words[0] == "error":
+            raise StageTextError(f"{name}:{number}: {' '.join(words[1:])}")
+        if KEYWORD.match(words[0]) and words[0].lower() not in NO_KEYWORDS:
+            if words[0] == "triangle":
+                next_name = triangle_number(" ".join(words[1:]), f"{name}:{number}")
+            elif words[0] == "clipped":  # the whole triangle in clip space; its pieces follow
+                passed_over = 3
+            elif words[0] == "sphere" and may_have_spheres:
+                next_name, of_sphere = next_name + 1, 4
+                spheres.append([])
+            elif words[0] == "sphere":
+                raise StageTextError(
+                    f"{name}:{number}: expected triangles alone, found a sphere: trace draws it, and model "
+                    f"--facets N makes triangles of it"
+                )
+            else:
+                header[words[0]] = words[1:]
+                header_lines.append(words)
+            continue
+        if passed_over:
+            passed_over -= 1
+            continue
+        try:
+            numbers = tuple(real(word) for word in words)
+        except ValueError:
+            comma = ": write a decimal point, not a comma" if DECIMAL_COMMA.search(line) else ""
+            raise StageTextError(
+                f"{name}:{number}: expected numbers, found '{line.strip()[:40]}'{comma}") from None
+        if len(numbers) < 3:
+            raise StageTextError(
+                f"{name}:{number}: expected x, y and z, found "
+                f"{'1 number' if len(numbers) == 1 else f'{len(numbers)} numbers'}"
+            )
+        if of_sphere:
+            of_sphere -= 1
+            spheres[-1].append(Vertex(number, numbers))
+            continue
+        if len(vertices) % 3 == 0:
+            names.append(next_name)
+            next_name += 1
+        vertices.append(Vertex(number, numbers))
+    if len(vertices) % 3:
+        raise StageTextError(f"{name}: expected three vertices a triangle, found {len(vertices)} in all")
+    if of_sphere:
+        raise StageTextError(
+            f"{name}: expected four vertices a sphere, found {4 - of_sphere} of the last one")
+    return StageText(header, [vertices[i:i + 3] for i in range(0, len(vertices), 3)], names, spheres,
+                     header_lines)
+
+
+def triangle_number(word, place):
+    if not re.fullmatch("[0-9]{1,20}", word):
+        raise StageTextError(f"{place}: expected a triangle's number, found '{word[:40]}'")
+    return int(word)
