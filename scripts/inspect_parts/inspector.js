@@ -22,7 +22,7 @@ const STARTS = {
   view: {yaw: -0.6, pitch: 0.35},
   project: {yaw: -0.45, pitch: 0.3},
 };
-const counted = (count, word) => `${count} ${word}${count === 1 ? "" : "s"}`;
+const counted = (count, word) => `${count.toLocaleString("en")} ${word}${count === 1 ? "" : "s"}`;
 const NOTHING = {triangle: -1, pixel: -1};
 
 export class Inspector {

@@ -21,7 +21,7 @@ export class Legend {
     list.replaceChildren(...legendOf(stages).filter(({label, count}) => count > 0 || /^(shown|hidden|outside|culled)$/.test(label)).map(({label, kind, count, terms}) => {
       const item = document.createElement("li"), number = document.createElement("b");
       item.className = kind;
-      number.textContent = count;
+      number.textContent = count.toLocaleString("en");
       item.append(number, " " + label);
       item.title = terms.join("\n");
       return item;
@@ -44,7 +44,7 @@ export function fillCounts(body, stages) {
   const size = bytes => bytes < 1e6 ? `${(bytes / 1e3).toFixed(1)} kB` : `${(bytes / 1e6).toFixed(1)} MB`;
   for (const stage of stages) {
     const row = body.insertRow();
-    for (const words of [stage.tool, stage.title, stage.triangles, size(stage.bytes), stage.seconds > 0 ? `${Math.round(1000 * stage.seconds)} ms` : "< 1 ms",
+    for (const words of [stage.tool, stage.title, stage.triangles.toLocaleString("en"), size(stage.bytes), stage.seconds > 0 ? `${Math.round(1000 * stage.seconds)} ms` : "< 1 ms",
       countsOf(stage.statistics), ...["x", "y", "z"].map(axis => rangeOf(stage.statistics, axis))]) row.insertCell().textContent = words;
   }
 }

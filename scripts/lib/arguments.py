@@ -41,6 +41,12 @@ class HelpFormatter(argparse.RawDescriptionHelpFormatter):
                              break_long_words=False, break_on_hyphens=False)
 
 
+def config_beside(scene):
+    """The config.txt in the folder of a scene; None if there is none."""
+    config = os.path.join(os.path.dirname(scene), "config.txt")
+    return config if scene != "-" and os.path.isfile(config) else None
+
+
 class CommandParser(argparse.ArgumentParser):
     """Tells a mistake in one line, as the tools do."""
 
@@ -60,6 +66,18 @@ class CommandParser(argparse.ArgumentParser):
             for name in difflib.get_close_matches(word, known, 1):
                 message += f" (did you mean {name}?)"
         self.exit(2, f"{self.prog}: {message} (try {self.prog} --help)\n")
+
+    def add_config(self):
+        """The operand CONFIG, which may be left out where there is one beside SCENE."""
+        self.add_argument(
+            "config", metavar="CONFIG", nargs="?",
+            help="the config of zbuf (default: the config.txt beside SCENE); - is standard input")
+
+    def take_config(self, options):
+        """Chooses that one."""
+        options.config = options.config or config_beside(options.scene)
+        if options.config is None:
+            self.error("expected CONFIG, found no config.txt beside SCENE")
 
     def expect_separate(self, options, *outputs, inputs=()):
         """Ends the program where an output is another output or an input, by path, link or inode. Outputs are

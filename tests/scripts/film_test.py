@@ -285,7 +285,7 @@ class Sizes(FilmTest):
         self.assertEqual(frames("other"), frames("out"))
 
     def test_wrong_ones_are_told(self):
-        for words, reason in ((["scene.txt", "--turn", "1"], "expected CONFIG or --size, found neither"), ([
+        for words, reason in ((["-", "--turn", "1"], "expected CONFIG or --size, found neither, and no "), ([
                 "scene.txt", "config.txt", "path.txt", "--size",
                 "5x4"], "expected either CONFIG or --size, found both"), ([
                     "scene.txt", "--turn", "1", "--size",
@@ -293,7 +293,7 @@ class Sizes(FilmTest):
                         "scene.txt", "--turn", "1", "--size",
                         "0x4"], "expected WIDTHxHEIGHT in pixels, such as 800x600, found '0x4'"), ([
                             "scene.txt", "--size", "5x4"], "expected either PATH or --turn, found neither")):
-            done = film(*words, "-o", "out")
+            done = film(*words, "-o", "out", input="")
             self.assertEqual((done.returncode, done.stdout), (2, ""))
             self.assertIn(reason, done.stderr)
         done = film("scene.txt", "--size", "5x4", "--turn", "1", "-o", "out.AVI")

@@ -884,7 +884,7 @@ class InABrowser(ToolTest):
         self.load("scene.txt", "config.txt", "--trace")
         self.assertTrue(
             self.browser.run("return document.getElementById('title').textContent").startswith(
-                "scene.txt: 0 triangles and 1100 spheres"))
+                "scene.txt: 0 triangles and 1,100 spheres"))
         found = self.browser.run(
             "return document.body.inspector.panels.slice(0, 2).map(({wire}) => "
             "[...wire.stage.spheres.names].filter(i => wire.triangleAt(wire.stage.spheres.x[4 * i], "
