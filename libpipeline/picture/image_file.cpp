@@ -74,6 +74,8 @@ std::string format_extension_of(const std::string& path) {
 
 const ImageFormat& format_of(const std::string& path) {
   const std::string extension = format_extension_of(path);
+  if (image_file_of(path).empty())
+    throw InputError({path}, expected_but_found("a file's name behind the format", "nothing"));
   if (extension == ".bmp" && is_device_without_extension(image_file_of(path)))
     throw InputError({"bmp:-"}, expected_but_found("ppm:- or png:-, as a BMP is written from its end",
                                                    pipeline::quoted("bmp:-")));

@@ -54,8 +54,9 @@ const files = {"index.html": folder, "main.js": await bundled("main.js", "resour
 function expectOurs(place, isFolder) {
   const status = fs.lstatSync(place, {throwIfNoEntry: false});
   if (!status) return;
-  const isOurs = isFolder ? status.isDirectory() && fs.readdirSync(place, {withFileTypes: true}).every(entry => entry.isFile() && entry.name in files) : status.isFile() && read(place).includes(TITLE);
-  if (!isOurs) throw new Error(`${place} is in the way, and none of this page's`);
+  const page = isFolder ? path.join(place, "index.html") : place, isPage = fs.lstatSync(page, {throwIfNoEntry: false})?.isFile() && read(page).includes(TITLE);
+  const hasMore = isFolder && (!status.isDirectory() || fs.readdirSync(place, {withFileTypes: true}).some(entry => !entry.isFile() || !(entry.name in files)));
+  if (!isPage || hasMore) throw new Error(`${place} is in the way, and none of this page's`);
 }
 
 // Writes all beside their places, and then moves them there.
@@ -73,6 +74,9 @@ function install() {
     fs.renameSync(path.join(work, "playground.html"), places.single);
     for (const [name, contents] of written)
       console.log(`${name}: ${Buffer.byteLength(contents)} bytes, ${zlib.gzipSync(contents, {level: 9}).length} compressed`);
+  } catch (error) {
+    if (fs.existsSync(path.join(work, "before")) && !fs.existsSync(places.folder)) fs.renameSync(path.join(work, "before"), places.folder);
+    throw error;
   } finally {
     fs.rmSync(work, {recursive: true});
   }

@@ -21,7 +21,8 @@ class Playground {
     this.inspector = null;
     this.editors = {scene: new Editor(one("#scene"), "scene.txt", () => this.edited()), config: new Editor(one("#config"), "config.txt", () => this.edited())};
     this.own = null;  // {tool, text} that runs in place of a stage
-    this.ownEditor = new Editor(one("#own-text"), "my stage", () => { if (this.own && one("#own-kind").value === "text") this.runOwn(); });
+    this.ownRuns = 0;
+    this.ownEditor = new Editor(one("#own-text"), "my stage", () => this.editedOwn());
     this.ownEditor.text = TEMPLATES.view;
     this.client = new PipeClient(module, worker, {answered: answer => this.show(answer), busy: isBusy => { one("#stop").hidden = !isBusy; }});
     this.line = new CommandLine(one("#line"), tool => this.client.helpOf(tool), () => this.edited());
@@ -40,9 +41,9 @@ class Playground {
 
   // A stage of one's own waits for Run: it may be someone else's.
   set state({scene, config, words, mine}) {
-    if (mine && (!this.own || mine.text !== this.ownEditor.text)) {
-      this.own = null;
-      one("#own-off").disabled = true;
+    const before = this.mine.mine;
+    if (!mine || !before || ["tool", "kind", "text"].some(key => mine[key] !== before[key])) this.forgetOwn();
+    if (mine) {
       one("#own").open = true;
       one("#own-tool").value = mine.tool;
       one("#own-kind").value = mine.kind;
@@ -93,7 +94,6 @@ class Playground {
 
   choose(name) {
     const {scene, config} = this.given[name];
-    if (this.own) this.setOwn(null);
     this.state = {scene, config, words: {model: "", view: "", project: "", zbuf: ""}};
     one("#samples").value = name;
   }
@@ -151,18 +151,36 @@ class Playground {
     return tool === "scene" ? this.editors.scene.text : stage ? stage.text : "";
   }
 
+  // What ran is another stage now; a text runs at once, code on Run.
+  editedOwn() {
+    if (!this.own) return;
+    if (one("#own-kind").value === "text") this.runOwn(); else this.setOwn(null);
+  }
+
+  // Lets go of the stage, and of one that is still running.
+  forgetOwn() {
+    ++this.ownRuns;
+    this.own = null;
+    one("#own-off").disabled = true;
+  }
+
   async runOwn() {
     const tool = one("#own-tool").value, {text} = this.ownEditor, before = {model: "scene", view: "model", project: "view"}[tool];
+    if (this.line.isTraced) return this.tell("A stage of your own is drawn by project | zbuf.");
     if (one("#own-kind").value === "text") return this.setOwn({tool, text});
+    const run = ++this.ownRuns;
     try {
-      this.setOwn({tool, text: await runCode(text, this.textOf(before))});
+      const made = await runCode(text, this.textOf(before));
+      if (run === this.ownRuns) this.setOwn({tool, text: made});
     } catch (error) {
+      if (run !== this.ownRuns) return;
       this.setOwn(null);
       this.tell(`Your ${tool}: ${error.message}`);
     }
   }
 
   setOwn(own) {
+    this.forgetOwn();
     this.own = own;
     one("#own-off").disabled = !own;
     this.run();

@@ -1,5 +1,5 @@
 // Runs the reader's JavaScript where it can harm nothing: in a worker of a frame of an origin of its own, under the page's policy, which
-// lets it load nothing; and not for long. The frame's script is the text of FRAME, whose hash is in the policy (build.mjs).
+// and its own lets it load nothing; and not for long. The frame's script is the text of FRAME, whose hash is in the policy (build.mjs).
 
 const LONGEST = 5000;   // milliseconds
 const MOST_OUT = 1 << 26;  // characters
@@ -7,8 +7,14 @@ const MOST_OUT = 1 << 26;  // characters
 export const FRAME = `onmessage = ({data: {code}, ports: [port]}) => {
   const run = "onmessage = ({data}) => { try { postMessage({text: String(stage(data))}); } catch (error) { postMessage({error: String(error)}); } };";
   const worker = new Worker(URL.createObjectURL(new Blob(["function stage(input) {\\n" + code + "\\n}\\n" + run], {type: "text/javascript"})));
-  worker.onerror = event => port.postMessage({error: (event.message || "the code cannot be read") + (event.lineno > 1 ? ", line " + (event.lineno - 1) : "")});
-  worker.onmessage = ({data}) => port.postMessage(data);
+  const answer = data => {
+    worker.onmessage = worker.onerror = null;
+    worker.terminate();
+    const {text, error} = data || {};
+    port.postMessage(typeof text === "string" ? {text} : {error: typeof error === "string" ? error.slice(0, 300) : "it answers by itself"});
+  };
+  worker.onerror = event => answer({error: (event.message || "the code cannot be read") + (event.lineno > 1 ? ", line " + (event.lineno - 1) : "")});
+  worker.onmessage = ({data}) => answer(data);
   port.onmessage = ({data}) => worker.postMessage(data);
 };`;
 
@@ -17,11 +23,12 @@ export function runCode(code, input) {
   const frame = document.createElement("iframe");
   frame.setAttribute("sandbox", "allow-scripts");
   frame.hidden = true;
-  frame.srcdoc = `<script>${FRAME}</script>`;
+  frame.srcdoc = `<meta http-equiv="Content-Security-Policy" content="default-src 'none'; script-src 'unsafe-inline'; worker-src blob:"><script>${FRAME}</script>`;
+  let timer = 0;
   return new Promise((resolve, reject) => {
-    const {port1, port2} = new MessageChannel(), timer = setTimeout(() => reject(new Error(`it has not ended after ${LONGEST / 1000} seconds`)), LONGEST);
+    const {port1, port2} = new MessageChannel();
+    timer = setTimeout(() => reject(new Error(`it has not ended after ${LONGEST / 1000} seconds`)), LONGEST);
     port1.onmessage = ({data: {text, error}}) => {
-      clearTimeout(timer);
       if (typeof text === "string" && text.length <= MOST_OUT) resolve(text);
       else reject(new Error(typeof text === "string" ? "it returned too much" : String(error)));
     };
@@ -30,5 +37,8 @@ export function runCode(code, input) {
       port1.postMessage(input);
     };
     document.body.append(frame);
-  }).finally(() => frame.remove());
+  }).finally(() => {
+    clearTimeout(timer);
+    frame.remove();
+  });
 }

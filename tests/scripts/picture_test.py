@@ -90,6 +90,19 @@ class Picture(ToolTest):
             2, b"picture: expected -o FILE, such as -o vase.png, found a terminal for the picture (try "
             b"picture --help)\n"))
 
+    def test_no_way_leads_into_its_own_model(self):
+        scene = "0 0 3\n0 0 0\n0 1 0\n60 1 1 9\ntriangle\n0 0 0\n1 0 0\n0 1 0\nend\n"
+        pathlib.Path("scene.txt").write_text(scene)
+        os.link("scene.txt", "link.png")
+        for call in ('"$0" scene.txt -o png:scene.txt', '"$0" scene.txt -o link.png',
+                     '"$0" scene.txt >> scene.txt', '"$0" - < scene.txt >> scene.txt',
+                     '"$0" scene.txt --stages . -o png:stage1.txt'):
+            done = subprocess.run(["bash", "-c", call, SOURCE / "scripts/picture"], capture_output=True,
+                                  text=True, env={**os.environ, "BIN": str(BIN)})
+            self.assertEqual((done.returncode, done.stdout), (2, ""), call)
+            self.assertIn("expected a place of its own for every output", done.stderr)
+            self.assertEqual(pathlib.Path("scene.txt").read_text(), scene)
+
     def test_a_scene_is_never_drawn_out_of_shape_in_silence(self):
         scene = "0 0 3\n0 0 0\n0 1 0\n60 1 1 9\ntriangle\n0 0 0\n1 0 0\n0 1 0\nend\n"
         os.mkdir("alone")

@@ -4,6 +4,7 @@ import http.server
 import json
 import os
 import pathlib
+import re
 import shlex
 import shutil
 import subprocess
@@ -133,13 +134,18 @@ class TheBuild(unittest.TestCase):
         def folder_in_folder(path):
             (path / "worker.js").mkdir(parents=True)
 
+        def page_in_folder(path):
+            path.mkdir()
+            (path / "index.html").write_text("mine")
+
         def file_in_folder(path):
             path.mkdir()
             (path / "mine.txt").write_text("mine")
 
         for name, make in (("playground.html", link), ("playground.html", os.mkfifo), ("playground", link),
                            ("playground.html", lambda path: path.write_text("mine")),
-                           ("playground", folder_in_folder), ("playground", file_in_folder)):
+                           ("playground", folder_in_folder), ("playground", file_in_folder),
+                           ("playground", page_in_folder)):
             with tempfile.TemporaryDirectory() as folder:
                 make(pathlib.Path(folder, name))
                 before = sorted(pathlib.Path(folder).rglob("*"))
@@ -358,6 +364,30 @@ class ThePage(unittest.TestCase):
         listed = self.browser.run("return document.querySelectorAll('#theirs [data-name]').length")
         self.assertEqual(listed, 1)
 
+    def test_nothing_is_right_that_the_stages_behind_draw_otherwise_or_refuse(self):
+        scene, config = self.sample("worked-example")
+        self.edit(scene=scene.decode(), config=config.decode())
+        text = (ROOT / "samples/worked-example/stage3.txt").read_text()
+        for wrong, told in ((text + ".5 .5 .0\n.9 .9 .0\n.1 .9 .0\n", "2 triangles in place of 1"),
+                            ("triangle 77\n" + text, "every vertex is right, but"),
+                            (text.replace("0.1111111", "0x1", 1), "1 of 3 vertices differ"),
+                            (text + "hello world\n", "do not take it: zbuf: "),
+                            (text.replace("0.8660254", "0.8660294", 1), "1 of 3 vertices differ")):
+            with self.subTest(wrong=wrong):
+                self.assertRegex(self.own("project", wrong, "text")[1], told)
+                self.browser.run("document.querySelector('#own-off').click()")
+                self.browser.wait_for(lambda: not any(self.browser.run(self.TOLD)))
+        plus = re.sub(r"(?m)^(?=[0-9])", "+", text)
+        self.assertIn("every vertex is right; 0 of", self.own("project", plus, "text")[1])
+
+    def test_a_verdict_does_not_outlive_what_it_is_about(self):
+        scene, config = self.sample("worked-example")
+        self.edit(scene=scene.decode(), config=config.decode())
+        self.assertIn("every vertex is right", self.own("view")[1])
+        edit = "document.body.playground.ownEditor.view.dispatch({changes: {from: 0, insert: '//'}})"
+        self.browser.run(edit)
+        self.browser.wait_for(lambda: not any(self.browser.run(self.TOLD)))
+
     def test_code_that_came_along_does_nothing_until_run_and_then_no_harm(self):
         scene, config = self.sample("worked-example")
         self.edit(scene=scene.decode(), config=config.decode(),
@@ -369,6 +399,9 @@ class ThePage(unittest.TestCase):
         for code, told in (("for (;;);", "it has not ended after 5 seconds"), ("throw 5", "5"),
                            ("return x(", "SyntaxError|the code cannot be read"),
                            ("return 'a'.repeat(1e8)", "it returned too much"),
+                           ("postMessage({error: {toString: null}}); for (;;);", "it answers by itself"),
+                           ("for (;;) postMessage(null);", "it answers by itself"),
+                           ("throw new Error('x y '.repeat(1e6));", "^.{200,400}$"),
                            (f"importScripts('{server.address}')", "NetworkError"),
                            (f"const r = new XMLHttpRequest(); r.open('GET', '{server.address}', false); "
                             "r.send()", "NetworkError")):
@@ -400,6 +433,55 @@ class ThePage(unittest.TestCase):
 class ThePageInFirefox(ThePage):
     BROWSER = firefox.Firefox
 
+
+@unittest.skipUnless((BUILT / "site/playground").exists(), NOT_BUILT)
+@unittest.skipIf(MISSING, f"missing: {' '.join(MISSING)}")
+class TheFolder(ThePage):
+    """The same, served as files; of code in the page, nothing comes back to the server."""
+
+    def setUp(self):
+        self.asked = asked = []
+
+        class Handler(http.server.SimpleHTTPRequestHandler):
+            def __init__(self, *words):
+                super().__init__(*words, directory=BUILT / "site/playground")
+
+            def log_message(self, _, *words):
+                asked.append(str(words[0]))
+
+        self.server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), Handler)
+        threading.Thread(target=self.server.serve_forever, daemon=True).start()
+        self.open("")
+
+    def tearDown(self):
+        super().tearDown()
+        self.server.shutdown()
+        self.server.server_close()
+
+    def open(self, hash_):
+        address = f"http://127.0.0.1:{self.server.server_port}/index.html{hash_}"
+        self.browser.call("POST", "/url", {"url": address})
+        self.browser.wait_for(lambda: self.browser.run("return document.body.dataset.runs"))
+        files = ("index.html", "main.js", "samples.json", "tools.wasm", "worker.js", "favicon.ico")
+        self.assertEqual([line for line in self.asked if not line.startswith(
+            tuple(f"GET /{name} " for name in files))], [])
+
+    def test_code_reaches_no_file_of_the_server(self):
+        scene, config = self.sample("worked-example")
+        self.edit(scene=scene.decode(), config=config.decode())
+        count, where = len(self.asked), f"http://127.0.0.1:{self.server.server_port}/main.js"
+        for code in (f"importScripts('{where}')",
+                     f"const r = new XMLHttpRequest(); r.open('GET', '{where}', false); r.send()",
+                     f"fetch('{where}', {{mode: 'no-cors'}}); const e = Date.now() + 500; "
+                     "while (Date.now() < e); throw 1"):
+            self.browser.run("document.querySelector('#told').innerText = ''")
+            self.assertTrue(self.own("view", code)[0])
+        self.assertEqual(len(self.asked), count)
+
+
+for inherited in dir(ThePage):  # one of them is enough
+    if inherited.startswith("test_") and inherited != "test_it_shows_the_native_picture":
+        setattr(TheFolder, inherited, None)
 
 AXE = BUILT / "npm/node_modules/axe-core/axe.min.js"
 VIOLATIONS = """return axe.run().then(found => found.violations.map(({impact, id, nodes}) =>

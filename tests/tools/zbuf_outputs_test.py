@@ -119,6 +119,9 @@ class Image(OutputTest):
             "zbuf: --image: bmp:-: expected ppm:- or png:-, as a BMP is written from its end, found 'bmp:-' "
             "(try zbuf --help)")
         self.assert_fails(
+            run("zbuf", "config.txt", "stage3.txt", "-o", "png:"), 2,
+            "zbuf: --image: png:: expected a file's name behind the format, found nothing (try zbuf --help)")
+        self.assert_fails(
             run("zbuf", "config.txt", "stage3.txt", "-o", "png:x.npy", "--depth-array", "x.npy"), 2,
             "zbuf: expected a place of its own for every output, found the same one for --image 'x.npy' and "
             "--depth-array 'x.npy' (try zbuf --help)")
