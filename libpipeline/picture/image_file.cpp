@@ -60,9 +60,11 @@ constexpr ImageFormat kPng = {".png", make<RgbWriter<PngWriter>>, take_any_size}
 
 /// ".png" of "png:FILE"; empty without a prefix that names a format.
 std::string prefix_of(const std::string& path) {
-  for (const std::string_view extension : {".bmp", ".ppm", ".png"})
-    if (path.starts_with(std::string(extension.substr(1)) + ":")) return std::string(extension);
-  return {};
+  const std::size_t colon = path.find(':');
+  if (colon == std::string::npos) return {};
+  const std::string extension = "." + path.substr(0, colon);
+  const auto is_it = [&](const ImageFormat& format) { return format.extension == extension; };
+  return is_it(kPng) || std::ranges::any_of(kFormats, is_it) ? extension : std::string();
 }
 
 /// Of the format, as a prefix or at the end.
@@ -76,9 +78,11 @@ const ImageFormat& format_of(const std::string& path) {
   const std::string extension = format_extension_of(path);
   if (image_file_of(path).empty())
     throw InputError({path}, expected_but_found("a file's name behind the format", "nothing"));
-  if (extension == ".bmp" && is_device_without_extension(image_file_of(path)))
-    throw InputError({"bmp:-"}, expected_but_found("ppm:- or png:-, as a BMP is written from its end",
-                                                   pipeline::quoted("bmp:-")));
+  if (extension == ".bmp" && is_device_without_extension(image_file_of(path))) {
+    const std::string shown = path == "bmp:/dev/stdout" ? "bmp:-" : path;
+    throw InputError({shown}, expected_but_found("ppm:- or png:-, as a BMP is written from its end",
+                                                 pipeline::quoted(shown)));
+  }
   for (const ImageFormat& format : kFormats)
     if (format.extension == extension) return format;
   if (can_write_png() && kPng.extension == extension) return kPng;
@@ -117,8 +121,9 @@ bool can_hold_alpha(const std::string& path) {
 std::unique_ptr<ImageWriter> image_writer(int descriptor, const std::string& path, int columns, int rows,
                                           bool has_alpha) {
   assert(!has_alpha || can_hold_alpha(path));
-  if (has_alpha) return make<RgbWriter<PngWriter, PixelBytes::rgba8>>(descriptor, path, columns, rows);
-  return format_of(path).writer(descriptor, path, columns, rows);
+  const std::string file = image_file_of(path);
+  if (has_alpha) return make<RgbWriter<PngWriter, PixelBytes::rgba8>>(descriptor, file, columns, rows);
+  return format_of(path).writer(descriptor, file, columns, rows);
 }
 
 std::string extension_of(const std::string& path) {

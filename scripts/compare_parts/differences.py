@@ -4,7 +4,6 @@ import math
 
 from judge_parts.matching import left_over_for_certain, named
 
-
 NAMES_OF = {"color": ["red", "green", "blue"], "normal": [f"{axis} of the normal" for axis in "xyz"]}
 
 

@@ -48,6 +48,7 @@ export class Inspector {
     if (kept) this.panels.forEach(({wire}, i) => { wire.view.pose = kept.poses[i]; wire.draw(); });
     if (kept && kept.held.triangle < data.triangles && kept.held.pixel < data.columns * data.rows) this.held = kept.held;
     this.show(this.held);
+    this.one("#into-address").hidden = !hasAddress;
     if (hasAddress) this.follow(location.hash);
   }
 

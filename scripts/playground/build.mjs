@@ -29,7 +29,7 @@ async function bundled(entry, resources, format = "esm") {
 const inPage = script => script.replaceAll("</script", "<\\/script").replaceAll("<!--", "<\\!--");
 
 function pageOf(policy, style, script) {
-  const parts = read(here, "../inspect_parts/page.html").replace("holds it, and puts it into the address of the page", "holds it"), inspector = parts.slice(parts.indexOf("<header>"), parts.indexOf("</dialog>") + "</dialog>".length);
+  const parts = read(here, "../inspect_parts/page.html"), inspector = parts.slice(parts.indexOf("<header>"), parts.indexOf("</dialog>") + "</dialog>".length);
   const rules = `default-src 'none'; img-src data: blob:; style-src 'unsafe-inline'; base-uri 'none'; form-action 'none'; ${policy}`;
   const filled = {policy: `<meta http-equiv="Content-Security-Policy" content="${rules}">`, style, inspector, script};
   return read(here, "page.html").replace(/<!-- (policy|style|inspector|script) -->/g, (_, name) => filled[name]);

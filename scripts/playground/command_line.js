@@ -26,7 +26,7 @@ export function optionsIn(help) {
 export class CommandLine {
   // `helpOf(tool)` gives a promise of its --help; `changed` is called after each edit.
   constructor(box, helpOf, changed) {
-    Object.assign(this, {box, inputs: new Map(), parts: new Map()});
+    Object.assign(this, {inputs: new Map(), parts: new Map()});
     TOOLS.forEach((tool, i) => {
       const part = document.createElement("span"), label = document.createElement("label"), input = document.createElement("input"), menu = document.createElement("select");
       input.placeholder = "options";

@@ -6,9 +6,9 @@ import {StageText} from "./stage_text.js";
 import {textOf} from "./tools.js";
 
 export const STAGES = ["model", "view", "project", "zbuf"];
-const BELTS = "8";                   // of the facets that project and zbuf get in place of a sphere
+const BELTS = "8";  // of the facets that project and zbuf get in place of a sphere
 const TITLES = {model: "world space", view: "view space", project: "normalized device coordinates"};
-const MOST_TRIANGLES = 2000000;       // and numbers of them, which the panels count up to
+const MOST_TRIANGLES = 2000000;  // and numbers of them, which the panels count up to
 const FATES = ["kept", "behind", "equal", "before", "beyond", "nearer"];
 const IMAGE = "out.ppm", COUNTS = "counts.txt", FRAGMENTS = "fragments.txt", TRIANGLES = "triangles.npy", DEPTHS = "depths.npy";
 
@@ -36,16 +36,11 @@ export class Pipe {
     return result;
   }
 
-  // What a picture of the page cannot be.
-  expectWhole(words) {
-    if (/(^| )--rows?\b/.test(words.zbuf)) throw new Error("--rows draws a part of the picture, which this page cannot show");
-  }
-
   // The data of an Inspector, and the messages of every stage. If it `isQuick`, of the fragments of a pixel there is only the one that is seen:
   // the others take ten times as long as the picture. Throws a StageFailure.
   async run({scene, config, words, own}, isQuick) {
     const isTraced = typeof words.trace === "string";
-    this.expectWhole(words);
+    if (/(^| )--rows\b/.test(words.zbuf)) throw new Error("--rows draws a part of the picture, which this page cannot show");
     const results = [], messages = [], logs = isQuick && !/--samples/.test(words.zbuf) ? ["--triangle-array", TRIANGLES, "--depth-array", DEPTHS] : ["--fragments", FRAGMENTS];
     let input = scene;
     for (const tool of STAGES) {

@@ -1,6 +1,7 @@
 // The tools, compiled to WebAssembly: a fresh instance for each run is what a process is to a shell.
 
 const FIFO = 0o010000, KIND = 0o170000;  // S_IFIFO and S_IFMT
+const CRASHED = 70;  // the status of a tool that ran out of memory or stack
 const IN = "/dev/shm/in", OUT = "/dev/shm/out", MESSAGES = "/dev/shm/messages";
 
 const utf8 = new TextEncoder(), text = new TextDecoder();
@@ -34,13 +35,14 @@ export class Tools {
     let status;
     try {
       status = tool.callMain([...words]);
-    } catch (trap) {  // out of memory or stack: what is left of a process that crashed
-      status = trap.status ?? 70;
-      if (trap.status === undefined) return {status, output: new Uint8Array(), messages: utf8.encode(`${name}: ${trap.message}\n`), read: () => null};
+    } catch (trap) {
+      if (trap.status === undefined) return {status: CRASHED, output: new Uint8Array(), messages: utf8.encode(`${name}: ${trap.message}\n`), read: () => null};
+      status = trap.status;
     }
     const contents = node => node.contents ? Uint8Array.from(node.contents.subarray(0, node.usedBytes)) : new Uint8Array();
-    const read = path => { try { return FS.readFile(path); } catch { return null; } };
-    return {status, output: contents(out), messages: contents(messages), read};
+    // Read now: what refers to the instance keeps all of its memory.
+    const written = new Map(FS.readdir("/work").filter(path => FS.isFile(FS.stat(path).mode) && !(path in files)).map(path => [path, FS.readFile(path)]));
+    return {status, output: contents(out), messages: contents(messages), read: path => written.get(path) || null};
   }
 }
 

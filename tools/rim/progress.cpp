@@ -25,14 +25,14 @@ void Progress::show(std::uint64_t count, double part) {
   next_time_ = now + kBetween;
   is_shown_ = true;
   const double seconds = std::chrono::duration<double>(now - start_).count();
-  const double rate = static_cast<double>(count) / seconds;
+  const double millions = static_cast<double>(count) / seconds / 1e6;
+  // The blanks overwrite the end of a longer line.
   if (part > 0)
     std::fprintf(stderr, "\r%s: %.0f %%, %.0f s left, %.3g million %ss a second    ", tool_.c_str(),
-                 std::floor(100 * part), std::ceil(seconds / part - seconds), rate / 1e6, unit_.c_str());
-  if (part > 0) return static_cast<void>(std::fflush(stderr));
-  // The blanks overwrite the end of a longer line.
-  std::fprintf(stderr, "\r%s: %s, %.3g million a second    ", tool_.c_str(),
-               counted(count, unit_.c_str()).c_str(), rate / 1e6);
+                 std::floor(100 * part), std::ceil(seconds / part - seconds), millions, unit_.c_str());
+  else
+    std::fprintf(stderr, "\r%s: %s, %.3g million a second    ", tool_.c_str(),
+                 counted(count, unit_.c_str()).c_str(), millions);
   std::fflush(stderr);
 }
 

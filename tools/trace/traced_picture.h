@@ -38,11 +38,11 @@ struct TracedPicture {
   }
 
   Viewport screen;
-  std::vector<Color> colors;   // empty if they are not requested
-  std::vector<double> depths;  // of the pixels' centers; empty if they are not requested
-  std::vector<std::int64_t>
-      triangles;                    // the numbers of those seen, -1 for none; empty if they are not requested
-  std::uint64_t covered_count = 0;  // of pixels whose center shows something; 0 if that is not requested
+  // Empty if they are not requested; depths and triangles are those of the pixels' centers.
+  std::vector<Color> colors;
+  std::vector<double> depths;
+  std::vector<std::int64_t> triangles;  // their numbers, -1 for none
+  std::uint64_t covered_count = 0;      // of pixels whose center shows something; 0 if that is not requested
 };
 
 /// The colors for each worker of a pool.

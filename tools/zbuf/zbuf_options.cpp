@@ -20,8 +20,7 @@ void ZbufOptions::complete(bool is_terminal) {
   }
   const bool writes_seen = !seen_path.empty();
   if (image_path.empty() && !writes_seen) image_path = "out.bmp";
-  // OutputFile writes to this name without replacing anything.
-  if (image_is_output) image_path.replace(image_path.size() - 1, 1, "/dev/stdout");
+  image_path = named_standard_output(image_path);
   if (z_buffer_path.empty()) {
     const bool is_wanted = !image_is_output && !writes_seen;
     summarizes = is_terminal && is_wanted;

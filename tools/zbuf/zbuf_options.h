@@ -23,6 +23,12 @@
 
 namespace pipeline {
 
+/// The name of an image, with /dev/stdout, to which OutputFile writes without replacing anything, in place of
+/// a dash.
+inline std::string named_standard_output(const std::string& image) {
+  return image_file_of(image) == "-" ? image.substr(0, image.size() - 1) + "/dev/stdout" : image;
+}
+
 enum class Algorithm { zbuffer, scanline };
 
 /// The options of `zbuf`, as members with their defaults and, in the same order, as words of the command
@@ -156,16 +162,13 @@ inline void ZbufOptions::add_screen_and_outputs(CommandLine& options, bool has_s
                                                                   pipeline::quoted(word));
                    });
   const std::vector<std::string_view> extensions = image_extensions();
-  options.add_word("-o,--image", "FILE", image_path,
-                   "Where the image goes, a " + listed({extensions.begin(), extensions.end()}) +
-                       " file, or png:FILE of any name; - is standard output, as PPM, or png:-, both without "
-                       "the depths (default: out.bmp" +
-                       (has_seen ? ", but none with --seen)" : ")"),
-                   [](const std::string& name) {
-                     const bool is_output = image_file_of(name) == "-";
-                     return wrong_with_name(check_image_name)(
-                         is_output ? name.substr(0, name.size() - 1) + "/dev/stdout" : name);
-                   });
+  options.add_word(
+      "-o,--image", "FILE", image_path,
+      "Where the image goes, a " + listed({extensions.begin(), extensions.end()}) +
+          " file, or png:FILE of any name; - is standard output, as PPM, or png:-, both without "
+          "the depths (default: out.bmp" +
+          (has_seen ? ", but none with --seen)" : ")"),
+      [](const std::string& name) { return wrong_with_name(check_image_name)(named_standard_output(name)); });
   options.add_word("--z-buffer", "FILE", z_buffer_path,
                    std::string("Where the depths go; - is standard output, none is nowhere, ./none a file "
                                "of that name (default: -, but none with -o -") +
