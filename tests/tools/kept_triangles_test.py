@@ -108,7 +108,8 @@ class KeptTriangles(ToolTest):
         # One piece more or less before them: then the store is full between two pieces once.
         single = "5 5 0 1 0 0 0\n6 5 0 1 0 0 0\n5 6 0 1 0 0 0\n\n"
         for before in ("", "triangle 70000\n" + single + "triangle 0\n"):
-            self.check(COLORED + before + "".join(texts), "--wireframe")
+            for words in (["--wireframe"], ["--wireframe", "all"]):
+                self.check(COLORED + before + "".join(texts), *words)
 
 
 class Memory(ToolTest):

@@ -334,17 +334,33 @@ class Wireframes(Pictures):
             note="zbuf: note: the picture is empty: --wireframe shows edges alone, and none is in sight\n")
         self.assertEqual(image, bytes((1, 2, 3)) * (COLUMNS * ROWS))
 
+    def test_all_edges_lie_over_each_other(self):
+        """Of triangles of constant depth, each pixel has the color of the nearest whose edge is there."""
+        rng = random.Random(4)
+        shapes = [[(rng.uniform(-1.3, 1.3), rng.uniform(-1.3, 1.3), z / 20) for _ in range(3)]
+                  for z in rng.sample(range(-20, 20), 12)]
+        texts = [f"triangle {i}\n" + triangles(corners) for i, corners in enumerate(shapes)]
+        by_depth = sorted(range(len(shapes)), key=lambda i: shapes[i][0][2])
+        alone = [self.pixels(texts[i], "--wireframe") for i in by_depth]
+        image = self.pixels("".join(texts), "--wireframe", "all")
+        for i in range(0, len(image), 3):
+            expected = next((one[i:i + 3] for one in alone if any(one[i:i + 3])), bytes(3))
+            self.assertEqual(image[i:i + 3], expected)
+        self.assertNotEqual(image, self.pixels("".join(texts), "--wireframe"))
+
     def test_algorithms_and_threads_agree(self):
         stage3 = random_triangles(9, 200)
-        expected = self.pixels(stage3, "--wireframe")
-        for options in (["--threads", "3"], ["--algorithm", "scanline"]):
-            self.assertEqual(self.pixels(stage3, "--wireframe", *options), expected)
+        for words in (["--wireframe"], ["--wireframe", "all"]):
+            expected = self.pixels(stage3, *words)
+            for options in (["--threads", "3"], ["--algorithm", "scanline"]):
+                self.assertEqual(self.pixels(stage3, *words, *options), expected)
 
     def test_samples_keep_the_width_of_lines(self):
         corners = triangles([(-9, -9, 0), (9, -9, 0), (0.013, 0.5, 0)])
-        one, many = (sum(self.pixels(corners, "--wireframe", "--samples", n, "--coverage", "center"))
-                     for n in (1, 8))
-        self.assertLess(abs(one / many - 1), 0.25)
+        for words in (["--wireframe"], ["--wireframe", "all"]):
+            one, many = (sum(self.pixels(corners, *words, "--samples", n, "--coverage", "center"))
+                         for n in (1, 8))
+            self.assertLess(abs(one / many - 1), 0.25)
 
 
 if __name__ == "__main__":

@@ -97,8 +97,14 @@ std::string explained_count(const CLI::Option& option) {
 
 /// The words as CLI11 takes them, last word first. A word like "-.5" becomes "-0.5": CLI11 takes it for an
 /// option unless a digit follows the minus.
-std::vector<std::string> words_for_parsing(int argc, char** argv) {
+std::vector<std::string> words_for_parsing(int argc, char** argv,
+                                           std::span<const std::pair<std::string, std::string>> flag_words) {
   std::vector<std::string> words(argv + 1, argv + argc);
+  for (const auto& [flag, word] : flag_words) {
+    const std::array both = {flag, word};
+    const auto at = std::ranges::search(words, both);
+    if (at.size() == 2) words.erase(std::next((*at.begin() += "=" + word, at.begin())));
+  }
   for (std::string& word : words)
     if (word.starts_with("-.") && parse_number(word).error == NumberError::none) word.insert(1, "0");
   std::reverse(words.begin(), words.end());
@@ -112,7 +118,8 @@ std::string explained(const CLI::App& options, const CLI::ParseError& error) {
   if (option == nullptr) return error.what();
   if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr)
     return option->get_name() + ": " + explained_count(*option);
-  if (is_flag(*option) && !option->results().empty())
+  const bool is_checked = dynamic_cast<const CLI::ValidationError*>(&error) != nullptr;  // and explained
+  if (is_flag(*option) && !option->results().empty() && !is_checked)
     return option->get_name() + ": " +
            expected_but_found("no value", pipeline::quoted(option->results().back()));
   return error.what();
@@ -141,7 +148,7 @@ class HelpForm : public CLI::Formatter {
   }
   std::string make_option_opts(const CLI::Option* option) const override {
     const bool is_operand = option->get_lnames().empty();
-    return is_operand || is_flag(*option) ? "" : " " + option->get_type_name();
+    return is_operand || option->get_type_name().empty() ? "" : " " + option->get_type_name();
   }
   std::string make_option_desc(const CLI::Option* option) const override {
     const std::string standard = option->get_default_str();
@@ -202,6 +209,18 @@ bool CommandLine::is_given(const std::string& name) const {
 
 void CommandLine::add_flag(const std::string& name, bool& chosen, const std::string& help) {
   app_->add_flag(name, chosen, help);
+}
+
+void CommandLine::add_flag_with_word(const std::string& name, const std::string& word, bool& chosen,
+                                     bool& more, const std::string& help) {
+  const auto take = [=, &chosen, &more](const std::string& found) {
+    chosen = true;
+    more = found == word;
+    if (!more && found != "true")
+      throw CLI::ValidationError(name, expected_but_found(word + " or no value", pipeline::quoted(found)));
+  };
+  app_->add_option_function<std::string>(name, take, help)->expected(0)->type_name("[" + word + "]");
+  flag_words_.emplace_back(name, word);
 }
 
 void CommandLine::add_word(const std::string& name, const std::string& type_name, std::string& word,
@@ -279,7 +298,7 @@ void CommandLine::add_choice_of_words(const std::string& name, const std::vector
 
 std::optional<std::string> CommandLine::parse(int argc, char** argv) {
   try {
-    app_->parse(words_for_parsing(argc, argv));
+    app_->parse(words_for_parsing(argc, argv, flag_words_));
   } catch (const CLI::CallForHelp&) {
     return app_->help();
   } catch (const CLI::CallForVersion& version) {

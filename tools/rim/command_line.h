@@ -58,6 +58,9 @@ class CommandLine {
   /// The first lines of --help, in place of the lines that follow from the operands.
   void set_usage(const std::string& usage);
   void add_flag(const std::string& name, bool& chosen, const std::string& help);
+  /// A flag that takes `word` for more: "--name" sets `chosen`, "--name word" sets `more`, too.
+  void add_flag_with_word(const std::string& name, const std::string& word, bool& chosen, bool& more,
+                          const std::string& help);
   /// An option that takes one word of any kind, which --help calls `type_name`.
   void add_word(const std::string& name, const std::string& type_name, std::string& word,
                 const std::string& help, const WordCheck& check = nullptr);
@@ -104,6 +107,7 @@ class CommandLine {
                            const std::function<void(std::size_t)>& take);
 
   std::unique_ptr<CLI::App> app_;
+  std::vector<std::pair<std::string, std::string>> flag_words_;  // of flags that take a word
   std::shared_ptr<HelpForm> help_form_;
 };
 

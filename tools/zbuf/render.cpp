@@ -19,6 +19,7 @@
 #include "libpipeline/visibility/triangle_drawing.h"
 #include "tools/rim/empty_picture_note.h"
 #include "tools/rim/progress.h"
+#include "tools/zbuf/all_edges.h"
 #include "tools/zbuf/drawing_report.h"
 #include "tools/zbuf/fragment_report.h"
 #include "tools/zbuf/image_rows.h"
@@ -172,11 +173,12 @@ void draw_all(Tool& tool, const ZbufOptions&, StageReader& reader, TriangleStore
 /// The colors of rows of pixels, or of samples, from their tags.
 class RowColors {
  public:
-  RowColors(TriangleStore& store, std::optional<SurfaceShader>& shader, int first_row)
-      : store_(store), shader_(shader), row_number_(first_row) {}
+  RowColors(TriangleStore& store, std::optional<SurfaceShader>& shader, AllEdges* edges, int first_row)
+      : store_(store), shader_(shader), edges_(edges), row_number_(first_row) {}
 
   /// Those of the next row, valid until the next call.
   std::span<const Color> next(std::span<const PixelTag> tags) {
+    if (edges_ != nullptr) tags = edges_->row(row_number_, *shader_->setup().wireframe);
     if (shader_) return shader_->shade(row_number_++, tags);
     colors_.resize(tags.size());
     store_.color(tags, colors_);
@@ -186,16 +188,18 @@ class RowColors {
  private:
   TriangleStore& store_;
   std::optional<SurfaceShader>& shader_;
+  AllEdges* edges_;
   std::vector<Color> colors_;
   int row_number_;  // of the samples
 };
 
 template <VisibilityAlgorithm Visible>
 void write_all(Tool& tool, const ZbufOptions& chosen, const SampledVisible<Visible>& visible,
-               const StageReader& reader, TriangleStore& store, std::optional<SurfaceShader>& shader) {
+               const StageReader& reader, TriangleStore& store, std::optional<SurfaceShader>& shader,
+               AllEdges* edges) {
   const Viewport& screen = visible.center_screen;
   ImageRows image(chosen.image_path, screen, chosen.sample_count, store.background_color());
-  RowColors colors(store, shader, chosen.sample_count * screen.drawn_rows().first);
+  RowColors colors(store, shader, edges, chosen.sample_count * screen.drawn_rows().first);
   PixelFiles pixels(tool.output(), chosen, screen);
   std::vector<std::int64_t> numbers;
   std::optional<SeenFile> seen_file;
@@ -274,6 +278,8 @@ void render_with(Tool& tool, const ZbufOptions& chosen, const Viewport& screen, 
   kept.keeps_numbers = !chosen.triangle_array_path.empty();
   kept.background = background_color(reader.header().appearance, surfaces.background);
   kept.pixel_count = pixel_count(shaded_screen);
+  const std::unique_ptr<AllEdges> edges = all_edges(chosen, shaded_screen);
+  kept.edges = edges.get();
   TriangleStore store(kept, shader, fragments.get());
   SampledVisible<Visible> visible(screen, chosen.sample_count, store.background());
   tool.timing().lap(&Timing::work_seconds);
@@ -282,7 +288,7 @@ void render_with(Tool& tool, const ZbufOptions& chosen, const Viewport& screen, 
   report->add_to(statistics);
   statistics.finish();
   tool.timing().lap(&Timing::work_seconds);
-  write_all(tool, chosen, visible, reader, store, shader);
+  write_all(tool, chosen, visible, reader, store, shader, edges.get());
   if (fragments) fragments->commit();
   statistics.commit();
   if (chosen.has_image()) {

@@ -13,6 +13,7 @@
 #include "libpipeline/stream/kept_ids.h"
 #include "libpipeline/stream/text_store.h"
 #include "libpipeline/stream/triangle_batch.h"
+#include "tools/zbuf/all_edges.h"
 #include "tools/zbuf/fragment_report.h"
 
 namespace pipeline {
@@ -32,6 +33,7 @@ class TriangleStore {
     bool keeps_numbers = false;  // of the triangles, for numbers_of
     Color background;
     std::size_t pixel_count = 0;  // of the picture, or of its samples
+    AllEdges* edges = nullptr;    // then there is a shader, with a wireframe
   };
 
   TriangleStore(const Setup& setup, std::optional<SurfaceShader>& shader, FragmentReport* report);
@@ -56,6 +58,7 @@ class TriangleStore {
     const Color color = colors_.of(p_ndc.numbers[index]);
     if (!shader_) return color.rgb();
     shader_->add(p_ndc, index, color);
+    if (setup_.edges != nullptr) setup_.edges->add(p_ndc, index, next_id_, *shader_->setup().wireframe);
     return next_id_++;
   }
   /// The colors of pixels with these tags, unless there is a shader.
@@ -81,9 +84,13 @@ class TriangleStore {
   template <typename ForEachDrawnTag>
   void keep_seen(const ForEachDrawnTag& for_each_drawn_tag) {
     KeptIds kept(id_count());
-    for_each_drawn_tag([&](PixelTag& tag) { kept.keep(tag); });
+    const auto for_each_tag = [&](const auto& visit) {
+      for_each_drawn_tag(visit);
+      if (setup_.edges != nullptr) setup_.edges->for_each_id(visit);
+    };
+    for_each_tag([&](PixelTag& tag) { kept.keep(tag); });
     let_go(kept);
-    for_each_drawn_tag([&](PixelTag& tag) { tag = kept.new_id(tag); });
+    for_each_tag([&](PixelTag& tag) { tag = kept.new_id(tag); });
   }
 
  private:

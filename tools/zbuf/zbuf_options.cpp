@@ -19,6 +19,9 @@ void ZbufOptions::complete(bool is_terminal) {
                      expected_but_found("a file or none, as " + is_output + " is standard output", "'-'"));
   }
   const bool writes_seen = !seen_path.empty();
+  if (writes_seen && has_all_edges)
+    throw UsageError("--seen: " + expected_but_found("no --wireframe all, which shows hidden triangles, too",
+                                                     pipeline::quoted(seen_path)));
   if (image_path.empty() && !writes_seen) image_path = "out.bmp";
   image_path = named_standard_output(image_path);
   if (z_buffer_path.empty()) {

@@ -51,6 +51,7 @@ struct ZbufOptions {
   int sample_count = 1;                 // along each side of a pixel, for the image alone
   std::optional<ShadingModel> shading;  // none: as the text's header implies
   bool wireframe = false;
+  bool has_all_edges = false;       // the wireframe, hidden ones too
   std::string background;           // "RRGGBB[AA]"; empty: that of the text
   std::vector<std::string> probes;  // "COLUMN,ROW" each
   std::string fragments_path;       // empty: no file
@@ -136,8 +137,9 @@ inline void ZbufOptions::add_to(CommandLine& options) {
   options.add_whole("--threads", thread_count, 1, 256, "How many threads draw with the z-buffer");
   options.begin_group("Color and light");
   add_shading(options);
-  options.add_flag("--wireframe", wireframe,
-                   "Show only the edges of the visible surfaces: the pixels within half a pixel of an edge");
+  options.add_flag_with_word("--wireframe", "all", wireframe, has_all_edges,
+                             "Show only the edges of the visible surfaces: the pixels within half a pixel of "
+                             "an edge; with all, hidden edges, too");
   add_background(options);
   options.begin_group("Debugging");
   options.add_repeatable("--probe", "COLUMN,ROW", probes,
