@@ -25,7 +25,7 @@ arrows         turn on the spot
 Home           bring the whole scene into sight
 r              back to the start
 c v            clip at the frustum, or do not
-z/x            open, close a gap at the planes of clipping
+z/x            open, close a gap at the sides, to see cuts
 b              cull backs
 f              wireframe
 1 2 3 4        shading none, flat, gouraud, phong
@@ -59,9 +59,19 @@ class Settings:
     wireframe: bool = False
 
     def project_words(self):
-        words = ["--clip", "frustum"] if self.is_clipped or self.inset else []
-        return words + (["--clip-inset", f"{self.inset:g}"] if self.inset else []) + (["--cull", "back"]
-                                                                                      if self.culls else [])
+        return (["--clip", "frustum"] if self.is_clipped or self.inset else []) + (["--cull", "back"]
+                                                                                   if self.culls else [])
+
+    def gap_words(self, projection):
+        return narrowed(projection, 1 - self.inset) if self.inset else []
+
+    def limits(self, limits):
+        """A config's limits, all of them or none, for a projection narrowed like that: nothing moves on the
+        screen."""
+        if not self.inset:
+            return limits
+        *sides, z = limits or (["-1"], ["-1"], ["-1", "1"])
+        return [*([repr(float(word) / (1 - self.inset))] for [word] in sides), z]
 
     def drawing_words(self):
         return (["--shading", self.shading] if self.shading else []) + (["--wireframe"]
@@ -74,6 +84,14 @@ def keys_of(is_traced):
                      if not is_traced or line.split()[0][0] not in NOT_TRACED)
 
 
+def narrowed(projection, factor):
+    """Words of project for a field of view whose sides are moved in; near and far stay, so that depths do.
+    (--clip-inset would pull in all six planes, and in depth its tenth is most of the way to far.)"""
+    *sides, near, far = window_of(projection)
+    kind = "--ortho" if "ortho" in projection else "--frustum"
+    return [kind, *(repr(side * factor) for side in sides), repr(near), repr(far)]
+
+
 def size_of_scene(projection, width):
     """A config of so many columns and of the projection's aspect: the width of its window over the height."""
     left, right, bottom, top, *_ = window_of(projection)
@@ -82,12 +100,12 @@ def size_of_scene(projection, width):
 
 class FlyWindow:
     """`config` is the text of a config, by default of least_width pixels with the scene's aspect. The window
-    begins at least `least_width` pixels wide, and no larger than the screen. `trace_words`, if not None, are
-    for trace, which draws the frames."""
+    begins at least `least_width` pixels wide, and no larger than the screen. `words` are for the tool that
+    draws the frames: trace where `is_traced`, else zbuf."""
     def __init__(self, tools, scene, config=None, scene_out="fly.txt", picture_out="fly.png", least_width=1,
-                 trace_words=None):
+                 words=(), is_traced=False):
         self.tools, self.scene = tools, pathlib.Path(scene)
-        self.is_traced, self.more_words = trace_words is not None, trace_words or []
+        self.is_traced, self.more_words = is_traced, [*words]
         self.pipe = FramePipe(tools, scene, self.is_traced)
         config = config or size_of_scene(self.pipe.projection, least_width)
         self.outputs = scene_out, picture_out
@@ -278,10 +296,11 @@ class FlyWindow:
 
     def draw(self, size):
         begin = time.perf_counter()
-        config = "\n".join([f"{size[0]} {size[1]}", *(" ".join(words) for words in self.limits), ""])
+        limits = self.settings.limits(self.limits)
+        config = "\n".join([f"{size[0]} {size[1]}", *(" ".join(words) for words in limits), ""])
         try:
-            frame = self.pipe.frame(self.settings.camera.lines(), self.settings.project_words(), config,
-                                    self.drawing_words())
+            project_words = self.settings.project_words() + self.settings.gap_words(self.pipe.projection)
+            frame = self.pipe.frame(self.settings.camera.lines(), project_words, config, self.drawing_words())
         except ToolFailure as error:
             self.settings = self.before
             return self.say(str(error))
@@ -301,7 +320,8 @@ class FlyWindow:
         times = "   ".join(f"{name} {'reused' if spent is None else f'{1000 * spent:.0f} ms'}"
                            for name, spent in self.pipe.seconds())
         words = " ".join(self.settings.project_words() + self.drawing_words())
-        self.say(f"{times}   all {1000 * seconds:.0f} ms   {size[0]} x {size[1]}   {words}")
+        gap = f"gap {self.settings.inset:.0%}   " if self.settings.inset else ""
+        self.say(f"{times}   all {1000 * seconds:.0f} ms   {size[0]}x{size[1]}   {gap}{words}")
         self.readout.configure(text=self.read_out())
         if self.pipe.is_empty():
             self.lost.configure(text=self.way_back())
@@ -317,8 +337,8 @@ class FlyWindow:
         [(kind, words)] = self.pipe.projection.items()
         field = f"fovY {words[0]}" if kind == "perspective" else kind
         return "   ".join([
-            *(f"{name} {' '.join(f'{round(float(x), places) + 0.0:.6g}' for x in place)}"
-              for name, place in (("eye", eye), ("look", look))), field, "h: keys"])
+            "h: keys", *(f"{name} {' '.join(f'{round(float(x), places) + 0.0:.6g}' for x in place)}"
+              for name, place in (("eye", eye), ("look", look))), field])
 
     def way_back(self):
         ball = self.pipe.ball()

@@ -37,6 +37,7 @@ export class ExplanationPanel {
 
   command(name, pixel) {
     const {row, column} = pixel < 0 ? {} : this.report.fragments.place(pixel);
-    return ["pipeline explain", quoted(this.scene), quoted(this.config), `--triangle ${name}`, ...(pixel < 0 ? [] : [`--pixel ${column},${row}`])].join(" ");
+    return ["pipeline explain", quoted(this.scene), quoted(this.config), `--triangle ${name}`, ...(pixel < 0 ? [] : [`--pixel ${column},${row}`]),
+            ...(this.report.coverage === "center" ? ["--coverage center"] : [])].join(" ");
   }
 }

@@ -11,6 +11,7 @@ from inspect_parts.stage_lines import StageLines
 from lib.input_file import read_input
 from lib.pictures import read_picture
 from lib.pipe_tools import ToolFailure, opaque_background
+from lib.progress import Progress
 from lib.projection import line_of, window_of
 from lib.square import note_on_squares
 from lib.stage_text import text_of
@@ -21,6 +22,8 @@ MAX_DRAWN_TRIANGLES = 200000
 MAX_FRAGMENTS = 3000000
 MAX_FACETS = 20000  # of all spheres
 BELTS = 2, 16       # the fewest and the most of a sphere
+# Of the time for a large page how many per cent have passed at the end of each step.
+SHARES = {"model": 7, "view": 13, "project": 20, "zbuf": 28, "fragments": 70}
 TITLES = {"model": "world space", "view": "view space", "project": "normalized device coordinates"}
 FATES = ("kept", "behind", "equal", "before", "beyond")
 
@@ -80,8 +83,11 @@ class Inspection:
     on, and zbuf reads what project printed; `names` are those of scene and config, as their user wrote them.
     For spheres, project and zbuf get facets."""
 
-    def __init__(self, tools, scene, config, names, is_traced=False):
+    def __init__(self, tools, scene, config, names, is_traced=False, coverage="nearest",
+                 progress=None):
         self.tools, self.scene, self.config, self.is_traced = tools, scene, config, is_traced
+        self.coverage = coverage
+        self.progress = progress or Progress(100)
         self.scene_data, self.config_data = read_input(scene), read_input(config)
         self.name, self.config_name = names
         self.notes = []
@@ -100,6 +106,7 @@ class Inspection:
                                                            folder / tool, stdin=data)
             self.statistics[tool] = statistics(folder / tool)
             self.lines[tool] = StageLines.of(done.stdout.decode())
+            self.progress.reach(SHARES[tool])
         self.header = self.lines["model"].header
         self.count = self.lines["model"].count
         self.step = max(1, math.ceil(self.count / MAX_DRAWN_TRIANGLES))
@@ -191,13 +198,14 @@ class Inspection:
 
     def draw(self, stage3, folder):
         z_buffer, image, log = (folder / name for name in ("z_buffer.txt", "out.ppm", "fragments.txt"))
-        zbuf_words = [self.config, *opaque_background(stage3)]
+        zbuf_words = [self.config, "--coverage", self.coverage, *opaque_background(stage3)]
         # Timed without log and counts, which take longer than the picture.
         timed = self.tools.run("zbuf", *zbuf_words, "--timing", "--z-buffer", z_buffer, "--image", image,
                                stdin=stage3).stderr.decode(errors="replace")
         self.tools.run("zbuf", *zbuf_words, "--z-buffer", "/dev/null", "--image", folder / "again.ppm",
                        "--fragments", log, "--stats", folder / "zbuf", stdin=stage3)
         self.notes += notes_told(timed)
+        self.progress.reach(SHARES["zbuf"])
         self.columns, self.rows, pixels = read_picture(image)
         text = z_buffer.read_text()
         self.stages.append({
@@ -206,6 +214,7 @@ class Inspection:
             "statistics": statistics(folder / "zbuf"), "text": text})
         self.pixels = base64.b64encode(b"".join(pixels)).decode()
         self.fragments = self.fragments_of(log)
+        self.progress.reach(SHARES["fragments"])
 
     def fragments_of(self, log):
         """All fragments, pixel by pixel from the top left, in the order they arrived: the start of each
@@ -255,6 +264,7 @@ class Inspection:
             "leftOut": self.left_out_count,
             "notes": self.notes + self.square_notes,
             "limits": self.limits(),
+            "coverage": self.coverage,
             "explanations": explanations(
                 self, text_of(self.scene_data, self.scene), text_of(self.config_data, self.config)),
         }

@@ -1,4 +1,4 @@
-// What explain reports on a pixel and a triangle, exactly: scripts/explain_parts/window.py and pixel_section.py, by the rule `nearest`.
+// What explain reports on a pixel and a triangle, exactly: scripts/explain_parts/window.py and pixel_section.py.
 
 import {Double, Fraction} from "./exact.js";
 
@@ -47,13 +47,15 @@ function spanOnRow(grid, points, row) {
   return {left: ends[0], right: ends[1], first, last, depth: leftX.compare(rightX) ? null : leftZ};
 }
 
+const OWNING = ["left", "top"];  // by the rule `center`
+
 // The side an edge bounds, from how its function grows inwards to the right and downwards.
 const sideOf = (right, down) => right.sign ? (right.sign > 0 ? "left" : "right") : down.sign > 0 ? "top" : "bottom";
 
-// A pixel and a piece of a triangle: the names of its corners, and their coordinates as words.
+// A pixel and a piece of a triangle by a rule of coverage: the names of its corners, and their coordinates as words.
 class PixelOfPiece {
-  constructor(grids, names, words, {column, row}) {
-    Object.assign(this, {names, column, row});
+  constructor(grids, coverage, names, words, {column, row}) {
+    Object.assign(this, {names, column, row, byCenter: coverage === "center"});
     this.points = words.map(vertex => vertex.map(Fraction.ofWord));
     const corners = this.points.map(p => [grids.exact.columnAt(p[0]), grids.exact.rowAt(p[1])]), [a, b, c] = corners;
     this.doubledArea = b[0].minus(a[0]).times(c[1].minus(a[1])).minus(c[0].minus(a[0]).times(b[1].minus(a[1])));
@@ -68,17 +70,29 @@ class PixelOfPiece {
     this.distance = this.hasArea ? Math.min(...this.edges.map(edge => edge.distance.number)) : -Infinity;
     this.span = spanOnRow(grids.exact, this.points, row);
     this.spanInDoubles = spanOnRow(grids.inDoubles, words.map(vertex => vertex.map(word => new Double(Number(word)))), row);
-    this.isCovered = this.spanInDoubles !== null && this.spanInDoubles.first <= column && column <= this.spanInDoubles.last;
+    this.isCovered = this.byCenter ? this.hasArea && this.edges.every(edge => this.owns(edge)) : this.spanInDoubles !== null && this.spanInDoubles.first <= column && column <= this.spanInDoubles.last;
   }
+
+  owns({value, side}) { return value.sign > 0 || !value.sign && OWNING.includes(side); }
 
   edgeLines() {
     const rows = this.edges.map(({name, side, value, distance}) => value.sign ?
-      [name, distance.absolute.measured(), `pixels ${value.sign > 0 ? "inside" : "outside"} a ${side} edge`] : [name, "", `exactly on a ${side} edge`]);
+      [name, distance.absolute.measured(), `pixels ${value.sign > 0 ? "inside" : "outside"} a ${side} edge`] : [name, "", `exactly on a ${side} edge${this.byCenter ? `: ${OWNING.includes(side) ? "owned" : "not owned"}` : ""}`]);
     const width = Math.max(...rows.map(([, number]) => number.length));
     return rows.map(([name, number, words]) => `  edge ${name}   ${number ? number.padStart(width) + " " : ""}${words}`);
   }
 
+  centerLine() {
+    if (!this.hasArea) return "not covered: a triangle without area covers no center";
+    const outside = this.edges.filter(edge => edge.value.sign < 0), foreign = this.edges.find(edge => !this.owns(edge));
+    if (outside.length) return `not covered: the center is outside edge ${outside.map(edge => edge.name).join(" and edge ")}`;
+    if (foreign) return `not covered: points on a ${foreign.side} edge belong to the triangle beyond it`;
+    const isOnEdge = this.edges.some(edge => !edge.value.sign);
+    return `covered: ${isOnEdge ? "points on left and top edges belong to the triangle" : "the center is inside"}`;
+  }
+
   coverageLines() {
+    if (this.byCenter) return ["  " + this.centerLine()];
     const lines = [], {span, spanInDoubles: doubles} = this;
     if (span) lines.push(`  row ${this.row} crosses it from column ${span.left.measured()} to ${span.right.measured()}: pixels ${span.first} to ${span.last} are nearest`);
     if (doubles && !(span && doubles.first === span.first && doubles.last === span.last))
@@ -90,7 +104,7 @@ class PixelOfPiece {
 
   depthLines() {
     const {spanInDoubles: doubles, span} = this;
-    if (doubles && doubles.depth) {
+    if (doubles && doubles.depth && !this.byCenter) {
       const depth = span && span.depth ? span.depth : Fraction.ofDouble(doubles.depth.number);
       return [`  depth = ${depth.fixed(10)}, where the row meets the triangle in a single point`];
     }
@@ -108,8 +122,8 @@ function alignedLeft(rows) {
 }
 
 export class PixelReport {
-  constructor({columns, rows, limits}, fragments, stage) {
-    Object.assign(this, {fragments, stage});
+  constructor({columns, rows, limits, coverage}, fragments, stage) {
+    Object.assign(this, {fragments, stage, coverage});
     this.grids = {exact: new PixelGrid(Fraction, columns, rows, ...limits.map(Fraction.ofWord)),
                   inDoubles: new PixelGrid(Double, columns, rows, ...limits.map(word => new Double(Number(word))))};
   }
@@ -119,7 +133,7 @@ export class PixelReport {
     const place = this.fragments.place(pixel), lines = this.beginning(pixel), fragments = this.fragments.fragmentsOf(pixel);
     const pieces = [...this.stage.piecesOf(name)].slice(0, corners.length);
     if (pieces.length) {
-      const shown = pieces.map((piece, i) => new PixelOfPiece(this.grids, corners[i], this.stage.wordsOf(piece), place))
+      const shown = pieces.map((piece, i) => new PixelOfPiece(this.grids, this.coverage, corners[i], this.stage.wordsOf(piece), place))
         .reduce((best, next) => next.isCovered > best.isCovered || (next.isCovered === best.isCovered && next.distance > best.distance) ? next : best);
       const isDrawn = fragments.some(({triangle}) => triangle === name);
       lines.push(...(shown.hasArea ? shown.edgeLines() : []), ...shown.coverageLines());

@@ -105,7 +105,7 @@ class Traced(WindowTest):
     def test_frames_are_those_of_trace(self):
         from lib.pipe_tools import Tools
         pathlib.Path("scene.txt").write_text(SCENE)
-        self.open(Tools(BIN), "scene.txt", CONFIG, trace_words=["--no-shadows"])
+        self.open(Tools(BIN), "scene.txt", CONFIG, words=["--no-shadows"], is_traced=True)
 
         def traced(*words, view=()):
             pathlib.Path("expected.config").write_text(CONFIG)
@@ -272,10 +272,10 @@ class Flying(WindowTest):
         self.assertFalse(self.window.keys.winfo_ismapped())
 
     def test_the_camera_can_be_read(self):
-        self.assertEqual(self.window.readout.cget("text"), "eye 1 2 5   look 0 0 0   fovY 60   h: keys")
+        self.assertEqual(self.window.readout.cget("text"), "h: keys   eye 1 2 5   look 0 0 0   fovY 60")
         self.window.picture.event_generate("<Button-4>")
         self.settle()
-        self.assertEqual(self.window.readout.cget("text"), "eye 0.9 1.8 4.5   look 0 0 0   fovY 60   h: keys")
+        self.assertEqual(self.window.readout.cget("text"), "h: keys   eye 0.9 1.8 4.5   look 0 0 0   fovY 60")
 
     def test_it_opens_wide_enough_with_the_scenes_aspect(self):
         from lib.pipe_tools import Tools
@@ -306,17 +306,26 @@ class Flying(WindowTest):
     def test_options_are_those_of_the_tools(self):
         self.press("c")
         self.assertEqual(self.shown(), frame_of(SCENE, project=["--clip", "frustum"]))
-        self.press("z", "z")
-        clipped = ["--clip", "frustum", "--clip-inset", "0.1"]
-        self.assertEqual(self.shown(), frame_of(SCENE, project=clipped))
         self.press("b")
-        self.assertEqual(self.shown(), frame_of(SCENE, project=[*clipped, "--cull", "back"]))
+        culled = ["--clip", "frustum", "--cull", "back"]
+        self.assertEqual(self.shown(), frame_of(SCENE, project=culled))
         for key, model in (("1", "none"), ("2", "flat"), ("3", "gouraud"), ("4", "phong")):
             self.press(key)
-            self.assertEqual(self.shown(),
-                             frame_of(SCENE, project=[*clipped, "--cull", "back"], zbuf=["--shading", model]))
+            self.assertEqual(self.shown(), frame_of(SCENE, project=culled, zbuf=["--shading", model]))
         self.press("v", "b", "4")
         self.assertEqual(self.shown(), frame_of(SCENE, zbuf=["--shading", "phong"]))
+
+    def test_z_opens_a_gap_at_the_sides_alone(self):
+        """Of a wall just before far, which fills the picture."""
+        from lib.pictures import read_picture
+        wall = "0 0 0\n0 0 -1\n0 1 0\n90 1 1 100\ntriangle\n-999 -999 -99\n999 -999 -99\n0 999 -99\nend\n"
+        pathlib.Path("wall.txt").write_text(wall)
+        self.open(self.window.tools, "wall.txt", "61 41\n-1.5\n-1\n-1 1\n")
+        self.press("z", "z")
+        self.shown()
+        covered = [[any(row[i:i + 3]) for i in range(0, len(row), 3)] for row in read_picture("shown.ppm")[2]]
+        self.assertEqual(covered, [[abs(x - 30) * 3 / 61 <= 0.9 and abs(y - 20) * 2 / 41 <= 0.9
+                                    for x in range(61)] for y in range(41)])
 
     def test_the_wireframe_is_zbufs_or_not_there(self):
         self.press("f")
@@ -346,7 +355,7 @@ class Flying(WindowTest):
         self.press("c")
         self.assertRegex(
             self.status(),
-            r"^model reused +view reused +project \d+ ms +zbuf \d+ ms +all \d+ ms +60 x 40 +--clip frustum$")
+            r"^model reused +view reused +project \d+ ms +zbuf \d+ ms +all \d+ ms +60x40 +--clip frustum$")
 
     def test_another_size_runs_zbuf_alone_and_keeps_the_shape(self):
         root, picture = self.window.root, self.window.picture
@@ -368,7 +377,7 @@ class Flying(WindowTest):
         self.assertEqual(self.ran(), ["view", "project", "zbuf"])
         with patched(fly_parts.window, SLOW_SECONDS=0, REST_MS=1):
             self.press("w")
-            self.wait_until(lambda: "60 x 40" in self.status())
+            self.wait_until(lambda: "60x40" in self.status())
         self.assertEqual(self.ran(), ["view", "project", "zbuf", "zbuf"])
 
     def test_p_writes_a_scene_that_gives_this_frame(self):

@@ -17,7 +17,7 @@ from unittest import mock
 from browser import MISSING, Browser
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "tools"))
-from toolbox import BIN, SOURCE, ToolTest, pipe, run, stage_texts  # noqa: E402
+from toolbox import BIN, SOURCE, ToolTest, pipe, pseudo_terminal, run, stage_texts  # noqa: E402
 
 TAB, ESCAPE, LEFT, UP, RIGHT, DOWN, HOME, SHIFT = ("\ue004", "\ue00c", "\ue012", "\ue013", "\ue014", "\ue015",
                                                    "\ue011", "\ue008")
@@ -43,6 +43,18 @@ class Messages(ToolTest):
         self.assertEqual(done.returncode, 1)
         self.assertRegex(done.stderr, r"\Ainspect: model: scene\.txt:18:1: expected .*\n\Z")
         self.assertEqual(self.files(), ["config.txt", "scene.txt"])
+
+    def test_per_cent_on_a_terminal(self):
+        pathlib.Path("scene.txt").write_text(SCENE)
+        ours, theirs = pseudo_terminal()
+        subprocess.run([SOURCE / "scripts/inspect", "scene.txt", "config.txt", "-o", "page.html"],
+                       stderr=theirs, env={**os.environ, "BIN": str(BIN)}, check=True)
+        os.close(theirs)
+        shown = os.read(ours, 10000)
+        os.close(ours)
+        self.assertRegex(shown, rb"\A\r\[\.{30}\] 0%")
+        self.assertRegex(shown, rb"\r\[#{21}\.{9}\] 70%, \d+ s left")
+        self.assertTrue(shown.endswith(b"\r\x1b[K"))
 
     def test_a_sphere_needs_trace(self):
         pathlib.Path("scene.txt").write_text(SCENE.replace("triangle", "sphere 0 0 0 1\ntriangle", 1))
@@ -120,10 +132,10 @@ class InABrowser(ToolTest):
     def tearDown(self):
         self.assertEqual(self.browser.complaints(), [])
 
-    def load_own_scene(self):
+    def load_own_scene(self, *words):
         pathlib.Path("scene.txt").write_text(SCENE)
         pathlib.Path("config.txt").write_text("40 40\n")
-        self.load("scene.txt", "config.txt")
+        self.load("scene.txt", "config.txt", *words)
         return [text.decode().split("\n") for text in stage_texts(SCENE)]
 
     def hot_lines(self, tool):
@@ -418,24 +430,26 @@ class InABrowser(ToolTest):
         )
 
     def test_arithmetic_is_that_of_explain(self):
-        self.load_own_scene()
-        self.browser.run("document.querySelector('#tab-explanation').click()")
-        shown = [
-            self.browser.run("return [...document.body.inspector.fragments.pixelsOf(arguments[0])]", name)
-            for name in range(3)]
-        pixels = [p for found in shown for p in (found[0], found[len(found) // 2])] + [0]
-        for i, p in enumerate(pixels):
-            for name in {i // 2 % 3, (i + 1) % 3}:
-                row, column = divmod(p, 40)
-                told = subprocess.run([
-                    SOURCE / "scripts/explain", "scene.txt", "config.txt", "--triangle",
-                    str(name), "--pixel", f"{column},{row}"], capture_output=True, text=True, check=True,
-                                      env={"BIN": str(BIN), "PATH": "/usr/bin:/bin"}).stdout
-                self.browser.run(
-                    "document.body.inspector.select({triangle: arguments[0], pixel: arguments[1]})", name, p)
-                shown = self.browser.run(
-                    "return [...document.querySelectorAll('#explanation pre')].map(part => part.textContent)")
-                self.assertEqual("\n\n".join(shown) + "\n", told, (name, column, row))
+        for coverage in ("nearest", "center"):
+            self.load_own_scene("--coverage", coverage)
+            self.browser.run("document.querySelector('#tab-explanation').click()")
+            shown = [
+                self.browser.run("return [...document.body.inspector.fragments.pixelsOf(arguments[0])]", name)
+                for name in range(3)]
+            pixels = [p for found in shown for p in (found[0], found[len(found) // 2])] + [0]
+            for i, p in enumerate(pixels):
+                for name in {i // 2 % 3, (i + 1) % 3}:
+                    row, column = divmod(p, 40)
+                    words = ["--triangle", str(name), "--pixel", f"{column},{row}", "--coverage", coverage]
+                    told = subprocess.run([SOURCE / "scripts/explain", "scene.txt", "config.txt", *words],
+                                          capture_output=True, text=True, check=True,
+                                          env={"BIN": str(BIN), "PATH": "/usr/bin:/bin"}).stdout
+                    self.browser.run(
+                        "document.body.inspector.select({triangle: arguments[0], pixel: arguments[1]})", name,
+                        p)
+                    shown = self.browser.run(
+                        "return [...document.querySelectorAll('#explanation pre')].map(p => p.textContent)")
+                    self.assertEqual("\n\n".join(shown) + "\n", told, (coverage, name, column, row))
 
     def load_a_hand_in(self, change):
         """The page of the sample with a folder of files that are ours but for `change`, called in it."""
