@@ -372,7 +372,7 @@ class Flying(WindowTest):
         with patched(fly_parts.window, SLOW_SECONDS=0, REST_MS=10**6):
             self.window.whole_seconds = 1
             self.press("w")
-        self.assertIn("15 x 10", self.status())
+        self.assertIn("15x10", self.status())
         self.assertTrue(self.shown().startswith(b"P6\n15 10\n"))
         self.assertEqual(self.ran(), ["view", "project", "zbuf"])
         with patched(fly_parts.window, SLOW_SECONDS=0, REST_MS=1):

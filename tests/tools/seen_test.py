@@ -383,8 +383,8 @@ class Outputs(Seen):
     def test_hidden_edges_are_no_part_of_them(self):
         self.assert_fails(
             run("zbuf", "config.txt", "--seen", "a", "-o", "a.ppm", "--wireframe", "all"), 2,
-            "zbuf: --seen: expected no --wireframe all, which shows hidden triangles, too, found 'a' (try zbuf "
-            "--help)")
+            "zbuf: --seen: expected no --wireframe all, which shows hidden triangles, too, found 'a' (try "
+            "zbuf --help)")
 
     def test_nor_can_the_image(self):
         self.assert_fails(
