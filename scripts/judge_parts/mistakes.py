@@ -5,7 +5,7 @@ import re
 
 from judge_parts.places import place
 
-ENTRY = re.compile(r"(model|view|project|zbuf)/([a-z0-9-]+): (.+)")
+ENTRY = re.compile(r"(?:judge )?(model|view|project|zbuf)/([a-z0-9-]+): (.+)")
 
 
 @functools.cache
@@ -22,5 +22,7 @@ def sentence(name):
 
 
 def fix(name):
-    """What to do about a mistake, as a sentence; empty for one that is not in the list."""
-    return sentences("fixes.txt").get(name, "")
+    """What to do about a mistake, or about several with `and` between, as sentences; empty for one that is
+    not in the list."""
+    fixes = sentences("fixes.txt")
+    return " ".join(filter(None, (fixes.get(part, "") for part in name.split(" and "))))

@@ -21,7 +21,7 @@ FIVE = ("stage1.txt", "stage2.txt", "stage3.txt", "z_buffer.txt", "out.bmp")
 def listed(name):
     """The names of a list in this folder, in their order."""
     lines = (source / "tests/conformance" / name).read_text().splitlines()
-    return [line.split(":")[0] for line in lines if line and not line.startswith("#")]
+    return [line.split(":")[0].removeprefix("judge ") for line in lines if line and line[0] != "#"]
 
 
 MISTAKES, HABITS = listed("mistakes.txt"), listed("habits.txt")
@@ -91,6 +91,8 @@ MODEL = {
     "rotation-transposed": ("rotate\n90 0 0 1", (-2, 1, 3), (2, -1, 3)),
     "rotation-element-from-the-wrong-column": ("rotate\n90 0 0 1", (-2, 1, 3), (-5, 1, 3)),
     "angle-negated": ("rotate\n90 0 0 1", (-2, 1, 3), (2, -1, 3)),
+    "translation-added": ("scale\n2 2 2\ntranslate\n10 0 0", (22, 4, 6), (12, 4, 6)),
+    "rotation-without-a-term": ("rotate\n180 0 0 1", (-1, -2, 3), (-1, -2, 0)),  # 1 for 1 - cos
 }
 
 # The camera looks along x, with an up that is not of unit length: where 7 4 9 is.
@@ -111,6 +113,7 @@ VIEW = {
     "up-as-given": (ALONG_X, (6, 2, -6), (6, 4, -6)),
     "u-is-l-cross-r": (ALONG_X, (6, 2, -6), (6, -2, -6)),
     "matrix-transposed": (ALONG_X, (6, 2, -6), (-9, 4, 7)),
+    "l-is-eye-minus-look": (ALONG_X, (6, 2, -6), (-6, 2, 6)),
 }
 
 # Where 2 3 -4 is under perspective 60 0.5 1 3.
@@ -132,6 +135,7 @@ PROJECT = {
     "depth-is-linear": (X, Y, 2),  # 2 (4 - 1) / (3 - 1) - 1
     "z-not-divided": (X, Y, 5),
     "no-divide": (4 * X, 4 * Y, 4 * Z),
+    "divided-twice": (X / 4, Y / 4, Z / 4),
 }
 
 WINDOW = "8 8\n-1\n-1\n0 1\n"  # pixels of 0.25 x 0.25, centers at -0.875, -0.625 and so on
@@ -222,6 +226,24 @@ ZBUF = {
     "upside-down": ([corner()], WINDOW, stairs(), stairs()[::-1]),
     "text-upside-down": ([corner()], WINDOW, stairs(), stairs()),
     "mirrored": ([corner()], WINDOW, stairs(), [row[::-1] for row in stairs()]),
+    "depth-limits-are-one": ([corner(-0.5, -0.5, -0.5)], WINDOW, rows(), stairs()),
+    "starts-at-zero": ([corner()], WINDOW, stairs(), rows()),
+    "one-winding": ([corner()[::-1]], WINDOW, stairs(), rows()),
+    "half-triangle": ([((-0.7, -0.7, 0.5), (0.72, 0, 0.5), (-0.7, 0.72, 0.5))], WINDOW,
+                      rows(".", ".a", ".aaa", ".aaaaa", ".aaaaa", ".aaa", ".a"),
+                      rows(".", ".a", ".aaa", ".aaaaa")),
+    # From 0.2 on the left to 0.8 on the right; with the mistake, the other way round.
+    "depths-not-sorted": ([corner(0.2, 0.8, 0.2), corner()], WINDOW,
+                          rows(".", ".a", ".aa", ".aaa", ".aaab", ".aaabb", ".aaabbb"),
+                          rows(".", ".a", ".aa", ".aaa", ".baaa", ".bbaaa", ".bbbaaa")),
+    "vertices-at-whole-pixels": (
+        [corner(low=-0.6, high=0.8)], WINDOW, rows("", *["." + "a" * count for count in range(2, 7)]),
+        rows(*["." + "a" * count for count in range(1, 8)])),
+    "width-minus-one": (
+        [corner()], WINDOW, stairs(), rows("", *["." + "a" * count for count in range(1, 6)])),
+    "column-long": ([corner()], WINDOW, stairs(), rows("", *["." + "a" * count for count in range(2, 8)])),
+    "rows-and-columns-exchanged": (
+        [corner()], WINDOW, stairs(), rows("", *["." * row + "a" * (7 - row) for row in range(1, 7)])),
 }
 
 

@@ -14,7 +14,8 @@ Vector rodrigues(const Vector& x, const Vector& a, double angle) {
   const double c = std::cos(angle), s = std::sin(angle);
   const Vector side = cross(a, x);
   Vector result(3);
-  for (int i = 0; i < 3; i++) result[i] = c * x[i] + (1 - c) * dot(a, x) * a[i] + s * side[i];
+  const double along = (mistake("model/rotation-without-a-term") ? 1 : 1 - c) * dot(a, x);
+  for (int i = 0; i < 3; i++) result[i] = c * x[i] + along * a[i] + s * side[i];
   return result;
 }
 
@@ -47,6 +48,11 @@ class MatrixStack {
 
   void multiply(const Matrix& t) {
     top = mistake("model/multiplied-on-the-left") ? product(t, top) : product(top, t);
+  }
+
+  void translate(const Vector& t) {
+    if (!mistake("model/translation-added")) return multiply(translation(t));
+    for (int i = 0; i < 3; i++) top[i][3] += t[i];
   }
 
   void push(bool is_after_push) {
@@ -94,7 +100,7 @@ std::vector<Triangle> model(std::istream& commands) {
       }
       triangles.push_back(triangle);
     } else if (command == "translate") {
-      stack.multiply(translation(read(3)));
+      stack.translate(read(3));
     } else if (command == "scale") {
       stack.multiply(scaling(read(3)));
     } else if (command == "rotate") {

@@ -32,6 +32,6 @@ struct Picture {
   double empty;  // the depth of a pixel without a triangle
 };
 
-Picture draw(const std::vector<Triangle>& ndc, const Config& config);
+Picture draw(const std::vector<Triangle>& ndc, Config config);
 void write_depths(std::ostream& text, const Picture& picture);
 void write_bitmap(const std::string& path, const Picture& picture);

@@ -12,6 +12,7 @@ Matrix view_matrix(Camera camera) {
   if (mistake("view/up-is-a-point")) camera.up = minus(camera.up, camera.eye);
   if (mistake("view/up-is-0-1-0")) camera.up = {0, 1, 0};
   Vector l = minus(camera.look, camera.eye);
+  if (mistake("view/l-is-eye-minus-look")) l = minus(camera.eye, camera.look);
   if (mistake("view/look-is-a-direction")) l = camera.look;
   if (!mistake("view/l-not-unit")) l = normalized(l);
   Vector r = mistake("view/r-is-up-cross-l") ? cross(camera.up, l) : cross(l, camera.up);

@@ -35,10 +35,11 @@ struct Grid {
   explicit Grid(const Config& config) : width(config.width), height(config.height) {
     const double left = mistake("zbuf/window-is-one") ? -1 : config.left;
     const double bottom = mistake("zbuf/window-is-one") ? -1 : config.bottom;
-    dx = -2 * left / width;
-    dy = -2 * bottom / height;
-    left_x = mistake("zbuf/no-half-pixel-in-x") ? left : left + dx / 2;
-    top_y = mistake("zbuf/no-half-pixel-in-y") ? -bottom : -bottom - dy / 2;
+    const int less = mistake("zbuf/width-minus-one") ? 1 : 0;
+    dx = -2 * left / (width - less);
+    dy = -2 * bottom / (height - less);
+    left_x = mistake("zbuf/no-half-pixel-in-x") ? left : left + (1 - less) * dx / 2;
+    top_y = mistake("zbuf/no-half-pixel-in-y") ? -bottom : -bottom - (1 - less) * dy / 2;
   }
 
   int width, height;
@@ -55,11 +56,9 @@ struct Range {
 };
 
 Range rows_of(const Triangle& triangle, const Grid& grid) {
-  double y_min = triangle.points[0][1], y_max = y_min;
-  for (const Vector& point : triangle.points) {
-    y_min = std::min(y_min, point[1]);
-    y_max = std::max(y_max, point[1]);
-  }
+  std::vector<double> y = {triangle.points[0][1], triangle.points[1][1], triangle.points[2][1]};
+  std::sort(y.begin(), y.end());
+  const double y_min = y[mistake("zbuf/half-triangle") ? 1 : 0], y_max = y[2];
   const double top = (grid.top_y - y_max) / grid.dy, bottom = (grid.top_y - y_min) / grid.dy;
   Range rows = {whole(std::ceil(top), grid.height), whole(std::floor(bottom), grid.height)};
   if (habit("zbuf/center")) rows.last = whole(std::ceil(bottom) - 1, grid.height);
@@ -74,6 +73,7 @@ Range columns_between(double x_left, double x_right, const Grid& grid) {
     columns = {whole(std::ceil(left), grid.width), whole(std::ceil(right) - 1, grid.width)};
   if (habit("zbuf/truncated-ends")) columns = {whole(left, grid.width), whole(right, grid.width)};
   if (mistake("zbuf/column-short")) columns.last--;
+  if (mistake("zbuf/column-long")) columns.last++;
   return columns;
 }
 
@@ -93,10 +93,19 @@ std::vector<Vector> met_at(const Triangle& triangle, double y) {
   return result;
 }
 
-bool has_area(const Triangle& triangle) {
+/// Positive for counterclockwise.
+double area(const Triangle& triangle) {
   const Vector a = minus(triangle.points[1], triangle.points[0]),
                b = minus(triangle.points[2], triangle.points[0]);
-  return a[0] * b[1] != a[1] * b[0];
+  return a[0] * b[1] - a[1] * b[0];
+}
+
+Triangle at_whole_pixels(Triangle triangle, const Grid& grid) {
+  for (Vector& point : triangle.points) {
+    point[0] = grid.left_x + std::floor((point[0] - grid.left_x) / grid.dx + 0.5) * grid.dx;
+    point[1] = grid.top_y - std::floor((grid.top_y - point[1]) / grid.dy + 0.5) * grid.dy;
+  }
+  return triangle;
 }
 
 /// z on the line between two points of a row.
@@ -110,8 +119,10 @@ class Painter {
  public:
   Painter(const Config& config, Picture& picture) : config_(config), grid_(config), picture_(picture) {}
 
-  void draw(const Triangle& triangle, const Color& color) {
-    if (habit("zbuf/no-slivers") && !has_area(triangle)) return;
+  void draw(Triangle triangle, const Color& color) {
+    if (habit("zbuf/no-slivers") && area(triangle) == 0) return;
+    if (mistake("zbuf/one-winding") && area(triangle) < 0) return;
+    if (mistake("zbuf/vertices-at-whole-pixels")) triangle = at_whole_pixels(triangle, grid_);
     const double middle_z = (triangle.points[0][2] + triangle.points[1][2] + triangle.points[2][2]) / 3;
     const Range rows = rows_of(triangle, grid_);
     for (int row = std::max(rows.first, 0); row <= std::min(rows.last, grid_.height - 1); row++) {
@@ -119,6 +130,7 @@ class Painter {
       if (met.size() < 2) continue;
       Vector left = *std::min_element(met.begin(), met.end()),
              right = *std::max_element(met.begin(), met.end());
+      if (mistake("zbuf/depths-not-sorted")) left[2] = met[0][2], right[2] = met[1][2];
       const Range columns = columns_between(left[0], right[0], grid_);
       if (habit("zbuf/rounded-ends-depth")) {
         left[0] = grid_.left_x + columns.first * grid_.dx;
@@ -160,6 +172,15 @@ void write_bytes(std::ostream& file, std::uint32_t value, int count) {
   for (int i = 0; i < count; i++) file.put(static_cast<char>(value >> 8 * i & 0xff));
 }
 
+/// Rows as columns.
+template <typename Pixel>
+std::vector<std::vector<Pixel>> exchanged(const std::vector<std::vector<Pixel>>& rows) {
+  std::vector<std::vector<Pixel>> columns(rows[0].size());
+  for (const std::vector<Pixel>& row : rows)
+    for (std::size_t i = 0; i < row.size(); i++) columns[i].push_back(row[i]);
+  return columns;
+}
+
 }  // namespace
 
 Config read_config(const std::string& path) {
@@ -180,9 +201,11 @@ Config read_config(const std::string& path) {
   return config;
 }
 
-Picture draw(const std::vector<Triangle>& ndc, const Config& config) {
+Picture draw(const std::vector<Triangle>& ndc, Config config) {
+  if (mistake("zbuf/depth-limits-are-one")) config.front = -1, config.rear = 1;
   Picture picture;
   picture.empty = mistake("zbuf/rear-limit-ignored") ? std::numeric_limits<double>::max() : config.rear;
+  if (mistake("zbuf/starts-at-zero")) picture.empty = 0;
   picture.depths.assign(config.height, std::vector<double>(config.width, picture.empty));
   picture.colors.assign(config.height, std::vector<Color>(config.width));
   Random random;
@@ -191,6 +214,10 @@ Picture draw(const std::vector<Triangle>& ndc, const Config& config) {
   for (const Triangle& triangle : ndc) {
     painter.draw(triangle, color);
     if (!mistake("zbuf/one-color")) color = random.next_color();
+  }
+  if (mistake("zbuf/rows-and-columns-exchanged")) {
+    picture.depths = exchanged(picture.depths);
+    picture.colors = exchanged(picture.colors);
   }
   return picture;
 }
