@@ -8,6 +8,7 @@ import math
 import random
 
 from judge_parts.matrices import dot, image, product
+from judge_parts.verdict import Cause
 
 MOST_POINTS = 60
 TRIALS = 3
@@ -47,6 +48,15 @@ class NoMatrix:
 
     def __str__(self):
         return "\n".join(self.lines())
+
+
+def cause_of_one_element(comparison):
+    """The cause if a Comparison shows that one element is another number; a list of at most one."""
+    if len(getattr(comparison, "differing", ())) != 1:
+        return []
+    (i, j), = comparison.differing
+    return [Cause("", f"Row {i + 1}, column {j + 1} of the matrix (counted from 1) is "
+                      f"{comparison.theirs[i][j]:.5g}, not {comparison.ours[i][j]:.5g}")]
 
 
 def shown(x):

@@ -7,6 +7,7 @@ from lib.vectors import cross
 IDENTITY = tuple(tuple(float(i == j) for j in range(4)) for i in range(4))
 UNDEFINED = (math.nan,) * 3
 DIVIDES_X_AND_Y = "x and y"  # in place of True: z is not divided by w
+TWICE = "twice"
 ROUNDING = 1e-13  # of sums and products in doubles, with some to spare
 
 
@@ -44,6 +45,7 @@ def image(m, p, is_divided=True):
         return x, y, z
     if abs(w) <= 1e-12:
         return UNDEFINED
+    w *= w if is_divided == TWICE else 1
     return x / w, y / w, z if is_divided == DIVIDES_X_AND_Y else z / w
 
 
@@ -57,6 +59,8 @@ def slack(m, p, units, is_divided=True):
     if w <= 2 * reach[3] or w <= 1e-12:
         return math.inf, math.inf, math.inf
     divided = [(r + abs(a) * reach[3]) / (w - reach[3]) for r, a in zip(reach, image(m, p))]
+    if is_divided == TWICE:
+        return [(r + abs(a) / w * reach[3]) / (w - reach[3]) for r, a in zip(divided, image(m, p))]
     return [*divided[:2], reach[2]] if is_divided == DIVIDES_X_AND_Y else divided
 
 
@@ -69,43 +73,47 @@ def scaling(factors):
     return affine([[factors[i] if i == j else 0.0 for j in range(3)] for i in range(3)])
 
 
-def rotation(radians, axis):
-    """Rodrigues' formula; `axis` should be a unit vector."""
-    c, s = math.cos(radians), math.sin(radians)
+def rotation(radians, axis, factors=lambda c, s: (c, 1 - c, s)):
+    """Rodrigues' formula; `axis` should be a unit vector. `factors` makes those of its terms from cosine and
+    sine."""
+    of_x, of_axis, of_side = factors(math.cos(radians), math.sin(radians))
     images = []
     for x in (row[:3] for row in IDENTITY[:3]):
         images.append([
-            c * e + (1 - c) * dot(axis, x) * a + s * t for e, a, t in zip(x, axis, cross(axis, x))])
+            of_x * e + of_axis * dot(axis, x) * a + of_side * t for e, a, t in zip(x, axis, cross(axis, x))])
     return affine(list(zip(*images)))
 
 
 # view
 def view_matrix(eye, look, up, mistake="", spelling=0):
-    """The matrix of view, or what a mistake makes of it. Some mistakes are made in more than one way:
-    `spelling` tells which."""
-    if mistake == "eye-and-look-exchanged":
+    """The matrix of view, or what mistakes make of it: `mistake` is a name, or several with blanks between.
+    Some mistakes are made in more than one way: `spelling` tells which."""
+    mistakes = mistake.split()
+    if "eye-and-look-exchanged" in mistakes:
         eye, look = look, eye
-    up = {"up-is-a-point": tuple(b - a for a, b in zip(eye, up)),
-          "up-is-0-1-0": (0.0, 1.0, 0.0)}.get(mistake, up)
-    l = tuple(look) if mistake == "look-is-a-direction" else tuple(b - a for a, b in zip(eye, look))
-    if mistake != "l-not-unit":
+    up = (0.0, 1.0, 0.0) if "up-is-0-1-0" in mistakes else up
+    up = tuple(b - a for a, b in zip(eye, up)) if "up-is-a-point" in mistakes else up
+    l = tuple(look) if "look-is-a-direction" in mistakes else tuple(b - a for a, b in zip(eye, look))
+    l = negative(l) if "l-is-eye-minus-look" in mistakes else l
+    if "l-not-unit" not in mistakes:
         l = unit(l)
-    r = cross(up, l) if mistake == "r-is-up-cross-l" else cross(l, up)
-    if mistake != "r-not-unit":
+    r = cross(up, l) if "r-is-up-cross-l" in mistakes else cross(l, up)
+    if "r-not-unit" not in mistakes:
         r = unit(r)
-    u = cross(l, r) if mistake == "u-is-l-cross-r" else cross(r, l)
-    if mistake == "up-as-given":
+    u = cross(l, r) if "u-is-l-cross-r" in mistakes else cross(r, l)
+    if "up-as-given" in mistakes:
         u = unit(up) if spelling else tuple(up)
     elif spelling:
         u = unit(u)
-    back = l if mistake == "l-not-negated" else negative(l)
+    back = l if "l-not-negated" in mistakes else negative(l)
     turn = affine([r, u, back])
-    if mistake == "rotation-transposed":
+    if "rotation-transposed" in mistakes:
         turn = transposed(turn)
-    move = {"eye-added": eye, "no-translation": (0.0, 0.0, 0.0)}.get(mistake, negative(eye))
-    m = product(translation(move), turn) if mistake == "translation-after-rotation" else product(
+    move = eye if "eye-added" in mistakes else (
+        0.0, 0.0, 0.0) if "no-translation" in mistakes else negative(eye)
+    m = product(translation(move), turn) if "translation-after-rotation" in mistakes else product(
         turn, translation(move))
-    return transposed(m) if mistake == "matrix-transposed" else m
+    return transposed(m) if "matrix-transposed" in mistakes else m
 
 
 VIEW_SPELLINGS = {"up-as-given": 2, "l-not-unit": 2, "r-not-unit": 2}  # others have one
@@ -113,28 +121,31 @@ VIEW_SPELLINGS = {"up-as-given": 2, "l-not-unit": 2, "r-not-unit": 2}  # others 
 
 # project
 def perspective_matrix(fov_y, aspect, near, far, is_ratio=False, mistake="", pi=math.pi):
-    """The matrix of project, or what a mistake makes of it."""
-    radian = 1.0 if mistake == "fov-in-radians" else pi / 180
-    part = 1 if mistake == "fov-not-halved" else 2
-    fov_x = {"fovx-equals-fovy": fov_y, "fovx-divided-by-aspect": fov_y / aspect}.get(mistake, fov_y * aspect)
+    """The matrix of project, or what mistakes make of it, named as in view_matrix."""
+    mistakes = mistake.split()
+    radian = 1.0 if "fov-in-radians" in mistakes else pi / 180
+    part = 1 if "fov-not-halved" in mistakes else 2
+    fov_x = fov_y if "fovx-equals-fovy" in mistakes else (
+        fov_y / aspect if "fovx-divided-by-aspect" in mistakes else fov_y * aspect)
     top = math.tan(radian * fov_y / part)
-    right = top * aspect if is_ratio or mistake == "r-is-t-times-aspect" else math.tan(radian * fov_x / part)
-    if mistake == "r-and-t-swapped":
+    right = top * aspect if is_ratio or "r-is-t-times-aspect" in mistakes else math.tan(radian * fov_x / part)
+    if "r-and-t-swapped" in mistakes:
         right, top = top, right
     return projection_matrix((1 / right, 0.0, 1 / top, 0.0), near, far, mistake)
 
 
 def projection_matrix(window, near, far, mistake=""):
     """The matrix of a perspective or a frustum. `window` has the scale and the shift of x, and those of y."""
-    if mistake == "near-and-far-swapped":
+    mistakes = mistake.split()
+    if "near-and-far-swapped" in mistakes:
         near, far = far, near
     z_row = (0.0, 0.0, -(far + near) / (far - near),
-             -(1 if mistake == "missing-two" else 2) * far * near / (far - near))
-    if mistake == "z-row-sign":
+             -(1 if "missing-two" in mistakes else 2) * far * near / (far - near))
+    if "z-row-sign" in mistakes:
         z_row = negative(z_row)
-    if mistake == "depth-is-linear":  # and z is not divided
+    if "depth-is-linear" in mistakes:  # and z is not divided
         z_row = (0.0, 0.0, -2 / (far - near), -(far + near) / (far - near))
-    w_row = (0.0, 0.0, 1.0 if mistake == "w-is-plus-z" else -1.0,
-             1.0 if mistake == "last-element-is-one" else 0.0)
+    w_row = (0.0, 0.0, 1.0 if "w-is-plus-z" in mistakes else -1.0,
+             1.0 if "last-element-is-one" in mistakes else 0.0)
     x_scale, x_shift, y_scale, y_shift = window
     return (x_scale, 0.0, x_shift, 0.0), (0.0, y_scale, y_shift, 0.0), z_row, w_row

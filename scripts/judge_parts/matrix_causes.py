@@ -2,18 +2,21 @@
 from judge_parts.forms import changed_elements, other_forms
 from judge_parts.matrices import IDENTITY
 from judge_parts.some_vertices import ALL_VERTICES
-from judge_parts.verdict import Cause, cause_of
+from judge_parts.verdict import Cause, cause_of, cause_of_all
 
+MOST_PAIRS = 3
 UNCHANGED = "The points are those of the stage before, unchanged"
 
 
 class MatrixCauses:
     """Each way gives a list of (Cause, matrix, whether it divides), with more than one if the numbers cannot
-    tell them apart. `mistakes` are (name, matrix, whether it divides); is_by(matrix, whether it divides,
-    parts) tells whether those parts of the points (slices) are what the matrix makes of them."""
+    tell them apart. `mistakes` are (name, matrix, whether it divides), and so are `pairs` with two names;
+    is_by(matrix, whether it divides, parts) tells whether those parts of the points (slices) are what the
+    matrix makes of them."""
 
-    def __init__(self, stage, right, mistakes, is_by):
-        self.stage, (self.ours, self.divides), self.mistakes, self.is_by = stage, right, mistakes, is_by
+    def __init__(self, stage, right, mistakes, pairs, is_by):
+        self.stage, (self.ours, self.divides), self.is_by = stage, right, is_by
+        self.mistakes, self.pairs = mistakes, pairs
 
     def of_the_list(self, parts=ALL_VERTICES):
         """The mistakes with a name."""
@@ -32,6 +35,12 @@ class MatrixCauses:
             if text not in found and self.is_by(m, is_divided, parts):
                 found[text] = (Cause("", text), m, is_divided)
         return list(found.values())
+
+    def of_two(self):
+        """Two mistakes of the list at once; nothing if more than MOST_PAIRS would do."""
+        found = [(cause_of_all(self.stage, pair), m, is_divided) for pair, m, is_divided in self.pairs
+                 if m is not None and self.is_by(m, is_divided, ALL_VERTICES)]
+        return found if len(found) <= MOST_PAIRS else []
 
     def of_an_element(self):
         """A row with the opposite sign, or one other element; nothing if several would do."""

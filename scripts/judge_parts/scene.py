@@ -1,5 +1,6 @@
 """A scene that `model` has accepted: its camera, its commands, and what it becomes in world space, right or
 with one mistake."""
+import contextlib
 import dataclasses
 import itertools
 import math
@@ -7,16 +8,19 @@ import math
 from explain_parts.matrices import Projection
 from explain_parts.scene import commands
 from judge_parts.mistakes import sentences
-from judge_parts.matrices import (DIVIDES_X_AND_Y, IDENTITY, VIEW_SPELLINGS, image, perspective_matrix,
-                                  product, projection_matrix, rotation, scaling, slack, transposed,
-                                  translation, unit, view_matrix)
+from judge_parts.matrices import (DIVIDES_X_AND_Y, IDENTITY, TWICE, VIEW_SPELLINGS, affine, image,
+                                  perspective_matrix, product, projection_matrix, rotation, scaling, slack,
+                                  transposed, translation, unit, view_matrix)
 
 NO_UNITS = (0.0, 0.0, 0.0)
-DIVISIONS = {"no-divide": False, "z-not-divided": DIVIDES_X_AND_Y,
+DIVISIONS = {"no-divide": False, "divided-twice": TWICE, "z-not-divided": DIVIDES_X_AND_Y,
              "depth-is-linear": DIVIDES_X_AND_Y}  # by w; other mistakes of project divide all three
 OF_FRUSTUMS = ("near-and-far-swapped", "missing-two", "z-row-sign", "w-is-plus-z", "last-element-is-one",
-               "depth-is-linear", "z-not-divided")
+               "depth-is-linear", "z-not-divided", "divided-twice")
 ROUGH_PIS = (3.1416, 3.14159, 3.1415927, 3.141592, 3.141593, 3.1415926, 3.1415, 3.142, 22 / 7, 3.14)
+
+
+OF_THE_WHOLE = {"matrix-transposed", "depth-from-0-to-1"}  # made of the right matrix
 
 
 @dataclasses.dataclass(frozen=True)
@@ -25,10 +29,18 @@ class Habit:
     order: str = "right"            # on which side of the matrix a transform is multiplied
     stack: str = "nested"           # what push and pop do
     turn: object = None             # makes a matrix of an angle in degrees and an axis
+    offset: str = ""                # added, put: what becomes of the matrix's last column at `translate`
+
+    def moved(self, matrix, made, keyword):
+        """The matrix after a command for which one was made."""
+        if keyword == "translate" and self.offset == "put":
+            return affine([row[:3] for row in matrix[:3]], [row[3] for row in made[:3]])
+        is_left = self.order == "left" or keyword == "translate" and self.offset
+        return product(made, matrix) if is_left else product(matrix, made)
 
 
-def turned(degrees, axis):
-    return rotation(math.radians(degrees), unit(axis))
+def turned(degrees, axis, *factors):
+    return rotation(math.radians(degrees), unit(axis), *factors)
 
 
 def turned_with(pi):
@@ -59,6 +71,11 @@ MODEL_MISTAKES = {
         Habit(turn=lambda degrees, axis, row=row: with_wrong_element(turned(degrees, axis), row))
         for row in range(3)],
     "angle-negated": [Habit(turn=lambda degrees, axis: turned(-degrees, axis))],
+    "translation-added": [Habit(offset="added"), Habit(offset="put")],
+    "rotation-without-a-term": [
+        Habit(turn=lambda degrees, axis, factors=factors: turned(degrees, axis, factors))
+        for factors in (lambda c, s: (c, 1, s), lambda c, s: (c, 0, s), lambda c, s: (c, 1 - c, 0),
+                        lambda c, s: (0, 1 - c, s))],
 }
 
 
@@ -136,8 +153,7 @@ class Scene:
                 numbers = tuple(map(float, command.arguments[0]))
                 made = turn(numbers[0], numbers[1:]) if keyword == "rotate" else (
                     translation if keyword == "translate" else scaling)(numbers)
-                stack.moved_to(
-                    product(made, stack.matrix) if habit.order == "left" else product(stack.matrix, made))
+                stack.moved_to(habit.moved(stack.matrix, made, keyword))
             elif keyword == "triangle":
                 for words in command.arguments:
                     p = tuple(map(float, words[:3]))
@@ -178,10 +194,23 @@ class Scene:
         exact = tuple(tuple(map(float, row)) for row in kind.matrix())
         if mistake in ("", "no-divide"):
             return exact
-        if kind.is_parallel or mistake not in OF_FRUSTUMS:
+        if kind.is_parallel or not {*mistake.split()} <= {*OF_FRUSTUMS}:
             return None
         window = (exact[0][0], exact[0][2], exact[1][1], exact[1][2])
         return projection_matrix(window, float(kind.near), float(kind.far), mistake)
+
+    def view_pairs(self):
+        """((name, name), matrix, whether it divides) for each two mistakes of view."""
+        for pair in itertools.combinations(names_of("view"), 2):
+            with contextlib.suppress(ZeroDivisionError):
+                yield pair, self.of_view(" ".join(pair)), False
+
+    def project_pairs(self):
+        for pair in itertools.combinations(names_of("project"), 2):
+            if OF_THE_WHOLE.isdisjoint(pair) and (len(DIVISIONS.keys() & pair) < 2):
+                with contextlib.suppress(ZeroDivisionError, OverflowError):
+                    matrix = self.of_project(" ".join(pair))
+                    yield pair, matrix, next((DIVISIONS[name] for name in pair if name in DIVISIONS), True)
 
     def view_mistakes(self):
         """(name, matrix, whether it divides) for each mistake of view."""
@@ -203,6 +232,14 @@ class Scene:
                 continue
             if matrix is not None:
                 yield name, matrix, DIVISIONS.get(name, True)
+
+    @staticmethod
+    def model_pairs():
+        """((name, name), Habit) for each two mistakes of model that change different things."""
+        for (a, (one, *_)), (b, (other, *_)) in itertools.combinations(Scene.model_mistakes(), 2):
+            changes = {key: value for key, value in vars(other).items() if value != getattr(Habit(), key)}
+            if all(getattr(one, key) == getattr(Habit(), key) for key in changes):
+                yield (a, b), dataclasses.replace(one, **changes)
 
 
 def names_of(stage):

@@ -5,12 +5,12 @@ import math
 from judge_parts import fit, matching, some_vertices
 from judge_parts.digits import EXACT
 from judge_parts.matrices import ROUNDING, image, slack
-from judge_parts.matrix_causes import MatrixCauses
+from judge_parts.matrix_causes import MOST_PAIRS, MatrixCauses
 from judge_parts.points import described, difference, differs
 from judge_parts.scene import NO_UNITS, ROUGH_PIS, Habit, turned_with
 from judge_parts.some_vertices import ALL_VERTICES
 from judge_parts.verdict import (
-    ANOTHER_RULE, RIGHT, TOO_FEW_DIGITS, UNDECIDED, WRONG, Cause, FileVerdict, cause_of)
+    ANOTHER_RULE, RIGHT, TOO_FEW_DIGITS, UNDECIDED, WRONG, Cause, FileVerdict, cause_of, cause_of_all)
 from lib.vectors import cross
 
 
@@ -138,7 +138,8 @@ class StageJudge:
             for i, mistake in enumerate(found)]
         if not found:
             right = list(zip(self.exact_world, slacks))
-            verdict.causes = causes_of_order(theirs, [right], digits) or some_vertices.causes(
+            verdict.causes = causes_of_order(theirs, [right], digits) or self.two_of_model(
+                theirs.points, digits) or some_vertices.causes(
                 result, count, lambda part: not differs(theirs.points[part], digits, right[part]),
                 lambda parts: [
                     cause_of("model/" + mistake)
@@ -166,6 +167,12 @@ class StageJudge:
                 return found
         return {}
 
+    def two_of_model(self, points, digits):
+        """The causes if two mistakes at once reproduce the points."""
+        found = [cause_of_all("model", pair) for pair, habit in self.scene.model_pairs()
+                 if not differs(points, digits, self.scene.world(habit))]
+        return found if len(found) <= MOST_PAIRS else []
+
     def place_of(self, triangle):
         """Where the first wrong triangle stands in the scene."""
         line, before = self.scene.triangle_lines[triangle], self.scene.command_before(triangle)
@@ -175,7 +182,7 @@ class StageJudge:
     # view and project
     def view(self, name, theirs, readings):
         right = [("", self.scene.of_view(), False)]
-        return self.by_matrix("view", name, theirs, readings, right, list(self.scene.view_mistakes()))
+        return self.by_matrix("view", name, theirs, readings, right)
 
     def project(self, name, theirs, readings, others=()):
         """`others` are lists of points that are right, too: those that were clipped, for each reading, the
@@ -188,11 +195,11 @@ class StageJudge:
             if len(points) == len(theirs) and not differs(theirs.points, digits,
                                                           ((p, NO_UNITS) for p in points)):
                 return Outcome(right_verdict("project", name, theirs), points)
-        return self.by_matrix("project", name, theirs, readings, right, list(self.scene.project_mistakes()))
+        return self.by_matrix("project", name, theirs, readings, right)
 
-    def by_matrix(self, stage, name, theirs, readings, right, mistakes):
-        """The Outcome of a stage that is one matrix for all points. `right` and `mistakes` are (name, matrix,
-        whether it divides); the name of what is right is the rule, in words."""
+    def by_matrix(self, stage, name, theirs, readings, right):
+        """The Outcome of a stage that is one matrix for all points. `right` has (rule in words, matrix,
+        whether it divides)."""
         given = readings
         readings = [reading for reading in given if len(reading.points) == len(theirs)]
         digits = EXACT if theirs.digits.are_too_few else theirs.digits
@@ -217,7 +224,10 @@ class StageJudge:
             if is_by(m, is_divided):
                 return Outcome(right_verdict(stage, name, theirs, rule), exact_images(m, is_divided, memory))
         _, ours, divides = right[0]
-        causes = MatrixCauses(stage, (ours, divides), mistakes, is_by)
+        scene = self.scene
+        mistakes, pairs = (scene.view_mistakes(), scene.view_pairs()) if stage == "view" else (
+            scene.project_mistakes(), scene.project_pairs())
+        causes = MatrixCauses(stage, (ours, divides), list(mistakes), pairs, is_by)
         found = causes.of_the_list()
         if not found and theirs.digits.are_too_few:
             return self.outcome_of_few_digits(stage, name, theirs, [
@@ -227,7 +237,7 @@ class StageJudge:
         result = min((difference(theirs.points, digits, matrix_images(ours, divides, reading, reach))
                       for reading in readings), key=lambda result: result.differing)
         verdict = self.wrong(stage, name, theirs, result)
-        found = found or causes.of_the_form() or causes.of_an_element()
+        found = found or causes.of_the_form() or causes.of_an_element() or causes.of_two()
         verdict.causes = [dataclasses.replace(cause, detail=self.detail(cause.name)) for cause, *_ in found]
         verdict.causes = verdict.causes or causes_of_order(theirs, [
             matrix_images(ours, divides, reading, reach)
@@ -238,6 +248,7 @@ class StageJudge:
                 lambda parts: [cause for cause, *_ in causes.of_the_list(parts) or causes.of_the_form(parts)])
         verdict.remarks += some_vertices.few_triangles(result, len(theirs) // 3) if not verdict.causes else []
         verdict.matrices = fit.compare(readings[0].points, theirs.points, theirs.units, ours, divides)
+        verdict.causes = verdict.causes or fit.cause_of_one_element(verdict.matrices)
         return Outcome(verdict, exact_images(*found[0][1:], memory) if found else None)
 
     def detail(self, name):

@@ -31,6 +31,15 @@ def cause_of(name, detail=""):
     return Cause(name, sentence(name), detail)
 
 
+def cause_of_all(stage, names):
+    """The cause of one mistake, or of several made together."""
+    causes = [cause_of(f"{stage}/{name}") for name in names]
+    if len(causes) == 1:
+        return causes[0]
+    return Cause(" and ".join(cause.name for cause in causes),
+                 "; and: ".join(cause.text.rstrip(".") for cause in causes))
+
+
 @dataclasses.dataclass
 class FileVerdict:
     stage: str                # model, view, project, zbuf
@@ -59,7 +68,7 @@ class FileVerdict:
     @property
     def cause(self):
         """The causes as one phrase; empty if there is none."""
-        return "; or: ".join(map(str, self.causes))
+        return "either: " * (len(self.causes) > 1) + "; or: ".join(map(str, self.causes))
 
 
 @dataclasses.dataclass

@@ -547,7 +547,7 @@ class Causes(InputTest):
             line.split("|")[2].strip()
             for line in done.stdout.decode().splitlines()
             if line.startswith("| cause"))
-        return set(cause.split("; or: "))
+        return set(cause.removeprefix("either: ").split("; or: "))
 
     FLAT = "-1 0 0\n1 0 0\n0 1 0"    # in the plane through the origin that the camera looks at
     DEEP = "-1 0 0\n1 0 -1\n0 1 -2"
