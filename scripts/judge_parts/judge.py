@@ -5,6 +5,8 @@ ones in memory, so that a mistake counts once. A stage is right if it reproduces
 combination of what the assignment leaves open; else wrong by the mistake that reproduces them; else, in stage
 4, by another rule at the borders; else wrong without a cause.
 """
+from types import SimpleNamespace
+
 from judge_parts.hand_in import STAGE_OF, File
 from judge_parts.pixel_stage import PixelStage, pixel_readings
 from judge_parts.points import holds_enough, read_points
@@ -166,6 +168,14 @@ class HandIn:
             points[kind].digits = digits
         return points
 
+    def exchanged_colors(self):
+        """The colors, as they should be, of a picture whose rows are our columns; None if it is no such."""
+        window, failed = self.ours.window, self.failed.pop("picture")
+        size = SimpleNamespace(width=window.height, height=window.width)
+        colors = self.read("picture", lambda data, name: read_colors(data, name, size, self.ours.background))
+        self.failed |= {"picture": failed} if colors is None else {}
+        return colors and [list(row) for row in zip(*colors)]
+
     def add_others(self, kind, verdict):
         others = self.files[kind].others
         if others:
@@ -179,11 +189,13 @@ class HandIn:
         depths = self.read("depths", read_depths)
         colors = self.read("picture",
                            lambda data, name: read_colors(data, name, window, self.ours.background))
+        exchanged = colors is None and self.exchanged_colors()
         if stage3 is not None and len(stage3) > MOST_PARTS * len(self.ours.world):
             stage3 = None
         readings = pixel_readings(stage3, memory, None if is_right else self.right_after("project")[-1])
         judge = PixelStage(self.ours, self.files, readings, thin)
-        verdicts = self.failed | judge.verdicts(depths, colors)
+        verdicts = self.failed | (judge.verdicts_of_exchanged(depths, exchanged) if exchanged else judge.
+                                  verdicts(depths, colors))
         for kind in ("depths", "picture"):
             self.add_others(kind, verdicts[kind])
         return [verdicts["depths"], verdicts["picture"]]

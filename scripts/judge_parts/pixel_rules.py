@@ -3,7 +3,6 @@ raster.Rule."""
 import itertools
 
 from judge_parts.raster import ENDS_IN_WORDS
-from judge_parts.verdict import Cause, cause_of
 
 CENTER = {"left": "up", "right": "down"}
 OPEN_ENDS = [{}, CENTER
@@ -13,8 +12,8 @@ OPEN_ENDS = [{}, CENTER
                                            ("up", "up"))]  # up and up is a shift by half a pixel
 OPEN_DEPTHS = [{}, {"depth": "between ends"}, {"depth": "between ends", "clamp": 1}, {
     "depth": "between ends", "clamp": 0}, {"depth": "from left"}, {"depth": "from left", "clamp": 0}]
-# Of the mistakes this one is not in the list.
-DEPTHS_ARE_ONE = "The depth limits are -1 and 1 in place of those of the config"
+# Mistakes that draw nothing in many scenes.
+BLANK = ("starts-at-zero", "one-winding")
 # Mistakes by their names, with what they change, in more than one way where programs differ. A way that does
 # less than the mistake's sentence says comes after all others.
 MISTAKES = [
@@ -23,8 +22,16 @@ MISTAKES = [
     *((("shifted-by-a-column", ), {"shift": (step, 0), "is_cut_first": is_cut})
       for step in (1, -1)
       for is_cut in (True, False)), *((("shifted-by-a-row", ), {"shift": (0, step)}) for step in (1, -1)),
-    (("column-short", ), {"column_short": True}), (("row-short", ), {"row_short": True}),
-    (("column-short", "row-short"), {"column_short": True, "row_short": True}),
+    (("column-short", ), {"column_more": -1}), (("row-short", ), {"row_short": True}),
+    (("column-short", "row-short"), {"column_more": -1, "row_short": True}),
+    (("column-long", ), {"column_more": 1}), (("width-minus-one", ), {"is_one_less": True}),
+    *((("vertices-at-whole-pixels", ), {"corners": corners}) for corners in ("whole", "rounded")),
+    (("width-minus-one", "vertices-at-whole-pixels"), {"is_one_less": True, "corners": "whole"}),
+    *((("one-winding", ), {"winding": winding}) for winding in (1, -1)),
+    *((("half-triangle", ), {"half": half}) for half in ("upper", "lower")),
+    (("starts-at-zero", ), {"starts_at_zero": True}),
+    *((("depths-not-sorted", ), change) for change in (
+        {"ends_z": "as met"}, {"ends_z": "exchanged"}, {"corners": "sorted down"}, {"corners": "sorted up"})),
     (("window-is-one", ), {"is_window_one": True}),
     (("window-is-one", ), {"is_window_one": True, "is_depth_one": True}),
     (("front-limit-ignored", ), {"has_front": False}), (("rear-limit-ignored", ), {"has_rear": False}),
@@ -36,17 +43,11 @@ MISTAKES = [
     (("text-upside-down", ), {"text_flip": "upside down"}),
     (("mirrored", ), {"picture_flip": "mirrored", "text_flip": "mirrored"}),
     (("mirrored", ), {"picture_flip": "mirrored"}), (("mirrored", ), {"text_flip": "mirrored"}),
-    ((DEPTHS_ARE_ONE, ), {"is_depth_one": True}),
+    (("rows-and-columns-exchanged", ), {"picture_flip": "transposed", "text_flip": "transposed"}),
+    (("rows-and-columns-exchanged", ), {"picture_flip": "transposed"}),
+    (("rows-and-columns-exchanged", ), {"text_flip": "transposed"}),
+    (("depth-limits-are-one", ), {"is_depth_one": True}),
 ]
-
-
-def cause_of_all(names):
-    """The cause of one mistake, or of several made together."""
-    causes = [Cause("", name) if name == DEPTHS_ARE_ONE else cause_of("zbuf/" + name) for name in names]
-    if len(causes) == 1:
-        return causes[0]
-    return Cause(" and ".join(cause.name for cause in causes),
-                 "; and: ".join(cause.text.rstrip(".") for cause in causes))
 
 
 def in_words(rule):

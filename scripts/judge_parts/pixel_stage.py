@@ -1,17 +1,19 @@
 """Stage 4 of a hand-in, from its readings to the verdicts on the depths and on the picture."""
 import collections
+import dataclasses
 import itertools
 
 from judge_parts.pixels import PixelJudge
 from judge_parts.shown import Shown
 from judge_parts.stage_judge import Reading, undecided_outcome
-from judge_parts.verdict import ANOTHER_RULE, RIGHT, TOO_FEW_DIGITS, UNDECIDED, WRONG, FileVerdict
+from judge_parts.verdict import (
+    ANOTHER_RULE, RIGHT, TOO_FEW_DIGITS, UNDECIDED, WRONG, FileVerdict, cause_of)
 
 KINDS_IN_WORDS = {
     "extra": "a pixel that no triangle covers",
-    "missing": "a pixel that a triangle covers is empty",
-    "depth": "another depth",
-    "other": "another triangle",
+    "missing": "a pixel that triangle {} covers is empty",
+    "depth": "another depth than that of triangle {}",
+    "other": "another triangle than triangle {}",
 }
 PRINTED = "pixels without a triangle are printed"
 
@@ -52,8 +54,7 @@ class PixelStage:
         if not self.readings:
             return verdicts | {
                 kind: undecided_outcome("zbuf", self.files[kind].name).verdict for kind in given}
-        window = self.ours.window
-        shown = Shown(colors, depths, window.width, window.height, float(window.rear))
+        shown, window = self.shown(colors, depths), self.ours.window
         judge = PixelJudge(self.readings, window, shown)
         finding = judge.judge()
         for kind in given:
@@ -64,6 +65,31 @@ class PixelStage:
                 why = f"there is too little in {self.thin}" if self.thin else "nothing is in view"
                 verdicts[kind] = undecided_outcome("zbuf", self.files[kind].name, why).verdict
         return verdicts
+
+    def shown(self, colors, depths):
+        window = self.ours.window
+        return Shown(colors, depths, window.width, window.height, float(window.rear), self.is_uncovered)
+
+    def verdicts_of_exchanged(self, depths, colors):
+        """The verdicts, if the picture's rows are our columns; those of the text may be, too."""
+        kinds = ["picture"]
+        if depths is not None:
+            shown = self.shown(colors, depths)
+            rows = shown.listed_rows("transposed", shown.pixels().drawn)
+            if any(rows):
+                kinds, depths = ["depths", "picture"], dataclasses.replace(depths, rows=rows)
+        verdicts = self.verdicts(depths, colors)
+        for kind in kinds:
+            if kind in verdicts and verdicts[kind].is_good:
+                verdicts[kind].verdict, verdicts[kind].rule = WRONG, ""
+                verdicts[kind].causes = [cause_of("zbuf/rows-and-columns-exchanged")]
+        return verdicts
+
+    def is_uncovered(self):
+        """Rows of whether our picture of their points, or of ours, shows the background."""
+        texts = [self.files["stage3"].data or b"", self.ours.stage3]
+        rows = next(filter(None, map(self.ours.picture, texts)), [])
+        return [[row[i:i + 3] == self.ours.background for i in range(0, len(row), 3)] for row in rows]
 
     def verdict_of_colors(self, colors):
         """The FileVerdict of a picture whose triangles have colors of their own, or light: every color
@@ -107,7 +133,9 @@ class PixelStage:
             verdict.rule = f"{verdict.rule}; {printed}" if verdict.rule else printed
         if places and not verdict.is_good:
             row, column = min(places)
-            verdict.first = f"row {row}, column {column}: " + KINDS_IN_WORDS[mismatch.pixels[row, column]]
+            words = KINDS_IN_WORDS[mismatch.pixels[row, column]].format(mismatch.owners.get((row, column)))
+            verdict.first = (f"row {row}, column {column}: {words}" if column < shown.width else
+                             f"row {row}: another number of depths")
         if verdict.rule and verdict.verdict == RIGHT:
             verdict.verdict = ANOTHER_RULE
         if kind == "picture" and verdict.is_good and self.has_other_colors(shown):

@@ -2,17 +2,22 @@
 give."""
 import collections
 import dataclasses
+import itertools
 import math
 
 from judge_parts.borders import Borders, is_shifted, shows_each
-from judge_parts.pixel_rules import CENTER, MISTAKES, OPEN_DEPTHS, OPEN_ENDS, cause_of_all, in_words
+from judge_parts.mistakes import sentence
+from judge_parts.pixel_rules import BLANK, CENTER, MISTAKES, OPEN_DEPTHS, OPEN_ENDS, in_words
 from judge_parts.raster import Drawing, Grid, Rule, TooMuch, Triangles
 from judge_parts.shown import DEPTH_BASE
-from judge_parts.verdict import cause_of
+from judge_parts.verdict import cause_of, cause_of_all
 
 PIXELS_LOOKED_AT = 30_000  # how many differing pixels are checked for what else they could show
 MOST_WORK = 40_000_000     # pixels of triangles and spans looked at, in all that is tried
 SAMPLE_ROWS = 8
+# A mistake leaves at most one pixel in NEARLY of those, in SAMPLE_ROWS, that the best open rule leaves; these
+# are at least LEAST_NEARLY.
+NEARLY, LEAST_NEARLY = 8, 8
 LEAST_PIXELS_OF_OTHERS = 3  # that triangles beside the largest must show before one color is a mistake
 # All that differs should lie within a pixel of an edge. Honest programs have a few pixels astray, for example
 # where a row passes just by a vertex, and depths that depend on the ends of their row: no more is let through
@@ -89,26 +94,34 @@ class PixelJudge:
         self.readings, self.window, self.shown = readings, window, shown
         self.first = next(iter(readings))
         self.limits = float(window.front), float(window.rear)
-        self.made, self.work, self.plain = {}, [MOST_WORK], None
+        self.made, self.work, self.plain, self.found = {}, [MOST_WORK], None, {}
 
     def drawing(self, reading, rule):
         window = self.window
         left, bottom = (-1.0, -1.0) if rule.is_window_one else (float(window.left), float(window.bottom))
-        grid = Grid(window.width, window.height, left, bottom, rule.half_x, rule.half_y)
-        if (reading, grid) not in self.made:
-            self.made[reading, grid] = Triangles(*self.readings[reading], grid)
-        return Drawing(self.made[reading, grid], rule, (-1.0, 1.0) if rule.is_depth_one else self.limits,
-                       self.work)
+        grid = Grid(window.width, window.height, left, bottom, rule.half_x, rule.half_y, rule.is_one_less)
+        key = reading, grid, rule.corners
+        if key not in self.made:
+            self.made[key] = Triangles(*self.readings[reading], grid, rule.corners)
+        return Drawing(self.made[key], rule, (-1.0, 1.0) if rule.is_depth_one else self.limits, self.work)
 
     def finding_of(self, kind, finding):
         """The Finding that fits the depths or the picture best, after that of both: a file that is right by
         itself is right, whatever the other one holds, and one that is not is counted by its own rule."""
-        if finding.verdict == "exact" or len(finding.touches) == 1 and finding.verdict == "mistake":
+        if kind not in self.found:
+            self.found[kind] = self.found_for(kind, finding)
+        return self.found[kind]
+
+    def found_for(self, kind, finding):
+        is_of_one = len(finding.touches) == 1 and finding.verdict == "mistake"
+        if finding.verdict == "exact" or is_of_one or self.is_of_blank(finding):
             return finding
         alone = PixelJudge(self.readings, self.window, self.shown.only(kind))
         try:
             if finding.verdict == "unknown":
                 found = alone.judge()
+                if kind == "depths" and found.verdict == "unknown":
+                    return self.by_the_rule_of_the_picture(finding)
                 if kind == "depths" or found.verdict not in ("exact", "borders"):
                     return found
                 both = self.compare(found.mismatch.reading, found.mismatch.rule)
@@ -118,6 +131,15 @@ class PixelJudge:
                                       for rule in rules for reading in self.readings)), finding)
         except TooMuch:
             return finding
+
+    def is_of_blank(self, finding):
+        return finding.mismatch is self.plain and self.shown.is_all_blank
+
+    def by_the_rule_of_the_picture(self, finding):
+        """The Finding of depths that nothing explains."""
+        found = self.finding_of("picture", finding)
+        return self.unknown(self.compare(found.mismatch.reading, found.mismatch.rule)) if found.verdict in (
+            "exact", "borders") else finding
 
     # One rule
     def row_mismatches(self, drawing, pixels, row, budget, drawn_row=None):
@@ -177,8 +199,9 @@ class PixelJudge:
             result.drawn += sum(t >= 0 for t in owner)
             for column, kind in self.row_mismatches(drawing, pixels, row, budget, (owner, depth)):
                 result.pixels[row, column] = kind
-                if kind == "depth" and column < len(owner):
+                if column < len(owner) and owner[column] >= 0:
                     result.owners[row, column] = owner[column]
+                if kind == "depth" and column < len(owner):
                     z = pixels.depths[row][column] if pixels.depths[row] else None
                     result.offsets[row, column] = abs(z - depth[column]) if z is not None else 0.0
             if len(result.pixels) > limit:
@@ -231,9 +254,15 @@ class PixelJudge:
         finding = self.exact(plain)
         if finding:
             return finding
+        if plain.drawn and self.shown.is_all_blank:
+            return self.of_blank(plain)
         rows = self.sample_rows(plain)
-        return self.find_open(rows) or self.find_mistake(rows) or self.find_at_borders(plain) or self.unknown(
-            plain)
+        finding = self.find_open(rows) or self.find_mistake(rows)
+        if finding:
+            return finding
+        center = self.compare(self.first, Rule(**CENTER))
+        best = min((plain, center), key=lambda mismatch: (len(mismatch.of_shape), len(mismatch.pixels)))
+        return self.find_nearly(rows, best) or self.find_at_borders(best) or self.unknown(best)
 
     def exact(self, mismatch):
         """A Finding if the rule explains everything: that, or all triangles in one color."""
@@ -296,18 +325,43 @@ class PixelJudge:
                 rule = Rule(**{**open_changes, **changes})
                 for reading in self.readings:
                     if self.explains(reading, rule, rows) and (mismatch := self.compare(
-                            reading, rule, limit=0)):
+                            reading, rule, limit=0)) and mismatch.drawn:
                         found[names], rank_of_found = mismatch, rank
                         break
-        if not found:
-            return None
+        return self.mistake(found) if found else None
+
+    def find_nearly(self, rows, best):
+        """The mistakes, by our two rules, that explain all but one in NEARLY of what no open rule does, and
+        of all that differs."""
+        def count(rule, most):
+            drawing, pixels = self.drawing(self.first, rule), self.shown.pixels(rule.picture_flip,
+                                                                               rule.text_flip)
+            budget = [PIXELS_LOOKED_AT]
+            unexplained = (1 for row in rows for _ in self.row_mismatches(drawing, pixels, row, budget))
+            return sum(itertools.islice(unexplained, most + 1))
+
+        least, found = 10**9, {}
+        for ends in OPEN_ENDS:
+            least = min(least, count(Rule(**ends), least))
+        for names, changes in MISTAKES if least >= LEAST_NEARLY else ():
+            for ends in ({}, CENTER):
+                rule, most = Rule(**{**ends, **changes}), least // NEARLY
+                if not self.is_void(changes) and count(rule, most) <= most:
+                    mismatch = self.compare(self.first, rule)
+                    if mismatch.drawn and NEARLY * len(mismatch.pixels) <= len(best.pixels):
+                        found.setdefault(names, mismatch)
+        return self.mistake(found) if found else None
+
+    def mistake(self, found):
+        """The Finding of {names: Mismatch}."""
         if any(len(names) == 1 for names in found):  # several at once only if no single one will do
             found = {names: mismatch for names, mismatch in found.items() if len(names) == 1}
         mismatch = next(iter(found.values()))
         flips = mismatch.rule.picture_flip, mismatch.rule.text_flip
         touches = ("picture", ) if flips[0] and not flips[1] and self.shown.depths else (
             "depths", ) if flips[1] and not flips[0] else ("depths", "picture")
-        return Finding("mistake", mismatch, in_words(mismatch.rule), list(map(cause_of_all, found)), touches,
+        return Finding("mistake", mismatch, in_words(mismatch.rule),
+                       [cause_of_all("zbuf", names) for names in found], touches,
                        total=mismatch.drawn)
 
     def is_void(self, changes):
@@ -317,14 +371,16 @@ class PixelJudge:
             return (float(window.left), float(window.bottom)) == (-1, -1)
         if changes.get("is_depth_one"):
             return self.limits == (-1, 1)
+        if changes.get("starts_at_zero"):
+            return self.limits[1] == 0
+        if "transposed" in changes.values() and window.width != window.height:
+            return True
         return changes.get("text_flip", "") != changes.get("picture_flip", "") and not (self.shown.colors
                                                                                         and self.shown.depths)
 
-    def find_at_borders(self, plain):
+    def find_at_borders(self, best):
         """Whether all differences from the nearest of our two rules lie within a pixel of an edge, and are no
         shift."""
-        center = self.compare(self.first, Rule(**CENTER))
-        best = min((plain, center), key=lambda mismatch: (len(mismatch.of_shape), len(mismatch.pixels)))
         pixels = self.shown.pixels()
         drawing = self.drawing(self.first, Rule())
         if not pixels.drawn or is_shifted(drawing, pixels.drawn) or any(column >= self.window.width
@@ -408,6 +464,16 @@ class PixelJudge:
                 f"to {max(offsets):.2g}"
             )
         return "; ".join(words)
+
+    def of_blank(self, plain):
+        """The Finding where nothing is drawn, which has too many causes to name one."""
+        finding = self.unknown(plain)
+        names = [name for (name, *_), changes in MISTAKES if name in BLANK and not any(
+            t >= 0 for row in range(self.window.height)
+            for t in self.drawing(self.first, Rule(**changes)).row(row)[0])]
+        words = "; or: ".join(sentence(f"zbuf/{name}").rstrip(".") for name in names)
+        finding.remarks += [f"nothing is drawn, as if: {words}"] if names else ["nothing is drawn"]
+        return finding
 
     def unknown(self, plain):
         finding = Finding("unknown", plain, total=plain.drawn)

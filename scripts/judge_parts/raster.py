@@ -26,22 +26,23 @@ class Grid:
     bottom: float
     half_x: bool = True
     half_y: bool = True
+    is_one_less: bool = False  # the first and the last centers lie on the borders
 
     @property
     def dx(self):
-        return -2 * self.left / self.width
+        return -2 * self.left / max(1, self.width - self.is_one_less)
 
     @property
     def dy(self):
-        return -2 * self.bottom / self.height
+        return -2 * self.bottom / max(1, self.height - self.is_one_less)
 
     @property
     def left_x(self):
-        return self.left + (self.dx / 2 if self.half_x else 0)
+        return self.left + (self.dx / 2 if self.half_x and not self.is_one_less else 0)
 
     @property
     def top_y(self):
-        return -self.bottom - (self.dy / 2 if self.half_y else 0)
+        return -self.bottom - (self.dy / 2 if self.half_y and not self.is_one_less else 0)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -55,7 +56,13 @@ class Rule:
     half_y: bool = True
     is_window_one: bool = False
     is_depth_one: bool = False    # front and rear are -1 and 1
-    column_short: bool = False
+    is_one_less: bool = False     # width - 1 and height - 1 in place of width and height
+    corners: str = ""             # how CORNERS changes them
+    winding: int = 0              # of triangles that are drawn: 1 counterclockwise, -1 clockwise; 0 is any
+    half: str = ""                # upper, lower: what is drawn of a triangle
+    ends_z: str = ""              # as met: edge by edge, not from left to right; exchanged
+    starts_at_zero: bool = False
+    column_more: int = 0          # how many columns the ends of rows lie farther to the right
     row_short: bool = False
     shift: tuple = (0, 0)         # columns and rows
     is_cut_first: bool = False    # whether spans end at the picture's borders before the shift
@@ -63,7 +70,7 @@ class Rule:
     has_front: bool = True
     has_rear: bool = True
     flat: str = ""                # one depth for a triangle: mean, or first, second, third, least, most
-    picture_flip: str = ""        # upside down, mirrored
+    picture_flip: str = ""        # upside down, mirrored, transposed
     text_flip: str = ""
 
 
@@ -80,6 +87,8 @@ class Span:
     slack_right: float
     slack_z: float
     is_last: bool       # the triangle's last row
+    is_upper: bool      # above the triangle's middle corner
+    is_met_from_right: bool  # by the first of its edges
     is_certain: bool    # whether the row meets the triangle for certain, and the triangle has an area
 
 
@@ -88,13 +97,36 @@ FLAT = {
     "third": lambda zs: zs[2], "least": min, "most": max}
 
 
-class Triangles:
-    """Triangles in NDC over a grid. `units` says how far each coordinate may be off."""
+def at_whole_pixels(offset):
+    """Corners moved to the centers of pixels, from the place in pixels plus `offset` rounded down."""
+    def moved(corners, grid):
+        return [(grid.left_x + math.floor((x - grid.left) / grid.dx + offset) * grid.dx,
+                 grid.top_y - math.floor((-grid.bottom - y) / grid.dy + offset) * grid.dy, z)
+                for x, y, z in corners]
+    return moved
 
-    def __init__(self, points, units, grid):
+
+def without_their_depths(is_downwards):
+    """Corners sorted by y, with the depths in the order in which they came."""
+    def moved(corners, _):
+        by_height = sorted(corners, key=lambda p: p[1], reverse=is_downwards)
+        return [(*p[:2], q[2]) for p, q in zip(by_height, corners)]
+    return moved
+
+
+CORNERS = {
+    "": lambda corners, _: corners, "whole": at_whole_pixels(0), "rounded": at_whole_pixels(0.5),
+    "sorted down": without_their_depths(True), "sorted up": without_their_depths(False)}
+
+
+class Triangles:
+    """Triangles in NDC over a grid, changed by one of CORNERS. `units` says how far each coordinate may be
+    off."""
+
+    def __init__(self, points, units, grid, change=""):
         self.grid = grid
         near = [tuple(max(-FAR, min(x, FAR)) for x in p) for p in points]
-        self.corners = [near[i:i + 3] for i in range(0, len(near), 3)]
+        self.corners = [CORNERS[change](near[i:i + 3], grid) for i in range(0, len(near), 3)]
         self.units = [min(FAR, max(max(u) for u in units[i:i + 3])) for i in range(0, len(units), 3)]
         self.rows, self.spans, count = [[] for _ in range(grid.height)], {}, 0
         for t, corners in enumerate(self.corners):
@@ -152,14 +184,19 @@ class Triangles:
             is_certain, slack_z = False, slack_z + abs(z_right - z_left)
         top_row = (grid.top_y - lowest) / grid.dy
         return Span(t, left, right, z_left, z_right, slack_left, slack_right, slack_z,
-                    row == math.floor(top_row + ROUNDING), is_certain)
+                    row == math.floor(top_row + ROUNDING), y >= sorted(p[1] for p in corners)[1],
+                    met[0] != min(met), is_certain)
+
+    def winding(self, t):
+        """1 for counterclockwise, -1 for clockwise; 0 where the numbers' last digits decide."""
+        (ax, ay, _), (bx, by, _), (cx, cy, _) = self.corners[t]
+        area = (bx - ax) * (cy - ay) - (cx - ax) * (by - ay)
+        reach = max(abs(bx - ax), abs(by - ay), abs(cx - ax), abs(cy - ay))
+        return int(math.copysign(abs(area) > 4 * reach * (self.units[t] + 1e-15), area))
 
     def has_area(self, t):
         """Whether a triangle has an area, whatever its numbers' last digits."""
-        (ax, ay, _), (bx, by, _), (cx, cy, _) = self.corners[t]
-        area = abs((bx - ax) * (cy - ay) - (cx - ax) * (by - ay))
-        reach = max(abs(bx - ax), abs(by - ay), abs(cx - ax), abs(cy - ay))
-        return area > 4 * reach * (self.units[t] + 1e-15)
+        return self.winding(t) != 0
 
 
 class TooMuch(Exception):
@@ -185,24 +222,26 @@ def ends_of(span, rule, width, slack=0.0):
     last = ENDS[rule.right](span.right + slack * span.slack_right)
     if rule.is_cut_first:
         first, last = max(first, 0), min(last, width - 1)
-    return first + rule.shift[0], last - rule.column_short + rule.shift[0]
+    return first + rule.shift[0], last + rule.column_more + rule.shift[0]
 
 
 def depth_line(span, rule, width):
     """The depth as (z at column 0, z per column)."""
-    left, right = span.left, span.right
+    left, right, z_left, z_right = span.left, span.right, span.z_left, span.z_right
+    if rule.ends_z == "exchanged" or rule.ends_z and span.is_met_from_right:
+        z_left, z_right = z_right, z_left
     if rule.depth == "between ends":
         left, right = ENDS[rule.left](left), ENDS[rule.right](right)
         if rule.clamp is not None:
             left, right = (max(-rule.clamp, min(end, width - 1 + rule.clamp)) for end in (left, right))
     if right - left < NARROW:
-        return min(span.z_left, span.z_right), 0.0
-    slope = (span.z_right - span.z_left) / (right - left)
+        return min(z_left, z_right), 0.0
+    slope = (z_right - z_left) / (right - left)
     if rule.depth == "from left":
         left = ENDS[rule.left](left)
         left = max(left, 0) if rule.clamp == 0 else left
     left += rule.shift[0]
-    return span.z_left - left * slope, slope
+    return z_left - left * slope, slope
 
 
 class Drawing:
@@ -212,12 +251,18 @@ class Drawing:
     def __init__(self, triangles, rule, limits, work):
         self.triangles, self.rule, self.work = triangles, rule, work
         self.front = limits[0] if rule.has_front else -math.inf
-        self.rear = limits[1] if rule.has_rear else math.inf
+        self.rear = 0.0 if rule.starts_at_zero else limits[1] if rule.has_rear else math.inf
         self.width = triangles.grid.width
 
     def spans(self, row):
-        spans = self.triangles.row(row - self.rule.shift[1])
-        return [span for span in spans if not span.is_last] if self.rule.row_short else spans
+        rule, spans = self.rule, self.triangles.row(row - self.rule.shift[1])
+        if rule.row_short:
+            spans = [span for span in spans if not span.is_last]
+        if rule.half:
+            spans = [span for span in spans if span.is_upper == (rule.half == "upper")]
+        if rule.winding:
+            spans = [span for span in spans if self.triangles.winding(span.triangle) != -rule.winding]
+        return spans
 
     def line(self, span):
         if self.rule.flat:

@@ -1,15 +1,19 @@
 """A Verdict in words."""
-from judge_parts.verdict import ANOTHER_RULE, FAILED, MISSING, OPEN, RIGHT
+import os
+import re
+import shlex
+
+from judge_parts.verdict import ANOTHER_RULE, FAILED, MISSING, OPEN, RIGHT, WRONG
 
 BY_THE_RIGHT = "by the right numbers, "  # begins the remark of a stage that was judged by those
-HEADER = ["stage", "file", "verdict", "numbers that differ", "largest difference", "remarks"]
+HEADER = ["stage", "file", "verdict", "numbers that differ", "largest difference, first pixel", "remarks"]
 
 
 def rows(verdict):
     """The lines of a table below HEADER."""
     return [[
         file.stage, file.file, file.verdict, "" if file.count_told is None else str(file.count_told),
-        file.largest, "; ".join(remarks_of(file))] for file in verdict.files]
+        file.largest or file.first, "; ".join(remarks_of(file))] for file in verdict.files]
 
 
 def remarks_of(file):
@@ -70,6 +74,17 @@ def sentence(verdict):
     given = "by the right numbers" if any(BY_THE_RIGHT in remark for file in after
                                           for remark in file.remarks) else "given that"
     return words + (f"; what follows is right, {given}" if first[-1] is not last else "") + open_words
+
+
+def next_command(verdict, theirs, scene, config):
+    """The command that shows more of the first file that is wrong; None if there is no such."""
+    wrong = next((file for file in verdict.files if file.verdict == WRONG), None)
+    if wrong is None or not all(map(os.path.isfile, (scene, config))):
+        return None
+    triangle = re.search(r"of triangle (\d+): ", wrong.first)
+    words = ["explain", scene, config, "--triangle", triangle[1]] if triangle and wrong.stage != "zbuf" else [
+        "inspect", scene, config, "--theirs", theirs]
+    return shlex.join(["pipeline", *words])
 
 
 def listed_with_causes(files):

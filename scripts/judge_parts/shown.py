@@ -9,10 +9,11 @@ from lib.pictures import PictureError, picture_of
 from lib.plain_stage_text import real
 from lib.stage_text import StageTextError, text_of
 
+LEAST_EMPTY = 0.01  # of the pixels, that have the depth 0 before it is taken for none
 DEPTH_BASE = 2e-6  # for depths of 6 decimals, calculated from numbers of 7; times their size beyond 1
 FLIPS = {
     "": lambda rows: rows, "upside down": lambda rows: rows[::-1],
-    "mirrored": lambda rows: [row[::-1] for row in rows]}
+    "mirrored": lambda rows: [row[::-1] for row in rows], "transposed": lambda rows: list(zip(*rows))}
 
 
 @dataclasses.dataclass
@@ -60,16 +61,19 @@ class Pixels:
 
 
 class Shown:
-    """A hand-in's picture (rows of colors, or None) and Depths (or None)."""
+    """A hand-in's picture (rows of colors, or None) and Depths (or None). `is_uncovered` makes rows that tell
+    for each pixel whether no triangle covers it."""
 
-    def __init__(self, colors, depths, width, height, rear):
+    def __init__(self, colors, depths, width, height, rear, is_uncovered=list):
         self.colors, self.depths, self.width, self.height = colors, depths, width, height
         self.rear, self.made = rear, {}
         self.is_full = depths is not None and len(depths.rows) == height and all(
             len(row) == width for row in depths.rows)
         most = max((z for row in depths.rows for z in row), default=rear) if depths else rear
-        self.empty = most if self.is_full and most >= rear - depths.tolerance(rear) else None
-        self.background = self.find_background() if colors else None
+        is_empty = self.is_full and (most >= rear - depths.tolerance(rear)
+                                     or most == 0 and self.counted(0.0) > width * height * LEAST_EMPTY)
+        self.empty = most if is_empty else None
+        self.background = self.find_background(is_uncovered) if colors else None
 
     def only(self, kind):
         """This without the picture, or without the depths."""
@@ -88,19 +92,34 @@ class Shown:
         return all(color == self.background for row in self.colors for color in row)
 
     @property
+    def is_all_blank(self):
+        return not (self.colors and not self.is_blank("picture")
+                    or self.depths and not self.is_blank("depths"))
+
+    @property
     def prints_everything(self):
         """Whether pixels without a triangle are printed, too; their depth is `empty`."""
         return self.empty is not None
 
-    def find_background(self):
-        """The color of pixels without a triangle: black, unless another color fits the depths better."""
+    def counted(self, z):
+        return sum(row.count(z) for row in self.depths.rows)
+
+    def find_background(self, is_uncovered):
+        """The color that no triangle has: the one of as many pixels as have no depth. If there is none:
+        black, or in a picture without black, the color where nothing is to be seen."""
         counts = collections.Counter(color for row in self.colors for color in row)
         black = bytes(3)
-        if not self.depths or self.prints_everything:
+        if self.depths:
+            bare = self.counted(self.empty) if self.prints_everything else (
+                self.width * self.height - sum(map(len, self.depths.rows)))
+            fitting = [color for color in (black, *counts) if counts[color] == bare]
+            if fitting:
+                return fitting[0]
+        if counts[black]:
             return black
-        printed = sum(map(len, self.depths.rows))
-        candidates = [black, *(color for color, _ in counts.most_common(3))]
-        return min(candidates, key=lambda color: abs(self.width * self.height - counts[color] - printed))
+        seen = collections.Counter(color for row, places in zip(self.colors, is_uncovered())
+                                   for color, is_bare in zip(row, places) if is_bare)
+        return seen.most_common(1)[0][0] if seen else black
 
     def pixels(self, picture_flip="", text_flip=""):
         """The Pixels, if picture and text are flipped back."""
@@ -119,6 +138,13 @@ class Shown:
 
     def listed_rows(self, flip, drawn):
         rows = self.depths.rows
+        if flip == "transposed" and not self.is_full:
+            if [len(row) for row in rows] == [self.height] * self.width:
+                return list(zip(*rows))
+            if not drawn or list(map(len, rows)) != list(map(sum, zip(*drawn)))[:len(rows)]:
+                return [[]] * self.height
+            columns = list(map(iter, rows))
+            return [[next(columns[c]) for c, is_drawn in enumerate(row) if is_drawn] for row in drawn]
         if drawn and len(rows) != self.height and sum(map(len, rows)) == sum(map(
                 sum, drawn)):  # empty rows were left out
             values = iter([z for row in rows for z in row])

@@ -207,7 +207,7 @@ class Five(ToolTest):
     def verdict(self, status=1, scene=SAMPLE / "scene.txt"):
         done = compare("--hand-in", "theirs", scene, SAMPLE / "config.txt")
         self.assertEqual((done.stderr, done.returncode), ("", status), done.stdout)
-        return done.stdout.splitlines()[-1], [
+        return next(line for line in done.stdout.splitlines() if line.startswith("Verdict: ")), [
             line.split("|")[3].strip() for line in done.stdout.splitlines()[2:7]]
 
     def test_who_is_right_is_right(self):

@@ -311,6 +311,28 @@ class AnotherRule(HandIn):
         pixels.write()
         self.assert_verdicts(["right"] * 3 + ["wrong", "right"], 1)
 
+    def test_a_picture_by_the_center_rule_is_right_whatever_the_depths_are(self):
+        self.hand_in("--coverage", "center")
+        pixels = Pixels()
+        drawn = sum(z is not None for row in pixels.depths for z in row)
+        pixels.depths = [[None if z is None else z - 0.01 for z in row] for row in pixels.depths]
+        pixels.write()
+        verdict = self.assert_verdicts(["right"] * 3 + ["wrong", "right by another rule"], 1)
+        self.assertEqual((verdict.files[4].rule, verdict.files[4].differing), ("the center rule", 0))
+        self.assertEqual((verdict.files[3].differing, verdict.files[3].compared), (drawn, drawn))
+        self.assertRegex(verdict.files[3].first,
+                         r"^row \d+, column \d+: another depth than that of triangle \d$")
+
+    def test_the_background_is_the_color_that_no_triangle_has(self):
+        self.config = "90 80\n-0.2\n-0.2\n-1 1\n"  # which the triangles cover nearly all
+        self.hand_in("--background", "ffffff")
+        _, _, rows = read_picture("out.bmp")
+        bare = sum(row[i:i + 3] == b"\xff\xff\xff" for row in rows for i in range(0, len(row), 3))
+        self.assertTrue(0 < bare < 90 * 80 / 10, bare)
+        self.assert_verdicts(["right"] * 5, 0)
+        pathlib.Path("z_buffer.txt").unlink()
+        self.assertEqual(self.words()[4], "right")
+
     def test_empty_rows_may_be_left_out(self):
         self.hand_in()
         text = pathlib.Path("z_buffer.txt").read_text()
@@ -340,6 +362,66 @@ class Wrong(HandIn):
         verdict = self.assert_verdicts(["right"] * 3 + ["wrong"] * 2, 1)
         self.assertEqual(verdict.files[3].cause,
                          "The depth limits are -1 and 1 in place of those of the config")
+
+    def test_a_mistake_is_tried_before_the_latitude_of_borders(self):
+        """Half a pixel too far to the right, and by no rule in three pixels of the borders."""
+        self.stages()
+        pathlib.Path("config.txt").write_text(self.config)
+        subprocess.run([student.STUDENT, "zbuf", "config.txt", "--folder", ".", "--mistake",
+                        "zbuf/no-half-pixel-in-x"], input=pathlib.Path("stage3.txt").read_bytes(), check=True)
+        pixels = Pixels()
+        for place in pixels.ends()[20:50:10]:
+            pixels.clear(*place)
+        pixels.write()
+        verdict = self.assert_verdicts(["right"] * 3 + ["wrong"] * 2, 1)
+        self.assertEqual(([cause.name for cause in verdict.files[4].causes], verdict.files[4].differing),
+                         (["zbuf/no-half-pixel-in-x"], 3))
+
+    def test_rows_for_columns_of_a_picture_that_is_not_square(self):
+        self.hand_in()
+        pixels = Pixels()
+        for is_of_text, expected in ((True, ["wrong", "wrong"]), (False, ["right", "wrong"])):
+            columns = Pixels()
+            columns.colors = list(zip(*pixels.colors))
+            columns.depths = list(zip(*pixels.depths)) if is_of_text else pixels.depths
+            columns.write()
+            verdict = self.assert_verdicts(["right"] * 3 + expected, 1)
+            self.assertEqual([cause.name for cause in verdict.files[4].causes],
+                             ["zbuf/rows-and-columns-exchanged"])
+
+    def test_a_blank_picture_has_no_cause_but_what_would_blank_it(self):
+        self.hand_in()
+        pathlib.Path("z_buffer.txt").write_text("\n" * 80)
+        pathlib.Path("out.bmp").write_bytes(bmp([[(0, 0, 0)] * 90] * 80))
+        verdict = self.assert_verdicts(["right"] * 3 + ["wrong"] * 2, 1)
+        self.assertEqual((verdict.files[3].cause, verdict.files[3].remarks),
+                         ("", ["nothing is drawn, as if: " + mistakes.sentence("zbuf/starts-at-zero")[:-1]]))
+
+    def test_two_mistakes_at_once(self):
+        for one, other in (("view/eye-added", "view/l-not-negated"), ("view/up-is-0-1-0", "view/r-not-unit"),
+                           ("project/fovx-equals-fovy", "project/missing-two"),
+                           ("model/push-of-the-identity", "model/angle-in-radians")):
+            with self.subTest(one, other=other):
+                stage = one.split("/")[0]
+                pathlib.Path("scene.txt").write_text(self.scene)
+                pathlib.Path("config.txt").write_text(self.config)
+                subprocess.run([student.STUDENT, "all", "scene.txt", "config.txt", "--folder", ".",
+                                "--mistake", one, "--mistake", other], check=True)
+                file = next(file for file in self.verdict().files if file.stage == stage)
+                self.assertEqual([cause.name for cause in file.causes], [f"{one} and {other}"])
+                self.assertEqual(mistakes.fix(file.causes[0].name),
+                                 f"{mistakes.fix(one)} {mistakes.fix(other)}")
+
+    def test_an_element_of_the_diagonal(self):
+        self.stages()
+        t, scene = math.tan(math.radians(25)), perspective_matrix(50, 1.3, 1, 50)
+        m = ((1.3 / t, 0, 0, 0), *scene[1:])  # r = t / aspect
+        lines = pathlib.Path("stage2.txt").read_text().split("\n")
+        pathlib.Path("stage3.txt").write_text("\n".join(" ".join(
+            f"{x:.7f}" for x in image(m, tuple(map(float, line.split())))) if line else "" for line in lines))
+        self.assertEqual(
+            self.verdict(config=False).files[2].cause,
+            f"Row 1, column 1 of the matrix (counted from 1) is {1.3 / t:.5g}, not {scene[0][0]:.5g}")
 
     def draw_by(self, config):
         """Draws by another config than the hand-in's."""
