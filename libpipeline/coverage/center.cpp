@@ -16,6 +16,7 @@ constexpr int kBitsOfWideInt = 64 * 6;
 
 }  // namespace
 
+// Z5, Z5a
 CenterRows::CenterRows(const ExactGrid& grid, const ExactTriangle& triangle) {
   const std::array<double, 3> z = {triangle.p_ndc[0].z, triangle.p_ndc[1].z, triangle.p_ndc[2].z};
   const int rows = grid.rows.count, columns = grid.columns.count;

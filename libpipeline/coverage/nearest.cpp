@@ -96,6 +96,7 @@ Plane plane_of(const Vec3& lowest, const Vec3& middle, const Vec3& highest) {
   return std::isfinite(slope) ? std::optional(slope) : std::nullopt;
 }
 
+// Z2a
 double interpolate(double from, double to, double t) {
   const double difference = to - from;
   // The first form is exact where both are equal, the second cannot overflow.
@@ -158,6 +159,7 @@ std::optional<NearestRows::Ends> NearestRows::ends_at_corner(double y) const {
   return count < 2 ? std::nullopt : std::optional(Ends{left, right});
 }
 
+// Z2, Z3
 std::optional<Span> NearestRows::span(int row) const {
   const auto both = ends(grid_.y_of(row));
   if (!both) return std::nullopt;
@@ -177,6 +179,7 @@ std::optional<Span> NearestRows::span(int row) const {
   return span;
 }
 
+// Z4
 Span NearestRows::refined(Span span) const {
   if (const auto depth = in_pairs_->along(span.row, span.first_column, span.last_column)) span.depth = *depth;
   return span;

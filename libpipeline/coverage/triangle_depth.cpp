@@ -19,6 +19,7 @@ int unit_exponent(double size) {
 
 }  // namespace
 
+// Z7
 void TriangleDepth::set_depths(const std::array<double, 3>& z, std::int64_t total) {
   inverse_ = 1 / static_cast<double>(2 * total);
   if (z[0] == z[1] && z[0] == z[2]) {

@@ -73,6 +73,7 @@ BmpWriter::BmpWriter(int descriptor, const std::string& path, int columns, int r
   block_.resize(row_size_ * (can_seek_ ? rows_at_once : all_rows));
 }
 
+// T24
 void BmpWriter::write_header() {
   const auto pixels_size = static_cast<std::uint32_t>(row_size_ * static_cast<std::size_t>(rows_));
   const auto header_size = static_cast<std::uint32_t>(kHeaderSize);

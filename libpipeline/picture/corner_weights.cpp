@@ -70,6 +70,7 @@ bool CornerWeights::are_certain(const PixelGrid& grid, double sum) const {
   return std::fabs(sum) * 0x1p16 > terms(a, b, grid) + terms(b, c, grid) + terms(c, a, grid);
 }
 
+// L3
 CornerWeights::Weights CornerWeights::exactly_at(const PixelGrid& grid, const PixelCenter& pixel) const {
   const auto area = [&](std::size_t p, std::size_t q) {
     return exact_area(corners_[p], corners_[q], grid, pixel, are_divided_);

@@ -7,6 +7,7 @@
 
 namespace pipeline {
 
+// T23
 void write_depth_row(TextWriter& text, std::span<const double> depths, double rear) {
   constexpr std::size_t kAtOnce = 64;
   constexpr int kDecimals = 6;

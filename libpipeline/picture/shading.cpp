@@ -32,6 +32,7 @@ double clamped_channel(double value) {
 // What doubles miss of a half is far less than this, so that halves go up.
 constexpr double kHalf = 0.5 + 0x1p-20;
 
+// L6
 std::uint8_t rounded_channel(double value) {
   return static_cast<std::uint8_t>(clamped_channel(value) + kHalf);  // rounds down
 }
@@ -68,6 +69,7 @@ double whole_power(double base, std::uint64_t exponent) {
   return power;
 }
 
+// L5
 Vec3 lit_color(const SurfacePoint& point, const Lighting& lighting, const Material& material) {
   const Vec3 to_eye = lighting.is_perspective ? unit_vector(scaled(point.position, -1)) : Vec3{0, 0, 1};
   return lit_color_of(point, lighting, material, to_eye, [](const Light& light) { return light.intensity; });

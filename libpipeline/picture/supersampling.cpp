@@ -5,6 +5,7 @@
 
 namespace pipeline {
 
+// Z12
 Viewport sample_screen(const Viewport& screen, int count) {
   assert(count >= 1 && count <= kMaxSamples);
   Viewport samples = screen;
@@ -33,6 +34,7 @@ void Downsampler::add_opaque(std::span<const Color> samples) {
   }
 }
 
+// Z11
 Color Downsampler::translucent_mean(std::size_t column) const {
   const auto all = static_cast<std::uint32_t>(count_ * count_);
   const std::uint32_t opaque = 255 * opaque_counts_[column];

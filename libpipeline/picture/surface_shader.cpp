@@ -195,6 +195,7 @@ void SurfaceShader::shade_columns(int row, std::size_t begin, std::size_t end, S
   }
 }
 
+// L4
 Color SurfaceShader::color_at(const Surface& surface, const PixelCenter& pixel) const {
   const auto& [a, b, c] = surface.corners;
   if (setup_.model == ShadingModel::flat) return rounded_color(a.color);

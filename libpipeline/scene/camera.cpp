@@ -43,6 +43,7 @@ AspectRule read_aspect_rule(LineScanner& line) {
   return is_ratio ? AspectRule::ratio : AspectRule::angle;
 }
 
+// S7, S8
 Perspective read_perspective(LineScanner& line) {
   Perspective p;
   const auto is_inside_half_turn = [](double degrees) { return degrees > 0 && degrees < 180; };
@@ -55,6 +56,7 @@ Perspective read_perspective(LineScanner& line) {
 }
 
 /// The six planes of a Frustum or an Orthographic.
+// S7
 template <typename Volume>
 Volume read_volume(LineScanner& line) {
   Volume v;
@@ -110,6 +112,7 @@ bool is_parallel_to_view(const Vec3& eye, const Vec3& look, const Vec3& up) {
   return dot(normal, normal).sign() == 0;
 }
 
+// S9
 void check_camera(const CameraParameters& camera) {
   if (camera.up && camera.up->value == Vec3{})
     throw InputError(camera.up->location, expected_but_found("an up direction", "0 0 0"));

@@ -46,6 +46,7 @@ std::optional<Color> parse_color(std::string_view word) {
   return Color::from_rgb(digits >> 8).with_alpha(static_cast<std::uint8_t>(digits));
 }
 
+// Z10
 Color TriangleColors::of(std::uint64_t number) {
   // 3 * number wraps at 2^64, a multiple of the generator's period.
   if (number != next_number_) state_ = state_after(3 * number);

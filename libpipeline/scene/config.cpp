@@ -78,6 +78,7 @@ std::optional<Viewport> parse_size(std::string_view word) {
   return viewport;
 }
 
+// C1, C2, C3
 Viewport read_config(TextReader& text) {
   Viewport viewport;
   LineScanner line = required_line(text, "the width and height in pixels");

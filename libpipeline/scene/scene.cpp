@@ -71,6 +71,7 @@ std::size_t SceneReader::read_buffered(std::size_t limit, std::vector<Triangle>&
   return part.triangle_count;
 }
 
+// S10
 Command SceneReader::next() {
   if (TriangleCommand triangle; read_decimal_triangle(triangle)) return triangle;
   if (!text_.next_filled_line(line_))
@@ -166,6 +167,7 @@ void SceneReader::read_current_color() {
 }
 
 /// Reads `use K`; material 0 is there without a line, too.
+// S23
 Command SceneReader::read_use() {
   line_.word();
   next_argument_line("the arguments of 'use'");
@@ -194,6 +196,7 @@ void SceneReader::read_vertex(std::size_t index) {
   }
 }
 
+// S11
 TriangleCommand SceneReader::read_triangle() {
   line_.word();
   has_triangle_ = true;
@@ -246,6 +249,7 @@ bool SceneReader::take_decimal_vertices() {
 
 /// Reads `sphere` and its center and radius. The points of its surface that stage texts carry have to be
 /// numbers, and not the center.
+// S24
 SphereCommand SceneReader::read_sphere() {
   line_.word();
   next_argument_line("a center and a radius (four numbers)");
@@ -274,6 +278,7 @@ SphereCommand SceneReader::read_sphere() {
   return command;
 }
 
+// S12
 RotateCommand SceneReader::read_rotation() {
   line_.word();
   next_argument_line("an angle and an axis (four numbers)");

@@ -54,6 +54,7 @@ StageReader::StageReader(TextReader& text, bool marks_decimals) : text_(text) {
 }
 
 /// Takes a header line; false if the line belongs to the body.
+// T1, T14
 bool StageReader::read_header_line(LineScanner& line) {
   const SourceLocation location = line.location();
   const std::string_view keyword = line.word();
@@ -178,6 +179,7 @@ void StageReader::expect_unclipped_material(const LineScanner& line, TriangleBat
 }
 
 /// Reads the line `clipped` and the three of a triangle in clip space.
+// T11
 void StageReader::read_clipped(LineScanner& line) {
   line.word();
   line.expect_end("'clipped'");
@@ -199,6 +201,7 @@ bool StageReader::is_end(const LineScanner& line) const {
 }
 
 /// Takes the last line of a framed text, newline included: a text without it has been truncated.
+// T13
 void StageReader::read_end(LineScanner& line) {
   line.word();
   line.expect_end("'end'");

@@ -33,6 +33,7 @@ long long leading_exponent(std::string_view word) {
 
 }  // namespace
 
+// S3
 ParsedNumber parse_number(std::string_view word) {
   if (!word.empty() && word.front() == '+') {
     word.remove_prefix(1);
@@ -74,6 +75,7 @@ bool parse_exact_decimal(std::string_view word, DoubleDouble& value) {
   return true;
 }
 
+// S4
 bool parse_count(std::string_view word, std::uint64_t& value) {
   const auto [stop, code] = std::from_chars(word.data(), word.data() + word.size(), value);
   return !word.empty() && code == std::errc() && stop == word.data() + word.size();

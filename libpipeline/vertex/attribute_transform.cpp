@@ -64,6 +64,7 @@ void NormalTransform::set_rows(const BallVec3& x, const BallVec3& y, const BallV
   }
 }
 
+// M7
 Vec3 NormalTransform::operator()(const Vec3& normal) const {
   const Vec3 n = unit_vector(normal);
   const Vec3 image = {dot(rows_[0], n), dot(rows_[1], n), dot(rows_[2], n)};

@@ -83,6 +83,7 @@ Ball distance_with_sign(ClipPlane plane, const ClipVertex& vertex, const Ball& d
   return exact_distance(plane, vertex.origin).value_or(distance);
 }
 
+// P9
 ClipVertex interpolate(const ClipVertex& a, const ClipVertex& b, const Ball& t) {
   const auto between = [&](const Ball& from, const Ball& to) { return from + t * (to - from); };
   const double share = t.nearest_double();
@@ -105,6 +106,7 @@ ClipVertex cut(ClipPlane plane, const ClipVertex& a, const ClipVertex& b) {
   return interpolate(a, b, from / (from - to));
 }
 
+// P8
 std::vector<ClipVertex> clip_at(ClipPlane plane, std::span<const ClipVertex> polygon) {
   std::vector<ClipVertex> inside;
   std::size_t strictly_inside_count = 0;
@@ -149,6 +151,7 @@ ClipVertex to_clip_space(const ProjectionTransform& projection, const Vec3& p_vi
   return vertex;
 }
 
+// P6
 Ball distance_inside(ClipPlane plane, const ClipVertex& vertex) {
   const Ball distance = distance_by_coordinates(plane, vertex);
   return distance.sign() != 0 ? distance : distance_with_sign(plane, vertex, distance);

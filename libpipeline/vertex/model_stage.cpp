@@ -119,6 +119,7 @@ bool ModelStage::add_buffered(TriangleBatch& batch) {
 }
 
 /// Adds the triangle that the scene reader returned last.
+// M6
 void ModelStage::add(const TriangleCommand& triangle, TriangleBatch& batch) {
   begin_run(batch.size());
   batch.add(triangle.p_model, next_number_++, triangle.locations);
@@ -127,6 +128,7 @@ void ModelStage::add(const TriangleCommand& triangle, TriangleBatch& batch) {
 }
 
 /// Adds the sphere that the scene reader returned last, or has its facets come next.
+// M10
 void ModelStage::add(const SphereCommand& sphere, TriangleBatch& batch) {
   if (refuses_spheres_) throw refused_sphere(scene_.location());
   begin_run(batch.size());
@@ -177,6 +179,7 @@ void ModelStage::add_face_normals(TriangleBatch& batch) const {
 }
 
 /// Carries out any command but a triangle or a sphere.
+// M2, M5
 void ModelStage::carry_out(const Command& command) {
   if (const auto* translate = std::get_if<TranslateCommand>(&command)) {
     odd_transforms_.add_transform(scene_.location());

@@ -83,6 +83,7 @@ Vec3 clamped_color(const Vec3& c) {
 }
 
 /// The location of the corner with the largest weight in a vertex of a piece, for messages.
+// N4
 LineAndColumn location_of(const ClipVertex& vertex, const VertexLocations& corners) {
   const auto heaviest = std::max_element(vertex.weights.begin(), vertex.weights.end());
   return corners[static_cast<std::size_t>(heaviest - vertex.weights.begin())];
@@ -106,6 +107,7 @@ TriangleOutcode outcode(const std::array<ClipVertex, 3>& corners) {
 }
 
 /// The point in NDC; w must not contain 0.
+// P4
 BallVec3 perspective_divide(const ClipVertex& p_clip) {
   return {p_clip.x / p_clip.w, p_clip.y / p_clip.w, p_clip.z / p_clip.w};
 }
@@ -153,11 +155,13 @@ void ProjectionStage::project_triangle(const TriangleBatch& p_view, std::size_t 
   }
 }
 
+// P5
 bool ProjectionStage::is_culled(const Triangle& p_view) const {
   const int sign = winding_sign(p_view, projection_.is_perspective) * (mirrored_ ? -1 : 1);
   return cull_ == CullMode::back ? sign < 0 : sign > 0;
 }
 
+// P7
 bool ProjectionStage::needs_clipping(const Triangle& p_view) const {
   if (clip_ == ClipMode::none) return false;
   if (clip_ != ClipMode::automatic) return !is_well_inside(p_view);
@@ -257,6 +261,7 @@ std::vector<ClipVertex> ProjectionStage::clipped(const std::array<ClipVertex, 3>
   return polygon;
 }
 
+// P10, P11
 void ProjectionStage::project_clipped(const TriangleBatch& p_view, std::size_t index, TriangleBatch& p_ndc) {
   const std::array<ClipVertex, 3> corners = corners_in_clip_space(p_view.triangles[index]);
   const TriangleOutcode outside = outcode(corners);

@@ -37,6 +37,7 @@ std::optional<VolumeSides> sides_by_scale(const Ball& scale, double high = 1) {
   return VolumeSides{scale.nearest_double(), -high, high};
 }
 
+// P2
 ProjectionTransform perspective(const Perspective& p, const SourceLocation& location) {
   ProjectionTransform transform;
   transform.y_scale = cotangent_of_half(p.fov_y_degrees);
@@ -59,6 +60,7 @@ ProjectionTransform perspective(const Perspective& p, const SourceLocation& loca
   return transform;
 }
 
+// P3
 ProjectionTransform frustum(const Frustum& f) {
   const Ball width = Ball(f.right) - Ball(f.left);
   const Ball height = Ball(f.top) - Ball(f.bottom);
@@ -73,6 +75,7 @@ ProjectionTransform frustum(const Frustum& f) {
   return transform;
 }
 
+// P3
 ProjectionTransform orthographic(const Orthographic& o) {
   const Ball width = Ball(o.right) - Ball(o.left);
   const Ball height = Ball(o.top) - Ball(o.bottom);
@@ -90,6 +93,7 @@ ProjectionTransform orthographic(const Orthographic& o) {
 
 }  // namespace
 
+// M3
 AffineMatrix translation(const Vec3& offset) {
   AffineMatrix m = identity();
   m.rows[0][3] = offset.x;
@@ -98,6 +102,7 @@ AffineMatrix translation(const Vec3& offset) {
   return m;
 }
 
+// M3
 AffineMatrix scaling(const Vec3& factors) {
   AffineMatrix m;
   m.rows[0][0] = factors.x;
@@ -107,6 +112,7 @@ AffineMatrix scaling(const Vec3& factors) {
   return m;
 }
 
+// M4
 AffineMatrix rotation(double angle_degrees, const Vec3& axis) {
   const BallVec3 unit_axis = normalized(to_balls(axis));
   const SineCosine angle = sine_cosine_of_degrees({angle_degrees, 0});
@@ -122,6 +128,7 @@ AffineMatrix rotation(double angle_degrees, const Vec3& axis) {
   return m;
 }
 
+// V2
 ViewTransform view_from_world(const Vec3& eye, const Vec3& look, const Vec3& up) {
   const BallVec3 toward = to_balls(look) - to_balls(eye);
   const BallVec3 forward = normalized(toward);
@@ -161,6 +168,7 @@ ViewFromClip::ViewFromClip(const ProjectionTransform& projection)
       far_(projection.far) {}
 
 /// z_ndc = ((d - n) f - (f - d) n) / (d (f - n)), solved for d.
+// L2
 double ViewFromClip::w_of(const Vec3& p_ndc) const {
   if (!is_perspective_) return 1;
   return 2 * far_ * near_ / (far_ * (1 - p_ndc.z) + near_ * (1 + p_ndc.z));

@@ -71,6 +71,7 @@ void ZBuffer<Depth>::draw(const Span& span, PixelTag tag, HierarchicalDepth<Dept
   draw_in_filled_row(span, tag, farthest);
 }
 
+// Z8
 template <typename Depth>
 void ZBuffer<Depth>::draw_in_filled_row(const Span& span, PixelTag tag, HierarchicalDepth<Depth>* farthest) {
   assert(span.first_column >= 0 && span.last_column < depths_.columns());

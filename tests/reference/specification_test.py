@@ -14,6 +14,7 @@ SOURCE = pathlib.Path(sys.argv.pop()).resolve()
 PAGES = ("scene", "stage-text", "stages")
 REFERENCE = (SOURCE / "tests/reference/reference.py").read_text()
 sys.path.insert(0, str(SOURCE / "tests/conformance"))
+from conform_parts import paragraph  # noqa: E402
 from conform_parts.pages import files_of, read_fields, read_page  # noqa: E402
 
 NAME = r"[A-Z]\d+[a-z]?"
@@ -73,24 +74,11 @@ def without_comments(data):
     return "".join(text + "\n" for text, sign in bare if text or not sign)
 
 
-def named_in(comment):
-    """The paragraphs that a comment begins with: `S5`, `S6 to S8, T2`."""
-    names = []
-    for first, last in re.findall(rf"({NAME})(?: to ({NAME}))?",
-                                  re.match(rf"{NAME}(?:(?:, | to ){NAME})*", comment)[0]):
-        names += ORDER[ORDER.index(first):ORDER.index(last or first) + 1]
-    return names
-
-
 ORDER = [name for name, *_ in paragraphs()]
 
 
-def functions():
-    """(name, first line, comment behind its first line) of all functions and classes but constructors."""
-    lines = REFERENCE.splitlines()
-    for node in ast.walk(ast.parse(REFERENCE)):
-        if isinstance(node, (ast.FunctionDef, ast.ClassDef)) and node.name != "__init__":
-            yield node.name, node.lineno, lines[node.lineno - 1].partition("  # ")[2]
+FUNCTIONS = [(name, line, labels) for name, line, _, labels in paragraph.carried_out(REFERENCE, ORDER)
+             if name != "__init__"]
 
 
 class Specification(unittest.TestCase):
@@ -116,6 +104,22 @@ class Specification(unittest.TestCase):
                 self.assertEqual(len(cases), not (demands_nothing or name == "O3"))  # no case is misuse
                 self.assertTrue(all(name in CASES[case][0]["paragraphs"].split() for case in cases), cases)
 
+    def test_every_paragraph_can_be_walked(self):
+        for name, demands_nothing, page, text in paragraphs():
+            with self.subTest(paragraph=name):
+                shown = "\n".join(paragraph.described(name))
+                self.assertTrue(shown.startswith(f"{name}, docs/{page}.md\n"))
+                own = re.search(r"\(`((?:model|view|project|zbuf)/[\w-]+)`\)", text)
+                self.assertRegex(shown, rf"\ncases:\n  {own[1]}: " if own else r"\ncases:\n  (none: |\w+/)")
+                self.assertTrue(demands_nothing or re.search(r"\n  tests/reference/reference\.py:\d+: \w+", shown))
+        self.assertIsNone(paragraph.described("Z99"))
+
+    def test_marks_name_what_exists(self):
+        marks = paragraph.marks()
+        self.assertGreater(len(marks), 40)
+        self.assertEqual({label for labels, _, _ in marks for label in labels} - {*ORDER}, set())
+        self.assertTrue(all(code.endswith(("{", ",")) for _, _, code in marks), marks)
+
     def test_notes_grant_nothing(self):
         for name, _, page, text in paragraphs():
             if name[0] not in "FO" and re.search(r"\bmay differ\b|\bmay be off\b|to either side", text):
@@ -139,13 +143,12 @@ class Specification(unittest.TestCase):
             self.assertLessEqual(max(map(len, page_text(page).splitlines())), 120, page)
 
     def test_every_function_names_its_paragraphs(self):
-        for name, line, comment in functions():
+        for name, line, labels in FUNCTIONS:
             with self.subTest(function=name, line=line):
-                self.assertRegex(comment, rf"^{NAME}")
-                self.assertEqual({*named_in(comment)} - {*ORDER}, set())
+                self.assertTrue(labels)
 
     def test_every_paragraph_is_carried_out_or_a_note(self):
-        carried_out = {name for _, _, comment in functions() for name in named_in(comment)}
+        carried_out = {label for _, _, labels in FUNCTIONS for label in labels}
         for name, demands_nothing, page, _ in paragraphs():
             with self.subTest(paragraph=name, page=page):
                 self.assertTrue(demands_nothing or name in carried_out)
@@ -155,10 +158,10 @@ class Specification(unittest.TestCase):
                   for page in re.findall(r"^# (scene|stage-text|stages)\.md: ", line)]
         self.assertEqual([page for _, page in starts], sorted((page for _, page in starts), key=PAGES.index))
         page_of = {name: page for name, _, page, _ in paragraphs()}
-        for name, line, comment in functions():
+        for name, line, labels in FUNCTIONS:
             if name not in ("main", "read_options"):
                 with self.subTest(function=name):
-                    self.assertEqual(page_of[named_in(comment)[0]],
+                    self.assertEqual(page_of[labels[0]],
                                      [page for start, page in starts if start < line][-1])
 
     def test_the_reference_is_short_and_needs_only_the_standard_library(self):

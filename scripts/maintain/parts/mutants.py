@@ -8,6 +8,8 @@ import collections
 import hashlib
 import re
 
+from parts import python_mutants
+
 OPERATORS = {
     "<": "<=", "<=": "<", ">": ">=", ">=": ">", "==": "!=", "!=": "==", "&&": "||", "||": "&&", "+": "-",
     "-": "+", "*": "/", "/": "*", "%": "/", "&": "|", "|": "&", "^": "|", "<<": ">>", ">>": "<<", "+=": "-=",
@@ -101,7 +103,8 @@ def mutants_of(file, text):
     """All mutants of a source, in the order of their lines."""
     found = collections.Counter()
     mutants = []
-    for begin, end, new in sorted(changes(code_of(text))):
+    found_changes = python_mutants.changes(text) if file.endswith(".py") else changes(code_of(text))
+    for begin, end, new in sorted(found_changes):
         first, last = text.rfind("\n", 0, begin) + 1, text.find("\n", end)
         shown = f"{text[first:begin]}[{text[begin:end]} -> {new or 'nothing'}]{text[end:last]}"
         name = f"{file}: {' '.join(shown.split())}"

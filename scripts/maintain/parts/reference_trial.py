@@ -1,0 +1,151 @@
+"""Runs the cases of the conformance pack on mutants of tests/reference/reference.py."""
+import contextlib
+import io
+import multiprocessing
+import pathlib
+import resource
+import shlex
+import signal
+import sys
+import tempfile
+import time
+import types
+from collections import namedtuple
+from multiprocessing.connection import wait
+
+SOURCE = pathlib.Path(__file__).resolve().parents[3]
+sys.path.append(str(SOURCE / "tests/conformance"))
+from conform_parts.cases import RULES, STAGES, read_cases  # noqa: E402
+from conform_parts.trial import Terms, judge_outputs, judge_refusal  # noqa: E402
+
+FILE = "tests/reference/reference.py"
+MEMORY_LIMIT = 3 << 30
+Ending = namedtuple("Ending", "status stdout stderr")
+Outputs = namedtuple("Outputs", "text image")
+Run = namedtuple("Run", "case rule")
+FORKED = multiprocessing.get_context("fork")
+reference = None  # of this process, mutated or not
+
+
+def load(text):
+    global reference
+    for number in (signal.SIGTERM, signal.SIGINT, signal.SIGHUP):  # as no command's process
+        signal.signal(number, signal.SIG_DFL)
+    resource.setrlimit(resource.RLIMIT_AS, (MEMORY_LIMIT, MEMORY_LIMIT))
+    reference = types.ModuleType("reference")
+    try:
+        exec(compile(text, FILE, "exec"), vars(reference))
+    except Exception:  # a mutant that does not even begin
+        reference = None
+
+
+def ended(case, rule, folder):
+    """How the program ends on a case, with its outputs; it runs in this process."""
+    words = shlex.split(case.read("options.txt").decode()) if case.has("options.txt") else []
+    image = pathlib.Path(folder, "out.bmp")
+    if case.stage == "zbuf":
+        config = pathlib.Path(folder, "config.txt")
+        config.write_bytes(case.read("config.txt"))
+        words = [str(config), "--image", str(image), "--coverage", rule, *words]
+    stdin, stdout, stderr = sys.stdin, io.TextIOWrapper(io.BytesIO()), io.StringIO()
+    sys.argv, sys.stdin, status = ["reference.py", case.stage, *words], io.TextIOWrapper(io.BytesIO(case.read("input.txt"))), 0
+    try:
+        with contextlib.redirect_stdout(stdout), contextlib.redirect_stderr(stderr):
+            reference.main()
+    except SystemExit as end:
+        status = end.code
+    finally:
+        sys.stdin = stdin
+    stdout.flush()
+    text = stdout.buffer.getvalue()
+    return Ending(status, text, stderr.getvalue()), Outputs(text, image.read_bytes() if image.exists() else None)
+
+
+def is_noticed(run):
+    """Whether the case fails, or the program does on it."""
+    signal.signal(signal.SIGALRM, lambda *_: (_ for _ in ()).throw(TimeoutError()))
+    signal.alarm(60)
+    terms = Terms([], run.rule, None, False, True, True, True, None, None, None)
+    try:
+        with tempfile.TemporaryDirectory() as folder:
+            ending, outputs = ended(run.case, run.rule, folder)
+            if run.case.refused_line is not None:
+                return bool(judge_refusal(run.case, terms, ending, ending.stderr))
+            return ending.status != 0 or bool(judge_outputs(run.case, terms, outputs))
+    except Exception:  # any that a mutant may raise
+        return True
+    finally:
+        signal.alarm(0)
+
+
+def traced(run):
+    """The seconds that a case takes, the lines that it runs, and whether it fails."""
+    lines = set()
+
+    def trace(frame, event, _):
+        if frame.f_code.co_filename != FILE:
+            return None
+        lines.add(frame.f_lineno)
+        return trace
+
+    began = time.monotonic()
+    sys.settrace(trace)
+    is_failed = is_noticed(run)
+    sys.settrace(None)
+    return time.monotonic() - began, lines, is_failed
+
+
+def first_noticed(text, runs, connection):
+    """Sends the name of the first case that notices the mutant; None if none does."""
+    load(text)
+    connection.send(next((run.case.name for run in runs if is_noticed(run)), None))
+
+
+class ReferenceTrial:
+    """The cases, from the shortest, each with the lines of the reference that it runs."""
+
+    def __init__(self, jobs):
+        self.jobs, self.text = jobs, (SOURCE / FILE).read_text()
+        runs = [Run(case, rule) for stage in STAGES for case in read_cases(stage)
+                for rule in (RULES if stage == "zbuf" else RULES[:1])]
+        with FORKED.Pool(self.jobs, load, (self.text, )) as pool:
+            traces = pool.map(traced, runs, chunksize=8)
+        if failing := [run.case.name for run, trace in zip(runs, traces) if trace[2]]:
+            sys.exit(f"mutate: these fail without a mutant: {', '.join(failing)}")
+        times = sorted(range(len(runs)), key=lambda i: traces[i][0])
+        self.runs = [(runs[i], traces[i][1]) for i in times]
+
+    def outcome(self, mutant, _):
+        """"survived" or "killed by CASE"."""
+        last = mutant.line + 1 + self.text.count("\n", mutant.begin, mutant.end)
+        touching = {*range(mutant.line + 1, last + 1)}
+        chosen = [run for run, lines in self.runs if lines & touching] or [run for run, _ in self.runs]
+        connections, processes = [], []
+        for share in range(self.jobs):
+            ours, theirs = FORKED.Pipe(duplex=False)
+            arguments = mutant.applied_to(self.text), chosen[share::self.jobs], theirs
+            processes.append(FORKED.Process(target=first_noticed, args=arguments))
+            processes[-1].start()
+            theirs.close()
+            connections.append(ours)
+        try:
+            return self.answer(connections)
+        finally:
+            for process in processes:
+                process.kill()
+                process.join()
+
+    def answer(self, connections):
+        while connections:
+            ready = wait(connections, timeout=600)
+            for connection in ready:
+                try:
+                    name = connection.recv()
+                except EOFError:  # it ran out of memory
+                    name = "its end"
+                if name:
+                    return f"killed by {name}"
+                connections.remove(connection)
+            if not ready:
+                return "killed by its time"
+        return "survived"
