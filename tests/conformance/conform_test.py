@@ -13,13 +13,15 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import xml.etree.ElementTree
 
 SOURCE = pathlib.Path(sys.argv.pop()).resolve()
 BIN = pathlib.Path(sys.argv.pop()).resolve()
 PACK = SOURCE / "tests/conformance"
 sys.path.insert(0, str(PACK))
 from conform_parts.cases import NEEDS, STAGES, Case, extract, read_cases, read_mistakes  # noqa: E402
-from conform_parts.judge import same_digits, same_picture  # noqa: E402
+from conform_parts import shared  # noqa: E402
+from conform_parts.judge import different_field, same_digits, same_picture, same_shortest  # noqa: E402
 
 CASES = {stage: read_cases(stage) for stage in STAGES}
 TOOLS = {stage: [BIN / stage, *(["{config}"] if stage == "zbuf" else []), "{options}"] for stage in STAGES}
@@ -27,7 +29,7 @@ TOOLS = {stage: [BIN / stage, *(["{config}"] if stage == "zbuf" else []), "{opti
 
 def conform(*words, pack=PACK, **others):
     """A run on programs that we trust, which a sandbox would make slower."""
-    return subprocess.run([sys.executable, pack / "conform", "--sandbox", "no", *map(str, words)],
+    return subprocess.run([sys.executable, pack / "conform", "--sandbox", "no", "--tap", *map(str, words)],
                           stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, timeout=600, **others)
 
 
@@ -91,7 +93,7 @@ class Tools(unittest.TestCase):
     def test_pass_every_case_to_the_byte(self):
         for stage, tool in TOOLS.items():
             with self.subTest(stage=stage):
-                done = self.assert_all_right(stage, "--count-open", "--tier", "bytes", "--", *tool)
+                done = self.assert_all_right(stage, "--tier", "bytes", "--", *tool)
                 self.assertTrue(done.stdout.endswith(f"# {len(CASES[stage])} right, 0 wrong\n"))
 
     def test_pass_every_case_by_its_own_tier(self):
@@ -99,9 +101,8 @@ class Tools(unittest.TestCase):
             self.assert_all_right(stage, "--only", chosen, "--", *TOOLS[stage])
 
     def test_pass_by_the_other_rule_and_the_other_algorithm(self):
-        self.assert_all_right("zbuf", "--count-open", "--rule", "center", "--", *TOOLS["zbuf"], "--coverage",
-                              "center")
-        self.assert_all_right("zbuf", "--count-open", "--", *TOOLS["zbuf"], "--algorithm", "scanline")
+        self.assert_all_right("zbuf", "--rule", "center", "--", *TOOLS["zbuf"], "--coverage", "center")
+        self.assert_all_right("zbuf", "--", *TOOLS["zbuf"], "--algorithm", "scanline")
 
     def test_pass_in_the_manner_of_the_assignment(self):
         for stage, words in (("model", ["--bare"]), ("view", ["--bare", "--scene", "{scene}"]), ("project", [
@@ -300,6 +301,17 @@ class Runner(unittest.TestCase):
         self.assertIn("  pop is ignored.", why)
         self.assertEqual([line for line in why if line.startswith(("#", "ok", "not ok", "TAP"))], [])
 
+    def test_shows_the_same_in_a_pipe(self):
+        words = [sys.executable, PACK / "conform", "--sandbox", "no", "--stage", "model", "--only", "stack-p*"]
+        program = sh(f"grep -v -e push -e pop | {BIN}/model")
+        done = subprocess.run([*words, "--", *program], stdout=subprocess.PIPE, text=True)
+        verdict, note, *_, last = done.stdout.splitlines()
+        self.assertRegex(verdict, r"^WRONG: \d+ of \d+ cases$")
+        self.assertEqual((done.returncode, note, last), (1, "no sandbox (--sandbox no)", verdict))
+        for line in ("model/pop-ignored or model/push-and-pop-ignored: ", "  paragraphs: M5, S13 (pipeline help M5)",
+                     "  so do model/"):
+            self.assertIn("\n" + line, done.stdout)
+
     def test_shows_tap_on_a_terminal_if_asked_for(self):
         status, shown = self.on_terminal("--tap", "--stage", "model", "--only", "translate-x", "--",
                                          BIN / "model")
@@ -319,11 +331,32 @@ class Runner(unittest.TestCase):
                          [("model/translate-x", "wrong", ["M3"])])
         self.assertEqual(results["cases"][0]["difference"]["message"], "the number of lines differs")
 
+    def test_writes_junit_that_any_parser_reads(self):
+        program = sh(r"printf '1 \000\033<&]]>\303\202\377\357\277\277 2\n'")
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder, "results.xml")
+            path.write_text("old")
+            path.chmod(0o640)
+            done = conform("--stage", "model", "--only", "translate-*", "--only", "bare", "--junit", path, "--",
+                           *program)
+            self.assertEqual((done.returncode, done.stderr, os.listdir(folder)), (1, "", ["results.xml"]))
+            self.assertEqual(path.stat().st_mode & 0o777, 0o640)
+            root = xml.etree.ElementTree.parse(path).getroot()
+        (suite, ), cases = root, list(root.iter("testcase"))
+        count = len([case for case in CASES["model"] if case.is_chosen(["translate-*", "bare"])])
+        self.assertEqual((root.tag, suite.tag, suite.attrib), ("testsuites", "testsuite", {
+            "name": "model", "tests": str(count), "failures": str(count - 1), "errors": "0", "skipped": "1"}))
+        self.assertEqual((cases[0].attrib, [child.tag for child in cases[0]]),
+                         ({"classname": "model", "name": "bare"}, ["skipped"]))
+        for case in cases[1:]:
+            self.assertEqual([child.tag for child in case], ["failure"])
+            self.assertRegex(case[0].text, r"\. \(M\d.*\)\n")
+
     def test_shows_the_reason_and_what_was_expected_and_found(self):
         done = self.run_one("model/translate-x", *sh("echo 9 2.0 3; cat >&2"), options=["--assignment"])
         self.assert_wrong(
             done,
-            "not ok 1 - model/translate-x\n#   why: Each number of translate moves its own coordinate.\n",
+            "not ok 1 - model/translate-x\n#   paragraph: M3 (pipeline help M3)\n#   why: Each number of translate moves its own coordinate.\n",
             "#   line 1, blank ones not counted, differs\n#   expected: 3.5000000 2.0000000 3.0000000\n#   "
             "found:    9 2.0 3\n"
         )
@@ -351,6 +384,8 @@ class Runner(unittest.TestCase):
                 os.chmod(f"{folder}/{name}", 0o755)
                 os.link(f"{folder}/{name}", f"{folder}/{name}.json")
             with open(f"{folder}/out.json", "w") as out:
+                self.assertEqual(conform("--stage", "view", "--json", f"{folder}/a", "--junit", f"{folder}/a",
+                                         "--", "true").returncode, 2)
                 for name in ("mine", "data", "out"):
                     words = ["--stage", "model", "--only", "translate-x", "--json", f"{name}.json", "--",
                              "./mine", "data"]
@@ -410,11 +445,13 @@ class Runner(unittest.TestCase):
                           "does not name the line", "expected: refused at line 5")
         self.assert_wrong(self.run_one(case, *sh("exit 1")), "does not name the line")
         for message in ("mine: line 5: pop", "scene.txt:5:1: pop"):
-            self.assertEqual(self.run_one(case, *sh(f"echo '{message}' >&2; exit 1")).returncode, 0)
-        self.assertEqual(self.run_one(case, *sh("exit 1"), options=["--any-line"]).returncode, 0)
-        self.assert_wrong(
-            self.run_one("model/refused-bytes-error-line", *sh("echo 'mine: line 5: pop' >&2; exit 1")),
-            "does not end with the error")
+            script = f"echo 'error mine: pop'; echo '{message}' >&2; exit 1"
+            self.assertEqual(self.run_one(case, *sh(script)).returncode, 0)
+        self.assertEqual(self.run_one(case, *sh("echo error m: 1; exit 1"), options=["--any-line"]).returncode, 0)
+        for end in ("", "echo error mine; ", "printf 'error mine: pop'; "):
+            script = sh(f"{end}echo 'mine: line 5: pop' >&2; exit 1")
+            self.assert_wrong(self.run_one(case, *script), "does not end with a line `error TOOL: MESSAGE` (T12)")
+            self.assertEqual(self.run_one(case, *script, options=["--tier", "digits"]).returncode, 0)
 
     def test_files_in_place_of_stdin_and_stdout(self):
         self.assertEqual(self.run_one("model/translate-x", BIN / "model", "{input}").returncode, 0)
@@ -467,6 +504,53 @@ class Runner(unittest.TestCase):
                     done = conform("--stage", stage, "--assignment", "--only", "*o*", "--", program)
                     self.assertRegex(done.stdout, r"\n# no mistake of the list: \d+ cases\n")
                     self.assertNotRegex(done.stdout, rf"\n# {stage}/")
+
+
+class Shared(unittest.TestCase):
+    """What most of the wrong numbers of a run share."""
+
+    def sentence(self, expected, found, **others):
+        return shared.sentence(shared.wrong_points(expected.encode(), found.encode(), True, **others))
+
+    def test_is_told_of_three_of_four_wrong_numbers(self):
+        expected = "1 2 3\n4 5 6\n7 8 9\n\n-1 0 2\n"
+        for found, told in (("-1 2 -3\n-4 5 -6\n-7 8 -9\n\n1 0 -2\n", "8 of 8 wrong numbers: x and z are negated"),
+                            ("-1 2 -3\n-4 5 -6\n-7 8 -9\n\n1 0 2.5\n", "7 of 8 wrong numbers: x and z are negated"),
+                            ("2 1 3\n5 4 6\n8 7 9\n\n0 -1 2\n",
+                             "8 of 8 wrong numbers: x is what y should be, y is what x should be"),
+                            ("2 4 6\n8 10 12\n14 16 18\n\n-2 0 4\n",
+                             "11 of 11 wrong numbers: x, y and z are 2 times what should be"),
+                            ("1 2 3\n4 5 6\n7 8 9\n\n-1 0 9\n", ""), ("1 2 3\n", ""), (expected, ""),
+                            ("9 1 4\n1 5 9\n2 6 5\n\n3 5 8\n", "")):
+            self.assertEqual(self.sentence(expected, found), told)
+        depths = [b"1\t2\t3\t\n4\t5\t6\t\n", b"-1\t-2\t-3\t\n-4\t-5\t-6\t\n"]
+        self.assertEqual(shared.sentence(shared.wrong_points(*depths, False)),
+                         "6 of 6 wrong numbers: the depths are negated")
+
+    def test_is_shown_before_mistakes(self):
+        program = sh(f"{BIN}/model --bare | awk 'NF {{$1 = -$1; $3 = -$3}} {{print}}'")
+        done = subprocess.run([sys.executable, PACK / "conform", "--sandbox", "no", "--stage", "model", "--only",
+                               "translate-*", "--assignment", "--", *program], stdout=subprocess.PIPE, text=True)
+        self.assertRegex(done.stdout, r"\A.+\n.+\n\n\d+ of \d+ wrong numbers: x and z are negated\n")
+
+    def test_a_guess_names_the_mistake_whose_cases_fail(self):
+        program = sh(f"sed '/^up/s/.*/up 0 2 0/' | {BIN}/view")
+        done = conform("--stage", "view", "--basic", "--without", "syntax", "--only", "[lru]*", "--", *program)
+        self.assertRegex(done.stdout, r"\n#   most like view/up-is-0-1-0: |\n# view/up-is-0-1-0: ")
+
+
+class Shortest(unittest.TestCase):
+    TEXT = "attributes w color\nclipped\n1 2 3 4 9 9 9\n1 2 3 4 9 9 9\n1 2 3 4 9 9 9\n\n1.50 2 3 4.5 9 9 9\n"
+
+    def difference(self, found):
+        return same_shortest(self.TEXT.encode(), found.encode())
+
+    def test_w_and_clipped_are_named(self):
+        self.assertIsNone(self.difference(self.TEXT.replace("1.50", "1.5").replace(" 9 9 9\n\n", " 9.0 9 9\n\n")))
+        self.assertEqual(self.difference(self.TEXT.replace("4.5", "4.50")).message,
+                         "line 6, blank ones not counted: w is not in the shortest form (T20)")
+        self.assertEqual(self.difference(self.TEXT.replace("3 4 9", "3.0 4 9", 1)).message,
+                         "line 3, blank ones not counted: a line of `clipped` is not in the shortest form (T20)")
 
 
 class Digits(unittest.TestCase):
@@ -531,6 +615,15 @@ class Pictures(unittest.TestCase):
     def test_shows_both_pictures(self):
         difference = same_picture(self.EXPECTED, bmp([".aab.", "..bb."]), has_free_colors=True)
         self.assertEqual((difference.expected, difference.found), (".aab.\n..ab.", ".aab.\n..bb."))
+
+    def test_names_the_field_that_differs(self):
+        self.assertIsNone(different_field(self.EXPECTED, self.EXPECTED))
+        for at, message in ((2, "bytes 2 to 5: the file's size"), (27, "bytes 26 to 27: the planes"),
+                            (38, "bytes 38 to 41: pixels a meter in x"), (69, "byte 69: the pixels, or their filling")):
+            found = self.EXPECTED[:at] + b"\x77" + self.EXPECTED[at + 1:]
+            self.assertEqual(different_field(self.EXPECTED, found).message, f"the picture's file, {message}")
+        self.assertEqual(different_field(self.EXPECTED, self.EXPECTED[:28] + b"\x20" + self.EXPECTED[29:])[1:3],
+                         ("24", "32"))
 
     def test_other_forms_of_bmp_are_read(self):
         for depth in (24, 32):

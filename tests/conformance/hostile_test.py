@@ -183,7 +183,7 @@ class HostileTest(unittest.TestCase):
                                 **others)
 
     def conform(self, *words, **others):
-        return self.start(PACK / "conform", "--stage", "zbuf", "--read", BIN, *words, **others)
+        return self.start(PACK / "conform", "--tap", "--stage", "zbuf", "--read", BIN, *words, **others)
 
     def assert_nothing_left(self):
         self.assertEqual(left_running(), [])
@@ -259,7 +259,7 @@ class Attacks(HostileTest):
         mount = [
             "unshare", "-Urm", "sh", "-c", 'mount -t tmpfs -o size=64M none "$TMPDIR" && exec "$@"', "sh"]
         words = [
-            PACK / "conform", "--stage", "zbuf", "--sandbox", "no", "--only", "two-back-to-front", "--", path]
+            PACK / "conform", "--stage", "zbuf", "--sandbox", "no", "--tap", "--only", "two-back-to-front", "--", path]
         if subprocess.run([*mount, "true"], env=self.environment, stderr=subprocess.DEVNULL).returncode:
             self.skipTest("no mounts without root here")
         done = subprocess.run([*mount, sys.executable, *words], env=self.environment, cwd=self.folder,

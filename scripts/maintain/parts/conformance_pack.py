@@ -55,8 +55,8 @@ class Case:
     def answered(self):
         """The fields of the case, and its files by name, as far as a page holds them."""
         files = {"input.txt": self.text.encode("latin-1")}
-        if self.stage == "zbuf" and self.config.encode() != CONFIG:
-            files["config.txt"] = self.config.encode()
+        if self.stage == "zbuf" and self.config.encode("latin-1") != CONFIG:
+            files["config.txt"] = self.config.encode("latin-1")
         if self.refused:
             self.expect_refusal()
         else:
@@ -89,7 +89,7 @@ class Case:
     def drawn(self, rule):
         with tempfile.TemporaryDirectory() as name:
             config, image = pathlib.Path(name, "config.txt"), pathlib.Path(name, "out.bmp")
-            config.write_bytes(self.config.encode())
+            config.write_bytes(self.config.encode("latin-1"))
             depths = answer("zbuf", self.text,
                             [str(config), "--image",
                              str(image), "--coverage", rule, *self.options.split()])

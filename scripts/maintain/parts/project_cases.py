@@ -236,8 +236,6 @@ def digits():
         "-0.00000001 0 -1.5\n0 -0.00000004 -2\n0.00000001 0 -1.4999999999\n\n", tier="bytes")
     yield case("ties", "A tie is rounded to the even digit.", "T19", "90 1 1 3",
         "0.00390625 0.01171875 -1\n-0.01953125 0.02734375 -1\n0.03515625 -0.04296875 -1\n\n", tier="bytes")
-    yield case("no-header-left", "project leaves vertices and blank lines alone of a plain text.",
-               "T3 T17 T18")
     for number in ("0", "3", "16", "exact"):
         yield case(f"digits-{number}", "--digits tells how many decimals are written.", "T19 T20",
                    options=f"--digits {number}", tier="bytes")

@@ -5,10 +5,11 @@ from parts.zbuf_cases import TIE, case, config, flat, pixels, triangle
 def text_and_file():
     corners = [(-0.83, -0.77), (0.87, -0.31), (-0.13, 0.91)]
     for name, z in {
-            "down": 0.0078125, "up": 0.0234375, "negative": -0.0078125, "carry": 0.9999996,
-            "just-above": 0.00781251}.items():
+            "down": 0.0078125, "up": 0.0234375, "negative": -0.0078125, "carry": 0.9999996}.items():
         yield case(f"depth-ties-{name}", "Depths have 6 decimals; a tie is rounded to the even digit.",
                    "T23 T19", flat(corners, z), tier="bytes")
+    yield case("depth-ties-just-above", "Just above a tie is no tie.", "T23 T19",
+               flat(corners, 9).replace(" 9\n", " 0.00781250001\n"), tier="bytes")
     yield case("depth-zero-has-no-sign", "Zero, and what is rounded to it, has no sign.", "T23 T19",
         flat(corners, -0.0000004) + flat([(x, y) for y, x in corners], 0.1), tier="bytes")
     for width in range(1, 7):

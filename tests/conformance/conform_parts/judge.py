@@ -6,9 +6,10 @@ from decimal import Decimal
 from fractions import Fraction
 
 # excuses: mistakes that would have given something else; other_rule: the rule by which there is no
-# difference; is_failure: the program did not come to an end of its own, or failed
-Difference = namedtuple("Difference", "message expected found excuses other_rule is_failure",
-                        defaults=("", "", (), None, False))
+# difference; is_failure: the program did not come to an end of its own, or failed; points: pairs of what a
+# vertex should be and what it is
+Difference = namedtuple("Difference", "message expected found excuses other_rule is_failure points",
+                        defaults=("", "", (), None, False, ()))
 # A double has up to 309 digits before the point and 1074 behind it; Python reads no number of more than 4300.
 NUMBER = re.compile(r"[+-]?([0-9]{1,2000}\.?[0-9]{0,2000}|\.[0-9]{1,2000})([eE][+-]?[0-9]{1,4})?")
 LEAST_DIGITS = 6  # a text whose numbers do not all have the same decimals is taken to have at least these
@@ -90,6 +91,23 @@ def is_same_word(expected, found, digits):
     return abs(Fraction(expected) - Fraction(found)) <= leeway + DOUBLE * abs(Fraction(expected))
 
 
+def same_shortest(expected, found):
+    """The first Difference of `w` and of the lines of `clipped`, which are written in the shortest form, whatever
+    the others are (T20), of two texts whose numbers are the same."""
+    texts = [[line.split() for line in text.decode("latin-1").splitlines() if line.split()]
+             for text in (expected, found)]
+    has_w, clipped = False, 0
+    for at, (want, got) in enumerate(zip(*texts), 1):
+        has_w |= want[:2] == ["attributes", "w"]
+        is_vertex, clipped = bool(NUMBER.fullmatch(want[0])), 4 if want == ["clipped"] else max(0, clipped - 1)
+        columns = slice(0, 4) if clipped else slice(3, 4) if has_w and is_vertex else slice(0)
+        if want[columns] != got[columns]:
+            field = "a line of `clipped`" if clipped else "w"
+            return Difference(f"line {at}, blank ones not counted: {field} is not in the shortest form (T20)",
+                              " ".join(want[columns]), " ".join(got[columns]))
+    return None
+
+
 class NoPicture(Exception):
     """Its text says what is wrong with a file that should be a BMP image."""
 
@@ -107,6 +125,26 @@ def read_bmp(data):
     rows = [[tuple(data[at + size * column:at + size * column + 3][::-1]) for column in range(width)]
             for at in range(start, start + stride * abs(height), stride)]
     return rows[::-1] if height > 0 else rows
+
+
+# Of a BMP file (T24): where each field begins, and its name.
+FIELDS = {0: "the letters BM", 2: "the file's size", 6: "reserved", 10: "where the pixels begin",
+          14: "the size of the second header", 18: "the width", 22: "the height", 26: "the planes",
+          28: "the bits a pixel", 30: "the compression", 34: "the size of the pixels", 38: "pixels a meter in x",
+          42: "pixels a meter in y", 46: "the colors used", 50: "the important colors", 54: "the pixels, or their filling"}
+
+
+def different_field(expected, found):
+    """The Difference of two BMP files with the same pixels; None if there is none."""
+    if expected == found:
+        return None
+    at = next((i for i, (a, b) in enumerate(zip(expected, found)) if a != b), min(len(expected), len(found)))
+    begin = max(start for start in FIELDS if start <= at)
+    end = min([start for start in FIELDS if start > at], default=at + 1)
+    if begin == 54:
+        return Difference(f"the picture's file, byte {at}: {FIELDS[54]}", f"{len(expected)} bytes", f"{len(found)} bytes")
+    values = [str(int.from_bytes(data[begin:end], "little")) for data in (expected, found)]
+    return Difference(f"the picture's file, bytes {begin} to {end - 1}: {FIELDS[begin]}", *values)
 
 
 def drawn(rows, background):

@@ -1,7 +1,10 @@
-"""What a run has shown: TAP and a table on stdout, JSON in a file."""
+"""What a run has shown: TAP and a table on stdout, JSON and JUnit's XML in files."""
 import json
+import re
 from collections import namedtuple
+from xml.sax.saxutils import escape, quoteattr
 
+from . import shared
 from .cases import ASSIGNMENT, BYTES, EXTENSIONS, LOOKS, REFUSALS
 
 GROUPS = (ASSIGNMENT, BYTES, REFUSALS, LOOKS, EXTENSIONS)
@@ -10,6 +13,9 @@ GROUPS = (ASSIGNMENT, BYTES, REFUSALS, LOOKS, EXTENSIONS)
 Result = namedtuple("Result", "case state difference reason group", defaults=(None, None, ASSIGNMENT))
 Heading = namedtuple("Heading", "names results title",
                      defaults=("no mistake of the list", ))  # mistakes that cannot be told apart, or none
+MOST_NAMES = 3  # that are named together: more say nothing
+MOST_OTHERS = 5  # cases that are named beside the first
+LEAST_LIKE = 0.4  # of the cases that fail or catch a mistake, those that do both, if it is named as a guess
 
 
 def tap_lines(number, result):
@@ -19,8 +25,13 @@ def tap_lines(number, result):
     directive = f" # TODO open: {result.reason}" if result.state == "open" else ""
     lines = [f"{'not ok' if difference else 'ok'} {number} - {case.name}{directive}"]
     if difference:
-        lines += [f"#   why: {case.why}", *difference_lines(difference)]
+        lines += [paragraph_line(case), f"#   why: {case.why}", *difference_lines(difference)]
     return lines
+
+
+def paragraph_line(case):
+    labels = case.words("paragraphs")
+    return f"#   paragraph{'s' * (len(labels) > 1)}: {', '.join(labels)} (pipeline help {labels[0]})"
 
 
 def difference_lines(difference):
@@ -41,10 +52,7 @@ def headings(results):
     failed = [result for result in results if result.state == "wrong" and result.difference.is_failure]
     judged = [result for result in results if result.state in ("right", "wrong") and result not in failed]
     failing = {result.case.name: result for result in judged if result.state == "wrong"}
-    caught_by = {}
-    for result in judged:
-        for mistake in result.case.words("catches"):
-            caught_by.setdefault(mistake, set()).add(result.case.name)
+    caught_by = cases_by_mistake(judged)
     excused = {mistake for result in failing.values() for mistake in result.difference.excuses}
     suspects = {mistake: cases for mistake, cases in caught_by.items()
                 if mistake not in excused and len(cases - failing.keys()) <= len(cases) // 20}
@@ -58,6 +66,8 @@ def headings(results):
             break
         explained = suspects[names[0]] & left
         names = [name for name in names if suspects[name] & left == explained]
+        if len(names) > MOST_NAMES:
+            break
         found.append(Heading(sorted(names),
                              [result for name, result in failing.items() if name in explained]))
         left -= explained
@@ -68,10 +78,38 @@ def headings(results):
     return found
 
 
+def cases_by_mistake(results):
+    caught_by = {}
+    for result in results:
+        for mistake in result.case.words("catches"):
+            caught_by.setdefault(mistake, set()).add(result.case.name)
+    return caught_by
+
+
+def most_like(heading, results):
+    """The mistakes whose cases are most nearly those that fail for no mistake of the list: a guess, or none."""
+    if heading.names or all(result.difference.is_failure for result in heading.results):
+        return []
+    failing = {result.case.name for result in heading.results}
+    judged = [result for result in results if result.state in ("right", "wrong")]
+    likeness = {mistake: len(cases & failing) / len(cases | failing)
+                for mistake, cases in cases_by_mistake(judged).items()}
+    most = max(likeness.values(), default=0)
+    names = [name for name in likeness if likeness[name] == most >= LEAST_LIKE]
+    return names if len(names) <= MOST_NAMES and len(failing) > 1 else []
+
+
+def shared_by_most(results):
+    """What most of the wrong numbers share, as a sentence; empty if nothing."""
+    wrong = [result.difference for result in results if result.state == "wrong"]
+    return shared.sentence([point for difference in wrong for point in difference.points])
+
+
 def table(results, mistakes):
     """The failing cases by mistake, each with the one of the shortest input, its reason, and what it expected
     and found."""
-    lines = []
+    sentence = shared_by_most(results)
+    lines = ["#", f"# {sentence}"] if sentence else []
     wrong = [result.difference.other_rule for result in results if result.state == "wrong"]
     if wrong and wrong[0] and wrong.count(wrong[0]) == len(wrong):
         lines += ["#", f"# By --rule {wrong[0]} all of these are right."]
@@ -80,10 +118,19 @@ def table(results, mistakes):
         count = f"{len(heading.results)} case{'s' * (len(heading.results) > 1)}"
         lines += ["#", "# " + " or ".join(heading.names or [heading.title]) + ": " + count]
         lines += ["#   " + mistakes[name] for name in heading.names]
+        lines += [f"#   most like {name}: {mistakes[name]}" for name in most_like(heading, results)]
         lines += [
-            f"#   first, by length: {first.case.name}", f"#   why: {first.case.why}",
-            *difference_lines(first.difference)]
+            f"#   first, by length: {first.case.name}", paragraph_line(first.case), f"#   why: {first.case.why}",
+            *difference_lines(first.difference), *other_lines(heading.results, first)]
     return lines
+
+
+def other_lines(results, first):
+    """The cases beside the first, each with its paragraph."""
+    others = [f"{result.case.name} ({result.case.words('paragraphs')[0]})" for result in results
+              if result is not first]
+    rest = [f"and {len(others) - MOST_OTHERS} more (--tap shows each)"] if len(others) > MOST_OTHERS else []
+    return ["#   so do " + ", ".join(others[:MOST_OTHERS] + rest)] if others else []
 
 
 def group_lines(results):
@@ -155,6 +202,7 @@ def as_json(results, terms, mistakes):
             "rule": terms.rule,
             "sandbox": not terms.box.reason,
             "counts": {state: count(results, state) for state in ("right", "wrong", "open", "left out")},
+            "shared": shared_by_most(results),
             "groups": {
                     group: {
                         state: sum(result.state == state for result in results if result.group == group)
@@ -163,8 +211,35 @@ def as_json(results, terms, mistakes):
             "mistakes": [{
                         "names": heading.names,
                         "sentences": [mistakes[name] for name in heading.names],
+                        "most like": most_like(heading, results),
                         "cases": [result.case.name for result in heading.results],
                     }
                          for heading in headings(results)],
             "cases": [entry(result) for result in results],
         }, indent=1) + "\n"
+
+
+def as_junit(results):
+    """The form of JUnit's reports that test runners read."""
+    def legal(text):  # XML 1.0 has no other characters
+        return re.sub("[^\t\n\r -\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]", "?", text)
+
+    lines, stages = ['<?xml version="1.0" encoding="UTF-8"?>', "<testsuites>"], {}
+    for result in results:
+        stages.setdefault(result.case.stage, []).append(result)
+    for stage, members in stages.items():
+        skipped = sum(result.state in ("open", "left out") for result in members)
+        lines.append(f'<testsuite name="{stage}" tests="{len(members)}" failures="{count(members, "wrong")}" '
+                     f'errors="0" skipped="{skipped}">')
+        for result in members:
+            case, end = result.case, ""
+            if result.state == "wrong":
+                difference = result.difference
+                text = "\n".join([f"{case.why} ({', '.join(case.words('paragraphs'))})",
+                                  *(line[4:] for line in difference_lines(difference))])
+                end = f"<failure message={quoteattr(legal(difference.message))}>{escape(legal(text))}</failure>"
+            elif result.state != "right":
+                end = f"<skipped message={quoteattr(legal(result.reason))}/>"
+            lines.append(f'<testcase classname="{stage}" name="{case.short_name}">{end}</testcase>')
+        lines.append("</testsuite>")
+    return "\n".join([*lines, "</testsuites>", ""])

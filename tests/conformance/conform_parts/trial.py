@@ -7,7 +7,8 @@ from collections import namedtuple
 
 from . import confined
 from .cases import CAMERA, CONFIG, FED, RULES, camera_of, scene_of, without_header
-from .judge import Difference, same_bytes, same_digits, same_picture
+from .judge import Difference, different_field, same_bytes, same_digits, same_picture, same_shortest
+from .shared import wrong_points
 
 # folder: where those of the cases belong
 Terms = namedtuple("Terms",
@@ -117,7 +118,8 @@ def judge_ending(case, terms, ending, outputs):
     try:
         difference = judge_outputs(case, terms, outputs)
         return difference and difference._replace(excuses=excuses(case, terms, outputs),
-                                                  other_rule=other_rule(case, terms, outputs))
+                                                  other_rule=other_rule(case, terms, outputs),
+                                                  points=points(case, terms, outputs))
     except confined.Refused as error:
         return Difference(str(error), is_failure=True)
 
@@ -132,9 +134,11 @@ def judge_refusal(case, terms, ending, complaint):
     if terms.judges_lines and (not told or told[1] != str(case.refused_line)):
         return Difference("the message does not name the line", expected,
                           complaint.strip().partition("\n")[0])
-    last = ending.stdout.decode("latin-1").rstrip("\n").split("\n")[-1]
-    if tier_of(case, terms) == "bytes" and case.stage != "zbuf" and not last.startswith("error "):
-        return Difference("the output does not end with the error", "error TOOL: ...", last)
+    *_, last, end = ["", *ending.stdout.decode("latin-1").split("\n")]
+    writes_text = case.stage != "zbuf" and b"\nerror " not in b"\n" + case.read("input.txt")  # T12: need not
+    if terms.tier != "digits" and writes_text and (end or not re.match("error [^ :]+: .", last)):
+        return Difference("the output does not end with a line `error TOOL: MESSAGE` (T12)", "error TOOL: MESSAGE",
+                          end or last)
     return None
 
 
@@ -149,6 +153,16 @@ def excuses(case, terms, outputs):
         return ()
     return tuple(mistake for mistake in case.words("catches")
                  if is_excused(case, terms, outputs, f"with-{mistake.partition('/')[2]}"))
+
+
+def points(case, terms, outputs):
+    is_stage_text, name = case.stage != "zbuf", f"depths-{terms.rule}.txt"
+    if outputs.text is None or not is_stage_text and not terms.judges_depths:
+        return ()
+    expected = case.read("expected.txt" if is_stage_text else name)
+    if is_stage_text:
+        return wrong_points(without_header(expected), without_header(outputs.text), True)
+    return wrong_points(expected, outputs.text, False)
 
 
 def is_excused(case, terms, outputs, name):
@@ -173,8 +187,11 @@ def judge_outputs(case, terms, outputs):
     is_strict = tier_of(case, terms) == "bytes"
     if case.stage != "zbuf":
         expected = case.read("expected.txt")
-        judge = same_bytes if is_strict else same_digits
-        return judge(without_header(expected) if terms.is_bare else expected, outputs.text)
+        if terms.is_bare or terms.tier:
+            judge = same_bytes if is_strict else same_digits
+            return judge(without_header(expected) if terms.is_bare else expected, outputs.text)
+        return same_bytes(expected, outputs.text) if is_strict else same_digits(
+            expected, outputs.text) or same_shortest(expected, outputs.text)
     if terms.judges_depths:
         depths = outputs.text
         if depths is None:
@@ -194,6 +211,5 @@ def judge_outputs(case, terms, outputs):
         difference = same_picture(expected, image, has_free_colors)
         if difference or not is_strict or expected == image:
             return difference
-        return Difference("the bytes of the picture's file differ", f"{len(expected)} bytes",
-                          f"{len(image)} bytes")
+        return different_field(expected, image)
     return None
