@@ -135,7 +135,7 @@ class Specification(unittest.TestCase):
                 self.assertTrue(matches or "refused" in fields)
             refused, wrong = refused + ("refused" in fields), wrong + (not matches)
         self.assertGreater(refused, 100)
-        self.assertGreater(wrong, refused / 2)  # the others break a rule about what a number is
+        self.assertGreater(wrong, refused / 3)  # the others break a rule about numbers, order or what is there
 
     def test_pages_are_short(self):
         for page in PAGES:

@@ -41,6 +41,26 @@ class Mutants(unittest.TestCase):
         self.assertEqual(changes_in("x = 0.5; y = 1e200;"),
                          ["x = 0.5; y = [1e200 -> 1e201];", "x = [0.5 -> 1.5]; y = 1e200;"])
 
+    def test_clauses_of_python(self):
+        def clauses(line):
+            return sorted(mutant.name.removeprefix("a.py: ") for mutant in mutants_of("a.py", line + "\n"))
+
+        self.assertEqual(clauses("x = a[0] <= -b"), ["x = a[0] <= [- -> nothing]b", "x = a[0] [<= -> <] -b",
+                                                     "x = a[0] [<= -> >=] -b"])
+        self.assertEqual(clauses("if a and not b: f(c)"), [
+            "if [a and -> nothing]not b: f(c)", "if [a and not b -> False]: f(c)",
+            "if [a and not b -> True]: f(c)", "if a [and -> or] not b: f(c)", "if a and [not -> nothing]b: f(c)",
+            "if a and not b: [f(c) -> pass]", "if a[ and not b -> nothing]: f(c)"])
+        self.assertEqual(clauses("x = ('a', 'b') if a in ('c', 'd') else min(b)"), [
+            "x = ('a', 'b') if [a in ('c', 'd') -> False] else min(b)",
+            "x = ('a', 'b') if [a in ('c', 'd') -> True] else min(b)",
+            "x = ('a', 'b') if a [in -> not in] ('c', 'd') else min(b)",
+            "x = ('a', 'b') if a in ('c', 'd') else [min -> max](b)", "x = ('a'[, 'b' -> nothing]) if a in ('c', 'd') "
+            "else min(b)", "x = (['a', 'b' -> 'b', 'a']) if a in ('c', 'd') else min(b)"])
+        self.assertEqual(clauses("x = [y for y in z if y] + [3]"), [
+            "x = [y for y in z if [y -> True]] + [3]", "x = [y for y in z if y] + [[3 -> 2]]",
+            "x = [y for y in z if y] + [[3 -> 4]]", "x = [y for y in z if y] [+ -> -] [3]"])
+
     def test_conditions(self):
         self.assertEqual(changes_in("if (is_fine(a)) return b;"),
                          ["if ([is_fine(a) -> false]) return b;", "if ([is_fine(a) -> true]) return b;"])

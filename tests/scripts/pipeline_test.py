@@ -90,6 +90,12 @@ class Prefix(ToolTest):
         self.assertEqual(run(self.pipeline, "help", "show"), (0, "show <--help>\n", ""))
         self.assertTrue(run(self.pipeline, "help", "env")[1].startswith("usage: pipeline COMMAND"))
 
+    def test_help_of_a_paragraph_is_that_of_conform(self):
+        self.refuses(["help", "Z5"], "expected a command, found 'Z5' (try pipeline help)")
+        self.add("conform", ECHO)
+        self.assertEqual(run(self.pipeline, "help", "Z5"), (0, "conform <--paragraph> <Z5>\n", ""))
+        self.refuses(["help", "Z5", "x"], "expected no further word, found 'x' (try pipeline help)")
+
     def test_help_on_a_terminal_is_the_man_page(self):
         page = self.prefix / "share/man/man1/pipeline-show.1.gz"
         page.parent.mkdir(parents=True)
@@ -211,6 +217,14 @@ class BuildTree(ToolTest):
                          (1, "", "stages: the tool beside\n"))
         self.assertEqual(run(folder / "inspect", SAMPLE / "scene.txt", SAMPLE / "config.txt"),
                          (1, "", "inspect: the tool beside\n"))
+
+    def test_help_of_a_paragraph_shows_what_carries_it_out(self):
+        status, text, messages = run(BIN / "pipeline", "help", "Z5")
+        self.assertEqual((status, messages, text.splitlines()[0]), (0, "", "Z5, docs/stages.md"))
+        for line in ("cases:\n  zbuf/on-centers-four-squares: ", "in the reference:\n  tests/reference/reference.py:",
+                     "in the sources:\n  libpipeline/coverage/center.cpp:"):
+            self.assertIn("\n" + line, text)
+        self.assertEqual(run(BIN / "pipeline", "help", "Z99")[0], 2)
 
     def test_every_command_has_a_short_description(self):
         text = run(BIN / "pipeline", "help")[1]

@@ -20,9 +20,13 @@ def changes(text):
         return lines[node.lineno - 1] + node.col_offset, lines[last.end_lineno - 1] + last.end_col_offset
 
     tree = ast.parse(text)
-    places = {id(part) for node in ast.walk(tree) if isinstance(node, ast.Subscript) for part in ast.walk(node.slice)}
+    # Another element of a vector is no clause of its own; nor is the order of words that one may be.
+    beside = [node.slice for node in ast.walk(tree) if isinstance(node, ast.Subscript)]
+    beside += [side for node in ast.walk(tree) if isinstance(node, ast.Compare)
+               for side in node.comparators if isinstance(side, ast.Tuple)]
+    left_out = {id(part) for node in beside for part in ast.walk(node)}
     for node in ast.walk(tree):
-        if id(node) not in places:  # another element of a vector is no clause of its own
+        if id(node) not in left_out:
             yield from changes_of(node, span, text)
 
 

@@ -1,4 +1,5 @@
 """Runs the cases of the conformance pack on mutants of tests/reference/reference.py."""
+import ast
 import contextlib
 import io
 import multiprocessing
@@ -79,20 +80,18 @@ def is_noticed(run):
 
 
 def traced(run):
-    """The seconds that a case takes, the lines that it runs, and whether it fails."""
-    lines = set()
+    """The seconds that a case takes, the first lines of the functions that it calls, and whether it fails."""
+    called = set()
 
-    def trace(frame, event, _):
-        if frame.f_code.co_filename != FILE:
-            return None
-        lines.add(frame.f_lineno)
-        return trace
+    def trace(frame, *_):
+        if frame.f_code.co_filename == FILE:
+            called.add(frame.f_code.co_firstlineno)
 
     began = time.monotonic()
     sys.settrace(trace)
     is_failed = is_noticed(run)
     sys.settrace(None)
-    return time.monotonic() - began, lines, is_failed
+    return time.monotonic() - began, called, is_failed
 
 
 def first_noticed(text, runs, connection):
@@ -102,10 +101,12 @@ def first_noticed(text, runs, connection):
 
 
 class ReferenceTrial:
-    """The cases, from the shortest, each with the lines of the reference that it runs."""
+    """The cases, from the shortest, each with the functions of the reference that it calls."""
 
     def __init__(self, jobs):
         self.jobs, self.text = jobs, (SOURCE / FILE).read_text()
+        self.functions = [(node.lineno, node.end_lineno) for node in ast.walk(ast.parse(self.text))
+                          if isinstance(node, ast.FunctionDef)]
         runs = [Run(case, rule) for stage in STAGES for case in read_cases(stage)
                 for rule in (RULES if stage == "zbuf" else RULES[:1])]
         with FORKED.Pool(self.jobs, load, (self.text, )) as pool:
@@ -117,9 +118,8 @@ class ReferenceTrial:
 
     def outcome(self, mutant, _):
         """"survived" or "killed by CASE"."""
-        last = mutant.line + 1 + self.text.count("\n", mutant.begin, mutant.end)
-        touching = {*range(mutant.line + 1, last + 1)}
-        chosen = [run for run, lines in self.runs if lines & touching] or [run for run, _ in self.runs]
+        around = [first for first, last in self.functions if first <= mutant.line + 1 <= last]
+        chosen = [run for run, called in self.runs if not around or max(around) in called]
         connections, processes = [], []
         for share in range(self.jobs):
             ours, theirs = FORKED.Pipe(duplex=False)

@@ -14,7 +14,7 @@ Result = namedtuple("Result", "case state difference reason group", defaults=(No
 Heading = namedtuple("Heading", "names results title",
                      defaults=("no mistake of the list", ))  # mistakes that cannot be told apart, or none
 MOST_NAMES = 3  # that are named together: more say nothing
-MOST_OTHERS = 5  # cases that are named beside the first
+MOST_OTHERS = 2  # cases that are named beside the first
 LEAST_LIKE = 0.4  # of the cases that fail or catch a mistake, those that do both, if it is named as a guess
 
 
