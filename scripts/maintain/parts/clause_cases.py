@@ -95,7 +95,11 @@ def depths_of_ends():
                    corners, CONFIG, open="A triangle without area may have pixels or none.")
     wide = "-3 -0.9 -1.5\n3 -0.9 1.5\n0 3 0\n"
     yield Case("zbuf", "depth-at-front-and-rear", "A depth of FRONT is drawn, one of REAR is not.", "Z8",
-               "-3 -3 -0.5\n3 -3 -0.5\n0 3 -0.5\n\n" * 2 + "-3 0 0.5\n3 0 0.5\n0 3 0.5\n", "8 8\n-1\n-1\n-0.5 0.5\n")
+               "-3 -3 -0.5\n3 -3 -0.5\n0 3 -0.5\n\n-3 0 0.5\n3 0 0.5\n0 3 0.5\n", "8 8\n-1\n-1\n-0.5 0.5\n")
+    beyond = "".join(f"-3 -3 {z}\n3 -3 {z}\n0 {y} {z}\n\n" for y, z in (
+        (3, 1), (2, 1.5), (1, -1.5), (0.5, 0.999), (-0.25, -1)))
+    yield Case("zbuf", "depths-of-a-size-alone", "Without limits in the config depths are drawn from -1 to below 1.",
+               "C2 Z8", beyond, "8 8\n", needs="syntax")
     yield Case("zbuf", "depth-front-above-0", "Both limits may be on one side of 0.", "Z8 C2", wide,
                "8 8\n-1\n-1\n0.25 0.5\n")
     tall = "-0.9 -0.9 0\n0.9 -0.9 0.5\n0.1 0.9 1\n"
@@ -115,6 +119,18 @@ def depths_of_ends():
         text = f"-.5{x[1:]} -.5{y[1:]} 0\n.75{x[1:]} -.25{y[1:]} 0\n0 .75{y[1:]} 0\n"
         yield Case("zbuf", f"window-{name}-limits", "The limits of x and y may be from 1e-200 to 1e200.", "C2", text,
                    f"8 8\n{left}\n{bottom}\n-1 1\n", needs="exactness")
+    for name, why, line, file in (
+        ("largest-size", "A picture of 65535 rows and columns is one.", 2, "65535 65535\n1\n"),
+        ("height-too-large", "A picture has at most 65535 rows.", 1, "1 65536\n"),
+        ("left-limit-beyond-1e200", "The left limit is at least -1e200.", 2, "8 8\n-1.000001e200\n-1\n-1 1\n"),
+        ("bottom-limit-beyond-1e200", "So is the bottom limit.", 3, "8 8\n-1\n-1.000001e200\n-1 1\n"),
+        ("left-limit-below-1e-200", "The left limit is at most -1e-200.", 2, "8 8\n-9.99999e-201\n-1\n-1 1\n"),
+        ("limits-of-three-lines", "All limits are there, or none.", 4, "8 8\n-1\n-1\n")):
+        yield refused("zbuf", f"config-{name}", why, "C1 C2", line, VERTICES, file)
+    yield Case("zbuf", "shading-none-without-lights", "--shading none needs no light.", "L1", tall, CONFIG,
+               options="--shading none")
+    yield Case("zbuf", "samples-16", "A pixel has up to 16 times 16 samples.", "Z12", tall, "3 2\n",
+               options="--samples 16", open="The assignment has no samples.")
     yield Case("zbuf", "alpha-that-rounds-to-255", "An alpha is rounded before it is compared.", "Z11 L6",
                "background 1 2 3 254.5\n" + VERTICES, CONFIG, needs="alpha")
     yield refused("zbuf", "alpha-that-rounds-to-254", "An alpha is rounded before it is compared.", "Z11", 1,
@@ -156,6 +172,8 @@ def numbers_in_words():
                    "\xef\xbb\xbf" + header + VERTICES, CONFIG, needs="syntax")
         yield Case(stage, "lines-comment-in-a-triangle", "A line of comment alone does not part a triangle.", "T8",
                    header + VERTICES.replace("1 0 -2", "# c\n1 0 -2\n  # c\n#"), CONFIG, needs="syntax")
+        yield Case(stage, "lines-carriage-return-before-a-comment", "It is at the end of the line.", "S1",
+                   header + VERTICES.replace("0 -2", "0 -2\r# c"), CONFIG, needs="syntax")
         yield Case(stage, "lines-indented", "Blanks and tabs may stand in front of words.", "S2 T8",
                    " " * bool(header) + header + VERTICES.replace("1", "\t 1"), CONFIG, needs="syntax")
         at = header.count("\n")
@@ -368,6 +386,8 @@ def scenes():
         ("late-use", "use may stand anywhere.", "S15", MATERIALS + TRIANGLE + "use 1\n" + TRIANGLE, ""),
         ("shininess-of-2-to-the-53-and-1", "A shininess of digits alone is exact.", "S19 T20",
          "material 1 1 1 9007199254740993\n" + TRIANGLE, ""),
+        ("shininess-of-0-as-a-number", "A shininess may be 0, however it is written.", "S19 T20",
+         "material 1 1 1 0.0\n" + TRIANGLE, ""),
         ("shininess-below-2-to-the-64", "A shininess is below 2^64.", "S19 T20",
          "material 1 1 1 18446744073709551615\n" + TRIANGLE, ""),
         ("material-at-its-limits", "The limits belong to the ranges.", "S19b", "material 0 0 0 0 1 100 0\nmaterial 0 0 "

@@ -119,7 +119,8 @@ class ReferenceTrial:
     def outcome(self, mutant, _):
         """"survived" or "killed by CASE"."""
         around = [first for first, last in self.functions if first <= mutant.line + 1 <= last]
-        chosen = [run for run, called in self.runs if not around or max(around) in called]
+        chosen = [run for run, called in self.runs if around and max(around) in called] or [
+            run for run, _ in self.runs]
         connections, processes = [], []
         for share in range(self.jobs):
             ours, theirs = FORKED.Pipe(duplex=False)
