@@ -30,7 +30,8 @@ def results(stage, *switches, options=()):
     with tempfile.TemporaryDirectory() as folder:
         path = pathlib.Path(folder, "results.json")
         done = subprocess.run([
-            sys.executable, PACK / "conform", "--sandbox", "no", "--tap", "--stage", stage, "--assignment", "--json",
+            sys.executable, PACK / "conform", "--sandbox", "no", "--tap", "--stage", stage, "--assignment",
+            "--json",
             path, *options, "--", STUDENT, *words, *switches], stdout=subprocess.PIPE, text=True, timeout=600)
         return done.returncode, json.loads(path.read_text()), done.stdout
 
@@ -58,7 +59,8 @@ class Student(unittest.TestCase):
                 script = (f"{STUDENT} all scene.txt config.txt --folder . --habit all/exact-in-memory; cat "
                           f"stage{number}.txt")
                 done = subprocess.run([
-                    sys.executable, PACK / "conform", "--sandbox", "no", "--tap", "--stage", stage, "--assignment",
+                    sys.executable, PACK / "conform", "--sandbox", "no", "--tap", "--stage", stage,
+                    "--assignment",
                     "--", "sh", "-c", script], stdout=subprocess.PIPE, text=True)
                 self.assertEqual(done.returncode, 0, done.stdout[-3000:])
 

@@ -302,13 +302,15 @@ class Runner(unittest.TestCase):
         self.assertEqual([line for line in why if line.startswith(("#", "ok", "not ok", "TAP"))], [])
 
     def test_shows_the_same_in_a_pipe(self):
-        words = [sys.executable, PACK / "conform", "--sandbox", "no", "--stage", "model", "--only", "stack-p*"]
+        words = [sys.executable, PACK / "conform", "--sandbox", "no", "--stage", "model", "--only",
+                 "stack-p*"]
         program = sh(f"grep -v -e push -e pop | {BIN}/model")
         done = subprocess.run([*words, "--", *program], stdout=subprocess.PIPE, text=True)
         verdict, note, *_, last = done.stdout.splitlines()
         self.assertRegex(verdict, r"^WRONG: \d+ of \d+ cases$")
         self.assertEqual((done.returncode, note, last), (1, "no sandbox (--sandbox no)", verdict))
-        for line in ("model/pop-ignored or model/push-and-pop-ignored: ", "  paragraphs: M5, S13 (pipeline help M5)",
+        for line in ("model/pop-ignored or model/push-and-pop-ignored: ",
+                     "  paragraphs: M5, S13 (pipeline help M5)",
                      "  so do model/"):
             self.assertIn("\n" + line, done.stdout)
 
@@ -337,7 +339,8 @@ class Runner(unittest.TestCase):
             path = pathlib.Path(folder, "results.xml")
             path.write_text("old")
             path.chmod(0o640)
-            done = conform("--stage", "model", "--only", "translate-*", "--only", "bare", "--junit", path, "--",
+            done = conform("--stage", "model", "--only", "translate-*", "--only", "bare", "--junit", path,
+                           "--",
                            *program)
             self.assertEqual((done.returncode, done.stderr, os.listdir(folder)), (1, "", ["results.xml"]))
             self.assertEqual(path.stat().st_mode & 0o777, 0o640)
@@ -356,7 +359,8 @@ class Runner(unittest.TestCase):
         done = self.run_one("model/translate-x", *sh("echo 9 2.0 3; cat >&2"), options=["--assignment"])
         self.assert_wrong(
             done,
-            "not ok 1 - model/translate-x\n#   paragraph: M3 (pipeline help M3)\n#   why: Each number of translate moves its own coordinate.\n",
+            "not ok 1 - model/translate-x\n#   paragraph: M3 (pipeline help M3)\n"
+            "#   why: Each number of translate moves its own coordinate.\n",
             "#   line 1, blank ones not counted, differs\n#   expected: 3.5000000 2.0000000 3.0000000\n#   "
             "found:    9 2.0 3\n"
         )
@@ -447,10 +451,12 @@ class Runner(unittest.TestCase):
         for message in ("mine: line 5: pop", "scene.txt:5:1: pop"):
             script = f"echo 'error mine: pop'; echo '{message}' >&2; exit 1"
             self.assertEqual(self.run_one(case, *sh(script)).returncode, 0)
-        self.assertEqual(self.run_one(case, *sh("echo error m: 1; exit 1"), options=["--any-line"]).returncode, 0)
+        self.assertEqual(self.run_one(case, *sh("echo error m: 1; exit 1"),
+                                      options=["--any-line"]).returncode, 0)
         for end in ("", "echo error mine; ", "printf 'error mine: pop'; "):
             script = sh(f"{end}echo 'mine: line 5: pop' >&2; exit 1")
-            self.assert_wrong(self.run_one(case, *script), "does not end with a line `error TOOL: MESSAGE` (T12)")
+            self.assert_wrong(self.run_one(case, *script),
+                              "does not end with a line `error TOOL: MESSAGE` (T12)")
             self.assertEqual(self.run_one(case, *script, options=["--tier", "digits"]).returncode, 0)
 
     def test_files_in_place_of_stdin_and_stdout(self):
@@ -514,8 +520,10 @@ class Shared(unittest.TestCase):
 
     def test_is_told_of_three_of_four_wrong_numbers(self):
         expected = "1 2 3\n4 5 6\n7 8 9\n\n-1 0 2\n"
-        for found, told in (("-1 2 -3\n-4 5 -6\n-7 8 -9\n\n1 0 -2\n", "8 of 8 wrong numbers: x and z are negated"),
-                            ("-1 2 -3\n-4 5 -6\n-7 8 -9\n\n1 0 2.5\n", "7 of 8 wrong numbers: x and z are negated"),
+        for found, told in (("-1 2 -3\n-4 5 -6\n-7 8 -9\n\n1 0 -2\n",
+                             "8 of 8 wrong numbers: x and z are negated"),
+                            ("-1 2 -3\n-4 5 -6\n-7 8 -9\n\n1 0 2.5\n",
+                             "7 of 8 wrong numbers: x and z are negated"),
                             ("2 1 3\n5 4 6\n8 7 9\n\n0 -1 2\n",
                              "8 of 8 wrong numbers: x is what y should be, y is what x should be"),
                             ("2 4 6\n8 10 12\n14 16 18\n\n-2 0 4\n",
@@ -529,13 +537,16 @@ class Shared(unittest.TestCase):
 
     def test_is_shown_before_mistakes(self):
         program = sh(f"{BIN}/model --bare | awk 'NF {{$1 = -$1; $3 = -$3}} {{print}}'")
-        done = subprocess.run([sys.executable, PACK / "conform", "--sandbox", "no", "--stage", "model", "--only",
-                               "translate-*", "--assignment", "--", *program], stdout=subprocess.PIPE, text=True)
+        done = subprocess.run([sys.executable, PACK / "conform", "--sandbox", "no", "--stage", "model",
+                               "--only",
+                               "translate-*", "--assignment", "--", *program], stdout=subprocess.PIPE,
+                              text=True)
         self.assertRegex(done.stdout, r"\A.+\n.+\n\n\d+ of \d+ wrong numbers: x and z are negated\n")
 
     def test_a_guess_names_the_mistake_whose_cases_fail(self):
         program = sh(f"sed '/^up/s/.*/up 0 2 0/' | {BIN}/view")
-        done = conform("--stage", "view", "--basic", "--without", "syntax", "--only", "[lru]*", "--", *program)
+        done = conform("--stage", "view", "--basic", "--without", "syntax", "--only", "[lru]*", "--",
+                       *program)
         self.assertRegex(done.stdout, r"\n#   most like view/up-is-0-1-0: |\n# view/up-is-0-1-0: ")
 
 
@@ -546,11 +557,13 @@ class Shortest(unittest.TestCase):
         return same_shortest(self.TEXT.encode(), found.encode())
 
     def test_w_and_clipped_are_named(self):
-        self.assertIsNone(self.difference(self.TEXT.replace("1.50", "1.5").replace(" 9 9 9\n\n", " 9.0 9 9\n\n")))
+        self.assertIsNone(self.difference(self.TEXT.replace("1.50", "1.5").replace(" 9 9 9\n\n",
+                                                                                   " 9.0 9 9\n\n")))
         self.assertEqual(self.difference(self.TEXT.replace("4.5", "4.50")).message,
                          "line 6, blank ones not counted: w is not in the shortest form (T20)")
         self.assertEqual(self.difference(self.TEXT.replace("3 4 9", "3.0 4 9", 1)).message,
-                         "line 3, blank ones not counted: a line of `clipped` is not in the shortest form (T20)")
+                         "line 3, blank ones not counted: a line of `clipped` is not in the shortest form "
+                         "(T20)")
 
 
 class Digits(unittest.TestCase):
@@ -619,10 +632,12 @@ class Pictures(unittest.TestCase):
     def test_names_the_field_that_differs(self):
         self.assertIsNone(different_field(self.EXPECTED, self.EXPECTED))
         for at, message in ((2, "bytes 2 to 5: the file's size"), (27, "bytes 26 to 27: the planes"),
-                            (38, "bytes 38 to 41: pixels a meter in x"), (69, "byte 69: the pixels, or their filling")):
+                            (38, "bytes 38 to 41: pixels a meter in x"),
+                            (69, "byte 69: the pixels, or their filling")):
             found = self.EXPECTED[:at] + b"\x77" + self.EXPECTED[at + 1:]
             self.assertEqual(different_field(self.EXPECTED, found).message, f"the picture's file, {message}")
-        self.assertEqual(different_field(self.EXPECTED, self.EXPECTED[:28] + b"\x20" + self.EXPECTED[29:])[1:3],
+        self.assertEqual(different_field(self.EXPECTED,
+                                         self.EXPECTED[:28] + b"\x20" + self.EXPECTED[29:])[1:3],
                          ("24", "32"))
 
     def test_other_forms_of_bmp_are_read(self):

@@ -259,7 +259,8 @@ class Attacks(HostileTest):
         mount = [
             "unshare", "-Urm", "sh", "-c", 'mount -t tmpfs -o size=64M none "$TMPDIR" && exec "$@"', "sh"]
         words = [
-            PACK / "conform", "--stage", "zbuf", "--sandbox", "no", "--tap", "--only", "two-back-to-front", "--", path]
+            PACK / "conform", "--stage", "zbuf", "--sandbox", "no", "--tap", "--only", "two-back-to-front",
+            "--", path]
         if subprocess.run([*mount, "true"], env=self.environment, stderr=subprocess.DEVNULL).returncode:
             self.skipTest("no mounts without root here")
         done = subprocess.run([*mount, sys.executable, *words], env=self.environment, cwd=self.folder,

@@ -111,7 +111,8 @@ class Specification(unittest.TestCase):
                 self.assertTrue(shown.startswith(f"{name}, docs/{page}.md\n"))
                 own = re.search(r"\(`((?:model|view|project|zbuf)/[\w-]+)`\)", text)
                 self.assertRegex(shown, rf"\ncases:\n  {own[1]}: " if own else r"\ncases:\n  (none: |\w+/)")
-                self.assertTrue(demands_nothing or re.search(r"\n  tests/reference/reference\.py:\d+: \w+", shown))
+                self.assertTrue(demands_nothing
+                                or re.search(r"\n  tests/reference/reference\.py:\d+: \w+", shown))
         self.assertIsNone(paragraph.described("Z99"))
 
     def test_marks_name_what_exists(self):
@@ -135,7 +136,8 @@ class Specification(unittest.TestCase):
                 self.assertTrue(matches or "refused" in fields)
             refused, wrong = refused + ("refused" in fields), wrong + (not matches)
         self.assertGreater(refused, 100)
-        self.assertGreater(wrong, refused / 3)  # the others break a rule about numbers, order or what is there
+        self.assertGreater(wrong,
+                           refused / 3)  # the others break a rule about numbers, order or what is there
 
     def test_pages_are_short(self):
         for page in PAGES:

@@ -49,13 +49,15 @@ class Mutants(unittest.TestCase):
                                                      "x = a[0] [<= -> >=] -b"])
         self.assertEqual(clauses("if a and not b: f(c)"), [
             "if [a and -> nothing]not b: f(c)", "if [a and not b -> False]: f(c)",
-            "if [a and not b -> True]: f(c)", "if a [and -> or] not b: f(c)", "if a and [not -> nothing]b: f(c)",
+            "if [a and not b -> True]: f(c)", "if a [and -> or] not b: f(c)",
+            "if a and [not -> nothing]b: f(c)",
             "if a and not b: [f(c) -> pass]", "if a[ and not b -> nothing]: f(c)"])
         self.assertEqual(clauses("x = ('a', 'b') if a in ('c', 'd') else min(b)"), [
             "x = ('a', 'b') if [a in ('c', 'd') -> False] else min(b)",
             "x = ('a', 'b') if [a in ('c', 'd') -> True] else min(b)",
             "x = ('a', 'b') if a [in -> not in] ('c', 'd') else min(b)",
-            "x = ('a', 'b') if a in ('c', 'd') else [min -> max](b)", "x = ('a'[, 'b' -> nothing]) if a in ('c', 'd') "
+            "x = ('a', 'b') if a in ('c', 'd') else [min -> max](b)",
+            "x = ('a'[, 'b' -> nothing]) if a in ('c', 'd') "
             "else min(b)", "x = (['a', 'b' -> 'b', 'a']) if a in ('c', 'd') else min(b)"])
         self.assertEqual(clauses("x = [y for y in z if y] + [3]"), [
             "x = [y for y in z if [y -> True]] + [3]", "x = [y for y in z if y] + [[3 -> 2]]",

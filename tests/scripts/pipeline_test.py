@@ -221,7 +221,8 @@ class BuildTree(ToolTest):
     def test_help_of_a_paragraph_shows_what_carries_it_out(self):
         status, text, messages = run(BIN / "pipeline", "help", "Z5")
         self.assertEqual((status, messages, text.splitlines()[0]), (0, "", "Z5, docs/stages.md"))
-        for line in ("cases:\n  zbuf/on-centers-four-squares: ", "in the reference:\n  tests/reference/reference.py:",
+        for line in ("cases:\n  zbuf/on-centers-four-squares: ",
+                     "in the reference:\n  tests/reference/reference.py:",
                      "in the sources:\n  libpipeline/coverage/center.cpp:"):
             self.assertIn("\n" + line, text)
         self.assertEqual(run(BIN / "pipeline", "help", "Z99")[0], 2)

@@ -1,5 +1,5 @@
-"""Mistakes of one clause that a Python source could have: another operator or limit, a condition that is always
-the same, a check, a word or a condition left out, two words in each other's place."""
+"""Mistakes of one clause that a Python source could have: another operator or limit, a condition that is
+always the same, a check, a word or a condition left out, two words in each other's place."""
 import ast
 import re
 

@@ -49,7 +49,8 @@ def ended(case, rule, folder):
         config.write_bytes(case.read("config.txt"))
         words = [str(config), "--image", str(image), "--coverage", rule, *words]
     stdin, stdout, stderr = sys.stdin, io.TextIOWrapper(io.BytesIO()), io.StringIO()
-    sys.argv, sys.stdin, status = ["reference.py", case.stage, *words], io.TextIOWrapper(io.BytesIO(case.read("input.txt"))), 0
+    sys.argv, sys.stdin, status = ["reference.py", case.stage,
+                                   *words], io.TextIOWrapper(io.BytesIO(case.read("input.txt"))), 0
     try:
         with contextlib.redirect_stdout(stdout), contextlib.redirect_stderr(stderr):
             reference.main()
@@ -59,7 +60,8 @@ def ended(case, rule, folder):
         sys.stdin = stdin
     stdout.flush()
     text = stdout.buffer.getvalue()
-    return Ending(status, text, stderr.getvalue()), Outputs(text, image.read_bytes() if image.exists() else None)
+    return Ending(status, text, stderr.getvalue()), Outputs(text, image.read_bytes() if image.exists()
+                                                            else None)
 
 
 def is_noticed(run):

@@ -89,8 +89,8 @@ class Case:
         return self.files[name]
 
     def is_chosen(self, patterns):
-        """True if the name, a paragraph or a mistake that the case catches fits one of the patterns, or if there
-        is none."""
+        """True if the name, a paragraph or a mistake that the case catches fits one of the patterns, or if
+        there is none."""
         names = [self.name, self.short_name, *self.words("paragraphs"), *self.words("catches")]
         return not patterns or any(
             fnmatch.fnmatchcase(name, pattern) for pattern in patterns for name in names)

@@ -92,14 +92,15 @@ def is_same_word(expected, found, digits):
 
 
 def same_shortest(expected, found):
-    """The first Difference of `w` and of the lines of `clipped`, which are written in the shortest form, whatever
-    the others are (T20), of two texts whose numbers are the same."""
+    """The first Difference of `w` and of the lines of `clipped`, which are written in the shortest form,
+    whatever the others are (T20), of two texts whose numbers are the same."""
     texts = [[line.split() for line in text.decode("latin-1").splitlines() if line.split()]
              for text in (expected, found)]
     has_w, clipped = False, 0
     for at, (want, got) in enumerate(zip(*texts), 1):
         has_w |= want[:2] == ["attributes", "w"]
-        is_vertex, clipped = bool(NUMBER.fullmatch(want[0])), 4 if want == ["clipped"] else max(0, clipped - 1)
+        is_vertex, clipped = bool(NUMBER.fullmatch(want[0])), 4 if want == ["clipped"] else max(0,
+                                                                                                clipped - 1)
         columns = slice(0, 4) if clipped else slice(3, 4) if has_w and is_vertex else slice(0)
         if want[columns] != got[columns]:
             field = "a line of `clipped`" if clipped else "w"
@@ -130,8 +131,10 @@ def read_bmp(data):
 # Of a BMP file (T24): where each field begins, and its name.
 FIELDS = {0: "the letters BM", 2: "the file's size", 6: "reserved", 10: "where the pixels begin",
           14: "the size of the second header", 18: "the width", 22: "the height", 26: "the planes",
-          28: "the bits a pixel", 30: "the compression", 34: "the size of the pixels", 38: "pixels a meter in x",
-          42: "pixels a meter in y", 46: "the colors used", 50: "the important colors", 54: "the pixels, or their filling"}
+          28: "the bits a pixel", 30: "the compression", 34: "the size of the pixels",
+          38: "pixels a meter in x",
+          42: "pixels a meter in y", 46: "the colors used", 50: "the important colors",
+          54: "the pixels, or their filling"}
 
 
 def different_field(expected, found):
@@ -142,7 +145,8 @@ def different_field(expected, found):
     begin = max(start for start in FIELDS if start <= at)
     end = min([start for start in FIELDS if start > at], default=at + 1)
     if begin == 54:
-        return Difference(f"the picture's file, byte {at}: {FIELDS[54]}", f"{len(expected)} bytes", f"{len(found)} bytes")
+        return Difference(f"the picture's file, byte {at}: {FIELDS[54]}", f"{len(expected)} bytes",
+                          f"{len(found)} bytes")
     values = [str(int.from_bytes(data[begin:end], "little")) for data in (expected, found)]
     return Difference(f"the picture's file, bytes {begin} to {end - 1}: {FIELDS[begin]}", *values)
 

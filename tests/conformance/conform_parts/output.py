@@ -54,7 +54,9 @@ def expect_separate(files, command):
             with contextlib.suppress(OSError):
                 is_same = os.path.samestat(os.stat(name), os.stat(1 if other == "standard output" else other))
                 if is_same and not stat.S_ISCHR(os.stat(name).st_mode):
-                    raise confined.Refused(f"{option} {name}: expected a place of its own, found that of {other}")
+                    raise confined.Refused(
+                        f"{option} {name}: expected a place of its own, found that of {other}")
     paths = [os.path.realpath(name) for _, name in files]
     if len(set(paths)) < len(paths):
-        raise confined.Refused(f"{files[1][0]} {files[1][1]}: expected a place of its own, found that of {files[0][0]}")
+        (first, _), (option, name) = files
+        raise confined.Refused(f"{option} {name}: expected a place of its own, found that of {first}")

@@ -1,4 +1,4 @@
-"""A paragraph of the specification: its text, its cases and known mistakes, and the code that carries it out."""
+"""A paragraph of the specification: its text, its cases and known mistakes, and what carries it out."""
 import ast
 import functools
 import re
@@ -30,7 +30,8 @@ def read_paragraphs():
     found, folder = {}, place("docs", "../doc/pipeline/docs")
     for page in PAGES if folder else ():
         text = (folder / f"{page}.md").read_text("utf-8")
-        for label, words in re.findall(rf"^\*\*({LABEL})\*\* (.*?)(?=^\*\*{LABEL}\*\*|^#|\Z)", text, re.M | re.S):
+        for label, words in re.findall(rf"^\*\*({LABEL})\*\* (.*?)(?=^\*\*{LABEL}\*\*|^#|\Z)", text,
+                                       re.M | re.S):
             found[label] = page, words.strip()
     return found
 
@@ -75,10 +76,12 @@ def case_lines(label, text):
     cases = [case for case in all_cases() if label in case.words("paragraphs")]
     own = re.search(rf"\(`((?:{'|'.join(STAGES)})/[\w-]+)`\)", text)
     first_with = {case.why: case.name for case in cases[::-1]}
-    cases.sort(key=lambda case: (case.name != (own and own[1]), first_with[case.why] != case.name))
-    lines = [f"  {case.name}: {case.why}" for case in cases[:MOST_CASES]]
-    if len(cases) > MOST_CASES:
-        lines.append(f"  and {len(cases) - MOST_CASES} more: pipeline conform --list --only {label}")
+    cases.sort(key=lambda case: case.name != (own and own[1]))
+    shown_cases = [case for i, case in enumerate(cases) if not i
+                   or first_with[case.why] == case.name][:MOST_CASES]
+    lines = [f"  {case.name}: {case.why}" for case in shown_cases]
+    if len(cases) > len(shown_cases):
+        lines.append(f"  and {len(cases) - len(shown_cases)} more: pipeline conform --list --only {label}")
     return lines or ["  " + why_no_case(label, text)]
 
 
@@ -117,7 +120,8 @@ def described(label):
         return None
     page, text = paragraphs[label]
     body = [line for block in text.split("\n\n")
-            for line in [*(block.splitlines() if block[0] in "|-" else textwrap.wrap(block, WIDTH, break_on_hyphens=False)), ""]]
+            for line in [*(block.splitlines() if block[0] in "|-"
+                           else textwrap.wrap(block, WIDTH, break_on_hyphens=False)), ""]]
     lines = [f"{label}, docs/{page}.md", "", *body, "cases:", *case_lines(label, text)]
     for heading, found in (("known mistakes:", ["  " + line for line in mistakes_of(label)]),
                            ("in the reference:", reference_lines(label, [*paragraphs])),

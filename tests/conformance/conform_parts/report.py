@@ -87,7 +87,8 @@ def cases_by_mistake(results):
 
 
 def most_like(heading, results):
-    """The mistakes whose cases are most nearly those that fail for no mistake of the list: a guess, or none."""
+    """The mistakes whose cases are most nearly those that fail for no mistake of the list: a guess, or
+    none."""
     if heading.names or all(result.difference.is_failure for result in heading.results):
         return []
     failing = {result.case.name for result in heading.results}
@@ -120,7 +121,8 @@ def table(results, mistakes):
         lines += ["#   " + mistakes[name] for name in heading.names]
         lines += [f"#   most like {name}: {mistakes[name]}" for name in most_like(heading, results)]
         lines += [
-            f"#   first, by length: {first.case.name}", paragraph_line(first.case), f"#   why: {first.case.why}",
+            f"#   first, by length: {first.case.name}", paragraph_line(first.case),
+            f"#   why: {first.case.why}",
             *difference_lines(first.difference), *other_lines(heading.results, first)]
     return lines
 
@@ -237,7 +239,8 @@ def as_junit(results):
                 difference = result.difference
                 text = "\n".join([f"{case.why} ({', '.join(case.words('paragraphs'))})",
                                   *(line[4:] for line in difference_lines(difference))])
-                end = f"<failure message={quoteattr(legal(difference.message))}>{escape(legal(text))}</failure>"
+                message = quoteattr(legal(difference.message))
+                end = f"<failure message={message}>{escape(legal(text))}</failure>"
             elif result.state != "right":
                 end = f"<skipped message={quoteattr(legal(result.reason))}/>"
             lines.append(f'<testcase classname="{stage}" name="{case.short_name}">{end}</testcase>')

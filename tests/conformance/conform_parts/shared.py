@@ -54,7 +54,8 @@ def sentence(points):
         wrong = [(want, got[axis]) for want, got in points if not is_close(want[axis], got[axis])]
         total += len(wrong)
         if wrong:
-            tried = [(sum(test(*pair) for pair in wrong), words) for words, test in guesses(axis, axes, wrong)]
+            tried = [(sum(test(*pair) for pair in wrong), words) for words,
+                     test in guesses(axis, axes, wrong)]
             hits, words = max(tried, key=lambda item: item[0])
             if 2 * hits > len(wrong):
                 explained += hits

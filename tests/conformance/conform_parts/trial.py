@@ -137,7 +137,8 @@ def judge_refusal(case, terms, ending, complaint):
     *_, last, end = ["", *ending.stdout.decode("latin-1").split("\n")]
     writes_text = case.stage != "zbuf" and b"\nerror " not in b"\n" + case.read("input.txt")  # T12: need not
     if terms.tier != "digits" and writes_text and (end or not re.match("error [^ :]+: .", last)):
-        return Difference("the output does not end with a line `error TOOL: MESSAGE` (T12)", "error TOOL: MESSAGE",
+        return Difference("the output does not end with a line `error TOOL: MESSAGE` (T12)",
+                          "error TOOL: MESSAGE",
                           end or last)
     return None
 
