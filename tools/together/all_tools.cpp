@@ -1,39 +1,42 @@
-// One program for five tools: called model, it is model. For where five programs are five times the same
-// code: a page.
+// One program for all tools: called model, it is model. For where many programs are many times the same code:
+// a page, an archive.
 
-#include <array>
+#include <algorithm>
 #include <cstdio>
-#include <string_view>
+#include <string>
 
 #include "tools/rim/exit_status.h"
 
-// The mains of the tools, renamed (CMakeLists.txt).
-int model_entry(int argc, char** argv);
-int view_entry(int argc, char** argv);
-int project_entry(int argc, char** argv);
-int zbuf_entry(int argc, char** argv);
-int trace_entry(int argc, char** argv);
+// CMakeLists.txt defines ALL_TOOLS, an ENTRY for each tool that is built, and renames their mains.
+#define ENTRY(tool) int tool##_entry(int argc, char** argv);
+ALL_TOOLS
+#undef ENTRY
 
 namespace {
 
 struct Entry {
-  std::string_view name;
+  const char* name;
   int (*run)(int argc, char** argv);
 };
 
-constexpr std::array<Entry, 5> kEntries = {{{"model", model_entry},
-                                            {"view", view_entry},
-                                            {"project", project_entry},
-                                            {"zbuf", zbuf_entry},
-                                            {"trace", trace_entry}}};
+#define ENTRY(tool) Entry{#tool, tool##_entry},
+constexpr Entry kEntries[] = {ALL_TOOLS};
+#undef ENTRY
+
+/// The name of a tool as its source has it: join_seen for /usr/bin/join-seen.
+std::string name_of(const char* path) {
+  std::string name = path;
+  name.erase(0, name.find_last_of('/') + 1);  // npos + 1 is 0
+  std::ranges::replace(name, '-', '_');
+  return name;
+}
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::string_view name = argc > 0 ? argv[0] : "";
-  name.remove_prefix(name.find_last_of('/') + 1);  // npos + 1 is 0
+  const std::string name = name_of(argc > 0 ? argv[0] : "");
   for (const Entry& entry : kEntries)
     if (entry.name == name) return entry.run(argc, argv);
-  std::fputs("all-tools: expected to be called model, view, project, zbuf or trace\n", stderr);
+  std::fputs("all-tools: expected to be called by the name of a tool, model for example\n", stderr);
   return pipeline::kExitMisuse;
 }
