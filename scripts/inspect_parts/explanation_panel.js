@@ -1,12 +1,14 @@
 // What explain reports on a triangle and a pixel; of a large scene, on the pixel, and the command that prints the rest.
 
+import {asked} from "./asked.js";
+
 // A word of a shell's command line.
 export const quoted = word => /^[\w.,\/+-]+$/.test(word) ? word : `'${word.replaceAll("'", "'\\''")}'`;
 
 export class ExplanationPanel {
-  constructor(box, {scene, config, explanations, stages, spheres}, report) {
+  constructor(box, {scene, config, explanations, stages, spheres, explain}, report, ask) {
     const [, cut] = stages[2].statistics.find(([key]) => key === "cut");
-    Object.assign(this, {box, scene, config, explanations, spheres, report, isUncut: cut === "0"});
+    Object.assign(this, {box, scene, config, explanations, spheres, explain, report, ask, isUncut: cut === "0"});
   }
 
   tell(name, pixel) {
@@ -18,6 +20,7 @@ export class ExplanationPanel {
       part.textContent = text;
       return part;
     }));
+    if (this.ask && name >= 0 && !this.spheres) this.box.append(asked("Run it here", () => this.ask(this.words(name, pixel), this.explain.files)));
     this.box.scrollTop = 0;
   }
 
@@ -36,8 +39,12 @@ export class ExplanationPanel {
   }
 
   command(name, pixel) {
-    const {row, column} = pixel < 0 ? {} : this.report.fragments.place(pixel);
-    return ["pipeline explain", quoted(this.scene), quoted(this.config), `--triangle ${name}`, ...(pixel < 0 ? [] : [`--pixel ${column},${row}`]),
-            ...(this.report.coverage === "center" ? ["--coverage center"] : [])].join(" ");
+    return ["pipeline", ...this.words(name, pixel).map(quoted)].join(" ");
+  }
+
+  words(name, pixel) {
+    const {row, column} = pixel < 0 ? {} : this.report.fragments.place(pixel), options = this.explain ? this.explain.options :
+      this.report.coverage === "center" ? ["--coverage", "center"] : [];
+    return ["explain", this.scene, this.config, ...options, "--triangle", String(name), ...(pixel < 0 ? [] : ["--pixel", `${column},${row}`])];
   }
 }

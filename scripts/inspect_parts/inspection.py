@@ -12,10 +12,9 @@ from lib.input_file import read_input
 from lib.pictures import read_picture
 from lib.pipe_tools import ToolFailure, opaque_background
 from lib.progress import Progress
-from lib.projection import line_of, window_of
+from lib.projection import line_of
 from lib.square import note_on_squares
 from lib.stage_text import text_of
-from lib.vectors import axes, moved
 
 # A page opens in a few seconds up to this number; beyond it only every n-th triangle is drawn.
 MAX_DRAWN_TRIANGLES = 200000
@@ -42,40 +41,10 @@ def statistics(path):
     return [line.split() for line in path.read_text().splitlines()]
 
 
-def frustum_corners(header, reach):
-    """The four corners of the near plane and the four of the far plane in view space, in the same winding. A
-    far plane far beyond `reach`, the distance of the farthest vertex, is drawn nearer, so that what there is
-    does not shrink; and whether it is."""
-    left, right, bottom, top, near, far = window_of(header)
-    is_shortened = near < reach and far > 2 * reach
-    corners = []
-    for distance in (near, 1.5 * reach if is_shortened else far):
-        scale = 1 if "ortho" in header else distance / near
-        corners += [(x * scale, y * scale, -distance)
-                    for x, y in ((left, bottom), (right, bottom), (right, top), (left, top))]
-    return corners, is_shortened
-
-
 def belts_of(spheres):
     """Into how many belts each of so many spheres is cut, for project and zbuf: a sphere has nearly 4 N^2
     facets."""
     return max(BELTS[0], min(BELTS[1], math.isqrt(MAX_FACETS // (4 * spheres))))
-
-
-def box_lines(corners):
-    """The twelve edges of a box with four corners on each of two sides."""
-    pairs = [(i, (i + 1) % 4) for i in range(4)]
-    pairs += [(i + 4, j + 4) for i, j in pairs] + [(i, i + 4) for i in range(4)]
-    return [[corners[i], corners[j]] for i, j in pairs]
-
-
-def camera_lines(corners, eye):
-    """The frustum, and the lines from the eye to its near plane."""
-    return box_lines(corners) + [[eye, corner] for corner in corners[:4]]
-
-
-def label(text, at):
-    return {"text": text, "at": at}
 
 
 class Inspection:
@@ -162,7 +131,7 @@ class Inspection:
             },
             "text":
                 "\n".join(read.lines[number - 1]
-                          for number in numbers) if numbers else "\n".join(read.lines), **self.guide(tool)}
+                          for number in numbers) if numbers else "\n".join(read.lines)}
 
     def numbers_shown(self, read, kept):
         """Of a long text the numbers of the lines that the page has, those of the header and of the drawn
@@ -171,30 +140,6 @@ class Inspection:
             return None
         header_end = read.first_lines[0] if read.first_lines else len(read.lines)
         return [*range(1, header_end), *(line + i for _, line in kept for i in range(3))]
-
-    def guide(self, tool):
-        """The line segments that show the camera, or the NDC cube, with labels; and a remark if they do not
-        go all the way."""
-        header = self.header
-        if tool == "project":
-            corners = [(x, y, z) for z in (-1, 1) for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
-            return {
-                "guide": box_lines(corners),
-                "labels": [label("near", corners[3]), label("far", corners[7])],
-                "remark": "",
-            }
-        corners, is_shortened = frustum_corners(header, -float(dict(self.statistics["view"]).get("z_min", 0)))
-        remark = f"far, at {window_of(header)[-1]:g}, is drawn nearer" if is_shortened else ""
-        eye = (0.0, 0.0, 0.0)
-        if tool == "model":
-            eye = tuple(map(float, header["eye"]))
-            right, up, forward = axes(eye, *(tuple(map(float, header[name])) for name in ("look", "up")))
-            corners = [moved(eye, (x, right), (y, up), (-z, forward)) for x, y, z in corners]
-        return {
-            "guide": camera_lines(corners, eye),
-            "labels": [label("eye", eye),
-                       label("near", corners[3]),
-                       label("far", corners[7])], "remark": remark}
 
     def draw(self, stage3, folder):
         z_buffer, image, log = (folder / name for name in ("z_buffer.txt", "out.ppm", "fragments.txt"))

@@ -5,6 +5,7 @@ import {element} from "./element.js";
 import {ExplanationPanel} from "./explanation_panel.js";
 import {FragmentData} from "./fragment_data.js";
 import {FragmentPanel} from "./fragment_panel.js";
+import {guideOf, headerOf} from "./guide.js";
 import {Legend, fillCounts} from "./legend.js";
 import {Palette} from "./palette.js";
 import {PicturePanel} from "./picture_panel.js";
@@ -27,25 +28,25 @@ const NOTHING = {triangle: -1, pixel: -1};
 
 export class Inspector {
   // `root` has the elements of page.html. Unless it `hasAddress`, the page's address belongs to others. `kept` is what an inspector of the
-  // scene before an edit returned when it was disposed of.
-  constructor(root, data, {hasAddress = true, kept = null} = {}) {
-    Object.assign(this, {root, data, hasAddress, listening: new AbortController()});
+  // scene before an edit returned when it was disposed of. `ask(command, files)`, where there is Python, promises what a command prints.
+  constructor(root, data, {hasAddress = true, kept = null, ask = null} = {}) {
+    Object.assign(this, {root, data, hasAddress, ask, listening: new AbortController()});
     this.held = NOTHING;
     this.shown = NOTHING;
     this.palette = new Palette(document.documentElement, this.listening.signal);
     this.fragments = new FragmentData(data);
     this.fillHeader();
-    this.panels = data.stages.slice(0, 3).map(stage => this.stagePanel(stage));
+    this.header = headerOf(data.stages[0].text);
+    this.panels = data.stages.slice(0, 3).map((stage, i) => this.stagePanel(stage, kept && kept.poses[i]));
     this.pixels = new PicturePanel([...this.all("#pixels .pane")], this.fragments, this.palette);
     this.competitors = new FragmentPanel(this.one("#pixel-place"), this.one("#competitors"), this.fragments);
     this.depthText = this.depthPanel();
-    this.explanation = new ExplanationPanel(this.one("#explanation"), data, new PixelReport(data, this.fragments, this.panels[2].stage));
+    this.explanation = new ExplanationPanel(this.one("#explanation"), data, new PixelReport(data, this.fragments, this.panels[2].stage), ask);
     this.theirs = data.theirs ? this.theirsPanel(data.theirs) : null;
     this.rays = data.rays ? this.rayPanel(data.rays) : null;
     this.tabs = new Tabs(this.one('[role="tablist"]'), () => this.explanation.refresh());
     this.listen();
     this.tabs.show(kept ? kept.tab : 0);
-    if (kept) this.panels.forEach(({wire}, i) => { wire.view.pose = kept.poses[i]; wire.draw(); });
     if (kept && kept.held.triangle < data.triangles && kept.held.pixel < data.columns * data.rows) this.held = kept.held;
     this.show(this.held);
     this.one("#into-address").hidden = !hasAddress;
@@ -73,15 +74,16 @@ export class Inspector {
       this.one("#" + id).setAttribute("aria-label", `${id}, ${data.columns} columns and ${data.rows} rows of pixels; arrow keys go from pixel to pixel`);
   }
 
-  stagePanel(given) {
-    const stage = new StageData(given, this.data.triangles), {tool, title, remark} = given;
+  stagePanel(given, pose) {
+    const reach = -new Map(this.data.stages[1].statistics).get("z_min") || 0;  // of the camera, to the farthest vertex
+    const {tool, title} = given, {remark, ...guide} = guideOf(tool, this.header, reach), stage = new StageData({...given, ...guide}, this.data.triangles);
     const canvas = element("canvas", {id: "wire-" + tool, tabindex: 0, role: "application", "aria-label": `${title}, wireframe after ${tool}; arrow keys go from triangle to triangle, with Shift they turn it`});
     const pane = element("div", {class: "pane"}, canvas, element("canvas", {"aria-hidden": true}));
     const fit = element("button", {"aria-label": `fit ${title} into its view`, title: "All of it; once more: the smaller of the camera or cube and the triangles"}, "Fit");
     this.one("#stages").append(element("figure", {}, element("figcaption", {}, tool, element("span", {title}, title), element("span", {title: remark}, remark && `(${remark})`), fit), pane));
     const box = element("div", {class: "text", id: "text-" + tool, tabindex: 0, role: "group", "aria-label": `text after ${tool}`});
     this.one("#texts").append(element("section", {}, element("h2", {}, tool, " ", element("span", {}, "lines from 1")), box));
-    const wire = new Wireframe(pane, stage, STARTS[tool], name => this.fragments.shownPixels[name] > 0, this.palette);
+    const wire = new Wireframe(pane, stage, {start: STARTS[tool], pose}, name => this.fragments.shownPixels[name] > 0, this.palette);
     fit.onclick = canvas.ondblclick = () => wire.fit();
     const {numbers} = stage, text = new TextPanel(box, stage.lines, {
       numberOf: index => numbers ? numbers[index] : index + 1,
@@ -101,7 +103,7 @@ export class Inspector {
     const [model, view, project, image, depth] = this.all("figcaption");
     this.one("#tab-theirs").hidden = false;
     this.one("#legend").append(element("li", {class: "theirs"}, "theirs, where it differs"));
-    return new TheirsPanel({box: this.one("#theirs"), theirs, panels: this.panels, pictures: this.pixels, captions: [model, view, project, depth, image],
+    return new TheirsPanel({box: this.one("#theirs"), theirs, ask: this.ask, panels: this.panels, pictures: this.pixels, captions: [model, view, project, depth, image],
                             button: this.one("#whose"), select: name => this.select({triangle: name, pixel: -1})});
   }
 

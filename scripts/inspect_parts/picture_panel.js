@@ -3,6 +3,9 @@
 const STEPS = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1]};
 const SHIFT_STEPS = 10;
 
+// A pixel of a canvas as one number.
+const packed = (r, g, b) => 0xff000000 | b << 16 | g << 8 | r;
+
 export class PicturePanel {
   // Each of two `panes` has a canvas for the pixels and one above it for marks.
   constructor(panes, fragments, palette) {
@@ -28,21 +31,21 @@ export class PicturePanel {
   }
 
   paint(canvas, color) {
-    const picture = new ImageData(this.columns, this.rows);
-    for (let p = 0; p < this.columns * this.rows; ++p) {
-      picture.data.set(color(p), 4 * p);
-      picture.data[4 * p + 3] = 255;
-    }
+    const picture = new ImageData(this.columns, this.rows), pixels = new Uint32Array(picture.data.buffer);
+    for (let p = 0; p < pixels.length; ++p) pixels[p] = color(p);
     canvas.getContext("2d").putImageData(picture, 0, 0);
   }
 
-  showImage(rgb) { this.paint(this.canvases[0], p => [rgb[3 * p], rgb[3 * p + 1], rgb[3 * p + 2]]); }
+  // Shows a newer image, of which nothing else is there yet.
+  preview({columns, rows, pixels}) { if (columns === this.columns && rows === this.rows) this.showImage(pixels); }
+
+  showImage(rgb) { this.paint(this.canvases[0], p => packed(rgb[3 * p], rgb[3 * p + 1], rgb[3 * p + 2])); }
 
   // The pixels that differ in another image in one color, the others in dark gray tones.
   showDifferences(other) {
-    const {rgb} = this.fragments, color = this.palette.numbers("--theirs");
+    const {rgb} = this.fragments, color = packed(...this.palette.numbers("--theirs")), gray = level => packed(level, level, level);
     const differs = at => rgb[at] !== other[at] || rgb[at + 1] !== other[at + 1] || rgb[at + 2] !== other[at + 2];
-    this.paint(this.canvases[0], p => differs(3 * p) ? color : new Array(3).fill((rgb[3 * p] + rgb[3 * p + 1] + rgb[3 * p + 2]) / 9));
+    this.paint(this.canvases[0], p => differs(3 * p) ? color : gray((rgb[3 * p] + rgb[3 * p + 1] + rgb[3 * p + 2]) / 9));
   }
 
   paintDepths() {
@@ -50,7 +53,7 @@ export class PicturePanel {
     let near = Infinity, far = -Infinity;
     for (const f of seen) if (f >= 0) { near = Math.min(near, depths[f]); far = Math.max(far, depths[f]); }
     const shade = z => far > near ? 255 - 205 * (z - near) / (far - near) : 255;
-    this.paint(this.canvases[1], p => { const s = seen[p] < 0 ? 0 : shade(depths[seen[p]]); return [s, s, s]; });
+    this.paint(this.canvases[1], p => { const s = seen[p] < 0 ? 0 : Math.round(shade(depths[seen[p]])); return packed(s, s, s); });
   }
 
   // Draws a line around the pixels that show triangle `name`, and one around a pixel; -1 for none. Two tones, one of which stands

@@ -18,7 +18,7 @@ export class Lines {
 export class StageData {
   // `count` triangles have numbers from 0; a stage may have several pieces of one, or none.
   constructor(stage, count) {
-    Object.assign(this, {tool: stage.tool, title: stage.title, remark: stage.remark, guide: stage.guide, labels: stage.labels});
+    Object.assign(this, {tool: stage.tool, title: stage.title, guide: stage.guide, labels: stage.labels});
     this.lines = new Lines(stage.text);
     this.numbers = stage.numbers ? intsOf(stage.numbers) : null;
     this.names = intsOf(stage.names);

@@ -21,13 +21,15 @@ function joined(a, b) {
 }
 
 export class Wireframe {
-  // `pane` has a canvas and another one above it, for marks. `isShown(name)` tells which triangles the picture shows.
-  constructor(pane, stage, start, isShown, palette) {
+  // `pane` has a canvas and another one above it, for marks. It begins as it was turned and moved by a `pose`, if there is one.
+  // `isShown(name)` tells which triangles the picture shows.
+  constructor(pane, stage, {start, pose}, isShown, palette) {
     Object.assign(this, {pane, stage, palette, names: stage.names, guide: stage.guide, highlighted: -1, rays: [], theirs: null, index: null, isDirty: false});
     [this.canvas, this.mark] = pane.querySelectorAll("canvas");
     this.view = new Turntable(start, stage.guide, joined(stage.points, stage.spheres.outermost()));
     this.layers = Uint8Array.from(stage.names, name => isShown(name) ? 1 : 0);
     this.sphereLayers = Uint8Array.from(stage.spheres.names, name => isShown(name) ? 1 : 0);
+    if (pose) this.view.pose = pose;
     [this.x, this.y, this.near] = this.places(3 * stage.names.length);
     new ResizeObserver(() => this.resize()).observe(pane);
     this.resize();

@@ -47,8 +47,16 @@ const single = pageOf(`script-src ${hashOf(inner)} ${frame} 'wasm-unsafe-eval'; 
   [data("samples-data", packed(JSON.stringify(samples))), data("tools-data", packed(wasm)), data("worker-script", inPage(worker)), `<script type="module">${inner}</script>`].join("\n"));
 const folder = pageOf(`script-src 'self' ${frame} 'wasm-unsafe-eval'; worker-src blob:; connect-src 'self'`, style, '<script type="module" src="main.js"></script>');
 
+// The commands that run in Python, at their places.
+const COMMANDS = ["compare", "explain"], THEIR_FOLDERS = ["lib", "judge_parts", "compare_parts", "explain_parts"], THEIR_FILES = ["tests/conformance/mistakes.txt", "tests/conformance/fixes.txt"];
+const modules = THEIR_FOLDERS.flatMap(folder => fs.readdirSync(path.join(root, "scripts", folder)).filter(name => name.endsWith(".py")).map(name => `scripts/${folder}/${name}`));
+const sources = Object.fromEntries([...COMMANDS.map(name => `scripts/${name}`), ...modules, ...THEIR_FILES].map(name => [`/pipeline/${name}`, read(root, name)]));
+const PYODIDE = ["pyodide.mjs", "pyodide.asm.mjs", "pyodide.asm.wasm", "python_stdlib.zip", "pyodide-lock.json"];
+
 const files = {"index.html": folder, "main.js": await bundled("main.js", "resources_of_folder.js"), "worker.js": worker,
-  "samples.json": JSON.stringify(samples), "tools.wasm": wasm};
+  "samples.json": JSON.stringify(samples), "tools.wasm": wasm, "python.js": await bundled("python.js", "resources_of_folder.js"),
+  "commands.json": JSON.stringify({sources, driver: read(here, "run_command.py")}),
+  ...Object.fromEntries(PYODIDE.map(name => [name, fs.readFileSync(path.join(npmFolder, "node_modules/pyodide", name))]))};
 
 // Ends with a message unless a path is free, or is of a kind, and has, if it is a folder, nothing but our files.
 function expectOurs(place, isFolder) {
@@ -82,6 +90,8 @@ function install() {
   }
 }
 
+// A signal waits until everything is in its place.
+for (const name of ["SIGHUP", "SIGINT", "SIGTERM"]) process.on(name, () => process.exit(1));
 try {
   install();
 } catch (error) {

@@ -1,6 +1,6 @@
 // The state of the page as the end of an address: JSON, deflated, in the letters of base64 that an address may have.
 
-const PREFIX = "#p=", STAGES_OF_ONES_OWN = ["model", "view", "project"], KINDS = ["js", "text"];
+const PREFIX = "#p=", STAGES_OF_ONES_OWN = ["model", "view", "project", "zbuf"], KINDS = ["js", "text"];
 export const LONGEST = 60000;  // characters that browsers and mail programs pass on
 
 const MOST_BYTES = 1 << 24;       // of a state

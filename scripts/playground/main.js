@@ -5,10 +5,11 @@ import {CommandLine} from "./command_line.js";
 import {Editor} from "./editor.js";
 import {LONGEST, checked, expectLines, hashOf, stateOf} from "./link.js";
 import {PipeClient} from "./pipe_client.js";
+import {PythonClient} from "./python_client.js";
 import {runCode} from "./sandbox.js";
 import {TEMPLATES} from "./templates.js";
 import {STEPS} from "./tour.js";
-import {VERSION, samples, toolModule, workerAddress} from "resources";
+import {VERSION, python, samples, toolModule, workerAddress} from "resources";
 
 const FIRST_SAMPLE = "worked-example";
 const STORE = "playground", LARGEST_FILE = 1 << 26;
@@ -19,12 +20,14 @@ class Playground {
   constructor(given, module, worker) {
     this.given = given;
     this.inspector = null;
+    this.busy = new Set();
     this.editors = {scene: new Editor(one("#scene"), "scene.txt", () => this.edited()), config: new Editor(one("#config"), "config.txt", () => this.edited())};
     this.own = null;  // {tool, text} that runs in place of a stage
     this.ownRuns = 0;
     this.ownEditor = new Editor(one("#own-text"), "my stage", () => this.editedOwn());
     this.ownEditor.text = TEMPLATES.view;
-    this.client = new PipeClient(module, worker, {answered: answer => this.show(answer), busy: isBusy => { one("#stop").hidden = !isBusy; }});
+    this.client = new PipeClient(module, worker, {drawn: picture => this.inspector && this.inspector.pixels.preview(picture), answered: answer => this.show(answer), busy: isBusy => this.setBusy("tools", isBusy)});
+    this.python = python && new PythonClient(module, python, isBusy => this.setBusy("Python", isBusy));
     this.line = new CommandLine(one("#line"), tool => this.client.helpOf(tool), () => this.edited());
     one("#samples").append(...Object.keys(given).map(name => new Option(name, name)));
     one("#version").textContent = VERSION;
@@ -53,7 +56,7 @@ class Playground {
     this.editors.config.text = config;
     this.line.words = words;
     one("#samples").value = "";
-    this.run();
+    this.runAfterEdit();
   }
 
   async start() {
@@ -103,7 +106,8 @@ class Playground {
     one("#link").onclick = () => this.copyLink();
     one("#save").onclick = () => this.save("playground.json", new Blob([JSON.stringify(this.state, null, 1)], {type: "application/json"}));
     one("#picture").onclick = () => one("#image").toBlob(blob => this.save("out.png", blob));
-    one("#stop").onclick = () => this.client.stop();
+    one("#files").onclick = () => this.saveFiles();
+    one("#stop").onclick = () => (this.busy.has("tools") ? this.client : this.python).stop();
     this.step = 0;
     one("#tour").onclick = () => { const {hidden} = one("#steps"); one("#steps").hidden = !hidden; one("#tour").setAttribute("aria-expanded", hidden); if (hidden) { this.goToStep(0); one("#after").focus(); } };
     one("#before").onclick = () => this.goToStep(this.step - 1);
@@ -161,16 +165,19 @@ class Playground {
   forgetOwn() {
     ++this.ownRuns;
     this.own = null;
+    this.isAgain = this.isCodeRunning = false;
     one("#own-off").disabled = true;
   }
 
   async runOwn() {
-    const tool = one("#own-tool").value, {text} = this.ownEditor, before = {model: "scene", view: "model", project: "view"}[tool];
+    const tool = one("#own-tool").value, {text} = this.ownEditor, before = {model: "scene", view: "model", project: "view", zbuf: "project"}[tool];
     if (this.line.isTraced) return this.tell("A stage of your own is drawn by project | zbuf.");
     if (one("#own-kind").value === "text") return this.setOwn({tool, text});
     const run = ++this.ownRuns;
+    this.isAgain = false;
+    this.isCodeRunning = true;
     try {
-      const made = await runCode(text, this.textOf(before));
+      const made = await runCode(text, this.textOf(before), this.editors.config.text);
       if (run === this.ownRuns) this.setOwn({tool, text: made});
     } catch (error) {
       if (run !== this.ownRuns) return;
@@ -204,6 +211,11 @@ class Playground {
     await navigator.clipboard.writeText(location.href).then(() => this.tell("Copied."), () => this.tell("It is in the address now."));
   }
 
+  async saveFiles() {
+    const {zip, messages} = await this.client.filesOf(this.state);
+    if (zip) this.save("pipeline.zip", zip); else this.tell(messages.map(({line}) => line).join(" "));
+  }
+
   save(name, blob) {
     const link = document.createElement("a");
     link.href = URL.createObjectURL(blob);
@@ -213,10 +225,24 @@ class Playground {
     this.tell(`Saved as ${name}.`);
   }
 
+  // What is under way, "tools" or "Python", can be stopped.
+  setBusy(what, isBusy) {
+    if (isBusy) this.busy.add(what); else this.busy.delete(what);
+    one("#stop").hidden = !this.busy.size;
+  }
+
   tell(text) { one("#told").textContent = text; }
 
   edited() {
     one("#samples").value = "";
+    this.runAfterEdit();
+  }
+
+  // Code of one's own that ran, or runs, runs again when its new input is there.
+  runAfterEdit() {
+    const isAgain = this.isAgain || this.isCodeRunning || (this.own && one("#own-kind").value === "js");
+    if (isAgain) this.forgetOwn();
+    this.isAgain = isAgain;
     this.run();
   }
 
@@ -236,8 +262,9 @@ class Playground {
     const kept = this.inspector && this.inspector.dispose(), parts = one("#inspector").content.cloneNode(true);
     one("#glass").replaceChildren(parts);
     if (data.isTraced) one("#glass #pixels figcaption span").textContent = "trace";
-    this.inspector = new Inspector(one("#glass"), data, {hasAddress: false, kept});
+    this.inspector = new Inspector(one("#glass"), data, {hasAddress: false, kept, ask: this.python && ((command, files) => this.python.ask(command, files))});
     document.body.dataset.runs = Number(document.body.dataset.runs || 0) + 1;
+    if (this.isAgain && this.client.running === null) this.runOwn();
   }
 
   showMessages(messages, failed) {

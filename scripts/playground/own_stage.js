@@ -2,6 +2,8 @@
 
 import {StageText} from "./stage_text.js";
 
+const IMAGE_PLACE = 4;  // of the inspector's captions
+const LONGEST_NUMBER = 16, LONGEST_HEAD = 1000;  // characters of a picture's text
 const AXES = "xyz", TOLERANCE = 1e-6;  // of 7 decimals made from 7 decimals, times the size of the number beyond 1
 
 // A text as our tools write it: no comments, no carriage returns, one blank between words.
@@ -28,18 +30,52 @@ export function difference(theirText, ourText) {
   return {points, lines, isCompared, differing: Int32Array.from(differing), first};
 }
 
+// The red, green and blue of every pixel of a PPM text, P3; an error if it is none of that size.
+function pixelsIn(text, columns, rows) {
+  if (text.length > LONGEST_NUMBER * 3 * columns * rows + LONGEST_HEAD) throw new Error("it is longer than such a picture");
+  const [kind, width, height, largest, ...numbers] = text.replace(/#.*/g, "").split(/\s+/).filter(word => word);
+  const expected = `P3 ${columns} ${rows} 255`, found = [kind, width, height, largest].join(" ");
+  if (found !== expected) throw new Error(`expected a text that begins with ${expected}, found ${found.slice(0, 40).trim() || "nothing"}`);
+  if (numbers.length !== 3 * columns * rows) throw new Error(`expected ${3 * columns * rows} numbers behind 255, found ${numbers.length}`);
+  const wrong = numbers.find(word => !/^\d{1,3}$/.test(word) || Number(word) > 255);
+  if (wrong !== undefined) throw new Error(`expected a number from 0 to 255, found ${wrong.slice(0, 40)}`);
+  return Uint8Array.from(numbers, Number);
+}
+
+// What the inspector calls theirs, of a picture that is drawn by the reader's own zbuf.
+export function theirPictureOf(text, {columns, rows, pixels}) {
+  let picture = null, sentence = "", remarks = "", first = -1, count = 0;
+  const colorOf = (rgb, p) => [...rgb.subarray(3 * p, 3 * p + 3)].join(" ");
+  try {
+    picture = pixelsIn(text, columns, rows);
+    for (let p = 0; p < columns * rows; ++p) {
+      if ([0, 1, 2].every(i => picture[3 * p + i] === pixels[3 * p + i])) continue;
+      if (count++ === 0) first = p;
+    }
+    if (count) remarks = `row ${Math.floor(first / columns)}, column ${first % columns}: ${colorOf(picture, first)} in place of ${colorOf(pixels, first)}`;
+    sentence = `${count} of ${columns * rows} pixels differ${count ? `, first ${remarks}` : ""}`;
+  } catch (error) {
+    sentence = `there is no picture of it: ${error.message}`;
+  }
+  return theirsIn({tool: "zbuf", place: IMAGE_PLACE, sentence, remarks, picture, isGood: picture !== null && count === 0, count, stages: {}});
+}
+
+function theirsIn({tool, place, sentence, remarks, picture, isGood, count, stages}) {
+  return {
+    folder: `your own ${tool}`, sentence, picture, stages,
+    files: [{stage: tool, file: "mine", place, verdict: isGood ? "right" : "differs", isGood, differing: count, largest: "", remarks, matrices: []}],
+  };
+}
+
 // What the inspector calls theirs. `picture` has the pixels of their picture, or is null, because of `failure`.
 export function theirsOf(tool, place, differences, picture, ourPixels, failure) {
   const {first, differing, isCompared, lines} = differences;
   let pixels = 0;
   for (let p = 0; picture && p < ourPixels.length; p += 3) pixels += [0, 1, 2].some(i => picture[p + i] !== ourPixels[p + i]);
   const isGood = !first && picture !== null && pixels === 0;
-  const count = isCompared ? `${differing.length} of ${lines.length} vertices differ` : first;
+  const found = isCompared ? `${differing.length} of ${lines.length} vertices differ` : first;
   const seen = picture ? `${pixels} of ${ourPixels.length / 3} pixels differ` : `there is no picture of it: ${failure}`;
-  return {
-    folder: `your own ${tool}`, sentence: first ? `${count}${isCompared ? `, first ${first}` : ""}; ${seen}` : isGood ? `every vertex is right; ${seen}` :
-      `every vertex is right, but ${picture ? `${seen}: look at its other lines and numbers` : `the stages behind do not take it: ${failure}`}`, picture,
-    files: [{stage: tool, file: "mine", place, verdict: isGood ? "right" : "differs", isGood, differing: differing.length, largest: "", remarks: first, matrices: []}],
-    stages: {[tool]: differences},
-  };
+  const sentence = first ? `${found}${isCompared ? `, first ${first}` : ""}; ${seen}` : isGood ? `every vertex is right; ${seen}` :
+    `every vertex is right, but ${picture ? `${seen}: look at its other lines and numbers` : `the stages behind do not take it: ${failure}`}`;
+  return theirsIn({tool, place, sentence, remarks: first, picture, isGood, count: differing.length, stages: {[tool]: differences}});
 }

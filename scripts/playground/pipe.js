@@ -1,7 +1,6 @@
 // A scene sent through the pipe: what a shell makes of `model < scene.txt | view | project | zbuf config.txt`, and what the inspector shows.
 
-import {guideOf} from "./guide.js";
-import {difference, theirsOf} from "./own_stage.js";
+import {difference, theirPictureOf, theirsOf} from "./own_stage.js";
 import {StageText} from "./stage_text.js";
 import {textOf} from "./tools.js";
 
@@ -10,6 +9,8 @@ const BELTS = "8";  // of the facets that project and zbuf get in place of a sph
 const TITLES = {model: "world space", view: "view space", project: "normalized device coordinates"};
 const MOST_TRIANGLES = 2000000;  // and numbers of them, which the panels count up to
 const FATES = ["kept", "behind", "equal", "before", "beyond", "nearer"];
+const FILES = {model: "stage1.txt", view: "stage2.txt", project: "stage3.txt", zbuf: "z_buffer.txt"}, SAVED_IMAGE = "out.bmp";
+const EXACT = ["--digits", "exact"];
 const IMAGE = "out.ppm", COUNTS = "counts.txt", FRAGMENTS = "fragments.txt", TRIANGLES = "triangles.npy", DEPTHS = "depths.npy";
 
 // A stage has failed: `messages` are those of all stages so far.
@@ -37,8 +38,8 @@ export class Pipe {
   }
 
   // The data of an Inspector, and the messages of every stage. If it `isQuick`, of the fragments of a pixel there is only the one that is seen:
-  // the others take ten times as long as the picture. Throws a StageFailure.
-  async run({scene, config, words, own}, isQuick) {
+  // the others take ten times as long as the picture. `drawn` is called with the picture, before all else. Throws a StageFailure.
+  async run({scene, config, words, own}, isQuick, drawn) {
     const isTraced = typeof words.trace === "string";
     if (/(^| )--rows\b/.test(words.zbuf)) throw new Error("--rows draws a part of the picture, which this page cannot show");
     const results = [], messages = [], logs = isQuick && !/--samples/.test(words.zbuf) ? ["--triangle-array", TRIANGLES, "--depth-array", DEPTHS] : ["--fragments", FRAGMENTS];
@@ -57,29 +58,59 @@ export class Pipe {
       results.push(done);
       input = tool === "view" && isTraced ? await this.faceted(results, scene) : done.output;
     }
-    const data = this.inspected(results, config);
+    let drawing = results[3];
     if (isTraced) {
-      const done = await this.stage("trace", ["config.txt", ...wordsOf(words.trace), "-o", IMAGE, "--z-buffer", "none"], results[1].output, {"config.txt": config});
-      messages.push(...linesOf(done.text, "trace"));
-      if (done.status !== 0) throw new StageFailure("trace", done.status, messages);
-      Object.assign(data, {pixels: imageOf(done.read(IMAGE)).pixels, isTraced});
+      drawing = await this.stage("trace", ["config.txt", ...wordsOf(words.trace), "-o", IMAGE, "--z-buffer", "none"], results[1].output, {"config.txt": config});
+      messages.push(...linesOf(drawing.text, "trace"));
+      if (drawing.status !== 0) throw new StageFailure("trace", drawing.status, messages);
     }
-    if (own && !isTraced) data.theirs = await this.withOwn(own, results, config, words, data);
+    const picture = imageOf(drawing.read(IMAGE));
+    drawn(picture);
+    const explain = {files: {"scene.txt": scene, "config.txt": config}, options: [...wordsOf(words.project), ...wordsOf((words.zbuf.match(/--coverage +\S+/) || [""])[0])]};
+    const data = {...this.inspected(results, config), ...picture, isTraced, explain};
+    if (own && !isTraced) data.theirs = await this.withOwn(own, results, {scene, config, words, picture});
     return {data, messages, isQuick: logs[0] !== "--fragments"};
   }
 
-  // A text of the reader's in place of a stage's, and what the stages behind it make of it.
-  async withOwn({tool, text}, results, config, words, {pixels}) {
-    const place = STAGES.indexOf(tool);
+  // The files of `pipeline stages`, which passes lossless texts on, and what they are made of; without project and zbuf if trace draws.
+  async filesOf({scene, config, words}) {
+    const files = {"scene.txt": scene, "config.txt": config}, isTraced = typeof words.trace === "string";
+    const run = async (tool, all, input) => {
+      const done = await this.tools.run(tool, all, {input, files: {"config.txt": config}});
+      if (done.status !== 0) throw new Error(textOf(done.messages).split("\n")[0]);
+      return done;
+    };
+    let input = scene;
+    for (const tool of isTraced ? ["model", "view"] : STAGES.slice(0, 3)) {
+      const own = wordsOf(words[tool]), isLast = tool === "project";
+      files[FILES[tool]] = (await run(tool, isLast ? own : [...own, "--bare"], input)).output;
+      input = isLast ? files[FILES[tool]] : (await run(tool, [...wordsOf(words[tool].replace(/--digits[ =]+\S+/, "")), ...EXACT], input)).output;
+    }
+    const tool = isTraced ? "trace" : "zbuf", drawn = await run(tool, ["config.txt", ...wordsOf(words[tool]), "-o", SAVED_IMAGE], input);
+    return {...files, [FILES.zbuf]: drawn.output, [SAVED_IMAGE]: drawn.read(SAVED_IMAGE)};
+  }
+
+  // A text of the reader's in place of a stage's, what the stages behind it make of it, and the files and the command of a hand-in.
+  async withOwn({tool, text}, results, {scene, config, words, picture: ours}) {
+    const place = STAGES.indexOf(tool), files = {"scene.txt": scene, "config.txt": config};
+    results.slice(0, place).forEach((done, i) => { files[`mine/stage${i + 1}.txt`] = done.output; });
+    if (tool === "zbuf") {
+      const theirs = theirPictureOf(text, ours);
+      if (theirs.picture) files["mine/out.ppm"] = new Blob([`P6 ${ours.columns} ${ours.rows} 255\n`, theirs.picture]);
+      return {...theirs, handIn: {files, command: ["compare", "--hand-in", "mine", "scene.txt", "config.txt"]}};
+    }
+    files[`mine/stage${place + 1}.txt`] = text;
     let input = new TextEncoder().encode(text), done = null;
     for (const next of STAGES.slice(place + 1)) {
       const isLast = next === "zbuf", own = wordsOf(words[next]);
       done = await this.stage(next, isLast ? ["config.txt", ...own, "-o", IMAGE] : own, input, isLast ? {"config.txt": config} : {}, `own ${next}`);
       if (done.status !== 0) break;
       input = done.output;
+      if (!isLast) files[`mine/stage${STAGES.indexOf(next) + 1}.txt`] = input;
     }
     const picture = done.status === 0 ? imageOf(done.read(IMAGE)).pixels : null;
-    return theirsOf(tool, place, difference(text, textOf(results[place].output)), picture, pixels, done.text.split("\n")[0]);
+    const theirs = theirsOf(tool, place, difference(text, textOf(results[place].output)), picture, ours.pixels, done.text.split("\n")[0]);
+    return {...theirs, handIn: {files, command: ["compare", "--hand-in", "mine", "scene.txt"]}};
   }
 
   // What project reads: the text of view, with facets in place of spheres.
@@ -93,21 +124,20 @@ export class Pipe {
     const texts = results.slice(0, 3).map(done => new StageText(textOf(done.output))), [model] = texts, zbuf = results[3];
     if (model.count > MOST_TRIANGLES) throw new Error(`triangles are numbered up to ${model.count}, which is more than this page can show`);
     const counts = results.map(done => pairsOf(textOf(done.read(COUNTS))));
-    const {columns, rows, pixels} = imageOf(zbuf.read(IMAGE));
-    const reach = -Number(new Map(counts[1]).get("z_min") || 0), depths = textOf(zbuf.output);
-    const stages = texts.map((text, i) => this.stageData(results[i], text, counts[i], model.count, guideOf(results[i].tool, model.header, reach)));
+    const {columns, rows} = imageOf(zbuf.read(IMAGE));
+    const depths = textOf(zbuf.output), stages = texts.map((text, i) => this.stageData(results[i], text, counts[i], model.count));
     stages.push({tool: "zbuf", title: "pixels", seconds: zbuf.seconds, triangles: texts[2].names.length, bytes: zbuf.output.length, statistics: counts[3], text: depths});
     const log = zbuf.read(FRAGMENTS), fragments = log ? fragmentsOf(textOf(log), columns, columns * rows) : seenOf(zbuf.read(TRIANGLES), zbuf.read(DEPTHS));
     return {
-      scene: "scene.txt", config: "config.txt", triangles: model.count, spheres: model.spheres.length, step: 1, columns, rows, stages, pixels, notes: [], limits: limitsOf(config),
+      scene: "scene.txt", config: "config.txt", triangles: model.count, spheres: model.spheres.length, step: 1, stages, notes: [], limits: limitsOf(config),
       explanations: [], ...fragments,
     };
   }
 
-  stageData(done, text, statistics, count, guide) {
+  stageData(done, text, statistics, count) {
     return {
       tool: done.tool, title: TITLES[done.tool], seconds: done.seconds, triangles: text.names.length, missing: count - new Set(text.names).size, bytes: done.output.length,
-      statistics, names: Int32Array.from(text.names), firstLines: Int32Array.from(text.firstLines), numbers: null, text: text.text, ...guide,
+      statistics, names: Int32Array.from(text.names), firstLines: Int32Array.from(text.firstLines), numbers: null, text: text.text,
       spheres: {names: Int32Array.from(text.spheres, ([name]) => name), firstLines: Int32Array.from(text.spheres, ([, line]) => line), points: Float64Array.from(text.spherePoints())},
     };
   }

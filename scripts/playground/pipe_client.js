@@ -3,10 +3,10 @@
 const PAUSE = 250;  // milliseconds without an edit, before the slow part
 
 export class PipeClient {
-  // `module` is the compiled WebAssembly.Module, `workerAddress` where the worker's script is. `answered` is called with each answer to a run,
-  // `busy` with whether one has been under way for a while.
-  constructor(module, workerAddress, {answered, busy}) {
-    Object.assign(this, {module, workerAddress, answered, busy, id: 0, running: null, next: null, waiting: new Map()});
+  // `module` is the compiled WebAssembly.Module, `workerAddress` where the worker's script is. `drawn` is called with the picture of a run,
+  // `answered` with all of its answer, `busy` with whether one has been under way for a while.
+  constructor(module, workerAddress, {drawn, answered, busy}) {
+    Object.assign(this, {module, workerAddress, drawn, answered, busy, id: 0, running: null, next: null, waiting: new Map()});
     this.start();
   }
 
@@ -34,29 +34,35 @@ export class PipeClient {
     this.timer = setTimeout(() => this.busy(true), 400);
   }
 
-  helpOf(tool) {
+  helpOf(tool) { return this.ask({help: tool}).then(({text}) => text); }
+
+  // A zip of a state's files, or why there is none: {zip, messages}.
+  filesOf(state) { return this.ask({saved: state}); }
+
+  ask(question) {
     const id = ++this.id;
     return new Promise(resolve => {
       this.waiting.set(id, resolve);
-      this.worker.postMessage({id, help: tool});
+      this.worker.postMessage({id, ...question});
     });
   }
 
   receive(answer) {
     this.hasAnswered = true;
     if (this.waiting.has(answer.id)) {
-      this.waiting.get(answer.id)(answer.text);
+      this.waiting.get(answer.id)(answer);
       return void this.waiting.delete(answer.id);
     }
+    if (answer.picture) return this.drawn(answer.picture);
     this.end();
+    this.isPending = answer.isQuick && !this.next;  // the slow part
+    if (this.isPending) this.later = setTimeout(() => { this.isPending = false; this.next = {state: this.state, isQuick: false}; this.send(); }, PAUSE);
+    this.send();
     try {
       this.answered(answer);
     } catch (error) {
       this.answered({failed: "page", messages: [{tool: "page", line: `page: this cannot be shown: ${error.message}`}]});
     }
-    this.isPending = answer.isQuick && !this.next;  // the slow part
-    if (this.isPending) this.later = setTimeout(() => { this.isPending = false; this.next = {state: this.state, isQuick: false}; this.send(); }, PAUSE);
-    this.send();
   }
 
   end() {

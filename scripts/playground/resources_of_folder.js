@@ -12,3 +12,8 @@ export const samples = async () => (await fetched("samples.json")).json();
 export const toolModule = async () => WebAssembly.compile(await (await fetched("tools.wasm")).arrayBuffer());
 // A worker from the page's own text is under the page's policy; one from a file would have none.
 export const workerAddress = async () => URL.createObjectURL(await (await fetched("worker.js")).blob());
+
+// What the worker for Python needs: its script, the address of Pyodide's files, and the project's commands.
+export const python = async () => ({
+  script: URL.createObjectURL(await (await fetched("python.js")).blob()), address: new URL(".", location.href).href, ...await (await fetched("commands.json")).json(),
+});

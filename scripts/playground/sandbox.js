@@ -5,8 +5,8 @@ const LONGEST = 5000;   // milliseconds
 const MOST_OUT = 1 << 26;  // characters
 
 export const FRAME = `onmessage = ({data: {code}, ports: [port]}) => {
-  const run = "onmessage = ({data}) => { try { postMessage({text: String(stage(data))}); } catch (error) { postMessage({error: String(error)}); } };";
-  const worker = new Worker(URL.createObjectURL(new Blob(["function stage(input) {\\n" + code + "\\n}\\n" + run], {type: "text/javascript"})));
+  const run = "onmessage = ({data}) => { try { postMessage({text: String(stage(...data))}); } catch (error) { postMessage({error: String(error)}); } };";
+  const worker = new Worker(URL.createObjectURL(new Blob(["function stage(input, config) {\\n" + code + "\\n}\\n" + run], {type: "text/javascript"})));
   const answer = data => {
     worker.onmessage = worker.onerror = null;
     worker.terminate();
@@ -18,8 +18,8 @@ export const FRAME = `onmessage = ({data: {code}, ports: [port]}) => {
   port.onmessage = ({data}) => worker.postMessage(data);
 };`;
 
-// What the code returns of the input; an error after LONGEST milliseconds, or with what went wrong.
-export function runCode(code, input) {
+// What the code returns of the inputs; an error after LONGEST milliseconds, or with what went wrong.
+export function runCode(code, ...inputs) {
   const frame = document.createElement("iframe");
   frame.setAttribute("sandbox", "allow-scripts");
   frame.hidden = true;
@@ -34,7 +34,7 @@ export function runCode(code, input) {
     };
     frame.onload = () => {
       frame.contentWindow.postMessage({code}, "*", [port2]);
-      port1.postMessage(input);
+      port1.postMessage(inputs);
     };
     document.body.append(frame);
   }).finally(() => {

@@ -1,4 +1,4 @@
-// A text of our own tools, line by line: which lines belong to which triangle, and what the header says.
+// A text of our own tools, line by line: which lines belong to which triangle.
 
 const NUMBER = /^[-0-9]/;
 
@@ -6,7 +6,7 @@ export class StageText {
   // `names` and `firstLines` are those of triangles, or of pieces of one; `spheres` has a number and a first line for each; `count` is one
   // more than the last number.
   constructor(text) {
-    Object.assign(this, {text, lines: text.split("\n"), header: new Map(), names: [], firstLines: [], spheres: [], count: 0});
+    Object.assign(this, {text, lines: text.split("\n"), names: [], firstLines: [], spheres: [], count: 0});
     let number = 0, corners = 0;  // of the next triangle, and how many lines of the one before are still to come
     this.lines.forEach((line, i) => {
       if (NUMBER.test(line)) {
@@ -23,10 +23,6 @@ export class StageText {
       } else if (line === "sphere") {
         this.spheres.push([number++, i + 2]);
         corners = 4;
-      } else if (line && !this.names.length && !this.spheres.length) {
-        const [keyword, ...words] = line.split(" ");
-        this.header.set(keyword, words.map(Number));
-        if (words.at(-1) === "ratio") this.header.set("ratio", []);
       }
     });
     this.count = number;

@@ -1,4 +1,5 @@
-// Stages to begin with, the body of a function that gets `input`, the text of the stage before (for model, the scene), and returns its own.
+// Stages to begin with, the body of a function that gets `input`, the text of the stage before (for model, the scene), and returns its own;
+// zbuf gets `config`, too, and returns a picture.
 
 export const TEMPLATES = {
   model: `// Carries out the commands of the scene: push, pop, translate, scale, triangle. rotate is yours to write.
@@ -52,5 +53,30 @@ for (const line of input.split("\\n")) {
   } else if (line === "") out.push("");
 }
 return out.join("\\n");
+`,
+  zbuf: `// Draws the nearest triangle in each pixel, and returns the picture as a PPM text: P3, columns, rows, 255, and three numbers a pixel.
+const [columns, rows, left = -1, bottom = -1, front = -1, rear = 1] = config.replace(/#.*/g, "").split(/\\s+/).filter(word => word).map(Number);
+const dx = -2 * left / columns, dy = -2 * bottom / rows, x0 = left + dx / 2, y0 = -bottom - dy / 2;
+const depths = new Float64Array(columns * rows).fill(rear), colors = new Uint8Array(3 * columns * rows);
+let state = 1, name = 0, corners = [], colored = -1, rgb = [];
+const random = () => (state = (Math.imul(214013, state) + 2531011) >>> 0, (state >>> 16) % 256);
+const meets = (y, [p, q]) => p[1] > q[1] ? meets(y, [q, p]) : p[1] === q[1] || y < p[1] || y > q[1] ? [] : [y === q[1] ? q : p.map((n, i) => n + (y - p[1]) / (q[1] - p[1]) * (q[i] - n))];
+function draw([a, b, c]) {
+  while (colored < name) { rgb = [random(), random(), random()]; ++colored; }
+  for (let row = 0; row < rows; ++row) {
+    const ends = [[a, b], [b, c], [c, a]].flatMap(edge => meets(y0 - row * dy, edge)).sort((p, q) => p[0] - q[0]), [first, last] = [ends[0], ends.at(-1)];
+    if (ends.length < 2) continue;
+    for (let column = Math.max(0, Math.floor((first[0] - x0) / dx + 0.5)); column < columns && column <= Math.floor((last[0] - x0) / dx + 0.5); ++column) {
+      const z = first[2] + (x0 + column * dx - first[0]) * (last[2] - first[2]) / (last[0] - first[0] || 1), pixel = row * columns + column;
+      if (z >= front && z < depths[pixel]) { depths[pixel] = z; colors.set(rgb, 3 * pixel); }
+    }
+  }
+}
+for (const line of input.split("\\n")) {
+  if (line.startsWith("triangle ")) name = Number(line.slice(9));
+  if (/^[-0-9]/.test(line)) corners.push(line.split(" ").slice(0, 3).map(Number));
+  if (corners.length === 3) { draw(corners); corners = []; ++name; }
+}
+return "P3 " + columns + " " + rows + " 255\\n" + colors.join(" ") + "\\n";
 `,
 };

@@ -13,37 +13,45 @@ export class Tools {
 
   // Runs a tool in a folder that has the `files`, {name: text or bytes}, with `input` on its standard input. A pipe is what it has at its
   // ends if `isPiped` says so. Returns status, output and messages as bytes, and `read(name)`, for the files it wrote (null if there is none).
-  async run(name, words, {input = "", files = {}, isPiped = [false, false]} = {}) {
-    const {module} = this;
-    const tool = await this.createTool({
-      noInitialRun: true,
-      thisProgram: name,
-      instantiateWasm(imports, receive) { WebAssembly.instantiate(module, imports).then(instance => receive(instance, module)); return {}; },
-    });
-    const {FS} = tool;
-    FS.mkdir("/work");
-    FS.chdir("/work");
-    for (const [path, data] of Object.entries(files)) FS.writeFile(path, bytesOf(data));
-    FS.writeFile(IN, bytesOf(input));
-    [[0, IN, "r"], [1, OUT, "w"], [2, MESSAGES, "w"]].forEach(([descriptor, path, mode]) => {
-      FS.close(FS.streams[descriptor]);
-      const stream = FS.open(path, mode);
-      if (stream.fd !== descriptor) throw new Error(`descriptor ${stream.fd} in place of ${descriptor}`);
-      if (isPiped[descriptor]) stream.node.mode = (stream.node.mode & ~KIND) | FIFO;
-    });
-    const out = FS.streams[1].node, messages = FS.streams[2].node;
-    let status;
-    try {
-      status = tool.callMain([...words]);
-    } catch (trap) {
-      if (trap.status === undefined) return {status: CRASHED, output: new Uint8Array(), messages: utf8.encode(`${name}: ${trap.message}\n`), read: () => null};
-      status = trap.status;
-    }
-    const contents = node => node.contents ? Uint8Array.from(node.contents.subarray(0, node.usedBytes)) : new Uint8Array();
-    // Read now: what refers to the instance keeps all of its memory.
-    const written = new Map(FS.readdir("/work").filter(path => FS.isFile(FS.stat(path).mode) && !(path in files)).map(path => [path, FS.readFile(path)]));
-    return {status, output: contents(out), messages: contents(messages), read: path => written.get(path) || null};
+  async run(name, words, given) { return resultOf(await this.createTool(this.settingsOf(name)), words, given); }
+
+  // The same at once, which a worker can do, and Node.js cannot.
+  runNow(name, words, given) {
+    const tool = this.settingsOf(name);
+    this.createTool(tool);
+    return resultOf(tool, words, given);
   }
+
+  settingsOf(name) {
+    const {module} = this;
+    return {noInitialRun: true, thisProgram: name, instantiateWasm: (imports, receive) => receive(new WebAssembly.Instance(module, imports), module)};
+  }
+}
+
+function resultOf(tool, words, {input = "", files = {}, isPiped = [false, false]} = {}) {
+  const {FS} = tool;
+  FS.mkdir("/work");
+  FS.chdir("/work");
+  for (const [path, data] of Object.entries(files)) FS.writeFile(path, bytesOf(data));
+  FS.writeFile(IN, bytesOf(input));
+  [[0, IN, "r"], [1, OUT, "w"], [2, MESSAGES, "w"]].forEach(([descriptor, path, mode]) => {
+    FS.close(FS.streams[descriptor]);
+    const stream = FS.open(path, mode);
+    if (stream.fd !== descriptor) throw new Error(`descriptor ${stream.fd} in place of ${descriptor}`);
+    if (isPiped[descriptor]) stream.node.mode = (stream.node.mode & ~KIND) | FIFO;
+  });
+  const out = FS.streams[1].node, messages = FS.streams[2].node;
+  let status;
+  try {
+    status = tool.callMain([...words]);
+  } catch (trap) {
+    if (trap.status === undefined) return {status: CRASHED, output: new Uint8Array(), messages: utf8.encode(`${tool.thisProgram}: ${trap.message}\n`), written: new Map(), read: () => null};
+    status = trap.status;
+  }
+  const contents = node => node.contents ? Uint8Array.from(node.contents.subarray(0, node.usedBytes)) : new Uint8Array();
+  // Read now: what refers to the instance keeps all of its memory.
+  const written = new Map(FS.readdir("/work").filter(path => FS.isFile(FS.stat(path).mode) && !(path in files)).map(path => [path, FS.readFile(path)]));
+  return {status, output: contents(out), messages: contents(messages), written, read: path => written.get(path) || null};
 }
 
 export const textOf = bytes => text.decode(bytes);

@@ -4,11 +4,13 @@ import createTool from "all-tools";
 
 import {Pipe, StageFailure} from "./pipe.js";
 import {Tools, textOf} from "./tools.js";
+import {zipOf} from "./zip.js";
 
 let pipe = null, tools = null;
 
-// What is asked for: {module} once, then {id, state, isQuick} for a run or {id, help} for the text of a tool's --help.
-self.onmessage = async ({data: {module, id, state, isQuick, help}}) => {
+// What is asked for: {module} once, then {id, state, isQuick} for a run, which first answers with its picture, {id, help} for the text of a
+// tool's --help, or {id, saved}, a state, for a zip of its files.
+self.onmessage = async ({data: {module, id, state, isQuick, help, saved}}) => {
   if (module) {
     tools = new Tools(createTool, module);
     pipe = new Pipe(tools);
@@ -16,7 +18,8 @@ self.onmessage = async ({data: {module, id, state, isQuick, help}}) => {
   }
   try {
     if (help) return self.postMessage({id, text: textOf((await tools.run(help, ["--help"])).output)});
-    self.postMessage({id, ...await pipe.run(state, isQuick)});
+    if (saved) return self.postMessage({id, zip: zipOf(await pipe.filesOf(saved))});
+    self.postMessage({id, ...await pipe.run(state, isQuick, picture => self.postMessage({id, picture}))});
   } catch (error) {
     const {tool, messages} = error instanceof StageFailure ? error : {tool: "page", messages: [{tool: "page", line: `page: ${error.message}`}]};
     self.postMessage({id, failed: tool, messages});

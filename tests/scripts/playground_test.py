@@ -1,6 +1,7 @@
 """The playground: its tools are the native ones to the byte, and the page shows what they write."""
 import base64
 import http.server
+import io
 import json
 import os
 import pathlib
@@ -13,6 +14,7 @@ import tempfile
 import threading
 import unittest
 import urllib.request
+import zipfile
 
 BIN, ROOT = (pathlib.Path(word).resolve() for word in sys.argv[1:3])
 sys.path[:0] = [str(ROOT / "tests/conformance"), str(ROOT / "tests/scripts")]
@@ -92,6 +94,9 @@ def native(run):
                                 for name, path in files.items()}}
 
 
+FILES = ("index.html", "main.js", "samples.json", "tools.wasm", "worker.js")
+FILES_OF_PYTHON = ("commands.json", "pyodide-lock.json", "pyodide.asm.mjs", "pyodide.asm.wasm", "pyodide.mjs",
+                   "python.js", "python_stdlib.zip")
 NOT_BUILT = "scripts/build-playground has not run here"
 
 
@@ -160,8 +165,19 @@ class TheBuild(unittest.TestCase):
                 self.assertEqual(self.build(folder).returncode, 0)
             names = sorted(str(path.relative_to(folder)) for path in pathlib.Path(folder).rglob("*"))
             self.assertEqual(names, [
-                "playground", "playground.html", "playground/index.html", "playground/main.js",
-                "playground/samples.json", "playground/tools.wasm", "playground/worker.js"])
+                "playground", "playground.html",
+                *(f"playground/{name}" for name in sorted((*FILES, *FILES_OF_PYTHON)))])
+
+
+class TheEditor(unittest.TestCase):
+    def test_it_completes_the_commands_of_a_scene(self):
+        source = (ROOT / "libpipeline/scene/scene.cpp").read_text()
+        known = re.search(r"kCommands = \{(.*?)\}", source, re.DOTALL)[1]
+        offered = re.search(r"COMMANDS = \[(.*?)\]", (ROOT / "scripts/playground/editor.js").read_text(),
+                            re.DOTALL)[1]
+        words = [re.findall(r'"(\w+)"', text) for text in (known, offered)]
+        projections = ["ortho", "frustum", "ratio"]
+        self.assertEqual(sorted([*words[0], *projections]), sorted(words[1]))
 
 
 class Listener:
@@ -350,9 +366,9 @@ class ThePage(PageTest):
     def test_the_stages_to_begin_with_are_right(self):
         scene, config = self.sample("tilted-camera")
         self.edit(scene=scene.decode(), config=config.decode())
-        for tool in ("view", "project"):
-            self.assertEqual(self.own(tool), [
-                "", f"your own {tool}: every vertex is right; 0 of 10000 pixels differ."])
+        for tool, told in (("view", "every vertex is right; "), ("project", "every vertex is right; "),
+                           ("zbuf", "")):
+            self.assertEqual(self.own(tool), ["", f"your own {tool}: {told}0 of 10000 pixels differ."])
             self.browser.run("document.querySelector('#own-off').click()")
             self.browser.wait_for(lambda: not any(self.browser.run(self.TOLD)))
 
@@ -386,6 +402,69 @@ class ThePage(PageTest):
                 self.browser.wait_for(lambda: not any(self.browser.run(self.TOLD)))
         plus = re.sub(r"(?m)^(?=[0-9])", "+", text)
         self.assertIn("every vertex is right; 0 of", self.own("project", plus, "text")[1])
+
+    def test_a_picture_of_ones_own_is_compared_pixel_by_pixel(self):
+        self.edit(scene="0 0 2\n0 0 0\n0 1 0\n60 1 1 10\nbackground 9 8 7\nend\n", config="2 2\n")
+        right = "P3 # a comment\n2 2 255 9 8 7  9 8 7\n9 8 7  9 8 7"
+        image = "<img src=x onerror='document.body.dataset.hit = 1'>"
+        for text, told in (
+            (right, "0 of 4 pixels differ"),
+            (right[:-1] + "6", "1 of 4 pixels differ, first row 1, column 1: 9 8 6 in place of 9 8 7"),
+            (right[:-1], "there is no picture of it: expected 12 numbers behind 255, found 11"),
+            (right.replace("9 8 7", "9 256 7"), "expected a number from 0 to 255, found 256"),
+            (right.replace("2 2", "2 3"), "begins with P3 2 2 255, found P3 2 3 255"),
+            ("P3 2 2 255 " + "0 " * 9000, "it is longer than such a picture"),
+            (image, "found <img src=x onerror='document.body.datas")):
+            with self.subTest(text=text[:80]):
+                self.assertIn(told, self.own("zbuf", text, "text")[1])
+                self.browser.run("document.querySelector('#own-off').click()")
+                self.browser.wait_for(lambda: not any(self.browser.run(self.TOLD)))
+        hit = "return document.body.dataset.hit || document.querySelector('img')"
+        self.assertIsNone(self.browser.run(hit))
+
+    def test_code_that_ran_runs_again_on_an_edited_scene(self):
+        scene, config = self.sample("worked-example")
+        self.edit(scene=scene.decode(), config=config.decode())
+        self.assertIn("every vertex is right", self.own("view")[1])
+        self.edit(scene=scene.decode().replace("0 0 2 ", "1 1 3 "))
+        self.browser.wait_for(lambda: any(self.browser.run(self.TOLD)))
+        self.assertIn("every vertex is right", self.browser.run(self.TOLD)[1])
+
+    def test_files_are_those_of_stages(self):
+        for name, zbuf in (("nested-transforms", ""), ("tilted-camera", "--coverage center")):
+            scene, config = self.sample(name)
+            words = {"model": "", "view": "", "project": "", "zbuf": zbuf}
+            self.edit(scene=scene.decode(), config=config.decode(), words=words)
+            letters_of_zip = self.browser.run(
+                "const {client, state} = document.body.playground;"
+                "return client.filesOf(state).then(({zip}) => zip.arrayBuffer()).then(bytes => "
+                "btoa([...new Uint8Array(bytes)].map(byte => String.fromCharCode(byte)).join('')))")
+            with zipfile.ZipFile(io.BytesIO(base64.b64decode(letters_of_zip))) as archive:
+                self.assertIsNone(archive.testzip())
+                found = {entry: archive.read(entry) for entry in archive.namelist()}
+            with tempfile.TemporaryDirectory() as folder:
+                given = [ROOT / "samples" / name / file for file in ("scene.txt", "config.txt")]
+                subprocess.run([ROOT / "scripts/stages", *given, folder], check=True,
+                               env={**os.environ, "BIN": str(BIN)})
+                expected = {path.name: path.read_bytes() for path in pathlib.Path(folder).iterdir()}
+                if zbuf:
+                    image, stage3 = (pathlib.Path(folder, file) for file in ("out.bmp", "stage3.txt"))
+                    expected["z_buffer.txt"] = subprocess.run(
+                        [BIN / "zbuf", given[1], *zbuf.split(), "-o", image], input=stage3.read_bytes(),
+                        capture_output=True, check=True).stdout
+                    expected["out.bmp"] = image.read_bytes()
+            self.assertEqual(found, {"scene.txt": scene, "config.txt": config, **expected})
+
+    def test_the_picture_is_there_before_all_else(self):
+        scene, config = self.sample("worked-example")
+        self.edit(scene=scene.decode(), config=config.decode())
+        self.browser.run("""const {client} = document.body.playground, {drawn, answered} = client;
+          window.heard = [];
+          client.drawn = picture => { drawn(picture); window.heard.push(picture.pixels.length); };
+          client.answered = answer => { window.heard.push("all"); answered(answer); };""")
+        self.edit(scene=scene.decode().replace("90 0 0 1", "45 0 0 1"))
+        size = 3 * self.browser.run(IMAGE)[0] * self.browser.run(IMAGE)[1]
+        self.assertEqual(self.browser.run("return window.heard.slice(0, 2)"), [size, "all"])
 
     def test_a_verdict_does_not_outlive_what_it_is_about(self):
         scene, config = self.sample("worked-example")
@@ -467,12 +546,53 @@ class TheFolder(PageTest):
         address = f"http://127.0.0.1:{self.server.server_port}/index.html{hash_}"
         self.browser.call("POST", "/url", {"url": address})
         self.browser.wait_for(lambda: self.browser.run("return document.body.dataset.runs"))
-        files = ("index.html", "main.js", "samples.json", "tools.wasm", "worker.js", "favicon.ico")
-        self.assertEqual([line for line in self.asked if not line.startswith(
-            tuple(f"GET /{name} " for name in files))], [])
+        files = tuple(f"GET /{name} " for name in (*FILES, "favicon.ico"))
+        self.assertEqual([line for line in self.asked if not line.startswith(files)], [])
 
     def test_it_shows_the_native_picture(self):
         self.check_the_native_picture()
+
+    def told_by_python(self, panel, label):
+        """What a panel says when its button has been pressed."""
+        press = ("const [panel, label] = arguments, button = [...document.querySelectorAll(panel + ' .asked "
+                 "button')].find(other => other.textContent === label); if (button) button.click(); "
+                 "return Boolean(button)")
+        self.browser.wait_for(lambda: self.browser.run(press, panel, label))
+        told = f"const made = document.querySelector('{panel} .asked pre'); return made && made.textContent"
+        self.browser.wait_for(lambda: self.browser.run(told), 120)
+        return self.browser.run(told)
+
+    def test_a_mistake_has_the_name_that_compare_gives_it(self):
+        scene, config = self.sample("tilted-camera")
+        self.edit(scene=scene.decode(), config=config.decode())
+        view = self.browser.run("return document.body.playground.ownEditor.text")
+        self.own("view", view.replace("minus(line", "((p, q) => p.map((x, i) => x + q[i]))(line"))
+        self.browser.wait_for(lambda: self.browser.run(IS_DONE))
+        self.assertEqual([line for line in self.asked if "py" in line], [])
+        told = self.told_by_python("#theirs", "Name the mistake")
+        files = self.browser.run(
+            "const files = document.body.playground.inspector.data.theirs.handIn.files;"
+            "return Promise.all(Object.entries(files).map(async ([name, data]) => "
+            "[name, await new Blob([data]).text()]))")
+        with tempfile.TemporaryDirectory() as folder:
+            pathlib.Path(folder, "mine").mkdir()
+            for name, text in files:
+                pathlib.Path(folder, name).write_text(text)
+            done = subprocess.run([ROOT / "scripts/compare", "--hand-in", "mine", "scene.txt"], cwd=folder,
+                                  env={**os.environ, "BIN": str(BIN)}, capture_output=True, text=True)
+        self.assertEqual(told, done.stdout)
+        self.assertIn("eye is added", told)
+        self.browser.run("document.querySelector('#own-off').click()")
+        self.edit(words={"model": "", "view": "", "project": "", "zbuf": "--coverage center"})
+        self.browser.run("document.querySelector('#tab-explanation').click();"
+                         "document.body.playground.inspector.select({triangle: 2, pixel: 5050})")
+        told = self.told_by_python("#explanation", "Run it here")
+        words = [ROOT / "scripts/explain", *(ROOT / "samples/tilted-camera" / name
+                                             for name in ("scene.txt", "config.txt")),
+                 "--coverage", "center", "--triangle", "2", "--pixel", "50,50"]
+        done = subprocess.run(words, env={**os.environ, "BIN": str(BIN)}, capture_output=True, text=True)
+        self.assertEqual(told.replace("scene.txt", ""),
+                         done.stdout.replace(str(words[1]), "").replace("scene.txt", ""))
 
     def test_code_reaches_no_file_of_the_server(self):
         scene, config = self.sample("worked-example")

@@ -76,6 +76,7 @@ class Writing(ToolTest):
         "install-packages": "the folder build of the source tree",
         "build-playground": "the folder build of the source tree, and files of its own in another",
         "playground/make-root": "the folder build of the source tree",
+        "playground/run_command.py": "files in the memory of a browser",
     }
     ROOMS_OF_DEVELOPERS = (
         "measure",

@@ -61,7 +61,7 @@ def mistakes_of(label):
         if line.startswith("# "):
             below = re.findall(rf"(?<!\S){LABEL}(?!\S)", line)
         elif label in below and ": " in line:
-            found.append(line)
+            found.append(line.removeprefix("judge "))
     return found
 
 

@@ -23,6 +23,17 @@ function windowOf(header) {
   return [-right, right, -top, top, near, far];
 }
 
+// The numbers behind each keyword before the first triangle of a text; `ratio` has none, and stands for the word at the end of a line.
+export function headerOf(text) {
+  const header = new Map();
+  for (const line of text.slice(0, text.search(/^[-\d]/m) >>> 0).split("\n")) {
+    const [keyword, ...words] = line.split(" ");
+    header.set(keyword, words.map(Number));
+    if (words.at(-1) === "ratio") header.set("ratio", []);
+  }
+  return header;
+}
+
 // The guide after a tool: `header` is that of model, `reach` the distance of the farthest vertex from the eye.
 export function guideOf(tool, header, reach) {
   const named = (lines, corners, more) => ({guide: lines, labels: [{text: "near", at: corners[3]}, {text: "far", at: corners[7]}, ...more]});
