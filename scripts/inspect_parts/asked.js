@@ -1,12 +1,14 @@
-// A button that asks for a text, and gives way to it. `ask` promises the text.
+// A button that asks for a text, and gives way to it. `ask` promises the text; `block` is its side that is to be seen, as of scrollIntoView.
 
 import {element} from "./element.js";
 
-export function asked(label, ask) {
+export function asked(label, ask, block = "nearest") {
   const button = element("button", {}, label), box = element("div", {class: "asked", "aria-live": "polite"}, button);
   button.onclick = async () => {
     box.replaceChildren("one moment …");
-    box.replaceChildren(element("pre", {tabindex: 0}, await ask().catch(error => error.message)));
+    const text = element("pre", {tabindex: 0}, await ask().catch(error => error.message));
+    box.replaceChildren(text);
+    text.scrollIntoView({block});
   };
   return box;
 }

@@ -12,7 +12,7 @@ export class TheirsPanel {
   constructor({box, theirs, ask, panels, pictures, captions, button, select}) {
     Object.assign(this, {box, theirs, select});
     box.append(element("p", {}, `${theirs.folder}: ${theirs.sentence}.`), this.fileTable());
-    if (ask) box.append(asked("Name the mistake", () => ask(theirs.handIn.command, theirs.handIn.files)));
+    if (ask) box.append(asked("Name the mistake", () => ask(theirs.handIn.command, theirs.handIn.files), "end"));
     theirs.files.forEach((file, i) => captions[file.place ?? i].append(element("span", {class: file.isGood ? "good" : "bad", title: file.remarks}, `${file.file}: ${file.verdict}`)));
     for (const {stage, wire} of panels) {
       const given = theirs.stages[stage.tool], {matrices = []} = theirs.files.find(file => file.stage === stage.tool) || {};

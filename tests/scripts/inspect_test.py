@@ -675,7 +675,7 @@ class InABrowser(ToolTest):
         pathlib.Path("scene.txt").write_text(SCENE.replace("60 1 1 100", "60 1 1 1e6"))
         self.load("scene.txt", "config.txt")
         self.assertLess(self.browser.run("return document.body.inspector.panels[1].wire.view.size"), 40)
-        self.assertIn("(far, at 1e+06, is drawn nearer)",
+        self.assertIn("(far, at 1000000, is drawn nearer)",
                       self.browser.run("return document.querySelector('#stages').textContent"))
 
     def test_a_triangle_in_the_distance_does_not_hide_the_cube(self):
