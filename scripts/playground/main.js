@@ -264,7 +264,7 @@ class Playground {
     if (data.isTraced) one("#glass #pixels figcaption span").textContent = "trace";
     this.inspector = new Inspector(one("#glass"), data, {hasAddress: false, kept, ask: this.python && ((command, files) => this.python.ask(command, files))});
     document.body.dataset.runs = Number(document.body.dataset.runs || 0) + 1;
-    if (this.isAgain && this.client.running === null) this.runOwn();
+    if (this.isAgain) this.runOwn();
   }
 
   showMessages(messages, failed) {

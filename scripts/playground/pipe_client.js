@@ -58,6 +58,7 @@ export class PipeClient {
     this.isPending = answer.isQuick && !this.next;  // the slow part
     if (this.isPending) this.later = setTimeout(() => { this.isPending = false; this.next = {state: this.state, isQuick: false}; this.send(); }, PAUSE);
     this.send();
+    if (this.running !== null) return;  // there is something newer: of this, the picture was all
     try {
       this.answered(answer);
     } catch (error) {
