@@ -67,7 +67,7 @@ export class Pipe {
     const picture = imageOf(drawing.read(IMAGE));
     drawn(picture);
     const explain = {files: {"scene.txt": scene, "config.txt": config}, options: [...wordsOf(words.project), ...wordsOf((words.zbuf.match(/--coverage +\S+/) || [""])[0])]};
-    const data = {...this.inspected(results, config), ...picture, isTraced, explain};
+    const data = {...this.inspected(results, config), ...picture, isTraced, explain, coverage: explain.options.includes("center") ? "center" : "nearest"};
     if (own && !isTraced) data.theirs = await this.withOwn(own, results, {scene, config, words, picture});
     return {data, messages, isQuick: logs[0] !== "--fragments"};
   }
