@@ -6,9 +6,14 @@ export function asked(label, ask, block = "nearest") {
   const button = element("button", {}, label), box = element("div", {class: "asked", "aria-live": "polite"}, button);
   button.onclick = async () => {
     box.replaceChildren("one moment …");
-    const text = element("pre", {tabindex: 0}, await ask().catch(error => error.message));
-    box.replaceChildren(text);
-    text.scrollIntoView({block});
+    try {
+      const text = element("pre", {tabindex: 0}, await ask());
+      box.replaceChildren(text);
+      text.focus({preventScroll: true});
+      text.scrollIntoView({block});
+    } catch (error) {
+      box.replaceChildren(button, ` ${error.message}`);
+    }
   };
   return box;
 }

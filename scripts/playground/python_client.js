@@ -21,7 +21,7 @@ export class PythonClient {
     if (this.worker) return this.worker;
     const {script, ...rest} = await this.resources();
     this.worker = new Worker(script, {type: "module"});
-    this.worker.onmessage = ({data: {text, problem}}) => { if (problem === undefined) this.answer.resolve(text); else this.stop(problem); };
+    this.worker.onmessage = ({data: {text, problem}}) => { if (problem !== undefined) this.stop(problem); else if (this.answer) this.answer.resolve(text); };
     this.worker.onerror = event => { event.preventDefault(); this.stop(event.message || "Python does not start here."); };
     this.worker.postMessage({module: this.module, ...rest});
     return this.worker;

@@ -569,6 +569,10 @@ class TheFolder(PageTest):
         self.own("view", view.replace("minus(line", "((p, q) => p.map((x, i) => x + q[i]))(line"))
         self.browser.wait_for(lambda: self.browser.run(IS_DONE))
         self.assertEqual([line for line in self.asked if "py" in line], [])
+        self.browser.run("document.querySelector('#theirs .asked button').click();"
+                         "document.querySelector('#stop').click()")
+        shown = "return document.querySelector('#theirs .asked').innerText"
+        self.browser.wait_for(lambda: self.browser.run(shown) == "Name the mistake stopped")
         told = self.told_by_python("#theirs", "Name the mistake")
         files = self.browser.run(
             "const files = document.body.playground.inspector.data.theirs.handIn.files;"
