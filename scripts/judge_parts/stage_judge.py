@@ -224,10 +224,7 @@ class StageJudge:
             if is_by(m, is_divided):
                 return Outcome(right_verdict(stage, name, theirs, rule), exact_images(m, is_divided, memory))
         _, ours, divides = right[0]
-        scene = self.scene
-        mistakes, pairs = (scene.view_mistakes(), scene.view_pairs()) if stage == "view" else (
-            scene.project_mistakes(), scene.project_pairs())
-        causes = MatrixCauses(stage, (ours, divides), list(mistakes), pairs, is_by)
+        causes = self.causes_of_matrices(stage, (ours, divides), is_by)
         found = causes.of_the_list()
         if not found and theirs.digits.are_too_few:
             return self.outcome_of_few_digits(stage, name, theirs, [
@@ -250,6 +247,12 @@ class StageJudge:
         verdict.matrices = fit.compare(readings[0].points, theirs.points, theirs.units, ours, divides)
         verdict.causes = verdict.causes or fit.cause_of_one_element(verdict.matrices)
         return Outcome(verdict, exact_images(*found[0][1:], memory) if found else None)
+
+    def causes_of_matrices(self, stage, right, is_by):
+        scene = self.scene
+        mistakes, pairs = (scene.view_mistakes(), scene.view_pairs()) if stage == "view" else (
+            scene.project_mistakes(), scene.project_pairs())
+        return MatrixCauses(stage, right, list(mistakes), pairs, is_by)
 
     def detail(self, name):
         """A number that shows the mistake."""

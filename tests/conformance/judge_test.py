@@ -7,7 +7,7 @@ right run.
 usage: judge_test.py STUDENT BIN_DIR SOURCE_DIR [SCENES [SHARE]]
 
 Of each scene every SHARE-th switch is tried (by default every fourth), others at the next scene; every other
-scene is drawn by the center rule. If SHARE is 1, all switches are tried on the plain samples, too. The scenes
+scene is drawn by the center rule. If SHARE is 1, all switches are tried on plain samples, too. The scenes
 are the same in every run; the processors share them.
 """
 import concurrent.futures
@@ -34,7 +34,7 @@ from judge_parts.judge import judge  # noqa: E402
 from lib.stage_text import parse_stage_text  # noqa: E402
 
 NOTHING_IN_VIEW = "nothing is in view"  # of what the stages before have made
-SAMPLES = ("one-triangle", "two-triangles", "tilted-camera", "nested-transforms", "worked-example", "torus")
+SAMPLES = ("one-triangle", "two-triangles", "tilted-camera", "nested-transforms", "worked-example")
 DAMAGES = 4  # of each scene, besides a missing triangle
 LEAST_NAMED = 0.9  # of the mistakes whose numbers differ
 FILES_OF = {

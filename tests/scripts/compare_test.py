@@ -215,6 +215,16 @@ class Five(ToolTest):
             self.hand_in("", in_memory)
             self.assertEqual(self.verdict(status=0), ("Verdict: all five files are right.", ["right"] * 5))
 
+    def test_the_last_line_is_the_command_to_type_next(self):
+        files = f"{SAMPLE}/scene.txt {SAMPLE}/config.txt"
+        self.hand_in("project/no-divide")
+        done = compare("--hand-in", "theirs", *files.split())
+        self.assertEqual(done.stdout.splitlines()[-1], f"Next: pipeline explain {files} --triangle 0")
+        self.hand_in()
+        pathlib.Path("theirs/z_buffer.txt").write_text("0.1\t0.234567\n")
+        done = compare("--hand-in", "theirs", *files.split())
+        self.assertEqual(done.stdout.splitlines()[-1], f"Next: pipeline inspect {files} --theirs theirs")
+
     def test_cut_decimals_are_no_mistake(self):
         self.hand_in()
         data = SCENE.encode()
