@@ -6,6 +6,7 @@ usage: check_stage_test.py BIN_DIR [UNITTEST ARGUMENT...]
 import os
 import pathlib
 import re
+import signal
 import subprocess
 import sys
 import time
@@ -67,6 +68,21 @@ class Program(ToolTest):
         done = check("model", "--comments", "--", "sh", "-c", f"BIN={BIN}; {text}")
         self.assertEqual(done.returncode, 1)
         self.assertIn("wrong: its exit status is 1", done.stdout)
+
+    def test_watch_runs_again_when_the_program_has_changed(self):
+        words = [SOURCE / "scripts/check-stage", "--read", BIN, "view", "--scene", "scene", "--watch", "--",
+                 script("cat")]
+        with subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                              env={**os.environ, "BIN": str(BIN)}) as process:
+            told = [process.stdout.readline()]
+            while "sandbox" not in told[-1]:
+                told.append(process.stdout.readline())
+            script('exec "$BIN/view"')
+            told += [process.stdout.readline() for _ in range(3)]
+            process.send_signal(signal.SIGINT)
+            self.assertIn("SIGINT", process.stderr.read())
+        self.assertEqual(told[0], "scene: wrong\n")
+        self.assertEqual(told[-3:], ["\n", "The program has changed.\n", "scene: right\n"])
 
     def test_a_sphere_is_refused_with_its_line(self):
         pathlib.Path("scene").write_text(SCENE.replace("end\n", "sphere 0 0 0 1\nend\n"))

@@ -1,0 +1,105 @@
+"""A program in the place of a stage: what it is fed, how it is run, and what it hands in."""
+import os
+import re
+import resource
+import sys
+import tempfile
+
+from judge_parts.hand_in import KINDS, File, fitting_names
+from judge_parts.places import place
+from lib.command import shown
+from lib.input_file import InputError
+from lib.pipe_tools import OPAQUE_NOTE, opaque_background, with_opaque_background
+
+sys.path.append(str(place("tests/conformance", "share/pipeline/conformance")))
+from conform_parts import confined  # noqa: E402
+from conform_parts.workers import spread  # noqa: E402
+
+STAGES = {"model": None, "view": "stage1", "project": "stage2",
+          "zbuf": "stage3"}  # with the kind of file that each reads
+WRITES = {"model": "stage1", "view": "stage2", "project": "stage3", "zbuf": "depths"}
+
+
+def input_of(stage, scene, tools, is_bare):
+    """What the stage reads, and as bare text."""
+    if stage == "model":
+        return scene, scene
+    bare = ["--bare"] if is_bare else []
+    if stage == "view":
+        return tools.output("model", *bare, stdin=scene), tools.output("model", "--bare", stdin=scene)
+    with tools.file(scene) as path:
+        view = tools.output("view", "--scene", path, *bare, stdin=tools.output("model", stdin=scene))
+        if stage == "project":
+            return view, view
+        project = tools.output("project", "--scene", path, stdin=view)
+    if opaque_background(project):
+        print(f"{os.path.basename(sys.argv[0])}: note: {OPAQUE_NOTE}", file=sys.stderr)
+    project = with_opaque_background(project)
+    return project, project
+
+
+class ProgramError(Exception):
+    """The program did not do its job; the text says why. `errors` is what it wrote to stderr."""
+
+    def __init__(self, reason, errors=b""):
+        super().__init__(reason)
+        self.errors = errors
+
+
+def without_comments(scene):
+    """A scene's bytes as assignments have them."""
+    lines = [(line, line.split(b"#")[0].rstrip()) for line in scene.splitlines()]
+    return b"".join(rest + b"\n" for line, rest in lines if rest or not line.strip())
+
+
+def run_program(options, scene, config, given, top, limit):
+    """The stdout and stderr of a program that gets the bytes `given`; raises a ProgramError. It works in
+    top/work, and {scene} and {config} in its words are files with those bytes."""
+    limits = confined.limits_of(options, options.time_limit)._replace(output=limit)
+    words = options.box.words and [*options.box.words, "--ro-bind", top / "given", top / "given"]
+    box = options.box._replace(words=words)
+    files = {name: top / f"given/{name}.txt" for name in ("scene", "config")}
+    (top / "given").mkdir()
+    files["scene"].write_bytes(scene)
+    files["config"].write_bytes(config)
+    words = [
+        re.sub(r"\{(scene|config)\}", lambda found: str(files[found[1]]), word) for word in options.program]
+    return outcome(words, given, top / "work", limits, box)
+
+
+def outcome(words, given, folder, limits, box):
+    """The stdout and stderr of a command that works in a folder; raises a ProgramError."""
+    def run(_):
+        hard = resource.getrlimit(resource.RLIMIT_AS)[1]  # the judge's own limit is none of the program's
+        resource.setrlimit(resource.RLIMIT_AS, (hard, hard))
+        return confined.run(words, stdin, folder, limits, box)
+
+    with tempfile.TemporaryFile() as stdin:
+        stdin.write(given)
+        stdin.seek(0)
+        [ending] = spread(run, 1, 1, limits.seconds)
+    if ending is None:
+        raise ProgramError("it has ended the process that ran it")
+    if ending.status != 0:
+        reason = f"it {ending.why}" if ending.why else f"its exit status is {ending.status}"
+        raise ProgramError(reason, ending.stderr)
+    return ending.stdout, ending.stderr
+
+
+def hand_in(stage, output, before, folder):
+    """The Files by kind that the judge needs for one stage; `folder` is the descriptor of the program's."""
+    files = {} if stage == "model" else {STAGES[stage]: File("the input", before)}
+    if stage != "zbuf":
+        return {**files, WRITES[stage]: File("stdout", output)}
+    written = {kind: read_file(names[0] if names else KINDS[kind][0], folder, tuple(map(shown, names[1:])))
+               for kind, names in fitting_names(os.listdir(folder)).items()}
+    return {
+        **files, "picture": written["picture"],
+        "depths": written["depths"] if written["depths"].data else File("stdout", output)}
+
+
+def read_file(name, folder, others):
+    try:
+        return File(shown(name), confined.read_output(name, folder, confined.LARGEST_FILE), None, others)
+    except confined.Refused as error:
+        return File(shown(name), None, InputError(name, str(error)), others)
