@@ -1,12 +1,46 @@
-"""The tests of an assignment: for each a scene, a config and a weight, and what is right."""
+"""An assignment: its tests, for each a scene, a config and a weight, and what is right; and what
+assignment.txt says of points, hints, and the program that is handed in."""
 import dataclasses
 import math
 import os
+import shlex
 
+from grade_parts.hints import LEVELS
+from judge_parts.hand_in import KINDS, STAGE_OF
+from judge_parts.program import STAGES, input_of, without_comments
 from judge_parts.reference import JudgeError, Reference, kinds_of
 from lib.command import CommandFailure, shown
 from lib.input_file import InputError, read_input
 from lib.pipe_tools import ToolFailure, Tools
+
+SETTINGS = "assignment.txt"
+KIND_OF = {name: kind for kind, (name, _) in KINDS.items()}
+SECONDS_OF_BUILD, SECONDS_OF_RUN = 60, 10
+
+
+@dataclasses.dataclass
+class Program:
+    """What is handed in, if it is a program for a stage: shell words that build it and run it."""
+    stage: str
+    build: str = ""
+    run: list = dataclasses.field(default_factory=list)
+    is_bare: bool = False
+    packages: list = dataclasses.field(default_factory=list)  # of Debian, which a kit installs
+
+    def seconds(self, test_count):
+        """The most that it may take."""
+        return SECONDS_OF_BUILD + SECONDS_OF_RUN * test_count
+
+
+@dataclasses.dataclass
+class Settings:
+    """What assignment.txt says; without it, as here."""
+    hints: str = "cause"
+    points: dict = dataclasses.field(default_factory=dict)   # by the kind of a file
+    weights: dict = dataclasses.field(default_factory=dict)  # by the name of a test
+    another_rule: float = 1.0   # what a file is worth that is right by another rule
+    required: list = dataclasses.field(default_factory=list)  # kinds without which a test earns nothing
+    program: Program = None
 
 
 @dataclasses.dataclass
@@ -14,12 +48,34 @@ class Test:
     name: str
     weight: float
     reference: Reference
-    kinds: list     # of the files that a hand-in needs
+    kinds: list     # of the files that are judged
     picture: list   # rows of bytes of the right picture; None without a config
+    settings: Settings
+    given: tuple = ()  # what a program reads, and the same as bare text
+
+    def share(self, kind):
+        """The points of a file."""
+        points = self.settings.points
+        return self.weight * (points.get(kind, 0) if points else 1 / len(self.kinds))
+
+    @property
+    def max_score(self):
+        return self.weight * sum(self.settings.points.get(kind, 0)
+                                 for kind in self.kinds) if self.settings.points else self.weight
+
+    def score(self, files):
+        """The points of a test, by the FileVerdicts of its files."""
+        good = {kind: file for kind, file in zip(self.kinds, files) if file.is_good}
+        if not all(kind in good for kind in self.settings.required if kind in self.kinds):
+            return 0.0
+        if len(good) == len(self.kinds) and not any(file.rule for file in files):
+            return self.max_score
+        return sum(self.share(kind) * (self.settings.another_rule if file.rule else 1)
+                   for kind, file in good.items())
 
 
 def read_tests(folder):
-    """The Tests in the folders of a folder, sorted by name."""
+    """The Tests in the folders of a folder, sorted by name, and the Settings."""
     try:
         names = sorted(entry.name
                        for entry in os.scandir(folder)
@@ -28,7 +84,89 @@ def read_tests(folder):
         raise InputError(folder, error.strerror) from None
     if not names:
         raise CommandFailure(f"{shown(folder)}: expected a folder for each test, found none")
-    return [read_test(os.path.join(folder, name), name) for name in names]
+    data = optional(os.path.join(folder, SETTINGS))
+    settings = read_settings(data or b"", os.path.join(folder, SETTINGS), names)
+    return [read_test(os.path.join(folder, name), name, settings) for name in names], settings
+
+
+def read_settings(data, path, tests):
+    """The Settings in the bytes of an assignment.txt."""
+    settings, others = Settings(), {}
+    for number, line in enumerate(data.decode(errors="replace").splitlines(), 1):
+        word, _, rest = line.strip().partition(" ")
+        try:
+            if word in ("build", "run", "input", "packages"):
+                others[word] = rest.strip()
+            elif word and not word.startswith("#"):
+                set_one(settings, word, rest.strip(), tests)
+        except ValueError as error:
+            raise CommandFailure(f"{shown(path)}:{number}: {shown(str(error))}") from None
+    try:
+        complete(settings, others)
+    except ValueError as error:
+        raise CommandFailure(f"{shown(path)}: {shown(str(error))}") from None
+    return settings
+
+
+def set_one(settings, word, rest, tests):
+    """Does what a line asks for."""
+    if word == "hints":
+        settings.hints = one_of(LEVELS, rest)
+    elif word == "points":
+        name, value = pair(rest)
+        settings.points[KIND_OF[one_of(KIND_OF, name)]] = amount(value)
+    elif word == "weight":
+        name, value = pair(rest)
+        settings.weights[one_of(tests, name)] = amount(value)
+    elif word == "another-rule":
+        settings.another_rule = amount(rest, most=1)
+    elif word == "required":
+        settings.required.append(KIND_OF[one_of(KIND_OF, rest)])
+    elif word == "program":
+        settings.program = Program(one_of(STAGES, rest))
+    else:
+        raise ValueError("expected hints, points, weight, another-rule, required, program, build, run, "
+                         f"input or packages, found '{word}'")
+
+
+def complete(settings, others):
+    """Puts what is about the program into it."""
+    program = settings.program
+    if not program and others:
+        raise ValueError(f"expected a line 'program STAGE' for '{min(others)}', found none")
+    if program:
+        program.build, program.run = others.get("build", ""), shlex.split(others.get("run", ""))
+        program.packages = others.get("packages", "").split()
+        program.is_bare = one_of(("header", "bare"), others.get("input", "header")) == "bare"
+        if not program.run:
+            raise ValueError("expected a line 'run COMMAND' for the program, found none")
+    if settings.points and not sum(settings.points.values()):
+        raise ValueError("expected points above 0 for a file")
+
+
+def one_of(words, word):
+    if word not in words:
+        raise ValueError(f"expected {', '.join(words)}, found '{word}'")
+    return word
+
+
+def pair(text):
+    name, _, value = text.rpartition(" ")
+    if not name:
+        raise ValueError(f"expected a name and a number, found '{text}'")
+    return name.strip(), value
+
+
+def amount(text, most=math.inf):
+    """A number of points."""
+    try:
+        value = float(text)
+    except ValueError:
+        value = math.nan
+    if not 0 <= value <= most or value == math.inf:
+        bound = "at least 0" if most == math.inf else f"0 to {most:g}"
+        raise ValueError(f"expected a number of {bound}, found '{text[:40].strip()}'")
+    return value
 
 
 def holds_tests(folder):
@@ -43,15 +181,25 @@ def holds_tests(folder):
     return bool(have_scenes) and all(have_scenes)
 
 
-def read_test(folder, name):
+def read_test(folder, name, settings):
     scene = read_input(os.path.join(folder, "scene.txt"), only_regular=True)
     config, weight = (optional(os.path.join(folder, file)) for file in ("config.txt", "weight.txt"))
+    program = settings.program
     try:
         reference = Reference(scene, config, Tools())
     except JudgeError as error:
         raise CommandFailure(f"{shown(folder)}: {error}") from None
-    return Test(name, weight_of(weight, folder), reference, kinds_of(config),
-                right_picture(reference) if config is not None else None)
+    try:
+        default = 1.0 if weight is None else amount(weight.decode(errors="replace"))
+        weight = settings.weights.get(name, default)
+    except ValueError as error:
+        raise CommandFailure(f"{shown(folder)}/weight.txt: {shown(str(error))}") from None
+    kinds = [kind for kind in kinds_of(config) if not program or STAGE_OF[kind] == program.stage]
+    if not kinds:
+        raise CommandFailure(f"{shown(folder)}: expected a config.txt, which zbuf needs, found none")
+    given = input_of(program.stage, without_comments(scene), Tools(), program.is_bare) if program else ()
+    return Test(name, weight, reference, kinds, right_picture(reference) if "picture" in kinds else None,
+                settings, given)
 
 
 def optional(path):
@@ -62,21 +210,6 @@ def optional(path):
         if error.is_missing:
             return None
         raise
-
-
-def weight_of(data, folder):
-    if data is None:
-        return 1.0
-    try:
-        weight = float(data)
-    except ValueError:
-        weight = math.nan
-    if not 0 <= weight < math.inf:
-        raise CommandFailure(
-            f"{shown(folder)}/weight.txt: expected a number of at least 0, found "
-            f"'{shown(data[:40].decode(errors='replace').strip())}'"
-        )
-    return weight
 
 
 def right_picture(reference):

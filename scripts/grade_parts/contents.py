@@ -7,10 +7,17 @@ import stat
 import tarfile
 import zipfile
 
+from lib.command import shown
+
 MOST_FILES = 20_000
 MOST_DEPTH = 12             # folders inside each other
 MOST_BYTES = 1 << 28        # of an archive, and of what a compressed tar swells to
+MOST_ARCHIVES = 4           # in a hand-in
 SUFFIXES = (".zip", ".tar", ".tar.gz", ".tgz")
+UNREAD = (".rar", ".7z", ".tar.xz", ".txz", ".tar.bz2", ".tbz2", ".tar.zst")  # archives, but not read
+OTHERS = {  # how they begin
+    b"Rar!": "RAR", b"7z\xbc\xaf": "7-Zip", b"\xfd7zX": "xz", b"BZh": "bzip2",
+    b"\x28\xb5\x2f\xfd": "Zstandard"}
 FLAGS = os.O_RDONLY | os.O_CLOEXEC | os.O_NOCTTY | os.O_NONBLOCK | os.O_NOFOLLOW
 
 
@@ -18,21 +25,54 @@ class ContentsError(Exception):
     """A hand-in that cannot be read; the text says why."""
 
 
+def without_suffix(name):
+    return next((name[:-len(suffix)]
+                 for suffix in (*SUFFIXES, *UNREAD)
+                 if name.lower().endswith(suffix) and len(name) > len(suffix)), name)
+
+
 class Contents:
-    """`paths` are those of the regular files, as tuples of names; `remarks` tell what else there was."""
+    """`paths` are those of the regular files, as tuples of names; `remarks` tell what else there was. An
+    archive among them, as Moodle hands them out, is looked into, but none in that."""
 
     def __init__(self):
-        self.files, self.skipped = {}, {}
+        self.files, self.skipped, self.inner, self.failed = {}, {}, {}, []
 
     @property
     def paths(self):
-        return list(self.files)
+        return [*self.files, *(path for path in self.inner if path not in self.files)]
 
     @property
     def remarks(self):
         return [
             f"{count} {'entry' if count == 1 else 'entries'} not looked at: {why}"
-            for why, count in self.skipped.items()]
+            for why, count in self.skipped.items()] + self.failed
+
+    def look_into_archives(self):
+        archives = [path for path in sorted(self.files) if path[-1].lower().endswith(SUFFIXES)]
+        for path in archives[:MOST_ARCHIVES]:
+            try:
+                data = self.read(path, MOST_BYTES)
+                if len(data) > MOST_BYTES:
+                    raise ContentsError(f"it is larger than {MOST_BYTES >> 20} MiB")
+                archive = archive_of(io.BytesIO(data))
+            except MemoryError:
+                raise
+            except Exception as error:  # whatever zipfile, tarfile and zlib raise for an archive that is none
+                reason = str(error) if isinstance(error, ContentsError) else NO_ARCHIVE.format(error)
+                self.failed.append(f"{shown('/'.join(path))}: {reason}")
+                continue
+            del self.files[path]
+            for parts in archive.paths:
+                self.inner[(*path[:-1], without_suffix(path[-1]), *parts)] = archive, parts
+            for why, count in archive.skipped.items():
+                self.skipped[why] = self.skipped.get(why, 0) + count
+            check_count(len(self.files) + len(self.inner))
+
+    def data(self, path, limit):
+        """At most limit + 1 bytes of a file."""
+        archive, parts = (self, path) if path in self.files else self.inner[path]
+        return archive.read(parts, limit)
 
     def add(self, parts, handle, is_regular, kind=""):
         """Notes an entry, unless it is one that is passed over."""
@@ -147,28 +187,42 @@ def unpacked(file):
     return io.BytesIO(data)
 
 
+NO_ARCHIVE = "it cannot be read as an archive ({0.__class__.__name__})"
+
+
+def archive_of(file):
+    begin = file.read(4)
+    file.seek(0)
+    kind = next((name for start, name in OTHERS.items() if begin.startswith(start)), "")
+    if kind:
+        raise ContentsError(f"a {kind} archive is not read: expected a folder, .zip, .tar or .tar.gz")
+    if begin.startswith(b"PK"):
+        return ZipContents(file)
+    return TarContents(unpacked(file) if begin.startswith(b"\x1f\x8b") else file)
+
+
 def contents_of(path):
     """The Contents of a folder or an archive; raises a ContentsError."""
     try:
-        if os.path.isdir(path) and not os.path.islink(path):
-            return FolderContents(path)
-        file = os.fdopen(os.open(path, FLAGS), "rb")
-        status = os.fstat(file.fileno())
-        if not stat.S_ISREG(status.st_mode):
-            raise ContentsError("expected a folder or an archive")
-        if status.st_size > MOST_BYTES:
-            raise ContentsError(f"it is larger than {MOST_BYTES >> 20} MiB")
-        begin = file.read(2)
-        file.seek(0)
-        if begin == b"PK":
-            return ZipContents(file)
-        return TarContents(unpacked(file) if begin == b"\x1f\x8b" else file)
-    except ContentsError:
-        raise
-    except MemoryError:
+        contents = outer_contents(path)
+        contents.look_into_archives()
+        return contents
+    except (ContentsError, MemoryError):
         raise
     except OSError as error:
         raise ContentsError("a link is not followed" if os.path.
                             islink(path) else error.strerror or "it cannot be read as an archive") from None
     except Exception as error:  # whatever zipfile, tarfile and zlib raise for an archive that is none
-        raise ContentsError(f"it cannot be read as an archive ({type(error).__name__})") from None
+        raise ContentsError(NO_ARCHIVE.format(error)) from None
+
+
+def outer_contents(path):
+    if os.path.isdir(path) and not os.path.islink(path):
+        return FolderContents(path)
+    file = os.fdopen(os.open(path, FLAGS), "rb")
+    status = os.fstat(file.fileno())
+    if not stat.S_ISREG(status.st_mode):
+        raise ContentsError("expected a folder or an archive")
+    if status.st_size > MOST_BYTES:
+        raise ContentsError(f"it is larger than {MOST_BYTES >> 20} MiB")
+    return archive_of(file)

@@ -3,6 +3,7 @@ does to it, it does to itself."""
 import contextlib
 import dataclasses
 import fcntl
+import hashlib
 import multiprocessing
 import multiprocessing.connection
 import os
@@ -14,10 +15,12 @@ import traceback
 
 from grade_parts.contents import ContentsError, contents_of
 from grade_parts.difference import pictures
-from grade_parts.hand_ins import files_for
+from grade_parts.hand_ins import files_for, looked_for
 from grade_parts.hints import fixes, gives, in_words
+from grade_parts.programs import verdicts
+from judge_parts.hand_in import KINDS
 from judge_parts.judge import HandIn as Judge
-from judge_parts.verdict import OPEN, Verdict
+from judge_parts.verdict import OPEN, WRONG, Verdict
 
 LARGEST_FILE = 1 << 30  # that a tool may write for a hand-in
 MEBIBYTE = 1 << 20
@@ -32,6 +35,7 @@ class GradedTest:
     words: str       # for the student, with as much as the hints give away
     fixes: list
     pictures: list   # of (caption, data: URI)
+    by_teacher: str = ""  # what a line of the overrides has changed or said
 
 
 @dataclasses.dataclass
@@ -40,6 +44,7 @@ class Graded:
     max_score: float = 0.0
     remarks: list = dataclasses.field(default_factory=list)
     failure: str = ""  # why it could not be judged
+    wrong: dict = dataclasses.field(default_factory=dict)  # {(test, file): hash} of what is not right
 
     @property
     def score(self):
@@ -57,30 +62,42 @@ class Limits:
     seconds: float
     mebibytes: int
     jobs: int
+    hidden: tuple = ()  # folders that no program may read
+    program: object = None  # an assignment.Program, if that is what is handed in
 
 
-def grade(path, tests, level):
+def grade(path, tests, level, limits):
     """The Graded of the hand-in at a path."""
     try:
         contents = contents_of(path)
     except ContentsError as error:
         return failed(tests, f"It could not be read: {error}.")
-    graded = Graded(max_score=sum(test.weight for test in tests), remarks=contents.remarks)
-    for test in tests:
-        files = files_for(contents, test, len(tests) == 1)
-        verdict = Judge(files, test.reference, test.kinds).judge()
-        score = test.weight * sum(file.is_good for file in verdict.files) / len(verdict.files)
+    graded = Graded(max_score=sum(test.max_score for test in tests), remarks=contents.remarks)
+    judged = verdicts(contents, tests, limits) if limits.program else (
+        judge_files(contents, test, len(tests) == 1) for test in tests)
+    for test, (files, verdict, remark) in zip(tests, judged):
+        graded.remarks += [remark] * bool(remark)
         shown = pictures(test, files, verdict) if gives(level, "stage") else []
-        for file in verdict.files:
+        for kind, file in zip(test.kinds, verdict.files):
             file.places = []  # the pictures have them; there may be millions
+            if file.verdict == WRONG and (data := kind in files and files[kind].data):
+                graded.wrong[test.name, KINDS[kind][0]] = hashlib.sha256(data).digest()
         graded.tests.append(
-            GradedTest(test.name, score, test.weight, verdict, in_words(verdict, level),
-                       fixes(verdict, level), shown))
+            GradedTest(test.name, test.score(verdict.files), test.max_score, verdict,
+                       in_words(verdict, level), fixes(verdict, level), shown))
     return graded
 
 
+def judge_files(contents, test, is_only_test):
+    """The Files of a test, the Verdict on them, and what was looked for if there are none."""
+    files = files_for(contents, test, is_only_test)
+    verdict = Judge(files, test.reference, test.kinds).judge()
+    is_found = any(not file.is_missing for file in files.values())
+    return files, verdict, "" if is_found else looked_for(test, is_only_test)
+
+
 def failed(tests, reason):
-    return Graded(max_score=sum(test.weight for test in tests), failure=reason)
+    return Graded(max_score=sum(test.max_score for test in tests), failure=reason)
 
 
 def end_with_writers_of(reader, writer):
@@ -100,11 +117,13 @@ def work(connection, path, tests, level, limits, scratch, pipe):
     os.setpgid(0, 0)
     end_with_writers_of(*pipe)
     tempfile.tempdir = scratch
-    resource.setrlimit(resource.RLIMIT_AS, (limits.mebibytes * MEBIBYTE,) * 2)
+    most = limits.mebibytes * MEBIBYTE  # a program that is run has limits of its own
+    resource.setrlimit(resource.RLIMIT_AS, (
+        most, resource.getrlimit(resource.RLIMIT_AS)[1] if limits.program else most))
     resource.setrlimit(resource.RLIMIT_FSIZE, (LARGEST_FILE,) * 2)
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
     try:
-        graded = grade(path, tests, level)
+        graded = grade(path, tests, level, limits)
     except MemoryError:
         graded = failed(tests,
                         f"It could not be judged: that needs more than {limits.mebibytes} MiB of memory.")
@@ -122,6 +141,7 @@ class Running:
         self.tests, self.limits = tests, limits
         self.connection, theirs = context.Pipe(duplex=False)
         self.scratch = tempfile.TemporaryDirectory()
+        os.chmod(self.scratch.name, 0o711)  # a program that is run as nobody works in it
         reader, self.alive = os.pipe()
         words = theirs, path, tests, level, limits, self.scratch.name, (reader, self.alive)
         self.process = context.Process(target=work, args=words)
@@ -129,6 +149,8 @@ class Running:
         theirs.close()
         os.close(reader)
         self.end = time.monotonic() + limits.seconds
+        if limits.program:
+            self.end += limits.program.seconds(len(tests))
 
     def result(self):
         """Its Graded, now that it is done or out of time."""

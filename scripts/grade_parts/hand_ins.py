@@ -4,8 +4,8 @@ import hashlib
 import os
 import re
 
-from grade_parts.contents import SUFFIXES, ContentsError
-from judge_parts.hand_in import KINDS, File, fitting_names
+from grade_parts.contents import SUFFIXES, UNREAD, ContentsError, without_suffix
+from judge_parts.hand_in import KINDS, File, fitting_names, plain
 from lib.command import shown
 from lib.input_file import InputError
 
@@ -29,7 +29,8 @@ def find_hand_ins(folder, is_anonymous):
                    if not entry.name.startswith(".")]
     except OSError as error:
         raise InputError(folder, error.strerror) from None
-    names = [name for name, is_folder in entries if is_folder or name.lower().endswith(SUFFIXES)]
+    names = [name for name, is_folder in entries
+             if is_folder or name.lower().endswith((*SUFFIXES, *UNREAD))]
     others = sorted(shown(name) for name, _ in entries if name not in set(names))
     names.sort(key=(lambda name: hashlib.sha256(os.fsencode(name)).digest()) if is_anonymous else os.fsencode)
     width = len(str(len(names)))
@@ -45,12 +46,6 @@ def made(folder, name, number, digits, is_anonymous):
                   digits if is_anonymous else f"{digits}-{safe}")
 
 
-def without_suffix(name):
-    return next((name[:-len(suffix)]
-                 for suffix in SUFFIXES
-                 if name.lower().endswith(suffix) and len(name) > len(suffix)), name)
-
-
 def folder_of(paths, test_name, is_only_test):
     """The folder of a test's files, as a tuple of names: the one of the test's name, or for the only test any
     that has such files; the one that lies least deep. None if there is none."""
@@ -63,24 +58,47 @@ def folder_of(paths, test_name, is_only_test):
     return min(fitting, key=lambda folder: (len(folder), folder), default=None)
 
 
+def looked_for(test, is_only_test):
+    """Where files_for looks, for a hand-in in which nothing is found."""
+    names = [KINDS[kind][0] for kind in test.kinds]
+    places = "in any one folder" if is_only_test else (
+        f"in a folder {shown(test.name)}, or with its name before or behind theirs, as {shown(test.name)}-"
+        f"{names[0]}")
+    return f"{shown(test.name)}: nothing found; looked for {', '.join(names)} {places}"
+
+
 def files_for(contents, test, is_only_test):
     """The Files by kind that a hand-in has for a test."""
     folder = folder_of(contents.paths, test.name, is_only_test)
-    names = [path[-1] for path in contents.paths if path[:-1] == folder]
+    paths = {path[-1]: path for path in contents.paths if path[:-1] == folder}
+    if folder is None:
+        paths = flat_files(contents.paths, test.name)
     return {
-        kind: file_of(contents, folder, fitting, kind, test.reference.limit(kind))
-        for kind, fitting in fitting_names(names).items()
+        kind: file_of(contents, paths, fitting, kind, test.reference.limit(kind))
+        for kind, fitting in fitting_names(paths).items()
         if kind in test.kinds}
 
 
-def file_of(contents, folder, fitting, kind, limit):
+def flat_files(paths, test_name):
+    """{name: path} of files whose names begin or end with that of their test, without it."""
+    found, wanted = {}, plain(test_name)
+    for path in sorted(paths, key=len, reverse=True):
+        stem, suffix = os.path.splitext(path[-1])
+        short = plain(stem)
+        for rest in (short.removeprefix(wanted), short.removesuffix(wanted)):
+            if rest not in ("", short):
+                found[rest + suffix.lower()] = path
+    return found
+
+
+def file_of(contents, paths, fitting, kind, limit):
     if not fitting:
         return File(KINDS[kind][0])
     name, *others = fitting
     others = [shown(other)[:LONGEST_LABEL] for other in others[:5]]
-    shown_name = shown(name)[:LONGEST_LABEL]
+    shown_name = shown(paths[name][-1])[:LONGEST_LABEL]
     try:
-        return File(shown_name, contents.read((*folder, name), limit), None, tuple(others))
+        return File(shown_name, contents.data(paths[name], limit), None, tuple(others))
     except MemoryError:
         raise
     except ContentsError as error:

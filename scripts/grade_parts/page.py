@@ -17,6 +17,7 @@ th, td { overflow-wrap: anywhere }
 th, td:nth-child(1), td:nth-child(3), td:nth-child(4) { white-space: nowrap }
 td:nth-child(2) { min-width: 6rem }
 .good { color: #146c2e } .bad { color: #a31515 } .open { color: #7a5200 }
+.teacher { border-left: 3px solid #7a5200; padding-left: .6rem }
 .fix { border-left: 3px solid #3465a4; padding-left: .6rem }
 pre { font-size: .72rem; overflow-x: auto; margin: .3rem 0 }
 figure { display: inline-block; vertical-align: top; margin: .4rem .8rem 0 0; max-width: 30% }
@@ -38,8 +39,8 @@ def page(name, graded, level):
         f"points</span></h1>"
     ]
     lines += [
-        f"<p>{html.escape(remark)}</p>" for remark in ([graded.failure] if graded.failure else []) +
-        graded.remarks]
+        f"<p>{html.escape(remark)}</p>".replace("\n", "<br>")
+        for remark in ([graded.failure] if graded.failure else []) + graded.remarks]
     for test in graded.tests:
         lines += section(test, level)
     title = html.escape(name)
@@ -52,10 +53,12 @@ def section(test, level):
         f"<h2>{html.escape(test.name)} <span>{points(test.score)} of {points(test.max_score)} "
         f"points</span></h2>"
     )
+    if test.by_teacher:
+        yield f'<p class="teacher">{html.escape(test.by_teacher)}</p>'
     yield f"<p>{html.escape(test.words)}</p>"
     for text in test.fixes:
         yield f'<p class="fix">{html.escape(text)}</p>'
-    if not gives(level, "stage"):
+    if not gives(level, "stage") or not test.verdict.files:
         return
     verdict = told(test.verdict, level)
     yield "<table><tr>" + "".join(f"<th>{word}</th>" for word in HEADER) + "</tr>"

@@ -4,6 +4,7 @@ import io
 import json
 import unicodedata
 
+from grade_parts.summary import equal_files
 from judge_parts.report import sentence
 from lib.command import shown
 
@@ -21,6 +22,7 @@ def number(x):
 
 def csv_of(graded, tests):
     """The CSV of [(HandIn, Graded)], with all that the judge says, whatever students are told."""
+    equal = equal_files(graded)
     out = io.StringIO()
     writer = csv.writer(out, lineterminator="\n")
     writer.writerow([
@@ -29,7 +31,9 @@ def csv_of(graded, tests):
     for hand_in, result in graded:
         scores = [number(test.score) for test in result.tests] or [0.0] * len(tests)
         words = [cell(sentence(test.verdict)) for test in result.tests] or [""] * len(tests)
-        remarks = "; ".join(([result.failure] if result.failure else []) + result.remarks)
+        changed = [f"{shown(test.name)}: {test.by_teacher}" for test in result.tests if test.by_teacher]
+        remarks = "; ".join(([result.failure] if result.failure else []) + result.remarks + changed +
+                            equal.get(hand_in.number, []))
         writer.writerow([
             hand_in.number,
             cell(hand_in.name),
@@ -48,13 +52,18 @@ def numbers_csv(hand_ins, names):
     return out.getvalue().encode()
 
 
+def words_of(test):
+    """What a student reads about a test."""
+    return "\n".join([test.words, *test.fixes, *[test.by_teacher] * bool(test.by_teacher)])
+
+
 def gradescope(result, tests):
     """The bytes of results.json (Gradescope, Autograder specifications: output format)."""
     done = [{
         "name": shown(test.name), "score": number(test.score), "max_score": number(test.max_score),
-        "output": "\n".join([test.words, *test.fixes])} for test in result.tests]
+        "output": words_of(test)} for test in result.tests]
     missing = [] if done else [{
-        "name": shown(test.name), "score": 0.0, "max_score": number(test.weight), "output": result.failure}
+        "name": shown(test.name), "score": 0.0, "max_score": number(test.max_score), "output": result.failure}
                                for test in tests]
     output = "\n".join(([result.failure] if result.failure else []) + result.remarks)
     text = {"score": number(result.score), "output": output, "output_format": "text", "tests": done + missing}

@@ -6,6 +6,20 @@ from lib.command import shown
 from lib.table import table
 
 
+def equal_files(graded):
+    """{number of a hand-in: remarks} where wrong files of two hand-ins are equal; right ones often are."""
+    owners, remarks = collections.defaultdict(list), {}
+    for hand_in, result in graded:
+        for place, digest in result.wrong.items():
+            owners[place, digest].append(hand_in)
+    for ((test, file), _), same in owners.items():
+        for hand_in in same if len(same) > 1 else ():
+            others = ", ".join(other.name for other in same if other is not hand_in)
+            remarks.setdefault(hand_in.number, []).append(
+                f"{shown(test)}: the wrong {file} is equal to that of {others}")
+    return remarks
+
+
 def findings(graded):
     """What a hand-in counts for: pairs of a stage and words, each once for all tests."""
     if graded.failure:
@@ -30,7 +44,7 @@ def summary(graded):
     ] for (stage,
            words), count in sorted(counts.items(), key=lambda pair: (-pair[1], order[pair[0][0]], pair[0][1]))
             ]
-    full = sum(result.tests != [] and all(file.is_good
+    full = sum(not result.failure and all(file.is_good
                                           for test in result.tests
                                           for file in test.verdict.files)
                for _, result in graded)

@@ -251,6 +251,114 @@ class Results(ClassTest):
             os.unlink(f"tests/square/{name}")
             pathlib.Path("tests/square/scene.txt").write_text("mine")
 
+    def test_points_are_those_of_the_assignment(self):
+        self.add_test("b")
+        shutil.copytree("tests/square", "hand-ins/ben/square")
+        for name, mistake in (("anna", False), ("ben", True)):
+            self.add(name, "b", mistake=mistake)
+        settings = pathlib.Path("tests/assignment.txt")
+        settings.write_text("# of the course\nhints stage\npoints stage3.txt 3\npoints out.bmp 4.5\n"
+                            "weight b 2\n")
+        self.grade()
+        self.assertEqual({row["hand-in"]: (row["b"], row["max_score"]) for row in self.rows()},
+                         {"anna": ("15.0", "22.5"), "ben": ("9.0", "22.5")})
+        self.assertNotIn(DIVIDE, self.page(2))
+        settings.write_text("required stage3.txt\n")
+        self.grade()
+        self.assertEqual(self.scores(), {"anna": 1.0, "ben": 0.0})
+        for text, message in (
+            ("points stage3.txt x\n", ":1: expected a number of at least 0, found 'x'"),
+            ("\npoints my.txt 1\n", ":2: expected stage1.txt, stage2.txt, stage3.txt, z_buffer.txt, out.bmp, "
+             "found 'my.txt'"),
+            ("another-rule 2\n", ":1: expected a number of 0 to 1, found '2'"),
+            ("build make\n", ": expected a line 'program STAGE' for 'build', found none"),
+            ("program view\n", ": expected a line 'run COMMAND' for the program, found none"),
+            ("weight c 1\n", ":1: expected b, square, found 'c'")):
+            settings.write_text(text)
+            self.assertEqual(self.grade(status=2).stderr, f"grade: tests/assignment.txt{message}\n")
+
+    def test_another_rule_may_be_worth_less(self):
+        self.add("anna")
+        words = ["--z-buffer", "hand-ins/anna/z_buffer.txt", "-o", "hand-ins/anna/out.bmp"]
+        subprocess.run([BIN / "zbuf", "tests/square/config.txt", "hand-ins/anna/stage3.txt", "--coverage",
+                        "center", *words], check=True)
+        for share, score in (("1", 1.0), ("0.5", 0.8)):
+            pathlib.Path("tests/assignment.txt").write_text(f"another-rule {share}\n")
+            self.grade()
+            self.assertEqual(self.scores(), {"anna": score})
+
+    def test_the_teacher_has_the_last_word(self):
+        self.add("anna", mistake=True)
+        pathlib.Path("hand-ins/ben.rar").write_bytes(b"Rar!\x1a\x07\x00")
+        lines = pathlib.Path("lines.csv")
+        lines.write_text('hand-in,test,points,comment\nanna,square,0.95,"Late, but <b>good</b>."\n'
+                         "anna,,,See me.\nben,square,0.5,By mail\n")
+        self.grade("--overrides", "lines.csv", status=1)
+        self.assertEqual(self.scores(), {"anna": 0.95, "ben": 0.5})
+        self.assertIn("Late, but &lt;b&gt;good&lt;/b&gt;. (0.95 points in place of 0.8)", self.page(1))
+        self.assertIn("See me.", self.page(1))
+        self.assertIn("By mail (0.5 points in place of 0)", json.dumps(self.results(2)))
+        self.assertIn("By mail", self.rows()[1]["remarks"])
+        for line, message in (("carl,square,1,", "the name of a hand-in, found 'carl'"),
+                              ("anna,b,1,", "the name of a test, found 'b'"),
+                              ("anna,square,x,", "a number of at least 0, found 'x'"),
+                              ("anna,square", "4 columns, found 2")):
+            lines.write_text(f"hand-in,test,points,comment\n{line}\n")
+            self.assertEqual(self.grade("--overrides", "lines.csv", status=2).stderr,
+                             f"grade: lines.csv:2: expected {message}\n")
+
+    def test_an_archive_that_is_not_read_has_a_row(self):
+        self.add("anna")
+        for name, start in (("b.rar", b"Rar!"), ("c.7z", b"7z\xbc\xaf\x27\x1c"), ("d.tar.xz", b"\xfd7zXZ\0")):
+            pathlib.Path("hand-ins", name).write_bytes(start + bytes(50))
+        self.grade(status=1)
+        self.assertEqual([(row["hand-in"], row["score"]) for row in self.rows()],
+                         [("anna", "1.0"), ("b", "0"), ("c", "0"), ("d", "0")])
+        self.assertIn("a 7-Zip archive is not read: expected a folder, .zip, .tar or .tar.gz",
+                      self.rows()[2]["remarks"])
+
+    def test_an_archive_in_a_folder_and_flat_files_are_found(self):
+        self.add_test("b")
+        self.add("anna", "square")
+        shutil.copytree("hand-ins/anna/square", "hand-ins/anna/b")
+        shutil.make_archive("work", "zip", "hand-ins/anna")
+        os.makedirs("hand-ins/moodle/inner")
+        shutil.copy("work.zip", "hand-ins/moodle/inner/My Work.ZIP")
+        os.mkdir("hand-ins/flat")
+        for name in FILES:
+            stem, suffix = os.path.splitext(name)
+            shutil.copy(SAMPLE / name, f"hand-ins/flat/square-{name}")
+            shutil.copy(SAMPLE / name, f"hand-ins/flat/{stem} (B){suffix}".replace("(", "_").replace(")", ""))
+        self.add("nothing")
+        for name in FILES:
+            os.rename(f"hand-ins/nothing/{name}", f"hand-ins/nothing/{name}.txt")
+        self.grade()
+        self.assertEqual(self.scores(), {"anna": 2.0, "moodle": 2.0, "flat": 2.0, "nothing": 0.0})
+        self.assertIn("square: nothing found; looked for stage1.txt, stage2.txt, stage3.txt, z_buffer.txt, "
+                      "out.bmp in a folder square, or with its name before or behind theirs, as "
+                      "square-stage1.txt",
+                      {row["hand-in"]: row["remarks"] for row in self.rows()}["nothing"])
+
+    def test_wrong_files_that_are_equal_are_noted(self):
+        for name in ("anna", "ben"):
+            self.add(name, mistake=True)
+        self.add("carl")
+        self.grade()
+        remarks = {row["hand-in"]: row["remarks"] for row in self.rows()}
+        self.assertEqual((remarks["anna"], remarks["carl"]),
+                         ("square: the wrong stage3.txt is equal to that of ben", ""))
+        self.assertNotIn("ben", self.page(1))
+
+    def test_without_tests_there_are_six_scenes(self):
+        os.mkdir("hand-ins/anna")
+        for scene in (SOURCE / "tests/conformance/assignment").glob("*/scene.txt"):
+            subprocess.run([SOURCE / "scripts/stages", scene, scene.parent / "config.txt",
+                            f"hand-ins/anna/{scene.parent.name}"], check=True, stderr=subprocess.DEVNULL,
+                           env={**os.environ, "BIN": str(BIN)})
+        done = subprocess.run([SOURCE / "scripts/grade", "hand-ins"], capture_output=True, text=True,
+                              timeout=120, env={**os.environ, "BIN": str(BIN)})
+        self.assertEqual((done.returncode, self.scores()), (0, {"anna": 6.0}), done.stderr)
+
     def test_each_mistake_has_its_fix(self):
         self.assertEqual(list(sentences("fixes.txt")), list(sentences()))
 
