@@ -95,7 +95,7 @@ class Commands(unittest.TestCase):
         environment.pop("BIN", None)
         for page in PAGES:
             with tempfile.TemporaryDirectory() as folder:
-                for name in ("samples", "scripts"):
+                for name in ("samples", "scripts", "docs/starter"):
                     shutil.copytree(SOURCE / name, pathlib.Path(folder) / name)
                 pathlib.Path(folder, "tests").mkdir()
                 pathlib.Path(folder, "tests/conformance").symlink_to(SOURCE / "tests/conformance")
