@@ -34,7 +34,10 @@ def without_cause(file):
 def in_words(verdict, level):
     """The verdict as sentences."""
     if level != "none":
-        return upper_first(sentence(told(verdict, level))) + "."
+        words = sentence(told(verdict, level))
+        if len(verdict.files) < 3:  # of a program for one stage
+            words = words.replace("all three files are", "what the program writes is")
+        return upper_first(words) + "."
     good = sum(file.is_good for file in verdict.files)
     others = [f"{file.file} is {file.verdict}." for file in told(verdict, level).files]
     return " ".join([f"{good} of {len(verdict.files)} files are right.", *others])

@@ -68,7 +68,6 @@ class Writing(ToolTest):
         "trade_parts/pipe.py": "in its temporary folder",
         "fly_parts/pipe.py": "in its temporary folder",
         "judge_parts/reference.py": "in the temporary folder",
-        "check-stage": "in its temporary folder",
         "judge_parts/program.py": "in the temporary folder of check-stage and grade",
         "grade_parts/programs.py": "in the temporary folder of grade",
         "farm_parts/work.py": "its jobs, the logs of their own",

@@ -42,9 +42,9 @@ class Starters(ToolTest):
         self.assertEqual((done.returncode, done.stdout.partition("\n")[0]), (0, "scene: right"), done.stdout)
 
     def check(self, stage, options, run):
-        return subprocess.run([SOURCE / "scripts/check-stage", stage, "--time-limit", "100", *options, "--", *run,
-                               stage], text=True,
-                              capture_output=True, timeout=250, env={**os.environ, "BIN": str(BIN)})
+        words = [SOURCE / "scripts/check-stage", stage, "--time-limit", "100", *options, "--", *run, stage]
+        return subprocess.run(words, text=True, capture_output=True, timeout=250,
+                              env={**os.environ, "BIN": str(BIN)})
 
     def test_python(self):
         self.expect("python", "stage.py", ["true"], ["python3", "stage.py"], PYTHON, "to_view")
