@@ -15,7 +15,7 @@ import unittest
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "tools"))
 from toolbox import BIN, SOURCE, ToolTest  # noqa: E402
 
-ROOMS = (SOURCE / "scripts", SOURCE / "scripts/measure", SOURCE / "scripts/maintain")
+ROOMS = tuple(SOURCE / "scripts" / room for room in (".", "measure", "maintain", "package"))
 
 
 def commands():

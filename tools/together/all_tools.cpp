@@ -1,4 +1,4 @@
-// One program for all tools: called model, it is model. For where many programs are many times the same code:
+// One program for the tools: called model, it is model. For where many programs are many times the same code:
 // a page, an archive.
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 
 #include "tools/rim/exit_status.h"
 
-// CMakeLists.txt defines ALL_TOOLS, an ENTRY for each tool that is built, and renames their mains.
+// CMakeLists.txt defines ALL_TOOLS, an ENTRY for each of them that is built, and renames their mains.
 #define ENTRY(tool) int tool##_entry(int argc, char** argv);
 ALL_TOOLS
 #undef ENTRY

@@ -1,0 +1,55 @@
+#!/bin/sh
+# Part of make-release, in its root, without a network: builds the sources in /src, in /build, and packs in /build/out.
+# Its word is the version.
+set -eu
+version=$1
+umask 022
+cd /build
+
+# The options behind the first word are cmake's.
+configure() {
+  arch=$1
+  shift
+  cmake -S /src -B "$arch" -G Ninja -DCMAKE_BUILD_TYPE=Release -DPIPELINE_TESTS=OFF -DPIPELINE_STATIC_TOOLS=ON -DPIPELINE_STATIC_TOOLS_RUN=ON \
+    -Dassimp_DIR="$(dirname "$(find "/usr/local/assimp-$arch" -name assimpConfig.cmake)")" \
+    -DPIPELINE_STATIC_PNG="/usr/lib/$arch-linux-gnu/libpng.a" -DPIPELINE_STATIC_ZLIB="/usr/lib/$arch-linux-gnu/libz.a" "$@"
+}
+
+# Packs the folder pack/$1: who unpacks it owns it, and nothing in it depends on when or by whom it was packed.
+pack() {
+  tar -C pack --sort=name --mtime="@$SOURCE_DATE_EPOCH" --owner=0 --group=0 --numeric-owner --mode=u+rwX,go=rX --format=gnu -cf - "$1" |
+    xz -9e -T1 > "out/$1.tar.xz"
+}
+
+# An archive that runs where it is unpacked: what is installed, but for the library, with one program in place of most tools.
+pack_tools() {
+  name=pipeline-$version-linux-$1
+  cp -a installed "pack/$name"
+  $2 -o "pack/$name/libexec/all-tools" "$1/bin/all-tools"
+  $2 -o "pack/$name/libexec/pipeline/mesh2scene" "$1/bin/mesh2scene"
+  for tool in x86_64/bin/*; do
+    tool=${tool##*/}
+    case $tool in all-tools | mesh2scene | pipeline) ;; *) ln -sf ../all-tools "pack/$name/libexec/pipeline/$tool" ;; esac
+  done
+  pack "$name"
+}
+
+mkdir -p out pack
+configure x86_64
+cmake --build x86_64
+cmake --build x86_64 --target all-tools
+configure aarch64 -DCMAKE_SYSTEM_NAME=Linux -DCMAKE_SYSTEM_PROCESSOR=aarch64 -DCMAKE_CXX_COMPILER=aarch64-linux-gnu-g++
+cmake --build aarch64 --target all-tools mesh2scene
+
+cmake --install x86_64 --prefix /build/installed
+rm -r installed/include installed/lib
+pack_tools x86_64 strip
+pack_tools aarch64 aarch64-linux-gnu-strip
+cp -a installed/share/pipeline/conformance "pack/pipeline-$version-conformance"
+pack "pipeline-$version-conformance"
+cp -a /src "pack/pipeline-$version-source"
+pack "pipeline-$version-source"
+pack "pipeline-$version-playground"
+(cd x86_64 && cpack -D CPACK_DEBIAN_COMPRESSION_TYPE=xz -B /build/deb)
+cp deb/*.deb out/
+dpkg-query -W > out/built-with.txt

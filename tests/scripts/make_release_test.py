@@ -1,0 +1,150 @@
+#!/usr/bin/env python3
+"""scripts/package/make-release: what it refuses, and that it leaves nothing behind. What it makes is tried by
+scripts/maintain/try-release, which needs a network and time.
+
+usage: make_release_test.py SOURCE_DIR [UNITTEST ARGUMENT...]
+"""
+import os
+import pathlib
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+SOURCE = pathlib.Path(sys.argv.pop(1)).resolve()
+# Stands for the build in the root: writes what the words behind -- and --bind ask for.
+BWRAP = """#!/bin/sh
+[ ! -e "$0.fails" ] || { echo no namespaces >&2; exit 1; }
+[ ! -e "$0.hangs" ] || { : > "$0.started"; sleep 60; }
+while [ "$1" != --bind ]; do shift; done
+echo archive > "$2/out/pipeline-9.8.7-source.tar.xz"
+echo list > "$2/out/built-with.txt"
+"""
+PLAYGROUND = """#!/bin/sh
+mkdir -p "$2"
+echo page > "$2/playground.html"
+"""
+
+
+class MakeRelease(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory(prefix="a release ")
+        self.addCleanup(folder.cleanup)
+        self.tree, self.bin = pathlib.Path(folder.name, "a tree"), pathlib.Path(folder.name, "bin")
+        self.out = pathlib.Path(folder.name, "out")
+        self.out.mkdir()
+        package = self.tree / "scripts/package"
+        package.mkdir(parents=True)
+        for name in ("make-release", "build_assimp.sh"):
+            shutil.copy(SOURCE / "scripts/package" / name, package)
+        self.put(self.tree / "scripts/build-playground", PLAYGROUND)
+        self.put(self.tree / "CMakeLists.txt", "project(pipeline VERSION 9.8.7 LANGUAGES CXX)\n")
+        self.put(self.tree / "CHANGELOG.md",
+                 "# Log\n\n## 9.8.7 - 2026-11-26\n\n- New.\n\n## 9.8.6 - 2026-11-25\n\n- Old.\n")
+        self.put(self.tree / ".gitignore", "/build/\n")
+        self.put(self.tree / "build/playground/root/usr/bin/emcmake", "")
+        self.put(self.bin / "bwrap", BWRAP)
+        self.put(self.bin / "mmdebstrap", '#!/bin/sh\nfor new; do :; done\nmkdir -p "$new"\n')
+        self.put(self.bin / "node", "#!/bin/sh\necho v0\n")
+        self.git("init", "--quiet")
+        self.commit()
+        self.git("tag", "v9.8.7")
+
+    def put(self, path, text):
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+        path.chmod(0o755)
+
+    def git(self, *words):
+        identity = ("-c", "user.name=a", "-c", "user.email=a@b.invalid")
+        subprocess.run(["git", *identity, *words], cwd=self.tree, check=True, capture_output=True)
+
+    def commit(self):
+        self.git("add", "-A")
+        self.git("commit", "--quiet", "-m", "area: Do", "--allow-empty")
+
+    def start(self, *words):
+        return subprocess.Popen(
+            [self.tree / "scripts/package/make-release", *words], cwd=self.out, text=True,
+            env={**os.environ, "PATH": f"{self.bin}:{os.environ['PATH']}"}, stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE, start_new_session=True)
+
+    def run_it(self, *words):
+        process = self.start(*words)
+        output, messages = process.communicate(timeout=60)
+        return process.returncode, output, messages
+
+    def refused(self, message, version="9.8.7", status=1):
+        self.assertEqual(self.run_it(version, "new")[::2], (status, f"make-release: {message}\n"))
+        self.assertEqual(os.listdir(self.out), [])
+
+    def test_makes_a_folder_with_notes_and_checksums(self):
+        status, output, messages = self.run_it("9.8.7", "new")
+        self.assertEqual((status, output.splitlines()[-1], messages), (0, "made new", ""))
+        self.assertEqual(os.listdir(self.out), ["new"])
+        new = self.out / "new"
+        self.assertEqual((new / "notes.md").read_text(), "- New.\n")
+        self.assertEqual((new / "built-with.txt").read_text(), "list\nnode v0\n")
+        done = subprocess.run(["sha256sum", "--strict", "-c", "SHA256SUMS"], cwd=new, capture_output=True,
+                              text=True)
+        self.assertEqual(done.stdout.splitlines(), [
+            f"{name}: OK" for name in ("built-with.txt", "notes.md", "pipeline-9.8.7-playground.html",
+                                       "pipeline-9.8.7-source.tar.xz")])
+
+    def test_what_is_there_stays(self):
+        (self.out / "link").symlink_to("nowhere")
+        (self.out / "folder").mkdir()
+        (self.out / "file").write_text("mine")
+        for name in ("link", "folder", "file"):
+            self.assertEqual(self.run_it("9.8.7", name),
+                             (1, "", f"make-release: {name} is there already: name a new folder\n"))
+        self.assertEqual(sorted(os.listdir(self.out)), ["file", "folder", "link"])
+        self.assertEqual((self.out / "file").read_text(), "mine")
+
+    def test_only_a_clean_tag_is_released(self):
+        self.refused("there is no tag v9.8.6", version="9.8.6")
+        self.refused("expected a version such as 1.0.0, found 'HEAD'", version="HEAD", status=2)
+        (self.tree / "new file").write_text("")
+        self.refused("files have been changed or added since the last commit (git status)")
+        (self.tree / "new file").unlink()
+        self.commit()
+        self.refused("v9.8.7 is not what is checked out")
+
+    def test_version_and_changelog_are_those_of_the_tag(self):
+        self.git("tag", "v9.8.6")
+        self.refused("CMakeLists.txt has another version than 9.8.6", version="9.8.6")
+        self.put(self.tree / "CHANGELOG.md", "# Log\n\n## Unreleased\n\n- New.\n")
+        self.commit()
+        self.git("tag", "-f", "v9.8.7")
+        self.refused("CHANGELOG.md has no section '## 9.8.7 - DATE'")
+
+    def test_a_build_that_fails_leaves_nothing_and_says_why(self):
+        self.put(self.bin / "bwrap.fails", "")
+        status, _, messages = self.run_it("9.8.7", "new")
+        self.assertEqual((status, messages),
+                         (1, "no namespaces\nmake-release: the programs and archives: failed\n"))
+        self.assertEqual(os.listdir(self.out), [])
+
+    def test_without_a_network_the_root_is_not_made(self):
+        self.put(self.bin / "mmdebstrap", "#!/bin/sh\necho no network >&2\nexit 1\n")
+        status, _, messages = self.run_it("9.8.7", "new")
+        problem = "build/package/root could not be made; see build/package/root.log"
+        self.assertEqual((status, messages), (1, f"no network\nmake-release: {problem}\n"))
+        self.assertEqual(os.listdir(self.tree / "build/package"), ["root.log"])
+
+    def test_stopped_half_way_it_leaves_nothing(self):
+        self.put(self.bin / "bwrap.hangs", "")
+        process = self.start("9.8.7", "new")
+        until = time.monotonic() + 30
+        while not (self.bin / "bwrap.started").exists() and time.monotonic() < until:
+            time.sleep(0.05)
+        os.killpg(process.pid, signal.SIGTERM)
+        process.communicate(timeout=60)
+        self.assertEqual((process.returncode, os.listdir(self.out)), (1, []))
+
+
+if __name__ == "__main__":
+    unittest.main()
