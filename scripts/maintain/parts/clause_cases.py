@@ -271,11 +271,11 @@ def headers():
             ("error-behind-end", "Even behind the end.", "T12", 6,
              "framed\n" + VERTICES + "end\nerror model: 1\n")):
             yield refused(stage, name, why, paragraphs, at + line, header + text)
-        yield Case(stage, "material-0-without-a-header", "0 may stand without a material in the header.",
+        yield Case(stage, "material-0-without-a-header", "Material 0 may stand without a material in the header.",
                    "T9",
                    header + "attributes material\n" + VERTICES.replace("\n", " 0\n"), CONFIG,
                    needs="materials")
-        yield Case(stage, "colors-at-the-limits", "0 and 255 are colors.", "T9",
+        yield Case(stage, "colors-at-the-limits", "Both 0 and 255 are colors.", "T9",
                    header + "attributes color\n" + VERTICES.replace("\n", " 0 255 0.5\n"), CONFIG,
                    needs="colors")
         yield Case(stage, "framed-blank-lines-behind-end", "Blank lines may follow end.", "T13",
@@ -471,7 +471,7 @@ def scenes():
          "0 0 0 0.01 1\nabsorption 0 0 0\n" + TRIANGLE, ""),
         ("attributes-on-two-lines", "attributes may stand on the line after the keyword.", "S10 S16",
          "attributes\ncolor\ntriangle\n0 0 0 0 255 0\n1 0 0 0 255 0\n0 1 0 0 255 0\n", ""),
-        ("colors-at-the-limits", "0 and 255 are colors.", "S17 S18",
+        ("colors-at-the-limits", "Both 0 and 255 are colors.", "S17 S18",
          "background 0 255 0\ncolor 255 0 255\n" + TRIANGLE, "")):
         yield Case("model", name, why, paragraphs, CAMERA + text + "end\n", options=options, tier="bytes",
                    needs="materials" if "use" in text else "colors" if "color" in name else "lights")
