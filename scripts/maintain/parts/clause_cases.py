@@ -88,18 +88,21 @@ def lights():
          lit_text("normal", slanted, corners=CORNERS[::-1]), "")):
         yield Case("zbuf", f"lights-{name}", why, paragraphs, text, CONFIG, options=options,
                    needs="lights colors" if "color" in text else "lights")
-    point = "attributes color\n" + "".join(f"0.125 0.125 0 {color}\n" for color in colored)
-    yield Case("zbuf", "colored-point", "Where no corner has a weight, the first has it all.", "L3", point,
-               CONFIG,
-               needs="colors", open="A triangle without area may have pixels or none.")
-    line = "attributes color\n" + "".join(f"{xy} 0 {color}\n" for xy, color in
-                                          zip(("-0.9 0.125", "0.9 0.125", "0.1 0.125"), colored))
-    diagonal = line.replace("-0.9 0.125", "-0.9 -0.8").replace("0.9 0.125", "0.9 0.8").replace("0.1 0.125",
-                                                                                               "0 0")
-    for name, text in (("line", line), ("diagonal", diagonal)):
-        yield Case("zbuf", f"colored-{name}",
-                   "On a triangle without area the weights that are left are divided.", "L3",
-                   text, CONFIG, needs="colors", open="A triangle without area may have pixels or none.")
+    small = "attributes color\n" + "".join(
+        f"{xy} 0 {color}\n" for xy, color in zip(("-0.3 -0.3", "-0.2 0.4", "0.5 -0.1"), colored))
+    yield Case("zbuf", "colored-small-and-clockwise", "However small, a clockwise triangle has its weights.",
+               "L3",
+               small, CONFIG, needs="colors")
+    yield Case("zbuf", "colored-just-below-halves", "What is at most 2^-20 below a half counts as one.", "L6",
+               "background 0.4999995 0.499998 99.4999991\n", CONFIG, needs="colors")
+    for name, why, places in (
+        ("line", "Where no corner has a weight, the first has it all.",
+         ("0.125 -0.9", "0.125 0.9", "0.125 0.1")),
+        ("diagonal", "On a triangle without area the weights that are left are divided.",
+         ("-0.9 -0.8", "0.9 0.8", "0 0"))):
+        text = "attributes color\n" + "".join(f"{xy} 0 {color}\n" for xy, color in zip(places, colored))
+        yield Case("zbuf", f"colored-{name}", why, "L3", text, CONFIG, needs="colors",
+                   open="A triangle without area may have pixels or none.")
 
 
 def depths_of_ends():
@@ -231,6 +234,8 @@ def headers():
     for stage, header in HEADERS.items():
         at = header.count("\n")
         color = "attributes color\n" + VERTICES.replace("\n", " 1 2 3\n")
+        yield refused(stage, "two-numbers-of-a-triangle", "A line has one number.", "T10", at + 1,
+                      header + "triangle 3 4\n" + VERTICES)
         for name, why, paragraphs, line, text in (
             ("attributes-alone", "attributes names at least one column.", "T5", 1, "attributes\n" + VERTICES),
             ("attributes-twice-the-same", "A column stands once.", "T5", 1,
@@ -271,7 +276,8 @@ def headers():
             ("error-behind-end", "Even behind the end.", "T12", 6,
              "framed\n" + VERTICES + "end\nerror model: 1\n")):
             yield refused(stage, name, why, paragraphs, at + line, header + text)
-        yield Case(stage, "material-0-without-a-header", "Material 0 may stand without a material in the header.",
+        yield Case(stage, "material-0-without-a-header",
+                   "Material 0 may stand without a material in the header.",
                    "T9",
                    header + "attributes material\n" + VERTICES.replace("\n", " 0\n"), CONFIG,
                    needs="materials")
@@ -338,6 +344,9 @@ def headers():
     yield refused("view", "second-eye", "Each keyword stands once.", "T7", 4, EYE + "eye 0 0 5\n" + VERTICES)
     yield refused("view", "up-of-zero", "An up direction of 0 0 0 is none.", "S9 T2", 3,
                   EYE.replace("0 1 0", "0 0 0") + VERTICES)
+    yield refused("view", "up-of-zero-that-an-option-replaces",
+                  "The header obeys S9 whatever the options are.", "T2 S9",
+                  3, EYE.replace("0 1 0", "0 0 0") + VERTICES, options="--up 0 1 0")
     yield Case("view", "no-projection", "Without a projection view passes none on.", "T3 V1", EYE + VERTICES)
     yield Case("view", "bare-with-numbers", "A bare text has no lines but vertices and blank ones.", "T17",
                EYE + "triangle 5\n" + VERTICES + "triangle 9\n" + VERTICES, options="--bare",
@@ -373,6 +382,8 @@ def scenes():
          TRIANGLE + "attributes color\nend\n"),
         ("late-ambient", "So does ambient.", "S15", 9, TRIANGLE + "ambient 1 1 1\nend\n"),
         ("late-attenuation", "So does attenuation.", "S15", 9, TRIANGLE + "attenuation 1 1 1\nend\n"),
+        ("late-light-behind-a-color", "Only color may stand late behind a color.", "S15", 10,
+         "color 1 2 3\n" + TRIANGLE + "light 0 0 0 1 1 1\nend\n"),
         ("late-absorption", "So does absorption.", "S15", 10,
          "material 1 1 1 1\n" + TRIANGLE + "absorption 1 1 1\nend\n"),
         ("late-color-behind-normals", "attributes normal allows no late color.", "S15", 10,
