@@ -18,7 +18,7 @@ SCENE = ("1 2 5\n1 2 0\n0 1 0\n60 1 1 100\ntriangle\n0 0 0\n1 0 0.5\n0 1 0\ntria
          "end\n")
 PYTHON = "    return [x - e for x, e in zip(p, eye)]\n"
 CPP = "  return {p[0] - eye[0], p[1] - eye[1], p[2] - eye[2]};\n"
-JAVA = "        return new double[] {p[0] - eye[0], p[1] - eye[1], p[2] - eye[2]};\n"
+JAVA = "        p = new double[] {p[0] - eye[0], p[1] - eye[1], p[2] - eye[2]};\n"
 
 
 class Starters(ToolTest):
