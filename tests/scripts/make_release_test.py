@@ -82,8 +82,8 @@ class MakeRelease(unittest.TestCase):
         self.assertEqual(os.listdir(self.out), [])
 
     def test_makes_a_folder_with_notes_and_checksums(self):
-        status, output, messages = self.run_it("9.8.7", "new")
-        self.assertEqual((status, output.splitlines()[-1], messages), (0, "made new", ""))
+        status, output, messages = self.run_it("9.8.7", "new/")
+        self.assertEqual((status, output.splitlines()[-1], messages), (0, "made new/", ""))
         self.assertEqual(os.listdir(self.out), ["new"])
         new = self.out / "new"
         self.assertEqual((new / "notes.md").read_text(), "- New.\n")
