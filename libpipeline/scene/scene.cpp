@@ -55,12 +55,9 @@ std::size_t SceneReader::read_buffered(std::size_t limit, std::vector<Triangle>&
   // A blank line between triangles.
   if (text_.buffered().starts_with('\n')) text_.skip(1, 1);
   const std::string_view text = text_.buffered();
-  FixedTextPart part = vertex_line_.read_fixed(text, TriangleFrame::scene, limit, p_model, attributes);
-  if (part.triangle_count == 0) {
-    std::array<DecimalMarks, 8> marks;
-    const auto room = std::span(marks).first(std::min(limit, marks.size()));
-    part = vertex_line_.read_decimals(text, TriangleFrame::scene, room, p_model, attributes);
-  }
+  std::array<DecimalMarks, 8> marks;
+  const FixedTextPart part =
+      vertex_line_.read_triangles(text, TriangleFrame::scene, limit, marks, p_model, attributes).part;
   const bool has_current_color = appearance_.columns().color && !vertex_line_.attributes().color;
   if (has_current_color)
     attributes.colors.resize(p_model.size(), {current_color_, current_color_, current_color_});
@@ -73,7 +70,6 @@ std::size_t SceneReader::read_buffered(std::size_t limit, std::vector<Triangle>&
 
 // S10
 Command SceneReader::next() {
-  if (TriangleCommand triangle; read_decimal_triangle(triangle)) return triangle;
   if (!text_.next_filled_line(line_))
     throw InputError(text_.end_location(),
                      expected_but_found("'end', which closes a scene", "the end of the input"));
@@ -213,38 +209,6 @@ TriangleCommand SceneReader::read_triangle() {
     }
   }
   return command;
-}
-
-/// The fast path: takes a buffered triangle whose keyword and vertices stand on lines of their own, with
-/// nothing else. False if another command comes next, or the general path has to read it.
-bool SceneReader::read_decimal_triangle(TriangleCommand& triangle) {
-  constexpr std::string_view kKeyword = "triangle";
-  const std::string_view buffered = text_.buffered();
-  const std::size_t begin = buffered.find_first_not_of(" \t\r\n");
-  if (begin == std::string_view::npos || !buffered.substr(begin).starts_with(kKeyword)) return false;
-  const char* const end = buffered.data() + buffered.size();
-  const char* p = read_decimal_line(buffered.data() + begin + kKeyword.size(), end, {});
-  if (p != nullptr) p = vertex_line_.read_decimals(p, end, decimal_vertices_);
-  if (p == nullptr || !take_decimal_vertices()) return false;
-  const auto blank_lines = std::count(buffered.begin(), buffered.begin() + begin, '\n');
-  const std::size_t first_line = text_.line_number() + static_cast<std::size_t>(blank_lines) + 2;
-  for (std::size_t i = 0; i < 3; ++i) triangle.p_model[i] = lines_.vertices[i].position;
-  triangle.locations = locations_of(decimal_vertices_, first_line);
-  text_.skip(static_cast<std::size_t>(p - buffered.data()), static_cast<std::size_t>(blank_lines) + 4);
-  has_triangle_ = true;
-  return true;
-}
-
-/// Sets the vertices; false if one of them is wrong.
-bool SceneReader::take_decimal_vertices() {
-  const AttributeSet& columns = vertex_line_.attributes();
-  for (std::size_t i = 0; i < 3; ++i) {
-    VertexLine& vertex = lines_.vertices[i];
-    vertex = to_vertex_line(decimal_vertices_[i], columns);
-    if (!columns.color) vertex.color = current_color_;
-    if (columns.normal && vertex.normal == Vec3{}) return false;
-  }
-  return true;
 }
 
 /// Reads `sphere` and its center and radius. The points of its surface that stage texts carry have to be

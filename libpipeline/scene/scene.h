@@ -97,8 +97,6 @@ class SceneReader {
   Located<Projection> read_camera_projection();
   void next_argument_line(std::string_view expected);
   TriangleCommand read_triangle();
-  bool read_decimal_triangle(TriangleCommand& triangle);
-  bool take_decimal_vertices();
   void read_vertex(std::size_t index);
   [[nodiscard]] std::string expected_commands() const;
   Command read_appearance(std::string_view keyword);
@@ -115,7 +113,6 @@ class SceneReader {
   bool has_current_color_ = false;
   TriangleLines lines_;  // the material is the current one
   bool has_triangle_ = false;
-  DecimalVertexLines decimal_vertices_;  // of the triangle that is being read
   LineScanner line_;
   SourceLocation location_;
 };

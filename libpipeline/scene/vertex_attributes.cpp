@@ -1,20 +1,12 @@
 #include "libpipeline/scene/vertex_attributes.h"
 
 #include <algorithm>
-#include <cassert>
 
 #include "libpipeline/scene/header_line.h"
 #include "libpipeline/text/fixed_text.h"
 
 namespace pipeline {
 namespace {
-
-/// The number of blanks and tabs at `p`; another character must follow.
-std::size_t blanks_at(const char* p) {
-  std::size_t count = 0;
-  while (p[count] == ' ' || p[count] == '\t') ++count;
-  return count;
-}
 
 double read_channel(LineScanner& line, std::string_view name, std::string_view of) {
   const auto is_in_range = [](double value) { return value >= 0 && value <= 255; };
@@ -47,28 +39,9 @@ Vec3 read_color(LineScanner& line, std::string_view of) {
   return color;
 }
 
-VertexLine to_vertex_line(const DecimalVertexLine& line, const AttributeSet& attributes) {
-  const auto* next = line.numbers.data();
-  const auto vec3 = [&] {
-    const Vec3 v = {next[0].value, next[1].value, next[2].value};
-    next += 3;
-    return v;
-  };
-  VertexLine vertex;
-  vertex.position = vec3();
-  if (attributes.w) vertex.w = next++->value;
-  if (attributes.color) vertex.color = vec3();
-  if (attributes.normal) vertex.normal = vec3();
-  return vertex;
-}
-
 VertexLineReader::VertexLineReader(const AttributeSet& attributes, RangeOfW range_of_w,
                                    std::size_t material_count)
-    : attributes_(attributes),
-      range_of_w_(range_of_w),
-      material_count_(material_count),
-      column_count_(std::size_t{3} + (attributes.w ? 1 : 0) + (attributes.color ? 3 : 0) +
-                    (attributes.normal ? 3 : 0)) {
+    : attributes_(attributes), range_of_w_(range_of_w), material_count_(material_count) {
   for (std::size_t i = 0; i < names_.size(); ++i)
     names_[i] = "vertex " + std::to_string(i + 1) + " of 3 (" + column_names(attributes) + ")";
 }
@@ -105,16 +78,7 @@ void VertexLineReader::read_material(LineScanner& line, std::size_t vertex, cons
     at_material.fail("the material of the triangle's first vertex, " + std::to_string(triangle.material));
 }
 
-bool VertexLineReader::are_in_range(std::span<const DecimalNumber> columns) const {
-  const auto after_position = columns.subspan(3);
-  if (attributes_.w && !(after_position[0].value > 0)) return false;
-  if (!attributes_.color) return true;
-  const auto color = after_position.subspan(attributes_.w ? 1 : 0, 3);
-  return std::all_of(color.begin(), color.end(),
-                     [](const DecimalNumber& channel) { return channel.value >= 0 && channel.value <= 255; });
-}
-
-/// The same for the triangles from `begin` on. In a scene, a normal may not be 0.
+/// Whether the values of the triangles from `begin` on are in range. In a scene, a normal may not be 0.
 bool VertexLineReader::are_in_range(const AttributeArrays& attributes, std::size_t begin,
                                     TriangleFrame frame) const {
   const auto all = [&](const auto& triangles, const auto& is_fine) {
@@ -170,40 +134,25 @@ FixedTextPart VertexLineReader::read_block(std::size_t limit, TriangleFrame fram
   return part;
 }
 
-FixedTextPart VertexLineReader::read_fixed(std::string_view text, TriangleFrame frame, std::size_t limit,
-                                           std::vector<Triangle>& positions,
-                                           AttributeArrays& attributes) const {
+TrianglesRead VertexLineReader::read_triangles(std::string_view text, TriangleFrame frame, std::size_t limit,
+                                               std::span<DecimalMarks> marks,
+                                               std::vector<Triangle>& positions,
+                                               AttributeArrays& attributes) const {
   constexpr std::string_view kKeyword = "triangle\n";
   const bool is_scene = frame == TriangleFrame::scene;
   if (is_scene && !text.starts_with(kKeyword)) return {};
-  const std::string_view lines = text.substr(is_scene ? kKeyword.size() : 0);
-  return read_block(limit, frame, positions, attributes, [&](const FixedColumns& columns) -> FixedTextPart {
-    GroupDecimals decimals;
-    return find_decimals(lines, decimals) ? read_fixed_columns(text, frame, decimals, columns)
-                                          : FixedTextPart{};
-  });
-}
-
-FixedTextPart VertexLineReader::read_decimals(std::string_view text, TriangleFrame frame,
-                                              std::span<DecimalMarks> marks, std::vector<Triangle>& positions,
-                                              AttributeArrays& attributes) const {
-  return read_block(marks.size(), frame, positions, attributes, [&](const FixedColumns& columns) {
+  GroupDecimals decimals;
+  if (!find_decimals(text.substr(is_scene ? kKeyword.size() : 0), decimals)) return {};
+  const auto read_fixed = [&](const FixedColumns& columns) {
+    return read_fixed_columns(text, frame, decimals, columns);
+  };
+  if (const FixedTextPart part = read_block(limit, frame, positions, attributes, read_fixed);
+      part.triangle_count > 0)
+    return {part, decimals[0]};
+  const auto read_any = [&](const FixedColumns& columns) {
     return read_decimal_columns(text, frame, columns, marks);
-  });
-}
-
-const char* VertexLineReader::read_decimals(const char* p, const char* end,
-                                            DecimalVertexLines& vertices) const {
-  if (attributes_.material) return nullptr;
-  for (DecimalVertexLine& line : vertices) {
-    const auto taken = std::span(line.numbers).first(column_count_);
-    assert(p != nullptr);
-    const char* const begin = p;
-    p = read_decimal_line(p, end, taken);
-    if (p == nullptr || !are_in_range(taken)) return nullptr;
-    line.indent = blanks_at(begin);
-  }
-  return p;
+  };
+  return {read_block(std::min(limit, marks.size()), frame, positions, attributes, read_any), std::nullopt};
 }
 
 void AttributeArrays::clear() {

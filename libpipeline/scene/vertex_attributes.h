@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -11,7 +12,6 @@
 
 #include "libpipeline/numbers/vec.h"
 #include "libpipeline/text/decimal_columns.h"
-#include "libpipeline/text/decimal_number.h"
 #include "libpipeline/text/fixed_text.h"
 #include "libpipeline/text/source_location.h"
 #include "libpipeline/text/text_reader.h"
@@ -29,8 +29,6 @@ struct AttributeSet {
   friend bool operator==(const AttributeSet&, const AttributeSet&) = default;
 };
 
-constexpr std::size_t kMaxColumns = 10;  // position, w, color and normal; material is none of a vertex
-
 /// The values of a vertex line; those its text has no columns for are 0.
 struct VertexLine {
   Vec3 position;
@@ -44,22 +42,6 @@ struct TriangleLines {
   std::array<VertexLine, 3> vertices;
   std::uint32_t material = 0;
 };
-
-/// A vertex line of decimal numbers (decimal_number.h); the first three are the position.
-struct DecimalVertexLine {
-  std::array<DecimalNumber, kMaxColumns> numbers;
-  std::size_t indent = 0;  // blanks and tabs before the first number
-};
-using DecimalVertexLines = std::array<DecimalVertexLine, 3>;
-
-/// The locations of three vertices on consecutive lines, the first on line `first_line`.
-inline VertexLocations locations_of(const DecimalVertexLines& lines, std::size_t first_line) {
-  return {LineAndColumn(first_line, lines[0].indent + 1), LineAndColumn(first_line + 1, lines[1].indent + 1),
-          LineAndColumn(first_line + 2, lines[2].indent + 1)};
-}
-
-/// The values of a line with these attributes.
-VertexLine to_vertex_line(const DecimalVertexLine& line, const AttributeSet& attributes);
 
 /// A triangle in clip space, before the divide: w may be any number.
 using ClipTriangle = std::array<VertexLine, 3>;
@@ -102,6 +84,12 @@ std::string column_names(const AttributeSet& attributes);
 /// Whether the column w must be above 0, as after the divide, or may be any number, as in clip space.
 enum class RangeOfW { above_zero, any };
 
+/// Triangles that VertexLineReader has read on its fast path.
+struct TrianglesRead {
+  FixedTextPart part;
+  std::optional<int> decimals;  // of every coordinate, if all have as many
+};
+
 /// Reads vertex lines with certain attributes. Errors name the expected columns.
 class VertexLineReader {
  public:
@@ -118,18 +106,13 @@ class VertexLineReader {
   }
   /// The same, with another name in messages.
   void read(LineScanner& line, std::size_t vertex, const std::string& name, TriangleLines& triangle) const;
-  /// The fastest path: reads triangles in fixed form (fixed_text.h) from the beginning of `text`, at most
-  /// `limit`, and adds their values to the arrays. None if a value is out of range, which the general path
-  /// then reports.
-  FixedTextPart read_fixed(std::string_view text, TriangleFrame frame, std::size_t limit,
-                           std::vector<Triangle>& positions, AttributeArrays& attributes) const;
-  /// The same for lines of decimal_columns.h, as many as there are `marks`.
-  FixedTextPart read_decimals(std::string_view text, TriangleFrame frame, std::span<DecimalMarks> marks,
-                              std::vector<Triangle>& positions, AttributeArrays& attributes) const;
-  /// The fast path: reads the three lines of a triangle at `p` and returns the beginning of the next line.
-  /// Null if they hold anything but decimal numbers (decimal_number.h), do not end before `end`, hold a value
-  /// out of range, or have a column of materials; the general path then reads them or reports the error.
-  const char* read_decimals(const char* p, const char* end, DecimalVertexLines& vertices) const;
+  /// The fast path: reads triangles from the beginning of `text` as long as they have the form of the first,
+  /// of fixed_text.h or else of decimal_columns.h, and adds their values to the arrays: at most `limit`, or
+  /// as many as there are `marks`, which only the latter form sets. None if a value is out of range, which
+  /// the general path then reports.
+  TrianglesRead read_triangles(std::string_view text, TriangleFrame frame, std::size_t limit,
+                               std::span<DecimalMarks> marks, std::vector<Triangle>& positions,
+                               AttributeArrays& attributes) const;
 
  private:
   void read_material(LineScanner& line, std::size_t vertex, const std::string& name,
@@ -138,14 +121,12 @@ class VertexLineReader {
   FixedTextPart read_block(std::size_t limit, TriangleFrame frame, std::vector<Triangle>& positions,
                            AttributeArrays& attributes, const Read& read) const;
   [[nodiscard]] bool find_decimals(std::string_view line, GroupDecimals& decimals) const;
-  [[nodiscard]] bool are_in_range(std::span<const DecimalNumber> columns) const;
   [[nodiscard]] bool are_in_range(const AttributeArrays& attributes, std::size_t begin,
                                   TriangleFrame frame) const;
 
   AttributeSet attributes_;
   RangeOfW range_of_w_;
   std::size_t material_count_;
-  std::size_t column_count_;
   std::array<std::string, 3> names_;
 };
 

@@ -13,15 +13,6 @@ namespace {
 
 constexpr std::uint16_t kAllDecimal = 0x1ff;
 
-/// The marks of the coordinates that are exact decimals, as in a batch: with at most eight digits before the
-/// point, those with at most kExactDecimals after it.
-std::uint16_t decimal_marks(const DecimalVertexLines& lines) {
-  unsigned marks = 0;
-  for (std::size_t i = 0; i < 9; ++i)
-    if (lines[i / 3].numbers[i % 3].decimals <= kExactDecimals) marks |= 1u << i;
-  return static_cast<std::uint16_t>(marks);
-}
-
 /// The marks and low parts of a triangle's coordinates, as in a batch.
 struct ExactParts {
   std::uint16_t marks = 0;
@@ -55,21 +46,23 @@ TriangleReader::TriangleReader(TextReader& text, const VertexLineReader& vertex_
     : text_(text), vertex_line_(vertex_line), marks_decimals_(marks_decimals) {}
 
 bool TriangleReader::read_buffered(TriangleBatch& batch) {
-  return read_fixed_form(batch) || read_decimal_form(batch) || read_decimal_lines(batch);
-}
-
-/// Takes buffered triangles as long as they have the fixed form; false if the next has another form, or is
-/// not completely buffered.
-bool TriangleReader::read_fixed_form(TriangleBatch& batch) {
   static_assert(TextReader::kSlack >= kFixedTextSlack);
-  constexpr std::size_t kMaxAtOnce = 24;
+  constexpr int kPause = 8;
+  if (pause_ > 0) return --pause_, false;
   if (batch.size() >= kBatchSize) return false;
   // The blank line after a triangle that the general path has read.
   if (text_.buffered().starts_with('\n')) text_.skip(1, 1);
-  const std::size_t limit = std::min(kBatchSize - batch.size(), kMaxAtOnce);
-  const FixedTextPart part = vertex_line_.read_fixed(text_.buffered(), TriangleFrame::stage_text, limit,
-                                                     batch.triangles, batch.attributes);
-  consume_fixed_form(part.length, decimals_of_number(text_.buffered().data()), batch);
+  std::array<DecimalMarks, 24> marks;
+  const std::size_t old_size = batch.size();
+  const std::size_t limit = std::min(kBatchSize - old_size, marks.size());
+  const auto [part, decimals] = vertex_line_.read_triangles(text_.buffered(), TriangleFrame::stage_text,
+                                                            limit, marks, batch.triangles, batch.attributes);
+  consume_fixed_form(part.length, decimals.value_or(0), batch);
+  if (marks_decimals_ && !decimals)
+    std::copy_n(marks.begin(), part.triangle_count, batch.decimal_marks.begin() + old_size);
+  // A triangle that ends beyond the buffer is a miss, too, but a single one.
+  miss_count_ = part.triangle_count > 0 ? 0 : miss_count_ + 1;
+  if (miss_count_ > 1) pause_ = kPause;
   return part.triangle_count > 0;
 }
 
@@ -86,59 +79,6 @@ void TriangleReader::consume_fixed_form(std::size_t length, int decimals, Triang
     batch.decimal_marks.resize(old_size);
     batch.decimal_marks.resize(batch.size(), decimals <= kExactDecimals ? kAllDecimal : std::uint16_t{0});
   }
-}
-
-/// Takes some of the buffered triangles, as long as they have the form of decimal_columns.h; false if the
-/// next does not. After a few, the faster form is worth another try.
-bool TriangleReader::read_decimal_form(TriangleBatch& batch) {
-  std::array<DecimalMarks, 24> marks;
-  const std::size_t old_size = batch.size();
-  const std::size_t limit = std::min(kBatchSize - std::min(kBatchSize, old_size), marks.size());
-  const FixedTextPart part =
-      vertex_line_.read_decimals(text_.buffered(), TriangleFrame::stage_text, std::span(marks).first(limit),
-                                 batch.triangles, batch.attributes);
-  consume_fixed_form(part.length, 0, batch);
-  if (marks_decimals_)
-    std::copy_n(marks.begin(), part.triangle_count, batch.decimal_marks.begin() + old_size);
-  return part.triangle_count > 0;
-}
-
-/// The same for lines that hold such numbers and any blanks.
-bool TriangleReader::read_decimal_lines(TriangleBatch& batch) {
-  constexpr std::size_t kMaxAtOnce = 32;
-  const std::size_t limit = std::min(kBatchSize, batch.size() + kMaxAtOnce);
-  const std::size_t old_size = batch.size();
-  while (batch.size() < limit && read_decimal_triangle(batch)) {
-  }
-  return batch.size() > old_size;
-}
-
-bool TriangleReader::read_decimal_triangle(TriangleBatch& batch) {
-  static_assert(TextReader::kSlack >= kDecimalNumberSlack);
-  if (text_.buffered().starts_with('\n')) text_.skip(1, 1);
-  const std::string_view buffered = text_.buffered();
-  DecimalVertexLines& lines = decimal_lines_;
-  const char* const end =
-      vertex_line_.read_decimals(buffered.data(), buffered.data() + buffered.size(), lines);
-  if (end == nullptr) return false;
-  TriangleLines values;
-  for (std::size_t i = 0; i < 3; ++i)
-    values.vertices[i] = to_vertex_line(lines[i], vertex_line_.attributes());
-  const auto& [a, b, c] = values.vertices;
-  batch.add({a.position, b.position, c.position}, next_number_++,
-            locations_of(lines, text_.line_number() + 1));
-  batch.attributes.add(values, vertex_line_.attributes());
-  if (marks_decimals_) {
-    batch.decimal_marks.resize(batch.size());
-    batch.decimal_marks.back() = decimal_marks(lines);
-  }
-  const auto length = static_cast<std::size_t>(end - buffered.data());
-  if (keeps_text_) {
-    batch.texts.add_trimmed(buffered.substr(0, length));
-    batch.texts.end_triangle();
-  }
-  text_.skip(length, 3);
-  return true;
 }
 
 void TriangleReader::read_number(LineScanner& line) {

@@ -9,8 +9,8 @@
 
 namespace pipeline {
 
-/// Reads the triangles of a stage text's body and counts them. Three fast paths read nearly all text, as long
-/// as a triangle is completely buffered; the general path reads any triangle, line by line.
+/// Reads the triangles of a stage text's body and counts them. A fast path reads nearly all text, as long as
+/// a triangle is completely buffered; the general path reads any triangle, line by line.
 class TriangleReader {
  public:
   /// `vertex_line` reads the vertex lines. With `marks_decimals`, batches mark the coordinates
@@ -22,8 +22,8 @@ class TriangleReader {
 
   /// From now on, batches get the text of their triangles, too.
   void keep_text() { keeps_text_ = true; }
-  /// Adds some of the buffered triangles, as long as they hold numbers without exponent and nothing else and
-  /// the batch has fewer than kBatchSize; false if there is no such triangle.
+  /// Adds some of the buffered triangles, as long as the fast path has them and the batch has fewer than
+  /// kBatchSize; false if it does not have the next.
   bool read_buffered(TriangleBatch& batch);
   /// Consumes the next `length` characters, which are triangles of four lines with that many decimals that
   /// were added to the batch's `triangles` and attributes alone, and completes the batch.
@@ -36,17 +36,13 @@ class TriangleReader {
   std::uint64_t take_number() { return next_number_++; }
 
  private:
-  bool read_fixed_form(TriangleBatch& batch);
-  bool read_decimal_form(TriangleBatch& batch);
-  bool read_decimal_lines(TriangleBatch& batch);
-  bool read_decimal_triangle(TriangleBatch& batch);
-
   TextReader& text_;
   VertexLineReader vertex_line_;
   bool marks_decimals_;
   bool keeps_text_ = false;
-  DecimalVertexLines decimal_lines_;  // of the triangle that is being read
   std::uint64_t next_number_ = 0;
+  int miss_count_ = 0;  // of the fast path, in a row
+  int pause_ = 0;       // so many triangles are left to the general path
 };
 
 /// Moves on to the line of vertex `index` (from 0) of a triangle; only comments may stand before it. An

@@ -17,15 +17,4 @@ void TriangleTexts::add_fixed_form(std::string_view triangles, int decimals) {
   }
 }
 
-void TriangleTexts::add_trimmed(std::string_view lines) {
-  constexpr std::string_view kBlanks = " \t\r";
-  while (!lines.empty()) {
-    const std::size_t length = lines.find('\n');
-    std::string_view line = lines.substr(0, length);
-    line.remove_prefix(line.find_first_not_of(kBlanks));
-    add_line(line.substr(0, line.find_last_not_of(kBlanks) + 1));
-    lines.remove_prefix(length + 1);
-  }
-}
-
 }  // namespace pipeline

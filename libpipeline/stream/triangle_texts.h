@@ -31,8 +31,6 @@ class TriangleTexts {
   void add(std::string_view lines) { lines_ += lines; }
   /// Adds a line, which comes without its end, to the next triangle.
   void add_line(std::string_view line) { (lines_ += line) += '\n'; }
-  /// Adds lines that hold numbers, all of them ended, without the blanks around them.
-  void add_trimmed(std::string_view lines);
   /// Completes the next triangle.
   void end_triangle() {
     lines_ += '\n';

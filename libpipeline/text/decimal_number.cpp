@@ -142,22 +142,4 @@ const char* read_decimal_number(const char* p, DecimalNumber& number) {
   return p;
 }
 
-const char* read_decimal_line(const char* p, const char* end, std::span<DecimalNumber> numbers) {
-  const auto skip_blanks = [&] {
-    while (p < end && (*p == ' ' || *p == '\t')) ++p;
-  };
-  skip_blanks();
-  const char* before = nullptr;
-  for (DecimalNumber& number : numbers) {
-    // A blank must separate it from the number before.
-    if (p == before || p >= end) return nullptr;
-    p = read_decimal_number(p, number);
-    if (p == nullptr) return nullptr;
-    before = p;
-    skip_blanks();
-  }
-  if (p < end && *p == '\r') ++p;
-  return p < end && *p == '\n' ? p + 1 : nullptr;
-}
-
 }  // namespace pipeline

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <span>
-
 namespace pipeline {
 
 // The fast path for decimal numbers without an exponent that are not in the fixed form (fixed_text.h), as
@@ -21,9 +19,5 @@ constexpr int kDecimalNumberSlack = 64;
 /// close to the midpoint of two doubles that rounding it needs multiprecision arithmetic. The character after
 /// the number is not checked.
 const char* read_decimal_number(const char* p, DecimalNumber& number);
-
-/// Reads a line of exactly `numbers.size()` decimal numbers and blanks, and returns the beginning of the next
-/// line. Null for any other line, or one that does not end before `end`.
-const char* read_decimal_line(const char* p, const char* end, std::span<DecimalNumber> numbers);
 
 }  // namespace pipeline

@@ -53,6 +53,11 @@ LineScanner::LineScanner(std::string_view line, const std::string& file, std::si
   skip_blanks();
 }
 
+void LineScanner::take(std::string_view word) {
+  rest_.remove_prefix(word.size());
+  skip_blanks();
+}
+
 void LineScanner::skip_blanks() {
   const auto filled = std::find_if_not(rest_.begin(), rest_.end(), is_blank);
   rest_.remove_prefix(static_cast<std::size_t>(filled - rest_.begin()));
@@ -65,18 +70,29 @@ std::string_view LineScanner::peek() const {
 
 std::string_view LineScanner::word() {
   const std::string_view taken = peek();
-  rest_.remove_prefix(taken.size());
-  skip_blanks();
+  take(taken);
   return taken;
 }
 
 double LineScanner::number(std::string_view expected, std::string_view of) {
-  const ParsedNumber parsed = parse_number(peek());
+  if (DecimalNumber plain; take_plain(plain)) return plain.value;
+  const std::string_view text = peek();
+  const ParsedNumber parsed = parse_number(text);
   if (parsed.error == NumberError::overflow)
     fail(std::string(expected).append(of) + " within a double's range");
   if (parsed.error != NumberError::none) fail(std::string(expected).append(of));
-  word();
+  take(text);
   return parsed.value;
+}
+
+/// The fast path: takes a number without an exponent.
+bool LineScanner::take_plain(DecimalNumber& number) {
+  if (rest_.empty()) return false;
+  const char* const rest_end = rest_.data() + rest_.size();
+  const char* const end = read_decimal_number(rest_.data(), number);
+  if (end == nullptr || end > rest_end || (end < rest_end && !is_blank(*end))) return false;
+  take({rest_.data(), end});
+  return true;
 }
 
 Vec3 LineScanner::vec3(std::string_view of) {

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "libpipeline/numbers/vec.h"
+#include "libpipeline/text/decimal_number.h"
 #include "libpipeline/text/error.h"
 
 namespace pipeline {
@@ -20,7 +21,8 @@ constexpr std::size_t kMaxLineLength = std::size_t{1} << 20;
 class LineScanner {
  public:
   LineScanner() = default;
-  /// `line` comes without its newline; the scanner skips a comment.
+  /// `line` comes without its newline, and kDecimalNumberSlack readable characters follow it; the scanner
+  /// skips a comment.
   LineScanner(std::string_view line, const std::string& file, std::size_t line_number);
 
   /// True if only blanks are left.
@@ -60,6 +62,8 @@ class LineScanner {
   [[noreturn]] void fail(const std::string& expected, const std::string& hint = "") const;
 
  private:
+  void take(std::string_view word);
+  bool take_plain(DecimalNumber& number);
   void skip_blanks();
 
   std::string_view line_;

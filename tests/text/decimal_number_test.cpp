@@ -7,7 +7,6 @@
 #include <charconv>
 #include <cstdint>
 #include <string>
-#include <vector>
 
 #include "tests/numbers/random_numbers.h"
 
@@ -22,12 +21,6 @@ long length_of(const std::string& text, DecimalNumber& number) {
   const std::string with_slack = text + " " + kSlack;
   const char* const end = read_decimal_number(with_slack.data(), number);
   return end == nullptr ? -1 : end - with_slack.data();
-}
-
-bool reads_line(const std::string& line, std::vector<DecimalNumber>& numbers) {
-  const std::string with_slack = line + kSlack;
-  const char* const end = read_decimal_line(with_slack.data(), with_slack.data() + line.size(), numbers);
-  return end == with_slack.data() + line.size();
 }
 
 double from_chars(const std::string& text) {
@@ -164,32 +157,6 @@ TEST(DecimalNumberLong, ReadsTheShortestFormBack) {
     read_count += was_read ? 1 : 0;
   }
   EXPECT_GT(read_count, kCount * 9 / 10);
-}
-
-TEST(DecimalLine, HoldsItsNumbersAndBlanks) {
-  for (const char* line : {"1 2 3\n", "  1\t2   3 \n", "1 2 3\r\n", "-1 .5 3.\n"}) {
-    std::vector<DecimalNumber> numbers(3);
-    EXPECT_TRUE(reads_line(line, numbers)) << line;
-    EXPECT_EQ(numbers[2].value, 3) << line;
-  }
-}
-
-TEST(DecimalLine, AnyOtherIsLeftToTheGeneralReader) {
-  for (const char* line : {"", "\n", "1 2\n", "1 2 3 4\n", "1 2 3", "1 2 3 # a comment\n", "1 2 3e5\n",
-                           "1 2-3\n", "1 2 3\r", "1 2 3\r\r\n", "1,5 2 3\n", "1 2 \n", "1 2 3\v\n"}) {
-    std::vector<DecimalNumber> numbers(3);
-    EXPECT_FALSE(reads_line(line, numbers)) << line;
-  }
-}
-
-// The slack continues with text that would complete the line.
-TEST(DecimalLine, DoesNotReadOnBehindTheEnd) {
-  const std::string text = "1 2 34\n";
-  for (std::size_t length = 0; length < text.size(); ++length) {
-    std::vector<DecimalNumber> numbers(3);
-    const std::string with_slack = text + kSlack;
-    EXPECT_EQ(read_decimal_line(with_slack.data(), with_slack.data() + length, numbers), nullptr) << length;
-  }
 }
 
 }  // namespace

@@ -11,10 +11,11 @@
 namespace pipeline {
 namespace {
 
+/// The words as a line, with the characters after it that a LineScanner needs.
 std::string joined(const std::vector<std::string>& words) {
   std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : " ") + word;
-  return text;
+  for (const std::string& word : words) text += word + " ";
+  return text.append(kDecimalNumberSlack, ' ');
 }
 
 }  // namespace
