@@ -37,6 +37,7 @@ CenterRows::CenterRows(const ExactGrid& grid, const ExactTriangle& triangle) {
     set(rows_.emplace<ExactRows<Int128>>(*narrow, box, z));
     return;
   }
+  if (!triangle.is_decimal()) plane_ = depth_plane(grid, triangle);
   const AxisUnits x = column_units(grid, triangle), y = row_units(grid, triangle);
   const auto set_on_heap = [&]<typename Int, typename Coordinate = Int>(std::type_identity<Int>,
                                                                         std::type_identity<Coordinate> = {}) {

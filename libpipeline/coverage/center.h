@@ -5,6 +5,7 @@
 #include <optional>
 #include <variant>
 
+#include "libpipeline/coverage/depth_plane.h"
 #include "libpipeline/coverage/exact_grid.h"
 #include "libpipeline/coverage/exact_rows.h"
 #include "libpipeline/coverage/span.h"
@@ -30,9 +31,9 @@ class CenterRows {
   [[nodiscard]] std::optional<Span> span(int row) const {
     if (const auto* const narrow = std::get_if<ExactRows<std::int64_t>>(&rows_)) return narrow->span(row);
     if (const auto* const medium = std::get_if<ExactRows<Int128>>(&rows_)) return medium->span(row);
-    if (const auto* const doubles = std::get_if<OnHeap<DoublesInt>>(&rows_)) return (*doubles)->span(row);
-    if (const auto* const wide = std::get_if<OnHeap<WideInt>>(&rows_)) return (*wide)->span(row);
-    return std::get<OnHeap<HugeInt>>(rows_)->span(row);
+    std::optional<Span> span = wide_span(row);
+    if (span && plane_) span->depth = depth_along(*plane_, row, span->first_column, span->last_column);
+    return span;
   }
 
  private:
@@ -43,6 +44,13 @@ class CenterRows {
   std::variant<std::monostate, ExactRows<std::int64_t>, ExactRows<Int128>, OnHeap<DoublesInt>,
                OnHeap<WideInt>, OnHeap<HugeInt>>
       rows_;
+  std::optional<DepthPlane> plane_;
+
+  [[nodiscard]] std::optional<Span> wide_span(int row) const {
+    if (const auto* const doubles = std::get_if<OnHeap<DoublesInt>>(&rows_)) return (*doubles)->span(row);
+    if (const auto* const wide = std::get_if<OnHeap<WideInt>>(&rows_)) return (*wide)->span(row);
+    return std::get<OnHeap<HugeInt>>(rows_)->span(row);
+  }
 };
 
 }  // namespace pipeline

@@ -2,11 +2,12 @@
 
 #include "libpipeline/coverage/center.h"
 #include "libpipeline/coverage/depth_in_doubles.h"
+#include "libpipeline/coverage/depth_plane.h"
 #include "libpipeline/coverage/kernel.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "libpipeline/coverage/center_kernel.cpp"
-#include "libpipeline/coverage/lanes.h"
+#include "libpipeline/coverage/double_rows.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace pipeline {
@@ -22,6 +23,18 @@ TaggedSpan* center_spans(const ExactGrid& grid, std::span<const TaggedTriangle> 
   return spans;
 }
 
+/// The plane of one triangle.
+Planes plane_of(const ExactGrid& grid, const ExactTriangle& triangle) {
+  std::array<Points, 3> corners;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vec3& p = triangle.p_ndc[i];
+    corners[i] = {all(p.x), all(p.y), all(p.z)};
+  }
+  return {PixelAxis(grid.columns), PixelAxis(grid.rows), corners, [&](unsigned mark) {
+            return (triangle.decimal_marks >> mark & 1u) != 0 ? is_equal(all(0), all(0)) : all(0);
+          }};
+}
+
 #else
 
 // CenterRows in doubles instead of 64 bits: they hold whole numbers up to 2^53. Triangles whose numbers could
@@ -35,18 +48,6 @@ HWY_INLINE Doubles quotient_rounded_up(Doubles dividend, Doubles divisor, Double
   const Doubles near = hn::Round(dividend * inverse);
   const Doubles quotient = near + hn::And(is_less(near * divisor, dividend), all(1));
   return hn::Min(most, hn::Max(all(0), quotient));
-}
-
-struct Sums {
-  Doubles sum;
-  Doubles lost;  // in it
-};
-
-/// As two_sum() of two doubles.
-HWY_INLINE Sums two_sum(Doubles a, Doubles b) {
-  const Doubles sum = a + b;
-  const Doubles b_part = sum - a;
-  return {sum, (a - (sum - b_part)) + (b - b_part)};
 }
 
 /// An AxisInDoubles, in all lanes.
@@ -158,8 +159,7 @@ struct TriangleLanes {
     const Doubles first = left * columns.step;
     const Doubles x = hn::Max(hn::Abs(u_right - first), hn::Abs(u_left - first)) + all(2) * columns.step;
     const Doubles y = v_bottom - v_top + rows.step;
-    ordinary.bits =
-        marks(triangles) & bits_of(hn::And(fits, is_at_most(all(4) * x * y, all(kMaxExactDouble))));
+    ordinary.bits = bits_of(hn::And(fits, is_at_most(all(4) * x * y, all(kMaxExactDouble))));
 
     const Doubles is_beside = hn::Or(is_less(u_right, all(0)), is_at_most(columns.count, left));
     sources.first_column = left;
@@ -189,16 +189,6 @@ struct TriangleLanes {
  private:
   HWY_INLINE static GridPoints on_grid(const AxisLanes& columns, const AxisLanes& rows, const Points& p) {
     return {columns.origin + columns.scaled(p.x), rows.origin - rows.scaled(p.y), p.z};
-  }
-  /// A bit for each triangle whose x and y are decimals. Usually all are.
-  static unsigned marks(const TaggedTriangle* triangles) {
-    ExactTriangle all_of_them = triangles[0].triangle;
-    for (std::size_t i = 1; i < kLanes; ++i) all_of_them.decimal_marks &= triangles[i].triangle.decimal_marks;
-    if (all_of_them.is_decimal()) return LaneSet::kAll;
-    unsigned result = 0;
-    for (std::size_t i = 0; i < kLanes; ++i)
-      result |= static_cast<unsigned>(triangles[i].triangle.is_decimal()) << i;
-    return result;
   }
   HWY_INLINE void set_corners(const AxisLanes& columns, const AxisLanes& rows, Doubles left,
                               const GridPoints& a, const GridPoints& b, const GridPoints& c, Doubles end_row,
@@ -230,10 +220,10 @@ struct TriangleLanes {
                                         is_at_most(size, all(DepthInDoubles::kMaxDepth)));
     ordinary.bits &= bits_of(hn::Or(flat, is_in_range));
 
-    const Sums of_two = two_sum(b_step * b, c_step * c);
-    const Sums of_three = two_sum(of_two.sum, (all(0) - b_step - c_step) * a);
+    const Pairs of_two = two_sum(b_step * b, c_step * c);
+    const Pairs of_three = two_sum(of_two.hi, (all(0) - b_step - c_step) * a);
     const Doubles slope =
-        (of_three.sum + (of_two.lost + of_three.lost)) / twice_weights + all(DepthInDoubles::kNoMinus);
+        (of_three.hi + (of_two.lo + of_three.lo)) / twice_weights + all(DepthInDoubles::kNoMinus);
     half_slope = numbers_of(hn::AndNot(flat, slope));
     sources.is_flat = flat;
     sources.twice_total = twice_weights;
@@ -318,9 +308,69 @@ struct Rule {
   AxisLanes row_axis;
 };
 
+/// Likewise for triangles that have other coordinates than decimals.
+struct DoubleRule {
+  using RowLanes = DoubleRowLanes;
+  HWY_INLINE explicit DoubleRule(const ExactGrid& exact_grid)
+      : grid(exact_grid), columns(exact_grid.columns), row_axis(exact_grid.rows) {}
+
+  [[nodiscard]] CenterRows rows(const TaggedTriangle& triangle) const { return {grid, triangle.triangle}; }
+  HWY_INLINE DoubleTriangleLanes prepared(const TaggedTriangle* triangles, const RowRange& range) const {
+    return {columns, row_axis, triangles, range};
+  }
+  HWY_INLINE static RowLanes some_rows(const DoubleRowSources& sources, Doubles rows) {
+    return {sources, rows};
+  }
+  static double slope(const DoubleTriangleLanes& four, std::size_t lane, const RowLanes&, std::size_t) {
+    return four.half_slope[lane];
+  }
+  static Axis axis() { return Rule::axis(); }
+
+  const ExactGrid& grid;
+  PixelAxis columns;
+  PixelAxis row_axis;
+};
+
+/// The triangles whose x and y are decimals. Usually all are, or none.
+LaneSet decimals_of(const TaggedTriangle* triangles) {
+  ExactTriangle all_of_them = triangles[0].triangle;
+  for (std::size_t i = 1; i < kLanes; ++i) all_of_them.decimal_marks &= triangles[i].triangle.decimal_marks;
+  if (all_of_them.is_decimal()) return {};
+  LaneSet result = {0};
+  for (std::size_t i = 0; i < kLanes; ++i)
+    result.bits |= static_cast<unsigned>(triangles[i].triangle.is_decimal()) << i;
+  return result;
+}
+
+template <typename Rule>
+TaggedSpan* append_by(const Rule& rule, const TaggedTriangle* triangles, const RowRange& rows,
+                      TaggedSpan* spans) {
+  return append_triangles(rule, rule.prepared(triangles, rows), triangles, rows, spans);
+}
+
+TaggedSpan* append_mixed(const ExactGrid& grid, LaneSet decimals, const TaggedTriangle* triangles,
+                         const RowRange& rows, TaggedSpan* spans) {
+  const Rule rule(grid);
+  const DoubleRule double_rule(grid);
+  const auto whole = rule.prepared(triangles, rows);
+  const auto others = double_rule.prepared(triangles, rows);
+  for (std::size_t lane = 0; lane < kLanes; ++lane)
+    spans = decimals.has(lane) ? append_triangle(rule, whole, lane, triangles[lane], rows, spans)
+                               : append_triangle(double_rule, others, lane, triangles[lane], rows, spans);
+  return spans;
+}
+
 TaggedSpan* center_spans(const ExactGrid& grid, std::span<const TaggedTriangle> triangles,
                          const RowRange& rows, TaggedSpan* spans) {
-  return append_all(Rule(grid), triangles, rows, spans);
+  for (; triangles.size() >= kLanes; triangles = triangles.subspan(kLanes)) {
+    const LaneSet decimals = decimals_of(triangles.data());
+    spans = decimals.has_all()   ? append_by(Rule(grid), triangles.data(), rows, spans)
+            : decimals.bits == 0 ? append_by(DoubleRule(grid), triangles.data(), rows, spans)
+                                 : append_mixed(grid, decimals, triangles.data(), rows, spans);
+  }
+  for (const TaggedTriangle& triangle : triangles)
+    spans = append_spans(CenterRows(grid, triangle.triangle), triangle.tag, rows, spans);
+  return spans;
 }
 
 #endif
@@ -333,6 +383,25 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 
 namespace pipeline {
+
+std::optional<DepthPlane> depth_plane(const ExactGrid& grid, const ExactTriangle& triangle) {
+  using namespace N_SCALAR;
+  const auto pair = [](const Pairs& value) {
+    return DoubleDouble{number_in(value.hi, 0), number_in(value.lo, 0)};
+  };
+  const Planes planes = plane_of(grid, triangle);
+  if (bits_of(planes.are_certain) == 0) return std::nullopt;
+  return DepthPlane{pair(planes.corner), pair(planes.per_column), pair(planes.per_row)};
+}
+
+SpanDepth depth_along(const DepthPlane& plane, int row, int first_column, int last_column) {
+  using namespace N_SCALAR;
+  const double columns = first_column + last_column;
+  const Pairs per_column = all(plane.per_column);
+  const Doubles middle =
+      middle_depth(all(plane.corner), per_column, all(plane.per_row), all(columns), all(row));
+  return {0, 2, columns, number_in(middle, 0), number_in(half_slope_of(per_column), 0)};
+}
 
 const KernelTable<CenterSpans>& center_kernels() {
   static constexpr KernelTable<CenterSpans> kKernels = PIPELINE_KERNEL_TABLE(center_spans);

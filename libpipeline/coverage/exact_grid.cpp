@@ -113,6 +113,7 @@ GridAxis::GridAxis(int pixel_count, double limit, double limit_low_part, bool li
   in_doubles.step = static_cast<double>(narrow_step.value());
   in_doubles.inverse_step = 1 / in_doubles.step;
   in_doubles.vertex_factor = static_cast<double>(narrow_vertex_factor);
+  pixels_per_unit = DoubleDouble{in_doubles.vertex_factor} / DoubleDouble{in_doubles.step};
   in_doubles.origin = static_cast<double>(narrow_origin);
   if (in_doubles.step * count <= kMaxExactDouble) in_doubles.largest = kMaxExactDouble - in_doubles.origin;
 }

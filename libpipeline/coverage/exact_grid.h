@@ -4,10 +4,12 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <type_traits>
 
 #include "libpipeline/coverage/span.h"
+#include "libpipeline/numbers/double_double.h"
 #include "libpipeline/numbers/vec.h"
 #include "libpipeline/numbers/whole_math.h"
 #include "libpipeline/scene/viewport.h"
@@ -101,6 +103,7 @@ struct GridAxis {
   std::int64_t narrow_origin = 0;
   Divisor<std::int64_t> narrow_step;
   AxisInDoubles in_doubles;
+  DoubleDouble pixels_per_unit = {std::numeric_limits<double>::quiet_NaN(), 0};  // within 2^-101
 };
 
 /// The coordinates of a triangle along one axis as exact numbers, and how fine a grid they need.

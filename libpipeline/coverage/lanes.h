@@ -17,8 +17,6 @@ namespace pipeline {
 namespace HWY_NAMESPACE {
 namespace {
 
-#if HWY_TARGET != HWY_SCALAR
-
 namespace hn = hwy::HWY_NAMESPACE;
 
 // Operations for kernels that work on two or four doubles at a time: + - * / are the processor's, lane by
@@ -84,6 +82,8 @@ struct Points {
   Doubles y;
   Doubles z;
 };
+
+#if HWY_TARGET != HWY_SCALAR
 
 /// Two neighboring numbers of each of some triangles, `i` numbers after the first.
 HWY_INLINE void load_two(const TaggedTriangle* triangles, std::size_t i, Doubles& first, Doubles& second) {

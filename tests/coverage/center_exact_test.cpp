@@ -165,6 +165,30 @@ TEST(CenterExact, DepthsOfSliversAndOfFarVerticesAreWithinTheirBound) {
   }
 }
 
+// Of doubles: from a thousandth of a pixel to far beyond the screen, up to 2^30 times as long as wide.
+TEST(CenterExact, DepthsInPlanesAreWithinTheirBound) {
+  WorstError worst("depth under center in planes, parts of the largest |z|");
+  RandomNumbers random(8);
+  int plane_count = 0, other_count = 0;
+  for (int i = 0; i < sanitizer_rounds(3000); ++i) {
+    const Viewport screen =
+        i % 2 == 0 ? decimal_screen(400, 300, -1, -0.75) : decimal_screen(1021, 3, -0.3, -0.7);
+    const double size = std::exp2(random.between(-16, 16)), width = size * std::exp2(-random.between(0, 30));
+    const double x = random.between(-1, 1), y = random.between(-1, 1), along = random.between(-1, 2);
+    const Vec3 step = {random.between(-1, 1), random.between(-1, 1), 0};
+    TextTriangle t = with_vertices(
+        {Vec3{x, y, 0}, Vec3{x + size * step.x, y + size * step.y, 0},
+         Vec3{x + along * size * step.x - width * step.y, y + along * size * step.y + width * step.x, 0}});
+    for (Vec3& v : t.p) v.z = i % 3 == 0 ? random.with_exponent(-60, 0) : random.between(-1, 1);
+    t.decimal_marks = static_cast<std::uint16_t>(random.whole(0, 1) * random.whole(0, 0776) & 0b011'011'011);
+    (depth_plane(ExactGrid(screen), t.exact()) ? plane_count : other_count) += 1;
+    expect_depths_within_bound(t, screen, worst);
+    if (HasFatalFailure()) FAIL() << "triangle " << i;
+  }
+  EXPECT_GT(plane_count, sanitizer_rounds(1000));
+  EXPECT_GT(other_count, sanitizer_rounds(300));
+}
+
 TEST(CenterExact, DepthsReadAsDecimalsAreWithinTheSameBound) {
   WorstError worst("depth under center, parts of the largest |z|");
   RandomNumbers random(7);

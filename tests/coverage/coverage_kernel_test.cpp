@@ -133,8 +133,12 @@ void expect_the_spans_of_the_rule(Kernel kernel) {
     for (int i = 0; i < sanitizer_rounds(500); ++i) {
       std::vector<Source> sources(static_cast<std::size_t>(random.whole(0, 11)));
       std::vector<TaggedTriangle> triangles;
+      const bool are_doubles = random.whole(0, 3) == 0;  // so that four in a row are frequent, too
       for (Source& source : sources) {
         source = random_source(screen, random);
+        if (are_doubles)
+          source.decimal_marks =
+              random.whole(0, 3) == 0 ? static_cast<std::uint16_t>(random.whole(0, 0776)) : 0;
         triangles.push_back({{source.p_ndc, &source.low_parts, source.decimal_marks},
                              static_cast<PixelTag>(triangles.size())});
       }

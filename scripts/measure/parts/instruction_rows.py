@@ -57,6 +57,10 @@ def across_the_frustum(count, **columns):
     return triangles(count, (2 * UNIT, 2 * UNIT, 3 * UNIT), (UNIT,) * 3, middle_z=-4 * UNIT, **columns)
 
 
+def with_more_digits(stage_text, digits):
+    return "\n".join(" ".join(number + digits for number in line.split()) for line in stage_text.split("\n"))
+
+
 def small_on_screen(count, **columns):
     """Triangles of about three pixels each on a 500 x 500 screen."""
     return triangles(count, (UNIT,) * 3, (UNIT // 130, UNIT // 130, UNIT // 500), **columns)
@@ -122,6 +126,8 @@ TEXTS = {
     "lit-view.txt": lambda: lit("view", in_view, 2000, 6),
     "crossing.txt": lambda: header("view", ()) + across_the_frustum(2000) * 3,
     "lit-crossing.txt": lambda: lit("view", across_the_frustum, 2000, 2),
+    "small-9.txt": lambda: with_more_digits(small_on_screen(20_000), "23"),
+    "small-17.txt": lambda: with_more_digits(small_on_screen(20_000), "1234567891"),
     "small.txt": lambda: small_on_screen(40_000),
     "large.txt": lambda: large_on_screen(1500),
     "few-large.txt": lambda: large_on_screen(100),
@@ -182,6 +188,8 @@ ROWS = [
     Row("zbuf: small, nearest", f"zbuf config.txt small.txt {NO_IMAGE}"),
     Row("zbuf: small, nearest, scalar", f"zbuf config.txt small.txt {NO_IMAGE}", "scalar"),
     Row("zbuf: small, center", f"zbuf config.txt small.txt {NO_IMAGE} --coverage center"),
+    Row("zbuf: small, center, 9 digits", f"zbuf config.txt small-9.txt {NO_IMAGE} --coverage center"),
+    Row("zbuf: small, center, 17 digits", f"zbuf config.txt small-17.txt {NO_IMAGE} --coverage center"),
     Row("zbuf: large, nearest", f"zbuf config.txt large.txt {NO_IMAGE}"),
     Row("zbuf: large, center", f"zbuf config.txt large.txt {NO_IMAGE} --coverage center"),
     Row("zbuf: small, scan-line", f"zbuf config.txt small.txt {NO_IMAGE} --algorithm scanline"),

@@ -1,0 +1,198 @@
+// No include guard: included once for each target, see numbers/vector_targets.h.
+
+#include "libpipeline/coverage/double_lanes.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace pipeline {
+namespace HWY_NAMESPACE {
+namespace {
+
+#if HWY_TARGET != HWY_SCALAR
+
+// The rule `center` for triangles of any doubles: where an edge crosses a row is calculated in doubles, with
+// a bound on the error. Where that bound reaches a pixel's center, CenterRows decides.
+
+/// No pair in pixels is off by more than that, relative to the largest.
+constexpr double kPairDoubt = 0x1p-95;
+
+/// A pixel, and a mask where it is certain.
+struct CertainPixels {
+  Doubles pixel;
+  Doubles are_certain;
+};
+
+/// The first pixel at or after whole + rest, in [0, most]; `whole` is the nearest whole number.
+HWY_INLINE CertainPixels first_pixel(Doubles whole, Doubles rest, Doubles doubt, Doubles most) {
+  const Doubles pixel = whole + hn::And(is_less(all(0), rest), all(1));
+  return {hn::Min(most, hn::Max(all(0), pixel)), is_less(doubt, hn::Abs(rest))};
+}
+
+struct DoubleEdges {
+  HWY_INLINE DoubleEdges of(std::size_t lane) const {
+    return {all_of(u, lane), v.of(lane), all_of(slope, lane), all_of(doubt, lane)};
+  }
+  /// The first pixel at or after the edge on its row.
+  HWY_INLINE CertainPixels cross(Doubles rows, Doubles column_count) const {
+    // u is off by u 2^-53 at most, and the product by seven times that of itself.
+    const Doubles shift = ((rows - v.hi) - v.lo) * slope, crossing = u + shift;
+    const Doubles whole = hn::Round(crossing);
+    return first_pixel(whole, crossing - whole, doubt + all(0x1p-50) * hn::Abs(shift), column_count);
+  }
+
+  // A corner, and du/dv.
+  Doubles u;
+  Pairs v;
+  Doubles slope;
+  Doubles doubt;
+};
+
+HWY_INLINE DoubleEdges pick_edges(Doubles mask, const DoubleEdges& yes, const DoubleEdges& no) {
+  return {pick(mask, yes.u, no.u),
+          {pick(mask, yes.v.hi, no.v.hi), pick(mask, yes.v.lo, no.v.lo)},
+          pick(mask, yes.slope, no.slope),
+          pick(mask, yes.doubt, no.doubt)};
+}
+
+/// As RowSources.
+struct DoubleRowSources {
+  HWY_INLINE DoubleRowSources of(std::size_t lane) const {
+    return {all_of(middle_row, lane), all_of(end_row, lane), column_count,   all_of(longest_is_left, lane),
+            longest.of(lane),         upper.of(lane),        lower.of(lane), corner.of(lane),
+            per_column.of(lane),      per_row.of(lane)};
+  }
+
+  Doubles middle_row;
+  Doubles end_row;
+  Doubles column_count;
+  Doubles longest_is_left;  // a mask
+  DoubleEdges longest;
+  DoubleEdges upper;
+  DoubleEdges lower;
+  Pairs corner;  // see DepthPlane
+  Pairs per_column;
+  Pairs per_row;
+};
+
+/// Some triangles prepared for their rows.
+struct DoubleTriangleLanes {
+  HWY_INLINE DoubleTriangleLanes(const PixelAxis& columns, const PixelAxis& rows,
+                                 const TaggedTriangle* triangles, const RowRange& range) {
+    std::array<std::uint64_t, kLanes> marks;
+    for (std::size_t i = 0; i < kLanes; ++i) marks[i] = triangles[i].triangle.decimal_marks;
+    constexpr hn::RebindToUnsigned<decltype(kDoubles)> kMarks;
+    const auto all_marks = hn::LoadU(kMarks, marks.data());
+    const Planes planes(columns, rows, vertices_of(triangles), [&](unsigned mark) HWY_ATTR {
+      const auto bit = hn::Set(kMarks, std::uint64_t{1} << mark);
+      return hn::BitCast(kDoubles, hn::VecFromMask(kMarks, hn::Eq(hn::And(all_marks, bit), bit)));
+    });
+    sources.column_count = columns.count;
+    sources.corner = planes.corner, sources.per_column = planes.per_column, sources.per_row = planes.per_row;
+    half_slope = numbers_of(half_slope_of(planes.per_column));
+
+    const Doubles slopes[3] = {(planes.r_u - planes.q_u).hi / (planes.r_v - planes.q_v).hi,
+                               planes.r_u.hi / planes.r_v.hi, planes.q_u.hi / planes.q_v.hi};
+    Doubles are_certain = planes.are_certain;
+    std::array<Corner, 3> corners;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto& [u, v, z] = planes.corners[i];
+      const Doubles whole = hn::Round(v.hi), rest = (v.hi - whole) + v.lo;
+      const auto row = first_pixel(whole, rest, all(kPairDoubt) * planes.size_v, rows.count);
+      are_certain = hn::And(are_certain, row.are_certain);
+      corners[i] = {row.pixel, u.hi, v, slopes[i]};
+    }
+    ordinary.bits = bits_of(are_certain);
+    const Doubles is_turned = sort(corners);
+    sources.longest_is_left = hn::Xor(is_turned, is_less(all(0), planes.area.hi));
+    set_edges(corners, planes, all(0x1p-50) * planes.size_u);
+
+    const auto& [p, q, r] = planes.corners;
+    const Doubles is_beside = hn::Or(is_less(hn::Max(p.u.hi, hn::Max(q.u.hi, r.u.hi)), all(-0.5)),
+                                     is_less(columns.count, hn::Min(p.u.hi, hn::Min(q.u.hi, r.u.hi))));
+    begin_row = hn::Max(all(range.first), corners[0].row);
+    sources.middle_row = corners[1].row;
+    sources.end_row = pick(is_beside, begin_row, hn::Min(all(range.end), corners[2].row));
+  }
+
+  HWY_INLINE Doubles end_row() const { return sources.end_row; }
+
+  DoubleRowSources sources;
+  Doubles begin_row;  // the first in the range
+  LaneSet ordinary;   // triangles whose rows and depths are certain
+  Numbers half_slope;
+
+ private:
+  struct Corner {
+    Doubles row;  // the first at or below
+    Doubles u;
+    Pairs v;
+    Doubles slope;  // of the opposite edge
+  };
+  HWY_INLINE static void swap_where(Doubles mask, Corner& a, Corner& b) {
+    const auto swap = [&](Doubles& x, Doubles& y) HWY_ATTR {
+      const Doubles kept = x;
+      x = pick(mask, y, x);
+      y = pick(mask, kept, y);
+    };
+    swap(a.row, b.row);
+    swap(a.u, b.u);
+    swap(a.v.hi, b.v.hi);
+    swap(a.v.lo, b.v.lo);
+    swap(a.slope, b.slope);
+  }
+  /// Sorts from the top; masks those whose winding that turns.
+  HWY_INLINE static Doubles sort(std::array<Corner, 3>& corners) {
+    auto& [a, b, c] = corners;
+    const Doubles first = is_less(b.row, a.row);
+    swap_where(first, a, b);
+    const Doubles second = is_less(c.row, b.row);
+    swap_where(second, b, c);
+    const Doubles third = is_less(b.row, a.row);
+    swap_where(third, a, b);
+    return hn::Xor(first, hn::Xor(second, third));
+  }
+  HWY_INLINE void set_edges(const std::array<Corner, 3>& corners, const Planes& planes, Doubles doubt_of_u) {
+    const auto edge = [&](const Corner& from, Doubles slope) HWY_ATTR {
+      return DoubleEdges{from.u, from.v, slope,
+                         doubt_of_u + all(kPairDoubt) * planes.size_v * hn::Abs(slope)};
+    };
+    const auto& [a, b, c] = corners;
+    sources.longest = edge(a, b.slope);
+    sources.upper = edge(a, c.slope);
+    sources.lower = edge(b, a.slope);
+  }
+};
+
+/// A row of each of some triangles, or some rows of one.
+struct DoubleRowLanes {
+  DoubleRowLanes() = default;
+  HWY_INLINE DoubleRowLanes(const DoubleRowSources& of, Doubles rows) : rows_(rows) {
+    const auto shorter_edges = pick_edges(is_less(rows, of.middle_row), of.upper, of.lower);
+    const CertainPixels longest = of.longest.cross(rows, of.column_count);
+    const CertainPixels shorter = shorter_edges.cross(rows, of.column_count);
+    const Doubles first = pick(of.longest_is_left, longest.pixel, shorter.pixel);
+    const Doubles end = pick(of.longest_is_left, shorter.pixel, longest.pixel);
+    const Doubles is_there = is_less(rows, of.end_row);
+    spans.set_columns(rows, hn::And(is_there, first), hn::And(is_there, end) - all(1));
+    columns_added_up_ = first + end - all(1);
+    uncertain_ = hn::AndNot(hn::And(longest.are_certain, shorter.are_certain), is_there);
+  }
+  HWY_INLINE void set_depths(const DoubleRowSources& of) {
+    spans.set_points(columns_added_up_,
+                     middle_depth(of.corner, of.per_column, of.per_row, columns_added_up_, rows_));
+  }
+  [[nodiscard]] HWY_INLINE LaneSet ordinary() const { return {LaneSet::kAll & ~bits_of(uncertain_)}; }
+
+  LaneSpans spans;
+
+ private:
+  Doubles rows_;
+  Doubles columns_added_up_;  // the first and the last
+  Doubles uncertain_;         // a mask
+};
+
+#endif
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace pipeline
+HWY_AFTER_NAMESPACE();
