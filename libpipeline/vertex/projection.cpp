@@ -50,28 +50,6 @@ double safe_double(const Ball& number) {
   return is_fine ? nearest : std::numeric_limits<double>::quiet_NaN();
 }
 
-/// The kernels' coefficients (vertex_kernel.h).
-ProjectionCoefficients coefficients_of(const ProjectionTransform& projection) {
-  const Ball near = projection.near;
-  const Ball far = projection.far;
-  const Ball z_scale = (projection.is_perspective ? -(far + near) : Ball(-2)) / (far - near);
-  const Ball z_offset = (projection.is_perspective ? Ball(-2) * far * near : -(far + near)) / (far - near);
-  ProjectionCoefficients coefficients;
-  coefficients.is_perspective = projection.is_perspective;
-  coefficients.scales = {Coefficient(projection.x_scale), Coefficient(projection.y_scale),
-                         Coefficient(z_scale)};
-  coefficients.offsets = {Coefficient(projection.x_offset), Coefficient(projection.y_offset),
-                          Coefficient(z_offset)};
-  coefficients.scales[0].value = safe_double(projection.x_scale);
-  coefficients.scales[1].value = safe_double(projection.y_scale);
-  coefficients.offsets[0].value = safe_double(projection.x_offset);
-  coefficients.offsets[1].value = safe_double(projection.y_offset);
-  coefficients.near = projection.near;
-  coefficients.far = projection.far;
-  coefficients.depth_range = safe_double(far - near);
-  return coefficients;
-}
-
 bool has_attributes(const TriangleBatch& batch) {
   const AttributeArrays& attributes = batch.attributes;
   return !attributes.colors.empty() || !attributes.normals.empty() || !attributes.materials.empty();
@@ -114,6 +92,28 @@ BallVec3 perspective_divide(const ClipVertex& p_clip) {
 
 }  // namespace
 
+ProjectionCoefficients coefficients_of(const ProjectionTransform& projection, double clip_inset) {
+  const Ball near = projection.near;
+  const Ball far = projection.far;
+  const Ball z_scale = (projection.is_perspective ? -(far + near) : Ball(-2)) / (far - near);
+  const Ball z_offset = (projection.is_perspective ? Ball(-2) * far * near : -(far + near)) / (far - near);
+  ProjectionCoefficients coefficients;
+  coefficients.is_perspective = projection.is_perspective;
+  const std::array<Ball, 3> scales = {projection.x_scale, projection.y_scale, z_scale};
+  const std::array<Ball, 3> offsets = {projection.x_offset, projection.y_offset, z_offset};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    coefficients.scales[axis] = Coefficient(scales[axis]);
+    coefficients.scales[axis].value = safe_double(scales[axis]);
+    coefficients.offsets[axis] = Coefficient(offsets[axis]);
+    coefficients.offsets[axis].value = safe_double(offsets[axis]);
+  }
+  coefficients.near = projection.near;
+  coefficients.far = projection.far;
+  coefficients.depth_range = safe_double(far - near);
+  coefficients.clip_w = 1 - clip_inset;
+  return coefficients;
+}
+
 ProjectionStage::ProjectionStage(const ProjectionTransform& projection, ClipMode clip, CullMode cull,
                                  CoordinateRounder& rounder, double clip_inset)
     : projection_(projection),
@@ -121,19 +121,17 @@ ProjectionStage::ProjectionStage(const ProjectionTransform& projection, ClipMode
       cull_(cull),
       clip_inset_(clip_inset),
       rounder_(rounder),
-      coefficients_(coefficients_of(projection)),
+      coefficients_(coefficients_of(projection, clip_inset)),
       mirrored_(projection.x_scale.sign() * projection.y_scale.sign() < 0) {}
 
 void ProjectionStage::project(const TriangleBatch& p_view, TriangleBatch& p_ndc) {
   p_ndc.clear();
-  VertexBlock block;
   for (std::size_t i = 0; i < p_view.size(); ++i) {
-    // A block is transformed before its triangles are culled or clipped: with AVX2 the kernel takes 7 % of
-    // the instructions of `project`, so dropping half of the triangles first would save 3 % at most.
     if (i % VertexBlock::kTriangles == 0) {
       const std::size_t count = std::min(p_view.size() - i, VertexBlock::kTriangles);
-      block.fill(std::span(p_view.triangles).subspan(i, count));
-      vertex_kernel().project(coefficients_, rounder_.rounding_test(), block, block_);
+      vertices_.fill(std::span(p_view.triangles).subspan(i, count));
+      if (clips_all()) vertex_kernel().find_sides(coefficients_, vertices_, sides_, planes() != 1);
+      has_images_ = false;
     }
     const std::size_t done_count = p_ndc.size();
     try {
@@ -146,13 +144,21 @@ void ProjectionStage::project(const TriangleBatch& p_view, TriangleBatch& p_ndc)
 }
 
 void ProjectionStage::project_triangle(const TriangleBatch& p_view, std::size_t index, TriangleBatch& p_ndc) {
-  if (culls(p_view.triangles[index])) {
+  const Triangle& triangle = p_view.triangles[index];
+  if (culls(triangle)) {
     ++counts_.culled;
-  } else if (needs_clipping(p_view.triangles[index])) {
-    project_clipped(p_view, index, p_ndc);
-  } else {
-    project_unclipped(p_view, index, p_ndc);
+    return;
   }
+  if (may_clip(triangle)) return project_or_clip(p_view, index, p_ndc);
+  project_unclipped(p_view, index, p_ndc);
+}
+
+void ProjectionStage::project_or_clip(const TriangleBatch& p_view, std::size_t index, TriangleBatch& p_ndc) {
+  const Fate fate = fate_of(clips_all() ? sides_.of_triangle(index % VertexBlock::kTriangles)
+                                        : certain_sides(coefficients_, p_view.triangles[index]));
+  if (fate == Fate::stays_whole) return project_unclipped(p_view, index, p_ndc);
+  if (fate == Fate::is_unsure) return project_clipped(p_view, index, p_ndc);
+  ++counts_.outside;
 }
 
 // P5
@@ -162,35 +168,10 @@ bool ProjectionStage::is_culled(const Triangle& p_view) const {
 }
 
 // P7
-bool ProjectionStage::needs_clipping(const Triangle& p_view) const {
-  if (clip_ == ClipMode::none) return false;
-  if (clip_ != ClipMode::automatic) return !is_well_inside(p_view);
-  // Multiplication by a power of two is exact; an infinite product compares as it should.
-  return projection_.is_perspective && std::any_of(p_view.begin(), p_view.end(), [&](const Vec3& p) {
-           return -p.z * 1024 < projection_.near;
-         });
-}
-
-/// Whether a triangle is so far inside the planes of the clip mode that doubles are enough to see it: the
-/// margin is far above what their rounding errors, and those of balls, add up to. A coefficient that is NaN
-/// fails every test.
-bool ProjectionStage::is_well_inside(const Triangle& p_view) const {
-  if (clip_inset_ != 0) return false;
-  const auto is_well_below = [](double a, double b, double size) { return b - a > 0x1p-30 * size; };
-  return std::all_of(p_view.begin(), p_view.end(), [&](const Vec3& p) {
-    const double distance = -p.z, w = w_of(p);
-    const auto is_between_sides = [&](std::size_t axis, double coordinate) {
-      const double scaled = coefficients_.scales[axis].value * coordinate;
-      const double shift = coefficients_.offsets[axis].value * (projection_.is_perspective ? p.z : 1);
-      return is_well_below(std::fabs(scaled + shift), w, std::fabs(scaled) + std::fabs(shift) + w);
-    };
-    const auto is_well_before = [&](double a, double b) {
-      return is_well_below(a, b, std::fabs(a) + std::fabs(b));
-    };
-    if (!is_well_before(projection_.near, distance) || !(w > 0x1p-400)) return false;
-    return clip_ == ClipMode::near || (is_well_before(distance, projection_.far) &&
-                                       is_between_sides(0, p.x) && is_between_sides(1, p.y));
-  });
+ProjectionStage::Fate ProjectionStage::fate_of(const CertainSides& sides) const {
+  if ((sides.all_outside & planes()) != 0) return Fate::is_dropped;
+  const std::uint64_t unsure = clip_ == ClipMode::reject ? sides.none_inside : sides.some_unsure & planes();
+  return unsure != 0 ? Fate::is_unsure : Fate::stays_whole;
 }
 
 void ProjectionStage::add_attributes(const TriangleBatch& p_view, std::size_t index,
@@ -210,6 +191,12 @@ void ProjectionStage::add_attributes(const TriangleBatch& p_view, std::size_t in
 
 void ProjectionStage::project_unclipped(const TriangleBatch& p_view, std::size_t index,
                                         TriangleBatch& p_ndc) {
+  // A block is transformed as soon as one of its triangles is neither culled nor dropped: with AVX2 the
+  // kernel takes 7 % of the instructions of `project`, so that to leave out the others would save little.
+  if (!has_images_) {
+    vertex_kernel().project(coefficients_, rounder_.rounding_test(), vertices_, block_);
+    has_images_ = true;
+  }
   const std::size_t target = p_ndc.size();
   p_ndc.add({}, p_view.numbers[index], p_view.locations[index]);
   for (std::size_t v = 0; v < 3; ++v) {
@@ -265,13 +252,11 @@ std::vector<ClipVertex> ProjectionStage::clipped(const std::array<ClipVertex, 3>
 void ProjectionStage::project_clipped(const TriangleBatch& p_view, std::size_t index, TriangleBatch& p_ndc) {
   const std::array<ClipVertex, 3> corners = corners_in_clip_space(p_view.triangles[index]);
   const TriangleOutcode outside = outcode(corners);
-  const bool frustum_counts = clip_ == ClipMode::frustum || clip_ == ClipMode::reject;
-  const unsigned planes = frustum_counts ? ~0u : 1u;  // bit 0 is the near plane
-  if ((outside.all & planes) != 0) {
+  if ((outside.all & planes()) != 0) {
     ++counts_.outside;
     return;
   }
-  if ((outside.any & planes) == 0 || clip_ == ClipMode::reject)
+  if ((outside.any & planes()) == 0 || clip_ == ClipMode::reject)
     return project_unclipped(p_view, index, p_ndc);
   const std::vector<ClipVertex> polygon = clipped(corners, p_view.triangles[index]);
   if (polygon.empty()) {

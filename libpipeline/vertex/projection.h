@@ -33,6 +33,10 @@ struct ProjectionCounts {
   std::uint64_t culled = 0;   // triangles dropped by their winding
 };
 
+/// The kernels' coefficients (vertex_kernel.h). The values of scales and offsets are NaN, which fails every
+/// test, where products with them may leave a double's range.
+ProjectionCoefficients coefficients_of(const ProjectionTransform& projection, double clip_inset = 0);
+
 /// The project stage: view space to NDC, by way of clip space.
 class ProjectionStage {
  public:
@@ -58,7 +62,9 @@ class ProjectionStage {
     return cull_ != CullMode::nothing && is_culled(p_view);
   }
   /// Whether the triangle is clipped, so that it may be cut or dropped.
-  [[nodiscard]] bool clips(const Triangle& p_view) const { return needs_clipping(p_view); }
+  [[nodiscard]] bool clips(const Triangle& p_view) const {
+    return may_clip(p_view) && fate_of(certain_sides(coefficients_, p_view)) != Fate::stays_whole;
+  }
 
  private:
   /// A vertex as a weighted mean of its triangle's corners, and its w.
@@ -67,15 +73,30 @@ class ProjectionStage {
     double w;
   };
 
+  enum class Fate { stays_whole, is_dropped, is_unsure };
+
   using Piece = std::array<const ClipVertex*, 3>;
 
   [[nodiscard]] double w_of(const Vec3& p_view) const { return projection_.is_perspective ? -p_view.z : 1; }
   [[nodiscard]] bool is_culled(const Triangle& p_view) const;
-  [[nodiscard]] bool needs_clipping(const Triangle& p_view) const;
-  [[nodiscard]] bool is_well_inside(const Triangle& p_view) const;
+  /// Whether the clip mode looks at every triangle.
+  [[nodiscard]] bool clips_all() const { return clip_ != ClipMode::automatic && clip_ != ClipMode::none; }
+  [[nodiscard]] bool may_clip(const Triangle& p_view) const {
+    if (clip_ != ClipMode::automatic) return clip_ != ClipMode::none;
+    // Multiplication by a power of two is exact; an infinite product compares as it should.
+    const auto is_near = [&](const Vec3& p) { return -p.z * 1024 < projection_.near; };
+    return projection_.is_perspective && (is_near(p_view[0]) || is_near(p_view[1]) || is_near(p_view[2]));
+  }
+  /// What clipping does to a triangle, as far as doubles can tell.
+  [[nodiscard]] Fate fate_of(const CertainSides& sides) const;
+  /// The planes that drop triangles: bit i for kAllClipPlanes[i].
+  [[nodiscard]] unsigned planes() const {
+    return clip_ == ClipMode::frustum || clip_ == ClipMode::reject ? SideBlock::kAllPlanes : 1u;
+  }
   void add_attributes(const TriangleBatch& p_view, std::size_t index, const std::array<CornerMix, 3>& mixes,
                       TriangleBatch& p_ndc);
   void project_triangle(const TriangleBatch& p_view, std::size_t index, TriangleBatch& p_ndc);
+  void project_or_clip(const TriangleBatch& p_view, std::size_t index, TriangleBatch& p_ndc);
   void project_unclipped(const TriangleBatch& p_view, std::size_t index, TriangleBatch& p_ndc);
   void project_clipped(const TriangleBatch& p_view, std::size_t index, TriangleBatch& p_ndc);
   [[nodiscard]] std::array<ClipVertex, 3> corners_in_clip_space(const Triangle& p_view) const;
@@ -91,8 +112,11 @@ class ProjectionStage {
   double clip_inset_;
   CoordinateRounder& rounder_;
   ProjectionCoefficients coefficients_;
-  ImageBlock block_;  // the images of the block around the current triangle
-  bool mirrored_;     // one axis is, so clockwise and counterclockwise change places
+  VertexBlock vertices_;  // the block around the current triangle
+  ImageBlock block_;      // their images
+  bool has_images_ = false;
+  SideBlock sides_;  // and where they lie, unless the clip mode is automatic or none
+  bool mirrored_;    // one axis is, so clockwise and counterclockwise change places
   bool keeps_unclipped_ = false;
   ProjectionCounts counts_;
 };

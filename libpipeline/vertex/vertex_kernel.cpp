@@ -33,7 +33,11 @@ void project(const ProjectionCoefficients& m, const RoundingTest& test, const Ve
   project_block<ProductError>(m, test, p, p_ndc);
 }
 
-constexpr VertexKernel kKernel = {transform, project};
+void find_sides(const ProjectionCoefficients& m, const VertexBlock& p_view, SideBlock& sides, bool beside) {
+  find_sides_of_block(m, p_view, sides, beside);
+}
+
+constexpr VertexKernel kKernel = {transform, project, find_sides};
 
 }  // namespace
 }  // namespace HWY_NAMESPACE
@@ -66,6 +70,14 @@ const KernelTable<const VertexKernel*>& vertex_kernels() {
 const VertexKernel& vertex_kernel() {
   static const VertexKernel& chosen = *chosen_kernel(vertex_kernels());
   return chosen;
+}
+
+CertainSides certain_sides(const ProjectionCoefficients& projection, const Triangle& p_view) {
+  VertexBlock block;
+  SideBlock sides;
+  block.fill({&p_view, 1});
+  vertex_kernel().find_sides(projection, block, sides, true);
+  return sides.of_triangle(0);
 }
 
 }  // namespace pipeline

@@ -63,6 +63,27 @@ struct ImageBlock : VertexBlock {
   std::array<std::uint64_t, kSize> passes_rounding_test;  // all bits or none
 };
 
+/// Where the corners of a triangle lie, as far as doubles can tell: sets of planes of the view volume (bit i
+/// for kAllClipPlanes[i]).
+struct CertainSides {
+  std::uint64_t all_outside = 0;  // all corners lie outside, each by far more than is lost by rounding
+  std::uint64_t none_inside = 0;  // no corner lies as far inside
+  std::uint64_t some_unsure = 0;  // some corner does not
+};
+
+/// The planes of the view volume that a block's vertices lie outside, and inside of, by so much.
+struct SideBlock {
+  static constexpr std::uint64_t kAllPlanes = 0b111111;
+
+  [[nodiscard]] CertainSides of_triangle(std::size_t index) const {
+    const auto *const out = &outside[3 * index], *const in = &inside[3 * index];
+    return {out[0] & out[1] & out[2], kAllPlanes & ~(in[0] | in[1] | in[2]),
+            kAllPlanes & ~(in[0] & in[1] & in[2])};
+  }
+
+  std::array<std::uint64_t, VertexBlock::kSize> outside, inside;
+};
+
 /// An entry of a matrix, and the error it adds to an image per unit of the coordinate it is multiplied by.
 struct Coefficient {
   double value = 0;  // the nearest double
@@ -93,6 +114,7 @@ struct ProjectionCoefficients {
   double near = 0;
   double far = 0;
   double depth_range = 0;  // far - near
+  double clip_w = 1;       // w times that bounds the clip volume
 };
 
 /// One implementation of the loops over a block's vertices.
@@ -100,11 +122,16 @@ struct VertexKernel {
   void (*transform)(const AffineCoefficients&, const RoundingTest&, const VertexBlock& p, ImageBlock& image);
   void (*project)(const ProjectionCoefficients&, const RoundingTest&, const VertexBlock& p_view,
                   ImageBlock& p_ndc);
+  /// With `beside` of all planes, else of near and far alone.
+  void (*find_sides)(const ProjectionCoefficients&, const VertexBlock& p_view, SideBlock& sides, bool beside);
 };
 
 const KernelTable<const VertexKernel*>& vertex_kernels();
 
 /// The kernel in use.
 const VertexKernel& vertex_kernel();
+
+/// Where one triangle lies.
+CertainSides certain_sides(const ProjectionCoefficients& projection, const Triangle& p_view);
 
 }  // namespace pipeline

@@ -291,4 +291,47 @@ PIPELINE_LOOP void project_block(const ProjectionCoefficients& m, const Rounding
   }
 }
 
+// ---- sides of the view volume ----
+
+/// The two planes of an axis, `low` and the bit after it. A vertex is at the distances w + v and w - v from
+/// them, where v = scale p + offset q and w is that of the clip volume. Each of these three terms is rounded
+/// less often than a term of tests/proofs/coordinate_in_doubles.g, so a distance is off by less than 8 u of
+/// their sum, and one of 2^-30 of that sum has the right sign. Sums above 2^-400 make the underflow of a
+/// product negligible; a sum that overflows, or a coefficient that is NaN, fails every comparison.
+template <bool is_perspective, bool has_shift>
+PIPELINE_LOOP void add_sides(const ProjectionCoefficients& m, std::size_t axis, std::uint64_t low,
+                             const VertexBlock& p, SideBlock& sides) {
+  const std::size_t count = p.count;
+  const double scale = m.scales[axis].value, offset = m.offsets[axis].value, clip_w = m.clip_w;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double z = p.p[2][i];
+    const double w = (is_perspective ? -z : 1) * clip_w;
+    const double scaled = scale * p.p[axis][i], shift = offset * (has_shift ? z : 1);
+    const double v = scaled + shift;
+    const double size = std::fabs(scaled) + std::fabs(shift) + std::fabs(w), margin = 0x1p-30 * size;
+    const std::uint64_t is_in_range = mask(size > 0x1p-400);
+    sides.outside[i] |= is_in_range & ((mask(w + v < -margin) & low) | (mask(w - v < -margin) & (2 * low)));
+    sides.inside[i] |= is_in_range & ((mask(w + v > margin) & low) | (mask(w - v > margin) & (2 * low)));
+  }
+}
+
+template <bool is_perspective>
+PIPELINE_LOOP void add_all_sides(const ProjectionCoefficients& m, const VertexBlock& p, SideBlock& sides,
+                                 bool beside) {
+  add_sides<is_perspective, false>(m, 2, 1, p, sides);
+  if (!beside) return;
+  add_sides<is_perspective, is_perspective>(m, 0, 4, p, sides);
+  add_sides<is_perspective, is_perspective>(m, 1, 16, p, sides);
+}
+
+PIPELINE_LOOP void find_sides_of_block(const ProjectionCoefficients& m, const VertexBlock& p,
+                                       SideBlock& sides, bool beside) {
+  for (std::size_t i = 0; i < p.count; ++i) sides.outside[i] = sides.inside[i] = 0;
+  if (m.is_perspective) {
+    add_all_sides<true>(m, p, sides, beside);
+  } else {
+    add_all_sides<false>(m, p, sides, beside);
+  }
+}
+
 }  // namespace pipeline

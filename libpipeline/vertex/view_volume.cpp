@@ -5,6 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "libpipeline/vertex/projection.h"
+
 namespace pipeline {
 namespace {
 
@@ -16,10 +18,20 @@ OutsidePart outside_of(std::size_t index) {
 
 }  // namespace
 
+ViewVolume::ViewVolume(const ProjectionTransform& projection, double clip_inset)
+    : projection_(projection),
+      clip_inset_(clip_inset),
+      coefficients_(coefficients_of(projection, clip_inset)) {}
+
 std::optional<OutsidePart> ViewVolume::outside(const Triangle& p_view) const {
   if (projection_.is_perspective &&
       std::all_of(p_view.begin(), p_view.end(), [](const Vec3& p) { return p.z >= 0; }))
     return OutsidePart::behind;
+  const CertainSides sides = certain_sides(coefficients_, p_view);
+  if (sides.some_unsure == 0) return std::nullopt;
+  if (const int first = std::countr_zero(sides.none_inside);
+      first < 6 && (sides.all_outside >> first & 1u) != 0)
+    return outside_of(static_cast<std::size_t>(first));
   std::vector<ClipVertex> polygon;
   unsigned any = 0, all = ~0u;
   for (const Vec3& p : p_view) {

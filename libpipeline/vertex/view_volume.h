@@ -9,6 +9,7 @@
 #include "libpipeline/numbers/vec.h"
 #include "libpipeline/vertex/clip.h"
 #include "libpipeline/vertex/transform.h"
+#include "libpipeline/vertex/vertex_kernel.h"
 
 namespace pipeline {
 
@@ -20,8 +21,7 @@ constexpr std::size_t kOutsidePartCount = 7;
 class ViewVolume {
  public:
   /// Its planes are pulled in by `clip_inset`, as a ProjectionStage's.
-  explicit ViewVolume(const ProjectionTransform& projection, double clip_inset = 0)
-      : projection_(projection), clip_inset_(clip_inset) {}
+  explicit ViewVolume(const ProjectionTransform& projection, double clip_inset = 0);
 
   /// None if some part of the triangle is inside or on the border, as far as 31 digits can tell. Behind: no
   /// corner is in front of the eye. Otherwise the first plane, in the order above, that all corners are
@@ -31,6 +31,7 @@ class ViewVolume {
  private:
   ProjectionTransform projection_;
   double clip_inset_;
+  ProjectionCoefficients coefficients_;
 };
 
 /// How many triangles lie outside the view volume, by where, and between which coordinates in view space.

@@ -57,6 +57,11 @@ def across_the_frustum(count, **columns):
     return triangles(count, (2 * UNIT, 2 * UNIT, 3 * UNIT), (UNIT,) * 3, middle_z=-4 * UNIT, **columns)
 
 
+def mostly_outside(count):
+    """In view space: 97 % of them lie outside the frustum."""
+    return triangles(count, (9 * UNIT, 9 * UNIT, 3 * UNIT), (UNIT // 50,) * 3, middle_z=-4 * UNIT)
+
+
 def with_more_digits(stage_text, digits):
     return "\n".join(" ".join(number + digits for number in line.split()) for line in stage_text.split("\n"))
 
@@ -126,6 +131,7 @@ TEXTS = {
     "lit-view.txt": lambda: lit("view", in_view, 2000, 6),
     "crossing.txt": lambda: header("view", ()) + across_the_frustum(2000) * 3,
     "lit-crossing.txt": lambda: lit("view", across_the_frustum, 2000, 2),
+    "outside.txt": lambda: header("view", ()) + mostly_outside(2000) * 10,
     "small-9.txt": lambda: with_more_digits(small_on_screen(20_000), "23"),
     "small-17.txt": lambda: with_more_digits(small_on_screen(20_000), "1234567891"),
     "small.txt": lambda: small_on_screen(40_000),
@@ -184,6 +190,8 @@ ROWS = [
     Row("project: clipped at the near plane", "project crossing.txt --clip near"),
     Row("project: clipped at the frustum", "project crossing.txt --clip frustum"),
     Row("project: lit, clipped at the frustum", "project lit-crossing.txt --clip frustum"),
+    Row("project: outside, rejected", "project outside.txt --clip reject"),
+    Row("project: outside, clipped", "project outside.txt --clip frustum"),
     Row("project: culled", "project view.txt --cull back"),
     Row("zbuf: small, nearest", f"zbuf config.txt small.txt {NO_IMAGE}"),
     Row("zbuf: small, nearest, scalar", f"zbuf config.txt small.txt {NO_IMAGE}", "scalar"),
