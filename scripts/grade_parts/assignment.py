@@ -3,6 +3,7 @@ assignment.txt says of points, hints, and the program that is handed in."""
 import dataclasses
 import math
 import os
+import re
 import shlex
 
 from grade_parts.hints import LEVELS
@@ -15,6 +16,7 @@ from lib.pipe_tools import ToolFailure, Tools
 
 SETTINGS = "assignment.txt"
 KIND_OF = {name: kind for kind, (name, _) in KINDS.items()}
+MOST_POINTS = 1_000_000  # and weights
 SECONDS_OF_BUILD, SECONDS_OF_RUN = 60, 10
 
 
@@ -137,6 +139,9 @@ def complete(settings, others):
     if program:
         program.build, program.run = others.get("build", ""), shlex.split(others.get("run", ""))
         program.packages = others.get("packages", "").split()
+        for name in program.packages:  # root installs them
+            if not re.fullmatch(r"[a-z0-9][a-z0-9+.-]+", name):
+                raise ValueError(f"expected names of Debian packages, found '{name}'")
         program.is_bare = one_of(("header", "bare"), others.get("input", "header")) == "bare"
         if not program.run:
             raise ValueError("expected a line 'run COMMAND' for the program, found none")
@@ -157,15 +162,14 @@ def pair(text):
     return name.strip(), value
 
 
-def amount(text, most=math.inf):
+def amount(text, most=MOST_POINTS):
     """A number of points."""
     try:
         value = float(text)
     except ValueError:
         value = math.nan
-    if not 0 <= value <= most or value == math.inf:
-        bound = "at least 0" if most == math.inf else f"0 to {most:g}"
-        raise ValueError(f"expected a number of {bound}, found '{text[:40].strip()}'")
+    if not 0 <= value <= most:
+        raise ValueError(f"expected a number of 0 to {most:,}, found '{text[:40].strip()}'")
     return value
 
 

@@ -10,6 +10,7 @@ import zipfile
 from lib.command import shown
 
 MOST_FILES = 20_000
+LONGEST_NAME = 200          # as a remark has it
 MOST_DEPTH = 12             # folders inside each other
 MOST_BYTES = 1 << 28        # of an archive, and of what a compressed tar swells to
 MOST_ARCHIVES = 4           # in a hand-in
@@ -60,7 +61,7 @@ class Contents:
                 raise
             except Exception as error:  # whatever zipfile, tarfile and zlib raise for an archive that is none
                 reason = str(error) if isinstance(error, ContentsError) else NO_ARCHIVE.format(error)
-                self.failed.append(f"{shown('/'.join(path))}: {reason}")
+                self.failed.append(f"{shown('/'.join(path))[:LONGEST_NAME]}: {reason}"[:2 * LONGEST_NAME])
                 continue
             del self.files[path]
             for parts in archive.paths:

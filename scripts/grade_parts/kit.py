@@ -91,7 +91,7 @@ def judged(hand_in, most_seconds=120, most_mebibytes=2048):
     """In a kit: the Graded of a hand-in, the tests, and the level of the hints."""
     folder = SOURCE / "assignment"
     tests, settings = read_tests(folder)
-    hidden = (str(SOURCE),)
+    hidden = (str(SOURCE), str(Tools().folder))
     if settings.program:
         expect_protection(hidden)
     one = HandIn(hand_in, "hand-in", 1, "")

@@ -78,6 +78,9 @@ def allow_sandbox():
 
 def main():
     allow_sandbox()
+    for name in RESULTS:  # of the hand-in, which no failure may leave in place
+        if os.path.lexists(name) and not (os.path.isdir(name) and not os.path.islink(name)):
+            os.remove(name)
     graded, tests, _ = judged(os.getcwd())
     made = result(graded, tests, os.environ, datetime.datetime.now(datetime.timezone.utc))
     texts = (json.dumps(made, indent=2, ensure_ascii=True) + "\n", body(graded, made))

@@ -20,25 +20,38 @@ def read_overrides(path, hand_ins, tests):
         if not right:
             raise CommandFailure(f"{shown(path)}:{rows.line_num}: {words}")
 
-    numbers = {shown(without_suffix(os.path.basename(hand_in.path))): hand_in.number for hand_in in hand_ins}
+    numbers = {}
+    for hand_in in hand_ins:
+        name = shown(without_suffix(os.path.basename(hand_in.path)))
+        numbers.setdefault(name, []).append(hand_in.number)
     names = {test.name for test in tests}
-    rows = csv.reader(io.StringIO(read_input(path).decode("utf-8-sig", errors="replace"), newline=""))
+    text = read_input(path).decode("utf-8-sig", errors="replace")
+    rows = csv.reader(io.StringIO(text, newline=""), strict=True)
     found = {}
     expect(next(rows, None) == COLUMNS, f"expected the columns {','.join(COLUMNS)}")
-    for row in rows:
+    for row in whole(rows, path):
         if not row:
             continue
         expect(len(row) == len(COLUMNS), f"expected {len(COLUMNS)} columns, found {len(row)}")
         name, test, points, comment = map(str.strip, row)
         expect(name in numbers, f"expected the name of a hand-in, found '{shown(name)}'")
+        expect(len(numbers[name]) == 1, f"{len(numbers[name])} hand-ins have the name '{shown(name)}'")
         expect(test in names or not test and not points,
                f"expected the name of a test, found '{shown(test)}'")
         try:
             value = amount(points) if points else None
         except ValueError as error:
             expect(False, shown(str(error)))
-        found.setdefault(numbers[name], []).append((test, value, shown(comment)))
+        found.setdefault(numbers[name][0], []).append((test, value, shown(comment)))
     return found
+
+
+def whole(rows, path):
+    """The rows of a CSV; a CommandFailure for what is none."""
+    try:
+        yield from rows
+    except csv.Error as error:
+        raise CommandFailure(f"{shown(path)}:{rows.line_num}: {error}") from None
 
 
 def override(result, lines, tests):

@@ -158,7 +158,7 @@ class Results(ClassTest):
             pathlib.Path("tests/b/weight.txt").write_text(word)
             self.assertEqual(
                 self.grade(status=2).stderr,
-                f"grade: tests/b/weight.txt: expected a number of at least 0, found '{word}'\n")
+                f"grade: tests/b/weight.txt: expected a number of 0 to 1,000,000, found '{word}'\n")
 
     def test_archives(self):
         self.add("anna", "wrapped", "square")
@@ -267,7 +267,7 @@ class Results(ClassTest):
         self.grade()
         self.assertEqual(self.scores(), {"anna": 1.0, "ben": 0.0})
         for text, message in (
-            ("points stage3.txt x\n", ":1: expected a number of at least 0, found 'x'"),
+            ("points stage3.txt x\n", ":1: expected a number of 0 to 1,000,000, found 'x'"),
             ("\npoints my.txt 1\n", ":2: expected stage1.txt, stage2.txt, stage3.txt, z_buffer.txt, out.bmp, "
              "found 'my.txt'"),
             ("another-rule 2\n", ":1: expected a number of 0 to 1, found '2'"),
@@ -301,7 +301,7 @@ class Results(ClassTest):
         self.assertIn("By mail", self.rows()[1]["remarks"])
         for line, message in (("carl,square,1,", "the name of a hand-in, found 'carl'"),
                               ("anna,b,1,", "the name of a test, found 'b'"),
-                              ("anna,square,x,", "a number of at least 0, found 'x'"),
+                              ("anna,square,x,", "a number of 0 to 1,000,000, found 'x'"),
                               ("anna,square", "4 columns, found 2")):
             lines.write_text(f"hand-in,test,points,comment\n{line}\n")
             self.assertEqual(self.grade("--overrides", "lines.csv", status=2).stderr,

@@ -270,7 +270,7 @@ class Programs(KitTest):
         super().setUp()
         pathlib.Path("tests/assignment.txt").write_text(
             "program view\nbuild cp view.in view.py && ! grep -q unbuildable view.py\nrun python3 view.py\n")
-        os.environ["PATH"] = f"/usr/bin:/bin:{os.environ['PATH']}"
+        os.environ["PATH"] = f"/usr/bin:/bin:{os.environ['PATH']}:{BIN}"
         self.add("right", VIEW.replace("SIGN", "-"))
         self.add("wrong", VIEW.replace("SIGN", ""))
         self.add("unbuilt", "unbuildable")
@@ -281,8 +281,9 @@ class Programs(KitTest):
 
     def test_points_are_those_of_grade(self):
         self.add("hangs", HOSTILE.replace("KIND", ENDINGS["hangs"]))
+        self.add("ours", "import os\nos.execvp('view', ['view'])\n")
         expected = self.graded()
-        part = {"right": 1.0, "wrong": 0.0, "unbuilt": 0.0, "hangs": 0.0}
+        part = {"right": 1.0, "wrong": 0.0, "unbuilt": 0.0, "hangs": 0.0, "ours": 0.0}
         self.assertEqual(expected, {name: dict.fromkeys(SAMPLES, points) for name, points in part.items()})
         for kind in KINDS:
             top = self.make(kind)

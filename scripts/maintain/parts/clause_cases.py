@@ -126,7 +126,7 @@ def depths_of_ends():
         yield Case("zbuf", f"rows-{name}", "--rows has the first row and not the end.", "Z13", tall, CONFIG,
                    options=f"--rows {words}")
     for count in (1, 4):
-        yield Case("zbuf", f"samples-{count}-in-color", "A pixel is the mean of its samples, rounded once.",
+        yield Case("zbuf", f"samples-{count}-in-color", "A pixel is the rounded mean of rounded samples.",
                    "Z12 L6",
                    f"background 7 9 31\nattributes color\n" + tall.replace("\n", " 200.5 101 33\n"), CONFIG,
                    options=f"--samples {count}", needs="colors", open="The assignment has no samples.")
