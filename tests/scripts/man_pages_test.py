@@ -145,7 +145,7 @@ class HelpText(unittest.TestCase):
         self.assertEqual(found["--image"].names, ["-o", "--image"])
         self.assertEqual(found["--coverage"].choices, ["nearest", "center"])
         self.assertEqual(len(found["--coverage"].paragraphs), 3)
-        self.assertEqual((found["--wireframe"].argument, found["--probe"].argument), ("", "COLUMN,ROW"))
+        self.assertEqual((found["--wireframe"].argument, found["--probe"].argument), ("[all]", "COLUMN,ROW"))
         perspective = {
             option.names[0]: option
             for option in parse(run("view", "--help").stdout.decode(), "view").options}["--perspective"]
