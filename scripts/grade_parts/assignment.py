@@ -86,6 +86,9 @@ def read_tests(folder):
         raise InputError(folder, error.strerror) from None
     if not names:
         raise CommandFailure(f"{shown(folder)}: expected a folder for each test, found none")
+    odd = next((name for name in names if shown(name) != name), None)
+    if odd is not None:
+        raise CommandFailure(f"{shown(folder)}: expected names that can be printed, found '{shown(odd)}'")
     data = optional(os.path.join(folder, SETTINGS))
     settings = read_settings(data or b"", os.path.join(folder, SETTINGS), names)
     return [read_test(os.path.join(folder, name), name, settings) for name in names], settings

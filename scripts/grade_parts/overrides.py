@@ -27,9 +27,9 @@ def read_overrides(path, hand_ins, tests):
     names = {test.name for test in tests}
     text = read_input(path).decode("utf-8-sig", errors="replace")
     rows = csv.reader(io.StringIO(text, newline=""), strict=True)
-    found = {}
-    expect(next(rows, None) == COLUMNS, f"expected the columns {','.join(COLUMNS)}")
-    for row in whole(rows, path):
+    found, lines = {}, whole(rows, path)
+    expect(next(lines, None) == COLUMNS, f"expected the columns {','.join(COLUMNS)}")
+    for row in lines:
         if not row:
             continue
         expect(len(row) == len(COLUMNS), f"expected {len(COLUMNS)} columns, found {len(row)}")
