@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <string_view>
 
+#include "libpipeline/text/decimal_number.h"
 #include "tests/text/text_input.h"
 
 namespace pipeline {
@@ -21,10 +23,15 @@ std::string error_of_check(const CameraParameters& camera) {
   return message_of([&] { check_camera(camera); });
 }
 
+/// A line with the characters after it that a LineScanner may read.
+std::string with_slack(const std::string& line) {
+  return line + std::string(kDecimalNumberSlack, ' ');
+}
+
 /// The error of reading a projection from the numbers after the option of that name.
 std::string error_of_projection(const std::string& keyword, const std::string& numbers) {
-  const std::string file = "--" + keyword;
-  LineScanner line(numbers, file, 0);
+  const std::string file = "--" + keyword, text = with_slack(numbers);
+  LineScanner line(std::string_view(text).substr(0, numbers.size()), file, 0);
   return message_of([&] { read_projection(keyword, line); });
 }
 
@@ -77,7 +84,7 @@ TEST(Camera, AnOptionMayLackNumbers) {
 
 TEST(Camera, EachPartIsReadOnce) {
   const std::string file = "in.txt";
-  const std::string numbers = "0 1 0";
+  const std::string numbers = with_slack("0 1 0");
   CameraParameters camera;
   LineScanner first(numbers, file, 3);
   EXPECT_TRUE(read_camera_part("up", {file, 3, 1}, first, camera));
@@ -89,8 +96,8 @@ TEST(Camera, EachPartIsReadOnce) {
 }
 
 TEST(Camera, OtherKeywordsAreNoParts) {
-  const std::string file = "in.txt";
-  LineScanner line("0 1 0", file, 1);
+  const std::string file = "in.txt", numbers = with_slack("0 1 0");
+  LineScanner line(numbers, file, 1);
   CameraParameters camera;
   EXPECT_FALSE(read_camera_part("upward", {file, 1, 1}, line, camera));
 }
