@@ -87,6 +87,7 @@ double LineScanner::number(std::string_view expected, std::string_view of) {
 
 /// The fast path: takes a number without an exponent.
 bool LineScanner::take_plain(DecimalNumber& number) {
+  static_assert(TextReader::kSlack >= kDecimalNumberSlack);
   if (rest_.empty()) return false;
   const char* const rest_end = rest_.data() + rest_.size();
   const char* const end = read_decimal_number(rest_.data(), number);
