@@ -48,7 +48,10 @@ TriangleReader::TriangleReader(TextReader& text, const VertexLineReader& vertex_
 bool TriangleReader::read_buffered(TriangleBatch& batch) {
   static_assert(TextReader::kSlack >= kFixedTextSlack);
   constexpr int kPause = 8;
-  if (pause_ > 0) return --pause_, false;
+  if (pause_ > 0) {
+    --pause_;
+    return false;
+  }
   if (batch.size() >= kBatchSize) return false;
   // The blank line after a triangle that the general path has read.
   if (text_.buffered().starts_with('\n')) text_.skip(1, 1);

@@ -11,7 +11,6 @@ from inspect_parts.stage_lines import StageLines
 from lib.input_file import read_input
 from lib.pictures import read_picture
 from lib.pipe_tools import ToolFailure, opaque_background
-from lib.progress import Progress
 from lib.projection import line_of
 from lib.square import note_on_squares
 from lib.stage_text import text_of
@@ -49,14 +48,13 @@ def belts_of(spheres):
 
 class Inspection:
     """A run of the pipe that keeps every stage's output. As in scripts/stages, the stages pass lossless text
-    on, and zbuf reads what project printed; `names` are those of scene and config, as their user wrote them.
+    on, and zbuf reads what project printed; `names` are those of scene and config, as their user wrote them,
+    and `progress` is a Progress of 100 steps.
     For spheres, project and zbuf get facets."""
 
-    def __init__(self, tools, scene, config, names, is_traced=False, coverage="nearest",
-                 progress=None):
+    def __init__(self, tools, scene, config, names, is_traced, coverage, progress):
         self.tools, self.scene, self.config, self.is_traced = tools, scene, config, is_traced
-        self.coverage = coverage
-        self.progress = progress or Progress(100)
+        self.coverage, self.progress = coverage, progress
         self.scene_data, self.config_data = read_input(scene), read_input(config)
         self.name, self.config_name = names
         self.notes = []

@@ -66,8 +66,9 @@ export class Pipe {
     }
     const picture = imageOf(drawing.read(IMAGE));
     drawn(picture);
-    const explain = {files: {"scene.txt": scene, "config.txt": config}, options: [...wordsOf(words.project), ...wordsOf((words.zbuf.match(/--coverage +\S+/) || [""])[0])]};
-    const data = {...this.inspected(results, config), ...picture, isTraced, explain, coverage: explain.options.includes("center") ? "center" : "nearest"};
+    const [, rule] = words.zbuf.match(/--coverage[ =]+(\S+)/) || [], options = [...wordsOf(words.project), ...rule ? ["--coverage", rule] : []];
+    const explain = {files: {"scene.txt": scene, "config.txt": config}, options};
+    const data = {...this.inspected(results, config), ...picture, isTraced, explain, coverage: rule};
     if (own && !isTraced) data.theirs = await this.withOwn(own, results, {scene, config, words, picture});
     return {data, messages, isQuick: logs[0] !== "--fragments"};
   }

@@ -95,15 +95,17 @@ std::string explained_count(const CLI::Option& option) {
       found == 0 ? "none" : std::to_string(found));
 }
 
-/// The words as CLI11 takes them, last word first. A word like "-.5" becomes "-0.5": CLI11 takes it for an
-/// option unless a digit follows the minus.
+/// The words as CLI11 takes them, last word first. A flag and its word become one, as CLI11 expects them. A
+/// word like "-.5" becomes "-0.5": CLI11 takes it for an option unless a digit follows the minus.
 std::vector<std::string> words_for_parsing(int argc, char** argv,
                                            std::span<const std::pair<std::string, std::string>> flag_words) {
   std::vector<std::string> words(argv + 1, argv + argc);
   for (const auto& [flag, word] : flag_words) {
     const std::array both = {flag, word};
-    const auto at = std::ranges::search(words, both);
-    if (at.size() == 2) words.erase(std::next((*at.begin() += "=" + word, at.begin())));
+    const auto found = std::ranges::search(words, both);
+    if (found.empty()) continue;
+    found.front() += "=" + word;
+    words.erase(std::next(found.begin()));
   }
   for (std::string& word : words)
     if (word.starts_with("-.") && parse_number(word).error == NumberError::none) word.insert(1, "0");
