@@ -71,13 +71,17 @@ class AllEdgesOf final : public AllEdges {
   PixelTag last_id_ = 0;
 };
 
+template <typename CoverageRule, typename Depth>
+std::unique_ptr<AllEdges> edges_of(const ZbufOptions& chosen, const Viewport& screen) {
+  return std::make_unique<AllEdgesOf<CoverageRule, Depth>>(screen, chosen.depth_epsilon);
+}
+
 }  // namespace
 
 std::unique_ptr<AllEdges> all_edges(const ZbufOptions& chosen, const Viewport& screen) {
   if (!chosen.has_all_edges || !chosen.has_image()) return nullptr;
-  return dispatch(chosen, [&]<typename Rule, typename Depth>() -> std::unique_ptr<AllEdges> {
-    return std::make_unique<AllEdgesOf<Rule, Depth>>(screen, chosen.depth_epsilon);
-  });
+  return dispatch(chosen,
+                  [&]<typename Rule, typename Depth>() { return edges_of<Rule, Depth>(chosen, screen); });
 }
 
 }  // namespace pipeline
