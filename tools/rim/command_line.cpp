@@ -102,10 +102,10 @@ std::vector<std::string> words_for_parsing(int argc, char** argv,
   std::vector<std::string> words(argv + 1, argv + argc);
   for (const auto& [flag, word] : flag_words) {
     const std::array both = {flag, word};
-    const auto found = std::ranges::search(words, both);
-    if (found.empty()) continue;
-    found.front() += "=" + word;
-    words.erase(std::next(found.begin()));
+    const auto found = std::search(words.begin(), words.end(), both.begin(), both.end());
+    if (found == words.end()) continue;
+    *found += "=" + word;
+    words.erase(std::next(found));
   }
   for (std::string& word : words)
     if (word.starts_with("-.") && parse_number(word).error == NumberError::none) word.insert(1, "0");

@@ -2,12 +2,11 @@
 //
 //     g++ -O2 -o stage stage.cpp && ./stage view < stage1.txt > stage2.txt
 //
-// The first word is model, view or project. Try each with
-//     pipeline check-stage view -- ./stage view
+// The first word is model, view or project. Try each: pipeline check-stage view -- ./stage view
 #include <array>
-#include <cctype>
 #include <cstdio>
 #include <iostream>
+#include <iterator>
 #include <map>
 #include <set>
 #include <sstream>
@@ -24,7 +23,7 @@ void to_do(const std::string& text) {
   if (told.insert(text).second) std::cerr << "to do: " << text << "\n";
 }
 
-// What is yours.
+// What is yours: these four functions. What follows them is done.
 
 // The current matrix after translate X Y Z, scale X Y Z or rotate DEGREES X Y Z.
 Matrix transformed(const Matrix& matrix, const std::string& command, const std::vector<double>& numbers) {
@@ -54,8 +53,6 @@ Point to_ndc(double fov_y, double aspect, double near, double far, Point p) {
   return p;
 }
 
-// What is done.
-
 // The next line that is not empty; false at the end.
 bool next_line(std::string& line) {
   while (std::getline(std::cin, line))
@@ -65,12 +62,12 @@ bool next_line(std::string& line) {
 
 std::vector<double> numbers_of(const std::string& text) {
   std::istringstream in(text);
-  std::vector<double> numbers;
-  for (double x; in >> x;) numbers.push_back(x);
-  return numbers;
+  return {std::istream_iterator<double>(in), {}};
 }
 
-Point point(const std::vector<double>& numbers) { return {numbers.at(0), numbers.at(1), numbers.at(2)}; }
+Point point(const std::vector<double>& numbers) {
+  return {numbers.at(0), numbers.at(1), numbers.at(2)};
+}
 
 // Writes a vertex, and a blank line behind every third.
 void write(Point p) {
@@ -89,11 +86,14 @@ void model() {
   for (std::string command; next_line(line);) {
     std::istringstream(line) >> command;
     if (command == "end") return;
-    if (command == "push") saved.push(matrix);
-    else if (command == "pop") matrix = saved.top(), saved.pop();
+    if (command == "push")
+      saved.push(matrix);
+    else if (command == "pop")
+      matrix = saved.top(), saved.pop();
     else if (command == "triangle")
       for (int i = 0; i < 3 && next_line(line); ++i) write(to_world(matrix, point(numbers_of(line))));
-    else if (next_line(line)) matrix = transformed(matrix, command, numbers_of(line));
+    else if (next_line(line))
+      matrix = transformed(matrix, command, numbers_of(line));
   }
 }
 
@@ -102,7 +102,7 @@ void later_stage(bool is_view) {
   std::map<std::string, std::vector<double>> header;
   for (std::string line, word; next_line(line);) {
     std::istringstream(line) >> word;
-    if (std::isalpha(static_cast<unsigned char>(word[0]))) {
+    if (word[0] >= 'a') {  // not a digit or a sign
       header[word] = numbers_of(line.substr(line.find(word) + word.size()));
       if (is_view && word == "perspective") std::printf("%s\n", line.c_str());
       continue;
