@@ -112,9 +112,10 @@ class Tools(unittest.TestCase):
                 self.assert_all_right(stage, "--assignment", "--tier", "bytes", "--", BIN / stage, *words)
 
     def test_four_lines_of_awk_pass_where_the_camera_looks_straight_ahead(self):
-        done = self.assert_all_right("view", "--only", "straight-*", "--", "awk", "-v", "eye={eye}", "-f",
+        for words in (["--batch", "--", "awk"], ["--", "awk", "-v", "eye={eye}"]):
+            done = self.assert_all_right("view", "--only", "straight-*", *words, "-f",
                                      SOURCE / "scripts/view.awk")
-        self.assertIn("\n# 8 right, 0 wrong\n", done.stdout)
+            self.assertIn("\n# 8 right, 0 wrong\n", done.stdout)
 
     def test_the_pack_runs_alone(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -247,6 +248,35 @@ class Groups(unittest.TestCase):
         self.assertEqual((done.returncode, done.stdout.splitlines()[-2:]),
                          (0, ["#", f"# {count} right, 0 wrong, {len(CASES['view']) - count} left out"]))
         self.assertNotIn("what the assignment asks for", done.stdout)
+
+
+class Batch(unittest.TestCase):
+    """View's cases of a camera that looks straight ahead, which view.awk gets right, and others."""
+
+    def run_on(self, end, *words):
+        """How often the program starts, and what is told."""
+        with tempfile.TemporaryDirectory() as folder:
+            program = sh(f"echo >> '{folder}/starts'; awk -f '{SOURCE}/scripts/view.awk'{end}")
+            done = conform("--stage", "view", *words, "--", *program, "{options}")
+            return pathlib.Path(folder, "starts").read_text().count("\n"), done.stdout
+
+    def test_many_texts_go_to_one_process_with_the_same_verdict(self):
+        chosen = ["--only", "straight-*", "--only", "up-leans*"]
+        (alone, told), (together, as_told) = self.run_on("", *chosen), self.run_on("", *chosen, "--batch")
+        wrong = told.count("\nnot ok ")
+        self.assertEqual((alone, as_told), (8 + wrong, told))
+        self.assertEqual(together, 1 + wrong)
+        self.assertGreater(wrong, 2)
+
+    def test_a_program_that_ends_otherwise_is_given_each_alone(self):
+        for end, right in (("; exit 3", 0), (" | sed '/^==$/,$d'", 8), (" | sed 's/^==$/= =/'", 8)):
+            starts, told = self.run_on(end, "--only", "straight-*", "--batch")
+            self.assertEqual((starts, told.count("\nok ")), (9, right), told)
+
+    def test_no_text_to_be_refused_or_without_its_last_line_feed_is_among_them(self):
+        chosen = [case for case in CASES["view"] if case.is_chosen(["refused-*", "lines-no-line-feed-*"])]
+        starts, _ = self.run_on("", "--only", "refused-*", "--only", "lines-no-line-feed-*", "--batch")
+        self.assertEqual(starts, len(chosen))
 
 
 class Runner(unittest.TestCase):

@@ -91,5 +91,7 @@ def later_stage(stage, lines):
 
 
 if __name__ == "__main__":
-    text = [line.strip() for line in sys.stdin]
-    model(text) if sys.argv[1] == "model" else later_stage(sys.argv[1], text)
+    for number, text in enumerate(sys.stdin.read().split("==\n")):  # one text, or many from conform --batch
+        print("==\n" * (number > 0), end="")
+        lines = [line.strip() for line in text.splitlines()]
+        model(lines) if sys.argv[1] == "model" else later_stage(sys.argv[1], lines)

@@ -27,13 +27,19 @@ def all_cases():
 @functools.cache
 def read_paragraphs():
     """{label: (page, text)}, in their order; empty where the pages are not there."""
-    found, folder = {}, place("docs", "../doc/pipeline/docs")
-    for page in PAGES if folder else ():
+    found, folder = {}, place("docs", "../doc/pipeline/docs") or ROOT
+    for page in PAGES if (folder / "stages.md").exists() else ():
         text = (folder / f"{page}.md").read_text("utf-8")
         for label, words in re.findall(rf"^\*\*({LABEL})\*\* (.*?)(?=^\*\*{LABEL}\*\*|^#|\Z)", text,
                                        re.M | re.S):
             found[label] = page, words.strip()
     return found
+
+
+def way_to(label):
+    """The command that shows a paragraph, in brackets; empty where the pages are not there."""
+    command = "pipeline help" if place("docs", "../doc/pipeline/docs") else "conform --paragraph"
+    return f" ({command} {label})" if read_paragraphs() else ""
 
 
 def labels_of(comment, order):

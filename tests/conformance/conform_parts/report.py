@@ -6,6 +6,7 @@ from xml.sax.saxutils import escape, quoteattr
 
 from . import shared
 from .cases import ASSIGNMENT, BYTES, EXTENSIONS, LOOKS, REFUSALS
+from .paragraph import way_to
 
 GROUPS = (ASSIGNMENT, BYTES, REFUSALS, LOOKS, EXTENSIONS)
 # state: right, wrong, open (not counted; `difference` tells whether it is right), left out (`reason` tells
@@ -31,7 +32,7 @@ def tap_lines(number, result):
 
 def paragraph_line(case):
     labels = case.words("paragraphs")
-    return f"#   paragraph{'s' * (len(labels) > 1)}: {', '.join(labels)} (pipeline help {labels[0]})"
+    return f"#   paragraph{'s' * (len(labels) > 1)}: {', '.join(labels)}{way_to(labels[0])}"
 
 
 def difference_lines(difference):

@@ -1,9 +1,12 @@
-"""A program on one case: it runs in a folder of its own, and its output is judged."""
+"""A program on one case, or on many at a time: it runs in a folder of its own, and its output is judged."""
+import contextlib
 import functools
 import pathlib
 import re
 import shlex
+import tempfile
 from collections import namedtuple
+from types import SimpleNamespace
 
 from . import confined
 from .cases import CAMERA, CONFIG, FED, RULES, camera_of, scene_of, without_header
@@ -14,7 +17,10 @@ from .shared import wrong_points
 Terms = namedtuple("Terms",
                    "command rule tier is_bare judges_depths judges_picture judges_lines limits box folder")
 CASE_FILES = ("input.txt", "config.txt", *FED.values())
+BETWEEN = b"==\n"  # two texts of a batch
+MOST_TOGETHER = 64  # texts of a batch
 LONGEST_ROW = 200  # of what is shown of an output
+NOT_JUDGED = (ArithmeticError, MemoryError, OSError, RecursionError, ValueError)
 PLACEHOLDERS = {
     "{config}": "config.txt", "{scene}": "scene.txt", "{input}": "input.txt", "{image}": "out.bmp",
     "{depths}": "depths.txt"}
@@ -57,12 +63,43 @@ def fit_for_print(text):
     return "\n".join(rows)
 
 
+def given_text(case, terms):
+    text = case.read("input.txt")
+    return without_header(text) if terms.is_bare and case.stage != "model" else text
+
+
+def batches(cases, terms):
+    """(words, cases) of those whose texts one process may be given, one behind the other."""
+    alike = {}
+    for case in cases:
+        text = case.read("input.txt")
+        if case.stage != "zbuf" and case.refused_line is None and text.endswith(b"\n"):
+            words = words_for(case, terms.command, text.decode("latin-1"))
+            alike.setdefault(tuple(words), []).append(case)
+    return [(words, group[at:at + MOST_TOGETHER]) for words, group in alike.items()
+            for at in range(0, len(group), MOST_TOGETHER)]
+
+
+def right_of_batch(words, cases, terms):
+    """The names of the cases of a batch that a process gets right."""
+    with confined.temporary_folder("batch.", terms.folder) as top, tempfile.TemporaryFile() as stdin:
+        stdin.write(BETWEEN.join(given_text(case, terms) for case in cases))
+        stdin.seek(0)
+        (top / "work").mkdir()
+        ending, right = confined.run(words, stdin, top / "work", terms.limits, terms.box), []
+    texts = ending.stdout.split(BETWEEN)
+    for case, text in zip(cases, texts if ending.status == 0 and len(texts) == len(cases) else ()):
+        with contextlib.suppress(*NOT_JUDGED):
+            right += [] if judge_outputs(case, terms, SimpleNamespace(text=text)) else [case.name]
+    return right
+
+
 def try_case(case, terms):
     """The Difference between what the program does and what the case expects, fit for print; None if there is
     none."""
     try:
         difference = run_and_judge(case, terms)
-    except (ArithmeticError, MemoryError, OSError, RecursionError, ValueError) as error:
+    except NOT_JUDGED as error:
         difference = Difference(f"its output cannot be judged: {error!r}", is_failure=True)
     return difference and difference._replace(expected=fit_for_print(difference.expected),
                                               found=fit_for_print(difference.found))
@@ -71,8 +108,7 @@ def try_case(case, terms):
 def run_and_judge(case, terms):
     with confined.temporary_folder("case.",
                                    terms.folder) as top, confined.opened_folder(top / "work") as opened:
-        folder, text = top / "work", case.read("input.txt")
-        given = without_header(text) if terms.is_bare and case.stage != "model" else text
+        folder, text, given = top / "work", case.read("input.txt"), given_text(case, terms)
         (folder / "config.txt").write_bytes(case.read("config.txt") if case.has("config.txt") else CONFIG)
         (folder / "scene.txt").write_bytes(scene_of(case))
         for file in ("input.txt", FED[case.stage]):
