@@ -10,7 +10,7 @@ WIDTH = 110
 BLACK = (0, 0, 0)
 LETTERS = string.ascii_letters + string.digits + "+*%&$@!?:;<>()[]{}^~/|"
 # Files in the order of their sections; others, of mistakes, follow by name.
-ORDER = ("input.txt", "config.txt", "expected.txt", "picture-nearest.bmp", "picture-center.bmp",
+ORDER = ("input.txt", "config.txt", "scene.txt", "expected.txt", "picture-nearest.bmp", "picture-center.bmp",
          "with-one-color.bmp", "depths-nearest.txt", "depths-center.txt")
 
 
@@ -104,6 +104,7 @@ def escaped(text):
     """A text with the escapes of Python; a backslash at the end of a line takes the line feed away."""
     *lines, last = (line.encode("unicode_escape").decode() for line in text.split("\n"))
     lines += [last + "\\"] if last else []
+    lines = (re.sub(" {200,}", lambda run: f"\\{{{len(run[0])}}}", line) for line in lines)
     lines = (re.sub(r"^([-=])(?=\1 )| $", lambda sign: f"\\x{ord(sign[0]):x}", line) for line in lines)
     return "".join(map(fitted, lines))
 

@@ -162,23 +162,10 @@ def depths_of_ends():
 
 
 def numbers_in_words():
-    """S1 to S4 once more: words that only some libraries read."""
-    for name, word in (("underscore", "1_000"), ("capital-infinity", "Infinity"),
-                       ("exponent-with-a-point", "1e1.5"),
-                       ("letter-f", "1f"), ("exponent-alone", "e5"), ("exponent-with-a-sign-alone", "1e+"),
-                       ("binary", "0b1"), ("capital-nan", "NaN"), ("exponent-d", "1d0"), ("percent", "1%"),
-                       ("just-too-large", "1.7976931348623159e308"),
-                       ("just-too-small", "-1.7976931348623159e308")):
-        yield refused("model", f"number-{name}", "What is not a number of the format is refused.", "S3", 7,
-                      CAMERA + f"triangle\n0 0 0\n1 {word} 0\n0 1 0\nend\n")
-        for stage, header in HEADERS.items() if name in ("underscore", "exponent-with-a-sign-alone") else ():
-            yield refused(stage, f"number-{name}", "What is not a number of the format is refused.", "S3",
-                          header.count("\n") + 3, header + f"0 0 -2\n1 0 -2\n0 {word} -2\n")
+    """S1, S2 and S4: words that only some libraries read."""
     for name, word in (("plus", "+3"), ("2-to-the-64", "18446744073709551616"), ("point", "3."),
-                       ("exponent", "3e0"),
-                       ("minus", "-3"), ("underscore", "1_0")):
-        for stage, header in HEADERS.items() if name in ("plus", "2-to-the-64",
-                                                         "point") else {"view": EYE}.items():
+                       ("exponent", "3e0"), ("minus", "-3"), ("underscore", "1_0")):
+        for stage, header in (HEADERS if name in ("plus", "2-to-the-64") else {"view": EYE}).items():
             yield refused(stage, f"count-{name}", "A whole number is digits alone, below 2^64.", "S4 T10",
                           header.count("\n") + 1, header + f"triangle {word}\n" + VERTICES)
     yield refused("zbuf", "config-count-plus", "A whole number is digits alone.", "S4 C1", 1, VERTICES,
@@ -220,6 +207,13 @@ def numbers_in_words():
             ("no-break-space", "A no-break space is no blank.", "S2", 1, VERTICES.replace("0 0", "0 0\xa0")),
             ("keyword-in-capitals", "Upper and lower case differ.", "S2 T1", 1, "Triangle 3\n" + VERTICES)):
             yield refused(stage, name, why, paragraphs, at + line, header + text)
+    texts = {"model": CAMERA + "end", **{stage: header + VERTICES[:-1] for stage, header in HEADERS.items()}}
+    for stage, text in texts.items():
+        why, fill = "A line has at most 2^20 bytes.", " " * (2**20 - len(text.rpartition("\n")[2]))
+        yield Case(stage, "lines-of-2-to-the-20-bytes", why, "S1", text + "#" + fill[1:] + "\n", CONFIG,
+                   needs="syntax")
+        yield refused(stage, "line-of-more-than-2-to-the-20-bytes", why, "S1", text.count("\n") + 1,
+                      text + "#" + fill + "\n")
     yield Case("model", "lines-byte-order-mark-before-a-comment",
                "A byte order mark in front does not count.", "S1",
                "\xef\xbb\xbf# c\n" + CAMERA + TRIANGLE + "end", needs="syntax")
@@ -537,11 +531,44 @@ def beyond_doubles():
                    "The inset is the double, in all modes that cut or drop.", "P6",
                    "perspective 90 1 1 9\n0.5 0 -1.2\n0 1.9 -2\n-8 0 -8.5\n\n"
                    "0.1 0 -1.1\n0.2 0 -1.1\n0 0.1 -1.2\n",
-                   options=f"--clip {mode} --clip-inset 0.3 --digits 17",
+                   options=f"--clip {mode} --clip-inset 0.3 --digits 17", tier="bytes",
                    needs="clipping numbering exactness")
     yield Case("project", "near-by-1024", "auto cuts nothing whose distances are at least NEAR / 1024.", "P7",
                "perspective 90 1 1 9\n0.0009765625 0 -0.0009765625\n0 1 -2\n-1 0 -2\n\n"
                "0.0009765625 0 -0.0009765624\n0 1 -2\n-1 0 -2\n", needs="clipping numbering")
 
 
-GRIDS = (lights, depths_of_ends, numbers_in_words, headers, scenes, beyond_doubles)
+def cameras():
+    """V1, P1 and S5b: the camera of options, of a scene and of the header."""
+    scene, at = "# c\n1 2 9\n1 0 0\n\n0 1 2\n90 1.5 2 30 ratio\nend\n", "--scene scene.txt"
+    for name, why, stage, text, options in (
+        ("scene-alone", "The whole camera may be that of a scene.", "view", "", at),
+        ("scene-before-header", "Its parts go before the header's.", "view", HEADERS["view"], at),
+        ("eye-before-scene", "A part of the options goes before that of the scene.", "view", HEADERS["view"],
+         at + " --eye 3 -4 5"),
+        ("two-parts-before-scene", "The others are its own.", "view", "", "--up 1 0 0 --look 3 3 3 " + at),
+        ("projection-before-scene", "So with the projection.", "view", "", at + " --ortho -4 4 -3 3 1 9"),
+        ("eye-before-header", "The other parts are the header's.", "view", HEADERS["view"], "--eye 1 2 3"),
+        ("scene-alone", "The projection may be that of a scene.", "project", "", at),
+        ("scene-before-header", "It goes before the header's.", "project", HEADERS["project"], at),
+        ("option-before-scene", "That of an option goes before both.", "project", HEADERS["project"],
+         at + " --frustum -1 2 -1 1 1 9"),
+        ("aspect-before-scene", "--aspect goes before the word in the scene.", "project", "",
+         "--aspect angle " + at)):
+        yield Case(stage, f"camera-{name}", why, "V1" if stage == "view" else "P1", text + VERTICES,
+                   options=options, scene=scene if "--scene" in options else "")
+    for name, why, paragraphs, stage, line, text, options, scene in (
+        ("look-that-is-an-options-eye", "The part at fault is the header's.", "V1 S9", "view", 2, EYE,
+         "--eye 0 0 0", ""),
+        ("up-along-an-options-eye", "The part at fault is the header's.", "V1 S9", "view", 3, EYE,
+         "--eye 0 3 0", ""),
+        ("up-of-a-scene-along-an-options-eye", "The line is one of the scene.", "V1 S5b", "view", 5, "",
+         at + " --eye 1 1 2", scene),
+        ("scene-with-a-word", "The line is one of the scene.", "S5b", "view", 3, EYE, at,
+         scene.replace("1 0 0", "1 x 0")),
+        ("scene-of-fovx-180", "The line is one of the scene.", "P2 S5b", "project", 6, PERSPECTIVE, at,
+         scene.replace("1.5 2 30 ratio", "2 1 9"))):
+        yield refused(stage, name, why, paragraphs, line, text + VERTICES, options=options, scene=scene)
+
+
+GRIDS = (lights, depths_of_ends, numbers_in_words, headers, scenes, cameras, beyond_doubles)

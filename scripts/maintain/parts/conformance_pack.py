@@ -41,6 +41,7 @@ class Case:
     text: str
     config: str = ""
     options: str = ""
+    scene: str = ""  # scene.txt, for --scene
     tier: str = "digits"
     needs: str = ""
     open: str = ""
@@ -57,6 +58,8 @@ class Case:
         files = {"input.txt": self.text.encode("latin-1")}
         if self.stage == "zbuf" and self.config.encode("latin-1") != CONFIG:
             files["config.txt"] = self.config.encode("latin-1")
+        if self.scene:
+            files["scene.txt"] = self.scene.encode("latin-1")
         if self.refused:
             self.expect_refusal()
         else:
@@ -80,7 +83,11 @@ class Case:
     def expected(self):
         """The outputs, of the specification's program."""
         if self.stage != "zbuf":
-            return {"expected.txt": answer(self.stage, self.text, self.options.split())}
+            with tempfile.TemporaryDirectory() as folder:
+                scene = pathlib.Path(folder, "scene.txt")
+                scene.write_text(self.scene)
+                words = [str(scene) if word == scene.name else word for word in self.options.split()]
+                return {"expected.txt": answer(self.stage, self.text, words)}
         outputs = {}
         for rule in RULES:
             outputs[f"depths-{rule}.txt"], outputs[f"picture-{rule}.bmp"] = self.drawn(rule)

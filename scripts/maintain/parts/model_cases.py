@@ -76,15 +76,15 @@ def rotations():
         yield transformed(f"right-angle-{word(angle)}-about-{axis}",
             "A right angle turns the axes into one another; its sine and cosine are 0, 1 or -1.",
                           "M4 N3", f"rotate {angle} {numbers}")
-    for angle in (0, 360, 450, -450, 720, 1000):
+    for angle in (0, 360, 450, 1000):
         yield transformed(f"angle-{word(angle)}-about-z",
                           "Angles beyond a full turn, or of none, are angles like others.", "M4 N3",
                           f"rotate {angle} 0 0 1")
-    for angle in (30, 45, 60, 120, 135, 17.5, -33.3, 0.001):
+    for angle in (30, 45, 60, 120, 17.5, -33.3, 0.001):
         yield transformed(f"angle-{word(angle)}-about-z",
                           "The angle is in degrees and turns counterclockwise.", "M4",
                           f"rotate {angle} 0 0 1")
-    for angle in (60, 120, -120, 45):
+    for angle in (60, 120, -120):
         yield transformed(f"angle-{word(angle)}-about-the-diagonal",
             "An axis of three equal numbers mixes all coordinates; 120 degrees exchange them.", "M4",
                           f"rotate {angle} 1 1 1")
@@ -292,9 +292,9 @@ def extensions():
                     "attributes normal\nscale -1 1 1\n" +
                     normals), ("normals-turned-and-scaled", "Cofactors, not the matrix, move normals.",
                                "M7 M2", "attributes normal\nrotate 30 0 1 1\nscale 3 1 0.5\n" + normals),
-        ("normals-flattened", "What is scaled flat has the normals of its plane.", "M7 T22",
+        ("normals-flattened", "What is scaled flat has the normals of its plane, or none.", "M7 T22",
          "attributes normal\nscale 1 1 0\n" +
-         normals.replace("1 1 1", "1 0 1")), ("background", "The background goes into the header.", "S18 T6",
+         normals.replace("1 1 1", "1 1 0")), ("background", "The background goes into the header.", "S18 T6",
                                               "background\n10 20.5 255\n" + TRIANGLE)):
         yield case(name, why, paragraphs, words, needs="colors")
     for name, why, words in (("background-with-alpha", "A background may have an alpha.",

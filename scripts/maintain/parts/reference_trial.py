@@ -43,7 +43,10 @@ def load(text):
 def ended(case, rule, folder):
     """How the program ends on a case, with its outputs; it runs in this process."""
     words = shlex.split(case.read("options.txt").decode()) if case.has("options.txt") else []
-    image = pathlib.Path(folder, "out.bmp")
+    image, scene = pathlib.Path(folder, "out.bmp"), pathlib.Path(folder, "scene.txt")
+    if case.has(scene.name):
+        scene.write_bytes(case.read(scene.name))
+        words = [str(scene) if word == scene.name else word for word in words]
     if case.stage == "zbuf":
         config = pathlib.Path(folder, "config.txt")
         config.write_bytes(case.read("config.txt"))

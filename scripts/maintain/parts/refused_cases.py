@@ -12,9 +12,11 @@ HEADERS = {"view": EYE + PERSPECTIVE, "project": PERSPECTIVE, "zbuf": ""}
 NOT_NUMBERS = {
     "nan": "nan", "inf": "-inf", "hexadecimal": "0x10", "decimal-comma": "1,5", "letters-behind": "1.5abc",
     "too-large": "1e309", "point-alone": ".", "exponent-without-digits": "1e", "two-signs": "+-1",
-    "two-points": "1.5.2", "sign-alone": "-", "word": "one"}
+    "two-points": "1.5.2", "sign-alone": "-", "word": "one", "underscore": "1_000", "exponent-alone": "e5",
+    "capital-infinity": "Infinity", "exponent-with-a-point": "1e1.5", "exponent-with-a-sign-alone": "1e+",
+    "just-too-large": "1.7976931348623159e308", "just-too-small": "-1.7976931348623159e308"}
 # Those that each stage is asked for; of a scene it is all.
-OFTEN = ("nan", "hexadecimal", "decimal-comma", "letters-behind", "too-large", "word")
+OFTEN = ("nan", "hexadecimal", "decimal-comma", "letters-behind", "too-large", "word", "underscore")
 
 
 def refused(stage, name, why, paragraphs, line, text, config=CONFIG, **others):

@@ -86,7 +86,7 @@ def up_directions():
             "all": (1, 2, 3)}.items():
         yield case(f"up-leans-{name}", "up need not be perpendicular to the direction of the look; u is.",
                    (1, 2, 7), (0, -1, 0), up)
-    for degrees in (15, 30, 60, 90, 120, 180, 225, 315):
+    for degrees in (15, 30, 60, 90, 180, 315):
         up = (round(math.sin(math.radians(degrees)), 6) + 0.0,
               round(math.cos(math.radians(degrees)), 6) + 0.0, 0.0)
         yield case(f"rolled-by-{degrees}", "A camera that rolls turns the picture the other way.", (0, 1, 6),

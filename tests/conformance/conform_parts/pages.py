@@ -43,7 +43,9 @@ def files_of(stage, fields, sections):
 
 
 def unescaped(text, has_depths):
-    """The bytes of a text with the escapes of Python; of depths N*VALUE are N, and a tab follows each."""
+    """The bytes of a text with the escapes of Python, and of \\{N}, N blanks; of depths N*VALUE are N, and a
+    tab follows each."""
+    text = re.sub(r"(?<!\\)\\{(\d+)}", lambda run: " " * int(run[1]), text)
     text = text.encode("ascii").decode("unicode_escape")
     if has_depths:
         text = re.sub(r"(\d+)\*(\S+)", lambda run: " ".join([run[2]] * int(run[1])), text)

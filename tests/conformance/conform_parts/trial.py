@@ -73,7 +73,8 @@ def batches(cases, terms):
     alike = {}
     for case in cases:
         text = case.read("input.txt")
-        if case.stage != "zbuf" and case.refused_line is None and text.endswith(b"\n"):
+        is_apart = case.stage == "zbuf" or case.refused_line is not None or case.has("scene.txt")
+        if not is_apart and text.endswith(b"\n"):
             words = words_for(case, terms.command, text.decode("latin-1"))
             alike.setdefault(tuple(words), []).append(case)
     return [(words, group[at:at + MOST_TOGETHER]) for words, group in alike.items()
