@@ -121,10 +121,9 @@ class Tools(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             copy = pathlib.Path(folder, "a copy")
             shutil.copytree(PACK, copy, ignore=shutil.ignore_patterns("__pycache__"))
-            done = subprocess.run([
-                sys.executable, "-I", copy / "conform", "--stage", "model", "--only", "stack-*", "--",
-                BIN / "model"], cwd=folder, env={"PATH": os.environ["PATH"]}, stdout=subprocess.PIPE,
-                                  text=True)
+            done = subprocess.run([sys.executable, "-I", copy / "conform", "--stage", "model", "--only",
+                                   "stack-*", "--", BIN / "model"], cwd=folder,
+                                  env={"PATH": os.environ["PATH"]}, stdout=subprocess.PIPE, text=True)
             self.assertEqual(done.returncode, 0, done.stdout)
             self.assertEqual([path.name for path in pathlib.Path(folder).iterdir()], ["a copy"])
 
@@ -296,9 +295,8 @@ class Runner(unittest.TestCase):
         version, plan, *lines = done.stdout.splitlines()
         self.assertEqual((version, plan), ("TAP version 13", f"1..{len(CASES['project'])}"))
         tests = [line for line in lines if not line.startswith("#")]
-        self.assertEqual([
-            re.match(r"(not )?ok (\d+) - project/[a-z0-9-]+( # (SKIP|TODO) .+)?$", line)[2]
-            for line in tests], [str(i + 1) for i in range(len(CASES["project"]))])
+        self.assertEqual([re.match(r"(not )?ok (\d+) - project/[a-z0-9-]+( # (SKIP|TODO) .+)?$", line)[2]
+                          for line in tests], [str(i + 1) for i in range(len(CASES["project"]))])
 
     def on_terminal(self, *words):
         """What conform shows where stdout is a terminal."""
@@ -318,8 +316,7 @@ class Runner(unittest.TestCase):
 
     def test_shows_people_a_verdict_first_and_last(self):
         words = "--stage", "model", "--only", "stack-*", "--assignment"
-        count = sum(not case.words("needs")
-                    for case in CASES["model"]
+        count = sum(not case.words("needs") for case in CASES["model"]
                     if case.name.startswith("model/stack-"))
         others = sum(case.name.startswith("model/stack-") for case in CASES["model"]) - count
         self.assertEqual(others, 0)
@@ -341,8 +338,7 @@ class Runner(unittest.TestCase):
         self.assertRegex(verdict, r"^WRONG: \d+ of \d+ cases$")
         self.assertEqual((done.returncode, note, last), (1, "no sandbox (--sandbox no)", verdict))
         for line in ("model/pop-ignored or model/push-and-pop-ignored: ",
-                     "  paragraphs: M5, S13 (pipeline help M5)",
-                     "  so do model/"):
+                     "  paragraphs: M5, S13 (pipeline help M5)", "  so do model/"):
             self.assertIn("\n" + line, done.stdout)
 
     def test_shows_tap_on_a_terminal_if_asked_for(self):
@@ -371,8 +367,7 @@ class Runner(unittest.TestCase):
             path.write_text("old")
             path.chmod(0o640)
             done = conform("--stage", "model", "--only", "translate-*", "--only", "bare", "--junit", path,
-                           "--",
-                           *program)
+                           "--", *program)
             self.assertEqual((done.returncode, done.stderr, os.listdir(folder)), (1, "", ["results.xml"]))
             self.assertEqual(path.stat().st_mode & 0o777, 0o640)
             root = xml.etree.ElementTree.parse(path).getroot()
@@ -461,10 +456,9 @@ class Runner(unittest.TestCase):
                           "exit status 3", "found:    mine: no camera")
 
     def test_of_a_traceback_the_last_line_is_shown(self):
-        self.assert_wrong(
-            self.run_one("model/translate-x",
-                         *sh("printf 'Traceback:\\n  line 3\\nKeyError: 7\\n' >&2; exit 1")),
-            "found:    KeyError: 7")
+        self.assert_wrong(self.run_one("model/translate-x",
+                                       *sh("printf 'Traceback:\\n  line 3\\nKeyError: 7\\n' >&2; exit 1")),
+                          "found:    KeyError: 7")
 
     def test_failures_are_no_evidence_for_a_mistake(self):
         program = (f"text=$(cat; echo x); case $text in *push*) exit 3;; esac; printf %s \"${{text%x}}\" | "
@@ -497,9 +491,8 @@ class Runner(unittest.TestCase):
         self.assertEqual((done.returncode, done.stdout.count("\nok ")), (0, 4))
 
     def test_a_program_may_read_and_write_the_assignments_file_names(self):
-        self.assertEqual(
-            self.run_one("model/translate-x", *sh(f"{BIN}/model --bare scene.txt"),
-                         options=["--assignment"]).returncode, 0)
+        self.assertEqual(self.run_one("model/translate-x", *sh(f"{BIN}/model --bare scene.txt"),
+                                      options=["--assignment"]).returncode, 0)
         self.assertEqual(self.run_one("zbuf/two-back-to-front", *sh(f"{BIN}/zbuf config.txt")).returncode, 0)
 
     def test_names_of_files_are_those_of_the_caller(self):
@@ -569,9 +562,8 @@ class Shared(unittest.TestCase):
     def test_is_shown_before_mistakes(self):
         program = sh(f"{BIN}/model --bare | awk 'NF {{$1 = -$1; $3 = -$3}} {{print}}'")
         done = subprocess.run([sys.executable, PACK / "conform", "--sandbox", "no", "--stage", "model",
-                               "--only",
-                               "translate-*", "--assignment", "--", *program], stdout=subprocess.PIPE,
-                              text=True)
+                               "--only", "translate-*", "--assignment", "--", *program],
+                              stdout=subprocess.PIPE, text=True)
         self.assertRegex(done.stdout, r"\A.+\n.+\n\n\d+ of \d+ wrong numbers: x and z are negated\n")
 
     def test_a_guess_names_the_mistake_whose_cases_fail(self):
@@ -622,9 +614,8 @@ class Digits(unittest.TestCase):
         self.assertFalse(self.is_same("0.4000000 1.0000000 2.0000000\n", "0.0 1.0 2.0\n"))
 
     def test_header_lines_count_all_their_digits(self):
-        self.assertTrue(
-            self.is_same("perspective 60 1.5 1 100\n1.0000000 2.0000000 3.0000000\n",
-                         "perspective 60.0 1.50 1 1e2\n1 2 3\n"))
+        self.assertTrue(self.is_same("perspective 60 1.5 1 100\n1.0000000 2.0000000 3.0000000\n",
+                                     "perspective 60.0 1.50 1 1e2\n1 2 3\n"))
         self.assertFalse(self.is_same("perspective 60 1.5 1 100\n", "perspective 60 1.51 1 100\n"))
         self.assertFalse(self.is_same("perspective 60 1.5 1 100\n", "frustum 60 1.5 1 100\n"))
 
@@ -674,9 +665,8 @@ class Pictures(unittest.TestCase):
     def test_other_forms_of_bmp_are_read(self):
         for depth in (24, 32):
             for is_top_down in (False, True):
-                self.assertIsNone(
-                    same_picture(self.EXPECTED, bmp([".aab.", "..ab."], depth, is_top_down),
-                                 has_free_colors=False))
+                self.assertIsNone(same_picture(self.EXPECTED, bmp([".aab.", "..ab."], depth, is_top_down),
+                                               has_free_colors=False))
 
     def test_what_is_no_picture_is_told(self):
         for data in (b"", b"P6 1 1 255 abc", self.EXPECTED[:-1]):

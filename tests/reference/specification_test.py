@@ -163,18 +163,15 @@ class Specification(unittest.TestCase):
         for name, line, labels in FUNCTIONS:
             if name not in ("main", "read_options"):
                 with self.subTest(function=name):
-                    self.assertEqual(page_of[labels[0]],
-                                     [page for start, page in starts if start < line][-1])
+                    self.assertEqual(page_of[labels[0]], [page for start, page in starts if start < line][-1])
 
     def test_the_reference_is_short_and_needs_only_the_standard_library(self):
         self.assertLessEqual(len(REFERENCE.splitlines()), 800)
         imported = {
             name.name
             for node in ast.walk(ast.parse(REFERENCE)) if isinstance(node, ast.Import) for name in node.names}
-        imported |= {
-            node.module
-            for node in ast.walk(ast.parse(REFERENCE))
-            if isinstance(node, ast.ImportFrom)}
+        imported |= {node.module for node in ast.walk(ast.parse(REFERENCE))
+                     if isinstance(node, ast.ImportFrom)}
         self.assertLessEqual(imported, set(sys.stdlib_module_names))
 
 

@@ -91,8 +91,7 @@ def lights():
     small = "attributes color\n" + "".join(
         f"{xy} 0 {color}\n" for xy, color in zip(("-0.3 -0.3", "-0.2 0.4", "0.5 -0.1"), colored))
     yield Case("zbuf", "colored-small-and-clockwise", "However small, a clockwise triangle has its weights.",
-               "L3",
-               small, CONFIG, needs="colors")
+               "L3", small, CONFIG, needs="colors")
     yield Case("zbuf", "colored-just-below-halves", "What is at most 2^-20 below a half counts as one.", "L6",
                "background 0.4999995 0.499998 99.4999991\n", CONFIG, needs="colors")
     for name, why, places in (
@@ -106,11 +105,10 @@ def lights():
 
 
 def depths_of_ends():
-    for name, corners in (("nearest-last", "0.125 0.9 0.5\n0.125 -0.9 0.5\n0.125 0.1 -0.5\n"),
+    for name, corners in (("nearest-right", "0.1 0.9 0.5\n0.1 -0.9 0.5\n0.10000000000000002 0.1 -0.5\n"),
                           ("nearest-first", "0.125 0.9 -0.5\n0.125 -0.9 0.5\n0.125 0.1 0.75\n")):
         yield Case("zbuf", f"ends-that-meet-{name}", "Where the ends of a row meet, the smaller z counts.",
-                   "Z4",
-                   corners, CONFIG, open="A triangle without area may have pixels or none.")
+                   "Z4", corners, CONFIG, open="A triangle without area may have pixels or none.")
     wide = "-3 -0.9 -1.5\n3 -0.9 1.5\n0 3 0\n"
     yield Case("zbuf", "depth-at-front-and-rear", "A depth of FRONT is drawn, one of REAR is not.", "Z8",
                "-3 -3 -0.5\n3 -3 -0.5\n0 3 -0.5\n\n-3 0 0.5\n3 0 0.5\n0 3 0.5\n", "8 8\n-1\n-1\n-0.5 0.5\n")
@@ -131,16 +129,14 @@ def depths_of_ends():
                    f"background 7 9 31\nattributes color\n" + tall.replace("\n", " 200.5 101 33\n"), CONFIG,
                    options=f"--samples {count}", needs="colors", open="The assignment has no samples.")
     for algorithm in ("zbuffer", "scanline"):
-        yield Case("zbuf", f"algorithm-{algorithm}", "--algorithm changes nothing.", "Z8",
-                   tall + "\n" + wide, CONFIG,
-                   options=f"--algorithm {algorithm}")
+        yield Case("zbuf", f"algorithm-{algorithm}", "--algorithm changes nothing.", "Z8", tall + "\n" + wide,
+                   CONFIG, options=f"--algorithm {algorithm}")
     for name, left, bottom in (("smallest", "-1e-200", "-1e-200"), ("largest", "-1e200", "-1e200"),
                                ("unequal", "-1e200", "-1e-200")):
         x, y = ("1" + left[2:], "1" + bottom[2:])
         text = f"-.5{x[1:]} -.5{y[1:]} 0\n.75{x[1:]} -.25{y[1:]} 0\n0 .75{y[1:]} 0\n"
         yield Case("zbuf", f"window-{name}-limits", "The limits of x and y may be from 1e-200 to 1e200.",
-                   "C2", text,
-                   f"8 8\n{left}\n{bottom}\n-1 1\n", needs="exactness")
+                   "C2", text, f"8 8\n{left}\n{bottom}\n-1 1\n", needs="exactness")
     for name, why, line, file in (
         ("largest-size", "A picture of 65535 rows and columns is one.", 2, "65535 65535\n1\n"),
         ("height-too-large", "A picture has at most 65535 rows.", 1, "1 65536\n"),
@@ -176,14 +172,12 @@ def numbers_in_words():
         number = "triangle 18446744073709551615\n"
         yield Case(stage, "numbers-after-the-last", "After 2^64 - 1 comes 0.", "T10 S4",
                    header + number + VERTICES + "\n" + VERTICES, CONFIG, needs="numbering", tier="bytes")
-        yield Case(stage, "numbers-twice-and-last",
-                   "A number may stand twice, and behind the last triangle.", "T10",
-                   header + "triangle 3\ntriangle 9\n" + VERTICES + "triangle 4\n", CONFIG, needs="numbering",
-                   tier="bytes")
+        yield Case(stage, "numbers-twice-and-last", "A number may stand twice, and behind the last triangle.",
+                   "T10", header + "triangle 3\ntriangle 9\n" + VERTICES + "triangle 4\n", CONFIG,
+                   needs="numbering", tier="bytes")
         yield Case(stage, "numbers-with-leading-zeros", "Zeros in front change nothing.", "S4 S3",
                    header + "triangle 0003\n" + VERTICES.replace("1 0 -2", "0001.0 00 -2"), CONFIG,
-                   needs="numbering",
-                   tier="bytes")
+                   needs="numbering", tier="bytes")
         yield Case(stage, "numbers-too-small", "A number too small for a double is 0, and 0 has no sign.",
                    "S3 T19",
                    header + VERTICES.replace("1 0 -2", "1 -1e-400 -2").replace("0 1", "-0.0e9999 1"), CONFIG,
@@ -191,8 +185,7 @@ def numbers_in_words():
         yield Case(stage, "lines-byte-order-mark", "A byte order mark in front does not count.", "S1",
                    "\xef\xbb\xbf" + header + VERTICES, CONFIG, needs="syntax")
         yield Case(stage, "lines-comment-in-a-triangle", "A line of comment alone does not part a triangle.",
-                   "T8",
-                   header + VERTICES.replace("1 0 -2", "# c\n1 0 -2\n  # c\n#"), CONFIG, needs="syntax")
+                   "T8", header + VERTICES.replace("1 0 -2", "# c\n1 0 -2\n  # c\n#"), CONFIG, needs="syntax")
         yield Case(stage, "lines-carriage-return-before-a-comment", "It is at the end of the line.", "S1",
                    header + VERTICES.replace("0 -2", "0 -2\r# c"), CONFIG, needs="syntax")
         yield Case(stage, "lines-indented", "Blanks and tabs may stand in front of words.", "S2 T8",
@@ -271,8 +264,7 @@ def headers():
              "framed\n" + VERTICES + "end\nerror model: 1\n")):
             yield refused(stage, name, why, paragraphs, at + line, header + text)
         yield Case(stage, "material-0-without-a-header",
-                   "Material 0 may stand without a material in the header.",
-                   "T9",
+                   "Material 0 may stand without a material in the header.", "T9",
                    header + "attributes material\n" + VERTICES.replace("\n", " 0\n"), CONFIG,
                    needs="materials")
         yield Case(stage, "colors-at-the-limits", "Both 0 and 255 are colors.", "T9",
@@ -329,8 +321,7 @@ def headers():
         yield refused("zbuf", name, why, "T11" if "clipped" in name else "T4 T5 T14", line, text + VERTICES)
     for stage, name, line in (("project", "eye", 1), ("project", "look", 1), ("project", "up", 1)):
         yield refused(stage, f"{name}-alone", "A text with a part of a camera has not been through view.",
-                      "T14", 1,
-                      f"{name} 0 0 1\n" + PERSPECTIVE + VERTICES)
+                      "T14", 1, f"{name} 0 0 1\n" + PERSPECTIVE + VERTICES)
     for name, header, line in (("eye", "look 0 0 5\nup 0 1 0\n", 3),
                                ("look", "eye 0 0 5\nup 0 1 0\n", 3)):
         yield refused("view", f"no-{name}", "All three parts of the camera are needed.", "V1", line,
@@ -344,12 +335,10 @@ def headers():
     yield Case("view", "no-projection", "Without a projection view passes none on.", "T3 V1", EYE + VERTICES)
     yield Case("view", "bare-with-numbers", "A bare text has no lines but vertices and blank ones.", "T17",
                EYE + "triangle 5\n" + VERTICES + "triangle 9\n" + VERTICES, options="--bare",
-               needs="numbering",
-               tier="bytes")
+               needs="numbering", tier="bytes")
     yield Case("view", "bare-with-columns", "A bare text has no columns.", "T17",
                EYE + "framed\nattributes color\n" + VERTICES.replace("\n", " 1 2 3\n") + "end\n",
-               options="--bare",
-               needs="colors frames", tier="bytes")
+               options="--bare", needs="colors frames", tier="bytes")
     ball = "sphere\n0 0 -3 {}\n1 0 -3 {}\n0 1 -3 {}\n0 0 -2 {}\n\n"
     yield refused("view", "sphere-of-two-materials", "A sphere has one material.", "T26", 12,
                   EYE + "attributes material\n" + MATERIALS + ball.format(1, 1, 1, 0).replace("sphere",
@@ -416,8 +405,7 @@ def scenes():
         ("sphere-of-five-numbers", "A sphere has four numbers.", "S24", 5, "sphere 0 0 0 1 1\nend\n"),
         ("sphere-too-large", "X + R is finite.", "S24", 5, "sphere 1.7e308 0 0 1.7e308\nend\n"),
         ("light-out-of-range", "A light beyond the range of doubles is refused at its arguments.", "N4 M8",
-         10,
-         "scale 1e200 1 1\nscale 1e200 1 1\nlight\n\n# c\n1 0 0 1 1 1\nend\n"),
+         10, "scale 1e200 1 1\nscale 1e200 1 1\nlight\n\n# c\n1 0 0 1 1 1\nend\n"),
         ("sphere-out-of-range", "So is a sphere.", "N4 M10", 7,
          "scale 1e200 1 1\nscale 1e200 1 1\nsphere 1 0 0 1\nend\n"),
         ("z-out-of-range", "Any coordinate of a vertex.", "N4", 8,
@@ -472,8 +460,7 @@ def scenes():
         ("shininess-below-2-to-the-64", "A shininess is below 2^64.", "S19 T20",
          "material 1 1 1 18446744073709551615\n" + TRIANGLE, ""),
         ("material-at-its-limits", "The limits belong to the ranges.", "S19b",
-         "material 0 0 0 0 1 100 0\nmaterial 0 0 "
-         "0 0 0 0.01 1\nabsorption 0 0 0\n" + TRIANGLE, ""),
+         "material 0 0 0 0 1 100 0\nmaterial 0 0 0 0 0 0.01 1\nabsorption 0 0 0\n" + TRIANGLE, ""),
         ("attributes-on-two-lines", "attributes may stand on the line after the keyword.", "S10 S16",
          "attributes\ncolor\ntriangle\n0 0 0 0 255 0\n1 0 0 0 255 0\n0 1 0 0 255 0\n", ""),
         ("colors-at-the-limits", "Both 0 and 255 are colors.", "S17 S18",
@@ -515,13 +502,10 @@ def beyond_doubles():
     yield Case("project", "light-and-cut-beyond-doubles",
                "clipped is not written where it would be infinite.", "P11",
                "frustum -1e-20 1e-20 -1 1 1 9\n" + light + cut.format("1e300"),
-               needs="lights clipping exactness",
-               options="--digits exact")
+               needs="lights clipping exactness", options="--digits exact")
     yield Case("project", "light-and-cut-in-range", "It is written where it is finite, however large.",
-               "P11 T11 T20",
-               "frustum -1e-20 1e-20 -1 1 1 9\n" + light + cut.format("1e280"),
-               needs="lights clipping exactness",
-               options="--digits exact")
+               "P11 T11 T20", "frustum -1e-20 1e-20 -1 1 1 9\n" + light + cut.format("1e280"),
+               needs="lights clipping exactness", options="--digits exact")
     yield Case("project", "w-of-cuts", "Each cut has its own w.", "P9 T5a T20",
                "perspective 90 1 1 9\nattributes color\n0 0 -2 1 2 3\n0 1 -7 4 5 6\n1 0 3 7 8 9\n\n"
                "0 0 3 1 2 3\n0 1 -7 4 5 6\n1 0 3 7 8 9\n", options="--clip frustum --clip-inset 0.1",

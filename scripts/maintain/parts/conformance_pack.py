@@ -97,9 +97,8 @@ class Case:
         with tempfile.TemporaryDirectory() as name:
             config, image = pathlib.Path(name, "config.txt"), pathlib.Path(name, "out.bmp")
             config.write_bytes(self.config.encode("latin-1"))
-            depths = answer("zbuf", self.text,
-                            [str(config), "--image",
-                             str(image), "--coverage", rule, *self.options.split()])
+            depths = answer("zbuf", self.text, [str(config), "--image", str(image), "--coverage", rule,
+                                                *self.options.split()])
             return depths, image.read_bytes()
 
     def expect_refusal(self):

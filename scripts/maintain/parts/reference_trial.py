@@ -12,7 +12,8 @@ import tempfile
 import time
 import types
 from collections import namedtuple
-from multiprocessing.connection import wait
+from concurrent.futures import ProcessPoolExecutor as Pool
+from concurrent.futures.process import BrokenProcessPool
 
 SOURCE = pathlib.Path(__file__).resolve().parents[3]
 sys.path.append(str(SOURCE / "tests/conformance"))
@@ -20,7 +21,7 @@ from conform_parts.cases import RULES, STAGES, read_cases  # noqa: E402
 from conform_parts.trial import Terms, judge_outputs, judge_refusal  # noqa: E402
 
 FILE = "tests/reference/reference.py"
-MEMORY_LIMIT = 3 << 30
+MEMORY_LIMIT, SECONDS_LIMIT = 3 << 30, 600  # of a process
 Ending = namedtuple("Ending", "status stdout stderr")
 Outputs = namedtuple("Outputs", "text image")
 Run = namedtuple("Run", "case rule")
@@ -33,6 +34,7 @@ def load(text):
     for number in (signal.SIGTERM, signal.SIGINT, signal.SIGHUP):  # as no command's process
         signal.signal(number, signal.SIG_DFL)
     resource.setrlimit(resource.RLIMIT_AS, (MEMORY_LIMIT, MEMORY_LIMIT))
+    resource.setrlimit(resource.RLIMIT_CPU, (SECONDS_LIMIT, SECONDS_LIMIT))
     reference = types.ModuleType("reference")
     try:
         exec(compile(text, FILE, "exec"), vars(reference))
@@ -99,12 +101,6 @@ def traced(run):
     return time.monotonic() - began, called, is_failed
 
 
-def first_noticed(text, runs, connection):
-    """Sends the name of the first case that notices the mutant; None if none does."""
-    load(text)
-    connection.send(next((run.case.name for run in runs if is_noticed(run)), None))
-
-
 class ReferenceTrial:
     """The cases, from the shortest, each with the functions of the reference that it calls."""
 
@@ -114,8 +110,8 @@ class ReferenceTrial:
                           if isinstance(node, ast.FunctionDef)]
         runs = [Run(case, rule) for stage in STAGES for case in read_cases(stage)
                 for rule in (RULES if stage == "zbuf" else RULES[:1])]
-        with FORKED.Pool(self.jobs, load, (self.text, )) as pool:
-            traces = pool.map(traced, runs, chunksize=8)
+        with Pool(self.jobs, FORKED, load, (self.text, )) as pool:
+            traces = list(pool.map(traced, runs, chunksize=8))
         if failing := [run.case.name for run, trace in zip(runs, traces) if trace[2]]:
             sys.exit(f"mutate: these fail without a mutant: {', '.join(failing)}")
         times = sorted(range(len(runs)), key=lambda i: traces[i][0])
@@ -126,32 +122,11 @@ class ReferenceTrial:
         around = [first for first, last in self.functions if first <= mutant.line + 1 <= last]
         chosen = [run for run, called in self.runs if around and max(around) in called] or [
             run for run, _ in self.runs]
-        connections, processes = [], []
-        for share in range(self.jobs):
-            ours, theirs = FORKED.Pipe(duplex=False)
-            arguments = mutant.applied_to(self.text), chosen[share::self.jobs], theirs
-            processes.append(FORKED.Process(target=first_noticed, args=arguments))
-            processes[-1].start()
-            theirs.close()
-            connections.append(ours)
-        try:
-            return self.answer(connections)
-        finally:
-            for process in processes:
-                process.kill()
-                process.join()
-
-    def answer(self, connections):
-        while connections:
-            ready = wait(connections, timeout=600)
-            for connection in ready:
-                try:
-                    name = connection.recv()
-                except EOFError:  # it ran out of memory
-                    name = "its end"
-                if name:
-                    return f"killed by {name}"
-                connections.remove(connection)
-            if not ready:
-                return "killed by its time"
-        return "survived"
+        with Pool(self.jobs, FORKED, load, (mutant.applied_to(self.text), )) as pool:
+            noticed = pool.map(is_noticed, chosen)
+            try:
+                return next((f"killed by {run.case.name}" for run in chosen if next(noticed)), "survived")
+            except BrokenProcessPool:  # out of memory, or of time where no signal is heard
+                return "killed by its end"
+            finally:
+                pool.shutdown(wait=False, cancel_futures=True)

@@ -67,9 +67,7 @@ def digits_by_group(lines, is_stage_text):
 def same_digits(expected, found, is_stage_text=True):
     """The first Difference of two texts, right to the digits that both show, in any formatting but the lines;
     or None."""
-    texts = [[line.split()
-              for line in text.decode("latin-1").splitlines()
-              if line.split()]
+    texts = [[line.split() for line in text.decode("latin-1").splitlines() if line.split()]
              for text in (expected, found)]
     digits = [digits_by_group(lines, is_stage_text) for lines in texts]
     for at, (want, got) in enumerate(zip(*texts)):
@@ -132,9 +130,8 @@ def read_bmp(data):
 FIELDS = {0: "the letters BM", 2: "the file's size", 6: "reserved", 10: "where the pixels begin",
           14: "the size of the second header", 18: "the width", 22: "the height", 26: "the planes",
           28: "the bits a pixel", 30: "the compression", 34: "the size of the pixels",
-          38: "pixels a meter in x",
-          42: "pixels a meter in y", 46: "the colors used", 50: "the important colors",
-          54: "the pixels, or their filling"}
+          38: "pixels a meter in x", 42: "pixels a meter in y", 46: "the colors used",
+          50: "the important colors", 54: "the pixels, or their filling"}
 
 
 def different_field(expected, found):
@@ -155,10 +152,8 @@ def drawn(rows, background):
     """A picture as text, a line a row: a point for the background, and a letter for each color in the order
     in which they appear."""
     names = {background: "."}
-    return [
-        "".join(names.setdefault(pixel, LETTERS[(len(names) - 1) % len(LETTERS)])
-                for pixel in row)
-        for row in rows]
+    return ["".join(names.setdefault(pixel, LETTERS[(len(names) - 1) % len(LETTERS)]) for pixel in row)
+            for row in rows]
 
 
 def same_owners(expected, found):

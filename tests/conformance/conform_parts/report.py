@@ -121,10 +121,9 @@ def table(results, mistakes):
         lines += ["#", "# " + " or ".join(heading.names or [heading.title]) + ": " + count]
         lines += ["#   " + mistakes[name] for name in heading.names]
         lines += [f"#   most like {name}: {mistakes[name]}" for name in most_like(heading, results)]
-        lines += [
-            f"#   first, by length: {first.case.name}", paragraph_line(first.case),
-            f"#   why: {first.case.why}",
-            *difference_lines(first.difference), *other_lines(heading.results, first)]
+        lines += [f"#   first, by length: {first.case.name}", paragraph_line(first.case),
+                  f"#   why: {first.case.why}", *difference_lines(first.difference),
+                  *other_lines(heading.results, first)]
     return lines
 
 
@@ -138,17 +137,13 @@ def other_lines(results, first):
 
 def group_lines(results):
     """How many are right and wrong of what the cases ask for, if that is more than the assignment."""
-    rows = [(group, [
-        result
-        for result in results
-        if result.group == group and result.state in ("right", "wrong")])
-            for group in GROUPS]
-    rows = [(group, count(members, "right"), count(members, "wrong")) for group, members in rows if members]
+    counted = [result for result in results if result.state in ("right", "wrong")]
+    found = [(group, [result for result in counted if result.group == group]) for group in GROUPS]
+    rows = [(group, count(members, "right"), count(members, "wrong")) for group, members in found if members]
     if [group for group, _, _ in rows] in ([], [ASSIGNMENT]):
         return []
-    return [
-        "#", f"# {'':30} right  wrong",
-        *(f"# {group:30} {right:5}  {wrong:5}" for group, right, wrong in rows)]
+    return ["#", f"# {'':30} right  wrong",
+            *(f"# {group:30} {right:5}  {wrong:5}" for group, right, wrong in rows)]
 
 
 def count(results, state):
@@ -187,39 +182,22 @@ def for_people(results, mistakes, note):
 def as_json(results, terms, mistakes):
     def entry(result):
         case, difference = result.case, result.difference
-        return {
-            "name":
-                case.name, "state":
-                    result.state, "group":
-                        result.group, "why":
-                            case.why, "paragraphs":
-                                case.words("paragraphs"), "catches":
-                                    case.words("catches"),
-            **({"reason": result.reason} if result.reason else {}),
-            **({"difference": {key: getattr(difference, key)
-                               for key in ("message", "expected", "found")}} if difference else {})}
+        return {"name": case.name, "state": result.state, "group": result.group, "why": case.why,
+                "paragraphs": case.words("paragraphs"), "catches": case.words("catches"),
+                **({"reason": result.reason} if result.reason else {}),
+                **({"difference": {key: getattr(difference, key) for key in ("message", "expected", "found")}}
+                   if difference else {})}
 
-    return json.dumps(
-        {
-            "command": terms.command,
-            "rule": terms.rule,
-            "sandbox": not terms.box.reason,
-            "counts": {state: count(results, state) for state in ("right", "wrong", "open", "left out")},
-            "shared": shared_by_most(results),
-            "groups": {
-                    group: {
-                        state: sum(result.state == state for result in results if result.group == group)
-                        for state in ("right", "wrong")}
-                    for group in GROUPS},
-            "mistakes": [{
-                        "names": heading.names,
-                        "sentences": [mistakes[name] for name in heading.names],
-                        "most like": most_like(heading, results),
-                        "cases": [result.case.name for result in heading.results],
-                    }
-                         for heading in headings(results)],
-            "cases": [entry(result) for result in results],
-        }, indent=1) + "\n"
+    groups = {group: {state: sum(result.state == state for result in results if result.group == group)
+                      for state in ("right", "wrong")} for group in GROUPS}
+    named = [{"names": heading.names, "sentences": [mistakes[name] for name in heading.names],
+              "most like": most_like(heading, results),
+              "cases": [result.case.name for result in heading.results]} for heading in headings(results)]
+    return json.dumps({
+        "command": terms.command, "rule": terms.rule, "sandbox": not terms.box.reason,
+        "counts": {state: count(results, state) for state in ("right", "wrong", "open", "left out")},
+        "shared": shared_by_most(results), "groups": groups, "mistakes": named,
+        "cases": [entry(result) for result in results]}, indent=1) + "\n"
 
 
 def as_junit(results):

@@ -56,10 +56,9 @@ def missing_need(case, command):
 
 def fit_for_print(text):
     """A part of a program's output, in printable characters, and not too long."""
-    rows = [
-        "".join(c if c.isprintable() else "?"
-                for c in row[:LONGEST_ROW]) + "..." * (len(row) > LONGEST_ROW)
-        for row in text.split("\n")]
+    rows = ["".join(c if c.isprintable() else "?"
+                    for c in row[:LONGEST_ROW]) + "..." * (len(row) > LONGEST_ROW)
+            for row in text.split("\n")]
     return "\n".join(rows)
 
 
@@ -175,8 +174,7 @@ def judge_refusal(case, terms, ending, complaint):
     writes_text = case.stage != "zbuf" and b"\nerror " not in b"\n" + case.read("input.txt")  # T12: need not
     if terms.tier != "digits" and writes_text and (end or not re.match("error [^ :]+: .", last)):
         return Difference("the output does not end with a line `error TOOL: MESSAGE` (T12)",
-                          "error TOOL: MESSAGE",
-                          end or last)
+                          "error TOOL: MESSAGE", end or last)
     return None
 
 
@@ -206,9 +204,8 @@ def points(case, terms, outputs):
 def is_excused(case, terms, outputs, name):
     found, is_stage_text = outputs.text, case.stage != "zbuf"
     if case.has(name + ".txt") and found is not None and terms.judges_depths:
-        return bool(
-            same_digits(case.read(name + ".txt"),
-                        without_header(found) if is_stage_text else found, is_stage_text))
+        return bool(same_digits(case.read(name + ".txt"), without_header(found) if is_stage_text else found,
+                                is_stage_text))
     if case.has(name + ".bmp") and terms.judges_picture and outputs.image is not None:
         return bool(same_picture(case.read(name + ".bmp"), outputs.image, has_free_colors=True))
     return False
