@@ -45,7 +45,8 @@ def runs_of_pack():
             options = case.read("options.txt").decode() if case.has("options.txt") else ""
             words = shlex.split(options)
             if stage != "zbuf":
-                yield run_of(stage, words, case.read("input.txt"))
+                scene = {name: case.read(name) for name in ["scene.txt"] if case.has(name)}
+                yield run_of(stage, words, case.read("input.txt"), scene)
                 continue
             config = case.read("config.txt") if case.has("config.txt") else CONFIG
             for rule in ("nearest", "center"):

@@ -164,10 +164,9 @@ def numbers_in_words():
         for stage, header in (HEADERS if name in ("plus", "2-to-the-64") else {"view": EYE}).items():
             yield refused(stage, f"count-{name}", "A whole number is digits alone, below 2^64.", "S4 T10",
                           header.count("\n") + 1, header + f"triangle {word}\n" + VERTICES)
-    yield refused("zbuf", "config-count-plus", "A whole number is digits alone.", "S4 C1", 1, VERTICES,
-                  "+8 8\n")
-    yield refused("zbuf", "config-count-underscore", "A whole number is digits alone.", "S4 C1", 1, VERTICES,
-                  "8 1_0\n")
+    for name, size in (("plus", "+8 8\n"), ("underscore", "8 1_0\n")):
+        yield refused("zbuf", f"config-count-{name}", "A whole number is digits alone.", "S4 C1", 1, VERTICES,
+                      size)
     for stage, header in HEADERS.items():
         number = "triangle 18446744073709551615\n"
         yield Case(stage, "numbers-after-the-last", "After 2^64 - 1 comes 0.", "T10 S4",
@@ -200,13 +199,13 @@ def numbers_in_words():
             ("no-break-space", "A no-break space is no blank.", "S2", 1, VERTICES.replace("0 0", "0 0\xa0")),
             ("keyword-in-capitals", "Upper and lower case differ.", "S2 T1", 1, "Triangle 3\n" + VERTICES)):
             yield refused(stage, name, why, paragraphs, at + line, header + text)
-    texts = {"model": CAMERA + "end", **{stage: header + VERTICES[:-1] for stage, header in HEADERS.items()}}
-    for stage, text in texts.items():
-        why, fill = "A line has at most 2^20 bytes.", " " * (2**20 - len(text.rpartition("\n")[2]))
-        yield Case(stage, "lines-of-2-to-the-20-bytes", why, "S1", text + "#" + fill[1:] + "\n", CONFIG,
+    why, long = "A line has at most 2^20 bytes.", "#" + " " * (2**20 - 1)
+    for stage, before in {"model": CAMERA, **HEADERS}.items():
+        behind = "end\n" if stage == "model" else VERTICES
+        yield Case(stage, "lines-of-2-to-the-20-bytes", why, "S1", f"{before}{long}\n{behind}", CONFIG,
                    needs="syntax")
-        yield refused(stage, "line-of-more-than-2-to-the-20-bytes", why, "S1", text.count("\n") + 1,
-                      text + "#" + fill + "\n")
+        yield refused(stage, "line-of-more-than-2-to-the-20-bytes", why, "S1", before.count("\n") + 1,
+                      f"{before}{long} \n{behind}")
     yield Case("model", "lines-byte-order-mark-before-a-comment",
                "A byte order mark in front does not count.", "S1",
                "\xef\xbb\xbf# c\n" + CAMERA + TRIANGLE + "end", needs="syntax")
@@ -319,13 +318,12 @@ def headers():
         ("clipped-of-two-vertices", "clipped has three vertices.", 4, "clipped\n0 0 0 1\n1 0 0 1\n\n"),
         ("clipped-without-w", "The vertices of clipped always have w.", 2, "clipped\n0 0 0\n1 0 0\n0 1 0\n")):
         yield refused("zbuf", name, why, "T11" if "clipped" in name else "T4 T5 T14", line, text + VERTICES)
-    for stage, name, line in (("project", "eye", 1), ("project", "look", 1), ("project", "up", 1)):
-        yield refused(stage, f"{name}-alone", "A text with a part of a camera has not been through view.",
+    for name in ("eye", "look", "up"):
+        yield refused("project", f"{name}-alone", "A text with a part of a camera has not been through view.",
                       "T14", 1, f"{name} 0 0 1\n" + PERSPECTIVE + VERTICES)
-    for name, header, line in (("eye", "look 0 0 5\nup 0 1 0\n", 3),
-                               ("look", "eye 0 0 5\nup 0 1 0\n", 3)):
-        yield refused("view", f"no-{name}", "All three parts of the camera are needed.", "V1", line,
-                      header + VERTICES)
+    for name, other in (("eye", "look"), ("look", "eye")):
+        yield refused("view", f"no-{name}", "All three parts of the camera are needed.", "V1", 3,
+                      f"{other} 0 0 5\nup 0 1 0\n" + VERTICES)
     yield refused("view", "second-eye", "Each keyword stands once.", "T7", 4, EYE + "eye 0 0 5\n" + VERTICES)
     yield refused("view", "up-of-zero", "An up direction of 0 0 0 is none.", "S9 T2", 3,
                   EYE.replace("0 1 0", "0 0 0") + VERTICES)

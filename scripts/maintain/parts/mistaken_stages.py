@@ -58,10 +58,8 @@ def stage_text(points):
 
 
 def vertices(text):
-    return [[float(word)
-             for word in line.split()]
-            for line in text.splitlines()
-            if line.strip() and not line[0].isalpha()]
+    return [[float(word) for word in line.split()] for line in text.splitlines() if line.strip()
+            and not line[0].isalpha()]
 
 
 def model(scene, mistake=None):
@@ -230,7 +228,6 @@ def row_of(corners, y, x_0, dx, width, mistake):
 def bmp(owners):
     """A picture in which each owner has a color of its own, and 0 is black."""
     pixels = b"".join(b"".join(struct.pack("<I", 40503 * owner)[:3]
-                               for owner in row) + bytes(-3 * len(row) % 4)
-                      for row in reversed(owners))
+                               for owner in row) + bytes(-3 * len(row) % 4) for row in reversed(owners))
     return struct.pack("<2s6I2H6I", b"BM", 54 + len(pixels), 0, 54, 40, len(owners[0]), len(owners), 1, 24, 0,
                        len(pixels), 0, 0, 0, 0) + pixels

@@ -54,10 +54,9 @@ def triangles():
 
 
 def translations_and_scales():
-    for name, numbers in {
-            "x": "2.5 0 0", "y": "0 2.5 0", "z": "0 0 2.5", "minus-x": "-3 0 0", "minus-y": "0 -3 0",
-            "minus-z": "0 0 -3", "all": "0.5 -1.25 7", "zero": "0 0 0", "far": "10000 -20000 30000",
-            "by-little": "0.001 0.0001 0.00001"}.items():
+    for name, numbers in {"x": "2.5 0 0", "y": "0 2.5 0", "z": "0 0 2.5", "minus-x": "-3 0 0",
+                          "minus-y": "0 -3 0", "minus-z": "0 0 -3", "all": "0.5 -1.25 7", "zero": "0 0 0",
+                          "far": "10000 -20000 30000", "by-little": "0.001 0.0001 0.00001"}.items():
         yield transformed(f"translate-{name}", "Each number of translate moves its own coordinate.", "M3",
                           f"translate {numbers}")
     yield transformed("translate-twice", "Two translations add up.", "M2 M3",
@@ -88,10 +87,9 @@ def rotations():
         yield transformed(f"angle-{word(angle)}-about-the-diagonal",
             "An axis of three equal numbers mixes all coordinates; 120 degrees exchange them.", "M4",
                           f"rotate {angle} 1 1 1")
-    for name, axis in {
-            "double-z": "0 0 2", "tenth-of-z": "0 0 0.1", "3-0-4": "3 0 4", "10-10-10": "10 10 10",
-            "minus-5-y": "0 -5 0", "1-2-3": "1 2 3", "minus-1-half-2": "-1 0.5 2", "0-3-4": "0 3 4",
-            "hundredths": "0.01 -0.02 0.02"}.items():
+    for name, axis in {"double-z": "0 0 2", "tenth-of-z": "0 0 0.1", "3-0-4": "3 0 4", "10-10-10": "10 10 10",
+                       "minus-5-y": "0 -5 0", "1-2-3": "1 2 3", "minus-1-half-2": "-1 0.5 2",
+                       "0-3-4": "0 3 4", "hundredths": "0.01 -0.02 0.02"}.items():
         yield transformed(f"axis-{name}", "The axis has any length, and is made a unit vector first.",
                           "M4 N2", f"rotate 40 {axis}")
     yield transformed("half-turn-about-a-slanted-axis",
@@ -168,9 +166,8 @@ def push_and_pop():
                  "; ".join(f"push; rotate {20 * i - 40} 0 1 0; translate 0 0 {i + 1}; T; pop"
                            for i in range(5)) + "; T"))
     # The table of the assignment: the matrix after each of eleven lines.
-    lines = [
-        "push", "translate 1 2 -3", "push", "rotate 30 0 1 1", "pop", "scale 2 3 0.5", "push",
-        "rotate -70 1 0 0", "pop", "scale 0.25 1 4", "pop"]
+    lines = ["push", "translate 1 2 -3", "push", "rotate 30 0 1 1", "pop", "scale 2 3 0.5", "push",
+             "rotate -70 1 0 0", "pop", "scale 0.25 1 4", "pop"]
     for count in range(1, len(lines) + 1):
         yield case(f"table-of-the-assignment-line-{count:02}",
                    f"The state of the stack after line {count} of the table in the assignment.", "M5",
@@ -178,11 +175,10 @@ def push_and_pop():
 
 
 def numbers_and_lines():
-    for name, numbers in {
-            "exponents": "1e0 25E-1 1.5e+1", "plus-signs": "+1 +2.5 -0.5", "points-at-the-ends": ".5 5. -.25",
-            "leading-zeros": "007 -00.5 0000",
-            "many-digits": "0.1234567890123456789 3.14159265358979323846 -2.718281828459045",
-            "minus-zero": "-0 -0.0 0e5"}.items():
+    for name, numbers in {"exponents": "1e0 25E-1 1.5e+1", "plus-signs": "+1 +2.5 -0.5",
+                          "points-at-the-ends": ".5 5. -.25", "leading-zeros": "007 -00.5 0000",
+                          "many-digits": "0.1234567890123456789 3.14159265358979323846 -2.718281828459045",
+                          "minus-zero": "-0 -0.0 0e5"}.items():
         yield case(f"numbers-{name}", "Numbers may be written in all the ways in which programs write them.",
                    "S3", f"triangle\n{numbers}\n1 0 0\n0 1 0\n")
     yield case("numbers-too-small", "A number too small for a double is 0.", "S3",
@@ -297,26 +293,26 @@ def extensions():
          normals.replace("1 1 1", "1 1 0")), ("background", "The background goes into the header.", "S18 T6",
                                               "background\n10 20.5 255\n" + TRIANGLE)):
         yield case(name, why, paragraphs, words, needs="colors")
-    for name, why, words in (("background-with-alpha", "A background may have an alpha.",
-                              "background 10 20.5 255 63.5\n"), ("background-invisible", "Down to 0.",
-                                                                 "background\n0 0 0 0\n"),
-                             ("background-opaque", "An alpha of 255 is as good as none, and is not written.",
-                              "background 1 2 3 255\n")):
+    for name, why, words in (
+        ("background-with-alpha", "A background may have an alpha.", "background 10 20.5 255 63.5\n"),
+        ("background-invisible", "Down to 0.", "background\n0 0 0 0\n"),
+        ("background-opaque", "An alpha of 255 is as good as none, and is not written.",
+         "background 1 2 3 255\n")):
         yield case(name, why, "S18 T6a", words + TRIANGLE, needs="alpha")
     for name, why, paragraphs, words in (
         ("light", "A light goes into the header, at its place in the world.", "S21 M8",
-         "light 1 2 3 1 0.5 0\n" + TRIANGLE), ("light-moved", "The matrix in force moves a light.", "M8",
-                                               "translate 1 2 3\nrotate 90 0 0 1\nlight 1 0 0 1 1 1\n" +
-                                               TRIANGLE), ("light-not-moved-later",
-                                                           "Transforms behind a light leave it alone.", "M8",
-                                                           "light 1 0 0 1 1 1\ntranslate 5 5 5\n" + TRIANGLE),
+         "light 1 2 3 1 0.5 0\n" + TRIANGLE),
+        ("light-moved", "The matrix in force moves a light.", "M8",
+         "translate 1 2 3\nrotate 90 0 0 1\nlight 1 0 0 1 1 1\n" + TRIANGLE),
+        ("light-not-moved-later", "Transforms behind a light leave it alone.", "M8",
+         "light 1 0 0 1 1 1\ntranslate 5 5 5\n" + TRIANGLE),
         ("light-in-a-push", "A light stands where its push has put it.", "M8 M5",
          "push\ntranslate 0 3 0\nlight 1 0 0 1 1 1\npop\nlight 0 0 1 0.25 0 0\n" + TRIANGLE),
         ("lights-in-their-order", "Lights keep their order and stand behind the rest of the header.", "T17",
          "light 1 0 0 1 1 1\nlight 2 0 0 1 1 1\nattenuation 1 0.5 0.25\nmaterial 1 0.5 0.25 16\nambient 0.1 "
-         "0.2 0.3\nbackground 1 2 3\ncolor 4 5 6\n"
-         + TRIANGLE), ("shininess-of-a-whole-number", "A shininess may be written 16.0 and is written 16.",
-                       "S19 T20", "material 1 1 1 16.0\n" + TRIANGLE)):
+         "0.2 0.3\nbackground 1 2 3\ncolor 4 5 6\n" + TRIANGLE),
+        ("shininess-of-a-whole-number", "A shininess may be written 16.0 and is written 16.", "S19 T20",
+         "material 1 1 1 16.0\n" + TRIANGLE)):
         yield case(name, why, paragraphs, words, needs="lights",
                    tier="bytes" if "T20" in paragraphs else "digits")
     materials = "material 1 1 0 1\nmaterial 0.5 0.25 1 16\n"
@@ -338,9 +334,9 @@ def extensions():
         ("sphere-with-columns", "Its lines have the color and the material in force, and no normal.",
          "S24 T26",
          "attributes normal\ncolor 1 2 3\nmaterial 1 1 0 1\nmaterial 1 1 1 9\nuse 1\nsphere 0 0 0 1\n"
-         "color 4 5 6\n"
-         + normals), ("sphere-of-rounded-sums", "Center plus radius is rounded to a double.", "M10",
-                      "scale 100000000 1 1\nsphere 0.1 0.2 0.3 0.2\n")):
+         "color 4 5 6\n" + normals),
+        ("sphere-of-rounded-sums", "Center plus radius is rounded to a double.", "M10",
+         "scale 100000000 1 1\nsphere 0.1 0.2 0.3 0.2\n")):
         yield case(name, why, paragraphs, words, needs="spheres")
     glass = "material 1 0.5 0.25 16 0.125 1.5 0.25\nabsorption 0.5 0 2\n"
     for name, why, paragraphs, words in (

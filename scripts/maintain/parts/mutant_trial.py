@@ -22,10 +22,8 @@ class DoesNotCompile(Exception):
 def copy_tree(source, target):
     """Makes the target a copy without build folders and hidden files; what has not changed keeps its time."""
     def visible(folder):
-        return {
-            path.name
-            for path in folder.iterdir()
-            if path.name != "build" and not path.name.startswith((".", "__pycache__"))}
+        return {path.name for path in folder.iterdir() if path.name != "build"
+                and not path.name.startswith((".", "__pycache__"))}
 
     target.mkdir(parents=True, exist_ok=True)
     for name in visible(target) - visible(source):
@@ -116,12 +114,10 @@ class Trial:
     def words_of(self, test):
         """The command of a test program, or of end-to-end tests, which are named by a regular expression."""
         if test.startswith("^"):
-            return [
-                "ctest", "--test-dir", self.build / "tests/tools", "--stop-on-failure", "-j", self.jobs, "-R",
-                test]
-        return [
-            self.build / "tests" / test, "--gtest_brief=1", "--gtest_fail_fast",
-            "--gtest_filter=-*.Long*:*Long.*"]
+            return ["ctest", "--test-dir", self.build / "tests/tools", "--stop-on-failure", "-j", self.jobs,
+                    "-R", test]
+        return [self.build / "tests" / test, "--gtest_brief=1", "--gtest_fail_fast",
+                "--gtest_filter=-*.Long*:*Long.*"]
 
     def check_unchanged(self, tests):
         """Measures the tests without a mutant; they have to pass."""

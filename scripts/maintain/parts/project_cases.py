@@ -83,9 +83,8 @@ def texts():
     yield case("triangle-of-no-area", "A triangle may be a point.", "P3", points="1 1 -5\n1 1 -5\n1 1 -5\n\n")
     yield case("same-direction", "Points on one line through the eye have one x and y, but not one z.", "P4",
         points="0.5 0.25 -2\n1 0.5 -4\n1.5 0.75 -6\n\n")
-    for name, numbers in {
-            "many-digits": "0.123456789012345 1.5 -2.718281828459045", "exponents": "1e-3 25E-2 -3.5e0",
-            "plain": "1 2 -3"}.items():
+    for name, numbers in {"many-digits": "0.123456789012345 1.5 -2.718281828459045",
+                          "exponents": "1e-3 25E-2 -3.5e0", "plain": "1 2 -3"}.items():
         yield case(f"numbers-{name}", "Numbers may have any digits.", "S3",
                    points=f"{numbers}\n1 0 -2\n0 1 -3\n\n")
     usual = f"perspective {PERSPECTIVE}\n{POINTS}"
@@ -128,11 +127,9 @@ def clipping():
         "all-on-the-near-plane-but-one": ("0 0 0", "1 0 -1", "0 1 -1"),
     }
     for name, corners in near.items():
-        yield case(
-            f"cut-{name}",
-            "The corners of the rule: vertices on the near plane, in the plane of the eye, and just "
-            "too near.",
-            "P6 P7 P8", view, "\n".join(corners) + "\n\n", needs="clipping numbering")
+        yield case(f"cut-{name}",
+                   "The corners of the rule: vertices on the near plane, in the plane of the eye, and just "
+                   "too near.", "P6 P7 P8", view, "\n".join(corners) + "\n\n", needs="clipping numbering")
     three = "\n".join(inside) + "\n\n" + "\n".join(behind) + "\n\n" + "\n".join(
         (behind[0], *inside[1:])) + "\n\n" + "\n".join(inside) + "\n\n"
     yield case("numbers-behind-dropped-and-cut-triangles",
@@ -208,10 +205,9 @@ def projections():
             "of-fractions": "frustum -0.1 0.3 -0.25 0.125 0.5 100"}.items():
         yield Case("project", f"frustum-{name}", "The window of a frustum need not be symmetric.", "P2 P3",
                    f"{line}\n{POINTS}", needs="projections")
-    for name, line in {
-            "symmetric": "ortho -2 2 -2 2 1 9", "not-symmetric": "ortho -1 5 0 2 1 9",
-            "mirrored": "ortho 2 -2 -2 2 1 9", "near-behind-the-eye": "ortho -2 2 -2 2 -5 5",
-            "all-negative": "ortho -4 -2 -8 -5 -3 -1"}.items():
+    for name, line in {"symmetric": "ortho -2 2 -2 2 1 9", "not-symmetric": "ortho -1 5 0 2 1 9",
+                       "mirrored": "ortho 2 -2 -2 2 1 9", "near-behind-the-eye": "ortho -2 2 -2 2 -5 5",
+                       "all-negative": "ortho -4 -2 -8 -5 -3 -1"}.items():
         yield Case("project", f"ortho-{name}", "ortho has no divide, and z is linear.", "P2 P3",
                    f"{line}\n{POINTS}", needs="projections")
     yield Case("project", "ortho-points-behind-the-eye", "Under ortho no point is behind the eye.", "P4 P7",
@@ -220,10 +216,9 @@ def projections():
         yield case(f"ratio-{fov}-{word(aspect)}",
                    "By the rule `ratio` the window is ASPECT times as wide as high.", "P2 S8",
                    f"{fov} {aspect} 1 10 ratio", needs="projections")
-    for name, option in {
-            "perspective": "--perspective 90 1 2 20", "frustum": "--frustum -1 2 -1 1 1 9",
-            "ortho": "--ortho -2 2 -2 2 1 9", "aspect-ratio": "--aspect ratio",
-            "aspect-angle": "--aspect angle"}.items():
+    for name, option in {"perspective": "--perspective 90 1 2 20", "frustum": "--frustum -1 2 -1 1 1 9",
+                         "ortho": "--ortho -2 2 -2 2 1 9", "aspect-ratio": "--aspect ratio",
+                         "aspect-angle": "--aspect angle"}.items():
         yield case(f"option-{name}", "Options go before the header.", "P1",
                    "60 1.5 1 10 ratio" if name == "aspect-angle" else "60 1.5 1 10", options=option)
     yield Case("project", "option-in-place-of-a-header",

@@ -53,9 +53,8 @@ def ended(case, rule, folder):
         config = pathlib.Path(folder, "config.txt")
         config.write_bytes(case.read("config.txt"))
         words = [str(config), "--image", str(image), "--coverage", rule, *words]
-    stdin, stdout, stderr = sys.stdin, io.TextIOWrapper(io.BytesIO()), io.StringIO()
-    sys.argv, sys.stdin, status = ["reference.py", case.stage,
-                                   *words], io.TextIOWrapper(io.BytesIO(case.read("input.txt"))), 0
+    stdin, stdout, stderr, status = sys.stdin, io.TextIOWrapper(io.BytesIO()), io.StringIO(), 0
+    sys.argv, sys.stdin = ["", case.stage, *words], io.TextIOWrapper(io.BytesIO(case.read("input.txt")))
     try:
         with contextlib.redirect_stdout(stdout), contextlib.redirect_stderr(stderr):
             reference.main()
@@ -64,9 +63,8 @@ def ended(case, rule, folder):
     finally:
         sys.stdin = stdin
     stdout.flush()
-    text = stdout.buffer.getvalue()
-    return Ending(status, text, stderr.getvalue()), Outputs(text, image.read_bytes() if image.exists()
-                                                            else None)
+    text, picture = stdout.buffer.getvalue(), image.read_bytes() if image.exists() else None
+    return Ending(status, text, stderr.getvalue()), Outputs(text, picture)
 
 
 def is_noticed(run):

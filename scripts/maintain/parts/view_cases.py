@@ -147,12 +147,11 @@ def digits():
     yield case("bare", "--bare writes vertices and blank lines alone.", (3, 4, 5), (0, 1, 0), (0, 1, 0),
                POINTS, "T17", options="--bare", tier="bytes")
     why = "Exact arithmetic does not lose the digits that doubles lose."
-    yield case(
-        "eye-far-from-the-origin", why, (100000000, 200000000, -300000000),
-        (100000001, 200000002, -300000003), (0, 1, 0),
-        "100000001.0000000 200000002.5000000 -300000003.0000000\n100000000.1250000 200000000.0000000 "
-        "-300000001.0000000\n100000002.0000000 200000001.0000000 -300000000.5000000\n\n",
-        "N1 V2", needs="exactness")
+    yield case("eye-far-from-the-origin", why, (100000000, 200000000, -300000000),
+               (100000001, 200000002, -300000003), (0, 1, 0),
+               "100000001.0000000 200000002.5000000 -300000003.0000000\n100000000.1250000 200000000.0000000 "
+               "-300000001.0000000\n100000002.0000000 200000001.0000000 -300000000.5000000\n\n", "N1 V2",
+               needs="exactness")
     yield case("up-nearly-parallel", why, (0, 0, 0), (1, 1, 1), (1, 1, 1.0000000001), POINTS, "N1 V2",
                needs="exactness")
     yield case("point-looked-at-very-near", why, (0, 0, 0), (1e-200, 2e-200, -2e-200), (0, 1e200, 0), POINTS,
@@ -192,11 +191,11 @@ def extensions():
     colored = "0 0 0 255 0 0\n1 0 0 0 128.5 0\n0 1 0 0 0 0.25\n"
     normals = "0 0 0 0 0 1\n1 0 0 0 1 0\n0 1 0 0.6 0 0.8\n"
     for name, why, points, rest in (
-            ("colors", "Colors are passed on.", colored, "attributes color\n"),
-            ("normals", "Normals turn with the camera, and do not move.", normals, "attributes normal\n"),
-            ("normals-of-any-length", "Normals become unit vectors, and a normal of 0 stays one.",
-                normals.replace("0 1 0\n", "0 7 0\n").replace("0.6 0 0.8", "0 0 0"), "attributes normal\n"),
-            ("background", "The background is passed on.", POINTS, "background 1 2.5 3\n")):
+        ("colors", "Colors are passed on.", colored, "attributes color\n"),
+        ("normals", "Normals turn with the camera, and do not move.", normals, "attributes normal\n"),
+        ("normals-of-any-length", "Normals become unit vectors, and a normal of 0 stays one.",
+         normals.replace("0 1 0\n", "0 7 0\n").replace("0.6 0 0.8", "0 0 0"), "attributes normal\n"),
+        ("background", "The background is passed on.", POINTS, "background 1 2.5 3\n")):
         yield case(name, why, eye, look, up, points, "V2 T6 T9", PERSPECTIVE + rest, needs="colors")
     yield case("background-with-alpha", "Its alpha, too.", eye, look, up, POINTS, "T6a",
                PERSPECTIVE + "background 1 2.5 3 0.25\n", needs="alpha")
@@ -206,8 +205,7 @@ def extensions():
         ("light", "A light moves as points do.", "light 1 2 3 1 0.5 0\n"),
         ("lights", "Lights keep their order; ambient, material and attenuation stay as they are.",
          "light 5 0 0 1 1 1\nlight 0 5 0 2 2 2\nambient 0.1 0.2 0.3\nmaterial 1 0.5 0.25 16\nattenuation 1 "
-         "0.5 0.25\n"
-         )):
+         "0.5 0.25\n")):
         yield case(name, why, eye, look, up, POINTS, "V2 T6 T17", PERSPECTIVE + rest, needs="lights")
     yield case("glass", "What a material does to rays is passed on.", eye, look, up, POINTS, "T6 T17",
         PERSPECTIVE + "material 1 0.5 0.25 16 0.125 1.5 0.25\nabsorption 0.5 0 2\n", needs="optics")

@@ -92,16 +92,9 @@ def sizes_and_windows():
 def window_borders():
     why = "What lies outside the window is clipped, and nothing else."
     inside = [(0.21, 0.13), (-0.27, 0.39), (0.11, -0.47)]
-    for name, far in {
-        "left": (-2.7, 0.11),
-        "right": (2.7, 0.11),
-        "top": (0.11, 2.7),
-        "bottom": (0.11, -2.7),
-        "top-left": (-2.3, 1.9),
-        "top-right": (2.3, 1.9),
-        "bottom-left": (-2.3, -1.9),
-        "bottom-right": (2.3, -1.9),
-    }.items():
+    for name, far in {"left": (-2.7, 0.11), "right": (2.7, 0.11), "top": (0.11, 2.7), "bottom": (0.11, -2.7),
+                      "top-left": (-2.3, 1.9), "top-right": (2.3, 1.9), "bottom-left": (-2.3, -1.9),
+                      "bottom-right": (2.3, -1.9)}.items():
         yield case(f"across-{name}", why, "Z3", flat([*inside[:2], far]))
         yield case(f"far-across-{name}", why, "Z3", flat([inside[0],
             *((1000 * x + a, 1000 * y + b) for (x, y), (a, b) in ((far, (0, 300)), (far, (0.7, -300))))]))
@@ -159,9 +152,8 @@ def shared_edges():
     }
     for (name, (p, q)), order in itertools.product(ends.items(), (1, -1)):
         middle, across = ((p[0] + q[0]) / 2, (p[1] + q[1]) / 2), (0.41 * (q[1] - p[1]), 0.43 * (p[0] - q[0]))
-        sides = [
-            pixels([p, q, (middle[0] + s * across[0], middle[1] + s * across[1])], z=0.25 * s)
-            for s in (1, -1)]
+        sides = [pixels([p, q, (middle[0] + s * across[0], middle[1] + s * across[1])], z=0.25 * s)
+                 for s in (1, -1)]
         yield case(f"shared-edge-{name}-{'near-first' if order < 0 else 'far-first'}", why, "Z2 Z5 Z8",
                    "".join(sides[::order]))
     for count, name in ((4, "four"), (5, "five"), (8, "eight")):
@@ -169,17 +161,12 @@ def shared_edges():
                for x, y in ((1, 0), (0.7, 0.71), (0.02, 1), (-0.69, 0.73), (-1, 0.03), (-0.72, -0.7),
                             (0.01, -1), (0.71, -0.68))]
         rim = rim[::8 // count] if count != 5 else rim[:5]
-        yield case(
-            f"fan-of-{name}", "Triangles around one vertex share it and an edge each.", "Z5 Z8", "".join(
-                pixels([(4.1, 4.2), rim[i], rim[(i + 1) % len(rim)]], z=0.1 * i - 0.4)
-                for i in range(len(rim))))
-    yield case(
-        "strip", "A strip of triangles, each at a depth of its own.", "Z5 Z8", "".join(
-            pixels([(0.7 + 1.1 * i,
-                     (1.2, 6.3)[i % 2]), (1.8 + 1.1 * i,
-                                          (6.3, 1.2)[i % 2]), (2.9 + 1.1 * i,
-                                                               (1.2, 6.3)[i % 2])], z=0.3 - 0.1 * i)
-            for i in range(5)))
+        yield case(f"fan-of-{name}", "Triangles around one vertex share it and an edge each.", "Z5 Z8",
+                   "".join(pixels([(4.1, 4.2), rim[i], rim[(i + 1) % len(rim)]], z=0.1 * i - 0.4)
+                           for i in range(len(rim))))
+    yield case("strip", "A strip of triangles, each at a depth of its own.", "Z5 Z8",
+               "".join(pixels([(0.7 + 1.1 * i, (1.2, 6.3)[i % 2]), (1.8 + 1.1 * i, (6.3, 1.2)[i % 2]),
+                               (2.9 + 1.1 * i, (1.2, 6.3)[i % 2])], z=0.3 - 0.1 * i) for i in range(5)))
 
 
 def edges_in_fours():
@@ -187,14 +174,11 @@ def edges_in_fours():
     row of centers."""
     for name, edge, tip in (("top", 1.5, 3.2), ("bottom", 3.5, 0.8)):
         cells = [(4 * j, 4 * i, edge if i == j else edge - 0.6, edge if i == j else edge - 0.3)
-                 for i in range(4)
-                 for j in range(4)]
-        yield case(
-            f"edges-on-rows-in-fours-{name}",
-            "A horizontal edge on a row of centers is one wherever its triangle stands among others.",
-            "Z2 Z5", "".join(
-                pixels([(x + 0.6, y + left), (x + 3.3, y + right), (x + 1.2, y + tip)], 16, 0.1)
-                for x, y, left, right in cells), config(16, 16))
+                 for i in range(4) for j in range(4)]
+        yield case(f"edges-on-rows-in-fours-{name}",
+                   "A horizontal edge on a row of centers is one wherever its triangle stands among others.",
+                   "Z2 Z5", "".join(pixels([(x + 0.6, y + left), (x + 3.3, y + right), (x + 1.2, y + tip)],
+                                           16, 0.1) for x, y, left, right in cells), config(16, 16))
 
 
 def corners_on_centers():
@@ -257,10 +241,9 @@ def slivers():
         yield case(f"sliver-{name}",
                    "A triangle thinner than a pixel has the pixels of the rule, and no more.", "Z2 Z3 Z5",
                    pixels(corners))
-    yield case(
-        "sliver-fan", "Thin triangles side by side, each at a depth of its own.", "Z5 Z8", "".join(
-            pixels([(0.3, 0.4), (7.7, 0.6 + 1.3 * i), (7.7, 1.9 + 1.3 * i)], z=0.4 - 0.1 * i)
-            for i in range(5)))
+    yield case("sliver-fan", "Thin triangles side by side, each at a depth of its own.", "Z5 Z8",
+               "".join(pixels([(0.3, 0.4), (7.7, 0.6 + 1.3 * i), (7.7, 1.9 + 1.3 * i)], z=0.4 - 0.1 * i)
+                       for i in range(5)))
 
 
 def depths():
@@ -316,20 +299,16 @@ def hidden_surfaces():
         yield case(f"crossing-{name}", "Triangles that cross are each seen where they are nearer.", "Z8",
                    "".join(chosen))
     small = [(-0.33, -0.41), (0.29, -0.23), (0.07, 0.37)]
-    for name, text in {
-            "small-before-large": flat(back, 0.5) + flat(small, 0.1),
-            "large-before-small": flat(small, 0.5) + flat(back, 0.1),
-            "small-hidden-at-last": flat(back, 0.1) + flat(small, 0.5)}.items():
+    for name, text in {"small-before-large": flat(back, 0.5) + flat(small, 0.1),
+                       "large-before-small": flat(small, 0.5) + flat(back, 0.1),
+                       "small-hidden-at-last": flat(back, 0.1) + flat(small, 0.5)}.items():
         yield case(f"hidden-{name}", "A triangle may hide another whole, or a part of it.", "Z8", text)
-    yield case(
-        "seven-side-by-side", "Each triangle has a color of its own.", "Z8", "".join(
-            pixels([(1.1 * i + 0.2, 0.3), (1.1 * i + 1.2, 3.4), (1.1 * i + 0.1, 7.6)], z=0.1 * i - 0.3)
-            for i in range(7)))
-    yield case(
-        "five-in-a-pile", "Each triangle is seen where it is not hidden.", "Z8", "".join(
-            pixels([(0.7 + i / 2, 0.3 + 0.6 * i), (6.3 + 0.3 * i,
-                                                   1.2 + 0.7 * i), (1.7, 6.1 + 0.3 * i)], z=0.4 - 0.2 * i)
-            for i in range(5)))
+    yield case("seven-side-by-side", "Each triangle has a color of its own.", "Z8",
+               "".join(pixels([(1.1 * i + 0.2, 0.3), (1.1 * i + 1.2, 3.4), (1.1 * i + 0.1, 7.6)],
+                              z=0.1 * i - 0.3) for i in range(7)))
+    yield case("five-in-a-pile", "Each triangle is seen where it is not hidden.", "Z8",
+               "".join(pixels([(0.7 + i / 2, 0.3 + 0.6 * i), (6.3 + 0.3 * i, 1.2 + 0.7 * i),
+                               (1.7, 6.1 + 0.3 * i)], z=0.4 - 0.2 * i) for i in range(5)))
     near_miss = {"by-a-thousandth": 0.001, "by-a-hundred-thousandth": 0.00001}
     for name, gap in near_miss.items():
         for which, zs in (("first", (0.5, 0.5 + gap)), ("last", (0.5 + gap, 0.5))):
@@ -338,10 +317,8 @@ def hidden_surfaces():
     rng, spread = random.Random(5), [triangle((-1.9, -1.3, -0.51), (1.9, -1.3, 0.13), (0.1, 3.1, 0.32))]
     for _ in range(16):
         x, y, z = rng.uniform(-1, 0.6), rng.uniform(-1, 0.5), rng.uniform(-0.6, 0.5)
-        spread.append(
-            triangle((x, y, z),
-                     (x + rng.uniform(0.1, 1.4), y + rng.uniform(-0.2, 0.2), z + rng.uniform(-0.2, 0.2)),
-                     (x + 0.3, y + 0.5, z)))
+        spread.append(triangle((x, y, z), (x + rng.uniform(0.1, 1.4), y + rng.uniform(-0.2, 0.2),
+                                           z + rng.uniform(-0.2, 0.2)), (x + 0.3, y + 0.5, z)))
     for name, chosen in {"from-near-to-far": spread, "from-far-to-near": spread[::-1]}.items():
         yield case(f"wide-{name}", "In long rows, too, parts of triangles are hidden.", "Z8", "".join(chosen),
                    config(100, 12))
@@ -424,9 +401,8 @@ def tilings():
 
 
 def tiling(name, why, triangles, size, **others):
-    text = "".join(
-        pixels(corners, size, z=0.8 - 1.6 * (7 * i % len(triangles)) / len(triangles))
-        for i, corners in enumerate(triangles))
+    text = "".join(pixels(corners, size, z=0.8 - 1.6 * (7 * i % len(triangles)) / len(triangles))
+                   for i, corners in enumerate(triangles))
     return case(f"tiling-{name}", why, "Z5 Z8", text, config(size, size), **others)
 
 

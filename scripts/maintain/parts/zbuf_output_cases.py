@@ -4,8 +4,7 @@ from parts.zbuf_cases import TIE, case, config, flat, pixels, triangle
 
 def text_and_file():
     corners = [(-0.83, -0.77), (0.87, -0.31), (-0.13, 0.91)]
-    for name, z in {
-            "down": 0.0078125, "up": 0.0234375, "negative": -0.0078125, "carry": 0.9999996}.items():
+    for name, z in {"down": 0.0078125, "up": 0.0234375, "negative": -0.0078125, "carry": 0.9999996}.items():
         yield case(f"depth-ties-{name}", "Depths have 6 decimals; a tie is rounded to the even digit.",
                    "T23 T19", flat(corners, z), tier="bytes")
     yield case("depth-ties-just-above", "Just above a tie is no tie.", "T23 T19",
@@ -65,14 +64,11 @@ def left_open_by_the_assignment():
         "three": pixels(a) + pixels(b) + pixels([(0.4, 0.3), (7.5, 3.1), (0.6, 7.4)]),
     }.items():
         yield case(f"equal-depths-{name}", "Of equal depths the first stays.", "Z8", text, open=equal)
-    for name, corners in {
-        "horizontal": [(1.2, 3.5), (6.7, 3.5), (2.3, 3.5)],
-        "vertical": [(3.3, 1.2), (3.3, 6.7), (3.3, 2.3)],
-        "diagonal": [(1, 1), (6, 6), (3, 3)],
-        "point": [(3.5, 3.5)] * 3,
-        "two-corners-alike": [(1.2, 1.3), (6.7, 5.1), (6.7, 5.1)],
-        "point-beside-a-center": [(3.2, 3.1)] * 3,
-    }.items():
+    for name, corners in {"horizontal": [(1.2, 3.5), (6.7, 3.5), (2.3, 3.5)],
+                          "vertical": [(3.3, 1.2), (3.3, 6.7), (3.3, 2.3)],
+                          "diagonal": [(1, 1), (6, 6), (3, 3)], "point": [(3.5, 3.5)] * 3,
+                          "two-corners-alike": [(1.2, 1.3), (6.7, 5.1), (6.7, 5.1)],
+                          "point-beside-a-center": [(3.2, 3.1)] * 3}.items():
         yield case(
             f"without-area-{name}",
             "A triangle without area has no pixel under `center`; under `nearest` each row has those from "
@@ -128,10 +124,8 @@ def extensions():
          "attributes color\n" + (usual + two.replace("\n", " 9 8 7\n", 3)).replace("\n", " 1 2 3\n", 3))):
         yield case(f"colored-{name}", why, paragraphs, text,
                    needs="colors alpha" if "opaque" in name else "colors")
-    lit = (
-        "projected frustum -1 1 -1 1 1 9\n{}light 2 3 1 1 0.9 0.8\nambient 0.12 0.13 0.14\nmaterial 1 "
-        "0.8 0.5 8\n",
-        "-0.83 -0.77 0.1", "0.87 -0.31 0.5", "-0.13 0.91 0.9")
+    lit = ("projected frustum -1 1 -1 1 1 9\n{}light 2 3 1 1 0.9 0.8\nambient 0.12 0.13 0.14\nmaterial 1 "
+           "0.8 0.5 8\n", "-0.83 -0.77 0.1", "0.87 -0.31 0.5", "-0.13 0.91 0.9")
     for shading in ("none", "flat", "gouraud", "phong"):
         text = lit[0].format("attributes w color normal\n") + "".join(f"{p} {rest}\n" for p,
             rest in zip(lit[1:], ("2 250 40 30 0 0 1", "3 40 200 60 0.6 0 0.8", "5 30 60 220 0 0.6 0.8")))

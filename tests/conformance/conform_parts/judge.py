@@ -97,9 +97,8 @@ def same_shortest(expected, found):
     has_w, clipped = False, 0
     for at, (want, got) in enumerate(zip(*texts), 1):
         has_w |= want[:2] == ["attributes", "w"]
-        is_vertex, clipped = bool(NUMBER.fullmatch(want[0])), 4 if want == ["clipped"] else max(0,
-                                                                                                clipped - 1)
-        columns = slice(0, 4) if clipped else slice(3, 4) if has_w and is_vertex else slice(0)
+        clipped = 4 if want == ["clipped"] else max(0, clipped - 1)
+        columns = slice(0, 4) if clipped else slice(3, 4) if has_w and NUMBER.fullmatch(want[0]) else slice(0)
         if want[columns] != got[columns]:
             field = "a line of `clipped`" if clipped else "w"
             return Difference(f"line {at}, blank ones not counted: {field} is not in the shortest form (T20)",
@@ -117,9 +116,8 @@ def read_bmp(data):
         raise NoPicture("not a BMP file")
     start, _, width, height, _, depth, compression = struct.unpack_from("<2I2i2HI", data, 10)
     size, stride = depth // 8, (width * depth // 8 + 3) // 4 * 4
-    if depth not in (24,
-                     32) or compression not in (0,
-                                                3) or width <= 0 or len(data) < start + stride * abs(height):
+    is_known = depth in (24, 32) and compression in (0, 3)
+    if not is_known or width <= 0 or len(data) < start + stride * abs(height):
         raise NoPicture("not a BMP file of 24 or 32 bits a pixel, or cut short")
     rows = [[tuple(data[at + size * column:at + size * column + 3][::-1]) for column in range(width)]
             for at in range(start, start + stride * abs(height), stride)]

@@ -37,10 +37,8 @@ def paragraph_line(case):
 
 def difference_lines(difference):
     lines = [f"#   {difference.message}"]
-    for name, text in (("expected", difference.expected), ("found", difference.found)):
-        rows = text.split("\n")
-        lines += [f"#   {name + ':':9} {rows[0]}", *("#             " + row
-                                                     for row in rows[1:])] if text else []
+    for name, text in (("expected:", difference.expected), ("found:   ", difference.found)):
+        lines += f"#   {name} {text}".replace("\n", "\n#" + 13 * " ").split("\n") if text else []
     return lines
 
 
@@ -200,28 +198,23 @@ def as_json(results, terms, mistakes):
         "cases": [entry(result) for result in results]}, indent=1) + "\n"
 
 
-def as_junit(results):
+def as_junit(results, stage):
     """The form of JUnit's reports that test runners read."""
     def legal(text):  # XML 1.0 has no other characters
         return re.sub("[^\t\n\r -\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]", "?", text)
 
-    lines, stages = ['<?xml version="1.0" encoding="UTF-8"?>', "<testsuites>"], {}
+    wrong, skipped = count(results, "wrong"), count(results, "open") + count(results, "left out")
+    lines = ['<?xml version="1.0" encoding="UTF-8"?>', "<testsuites>",
+             f'<testsuite name="{stage}" tests="{len(results)}" failures="{wrong}" errors="0" '
+             f'skipped="{skipped}">']
     for result in results:
-        stages.setdefault(result.case.stage, []).append(result)
-    for stage, members in stages.items():
-        skipped = sum(result.state in ("open", "left out") for result in members)
-        lines.append(f'<testsuite name="{stage}" tests="{len(members)}" failures="{count(members, "wrong")}" '
-                     f'errors="0" skipped="{skipped}">')
-        for result in members:
-            case, end = result.case, ""
-            if result.state == "wrong":
-                difference = result.difference
-                text = "\n".join([f"{case.why} ({', '.join(case.words('paragraphs'))})",
-                                  *(line[4:] for line in difference_lines(difference))])
-                message = quoteattr(legal(difference.message))
-                end = f"<failure message={message}>{escape(legal(text))}</failure>"
-            elif result.state != "right":
-                end = f"<skipped message={quoteattr(legal(result.reason))}/>"
-            lines.append(f'<testcase classname="{stage}" name="{case.short_name}">{end}</testcase>')
-        lines.append("</testsuite>")
-    return "\n".join([*lines, "</testsuites>", ""])
+        case, end = result.case, ""
+        if result.state == "wrong":
+            text = "\n".join([f"{case.why} ({', '.join(case.words('paragraphs'))})",
+                              *(line[4:] for line in difference_lines(result.difference))])
+            end = (f"<failure message={quoteattr(legal(result.difference.message))}>{escape(legal(text))}"
+                   "</failure>")
+        elif result.state != "right":
+            end = f"<skipped message={quoteattr(legal(result.reason))}/>"
+        lines.append(f'<testcase classname="{stage}" name="{case.short_name}">{end}</testcase>')
+    return "\n".join([*lines, "</testsuite>", "</testsuites>", ""])

@@ -56,10 +56,8 @@ def missing_need(case, command):
 
 def fit_for_print(text):
     """A part of a program's output, in printable characters, and not too long."""
-    rows = ["".join(c if c.isprintable() else "?"
-                    for c in row[:LONGEST_ROW]) + "..." * (len(row) > LONGEST_ROW)
-            for row in text.split("\n")]
-    return "\n".join(rows)
+    rows = [row[:LONGEST_ROW] + "..." * (len(row) > LONGEST_ROW) for row in text.split("\n")]
+    return "\n".join("".join(c if c.isprintable() else "?" for c in row) for row in rows)
 
 
 def given_text(case, terms):
