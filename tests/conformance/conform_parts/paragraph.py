@@ -15,7 +15,7 @@ MOST_LABELS, MOST_LINES = 6, 45  # of a function that is shown; one that carries
 
 def place(in_source, installed):
     """A file or folder of the source tree, or of a prefix; None where the pack stands alone."""
-    paths = ROOT.parents[1] / in_source, ROOT.parent / installed
+    paths = ROOT.parent.parent / in_source, ROOT.parent / installed
     return next((path for path in paths if path.exists()), None)
 
 
@@ -104,14 +104,14 @@ def reference_lines(label, order):
 
 def shown(path):
     """A path of the source tree without that of its top."""
-    top = ROOT.parents[1]
+    top = ROOT.parent.parent
     return path.relative_to(top) if path.is_relative_to(top / "tests") else path
 
 
 @functools.cache
 def marks():
     """(labels, path, line, the code below) of the marks in the tools' sources; none in a prefix."""
-    top = ROOT.parents[1]
+    top = ROOT.parent.parent
     return [(mark[1].split(", "), f"{path.relative_to(top)}:{number}", mark[2])
             for room in ("libpipeline", "tools") for path in sorted((top / room).rglob("*.[ch]*"))
             for text in [path.read_text("utf-8")]
