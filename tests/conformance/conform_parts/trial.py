@@ -169,7 +169,7 @@ def judge_refusal(case, terms, ending, complaint):
         return Difference("the message does not name the line", expected,
                           complaint.strip().partition("\n")[0])
     *_, last, end = ["", *ending.stdout.decode("latin-1").split("\n")]
-    writes_text = case.stage != "zbuf" and b"\nerror " not in b"\n" + case.read("input.txt")  # T12: need not
+    writes_text = case.stage != "zbuf" and b"\nerror " not in b"\n" + case.read("input.txt")  # F10
     if terms.tier != "digits" and writes_text and (end or not re.match("error [^ :]+: .", last)):
         return Difference("the output does not end with a line `error TOOL: MESSAGE` (T12)",
                           "error TOOL: MESSAGE", end or last)
