@@ -89,9 +89,9 @@ def runs_anywhere(data):
 
 def judged(hand_in, most_seconds=120, most_mebibytes=2048):
     """In a kit: the Graded of a hand-in, the tests, and the level of the hints."""
-    folder = SOURCE / "assignment"
-    tests, settings = read_tests(folder)
-    hidden = (str(SOURCE), str(Tools().folder))
+    os.environ["BIN"] = str(SOURCE / "build/release/bin")  # whatever else is set
+    tests, settings = read_tests(SOURCE / "assignment")
+    hidden = str(SOURCE),
     if settings.program:
         expect_protection(hidden)
     one = HandIn(hand_in, "hand-in", 1, "")

@@ -14,7 +14,7 @@ from lib.command import CommandFailure, shown
 WORDS = "Judges the student's checkout, the current folder, and writes result.json and release-body.md there."
 FROM_ENVIRONMENT = {"classroom": "CLASSROOM", "assignment": "ASSIGNMENT", "submission": "SUBMISSION_TAG",
                     "commit": "COMMIT_URL", "release": "RELEASE_URL"}
-MOST_PARTS = 10_000  # of a point: with more, points are rounded down
+MOST_PARTS = 10_000  # of a point: with more, points are rounded down, but all of a test are at least one
 RESULTS = ("result.json", "release-body.md")
 
 
@@ -38,15 +38,14 @@ def result(graded, tests, environment, now):
     """The object of result.json, classroom50/result/v1."""
     parts = parts_of_a_point(tests)
 
-    def whole(points):
-        return math.floor(points * parts + 1e-6)
+    def whole(points, test):
+        return math.floor(points * parts + 1e-6) or int(points > 0 and points == test.max_score)
 
-    scores = {test.name: test for test in graded.tests}
+    scores = {test.name: (test.score, words_of(test)) for test in graded.tests}
     rows = [{
-        "test-name": shown(test.name), "passed": whole(score) == whole(test.max_score), "score": whole(score),
-        "max-score": whole(test.max_score), "output": words} for test in tests for score, words in [
-            (scores[test.name].score, words_of(scores[test.name])) if test.name in scores else
-            (0.0, graded.failure)]]
+        "test-name": shown(test.name), "passed": whole(score, test) == whole(test.max_score, test),
+        "score": whole(score, test), "max-score": whole(test.max_score, test), "output": words}
+        for test in tests for score, words in [scores.get(test.name, (0.0, graded.failure))]]
     missing = [name for name in FROM_ENVIRONMENT.values() if not environment.get(name)]
     if missing:
         raise CommandFailure(f"expected {', '.join(missing)} in the environment, as Classroom 50 sets them")

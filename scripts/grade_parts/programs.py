@@ -20,6 +20,8 @@ from lib.pipe_tools import Tools
 NOBODY = 65534
 AS_NOBODY = ("setpriv", f"--reuid={NOBODY}", f"--regid={NOBODY}", "--clear-groups", "--no-new-privs",
              "--bounding-set=-all", "--inh-caps=-all", "--pdeathsig=KILL", "--")
+LEFT = ("find", "/tmp", "/var/tmp", "/dev/shm", "-mindepth", "1", "-maxdepth", "1", "-user", str(NOBODY))
+REMOVE = ("-exec", "sh", "-c", 'chmod -R u+rwx -- "$@"; rm -rf -- "$@"', "sh", "{}", "+")
 MOST_BYTES, MOST_FILES = 64 << 20, 500  # of a hand-in that is built
 MOST_LINES = 10                         # of a compiler's messages, as shown
 MEMORY, PROCESSES = 1024, 64
@@ -115,6 +117,12 @@ class Built:
         finally:
             if before:
                 give(self.folder, 0)
+                self.remove_what_is_left()
+
+    def remove_what_is_left(self):
+        """Removes what it has made, as nobody, in folders that all may write to, since a file was last made
+        in top."""
+        succeeds([*AS_NOBODY, *LEFT, "-cnewer", str(self.top), *REMOVE])
 
     def command(self):
         """The words that run it, with the paths of its own files."""
@@ -145,8 +153,12 @@ class Built:
             if self.before:
                 top.chmod(0o711)
                 os.chown(work, NOBODY, NOBODY)
-            output, _ = run_program(options, test.reference.scene_data, test.reference.config or b"1 1\n",
-                                    given, top, limit)
+            try:
+                output, _ = run_program(options, test.reference.scene_data, test.reference.config or b"1 1\n",
+                                        given, top, limit)
+            finally:
+                if self.before:
+                    self.remove_what_is_left()
             return hand_in(self.program.stage, output, before, work)
 
 

@@ -11,47 +11,40 @@ import pathlib
 import shutil
 import subprocess
 import sys
-import time
 import unittest
 import zipfile
+from datetime import datetime
+from types import SimpleNamespace
+from unittest import mock
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "tools"))
 from toolbox import BIN, SOURCE, ToolTest  # noqa: E402
 
+sys.path.insert(0, str(SOURCE / "scripts"))
+from grade_parts import kit_classroom50  # noqa: E402
+
 FORMS = json.loads((pathlib.Path(__file__).parent / "kit_forms.json").read_text())
 KINDS = ("gradescope", "classroom50", "plain")
 SAMPLES = ("worked-example", "nested-transforms")
-FILES = ("stage1.txt", "stage2.txt", "stage3.txt", "z_buffer.txt", "out.bmp")
 SECRET = "77.25 eye of the teacher"
 TYPES = {"number": (int, float), "whole": int, "string": str, "boolean": bool, "list": list, "object": dict}
 ENVIRONMENT = {
     "CLASSROOM": "c", "ASSIGNMENT": "a", "SUBMISSION_TAG": "submit/1", "COMMIT_URL": "https://h/c",
-    "RELEASE_URL": "https://h/r"}
+    "RELEASE_URL": "https://h/r", "BIN": "/secret"}
 RUN = {
     "gradescope": ["/autograder/run_autograder"],
     "classroom50": ["/usr/bin/python3", "/autograder/source/autograder.py"],
     "plain": ["/autograder/source/judge", "/autograder/submission", "/autograder/results"]}
-# A view stage that is right: ours, whose source is in no hand-in, as a program that reads what it needs.
+# A view stage, right for cameras that look down -z: ours, whose source is in no hand-in, as a program.
 VIEW = '''import sys
-def sub(a, b): return [x - y for x, y in zip(a, b)]
-def dot(a, b): return sum(x * y for x, y in zip(a, b))
-def cross(a, b): return [a[1]*b[2]-a[2]*b[1], a[2]*b[0]-a[0]*b[2], a[0]*b[1]-a[1]*b[0]]
-def unit(a): return [x / dot(a, a) ** .5 for x in a]
-of = {}
 for line in sys.stdin:
     words = line.split()
-    if words and words[0] in ("eye", "look", "up"):
-        of[words[0]] = list(map(float, words[1:]))
-    elif words and words[0][0] in "-0123456789":
-        l = unit(sub(of["look"], of["eye"])); r = unit(cross(l, of["up"])); u = cross(r, l)
-        p = sub(list(map(float, words)), of["eye"])
-        print(*("%.7f" % x for x in (dot(r, p), dot(u, p), SIGN dot(l, p))))
-    else:
-        print(line, end="")
+    if line.startswith("eye"): eye = words[1:]
+    elif line[0] in "-0123456789": print(*("%.7f" % (float(x) - float(e)) for x, e in zip(words, eye)))
+    elif not line.startswith(("look", "up")): print(line, end="")
 '''
-# What a program tries: to read the test and what else is there, to write what counts, to go on for ever, to
-# start more, to fill the disk.
-HOSTILE = '''import glob, os, sys
+# What a program tries: to read what is there, and to write what counts; then one of ENDINGS.
+HOSTILE = '''import glob, os, sys, time
 for path in glob.glob("/autograder/**", recursive=True) + glob.glob("/secret/*"):
     for mode in ("a", "r"):
         try:
@@ -65,9 +58,13 @@ for name in ("/autograder/results/results.json", "result.json", "../result.json"
         os.symlink("/secret/teacher.txt", name)
     except OSError: pass
 print('{"score": 1000, "tests": []}')
-KIND
 '''
-# One that is right unless it can read a test, or a secret of root's, or write a result.
+ENDINGS = {
+    "hangs with a daemon":
+    "if not os.fork():\n    os.setsid()\n    if not os.fork(): time.sleep(40)\nwhile True: pass\n",
+    "forks": "while True: os.fork()\n",
+    "fills": "for i in range(1000): open(f'f{i}', 'wb').write(bytes(1 << 24))\n"}
+# Put before one that is right: fails if it can read a test, a result, a secret, or what an earlier run left.
 CURIOUS = '''import glob, os
 for path in glob.glob("/autograder/source/**", recursive=True) + glob.glob("/autograder/results/*"):
     assert not os.path.isfile(path) or not os.access(path, os.R_OK), path
@@ -75,14 +72,9 @@ for path in ("/autograder/source/pipeline/assignment", "/secret/teacher.txt"):
     try: os.listdir(path) if os.path.isdir(path) else open(path).read()
     except OSError: continue
     raise SystemExit(3)
+os.makedirs("/tmp/left/closed")  # what an earlier run has left makes it fail
+os.chmod("/tmp/left", 0)
 '''
-ENDINGS = {
-    "hangs": "while True: pass",
-    "forks": "while True: os.fork()",
-    "fills": "for i in range(1000): open(f'f{i}', 'wb').write(bytes(1 << 24))",
-    "daemon":
-    "if not os.fork():\n    os.setsid()\n    if not os.fork():\n        import time; time.sleep(40)\n",
-}
 
 
 # A root that holds the system's programs, /autograder and /secret alone; $1 is the folder of both, $2 a
@@ -116,6 +108,12 @@ def missing():
     return done.stderr.strip()
 
 
+def parts(result):
+    """{test: part of its points} of a result."""
+    return {test.get("name", test.get("test-name")):
+            round(test["score"] / test.get("max_score", test.get("max-score")), 4) for test in result["tests"]}
+
+
 class KitTest(ToolTest):
     def setUp(self):
         super().setUp()
@@ -138,47 +136,47 @@ class KitTest(ToolTest):
         """The top of an unpacked kit, as its system lays it out."""
         self.grade("--kit", kind, "tests", "-o", f"{kind}.zip")
         top = pathlib.Path(kind).resolve()
-        for name in ("source", "submission", "results"):
-            (top / name).mkdir(parents=True)
         with zipfile.ZipFile(f"{kind}.zip") as archive:
             for info in archive.infolist():
                 os.chmod(archive.extract(info, top / "source"), info.external_attr >> 16)
         if kind == "gradescope":
             shutil.copy2(top / "source/run_autograder", top)
-        for folder, _, files in os.walk(top / "source"):  # as setup.sh does, and CONTRACT.md tells
-            for name in (".", *files):
-                path = pathlib.Path(folder, name)
-                path.chmod(path.stat().st_mode & 0o700)
+        # As setup.sh does, and CONTRACT.md tells.
+        subprocess.run(["chmod", "-R", "go=", top / "source"], check=True)
         return top
 
     def run_kit(self, kind, top, hand_in, can_sandbox=True):
-        """What a kit makes of a hand-in: its result as an object."""
-        shutil.rmtree(top / "submission")
+        """The parts of its points that a kit gives a hand-in, by test."""
+        for name in ("submission", "results"):
+            shutil.rmtree(top / name, ignore_errors=True)
         shutil.copytree(hand_in, top / "submission", symlinks=True)
-        shutil.rmtree(top / "results")
-        (top / "results").mkdir(mode=0o777)
+        (top / "results").mkdir()
         (top / "results").chmod(0o777)
         folder = "/autograder/submission" if kind == "classroom50" else "/autograder"
         variables = [f"{name}={value}" for name, value in ENVIRONMENT.items()]
         words = entered(top, folder, *variables, *RUN[kind], without="" if can_sandbox else "usr/bin/bwrap")
         done = subprocess.run(words, timeout=250, capture_output=True, text=True)
         self.assertEqual((done.returncode, done.stderr), (0, ""), hand_in)
-        result = top / {"classroom50": "submission/result.json"}.get(kind, "results/results.json")
-        self.assertFalse(result.is_symlink())
-        return json.loads(result.read_text())
+        path = top / {"classroom50": "submission/result.json"}.get(kind, "results/results.json")
+        self.assertFalse(path.is_symlink())
+        result = json.loads(path.read_text())
+        self.expect_form(kind, result)
+        self.assertNotIn(SECRET, path.read_text())
+        self.assertEqual(pathlib.Path("secret/teacher.txt").read_text(), SECRET)
+        return parts(result)
 
-    def points(self, result):
-        """{test: part of its points} of a result."""
-        return {test.get("name", test.get("test-name")):
-                test["score"] / test.get("max_score", test.get("max-score"))
-                for test in result["tests"]}
-
-    def graded(self):
-        """The same of all hand-ins, by grade."""
+    def expect_points_of_grade(self, expected):
+        """`expected`: for each hand-in, the parts of their points that it has in SAMPLES."""
         self.grade("hand-ins", "tests", "-o", "graded")
         with open("graded/grades.csv", newline="") as file:
-            return {row["hand-in"]: {name: float(row[name]) / (float(row["max_score"]) / len(SAMPLES))
-                                     for name in SAMPLES} for row in csv.DictReader(file)}
+            numbers = {row["hand-in"]: row["number"] for row in csv.DictReader(file)}
+        for name, points in expected.items():
+            [path] = pathlib.Path("graded").glob(f"{numbers[name]}-*/results.json")
+            self.assertEqual(parts(json.loads(path.read_text())), points, name)
+        for kind in KINDS:
+            top = self.make(kind)
+            for name, points in expected.items():
+                self.assertEqual(self.run_kit(kind, top, f"hand-ins/{name}"), points, f"{kind} {name}")
 
     def expect_form(self, kind, result):
         form = FORMS["gradescope" if kind == "plain" else kind]
@@ -197,14 +195,15 @@ class KitTest(ToolTest):
 class Archives(KitTest):
     def test_the_same_kit_has_the_same_bytes(self):
         for kind in KINDS:
-            self.grade("--kit", kind, "tests", "-o", "a.zip")
-            time.sleep(1.1)
-            self.grade("--kit", kind, "tests", "-o", "b.zip")
+            for name in ("a.zip", "b.zip"):
+                self.grade("--kit", kind, "tests", "-o", name)
             self.assertEqual(pathlib.Path("a.zip").read_bytes(), pathlib.Path("b.zip").read_bytes())
-            names = zipfile.ZipFile("a.zip").namelist()
+            members = zipfile.ZipFile("a.zip").infolist()
+            self.assertEqual({member.date_time for member in members}, {(1980, 1, 1, 0, 0, 0)})
+            names = [member.filename for member in members]
             self.assertEqual(names, sorted(names))
-            for name in FORMS.get(kind, {"members": ["judge", "CONTRACT.md"]})["members"]:
-                self.assertIn(name, names)
+            expected = FORMS[kind]["members"] if kind in FORMS else ["judge", "CONTRACT.md"]
+            self.assertLessEqual(set(expected), set(names))
 
     def test_only_an_assignment_goes_in(self):
         pathlib.Path("tests/solution.txt").write_text(SECRET)
@@ -224,10 +223,21 @@ class Archives(KitTest):
             self.assertIn(message, self.grade(*words, status=2).stderr)
         self.assertFalse(os.path.exists("a.zip"))
 
+    def test_in_whole_points_a_test_of_little_weight_can_be_passed_and_failed(self):
+        for share, points, passed in ((1, 1, True), (0, 0, False)):
+            tests = [SimpleNamespace(name=name, max_score=most, score=most * share, kinds=(), words="", fixes=(),
+                                     by_teacher="") for name, most in (("much", 1.0), ("little", 1e-6))]
+            result = kit_classroom50.result(SimpleNamespace(tests=tests, failure=""), tests, ENVIRONMENT,
+                                            datetime.now())
+            self.assertEqual([(row["score"], row["max-score"], row["passed"]) for row in result["tests"]],
+                             [(points, 1, passed)] * 2)
+
 
 @unittest.skipIf(missing(), f"no bare root: {missing()}")
-class FiveFiles(KitTest):
-    def test_points_are_those_of_grade(self):
+class Judges(KitTest):
+    """Each in a bare root."""
+
+    def test_five_files_have_the_points_of_grade(self):
         pathlib.Path("tests/assignment.txt").write_text(
             "hints fix\npoints stage1.txt 1\npoints stage3.txt 2.5\npoints out.bmp 4\nanother-rule 0.5\n"
             "weight worked-example 2\n")
@@ -242,80 +252,47 @@ class FiveFiles(KitTest):
             path.symlink_to(f"/autograder/source/pipeline/assignment/{sample}/scene.txt")
         for name in ("result.json", "results.json"):
             pathlib.Path("hand-ins/hostile", name).symlink_to("/secret/teacher.txt")
-        with_csv = self.grade("hand-ins", "tests", "-o", "graded")
-        self.assertIn("3 hand-ins, 1 right", with_csv.stdout)
-        with open("graded/grades.csv", newline="") as file:
-            rows = {row["hand-in"]: row for row in csv.DictReader(file)}
-        most = {"worked-example": 15.0, "nested-transforms": 7.5}
-        expected = {name: {test: float(row[test]) / most[test] for test in SAMPLES}
-                    for name, row in rows.items()}
-        self.assertEqual(expected["right"], {name: 1.0 for name in SAMPLES})
-        self.assertEqual(float(rows["wrong"]["worked-example"]), 15.0 - 2 * 2.5 - 2 * 4 * (
-            "out.bmp" in rows["wrong"]["worked-example verdict"]))
-        self.assertEqual(expected["hostile"], {name: 6.5 / 7.5 for name in SAMPLES})
-        for kind in KINDS:
-            top = self.make(kind)
-            for name in rows:
-                result = self.run_kit(kind, top, f"hand-ins/{name}")
-                self.expect_form(kind, result)
-                for test, part in self.points(result).items():
-                    self.assertAlmostEqual(part, expected[name][test], 4, f"{kind} {name} {test}")
-            self.assertEqual(pathlib.Path("secret/teacher.txt").read_text(), SECRET)
+        self.expect_points_of_grade({
+            "right": dict.fromkeys(SAMPLES, 1.0), "hostile": dict.fromkeys(SAMPLES, round(6.5 / 7.5, 4)),
+            "wrong": {"worked-example": round(5 / 7.5, 4), "nested-transforms": 1.0}})
 
-
-@unittest.skipIf(missing(), f"no bare root: {missing()}")
-@unittest.skipUnless(shutil.which("bwrap") and shutil.which("setpriv"), "no bubblewrap or no setpriv")
-class Programs(KitTest):
-    def setUp(self):
-        super().setUp()
+    def expect_programs(self, **programs):
+        if not shutil.which("bwrap") or not shutil.which("setpriv"):
+            self.skipTest("no bubblewrap or no setpriv")
         pathlib.Path("tests/assignment.txt").write_text(
             "program view\nbuild cp view.in view.py && ! grep -q unbuildable view.py\nrun python3 view.py\n")
-        os.environ["PATH"] = f"/usr/bin:/bin:{os.environ['PATH']}:{BIN}"
-        self.add("right", VIEW.replace("SIGN", "-"))
-        self.add("wrong", VIEW.replace("SIGN", ""))
-        self.add("unbuilt", "unbuildable")
+        for name, text in programs.items():
+            os.mkdir(f"hand-ins/{name}")
+            pathlib.Path(f"hand-ins/{name}/view.in").write_text(text)
 
-    def add(self, name, text):
-        os.mkdir(f"hand-ins/{name}")
-        pathlib.Path(f"hand-ins/{name}/view.in").write_text(text)
-
-    def test_points_are_those_of_grade(self):
-        self.add("hangs", HOSTILE.replace("KIND", ENDINGS["hangs"]))
-        self.add("ours", "import os\nos.execvp('view', ['view'])\n")
-        expected = self.graded()
-        part = {"right": 1.0, "wrong": 0.0, "unbuilt": 0.0, "hangs": 0.0, "ours": 0.0}
-        self.assertEqual(expected, {name: dict.fromkeys(SAMPLES, points) for name, points in part.items()})
-        for kind in KINDS:
-            top = self.make(kind)
-            for name in part:
-                result = self.run_kit(kind, top, f"hand-ins/{name}")
-                self.expect_form(kind, result)
-                self.assertEqual(self.points(result), expected[name], f"{kind} {name}")
-                self.assertNotIn(SECRET, json.dumps(result))
-            self.assertEqual(pathlib.Path("secret/teacher.txt").read_text(), SECRET)
+    def test_programs_have_the_points_of_grade(self):
+        self.expect_programs(right=VIEW, wrong=VIEW.replace("- float", "+ float"), unbuilt="unbuildable",
+                             ours="import os\nos.execvp('view', ['view'])\n")
+        with mock.patch.dict(os.environ, PATH=f"/usr/bin:/bin:{os.environ['PATH']}:{BIN}"):
+            self.expect_points_of_grade({name: dict.fromkeys(SAMPLES, float(name == "right"))
+                                         for name in ("right", "wrong", "unbuilt", "ours")})
 
     def test_hostile_programs_get_nothing_and_leave_nothing(self):
         """With a sandbox, and as nobody."""
+        self.expect_programs(curious=CURIOUS + VIEW,
+                             **{name: HOSTILE + ending for name, ending in ENDINGS.items()})
+        both = self.make("gradescope").rename("both").resolve()
+        shutil.rmtree("tests/nested-transforms")
         top = self.make("gradescope")
 
         def files():
             return {path: path.read_bytes() for path in (top / "source").rglob("*") if path.is_file()}
 
         before = files()
-        for name, text in ENDINGS.items():
-            self.add(name, HOSTILE.replace("KIND", text))
-            for can_sandbox in (True, False):
+        for can_sandbox in (True, False):
+            self.assertEqual(self.run_kit("gradescope", both, "hand-ins/curious", can_sandbox),
+                             dict.fromkeys(SAMPLES, 1.0), can_sandbox)
+            for name in ENDINGS:
                 with self.subTest(name, can_sandbox=can_sandbox):
-                    result = self.run_kit("gradescope", top, f"hand-ins/{name}", can_sandbox=can_sandbox)
-                    self.assertEqual(self.points(result), {test: 0.0 for test in SAMPLES})
-                    self.assertNotIn(SECRET, json.dumps(result))
+                    self.assertEqual(self.run_kit("gradescope", top, f"hand-ins/{name}", can_sandbox),
+                                     {"worked-example": 0.0})
                     self.assertEqual(os.listdir(top / "results"), ["results.json"])
         self.assertEqual(files(), before)
-        self.assertEqual(pathlib.Path("secret/teacher.txt").read_text(), SECRET)
-        self.add("curious", CURIOUS + VIEW.replace("SIGN", "-"))
-        for can_sandbox in (True, False):
-            result = self.run_kit("gradescope", top, "hand-ins/curious", can_sandbox=can_sandbox)
-            self.assertEqual(self.points(result), {test: 1.0 for test in SAMPLES}, can_sandbox)
 
 
 if __name__ == "__main__":
