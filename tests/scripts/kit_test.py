@@ -114,7 +114,8 @@ def missing():
 def parts(result):
     """{test: part of its points} of a result."""
     return {test.get("name", test.get("test-name")):
-            round(test["score"] / test.get("max_score", test.get("max-score")), 4) for test in result["tests"]}
+            round(test["score"] / test.get("max_score", test.get("max-score")), 4)
+            for test in result["tests"]}
 
 
 class KitTest(ToolTest):
@@ -228,8 +229,9 @@ class Archives(KitTest):
 
     def test_in_whole_points_a_test_of_little_weight_can_be_passed_and_failed(self):
         for share, points, passed in ((1, 1, True), (0, 0, False)):
-            tests = [SimpleNamespace(name=name, max_score=most, score=most * share, kinds=(), words="", fixes=(),
-                                     by_teacher="") for name, most in (("much", 1.0), ("little", 1e-6))]
+            tests = [SimpleNamespace(name=name, max_score=most, score=most * share, kinds=(), words="",
+                                     fixes=(), by_teacher="")
+                     for name, most in (("much", 1.0), ("little", 1e-6))]
             result = kit_classroom50.result(SimpleNamespace(tests=tests, failure=""), tests, ENVIRONMENT,
                                             datetime.now())
             self.assertEqual([(row["score"], row["max-score"], row["passed"]) for row in result["tests"]],

@@ -49,6 +49,7 @@ class MakeRelease(unittest.TestCase):
         self.put(self.bin / "bwrap", BWRAP)
         self.put(self.bin / "mmdebstrap", '#!/bin/sh\nfor new; do :; done\nmkdir -p "$new"\n')
         self.put(self.bin / "node", "#!/bin/sh\necho v0\n")
+        self.put(self.bin / "dpkg-query", "#!/bin/sh\necho $#\n")
         self.git("init", "--quiet")
         self.commit()
         self.git("tag", "v9.8.7")
@@ -87,7 +88,7 @@ class MakeRelease(unittest.TestCase):
         self.assertEqual(os.listdir(self.out), ["new"])
         new = self.out / "new"
         self.assertEqual((new / "notes.md").read_text(), "- New.\n")
-        self.assertEqual((new / "built-with.txt").read_text(), "list\nnode v0\n")
+        self.assertEqual((new / "built-with.txt").read_text(), "list\nfor the playground, node v0, and\n2\n2\n")
         done = subprocess.run(["sha256sum", "--strict", "-c", "SHA256SUMS"], cwd=new, capture_output=True,
                               text=True)
         self.assertEqual(done.stdout.splitlines(), [
