@@ -17,7 +17,7 @@ class Borders:
 
     def __init__(self, triangles, limits, work):
         self.triangles, (self.front, self.rear), self.work = triangles, limits, work
-        self.planes = {}
+        self.planes, self.boxes = {}, {}
 
     def plane(self, t):
         """Of a triangle in pixels: its edges as (a, b, c) with a column + b row + c the distance from the
@@ -77,23 +77,25 @@ class Borders:
         edges = self.plane(t)[0]
         return -REACH if edges is None else min(a * column + b * row + c for a, b, c in edges)
 
-    def near(self, row):
-        near = sorted({
-            t
-            for r in (row - 1, row, row + 1) if 0 <= r < self.triangles.grid.height
-            for t in self.triangles.rows[r]})
-        spend(self.work, len(near))
-        return near
+    def near(self, row, column):
+        """The triangles on this row or beside it that come within a pixel of the column."""
+        if row not in self.boxes:
+            rows = self.triangles.rows[max(row - 1, 0):row + 2]
+            self.boxes[row] = [(t, *self.plane(t)[2][0]) for t in sorted(set().union(*rows))]
+        boxes = self.boxes[row]
+        spend(self.work, len(boxes))
+        return [t for t, left, right in boxes if left - REACH <= column <= right + REACH]
 
     def allows(self, row, column, is_drawn):
         """Whether a pixel may or may not be drawn within a pixel of the edges, whatever it shows."""
-        found = [fragment for t in self.near(row) if (fragment := self.fragment(t, row, column, 0.0))]
+        found = [fragment for t in self.near(row, column) if (fragment := self.fragment(t, row, column, 0.0))]
         return bool(found) if is_drawn else not any(is_sure for _, is_sure in found)
 
     def could_show(self, row, column, is_drawn, z, tolerance, seen):
         """Whether the pixel may show what it does: a triangle (one of `seen`, unless that is None) with the
         depth z (unless that is None), or nothing."""
-        fragments = [found for t in self.near(row) if (found := self.fragment(t, row, column, tolerance))]
+        fragments = [
+            found for t in self.near(row, column) if (found := self.fragment(t, row, column, tolerance))]
         possible = [
             fragment for fragment, _ in fragments if fragment[2] >= self.front and fragment[1] < self.rear]
         options = kept([fragment for fragment, is_sure in fragments if is_sure], possible, "nearest")

@@ -59,6 +59,7 @@ class PixelJudge:
         if finding.verdict == "exact" or is_of_one or self.is_of_blank(finding):
             return finding
         alone = PixelJudge(self.readings, self.window, self.shown.only(kind))
+        alone.made = self.made
         try:
             if finding.verdict == "unknown":
                 found = alone.judge()

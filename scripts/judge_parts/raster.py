@@ -4,6 +4,7 @@ mistakes.
 Every span of a row knows how uncertain its ends and depths are, since the numbers in a text are rounded: a
 pixel whose owner depends on that may show either."""
 import dataclasses
+import functools
 import math
 
 ROUNDING = 1e-9       # of columns and rows calculated in doubles
@@ -28,19 +29,19 @@ class Grid:
     half_y: bool = True
     is_one_less: bool = False  # the first and the last centers lie on the borders
 
-    @property
+    @functools.cached_property
     def dx(self):
         return -2 * self.left / max(1, self.width - self.is_one_less)
 
-    @property
+    @functools.cached_property
     def dy(self):
         return -2 * self.bottom / max(1, self.height - self.is_one_less)
 
-    @property
+    @functools.cached_property
     def left_x(self):
         return self.left + (self.dx / 2 if self.half_x and not self.is_one_less else 0)
 
-    @property
+    @functools.cached_property
     def top_y(self):
         return -self.bottom - (self.dy / 2 if self.half_y and not self.is_one_less else 0)
 
@@ -130,7 +131,7 @@ class Triangles:
         self.units = [min(FAR, max(max(u) for u in units[i:i + 3])) for i in range(0, len(units), 3)]
         self.rows, self.spans, count = [[] for _ in range(grid.height)], {}, 0
         for t, corners in enumerate(self.corners):
-            highest, lowest = max(p[1] for p in corners), min(p[1] for p in corners)
+            lowest, _, highest = sorted(p[1] for p in corners)
             slack = self.units[t] / grid.dy + ROUNDING
             first = max(0, bounded((grid.top_y - highest) / grid.dy - slack, grid.height))
             last = min(grid.height - 1,
@@ -153,7 +154,7 @@ class Triangles:
     def span(self, t, row):
         grid, corners, unit = self.grid, self.corners[t], self.units[t]
         y = grid.top_y - row * grid.dy
-        highest, lowest = max(p[1] for p in corners), min(p[1] for p in corners)
+        lowest, middle, highest = sorted(p[1] for p in corners)
         slack_y = unit + ROUNDING * grid.dy
         is_certain = lowest + slack_y < y < highest - slack_y
         y = min(max(y, lowest), highest)
@@ -184,7 +185,7 @@ class Triangles:
             is_certain, slack_z = False, slack_z + abs(z_right - z_left)
         top_row = (grid.top_y - lowest) / grid.dy
         return Span(t, left, right, z_left, z_right, slack_left, slack_right, slack_z,
-                    row == math.floor(top_row + ROUNDING), y >= sorted(p[1] for p in corners)[1],
+                    row == math.floor(top_row + ROUNDING), y >= middle,
                     met[0] != min(met), is_certain)
 
     def winding(self, t):
@@ -290,9 +291,11 @@ class Drawing:
     def could_show(self, row, column, tolerance):
         """What a pixel may show, given how uncertain the numbers are: pairs of a triangle and a range of
         depths; the triangle -1 stands for none. `tolerance` is that of a depth."""
-        sure, possible, spans = [], [], self.spans(row)
+        sure, possible, spans, center = [], [], self.spans(row), column - self.rule.shift[0]
         spend(self.work, len(spans))
         for span in spans:
+            if not (span.left - span.slack_left - 1 <= center <= span.right + span.slack_right + 2):
+                continue  # before its ends are rounded, which takes longer
             first, last = ends_of(span, self.rule, self.width, 1.0)
             if not first <= column <= last:
                 continue
