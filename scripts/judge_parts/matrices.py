@@ -7,7 +7,7 @@ from lib.vectors import cross
 IDENTITY = tuple(tuple(float(i == j) for j in range(4)) for i in range(4))
 UNDEFINED = (math.nan,) * 3
 DIVIDES_X_AND_Y = "x and y"  # in place of True: z is not divided by w
-TWICE = "twice"
+TWICE, Z_TWICE = "twice", "z twice"
 ROUNDING = 1e-13  # of sums and products in doubles, with some to spare
 
 
@@ -45,8 +45,9 @@ def image(m, p, is_divided=True):
         return x, y, z
     if abs(w) <= 1e-12:
         return UNDEFINED
+    z = {DIVIDES_X_AND_Y: z * w, Z_TWICE: z / w}.get(is_divided, z)
     w *= w if is_divided == TWICE else 1
-    return x / w, y / w, z if is_divided == DIVIDES_X_AND_Y else z / w
+    return x / w, y / w, z / w
 
 
 def slack(m, p, units, is_divided=True):
@@ -59,8 +60,9 @@ def slack(m, p, units, is_divided=True):
     if w <= 2 * reach[3] or w <= 1e-12:
         return math.inf, math.inf, math.inf
     divided = [(r + abs(a) * reach[3]) / (w - reach[3]) for r, a in zip(reach, image(m, p))]
-    if is_divided == TWICE:
-        return [(r + abs(a) / w * reach[3]) / (w - reach[3]) for r, a in zip(divided, image(m, p))]
+    if is_divided in (TWICE, Z_TWICE):
+        twice = [(r + abs(a) / w * reach[3]) / (w - reach[3]) for r, a in zip(divided, image(m, p))]
+        return twice if is_divided == TWICE else [*divided[:2], twice[2]]
     return [*divided[:2], reach[2]] if is_divided == DIVIDES_X_AND_Y else divided
 
 
@@ -145,6 +147,8 @@ def projection_matrix(window, near, far, mistake=""):
         z_row = negative(z_row)
     if "depth-is-linear" in mistakes:  # and z is not divided
         z_row = (0.0, 0.0, -2 / (far - near), -(far + near) / (far - near))
+    if "depth-in-view-space" in mistakes:  # nor here
+        z_row = (0.0, 0.0, 1.0, 0.0)
     w_row = (0.0, 0.0, 1.0 if "w-is-plus-z" in mistakes else -1.0,
              1.0 if "last-element-is-one" in mistakes else 0.0)
     x_scale, x_shift, y_scale, y_shift = window

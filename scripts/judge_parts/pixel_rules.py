@@ -2,7 +2,7 @@
 raster.Rule."""
 import itertools
 
-from judge_parts.raster import ENDS_IN_WORDS
+from judge_parts.raster import COLUMNS, ENDS_IN_WORDS
 
 CENTER = {"left": "up", "right": "down"}
 OPEN_ENDS = [{}, CENTER
@@ -24,7 +24,9 @@ MISTAKES = [
       for is_cut in (True, False)), *((("shifted-by-a-row", ), {"shift": (0, step)}) for step in (1, -1)),
     (("column-short", ), {"column_more": -1}), (("row-short", ), {"row_short": True}),
     (("column-short", "row-short"), {"column_more": -1, "row_short": True}),
-    (("column-long", ), {"column_more": 1}), (("width-minus-one", ), {"is_one_less": True}),
+    (("column-long", ), {"column_more": 1}), (("row-long", ), {"row_long": True}),
+    *((("min-for-max", ), {"columns": columns}) for columns in filter(None, COLUMNS)),
+    (("width-minus-one", ), {"is_one_less": True}),
     *((("vertices-at-whole-pixels", ), {"corners": corners}) for corners in ("whole", "rounded")),
     (("width-minus-one", "vertices-at-whole-pixels"), {"is_one_less": True, "corners": "whole"}),
     *((("one-winding", ), {"winding": winding}) for winding in (1, -1)),
@@ -48,6 +50,13 @@ MISTAKES = [
     (("rows-and-columns-exchanged", ), {"text_flip": "transposed"}),
     (("depth-limits-are-one", ), {"is_depth_one": True}),
 ]
+
+
+def pairs():
+    """(names, changes) for each two mistakes that change different things."""
+    for (names, one), (others, other) in itertools.combinations(MISTAKES, 2):
+        if len(names) == len(others) == 1 and names != others and one.keys().isdisjoint(other):
+            yield (*names, *others), {**one, **other}
 
 
 def in_words(rule):

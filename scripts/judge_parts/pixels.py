@@ -5,9 +5,10 @@ import itertools
 import math
 
 from judge_parts.borders import Borders, is_shifted, shows_each
+from judge_parts.matrix_causes import MOST_PAIRS
 from judge_parts.mismatch import Finding, Mismatch
 from judge_parts.mistakes import sentence
-from judge_parts.pixel_rules import BLANK, CENTER, MISTAKES, OPEN_DEPTHS, OPEN_ENDS, in_words
+from judge_parts.pixel_rules import BLANK, CENTER, MISTAKES, OPEN_DEPTHS, OPEN_ENDS, in_words, pairs
 from judge_parts.raster import Drawing, Grid, Rule, TooMuch, Triangles
 from judge_parts.shown import DEPTH_BASE
 from judge_parts.verdict import cause_of, cause_of_all
@@ -36,7 +37,7 @@ class PixelJudge:
         self.readings, self.window, self.shown = readings, window, shown
         self.first = next(iter(readings))
         self.limits = float(window.front), float(window.rear)
-        self.made, self.work, self.plain, self.found = {}, [MOST_WORK], None, {}
+        self.made, self.work, self.plain, self.found, self.is_of_one = {}, [MOST_WORK], None, {}, False
 
     def drawing(self, reading, rule):
         window = self.window
@@ -59,7 +60,7 @@ class PixelJudge:
         if finding.verdict == "exact" or is_of_one or self.is_of_blank(finding):
             return finding
         alone = PixelJudge(self.readings, self.window, self.shown.only(kind))
-        alone.made = self.made
+        alone.made, alone.is_of_one = self.made, True
         try:
             if finding.verdict == "unknown":
                 found = alone.judge()
@@ -205,7 +206,8 @@ class PixelJudge:
             return finding
         center = self.compare(self.first, Rule(**CENTER))
         best = min((plain, center), key=lambda mismatch: (len(mismatch.of_shape), len(mismatch.pixels)))
-        return self.find_nearly(rows, best) or self.find_at_borders(best) or self.unknown(best)
+        return self.find_nearly(rows, best) or self.find_at_borders(best) or self.find_two(
+            rows) or self.unknown(best)
 
     def exact(self, mismatch):
         """A Finding if the rule explains everything: that, or all triangles in one color."""
@@ -272,6 +274,17 @@ class PixelJudge:
                         found[names], rank_of_found = mismatch, rank
                         break
         return self.mistake(found) if found else None
+
+    def find_two(self, rows):
+        """Two mistakes at once that explain everything, by our two rules; nothing if more than MOST_PAIRS
+        would do. They are asked of both files together."""
+        found = {}
+        for (names, changes), ends in itertools.product(() if self.is_of_one else pairs(), ({}, CENTER)):
+            rule = Rule(**{**ends, **changes})
+            if names not in found and not self.is_void(changes) and self.explains(self.first, rule, rows):
+                mismatch = self.compare(self.first, rule, limit=0)
+                found |= {names: mismatch} if mismatch and mismatch.drawn else {}
+        return self.mistake(found) if 0 < len(found) <= MOST_PAIRS else None
 
     def find_nearly(self, rows, best):
         """The mistakes, by our two rules, that explain all but one in NEARLY of what no open rule does, and
@@ -362,7 +375,8 @@ class PixelJudge:
                 return False
             tolerance = self.shown.depths.tolerance(z)
             return not borders.has(t, row, column, z, tolerance) and any(
-                borders.has(other, row, column, z, tolerance) for other in same - {t})
+                borders.has(other, row, column, z, tolerance)
+                for other in borders.near(row, column) if other in same and other != t)
 
         return shows_each(drawing, borders, is_other)
 

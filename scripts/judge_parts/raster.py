@@ -65,6 +65,8 @@ class Rule:
     starts_at_zero: bool = False
     column_more: int = 0          # how many columns the ends of rows lie farther to the right
     row_short: bool = False
+    row_long: bool = False
+    columns: str = ""             # one of COLUMNS, where min stands for max
     shift: tuple = (0, 0)         # columns and rows
     is_cut_first: bool = False    # whether spans end at the picture's borders before the shift
     keep: str = "nearest"         # nearest, farthest, last
@@ -91,6 +93,10 @@ class Span:
     is_upper: bool      # above the triangle's middle corner
     is_met_from_right: bool  # by the first of its edges
     is_certain: bool    # whether the row meets the triangle for certain, and the triangle has an area
+
+    def __post_init__(self):
+        """Between which columns it may have a pixel, however its ends are rounded."""
+        self.near_left, self.near_right = self.left - self.slack_left - 1, self.right + self.slack_right + 2
 
 
 FLAT = {
@@ -129,7 +135,7 @@ class Triangles:
         near = [tuple(max(-FAR, min(x, FAR)) for x in p) for p in points]
         self.corners = [CORNERS[change](near[i:i + 3], grid) for i in range(0, len(near), 3)]
         self.units = [min(FAR, max(max(u) for u in units[i:i + 3])) for i in range(0, len(units), 3)]
-        self.rows, self.spans, count = [[] for _ in range(grid.height)], {}, 0
+        self.rows, self.spans, self.lower, count = [[] for _ in range(grid.height)], {}, {}, 0
         for t, corners in enumerate(self.corners):
             lowest, _, highest = sorted(p[1] for p in corners)
             slack = self.units[t] / grid.dy + ROUNDING
@@ -151,24 +157,32 @@ class Triangles:
             self.spans[row] = [span for span in made if span]
         return self.spans[row]
 
-    def span(self, t, row):
+    def below(self, row):
+        """The spans of triangles that end on the row above, with their lowest edges extended to this one."""
+        if row not in self.lower:
+            ending = (span.triangle for span in self.row(row - 1) if span.is_last)
+            self.lower[row] = [self.span(t, row, True) for t in ending]
+        return self.lower[row]
+
+    def span(self, t, row, is_below=False):
         grid, corners, unit = self.grid, self.corners[t], self.units[t]
         y = grid.top_y - row * grid.dy
         lowest, middle, highest = sorted(p[1] for p in corners)
         slack_y = unit + ROUNDING * grid.dy
-        is_certain = lowest + slack_y < y < highest - slack_y
-        y = min(max(y, lowest), highest)
+        is_certain = is_below or lowest + slack_y < y < highest - slack_y
+        inside = min(max(y, lowest), highest)
+        y = y if is_below else inside
         met = []
         for i in range(3):
             low, high = sorted((corners[i], corners[(i + 1) % 3]), key=lambda p: (p[1], p[0], p[2]))
-            if low[1] == high[1] or not low[1] <= y <= high[1]:
+            if low[1] == high[1] or not low[1] <= inside <= high[1]:
                 continue
             t_y = (y - low[1]) / (high[1] - low[1])
             x, z = (high[0], high[2]) if y == high[1] else (low[0] + t_y * (high[0] - low[0]),
                                                             low[2] + t_y * (high[2] - low[2]))
-            reach = abs(high[0] - low[0])
-            met.append((x, z, unit + min(reach, reach / (high[1] - low[1]) * unit),
-                        abs(high[2] - low[2]) / (high[1] - low[1]) * unit))
+            reach, stretch = abs(high[0] - low[0]), 1 + 2 * max(0.0, -t_y)
+            met.append((x, z, (unit + min(reach, reach / (high[1] - low[1]) * unit)) * stretch,
+                        abs(high[2] - low[2]) / (high[1] - low[1]) * unit * stretch))
         if len(met) < 2:  # a horizontal line
             ends = sorted(corners)
             met, is_certain = [(*ends[0][::2], unit, 0.0), (*ends[2][::2], unit, 0.0)], False
@@ -216,6 +230,15 @@ def bounded(x, limit, rounded=math.ceil):
     return rounded(max(-1.0, min(x, float(limit))))
 
 
+# What min for max, or max for min, makes of the first and the last column.
+COLUMNS = {
+    "": lambda first, last, border: (first, last),
+    "to the border": lambda first, last, border: (first, border),
+    "from the border": lambda first, last, border: (0, last),
+    "at the left end": lambda first, last, border: (first, first),
+    "at the right end": lambda first, last, border: (last, last)}
+
+
 def ends_of(span, rule, width, slack=0.0):
     """The first and the last column under a rule; a positive slack makes the span as wide as its uncertainty
     allows, a negative one as narrow."""
@@ -223,6 +246,8 @@ def ends_of(span, rule, width, slack=0.0):
     last = ENDS[rule.right](span.right + slack * span.slack_right)
     if rule.is_cut_first:
         first, last = max(first, 0), min(last, width - 1)
+    if rule.columns:
+        first, last = COLUMNS[rule.columns](first, last, width - 1)
     return first + rule.shift[0], last + rule.column_more + rule.shift[0]
 
 
@@ -257,6 +282,9 @@ class Drawing:
 
     def spans(self, row):
         rule, spans = self.rule, self.triangles.row(row - self.rule.shift[1])
+        if rule.row_long:
+            spans = sorted([*spans, *self.triangles.below(row - rule.shift[1])],
+                           key=lambda span: span.triangle)
         if rule.row_short:
             spans = [span for span in spans if not span.is_last]
         if rule.half:
@@ -293,14 +321,15 @@ class Drawing:
         depths; the triangle -1 stands for none. `tolerance` is that of a depth."""
         sure, possible, spans, center = [], [], self.spans(row), column - self.rule.shift[0]
         spend(self.work, len(spans))
-        for span in spans:
-            if not (span.left - span.slack_left - 1 <= center <= span.right + span.slack_right + 2):
-                continue  # before its ends are rounded, which takes longer
+        for span in spans if self.rule.columns else [
+                span for span in spans if span.near_left <= center <= span.near_right]:
             first, last = ends_of(span, self.rule, self.width, 1.0)
             if not first <= column <= last:
                 continue
             at_0, slope = self.line(span)
-            z, slack = at_0 + column * slope, tolerance + span.slack_z
+            beyond = max(0.0, span.left - center, center - span.right) if self.rule.columns else 0.0
+            stretch = 1 + 2 * beyond / max(span.right - span.left, NARROW)
+            z, slack = at_0 + column * slope, tolerance + span.slack_z * stretch
             if not (z + slack >= self.front and z - slack < self.rear):
                 continue
             first, last = ends_of(span, self.rule, self.width, -1.0)

@@ -8,15 +8,17 @@ import math
 from explain_parts.matrices import Projection
 from explain_parts.scene import commands
 from judge_parts.mistakes import sentences
-from judge_parts.matrices import (DIVIDES_X_AND_Y, IDENTITY, TWICE, VIEW_SPELLINGS, affine, image,
-                                  perspective_matrix, product, projection_matrix, rotation, scaling, slack,
-                                  transposed, translation, unit, view_matrix)
+from judge_parts.matrices import (DIVIDES_X_AND_Y, IDENTITY, TWICE, VIEW_SPELLINGS, Z_TWICE, affine,
+                                  image, negative, perspective_matrix, product, projection_matrix, rotation,
+                                  scaling, slack, transposed, translation, unit, view_matrix)
 
 NO_UNITS = (0.0, 0.0, 0.0)
 DIVISIONS = {"no-divide": False, "divided-twice": TWICE, "z-not-divided": DIVIDES_X_AND_Y,
-             "depth-is-linear": DIVIDES_X_AND_Y}  # by w; other mistakes of project divide all three
+             "depth-is-linear": DIVIDES_X_AND_Y, "depth-in-view-space": DIVIDES_X_AND_Y,
+             "depth-divided-twice": Z_TWICE}  # by w; other mistakes of project divide all three
 OF_FRUSTUMS = ("near-and-far-swapped", "missing-two", "z-row-sign", "w-is-plus-z", "last-element-is-one",
-               "depth-is-linear", "z-not-divided", "divided-twice")
+               "depth-is-linear", "z-not-divided", "divided-twice", "depth-in-view-space",
+               "depth-divided-twice")
 ROUGH_PIS = (3.1416, 3.14159, 3.1415927, 3.141592, 3.141593, 3.1415926, 3.1415, 3.142, 22 / 7, 3.14)
 
 
@@ -232,6 +234,8 @@ class Scene:
                 continue
             if matrix is not None:
                 yield name, matrix, DIVISIONS.get(name, True)
+                if name == "depth-in-view-space":  # or the distance from the eye
+                    yield name, (*matrix[:2], negative(matrix[2]), matrix[3]), DIVISIONS[name]
 
     @staticmethod
     def model_pairs():

@@ -11,7 +11,7 @@ import sys
 import tempfile
 
 STUDENT, BIN, SOURCE = (pathlib.Path(word).resolve() for word in sys.argv[1:4])
-os.environ["BIN"] = str(BIN)
+os.environ |= {"BIN": str(BIN), "STUDENT_SEED": "1"}
 sys.path.insert(0, str(SOURCE / "scripts"))
 from judge_parts.hand_in import find_files  # noqa: E402
 from judge_parts.judge import judge  # noqa: E402

@@ -71,18 +71,21 @@ class Program(ToolTest):
 
     def test_watch_runs_again_when_the_program_has_changed(self):
         words = [SOURCE / "scripts/check-stage", "--read", BIN, "view", "--scene", "scene", "--watch", "--",
-                 script("cat")]
+                 script("seq 1000 >&2; cat")]
         with subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
                               env={**os.environ, "BIN": str(BIN)}) as process:
             told = [process.stdout.readline()]
             while "sandbox" not in told[-1]:
                 told.append(process.stdout.readline())
+            kept = pathlib.Path(re.search("all of it: (.*)\n", "".join(told))[1])
+            self.assertTrue(kept.exists())
             script('exec "$BIN/view"')
             told += [process.stdout.readline() for _ in range(3)]
             process.send_signal(signal.SIGINT)
             self.assertIn("SIGINT", process.stderr.read())
         self.assertEqual(told[0], "scene: wrong\n")
         self.assertEqual(told[-3:], ["\n", "The program has changed.\n", "scene: right\n"])
+        self.assertFalse(kept.exists())
 
     def test_a_sphere_is_refused_with_its_line(self):
         pathlib.Path("scene").write_text(SCENE.replace("end\n", "sphere 0 0 0 1\nend\n"))
@@ -139,6 +142,11 @@ class Program(ToolTest):
             "worked-example: right", f"one-triangle: {left_out}", f"two-triangles: {left_out}",
             "nested-transforms: right", "tilted-camera: right", "tilted-camera with aspect 1.25: right",
             "torus: right"], 0))
+
+        script("""tee text | sed -n "s/^ortho.*/nan nan nan/p" | grep . || exec "$BIN/project" text""")
+        told = check("project", "--", path).stdout
+        self.assertIn("one-triangle: left out: its projection is ortho, on which it wrote nan\n", told)
+        self.assertIn("torus: right\n", told)
 
     def test_the_aspect_of_opengl_is_right_where_a_scene_says_so(self):
         program = script("""exec "$BIN/project" --aspect ratio""")
@@ -231,6 +239,13 @@ class Program(ToolTest):
         self.assertEqual(self.told("view", "exec true"),
                          "scene: wrong: it is empty\n  cause: It wrote nothing\n")
         self.assertIn("  cause: It wrote nothing\n", self.told("zbuf", "exec true"))
+
+    def test_an_output_that_another_run_does_not_repeat_has_a_cause(self):
+        text = """t=$(od -An -N3 -tu4 /dev/urandom | tr -d ' ')
+            "$BIN/STAGE" "$@" | awk -v t=$t '/^[-0-9]/ { $1 = t } 1'"""
+        for stage, words in ("zbuf", "Some pixels are random"), ("view", "Some numbers are random"):
+            told = self.told(stage, text.replace("STAGE", stage))
+            self.assertIn(f"  cause: {words}: two runs of the program on the same text differ\n", told)
 
     def test_an_unchanged_input_has_a_cause(self):
         for stage in ("model", "view", "project", "zbuf"):

@@ -63,6 +63,8 @@ std::vector<Triangle> project(const std::vector<Triangle>& triangles, const Came
       point = homogeneous(p, point);
       if (mistake("project/depth-is-linear")) point[2] = point[3] * linear_depth(distance, camera);
       if (mistake("project/z-not-divided")) point[2] *= point[3];
+      if (mistake("project/depth-in-view-space")) point[2] = -distance * point[3];
+      if (mistake("project/depth-divided-twice")) point[2] /= point[3];
       if (mistake("project/no-divide")) point[3] = 1;
       if (mistake("project/divided-twice")) point[3] *= point[3];
       point = {point[0] / point[3], point[1] / point[3], point[2] / point[3]};

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <cstdlib>
 #include <fstream>
 #include <iomanip>
 #include <limits>
+#include <random>
 #include <sstream>
 #include <stdexcept>
 
@@ -29,6 +31,13 @@ class Random {
 
   std::uint32_t state_ = habit("zbuf/other-colors") ? 2021 : 1;
 };
+
+/// Other numbers in every run, unless STUDENT_SEED is set.
+std::mt19937& seeded() {
+  static const char* const seed = std::getenv("STUDENT_SEED");
+  static std::mt19937 numbers(seed ? std::strtoul(seed, nullptr, 10) : std::random_device()());
+  return numbers;
+}
 
 /// The pixels: their number, and where their centers are.
 struct Grid {
@@ -77,16 +86,19 @@ Range columns_between(double x_left, double x_right, const Grid& grid) {
   return columns;
 }
 
-/// The points, with the same y, where the edges meet the middle of a row of pixels.
+/// The points, with the same y, where the edges meet the middle of a row of pixels; of a row below the
+/// triangle, where its lowest edges would.
 std::vector<Vector> met_at(const Triangle& triangle, double y) {
   std::vector<Vector> result;
+  const double inside =
+      std::max(y, std::min({triangle.points[0][1], triangle.points[1][1], triangle.points[2][1]}));
   for (int i = 0; i < 3; i++) {
     Vector a = triangle.points[i], b = triangle.points[(i + 1) % 3];
     const auto is_lower = [](const Vector& p, const Vector& q) {
       return std::vector<double>{p[1], p[0], p[2]} < std::vector<double>{q[1], q[0], q[2]};
     };
     if (is_lower(b, a)) std::swap(a, b);
-    if (a[1] == b[1] || y < a[1] || y > b[1]) continue;
+    if (a[1] == b[1] || inside < a[1] || inside > b[1]) continue;
     const double t = (y - a[1]) / (b[1] - a[1]);
     result.push_back(y == b[1] ? b : Vector{a[0] + t * (b[0] - a[0]), y, a[2] + t * (b[2] - a[2])});
   }
@@ -124,7 +136,8 @@ class Painter {
     if (mistake("zbuf/one-winding") && area(triangle) < 0) return;
     if (mistake("zbuf/vertices-at-whole-pixels")) triangle = at_whole_pixels(triangle, grid_);
     const double middle_z = (triangle.points[0][2] + triangle.points[1][2] + triangle.points[2][2]) / 3;
-    const Range rows = rows_of(triangle, grid_);
+    Range rows = rows_of(triangle, grid_);
+    if (mistake("zbuf/row-long") && rows.first <= rows.last) rows.last++;
     for (int row = std::max(rows.first, 0); row <= std::min(rows.last, grid_.height - 1); row++) {
       const std::vector<Vector> met = met_at(triangle, grid_.top_y - row * grid_.dy);
       if (met.size() < 2) continue;
@@ -136,8 +149,10 @@ class Painter {
         left[0] = grid_.left_x + columns.first * grid_.dx;
         right[0] = grid_.left_x + columns.last * grid_.dx;
       }
-      for (int column = std::max(columns.first, 0); column <= std::min(columns.last, grid_.width - 1);
-           column++) {
+      const int border = grid_.width - 1;
+      const int last =
+          mistake("zbuf/min-for-max") ? std::max(columns.last, border) : std::min(columns.last, border);
+      for (int column = std::max(columns.first, 0); column <= std::min(last, border); column++) {
         const double z = depth_at(grid_.left_x + column * grid_.dx, left, right);
         set(row, column, mistake("zbuf/flat-depth") ? middle_z : z, color);
       }
@@ -148,6 +163,7 @@ class Painter {
   void set(int row, int column, double z, const Color& color) {
     if (z < config_.front && !mistake("zbuf/front-limit-ignored")) return;
     if (z >= config_.rear && !mistake("zbuf/rear-limit-ignored")) return;
+    if (mistake("zbuf/random-pixels") && seeded()() % 8 == 0) return;
     if (mistake("zbuf/shifted-by-a-row")) row++;
     if (mistake("zbuf/shifted-by-a-column")) column++;
     if (row >= grid_.height || column >= grid_.width) return;
