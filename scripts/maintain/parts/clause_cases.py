@@ -238,6 +238,7 @@ def headers():
             ("end-with-a-word", "end takes no arguments.", "T13", 5, "framed\n" + VERTICES + "end 1\n"),
             ("end-without-a-line-feed", "The line end has its line feed.", "T13", 5,
              "framed\n" + VERTICES + "end"),
+            ("frame-of-a-header-alone", "A header alone is cut without end, too.", "T13", 2, "framed\n"),
             ("end-in-a-triangle", "A text that ends within a triangle is cut.", "T8 T13", 4,
              "framed\n0 0 -2\n1 0 -2\nend\n"),
             ("header-behind-a-number", "A header line behind the header is refused.", "T1", 2,
@@ -293,8 +294,7 @@ def headers():
                        ("perspective-near-0", "perspective 60 1 0 9"),
                        ("perspective-aspect-0", "perspective 60 0 1 9"),
                        ("perspective-unknown-rule", "perspective 60 1 1 9 square"),
-                       ("ortho-with-a-rule", "ortho -1 1 -1 1 1 9 angle"),
-                       ("frustum-of-five-numbers", "frustum 1 2 3 4 5")):
+                       ("ortho-with-a-rule", "ortho -1 1 -1 1 1 9 angle")):
         for stage, before in (("view", EYE), ("project", "")):
             yield refused(stage, name, "A header's projection obeys the rules of a scene's.", "T3 S7 S8",
                           before.count("\n") + 1, before + line + "\n" + VERTICES)

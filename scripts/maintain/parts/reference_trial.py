@@ -38,7 +38,7 @@ def load(text):
     reference = types.ModuleType("reference")
     try:
         exec(compile(text, FILE, "exec"), vars(reference))
-    except Exception:  # a mutant that does not even begin
+    except (Exception, SystemExit):  # a mutant that does not even begin
         reference = None
 
 
