@@ -24,7 +24,7 @@ echo archive > "$2/out/pipeline-9.8.7-source.tar.xz"
 echo list > "$2/out/built-with.txt"
 """
 PLAYGROUND = """#!/bin/sh
-mkdir -p "$2"
+mkdir -p "$2/playground"
 echo page > "$2/playground.html"
 """
 
