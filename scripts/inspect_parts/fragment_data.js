@@ -6,9 +6,10 @@ const FATES = ["kept", "lost, behind", "lost, equal and later than", "lost, befo
 const LOST_TO = new Set([1, 2, 5]);  // the fates that name the triangle that is shown
 
 export class FragmentData {
-  constructor(data) {
+  // `spheres` are the numbers of those that are none of triangles.
+  constructor(data, spheres) {
     Object.assign(this, {columns: data.columns, rows: data.rows, rgb: bytesOf(data.pixels), leftOut: data.leftOut});
-    this.spheres = new Set(intsOf(data.stages[0].spheres.names));
+    this.spheres = new Set(spheres);
     this.begins = intsOf(data.fragments.begins);
     this.triangles = intsOf(data.fragments.triangles);
     this.depths = realsOf(data.fragments.depths);

@@ -1,5 +1,6 @@
 """The data of the inspector's page: a scene sent through the real pipe, and the output of every stage."""
 import base64
+import itertools
 import math
 import pathlib
 import re
@@ -7,7 +8,7 @@ import tempfile
 
 from inspect_parts.explanations import explanations
 from inspect_parts.packing import packed
-from inspect_parts.stage_lines import StageLines
+from inspect_parts.stage_lines import NUMBER_BEGINS, StageLines
 from lib.input_file import read_input
 from lib.pictures import read_picture
 from lib.pipe_tools import ToolFailure, opaque_background
@@ -23,6 +24,7 @@ BELTS = 2, 16       # the fewest and the most of a sphere
 # Of the time for a large page how many per cent have passed at the end of each step.
 SHARES = {"model": 7, "view": 13, "project": 20, "zbuf": 28, "fragments": 70}
 TITLES = {"model": "world space", "view": "view space", "project": "normalized device coordinates"}
+BEGINS = (*NUMBER_BEGINS, "triangle ", "clipped", "sphere")  # of the lines behind a header
 FATES = ("kept", "behind", "equal", "before", "beyond")
 
 
@@ -108,36 +110,22 @@ class Inspection:
     def stage(self, tool, title, done):
         read, stderr = self.lines[tool], done.stderr.decode(errors="replace")
         self.notes += notes_told(stderr)
-        kept = [(name, line) for name, line in zip(read.names, read.first_lines) if name % self.step == 0]
-        numbers = self.numbers_shown(read, kept)
+        lines = self.thinned(read) if self.step > 1 else [(0, line) for line in read.lines]
         return {
-            "tool":
-                tool, "title":
-                    title, "seconds":
-                        time_told(stderr), "triangles":
-                            len(read.names), "missing":
-                                self.count - len(set(read.names)), "bytes":
-                                    len(done.stdout), "statistics":
-                                        self.statistics[tool], "names":
-                                            packed("i", [name for name, _ in kept]), "firstLines":
-                                                packed("i", [line for _, line in kept]), "numbers":
-                                                    packed("i", numbers) if numbers else None,
-            "spheres": {
-                "names": packed("i", [name for name, _ in read.spheres]),
-                "firstLines": packed("i", [line for _, line in read.spheres]),
-                "points": packed("d", read.sphere_points()),
-            },
-            "text":
-                "\n".join(read.lines[number - 1]
-                          for number in numbers) if numbers else "\n".join(read.lines)}
+            "tool": tool, "title": title, "seconds": time_told(stderr), "triangles": len(read.names),
+            "missing": self.count - len(set(read.names)), "bytes": len(done.stdout),
+            "statistics": self.statistics[tool], "text": "\n".join(line for _, line in lines),
+            "numbers": packed("i", [number for number, _ in lines]) if self.step > 1 else None}
 
-    def numbers_shown(self, read, kept):
-        """Of a long text the numbers of the lines that the page has, those of the header and of the drawn
-        triangles; None for all."""
-        if self.step == 1:
-            return None
-        header_end = read.first_lines[0] if read.first_lines else len(read.lines)
-        return [*range(1, header_end), *(line + i for _, line in kept for i in range(3))]
+    def thinned(self, read):
+        """Of a long text the header, the drawn triangles and all spheres, each behind a line with its number;
+        (number, line) of each line, 0 for one that was added."""
+        pieces = [(line, 3, name) for name, line in zip(read.names, read.first_lines) if name % self.step == 0]
+        found = [*enumerate(itertools.takewhile(lambda line: not line.startswith(BEGINS), read.lines), 1)]
+        for first, count, name in sorted([*pieces, *((line - 1, 5, name) for name, line in read.spheres)]):
+            found.append((0, f"triangle {name}"))
+            found += enumerate(read.lines[first - 1:first - 1 + count], first)
+        return found
 
     def draw(self, stage3, folder):
         z_buffer, image, log = (folder / name for name in ("z_buffer.txt", "out.ppm", "fragments.txt"))

@@ -34,10 +34,11 @@ export class Inspector {
     this.held = NOTHING;
     this.shown = NOTHING;
     this.palette = new Palette(document.documentElement, this.listening.signal);
-    this.fragments = new FragmentData(data);
     this.fillHeader();
     this.header = headerOf(data.stages[0].text);
-    this.panels = data.stages.slice(0, 3).map((stage, i) => this.stagePanel(stage, kept && kept.poses[i]));
+    const stages = data.stages.slice(0, 3).map(stage => this.stageData(stage));
+    this.fragments = new FragmentData(data, stages[0].spheres.names);
+    this.panels = stages.map((stage, i) => this.stagePanel(stage, kept && kept.poses[i]));
     this.pixels = new PicturePanel([...this.all("#pixels .pane")], this.fragments, this.palette);
     this.competitors = new FragmentPanel(this.one("#pixel-place"), this.one("#competitors"), this.fragments);
     this.depthText = this.depthPanel();
@@ -74,9 +75,13 @@ export class Inspector {
       this.one("#" + id).setAttribute("aria-label", `${id}, ${data.columns} columns and ${data.rows} rows of pixels; arrow keys go from pixel to pixel`);
   }
 
-  stagePanel(given, pose) {
+  stageData(given) {
     const reach = -new Map(this.data.stages[1].statistics).get("z_min") || 0;  // of the camera, to the farthest vertex
-    const {tool, title} = given, {remark, ...guide} = guideOf(tool, this.header, reach), stage = new StageData({...given, ...guide}, this.data.triangles);
+    return new StageData({...given, ...guideOf(given.tool, this.header, reach)}, this.data.triangles);
+  }
+
+  stagePanel(stage, pose) {
+    const {tool, title, remark} = stage;
     const canvas = element("canvas", {id: "wire-" + tool, tabindex: 0, role: "application", "aria-label": `${title}, wireframe after ${tool}; arrow keys go from triangle to triangle, with Shift they turn it`});
     const pane = element("div", {class: "pane"}, canvas, element("canvas", {"aria-hidden": true}));
     const fit = element("button", {"aria-label": `fit ${title} into its view`, title: "All of it; once more: the smaller of the camera or cube and the triangles"}, "Fit");
@@ -86,7 +91,7 @@ export class Inspector {
     const wire = new Wireframe(pane, stage, {start: STARTS[tool], pose}, name => this.fragments.shownPixels[name] > 0, this.palette);
     fit.onclick = canvas.ondblclick = () => wire.fit();
     const {numbers} = stage, text = new TextPanel(box, stage.lines, {
-      numberOf: index => numbers ? numbers[index] : index + 1,
+      numberOf: index => numbers ? numbers[index] || "" : index + 1,
       indexOf: number => numbers ? numbers.indexOf(number) : number - 1,
     });
     return {stage, wire, text};

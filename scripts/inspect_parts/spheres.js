@@ -1,15 +1,13 @@
 // The spheres of a stage, ellipsoids after a transform: each has a center and the ends of three half axes.
 
-import {intsOf, realsOf} from "./pack.js";
-
 const MOST_WITH_CIRCLES = 1000;  // of more spheres only the outlines are drawn, with fewer segments
 
 function circleOf(segments) { return Array.from({length: segments + 1}, (_, i) => [Math.cos(2 * Math.PI * i / segments), Math.sin(2 * Math.PI * i / segments)]); }
 
 export class Spheres {
-  constructor({names, firstLines, points}) {
-    Object.assign(this, {names: intsOf(names), firstLines: intsOf(firstLines), points: realsOf(points)});
-    this.places = new Map([...this.names].map((name, i) => [name, i]));
+  constructor(names, firstLines, points) {
+    Object.assign(this, {names, firstLines, points});
+    this.places = new Map([...names].map((name, i) => [name, i]));
     [this.x, this.y, this.near] = [0, 1, 2].map(() => new Float64Array(4 * this.names.length));
     this.outlines = new Float64Array(3 * this.names.length);
     this.areMany = this.names.length > MOST_WITH_CIRCLES;

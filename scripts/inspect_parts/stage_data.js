@@ -3,6 +3,8 @@
 import {intsOf} from "./pack.js";
 import {Spheres} from "./spheres.js";
 
+const ZERO = 48, NINE = 57, MINUS = 45;  // characters
+
 // The lines of a text, cut out of it only when they are shown.
 export class Lines {
   constructor(text) {
@@ -13,18 +15,52 @@ export class Lines {
   }
 
   line(index) { return this.text.slice(this.starts[index], this.starts[index + 1] - 1); }
+
+  // The first three words of each of so many lines from one on, which are counted from 1.
+  pointsAt(first, count) { return Array.from({length: count}, (_, i) => this.line(first - 1 + i).split(" ", 3)); }
+}
+
+// A text of our own tools: which lines belong to which triangle.
+export class StageText extends Lines {
+  // `names` and `firstLines` are those of triangles, or of pieces of one, and of `spheres`; `count` is one more than the last number.
+  constructor(text) {
+    super(text);
+    Object.assign(this, {names: [], firstLines: [], spheres: {names: [], firstLines: []}, count: 0});
+    let corners = 0;  // how many lines of the triangle before are still to come
+    for (let i = 0; i < this.length; ++i) {
+      const first = text.charCodeAt(this.starts[i]);
+      if (first === MINUS || (first >= ZERO && first <= NINE)) {
+        if (corners === 0) {
+          this.names.push(this.count++);
+          this.firstLines.push(i + 1);
+          corners = 3;
+        }
+        --corners;
+        continue;
+      }
+      const line = this.line(i);
+      if (line.startsWith("triangle ")) this.count = Number(line.slice(9));
+      if (line === "clipped") corners = 3;  // the whole triangle in clip space; its pieces follow
+      if (line === "sphere") {
+        this.spheres.names.push(this.count++);
+        this.spheres.firstLines.push(i + 2);
+        corners = 4;
+      }
+    }
+  }
 }
 
 export class StageData {
   // `count` triangles have numbers from 0; a stage may have several pieces of one, or none.
   constructor(stage, count) {
-    Object.assign(this, {tool: stage.tool, title: stage.title, guide: stage.guide, labels: stage.labels});
-    this.lines = new Lines(stage.text);
-    this.numbers = stage.numbers ? intsOf(stage.numbers) : null;
-    this.names = intsOf(stage.names);
-    this.firstLines = intsOf(stage.firstLines);
-    this.points = this.readPoints();
-    this.spheres = new Spheres(stage.spheres);
+    Object.assign(this, {tool: stage.tool, title: stage.title, guide: stage.guide, labels: stage.labels, remark: stage.remark});
+    const {names, firstLines, spheres} = this.lines = new StageText(stage.text);
+    this.numbers = stage.numbers ? intsOf(stage.numbers) : null;  // of the lines of a thinned text
+    const shown = lines => Int32Array.from(lines, line => this.numbers ? this.numbers[line - 1] : line);
+    this.names = Int32Array.from(names);
+    this.firstLines = shown(firstLines);
+    this.points = this.numbersAt(firstLines, 3);
+    this.spheres = new Spheres(Int32Array.from(spheres.names), shown(spheres.firstLines), this.numbersAt(spheres.firstLines, 4));
     this.starts = new Int32Array(count + 1);  // piece `order[k]` belongs to triangle `name` for starts[name] <= k < starts[name + 1]
     for (const name of this.names) ++this.starts[name + 1];
     for (let name = 0; name < count; ++name) this.starts[name + 1] += this.starts[name];
@@ -33,24 +69,23 @@ export class StageData {
     this.names.forEach((name, piece) => { this.order[next[name]++] = piece; });
   }
 
-  readPoints() {
-    const points = new Float64Array(9 * this.names.length);
-    for (let i = 0, at = 0; i < this.names.length; ++i) for (const words of this.wordsOf(i)) for (const word of words) points[at++] = Number(word);
+  // The numbers of the points in so many lines from each of `firstLines` on.
+  numbersAt(firstLines, count) {
+    const points = new Float64Array(3 * count * firstLines.length);
+    let at = 0;
+    for (const first of firstLines) for (const words of this.lines.pointsAt(first, count)) for (const word of words) points[at++] = Number(word);
     return points;
   }
 
-  // The x, y and z of a piece's corners, as written. Of a thinned text the lines of all triangles stand one behind the other, after the header.
-  wordsOf(piece) {
-    const first = this.numbers ? this.numbers.length - 3 * (this.names.length - piece) : this.firstLines[piece] - 1;
-    return [0, 1, 2].map(v => this.lines.line(first + v).split(" ", 3));
-  }
+  // The x, y and z of a piece's corners, as written.
+  wordsOf(piece) { return this.lines.pointsAt(this.lines.firstLines[piece], 3); }
 
   piecesOf(name) { return name < 0 ? [] : this.order.subarray(this.starts[name], this.starts[name + 1]); }
 
   has(name) { return this.piecesOf(name).length > 0 || this.spheres.placeOf(name) >= 0; }
 
   linesOf(name) {
-    if (!this.numbers && this.spheres.placeOf(name) >= 0) return this.spheres.linesOf(name);
+    if (this.spheres.placeOf(name) >= 0) return this.spheres.linesOf(name);
     return [...this.piecesOf(name)].flatMap(piece => [0, 1, 2].map(v => this.firstLines[piece] + v));
   }
 

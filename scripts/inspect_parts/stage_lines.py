@@ -40,12 +40,6 @@ class StageLines:
         found.count = number
         return found
 
-    def sphere_points(self):
-        """The numbers of the four points of each sphere: its center, and the ends of three half axes."""
-        return [
-            float(word) for _, line in self.spheres for text in self.lines[line - 1:line + 3]
-            for word in text.split(" ", 3)[:3]]
-
     def points(self):
         """The vertices of all triangles, one by one."""
         for line in self.first_lines:

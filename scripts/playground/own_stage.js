@@ -1,6 +1,6 @@
 // A stage of the reader's own in the place of ours: what of it differs, for the inspector's panel on theirs.
 
-import {StageText} from "./stage_text.js";
+import {StageText} from "../inspect_parts/stage_data.js";
 
 const IMAGE_PLACE = 4;  // of the inspector's captions
 const LONGEST_NUMBER = 16, LONGEST_HEAD = 1000;  // characters of a picture's text
@@ -9,10 +9,8 @@ const AXES = "xyz", TOLERANCE = 1e-6;  // of 7 decimals made from 7 decimals, ti
 // A text as our tools write it: no comments, no carriage returns, one blank between words.
 export const tidied = text => text.split("\n").map(line => line.replace(/#.*/, "").trim().replace(/[ \t]+/g, " ").replace(/^\+/, "").replace(/^(-?)\./, "$10.")).join("\n");
 
-const pointsOf = text => Float64Array.from(text.firstLines.flatMap(first => [0, 1, 2].flatMap(v => {
-  const words = (text.lines[first - 1 + v] || "").split(" ");
-  return [0, 1, 2].map(i => words[i] === undefined ? NaN : Number(words[i]));
-})));
+const pointsOf = text => Float64Array.from(text.firstLines.flatMap(first => text.pointsAt(first, 3).flatMap(words =>
+  [0, 1, 2].map(i => words[i] === undefined ? NaN : Number(words[i])))));
 
 // How their text of a stage differs from ours: the indices of vertices, in words the first difference, and the lines of the vertices.
 export function difference(theirText, ourText) {

@@ -1,7 +1,7 @@
 // A scene sent through the pipe: what a shell makes of `model < scene.txt | view | project | zbuf config.txt`, and what the inspector shows.
 
+import {StageText} from "../inspect_parts/stage_data.js";
 import {difference, theirPictureOf, theirsOf} from "./own_stage.js";
-import {StageText} from "./stage_text.js";
 import {textOf} from "./tools.js";
 
 export const STAGES = ["model", "view", "project", "zbuf"];
@@ -130,7 +130,7 @@ export class Pipe {
     stages.push({tool: "zbuf", title: "pixels", seconds: zbuf.seconds, triangles: texts[2].names.length, bytes: zbuf.output.length, statistics: counts[3], text: depths});
     const log = zbuf.read(FRAGMENTS), fragments = log ? fragmentsOf(textOf(log), columns, columns * rows) : seenOf(zbuf.read(TRIANGLES), zbuf.read(DEPTHS));
     return {
-      scene: "scene.txt", config: "config.txt", triangles: model.count, spheres: model.spheres.length, step: 1, stages, notes: [], limits: limitsOf(config),
+      scene: "scene.txt", config: "config.txt", triangles: model.count, spheres: model.spheres.names.length, step: 1, stages, notes: [], limits: limitsOf(config),
       explanations: [], ...fragments,
     };
   }
@@ -138,8 +138,7 @@ export class Pipe {
   stageData(done, text, statistics, count) {
     return {
       tool: done.tool, title: TITLES[done.tool], seconds: done.seconds, triangles: text.names.length, missing: count - new Set(text.names).size, bytes: done.output.length,
-      statistics, names: Int32Array.from(text.names), firstLines: Int32Array.from(text.firstLines), numbers: null, text: text.text,
-      spheres: {names: Int32Array.from(text.spheres, ([name]) => name), firstLines: Int32Array.from(text.spheres, ([, line]) => line), points: Float64Array.from(text.spherePoints())},
+      statistics, numbers: null, text: text.text,
     };
   }
 }
