@@ -39,7 +39,11 @@ export class PicturePanel {
   // Shows a newer image, of which nothing else is there yet.
   preview({columns, rows, pixels}) { if (columns === this.columns && rows === this.rows) this.showImage(pixels); }
 
-  showImage(rgb) { this.paint(this.canvases[0], p => packed(rgb[3 * p], rgb[3 * p + 1], rgb[3 * p + 2])); }
+  showImage(rgb) {
+    const picture = new ImageData(this.columns, this.rows), pixels = new Uint32Array(picture.data.buffer);
+    for (let p = 0, at = 0; p < pixels.length; ++p, at += 3) pixels[p] = packed(rgb[at], rgb[at + 1], rgb[at + 2]);
+    this.canvases[0].getContext("2d").putImageData(picture, 0, 0);
+  }
 
   // The pixels that differ in another image in one color, the others in dark gray tones.
   showDifferences(other) {

@@ -9,11 +9,19 @@ const bytesOf = data => typeof data === "string" ? utf8.encode(data) : data;
 
 export class Tools {
   // `createTool` is the factory that Emscripten makes, `module` the compiled WebAssembly.Module.
-  constructor(createTool, module) { Object.assign(this, {createTool, module}); }
+  constructor(createTool, module) { Object.assign(this, {createTool, module, spares: new Map()}); }
+
+  // Makes an instance for the next run of each of these, while there is time.
+  prepare(names) { for (const name of names) if (!this.spares.has(name)) this.spares.set(name, this.createTool(this.settingsOf(name))); }
 
   // Runs a tool in a folder that has the `files`, {name: text or bytes}, with `input` on its standard input. A pipe is what it has at its
   // ends if `isPiped` says so. Returns status, output and messages as bytes, and `read(name)`, for the files it wrote (null if there is none).
-  async run(name, words, given) { return resultOf(await this.createTool(this.settingsOf(name)), words, given); }
+  async run(name, words, given) {
+    this.prepare([name]);
+    const tool = this.spares.get(name);
+    this.spares.delete(name);
+    return resultOf(await tool, words, given);
+  }
 
   // The same at once, which a worker can do, and Node.js cannot.
   runNow(name, words, given) {
