@@ -20,7 +20,7 @@ async function bundled(entry, resources, format = "esm") {
     entryPoints: [path.join(here, entry)], bundle: true, minify: true, write: false, format, target: "es2022", legalComments: "none", charset: "utf8",
     nodePaths: [path.resolve(npmFolder, "node_modules")], define: {PIPELINE_VERSION: JSON.stringify(version)},
     external: ["module", "node:*"], logOverride: {"empty-import-meta": "silent"},
-    alias: {resources: path.join(here, resources), "all-tools": path.resolve(toolsFolder, "all-tools.js")},
+    alias: {resources: path.join(here, resources), "all-tools": path.resolve(toolsFolder, "all-tools.js"), mesh2scene: path.resolve(toolsFolder, "mesh2scene.js")},
   });
   return outputFiles[0].text;
 }
@@ -38,13 +38,14 @@ function pageOf(policy, style, script) {
 const style = `<style>\n${read(here, "../inspect_parts/page.css")}${read(here, "page.css")}</style>`;
 const samples = Object.fromEntries(fs.readdirSync(path.join(root, "samples")).filter(name => fs.existsSync(path.join(root, "samples", name, "scene.txt")))
   .map(name => [name, {scene: read(root, "samples", name, "scene.txt"), config: read(root, "samples", name, "config.txt")}]));
-const wasm = fs.readFileSync(path.join(toolsFolder, "all-tools.wasm")), worker = await bundled("worker.js", "resources_of_page.js", "iife");
+const [wasm, importer] = ["all-tools", "mesh2scene"].map(name => fs.readFileSync(path.join(toolsFolder, `${name}.wasm`)));
+const worker = await bundled("worker.js", "resources_of_page.js", "iife");
 
 const inner = inPage(await bundled("main.js", "resources_of_page.js"));
 const data = (id, text) => `<script type="application/octet-stream" id="${id}">${text}</script>`;
 const frame = hashOf((await import("./sandbox.js")).FRAME);  // of the page's only other script
 const single = pageOf(`script-src ${hashOf(inner)} ${frame} 'wasm-unsafe-eval'; worker-src blob:`, style,
-  [data("samples-data", packed(JSON.stringify(samples))), data("tools-data", packed(wasm)), data("worker-script", inPage(worker)), `<script type="module">${inner}</script>`].join("\n"));
+  [data("samples-data", packed(JSON.stringify(samples))), data("tools-data", packed(wasm)), data("importer-data", packed(importer)), data("worker-script", inPage(worker)), `<script type="module">${inner}</script>`].join("\n"));
 const folder = pageOf(`script-src 'self' ${frame} 'wasm-unsafe-eval'; worker-src blob:; connect-src 'self'`, style, '<script type="module" src="main.js"></script>');
 
 // The commands that run in Python, at their places.
@@ -54,7 +55,7 @@ const sources = Object.fromEntries([...COMMANDS.map(name => `scripts/${name}`), 
 const PYODIDE = ["pyodide.mjs", "pyodide.asm.mjs", "pyodide.asm.wasm", "python_stdlib.zip", "pyodide-lock.json"];
 
 const files = {"index.html": folder, "main.js": await bundled("main.js", "resources_of_folder.js"), "worker.js": worker,
-  "samples.json": JSON.stringify(samples), "tools.wasm": wasm, "python.js": await bundled("python.js", "resources_of_folder.js"),
+  "samples.json": JSON.stringify(samples), "tools.wasm": wasm, "mesh2scene.wasm": importer, "python.js": await bundled("python.js", "resources_of_folder.js"),
   "commands.json": JSON.stringify({sources, driver: read(here, "run_command.py")}),
   ...Object.fromEntries(PYODIDE.map(name => [name, fs.readFileSync(path.join(npmFolder, "node_modules/pyodide", name))]))};
 

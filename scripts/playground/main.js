@@ -9,11 +9,14 @@ import {PythonClient} from "./python_client.js";
 import {runCode} from "./sandbox.js";
 import {TEMPLATES} from "./templates.js";
 import {STEPS} from "./tour.js";
-import {VERSION, python, samples, toolModule, workerAddress} from "resources";
+import {VERSION, importerModule, python, samples, toolModule, workerAddress} from "resources";
 
 const FIRST_SAMPLE = "worked-example";
 const STORE = "playground", LARGEST_FILE = 1 << 26;
+const MODEL = /\.(obj|stl|ply|gltf|glb)$/i;
+const NO_WORDS = {model: "", view: "", project: "", zbuf: ""};
 const PLACE = /^\w[\w-]*: (?:note: )?(<stdin>|config\.txt):(\d+)(?::(\d+))?: /;
+const expectFits = size => { if (size > LARGEST_FILE) throw new Error(`it is longer than ${LARGEST_FILE} bytes`); };
 const one = selector => document.querySelector(selector);
 
 class Playground {
@@ -97,7 +100,7 @@ class Playground {
 
   choose(name) {
     const {scene, config} = this.given[name];
-    this.state = {scene, config, words: {model: "", view: "", project: "", zbuf: ""}};
+    this.state = {scene, config, words: NO_WORDS};
     one("#samples").value = name;
   }
 
@@ -123,19 +126,32 @@ class Playground {
     document.addEventListener("drop", event => { event.preventDefault(); this.take(event.dataTransfer.files); });
   }
 
-  // Files dropped on the page: what Save wrote, or a scene and a config by their names.
+  // Files dropped on the page: what Save wrote, a scene and a config by their names, or a model with the files that it names.
   async take(files) {
-    for (const file of files) {
+    const model = [...files].find(({name}) => MODEL.test(name));
+    for (const file of model ? [model] : files) {
       try {
-        await this.takeFile(file);
+        expectFits(file.size);
+        await (model ? this.takeModel(model.name, files) : this.takeFile(file));
       } catch (error) {
         this.tell(`${file.name} cannot be read: ${error.message}.`);
       }
     }
   }
 
+  async takeModel(name, files) {
+    const {columns, rows} = this.inspector ? this.inspector.data : {columns: 800, rows: 600};
+    const contents = await Promise.all([...files].map(async file => [file.name, new Uint8Array(await file.arrayBuffer())]));
+    const model = {importer: await importerModule(), words: ["--size", `${columns}x${rows}`, "--", name], files: Object.fromEntries(contents)};
+    const {scene, told, messages} = await this.client.ask({model});
+    if (scene) {
+      expectFits(scene.length);
+      this.state = {...this.state, scene, words: NO_WORDS, mine: undefined};
+    }
+    this.tell(messages ? messages[0].line : told);
+  }
+
   async takeFile(file) {
-    if (file.size > LARGEST_FILE) throw new Error(`it is longer than ${LARGEST_FILE} bytes`);
     const text = await file.text();
     if (file.name.endsWith(".json")) return this.open(checked(JSON.parse(text)));
     expectLines(text);
@@ -250,11 +266,11 @@ class Playground {
     this.tell("");
     const {scene, config, words} = this.state;
     this.client.run({scene, config, words, own: this.own});
-    this.keep();
   }
 
   // What the worker answers: the data of an Inspector, or the stage that failed.
   show({data, failed, messages}) {
+    this.keep();
     this.showMessages(messages, failed);
     one("#glass").classList.toggle("stale", Boolean(failed));
     if (failed && !this.inspector) one("#waiting").textContent = "Nothing to show yet: the messages say why.";

@@ -1,6 +1,7 @@
 // The page's end of the worker: one run at a time, of the newest state.
 
 const PAUSE = 250;  // milliseconds without an edit, before the slow part
+const SOON = 400;   // until it can be stopped
 
 export class PipeClient {
   // `module` is the compiled WebAssembly.Module, `workerAddress` where the worker's script is. `drawn` is called with the picture of a run,
@@ -31,7 +32,7 @@ export class PipeClient {
     this.worker.postMessage({id: this.running, ...this.next});
     this.state = this.next.state;
     this.next = null;
-    this.timer = setTimeout(() => this.busy(true), 400);
+    this.timer = setTimeout(() => this.busy(true), SOON);
   }
 
   helpOf(tool) { return this.ask({help: tool}).then(({text}) => text); }
@@ -39,11 +40,15 @@ export class PipeClient {
   // A zip of a state's files, or why there is none: {zip, messages}.
   filesOf(state) { return this.ask({saved: state}); }
 
+  // The worker's answer to a question; {messages} if it is stopped.
   ask(question) {
-    const id = ++this.id;
+    const id = ++this.id, timer = setTimeout(() => this.busy(true), SOON);
     return new Promise(resolve => {
       this.waiting.set(id, resolve);
       this.worker.postMessage({id, ...question});
+    }).finally(() => {
+      clearTimeout(timer);
+      this.busy(false);
     });
   }
 
@@ -83,6 +88,8 @@ export class PipeClient {
   stop(why = "stopped") {
     this.worker.terminate();
     this.end();
+    for (const answer of this.waiting.values()) answer({text: "", messages: [{line: why}]});
+    this.waiting.clear();
     this.start();
     this.answered({failed: "page", messages: [{tool: "page", line: why}]});
     this.send();

@@ -9,7 +9,8 @@ async function fetched(name) {
 }
 
 export const samples = async () => (await fetched("samples.json")).json();
-export const toolModule = async () => WebAssembly.compile(await (await fetched("tools.wasm")).arrayBuffer());
+const moduleOf = name => async () => WebAssembly.compile(await (await fetched(name)).arrayBuffer());
+export const toolModule = moduleOf("tools.wasm"), importerModule = moduleOf("mesh2scene.wasm");
 // A worker from the page's own text is under the page's policy; one from a file would have none.
 export const workerAddress = async () => URL.createObjectURL(await (await fetched("worker.js")).blob());
 

@@ -7,10 +7,11 @@ const dataOf = id => document.getElementById(id).textContent.trim();
 
 export const samples = () => inflated(dataOf("samples-data"));
 
-export async function toolModule() {
-  const stream = new Blob([bytesOf(dataOf("tools-data"))]).stream().pipeThrough(new DecompressionStream("deflate"));
+const moduleOf = id => async () => {
+  const stream = new Blob([bytesOf(dataOf(id))]).stream().pipeThrough(new DecompressionStream("deflate"));
   return WebAssembly.compile(await new Response(stream).arrayBuffer());
-}
+};
+export const toolModule = moduleOf("tools-data"), importerModule = moduleOf("importer-data");
 
 export const workerAddress = async () => URL.createObjectURL(new Blob([dataOf("worker-script")], {type: "text/javascript"}));
 

@@ -1,6 +1,6 @@
 // The tools, compiled to WebAssembly: a fresh instance for each run is what a process is to a shell.
 
-const FIFO = 0o010000, KIND = 0o170000;  // S_IFIFO and S_IFMT
+const FIFO = 0o010000, KIND = 0o170000, FOLDER = 0o040555;  // S_IFIFO, S_IFMT, and S_IFDIR to read
 const CRASHED = 70;  // the status of a tool that ran out of memory or stack
 const IN = "/dev/shm/in", OUT = "/dev/shm/out", MESSAGES = "/dev/shm/messages";
 
@@ -40,6 +40,8 @@ function resultOf(tool, words, {input = "", files = {}, isPiped = [false, false]
   const {FS} = tool;
   FS.mkdir("/work");
   FS.chdir("/work");
+  FS.mkdir("/dev/fd");
+  FS.mount({mount: () => descriptorsOf(FS)}, {}, "/dev/fd");
   for (const [path, data] of Object.entries(files)) FS.writeFile(path, bytesOf(data));
   FS.writeFile(IN, bytesOf(input));
   [[0, IN, "r"], [1, OUT, "w"], [2, MESSAGES, "w"]].forEach(([descriptor, path, mode]) => {
@@ -60,6 +62,14 @@ function resultOf(tool, words, {input = "", files = {}, isPiped = [false, false]
   // Read now: what refers to the instance keeps all of its memory.
   const written = new Map(FS.readdir("/work").filter(path => FS.isFile(FS.stat(path).mode) && !(path in files)).map(path => [path, FS.readFile(path)]));
   return {status, output: contents(out), messages: contents(messages), written, read: path => written.get(path) || null};
+}
+
+// The root of a file system that has the open files by their numbers; Emscripten has none at /dev/fd.
+function descriptorsOf(FS) {
+  const root = FS.createNode(null, "/", FOLDER, 0);
+  root.node_ops = {lookup: (_, name) => FS.getStreamChecked(Number(name)).node};
+  root.stream_ops = {};
+  return root;
 }
 
 export const textOf = bytes => text.decode(bytes);

@@ -1,16 +1,17 @@
 // Runs the pipe beside the page, so that the page stays alive and can end it.
 
 import createTool from "all-tools";
+import createImporter from "mesh2scene";
 
-import {Pipe, StageFailure} from "./pipe.js";
+import {Pipe, STAGES, StageFailure} from "./pipe.js";
 import {Tools, textOf} from "./tools.js";
 import {zipOf} from "./zip.js";
 
 let pipe = null, tools = null;
 
 // What is asked for: {module} once, then {id, state, isQuick} for a run, which first answers with its picture, {id, help} for the text of a
-// tool's --help, or {id, saved}, a state, for a zip of its files.
-self.onmessage = async ({data: {module, id, state, isQuick, help, saved}}) => {
+// tool's --help, {id, saved}, a state, for a zip of its files, or {id, model}, for the scene that mesh2scene makes of files.
+self.onmessage = async ({data: {module, id, state, isQuick, help, saved, model}}) => {
   if (module) {
     tools = new Tools(createTool, module);
     pipe = new Pipe(tools);
@@ -18,10 +19,17 @@ self.onmessage = async ({data: {module, id, state, isQuick, help, saved}}) => {
   }
   try {
     if (help) return self.postMessage({id, text: textOf((await tools.run(help, ["--help"])).output)});
+    if (model) return self.postMessage({id, ...await sceneOf(model)});
     if (saved) return self.postMessage({id, zip: zipOf(await pipe.filesOf(saved))});
     self.postMessage({id, ...await pipe.run(state, isQuick, picture => self.postMessage({id, picture}))});
+    tools.prepare(STAGES);
   } catch (error) {
     const {tool, messages} = error instanceof StageFailure ? error : {tool: "page", messages: [{tool: "page", line: `page: ${error.message}`}]};
     self.postMessage({id, failed: tool, messages});
   }
 };
+
+async function sceneOf({importer, words, files}) {
+  const done = await new Tools(createImporter, importer).run("mesh2scene", words, {files});
+  return {scene: done.status === 0 && textOf(done.output), told: textOf(done.messages)};
+}

@@ -77,6 +77,22 @@ def runs_of_samples():
                              ["out.bmp", "out.ppm", "fragments.txt", "counts.txt"])
 
 
+MODEL = {"a.obj": b"mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl red\nf 1 2 3\n",
+         "a.mtl": b"newmtl red\nKd 1 0 0\n"}
+
+
+def runs_of_models():
+    """Broken models, none, one with a second file, and one of every format. (Of some broken ones assimp
+    crashes natively.)"""
+    for names in ([], ["a.obj"], ["a.obj", "a.mtl"]):
+        yield run_of("mesh2scene", ["--", "a.obj"], b"", {name: MODEL[name] for name in names})
+    yield run_of("mesh2scene", ["a.stl"], b"", {"a.stl": b"solid"})
+    for kind in ("obj", "ply", "stl", "gltf"):
+        model = subprocess.run([ROOT / "scripts/make-model", "room", "--detail", "2", "--format", kind],
+                               capture_output=True, check=True).stdout
+        yield run_of("mesh2scene", ["--size", "300x200", f"room.{kind}"], b"", {f"room.{kind}": model})
+
+
 def native(run):
     """What a native tool makes of a run."""
     with tempfile.TemporaryDirectory() as folder:
@@ -95,7 +111,7 @@ def native(run):
                                 for name, path in files.items()}}
 
 
-FILES = ("index.html", "main.js", "samples.json", "tools.wasm", "worker.js")
+FILES = ("index.html", "main.js", "mesh2scene.wasm", "samples.json", "tools.wasm", "worker.js")
 FILES_OF_PYTHON = ("commands.json", "pyodide-lock.json", "pyodide.asm.mjs", "pyodide.asm.wasm", "pyodide.mjs",
                    "python.js", "python_stdlib.zip")
 NOT_BUILT = "scripts/build-playground has not run here"
@@ -123,6 +139,10 @@ class ToolsOfThePage(unittest.TestCase):
     def test_the_samples_are_those_of_the_native_tools(self):
         self.check([*runs_of_samples()])
 
+    @unittest.skipUnless((BIN / "mesh2scene").exists(), "built without assimp")
+    def test_models_become_the_scenes_of_the_native_tool(self):
+        self.check([*runs_of_models()])
+
 
 @unittest.skipUnless((BUILT / "wasm/bin/all-tools.wasm").exists(), NOT_BUILT)
 @unittest.skipUnless(shutil.which("node"), "node is missing")
@@ -137,21 +157,14 @@ class TheBuild(unittest.TestCase):
         def link(path):
             path.symlink_to("elsewhere")
 
-        def folder_in_folder(path):
-            (path / "worker.js").mkdir(parents=True)
-
-        def page_in_folder(path):
-            path.mkdir()
-            (path / "index.html").write_text("mine")
-
-        def file_in_folder(path):
-            path.mkdir()
-            (path / "mine.txt").write_text("mine")
+        def write(path):
+            path.parent.mkdir(exist_ok=True)
+            path.write_text("mine")
 
         for name, make in (("playground.html", link), ("playground.html", os.mkfifo), ("playground", link),
-                           ("playground.html", lambda path: path.write_text("mine")),
-                           ("playground", folder_in_folder), ("playground", file_in_folder),
-                           ("playground", page_in_folder)):
+                           ("playground.html", write), ("playground", lambda path: write(path / "mine.txt")),
+                           ("playground", lambda path: write(path / "index.html")),
+                           ("playground", lambda path: (path / "worker.js").mkdir(parents=True))):
             with tempfile.TemporaryDirectory() as folder:
                 make(pathlib.Path(folder, name))
                 before = sorted(pathlib.Path(folder).rglob("*"))
@@ -552,6 +565,25 @@ class TheFolder(PageTest):
 
     def test_it_shows_the_native_picture(self):
         self.check_the_native_picture()
+
+    @unittest.skipUnless((BIN / "mesh2scene").exists(), "built without assimp")
+    def test_a_model_is_dropped_with_its_colors(self):
+        drop = """const dataTransfer = new DataTransfer();
+          for (const [name, text] of Object.entries(arguments[0])) dataTransfer.items.add(new File([text], name));
+          document.dispatchEvent(new DragEvent("drop", {dataTransfer}));"""
+        told = "return document.querySelector('#told').innerText"
+        self.assertEqual([line for line in self.asked if "mesh2scene" in line], [])
+        size = "x".join(map(str, self.browser.run(IMAGE)[:2]))
+        self.browser.run(drop, {name: data.decode() for name, data in MODEL.items()})
+        self.browser.wait_for(lambda: "is taken for up" in self.browser.run(told))
+        with tempfile.TemporaryDirectory() as folder:
+            for name, data in MODEL.items():
+                pathlib.Path(folder, name).write_bytes(data)
+            done = subprocess.run([BIN / "mesh2scene", "--size", size, "a.obj"], cwd=folder, check=True,
+                                  capture_output=True, text=True)
+        self.assertEqual(self.browser.run("return document.body.playground.state.scene"), done.stdout)
+        self.browser.run(drop, {"a.stl": "solid"})
+        self.browser.wait_for(lambda: "a.stl" in self.browser.run(told))
 
     def told_by_python(self, panel, label):
         """What a panel says when its button has been pressed."""
