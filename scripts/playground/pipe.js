@@ -52,7 +52,9 @@ export class Pipe {
     for (const tool of STAGES) {
       const isLast = tool === "zbuf", own = wordsOf(words[tool]);
       if (isTraced ? tool === "project" : isLast) {
-        const drawing = await this.draw(isTraced ? "trace" : tool, words, isTraced ? results[1].output : input, config);
+        // The picture and nothing else, which takes a fifth of the time.
+        const by = isTraced ? "trace" : tool, all = ["config.txt", ...wordsOf(words[by]), "-o", IMAGE, .../--z-buffer/.test(words[by]) ? [] : ["--z-buffer", "none"]];
+        const drawing = await this.stage(by, all, isTraced ? results[1].output : input, {"config.txt": config}, "picture");
         if (isTraced || drawing.status !== 0) taken(drawing, IMAGE);
         picture = drawing.read(IMAGE) && imageOf(drawing.read(IMAGE));
         if (isQuick && picture) drawn(picture);
@@ -69,12 +71,6 @@ export class Pipe {
     const data = {...this.inspected(results, config), ...picture, isTraced, explain, coverage: rule};
     if (own && !isTraced) data.theirs = await this.withOwn(own, results, {scene, config, words, picture});
     return {data, messages, isQuick: logs[0] !== "--fragments"};
-  }
-
-  // The picture and nothing else, which takes a fifth of the time.
-  draw(tool, words, input, config) {
-    const own = wordsOf(words[tool]), none = /--z-buffer/.test(words[tool]) ? [] : ["--z-buffer", "none"];
-    return this.stage(tool, ["config.txt", ...own, "-o", IMAGE, ...none], input, {"config.txt": config}, "picture");
   }
 
   // The files of `pipeline stages`, which passes lossless texts on, and what they are made of; without project and zbuf if trace draws.

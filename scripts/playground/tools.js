@@ -40,8 +40,9 @@ function resultOf(tool, words, {input = "", files = {}, isPiped = [false, false]
   const {FS} = tool;
   FS.mkdir("/work");
   FS.chdir("/work");
+  const descriptors = {lookup: (_, name) => FS.getStreamChecked(Number(name)).node};  // which Emscripten has not
   FS.mkdir("/dev/fd");
-  FS.mount({mount: () => descriptorsOf(FS)}, {}, "/dev/fd");
+  FS.mount({mount: () => Object.assign(FS.createNode(null, "/", FOLDER, 0), {node_ops: descriptors, stream_ops: {}})}, {}, "/dev/fd");
   for (const [path, data] of Object.entries(files)) FS.writeFile(path, bytesOf(data));
   FS.writeFile(IN, bytesOf(input));
   [[0, IN, "r"], [1, OUT, "w"], [2, MESSAGES, "w"]].forEach(([descriptor, path, mode]) => {
@@ -62,14 +63,6 @@ function resultOf(tool, words, {input = "", files = {}, isPiped = [false, false]
   // Read now: what refers to the instance keeps all of its memory.
   const written = new Map(FS.readdir("/work").filter(path => FS.isFile(FS.stat(path).mode) && !(path in files)).map(path => [path, FS.readFile(path)]));
   return {status, output: contents(out), messages: contents(messages), written, read: path => written.get(path) || null};
-}
-
-// The root of a file system that has the open files by their numbers; Emscripten has none at /dev/fd.
-function descriptorsOf(FS) {
-  const root = FS.createNode(null, "/", FOLDER, 0);
-  root.node_ops = {lookup: (_, name) => FS.getStreamChecked(Number(name)).node};
-  root.stream_ops = {};
-  return root;
 }
 
 export const textOf = bytes => text.decode(bytes);

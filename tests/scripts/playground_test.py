@@ -194,29 +194,27 @@ class TheEditor(unittest.TestCase):
         self.assertEqual(sorted([*words[0], *projections]), sorted(words[1]))
 
 
-class Listener:
-    """A server on this machine that lets anybody in, and counts who asks."""
+def serve(case, folder):
+    """A server of a folder that lets anybody in, until the test case ends: its address, and what it is asked
+    for."""
+    asked = []
 
-    def __init__(self):
-        outer, self.requests = self, 0
+    class Handler(http.server.SimpleHTTPRequestHandler):
+        def __init__(self, *words):
+            super().__init__(*words, directory=folder)
 
-        class Handler(http.server.BaseHTTPRequestHandler):
-            def do_GET(self):  # noqa: N802
-                outer.requests += 1
-                self.send_response(200)
-                self.send_header("Access-Control-Allow-Origin", "*")
-                self.end_headers()
+        def end_headers(self):
+            self.send_header("Access-Control-Allow-Origin", "*")
+            super().end_headers()
 
-            def log_message(self, *_):
-                pass
+        def log_message(self, _, *words):
+            asked.append(str(words[0]))
 
-        self.server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), Handler)
-        self.address = f"http://127.0.0.1:{self.server.server_port}/"
-        threading.Thread(target=self.server.serve_forever, daemon=True).start()
-
-    def end(self):
-        self.server.shutdown()
-        self.server.server_close()
+    server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), Handler)
+    threading.Thread(target=server.serve_forever, daemon=True).start()
+    case.addCleanup(server.server_close)
+    case.addCleanup(server.shutdown)
+    return f"http://127.0.0.1:{server.server_port}/", asked
 
 
 SET = "const page = document.body.playground; page.state = {...page.state, ...arguments[0]};"
@@ -494,16 +492,15 @@ class ThePage(PageTest):
                   mine={"tool": "view", "kind": "js", "text": "return 'ran'"})
         self.assertEqual(self.browser.run(self.TOLD), ["", ""])
         self.assertIn("'ran'", self.browser.run("return document.body.playground.state.mine.text"))
-        server = Listener()
-        self.addCleanup(server.end)
+        address, asked = serve(self, BUILT / "site")
         for code, told in (("for (;;);", "it has not ended after 5 seconds"), ("throw 5", "5"),
                            ("return x(", "SyntaxError|the code cannot be read"),
                            ("return 'a'.repeat(1e8)", "it returned too much"),
                            ("postMessage({error: {toString: null}}); for (;;);", "it answers by itself"),
                            ("for (;;) postMessage(null);", "it answers by itself"),
                            ("throw new Error('x y '.repeat(1e6));", "^.{200,400}$"),
-                           (f"importScripts('{server.address}')", "NetworkError"),
-                           (f"const r = new XMLHttpRequest(); r.open('GET', '{server.address}', false); "
+                           (f"importScripts('{address}')", "NetworkError"),
+                           (f"const r = new XMLHttpRequest(); r.open('GET', '{address}', false); "
                             "r.send()", "NetworkError")):
             with self.subTest(code=code):
                 self.browser.run("document.querySelector('#told').innerText = ''")
@@ -511,9 +508,9 @@ class ThePage(PageTest):
         self.assertIn("found 'undefined,null'",
                       self.own("view", "return [typeof localStorage, self.origin].join() + '\\n'")[1])
         self.assertEqual(self.browser.run("return document.querySelectorAll('iframe').length"), 0)
-        self.assertEqual(server.requests, 0)
-        urllib.request.urlopen(server.address).close()
-        self.assertEqual(server.requests, 1)
+        self.assertEqual(asked, [])
+        urllib.request.urlopen(address).close()
+        self.assertEqual(len(asked), 1)
 
     def test_it_lives_after_hostile_texts(self):
         self.browser.run(SET, {"config": "30000 30000\n"})
@@ -538,26 +535,11 @@ class TheFolder(PageTest):
     """The same, served as files; of code in the page, nothing comes back to the server."""
 
     def setUp(self):
-        self.asked = asked = []
-
-        class Handler(http.server.SimpleHTTPRequestHandler):
-            def __init__(self, *words):
-                super().__init__(*words, directory=BUILT / "site/playground")
-
-            def log_message(self, _, *words):
-                asked.append(str(words[0]))
-
-        self.server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), Handler)
-        threading.Thread(target=self.server.serve_forever, daemon=True).start()
+        self.address, self.asked = serve(self, BUILT / "site/playground")
         self.open("")
 
-    def tearDown(self):
-        super().tearDown()
-        self.server.shutdown()
-        self.server.server_close()
-
     def open(self, hash_):
-        address = f"http://127.0.0.1:{self.server.server_port}/index.html{hash_}"
+        address = f"{self.address}index.html{hash_}"
         self.browser.call("POST", "/url", {"url": address})
         self.browser.wait_for(lambda: self.browser.run("return document.body.dataset.runs"))
         files = tuple(f"GET /{name} " for name in (*FILES, "favicon.ico"))
@@ -634,7 +616,7 @@ class TheFolder(PageTest):
     def test_code_reaches_no_file_of_the_server(self):
         scene, config = self.sample("worked-example")
         self.edit(scene=scene.decode(), config=config.decode())
-        count, where = len(self.asked), f"http://127.0.0.1:{self.server.server_port}/main.js"
+        count, where = len(self.asked), f"{self.address}main.js"
         for code in (f"importScripts('{where}')",
                      f"const r = new XMLHttpRequest(); r.open('GET', '{where}', false); r.send()",
                      f"fetch('{where}', {{mode: 'no-cors'}}); const e = Date.now() + 500; "
