@@ -42,7 +42,8 @@ def marked(rows, marks, step):
 
 
 def pictures(test, files, verdict):
-    """(caption, data: URI) of the pictures of a test, as far as they can be shown."""
+    """(caption, data: URI, share of the widest one's width) of the pictures of a test, as far as they can be
+    shown."""
     theirs = None
     picture = [file for file in verdict.of("zbuf")
                if file.file == files["picture"].name] if "picture" in files else []
@@ -55,12 +56,13 @@ def pictures(test, files, verdict):
     if not shape:
         return []
     step = max(1, -(-len(shape[0]) // 3 // MOST_COLUMNS))
-    found = [(caption, data_uri(smaller(rows, step)))
+    found = [(caption, smaller(rows, step))
              for caption, rows in (("The scene, right", test.picture), ("Yours", theirs))
              if rows]
     wrong = [file for file in verdict.of("zbuf") if not file.is_good and file.places]
     if wrong:
         marks = [(file.places, RED if file in picture else ORANGE)
                  for file in sorted(wrong, key=picture.__contains__)]
-        found.append((DIFFERENCES, data_uri(marked(smaller(theirs or shape, step), marks, step))))
-    return found
+        found.append((DIFFERENCES, marked(smaller(theirs or shape, step), marks, step)))
+    widest = max(len(rows[0]) for _, rows in found)
+    return [(caption, data_uri(rows), len(rows[0]) / widest) for caption, rows in found]

@@ -1,9 +1,10 @@
 """How much of a Verdict is given away to its student."""
 import dataclasses
+import re
 
 from judge_parts.mistakes import fix
 from judge_parts.report import sentence
-from judge_parts.verdict import MISSING, UNREADABLE, Verdict
+from judge_parts.verdict import MISSING, UNREADABLE, WRONG, Verdict
 
 LEVELS = ("none", "stage", "cause", "fix")
 
@@ -47,8 +48,17 @@ def fixes(verdict, level):
     """What to do about the mistakes, as sentences."""
     if not gives(level, "fix"):
         return []
-    return list(
-        dict.fromkeys(text for file in verdict.files for cause in file.causes if (text := fix(cause.name))))
+    known = dict.fromkeys(
+        text for file in verdict.files for cause in file.causes if (text := fix(cause.name)))
+    unknown = next((file for file in verdict.files if file.verdict == WRONG and not file.causes), None)
+    return [*known, *([by_hand(unknown)] if unknown else [])]
+
+
+def by_hand(file):
+    """What to do about a file that no known mistake explains."""
+    place = re.search(r"triangle \d+(?=: )|row \d+, column \d+", file.first)
+    return (f"No known mistake explains {file.file}: calculate {place[0] if place else 'its first triangle'} "
+            "by hand, print what your program has after each step, and find the first step that differs.")
 
 
 def upper_first(text):

@@ -3,6 +3,7 @@ pictures are in it."""
 import html
 
 from grade_parts.hints import gives, told
+from judge_parts.fit import shown
 from judge_parts.report import remarks_of
 from lib.page_policy import policy
 
@@ -19,11 +20,16 @@ td:nth-child(2) { min-width: 6rem }
 .good { color: #146c2e } .bad { color: #a31515 } .open { color: #7a5200 }
 .teacher { border-left: 3px solid #7a5200; padding-left: .6rem }
 .fix { border-left: 3px solid #3465a4; padding-left: .6rem }
-pre { font-size: .72rem; overflow-x: auto; margin: .3rem 0 }
-figure { display: inline-block; vertical-align: top; margin: .4rem .8rem 0 0; max-width: 30% }
+.matrix { display: inline-table; width: auto; margin-right: 2rem }
+.matrix td { min-width: 0; padding: .1rem .3rem; text-align: right } caption { text-align: left }
+figure { display: inline-block; vertical-align: top; margin: .4rem .8rem 0 0 }
 img { width: 100%; image-rendering: pixelated; border: 1px solid #999 } figcaption { font-size: .8rem }
+@media (max-width: 40rem) { tr, tr td:nth-child(n) { display: block; white-space: normal; padding: 0 }
+tr:first-child:has(th) { display: none } .matrix tr { display: table-row }
+.matrix tr td:nth-child(n) { display: table-cell } }
+.matrix tr td:nth-child(n) { white-space: nowrap }
 @media print { body { margin: 0; max-width: none } h2 { break-after: avoid }
-figure, table, pre { break-inside: avoid } }
+figure, table { break-inside: avoid } }
 """
 HEADER = ("stage", "file", "verdict", "differ", "first difference", "remarks")
 
@@ -74,9 +80,24 @@ def section(test, level):
                 f"<p>The matrix of {file.stage}, from the points of {html.escape(file.file)}, and the right "
                 f"one:</p>"
             )
-            yield "<pre>" + html.escape("\n".join(file.matrices.lines())) + "</pre>"
-    for caption, uri in test.pictures:
-        yield f'<figure><img src="{uri}" alt="{caption}"><figcaption>{caption}</figcaption></figure>'
+            yield matrices(file.matrices)
+    for caption, uri, share in test.pictures:
+        yield (f'<figure style="width: {30 * share:.4g}%"><img src="{uri}" alt="{caption}">'
+               f"<figcaption>{caption}</figcaption></figure>")
+
+
+def matrices(comparison):
+    """A fit.Comparison as two tables, which stand one below the other where there is no room."""
+    if not hasattr(comparison, "theirs"):
+        return f"<p>{html.escape(str(comparison).strip())}</p>"
+    marked = "found in the points (* differs)", comparison.theirs, comparison.differing
+    tables = []
+    for caption, m, places in (marked, ("right", comparison.ours, ())):
+        rows = ("".join(f"<td>{shown(x)}{'*' * ((i, j) in places)}</td>" for j, x in enumerate(row))
+                for i, row in enumerate(m))
+        tables.append(f'<table class="matrix"><caption>{caption}</caption>' +
+                      "".join(f"<tr>{row}</tr>" for row in rows) + "</table>")
+    return "".join(tables)
 
 
 def counted(file):

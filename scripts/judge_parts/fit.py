@@ -59,6 +59,18 @@ def cause_of_one_element(comparison):
                       f"{comparison.theirs[i][j]:.5g}, not {comparison.ours[i][j]:.5g}")]
 
 
+def known_rows(comparison, directions):
+    """Remarks on the wrong rows of a Comparison that begin with a known direction: (name, vector)."""
+    directions = list(directions)
+    for i in sorted({i for i, j in getattr(comparison, "differing", ()) if j < 3}):
+        row = comparison.theirs[i]
+        names = [
+            name for name, v in directions
+            if any(v) and math.dist(row[:3], v) < LEAST_DIFFERENCE * max(1, math.hypot(*v))]
+        if names:
+            yield f"row {i + 1} of its matrix is {names[0]}"
+
+
 def shown(x):
     text = f"{x:.{DECIMALS}f}"
     return text.lstrip("-") if not text.strip("-0.") else text

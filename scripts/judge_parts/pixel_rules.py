@@ -55,7 +55,9 @@ MISTAKES = [
 def pairs():
     """(names, changes) for each two mistakes that change different things."""
     for (names, one), (others, other) in itertools.combinations(MISTAKES, 2):
-        if len(names) == len(others) == 1 and names != others and one.keys().isdisjoint(other):
+        flips = [any("flip" in key for key in changes) for changes in (one, other)]
+        is_single = len(names) == len(others) == 1 and names != others
+        if is_single and one.keys().isdisjoint(other) and not all(flips):
             yield (*names, *others), {**one, **other}
 
 

@@ -322,17 +322,13 @@ class PixelJudge:
 
     def is_void(self, changes):
         """Whether a change cannot matter here."""
-        window = self.window
-        if changes.get("is_window_one"):
-            return (float(window.left), float(window.bottom)) == (-1, -1)
-        if changes.get("is_depth_one"):
-            return self.limits == (-1, 1)
-        if changes.get("starts_at_zero"):
-            return self.limits[1] == 0
-        if "transposed" in changes.values() and window.width != window.height:
-            return True
-        return changes.get("text_flip", "") != changes.get("picture_flip", "") and not (self.shown.colors
-                                                                                        and self.shown.depths)
+        window, has_both = self.window, self.shown.colors and self.shown.depths
+        return bool(
+            changes.get("is_window_one") and (float(window.left), float(window.bottom)) == (-1, -1)
+            or changes.get("is_depth_one") and self.limits == (-1, 1)
+            or changes.get("starts_at_zero") and self.limits[1] == 0
+            or "transposed" in changes.values() and window.width != window.height
+            or changes.get("text_flip", "") != changes.get("picture_flip", "") and not has_both)
 
     def find_at_borders(self, best):
         """Whether all differences from the nearest of our two rules lie within a pixel of an edge, and are no

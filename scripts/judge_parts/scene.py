@@ -11,6 +11,7 @@ from judge_parts.mistakes import sentences
 from judge_parts.matrices import (DIVIDES_X_AND_Y, IDENTITY, TWICE, VIEW_SPELLINGS, Z_TWICE, affine,
                                   image, negative, perspective_matrix, product, projection_matrix, rotation,
                                   scaling, slack, transposed, translation, unit, view_matrix)
+from lib.vectors import cross
 
 NO_UNITS = (0.0, 0.0, 0.0)
 DIVISIONS = {"no-divide": False, "divided-twice": TWICE, "z-not-divided": DIVIDES_X_AND_Y,
@@ -200,6 +201,19 @@ class Scene:
             return None
         window = (exact[0][0], exact[0][2], exact[1][1], exact[1][2])
         return projection_matrix(window, float(kind.near), float(kind.far), mistake)
+
+    def directions(self):
+        """(name, vector) of what may stand in a row of the matrix of view."""
+        l = tuple(b - a for a, b in zip(self.eye, self.look))
+        named = [("the scene's up", self.up), ("the scene's eye", self.eye), ("the scene's look", self.look),
+                 ("look - eye", l), ("l x up", cross(unit(l), self.up))]
+        r, u, back = (row[:3] for row in self.of_view()[:3])
+        named += ("r", r), ("u", u), ("l", negative(back))
+        for name, v in named:
+            yield name, v
+            yield f"-{name}" if len(name) == 1 else f"-({name})", negative(v)
+            if any(v) and len(name) > 1:
+                yield f"{name}, divided by its length", unit(v)
 
     def view_pairs(self):
         """((name, name), matrix, whether it divides) for each two mistakes of view."""

@@ -141,7 +141,8 @@ class Shown:
         if flip == "transposed" and not self.is_full:
             if [len(row) for row in rows] == [self.height] * self.width:
                 return list(zip(*rows))
-            if not drawn or list(map(len, rows)) != list(map(sum, zip(*drawn)))[:len(rows)]:
+            missing = [0] * (self.width - len(rows))
+            if not drawn or list(map(len, rows)) + missing != list(map(sum, zip(*drawn))):
                 return [[]] * self.height
             columns = list(map(iter, rows))
             return [[next(columns[c]) for c, is_drawn in enumerate(row) if is_drawn] for row in drawn]
