@@ -400,7 +400,8 @@ class Wrong(HandIn):
     def test_two_mistakes_at_once(self):
         for one, other in (("view/eye-added", "view/l-not-negated"), ("view/up-is-0-1-0", "view/r-not-unit"),
                            ("project/fovx-equals-fovy", "project/missing-two"),
-                           ("model/push-of-the-identity", "model/angle-in-radians")):
+                           ("model/push-of-the-identity", "model/angle-in-radians"),
+                           ("zbuf/shifted-by-a-row", "zbuf/flat-depth")):
             with self.subTest(one, other=other):
                 stage = one.split("/")[0]
                 pathlib.Path("scene.txt").write_text(self.scene)
@@ -411,6 +412,24 @@ class Wrong(HandIn):
                 self.assertEqual([cause.name for cause in file.causes], [f"{one} and {other}"])
                 self.assertEqual(mistakes.fix(file.causes[0].name),
                                  f"{mistakes.fix(one)} {mistakes.fix(other)}")
+
+    def test_rows_that_are_known_where_no_mistake_is(self):
+        """-r without its length, up as the scene has it, and l: three mistakes at once."""
+        view = Reference(self.scene.encode(), None, Tools()).scene
+        l, rows = [b - a for a, b in zip(view.eye, view.look)], []
+        r = [view.up[1] * l[2] - view.up[2] * l[1], view.up[2] * l[0] - view.up[0] * l[2],
+             view.up[0] * l[1] - view.up[1] * l[0]]
+        for row in (r, view.up, l):
+            rows.append((*(x / (math.hypot(*l) if row is not view.up else 1) for x in row), 3.0))
+        self.stages()
+        lines = pathlib.Path("stage1.txt").read_text().split("\n")
+        pathlib.Path("stage2.txt").write_text("\n".join(" ".join(
+            f"{x:.7f}" for x in image((*rows, (0, 0, 0, 1)), tuple(map(float, line.split())), False))
+            if line else "" for line in lines))
+        file = self.verdict(config=False).files[1]
+        self.assertEqual((file.cause, file.remarks), ("", [
+            "row 1 of its matrix is -(l x up)", "row 2 of its matrix is the scene's up",
+            "row 3 of its matrix is look - eye, divided by its length"]))
 
     def test_an_element_of_the_diagonal(self):
         self.stages()
