@@ -2,7 +2,6 @@
 
 #include "libpipeline/coverage/center.h"
 #include "libpipeline/coverage/depth_in_doubles.h"
-#include "libpipeline/coverage/depth_plane.h"
 #include "libpipeline/coverage/kernel.h"
 
 #undef HWY_TARGET_INCLUDE

@@ -3,7 +3,6 @@
 #include <bit>
 #include <cassert>
 #include <cmath>
-#include <cstdlib>
 #include <numeric>
 
 #include "libpipeline/numbers/decimal_units.h"

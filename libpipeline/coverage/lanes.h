@@ -1,6 +1,5 @@
 // No include guard: included once for each target, see numbers/vector_targets.h.
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>

@@ -1,4 +1,3 @@
-#include <array>
 
 #include "libpipeline/coverage/kernel.h"
 #include "libpipeline/coverage/nearest.h"

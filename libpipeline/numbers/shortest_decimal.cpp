@@ -4,7 +4,6 @@
 #include <bit>
 
 #include "libpipeline/numbers/int128.h"
-#include "libpipeline/numbers/powers_of_ten.h"
 
 namespace pipeline {
 namespace {

@@ -9,7 +9,6 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
-#include <string_view>
 
 #include "libpipeline/text/error.h"
 #include "libpipeline/text/text_writer.h"

@@ -1,6 +1,5 @@
 #include "libpipeline/picture/corner_weights.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "libpipeline/numbers/exact_sum.h"

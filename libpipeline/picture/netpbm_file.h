@@ -3,9 +3,11 @@
 #include <span>
 #include <string>
 
-#include "libpipeline/picture/pixel_bytes.h"
-
 namespace pipeline {
+
+/// How the pixels of a row become bytes: red, green and blue; these and an alpha (PNG only); or 16 bits of
+/// gray, the high byte first.
+enum class PixelBytes { rgb8, rgba8, gray16 };
 
 /// Takes a binary Netpbm image, a PPM (P6) or a PGM (P5), row by row from the top, and writes it in blocks.
 /// Failures to write are IoErrors.

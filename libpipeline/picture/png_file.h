@@ -4,7 +4,7 @@
 #include <span>
 #include <string>
 
-#include "libpipeline/picture/pixel_bytes.h"
+#include "libpipeline/picture/netpbm_file.h"
 
 namespace pipeline {
 

@@ -1,8 +1,6 @@
 #include "libpipeline/picture/shading.h"
 
 #include <algorithm>
-#include <cmath>
-#include <cstdint>
 
 #include "libpipeline/numbers/vec_math.h"
 

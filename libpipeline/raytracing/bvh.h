@@ -6,8 +6,6 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
-#include <span>
-#include <utility>
 #include <vector>
 
 #include "libpipeline/numbers/bounding_box.h"

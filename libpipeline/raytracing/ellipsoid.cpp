@@ -1,6 +1,5 @@
 #include "libpipeline/raytracing/ellipsoid.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "libpipeline/numbers/vec_math.h"

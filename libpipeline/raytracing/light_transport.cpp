@@ -1,9 +1,7 @@
 #include "libpipeline/raytracing/light_transport.h"
 
 #include <algorithm>
-#include <cmath>
 
-#include "libpipeline/numbers/decay.h"
 #include "libpipeline/numbers/vec_math.h"
 #include "libpipeline/raytracing/refraction.h"
 

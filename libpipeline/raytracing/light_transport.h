@@ -2,15 +2,13 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 #include "libpipeline/picture/shading.h"
 #include "libpipeline/raytracing/bvh.h"
 #include "libpipeline/raytracing/ray_log.h"
-#include "libpipeline/raytracing/shown_light.h"
 #include "libpipeline/raytracing/surface_caster.h"
-#include "libpipeline/raytracing/surface_hit.h"
+#include "libpipeline/raytracing/surface_triangle.h"
 #include "libpipeline/raytracing/traced_triangles.h"
 
 namespace pipeline {

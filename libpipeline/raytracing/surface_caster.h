@@ -9,7 +9,6 @@
 #include "libpipeline/numbers/vec_math.h"
 #include "libpipeline/picture/shading.h"
 #include "libpipeline/raytracing/bvh.h"
-#include "libpipeline/raytracing/surface_hit.h"
 #include "libpipeline/raytracing/surface_triangle.h"
 #include "libpipeline/raytracing/traced_triangles.h"
 #include "libpipeline/scene/color.h"

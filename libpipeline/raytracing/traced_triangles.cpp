@@ -1,5 +1,7 @@
 #include "libpipeline/raytracing/traced_triangles.h"
 
+#include <optional>
+
 #include "libpipeline/stream/text_round_trip.h"
 #include "libpipeline/text/error.h"
 
@@ -102,6 +104,16 @@ void TracedTriangles::copy(Id id, TriangleBatch& p_view) const {
   if (!attributes_.colors.empty()) p_view.attributes.colors.push_back(attributes_.colors[id]);
   if (!attributes_.normals.empty()) p_view.attributes.normals.push_back(attributes_.normals[id]);
   if (!attributes_.materials.empty()) p_view.attributes.materials.push_back(attributes_.materials[id]);
+}
+
+bool TracedSpheres::add(const TriangleBatch& p_view, std::size_t entry) {
+  const std::optional<Ellipsoid> surface = Ellipsoid::from(p_view.sphere_points(entry));
+  if (!surface) return false;
+  const AttributeArrays& attributes = p_view.attributes;
+  have_colors_ = !attributes.colors.empty();
+  spheres_.push_back({*surface, have_colors_ ? attributes.colors[entry][0] : Vec3(), p_view.numbers[entry],
+                      attributes.materials.empty() ? 0 : attributes.materials[entry]});
+  return true;
 }
 
 }  // namespace pipeline

@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
-#include <string>
 
-#include "libpipeline/scene/header_line.h"
 #include "libpipeline/scene/spelling.h"
 
 namespace pipeline {

@@ -6,7 +6,6 @@
 
 #include "libpipeline/numbers/vec.h"
 #include "libpipeline/scene/header_line.h"
-#include "libpipeline/text/error.h"
 #include "libpipeline/text/text_reader.h"
 
 namespace pipeline {

@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "libpipeline/numbers/vec.h"
-#include "libpipeline/text/decimal_columns.h"
 #include "libpipeline/text/fixed_text.h"
 #include "libpipeline/text/source_location.h"
 #include "libpipeline/text/text_reader.h"

@@ -1,7 +1,6 @@
 #include "libpipeline/stream/read_ahead.h"
 
 #include <algorithm>
-#include <span>
 #include <utility>
 
 #include "libpipeline/text/fixed_text.h"

@@ -3,12 +3,9 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <span>
 #include <string_view>
 
-#include "libpipeline/text/decimal_columns.h"
 #include "libpipeline/text/fixed_text.h"
-#include "libpipeline/text/number_printer.h"
 
 namespace pipeline {
 namespace {

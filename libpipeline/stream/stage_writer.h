@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <memory>
-#include <vector>
 
 #include "libpipeline/stream/stage_text.h"
 #include "libpipeline/stream/triangle_batch.h"

@@ -1,7 +1,6 @@
 #include "libpipeline/stream/text_kind.h"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <string_view>
 #include <vector>

@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <cstdint>
-#include <string_view>
 
 #include "libpipeline/text/number_parser.h"
 #include "libpipeline/text/number_printer.h"

@@ -8,7 +8,7 @@
 
 #include "libpipeline/stream/chunked_array.h"
 #include "libpipeline/stream/kept_ids.h"
-#include "libpipeline/stream/large_pages.h"
+#include "libpipeline/stream/memory.h"
 #include "libpipeline/text/text_writer.h"
 
 namespace pipeline {

@@ -1,7 +1,6 @@
 #include "libpipeline/stream/thread_pool.h"
 
 #include <cassert>
-#include <memory>
 #include <utility>
 
 namespace pipeline {

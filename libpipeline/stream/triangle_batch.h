@@ -5,15 +5,68 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "libpipeline/numbers/vec.h"
 #include "libpipeline/scene/vertex_attributes.h"
-#include "libpipeline/stream/triangle_texts.h"
 #include "libpipeline/text/source_location.h"
 
 namespace pipeline {
+
+/// The lines of a batch's triangles as they stand in the text: three vertex lines and a blank one each, and
+/// `clipped` with its lines before the first piece of a triangle. Without comments, and without the blanks
+/// at both ends of a line.
+class TriangleTexts {
+ public:
+  /// The count of complete triangles.
+  [[nodiscard]] std::size_t size() const { return ends_.size(); }
+  /// The lines of one triangle.
+  [[nodiscard]] std::string_view operator[](std::size_t index) const {
+    const std::size_t begin = end_of(index);
+    return std::string_view(lines_).substr(begin, ends_[index] - begin);
+  }
+  void clear() { truncate(0); }
+  /// Keeps the first `count` triangles, or all if there are fewer.
+  void truncate(std::size_t count) {
+    ends_.resize(std::min(count, size()));
+    lines_.resize(end_of(size()));
+  }
+
+  /// Adds lines, all of them ended, to the next triangle.
+  void add(std::string_view lines) { lines_ += lines; }
+  /// Adds a line, which comes without its end, to the next triangle.
+  void add_line(std::string_view line) { (lines_ += line) += '\n'; }
+  /// Completes the next triangle.
+  void end_triangle() {
+    lines_ += '\n';
+    ends_.push_back(lines_.size());
+  }
+  /// Completes the next triangle without any lines.
+  void end_without_lines() { ends_.push_back(lines_.size()); }
+  /// Adds triangles in fixed form (fixed_text.h) with that many decimals.
+  void add_fixed_form(std::string_view triangles, int decimals) {
+    constexpr std::string_view kTriangleEnd = "\n\n";
+    const std::size_t min_length = min_fixed_triangle_length(decimals) - kTriangleEnd.size();
+    const std::size_t offset = lines_.size();
+    lines_ += triangles;
+    for (std::size_t end = 0; end < triangles.size();) {
+      // A blank line ends a triangle. Few numbers are longer than the shortest: faster than a search.
+      for (end += min_length; triangles[end] != '\n' || triangles[end + 1] != '\n';) ++end;
+      end += kTriangleEnd.size();
+      ends_.push_back(offset + end);
+    }
+  }
+
+ private:
+  /// Of the first `count` triangles.
+  [[nodiscard]] std::size_t end_of(std::size_t count) const { return count == 0 ? 0 : ends_[count - 1]; }
+
+  std::string lines_;
+  std::vector<std::size_t> ends_;
+};
 
 /// A reader passes a batch on when it holds this many triangles.
 constexpr std::size_t kBatchSize = 2048;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <span>
 
 #include "libpipeline/stream/stage_text.h"
 #include "libpipeline/text/fixed_text.h"

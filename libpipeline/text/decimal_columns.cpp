@@ -1,6 +1,5 @@
-#include "libpipeline/text/decimal_columns.h"
+#include "libpipeline/text/fixed_text.h"
 
-#include "libpipeline/text/decimal_number.h"
 #include "libpipeline/text/number_parser.h"
 #include "libpipeline/text/number_printer.h"
 #include "libpipeline/text/vertex_lines.h"

@@ -1,11 +1,11 @@
-#include "libpipeline/text/decimal_number.h"
+#include "libpipeline/text/number_parser.h"
 
 #include <array>
 #include <bit>
 #include <cstdint>
 
+#include "libpipeline/numbers/decimal_units.h"
 #include "libpipeline/numbers/int128.h"
-#include "libpipeline/numbers/powers_of_ten.h"
 #include "libpipeline/text/eight_digits.h"
 
 namespace pipeline {

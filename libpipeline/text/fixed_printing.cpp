@@ -1,12 +1,10 @@
 #include "libpipeline/text/fixed_text.h"
 
-#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdint>
 
 #include "libpipeline/numbers/decimal_units.h"
-#include "libpipeline/numbers/powers_of_ten.h"
 #include "libpipeline/text/eight_digits.h"
 #include "libpipeline/text/vertex_lines.h"
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <cstring>
 
-#include "libpipeline/numbers/powers_of_ten.h"
+#include "libpipeline/numbers/decimal_units.h"
 #include "libpipeline/text/eight_digits.h"
 #include "libpipeline/text/fixed_text.h"
 #include "libpipeline/text/vertex_lines.h"

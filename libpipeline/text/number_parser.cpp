@@ -4,7 +4,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "libpipeline/numbers/powers_of_ten.h"
+#include "libpipeline/numbers/decimal_units.h"
 #include "libpipeline/text/double_from_chars.h"
 #include "libpipeline/text/eight_digits.h"
 

@@ -9,7 +9,6 @@
 #include <cstdlib>
 
 #include "libpipeline/numbers/decimal_units.h"
-#include "libpipeline/numbers/powers_of_ten.h"
 #include "libpipeline/numbers/shortest_decimal.h"
 #include "libpipeline/text/eight_digits.h"
 #include "libpipeline/text/scaled_number.h"

@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 #include <cstdint>
 
-#include "libpipeline/numbers/powers_of_ten.h"
+#include "libpipeline/numbers/decimal_units.h"
 
 namespace pipeline {
 namespace {

@@ -8,7 +8,6 @@
 
 #include "libpipeline/numbers/decimal_units.h"
 #include "libpipeline/numbers/int128.h"
-#include "libpipeline/numbers/powers_of_ten.h"
 #include "libpipeline/text/eight_digits.h"
 
 namespace pipeline {

@@ -5,11 +5,10 @@
 #include <memory>
 #include <string>
 #include <string_view>
-#include <utility>
 
 #include "libpipeline/numbers/vec.h"
-#include "libpipeline/text/decimal_number.h"
 #include "libpipeline/text/error.h"
+#include "libpipeline/text/number_parser.h"
 
 namespace pipeline {
 

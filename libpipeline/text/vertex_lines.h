@@ -8,9 +8,9 @@
 #include <span>
 #include <string_view>
 
-#include "libpipeline/text/decimal_number.h"
 #include "libpipeline/text/eight_digits.h"
 #include "libpipeline/text/fixed_text.h"
+#include "libpipeline/text/number_parser.h"
 #include "libpipeline/text/number_printer.h"
 
 namespace pipeline {

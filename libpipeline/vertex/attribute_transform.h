@@ -3,7 +3,6 @@
 #include <array>
 
 #include "libpipeline/scene/appearance.h"
-#include "libpipeline/stream/triangle_batch.h"
 #include "libpipeline/vertex/affine_matrix.h"
 #include "libpipeline/vertex/coordinate_rounder.h"
 #include "libpipeline/vertex/transform.h"

@@ -1,7 +1,6 @@
 #include "libpipeline/vertex/clip.h"
 
 #include <optional>
-#include <utility>
 
 #include "libpipeline/numbers/exact_sum.h"
 

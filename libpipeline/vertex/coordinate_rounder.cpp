@@ -4,9 +4,8 @@
 #include <cmath>
 #include <utility>
 
-#include "libpipeline/numbers/powers_of_ten.h"
+#include "libpipeline/numbers/decimal_units.h"
 #include "libpipeline/numbers/vec_math.h"
-#include "libpipeline/text/error.h"
 
 namespace pipeline {
 

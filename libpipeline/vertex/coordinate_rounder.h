@@ -4,10 +4,10 @@
 #include <cstdint>
 #include <string>
 
+#include "libpipeline/numbers/ball_vec.h"
 #include "libpipeline/stream/triangle_batch.h"
 #include "libpipeline/text/error.h"
 #include "libpipeline/text/number_rounding.h"
-#include "libpipeline/vertex/affine_matrix.h"
 #include "libpipeline/vertex/vertex_kernel.h"
 
 namespace pipeline {

@@ -23,9 +23,23 @@ class MatrixStack {
   void translate(const Vec3& offset) { set_top(translated(top_, offset)); }
   void scale(const Vec3& factors) { set_top(scaled(top_, factors)); }
   /// Saves the top; false, with nothing done, if max_saved() matrices are saved.
-  [[nodiscard]] bool push();
+  [[nodiscard]] bool push() {
+    if (top_is_saved_ || (!saved_.empty() && saved_.back().matrix == top_)) {
+      ++saved_.back().count;
+    } else {
+      if (saved_.size() >= max_saved_) return false;
+      saved_.push_back({top_});
+    }
+    return top_is_saved_ = true;
+  }
   /// Restores the matrix saved last; false, with nothing done, if none is.
-  [[nodiscard]] bool pop();
+  [[nodiscard]] bool pop() {
+    if (saved_.empty()) return false;
+    if (!top_is_saved_) top_ = saved_.back().matrix;
+    top_is_saved_ = --saved_.back().count > 0;
+    if (!top_is_saved_) saved_.pop_back();
+    return true;
+  }
   [[nodiscard]] std::size_t max_saved() const { return max_saved_; }
 
  private:

@@ -321,4 +321,12 @@ void ProjectionStage::add_piece(const TriangleBatch& p_view, std::size_t index, 
   if (prints_w) add_attributes(p_view, index, mixes, p_ndc);
 }
 
+StageHeader projected_header(const StageHeader& p_view, const Located<Projection>& given,
+                             const ProjectionTransform& projection) {
+  StageHeader header = {.framed = p_view.framed, .camera = {}, .appearance = p_view.appearance};
+  if (header.appearance.attributes) header.appearance.attributes->value.w = true;
+  if (!header.appearance.lights.empty()) header.projected = {volume_of(given, projection), given.location};
+  return header;
+}
+
 }  // namespace pipeline

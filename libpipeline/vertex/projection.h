@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "libpipeline/stream/stage_text.h"
 #include "libpipeline/stream/triangle_batch.h"
 #include "libpipeline/vertex/clip.h"
 #include "libpipeline/vertex/coordinate_rounder.h"
@@ -120,5 +121,11 @@ class ProjectionStage {
   bool keeps_unclipped_ = false;
   ProjectionCounts counts_;
 };
+
+/// The header of a text once it is projected by `projection`, which comes from `given`: without a camera,
+/// with w among the columns if there are any, and, if there are lights, with the view volume. An InputError
+/// at `given.location` if a plane of the volume is beyond a double's range.
+StageHeader projected_header(const StageHeader& p_view, const Located<Projection>& given,
+                             const ProjectionTransform& projection);
 
 }  // namespace pipeline

@@ -1,7 +1,6 @@
 #include "libpipeline/vertex/vertex_kernel.h"
 
 #include <cmath>
-#include <cstddef>
 #include <limits>
 
 #include "libpipeline/vertex/vertex_loops.h"

@@ -7,7 +7,6 @@
 
 #include "libpipeline/numbers/bounding_box.h"
 #include "libpipeline/numbers/vec.h"
-#include "libpipeline/vertex/clip.h"
 #include "libpipeline/vertex/transform.h"
 #include "libpipeline/vertex/vertex_kernel.h"
 

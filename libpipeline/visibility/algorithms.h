@@ -10,9 +10,9 @@
 #include "libpipeline/coverage/rules.h"
 #include "libpipeline/coverage/span.h"
 #include "libpipeline/scene/viewport.h"
+#include "libpipeline/visibility/raster.h"
 #include "libpipeline/visibility/scanline.h"
 #include "libpipeline/visibility/span_queue.h"
-#include "libpipeline/visibility/visible_row.h"
 #include "libpipeline/visibility/zbuffer.h"
 
 namespace pipeline {

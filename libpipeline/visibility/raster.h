@@ -5,8 +5,9 @@
 #include <span>
 #include <vector>
 
+#include "libpipeline/coverage/span.h"
 #include "libpipeline/scene/viewport.h"
-#include "libpipeline/stream/large_pages.h"
+#include "libpipeline/stream/memory.h"
 
 namespace pipeline {
 
@@ -47,6 +48,13 @@ class Raster {
   RowRange rows_;
   int columns_;
   std::vector<T, LargePageAllocator<T>> entries_;
+};
+
+/// One row of a visibility algorithm's result: for every column the depth (NDC z) of the nearest triangle and
+/// its tag, or the rear limit and the background's tag. Depth text and image are made from these rows alone.
+struct VisibleRow {
+  std::span<const double> depths;
+  std::span<const PixelTag> tags;
 };
 
 }  // namespace pipeline

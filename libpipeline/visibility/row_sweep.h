@@ -11,7 +11,7 @@
 #include "libpipeline/visibility/active_edge_list.h"
 #include "libpipeline/visibility/depth_format.h"
 #include "libpipeline/visibility/polygon_table.h"
-#include "libpipeline/visibility/visible_row.h"
+#include "libpipeline/visibility/raster.h"
 
 namespace pipeline {
 

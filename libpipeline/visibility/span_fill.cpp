@@ -6,8 +6,6 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "libpipeline/numbers/kernel_choice.h"
-
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "libpipeline/visibility/span_fill.cpp"
 #include "libpipeline/numbers/vector_targets.h"

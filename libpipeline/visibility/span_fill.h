@@ -1,8 +1,5 @@
 #pragma once
 
-#include <algorithm>
-#include <span>
-
 #include "libpipeline/coverage/span.h"
 #include "libpipeline/numbers/kernel_choice.h"
 #include "libpipeline/visibility/depth_format.h"

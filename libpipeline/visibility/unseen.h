@@ -3,7 +3,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 
 #include "libpipeline/coverage/exact_grid.h"
 #include "libpipeline/coverage/span.h"

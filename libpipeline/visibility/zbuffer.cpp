@@ -1,11 +1,10 @@
 #include "libpipeline/visibility/zbuffer.h"
 
-#include <algorithm>
 #include <cassert>
 #include <functional>
 
 #include "libpipeline/numbers/column_search.h"
-#include "libpipeline/visibility/available_memory.h"
+#include "libpipeline/stream/memory.h"
 
 namespace pipeline {
 namespace {

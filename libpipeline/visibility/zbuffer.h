@@ -12,7 +12,6 @@
 #include "libpipeline/visibility/hierarchical_depth.h"
 #include "libpipeline/visibility/raster.h"
 #include "libpipeline/visibility/span_fill.h"
-#include "libpipeline/visibility/visible_row.h"
 
 namespace pipeline {
 

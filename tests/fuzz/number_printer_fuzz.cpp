@@ -8,7 +8,6 @@
 #include <string>
 
 #include "libpipeline/numbers/decimal_units.h"
-#include "libpipeline/numbers/powers_of_ten.h"
 #include "libpipeline/text/number_printer.h"
 #include "tests/fuzz/fuzz_bytes.h"
 #include "tests/fuzz/require.h"

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <string>
 
-#include "libpipeline/numbers/powers_of_ten.h"
 #include "tests/numbers/random_numbers.h"
 #include "tests/numbers/random_tie.h"
 #include "tests/numbers/real.h"

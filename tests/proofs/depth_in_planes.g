@@ -1,4 +1,4 @@
-# Depths under `center` of triangles that are not all decimals: DepthPlane (libpipeline/coverage/depth_plane.h), as Planes and
+# Depths under `center` of triangles that are not all decimals: DepthPlane (libpipeline/coverage/center.h), as Planes and
 # middle_depth (libpipeline/coverage/double_lanes.h) calculate it.
 #
 # In units of Z, the largest |z| of a vertex. In pixels, the corners are p, q and r; W = |q.u - p.u| + |r.u - p.u|, H likewise of v,

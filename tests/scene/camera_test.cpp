@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "libpipeline/text/decimal_number.h"
+#include "libpipeline/text/number_parser.h"
 #include "tests/text/text_input.h"
 
 namespace pipeline {

@@ -1,4 +1,4 @@
-#include "libpipeline/text/decimal_columns.h"
+#include "libpipeline/text/fixed_text.h"
 
 #include <gtest/gtest.h>
 

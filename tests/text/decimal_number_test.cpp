@@ -1,4 +1,4 @@
-#include "libpipeline/text/decimal_number.h"
+#include "libpipeline/text/number_parser.h"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 #include <cstring>
 #include <vector>
 
-#include "libpipeline/visibility/visible_row.h"
+#include "libpipeline/visibility/raster.h"
 
 namespace pipeline {
 

@@ -1,7 +1,6 @@
 #include "tools/mesh2scene/framing.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "libpipeline/numbers/angle.h"

@@ -5,7 +5,6 @@
 #include <assimp/version.h>
 
 #include <algorithm>
-#include <array>
 #include <assimp/Importer.hpp>
 #include <cmath>
 #include <limits>

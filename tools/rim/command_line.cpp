@@ -3,7 +3,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
-#include <memory>
 
 #include "libpipeline/scene/spelling.h"
 #include "libpipeline/text/number_parser.h"

@@ -1,7 +1,6 @@
 #include "tools/rim/empty_picture_note.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "libpipeline/picture/surface_shader.h"
-#include "libpipeline/raytracing/shown_light.h"
+#include "libpipeline/raytracing/ray_log.h"
 #include "libpipeline/scene/appearance.h"
 #include "libpipeline/scene/color.h"
 #include "libpipeline/scene/viewport.h"

@@ -2,11 +2,10 @@
 
 #include <unistd.h>
 
-#include <cerrno>
 #include <cstring>
 #include <new>
 
-#include "tools/rim/exit_status.h"
+#include "tools/rim/tool.h"
 
 namespace pipeline {
 namespace {

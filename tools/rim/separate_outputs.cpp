@@ -1,6 +1,5 @@
 #include "tools/rim/separate_outputs.h"
 
-#include <optional>
 #include <utility>
 
 #include "libpipeline/text/error.h"

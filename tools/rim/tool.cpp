@@ -10,7 +10,6 @@
 #include <new>
 #include <stdexcept>
 
-#include "libpipeline/stream/stage_reader.h"
 #include "libpipeline/text/error.h"
 #include "libpipeline/text/output_file.h"
 #include "tools/version.h"

@@ -12,11 +12,15 @@
 #include "libpipeline/text/text_reader.h"
 #include "libpipeline/text/text_writer.h"
 #include "tools/rim/command_line.h"
-#include "tools/rim/exit_status.h"
 #include "tools/rim/out_of_memory.h"
 #include "tools/rim/separate_outputs.h"
 
 namespace pipeline {
+
+// The exit statuses of all tools.
+constexpr int kExitDone = 0;
+constexpr int kExitFailure = 1;  // bad input, or reading or writing failed
+constexpr int kExitMisuse = 2;   // a wrong command line
 
 /// A text opened for reading, closed with this object.
 class InputFile {

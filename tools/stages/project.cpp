@@ -11,7 +11,6 @@
 #include "libpipeline/stream/stage_writer.h"
 #include "libpipeline/stream/text_kind.h"
 #include "libpipeline/vertex/close_layers.h"
-#include "libpipeline/vertex/projected_header.h"
 #include "libpipeline/vertex/projection.h"
 #include "tools/rim/command_line.h"
 #include "tools/rim/statistics.h"

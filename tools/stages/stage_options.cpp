@@ -6,7 +6,6 @@
 #include "libpipeline/stream/text_kind.h"
 #include "libpipeline/text/number_parser.h"
 #include "libpipeline/text/number_printer.h"
-#include "tools/rim/command_line.h"
 
 namespace pipeline {
 namespace {

@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <string>
 
-#include "tools/rim/exit_status.h"
+#include "tools/rim/tool.h"
 
 // CMakeLists.txt defines ALL_TOOLS, an ENTRY for each of them that is built, and renames their mains.
 #define ENTRY(tool) int tool##_entry(int argc, char** argv);

@@ -1,6 +1,5 @@
 #include "tools/trace/ray_report.h"
 
-#include <optional>
 #include <string_view>
 
 #include "libpipeline/numbers/vec_math.h"

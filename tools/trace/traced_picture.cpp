@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <optional>
 
 #include "libpipeline/raytracing/ray_caster.h"
 #include "tools/rim/progress.h"

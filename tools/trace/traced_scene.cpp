@@ -5,7 +5,7 @@
 #include "libpipeline/raytracing/bvh.h"
 #include "libpipeline/stream/text_kind.h"
 #include "libpipeline/text/error.h"
-#include "libpipeline/vertex/projected_header.h"
+#include "libpipeline/vertex/projection.h"
 
 namespace pipeline {
 namespace {

@@ -5,9 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <optional>
 #include <stdexcept>
-#include <string>
 #include <system_error>
 #include <variant>
 

@@ -4,7 +4,6 @@
 #include <string>
 
 #include "libpipeline/scene/camera.h"
-#include "libpipeline/scene/config.h"
 #include "tools/rim/tool.h"
 #include "tools/zbuf/zbuf_options.h"
 

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "libpipeline/picture/png_file.h"
 #include "libpipeline/text/error.h"

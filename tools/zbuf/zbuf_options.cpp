@@ -1,8 +1,5 @@
 #include "tools/zbuf/zbuf_options.h"
 
-#include <string_view>
-
-#include "libpipeline/picture/image_file.h"
 #include "libpipeline/text/error.h"
 #include "libpipeline/text/number_parser.h"
 #include "libpipeline/text/number_printer.h"

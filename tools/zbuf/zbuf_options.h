@@ -3,7 +3,6 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <variant>
 #include <vector>
 
@@ -12,8 +11,8 @@
 #include "libpipeline/picture/depth_image.h"
 #include "libpipeline/picture/image_file.h"
 #include "libpipeline/picture/pixel_array.h"
+#include "libpipeline/picture/shading.h"
 #include "libpipeline/picture/supersampling.h"
-#include "libpipeline/picture/surface_shader.h"
 #include "libpipeline/scene/color.h"
 #include "libpipeline/scene/config.h"
 #include "libpipeline/visibility/depth_format.h"

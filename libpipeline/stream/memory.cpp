@@ -1,10 +1,12 @@
-#include "libpipeline/visibility/available_memory.h"
+#include "libpipeline/stream/memory.h"
 
 #include <fcntl.h>
+#ifdef __linux__
+#include <sys/mman.h>
+#endif
 #include <unistd.h>
 
 #include <array>
-#include <new>
 
 #include "libpipeline/text/number_parser.h"
 
@@ -43,6 +45,13 @@ void expect_available_memory(std::size_t size) {
   const std::optional<std::uint64_t> available =
       available_memory({text.data(), static_cast<std::size_t>(length)});
   if (available && *available < size) throw std::bad_alloc();
+}
+
+void prefer_large_pages([[maybe_unused]] void* begin, [[maybe_unused]] std::size_t size) {
+#ifdef MADV_HUGEPAGE
+  // The tail stays on small pages, so nothing is over-allocated.
+  madvise(begin, size, MADV_HUGEPAGE);
+#endif
 }
 
 }  // namespace pipeline

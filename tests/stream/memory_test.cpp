@@ -1,4 +1,4 @@
-#include "libpipeline/visibility/available_memory.h"
+#include "libpipeline/stream/memory.h"
 
 #include <gtest/gtest.h>
 

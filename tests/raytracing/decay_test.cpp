@@ -1,4 +1,4 @@
-#include "libpipeline/numbers/decay.h"
+#include "libpipeline/raytracing/refraction.h"
 
 #include <gtest/gtest.h>
 
