@@ -11,9 +11,8 @@ namespace pipeline {
 namespace {
 
 /// The part outside plane `index` of kAllClipPlanes.
-OutsidePart outside_of(std::size_t index) {
-  static_assert(kAllClipPlanes.size() + 1 == kOutsidePartCount);
-  return static_cast<OutsidePart>(index + 1);
+UnseenPlace outside_of(std::size_t index) {
+  return static_cast<UnseenPlace>(index + 1);
 }
 
 }  // namespace
@@ -23,10 +22,10 @@ ViewVolume::ViewVolume(const ProjectionTransform& projection, double clip_inset)
       clip_inset_(clip_inset),
       coefficients_(coefficients_of(projection, clip_inset)) {}
 
-std::optional<OutsidePart> ViewVolume::outside(const Triangle& p_view) const {
+std::optional<UnseenPlace> ViewVolume::outside(const Triangle& p_view) const {
   if (projection_.is_perspective &&
       std::all_of(p_view.begin(), p_view.end(), [](const Vec3& p) { return p.z >= 0; }))
-    return OutsidePart::behind;
+    return UnseenPlace::behind;
   const CertainSides sides = certain_sides(coefficients_, p_view);
   if (sides.some_unsure == 0) return std::nullopt;
   if (const int first = std::countr_zero(sides.none_inside);

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -18,7 +17,7 @@ namespace pipeline {
 /// The fate of a picture's triangles. Every triangle is counted once: as seen, as hidden, or by the
 /// reason for which it would show nowhere.
 struct DrawingCounts {
-  std::array<std::uint64_t, kUnseenReasonCount> unseen{};  // by UnseenReason
+  UnseenPlaces unseen;
   std::uint64_t triangles = 0;
   std::uint64_t seen = 0;              // triangles that own a pixel of the complete picture
   std::uint64_t hidden = 0;            // that own none, but would if they were alone
@@ -79,7 +78,7 @@ class DrawingCounter {
     else if (is_in_other_rows && !found.before_front && !found.beyond_rear)
       ++counts_.outside_rows;
     else
-      ++counts_.unseen[static_cast<std::size_t>(unseen_reason(triangle.p_ndc, extent, found, screen_))];
+      counts_.unseen.add(unseen_place(triangle.p_ndc, extent, found, screen_), extent);
   }
 
   void add(const Span& span, FragmentDepths& found) {

@@ -48,19 +48,19 @@ bool may_be_visible(const Triangle& p_ndc, const BoundingBox& extent, const View
   return high.z + reach >= screen.front && low.z - reach < screen.rear;
 }
 
-UnseenReason unseen_reason(const Triangle& p_ndc, const BoundingBox& extent, const FragmentDepths& fragments,
-                           const Viewport& screen) {
+UnseenPlace unseen_place(const Triangle& p_ndc, const BoundingBox& extent, const FragmentDepths& fragments,
+                         const Viewport& screen) {
   const auto& [low, high] = extent;
-  if (high.z < screen.front) return UnseenReason::before_front;
-  if (low.z >= screen.rear) return UnseenReason::beyond_rear;
-  if (high.x < screen.left) return UnseenReason::left;
-  if (low.x > -screen.left) return UnseenReason::right;
-  if (high.y < screen.bottom) return UnseenReason::below;
-  if (low.y > -screen.bottom) return UnseenReason::above;
-  if (!has_area(p_ndc)) return UnseenReason::without_area;
-  if (fragments.before_front) return UnseenReason::before_front;
-  if (fragments.beyond_rear) return UnseenReason::beyond_rear;
-  return UnseenReason::between_centers;
+  if (high.z < screen.front) return UnseenPlace::near;
+  if (low.z >= screen.rear) return UnseenPlace::far;
+  if (high.x < screen.left) return UnseenPlace::left;
+  if (low.x > -screen.left) return UnseenPlace::right;
+  if (high.y < screen.bottom) return UnseenPlace::below;
+  if (low.y > -screen.bottom) return UnseenPlace::above;
+  if (!has_area(p_ndc)) return UnseenPlace::without_area;
+  if (fragments.before_front) return UnseenPlace::near;
+  if (fragments.beyond_rear) return UnseenPlace::far;
+  return UnseenPlace::between_centers;
 }
 
 }  // namespace pipeline

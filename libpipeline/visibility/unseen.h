@@ -1,8 +1,6 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
-#include <cstdint>
 
 #include "libpipeline/coverage/exact_grid.h"
 #include "libpipeline/coverage/span.h"
@@ -10,22 +8,10 @@
 #include "libpipeline/numbers/column_search.h"
 #include "libpipeline/scene/viewport.h"
 #include "libpipeline/stream/triangle_batch.h"
+#include "libpipeline/stream/unseen_places.h"
 #include "libpipeline/visibility/tagged_batch.h"
 
 namespace pipeline {
-
-/// Why a triangle would show at no pixel even if it were alone.
-enum class UnseenReason {
-  before_front,  // all of it, or all of its fragments that are not beyond the rear limit
-  beyond_rear,   // likewise
-  left,          // of the window, all of it
-  right,         // likewise ...
-  below,
-  above,
-  without_area,    // as seen from the eye
-  between_centers  // it covers no pixel
-};
-constexpr std::size_t kUnseenReasonCount = 8;
 
 /// Which sides of the depth limits a triangle has fragments on.
 struct FragmentDepths {
@@ -34,28 +20,14 @@ struct FragmentDepths {
   bool beyond_rear = false;
 };
 
-/// The first reason, in the order above, that applies to a triangle without visible fragments, in the box
-/// `extent`. A triangle that is before or beyond a limit with its fragments alone has none of the reasons
+/// The first place, but for `behind`, that applies to a triangle without visible fragments, in the box
+/// `extent`. A triangle that is before or beyond a limit with its fragments alone has none of the places
 /// between.
-UnseenReason unseen_reason(const Triangle& p_ndc, const BoundingBox& extent, const FragmentDepths& fragments,
-                           const Viewport& screen);
+UnseenPlace unseen_place(const Triangle& p_ndc, const BoundingBox& extent, const FragmentDepths& fragments,
+                         const Viewport& screen);
 
 /// False only if the triangle surely shows at no pixel: a quick test by the box `extent` around it.
 bool may_be_visible(const Triangle& p_ndc, const BoundingBox& extent, const Viewport& screen);
-
-/// Triangles that show nowhere, by reason.
-struct UnseenTriangles {
-  struct Group {
-    std::uint64_t count = 0;
-    BoundingBox extent;
-  };
-  [[nodiscard]] const Group& operator[](UnseenReason reason) const {
-    return groups[static_cast<std::size_t>(reason)];
-  }
-
-  std::array<Group, kUnseenReasonCount> groups;
-  std::uint64_t count = 0;
-};
 
 /// Watches the triangles of a stream until the first that shows at a pixel; if none does, the picture is
 /// empty. A template of the coverage rule and the depth format in use.
@@ -72,7 +44,7 @@ class EmptyPicture {
   /// True while no triangle shows.
   [[nodiscard]] bool is_empty() const { return is_empty_; }
   /// The triangles before the first that shows.
-  [[nodiscard]] const UnseenTriangles& triangles() const { return triangles_; }
+  [[nodiscard]] const UnseenPlaces& triangles() const { return triangles_; }
 
  private:
   void add(const ExactTriangle& triangle) {
@@ -81,11 +53,7 @@ class EmptyPicture {
     if (may_be_visible(triangle.p_ndc, extent, screen_)) found = fragments(triangle);
     is_empty_ = !found.visible;
     if (found.visible) return;
-    const UnseenReason reason = unseen_reason(triangle.p_ndc, extent, found, screen_);
-    auto& group = triangles_.groups[static_cast<std::size_t>(reason)];
-    ++group.count;
-    group.extent.add(extent);
-    ++triangles_.count;
+    triangles_.add(unseen_place(triangle.p_ndc, extent, found, screen_), extent);
   }
 
   /// The depths of a triangle's fragments, as far as the first visible one.
@@ -121,7 +89,7 @@ class EmptyPicture {
   Depth format_;
   typename Depth::Stored rear_;
   bool is_empty_ = true;
-  UnseenTriangles triangles_;
+  UnseenPlaces triangles_;
 };
 
 }  // namespace pipeline

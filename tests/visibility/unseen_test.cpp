@@ -32,43 +32,40 @@ EmptyPicture<Coverage, Depth> watched(const std::vector<Triangle>& triangles) {
   return picture;
 }
 
-UnseenReason reason_of(const Triangle& triangle) {
+UnseenPlace reason_of(const Triangle& triangle) {
   const auto picture = watched(std::vector{triangle});
   EXPECT_TRUE(picture.is_empty());
-  for (std::size_t i = 0; i < kUnseenReasonCount; ++i)
-    if (picture.triangles().groups[i].count == 1) return static_cast<UnseenReason>(i);
+  for (std::size_t i = 0; i < picture.triangles().groups.size(); ++i)
+    if (picture.triangles().groups[i].count == 1) return static_cast<UnseenPlace>(i);
   ADD_FAILURE() << "no reason";
-  return UnseenReason::before_front;
+  return UnseenPlace::near;
 }
 
 TEST(EmptyPicture, ATriangleHasOneReason) {
-  EXPECT_EQ(reason_of(corner_at(0, 0, -0.5)), UnseenReason::before_front);
-  EXPECT_EQ(reason_of(corner_at(0, 0, 2)), UnseenReason::beyond_rear);
-  EXPECT_EQ(reason_of(corner_at(-2.5, 0, 1)), UnseenReason::left);
-  EXPECT_EQ(reason_of(corner_at(1.5, 0, 1)), UnseenReason::right);
-  EXPECT_EQ(reason_of(corner_at(0, -2.5, 1)), UnseenReason::below);
-  EXPECT_EQ(reason_of(corner_at(0, 1.5, 1)), UnseenReason::above);
-  EXPECT_EQ(reason_of({Vec3{0, 0, 1}, Vec3{0.5, 0, 1}, Vec3{1, 0, 1}}), UnseenReason::without_area);
-  EXPECT_EQ(reason_of(corner_at(0.3, 0.3, 1, 0.1)), UnseenReason::between_centers);
+  EXPECT_EQ(reason_of(corner_at(0, 0, -0.5)), UnseenPlace::near);
+  EXPECT_EQ(reason_of(corner_at(0, 0, 2)), UnseenPlace::far);
+  EXPECT_EQ(reason_of(corner_at(-2.5, 0, 1)), UnseenPlace::left);
+  EXPECT_EQ(reason_of(corner_at(1.5, 0, 1)), UnseenPlace::right);
+  EXPECT_EQ(reason_of(corner_at(0, -2.5, 1)), UnseenPlace::below);
+  EXPECT_EQ(reason_of(corner_at(0, 1.5, 1)), UnseenPlace::above);
+  EXPECT_EQ(reason_of({Vec3{0, 0, 1}, Vec3{0.5, 0, 1}, Vec3{1, 0, 1}}), UnseenPlace::without_area);
+  EXPECT_EQ(reason_of(corner_at(0.3, 0.3, 1, 0.1)), UnseenPlace::between_centers);
 }
 
 TEST(EmptyPicture, OfSeveralReasonsTheFirstCounts) {
-  EXPECT_EQ(reason_of(corner_at(3, 3, 5)), UnseenReason::beyond_rear);
-  EXPECT_EQ(reason_of(corner_at(3, 3, 1, 0)), UnseenReason::right);
+  EXPECT_EQ(reason_of(corner_at(3, 3, 5)), UnseenPlace::far);
+  EXPECT_EQ(reason_of(corner_at(3, 3, 1, 0)), UnseenPlace::right);
 }
 
 TEST(EmptyPicture, ATriangleThroughALimitMayHaveFragmentsOnOneSideAlone) {
   // Its only fragment is near the corner before the front limit.
-  EXPECT_EQ(reason_of({Vec3{0.25, 0.25, -1}, Vec3{0.4, 0.25, 3}, Vec3{0.25, 0.4, 3}}),
-            UnseenReason::before_front);
-  EXPECT_EQ(reason_of({Vec3{0.25, 0.25, 3}, Vec3{0.4, 0.25, -1}, Vec3{0.25, 0.4, -1}}),
-            UnseenReason::beyond_rear);
+  EXPECT_EQ(reason_of({Vec3{0.25, 0.25, -1}, Vec3{0.4, 0.25, 3}, Vec3{0.25, 0.4, 3}}), UnseenPlace::near);
+  EXPECT_EQ(reason_of({Vec3{0.25, 0.25, 3}, Vec3{0.4, 0.25, -1}, Vec3{0.25, 0.4, -1}}), UnseenPlace::far);
 }
 
 TEST(EmptyPicture, BetweenTwoPixelsATriangleMayCrossAllVisibleDepths) {
   // On a row, depths go from -10 to 10 between two centers.
-  EXPECT_EQ(reason_of({Vec3{-0.1, 0, -10}, Vec3{0.4, 0, 10}, Vec3{-0.1, 1, -10}}),
-            UnseenReason::before_front);
+  EXPECT_EQ(reason_of({Vec3{-0.1, 0, -10}, Vec3{0.4, 0, 10}, Vec3{-0.1, 1, -10}}), UnseenPlace::near);
 }
 
 TEST(EmptyPicture, ASpanIsSearchedBetweenItsEnds) {
@@ -83,8 +80,9 @@ TEST(EmptyPicture, MeasuresUpToTheFirstTriangleThatShows) {
   const auto picture =
       watched({corner_at(1.5, 0, 1), corner_at(3, 1, 1), corner_at(0, 0, 1), corner_at(9, 0, 1)});
   EXPECT_FALSE(picture.is_empty());
-  EXPECT_EQ(picture.triangles().count, 2u);
-  const auto& right = picture.triangles()[UnseenReason::right];
+  for (const auto& group : picture.triangles().groups)
+    EXPECT_EQ(group.count, &group == &picture.triangles()[UnseenPlace::right] ? 2u : 0u);
+  const auto& right = picture.triangles()[UnseenPlace::right];
   EXPECT_EQ(right.count, 2u);
   EXPECT_EQ(right.extent.low, (Vec3{1.5, 0, 1}));
   EXPECT_EQ(right.extent.high, (Vec3{4, 2, 1}));
@@ -92,7 +90,7 @@ TEST(EmptyPicture, MeasuresUpToTheFirstTriangleThatShows) {
 
 TEST(EmptyPicture, WithoutTrianglesThePictureIsEmpty) {
   EXPECT_TRUE(watched({}).is_empty());
-  EXPECT_EQ(watched({}).triangles().count, 0u);
+  for (const auto& group : watched({}).triangles().groups) EXPECT_EQ(group.count, 0u);
 }
 
 /// Compares with the pictures of the z-buffer, on random triangles at the borders of what is visible.

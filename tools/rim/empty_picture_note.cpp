@@ -1,6 +1,7 @@
 #include "tools/rim/empty_picture_note.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -47,6 +48,13 @@ std::string range(char axis, double low, double high, double limit) {
   return axis + (from == to ? " is " + from : " from " + from + " to " + to);
 }
 
+/// "left of the window"
+std::string beside(UnseenPlace place, const std::string& what) {
+  constexpr std::array kSides = {"left of", "right of", "below", "above"};
+  const auto side = static_cast<std::size_t>(place) - static_cast<std::size_t>(UnseenPlace::left);
+  return kSides[side] + (" the " + what);
+}
+
 std::string window(double limit) {
   return "the window from " + rounded(limit) + " to " + rounded(-limit);
 }
@@ -59,88 +67,75 @@ std::string beside_limit(double low, double high, double limit, bool is_plane, c
          "is " + rounded(limit) + (is_plane ? std::string(", the camera's ") + plane : "") + ")";
 }
 
-std::string where(UnseenReason reason, const BoundingBox& extent, const Viewport& screen) {
+/// "left of the window (x from -3 to -1.5, the window from -1 to 1)"
+std::string beside_window(UnseenPlace place, const BoundingBox& extent, const Viewport& screen) {
   const auto& [low, high] = extent;
-  const double left = screen.left, bottom = screen.bottom;
-  switch (reason) {
-    case UnseenReason::before_front:
+  const bool is_low = place == UnseenPlace::left || place == UnseenPlace::below;
+  const bool is_x = place == UnseenPlace::left || place == UnseenPlace::right;
+  const double limit = is_x ? screen.left : screen.bottom, side = is_low ? limit : -limit;
+  return beside(place, "window") + " (" +
+         (is_x ? range('x', low.x, high.x, side) : range('y', low.y, high.y, side)) + ", " + window(limit) +
+         ")";
+}
+
+std::string where_on_screen(UnseenPlace place, const BoundingBox& extent, const Viewport& screen) {
+  const double low_z = extent.low.z, high_z = extent.high.z;
+  switch (place) {
+    case UnseenPlace::near:
       return "before the front limit " +
-             beside_limit(low.z, high.z, screen.front, screen.front == -1, "near");
-    case UnseenReason::beyond_rear:
-      if (low.z == 1 && high.z == 1 && screen.rear == 1)  // the limit itself, which belongs to no pixel
+             beside_limit(low_z, high_z, screen.front, screen.front == -1, "near");
+    case UnseenPlace::far:
+      if (low_z == 1 && high_z == 1 && screen.rear == 1)  // the limit itself, which belongs to no pixel
         return "at the camera's far, which shows nothing (z is 1, perhaps rounded: a near that is too close "
                "to the eye leaves z no digits)";
-      return "beyond the rear limit " + beside_limit(low.z, high.z, screen.rear, screen.rear == 1, "far");
-    case UnseenReason::left:
-      return "left of the window (" + range('x', low.x, high.x, left) + ", " + window(left) + ")";
-    case UnseenReason::right:
-      return "right of the window (" + range('x', low.x, high.x, -left) + ", " + window(left) + ")";
-    case UnseenReason::below:
-      return "below the window (" + range('y', low.y, high.y, bottom) + ", " + window(bottom) + ")";
-    case UnseenReason::above:
-      return "above the window (" + range('y', low.y, high.y, -bottom) + ", " + window(bottom) + ")";
-    case UnseenReason::without_area:
+      return "beyond the rear limit " + beside_limit(low_z, high_z, screen.rear, screen.rear == 1, "far");
+    case UnseenPlace::without_area:
       return "without area on the screen, as when seen edge-on";
-    case UnseenReason::between_centers:
-      break;
+    case UnseenPlace::between_centers:
+      return "between pixel centers (a pixel is " + rounded(screen.dx()) + " by " + rounded(screen.dy()) +
+             ")";
+    default:
+      return beside_window(place, extent, screen);
   }
-  return "between pixel centers (a pixel is " + rounded(screen.dx()) + " by " + rounded(screen.dy()) + ")";
 }
 
-std::string behind_eye(double low, double high) {
-  return "behind the eye (" + range('z', low, high, 0) +
+std::string behind_eye(const BoundingBox& extent) {
+  return "behind the eye (" + range('z', extent.low.z, extent.high.z, 0) +
          " in view space; the camera looks down -z: turn it around, or move it back by more than " +
-         rounded(high) + ")";
+         rounded(extent.high.z) + ")";
 }
 
-std::string where(OutsidePart part, const BoundingBox& extent) {
-  const auto& [low, high] = extent;
-  switch (part) {
-    case OutsidePart::behind:
-      return behind_eye(low.z, high.z);
-    case OutsidePart::near:
-      return "nearer than the near plane (" + range('z', low.z, high.z, 0) + ")";
-    case OutsidePart::far:
-      return "beyond the far plane (" + range('z', low.z, high.z, 0) + ")";
-    case OutsidePart::left:
-      return "left of the view volume";
-    case OutsidePart::right:
-      return "right of the view volume";
-    case OutsidePart::below:
-      return "below the view volume";
-    case OutsidePart::above:
-      break;
-  }
-  return "above the view volume";
+std::string where_in_view_space(UnseenPlace place, const BoundingBox& extent) {
+  const std::string z = " (" + range('z', extent.low.z, extent.high.z, 0) + ")";
+  if (place == UnseenPlace::behind) return behind_eye(extent);
+  if (place == UnseenPlace::near) return "nearer than the near plane" + z;
+  return place == UnseenPlace::far ? "beyond the far plane" + z : beside(place, "view volume");
 }
 
-std::string where(SpherePlace place, const UnseenSpheres& spheres) {
-  const auto& [count, low, high] = spheres.groups[static_cast<std::size_t>(place)];
-  switch (place) {
-    case SpherePlace::behind:
-      return behind_eye(low, high);
-    case SpherePlace::before_front:
-      return "before the front limit " +
-             beside_limit(low, high, spheres.front, spheres.front_is_near, "near", " in view space");
-    case SpherePlace::beyond_rear:
-      return "beyond the rear limit " +
-             beside_limit(low, high, spheres.rear, spheres.rear_is_far, "far", " in view space");
-    case SpherePlace::left:
-      return "left of the window";
-    case SpherePlace::right:
-      return "right of the window";
-    case SpherePlace::below:
-      return "below the window";
-    case SpherePlace::above:
-      return "above the window";
-    case SpherePlace::elsewhere:
-      break;
-  }
-  return "met by no ray between the limits of Z";
+std::string where_is_sphere(UnseenPlace place, const BoundingBox& extent, const UnseenSpheres& spheres) {
+  const auto limit = [&](double value, bool is_plane, const char* plane) {
+    return beside_limit(extent.low.z, extent.high.z, value, is_plane, plane, " in view space");
+  };
+  if (place == UnseenPlace::behind) return behind_eye(extent);
+  if (place == UnseenPlace::near)
+    return "before the front limit " + limit(spheres.front, spheres.front_is_near, "near");
+  if (place == UnseenPlace::far)
+    return "beyond the rear limit " + limit(spheres.rear, spheres.rear_is_far, "far");
+  return place == UnseenPlace::elsewhere ? "met by no ray between the limits of Z" : beside(place, "window");
 }
 
 /// Some triangles, and where they are.
 using Group = std::pair<std::uint64_t, std::string>;
+
+/// What is there at some places, which `where` describes.
+template <typename Where>
+std::vector<Group> groups_of(const UnseenPlaces& unseen, const Where& where) {
+  std::vector<Group> groups;
+  for (std::size_t i = 0; i < unseen.groups.size(); ++i)
+    if (const auto& [count, extent] = unseen.groups[i]; count > 0)
+      groups.emplace_back(count, where(static_cast<UnseenPlace>(i), extent));
+  return groups;
+}
 
 /// "all 3 triangles are behind the eye", or "none of 3 triangles is left: 2 behind the eye, 1 culled".
 std::string list_of(const std::vector<Group>& groups, const std::string& none_of,
@@ -215,11 +210,8 @@ std::string empty_scene_note(std::uint64_t triangle_count, const std::optional<S
          (scale_by_0 ? "; 1 keeps a direction as it is" : "");
 }
 
-std::string dropped_note(const OutsideCounts& outside, std::uint64_t culled_count) {
-  std::vector<Group> groups;
-  for (std::size_t i = 0; i < kOutsidePartCount; ++i)
-    if (const auto& [count, extent] = outside.groups[i]; count > 0)
-      groups.emplace_back(count, where(static_cast<OutsidePart>(i), extent));
+std::string dropped_note(const UnseenPlaces& outside, std::uint64_t culled_count) {
+  std::vector<Group> groups = groups_of(outside, where_in_view_space);
   if (culled_count > 0) groups.emplace_back(culled_count, "dropped by --cull");
   return "the picture will be empty: " + list_of(groups, "is left");
 }
@@ -245,21 +237,17 @@ std::optional<std::string> bright_light_note(const Appearance& appearance) {
   return std::nullopt;
 }
 
-std::string unseen_note(const UnseenTriangles& unseen, const Viewport& screen) {
-  std::string note = "the picture is empty: ";
-  if (unseen.count == 0) return note + "no triangle came";
-  std::vector<Group> groups;
-  for (std::size_t i = 0; i < kUnseenReasonCount; ++i)
-    if (const auto& [count, extent] = unseen.groups[i]; count > 0)
-      groups.emplace_back(count, where(static_cast<UnseenReason>(i), extent, screen));
-  return note + list_of(groups, "shows");
+std::string unseen_note(const UnseenPlaces& unseen, const Viewport& screen) {
+  const auto groups = groups_of(unseen, [&](UnseenPlace place, const BoundingBox& extent) {
+    return where_on_screen(place, extent, screen);
+  });
+  return "the picture is empty: " + (groups.empty() ? "no triangle came" : list_of(groups, "shows"));
 }
 
 std::string unseen_spheres_note(const UnseenSpheres& spheres) {
-  std::vector<Group> groups;
-  for (std::size_t i = 0; i < kSpherePlaceCount; ++i)
-    if (const std::uint64_t count = spheres.groups[i].count; count > 0)
-      groups.emplace_back(count, where(static_cast<SpherePlace>(i), spheres));
+  const auto groups = groups_of(spheres.places, [&](UnseenPlace place, const BoundingBox& extent) {
+    return where_is_sphere(place, extent, spheres);
+  });
   return "the picture is empty: " + list_of(groups, "shows", "sphere");
 }
 

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <array>
-#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -11,9 +9,8 @@
 #include "libpipeline/scene/appearance.h"
 #include "libpipeline/scene/color.h"
 #include "libpipeline/scene/viewport.h"
+#include "libpipeline/stream/unseen_places.h"
 #include "libpipeline/text/source_location.h"
-#include "libpipeline/vertex/view_volume.h"
-#include "libpipeline/visibility/unseen.h"
 
 namespace pipeline {
 
@@ -23,7 +20,7 @@ namespace pipeline {
 std::string empty_scene_note(std::uint64_t triangle_count, const std::optional<SourceLocation>& scale_by_0);
 
 /// For `project`: all triangles were dropped, `culled_count` by their winding.
-std::string dropped_note(const OutsideCounts& outside, std::uint64_t culled_count);
+std::string dropped_note(const UnseenPlaces& outside, std::uint64_t culled_count);
 
 /// For `project`: `hidden_count` triangles would be in view if the field of view were 57.3 times as wide.
 /// `is_filled`: something is in view, but no vertex, so that one triangle may fill the picture.
@@ -34,7 +31,7 @@ std::string radians_note(double fov_y_degrees, std::uint64_t hidden_count, bool 
 std::optional<std::string> bright_light_note(const Appearance& appearance);
 
 /// For `zbuf`: no triangle shows at a pixel.
-std::string unseen_note(const UnseenTriangles& unseen, const Viewport& screen);
+std::string unseen_note(const UnseenPlaces& unseen, const Viewport& screen);
 
 /// For `zbuf`: a material mirrors or is clear, which only rays show; none if none does.
 std::optional<std::string> opaque_note(const Appearance& appearance);
@@ -42,22 +39,11 @@ std::optional<std::string> opaque_note(const Appearance& appearance);
 /// For `zbuf`: why pixels that show triangles all look like the background; none if they do not.
 std::optional<std::string> invisible_colors_note(const SurfaceShader& shader);
 
-/// Where a sphere is that no ray has met; `elsewhere` if none of the others is all that is to be told.
-enum class SpherePlace { behind, before_front, beyond_rear, left, right, below, above, elsewhere };
-constexpr std::size_t kSpherePlaceCount = 8;
-
-/// Spheres by their place, with their extents in z of view space, and the limits there.
+/// Spheres by their place in view space, of which z alone is known, and the limits there.
 struct UnseenSpheres {
-  struct Group {
-    std::uint64_t count = 0;
-    double low = 0;
-    double high = 0;
-  };
-  std::array<Group, kSpherePlaceCount> groups;
-  double front = 0;
-  double rear = 0;
-  bool front_is_near = true;
-  bool rear_is_far = true;
+  UnseenPlaces places;
+  double front = 0, rear = 0;
+  bool front_is_near = true, rear_is_far = true;
 };
 
 /// For `trace`: no ray meets a sphere.

@@ -1,6 +1,7 @@
 #include "tools/rim/statistics.h"
 
 #include <array>
+#include <utility>
 
 #include "libpipeline/text/text_writer.h"
 
@@ -32,6 +33,22 @@ void Statistics::open() {
 
 void Statistics::add(std::string_view key, std::uint64_t count) {
   lines_.append(key).append(" ").append(std::to_string(count)).append("\n");
+}
+
+void Statistics::add(const UnseenPlaces& unseen, bool on_screen) {
+  constexpr std::array<std::pair<std::string_view, UnseenPlace>, 9> kKeys = {
+      {{"behind", UnseenPlace::behind},
+       {"outside_left", UnseenPlace::left},
+       {"outside_right", UnseenPlace::right},
+       {"outside_below", UnseenPlace::below},
+       {"outside_above", UnseenPlace::above},
+       {"outside_near", UnseenPlace::near},
+       {"outside_far", UnseenPlace::far},
+       {"without_area", UnseenPlace::without_area},
+       {"between_centers", UnseenPlace::between_centers}}};
+  for (const auto& [key, place] : kKeys)
+    if (on_screen ? place != UnseenPlace::behind : place < UnseenPlace::without_area)
+      add(key, unseen[place].count);
 }
 
 void Statistics::add(const CoordinateExtent& extent, NumberFormat format) {

@@ -7,6 +7,7 @@
 
 #include "libpipeline/numbers/bounding_box.h"
 #include "libpipeline/stream/coordinate_extent.h"
+#include "libpipeline/stream/unseen_places.h"
 #include "libpipeline/text/number_printer.h"
 #include "libpipeline/text/output_file.h"
 #include "tools/rim/command_line.h"
@@ -26,6 +27,8 @@ class Statistics {
   /// Opens the file, if one is requested, before the work: a name that cannot be written is an error at once.
   void open();
   void add(std::string_view key, std::uint64_t count);
+  /// Adds counts of what is outside of the view volume; or, with `on_screen`, of what no pixel shows.
+  void add(const UnseenPlaces& unseen, bool on_screen);
   /// Adds x_min to z_max in the format of the text they stand in; nothing if there is no vertex.
   void add(const CoordinateExtent& extent, NumberFormat format);
   /// The same for a box, in the shortest form.

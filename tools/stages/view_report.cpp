@@ -41,7 +41,7 @@ void ViewReport::add(const TriangleBatch& p_view, const TriangleBatch& p_ndc) {
       continue;
     }
     const auto part = volume_.outside(triangle);
-    if (part) outside_.add(*part, triangle);
+    if (part) outside_.add(*part, BoundingBox(triangle));
     if (volume_if_radians_) look_for_radians(triangle, !part);
   }
 }
@@ -62,14 +62,7 @@ std::optional<std::string> ViewReport::note() const {
 }
 
 void ViewReport::add_to(Statistics& statistics) const {
-  const auto add = [&](std::string_view key, OutsidePart part) { statistics.add(key, outside_[part].count); };
-  add("behind", OutsidePart::behind);
-  add("outside_left", OutsidePart::left);
-  add("outside_right", OutsidePart::right);
-  add("outside_below", OutsidePart::below);
-  add("outside_above", OutsidePart::above);
-  add("outside_near", OutsidePart::near);
-  add("outside_far", OutsidePart::far);
+  statistics.add(outside_, false);
   statistics.add("cut", stage_.counts().clipped);
   statistics.add("culled", stage_.counts().culled);
 }

@@ -39,7 +39,7 @@ class ViewReport {
   bool is_all_dropped_ = true;
   std::uint64_t triangle_count_ = 0;
   std::uint64_t culled_count_ = 0;
-  OutsideCounts outside_;
+  UnseenPlaces outside_;
 
   double fov_y_degrees_ = 0;
   std::optional<ViewVolume> volume_if_radians_;  // none where there is no such suspicion, or no longer

@@ -1,6 +1,5 @@
 #include "tools/trace/sphere_report.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -39,14 +38,14 @@ SphereReport::SphereReport(const ProjectionTransform& projection, const Viewport
   const double x_offset = projection.x_offset.nearest_double(),
                y_offset = projection.y_offset.nearest_double();
   // x in NDC is (x x_scale + z x_offset) / -z, or x x_scale + x_offset; `sign` is that of what is inside.
-  const auto plane = [&](const Vec3& axis, double offset, double limit, double sign, SpherePlace outside) {
+  const auto plane = [&](const Vec3& axis, double offset, double limit, double sign, UnseenPlace outside) {
     if (is_perspective_) return Plane{scaled(sum(axis, {0, 0, offset + limit}), sign), 0, outside};
     return Plane{scaled(axis, sign), sign * (offset - limit), outside};
   };
-  planes_ = {plane({x_scale, 0, 0}, x_offset, screen.left, 1, SpherePlace::left),
-             plane({x_scale, 0, 0}, x_offset, -screen.left, -1, SpherePlace::right),
-             plane({0, y_scale, 0}, y_offset, screen.bottom, 1, SpherePlace::below),
-             plane({0, y_scale, 0}, y_offset, -screen.bottom, -1, SpherePlace::above)};
+  planes_ = {plane({x_scale, 0, 0}, x_offset, screen.left, 1, UnseenPlace::left),
+             plane({x_scale, 0, 0}, x_offset, -screen.left, -1, UnseenPlace::right),
+             plane({0, y_scale, 0}, y_offset, screen.bottom, 1, UnseenPlace::below),
+             plane({0, y_scale, 0}, y_offset, -screen.bottom, -1, UnseenPlace::above)};
 }
 
 void SphereReport::add(const TriangleBatch& p_view) {
@@ -54,19 +53,20 @@ void SphereReport::add(const TriangleBatch& p_view) {
     const SpherePoints points = p_view.sphere_points(entry);
     const double half = reach(points, {0, 0, 1});
     const double low = points[0].z - half, high = points[0].z + half;
-    UnseenSpheres::Group& group = spheres_.groups[static_cast<std::size_t>(place_of(points, low, high))];
-    group = {group.count + 1, group.count == 0 ? low : std::min(low, group.low),
-             group.count == 0 ? high : std::max(high, group.high)};
+    BoundingBox extent;
+    extent.low.z = low;
+    extent.high.z = high;
+    spheres_.places.add(place_of(points, low, high), extent);
   }
 }
 
-SpherePlace SphereReport::place_of(const SpherePoints& points, double low, double high) const {
-  if (is_perspective_ && low >= 0) return SpherePlace::behind;
-  if (low > spheres_.front) return SpherePlace::before_front;
-  if (high <= spheres_.rear) return SpherePlace::beyond_rear;
+UnseenPlace SphereReport::place_of(const SpherePoints& points, double low, double high) const {
+  if (is_perspective_ && low >= 0) return UnseenPlace::behind;
+  if (low > spheres_.front) return UnseenPlace::near;
+  if (high <= spheres_.rear) return UnseenPlace::far;
   for (const Plane& plane : planes_)
     if (dot(points[0], plane.factors) + plane.offset + reach(points, plane.factors) < 0) return plane.outside;
-  return SpherePlace::elsewhere;
+  return UnseenPlace::elsewhere;
 }
 
 }  // namespace pipeline

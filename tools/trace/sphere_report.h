@@ -23,10 +23,10 @@ class SphereReport {
   struct Plane {
     Vec3 factors;
     double offset;
-    SpherePlace outside;
+    UnseenPlace outside;
   };
 
-  [[nodiscard]] SpherePlace place_of(const SpherePoints& points, double low, double high) const;
+  [[nodiscard]] UnseenPlace place_of(const SpherePoints& points, double low, double high) const;
 
   UnseenSpheres spheres_;
   bool is_perspective_;

@@ -1,7 +1,5 @@
 #include "tools/zbuf/drawing_report.h"
 
-#include <string_view>
-
 #include "libpipeline/coverage/rules.h"
 #include "libpipeline/picture/supersampling.h"
 #include "libpipeline/visibility/depth_format.h"
@@ -35,18 +33,8 @@ class ReportOf final : public DrawingReport {
   void add_to(Statistics& statistics) const override {
     if (!counter_) return;
     const DrawingCounts counts = counter_->counts();
-    const auto unseen = [&](std::string_view key, UnseenReason reason) {
-      statistics.add(key, counts.unseen[static_cast<std::size_t>(reason)]);
-    };
     statistics.add("triangles", counts.triangles);
-    unseen("outside_left", UnseenReason::left);
-    unseen("outside_right", UnseenReason::right);
-    unseen("outside_below", UnseenReason::below);
-    unseen("outside_above", UnseenReason::above);
-    unseen("outside_near", UnseenReason::before_front);
-    unseen("outside_far", UnseenReason::beyond_rear);
-    unseen("without_area", UnseenReason::without_area);
-    unseen("between_centers", UnseenReason::between_centers);
+    statistics.add(counts.unseen, true);
     if (screen_.drawn_row_count() < screen_.rows) statistics.add("outside_rows", counts.outside_rows);
     statistics.add("hidden", counts.hidden);
     statistics.add("seen", counts.seen);

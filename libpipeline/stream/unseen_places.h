@@ -1,0 +1,43 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "libpipeline/numbers/bounding_box.h"
+
+namespace pipeline {
+
+/// Why a triangle, or a sphere, shows at no pixel: the first that applies, in this order.
+enum class UnseenPlace {
+  behind,  // the eye, all of it
+  near,    // before the near plane or the front limit, all of it, or all of its fragments but those
+  far,     // beyond the far plane or the rear limit, likewise
+  left,    // of the view volume or the window, all of it
+  right,   // likewise ...
+  below,
+  above,
+  without_area,     // as seen from the eye
+  between_centers,  // it covers no pixel
+  elsewhere         // no ray meets it, and none of the others is all that is to be told
+};
+
+/// Triangles or spheres by their place, with their extents.
+struct UnseenPlaces {
+  struct Group {
+    std::uint64_t count = 0;
+    BoundingBox extent;
+  };
+  void add(UnseenPlace place, const BoundingBox& extent) {
+    Group& group = groups[static_cast<std::size_t>(place)];
+    ++group.count;
+    group.extent.add(extent);
+  }
+  [[nodiscard]] const Group& operator[](UnseenPlace place) const {
+    return groups[static_cast<std::size_t>(place)];
+  }
+
+  std::array<Group, static_cast<std::size_t>(UnseenPlace::elsewhere) + 1> groups;
+};
+
+}  // namespace pipeline
