@@ -15,9 +15,37 @@ constexpr std::size_t kMaxVertexLength = 11 * (kMaxNumberLength + 1);
 // "triangle N", three vertex lines and the blank line.
 constexpr std::size_t kMaxTriangleLength = 40 + 3 * kMaxVertexLength + 1;
 
-/// Prints all digits: readers take no exponent here.
-char* print_material(char* out, std::uint32_t material) {
-  return print_number(out, material, 0, {.decimals = 0});
+/// Prints three numbers, with a blank after each.
+char* print_three(char* out, const Vec3& v, const Vec3& low_part, NumberFormat format) {
+  out = print_number(out, v.x, low_part.x, format);
+  *out++ = ' ';
+  out = print_number(out, v.y, low_part.y, format);
+  *out++ = ' ';
+  out = print_number(out, v.z, low_part.z, format);
+  *out++ = ' ';
+  return out;
+}
+
+/// Prints a vertex line by the general path; w has its shortest form, the material all digits.
+char* print_line(char* out, const Vec3& position, const Vec3& low_part, const AttributeSet& columns,
+                 const VertexLine& vertex, std::uint32_t material, NumberFormat format) {
+  out = print_three(out, position, low_part, format);
+  if (columns.w) *(out = print_number(out, vertex.w, 0, kShortest))++ = ' ';
+  if (columns.color) out = print_three(out, vertex.color, {}, format);
+  if (columns.normal) out = print_three(out, vertex.normal, {}, format);
+  if (columns.material) out = print_number(out, material, 0, {.decimals = 0}) + 1;
+  out[-1] = '\n';
+  return out;
+}
+
+/// The columns of a vertex line after its position.
+VertexLine columns_of(const AttributeArrays& attributes, std::size_t index, std::size_t vertex,
+                      const AttributeSet& columns) {
+  VertexLine line;
+  if (columns.w) line.w = attributes.w[index][vertex];
+  if (columns.color) line.color = attributes.colors[index][vertex];
+  if (columns.normal) line.normal = attributes.normals[index][vertex];
+  return line;
 }
 
 void print_numbers(TextWriter& text, std::string_view keyword, std::initializer_list<double> numbers) {
@@ -123,32 +151,33 @@ void StageWriter::write(const TriangleBatch& batch) {
   write_triangles(batch, begin, batch.size());
 }
 
-/// Writes the triangles [begin, end), none of which is a sphere.
+/// Writes the triangles [begin, end), none of which is a sphere: by the fast path as far as it has them.
 void StageWriter::write_triangles(const TriangleBatch& batch, std::size_t begin, std::size_t end) {
-  const bool has_runs = has_fast_path() && batch.low_parts.empty() && batch.unclipped.empty();
-  std::size_t index = begin;
-  std::size_t end_of_run = 0;
-  while (index < end) {
-    if (has_runs && index >= end_of_run) end_of_run = end_of_numbered_run(batch, index, end);
-    const bool is_run = index < end_of_run;
-    if (is_run) index += write_block(batch, index, end_of_run);
-    const bool is_refused = is_run && index < end_of_run;
-    if (index < end) write_triangle(batch, index++, has_fast_path() && !is_refused);
+  for (std::size_t i = begin, end_of_run = begin; i < end;) {
+    if (i == end_of_run) end_of_run = begin_run(batch, i, end);
+    const bool has_low_part = !batch.low_parts.empty() && batch.low_parts[i] != Triangle{};
+    if (!has_low_part)
+      i += write_columns(fixed_columns(batch.triangles, batch.attributes, columns_, i, end_of_run - i),
+                         format_, text_);
+    if (i < end_of_run) write_triangle(batch, i++);
   }
 }
 
-/// Whether write_block may print triangles with these digits.
-bool StageWriter::has_fast_path() const {
-  return format_.decimals <= kMaxFixedDecimals || format_.shortest;
-}
-
-/// The end of the triangles of [begin, end) that need no `triangle N`, or of a part of them.
-std::size_t StageWriter::end_of_numbered_run(const TriangleBatch& batch, std::size_t begin,
-                                             std::size_t end) const {
+/// Writes what stands before the lines of triangle `begin`. Returns the end of the triangles of [begin, end)
+/// that need no such lines after it, or of a part of them.
+std::size_t StageWriter::begin_run(const TriangleBatch& batch, std::size_t begin, std::size_t end) {
   constexpr std::size_t kMaxAtOnce = 256;
+  write_number(batch.numbers[begin]);
+  if (const ClipTriangle* const unclipped = batch.unclipped_of(begin);
+      unclipped != nullptr && unclipped != last_unclipped_.get()) {
+    write_clipped(*unclipped, batch.attributes, begin);
+    last_unclipped_ = batch.unclipped[begin];
+  }
+  if (!batch.low_parts.empty() || !batch.unclipped.empty()) return begin + 1;
   const std::size_t limit = std::min(end, begin + kMaxAtOnce);
-  std::size_t last = begin;
-  while (last < limit && (bare_ || batch.numbers[last] == next_number_ + (last - begin))) ++last;
+  std::size_t last = begin + 1;
+  while (last < limit && (bare_ || batch.numbers[last] == next_number_ + (last - begin - 1))) ++last;
+  next_number_ = batch.numbers[last - 1] + 1;
   return last;
 }
 
@@ -167,41 +196,17 @@ void StageWriter::note_sizes(const TriangleBatch& batch) {
   }
 }
 
-/// Prints the triangles [begin, end), which need no `triangle N`, as long as a fast path has them; returns
-/// how many.
-std::size_t StageWriter::write_block(const TriangleBatch& batch, std::size_t begin, std::size_t end) {
-  const std::size_t max_length = format_.shortest ? kMaxShortestColumnsLength
-                                 : columns_.any() ? kMaxFixedColumnsLength
-                                                  : kMaxFixedTriangleLength;
-  char* const out = text_.reserve((end - begin) * max_length + kFixedTextSlack);
-  const ConstFixedColumns columns =
-      fixed_columns(batch.triangles, batch.attributes, columns_, begin, end - begin);
-  FixedTextPart part;
-  if (format_.shortest)
-    part = {end - begin, static_cast<std::size_t>(write_shortest_columns(columns, out) - out)};
-  else
-    part = write_fixed_columns(columns, format_.decimals, out);
-  text_.commit(out + part.length);
-  const std::size_t count = part.triangle_count;
-  if (count > 0) next_number_ = batch.numbers[begin + count - 1] + 1;
-  return count;
-}
-
-void StageWriter::write_triangle(const TriangleBatch& batch, std::size_t index, bool tries_fast_path) {
-  write_number(batch.numbers[index]);
-  next_number_ = batch.numbers[index] + 1;
-  if (const ClipTriangle* const unclipped = batch.unclipped_of(index);
-      unclipped != nullptr && unclipped != last_unclipped_.get()) {
-    write_clipped(*unclipped, batch.attributes, index);
-    last_unclipped_ = batch.unclipped[index];
-  }
+/// Writes the lines of a triangle by the general path.
+void StageWriter::write_triangle(const TriangleBatch& batch, std::size_t index) {
   const Triangle low_part = batch.low_parts.empty() ? Triangle{} : batch.low_parts[index];
-  if (tries_fast_path && low_part == Triangle{} && write_block(batch, index, index + 1) == 1) return;
+  const std::uint32_t material = columns_.material ? batch.attributes.materials[index] : 0;
   char* out = text_.reserve(kMaxTriangleLength);
   for (std::size_t v = 0; v < 3; ++v) {
-    out = print_vertex(out, batch.triangles[index][v], low_part[v]);
-    if (columns_.any()) out = print_attributes(out, batch.attributes, columns_, index, v);
-    *out++ = '\n';
+    const Vec3& position = batch.triangles[index][v];
+    out = columns_.any() ? print_line(out, position, low_part[v], columns_,
+                                      columns_of(batch.attributes, index, v, columns_), material, format_)
+                         : print_three(out, position, low_part[v], format_);
+    out[-1] = '\n';
   }
   *out++ = '\n';
   text_.commit(out);
@@ -211,19 +216,17 @@ void StageWriter::write_triangle(const TriangleBatch& batch, std::size_t index, 
 void StageWriter::write_sphere(const TriangleBatch& batch, std::size_t index) {
   assert(!bare_ && !columns_.w);
   write_number(batch.numbers[index]);
-  next_number_ = batch.numbers[index] + 1;
   text_.append("sphere\n");
   const SpherePoints points = batch.sphere_points(index);
   const SpherePoints low_parts =
       batch.low_parts.empty() ? SpherePoints{} : TriangleBatch::points_of(batch.low_parts, index);
   AttributeSet columns = columns_;
   columns.normal = false;
+  const VertexLine line = columns_of(batch.attributes, index, 0, columns);
+  const std::uint32_t material = columns.material ? batch.attributes.materials[index] : 0;
   char* out = text_.reserve(points.size() * kMaxVertexLength + 1);
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    out = print_vertex(out, points[i], low_parts[i]);
-    out = print_attributes(out, batch.attributes, columns, index, 0);
-    *out++ = '\n';
-  }
+  for (std::size_t i = 0; i < points.size(); ++i)
+    out = print_line(out, points[i], low_parts[i], columns, line, material, format_);
   *out++ = '\n';
   text_.commit(out);
 }
@@ -233,55 +236,19 @@ void StageWriter::write_sphere(const TriangleBatch& batch, std::size_t index) {
 void StageWriter::write_clipped(const ClipTriangle& unclipped, const AttributeArrays& attributes,
                                 std::size_t index) {
   text_.append("clipped\n");
-  for (const auto& [p, w, color, normal] : unclipped) {
-    char* out = text_.reserve(kMaxVertexLength);
-    const auto print = [&](std::initializer_list<double> numbers) {
-      for (const double number : numbers) {
-        out = print_number(out, number, 0, {.shortest = true});
-        *out++ = ' ';
-      }
-    };
-    print({p.x, p.y, p.z, w});
-    if (columns_.color) print({color.x, color.y, color.z});
-    if (columns_.normal) print({normal.x, normal.y, normal.z});
-    if (columns_.material) out = print_material(out, attributes.materials[index]) + 1;
-    out[-1] = '\n';
-    text_.commit(out);
-  }
+  AttributeSet columns = columns_;
+  columns.w = true;
+  const std::uint32_t material = columns.material ? attributes.materials[index] : 0;
+  for (const VertexLine& corner : unclipped)
+    text_.commit(print_line(text_.reserve(kMaxVertexLength), corner.position, {}, columns, corner, material,
+                            kShortest));
   text_.append("\n");
-}
-
-/// Prints three numbers separated by blanks.
-char* StageWriter::print_vertex(char* out, const Vec3& vertex, const Vec3& low_part) {
-  out = print_number(out, vertex.x, low_part.x, format_);
-  *out++ = ' ';
-  out = print_number(out, vertex.y, low_part.y, format_);
-  *out++ = ' ';
-  return print_number(out, vertex.z, low_part.z, format_);
-}
-
-char* StageWriter::print_attributes(char* out, const AttributeArrays& attributes, const AttributeSet& columns,
-                                    std::size_t index, std::size_t vertex) {
-  const auto print_vec3 = [&](const Vec3& v) {
-    *out++ = ' ';
-    out = print_vertex(out, v, {});
-  };
-  if (columns.w) {
-    *out++ = ' ';
-    out = print_number(out, attributes.w[index][vertex], 0, {.shortest = true});
-  }
-  if (columns.color) print_vec3(attributes.colors[index][vertex]);
-  if (columns.normal) print_vec3(attributes.normals[index][vertex]);
-  if (columns.material) {
-    *out++ = ' ';
-    out = print_material(out, attributes.materials[index]);
-  }
-  return out;
 }
 
 /// Prints the number of the next triangle if it is not the one that counting on would give.
 void StageWriter::write_number(std::uint64_t number) {
   if (number != next_number_ && !bare_) text_.append("triangle " + std::to_string(number) + "\n");
+  next_number_ = number + 1;
 }
 
 void StageWriter::finish() {

@@ -29,15 +29,9 @@ class StageWriter {
   void write_sphere(const TriangleBatch& batch, std::size_t index);
   void write_number(std::uint64_t number);
   void note_sizes(const TriangleBatch& batch);
-  [[nodiscard]] std::size_t end_of_numbered_run(const TriangleBatch& batch, std::size_t begin,
-                                                std::size_t end) const;
-  [[nodiscard]] bool has_fast_path() const;
-  std::size_t write_block(const TriangleBatch& batch, std::size_t begin, std::size_t end);
-  void write_triangle(const TriangleBatch& batch, std::size_t index, bool tries_fast_path);
+  std::size_t begin_run(const TriangleBatch& batch, std::size_t begin, std::size_t end);
+  void write_triangle(const TriangleBatch& batch, std::size_t index);
   void write_clipped(const ClipTriangle& unclipped, const AttributeArrays& attributes, std::size_t index);
-  char* print_vertex(char* out, const Vec3& vertex, const Vec3& low_part);
-  char* print_attributes(char* out, const AttributeArrays& attributes, const AttributeSet& columns,
-                         std::size_t index, std::size_t vertex);
 
   TextWriter& text_;
   NumberFormat format_;

@@ -70,4 +70,19 @@ char* write_shortest_columns(const ConstFixedColumns& columns, char* out) {
   return out;
 }
 
+std::size_t write_columns(const ConstFixedColumns& columns, NumberFormat format, TextWriter& text) {
+  if (!format.shortest && format.decimals > kMaxFixedDecimals) return 0;
+  const std::size_t max_length = format.shortest       ? kMaxShortestColumnsLength
+                                 : columns.form() == 0 ? kMaxFixedTriangleLength
+                                                       : kMaxFixedColumnsLength;
+  char* const out = text.reserve(columns.triangle_count() * max_length + kFixedTextSlack);
+  FixedTextPart part;
+  if (format.shortest)
+    part = {columns.triangle_count(), static_cast<std::size_t>(write_shortest_columns(columns, out) - out)};
+  else
+    part = write_fixed_columns(columns, format.decimals, out);
+  text.commit(out + part.length);
+  return part.triangle_count;
+}
+
 }  // namespace pipeline

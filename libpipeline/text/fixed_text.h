@@ -8,6 +8,8 @@
 
 #include "libpipeline/numbers/kernel_choice.h"
 #include "libpipeline/numbers/vec.h"
+#include "libpipeline/text/number_printer.h"
+#include "libpipeline/text/text_writer.h"
 
 namespace pipeline {
 
@@ -112,5 +114,9 @@ constexpr std::size_t kMaxShortestColumnsLength = 3 * (10 * 26 + 11) + 1;
 /// Prints triangles with all their numbers in the shortest form (number_printer.h) and returns their end.
 /// `out` must have room for kMaxShortestColumnsLength characters per triangle, and kFixedTextSlack more.
 char* write_shortest_columns(const ConstFixedColumns& columns, char* out);
+
+/// Prints triangles in this format by the printer above that has it, as many as that takes, and returns their
+/// count: 0 for more than kMaxFixedDecimals.
+std::size_t write_columns(const ConstFixedColumns& columns, NumberFormat format, TextWriter& text);
 
 }  // namespace pipeline
