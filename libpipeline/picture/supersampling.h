@@ -18,10 +18,51 @@ constexpr int kMaxSamples = 16;
 /// The screen whose pixels are the samples of `screen`: `count` x `count` per pixel, in a regular grid.
 Viewport sample_screen(const Viewport& screen, int count);
 
-/// Turns rows of samples into rows of pixels: each channel is the mean of the pixel's samples, rounded to the
-/// nearest integer, halves up. Where the background is not opaque, so is the alpha, and each sample counts
-/// for the other channels as much as its alpha: where it is invisible, they are the mean of the samples that
-/// show a triangle.
+/// The mean of colors, each channel rounded to the nearest integer, halves up. Of those that are not opaque,
+/// all the same one, so is the alpha; a color counts for the other channels as much as its alpha, and where
+/// all are invisible, they are that color's.
+class ColorMean {
+ public:
+  void add(Color color) {
+    if (!color.is_opaque()) {
+      background_ = color;
+      ++background_count_;
+      return;
+    }
+    red_ += color.red();
+    green_ += color.green();
+    blue_ += color.blue();
+    ++opaque_count_;
+  }
+  /// Of at least one color.
+  [[nodiscard]] Color mean() const {
+    if (background_count_ > 0) return translucent_mean();
+    return {quotient(red_, opaque_count_), quotient(green_, opaque_count_), quotient(blue_, opaque_count_)};
+  }
+
+ private:
+  static std::uint8_t quotient(std::uint32_t sum, std::uint32_t divisor) {
+    return static_cast<std::uint8_t>((2 * sum + divisor) / (2 * divisor));
+  }
+  [[nodiscard]] Color translucent_mean() const {
+    const std::uint32_t through = background_.alpha() * background_count_;
+    const std::uint32_t weight = 255 * opaque_count_ + through;
+    if (weight == 0) return background_;
+    const auto mean = [&](std::uint32_t sum, std::uint32_t of_background) {
+      return quotient(255 * sum + through * of_background, weight);
+    };
+    const Color color = {mean(red_, background_.red()), mean(green_, background_.green()),
+                         mean(blue_, background_.blue())};
+    return color.with_alpha(quotient(weight, opaque_count_ + background_count_));
+  }
+
+  std::uint32_t red_ = 0, green_ = 0, blue_ = 0;
+  std::uint32_t opaque_count_ = 0;
+  std::uint32_t background_count_ = 0;
+  Color background_;
+};
+
+/// Turns rows of samples into rows of pixels: each is the ColorMean of its samples.
 class Downsampler {
  public:
   /// For rows of `columns` pixels with `count` x `count` samples each. Samples have the color of the
@@ -33,14 +74,10 @@ class Downsampler {
   std::optional<std::span<const Color>> add(std::span<const Color> samples);
 
  private:
-  void add_opaque(std::span<const Color> samples);
-  [[nodiscard]] Color translucent_mean(std::size_t column) const;
-
   std::size_t count_;
-  Color background_;
   std::size_t rows_taken_ = 0;
   std::vector<std::array<std::uint32_t, 3>> sums_;  // red, green, blue
-  std::vector<std::uint32_t> opaque_counts_;        // empty where all samples are opaque
+  std::vector<ColorMean> means_;                    // in place of sums, unless all samples are opaque
   std::vector<Color> row_;
 };
 

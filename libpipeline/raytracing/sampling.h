@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <cstdint>
 #include <vector>
 
 #include "libpipeline/scene/color.h"
@@ -67,50 +66,6 @@ class SampleOrder {
  private:
   std::vector<int> samples_;
   std::size_t first_count_;
-};
-
-/// The mean of colors, each channel rounded to the nearest integer, halves up. Of those that are not opaque,
-/// all the same one, so is the alpha; a color counts for the other channels as much as its alpha, and where
-/// all are invisible, they are that color's.
-class ColorMean {
- public:
-  void add(Color color) {
-    if (!color.is_opaque()) {
-      background_ = color;
-      ++background_count_;
-      return;
-    }
-    red_ += color.red();
-    green_ += color.green();
-    blue_ += color.blue();
-    ++opaque_count_;
-  }
-  /// Of at least one color.
-  [[nodiscard]] Color mean() const {
-    if (background_count_ > 0) return translucent_mean();
-    return {quotient(red_, opaque_count_), quotient(green_, opaque_count_), quotient(blue_, opaque_count_)};
-  }
-
- private:
-  static std::uint8_t quotient(std::uint32_t sum, std::uint32_t divisor) {
-    return static_cast<std::uint8_t>((2 * sum + divisor) / (2 * divisor));
-  }
-  [[nodiscard]] Color translucent_mean() const {
-    const std::uint32_t through = background_.alpha() * background_count_;
-    const std::uint32_t weight = 255 * opaque_count_ + through;
-    if (weight == 0) return background_;
-    const auto mean = [&](std::uint32_t sum, std::uint32_t of_background) {
-      return quotient(255 * sum + through * of_background, weight);
-    };
-    const Color color = {mean(red_, background_.red()), mean(green_, background_.green()),
-                         mean(blue_, background_.blue())};
-    return color.with_alpha(quotient(weight, opaque_count_ + background_count_));
-  }
-
-  std::uint32_t red_ = 0, green_ = 0, blue_ = 0;
-  std::uint32_t opaque_count_ = 0;
-  std::uint32_t background_count_ = 0;
-  Color background_;
 };
 
 /// How far colors differ.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 
+#include "libpipeline/picture/supersampling.h"
 #include "libpipeline/raytracing/ray_caster.h"
 #include "tools/rim/progress.h"
 
