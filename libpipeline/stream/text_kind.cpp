@@ -1,6 +1,7 @@
 #include "libpipeline/stream/text_kind.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <string_view>
 #include <vector>
@@ -96,42 +97,27 @@ TextKind kind_by_lines(const std::vector<Words>& lines) {
   return kind_by_header(lines);
 }
 
+constexpr std::array kExpected = {"a scene", "the output of model", "the output of view",
+                                  "the output of project", "a config"};  // by TextKind
+
 std::string named(TextKind expected) {
-  switch (expected) {
-    case TextKind::scene:
-      return "a scene";
-    case TextKind::world:
-      return "the output of model";
-    case TextKind::view:
-      return "the output of view";
-    case TextKind::ndc:
-      return "the output of project";
-    default:
-      return "a config";
-  }
+  return kExpected[static_cast<std::size_t>(expected)];
 }
 
 std::string described(TextKind found, TextKind expected) {
-  switch (found) {
-    case TextKind::scene:
-      return "a scene: model reads those";
-    case TextKind::world:
-      return "the output of model: view reads that";
-    case TextKind::view:
-      return "the output of view: project reads that";
-    case TextKind::ndc:
-      return expected == TextKind::config ? "the output of project: is the config before it missing?"
-                                          : "the output of project: zbuf reads that";
-    case TextKind::triangles:
-      return expected == TextKind::scene ? "triangles without a camera (stage1.txt): view --scene reads those"
-                                         : "triangles: CONFIG comes before INPUT";
-    case TextKind::editor_screen:
-      return "an editor's screen: was Vim's view run in place of ours?";
-    case TextKind::model_file:
-      return "a model file: 'pipeline picture' draws it, mesh2scene makes a scene of it";
-    default:
-      return "a config: zbuf reads those";
-  }
+  if (found == TextKind::ndc && expected == TextKind::config)
+    return "the output of project: is the config before it missing?";
+  if (found == TextKind::triangles && expected != TextKind::scene)
+    return "triangles: CONFIG comes before INPUT";
+  constexpr std::array kFound = {"a scene: model reads those",
+                                 "the output of model: view reads that",
+                                 "the output of view: project reads that",
+                                 "the output of project: zbuf reads that",
+                                 "a config: zbuf reads those",
+                                 "triangles without a camera (stage1.txt): view --scene reads those",
+                                 "an editor's screen: was Vim's view run in place of ours?",
+                                 "a model file: 'pipeline picture' draws it, mesh2scene makes a scene of it"};
+  return kFound[static_cast<std::size_t>(found)];
 }
 
 /// True if a text of the kind `found` cannot be one of the kind `expected`. Stage texts are told apart by

@@ -21,22 +21,20 @@ bool is_lower(const ClipVertex& a, const ClipVertex& b) {
   return compare(a.w, b.w) < 0;
 }
 
+/// 0 for z, 1 for x, 2 for y: the axis of a plane.
+std::size_t axis_of(ClipPlane plane) {
+  return static_cast<std::size_t>(plane) / 2;
+}
+
+/// Whether a plane bounds its axis below.
+bool is_low(ClipPlane plane) {
+  return static_cast<std::size_t>(plane) % 2 == 0;
+}
+
 Ball distance_by_coordinates(ClipPlane plane, const ClipVertex& vertex) {
-  switch (plane) {
-    case ClipPlane::near:
-      return vertex.w + vertex.z;
-    case ClipPlane::far:
-      return vertex.w - vertex.z;
-    case ClipPlane::left:
-      return vertex.w + vertex.x;
-    case ClipPlane::right:
-      return vertex.w - vertex.x;
-    case ClipPlane::bottom:
-      return vertex.w + vertex.y;
-    case ClipPlane::top:
-      break;
-  }
-  return vertex.w - vertex.y;
+  constexpr std::array kCoordinates = {&ClipVertex::z, &ClipVertex::x, &ClipVertex::y};
+  const Ball& coordinate = vertex.*kCoordinates[axis_of(plane)];
+  return is_low(plane) ? vertex.w + coordinate : vertex.w - coordinate;
 }
 
 /// The distance from the near plane (`sign` -1) or the far one.
@@ -66,10 +64,9 @@ Ball distance_from_side(int sign, const VolumeSides& sides, double coordinate, d
 
 /// The distance from products that are not rounded; none if it depends on a tangent that is no double.
 std::optional<Ball> exact_distance(ClipPlane plane, const ClipVertex::Origin& vertex) {
-  const int sign =
-      plane == ClipPlane::near || plane == ClipPlane::left || plane == ClipPlane::bottom ? -1 : 1;
-  if (plane == ClipPlane::near || plane == ClipPlane::far) return distance_from_end(sign, vertex);
-  const bool is_x = plane == ClipPlane::left || plane == ClipPlane::right;
+  const int sign = is_low(plane) ? -1 : 1;
+  if (axis_of(plane) == 0) return distance_from_end(sign, vertex);
+  const bool is_x = axis_of(plane) == 1;
   const auto& sides = vertex.projection->sides[is_x ? 0 : 1];
   if (!sides) return std::nullopt;
   const double w = vertex.projection->is_perspective ? -vertex.p_view.z : 1;

@@ -1,5 +1,6 @@
 #include "libpipeline/visibility/fragment.h"
 
+#include <array>
 #include <cmath>
 
 #include "libpipeline/text/number_printer.h"
@@ -14,21 +15,14 @@ std::string depth_text(double depth) {
 }
 
 std::string to_text(DepthTestResult result, std::uint64_t winner) {
-  switch (result) {
-    case DepthTestResult::kept:
-      return "kept";
-    case DepthTestResult::behind:
-      return "lost, behind triangle " + std::to_string(winner);
-    case DepthTestResult::equal:
-      return "lost, equal and later than triangle " + std::to_string(winner);
-    case DepthTestResult::too_close:
-      return "lost, nearer by too little than triangle " + std::to_string(winner);
-    case DepthTestResult::before_front:
-      return "lost, before the front limit";
-    case DepthTestResult::beyond_rear:
-      break;
-  }
-  return "lost, beyond the rear limit";
+  constexpr std::array kTexts = {"kept",
+                                 "lost, behind triangle ",
+                                 "lost, equal and later than triangle ",
+                                 "lost, nearer by too little than triangle ",
+                                 "lost, before the front limit",
+                                 "lost, beyond the rear limit"};
+  const std::string text = kTexts[static_cast<std::size_t>(result)];
+  return text.back() == ' ' ? text + std::to_string(winner) : text;
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 
@@ -51,55 +52,41 @@ class FragmentTest {
   double epsilon_;
 };
 
-/// Reports every fragment of the picture, triangle by triangle in the order of the stream and each from the
-/// top left. A template of the coverage rule and the depth format in use; it keeps a depth and a number per
-/// pixel.
+/// Reports every fragment of the picture, or of one pixel, triangle by triangle in the order of the stream
+/// and each from the top left. A template of the coverage rule and the depth format in use; it keeps a depth
+/// and a number per pixel.
 template <typename Coverage, typename Depth>
 class FragmentLog {
  public:
   explicit FragmentLog(const Viewport& screen, double epsilon = 0)
-      : coverage_(screen),
-        test_(screen, epsilon),
-        seen_(screen.drawn_rows(), screen.columns, test_.nothing()) {}
+      : FragmentLog(screen, screen.drawn_rows(), {0, screen.columns}, epsilon) {}
+  /// For one pixel of the screen.
+  FragmentLog(const Viewport& screen, const Pixel& pixel, double epsilon = 0)
+      : FragmentLog(screen, {pixel.row, pixel.row + 1}, {pixel.column, pixel.column + 1}, epsilon) {}
 
-  /// Calls `visit(fragment)` for every pixel the next triangle covers in the rows that are drawn.
+  /// Calls `visit(fragment)` for every one of these pixels that the next triangle covers.
   template <typename Visitor>
   void add(const ExactTriangle& p_ndc, std::uint64_t triangle, Visitor&& visit) {
     for_each_span(coverage_.rows(p_ndc), seen_.row_range(), [&](const Span& span) {
-      for (int column = span.first_column; column <= span.last_column; ++column)
-        visit(test_.judge(seen_.row(span.row)[static_cast<std::size_t>(column)], {column, span.row}, triangle,
-                          span.depth(column)));
+      const auto row = seen_.row(span.row);
+      const int end = std::min(span.last_column + 1, columns_.end);
+      for (int column = std::max(span.first_column, columns_.first); column < end; ++column)
+        visit(test_.judge(row[static_cast<std::size_t>(column - columns_.first)], {column, span.row},
+                          triangle, span.depth(column)));
     });
   }
 
  private:
+  FragmentLog(const Viewport& screen, const RowRange& rows, const RowRange& columns, double epsilon)
+      : coverage_(screen),
+        test_(screen, epsilon),
+        columns_(columns),
+        seen_(rows, columns.end - columns.first, test_.nothing()) {}
+
   Coverage coverage_;
   FragmentTest<Depth> test_;
+  RowRange columns_;
   Raster<typename FragmentTest<Depth>::Seen> seen_;
-};
-
-/// The same for one pixel, with memory for that pixel alone.
-template <typename Coverage, typename Depth>
-class PixelProbe {
- public:
-  /// `pixel` is on the screen.
-  PixelProbe(const Viewport& screen, const Pixel& pixel, double epsilon = 0)
-      : coverage_(screen), test_(screen, epsilon), pixel_(pixel), seen_(test_.nothing()) {}
-
-  /// Calls `visit(fragment)` if the next triangle covers the pixel.
-  template <typename Visitor>
-  void add(const ExactTriangle& p_ndc, std::uint64_t triangle, Visitor&& visit) {
-    for_each_span(coverage_.rows(p_ndc), RowRange{pixel_.row, pixel_.row + 1}, [&](const Span& span) {
-      if (span.first_column <= pixel_.column && pixel_.column <= span.last_column)
-        visit(test_.judge(seen_, pixel_, triangle, span.depth(pixel_.column)));
-    });
-  }
-
- private:
-  Coverage coverage_;
-  FragmentTest<Depth> test_;
-  Pixel pixel_;
-  typename FragmentTest<Depth>::Seen seen_;
 };
 
 }  // namespace pipeline

@@ -92,8 +92,8 @@ TEST(FragmentLog, PixelsDoNotKnowOfEachOther) {
                                                    DepthTestResult::kept}));
 }
 
-TEST(PixelProbe, TellsOfItsPixelAlone) {
-  PixelProbe<NearestCoverage, DepthF64> probe(kFewPixels, kPixel);
+TEST(FragmentLog, OfOnePixelTellsOfItAlone) {
+  FragmentLog<NearestCoverage, DepthF64> probe(kFewPixels, kPixel);
   std::vector<Fragment> fragments;
   const auto visit = [&](const Fragment& fragment) { fragments.push_back(fragment); };
   const Triangle above = {{{-1, 1, 0.5}, {1, 1, 0.5}, {0, 0.5, 0.5}}};

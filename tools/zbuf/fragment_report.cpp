@@ -70,7 +70,7 @@ class FragmentReportOf final : public FragmentReport {
         : pixel(location), test(screen, location, epsilon) {}
 
     Pixel pixel;
-    PixelProbe<CoverageRule, Depth> test;
+    FragmentLog<CoverageRule, Depth> test;
     std::vector<Fragment> found;
   };
   struct LogFile {
